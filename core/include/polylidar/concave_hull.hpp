@@ -1,0 +1,84 @@
+// Points -> multipolygon: the whole pipeline.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "polylidar/geometry.hpp"
+
+namespace polylidar {
+
+/// What shape to extract. Both limits are inclusive and both must hold for a triangle to be kept; a limit of
+/// infinity is not tested. With both at infinity the result is the convex hull.
+struct Options {
+  /// Largest circumradius of a kept triangle, in the length unit of the points; >= 0. The paper's alpha
+  /// (section III-B): 2 * sqrt(area / number of points) suits uniform samples.
+  double alpha = std::numeric_limits<double>::infinity();
+  /// Longest edge of a kept triangle, in the length unit of the points; >= 0. The paper's l_max.
+  double max_edge_length = std::numeric_limits<double>::infinity();
+};
+
+/// A multipolygon whose vertices are the caller's points, by index: three flat arrays. Every polygon is valid
+/// in the sense of OGC 06-103r4; shells run counter-clockwise, holes clockwise; the first vertex of a ring is
+/// not repeated.
+struct IndexedMultiPolygon {
+  /// Indices into the caller's points, ring after ring.
+  std::vector<std::uint32_t> vertices;
+  /// ring r is vertices[ring_ends[r - 1] .. ring_ends[r]), the first one starting at 0.
+  std::vector<std::uint32_t> ring_ends;
+  /// polygon p is rings[polygon_ends[p - 1] .. polygon_ends[p]), shell first, then its holes.
+  std::vector<std::uint32_t> polygon_ends;
+
+  std::size_t polygon_count() const { return polygon_ends.size(); }
+  void clear();
+
+  friend bool operator==(const IndexedMultiPolygon&, const IndexedMultiPolygon&) = default;
+};
+
+/// `shape` with coordinates instead of indices.
+MultiPolygon to_coordinates(const IndexedMultiPolygon& shape, std::span<const Point> points);
+
+/// The concave hull of `points` (the paper's Polylidar, sections III-A to III-D): Delaunay triangulation,
+/// triangles filtered by `options`, edge-connected regions, one polygon a region. O(n log n).
+///
+/// Points may come in any order and may repeat; of equal points the lowest index is used. Fewer than 3
+/// distinct points, points all on a line, or no triangle kept: an empty multipolygon. Throws
+/// std::invalid_argument when a coordinate is not finite (naming the first such index), when coordinates span
+/// more than the supported range (see Extractor), or when an option is negative or NaN. At most 2^29 points
+/// (std::invalid_argument beyond).
+IndexedMultiPolygon concave_hull(std::span<const Point> points, const Options& options = {});
+
+/// The same with memory that is kept between calls, for callers that extract again and again. Not for use
+/// from several threads at once. `extract` is the three steps in order; they can be called one by one to be
+/// timed.
+///
+/// Supported range: every coordinate is zero or has a magnitude between 2^-116 and 2^150 after scaling all of
+/// them by one common power of two (which the extractor does by itself); inside it no product that the exact
+/// predicates and the filter form can overflow or underflow.
+class Extractor {
+ public:
+  Extractor();
+  ~Extractor();
+  Extractor(Extractor&&) noexcept;
+  Extractor& operator=(Extractor&&) noexcept;
+
+  /// All three steps. The result is valid until the next call.
+  const IndexedMultiPolygon& extract(std::span<const Point> points, const Options& options = {});
+
+  /// Step 1: the Delaunay triangulation of `points`.
+  void triangulate(std::span<const Point> points);
+  /// Step 2: the kept triangles and their edge-connected regions.
+  void extract_regions(const Options& options);
+  /// Step 3: the boundary of every region as a polygon.
+  const IndexedMultiPolygon& extract_polygons();
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace polylidar

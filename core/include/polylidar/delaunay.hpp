@@ -1,0 +1,30 @@
+// The Delaunay triangulation of a point set.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "polylidar/geometry.hpp"
+
+namespace polylidar {
+
+/// "No half-edge", "no vertex".
+inline constexpr std::uint32_t kNone = 0xFFFFFFFFU;
+
+/// A triangulation as half-edges (the paper's section III-A, Figure 2). Half-edge `e` belongs to triangle `e
+/// / 3` and the next one round that triangle is `3 * (e / 3) + (e + 1) % 3`. Triangles run counter-clockwise.
+struct Triangulation {
+  /// Half-edge -> the index, in the caller's points, of the vertex it starts at. 3 entries a triangle.
+  std::vector<std::uint32_t> triangles;
+  /// Half-edge -> its twin in the neighbouring triangle; kNone on the convex hull. 3 entries a triangle.
+  std::vector<std::uint32_t> halfedges;
+};
+
+/// The Delaunay triangulation of `points` with exact predicates. Of equal points only the lowest index
+/// appears; with fewer than 3 distinct points, or all on a line, there are no triangles. Where more than 3
+/// points lie on an empty circle any triangulation of them is right, and one is chosen deterministically.
+/// Throws as concave_hull does. O(n log n).
+Triangulation delaunay(std::span<const Point> points);
+
+}  // namespace polylidar

@@ -1,0 +1,78 @@
+#include "polylidar/concave_hull.hpp"
+
+#include <cmath>
+#include <stdexcept>
+
+#include "boundary.hpp"
+#include "delaunay_builder.hpp"
+#include "region.hpp"
+
+namespace polylidar {
+
+void IndexedMultiPolygon::clear() {
+  vertices.clear();
+  ring_ends.clear();
+  polygon_ends.clear();
+}
+
+MultiPolygon to_coordinates(const IndexedMultiPolygon& shape, std::span<const Point> points) {
+  MultiPolygon result(shape.polygon_ends.size());
+  std::size_t ring = 0;
+  std::size_t vertex = 0;
+  const auto next_ring = [&] {
+    Ring coordinates(shape.ring_ends[ring] - vertex);
+    for (Point& p : coordinates) p = points[shape.vertices[vertex++]];
+    ++ring;
+    return coordinates;
+  };
+  for (std::size_t p = 0; p < result.size(); ++p) {
+    result[p].shell = next_ring();
+    result[p].holes.reserve(shape.polygon_ends[p] - ring);
+    while (ring < shape.polygon_ends[p]) result[p].holes.push_back(next_ring());
+  }
+  return result;
+}
+
+struct Extractor::State {
+  detail::DelaunayBuilder builder;
+  detail::RegionBoundaries boundaries;
+  std::vector<detail::Mesh::Index> stack;
+  IndexedMultiPolygon shape;
+};
+
+Extractor::Extractor() : state_(std::make_unique<State>()) {}
+Extractor::~Extractor() = default;
+Extractor::Extractor(Extractor&&) noexcept = default;
+Extractor& Extractor::operator=(Extractor&&) noexcept = default;
+
+const IndexedMultiPolygon& Extractor::extract(std::span<const Point> points, const Options& options) {
+  triangulate(points);
+  extract_regions(options);
+  return extract_polygons();
+}
+
+void Extractor::triangulate(std::span<const Point> points) {
+  state_->builder.build(points);
+}
+
+void Extractor::extract_regions(const Options& options) {
+  if (!(options.alpha >= 0)) throw std::invalid_argument("alpha must be zero or more");
+  if (!(options.max_edge_length >= 0)) throw std::invalid_argument("max_edge_length must be zero or more");
+  detail::DelaunayBuilder& builder = state_->builder;
+  detail::extract_regions(
+      builder.mesh(), builder.vertices(), std::ldexp(options.alpha, builder.scale_exponent()),
+      std::ldexp(options.max_edge_length, builder.scale_exponent()), state_->boundaries, state_->stack);
+}
+
+const IndexedMultiPolygon& Extractor::extract_polygons() {
+  detail::DelaunayBuilder& builder = state_->builder;
+  detail::trace_polygons(builder.mesh(), builder.vertices(), builder.caller_index(), state_->boundaries,
+                         state_->shape);
+  return state_->shape;
+}
+
+IndexedMultiPolygon concave_hull(std::span<const Point> points, const Options& options) {
+  return Extractor().extract(points, options);
+}
+
+}  // namespace polylidar

@@ -1,0 +1,91 @@
+// The triangle mesh that all steps of the pipeline share.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "polylidar/delaunay.hpp"
+#include "polylidar/geometry.hpp"
+
+namespace polylidar::detail {
+
+/// An array that keeps its memory when it shrinks and never initialises it: fresh memory costs more than
+/// sorting a point.
+template <class T>
+class Scratch {
+ public:
+  /// Room for `size` elements whose values are undefined.
+  T* reserve(std::size_t size) {
+    if (size > capacity_) {
+      data_ = std::make_unique_for_overwrite<T[]>(size);
+      capacity_ = size;
+    }
+    return data_.get();
+  }
+  T* data() { return data_.get(); }
+  const T* data() const { return data_.get(); }
+
+ private:
+  std::unique_ptr<T[]> data_;
+  std::size_t capacity_ = 0;
+};
+
+/// A triangulation of the sphere: the finite triangles and, outside the convex hull, one ghost triangle a
+/// hull edge, whose third vertex is the vertex at infinity, kNone. Turning round a vertex therefore never
+/// meets a border.
+///
+/// A triangle is one 32-byte record, half a cache line: half-edge 8t + k (k = 0, 1, 2) belongs to triangle t,
+/// and with `m` the mesh's memory
+///   m[8t + k]      the vertex at which half-edge 8t + k starts; vertices run counter-clockwise
+///   m[8t + 4 + k]  its twin, the same edge seen from the neighbouring triangle
+///   m[8t + 3]      the triangle's label: what later steps make of it
+///   m[8t + 7]      bit k: half-edge 8t + k has been taken into a ring
+/// n distinct points make 2n - 2 triangles, ghosts included (Euler's formula on the sphere). Records of
+/// triangles that repeated points left unused have kNone for all vertices.
+class Mesh {
+ public:
+  using Index = std::uint32_t;
+  static constexpr Index kStride = 8;
+  /// Beyond this many points half-edges would not fit into 32 bits.
+  static constexpr std::size_t kMaxPoints = std::size_t{1} << 28U;
+
+  /// Room for the triangles of `points` points; contents undefined.
+  void reset(std::size_t points) {
+    triangle_count_ = points < 2 ? 0 : static_cast<Index>(2 * points - 2);
+    memory_ = storage_.reserve(std::size_t{kStride} * triangle_count_);
+  }
+
+  Index triangle_count() const { return triangle_count_; }
+
+  static Index next(Index e) { return (e & 3U) == 2U ? e - 2 : e + 1; }
+  static Index previous(Index e) { return (e & 3U) == 0U ? e + 2 : e - 1; }
+  static Index triangle_of(Index e) { return e / kStride; }
+
+  Index& origin(Index e) { return memory_[e]; }
+  Index origin(Index e) const { return memory_[e]; }
+  Index twin(Index e) const { return memory_[e + 4]; }
+  Index& label(Index t) { return memory_[kStride * t + 3]; }
+  Index label(Index t) const { return memory_[kStride * t + 3]; }
+  Index& taken(Index t) { return memory_[kStride * t + 7]; }
+
+  void bond(Index e, Index f) {
+    memory_[e + 4] = f;
+    memory_[f + 4] = e;
+  }
+
+  /// Ghosts and unused records: vertices are below 2^31, so that only kNone sets the top bit.
+  bool is_ghost(Index t) const {
+    const Index* v = memory_ + std::size_t{kStride} * t;
+    return ((v[0] | v[1] | v[2]) >> 31U) != 0;
+  }
+
+ private:
+  Scratch<Index> storage_;
+  Index* memory_ = nullptr;
+  Index triangle_count_ = 0;
+};
+
+}  // namespace polylidar::detail
