@@ -151,7 +151,8 @@ class TriangulationCheck {
     if (length != leaving.size()) return "the hull is more than one chain";
     if (turning_points != 2) return "the hull winds more than once";
     std::size_t distinct = 0;
-    for (std::size_t i = 0; i < points_.size(); ++i) if (representative_[i] == i) ++distinct;
+    for (std::size_t i = 0; i < points_.size(); ++i)
+      if (representative_[i] == i) ++distinct;
     if (triangles_.size() / 3 != 2 * distinct - 2 - length) return "Euler's formula does not hold";
     return {};
   }

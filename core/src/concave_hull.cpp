@@ -35,8 +35,9 @@ MultiPolygon to_coordinates(const IndexedMultiPolygon& shape, std::span<const Po
 
 struct Extractor::State {
   detail::DelaunayBuilder builder;
-  detail::RegionBoundaries boundaries;
-  std::vector<detail::Mesh::Index> stack;
+  detail::Scratch<detail::Mesh::Index> dropped;
+  std::vector<detail::Mesh::Index> boundary;
+  detail::BoundaryTracer tracer;
   IndexedMultiPolygon shape;
 };
 
@@ -61,13 +62,13 @@ void Extractor::extract_regions(const Options& options) {
   detail::DelaunayBuilder& builder = state_->builder;
   detail::extract_regions(
       builder.mesh(), builder.vertices(), std::ldexp(options.alpha, builder.scale_exponent()),
-      std::ldexp(options.max_edge_length, builder.scale_exponent()), state_->boundaries, state_->stack);
+      std::ldexp(options.max_edge_length, builder.scale_exponent()), state_->dropped, state_->boundary);
 }
 
 const IndexedMultiPolygon& Extractor::extract_polygons() {
   detail::DelaunayBuilder& builder = state_->builder;
-  detail::trace_polygons(builder.mesh(), builder.vertices(), builder.caller_index(), state_->boundaries,
-                         state_->shape);
+  state_->tracer.trace(builder.mesh(), builder.vertices(), builder.vertex_count(), builder.caller_index(),
+                       state_->boundary, state_->shape);
   return state_->shape;
 }
 

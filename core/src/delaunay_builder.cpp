@@ -98,6 +98,27 @@ class Curve {
   int key_bits_;
 };
 
+/// The largest power of two of which all coordinates are multiples, or 0 once it turns out to be too small to
+/// matter: below 2^-20 of the extent no predicate of lattice neighbours fits into 53 bits. Most inputs show
+/// that at once.
+double common_unit(std::span<const Point> points, const Box& box) {
+  const double too_small = std::max(box.max.x - box.min.x, box.max.y - box.min.y) * 0x1p-20;
+  double unit = std::numeric_limits<double>::infinity();
+  for (const Point& p : points) {
+    for (const double c : {p.x, p.y}) {
+      if (c == 0) continue;
+      const auto bits = std::bit_cast<std::uint64_t>(c);
+      const int exponent = static_cast<int>((bits >> 52U) & 0x7FFU);
+      if (exponent == 0) return 0;  // subnormal
+      constexpr std::uint64_t kLeadingOne = std::uint64_t{1} << 52U;
+      const int trailing_zeros = std::countr_zero(bits | kLeadingOne);
+      unit = std::min(unit, std::ldexp(1.0, exponent - 1075 + trailing_zeros));
+      if (unit < too_small) return 0;
+    }
+  }
+  return unit;
+}
+
 /// Sorts `count` entries, whose lower 32 bits ascend, by their upper 32 bits, stably, least significant digit
 /// first. Returns where the result is: `entries` or `spare`.
 std::uint64_t* radix_sort(std::uint64_t* entries, std::uint64_t* spare, std::size_t count, int key_bits) {
@@ -129,9 +150,6 @@ std::uint64_t* radix_sort(std::uint64_t* entries, std::uint64_t* spare, std::siz
 bool less_by_x(const Point& a, const Point& b) {
   return a.x < b.x || (a.x == b.x && a.y < b.y);
 }
-bool less_by_y(const Point& a, const Point& b) {
-  return a.y < b.y || (a.y == b.y && a.x < b.x);
-}
 
 }  // namespace
 
@@ -140,6 +158,7 @@ void DelaunayBuilder::build(std::span<const Point> points) {
     throw std::invalid_argument("more than 2^28 points: split the input");
   }
   mesh_.reset(points.size());
+  vertex_count_ = points.size();
   scale_exponent_ = 0;
   if (points.empty()) return;
   sort_along_curve(points);
@@ -151,6 +170,8 @@ void DelaunayBuilder::sort_along_curve(std::span<const Point> points) {
   const std::size_t count = points.size();
   const Range range = measure(points);
   scale_exponent_ = choose_scale(range);
+  const double unit = scale_exponent_ == 0 ? common_unit(points, range.box) : 0;
+  exact_limits_ = {0x1p53 * (unit * unit), 0x1p53 * (unit * unit) * (unit * unit)};
 
   std::uint64_t* entries = sorting_.reserve(count);
   const Curve curve(range.box, count);
@@ -173,24 +194,65 @@ void DelaunayBuilder::sort_along_curve(std::span<const Point> points) {
 }
 
 /// Triangulates the points [begin, end), which stand in the order of keys of one curve.
-DelaunayBuilder::Hull DelaunayBuilder::build_range(Index begin, Index end) {
-  if (end - begin == 1) return {begin, kNone};
+///
+/// Where two neighbours' keys first differ, counted from the highest bit, is where a vertical or a horizontal
+/// line separates them, and the higher that bit, the later the two sides are merged. Going through the points
+/// once, a stack holds the parts that wait for what comes after them.
+Hull DelaunayBuilder::build_range(Index begin, Index end) {
+  struct Part {
+    Hull hull;
+    unsigned level;  ///< bit that separates it from the next part, counted from 1; kLast for the last
+    Index end;       ///< one past its last point
+  };
+  constexpr unsigned kLast = 33;
+  std::array<Part, kLast + 1> waiting;  // levels fall from bottom to top, so that there are never more
+  std::size_t count = 0;
   const std::uint32_t* keys = keys_.data();
-  const std::uint32_t difference = keys[begin] ^ keys[end - 1];
-  if (difference == 0) return build_cell(begin, end);
+  // The level between a point and the one before it; 0 inside a cell of the curve.
+  const auto level_before = [&](Index point) {
+    return point == end ? kLast : static_cast<unsigned>(std::bit_width(keys[point - 1] ^ keys[point]));
+  };
+  unsigned level = kLast;  // before `first`
+  for (Index first = begin; first < end;) {
+    Index next = first + 1;
+    Part part{Hull::of_point(first), level_before(next), next};
+    if (part.level == 0) {
+      while ((part.level = level_before(++next)) == 0) continue;
+      part = {build_cell(first, next), part.level, next};
+    } else if (end - first >= 3) {
+      const unsigned inner = level_before(first + 2);
+      const unsigned after = level_before(first + 3);
+      if (inner != 0 && std::max(part.level, inner) < std::min(level, after) &&
+          build_triangle(first, part.hull)) {
+        next = first + 3;
+        part.level = after;
+        part.end = next;
+      }
+    }
+    level = part.level;
+    while (count > 0 && waiting[count - 1].level < part.level) {
+      const Part& before = waiting[--count];
+      part.hull = merge(before.hull, part.hull, before.end, (before.level & 1U) != 0 ? Axis::kY : Axis::kX);
+    }
+    waiting[count++] = part;
+    first = next;
+  }
+  return waiting[0].hull;
+}
 
-  // The highest bit in which the keys differ cuts the range by a vertical or a horizontal line.
-  const auto bit = static_cast<unsigned>(std::bit_width(difference)) - 1;
-  const auto first_beyond = std::partition_point(
-      keys + begin, keys + end, [bit](std::uint32_t key) { return ((key >> bit) & 1U) == 0; });
-  const auto middle = static_cast<Index>(first_beyond - keys);
-  const Hull left = build_range(begin, middle);
-  const Hull right = build_range(middle, end);
-  return merge(left, right, middle, (bit & 1U) != 0 ? Axis::kX : Axis::kY);
+/// Triangulates the three points from `first` on, unless they lie on a line.
+bool DelaunayBuilder::build_triangle(Index first, Hull& hull) {
+  const Point* points = points_.data();
+  const double turn = orient2d(points[first], points[first + 1], points[first + 2]);
+  if (turn == 0) return false;
+  const Index b = turn > 0 ? first + 1 : first + 2;
+  const Index c = turn > 0 ? first + 2 : first + 1;
+  hull = join_triangle(mesh_, first, b, c, Mesh::kStride * 2 * first);
+  return true;
 }
 
 /// Triangulates points that fell into one cell of the curve.
-DelaunayBuilder::Hull DelaunayBuilder::build_cell(Index begin, Index end) {
+Hull DelaunayBuilder::build_cell(Index begin, Index end) {
   if (end - begin <= kSmallCell) {
     sort_small_cell(begin, end);
     return build_sorted(begin, end);
@@ -244,7 +306,7 @@ void DelaunayBuilder::refine_curve(Index begin, Index end, const Box& box) {
 
 /// Triangulates points in lexicographic order: halves are separated by a line that is vertical but for an
 /// infinitesimal tilt.
-DelaunayBuilder::Hull DelaunayBuilder::build_sorted(Index begin, Index end) {
+Hull DelaunayBuilder::build_sorted(Index begin, Index end) {
   const Point* points = points_.data();
   if (points[begin] == points[end - 1]) return collapse(begin, end);
   Index middle = begin + (end - begin) / 2;
@@ -260,186 +322,11 @@ DelaunayBuilder::Hull DelaunayBuilder::build_sorted(Index begin, Index end) {
 
 /// Repetitions of one point: the first stands for all, and the records of the merges that do not happen stay
 /// unused.
-DelaunayBuilder::Hull DelaunayBuilder::collapse(Index begin, Index end) {
+Hull DelaunayBuilder::collapse(Index begin, Index end) {
   for (Index t = 2 * begin; t < 2 * (end - 1); ++t) {
     for (Index k = 0; k < 3; ++k) mesh_.origin(Mesh::kStride * t + k) = kNone;
   }
-  return {begin, kNone};
-}
-
-/// Moves `hull` to its least or greatest vertex along `axis`. Coordinates along a convex polygon rise and
-/// fall once, and ties are broken by the other axis.
-void DelaunayBuilder::move_to_extreme(Hull& hull, Axis axis, bool greatest) const {
-  if (hull.is_point()) return;
-  const Point* points = points_.data();
-  const auto better = [&](Index candidate, Index current) {
-    const Point& a = points[greatest ? current : candidate];
-    const Point& b = points[greatest ? candidate : current];
-    return axis == Axis::kX ? less_by_x(a, b) : less_by_y(a, b);
-  };
-  const auto advance = [&](auto step) {
-    bool moved = false;
-    for (Index e = step(hull.to_infinity); better(mesh_.origin(e), hull.vertex); e = step(e)) {
-      hull = {mesh_.origin(e), e};
-      moved = true;
-    }
-    return moved;
-  };
-  if (!advance([this](Index e) { return next_on_hull(e); })) {
-    advance([this](Index e) { return previous_on_hull(e); });
-  }
-}
-
-/// From the vertices of two hulls that face each other, walks down to the edge below which neither hull has a
-/// point. Collinear points beyond the ends are left where they are: the strict test keeps the edge as short
-/// as possible.
-void DelaunayBuilder::find_lower_tangent(Hull& left, Hull& right) const {
-  const Point* points = points_.data();
-  const auto is_below = [&](Index candidate) {
-    return orient2d_fast(points[left.vertex], points[right.vertex], points[candidate]) < 0;
-  };
-  for (bool moved = true; moved;) {
-    moved = false;
-    if (!left.is_point()) {
-      const Index e = previous_on_hull(left.to_infinity);
-      if (is_below(mesh_.origin(e))) {
-        left = {mesh_.origin(e), e};
-        moved = true;
-      }
-    }
-    if (!right.is_point()) {
-      const Index e = next_on_hull(right.to_infinity);
-      if (is_below(mesh_.origin(e))) {
-        right = {mesh_.origin(e), e};
-        moved = true;
-      }
-    }
-  }
-}
-
-/// Joins two triangulations that a line across `axis` separates, `left` on its lower side. Directions in the
-/// comments are those of a vertical line; nothing below depends on it but the starting points of the tangent.
-///
-/// From the lower tangent upwards, `base` is the topmost edge that joins the halves. The next triangle stands
-/// on it with its apex at the next hull vertex of one half; edges of that half whose far side violates the
-/// empty circle are flipped to the hull first.
-DelaunayBuilder::Hull DelaunayBuilder::merge(Hull left, Hull right, Index middle, Axis axis) {
-  move_to_extreme(left, axis, true);
-  move_to_extreme(right, axis, false);
-  find_lower_tangent(left, right);
-
-  const Point* points = points_.data();
-  Mesh& mesh = mesh_;
-  const Index bottom = Mesh::kStride * (2 * middle - 2);
-  const Index top = bottom + Mesh::kStride;
-  Index l = left.vertex;
-  Index r = right.vertex;
-  const Index bottom_l_to_infinity = bottom + 1;
-  const Index bottom_infinity_to_r = bottom + 2;
-  mesh.origin(bottom) = r;
-  mesh.origin(bottom_l_to_infinity) = l;
-  mesh.origin(bottom_infinity_to_r) = kNone;
-
-  // In the ghost over the hull edge that rises from l: l -> infinity. kNone when the left half is one point.
-  Index left_ghost = left.to_infinity;
-  // In the ghost over the hull edge that comes down to r: infinity -> r. kNone when the right half is one
-  // point.
-  Index right_ghost = kNone;
-  if (!left.is_point()) mesh.bond(bottom_l_to_infinity, mesh.twin(left_ghost));
-  if (!right.is_point()) {
-    right_ghost = mesh.twin(right.to_infinity);
-    mesh.bond(bottom_infinity_to_r, right.to_infinity);
-  }
-
-  Index base = bottom;  // runs r -> l: the upper side of the topmost joining edge is its twin
-  for (;;) {
-    const Index l2 = left.is_point() ? kNone : find_left_candidate(left_ghost, l, r);
-    const Index r2 = right.is_point() ? kNone : find_right_candidate(right_ghost, l, r);
-    if (l2 == kNone && r2 == kNone) break;
-    const bool take_left =
-        r2 == kNone || (l2 != kNone && incircle_fast(points[l], points[r], points[l2], points[r2]) <= 0);
-    if (take_left) {
-      // The ghost (l2, l, infinity) becomes the triangle (l2, l, r).
-      const Index infinity = Mesh::next(left_ghost);
-      const Index next_ghost = mesh.twin(infinity);
-      mesh.origin(infinity) = r;
-      mesh.bond(left_ghost, base);
-      base = infinity;
-      left_ghost = next_ghost;
-      l = l2;
-    } else {
-      // The ghost (r, r2, infinity) becomes the triangle (r, r2, l).
-      const Index infinity = right_ghost;
-      const Index r2_to_infinity = Mesh::previous(infinity);
-      const Index next_ghost = mesh.twin(r2_to_infinity);
-      mesh.origin(infinity) = l;
-      mesh.bond(infinity, base);
-      base = r2_to_infinity;
-      right_ghost = next_ghost;
-      r = r2;
-    }
-  }
-
-  const Index top_r_to_infinity = top + 1;
-  const Index top_infinity_to_l = top + 2;
-  mesh.origin(top) = l;
-  mesh.origin(top_r_to_infinity) = r;
-  mesh.origin(top_infinity_to_l) = kNone;
-  mesh.bond(top, base);
-  mesh.bond(top_r_to_infinity, right.is_point() ? bottom_infinity_to_r : right_ghost);
-  mesh.bond(top_infinity_to_l, left.is_point() ? bottom_l_to_infinity : left_ghost);
-  return {left.vertex, bottom_l_to_infinity};
-}
-
-/// The apex that the left half offers for the triangle on the base l - r: the next hull vertex above l once
-/// the edges that this triangle's circle forbids are flipped away. kNone when it does not lie above the base.
-Mesh::Index DelaunayBuilder::find_left_candidate(Index left_ghost, Index l, Index r) {
-  const Point* points = points_.data();
-  Mesh& mesh = mesh_;
-  const Index infinity = Mesh::next(left_ghost);
-  const Index hull_edge = Mesh::previous(left_ghost);  // l2 -> l
-  Index l2 = mesh.origin(hull_edge);
-  if (orient2d_fast(points[l], points[r], points[l2]) <= 0) return kNone;
-  for (;;) {
-    const Index inner = mesh.twin(hull_edge);  // l -> l2
-    const Index inner_previous = Mesh::previous(inner);
-    const Index apex = mesh.origin(inner_previous);
-    if (apex == kNone || incircle_fast(points[l], points[r], points[l2], points[apex]) <= 0) return l2;
-    // Flip l - l2: the triangle (l, l2, apex) and the ghost (l2, l, infinity) become the ghosts (l2, apex,
-    // infinity) and (apex, l, infinity). The edge l2 -> apex keeps its record and its twin.
-    const Index beyond_l2 = mesh.twin(infinity);
-    mesh.origin(hull_edge) = apex;
-    mesh.bond(hull_edge, mesh.twin(inner_previous));
-    mesh.origin(inner) = kNone;
-    mesh.bond(inner, beyond_l2);
-    mesh.bond(inner_previous, infinity);
-    l2 = apex;
-  }
-}
-
-/// The mirror image of find_left_candidate. `right_ghost` is infinity -> r in the ghost (r, r2, infinity).
-Mesh::Index DelaunayBuilder::find_right_candidate(Index right_ghost, Index l, Index r) {
-  const Point* points = points_.data();
-  Mesh& mesh = mesh_;
-  const Index hull_edge = Mesh::next(right_ghost);  // r -> r2
-  const Index r2_to_infinity = Mesh::previous(right_ghost);
-  Index r2 = mesh.origin(r2_to_infinity);
-  if (orient2d_fast(points[l], points[r], points[r2]) <= 0) return kNone;
-  for (;;) {
-    const Index inner = mesh.twin(hull_edge);  // r2 -> r
-    const Index inner_next = Mesh::next(inner);
-    const Index apex = mesh.origin(Mesh::previous(inner));
-    if (apex == kNone || incircle_fast(points[l], points[r], points[r2], points[apex]) <= 0) return r2;
-    // Flip r2 - r: the triangle (r2, r, apex) and the ghost (r, r2, infinity) become the ghosts (apex, r2,
-    // infinity) and (r, apex, infinity).
-    const Index beyond_r2 = mesh.twin(r2_to_infinity);
-    mesh.origin(r2_to_infinity) = apex;
-    mesh.bond(hull_edge, mesh.twin(inner_next));
-    mesh.origin(inner_next) = kNone;
-    mesh.bond(inner, beyond_r2);
-    mesh.bond(inner_next, r2_to_infinity);
-    r2 = apex;
-  }
+  return Hull::of_point(begin);
 }
 
 }  // namespace polylidar::detail

@@ -5,6 +5,7 @@
 #include <span>
 
 #include "half_edge.hpp"
+#include "hull_merge.hpp"
 
 namespace polylidar::detail {
 
@@ -24,6 +25,7 @@ class DelaunayBuilder {
   Mesh& mesh() { return mesh_; }
   /// Vertex of the mesh -> its position times 2^scale_exponent(). Vertices are numbered along the curve.
   const Point* vertices() const { return points_.data(); }
+  std::size_t vertex_count() const { return vertex_count_; }
   /// Vertex of the mesh -> index of the caller's point.
   const std::uint32_t* caller_index() const { return order_.data(); }
   int scale_exponent() const { return scale_exponent_; }
@@ -31,33 +33,22 @@ class DelaunayBuilder {
  private:
   using Index = Mesh::Index;
 
-  /// A triangulated range: of several points, the half-edge of some ghost that leads from a hull vertex to
-  /// infinity; of a single point, that point.
-  struct Hull {
-    Index vertex;
-    Index to_infinity;  ///< kNone for a single point
-    bool is_point() const { return to_infinity == kNone; }
-  };
-  enum class Axis : std::uint8_t { kX, kY };
-
   void sort_along_curve(std::span<const Point> points);
   void refine_curve(Index begin, Index end, const Box& box);
   void sort_small_cell(Index begin, Index end);
 
   Hull build_range(Index begin, Index end);
+  bool build_triangle(Index first, Hull& hull);
   Hull build_cell(Index begin, Index end);
   Hull build_sorted(Index begin, Index end);
   Hull collapse(Index begin, Index end);
 
-  /// From vertex -> infinity to the same at the next hull vertex, counter-clockwise.
-  Index next_on_hull(Index to_infinity) const { return mesh_.twin(Mesh::next(to_infinity)); }
-  /// From vertex -> infinity to the same at the hull vertex before, clockwise.
-  Index previous_on_hull(Index to_infinity) const { return Mesh::previous(mesh_.twin(to_infinity)); }
-  void move_to_extreme(Hull& hull, Axis axis, bool greatest) const;
-  void find_lower_tangent(Hull& left, Hull& right) const;
-  Index find_left_candidate(Index left_ghost, Index l, Index r);
-  Index find_right_candidate(Index right_ghost, Index l, Index r);
-  Hull merge(Hull left, Hull right, Index middle, Axis axis);
+  /// Merges neighbouring ranges that meet at point `middle`. Every place where ranges can meet owns two
+  /// records.
+  Hull merge(const Hull& left, const Hull& right, Index middle, Axis axis) {
+    return merge_hulls(mesh_, points_.data(), exact_limits_, left, right, Mesh::kStride * (2 * middle - 2),
+                       axis);
+  }
 
   Scratch<Point> points_;
   Scratch<Index> order_;
@@ -65,6 +56,8 @@ class DelaunayBuilder {
   Scratch<std::uint64_t> sorting_;
   Scratch<std::uint64_t> sorting_spare_;
   Mesh mesh_;
+  ExactLimits exact_limits_;
+  std::size_t vertex_count_ = 0;
   int scale_exponent_ = 0;
 };
 

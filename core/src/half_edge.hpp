@@ -41,8 +41,8 @@ class Scratch {
 /// and with `m` the mesh's memory
 ///   m[8t + k]      the vertex at which half-edge 8t + k starts; vertices run counter-clockwise
 ///   m[8t + 4 + k]  its twin, the same edge seen from the neighbouring triangle
-///   m[8t + 3]      the triangle's label: what later steps make of it
-///   m[8t + 7]      bit k: half-edge 8t + k has been taken into a ring
+///   m[8t + 3]      the triangle's state: kKept when it belongs to the shape, and which of its half-edges are
+///   in a ring m[8t + 7]      the region it belongs to, where that had to be found out
 /// n distinct points make 2n - 2 triangles, ghosts included (Euler's formula on the sphere). Records of
 /// triangles that repeated points left unused have kNone for all vertices.
 class Mesh {
@@ -67,13 +67,20 @@ class Mesh {
   Index& origin(Index e) { return memory_[e]; }
   Index origin(Index e) const { return memory_[e]; }
   Index twin(Index e) const { return memory_[e + 4]; }
-  Index& label(Index t) { return memory_[kStride * t + 3]; }
-  Index label(Index t) const { return memory_[kStride * t + 3]; }
-  Index& taken(Index t) { return memory_[kStride * t + 7]; }
+  static constexpr Index kKept = 1;
+  static Index taken_bit(Index e) { return 2U << (e & 3U); }
+  Index& state(Index t) { return memory_[kStride * t + 3]; }
+  Index state(Index t) const { return memory_[kStride * t + 3]; }
+  Index& region(Index t) { return memory_[kStride * t + 7]; }
 
   void bond(Index e, Index f) {
     memory_[e + 4] = f;
     memory_[f + 4] = e;
+  }
+
+  bool is_unused(Index t) const {
+    const Index* v = memory_ + std::size_t{kStride} * t;
+    return (v[0] & v[1] & v[2]) == kNone;
   }
 
   /// Ghosts and unused records: vertices are below 2^31, so that only kNone sets the top bit.

@@ -1,29 +1,17 @@
-// Which triangles belong to the shape, and the edge-connected regions they form.
+// Which triangles belong to the shape, and where the shape ends.
 #pragma once
 
-#include <cstdint>
 #include <vector>
 
 #include "half_edge.hpp"
 
 namespace polylidar::detail {
 
-/// Label of a triangle outside the shape, ghosts included. Regions are labelled 0, 1, 2, ...
-inline constexpr std::uint32_t kOutside = kNone;
-
-/// The boundary of every region: the half-edges of its triangles whose twin lies outside the shape.
-struct RegionBoundaries {
-  /// Half-edges, region after region.
-  std::vector<Mesh::Index> half_edges;
-  /// region r has half_edges[ends[r - 1] .. ends[r]), the first one starting at 0.
-  std::vector<std::uint32_t> ends;
-};
-
-/// Keeps the triangles whose circumradius is at most `alpha` and whose longest edge is at most
-/// `max_edge_length` (both in the unit of `vertices`, infinity for no limit), labels each triangle of `mesh`
-/// with its region or kOutside, and writes the regions' boundaries. One pass to filter and one flood over all
-/// regions together: time does not depend on how many there are. `stack` is scratch.
+/// Keeps the finite triangles of `mesh` whose circumradius is at most `alpha` and whose longest edge is at
+/// most `max_edge_length` (both in the unit of `vertices`, infinity for no limit), and collects in `boundary`
+/// the half-edges of kept triangles whose twin is not kept. `dropped` is scratch. Can be called again with
+/// other limits.
 void extract_regions(Mesh& mesh, const Point* vertices, double alpha, double max_edge_length,
-                     RegionBoundaries& boundaries, std::vector<Mesh::Index>& stack);
+                     Scratch<Mesh::Index>& dropped, std::vector<Mesh::Index>& boundary);
 
 }  // namespace polylidar::detail

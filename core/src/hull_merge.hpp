@@ -1,0 +1,47 @@
+// The merge step of the divide and conquer: two triangulations on either side of a line become one.
+#pragma once
+
+#include "half_edge.hpp"
+
+namespace polylidar::detail {
+
+/// A vertex of a convex hull, and the half-edge that leads from it to infinity in the ghost over the hull
+/// edge that leaves it counter-clockwise. Of a hull that is a single point: that point and kNone.
+struct HullVertex {
+  Mesh::Index vertex;
+  Mesh::Index to_infinity;
+};
+
+/// A triangulated set of points, by two vertices of its convex hull: the ends, left and right, of the lower
+/// and the upper tangent of its last merge. The next merge looks for the extreme vertices of its halves,
+/// which are near one of them.
+struct Hull {
+  HullVertex lower;
+  HullVertex upper;
+  bool is_point() const { return lower.to_infinity == kNone; }
+  static Hull of_point(Mesh::Index vertex) { return {{vertex, kNone}, {vertex, kNone}}; }
+};
+
+/// Which coordinate tells two halves apart; ties are broken by the other one.
+enum class Axis : std::uint8_t { kX, kY };
+
+/// Up to which size results of plain floating-point arithmetic are exact because all coordinates are
+/// multiples of one power of two: sums of magnitudes below these limits lose nothing, so that a result of
+/// zero is a zero. This spares lattices the exact arithmetic. Both are 0 where coordinates have no such unit
+/// worth having.
+struct ExactLimits {
+  double orient2d = 0;  ///< 2^53 squared units
+  double incircle = 0;  ///< 2^53 units to the fourth
+};
+
+/// The Delaunay triangulation of the points of `left` and `right` together, in `mesh`, where all of `left`
+/// lie before all of `right` along `axis`. The two triangles that a merge adds get the records `first_record`
+/// and the next one; all others stay where they are.
+Hull merge_hulls(Mesh& mesh, const Point* points, const ExactLimits& limits, const Hull& left,
+                 const Hull& right, Mesh::Index first_record, Axis axis);
+
+/// The triangle (a, b, c), which runs counter-clockwise, and the ghosts over its edges, in four records from
+/// `first_record` on.
+Hull join_triangle(Mesh& mesh, Mesh::Index a, Mesh::Index b, Mesh::Index c, Mesh::Index first_record);
+
+}  // namespace polylidar::detail
