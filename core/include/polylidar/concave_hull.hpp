@@ -48,7 +48,7 @@ MultiPolygon to_coordinates(const IndexedMultiPolygon& shape, std::span<const Po
 /// Points may come in any order and may repeat; of equal points the lowest index is used. Fewer than 3
 /// distinct points, points all on a line, or no triangle kept: an empty multipolygon. Throws
 /// std::invalid_argument when a coordinate is not finite (naming the first such index), when coordinates span
-/// more than the supported range (see Extractor), or when an option is negative or NaN. At most 2^29 points
+/// more than the supported range (see Extractor), or when an option is negative or NaN. At most 2^28 points
 /// (std::invalid_argument beyond).
 IndexedMultiPolygon concave_hull(std::span<const Point> points, const Options& options = {});
 
