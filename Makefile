@@ -1,0 +1,104 @@
+# The two commands most people need are "make bench" and "make test"; "make help" lists the rest.
+#
+#   NATIVE=1     compile for this machine's processor instead of generic x86-64
+#   SKIP_DEPS=1  install nothing: everything needed is there already (distributions without apt-get)
+#   JOBS=N       build and test with N processes
+
+SHELL := /bin/bash
+.SHELLFLAGS := -euo pipefail -c
+MAKEFLAGS += --no-print-directory
+.DEFAULT_GOAL := help
+.NOTPARALLEL:
+
+# One process a core, but no more than there is memory for: a file that includes CGAL takes up to 1.5 GB to compile.
+JOBS ?= $(shell awk -v cores="$$(nproc 2>/dev/null || echo 2)" \
+  '/^MemAvailable/ { fit = int($$2 / 1500000) } END { print fit < 1 ? 1 : (fit < cores ? fit : cores) }' \
+  /proc/meminfo 2>/dev/null || echo 2)
+BUILD_LOG := build/log
+export NINJA_STATUS := [%f/%t] 
+
+define install
+$(if $(SKIP_DEPS),,cmake/install-packages.sh $(1))
+endef
+
+# $(call configure,preset,options): cmake's own words only when it fails.
+define configure
+mkdir -p $(BUILD_LOG); \
+if ! cmake --preset $(1) $(2) >$(BUILD_LOG)/configure-$(1).txt 2>&1; then \
+  cat $(BUILD_LOG)/configure-$(1).txt >&2; \
+  cmake/install-packages.sh --check build || true; \
+  echo "error: the build could not be configured: if something is missing, 'make deps' installs it." >&2; exit 1; \
+fi
+endef
+
+# $(call build,preset,options,targets): configure and compile; everything when no target is named.
+define build
+$(call configure,$(1),$(2)); \
+echo "==> compiling ($(1), $(JOBS) jobs)"; \
+cmake --build --preset $(1) --parallel $(JOBS) $(if $(3),--target $(3))
+endef
+
+NATIVE_OPTION = -DHULLBENCH_NATIVE=$(if $(filter-out 0,$(NATIVE)),ON,OFF)
+
+.PHONY: help deps build bench bench-quick test test-sanitize build-clang test-clang test-fresh lint format clean
+
+help: ## list the targets (the default)
+	@awk 'BEGIN { FS = ":.*## " } /^[a-z-]+:.*## / { printf "  make %-14s %s\n", $$1, $$2 }' Makefile
+	@echo "  with NATIVE=1 (compile for this processor), SKIP_DEPS=1 (install nothing), JOBS=N (N processes)"
+
+deps: ## install what is missing of all the packages, development tools included
+	@cmake/install-packages.sh build bench test lint
+	@echo "==> nothing is missing"
+
+build: ## only build: build/hullbench and build/core_benchmarks
+	@$(call build,release,$(NATIVE_OPTION),hullbench core_benchmarks)
+	@echo "==> built build/hullbench and build/core_benchmarks"
+
+bench: ## install, build and run the state-shape experiment; go on if it was interrupted
+	@$(call install,build bench)
+	@$(MAKE) build
+	@build/hullbench run states
+
+bench-quick: ## the same tables for n <= 8000 and 3 repetitions, in under 2 minutes
+	@$(call install,build bench)
+	@$(MAKE) build
+	@build/hullbench run states --filter 'n:[248]000/' --repetitions 3
+
+test: ## install, build and run all tests, the core's with sanitizers too
+	@$(call install,build bench test)
+	@$(call build,release,$(NATIVE_OPTION))
+	@$(MAKE) test-sanitize
+	@echo "==> all tests"
+	@ctest --preset release --parallel $(JOBS)
+
+test-sanitize: ## the core's tests with address and undefined-behaviour sanitizers
+	@$(call install,build)
+	@$(call build,sanitize)
+	@echo "==> the core's tests with sanitizers"
+	@ctest --preset sanitize --parallel $(JOBS)
+
+build-clang: ## build everything with clang, the second compiler, in build-clang
+	@$(call install,build lint)
+	@$(call build,clang,$(NATIVE_OPTION))
+
+test-clang: ## the tests of the clang build
+	@$(call install,build bench test lint)
+	@$(MAKE) build-clang
+	@echo "==> all tests, built with clang"
+	@ctest --preset clang --parallel $(JOBS)
+
+test-fresh: ## prove bench-quick and test from nothing, in a bare Debian 12 root (needs root, 10 GB, an hour)
+	@tests/fresh/run.sh
+
+lint: ## clang-tidy and the formatting check on all our sources
+	@$(call install,build lint)
+	@$(call configure,clang,$(NATIVE_OPTION))
+	@tests/style/check.sh format
+	@tests/style/check.sh tidy $(JOBS)
+
+format: ## format all our sources with clang-format 14
+	@tests/style/check.sh format --fix
+
+clean: ## remove what was built; results stay
+	@rm -rf build build-clang build-sanitize
+	@echo "==> removed build, build-clang and build-sanitize"

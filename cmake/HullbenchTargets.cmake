@@ -1,0 +1,45 @@
+# One place for what every target of this project is compiled with, so that our code and the header-only
+# libraries measured beside it (CGAL) get the same flags.
+
+if(NOT CMAKE_BUILD_TYPE AND NOT CMAKE_CONFIGURATION_TYPES)
+  set(CMAKE_BUILD_TYPE Release CACHE STRING "Build type" FORCE)
+endif()
+set(CMAKE_CXX_FLAGS_RELEASE "-O3 -DNDEBUG")
+
+# Warnings are errors with the compilers that the project is checked with; a newer one may warn of more, which is no
+# reason for a reader's build to stop.
+set(werror_default OFF)
+if((CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 13)
+    OR (CMAKE_CXX_COMPILER_ID STREQUAL "Clang" AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 15))
+  set(werror_default ON)
+endif()
+option(HULLBENCH_WERROR "Treat compiler warnings as errors" ${werror_default})
+
+add_library(hullbench_compile_options INTERFACE)
+add_library(hullbench::compile_options ALIAS hullbench_compile_options)
+target_compile_features(hullbench_compile_options INTERFACE cxx_std_20)
+target_compile_options(hullbench_compile_options INTERFACE
+  -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wsign-conversion -Wold-style-cast
+  $<$<BOOL:${HULLBENCH_WERROR}>:-Werror>
+  # GCC 12 sees overlapping copies in std::string's own operator+ and assignment, where there are none (its bug 105651).
+  $<$<AND:$<CXX_COMPILER_ID:GNU>,$<VERSION_LESS:$<CXX_COMPILER_VERSION>,13>>:-Wno-restrict>
+  # A fused multiply-add rounds once where the predicates' error bounds and expansions count on two
+  # roundings; contraction would also make coordinates differ between machines.
+  -ffp-contract=off)
+if(HULLBENCH_NATIVE)
+  target_compile_options(hullbench_compile_options INTERFACE -march=native)
+endif()
+
+# hullbench_test(NAME SOURCES... LIBRARIES...): one GoogleTest program from one or more files; its cases appear
+# in ctest one by one.
+function(hullbench_test name)
+  cmake_parse_arguments(TEST "" "TIMEOUT" "SOURCES;LIBRARIES;LABELS" ${ARGN})
+  add_executable(${name} ${TEST_SOURCES})
+  target_link_libraries(${name} PRIVATE ${TEST_LIBRARIES} GTest::gtest_main hullbench::compile_options)
+  if(NOT TEST_TIMEOUT)
+    set(TEST_TIMEOUT 120)
+  endif()
+  set_target_properties(${name} PROPERTIES RUNTIME_OUTPUT_DIRECTORY "${CMAKE_BINARY_DIR}/tests")
+  gtest_discover_tests(${name} DISCOVERY_TIMEOUT 60
+    PROPERTIES TIMEOUT ${TEST_TIMEOUT} LABELS "${TEST_LABELS}")
+endfunction()
