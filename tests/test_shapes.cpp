@@ -1,0 +1,247 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <stdexcept>
+
+#include "datasets/sha256.hpp"
+#include "datasets/shapes.hpp"
+#include "tests/boost_checks.hpp"
+#include "tests/temporary_folder.hpp"
+
+namespace hullbench {
+namespace {
+
+using nlohmann::json;
+using polylidar::MultiPolygon;
+
+class Shapes : public ::testing::Test {
+ protected:
+  std::filesystem::path write(const std::string& name, const std::string& text) const {
+    std::ofstream(folder_ / name, std::ios::binary) << text;
+    return folder_ / name;
+  }
+
+  MultiPolygon read(const std::string& text) const { return read_geojson(write("shape.geojson", text)); }
+
+  /// The whole message of the error that reading `text` gives, without the file's name.
+  std::string error_of(const std::string& text) const {
+    const std::string path = write("shape.geojson", text).string();
+    try {
+      read_geojson(path);
+    } catch (const std::runtime_error& error) {
+      const std::string message = error.what();
+      EXPECT_EQ(message.substr(0, path.size()), path);
+      return message.substr(path.size());
+    }
+    return "no error";
+  }
+
+  std::string manifest_error(const std::string& text) const {
+    write("manifest.json", text);
+    try {
+      read_manifest(folder_);
+    } catch (const std::runtime_error& error) {
+      return error.what();
+    }
+    return "no error";
+  }
+
+  testing::TemporaryFolder temporary_;
+  const std::filesystem::path folder_ = temporary_.path();
+};
+
+json manifest_entry() {
+  return {{"name", "tri"},  {"title", "Triangle"}, {"file", "tri.geojson"},
+          {"sha256", "00"}, {"source", "made up"}, {"licence", "CC0"},
+          {"area", 6.0}};
+}
+
+std::string manifest_with(const json& entry) {
+  return json{{"shapes", {entry}}}.dump();
+}
+
+constexpr const char* kTriangle = R"({"type": "Polygon", "coordinates": [[[0, 0], [4, 0], [0, 3], [0, 0]]]})";
+
+TEST_F(Shapes, GeometryFeatureAndCollectionAreRead) {
+  const MultiPolygon triangle{{.shell = {{0, 0}, {4, 0}, {0, 3}}, .holes = {}}};
+  const std::string polygon = kTriangle;
+  EXPECT_EQ(read(polygon), triangle);
+  const std::string feature = R"({"type": "Feature", "properties": null, "geometry": )" + polygon + "}";
+  EXPECT_EQ(read(feature), triangle);
+  const std::string collection =
+      R"({"type": "FeatureCollection", "features": [)" + feature + "," + feature + "]}";
+  EXPECT_EQ(read(collection), (MultiPolygon{triangle[0], triangle[0]}));
+  const std::string multi = R"({"type": "MultiPolygon", "coordinates": [
+      [[[0, 0], [4, 0], [0, 3], [0, 0]]], [[[9, 9], [10, 9], [9, 10], [9, 9]]]]})";
+  EXPECT_EQ(read(multi), (MultiPolygon{triangle[0], {.shell = {{9, 9}, {10, 9}, {9, 10}}, .holes = {}}}));
+}
+
+TEST_F(Shapes, RingsAreTurnedAndAltitudesDropped) {
+  const MultiPolygon shape = read(R"({"type": "Polygon", "coordinates": [
+      [[0, 0, 7], [0, 9, 7], [9, 0, 7], [0, 0, 7]], [[1, 1], [2, 1], [1, 2], [1, 1]]]})");
+  EXPECT_EQ(shape, (MultiPolygon{{.shell = {{9, 0}, {0, 9}, {0, 0}}, .holes = {{{1, 2}, {2, 1}, {1, 1}}}}}));
+}
+
+TEST_F(Shapes, MissingFileAndFolderAreNamed) {
+  for (const std::filesystem::path& path : {folder_ / "absent.geojson", folder_}) {
+    try {
+      read_geojson(path);
+      FAIL() << path << " was read";
+    } catch (const std::runtime_error& error) {
+      EXPECT_EQ(error.what(),
+                "cannot read " + path.string() + "; check that the file exists and may be read");
+    }
+  }
+}
+
+TEST_F(Shapes, TextThatIsNotJsonIsRefused) {
+  EXPECT_NE(error_of("{").find(" is not valid JSON ("), std::string::npos);
+  EXPECT_NE(error_of("").find(" is not valid JSON ("), std::string::npos);
+}
+
+TEST_F(Shapes, NumbersThatAreNotFiniteAreRefused) {
+  const auto with_coordinate = [](const std::string& number) {
+    return R"({"type": "Polygon", "coordinates": [[[0, 0], [)" + number + R"(, 0], [0, 3], [0, 0]]]})";
+  };
+  EXPECT_EQ(error_of(with_coordinate("4")), "no error");
+  EXPECT_NE(error_of(with_coordinate("1e999")).find("number overflow"), std::string::npos);
+  EXPECT_NE(error_of(with_coordinate("NaN")).find(" is not valid JSON ("), std::string::npos);
+  EXPECT_EQ(error_of(with_coordinate("null")),
+            " is not a usable shape: polygon 0, ring 0 has a vertex that is not a pair of numbers; write "
+            "each as [x, y]");
+}
+
+TEST_F(Shapes, FaultyRingsAreRefused) {
+  const auto error_of_ring = [this](const std::string& ring) {
+    return error_of(R"({"type": "MultiPolygon", "coordinates": [[[[0, 0], [9, 0], [0, 9], [0, 0]], )" + ring +
+                    "]]}");
+  };
+  const std::string where = " is not a usable shape: polygon 0, ring 1 ";
+  EXPECT_EQ(error_of_ring("[[1, 1], [2, 1], [1, 2]]"),
+            where + "is not closed; repeat its first vertex at the end");
+  EXPECT_EQ(error_of_ring("[]"), where + "is not closed; repeat its first vertex at the end");
+  const std::string too_few = where + "has fewer than 3 distinct vertices; remove it or complete it";
+  EXPECT_EQ(error_of_ring("[[1, 1]]"), too_few);
+  EXPECT_EQ(error_of_ring("[[1, 1], [2, 1], [1, 1]]"), too_few);
+  EXPECT_EQ(error_of_ring("[[1, 1], [2, 1], [2, 1], [1, 1], [1, 1]]"), too_few);
+  EXPECT_EQ(error_of_ring("[[1, 1], [2, 1], [3, 1], [1, 1]]"),
+            where + "encloses no area; remove it or correct its vertices");
+  EXPECT_EQ(error_of_ring("[[1], [2, 1], [1, 2], [1]]"),
+            where + "has a vertex that is not a pair of numbers; write each as [x, y]");
+  EXPECT_EQ(error_of_ring("7"), where + "is not an array of vertices; write it as [[x, y], ...]");
+}
+
+TEST_F(Shapes, OtherDocumentsAreRefused) {
+  const std::string advice = "; give a Polygon or MultiPolygon";
+  EXPECT_EQ(error_of(R"({"type": "Point", "coordinates": [0, 0]})"),
+            " is not a usable shape: it has a geometry of type Point" + advice);
+  EXPECT_EQ(error_of("[]"), " is not a usable shape: it has an object without a GeoJSON type" + advice);
+  EXPECT_EQ(error_of(R"({"type": "Feature", "geometry": null})"),
+            " is not a usable shape: it has an object without a GeoJSON type" + advice);
+  EXPECT_EQ(error_of(R"({"type": "MultiPolygon", "coordinates": []})"),
+            " is not a usable shape: it has no polygon" + advice);
+  EXPECT_EQ(error_of(R"({"type": "Polygon", "coordinates": []})"),
+            " is not a usable shape: polygon 0 has no rings; remove it or give it a shell");
+  EXPECT_NE(error_of(R"({"type": "Polygon"})").find(" is not the GeoJSON of a shape ("), std::string::npos);
+  EXPECT_NE(error_of(R"({"type": 3})").find(" is not the GeoJSON of a shape ("), std::string::npos);
+}
+
+TEST_F(Shapes, FileThatDiffersFromTheManifestIsRefused) {
+  const std::filesystem::path path = write("tri.geojson", kTriangle);
+  json entry = manifest_entry();
+  entry["sha256"] = sha256_hex(kTriangle);
+  write("manifest.json", manifest_with(entry));
+  const ShapeInfo info = read_manifest(folder_).front();
+  EXPECT_EQ(load_shape(folder_, info).size(), 1U);
+  const std::string changed = std::string(kTriangle) + "\n";
+  write("tri.geojson", changed);
+  try {
+    load_shape(folder_, info);
+    FAIL() << "a changed file was read";
+  } catch (const std::runtime_error& error) {
+    EXPECT_EQ(error.what(), path.string() + " has SHA-256 " + sha256_hex(changed) +
+                                " but the manifest says " + sha256_hex(kTriangle) +
+                                "; restore the file, or correct the manifest if the change was meant");
+  }
+}
+
+TEST_F(Shapes, ManifestEntryIsRead) {
+  json entry = manifest_entry();
+  write("manifest.json", manifest_with(entry));
+  EXPECT_FALSE(read_manifest(folder_).front().holes);
+  entry["holes"] = {{"count", 3}, {"radius", 0.5}, {"seed", 9}};
+  write("manifest.json", manifest_with(entry));
+  const ShapeInfo info = read_manifest(folder_).front();
+  EXPECT_EQ(info.title, "Triangle");
+  EXPECT_EQ(info.area, 6);
+  ASSERT_TRUE(info.holes);
+  EXPECT_EQ(info.holes->count, 3U);
+  EXPECT_EQ(info.holes->radius, 0.5);
+  EXPECT_EQ(info.holes->seed, 9U);
+}
+
+TEST_F(Shapes, FaultyManifestsAreRefused) {
+  EXPECT_NE(manifest_error("nonsense").find("manifest.json is not valid JSON ("), std::string::npos);
+  EXPECT_NE(manifest_error("{}").find("'shapes' not found"), std::string::npos);
+  EXPECT_NE(manifest_error(R"({"shapes": null})").find("'shapes' is not an array"), std::string::npos);
+  const json complete = manifest_entry();
+  for (const auto& [field, value] : complete.items()) {
+    json entry = complete;
+    entry.erase(field);
+    EXPECT_NE(manifest_error(manifest_with(entry)).find("key '" + field + "' not found"), std::string::npos);
+    entry[field] = json::array();
+    EXPECT_NE(manifest_error(manifest_with(entry)).find("is not a shape manifest ("), std::string::npos)
+        << field;
+  }
+  const json twice = {{"shapes", {manifest_entry(), manifest_entry()}}};
+  EXPECT_NE(manifest_error(twice.dump()).find("the name 'tri' stands twice"), std::string::npos);
+  for (const char* holes :
+       {R"({"count": 0, "radius": 1, "seed": 1})", R"({"count": 1.5, "radius": 1, "seed": 1})",
+        R"({"count": 1, "radius": 0, "seed": 1})", R"({"count": 1, "radius": 1, "seed": -1})"}) {
+    json entry = manifest_entry();
+    entry["holes"] = json::parse(holes);
+    EXPECT_NE(manifest_error(manifest_with(entry)).find("'holes' needs a whole 'count'"), std::string::npos)
+        << holes;
+  }
+}
+
+TEST_F(Shapes, MissingManifestIsNamed) {
+  try {
+    read_manifest(folder_);
+    FAIL();
+  } catch (const std::runtime_error& error) {
+    EXPECT_EQ(error.what(), "cannot read " + (folder_ / "manifest.json").string() +
+                                "; check that the file exists and may be read");
+  }
+}
+
+TEST(CommittedShapes, AreWhatTheManifestSays) {
+  const std::filesystem::path folder = default_data_directory();
+  const json manifest = json::parse(std::ifstream(folder / "manifest.json"));
+  const std::vector<ShapeInfo> infos = read_manifest(folder);
+  ASSERT_EQ(infos.size(), 2U);
+  for (std::size_t i = 0; i < infos.size(); ++i) {
+    const MultiPolygon shape = load_shape(folder, infos[i]);
+    const json& entry = manifest["shapes"][i];
+    EXPECT_EQ(shape.size(), entry["polygons"]);
+    EXPECT_EQ(polylidar::vertex_count(shape), entry["vertices"]);
+    // The manifest's area has 6 decimals.
+    EXPECT_NEAR(polylidar::area(shape), infos[i].area, 1e-6);
+    std::vector<polylidar::Point> vertices;
+    for (const polylidar::Polygon& polygon : shape) {
+      EXPECT_TRUE(polygon.holes.empty());
+      vertices.insert(vertices.end(), polygon.shell.begin(), polygon.shell.end());
+    }
+    const polylidar::Box box = polylidar::bounding_box(vertices);
+    EXPECT_EQ((std::vector{box.min.x, box.min.y, box.max.x, box.max.y}),
+              entry["bounding_box"].get<std::vector<double>>());
+    EXPECT_EQ(std::max(box.max.x, box.max.y), 200);
+    EXPECT_EQ(testing::boost_fault(shape), "") << infos[i].name;
+  }
+}
+
+}  // namespace
+}  // namespace hullbench
