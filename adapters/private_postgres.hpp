@@ -1,0 +1,60 @@
+// A PostgreSQL server of our own: made for one process, gone with it.
+#pragma once
+
+#include <sys/types.h>
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace hullbench {
+
+/// Folders where programs of installed PostgreSQL servers may be: what `pg_config` says, then
+/// /usr/lib/postgresql/*/bin.
+std::vector<std::filesystem::path> postgres_bin_folders();
+
+/// Where the PostgreSQL in `bin` keeps the control files and scripts of its extensions; empty when it does
+/// not say.
+std::filesystem::path extension_folder(const std::filesystem::path& bin);
+
+/// The folder of `candidates` with the programs of the newest PostgreSQL for which the PostGIS extension is
+/// installed. Throws NotInstalled when there is none, saying whether PostgreSQL or PostGIS is missing.
+std::filesystem::path find_postgres(const std::vector<std::filesystem::path>& candidates);
+
+/// A running PostgreSQL server with the PostGIS extension, in a new temporary folder `hullbench-postgres-*`.
+/// It listens on a Unix socket in that folder only, no TCP, and trusts whoever can reach the socket: the
+/// folder is open to its owner alone. Started by root, the server runs as the user `postgres` where there is
+/// one, else as `nobody`.
+///
+/// A supervisor, a child in a session of its own, stops the server and removes the folder when the object is
+/// destroyed or its process ends in whatever way, SIGKILL included. Should the supervisor be killed too, the
+/// next PrivatePostgres of the same user cleans up. Servers that were not started here are never touched.
+///
+/// The constructor forks and does not exec, so it belongs in a process with a single thread. It throws
+/// NotInstalled as find_postgres does, and std::runtime_error with the end of the server's log when the
+/// server does not start.
+class PrivatePostgres {
+ public:
+  explicit PrivatePostgres(const std::filesystem::path& bin = find_postgres(postgres_bin_folders()));
+  ~PrivatePostgres();
+  PrivatePostgres(const PrivatePostgres&) = delete;
+  PrivatePostgres& operator=(const PrivatePostgres&) = delete;
+
+  /// A libpq connection string without secrets.
+  const std::string& dsn() const { return dsn_; }
+  /// Where the server's data, socket and log are.
+  const std::filesystem::path& folder() const { return folder_; }
+  /// The supervisor's process id, for tests.
+  pid_t supervisor() const { return supervisor_; }
+
+ private:
+  void start(const std::filesystem::path& bin);
+  void stop();
+
+  int lifeline_ = -1;  ///< write end of a pipe: the supervisor sees it close when this process ends
+  pid_t supervisor_ = -1;
+  std::filesystem::path folder_;
+  std::string dsn_;
+};
+
+}  // namespace hullbench

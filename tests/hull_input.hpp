@@ -1,0 +1,76 @@
+// Point sets and checks that the tests of every adapter share.
+#pragma once
+
+#include <cstdint>
+#include <random>
+#include <string_view>
+#include <vector>
+
+#include "adapters/adapter.hpp"
+
+namespace hullbench::test {
+
+/// Steps for callers that time nothing.
+class NoSteps final : public Steps {
+ public:
+  void begin(std::string_view /*name*/) override {}
+};
+
+/// Area of the square hole that `square_points` leaves out.
+inline constexpr double kHoleArea = 0.4 * 0.4;
+
+/// Enough points for a hull that is close to the square, few enough for a slow method.
+inline constexpr std::size_t kPoints = 2000;
+
+/// How far from the true area a hull of `kPoints` such points may be. Its rings run through points, so it
+/// misses a rim about one point spacing (1 / sqrt(n) = 0.022) wide along the square's sides (4) and the
+/// hole's (1.6).
+inline constexpr double kAreaTolerance = 0.022 * (4 + 1.6);
+
+/// `count` uniform points in the unit square; with `hole`, none in its middle square of side 0.4.
+inline std::vector<Point> square_points(std::size_t count, std::uint64_t seed, bool hole) {
+  std::mt19937_64 engine(seed);
+  const auto uniform = [&engine] { return static_cast<double>(engine() >> 11) * 0x1p-53; };
+  const auto in_hole = [](double value) { return value > 0.3 && value < 0.7; };
+  std::vector<Point> points;
+  while (points.size() < count) {
+    const double x = uniform();
+    const double y = uniform();
+    if (!(hole && in_hole(x) && in_hole(y))) points.push_back({x, y});
+  }
+  return points;
+}
+
+/// The hull of `points` in one call.
+inline MultiPolygon hull_of(Adapter& adapter, const std::vector<Point>& points,
+                            const Parameters& parameters) {
+  NoSteps steps;
+  adapter.load(points);
+  adapter.run(parameters, steps);
+  return adapter.extract(steps);
+}
+
+inline std::size_t hole_count(const MultiPolygon& shape) {
+  std::size_t holes = 0;
+  for (const Polygon& polygon : shape) holes += polygon.holes.size();
+  return holes;
+}
+
+/// Inputs without an area, each with the name a failing test prints.
+struct Degenerate {
+  const char* name;
+  std::vector<Point> points;
+};
+
+inline std::vector<Degenerate> degenerate_inputs() {
+  return {
+      {"no points", {}},
+      {"one point", {{1, 2}}},
+      {"two points", {{1, 2}, {3, 4}}},
+      {"one point five times", {{1, 2}, {1, 2}, {1, 2}, {1, 2}, {1, 2}}},
+      {"two points, repeated", {{1, 2}, {3, 4}, {1, 2}, {3, 4}}},
+      {"collinear", {{0, 0}, {1, 1}, {2, 2}, {3, 3}, {5, 5}}},
+  };
+}
+
+}  // namespace hullbench::test

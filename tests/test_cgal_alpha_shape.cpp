@@ -1,0 +1,262 @@
+// The CGAL adapter: its contract, its polygons against CGAL's own edges, and the core's shape against it.
+#include <CGAL/Alpha_shape_2.h>
+#include <CGAL/Alpha_shape_face_base_2.h>
+#include <CGAL/Alpha_shape_vertex_base_2.h>
+#include <CGAL/Delaunay_triangulation_2.h>
+#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <memory>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "adapters/adapter.hpp"
+#include "benchmarks/metrics.hpp"
+#include "polylidar/concave_hull.hpp"
+#include "polylidar/delaunay.hpp"
+#include "tests/hull_oracle.hpp"
+#include "tests/point_sets.hpp"
+
+namespace hullbench {
+
+std::unique_ptr<Adapter> make_cgal_alpha_shape();
+
+namespace {
+
+using polylidar::Options;
+using polylidar::testing::canonical;
+using polylidar::testing::PointSet;
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+class StepNames final : public Steps {
+ public:
+  void begin(std::string_view name) override { names.emplace_back(name); }
+  std::vector<std::string> names;
+};
+
+MultiPolygon run(Adapter& adapter, const std::vector<Point>& points, double radius) {
+  StepNames steps;
+  adapter.load(points);
+  adapter.run({{"alpha", radius * radius}}, steps);
+  return adapter.extract(steps);
+}
+
+MultiPolygon run(const std::vector<Point>& points, double radius) {
+  return run(*make_cgal_alpha_shape(), points, radius);
+}
+
+MultiPolygon ours(const std::vector<Point>& points, double radius) {
+  return polylidar::to_coordinates(polylidar::concave_hull(points, {.alpha = radius}), points);
+}
+
+// Limits that no triangle is near to, so that both filters must come to the same.
+std::vector<double> clear_radii(const std::vector<Point>& points) {
+  std::vector<double> radii;
+  for (const Options& options : polylidar::testing::clear_options(points, polylidar::delaunay(points))) {
+    if (options.max_edge_length == kInfinity) radii.push_back(options.alpha);
+  }
+  return radii;
+}
+
+TEST(CgalAlphaShape, SaysWhatItIs) {
+  const auto adapter = make_cgal_alpha_shape();
+  const MethodInfo& info = adapter->info();
+  EXPECT_EQ(info.name, "cgal_alpha_shape");
+  EXPECT_EQ(info.title, "CGAL alpha shape");
+  EXPECT_EQ(info.licence, "GPL-3.0-or-later");
+  EXPECT_EQ(info.version.substr(0, 2), "5.") << info.version;
+  ASSERT_EQ(info.parameters.size(), 1U);
+  EXPECT_EQ(info.parameters[0].name, "alpha");
+  EXPECT_EQ(info.parameters[0].unit, "length^2");
+  EXPECT_TRUE(info.capabilities.holes);
+  EXPECT_TRUE(info.capabilities.several_polygons);
+}
+
+TEST(CgalAlphaShape, RefusesBadParameters) {
+  const auto adapter = make_cgal_alpha_shape();
+  StepNames steps;
+  adapter->load(polylidar::testing::uniform_points(10, 1));
+  EXPECT_THROW(adapter->run({}, steps), std::invalid_argument);
+  EXPECT_THROW(adapter->run({{"alpha", -1}}, steps), std::invalid_argument);
+  EXPECT_THROW(adapter->run({{"alpha", std::nan("")}}, steps), std::invalid_argument);
+  EXPECT_THROW(adapter->run({{"alpha", 1}, {"beta", 1}}, steps), std::invalid_argument);
+}
+
+TEST(CgalAlphaShape, NamesTheFirstCoordinateThatIsNotFinite) {
+  std::vector<Point> points = polylidar::testing::uniform_points(500, 1);
+  points[317].y = kInfinity;
+  points[400].x = std::nan("");
+  try {
+    make_cgal_alpha_shape()->load(points);
+    FAIL() << "accepted infinity";
+  } catch (const std::invalid_argument& error) {
+    EXPECT_NE(std::string(error.what()).find("317"), std::string::npos) << error.what();
+  }
+}
+
+TEST(CgalAlphaShape, NamesItsSteps) {
+  const auto adapter = make_cgal_alpha_shape();
+  StepNames steps;
+  adapter->load(polylidar::testing::uniform_points(100, 1));
+  EXPECT_THROW(adapter->extract(steps), std::logic_error) << "extract comes after run";
+  adapter->run({{"alpha", 0.01}}, steps);
+  EXPECT_EQ(steps.names, (std::vector<std::string>{"triangulation", "alpha_shape", "edges"}));
+  steps.names.clear();
+  adapter->extract(steps);
+  EXPECT_EQ(steps.names, (std::vector<std::string>{"polygon"}));
+}
+
+TEST(CgalAlphaShape, OfNothingIsEmpty) {
+  for (const PointSet& set : polylidar::testing::flat_point_sets()) {
+    SCOPED_TRACE(set.name);
+    EXPECT_TRUE(run(set.points, 1).empty());
+    EXPECT_TRUE(run(set.points, kInfinity).empty());
+  }
+  EXPECT_TRUE(run(polylidar::testing::uniform_points(100, 1), 0).empty());
+}
+
+TEST(CgalAlphaShape, AlphaIsASquaredRadiusAndInclusive) {
+  const std::vector<Point> points = {{0, 0}, {4, 0}, {0, 3}};  // circumradius 2.5, exact
+  const MultiPolygon triangle = {{{{0, 0}, {4, 0}, {0, 3}}, {}}};
+  EXPECT_EQ(canonical(run(points, 2.5)), triangle);
+  EXPECT_TRUE(run(points, 2.499).empty());
+}
+
+TEST(CgalAlphaShape, GivesTheSameEachTime) {
+  const auto adapter = make_cgal_alpha_shape();
+  const std::vector<Point> points = polylidar::testing::uniform_points(500, 1);
+  const MultiPolygon first = run(*adapter, points, 0.04);
+  StepNames steps;
+  EXPECT_EQ(adapter->extract(steps), first) << "extracted again";
+  run(*adapter, polylidar::testing::lattice(20, 20), 0.8);
+  EXPECT_EQ(run(*adapter, points, 0.04), first) << "after other points";
+  adapter->reset();
+  EXPECT_THROW(adapter->extract(steps), std::logic_error);
+  adapter->run({{"alpha", 0.04 * 0.04}}, steps);
+  EXPECT_EQ(adapter->extract(steps), first) << "after a reset";
+}
+
+// Edges as sorted end points, in order.
+using EdgeEnds = std::array<double, 4>;
+
+EdgeEnds edge_ends(const Point& a, const Point& b) {
+  const bool in_order = a.x < b.x || (a.x == b.x && a.y < b.y);
+  return in_order ? EdgeEnds{a.x, a.y, b.x, b.y} : EdgeEnds{b.x, b.y, a.x, a.y};
+}
+
+std::vector<EdgeEnds> edges_of(const MultiPolygon& shape) {
+  std::vector<EdgeEnds> edges;
+  const auto add = [&](const Ring& ring) {
+    for (std::size_t i = 0; i < ring.size(); ++i)
+      edges.push_back(edge_ends(ring[i], ring[(i + 1) % ring.size()]));
+  };
+  for (const Polygon& polygon : shape) {
+    add(polygon.shell);
+    for (const Ring& hole : polygon.holes) add(hole);
+  }
+  std::sort(edges.begin(), edges.end());
+  return edges;
+}
+
+// The regular edges as a user of CGAL gets them: built straight from the points.
+std::vector<EdgeEnds> regular_edges(const std::vector<Point>& points, double radius) {
+  using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
+  using Vertex = CGAL::Alpha_shape_vertex_base_2<Kernel>;
+  using Face = CGAL::Alpha_shape_face_base_2<Kernel>;
+  using Delaunay = CGAL::Delaunay_triangulation_2<Kernel, CGAL::Triangulation_data_structure_2<Vertex, Face>>;
+  using AlphaShape = CGAL::Alpha_shape_2<Delaunay>;
+  std::vector<Kernel::Point_2> cgal_points;
+  for (const Point& point : points) cgal_points.emplace_back(point.x, point.y);
+  const AlphaShape shape(cgal_points.begin(), cgal_points.end(), radius * radius, AlphaShape::GENERAL);
+  std::vector<EdgeEnds> edges;
+  for (auto edge = shape.alpha_shape_edges_begin(); edge != shape.alpha_shape_edges_end(); ++edge) {
+    if (shape.classify(*edge) != AlphaShape::REGULAR) continue;
+    const auto segment = shape.segment(*edge);
+    edges.push_back(edge_ends({segment.source().x(), segment.source().y()},
+                              {segment.target().x(), segment.target().y()}));
+  }
+  std::sort(edges.begin(), edges.end());
+  return edges;
+}
+
+TEST(CgalAlphaShape, ItsRingsAreCgalsRegularEdges) {
+  for (std::uint64_t seed = 0; seed < 40; ++seed) {
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    const std::vector<Point> points = polylidar::testing::uniform_points(10 + 20 * seed, seed);
+    for (const double radius : clear_radii(points)) {
+      SCOPED_TRACE("radius " + std::to_string(radius));
+      EXPECT_EQ(edges_of(run(points, radius)), regular_edges(points, radius));
+    }
+  }
+}
+
+void expect_same_shape(const std::vector<Point>& points, double radius) {
+  SCOPED_TRACE("radius " + std::to_string(radius));
+  const MultiPolygon cgal = run(points, radius);
+  const MultiPolygon core = ours(points, radius);
+  EXPECT_EQ(invalid_reason(cgal), "");
+  ASSERT_EQ(core.empty(), cgal.empty());
+  if (cgal.empty()) return;
+  const Metrics metrics = score(core, cgal);
+  EXPECT_LT(*metrics.symmetric_difference_area, 1e-9 * metrics.ground_truth_area);
+  EXPECT_TRUE(canonical(core) == canonical(cgal)) << "rings differ";
+}
+
+TEST(CoreAgainstCgal, SameShapeOnRandomPoints) {
+  for (std::uint64_t seed = 0; seed < 100; ++seed) {
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    const std::vector<Point> points = polylidar::testing::uniform_points(10 + 15 * seed, seed, 100);
+    for (const double radius : clear_radii(points)) expect_same_shape(points, radius);
+  }
+}
+
+// The paper's rule for alpha, on a sample like those measured.
+TEST(CoreAgainstCgal, SameShapeWithThePapersAlpha) {
+  for (std::uint64_t seed = 0; seed < 5; ++seed) {
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    std::vector<Point> points = polylidar::testing::uniform_points(20000, seed, 200);
+    std::erase_if(points,
+                  [](const Point& p) { return std::hypot(p.x - 80, p.y - 90) < 30 || p.x + p.y < 70; });
+    expect_same_shape(points, 2 * std::sqrt(40000.0 / 20000));
+  }
+}
+
+// Where points are cocircular the triangulations differ; triangles on one circle are kept or dropped
+// together.
+TEST(CoreAgainstCgal, SameShapeOnLatticesWithGaps) {
+  for (std::uint64_t seed = 0; seed < 150; ++seed) {
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    polylidar::testing::Random random(seed);
+    const double density = random.between(0.3, 0.97);
+    std::vector<Point> points;
+    for (const Point& point : polylidar::testing::lattice(14, 14)) {
+      if (random.unit() < density) points.push_back(point);
+    }
+    expect_same_shape(points, 0.75);
+    expect_same_shape(points, 1.05);
+  }
+}
+
+TEST(CoreAgainstCgal, SameShapeOnNastyPointSets) {
+  for (const PointSet& set : polylidar::testing::nasty_point_sets()) {
+    SCOPED_TRACE(set.name);
+    const polylidar::Box box = polylidar::bounding_box(set.points);
+    const double extent = std::max(box.max.x - box.min.x, box.max.y - box.min.y);
+    // CGAL's squared radius is a quotient of sixth powers of lengths: outside this range it overflows or
+    // underflows.
+    if (set.points.empty() || extent > 1e50 || extent < 1e-50) continue;
+    for (const double radius : clear_radii(set.points)) expect_same_shape(set.points, radius);
+  }
+}
+
+}  // namespace
+}  // namespace hullbench

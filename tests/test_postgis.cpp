@@ -1,0 +1,282 @@
+// The two PostGIS adapters on a real server, and on pretended ones where a test needs another version or a
+// failure: a schema that comes before PostGIS's own in the search path replaces single functions.
+#include <arpa/inet.h>
+#include <gtest/gtest.h>
+#include <libpq-fe.h>
+#include <netinet/in.h>
+#include <sys/socket.h>
+#include <unistd.h>
+
+#include <cmath>
+#include <cstdlib>
+#include <memory>
+#include <new>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "adapters/adapter.hpp"
+#include "adapters/private_postgres.hpp"
+#include "adapters/wkb.hpp"
+#include "tests/hull_input.hpp"
+
+namespace hullbench {
+
+std::unique_ptr<Adapter> make_postgis();
+std::unique_ptr<Adapter> make_postgis_legacy();
+
+namespace {
+
+using test::hole_count;
+using test::hull_of;
+using test::kAreaTolerance;
+using test::kHoleArea;
+using test::kPoints;
+using test::NoSteps;
+using test::square_points;
+
+constexpr const char* kVariable = "HULLBENCH_POSTGIS_DSN";
+
+// The longest Delaunay edge spans the hole (0.4); 0.4 of that leaves no spurious holes at this density.
+const Parameters kFilled = {{"length_ratio", 0.4}, {"allow_holes", 0}};
+const Parameters kWithHoles = {{"length_ratio", 0.4}, {"allow_holes", 1}};
+
+void execute(const std::string& dsn, const std::string& sql) {
+  const std::unique_ptr<PGconn, decltype(&PQfinish)> connection(PQconnectdb(dsn.c_str()), &PQfinish);
+  const std::unique_ptr<PGresult, decltype(&PQclear)> result(
+      PQexec(connection.get(), ("SET client_min_messages = warning;" + sql).c_str()), &PQclear);
+  const ExecStatusType status = PQresultStatus(result.get());
+  if (status != PGRES_COMMAND_OK && status != PGRES_TUPLES_OK)
+    throw std::runtime_error(PQerrorMessage(connection.get()));
+}
+
+/// One server for all tests of the program, named by the variable.
+class Server : public ::testing::Environment {
+ public:
+  void SetUp() override { server_.emplace(); }
+  void TearDown() override { server_.reset(); }
+  static std::string dsn() { return server_->dsn(); }
+
+ private:
+  static inline std::optional<PrivatePostgres> server_;
+};
+
+class Postgis : public ::testing::Test {
+ protected:
+  void SetUp() override { name_server(Server::dsn()); }
+  void TearDown() override { unsetenv(kVariable); }
+
+  static void name_server(const std::string& dsn) { setenv(kVariable, dsn.c_str(), 1); }
+
+  /// Names the same server with a schema `pretended` in front, whose ST_ConcaveHull has `body`, in PL/pgSQL.
+  static void pretend(const std::string& body, const std::string& more_options = "") {
+    execute(
+        Server::dsn(),
+        "DROP SCHEMA IF EXISTS pretended CASCADE; CREATE SCHEMA pretended;"
+        "CREATE FUNCTION pretended.postgis_lib_version() RETURNS text LANGUAGE sql AS $$ SELECT '2.5.2' $$;"
+        "CREATE FUNCTION pretended.st_concavehull(geom geometry, share float8, holes boolean) RETURNS "
+        "geometry "
+        "LANGUAGE plpgsql AS $$ BEGIN " +
+            body + " END $$");
+    name_server(Server::dsn() + " options='-csearch_path=pretended,public " + more_options + "'");
+  }
+
+  static std::string refusal(std::unique_ptr<Adapter> (*make)()) {
+    try {
+      return "made " + make()->info().version;
+    } catch (const NotInstalled& error) {
+      return std::string(error.what()) + " -> " + error.remedy();
+    }
+  }
+};
+
+TEST_F(Postgis, SaysWhoItIs) {
+  const auto adapter = make_postgis();
+  const MethodInfo& info = adapter->info();
+  EXPECT_EQ(info.name, "postgis");
+  EXPECT_EQ(info.title, "PostGIS");
+  EXPECT_NE(info.version.find(" (GEOS 3."), std::string::npos) << info.version;
+  EXPECT_NE(info.version.find(", PostgreSQL "), std::string::npos) << info.version;
+  EXPECT_TRUE(info.capabilities.holes);
+  EXPECT_FALSE(info.capabilities.several_polygons);
+  EXPECT_EQ(complete_parameters(info, {{"length_ratio", 0.5}}),
+            (Parameters{{"length_ratio", 0.5}, {"allow_holes", 0}}));
+}
+
+TEST_F(Postgis, KeepsOrFillsTheHole) {
+  const auto adapter = make_postgis();
+  const std::vector<Point> points = square_points(kPoints, 7, true);
+  const MultiPolygon filled = hull_of(*adapter, points, kFilled);
+  ASSERT_EQ(filled.size(), 1U);
+  EXPECT_NEAR(polylidar::area(filled), 1, kAreaTolerance);
+  EXPECT_EQ(hole_count(filled), 0U);
+  const MultiPolygon with_hole = hull_of(*adapter, points, kWithHoles);
+  ASSERT_EQ(with_hole.size(), 1U);
+  EXPECT_NEAR(polylidar::area(with_hole), 1 - kHoleArea, kAreaTolerance);
+  EXPECT_EQ(hole_count(with_hole), 1U);
+}
+
+TEST_F(Postgis, GivesTheSameBytesAgain) {
+  const auto adapter = make_postgis();
+  const std::vector<Point> points = square_points(kPoints, 3, true);
+  const auto first = to_wkb(hull_of(*adapter, points, kWithHoles));
+  NoSteps steps;
+  adapter->run(kFilled, steps);
+  adapter->run(kWithHoles, steps);
+  EXPECT_EQ(to_wkb(adapter->extract(steps)), first);
+  EXPECT_EQ(to_wkb(hull_of(*make_postgis(), points, kWithHoles)), first);
+}
+
+TEST_F(Postgis, LoadReplacesWhatWasLoaded) {
+  const auto adapter = make_postgis();
+  hull_of(*adapter, square_points(kPoints, 3, true), kFilled);
+  const std::vector<Point> others = square_points(300, 4, false);
+  EXPECT_EQ(hull_of(*adapter, others, kFilled), hull_of(*make_postgis(), others, kFilled));
+  EXPECT_EQ(hull_of(*adapter, {}, kFilled), MultiPolygon());
+}
+
+TEST_F(Postgis, GivesNothingForWhatHasNoArea) {
+  const auto adapter = make_postgis();
+  for (const auto& [name, points] : test::degenerate_inputs()) {
+    EXPECT_EQ(hull_of(*adapter, points, kFilled), MultiPolygon()) << name;
+    EXPECT_EQ(hull_of(*adapter, points, kWithHoles), MultiPolygon()) << name;
+  }
+}
+
+TEST_F(Postgis, IgnoresDuplicates) {
+  const auto adapter = make_postgis();
+  const std::vector<Point> points = square_points(500, 5, true);
+  std::vector<Point> twice = points;
+  twice.insert(twice.end(), points.begin(), points.end());
+  EXPECT_DOUBLE_EQ(polylidar::area(hull_of(*adapter, twice, kWithHoles)),
+                   polylidar::area(hull_of(*adapter, points, kWithHoles)));
+}
+
+TEST_F(Postgis, RefusesBadArguments) {
+  const auto adapter = make_postgis();
+  adapter->load(square_points(100, 6, false));
+  NoSteps steps;
+  EXPECT_THROW(adapter->run({}, steps), std::invalid_argument);
+  EXPECT_THROW(adapter->run({{"length_ratio", -0.1}}, steps), std::invalid_argument);
+  EXPECT_THROW(adapter->run({{"length_ratio", 1.1}}, steps), std::invalid_argument);
+  EXPECT_THROW(adapter->run({{"length_ratio", std::nan("")}}, steps), std::invalid_argument);
+  EXPECT_THROW(adapter->run({{"length_ratio", 0.1}, {"allow_holes", 2}}, steps), std::invalid_argument);
+  EXPECT_THROW(adapter->run({{"target_percent", 0.9}}, steps), std::invalid_argument);
+  EXPECT_THROW(adapter->load(std::vector<Point>{{0, 0}, {std::nan(""), 1}}), std::invalid_argument);
+}
+
+TEST_F(Postgis, StartsAPrivateServerWhenNoneIsNamed) {
+  for (const char* unset : {"", static_cast<const char*>(nullptr)}) {
+    if (unset == nullptr)
+      unsetenv(kVariable);
+    else
+      setenv(kVariable, unset, 1);
+    const auto adapter = make_postgis();
+    EXPECT_DOUBLE_EQ(polylidar::area(hull_of(*adapter, {{0, 0}, {2, 0}, {0, 2}}, {{"length_ratio", 1}})), 2);
+  }
+}
+
+TEST_F(Postgis, HasNoLegacyMethodOnACurrentServer) {
+  const std::string named = refusal(&make_postgis_legacy);
+  EXPECT_NE(named.find("length-ratio hull; the paper's target-percent method ended with PostGIS 3.2"),
+            std::string::npos)
+      << named;
+  EXPECT_NE(named.find("postgis-legacy"), std::string::npos) << named;
+  unsetenv(kVariable);
+  EXPECT_EQ(refusal(&make_postgis_legacy), named) << "told from the installed files, without a server";
+}
+
+TEST_F(Postgis, HasOnlyTheLegacyMethodOnAnOldServer) {
+  pretend(
+      "RETURN CASE WHEN holes THEN ST_Scale(ST_ConvexHull(geom), share, 1) ELSE ST_ConvexHull(geom) END;");
+  const std::string current = refusal(&make_postgis);
+  EXPECT_NE(current.find("the server runs PostGIS 2.5.2"), std::string::npos) << current;
+  const auto adapter = make_postgis_legacy();
+  EXPECT_EQ(adapter->info().name, "postgis_legacy");
+  EXPECT_EQ(adapter->info().title, "PostGIS <= 3.2");
+  EXPECT_TRUE(adapter->info().version.starts_with("2.5.2 (GEOS ")) << adapter->info().version;
+  const std::vector<Point> corners = {{0, 0}, {2, 0}, {2, 2}, {0, 2}};
+  EXPECT_DOUBLE_EQ(polylidar::area(hull_of(*adapter, corners, {{"target_percent", 0.5}})), 4);
+  EXPECT_DOUBLE_EQ(polylidar::area(hull_of(*adapter, corners, {{"target_percent", 0.5}, {"allow_holes", 1}})),
+                   2);
+  NoSteps steps;
+  EXPECT_THROW(adapter->run({{"target_percent", 0}}, steps), std::invalid_argument);
+  EXPECT_THROW(adapter->run({{"target_percent", 1.5}}, steps), std::invalid_argument);
+  EXPECT_THROW(adapter->run({{"length_ratio", 0.5}}, steps), std::invalid_argument);
+}
+
+TEST_F(Postgis, TurnsOffParallelQueriesAndTheCompiler) {
+  pretend(
+      "RAISE 'jit=% workers=%', current_setting('jit'), current_setting('max_parallel_workers_per_gather');",
+      "-cjit=on -cmax_parallel_workers_per_gather=4");
+  const auto adapter = make_postgis_legacy();
+  try {
+    hull_of(*adapter, square_points(10, 1, false), {{"target_percent", 0.5}});
+    FAIL() << "no exception";
+  } catch (const std::runtime_error& error) {
+    EXPECT_STREQ(error.what(), "PostGIS: jit=off workers=0");
+  }
+}
+
+TEST_F(Postgis, ReportsAFailureAndGoesOn) {
+  pretend(
+      "IF share < 0.5 THEN RAISE 'no space' USING ERRCODE = '53200'; END IF;"
+      "IF share < 0.7 THEN RETURN NULL; END IF;"
+      "IF share < 0.9 THEN PERFORM pg_terminate_backend(pg_backend_pid()); PERFORM pg_sleep(60); END IF;"
+      "RETURN ST_ConvexHull(geom);");
+  const auto adapter = make_postgis_legacy();
+  const std::vector<Point> points = {{0, 0}, {1, 0}, {0, 1}};
+  EXPECT_THROW(hull_of(*adapter, points, {{"target_percent", 0.4}}), std::bad_alloc);
+  EXPECT_THROW(hull_of(*adapter, points, {{"target_percent", 0.6}}), std::runtime_error);
+  EXPECT_THROW(hull_of(*adapter, points, {{"target_percent", 0.8}}), std::runtime_error);
+  EXPECT_DOUBLE_EQ(polylidar::area(hull_of(*adapter, points, {{"target_percent", 1}})), 0.5);
+}
+
+TEST_F(Postgis, SaysWhenTheNamedServerDoesNotAnswer) {
+  const std::string advice =
+      "the server named by HULLBENCH_POSTGIS_DSN does not answer -> start it or correct "
+      "HULLBENCH_POSTGIS_DSN, or unset it "
+      "for a private server";
+  for (const char* dsn :
+       {"host=127.0.0.1 port=1 password=sesame", "host=/nowhere", "host=127.0.0.1 password=open sesame",
+        "postgresql://user:ses@me@nowhere.invalid/db"}) {
+    name_server(dsn);
+    EXPECT_EQ(refusal(&make_postgis), advice) << dsn;
+    EXPECT_EQ(refusal(&make_postgis_legacy), advice) << dsn;
+  }
+}
+
+TEST_F(Postgis, DoesNotWaitForASilentServer) {
+  const int listener = socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0);
+  sockaddr_in address{};
+  address.sin_family = AF_INET;
+  address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+  ASSERT_EQ(bind(listener, reinterpret_cast<sockaddr*>(&address), sizeof address), 0);
+  ASSERT_EQ(listen(listener, 1), 0);
+  socklen_t size = sizeof address;
+  ASSERT_EQ(getsockname(listener, reinterpret_cast<sockaddr*>(&address), &size), 0);
+  name_server("host=127.0.0.1 port=" + std::to_string(ntohs(address.sin_port)));
+  EXPECT_NE(refusal(&make_postgis).find("does not answer"), std::string::npos);
+  close(listener);
+}
+
+TEST_F(Postgis, SaysWhyTheNamedServerRefuses) {
+  name_server(Server::dsn() + " user=stranger");
+  EXPECT_NE(refusal(&make_postgis).find("refuses the connection: role \"stranger\" does not exist"),
+            std::string::npos)
+      << refusal(&make_postgis);
+  name_server(Server::dsn() + " dbname=template1");
+  EXPECT_NE(refusal(&make_postgis).find("no PostGIS extension -> run CREATE EXTENSION postgis"),
+            std::string::npos)
+      << refusal(&make_postgis);
+}
+
+}  // namespace
+}  // namespace hullbench
+
+int main(int argc, char** argv) {
+  ::testing::InitGoogleTest(&argc, argv);
+  ::testing::AddGlobalTestEnvironment(new hullbench::Server);
+  return RUN_ALL_TESTS();
+}
