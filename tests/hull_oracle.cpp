@@ -1,0 +1,181 @@
+#include "tests/hull_oracle.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <map>
+#include <numeric>
+#include <set>
+#include <tuple>
+#include <utility>
+
+namespace polylidar::testing {
+namespace {
+
+using Edge = std::pair<std::uint32_t, std::uint32_t>;
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+// A triangle's measures in long double, whose range no double coordinates exceed here.
+struct Measures {
+  long double longest_edge = 0;
+  long double twice_area = 0;
+  long double least_circumradius = 0;  // what double arithmetic may come to, at least ...
+  long double most_circumradius = 0;   // ... and at most; infinite when the area may vanish
+};
+
+Measures measure(std::span<const Point> points, const Triangulation& triangulation, std::size_t triangle) {
+  std::array<long double, 3> x;
+  std::array<long double, 3> y;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const Point& point = points[triangulation.triangles[3 * triangle + i]];
+    x[i] = point.x;
+    y[i] = point.y;
+  }
+  Measures measures;
+  long double product = 1;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const long double length = std::hypot(x[(i + 1) % 3] - x[i], y[(i + 1) % 3] - y[i]);
+    measures.longest_edge = std::max(measures.longest_edge, length);
+    product *= length;
+  }
+  const long double left = (x[1] - x[0]) * (y[2] - y[0]);
+  const long double right = (y[1] - y[0]) * (x[2] - x[0]);
+  measures.twice_area = left - right;
+  // A cross product of doubles has three roundings a product and one for the difference: below 4 half ulps of
+  // the products, here taken 4 times over.
+  const long double error = 0x1p-49L * (std::abs(left) + std::abs(right));
+  measures.least_circumradius = product / (2 * (measures.twice_area + error));
+  measures.most_circumradius =
+      measures.twice_area > error ? product / (2 * (measures.twice_area - error)) : kInfinity;
+  return measures;
+}
+
+std::vector<Measures> measure_all(std::span<const Point> points, const Triangulation& triangulation) {
+  std::vector<Measures> all;
+  for (std::size_t t = 0; t < triangulation.triangles.size() / 3; ++t)
+    all.push_back(measure(points, triangulation, t));
+  return all;
+}
+
+struct Interval {
+  long double low;
+  long double high;
+};
+
+// Values between the intervals, from a few quantiles on; the last one lies above all of them.
+std::vector<double> values_between(std::vector<Interval> intervals) {
+  std::sort(intervals.begin(), intervals.end(), [](const auto& a, const auto& b) { return a.low < b.low; });
+  std::vector<double> values;
+  for (const double quantile : {0.02, 0.25, 0.5, 0.75, 0.9, 1.0}) {
+    const auto start = static_cast<std::size_t>(quantile * static_cast<double>(intervals.size() - 1));
+    long double high = 0;
+    for (std::size_t i = 0; i < intervals.size(); ++i) {
+      high = std::max(high, intervals[i].high);
+      if (i < start || !(high < std::numeric_limits<double>::max() / 4)) continue;
+      const long double next = i + 1 < intervals.size() ? intervals[i + 1].low : 2 * high;
+      if (!(next > high * (1 + 1e-9L))) continue;
+      values.push_back(static_cast<double>(std::sqrt(high) * std::sqrt(next)));
+      break;
+    }
+  }
+  values.erase(std::unique(values.begin(), values.end()), values.end());
+  return values;
+}
+
+class Components {
+ public:
+  explicit Components(std::size_t size) : parent_(size) {
+    std::iota(parent_.begin(), parent_.end(), std::size_t{0});
+  }
+  void join(std::size_t a, std::size_t b) { parent_[root(a)] = root(b); }
+  std::size_t root(std::size_t a) {
+    while (parent_[a] != a) a = parent_[a] = parent_[parent_[a]];
+    return a;
+  }
+
+ private:
+  std::vector<std::size_t> parent_;
+};
+
+bool less(const Point& a, const Point& b) {
+  return std::tie(a.x, a.y) < std::tie(b.x, b.y);
+}
+
+bool ring_less(const Ring& a, const Ring& b) {
+  return std::lexicographical_compare(a.begin(), a.end(), b.begin(), b.end(), less);
+}
+
+void start_at_least(Ring& ring) {
+  std::rotate(ring.begin(), std::min_element(ring.begin(), ring.end(), less), ring.end());
+}
+
+}  // namespace
+
+ExpectedShape expected_shape(std::span<const Point> points, const Triangulation& triangulation,
+                             const Options& options) {
+  std::vector<std::size_t> kept;
+  long double twice_area = 0;
+  for (std::size_t t = 0; t < triangulation.triangles.size() / 3; ++t) {
+    const Measures measures = measure(points, triangulation, t);
+    const bool small = options.alpha == kInfinity || measures.most_circumradius <= options.alpha;
+    if (!small || measures.longest_edge > options.max_edge_length) continue;
+    kept.push_back(t);
+    twice_area += measures.twice_area;
+  }
+
+  std::map<Edge, std::size_t> triangle_at;  // the first kept triangle that has the edge
+  Components components(kept.size());
+  for (std::size_t k = 0; k < kept.size(); ++k) {
+    for (std::size_t i = 0; i < 3; ++i) {
+      const std::uint32_t a = triangulation.triangles[3 * kept[k] + i];
+      const std::uint32_t b = triangulation.triangles[3 * kept[k] + (i + 1) % 3];
+      components.join(k, triangle_at.emplace(std::minmax(a, b), k).first->second);
+    }
+  }
+  std::set<std::pair<std::uint32_t, std::size_t>>
+      vertices;  // with the component, since components may share one
+  ExpectedShape expected;
+  expected.area = static_cast<double>(twice_area / 2);
+  for (std::size_t k = 0; k < kept.size(); ++k) {
+    expected.polygons += components.root(k) == k ? 1U : 0U;
+    for (std::size_t i = 0; i < 3; ++i) {
+      vertices.emplace(triangulation.triangles[3 * kept[k] + i], components.root(k));
+    }
+  }
+  // A closed, connected region with h holes has vertices - edges + triangles = 1 - h, touching rings or not.
+  expected.holes = expected.polygons + triangle_at.size() - vertices.size() - kept.size();
+  return expected;
+}
+
+std::vector<Options> clear_options(std::span<const Point> points, const Triangulation& triangulation) {
+  if (triangulation.triangles.empty()) return {Options{}};
+  std::vector<Interval> radii;
+  std::vector<Interval> lengths;
+  for (const Measures& measures : measure_all(points, triangulation)) {
+    radii.push_back({measures.least_circumradius, measures.most_circumradius});
+    lengths.push_back({measures.longest_edge, measures.longest_edge});
+  }
+  std::vector<Options> all = {Options{}};
+  for (const double alpha : values_between(radii)) all.push_back({.alpha = alpha});
+  for (const double length : values_between(lengths)) all.push_back({.max_edge_length = length});
+  const std::size_t single = all.size();
+  for (std::size_t i = 1; i < single; i += 2) {
+    all.push_back({.alpha = all[i].alpha, .max_edge_length = all[single - i].max_edge_length});
+  }
+  return all;
+}
+
+MultiPolygon canonical(MultiPolygon shape) {
+  for (Polygon& polygon : shape) {
+    start_at_least(polygon.shell);
+    for (Ring& hole : polygon.holes) start_at_least(hole);
+    std::sort(polygon.holes.begin(), polygon.holes.end(), ring_less);
+  }
+  std::sort(shape.begin(), shape.end(),
+            [](const Polygon& a, const Polygon& b) { return ring_less(a.shell, b.shell); });
+  return shape;
+}
+
+}  // namespace polylidar::testing

@@ -1,0 +1,33 @@
+// What a concave hull must be, worked out from the triangles alone: no half-edges, regions or rings.
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include "polylidar/concave_hull.hpp"
+#include "polylidar/delaunay.hpp"
+
+namespace polylidar::testing {
+
+/// Area and counts of the shape that the kept triangles form.
+struct ExpectedShape {
+  double area = 0;
+  std::size_t polygons = 0;
+  std::size_t holes = 0;
+};
+
+/// Keeps the triangles of `triangulation` that `options` allow, counts their edge-connected components
+/// through a map of edges, and their holes by Euler's formula.
+ExpectedShape expected_shape(std::span<const Point> points, const Triangulation& triangulation,
+                             const Options& options);
+
+/// Options that keep some of the triangles, from few to all, with no triangle so near a limit that rounding
+/// to double could decide about it: implementations that filter in another order of operations still agree.
+std::vector<Options> clear_options(std::span<const Point> points, const Triangulation& triangulation);
+
+/// `shape` with rings starting at their lexicographically smallest vertex, and holes and polygons sorted:
+/// equal for equal shapes.
+MultiPolygon canonical(MultiPolygon shape);
+
+}  // namespace polylidar::testing

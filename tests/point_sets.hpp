@@ -1,0 +1,70 @@
+// Point sets that triangulations and hulls tend to get wrong, and random numbers that are the same
+// everywhere.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <random>
+#include <string>
+#include <vector>
+
+#include "polylidar/geometry.hpp"
+
+namespace polylidar::testing {
+
+/// Numbers from the raw output of std::mt19937_64, which the standard fixes; its distributions it does not.
+class Random {
+ public:
+  explicit Random(std::uint64_t seed) : engine_(seed) {}
+
+  /// Uniform in [0, 1), a multiple of 2^-53.
+  double unit() { return static_cast<double>(engine_() >> 11) * 0x1p-53; }
+  /// Uniform in [low, high), up to rounding.
+  double between(double low, double high) { return low + (high - low) * unit(); }
+  /// 0 ... count - 1; the bias of the remainder is below 2^-32 for the counts used here.
+  std::size_t below(std::size_t count) { return static_cast<std::size_t>(engine_() % count); }
+  /// An integer in [-limit, limit] as a double.
+  double integer(std::int64_t limit) {
+    return static_cast<double>(static_cast<std::int64_t>(below(static_cast<std::size_t>(2 * limit + 1))) -
+                               limit);
+  }
+
+ private:
+  std::mt19937_64 engine_;
+};
+
+/// A point set and what to call it when a test fails on it.
+struct PointSet {
+  std::string name;
+  std::vector<Point> points;
+};
+
+/// `count` points, uniform in the square [0, side)^2.
+std::vector<Point> uniform_points(std::size_t count, std::uint64_t seed, double side = 1);
+
+/// `count` points with integer coordinates in [0, side): exact under translation, mirroring and doubling.
+std::vector<Point> integer_points(std::size_t count, std::uint64_t seed, std::int64_t side);
+
+/// `columns` x `rows` points `step` apart, row by row from `origin`.
+std::vector<Point> lattice(std::size_t columns, std::size_t rows, double step = 1, Point origin = {});
+
+/// `points` turned by `radians` round the origin; rounding turns exact degeneracies into near ones.
+std::vector<Point> rotated(std::vector<Point> points, double radians);
+
+/// `count` points on a circle, as near to it as doubles come.
+std::vector<Point> circle(std::size_t count, double radius, Point centre = {});
+
+/// All integer points at distance exactly sqrt(squared_radius) from the origin.
+std::vector<Point> integer_circle(std::int64_t squared_radius);
+
+/// `points` in an order drawn from `seed`.
+std::vector<Point> shuffled(std::vector<Point> points, std::uint64_t seed);
+
+/// Sets of every kind: general, regular, cocircular, collinear, repeating, lopsided, huge, tiny; some hundred
+/// to some thousand points each.
+std::vector<PointSet> nasty_point_sets();
+
+/// The sets of nasty_point_sets() that hold no triangle: too few points, or all on a line.
+std::vector<PointSet> flat_point_sets();
+
+}  // namespace polylidar::testing

@@ -1,0 +1,610 @@
+// The concave hull by its invariants, known shapes, and relations between inputs. Needs nothing but the core.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <limits>
+#include <set>
+#include <sstream>
+#include <stdexcept>
+#include <string>
+#include <tuple>
+#include <utility>
+#include <vector>
+
+#include "polylidar/check.hpp"
+#include "polylidar/concave_hull.hpp"
+#include "polylidar/delaunay.hpp"
+#include "polylidar/predicates.hpp"
+#include "tests/hull_oracle.hpp"
+#include "tests/point_sets.hpp"
+
+namespace polylidar {
+namespace {
+
+using testing::canonical;
+using testing::lattice;
+using testing::PointSet;
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+// Keeps the triangles of a unit lattice's cells (circumradius 0.707) and no others (the next is 1).
+constexpr Options kUnitCells{.alpha = 0.75};
+
+std::string describe(const Options& options) {
+  std::ostringstream out;
+  out << "alpha " << options.alpha << ", max_edge_length " << options.max_edge_length;
+  return out.str();
+}
+
+MultiPolygon hull(const std::vector<Point>& points, const Options& options = {}) {
+  const IndexedMultiPolygon shape = concave_hull(points, options);
+  EXPECT_EQ(check_polygon(points, shape), "");
+  return to_coordinates(shape, points);
+}
+
+std::size_t hole_count(const MultiPolygon& shape) {
+  std::size_t count = 0;
+  for (const Polygon& polygon : shape) count += polygon.holes.size();
+  return count;
+}
+
+// Squares of coordinates, and so areas, are doubles within this extent.
+bool has_representable_area(const std::vector<Point>& points) {
+  const Box box = bounding_box(points);
+  const double extent = std::max(box.max.x - box.min.x, box.max.y - box.min.y);
+  return points.empty() || (extent < 1e150 && extent > 1e-150);
+}
+
+// The rounding of areas: some thousand terms, each off by at most an ulp of the squared extent.
+double area_tolerance(const std::vector<Point>& points) {
+  const Box box = bounding_box(points);
+  const double extent = std::max(box.max.x - box.min.x, box.max.y - box.min.y);
+  return points.empty() ? 0 : 1e-12 * extent * extent;
+}
+
+std::vector<Point> without(std::vector<Point> points, const std::vector<Point>& removed) {
+  std::erase_if(
+      points, [&](const Point& p) { return std::find(removed.begin(), removed.end(), p) != removed.end(); });
+  return points;
+}
+
+// any input
+
+TEST(ConcaveHull, IsTheShapeOfItsTriangles) {
+  for (const PointSet& set : testing::nasty_point_sets()) {
+    SCOPED_TRACE(set.name);
+    const Triangulation triangulation = delaunay(set.points);
+    for (const Options& options : testing::clear_options(set.points, triangulation)) {
+      SCOPED_TRACE(describe(options));
+      const MultiPolygon shape = hull(set.points, options);
+      const testing::ExpectedShape expected = testing::expected_shape(set.points, triangulation, options);
+      EXPECT_EQ(shape.size(), expected.polygons);
+      EXPECT_EQ(hole_count(shape), expected.holes);
+      if (has_representable_area(set.points)) {
+        EXPECT_NEAR(area(shape), expected.area, area_tolerance(set.points));
+      }
+    }
+  }
+}
+
+TEST(ConcaveHull, IsTheShapeOfItsTrianglesOnRandomPoints) {
+  for (std::uint64_t seed = 0; seed < 150; ++seed) {
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    const std::vector<Point> points = seed % 2 == 0 ? testing::uniform_points(20 + 2 * seed, seed)
+                                                    : testing::integer_points(20 + 2 * seed, seed, 24);
+    const Triangulation triangulation = delaunay(points);
+    for (const Options& options : testing::clear_options(points, triangulation)) {
+      SCOPED_TRACE(describe(options));
+      const MultiPolygon shape = hull(points, options);
+      const testing::ExpectedShape expected = testing::expected_shape(points, triangulation, options);
+      EXPECT_EQ(shape.size(), expected.polygons);
+      EXPECT_EQ(hole_count(shape), expected.holes);
+      EXPECT_NEAR(area(shape), expected.area, area_tolerance(points));
+    }
+  }
+}
+
+// The convex hull's corners by a monotone chain, counter-clockwise from the lexicographically smallest.
+Ring convex_corners(std::vector<Point> points) {
+  const auto less = [](const Point& a, const Point& b) { return std::tie(a.x, a.y) < std::tie(b.x, b.y); };
+  std::sort(points.begin(), points.end(), less);
+  Ring chain;
+  const auto half = [&](auto begin, auto end) {
+    const std::size_t start = chain.size();
+    for (auto it = begin; it != end; ++it) {
+      while (chain.size() >= start + 2 && !(orient2d(chain[chain.size() - 2], chain.back(), *it) > 0))
+        chain.pop_back();
+      chain.push_back(*it);
+    }
+    chain.pop_back();
+  };
+  half(points.begin(), points.end());
+  half(points.rbegin(), points.rend());
+  return chain;
+}
+
+Ring strict_corners(const Ring& ring) {
+  Ring corners;
+  for (std::size_t i = 0; i < ring.size(); ++i) {
+    const Point& before = ring[(i + ring.size() - 1) % ring.size()];
+    if (orient2d(before, ring[i], ring[(i + 1) % ring.size()]) != 0) corners.push_back(ring[i]);
+  }
+  return corners;
+}
+
+TEST(ConcaveHull, WithoutLimitsIsTheConvexHull) {
+  for (const PointSet& set : testing::nasty_point_sets()) {
+    SCOPED_TRACE(set.name);
+    const MultiPolygon shape = hull(set.points);
+    if (shape.empty() || !has_representable_area(set.points)) continue;
+    ASSERT_EQ(shape.size(), 1U);
+    EXPECT_TRUE(shape[0].holes.empty());
+    EXPECT_EQ(canonical({{strict_corners(shape[0].shell), {}}}),
+              canonical({{convex_corners(set.points), {}}}));
+  }
+}
+
+TEST(ConcaveHull, OfNothingIsEmpty) {
+  for (const PointSet& set : testing::flat_point_sets()) {
+    SCOPED_TRACE(set.name);
+    EXPECT_TRUE(hull(set.points).empty());
+    EXPECT_TRUE(hull(set.points, kUnitCells).empty());
+  }
+}
+
+TEST(ConcaveHull, OfThreePointsIsTheirTriangle) {
+  const MultiPolygon triangle = {{{{0, 0}, {4, 0}, {0, 3}}, {}}};
+  EXPECT_EQ(canonical(hull({{0, 0}, {4, 0}, {0, 3}})), triangle);
+  EXPECT_EQ(canonical(hull({{0, 3}, {4, 0}, {0, 0}})), triangle) << "whatever the order";
+}
+
+// the limits
+
+TEST(ConcaveHull, LimitsAreInclusive) {
+  const std::vector<Point> points = {{0, 0}, {4, 0}, {0, 3}};  // circumradius 2.5, longest edge 5: both exact
+  EXPECT_EQ(hull(points, {.alpha = 2.5}).size(), 1U);
+  EXPECT_EQ(hull(points, {.alpha = std::nextafter(2.5, 0)}).size(), 0U);
+  EXPECT_EQ(hull(points, {.max_edge_length = 5}).size(), 1U);
+  EXPECT_EQ(hull(points, {.max_edge_length = std::nextafter(5, 0)}).size(), 0U);
+  EXPECT_EQ(hull(points, {.alpha = 2.5, .max_edge_length = 4.9}).size(), 0U);
+  EXPECT_EQ(hull(points, {.alpha = 2.4, .max_edge_length = 5}).size(), 0U);
+}
+
+TEST(ConcaveHull, OfZeroLimitsIsEmpty) {
+  const std::vector<Point> points = testing::uniform_points(100, 1);
+  EXPECT_TRUE(hull(points, {.alpha = 0}).empty());
+  EXPECT_TRUE(hull(points, {.max_edge_length = 0}).empty());
+  EXPECT_TRUE(hull(points, {.alpha = 5e-324}).empty());
+}
+
+TEST(ConcaveHull, RefusesLimitsThatAreNoLengths) {
+  const std::vector<Point> points = testing::uniform_points(10, 1);
+  for (const double bad : {-1.0, -kInfinity, std::numeric_limits<double>::quiet_NaN()}) {
+    EXPECT_THROW(concave_hull(points, {.alpha = bad}), std::invalid_argument) << bad;
+    EXPECT_THROW(concave_hull(points, {.max_edge_length = bad}), std::invalid_argument) << bad;
+    EXPECT_THROW(concave_hull({}, {.alpha = bad}), std::invalid_argument) << bad << " even for no points";
+  }
+}
+
+TEST(ConcaveHull, NamesTheFirstCoordinateThatIsNotFinite) {
+  std::vector<Point> points = testing::uniform_points(500, 2);
+  points[499].x = kInfinity;
+  points[317].y = std::numeric_limits<double>::quiet_NaN();
+  try {
+    concave_hull(points, kUnitCells);
+    FAIL() << "accepted NaN";
+  } catch (const std::invalid_argument& error) {
+    EXPECT_NE(std::string(error.what()).find("317"), std::string::npos) << error.what();
+  }
+}
+
+// rings that touch
+
+TEST(ConcaveHull, TrianglesThatShareAVertexAreTwoPolygons) {
+  const std::vector<Point> points = {{0, 0}, {-2, 1}, {-2, -1}, {2, 1}, {2, -1}};
+  const MultiPolygon expected = {{{{-2, -1}, {0, 0}, {-2, 1}}, {}}, {{{0, 0}, {2, -1}, {2, 1}}, {}}};
+  EXPECT_EQ(canonical(hull(points, {.max_edge_length = 2.5})), expected);
+}
+
+// A lattice point left out leaves a diamond of side sqrt(2) round its place.
+TEST(ConcaveHull, AHoleIsARingOfItsOwn) {
+  const MultiPolygon shape = hull(without(lattice(5, 5), {{2, 2}}), kUnitCells);
+  ASSERT_EQ(shape.size(), 1U);
+  EXPECT_EQ(shape[0].shell.size(), 16U);
+  const MultiPolygon expected_hole = {{{{1, 2}, {2, 3}, {3, 2}, {2, 1}}, {}}};
+  ASSERT_EQ(shape[0].holes.size(), 1U);
+  EXPECT_EQ(canonical({{shape[0].holes[0], {}}}), expected_hole) << "clockwise";
+}
+
+TEST(ConcaveHull, AHoleThatTouchesTheShellStaysAHole) {
+  const MultiPolygon shape = hull(without(lattice(5, 5), {{1, 2}}), kUnitCells);
+  ASSERT_EQ(shape.size(), 1U);
+  EXPECT_EQ(shape[0].shell.size(), 16U);
+  ASSERT_EQ(shape[0].holes.size(), 1U);
+  EXPECT_EQ(shape[0].holes[0].size(), 4U);
+  EXPECT_EQ(area(shape), 14);
+}
+
+TEST(ConcaveHull, HolesThatTouchStayApart) {
+  const MultiPolygon shape = hull(without(lattice(7, 5), {{2, 2}, {4, 2}}), kUnitCells);
+  ASSERT_EQ(shape.size(), 1U);
+  ASSERT_EQ(shape[0].holes.size(), 2U);
+  EXPECT_EQ(shape[0].holes[0].size(), 4U);
+  EXPECT_EQ(shape[0].holes[1].size(), 4U);
+  EXPECT_EQ(area(shape), 20);
+}
+
+TEST(ConcaveHull, FourHolesRoundAVertexStayApart) {
+  const MultiPolygon shape = hull(without(lattice(7, 7), {{2, 3}, {4, 3}, {3, 2}, {3, 4}}), kUnitCells);
+  EXPECT_EQ(area(shape), 36 - 8);
+}
+
+TEST(ConcaveHull, HolesThatCutAcrossMakeTwoPolygons) {
+  const MultiPolygon shape = hull(without(lattice(5, 5), {{1, 2}, {3, 2}}), kUnitCells);
+  ASSERT_EQ(shape.size(), 2U);
+  EXPECT_EQ(hole_count(shape), 0U);
+  EXPECT_EQ(area(shape), 12);
+}
+
+TEST(ConcaveHull, AnIslandInAHoleIsAPolygon) {
+  std::vector<Point> points = without(lattice(9, 9), lattice(5, 5, 1, {2, 2}));
+  for (const Point& point : lattice(2, 2, 1, {4, 4})) points.push_back(point);
+  const MultiPolygon shape = canonical(hull(points, kUnitCells));
+  ASSERT_EQ(shape.size(), 2U);
+  EXPECT_EQ(shape[0].shell.size(), 32U);
+  ASSERT_EQ(shape[0].holes.size(), 1U);
+  const MultiPolygon island = {{{{4, 4}, {5, 4}, {5, 5}, {4, 5}}, {}}};
+  EXPECT_EQ(MultiPolygon{shape[1]}, island);
+  EXPECT_EQ(area(shape), 64 - 34 + 1);
+}
+
+TEST(ConcaveHull, KeepsThousandsOfRegionsApart) {
+  std::vector<Point> points;
+  for (const Point& corner : lattice(64, 64, 10)) {
+    points.insert(points.end(), {corner, {corner.x + 1, corner.y}, {corner.x, corner.y + 1}});
+  }
+  const MultiPolygon shape = hull(points, kUnitCells);
+  EXPECT_EQ(shape.size(), 4096U);
+  EXPECT_EQ(area(shape), 2048);
+  for (const Polygon& polygon : shape) {
+    ASSERT_EQ(polygon.shell.size(), 3U);
+    ASSERT_TRUE(polygon.holes.empty());
+  }
+}
+
+// lattices with points left out at random: the shape follows from the cells alone
+
+// A cell has the number of its lower left lattice point. The outermost points are absent, so neighbours
+// exist.
+class CellShape {
+ public:
+  CellShape(std::size_t side, std::vector<bool> present)
+      : side_(side), present_(std::move(present)), component_(present_.size()) {
+    for (std::size_t cell = 0; cell < present_.size(); ++cell) {
+      if (component_[cell] == 0 && corners(cell).size() >= 3) fill(cell, ++polygons_);
+    }
+  }
+
+  std::size_t polygons() const { return polygons_; }
+
+  // Twice the area: a cell with all corners is kept whole, one with three as a triangle.
+  std::size_t twice_area() const {
+    std::size_t sum = 0;
+    for (std::size_t cell = 0; cell < present_.size(); ++cell) {
+      if (component_[cell] != 0) sum += corners(cell).size() - 2;
+    }
+    return sum;
+  }
+
+  // A closed, connected region with h holes has vertices - edges + cells = 1 - h.
+  std::size_t holes() const {
+    std::set<std::pair<std::size_t, std::size_t>> vertices;  // with their component
+    std::set<std::pair<std::size_t, std::size_t>> edges;
+    std::size_t cells = 0;
+    for (std::size_t cell = 0; cell < present_.size(); ++cell) {
+      if (component_[cell] == 0) continue;
+      ++cells;
+      const std::vector<std::size_t> around = corners(cell);
+      for (std::size_t i = 0; i < around.size(); ++i) {
+        vertices.emplace(around[i], component_[cell]);
+        edges.insert(std::minmax(around[i], around[(i + 1) % around.size()]));
+      }
+    }
+    return polygons_ + edges.size() - vertices.size() - cells;
+  }
+
+ private:
+  // The lattice points that a cell has, in order round it.
+  std::vector<std::size_t> corners(std::size_t cell) const {
+    std::vector<std::size_t> around;
+    for (const std::size_t point : {cell, cell + 1, cell + side_ + 1, cell + side_}) {
+      if (point < present_.size() && present_[point]) around.push_back(point);
+    }
+    return around;
+  }
+
+  // Whether the lattice edge between two neighbouring cells is there.
+  bool joined(std::size_t cell, std::size_t other) const {
+    const std::size_t low = std::max(cell, other);
+    const std::size_t step = low - std::min(cell, other);
+    return present_[low] && present_[low + (step == 1 ? side_ : 1)];
+  }
+
+  void fill(std::size_t start, std::size_t component) {
+    std::vector<std::size_t> stack = {start};
+    component_[start] = component;
+    while (!stack.empty()) {
+      const std::size_t cell = stack.back();
+      stack.pop_back();
+      for (const std::size_t other : {cell - 1, cell + 1, cell - side_, cell + side_}) {
+        if (component_[other] != 0 || corners(other).size() < 3 || !joined(cell, other)) continue;
+        component_[other] = component;
+        stack.push_back(other);
+      }
+    }
+  }
+
+  std::size_t side_;
+  std::vector<bool> present_;           // lattice point -> whether it is there
+  std::vector<std::size_t> component_;  // cell -> number of its component from 1; 0 when not kept
+  std::size_t polygons_ = 0;
+};
+
+TEST(ConcaveHull, OfALatticeWithGapsFollowsFromItsCells) {
+  constexpr std::size_t kSide = 16;
+  for (std::uint64_t seed = 0; seed < 600; ++seed) {
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    testing::Random random(seed);
+    const double density = random.between(0.3, 0.97);
+    std::vector<bool> present(kSide * kSide);
+    std::vector<Point> points;
+    for (std::size_t row = 1; row + 1 < kSide; ++row) {
+      for (std::size_t column = 1; column + 1 < kSide; ++column) {
+        if (random.unit() > density) continue;
+        present[row * kSide + column] = true;
+        points.push_back({static_cast<double>(column), static_cast<double>(row)});
+      }
+    }
+    const MultiPolygon shape = hull(testing::shuffled(points, seed), kUnitCells);
+    const CellShape expected(kSide, present);
+    EXPECT_EQ(2 * area(shape), static_cast<double>(expected.twice_area()));
+    EXPECT_EQ(shape.size(), expected.polygons());
+    EXPECT_EQ(hole_count(shape), expected.holes());
+  }
+}
+
+// relations between inputs
+
+// A motion of the plane that is exact on the integer points used here, and its effect on lengths.
+struct Motion {
+  std::string name;
+  std::function<Point(Point)> move;
+  double scale = 1;
+  bool mirrors = false;
+};
+
+std::vector<Motion> motions() {
+  return {{.name = "mirrored in x",
+           .move =
+               [](Point p) {
+                 return Point{-p.x, p.y};
+               },
+           .mirrors = true},
+          {.name = "mirrored in y",
+           .move =
+               [](Point p) {
+                 return Point{p.x, -p.y};
+               },
+           .mirrors = true},
+          {.name = "axes swapped",
+           .move =
+               [](Point p) {
+                 return Point{p.y, p.x};
+               },
+           .mirrors = true},
+          {.name = "turned by 90 degrees",
+           .move =
+               [](Point p) {
+                 return Point{-p.y, p.x};
+               }},
+          {.name = "moved",
+           .move =
+               [](Point p) {
+                 return Point{p.x + 0x1p30, p.y - 0x1p27};
+               }},
+          {.name = "8 times larger",
+           .move =
+               [](Point p) {
+                 return Point{8 * p.x, 8 * p.y};
+               },
+           .scale = 8},
+          {.name = "2^300 times larger",
+           .move =
+               [](Point p) {
+                 return Point{0x1p300 * p.x, 0x1p300 * p.y};
+               },
+           .scale = 0x1p300},
+          {.name = "2^300 times smaller",
+           .move =
+               [](Point p) {
+                 return Point{0x1p-300 * p.x, 0x1p-300 * p.y};
+               },
+           .scale = 0x1p-300}};
+}
+
+std::vector<Point> moved(std::vector<Point> points, const Motion& motion) {
+  for (Point& point : points) point = motion.move(point);
+  return points;
+}
+
+MultiPolygon moved(MultiPolygon shape, const Motion& motion) {
+  const auto move_ring = [&](Ring& ring) {
+    ring = moved(ring, motion);
+    if (motion.mirrors) std::reverse(ring.begin(), ring.end());
+  };
+  for (Polygon& polygon : shape) {
+    move_ring(polygon.shell);
+    for (Ring& hole : polygon.holes) move_ring(hole);
+  }
+  return shape;
+}
+
+Options scaled(const Options& options, double scale) {
+  return {.alpha = options.alpha * scale, .max_edge_length = options.max_edge_length * scale};
+}
+
+// Points whose Delaunay triangulation is the only one, so that a relation has one right answer.
+std::vector<Point> points_in_general_position(std::uint64_t seed) {
+  const std::vector<Point> points = testing::integer_points(150 + 5 * seed, seed, 1 << 20);
+  const Triangulation triangulation = delaunay(points);
+  const std::vector<std::uint32_t>& twins = triangulation.halfedges;
+  const auto at = [&](std::size_t half_edge) { return points[triangulation.triangles[half_edge]]; };
+  for (std::size_t e = 0; e < twins.size(); ++e) {
+    if (twins[e] == kNone) continue;
+    const std::size_t first = e - e % 3;
+    const std::size_t opposite = twins[e] - twins[e] % 3 + (twins[e] + 2) % 3;
+    EXPECT_NE(incircle(at(first), at(first + 1), at(first + 2), at(opposite)), 0) << "seed " << seed;
+  }
+  return points;
+}
+
+class ConcaveHullRelations : public ::testing::TestWithParam<std::uint64_t> {
+ protected:
+  const std::vector<Point> points_ = points_in_general_position(GetParam());
+  const std::vector<Options> options_ = testing::clear_options(points_, delaunay(points_));
+};
+
+TEST_P(ConcaveHullRelations, MotionsMoveTheShapeAlong) {
+  for (const Options& options : options_) {
+    SCOPED_TRACE(describe(options));
+    const MultiPolygon shape = hull(points_, options);
+    for (const Motion& motion : motions()) {
+      SCOPED_TRACE(motion.name);
+      EXPECT_EQ(canonical(hull(moved(points_, motion), scaled(options, motion.scale))),
+                canonical(moved(shape, motion)));
+    }
+  }
+}
+
+TEST_P(ConcaveHullRelations, TheOrderOfPointsDoesNotMatter) {
+  for (const Options& options : options_) {
+    SCOPED_TRACE(describe(options));
+    const MultiPolygon shape = canonical(hull(points_, options));
+    for (std::uint64_t order = 0; order < 3; ++order) {
+      EXPECT_EQ(canonical(hull(testing::shuffled(points_, order), options)), shape) << "order " << order;
+    }
+  }
+}
+
+TEST_P(ConcaveHullRelations, RepeatedPointsDoNotMatter) {
+  testing::Random random(GetParam());
+  std::vector<Point> repeated = points_;
+  for (int i = 0; i < 100; ++i) repeated.push_back(repeated[random.below(repeated.size())]);
+  for (const Options& options : options_) {
+    SCOPED_TRACE(describe(options));
+    const MultiPolygon shape = canonical(hull(points_, options));
+    EXPECT_EQ(canonical(hull(repeated, options)), shape);
+    EXPECT_EQ(canonical(hull(testing::shuffled(repeated, GetParam()), options)), shape);
+  }
+}
+
+// A larger limit keeps all triangles that a smaller one keeps.
+TEST_P(ConcaveHullRelations, LargerLimitsGiveLargerShapes) {
+  double alpha_area = 0;
+  double length_area = 0;
+  for (double limit = 1 << 10; limit < 0x1p24; limit *= 1.25) {
+    const double with_alpha = area(hull(points_, {.alpha = limit}));
+    const double with_length = area(hull(points_, {.max_edge_length = limit}));
+    EXPECT_GE(with_alpha, alpha_area) << limit;
+    EXPECT_GE(with_length, length_area) << limit;
+    alpha_area = with_alpha;
+    length_area = with_length;
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Seeds, ConcaveHullRelations, ::testing::Range(std::uint64_t{0}, std::uint64_t{20}));
+
+// memory kept between calls
+
+TEST(Extractor, GivesTheSameWhateverCameBefore) {
+  Extractor extractor;
+  for (int round = 0; round < 2; ++round) {
+    for (const PointSet& set : testing::nasty_point_sets()) {
+      SCOPED_TRACE(set.name);
+      for (const Options& options : testing::clear_options(set.points, delaunay(set.points))) {
+        SCOPED_TRACE(describe(options));
+        EXPECT_EQ(extractor.extract(set.points, options), concave_hull(set.points, options));
+      }
+    }
+  }
+}
+
+TEST(Extractor, ItsStepsCanBeRepeated) {
+  const std::vector<Point> points = testing::uniform_points(1000, 5);
+  Extractor extractor;
+  extractor.triangulate(points);
+  for (const double alpha : {0.05, 0.02, 0.1, kInfinity, 0.05}) {
+    extractor.extract_regions({.alpha = alpha});
+    EXPECT_EQ(extractor.extract_polygons(), concave_hull(points, {.alpha = alpha})) << alpha;
+    EXPECT_EQ(extractor.extract_polygons(), concave_hull(points, {.alpha = alpha})) << alpha << ", again";
+  }
+}
+
+TEST(Extractor, WorksAfterAnError) {
+  const std::vector<Point> points = testing::uniform_points(200, 6);
+  const Options options{.alpha = 0.1};
+  const IndexedMultiPolygon expected = concave_hull(points, options);
+  Extractor extractor;
+  extractor.extract(points, options);
+  std::vector<Point> bad = points;
+  bad[100].x = kInfinity;
+  EXPECT_THROW(extractor.extract(bad, options), std::invalid_argument);
+  EXPECT_EQ(extractor.extract(points, options), expected);
+  EXPECT_THROW(extractor.extract(points, {.alpha = -1}), std::invalid_argument);
+  EXPECT_EQ(extractor.extract(points, options), expected);
+}
+
+TEST(Extractor, CanBeMoved) {
+  const std::vector<Point> points = testing::uniform_points(200, 7);
+  Extractor first;
+  first.triangulate(points);
+  Extractor second = std::move(first);
+  second.extract_regions({.alpha = 0.1});
+  EXPECT_EQ(second.extract_polygons(), concave_hull(points, {.alpha = 0.1}));
+}
+
+// the checker itself
+
+TEST(CheckPolygon, SeesEveryKindOfFault) {
+  const std::vector<Point> points = {{0, 0}, {4, 0}, {4, 4}, {0, 4}, {1, 1}, {1, 2},
+                                     {2, 2}, {2, 1}, {9, 9}, {8, 2}, {0, 2}};
+  const auto fault = [&](IndexedMultiPolygon shape) { return check_polygon(points, shape); };
+  EXPECT_EQ(fault({}), "");
+  EXPECT_EQ(fault({{0, 1, 2, 3}, {4}, {1}}), "");
+  EXPECT_EQ(fault({{0, 1, 2, 3, 4, 5, 6, 7}, {4, 8}, {2}}), "") << "a hole";
+  EXPECT_NE(fault({{3, 2, 1, 0}, {4}, {1}}), "") << "a clockwise shell";
+  EXPECT_NE(fault({{0, 1, 2, 3, 7, 6, 5, 4}, {4, 8}, {2}}), "") << "a counter-clockwise hole";
+  EXPECT_NE(fault({{0, 1, 3, 2}, {4}, {1}}), "") << "a bow-tie";
+  EXPECT_NE(fault({{0, 1}, {2}, {1}}), "") << "two vertices";
+  EXPECT_NE(fault({{0, 1, 99}, {3}, {1}}), "") << "an index out of range";
+  EXPECT_NE(fault({{0, 1, 2, 0}, {4}, {1}}), "") << "a repeated vertex";
+  EXPECT_NE(fault({{0, 1, 2, 3, 0, 1, 2}, {4, 7}, {1, 2}}), "") << "polygons that overlap";
+  EXPECT_NE(fault({{0, 1, 2, 3, 7, 6, 5}, {4, 7}, {1, 2}}), "") << "a polygon inside another";
+  EXPECT_NE(fault({{4, 7, 6, 5, 0, 3, 2, 1}, {4, 8}, {2}}), "") << "a hole round its shell";
+  EXPECT_NE(fault({{0, 1, 2, 3, 10, 6, 7}, {4, 7}, {1, 2}}), "") << "a polygon inside, touching";
+  EXPECT_NE(fault({{0, 1, 2, 3}, {4}, {1, 1}}), "") << "a polygon without rings";
+  EXPECT_NE(fault({{0, 1, 2, 3, 8}, {4}, {1}}), "") << "vertices of no ring";
+}
+
+TEST(CheckPolygon, SeesAnInteriorThatIsCutApart) {
+  const std::vector<Point> points = {{0, 0}, {4, 0}, {4, 2}, {4, 4}, {0, 4}, {0, 2}, {2, 3}, {2, 1}};
+  EXPECT_NE(check_polygon(points, {{0, 1, 2, 3, 4, 5, 5, 6, 2, 7}, {6, 10}, {2}}), "");
+  EXPECT_EQ(check_polygon(points, {{0, 1, 2, 3, 4, 5, 5, 6, 7}, {6, 9}, {2}}), "")
+      << "touching once is allowed";
+}
+
+}  // namespace
+}  // namespace polylidar

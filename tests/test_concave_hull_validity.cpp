@@ -1,0 +1,75 @@
+// Every concave hull is a valid multipolygon in the eyes of GEOS and of Boost.Geometry.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "benchmarks/metrics.hpp"
+#include "polylidar/concave_hull.hpp"
+#include "polylidar/delaunay.hpp"
+#include "tests/boost_shapes.hpp"
+#include "tests/hull_oracle.hpp"
+#include "tests/point_sets.hpp"
+
+namespace polylidar {
+namespace {
+
+using testing::PointSet;
+
+// `points` with an extent near 1: a power of two changes no shape, and neither library is made for squares of
+// coordinates that overflow.
+std::vector<Point> near_one(std::vector<Point> points) {
+  const Box box = bounding_box(points);
+  const double extent = std::max(box.max.x - box.min.x, box.max.y - box.min.y);
+  if (!(extent > 0)) return points;
+  const int exponent = -std::ilogb(extent);
+  for (Point& point : points) point = {std::ldexp(point.x, exponent), std::ldexp(point.y, exponent)};
+  return points;
+}
+
+void expect_valid(const std::vector<Point>& points, const Options& options) {
+  SCOPED_TRACE("alpha " + std::to_string(options.alpha) + ", max_edge_length " +
+               std::to_string(options.max_edge_length));
+  const MultiPolygon shape = to_coordinates(concave_hull(points, options), near_one(points));
+  EXPECT_EQ(hullbench::invalid_reason(shape), "") << "by GEOS";
+  EXPECT_EQ(testing::boost_invalid_reason(shape), "") << "by Boost.Geometry";
+}
+
+TEST(ConcaveHullValidity, OnNastyPointSets) {
+  for (const PointSet& set : testing::nasty_point_sets()) {
+    SCOPED_TRACE(set.name);
+    for (const Options& options : testing::clear_options(set.points, delaunay(set.points))) {
+      expect_valid(set.points, options);
+    }
+  }
+}
+
+TEST(ConcaveHullValidity, OnRandomPoints) {
+  for (std::uint64_t seed = 0; seed < 100; ++seed) {
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    const std::vector<Point> points = testing::uniform_points(20 + 10 * seed, seed, 100);
+    for (const Options& options : testing::clear_options(points, delaunay(points)))
+      expect_valid(points, options);
+  }
+}
+
+// Rings that touch wherever they can.
+TEST(ConcaveHullValidity, OnLatticesWithGaps) {
+  for (std::uint64_t seed = 0; seed < 300; ++seed) {
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    testing::Random random(seed);
+    const double density = random.between(0.3, 0.97);
+    std::vector<Point> points;
+    for (const Point& point : testing::lattice(14, 14)) {
+      if (random.unit() < density) points.push_back(point);
+    }
+    expect_valid(points, {.alpha = 0.75});
+    expect_valid(points, {.alpha = 1.01});
+  }
+}
+
+}  // namespace
+}  // namespace polylidar
