@@ -1,0 +1,266 @@
+#include "benchmarks/claims.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <optional>
+#include <span>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "benchmarks/embedded.hpp"
+#include "benchmarks/measurements.hpp"
+#include "benchmarks/number_format.hpp"
+#include "benchmarks/statistics.hpp"
+
+namespace hullbench {
+namespace {
+
+using nlohmann::json;
+
+std::vector<PaperStep> read_steps() {
+  std::vector<PaperStep> result;
+  for (const json& entry : paper().at("steps").at("names")) {
+    result.push_back(
+        {entry.at("step").get<std::string>(), entry.at("parts").get<std::vector<std::string>>()});
+  }
+  return result;
+}
+
+/// The repetitions of the step that the paper calls `name`.
+std::vector<std::int64_t> times_of_step(const RunRecord& run, const std::string& name) {
+  for (const PaperStep& step : paper_steps()) {
+    if (step.name == name) return step_times(run, step.parts);
+  }
+  throw std::logic_error("results/paper.json has a claim about \"" + name +
+                         "\", which is none of its steps.");
+}
+
+/// One median a run: of the time within `boundary`, of the error as the paper divides it, or of a step's
+/// time.
+std::optional<double> value_of_run(const RunRecord& run, const std::string& quantity, Boundary boundary) {
+  if (!is_measured(run)) return std::nullopt;
+  if (quantity == "error") return metric(run, "l2_paper");
+  const std::vector<std::int64_t> values =
+      quantity == "time" ? times(run, boundary) : times_of_step(run, quantity);
+  if (values.empty()) return std::nullopt;
+  return median(values);
+}
+
+/// How a ratio is judged: {"at_least" | "more_than" | "less_than": number} or {"between": [number, number]}.
+class Threshold {
+ public:
+  explicit Threshold(const json& check) {
+    if (check.contains("at_least")) at_least_ = check["at_least"].get<double>();
+    if (check.contains("more_than")) more_than_ = check["more_than"].get<double>();
+    if (check.contains("less_than")) less_than_ = check["less_than"].get<double>();
+    if (check.contains("between")) {
+      at_least_ = check["between"].at(0).get<double>();
+      at_most_ = check["between"].at(1).get<double>();
+    }
+  }
+
+  bool passes(double ratio) const {
+    return (!at_least_ || ratio >= *at_least_) && (!more_than_ || ratio > *more_than_) &&
+           (!less_than_ || ratio < *less_than_) && (!at_most_ || ratio <= *at_most_);
+  }
+
+  /// Of two ratios the one that speaks more against the claim.
+  double worse(double a, double b) const {
+    if (less_than_) return std::max(a, b);
+    if (at_most_) return std::abs(std::log(a)) > std::abs(std::log(b)) ? a : b;
+    return std::min(a, b);
+  }
+
+ private:
+  std::optional<double> at_least_;
+  std::optional<double> more_than_;
+  std::optional<double> less_than_;
+  std::optional<double> at_most_;
+};
+
+/// The ratios a claim is about, over the cases of a report.
+class Ratios {
+ public:
+  Ratios(const json& report, const Measurements& measurements, const json& check)
+      : report_(report),
+        measurements_(measurements),
+        check_(check),
+        threshold_(check),
+        quantity_(check.at("quantity").get<std::string>()) {}
+
+  /// One ratio a case, of several the one that speaks most against the claim.
+  std::vector<double> by_case(Boundary boundary) const {
+    std::map<Case, double> worst;
+    for (const Case& which : measurements_.cases()) {
+      if (!concerns(which)) continue;
+      for (const double ratio : ratios(which, boundary)) {
+        const auto [place, is_new] = worst.emplace(which, ratio);
+        if (!is_new) place->second = threshold_.worse(place->second, ratio);
+      }
+    }
+    std::vector<double> result;
+    for (const auto& [which, ratio] : worst) result.push_back(ratio);
+    return result;
+  }
+
+  /// Why methods of this claim are not in it, one clause each; empty when all are.
+  std::string missing() const {
+    std::string result;
+    for (const char* role : {"over", "under", "with_holes"}) {
+      for (const json& method : check_.value(role, json::array())) {
+        const std::string reason = why_missing(method.get<std::string>());
+        if (!reason.empty()) result += (result.empty() ? "" : "; ") + reason;
+      }
+    }
+    return result;
+  }
+
+  const Threshold& threshold() const { return threshold_; }
+
+ private:
+  bool concerns(const Case& which) const {
+    const json& datasets = paper().at("claims").at("datasets");
+    if (std::find(datasets.begin(), datasets.end(), which.dataset) == datasets.end()) return false;
+    if (!check_.contains("only")) return true;
+    const json& only = check_["only"];
+    return only.at("dataset") == which.dataset && only.at("holes") == which.holes && only.at("n") == which.n;
+  }
+
+  std::optional<double> value(const std::string& method, const Case& which, Boundary boundary) const {
+    std::vector<double> values;
+    for (const RunRecord* run :
+         measurements_.find(method, paper().at("protocol").get<std::string>(), which)) {
+      if (const auto value = value_of_run(*run, quantity_, boundary)) values.push_back(*value);
+    }
+    if (values.empty()) return std::nullopt;
+    return median(std::span<const double>(values));
+  }
+
+  std::vector<double> ratios(const Case& which, Boundary boundary) const {
+    std::vector<double> result;
+    const auto add = [&](std::optional<double> over, std::optional<double> under) {
+      if (over && under && *over > 0 && *under > 0) result.push_back(*over / *under);
+    };
+    for (const json& over : check_.value("over", json::array())) {
+      for (const json& under : check_.at("under")) {
+        add(value(over.get<std::string>(), which, boundary),
+            value(under.get<std::string>(), which, boundary));
+      }
+    }
+    if (!which.holes) return result;
+    const Case without{which.dataset, false, which.n};
+    for (const json& method : check_.value("with_holes", json::array())) {
+      const std::string name = method.get<std::string>();
+      add(value(name, which, boundary), value(name, without, boundary));
+    }
+    return result;
+  }
+
+  /// Why `method` has no value, or none in some of its cases; empty when it has all.
+  std::string why_missing(const std::string& method) const {
+    std::size_t with_value = 0;
+    std::size_t failed = 0;
+    bool measured = false;
+    for (const Case& which : measurements_.cases()) {
+      if (!concerns(which)) continue;
+      const auto runs = measurements_.find(method, paper().at("protocol").get<std::string>(), which);
+      const bool succeeded =
+          std::any_of(runs.begin(), runs.end(), [](const auto* run) { return is_measured(*run); });
+      measured = measured || succeeded;
+      if (value(method, which, Boundary::kPaper)) ++with_value;
+      if (!runs.empty() && !succeeded) ++failed;
+    }
+    const std::string title = paper().at("methods").value(method, method);
+    if (with_value > 0) {
+      // A method that fails where it is slowest or worst would look better than it is.
+      return failed == 0 ? "" : title + " in " + std::to_string(failed) + " case(s) without a result";
+    }
+    if (measured && quantity_ == "error") return title + " has no error that is defined";
+    if (measured) return title + " does not tell its step \"" + quantity_ + "\"";
+    for (const json& info : report_.value("methods", json::array())) {
+      if (info.value("name", "") == method && !info.value("installed", true)) {
+        return info.value("title", title) + " is not installed";
+      }
+    }
+    if (!check_.contains("only")) return title + " has no successful run here";
+    return title + " has no successful run at n = " + check_["only"].at("n").dump() + " here";
+  }
+
+  const json& report_;
+  const Measurements& measurements_;
+  const json& check_;
+  Threshold threshold_;
+  std::string quantity_;
+};
+
+struct Verdict {
+  std::string text;
+  double value = 0;
+  bool holds = false;
+};
+
+Verdict judge(const std::vector<double>& ratios, const Threshold& threshold, bool every_case) {
+  if (!every_case) {
+    const double middle = median(std::span<const double>(ratios));
+    return {three_digits(middle), middle, threshold.passes(middle)};
+  }
+  const auto passed =
+      std::count_if(ratios.begin(), ratios.end(), [&](double r) { return threshold.passes(r); });
+  double worst = ratios.front();
+  for (const double ratio : ratios) worst = threshold.worse(worst, ratio);
+  return {std::to_string(passed) + " of " + std::to_string(ratios.size()), worst,
+          passed == static_cast<std::ptrdiff_t>(ratios.size())};
+}
+
+json check_claim(const json& claim, const json& report, const Measurements& measurements) {
+  json result = {{"id", claim.at("id")},       {"claim", claim.at("claim")},
+                 {"where", claim.at("where")}, {"paper", claim.at("paper")},
+                 {"ours", "not measured"},     {"value", nullptr},
+                 {"equal_work", nullptr},      {"holds", nullptr}};
+  const json& check = claim.at("check");
+  const Ratios ratios(report, measurements, check);
+  const std::string missing = ratios.missing();
+  const std::vector<double> values = ratios.by_case(Boundary::kPaper);
+  if (values.empty()) {
+    result["detail"] =
+        missing.empty() ? "No case was measured for both sides of the comparison." : missing + ".";
+    return result;
+  }
+  const bool every_case = check.at("of") == "every_case";
+  const Verdict verdict = judge(values, ratios.threshold(), every_case);
+  result["ours"] = verdict.text;
+  result["value"] = verdict.value;
+  result["holds"] = verdict.holds;
+  if (check.at("quantity") == "time") {
+    result["equal_work"] = judge(ratios.by_case(Boundary::kEqualWork), ratios.threshold(), every_case).text;
+  }
+  result["detail"] = claim.at("reading").get<std::string>() + " (" + std::to_string(values.size()) +
+                     (values.size() == 1 ? " case" : " cases") + ")" +
+                     (missing.empty() ? "" : "; left out: " + missing) + ".";
+  return result;
+}
+
+}  // namespace
+
+const json& paper() {
+  static const json values = json::parse(kPaperJson);
+  return values;
+}
+
+const std::vector<PaperStep>& paper_steps() {
+  static const std::vector<PaperStep> steps = read_steps();
+  return steps;
+}
+
+json check_claims(const json& report) {
+  const Measurements measurements(report);
+  json result = json::array();
+  for (const json& claim : paper().at("claims").at("list")) {
+    result.push_back(check_claim(claim, report, measurements));
+  }
+  return result;
+}
+
+}  // namespace hullbench

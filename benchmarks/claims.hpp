@@ -1,0 +1,26 @@
+// The paper's claims beside what a run measured.
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+namespace hullbench {
+
+/// The paper's published values and claims: results/paper.json, which is part of the program.
+const nlohmann::json& paper();
+
+/// The steps of a method that the paper tells apart, in its order, each with what methods call it or its
+/// parts in their phases.
+struct PaperStep {
+  std::string name;
+  std::vector<std::string> parts;
+};
+const std::vector<PaperStep>& paper_steps();
+
+/// Every claim of the paper that concerns state shapes, checked against the `protocol: paper` rows of
+/// `report`: a list of {id, claim, where, paper, ours (text), value (number or null), equal_work (text or
+/// null), holds (true, false or null: not measured here), detail}.
+nlohmann::json check_claims(const nlohmann::json& report);
+
+}  // namespace hullbench

@@ -1,0 +1,26 @@
+// What tables call the methods, data sets and failures of a report.
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <string>
+
+namespace hullbench {
+
+/// "Polylidar" for "polylidar"; the name itself when `report` has no title for it.
+std::string method_title(const nlohmann::json& report, const std::string& method);
+
+/// "Polylidar (paper)": protocols never share a line, so each is part of its line's name.
+std::string method_label(const nlohmann::json& report, const std::string& method,
+                         const std::string& protocol);
+
+/// "California with holes".
+std::string shape_title(const nlohmann::json& report, const std::string& dataset, bool holes);
+
+/// "<what> is not installed: why. To install it: how", for a method whose detail is `detail`.
+std::string not_installed_text(const nlohmann::json& report, const std::string& what,
+                               const std::string& method, const std::string& detail);
+
+/// `text` with a full stop at its end.
+std::string sentence(std::string text);
+
+}  // namespace hullbench

@@ -1,0 +1,101 @@
+#include "benchmarks/listing.hpp"
+
+#include <algorithm>
+#include <memory>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "adapters/adapter.hpp"
+#include "benchmarks/method_session.hpp"
+#include "datasets/datasets.hpp"
+
+namespace hullbench {
+namespace {
+
+using nlohmann::json;
+
+json list_methods(const WorkerCommand& worker_command, const WorkerLimits& limits) {
+  std::vector<std::unique_ptr<MethodSession>> sessions;
+  for (const AdapterEntry& entry : adapter_registry()) {
+    sessions.push_back(std::make_unique<MethodSession>(entry.name, worker_command(entry.name), limits));
+    sessions.back()->begin_start();
+  }
+  json methods = json::array();
+  for (std::size_t i = 0; i < sessions.size(); ++i) {
+    sessions[i]->finish_start();
+    methods.push_back(describe_method(adapter_registry()[i].name, adapter_registry()[i].title, *sessions[i]));
+  }
+  return methods;
+}
+
+std::string limit_text(const json& value) {
+  return value.is_null() ? "infinity" : value.dump();
+}
+
+std::string parameter_text(const json& parameter) {
+  std::string text = parameter["name"].get<std::string>() + " (" + parameter["unit"].get<std::string>() +
+                     ", " + limit_text(parameter["minimum"]) + " to " + limit_text(parameter["maximum"]);
+  text += parameter.contains("default") ? ", default " + limit_text(parameter["default"]) : ", required";
+  return text + "): " + parameter["description"].get<std::string>();
+}
+
+void print_method(const json& method, std::ostream& out) {
+  out << "  " << method["name"].get<std::string>() << "  " << method["title"].get<std::string>();
+  if (const auto version = method["version"].get<std::string>(); !version.empty()) out << " " << version;
+  out << "\n";
+  if (!method["installed"].get<bool>()) {
+    out << "      not installed: " << method["detail"].get<std::string>() << "\n";
+    if (const auto remedy = method["remedy"].get<std::string>(); !remedy.empty())
+      out << "      remedy: " << remedy << "\n";
+    return;
+  }
+  const json& capabilities = method["capabilities"];
+  out << "      result: "
+      << (capabilities["several_polygons"].get<bool>() ? "several polygons" : "one polygon")
+      << (capabilities["holes"].get<bool>() ? " with holes" : " without holes") << "; the library gives "
+      << method["native_output"].get<std::string>() << "\n";
+  for (const json& parameter : method["parameters"]) out << "      " << parameter_text(parameter) << "\n";
+  out << "      licence " << method["licence"].get<std::string>() << "; "
+      << method["citation"].get<std::string>() << "\n";
+}
+
+void print_dataset(const json& dataset, std::ostream& out) {
+  out << "  " << dataset["name"].get<std::string>() << "  " << dataset["title"].get<std::string>()
+      << ", area " << dataset["area"].get<double>();
+  if (!dataset["holes_area"].is_null()) out << ", with holes " << dataset["holes_area"].get<double>();
+  out << "\n      " << dataset["source"].get<std::string>() << "; licence "
+      << dataset["licence"].get<std::string>() << "\n";
+}
+
+}  // namespace
+
+json make_listing(const WorkerCommand& worker_command, const WorkerLimits& limits) {
+  return {{"methods", list_methods(worker_command, limits)}, {"datasets", describe_datasets()}};
+}
+
+void print_listing(const json& listing, std::ostream& out) {
+  out << "Methods\n";
+  for (const json& method : listing["methods"]) print_method(method, out);
+  out << "Data sets\n";
+  for (const json& dataset : listing["datasets"]) print_dataset(dataset, out);
+}
+
+json describe_datasets(const std::vector<std::string>& names) {
+  json result = json::array();
+  for (const DatasetInfo& dataset : datasets()) {
+    if (!names.empty() && std::find(names.begin(), names.end(), dataset.name) == names.end()) continue;
+    json holes_area = nullptr;
+    if (dataset.has_holes_variant) holes_area = polylidar::area(make_ground_truth(dataset.name, true));
+    result.push_back({{"name", dataset.name},
+                      {"title", dataset.title},
+                      {"source", dataset.source},
+                      {"licence", dataset.licence},
+                      {"sha256", dataset.sha256},
+                      {"area", dataset.area},
+                      {"holes_area", holes_area}});
+  }
+  return result;
+}
+
+}  // namespace hullbench

@@ -1,0 +1,22 @@
+// What `hullbench list` prints.
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <ostream>
+
+#include "benchmarks/runner.hpp"
+
+namespace hullbench {
+
+/// {"methods": [...], "datasets": [...]}: every method this build knows, asked through a worker each, all at
+/// the same time, and every data set. Members of a method as in describe_method, of a data set as in
+/// run.json. Throws Interrupted.
+nlohmann::json make_listing(const WorkerCommand& worker_command, const WorkerLimits& limits);
+
+/// The same for people.
+void print_listing(const nlohmann::json& listing, std::ostream& out);
+
+/// The data sets as run.json and the report have them; only those in `names`, or all when it is empty.
+nlohmann::json describe_datasets(const std::vector<std::string>& names = {});
+
+}  // namespace hullbench

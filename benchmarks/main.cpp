@@ -1,0 +1,167 @@
+// hullbench: the command line.
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <filesystem>
+#include <iostream>
+#include <string>
+#include <vector>
+
+#include "adapters/adapter.hpp"
+#include "benchmarks/interrupt.hpp"
+#include "benchmarks/listing.hpp"
+#include "benchmarks/plan.hpp"
+#include "benchmarks/report.hpp"
+#include "benchmarks/run_command.hpp"
+#include "benchmarks/tables.hpp"
+#include "benchmarks/validate.hpp"
+#include "benchmarks/worker.hpp"
+
+namespace {
+
+using namespace hullbench;
+namespace fs = std::filesystem;
+
+constexpr int kOk = 0;
+constexpr int kHarnessError = 1;
+constexpr int kUsage = 2;
+constexpr int kInterrupted = 130;
+
+constexpr const char* kFooter =
+    "Exit codes: 0 everything asked for was done; 1 an error of the harness, or `validate` found faults; 2 "
+    "usage or\n"
+    "configuration; 4 some methods failed (their rows say how); 6 nothing was measured; 130 interrupted.\n"
+    "HULLBENCH_POSTGIS_DSN names a PostGIS server to use instead of a private one.";
+
+/// Memory for a worker that only says who it is.
+constexpr std::int64_t kListMemoryMib = 4096;
+
+struct Arguments {
+  bool json = false;
+  RunCommand run;
+  std::string tables_path = "results/latest";
+  std::string validate_path;
+  std::string worker_method;
+};
+
+/// This program as a worker. /proc/self/exe is this very file, wherever it was started from and even when it
+/// was replaced since.
+std::vector<std::string> own_worker(const std::string& method) {
+  return {"/proc/self/exe", "worker", "--method", method};
+}
+
+int list(bool as_json) {
+  const nlohmann::json listing = make_listing(&own_worker, {kListMemoryMib, std::nullopt});
+  if (as_json) {
+    std::cout << listing.dump(2) << "\n";
+  } else {
+    print_listing(listing, std::cout);
+  }
+  return kOk;
+}
+
+int tables(const std::string& path) {
+  if (!fs::is_directory(path)) {
+    throw ConfigurationError("there is no run in " + path +
+                             "; give a run's folder, or measure one with 'hullbench run'");
+  }
+  print_tables(make_report(path), std::cout);
+  return kOk;
+}
+
+int validate(const std::string& path) {
+  if (!fs::is_regular_file(path)) throw ConfigurationError("there is no file " + path + " to validate");
+  const std::vector<std::string> faults = validate_file(path);
+  for (const std::string& fault : faults) std::cerr << "hullbench: " << path << ": " << fault << "\n";
+  if (faults.empty()) std::cout << path << " is valid\n";
+  return faults.empty() ? kOk : kHarnessError;
+}
+
+int worker(const std::string& method) {
+  const auto& registry = adapter_registry();
+  const auto entry = std::find_if(registry.begin(), registry.end(),
+                                  [&](const AdapterEntry& candidate) { return candidate.name == method; });
+  if (entry == registry.end()) {
+    throw ConfigurationError("there is no method '" + method + "'; 'hullbench list' shows them");
+  }
+  return run_worker(*entry);
+}
+
+void add_run(CLI::App& app, RunCommand& run) {
+  CLI::App* command = app.add_subcommand("run", "Measure a plan");
+  command->add_option("PLAN", run.plan, "A plan's name (benchmarks/plans) or the path of its JSON file")
+      ->required();
+  command->add_option("--filter", run.filter, "Only runs whose name has a match of this regular expression");
+  command->add_option("--repetitions", run.repetitions, "Timed repetitions of every run")
+      ->check(CLI::Range(1, 1000000));
+  command->add_option("--out", run.out, "Folder for the results instead of one in results/runs");
+  command->add_option("--seed", run.seed, "Seed of the point samples and of the order of runs")
+      ->check(CLI::NonNegativeNumber);
+  command->add_option("--timeout", run.timeout_s, "Seconds that one repetition may take")
+      ->check(CLI::Range(0.001, 1e6));
+  command->add_option("--mem-limit", run.mem_limit_mib, "MiB of address space for a method")
+      ->check(CLI::Range(std::int64_t{64}, std::int64_t{1} << 30));
+  command->add_flag("--force", run.force, "Start anew instead of going on with an interrupted run");
+  command->add_flag("--dry-run", run.dry_run, "Print the names of the runs and do nothing");
+}
+
+void add_commands(CLI::App& app, Arguments& arguments) {
+  app.require_subcommand(1);
+  app.set_version_flag("--version", "hullbench " HULLBENCH_VERSION);
+  app.footer(kFooter);
+  app.add_subcommand("list", "Show methods and data sets")->add_flag("--json", arguments.json, "As JSON");
+  add_run(app, arguments.run);
+  app.add_subcommand("tables", "Print the tables of a run")
+      ->add_option("RUN", arguments.tables_path, "The run's folder")
+      ->capture_default_str();
+  app.add_subcommand("validate", "Check a report.json, runs.jsonl or run.json against its schema")
+      ->add_option("FILE", arguments.validate_path, "The file")
+      ->required();
+  app.add_subcommand("worker", "Run one method for another process (see benchmarks/protocol.hpp)")
+      ->add_option("--method", arguments.worker_method, "The method's name")
+      ->required();
+}
+
+int dispatch(const CLI::App& app, const Arguments& arguments) {
+  if (app.got_subcommand("worker")) return worker(arguments.worker_method);
+  catch_interruptions();
+  if (app.got_subcommand("list")) return list(arguments.json);
+  if (app.got_subcommand("run")) return run_command(arguments.run, &own_worker);
+  if (app.got_subcommand("tables")) return tables(arguments.tables_path);
+  return validate(arguments.validate_path);
+}
+
+int complain(const std::string& what, int code) {
+  std::cerr << "hullbench: " << what << "\n";
+  return code;
+}
+
+int parse_and_run(int argc, char** argv) {
+  CLI::App app("Benchmark of concave-hull methods: the same points for all, every result scored.",
+               "hullbench");
+  Arguments arguments;
+  add_commands(app, arguments);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::Success& request) {
+    return app.exit(request);
+  } catch (const CLI::ParseError& error) {
+    return complain(
+        std::string(error.what()) + "; 'hullbench --help' and 'hullbench run --help' show what there is",
+        kUsage);
+  }
+  return dispatch(app, arguments);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  try {
+    return parse_and_run(argc, argv);
+  } catch (const ConfigurationError& error) {
+    return complain(error.what(), kUsage);
+  } catch (const Interrupted&) {
+    return complain("interrupted", kInterrupted);
+  } catch (const std::exception& error) {
+    return complain(error.what(), kHarnessError);
+  }
+}

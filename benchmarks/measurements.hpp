@@ -1,0 +1,73 @@
+// What the runs of a report measured, looked up by method, protocol and case: the common ground of tables and
+// claims.
+#pragma once
+
+#include <compare>
+#include <cstdint>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "benchmarks/record.hpp"
+
+namespace hullbench {
+
+/// What a method was run on.
+struct Case {
+  std::string dataset;
+  bool holes = false;
+  std::int64_t n = 0;
+  auto operator<=>(const Case&) const = default;
+};
+
+/// Which part of the work a time covers.
+enum class Boundary {
+  kEqualWork,  ///< points in memory to a valid multipolygon in memory: run + extract
+  kPaper       ///< what the paper timed: run
+};
+
+/// Whether the run gave a result that is believed: status ok and a valid multipolygon.
+bool is_measured(const RunRecord& run);
+
+/// Nanoseconds of every repetition.
+std::vector<std::int64_t> times(const RunRecord& run, Boundary boundary);
+
+/// Nanoseconds of a step in every repetition: the sum of its `parts`, whichever phase they belong to
+/// ("run.polygon" and "extract.polygon" for the part "polygon"). Empty when a repetition has none of them.
+std::vector<std::int64_t> step_times(const RunRecord& run, const std::vector<std::string>& parts);
+
+/// A number among the metrics; empty when it is absent or null.
+std::optional<double> metric(const RunRecord& run, const std::string& name);
+
+/// The runs of a report by method, protocol and case. Runs that share all three (other seeds or parameters)
+/// are kept in their order.
+class Measurements {
+ public:
+  /// `report` needs only its member `runs`. Throws what from_json of a record throws.
+  explicit Measurements(const nlohmann::json& report);
+
+  const std::vector<RunRecord>& runs() const { return runs_; }
+
+  /// The runs of that method, protocol and case; none when there are none.
+  std::vector<const RunRecord*> find(const std::string& method, const std::string& protocol,
+                                     const Case& which) const;
+
+  /// All cases that occur, ordered by data set (as they first occur), without holes before with holes, then
+  /// n.
+  const std::vector<Case>& cases() const { return cases_; }
+
+ private:
+  struct Key {
+    std::string method;
+    std::string protocol;
+    Case which;
+    auto operator<=>(const Key&) const = default;
+  };
+  std::vector<RunRecord> runs_;
+  std::map<Key, std::vector<std::size_t>> index_;  ///< positions in runs_
+  std::vector<Case> cases_;
+};
+
+}  // namespace hullbench

@@ -1,0 +1,81 @@
+#include "benchmarks/parameter_rules.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include "polylidar/concave_hull.hpp"
+#include "polylidar/delaunay.hpp"
+
+namespace hullbench {
+namespace {
+
+/// Wanted edge length in mean spacings of the points over their convex hull.
+constexpr double kHullSpacings = 3.0;
+
+const std::array<ParameterRule, 4> kRules = {{{"paper_alpha", true, &paper_alpha},
+                                              {"paper_alpha_squared", true, &paper_alpha_squared},
+                                              {"holes", false, &holes_switch},
+                                              {"hull_spacing_ratio", false, &hull_spacing_ratio}}};
+
+double convex_hull_area(std::span<const polylidar::Point> points) {
+  return polylidar::area(polylidar::to_coordinates(polylidar::concave_hull(points), points));
+}
+
+struct LengthRange {
+  double shortest = std::numeric_limits<double>::infinity();
+  double longest = 0;
+};
+
+LengthRange edge_lengths(std::span<const polylidar::Point> points) {
+  const polylidar::Triangulation triangulation = polylidar::delaunay(points);
+  LengthRange range;
+  for (std::size_t edge = 0; edge < triangulation.triangles.size(); ++edge) {
+    const std::size_t next = 3 * (edge / 3) + (edge + 1) % 3;
+    const polylidar::Point& a = points[triangulation.triangles[edge]];
+    const polylidar::Point& b = points[triangulation.triangles[next]];
+    const double length = std::hypot(b.x - a.x, b.y - a.y);
+    range.shortest = std::min(range.shortest, length);
+    range.longest = std::max(range.longest, length);
+  }
+  return range;
+}
+
+}  // namespace
+
+const ParameterRule* find_rule(const std::string& name) {
+  const auto found = std::find_if(kRules.begin(), kRules.end(),
+                                  [&](const ParameterRule& rule) { return rule.name == name; });
+  return found == kRules.end() ? nullptr : &*found;
+}
+
+std::vector<std::string> rule_names() {
+  std::vector<std::string> names;
+  for (const ParameterRule& rule : kRules) names.push_back(rule.name);
+  return names;
+}
+
+double paper_alpha(const RuleInput& input) {
+  if (input.points.empty()) return 0;
+  return 2.0 * std::sqrt(input.ground_truth_area / static_cast<double>(input.points.size()));
+}
+
+double paper_alpha_squared(const RuleInput& input) {
+  const double alpha = paper_alpha(input);
+  return alpha * alpha;
+}
+
+double holes_switch(const RuleInput& input) {
+  return input.holes ? 1.0 : 0.0;
+}
+
+double hull_spacing_ratio(const RuleInput& input) {
+  const LengthRange lengths = edge_lengths(input.points);
+  if (!(lengths.longest > lengths.shortest)) return 1.0;
+  const double wanted =
+      kHullSpacings * std::sqrt(convex_hull_area(input.points) / static_cast<double>(input.points.size()));
+  return std::clamp((wanted - lengths.shortest) / (lengths.longest - lengths.shortest), 0.0, 1.0);
+}
+
+}  // namespace hullbench

@@ -1,0 +1,52 @@
+// Rules that choose a parameter for a case, by name in plans: {"rule": "paper_alpha"}.
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "polylidar/geometry.hpp"
+
+namespace hullbench {
+
+/// What a rule may look at.
+struct RuleInput {
+  std::span<const polylidar::Point> points;
+  double ground_truth_area = 0;  ///< squared unit of the points; only for rules that say so
+  bool holes = false;            ///< whether the case asks for holes
+};
+
+struct ParameterRule {
+  std::string name;
+  /// Whether the value depends on the ground truth beyond the question whether it has holes: then the rule is
+  /// oracle-informed and only the protocols `paper` and `oracle` may use it.
+  bool reads_ground_truth = false;
+  double (*value)(const RuleInput& input) = nullptr;
+};
+
+/// Nullptr when there is none of that name.
+const ParameterRule* find_rule(const std::string& name);
+
+/// All names, for messages.
+std::vector<std::string> rule_names();
+
+/// `paper_alpha`: 2 * sqrt(A / n) with the ground truth's area A, the paper's 2 / p_d (section V): a
+/// circumradius in the length unit of the points. Oracle-informed. 0 for no points.
+double paper_alpha(const RuleInput& input);
+
+/// `paper_alpha_squared`: its square, for methods that want a squared radius (CGAL). Oracle-informed.
+double paper_alpha_squared(const RuleInput& input);
+
+/// `holes`: 1 when the case has holes, else 0. What a user knows of the shape before asking for its hull,
+/// hence open to every protocol.
+double holes_switch(const RuleInput& input);
+
+/// `hull_spacing_ratio`: a length ratio (GEOS ConcaveHull, PostGIS >= 3.3) from the points alone. The edge
+/// length wanted is 3 * sqrt(A / n), three times the mean spacing of n points spread over the convex hull's
+/// area A; the ratio that stands for it lies between the shortest (0) and the longest (1) edge of the
+/// Delaunay triangulation, as GEOS defines it, clamped to [0, 1]. 1 (the convex hull) for points without a
+/// triangulation.
+double hull_spacing_ratio(const RuleInput& input);
+
+}  // namespace hullbench

@@ -1,0 +1,447 @@
+#include "benchmarks/plan.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <fstream>
+#include <iterator>
+#include <limits>
+#include <regex>
+#include <set>
+#include <sstream>
+#include <string_view>
+
+#include "benchmarks/record.hpp"
+
+namespace hullbench {
+namespace {
+
+using nlohmann::json;
+
+constexpr int kPlanSchemaVersion = 1;
+constexpr std::int64_t kMaxPoints = std::int64_t{1} << 29;  // what the core takes
+
+/// Who may choose parameters, and whether with a look at the ground truth.
+struct Protocol {
+  const char* name;
+  bool may_read_ground_truth;
+};
+constexpr std::array<Protocol, 5> kProtocols = {
+    {{"paper", true}, {"default", false}, {"auto", false}, {"tuned", false}, {"oracle", true}}};
+
+/// A value in a plan and where it stands, for messages such as "plan 'states': methods[2].protocol must be
+/// ...".
+class Node {
+ public:
+  Node(const json& value, std::string source, std::string path)
+      : value_(value), source_(std::move(source)), path_(std::move(path)) {}
+
+  [[noreturn]] void fail(const std::string& what) const {
+    throw ConfigurationError(source_ + ": " + (path_.empty() ? "the plan" : path_) + " " + what);
+  }
+
+  const json& value() const { return value_; }
+
+  void only_keys(const std::vector<std::string>& known) const {
+    if (!value_.is_object()) fail("must be an object");
+    for (const auto& [key, unused] : value_.items()) {
+      if (std::find(known.begin(), known.end(), key) == known.end()) {
+        child(key).fail("is not a key that is known here; known are " + join_words(known));
+      }
+    }
+  }
+
+  bool has(const std::string& key) const { return value_.contains(key); }
+
+  /// The member `key`; it must be there.
+  Node at(const std::string& key) const {
+    if (!has(key)) fail("lacks the key '" + key + "'");
+    return child(key);
+  }
+
+  /// The elements; there must be one at least.
+  std::vector<Node> elements() const {
+    if (!value_.is_array() || value_.empty()) fail("must be a list with at least one element");
+    std::vector<Node> result;
+    for (std::size_t i = 0; i < value_.size(); ++i) {
+      result.emplace_back(value_[i], source_, path_ + "[" + std::to_string(i) + "]");
+    }
+    return result;
+  }
+
+  /// Name and node of every member.
+  std::vector<std::pair<std::string, Node>> members() const {
+    if (!value_.is_object()) fail("must be an object");
+    std::vector<std::pair<std::string, Node>> result;
+    for (const auto& [key, unused] : value_.items()) result.emplace_back(key, child(key));
+    return result;
+  }
+
+  std::string text() const {
+    if (!value_.is_string()) fail("must be a string");
+    return value_.get<std::string>();
+  }
+
+  /// Not empty and of letters that can stand in a run's name.
+  std::string identifier() const {
+    const std::string name = text();
+    const bool good = !name.empty() && std::all_of(name.begin(), name.end(), [](char c) {
+      return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '_' || c == '-';
+    });
+    if (!good) fail("must be a name of small letters, digits, '_' and '-', not '" + name + "'");
+    return name;
+  }
+
+  bool boolean() const {
+    if (!value_.is_boolean()) fail("must be true or false");
+    return value_.get<bool>();
+  }
+
+  double number(double minimum, double maximum) const {
+    if (!value_.is_number()) fail("must be a number");
+    const double result = value_.get<double>();
+    if (!(result >= minimum && result <= maximum)) fail_range(minimum, maximum);
+    return result;
+  }
+
+  std::int64_t integer(std::int64_t minimum, std::int64_t maximum) const {
+    const bool fits =
+        value_.is_number_integer() &&
+        (!value_.is_number_unsigned() ||
+         value_.get<std::uint64_t>() <= static_cast<std::uint64_t>(std::numeric_limits<std::int64_t>::max()));
+    if (!fits || value_.get<std::int64_t>() < minimum || value_.get<std::int64_t>() > maximum) {
+      fail("must be a whole number from " + std::to_string(minimum) + " to " + std::to_string(maximum));
+    }
+    return value_.get<std::int64_t>();
+  }
+
+  std::uint64_t seed() const {
+    if (!value_.is_number_unsigned()) fail("must be a whole number from 0 to 2^64 - 1");
+    return value_.get<std::uint64_t>();
+  }
+
+ private:
+  Node child(const std::string& key) const {
+    static const json nothing;
+    return {value_.contains(key) ? value_[key] : nothing, source_, path_.empty() ? key : path_ + "." + key};
+  }
+
+  [[noreturn]] void fail_range(double minimum, double maximum) const {
+    std::ostringstream text;
+    text << "must be a number from " << minimum << " to " << maximum;
+    fail(text.str());
+  }
+
+  const json& value_;
+  std::string source_;
+  std::string path_;
+};
+
+template <typename Value>
+void read_values(const Node& node, std::vector<Value>& values, Value (*read)(const Node&)) {
+  std::set<Value> seen;
+  for (const Node& element : node.elements()) {
+    values.push_back(read(element));
+    if (!seen.insert(values.back()).second) element.fail("is there twice; leave one out");
+  }
+}
+
+void read_cases(const Node& node, std::vector<PlanCase>& cases) {
+  std::set<std::string> seen;
+  for (const Node& group : node.elements()) {
+    group.only_keys({"dataset", "holes", "n"});
+    const std::string dataset = group.at("dataset").identifier();
+    std::vector<bool> holes = {false};
+    if (group.has("holes")) {
+      holes.clear();
+      for (const Node& value : group.at("holes").elements()) holes.push_back(value.boolean());
+    }
+    std::vector<std::int64_t> sizes;
+    read_values<std::int64_t>(group.at("n"), sizes,
+                              [](const Node& value) { return value.integer(3, kMaxPoints); });
+    for (const bool with_holes : holes) {
+      for (const std::int64_t n : sizes) {
+        cases.push_back({dataset, with_holes, n});
+        if (!seen.insert(cases.back().shape() + " " + std::to_string(n)).second) {
+          group.fail("has the case " + cases.back().shape() + " with n = " + std::to_string(n) +
+                     " for the second time; leave one out");
+        }
+      }
+    }
+  }
+}
+
+const Protocol& find_protocol(const Node& node) {
+  const std::string name = node.text();
+  std::vector<std::string> names;
+  for (const Protocol& protocol : kProtocols) {
+    if (name == protocol.name) return protocol;
+    names.emplace_back(protocol.name);
+  }
+  node.fail("must be one of " + join_words(names) + ", not '" + name + "'");
+}
+
+RuleChoice read_rule(const Node& node, const Protocol& protocol) {
+  const std::string name = node.text();
+  const ParameterRule* rule = find_rule(name);
+  if (!rule) node.fail("names the unknown rule '" + name + "'; known are " + join_words(rule_names()));
+  if (rule->reads_ground_truth && !protocol.may_read_ground_truth) {
+    node.fail("names the rule '" + name +
+              "', which reads the ground truth: the protocol must be paper or oracle, not " + protocol.name);
+  }
+  return {name};
+}
+
+ParameterChoice read_parameter(const Node& node, const Protocol& protocol) {
+  constexpr double kLimit = std::numeric_limits<double>::max();
+  if (node.value().is_number()) return node.number(-kLimit, kLimit);
+  if (!node.value().is_object()) node.fail("must be a number or an object with the key 'rule' or 'cases'");
+  node.only_keys({"rule", "cases"});
+  if (node.has("rule") == node.has("cases")) node.fail("must have either the key 'rule' or the key 'cases'");
+  if (node.has("rule")) return read_rule(node.at("rule"), protocol);
+  CaseChoice choice;
+  for (const auto& [shape, value] : node.at("cases").members())
+    choice.values[shape] = value.number(-kLimit, kLimit);
+  return choice;
+}
+
+PlanMethod read_method(const Node& node) {
+  node.only_keys({"method", "protocol", "datasets", "parameters", "note"});
+  PlanMethod method;
+  method.method = node.at("method").identifier();
+  const Protocol& protocol = find_protocol(node.at("protocol"));
+  method.protocol = protocol.name;
+  if (node.has("datasets")) {
+    read_values<std::string>(node.at("datasets"), method.datasets,
+                             [](const Node& value) { return value.identifier(); });
+  }
+  if (node.has("parameters")) {
+    for (const auto& [name, value] : node.at("parameters").members()) {
+      method.parameters[name] = read_parameter(value, protocol);
+    }
+  }
+  if (node.has("note")) method.note = node.at("note").text();
+  return method;
+}
+
+void read_methods(const Node& node, std::vector<PlanMethod>& methods) {
+  for (const Node& element : node.elements()) {
+    methods.push_back(read_method(element));
+    const PlanMethod& added = methods.back();
+    const auto same = [&](const PlanMethod& other) {
+      return other.method == added.method && other.protocol == added.protocol;
+    };
+    if (std::count_if(methods.begin(), methods.end(), same) > 1) {
+      element.fail("repeats the method '" + added.method + "' with the protocol '" + added.protocol +
+                   "'; their runs would have the same names, so leave one out");
+    }
+  }
+}
+
+/// "line 3, column 5" of a byte in a text; bytes count from 1.
+std::string place_of_byte(const std::string& text, std::size_t byte) {
+  const std::size_t end = byte == 0 ? 0 : std::min(byte - 1, text.size());
+  const std::string_view before = std::string_view(text).substr(0, end);
+  const auto line = 1 + std::count(before.begin(), before.end(), '\n');
+  const std::size_t last = before.rfind('\n');
+  const std::size_t column = last == std::string_view::npos ? end + 1 : end - last;
+  return "line " + std::to_string(line) + ", column " + std::to_string(column);
+}
+
+json parse_json(const std::string& text, const std::string& source) {
+  try {
+    return json::parse(text);
+  } catch (const json::parse_error& error) {
+    throw ConfigurationError(source + " is not JSON: mend it at " + place_of_byte(text, error.byte));
+  }
+}
+
+std::vector<std::string> plan_names(const std::filesystem::path& folder) {
+  std::vector<std::string> names;
+  std::error_code ignored;
+  for (const auto& entry : std::filesystem::directory_iterator(folder, ignored)) {
+    if (entry.path().extension() == ".json") names.push_back(entry.path().stem().string());
+  }
+  std::sort(names.begin(), names.end());
+  return names;
+}
+
+json parameter_to_json(const ParameterChoice& choice) {
+  if (const auto* rule = std::get_if<RuleChoice>(&choice)) return {{"rule", rule->rule}};
+  if (const auto* cases = std::get_if<CaseChoice>(&choice)) return {{"cases", cases->values}};
+  return std::get<double>(choice);
+}
+
+json method_to_json(const PlanMethod& method) {
+  json parameters = json::object();
+  for (const auto& [name, choice] : method.parameters) parameters[name] = parameter_to_json(choice);
+  json result = {{"method", method.method}, {"protocol", method.protocol}, {"parameters", parameters}};
+  if (!method.datasets.empty()) result["datasets"] = method.datasets;
+  if (!method.note.empty()) result["note"] = method.note;
+  return result;
+}
+
+bool applies(const PlanMethod& method, const PlanCase& plan_case) {
+  return method.datasets.empty() || std::find(method.datasets.begin(), method.datasets.end(),
+                                              plan_case.dataset) != method.datasets.end();
+}
+
+std::string name_of(const PlanMethod& method, const PlanCase& plan_case) {
+  RunRecord record;
+  record.method = method.method;
+  record.dataset = plan_case.dataset;
+  record.n = plan_case.n;
+  record.holes = plan_case.holes;
+  record.protocol = method.protocol;
+  return run_name(record);
+}
+
+void require_known(const std::string& what, const std::string& name, const std::vector<std::string>& known,
+                   const std::string& plan) {
+  if (std::find(known.begin(), known.end(), name) != known.end()) return;
+  throw ConfigurationError("the plan '" + plan + "' names the " + what + " '" + name +
+                           "', which is not known; known are " + join_words(known) + " ('hullbench list')");
+}
+
+/// A parameter that is given case by case must have a value for every case of the method.
+void require_values(const Plan& plan, const PlanMethod& method) {
+  for (const PlanCase& plan_case : plan.expanded_cases) {
+    if (!applies(method, plan_case)) continue;
+    for (const auto& [name, choice] : method.parameters) {
+      const auto* cases = std::get_if<CaseChoice>(&choice);
+      if (!cases || cases->values.contains(plan_case.shape())) continue;
+      throw ConfigurationError("the plan '" + plan.name + "' gives " + method.method + " no '" + name +
+                               "' for " + plan_case.shape() + "; add it to the parameter's cases");
+    }
+  }
+}
+
+}  // namespace
+
+Plan parse_plan(const std::string& text, const std::string& source) {
+  const json document = parse_json(text, source);
+  const Node root(document, source, "");
+  root.only_keys({"schema_version", "name", "title", "paper", "notes", "repetitions", "warmup", "timeout_s",
+                  "mem_limit_mib", "seed", "cases", "methods"});
+  if (root.has("schema_version") && root.at("schema_version").value() != kPlanSchemaVersion) {
+    root.at("schema_version").fail("must be " + std::to_string(kPlanSchemaVersion) + " for this program");
+  }
+  Plan plan;
+  plan.name = root.at("name").identifier();
+  plan.title = root.has("title") ? root.at("title").text() : plan.name;
+  if (root.has("paper")) plan.paper = root.at("paper").text();
+  if (root.has("notes")) {
+    for (const Node& note : root.at("notes").elements()) plan.notes.push_back(note.text());
+  }
+  if (root.has("repetitions"))
+    plan.repetitions = static_cast<int>(root.at("repetitions").integer(1, 1'000'000));
+  if (root.has("warmup")) plan.warmup = static_cast<int>(root.at("warmup").integer(0, 1000));
+  if (root.has("timeout_s")) plan.timeout_s = root.at("timeout_s").number(0.001, 1e6);
+  if (root.has("mem_limit_mib")) plan.mem_limit_mib = root.at("mem_limit_mib").integer(64, 1 << 30);
+  if (root.has("seed")) plan.seed = root.at("seed").seed();
+  read_cases(root.at("cases"), plan.expanded_cases);
+  plan.cases = document["cases"];
+  read_methods(root.at("methods"), plan.methods);
+  return plan;
+}
+
+Plan load_plan(const std::string& name_or_path, const std::filesystem::path& folder) {
+  const bool is_path = name_or_path.find('/') != std::string::npos || name_or_path.ends_with(".json");
+  const std::filesystem::path path =
+      is_path ? std::filesystem::path(name_or_path) : folder / (name_or_path + ".json");
+  std::ifstream in(path, std::ios::binary);
+  std::string text(std::istreambuf_iterator<char>(in), {});
+  if (!in.is_open() || std::filesystem::is_directory(path)) {
+    const std::vector<std::string> names = plan_names(folder);
+    throw ConfigurationError("there is no plan '" + name_or_path + "'; " +
+                             (names.empty() ? "give the path of a plan's JSON file"
+                                            : "known are " + join_words(names) + ", or give a file's path"));
+  }
+  return parse_plan(text, is_path ? name_or_path : "plan '" + name_or_path + "'");
+}
+
+json plan_to_json(const Plan& plan) {
+  json methods = json::array();
+  for (const PlanMethod& method : plan.methods) methods.push_back(method_to_json(method));
+  json result = {{"schema_version", kPlanSchemaVersion},
+                 {"name", plan.name},
+                 {"title", plan.title},
+                 {"repetitions", plan.repetitions},
+                 {"warmup", plan.warmup},
+                 {"timeout_s", plan.timeout_s},
+                 {"mem_limit_mib", plan.mem_limit_mib},
+                 {"seed", plan.seed},
+                 {"cases", plan.cases},
+                 {"methods", methods}};
+  if (!plan.paper.empty()) result["paper"] = plan.paper;
+  if (!plan.notes.empty()) result["notes"] = plan.notes;
+  return result;
+}
+
+void check_plan(const Plan& plan, const std::vector<std::string>& methods,
+                const std::vector<DatasetInfo>& datasets) {
+  std::vector<std::string> dataset_names;
+  for (const DatasetInfo& dataset : datasets) dataset_names.push_back(dataset.name);
+  for (const PlanCase& plan_case : plan.expanded_cases) {
+    require_known("data set", plan_case.dataset, dataset_names, plan.name);
+    const auto info =
+        std::find(dataset_names.begin(), dataset_names.end(), plan_case.dataset) - dataset_names.begin();
+    if (plan_case.holes && !datasets[static_cast<std::size_t>(info)].has_holes_variant) {
+      throw ConfigurationError("the plan '" + plan.name + "' asks for " + plan_case.dataset +
+                               " with holes, which there is not; leave out true in its 'holes'");
+    }
+  }
+  for (const PlanMethod& method : plan.methods) {
+    require_known("method", method.method, methods, plan.name);
+    for (const std::string& dataset : method.datasets) {
+      require_known("data set", dataset, dataset_names, plan.name);
+    }
+    require_values(plan, method);
+  }
+}
+
+std::vector<PlannedRun> planned_runs(const Plan& plan, const std::string& filter) {
+  std::regex pattern;
+  try {
+    pattern = std::regex(filter, std::regex::ECMAScript);
+  } catch (const std::regex_error&) {
+    throw ConfigurationError("the filter '" + filter +
+                             "' is not a regular expression; mend it or quote its characters");
+  }
+  std::vector<PlannedRun> runs;
+  for (std::size_t c = 0; c < plan.expanded_cases.size(); ++c) {
+    for (std::size_t m = 0; m < plan.methods.size(); ++m) {
+      if (!applies(plan.methods[m], plan.expanded_cases[c])) continue;
+      std::string name = name_of(plan.methods[m], plan.expanded_cases[c]);
+      if (!filter.empty() && !std::regex_search(name, pattern)) continue;
+      runs.push_back({c, m, std::move(name)});
+    }
+  }
+  return runs;
+}
+
+std::map<std::string, double> choose_parameters(const PlanMethod& method, const PlanCase& plan_case,
+                                                const RuleInput& input) {
+  std::map<std::string, double> result;
+  for (const auto& [name, choice] : method.parameters) {
+    if (const auto* rule = std::get_if<RuleChoice>(&choice)) {
+      result[name] = find_rule(rule->rule)->value(input);
+    } else if (const auto* cases = std::get_if<CaseChoice>(&choice)) {
+      result[name] = cases->values.at(plan_case.shape());
+    } else {
+      result[name] = std::get<double>(choice);
+    }
+  }
+  return result;
+}
+
+std::string join_words(const std::vector<std::string>& words) {
+  std::string result;
+  for (std::size_t i = 0; i < words.size(); ++i) {
+    if (i > 0) result += i + 1 == words.size() ? " and " : ", ";
+    result += words[i];
+  }
+  return result;
+}
+
+}  // namespace hullbench

@@ -1,0 +1,113 @@
+// Plans: what a run measures. A plan is a JSON file; benchmarks/plans/ has the ready ones.
+//
+//   {"schema_version": 1, "name": "states", "title": "State shapes", "paper": "Figure 8, Table 6",
+//    "repetitions": 10, "warmup": 1, "timeout_s": 120, "mem_limit_mib": 4096, "seed": 1, "notes": ["..."],
+//    "cases":   [{"dataset": "ca", "holes": [false, true], "n": [2000, 64000]}],
+//    "methods": [{"method": "polylidar", "protocol": "paper", "datasets": ["ca"], "note": "...",
+//                 "parameters": {"alpha": PARAMETER}}]}
+//
+// PARAMETER is a number, {"rule": NAME} (parameter_rules.hpp) or {"cases": {"ca": 2.0, "ca/holes": 1.25}}.
+// Only `name`, `cases` and `methods` are required; a key that is not listed here is an error.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <stdexcept>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "benchmarks/parameter_rules.hpp"
+#include "datasets/datasets.hpp"
+
+namespace hullbench {
+
+/// Something the user asked for that cannot be done as it stands; one sentence with the way out. Exit code 2.
+class ConfigurationError : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+/// One shape at one size.
+struct PlanCase {
+  std::string dataset;
+  bool holes = false;
+  std::int64_t n = 0;  ///< number of points
+
+  /// "ca" or "ca/holes": the key of parameters that are given case by case.
+  std::string shape() const { return holes ? dataset + "/holes" : dataset; }
+};
+
+/// {"rule": NAME}
+struct RuleChoice {
+  std::string rule;
+};
+/// {"cases": {SHAPE: VALUE}}
+struct CaseChoice {
+  std::map<std::string, double> values;
+};
+using ParameterChoice = std::variant<double, RuleChoice, CaseChoice>;
+
+/// One method with one way of choosing its parameters.
+struct PlanMethod {
+  std::string method;
+  std::string protocol;  ///< who chose the parameters: "paper", "default", "auto", "tuned", "oracle"
+  std::vector<std::string> datasets;  ///< only these; empty: all
+  std::map<std::string, ParameterChoice> parameters;
+  std::string note;  ///< for readers of the tables
+};
+
+struct Plan {
+  std::string name;
+  std::string title;
+  std::string paper;  ///< which of the paper's figures and tables it stands for
+  std::vector<std::string> notes;
+  int repetitions = 10;    ///< timed runs a method and case
+  int warmup = 1;          ///< untimed runs before them; the first run of all is scored, timed or not
+  double timeout_s = 120;  ///< wall-clock seconds for one request to a worker
+  std::int64_t mem_limit_mib = 4096;  ///< address space of a worker
+  std::uint64_t seed = 1;             ///< of point samples and of the order of runs
+  nlohmann::json cases;               ///< as written, for records
+  std::vector<PlanCase> expanded_cases;
+  std::vector<PlanMethod> methods;
+};
+
+/// One line of runs.jsonl to be.
+struct PlannedRun {
+  std::size_t case_index = 0;    ///< into Plan::expanded_cases
+  std::size_t method_index = 0;  ///< into Plan::methods
+  std::string name;              ///< "polylidar/ca/n:64000/holes:1/protocol:paper"
+};
+
+/// The plan in `text`. `source` is how messages call it. Throws ConfigurationError.
+Plan parse_plan(const std::string& text, const std::string& source);
+
+/// The plan that `name_or_path` names: NAME.json in `folder`, or a file (anything with a slash or the ending
+/// .json). Throws ConfigurationError.
+Plan load_plan(const std::string& name_or_path, const std::filesystem::path& folder);
+
+/// The plan as JSON, complete: parsing it gives the same plan.
+nlohmann::json plan_to_json(const Plan& plan);
+
+/// Throws ConfigurationError for a method or data set that is not among the known ones, for holes in a data
+/// set that has no variant with holes, and for a case without a value for a parameter that is given case by
+/// case.
+void check_plan(const Plan& plan, const std::vector<std::string>& methods,
+                const std::vector<DatasetInfo>& datasets);
+
+/// The runs of `plan` whose name has a match of `filter` (an ECMAScript regular expression; empty: all), case
+/// by case in the order of the plan. Throws ConfigurationError when `filter` is not a regular expression.
+std::vector<PlannedRun> planned_runs(const Plan& plan, const std::string& filter);
+
+/// The parameters that `method` asks for on a case; its plan must have passed check_plan (std::out_of_range
+/// else).
+std::map<std::string, double> choose_parameters(const PlanMethod& method, const PlanCase& plan_case,
+                                                const RuleInput& input);
+
+/// "a, b and c"
+std::string join_words(const std::vector<std::string>& words);
+
+}  // namespace hullbench

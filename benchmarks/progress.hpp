@@ -1,0 +1,70 @@
+// How far a run is and how long it will take, on standard error.
+#pragma once
+
+#include <chrono>
+#include <cstddef>
+#include <cstdint>
+#include <map>
+#include <ostream>
+#include <string>
+#include <vector>
+
+namespace hullbench {
+
+/// One run as the estimate sees it: `units` repetitions, warm-up included, of `method` on n points.
+struct ProgressRun {
+  std::string name;
+  std::string method;
+  std::int64_t n = 0;
+  int units = 0;
+};
+
+/// On a terminal one line that is rewritten; elsewhere a plain line now and then. The time left is estimated
+/// from the measured times of each method, taken as proportional to n; a method without any counts as the
+/// mean of the others.
+class Progress {
+ public:
+  /// `terminal`: whether `out` can rewrite a line; `width`: its columns.
+  Progress(std::ostream& out, bool terminal, std::size_t width, std::vector<ProgressRun> runs);
+
+  /// Run `index` is being worked on.
+  void begin(std::size_t index);
+  /// One unit of run `index` took `elapsed`.
+  void advance(std::size_t index, std::chrono::nanoseconds elapsed);
+  /// Nothing is left to do of run `index`.
+  void finish(std::size_t index);
+  /// A line that stays.
+  void note(const std::string& text);
+  /// Takes the rewritten line away.
+  void end();
+
+  /// Seconds left; negative while nothing is measured.
+  double seconds_left() const;
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  struct Rate {
+    double seconds = 0;
+    double points = 0;
+  };
+
+  void show(bool now);
+  std::string line() const;
+
+  std::ostream& out_;
+  bool terminal_;
+  std::size_t width_;
+  std::vector<ProgressRun> runs_;  ///< `units` counts down to 0
+  std::vector<bool> finished_;
+  std::size_t finished_count_ = 0;
+  std::size_t current_ = 0;
+  std::map<std::string, Rate> rates_;  ///< by method
+  Clock::time_point start_;
+  Clock::time_point first_run_;  ///< when measuring began: methods may take long to start, once
+  Clock::time_point shown_;
+};
+
+/// "48 s", "3 min 20 s", "2 h 5 min".
+std::string format_duration(double seconds);
+
+}  // namespace hullbench

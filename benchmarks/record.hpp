@@ -1,0 +1,73 @@
+// Records: what a run leaves behind. One JSON line a run in runs.jsonl; report.json is made from them.
+// The schemas are results/run.schema.json and results/report.schema.json.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "datasets/sha256.hpp"
+
+namespace hullbench {
+
+inline constexpr int kSchemaVersion = 1;
+
+/// How a run ended. The names in JSON are the enumerators without the k, in snake_case.
+enum class Status { kOk, kTimeout, kMemory, kCrash, kError, kInvalidOutput, kUnsupported, kNotInstalled };
+
+inline constexpr std::array kAllStatuses = {
+    Status::kOk,    Status::kTimeout,       Status::kMemory,      Status::kCrash,
+    Status::kError, Status::kInvalidOutput, Status::kUnsupported, Status::kNotInstalled};
+
+/// "ok", "timeout", "memory", "crash", "error", "invalid_output", "unsupported", "not_installed".
+std::string to_string(Status status);
+/// Throws std::invalid_argument for an unknown name.
+Status status_from_string(const std::string& name);
+
+/// Nanoseconds by phase of one repetition: "load", "run", "extract", and the inner steps a method names as
+/// "run.triangulation", "extract.polygon" and so on. run + extract is the headline time; run is what the
+/// paper timed.
+using PhaseTimes = std::map<std::string, std::int64_t>;
+
+/// One method with one parameter set on one point set: a line of runs.jsonl.
+struct RunRecord {
+  std::string id;    ///< SHA-256 of the identity (see run_identity), lower-case hex
+  std::string name;  ///< "polylidar/ca/n:64000/holes:1/protocol:paper"
+  std::string method;
+  std::string method_version;  ///< empty only when not installed
+  std::string dataset;         ///< "ca", "hi"
+  std::string dataset_sha256;  ///< of the little-endian float64 bytes of the points
+  std::int64_t n = 0;          ///< number of points
+  bool holes = false;          ///< whether the ground truth has its holes cut out
+  std::uint64_t seed = 0;      ///< of the point sample
+  std::string protocol;        ///< "paper", "default", "auto", "tuned", "oracle"
+  std::map<std::string, double>
+      parameters;  ///< complete: defaults filled in; infinity (no limit) is null in JSON
+  Status status = Status::kOk;
+  std::string detail;                 ///< why the status is not ok; empty when it is; signal by its name
+  std::vector<std::int64_t> time_ns;  ///< run + extract of every repetition, in order
+  std::vector<PhaseTimes> phases_ns;  ///< one object a repetition
+  nlohmann::json metrics = nlohmann::json::object();  ///< see metrics.hpp; null for what is undefined
+  std::string output_sha256;                          ///< of the WKB of the result; empty when there is none
+};
+
+/// JSON has no infinity: a parameter that is +infinity ("no limit") is written as null and read back as
+/// +infinity. A NaN or -infinity among the parameters throws std::invalid_argument, because no method takes
+/// it; a number in `metrics` that is not finite becomes null.
+void to_json(nlohmann::json& json, const RunRecord& record);
+/// Throws nlohmann::json::exception or std::invalid_argument when a field is missing or of the wrong type.
+void from_json(const nlohmann::json& json, RunRecord& record);
+
+/// The name in Google Benchmark's manner: "polylidar/ca/n:64000/holes:1/protocol:paper". For people; two runs
+/// that differ in seed or parameters share it, and only the id tells them apart.
+std::string run_name(const RunRecord& record);
+
+/// The id: SHA-256 of the canonical JSON (keys sorted, no white space, shortest round-trip numbers) of
+/// method, method version, parameters, dataset and its hash, n, holes, seed and protocol.
+std::string run_identity(const RunRecord& record);
+
+}  // namespace hullbench

@@ -1,0 +1,134 @@
+#include "benchmarks/report.hpp"
+
+#include <fstream>
+#include <map>
+#include <stdexcept>
+#include <string>
+#include <system_error>
+#include <vector>
+
+#include "benchmarks/claims.hpp"
+#include "benchmarks/json_lines.hpp"
+#include "benchmarks/measurements.hpp"
+#include "benchmarks/record.hpp"
+#include "benchmarks/statistics.hpp"
+
+namespace hullbench {
+namespace {
+
+using nlohmann::json;
+
+json read_run_file(const std::filesystem::path& path) {
+  std::ifstream in(path, std::ios::binary);
+  if (!in) throw std::runtime_error("Cannot read " + path.string() + ": is this the folder of a run?");
+  try {
+    json run = json::parse(in);
+    if (!run.is_object()) throw std::runtime_error(path.string() + " does not hold a JSON object.");
+    if (run.value("schema_version", 0) != kSchemaVersion) {
+      throw std::runtime_error(path.string() + " is of another schema version than this program's.");
+    }
+    return run;
+  } catch (const json::exception& error) {
+    throw std::runtime_error(path.string() + " is not a run's description: " + error.what() + ".");
+  }
+}
+
+/// The lines with each id once: its last line, at the place of its first.
+json last_of_each_id(const std::vector<json>& lines, const std::filesystem::path& path) {
+  json result = json::array();
+  std::map<std::string, std::size_t> places;  // by id, in result
+  for (const json& line : lines) {
+    RunRecord record;
+    try {
+      record = line.get<RunRecord>();
+    } catch (const std::exception& error) {
+      throw std::runtime_error("A line of " + path.string() + " is not a run's record: " + error.what());
+    }
+    const auto [place, is_new] = places.emplace(record.id, result.size());
+    if (is_new) {
+      result.push_back(line);
+    } else {
+      result[place->second] = line;
+    }
+  }
+  return result;
+}
+
+json statistics_to_json(const std::vector<std::int64_t>& values) {
+  if (values.empty()) return nullptr;
+  const Statistics statistics = describe(values);
+  const auto& deviation = statistics.standard_deviation;
+  return {{"repetitions", statistics.count},
+          {"median_ns", statistics.median},
+          {"mad_ns", statistics.mad},
+          {"min_ns", statistics.minimum},
+          {"max_ns", statistics.maximum},
+          {"mean_ns", statistics.mean},
+          {"std_ns", deviation ? json(*deviation) : json(nullptr)}};
+}
+
+json metric_or_null(const json& metrics, const char* name) {
+  const auto found = metrics.find(name);
+  return found == metrics.end() ? json(nullptr) : *found;
+}
+
+json summary_row(const RunRecord& run) {
+  return {{"id", run.id},
+          {"name", run.name},
+          {"status", to_string(run.status)},
+          {"time", statistics_to_json(times(run, Boundary::kEqualWork))},
+          {"paper_time", statistics_to_json(times(run, Boundary::kPaper))},
+          {"l2", metric_or_null(run.metrics, "l2")},
+          {"l2_paper", metric_or_null(run.metrics, "l2_paper")},
+          {"iou", metric_or_null(run.metrics, "iou")},
+          {"valid", metric_or_null(run.metrics, "valid")}};
+}
+
+json totals(const std::vector<RunRecord>& runs) {
+  json result = json::object();
+  for (const Status status : kAllStatuses) result[to_string(status)] = 0;
+  for (const RunRecord& run : runs) {
+    json& count = result[to_string(run.status)];
+    count = count.get<int>() + 1;
+  }
+  return result;
+}
+
+}  // namespace
+
+json make_summary(const json& report) {
+  const Measurements measurements(report);
+  json rows = json::array();
+  for (const RunRecord& run : measurements.runs()) rows.push_back(summary_row(run));
+  return {{"totals", totals(measurements.runs())}, {"rows", rows}, {"claims", check_claims(report)}};
+}
+
+json make_report(const std::filesystem::path& run_directory) {
+  json report = read_run_file(run_directory / "run.json");
+  const std::filesystem::path lines_file = run_directory / "runs.jsonl";
+  const JsonLines lines = load_json_lines(lines_file);
+  report["runs"] = last_of_each_id(lines.lines, lines_file);
+  report["notes"] = json::array();
+  if (!lines.torn.empty()) {
+    report["notes"].push_back(
+        "The last line of runs.jsonl was cut short when the run was interrupted; it is left out.");
+  }
+  report["summary"] = make_summary(report);
+  return report;
+}
+
+void write_json_file(const std::filesystem::path& path, const json& content) {
+  std::filesystem::path temporary = path;
+  temporary += ".new";
+  {
+    std::ofstream out(temporary, std::ios::binary | std::ios::trunc);
+    out << content.dump(2, ' ', false, json::error_handler_t::replace) << '\n' << std::flush;
+    if (!out)
+      throw std::runtime_error("Cannot write " + temporary.string() + ": is its folder there and writable?");
+  }
+  std::error_code error;
+  std::filesystem::rename(temporary, path, error);
+  if (error) throw std::runtime_error("Cannot write " + path.string() + ": " + error.message() + ".");
+}
+
+}  // namespace hullbench

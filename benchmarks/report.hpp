@@ -1,0 +1,25 @@
+// report.json: everything a run left, with a summary from which tables are printed.
+#pragma once
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+
+namespace hullbench {
+
+/// The report of a run directory: `run.json` (schema_version, tool, plan, seed, filter, repetitions,
+/// datasets, methods, environment, created) with the lines of `runs.jsonl` as `runs`, and a `summary`. When
+/// an id occurs more than once (a forced repetition), its last line counts. A torn last line is left out and
+/// said in `notes`. Deterministic in its input. Throws std::runtime_error naming the file when one is missing
+/// or malformed.
+nlohmann::json make_report(const std::filesystem::path& run_directory);
+
+/// The `summary` of a report's other members: `totals` (rows by status), `rows` (one a run, in the order of
+/// `runs`: id, name, status, the statistics of the headline time `time` and of the paper's boundary
+/// `paper_time`, l2, l2_paper, iou, valid) and `claims` (see claims.hpp).
+nlohmann::json make_summary(const nlohmann::json& report);
+
+/// Writes `json` to `path`, indented, whole or not at all (a temporary file beside it is renamed). Throws
+/// std::runtime_error naming the file when it cannot be written.
+void write_json_file(const std::filesystem::path& path, const nlohmann::json& json);
+
+}  // namespace hullbench

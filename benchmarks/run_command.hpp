@@ -1,0 +1,31 @@
+// `hullbench run`: from the command line's words to rows, report and tables.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+
+#include "benchmarks/runner.hpp"
+
+namespace hullbench {
+
+/// The command line of `run`; what is not given is as the plan says.
+struct RunCommand {
+  std::string plan;
+  std::string filter;
+  std::optional<int> repetitions;
+  std::optional<std::uint64_t> seed;
+  std::optional<double> timeout_s;
+  std::optional<std::int64_t> mem_limit_mib;
+  std::optional<std::filesystem::path> out;
+  bool force = false;
+  bool dry_run = false;
+};
+
+/// Does it and returns the exit code (see exit_code). Tables go to standard output, everything else to
+/// standard error. Throws ConfigurationError before anything is measured, std::runtime_error when something
+/// cannot be written.
+int run_command(const RunCommand& command, const WorkerCommand& worker_command);
+
+}  // namespace hullbench

@@ -1,0 +1,296 @@
+#include "benchmarks/run_directory.hpp"
+
+#include <fcntl.h>
+#include <sys/file.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <ctime>
+#include <fstream>
+#include <stdexcept>
+#include <system_error>
+
+#include "benchmarks/plan.hpp"
+#include "benchmarks/report.hpp"
+
+namespace hullbench {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+
+constexpr const char* kHeaderFile = "run.json";
+constexpr const char* kRowsFile = "runs.jsonl";
+constexpr const char* kRepetitionsFile = "repetitions.jsonl";
+constexpr const char* kReportFile = "report.json";
+constexpr const char* kTablesFile = "tables.md";
+constexpr const char* kScratchFolder = "scratch";
+
+std::string reason(int error) {
+  return std::generic_category().message(error);
+}
+
+/// run.json of a folder; null when it has none that can be read.
+json read_header(const fs::path& folder) {
+  std::ifstream in(folder / kHeaderFile, std::ios::binary);
+  json header = in ? json::parse(in, nullptr, false) : json();
+  return header.is_object() ? header : json();
+}
+
+/// What must be the same for a run to go on.
+json identity(const json& header) {
+  const auto member = [](const json& object, const char* key) {
+    return object.is_object() && object.contains(key) ? object[key] : json();
+  };
+  return {member(header, "schema_version"), member(header, "plan"), member(header, "filter"),
+          member(member(header, "tool"), "binary_sha256"),
+          member(member(header, "environment"), "machine_id")};
+}
+
+ConfigurationError not_writable(const fs::path& folder, const std::string& why) {
+  return ConfigurationError("cannot write to the output folder " + folder.string() + " (" + why +
+                            "); choose another one with --out");
+}
+
+void make_folder(const fs::path& folder) {
+  std::error_code error;
+  fs::create_directories(folder, error);
+  if (error) throw not_writable(folder, error.message());
+}
+
+/// The folder's descriptor with the lock on it, or -1 when another process has it. The lock goes with the
+/// descriptor, however its owner ends.
+int try_lock(const fs::path& folder) {
+  const int lock = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  if (lock < 0 || ::faccessat(AT_FDCWD, folder.c_str(), W_OK | X_OK, AT_EACCESS) != 0) {
+    const int error = errno;
+    if (lock >= 0) ::close(lock);
+    throw not_writable(folder, reason(error));
+  }
+  // A file system without locks is no reason to refuse: the lock only guards against a second harness.
+  if (::flock(lock, LOCK_EX | LOCK_NB) == 0 || errno != EWOULDBLOCK) return lock;
+  ::close(lock);
+  return -1;
+}
+
+int lock_or_throw(const fs::path& folder) {
+  const int lock = try_lock(folder);
+  if (lock < 0) {
+    throw ConfigurationError("another hullbench is writing to " + folder.string() +
+                             "; wait for it or choose another folder with --out");
+  }
+  return lock;
+}
+
+void remove_run_files(const fs::path& folder) {
+  for (const char* file : {kHeaderFile, kRowsFile, kRepetitionsFile, kReportFile, kTablesFile}) {
+    fs::remove(folder / file);
+  }
+}
+
+/// Whether nothing is in the folder but what a start leaves that was killed before it wrote run.json.
+bool holds_no_run_yet(const fs::path& folder) {
+  return std::all_of(fs::directory_iterator(folder), fs::directory_iterator(),
+                     [](const fs::directory_entry& entry) {
+                       const fs::path name = entry.path().filename();
+                       return name == kScratchFolder ||
+                              ((name == kRowsFile || name == kRepetitionsFile) && entry.file_size() == 0);
+                     });
+}
+
+std::unique_ptr<RunDirectory> open_chosen(const json& header, const fs::path& folder, bool force) {
+  make_folder(folder);
+  const json earlier = read_header(folder);
+  const bool same = earlier.is_object() && identity(earlier) == identity(header);
+  if (!force && !same && !holds_no_run_yet(folder)) {
+    throw ConfigurationError("the output folder " + folder.string() + " holds " +
+                             (earlier.is_object() ? "another run" : "something else than a run") +
+                             "; choose another one with --out, or overwrite it with --force");
+  }
+  const int lock = lock_or_throw(folder);
+  if (force) remove_run_files(folder);
+  return std::make_unique<RunDirectory>(folder, lock);
+}
+
+/// The newest earlier run that is the same, when it is not finished and nobody is at it.
+std::unique_ptr<RunDirectory> open_unfinished(const json& header, const fs::path& runs) {
+  std::vector<fs::path> folders;
+  std::error_code ignored;
+  for (const auto& entry : fs::directory_iterator(runs, ignored)) folders.push_back(entry.path());
+  std::sort(folders.rbegin(), folders.rend());
+  for (const fs::path& folder : folders) {
+    const json earlier = read_header(folder);
+    if (!earlier.is_object() || identity(earlier) != identity(header)) continue;
+    if (fs::exists(folder / kReportFile)) return nullptr;
+    const int lock = try_lock(folder);
+    return lock < 0 ? nullptr : std::make_unique<RunDirectory>(folder, lock);
+  }
+  return nullptr;
+}
+
+/// "20260131T120000Z-<machine>-<commit>", from the header's own words.
+std::string folder_name(const json& header) {
+  std::string time = header.at("created").get<std::string>();
+  std::erase_if(time, [](char c) { return c == '-' || c == ':'; });
+  const json& commit = header.at("tool").at("commit");
+  return time + "-" + header.at("environment").at("machine_id").get<std::string>() + "-" +
+         (commit.is_string() ? commit.get<std::string>().substr(0, 7) : "nocommit");
+}
+
+std::unique_ptr<RunDirectory> open_new(const json& header, const fs::path& runs) {
+  make_folder(runs);
+  const std::string name = folder_name(header);
+  // Two runs may begin in the same second.
+  for (int count = 1; count < 1000; ++count) {
+    const fs::path folder = runs / (count == 1 ? name : name + "-" + std::to_string(count));
+    std::error_code error;
+    const bool made = fs::create_directory(folder, error);
+    if (error) throw not_writable(runs, error.message());
+    if (made) return std::make_unique<RunDirectory>(folder, lock_or_throw(folder));
+  }
+  throw not_writable(runs, "too many runs began in this second");
+}
+
+Repetition repetition_from_json(const json& line) {
+  Repetition repetition;
+  line.at("time_ns").get_to(repetition.time_ns);
+  line.at("phases_ns").get_to(repetition.phases_ns);
+  line.at("output_sha256").get_to(repetition.output_sha256);
+  return repetition;
+}
+
+void synchronise(const fs::path& file) {
+  const int fd = ::open(file.c_str(), O_RDONLY | O_CLOEXEC);
+  const int failed = fd < 0 ? -1 : ::fsync(fd);
+  const int error = errno;
+  if (fd >= 0) ::close(fd);
+  // Some file systems know no fsync; that is no reason to stop.
+  if (failed != 0 && error != EINVAL && error != EROFS) {
+    throw std::runtime_error("cannot write " + file.string() + ": " + reason(error));
+  }
+}
+
+}  // namespace
+
+RunDirectory::RunDirectory(fs::path path, int lock)
+    : path_(std::move(path)),
+      scratch_(fs::absolute(path_) / kScratchFolder),
+      lock_(lock),
+      header_(read_header(path_)) {
+  row_writer_.emplace(path_ / kRowsFile);
+  repetition_writer_.emplace(path_ / kRepetitionsFile);
+  read_rows();
+  read_repetitions();
+  fs::remove_all(scratch_);
+  fs::create_directory(scratch_);
+}
+
+RunDirectory::~RunDirectory() {
+  std::error_code ignored;
+  fs::remove_all(scratch_, ignored);
+  ::close(lock_);
+}
+
+void RunDirectory::write_header(const json& header) {
+  write_json_file(path_ / kHeaderFile, header);
+  header_ = header;
+}
+
+void RunDirectory::read_rows() {
+  for (const json& line : load_json_lines(path_ / kRowsFile).lines) {
+    try {
+      rows_.push_back(line.get<RunRecord>());
+    } catch (const std::exception&) {
+      throw std::runtime_error("a line of " + (path_ / kRowsFile).string() +
+                               " is not a run's record; start anew with --force or another --out");
+    }
+  }
+}
+
+void RunDirectory::read_repetitions() {
+  for (const json& line : load_json_lines(path_ / kRepetitionsFile).lines) {
+    try {
+      auto& known = repetitions_[line.at("id").get<std::string>()];
+      // Out of order can only be what two harnesses wrote; the lock excludes that.
+      if (line.at("repetition").get<std::size_t>() == known.size())
+        known.push_back(repetition_from_json(line));
+    } catch (const json::exception&) {
+      throw std::runtime_error("a line of " + (path_ / kRepetitionsFile).string() +
+                               " is not a repetition; start anew with --force or another --out");
+    }
+  }
+}
+
+const RunRecord* RunDirectory::find_row(const std::string& name) const {
+  const auto found =
+      std::find_if(rows_.begin(), rows_.end(), [&](const RunRecord& row) { return row.name == name; });
+  return found == rows_.end() ? nullptr : &*found;
+}
+
+void RunDirectory::append_row(const RunRecord& row) {
+  if (find_row(row.name)) rewrite_rows_without(row.name);
+  row_writer_->append(row);
+  synchronise(path_ / kRowsFile);
+  rows_.push_back(row);
+}
+
+void RunDirectory::rewrite_rows_without(const std::string& name) {
+  std::erase_if(rows_, [&](const RunRecord& row) { return row.name == name; });
+  const fs::path file = path_ / kRowsFile;
+  const fs::path temporary = path_ / "runs.jsonl.new";
+  fs::remove(temporary);
+  JsonLinesWriter writer(temporary);
+  for (const RunRecord& row : rows_) writer.append(row);
+  synchronise(temporary);
+  fs::rename(temporary, file);
+  row_writer_.emplace(file);
+}
+
+const std::vector<Repetition>& RunDirectory::repetitions(const std::string& id) const {
+  static const std::vector<Repetition> none;
+  const auto found = repetitions_.find(id);
+  return found == repetitions_.end() ? none : found->second;
+}
+
+void RunDirectory::append_repetition(const std::string& id, std::size_t index, const Repetition& repetition) {
+  repetition_writer_->append({{"id", id},
+                              {"repetition", index},
+                              {"time_ns", repetition.time_ns},
+                              {"phases_ns", repetition.phases_ns},
+                              {"output_sha256", repetition.output_sha256}});
+  repetitions_[id].push_back(repetition);
+}
+
+std::unique_ptr<RunDirectory> open_run_directory(const json& header, const RunPlace& place) {
+  if (place.out) return open_chosen(header, *place.out, place.force);
+  const fs::path runs = place.results / "runs";
+  if (!place.force) {
+    if (auto unfinished = open_unfinished(header, runs)) return unfinished;
+  }
+  return open_new(header, runs);
+}
+
+void point_latest_to(const fs::path& run_directory, const fs::path& results) {
+  // Made beside it and renamed over it, so that there is a link at every moment.
+  const fs::path link = results / "latest";
+  const fs::path temporary = results / "latest.new";
+  std::error_code error;
+  fs::remove(temporary, error);
+  fs::create_directory_symlink(fs::path("runs") / run_directory.filename(), temporary, error);
+  if (!error) fs::rename(temporary, link, error);
+  if (error)
+    throw std::runtime_error("cannot let " + link.string() + " point to the run: " + error.message());
+}
+
+std::string utc_now() {
+  const std::time_t now = std::time(nullptr);
+  std::tm parts{};
+  gmtime_r(&now, &parts);
+  std::array<char, 32> text{};
+  std::strftime(text.data(), text.size(), "%Y-%m-%dT%H:%M:%SZ", &parts);
+  return text.data();
+}
+
+}  // namespace hullbench

@@ -1,0 +1,97 @@
+// The folder of a run: run.json (what is measured, with what, where), repetitions.jsonl (every timed
+// repetition as it happens), runs.jsonl (a line a finished run), and in the end report.json and tables.md. A
+// run that was interrupted goes on in its folder.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "benchmarks/json_lines.hpp"
+#include "benchmarks/record.hpp"
+
+namespace hullbench {
+
+/// One timed repetition: a line of repetitions.jsonl.
+struct Repetition {
+  std::int64_t time_ns = 0;
+  PhaseTimes phases_ns;
+  std::string output_sha256;
+};
+
+/// The folder of one run, locked against a second harness for the life of the object.
+class RunDirectory {
+ public:
+  /// `path` must be there; `lock` is its descriptor with the lock, closed with this object. Reads what an
+  /// earlier start left, and cuts off torn last lines. Throws std::runtime_error naming the file when one is
+  /// damaged otherwise.
+  RunDirectory(std::filesystem::path path, int lock);
+  ~RunDirectory();
+  RunDirectory(const RunDirectory&) = delete;
+  RunDirectory& operator=(const RunDirectory&) = delete;
+
+  const std::filesystem::path& path() const { return path_; }
+  /// run.json of the earlier start; null when there was none.
+  const nlohmann::json& header() const { return header_; }
+  bool resumed() const { return header_.is_object(); }
+
+  /// Writes run.json, whole or not at all.
+  void write_header(const nlohmann::json& header);
+
+  /// The finished runs so far, in the order of the file.
+  const std::vector<RunRecord>& rows() const { return rows_; }
+  /// The row with that name; null when there is none.
+  const RunRecord* find_row(const std::string& name) const;
+  /// Adds a row to runs.jsonl; it is on the disk when this returns. A row of the same name is replaced.
+  void append_row(const RunRecord& row);
+
+  /// The repetitions of a run that are already measured, in order.
+  const std::vector<Repetition>& repetitions(const std::string& id) const;
+  void append_repetition(const std::string& id, std::size_t index, const Repetition& repetition);
+
+  /// A folder for files that live no longer than the run. Made anew, and removed with this object.
+  const std::filesystem::path& scratch() const { return scratch_; }
+
+ private:
+  void read_rows();
+  void read_repetitions();
+  void rewrite_rows_without(const std::string& name);
+
+  std::filesystem::path path_;
+  std::filesystem::path scratch_;
+  int lock_;
+  nlohmann::json header_;
+  std::vector<RunRecord> rows_;
+  std::map<std::string, std::vector<Repetition>> repetitions_;  ///< by id
+  std::optional<JsonLinesWriter> row_writer_;
+  std::optional<JsonLinesWriter> repetition_writer_;
+};
+
+/// Where a run is to go.
+struct RunPlace {
+  std::optional<std::filesystem::path>
+      out;             ///< the user's choice; none: a folder of its own in `results`/runs
+  bool force = false;  ///< never go on with an earlier run
+  std::filesystem::path results = "results";
+};
+
+/// The folder for a run that run.json will describe as `header` (plan, filter, tool, environment, created).
+/// An earlier run with the same plan, filter, binary and machine is gone on with: the newest one in
+/// `results`/runs if it is not finished (has no report.json), or the one in `out`, finished or not. Throws
+/// ConfigurationError when the folder cannot be written, is in use by another harness, or `out` holds
+/// something else and `force` is not set; with `force` the files of an earlier run in `out` are removed.
+std::unique_ptr<RunDirectory> open_run_directory(const nlohmann::json& header, const RunPlace& place);
+
+/// Lets the link `results`/latest point to the run in `run_directory`, a folder in `results`/runs. Throws
+/// std::runtime_error when it cannot.
+void point_latest_to(const std::filesystem::path& run_directory, const std::filesystem::path& results);
+
+/// "2026-01-31T12:00:00Z" now.
+std::string utc_now();
+
+}  // namespace hullbench

@@ -1,0 +1,54 @@
+// Measures a plan: every method on every case, interleaved, each in its own worker, each result scored; a row
+// for every run, whatever happens.
+#pragma once
+
+#include <functional>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "benchmarks/plan.hpp"
+#include "benchmarks/progress.hpp"
+#include "benchmarks/record.hpp"
+#include "benchmarks/run_directory.hpp"
+#include "benchmarks/worker_process.hpp"
+
+namespace hullbench {
+
+/// How to start the worker of a method: program and arguments.
+using WorkerCommand = std::function<std::vector<std::string>(const std::string& method)>;
+
+struct RunnerOptions {
+  WorkerCommand worker_command;
+  WorkerLimits limits;                        ///< for every worker
+  std::map<std::string, std::string> titles;  ///< of methods, by name
+};
+
+struct RunResult {
+  bool interrupted = false;
+  std::map<Status, int> counts;  ///< of the rows of this plan that are there now, those of earlier starts too
+  int resumed_rows = 0;          ///< finished by an earlier start
+};
+
+/// Measures `runs` of `plan` into `directory`. `header` is run.json without its methods, which are added.
+///
+/// Case by case, each method's worker loads the points, does its untimed runs and then takes its turn in
+/// every round of repetitions, in an order drawn from the plan's seed. Only one worker works at a time. The
+/// first result is scored, and every other run must give the same bytes. Rows and repetitions that are there
+/// already are not measured again, unless they belong to another version of the method.
+///
+/// Throws ConfigurationError when a method that is installed does not have a parameter that the plan gives
+/// it, and std::runtime_error when something cannot be written. An interruption is a result, not an
+/// exception.
+RunResult run_plan(const Plan& plan, const std::vector<PlannedRun>& runs, const nlohmann::json& header,
+                   const RunnerOptions& options, RunDirectory& directory, Progress& progress);
+
+/// What `progress` needs to know of `runs`.
+std::vector<ProgressRun> progress_runs(const Plan& plan, const std::vector<PlannedRun>& runs);
+
+/// 0: all rows are ok, not installed or unsupported; 4: a row is a failure; 6: no row is ok and none is a
+/// failure; 130: interrupted.
+int exit_code(const RunResult& result);
+
+}  // namespace hullbench

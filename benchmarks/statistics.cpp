@@ -1,0 +1,83 @@
+#include "benchmarks/statistics.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+#include <vector>
+
+namespace hullbench {
+namespace {
+
+template <typename T>
+std::vector<double> sorted_copy(std::span<const T> values) {
+  if (values.empty()) throw std::invalid_argument("A statistic of no values is not defined.");
+  std::vector<double> sorted;
+  sorted.reserve(values.size());
+  // Exact below 2^53 ns, which is 104 days.
+  for (const T value : values) sorted.push_back(static_cast<double>(value));
+  std::sort(sorted.begin(), sorted.end());
+  return sorted;
+}
+
+double quantile_of_sorted(const std::vector<double>& sorted, double q) {
+  const double position = q * static_cast<double>(sorted.size() - 1);
+  const auto below = static_cast<std::size_t>(position);
+  const std::size_t above = std::min(below + 1, sorted.size() - 1);
+  return sorted[below] + (position - static_cast<double>(below)) * (sorted[above] - sorted[below]);
+}
+
+}  // namespace
+
+double quantile(std::span<const std::int64_t> values, double q) {
+  if (!(q >= 0 && q <= 1)) throw std::invalid_argument("A quantile must lie between 0 and 1.");
+  return quantile_of_sorted(sorted_copy(values), q);
+}
+
+double median(std::span<const std::int64_t> values) {
+  return quantile_of_sorted(sorted_copy(values), 0.5);
+}
+
+double median(std::span<const double> values) {
+  return quantile_of_sorted(sorted_copy(values), 0.5);
+}
+
+double median_absolute_deviation(std::span<const std::int64_t> values) {
+  const double middle = median(values);
+  std::vector<double> deviations;
+  deviations.reserve(values.size());
+  for (const std::int64_t value : values) deviations.push_back(std::abs(static_cast<double>(value) - middle));
+  return median(std::span<const double>(deviations));
+}
+
+double mean(std::span<const std::int64_t> values) {
+  if (values.empty()) throw std::invalid_argument("A statistic of no values is not defined.");
+  double sum = 0;
+  for (const std::int64_t value : values) sum += static_cast<double>(value);
+  return sum / static_cast<double>(values.size());
+}
+
+std::optional<double> standard_deviation(std::span<const std::int64_t> values) {
+  const double centre = mean(values);
+  if (values.size() == 1) return std::nullopt;
+  double sum = 0;
+  for (const std::int64_t value : values) {
+    const double deviation = static_cast<double>(value) - centre;
+    sum += deviation * deviation;
+  }
+  return std::sqrt(sum / static_cast<double>(values.size() - 1));
+}
+
+Statistics describe(std::span<const std::int64_t> values) {
+  Statistics result;
+  result.median = median(values);
+  result.count = values.size();
+  result.mad = median_absolute_deviation(values);
+  const auto [minimum, maximum] = std::minmax_element(values.begin(), values.end());
+  result.minimum = *minimum;
+  result.maximum = *maximum;
+  result.mean = mean(values);
+  result.standard_deviation = standard_deviation(values);
+  return result;
+}
+
+}  // namespace hullbench

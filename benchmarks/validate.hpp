@@ -1,0 +1,23 @@
+// Checks files against the schemas in results/, which are part of the program.
+#pragma once
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+namespace hullbench {
+
+/// The faults of a report (`*.json`), of a run's description (`run.json`) or of the lines of a runs file
+/// (`*.jsonl`), one sentence each with the place as a JSON pointer; empty when the file is valid. A torn last
+/// line of a runs file is a fault. Throws std::runtime_error naming the file when it cannot be read or is not
+/// JSON.
+std::vector<std::string> validate_file(const std::filesystem::path& path);
+
+/// The same of a report in memory.
+std::vector<std::string> validate_report(const nlohmann::json& report);
+
+/// The same of one line of runs.jsonl.
+std::vector<std::string> validate_run(const nlohmann::json& run);
+
+}  // namespace hullbench

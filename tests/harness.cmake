@@ -1,0 +1,27 @@
+# Plans, workers, the runner and the command line.
+add_library(hullbench_test_program STATIC "${CMAKE_CURRENT_LIST_DIR}/program.cpp")
+target_include_directories(hullbench_test_program PUBLIC "${PROJECT_SOURCE_DIR}")
+target_link_libraries(hullbench_test_program PRIVATE GTest::gtest hullbench::compile_options)
+
+add_executable(misbehaving_worker "${CMAKE_CURRENT_LIST_DIR}/misbehaving_worker.cpp")
+set_target_properties(misbehaving_worker PROPERTIES RUNTIME_OUTPUT_DIRECTORY "${CMAKE_BINARY_DIR}/tests")
+target_link_libraries(misbehaving_worker PRIVATE hullbench::worker hullbench::compile_options)
+
+hullbench_test(test_plan SOURCES test_plan.cpp LIBRARIES hullbench::runner LABELS harness)
+target_compile_definitions(test_plan PRIVATE HULLBENCH_PLAN_FOLDER="${PROJECT_SOURCE_DIR}/benchmarks/plans")
+
+hullbench_test(test_worker SOURCES test_worker.cpp
+  LIBRARIES hullbench::worker hullbench_test_program LABELS harness)
+target_compile_definitions(test_worker PRIVATE MISBEHAVING_WORKER="$<TARGET_FILE:misbehaving_worker>")
+add_dependencies(test_worker misbehaving_worker)
+
+hullbench_test(test_runner SOURCES test_runner.cpp
+  LIBRARIES hullbench::runner hullbench::report hullbench_test_program LABELS harness)
+target_compile_definitions(test_runner PRIVATE
+  MISBEHAVING_WORKER="$<TARGET_FILE:misbehaving_worker>" HULLBENCH="$<TARGET_FILE:hullbench>")
+add_dependencies(test_runner misbehaving_worker hullbench)
+
+hullbench_test(test_command_line SOURCES test_command_line.cpp
+  LIBRARIES hullbench::record hullbench_test_program LABELS harness)
+target_compile_definitions(test_command_line PRIVATE HULLBENCH="$<TARGET_FILE:hullbench>")
+add_dependencies(test_command_line hullbench)

@@ -1,0 +1,26 @@
+// A run directory with invented numbers, for tests of what is made from one.
+#pragma once
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <vector>
+
+#include "benchmarks/record.hpp"
+
+namespace hullbench::test {
+
+/// run.json of the invented run.
+nlohmann::json invented_run();
+
+/// A successful record with every field filled in, and its id and name.
+RunRecord invented_record();
+
+/// The records: three installed methods and a missing one in the paper protocol and one in the auto protocol,
+/// on California with and without holes and on Hawaii, at the given sizes. On Hawaii, SpatiaLite runs out of
+/// time at the largest size and PostGIS gives an invalid polygon.
+std::vector<RunRecord> invented_records(const std::vector<std::int64_t>& sizes);
+
+/// Writes the two files into `directory`, which is made.
+void write_invented_run(const std::filesystem::path& directory, const std::vector<std::int64_t>& sizes);
+
+}  // namespace hullbench::test

@@ -1,0 +1,151 @@
+// A worker that speaks the protocol and misbehaves in the way its one argument names, which is also its
+// method's name. By itself it is a method that returns the unit square.
+#include <sys/resource.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <csignal>
+#include <cstdio>
+#include <iostream>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "adapters/wkb.hpp"
+#include "benchmarks/protocol.hpp"
+
+namespace {
+
+using namespace std::chrono_literals;
+using nlohmann::json;
+
+const hullbench::MultiPolygon kSquare = {{{{0, 0}, {1, 0}, {1, 1}, {0, 1}}, {}}};
+const hullbench::MultiPolygon kBowTie = {{{{0, 0}, {1, 1}, {1, 0}, {0, 1}}, {}}};
+
+void say(const json& reply) {
+  std::cout << reply.dump() << std::endl;
+}
+
+void say_error(const char* kind, const char* message) {
+  say({{"error", {{"kind", kind}, {"message", message}}}});
+}
+
+[[noreturn]] void hang() {
+  while (true) std::this_thread::sleep_for(1h);
+}
+
+void use_up_memory() {
+  std::vector<std::unique_ptr<char[]>> blocks;
+  while (true) blocks.push_back(std::make_unique<char[]>(16 * 1024 * 1024));
+}
+
+/// Leaves a child that keeps every pipe open, and dies.
+void leave_child_and_crash() {
+  if (::fork() == 0) hang();
+  std::raise(SIGKILL);
+}
+
+json good_reply(const json& request) {
+  return {{"nonce", request["nonce"]}, {"phases_ns", {{"run", 1000}, {"extract", 10}, {"run.shape", 900}}}};
+}
+
+void write_result(const json& request, const hullbench::MultiPolygon& shape) {
+  hullbench::write_bytes(request["result"].get<std::string>(), hullbench::to_wkb(shape));
+}
+
+/// Ways that end the worker or its conversation before it could answer.
+bool misbehave_instead(const std::string& mode) {
+  if (mode == "crash") std::raise(SIGSEGV);
+  if (mode == "crash_on_second") {
+    static int count = 0;
+    if (++count == 2) std::raise(SIGABRT);
+  }
+  if (mode == "hang") hang();
+  if (mode == "hang_hard") {
+    std::signal(SIGTERM, SIG_IGN);
+    hang();
+  }
+  if (mode == "memory") use_up_memory();
+  if (mode == "early_exit") {
+    std::cerr << "I have seen enough\n";
+    std::exit(7);
+  }
+  if (mode == "orphan") leave_child_and_crash();
+  if (mode == "close_output") {
+    ::close(STDOUT_FILENO);
+    hang();
+  }
+  if (mode == "garbage") {
+    std::cout << "lorem ipsum" << std::endl;
+  } else if (mode == "long_line") {
+    std::cout << std::string(3 * hullbench::kMaxLineBytes, 'x') << std::endl;
+  } else if (mode == "says_memory") {
+    say_error("memory", "no room");
+  } else if (mode == "says_unsupported") {
+    say_error("unsupported", "not this many points");
+  } else if (mode == "says_error") {
+    say_error("error", "no luck");
+  } else if (mode == "error_without_kind") {
+    say({{"error", "broken"}});
+  } else {
+    return false;
+  }
+  return true;
+}
+
+/// Ways to answer that look right at first.
+void answer_run(const std::string& mode, const json& request) {
+  json reply = good_reply(request);
+  if (mode == "wrong_nonce") reply["nonce"] = "of yesterday";
+  if (mode == "no_phases") reply.erase("phases_ns");
+  if (mode == "negative_time") reply["phases_ns"]["run"] = -5;
+  if (mode == "too_much_time") reply["phases_ns"]["run"] = 3'600'000'000'000;
+  if (mode == "flood_errors") std::cerr << std::string(4'000'000, 'e') << std::flush;
+  if (mode == "garbage_result") {
+    hullbench::write_bytes(request["result"].get<std::string>(), std::vector<std::uint8_t>{1, 2, 3});
+  } else if (mode == "invalid_polygon") {
+    write_result(request, kBowTie);
+  } else if (mode == "changing_result") {
+    static double size = 1;
+    size += 1;
+    write_result(request, {{{{0, 0}, {size, 0}, {size, size}}, {}}});
+  } else if (mode != "no_result") {
+    write_result(request, kSquare);
+  }
+  say(reply);
+  if (mode == "unasked") say(reply);
+}
+
+json hello(const std::string& mode) {
+  hullbench::MethodInfo info;
+  info.name = mode == "other_name" ? "somebody" : mode;
+  info.title = "Misbehaving";
+  info.version = "1";
+  info.parameters = {{"size", "length", "Does nothing.", 0, 10, 1.0}};
+  return {{"protocol", mode == "other_protocol" ? 2 : 1}, {"method", hullbench::method_to_json(info)}};
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  const std::string mode = argc > 1 ? argv[1] : "";
+  // A crash on purpose must not leave a core file where the tests are run by hand.
+  const rlimit no_core = {0, 0};
+  setrlimit(RLIMIT_CORE, &no_core);
+  for (std::string line; std::getline(std::cin, line);) {
+    const json request = json::parse(line);
+    if (request["request"] == "quit") return 0;
+    if (request["request"] == "hello") {
+      if (mode == "crash_at_start") std::raise(SIGSEGV);
+      say(hello(mode));
+    } else if (request["request"] == "load") {
+      if (mode == "crash_on_load") std::raise(SIGBUS);
+      say({{"phases_ns", {{"load", 5}}}});
+    } else if (!misbehave_instead(mode)) {
+      answer_run(mode, request);
+    }
+  }
+  return 0;
+}

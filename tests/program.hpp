@@ -1,0 +1,66 @@
+// Running programs from tests: with their output, in the background, with less power than ours.
+#pragma once
+
+#include <sys/types.h>
+
+#include <chrono>
+#include <filesystem>
+#include <functional>
+#include <map>
+#include <string>
+#include <vector>
+
+namespace hullbench::testing {
+
+/// How a program ended.
+struct Outcome {
+  int code = -1;    ///< exit code; 128 + the signal's number when a signal ended it
+  std::string out;  ///< standard output
+  std::string err;  ///< standard error
+};
+
+struct ProgramOptions {
+  std::filesystem::path folder;                    ///< working directory; empty: ours
+  std::map<std::string, std::string> environment;  ///< added to ours
+  bool obey_permissions = false;  ///< even when we are root, who may otherwise write to every folder
+};
+
+/// A program that runs beside the test; killed with this object.
+class Program {
+ public:
+  explicit Program(const std::vector<std::string>& command, const ProgramOptions& options = {});
+  ~Program();
+  Program(const Program&) = delete;
+  Program& operator=(const Program&) = delete;
+
+  pid_t pid() const { return pid_; }
+  void send_signal(int signal) const;
+  /// Waits for its end, at most a minute (a test failure, and the program is killed).
+  Outcome wait();
+
+ private:
+  pid_t pid_ = -1;
+  std::filesystem::path out_;
+  std::filesystem::path err_;
+};
+
+/// Runs a program to its end.
+Outcome run_program(const std::vector<std::string>& command, const ProgramOptions& options = {});
+
+/// Calls `condition` until it is true; false when it is not within `patience`.
+bool wait_until(const std::function<bool()>& condition,
+                std::chrono::milliseconds patience = std::chrono::seconds(30));
+
+/// The processes whose parent is `pid`.
+std::vector<pid_t> children_of(pid_t pid);
+
+/// Whether any process on this machine runs `command`, these very words.
+bool runs_somewhere(const std::vector<std::string>& command);
+
+/// Whether a process runs; one that has ended and was not waited for does not.
+bool is_running(pid_t pid);
+
+std::string read_text(const std::filesystem::path& path);
+void write_text(const std::filesystem::path& path, const std::string& text);
+
+}  // namespace hullbench::testing

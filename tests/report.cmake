@@ -1,0 +1,29 @@
+# Records, statistics, reports, tables and their validation.
+add_library(hullbench_invented_run STATIC "${CMAKE_CURRENT_LIST_DIR}/invented_run.cpp")
+target_include_directories(hullbench_invented_run PUBLIC "${CMAKE_CURRENT_LIST_DIR}")
+target_link_libraries(hullbench_invented_run PUBLIC hullbench::report PRIVATE hullbench::compile_options)
+
+foreach(part IN ITEMS record statistics report tables)
+  hullbench_test(test_${part}
+    SOURCES "${CMAKE_CURRENT_LIST_DIR}/test_${part}.cpp"
+    LIBRARIES hullbench_invented_run hullbench::report hullbench::hash)
+  target_compile_definitions(test_${part} PRIVATE HULLBENCH_SOURCE_DIRECTORY="${PROJECT_SOURCE_DIR}")
+endforeach()
+
+# The same reports through an independent validator.
+add_executable(write_invented_report "${CMAKE_CURRENT_LIST_DIR}/write_invented_report.cpp")
+target_link_libraries(write_invented_report PRIVATE hullbench_invented_run hullbench::compile_options)
+set_target_properties(write_invented_report PROPERTIES RUNTIME_OUTPUT_DIRECTORY "${CMAKE_BINARY_DIR}/tests")
+
+find_program(PYTHON_PROGRAM python3 REQUIRED)
+set(invented_report "${CMAKE_BINARY_DIR}/tests/invented_report.json")
+add_test(NAME report.write_invented COMMAND write_invented_report "${invented_report}")
+set_tests_properties(report.write_invented PROPERTIES FIXTURES_SETUP invented_report)
+add_test(NAME report.python_takes_it
+  COMMAND "${PYTHON_PROGRAM}" "${CMAKE_CURRENT_LIST_DIR}/validate_report.py"
+          "${invented_report}" "${CMAKE_BINARY_DIR}/tests/invented_report_run/runs.jsonl")
+add_test(NAME report.python_rejects_broken
+  COMMAND "${PYTHON_PROGRAM}" "${CMAKE_CURRENT_LIST_DIR}/validate_report.py" --broken
+          "${CMAKE_CURRENT_LIST_DIR}/data/broken_reports.json" "${invented_report}")
+set_tests_properties(report.python_takes_it report.python_rejects_broken PROPERTIES
+  FIXTURES_REQUIRED invented_report)

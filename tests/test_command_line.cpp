@@ -1,0 +1,427 @@
+// The program as its users meet it: what it prints, its exit codes, bad input, bad circumstances and
+// interruptions.
+#include <arpa/inet.h>
+#include <gtest/gtest.h>
+#include <netinet/in.h>
+#include <sys/socket.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <csignal>
+#include <filesystem>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "benchmarks/json_lines.hpp"
+#include "benchmarks/record.hpp"
+#include "tests/program.hpp"
+#include "tests/temporary_folder.hpp"
+
+namespace hullbench {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+using testing::Outcome;
+using testing::Program;
+using testing::ProgramOptions;
+using testing::read_text;
+using testing::write_text;
+
+class CommandLineTest : public ::testing::Test {
+ protected:
+  Outcome hullbench(std::vector<std::string> arguments, ProgramOptions options = {}) {
+    return testing::run_program(command(std::move(arguments)), in_folder(std::move(options)));
+  }
+
+  std::vector<std::string> command(std::vector<std::string> arguments) const {
+    arguments.insert(arguments.begin(), HULLBENCH);
+    return arguments;
+  }
+
+  ProgramOptions in_folder(ProgramOptions options = {}) const {
+    if (options.folder.empty()) options.folder = folder();
+    return options;
+  }
+
+  fs::path folder() const { return folder_.path(); }
+
+  /// A plan file of polylidar on California; its path.
+  std::string plan(const std::vector<int>& sizes, int repetitions) const {
+    json source = {{"name", "small"},
+                   {"repetitions", repetitions},
+                   {"timeout_s", 30},
+                   {"cases", {{{"dataset", "ca"}, {"holes", {false, true}}, {"n", sizes}}}},
+                   {"methods",
+                    {{{"method", "polylidar"},
+                      {"protocol", "paper"},
+                      {"parameters", {{"alpha", {{"rule", "paper_alpha"}}}}}}}}};
+    return write_plan(source.dump());
+  }
+
+  std::string write_plan(const std::string& text) const {
+    write_text(folder() / "small.json", text);
+    return (folder() / "small.json").string();
+  }
+
+  /// Exit code and one sentence on standard error that has these words; nothing on standard output.
+  static void expect_refusal(const Outcome& outcome, int code, const std::string& words) {
+    EXPECT_EQ(outcome.code, code) << outcome.err;
+    EXPECT_TRUE(outcome.err.starts_with("hullbench: ")) << outcome.err;
+    EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1) << outcome.err;
+    EXPECT_NE(outcome.err.find(words), std::string::npos) << outcome.err;
+    EXPECT_EQ(outcome.out, "");
+  }
+
+ private:
+  testing::TemporaryFolder folder_;
+};
+
+std::vector<json> lines_of(const fs::path& file) {
+  return load_json_lines(file).lines;
+}
+
+std::set<std::string> ids_of(const fs::path& run) {
+  std::set<std::string> ids;
+  for (const json& line : lines_of(run / "runs.jsonl")) {
+    EXPECT_TRUE(ids.insert(line["id"]).second) << "a row is there twice";
+  }
+  return ids;
+}
+
+void expect_no_repetition_twice(const fs::path& run, int repetitions) {
+  std::set<std::pair<std::string, int>> seen;
+  for (const json& line : lines_of(run / "repetitions.jsonl")) {
+    EXPECT_TRUE(seen.emplace(line["id"].get<std::string>(), line["repetition"].get<int>()).second) << line;
+  }
+  for (const json& line : lines_of(run / "runs.jsonl"))
+    EXPECT_EQ(line["time_ns"].size(), static_cast<std::size_t>(repetitions));
+}
+
+TEST_F(CommandLineTest, HelpTellsCommandsAndExitCodes) {
+  const Outcome outcome = hullbench({"--help"});
+  EXPECT_EQ(outcome.code, 0);
+  for (const char* word : {"list", "run", "tables", "validate", "worker", "Exit codes", "130 interrupted"}) {
+    EXPECT_NE(outcome.out.find(word), std::string::npos) << word;
+  }
+  EXPECT_EQ(hullbench({"run", "--help"}).code, 0);
+  EXPECT_EQ(hullbench({"--version"}).code, 0);
+}
+
+TEST_F(CommandLineTest, UnknownWordsAndOptions) {
+  expect_refusal(hullbench({}), 2, "subcommand is required");
+  expect_refusal(hullbench({"fly"}), 2, "hullbench --help");
+  expect_refusal(hullbench({"run"}), 2, "PLAN is required");
+  expect_refusal(hullbench({"run", "states", "--fast"}), 2, "--fast");
+  expect_refusal(hullbench({"run", "states", "--repetitions", "0"}), 2, "--repetitions");
+  expect_refusal(hullbench({"run", "states", "--repetitions", "many"}), 2, "--repetitions");
+  expect_refusal(hullbench({"run", "states", "--seed", "-1"}), 2, "--seed");
+  expect_refusal(hullbench({"run", "states", "--timeout", "0"}), 2, "--timeout");
+  expect_refusal(hullbench({"run", "states", "--mem-limit", "1"}), 2, "--mem-limit");
+  expect_refusal(hullbench({"run", "states", "--filter", "("}), 2, "is not a regular expression");
+  expect_refusal(hullbench({"worker", "--method", "magic"}), 2, "there is no method 'magic'");
+}
+
+TEST_F(CommandLineTest, UnknownPlanAndBrokenPlans) {
+  expect_refusal(hullbench({"run", "stats"}), 2, "there is no plan 'stats'; known are");
+  expect_refusal(hullbench({"run", "/nowhere/plan.json"}), 2, "there is no plan '/nowhere/plan.json'");
+  expect_refusal(hullbench({"run", write_plan("{\"name\": ")}), 2, "is not JSON: mend it at line 1");
+  expect_refusal(hullbench({"run", write_plan("{\"name\": \"small\", \"speed\": 1}")}), 2,
+                 "speed is not a key");
+}
+
+TEST_F(CommandLineTest, UnknownMethodAndDataSetInAPlan) {
+  std::string text = read_text(plan({500}, 1));
+  const auto with = [&](const std::string& from, const std::string& to) {
+    std::string changed = text;
+    return write_plan(changed.replace(changed.find(from), from.size(), to));
+  };
+  expect_refusal(hullbench({"run", with("polylidar", "magic")}), 2, "the method 'magic', which is not known");
+  expect_refusal(hullbench({"run", with("\"ca\"", "\"mars\"")}), 2,
+                 "the data set 'mars', which is not known");
+  EXPECT_FALSE(fs::exists(folder() / "results"));
+}
+
+TEST_F(CommandLineTest, AParameterThatTheMethodDoesNotHave) {
+  std::string text = read_text(plan({500}, 1));
+  text.replace(text.find("\"alpha\""), 7, "\"beta\"");
+  const Outcome outcome = hullbench({"run", write_plan(text)});
+  EXPECT_EQ(outcome.code, 2);
+  EXPECT_NE(outcome.err.find("gives polylidar the parameter 'beta', which it does not have"),
+            std::string::npos);
+}
+
+TEST_F(CommandLineTest, OutputFolderThatCannotBeWritten) {
+  const std::string small = plan({500}, 1);
+  fs::create_directory(folder() / "sealed");
+  fs::permissions(folder() / "sealed", fs::perms::owner_read | fs::perms::owner_exec);
+  ProgramOptions options;
+  options.obey_permissions = true;
+  expect_refusal(
+      hullbench({"run", small, "--out", "sealed"}, options), 2,
+      "cannot write to the output folder sealed (Permission denied); choose another one with --out");
+  expect_refusal(hullbench({"run", small, "--out", "sealed/new"}, options), 2,
+                 "sealed/new (Permission denied)");
+  expect_refusal(hullbench({"run", small, "--out", "small.json"}), 2,
+                 "cannot write to the output folder small.json");
+  options.folder = folder() / "sealed";
+  expect_refusal(hullbench({"run", small}, options), 2, "results/runs (Permission denied)");
+  fs::permissions(folder() / "sealed", fs::perms::owner_all);
+}
+
+TEST_F(CommandLineTest, OutputFolderWithSomethingElse) {
+  const std::string small = plan({500}, 1);
+  expect_refusal(hullbench({"run", small, "--out", "."}), 2, "holds something else than a run");
+  EXPECT_EQ(hullbench({"run", small, "--out", "mine"}).code, 0);
+  expect_refusal(hullbench({"run", small, "--out", "mine", "--seed", "2"}), 2, "holds another run");
+  EXPECT_EQ(hullbench({"run", small, "--out", "mine", "--seed", "2", "--force"}).code, 0);
+}
+
+TEST_F(CommandLineTest, FullDisk) {
+  const std::string small = plan({500}, 1000);
+  // A limit on the size of files stands for a full disk; its signal is ignored, so that writing fails
+  // instead.
+  const Outcome outcome = testing::run_program(
+      {"/bin/sh", "-c", "trap '' XFSZ; ulimit -f 40; exec \"$0\" run \"$1\" --out run", HULLBENCH, small},
+      in_folder());
+  EXPECT_EQ(outcome.code, 1);
+  EXPECT_NE(outcome.err.find("repetitions.jsonl: is the disk full?"), std::string::npos) << outcome.err;
+  EXPECT_EQ(hullbench({"run", small, "--out", "run"}).code, 0);
+  expect_no_repetition_twice(folder() / "run", 1000);
+}
+
+TEST_F(CommandLineTest, NothingMatches) {
+  const Outcome outcome = hullbench({"run", plan({500}, 1), "--filter", "cgal"});
+  expect_refusal(outcome, 6, "no run of the plan 'small' has a name that matches 'cgal'");
+  EXPECT_FALSE(fs::exists(folder() / "results"));
+}
+
+TEST_F(CommandLineTest, DryRunPrintsNamesAndDoesNothing) {
+  const Outcome outcome = hullbench({"run", plan({500, 600}, 1), "--filter", "holes:1", "--dry-run"});
+  EXPECT_EQ(outcome.code, 0);
+  EXPECT_EQ(outcome.out,
+            "polylidar/ca/n:500/holes:1/protocol:paper\npolylidar/ca/n:600/holes:1/protocol:paper\n");
+  EXPECT_EQ(outcome.err, "");
+  EXPECT_FALSE(fs::exists(folder() / "results"));
+}
+
+TEST_F(CommandLineTest, ARunLeavesItsFilesAndSaysWhich) {
+  const Outcome outcome = hullbench({"run", plan({500}, 2)});
+  EXPECT_EQ(outcome.code, 0) << outcome.err;
+  EXPECT_NE(outcome.err.find("2 ok, 0 failed, 0 not installed"), std::string::npos) << outcome.err;
+  EXPECT_NE(outcome.err.find("results/latest/report.json"), std::string::npos) << outcome.err;
+  const fs::path latest = folder() / "results" / "latest";
+  EXPECT_EQ(read_text(latest / "tables.md"), outcome.out);
+  for (const char* file : {"report.json", "runs.jsonl", "run.json"}) {
+    EXPECT_EQ(hullbench({"validate", (latest / file).string()}).code, 0) << file;
+  }
+  const Outcome tables = hullbench({"tables"});
+  EXPECT_EQ(tables.code, 0) << tables.err;
+  EXPECT_EQ(tables.out, outcome.out);
+  EXPECT_EQ(hullbench({"tables", latest.string()}).out, outcome.out);
+}
+
+TEST_F(CommandLineTest, OptionsReplaceThePlansValues) {
+  ASSERT_EQ(hullbench({"run", plan({500}, 5), "--repetitions", "2", "--seed", "7", "--filter", "holes:0",
+                       "--out", "run"})
+                .code,
+            0);
+  const auto rows = lines_of(folder() / "run" / "runs.jsonl");
+  ASSERT_EQ(rows.size(), 1U);
+  EXPECT_EQ(rows[0]["time_ns"].size(), 2U);
+  EXPECT_EQ(rows[0]["seed"], 7);
+}
+
+TEST_F(CommandLineTest, LimitsReachTheWorkers) {
+  // No machine loads and triangulates 64000 points in a millisecond.
+  const Outcome outcome = hullbench({"run", plan({64000}, 1), "--timeout", "0.001", "--mem-limit", "1000",
+                                     "--filter", "holes:0", "--out", "run"});
+  EXPECT_EQ(outcome.code, 4) << outcome.err;
+  const auto rows = lines_of(folder() / "run" / "runs.jsonl");
+  ASSERT_EQ(rows.size(), 1U);
+  EXPECT_EQ(rows[0]["status"], "timeout");
+  const json header = json::parse(read_text(folder() / "run" / "run.json"));
+  EXPECT_EQ(header["plan"]["timeout_s"], 0.001);
+  EXPECT_EQ(header["plan"]["mem_limit_mib"], 1000);
+}
+
+TEST_F(CommandLineTest, TablesAndValidateOfWhatIsNotThere) {
+  expect_refusal(hullbench({"tables"}), 2, "there is no run in results/latest");
+  expect_refusal(hullbench({"tables", "/nowhere"}), 2, "there is no run in /nowhere");
+  expect_refusal(hullbench({"validate", "/nowhere.json"}), 2, "there is no file /nowhere.json");
+  write_text(folder() / "report.json", "{}");
+  EXPECT_EQ(hullbench({"validate", "report.json"}).code, 1);
+  write_text(folder() / "report.json", "{");
+  EXPECT_EQ(hullbench({"validate", "report.json"}).code, 1);
+}
+
+TEST_F(CommandLineTest, ListKnowsEveryMethodAndDataSet) {
+  const Outcome outcome =
+      hullbench({"list", "--json"}, {{}, {{"HULLBENCH_POSTGIS_DSN", "host=127.0.0.1 port=1"}}, false});
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  const json listing = json::parse(outcome.out);
+  std::map<std::string, json> methods;
+  for (const json& method : listing["methods"]) methods[method["name"]] = method;
+  for (const char* name : {"polylidar", "cgal_alpha_shape", "spatialite", "postgis", "postgis_legacy"}) {
+    ASSERT_TRUE(methods.contains(name)) << name;
+  }
+  EXPECT_TRUE(methods["polylidar"]["installed"].get<bool>());
+  EXPECT_FALSE(methods["polylidar"]["version"].get<std::string>().empty());
+  EXPECT_FALSE(methods["postgis"]["installed"].get<bool>());
+  EXPECT_FALSE(methods["postgis"]["remedy"].get<std::string>().empty());
+  EXPECT_GE(listing["datasets"].size(), 2U);
+
+  const Outcome text = hullbench({"list"}, {{}, {{"HULLBENCH_POSTGIS_DSN", "host=127.0.0.1 port=1"}}, false});
+  EXPECT_EQ(text.code, 0);
+  for (const auto& [name, method] : methods)
+    EXPECT_NE(text.out.find("  " + name + "  "), std::string::npos) << name;
+  EXPECT_NE(text.out.find("remedy: "), std::string::npos);
+}
+
+/// A server that takes connections and says nothing, as behind a wrong port.
+class SilentServer {
+ public:
+  SilentServer() : socket_(::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0)) {
+    sockaddr_in address{};
+    address.sin_family = AF_INET;
+    address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+    socklen_t size = sizeof address;
+    auto* generic = reinterpret_cast<sockaddr*>(&address);
+    EXPECT_EQ(::bind(socket_, generic, size), 0);
+    EXPECT_EQ(::listen(socket_, 8), 0);
+    EXPECT_EQ(::getsockname(socket_, generic, &size), 0);
+    port_ = ntohs(address.sin_port);
+  }
+  ~SilentServer() { ::close(socket_); }
+  SilentServer(const SilentServer&) = delete;
+  SilentServer& operator=(const SilentServer&) = delete;
+  std::string port() const { return std::to_string(port_); }
+
+ private:
+  int socket_;
+  int port_ = 0;
+};
+
+TEST_F(CommandLineTest, ADatabaseThatAnswersNothingIsAVisibleRow) {
+  const SilentServer silent;
+  for (const std::string& port : {std::string("1"), silent.port()}) {
+    const ProgramOptions options = {
+        {}, {{"HULLBENCH_POSTGIS_DSN", "host=127.0.0.1 connect_timeout=2 port=" + port}}, false};
+    const std::string out = "run" + port;
+    const Outcome outcome = hullbench(
+        {"run", "states", "--filter", "postgis/hi/n:2000/holes:0", "--repetitions", "1", "--out", out},
+        options);
+    EXPECT_EQ(outcome.code, 6) << outcome.err;
+    const auto rows = lines_of(folder() / out / "runs.jsonl");
+    ASSERT_EQ(rows.size(), 1U);
+    EXPECT_EQ(rows[0]["status"], "not_installed");
+    EXPECT_NE(outcome.err.find("postgis does not start (not_installed): "), std::string::npos) << outcome.err;
+    EXPECT_NE(outcome.err.find("0 ok, 0 failed, 1 not installed"), std::string::npos) << outcome.err;
+  }
+}
+
+TEST_F(CommandLineTest, AWorkerThatIsKilledIsARowAndTheRestIsMeasured) {
+  const std::string small = plan({64000, 500}, 200);
+  Program program(command({"run", small, "--out", "run"}), in_folder());
+  const fs::path repetitions = folder() / "run" / "repetitions.jsonl";
+  ASSERT_TRUE(testing::wait_until([&] { return fs::exists(repetitions) && fs::file_size(repetitions) > 0; }));
+  const std::vector<pid_t> workers = testing::children_of(program.pid());
+  ASSERT_EQ(workers.size(), 1U);
+  ::kill(workers[0], SIGKILL);
+  const Outcome outcome = program.wait();
+  EXPECT_EQ(outcome.code, 4) << outcome.err;
+  std::map<std::string, int> counts;
+  for (const json& row : lines_of(folder() / "run" / "runs.jsonl")) {
+    ++counts[row["status"]];
+    if (row["status"] != "crash") continue;
+    EXPECT_NE(row["detail"].get<std::string>().find("SIGKILL"), std::string::npos);
+  }
+  EXPECT_EQ(counts, (std::map<std::string, int>{{"crash", 1}, {"ok", 3}}));
+}
+
+class InterruptionTest : public CommandLineTest {
+ protected:
+  static constexpr int kRepetitions = 40;
+
+  std::string the_plan() const { return plan({2000, 3000, 4000}, kRepetitions); }
+
+  /// Starts a run and sends `signal` when `lines` repetitions are there; its outcome.
+  Outcome stop_after(std::size_t lines, int signal) {
+    Program program(command({"run", the_plan(), "--out", "run"}), in_folder());
+    const fs::path repetitions = folder() / "run" / "repetitions.jsonl";
+    EXPECT_TRUE(testing::wait_until([&] {
+      const std::string text = read_text(repetitions);
+      return static_cast<std::size_t>(std::count(text.begin(), text.end(), '\n')) >= lines;
+    }));
+    const std::vector<pid_t> workers = testing::children_of(program.pid());
+    program.send_signal(signal);
+    const Outcome outcome = program.wait();
+    for (const pid_t worker : workers) {
+      EXPECT_TRUE(testing::wait_until([&] { return !testing::is_running(worker); })) << "a worker is left";
+    }
+    return outcome;
+  }
+};
+
+TEST_F(InterruptionTest, CtrlCKeepsFinishedRowsAndASecondStartGoesOn) {
+  for (const int signal : {SIGINT, SIGTERM}) {
+    const Outcome stopped = stop_after(signal == SIGINT ? kRepetitions + 5 : 3 * kRepetitions + 5, signal);
+    ASSERT_EQ(stopped.code, 130) << stopped.err;
+    EXPECT_NE(stopped.err.find("the same command goes on from there"), std::string::npos) << stopped.err;
+    EXPECT_EQ(stopped.out, "");
+    EXPECT_FALSE(fs::exists(folder() / "run" / "report.json"));
+    EXPECT_FALSE(fs::exists(folder() / "run" / "scratch"));
+  }
+  const std::string kept = read_text(folder() / "run" / "runs.jsonl");
+  EXPECT_FALSE(kept.empty());
+  const Outcome second = hullbench({"run", the_plan(), "--out", "run"});
+  EXPECT_EQ(second.code, 0) << second.err;
+  EXPECT_NE(second.err.find("going on with the run in run"), std::string::npos) << second.err;
+  EXPECT_EQ(read_text(folder() / "run" / "runs.jsonl").substr(0, kept.size()), kept);
+  expect_no_repetition_twice(folder() / "run", kRepetitions);
+}
+
+TEST_F(InterruptionTest, AKilledRunGivesTheSameRowsAsAnUninterruptedOne) {
+  for (const std::size_t lines : {1U, 50U, 130U}) {
+    EXPECT_EQ(stop_after(lines, SIGKILL).code, 128 + SIGKILL);
+  }
+  EXPECT_EQ(hullbench({"run", the_plan(), "--out", "run"}).code, 0);
+  EXPECT_EQ(hullbench({"run", the_plan(), "--out", "whole"}).code, 0);
+  EXPECT_EQ(ids_of(folder() / "run"), ids_of(folder() / "whole"));
+  EXPECT_EQ(ids_of(folder() / "run").size(), 6U);
+  expect_no_repetition_twice(folder() / "run", kRepetitions);
+  std::map<std::string, std::string> hashes;
+  for (const json& row : lines_of(folder() / "whole" / "runs.jsonl"))
+    hashes[row["id"]] = row["output_sha256"];
+  for (const json& row : lines_of(folder() / "run" / "runs.jsonl"))
+    EXPECT_EQ(row["output_sha256"], hashes[row["id"]]);
+}
+
+TEST_F(InterruptionTest, WithoutOutTheUnfinishedRunIsFoundAndAFinishedOneIsNotTouched) {
+  const std::vector<std::string> words = {"run", the_plan()};
+  {
+    Program program(command(words), in_folder());
+    ASSERT_TRUE(testing::wait_until([&] {
+      const std::string text = read_text(folder() / "results" / "latest" / "repetitions.jsonl");
+      return std::count(text.begin(), text.end(), '\n') >= kRepetitions + 5;
+    }));
+    program.send_signal(SIGINT);
+    ASSERT_EQ(program.wait().code, 130);
+  }
+  const auto run_folders = [&] {
+    return std::distance(fs::directory_iterator(folder() / "results" / "runs"), fs::directory_iterator());
+  };
+  const Outcome second = hullbench(words);
+  EXPECT_EQ(second.code, 0) << second.err;
+  EXPECT_NE(second.err.find("of 6 runs are finished and not measured again"), std::string::npos)
+      << second.err;
+  EXPECT_EQ(run_folders(), 1);
+  EXPECT_EQ(hullbench(words).code, 0);
+  EXPECT_EQ(run_folders(), 2);
+}
+
+}  // namespace
+}  // namespace hullbench

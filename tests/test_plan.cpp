@@ -1,0 +1,288 @@
+// Plans: what is accepted, what is refused with which words, which runs come of it, and the parameter rules.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <set>
+
+#include "benchmarks/parameter_rules.hpp"
+#include "benchmarks/plan.hpp"
+#include "datasets/datasets.hpp"
+#include "polylidar/concave_hull.hpp"
+#include "polylidar/delaunay.hpp"
+#include "tests/temporary_folder.hpp"
+
+namespace hullbench {
+namespace {
+
+using nlohmann::json;
+
+const std::vector<std::string> kMethods = {"polylidar", "spatialite"};
+
+std::vector<DatasetInfo> known_datasets() {
+  DatasetInfo ca;
+  ca.name = "ca";
+  ca.has_holes_variant = true;
+  DatasetInfo solid;
+  solid.name = "solid";
+  return {ca, solid};
+}
+
+json small_plan() {
+  return json::parse(R"({
+    "name": "small",
+    "cases": [{"dataset": "ca", "holes": [false, true], "n": [500, 1000]}],
+    "methods": [
+      {"method": "polylidar", "protocol": "paper", "parameters": {"alpha": {"rule": "paper_alpha"}}},
+      {"method": "spatialite", "protocol": "paper",
+       "parameters": {"c": {"cases": {"ca": 2.0, "ca/holes": 1.25}}, "allow_holes": 1}}]})");
+}
+
+/// What is said about a plan in which the value at `pointer` is `value`.
+std::string complaint(const std::string& pointer, const json& value) {
+  json plan = small_plan();
+  plan[json::json_pointer(pointer)] = value;
+  try {
+    check_plan(parse_plan(plan.dump(), "plan 'small'"), kMethods, known_datasets());
+  } catch (const ConfigurationError& error) {
+    return error.what();
+  }
+  return "nothing";
+}
+
+TEST(Plan, DefaultsAndValues) {
+  const Plan plan = parse_plan(small_plan().dump(), "here");
+  EXPECT_EQ(plan.name, "small");
+  EXPECT_EQ(plan.title, "small");
+  EXPECT_EQ(plan.repetitions, 10);
+  EXPECT_EQ(plan.warmup, 1);
+  EXPECT_EQ(plan.timeout_s, 120);
+  EXPECT_EQ(plan.mem_limit_mib, 4096);
+  EXPECT_EQ(plan.expanded_cases.size(), 4U);
+  EXPECT_EQ(plan.methods.size(), 2U);
+}
+
+TEST(Plan, SurvivesJson) {
+  json source = small_plan();
+  source["repetitions"] = 3;
+  source["timeout_s"] = 0.5;
+  source["seed"] = 18446744073709551615U;
+  source["notes"] = {"a note"};
+  source["paper"] = "Table 6";
+  source["methods"][0]["note"] = "fast";
+  source["methods"][0]["datasets"] = {"ca"};
+  const json once = plan_to_json(parse_plan(source.dump(), "here"));
+  EXPECT_EQ(plan_to_json(parse_plan(once.dump(), "there")), once);
+  for (const auto& [key, value] : source.items()) EXPECT_EQ(once.at(key), value) << key;
+}
+
+TEST(Plan, RunsComeCaseByCaseWithTheirNames) {
+  const auto runs = planned_runs(parse_plan(small_plan().dump(), "here"), "");
+  ASSERT_EQ(runs.size(), 8U);
+  EXPECT_EQ(runs[0].name, "polylidar/ca/n:500/holes:0/protocol:paper");
+  EXPECT_EQ(runs[1].name, "spatialite/ca/n:500/holes:0/protocol:paper");
+  EXPECT_EQ(runs[7].name, "spatialite/ca/n:1000/holes:1/protocol:paper");
+}
+
+TEST(Plan, FilterIsSearchedInNames) {
+  const Plan plan = parse_plan(small_plan().dump(), "here");
+  EXPECT_EQ(planned_runs(plan, "polylidar").size(), 4U);
+  EXPECT_EQ(planned_runs(plan, "^ca").size(), 0U);
+  EXPECT_EQ(planned_runs(plan, "n:500/.*holes:1").size(), 2U);
+  EXPECT_THROW(planned_runs(plan, "n:(500"), ConfigurationError);
+}
+
+TEST(Plan, AMethodCanKeepToSomeDataSets) {
+  json source = small_plan();
+  source["cases"].push_back({{"dataset", "solid"}, {"n", {500}}});
+  source["methods"][1]["datasets"] = {"ca"};
+  const Plan plan = parse_plan(source.dump(), "here");
+  check_plan(plan, kMethods, known_datasets());
+  EXPECT_EQ(planned_runs(plan, "solid").size(), 1U);
+}
+
+TEST(Plan, NothingIsWrongWithTheSmallPlan) {
+  EXPECT_EQ(complaint("/repetitions", 2), "nothing");
+}
+
+TEST(Plan, WrongPlansAreRefusedWithTheirPlace) {
+  struct Case {
+    const char* pointer;
+    json value;
+    const char* words;
+  };
+  const std::vector<Case> cases = {
+      {"/repetition", 5,
+       "plan 'small': repetition is not a key that is known here; known are schema_version, name"},
+      {"/schema_version", 2, "schema_version must be 1"},
+      {"/name", "Small Plan", "name must be a name of small letters"},
+      {"/name", 5, "name must be a string"},
+      {"/repetitions", 0, "repetitions must be a whole number from 1 to 1000000"},
+      {"/repetitions", 2.5, "repetitions must be a whole number"},
+      {"/repetitions", 18446744073709551615U, "repetitions must be a whole number"},
+      {"/warmup", -1, "warmup must be a whole number from 0"},
+      {"/timeout_s", 0, "timeout_s must be a number from 0.001"},
+      {"/mem_limit_mib", 1, "mem_limit_mib must be a whole number from 64"},
+      {"/seed", -1, "seed must be a whole number from 0 to 2^64 - 1"},
+      {"/cases", json::array(), "cases must be a list with at least one element"},
+      {"/cases/0", 5, "cases[0] must be an object"},
+      {"/cases/0/size", 5, "cases[0].size is not a key that is known here; known are dataset, holes and n"},
+      {"/cases/0/n", 500, "cases[0].n must be a list"},
+      {"/cases/0/n/1", 2, "cases[0].n[1] must be a whole number from 3"},
+      {"/cases/0/n/1", 500, "cases[0].n[1] is there twice"},
+      {"/cases/0/holes/1", "yes", "cases[0].holes[1] must be true or false"},
+      {"/cases/0/holes/1", false, "cases[0] has the case ca with n = 500 for the second time"},
+      {"/cases/0/dataset", "mars",
+       "the plan 'small' names the data set 'mars', which is not known; known are ca and solid"},
+      {"/cases/0/dataset", "solid", "asks for solid with holes"},
+      {"/methods/0/method", "magic",
+       "names the method 'magic', which is not known; known are polylidar and spatialite"},
+      {"/methods/0/colour", "red", "methods[0].colour is not a key that is known here"},
+      {"/methods/0/protocol", "best",
+       "methods[0].protocol must be one of paper, default, auto, tuned and oracle, not 'best'"},
+      {"/methods/0/protocol", "auto",
+       "methods[0].parameters.alpha.rule names the rule 'paper_alpha', which reads the ground truth"},
+      {"/methods/0/datasets", {"mars"}, "names the data set 'mars'"},
+      {"/methods/0/parameters/alpha", "big",
+       "methods[0].parameters.alpha must be a number or an object with the key"},
+      {"/methods/0/parameters/alpha/rule", "mine", "names the unknown rule 'mine'; known are paper_alpha"},
+      {"/methods/0/parameters/alpha/cases", json::object(),
+       "must have either the key 'rule' or the key 'cases'"},
+      {"/methods/1/parameters/c/cases", {{"ca", 2}}, "gives spatialite no 'c' for ca/holes"},
+      {"/methods/1/parameters/c/cases/ca", "2", "methods[1].parameters.c.cases.ca must be a number"},
+  };
+  for (const Case& one : cases) {
+    EXPECT_NE(complaint(one.pointer, one.value).find(one.words), std::string::npos)
+        << one.pointer << ": " << complaint(one.pointer, one.value);
+  }
+}
+
+TEST(Plan, TwoEntriesWithTheSameRunNamesAreRefused) {
+  json source = small_plan();
+  source["methods"].push_back(source["methods"][0]);
+  EXPECT_NE(complaint("/methods", source["methods"]).find("methods[2] repeats the method 'polylidar'"),
+            std::string::npos);
+}
+
+TEST(Plan, MissingKeysAreNamed) {
+  for (const char* key : {"name", "cases", "methods"}) {
+    json source = small_plan();
+    source.erase(key);
+    try {
+      parse_plan(source.dump(), "plan 'small'");
+      FAIL() << key;
+    } catch (const ConfigurationError& error) {
+      EXPECT_EQ(error.what(), "plan 'small': the plan lacks the key '" + std::string(key) + "'");
+    }
+  }
+}
+
+TEST(Plan, BrokenJsonIsRefusedWithItsPlace) {
+  try {
+    parse_plan("{\n  \"name\": \"small\",\n  \"cases\" [\n}", "plan 'small'");
+    FAIL();
+  } catch (const ConfigurationError& error) {
+    EXPECT_STREQ(error.what(), "plan 'small' is not JSON: mend it at line 3, column 11");
+  }
+  EXPECT_THROW(parse_plan("", "here"), ConfigurationError);
+  EXPECT_THROW(parse_plan("[]", "here"), ConfigurationError);
+}
+
+TEST(Plan, IsFoundByNameOrByPath) {
+  const testing::TemporaryFolder folder;
+  std::ofstream(folder.path() / "small.json") << small_plan();
+  EXPECT_EQ(load_plan("small", folder.path()).name, "small");
+  EXPECT_EQ(load_plan((folder.path() / "small.json").string(), "/nowhere").name, "small");
+  try {
+    load_plan("smal", folder.path());
+    FAIL();
+  } catch (const ConfigurationError& error) {
+    EXPECT_STREQ(error.what(), "there is no plan 'smal'; known are small, or give a file's path");
+  }
+}
+
+TEST(Plan, EveryReadyPlanIsGood) {
+  std::vector<std::string> methods;
+  int count = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(HULLBENCH_PLAN_FOLDER)) {
+    const Plan plan = load_plan(entry.path().string(), "");
+    EXPECT_EQ(plan.name, entry.path().stem().string());
+    for (const PlanMethod& method : plan.methods) methods.push_back(method.method);
+    EXPECT_NO_THROW(check_plan(plan, methods, datasets()));
+    ++count;
+  }
+  EXPECT_GE(count, 1);
+}
+
+TEST(Plan, StatesIsThePapersExperiment) {
+  const Plan plan = load_plan("states", HULLBENCH_PLAN_FOLDER);
+  EXPECT_EQ(plan.repetitions, 10);
+  EXPECT_EQ(plan.expanded_cases.size(), 24U);
+  const auto count = [&](const std::string& filter) { return planned_runs(plan, filter).size(); };
+  for (const char* method : {"^polylidar/", "^cgal_alpha_shape/", "^spatialite/"})
+    EXPECT_EQ(count(method), 24U) << method;
+  EXPECT_EQ(count("^postgis_legacy/ca/"), 12U);
+  EXPECT_EQ(count("^postgis_legacy/hi/"), 0U);
+  EXPECT_EQ(count("^postgis/.*protocol:auto"), 24U);
+  EXPECT_EQ(count("^postgis/.*protocol:paper"), 0U);
+}
+
+std::vector<polylidar::Point> unit_grid(int side) {
+  std::vector<polylidar::Point> points;
+  for (int x = 0; x < side; ++x) {
+    for (int y = 0; y < side; ++y) points.push_back({static_cast<double>(x), static_cast<double>(y)});
+  }
+  return points;
+}
+
+TEST(ParameterRule, ByName) {
+  for (const std::string& name : rule_names()) EXPECT_EQ(find_rule(name)->name, name);
+  EXPECT_EQ(find_rule("none"), nullptr);
+  EXPECT_TRUE(find_rule("paper_alpha")->reads_ground_truth);
+  EXPECT_TRUE(find_rule("paper_alpha_squared")->reads_ground_truth);
+  EXPECT_FALSE(find_rule("hull_spacing_ratio")->reads_ground_truth);
+}
+
+TEST(ParameterRule, RulesThatDoNotReadTheGroundTruthDoNotReadIt) {
+  const auto points = unit_grid(5);
+  for (const std::string& name : rule_names()) {
+    const ParameterRule& rule = *find_rule(name);
+    if (rule.reads_ground_truth) continue;
+    EXPECT_EQ(rule.value({points, 1.0, true}), rule.value({points, 1e6, true})) << name;
+  }
+}
+
+TEST(ParameterRule, PaperAlpha) {
+  const auto points = unit_grid(10);
+  EXPECT_DOUBLE_EQ(paper_alpha({points, 400.0, false}), 4.0);
+  EXPECT_DOUBLE_EQ(paper_alpha_squared({points, 400.0, false}), 16.0);
+  EXPECT_EQ(paper_alpha({{}, 400.0, false}), 0.0);
+}
+
+TEST(ParameterRule, Holes) {
+  EXPECT_EQ(holes_switch({{}, 0, true}), 1.0);
+  EXPECT_EQ(holes_switch({{}, 0, false}), 0.0);
+}
+
+TEST(ParameterRule, HullSpacingRatioLiesBetweenShortestAndLongestEdge) {
+  // A 10 x 10 block of unit squares' corners and one point far away. Convex hull: the square of side 9 and
+  // the triangle to (40, 0), 81 + 9 * 31 / 2. The edges reach from 1 to the length of the hull's long side
+  // from (9, 9) to (40, 0).
+  auto points = unit_grid(10);
+  points.push_back({40, 0});
+  const double wanted = 3 * std::sqrt((81 + 9 * 31 / 2.0) / 101);
+  const double longest = std::hypot(31, 9);
+  EXPECT_NEAR(hull_spacing_ratio({points, 0, false}), (wanted - 1) / (longest - 1), 1e-12);  // rounding only
+}
+
+TEST(ParameterRule, HullSpacingRatioIsClamped) {
+  const auto grid = unit_grid(4);  // wanted 2.25, edges from 1 to 1.41
+  EXPECT_EQ(hull_spacing_ratio({grid, 0, false}), 1.0);
+  const std::vector<polylidar::Point> line = {{0, 0}, {1, 1}, {2, 2}};
+  EXPECT_EQ(hull_spacing_ratio({line, 0, false}), 1.0);
+  EXPECT_EQ(hull_spacing_ratio({{}, 0, false}), 1.0);
+}
+
+}  // namespace
+}  // namespace hullbench

@@ -1,0 +1,267 @@
+// Records: to JSON and back, what makes a run's identity, and JSON lines files.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <fstream>
+#include <functional>
+#include <limits>
+#include <nlohmann/json.hpp>
+#include <set>
+#include <sstream>
+#include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "benchmarks/json_lines.hpp"
+#include "benchmarks/record.hpp"
+#include "invented_run.hpp"
+#include "temporary_folder.hpp"
+
+namespace hullbench {
+namespace {
+
+using nlohmann::json;
+using testing::TemporaryFolder;
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+
+std::string content_of(const std::filesystem::path& path) {
+  std::ifstream in(path, std::ios::binary);
+  std::ostringstream content;
+  content << in.rdbuf();
+  return content.str();
+}
+
+void write(const std::filesystem::path& path, const std::string& content) {
+  std::ofstream(path, std::ios::binary) << content;
+}
+
+TEST(Record, RoundTripThroughTextKeepsEveryField) {
+  RunRecord record = test::invented_record();
+  record.seed = std::numeric_limits<std::uint64_t>::max();
+  record.parameters["third"] = 1.0 / 3.0;
+  const RunRecord back = json::parse(json(record).dump()).get<RunRecord>();
+  EXPECT_EQ(back.id, record.id);
+  EXPECT_EQ(back.name, record.name);
+  EXPECT_EQ(back.method, record.method);
+  EXPECT_EQ(back.method_version, record.method_version);
+  EXPECT_EQ(back.dataset, record.dataset);
+  EXPECT_EQ(back.dataset_sha256, record.dataset_sha256);
+  EXPECT_EQ(back.n, record.n);
+  EXPECT_EQ(back.holes, record.holes);
+  EXPECT_EQ(back.seed, record.seed);
+  EXPECT_EQ(back.protocol, record.protocol);
+  EXPECT_EQ(back.parameters, record.parameters);
+  EXPECT_EQ(back.status, record.status);
+  EXPECT_EQ(back.detail, record.detail);
+  EXPECT_EQ(back.time_ns, record.time_ns);
+  EXPECT_EQ(back.phases_ns, record.phases_ns);
+  EXPECT_EQ(back.metrics, record.metrics);
+  EXPECT_EQ(back.output_sha256, record.output_sha256);
+  EXPECT_EQ(json(back), json(record));
+}
+
+TEST(Record, InfiniteParameterIsNullAndComesBack) {
+  RunRecord record = test::invented_record();
+  record.parameters = {{"limit", kInfinity}};
+  const json written = record;
+  EXPECT_TRUE(written["parameters"]["limit"].is_null());
+  EXPECT_EQ(written.get<RunRecord>().parameters.at("limit"), kInfinity);
+}
+
+TEST(Record, ParameterThatNoMethodTakesIsRefused) {
+  for (const double value : {kNaN, -kInfinity}) {
+    RunRecord record = test::invented_record();
+    record.parameters["alpha"] = value;
+    EXPECT_THROW(json{record}, std::invalid_argument);
+    EXPECT_THROW(run_identity(record), std::invalid_argument);
+  }
+}
+
+TEST(Record, MetricsThatAreNotFiniteBecomeNull) {
+  RunRecord record = test::invented_record();
+  record.metrics["l2"] = kNaN;
+  record.metrics["iou"] = kInfinity;
+  const json written = record;
+  EXPECT_TRUE(written["metrics"]["l2"].is_null());
+  EXPECT_TRUE(written["metrics"]["iou"].is_null());
+  EXPECT_EQ(written.dump().find("nan"), std::string::npos);
+}
+
+TEST(Record, EveryStatusHasANameOfItsOwn) {
+  std::set<std::string> names;
+  for (const Status status : kAllStatuses) {
+    names.insert(to_string(status));
+    EXPECT_EQ(status_from_string(to_string(status)), status);
+  }
+  const std::set<std::string> expected = {"ok",    "timeout",        "memory",      "crash",
+                                          "error", "invalid_output", "unsupported", "not_installed"};
+  EXPECT_EQ(names, expected);
+  EXPECT_THROW(status_from_string("OK"), std::invalid_argument);
+}
+
+TEST(Record, EveryFieldIsRequired) {
+  const json whole = test::invented_record();
+  for (const auto& [key, value] : whole.items()) {
+    json without = whole;
+    without.erase(key);
+    EXPECT_ANY_THROW(without.get<RunRecord>()) << key;
+  }
+}
+
+TEST(Record, OtherSchemaVersionIsRefused) {
+  json record = test::invented_record();
+  record["schema_version"] = kSchemaVersion + 1;
+  EXPECT_THROW(record.get<RunRecord>(), std::invalid_argument);
+}
+
+TEST(Record, NameFollowsGoogleBenchmark) {
+  EXPECT_EQ(run_name(test::invented_record()), "polylidar/ca/n:2000/holes:1/protocol:paper");
+}
+
+TEST(Identity, IsTheHashOfTheCanonicalJson) {
+  RunRecord record;
+  record.method = "m";
+  record.method_version = "1";
+  record.dataset = "d";
+  record.dataset_sha256 = "ab";
+  record.n = 3;
+  record.holes = true;
+  record.seed = 7;
+  record.protocol = "auto";
+  record.parameters = {{"b", kInfinity}, {"a", 0.5}, {"c", 2}};
+  // printf '%s' '{"dataset":"d","dataset_sha256":"ab","holes":true,"method":"m","method_version":"1","n":3,
+  // "parameters":{"a":0.5,"b":null,"c":2.0},"protocol":"auto","seed":7}' (without the line break) | sha256sum
+  EXPECT_EQ(run_identity(record), "e3f1e2393893e26085bee0469c2f128eaa71ae6a660a80886b52112e42ecbde8");
+}
+
+TEST(Identity, ChangesWithEveryFieldThatSaysWhatIsRun) {
+  const std::vector<std::pair<const char*, std::function<void(RunRecord&)>>> changes = {
+      {"method", [](RunRecord& record) { record.method = "other"; }},
+      {"method_version", [](RunRecord& record) { record.method_version = "2.0"; }},
+      {"dataset", [](RunRecord& record) { record.dataset = "hi"; }},
+      {"dataset_sha256", [](RunRecord& record) { record.dataset_sha256[0] ^= 1; }},
+      {"n", [](RunRecord& record) { ++record.n; }},
+      {"holes", [](RunRecord& record) { record.holes = !record.holes; }},
+      {"seed", [](RunRecord& record) { ++record.seed; }},
+      {"protocol", [](RunRecord& record) { record.protocol = "auto"; }},
+      {"parameter's value",
+       [](RunRecord& record) {
+         record.parameters["alpha"] = std::nextafter(record.parameters["alpha"], kInfinity);
+       }},
+      {"parameter more", [](RunRecord& record) { record.parameters["more"] = 0; }},
+      {"parameter less", [](RunRecord& record) { record.parameters.erase("alpha"); }}};
+  std::set<std::string> ids = {run_identity(test::invented_record())};
+  for (const auto& [what, change] : changes) {
+    RunRecord record = test::invented_record();
+    change(record);
+    EXPECT_TRUE(ids.insert(run_identity(record)).second) << what;
+  }
+}
+
+TEST(Identity, DoesNotChangeWithWhatARunLeaves) {
+  RunRecord record = test::invented_record();
+  const std::string id = run_identity(record);
+  record.id = "";
+  record.name = "";
+  record.status = Status::kCrash;
+  record.detail = "SIGSEGV";
+  record.time_ns.clear();
+  record.phases_ns.clear();
+  record.metrics = json::object();
+  record.output_sha256.clear();
+  EXPECT_EQ(run_identity(record), id);
+}
+
+TEST(Identity, SurvivesTheRoundTrip) {
+  const RunRecord record = test::invented_record();
+  EXPECT_EQ(run_identity(json::parse(json(record).dump()).get<RunRecord>()), record.id);
+}
+
+TEST(JsonLines, AppendedLinesComeBackInOrder) {
+  const TemporaryFolder folder;
+  const auto path = folder.path() / "lines.jsonl";
+  JsonLinesWriter(path).append({{"a", 1}});
+  JsonLinesWriter(path).append({{"b", "ü\n"}});
+  const JsonLines lines = load_json_lines(path);
+  EXPECT_EQ(lines.lines, (std::vector<json>{{{"a", 1}}, {{"b", "ü\n"}}}));
+  EXPECT_TRUE(lines.torn.empty());
+  EXPECT_EQ(lines.complete_bytes, std::filesystem::file_size(path));
+}
+
+TEST(JsonLines, LineIsOnDiskAsSoonAsItIsAppended) {
+  const TemporaryFolder folder;
+  JsonLinesWriter writer(folder.path() / "lines.jsonl");
+  writer.append(1);
+  EXPECT_EQ(content_of(folder.path() / "lines.jsonl"), "1\n");
+}
+
+TEST(JsonLines, MissingFileAndEmptyFileHaveNoLines) {
+  const TemporaryFolder folder;
+  EXPECT_TRUE(load_json_lines(folder.path() / "none.jsonl").lines.empty());
+  write(folder.path() / "empty.jsonl", "");
+  EXPECT_TRUE(load_json_lines(folder.path() / "empty.jsonl").lines.empty());
+}
+
+TEST(JsonLines, TornLastLineIsReportedAndCutOffBeforeTheNext) {
+  const TemporaryFolder folder;
+  const auto path = folder.path() / "lines.jsonl";
+  write(path, "{\"a\":1}\n{\"b\":");
+  const JsonLines torn = load_json_lines(path);
+  EXPECT_EQ(torn.lines.size(), 1U);
+  EXPECT_EQ(torn.torn, "{\"b\":");
+  JsonLinesWriter writer(path);
+  EXPECT_TRUE(writer.repaired());
+  writer.append(2);
+  EXPECT_EQ(content_of(path), "{\"a\":1}\n2\n");
+}
+
+TEST(JsonLines, LastLineWithoutLineFeedIsTornEvenIfItIsJson) {
+  const TemporaryFolder folder;
+  const auto path = folder.path() / "lines.jsonl";
+  write(path, "1\n12");  // cut from 123
+  EXPECT_EQ(load_json_lines(path).lines, std::vector<json>{1});
+  EXPECT_EQ(load_json_lines(path).torn, "12");
+}
+
+TEST(JsonLines, BrokenLineInTheMiddleIsAnErrorThatNamesIt) {
+  const TemporaryFolder folder;
+  const auto path = folder.path() / "lines.jsonl";
+  write(path, "1\n{]\n3\n");
+  try {
+    load_json_lines(path);
+    FAIL() << "no exception";
+  } catch (const std::runtime_error& error) {
+    EXPECT_NE(std::string(error.what()).find("Line 2 of " + path.string()), std::string::npos)
+        << error.what();
+  }
+}
+
+TEST(JsonLines, FileThatCannotBeWrittenIsNamed) {
+  const TemporaryFolder folder;
+  const auto path = folder.path() / "no" / "such" / "folder.jsonl";
+  try {
+    JsonLinesWriter writer(path);
+    FAIL() << "no exception";
+  } catch (const std::runtime_error& error) {
+    EXPECT_NE(std::string(error.what()).find(path.string()), std::string::npos) << error.what();
+  }
+}
+
+TEST(JsonLines, NaNIsNeverWritten) {
+  const TemporaryFolder folder;
+  JsonLinesWriter writer(folder.path() / "lines.jsonl");
+  writer.append({kNaN, kInfinity, -kInfinity});
+  EXPECT_EQ(content_of(folder.path() / "lines.jsonl"), "[null,null,null]\n");
+}
+
+TEST(JsonLines, BytesThatAreNotUtf8DoNotLoseTheLine) {
+  const TemporaryFolder folder;
+  JsonLinesWriter(folder.path() / "lines.jsonl").append({{"detail", "bad \xff byte"}});
+  EXPECT_EQ(load_json_lines(folder.path() / "lines.jsonl").lines.front()["detail"], "bad \xef\xbf\xbd byte");
+}
+
+}  // namespace
+}  // namespace hullbench

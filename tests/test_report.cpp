@@ -1,0 +1,327 @@
+// Reports: made from a run directory, summarised, and checked against the schemas.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "benchmarks/claims.hpp"
+#include "benchmarks/embedded.hpp"
+#include "benchmarks/environment.hpp"
+#include "benchmarks/json_lines.hpp"
+#include "benchmarks/report.hpp"
+#include "benchmarks/validate.hpp"
+#include "invented_run.hpp"
+#include "temporary_folder.hpp"
+
+namespace hullbench {
+namespace {
+
+using nlohmann::json;
+using testing::TemporaryFolder;
+
+const std::filesystem::path kSource = HULLBENCH_SOURCE_DIRECTORY;
+
+json invented_report() {
+  const TemporaryFolder folder;
+  test::write_invented_run(folder.path(), {2000, 64000});
+  return make_report(folder.path());
+}
+
+json read_json(const std::filesystem::path& path) {
+  std::ifstream in(path);
+  return json::parse(in);
+}
+
+json find_by(const json& list, const char* key, const std::string& value) {
+  for (const json& entry : list) {
+    if (entry.at(key) == value) return entry;
+  }
+  ADD_FAILURE() << "no entry with " << key << " = " << value;
+  return json::object();
+}
+
+std::string message_of(const std::filesystem::path& directory) {
+  try {
+    make_report(directory);
+  } catch (const std::runtime_error& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST(Report, HoldsTheRunAndItsLines) {
+  const json report = invented_report();
+  const json run = test::invented_run();
+  for (const auto& [key, value] : run.items()) EXPECT_EQ(report.at(key), value) << key;
+  const std::vector<RunRecord> records = test::invented_records({2000, 64000});
+  ASSERT_EQ(report.at("runs").size(), records.size());
+  for (std::size_t i = 0; i < records.size(); ++i) EXPECT_EQ(report["runs"][i], json(records[i]));
+}
+
+TEST(Report, IsValid) {
+  const std::vector<std::string> faults = validate_report(invented_report());
+  EXPECT_TRUE(faults.empty()) << faults.front();
+}
+
+TEST(Report, OfTheEnvironmentAsItIsHereIsValid) {
+  json report = invented_report();
+  report["environment"] = collect_environment();
+  const std::vector<std::string> faults = validate_report(report);
+  EXPECT_TRUE(faults.empty()) << faults.front();
+}
+
+TEST(Report, OfNoRunsIsValid) {
+  const TemporaryFolder folder;
+  write_json_file(folder.path() / "run.json", test::invented_run());
+  const json report = make_report(folder.path());
+  EXPECT_TRUE(report["runs"].empty());
+  EXPECT_TRUE(validate_report(report).empty());
+}
+
+TEST(Report, SummaryHasTheStatisticsOfARun) {
+  const json report = invented_report();
+  const json row = find_by(report["summary"]["rows"], "name", "polylidar/ca/n:2000/holes:0/protocol:paper");
+  // 2000 points at 250 us a thousand, 0, 2 and 1 % slower, and 10 us a thousand for the extraction.
+  const json run_only = {{"repetitions", 3}, {"median_ns", 505000.0}, {"mad_ns", 5000.0}, {"min_ns", 500000},
+                         {"max_ns", 510000}, {"mean_ns", 505000.0},   {"std_ns", 5000.0}};
+  EXPECT_EQ(row["paper_time"], run_only);
+  EXPECT_EQ(row["time"]["median_ns"], 525000.0);
+  EXPECT_EQ(row["status"], "ok");
+  EXPECT_EQ(row["valid"], true);
+  EXPECT_EQ(row["l2"], report["runs"][0]["metrics"]["l2"]);
+  EXPECT_EQ(row["l2_paper"], report["runs"][0]["metrics"]["l2_paper"]);
+  EXPECT_EQ(row["iou"], report["runs"][0]["metrics"]["iou"]);
+}
+
+TEST(Report, FailuresAreRowsToo) {
+  const json report = invented_report();
+  const json row = find_by(report["summary"]["rows"], "name", "spatialite/hi/n:64000/holes:0/protocol:paper");
+  EXPECT_EQ(row["status"], "timeout");
+  EXPECT_TRUE(row["time"].is_null());
+  EXPECT_TRUE(row["l2"].is_null());
+  const json totals = {{"ok", 21},   {"timeout", 1},        {"memory", 0},      {"crash", 0},
+                       {"error", 0}, {"invalid_output", 2}, {"unsupported", 0}, {"not_installed", 4}};
+  EXPECT_EQ(report["summary"]["totals"], totals);
+}
+
+TEST(Report, LastLineOfAnIdCounts) {
+  const TemporaryFolder folder;
+  test::write_invented_run(folder.path(), {2000});
+  RunRecord again = test::invented_record();
+  again.time_ns = {1};
+  JsonLinesWriter(folder.path() / "runs.jsonl").append(again);
+  const json report = make_report(folder.path());
+  EXPECT_EQ(report["runs"].size(), test::invented_records({2000}).size());
+  EXPECT_EQ(find_by(report["runs"], "id", again.id)["time_ns"], json::array({1}));
+}
+
+TEST(Report, TornLastLineIsLeftOutAndSaid) {
+  const TemporaryFolder folder;
+  test::write_invented_run(folder.path(), {2000});
+  std::ofstream(folder.path() / "runs.jsonl", std::ios::app) << "{\"id\": \"12";
+  const json report = make_report(folder.path());
+  EXPECT_EQ(report["runs"].size(), test::invented_records({2000}).size());
+  ASSERT_EQ(report["notes"].size(), 1U);
+  EXPECT_NE(report["notes"][0].get<std::string>().find("cut short"), std::string::npos);
+  EXPECT_TRUE(validate_report(report).empty());
+}
+
+TEST(Report, WhatIsMissingOrMalformedIsNamed) {
+  const TemporaryFolder folder;
+  const std::string run_file = (folder.path() / "run.json").string();
+  EXPECT_NE(message_of(folder.path()).find(run_file), std::string::npos);
+  std::ofstream(run_file) << "{";
+  EXPECT_NE(message_of(folder.path()).find(run_file), std::string::npos);
+  std::ofstream(run_file) << "{\"schema_version\": 99}";
+  EXPECT_NE(message_of(folder.path()).find("schema version"), std::string::npos);
+  write_json_file(run_file, test::invented_run());
+  std::ofstream(folder.path() / "runs.jsonl") << "{}\n";
+  EXPECT_NE(message_of(folder.path()).find("runs.jsonl"), std::string::npos);
+}
+
+TEST(Claims, AreComputedFromThePapersProtocol) {
+  const json claims = invented_report()["summary"]["claims"];
+  const json ratio = find_by(claims, "id", "faster_than_cgal");
+  EXPECT_EQ(ratio["ours"], "5.00");        // 1250 / 250
+  EXPECT_EQ(ratio["equal_work"], "5.95");  // (1262.5 + 300) / (252.5 + 10)
+  EXPECT_EQ(ratio["holds"], true);
+  EXPECT_EQ(find_by(claims, "id", "faster_than_all")["ours"], "5.00");
+  EXPECT_EQ(find_by(claims, "id", "total_spatialite")["ours"], "72.0");  // 18000 / 250
+  EXPECT_EQ(find_by(claims, "id", "total_spatialite")["holds"], false);
+  EXPECT_EQ(find_by(claims, "id", "error_spatialite")["ours"], "5 of 5");
+  EXPECT_EQ(find_by(claims, "id", "error_cgal")["holds"], true);
+  EXPECT_EQ(find_by(claims, "id", "holes_time_spatialite")["holds"], false);
+}
+
+TEST(Claims, SayWhyTheyWereNotMeasured) {
+  const json claims = invented_report()["summary"]["claims"];
+  const json postgis = find_by(claims, "id", "error_postgis");
+  EXPECT_TRUE(postgis["holds"].is_null());
+  EXPECT_EQ(postgis["ours"], "not measured");
+  EXPECT_NE(postgis["detail"].get<std::string>().find("not installed"), std::string::npos);
+  const json step = find_by(claims, "id", "shape_spatialite");
+  EXPECT_NE(step["detail"].get<std::string>().find("does not tell its step"), std::string::npos);
+}
+
+TEST(Claims, SayWhichFailuresTheyLeaveOut) {
+  const json slowest = find_by(invented_report()["summary"]["claims"], "id", "spatialite_slowest");
+  EXPECT_EQ(slowest["ours"], "5 of 5");
+  EXPECT_NE(slowest["detail"].get<std::string>().find("1 case(s) without a result"), std::string::npos);
+}
+
+TEST(Claims, AtASizeThatWasNotMeasured) {
+  const TemporaryFolder folder;
+  test::write_invented_run(folder.path(), {2000});
+  const json claim = find_by(make_report(folder.path())["summary"]["claims"], "id", "total_cgal");
+  EXPECT_TRUE(claim["holds"].is_null());
+  EXPECT_NE(claim["detail"].get<std::string>().find("n = 64000"), std::string::npos);
+}
+
+TEST(Claims, OneCaseAgainstAClaimAboutEveryCaseRefutesIt) {
+  json report = invented_report();
+  for (json& run : report["runs"]) {
+    if (run["name"] == "spatialite/ca/n:2000/holes:1/protocol:paper") run["metrics"]["l2_paper"] = 0.9;
+  }
+  const json claim = find_by(check_claims(report), "id", "error_spatialite");
+  EXPECT_EQ(claim["ours"], "4 of 5");
+  EXPECT_EQ(claim["holds"], false);
+}
+
+TEST(Claims, AnotherProtocolIsAnotherMethod) {
+  json report = invented_report();
+  for (json& run : report["runs"]) {
+    if (run["method"] == "polylidar") run["protocol"] = "auto";
+  }
+  EXPECT_TRUE(find_by(check_claims(report), "id", "faster_than_cgal")["holds"].is_null());
+}
+
+TEST(Validate, EveryBrokenReportIsRejectedAtItsPlace) {
+  const json report = invented_report();
+  const json cases = read_json(kSource / "tests/data/broken_reports.json");
+  ASSERT_FALSE(cases.empty());
+  for (const json& broken : cases) {
+    const json::json_pointer place(broken.at("path").get<std::string>());
+    json changed = report;
+    if (broken.contains("value")) {
+      changed[place] = broken["value"];
+    } else {
+      changed[place.parent_pointer()].erase(place.back());
+    }
+    const std::vector<std::string> faults = validate_report(changed);
+    EXPECT_FALSE(faults.empty()) << broken;
+    const std::string parent = place.parent_pointer().to_string();
+    for (const std::string& fault : faults) {
+      // An object's missing or unknown member is reported at the object, or, where a status asks for it, at
+      // the run.
+      EXPECT_TRUE(parent.rfind("/runs/0", 0) == 0 ? fault.find("/runs/0") != std::string::npos
+                                                  : fault.find(parent) != std::string::npos)
+          << broken << " gave " << fault;
+    }
+  }
+}
+
+TEST(Validate, FaultsAreSentencesWithThePlaceAndTheValue) {
+  json report = invented_report();
+  report["runs"][0]["status"] = "fine";
+  report["environment"]["host/name"] = "box";
+  report.erase("tool");
+  report["environment"]["cpu"]["logical_cores"] = 0;
+  const std::vector<std::string> faults = validate_report(report);
+  const auto has = [&](const std::string& fault) {
+    return std::count(faults.begin(), faults.end(), fault) == 1;
+  };
+  EXPECT_TRUE(has("At /runs/0/status: Failed to match against any enum values, found \"fine\"."))
+      << json(faults);
+  EXPECT_TRUE(
+      has("At /environment/cpu/logical_cores: Expected number greater than or equal to 1.000000, found 0."))
+      << json(faults);
+  EXPECT_TRUE(has("At /environment: There is a member that does not belong there: 'host/name'."))
+      << json(faults);
+  EXPECT_TRUE(has("At the top level: Missing required property 'tool'.")) << json(faults);
+  EXPECT_EQ(faults.size(), 5U) << json(
+      faults);  // an unknown status is no success, so a reason is missing too
+  report = json::array();
+  EXPECT_EQ(validate_report(report).size(), 1U);
+}
+
+TEST(Validate, LinesOfARunsFile) {
+  const TemporaryFolder folder;
+  test::write_invented_run(folder.path(), {2000});
+  const auto path = folder.path() / "runs.jsonl";
+  EXPECT_TRUE(validate_file(path).empty());
+  json broken = test::invented_record();
+  broken["n"] = "many";
+  JsonLinesWriter(path).append(broken);
+  std::ofstream(path, std::ios::app) << "{";
+  const std::vector<std::string> faults = validate_file(path);
+  ASSERT_EQ(faults.size(), 2U);
+  EXPECT_EQ(faults[0].rfind("Record 15: At /n: ", 0), 0U) << faults[0];
+  EXPECT_NE(faults[1].find("cut short"), std::string::npos);
+}
+
+TEST(Validate, FileThatIsNoReport) {
+  const TemporaryFolder folder;
+  EXPECT_THROW(validate_file(folder.path() / "none.json"), std::runtime_error);
+  EXPECT_THROW(validate_file(folder.path() / "none.jsonl"), std::runtime_error);
+  EXPECT_THROW(validate_file(folder.path()), std::runtime_error);
+  std::ofstream(folder.path() / "empty.json") << "";
+  EXPECT_THROW(validate_file(folder.path() / "empty.json"), std::runtime_error);
+  std::ofstream(folder.path() / "nan.json") << "{\"schema_version\": NaN}";
+  EXPECT_THROW(validate_file(folder.path() / "nan.json"), std::runtime_error);
+  std::ofstream(folder.path() / "list.json") << "[]";
+  EXPECT_FALSE(validate_file(folder.path() / "list.json").empty());
+}
+
+TEST(Validate, ReportOnDiskAfterWriting) {
+  const json report = invented_report();
+  const TemporaryFolder folder;
+  write_json_file(folder.path() / "report.json", report);
+  EXPECT_TRUE(validate_file(folder.path() / "report.json").empty());
+  EXPECT_EQ(read_json(folder.path() / "report.json"), report);
+  EXPECT_FALSE(std::filesystem::exists(folder.path() / "report.json.new"));
+}
+
+TEST(Embedded, FilesAreTheOnesInResults) {
+  EXPECT_EQ(json::parse(kRunSchemaJson), read_json(kSource / "results/run.schema.json"));
+  EXPECT_EQ(json::parse(kReportSchemaJson), read_json(kSource / "results/report.schema.json"));
+  EXPECT_EQ(json::parse(kPaperJson), read_json(kSource / "results/paper.json"));
+}
+
+TEST(Embedded, StatusesOfTheSchemaAreOurs) {
+  const json schema = json::parse(kRunSchemaJson);
+  std::vector<std::string> ours;
+  for (const Status status : kAllStatuses) ours.push_back(to_string(status));
+  EXPECT_EQ(schema["properties"]["status"]["enum"], json(ours));
+}
+
+TEST(Environment, TellsNothingPersonal) {
+  const std::string text = collect_environment().dump();
+  for (const char* variable : {"HOME", "PWD", "HOSTNAME"}) {
+    const char* value = std::getenv(variable);
+    if (value == nullptr || std::string(value).size() < 2) continue;
+    EXPECT_EQ(text.find(value), std::string::npos) << variable;
+  }
+}
+
+TEST(Environment, FlagsAreThoseOfTheBuild) {
+  const json compiler = collect_environment()["compiler"];
+  EXPECT_NE(compiler["flags_by_target"]["polylidar_core"].get<std::string>().find("-ffp-contract=off"),
+            std::string::npos);
+  EXPECT_FALSE(compiler["statement"].get<std::string>().empty());
+}
+
+TEST(Environment, MachineIdIsAFunctionOfTheMachine) {
+  EXPECT_EQ(machine_id(), collect_environment()["machine_id"]);
+  // printf '%s' 'Some CPU|4|15' | sha256sum
+  EXPECT_EQ(machine_id("Some CPU", 4, 15), "80006477");
+  EXPECT_NE(machine_id("Some CPU", 4, 15), machine_id("Some CPU", 4, 16));
+}
+
+}  // namespace
+}  // namespace hullbench

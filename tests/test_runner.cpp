@@ -1,0 +1,455 @@
+// The runner from plan to rows: good methods beside misbehaving ones, and runs that go on after an
+// interruption.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <memory>
+#include <set>
+#include <sstream>
+
+#include "benchmarks/environment.hpp"
+#include "benchmarks/interrupt.hpp"
+#include "benchmarks/json_lines.hpp"
+#include "benchmarks/listing.hpp"
+#include "benchmarks/report.hpp"
+#include "benchmarks/run_directory.hpp"
+#include "benchmarks/runner.hpp"
+#include "benchmarks/validate.hpp"
+#include "datasets/sha256.hpp"
+#include "tests/program.hpp"
+#include "tests/temporary_folder.hpp"
+
+namespace hullbench {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+
+/// A plan of these methods on California with 500 points, without holes.
+Plan plan_of(const std::vector<std::string>& methods, int repetitions = 3) {
+  json source = {{"name", "test"},
+                 {"repetitions", repetitions},
+                 {"timeout_s", 20},
+                 {"mem_limit_mib", 512},
+                 {"cases", {{{"dataset", "ca"}, {"n", {500}}}}},
+                 {"methods", json::array()}};
+  for (const std::string& method : methods) {
+    const bool real = method == "polylidar";
+    source["methods"].push_back(
+        {{"method", method},
+         {"protocol", "paper"},
+         {"parameters", real ? json{{"alpha", {{"rule", "paper_alpha"}}}} : json{{"size", 1}}}});
+  }
+  return parse_plan(source.dump(), "test");
+}
+
+std::vector<std::string> worker_of(const std::string& method) {
+  if (method == "polylidar") return {HULLBENCH, "worker", "--method", method};
+  return {MISBEHAVING_WORKER, method};
+}
+
+json header_of(const Plan& plan) {
+  const std::string hash = sha256_hex("the program");
+  return {{"schema_version", kSchemaVersion},
+          {"created", utc_now()},
+          {"tool",
+           {{"name", "hullbench"},
+            {"version", "1"},
+            {"commit", nullptr},
+            {"dirty", nullptr},
+            {"binary_sha256", hash}}},
+          {"environment", collect_environment()},
+          {"plan", plan_to_json(plan)},
+          {"seed", plan.seed},
+          {"filter", nullptr},
+          {"repetitions", plan.repetitions},
+          {"datasets", json::array()}};
+}
+
+class RunnerTest : public ::testing::Test {
+ protected:
+  void TearDown() override { set_interrupted(false); }
+
+  RunResult measure(const Plan& plan, const WorkerCommand& command = &worker_of) {
+    const json header = header_of(plan);
+    const auto directory = open_run_directory(header, {folder_.path() / "run", false, folder_.path()});
+    const auto runs = planned_runs(plan, "");
+    std::ostringstream progress_text;
+    Progress progress(progress_text, false, 80, progress_runs(plan, runs));
+    const RunResult result =
+        run_plan(plan, runs, header, {command, {plan.mem_limit_mib, std::nullopt}, {}}, *directory, progress);
+    said_ = progress_text.str();
+    return result;
+  }
+
+  std::vector<json> lines(const std::string& file) const {
+    return load_json_lines(folder_.path() / "run" / file).lines;
+  }
+
+  std::map<std::string, RunRecord> rows() const {
+    std::map<std::string, RunRecord> result;
+    for (const json& line : lines("runs.jsonl")) {
+      const auto record = line.get<RunRecord>();
+      EXPECT_TRUE(result.emplace(record.method, record).second) << record.name << " is there twice";
+    }
+    return result;
+  }
+
+  testing::TemporaryFolder folder_;
+  std::string said_;
+};
+
+TEST_F(RunnerTest, AGoodMethodGetsACompleteRow) {
+  const RunResult result = measure(plan_of({"polylidar"}));
+  EXPECT_EQ(exit_code(result), 0);
+  const RunRecord row = rows().at("polylidar");
+  EXPECT_EQ(to_string(row.status), "ok") << row.detail;
+  EXPECT_EQ(row.name, "polylidar/ca/n:500/holes:0/protocol:paper");
+  EXPECT_EQ(row.id, run_identity(row));
+  ASSERT_EQ(row.time_ns.size(), 3U);
+  for (std::size_t i = 0; i < 3; ++i) {
+    const PhaseTimes& phases = row.phases_ns.at(i);
+    EXPECT_EQ(row.time_ns[i], phases.at("run") + phases.at("extract"));
+    EXPECT_TRUE(phases.contains("load"));
+    const std::int64_t steps =
+        phases.at("run.triangulation") + phases.at("run.shape") + phases.at("run.polygon");
+    EXPECT_GT(phases.at("run.triangulation"), 0);
+    EXPECT_LE(steps, phases.at("run"));
+  }
+  EXPECT_TRUE(row.parameters.contains("alpha"));
+  EXPECT_EQ(row.parameters.at("max_edge_length"), std::numeric_limits<double>::infinity());
+  EXPECT_TRUE(row.metrics.at("valid").get<bool>());
+  // 500 points give a coarse outline, but California it is.
+  EXPECT_LT(row.metrics.at("l2").get<double>(), 0.3);
+  EXPECT_GT(row.metrics.at("iou").get<double>(), 0.7);
+  EXPECT_EQ(row.output_sha256.size(), 64U);
+}
+
+TEST_F(RunnerTest, TheFilesAreWhatTheSchemasSay) {
+  measure(plan_of({"polylidar", "crash", "invalid_polygon", "says_unsupported"}));
+  EXPECT_EQ(validate_file(folder_.path() / "run" / "runs.jsonl"), std::vector<std::string>());
+  const json report = make_report(folder_.path() / "run");
+  write_json_file(folder_.path() / "report.json", report);
+  EXPECT_EQ(validate_file(folder_.path() / "report.json"), std::vector<std::string>());
+  EXPECT_EQ(report["methods"].size(), 4U);
+}
+
+TEST_F(RunnerTest, EveryMisbehaviourIsARowAndTheOthersAreMeasured) {
+  const std::map<std::string, Status> expected = {{"crash", Status::kCrash},
+                                                  {"memory", Status::kMemory},
+                                                  {"early_exit", Status::kCrash},
+                                                  {"garbage", Status::kError},
+                                                  {"garbage_result", Status::kInvalidOutput},
+                                                  {"no_result", Status::kInvalidOutput},
+                                                  {"wrong_nonce", Status::kInvalidOutput},
+                                                  {"invalid_polygon", Status::kInvalidOutput},
+                                                  {"changing_result", Status::kInvalidOutput},
+                                                  {"says_unsupported", Status::kUnsupported},
+                                                  {"says_error", Status::kError},
+                                                  {"crash_at_start", Status::kCrash},
+                                                  {"crash_on_load", Status::kCrash},
+                                                  {"polylidar", Status::kOk},
+                                                  {"good", Status::kOk}};
+  std::vector<std::string> methods;
+  for (const auto& [method, status] : expected) methods.push_back(method);
+  const RunResult result = measure(plan_of(methods, 2));
+  EXPECT_EQ(exit_code(result), 4);
+  const auto measured = rows();
+  ASSERT_EQ(measured.size(), expected.size());
+  for (const auto& [method, status] : expected) {
+    const RunRecord& row = measured.at(method);
+    EXPECT_EQ(to_string(row.status), to_string(status)) << method << ": " << row.detail;
+    EXPECT_EQ(row.detail.empty(), status == Status::kOk) << method;
+  }
+}
+
+TEST_F(RunnerTest, WithoutWarmUpTheFirstRepetitionIsScored) {
+  Plan plan = plan_of({"polylidar", "garbage_result", "invalid_polygon"});
+  plan.warmup = 0;
+  measure(plan);
+  EXPECT_EQ(rows().at("polylidar").time_ns.size(), 3U);
+  EXPECT_TRUE(rows().at("polylidar").metrics.at("valid").get<bool>());
+  EXPECT_EQ(rows().at("garbage_result").time_ns.size(), 0U);
+  EXPECT_EQ(rows().at("invalid_polygon").time_ns.size(), 3U);
+  // Gone on with, the scores must be made again.
+  fs::remove(folder_.path() / "run" / "runs.jsonl");
+  EXPECT_EQ(exit_code(measure(plan)), 4);
+  EXPECT_TRUE(rows().at("polylidar").metrics.at("valid").get<bool>());
+}
+
+TEST_F(RunnerTest, AHangIsATimeoutAndNotTriedAgain) {
+  Plan plan = plan_of({"hang", "good"});
+  plan.timeout_s = 0.5;
+  measure(plan);
+  EXPECT_EQ(to_string(rows().at("hang").status), "timeout");
+  EXPECT_EQ(to_string(rows().at("good").status), "ok");
+}
+
+TEST_F(RunnerTest, AnInvalidPolygonIsTimedAndScoredAsInvalid) {
+  measure(plan_of({"invalid_polygon"}));
+  const RunRecord row = rows().at("invalid_polygon");
+  EXPECT_EQ(row.time_ns.size(), 3U);
+  EXPECT_FALSE(row.metrics.at("valid").get<bool>());
+  EXPECT_NE(row.detail.find("Self-intersection"), std::string::npos) << row.detail;
+  EXPECT_TRUE(row.metrics.at("l2").is_null());
+}
+
+TEST_F(RunnerTest, AResultThatChangesIsNotBelieved) {
+  measure(plan_of({"changing_result"}));
+  EXPECT_NE(rows().at("changing_result").detail.find("different results"), std::string::npos);
+}
+
+TEST_F(RunnerTest, ACrashKeepsTheRepetitionsBeforeIt) {
+  measure(plan_of({"crash_on_second"}));
+  const RunRecord row = rows().at("crash_on_second");
+  EXPECT_EQ(row.detail, "SIGABRT");
+  // The first run was the warm-up, the second one the first repetition.
+  EXPECT_EQ(row.time_ns.size(), 0U);
+  EXPECT_TRUE(row.metrics.at("valid").get<bool>());
+}
+
+TEST_F(RunnerTest, AParameterThatAMethodDoesNotHaveIsAConfigurationError) {
+  Plan plan = plan_of({"good"});
+  plan.methods[0].parameters = {{"colour", 1.0}};
+  EXPECT_THROW(measure(plan), ConfigurationError);
+}
+
+TEST_F(RunnerTest, AParameterOutOfItsRangeIsAnErrorRow) {
+  Plan plan = plan_of({"good"});
+  plan.methods[0].parameters = {{"size", 11.0}};
+  EXPECT_EQ(exit_code(measure(plan)), 4);
+  EXPECT_EQ(rows().at("good").detail, "good takes 'size' from 0 to 10, not 11");
+}
+
+TEST_F(RunnerTest, AFinishedRunIsNotMeasuredAgain) {
+  const Plan plan = plan_of({"polylidar", "good", "crash"});
+  measure(plan);
+  const std::string before = testing::read_text(folder_.path() / "run" / "runs.jsonl");
+  const std::string repetitions = testing::read_text(folder_.path() / "run" / "repetitions.jsonl");
+  const RunResult again = measure(plan);
+  EXPECT_EQ(again.resumed_rows, 3);
+  EXPECT_EQ(exit_code(again), 4);
+  EXPECT_EQ(testing::read_text(folder_.path() / "run" / "runs.jsonl"), before);
+  EXPECT_EQ(testing::read_text(folder_.path() / "run" / "repetitions.jsonl"), repetitions);
+}
+
+TEST_F(RunnerTest, RepetitionsOfAnEarlierStartAreKept) {
+  const Plan plan = plan_of({"polylidar", "good"}, 5);
+  measure(plan);
+  // As if the first start had been killed in the middle of a line, after two repetitions of each and before
+  // any row.
+  const fs::path run = folder_.path() / "run";
+  fs::remove(run / "runs.jsonl");
+  std::string kept;
+  for (const json& line : lines("repetitions.jsonl")) {
+    if (line["repetition"] < 2) kept += line.dump() + "\n";
+  }
+  testing::write_text(run / "repetitions.jsonl", kept + "{\"id\": \"torn");
+  testing::write_text(run / "runs.jsonl", "{\"schema_ver");
+
+  EXPECT_EQ(exit_code(measure(plan)), 0);
+  EXPECT_EQ(testing::read_text(run / "repetitions.jsonl").substr(0, kept.size()), kept);
+  std::set<std::pair<std::string, int>> seen;
+  for (const json& line : lines("repetitions.jsonl")) {
+    EXPECT_TRUE(seen.emplace(line["id"].get<std::string>(), line["repetition"].get<int>()).second);
+  }
+  EXPECT_EQ(seen.size(), 10U);
+  for (const auto& [method, row] : rows()) EXPECT_EQ(row.time_ns.size(), 5U) << method;
+}
+
+TEST_F(RunnerTest, ARowOfAnotherVersionIsReplaced) {
+  const Plan plan = plan_of({"good", "polylidar"});
+  measure(plan);
+  const fs::path file = folder_.path() / "run" / "runs.jsonl";
+  std::string text;
+  for (json line : lines("runs.jsonl")) {
+    if (line["method"] == "good") {
+      auto record = line.get<RunRecord>();
+      record.method_version = "0.9";
+      record.id = run_identity(record);
+      line = record;
+    }
+    text += line.dump() + "\n";
+  }
+  testing::write_text(file, text);
+  measure(plan);
+  EXPECT_EQ(rows().size(), 2U);
+  EXPECT_EQ(rows().at("good").method_version, "1");
+}
+
+TEST_F(RunnerTest, ARowOfAMethodThatIsGoneIsKept) {
+  const Plan plan = plan_of({"good"});
+  measure(plan);
+  const auto gone = [](const std::string&) { return std::vector<std::string>{"/nowhere/worker"}; };
+  EXPECT_EQ(exit_code(measure(plan, gone)), 0);
+  EXPECT_EQ(to_string(rows().at("good").status), "ok");
+}
+
+TEST_F(RunnerTest, AMethodThatCanRunNowIsMeasured) {
+  const Plan plan = plan_of({"good"});
+  const auto gone = [](const std::string&) { return std::vector<std::string>{"/nowhere/worker"}; };
+  EXPECT_EQ(exit_code(measure(plan, gone)), 4);
+  EXPECT_EQ(to_string(rows().at("good").status), "error");
+  fs::remove(folder_.path() / "run" / "runs.jsonl");
+  EXPECT_EQ(exit_code(measure(plan)), 0);
+}
+
+TEST_F(RunnerTest, AnInterruptionKeepsWhatIsThereAndTheNextStartGoesOn) {
+  const Plan plan = plan_of({"polylidar", "hang"});
+  const auto interrupt_at_hang = [](const std::string& method) {
+    if (method == "hang") set_interrupted(true);
+    return worker_of(method);
+  };
+  EXPECT_EQ(exit_code(measure(plan, interrupt_at_hang)), 130);
+  set_interrupted(false);
+  Plan same = plan;
+  EXPECT_EQ(exit_code(measure(same,
+                              [](const std::string& method) {
+                                return method == "hang" ? std::vector<std::string>{"/nowhere/worker"}
+                                                        : worker_of(method);
+                              })),
+            4);
+  EXPECT_EQ(rows().size(), 2U);
+}
+
+TEST_F(RunnerTest, WorkFilesDoNotStay) {
+  measure(plan_of({"polylidar", "crash"}));
+  std::set<std::string> names;
+  for (const auto& entry : fs::directory_iterator(folder_.path() / "run"))
+    names.insert(entry.path().filename().string());
+  EXPECT_EQ(names, (std::set<std::string>{"repetitions.jsonl", "run.json", "runs.jsonl"}));
+}
+
+class PlaceTest : public ::testing::Test {
+ protected:
+  json header_ = header_of(plan_of({"good"}));
+  testing::TemporaryFolder folder_;
+
+  std::unique_ptr<RunDirectory> open(bool force = false) {
+    return open_run_directory(header_, {std::nullopt, force, folder_.path()});
+  }
+  std::unique_ptr<RunDirectory> open_out(const fs::path& out, bool force = false) {
+    return open_run_directory(header_, {out, force, folder_.path()});
+  }
+};
+
+TEST_F(PlaceTest, TheFolderSaysWhenWhereAndWhat) {
+  header_["created"] = "2026-01-31T12:34:56Z";
+  header_["tool"]["commit"] = "0123456789abcdef";
+  const auto directory = open();
+  EXPECT_EQ(directory->path(), folder_.path() / "runs" / ("20260131T123456Z-" + machine_id() + "-0123456"));
+}
+
+TEST_F(PlaceTest, AnUnfinishedRunGoesOn) {
+  auto first = open();
+  const fs::path path = first->path();
+  first->write_header(header_);
+  first.reset();
+  header_["created"] = "2030-01-01T00:00:00Z";
+  EXPECT_EQ(open()->path(), path);
+  EXPECT_NE(open(true)->path(), path);
+}
+
+TEST_F(PlaceTest, AnotherRunDoesNot) {
+  auto first = open();
+  const fs::path path = first->path();
+  first->write_header(header_);
+  first.reset();
+  const json original = header_;
+  const std::vector<std::pair<const char*, json>> changes = {
+      {"/filter", "polylidar"}, {"/plan/repetitions", 99},        {"/plan/seed", 99},
+      {"/plan/timeout_s", 99},  {"/tool/binary_sha256", "other"}, {"/environment/machine_id", "other"}};
+  for (const auto& [pointer, value] : changes) {
+    header_ = original;
+    header_[json::json_pointer(pointer)] = value;
+    const auto directory = open();
+    EXPECT_NE(directory->path(), path) << pointer;
+    EXPECT_FALSE(directory->resumed());
+  }
+}
+
+TEST_F(PlaceTest, AFinishedRunDoesNotGoOnByItself) {
+  auto first = open();
+  const fs::path path = first->path();
+  first->write_header(header_);
+  write_json_file(path / "report.json", {});
+  first.reset();
+  EXPECT_NE(open()->path(), path);
+  EXPECT_EQ(open_out(path)->path(), path);
+}
+
+TEST_F(PlaceTest, TwoAtATimeKeepApart) {
+  const auto first = open();
+  first->write_header(header_);
+  EXPECT_NE(open()->path(), first->path());
+  EXPECT_THROW(open_out(first->path()), ConfigurationError);
+}
+
+TEST_F(PlaceTest, AFolderWithSomethingElseIsRefused) {
+  testing::write_text(folder_.path() / "thesis.tex", "precious");
+  EXPECT_THROW(open_out(folder_.path()), ConfigurationError);
+  EXPECT_TRUE(open_out(folder_.path(), true) != nullptr);
+  EXPECT_EQ(testing::read_text(folder_.path() / "thesis.tex"), "precious");
+}
+
+TEST_F(PlaceTest, AnotherRunInTheChosenFolderIsRefusedAndOverwrittenByForce) {
+  const fs::path out = folder_.path() / "mine";
+  open_out(out)->write_header(header_);
+  testing::write_text(out / "runs.jsonl", "");
+  header_["filter"] = "other";
+  EXPECT_THROW(open_out(out), ConfigurationError);
+  EXPECT_FALSE(open_out(out, true)->resumed());
+}
+
+TEST_F(PlaceTest, LatestPointsToTheRun) {
+  for (const char* created : {"2026-01-01T00:00:00Z", "2027-01-01T00:00:00Z"}) {
+    header_["created"] = created;
+    header_["filter"] = created;
+    const auto directory = open();
+    point_latest_to(directory->path(), folder_.path());
+    EXPECT_EQ(fs::canonical(folder_.path() / "latest"), fs::canonical(directory->path()));
+    EXPECT_TRUE(fs::read_symlink(folder_.path() / "latest").is_relative());
+  }
+}
+
+TEST(ExitCode, SaysWhatHappened) {
+  const auto code = [](std::map<Status, int> counts) { return exit_code({false, std::move(counts), 0}); };
+  EXPECT_EQ(code({{Status::kOk, 3}}), 0);
+  EXPECT_EQ(code({{Status::kOk, 3}, {Status::kNotInstalled, 1}, {Status::kUnsupported, 1}}), 0);
+  EXPECT_EQ(code({{Status::kNotInstalled, 1}}), 6);
+  EXPECT_EQ(code({}), 6);
+  for (const Status failure :
+       {Status::kTimeout, Status::kMemory, Status::kCrash, Status::kError, Status::kInvalidOutput}) {
+    EXPECT_EQ(code({{Status::kOk, 3}, {failure, 1}}), 4);
+  }
+  EXPECT_EQ(exit_code({true, {{Status::kOk, 3}}, 0}), 130);
+}
+
+TEST(Progress, EstimatesFromTheTimesSoFar) {
+  std::ostringstream out;
+  // Two runs of one method, the second one with twice the points, three units each.
+  Progress progress(out, false, 80, {{"a", "m", 100, 3}, {"b", "m", 200, 3}});
+  EXPECT_LT(progress.seconds_left(), 0);
+  progress.begin(0);
+  progress.advance(0, std::chrono::seconds(1));
+  // 2 units of 100 points and 3 of 200, at 1 s for 100.
+  EXPECT_NEAR(progress.seconds_left(), 8.0, 1e-9);  // rounding only: hardly any wall-clock time has passed
+  progress.finish(0);
+  EXPECT_NEAR(progress.seconds_left(), 6.0, 1e-9);
+  progress.finish(1);
+  EXPECT_EQ(progress.seconds_left(), 0.0);
+  EXPECT_NE(out.str().find("[2/2]"), std::string::npos) << out.str();
+}
+
+TEST(Progress, WritesDurationsForPeople) {
+  EXPECT_EQ(format_duration(0.2), "0 s");
+  EXPECT_EQ(format_duration(59.4), "59 s");
+  EXPECT_EQ(format_duration(200), "3 min 20 s");
+  EXPECT_EQ(format_duration(7500), "2 h 5 min");
+}
+
+}  // namespace
+}  // namespace hullbench

@@ -1,0 +1,100 @@
+// Statistics against values worked out by hand.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <span>
+#include <stdexcept>
+#include <vector>
+
+#include "benchmarks/statistics.hpp"
+
+namespace hullbench {
+namespace {
+
+using Times = std::vector<std::int64_t>;
+
+TEST(Statistics, MedianOfOddCountIsTheMiddleValue) {
+  EXPECT_EQ(median(Times{9, 1, 5}), 5);
+}
+
+TEST(Statistics, MedianOfEvenCountIsTheMeanOfTheMiddleTwo) {
+  EXPECT_EQ(median(Times{9, 1, 4, 5}), 4.5);
+}
+
+TEST(Statistics, MedianOfDoubles) {
+  const std::vector<double> values = {0.5, 0.25, 4};
+  EXPECT_EQ(median(std::span<const double>(values)), 0.5);
+}
+
+TEST(Statistics, OneOutlierMovesTheMeanOnly) {
+  const Times values = {10, 11, 12, 13, 1000000};
+  EXPECT_EQ(median(values), 12);
+  EXPECT_EQ(median_absolute_deviation(values), 1);  // deviations 2 1 0 1 999988
+  EXPECT_EQ(mean(values), 200009.2);
+}
+
+TEST(Statistics, QuantilesInterpolateBetweenOrderStatistics) {
+  const Times values = {40, 10, 30, 20};
+  EXPECT_EQ(quantile(values, 0), 10);
+  EXPECT_EQ(quantile(values, 1), 40);
+  EXPECT_EQ(quantile(values, 0.5), 25);
+  EXPECT_EQ(quantile(values, 0.25), 17.5);  // position 0.75
+  EXPECT_EQ(quantile(values, 0.75), 32.5);  // position 2.25
+}
+
+TEST(Statistics, QuantileOutsideZeroToOneIsRefused) {
+  const Times values = {1, 2};
+  EXPECT_THROW(quantile(values, -0.1), std::invalid_argument);
+  EXPECT_THROW(quantile(values, 1.1), std::invalid_argument);
+  EXPECT_THROW(quantile(values, std::numeric_limits<double>::quiet_NaN()), std::invalid_argument);
+}
+
+TEST(Statistics, StandardDeviationDividesByOneLess) {
+  // Mean 5, squares of the deviations 9 1 1 1 0 0 4 16, sum 32.
+  const Times values = {2, 4, 4, 4, 5, 5, 7, 9};
+  ASSERT_TRUE(standard_deviation(values).has_value());
+  EXPECT_DOUBLE_EQ(*standard_deviation(values), std::sqrt(32.0 / 7.0));
+}
+
+TEST(Statistics, OneValueHasNoStandardDeviation) {
+  const Statistics one = describe(Times{7});
+  EXPECT_EQ(one.count, 1U);
+  EXPECT_EQ(one.median, 7);
+  EXPECT_EQ(one.mad, 0);
+  EXPECT_EQ(one.minimum, 7);
+  EXPECT_EQ(one.maximum, 7);
+  EXPECT_EQ(one.mean, 7);
+  EXPECT_FALSE(one.standard_deviation.has_value());
+}
+
+TEST(Statistics, DescribeHasAllOfThem) {
+  const Statistics all = describe(Times{3, 1, 2, 10});
+  EXPECT_EQ(all.count, 4U);
+  EXPECT_EQ(all.median, 2.5);
+  EXPECT_EQ(all.mad, 1);  // deviations 0.5 1.5 0.5 7.5
+  EXPECT_EQ(all.minimum, 1);
+  EXPECT_EQ(all.maximum, 10);
+  EXPECT_EQ(all.mean, 4);
+  EXPECT_DOUBLE_EQ(all.standard_deviation.value(), std::sqrt(50.0 / 3.0));  // 1 9 4 36
+}
+
+TEST(Statistics, LargeTimesKeepEveryNanosecond) {
+  const std::int64_t day = 86'400'000'000'000;
+  EXPECT_EQ(median(Times{day, day + 1, day + 2}), static_cast<double>(day + 1));
+  EXPECT_EQ(*standard_deviation(Times{day, day + 2}), std::sqrt(2.0));
+}
+
+TEST(Statistics, NothingHasNoStatistic) {
+  const Times none;
+  EXPECT_THROW(median(none), std::invalid_argument);
+  EXPECT_THROW(quantile(none, 0.5), std::invalid_argument);
+  EXPECT_THROW(median_absolute_deviation(none), std::invalid_argument);
+  EXPECT_THROW(mean(none), std::invalid_argument);
+  EXPECT_THROW(standard_deviation(none), std::invalid_argument);
+  EXPECT_THROW(describe(none), std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace hullbench

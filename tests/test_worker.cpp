@@ -1,0 +1,250 @@
+// Workers that do everything a method may do to the harness, and the statuses that come of it.
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <csignal>
+#include <limits>
+#include <memory>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "adapters/wkb.hpp"
+#include "benchmarks/interrupt.hpp"
+#include "benchmarks/method_session.hpp"
+#include "benchmarks/protocol.hpp"
+#include "benchmarks/worker_process.hpp"
+#include "tests/program.hpp"
+#include "tests/temporary_folder.hpp"
+
+namespace hullbench {
+namespace {
+
+using namespace std::chrono_literals;
+using nlohmann::json;
+
+std::vector<std::string> misbehaving(const std::string& mode) {
+  return {MISBEHAVING_WORKER, mode};
+}
+
+class MethodSessionTest : public ::testing::Test {
+ protected:
+  /// A run of the worker that misbehaves in this way, with what ctest's machine allows as a limit where it
+  /// does not matter.
+  Attempt attempt(const std::string& mode, std::chrono::milliseconds timeout = 30s) {
+    session_ = std::make_unique<MethodSession>(mode, misbehaving(mode), WorkerLimits{256, std::nullopt});
+    return run(timeout);
+  }
+
+  Attempt run(std::chrono::milliseconds timeout = 30s) {
+    const std::vector<Point> points = {{0, 0}, {1, 0}, {1, 1}, {0, 1}};
+    write_points_file(folder_.path() / "points", points);
+    return session_->run({"square", folder_.path() / "points", points.size()}, {{"size", 1}}, folder_.path(),
+                         timeout);
+  }
+
+  void expect(const std::string& mode, Status status, const std::string& detail,
+              std::chrono::milliseconds timeout = 30s) {
+    const Attempt result = attempt(mode, timeout);
+    EXPECT_EQ(to_string(result.status), to_string(status)) << mode << ": " << result.detail;
+    EXPECT_NE(result.detail.find(detail), std::string::npos) << mode << ": " << result.detail;
+    EXPECT_TRUE(result.wkb.empty());
+  }
+
+  testing::TemporaryFolder folder_;
+  std::unique_ptr<MethodSession> session_;
+};
+
+TEST_F(MethodSessionTest, AGoodWorkerGivesResultAndTimes) {
+  const Attempt result = attempt("good");
+  ASSERT_EQ(result.status, Status::kOk) << result.detail;
+  EXPECT_EQ(result.time_ns(), 1010);
+  EXPECT_EQ(result.phases_ns.at("load"), 5);
+  EXPECT_EQ(result.phases_ns.at("run.shape"), 900);
+  EXPECT_EQ(polylidar::area(from_wkb(result.wkb)), 1.0);
+  EXPECT_GT(result.elapsed, 1010ns);
+  // Only the points are left: results are removed once they are read.
+  EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder_.path()), {}), 1);
+}
+
+TEST_F(MethodSessionTest, Crash) {
+  expect("crash", Status::kCrash, "SIGSEGV");
+}
+TEST_F(MethodSessionTest, CrashAtStart) {
+  expect("crash_at_start", Status::kCrash, "SIGSEGV");
+}
+TEST_F(MethodSessionTest, CrashOnLoad) {
+  expect("crash_on_load", Status::kCrash, "SIGBUS");
+}
+TEST_F(MethodSessionTest, Hang) {
+  expect("hang", Status::kTimeout, "no answer within 0.2 s", 200ms);
+}
+TEST_F(MethodSessionTest, HangThatIgnoresTermination) {
+  expect("hang_hard", Status::kTimeout, "0.2 s", 200ms);
+}
+TEST_F(MethodSessionTest, MemoryUsedUp) {
+  expect("memory", Status::kMemory, "256 MiB");
+}
+TEST_F(MethodSessionTest, MemoryAsTheWorkerSays) {
+  expect("says_memory", Status::kMemory, "no room");
+}
+TEST_F(MethodSessionTest, Unsupported) {
+  expect("says_unsupported", Status::kUnsupported, "this many points");
+}
+TEST_F(MethodSessionTest, Error) {
+  expect("says_error", Status::kError, "no luck");
+}
+TEST_F(MethodSessionTest, EarlyExit) {
+  expect("early_exit", Status::kCrash, "exit code 7 without an answer; it said: I have seen enough");
+}
+TEST_F(MethodSessionTest, ClosedOutput) {
+  expect("close_output", Status::kError, "closed its output");
+}
+TEST_F(MethodSessionTest, GarbageOnTheProtocol) {
+  expect("garbage", Status::kError, "answered 'lorem ipsum'");
+}
+TEST_F(MethodSessionTest, EndlessLine) {
+  expect("long_line", Status::kError, "more than 1 MiB");
+}
+TEST_F(MethodSessionTest, ErrorWithoutKind) {
+  expect("error_without_kind", Status::kError, "has no kind");
+}
+TEST_F(MethodSessionTest, OtherName) {
+  expect("other_name", Status::kError, "calls itself 'somebody'");
+}
+TEST_F(MethodSessionTest, OtherProtocol) {
+  expect("other_protocol", Status::kError, "another version");
+}
+TEST_F(MethodSessionTest, WrongNonce) {
+  expect("wrong_nonce", Status::kInvalidOutput, "another run");
+}
+TEST_F(MethodSessionTest, NoPhases) {
+  expect("no_phases", Status::kInvalidOutput, "no phases_ns");
+}
+TEST_F(MethodSessionTest, NegativeTime) {
+  expect("negative_time", Status::kInvalidOutput, "'run' is not a time");
+}
+TEST_F(MethodSessionTest, MoreTimeThanPassed) {
+  expect("too_much_time", Status::kInvalidOutput, "more time than");
+}
+TEST_F(MethodSessionTest, NoResult) {
+  expect("no_result", Status::kInvalidOutput, "there is no file");
+}
+
+TEST_F(MethodSessionTest, FloodOfErrorOutputDoesNotBlockTheWorker) {
+  EXPECT_EQ(attempt("flood_errors").status, Status::kOk);
+  EXPECT_EQ(run().status, Status::kOk);
+}
+
+TEST_F(MethodSessionTest, AnAnswerThatNobodyAskedForIsNotTakenForTheNextOne) {
+  ASSERT_EQ(attempt("unasked").status, Status::kOk);
+  // The second line may be under way still.
+  std::this_thread::sleep_for(50ms);
+  EXPECT_EQ(run().status, Status::kError);
+}
+
+TEST_F(MethodSessionTest, AWorkerThatDiedIsStartedAgain) {
+  ASSERT_EQ(attempt("crash_on_second").status, Status::kOk);
+  const pid_t first = session_->pid();
+  EXPECT_EQ(run().detail, "SIGABRT");
+  EXPECT_EQ(run().status, Status::kOk);
+  EXPECT_NE(session_->pid(), first);
+}
+
+TEST_F(MethodSessionTest, AWorkerThatIsKilledFromOutsideIsACrash) {
+  ASSERT_EQ(attempt("good").status, Status::kOk);
+  ::kill(session_->pid(), SIGKILL);
+  const Attempt result = run();
+  EXPECT_EQ(to_string(result.status), "crash");
+  EXPECT_NE(result.detail.find("SIGKILL"), std::string::npos) << result.detail;
+}
+
+TEST_F(MethodSessionTest, WhatAWorkerLeavesBehindGoesWithIt) {
+  EXPECT_EQ(attempt("orphan").status, Status::kCrash);
+  // Killed, but by whom it is reaped is out of our hands.
+  EXPECT_TRUE(testing::wait_until([] { return !testing::runs_somewhere(misbehaving("orphan")); }));
+}
+
+TEST_F(MethodSessionTest, AProgramThatIsNotThereIsAnError) {
+  session_ =
+      std::make_unique<MethodSession>("good", std::vector<std::string>{"/nowhere/worker"}, WorkerLimits{});
+  const Attempt result = run();
+  EXPECT_EQ(to_string(result.status), "error");
+  EXPECT_EQ(result.detail, "cannot start the worker /nowhere/worker: No such file or directory");
+}
+
+TEST_F(MethodSessionTest, AnInterruptionEndsTheWaitAndTheWorker) {
+  ASSERT_EQ(attempt("hang", 100ms).status, Status::kTimeout);
+  set_interrupted(true);
+  EXPECT_THROW(run(), Interrupted);
+  set_interrupted(false);
+  EXPECT_LE(session_->pid(), 0);
+}
+
+TEST(WorkerProcess, EndsWithItsInput) {
+  WorkerProcess worker(misbehaving("good"), {});
+  const pid_t pid = worker.pid();
+  worker.quit(10s);
+  EXPECT_FALSE(worker.alive());
+  EXPECT_FALSE(testing::is_running(pid));
+}
+
+TEST(WorkerProcess, RunsOnTheCoreAndWithTheMemoryItIsGiven) {
+  const int core = allowed_cores().back();
+  // A shell is a worker that answers with what it sees.
+  const std::string script =
+      "read line; core=$(grep Cpus_allowed_list /proc/self/status | cut -f2); "
+      "echo \"{\\\"core\\\": \\\"$core\\\", \\\"memory\\\": $(ulimit -v), \\\"dump\\\": $(ulimit -c)}\"; "
+      "read line";
+  WorkerProcess worker({"/bin/sh", "-c", script}, {512, core});
+  const Reply reply = worker.request({{"request", "hello"}}, 30s);
+  ASSERT_EQ(reply.status, Status::kOk) << reply.detail;
+  EXPECT_EQ(reply.body["core"], std::to_string(core));
+  EXPECT_EQ(reply.body["memory"], 512 * 1024);
+  EXPECT_EQ(reply.body["dump"], 0);
+}
+
+TEST(WorkerProcess, AReplyThatComesJustBeforeTheEndCounts) {
+  const std::string script = "read line; echo '{\"last\": \"word\"}'";
+  WorkerProcess worker({"/bin/sh", "-c", script}, {});
+  const Reply reply = worker.request({{"request", "hello"}}, 30s);
+  EXPECT_EQ(reply.status, Status::kOk) << reply.detail;
+  EXPECT_EQ(reply.body["last"], "word");
+}
+
+TEST(Protocol, PointsSurviveTheFile) {
+  const testing::TemporaryFolder folder;
+  const std::vector<Point> points = {{1.5, -2.25}, {1e300, 5e-324}};
+  write_points_file(folder.path() / "points", points);
+  EXPECT_EQ(std::filesystem::file_size(folder.path() / "points"), 32U);
+  EXPECT_EQ(read_points_file(folder.path() / "points", 2), points);
+  EXPECT_THROW(read_points_file(folder.path() / "points", 3), std::runtime_error);
+  EXPECT_THROW(read_points_file(folder.path() / "none", 0), std::runtime_error);
+}
+
+TEST(Protocol, MethodsSurviveJson) {
+  MethodInfo info;
+  info.name = "some";
+  info.version = "2.1";
+  info.parameters = {{"alpha", "length", "A radius.", 0, std::numeric_limits<double>::infinity(), 4.5},
+                     {"c", "1", "Required.", 1, 2, std::nullopt}};
+  info.capabilities = {true, false};
+  const MethodInfo copy = method_from_json(json::parse(method_to_json(info).dump()));
+  EXPECT_EQ(copy.name, "some");
+  ASSERT_EQ(copy.parameters.size(), 2U);
+  EXPECT_EQ(copy.parameters[0].maximum, std::numeric_limits<double>::infinity());
+  EXPECT_EQ(copy.parameters[0].default_value, 4.5);
+  EXPECT_FALSE(copy.parameters[1].default_value.has_value());
+  EXPECT_TRUE(copy.capabilities.holes);
+  EXPECT_FALSE(copy.capabilities.several_polygons);
+}
+
+TEST(Protocol, LastWordsAreMadePrintable) {
+  EXPECT_EQ(printable("  a\nb\tc\x01\xC3\xA9 \n", 100), "a b c ??");
+  EXPECT_EQ(printable("0123456789", 4), "6789");
+  EXPECT_EQ(printable("\n\n", 10), "");
+}
+
+}  // namespace
+}  // namespace hullbench
