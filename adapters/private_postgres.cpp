@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <array>
 #include <cerrno>
+#include <cstdlib>
 #include <memory>
 #include <optional>
 #include <sstream>
@@ -128,6 +129,7 @@ void create_extension(const std::string& dsn) {
 }  // namespace
 
 std::vector<fs::path> postgres_bin_folders() {
+  if (const char* named = std::getenv("HULLBENCH_POSTGRES_BIN")) return {named};
   std::vector<fs::path> folders;
   const std::string configured = first_line("pg_config", "--bindir");
   if (!configured.empty()) folders.emplace_back(configured);

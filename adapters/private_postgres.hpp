@@ -9,8 +9,8 @@
 
 namespace hullbench {
 
-/// Folders where programs of installed PostgreSQL servers may be: what `pg_config` says, then
-/// /usr/lib/postgresql/*/bin.
+/// Folders where programs of installed PostgreSQL servers may be: the one that HULLBENCH_POSTGRES_BIN names
+/// and no other; where that is not set, what `pg_config` says, then /usr/lib/postgresql/*/bin.
 std::vector<std::filesystem::path> postgres_bin_folders();
 
 /// Where the PostgreSQL in `bin` keeps the control files and scripts of its extensions; empty when it does

@@ -30,7 +30,9 @@ constexpr const char* kFooter =
     "Exit codes: 0 everything asked for was done; 1 an error of the harness, or `validate` found faults; 2 "
     "usage or\n"
     "configuration; 4 some methods failed (their rows say how); 6 nothing was measured; 130 interrupted.\n"
-    "HULLBENCH_POSTGIS_DSN names a PostGIS server to use instead of a private one.";
+    "HULLBENCH_POSTGIS_DSN names a PostGIS server to use instead of a private one; HULLBENCH_POSTGRES_BIN "
+    "the folder with\n"
+    "the programs that a private server is made of.";
 
 /// Memory for a worker that only says who it is.
 constexpr std::int64_t kListMemoryMib = 4096;

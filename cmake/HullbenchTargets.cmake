@@ -35,6 +35,8 @@ endif()
 function(hullbench_test name)
   cmake_parse_arguments(TEST "" "TIMEOUT" "SOURCES;LIBRARIES;LABELS" ${ARGN})
   add_executable(${name} ${TEST_SOURCES})
+  # Boost 1.74's Geometry includes headers of its own that announce themselves as deprecated in every compilation.
+  target_compile_definitions(${name} PRIVATE BOOST_ALLOW_DEPRECATED_HEADERS)
   target_link_libraries(${name} PRIVATE ${TEST_LIBRARIES} GTest::gtest_main hullbench::compile_options)
   if(NOT TEST_TIMEOUT)
     set(TEST_TIMEOUT 120)

@@ -118,7 +118,10 @@ function manifest(entries) {
   return {
     licences: 'All outlines in this folder are in the public domain and may be used for anything: they come '
       + 'from data of the US Census Bureau. The npm package that carries the data (us-atlas, copyright '
-      + '2013-2019 Michael Bostock) is under the ISC licence, which allows the same.',
+      + '2013-2019 Michael Bostock) is under the ISC licence, which allows the same. The harness binary that '
+      + 'reads these files, build/hullbench, is another matter: it links CGAL packages under GPL-3.0-or-later, '
+      + 'so whoever passes that binary on does so under GPL-3.0-or-later; neither the data nor the polylidar '
+      + 'core, which is MIT and links nothing, is touched by that.',
     made_by: 'datasets/make_states.mjs',
     how_made: 'Spherical Mercator projection, y up; moved so that the smallest x and y are 0; scaled so '
       + `that the larger side of the bounding box is ${size}; all islands kept; coordinates rounded to `

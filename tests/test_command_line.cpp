@@ -323,6 +323,20 @@ TEST_F(CommandLineTest, ADatabaseThatAnswersNothingIsAVisibleRow) {
   }
 }
 
+TEST_F(CommandLineTest, PostgisThatIsNotInstalledIsARowWithItsRemedy) {
+  const fs::path nothing = folder() / "no-programs";
+  fs::create_directory(nothing);
+  const Outcome outcome = hullbench({"run", "states", "--filter", "(polylidar|postgis)/hi/n:2000/holes:0",
+                                     "--repetitions", "1", "--out", "run"},
+                                    {{}, {{"HULLBENCH_POSTGRES_BIN", nothing.string()}}, false});
+  EXPECT_EQ(outcome.code, 0) << outcome.err;
+  EXPECT_NE(outcome.err.find("postgis does not start (not_installed): PostgreSQL is not installed"),
+            std::string::npos)
+      << outcome.err;
+  EXPECT_NE(outcome.err.find("apt-get install postgresql-postgis"), std::string::npos) << outcome.err;
+  EXPECT_NE(outcome.err.find("1 ok, 0 failed, 1 not installed"), std::string::npos) << outcome.err;
+}
+
 TEST_F(CommandLineTest, AWorkerThatIsKilledIsARowAndTheRestIsMeasured) {
   const std::string small = plan({64000, 500}, 200);
   Program program(command({"run", small, "--out", "run"}), in_folder());
