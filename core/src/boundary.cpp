@@ -18,11 +18,41 @@ Mesh::Index next_boundary(const Mesh& mesh, Mesh::Index e) {
   }
 }
 
+/// From the half-edge `leaving` a vertex of the region's boundary, straight to the left (along -x) through
+/// the region until the next boundary; returns the triangle in front of it. The way runs an infinitesimal
+/// step below the vertex, so that points at its height count as above and it never meets a vertex. The region
+/// must lie to the left of the vertex.
+Mesh::Index next_boundary_to_the_left(const Mesh& mesh, const Point* vertices, Mesh::Index leaving) {
+  const double height = vertices[mesh.origin(leaving)].y;
+  const auto is_above = [&](Mesh::Index e) { return vertices[mesh.origin(e)].y >= height; };
+  // Round the vertex: the triangle (vertex, p, q) through which the way leaves has p above and q below it.
+  Mesh::Index e = leaving;
+  for (;; e = mesh.twin(Mesh::previous(e))) {
+    const Mesh::Index p = Mesh::next(e);
+    const Mesh::Index q = Mesh::next(p);
+    if (!mesh.is_ghost(Mesh::triangle_of(e)) && is_above(p) && !is_above(q)) {
+      e = p;
+      break;
+    }
+  }
+  // It leaves every triangle by the edge that comes down.
+  for (;;) {
+    const Mesh::Index twin = mesh.twin(e);
+    if ((mesh.state(Mesh::triangle_of(twin)) & Mesh::kKept) == 0) return Mesh::triangle_of(e);
+    const Mesh::Index next = Mesh::next(twin);
+    e = is_above(next) && !is_above(Mesh::next(next)) ? next : Mesh::next(next);
+  }
+}
+
+bool lexicographically_less(const Point& a, const Point& b) {
+  return a.x < b.x || (a.x == b.x && a.y < b.y);
+}
+
 /// Whether a simple ring runs counter-clockwise, exactly: it turns the same way at its lexicographically
 /// least vertex.
 bool is_counter_clockwise(const Point* vertices, std::span<const std::uint32_t> ring) {
   const auto less = [&](std::uint32_t a, std::uint32_t b) {
-    return vertices[a].x < vertices[b].x || (vertices[a].x == vertices[b].x && vertices[a].y < vertices[b].y);
+    return lexicographically_less(vertices[a], vertices[b]);
   };
   const std::size_t count = ring.size();
   const auto least =
@@ -39,16 +69,18 @@ void BoundaryTracer::trace(Mesh& mesh, const Point* vertices, std::size_t vertex
                            IndexedMultiPolygon& shape) {
   ring_vertices_.clear();
   rings_.clear();
+  walks_.clear();
   region_count_ = 0;
   std::uint32_t* place = place_in_walk_.reserve(vertex_count);
   for (const Index e : boundary) {
     place[mesh.origin(e)] = kNone;
     mesh.state(Mesh::triangle_of(e)) = Mesh::kKept;  // forgets an earlier trace
+    mesh.walk(Mesh::triangle_of(e)) = kNone;
   }
   for (const Index e : boundary) {
     if ((mesh.state(Mesh::triangle_of(e)) & Mesh::taken_bit(e)) == 0) trace_walk(mesh, vertices, e);
   }
-  assign_holes(mesh);
+  if (region_count_ > 1) join_holes(mesh, vertices);
   emit(caller_index, shape);
 }
 
@@ -61,74 +93,77 @@ void BoundaryTracer::trace(Mesh& mesh, const Point* vertices, std::size_t vertex
 /// definition of a polygon wants it.
 void BoundaryTracer::trace_walk(Mesh& mesh, const Point* vertices, Index first) {
   std::uint32_t* place = place_in_walk_.data();
-  const std::size_t first_ring = rings_.size();
-  walk_.clear();
+  const auto number = static_cast<std::uint32_t>(walks_.size());
+  walks_.push_back({first, number, kNone});
+  bool has_shell = false;
+  open_walk_.clear();
   Index e = first;
   do {
-    mesh.state(Mesh::triangle_of(e)) |= Mesh::taken_bit(e);
+    const Index triangle = Mesh::triangle_of(e);
+    mesh.state(triangle) |= Mesh::taken_bit(e);
+    if (mesh.walk(triangle) == kNone) {
+      mesh.walk(triangle) = number;
+    } else if (mesh.walk(triangle) != number) {  // two walks along one triangle run round one region
+      walks_[root(number)].parent = root(mesh.walk(triangle));
+    }
+
     const std::uint32_t vertex = mesh.origin(e);
-    if (place[vertex] != kNone) add_ring(vertices, place[vertex], first);
-    place[vertex] = static_cast<std::uint32_t>(walk_.size());
-    walk_.push_back(vertex);
+    Index& least = walks_[number].least;
+    if (lexicographically_less(vertices[vertex], vertices[mesh.origin(least)])) least = e;
+    if (place[vertex] != kNone) has_shell |= add_ring(vertices, place[vertex]);
+    place[vertex] = static_cast<std::uint32_t>(open_walk_.size());
+    open_walk_.push_back(vertex);
     e = next_boundary(mesh, e);
   } while (e != first);
-  add_ring(vertices, 0, first);
-
-  // The walk round the outside of a region holds its shell; one round a hole holds holes only.
-  const auto shell = std::find_if(rings_.begin() + static_cast<std::ptrdiff_t>(first_ring), rings_.end(),
-                                  [](const TracedRing& ring) { return ring.is_shell; });
-  if (shell == rings_.end()) return;
-  for (std::size_t r = first_ring; r < rings_.size(); ++r) rings_[r].region = region_count_;
-  ++region_count_;
+  has_shell |= add_ring(vertices, 0);
+  if (has_shell) walks_[number].region = region_count_++;
 }
 
-/// Makes a ring of the walk's vertices from `begin` on and takes them off the walk.
-void BoundaryTracer::add_ring(const Point* vertices, std::size_t begin, Index half_edge) {
-  const std::span<const std::uint32_t> ring = std::span(walk_).subspan(begin);
+/// Makes a ring of the open walk's vertices from `begin` on and takes them off it. Returns whether it is a
+/// shell.
+bool BoundaryTracer::add_ring(const Point* vertices, std::size_t begin) {
+  const std::span<const std::uint32_t> ring = std::span(open_walk_).subspan(begin);
   for (const std::uint32_t vertex : ring) place_in_walk_.data()[vertex] = kNone;
   const auto start = static_cast<std::uint32_t>(ring_vertices_.size());
   ring_vertices_.insert(ring_vertices_.end(), ring.begin(), ring.end());
-  rings_.push_back({start, static_cast<std::uint32_t>(ring_vertices_.size()), kNone,
-                    is_counter_clockwise(vertices, ring), half_edge});
-  walk_.resize(begin);
+  const bool is_shell = is_counter_clockwise(vertices, ring);
+  rings_.push_back({start, static_cast<std::uint32_t>(ring_vertices_.size()),
+                    static_cast<std::uint32_t>(walks_.size() - 1), is_shell});
+  open_walk_.resize(begin);
+  return is_shell;
 }
 
-/// Finds the region of the holes whose walk does not touch their shell.
-void BoundaryTracer::assign_holes(Mesh& mesh) {
-  const bool any =
-      std::any_of(rings_.begin(), rings_.end(), [](const TracedRing& ring) { return ring.region == kNone; });
-  if (!any) return;
-  if (region_count_ == 1) {
-    for (TracedRing& ring : rings_) ring.region = 0;
-    return;
+/// Joins every walk that holds no shell with the walk on its left.
+///
+/// Such a walk runs round holes, so its region goes on to the left of its leftmost vertex, up to a boundary
+/// edge that reaches further left still. The leftmost of the walks that are joined can therefore be none of
+/// these: it is the one with the shell.
+void BoundaryTracer::join_holes(const Mesh& mesh, const Point* vertices) {
+  for (std::uint32_t w = 0; w < walks_.size(); ++w) {
+    if (walks_[w].region != kNone) continue;
+    const Index triangle = next_boundary_to_the_left(mesh, vertices, walks_[w].least);
+    walks_[root(w)].parent = root(mesh.walk(triangle));
   }
-  for (Index t = 0; t < mesh.triangle_count(); ++t) mesh.region(t) = kNone;
-  for (const TracedRing& shell : rings_) {
-    if (!shell.is_shell) continue;
-    const Index seed = Mesh::triangle_of(shell.half_edge);
-    mesh.region(seed) = shell.region;
-    stack_.push_back(seed);
-    while (!stack_.empty()) {
-      const Index t = stack_.back();
-      stack_.pop_back();
-      for (Index k = 0; k < 3; ++k) {
-        const Index neighbour = Mesh::triangle_of(mesh.twin(Mesh::kStride * t + k));
-        if ((mesh.state(neighbour) & Mesh::kKept) == 0 || mesh.region(neighbour) != kNone) continue;
-        mesh.region(neighbour) = shell.region;
-        stack_.push_back(neighbour);
-      }
-    }
+  // The region's number goes from the walk with the shell to the root of its walks.
+  for (std::uint32_t w = 0; w < walks_.size(); ++w) {
+    if (walks_[w].region != kNone) walks_[root(w)].region = walks_[w].region;
   }
-  for (TracedRing& ring : rings_) {
-    if (ring.region == kNone) ring.region = mesh.region(Mesh::triangle_of(ring.half_edge));
-  }
+}
+
+std::uint32_t BoundaryTracer::root(std::uint32_t walk) {
+  while (walks_[walk].parent != walk) walk = walks_[walk].parent = walks_[walks_[walk].parent].parent;
+  return walk;
+}
+
+std::uint32_t BoundaryTracer::region_of(const TracedRing& ring) {
+  return region_count_ == 1 ? 0 : walks_[root(ring.walk)].region;
 }
 
 /// Writes the rings region by region, each shell before its holes.
 void BoundaryTracer::emit(const std::uint32_t* caller_index, IndexedMultiPolygon& shape) {
   shape.clear();
   shape.polygon_ends.resize(region_count_);
-  for (const TracedRing& ring : rings_) ++shape.polygon_ends[ring.region];
+  for (const TracedRing& ring : rings_) ++shape.polygon_ends[region_of(ring)];
   next_place_.clear();
   std::uint32_t total = 0;
   for (std::uint32_t& end : shape.polygon_ends) {
@@ -138,7 +173,7 @@ void BoundaryTracer::emit(const std::uint32_t* caller_index, IndexedMultiPolygon
 
   ring_order_.resize(rings_.size());
   for (std::uint32_t r = 0; r < rings_.size(); ++r) {
-    const std::uint32_t region = rings_[r].region;
+    const std::uint32_t region = region_of(rings_[r]);
     const std::uint32_t shell_place = region == 0 ? 0 : shape.polygon_ends[region - 1];
     ring_order_[rings_[r].is_shell ? shell_place : next_place_[region]++] = r;
   }

@@ -15,34 +15,43 @@ class BoundaryTracer {
   /// One polygon a region of edge-connected kept triangles of `mesh`, whose boundary half-edges are
   /// `boundary`, by the caller's indices (`caller_index`: vertex of the mesh -> caller's point). `vertices`
   /// are the mesh's positions. Linear in the number of boundary half-edges and of the triangles round their
-  /// vertices; where there are several regions and one of them has a hole, linear in the number of triangles.
+  /// vertices; where there are several regions, each hole adds the triangles on the way from it to the next
+  /// boundary on its left.
   void trace(Mesh& mesh, const Point* vertices, std::size_t vertex_count, const std::uint32_t* caller_index,
              const std::vector<Mesh::Index>& boundary, IndexedMultiPolygon& shape);
 
  private:
   using Index = Mesh::Index;
 
+  /// A closed walk along the boundary of one region, which falls into rings where it comes back to a vertex.
+  struct Walk {
+    Index least;           ///< the half-edge that leaves its lexicographically least vertex
+    std::uint32_t parent;  ///< a walk of the same region, or itself
+    std::uint32_t region;  ///< kNone unless it holds the region's shell
+  };
   struct TracedRing {
     std::uint32_t begin;  ///< in ring_vertices_
     std::uint32_t end;
-    std::uint32_t region;  ///< kNone until known
+    std::uint32_t walk;
     bool is_shell;
-    Index half_edge;  ///< some half-edge of its region
   };
 
   void trace_walk(Mesh& mesh, const Point* vertices, Index first);
-  void add_ring(const Point* vertices, std::size_t stack_begin, Index half_edge);
-  void assign_holes(Mesh& mesh);
+  bool add_ring(const Point* vertices, std::size_t begin);
+  void join_holes(const Mesh& mesh, const Point* vertices);
+  std::uint32_t root(std::uint32_t walk);
+  std::uint32_t region_of(const TracedRing& ring);
   void emit(const std::uint32_t* caller_index, IndexedMultiPolygon& shape);
 
   std::vector<std::uint32_t>
-      walk_;  ///< vertices of the walk being traced, without the rings already split off
-  Scratch<std::uint32_t> place_in_walk_;  ///< boundary vertex -> its place in walk_, kNone if it is not there
+      open_walk_;  ///< vertices of the walk being traced, without the rings already split off
+  Scratch<std::uint32_t>
+      place_in_walk_;  ///< boundary vertex -> its place in open_walk_, kNone if it is not there
   std::vector<std::uint32_t> ring_vertices_;  ///< of all rings, in the order of `rings_`
   std::vector<TracedRing> rings_;
+  std::vector<Walk> walks_;
   std::vector<std::uint32_t> ring_order_;  ///< rings by region, the shell first
   std::vector<std::uint32_t> next_place_;  ///< region -> where in ring_order_ its next hole goes
-  std::vector<Index> stack_;
   std::uint32_t region_count_ = 0;
 };
 

@@ -71,7 +71,8 @@ class Mesh {
   static Index taken_bit(Index e) { return 2U << (e & 3U); }
   Index& state(Index t) { return memory_[kStride * t + 3]; }
   Index state(Index t) const { return memory_[kStride * t + 3]; }
-  Index& region(Index t) { return memory_[kStride * t + 7]; }
+  Index& walk(Index t) { return memory_[kStride * t + 7]; }
+  Index walk(Index t) const { return memory_[kStride * t + 7]; }
 
   void bond(Index e, Index f) {
     memory_[e + 4] = f;
