@@ -101,6 +101,7 @@ class Ratios {
       }
     }
     std::vector<double> result;
+    result.reserve(worst.size());
     for (const auto& [which, ratio] : worst) result.push_back(ratio);
     return result;
   }

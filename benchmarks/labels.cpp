@@ -36,7 +36,7 @@ std::string shape_title(const json& report, const std::string& dataset, bool hol
 std::string not_installed_text(const json& report, const std::string& what, const std::string& method,
                                const std::string& detail) {
   const std::string remedy = remedy_of(report, method);
-  const std::string text = what + " is not installed: " + sentence(detail);
+  std::string text = what + " is not installed: " + sentence(detail);
   if (remedy.empty() || detail.find(remedy) != std::string::npos) return text;
   return text + " To install it: " + remedy;
 }
