@@ -34,8 +34,9 @@ MultiPolygon to_coordinates(const IndexedMultiPolygon& shape, std::span<const Po
 }
 
 struct Extractor::State {
+  detail::ThreadPool pool;
   detail::DelaunayBuilder builder;
-  detail::Scratch<detail::Mesh::Index> dropped;
+  detail::RegionFilter filter;
   std::vector<detail::Mesh::Index> boundary;
   detail::BoundaryTracer tracer;
   IndexedMultiPolygon shape;
@@ -47,22 +48,27 @@ Extractor::Extractor(Extractor&&) noexcept = default;
 Extractor& Extractor::operator=(Extractor&&) noexcept = default;
 
 const IndexedMultiPolygon& Extractor::extract(std::span<const Point> points, const Options& options) {
-  triangulate(points);
+  triangulate(points, options.threads);
   extract_regions(options);
   return extract_polygons();
 }
 
-void Extractor::triangulate(std::span<const Point> points) {
-  state_->builder.build(points);
+void Extractor::triangulate(std::span<const Point> points, unsigned threads) {
+  if (threads == 0) throw std::invalid_argument("threads must be one or more");
+  state_->pool.use(threads);
+  state_->boundary.clear();
+  state_->builder.build(points, state_->pool);
 }
 
 void Extractor::extract_regions(const Options& options) {
   if (!(options.alpha >= 0)) throw std::invalid_argument("alpha must be zero or more");
   if (!(options.max_edge_length >= 0)) throw std::invalid_argument("max_edge_length must be zero or more");
+  if (options.threads == 0) throw std::invalid_argument("threads must be one or more");
+  state_->pool.use(options.threads);
   detail::DelaunayBuilder& builder = state_->builder;
-  detail::extract_regions(
-      builder.mesh(), builder.vertices(), std::ldexp(options.alpha, builder.scale_exponent()),
-      std::ldexp(options.max_edge_length, builder.scale_exponent()), state_->dropped, state_->boundary);
+  state_->filter.run(builder.mesh(), builder.vertices(), std::ldexp(options.alpha, builder.scale_exponent()),
+                     std::ldexp(options.max_edge_length, builder.scale_exponent()), state_->pool,
+                     state_->boundary);
 }
 
 const IndexedMultiPolygon& Extractor::extract_polygons() {

@@ -7,7 +7,8 @@ namespace polylidar {
 Triangulation delaunay(std::span<const Point> points) {
   using detail::Mesh;
   detail::DelaunayBuilder builder;
-  builder.build(points);
+  detail::ThreadPool this_thread;
+  builder.build(points, this_thread);
   const Mesh& mesh = builder.mesh();
   const std::uint32_t* caller_index = builder.caller_index();
 

@@ -1,11 +1,14 @@
 // Delaunay triangulation by divide and conquer along a space-filling curve.
 #pragma once
 
+#include <atomic>
 #include <cstdint>
+#include <deque>
 #include <span>
 
 #include "half_edge.hpp"
 #include "hull_merge.hpp"
+#include "thread_pool.hpp"
 
 namespace polylidar::detail {
 
@@ -18,8 +21,9 @@ namespace polylidar::detail {
 /// is allocated, freed or moved.
 class DelaunayBuilder {
  public:
-  /// Triangulates `points`. Throws std::invalid_argument as concave_hull does.
-  void build(std::span<const Point> points);
+  /// Triangulates `points` on the threads of `pool`: the same mesh for any number of them. Throws
+  /// std::invalid_argument as concave_hull does.
+  void build(std::span<const Point> points, ThreadPool& pool);
 
   const Mesh& mesh() const { return mesh_; }
   Mesh& mesh() { return mesh_; }
@@ -33,7 +37,25 @@ class DelaunayBuilder {
  private:
   using Index = Mesh::Index;
 
-  void sort_along_curve(std::span<const Point> points);
+  /// A subtree of the curve: a range of points whose triangulations are built by themselves, or the two
+  /// parts into which a line cuts it.
+  struct Part {
+    Part(Index part_begin, Index part_end, Part* part_parent)
+        : begin(part_begin), end(part_end), parent(part_parent) {}
+    Index begin;
+    Index end;
+    Part* parent;
+    Part* first = nullptr;  ///< null: not cut
+    Part* second = nullptr;
+    Axis axis = Axis::kX;
+    std::atomic<int> unfinished = 2;  ///< of the two
+    Hull hull;
+  };
+
+  void sort_along_curve(std::span<const Point> points, ThreadPool& pool);
+  void build_parts(ThreadPool& pool);
+  void cut(Part& part, Index largest, std::deque<Part>& parts);
+  void finish(Part& part);
   void refine_curve(Index begin, Index end, const Box& box);
   void sort_small_cell(Index begin, Index end);
 
@@ -53,8 +75,6 @@ class DelaunayBuilder {
   Scratch<Point> points_;
   Scratch<Index> order_;
   Scratch<std::uint32_t> keys_;
-  Scratch<std::uint64_t> sorting_;
-  Scratch<std::uint64_t> sorting_spare_;
   Mesh mesh_;
   ExactLimits exact_limits_;
   std::size_t vertex_count_ = 0;

@@ -3,35 +3,12 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <memory>
-#include <span>
-#include <vector>
 
 #include "polylidar/delaunay.hpp"
 #include "polylidar/geometry.hpp"
+#include "scratch.hpp"
 
 namespace polylidar::detail {
-
-/// An array that keeps its memory when it shrinks and never initialises it: fresh memory costs more than
-/// sorting a point.
-template <class T>
-class Scratch {
- public:
-  /// Room for `size` elements whose values are undefined.
-  T* reserve(std::size_t size) {
-    if (size > capacity_) {
-      data_ = std::make_unique_for_overwrite<T[]>(size);
-      capacity_ = size;
-    }
-    return data_.get();
-  }
-  T* data() { return data_.get(); }
-  const T* data() const { return data_.get(); }
-
- private:
-  std::unique_ptr<T[]> data_;
-  std::size_t capacity_ = 0;
-};
 
 /// A triangulation of the sphere: the finite triangles and, outside the convex hull, one ghost triangle a
 /// hull edge, whose third vertex is the vertex at infinity, kNone. Turning round a vertex therefore never
@@ -43,8 +20,9 @@ class Scratch {
 ///   m[8t + 4 + k]  its twin, the same edge seen from the neighbouring triangle
 ///   m[8t + 3]      the triangle's state: kKept when it belongs to the shape, and which of its half-edges are
 ///   in a ring m[8t + 7]      the region it belongs to, where that had to be found out
-/// n distinct points make 2n - 2 triangles, ghosts included (Euler's formula on the sphere). Records of
-/// triangles that repeated points left unused have kNone for all vertices.
+/// A ghost's third vertex is always infinity, so that over the hull edge u -> v its half-edges are v -> u, u
+/// -> infinity and infinity -> v. n distinct points make 2n - 2 triangles, ghosts included (Euler's formula
+/// on the sphere). Records of triangles that repeated points left unused have kNone for all vertices.
 class Mesh {
  public:
   using Index = std::uint32_t;
@@ -52,13 +30,21 @@ class Mesh {
   /// Beyond this many points half-edges would not fit into 32 bits.
   static constexpr std::size_t kMaxPoints = std::size_t{1} << 28U;
 
-  /// Room for the triangles of `points` points; contents undefined.
+  /// Room for the triangles of `points` points, 64 bytes a point; contents undefined.
   void reset(std::size_t points) {
     triangle_count_ = points < 2 ? 0 : static_cast<Index>(2 * points - 2);
-    memory_ = storage_.reserve(std::size_t{kStride} * triangle_count_);
+    memory_ = storage_.reserve(std::size_t{kStride} * 2 * points);
   }
 
   Index triangle_count() const { return triangle_count_; }
+  Index* memory() { return memory_; }
+
+  /// The memory of the records from `first_record` (a half-edge) on, for other use until triangles are
+  /// written there: it needs none of its own.
+  template <class T>
+  T* borrow(Index first_record) {
+    return reinterpret_cast<T*>(memory_ + first_record);
+  }
 
   static Index next(Index e) { return (e & 3U) == 2U ? e - 2 : e + 1; }
   static Index previous(Index e) { return (e & 3U) == 0U ? e + 2 : e - 1; }

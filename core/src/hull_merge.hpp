@@ -5,21 +5,24 @@
 
 namespace polylidar::detail {
 
-/// A vertex of a convex hull, and the half-edge that leads from it to infinity in the ghost over the hull
-/// edge that leaves it counter-clockwise. Of a hull that is a single point: that point and kNone.
+/// A vertex of a convex hull, and the record of the ghost over the hull edge that leaves it
+/// counter-clockwise. Of a hull that is a single point: that point and kNone.
 struct HullVertex {
   Mesh::Index vertex;
-  Mesh::Index to_infinity;
+  Mesh::Index ghost;
 };
 
-/// A triangulated set of points, by two vertices of its convex hull: the ends, left and right, of the lower
-/// and the upper tangent of its last merge. The next merge looks for the extreme vertices of its halves,
-/// which are near one of them.
+/// A triangulated set of points, by the extreme vertices of its convex hull, from which merges start.
 struct Hull {
-  HullVertex lower;
-  HullVertex upper;
-  bool is_point() const { return lower.to_infinity == kNone; }
-  static Hull of_point(Mesh::Index vertex) { return {{vertex, kNone}, {vertex, kNone}}; }
+  HullVertex left;    ///< least by x, then y
+  HullVertex right;   ///< greatest by x, then y
+  HullVertex bottom;  ///< least by y, then x
+  HullVertex top;     ///< greatest by y, then x
+  bool is_point() const { return left.ghost == kNone; }
+  static Hull of_point(Mesh::Index vertex) {
+    const HullVertex point{vertex, kNone};
+    return {point, point, point, point};
+  }
 };
 
 /// Which coordinate tells two halves apart; ties are broken by the other one.
@@ -42,6 +45,7 @@ Hull merge_hulls(Mesh& mesh, const Point* points, const ExactLimits& limits, con
 
 /// The triangle (a, b, c), which runs counter-clockwise, and the ghosts over its edges, in four records from
 /// `first_record` on.
-Hull join_triangle(Mesh& mesh, Mesh::Index a, Mesh::Index b, Mesh::Index c, Mesh::Index first_record);
+Hull join_triangle(Mesh& mesh, const Point* points, Mesh::Index a, Mesh::Index b, Mesh::Index c,
+                   Mesh::Index first_record);
 
 }  // namespace polylidar::detail

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <span>
 
 namespace polylidar::detail {
 
@@ -35,11 +36,12 @@ bool keeps(const Limits& limits, const Point& a, const Point& b, const Point& c)
   return kept;
 }
 
-/// Marks every triangle as kept or not; returns how many are not, which `dropped` then lists.
+/// Marks the triangles [begin, end) as kept or not; returns how many are not, which `dropped` then lists.
 template <bool kLimitRadius, bool kLimitEdge>
-std::size_t filter(Mesh& mesh, const Point* vertices, const Limits& limits, Mesh::Index* dropped) {
+std::size_t filter(Mesh& mesh, const Point* vertices, const Limits& limits, Mesh::Index begin,
+                   Mesh::Index end, Mesh::Index* dropped) {
   std::size_t count = 0;
-  for (Mesh::Index t = 0; t < mesh.triangle_count(); ++t) {
+  for (Mesh::Index t = begin; t < end; ++t) {
     const Mesh::Index e = Mesh::kStride * t;
     const bool kept = !mesh.is_ghost(t) && keeps<kLimitRadius, kLimitEdge>(limits, vertices[mesh.origin(e)],
                                                                            vertices[mesh.origin(e + 1)],
@@ -51,27 +53,46 @@ std::size_t filter(Mesh& mesh, const Point* vertices, const Limits& limits, Mesh
   return count;
 }
 
-}  // namespace
-
-void extract_regions(Mesh& mesh, const Point* vertices, double alpha, double max_edge_length,
-                     Scratch<Mesh::Index>& dropped, std::vector<Mesh::Index>& boundary) {
-  const Limits limits{4 * alpha * alpha, max_edge_length * max_edge_length};
-  const bool limit_radius = std::isfinite(alpha);
-  const bool limit_edge = std::isfinite(max_edge_length);
-  const auto run = limit_radius ? (limit_edge ? &filter<true, true> : &filter<true, false>)
-                                : (limit_edge ? &filter<false, true> : &filter<false, false>);
-  Mesh::Index* list = dropped.reserve(mesh.triangle_count());
-  const std::size_t count = run(mesh, vertices, limits, list);
-
-  // Every boundary edge has a dropped triangle on its other side, and these are few.
-  boundary.clear();
-  for (std::size_t i = 0; i < count; ++i) {
-    const Mesh::Index t = list[i];
+/// Appends the half-edges of kept triangles on whose other side is one of `dropped`.
+void collect_boundary(const Mesh& mesh, std::span<const Mesh::Index> dropped,
+                      std::vector<Mesh::Index>& boundary) {
+  for (const Mesh::Index t : dropped) {
     if (mesh.is_unused(t)) continue;
     for (Mesh::Index k = 0; k < 3; ++k) {
       const Mesh::Index e = mesh.twin(Mesh::kStride * t + k);
       if ((mesh.state(Mesh::triangle_of(e)) & Mesh::kKept) != 0) boundary.push_back(e);
     }
+  }
+}
+
+}  // namespace
+
+void RegionFilter::run(Mesh& mesh, const Point* vertices, double alpha, double max_edge_length,
+                       ThreadPool& pool, std::vector<Index>& boundary) {
+  const Limits limits{4 * alpha * alpha, max_edge_length * max_edge_length};
+  const bool limit_radius = std::isfinite(alpha);
+  const bool limit_edge = std::isfinite(max_edge_length);
+  const auto filter_range = limit_radius ? (limit_edge ? &filter<true, true> : &filter<true, false>)
+                                         : (limit_edge ? &filter<false, true> : &filter<false, false>);
+  const Chunks chunks(pool, mesh.triangle_count());
+  Index* dropped = dropped_.reserve(mesh.triangle_count());
+  std::vector<std::size_t> dropped_of_chunk(chunks.size());
+  pool.for_each(chunks.size(), [&](std::size_t c) {
+    const std::size_t begin = chunks.begin(c);
+    dropped_of_chunk[c] = filter_range(mesh, vertices, limits, static_cast<Index>(begin),
+                                       static_cast<Index>(chunks.end(c)), dropped + begin);
+  });
+
+  // Every boundary edge has a dropped triangle on its other side, and these are few.
+  boundary_of_chunk_.resize(std::max(boundary_of_chunk_.size(), chunks.size() - 1));
+  pool.for_each(chunks.size(), [&](std::size_t c) {
+    std::vector<Index>& own = c == 0 ? boundary : boundary_of_chunk_[c - 1];
+    own.clear();
+    collect_boundary(mesh, {dropped + chunks.begin(c), dropped_of_chunk[c]}, own);
+  });
+  for (std::size_t c = 1; c < chunks.size(); ++c) {
+    const std::vector<Index>& part = boundary_of_chunk_[c - 1];
+    boundary.insert(boundary.end(), part.begin(), part.end());
   }
 }
 

@@ -20,6 +20,9 @@ struct Options {
   double alpha = std::numeric_limits<double>::infinity();
   /// Longest edge of a kept triangle, in the length unit of the points; >= 0. The paper's l_max.
   double max_edge_length = std::numeric_limits<double>::infinity();
+  /// How many threads to use, the caller's among them; >= 1. The result is the same bit for bit. An
+  /// Extractor keeps the threads it has started, waiting, until another number above 1 is asked for.
+  unsigned threads = 1;
 };
 
 /// A multipolygon whose vertices are the caller's points, by index: three flat arrays. Every polygon is valid
@@ -69,8 +72,8 @@ class Extractor {
   /// All three steps. The result is valid until the next call.
   const IndexedMultiPolygon& extract(std::span<const Point> points, const Options& options = {});
 
-  /// Step 1: the Delaunay triangulation of `points`.
-  void triangulate(std::span<const Point> points);
+  /// Step 1: the Delaunay triangulation of `points`, on `threads` >= 1 threads.
+  void triangulate(std::span<const Point> points, unsigned threads = 1);
   /// Step 2: the kept triangles and their edge-connected regions.
   void extract_regions(const Options& options);
   /// Step 3: the boundary of every region as a polygon.

@@ -1,0 +1,26 @@
+// What coordinates a point set has: how far they reach, how they are scaled, and whether they lie on a
+// lattice.
+#pragma once
+
+#include <span>
+
+#include "polylidar/geometry.hpp"
+#include "thread_pool.hpp"
+
+namespace polylidar::detail {
+
+struct CoordinateRange {
+  Box box;
+  /// The power of two by which coordinates are multiplied so that the predicates hold them; 0 unless they are
+  /// extremely large or small.
+  int scale_exponent = 0;
+  /// The largest power of two of which all coordinates are multiples; 0 where it would be too small to matter
+  /// or coordinates are scaled.
+  double unit = 0;
+};
+
+/// Of at least one point. Throws std::invalid_argument when a coordinate is not finite or coordinates span
+/// more than the supported range (see Extractor).
+CoordinateRange measure_coordinates(std::span<const Point> points, ThreadPool& pool);
+
+}  // namespace polylidar::detail

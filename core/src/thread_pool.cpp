@@ -1,0 +1,58 @@
+#include "thread_pool.hpp"
+
+namespace polylidar::detail {
+
+void ThreadPool::use(unsigned threads) {
+  if (threads > 1 && started_.size() + 1 != threads) {
+    stop();
+    started_.reserve(threads - 1);
+    while (started_.size() + 1 < threads) started_.emplace_back(&ThreadPool::serve, this);
+  }
+  used_ = threads;
+}
+
+void ThreadPool::run(const Job& job) {
+  job_ = job;
+  next_.store(0, std::memory_order_relaxed);
+  still_working_.store(static_cast<std::uint32_t>(started_.size()), std::memory_order_relaxed);
+  jobs_given_.fetch_add(1, std::memory_order_release);
+  jobs_given_.notify_all();
+  work();
+  for (std::uint32_t left = 0; (left = still_working_.load(std::memory_order_acquire)) != 0;) {
+    still_working_.wait(left, std::memory_order_acquire);
+  }
+  if (error_) std::rethrow_exception(std::exchange(error_, nullptr));
+}
+
+/// Takes tasks until none is left.
+void ThreadPool::work() {
+  for (std::size_t i = 0; (i = next_.fetch_add(1, std::memory_order_relaxed)) < job_.count;) {
+    try {
+      job_.call(job_.task, i);
+    } catch (...) {
+      const std::lock_guard lock(error_mutex_);
+      if (!error_) error_ = std::current_exception();
+    }
+  }
+}
+
+/// The life of a started thread.
+void ThreadPool::serve() {
+  for (std::uint32_t seen = 0;; ++seen) {
+    jobs_given_.wait(seen, std::memory_order_acquire);
+    if (job_.call == nullptr) return;
+    work();
+    if (still_working_.fetch_sub(1, std::memory_order_acq_rel) == 1) still_working_.notify_one();
+  }
+}
+
+void ThreadPool::stop() {
+  job_ = {};
+  jobs_given_.fetch_add(1, std::memory_order_release);
+  jobs_given_.notify_all();
+  for (std::thread& thread : started_) thread.join();
+  started_.clear();
+  jobs_given_.store(0, std::memory_order_relaxed);
+}
+
+}  // namespace polylidar::detail

@@ -1,0 +1,83 @@
+// Threads that wait for work between the steps of the pipeline.
+#pragma once
+
+#include <algorithm>
+#include <atomic>
+#include <cstddef>
+#include <cstdint>
+#include <exception>
+#include <mutex>
+#include <thread>
+#include <utility>
+#include <vector>
+
+namespace polylidar::detail {
+
+/// Runs tasks on the caller's thread and, where more than one is wanted, on threads that it starts once and
+/// keeps. With one thread nothing is started, locked or counted. Not for use from several threads at once.
+class ThreadPool {
+ public:
+  ThreadPool() = default;
+  ThreadPool(const ThreadPool&) = delete;
+  ThreadPool& operator=(const ThreadPool&) = delete;
+  ~ThreadPool() { stop(); }
+
+  /// How many threads to use from now on, the caller's among them; >= 1.
+  void use(unsigned threads);
+  unsigned threads() const { return used_; }
+
+  /// task(i) for every i below `count`, in any order and on any of the threads. Returns when all are done;
+  /// then throws the first exception that one threw.
+  template <class Task>
+  void for_each(std::size_t count, const Task& task) {
+    if (used_ == 1 || count < 2) {
+      for (std::size_t i = 0; i < count; ++i) task(i);
+      return;
+    }
+    run({[](const void* t, std::size_t i) { (*static_cast<const Task*>(t))(i); }, &task, count});
+  }
+
+ private:
+  struct Job {
+    void (*call)(const void* task, std::size_t i) = nullptr;  ///< null tells the threads to end
+    const void* task = nullptr;
+    std::size_t count = 0;
+  };
+
+  void run(const Job& job);
+  void work();
+  void serve();
+  void stop();
+
+  // What every thread reads, what all of them write, and what they wait for, on cache lines of their own.
+  static constexpr std::size_t kCacheLine = 64;
+  Job job_;
+  unsigned used_ = 1;
+  std::vector<std::thread> started_;
+  std::exception_ptr error_;
+  std::mutex error_mutex_;
+  alignas(kCacheLine) std::atomic<std::size_t> next_ = 0;
+  alignas(kCacheLine) std::atomic<std::uint32_t> jobs_given_ = 0;
+  alignas(kCacheLine) std::atomic<std::uint32_t> still_working_ = 0;
+};
+
+/// `count` things in consecutive chunks of nearly the same size: one for a single thread, several for each of
+/// many, so that a thread which is held up is waited for by none.
+class Chunks {
+ public:
+  Chunks(const ThreadPool& pool, std::size_t count) : count_(count) {
+    constexpr std::size_t kChunksPerThread = 4;
+    constexpr std::size_t kSmallestChunk = 2048;  // below, handing it out costs more than it takes
+    const std::size_t wanted = pool.threads() == 1 ? 1 : kChunksPerThread * pool.threads();
+    chunks_ = std::clamp(count / kSmallestChunk, std::size_t{1}, wanted);
+  }
+  std::size_t size() const { return chunks_; }
+  std::size_t begin(std::size_t chunk) const { return count_ * chunk / chunks_; }
+  std::size_t end(std::size_t chunk) const { return begin(chunk + 1); }
+
+ private:
+  std::size_t count_;
+  std::size_t chunks_;
+};
+
+}  // namespace polylidar::detail
