@@ -3,6 +3,7 @@
 #   NATIVE=1     compile for this machine's processor instead of generic x86-64
 #   SKIP_DEPS=1  install nothing: everything needed is there already (distributions without apt-get)
 #   JOBS=N       build and test with N processes
+#   SECONDS=N    how long "make fuzz" searches
 
 SHELL := /bin/bash
 .SHELLFLAGS := -euo pipefail -c
@@ -40,7 +41,7 @@ endef
 
 NATIVE_OPTION = -DHULLBENCH_NATIVE=$(if $(filter-out 0,$(NATIVE)),ON,OFF)
 
-.PHONY: help deps build bench bench-quick test test-sanitize build-clang test-clang test-fresh lint format clean
+.PHONY: help deps build bench bench-quick bench-core test test-sanitize build-clang test-clang test-fresh fuzz lint format clean
 
 help: ## list the targets (the default)
 	@awk 'BEGIN { FS = ":.*## " } /^[a-z-]+:.*## / { printf "  make %-14s %s\n", $$1, $$2 }' Makefile
@@ -64,6 +65,11 @@ bench-quick: ## the same tables for n <= 8000 and 3 repetitions, in under 2 minu
 	@$(MAKE) build
 	@build/hullbench run states --filter 'n:[248]000/' --repetitions 3
 
+bench-core: ## the core's speed beside CGAL and GEOS: ratios with goal and verdict
+	@$(call install,build)
+	@$(call build,release,$(NATIVE_OPTION),core_benchmarks)
+	@build/core_benchmarks --verdicts
+
 test: ## install, build and run all tests, the core's with sanitizers too
 	@$(call install,build bench test)
 	@$(call build,release,$(NATIVE_OPTION))
@@ -71,11 +77,13 @@ test: ## install, build and run all tests, the core's with sanitizers too
 	@echo "==> all tests"
 	@ctest --preset release --parallel $(JOBS)
 
-test-sanitize: ## the core's tests with address and undefined-behaviour sanitizers
+test-sanitize: ## the core's tests with address, undefined-behaviour and thread sanitizers
 	@$(call install,build)
 	@$(call build,sanitize)
 	@echo "==> the core's tests with sanitizers"
 	@ctest --preset sanitize --parallel $(JOBS)
+	@$(call build,sanitize-threads)
+	@ctest --preset sanitize-threads
 
 build-clang: ## build everything with clang, the second compiler, in build-clang
 	@$(call install,build lint)
@@ -90,6 +98,24 @@ test-clang: ## the tests of the clang build
 test-fresh: ## prove bench-quick and test from nothing, in a bare Debian 12 root (needs root, 10 GB, an hour)
 	@tests/fresh/run.sh
 
+SECONDS ?= 60
+
+fuzz: ## search for inputs that break the core, for 60 seconds (SECONDS=N)
+	@$(call install,build lint)
+	@$(call build,fuzz,,fuzz_concave_hull)
+	@# What is found stays in build-fuzz: the kept corpus is only read.
+	@mkdir -p build-fuzz/work build-fuzz/found
+	@echo "==> searching for $(SECONDS) seconds, log in $(BUILD_LOG)/fuzz.txt"
+	@if ! build-fuzz/fuzz_concave_hull -max_total_time=$(SECONDS) -timeout=10 -max_len=1200 -print_final_stats=1 \
+	  -artifact_prefix=build-fuzz/found/ build-fuzz/work tests/fuzz/corpus >$(BUILD_LOG)/fuzz.txt 2>&1; then \
+	  grep -A 4 -m 1 -E '^FAILED|runtime error|ERROR' $(BUILD_LOG)/fuzz.txt >&2 || true; \
+	  grep -E '^artifact_prefix' $(BUILD_LOG)/fuzz.txt >&2 || true; \
+	  echo "error: an input breaks the core; see $(BUILD_LOG)/fuzz.txt." >&2; exit 1; \
+	fi
+	@runs=$$(sed -n 's/^stat::number_of_executed_units: *//p' $(BUILD_LOG)/fuzz.txt); \
+	[ "$${runs:-0}" -gt 0 ] || { echo "error: nothing ran; see $(BUILD_LOG)/fuzz.txt." >&2; exit 1; }; \
+	echo "==> $$runs inputs, none breaks the core"
+
 lint: ## clang-tidy and the formatting check on all our sources
 	@$(call install,build lint)
 	@$(call configure,clang,$(NATIVE_OPTION))
@@ -100,5 +126,5 @@ format: ## format all our sources with clang-format 14
 	@tests/style/check.sh format --fix
 
 clean: ## remove what was built; results stay
-	@rm -rf build build-clang build-sanitize
-	@echo "==> removed build, build-clang and build-sanitize"
+	@rm -rf build build-clang build-sanitize build-sanitize-threads build-fuzz
+	@echo "==> removed build and build-*"

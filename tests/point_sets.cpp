@@ -109,6 +109,24 @@ std::vector<Point> parabola(std::size_t count) {
   return points;
 }
 
+// Pairs of columns of lattice points, 4 apart, on two rows that join them: a long outline with deep bays.
+std::vector<Point> comb_shape(std::size_t teeth) {
+  std::vector<Point> points = lattice(4 * teeth, 2);
+  for (std::size_t tooth = 0; tooth < teeth; ++tooth) {
+    points = joined(points, lattice(2, 40, 1, {4 * static_cast<double>(tooth), 2}));
+  }
+  return points;
+}
+
+// Triangles far from one another.
+std::vector<Point> islands(std::size_t columns, std::size_t rows) {
+  std::vector<Point> points;
+  for (const Point& corner : lattice(columns, rows, 10)) {
+    points.insert(points.end(), {corner, {corner.x + 1, corner.y}, {corner.x, corner.y + 1}});
+  }
+  return points;
+}
+
 // Two rows of points, one far denser: long thin triangles between them.
 std::vector<Point> comb(std::size_t teeth) {
   std::vector<Point> points;
@@ -224,8 +242,27 @@ std::vector<PointSet> nasty_point_sets() {
   return sets;
 }
 
+std::vector<NamedCase> named_cases() {
+  // Keeps the triangles of a unit lattice's cells (circumradius 0.707) and no others (the next is 1).
+  constexpr Options kUnitCells{.alpha = 0.75};
+  return {{"lattice turned by 0.3 rad", rotated(lattice(300, 300), 0.3), {{}, kUnitCells}},
+          {"lattice of UTM size",
+           shuffled(lattice(200, 200, 0.01, {5e5, 4e6}), 1),
+           {{}, {.alpha = 0.0075}, {.max_edge_length = 0.0145}}},
+          {"circle", circle(5000, 1000), {{}, {.max_edge_length = 501}}},
+          {"circle, shuffled", shuffled(circle(5000, 1000, {1, 2}), 2), {{}, {.max_edge_length = 501}}},
+          {"one point many times", std::vector<Point>(5000, Point{0.1, 0.2}), {{}, kUnitCells}},
+          {"two clusters 1e9 apart",
+           joined(uniform_points(2000, 33), transformed(uniform_points(2000, 34), 1, {1e9, 1e9})),
+           {{}, {.alpha = 0.05}, {.max_edge_length = 10}}},
+          {"parabola", parabola(3000), {{}, {.max_edge_length = 100.5}}},
+          {"comb", shuffled(comb_shape(100), 3), {{}, kUnitCells}},
+          {"islands", shuffled(islands(64, 64), 4), {{}, kUnitCells, {.max_edge_length = 1.5}}}};
+}
+
 std::vector<PointSet> flat_point_sets() {
   std::vector<Point> diagonal;
+  diagonal.reserve(200);
   for (int i = 0; i < 200; ++i) diagonal.push_back({static_cast<double>(i) * 3, static_cast<double>(i) * 7});
   return {{"no points", {}},
           {"one point", {{1, 2}}},

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "polylidar/concave_hull.hpp"
 #include "polylidar/geometry.hpp"
 
 namespace polylidar::testing {
@@ -63,6 +64,17 @@ std::vector<Point> shuffled(std::vector<Point> points, std::uint64_t seed);
 /// Sets of every kind: general, regular, cocircular, collinear, repeating, lopsided, huge, tiny; some hundred
 /// to some thousand points each.
 std::vector<PointSet> nasty_point_sets();
+
+/// A point set with limits that suit it: none of its triangles is so near a limit that rounding could decide.
+struct NamedCase {
+  std::string name;
+  std::vector<Point> points;
+  std::vector<Options> options;
+};
+
+/// The inputs that hull and triangulation libraries are known to get wrong, or slow, at a size of thousands
+/// of points; those of nasty_point_sets() are small enough for quadratic checks under many options.
+std::vector<NamedCase> named_cases();
 
 /// The sets of nasty_point_sets() that hold no triangle: too few points, or all on a line.
 std::vector<PointSet> flat_point_sets();

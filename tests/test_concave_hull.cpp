@@ -261,20 +261,6 @@ TEST(ConcaveHull, AnIslandInAHoleIsAPolygon) {
   EXPECT_EQ(area(shape), 64 - 34 + 1);
 }
 
-TEST(ConcaveHull, KeepsThousandsOfRegionsApart) {
-  std::vector<Point> points;
-  for (const Point& corner : lattice(64, 64, 10)) {
-    points.insert(points.end(), {corner, {corner.x + 1, corner.y}, {corner.x, corner.y + 1}});
-  }
-  const MultiPolygon shape = hull(points, kUnitCells);
-  EXPECT_EQ(shape.size(), 4096U);
-  EXPECT_EQ(area(shape), 2048);
-  for (const Polygon& polygon : shape) {
-    ASSERT_EQ(polygon.shell.size(), 3U);
-    ASSERT_TRUE(polygon.holes.empty());
-  }
-}
-
 // lattices with points left out at random: the shape follows from the cells alone
 
 // A cell has the number of its lower left lattice point. The outermost points are absent, so neighbours

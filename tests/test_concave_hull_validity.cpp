@@ -47,6 +47,13 @@ TEST(ConcaveHullValidity, OnNastyPointSets) {
   }
 }
 
+TEST(ConcaveHullValidity, OnNamedCases) {
+  for (const testing::NamedCase& named : testing::named_cases()) {
+    SCOPED_TRACE(named.name);
+    for (const Options& options : named.options) expect_valid(named.points, options);
+  }
+}
+
 TEST(ConcaveHullValidity, OnRandomPoints) {
   for (std::uint64_t seed = 0; seed < 100; ++seed) {
     SCOPED_TRACE("seed " + std::to_string(seed));

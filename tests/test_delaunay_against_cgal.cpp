@@ -19,7 +19,6 @@
 namespace polylidar {
 namespace {
 
-using testing::lattice;
 using testing::PointSet;
 
 using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
@@ -170,17 +169,11 @@ TEST(DelaunayAgainstCgal, AgreesOnManyRandomPoints) {
   expect_same(testing::uniform_points(100000, 77));
 }
 
-TEST(DelaunayAgainstCgal, AgreesOnALargeLatticeTurnedByARoundAngle) {
-  expect_same(testing::rotated(lattice(300, 300), 0.3));
-}
-
-TEST(DelaunayAgainstCgal, AgreesOnALargeOffsetLattice) {
-  expect_same(testing::shuffled(lattice(200, 200, 0.01, {5e5, 4e6}), 1));
-}
-
-TEST(DelaunayAgainstCgal, AgreesOnManyPointsOfACircle) {
-  expect_same(testing::circle(5000, 1));
-  expect_same(testing::shuffled(testing::circle(5000, 1000, {1, 2}), 2));
+TEST(DelaunayAgainstCgal, AgreesOnNamedCases) {
+  for (const testing::NamedCase& named : testing::named_cases()) {
+    SCOPED_TRACE(named.name);
+    expect_same(named.points);
+  }
 }
 
 }  // namespace

@@ -13,7 +13,7 @@ Mesh::Index next_boundary(const Mesh& mesh, Mesh::Index e) {
   Mesh::Index f = Mesh::next(e);
   for (;;) {
     const Mesh::Index twin = mesh.twin(f);
-    if ((mesh.state(Mesh::triangle_of(twin)) & Mesh::kKept) == 0) return f;
+    if (!mesh.is_kept(Mesh::triangle_of(twin))) return f;
     f = Mesh::next(twin);
   }
 }
@@ -38,7 +38,7 @@ Mesh::Index next_boundary_to_the_left(const Mesh& mesh, const Point* vertices, M
   // It leaves every triangle by the edge that comes down.
   for (;;) {
     const Mesh::Index twin = mesh.twin(e);
-    if ((mesh.state(Mesh::triangle_of(twin)) & Mesh::kKept) == 0) return Mesh::triangle_of(e);
+    if (!mesh.is_kept(Mesh::triangle_of(twin))) return Mesh::triangle_of(e);
     const Mesh::Index next = Mesh::next(twin);
     e = is_above(next) && !is_above(Mesh::next(next)) ? next : Mesh::next(next);
   }
@@ -74,11 +74,11 @@ void BoundaryTracer::trace(Mesh& mesh, const Point* vertices, std::size_t vertex
   std::uint32_t* place = place_in_walk_.reserve(vertex_count);
   for (const Index e : boundary) {
     place[mesh.origin(e)] = kNone;
-    mesh.state(Mesh::triangle_of(e)) = Mesh::kKept;  // forgets an earlier trace
+    mesh.taken(Mesh::triangle_of(e)) = 0;
     mesh.walk(Mesh::triangle_of(e)) = kNone;
   }
   for (const Index e : boundary) {
-    if ((mesh.state(Mesh::triangle_of(e)) & Mesh::taken_bit(e)) == 0) trace_walk(mesh, vertices, e);
+    if ((mesh.taken(Mesh::triangle_of(e)) & Mesh::taken_bit(e)) == 0) trace_walk(mesh, vertices, e);
   }
   if (region_count_ > 1) join_holes(mesh, vertices);
   emit(caller_index, shape);
@@ -100,7 +100,7 @@ void BoundaryTracer::trace_walk(Mesh& mesh, const Point* vertices, Index first) 
   Index e = first;
   do {
     const Index triangle = Mesh::triangle_of(e);
-    mesh.state(triangle) |= Mesh::taken_bit(e);
+    mesh.taken(triangle) |= Mesh::taken_bit(e);
     if (mesh.walk(triangle) == kNone) {
       mesh.walk(triangle) = number;
     } else if (mesh.walk(triangle) != number) {  // two walks along one triangle run round one region

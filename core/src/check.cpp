@@ -26,8 +26,7 @@ bool lexicographically_less(const Point& a, const Point& b) {
 std::vector<Point> in_predicate_range(std::span<const Point> points) {
   double largest = 0;
   for (const Point& p : points) largest = std::max({largest, std::abs(p.x), std::abs(p.y)});
-  const int exponent = largest == 0 ? 0 : std::ilogb(largest);
-  const int shift = std::abs(exponent) < 40 ? 0 : 149 - exponent;
+  const int shift = largest == 0 ? 0 : 149 - std::ilogb(largest);
   std::vector<Point> scaled(points.begin(), points.end());
   for (Point& p : scaled) p = {std::ldexp(p.x, shift), std::ldexp(p.y, shift)};
   return scaled;

@@ -48,8 +48,18 @@ void DelaunayBuilder::build(std::span<const Point> points, ThreadPool& pool) {
 /// Copies the caller's points, scaled, in the order of the curve.
 void DelaunayBuilder::sort_along_curve(std::span<const Point> points, ThreadPool& pool) {
   const std::size_t count = points.size();
-  const CoordinateRange range = measure_coordinates(points, pool);
+  CoordinateRange range = measure_coordinates(points, pool);
   scale_exponent_ = range.scale_exponent;
+  std::vector<Point> scaled;  // before anything is computed: differences might overflow, or lose bits
+  if (scale_exponent_ != 0) {
+    const auto scale = [this](const Point& p) {
+      return Point{std::ldexp(p.x, scale_exponent_), std::ldexp(p.y, scale_exponent_)};
+    };
+    scaled.resize(count);
+    std::transform(points.begin(), points.end(), scaled.begin(), scale);
+    points = scaled;
+    range.box = {scale(range.box.min), scale(range.box.max)};
+  }
   const double squared_unit = range.unit * range.unit;
   exact_limits_ = {0x1p53 * squared_unit, 0x1p53 * squared_unit * squared_unit};
 
@@ -67,11 +77,6 @@ void DelaunayBuilder::sort_along_curve(std::span<const Point> points, ThreadPool
       sorted[i] = points[order[i]];
     }
   });
-  if (scale_exponent_ != 0) {
-    for (std::size_t i = 0; i < count; ++i) {
-      sorted[i] = {std::ldexp(sorted[i].x, scale_exponent_), std::ldexp(sorted[i].y, scale_exponent_)};
-    }
-  }
 }
 
 /// Triangulates all points on several threads.
@@ -80,7 +85,7 @@ void DelaunayBuilder::sort_along_curve(std::span<const Point> points, ThreadPool
 /// other's memory. Whoever finishes the second of two neighbouring parts merges them, as build_range would.
 void DelaunayBuilder::build_parts(ThreadPool& pool) {
   constexpr Index kPartsPerThread = 8;
-  constexpr Index kSmallestPart = 1024;
+  constexpr Index kSmallestPart = 128;
   const auto count = static_cast<Index>(vertex_count_);
   std::deque<Part> parts;
   parts.emplace_back(0, count, nullptr);

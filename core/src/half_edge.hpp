@@ -18,8 +18,11 @@ namespace polylidar::detail {
 /// and with `m` the mesh's memory
 ///   m[8t + k]      the vertex at which half-edge 8t + k starts; vertices run counter-clockwise
 ///   m[8t + 4 + k]  its twin, the same edge seen from the neighbouring triangle
-///   m[8t + 3]      the triangle's state: kKept when it belongs to the shape, and which of its half-edges are
-///   in a ring m[8t + 7]      the region it belongs to, where that had to be found out
+///   m[8t + 3]      which of a boundary triangle's half-edges are in a ring already
+///   m[8t + 7]      which walk along the boundary a boundary triangle is on
+/// Whether a triangle belongs to the shape is a bit in an array of its own, small enough to stay in the cache
+/// when records do not.
+///
 /// A ghost's third vertex is always infinity, so that over the hull edge u -> v its half-edges are v -> u, u
 /// -> infinity and infinity -> v. n distinct points make 2n - 2 triangles, ghosts included (Euler's formula
 /// on the sphere). Records of triangles that repeated points left unused have kNone for all vertices.
@@ -53,10 +56,8 @@ class Mesh {
   Index& origin(Index e) { return memory_[e]; }
   Index origin(Index e) const { return memory_[e]; }
   Index twin(Index e) const { return memory_[e + 4]; }
-  static constexpr Index kKept = 1;
-  static Index taken_bit(Index e) { return 2U << (e & 3U); }
-  Index& state(Index t) { return memory_[kStride * t + 3]; }
-  Index state(Index t) const { return memory_[kStride * t + 3]; }
+  static Index taken_bit(Index e) { return 1U << (e & 3U); }
+  Index& taken(Index t) { return memory_[kStride * t + 3]; }
   Index& walk(Index t) { return memory_[kStride * t + 7]; }
   Index walk(Index t) const { return memory_[kStride * t + 7]; }
 
@@ -65,20 +66,21 @@ class Mesh {
     memory_[f + 4] = e;
   }
 
-  bool is_unused(Index t) const {
-    const Index* v = memory_ + std::size_t{kStride} * t;
-    return (v[0] & v[1] & v[2]) == kNone;
-  }
+  bool is_unused(Index t) const { return origin(kStride * t) == kNone; }
+  /// Ghosts and unused records.
+  bool is_ghost(Index t) const { return origin(kStride * t + 2) == kNone; }
 
-  /// Ghosts and unused records: vertices are below 2^31, so that only kNone sets the top bit.
-  bool is_ghost(Index t) const {
-    const Index* v = memory_ + std::size_t{kStride} * t;
-    return ((v[0] | v[1] | v[2]) >> 31U) != 0;
-  }
+  /// Word w says of the triangles 64 w ... 64 w + 63, from the lowest bit on, which belong to the shape.
+  static constexpr Index kWordBits = 64;
+  std::size_t word_count() const { return (std::size_t{triangle_count_} + kWordBits - 1) / kWordBits; }
+  std::uint64_t* reserve_kept() { return kept_ = kept_storage_.reserve(word_count()); }
+  bool is_kept(Index t) const { return ((kept_[t / kWordBits] >> (t % kWordBits)) & 1U) != 0; }
 
  private:
   Scratch<Index> storage_;
+  Scratch<std::uint64_t> kept_storage_;
   Index* memory_ = nullptr;
+  std::uint64_t* kept_ = nullptr;
   Index triangle_count_ = 0;
 };
 

@@ -1,9 +1,8 @@
 #include "region.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
-#include <limits>
-#include <span>
 
 namespace polylidar::detail {
 
@@ -36,31 +35,39 @@ bool keeps(const Limits& limits, const Point& a, const Point& b, const Point& c)
   return kept;
 }
 
-/// Marks the triangles [begin, end) as kept or not; returns how many are not, which `dropped` then lists.
+/// Says in words [begin, end) of `kept` which triangles are kept.
 template <bool kLimitRadius, bool kLimitEdge>
-std::size_t filter(Mesh& mesh, const Point* vertices, const Limits& limits, Mesh::Index begin,
-                   Mesh::Index end, Mesh::Index* dropped) {
-  std::size_t count = 0;
-  for (Mesh::Index t = begin; t < end; ++t) {
+void filter(const Mesh& mesh, const Point* vertices, const Limits& limits, std::size_t begin, std::size_t end,
+            std::uint64_t* kept) {
+  const auto is_kept = [&](Mesh::Index t) {
     const Mesh::Index e = Mesh::kStride * t;
-    const bool kept = !mesh.is_ghost(t) && keeps<kLimitRadius, kLimitEdge>(limits, vertices[mesh.origin(e)],
-                                                                           vertices[mesh.origin(e + 1)],
-                                                                           vertices[mesh.origin(e + 2)]);
-    mesh.state(t) = kept ? Mesh::kKept : 0;
-    dropped[count] = t;  // overwritten by the next one if this one is kept: no branch to mispredict
-    count += kept ? 0 : 1;
+    return !mesh.is_ghost(t) &&
+           keeps<kLimitRadius, kLimitEdge>(limits, vertices[mesh.origin(e)], vertices[mesh.origin(e + 1)],
+                                           vertices[mesh.origin(e + 2)]);
+  };
+  for (std::size_t w = begin; w < end; ++w) {
+    const auto first = static_cast<Mesh::Index>(Mesh::kWordBits * w);
+    const Mesh::Index count = std::min(Mesh::kWordBits, mesh.triangle_count() - first);
+    std::uint64_t word = 0;
+    for (Mesh::Index k = 0; k < count; ++k) word |= std::uint64_t{is_kept(first + k)} << k;
+    kept[w] = word;
   }
-  return count;
 }
 
-/// Appends the half-edges of kept triangles on whose other side is one of `dropped`.
-void collect_boundary(const Mesh& mesh, std::span<const Mesh::Index> dropped,
+/// Appends the half-edges of kept triangles on whose other side is a triangle in words [begin, end) of `kept`
+/// that is not: every boundary edge has one, and these are few.
+void collect_boundary(const Mesh& mesh, std::size_t begin, std::size_t end, const std::uint64_t* kept,
                       std::vector<Mesh::Index>& boundary) {
-  for (const Mesh::Index t : dropped) {
-    if (mesh.is_unused(t)) continue;
-    for (Mesh::Index k = 0; k < 3; ++k) {
-      const Mesh::Index e = mesh.twin(Mesh::kStride * t + k);
-      if ((mesh.state(Mesh::triangle_of(e)) & Mesh::kKept) != 0) boundary.push_back(e);
+  for (std::size_t w = begin; w < end; ++w) {
+    const auto first = static_cast<Mesh::Index>(Mesh::kWordBits * w);
+    for (std::uint64_t dropped = ~kept[w]; dropped != 0; dropped &= dropped - 1) {
+      const Mesh::Index t = first + static_cast<Mesh::Index>(std::countr_zero(dropped));
+      if (t >= mesh.triangle_count()) break;
+      if (mesh.is_unused(t)) continue;
+      for (Mesh::Index k = 0; k < 3; ++k) {
+        const Mesh::Index e = mesh.twin(Mesh::kStride * t + k);
+        if (mesh.is_kept(Mesh::triangle_of(e))) boundary.push_back(e);
+      }
     }
   }
 }
@@ -72,23 +79,25 @@ void RegionFilter::run(Mesh& mesh, const Point* vertices, double alpha, double m
   const Limits limits{4 * alpha * alpha, max_edge_length * max_edge_length};
   const bool limit_radius = std::isfinite(alpha);
   const bool limit_edge = std::isfinite(max_edge_length);
-  const auto filter_range = limit_radius ? (limit_edge ? &filter<true, true> : &filter<true, false>)
+  const auto filter_words = limit_radius ? (limit_edge ? &filter<true, true> : &filter<true, false>)
                                          : (limit_edge ? &filter<false, true> : &filter<false, false>);
+  std::uint64_t* kept = mesh.reserve_kept();
   const Chunks chunks(pool, mesh.triangle_count());
-  Index* dropped = dropped_.reserve(mesh.triangle_count());
-  std::vector<std::size_t> dropped_of_chunk(chunks.size());
-  pool.for_each(chunks.size(), [&](std::size_t c) {
-    const std::size_t begin = chunks.begin(c);
-    dropped_of_chunk[c] = filter_range(mesh, vertices, limits, static_cast<Index>(begin),
-                                       static_cast<Index>(chunks.end(c)), dropped + begin);
+  // Chunks of whole words, so that no two threads write to one.
+  const auto for_each_chunk = [&](const auto& task) {
+    pool.for_each(chunks.size(), [&](std::size_t c) {
+      task(c, chunks.begin(c) / Mesh::kWordBits,
+           c + 1 == chunks.size() ? mesh.word_count() : chunks.end(c) / Mesh::kWordBits);
+    });
+  };
+  for_each_chunk([&](std::size_t, std::size_t begin, std::size_t end) {
+    filter_words(mesh, vertices, limits, begin, end, kept);
   });
-
-  // Every boundary edge has a dropped triangle on its other side, and these are few.
   boundary_of_chunk_.resize(std::max(boundary_of_chunk_.size(), chunks.size() - 1));
-  pool.for_each(chunks.size(), [&](std::size_t c) {
+  for_each_chunk([&](std::size_t c, std::size_t begin, std::size_t end) {
     std::vector<Index>& own = c == 0 ? boundary : boundary_of_chunk_[c - 1];
     own.clear();
-    collect_boundary(mesh, {dropped + chunks.begin(c), dropped_of_chunk[c]}, own);
+    collect_boundary(mesh, begin, end, kept, own);
   });
   for (std::size_t c = 1; c < chunks.size(); ++c) {
     const std::vector<Index>& part = boundary_of_chunk_[c - 1];

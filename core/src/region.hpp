@@ -21,7 +21,6 @@ class RegionFilter {
            std::vector<Index>& boundary);
 
  private:
-  Scratch<Index> dropped_;
   std::vector<std::vector<Index>> boundary_of_chunk_;  ///< of all chunks but the first
 };
 

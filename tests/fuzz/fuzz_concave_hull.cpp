@@ -1,0 +1,247 @@
+// The whole core on any bytes: whatever they decode to is either refused for a reason or triangulated and
+// outlined rightly. libFuzzer calls it with bytes of its own making, replay.cpp with those kept in corpus/.
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <cstdlib>
+#include <iostream>
+#include <limits>
+#include <optional>
+#include <span>
+#include <stdexcept>
+#include <string>
+#include <tuple>
+#include <vector>
+
+#include "polylidar/check.hpp"
+#include "polylidar/concave_hull.hpp"
+#include "polylidar/delaunay.hpp"
+#include "polylidar/predicates.hpp"
+#include "tests/fuzz/fuzz_input.hpp"
+#include "tests/hull_oracle.hpp"
+
+namespace polylidar::fuzz {
+namespace {
+
+using testing::canonical;
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr int kLargestSpan = 265;  // binary orders of magnitude: from 2^-116 to below 2^150
+
+[[noreturn]] void fail(const Input& input, const std::string& what) {
+  std::cerr << "FAILED: " << what << std::hexfloat << "\nalpha " << input.options.alpha
+            << ", max_edge_length " << input.options.max_edge_length << ", threads " << input.options.threads
+            << ", choice " << unsigned{input.choice} << ", " << input.points.size() << " points:\n";
+  for (const Point& point : input.points) std::cerr << '{' << point.x << ", " << point.y << "},\n";
+  std::abort();
+}
+
+void require(const Input& input, bool holds, const char* what) {
+  if (!holds) fail(input, what);
+}
+
+void require_no_fault(const Input& input, const std::string& fault, const char* of) {
+  if (!fault.empty()) fail(input, std::string(of) + ": " + fault);
+}
+
+struct Exponents {
+  int least = std::numeric_limits<int>::max();
+  int greatest = std::numeric_limits<int>::min();
+};
+
+// Of the coordinates that are not zero; they are finite.
+Exponents exponents(std::span<const Point> points) {
+  Exponents range;
+  for (const Point& point : points) {
+    for (const double coordinate : {point.x, point.y}) {
+      if (coordinate == 0) continue;
+      range.least = std::min(range.least, std::ilogb(coordinate));
+      range.greatest = std::max(range.greatest, std::ilogb(coordinate));
+    }
+  }
+  return range;
+}
+
+bool points_are_supported(std::span<const Point> points) {
+  for (const Point& point : points) {
+    if (!std::isfinite(point.x) || !std::isfinite(point.y)) return false;
+  }
+  const Exponents range = exponents(points);
+  return range.least > range.greatest || range.greatest - range.least <= kLargestSpan;
+}
+
+bool options_are_supported(const Options& options) {
+  return options.alpha >= 0 && options.max_edge_length >= 0 && options.threads >= 1;
+}
+
+// Empty when it was refused, which must be for the reason given.
+template <typename Call>
+auto refused_or(const Input& input, bool supported, const char* what, Call call)
+    -> std::optional<decltype(call())> {
+  try {
+    auto result = call();
+    if (!supported) fail(input, std::string(what) + ": accepted");
+    return result;
+  } catch (const std::invalid_argument& error) {
+    if (supported) fail(input, std::string(what) + ": refused: " + error.what());
+    return std::nullopt;
+  }
+}
+
+std::vector<Point> scaled(std::vector<Point> points, int exponent) {
+  for (Point& point : points) point = {std::ldexp(point.x, exponent), std::ldexp(point.y, exponent)};
+  return points;
+}
+
+std::size_t hole_count(const MultiPolygon& shape) {
+  std::size_t count = 0;
+  for (const Polygon& polygon : shape) count += polygon.holes.size();
+  return count;
+}
+
+// No four points of two neighbouring triangles lie on a circle. `points` are in the predicates' range.
+bool is_unique(std::span<const Point> points, const Triangulation& triangulation) {
+  const std::vector<std::uint32_t>& twins = triangulation.halfedges;
+  const auto at = [&](std::size_t half_edge) { return points[triangulation.triangles[half_edge]]; };
+  for (std::size_t e = 0; e < twins.size(); ++e) {
+    if (twins[e] == kNone) continue;
+    const std::size_t first = e - e % 3;
+    const std::size_t opposite = twins[e] - twins[e] % 3 + (twins[e] + 2) % 3;
+    if (incircle(at(first), at(first + 1), at(first + 2), at(opposite)) == 0) return false;
+  }
+  return true;
+}
+
+// The corners of the convex hull by a monotone chain. `points` are in the predicates' range.
+Ring convex_corners(std::vector<Point> points) {
+  std::sort(points.begin(), points.end(),
+            [](const Point& a, const Point& b) { return std::tie(a.x, a.y) < std::tie(b.x, b.y); });
+  Ring chain;
+  const auto half = [&](auto begin, auto end) {
+    const std::size_t start = chain.size();
+    for (auto it = begin; it != end; ++it) {
+      while (chain.size() >= start + 2 && !(orient2d(chain[chain.size() - 2], chain.back(), *it) > 0))
+        chain.pop_back();
+      chain.push_back(*it);
+    }
+    chain.pop_back();
+  };
+  half(points.begin(), points.end());
+  half(points.rbegin(), points.rend());
+  return chain;
+}
+
+Ring strict_corners(const Ring& ring) {
+  Ring corners;
+  for (std::size_t i = 0; i < ring.size(); ++i) {
+    const Point& before = ring[(i + ring.size() - 1) % ring.size()];
+    if (orient2d(before, ring[i], ring[(i + 1) % ring.size()]) != 0) corners.push_back(ring[i]);
+  }
+  return corners;
+}
+
+IndexedMultiPolygon checked_hull(const Input& input, const Options& options, const char* what) {
+  IndexedMultiPolygon shape = concave_hull(input.points, options);
+  require_no_fault(input, check_polygon(input.points, shape), what);
+  return shape;
+}
+
+// An extractor that has been used, successfully or not, gives what a new one gives, with any number of
+// threads.
+void check_reuse(const Input& input, const IndexedMultiPolygon& shape) {
+  Options one_thread = input.options;
+  one_thread.threads = 1;
+  Extractor extractor;
+  extractor.extract(std::span(input.points).first(input.points.size() / 2));
+  require(input, extractor.extract(input.points, input.options) == shape, "an extractor's second shape");
+  try {
+    const std::vector<Point> not_finite = {{0, 0}, {kInfinity, 0}};
+    extractor.extract(not_finite);
+    fail(input, "infinity was accepted");
+  } catch (const std::invalid_argument&) {
+    require(input, extractor.extract(input.points, one_thread) == shape,
+            "an extractor's shape after an error");
+  }
+}
+
+// Without limits every point of the convex hull's boundary is a vertex, so ties decide nothing.
+void check_convex_hull(const Input& input, std::span<const Point> in_range) {
+  const IndexedMultiPolygon shape = checked_hull(input, {}, "convex hull");
+  require(input, shape.polygon_count() <= 1 && shape.ring_ends.size() == shape.polygon_count(),
+          "the convex hull is one ring");
+  std::vector<Point> reversed(in_range.rbegin(), in_range.rend());
+  const MultiPolygon hull = to_coordinates(shape, in_range);
+  require(input, canonical(to_coordinates(concave_hull(reversed), reversed)) == canonical(hull),
+          "the convex hull of the points in reverse");
+  if (hull.empty()) return;
+  require(input,
+          canonical({{strict_corners(hull[0].shell), {}}}) == canonical({{convex_corners(reversed), {}}}),
+          "the convex hull has the corners of the monotone chain");
+}
+
+// A limit that no triangle is near: the shape is that of the kept triangles.
+void check_clear_limits(const Input& input, std::span<const Point> in_range,
+                        const Triangulation& triangulation) {
+  const std::vector<Options> all = testing::clear_options(in_range, triangulation);
+  const Options options = all[input.choice % all.size()];
+  const testing::ExpectedShape expected = testing::expected_shape(in_range, triangulation, options);
+  const IndexedMultiPolygon indexed = concave_hull(in_range, options);
+  require_no_fault(input, check_polygon(in_range, indexed), "polygons of clear limits");
+  const MultiPolygon shape = to_coordinates(indexed, in_range);
+  require(input, shape.size() == expected.polygons, "clear limits: as many polygons as components");
+  require(input, hole_count(shape) == expected.holes, "clear limits: as many holes as Euler's formula says");
+  const Box box = bounding_box(in_range);
+  const double extent = std::max(box.max.x - box.min.x, box.max.y - box.min.y);
+  // The rounding of some thousand terms, each off by at most an ulp of the squared extent.
+  const double tolerance = in_range.empty() ? 0 : 1e-12 * extent * extent;
+  require(input, std::abs(area(shape) - expected.area) <= tolerance, "clear limits: the same area");
+
+  if (!is_unique(in_range, triangulation)) return;
+  const std::vector<Point> reversed(in_range.rbegin(), in_range.rend());
+  require(input, canonical(to_coordinates(concave_hull(reversed, options), reversed)) == canonical(shape),
+          "clear limits: the shape of the points in reverse");
+}
+
+// Scaling by a power of two changes no index, for limits near triangles too.
+void check_scaled(const Input& input, const IndexedMultiPolygon& shape, std::span<const Point> in_range,
+                  int exponent) {
+  Options options = input.options;
+  options.alpha = std::ldexp(options.alpha, exponent);
+  options.max_edge_length = std::ldexp(options.max_edge_length, exponent);
+  if (std::ldexp(options.alpha, -exponent) != input.options.alpha ||
+      std::ldexp(options.max_edge_length, -exponent) != input.options.max_edge_length) {
+    return;  // a limit left the range of doubles
+  }
+  require(input, concave_hull(in_range, options) == shape, "the shape of the scaled points");
+}
+
+void check_everything(const Input& input) {
+  const bool points_supported = points_are_supported(input.points);
+  const bool supported = points_supported && options_are_supported(input.options);
+  const auto triangulation = refused_or(input, points_supported, "the triangulation of these points",
+                                        [&] { return delaunay(input.points); });
+  const auto shape = refused_or(input, supported, "the hull of these points with these options",
+                                [&] { return concave_hull(input.points, input.options); });
+  if (!triangulation) return;
+
+  const Exponents range = exponents(input.points);
+  const int exponent = range.least > range.greatest ? 0 : 149 - range.greatest;
+  const std::vector<Point> in_range = scaled(input.points, exponent);
+  require_no_fault(input, check_triangulation(in_range, *triangulation), "triangulation");
+  check_convex_hull(input, in_range);
+  check_clear_limits(input, in_range, *triangulation);
+  if (!shape) return;
+  require_no_fault(input, check_polygon(input.points, *shape), "polygons");
+  check_reuse(input, *shape);
+  check_scaled(input, *shape, in_range, exponent);
+}
+
+}  // namespace
+}  // namespace polylidar::fuzz
+
+// NOLINTNEXTLINE(readability-identifier-naming): the name that libFuzzer calls
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  polylidar::fuzz::check_everything(polylidar::fuzz::decode({data, size}));
+  return 0;
+}

@@ -1,0 +1,131 @@
+// The named cases through the whole core: triangulation, polygons, and what little is known of each shape
+// beforehand.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstddef>
+#include <sstream>
+#include <string>
+#include <tuple>
+#include <utility>
+#include <vector>
+
+#include "polylidar/check.hpp"
+#include "polylidar/concave_hull.hpp"
+#include "polylidar/delaunay.hpp"
+#include "tests/hull_oracle.hpp"
+#include "tests/point_sets.hpp"
+
+namespace polylidar {
+namespace {
+
+using testing::NamedCase;
+
+std::string describe(const Options& options) {
+  std::ostringstream out;
+  out << "alpha " << options.alpha << ", max_edge_length " << options.max_edge_length;
+  return out.str();
+}
+
+std::size_t hole_count(const MultiPolygon& shape) {
+  std::size_t count = 0;
+  for (const Polygon& polygon : shape) count += polygon.holes.size();
+  return count;
+}
+
+// The rounding of areas: some thousand terms, each off by at most an ulp of the squared extent.
+double area_tolerance(const std::vector<Point>& points) {
+  const Box box = bounding_box(points);
+  const double extent = std::max(box.max.x - box.min.x, box.max.y - box.min.y);
+  return 1e-12 * extent * extent;
+}
+
+NamedCase named_case(const std::string& name) {
+  for (NamedCase& named : testing::named_cases()) {
+    if (named.name == name) return std::move(named);
+  }
+  ADD_FAILURE() << "there is no case " << name;
+  return {};
+}
+
+// The shape under the case's own limits; its first options are no limits.
+MultiPolygon limited_hull(const NamedCase& named) {
+  return to_coordinates(concave_hull(named.points, named.options.at(1)), named.points);
+}
+
+TEST(NamedCases, HaveADelaunayTriangulation) {
+  for (const NamedCase& named : testing::named_cases()) {
+    SCOPED_TRACE(named.name);
+    EXPECT_EQ(check_triangulation(named.points, delaunay(named.points)), "");
+  }
+}
+
+TEST(NamedCases, AreTheShapesOfTheirTriangles) {
+  for (const NamedCase& named : testing::named_cases()) {
+    SCOPED_TRACE(named.name);
+    const Triangulation triangulation = delaunay(named.points);
+    for (const Options& options : named.options) {
+      SCOPED_TRACE(describe(options));
+      const IndexedMultiPolygon indexed = concave_hull(named.points, options);
+      EXPECT_EQ(check_polygon(named.points, indexed), "");
+      const MultiPolygon shape = to_coordinates(indexed, named.points);
+      const testing::ExpectedShape expected = testing::expected_shape(named.points, triangulation, options);
+      EXPECT_EQ(shape.size(), expected.polygons);
+      EXPECT_EQ(hole_count(shape), expected.holes);
+      EXPECT_NEAR(area(shape), expected.area, area_tolerance(named.points));
+    }
+  }
+}
+
+TEST(NamedCases, AllLatticesAreOnePolygon) {
+  for (const auto& [name, corner_count, side] :
+       {std::tuple{"lattice turned by 0.3 rad", 4 * 299, 299.0}, {"lattice of UTM size", 4 * 199, 1.99}}) {
+    SCOPED_TRACE(name);
+    const MultiPolygon shape = limited_hull(named_case(name));
+    ASSERT_EQ(shape.size(), 1U);
+    EXPECT_TRUE(shape[0].holes.empty());
+    EXPECT_NEAR(area(shape), side * side, 1e-6 * side * side);
+    EXPECT_EQ(shape[0].shell.size(), static_cast<std::size_t>(corner_count));
+  }
+}
+
+TEST(NamedCases, EveryPointOfACircleOrParabolaIsACorner) {
+  for (const std::string name : {"circle", "circle, shuffled", "parabola"}) {
+    SCOPED_TRACE(name);
+    const std::vector<Point> points = named_case(name).points;
+    EXPECT_EQ(delaunay(points).triangles.size(), 3 * (points.size() - 2));
+    EXPECT_EQ(concave_hull(points).vertices.size(), points.size());
+  }
+}
+
+TEST(NamedCases, OnePointManyTimesHasNoShape) {
+  EXPECT_TRUE(limited_hull(named_case("one point many times")).empty());
+}
+
+TEST(NamedCases, ClustersFarApartStayApart) {
+  const NamedCase clusters = named_case("two clusters 1e9 apart");
+  const MultiPolygon shape =
+      to_coordinates(concave_hull(clusters.points, {.max_edge_length = 10}), clusters.points);
+  ASSERT_EQ(shape.size(), 2U);
+  EXPECT_NEAR(area(shape), 2, 0.1);
+}
+
+// 100 teeth of 1 x 40 on a back of 399 x 1, and half a cell in each of the 199 corners between them.
+TEST(NamedCases, ACombKeepsItsTeeth) {
+  const MultiPolygon shape = limited_hull(named_case("comb"));
+  ASSERT_EQ(shape.size(), 1U);
+  EXPECT_TRUE(shape[0].holes.empty());
+  EXPECT_EQ(area(shape), 399 + 100 * 40 + 199 * 0.5);
+}
+
+TEST(NamedCases, ThousandsOfIslandsStayApart) {
+  const MultiPolygon shape = limited_hull(named_case("islands"));
+  EXPECT_EQ(shape.size(), 4096U);
+  EXPECT_EQ(area(shape), 2048);
+  EXPECT_TRUE(std::all_of(shape.begin(), shape.end(), [](const Polygon& polygon) {
+    return polygon.shell.size() == 3 && polygon.holes.empty();
+  }));
+}
+
+}  // namespace
+}  // namespace polylidar

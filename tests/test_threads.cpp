@@ -1,0 +1,158 @@
+// Any number of threads gives the same result, bit for bit; run with the thread sanitizer too.
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <cstddef>
+#include <limits>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "core/src/thread_pool.hpp"
+#include "polylidar/concave_hull.hpp"
+#include "tests/point_sets.hpp"
+
+namespace polylidar {
+namespace {
+
+using testing::PointSet;
+
+constexpr std::size_t kCount = 30'000;  // enough for several parts on each of eight threads
+
+std::vector<Point> repeated(const std::vector<Point>& points, std::size_t times) {
+  std::vector<Point> result;
+  for (std::size_t i = 0; i < times; ++i) result.insert(result.end(), points.begin(), points.end());
+  return result;
+}
+
+std::vector<Point> clusters(std::size_t count, std::size_t of_points, double distance) {
+  std::vector<Point> result;
+  for (std::size_t c = 0; c < count; ++c) {
+    for (const Point& p : testing::uniform_points(of_points, c)) {
+      result.push_back(
+          {p.x + distance * static_cast<double>(c % 10), p.y + distance * static_cast<double>(c / 10)});
+    }
+  }
+  return result;
+}
+
+// Sets that are cut into parts in different ways: evenly, at cells that need a curve of their own, or not at
+// all.
+std::vector<PointSet> large_point_sets() {
+  return {
+      {"uniform", testing::uniform_points(kCount, 1)},
+      {"lattice", testing::lattice(200, 150)},
+      {"rotated lattice", testing::rotated(testing::lattice(200, 150), 0.3)},
+      {"two far clusters", clusters(2, kCount / 2, 1e9)},
+      {"many clusters", clusters(100, kCount / 100, 1e4)},
+      {"every point ten times", testing::shuffled(repeated(testing::uniform_points(kCount / 10, 2), 10), 3)},
+      {"few points, many times",
+       testing::shuffled(repeated(testing::integer_points(40, 4, 5), kCount / 40), 5)},
+      {"one point", std::vector<Point>(kCount, Point{1, 2})},
+      {"on a line", testing::lattice(kCount, 1)},
+      {"on a circle", testing::circle(kCount, 1)},
+      {"tiny", [] {
+         std::vector<Point> points = testing::uniform_points(kCount, 6);
+         for (Point& p : points) p = {p.x * 0x1p-480, p.y * 0x1p-480};
+         return points;
+       }()}};
+}
+
+// Limits that keep everything, about the whole, and about half of it.
+std::vector<Options> limits_for(const std::vector<Point>& points) {
+  const Box box = bounding_box(points);
+  const double spacing = (box.max.x - box.min.x) / 150;
+  return {{}, {.alpha = spacing}, {.alpha = spacing / 2, .max_edge_length = spacing}};
+}
+
+TEST(Threads, GiveTheSameResultWhateverTheirNumber) {
+  Extractor one_thread;
+  Extractor extractor;  // its number of threads goes up and down
+  for (const PointSet& set : large_point_sets()) {
+    SCOPED_TRACE(set.name);
+    for (Options options : limits_for(set.points)) {
+      const IndexedMultiPolygon& expected = one_thread.extract(set.points, options);
+      for (const unsigned threads : {2U, 8U, 1U, 3U}) {
+        options.threads = threads;
+        EXPECT_EQ(extractor.extract(set.points, options), expected) << threads << " threads";
+      }
+    }
+  }
+}
+
+TEST(Threads, GiveTheSameResultStepByStep) {
+  const std::vector<Point> points = testing::uniform_points(kCount, 7);
+  const Options options{.alpha = 0.007};
+  Extractor extractor;
+  extractor.triangulate(points, 2);
+  extractor.extract_regions({.alpha = options.alpha, .threads = 3});
+  EXPECT_EQ(extractor.extract_polygons(), concave_hull(points, options));
+}
+
+TEST(Threads, NameTheFirstCoordinateThatIsNotFinite) {
+  std::vector<Point> points = testing::uniform_points(kCount, 8);
+  points[20'000].x = points[29'000].y = std::numeric_limits<double>::quiet_NaN();
+  Extractor extractor;
+  try {
+    extractor.extract(points, {.threads = 4});
+    FAIL() << "NaN was accepted";
+  } catch (const std::invalid_argument& error) {
+    EXPECT_EQ(std::string(error.what()), "point 20000 is not finite");
+  }
+  points[20'000].x = points[29'000].y = 0;
+  EXPECT_EQ(extractor.extract(points, {.threads = 4}), concave_hull(points));
+}
+
+TEST(Threads, MustBeOneOrMore) {
+  const std::vector<Point> points = testing::uniform_points(10, 9);
+  EXPECT_THROW(concave_hull(points, {.threads = 0}), std::invalid_argument);
+  Extractor extractor;
+  EXPECT_THROW(extractor.triangulate(points, 0), std::invalid_argument);
+  extractor.triangulate(points);
+  EXPECT_THROW(extractor.extract_regions({.threads = 0}), std::invalid_argument);
+}
+
+TEST(ThreadPool, RunsEveryTaskOnce) {
+  detail::ThreadPool pool;
+  for (const unsigned threads : {1U, 2U, 5U, 2U}) {
+    pool.use(threads);
+    for (std::size_t count = 0; count < 100; ++count) {
+      std::vector<std::atomic<int>> runs(count);
+      pool.for_each(count, [&](std::size_t i) { ++runs[i]; });
+      for (std::size_t i = 0; i < count; ++i) ASSERT_EQ(runs[i], 1) << i << " of " << count;
+    }
+  }
+}
+
+TEST(ThreadPool, PassesOnAnException) {
+  detail::ThreadPool pool;
+  for (const unsigned threads : {1U, 4U}) {
+    pool.use(threads);
+    const auto task = [](std::size_t i) {
+      if (i == 37) throw std::runtime_error("37");
+    };
+    EXPECT_THROW(pool.for_each(100, task), std::runtime_error);
+    std::atomic<int> runs = 0;
+    pool.for_each(100, [&](std::size_t) { ++runs; });
+    EXPECT_EQ(runs, 100);
+  }
+}
+
+TEST(Chunks, CoverEverythingInOrder) {
+  detail::ThreadPool pool;
+  for (const unsigned threads : {1U, 3U}) {
+    pool.use(threads);
+    for (const std::size_t count : {0U, 1U, 5'000U, 100'001U}) {
+      const detail::Chunks chunks(pool, count);
+      std::size_t covered = 0;
+      for (std::size_t c = 0; c < chunks.size(); ++c) {
+        EXPECT_EQ(chunks.begin(c), covered);
+        covered = chunks.end(c);
+      }
+      EXPECT_EQ(covered, count);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace polylidar
