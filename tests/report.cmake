@@ -10,6 +10,9 @@ foreach(part IN ITEMS record statistics report tables)
   target_compile_definitions(test_${part} PRIVATE HULLBENCH_SOURCE_DIRECTORY="${PROJECT_SOURCE_DIR}")
 endforeach()
 
+hullbench_test(test_core_verdicts SOURCES "${CMAKE_CURRENT_LIST_DIR}/test_core_verdicts.cpp"
+  LIBRARIES hullbench::core_verdicts)
+
 # The same reports through an independent validator.
 add_executable(write_invented_report "${CMAKE_CURRENT_LIST_DIR}/write_invented_report.cpp")
 target_link_libraries(write_invented_report PRIVATE hullbench_invented_run hullbench::compile_options)

@@ -1,23 +1,31 @@
-// The core by itself, whole and step by step, beside CGAL's triangulation of the same points in the same
-// process.
+// The core, whole and step by step, beside CGAL and GEOS on the same points in the same process.
 //
-// Read ratios of medians of one run with interleaved repetitions, never a single time:
-//   build/core_benchmarks --benchmark_repetitions=15 --benchmark_enable_random_interleaving=true
-//       --benchmark_report_aggregates_only=true
-#include <CGAL/Delaunay_triangulation_2.h>
-#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
+// Read ratios of medians of one run with interleaved repetitions, never a single time. With --verdicts it
+// runs that way what has a goal and says which goals are met.
 #include <benchmark/benchmark.h>
+#include <unistd.h>
 
 #include <cstddef>
+#include <exception>
+#include <iostream>
 #include <map>
+#include <optional>
+#include <regex>
+#include <set>
 #include <string>
+#include <string_view>
 #include <utility>
+#include <vector>
 
+#include "benchmarks/micro/core_verdicts.hpp"
+#include "benchmarks/micro/measured_functions.hpp"
 #include "benchmarks/micro/point_sets.hpp"
-#include "polylidar/concave_hull.hpp"
+#include "benchmarks/micro/verdict_run.hpp"
 
 namespace hullbench {
 namespace {
+
+constexpr std::string_view kRepetitions = "--benchmark_repetitions=";
 
 const SpeedPointSet& point_set(const std::string& name, std::size_t n) {
   static std::map<std::pair<std::string, std::size_t>, SpeedPointSet> made;
@@ -26,71 +34,132 @@ const SpeedPointSet& point_set(const std::string& name, std::size_t n) {
   return made.emplace(key, make_speed_point_set(name, n)).first->second;
 }
 
-void count_points(benchmark::State& state, std::size_t n) {
-  state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(n));
-}
+struct Benchmark {
+  std::string name;
+  MeasuredFunction function;
+  std::string set;
+  std::size_t n;
+};
 
-/// Points to polygons with memory that is kept between calls.
-void concave_hull(benchmark::State& state, const SpeedPointSet& set) {
-  polylidar::Extractor extractor;
-  for (auto _ : state) {
-    benchmark::DoNotOptimize(extractor.extract(set.points, {.alpha = set.alpha}).vertices.data());
-  }
-  count_points(state, set.points.size());
-}
-
-/// Points to polygons with memory that is fresh at every call.
-void concave_hull_once(benchmark::State& state, const SpeedPointSet& set) {
-  for (auto _ : state) {
-    benchmark::DoNotOptimize(polylidar::concave_hull(set.points, {.alpha = set.alpha}).vertices.data());
-  }
-  count_points(state, set.points.size());
-}
-
-void triangulation(benchmark::State& state, const SpeedPointSet& set) {
-  polylidar::Extractor extractor;
-  for (auto _ : state) extractor.triangulate(set.points);
-  count_points(state, set.points.size());
-}
-
-void cgal_delaunay(benchmark::State& state, const SpeedPointSet& set) {
-  using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
-  std::vector<Kernel::Point_2> points;
-  points.reserve(set.points.size());
-  for (const polylidar::Point& p : set.points) points.emplace_back(p.x, p.y);
-  for (auto _ : state) {
-    CGAL::Delaunay_triangulation_2<Kernel> delaunay;
-    delaunay.insert(points.begin(), points.end());
-    benchmark::DoNotOptimize(delaunay.number_of_faces());
-  }
-  count_points(state, set.points.size());
-}
-
-void register_benchmarks() {
-  using Function = void (*)(benchmark::State&, const SpeedPointSet&);
-  const std::pair<const char*, Function> functions[] = {{"concave_hull", &concave_hull},
-                                                        {"concave_hull_once", &concave_hull_once},
-                                                        {"triangulation", &triangulation},
-                                                        {"cgal_delaunay", &cgal_delaunay}};
+std::vector<Benchmark> all_benchmarks() {
+  std::vector<std::pair<std::string, std::size_t>> inputs;
   for (const char* set : {"ca", "uniform", "lattice", "rgbd"}) {
-    for (const std::size_t n : {2000U, 8000U, 64000U, 1000000U}) {
-      for (const auto& [name, function] : functions) {
-        const std::string full_name = std::string(name) + "/" + set + "/" + std::to_string(n);
-        benchmark::RegisterBenchmark(full_name.c_str(), [=, function = function](benchmark::State& state) {
-          function(state, point_set(set, n));
-        })->Unit(benchmark::kMicrosecond);
+    for (const std::size_t n : {2'000U, 8'000U, 64'000U, 1'000'000U}) inputs.emplace_back(set, n);
+  }
+  for (const std::size_t n : {1'000U, 10'000U, 100'000U, 10'000'000U}) inputs.emplace_back("uniform", n);
+  inputs.emplace_back("ca", 10'000'000);
+  inputs.emplace_back("rgbd", 424 * 240);  // a depth image as the sensor gives it
+  inputs.emplace_back("islands", 1'000'000);
+  inputs.emplace_back("sieve", 1'000'000);
+
+  std::vector<Benchmark> benchmarks;
+  for (const auto& [set, n] : inputs) {
+    for (const auto& functions : {own_functions(), cgal_functions(), geos_functions()}) {
+      for (const MeasuredFunction& function : functions) {
+        if (n > function.most_points) continue;
+        const std::string name = std::string(function.name) + "/" + set + "/" + std::to_string(n);
+        benchmarks.push_back({name, function, set, n});
       }
     }
   }
+  return benchmarks;
+}
+
+void register_benchmark(const Benchmark& entry, RepetitionProgress* progress) {
+  const auto run = [=](benchmark::State& state) {
+    if (progress != nullptr) progress->begin(entry.name, state.max_iterations);
+    try {
+      entry.function.run(state, point_set(entry.set, entry.n));
+    } catch (const std::exception& error) {
+      state.SkipWithError(error.what());
+    }
+  };
+  // No UseRealTime: it adds "/real_time" to the name. The real time is measured all the same, and is what
+  // the verdicts take; the time that decides on the number of iterations is the calling thread's.
+  benchmark::RegisterBenchmark(entry.name.c_str(), run)->Unit(benchmark::kMicrosecond);
+}
+
+/// Whether Google Benchmark's --benchmark_filter takes `name`.
+bool filter_takes(const std::string& name) {
+  std::string filter = benchmark::GetBenchmarkFilter();
+  if (filter.empty() || filter == "all") return true;
+  const bool negative = filter.front() == '-';
+  if (negative) filter.erase(0, 1);
+  return std::regex_search(name, std::regex(filter, std::regex::extended)) != negative;
+}
+
+void print_help() {
+  std::cout
+      << "core_benchmarks [--verdicts] [options of Google Benchmark]\n"
+         "  --verdicts  measure what has a goal, in 7 interleaved repetitions, and say which goals are met;\n"
+         "              exit code 0: all of them, 3: one is missed, 6: none is missed but one was not "
+         "measured\n"
+         "\n";
+  benchmark::PrintDefaultHelp();
+}
+
+int run_for_verdicts(std::size_t repetitions) {
+  const std::set<std::string> needed = benchmarks_of_goals();
+  std::vector<Benchmark> benchmarks;
+  for (Benchmark& entry : all_benchmarks()) {
+    if (needed.count(entry.name) != 0 && filter_takes(entry.name)) benchmarks.push_back(std::move(entry));
+  }
+  RepetitionProgress progress(std::cerr, isatty(STDERR_FILENO) != 0, benchmarks.size() * repetitions);
+  for (const Benchmark& entry : benchmarks) register_benchmark(entry, &progress);
+  CollectingReporter reporter;
+  benchmark::RunSpecifiedBenchmarks(&reporter);
+  progress.end();
+
+  print_measurements(reporter.measurements(), std::cout);
+  std::cout << "\n";
+  const std::vector<VerdictLine> lines = core_verdicts(reporter.measurements());
+  print_verdicts(lines, std::cout);
+  for (const auto& [name, error] : reporter.errors()) std::cout << "error: " << name << ": " << error << "\n";
+  return exit_code(lines);
+}
+
+/// Takes --verdicts out of the arguments, and puts what it implies before the user's own, which win.
+bool take_verdicts(std::vector<std::string>& arguments) {
+  if (std::erase(arguments, "--verdicts") == 0) return false;
+  const std::vector<std::string> implied = {std::string(kRepetitions) + "7", "--benchmark_min_time=0.1",
+                                            "--benchmark_enable_random_interleaving=true"};
+  arguments.insert(arguments.begin() + 1, implied.begin(), implied.end());
+  return true;
+}
+
+/// How many repetitions the arguments ask for.
+std::size_t repetitions_of(const std::vector<std::string>& arguments) {
+  std::size_t repetitions = 1;
+  for (const std::string& argument : arguments) {
+    if (!argument.starts_with(kRepetitions)) continue;
+    repetitions = std::stoul(argument.substr(kRepetitions.size()));
+  }
+  return repetitions;
+}
+
+int run(std::vector<std::string> arguments) {
+  const bool verdicts = take_verdicts(arguments);
+  std::vector<char*> pointers;
+  for (std::string& argument : arguments) pointers.push_back(argument.data());
+  int count = static_cast<int>(pointers.size());
+  pointers.push_back(nullptr);
+  benchmark::Initialize(&count, pointers.data(), &print_help);
+  if (benchmark::ReportUnrecognizedArguments(count, pointers.data())) return 2;
+
+  int status = 0;
+  if (verdicts) {
+    status = run_for_verdicts(repetitions_of(arguments));
+  } else {
+    for (const Benchmark& entry : all_benchmarks()) register_benchmark(entry, nullptr);
+    benchmark::RunSpecifiedBenchmarks();
+  }
+  benchmark::Shutdown();
+  return status;
 }
 
 }  // namespace
 }  // namespace hullbench
 
 int main(int argc, char** argv) {
-  benchmark::Initialize(&argc, argv);
-  if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 2;
-  hullbench::register_benchmarks();
-  benchmark::RunSpecifiedBenchmarks();
-  benchmark::Shutdown();
+  return hullbench::run(std::vector<std::string>(argv, argv + argc));
 }

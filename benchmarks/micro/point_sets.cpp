@@ -24,25 +24,65 @@ std::vector<polylidar::Point> make_lattice(std::size_t columns, std::size_t n, d
   return points;
 }
 
+constexpr std::size_t kIslands = 4000;
+constexpr std::size_t kColumns = 80;
+
+SpeedPointSet make_islands(std::size_t n, Random& random) {
+  // With the rule's factor 2 a point at the rim of a square now and then stands apart from the rest.
+  const double alpha = 2.5 / std::sqrt(static_cast<double>(n) / kIslands);
+  // A triangle between two squares has an edge longer than 2 * alpha, so a circumradius above alpha.
+  const double period = 1 + 3 * alpha;
+  std::vector<polylidar::Point> points(n);
+  for (std::size_t i = 0; i < n; ++i) {
+    const std::size_t island = i % kIslands;
+    points[i].x = static_cast<double>(island % kColumns) * period + random.uniform();
+    points[i].y = static_cast<double>(island / kColumns) * period + random.uniform();
+  }
+  return {std::move(points), alpha, kIslands};
+}
+
+SpeedPointSet make_sieve(std::size_t n, Random& random) {
+  const double alpha = 2.5 / std::sqrt(static_cast<double>(n) / kIslands);
+  const double period = std::sqrt(2.0);  // a hole of area 1, and as much round it
+  const double rim = (period - 1) / 2;
+  const auto is_in_hole = [rim](double offset) { return offset > rim && offset < 1 + rim; };
+  std::vector<polylidar::Point> points(n);
+  for (std::size_t i = 0; i < n; ++i) {
+    const std::size_t hole = i % kIslands;
+    double x = 0;
+    double y = 0;
+    do {
+      x = period * random.uniform();
+      y = period * random.uniform();
+    } while (is_in_hole(x) && is_in_hole(y));
+    points[i].x = static_cast<double>(hole % kColumns) * period + x;
+    points[i].y = static_cast<double>(hole / kColumns) * period + y;
+  }
+  return {std::move(points), alpha, 1};
+}
+
 }  // namespace
 
 SpeedPointSet make_speed_point_set(const std::string& name, std::size_t n) {
   Random random(derive_seed(kSeed, name));
   if (name == "ca") {
     PointSet set = make_point_set("ca", false, n, kSeed);
-    return {std::move(set.points), 2 * std::sqrt(set.ground_truth_area / static_cast<double>(n))};
+    return {std::move(set.points), 2 * std::sqrt(set.ground_truth_area / static_cast<double>(n)), 0};
   }
   if (name == "uniform") {
     std::vector<polylidar::Point> points(n);
     for (polylidar::Point& p : points) p = {random.uniform(), random.uniform()};
-    return {std::move(points), 2 / std::sqrt(static_cast<double>(n))};
+    return {std::move(points), 2 / std::sqrt(static_cast<double>(n)), 0};
   }
   if (name == "lattice") {
     const auto columns = static_cast<std::size_t>(std::sqrt(static_cast<double>(n)));
-    return {make_lattice(columns, n, 0, random), 2};
+    return {make_lattice(columns, n, 0, random), 2, 0};
   }
-  if (name == "rgbd") return {make_lattice(424, n, 0.1, random), 2};
-  throw std::invalid_argument("no point set is called '" + name + "': ca, uniform, lattice, rgbd");
+  if (name == "rgbd") return {make_lattice(424, n, 0.1, random), 2, 0};
+  if (name == "islands") return make_islands(n, random);
+  if (name == "sieve") return make_sieve(n, random);
+  throw std::invalid_argument("no point set is called '" + name +
+                              "': ca, uniform, lattice, rgbd, islands, sieve");
 }
 
 }  // namespace hullbench

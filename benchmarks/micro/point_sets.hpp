@@ -13,12 +13,17 @@ namespace hullbench {
 struct SpeedPointSet {
   std::vector<polylidar::Point> points;
   double alpha = 0;
+  /// How many polygons the concave hull has where that is known beforehand, else 0.
+  std::size_t polygons = 0;
 };
 
 /// About `n` points of one of the sets "ca" (uniform in California), "uniform" (in the unit square),
-/// "lattice" (a square integer lattice) and "rgbd" (424 columns, jittered by a tenth of their spacing, as a
-/// depth image of a floor gives). The same bytes at every call. Throws std::invalid_argument for another
-/// name.
+/// "lattice" (a square integer lattice), "rgbd" (424 columns, jittered by a tenth of their spacing, as a
+/// depth image of a floor gives), "islands" (uniform in 4000 squares so far apart that each is a polygon of
+/// its own) and "sieve" (uniform in one region of the same area with 4000 square holes of the same size: as
+/// long an outline in one polygon). The last two are for about 1,000,000 points, of which every square has
+/// the 250 it needs to hold together, and have a wider alpha than the rule's. The same bytes at every call.
+/// Throws std::invalid_argument for another name.
 SpeedPointSet make_speed_point_set(const std::string& name, std::size_t n);
 
 }  // namespace hullbench

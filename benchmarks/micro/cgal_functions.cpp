@@ -1,0 +1,66 @@
+// CGAL's Delaunay triangulation and its alpha shape on top of that.
+#include <CGAL/Alpha_shape_2.h>
+#include <CGAL/Alpha_shape_face_base_2.h>
+#include <CGAL/Alpha_shape_vertex_base_2.h>
+#include <CGAL/Delaunay_triangulation_2.h>
+#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
+
+#include <cstddef>
+#include <vector>
+
+#include "benchmarks/micro/measure.hpp"
+#include "benchmarks/micro/measured_functions.hpp"
+
+namespace hullbench {
+namespace {
+
+using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
+
+// The caller's points in CGAL's type: neither timed nor counted.
+std::vector<Kernel::Point_2> kernel_points(const SpeedPointSet& set) {
+  std::vector<Kernel::Point_2> points;
+  points.reserve(set.points.size());
+  for (const polylidar::Point& p : set.points) points.emplace_back(p.x, p.y);
+  return points;
+}
+
+void cgal_delaunay(benchmark::State& state, const SpeedPointSet& set) {
+  const std::vector<Kernel::Point_2> points = kernel_points(set);
+  measure(state, set, 0, Memory::kCounted, [&] {
+    CGAL::Delaunay_triangulation_2<Kernel> delaunay;
+    delaunay.insert(points.begin(), points.end());
+    return delaunay.number_of_faces();
+  });
+}
+
+// What the adapter's `run` does: down to the unordered edges that bound the shape. Polygons would come on
+// top.
+void cgal_alpha_shape(benchmark::State& state, const SpeedPointSet& set) {
+  using VertexBase = CGAL::Alpha_shape_vertex_base_2<Kernel>;
+  using FaceBase = CGAL::Alpha_shape_face_base_2<Kernel>;
+  using Delaunay =
+      CGAL::Delaunay_triangulation_2<Kernel, CGAL::Triangulation_data_structure_2<VertexBase, FaceBase>>;
+  using AlphaShape = CGAL::Alpha_shape_2<Delaunay>;
+  const std::vector<Kernel::Point_2> points = kernel_points(set);
+  measure(state, set, 0, Memory::kCounted, [&] {
+    Delaunay delaunay;
+    delaunay.insert(points.begin(), points.end());
+    AlphaShape shape(delaunay, set.alpha * set.alpha, AlphaShape::GENERAL);
+    std::size_t edges = 0;
+    for (auto edge = shape.alpha_shape_edges_begin(); edge != shape.alpha_shape_edges_end(); ++edge) {
+      if (shape.classify(*edge) == AlphaShape::REGULAR) ++edges;
+    }
+    return edges;
+  });
+}
+
+constexpr MeasuredFunction kFunctions[] = {{"cgal_delaunay", &cgal_delaunay, 1'000'000},
+                                           {"cgal_alpha_shape", &cgal_alpha_shape, 64'000}};
+
+}  // namespace
+
+std::span<const MeasuredFunction> cgal_functions() {
+  return kFunctions;
+}
+
+}  // namespace hullbench

@@ -1,0 +1,102 @@
+// GEOS's Delaunay triangulation and its concave hulls, through its C interface.
+#include <geos_c.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <memory>
+#include <stdexcept>
+#include <string>
+#include <type_traits>
+#include <vector>
+
+#include "benchmarks/micro/measure.hpp"
+#include "benchmarks/micro/measured_functions.hpp"
+#include "polylidar/delaunay.hpp"
+
+namespace hullbench {
+namespace {
+
+struct FinishGeos {
+  void operator()(GEOSContextHandle_t context) const { GEOS_finish_r(context); }
+};
+using Context = std::unique_ptr<std::remove_pointer_t<GEOSContextHandle_t>, FinishGeos>;
+
+struct DestroyGeometry {
+  GEOSContextHandle_t context;
+  void operator()(GEOSGeometry* geometry) const { GEOSGeom_destroy_r(context, geometry); }
+};
+using Geometry = std::unique_ptr<GEOSGeometry, DestroyGeometry>;
+
+Geometry own(const Context& context, GEOSGeometry* geometry, const char* operation) {
+  if (geometry == nullptr) throw std::runtime_error(std::string("GEOS failed in ") + operation);
+  return Geometry(geometry, DestroyGeometry{context.get()});
+}
+
+// The caller's points as GEOS takes them: neither timed nor counted.
+Geometry multi_point(const Context& context, const SpeedPointSet& set) {
+  std::vector<GEOSGeometry*> points;
+  points.reserve(set.points.size());
+  for (const polylidar::Point& p : set.points) {
+    points.push_back(GEOSGeom_createPointFromXY_r(context.get(), p.x, p.y));
+  }
+  return own(context,
+             GEOSGeom_createCollection_r(context.get(), GEOS_MULTIPOINT, points.data(),
+                                         static_cast<unsigned>(points.size())),
+             "making points");
+}
+
+void geos_delaunay(benchmark::State& state, const SpeedPointSet& set) {
+  const Context context(GEOS_init_r());
+  const Geometry points = multi_point(context, set);
+  measure(state, set, 0, Memory::kCounted, [&] {
+    const Geometry triangles = own(context, GEOSDelaunayTriangulation_r(context.get(), points.get(), 0, 0),
+                                   "Delaunay triangulation");
+    return static_cast<std::size_t>(std::max(0, GEOSGetNumGeometries_r(context.get(), triangles.get())));
+  });
+}
+
+// The ratio by which GEOS 3.11 stops at edges of length 2 * alpha, the longest that a triangle of
+// circumradius alpha can have: its limit is shortest + ratio * (longest - shortest), over all edges of the
+// Delaunay triangulation.
+double length_ratio(const SpeedPointSet& set) {
+  const polylidar::Triangulation delaunay = polylidar::delaunay(set.points);
+  double shortest = std::numeric_limits<double>::infinity();
+  double longest = 0;
+  for (std::size_t e = 0; e < delaunay.triangles.size(); ++e) {
+    const polylidar::Point& start = set.points[delaunay.triangles[e]];
+    const polylidar::Point& end = set.points[delaunay.triangles[3 * (e / 3) + (e + 1) % 3]];
+    const double length = std::hypot(end.x - start.x, end.y - start.y);
+    shortest = std::min(shortest, length);
+    longest = std::max(longest, length);
+  }
+  if (!(shortest < longest)) return 1;
+  return std::clamp((2 * set.alpha - shortest) / (longest - shortest), 0.0, 1.0);
+}
+
+template <bool holes>
+void geos_concave_hull(benchmark::State& state, const SpeedPointSet& set) {
+  const Context context(GEOS_init_r());
+  const Geometry points = multi_point(context, set);
+  const double ratio = length_ratio(set);
+  measure(state, set, 0, Memory::kCounted, [&] {
+    const Geometry hull =
+        own(context, GEOSConcaveHull_r(context.get(), points.get(), ratio, holes ? 1 : 0), "concave hull");
+    return static_cast<std::size_t>(GEOSisEmpty_r(context.get(), hull.get()) == 0 ? 1 : 0);
+  });
+}
+
+constexpr std::size_t kMostPoints = 64'000;
+constexpr MeasuredFunction kFunctions[] = {
+    {"geos_delaunay", &geos_delaunay, kMostPoints},
+    {"geos_concave_hull", &geos_concave_hull<false>, kMostPoints},
+    {"geos_concave_hull_with_holes", &geos_concave_hull<true>, kMostPoints}};
+
+}  // namespace
+
+std::span<const MeasuredFunction> geos_functions() {
+  return kFunctions;
+}
+
+}  // namespace hullbench

@@ -1,0 +1,29 @@
+// What core_benchmarks measures: ours, CGAL's and GEOS's functions, by name.
+#pragma once
+
+#include <benchmark/benchmark.h>
+
+#include <cstddef>
+#include <span>
+#include <string_view>
+
+#include "benchmarks/micro/point_sets.hpp"
+
+namespace hullbench {
+
+struct MeasuredFunction {
+  std::string_view name;
+  void (*run)(benchmark::State&, const SpeedPointSet&);
+  /// The most points it is given; the slower ones would take minutes on more.
+  std::size_t most_points;
+};
+
+/// `concave_hull` (memory kept between calls), the same with 2 threads, `concave_hull_once` (fresh memory at
+/// every call) and its three steps `triangulation`, `regions` and `polygons`.
+std::span<const MeasuredFunction> own_functions();
+/// `cgal_delaunay` and `cgal_alpha_shape`.
+std::span<const MeasuredFunction> cgal_functions();
+/// `geos_delaunay`, `geos_concave_hull` and `geos_concave_hull_with_holes`.
+std::span<const MeasuredFunction> geos_functions();
+
+}  // namespace hullbench

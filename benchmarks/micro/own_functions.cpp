@@ -1,0 +1,64 @@
+// The core by itself, whole and step by step.
+#include "benchmarks/micro/measure.hpp"
+#include "benchmarks/micro/measured_functions.hpp"
+#include "polylidar/concave_hull.hpp"
+
+namespace hullbench {
+namespace {
+
+template <unsigned threads>
+void concave_hull(benchmark::State& state, const SpeedPointSet& set) {
+  polylidar::Extractor extractor;
+  measure(state, set, set.polygons, Memory::kCounted, [&] {
+    return extractor.extract(set.points, {.alpha = set.alpha, .threads = threads}).polygon_count();
+  });
+}
+
+void concave_hull_once(benchmark::State& state, const SpeedPointSet& set) {
+  measure(state, set, set.polygons, Memory::kCounted,
+          [&] { return polylidar::concave_hull(set.points, {.alpha = set.alpha}).polygon_count(); });
+}
+
+void triangulation(benchmark::State& state, const SpeedPointSet& set) {
+  polylidar::Extractor extractor;
+  // What a triangulation made shows only in what comes of it.
+  const std::size_t polygons = extractor.extract(set.points, {.alpha = set.alpha}).polygon_count();
+  measure(state, set, set.polygons, Memory::kNotCounted, [&] {
+    extractor.triangulate(set.points);
+    return polygons;
+  });
+}
+
+// The later steps can be repeated after one triangulation.
+void regions(benchmark::State& state, const SpeedPointSet& set) {
+  polylidar::Extractor extractor;
+  const std::size_t polygons = extractor.extract(set.points, {.alpha = set.alpha}).polygon_count();
+  measure(state, set, set.polygons, Memory::kNotCounted, [&] {
+    extractor.extract_regions({.alpha = set.alpha});
+    return polygons;
+  });
+}
+
+void polygons(benchmark::State& state, const SpeedPointSet& set) {
+  polylidar::Extractor extractor;
+  extractor.triangulate(set.points);
+  extractor.extract_regions({.alpha = set.alpha});
+  measure(state, set, set.polygons, Memory::kNotCounted,
+          [&] { return extractor.extract_polygons().polygon_count(); });
+}
+
+constexpr std::size_t kMostPoints = 10'000'000;
+constexpr MeasuredFunction kFunctions[] = {{"concave_hull", &concave_hull<1>, kMostPoints},
+                                           {"concave_hull_2_threads", &concave_hull<2>, kMostPoints},
+                                           {"concave_hull_once", &concave_hull_once, 1'000'000},
+                                           {"triangulation", &triangulation, 1'000'000},
+                                           {"regions", &regions, 1'000'000},
+                                           {"polygons", &polygons, 1'000'000}};
+
+}  // namespace
+
+std::span<const MeasuredFunction> own_functions() {
+  return kFunctions;
+}
+
+}  // namespace hullbench

@@ -1,0 +1,56 @@
+#include "benchmarks/micro/verdict_run.hpp"
+
+#include "benchmarks/micro/measure.hpp"
+
+namespace hullbench {
+namespace {
+
+using namespace std::chrono_literals;
+
+constexpr auto kPlainInterval = 15s;
+
+}  // namespace
+
+RepetitionProgress::RepetitionProgress(std::ostream& out, bool terminal, std::size_t total)
+    : out_(out), terminal_(terminal), total_(total) {}
+
+void RepetitionProgress::begin(const std::string& benchmark, benchmark::IterationCount iterations) {
+  // Inside its first repetition Google Benchmark calls a benchmark with more and more iterations until they
+  // take long enough; every later repetition is one call with as many as the last of these.
+  benchmark::IterationCount& last = iterations_[benchmark];
+  if (last == 0 || last == iterations) ++begun_;
+  last = iterations;
+
+  const auto now = std::chrono::steady_clock::now();
+  if (!terminal_ && begun_ > 1 && now - shown_ < kPlainInterval) return;
+  shown_ = now;
+  out_ << (terminal_ ? "\r\033[K" : "") << "[" << begun_ << "/" << total_ << "] " << benchmark
+       << (terminal_ ? "" : "\n") << std::flush;
+}
+
+void RepetitionProgress::end() {
+  if (terminal_) out_ << "\r\033[K" << std::flush;
+}
+
+bool CollectingReporter::ReportContext(const Context& context) {
+  PrintBasicContext(&GetErrorStream(), context);
+  return true;
+}
+
+void CollectingReporter::ReportRuns(const std::vector<Run>& runs) {
+  for (const Run& run : runs) {
+    const std::string name = run.run_name.str();
+    if (run.error_occurred) {
+      errors_[name] = run.error_message;
+      continue;
+    }
+    if (run.run_type != Run::RT_Iteration || run.iterations == 0) continue;
+    Measured& measured = measurements_[name];
+    measured.times.push_back(run.real_accumulated_time * 1e9 / static_cast<double>(run.iterations));
+    if (const auto counter = run.counters.find(kPeakBytesPerPoint); counter != run.counters.end()) {
+      measured.peak_bytes = counter->second;
+    }
+  }
+}
+
+}  // namespace hullbench
