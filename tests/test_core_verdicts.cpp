@@ -56,6 +56,21 @@ TEST(CoreVerdicts, AllGoalsCanBeMet) {
   EXPECT_EQ(exit_code(lines), 0);
 }
 
+TEST(CoreVerdicts, AGoalThatSomeRepetitionsMeetIsUndecided) {
+  Measurements measurements = all_met();
+  measurements["cgal_delaunay/ca/2000"].times = {1e6, 1e6, 1e6};
+  measurements["concave_hull/ca/2000"].times = {3.9e5, 4.1e5, 4.2e5};
+  EXPECT_EQ(line_of(measurements, kAgainstCgal).verdict, Verdict::kUndecided);
+  EXPECT_EQ(exit_code(core_verdicts(measurements)), 5);
+  measurements["concave_hull/ca/2000"].times = {3.8e5, 3.9e5, 4.2e5};
+  EXPECT_EQ(line_of(measurements, kAgainstCgal).verdict, Verdict::kMet);
+  measurements["concave_hull/ca/2000"].times = {4.05e5, 4.1e5, 4.2e5};
+  EXPECT_EQ(line_of(measurements, kAgainstCgal).verdict, Verdict::kMissed);
+  measurements["concave_hull_2_threads/ca/64000"].times = {5e6, 4e6, 4.5e6};  // 1.28 to 1.6 times faster
+  measurements["concave_hull/ca/64000"].times = {6.4e6, 6.4e6, 6.4e6};
+  EXPECT_EQ(line_of(measurements, "one thread / 2 threads, ca/64000").verdict, Verdict::kUndecided);
+}
+
 TEST(CoreVerdicts, AMissedGoalIsARegression) {
   Measurements measurements = all_met();
   measurements["concave_hull/ca/2000"].times = {401};

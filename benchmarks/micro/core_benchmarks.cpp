@@ -92,8 +92,8 @@ void print_help() {
   std::cout
       << "core_benchmarks [--verdicts] [options of Google Benchmark]\n"
          "  --verdicts  measure what has a goal, in 7 interleaved repetitions, and say which goals are met;\n"
-         "              exit code 0: all of them, 3: one is missed, 6: none is missed but one was not "
-         "measured\n"
+         "              exit code 0: all of them; 3: one is missed; otherwise 6: one was not measured;\n"
+         "              otherwise 5: of one the repetitions disagree\n"
          "\n";
   benchmark::PrintDefaultHelp();
 }
@@ -140,6 +140,7 @@ std::size_t repetitions_of(const std::vector<std::string>& arguments) {
 int run(std::vector<std::string> arguments) {
   const bool verdicts = take_verdicts(arguments);
   std::vector<char*> pointers;
+  pointers.reserve(arguments.size() + 1);
   for (std::string& argument : arguments) pointers.push_back(argument.data());
   int count = static_cast<int>(pointers.size());
   pointers.push_back(nullptr);

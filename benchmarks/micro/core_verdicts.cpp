@@ -189,10 +189,15 @@ void fill_in_times(const Goal& goal, const Measurements& measurements, VerdictLi
   }
 }
 
-Verdict verdict_of(const Goal& goal, double value) {
-  if (goal.at_most) return value <= *goal.at_most ? Verdict::kMet : Verdict::kMissed;
-  if (goal.at_least) return value >= *goal.at_least ? Verdict::kMet : Verdict::kMissed;
-  return Verdict::kInformation;
+bool meets(const Goal& goal, double value) {
+  return goal.at_most ? value <= *goal.at_most : value >= *goal.at_least;
+}
+
+Verdict verdict_of(const Goal& goal, const VerdictLine& line) {
+  if (!goal.at_most && !goal.at_least) return Verdict::kInformation;
+  if (meets(goal, *line.value)) return Verdict::kMet;
+  const bool one_meets = line.smallest && (meets(goal, *line.smallest) || meets(goal, *line.largest));
+  return one_meets ? Verdict::kUndecided : Verdict::kMissed;
 }
 
 /// A limit as it was set: no digits that say nothing, at most three that do.
@@ -215,7 +220,7 @@ VerdictLine evaluate(const Goal& goal, const Measurements& measurements) {
     line.value = found->second.peak_bytes;
   }
   if (!line.value) return line;
-  line.verdict = verdict_of(goal, *line.value);
+  line.verdict = verdict_of(goal, line);
   if (goal.hoped_for) {
     const std::string hoped_for = limit_text(*goal.hoped_for);
     line.remark = *line.value <= *goal.hoped_for ? hoped_for + " too" : "not " + hoped_for;
@@ -229,6 +234,8 @@ std::string verdict_text(const VerdictLine& line) {
       return line.remark.empty() ? "met" : "met, " + line.remark;
     case Verdict::kMissed:
       return "MISSED";
+    case Verdict::kUndecided:
+      return "undecided: too noisy";
     case Verdict::kNotMeasured:
       return "not measured";
     case Verdict::kInformation:
@@ -260,7 +267,8 @@ std::vector<VerdictLine> core_verdicts(const Measurements& measurements) {
 
 int exit_code(const std::vector<VerdictLine>& lines) {
   if (count(lines, Verdict::kMissed) > 0) return 3;
-  return count(lines, Verdict::kNotMeasured) > 0 ? 6 : 0;
+  if (count(lines, Verdict::kNotMeasured) > 0) return 6;
+  return count(lines, Verdict::kUndecided) > 0 ? 5 : 0;
 }
 
 void print_verdicts(const std::vector<VerdictLine>& lines, std::ostream& out) {
@@ -274,7 +282,8 @@ void print_verdicts(const std::vector<VerdictLine>& lines, std::ostream& out) {
   table.print(out);
   out << "\n"
       << count(lines, Verdict::kMet) << " goals met, " << count(lines, Verdict::kMissed) << " missed, "
-      << count(lines, Verdict::kNotMeasured) << " not measured\n";
+      << count(lines, Verdict::kUndecided) << " undecided, " << count(lines, Verdict::kNotMeasured)
+      << " not measured\n";
 }
 
 void print_measurements(const Measurements& measurements, std::ostream& out) {

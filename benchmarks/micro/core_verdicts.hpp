@@ -20,7 +20,9 @@ struct Measured {
 /// By the benchmark's name, "function/point set/number of points".
 using Measurements = std::map<std::string, Measured>;
 
-enum class Verdict { kMet, kMissed, kNotMeasured, kInformation };
+/// kUndecided: the median misses the limit, but not every repetition does. With 7 repetitions, the smallest
+/// and the largest enclose the true median with a confidence of 98 % (sign test).
+enum class Verdict { kMet, kMissed, kUndecided, kNotMeasured, kInformation };
 
 /// What came of one goal.
 struct VerdictLine {
@@ -39,7 +41,8 @@ std::set<std::string> benchmarks_of_goals();
 /// One line a goal, always all of them and in the same order; a value that is the limit itself meets it.
 std::vector<VerdictLine> core_verdicts(const Measurements& measurements);
 
-/// The project's exit codes: 3 when a goal is missed; otherwise 6 when one was not measured; otherwise 0.
+/// The project's exit codes: 3 when a goal is missed; otherwise 6 when one was not measured; otherwise 5 when
+/// one is undecided; otherwise 0.
 int exit_code(const std::vector<VerdictLine>& lines);
 
 void print_verdicts(const std::vector<VerdictLine>& lines, std::ostream& out);

@@ -16,7 +16,8 @@ std::vector<polylidar::Point> make_lattice(std::size_t columns, std::size_t n, d
                                            Random& random) {
   std::vector<polylidar::Point> points(n);
   for (std::size_t i = 0; i < n; ++i) {
-    points[i] = {static_cast<double>(i % columns), static_cast<double>(i / columns)};
+    const std::size_t row = i / columns;
+    points[i] = {static_cast<double>(i % columns), static_cast<double>(row)};
     if (jitter == 0) continue;
     points[i].x += jitter * random.uniform();
     points[i].y += jitter * random.uniform();
@@ -35,8 +36,9 @@ SpeedPointSet make_islands(std::size_t n, Random& random) {
   std::vector<polylidar::Point> points(n);
   for (std::size_t i = 0; i < n; ++i) {
     const std::size_t island = i % kIslands;
+    const std::size_t row = island / kColumns;
     points[i].x = static_cast<double>(island % kColumns) * period + random.uniform();
-    points[i].y = static_cast<double>(island / kColumns) * period + random.uniform();
+    points[i].y = static_cast<double>(row) * period + random.uniform();
   }
   return {std::move(points), alpha, kIslands};
 }
@@ -49,6 +51,7 @@ SpeedPointSet make_sieve(std::size_t n, Random& random) {
   std::vector<polylidar::Point> points(n);
   for (std::size_t i = 0; i < n; ++i) {
     const std::size_t hole = i % kIslands;
+    const std::size_t row = hole / kColumns;
     double x = 0;
     double y = 0;
     do {
@@ -56,7 +59,7 @@ SpeedPointSet make_sieve(std::size_t n, Random& random) {
       y = period * random.uniform();
     } while (is_in_hole(x) && is_in_hole(y));
     points[i].x = static_cast<double>(hole % kColumns) * period + x;
-    points[i].y = static_cast<double>(hole / kColumns) * period + y;
+    points[i].y = static_cast<double>(row) * period + y;
   }
   return {std::move(points), alpha, 1};
 }

@@ -48,6 +48,15 @@ bool lexicographically_less(const Point& a, const Point& b) {
   return a.x < b.x || (a.x == b.x && a.y < b.y);
 }
 
+/// The half-edge that leaves the lexicographically least vertex of the walk that `first` is on.
+Mesh::Index leave_least_vertex(const Mesh& mesh, const Point* vertices, Mesh::Index first) {
+  Mesh::Index least = first;
+  for (Mesh::Index e = next_boundary(mesh, first); e != first; e = next_boundary(mesh, e)) {
+    if (lexicographically_less(vertices[mesh.origin(e)], vertices[mesh.origin(least)])) least = e;
+  }
+  return least;
+}
+
 /// Whether a simple ring runs counter-clockwise, exactly: it turns the same way at its lexicographically
 /// least vertex.
 bool is_counter_clockwise(const Point* vertices, std::span<const std::uint32_t> ring) {
@@ -108,8 +117,6 @@ void BoundaryTracer::trace_walk(Mesh& mesh, const Point* vertices, Index first) 
     }
 
     const std::uint32_t vertex = mesh.origin(e);
-    Index& least = walks_[number].least;
-    if (lexicographically_less(vertices[vertex], vertices[mesh.origin(least)])) least = e;
     if (place[vertex] != kNone) has_shell |= add_ring(vertices, place[vertex]);
     place[vertex] = static_cast<std::uint32_t>(open_walk_.size());
     open_walk_.push_back(vertex);
@@ -141,7 +148,8 @@ bool BoundaryTracer::add_ring(const Point* vertices, std::size_t begin) {
 void BoundaryTracer::join_holes(const Mesh& mesh, const Point* vertices) {
   for (std::uint32_t w = 0; w < walks_.size(); ++w) {
     if (walks_[w].region != kNone) continue;
-    const Index triangle = next_boundary_to_the_left(mesh, vertices, walks_[w].least);
+    const Index triangle =
+        next_boundary_to_the_left(mesh, vertices, leave_least_vertex(mesh, vertices, walks_[w].first));
     walks_[root(w)].parent = root(mesh.walk(triangle));
   }
   // The region's number goes from the walk with the shell to the root of its walks.

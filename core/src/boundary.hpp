@@ -25,7 +25,7 @@ class BoundaryTracer {
 
   /// A closed walk along the boundary of one region, which falls into rings where it comes back to a vertex.
   struct Walk {
-    Index least;           ///< the half-edge that leaves its lexicographically least vertex
+    Index first;           ///< one of its half-edges
     std::uint32_t parent;  ///< a walk of the same region, or itself
     std::uint32_t region;  ///< kNone unless it holds the region's shell
   };

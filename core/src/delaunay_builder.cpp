@@ -116,13 +116,13 @@ void DelaunayBuilder::cut(Part& part, Index largest, std::deque<Part>& parts) {
     refine_curve(part.begin, part.end, box);
   }
   // The line is where the highest bit in which keys differ changes.
-  const auto level = static_cast<unsigned>(std::bit_width(keys[part.begin] ^ keys[part.end - 1]));
-  const std::uint32_t bit = 1U << (level - 1);
+  const std::uint32_t differing = keys[part.begin] ^ keys[part.end - 1];
+  const std::uint32_t bit = std::bit_floor(differing);
   const auto middle =
       static_cast<Index>(std::partition_point(keys + part.begin, keys + part.end,
                                               [bit](std::uint32_t key) { return (key & bit) == 0; }) -
                          keys);
-  part.axis = axis_of_level(level);
+  part.axis = axis_of_level(static_cast<unsigned>(std::bit_width(differing)));
   part.first = &parts.emplace_back(part.begin, middle, &part);
   part.second = &parts.emplace_back(middle, part.end, &part);
   cut(*part.first, largest, parts);

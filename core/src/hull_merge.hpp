@@ -37,11 +37,11 @@ struct ExactLimits {
   double incircle = 0;  ///< 2^53 units to the fourth
 };
 
-/// The Delaunay triangulation of the points of `left` and `right` together, in `mesh`, where all of `left`
-/// lie before all of `right` along `axis`. The two triangles that a merge adds get the records `first_record`
-/// and the next one; all others stay where they are.
-Hull merge_hulls(Mesh& mesh, const Point* points, const ExactLimits& limits, const Hull& left,
-                 const Hull& right, Mesh::Index first_record, Axis axis);
+/// The Delaunay triangulation of the points of `before` and `after` together, in `mesh`, where all of
+/// `before` lie before all of `after` along `axis`. The two triangles that a merge adds get the records
+/// `first_record` and the next one; all others stay where they are.
+Hull merge_hulls(Mesh& mesh, const Point* points, const ExactLimits& limits, const Hull& before,
+                 const Hull& after, Mesh::Index first_record, Axis axis);
 
 /// The triangle (a, b, c), which runs counter-clockwise, and the ghosts over its edges, in four records from
 /// `first_record` on.
