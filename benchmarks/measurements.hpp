@@ -64,7 +64,7 @@ class Measurements {
     std::string method;
     std::string protocol;
     Case which;
-    auto operator<=>(const Key&) const = default;
+    auto operator<=>(const Key&) const = default;  // NOLINT(modernize-use-nullptr): as above
   };
   std::vector<RunRecord> runs_;
   std::map<Key, std::vector<std::size_t>> index_;  ///< positions in runs_

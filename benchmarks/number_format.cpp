@@ -17,7 +17,7 @@ std::string fixed(double value, int decimals) {
   std::array<char, 330> text{};
   const auto end =
       std::to_chars(text.data(), text.data() + text.size(), value, std::chars_format::fixed, decimals).ptr;
-  return std::string(text.data(), end);
+  return {text.data(), end};
 }
 
 int decimals_of(double value) {

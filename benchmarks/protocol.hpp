@@ -38,19 +38,19 @@ namespace hullbench {
 inline constexpr int kProtocolVersion = 1;
 
 /// The longest line either side may send, line feed included.
-inline constexpr std::size_t kMaxLineBytes = 1024 * 1024;
+inline constexpr std::size_t kMaxLineBytes = std::size_t{1024} * 1024;
 
 /// {name, title, version, licence, citation, native_output, parameters: [{name, unit, description, minimum,
 /// maximum, default}], capabilities: {holes, several_polygons}}. An infinite limit or default is null; a
 /// parameter that is required has no member "default".
 nlohmann::json method_to_json(const MethodInfo& info);
 /// Throws nlohmann::json::exception or std::invalid_argument when a member is missing or of the wrong type.
-MethodInfo method_from_json(const nlohmann::json& json);
+MethodInfo method_from_json(const nlohmann::json& source);
 
 /// {name: value}; infinity is null.
 nlohmann::json parameters_to_json(const Parameters& parameters);
 /// Throws std::invalid_argument when a value is neither a number nor null.
-Parameters parameters_from_json(const nlohmann::json& json);
+Parameters parameters_from_json(const nlohmann::json& source);
 
 /// Writes `points` as `load` wants them. Throws std::runtime_error naming the file when it cannot be written.
 void write_points_file(const std::filesystem::path& path, std::span<const Point> points);

@@ -58,9 +58,9 @@ struct RunRecord {
 /// JSON has no infinity: a parameter that is +infinity ("no limit") is written as null and read back as
 /// +infinity. A NaN or -infinity among the parameters throws std::invalid_argument, because no method takes
 /// it; a number in `metrics` that is not finite becomes null.
-void to_json(nlohmann::json& json, const RunRecord& record);
+void to_json(nlohmann::json& result, const RunRecord& record);
 /// Throws nlohmann::json::exception or std::invalid_argument when a field is missing or of the wrong type.
-void from_json(const nlohmann::json& json, RunRecord& record);
+void from_json(const nlohmann::json& source, RunRecord& record);
 
 /// The name in Google Benchmark's manner: "polylidar/ca/n:64000/holes:1/protocol:paper". For people; two runs
 /// that differ in seed or parameters share it, and only the id tells them apart.

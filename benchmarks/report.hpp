@@ -18,8 +18,8 @@ nlohmann::json make_report(const std::filesystem::path& run_directory);
 /// `paper_time`, l2, l2_paper, iou, valid) and `claims` (see claims.hpp).
 nlohmann::json make_summary(const nlohmann::json& report);
 
-/// Writes `json` to `path`, indented, whole or not at all (a temporary file beside it is renamed). Throws
+/// Writes `content` to `path`, indented, whole or not at all (a temporary file beside it is renamed). Throws
 /// std::runtime_error naming the file when it cannot be written.
-void write_json_file(const std::filesystem::path& path, const nlohmann::json& json);
+void write_json_file(const std::filesystem::path& path, const nlohmann::json& content);
 
 }  // namespace hullbench

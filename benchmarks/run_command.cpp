@@ -53,6 +53,7 @@ json describe_tool() {
 
 json describe_run(const Plan& plan, const std::vector<PlannedRun>& runs, const std::string& filter) {
   std::vector<std::string> used;
+  used.reserve(runs.size());
   for (const PlannedRun& run : runs) used.push_back(plan.expanded_cases[run.case_index].dataset);
   return {{"schema_version", kSchemaVersion},
           {"created", utc_now()},

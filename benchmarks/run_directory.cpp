@@ -50,6 +50,7 @@ json identity(const json& header) {
 }
 
 ConfigurationError not_writable(const fs::path& folder, const std::string& why) {
+  // NOLINTNEXTLINE(modernize-return-braced-init-list): the inherited constructor is explicit
   return ConfigurationError("cannot write to the output folder " + folder.string() + " (" + why +
                             "); choose another one with --out");
 }
@@ -289,8 +290,8 @@ std::string utc_now() {
   std::tm parts{};
   gmtime_r(&now, &parts);
   std::array<char, 32> text{};
-  std::strftime(text.data(), text.size(), "%Y-%m-%dT%H:%M:%SZ", &parts);
-  return text.data();
+  const std::size_t size = std::strftime(text.data(), text.size(), "%Y-%m-%dT%H:%M:%SZ", &parts);
+  return {text.data(), size};
 }
 
 }  // namespace hullbench

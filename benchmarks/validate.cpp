@@ -106,7 +106,8 @@ std::vector<std::string> validate_lines(const std::filesystem::path& path) {
       result.push_back("Record " + std::to_string(index + 1) + ": " + fault);
     }
   }
-  if (!lines.torn.empty()) result.push_back("The last line is cut short: it does not end with a line feed.");
+  if (!lines.torn.empty())
+    result.emplace_back("The last line is cut short: it does not end with a line feed.");
   return result;
 }
 

@@ -67,7 +67,9 @@ int become_worker(char* const* argv, const WorkerLimits& limits, pid_t parent, c
   sigset_t none;
   sigemptyset(&none);
   sigprocmask(SIG_SETMASK, &none, nullptr);
-  for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGPIPE}) ::signal(signal, SIG_DFL);
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGPIPE}) {
+    if (::signal(signal, SIG_DFL) == SIG_ERR) return errno;
+  }
 
   const rlimit no_core = {0, 0};
   if (::setrlimit(RLIMIT_CORE, &no_core) != 0) return errno;
@@ -143,6 +145,7 @@ bool speaks_of_memory(const std::string& words) {
 WorkerProcess::WorkerProcess(const std::vector<std::string>& command, const WorkerLimits& limits)
     : memory_mib_(limits.memory_mib) {
   std::vector<char*> argv;
+  argv.reserve(command.size() + 1);
   for (const std::string& argument : command) argv.push_back(const_cast<char*>(argument.c_str()));
   argv.push_back(nullptr);
 

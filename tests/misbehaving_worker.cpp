@@ -5,6 +5,7 @@
 
 #include <chrono>
 #include <csignal>
+#include <cstddef>
 #include <cstdio>
 #include <iostream>
 #include <memory>
@@ -38,13 +39,13 @@ void say_error(const char* kind, const char* message) {
 
 void use_up_memory() {
   std::vector<std::unique_ptr<char[]>> blocks;
-  while (true) blocks.push_back(std::make_unique<char[]>(16 * 1024 * 1024));
+  while (true) blocks.push_back(std::make_unique<char[]>(std::size_t{16} * 1024 * 1024));
 }
 
 /// Leaves a child that keeps every pipe open, and dies.
 void leave_child_and_crash() {
   if (::fork() == 0) hang();
-  std::raise(SIGKILL);
+  (void)std::raise(SIGKILL);
 }
 
 json good_reply(const json& request) {
@@ -57,14 +58,14 @@ void write_result(const json& request, const hullbench::MultiPolygon& shape) {
 
 /// Ways that end the worker or its conversation before it could answer.
 bool misbehave_instead(const std::string& mode) {
-  if (mode == "crash") std::raise(SIGSEGV);
+  if (mode == "crash") (void)std::raise(SIGSEGV);
   if (mode == "crash_on_second") {
     static int count = 0;
-    if (++count == 2) std::raise(SIGABRT);
+    if (++count == 2) (void)std::raise(SIGABRT);
   }
   if (mode == "hang") hang();
   if (mode == "hang_hard") {
-    std::signal(SIGTERM, SIG_IGN);
+    (void)std::signal(SIGTERM, SIG_IGN);  // cannot fail for this signal
     hang();
   }
   if (mode == "memory") use_up_memory();
@@ -138,10 +139,10 @@ int main(int argc, char** argv) {
     const json request = json::parse(line);
     if (request["request"] == "quit") return 0;
     if (request["request"] == "hello") {
-      if (mode == "crash_at_start") std::raise(SIGSEGV);
+      if (mode == "crash_at_start") (void)std::raise(SIGSEGV);
       say(hello(mode));
     } else if (request["request"] == "load") {
-      if (mode == "crash_on_load") std::raise(SIGBUS);
+      if (mode == "crash_on_load") (void)std::raise(SIGBUS);
       say({{"phases_ns", {{"load", 5}}}});
     } else if (!misbehave_instead(mode)) {
       answer_run(mode, request);

@@ -175,6 +175,7 @@ std::vector<EdgeEnds> regular_edges(const std::vector<Point>& points, double rad
   using Delaunay = CGAL::Delaunay_triangulation_2<Kernel, CGAL::Triangulation_data_structure_2<Vertex, Face>>;
   using AlphaShape = CGAL::Alpha_shape_2<Delaunay>;
   std::vector<Kernel::Point_2> cgal_points;
+  cgal_points.reserve(points.size());
   for (const Point& point : points) cgal_points.emplace_back(point.x, point.y);
   const AlphaShape shape(cgal_points.begin(), cgal_points.end(), radius * radius, AlphaShape::GENERAL);
   std::vector<EdgeEnds> edges;

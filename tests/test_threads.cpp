@@ -28,9 +28,10 @@ std::vector<Point> repeated(const std::vector<Point>& points, std::size_t times)
 std::vector<Point> clusters(std::size_t count, std::size_t of_points, double distance) {
   std::vector<Point> result;
   for (std::size_t c = 0; c < count; ++c) {
+    const std::size_t row = c / 10;
     for (const Point& p : testing::uniform_points(of_points, c)) {
       result.push_back(
-          {p.x + distance * static_cast<double>(c % 10), p.y + distance * static_cast<double>(c / 10)});
+          {p.x + distance * static_cast<double>(c % 10), p.y + distance * static_cast<double>(row)});
     }
   }
   return result;
