@@ -3,6 +3,7 @@
 #   NATIVE=1     compile for this machine's processor instead of generic x86-64
 #   SKIP_DEPS=1  install nothing: everything needed is there already (distributions without apt-get)
 #   JOBS=N       build and test with N processes
+#   TABLE=NAME   only this experiment in "make bench": alphabet or states
 #   SECONDS=N    how long "make fuzz" searches
 
 SHELL := /bin/bash
@@ -55,10 +56,13 @@ build: ## only build: build/hullbench and build/core_benchmarks
 	@$(call build,release,$(NATIVE_OPTION),hullbench core_benchmarks)
 	@echo "==> built build/hullbench and build/core_benchmarks"
 
-bench: ## install, build and run the state-shape experiment; go on if it was interrupted
+bench: ## install, build and run the experiments (or TABLE=states, TABLE=alphabet); go on if interrupted
 	@$(call install,build bench)
 	@$(MAKE) build
-	@build/hullbench run states
+	@status=0; for table in $(or $(TABLE),alphabet states); do \
+	  echo "==> $$table"; \
+	  build/hullbench run "$$table" || { status=$$?; [ $$status -ne 130 ] || exit 130; }; \
+	done; exit $$status
 
 bench-quick: ## the same tables for n <= 8000 and 3 repetitions, in under 2 minutes
 	@$(call install,build bench)

@@ -14,8 +14,9 @@ namespace {
 /// Wanted edge length in mean spacings of the points over their convex hull.
 constexpr double kHullSpacings = 3.0;
 
-const std::array<ParameterRule, 4> kRules = {{{"paper_alpha", true, &paper_alpha},
+const std::array<ParameterRule, 5> kRules = {{{"paper_alpha", true, &paper_alpha},
                                               {"paper_alpha_squared", true, &paper_alpha_squared},
+                                              {"paper_target_percent", true, &paper_target_percent},
                                               {"holes", false, &holes_switch},
                                               {"hull_spacing_ratio", false, &hull_spacing_ratio}}};
 
@@ -52,6 +53,7 @@ const ParameterRule* find_rule(const std::string& name) {
 
 std::vector<std::string> rule_names() {
   std::vector<std::string> names;
+  names.reserve(kRules.size());
   for (const ParameterRule& rule : kRules) names.push_back(rule.name);
   return names;
 }
@@ -64,6 +66,17 @@ double paper_alpha(const RuleInput& input) {
 double paper_alpha_squared(const RuleInput& input) {
   const double alpha = paper_alpha(input);
   return alpha * alpha;
+}
+
+double paper_target_percent(const RuleInput& input) {
+  std::vector<polylidar::Point> corners;
+  for (const polylidar::Polygon& polygon : input.ground_truth) {
+    corners.insert(corners.end(), polygon.shell.begin(), polygon.shell.end());
+  }
+  const double hull_area = convex_hull_area(corners);
+  if (!(hull_area > 0) || !(input.ground_truth_area > 0)) return 1.0;
+  // A convex shape's two areas are summed in different orders, so the ratio may come out a rounding above 1.
+  return std::min(input.ground_truth_area / hull_area, 1.0);
 }
 
 double holes_switch(const RuleInput& input) {

@@ -15,6 +15,8 @@ struct RuleInput {
   std::span<const polylidar::Point> points;
   double ground_truth_area = 0;  ///< squared unit of the points; only for rules that say so
   bool holes = false;            ///< whether the case asks for holes
+  /// Its polygons; only for rules that say so.
+  std::span<const polylidar::Polygon> ground_truth = {};
 };
 
 struct ParameterRule {
@@ -37,6 +39,12 @@ double paper_alpha(const RuleInput& input);
 
 /// `paper_alpha_squared`: its square, for methods that want a squared radius (CGAL). Oracle-informed.
 double paper_alpha_squared(const RuleInput& input);
+
+/// `paper_target_percent`: the ground truth's area over the area of its convex hull, the share of the points'
+/// convex hull that PostGIS before 3.3 is to shrink to; a ratio in (0, 1]. The paper's choice, "to provide
+/// the optimal accuracy based on percent area reduction required" (section V); its experiment took the figure
+/// from each shape so. Oracle-informed. 1 (the convex hull) for a ground truth without an area.
+double paper_target_percent(const RuleInput& input);
 
 /// `holes`: 1 when the case has holes, else 0. What a user knows of the shape before asking for its hull,
 /// hence open to every protocol.

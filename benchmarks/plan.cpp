@@ -84,7 +84,7 @@ class Node {
 
   /// Not empty and of letters that can stand in a run's name.
   std::string identifier() const {
-    const std::string name = text();
+    std::string name = text();
     const bool good = !name.empty() && std::all_of(name.begin(), name.end(), [](char c) {
       return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '_' || c == '-';
     });
@@ -146,26 +146,45 @@ void read_values(const Node& node, std::vector<Value>& values, Value (*read)(con
   }
 }
 
+std::vector<std::string> read_identifiers(const Node& node) {
+  std::vector<std::string> names;
+  read_values<std::string>(node, names, [](const Node& value) { return value.identifier(); });
+  return names;
+}
+
+/// The cases of one element of `cases`: data set by data set, of each first all sizes with the first value of
+/// `holes`.
+std::vector<PlanCase> read_case_group(const Node& group) {
+  group.only_keys({"dataset", "holes", "n"});
+  const Node dataset_node = group.at("dataset");
+  const std::vector<std::string> datasets = dataset_node.value().is_array()
+                                                ? read_identifiers(dataset_node)
+                                                : std::vector{dataset_node.identifier()};
+  std::vector<bool> holes = {false};
+  if (group.has("holes")) {
+    holes.clear();
+    for (const Node& value : group.at("holes").elements()) holes.push_back(value.boolean());
+  }
+  std::vector<std::int64_t> sizes;
+  read_values<std::int64_t>(group.at("n"), sizes,
+                            [](const Node& value) { return value.integer(3, kMaxPoints); });
+  std::vector<PlanCase> cases;
+  for (const std::string& dataset : datasets) {
+    for (const bool with_holes : holes) {
+      for (const std::int64_t n : sizes) cases.push_back({dataset, with_holes, n});
+    }
+  }
+  return cases;
+}
+
 void read_cases(const Node& node, std::vector<PlanCase>& cases) {
   std::set<std::string> seen;
   for (const Node& group : node.elements()) {
-    group.only_keys({"dataset", "holes", "n"});
-    const std::string dataset = group.at("dataset").identifier();
-    std::vector<bool> holes = {false};
-    if (group.has("holes")) {
-      holes.clear();
-      for (const Node& value : group.at("holes").elements()) holes.push_back(value.boolean());
-    }
-    std::vector<std::int64_t> sizes;
-    read_values<std::int64_t>(group.at("n"), sizes,
-                              [](const Node& value) { return value.integer(3, kMaxPoints); });
-    for (const bool with_holes : holes) {
-      for (const std::int64_t n : sizes) {
-        cases.push_back({dataset, with_holes, n});
-        if (!seen.insert(cases.back().shape() + " " + std::to_string(n)).second) {
-          group.fail("has the case " + cases.back().shape() + " with n = " + std::to_string(n) +
-                     " for the second time; leave one out");
-        }
+    for (const PlanCase& one : read_case_group(group)) {
+      cases.push_back(one);
+      if (!seen.insert(one.shape() + " " + std::to_string(one.n)).second) {
+        group.fail("has the case " + one.shape() + " with n = " + std::to_string(one.n) +
+                   " for the second time; leave one out");
       }
     }
   }
@@ -211,10 +230,7 @@ PlanMethod read_method(const Node& node) {
   method.method = node.at("method").identifier();
   const Protocol& protocol = find_protocol(node.at("protocol"));
   method.protocol = protocol.name;
-  if (node.has("datasets")) {
-    read_values<std::string>(node.at("datasets"), method.datasets,
-                             [](const Node& value) { return value.identifier(); });
-  }
+  if (node.has("datasets")) method.datasets = read_identifiers(node.at("datasets"));
   if (node.has("parameters")) {
     for (const auto& [name, value] : node.at("parameters").members()) {
       method.parameters[name] = read_parameter(value, protocol);
@@ -381,6 +397,7 @@ json plan_to_json(const Plan& plan) {
 void check_plan(const Plan& plan, const std::vector<std::string>& methods,
                 const std::vector<DatasetInfo>& datasets) {
   std::vector<std::string> dataset_names;
+  dataset_names.reserve(datasets.size());
   for (const DatasetInfo& dataset : datasets) dataset_names.push_back(dataset.name);
   for (const PlanCase& plan_case : plan.expanded_cases) {
     require_known("data set", plan_case.dataset, dataset_names, plan.name);

@@ -7,7 +7,8 @@
 //                 "parameters": {"alpha": PARAMETER}}]}
 //
 // PARAMETER is a number, {"rule": NAME} (parameter_rules.hpp) or {"cases": {"ca": 2.0, "ca/holes": 1.25}}.
-// Only `name`, `cases` and `methods` are required; a key that is not listed here is an error.
+// A case's "dataset" is one name or a list of names; a list stands for the same case once for each name, in
+// its order. Only `name`, `cases` and `methods` are required; a key that is not listed here is an error.
 #pragma once
 
 #include <cstddef>

@@ -82,11 +82,13 @@ add_library(hullbench_report STATIC
   statistics.cpp
   environment.cpp
   claims.cpp
+  collection_tables.cpp
   labels.cpp
   measurements.cpp
   number_format.cpp
   report.cpp
   report_notes.cpp
+  table_context.cpp
   text_table.cpp
   tables.cpp
   validate.cpp

@@ -176,8 +176,8 @@ class Runner {
     record.holes = plan_case.holes;
     record.seed = plan_.seed;
     record.protocol = method.protocol;
-    record.parameters =
-        choose_parameters(method, plan_case, {set.points, set.ground_truth_area, plan_case.holes});
+    record.parameters = choose_parameters(
+        method, plan_case, {set.points, set.ground_truth_area, plan_case.holes, set.ground_truth});
     complete(entry);
     return entry;
   }
@@ -328,6 +328,7 @@ RunResult run_plan(const Plan& plan, const std::vector<PlannedRun>& runs, const 
 
 std::vector<ProgressRun> progress_runs(const Plan& plan, const std::vector<PlannedRun>& runs) {
   std::vector<ProgressRun> result;
+  result.reserve(runs.size());
   for (const PlannedRun& run : runs) {
     result.push_back({run.name, plan.methods[run.method_index].method, plan.expanded_cases[run.case_index].n,
                       plan.warmup + plan.repetitions});

@@ -26,6 +26,26 @@ double quantile_of_sorted(const std::vector<double>& sorted, double q) {
   return sorted[below] + (position - static_cast<double>(below)) * (sorted[above] - sorted[below]);
 }
 
+template <typename Value>
+double mean_of(std::span<const Value> values) {
+  if (values.empty()) throw std::invalid_argument("A statistic of no values is not defined.");
+  double sum = 0;
+  for (const Value value : values) sum += static_cast<double>(value);
+  return sum / static_cast<double>(values.size());
+}
+
+template <typename Value>
+std::optional<double> standard_deviation_of(std::span<const Value> values) {
+  const double centre = mean_of(values);
+  if (values.size() == 1) return std::nullopt;
+  double sum = 0;
+  for (const Value value : values) {
+    const double deviation = static_cast<double>(value) - centre;
+    sum += deviation * deviation;
+  }
+  return std::sqrt(sum / static_cast<double>(values.size() - 1));
+}
+
 }  // namespace
 
 double quantile(std::span<const std::int64_t> values, double q) {
@@ -50,21 +70,17 @@ double median_absolute_deviation(std::span<const std::int64_t> values) {
 }
 
 double mean(std::span<const std::int64_t> values) {
-  if (values.empty()) throw std::invalid_argument("A statistic of no values is not defined.");
-  double sum = 0;
-  for (const std::int64_t value : values) sum += static_cast<double>(value);
-  return sum / static_cast<double>(values.size());
+  return mean_of(values);
+}
+double mean(std::span<const double> values) {
+  return mean_of(values);
 }
 
 std::optional<double> standard_deviation(std::span<const std::int64_t> values) {
-  const double centre = mean(values);
-  if (values.size() == 1) return std::nullopt;
-  double sum = 0;
-  for (const std::int64_t value : values) {
-    const double deviation = static_cast<double>(value) - centre;
-    sum += deviation * deviation;
-  }
-  return std::sqrt(sum / static_cast<double>(values.size() - 1));
+  return standard_deviation_of(values);
+}
+std::optional<double> standard_deviation(std::span<const double> values) {
+  return standard_deviation_of(values);
 }
 
 Statistics describe(std::span<const std::int64_t> values) {

@@ -33,9 +33,11 @@ double median(std::span<const double> values);
 double median_absolute_deviation(std::span<const std::int64_t> values);
 
 double mean(std::span<const std::int64_t> values);
+double mean(std::span<const double> values);
 
 /// With n - 1 in the denominator; empty for a single value.
 std::optional<double> standard_deviation(std::span<const std::int64_t> values);
+std::optional<double> standard_deviation(std::span<const double> values);
 
 /// All of the above.
 Statistics describe(std::span<const std::int64_t> values);

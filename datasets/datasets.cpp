@@ -56,7 +56,7 @@ std::vector<DatasetInfo> datasets(const std::filesystem::path& data_directory) {
 polylidar::MultiPolygon make_ground_truth(const std::string& name, bool holes,
                                           const std::filesystem::path& data_directory) {
   const ShapeInfo info = find_shape(name, holes, data_directory);
-  const polylidar::MultiPolygon shape = load_shape(data_directory, info);
+  polylidar::MultiPolygon shape = load_shape(data_directory, info);
   if (!holes) return shape;
   return with_circular_holes(shape, info.holes->count, info.holes->radius,
                              derive_seed(info.holes->seed, "holes/" + name));

@@ -1,13 +1,14 @@
-// Makes the outlines of California and Hawaii in datasets/shapes and their manifest, from the cartographic
-// boundaries of the US Census Bureau as the npm package us-atlas carries them.
+// Makes the outlines of California and Hawaii in datasets/shapes and their part of the manifest there, from the
+// cartographic boundaries of the US Census Bureau as the npm package us-atlas carries them.
 //
 //   cd datasets && npm ci && node make_states.mjs [OUTPUT_FOLDER]
 //
 // The files are committed: this script is run only to change them. Running it again gives the same bytes. It
-// stops with an error, and writes nothing, when an outline is not a valid multipolygon.
+// stops with an error, and writes nothing, when an outline is not a valid multipolygon. In the manifest it
+// rewrites the set "states" and its shapes, and keeps the rest.
 
 import { createHash } from 'node:crypto';
-import { mkdirSync, readFileSync, writeFileSync } from 'node:fs';
+import { existsSync, mkdirSync, readFileSync, writeFileSync } from 'node:fs';
 import { createRequire } from 'node:module';
 import { join } from 'node:path';
 import { fileURLToPath } from 'node:url';
@@ -21,6 +22,8 @@ const shapes = [
   { name: 'hi', title: 'Hawaii', state: '15', holes: { count: 10, radius: 2, seed: 1 },
     paper: { area: 1862.2, area_with_holes: 1736.7, polygons: 9 } },
 ];
+/// What the manifest calls these outlines.
+const set = 'states';
 /// The larger side of every bounding box, in length units.
 const size = 200;
 const decimals = 6;
@@ -91,6 +94,7 @@ function describe(shape, outline, text) {
   return {
     name: shape.name,
     title: shape.title,
+    set,
     file: `${shape.name}.geojson`,
     sha256: createHash('sha256').update(text).digest('hex'),
     source: 'US Census Bureau, cartographic boundary files, states, edition of 2017, '
@@ -114,21 +118,34 @@ function describe(shape, outline, text) {
   };
 }
 
-function manifest(entries) {
+function describeSet() {
   return {
-    licences: 'All outlines in this folder are in the public domain and may be used for anything: they come '
-      + 'from data of the US Census Bureau. The npm package that carries the data (us-atlas, copyright '
-      + '2013-2019 Michael Bostock) is under the ISC licence, which allows the same. The harness binary that '
-      + 'reads these files, build/hullbench, is another matter: it links CGAL packages under GPL-3.0-or-later, '
-      + 'so whoever passes that binary on does so under GPL-3.0-or-later; neither the data nor the polylidar '
-      + 'core, which is MIT and links nothing, is touched by that.',
+    name: set,
     made_by: 'datasets/make_states.mjs',
     how_made: 'Spherical Mercator projection, y up; moved so that the smallest x and y are 0; scaled so '
       + `that the larger side of the bounding box is ${size}; all islands kept; coordinates rounded to `
-      + `${decimals} decimals; shells counter-clockwise. bounding_box is [min x, min y, max x, max y]; areas `
-      + 'are in squared units of the coordinates. holes: how many circles, as 64-gons of which radius, and '
-      + 'from which seed, the variant with holes has cut out.',
-    shapes: entries,
+      + `${decimals} decimals; shells counter-clockwise.`,
+    licences: 'The outlines are in the public domain and may be used for anything: they come from data of the '
+      + 'US Census Bureau. The npm package that carries the data (us-atlas, copyright 2013-2019 Michael '
+      + 'Bostock) is under the ISC licence, which allows the same.',
+  };
+}
+
+/// `own` in the place of the elements that are; at the end when there are none.
+function replaced(elements, isOwn, own) {
+  const first = elements.findIndex(isOwn);
+  const others = (part) => part.filter((element) => !isOwn(element));
+  if (first < 0) return [...elements, ...own];
+  return [...elements.slice(0, first), ...own, ...others(elements.slice(first))];
+}
+
+/// The manifest at `path`, if there is one, with this script's set and its shapes in their places.
+function manifest(path, entries) {
+  const before = existsSync(path) ? JSON.parse(readFileSync(path, 'utf8')) : {};
+  return {
+    ...before,
+    sets: replaced(before.sets ?? [], ({ name }) => name === set, [describeSet()]),
+    shapes: replaced(before.shapes ?? [], (shape) => shape.set === set, entries),
   };
 }
 
@@ -140,7 +157,8 @@ const made = shapes.map((shape) => {
 });
 mkdirSync(folder, { recursive: true });
 made.forEach(({ text, entry }) => writeFileSync(join(folder, entry.file), text));
-const summary = manifest(made.map(({ entry }) => entry));
-writeFileSync(join(folder, 'manifest.json'), `${JSON.stringify(summary, null, 2)}\n`);
+const manifestPath = join(folder, 'manifest.json');
+const summary = manifest(manifestPath, made.map(({ entry }) => entry));
+writeFileSync(manifestPath, `${JSON.stringify(summary, null, 2)}\n`);
 made.forEach(({ entry }) =>
   console.log(`${entry.file}: ${entry.polygons} polygons, ${entry.vertices} vertices, area ${entry.area}`));

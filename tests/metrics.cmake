@@ -1,6 +1,6 @@
 # Scores, and the adapter that the core is compared with.
 hullbench_test(test_metrics SOURCES test_metrics.cpp
-  LIBRARIES hullbench_test_support hullbench::metrics Boost::headers LABELS metrics)
+  LIBRARIES hullbench_test_support hullbench::metrics hullbench::datasets Boost::headers LABELS metrics)
 
 if(TARGET hullbench_adapter_cgal_alpha_shape)
   hullbench_test(test_cgal_alpha_shape SOURCES test_cgal_alpha_shape.cpp

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "benchmarks/metrics.hpp"
+#include "datasets/datasets.hpp"
 #include "tests/boost_shapes.hpp"
 #include "tests/point_sets.hpp"
 
@@ -45,6 +46,19 @@ TEST(Metrics, OfTheGroundTruthItselfArePerfect) {
   EXPECT_EQ(metrics.polygons, 1U);
   EXPECT_EQ(metrics.holes, 0U);
   EXPECT_EQ(metrics.vertices, 4U);
+}
+
+// GEOS is what refuses an invalid ground truth in a run.
+TEST(Metrics, EveryDataSetIsValidAndPerfectAgainstItself) {
+  const std::vector<DatasetInfo> infos = datasets();
+  ASSERT_FALSE(infos.empty());
+  for (const DatasetInfo& info : infos) {
+    const MultiPolygon shape = make_ground_truth(info.name, false);
+    const Metrics metrics = score(shape, shape);
+    EXPECT_TRUE(metrics.valid) << info.name << ": " << metrics.invalid_reason;
+    EXPECT_EQ(metrics.l2, 0) << info.name;
+    EXPECT_NEAR(metrics.ground_truth_area, info.area, 1e-6) << info.name;  // the manifest's has 6 decimals
+  }
 }
 
 // Which area divides is what tells l2 from the paper's.

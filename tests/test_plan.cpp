@@ -85,6 +85,22 @@ TEST(Plan, RunsComeCaseByCaseWithTheirNames) {
   EXPECT_EQ(runs[7].name, "spatialite/ca/n:1000/holes:1/protocol:paper");
 }
 
+TEST(Plan, ACaseCanStandForSeveralDataSets) {
+  json source = small_plan();
+  source["cases"] = json::parse(R"([{"dataset": ["solid", "ca"], "n": [500, 1000]},
+                                    {"dataset": "ca", "holes": [true], "n": [500]}])");
+  source["methods"][1]["parameters"]["c"] = 2.0;
+  const Plan plan = parse_plan(source.dump(), "here");
+  check_plan(plan, kMethods, known_datasets());
+  std::vector<std::string> cases;
+  for (const PlanCase& one : plan.expanded_cases) cases.push_back(one.shape() + " " + std::to_string(one.n));
+  EXPECT_EQ(cases,
+            (std::vector<std::string>{"solid 500", "solid 1000", "ca 500", "ca 1000", "ca/holes 500"}));
+  const json once = plan_to_json(plan);
+  EXPECT_EQ(once.at("cases"), source["cases"]);
+  EXPECT_EQ(plan_to_json(parse_plan(once.dump(), "there")), once);
+}
+
 TEST(Plan, FilterIsSearchedInNames) {
   const Plan plan = parse_plan(small_plan().dump(), "here");
   EXPECT_EQ(planned_runs(plan, "polylidar").size(), 4U);
@@ -136,6 +152,13 @@ TEST(Plan, WrongPlansAreRefusedWithTheirPlace) {
       {"/cases/0/dataset", "mars",
        "the plan 'small' names the data set 'mars', which is not known; known are ca and solid"},
       {"/cases/0/dataset", "solid", "asks for solid with holes"},
+      {"/cases/0/dataset", json::array(), "cases[0].dataset must be a list with at least one element"},
+      {"/cases/0/dataset", {"ca", 5}, "cases[0].dataset[1] must be a string"},
+      {"/cases/0/dataset", {"ca", "ca"}, "cases[0].dataset[1] is there twice"},
+      {"/cases/0/dataset", {"ca", "mars"}, "names the data set 'mars'"},
+      {"/cases/1",
+       {{"dataset", {"solid", "ca"}}, {"n", {500}}},
+       "cases[1] has the case ca with n = 500 for the second time"},
       {"/methods/0/method", "magic",
        "names the method 'magic', which is not known; known are polylidar and spatialite"},
       {"/methods/0/colour", "red", "methods[0].colour is not a key that is known here"},
@@ -212,7 +235,7 @@ TEST(Plan, EveryReadyPlanIsGood) {
     EXPECT_NO_THROW(check_plan(plan, methods, datasets()));
     ++count;
   }
-  EXPECT_GE(count, 1);
+  EXPECT_GE(count, 2);
 }
 
 TEST(Plan, StatesIsThePapersExperiment) {
@@ -228,6 +251,28 @@ TEST(Plan, StatesIsThePapersExperiment) {
   EXPECT_EQ(count("^postgis/.*protocol:paper"), 0U);
 }
 
+TEST(Plan, AlphabetIsThePapersExperiment) {
+  const Plan plan = load_plan("alphabet", HULLBENCH_PLAN_FOLDER);
+  ASSERT_EQ(plan.expanded_cases.size(), 26U);
+  for (std::size_t i = 0; i < 26; ++i) {
+    EXPECT_EQ(plan.expanded_cases[i].shape(), std::string("letter_") + static_cast<char>('a' + i));
+    EXPECT_EQ(plan.expanded_cases[i].n, 2000);
+  }
+  EXPECT_EQ(planned_runs(plan, "protocol:paper").size(), 4 * 26U);
+  EXPECT_EQ(planned_runs(plan, "^postgis/.*protocol:auto").size(), 26U);
+  const PointSet letter = make_point_set("letter_o", false, 2000, plan.seed);
+  const auto parameters = [&](std::size_t method) {
+    return choose_parameters(plan.methods[method], plan.expanded_cases[14],
+                             {letter.points, letter.ground_truth_area, false, letter.ground_truth});
+  };
+  const double alpha = 2 * std::sqrt(letter.ground_truth_area / 2000);
+  EXPECT_EQ(parameters(0), (std::map<std::string, double>{{"alpha", alpha}}));
+  EXPECT_EQ(parameters(1), (std::map<std::string, double>{{"alpha", alpha * alpha}}));
+  EXPECT_EQ(parameters(2), (std::map<std::string, double>{{"c", 3}, {"allow_holes", 1}}));
+  EXPECT_EQ(parameters(3).at("allow_holes"), 1);
+  EXPECT_NEAR(parameters(3).at("target_percent"), 0.3627, 1e-4);  // the manifest's convexity has 4 decimals
+}
+
 std::vector<polylidar::Point> unit_grid(int side) {
   std::vector<polylidar::Point> points;
   for (int x = 0; x < side; ++x) {
@@ -236,11 +281,17 @@ std::vector<polylidar::Point> unit_grid(int side) {
   return points;
 }
 
+// Two unit squares, one of them with a hole of a quarter's area, at the ends of a hull of 3 x 1.
+const polylidar::MultiPolygon kTwoSquares = {
+    {{{0, 0}, {1, 0}, {1, 1}, {0, 1}}, {}},
+    {{{2, 0}, {3, 0}, {3, 1}, {2, 1}}, {{{2.25, 0.25}, {2.25, 0.75}, {2.75, 0.75}, {2.75, 0.25}}}}};
+
 TEST(ParameterRule, ByName) {
   for (const std::string& name : rule_names()) EXPECT_EQ(find_rule(name)->name, name);
   EXPECT_EQ(find_rule("none"), nullptr);
   EXPECT_TRUE(find_rule("paper_alpha")->reads_ground_truth);
   EXPECT_TRUE(find_rule("paper_alpha_squared")->reads_ground_truth);
+  EXPECT_TRUE(find_rule("paper_target_percent")->reads_ground_truth);
   EXPECT_FALSE(find_rule("hull_spacing_ratio")->reads_ground_truth);
 }
 
@@ -249,7 +300,7 @@ TEST(ParameterRule, RulesThatDoNotReadTheGroundTruthDoNotReadIt) {
   for (const std::string& name : rule_names()) {
     const ParameterRule& rule = *find_rule(name);
     if (rule.reads_ground_truth) continue;
-    EXPECT_EQ(rule.value({points, 1.0, true}), rule.value({points, 1e6, true})) << name;
+    EXPECT_EQ(rule.value({points, 1.0, true}), rule.value({points, 1e6, true, kTwoSquares})) << name;
   }
 }
 
@@ -258,6 +309,13 @@ TEST(ParameterRule, PaperAlpha) {
   EXPECT_DOUBLE_EQ(paper_alpha({points, 400.0, false}), 4.0);
   EXPECT_DOUBLE_EQ(paper_alpha_squared({points, 400.0, false}), 16.0);
   EXPECT_EQ(paper_alpha({{}, 400.0, false}), 0.0);
+}
+
+TEST(ParameterRule, PaperTargetPercent) {
+  EXPECT_DOUBLE_EQ(paper_target_percent({{}, polylidar::area(kTwoSquares), false, kTwoSquares}), 1.75 / 3);
+  const polylidar::MultiPolygon square = {{{{0, 0}, {0.1, 0}, {0.1, 0.1}, {0, 0.1}}, {}}};
+  EXPECT_EQ(paper_target_percent({{}, 0.02, false, square}), 1.0);  // never above the hull
+  EXPECT_EQ(paper_target_percent({{}, 0, false, {}}), 1.0);
 }
 
 TEST(ParameterRule, Holes) {

@@ -4,10 +4,13 @@
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
+#include <set>
 #include <stdexcept>
+#include <string>
 
 #include "datasets/sha256.hpp"
 #include "datasets/shapes.hpp"
+#include "polylidar/concave_hull.hpp"
 #include "tests/boost_checks.hpp"
 #include "tests/temporary_folder.hpp"
 
@@ -222,7 +225,9 @@ TEST(CommittedShapes, AreWhatTheManifestSays) {
   const std::filesystem::path folder = default_data_directory();
   const json manifest = json::parse(std::ifstream(folder / "manifest.json"));
   const std::vector<ShapeInfo> infos = read_manifest(folder);
-  ASSERT_EQ(infos.size(), 2U);
+  ASSERT_EQ(infos.size(), 28U);
+  std::set<std::string> sets;
+  for (const json& set : manifest["sets"]) sets.insert(set["name"]);
   for (std::size_t i = 0; i < infos.size(); ++i) {
     const MultiPolygon shape = load_shape(folder, infos[i]);
     const json& entry = manifest["shapes"][i];
@@ -232,14 +237,22 @@ TEST(CommittedShapes, AreWhatTheManifestSays) {
     EXPECT_NEAR(polylidar::area(shape), infos[i].area, 1e-6);
     std::vector<polylidar::Point> vertices;
     for (const polylidar::Polygon& polygon : shape) {
-      EXPECT_TRUE(polygon.holes.empty());
       vertices.insert(vertices.end(), polygon.shell.begin(), polygon.shell.end());
     }
     const polylidar::Box box = polylidar::bounding_box(vertices);
     EXPECT_EQ((std::vector{box.min.x, box.min.y, box.max.x, box.max.y}),
               entry["bounding_box"].get<std::vector<double>>());
-    EXPECT_EQ(std::max(box.max.x, box.max.y), 200);
+    EXPECT_EQ(box.min, (polylidar::Point{0, 0}));
     EXPECT_EQ(testing::boost_fault(shape), "") << infos[i].name;
+    EXPECT_EQ(sets.count(entry["set"]), 1U) << infos[i].name;
+    if (entry["set"] == "states") {
+      EXPECT_EQ(std::max(box.max.x, box.max.y), 200);
+    } else {
+      // The manifest's convexity has 4 decimals.
+      const double hull_area =
+          polylidar::area(polylidar::to_coordinates(polylidar::concave_hull(vertices), vertices));
+      EXPECT_NEAR(infos[i].area / hull_area, entry["convexity"].get<double>(), 1e-4) << infos[i].name;
+    }
   }
 }
 

@@ -58,6 +58,12 @@ TEST(Statistics, StandardDeviationDividesByOneLess) {
   EXPECT_DOUBLE_EQ(*standard_deviation(values), std::sqrt(32.0 / 7.0));
 }
 
+TEST(Statistics, MeanAndStandardDeviationOfDoubles) {
+  const std::vector<double> values = {0.5, 1.5, 4};
+  EXPECT_DOUBLE_EQ(mean(std::span<const double>(values)), 2);
+  EXPECT_DOUBLE_EQ(standard_deviation(std::span<const double>(values)).value(), std::sqrt(3.25));
+}
+
 TEST(Statistics, OneValueHasNoStandardDeviation) {
   const Statistics one = describe(Times{7});
   EXPECT_EQ(one.count, 1U);

@@ -1,0 +1,62 @@
+// What the tables of a report share: what a line is, what a cell says, and how failures are explained.
+#pragma once
+
+#include <cstdint>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "benchmarks/measurements.hpp"
+#include "benchmarks/text_table.hpp"
+
+namespace hullbench {
+
+/// In a cell: there is no such value.
+inline constexpr const char* kNothing = "–";
+
+/// A line, or a column, of a table: protocols never share one.
+struct Line {
+  std::string method;
+  std::string protocol;
+  bool operator==(const Line&) const = default;
+};
+
+/// A report while its tables are printed.
+struct TableContext {
+  const nlohmann::json& report;
+  Measurements measurements;
+  Notes notes;
+};
+
+/// One shape: the cases of one data set, with or without holes, that differ in n only.
+using Shape = std::vector<Case>;
+
+/// `cases`, which stand in the order of Measurements::cases, by shape.
+std::vector<Shape> shapes(const std::vector<Case>& cases);
+
+/// The lines that have a run of `shape`: in the order of the report's methods, then of the protocols.
+std::vector<Line> lines_of(const TableContext& context, const Shape& shape);
+
+std::string label(const TableContext& context, const Line& line);
+std::string shape_title(const TableContext& context, const Case& which);
+std::string milliseconds(double nanoseconds);
+
+std::vector<std::int64_t> all_times(const std::vector<const RunRecord*>& runs, Boundary boundary);
+std::vector<double> all_values(const std::vector<const RunRecord*>& runs, const std::string& name);
+
+/// The first of `runs` that gave no result to be believed; null when there is none.
+const RunRecord* first_failure(const std::vector<const RunRecord*>& runs);
+/// How it is called in a cell: its status, or "invalid".
+std::string failure_name(const RunRecord& run);
+/// The notes that explain a line's failures on a shape, one a kind of failure: " [1] [3]".
+std::string failure_marks(TableContext& context, const Line& line, const Shape& shape);
+
+enum class Quantity { kEqualWork, kPaperBoundary, kError };
+
+/// What the cell of one line and case says.
+std::string cell(const std::vector<const RunRecord*>& runs, Quantity quantity);
+
+/// A line's cells. A method that is not installed says so once instead of in every column.
+std::vector<std::string> row(TableContext& context, const Line& line, const Shape& shape, Quantity quantity);
+
+}  // namespace hullbench

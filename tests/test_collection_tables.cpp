@@ -1,0 +1,118 @@
+// The tables of many shapes at one size.
+#include <gtest/gtest.h>
+
+#include <cstdint>
+#include <nlohmann/json.hpp>
+#include <regex>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "benchmarks/report.hpp"
+#include "benchmarks/tables.hpp"
+#include "invented_run.hpp"
+#include "temporary_folder.hpp"
+
+namespace hullbench {
+namespace {
+
+using nlohmann::json;
+
+json invented_report() {
+  const testing::TemporaryFolder folder;
+  test::write_invented_run(folder.path(), {2000});
+  return make_report(folder.path());
+}
+
+// The invented runs on California as if on letters: on the k-th every method takes k ms and errs by 10 k %.
+json letters_report(const std::vector<std::string>& letters) {
+  json report = invented_report();
+  const json on_states = report.at("runs");
+  report.at("runs") = json::array();
+  std::int64_t k = 0;
+  for (const std::string& letter : letters) {
+    ++k;
+    for (json run : on_states) {
+      if (run.at("dataset") != "ca" || run.at("holes") == true) continue;
+      run["dataset"] = letter;
+      if (run.at("status") == "ok") {
+        run["metrics"]["l2_paper"] = 0.1 * static_cast<double>(k);
+        for (json& phases : run["phases_ns"]) phases["run"] = k * 1'000'000;
+        for (json& time : run["time_ns"]) time = k * 1'500'000;
+      }
+      report["runs"].push_back(run);
+    }
+  }
+  return report;
+}
+
+json* run_of(json& report, const std::string& method, const std::string& dataset) {
+  for (json& run : report.at("runs")) {
+    if (run.at("method") == method && run.at("dataset") == dataset) return &run;
+  }
+  return nullptr;
+}
+
+// With single spaces, whatever the columns' widths.
+std::string tables(const json& report) {
+  std::ostringstream out;
+  print_tables(report, out);
+  return std::regex_replace(out.str(), std::regex(" +"), " ");
+}
+
+bool contains(const std::string& text, const std::string& part) {
+  return text.find(part) != std::string::npos;
+}
+
+const std::vector<std::string> kLetters = {"letter_a", "letter_j", "letter_z"};
+
+TEST(CollectionTables, HaveMeanDeviationAndMaximumOfTheShapes) {
+  const std::string text = tables(letters_report(kLetters));
+  EXPECT_TRUE(contains(text, "### 3 shapes, n = 2000")) << text;
+  EXPECT_TRUE(contains(text, "| Polylidar (paper) | 3 | 20.0 | 10.0 | 30.0 | 2.00 | 1.00 | 3.00 | 3.00 |"))
+      << text;
+}
+
+TEST(CollectionTables, HaveThePapersValuesBeneathOurs) {
+  const std::string text = tables(letters_report(kLetters));
+  EXPECT_TRUE(contains(text, "| Polylidar, in the paper | 26 | 12.8 | 1.8 | 16.8 | 1.2 | 0.3 | 2.4 | – |"))
+      << text;
+  EXPECT_TRUE(contains(text, "\n| letter_a | 10.0 (13.6) | 10.0 | 10.0 (13.4) |")) << text;
+  EXPECT_TRUE(contains(text, "\n| letter_z | 30.0 | 30.0 | 30.0 |")) << "not published: " << text;
+  EXPECT_TRUE(contains(text, "in brackets the paper's")) << text;
+}
+
+TEST(CollectionTables, OfOtherShapesHaveNoPublishedValues) {
+  std::vector<std::string> names;
+  for (char c = 'a'; c < 'k'; ++c) names.push_back(std::string("shape_") + c);
+  const std::string text = tables(letters_report(names));
+  EXPECT_TRUE(contains(text, "### 10 shapes, n = 2000")) << text;
+  EXPECT_FALSE(contains(text, "in the paper |")) << text;
+  EXPECT_FALSE(contains(text, "in brackets the paper's")) << text;
+}
+
+TEST(CollectionTables, LeaveAFailureOutOfTheStatisticsAndNameIt) {
+  json report = letters_report(kLetters);
+  json& run = *run_of(report, "spatialite", "letter_j");
+  run["status"] = "timeout";
+  run["detail"] = "no answer within 120 s";
+  const std::string text = tables(report);
+  EXPECT_TRUE(contains(text, "| SpatiaLite (paper) [1] | 2 | 20.0 | 14.1 | 30.0 |")) << text;
+  EXPECT_TRUE(contains(text, "| letter_j | 20.0 (10.0) | 20.0 | timeout |")) << text;
+  EXPECT_TRUE(
+      contains(text, "[1] SpatiaLite (paper) on letter_j, n = 2000: timeout, no answer within 120 s."))
+      << text;
+}
+
+TEST(CollectionTables, AMethodThatIsNotInstalledHasNoValues) {
+  const std::string text = tables(letters_report(kLetters));
+  EXPECT_TRUE(contains(text, "| 0 | – | – | – | – | – | – | – |")) << text;
+}
+
+TEST(CollectionTables, AreNotForAFewShapesThatThePaperHasNoTableOf) {
+  const std::string text = tables(invented_report());
+  EXPECT_FALSE(contains(text, "shapes, n =")) << text;
+}
+
+}  // namespace
+}  // namespace hullbench
