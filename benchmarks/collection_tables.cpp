@@ -18,7 +18,7 @@ using nlohmann::json;
 
 /// What the paper published of shapes like these at this size, or null.
 const json& published_collection(const std::vector<Shape>& shapes) {
-  static const json kNone;
+  static const json none;
   for (const json& collection : paper().at("collections")) {
     const std::string prefix = collection.at("dataset_prefix").get<std::string>();
     const bool all = std::all_of(shapes.begin(), shapes.end(), [&](const Shape& shape) {
@@ -26,7 +26,7 @@ const json& published_collection(const std::vector<Shape>& shapes) {
     });
     if (all) return collection;
   }
-  return kNone;
+  return none;
 }
 
 /// A line's values, one a shape on which it succeeded.
