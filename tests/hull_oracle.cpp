@@ -11,6 +11,8 @@
 #include <tuple>
 #include <utility>
 
+#include "polylidar/predicates.hpp"
+
 namespace polylidar::testing {
 namespace {
 
@@ -176,6 +178,39 @@ MultiPolygon canonical(MultiPolygon shape) {
   std::sort(shape.begin(), shape.end(),
             [](const Polygon& a, const Polygon& b) { return ring_less(a.shell, b.shell); });
   return shape;
+}
+
+std::size_t hole_count(const MultiPolygon& shape) {
+  std::size_t count = 0;
+  for (const Polygon& polygon : shape) count += polygon.holes.size();
+  return count;
+}
+
+Ring convex_corners(std::vector<Point> points) {
+  const auto less = [](const Point& a, const Point& b) { return std::tie(a.x, a.y) < std::tie(b.x, b.y); };
+  std::sort(points.begin(), points.end(), less);
+  Ring chain;
+  const auto half = [&](auto begin, auto end) {
+    const std::size_t start = chain.size();
+    for (auto it = begin; it != end; ++it) {
+      while (chain.size() >= start + 2 && !(orient2d(chain[chain.size() - 2], chain.back(), *it) > 0))
+        chain.pop_back();
+      chain.push_back(*it);
+    }
+    chain.pop_back();
+  };
+  half(points.begin(), points.end());
+  half(points.rbegin(), points.rend());
+  return chain;
+}
+
+Ring strict_corners(const Ring& ring) {
+  Ring corners;
+  for (std::size_t i = 0; i < ring.size(); ++i) {
+    const Point& before = ring[(i + ring.size() - 1) % ring.size()];
+    if (orient2d(before, ring[i], ring[(i + 1) % ring.size()]) != 0) corners.push_back(ring[i]);
+  }
+  return corners;
 }
 
 }  // namespace polylidar::testing

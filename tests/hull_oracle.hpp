@@ -30,4 +30,14 @@ std::vector<Options> clear_options(std::span<const Point> points, const Triangul
 /// equal for equal shapes.
 MultiPolygon canonical(MultiPolygon shape);
 
+/// The number of holes of all polygons.
+std::size_t hole_count(const MultiPolygon& shape);
+
+/// The convex hull's corners by a monotone chain, counter-clockwise from the lexicographically smallest.
+/// `points` are in the predicates' range and not all equal.
+Ring convex_corners(std::vector<Point> points);
+
+/// `ring` without the vertices that lie on a line with their neighbours.
+Ring strict_corners(const Ring& ring);
+
 }  // namespace polylidar::testing

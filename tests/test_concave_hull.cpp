@@ -11,7 +11,6 @@
 #include <sstream>
 #include <stdexcept>
 #include <string>
-#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -26,8 +25,11 @@ namespace polylidar {
 namespace {
 
 using testing::canonical;
+using testing::convex_corners;
+using testing::hole_count;
 using testing::lattice;
 using testing::PointSet;
+using testing::strict_corners;
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 // Keeps the triangles of a unit lattice's cells (circumradius 0.707) and no others (the next is 1).
@@ -43,12 +45,6 @@ MultiPolygon hull(const std::vector<Point>& points, const Options& options = {})
   const IndexedMultiPolygon shape = concave_hull(points, options);
   EXPECT_EQ(check_polygon(points, shape), "");
   return to_coordinates(shape, points);
-}
-
-std::size_t hole_count(const MultiPolygon& shape) {
-  std::size_t count = 0;
-  for (const Polygon& polygon : shape) count += polygon.holes.size();
-  return count;
 }
 
 // Squares of coordinates, and so areas, are doubles within this extent.
@@ -105,34 +101,6 @@ TEST(ConcaveHull, IsTheShapeOfItsTrianglesOnRandomPoints) {
       EXPECT_NEAR(area(shape), expected.area, area_tolerance(points));
     }
   }
-}
-
-// The convex hull's corners by a monotone chain, counter-clockwise from the lexicographically smallest.
-Ring convex_corners(std::vector<Point> points) {
-  const auto less = [](const Point& a, const Point& b) { return std::tie(a.x, a.y) < std::tie(b.x, b.y); };
-  std::sort(points.begin(), points.end(), less);
-  Ring chain;
-  const auto half = [&](auto begin, auto end) {
-    const std::size_t start = chain.size();
-    for (auto it = begin; it != end; ++it) {
-      while (chain.size() >= start + 2 && !(orient2d(chain[chain.size() - 2], chain.back(), *it) > 0))
-        chain.pop_back();
-      chain.push_back(*it);
-    }
-    chain.pop_back();
-  };
-  half(points.begin(), points.end());
-  half(points.rbegin(), points.rend());
-  return chain;
-}
-
-Ring strict_corners(const Ring& ring) {
-  Ring corners;
-  for (std::size_t i = 0; i < ring.size(); ++i) {
-    const Point& before = ring[(i + ring.size() - 1) % ring.size()];
-    if (orient2d(before, ring[i], ring[(i + 1) % ring.size()]) != 0) corners.push_back(ring[i]);
-  }
-  return corners;
 }
 
 TEST(ConcaveHull, WithoutLimitsIsTheConvexHull) {

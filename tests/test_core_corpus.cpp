@@ -19,18 +19,13 @@
 namespace polylidar {
 namespace {
 
+using testing::hole_count;
 using testing::NamedCase;
 
 std::string describe(const Options& options) {
   std::ostringstream out;
   out << "alpha " << options.alpha << ", max_edge_length " << options.max_edge_length;
   return out.str();
-}
-
-std::size_t hole_count(const MultiPolygon& shape) {
-  std::size_t count = 0;
-  for (const Polygon& polygon : shape) count += polygon.holes.size();
-  return count;
 }
 
 // The rounding of areas: some thousand terms, each off by at most an ulp of the squared extent.

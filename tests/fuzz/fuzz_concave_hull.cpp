@@ -11,7 +11,6 @@
 #include <span>
 #include <stdexcept>
 #include <string>
-#include <tuple>
 #include <vector>
 
 #include "polylidar/check.hpp"
@@ -25,6 +24,9 @@ namespace polylidar::fuzz {
 namespace {
 
 using testing::canonical;
+using testing::convex_corners;
+using testing::hole_count;
+using testing::strict_corners;
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr int kLargestSpan = 265;  // binary orders of magnitude: from 2^-116 to below 2^150
@@ -94,12 +96,6 @@ std::vector<Point> scaled(std::vector<Point> points, int exponent) {
   return points;
 }
 
-std::size_t hole_count(const MultiPolygon& shape) {
-  std::size_t count = 0;
-  for (const Polygon& polygon : shape) count += polygon.holes.size();
-  return count;
-}
-
 // No four points of two neighbouring triangles lie on a circle. `points` are in the predicates' range.
 bool is_unique(std::span<const Point> points, const Triangulation& triangulation) {
   const std::vector<std::uint32_t>& twins = triangulation.halfedges;
@@ -111,34 +107,6 @@ bool is_unique(std::span<const Point> points, const Triangulation& triangulation
     if (incircle(at(first), at(first + 1), at(first + 2), at(opposite)) == 0) return false;
   }
   return true;
-}
-
-// The corners of the convex hull by a monotone chain. `points` are in the predicates' range.
-Ring convex_corners(std::vector<Point> points) {
-  std::sort(points.begin(), points.end(),
-            [](const Point& a, const Point& b) { return std::tie(a.x, a.y) < std::tie(b.x, b.y); });
-  Ring chain;
-  const auto half = [&](auto begin, auto end) {
-    const std::size_t start = chain.size();
-    for (auto it = begin; it != end; ++it) {
-      while (chain.size() >= start + 2 && !(orient2d(chain[chain.size() - 2], chain.back(), *it) > 0))
-        chain.pop_back();
-      chain.push_back(*it);
-    }
-    chain.pop_back();
-  };
-  half(points.begin(), points.end());
-  half(points.rbegin(), points.rend());
-  return chain;
-}
-
-Ring strict_corners(const Ring& ring) {
-  Ring corners;
-  for (std::size_t i = 0; i < ring.size(); ++i) {
-    const Point& before = ring[(i + ring.size() - 1) % ring.size()];
-    if (orient2d(before, ring[i], ring[(i + 1) % ring.size()]) != 0) corners.push_back(ring[i]);
-  }
-  return corners;
 }
 
 IndexedMultiPolygon checked_hull(const Input& input, const Options& options, const char* what) {
