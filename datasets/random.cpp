@@ -1,9 +1,11 @@
 #include "datasets/random.hpp"
 
 #include <bit>
+#include <cmath>
 #include <stdexcept>
 #include <string>
 
+#include "datasets/portable_math.hpp"
 #include "datasets/sha256.hpp"
 
 namespace hullbench {
@@ -57,6 +59,22 @@ std::uint64_t Random::next() {
 double Random::uniform() {
   // The upper 53 bits, because a double holds no more; both steps are exact.
   return static_cast<double>(next() >> 11U) * 0x1p-53;
+}
+
+double Random::between(double low, double high) {
+  return low + (high - low) * uniform();
+}
+
+double Random::normal() {
+  double x = 0;
+  double square = 0;
+  // The centre is refused because it has no direction; its logarithm is infinite.
+  while (square == 0 || square >= 1) {
+    x = between(-1, 1);
+    const double y = between(-1, 1);
+    square = x * x + y * y;
+  }
+  return x * std::sqrt(-2 * natural_log(square) / square);
 }
 
 std::uint64_t Random::below(std::uint64_t bound) {

@@ -38,6 +38,14 @@ class Random {
   std::uint64_t next();
   /// Uniform over the 2^53 multiples of 2^-53 in [0, 1).
   double uniform();
+  /// `low` + (`high` - `low`) * uniform(): from `low` to `high`, which must be finite; which of the ends can
+  /// come out is up to the rounding.
+  double between(double low, double high);
+  /// Standard normal, by the polar method (Marsaglia, Bray: A Convenient Method for Generating Normal
+  /// Variables, SIAM Review 6(3), 1964). Takes two uniform() for each point it tries, 2.5 on average, and
+  /// keeps nothing: the second variable that the method offers is dropped, so the state stays the
+  /// generator's alone. The largest magnitude that can come out is 12.01.
+  double normal();
   /// Uniform over 0 .. bound - 1, without bias. std::invalid_argument when `bound` is 0.
   std::uint64_t below(std::uint64_t bound);
 

@@ -1,17 +1,24 @@
 find_package(Boost REQUIRED)
 find_package(nlohmann_json REQUIRED)
+find_package(PNG REQUIRED)
 
 hullbench_test(test_datasets
   SOURCES
     boost_checks.cpp
     test_datasets.cpp
+    test_families.cpp
     test_holes.cpp
     test_point_locator.cpp
+    test_portable_math.cpp
     test_random.cpp
+    test_recordings.cpp
+    test_rgbd.cpp
     test_sampling.cpp
     test_sha256.cpp
     test_shapes.cpp
-  LIBRARIES hullbench::datasets hullbench::hash nlohmann_json::nlohmann_json Boost::headers
+    test_star_polygons.cpp
+    test_tangled_shapes.cpp
+  LIBRARIES hullbench_test_support hullbench::datasets hullbench::hash nlohmann_json::nlohmann_json Boost::headers PNG::PNG
   LABELS datasets)
 # g++ 12 finds uninitialised values in Boost.Geometry 1.74 where there are none.
 set_source_files_properties(boost_checks.cpp PROPERTIES

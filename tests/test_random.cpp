@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <cstddef>
 #include <stdexcept>
 #include <vector>
@@ -76,6 +77,47 @@ TEST(Random, BelowOneIsZeroAndBelowZeroIsRefused) {
   Random random(1);
   EXPECT_EQ(random.below(1), 0U);
   EXPECT_THROW(random.below(0), std::invalid_argument);
+}
+
+TEST(Random, BetweenReachesFromLowToHigh) {
+  Random random(42);
+  EXPECT_EQ(random.between(-1, 3), -1 + 4 * 0x1.a0ec9a9e88ecdp-1);
+  EXPECT_EQ(random.between(5, 5), 5);
+}
+
+TEST(Random, NormalReferenceValues) {
+  Random random(42);
+  for (const double expected : {0.9813983900724984, 1.3403256427520227, -0.9642205062941384,
+                                0.1962265296745266, 0.20290854483035592, -2.2415265146996535}) {
+    // The program worked with 40 digits; here the logarithm is off by two units in the last place at most,
+    // and the five steps after it by half a unit each.
+    EXPECT_DOUBLE_EQ(random.normal(), expected);
+  }
+}
+
+TEST(Random, NormalHasTheMomentsAndTailsOfItsDistribution) {
+  constexpr int kDraws = 1'000'000;
+  Random random(7);
+  double sum = 0;
+  double squares = 0;
+  double fourths = 0;
+  int beyond_two = 0;
+  int beyond_four = 0;
+  for (int i = 0; i < kDraws; ++i) {
+    const double drawn = random.normal();
+    sum += drawn;
+    squares += drawn * drawn;
+    fourths += drawn * drawn * drawn * drawn;
+    if (drawn > 2) ++beyond_two;
+    if (std::abs(drawn) > 4) ++beyond_four;
+  }
+  // Four standard errors of each: sqrt(1 / n), sqrt(2 / n), sqrt(96 / n), and sqrt(n p) with p = 0.02275 and
+  // 6.334e-5.
+  EXPECT_NEAR(sum / kDraws, 0, 0.004);
+  EXPECT_NEAR(squares / kDraws, 1, 0.0057);
+  EXPECT_NEAR(fourths / kDraws, 3, 0.04);
+  EXPECT_NEAR(beyond_two, 22750, 600);
+  EXPECT_NEAR(beyond_four, 63.3, 32);
 }
 
 TEST(DeriveSeed, ReferenceValues) {

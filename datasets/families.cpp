@@ -1,0 +1,76 @@
+#include "datasets/families.hpp"
+
+#include <stdexcept>
+
+#include "datasets/holes.hpp"
+#include "datasets/random.hpp"
+#include "datasets/star_polygons.hpp"
+#include "datasets/tangled_shapes.hpp"
+
+namespace hullbench {
+
+using polylidar::MultiPolygon;
+
+namespace {
+
+ShapeFamily star_family() {
+  return {.name = "star",
+          .title = "Star-shaped polygon",
+          .source =
+              "Random polygons as J. Castagno and E. Atkins describe them in Polylidar - Polygons from "
+              "Triangular Meshes (section on random polygon tests), drawn anew",
+          .licence = "MIT",
+          .count = kStarPolygons,
+          .holes = HoleParameters{.count = 5, .radius = 7.5, .seed = 2021},
+          .make = star_polygon};
+}
+
+template <TangledKind kKind>
+ShapeFamily tangled_family(const char* title, const char* source) {
+  return {.name = tangled_name(kKind),
+          .title = title,
+          .source = source,
+          .licence = "MIT",
+          .count = tangled_count(kKind),
+          .holes = std::nullopt,
+          .make = [](std::size_t index) { return tangled_shape(kKind, index); }};
+}
+
+std::vector<ShapeFamily> make_families() {
+  return {
+      star_family(),
+      tangled_family<TangledKind::kComb>(
+          "Comb", "Drawn for this project: a bar with teeth of random width, length and gap"),
+      tangled_family<TangledKind::kSpiral>("Spiral",
+                                           "Drawn for this project: a band along an Archimedean spiral"),
+      tangled_family<TangledKind::kPartition>(
+          "Polygon from a partition",
+          "Drawn for this project: a polygon grown triangle by triangle in a random partition of a square"),
+      tangled_family<TangledKind::kWalk>("Walk on a grid",
+                                         "Drawn for this project: the cells of a random tree in a grid"),
+      tangled_family<TangledKind::kNested>("Nested rings",
+                                           "Drawn for this project: rings with islands in their holes"),
+      tangled_family<TangledKind::kParts>("Separate parts",
+                                          "Drawn for this project: blobs, combs and boxes with gaps between"),
+  };
+}
+
+}  // namespace
+
+const std::vector<ShapeFamily>& shape_families() {
+  static const std::vector<ShapeFamily> families = make_families();
+  return families;
+}
+
+MultiPolygon family_shape(const ShapeFamily& family, std::size_t index, bool holes) {
+  MultiPolygon shape = family.make(index);
+  if (!holes) return shape;
+  if (!family.holes) {
+    throw std::invalid_argument("the shapes of family '" + family.name + "' have no variants with holes");
+  }
+  const std::string label = "holes/" + family.name + "-" + std::to_string(index);
+  return with_circular_holes(shape, family.holes->count, family.holes->radius,
+                             derive_seed(family.holes->seed, label));
+}
+
+}  // namespace hullbench

@@ -1,0 +1,122 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <set>
+#include <stdexcept>
+#include <string>
+
+#include "datasets/families.hpp"
+#include "datasets/holes.hpp"
+#include "datasets/point_bytes.hpp"
+#include "datasets/sha256.hpp"
+#include "tests/boost_checks.hpp"
+
+namespace hullbench {
+namespace {
+
+using polylidar::MultiPolygon;
+using polylidar::Point;
+using polylidar::Polygon;
+using polylidar::Ring;
+
+// Of a centre and a distance worked out from coordinates up to 200, rounded to 2.8e-14.
+constexpr double kRounding = 1e-12;
+
+/// SHA-256 of the points of all rings of shapes 0 .. count - 1 of `family`, one after another.
+std::string digest(const ShapeFamily& family, std::size_t count, bool holes) {
+  std::string bytes;
+  for (std::size_t index = 0; index < count; ++index) {
+    for (const Polygon& polygon : family_shape(family, index, holes)) {
+      bytes += point_bytes(polygon.shell);
+      for (const Ring& hole : polygon.holes) bytes += point_bytes(hole);
+    }
+  }
+  return sha256_hex(bytes);
+}
+
+const ShapeFamily& family_named(const std::string& name) {
+  const auto& families = shape_families();
+  const auto found = std::find_if(families.begin(), families.end(),
+                                  [&](const ShapeFamily& family) { return family.name == name; });
+  if (found == families.end()) throw std::invalid_argument(name);
+  return *found;
+}
+
+TEST(ShapeFamilies, AreCompleteAndNamedOnce) {
+  std::set<std::string> names;
+  std::size_t shapes = 0;
+  for (const ShapeFamily& family : shape_families()) {
+    EXPECT_TRUE(names.insert(family.name).second) << family.name;
+    EXPECT_FALSE(family.title.empty()) << family.name;
+    EXPECT_FALSE(family.source.empty()) << family.name;
+    EXPECT_EQ(family.licence, "MIT") << family.name;
+    EXPECT_EQ(family.holes.has_value(), family.name == "star") << family.name;
+    EXPECT_NO_THROW(family.make(family.count - 1)) << family.name;
+    EXPECT_THROW(family.make(family.count), std::invalid_argument) << family.name;
+    shapes += family.count;
+  }
+  EXPECT_EQ(names, (std::set<std::string>{"star", "comb", "spiral", "partition", "walk", "nested", "parts"}));
+  EXPECT_EQ(shapes, 10'800U);
+}
+
+TEST(ShapeFamilies, AreTheSameEverywhere) {
+  // Digests of what this code gave when it was written: a change of any bit of any shape shows here, and
+  // makes results incomparable with those recorded before.
+  const std::map<std::string, std::string> expected{
+      {"star", "e1db020c9df19736c380e1dc94935689c9f1dbf516e60167ebb1a67b610cd382"},
+      {"comb", "8441c5a79fe1fec61dd9ea49c353518e52f0f2723702c83c9e36aa775cc4e3cb"},
+      {"spiral", "a169066fbdfff6b69246ca238ff7a267bec83659ec572468fbd7284311cfd5ec"},
+      {"partition", "f19d623f0c6b8cdd308a185455740370953cf3f5a1e73e9f0a3fbc88828a855a"},
+      {"walk", "b89409fe4c319d8a3a4f1f1e6df769d748d6ce77875c6a934c64d75500362fbf"},
+      {"nested", "5e43253cf5767d7ec7f5535f79de4641ffdf5d6ad46a80eb9469cb9fb668f781"},
+      {"parts", "3dbc59d0b32f99986144e7571e6f0c6276f540beb6b7e1d54e7fdb33a65e6b52"},
+  };
+  for (const ShapeFamily& family : shape_families()) {
+    EXPECT_EQ(digest(family, family.count, false), expected.at(family.name)) << family.name;
+  }
+  EXPECT_EQ(digest(family_named("star"), 980, true),
+            "a25760041bf5e4a63adeaeaa77e94d1a3407d34f6d8f10bae7e8c3ab1de99123");
+}
+
+TEST(FamilyShape, WithoutHolesIsWhatTheFamilyMakes) {
+  for (const ShapeFamily& family : shape_families()) {
+    EXPECT_EQ(family_shape(family, 3, false), family.make(3)) << family.name;
+  }
+}
+
+TEST(FamilyShape, HolesAskedOfAFamilyWithoutAreAnError) {
+  EXPECT_THROW(family_shape(family_named("comb"), 0, true), std::invalid_argument);
+}
+
+TEST(FamilyShape, EveryStarPolygonHasRoomForItsHoles) {
+  const ShapeFamily& star = family_named("star");
+  for (std::size_t index = 0; index < star.count; ++index) {
+    const MultiPolygon shape = family_shape(star, index, true);
+    ASSERT_EQ(shape.size(), 1U) << index;
+    ASSERT_EQ(shape.front().holes.size(), 5U) << index;
+  }
+}
+
+TEST(FamilyShape, HolesKeepClearOfEveryBoundary) {
+  const ShapeFamily& star = family_named("star");
+  for (std::size_t index = 0; index < star.count; index += 10) {
+    const MultiPolygon shape = family_shape(star, index, true);
+    EXPECT_EQ(shape.front().shell, star.make(index).front().shell) << index;
+    EXPECT_EQ(testing::boost_fault(shape), "") << index;
+    for (const Ring& hole : shape.front().holes) {
+      const Point centre{(hole[0].x + hole[kHoleCorners / 2].x) / 2,
+                         (hole[0].y + hole[kHoleCorners / 2].y) / 2};
+      EXPECT_NEAR(std::hypot(hole[0].x - centre.x, hole[0].y - centre.y), 7.5, kRounding) << index;
+      EXPECT_GE(testing::boost_distance(centre, shape.front().shell), 15 - kRounding) << index;
+      for (const Ring& other : shape.front().holes) {
+        if (other == hole) continue;
+        EXPECT_GE(testing::boost_distance(centre, other), 15 - kRounding) << index;
+      }
+    }
+  }
+}
+
+}  // namespace
+}  // namespace hullbench
