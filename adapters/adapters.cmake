@@ -13,21 +13,30 @@ endif()
 
 pkg_check_modules(SPATIALITE QUIET IMPORTED_TARGET GLOBAL spatialite sqlite3)
 if(SPATIALITE_FOUND)
-  add_adapter(NAME spatialite TITLE "SpatiaLite" LIBRARIES PkgConfig::SPATIALITE)
+  add_adapter(NAME spatialite TITLE "SpatiaLite" LIBRARIES PkgConfig::SPATIALITE
+    SOURCES spatialite.cpp spatialite_database.cpp)
+  add_adapter(NAME spatialite_steps TITLE "SpatiaLite, step by step"
+    LIBRARIES hullbench_adapter_spatialite PkgConfig::SPATIALITE)
 else()
   add_adapter(NAME spatialite TITLE "SpatiaLite"
     MISSING "libspatialite" INSTALL "sudo apt-get install libspatialite-dev libsqlite3-dev")
+  add_adapter(NAME spatialite_steps TITLE "SpatiaLite, step by step"
+    MISSING "libspatialite" INSTALL "sudo apt-get install libspatialite-dev libsqlite3-dev")
 endif()
 
-# Two methods from one client; which of them can run is for the server to say.
+# Three methods from one client; which of them can run is for the server to say.
 pkg_check_modules(LIBPQ QUIET IMPORTED_TARGET GLOBAL libpq)
 if(LIBPQ_FOUND)
   add_adapter(NAME postgis TITLE "PostGIS" LIBRARIES PkgConfig::LIBPQ
-    SOURCES postgis.cpp private_postgres.cpp postgres_supervisor.cpp server_folder.cpp)
+    SOURCES postgis.cpp postgis_session.cpp private_postgres.cpp postgres_supervisor.cpp server_folder.cpp)
   add_adapter(NAME postgis_legacy TITLE "PostGIS <= 3.2" LIBRARIES hullbench_adapter_postgis)
+  add_adapter(NAME postgis_steps TITLE "PostGIS, step by step"
+    LIBRARIES hullbench_adapter_postgis PkgConfig::LIBPQ)
 else()
   add_adapter(NAME postgis TITLE "PostGIS"
     MISSING "libpq" INSTALL "sudo apt-get install libpq-dev postgresql-postgis")
   add_adapter(NAME postgis_legacy TITLE "PostGIS <= 3.2"
+    MISSING "libpq" INSTALL "sudo apt-get install libpq-dev postgresql-postgis")
+  add_adapter(NAME postgis_steps TITLE "PostGIS, step by step"
     MISSING "libpq" INSTALL "sudo apt-get install libpq-dev postgresql-postgis")
 endif()

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <random>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -14,6 +15,16 @@ namespace hullbench::test {
 class NoSteps final : public Steps {
  public:
   void begin(std::string_view /*name*/) override {}
+};
+
+/// Steps that remembers what it was told, in order.
+class StepNames final : public Steps {
+ public:
+  void begin(std::string_view name) override { names_.emplace_back(name); }
+  const std::vector<std::string>& names() const { return names_; }
+
+ private:
+  std::vector<std::string> names_;
 };
 
 /// Area of the square hole that `square_points` leaves out.

@@ -2,24 +2,21 @@
 // failure: a schema that comes before PostGIS's own in the search path replaces single functions.
 #include <arpa/inet.h>
 #include <gtest/gtest.h>
-#include <libpq-fe.h>
 #include <netinet/in.h>
 #include <sys/socket.h>
 #include <unistd.h>
 
-#include <cmath>
 #include <cstdlib>
 #include <memory>
 #include <new>
-#include <optional>
 #include <stdexcept>
 #include <string>
 #include <vector>
 
 #include "adapters/adapter.hpp"
-#include "adapters/private_postgres.hpp"
-#include "adapters/wkb.hpp"
+#include "tests/adapter_contract.hpp"
 #include "tests/hull_input.hpp"
+#include "tests/postgis_server.hpp"
 
 namespace hullbench {
 
@@ -31,55 +28,29 @@ namespace {
 using test::hole_count;
 using test::hull_of;
 using test::kAreaTolerance;
+using test::kDsnVariable;
 using test::kHoleArea;
 using test::kPoints;
 using test::NoSteps;
+using test::PostgisServer;
 using test::square_points;
-
-constexpr const char* kVariable = "HULLBENCH_POSTGIS_DSN";
 
 // The longest Delaunay edge spans the hole (0.4); 0.4 of that leaves no spurious holes at this density.
 const Parameters kFilled = {{"length_ratio", 0.4}, {"allow_holes", 0}};
 const Parameters kWithHoles = {{"length_ratio", 0.4}, {"allow_holes", 1}};
 
-void execute(const std::string& dsn, const std::string& sql) {
-  const std::unique_ptr<PGconn, decltype(&PQfinish)> connection(PQconnectdb(dsn.c_str()), &PQfinish);
-  const std::unique_ptr<PGresult, decltype(&PQclear)> result(
-      PQexec(connection.get(), ("SET client_min_messages = warning;" + sql).c_str()), &PQclear);
-  const ExecStatusType status = PQresultStatus(result.get());
-  if (status != PGRES_COMMAND_OK && status != PGRES_TUPLES_OK)
-    throw std::runtime_error(PQerrorMessage(connection.get()));
-}
-
-/// One server for all tests of the program, named by the variable.
-class Server : public ::testing::Environment {
- public:
-  void SetUp() override { server_.emplace(); }
-  void TearDown() override { server_.reset(); }
-  static std::string dsn() { return server_->dsn(); }
-
- private:
-  static inline std::optional<PrivatePostgres> server_;
-};
-
-class Postgis : public ::testing::Test {
+class Postgis : public test::PostgisTest {
  protected:
-  void SetUp() override { name_server(Server::dsn()); }
-  void TearDown() override { unsetenv(kVariable); }
-
-  static void name_server(const std::string& dsn) { setenv(kVariable, dsn.c_str(), 1); }
-
   /// Names the same server with a schema `pretended` in front, whose ST_ConcaveHull has `body`, in PL/pgSQL.
   static void pretend(const std::string& body, const std::string& more_options = "") {
     execute(
-        Server::dsn(),
         "DROP SCHEMA IF EXISTS pretended CASCADE; CREATE SCHEMA pretended;"
         "CREATE FUNCTION pretended.postgis_lib_version() RETURNS text LANGUAGE sql AS $$ SELECT '2.5.2' $$;"
         "CREATE FUNCTION pretended.st_concavehull(geom geometry, share float8, holes boolean) RETURNS "
         "geometry "
         "LANGUAGE plpgsql AS $$ BEGIN " +
-            body + " END $$");
-    name_server(Server::dsn() + " options='-csearch_path=pretended,public " + more_options + "'");
+        body + " END $$");
+    name_server(PostgisServer::dsn() + " options='-csearch_path=pretended,public " + more_options + "'");
   }
 
   static std::string refusal(std::unique_ptr<Adapter> (*make)()) {
@@ -117,61 +88,16 @@ TEST_F(Postgis, KeepsOrFillsTheHole) {
   EXPECT_EQ(hole_count(with_hole), 1U);
 }
 
-TEST_F(Postgis, GivesTheSameBytesAgain) {
-  const auto adapter = make_postgis();
-  const std::vector<Point> points = square_points(kPoints, 3, true);
-  const auto first = to_wkb(hull_of(*adapter, points, kWithHoles));
-  NoSteps steps;
-  adapter->run(kFilled, steps);
-  adapter->run(kWithHoles, steps);
-  EXPECT_EQ(to_wkb(adapter->extract(steps)), first);
-  EXPECT_EQ(to_wkb(hull_of(*make_postgis(), points, kWithHoles)), first);
-}
-
-TEST_F(Postgis, LoadReplacesWhatWasLoaded) {
-  const auto adapter = make_postgis();
-  hull_of(*adapter, square_points(kPoints, 3, true), kFilled);
-  const std::vector<Point> others = square_points(300, 4, false);
-  EXPECT_EQ(hull_of(*adapter, others, kFilled), hull_of(*make_postgis(), others, kFilled));
-  EXPECT_EQ(hull_of(*adapter, {}, kFilled), MultiPolygon());
-}
-
-TEST_F(Postgis, GivesNothingForWhatHasNoArea) {
-  const auto adapter = make_postgis();
-  for (const auto& [name, points] : test::degenerate_inputs()) {
-    EXPECT_EQ(hull_of(*adapter, points, kFilled), MultiPolygon()) << name;
-    EXPECT_EQ(hull_of(*adapter, points, kWithHoles), MultiPolygon()) << name;
-  }
-}
-
-TEST_F(Postgis, IgnoresDuplicates) {
-  const auto adapter = make_postgis();
-  const std::vector<Point> points = square_points(500, 5, true);
-  std::vector<Point> twice = points;
-  twice.insert(twice.end(), points.begin(), points.end());
-  EXPECT_DOUBLE_EQ(polylidar::area(hull_of(*adapter, twice, kWithHoles)),
-                   polylidar::area(hull_of(*adapter, points, kWithHoles)));
-}
-
-TEST_F(Postgis, RefusesBadArguments) {
-  const auto adapter = make_postgis();
-  adapter->load(square_points(100, 6, false));
-  NoSteps steps;
-  EXPECT_THROW(adapter->run({}, steps), std::invalid_argument);
-  EXPECT_THROW(adapter->run({{"length_ratio", -0.1}}, steps), std::invalid_argument);
-  EXPECT_THROW(adapter->run({{"length_ratio", 1.1}}, steps), std::invalid_argument);
-  EXPECT_THROW(adapter->run({{"length_ratio", std::nan("")}}, steps), std::invalid_argument);
-  EXPECT_THROW(adapter->run({{"length_ratio", 0.1}, {"allow_holes", 2}}, steps), std::invalid_argument);
-  EXPECT_THROW(adapter->run({{"target_percent", 0.9}}, steps), std::invalid_argument);
-  EXPECT_THROW(adapter->load(std::vector<Point>{{0, 0}, {std::nan(""), 1}}), std::invalid_argument);
+TEST_F(Postgis, KeepsTheContract) {
+  test::expect_adapter_contract(&make_postgis, kWithHoles, kFilled);
 }
 
 TEST_F(Postgis, StartsAPrivateServerWhenNoneIsNamed) {
   for (const char* unset : {"", static_cast<const char*>(nullptr)}) {
     if (unset == nullptr)
-      unsetenv(kVariable);
+      unsetenv(kDsnVariable);
     else
-      setenv(kVariable, unset, 1);
+      setenv(kDsnVariable, unset, 1);
     const auto adapter = make_postgis();
     EXPECT_DOUBLE_EQ(polylidar::area(hull_of(*adapter, {{0, 0}, {2, 0}, {0, 2}}, {{"length_ratio", 1}})), 2);
   }
@@ -183,7 +109,7 @@ TEST_F(Postgis, HasNoLegacyMethodOnACurrentServer) {
             std::string::npos)
       << named;
   EXPECT_NE(named.find("postgis-legacy"), std::string::npos) << named;
-  unsetenv(kVariable);
+  unsetenv(kDsnVariable);
   EXPECT_EQ(refusal(&make_postgis_legacy), named) << "told from the installed files, without a server";
 }
 
@@ -262,11 +188,11 @@ TEST_F(Postgis, DoesNotWaitForASilentServer) {
 }
 
 TEST_F(Postgis, SaysWhyTheNamedServerRefuses) {
-  name_server(Server::dsn() + " user=stranger");
+  name_server(PostgisServer::dsn() + " user=stranger");
   EXPECT_NE(refusal(&make_postgis).find("refuses the connection: role \"stranger\" does not exist"),
             std::string::npos)
       << refusal(&make_postgis);
-  name_server(Server::dsn() + " dbname=template1");
+  name_server(PostgisServer::dsn() + " dbname=template1");
   EXPECT_NE(refusal(&make_postgis).find("no PostGIS extension -> run CREATE EXTENSION postgis"),
             std::string::npos)
       << refusal(&make_postgis);
@@ -277,6 +203,6 @@ TEST_F(Postgis, SaysWhyTheNamedServerRefuses) {
 
 int main(int argc, char** argv) {
   ::testing::InitGoogleTest(&argc, argv);
-  ::testing::AddGlobalTestEnvironment(new hullbench::Server);
+  ::testing::AddGlobalTestEnvironment(new hullbench::test::PostgisServer);
   return RUN_ALL_TESTS();
 }

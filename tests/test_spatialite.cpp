@@ -2,7 +2,6 @@
 #include <gtest/gtest.h>
 
 #include <cctype>
-#include <cmath>
 #include <limits>
 #include <memory>
 #include <stdexcept>
@@ -10,7 +9,7 @@
 #include <vector>
 
 #include "adapters/adapter.hpp"
-#include "adapters/wkb.hpp"
+#include "tests/adapter_contract.hpp"
 #include "tests/hull_input.hpp"
 
 namespace hullbench {
@@ -61,42 +60,6 @@ TEST(Spatialite, GivesSeveralPolygons) {
   EXPECT_EQ(hull_of(*adapter, points, {{"c", 2.5}}).size(), 2U);
 }
 
-TEST(Spatialite, GivesTheSameBytesAgain) {
-  const auto adapter = make_spatialite();
-  const std::vector<Point> points = square_points(kPoints, 3, true);
-  const auto first = to_wkb(hull_of(*adapter, points, kWithHoles));
-  NoSteps steps;
-  adapter->run(kFilled, steps);
-  adapter->run(kWithHoles, steps);
-  EXPECT_EQ(to_wkb(adapter->extract(steps)), first);
-  EXPECT_EQ(to_wkb(hull_of(*make_spatialite(), points, kWithHoles)), first);
-}
-
-TEST(Spatialite, LoadReplacesWhatWasLoaded) {
-  const auto adapter = make_spatialite();
-  hull_of(*adapter, square_points(kPoints, 3, true), kFilled);
-  const std::vector<Point> others = square_points(300, 4, false);
-  EXPECT_EQ(hull_of(*adapter, others, kFilled), hull_of(*make_spatialite(), others, kFilled));
-  EXPECT_EQ(hull_of(*adapter, {}, kFilled), MultiPolygon());
-}
-
-TEST(Spatialite, GivesNothingForWhatHasNoArea) {
-  const auto adapter = make_spatialite();
-  for (const auto& [name, points] : test::degenerate_inputs()) {
-    EXPECT_EQ(hull_of(*adapter, points, kFilled), MultiPolygon()) << name;
-    EXPECT_EQ(hull_of(*adapter, points, kWithHoles), MultiPolygon()) << name;
-  }
-}
-
-TEST(Spatialite, IgnoresDuplicates) {
-  const auto adapter = make_spatialite();
-  const std::vector<Point> points = square_points(500, 5, true);
-  std::vector<Point> twice = points;
-  twice.insert(twice.end(), points.begin(), points.end());
-  EXPECT_DOUBLE_EQ(polylidar::area(hull_of(*adapter, twice, kWithHoles)),
-                   polylidar::area(hull_of(*adapter, points, kWithHoles)));
-}
-
 TEST(Spatialite, SaysWhenNoTriangleIsKept) {
   const auto adapter = make_spatialite();
   try {
@@ -118,16 +81,8 @@ TEST(Spatialite, KeepsEveryTriangleWithoutALimit) {
   EXPECT_DOUBLE_EQ(polylidar::area(hull_of(*adapter, corners, {{"c", infinity}})), 12);
 }
 
-TEST(Spatialite, RefusesBadArguments) {
-  const auto adapter = make_spatialite();
-  adapter->load(square_points(100, 6, false));
-  NoSteps steps;
-  EXPECT_THROW(adapter->run({{"c", -1}}, steps), std::invalid_argument);
-  EXPECT_THROW(adapter->run({{"c", std::nan("")}}, steps), std::invalid_argument);
-  EXPECT_THROW(adapter->run({{"allow_holes", 2}}, steps), std::invalid_argument);
-  EXPECT_THROW(adapter->run({{"allow_holes", 0.5}}, steps), std::invalid_argument);
-  EXPECT_THROW(adapter->run({{"alpha", 1}}, steps), std::invalid_argument);
-  EXPECT_THROW(adapter->load(std::vector<Point>{{0, 0}, {std::nan(""), 1}}), std::invalid_argument);
+TEST(Spatialite, KeepsTheContract) {
+  test::expect_adapter_contract(&make_spatialite, kWithHoles, kFilled);
 }
 
 }  // namespace
