@@ -3,7 +3,7 @@
 #   NATIVE=1     compile for this machine's processor instead of generic x86-64
 #   SKIP_DEPS=1  install nothing: everything needed is there already (distributions without apt-get)
 #   JOBS=N       build and test with N processes
-#   TABLE=NAME   only this experiment in "make bench": alphabet or states
+#   TABLE=NAME   only this experiment in "make bench": rgbd, states, alphabet, random or steps
 #   SECONDS=N    how long "make fuzz" searches
 
 SHELL := /bin/bash
@@ -42,7 +42,7 @@ endef
 
 NATIVE_OPTION = -DHULLBENCH_NATIVE=$(if $(filter-out 0,$(NATIVE)),ON,OFF)
 
-.PHONY: help deps build bench bench-quick bench-core test test-sanitize build-clang test-clang test-fresh fuzz lint format clean
+.PHONY: help deps build bench bench-quick bench-core reference test test-sanitize build-clang test-clang test-fresh fuzz lint format clean
 
 help: ## list the targets (the default)
 	@awk 'BEGIN { FS = ":.*## " } /^[a-z-]+:.*## / { printf "  make %-14s %s\n", $$1, $$2 }' Makefile
@@ -56,13 +56,14 @@ build: ## only build: build/hullbench and build/core_benchmarks
 	@$(call build,release,$(NATIVE_OPTION),hullbench core_benchmarks)
 	@echo "==> built build/hullbench and build/core_benchmarks"
 
-bench: ## install, build and run the experiments (or TABLE=states, TABLE=alphabet); go on if interrupted
+bench: ## install, build and run the experiments (TABLE=states: only this one); go on if interrupted
 	@$(call install,build bench)
 	@$(MAKE) build
-	@status=0; for table in $(or $(TABLE),alphabet states); do \
-	  echo "==> $$table"; \
-	  build/hullbench run "$$table" || { status=$$?; [ $$status -ne 130 ] || exit 130; }; \
-	done; exit $$status
+	@build/hullbench run $(or $(TABLE),rgbd states alphabet random steps)
+
+reference: ## keep results/latest as the reference run, and write its tables into the README
+	@results/keep_reference.sh results/latest
+	@build/hullbench readme results/reference README.md
 
 bench-quick: ## the same tables for n <= 8000 and 3 repetitions, in under 2 minutes
 	@$(call install,build bench)

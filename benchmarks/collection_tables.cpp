@@ -1,12 +1,15 @@
 #include "benchmarks/collection_tables.hpp"
 
 #include <algorithm>
+#include <map>
 #include <optional>
+#include <set>
 #include <span>
 #include <string>
 #include <utility>
 
 #include "benchmarks/claims.hpp"
+#include "benchmarks/group_values.hpp"
 #include "benchmarks/labels.hpp"
 #include "benchmarks/number_format.hpp"
 #include "benchmarks/statistics.hpp"
@@ -16,158 +19,309 @@ namespace {
 
 using nlohmann::json;
 
+/// From so many shapes on nobody wants a row for each.
+constexpr std::size_t kTooManyForRows = 60;
+
+const std::vector<std::string> kValueColumns = {
+    "L2 mean, %", "std", "max", "Time mean, ms", "std", "max", "Equal work mean, ms"};
+
+bool has_prefix(const json& entry, const std::string& dataset) {
+  const json& prefixes = entry.at("dataset_prefixes");
+  return std::any_of(prefixes.begin(), prefixes.end(),
+                     [&](const json& prefix) { return dataset.starts_with(prefix.get<std::string>()); });
+}
+
+/// Whether the paper's entry is about a case like this one.
+bool is_about(const json& entry, const Case& which) {
+  return has_prefix(entry, which.dataset) && (!entry.contains("n") || entry.at("n") == which.n);
+}
+
 /// What the paper published of shapes like these at this size, or null.
 const json& published_collection(const std::vector<Shape>& shapes) {
   static const json none;
   for (const json& collection : paper().at("collections")) {
-    const std::string prefix = collection.at("dataset_prefix").get<std::string>();
-    const bool all = std::all_of(shapes.begin(), shapes.end(), [&](const Shape& shape) {
-      return shape.front().dataset.starts_with(prefix) && shape.front().n == collection.at("n");
-    });
+    const bool all = std::all_of(shapes.begin(), shapes.end(),
+                                 [&](const Shape& shape) { return is_about(collection, shape.front()); });
     if (all) return collection;
   }
   return none;
 }
 
-/// A line's values, one a shape on which it succeeded.
-struct Values {
-  std::vector<double> errors;      ///< fractions, as the paper divides them
-  std::vector<double> times;       ///< as the paper took them, ms
-  std::vector<double> equal_work;  ///< ms
-};
-
-double median_milliseconds(const std::vector<const RunRecord*>& runs, Boundary boundary) {
-  return median(all_times(runs, boundary)) / 1e6;
+std::vector<Case> cases_of(const std::vector<Shape>& shapes) {
+  std::vector<Case> cases;
+  for (const Shape& shape : shapes) cases.insert(cases.end(), shape.begin(), shape.end());
+  return cases;
 }
 
-Values values_of(const TableContext& context, const Line& line, const std::vector<Shape>& shapes) {
-  Values values;
-  for (const Shape& shape : shapes) {
-    const auto runs = context.measurements.find(line.method, line.protocol, shape.front());
-    if (runs.empty() || first_failure(runs) != nullptr) continue;
-    const std::vector<double> errors = all_values(runs, "l2_paper");
-    if (!errors.empty()) values.errors.push_back(median(std::span<const double>(errors)));
-    values.times.push_back(median_milliseconds(runs, Boundary::kPaper));
-    values.equal_work.push_back(median_milliseconds(runs, Boundary::kEqualWork));
+/// "n = 2000", or of shapes with their own points "83012 points on average".
+std::string size_text(const std::vector<Case>& cases) {
+  double sum = 0;
+  bool same = true;
+  for (const Case& which : cases) {
+    sum += static_cast<double>(which.n);
+    same = same && which.n == cases.front().n;
   }
-  return values;
+  if (same) return "n = " + std::to_string(cases.front().n);
+  return fixed(sum / static_cast<double>(cases.size()), 0) + " points on average";
 }
 
-/// Mean, standard deviation and maximum, each as `text` writes a number.
-template <typename Text>
-void add_statistics(std::vector<std::string>& cells, const std::vector<double>& values, const Text& text) {
-  if (values.empty()) {
-    cells.insert(cells.end(), 3, kNothing);
-    return;
+void append(std::vector<std::string>& cells, const std::vector<std::string>& more) {
+  cells.insert(cells.end(), more.begin(), more.end());
+}
+
+void append_values(std::vector<std::string>& cells, const GroupValues& values) {
+  append(cells, percent_cells(values.error));
+  append(cells, millisecond_cells(values.time));
+  cells.push_back(values.equal_work ? three_digits(values.equal_work->mean) : kNothing);
+}
+
+void append_published(std::vector<std::string>& cells, const json& published) {
+  for (const char* quantity : {"l2_percent", "milliseconds"}) {
+    for (const json& value : published.at(quantity)) cells.push_back(fixed(value.get<double>(), 1));
   }
-  const std::optional<double> deviation = standard_deviation(std::span<const double>(values));
-  cells.push_back(text(mean(std::span<const double>(values))));
-  cells.push_back(deviation ? text(*deviation) : kNothing);
-  cells.push_back(text(*std::max_element(values.begin(), values.end())));
-}
-
-std::vector<std::string> published_line(const json& published, const std::string& method) {
-  std::vector<std::string> cells = {paper().at("methods").value(method, method) + ", in the paper",
-                                    published.at("shapes").dump()};
-  const json& values = published.at("methods").at(method);
-  for (const json& percent : values.at("l2_percent")) cells.push_back(fixed(percent.get<double>(), 1));
-  for (const json& time : values.at("milliseconds")) cells.push_back(fixed(time.get<double>(), 1));
   cells.emplace_back(kNothing);
-  return cells;
 }
 
-void print_summary(TableContext& context, const std::vector<Line>& lines, const std::vector<Shape>& shapes,
-                   const json& published, std::ostream& out) {
-  TextTable table(
-      {"Method", "Shapes", "L2 mean, %", "std", "max", "Time mean, ms", "std", "max", "Equal work mean, ms"});
-  for (const Line& line : lines) {
-    const Values values = values_of(context, line, shapes);
-    // Every shape that failed has its note, like in a table of its own.
-    std::string marks;
-    for (const Shape& shape : shapes) {
-      const std::string mark = failure_marks(context, line, shape);
-      if (marks.find(mark) == std::string::npos) marks += mark;
-    }
-    std::vector<std::string> cells = {label(context, line) + marks, std::to_string(values.times.size())};
-    add_statistics(cells, values.errors, [](double value) { return fixed(100 * value, 1); });
-    add_statistics(cells, values.times, [](double value) { return three_digits(value); });
-    cells.push_back(values.equal_work.empty()
-                        ? kNothing
-                        : three_digits(mean(std::span<const double>(values.equal_work))));
-    table.add_row(std::move(cells));
-    const bool has_published = line.protocol == paper().at("protocol") && !published.is_null() &&
-                               published.at("methods").contains(line.method);
-    if (has_published) table.add_row(published_line(published, line.method));
+std::string paper_label(const Line& line) {
+  return paper().at("methods").value(line.method, line.method) + ", in the paper";
+}
+
+/// The marks of every failure of a line, each kind once a shape.
+std::string group_failure_marks(TableContext& context, const Line& line, const std::vector<Case>& cases) {
+  std::string marks;
+  for (const Case& which : cases) {
+    const std::string mark = failure_marks(context, line, {which});
+    if (marks.find(mark) == std::string::npos) marks += mark;
   }
-  out << "### " << shapes.size() << " shapes, n = " << shapes.front().front().n
-      << ": error (of the result's area) and time as the paper took them\n\n";
-  table.print(out);
-  out << '\n';
+  return marks;
 }
 
-void print_errors(const TableContext& context, const std::vector<Line>& lines,
-                  const std::vector<Shape>& shapes, const json& published, std::ostream& out) {
+TableSection summary_table(TableContext& context, const std::vector<Line>& lines,
+                           const std::vector<Case>& cases, const json& published) {
+  std::vector<std::string> header = {"Method", "Shapes"};
+  append(header, kValueColumns);
+  TableSection section{"summary", "", TextTable(std::move(header)), {}};
+  section.caption = std::to_string(cases.size()) + " shapes, " + size_text(cases) +
+                    ": error (of the result's area) and time as the paper took them";
+  for (const Line& line : lines) {
+    const GroupValues values = group_values(context, line, cases);
+    std::vector<std::string> cells = {label(context, line) + group_failure_marks(context, line, cases),
+                                      std::to_string(values.measured)};
+    append_values(cells, values);
+    section.table.add_row(std::move(cells));
+    const json theirs = published_values({"", {}, published}, line);
+    if (theirs.is_null()) continue;
+    cells = {paper_label(line), published.at("shapes").dump()};
+    append_published(cells, theirs);
+    section.table.add_row(std::move(cells));
+  }
+  if (!published.is_null()) {
+    section.remarks.push_back("The paper's values are from its " + published.at("where").get<std::string>() +
+                              "; " + published.at("remark").get<std::string>() + ".");
+  }
+  return section;
+}
+
+std::string error_cell(const TableContext& context, const Line& line, const Case& which,
+                       const json& published) {
+  const auto runs = context.measurements.find(line.method, line.protocol, which);
+  if (const RunRecord* failure = first_failure(runs)) {
+    return failure->status == Status::kNotInstalled ? "" : failure_name(*failure);
+  }
+  const auto errors = all_values(runs, "l2_paper");
+  if (errors.empty()) return kNothing;
+  const std::string text = fixed(100 * median(std::span<const double>(errors)), 1);
+  if (published.is_null() || line.protocol != paper().at("protocol")) return text;
+  const json value = published.value("by_shape", json::object())
+                         .value(which.dataset, json::object())
+                         .value(line.method, json());
+  return value.is_number() ? text + " (" + fixed(value.get<double>(), 1) + ")" : text;
+}
+
+TableSection shape_table(const TableContext& context, const std::vector<Line>& lines,
+                         const std::vector<Case>& cases, const json& published) {
   std::vector<std::string> header = {"Shape"};
   for (const Line& line : lines) header.push_back(label(context, line));
-  TextTable table(std::move(header));
+  TableSection section{
+      "shapes", "Error L2 of every shape, % of the result's area", TextTable(std::move(header)), {}};
   bool has_brackets = false;
-  for (const Shape& shape : shapes) {
-    const Case& which = shape.front();
+  for (const Case& which : cases) {
     std::vector<std::string> cells = {shape_title(context, which)};
     for (const Line& line : lines) {
-      const auto runs = context.measurements.find(line.method, line.protocol, which);
-      const RunRecord* failure = first_failure(runs);
-      std::string text = kNothing;
-      if (failure != nullptr) {
-        text = failure->status == Status::kNotInstalled ? "" : failure_name(*failure);
-      } else if (const auto errors = all_values(runs, "l2_paper"); !errors.empty()) {
-        text = fixed(100 * median(std::span<const double>(errors)), 1);
-        const json value =
-            published.is_null() || line.protocol != paper().at("protocol")
-                ? json()
-                : published.at("by_shape").value(which.dataset, json::object()).value(line.method, json());
-        if (value.is_number()) {
-          text += " (" + fixed(value.get<double>(), 1) + ")";
-          has_brackets = true;
-        }
-      }
-      cells.push_back(std::move(text));
+      cells.push_back(error_cell(context, line, which, published));
+      has_brackets = has_brackets || cells.back().find('(') != std::string::npos;
     }
-    table.add_row(std::move(cells));
+    section.table.add_row(std::move(cells));
   }
-  out << "### Error L2 of every shape, % of the result's area"
-      << (has_brackets ? " (in brackets the paper's)" : "") << "\n\n";
-  table.print(out);
-  out << '\n';
+  if (has_brackets) section.caption += " (in brackets the paper's)";
+  return section;
+}
+
+/// The convexity of a case's ground truth, from any run that was scored.
+std::map<Case, double> convexities(const TableContext& context) {
+  std::map<Case, double> result;
+  for (const RunRecord& run : context.measurements.runs()) {
+    if (const auto convexity = metric(run, "ground_truth_convexity")) {
+      result.emplace(Case{run.dataset, run.holes, run.n}, *convexity);
+    }
+  }
+  return result;
+}
+
+/// `cases` in the paper's classes of convexity; the last group is of those that no run was scored on.
+std::vector<CaseGroup> convexity_groups(const TableContext& context, const std::vector<Case>& cases) {
+  const json& classes = paper().at("convexity_classes");
+  const std::map<Case, double> convexity = convexities(context);
+  std::vector<CaseGroup> groups;
+  for (const json& one : classes.at("rows"))
+    groups.push_back({one.at("title").get<std::string>(), {}, json()});
+  groups.push_back({"not known", {}, json()});
+  for (const Case& which : cases) {
+    std::size_t place = 0;
+    const auto known = convexity.find(which);
+    while (place + 1 < groups.size() &&
+           (known == convexity.end() ||
+            known->second < classes.at("rows")[place].at("at_least").get<double>())) {
+      ++place;
+    }
+    groups[place].cases.push_back(which);
+  }
+  const bool published = !cases.empty() && std::all_of(cases.begin(), cases.end(), [&](const Case& which) {
+    return is_about(classes, which);
+  });
+  for (std::size_t i = 0; published && i < classes.at("rows").size(); ++i) {
+    groups[i].published = {{"methods", {{classes.at("method"), classes.at("rows")[i]}}}};
+  }
+  std::erase_if(groups, [](const CaseGroup& group) { return group.cases.empty(); });
+  return groups;
+}
+
+std::vector<CaseGroup> family_groups(const TableContext& context, const std::vector<Case>& cases) {
+  std::vector<CaseGroup> groups;
+  for (const Case& which : cases) {
+    const std::string title = family_title(context.report, which.dataset);
+    const auto found = std::find_if(groups.begin(), groups.end(),
+                                    [&](const CaseGroup& group) { return group.title == title; });
+    if (found == groups.end()) {
+      groups.push_back({title, {which}, json()});
+    } else {
+      found->cases.push_back(which);
+    }
+  }
+  return groups;
+}
+
+TableSection group_table(TableContext& context, const std::string& id, const std::string& caption,
+                         const std::string& first_column, const std::vector<CaseGroup>& groups) {
+  std::vector<std::string> header = {first_column, "Method", "Shapes", "Invalid"};
+  append(header, kValueColumns);
+  TableSection section{id, caption, TextTable(std::move(header)), {}};
+  bool has_published = false;
+  for (const CaseGroup& group : groups) {
+    for (const Line& line : lines_of(context, group.cases)) {
+      const GroupValues values = group_values(context, line, group.cases);
+      std::vector<std::string> cells = {
+          group.title, label(context, line) + group_failure_marks(context, line, group.cases),
+          std::to_string(values.measured), std::to_string(values.invalid)};
+      append_values(cells, values);
+      section.table.add_row(std::move(cells));
+      const json theirs = published_values(group, line);
+      if (theirs.is_null()) continue;
+      has_published = true;
+      cells = {group.title, paper_label(line), kNothing, kNothing};
+      append_published(cells, theirs);
+      section.table.add_row(std::move(cells));
+    }
+  }
+  if (has_published) {
+    const json& classes = paper().at("convexity_classes");
+    section.remarks.push_back("The paper's values are from its " + classes.at("where").get<std::string>() +
+                              ", " + classes.at("shapes").dump() + " polygons; " +
+                              classes.at("remark").get<std::string>() + ".");
+  }
+  return section;
+}
+
+/// Adds to `section` how many results of all its groups GEOS found to be invalid.
+void say_validity(const TableContext& context, const std::vector<Case>& cases, TableSection& section) {
+  for (const Line& line : lines_of(context, cases)) {
+    const GroupValues values = group_values(context, line, cases);
+    section.remarks.push_back(
+        label(context, line) + ": of " + std::to_string(values.measured + values.invalid) +
+        " results, each checked by GEOS, " + std::to_string(values.invalid) + " are invalid.");
+  }
+}
+
+/// "comb, spiral and walk": the groups' titles in small letters.
+std::string kinds_text(const std::vector<CaseGroup>& groups) {
+  std::string text;
+  for (std::size_t i = 0; i < groups.size(); ++i) {
+    std::string title = groups[i].title;
+    if (!title.empty() && title[0] >= 'A' && title[0] <= 'Z')
+      title[0] = static_cast<char>(title[0] - 'A' + 'a');
+    text += (i == 0 ? "" : (i + 1 == groups.size() ? " and " : ", ")) + title;
+  }
+  return text;
+}
+
+std::vector<TableSection> class_tables(TableContext& context, const std::vector<Case>& cases) {
+  std::vector<Case> papers_own;
+  std::vector<Case> others;
+  for (const Case& which : cases) {
+    (is_about(paper().at("convexity_classes"), which) ? papers_own : others).push_back(which);
+  }
+  std::vector<TableSection> sections;
+  for (const auto& [id, part] :
+       {std::pair{"convexity", &papers_own}, std::pair{"convexity_others", &others}}) {
+    if (part->empty()) continue;
+    const std::vector<CaseGroup> kinds = family_groups(context, *part);
+    const std::string caption =
+        std::to_string(part->size()) + " shapes (" + kinds_text(kinds) + "), " + size_text(*part) +
+        ", by convexity: error (of the result's area) and time as the paper took them";
+    sections.push_back(group_table(context, id, caption, "Convexity", convexity_groups(context, *part)));
+    say_validity(context, *part, sections.back());
+    if (kinds.size() > 1) {
+      sections.push_back(group_table(context, "kinds", "The same by kind", "Kind", kinds));
+    }
+  }
+  return sections;
 }
 
 }  // namespace
 
 bool is_collection(const std::vector<Shape>& shapes) {
   constexpr std::size_t kMany = 10;
-  const bool one_size = std::all_of(shapes.begin(), shapes.end(), [&](const Shape& shape) {
-    return shape.size() == 1 && shape.front().n == shapes.front().front().n;
-  });
+  const bool one_size =
+      std::all_of(shapes.begin(), shapes.end(), [](const Shape& shape) { return shape.size() == 1; });
   if (shapes.empty() || !one_size) return false;
   return shapes.size() >= kMany || !published_collection(shapes).is_null();
 }
 
-void print_collection(TableContext& context, const std::vector<Shape>& shapes, std::ostream& out) {
-  std::vector<Line> lines;
-  for (const Shape& shape : shapes) {
-    for (const Line& line : lines_of(context, shape)) {
-      if (std::find(lines.begin(), lines.end(), line) == lines.end()) lines.push_back(line);
-    }
-  }
+std::vector<TableSection> collection_tables(TableContext& context, const std::vector<Shape>& shapes) {
+  const std::vector<Case> cases = cases_of(shapes);
+  if (cases.size() > kTooManyForRows) return class_tables(context, cases);
+  const std::vector<Line> lines = lines_of(context, cases);
   const json& published = published_collection(shapes);
-  print_summary(context, lines, shapes, published, out);
-  if (!published.is_null()) {
-    print_item("The paper's values are from its " + published.at("where").get<std::string>() +
-                   "; its letters are of another Garamond.",
-               out);
-    out << '\n';
+  return {summary_table(context, lines, cases, published), shape_table(context, lines, cases, published)};
+}
+
+std::vector<CaseGroup> published_groups(const TableContext& context, const std::vector<Shape>& shapes) {
+  if (!is_collection(shapes)) return {};
+  const std::vector<Case> cases = cases_of(shapes);
+  if (cases.size() <= kTooManyForRows) {
+    const json& published = published_collection(shapes);
+    if (published.is_null()) return {};
+    return {{"mean of the shapes", cases, published}};
   }
-  print_errors(context, lines, shapes, published, out);
+  std::vector<Case> papers_own;
+  std::copy_if(cases.begin(), cases.end(), std::back_inserter(papers_own),
+               [](const Case& which) { return is_about(paper().at("convexity_classes"), which); });
+  return convexity_groups(context, papers_own);
+}
+
+json published_values(const CaseGroup& group, const Line& line) {
+  if (group.published.is_null() || line.protocol != paper().at("protocol")) return {};
+  return group.published.at("methods").value(line.method, json());
 }
 
 }  // namespace hullbench

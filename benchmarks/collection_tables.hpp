@@ -1,20 +1,39 @@
-// The tables of an experiment on many shapes, each at one size: the paper's alphabet.
+// The tables of an experiment on many shapes, each at one size: the paper's floors, letters and random
+// polygons.
 #pragma once
 
-#include <ostream>
+#include <nlohmann/json.hpp>
+#include <string>
 #include <vector>
 
+#include "benchmarks/document.hpp"
 #include "benchmarks/table_context.hpp"
 
 namespace hullbench {
 
-/// Whether `shapes` are all measured at the same single size and are ten or more, or of a collection that the
-/// paper has a table of: then they are the rows of one table instead of having tables of their own.
+/// Cases that stand in one row of a table, and what the paper published of them.
+struct CaseGroup {
+  std::string title;
+  std::vector<Case> cases;
+  /// In results/paper.json: by method, or of one method alone; null when there is nothing.
+  nlohmann::json published;
+};
+
+/// Whether each of `shapes` is measured at a single size and they are ten or more, or of a collection that
+/// the paper has a table of: then they are the rows of one table instead of having tables of their own.
 bool is_collection(const std::vector<Shape>& shapes);
 
-/// Prints mean, standard deviation (n - 1) and maximum over the shapes of error and time, a line a method,
-/// with the paper's values where it has any of these shapes; then the error of every shape, a column a
-/// method. Shapes on which a method failed are left out of its statistics; the line says how many are in it.
-void print_collection(TableContext& context, const std::vector<Shape>& shapes, std::ostream& out);
+/// Mean, standard deviation (n - 1) and maximum over the shapes of error and time, a line a method, with the
+/// paper's values where it has any of these shapes. Up to 60 shapes: one group, and the error of every shape,
+/// a column a method. More: groups by the convexity of the ground truth, in the paper's classes, and by
+/// family. Cases on which a method failed are left out of its statistics; the line says how many are in it.
+std::vector<TableSection> collection_tables(TableContext& context, const std::vector<Shape>& shapes);
+
+/// The groups that the paper has values of, for comparisons. Empty when it has none.
+std::vector<CaseGroup> published_groups(const TableContext& context, const std::vector<Shape>& shapes);
+
+/// What the paper published of `method` in a group: {"l2_percent": [mean, std, max], "milliseconds": [...]},
+/// or null.
+nlohmann::json published_values(const CaseGroup& group, const Line& line);
 
 }  // namespace hullbench

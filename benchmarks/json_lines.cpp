@@ -4,6 +4,8 @@
 #include <stdexcept>
 #include <system_error>
 
+#include "benchmarks/xz_file.hpp"
+
 namespace hullbench {
 namespace {
 
@@ -30,7 +32,7 @@ nlohmann::json parse_line(const std::string& line, const std::filesystem::path& 
 JsonLines load_json_lines(const std::filesystem::path& path) {
   JsonLines result;
   if (!std::filesystem::exists(path)) return result;
-  const std::string content = read_all(path);
+  const std::string content = path.extension() == ".xz" ? read_xz_file(path) : read_all(path);
   std::size_t begin = 0;
   std::size_t number = 0;
   for (std::size_t end = content.find('\n'); end != std::string::npos; end = content.find('\n', begin)) {

@@ -22,8 +22,9 @@ struct JsonLines {
   std::uintmax_t complete_bytes = 0;
 };
 
-/// Reads `path`. A file that does not exist has no lines; empty lines are skipped. Throws std::runtime_error
-/// naming the file and the line when it cannot be read or when a complete line is not JSON.
+/// Reads `path`, compressed by xz when its name ends in .xz. A file that does not exist has no lines; empty
+/// lines are skipped. Throws std::runtime_error naming the file and the line when it cannot be read or when a
+/// complete line is not JSON.
 JsonLines load_json_lines(const std::filesystem::path& path);
 
 /// Appends lines to a file. A torn last line is cut off when the file is opened, or the first new line would

@@ -1,5 +1,7 @@
 #include "benchmarks/labels.hpp"
 
+#include <optional>
+
 namespace hullbench {
 namespace {
 
@@ -10,6 +12,15 @@ std::string title_of(const json& list, const std::string& name) {
     if (entry.value("name", "") == name) return entry.value("title", name);
   }
   return name;
+}
+
+/// The family that `dataset` is a member of: "comb" for "comb-17".
+std::optional<std::string> family_of(const json& report, const std::string& dataset) {
+  for (const json& entry : report.at("datasets")) {
+    const std::string name = entry.value("name", "");
+    if (entry.value("members", 0) > 0 && dataset.starts_with(name + "-")) return name;
+  }
+  return std::nullopt;
 }
 
 std::string remedy_of(const json& report, const std::string& name) {
@@ -29,8 +40,14 @@ std::string method_label(const json& report, const std::string& method, const st
   return method_title(report, method) + " (" + protocol + ")";
 }
 
+std::string family_title(const json& report, const std::string& dataset) {
+  return title_of(report.at("datasets"), family_of(report, dataset).value_or(dataset));
+}
+
 std::string shape_title(const json& report, const std::string& dataset, bool holes) {
-  return title_of(report.at("datasets"), dataset) + (holes ? " with holes" : "");
+  const auto family = family_of(report, dataset);
+  const std::string number = family ? " " + dataset.substr(family->size() + 1) : "";
+  return family_title(report, dataset) + number + (holes ? " with holes" : "");
 }
 
 std::string not_installed_text(const json& report, const std::string& what, const std::string& method,

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <memory>
+#include <set>
 #include <sstream>
 #include <string>
 #include <vector>
@@ -61,8 +62,10 @@ void print_method(const json& method, std::ostream& out) {
 }
 
 void print_dataset(const json& dataset, std::ostream& out) {
-  out << "  " << dataset["name"].get<std::string>() << "  " << dataset["title"].get<std::string>()
-      << ", area " << dataset["area"].get<double>();
+  out << "  " << dataset["name"].get<std::string>();
+  if (const auto members = dataset["members"].get<std::size_t>(); members > 0) out << "-1 ... -" << members;
+  out << "  " << dataset["title"].get<std::string>();
+  if (!dataset["area"].is_null()) out << ", area " << dataset["area"].get<double>();
   if (!dataset["holes_area"].is_null()) out << ", with holes " << dataset["holes_area"].get<double>();
   out << "\n      " << dataset["source"].get<std::string>() << "; licence "
       << dataset["licence"].get<std::string>() << "\n";
@@ -81,19 +84,25 @@ void print_listing(const json& listing, std::ostream& out) {
   for (const json& dataset : listing["datasets"]) print_dataset(dataset, out);
 }
 
-json describe_datasets(const std::vector<std::string>& names) {
+json describe_datasets(const DataFolders& folders, const std::vector<std::string>& names) {
+  const std::vector<DatasetInfo> infos = datasets(folders);
+  std::set<const DatasetInfo*> used;
+  for (const std::string& name : names) used.insert(find_dataset(infos, name));
   json result = json::array();
-  for (const DatasetInfo& dataset : datasets()) {
-    if (!names.empty() && std::find(names.begin(), names.end(), dataset.name) == names.end()) continue;
+  for (const DatasetInfo& dataset : infos) {
+    if (!names.empty() && !used.contains(&dataset)) continue;
     json holes_area = nullptr;
-    if (dataset.has_holes_variant) holes_area = polylidar::area(make_ground_truth(dataset.name, true));
+    if (dataset.has_holes_variant && dataset.members == 0) {
+      holes_area = polylidar::area(make_ground_truth(dataset.name, true, folders));
+    }
     result.push_back({{"name", dataset.name},
                       {"title", dataset.title},
                       {"source", dataset.source},
                       {"licence", dataset.licence},
-                      {"sha256", dataset.sha256},
-                      {"area", dataset.area},
-                      {"holes_area", holes_area}});
+                      {"sha256", dataset.sha256.empty() ? json(nullptr) : json(dataset.sha256)},
+                      {"area", dataset.area ? json(*dataset.area) : json(nullptr)},
+                      {"holes_area", holes_area},
+                      {"members", dataset.members}});
   }
   return result;
 }

@@ -5,6 +5,7 @@
 #include <ostream>
 
 #include "benchmarks/runner.hpp"
+#include "datasets/datasets.hpp"
 
 namespace hullbench {
 
@@ -16,7 +17,8 @@ nlohmann::json make_listing(const WorkerCommand& worker_command, const WorkerLim
 /// The same for people.
 void print_listing(const nlohmann::json& listing, std::ostream& out);
 
-/// The data sets as run.json and the report have them; only those in `names`, or all when it is empty.
-nlohmann::json describe_datasets(const std::vector<std::string>& names = {});
+/// The data sets as run.json and the report have them; only those that one of `names` belongs to, or all when
+/// it is empty.
+nlohmann::json describe_datasets(const DataFolders& folders = {}, const std::vector<std::string>& names = {});
 
 }  // namespace hullbench

@@ -2,7 +2,9 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <filesystem>
+#include <fstream>
 #include <iostream>
+#include <iterator>
 #include <string>
 #include <vector>
 
@@ -10,9 +12,10 @@
 #include "benchmarks/interrupt.hpp"
 #include "benchmarks/listing.hpp"
 #include "benchmarks/plan.hpp"
+#include "benchmarks/readme.hpp"
 #include "benchmarks/report.hpp"
 #include "benchmarks/run_command.hpp"
-#include "benchmarks/tables.hpp"
+#include "benchmarks/suite.hpp"
 #include "benchmarks/validate.hpp"
 #include "benchmarks/worker.hpp"
 
@@ -27,9 +30,11 @@ constexpr int kUsage = 2;
 constexpr int kInterrupted = 130;
 
 constexpr const char* kFooter =
-    "Exit codes: 0 everything asked for was done; 1 an error of the harness, or `validate` found faults; 2 "
-    "usage or\n"
-    "configuration; 4 some methods failed (their rows say how); 6 nothing was measured; 130 interrupted.\n"
+    "Exit codes: 0 everything asked for was done; 1 an error of the harness, or `validate` or `readme "
+    "--check` found "
+    "faults;\n"
+    "2 usage or configuration; 4 some methods failed (their rows say how); 6 nothing was measured; 130 "
+    "interrupted.\n"
     "HULLBENCH_POSTGIS_DSN names a PostGIS server to use instead of a private one; HULLBENCH_POSTGRES_BIN "
     "the folder with\n"
     "the programs that a private server is made of.";
@@ -41,6 +46,9 @@ struct Arguments {
   bool json = false;
   RunCommand run;
   std::string tables_path = "results/latest";
+  std::string readme_run;
+  std::string readme_path;
+  bool readme_check = false;
   std::string validate_path;
   std::string worker_method;
 };
@@ -61,12 +69,36 @@ int list(bool as_json) {
   return kOk;
 }
 
-int tables(const std::string& path) {
+/// The reports in `path`, the folder of a run or of a suite.
+std::vector<nlohmann::json> reports_in(const std::string& path) {
   if (!fs::is_directory(path)) {
     throw ConfigurationError("there is no run in " + path +
                              "; give a run's folder, or measure one with 'hullbench run'");
   }
-  print_tables(make_report(path), std::cout);
+  return is_suite(path) ? suite_reports(path) : std::vector{make_report(path)};
+}
+
+int tables(const std::string& path) {
+  print_markdown(make_documents(reports_in(path)), std::cout);
+  return kOk;
+}
+
+int readme(const std::string& run, const std::string& path, bool check) {
+  std::ifstream in(path, std::ios::binary);
+  const std::string before(std::istreambuf_iterator<char>(in), {});
+  if (!in.is_open() || fs::is_directory(path)) throw ConfigurationError("there is no file " + path);
+  const std::string after = with_results(before, readme_results(reports_in(run), run));
+  if (before == after) {
+    std::cout << path << " agrees with " << run << "\n";
+    return kOk;
+  }
+  if (check) {
+    std::cerr << "hullbench: the results in " << path << " are not those of " << run << "; 'hullbench readme "
+              << run << " " << path << "' writes them anew\n";
+    return kHarnessError;
+  }
+  write_text_file(path, after);
+  std::cout << "wrote the results of " << run << " into " << path << "\n";
   return kOk;
 }
 
@@ -89,8 +121,8 @@ int worker(const std::string& method) {
 }
 
 void add_run(CLI::App& app, RunCommand& run) {
-  CLI::App* command = app.add_subcommand("run", "Measure a plan");
-  command->add_option("PLAN", run.plan, "A plan's name (benchmarks/plans) or the path of its JSON file")
+  CLI::App* command = app.add_subcommand("run", "Measure a plan, or several one after the other");
+  command->add_option("PLAN", run.plans, "A plan's name (benchmarks/plans) or the path of its JSON file")
       ->required();
   command->add_option("--filter", run.filter, "Only runs whose name has a match of this regular expression");
   command->add_option("--repetitions", run.repetitions, "Timed repetitions of every run")
@@ -102,6 +134,9 @@ void add_run(CLI::App& app, RunCommand& run) {
       ->check(CLI::Range(0.001, 1e6));
   command->add_option("--mem-limit", run.mem_limit_mib, "MiB of address space for a method")
       ->check(CLI::Range(std::int64_t{64}, std::int64_t{1} << 30));
+  command->add_option(
+      "--recordings", run.recordings,
+      "Folder of recorded floors that take the place of the simulated ones (datasets/rgbd/recordings.hpp)");
   command->add_flag("--force", run.force, "Start anew instead of going on with an interrupted run");
   command->add_flag("--dry-run", run.dry_run, "Print the names of the runs and do nothing");
 }
@@ -115,6 +150,10 @@ void add_commands(CLI::App& app, Arguments& arguments) {
   app.add_subcommand("tables", "Print the tables of a run")
       ->add_option("RUN", arguments.tables_path, "The run's folder")
       ->capture_default_str();
+  CLI::App* readme = app.add_subcommand("readme", "Write a run's results into a README, between its marks");
+  readme->add_option("RUN", arguments.readme_run, "The run's folder")->required();
+  readme->add_option("FILE", arguments.readme_path, "The README")->required();
+  readme->add_flag("--check", arguments.readme_check, "Only say whether it has them; exit code 1 when not");
   app.add_subcommand("validate", "Check a report.json, runs.jsonl or run.json against its schema")
       ->add_option("FILE", arguments.validate_path, "The file")
       ->required();
@@ -129,6 +168,9 @@ int dispatch(const CLI::App& app, const Arguments& arguments) {
   if (app.got_subcommand("list")) return list(arguments.json);
   if (app.got_subcommand("run")) return run_command(arguments.run, &own_worker);
   if (app.got_subcommand("tables")) return tables(arguments.tables_path);
+  if (app.got_subcommand("readme")) {
+    return readme(arguments.readme_run, arguments.readme_path, arguments.readme_check);
+  }
   return validate(arguments.validate_path);
 }
 

@@ -10,6 +10,12 @@ bool is_measured(const RunRecord& run) {
   return run.status == Status::kOk && !run.time_ns.empty() && valid != run.metrics.end() && *valid == true;
 }
 
+bool is_invalid(const RunRecord& run) {
+  if (run.status == Status::kInvalidOutput) return true;
+  const auto valid = run.metrics.find("valid");
+  return run.status == Status::kOk && (valid == run.metrics.end() || *valid != true);
+}
+
 std::vector<std::int64_t> times(const RunRecord& run, Boundary boundary) {
   if (boundary == Boundary::kEqualWork) return run.time_ns;
   std::vector<std::int64_t> result;

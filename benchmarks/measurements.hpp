@@ -32,6 +32,9 @@ enum class Boundary {
 /// Whether the run gave a result that is believed: status ok and a valid multipolygon.
 bool is_measured(const RunRecord& run);
 
+/// Whether the run gave a result that is not a valid multipolygon.
+bool is_invalid(const RunRecord& run);
+
 /// Nanoseconds of every repetition.
 std::vector<std::int64_t> times(const RunRecord& run, Boundary boundary);
 

@@ -17,6 +17,7 @@ struct Metrics {
   std::string invalid_reason;  ///< GEOS's reason with the place; empty when valid
   double area = 0;             ///< of the result
   double ground_truth_area = 0;
+  double ground_truth_convexity = 0;  ///< its area / the area of its convex hull, in (0, 1] (the paper's CV)
   std::optional<double> symmetric_difference_area;  ///< area((GT - CS) + (CS - GT))
   std::optional<double> l2;                         ///< symmetric difference / ground truth's area
   std::optional<double> l2_paper;  ///< symmetric difference / result's area (the paper, section V)

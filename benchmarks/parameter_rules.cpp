@@ -14,11 +14,12 @@ namespace {
 /// Wanted edge length in mean spacings of the points over their convex hull.
 constexpr double kHullSpacings = 3.0;
 
-const std::array<ParameterRule, 5> kRules = {{{"paper_alpha", true, &paper_alpha},
-                                              {"paper_alpha_squared", true, &paper_alpha_squared},
-                                              {"paper_target_percent", true, &paper_target_percent},
-                                              {"holes", false, &holes_switch},
-                                              {"hull_spacing_ratio", false, &hull_spacing_ratio}}};
+const std::array<ParameterRule, 5> kRules = {
+    {{"paper_alpha", "2 √(A/n)", true, &paper_alpha},
+     {"paper_alpha_squared", "4 A/n", true, &paper_alpha_squared},
+     {"paper_target_percent", "A/A_hull", true, &paper_target_percent},
+     {"holes", "1 with holes, else 0", false, &holes_switch},
+     {"hull_spacing_ratio", "that of 3 √(A_hull/n)", false, &hull_spacing_ratio}}};
 
 double convex_hull_area(std::span<const polylidar::Point> points) {
   return polylidar::area(polylidar::to_coordinates(polylidar::concave_hull(points), points));

@@ -21,6 +21,7 @@ struct RuleInput {
 
 struct ParameterRule {
   std::string name;
+  std::string formula;  ///< as tables show it
   /// Whether the value depends on the ground truth beyond the question whether it has holes: then the rule is
   /// oracle-informed and only the protocols `paper` and `oracle` may use it.
   bool reads_ground_truth = false;

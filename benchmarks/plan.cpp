@@ -20,6 +20,7 @@ using nlohmann::json;
 
 constexpr int kPlanSchemaVersion = 1;
 constexpr std::int64_t kMaxPoints = std::int64_t{1} << 29;  // what the core takes
+constexpr std::int64_t kMaxMembers = 1'000'000;
 
 /// Who may choose parameters, and whether with a look at the ground truth.
 struct Protocol {
@@ -152,22 +153,38 @@ std::vector<std::string> read_identifiers(const Node& node) {
   return names;
 }
 
+std::vector<std::string> read_case_datasets(const Node& group) {
+  const Node node = group.at("dataset");
+  std::vector<std::string> names =
+      node.value().is_array() ? read_identifiers(node) : std::vector{node.identifier()};
+  if (!group.has("members")) return names;
+  std::vector<std::string> members;
+  const std::int64_t count = group.at("members").integer(1, kMaxMembers);
+  for (const std::string& family : names) {
+    for (std::int64_t number = 1; number <= count; ++number) {
+      members.push_back(family + "-" + std::to_string(number));
+    }
+  }
+  return members;
+}
+
 /// The cases of one element of `cases`: data set by data set, of each first all sizes with the first value of
 /// `holes`.
 std::vector<PlanCase> read_case_group(const Node& group) {
-  group.only_keys({"dataset", "holes", "n"});
-  const Node dataset_node = group.at("dataset");
-  const std::vector<std::string> datasets = dataset_node.value().is_array()
-                                                ? read_identifiers(dataset_node)
-                                                : std::vector{dataset_node.identifier()};
+  group.only_keys({"dataset", "members", "holes", "n"});
+  const std::vector<std::string> datasets = read_case_datasets(group);
   std::vector<bool> holes = {false};
   if (group.has("holes")) {
     holes.clear();
     for (const Node& value : group.at("holes").elements()) holes.push_back(value.boolean());
   }
   std::vector<std::int64_t> sizes;
-  read_values<std::int64_t>(group.at("n"), sizes,
-                            [](const Node& value) { return value.integer(3, kMaxPoints); });
+  if (group.has("n")) {
+    read_values<std::int64_t>(group.at("n"), sizes,
+                              [](const Node& value) { return value.integer(3, kMaxPoints); });
+  } else {
+    sizes.push_back(0);
+  }
   std::vector<PlanCase> cases;
   for (const std::string& dataset : datasets) {
     for (const bool with_holes : holes) {
@@ -297,9 +314,17 @@ json method_to_json(const PlanMethod& method) {
   return result;
 }
 
+/// Whether `name` is the case's data set or the family it belongs to.
+bool is_dataset_of(const PlanCase& plan_case, const std::string& name) {
+  if (plan_case.dataset == name) return true;
+  const auto member = split_member_name(plan_case.dataset);
+  return member && member->first == name;
+}
+
 bool applies(const PlanMethod& method, const PlanCase& plan_case) {
-  return method.datasets.empty() || std::find(method.datasets.begin(), method.datasets.end(),
-                                              plan_case.dataset) != method.datasets.end();
+  return method.datasets.empty() ||
+         std::any_of(method.datasets.begin(), method.datasets.end(),
+                     [&](const std::string& name) { return is_dataset_of(plan_case, name); });
 }
 
 std::string name_of(const PlanMethod& method, const PlanCase& plan_case) {
@@ -310,6 +335,35 @@ std::string name_of(const PlanMethod& method, const PlanCase& plan_case) {
   record.holes = plan_case.holes;
   record.protocol = method.protocol;
   return run_name(record);
+}
+
+/// That there is what a case asks for.
+void require_dataset(const PlanCase& plan_case, const std::vector<DatasetInfo>& datasets,
+                     const std::string& plan) {
+  const DatasetInfo* info = find_dataset(datasets, plan_case.dataset);
+  const auto refuse = [&](const std::string& what) {
+    throw ConfigurationError("the plan '" + plan + "' " + what);
+  };
+  if (info == nullptr) {
+    std::vector<std::string> known;
+    for (const DatasetInfo& dataset : datasets) {
+      known.push_back(dataset.members == 0 ? dataset.name
+                                           : dataset.name + "-1 to -" + std::to_string(dataset.members));
+    }
+    refuse("names the data set '" + plan_case.dataset + "', which is not known; known are " +
+           join_words(known) + " ('hullbench list')");
+  }
+  if (plan_case.holes && !info->has_holes_variant) {
+    refuse("asks for " + plan_case.dataset +
+           " with holes, which there is not; leave out true in its 'holes'");
+  }
+  if (plan_case.n == 0 && !info->own_points) {
+    refuse("gives no 'n' for " + plan_case.dataset +
+           ", which has no points of its own; add the numbers of points");
+  }
+  if (plan_case.n != 0 && info->own_points) {
+    refuse("gives 'n' for " + plan_case.dataset + ", which comes with its points; leave it out");
+  }
 }
 
 void require_known(const std::string& what, const std::string& name, const std::vector<std::string>& known,
@@ -338,7 +392,7 @@ Plan parse_plan(const std::string& text, const std::string& source) {
   const json document = parse_json(text, source);
   const Node root(document, source, "");
   root.only_keys({"schema_version", "name", "title", "paper", "notes", "repetitions", "warmup", "timeout_s",
-                  "mem_limit_mib", "seed", "cases", "methods"});
+                  "mem_limit_mib", "seed", "filter", "cases", "methods"});
   if (root.has("schema_version") && root.at("schema_version").value() != kPlanSchemaVersion) {
     root.at("schema_version").fail("must be " + std::to_string(kPlanSchemaVersion) + " for this program");
   }
@@ -355,6 +409,7 @@ Plan parse_plan(const std::string& text, const std::string& source) {
   if (root.has("timeout_s")) plan.timeout_s = root.at("timeout_s").number(0.001, 1e6);
   if (root.has("mem_limit_mib")) plan.mem_limit_mib = root.at("mem_limit_mib").integer(64, 1 << 30);
   if (root.has("seed")) plan.seed = root.at("seed").seed();
+  if (root.has("filter")) plan.filter = root.at("filter").text();
   read_cases(root.at("cases"), plan.expanded_cases);
   plan.cases = document["cases"];
   read_methods(root.at("methods"), plan.methods);
@@ -389,6 +444,7 @@ json plan_to_json(const Plan& plan) {
                  {"seed", plan.seed},
                  {"cases", plan.cases},
                  {"methods", methods}};
+  if (!plan.filter.empty()) result["filter"] = plan.filter;
   if (!plan.paper.empty()) result["paper"] = plan.paper;
   if (!plan.notes.empty()) result["notes"] = plan.notes;
   return result;
@@ -396,25 +452,35 @@ json plan_to_json(const Plan& plan) {
 
 void check_plan(const Plan& plan, const std::vector<std::string>& methods,
                 const std::vector<DatasetInfo>& datasets) {
-  std::vector<std::string> dataset_names;
-  dataset_names.reserve(datasets.size());
-  for (const DatasetInfo& dataset : datasets) dataset_names.push_back(dataset.name);
-  for (const PlanCase& plan_case : plan.expanded_cases) {
-    require_known("data set", plan_case.dataset, dataset_names, plan.name);
-    const auto info =
-        std::find(dataset_names.begin(), dataset_names.end(), plan_case.dataset) - dataset_names.begin();
-    if (plan_case.holes && !datasets[static_cast<std::size_t>(info)].has_holes_variant) {
-      throw ConfigurationError("the plan '" + plan.name + "' asks for " + plan_case.dataset +
-                               " with holes, which there is not; leave out true in its 'holes'");
-    }
-  }
+  for (const PlanCase& plan_case : plan.expanded_cases) require_dataset(plan_case, datasets, plan.name);
   for (const PlanMethod& method : plan.methods) {
     require_known("method", method.method, methods, plan.name);
     for (const std::string& dataset : method.datasets) {
-      require_known("data set", dataset, dataset_names, plan.name);
+      const auto same = [&](const PlanCase& plan_case) { return is_dataset_of(plan_case, dataset); };
+      if (std::none_of(plan.expanded_cases.begin(), plan.expanded_cases.end(), same)) {
+        throw ConfigurationError("the plan '" + plan.name + "' lets " + method.method +
+                                 " keep to the data set '" + dataset + "', of which it has no case");
+      }
     }
     require_values(plan, method);
   }
+}
+
+void use_recordings(Plan& plan, std::size_t count) {
+  bool found = false;
+  for (json& group : plan.cases) {
+    if (group.at("dataset") != kSimulatedFloor) continue;
+    group["dataset"] = kRecordedFloor;
+    group["members"] = count;
+    found = true;
+  }
+  if (!found) {
+    throw ConfigurationError("the plan '" + plan.name +
+                             "' has no simulated floors that recordings could take the place of; leave out "
+                             "--recordings, or run the plan 'rgbd'");
+  }
+  plan.expanded_cases.clear();
+  read_cases(Node(plan.cases, "plan '" + plan.name + "' with recordings", "cases"), plan.expanded_cases);
 }
 
 std::vector<PlannedRun> planned_runs(const Plan& plan, const std::string& filter) {

@@ -2,13 +2,16 @@
 //
 //   {"schema_version": 1, "name": "states", "title": "State shapes", "paper": "Figure 8, Table 6",
 //    "repetitions": 10, "warmup": 1, "timeout_s": 120, "mem_limit_mib": 4096, "seed": 1, "notes": ["..."],
+//    "filter": "^polylidar/",
 //    "cases":   [{"dataset": "ca", "holes": [false, true], "n": [2000, 64000]}],
 //    "methods": [{"method": "polylidar", "protocol": "paper", "datasets": ["ca"], "note": "...",
 //                 "parameters": {"alpha": PARAMETER}}]}
 //
 // PARAMETER is a number, {"rule": NAME} (parameter_rules.hpp) or {"cases": {"ca": 2.0, "ca/holes": 1.25}}.
 // A case's "dataset" is one name or a list of names; a list stands for the same case once for each name, in
-// its order. Only `name`, `cases` and `methods` are required; a key that is not listed here is an error.
+// its order. With "members": 200 the name is a family's and stands for its members from 1 to 200 ("star-1",
+// ..., "star-200"). Without "n" the data set's own points are used, which only some have. Only `name`,
+// `cases` and `methods` are required; a key that is not listed here is an error.
 #pragma once
 
 #include <cstddef>
@@ -36,7 +39,7 @@ class ConfigurationError : public std::runtime_error {
 struct PlanCase {
   std::string dataset;
   bool holes = false;
-  std::int64_t n = 0;  ///< number of points
+  std::int64_t n = 0;  ///< number of points; 0: the data set's own
 
   /// "ca" or "ca/holes": the key of parameters that are given case by case.
   std::string shape() const { return holes ? dataset + "/holes" : dataset; }
@@ -56,7 +59,7 @@ using ParameterChoice = std::variant<double, RuleChoice, CaseChoice>;
 struct PlanMethod {
   std::string method;
   std::string protocol;  ///< who chose the parameters: "paper", "default", "auto", "tuned", "oracle"
-  std::vector<std::string> datasets;  ///< only these; empty: all
+  std::vector<std::string> datasets;  ///< only these (or these families'); empty: all
   std::map<std::string, ParameterChoice> parameters;
   std::string note;  ///< for readers of the tables
 };
@@ -71,6 +74,7 @@ struct Plan {
   double timeout_s = 120;  ///< wall-clock seconds for one request to a worker
   std::int64_t mem_limit_mib = 4096;  ///< address space of a worker
   std::uint64_t seed = 1;             ///< of point samples and of the order of runs
+  std::string filter;                 ///< of the runs' names, for who asks for none; empty: all runs
   nlohmann::json cases;               ///< as written, for records
   std::vector<PlanCase> expanded_cases;
   std::vector<PlanMethod> methods;
@@ -94,10 +98,14 @@ Plan load_plan(const std::string& name_or_path, const std::filesystem::path& fol
 nlohmann::json plan_to_json(const Plan& plan);
 
 /// Throws ConfigurationError for a method or data set that is not among the known ones, for holes in a data
-/// set that has no variant with holes, and for a case without a value for a parameter that is given case by
-/// case.
+/// set that has no variant with holes, for a number of points where the data set brings its own or none where
+/// it does not, and for a case without a value for a parameter that is given case by case.
 void check_plan(const Plan& plan, const std::vector<std::string>& methods,
                 const std::vector<DatasetInfo>& datasets);
+
+/// Puts `count` recorded floors ("recorded-1", ...) in the place of the plan's simulated ones. Throws
+/// ConfigurationError when it has no simulated floors.
+void use_recordings(Plan& plan, std::size_t count);
 
 /// The runs of `plan` whose name has a match of `filter` (an ECMAScript regular expression; empty: all), case
 /// by case in the order of the plan. Throws ConfigurationError when `filter` is not a regular expression.

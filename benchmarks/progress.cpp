@@ -19,37 +19,47 @@ double seconds_of(std::chrono::nanoseconds duration) {
 
 }  // namespace
 
-Progress::Progress(std::ostream& out, bool terminal, std::size_t width, std::vector<ProgressRun> runs)
-    : out_(out),
-      terminal_(terminal),
-      width_(width),
-      runs_(std::move(runs)),
-      finished_(runs_.size(), false),
-      start_(Clock::now()),
-      first_run_(start_),
-      shown_(start_) {}
+Progress::Progress(std::ostream& out, bool terminal, std::size_t width, std::vector<ProgressSection> sections)
+    : out_(out), terminal_(terminal), width_(width), start_(Clock::now()), shown_(start_) {
+  for (ProgressSection& given : sections) {
+    Section& added = sections_.emplace_back();
+    added.title = std::move(given.title);
+    added.finished.resize(given.runs.size());
+    added.runs = std::move(given.runs);
+    added.first_run = start_;
+  }
+}
+
+void Progress::enter(std::size_t section) {
+  for (std::size_t earlier = current_section_; earlier < section; ++earlier) {
+    for (ProgressRun& run : sections_[earlier].runs) run.units = 0;
+  }
+  current_section_ = section;
+  current_run_ = 0;
+}
 
 void Progress::begin(std::size_t index) {
-  current_ = index;
-  if (rates_.empty()) first_run_ = Clock::now();
+  current_run_ = index;
+  if (section().rates.empty()) section().first_run = Clock::now();
   show(false);
 }
 
 void Progress::advance(std::size_t index, std::chrono::nanoseconds elapsed) {
-  ProgressRun& run = runs_[index];
+  ProgressRun& run = section().runs[index];
   run.units = std::max(0, run.units - 1);
-  Rate& rate = rates_[run.method];
+  Rate& rate = section().rates[run.method];
   rate.seconds += seconds_of(elapsed);
   rate.points += static_cast<double>(run.n);
   show(false);
 }
 
 void Progress::finish(std::size_t index) {
-  if (finished_[index]) return;
-  finished_[index] = true;
-  ++finished_count_;
-  runs_[index].units = 0;
-  show(finished_count_ == runs_.size());
+  Section& here = section();
+  if (here.finished[index]) return;
+  here.finished[index] = true;
+  ++here.finished_count;
+  here.runs[index].units = 0;
+  show(here.finished_count == here.runs.size());
 }
 
 void Progress::note(const std::string& text) {
@@ -63,36 +73,62 @@ void Progress::end() {
 }
 
 double Progress::seconds_left() const {
-  Rate all;
-  for (const auto& [method, rate] : rates_) {
-    all.seconds += rate.seconds;
-    all.points += rate.points;
+  Rates everywhere;
+  for (const Section& section : sections_) {
+    for (const auto& [method, rate] : section.rates) {
+      for (const std::string& name : {method, std::string()}) {
+        everywhere[name].seconds += rate.seconds;
+        everywhere[name].points += rate.points;
+      }
+    }
   }
+  const Rate& all = everywhere[std::string()];
   if (!(all.seconds > 0) || !(all.points > 0)) return -1;
   double left = 0;
-  for (const ProgressRun& run : runs_) {
-    const auto known = rates_.find(run.method);
-    const Rate& rate = known == rates_.end() ? all : known->second;
+  for (const Section& section : sections_) left += seconds_left(section, everywhere);
+  return left;
+}
+
+/// `rates_elsewhere` has the rate of all methods together under the empty name.
+double Progress::seconds_left(const Section& section, const Rates& rates_elsewhere) const {
+  const auto rate_of = [&](const std::string& method) {
+    for (const Rates* rates : {&section.rates, &rates_elsewhere}) {
+      if (const auto known = rates->find(method); known != rates->end()) return known->second;
+    }
+    return rates_elsewhere.at(std::string());
+  };
+  double left = 0;
+  for (const ProgressRun& run : section.runs) {
+    const Rate rate = rate_of(run.method);
     left += run.units * static_cast<double>(run.n) * rate.seconds / rate.points;
   }
+  double measured = 0;
+  for (const auto& [method, rate] : section.rates) measured += rate.seconds;
+  if (!(measured > 0)) return left;
   // What goes on between the runs (samples, scores, files) takes its share in the future as it did so far.
-  const double elapsed = seconds_of(Clock::now() - first_run_);
-  return left * std::max(1.0, elapsed / all.seconds);
+  return left * std::max(1.0, seconds_of(Clock::now() - section.first_run) / measured);
 }
 
 std::string Progress::line() const {
-  std::string text = "[" + std::to_string(finished_count_) + "/" + std::to_string(runs_.size()) + "] " +
-                     format_duration(seconds_of(Clock::now() - start_));
-  if (finished_count_ == runs_.size()) return text + ", done";
+  const Section& here = section();
+  std::string text;
+  if (sections_.size() > 1) {
+    text = here.title + ", table " + std::to_string(current_section_ + 1) + " of " +
+           std::to_string(sections_.size()) + " ";
+  }
+  text += "[" + std::to_string(here.finished_count) + "/" + std::to_string(here.runs.size()) + "] " +
+          format_duration(seconds_of(Clock::now() - start_));
+  const bool last = current_section_ + 1 == sections_.size();
+  if (last && here.finished_count == here.runs.size()) return text + ", done";
   const double left = seconds_left();
   text += left < 0 ? ", time left not known yet" : ", about " + format_duration(left) + " left (estimated)";
-  return text + ": " + runs_[current_].name;
+  return text + ": " + here.runs[current_run_].name;
 }
 
 void Progress::show(bool now) {
   const auto interval =
       terminal_ ? std::chrono::milliseconds(kTerminalInterval) : std::chrono::milliseconds(kPlainInterval);
-  if (runs_.empty() || (!now && Clock::now() - shown_ < interval)) return;
+  if (section().runs.empty() || (!now && Clock::now() - shown_ < interval)) return;
   shown_ = Clock::now();
   if (!terminal_) {
     out_ << "hullbench: " << line() << "\n" << std::flush;

@@ -19,14 +19,23 @@ struct ProgressRun {
   int units = 0;
 };
 
-/// On a terminal one line that is rewritten; elsewhere a plain line now and then. The time left is estimated
-/// from the measured times of each method, taken as proportional to n; a method without any counts as the
-/// mean of the others.
+/// The runs of one plan.
+struct ProgressSection {
+  std::string title;
+  std::vector<ProgressRun> runs;
+};
+
+/// On a terminal one line that is rewritten; elsewhere a plain line now and then. The time left, of all
+/// sections together, is estimated from the measured times of each method in its section, taken as
+/// proportional to n; of a method that has none there, from its times in other sections, and without those as
+/// the mean of the others.
 class Progress {
  public:
-  /// `terminal`: whether `out` can rewrite a line; `width`: its columns.
-  Progress(std::ostream& out, bool terminal, std::size_t width, std::vector<ProgressRun> runs);
+  /// `terminal`: whether `out` can rewrite a line; `width`: its columns. The first section is entered.
+  Progress(std::ostream& out, bool terminal, std::size_t width, std::vector<ProgressSection> sections);
 
+  /// From now on indices are those of this section's runs. What was left in earlier ones counts as done.
+  void enter(std::size_t section);
   /// Run `index` is being worked on.
   void begin(std::size_t index);
   /// One unit of run `index` took `elapsed`.
@@ -48,19 +57,29 @@ class Progress {
     double points = 0;
   };
 
+  using Rates = std::map<std::string, Rate>;  ///< by method
+  struct Section {
+    std::string title;
+    std::vector<ProgressRun> runs;  ///< `units` counts down to 0
+    std::vector<bool> finished;     ///< by run
+    std::size_t finished_count = 0;
+    Rates rates;
+    Clock::time_point first_run;  ///< when measuring began: methods may take long to start, once
+  };
+
+  Section& section() { return sections_[current_section_]; }
+  const Section& section() const { return sections_[current_section_]; }
+  double seconds_left(const Section& section, const Rates& rates_elsewhere) const;
   void show(bool now);
   std::string line() const;
 
   std::ostream& out_;
   bool terminal_;
   std::size_t width_;
-  std::vector<ProgressRun> runs_;  ///< `units` counts down to 0
-  std::vector<bool> finished_;
-  std::size_t finished_count_ = 0;
-  std::size_t current_ = 0;
-  std::map<std::string, Rate> rates_;  ///< by method
+  std::vector<Section> sections_;
+  std::size_t current_section_ = 0;
+  std::size_t current_run_ = 0;
   Clock::time_point start_;
-  Clock::time_point first_run_;  ///< when measuring began: methods may take long to start, once
   Clock::time_point shown_;
 };
 

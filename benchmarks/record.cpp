@@ -116,7 +116,7 @@ void from_json(const json& source, RunRecord& record) {
 }
 
 std::string run_name(const RunRecord& record) {
-  return record.method + "/" + record.dataset + "/n:" + std::to_string(record.n) +
+  return record.method + "/" + record.dataset + "/n:" + (record.n == 0 ? "all" : std::to_string(record.n)) +
          "/holes:" + (record.holes ? "1" : "0") + "/protocol:" + record.protocol;
 }
 

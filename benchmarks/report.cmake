@@ -2,12 +2,13 @@
 find_package(nlohmann_json 3.11 REQUIRED)
 find_package(valijson REQUIRED)
 find_package(PkgConfig REQUIRED)
+find_package(LibLZMA REQUIRED)
 
-add_library(hullbench_record STATIC record.cpp json_lines.cpp)
+add_library(hullbench_record STATIC record.cpp json_lines.cpp xz_file.cpp)
 add_library(hullbench::record ALIAS hullbench_record)
 target_include_directories(hullbench_record PUBLIC "${PROJECT_SOURCE_DIR}")
 target_link_libraries(hullbench_record
-  PUBLIC nlohmann_json::nlohmann_json hullbench::hash PRIVATE hullbench::compile_options)
+  PUBLIC nlohmann_json::nlohmann_json hullbench::hash PRIVATE LibLZMA::LibLZMA hullbench::compile_options)
 
 # The schemas and the paper's values become part of the program, so that it needs no file of its own at run time. A string literal
 # may not be longer than 64 KiB in every compiler, and the files are cut into pieces to stay below.
@@ -83,9 +84,13 @@ add_library(hullbench_report STATIC
   environment.cpp
   claims.cpp
   collection_tables.cpp
+  document.cpp
+  group_values.cpp
   labels.cpp
   measurements.cpp
   number_format.cpp
+  overview_tables.cpp
+  paper_comparison.cpp
   report.cpp
   report_notes.cpp
   table_context.cpp

@@ -4,7 +4,9 @@
 #include <map>
 #include <stdexcept>
 #include <string>
+#include <string_view>
 #include <system_error>
+#include <utility>
 #include <vector>
 
 #include "benchmarks/claims.hpp"
@@ -94,6 +96,25 @@ json totals(const std::vector<RunRecord>& runs) {
   return result;
 }
 
+std::string dump_text(const json& content, int indent) {
+  return content.dump(indent, ' ', false, json::error_handler_t::replace);
+}
+
+/// Writes a file whole or not at all.
+void write_whole(const std::filesystem::path& path, const std::string& text) {
+  std::filesystem::path temporary = path;
+  temporary += ".new";
+  {
+    std::ofstream out(temporary, std::ios::binary | std::ios::trunc);
+    out << text << '\n' << std::flush;
+    if (!out)
+      throw std::runtime_error("Cannot write " + temporary.string() + ": is its folder there and writable?");
+  }
+  std::error_code error;
+  std::filesystem::rename(temporary, path, error);
+  if (error) throw std::runtime_error("Cannot write " + path.string() + ": " + error.message() + ".");
+}
+
 }  // namespace
 
 json make_summary(const json& report) {
@@ -105,7 +126,8 @@ json make_summary(const json& report) {
 
 json make_report(const std::filesystem::path& run_directory) {
   json report = read_run_file(run_directory / "run.json");
-  const std::filesystem::path lines_file = run_directory / "runs.jsonl";
+  std::filesystem::path lines_file = run_directory / "runs.jsonl";
+  if (!std::filesystem::exists(lines_file)) lines_file += ".xz";
   const JsonLines lines = load_json_lines(lines_file);
   report["runs"] = last_of_each_id(lines.lines, lines_file);
   report["notes"] = json::array();
@@ -117,18 +139,27 @@ json make_report(const std::filesystem::path& run_directory) {
   return report;
 }
 
-void write_json_file(const std::filesystem::path& path, const json& content) {
-  std::filesystem::path temporary = path;
-  temporary += ".new";
-  {
-    std::ofstream out(temporary, std::ios::binary | std::ios::trunc);
-    out << content.dump(2, ' ', false, json::error_handler_t::replace) << '\n' << std::flush;
-    if (!out)
-      throw std::runtime_error("Cannot write " + temporary.string() + ": is its folder there and writable?");
+void write_report_file(const std::filesystem::path& path, const json& report) {
+  // The lists are put in as text where the rest, written as usual, has an empty one for each.
+  json frame = report;
+  const auto take_out = [](json& list) {
+    std::string text;
+    for (const json& entry : list) text += (text.empty() ? "[\n" : ",\n") + dump_text(entry, -1);
+    list = json::array();
+    return text.empty() ? "[]" : text + "\n]";
+  };
+  const std::string runs = take_out(frame.at("runs"));
+  const std::string rows = take_out(frame.at("summary").at("rows"));
+  std::string text = dump_text(frame, 2);
+  // Of the keys "rows" and "runs" the last ones are those of the report: nothing behind them has such a key.
+  for (const auto& [key, list] : {std::pair{"\"rows\": ", &rows}, std::pair{"\"runs\": ", &runs}}) {
+    text.replace(text.rfind(key) + std::string_view(key).size(), 2, *list);
   }
-  std::error_code error;
-  std::filesystem::rename(temporary, path, error);
-  if (error) throw std::runtime_error("Cannot write " + path.string() + ": " + error.message() + ".");
+  write_whole(path, text);
+}
+
+void write_json_file(const std::filesystem::path& path, const json& content) {
+  write_whole(path, dump_text(content, 2));
 }
 
 }  // namespace hullbench

@@ -7,16 +7,20 @@
 namespace hullbench {
 
 /// The report of a run directory: `run.json` (schema_version, tool, plan, seed, filter, repetitions,
-/// datasets, methods, environment, created) with the lines of `runs.jsonl` as `runs`, and a `summary`. When
-/// an id occurs more than once (a forced repetition), its last line counts. A torn last line is left out and
-/// said in `notes`. Deterministic in its input. Throws std::runtime_error naming the file when one is missing
-/// or malformed.
+/// datasets, methods, environment, created) with the lines of `runs.jsonl`, or `runs.jsonl.xz`, as `runs`,
+/// and a `summary`. When an id occurs more than once (a forced repetition), its last line counts. A torn last
+/// line is left out and said in `notes`. Deterministic in its input. Throws std::runtime_error naming the
+/// file when one is missing or malformed.
 nlohmann::json make_report(const std::filesystem::path& run_directory);
 
 /// The `summary` of a report's other members: `totals` (rows by status), `rows` (one a run, in the order of
 /// `runs`: id, name, status, the statistics of the headline time `time` and of the paper's boundary
 /// `paper_time`, l2, l2_paper, iou, valid) and `claims` (see claims.hpp).
 nlohmann::json make_summary(const nlohmann::json& report);
+
+/// Writes `report` to `path` like write_json_file, but each run and each row of the summary on one line:
+/// there may be many thousands.
+void write_report_file(const std::filesystem::path& path, const nlohmann::json& report);
 
 /// Writes `content` to `path`, indented, whole or not at all (a temporary file beside it is renamed). Throws
 /// std::runtime_error naming the file when it cannot be written.

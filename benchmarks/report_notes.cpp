@@ -13,79 +13,84 @@ namespace hullbench {
 namespace {
 
 using nlohmann::json;
+using Sentences = std::vector<std::string>;
 
-void print_how_to_read(const json& report, std::ostream& out) {
-  print_item("Times are medians ± the median absolute deviation over " + report.at("repetitions").dump() +
-                 " repetitions. Cells that hold several runs (seeds, parameter sets) put them together.",
-             out);
-  print_item(
+void add_repetitions(const json& report, Sentences& notes) {
+  const int repetitions = report.at("repetitions").get<int>();
+  notes.push_back(repetitions == 1
+                      ? "Every time is of one repetition."
+                      : "Times are medians ± the median absolute deviation over " +
+                            std::to_string(repetitions) +
+                            " repetitions. Cells that hold several runs (seeds, parameter sets) put "
+                            "them together.");
+}
+
+void add_how_to_read(Sentences& notes) {
+  notes.push_back(
       "Equal work: points in memory to a valid multipolygon in memory, for every method alike. As the paper "
       "took it: "
-      "the method's own run only. Loading the points (the upload to a database) is in neither.",
-      out);
-  print_item(
+      "the method's own run only. Loading the points (the upload to a database) is in neither.");
+  notes.push_back(
       "The protocol in brackets says who chose the parameters: paper, by the paper's rules, which look at "
       "the ground "
       "truth (oracle-informed); default, the method's own; auto, by a rule from the points alone; tuned, on "
       "other "
-      "shapes; oracle, the best for this very case.",
-      out);
-  print_item(
+      "shapes; oracle, the best for this very case.");
+  notes.push_back(
       "A cell with a word is a run without a result: its status, or \"invalid\" for a result that is not a "
       "valid "
-      "multipolygon. A dash: not run or not defined.",
-      out);
+      "multipolygon. A dash: not run or not defined.");
 }
 
-void print_paper_notes(const std::vector<RunRecord>& runs, std::ostream& out) {
+void add_paper_notes(const std::vector<RunRecord>& runs, Sentences& notes) {
   if (std::none_of(runs.begin(), runs.end(),
                    [](const RunRecord& run) { return run.protocol == paper().at("protocol"); })) {
     return;
   }
-  for (const json& note : paper().at("notes")) print_item(note.get<std::string>(), out);
+  for (const json& note : paper().at("notes")) notes.push_back(note.get<std::string>());
 }
 
-void print_plan_notes(const json& report, std::ostream& out) {
+void add_plan_notes(const json& report, const std::vector<RunRecord>& runs, Sentences& notes) {
   const json& plan = report.at("plan");
-  for (const json& note : plan.value("notes", json::array())) print_item(note.get<std::string>(), out);
+  for (const json& note : plan.value("notes", json::array())) notes.push_back(note.get<std::string>());
   for (const json& method : plan.value("methods", json::array())) {
     const std::string note = method.value("note", "");
-    if (note.empty()) continue;
-    print_item(method_label(report, method.value("method", ""), method.value("protocol", "")) + ": " +
-                   sentence(note),
-               out);
+    const bool has_row = std::any_of(runs.begin(), runs.end(), [&](const RunRecord& run) {
+      return run.method == method.value("method", "") && run.protocol == method.value("protocol", "");
+    });
+    if (note.empty() || !has_row) continue;
+    notes.push_back(method_label(report, method.value("method", ""), method.value("protocol", "")) + ": " +
+                    sentence(note));
   }
 }
 
 /// Methods that are missing and have no row that could say so.
-void print_missing_methods(const json& report, const std::vector<RunRecord>& runs, std::ostream& out) {
+void add_missing_methods(const json& report, const std::vector<RunRecord>& runs, Sentences& notes) {
   for (const json& method : report.at("methods")) {
     if (method.value("installed", true)) continue;
     const std::string name = method.at("name").get<std::string>();
     if (std::any_of(runs.begin(), runs.end(), [&](const RunRecord& run) { return run.method == name; }))
       continue;
-    print_item(not_installed_text(report, method_title(report, name), name, method.value("detail", "")), out);
+    notes.push_back(not_installed_text(report, method_title(report, name), name, method.value("detail", "")));
   }
 }
 
-void print_environment(const json& report, std::ostream& out) {
+void add_environment(const json& report, Sentences& notes) {
   const json& environment = report.at("environment");
   const json& cpu = environment.at("cpu");
   const json& compiler = environment.at("compiler");
   const json& os = environment.at("os");
-  print_item(cpu.at("model").get<std::string>() + ", " + cpu.at("logical_cores").dump() + " logical cores" +
-                 (cpu.at("virtualised") == true ? " (virtual machine)" : "") +
-                 (os.is_string() ? ", " + os.get<std::string>() : std::string()) + "; " +
-                 compiler.at("id").get<std::string>() + " " + compiler.at("version").get<std::string>() +
-                 ", " + compiler.at("build_type").get<std::string>() + ", " +
-                 compiler.at("flags").get<std::string>() +
-                 (compiler.at("native") == true ? ", for this machine's processor."
-                                                : ", no processor-specific code."),
-             out);
-  print_item(compiler.at("statement").get<std::string>(), out);
+  notes.push_back(
+      cpu.at("model").get<std::string>() + ", " + cpu.at("logical_cores").dump() + " logical cores" +
+      (cpu.at("virtualised") == true ? " (virtual machine)" : "") +
+      (os.is_string() ? ", " + os.get<std::string>() : std::string()) + "; " +
+      compiler.at("id").get<std::string>() + " " + compiler.at("version").get<std::string>() + ", " +
+      compiler.at("build_type").get<std::string>() + ", " + compiler.at("flags").get<std::string>() +
+      (compiler.at("native") == true ? ", for this machine's processor." : ", no processor-specific code."));
+  notes.push_back(compiler.at("statement").get<std::string>());
 }
 
-void print_versions(const json& report, const std::vector<RunRecord>& runs, std::ostream& out) {
+void add_versions(const json& report, const std::vector<RunRecord>& runs, Sentences& notes) {
   std::map<std::string, std::set<std::string>> by_method;
   for (const RunRecord& run : runs) {
     if (!run.method_version.empty()) by_method[run.method].insert(run.method_version);
@@ -96,32 +101,40 @@ void print_versions(const json& report, const std::vector<RunRecord>& runs, std:
       list += (list.empty() ? "" : "; ") + method_title(report, method) + " " + version;
     }
   }
-  if (!list.empty()) print_item("Versions: " + list + ".", out);
+  if (!list.empty()) notes.push_back("Versions: " + list + ".");
 }
 
-void print_totals(const json& report, std::ostream& out) {
+void add_totals(const json& report, Sentences& notes) {
   std::string counts;
   for (const Status status : kAllStatuses) {
     const json& count = report.at("summary").at("totals").at(to_string(status));
     if (count != 0) counts += (counts.empty() ? "" : ", ") + count.dump() + " " + to_string(status);
   }
-  print_item("Rows by status: " + (counts.empty() ? std::string("none") : counts) + ".", out);
+  notes.push_back("Rows by status: " + (counts.empty() ? std::string("none") : counts) + ".");
   const std::size_t resumed = report.value("resumed", json::array()).size();
   if (resumed > 0)
-    print_item("The run was interrupted and gone on with, times: " + std::to_string(resumed) + ".", out);
+    notes.push_back("The run was interrupted and gone on with, times: " + std::to_string(resumed) + ".");
 }
 
 }  // namespace
 
-void print_report_notes(const json& report, const std::vector<RunRecord>& runs, std::ostream& out) {
-  print_how_to_read(report, out);
-  print_paper_notes(runs, out);
-  print_plan_notes(report, out);
-  for (const json& note : report.at("notes")) print_item(note.get<std::string>(), out);
-  print_missing_methods(report, runs, out);
-  print_environment(report, out);
-  print_versions(report, runs, out);
-  print_totals(report, out);
+std::vector<std::string> run_notes(const json& report, const std::vector<RunRecord>& runs) {
+  Sentences notes;
+  add_repetitions(report, notes);
+  add_plan_notes(report, runs, notes);
+  for (const json& note : report.at("notes")) notes.push_back(note.get<std::string>());
+  add_missing_methods(report, runs, notes);
+  add_totals(report, notes);
+  return notes;
+}
+
+std::vector<std::string> common_notes(const json& report, const std::vector<RunRecord>& runs) {
+  Sentences notes;
+  add_how_to_read(notes);
+  add_paper_notes(runs, notes);
+  add_environment(report, notes);
+  add_versions(report, runs, notes);
+  return notes;
 }
 
 }  // namespace hullbench

@@ -3,14 +3,18 @@
 #pragma once
 
 #include <nlohmann/json.hpp>
-#include <ostream>
+#include <string>
 #include <vector>
 
 #include "benchmarks/record.hpp"
 
 namespace hullbench {
 
-/// Prints them as list items. `runs` are the parsed runs of `report`.
-void print_report_notes(const nlohmann::json& report, const std::vector<RunRecord>& runs, std::ostream& out);
+/// What is special to this run: the plan's notes, what is missing, how many rows ended how, one sentence or
+/// more a note. `runs` are the parsed runs of `report`.
+std::vector<std::string> run_notes(const nlohmann::json& report, const std::vector<RunRecord>& runs);
+
+/// What holds for every run of a suite alike: how to read the tables, the machine, the build.
+std::vector<std::string> common_notes(const nlohmann::json& report, const std::vector<RunRecord>& runs);
 
 }  // namespace hullbench

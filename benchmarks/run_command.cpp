@@ -4,7 +4,6 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <fstream>
 #include <iostream>
 #include <memory>
 #include <sstream>
@@ -18,8 +17,9 @@
 #include "benchmarks/report.hpp"
 #include "benchmarks/revision.hpp"
 #include "benchmarks/run_directory.hpp"
-#include "benchmarks/tables.hpp"
+#include "benchmarks/suite.hpp"
 #include "datasets/datasets.hpp"
+#include "datasets/rgbd/recordings.hpp"
 #include "datasets/sha256.hpp"
 
 namespace hullbench {
@@ -30,16 +30,26 @@ using nlohmann::json;
 
 const fs::path kResults = "results";
 
-Plan effective_plan(const RunCommand& command) {
-  Plan plan = load_plan(command.plan, HULLBENCH_PLAN_FOLDER);
+/// A plan and those of its runs that were asked for.
+struct Experiment {
+  Plan plan;
+  std::string filter;
+  std::vector<PlannedRun> runs;
+};
+
+Experiment make_experiment(const std::string& name, const RunCommand& command) {
+  Plan plan = load_plan(name, HULLBENCH_PLAN_FOLDER);
+  if (!command.recordings.empty()) use_recordings(plan, list_recordings(command.recordings).size());
   plan.repetitions = command.repetitions.value_or(plan.repetitions);
   plan.seed = command.seed.value_or(plan.seed);
   plan.timeout_s = command.timeout_s.value_or(plan.timeout_s);
   plan.mem_limit_mib = command.mem_limit_mib.value_or(plan.mem_limit_mib);
   std::vector<std::string> methods;
   for (const AdapterEntry& entry : adapter_registry()) methods.push_back(entry.name);
-  check_plan(plan, methods, datasets());
-  return plan;
+  check_plan(plan, methods, datasets({default_data_directory(), command.recordings}));
+  std::string filter = command.filter.empty() ? plan.filter : command.filter;
+  std::vector<PlannedRun> runs = planned_runs(plan, filter);
+  return {std::move(plan), std::move(filter), std::move(runs)};
 }
 
 json describe_tool() {
@@ -51,28 +61,48 @@ json describe_tool() {
           {"binary_sha256", sha256_file("/proc/self/exe")}};
 }
 
-json describe_run(const Plan& plan, const std::vector<PlannedRun>& runs, const std::string& filter) {
+/// The formula of every rule that the plan names.
+json describe_rules(const Plan& plan) {
+  json rules = json::object();
+  for (const PlanMethod& method : plan.methods) {
+    for (const auto& [name, choice] : method.parameters) {
+      if (const auto* rule = std::get_if<RuleChoice>(&choice))
+        rules[rule->rule] = find_rule(rule->rule)->formula;
+    }
+  }
+  return rules;
+}
+
+json describe_run(const Experiment& experiment, const RunCommand& command) {
+  const Plan& plan = experiment.plan;
   std::vector<std::string> used;
-  used.reserve(runs.size());
-  for (const PlannedRun& run : runs) used.push_back(plan.expanded_cases[run.case_index].dataset);
+  used.reserve(experiment.runs.size());
+  for (const PlannedRun& run : experiment.runs) used.push_back(plan.expanded_cases[run.case_index].dataset);
   return {{"schema_version", kSchemaVersion},
           {"created", utc_now()},
           {"resumed", json::array()},
           {"tool", describe_tool()},
           {"environment", collect_environment()},
           {"plan", plan_to_json(plan)},
+          {"rules", describe_rules(plan)},
           {"seed", plan.seed},
-          {"filter", filter.empty() ? json(nullptr) : json(filter)},
+          {"filter", experiment.filter.empty() ? json(nullptr) : json(experiment.filter)},
           {"repetitions", plan.repetitions},
-          {"datasets", describe_datasets(used)}};
+          {"datasets", describe_datasets({default_data_directory(), command.recordings}, used)}};
 }
 
-/// The last allowed core is the workers'; the harness keeps off it where it can.
-std::optional<int> reserve_worker_core() {
-  const std::vector<int> cores = allowed_cores();
-  if (cores.empty()) return std::nullopt;
-  leave_core(cores.back());
-  return cores.back();
+/// Which cores do what: the last allowed one is the workers', and the harness keeps off it while they work.
+struct Cores {
+  std::vector<int> all;
+  std::optional<int> worker;
+};
+
+Cores reserve_worker_core() {
+  Cores cores = {allowed_cores(), std::nullopt};
+  if (cores.all.empty()) return cores;
+  cores.worker = cores.all.back();
+  leave_core(*cores.worker);
+  return cores;
 }
 
 std::map<std::string, std::string> method_titles() {
@@ -104,22 +134,6 @@ void say_what_goes_on(const RunDirectory& directory, std::size_t planned) {
             << " runs are finished and not measured again (--force starts anew)\n";
 }
 
-void write_text_file(const fs::path& path, const std::string& text) {
-  std::ofstream out(path, std::ios::binary | std::ios::trunc);
-  out << text << std::flush;
-  if (!out) throw std::runtime_error("cannot write " + path.string() + "; is the disk full?");
-}
-
-void write_report(const fs::path& directory) {
-  const json report = make_report(directory);
-  std::ostringstream tables;
-  print_tables(report, tables);
-  std::cout << tables.str() << std::flush;
-  write_text_file(directory / "tables.md", tables.str());
-  // Last, because it marks the run as finished.
-  write_json_file(directory / "report.json", report);
-}
-
 void say_counts(const RunResult& result) {
   int failed = 0;
   const auto count = [&](Status status) {
@@ -136,54 +150,147 @@ void say_counts(const RunResult& result) {
   std::cerr << "\n";
 }
 
-void say_files(const fs::path& directory, const fs::path& shown) {
+void say_files(const fs::path& directory, const fs::path& shown, const std::vector<const char*>& files) {
   std::cerr << "hullbench: wrote";
-  for (const char* file : {"report.json", "tables.md", "runs.jsonl", "repetitions.jsonl", "run.json"}) {
-    std::cerr << " " << (shown / file).string();
-  }
+  for (const char* file : files) std::cerr << " " << (shown / file).string();
   if (shown != directory) std::cerr << " (in " << directory.string() << ")";
   std::cerr << "\n";
 }
 
-int measure(const RunCommand& command, const Plan& plan, const std::vector<PlannedRun>& runs,
-            const WorkerCommand& worker_command) {
-  const json header = describe_run(plan, runs, command.filter);
+/// Everything that the experiments of one call share.
+class Measuring {
+ public:
+  Measuring(const RunCommand& command, const WorkerCommand& worker_command,
+            const std::vector<Experiment>& experiments)
+      : command_(command),
+        worker_command_(worker_command),
+        cores_(reserve_worker_core()),
+        progress_(std::cerr, ::isatty(STDERR_FILENO) == 1, terminal_width(), sections_of(experiments)) {}
+
+  /// Measures `experiment` into `directory` and writes its report and its tables there. `place`: of the
+  /// experiment among all.
+  RunResult measure(const Experiment& experiment, const json& header, RunDirectory& directory,
+                    std::size_t place) {
+    progress_.enter(place);
+    say_what_goes_on(directory, experiment.runs.size());
+    const RunnerOptions options = {worker_command_,
+                                   {experiment.plan.mem_limit_mib, cores_.worker},
+                                   method_titles(),
+                                   cores_.all,
+                                   {default_data_directory(), command_.recordings}};
+    const RunResult result = run_plan(experiment.plan, experiment.runs, header_to_write(directory, header),
+                                      options, directory, progress_);
+    progress_.end();
+    if (result.interrupted) {
+      std::cerr << "hullbench: interrupted; finished runs are kept in " << directory.path().string()
+                << ", and the same command goes on from there\n";
+      return result;
+    }
+    const json report = make_report(directory.path());
+    write_tables(directory.path(), make_documents({report}));
+    // Last, because it marks the run as finished.
+    write_report_file(directory.path() / "report.json", report);
+    return result;
+  }
+
+ private:
+  static std::vector<ProgressSection> sections_of(const std::vector<Experiment>& experiments) {
+    std::vector<ProgressSection> sections;
+    for (const Experiment& experiment : experiments) {
+      sections.push_back({experiment.plan.title, progress_runs(experiment.plan, experiment.runs)});
+    }
+    return sections;
+  }
+
+  const RunCommand& command_;
+  const WorkerCommand& worker_command_;
+  Cores cores_;
+  Progress progress_;
+};
+
+int measure_one(const RunCommand& command, const Experiment& experiment,
+                const WorkerCommand& worker_command) {
+  const json header = describe_run(experiment, command);
   const auto directory = open_run_directory(header, {command.out, command.force, kResults});
   if (!command.out) point_latest_to(directory->path(), kResults);
-  say_what_goes_on(*directory, runs.size());
-
-  const RunnerOptions options = {
-      worker_command, {plan.mem_limit_mib, reserve_worker_core()}, method_titles()};
-  Progress progress(std::cerr, ::isatty(STDERR_FILENO) == 1, terminal_width(), progress_runs(plan, runs));
-  const RunResult result =
-      run_plan(plan, runs, header_to_write(*directory, header), options, *directory, progress);
-  progress.end();
-  if (result.interrupted) {
-    std::cerr << "hullbench: interrupted; finished runs are kept in " << directory->path().string()
-              << ", and the same command goes on from there\n";
-    return exit_code(result);
-  }
-  write_report(directory->path());
+  Measuring measuring(command, worker_command, {experiment});
+  const RunResult result = measuring.measure(experiment, header, *directory, 0);
+  if (result.interrupted) return exit_code(result);
+  print_markdown(make_documents({make_report(directory->path())}), std::cout);
   say_counts(result);
-  say_files(directory->path(), command.out ? directory->path() : kResults / "latest");
+  say_files(directory->path(), command.out ? directory->path() : kResults / "latest",
+            {"report.json", "tables.md", "tables", "runs.jsonl", "repetitions.jsonl", "run.json"});
   return exit_code(result);
+}
+
+/// What the rows of a finished run say.
+RunResult finished_result(const fs::path& run) {
+  RunResult result;
+  const json report = make_report(run);
+  for (const json& row : report.at("runs")) ++result.counts[row.get<RunRecord>().status];
+  return result;
+}
+
+int measure_suite(const RunCommand& command, const std::vector<Experiment>& experiments,
+                  const WorkerCommand& worker_command) {
+  std::vector<json> headers;
+  for (const Experiment& experiment : experiments) headers.push_back(describe_run(experiment, command));
+  const fs::path suite = open_suite(headers, {command.out, command.force, kResults});
+  if (!command.out) point_latest_to(suite, kResults);
+  Measuring measuring(command, worker_command, experiments);
+  RunResult all;
+  for (std::size_t i = 0; i < experiments.size(); ++i) {
+    const Plan& plan = experiments[i].plan;
+    const fs::path run = suite / plan.name;
+    std::cerr << "hullbench: table " << i + 1 << " of " << experiments.size() << ": " << plan.title;
+    RunResult result;
+    if (!command.force && is_finished_run(run, headers[i])) {
+      std::cerr << " is finished already\n";
+      result = finished_result(run);
+    } else {
+      std::cerr << "\n";
+      const auto directory = open_run_directory(headers[i], {run, command.force, kResults});
+      result = measuring.measure(experiments[i], headers[i], *directory, i);
+    }
+    if (result.interrupted) return exit_code(result);
+    for (const auto& [status, count] : result.counts) all.counts[status] += count;
+  }
+  const std::vector<Document> documents = make_documents(suite_reports(suite));
+  print_markdown(documents, std::cout);
+  write_tables(suite, documents);
+  say_counts(all);
+  say_files(suite, command.out ? suite : kResults / "latest", {"tables.md", "tables", "suite.json"});
+  return exit_code(all);
 }
 
 }  // namespace
 
 int run_command(const RunCommand& command, const WorkerCommand& worker_command) {
-  const Plan plan = effective_plan(command);
-  const std::vector<PlannedRun> runs = planned_runs(plan, command.filter);
-  if (runs.empty()) {
-    std::cerr << "hullbench: no run of the plan '" << plan.name << "' has a name that matches '"
-              << command.filter << "'; --dry-run without --filter prints the names\n";
+  std::vector<Experiment> experiments;
+  std::string names;
+  for (const std::string& name : command.plans) {
+    Experiment experiment = make_experiment(name, command);
+    names += (names.empty() ? "'" : ", '") + experiment.plan.name + "'";
+    const auto same = [&](const Experiment& other) { return other.plan.name == experiment.plan.name; };
+    if (std::any_of(experiments.begin(), experiments.end(), same)) {
+      throw ConfigurationError("the plan '" + experiment.plan.name + "' is named twice; leave one out");
+    }
+    if (!experiment.runs.empty()) experiments.push_back(std::move(experiment));
+  }
+  if (experiments.empty()) {
+    std::cerr << "hullbench: no run of the plan" << (command.plans.size() == 1 ? " " : "s ") << names
+              << " has a name that matches '" << command.filter
+              << "'; --dry-run without --filter prints the names\n";
     return 6;
   }
   if (command.dry_run) {
-    for (const PlannedRun& run : runs) std::cout << run.name << "\n";
+    for (const Experiment& experiment : experiments) {
+      for (const PlannedRun& run : experiment.runs) std::cout << run.name << "\n";
+    }
     return 0;
   }
-  return measure(command, plan, runs, worker_command);
+  return command.plans.size() == 1 ? measure_one(command, experiments.front(), worker_command)
+                                   : measure_suite(command, experiments, worker_command);
 }
 
 }  // namespace hullbench

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "benchmarks/runner.hpp"
 
@@ -12,13 +13,15 @@ namespace hullbench {
 
 /// The command line of `run`; what is not given is as the plan says.
 struct RunCommand {
-  std::string plan;
+  std::vector<std::string> plans;  ///< one or more; several make a suite (suite.hpp)
   std::string filter;
   std::optional<int> repetitions;
   std::optional<std::uint64_t> seed;
   std::optional<double> timeout_s;
   std::optional<std::int64_t> mem_limit_mib;
   std::optional<std::filesystem::path> out;
+  std::filesystem::path
+      recordings;  ///< folder of real floors to take the place of the simulated ones; empty: none
   bool force = false;
   bool dry_run = false;
 };

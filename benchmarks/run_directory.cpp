@@ -9,6 +9,7 @@
 #include <cerrno>
 #include <ctime>
 #include <fstream>
+#include <set>
 #include <stdexcept>
 #include <system_error>
 
@@ -26,6 +27,7 @@ constexpr const char* kRowsFile = "runs.jsonl";
 constexpr const char* kRepetitionsFile = "repetitions.jsonl";
 constexpr const char* kReportFile = "report.json";
 constexpr const char* kTablesFile = "tables.md";
+constexpr const char* kTablesFolder = "tables";
 constexpr const char* kScratchFolder = "scratch";
 
 std::string reason(int error) {
@@ -37,16 +39,6 @@ json read_header(const fs::path& folder) {
   std::ifstream in(folder / kHeaderFile, std::ios::binary);
   json header = in ? json::parse(in, nullptr, false) : json();
   return header.is_object() ? header : json();
-}
-
-/// What must be the same for a run to go on.
-json identity(const json& header) {
-  const auto member = [](const json& object, const char* key) {
-    return object.is_object() && object.contains(key) ? object[key] : json();
-  };
-  return {member(header, "schema_version"), member(header, "plan"), member(header, "filter"),
-          member(member(header, "tool"), "binary_sha256"),
-          member(member(header, "environment"), "machine_id")};
 }
 
 ConfigurationError not_writable(const fs::path& folder, const std::string& why) {
@@ -89,6 +81,7 @@ void remove_run_files(const fs::path& folder) {
   for (const char* file : {kHeaderFile, kRowsFile, kRepetitionsFile, kReportFile, kTablesFile}) {
     fs::remove(folder / file);
   }
+  fs::remove_all(folder / kTablesFolder);
 }
 
 /// Whether nothing is in the folder but what a start leaves that was killed before it wrote run.json.
@@ -104,7 +97,7 @@ bool holds_no_run_yet(const fs::path& folder) {
 std::unique_ptr<RunDirectory> open_chosen(const json& header, const fs::path& folder, bool force) {
   make_folder(folder);
   const json earlier = read_header(folder);
-  const bool same = earlier.is_object() && identity(earlier) == identity(header);
+  const bool same = earlier.is_object() && run_continuity(earlier) == run_continuity(header);
   if (!force && !same && !holds_no_run_yet(folder)) {
     throw ConfigurationError("the output folder " + folder.string() + " holds " +
                              (earlier.is_object() ? "another run" : "something else than a run") +
@@ -123,7 +116,7 @@ std::unique_ptr<RunDirectory> open_unfinished(const json& header, const fs::path
   std::sort(folders.rbegin(), folders.rend());
   for (const fs::path& folder : folders) {
     const json earlier = read_header(folder);
-    if (!earlier.is_object() || identity(earlier) != identity(header)) continue;
+    if (!earlier.is_object() || run_continuity(earlier) != run_continuity(header)) continue;
     if (fs::exists(folder / kReportFile)) return nullptr;
     const int lock = try_lock(folder);
     return lock < 0 ? nullptr : std::make_unique<RunDirectory>(folder, lock);
@@ -138,20 +131,6 @@ std::string folder_name(const json& header) {
   const json& commit = header.at("tool").at("commit");
   return time + "-" + header.at("environment").at("machine_id").get<std::string>() + "-" +
          (commit.is_string() ? commit.get<std::string>().substr(0, 7) : "nocommit");
-}
-
-std::unique_ptr<RunDirectory> open_new(const json& header, const fs::path& runs) {
-  make_folder(runs);
-  const std::string name = folder_name(header);
-  // Two runs may begin in the same second.
-  for (int count = 1; count < 1000; ++count) {
-    const fs::path folder = runs / (count == 1 ? name : name + "-" + std::to_string(count));
-    std::error_code error;
-    const bool made = fs::create_directory(folder, error);
-    if (error) throw not_writable(runs, error.message());
-    if (made) return std::make_unique<RunDirectory>(folder, lock_or_throw(folder));
-  }
-  throw not_writable(runs, "too many runs began in this second");
 }
 
 Repetition repetition_from_json(const json& line) {
@@ -203,6 +182,7 @@ void RunDirectory::read_rows() {
   for (const json& line : load_json_lines(path_ / kRowsFile).lines) {
     try {
       rows_.push_back(line.get<RunRecord>());
+      row_places_.emplace(rows_.back().name, rows_.size() - 1);
     } catch (const std::exception&) {
       throw std::runtime_error("a line of " + (path_ / kRowsFile).string() +
                                " is not a run's record; start anew with --force or another --out");
@@ -225,20 +205,29 @@ void RunDirectory::read_repetitions() {
 }
 
 const RunRecord* RunDirectory::find_row(const std::string& name) const {
-  const auto found =
-      std::find_if(rows_.begin(), rows_.end(), [&](const RunRecord& row) { return row.name == name; });
-  return found == rows_.end() ? nullptr : &*found;
+  const auto found = row_places_.find(name);
+  return found == row_places_.end() ? nullptr : &rows_[found->second];
 }
 
-void RunDirectory::append_row(const RunRecord& row) {
-  if (find_row(row.name)) rewrite_rows_without(row.name);
-  row_writer_->append(row);
+void RunDirectory::append_rows(const std::vector<RunRecord>& rows) {
+  if (std::any_of(rows.begin(), rows.end(),
+                  [&](const RunRecord& row) { return find_row(row.name) != nullptr; })) {
+    rewrite_rows_without(rows);
+  }
+  for (const RunRecord& row : rows) {
+    row_writer_->append(row);
+    rows_.push_back(row);
+    row_places_.emplace(row.name, rows_.size() - 1);
+  }
   synchronise(path_ / kRowsFile);
-  rows_.push_back(row);
 }
 
-void RunDirectory::rewrite_rows_without(const std::string& name) {
-  std::erase_if(rows_, [&](const RunRecord& row) { return row.name == name; });
+void RunDirectory::rewrite_rows_without(const std::vector<RunRecord>& replaced) {
+  std::set<std::string> names;
+  for (const RunRecord& row : replaced) names.insert(row.name);
+  std::erase_if(rows_, [&](const RunRecord& row) { return names.contains(row.name); });
+  row_places_.clear();
+  for (std::size_t place = 0; place < rows_.size(); ++place) row_places_.emplace(rows_[place].name, place);
   const fs::path file = path_ / kRowsFile;
   const fs::path temporary = path_ / "runs.jsonl.new";
   fs::remove(temporary);
@@ -264,13 +253,43 @@ void RunDirectory::append_repetition(const std::string& id, std::size_t index, c
   repetitions_[id].push_back(repetition);
 }
 
+json run_continuity(const json& header) {
+  const auto member = [](const json& object, const char* key) {
+    return object.is_object() && object.contains(key) ? object[key] : json();
+  };
+  return {member(header, "schema_version"), member(header, "plan"), member(header, "filter"),
+          member(member(header, "tool"), "binary_sha256"),
+          member(member(header, "environment"), "machine_id")};
+}
+
+bool is_finished_run(const fs::path& folder, const json& header) {
+  const json earlier = read_header(folder);
+  return earlier.is_object() && run_continuity(earlier) == run_continuity(header) &&
+         fs::exists(folder / kReportFile);
+}
+
+fs::path make_run_folder(const json& header, const fs::path& results) {
+  const fs::path runs = results / "runs";
+  make_folder(runs);
+  const std::string name = folder_name(header);
+  // Two runs may begin in the same second.
+  for (int count = 1; count < 1000; ++count) {
+    fs::path folder = runs / (count == 1 ? name : name + "-" + std::to_string(count));
+    std::error_code error;
+    const bool made = fs::create_directory(folder, error);
+    if (error) throw not_writable(runs, error.message());
+    if (made) return folder;
+  }
+  throw not_writable(runs, "too many runs began in this second");
+}
+
 std::unique_ptr<RunDirectory> open_run_directory(const json& header, const RunPlace& place) {
   if (place.out) return open_chosen(header, *place.out, place.force);
-  const fs::path runs = place.results / "runs";
   if (!place.force) {
-    if (auto unfinished = open_unfinished(header, runs)) return unfinished;
+    if (auto unfinished = open_unfinished(header, place.results / "runs")) return unfinished;
   }
-  return open_new(header, runs);
+  const fs::path folder = make_run_folder(header, place.results);
+  return std::make_unique<RunDirectory>(folder, lock_or_throw(folder));
 }
 
 void point_latest_to(const fs::path& run_directory, const fs::path& results) {

@@ -47,8 +47,8 @@ class RunDirectory {
   const std::vector<RunRecord>& rows() const { return rows_; }
   /// The row with that name; null when there is none.
   const RunRecord* find_row(const std::string& name) const;
-  /// Adds a row to runs.jsonl; it is on the disk when this returns. A row of the same name is replaced.
-  void append_row(const RunRecord& row);
+  /// Adds rows to runs.jsonl; they are on the disk when this returns. A row of the same name is replaced.
+  void append_rows(const std::vector<RunRecord>& rows);
 
   /// The repetitions of a run that are already measured, in order.
   const std::vector<Repetition>& repetitions(const std::string& id) const;
@@ -60,13 +60,14 @@ class RunDirectory {
  private:
   void read_rows();
   void read_repetitions();
-  void rewrite_rows_without(const std::string& name);
+  void rewrite_rows_without(const std::vector<RunRecord>& replaced);
 
   std::filesystem::path path_;
   std::filesystem::path scratch_;
   int lock_;
   nlohmann::json header_;
   std::vector<RunRecord> rows_;
+  std::map<std::string, std::size_t> row_places_;  ///< in rows_, by name; of several rows the first
   std::map<std::string, std::vector<Repetition>> repetitions_;  ///< by id
   std::optional<JsonLinesWriter> row_writer_;
   std::optional<JsonLinesWriter> repetition_writer_;
@@ -86,6 +87,16 @@ struct RunPlace {
 /// ConfigurationError when the folder cannot be written, is in use by another harness, or `out` holds
 /// something else and `force` is not set; with `force` the files of an earlier run in `out` are removed.
 std::unique_ptr<RunDirectory> open_run_directory(const nlohmann::json& header, const RunPlace& place);
+
+/// Whether `folder` holds a run that `header` describes, and it is finished (has a report.json).
+bool is_finished_run(const std::filesystem::path& folder, const nlohmann::json& header);
+
+/// The folder `results`/runs/<time>-<machine>-<commit>, made new, with the words of `header` (created, tool,
+/// environment). Throws ConfigurationError when it cannot be made.
+std::filesystem::path make_run_folder(const nlohmann::json& header, const std::filesystem::path& results);
+
+/// What must be the same for a run to go on: plan, filter, binary and machine of its header.
+nlohmann::json run_continuity(const nlohmann::json& header);
 
 /// Lets the link `results`/latest point to the run in `run_directory`, a folder in `results`/runs. Throws
 /// std::runtime_error when it cannot.

@@ -12,6 +12,7 @@
 #include "benchmarks/interrupt.hpp"
 #include "benchmarks/method_session.hpp"
 #include "benchmarks/metrics.hpp"
+#include "benchmarks/parallel.hpp"
 #include "benchmarks/protocol.hpp"
 #include "datasets/datasets.hpp"
 #include "datasets/random.hpp"
@@ -31,6 +32,7 @@ json metrics_to_json(const Metrics& metrics) {
           {"invalid_reason", metrics.invalid_reason},
           {"area", metrics.area},
           {"ground_truth_area", metrics.ground_truth_area},
+          {"ground_truth_convexity", metrics.ground_truth_convexity},
           {"symmetric_difference_area", optional_to_json(metrics.symmetric_difference_area)},
           {"l2", optional_to_json(metrics.l2)},
           {"l2_paper", optional_to_json(metrics.l2_paper)},
@@ -38,6 +40,12 @@ json metrics_to_json(const Metrics& metrics) {
           {"polygons", metrics.polygons},
           {"holes", metrics.holes},
           {"vertices", metrics.vertices}};
+}
+
+/// For estimates of time only: a data set's own points are not counted before they are read.
+std::int64_t estimated_points(const PlanCase& plan_case) {
+  constexpr std::int64_t kUsualOwnPoints = 80'000;
+  return plan_case.n > 0 ? plan_case.n : kUsualOwnPoints;
 }
 
 std::string hash_of(const std::vector<std::uint8_t>& bytes) {
@@ -50,8 +58,21 @@ struct Entry {
   MethodSession* session = nullptr;
   RunRecord record;
   std::vector<Repetition> repetitions;
-  bool done = false;
+  std::optional<MultiPolygon> result;  ///< of the first run; none while there is none to score
+  bool measured = false;               ///< nothing is left to run
+  bool settled = false;                ///< its row is written
 };
+
+/// The runs of one case, and what they are run on.
+struct CaseWork {
+  const PlanCase* plan_case = nullptr;
+  PointSet set;
+  std::vector<Entry> entries;
+};
+
+/// A batch holds cases for about so many points times runs, some seconds of the fastest methods: long enough
+/// that drawing and scoring in parallel pay, short enough that little is lost when the machine stops.
+constexpr std::int64_t kBatchWork = 1'000'000;
 
 class Runner {
  public:
@@ -75,12 +96,7 @@ class Runner {
       header["methods"] = describe_methods();
       directory_.write_header(header);
       check_parameter_names();
-      for (std::size_t begin = 0; begin < runs_.size();) {
-        std::size_t end = begin;
-        while (end < runs_.size() && runs_[end].case_index == runs_[begin].case_index) ++end;
-        run_case(begin, end);
-        begin = end;
-      }
+      for (std::size_t begin = 0; begin < runs_.size();) begin = run_batch(begin);
     } catch (const Interrupted&) {
       result.interrupted = true;
     }
@@ -139,47 +155,86 @@ class Runner {
     }
   }
 
-  void run_case(std::size_t begin, std::size_t end) {
-    throw_if_interrupted();
-    const PlanCase& plan_case = plan_.expanded_cases[runs_[begin].case_index];
-    progress_.begin(begin);
-    const PointSet set =
-        make_point_set(plan_case.dataset, plan_case.holes, static_cast<std::size_t>(plan_case.n), plan_.seed);
-    const LoadedPoints points = {set.sha256, directory_.scratch() / "points.f64", set.points.size()};
-    write_points_file(points.file, set.points);
+  /// The end of the runs of the case that begins at `begin`.
+  std::size_t end_of_case(std::size_t begin) const {
+    std::size_t end = begin;
+    while (end < runs_.size() && runs_[end].case_index == runs_[begin].case_index) ++end;
+    return end;
+  }
 
-    std::vector<Entry> entries;
-    for (std::size_t index = begin; index < end; ++index) {
-      entries.push_back(prepare(index, plan_case, set));
+  /// The cases from run `begin` on that make a batch.
+  std::vector<CaseWork> gather_batch(std::size_t begin) const {
+    std::vector<CaseWork> batch;
+    std::int64_t work = 0;
+    while (begin < runs_.size()) {
+      const std::size_t end = end_of_case(begin);
+      const PlanCase& plan_case = plan_.expanded_cases[runs_[begin].case_index];
+      work += estimated_points(plan_case) * static_cast<std::int64_t>(end - begin) *
+              (plan_.warmup + plan_.repetitions);
+      if (!batch.empty() && work > kBatchWork) break;
+      CaseWork& one = batch.emplace_back();
+      one.plan_case = &plan_case;
+      one.entries.resize(end - begin);
+      for (Entry& entry : one.entries) entry.index = begin++;
     }
-    for (Entry& entry : entries) {
-      if (!entry.done) warm_up(entry, points, set);
+    return batch;
+  }
+
+  /// Measures the cases of one batch and returns the index of the run behind it.
+  std::size_t run_batch(std::size_t begin) {
+    throw_if_interrupted();
+    progress_.begin(begin);
+    std::vector<CaseWork> batch = gather_batch(begin);
+    for_each_in_parallel(batch.size(), options_.cores, [&](std::size_t i) { prepare(batch[i]); });
+    try {
+      for (CaseWork& one : batch) measure(one);
+    } catch (const Interrupted&) {
+      settle(batch);
+      throw;
     }
-    for (int round = 0; round < plan_.repetitions; ++round) run_round(entries, round, points, set);
-    for (Entry& entry : entries) {
-      if (!entry.done) finish(entry);
+    settle(batch);
+    return batch.back().entries.back().index + 1;
+  }
+
+  /// Draws a case's points and chooses its parameters; nothing is asked of a worker, as several cases do this
+  /// at the same time.
+  void prepare(CaseWork& one) const {
+    const PlanCase& plan_case = *one.plan_case;
+    one.set = make_point_set(plan_case.dataset, plan_case.holes, static_cast<std::size_t>(plan_case.n),
+                             plan_.seed, options_.folders);
+    for (Entry& entry : one.entries) {
+      const PlanMethod& method = plan_.methods[runs_[entry.index].method_index];
+      RunRecord& record = entry.record;
+      record.name = runs_[entry.index].name;
+      record.method = method.method;
+      record.dataset = plan_case.dataset;
+      record.dataset_sha256 = one.set.sha256;
+      record.n = static_cast<std::int64_t>(one.set.points.size());
+      record.holes = plan_case.holes;
+      record.seed = plan_.seed;
+      record.protocol = method.protocol;
+      record.parameters = choose_parameters(
+          method, plan_case,
+          {one.set.points, one.set.ground_truth_area, plan_case.holes, one.set.ground_truth});
     }
   }
 
-  /// The run's record as far as it is known before measuring; done when there is nothing to measure.
-  Entry prepare(std::size_t index, const PlanCase& plan_case, const PointSet& set) {
-    const PlanMethod& method = plan_.methods[runs_[index].method_index];
-    Entry entry;
-    entry.index = index;
-    entry.session = sessions_.at(method.method).get();
-    RunRecord& record = entry.record;
-    record.name = runs_[index].name;
-    record.method = method.method;
-    record.dataset = plan_case.dataset;
-    record.dataset_sha256 = set.sha256;
-    record.n = plan_case.n;
-    record.holes = plan_case.holes;
-    record.seed = plan_.seed;
-    record.protocol = method.protocol;
-    record.parameters = choose_parameters(
-        method, plan_case, {set.points, set.ground_truth_area, plan_case.holes, set.ground_truth});
-    complete(entry);
-    return entry;
+  /// Everything that is timed of a case, one worker at a time.
+  void measure(CaseWork& one) {
+    for (Entry& entry : one.entries) {
+      entry.session = sessions_.at(entry.record.method).get();
+      complete(entry);
+    }
+    if (std::all_of(one.entries.begin(), one.entries.end(),
+                    [](const Entry& entry) { return entry.measured; }))
+      return;
+    const LoadedPoints points = {one.set.sha256, directory_.scratch() / "points.f64", one.set.points.size()};
+    write_points_file(points.file, one.set.points);
+    for (Entry& entry : one.entries) {
+      if (!entry.measured) warm_up(entry, points);
+    }
+    for (int round = 0; round < plan_.repetitions; ++round) run_round(one.entries, round, points);
+    for (Entry& entry : one.entries) entry.measured = true;
   }
 
   /// Fills in what the worker's first answer tells, and looks for an earlier start's row and repetitions.
@@ -200,7 +255,8 @@ class Runner {
     // A row of a method that is not there any more is kept: nothing newer can take its place.
     const bool lost = earlier && !info && earlier->status != Status::kNotInstalled;
     if (earlier && (earlier->id == record.id || lost)) {
-      entry.done = true;
+      entry.measured = true;
+      entry.settled = true;
       progress_.finish(entry.index);
     } else if (refusal) {
       fail(entry, Status::kError, *refusal);
@@ -218,19 +274,19 @@ class Runner {
 
   /// The untimed runs. Repetitions of an earlier start call for one at least: their result was scored, but
   /// the scores are gone.
-  void warm_up(Entry& entry, const LoadedPoints& points, const PointSet& set) {
+  void warm_up(Entry& entry, const LoadedPoints& points) {
     const int untimed = std::max(plan_.warmup, entry.repetitions.empty() ? 0 : 1);
-    for (int count = 0; count < untimed && !entry.done; ++count) attempt_run(entry, points, set);
+    for (int count = 0; count < untimed && !entry.measured; ++count) attempt_run(entry, points);
     const auto differs = [&](const Repetition& earlier) {
       return earlier.output_sha256 != entry.record.output_sha256;
     };
-    if (!entry.done && std::any_of(entry.repetitions.begin(), entry.repetitions.end(), differs)) {
+    if (!entry.measured && std::any_of(entry.repetitions.begin(), entry.repetitions.end(), differs)) {
       entry.repetitions.clear();
       fail(entry, Status::kInvalidOutput, "the result is not the one that it gave before the interruption");
     }
   }
 
-  void run_round(std::vector<Entry>& entries, int round, const LoadedPoints& points, const PointSet& set) {
+  void run_round(std::vector<Entry>& entries, int round, const LoadedPoints& points) {
     std::vector<std::size_t> order(entries.size());
     for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
     // Drawn from the case and the round, so that a run that goes on after an interruption keeps its order.
@@ -238,8 +294,8 @@ class Runner {
     for (std::size_t i = order.size(); i > 1; --i) std::swap(order[i - 1], order[random.below(i)]);
     for (const std::size_t which : order) {
       Entry& entry = entries[which];
-      if (entry.done || std::cmp_greater(entry.repetitions.size(), round)) continue;
-      const std::optional<Attempt> attempt = attempt_run(entry, points, set);
+      if (entry.measured || std::cmp_greater(entry.repetitions.size(), round)) continue;
+      const std::optional<Attempt> attempt = attempt_run(entry, points);
       if (!attempt) continue;
       const Repetition repetition = {attempt->time_ns(), attempt->phases_ns, entry.record.output_sha256};
       directory_.append_repetition(entry.record.id, entry.repetitions.size(), repetition);
@@ -247,9 +303,9 @@ class Runner {
     }
   }
 
-  /// One run. The first one's result is scored, and every other one must give it again; without a value when
-  /// the run failed, and the entry is done then.
-  std::optional<Attempt> attempt_run(Entry& entry, const LoadedPoints& points, const PointSet& set) {
+  /// One run. The first one's result is kept to be scored, and every other one must give it again; without a
+  /// value when the run failed, and nothing more is measured of the entry then.
+  std::optional<Attempt> attempt_run(Entry& entry, const LoadedPoints& points) {
     progress_.begin(entry.index);
     Attempt attempt = entry.session->run(points, entry.record.parameters, directory_.scratch(), timeout_);
     if (attempt.status != Status::kOk) {
@@ -259,54 +315,84 @@ class Runner {
     const std::string hash = hash_of(attempt.wkb);
     if (entry.record.output_sha256.empty()) {
       entry.record.output_sha256 = hash;
-      score_result(entry, attempt, set);
+      keep_result(entry, attempt);
     }
-    if (!entry.done && entry.record.output_sha256 != hash) {
+    if (!entry.measured && entry.record.output_sha256 != hash) {
       fail(entry, Status::kInvalidOutput, "two runs on the same points gave different results");
     }
-    if (entry.done) return std::nullopt;
+    if (entry.measured) return std::nullopt;
     progress_.advance(entry.index, attempt.elapsed);
     return attempt;
   }
 
-  void score_result(Entry& entry, const Attempt& attempt, const PointSet& set) {
-    MultiPolygon shape;
+  static void keep_result(Entry& entry, const Attempt& attempt) {
     try {
-      shape = from_wkb(attempt.wkb);
+      entry.result = from_wkb(attempt.wkb);
     } catch (const std::exception& error) {
-      return fail(entry, Status::kInvalidOutput, "the result is no polygon: " + printable(error.what(), 200));
-    }
-    try {
-      const Metrics metrics = score(shape, set.ground_truth);
-      entry.record.metrics = metrics_to_json(metrics);
-      if (metrics.valid) return;
-      // The run is measured all the same: how fast a method gives a wrong answer is part of the record.
-      entry.record.status = Status::kInvalidOutput;
-      entry.record.detail = "the result is an invalid polygon: " + metrics.invalid_reason;
-    } catch (const std::runtime_error& error) {
-      fail(entry, Status::kError, std::string("the result cannot be scored: ") + error.what());
+      fail(entry, Status::kInvalidOutput, "the result is no polygon: " + printable(error.what(), 200));
     }
   }
 
-  void fail(Entry& entry, Status status, const std::string& detail) {
+  static void fail(Entry& entry, Status status, const std::string& detail) {
     entry.record.status = status;
     entry.record.detail = detail;
-    finish(entry);
+    entry.measured = true;
   }
 
-  void finish(Entry& entry) {
+  /// Scores what is measured of a batch and writes its rows.
+  void settle(std::vector<CaseWork>& batch) {
+    std::vector<std::pair<Entry*, const PointSet*>> finished;
+    for (CaseWork& one : batch) {
+      for (Entry& entry : one.entries) {
+        if (entry.measured && !entry.settled) finished.emplace_back(&entry, &one.set);
+      }
+    }
+    for_each_in_parallel(finished.size(), options_.cores,
+                         [&](std::size_t i) { score_result(*finished[i].first, *finished[i].second); });
+    std::vector<RunRecord> rows;
+    for (const auto& [entry, set] : finished) rows.push_back(finished_record(*entry));
+    directory_.append_rows(rows);
+    for (const auto& [entry, set] : finished) {
+      entry->settled = true;
+      const RunRecord& record = entry->record;
+      // Of a method that does not start this was said once already.
+      if (record.status != Status::kOk && entry->session->info()) {
+        progress_.note("hullbench: " + record.name + ": " + to_string(record.status) + ": " + record.detail);
+      }
+      progress_.finish(entry->index);
+    }
+  }
+
+  static void score_result(Entry& entry, const PointSet& set) {
+    if (!entry.result) return;
+    RunRecord& record = entry.record;
+    std::string fault;
+    Status status = Status::kOk;
+    try {
+      const Metrics metrics = score(*entry.result, set.ground_truth);
+      record.metrics = metrics_to_json(metrics);
+      // The run's times stay all the same: how fast a method gives a wrong answer is part of the record.
+      if (!metrics.valid) {
+        status = Status::kInvalidOutput;
+        fault = "the result is an invalid polygon: " + metrics.invalid_reason;
+      }
+    } catch (const std::runtime_error& error) {
+      status = Status::kError;
+      fault = std::string("the result cannot be scored: ") + error.what();
+    }
+    if (record.status == Status::kOk) {
+      record.status = status;
+      record.detail = fault;
+    }
+  }
+
+  static RunRecord finished_record(Entry& entry) {
     RunRecord& record = entry.record;
     for (const Repetition& repetition : entry.repetitions) {
       record.time_ns.push_back(repetition.time_ns);
       record.phases_ns.push_back(repetition.phases_ns);
     }
-    directory_.append_row(record);
-    entry.done = true;
-    // Of a method that does not start this was said once already.
-    if (record.status != Status::kOk && entry.session->info()) {
-      progress_.note("hullbench: " + record.name + ": " + to_string(record.status) + ": " + record.detail);
-    }
-    progress_.finish(entry.index);
+    return record;
   }
 
   const Plan& plan_;
@@ -330,8 +416,8 @@ std::vector<ProgressRun> progress_runs(const Plan& plan, const std::vector<Plann
   std::vector<ProgressRun> result;
   result.reserve(runs.size());
   for (const PlannedRun& run : runs) {
-    result.push_back({run.name, plan.methods[run.method_index].method, plan.expanded_cases[run.case_index].n,
-                      plan.warmup + plan.repetitions});
+    result.push_back({run.name, plan.methods[run.method_index].method,
+                      estimated_points(plan.expanded_cases[run.case_index]), plan.warmup + plan.repetitions});
   }
   return result;
 }

@@ -13,6 +13,7 @@
 #include "benchmarks/record.hpp"
 #include "benchmarks/run_directory.hpp"
 #include "benchmarks/worker_process.hpp"
+#include "datasets/datasets.hpp"
 
 namespace hullbench {
 
@@ -23,6 +24,9 @@ struct RunnerOptions {
   WorkerCommand worker_command;
   WorkerLimits limits;                        ///< for every worker
   std::map<std::string, std::string> titles;  ///< of methods, by name
+  /// Where samples are drawn and results scored, which nobody times: cores as in for_each_in_parallel.
+  std::vector<int> cores = {};
+  DataFolders folders = {};
 };
 
 struct RunResult {
@@ -33,10 +37,12 @@ struct RunResult {
 
 /// Measures `runs` of `plan` into `directory`. `header` is run.json without its methods, which are added.
 ///
-/// Case by case, each method's worker loads the points, does its untimed runs and then takes its turn in
-/// every round of repetitions, in an order drawn from the plan's seed. Only one worker works at a time. The
-/// first result is scored, and every other run must give the same bytes. Rows and repetitions that are there
-/// already are not measured again, unless they belong to another version of the method.
+/// Cases are taken in batches of about a second: their points are drawn on all cores, then they are measured
+/// one after the other with nothing else running, then the results are scored on all cores and the rows
+/// written. Case by case, each method's worker loads the points, does its untimed runs and then takes its
+/// turn in every round of repetitions, in an order drawn from the plan's seed. Only one worker works at a
+/// time. The first result is scored, and every other run must give the same bytes. Rows and repetitions that
+/// are there already are not measured again, unless they belong to another version of the method.
 ///
 /// Throws ConfigurationError when a method that is installed does not have a parameter that the plan gives
 /// it, and std::runtime_error when something cannot be written. An interruption is a result, not an

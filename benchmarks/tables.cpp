@@ -3,14 +3,18 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
 #include <map>
+#include <optional>
 #include <set>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "benchmarks/claims.hpp"
 #include "benchmarks/collection_tables.hpp"
+#include "benchmarks/labels.hpp"
 #include "benchmarks/number_format.hpp"
 #include "benchmarks/report_notes.hpp"
 #include "benchmarks/statistics.hpp"
@@ -21,22 +25,101 @@ namespace {
 
 using nlohmann::json;
 
-void print_shape(TableContext& context, const Shape& shape, std::ostream& out) {
-  const std::array<std::pair<Quantity, const char*>, 3> tables = {
-      {{Quantity::kEqualWork, "time of equal work, ms"},
-       {Quantity::kPaperBoundary, "time as the paper took it, ms"},
-       {Quantity::kError,
+/// "ca_holes"
+std::string shape_id(const Case& which) {
+  return which.dataset + (which.holes ? "_holes" : "");
+}
+
+std::vector<TableSection> shape_tables(TableContext& context, const Shape& shape) {
+  struct Kind {
+    Quantity quantity;
+    const char* id;
+    const char* caption;
+  };
+  constexpr std::array<Kind, 3> kKinds = {
+      {{Quantity::kEqualWork, "time", "time of equal work, ms"},
+       {Quantity::kPaperBoundary, "paper_time", "time as the paper took it, ms"},
+       {Quantity::kError, "error",
         "error L2, % of the ground truth's area (as the paper divides it: of the result's area)"}}};
   const std::vector<Line> lines = lines_of(context, shape);
-  for (const auto& [quantity, caption] : tables) {
-    out << "### " << shape_title(context, shape.front()) << ": " << caption << "\n\n";
+  std::vector<TableSection> sections;
+  for (const Kind& kind : kKinds) {
     std::vector<std::string> header = {"Number of points"};
     for (const Case& which : shape) header.push_back(std::to_string(which.n));
-    TextTable table(std::move(header));
-    for (const Line& line : lines) table.add_row(row(context, line, shape, quantity));
-    table.print(out);
-    out << '\n';
+    TableSection section{shape_id(shape.front()) + "_" + kind.id,
+                         shape_title(context, shape.front()) + ": " + kind.caption,
+                         TextTable(std::move(header)),
+                         {}};
+    for (const Line& line : lines) section.table.add_row(row(context, line, shape, kind.quantity));
+    sections.push_back(std::move(section));
   }
+  return sections;
+}
+
+/// One value of a line on a case: the median of its equal-work times or of its errors; none when it failed.
+std::optional<double> value_of(const TableContext& context, const Line& line, const Case& which,
+                               Quantity quantity) {
+  const auto runs = context.measurements.find(line.method, line.protocol, which);
+  if (runs.empty() || first_failure(runs) != nullptr) return std::nullopt;
+  if (quantity == Quantity::kEqualWork) return median(all_times(runs, Boundary::kEqualWork));
+  const std::vector<double> errors = all_values(runs, "l2");
+  if (errors.empty()) return std::nullopt;
+  return median(std::span<const double>(errors));
+}
+
+/// Median, least and largest of ratios as cells.
+std::vector<std::string> ratio_cells(const std::vector<double>& ratios) {
+  if (ratios.empty()) return {kNothing, kNothing, kNothing};
+  const auto [least, most] = std::minmax_element(ratios.begin(), ratios.end());
+  return {three_digits(median(std::span<const double>(ratios))), three_digits(*least), three_digits(*most)};
+}
+
+/// What the paper's text says of its figure in one table: every method beside Polylidar, and what holes
+/// change.
+std::optional<TableSection> ratio_table(const TableContext& context, const std::vector<Case>& cases) {
+  const Line reference = {paper().at("reference_method").get<std::string>(),
+                          paper().at("protocol").get<std::string>()};
+  const std::vector<Line> lines = lines_of(context, cases);
+  if (std::find(lines.begin(), lines.end(), reference) == lines.end() || lines.size() < 2)
+    return std::nullopt;
+  TableSection section{"ratios",
+                       "All cases together: ratios to " + label(context, reference) +
+                           ", and of the cases with holes to those without",
+                       TextTable({"Method", "Cases", "Time ratio", "least", "most", "L2 ratio", "least",
+                                  "most", "Holes: time", "L2"}),
+                       {}};
+  for (const Line& line : lines) {
+    std::vector<std::string> cells = {label(context, line), ""};
+    std::vector<std::string> holes_cells;
+    std::size_t count = 0;
+    for (const Quantity quantity : {Quantity::kEqualWork, Quantity::kError}) {
+      std::vector<double> to_reference;
+      std::vector<double> to_no_holes;
+      for (const Case& which : cases) {
+        const auto ours = value_of(context, line, which, quantity);
+        const auto divide = [&](const std::optional<double>& by, std::vector<double>& ratios) {
+          if (ours && by && *by > 0) ratios.push_back(*ours / *by);
+        };
+        divide(value_of(context, reference, which, quantity), to_reference);
+        if (which.holes)
+          divide(value_of(context, line, {which.dataset, false, which.n}, quantity), to_no_holes);
+      }
+      count = std::max(count, to_reference.size());
+      const auto ratios = ratio_cells(to_reference);
+      cells.insert(cells.end(), ratios.begin(), ratios.end());
+      holes_cells.push_back(ratio_cells(to_no_holes).front());
+    }
+    cells[1] = std::to_string(count);
+    cells.insert(cells.end(), holes_cells.begin(), holes_cells.end());
+    section.table.add_row(std::move(cells));
+  }
+  section.remarks.emplace_back(
+      "Ratios of the medians of the time of equal work, and of the errors as a part of the ground truth's "
+      "area; of the "
+      "cases the median, the least and the largest. Cases are a shape, with or without holes, at a number of "
+      "points. The "
+      "last two columns: with holes over without, the median.");
+  return section;
 }
 
 bool is_steps_shape(const Case& which) {
@@ -78,37 +161,38 @@ std::vector<std::string> published_steps(const std::string& method) {
 
 /// The steps of the methods on the paper's shape, at the paper's size with the paper's values beside them, or
 /// at the largest size there is without.
-void print_steps(const TableContext& context, std::ostream& out) {
+std::optional<TableSection> steps_table(const TableContext& context) {
   const json& steps = paper().at("steps");
   const Case* chosen = nullptr;
   for (const Case& which : context.measurements.cases()) {
     if (is_steps_shape(which) && (chosen == nullptr || chosen->n != steps.at("n"))) chosen = &which;
   }
-  if (chosen == nullptr) return;
+  if (chosen == nullptr) return std::nullopt;
   const bool comparable = chosen->n == steps.at("n");
   std::vector<std::string> header = {"Method"};
   for (const PaperStep& step : paper_steps()) header.push_back(step.name);
   header.insert(header.end(), {"as the paper took it", "equal work"});
-  TextTable table(std::move(header));
+  TableSection section{
+      kStepsTable,
+      shape_title(context, *chosen) + ", n = " + std::to_string(chosen->n) + ": time of the steps, ms",
+      TextTable(std::move(header)),
+      {}};
   std::set<std::string> compared;
   for (const Line& line : lines_of(context, {*chosen})) {
     std::vector<std::string> ours = measured_steps(context, line, *chosen);
-    if (!ours.empty()) table.add_row(std::move(ours));
+    if (!ours.empty()) section.table.add_row(std::move(ours));
     if (!comparable || line.protocol != paper().at("protocol") || !compared.insert(line.method).second)
       continue;
-    if (auto theirs = published_steps(line.method); !theirs.empty()) table.add_row(std::move(theirs));
+    if (auto theirs = published_steps(line.method); !theirs.empty()) section.table.add_row(std::move(theirs));
   }
-  out << "### " << shape_title(context, *chosen) << ", n = " << chosen->n << ": time of the steps, ms\n\n";
-  table.print(out);
-  out << '\n';
   const std::string where = steps.at("where").get<std::string>();
-  print_item(comparable ? "Medians; the paper's values are from its " + where + ", each the " +
-                              steps.at("statistic").get<std::string>() +
-                              ". A dash: the method does not tell the step."
-                        : "Medians. The paper's " + where + " is for n = " + steps.at("n").dump() +
-                              ", which was not measured here. A dash: the method does not tell the step.",
-             out);
-  out << '\n';
+  section.remarks.push_back(
+      comparable
+          ? "Medians; the paper's values are from its " + where + ", each the " +
+                steps.at("statistic").get<std::string>() + ". A dash: the method does not tell the step."
+          : "Medians. The paper's " + where + " is for n = " + steps.at("n").dump() +
+                ", which was not measured here. A dash: the method does not tell the step.");
+  return section;
 }
 
 std::string holds_text(const json& holds) {
@@ -116,21 +200,31 @@ std::string holds_text(const json& holds) {
   return holds.get<bool>() ? "yes" : "no";
 }
 
-void print_claims(TableContext& context, std::ostream& out) {
-  TextTable table({"Claim", "Paper", "Here", "Equal work", "Holds"});
+std::optional<TableSection> claims_table(TableContext& context) {
+  TableSection section{"claims",
+                       "The paper's claims beside ours",
+                       TextTable({"Claim", "Paper", "Here", "Equal work", "Holds"}),
+                       {}};
+  const json& known = paper().at("claims").at("list");
+  const auto is_about_one_case = [&](const json& id) {
+    return std::any_of(known.begin(), known.end(), [&](const json& claim) {
+      return claim.at("id") == id && claim.at("check").contains("only");
+    });
+  };
   for (const json& claim : context.report.at("summary").at("claims")) {
+    // Of an experiment on one case only the claims about a single case can be judged; the others need its
+    // neighbours.
+    if (context.measurements.cases().size() == 1 && !is_about_one_case(claim.at("id"))) continue;
     const std::string mark = context.notes.mark(claim.at("where").get<std::string>() + ": " +
                                                 claim.at("detail").get<std::string>());
     const json& equal_work = claim.at("equal_work");
-    table.add_row({claim.at("claim").get<std::string>() + " " + mark, claim.at("paper").get<std::string>(),
-                   claim.at("ours").get<std::string>(),
-                   equal_work.is_string() ? equal_work.get<std::string>() : kNothing,
-                   holds_text(claim.at("holds"))});
+    section.table.add_row({claim.at("claim").get<std::string>() + " " + mark,
+                           claim.at("paper").get<std::string>(), claim.at("ours").get<std::string>(),
+                           equal_work.is_string() ? equal_work.get<std::string>() : kNothing,
+                           holds_text(claim.at("holds"))});
   }
-  if (table.empty()) return;
-  out << "### The paper's claims beside ours\n\n";
-  table.print(out);
-  out << '\n';
+  if (section.table.empty()) return std::nullopt;
+  return section;
 }
 
 /// Whether the paper's claims and step times can be put beside this report at all.
@@ -143,24 +237,39 @@ bool is_papers_experiment(const TableContext& context) {
   });
 }
 
+void add(Document& document, std::optional<TableSection> section) {
+  if (section) document.tables.push_back(std::move(*section));
+}
+
+void add_all(Document& document, std::vector<TableSection> sections) {
+  std::move(sections.begin(), sections.end(), std::back_inserter(document.tables));
+}
+
 }  // namespace
 
-void print_tables(const json& report, std::ostream& out) {
+Document make_document(const json& report) {
   TableContext context{report, Measurements(report), {}};
-  out << "## " << report.at("plan").value("title", std::string("Benchmark run")) << "\n\n";
+  Document document;
+  const std::string name = report.at("plan").value("name", std::string("run"));
+  const std::string experiment = report.at("plan").value("paper", std::string());
+  document.title = report.at("plan").value("title", std::string("Benchmark run")) +
+                   (experiment.empty() ? "" : " (the paper's " + experiment + ")");
   const std::vector<Shape> all_shapes = shapes(context.measurements.cases());
   if (is_collection(all_shapes)) {
-    print_collection(context, all_shapes, out);
-  } else {
-    for (const Shape& shape : all_shapes) print_shape(context, shape, out);
+    add_all(document, collection_tables(context, all_shapes));
+  } else if (context.measurements.cases().size() > 1) {
+    for (const Shape& shape : all_shapes) add_all(document, shape_tables(context, shape));
+    add(document, ratio_table(context, context.measurements.cases()));
   }
   if (is_papers_experiment(context)) {
-    print_steps(context, out);
-    print_claims(context, out);
+    add(document, steps_table(context));
+    add(document, claims_table(context));
   }
-  out << "### Notes\n\n";
-  context.notes.print(out);
-  print_report_notes(report, context.measurements.runs(), out);
+  for (TableSection& section : document.tables) section.id = name + "_" + section.id;
+  document.notes = context.notes.marked();
+  for (auto& note : run_notes(report, context.measurements.runs())) document.notes.push_back(std::move(note));
+  document.common_notes = common_notes(report, context.measurements.runs());
+  return document;
 }
 
 }  // namespace hullbench

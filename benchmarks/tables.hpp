@@ -1,15 +1,20 @@
-// A report as tables: Markdown that reads as well in a terminal.
+// The tables of a report.
 #pragma once
 
 #include <nlohmann/json.hpp>
-#include <ostream>
+
+#include "benchmarks/document.hpp"
 
 namespace hullbench {
 
-/// Prints the tables of `report` (as made by make_report): for every data set, with and without holes, time
-/// of equal work, time within the paper's boundary, and error, methods by numbers of points; then the time of
-/// the steps, the paper's claims beside ours, and the notes. Which methods, data sets and sizes there are is
-/// read from the report.
-void print_tables(const nlohmann::json& report, std::ostream& out);
+/// What a steps table is called after the plan's name: "states_steps".
+inline constexpr const char* kStepsTable = "steps";
+
+/// The tables of `report` (as made by make_report). Of many shapes at one size those of
+/// collection_tables.hpp. Else for every data set, with and without holes, time of equal work, time within
+/// the paper's boundary, and error, methods by numbers of points, and the ratios over all of them. Then, of
+/// the paper's own shapes, the time of the steps and the paper's claims beside ours. Which methods, data sets
+/// and sizes there are is read from the report. A table's id begins with the plan's name.
+Document make_document(const nlohmann::json& report);
 
 }  // namespace hullbench

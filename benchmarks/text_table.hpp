@@ -1,4 +1,4 @@
-// A Markdown table whose columns line up in a terminal, and its numbered notes.
+// A table of text, and the numbered notes of one.
 #pragma once
 
 #include <cstddef>
@@ -16,13 +16,14 @@ std::size_t display_width(std::string_view text);
 class TextTable {
  public:
   explicit TextTable(std::vector<std::string> header);
-  /// `cells` has one text a column, else std::invalid_argument. A "|" in it is escaped.
+  /// `cells` has one text a column, else std::invalid_argument. A line break in it becomes a blank.
   void add_row(std::vector<std::string> cells);
   bool empty() const { return rows_.size() == 1; }
-  void print(std::ostream& out) const;
+  /// By row, then column; the first row is the header.
+  const std::vector<std::vector<std::string>>& rows() const { return rows_; }
 
  private:
-  std::vector<std::vector<std::string>> rows_;  ///< by row, then column; the first row is the header
+  std::vector<std::vector<std::string>> rows_;
 };
 
 /// Notes, numbered from 1 in the order in which they were first needed.
@@ -30,13 +31,11 @@ class Notes {
  public:
   /// The mark of `text`, such as "[2]"; the same text has the same mark.
   std::string mark(const std::string& text);
-  void print(std::ostream& out) const;
+  /// Each with its mark before it.
+  std::vector<std::string> marked() const;
 
  private:
   std::vector<std::string> texts_;
 };
-
-/// Prints `text` as a Markdown list item, broken between words so that no line is longer than 118 columns.
-void print_item(std::string_view text, std::ostream& out);
 
 }  // namespace hullbench

@@ -1,10 +1,17 @@
-// The catalogue of data sets: by name, a shape and point samples of it.
+// The catalogue of data sets: by name, a shape and points of it.
+//
+// A data set is one shape from a file ("ca"), or a family whose members are shapes of one kind, numbered from
+// 1
+// ("star-1" ... "star-9800"). Points are drawn from the shape, as many as are asked for, or come with it, as
+// those of the floors do.
 #pragma once
 
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "datasets/shapes.hpp"
@@ -12,16 +19,35 @@
 
 namespace hullbench {
 
+/// Where data sets are read from.
+struct DataFolders {
+  DataFolders(std::filesystem::path shape_folder = default_data_directory(),
+              std::filesystem::path recording_folder = {})
+      : shapes(std::move(shape_folder)), recordings(std::move(recording_folder)) {}
+
+  std::filesystem::path shapes;      ///< with the manifest; see shapes.hpp
+  std::filesystem::path recordings;  ///< of real floors, see rgbd/recordings.hpp; empty: there are none
+};
+
 /// A data set as `hullbench list` shows it.
 struct DatasetInfo {
-  std::string name;    ///< as in plans and records: "ca"
-  std::string title;   ///< as printed in tables: "California"
+  std::string name;    ///< as in plans and records: "ca", "star"
+  std::string title;   ///< as printed in tables: "California"; of one member
   std::string source;  ///< who made the data
   std::string licence;
-  std::string sha256;  ///< of the shape's file, lower-case hex
-  double area = 0;     ///< of the shape without holes, squared units of the points
+  std::string sha256;          ///< of the shape's file, lower-case hex; empty when there is no single file
+  std::optional<double> area;  ///< of the shape without holes, squared units of the points; none: a family
   bool has_holes_variant = false;
+  std::size_t members = 0;  ///< of a family; 0: one shape
+  bool own_points = false;  ///< the points come with the shape: no number of them can be asked for
 };
+
+/// The families of floors: simulated, and recorded where there is a folder of recordings.
+inline constexpr const char* kSimulatedFloor = "floor";
+inline constexpr const char* kRecordedFloor = "recorded";
+
+/// The family and the number (from 1) in a member's name: {"star", 17} of "star-17"; none for other names.
+std::optional<std::pair<std::string, std::size_t>> split_member_name(const std::string& name);
 
 /// Points and what they came from.
 struct PointSet {
@@ -31,20 +57,26 @@ struct PointSet {
   std::string sha256;  ///< of point_bytes(points), lower-case hex: the record's dataset_sha256
 };
 
-/// Every data set of `data_directory`, in the order of its manifest. Throws as read_manifest.
-std::vector<DatasetInfo> datasets(const std::filesystem::path& data_directory = default_data_directory());
+/// Every data set: the shapes in the order of the manifest, then the families. Throws as read_manifest.
+std::vector<DatasetInfo> datasets(const DataFolders& folders = {});
+
+/// The entry of `infos` that `name` belongs to: of that name, or the family it is a member of; null when
+/// there is none, for a family's own name, and for a number that the family has not.
+const DatasetInfo* find_dataset(const std::vector<DatasetInfo>& infos, const std::string& name);
 
 /// The ground truth of data set `name`; `holes`: of its variant with holes, which is one fixed shape (its
-/// seed is in the manifest). Throws std::invalid_argument, listing the known names, when there is no such
-/// data set or it has no such variant; otherwise as load_shape and with_circular_holes.
-polylidar::MultiPolygon make_ground_truth(
-    const std::string& name, bool holes,
-    const std::filesystem::path& data_directory = default_data_directory());
+/// seed is in the manifest or the family). Throws std::invalid_argument, listing the known names, when there
+/// is no such data set or it has no such variant; otherwise as load_shape, with_circular_holes and
+/// load_recording.
+polylidar::MultiPolygon make_ground_truth(const std::string& name, bool holes,
+                                          const DataFolders& folders = {});
 
 /// `n` points uniform in that ground truth, with everything a run needs to know about them. Every combination
 /// of name, holes, n and seed has a stream of random numbers of its own, so samples of different sizes are
-/// independent. Throws as make_ground_truth and sample_uniform.
+/// independent. With n = 0 the data set's own points (own_points), where `seed` is that of the sensor's
+/// noise. Throws as make_ground_truth and sample_uniform, and std::invalid_argument for n = 0 where points
+/// have to be drawn and for another n where they come with the shape.
 PointSet make_point_set(const std::string& name, bool holes, std::size_t n, std::uint64_t seed,
-                        const std::filesystem::path& data_directory = default_data_directory());
+                        const DataFolders& folders = {});
 
 }  // namespace hullbench

@@ -56,7 +56,7 @@ json* run_of(json& report, const std::string& method, const std::string& dataset
 // With single spaces, whatever the columns' widths.
 std::string tables(const json& report) {
   std::ostringstream out;
-  print_tables(report, out);
+  print_markdown(make_document(report), out);
   return std::regex_replace(out.str(), std::regex(" +"), " ");
 }
 

@@ -265,7 +265,8 @@ TEST_F(CommandLineTest, ListKnowsEveryMethodAndDataSet) {
   const json listing = json::parse(outcome.out);
   std::map<std::string, json> methods;
   for (const json& method : listing["methods"]) methods[method["name"]] = method;
-  for (const char* name : {"polylidar", "cgal_alpha_shape", "spatialite", "postgis", "postgis_legacy"}) {
+  for (const char* name : {"polylidar", "cgal_alpha_shape", "spatialite", "spatialite_steps", "postgis",
+                           "postgis_legacy", "postgis_steps"}) {
     ASSERT_TRUE(methods.contains(name)) << name;
   }
   EXPECT_TRUE(methods["polylidar"]["installed"].get<bool>());

@@ -143,7 +143,8 @@ TEST(Plan, WrongPlansAreRefusedWithTheirPlace) {
       {"/seed", -1, "seed must be a whole number from 0 to 2^64 - 1"},
       {"/cases", json::array(), "cases must be a list with at least one element"},
       {"/cases/0", 5, "cases[0] must be an object"},
-      {"/cases/0/size", 5, "cases[0].size is not a key that is known here; known are dataset, holes and n"},
+      {"/cases/0/size", 5,
+       "cases[0].size is not a key that is known here; known are dataset, members, holes and n"},
       {"/cases/0/n", 500, "cases[0].n must be a list"},
       {"/cases/0/n/1", 2, "cases[0].n[1] must be a whole number from 3"},
       {"/cases/0/n/1", 500, "cases[0].n[1] is there twice"},
@@ -166,7 +167,7 @@ TEST(Plan, WrongPlansAreRefusedWithTheirPlace) {
        "methods[0].protocol must be one of paper, default, auto, tuned and oracle, not 'best'"},
       {"/methods/0/protocol", "auto",
        "methods[0].parameters.alpha.rule names the rule 'paper_alpha', which reads the ground truth"},
-      {"/methods/0/datasets", {"mars"}, "names the data set 'mars'"},
+      {"/methods/0/datasets", {"mars"}, "keep to the data set 'mars', of which it has no case"},
       {"/methods/0/parameters/alpha", "big",
        "methods[0].parameters.alpha must be a number or an object with the key"},
       {"/methods/0/parameters/alpha/rule", "mine", "names the unknown rule 'mine'; known are paper_alpha"},
@@ -235,7 +236,7 @@ TEST(Plan, EveryReadyPlanIsGood) {
     EXPECT_NO_THROW(check_plan(plan, methods, datasets()));
     ++count;
   }
-  EXPECT_GE(count, 2);
+  EXPECT_GE(count, 3);
 }
 
 TEST(Plan, StatesIsThePapersExperiment) {
@@ -249,6 +250,15 @@ TEST(Plan, StatesIsThePapersExperiment) {
   EXPECT_EQ(count("^postgis_legacy/hi/"), 0U);
   EXPECT_EQ(count("^postgis/.*protocol:auto"), 24U);
   EXPECT_EQ(count("^postgis/.*protocol:paper"), 0U);
+}
+
+TEST(Plan, StepsIsThePapersExperiment) {
+  const Plan plan = load_plan("steps", HULLBENCH_PLAN_FOLDER);
+  EXPECT_EQ(plan.repetitions, 30);
+  ASSERT_EQ(plan.expanded_cases.size(), 1U);
+  EXPECT_EQ(plan.expanded_cases[0].n, 64000);
+  EXPECT_EQ(planned_runs(plan, "/ca/n:64000/holes:1/").size(), 6U);
+  EXPECT_EQ(planned_runs(plan, "^(spatialite|postgis)_steps/.*protocol:paper").size(), 2U);
 }
 
 TEST(Plan, AlphabetIsThePapersExperiment) {

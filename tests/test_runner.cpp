@@ -78,7 +78,7 @@ class RunnerTest : public ::testing::Test {
     const auto directory = open_run_directory(header, {folder_.path() / "run", false, folder_.path()});
     const auto runs = planned_runs(plan, "");
     std::ostringstream progress_text;
-    Progress progress(progress_text, false, 80, progress_runs(plan, runs));
+    Progress progress(progress_text, false, 80, {{"test", progress_runs(plan, runs)}});
     const RunResult result =
         run_plan(plan, runs, header, {command, {plan.mem_limit_mib, std::nullopt}, {}}, *directory, progress);
     said_ = progress_text.str();
@@ -431,7 +431,7 @@ TEST(ExitCode, SaysWhatHappened) {
 TEST(Progress, EstimatesFromTheTimesSoFar) {
   std::ostringstream out;
   // Two runs of one method, the second one with twice the points, three units each.
-  Progress progress(out, false, 80, {{"a", "m", 100, 3}, {"b", "m", 200, 3}});
+  Progress progress(out, false, 80, {{"one", {{"a", "m", 100, 3}, {"b", "m", 200, 3}}}});
   EXPECT_LT(progress.seconds_left(), 0);
   progress.begin(0);
   progress.advance(0, std::chrono::seconds(1));

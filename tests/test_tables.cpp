@@ -28,7 +28,7 @@ json invented_report(const std::vector<std::int64_t>& sizes) {
 
 std::string tables(const json& report) {
   std::ostringstream out;
-  print_tables(report, out);
+  print_markdown(make_document(report), out);
   return out.str();
 }
 
@@ -156,7 +156,7 @@ TEST(TextTable, ColumnsLineUpAndBarsAreEscaped) {
   table.add_row({"±é", "1"});
   table.add_row({"x\ny", "12345"});
   std::ostringstream out;
-  table.print(out);
+  print_markdown(table, out);
   EXPECT_EQ(out.str(),
             "| name |  a\\|b |\n"
             "|------|------:|\n"
@@ -170,9 +170,7 @@ TEST(TextTable, SameNoteHasTheSameMark) {
   EXPECT_EQ(notes.mark("first"), "[1]");
   EXPECT_EQ(notes.mark("second"), "[2]");
   EXPECT_EQ(notes.mark("first"), "[1]");
-  std::ostringstream out;
-  notes.print(out);
-  EXPECT_EQ(out.str(), "- [1] first\n- [2] second\n");
+  EXPECT_EQ(notes.marked(), (std::vector<std::string>{"[1] first", "[2] second"}));
 }
 
 TEST(TextTable, LongItemsAreBrokenBetweenWords) {

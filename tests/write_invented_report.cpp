@@ -22,6 +22,6 @@ int main(int argc, char** argv) {
   hullbench::test::write_invented_run(directory, sizes);
   const nlohmann::json report = hullbench::make_report(directory);
   hullbench::write_json_file(file, report);
-  hullbench::print_tables(report, std::cout);
+  hullbench::print_markdown(hullbench::make_document(report), std::cout);
   return 0;
 }

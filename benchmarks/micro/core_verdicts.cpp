@@ -8,6 +8,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "benchmarks/document.hpp"
 #include "benchmarks/number_format.hpp"
 #include "benchmarks/statistics.hpp"
 #include "benchmarks/text_table.hpp"
@@ -279,7 +280,7 @@ void print_verdicts(const std::vector<VerdictLine>& lines, std::ostream& out) {
     table.add_row(
         {line.what, line.value ? three_digits(*line.value) : "", spread, line.goal, verdict_text(line)});
   }
-  table.print(out);
+  print_markdown(table, out);
   out << "\n"
       << count(lines, Verdict::kMet) << " goals met, " << count(lines, Verdict::kMissed) << " missed, "
       << count(lines, Verdict::kUndecided) << " undecided, " << count(lines, Verdict::kNotMeasured)
@@ -297,7 +298,7 @@ void print_measurements(const Measurements& measurements, std::ostream& out) {
                    three_digits(middle / points_of(benchmark)),
                    measured.peak_bytes ? three_digits(*measured.peak_bytes) : ""});
   }
-  if (!table.empty()) table.print(out);
+  if (!table.empty()) print_markdown(table, out);
 }
 
 double points_of(const std::string& benchmark) {

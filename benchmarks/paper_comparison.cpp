@@ -1,0 +1,148 @@
+#include "benchmarks/paper_comparison.hpp"
+
+#include <algorithm>
+
+#include "benchmarks/claims.hpp"
+#include "benchmarks/collection_tables.hpp"
+#include "benchmarks/group_values.hpp"
+#include "benchmarks/number_format.hpp"
+#include "benchmarks/statistics.hpp"
+#include "benchmarks/table_context.hpp"
+
+namespace hullbench {
+namespace {
+
+using nlohmann::json;
+
+constexpr const char* kError = "error";
+constexpr const char* kTime = "time";
+
+void compare_groups(const TableContext& context, std::vector<Comparison>& comparisons) {
+  const std::vector<Shape> all_shapes = shapes(context.measurements.cases());
+  for (const CaseGroup& group : published_groups(context, all_shapes)) {
+    for (const Line& line : lines_of(context, group.cases)) {
+      const json theirs = published_values(group, line);
+      const GroupValues ours = group_values(context, line, group.cases);
+      if (theirs.is_null() || !ours.error || !ours.time) continue;
+      const bool one_row = group.published.contains("where");
+      const json& where = (one_row ? group.published : paper().at("convexity_classes")).at("where");
+      const Comparison base = {where.get<std::string>(), one_row ? "" : group.title, line.method, "", 0, 0};
+      comparisons.push_back(base);
+      comparisons.back().quantity = kError;
+      comparisons.back().published = theirs.at("l2_percent").at(0).get<double>();
+      comparisons.back().measured = 100 * ours.error->mean;
+      comparisons.push_back(base);
+      comparisons.back().quantity = kTime;
+      comparisons.back().published = theirs.at("milliseconds").at(0).get<double>();
+      comparisons.back().measured = ours.time->mean;
+    }
+  }
+}
+
+/// Median milliseconds of a step, or of the whole within the paper's boundary, of a method on the paper's
+/// case.
+std::optional<double> step_time(const TableContext& context, const std::string& method, const Case& which,
+                                const PaperStep* step) {
+  const auto runs = context.measurements.find(method, paper().at("protocol").get<std::string>(), which);
+  if (runs.empty() || first_failure(runs) != nullptr) return std::nullopt;
+  std::vector<std::int64_t> values;
+  for (const RunRecord* run : runs) {
+    const auto of_run = step == nullptr ? times(*run, Boundary::kPaper) : step_times(*run, step->parts);
+    values.insert(values.end(), of_run.begin(), of_run.end());
+  }
+  if (values.empty()) return std::nullopt;
+  return median(values) / 1e6;
+}
+
+void compare_steps(const TableContext& context, std::vector<Comparison>& comparisons) {
+  const json& steps = paper().at("steps");
+  const Case which = {steps.at("dataset").get<std::string>(), steps.at("holes").get<bool>(),
+                      steps.at("n").get<std::int64_t>()};
+  const auto& cases = context.measurements.cases();
+  // A run of many cases has the paper's one by the way; its figures are those of the experiment on this case
+  // alone.
+  if (cases.size() != 1 || cases.front() != which) return;
+  for (const auto& [method, published] : steps.at("milliseconds").items()) {
+    const std::string teller = steps.at("told_by").value(method, method);
+    const auto compare = [&](const std::string& quantity, const std::string& measured_method,
+                             const PaperStep* step, const json& theirs) {
+      const auto ours = step_time(context, measured_method, which, step);
+      if (!ours || !theirs.is_number()) return;
+      comparisons.push_back(
+          {steps.at("where").get<std::string>(), "", measured_method, quantity, theirs.get<double>(), *ours});
+    };
+    for (const PaperStep& step : paper_steps()) compare(step.name, teller, &step, published.at(step.name));
+    compare(kTime, method, nullptr, published.at("total"));
+  }
+}
+
+std::string value_text(const json& report, const Comparison& comparison) {
+  std::string text = comparison.where + ", ";
+  if (!comparison.row.empty()) text += comparison.row + ", ";
+  for (const json& method : report.at("methods")) {
+    if (method.at("name") == comparison.method) text += method.at("title").get<std::string>() + ": ";
+  }
+  if (comparison.quantity == kError) return text + "L2 mean, %";
+  if (comparison.quantity == kTime) return text + "time, ms";
+  return text + comparison.quantity + ", ms";
+}
+
+}  // namespace
+
+bool Comparison::is_large() const {
+  const double limit = paper().at("differences").at("large_from").get<double>();
+  return ratio() >= limit || ratio() <= 1 / limit;
+}
+
+std::vector<Comparison> compare_with_paper(const json& report) {
+  const TableContext context{report, Measurements(report), {}};
+  std::vector<Comparison> comparisons;
+  compare_groups(context, comparisons);
+  compare_steps(context, comparisons);
+  return comparisons;
+}
+
+std::optional<std::string> reason_of(const Comparison& comparison) {
+  for (const json& reason : paper().at("differences").at("reasons")) {
+    const auto matches = [&](const char* key, const std::string& value) {
+      if (!reason.contains(key)) return true;
+      const json& wanted = reason.at(key);
+      return wanted.is_array() ? std::find(wanted.begin(), wanted.end(), value) != wanted.end()
+                               : wanted == value;
+    };
+    const bool direction =
+        !reason.contains("we_are") || (reason.at("we_are") == "lower") == (comparison.ratio() < 1);
+    if (direction && matches("where", comparison.where) && matches("method", comparison.method) &&
+        matches("quantity", comparison.quantity)) {
+      return reason.at("reason").get<std::string>();
+    }
+  }
+  return std::nullopt;
+}
+
+TableSection differences_table(const std::vector<json>& reports) {
+  TableSection section{"differences",
+                       "What differs from the paper and why",
+                       TextTable({"Value", "Paper", "Here", "Here / paper", "Reason"}),
+                       {}};
+  Notes reasons;
+  for (const json& report : reports) {
+    for (const Comparison& comparison : compare_with_paper(report)) {
+      std::string why = "–";
+      if (comparison.is_large()) {
+        const auto reason = reason_of(comparison);
+        why = reason ? reasons.mark(*reason) : "not known";
+      }
+      section.table.add_row({value_text(report, comparison), fixed(comparison.published, 1),
+                             three_digits(comparison.measured), three_digits(comparison.ratio()), why});
+    }
+  }
+  const json& limit = paper().at("differences").at("large_from");
+  section.remarks.push_back("Times are as the paper took them. A reason stands where a value is " +
+                            limit.dump() + " times the paper's or more, or the paper's is " + limit.dump() +
+                            " times ours or more.");
+  for (std::string& reason : reasons.marked()) section.remarks.push_back(std::move(reason));
+  return section;
+}
+
+}  // namespace hullbench

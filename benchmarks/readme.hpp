@@ -1,0 +1,18 @@
+// The results in the README: tables of a reference run between two marks.
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+namespace hullbench {
+
+/// What stands between the marks: where the numbers are from, the tables that a reader wants first, and the
+/// notes. `folder`: how the README calls the run's folder.
+std::string readme_results(const std::vector<nlohmann::json>& reports, const std::string& folder);
+
+/// `readme` with `results` between its marks <!-- results: begin --> and <!-- results: end -->. Throws
+/// std::runtime_error when it has not both, each once, in this order.
+std::string with_results(const std::string& readme, const std::string& results);
+
+}  // namespace hullbench

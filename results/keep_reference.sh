@@ -1,0 +1,30 @@
+#!/bin/bash
+# keep_reference.sh RUN: keeps the finished suite in the folder RUN as the reference run, in results/<date>-<machine>
+# with its records compressed; results/reference points to it. An older reference run is removed.
+set -euo pipefail
+
+run=$1
+cd "$(dirname "$0")/.."
+if [ ! -f "$run/suite.json" ] || [ ! -f "$run/tables.md" ]; then
+  echo "error: $run is not a finished 'make bench'; run that first." >&2
+  exit 2
+fi
+
+first=$(sed -n 's/^ *"created": "\([^"]*\)".*/\1/p' "$run/suite.json" | head -n 1)
+machine=$(grep -h -m 1 -o '"machine_id": "[0-9a-f]*"' "$run"/*/run.json | head -n 1 | cut -d '"' -f 4)
+kept=results/${first%%T*}-$machine
+
+old=$(readlink results/reference || true)
+[ -z "$old" ] || rm -rf "results/${old:?}"
+rm -rf "$kept"
+mkdir "$kept"
+cp "$run/suite.json" "$run/tables.md" "$kept"
+cp -r "$run/tables" "$kept"
+for description in "$run"/*/run.json; do
+  experiment=$(basename "$(dirname "$description")")
+  mkdir "$kept/$experiment"
+  cp "$description" "$kept/$experiment"
+  xz -9e --stdout "$run/$experiment/runs.jsonl" >"$kept/$experiment/runs.jsonl.xz"
+done
+ln -sfn "$(basename "$kept")" results/reference
+echo "==> kept $run as $kept ($(du -sh "$kept" | cut -f 1))"
