@@ -96,12 +96,42 @@ std::string group_failure_marks(TableContext& context, const Line& line, const s
   return marks;
 }
 
+std::vector<CaseGroup> family_groups(const TableContext& context, const std::vector<Case>& cases) {
+  std::vector<CaseGroup> groups;
+  for (const Case& which : cases) {
+    const std::string title = family_title(context.report, which.dataset);
+    const auto found = std::find_if(groups.begin(), groups.end(),
+                                    [&](const CaseGroup& group) { return group.title == title; });
+    if (found == groups.end()) {
+      groups.push_back({title, {which}, json()});
+    } else {
+      found->cases.push_back(which);
+    }
+  }
+  return groups;
+}
+
+/// "comb, spiral and walk": the groups' titles in small letters.
+std::string kinds_text(const std::vector<CaseGroup>& groups) {
+  std::string text;
+  for (std::size_t i = 0; i < groups.size(); ++i) {
+    std::string title = groups[i].title;
+    if (!title.empty() && title[0] >= 'A' && title[0] <= 'Z')
+      title[0] = static_cast<char>(title[0] - 'A' + 'a');
+    text += (i == 0 ? "" : (i + 1 == groups.size() ? " and " : ", ")) + title;
+  }
+  return text;
+}
+
 TableSection summary_table(TableContext& context, const std::vector<Line>& lines,
                            const std::vector<Case>& cases, const json& published) {
   std::vector<std::string> header = {"Method", "Shapes"};
   append(header, kValueColumns);
   TableSection section{"summary", "", TextTable(std::move(header)), {}};
-  section.caption = std::to_string(cases.size()) + " shapes, " + size_text(cases) +
+  const std::vector<CaseGroup> kinds = family_groups(context, cases);
+  // Shapes that are no family have each a title of its own.
+  const std::string kind = kinds.size() < cases.size() ? " (" + kinds_text(kinds) + ")" : "";
+  section.caption = std::to_string(cases.size()) + " shapes" + kind + ", " + size_text(cases) +
                     ": error (of the result's area) and time as the paper took them";
   for (const Line& line : lines) {
     const GroupValues values = group_values(context, line, cases);
@@ -196,21 +226,6 @@ std::vector<CaseGroup> convexity_groups(const TableContext& context, const std::
   return groups;
 }
 
-std::vector<CaseGroup> family_groups(const TableContext& context, const std::vector<Case>& cases) {
-  std::vector<CaseGroup> groups;
-  for (const Case& which : cases) {
-    const std::string title = family_title(context.report, which.dataset);
-    const auto found = std::find_if(groups.begin(), groups.end(),
-                                    [&](const CaseGroup& group) { return group.title == title; });
-    if (found == groups.end()) {
-      groups.push_back({title, {which}, json()});
-    } else {
-      found->cases.push_back(which);
-    }
-  }
-  return groups;
-}
-
 TableSection group_table(TableContext& context, const std::string& id, const std::string& caption,
                          const std::string& first_column, const std::vector<CaseGroup>& groups) {
   std::vector<std::string> header = {first_column, "Method", "Shapes", "Invalid"};
@@ -250,18 +265,6 @@ void say_validity(const TableContext& context, const std::vector<Case>& cases, T
         label(context, line) + ": of " + std::to_string(values.measured + values.invalid) +
         " results, each checked by GEOS, " + std::to_string(values.invalid) + " are invalid.");
   }
-}
-
-/// "comb, spiral and walk": the groups' titles in small letters.
-std::string kinds_text(const std::vector<CaseGroup>& groups) {
-  std::string text;
-  for (std::size_t i = 0; i < groups.size(); ++i) {
-    std::string title = groups[i].title;
-    if (!title.empty() && title[0] >= 'A' && title[0] <= 'Z')
-      title[0] = static_cast<char>(title[0] - 'A' + 'a');
-    text += (i == 0 ? "" : (i + 1 == groups.size() ? " and " : ", ")) + title;
-  }
-  return text;
 }
 
 std::vector<TableSection> class_tables(TableContext& context, const std::vector<Case>& cases) {

@@ -117,12 +117,12 @@ void print_markdown(const TextTable& table, std::ostream& out) {
     for (std::size_t column = 0; column < columns; ++column) {
       const std::string& cell = rows[row][column];
       const std::string padding(widths[column] - display_width(cell), ' ');
-      out << "| " << (column == 0 ? cell + padding : padding + cell) << ' ';
+      out << "| " << (table.is_left(column) ? cell + padding : padding + cell) << ' ';
     }
     out << "|\n";
     if (row != 0) continue;
     for (std::size_t column = 0; column < columns; ++column) {
-      out << '|' << std::string(widths[column] + 1, '-') << (column == 0 ? '-' : ':');
+      out << '|' << std::string(widths[column] + 1, '-') << (table.is_left(column) ? '-' : ':');
     }
     out << "|\n";
   }
@@ -182,10 +182,13 @@ std::string to_csv(const TextTable& table) {
 
 std::string to_latex(const TableSection& section) {
   const auto& rows = section.table.rows();
+  std::string alignment;
+  for (std::size_t column = 0; column < rows.front().size(); ++column) {
+    alignment += section.table.is_left(column) ? 'l' : 'r';
+  }
   std::string text = "% needs \\usepackage{booktabs}\n\\begin{table}\n  \\centering\n  \\caption{" +
                      latex_text(section.caption) + "}\n  \\label{tab:" + section.id +
-                     "}\n  \\begin{tabular}{l" + std::string(rows.front().size() - 1, 'r') +
-                     "}\n    \\toprule\n";
+                     "}\n  \\begin{tabular}{" + alignment + "}\n    \\toprule\n";
   for (std::size_t row = 0; row < rows.size(); ++row) {
     std::string line;
     for (std::size_t column = 0; column < rows[row].size(); ++column) {

@@ -22,19 +22,20 @@ void compare_groups(const TableContext& context, std::vector<Comparison>& compar
   for (const CaseGroup& group : published_groups(context, all_shapes)) {
     for (const Line& line : lines_of(context, group.cases)) {
       const json theirs = published_values(group, line);
+      if (theirs.is_null()) continue;
       const GroupValues ours = group_values(context, line, group.cases);
-      if (theirs.is_null() || !ours.error || !ours.time) continue;
       const bool one_row = group.published.contains("where");
       const json& where = (one_row ? group.published : paper().at("convexity_classes")).at("where");
-      const Comparison base = {where.get<std::string>(), one_row ? "" : group.title, line.method, "", 0, 0};
-      comparisons.push_back(base);
-      comparisons.back().quantity = kError;
-      comparisons.back().published = theirs.at("l2_percent").at(0).get<double>();
-      comparisons.back().measured = 100 * ours.error->mean;
-      comparisons.push_back(base);
-      comparisons.back().quantity = kTime;
-      comparisons.back().published = theirs.at("milliseconds").at(0).get<double>();
-      comparisons.back().measured = ours.time->mean;
+      Comparison comparison = {where.get<std::string>(), one_row ? "" : group.title, line.method, "", 0, {}};
+      comparison.quantity = kError;
+      comparison.published = theirs.at("l2_percent").at(0).get<double>();
+      if (ours.error) comparison.measured = 100 * ours.error->mean;
+      comparisons.push_back(comparison);
+      comparison.quantity = kTime;
+      comparison.published = theirs.at("milliseconds").at(0).get<double>();
+      comparison.measured.reset();
+      if (ours.time) comparison.measured = ours.time->mean;
+      comparisons.push_back(comparison);
     }
   }
 }
@@ -66,10 +67,10 @@ void compare_steps(const TableContext& context, std::vector<Comparison>& compari
     const std::string teller = steps.at("told_by").value(method, method);
     const auto compare = [&](const std::string& quantity, const std::string& measured_method,
                              const PaperStep* step, const json& theirs) {
+      if (!theirs.is_number()) return;
       const auto ours = step_time(context, measured_method, which, step);
-      if (!ours || !theirs.is_number()) return;
       comparisons.push_back(
-          {steps.at("where").get<std::string>(), "", measured_method, quantity, theirs.get<double>(), *ours});
+          {steps.at("where").get<std::string>(), "", measured_method, quantity, theirs.get<double>(), ours});
     };
     for (const PaperStep& step : paper_steps()) compare(step.name, teller, &step, published.at(step.name));
     compare(kTime, method, nullptr, published.at("total"));
@@ -128,19 +129,23 @@ TableSection differences_table(const std::vector<json>& reports) {
   Notes reasons;
   for (const json& report : reports) {
     for (const Comparison& comparison : compare_with_paper(report)) {
-      std::string why = "–";
+      std::string why = kNothing;
       if (comparison.is_large()) {
         const auto reason = reason_of(comparison);
         why = reason ? reasons.mark(*reason) : "not known";
       }
+      const bool measured = comparison.measured.has_value();
       section.table.add_row({value_text(report, comparison), fixed(comparison.published, 1),
-                             three_digits(comparison.measured), three_digits(comparison.ratio()), why});
+                             measured ? three_digits(*comparison.measured) : kNothing,
+                             measured ? three_digits(comparison.ratio()) : kNothing, why});
     }
   }
   const json& limit = paper().at("differences").at("large_from");
-  section.remarks.push_back("Times are as the paper took them. A reason stands where a value is " +
-                            limit.dump() + " times the paper's or more, or the paper's is " + limit.dump() +
-                            " times ours or more.");
+  section.remarks.push_back(
+      "Times are as the paper took them. A reason stands where a value is " + limit.dump() +
+      " times the paper's or more, or the paper's is " + limit.dump() +
+      " times ours or more, and where nothing was measured. The paper's Figure 8 has no numbers to "
+      "compare; what its text says of it is among the claims.");
   for (std::string& reason : reasons.marked()) section.remarks.push_back(std::move(reason));
   return section;
 }

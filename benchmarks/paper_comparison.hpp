@@ -17,15 +17,16 @@ struct Comparison {
   std::string method;    ///< identifier
   std::string quantity;  ///< "error" (percent of the result's area, mean), "time" (ms) or a step's name (ms)
   double published = 0;
-  double measured = 0;
+  std::optional<double> measured;  ///< none: the method did not run here, or failed
 
-  /// measured / published
-  double ratio() const { return measured / published; }
-  /// Whether the ratio or its inverse reaches `differences.large_from` of results/paper.json.
+  /// measured / published; 0 when nothing was measured.
+  double ratio() const { return measured.value_or(0) / published; }
+  /// Whether the ratio or its inverse reaches `differences.large_from` of results/paper.json, or nothing was
+  /// measured.
   bool is_large() const;
 };
 
-/// Every value of the paper's tables that `report` has a counterpart of.
+/// The values of the paper's tables on cases like those of `report`, of the methods in its plan.
 std::vector<Comparison> compare_with_paper(const nlohmann::json& report);
 
 /// Why such a difference is there: the first of the reasons in results/paper.json that applies; none when

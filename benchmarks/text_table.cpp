@@ -33,6 +33,17 @@ void TextTable::add_row(std::vector<std::string> cells) {
   rows_.push_back(on_one_line(std::move(cells)));
 }
 
+bool TextTable::is_left(std::size_t column) const {
+  const auto begins_with = [&](bool (*is_kind)(char)) {
+    return std::any_of(rows_.begin() + 1, rows_.end(), [&](const std::vector<std::string>& row) {
+      return !row[column].empty() && is_kind(row[column].front());
+    });
+  };
+  return column == 0 ||
+         (begins_with([](char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'); }) &&
+          !begins_with([](char c) { return c >= '0' && c <= '9'; }));
+}
+
 std::string Notes::mark(const std::string& text) {
   auto found = std::find(texts_.begin(), texts_.end(), text);
   if (found == texts_.end()) found = texts_.insert(texts_.end(), text);

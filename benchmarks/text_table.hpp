@@ -12,13 +12,16 @@ namespace hullbench {
 /// Number of columns that `text` (UTF-8 without wide or combining characters) takes in a terminal.
 std::size_t display_width(std::string_view text);
 
-/// A table of text: the first column is set to the left, all others to the right.
+/// A table of text.
 class TextTable {
  public:
   explicit TextTable(std::vector<std::string> header);
   /// `cells` has one text a column, else std::invalid_argument. A line break in it becomes a blank.
   void add_row(std::vector<std::string> cells);
   bool empty() const { return rows_.size() == 1; }
+  /// Whether a column is set to the left: the first one, and one whose cells are words, of which none begins
+  /// with a digit. Numbers are set to the right.
+  bool is_left(std::size_t column) const;
   /// By row, then column; the first row is the header.
   const std::vector<std::vector<std::string>>& rows() const { return rows_; }
 
