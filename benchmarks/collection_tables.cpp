@@ -160,7 +160,7 @@ std::string error_cell(const TableContext& context, const Line& line, const Case
   }
   const auto errors = all_values(runs, "l2_paper");
   if (errors.empty()) return kNothing;
-  const std::string text = fixed(100 * median(std::span<const double>(errors)), 1);
+  std::string text = fixed(100 * median(std::span<const double>(errors)), 1);
   if (published.is_null() || line.protocol != paper().at("protocol")) return text;
   const json value = published.value("by_shape", json::object())
                          .value(which.dataset, json::object())

@@ -346,6 +346,7 @@ void require_dataset(const PlanCase& plan_case, const std::vector<DatasetInfo>& 
   };
   if (info == nullptr) {
     std::vector<std::string> known;
+    known.reserve(datasets.size());
     for (const DatasetInfo& dataset : datasets) {
       known.push_back(dataset.members == 0 ? dataset.name
                                            : dataset.name + "-1 to -" + std::to_string(dataset.members));

@@ -178,8 +178,8 @@ class Measuring {
                                    method_titles(),
                                    cores_.all,
                                    {default_data_directory(), command_.recordings}};
-    const RunResult result = run_plan(experiment.plan, experiment.runs, header_to_write(directory, header),
-                                      options, directory, progress_);
+    RunResult result = run_plan(experiment.plan, experiment.runs, header_to_write(directory, header), options,
+                                directory, progress_);
     progress_.end();
     if (result.interrupted) {
       std::cerr << "hullbench: interrupted; finished runs are kept in " << directory.path().string()
@@ -196,6 +196,7 @@ class Measuring {
  private:
   static std::vector<ProgressSection> sections_of(const std::vector<Experiment>& experiments) {
     std::vector<ProgressSection> sections;
+    sections.reserve(experiments.size());
     for (const Experiment& experiment : experiments) {
       sections.push_back({experiment.plan.title, progress_runs(experiment.plan, experiment.runs)});
     }
@@ -234,6 +235,7 @@ RunResult finished_result(const fs::path& run) {
 int measure_suite(const RunCommand& command, const std::vector<Experiment>& experiments,
                   const WorkerCommand& worker_command) {
   std::vector<json> headers;
+  headers.reserve(experiments.size());
   for (const Experiment& experiment : experiments) headers.push_back(describe_run(experiment, command));
   const fs::path suite = open_suite(headers, {command.out, command.force, kResults});
   if (!command.out) point_latest_to(suite, kResults);

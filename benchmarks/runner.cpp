@@ -350,6 +350,7 @@ class Runner {
     for_each_in_parallel(finished.size(), options_.cores,
                          [&](std::size_t i) { score_result(*finished[i].first, *finished[i].second); });
     std::vector<RunRecord> rows;
+    rows.reserve(finished.size());
     for (const auto& [entry, set] : finished) rows.push_back(finished_record(*entry));
     directory_.append_rows(rows);
     for (const auto& [entry, set] : finished) {

@@ -133,6 +133,7 @@ std::vector<json> suite_reports(const fs::path& folder) {
 
 std::vector<Document> make_documents(const std::vector<json>& reports) {
   std::vector<Document> documents;
+  documents.reserve(reports.size() + 2);
   for (const json& report : reports) documents.push_back(make_document(report));
   drop_repeated_steps(documents);
   Document end;
