@@ -93,12 +93,6 @@ std::string latex_text(std::string_view text) {
   return result;
 }
 
-/// A row's cells without the marks of notes: these stand in the Markdown document only.
-std::string without_marks(const std::string& cell) {
-  static const std::regex marks("( \\[[0-9]+\\])+$");
-  return std::regex_replace(cell, marks, "");
-}
-
 }  // namespace
 
 void print_markdown(const TextTable& table, std::ostream& out) {
@@ -170,12 +164,13 @@ std::string to_csv(const TextTable& table) {
   for (std::size_t row = 0; row < rows.size(); ++row) {
     std::string line;
     for (std::size_t column = 0; column < rows[row].size(); ++column) {
-      const std::string cell = column == 0 ? without_marks(rows[row][column]) : rows[row][column];
+      const std::string cell = without_marks(rows[row][column]);
       for (const std::string& field : csv_fields(cell, form_of_column(rows, column), row == 0)) {
-        line += (line.empty() && column == 0 ? "" : ",") + csv_field(field);
+        line += csv_field(field) + ',';
       }
     }
-    text += line + '\n';
+    line.back() = '\n';
+    text += line;
   }
   return text;
 }
@@ -192,8 +187,7 @@ std::string to_latex(const TableSection& section) {
   for (std::size_t row = 0; row < rows.size(); ++row) {
     std::string line;
     for (std::size_t column = 0; column < rows[row].size(); ++column) {
-      const std::string& cell = rows[row][column];
-      line += (column == 0 ? "" : " & ") + latex_text(column == 0 ? without_marks(cell) : cell);
+      line += (column == 0 ? "" : " & ") + latex_text(without_marks(rows[row][column]));
     }
     text += "    " + line + " \\\\\n";
     if (row == 0) text += "    \\midrule\n";

@@ -85,8 +85,8 @@ int tables(const std::string& path) {
 
 int readme(const std::string& run, const std::string& path, bool check) {
   std::ifstream in(path, std::ios::binary);
-  const std::string before(std::istreambuf_iterator<char>(in), {});
   if (!in.is_open() || fs::is_directory(path)) throw ConfigurationError("there is no file " + path);
+  const std::string before(std::istreambuf_iterator<char>(in), {});
   const std::string after = with_results(before, readme_results(reports_in(run), run));
   if (before == after) {
     std::cout << path << " agrees with " << run << "\n";

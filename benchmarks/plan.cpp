@@ -422,13 +422,13 @@ Plan load_plan(const std::string& name_or_path, const std::filesystem::path& fol
   const std::filesystem::path path =
       is_path ? std::filesystem::path(name_or_path) : folder / (name_or_path + ".json");
   std::ifstream in(path, std::ios::binary);
-  std::string text(std::istreambuf_iterator<char>(in), {});
   if (!in.is_open() || std::filesystem::is_directory(path)) {
     const std::vector<std::string> names = plan_names(folder);
     throw ConfigurationError("there is no plan '" + name_or_path + "'; " +
                              (names.empty() ? "give the path of a plan's JSON file"
                                             : "known are " + join_words(names) + ", or give a file's path"));
   }
+  const std::string text(std::istreambuf_iterator<char>(in), {});
   return parse_plan(text, is_path ? name_or_path : "plan '" + name_or_path + "'");
 }
 

@@ -39,10 +39,10 @@ const TableSection* find_table(const std::vector<Document>& documents, std::stri
   return nullptr;
 }
 
-/// A cell's marks refer to notes that are not here.
+/// The marks in its cells refer to notes that are not here.
 TextTable without_marks(const TextTable& table) {
   const auto plain = [](std::vector<std::string> row) {
-    row.front() = row.front().substr(0, row.front().find(" ["));
+    for (std::string& cell : row) cell = hullbench::without_marks(cell);
     return row;
   };
   TextTable result(plain(table.rows().front()));
@@ -62,6 +62,7 @@ std::size_t place_of(const std::string& text, std::string_view mark) {
 }  // namespace
 
 std::string readme_results(const std::vector<json>& reports, const std::string& folder) {
+  if (reports.empty()) throw std::runtime_error("there is no run in " + folder + " yet; measure it first");
   const std::vector<Document> documents = make_documents(reports);
   std::size_t runs = 0;
   for (const json& report : reports) runs += report.at("runs").size();

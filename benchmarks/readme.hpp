@@ -8,7 +8,7 @@
 namespace hullbench {
 
 /// What stands between the marks: where the numbers are from, the tables that a reader wants first, and the
-/// notes. `folder`: how the README calls the run's folder.
+/// notes. `folder`: how the README calls the run's folder. Throws std::runtime_error when `reports` is empty.
 std::string readme_results(const std::vector<nlohmann::json>& reports, const std::string& folder);
 
 /// `readme` with `results` between its marks <!-- results: begin --> and <!-- results: end -->. Throws

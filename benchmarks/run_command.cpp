@@ -37,9 +37,17 @@ struct Experiment {
   std::vector<PlannedRun> runs;
 };
 
+std::size_t count_recordings(const fs::path& folder) {
+  try {
+    return list_recordings(folder).size();
+  } catch (const std::runtime_error& error) {
+    throw ConfigurationError(error.what());
+  }
+}
+
 Experiment make_experiment(const std::string& name, const RunCommand& command) {
   Plan plan = load_plan(name, HULLBENCH_PLAN_FOLDER);
-  if (!command.recordings.empty()) use_recordings(plan, list_recordings(command.recordings).size());
+  if (!command.recordings.empty()) use_recordings(plan, count_recordings(command.recordings));
   plan.repetitions = command.repetitions.value_or(plan.repetitions);
   plan.seed = command.seed.value_or(plan.seed);
   plan.timeout_s = command.timeout_s.value_or(plan.timeout_s);
@@ -280,9 +288,11 @@ int run_command(const RunCommand& command, const WorkerCommand& worker_command) 
     if (!experiment.runs.empty()) experiments.push_back(std::move(experiment));
   }
   if (experiments.empty()) {
+    const std::string way_out = command.filter.empty()
+                                    ? "the plan's own filter; choose others with --filter"
+                                    : "'" + command.filter + "'; --dry-run without --filter prints the names";
     std::cerr << "hullbench: no run of the plan" << (command.plans.size() == 1 ? " " : "s ") << names
-              << " has a name that matches '" << command.filter
-              << "'; --dry-run without --filter prints the names\n";
+              << " has a name that matches " << way_out << "\n";
     return 6;
   }
   if (command.dry_run) {

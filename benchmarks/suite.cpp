@@ -1,6 +1,10 @@
 #include "benchmarks/suite.hpp"
 
+#include <fcntl.h>
+#include <unistd.h>
+
 #include <algorithm>
+#include <cerrno>
 #include <fstream>
 #include <set>
 #include <stdexcept>
@@ -58,6 +62,9 @@ fs::path find_unfinished(const json& suite, const fs::path& runs) {
 fs::path open_chosen(const json& suite, const fs::path& folder, bool force) {
   std::error_code error;
   fs::create_directories(folder, error);
+  if (!error && ::faccessat(AT_FDCWD, folder.c_str(), W_OK | X_OK, AT_EACCESS) != 0) {
+    error.assign(errno, std::generic_category());
+  }
   if (!error && !force && !fs::is_empty(folder) && !is_same(read_suite(folder), suite)) {
     throw ConfigurationError(
         "the output folder " + folder.string() +

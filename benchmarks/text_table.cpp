@@ -1,6 +1,7 @@
 #include "benchmarks/text_table.hpp"
 
 #include <algorithm>
+#include <regex>
 #include <stdexcept>
 #include <utility>
 
@@ -56,6 +57,11 @@ std::vector<std::string> Notes::marked() const {
     result.push_back("[" + std::to_string(index + 1) + "] " + texts_[index]);
   }
   return result;
+}
+
+std::string without_marks(const std::string& cell) {
+  static const std::regex marks("( \\[[0-9]+\\])+$");
+  return std::regex_replace(cell, marks, "");
 }
 
 }  // namespace hullbench

@@ -41,4 +41,7 @@ class Notes {
   std::vector<std::string> texts_;
 };
 
+/// `cell` without the marks of notes at its end: "SpatiaLite (paper)" of "SpatiaLite (paper) [1] [3]".
+std::string without_marks(const std::string& cell);
+
 }  // namespace hullbench

@@ -21,12 +21,14 @@ constexpr std::size_t kMaxBytes = std::size_t{1} << 30;
 
 std::string read_xz_file(const std::filesystem::path& path) {
   std::ifstream in(path, std::ios::binary);
+  if (!in.is_open() || std::filesystem::is_directory(path)) {
+    throw std::runtime_error("Cannot read " + path.string() + ".");
+  }
   const std::vector<char> compressed(std::istreambuf_iterator<char>(in), {});
-  if (!in.is_open() || in.bad()) throw std::runtime_error("Cannot read " + path.string() + ".");
 
   lzma_stream stream = LZMA_STREAM_INIT;
   const std::unique_ptr<lzma_stream, void (*)(lzma_stream*)> owner(&stream, &lzma_end);
-  lzma_ret state = lzma_stream_decoder(&stream, std::numeric_limits<std::uint64_t>::max(), 0);
+  lzma_ret state = lzma_stream_decoder(&stream, std::numeric_limits<std::uint64_t>::max(), LZMA_CONCATENATED);
   stream.next_in = reinterpret_cast<const std::uint8_t*>(compressed.data());
   stream.avail_in = compressed.size();
   std::string content;

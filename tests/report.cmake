@@ -3,12 +3,22 @@ add_library(hullbench_invented_run STATIC "${CMAKE_CURRENT_LIST_DIR}/invented_ru
 target_include_directories(hullbench_invented_run PUBLIC "${CMAKE_CURRENT_LIST_DIR}")
 target_link_libraries(hullbench_invented_run PUBLIC hullbench::report PRIVATE hullbench::compile_options)
 
-foreach(part IN ITEMS record statistics report tables collection_tables)
+foreach(part IN ITEMS record statistics report tables collection_tables class_tables overview_tables
+                      paper_comparison)
   hullbench_test(test_${part}
     SOURCES "${CMAKE_CURRENT_LIST_DIR}/test_${part}.cpp"
     LIBRARIES hullbench_invented_run hullbench::report hullbench::hash)
   target_compile_definitions(test_${part} PRIVATE HULLBENCH_SOURCE_DIRECTORY="${PROJECT_SOURCE_DIR}")
 endforeach()
+
+hullbench_test(test_document SOURCES "${CMAKE_CURRENT_LIST_DIR}/test_document.cpp"
+  LIBRARIES hullbench::report hullbench_test_program)
+
+# A reference run keeps its records compressed by this program (results/keep_reference.sh).
+find_program(XZ_PROGRAM xz REQUIRED)
+hullbench_test(test_xz_file SOURCES "${CMAKE_CURRENT_LIST_DIR}/test_xz_file.cpp"
+  LIBRARIES hullbench_invented_run hullbench::report hullbench_test_program)
+target_compile_definitions(test_xz_file PRIVATE XZ_PROGRAM="${XZ_PROGRAM}")
 
 hullbench_test(test_core_verdicts SOURCES "${CMAKE_CURRENT_LIST_DIR}/test_core_verdicts.cpp"
   LIBRARIES hullbench::core_verdicts)

@@ -18,6 +18,7 @@
 #include "benchmarks/json_lines.hpp"
 #include "benchmarks/record.hpp"
 #include "tests/program.hpp"
+#include "tests/small_plans.hpp"
 #include "tests/temporary_folder.hpp"
 
 namespace hullbench {
@@ -127,6 +128,7 @@ TEST_F(CommandLineTest, UnknownWordsAndOptions) {
 
 TEST_F(CommandLineTest, UnknownPlanAndBrokenPlans) {
   expect_refusal(hullbench({"run", "stats"}), 2, "there is no plan 'stats'; known are");
+  expect_refusal(hullbench({"run", "./"}), 2, "there is no plan './'");
   expect_refusal(hullbench({"run", "/nowhere/plan.json"}), 2, "there is no plan '/nowhere/plan.json'");
   expect_refusal(hullbench({"run", write_plan("{\"name\": ")}), 2, "is not JSON: mend it at line 1");
   expect_refusal(hullbench({"run", write_plan("{\"name\": \"small\", \"speed\": 1}")}), 2,
@@ -233,6 +235,87 @@ TEST_F(CommandLineTest, OptionsReplaceThePlansValues) {
   ASSERT_EQ(rows.size(), 1U);
   EXPECT_EQ(rows[0]["time_ns"].size(), 2U);
   EXPECT_EQ(rows[0]["seed"], 7);
+}
+
+TEST_F(CommandLineTest, AFilterOfThePlanIsForWhoAsksForNone) {
+  json source = testing::small_plan("small", testing::california({500}));
+  source["filter"] = "holes:1";
+  const std::string small = testing::write_plan(folder(), source);
+  const std::string with_holes = "polylidar/ca/n:500/holes:1/protocol:paper\n";
+  EXPECT_EQ(hullbench({"run", small, "--dry-run"}).out, with_holes);
+  EXPECT_EQ(hullbench({"run", small, "--dry-run", "--filter", "holes:0"}).out,
+            "polylidar/ca/n:500/holes:0/protocol:paper\n");
+  ASSERT_EQ(hullbench({"run", small, "--out", "run"}).code, 0);
+  const auto rows = lines_of(folder() / "run" / "runs.jsonl");
+  ASSERT_EQ(rows.size(), 1U);
+  EXPECT_EQ(rows[0]["name"].get<std::string>() + "\n", with_holes);
+  source["filter"] = "cgal";
+  expect_refusal(hullbench({"run", testing::write_plan(folder(), source)}), 6,
+                 "no run of the plan 'small' has a name that matches the plan's own filter");
+  source["filter"] = "(";
+  expect_refusal(hullbench({"run", testing::write_plan(folder(), source)}), 2, "is not a regular expression");
+}
+
+TEST_F(CommandLineTest, MembersOfAFamilyHaveARowEach) {
+  const json cases = json::array({{{"dataset", "comb"}, {"members", 3}, {"n", {500}}}});
+  const std::string combs = testing::write_plan(folder(), testing::small_plan("combs", cases));
+  const Outcome outcome = hullbench({"run", combs, "--out", "run"});
+  EXPECT_EQ(outcome.code, 0) << outcome.err;
+  std::set<std::string> names;
+  std::set<std::string> points;
+  for (const json& row : lines_of(folder() / "run" / "runs.jsonl")) {
+    EXPECT_EQ(row["status"], "ok") << row;
+    names.insert(row["dataset"]);
+    points.insert(row["dataset_sha256"]);
+  }
+  EXPECT_EQ(names, (std::set<std::string>{"comb-1", "comb-2", "comb-3"}));
+  EXPECT_EQ(points.size(), 3U) << "the members are different shapes";
+  EXPECT_NE(outcome.out.find("Comb 3"), std::string::npos) << outcome.out;
+}
+
+/// A scene in a folder of recordings: a floor of 4 m by 3 m with a point every 0.1 m, moved by `shift`
+/// metres.
+void write_scene(const fs::path& scene, double shift) {
+  fs::create_directories(scene);
+  std::string points = "# x y z\n";
+  for (int x = 0; x <= 40; ++x) {
+    for (int y = 0; y <= 30; ++y)
+      points += std::to_string(shift + 0.1 * x) + " " + std::to_string(0.1 * y) + " 0.01\n";
+  }
+  write_text(scene / "points.txt", points);
+  const json ring = {{shift, 0}, {shift + 4, 0}, {shift + 4, 3}, {shift, 3}, {shift, 0}};
+  const json shape = {{"type", "Polygon"}, {"coordinates", json::array({ring})}};
+  write_text(scene / "gt.geojson", shape.dump());
+}
+
+TEST_F(CommandLineTest, RecordedFloorsTakeThePlaceOfTheSimulatedOnes) {
+  write_scene(folder() / "floors" / "kitchen", 0);
+  write_scene(folder() / "floors" / "hall", 5);
+  const Outcome outcome = hullbench({"run", "rgbd", "--recordings", "floors", "--filter", "^polylidar/",
+                                     "--repetitions", "1", "--out", "run"});
+  EXPECT_EQ(outcome.code, 0) << outcome.err;
+  std::set<std::string> names;
+  for (const json& row : lines_of(folder() / "run" / "runs.jsonl")) {
+    EXPECT_EQ(row["status"], "ok") << row;
+    EXPECT_EQ(row["n"], 41 * 31);
+    // The outline of the grid is the floor's own, within the rounding of its coordinates to six decimals.
+    EXPECT_LT(row["metrics"]["l2"].get<double>(), 1e-5) << row;
+    names.insert(row["dataset"]);
+  }
+  EXPECT_EQ(names, (std::set<std::string>{"recorded-1", "recorded-2"}));
+  EXPECT_NE(outcome.out.find("Recorded floor 1"), std::string::npos) << outcome.out;
+  EXPECT_NE(outcome.out.find("Recorded floor 2"), std::string::npos) << outcome.out;
+  EXPECT_EQ(outcome.out.find("Simulated floor"), std::string::npos) << outcome.out;
+}
+
+TEST_F(CommandLineTest, RecordingsThatAreNotThere) {
+  fs::create_directories(folder() / "empty" / "scene");
+  expect_refusal(hullbench({"run", "rgbd", "--recordings", "empty"}), 2, "empty has no recording; put each");
+  expect_refusal(hullbench({"run", "rgbd", "--recordings", "nowhere"}), 2, "nowhere is not a folder");
+  write_scene(folder() / "floors" / "kitchen", 0);
+  expect_refusal(hullbench({"run", plan({500}, 1), "--recordings", "floors"}), 2,
+                 "the plan 'small' has no simulated floors");
+  EXPECT_FALSE(fs::exists(folder() / "results"));
 }
 
 TEST_F(CommandLineTest, LimitsReachTheWorkers) {

@@ -5,6 +5,9 @@
 #include <cmath>
 #include <fstream>
 #include <set>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "benchmarks/parameter_rules.hpp"
 #include "benchmarks/plan.hpp"
@@ -37,6 +40,44 @@ json small_plan() {
       {"method": "polylidar", "protocol": "paper", "parameters": {"alpha": {"rule": "paper_alpha"}}},
       {"method": "spatialite", "protocol": "paper",
        "parameters": {"c": {"cases": {"ca": 2.0, "ca/holes": 1.25}}, "allow_holes": 1}}]})");
+}
+
+/// Those, a family of three shapes, and one of two with points of their own.
+std::vector<DatasetInfo> datasets_and_families() {
+  std::vector<DatasetInfo> infos = known_datasets();
+  DatasetInfo star;
+  star.name = "star";
+  star.members = 3;
+  DatasetInfo floor;
+  floor.name = kSimulatedFloor;
+  floor.members = 2;
+  floor.own_points = true;
+  infos.insert(infos.end(), {star, floor});
+  return infos;
+}
+
+/// A plan of polylidar with these cases.
+json plan_with_cases(const std::string& cases) {
+  json plan = small_plan();
+  plan["cases"] = json::parse(cases);
+  plan["methods"].erase(1);
+  return plan;
+}
+
+/// What is said about such a plan.
+std::string complaint_about_cases(const std::string& cases) {
+  try {
+    check_plan(parse_plan(plan_with_cases(cases).dump(), "plan 'small'"), kMethods, datasets_and_families());
+  } catch (const ConfigurationError& error) {
+    return error.what();
+  }
+  return "nothing";
+}
+
+std::vector<std::string> names_of(const std::vector<PlannedRun>& runs) {
+  std::vector<std::string> names;
+  for (const PlannedRun& run : runs) names.push_back(run.name);
+  return names;
 }
 
 /// What is said about a plan in which the value at `pointer` is `value`.
@@ -99,6 +140,85 @@ TEST(Plan, ACaseCanStandForSeveralDataSets) {
   const json once = plan_to_json(plan);
   EXPECT_EQ(once.at("cases"), source["cases"]);
   EXPECT_EQ(plan_to_json(parse_plan(once.dump(), "there")), once);
+}
+
+TEST(Plan, MembersStandForTheShapesOfAFamily) {
+  const json source =
+      plan_with_cases(R"([{"dataset": ["star", "comb"], "members": 2, "holes": [false, true], "n": [500]}])");
+  const Plan plan = parse_plan(source.dump(), "here");
+  std::vector<std::string> cases;
+  for (const PlanCase& one : plan.expanded_cases) cases.push_back(one.shape());
+  EXPECT_EQ(cases, (std::vector<std::string>{"star-1", "star-1/holes", "star-2", "star-2/holes", "comb-1",
+                                             "comb-1/holes", "comb-2", "comb-2/holes"}));
+  EXPECT_EQ(planned_runs(plan, "").front().name, "polylidar/star-1/n:500/holes:0/protocol:paper");
+  const json once = plan_to_json(plan);
+  EXPECT_EQ(once.at("cases"), source["cases"]);
+  EXPECT_EQ(parse_plan(once.dump(), "there").expanded_cases.size(), plan.expanded_cases.size());
+}
+
+TEST(Plan, MembersAreLimitedToTheFamily) {
+  EXPECT_EQ(complaint_about_cases(R"([{"dataset": "star", "members": 3, "n": [500]}])"), "nothing");
+  EXPECT_EQ(complaint_about_cases(R"([{"dataset": "star-3", "n": [500]}])"), "nothing");
+  const std::string known = "which is not known; known are ca, solid, star-1 to -3 and floor-1 to -2";
+  for (const auto& [cases, name] : {std::pair(R"([{"dataset": "star", "members": 4, "n": [500]}])", "star-4"),
+                                    std::pair(R"([{"dataset": "star", "n": [500]}])", "star"),
+                                    std::pair(R"([{"dataset": "ca", "members": 1, "n": [500]}])", "ca-1")}) {
+    EXPECT_NE(complaint_about_cases(cases).find("names the data set '" + std::string(name) + "', " + known),
+              std::string::npos)
+        << complaint_about_cases(cases);
+  }
+  for (const char* members : {"0", "1000001", "2.5", "\"all\""}) {
+    const std::string said = complaint_about_cases(
+        std::string(R"([{"dataset": "star", "n": [500], "members": )") + members + "}]");
+    EXPECT_NE(said.find("cases[0].members must be a whole number from 1 to 1000000"), std::string::npos)
+        << said;
+  }
+}
+
+TEST(Plan, NumbersOfPointsAreForDataSetsWithoutPointsOfTheirOwn) {
+  EXPECT_EQ(complaint_about_cases(R"([{"dataset": "floor", "members": 2}])"), "nothing");
+  EXPECT_NE(complaint_about_cases(R"([{"dataset": "floor", "members": 2, "n": [500]}])")
+                .find("gives 'n' for floor-1, which comes with its points; leave it out"),
+            std::string::npos);
+  EXPECT_NE(complaint_about_cases(R"([{"dataset": "ca"}])")
+                .find("gives no 'n' for ca, which has no points of its own; add the numbers of points"),
+            std::string::npos);
+  EXPECT_NE(complaint_about_cases(R"([{"dataset": "star", "members": 1}])").find("gives no 'n' for star-1"),
+            std::string::npos);
+}
+
+TEST(Plan, AMethodCanKeepToAFamily) {
+  json source =
+      plan_with_cases(R"([{"dataset": "star", "members": 2, "n": [500]}, {"dataset": "solid", "n": [500]}])");
+  source["methods"][0]["datasets"] = {"star"};
+  const Plan plan = parse_plan(source.dump(), "here");
+  EXPECT_NO_THROW(check_plan(plan, kMethods, datasets_and_families()));
+  EXPECT_EQ(planned_runs(plan, "").size(), 2U);
+}
+
+TEST(Plan, RecordingsTakeThePlaceOfSimulatedFloors) {
+  const json source =
+      plan_with_cases(R"([{"dataset": "floor", "members": 11}, {"dataset": "ca", "n": [500]}])");
+  Plan plan = parse_plan(source.dump(), "here");
+  use_recordings(plan, 2);
+  const std::vector<std::string> names = {"polylidar/recorded-1/n:all/holes:0/protocol:paper",
+                                          "polylidar/recorded-2/n:all/holes:0/protocol:paper",
+                                          "polylidar/ca/n:500/holes:0/protocol:paper"};
+  EXPECT_EQ(names_of(planned_runs(plan, "")), names);
+  EXPECT_EQ(names_of(planned_runs(parse_plan(plan_to_json(plan).dump(), "there"), "")), names);
+}
+
+TEST(Plan, RecordingsNeedSimulatedFloors) {
+  Plan plan = parse_plan(small_plan().dump(), "here");
+  try {
+    use_recordings(plan, 2);
+    FAIL();
+  } catch (const ConfigurationError& error) {
+    EXPECT_STREQ(
+        error.what(),
+        "the plan 'small' has no simulated floors that recordings could take the place of; leave out "
+        "--recordings, or run the plan 'rgbd'");
+  }
 }
 
 TEST(Plan, FilterIsSearchedInNames) {
@@ -259,6 +379,25 @@ TEST(Plan, StepsIsThePapersExperiment) {
   EXPECT_EQ(plan.expanded_cases[0].n, 64000);
   EXPECT_EQ(planned_runs(plan, "/ca/n:64000/holes:1/").size(), 6U);
   EXPECT_EQ(planned_runs(plan, "^(spatialite|postgis)_steps/.*protocol:paper").size(), 2U);
+}
+
+TEST(Plan, RandomIsThePapersExperimentAndAThousandOtherShapes) {
+  const Plan plan = load_plan("random", HULLBENCH_PLAN_FOLDER);
+  const auto count = [&](const std::string& family) {
+    return std::count_if(plan.expanded_cases.begin(), plan.expanded_cases.end(), [&](const PlanCase& one) {
+      return one.n == 8000 && split_member_name(one.dataset)->first == family;
+    });
+  };
+  EXPECT_EQ(count("star"), 2 * 9800);
+  EXPECT_EQ(plan.expanded_cases.size(), 2 * 9800 + 1000U);
+  EXPECT_EQ(plan.filter, "^polylidar/");
+  EXPECT_EQ(plan_to_json(plan).at("filter"), "^polylidar/");
+}
+
+TEST(Plan, RgbdIsThePapersExperiment) {
+  const Plan plan = load_plan("rgbd", HULLBENCH_PLAN_FOLDER);
+  EXPECT_EQ(plan.expanded_cases.size(), 11U);
+  EXPECT_EQ(planned_runs(plan, "^polylidar/floor-11/n:all/holes:0/protocol:paper$").size(), 1U);
 }
 
 TEST(Plan, AlphabetIsThePapersExperiment) {

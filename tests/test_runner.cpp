@@ -9,6 +9,7 @@
 #include <memory>
 #include <set>
 #include <sstream>
+#include <thread>
 
 #include "benchmarks/environment.hpp"
 #include "benchmarks/interrupt.hpp"
@@ -73,14 +74,15 @@ class RunnerTest : public ::testing::Test {
  protected:
   void TearDown() override { set_interrupted(false); }
 
-  RunResult measure(const Plan& plan, const WorkerCommand& command = &worker_of) {
+  RunResult measure(const Plan& plan, const WorkerCommand& command = &worker_of,
+                    const std::vector<int>& cores = {}) {
     const json header = header_of(plan);
     const auto directory = open_run_directory(header, {folder_.path() / "run", false, folder_.path()});
     const auto runs = planned_runs(plan, "");
     std::ostringstream progress_text;
     Progress progress(progress_text, false, 80, {{"test", progress_runs(plan, runs)}});
-    const RunResult result =
-        run_plan(plan, runs, header, {command, {plan.mem_limit_mib, std::nullopt}, {}}, *directory, progress);
+    const RunResult result = run_plan(
+        plan, runs, header, {command, {plan.mem_limit_mib, std::nullopt}, {}, cores}, *directory, progress);
     said_ = progress_text.str();
     return result;
   }
@@ -315,6 +317,60 @@ TEST_F(RunnerTest, AnInterruptionKeepsWhatIsThereAndTheNextStartGoesOn) {
   EXPECT_EQ(rows().size(), 2U);
 }
 
+/// A plan of `count` cases so small that they make one batch.
+Plan plan_of_small_cases(const std::vector<std::string>& methods, int count) {
+  json source = plan_to_json(plan_of(methods, 2));
+  source["cases"][0]["n"] = json::array();
+  for (int i = 0; i < count; ++i) source["cases"][0]["n"].push_back(100 + i);
+  return parse_plan(source.dump(), "test");
+}
+
+TEST_F(RunnerTest, ABatchGivesTheSameRowsOnOneCoreAndOnSeveral) {
+  const Plan plan = plan_of_small_cases({"polylidar", "good", "invalid_polygon", "crash"}, 20);
+  std::vector<std::vector<json>> rows;
+  for (const std::vector<int>& cores : {std::vector<int>{}, std::vector<int>{0, 1}}) {
+    EXPECT_EQ(exit_code(measure(plan, &worker_of, cores)), 4);
+    rows.push_back(lines("runs.jsonl"));
+    for (json& row : rows.back()) {
+      for (const char* key : {"time_ns", "phases_ns"}) row[key] = row[key].size();
+    }
+    fs::remove_all(folder_.path() / "run");
+  }
+  EXPECT_EQ(rows[0].size(), 4 * 20U);
+  EXPECT_EQ(rows[0], rows[1]);
+}
+
+/// How many lines of a file are there now.
+std::ptrdiff_t line_count(const fs::path& file) {
+  const std::string text = testing::read_text(file);
+  return std::count(text.begin(), text.end(), '\n');
+}
+
+TEST_F(RunnerTest, AnInterruptionWithinABatchKeepsTheRowsOfItsFinishedCases) {
+  const Plan plan = plan_of_small_cases({"polylidar", "good"}, 150);
+  const fs::path run = folder_.path() / "run";
+  const std::jthread interrupter([&] {
+    testing::wait_until([&] { return line_count(run / "repetitions.jsonl") >= 30; });
+    set_interrupted(true);
+  });
+  EXPECT_EQ(exit_code(measure(plan)), 130);
+  const std::string kept = testing::read_text(run / "runs.jsonl");
+  // Two repetitions of two methods are a finished case; of the next one some may be there.
+  const std::ptrdiff_t repetitions = line_count(run / "repetitions.jsonl");
+  EXPECT_GE(repetitions, 30);
+  EXPECT_LT(repetitions, 150 * 4);
+  EXPECT_EQ(line_count(run / "runs.jsonl"), repetitions / 4 * 2);
+  for (const json& row : lines("runs.jsonl")) EXPECT_EQ(row["time_ns"].size(), 2U) << row;
+
+  set_interrupted(false);
+  const RunResult second = measure(plan);
+  EXPECT_EQ(exit_code(second), 0);
+  EXPECT_EQ(second.resumed_rows, repetitions / 4 * 2);
+  EXPECT_TRUE(testing::read_text(run / "runs.jsonl").starts_with(kept));
+  EXPECT_EQ(line_count(run / "runs.jsonl"), 150 * 2);
+  EXPECT_EQ(line_count(run / "repetitions.jsonl"), 150 * 4);
+}
+
 TEST_F(RunnerTest, WorkFilesDoNotStay) {
   measure(plan_of({"polylidar", "crash"}));
   std::set<std::string> names;
@@ -442,6 +498,45 @@ TEST(Progress, EstimatesFromTheTimesSoFar) {
   progress.finish(1);
   EXPECT_EQ(progress.seconds_left(), 0.0);
   EXPECT_NE(out.str().find("[2/2]"), std::string::npos) << out.str();
+}
+
+TEST(Progress, OfSeveralTablesSaysWhichOneItIsAt) {
+  std::ostringstream out;
+  Progress progress(
+      out, false, 80,
+      {{"One", {{"a", "m", 100, 1}}}, {"Two", {{"b", "m", 100, 1}}}, {"Three", {{"c", "m", 100, 1}}}});
+  for (std::size_t section = 0; section < 3; ++section) {
+    progress.enter(section);
+    progress.begin(0);
+    progress.advance(0, std::chrono::seconds(10));
+    progress.finish(0);
+  }
+  EXPECT_EQ(out.str(),
+            "hullbench: One, table 1 of 3 [1/1] 0 s, about 20 s left (estimated): a\n"
+            "hullbench: Two, table 2 of 3 [1/1] 0 s, about 10 s left (estimated): b\n"
+            "hullbench: Three, table 3 of 3 [1/1] 0 s, done\n");
+}
+
+TEST(Progress, WhatIsLeftCountsTheTablesThatAreNotBegun) {
+  std::ostringstream out;
+  // Runs with a method, points and units.
+  Progress progress(out, false, 80,
+                    {{"One", {{"a", "m", 100, 2}}},
+                     {"Two", {{"b", "m", 200, 1}, {"c", "m", 100, 1}}},
+                     {"Three", {{"d", "other", 100, 1}, {"e", "m", 100, 1}}}});
+  EXPECT_LT(progress.seconds_left(), 0);
+  progress.begin(0);
+  progress.advance(0, std::chrono::seconds(1));
+  // At 1 s for 100 points of any method: 1 here, 2 + 1 in the next one, 1 + 1 in the last. Only rounding here
+  // and below: hardly any wall-clock time has passed.
+  EXPECT_NEAR(progress.seconds_left(), 6, 1e-9);
+  progress.enter(1);
+  EXPECT_NEAR(progress.seconds_left(), 5, 1e-9) << "what was left of the first is not done any more";
+  progress.begin(0);
+  progress.advance(0, std::chrono::seconds(8));
+  // Of m: 4 s for 100 points here, and 9 s for 300 over all; of other, which nothing is known of, the same
+  // 9 s for 300.
+  EXPECT_NEAR(progress.seconds_left(), 4 + 3 + 3, 1e-9);
 }
 
 TEST(Progress, WritesDurationsForPeople) {

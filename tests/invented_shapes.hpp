@@ -1,0 +1,64 @@
+// Reports of invented runs, as if they had been on other shapes.
+#pragma once
+
+#include <cstdint>
+#include <nlohmann/json.hpp>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "benchmarks/report.hpp"
+#include "invented_run.hpp"
+#include "temporary_folder.hpp"
+
+namespace hullbench::test {
+
+/// The report of the invented run at these sizes. It is made in a TemporaryFolder of the running test, which
+/// must not have another one at the same time.
+inline nlohmann::json invented_report(const std::vector<std::int64_t>& sizes) {
+  const testing::TemporaryFolder folder;
+  write_invented_run(folder.path(), sizes);
+  return make_report(folder.path());
+}
+
+/// A shape on which every method takes `milliseconds` as the paper took it and half as long again in all, and
+/// errs by `error`, a part of the result's area.
+struct InventedShape {
+  std::string dataset;
+  std::int64_t n = 0;
+  double convexity = 0;
+  std::int64_t milliseconds = 1;
+  double error = 0;
+};
+
+/// The invented report with its runs on California on each of `shapes` instead.
+inline nlohmann::json report_on_shapes(const std::vector<InventedShape>& shapes) {
+  nlohmann::json report = invented_report({2000});
+  const nlohmann::json on_states = report.at("runs");
+  report.at("runs") = nlohmann::json::array();
+  for (const InventedShape& shape : shapes) {
+    for (nlohmann::json run : on_states) {
+      if (run.at("dataset") != "ca" || run.at("holes") == true) continue;
+      run["dataset"] = shape.dataset;
+      run["n"] = shape.n;
+      if (run.at("status") == "ok") {
+        run["metrics"]["l2_paper"] = shape.error;
+        run["metrics"]["ground_truth_convexity"] = shape.convexity;
+        for (auto& phases : run["phases_ns"]) phases["run"] = shape.milliseconds * 1'000'000;
+        for (auto& time : run["time_ns"]) time = shape.milliseconds * 1'500'000;
+      }
+      report["runs"].push_back(run);
+    }
+  }
+  return report;
+}
+
+/// The run of a method with its first protocol on a data set; there must be one.
+inline nlohmann::json& run_on(nlohmann::json& report, const std::string& method, const std::string& dataset) {
+  for (nlohmann::json& run : report.at("runs")) {
+    if (run.at("method") == method && run.at("dataset") == dataset) return run;
+  }
+  throw std::invalid_argument("no run of " + method + " on " + dataset);
+}
+
+}  // namespace hullbench::test

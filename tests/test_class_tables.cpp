@@ -1,0 +1,215 @@
+// The tables of more shapes than anybody wants rows of: by convexity and by kind.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "benchmarks/tables.hpp"
+#include "benchmarks/text_table.hpp"
+#include "invented_shapes.hpp"
+
+namespace hullbench {
+namespace {
+
+using nlohmann::json;
+using Row = std::vector<std::string>;
+using test::InventedShape;
+
+/// Members of a family: on the k-th every method takes k ms and errs by k %, and the convexities take turns.
+std::vector<InventedShape> members_of(const std::string& family, std::int64_t count, std::int64_t n,
+                                      const std::vector<double>& convexities) {
+  std::vector<InventedShape> shapes;
+  for (std::int64_t k = 1; k <= count; ++k) {
+    const double convexity = convexities[static_cast<std::size_t>(k - 1) % convexities.size()];
+    shapes.push_back({family + "-" + std::to_string(k), n, convexity, k, 0.01 * static_cast<double>(k)});
+  }
+  return shapes;
+}
+
+const TableSection* section_of(const Document& document, const std::string& id) {
+  for (const TableSection& section : document.tables) {
+    if (section.id == id) return &section;
+  }
+  return nullptr;
+}
+
+/// The rows of a group and a method, without the marks of their notes.
+std::vector<Row> rows_of(const TableSection& section, const std::string& group, const std::string& method) {
+  std::vector<Row> found;
+  for (const Row& row : section.table.rows()) {
+    if (row[0] == group && without_marks(row[1]) == method) found.push_back(row);
+  }
+  return found;
+}
+
+/// The only one of them.
+Row row_of(const TableSection& section, const std::string& group, const std::string& method) {
+  const std::vector<Row> found = rows_of(section, group, method);
+  if (found.size() == 1) return found.front();
+  ADD_FAILURE() << found.size() << " rows of " << group << " and " << method;
+  return Row(section.table.rows().front().size());
+}
+
+bool has_remark(const TableSection& section, const std::string& part) {
+  return std::any_of(section.remarks.begin(), section.remarks.end(),
+                     [&](const std::string& remark) { return remark.find(part) != std::string::npos; });
+}
+
+bool has_row_of_the_paper(const TableSection& section) {
+  const auto& rows = section.table.rows();
+  return std::any_of(rows.begin(), rows.end(),
+                     [](const Row& row) { return row[1].ends_with(", in the paper"); });
+}
+
+constexpr const char* kHigh = "high (from 0.75)";
+constexpr const char* kMid = "mid (from 0.55)";
+constexpr const char* kLow = "low (below 0.55)";
+constexpr const char* kByConvexity = "invented_convexity";
+constexpr const char* kByConvexityOthers = "invented_convexity_others";
+
+TEST(ClassTables, AreForMoreThanSixtyShapes) {
+  const auto with = [](std::int64_t count) {
+    return make_document(test::report_on_shapes(members_of("star", count, 8000, {0.8})));
+  };
+  EXPECT_TRUE(section_of(with(60), "invented_shapes"));
+  EXPECT_FALSE(section_of(with(60), kByConvexity));
+  const Document document = with(61);
+  EXPECT_FALSE(section_of(document, "invented_shapes"));
+  const TableSection* section = section_of(document, kByConvexity);
+  ASSERT_TRUE(section);
+  EXPECT_EQ(section->table.rows().front(),
+            (Row{"Convexity", "Method", "Shapes", "Invalid", "L2 mean, %", "std", "max", "Time mean, ms",
+                 "std", "max", "Equal work mean, ms"}));
+  // 1 to 61: mean 31, variance 61 * 62 / 12.
+  EXPECT_EQ(rows_of(*section, kHigh, "Polylidar (paper)"),
+            (std::vector<Row>{{kHigh, "Polylidar (paper)", "61", "0", "31.0", "17.8", "61.0", "31.0", "17.8",
+                               "61.0", "46.5"}}));
+  EXPECT_TRUE(section->caption.starts_with("61 shapes (")) << section->caption;
+  EXPECT_NE(section->caption.find("n = 8000"), std::string::npos) << section->caption;
+}
+
+TEST(ClassTables, HaveThePapersRowsBeneathOursOfStarPolygonsAtItsSize) {
+  const Document document =
+      make_document(test::report_on_shapes(members_of("star", 61, 8000, {0.8, 0.6, 0.5})));
+  const TableSection* section = section_of(document, kByConvexity);
+  ASSERT_TRUE(section);
+  EXPECT_EQ(rows_of(*section, kHigh, "Polylidar, in the paper"),
+            (std::vector<Row>{{kHigh, "Polylidar, in the paper", "–", "–", "4.4", "0.5", "6.1", "4.6", "0.1",
+                               "5.0", "–"}}));
+  EXPECT_EQ(row_of(*section, kMid, "Polylidar, in the paper")[4], "8.0");
+  EXPECT_EQ(row_of(*section, kLow, "Polylidar, in the paper")[4], "15.5");
+  EXPECT_TRUE(rows_of(*section, kHigh, "CGAL, in the paper").empty());
+  EXPECT_TRUE(has_remark(*section, "Table V, 19600 polygons"));
+}
+
+TEST(ClassTables, HaveNoRowsOfThePaperAtOtherSizesAndOfOtherShapes) {
+  for (const auto& [family, n] : {std::pair("star", 4000), std::pair("comb", 8000)}) {
+    const Document document = make_document(test::report_on_shapes(members_of(family, 61, n, {0.8, 0.5})));
+    EXPECT_FALSE(section_of(document, kByConvexity));
+    const TableSection* section = section_of(document, kByConvexityOthers);
+    ASSERT_TRUE(section) << family;
+    EXPECT_FALSE(has_row_of_the_paper(*section));
+    EXPECT_FALSE(has_remark(*section, "The paper's values"));
+  }
+}
+
+TEST(ClassTables, AShapeOnABorderIsInTheHigherClass) {
+  // One shape right below each border, and all others on the borders.
+  std::vector<InventedShape> shapes = members_of("star", 62, 8000, {0.75, 0.55});
+  shapes.push_back({"star-63", 8000, std::nextafter(0.75, 0), 1, 0.01});
+  shapes.push_back({"star-64", 8000, std::nextafter(0.55, 0), 1, 0.01});
+  const Document document = make_document(test::report_on_shapes(shapes));
+  const TableSection* section = section_of(document, kByConvexity);
+  ASSERT_TRUE(section);
+  EXPECT_EQ(row_of(*section, kHigh, "Polylidar (paper)")[2], "31");
+  EXPECT_EQ(row_of(*section, kMid, "Polylidar (paper)")[2], "32");
+  EXPECT_EQ(row_of(*section, kLow, "Polylidar (paper)")[2], "1");
+}
+
+TEST(ClassTables, AnInvalidResultIsCountedAndNotInTheStatistics) {
+  json report = test::report_on_shapes(members_of("star", 61, 8000, {0.8}));
+  json& run = test::run_on(report, "polylidar", "star-61");
+  run["status"] = "invalid_output";
+  run["detail"] = "the result is an invalid polygon: Self-intersection";
+  run["metrics"]["valid"] = false;
+  const Document document = make_document(report);
+  const TableSection* section = section_of(document, kByConvexity);
+  ASSERT_TRUE(section);
+  const Row row = row_of(*section, kHigh, "Polylidar (paper)");
+  EXPECT_EQ(Row(row.begin() + 1, row.begin() + 7),
+            (Row{"Polylidar (paper) [1]", "60", "1", "30.5", "17.5", "60.0"}));
+  EXPECT_TRUE(has_remark(*section, "Polylidar (paper): of 61 results, each checked by GEOS, 1 are invalid."));
+  EXPECT_TRUE(
+      has_remark(*section, "SpatiaLite (paper): of 61 results, each checked by GEOS, 0 are invalid."));
+}
+
+TEST(ClassTables, AFailureIsMarkedAndNotInTheStatistics) {
+  json report = test::report_on_shapes(members_of("star", 61, 8000, {0.8}));
+  json& run = test::run_on(report, "spatialite", "star-61");
+  run["status"] = "timeout";
+  run["detail"] = "no answer within 120 s";
+  const Document document = make_document(report);
+  const TableSection* section = section_of(document, kByConvexity);
+  ASSERT_TRUE(section);
+  const Row row = row_of(*section, kHigh, "SpatiaLite (paper)");
+  EXPECT_EQ(Row(row.begin() + 1, row.begin() + 5), (Row{"SpatiaLite (paper) [1]", "60", "0", "30.5"}));
+  EXPECT_TRUE(
+      has_remark(*section, "SpatiaLite (paper): of 60 results, each checked by GEOS, 0 are invalid."));
+  ASSERT_FALSE(document.notes.empty());
+  EXPECT_EQ(document.notes.front().find("[1] SpatiaLite (paper) on star-61, n = 8000: timeout, no answer"),
+            0U)
+      << document.notes.front();
+}
+
+TEST(ClassTables, OtherFamiliesStandApartAndByKind) {
+  std::vector<InventedShape> shapes = members_of("star", 61, 8000, {0.8});
+  for (const char* family : {"comb", "spiral"}) {
+    const auto more = members_of(family, 3, 8000, {0.3});
+    shapes.insert(shapes.end(), more.begin(), more.end());
+  }
+  json report = test::report_on_shapes(shapes);
+  for (const auto& [name, title] :
+       {std::pair("star", "Star-shaped"), std::pair("comb", "Comb"), std::pair("spiral", "Spiral")}) {
+    report["datasets"].push_back({{"name", name}, {"title", title}, {"members", 100}});
+  }
+  const Document document = make_document(report);
+  EXPECT_EQ(row_of(*section_of(document, kByConvexity), kHigh, "Polylidar (paper)")[2], "61");
+  const TableSection* others = section_of(document, kByConvexityOthers);
+  ASSERT_TRUE(others);
+  EXPECT_TRUE(others->caption.starts_with("6 shapes (comb and spiral), n = 8000, by convexity"))
+      << others->caption;
+  EXPECT_EQ(row_of(*others, kLow, "Polylidar (paper)")[2], "6");
+  const TableSection* kinds = section_of(document, "invented_kinds");
+  ASSERT_TRUE(kinds);
+  EXPECT_EQ(row_of(*kinds, "Comb", "Polylidar (paper)")[2], "3");
+  EXPECT_EQ(row_of(*kinds, "Spiral", "Polylidar (paper)")[2], "3");
+  EXPECT_TRUE(rows_of(*kinds, "Star-shaped", "Polylidar (paper)").empty());
+}
+
+TEST(ClassTables, AShapeThatNothingWasScoredOnHasNoClass) {
+  json report = test::report_on_shapes(members_of("star", 61, 8000, {0.8}));
+  for (json& run : report["runs"]) {
+    if (run["dataset"] != "star-5") continue;
+    run["status"] = "timeout";
+    run["metrics"] = json::object();
+  }
+  const Document document = make_document(report);
+  EXPECT_EQ(row_of(*section_of(document, kByConvexity), "not known", "Polylidar (paper)")[2], "0");
+}
+
+TEST(ClassTables, ShapesWithPointsOfTheirOwnHaveThemOnAverage) {
+  const json report = test::report_on_shapes(
+      {{"floor-1", 80000, 0.5, 1, 0.01}, {"floor-2", 90000, 0.5, 2, 0.02}, {"floor-3", 90001, 0.5, 3, 0.03}});
+  const Document document = make_document(report);
+  const TableSection* section = section_of(document, "invented_summary");
+  ASSERT_TRUE(section);
+  EXPECT_TRUE(section->caption.starts_with("3 shapes, 86667 points on average: ")) << section->caption;
+}
+
+}  // namespace
+}  // namespace hullbench

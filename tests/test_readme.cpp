@@ -1,0 +1,157 @@
+// The results in the README: where they are put, and the check that they are those of a run.
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "benchmarks/readme.hpp"
+#include "invented_shapes.hpp"
+#include "tests/program.hpp"
+#include "tests/small_plans.hpp"
+#include "tests/temporary_folder.hpp"
+
+namespace hullbench {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::Outcome;
+using testing::read_text;
+using testing::write_text;
+
+const std::string kBegin = "<!-- results: begin -->\n";
+const std::string kEnd = "<!-- results: end -->";
+
+std::string complaint(const std::string& readme) {
+  try {
+    with_results(readme, "new\n");
+  } catch (const std::runtime_error& error) {
+    return error.what();
+  }
+  return "nothing";
+}
+
+TEST(ReadmeMarks, ResultsTakeThePlaceOfWhatStandsBetweenThem) {
+  EXPECT_EQ(with_results("# Title\n\n" + kBegin + "old\nolder\n" + kEnd + "\n\nRest", "new\n"),
+            "# Title\n\n" + kBegin + "new\n" + kEnd + "\n\nRest");
+  EXPECT_EQ(with_results(kBegin + kEnd, ""), kBegin + kEnd);
+}
+
+TEST(ReadmeMarks, MissingOnesAreASentence) {
+  const std::string words = " once; put it where the results are to stand";
+  const std::string begin = "the README must have the line <!-- results: begin -->" + words;
+  const std::string end = "the README must have the line <!-- results: end -->" + words;
+  EXPECT_EQ(complaint("# Title\n"), begin);
+  EXPECT_EQ(complaint(""), begin);
+  EXPECT_EQ(complaint("old\n" + kEnd), begin);
+  EXPECT_EQ(complaint(kBegin + "old\n"), end);
+  EXPECT_EQ(complaint(kBegin + "old\n" + kBegin + kEnd), begin);
+  EXPECT_EQ(complaint(kBegin + "old\n" + kEnd + "\n" + kEnd), end);
+}
+
+TEST(ReadmeMarks, TheWrongOrderIsASentence) {
+  EXPECT_EQ(complaint(kEnd + "\nold\n" + kBegin),
+            "the README's marks of the results stand in the wrong order; swap them");
+}
+
+TEST(ReadmeResults, NameTheRunAndHaveTablesWithoutMarksOfNotes) {
+  // On the largest size of Hawaii SpatiaLite ran out of time: its label has a mark in tables.md.
+  nlohmann::json report = test::invented_report({2000, 64000});
+  report["plan"].update({{"name", "states"}, {"methods", nlohmann::json::array()}});
+  const std::string text = readme_results({report}, "results/reference");
+  EXPECT_NE(text.find("in [results/reference](results/reference), begun on 2026-01-02: 28 runs of"),
+            std::string::npos)
+      << text;
+  EXPECT_NE(text.find("### California with holes: time of equal work, ms"), std::string::npos) << text;
+  EXPECT_NE(text.find("### Methods: what each returns"), std::string::npos) << text;
+  EXPECT_EQ(text.find("(paper) ["), std::string::npos) << text;
+}
+
+TEST(ReadmeResults, HaveNoMarksInTablesByConvexityEither) {
+  std::vector<test::InventedShape> shapes;
+  for (int k = 1; k <= 61; ++k) shapes.push_back({"star-" + std::to_string(k), 8000, 0.8, 1, 0.1});
+  nlohmann::json report = test::report_on_shapes(shapes);
+  report["plan"].update({{"name", "random"}, {"methods", nlohmann::json::array()}});
+  const std::string text = readme_results({report}, "results/reference");
+  EXPECT_NE(text.find("by convexity"), std::string::npos) << text;
+  EXPECT_EQ(text.find("(paper) ["), std::string::npos) << text;
+}
+
+TEST(ReadmeResults, OfNoRunsAreASentence) {
+  try {
+    readme_results({}, "results/reference");
+    FAIL();
+  } catch (const std::runtime_error& error) {
+    EXPECT_STREQ(error.what(), "there is no run in results/reference yet; measure it first");
+  }
+}
+
+class ReadmeCommand : public ::testing::Test {
+ protected:
+  fs::path file() const { return folder_.path() / "README.md"; }
+
+  Outcome hullbench(std::vector<std::string> arguments) const {
+    arguments.insert(arguments.begin(), HULLBENCH);
+    testing::ProgramOptions options;
+    options.folder = folder_.path();
+    return testing::run_program(arguments, options);
+  }
+
+  void measure() const {
+    const auto plan = testing::small_plan("states", testing::california({500, 600}));
+    ASSERT_EQ(hullbench({"run", testing::write_plan(folder_.path(), plan), "--out", "run"}).code, 0);
+  }
+
+ private:
+  testing::TemporaryFolder folder_;
+};
+
+TEST_F(ReadmeCommand, WritesTheResultsAndSeesWhenADigitIsAnother) {
+  measure();
+  const std::string before = "# Title 1\n\n" + kBegin;
+  const std::string behind = kEnd + "\n\nRest: \"\\ 2\"\n";
+  write_text(file(), before + "old\n" + behind);
+  EXPECT_EQ(hullbench({"readme", "run", "README.md", "--check"}).code, 1);
+  EXPECT_EQ(read_text(file()), before + "old\n" + behind) << "a check writes nothing";
+  const Outcome written = hullbench({"readme", "run", "README.md"});
+  EXPECT_EQ(written.code, 0) << written.err;
+  std::string text = read_text(file());
+  EXPECT_TRUE(text.starts_with(before) && text.ends_with(behind)) << text;
+  EXPECT_EQ(text.find("old"), std::string::npos);
+
+  const Outcome agrees = hullbench({"readme", "run", "README.md", "--check"});
+  EXPECT_EQ(agrees.code, 0) << agrees.err;
+  EXPECT_EQ(agrees.out, "README.md agrees with run\n");
+  EXPECT_EQ(hullbench({"readme", "run", "README.md"}).code, 0);
+  EXPECT_EQ(read_text(file()), text);
+
+  // The first digit of a measured time.
+  const std::size_t cell = text.find(" ±");
+  ASSERT_NE(cell, std::string::npos);
+  text[cell - 1] = text[cell - 1] == '9' ? '8' : '9';
+  write_text(file(), text);
+  const Outcome differs = hullbench({"readme", "run", "README.md", "--check"});
+  EXPECT_EQ(differs.code, 1);
+  EXPECT_EQ(
+      differs.err,
+      "hullbench: the results in README.md are not those of run; 'hullbench readme run README.md' writes "
+      "them anew\n");
+  EXPECT_EQ(read_text(file()), text);
+}
+
+TEST_F(ReadmeCommand, WhatIsNotThereIsASentence) {
+  measure();
+  EXPECT_EQ(hullbench({"readme", "run", "README.md"}).err, "hullbench: there is no file README.md\n");
+  EXPECT_EQ(hullbench({"readme", "run", "."}).err, "hullbench: there is no file .\n");
+  write_text(file(), "# Title\n");
+  EXPECT_EQ(hullbench({"readme", "nowhere", "README.md"}).code, 2);
+  const Outcome no_marks = hullbench({"readme", "run", "README.md"});
+  EXPECT_EQ(no_marks.code, 1);
+  EXPECT_NE(no_marks.err.find("must have the line <!-- results: begin --> once"), std::string::npos);
+  EXPECT_EQ(read_text(file()), "# Title\n");
+}
+
+}  // namespace
+}  // namespace hullbench

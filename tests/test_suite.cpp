@@ -1,0 +1,302 @@
+// Several plans in one call: a folder with a run of each and the tables of all, gone on with when
+// interrupted.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <csignal>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <set>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "benchmarks/json_lines.hpp"
+#include "tests/program.hpp"
+#include "tests/small_plans.hpp"
+#include "tests/temporary_folder.hpp"
+
+namespace hullbench {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+using testing::california;
+using testing::Outcome;
+using testing::Program;
+using testing::read_text;
+using testing::small_plan;
+
+class SuiteTest : public ::testing::Test {
+ protected:
+  fs::path folder() const { return folder_.path(); }
+  fs::path suite() const { return folder() / "suite"; }
+
+  static std::vector<std::string> command(std::vector<std::string> arguments) {
+    arguments.insert(arguments.begin(), HULLBENCH);
+    return arguments;
+  }
+
+  Outcome hullbench(std::vector<std::string> arguments, testing::ProgramOptions options = {}) const {
+    options.folder = folder();
+    return testing::run_program(command(std::move(arguments)), options);
+  }
+
+  std::string write(const json& plan) const { return testing::write_plan(folder(), plan); }
+
+  /// "first" with 500 and "second" with 600 points.
+  std::vector<std::string> run_both(std::vector<std::string> more = {"--out", "suite"}) const {
+    std::vector<std::string> words = {"run", write(small_plan("first", california({500}))),
+                                      write(small_plan("second", california({600})))};
+    words.insert(words.end(), more.begin(), more.end());
+    return words;
+  }
+
+  static void expect_refusal(const Outcome& outcome, int code, const std::string& words) {
+    EXPECT_EQ(outcome.code, code) << outcome.err;
+    EXPECT_TRUE(outcome.err.starts_with("hullbench: ")) << outcome.err;
+    EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1) << outcome.err;
+    EXPECT_NE(outcome.err.find(words), std::string::npos) << outcome.err;
+    EXPECT_EQ(outcome.out, "");
+  }
+
+ private:
+  testing::TemporaryFolder folder_;
+};
+
+std::set<std::string> names_in(const fs::path& folder) {
+  std::set<std::string> names;
+  for (const auto& entry : fs::directory_iterator(folder)) names.insert(entry.path().filename().string());
+  return names;
+}
+
+/// The names of the rows of a run, each of which must be there once.
+std::set<std::string> rows_of(const fs::path& run) {
+  std::set<std::string> names;
+  for (const json& line : load_json_lines(run / "runs.jsonl").lines)
+    EXPECT_TRUE(names.insert(line.at("name")).second) << line.at("name") << " is there twice";
+  return names;
+}
+
+std::vector<std::string> records_of(const fs::path& suite) {
+  std::vector<std::string> texts;
+  for (const char* run : {"first", "second"}) {
+    for (const char* file : {"runs.jsonl", "repetitions.jsonl", "run.json", "report.json"})
+      texts.push_back(read_text(suite / run / file));
+  }
+  return texts;
+}
+
+TEST_F(SuiteTest, IsARunOfEveryPlanAndTheTablesOfAll) {
+  const Outcome outcome = hullbench(run_both());
+  EXPECT_EQ(outcome.code, 0) << outcome.err;
+  EXPECT_NE(outcome.err.find("table 1 of 2: Plan first"), std::string::npos) << outcome.err;
+  EXPECT_NE(outcome.err.find("table 2 of 2: Plan second"), std::string::npos) << outcome.err;
+  EXPECT_NE(outcome.err.find("4 ok, 0 failed, 0 not installed"), std::string::npos) << outcome.err;
+  EXPECT_EQ(names_in(suite()),
+            (std::set<std::string>{"first", "second", "suite.json", "tables", "tables.md"}));
+  EXPECT_EQ(rows_of(suite() / "first"), (std::set<std::string>{"polylidar/ca/n:500/holes:0/protocol:paper",
+                                                               "polylidar/ca/n:500/holes:1/protocol:paper"}));
+  EXPECT_EQ(rows_of(suite() / "second"),
+            (std::set<std::string>{"polylidar/ca/n:600/holes:0/protocol:paper",
+                                   "polylidar/ca/n:600/holes:1/protocol:paper"}));
+  EXPECT_EQ(read_text(suite() / "tables.md"), outcome.out);
+  EXPECT_NE(outcome.out.find("## Plan first\n"), std::string::npos);
+  EXPECT_NE(outcome.out.find("## Plan second\n"), std::string::npos);
+  const std::set<std::string> tables = names_in(suite() / "tables");
+  for (const char* table : {"methods", "parameters", "first_ca_time", "second_ca_holes_error"}) {
+    EXPECT_TRUE(tables.contains(std::string(table) + ".csv")) << table;
+    EXPECT_TRUE(tables.contains(std::string(table) + ".tex")) << table;
+  }
+  const Outcome printed = hullbench({"tables", "suite"});
+  EXPECT_EQ(printed.code, 0) << printed.err;
+  EXPECT_EQ(printed.out, outcome.out);
+}
+
+TEST_F(SuiteTest, ThatIsFinishedIsNotMeasuredAgain) {
+  const Outcome first = hullbench(run_both());
+  ASSERT_EQ(first.code, 0) << first.err;
+  const auto records = records_of(suite());
+  fs::remove_all(suite() / "tables");
+  const Outcome second = hullbench(run_both());
+  EXPECT_EQ(second.code, 0) << second.err;
+  EXPECT_EQ(second.out, first.out);
+  EXPECT_NE(second.err.find("Plan first is finished already"), std::string::npos) << second.err;
+  EXPECT_NE(second.err.find("Plan second is finished already"), std::string::npos) << second.err;
+  EXPECT_NE(second.err.find("4 ok, 0 failed, 0 not installed"), std::string::npos) << second.err;
+  EXPECT_EQ(records_of(suite()), records);
+  EXPECT_TRUE(names_in(suite() / "tables").contains("methods.csv"));
+}
+
+TEST_F(SuiteTest, IsMeasuredAnewByForce) {
+  ASSERT_EQ(hullbench(run_both()).code, 0);
+  const auto repetitions = [&](const char* plan) { return read_text(suite() / plan / "repetitions.jsonl"); };
+  const std::string first = repetitions("first");
+  const std::string second = repetitions("second");
+  EXPECT_EQ(hullbench(run_both({"--out", "suite", "--force"})).code, 0);
+  // Nobody measures the same nanoseconds twice.
+  EXPECT_NE(repetitions("first"), first);
+  EXPECT_NE(repetitions("second"), second);
+  EXPECT_EQ(rows_of(suite() / "first").size(), 2U);
+}
+
+TEST_F(SuiteTest, HasTheExitCodeOfItsWorstRow) {
+  const std::vector<std::string> words = {"run",
+                                          write(small_plan("first", california({500}))),
+                                          write(small_plan("second", california({64000}), 1)),
+                                          "--out",
+                                          "suite",
+                                          "--timeout",
+                                          "0.002"};
+  // No machine loads and triangulates 64000 points in two milliseconds.
+  EXPECT_EQ(hullbench(words).code, 4);
+  EXPECT_EQ(hullbench(words).code, 4) << "said of finished runs too";
+}
+
+TEST_F(SuiteTest, WithTheSamePlanTwiceIsRefused) {
+  const std::string plan = write(small_plan("first", california({500})));
+  expect_refusal(hullbench({"run", plan, plan}), 2, "the plan 'first' is named twice; leave one out");
+  EXPECT_FALSE(fs::exists(folder() / "results"));
+}
+
+TEST_F(SuiteTest, InAFolderWithSomethingElseIsRefused) {
+  fs::create_directory(suite());
+  testing::write_text(suite() / "thesis.tex", "precious");
+  expect_refusal(hullbench(run_both()), 2, "the output folder suite holds something else");
+  EXPECT_EQ(names_in(suite()), (std::set<std::string>{"thesis.tex"}));
+}
+
+TEST_F(SuiteTest, InAFolderWithAnotherSuiteIsRefused) {
+  ASSERT_EQ(hullbench(run_both()).code, 0);
+  const auto records = records_of(suite());
+  expect_refusal(hullbench(run_both({"--out", "suite", "--seed", "7"})), 2, "holds something else");
+  EXPECT_EQ(records_of(suite()), records);
+}
+
+TEST_F(SuiteTest, InAFolderThatCannotBeWrittenIsRefused) {
+  fs::create_directory(folder() / "sealed");
+  fs::permissions(folder() / "sealed", fs::perms::owner_read | fs::perms::owner_exec);
+  testing::ProgramOptions options;
+  options.obey_permissions = true;
+  expect_refusal(hullbench(run_both({"--out", "sealed"}), options), 2,
+                 "cannot write to the output folder sealed");
+  expect_refusal(hullbench(run_both({"--out", "sealed/new"}), options), 2,
+                 "cannot write to the output folder sealed/new");
+  expect_refusal(hullbench(run_both({"--out", "first.json"})), 2,
+                 "cannot write to the output folder first.json");
+  fs::permissions(folder() / "sealed", fs::perms::owner_all);
+}
+
+TEST_F(SuiteTest, LeavesOutAPlanWithoutRuns) {
+  const Outcome outcome = hullbench(run_both({"--out", "suite", "--filter", "n:600/holes:1"}));
+  EXPECT_EQ(outcome.code, 0) << outcome.err;
+  EXPECT_FALSE(fs::exists(suite() / "first"));
+  EXPECT_EQ(rows_of(suite() / "second"),
+            (std::set<std::string>{"polylidar/ca/n:600/holes:1/protocol:paper"}));
+  EXPECT_EQ(json::parse(read_text(suite() / "suite.json")).at("plans"), json::array({"second"}));
+  EXPECT_EQ(hullbench({"tables", "suite"}).out, outcome.out);
+}
+
+TEST_F(SuiteTest, WithoutAnyRunIsNotBegun) {
+  expect_refusal(hullbench(run_both({"--filter", "cgal"})), 6,
+                 "no run of the plans 'first', 'second' has a name that matches 'cgal'");
+  EXPECT_FALSE(fs::exists(folder() / "results"));
+}
+
+TEST_F(SuiteTest, WithoutOutIsTheLatestRun) {
+  const Outcome outcome = hullbench(run_both({}));
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  EXPECT_EQ(read_text(folder() / "results" / "latest" / "tables.md"), outcome.out);
+  EXPECT_EQ(hullbench({"tables"}).out, outcome.out);
+}
+
+TEST_F(SuiteTest, ADryRunPrintsTheNamesOfAllPlans) {
+  EXPECT_EQ(hullbench(run_both({"--dry-run", "--filter", "holes:0"})).out,
+            "polylidar/ca/n:500/holes:0/protocol:paper\npolylidar/ca/n:600/holes:0/protocol:paper\n");
+}
+
+class InterruptedSuiteTest : public SuiteTest {
+ protected:
+  static constexpr int kRepetitions = 40;
+
+  std::vector<std::string> words(std::vector<std::string> more = {"--out", "suite"}) const {
+    std::vector<std::string> words = {"run", write(small_plan("first", california({500}))),
+                                      write(small_plan("second", california({2000, 3000}), kRepetitions))};
+    words.insert(words.end(), more.begin(), more.end());
+    return words;
+  }
+
+  /// Starts the suite and sends `signal` in the middle of the second plan; how it ended.
+  Outcome stop_in_second(const std::vector<std::string>& words, int signal, std::size_t lines,
+                         const fs::path& in) const {
+    testing::ProgramOptions options;
+    options.folder = folder();
+    Program program(command(words), options);
+    EXPECT_TRUE(testing::wait_until([&] {
+      const std::string text = read_text(in / "second" / "repetitions.jsonl");
+      return static_cast<std::size_t>(std::count(text.begin(), text.end(), '\n')) >= lines;
+    }));
+    program.send_signal(signal);
+    return program.wait();
+  }
+
+  static void expect_whole(const fs::path& suite) {
+    EXPECT_EQ(rows_of(suite / "first").size(), 2U);
+    EXPECT_EQ(rows_of(suite / "second").size(), 4U);
+    std::set<std::pair<std::string, int>> seen;
+    for (const json& line : load_json_lines(suite / "second" / "repetitions.jsonl").lines)
+      EXPECT_TRUE(seen.emplace(line.at("id"), line.at("repetition")).second) << line;
+    EXPECT_EQ(seen.size(), std::size_t{4} * kRepetitions);
+    for (const json& line : load_json_lines(suite / "second" / "runs.jsonl").lines)
+      EXPECT_EQ(line.at("time_ns").size(), std::size_t{kRepetitions});
+  }
+};
+
+TEST_F(InterruptedSuiteTest, GoesOnFromWhereItStopped) {
+  std::vector<std::string> firsts;
+  for (const auto& [signal, code] : {std::pair(SIGKILL, 128 + SIGKILL), std::pair(SIGINT, 130)}) {
+    const Outcome stopped = stop_in_second(words(), signal, signal == SIGKILL ? 20 : 60, suite());
+    ASSERT_EQ(stopped.code, code) << stopped.err;
+    EXPECT_EQ(stopped.out, "");
+    EXPECT_FALSE(fs::exists(suite() / "tables.md"));
+    EXPECT_FALSE(fs::exists(suite() / "second" / "report.json"));
+    firsts.push_back(read_text(suite() / "first" / "runs.jsonl"));
+  }
+  const std::string repetitions = read_text(suite() / "second" / "repetitions.jsonl");
+  const Outcome whole = hullbench(words());
+  EXPECT_EQ(whole.code, 0) << whole.err;
+  EXPECT_NE(whole.err.find("Plan first is finished already"), std::string::npos) << whole.err;
+  firsts.push_back(read_text(suite() / "first" / "runs.jsonl"));
+  EXPECT_FALSE(firsts.front().empty());
+  EXPECT_EQ(firsts, std::vector<std::string>(3, firsts.front()));
+  EXPECT_TRUE(read_text(suite() / "second" / "repetitions.jsonl").starts_with(repetitions));
+  expect_whole(suite());
+  EXPECT_EQ(read_text(suite() / "tables.md"), whole.out);
+}
+
+TEST_F(InterruptedSuiteTest, IsFoundWithoutOutUntilItIsFinished) {
+  const fs::path latest = folder() / "results" / "latest";
+  ASSERT_EQ(stop_in_second(words({}), SIGINT, 20, latest).code, 130);
+  const std::string first = read_text(latest / "first" / "runs.jsonl");
+  EXPECT_EQ(hullbench(words({})).code, 0);
+  EXPECT_EQ(names_in(folder() / "results" / "runs").size(), 1U);
+  EXPECT_EQ(read_text(latest / "first" / "runs.jsonl"), first);
+  expect_whole(latest);
+  EXPECT_EQ(hullbench(words({})).code, 0);
+  EXPECT_EQ(names_in(folder() / "results" / "runs").size(), 2U);
+}
+
+TEST_F(InterruptedSuiteTest, HasTheTablesOfWhatIsThere) {
+  ASSERT_EQ(stop_in_second(words(), SIGINT, 1, suite()).code, 130);
+  const Outcome tables = hullbench({"tables", "suite"});
+  EXPECT_EQ(tables.code, 0) << tables.err;
+  EXPECT_NE(tables.out.find("## Plan first\n"), std::string::npos);
+  fs::remove_all(suite() / "first");
+  fs::remove_all(suite() / "second");
+  EXPECT_EQ(hullbench({"tables", "suite"}).code, 0);
+  testing::write_text(suite() / "suite.json", "{");
+  expect_refusal(hullbench({"tables", "suite"}), 1, "cannot read suite/suite.json");
+}
+
+}  // namespace
+}  // namespace hullbench
