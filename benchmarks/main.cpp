@@ -87,7 +87,10 @@ int readme(const std::string& run, const std::string& path, bool check) {
   std::ifstream in(path, std::ios::binary);
   if (!in.is_open() || fs::is_directory(path)) throw ConfigurationError("there is no file " + path);
   const std::string before(std::istreambuf_iterator<char>(in), {});
-  const std::string after = with_results(before, readme_results(reports_in(run), run));
+  // Named by what it is, not by a link that will point to another one some day.
+  const fs::path folder =
+      fs::is_symlink(run) ? fs::path(run).parent_path() / fs::read_symlink(run) : fs::path(run);
+  const std::string after = with_results(before, readme_results(reports_in(run), folder.string()));
   if (before == after) {
     std::cout << path << " agrees with " << run << "\n";
     return kOk;

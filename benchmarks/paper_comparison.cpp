@@ -67,7 +67,8 @@ void compare_steps(const TableContext& context, std::vector<Comparison>& compari
     const std::string teller = steps.at("told_by").value(method, method);
     const auto compare = [&](const std::string& quantity, const std::string& measured_method,
                              const PaperStep* step, const json& theirs) {
-      if (!theirs.is_number()) return;
+      const std::string protocol = paper().at("protocol").get<std::string>();
+      if (!theirs.is_number() || context.measurements.find(measured_method, protocol, which).empty()) return;
       const auto ours = step_time(context, measured_method, which, step);
       comparisons.push_back(
           {steps.at("where").get<std::string>(), "", measured_method, quantity, theirs.get<double>(), ours});
