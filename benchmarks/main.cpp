@@ -46,6 +46,7 @@ struct Arguments {
   bool json = false;
   RunCommand run;
   std::string tables_path = "results/latest";
+  bool tables_write = false;
   std::string readme_run;
   std::string readme_path;
   bool readme_check = false;
@@ -78,8 +79,10 @@ std::vector<nlohmann::json> reports_in(const std::string& path) {
   return is_suite(path) ? suite_reports(path) : std::vector{make_report(path)};
 }
 
-int tables(const std::string& path) {
-  print_markdown(make_documents(reports_in(path)), std::cout);
+int tables(const std::string& path, bool write) {
+  const std::vector<Document> documents = make_documents(reports_in(path));
+  print_markdown(documents, std::cout);
+  if (write) write_tables(path, documents);
   return kOk;
 }
 
@@ -150,9 +153,9 @@ void add_commands(CLI::App& app, Arguments& arguments) {
   app.footer(kFooter);
   app.add_subcommand("list", "Show methods and data sets")->add_flag("--json", arguments.json, "As JSON");
   add_run(app, arguments.run);
-  app.add_subcommand("tables", "Print the tables of a run")
-      ->add_option("RUN", arguments.tables_path, "The run's folder")
-      ->capture_default_str();
+  CLI::App* tables = app.add_subcommand("tables", "Print the tables of a run");
+  tables->add_option("RUN", arguments.tables_path, "The run's folder")->capture_default_str();
+  tables->add_flag("--write", arguments.tables_write, "Write its tables.md and tables/ anew too");
   CLI::App* readme = app.add_subcommand("readme", "Write a run's results into a README, between its marks");
   readme->add_option("RUN", arguments.readme_run, "The run's folder")->required();
   readme->add_option("FILE", arguments.readme_path, "The README")->required();
@@ -170,7 +173,7 @@ int dispatch(const CLI::App& app, const Arguments& arguments) {
   catch_interruptions();
   if (app.got_subcommand("list")) return list(arguments.json);
   if (app.got_subcommand("run")) return run_command(arguments.run, &own_worker);
-  if (app.got_subcommand("tables")) return tables(arguments.tables_path);
+  if (app.got_subcommand("tables")) return tables(arguments.tables_path, arguments.tables_write);
   if (app.got_subcommand("readme")) {
     return readme(arguments.readme_run, arguments.readme_path, arguments.readme_check);
   }

@@ -67,10 +67,10 @@ std::string readme_results(const std::vector<json>& reports, const std::string& 
   std::size_t runs = 0;
   for (const json& report : reports) runs += report.at("runs").size();
   std::ostringstream out;
-  out << "The numbers below are those of the reference run in [" << folder << "](" << folder << "), begun on "
-      << reports.front().at("created").get<std::string>().substr(0, 10) << ": " << runs << " runs of "
-      << reports.size() << " experiments. All of its tables are in [" << folder << "/tables.md](" << folder
-      << "/tables.md).\n";
+  out << "The numbers below are those of the reference run in\n[" << folder << "](" << folder
+      << "), begun on " << reports.front().at("created").get<std::string>().substr(0, 10) << ": " << runs
+      << " runs, " << reports.size() << (reports.size() == 1 ? " experiment" : " experiments")
+      << ".\nAll of its tables are in [" << folder << "/tables.md](" << folder << "/tables.md).\n";
   for (const std::string_view id : kShown) {
     const TableSection* section = find_table(documents, id);
     if (section == nullptr) continue;

@@ -35,3 +35,11 @@ hullbench_test(test_command_line SOURCES test_command_line.cpp
   LIBRARIES hullbench::record hullbench_test_program LABELS harness)
 target_compile_definitions(test_command_line PRIVATE HULLBENCH="$<TARGET_FILE:hullbench>")
 add_dependencies(test_command_line hullbench)
+
+# The reference run, and that the README shows its numbers.
+hullbench_test(test_reference SOURCES test_reference.cpp
+  LIBRARIES hullbench::runner hullbench::report hullbench_test_program LABELS harness)
+target_compile_definitions(test_reference PRIVATE HULLBENCH_SOURCE_DIRECTORY="${PROJECT_SOURCE_DIR}")
+add_test(NAME readme.has_the_reference_run
+  COMMAND hullbench readme --check results/reference README.md
+  WORKING_DIRECTORY "${PROJECT_SOURCE_DIR}")

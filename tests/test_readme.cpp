@@ -61,8 +61,9 @@ TEST(ReadmeResults, NameTheRunAndHaveTablesWithoutMarksOfNotes) {
   nlohmann::json report = test::invented_report({2000, 64000});
   report["plan"].update({{"name", "states"}, {"methods", nlohmann::json::array()}});
   const std::string text = readme_results({report}, "results/reference");
-  EXPECT_NE(text.find("in [results/reference](results/reference), begun on 2026-01-02: 28 runs of"),
-            std::string::npos)
+  EXPECT_NE(
+      text.find("in\n[results/reference](results/reference), begun on 2026-01-02: 28 runs, 1 experiment."),
+      std::string::npos)
       << text;
   EXPECT_NE(text.find("### California with holes: time of equal work, ms"), std::string::npos) << text;
   EXPECT_NE(text.find("### Methods: what each returns"), std::string::npos) << text;

@@ -1,0 +1,90 @@
+// The committed reference run: complete, small enough, and with a reason for each large difference from the
+// paper.
+#include <gtest/gtest.h>
+
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "benchmarks/document.hpp"
+#include "benchmarks/paper_comparison.hpp"
+#include "benchmarks/suite.hpp"
+#include "tests/program.hpp"
+#include "tests/temporary_folder.hpp"
+
+namespace hullbench {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+
+const fs::path kReference = fs::path(HULLBENCH_SOURCE_DIRECTORY) / "results" / "reference";
+
+const std::vector<json>& reports() {
+  static const std::vector<json> result = suite_reports(kReference);
+  return result;
+}
+
+TEST(Reference, IsAWholeBench) {
+  std::map<std::string, std::size_t> runs;
+  for (const json& report : reports()) {
+    runs[report.at("plan").at("name").get<std::string>()] = report.at("runs").size();
+    EXPECT_FALSE(report.at("tool").at("dirty").get<bool>());
+  }
+  const std::map<std::string, std::size_t> expected = {
+      {"rgbd", 55}, {"states", 108}, {"alphabet", 130}, {"random", 20600}, {"steps", 6}};
+  EXPECT_EQ(runs, expected);
+}
+
+TEST(Reference, HasNoFailureAndNoInvalidResult) {
+  for (const json& report : reports()) {
+    for (const auto& [status, count] : report.at("summary").at("totals").items()) {
+      if (status == "ok" || status == "not_installed") continue;
+      EXPECT_EQ(count, 0) << status;
+    }
+  }
+}
+
+// After a wanted change of the tables: build/hullbench tables results/reference --write, and make reference's
+// last line.
+TEST(Reference, ItsTablesAreThoseOfItsRecords) {
+  const testing::TemporaryFolder folder;
+  write_tables(folder.path(), make_documents(reports()));
+  std::size_t files = 0;
+  for (const auto& entry : fs::recursive_directory_iterator(folder.path())) {
+    if (!entry.is_regular_file()) continue;
+    const fs::path kept = kReference / fs::relative(entry.path(), folder.path());
+    EXPECT_EQ(testing::read_text(entry.path()), testing::read_text(kept)) << kept;
+    ++files;
+  }
+  EXPECT_GT(files, 50U);
+}
+
+TEST(Reference, StaysBelowFiveMebibytes) {
+  std::uintmax_t bytes = 0;
+  for (const auto& entry : fs::recursive_directory_iterator(fs::canonical(kReference))) {
+    if (entry.is_regular_file()) bytes += entry.file_size();
+  }
+  EXPECT_LT(bytes, std::uintmax_t{5} << 20);
+  EXPECT_GT(bytes, std::uintmax_t{1} << 20);
+}
+
+TEST(Reference, EveryTableOfThePaperIsComparedAndEveryLargeDifferenceHasAReason) {
+  std::set<std::string> tables;
+  for (const json& report : reports()) {
+    for (const Comparison& comparison : compare_with_paper(report)) {
+      tables.insert(comparison.where);
+      EXPECT_TRUE(!comparison.is_large() || reason_of(comparison))
+          << comparison.where << " " << comparison.row << " " << comparison.method << " "
+          << comparison.quantity << ": " << comparison.ratio();
+    }
+  }
+  EXPECT_EQ(tables, (std::set<std::string>{"Table III", "Table IV", "Table V", "Table VI"}));
+}
+
+}  // namespace
+}  // namespace hullbench
