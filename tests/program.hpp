@@ -47,6 +47,10 @@ class Program {
 /// Runs a program to its end.
 Outcome run_program(const std::vector<std::string>& command, const ProgramOptions& options = {});
 
+/// Expects that hullbench ended with `code` and one sentence on standard error that has these words, and
+/// wrote nothing to standard output.
+void expect_refusal(const Outcome& outcome, int code, const std::string& words);
+
 /// Calls `condition` until it is true; false when it is not within `patience`.
 bool wait_until(const std::function<bool()>& condition,
                 std::chrono::milliseconds patience = std::chrono::seconds(30));

@@ -26,6 +26,7 @@ namespace {
 
 namespace fs = std::filesystem;
 using nlohmann::json;
+using testing::expect_refusal;
 using testing::Outcome;
 using testing::Program;
 using testing::ProgramOptions;
@@ -66,15 +67,6 @@ class CommandLineTest : public ::testing::Test {
   std::string write_plan(const std::string& text) const {
     write_text(folder() / "small.json", text);
     return (folder() / "small.json").string();
-  }
-
-  /// Exit code and one sentence on standard error that has these words; nothing on standard output.
-  static void expect_refusal(const Outcome& outcome, int code, const std::string& words) {
-    EXPECT_EQ(outcome.code, code) << outcome.err;
-    EXPECT_TRUE(outcome.err.starts_with("hullbench: ")) << outcome.err;
-    EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1) << outcome.err;
-    EXPECT_NE(outcome.err.find(words), std::string::npos) << outcome.err;
-    EXPECT_EQ(outcome.out, "");
   }
 
  private:

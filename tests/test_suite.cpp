@@ -22,6 +22,7 @@ namespace {
 namespace fs = std::filesystem;
 using nlohmann::json;
 using testing::california;
+using testing::expect_refusal;
 using testing::Outcome;
 using testing::Program;
 using testing::read_text;
@@ -50,14 +51,6 @@ class SuiteTest : public ::testing::Test {
                                       write(small_plan("second", california({600})))};
     words.insert(words.end(), more.begin(), more.end());
     return words;
-  }
-
-  static void expect_refusal(const Outcome& outcome, int code, const std::string& words) {
-    EXPECT_EQ(outcome.code, code) << outcome.err;
-    EXPECT_TRUE(outcome.err.starts_with("hullbench: ")) << outcome.err;
-    EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1) << outcome.err;
-    EXPECT_NE(outcome.err.find(words), std::string::npos) << outcome.err;
-    EXPECT_EQ(outcome.out, "");
   }
 
  private:
