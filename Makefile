@@ -62,6 +62,8 @@ bench: ## install, build and run the experiments (TABLE=states: only this one); 
 	@build/hullbench run $(or $(TABLE),rgbd states alphabet random steps)
 
 reference: ## keep results/latest as the reference run, and write its tables into the README
+	@$(call install,build test)
+	@$(MAKE) build
 	@results/keep_reference.sh results/latest
 	@build/hullbench readme results/reference README.md
 

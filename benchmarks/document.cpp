@@ -202,7 +202,7 @@ void write_text_file(const std::filesystem::path& path, const std::string& text)
 }
 
 void write_tables(const std::filesystem::path& folder, const std::vector<Document>& documents) {
-  const std::filesystem::path tables = folder / "tables";
+  const std::filesystem::path tables = folder / kTablesFolder;
   std::error_code error;
   std::filesystem::remove_all(tables, error);
   std::filesystem::create_directory(tables, error);
@@ -215,7 +215,7 @@ void write_tables(const std::filesystem::path& folder, const std::vector<Documen
       write_text_file(tables / (section.id + ".tex"), to_latex(section));
     }
   }
-  write_text_file(folder / "tables.md", markdown.str());
+  write_text_file(folder / kTablesFile, markdown.str());
 }
 
 }  // namespace hullbench

@@ -49,6 +49,10 @@ std::string to_csv(const TextTable& table);
 /// The table as a LaTeX table with rules of the package booktabs; nothing else is needed but UTF-8 input.
 std::string to_latex(const TableSection& section);
 
+/// What write_tables writes.
+inline constexpr const char* kTablesFile = "tables.md";
+inline constexpr const char* kTablesFolder = "tables";
+
 /// Writes `folder`/tables.md with `documents` one after another, and of every table `folder`/tables/<id>.csv
 /// and .tex; what an earlier call left there is removed. Throws std::runtime_error naming the file when one
 /// cannot be written.

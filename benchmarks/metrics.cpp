@@ -189,7 +189,7 @@ Metrics score(const MultiPolygon& result, const MultiPolygon& ground_truth) {
                "symmetric difference");
   const double apart = area_of(geos, difference);
   // What is in one of two shapes only is the sum of their areas less twice what they share, so a second
-  // overlay, which takes as long as the first, would tell nothing new.
+  // overlay would tell nothing new.
   const double shared = std::max(0.0, (metrics.ground_truth_area + metrics.area - apart) / 2);
   metrics.symmetric_difference_area = apart;
   metrics.l2 = ratio(apart, metrics.ground_truth_area);

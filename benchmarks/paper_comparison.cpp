@@ -46,11 +46,8 @@ std::optional<double> step_time(const TableContext& context, const std::string& 
                                 const PaperStep* step) {
   const auto runs = context.measurements.find(method, paper().at("protocol").get<std::string>(), which);
   if (runs.empty() || first_failure(runs) != nullptr) return std::nullopt;
-  std::vector<std::int64_t> values;
-  for (const RunRecord* run : runs) {
-    const auto of_run = step == nullptr ? times(*run, Boundary::kPaper) : step_times(*run, step->parts);
-    values.insert(values.end(), of_run.begin(), of_run.end());
-  }
+  const std::vector<std::int64_t> values =
+      step == nullptr ? all_times(runs, Boundary::kPaper) : all_step_times(runs, *step);
   if (values.empty()) return std::nullopt;
   return median(values) / 1e6;
 }

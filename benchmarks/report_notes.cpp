@@ -1,8 +1,6 @@
 #include "benchmarks/report_notes.hpp"
 
 #include <algorithm>
-#include <map>
-#include <set>
 #include <string>
 
 #include "benchmarks/claims.hpp"
@@ -90,20 +88,6 @@ void add_environment(const json& report, Sentences& notes) {
   notes.push_back(compiler.at("statement").get<std::string>());
 }
 
-void add_versions(const json& report, const std::vector<RunRecord>& runs, Sentences& notes) {
-  std::map<std::string, std::set<std::string>> by_method;
-  for (const RunRecord& run : runs) {
-    if (!run.method_version.empty()) by_method[run.method].insert(run.method_version);
-  }
-  std::string list;
-  for (const auto& [method, versions] : by_method) {
-    for (const std::string& version : versions) {
-      list += (list.empty() ? "" : "; ") + method_title(report, method) + " " + version;
-    }
-  }
-  if (!list.empty()) notes.push_back("Versions: " + list + ".");
-}
-
 void add_totals(const json& report, Sentences& notes) {
   std::string counts;
   for (const Status status : kAllStatuses) {
@@ -133,7 +117,6 @@ std::vector<std::string> common_notes(const json& report, const std::vector<RunR
   add_how_to_read(notes);
   add_paper_notes(runs, notes);
   add_environment(report, notes);
-  add_versions(report, runs, notes);
   return notes;
 }
 

@@ -13,6 +13,7 @@
 #include <stdexcept>
 #include <system_error>
 
+#include "benchmarks/document.hpp"
 #include "benchmarks/plan.hpp"
 #include "benchmarks/report.hpp"
 
@@ -26,8 +27,6 @@ constexpr const char* kHeaderFile = "run.json";
 constexpr const char* kRowsFile = "runs.jsonl";
 constexpr const char* kRepetitionsFile = "repetitions.jsonl";
 constexpr const char* kReportFile = "report.json";
-constexpr const char* kTablesFile = "tables.md";
-constexpr const char* kTablesFolder = "tables";
 constexpr const char* kScratchFolder = "scratch";
 
 std::string reason(int error) {
@@ -45,12 +44,6 @@ ConfigurationError not_writable(const fs::path& folder, const std::string& why) 
   // NOLINTNEXTLINE(modernize-return-braced-init-list): the inherited constructor is explicit
   return ConfigurationError("cannot write to the output folder " + folder.string() + " (" + why +
                             "); choose another one with --out");
-}
-
-void make_folder(const fs::path& folder) {
-  std::error_code error;
-  fs::create_directories(folder, error);
-  if (error) throw not_writable(folder, error.message());
 }
 
 /// The folder's descriptor with the lock on it, or -1 when another process has it. The lock goes with the
@@ -95,7 +88,7 @@ bool holds_no_run_yet(const fs::path& folder) {
 }
 
 std::unique_ptr<RunDirectory> open_chosen(const json& header, const fs::path& folder, bool force) {
-  make_folder(folder);
+  make_writable_folder(folder);
   const json earlier = read_header(folder);
   const bool same = earlier.is_object() && run_continuity(earlier) == run_continuity(header);
   if (!force && !same && !holds_no_run_yet(folder)) {
@@ -110,11 +103,7 @@ std::unique_ptr<RunDirectory> open_chosen(const json& header, const fs::path& fo
 
 /// The newest earlier run that is the same, when it is not finished and nobody is at it.
 std::unique_ptr<RunDirectory> open_unfinished(const json& header, const fs::path& runs) {
-  std::vector<fs::path> folders;
-  std::error_code ignored;
-  for (const auto& entry : fs::directory_iterator(runs, ignored)) folders.push_back(entry.path());
-  std::sort(folders.rbegin(), folders.rend());
-  for (const fs::path& folder : folders) {
+  for (const fs::path& folder : newest_first(runs)) {
     const json earlier = read_header(folder);
     if (!earlier.is_object() || run_continuity(earlier) != run_continuity(header)) continue;
     if (fs::exists(folder / kReportFile)) return nullptr;
@@ -262,6 +251,23 @@ json run_continuity(const json& header) {
           member(member(header, "environment"), "machine_id")};
 }
 
+std::vector<fs::path> newest_first(const fs::path& runs) {
+  std::vector<fs::path> folders;
+  std::error_code ignored;
+  for (const auto& entry : fs::directory_iterator(runs, ignored)) folders.push_back(entry.path());
+  std::sort(folders.rbegin(), folders.rend());
+  return folders;
+}
+
+void make_writable_folder(const fs::path& folder) {
+  std::error_code error;
+  fs::create_directories(folder, error);
+  if (!error && ::faccessat(AT_FDCWD, folder.c_str(), W_OK | X_OK, AT_EACCESS) != 0) {
+    error.assign(errno, std::generic_category());
+  }
+  if (error) throw not_writable(folder, error.message());
+}
+
 bool is_finished_run(const fs::path& folder, const json& header) {
   const json earlier = read_header(folder);
   return earlier.is_object() && run_continuity(earlier) == run_continuity(header) &&
@@ -270,7 +276,7 @@ bool is_finished_run(const fs::path& folder, const json& header) {
 
 fs::path make_run_folder(const json& header, const fs::path& results) {
   const fs::path runs = results / "runs";
-  make_folder(runs);
+  make_writable_folder(runs);
   const std::string name = folder_name(header);
   // Two runs may begin in the same second.
   for (int count = 1; count < 1000; ++count) {

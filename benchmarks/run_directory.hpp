@@ -88,6 +88,12 @@ struct RunPlace {
 /// something else and `force` is not set; with `force` the files of an earlier run in `out` are removed.
 std::unique_ptr<RunDirectory> open_run_directory(const nlohmann::json& header, const RunPlace& place);
 
+/// The folders in `runs` by name, which begins with the time, the last one first.
+std::vector<std::filesystem::path> newest_first(const std::filesystem::path& runs);
+
+/// Makes `folder` where it is not there. Throws ConfigurationError when it cannot be made or written to.
+void make_writable_folder(const std::filesystem::path& folder);
+
 /// Whether `folder` holds a run that `header` describes, and it is finished (has a report.json).
 bool is_finished_run(const std::filesystem::path& folder, const nlohmann::json& header);
 

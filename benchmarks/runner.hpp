@@ -37,7 +37,7 @@ struct RunResult {
 
 /// Measures `runs` of `plan` into `directory`. `header` is run.json without its methods, which are added.
 ///
-/// Cases are taken in batches of about a second: their points are drawn on all cores, then they are measured
+/// Cases are taken in batches of bounded work: their points are drawn on all cores, then they are measured
 /// one after the other with nothing else running, then the results are scored on all cores and the rows
 /// written. Case by case, each method's worker loads the points, does its untimed runs and then takes its
 /// turn in every round of repetitions, in an order drawn from the plan's seed. Only one worker works at a

@@ -1,14 +1,9 @@
 #include "benchmarks/suite.hpp"
 
-#include <fcntl.h>
-#include <unistd.h>
-
 #include <algorithm>
-#include <cerrno>
 #include <fstream>
 #include <set>
 #include <stdexcept>
-#include <system_error>
 
 #include "benchmarks/overview_tables.hpp"
 #include "benchmarks/paper_comparison.hpp"
@@ -23,7 +18,6 @@ namespace fs = std::filesystem;
 using nlohmann::json;
 
 constexpr const char* kSuiteFile = "suite.json";
-constexpr const char* kTablesFile = "tables.md";
 
 json describe_suite(const std::vector<json>& headers) {
   json suite = {{"schema_version", kSchemaVersion},
@@ -49,30 +43,18 @@ bool is_same(const json& earlier, const json& suite) {
 }
 
 fs::path find_unfinished(const json& suite, const fs::path& runs) {
-  std::vector<fs::path> folders;
-  std::error_code ignored;
-  for (const auto& entry : fs::directory_iterator(runs, ignored)) folders.push_back(entry.path());
-  std::sort(folders.rbegin(), folders.rend());
-  for (const fs::path& folder : folders) {
+  for (const fs::path& folder : newest_first(runs)) {
     if (is_same(read_suite(folder), suite)) return fs::exists(folder / kTablesFile) ? fs::path() : folder;
   }
   return {};
 }
 
 fs::path open_chosen(const json& suite, const fs::path& folder, bool force) {
-  std::error_code error;
-  fs::create_directories(folder, error);
-  if (!error && ::faccessat(AT_FDCWD, folder.c_str(), W_OK | X_OK, AT_EACCESS) != 0) {
-    error.assign(errno, std::generic_category());
-  }
-  if (!error && !force && !fs::is_empty(folder) && !is_same(read_suite(folder), suite)) {
+  make_writable_folder(folder);
+  if (!force && !fs::is_empty(folder) && !is_same(read_suite(folder), suite)) {
     throw ConfigurationError(
         "the output folder " + folder.string() +
         " holds something else; choose another one with --out, or overwrite it with --force");
-  }
-  if (error) {
-    throw ConfigurationError("cannot write to the output folder " + folder.string() + " (" + error.message() +
-                             "); choose another one with --out");
   }
   return folder;
 }

@@ -66,6 +66,15 @@ std::vector<std::int64_t> all_times(const std::vector<const RunRecord*>& runs, B
   return result;
 }
 
+std::vector<std::int64_t> all_step_times(const std::vector<const RunRecord*>& runs, const PaperStep& step) {
+  std::vector<std::int64_t> result;
+  for (const RunRecord* run : runs) {
+    const auto repetitions = step_times(*run, step.parts);
+    result.insert(result.end(), repetitions.begin(), repetitions.end());
+  }
+  return result;
+}
+
 std::vector<double> all_values(const std::vector<const RunRecord*>& runs, const std::string& name) {
   std::vector<double> result;
   for (const RunRecord* run : runs) {

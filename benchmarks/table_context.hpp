@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "benchmarks/claims.hpp"
 #include "benchmarks/measurements.hpp"
 #include "benchmarks/text_table.hpp"
 
@@ -42,6 +43,7 @@ std::string shape_title(const TableContext& context, const Case& which);
 std::string milliseconds(double nanoseconds);
 
 std::vector<std::int64_t> all_times(const std::vector<const RunRecord*>& runs, Boundary boundary);
+std::vector<std::int64_t> all_step_times(const std::vector<const RunRecord*>& runs, const PaperStep& step);
 std::vector<double> all_values(const std::vector<const RunRecord*>& runs, const std::string& name);
 
 /// The first of `runs` that gave no result to be believed; null when there is none.

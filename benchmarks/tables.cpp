@@ -132,11 +132,7 @@ std::vector<std::string> measured_steps(const TableContext& context, const Line&
   if (runs.empty() || first_failure(runs) != nullptr) return {};
   std::vector<std::string> result = {label(context, line)};
   for (const PaperStep& step : paper_steps()) {
-    std::vector<std::int64_t> values;
-    for (const RunRecord* run : runs) {
-      const auto repetitions = step_times(*run, step.parts);
-      values.insert(values.end(), repetitions.begin(), repetitions.end());
-    }
+    const std::vector<std::int64_t> values = all_step_times(runs, step);
     result.push_back(values.empty() ? kNothing : milliseconds(median(values)));
   }
   for (const Boundary boundary : {Boundary::kPaper, Boundary::kEqualWork}) {

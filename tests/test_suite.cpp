@@ -106,6 +106,19 @@ TEST_F(SuiteTest, IsARunOfEveryPlanAndTheTablesOfAll) {
   EXPECT_EQ(printed.out, outcome.out);
 }
 
+TEST_F(SuiteTest, HasItsTablesWrittenAnewOnlyWhenThatIsAskedFor) {
+  const Outcome outcome = hullbench(run_both());
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  const std::set<std::string> tables = names_in(suite() / "tables");
+  fs::remove_all(suite() / "tables");
+  fs::remove(suite() / "tables.md");
+  EXPECT_EQ(hullbench({"tables", "suite"}).code, 0);
+  EXPECT_FALSE(fs::exists(suite() / "tables.md"));
+  EXPECT_EQ(hullbench({"tables", "suite", "--write"}).code, 0);
+  EXPECT_EQ(read_text(suite() / "tables.md"), outcome.out);
+  EXPECT_EQ(names_in(suite() / "tables"), tables);
+}
+
 TEST_F(SuiteTest, ThatIsFinishedIsNotMeasuredAgain) {
   const Outcome first = hullbench(run_both());
   ASSERT_EQ(first.code, 0) << first.err;
