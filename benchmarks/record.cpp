@@ -88,6 +88,8 @@ void to_json(json& result, const RunRecord& record) {
   result["phases_ns"] = record.phases_ns;
   result["metrics"] = without_non_finite(record.metrics);
   result["output_sha256"] = record.output_sha256;
+  result["machine"] = record.machine;
+  result["flags"] = record.flags;
 }
 
 void from_json(const json& source, RunRecord& record) {
@@ -113,6 +115,9 @@ void from_json(const json& source, RunRecord& record) {
   record.metrics = source.at("metrics");
   if (!record.metrics.is_object()) throw std::invalid_argument("\"metrics\" of a record must be an object.");
   source.at("output_sha256").get_to(record.output_sha256);
+  // Records that are older than these two members have neither.
+  record.machine = source.value("machine", std::string());
+  record.flags = source.value("flags", std::vector<std::string>());
 }
 
 std::string run_name(const RunRecord& record) {

@@ -53,7 +53,15 @@ struct RunRecord {
   std::vector<PhaseTimes> phases_ns;  ///< one object a repetition
   nlohmann::json metrics = nlohmann::json::object();  ///< see metrics.hpp; null for what is undefined
   std::string output_sha256;                          ///< of the WKB of the result; empty when there is none
+  std::string machine;             ///< on which the times were taken (machine_id); empty: run.json's machine
+  std::vector<std::string> flags;  ///< reasons to doubt the row, such as kFasterThanFloor; mostly empty
 };
+
+/// A row's flag: a repetition took less than kFloorNsPerPoint a point.
+inline constexpr const char* kFasterThanFloor = "faster_than_floor";
+/// No method can be this fast: in a nanosecond a core reads a point or two from memory, and every method has
+/// to look at each point several times. A time below it is of something else than the method's work.
+inline constexpr double kFloorNsPerPoint = 1;
 
 /// JSON has no infinity: a parameter that is +infinity ("no limit") is written as null and read back as
 /// +infinity. A NaN or -infinity among the parameters throws std::invalid_argument, because no method takes

@@ -89,6 +89,7 @@ class Runner {
   RunResult run(json header) {
     RunResult result;
     if (!header.contains("methods")) header["methods"] = json::array();
+    machine_ = header.at("environment").at("machine_id").get<std::string>();
     result.resumed_rows = static_cast<int>(directory_.rows().size());
     try {
       // Before anything can be interrupted, so that the folder is known for what it is.
@@ -214,6 +215,7 @@ class Runner {
       record.holes = plan_case.holes;
       record.seed = plan_.seed;
       record.protocol = method.protocol;
+      record.machine = machine_;
       record.parameters = choose_parameters(
           method, plan_case,
           {one.set.points, one.set.ground_truth_area, plan_case.holes, one.set.ground_truth});
@@ -390,9 +392,11 @@ class Runner {
 
   static RunRecord finished_record(Entry& entry) {
     RunRecord& record = entry.record;
+    const double floor = kFloorNsPerPoint * static_cast<double>(record.n);
     for (const Repetition& repetition : entry.repetitions) {
       record.time_ns.push_back(repetition.time_ns);
       record.phases_ns.push_back(repetition.phases_ns);
+      if (static_cast<double>(repetition.time_ns) < floor) record.flags = {kFasterThanFloor};
     }
     return record;
   }
@@ -403,6 +407,7 @@ class Runner {
   RunDirectory& directory_;
   Progress& progress_;
   std::chrono::milliseconds timeout_;
+  std::string machine_;                    ///< this one's id, for the rows
   std::vector<std::string> method_order_;  ///< as in the plan
   std::map<std::string, std::unique_ptr<MethodSession>> sessions_;
 };

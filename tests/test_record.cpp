@@ -42,7 +42,11 @@ TEST(Record, RoundTripThroughTextKeepsEveryField) {
   RunRecord record = test::invented_record();
   record.seed = std::numeric_limits<std::uint64_t>::max();
   record.parameters["third"] = 1.0 / 3.0;
+  record.machine = "0123abcd";
+  record.flags = {kFasterThanFloor};
   const RunRecord back = json::parse(json(record).dump()).get<RunRecord>();
+  EXPECT_EQ(back.machine, record.machine);
+  EXPECT_EQ(back.flags, record.flags);
   EXPECT_EQ(back.id, record.id);
   EXPECT_EQ(back.name, record.name);
   EXPECT_EQ(back.method, record.method);
@@ -107,8 +111,18 @@ TEST(Record, EveryFieldIsRequired) {
   for (const auto& [key, value] : whole.items()) {
     json without = whole;
     without.erase(key);
+    if (key == "machine" || key == "flags") continue;  // see below
     EXPECT_ANY_THROW(without.get<RunRecord>()) << key;
   }
+}
+
+TEST(Record, OlderOnesHaveNeitherMachineNorFlags) {
+  json older = test::invented_record();
+  older.erase("machine");
+  older.erase("flags");
+  const auto record = older.get<RunRecord>();
+  EXPECT_EQ(record.machine, "");
+  EXPECT_TRUE(record.flags.empty());
 }
 
 TEST(Record, OtherSchemaVersionIsRefused) {

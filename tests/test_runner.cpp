@@ -199,6 +199,17 @@ TEST_F(RunnerTest, AnInvalidPolygonIsTimedAndScoredAsInvalid) {
   EXPECT_TRUE(row.metrics.at("l2").is_null());
 }
 
+TEST_F(RunnerTest, ARowSaysItsMachineAndWhetherItWasFasterThanAnyMethodCanBe) {
+  // 110 ns and 1010 ns for 500 points.
+  measure(plan_of({"polylidar", "instant", "good"}));
+  EXPECT_EQ(rows().at("instant").flags, std::vector<std::string>{kFasterThanFloor});
+  EXPECT_TRUE(rows().at("good").flags.empty());
+  for (const auto& [name, row] : rows()) {
+    EXPECT_EQ(to_string(row.status), "ok") << row.detail;
+    EXPECT_EQ(row.machine, machine_id());
+  }
+}
+
 TEST_F(RunnerTest, AResultThatChangesIsNotBelieved) {
   measure(plan_of({"changing_result"}));
   EXPECT_NE(rows().at("changing_result").detail.find("different results"), std::string::npos);
