@@ -27,7 +27,7 @@ endif()
 # Three methods from one client; which of them can run is for the server to say.
 pkg_check_modules(LIBPQ QUIET IMPORTED_TARGET GLOBAL libpq)
 if(LIBPQ_FOUND)
-  add_adapter(NAME postgis TITLE "PostGIS" LIBRARIES PkgConfig::LIBPQ
+  add_adapter(NAME postgis TITLE "PostGIS" LIBRARIES PkgConfig::LIBPQ hullbench::process_identity
     SOURCES postgis.cpp postgis_session.cpp private_postgres.cpp postgres_supervisor.cpp server_folder.cpp)
   add_adapter(NAME postgis_legacy TITLE "PostGIS <= 3.2" LIBRARIES hullbench_adapter_postgis)
   add_adapter(NAME postgis_steps TITLE "PostGIS, step by step"

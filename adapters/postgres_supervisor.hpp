@@ -10,7 +10,7 @@ namespace hullbench {
 struct SupervisorPlan {
   std::filesystem::path bin;   ///< folder of initdb and postgres
   std::filesystem::path base;  ///< where the server's folder is made
-  std::string owner;           ///< server_folder_owner() of the process that the server is for
+  std::string owner;           ///< process_identity() of the process that the server is for
   int lifeline = -1;           ///< read end of a pipe that closes when the owner ends
   int report = -1;             ///< write end of a pipe for one message: "ready FOLDER" or "failed WHY"
 };

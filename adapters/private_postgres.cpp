@@ -21,6 +21,7 @@
 
 #include "adapters/adapter.hpp"
 #include "adapters/postgres_supervisor.hpp"
+#include "adapters/process_identity.hpp"
 #include "adapters/server_folder.hpp"
 
 namespace hullbench {
@@ -171,7 +172,7 @@ PrivatePostgres::PrivatePostgres(const fs::path& bin) {
 }
 
 void PrivatePostgres::start(const fs::path& bin) {
-  const std::string owner = server_folder_owner();
+  const std::string owner = process_identity();
   const Pipe lifeline = make_pipe();
   const Pipe report = make_pipe();
   const SupervisorPlan plan{bin, base_folder(owner), owner, lifeline.read_end, report.write_end};

@@ -6,11 +6,8 @@
 
 namespace hullbench {
 
-/// This process as a folder's name says it: process namespace, process id and start time, which no other
-/// process on this machine shares, whenever it runs.
-std::string server_folder_owner();
-
-/// The name, without its folder, as mkdtemp takes it: `hullbench-postgres-OWNER-XXXXXX`.
+/// The name, without its folder, as mkdtemp takes it: `hullbench-postgres-OWNER-XXXXXX`, where the owner is a
+/// process as process_identity names it.
 std::string server_folder_template(const std::string& owner);
 
 /// A new folder in `base`, open to this user alone. Throws std::system_error.

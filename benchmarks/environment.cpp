@@ -109,6 +109,18 @@ json load_average() {
   return getloadavg(load.data(), 3) == 3 ? json(load) : json(nullptr);
 }
 
+/// Of the hottest sensor, in degrees Celsius; null where the system shows none, as in most virtual machines.
+json temperature() {
+  std::optional<double> hottest;
+  std::error_code ignored;
+  for (const auto& zone : std::filesystem::directory_iterator("/sys/class/thermal", ignored)) {
+    const auto millidegrees = first_line(zone.path() / "temp");
+    if (!millidegrees || zone.path().filename().string().rfind("thermal_zone", 0) != 0) continue;
+    hottest = std::max(hottest, std::optional(std::strtod(millidegrees->c_str(), nullptr) / 1000));
+  }
+  return or_null(hottest);
+}
+
 json address_space_randomisation() {
   const auto value = first_line("/proc/sys/kernel/randomize_va_space");
   return value && value->size() == 1 ? json(value->front() - '0') : json(nullptr);
@@ -212,6 +224,7 @@ json collect_environment() {
             {"virtualised", or_null(virtualised())}}},
           {"memory_bytes", memory_bytes()},
           {"load_average", load_average()},
+          {"temperature_celsius", temperature()},
           {"aslr", address_space_randomisation()},
           {"kernel", kernel()},
           {"os", or_null(value_of_key("/etc/os-release", "PRETTY_NAME", '='))},

@@ -5,6 +5,7 @@
 #include <ostream>
 
 #include "benchmarks/runner.hpp"
+#include "benchmarks/worker_process.hpp"
 #include "datasets/datasets.hpp"
 
 namespace hullbench {

@@ -133,8 +133,8 @@ Attempt MethodSession::run(const LoadedPoints& points, const Parameters& paramet
                                        timeout);
   Attempt attempt = reply.status == Status::kOk ? read_result(reply, nonce, result)
                                                 : failed(reply.status, reply.detail, reply.elapsed);
-  // After a lack of memory nobody knows what is left undone in the worker.
-  if (attempt.status == Status::kMemory) worker_.reset();
+  // After a lack of memory, or an answer that is none, nobody knows what is left undone in the worker.
+  if (attempt.status == Status::kMemory || attempt.status == Status::kInvalidOutput) worker_.reset();
   std::error_code ignored;
   std::filesystem::remove(result, ignored);
   return attempt;

@@ -241,8 +241,16 @@ ParameterChoice read_parameter(const Node& node, const Protocol& protocol) {
   return choice;
 }
 
+double read_timeout(const Node& node) {
+  return node.at("timeout_s").number(0.001, 1e6);
+}
+
+std::int64_t read_memory_limit(const Node& node) {
+  return node.at("mem_limit_mib").integer(64, 1 << 30);
+}
+
 PlanMethod read_method(const Node& node) {
-  node.only_keys({"method", "protocol", "datasets", "parameters", "note"});
+  node.only_keys({"method", "protocol", "datasets", "timeout_s", "mem_limit_mib", "parameters", "note"});
   PlanMethod method;
   method.method = node.at("method").identifier();
   const Protocol& protocol = find_protocol(node.at("protocol"));
@@ -253,6 +261,8 @@ PlanMethod read_method(const Node& node) {
       method.parameters[name] = read_parameter(value, protocol);
     }
   }
+  if (node.has("timeout_s")) method.timeout_s = read_timeout(node);
+  if (node.has("mem_limit_mib")) method.mem_limit_mib = read_memory_limit(node);
   if (node.has("note")) method.note = node.at("note").text();
   return method;
 }
@@ -267,6 +277,14 @@ void read_methods(const Node& node, std::vector<PlanMethod>& methods) {
     if (std::count_if(methods.begin(), methods.end(), same) > 1) {
       element.fail("repeats the method '" + added.method + "' with the protocol '" + added.protocol +
                    "'; their runs would have the same names, so leave one out");
+    }
+    const auto limited_otherwise = [&](const PlanMethod& other) {
+      return other.method == added.method && other.mem_limit_mib != added.mem_limit_mib;
+    };
+    if (std::any_of(methods.begin(), methods.end(), limited_otherwise)) {
+      element.fail(
+          "gives '" + added.method +
+          "' another mem_limit_mib than its other entry; they share a worker, so give both the same");
     }
   }
 }
@@ -310,6 +328,8 @@ json method_to_json(const PlanMethod& method) {
   for (const auto& [name, choice] : method.parameters) parameters[name] = parameter_to_json(choice);
   json result = {{"method", method.method}, {"protocol", method.protocol}, {"parameters", parameters}};
   if (!method.datasets.empty()) result["datasets"] = method.datasets;
+  if (method.timeout_s) result["timeout_s"] = *method.timeout_s;
+  if (method.mem_limit_mib) result["mem_limit_mib"] = *method.mem_limit_mib;
   if (!method.note.empty()) result["note"] = method.note;
   return result;
 }
@@ -407,8 +427,8 @@ Plan parse_plan(const std::string& text, const std::string& source) {
   if (root.has("repetitions"))
     plan.repetitions = static_cast<int>(root.at("repetitions").integer(1, 1'000'000));
   if (root.has("warmup")) plan.warmup = static_cast<int>(root.at("warmup").integer(0, 1000));
-  if (root.has("timeout_s")) plan.timeout_s = root.at("timeout_s").number(0.001, 1e6);
-  if (root.has("mem_limit_mib")) plan.mem_limit_mib = root.at("mem_limit_mib").integer(64, 1 << 30);
+  if (root.has("timeout_s")) plan.timeout_s = read_timeout(root);
+  if (root.has("mem_limit_mib")) plan.mem_limit_mib = read_memory_limit(root);
   if (root.has("seed")) plan.seed = root.at("seed").seed();
   if (root.has("filter")) plan.filter = root.at("filter").text();
   read_cases(root.at("cases"), plan.expanded_cases);

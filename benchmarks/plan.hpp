@@ -5,13 +5,15 @@
 //    "filter": "^polylidar/",
 //    "cases":   [{"dataset": "ca", "holes": [false, true], "n": [2000, 64000]}],
 //    "methods": [{"method": "polylidar", "protocol": "paper", "datasets": ["ca"], "note": "...",
-//                 "parameters": {"alpha": PARAMETER}}]}
+//                 "timeout_s": 60, "mem_limit_mib": 1024, "parameters": {"alpha": PARAMETER}}]}
 //
 // PARAMETER is a number, {"rule": NAME} (parameter_rules.hpp) or {"cases": {"ca": 2.0, "ca/holes": 1.25}}.
 // A case's "dataset" is one name or a list of names; a list stands for the same case once for each name, in
 // its order. With "members": 200 the name is a family's and stands for its members from 1 to 200 ("star-1",
-// ..., "star-200"). Without "n" the data set's own points are used, which only some have. Only `name`,
-// `cases` and `methods` are required; a key that is not listed here is an error.
+// ..., "star-200"). A method's own limits take the place of the plan's; with several protocols it has one
+// worker, so all its entries must name the same "mem_limit_mib". Without "n" the data set's own points are
+// used, which only some have. Only `name`, `cases` and `methods` are required; a key that is not listed here
+// is an error.
 #pragma once
 
 #include <cstddef>
@@ -19,6 +21,7 @@
 #include <filesystem>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <variant>
@@ -61,7 +64,9 @@ struct PlanMethod {
   std::string protocol;  ///< who chose the parameters: "paper", "default", "auto", "tuned", "oracle"
   std::vector<std::string> datasets;  ///< only these (or these families'); empty: all
   std::map<std::string, ParameterChoice> parameters;
-  std::string note;  ///< for readers of the tables
+  std::optional<double> timeout_s;            ///< its own instead of the plan's
+  std::optional<std::int64_t> mem_limit_mib;  ///< its own instead of the plan's
+  std::string note;                           ///< for readers of the tables
 };
 
 struct Plan {
@@ -72,7 +77,7 @@ struct Plan {
   int repetitions = 10;    ///< timed runs a method and case
   int warmup = 1;          ///< untimed runs before them; the first run of all is scored, timed or not
   double timeout_s = 120;  ///< wall-clock seconds for one request to a worker
-  std::int64_t mem_limit_mib = 4096;  ///< address space of a worker
+  std::int64_t mem_limit_mib = 4096;  ///< address space of a worker, in MiB
   std::uint64_t seed = 1;             ///< of point samples and of the order of runs
   std::string filter;                 ///< of the runs' names, for who asks for none; empty: all runs
   nlohmann::json cases;               ///< as written, for records

@@ -88,6 +88,7 @@ add_library(hullbench_report STATIC
   group_values.cpp
   labels.cpp
   measurements.cpp
+  noise.cpp
   number_format.cpp
   overview_tables.cpp
   paper_comparison.cpp

@@ -2,6 +2,7 @@
 
 #include <fstream>
 #include <map>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <string_view>
@@ -12,6 +13,7 @@
 #include "benchmarks/claims.hpp"
 #include "benchmarks/json_lines.hpp"
 #include "benchmarks/measurements.hpp"
+#include "benchmarks/noise.hpp"
 #include "benchmarks/record.hpp"
 #include "benchmarks/statistics.hpp"
 
@@ -96,6 +98,15 @@ json totals(const std::vector<RunRecord>& runs) {
   return result;
 }
 
+json noise_to_json(const std::vector<RunRecord>& runs) {
+  const std::optional<Noise> noise = measure_noise(runs);
+  if (!noise) return nullptr;
+  return {{"rows", noise->rows},
+          {"median_spread", noise->median_spread},
+          {"ninth_decile", noise->ninth_decile},
+          {"noisy", noise->is_noisy()}};
+}
+
 std::string dump_text(const json& content, int indent) {
   return content.dump(indent, ' ', false, json::error_handler_t::replace);
 }
@@ -121,7 +132,10 @@ json make_summary(const json& report) {
   const Measurements measurements(report);
   json rows = json::array();
   for (const RunRecord& run : measurements.runs()) rows.push_back(summary_row(run));
-  return {{"totals", totals(measurements.runs())}, {"rows", rows}, {"claims", check_claims(report)}};
+  return {{"totals", totals(measurements.runs())},
+          {"noise", noise_to_json(measurements.runs())},
+          {"rows", rows},
+          {"claims", check_claims(report)}};
 }
 
 json make_report(const std::filesystem::path& run_directory) {

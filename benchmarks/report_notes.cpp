@@ -1,10 +1,13 @@
 #include "benchmarks/report_notes.hpp"
 
 #include <algorithm>
+#include <optional>
 #include <string>
 
 #include "benchmarks/claims.hpp"
 #include "benchmarks/labels.hpp"
+#include "benchmarks/noise.hpp"
+#include "benchmarks/number_format.hpp"
 #include "benchmarks/text_table.hpp"
 
 namespace hullbench {
@@ -88,6 +91,34 @@ void add_environment(const json& report, Sentences& notes) {
   notes.push_back(compiler.at("statement").get<std::string>());
 }
 
+std::string percent(double part) {
+  return three_digits(100 * part) + " %";
+}
+
+void add_noise(const json& report, const std::vector<RunRecord>& runs, Sentences& notes) {
+  const std::optional<Noise> noise = measure_noise(runs);
+  if (!noise) return;
+  const json& load = report.at("environment").at("load_average");
+  notes.push_back(
+      (noise->is_noisy() ? "This machine was noisy: differences of some per cent say nothing. "
+                         : std::string()) +
+      "The median absolute deviation is " + percent(noise->median_spread) +
+      " of the median in the middle row and at most " + percent(noise->ninth_decile) + " in nine of ten" +
+      (load.is_array() ? "; before the run the load average was " + fixed(load.at(0), 2) : std::string()) +
+      ".");
+}
+
+void add_too_fast(const std::vector<RunRecord>& runs, Sentences& notes) {
+  std::string names;
+  for (const RunRecord& run : runs) {
+    if (std::count(run.flags.begin(), run.flags.end(), kFasterThanFloor) > 0)
+      names += (names.empty() ? "" : ", ") + run.name;
+  }
+  if (names.empty()) return;
+  notes.push_back("Faster than " + three_digits(kFloorNsPerPoint) +
+                  " ns a point, which no method can be, so do not believe these times: " + names + ".");
+}
+
 void add_totals(const json& report, Sentences& notes) {
   std::string counts;
   for (const Status status : kAllStatuses) {
@@ -108,6 +139,8 @@ std::vector<std::string> run_notes(const json& report, const std::vector<RunReco
   add_plan_notes(report, runs, notes);
   for (const json& note : report.at("notes")) notes.push_back(note.get<std::string>());
   add_missing_methods(report, runs, notes);
+  add_too_fast(runs, notes);
+  add_noise(report, runs, notes);
   add_totals(report, notes);
   return notes;
 }

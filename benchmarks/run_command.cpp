@@ -17,7 +17,9 @@
 #include "benchmarks/report.hpp"
 #include "benchmarks/revision.hpp"
 #include "benchmarks/run_directory.hpp"
+#include "benchmarks/stray_processes.hpp"
 #include "benchmarks/suite.hpp"
+#include "benchmarks/worker_process.hpp"
 #include "datasets/datasets.hpp"
 #include "datasets/rgbd/recordings.hpp"
 #include "datasets/sha256.hpp"
@@ -52,6 +54,10 @@ Experiment make_experiment(const std::string& name, const RunCommand& command) {
   plan.seed = command.seed.value_or(plan.seed);
   plan.timeout_s = command.timeout_s.value_or(plan.timeout_s);
   plan.mem_limit_mib = command.mem_limit_mib.value_or(plan.mem_limit_mib);
+  for (PlanMethod& method : plan.methods) {
+    if (command.timeout_s) method.timeout_s.reset();
+    if (command.mem_limit_mib) method.mem_limit_mib.reset();
+  }
   std::vector<std::string> methods;
   for (const AdapterEntry& entry : adapter_registry()) methods.push_back(entry.name);
   check_plan(plan, methods, datasets({default_data_directory(), command.recordings}));
@@ -182,7 +188,7 @@ class Measuring {
     progress_.enter(place);
     say_what_goes_on(directory, experiment.runs.size());
     const RunnerOptions options = {worker_command_,
-                                   {experiment.plan.mem_limit_mib, cores_.worker},
+                                   cores_.worker,
                                    method_titles(),
                                    cores_.all,
                                    {default_data_directory(), command_.recordings}};
@@ -301,6 +307,8 @@ int run_command(const RunCommand& command, const WorkerCommand& worker_command) 
     }
     return 0;
   }
+  end_strays_of_dead_harnesses();
+  remove_stale_scratch(kResults);
   return command.plans.size() == 1 ? measure_one(command, experiments.front(), worker_command)
                                    : measure_suite(command, experiments, worker_command);
 }

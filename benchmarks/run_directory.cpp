@@ -259,6 +259,20 @@ std::vector<fs::path> newest_first(const fs::path& runs) {
   return folders;
 }
 
+void remove_stale_scratch(const fs::path& results) {
+  std::error_code ignored;
+  const auto remove_in = [&](const fs::path& run) {
+    if (!fs::is_directory(run / kScratchFolder, ignored)) return;
+    const int lock = ::open(run.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+    if (lock >= 0 && ::flock(lock, LOCK_EX | LOCK_NB) == 0) fs::remove_all(run / kScratchFolder, ignored);
+    if (lock >= 0) ::close(lock);
+  };
+  for (const fs::path& folder : newest_first(results / "runs")) {
+    remove_in(folder);
+    for (const fs::path& member : newest_first(folder)) remove_in(member);
+  }
+}
+
 void make_writable_folder(const fs::path& folder) {
   std::error_code error;
   fs::create_directories(folder, error);

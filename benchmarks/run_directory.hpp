@@ -91,6 +91,10 @@ std::unique_ptr<RunDirectory> open_run_directory(const nlohmann::json& header, c
 /// The folders in `runs` by name, which begins with the time, the last one first.
 std::vector<std::filesystem::path> newest_first(const std::filesystem::path& runs);
 
+/// Removes the temporary files of all runs in `results`/runs, those in suites too, that a harness left which
+/// was killed. Those of runs that somebody is at stay.
+void remove_stale_scratch(const std::filesystem::path& results);
+
 /// Makes `folder` where it is not there. Throws ConfigurationError when it cannot be made or written to.
 void make_writable_folder(const std::filesystem::path& folder);
 

@@ -79,12 +79,7 @@ class Runner {
  public:
   Runner(const Plan& plan, const std::vector<PlannedRun>& runs, const RunnerOptions& options,
          RunDirectory& directory, Progress& progress)
-      : plan_(plan),
-        runs_(runs),
-        options_(options),
-        directory_(directory),
-        progress_(progress),
-        timeout_(std::max<std::int64_t>(1, std::llround(plan.timeout_s * 1000))) {}
+      : plan_(plan), runs_(runs), options_(options), directory_(directory), progress_(progress) {}
 
   RunResult run(json header) {
     RunResult result;
@@ -111,11 +106,12 @@ class Runner {
  private:
   void start_methods() {
     for (const PlannedRun& run : runs_) {
-      const std::string& method = plan_.methods[run.method_index].method;
+      const PlanMethod& entry = plan_.methods[run.method_index];
+      const std::string& method = entry.method;
       if (sessions_.contains(method)) continue;
       method_order_.push_back(method);
-      sessions_[method] =
-          std::make_unique<MethodSession>(method, options_.worker_command(method), options_.limits);
+      const WorkerLimits limits = {entry.mem_limit_mib.value_or(plan_.mem_limit_mib), options_.worker_core};
+      sessions_[method] = std::make_unique<MethodSession>(method, options_.worker_command(method), limits);
       sessions_[method]->begin_start();
     }
     for (const std::string& method : method_order_) {
@@ -270,6 +266,11 @@ class Runner {
     }
   }
 
+  std::chrono::milliseconds timeout_of(const PlanMethod& method) const {
+    const double seconds = method.timeout_s.value_or(plan_.timeout_s);
+    return std::chrono::milliseconds(std::max<std::int64_t>(1, std::llround(seconds * 1000)));
+  }
+
   static std::string start_failure(const MethodSession& session) {
     const Reply& reply = session.start_reply();
     return reply.remedy.empty() ? reply.detail : reply.detail + "; remedy: " + reply.remedy;
@@ -310,7 +311,8 @@ class Runner {
   /// value when the run failed, and nothing more is measured of the entry then.
   std::optional<Attempt> attempt_run(Entry& entry, const LoadedPoints& points) {
     progress_.begin(entry.index);
-    Attempt attempt = entry.session->run(points, entry.record.parameters, directory_.scratch(), timeout_);
+    Attempt attempt = entry.session->run(points, entry.record.parameters, directory_.scratch(),
+                                         timeout_of(plan_.methods[runs_[entry.index].method_index]));
     if (attempt.status != Status::kOk) {
       fail(entry, attempt.status, attempt.detail);
       return std::nullopt;
@@ -406,7 +408,6 @@ class Runner {
   const RunnerOptions& options_;
   RunDirectory& directory_;
   Progress& progress_;
-  std::chrono::milliseconds timeout_;
   std::string machine_;                    ///< this one's id, for the rows
   std::vector<std::string> method_order_;  ///< as in the plan
   std::map<std::string, std::unique_ptr<MethodSession>> sessions_;

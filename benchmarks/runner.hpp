@@ -5,6 +5,7 @@
 #include <functional>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -12,7 +13,6 @@
 #include "benchmarks/progress.hpp"
 #include "benchmarks/record.hpp"
 #include "benchmarks/run_directory.hpp"
-#include "benchmarks/worker_process.hpp"
 #include "datasets/datasets.hpp"
 
 namespace hullbench {
@@ -22,7 +22,7 @@ using WorkerCommand = std::function<std::vector<std::string>(const std::string& 
 
 struct RunnerOptions {
   WorkerCommand worker_command;
-  WorkerLimits limits;                        ///< for every worker
+  std::optional<int> worker_core;             ///< the one core that the workers run on; none: any
   std::map<std::string, std::string> titles;  ///< of methods, by name
   /// Where samples are drawn and results scored, which nobody times: cores as in for_each_in_parallel.
   std::vector<int> cores = {};

@@ -20,6 +20,7 @@ std::vector<double> sorted_copy(std::span<const T> values) {
 }
 
 double quantile_of_sorted(const std::vector<double>& sorted, double q) {
+  if (!(q >= 0 && q <= 1)) throw std::invalid_argument("A quantile must lie between 0 and 1.");
   const double position = q * static_cast<double>(sorted.size() - 1);
   const auto below = static_cast<std::size_t>(position);
   const std::size_t above = std::min(below + 1, sorted.size() - 1);
@@ -49,7 +50,10 @@ std::optional<double> standard_deviation_of(std::span<const Value> values) {
 }  // namespace
 
 double quantile(std::span<const std::int64_t> values, double q) {
-  if (!(q >= 0 && q <= 1)) throw std::invalid_argument("A quantile must lie between 0 and 1.");
+  return quantile_of_sorted(sorted_copy(values), q);
+}
+
+double quantile(std::span<const double> values, double q) {
   return quantile_of_sorted(sorted_copy(values), q);
 }
 

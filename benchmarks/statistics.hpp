@@ -24,6 +24,7 @@ struct Statistics {
 /// The `q`-quantile, 0 <= q <= 1 (else std::invalid_argument), by linear interpolation between the order
 /// statistics at q * (n - 1) (type 7 of Hyndman and Fan 1996, the default of R and NumPy).
 double quantile(std::span<const std::int64_t> values, double q);
+double quantile(std::span<const double> values, double q);
 
 /// The middle value, or the mean of the two middle ones.
 double median(std::span<const std::int64_t> values);

@@ -14,11 +14,13 @@
 #include <csignal>
 #include <cstring>
 #include <stdexcept>
+#include <string_view>
 #include <system_error>
 #include <thread>
 
 #include "benchmarks/interrupt.hpp"
 #include "benchmarks/protocol.hpp"
+#include "benchmarks/stray_processes.hpp"
 
 namespace hullbench {
 namespace {
@@ -31,6 +33,7 @@ using Clock = std::chrono::steady_clock;
 constexpr auto kTick = 50ms;
 /// Between SIGTERM and SIGKILL: enough for a method to stop a server that it started.
 constexpr auto kTermGrace = 1000ms;
+constexpr rlim_t kMib = 1024 * 1024;
 constexpr std::size_t kLastWordsBytes = 4096;
 /// Of the last words, what goes into a record.
 constexpr std::size_t kDetailCharacters = 300;
@@ -55,10 +58,29 @@ void close_fd(int& fd) {
   fd = -1;
 }
 
+/// `strings` as exec wants them, which keeps them unchanged.
+std::vector<char*> pointers_to(const std::vector<std::string>& strings) {
+  std::vector<char*> result;
+  result.reserve(strings.size() + 1);
+  for (const std::string& string : strings) result.push_back(const_cast<char*>(string.c_str()));
+  result.push_back(nullptr);
+  return result;
+}
+
+/// Our environment with `mark` in it.
+std::vector<std::string> marked_environment(const std::string& mark) {
+  const std::string variable = std::string(kMarkVariable) + "=";
+  std::vector<std::string> result = {variable + mark};
+  for (char** entry = environ; *entry != nullptr; ++entry) {
+    if (!std::string_view(*entry).starts_with(variable)) result.emplace_back(*entry);
+  }
+  return result;
+}
+
 /// Everything the child does between fork and exec; only calls that are safe there. Returns errno when it
 /// fails.
-int become_worker(char* const* argv, const WorkerLimits& limits, pid_t parent, const Pipe& input,
-                  const Pipe& output, const Pipe& errors) {
+int become_worker(char* const* argv, char* const* environment, const WorkerLimits& limits, pid_t parent,
+                  const Pipe& input, const Pipe& output, const Pipe& errors) {
   ::setsid();
   if (::prctl(PR_SET_PDEATHSIG, SIGKILL) != 0) return errno;
   // The harness may have died before the line above took effect.
@@ -73,8 +95,14 @@ int become_worker(char* const* argv, const WorkerLimits& limits, pid_t parent, c
 
   const rlimit no_core = {0, 0};
   if (::setrlimit(RLIMIT_CORE, &no_core) != 0) return errno;
+  rlimit file = {};
+  if (::getrlimit(RLIMIT_FSIZE, &file) != 0) return errno;
+  // A lower limit of the harness itself stays.
+  file.rlim_max = std::min(file.rlim_max, static_cast<rlim_t>(limits.file_mib) * kMib);
+  file.rlim_cur = std::min(file.rlim_cur, file.rlim_max);
+  if (::setrlimit(RLIMIT_FSIZE, &file) != 0) return errno;
   if (limits.memory_mib > 0) {
-    const rlim_t bytes = static_cast<rlim_t>(limits.memory_mib) * 1024 * 1024;
+    const rlim_t bytes = static_cast<rlim_t>(limits.memory_mib) * kMib;
     const rlimit memory = {bytes, bytes};
     if (::setrlimit(RLIMIT_AS, &memory) != 0) return errno;
   }
@@ -90,7 +118,7 @@ int become_worker(char* const* argv, const WorkerLimits& limits, pid_t parent, c
   }
   // Files that libraries of the harness have open without the flag; an old kernel's refusal does no harm.
   ::close_range(STDERR_FILENO + 1, ~0U, CLOSE_RANGE_CLOEXEC);
-  ::execvp(argv[0], argv);
+  ::execvpe(argv[0], argv, environment);
   return errno;
 }
 
@@ -143,11 +171,10 @@ bool speaks_of_memory(const std::string& words) {
 }  // namespace
 
 WorkerProcess::WorkerProcess(const std::vector<std::string>& command, const WorkerLimits& limits)
-    : memory_mib_(limits.memory_mib) {
-  std::vector<char*> argv;
-  argv.reserve(command.size() + 1);
-  for (const std::string& argument : command) argv.push_back(const_cast<char*>(argument.c_str()));
-  argv.push_back(nullptr);
+    : mark_(new_worker_mark()), memory_mib_(limits.memory_mib) {
+  const std::vector<std::string> environment = marked_environment(mark_);
+  const std::vector<char*> argv = pointers_to(command);
+  const std::vector<char*> variables = pointers_to(environment);
 
   Pipe input = make_pipe();
   Pipe output = make_pipe();
@@ -156,7 +183,7 @@ WorkerProcess::WorkerProcess(const std::vector<std::string>& command, const Work
   const pid_t parent = ::getpid();
   const pid_t child = ::fork();
   if (child == 0) {
-    const int error = become_worker(argv.data(), limits, parent, input, output, errors);
+    const int error = become_worker(argv.data(), variables.data(), limits, parent, input, output, errors);
     if (::write(start.write_end, &error, sizeof error) < 0) ::_exit(126);
     ::_exit(127);
   }
@@ -299,6 +326,7 @@ WorkerProcess::Ending WorkerProcess::reap() {
   }
   pid_ = -1;
   ending.peak_kib = usage.ru_maxrss;
+  end_strays(mark_);
   drain_errors();
   close_pipes();
   return ending;

@@ -20,6 +20,8 @@ namespace hullbench {
 struct WorkerLimits {
   std::int64_t memory_mib = 0;  ///< address space (RLIMIT_AS); 0: no limit
   std::optional<int> core;      ///< the one processor core it runs on; none: any
+  /// The longest file it may write: the largest result that is read, and a database's usual segment.
+  std::int64_t file_mib = 1024;
 };
 
 /// A worker's answer to one request, or what happened instead.
@@ -32,7 +34,8 @@ struct Reply {
 };
 
 /// A running worker process, in a session of its own, that ends with this object or with the harness,
-/// whichever is first.
+/// whichever is first. What it started ends with it, in whatever session (see stray_processes.hpp). The
+/// limits hold for each of its processes by itself.
 ///
 /// Status of a reply: `timeout` when it does not come in time (the worker is killed), `crash` when the worker
 /// ends without answering (detail: the signal's name or the exit code), `memory` when it ends or says so for
@@ -87,6 +90,7 @@ class WorkerProcess {
   Reply lost_output();
   void close_pipes();
 
+  std::string mark_;  ///< of it and its children
   pid_t pid_ = -1;
   int input_ = -1;    ///< the worker's standard input, written by us
   int replies_ = -1;  ///< its standard output

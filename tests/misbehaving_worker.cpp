@@ -48,6 +48,40 @@ void leave_child_and_crash() {
   (void)std::raise(SIGKILL);
 }
 
+/// Leaves a child in a session of its own, which its parent's group does not reach, with none of the pipes.
+void leave_child_in_other_session(bool stubborn) {
+  if (::fork() != 0) return;
+  ::setsid();
+  if (::fork() != 0) ::_exit(0);
+  for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) ::close(stream);
+  if (stubborn) (void)std::signal(SIGTERM, SIG_IGN);  // cannot fail for this signal
+  hang();
+}
+
+/// As many children as may be there at a time, each in a session of its own.
+void fork_and_fork() {
+  for (int i = 0; i < 100; ++i) {
+    if (::fork() != 0) continue;
+    ::setsid();
+    hang();
+  }
+  hang();
+}
+
+[[noreturn]] void flood(std::FILE* stream, const char* text) {
+  while (true) {
+    std::fputs(text, stream);
+    std::fflush(stream);
+  }
+}
+
+/// Writes a result that does not end.
+[[noreturn]] void flood_result(const json& request) {
+  std::FILE* file = std::fopen(request["result"].get<std::string>().c_str(), "wb");
+  const std::string block(1 << 20, 'x');
+  flood(file, block.c_str());
+}
+
 json good_reply(const json& request) {
   return {{"nonce", request["nonce"]}, {"phases_ns", {{"run", 1000}, {"extract", 10}, {"run.shape", 900}}}};
 }
@@ -57,7 +91,7 @@ void write_result(const json& request, const hullbench::MultiPolygon& shape) {
 }
 
 /// Ways that end the worker or its conversation before it could answer.
-bool misbehave_instead(const std::string& mode) {
+bool misbehave_instead(const std::string& mode, const json& request) {
   if (mode == "crash") (void)std::raise(SIGSEGV);
   if (mode == "crash_on_second") {
     static int count = 0;
@@ -74,6 +108,15 @@ bool misbehave_instead(const std::string& mode) {
     std::exit(7);
   }
   if (mode == "orphan") leave_child_and_crash();
+  if (mode == "fork_and_crash") {
+    leave_child_in_other_session(true);
+    (void)std::raise(SIGSEGV);
+  }
+  if (mode == "fork_and_fork") fork_and_fork();
+  if (mode == "flood_output") flood(stdout, "{}\n");
+  if (mode == "flood_line") flood(stdout, "xxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxx");
+  if (mode == "flood_errors_for_ever") flood(stderr, "this is not going well\n");
+  if (mode == "flood_result") flood_result(request);
   if (mode == "close_output") {
     ::close(STDOUT_FILENO);
     hang();
@@ -86,6 +129,10 @@ bool misbehave_instead(const std::string& mode) {
     say_error("memory", "no room");
   } else if (mode == "says_unsupported") {
     say_error("unsupported", "not this many points");
+  } else if (mode == "says_limits") {
+    rlimit memory = {};
+    getrlimit(RLIMIT_AS, &memory);
+    say_error("error", (std::to_string(memory.rlim_cur >> 20) + " MiB").c_str());
   } else if (mode == "says_error") {
     say_error("error", "no luck");
   } else if (mode == "error_without_kind") {
@@ -99,6 +146,7 @@ bool misbehave_instead(const std::string& mode) {
 /// Ways to answer that look right at first.
 void answer_run(const std::string& mode, const json& request) {
   json reply = good_reply(request);
+  if (mode == "fork") leave_child_in_other_session(false);
   if (mode == "wrong_nonce") reply["nonce"] = "of yesterday";
   if (mode == "no_phases") reply.erase("phases_ns");
   if (mode == "negative_time") reply["phases_ns"]["run"] = -5;
@@ -145,7 +193,7 @@ int main(int argc, char** argv) {
     } else if (request["request"] == "load") {
       if (mode == "crash_on_load") (void)std::raise(SIGBUS);
       say({{"phases_ns", {{"load", 5}}}});
-    } else if (!misbehave_instead(mode)) {
+    } else if (!misbehave_instead(mode, request)) {
       answer_run(mode, request);
     }
   }

@@ -7,12 +7,15 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <chrono>
 #include <csignal>
 #include <filesystem>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <random>
 #include <set>
 #include <string>
+#include <thread>
 #include <vector>
 
 #include "benchmarks/json_lines.hpp"
@@ -456,6 +459,17 @@ class InterruptionTest : public CommandLineTest {
   }
 };
 
+/// The rows without what is timed, in their order; every row has all its repetitions.
+std::vector<json> untimed_rows(const fs::path& run) {
+  std::vector<json> rows = lines_of(run / "runs.jsonl");
+  for (json& row : rows) {
+    EXPECT_EQ(row["time_ns"].size(), row["phases_ns"].size());
+    row["time_ns"] = row["time_ns"].size();
+    row.erase("phases_ns");
+  }
+  return rows;
+}
+
 TEST_F(InterruptionTest, CtrlCKeepsFinishedRowsAndASecondStartGoesOn) {
   for (const int signal : {SIGINT, SIGTERM}) {
     const Outcome stopped = stop_after(signal == SIGINT ? kRepetitions + 5 : 3 * kRepetitions + 5, signal);
@@ -488,6 +502,31 @@ TEST_F(InterruptionTest, AKilledRunGivesTheSameRowsAsAnUninterruptedOne) {
     hashes[row["id"]] = row["output_sha256"];
   for (const json& row : lines_of(folder() / "run" / "runs.jsonl"))
     EXPECT_EQ(row["output_sha256"], hashes[row["id"]]);
+}
+
+TEST_F(InterruptionTest, KilledAtAnyMomentTheRowsAreThoseOfAnUninterruptedRun) {
+  // A start takes some 100 ms before it measures, and the whole run some 300 ms.
+  std::mt19937 random(std::random_device{}());
+  std::uniform_int_distribution<int> moments(0, 400);
+  int killed = 0;
+  std::string said;
+  for (int code = -1; code != 0;) {
+    Program program(command({"run", the_plan(), "--out", "run"}), in_folder());
+    const int moment = moments(random);
+    said += " " + std::to_string(moment);
+    // After so many kills one start is let go on to its end, however slow the machine is.
+    if (killed < 20) {
+      std::this_thread::sleep_for(std::chrono::milliseconds(moment));
+      program.send_signal(SIGKILL);
+    }
+    code = program.wait().code;
+    ASSERT_TRUE(code == 0 || code == 128 + SIGKILL) << "exit code " << code << ", killed after ms:" << said;
+    if (code != 0) ++killed;
+  }
+  EXPECT_GT(killed, 0);
+  EXPECT_EQ(hullbench({"run", the_plan(), "--out", "whole"}).code, 0);
+  EXPECT_EQ(untimed_rows(folder() / "run"), untimed_rows(folder() / "whole")) << "killed after ms:" << said;
+  expect_no_repetition_twice(folder() / "run", kRepetitions);
 }
 
 TEST_F(InterruptionTest, WithoutOutTheUnfinishedRunIsFoundAndAFinishedOneIsNotTouched) {

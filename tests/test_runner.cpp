@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
+#include <functional>
 #include <map>
 #include <memory>
 #include <set>
@@ -81,8 +82,8 @@ class RunnerTest : public ::testing::Test {
     const auto runs = planned_runs(plan, "");
     std::ostringstream progress_text;
     Progress progress(progress_text, false, 80, {{"test", progress_runs(plan, runs)}});
-    const RunResult result = run_plan(
-        plan, runs, header, {command, {plan.mem_limit_mib, std::nullopt}, {}, cores}, *directory, progress);
+    const RunResult result =
+        run_plan(plan, runs, header, {command, std::nullopt, {}, cores}, *directory, progress);
     said_ = progress_text.str();
     return result;
   }
@@ -153,12 +154,25 @@ TEST_F(RunnerTest, EveryMisbehaviourIsARowAndTheOthersAreMeasured) {
                                                   {"says_error", Status::kError},
                                                   {"crash_at_start", Status::kCrash},
                                                   {"crash_on_load", Status::kCrash},
+                                                  {"fork", Status::kOk},
+                                                  {"fork_and_fork", Status::kTimeout},
+                                                  {"flood_output", Status::kInvalidOutput},
+                                                  {"flood_line", Status::kError},
+                                                  {"flood_errors_for_ever", Status::kTimeout},
+                                                  {"hang", Status::kTimeout},
                                                   {"polylidar", Status::kOk},
                                                   {"good", Status::kOk}};
   std::vector<std::string> methods;
   for (const auto& [method, status] : expected) methods.push_back(method);
-  const RunResult result = measure(plan_of(methods, 2));
-  EXPECT_EQ(exit_code(result), 4);
+  Plan plan = plan_of(methods, 2);
+  for (PlanMethod& method : plan.methods) {
+    if (expected.at(method.method) == Status::kTimeout) method.timeout_s = 0.5;
+  }
+  EXPECT_EQ(exit_code(measure(plan)), 4);
+  for (const auto& [method, status] : expected) {
+    const std::vector<std::string> command = worker_of(method);
+    EXPECT_TRUE(testing::wait_until([&] { return !testing::runs_somewhere(command); })) << method;
+  }
   const auto measured = rows();
   ASSERT_EQ(measured.size(), expected.size());
   for (const auto& [method, status] : expected) {
@@ -166,6 +180,18 @@ TEST_F(RunnerTest, EveryMisbehaviourIsARowAndTheOthersAreMeasured) {
     EXPECT_EQ(to_string(row.status), to_string(status)) << method << ": " << row.detail;
     EXPECT_EQ(row.detail.empty(), status == Status::kOk) << method;
   }
+  EXPECT_EQ(measured.at("crash").detail, "SIGSEGV");
+}
+
+TEST_F(RunnerTest, AMethodsOwnLimitsTakeThePlaceOfThePlans) {
+  Plan plan = plan_of({"says_limits", "good"}, 1);
+  const auto limit_of = [&] { return std::stoll(rows().at("says_limits").detail); };
+  measure(plan);
+  EXPECT_EQ(limit_of(), 512);
+  fs::remove_all(folder_.path() / "run");
+  plan.methods[0].mem_limit_mib = 300;
+  measure(plan);
+  EXPECT_EQ(limit_of(), 300);
 }
 
 TEST_F(RunnerTest, WithoutWarmUpTheFirstRepetitionIsScored) {
@@ -273,24 +299,31 @@ TEST_F(RunnerTest, RepetitionsOfAnEarlierStartAreKept) {
   for (const auto& [method, row] : rows()) EXPECT_EQ(row.time_ns.size(), 5U) << method;
 }
 
-TEST_F(RunnerTest, ARowOfAnotherVersionIsReplaced) {
+TEST_F(RunnerTest, ARowOfAnotherVersionDataOrParametersIsMeasuredAgain) {
   const Plan plan = plan_of({"good", "polylidar"});
-  measure(plan);
-  const fs::path file = folder_.path() / "run" / "runs.jsonl";
-  std::string text;
-  for (json line : lines("runs.jsonl")) {
-    if (line["method"] == "good") {
+  const std::vector<std::function<void(RunRecord&)>> differences = {
+      [](RunRecord& record) { record.method_version = "0.9"; },
+      [](RunRecord& record) { record.dataset_sha256 = sha256_hex("other points"); },
+      [](RunRecord& record) { record.parameters.at("size") = 2; },
+      [](RunRecord& record) { record.seed = 7; }};
+  for (const auto& make_different : differences) {
+    measure(plan);
+    const RunRecord whole = rows().at("good");
+    std::string text;
+    for (const json& line : lines("runs.jsonl")) {
       auto record = line.get<RunRecord>();
-      record.method_version = "0.9";
+      if (record.method == "good") make_different(record);
       record.id = run_identity(record);
-      line = record;
+      text += json(record).dump() + "\n";
     }
-    text += line.dump() + "\n";
+    testing::write_text(folder_.path() / "run" / "runs.jsonl", text);
+    ASSERT_NE(rows().at("good").id, whole.id);
+    measure(plan);
+    EXPECT_EQ(rows().size(), 2U);
+    EXPECT_EQ(rows().at("good").id, whole.id);
+    EXPECT_EQ(rows().at("good").parameters, whole.parameters);
+    EXPECT_EQ(rows().at("good").dataset_sha256, whole.dataset_sha256);
   }
-  testing::write_text(file, text);
-  measure(plan);
-  EXPECT_EQ(rows().size(), 2U);
-  EXPECT_EQ(rows().at("good").method_version, "1");
 }
 
 TEST_F(RunnerTest, ARowOfAMethodThatIsGoneIsKept) {

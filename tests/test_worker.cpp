@@ -1,9 +1,11 @@
 // Workers that do everything a method may do to the harness, and the statuses that come of it.
 #include <gtest/gtest.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
 #include <chrono>
 #include <csignal>
+#include <filesystem>
 #include <limits>
 #include <memory>
 #include <string>
@@ -14,6 +16,7 @@
 #include "benchmarks/interrupt.hpp"
 #include "benchmarks/method_session.hpp"
 #include "benchmarks/protocol.hpp"
+#include "benchmarks/stray_processes.hpp"
 #include "benchmarks/worker_process.hpp"
 #include "tests/program.hpp"
 #include "tests/temporary_folder.hpp"
@@ -22,6 +25,7 @@ namespace hullbench {
 namespace {
 
 using namespace std::chrono_literals;
+namespace fs = std::filesystem;
 using nlohmann::json;
 
 std::vector<std::string> misbehaving(const std::string& mode) {
@@ -33,7 +37,7 @@ class MethodSessionTest : public ::testing::Test {
   /// A run of the worker that misbehaves in this way, with what ctest's machine allows as a limit where it
   /// does not matter.
   Attempt attempt(const std::string& mode, std::chrono::milliseconds timeout = 30s) {
-    session_ = std::make_unique<MethodSession>(mode, misbehaving(mode), WorkerLimits{256, std::nullopt});
+    session_ = std::make_unique<MethodSession>(mode, misbehaving(mode), WorkerLimits{256, std::nullopt, 8});
     return run(timeout);
   }
 
@@ -160,10 +164,59 @@ TEST_F(MethodSessionTest, AWorkerThatIsKilledFromOutsideIsACrash) {
   EXPECT_NE(result.detail.find("SIGKILL"), std::string::npos) << result.detail;
 }
 
+TEST_F(MethodSessionTest, FloodOfLines) {
+  // The first of them is taken for the answer.
+  expect("flood_output", Status::kInvalidOutput, "the reply is to another run");
+}
+
+TEST_F(MethodSessionTest, FloodWithoutALineFeed) {
+  expect("flood_line", Status::kError, "sent a line of more than 1 MiB");
+}
+
+TEST_F(MethodSessionTest, FloodOfErrorOutputWithoutEnd) {
+  expect("flood_errors_for_ever", Status::kTimeout, "no answer within 0.5 s", 500ms);
+}
+
+TEST_F(MethodSessionTest, FloodOfItsResult) {
+  expect("flood_result", Status::kCrash, "SIGXFSZ");
+}
+
+TEST_F(MethodSessionTest, ForkingWithoutRest) {
+  expect("fork_and_fork", Status::kTimeout, "no answer within 0.5 s", 500ms);
+}
+
+/// Each way to end, with what it leaves: a child in the worker's own group, in a session of its own, one that
+/// does not hear SIGTERM either, and a hundred of them.
 TEST_F(MethodSessionTest, WhatAWorkerLeavesBehindGoesWithIt) {
-  EXPECT_EQ(attempt("orphan").status, Status::kCrash);
-  // Killed, but by whom it is reaped is out of our hands.
-  EXPECT_TRUE(testing::wait_until([] { return !testing::runs_somewhere(misbehaving("orphan")); }));
+  for (const char* mode : {"orphan", "fork", "fork_and_crash", "fork_and_fork"}) {
+    const Status status = attempt(mode, 500ms).status;
+    EXPECT_EQ(status == Status::kOk, std::string(mode) == "fork") << to_string(status);
+    session_.reset();
+    // Killed, but by whom it is reaped is out of our hands.
+    EXPECT_TRUE(testing::wait_until([&] { return !testing::runs_somewhere(misbehaving(mode)); })) << mode;
+    EXPECT_EQ(std::distance(fs::directory_iterator(folder_.path()), fs::directory_iterator()), 1)
+        << mode << " leaves a file beside the points";
+  }
+}
+
+TEST_F(MethodSessionTest, WhatAKilledHarnessLeftIsCleanedUpByTheNextOne) {
+  const pid_t harness = ::fork();
+  if (harness == 0) {
+    attempt("fork");
+    (void)std::raise(SIGKILL);
+  }
+  ASSERT_GT(harness, 0);
+  ASSERT_EQ(::waitpid(harness, nullptr, 0), harness);
+  // The worker went with the harness; its child is in a session of its own and lives.
+  EXPECT_TRUE(testing::runs_somewhere(misbehaving("fork")));
+  end_strays_of_dead_harnesses();
+  EXPECT_TRUE(testing::wait_until([&] { return !testing::runs_somewhere(misbehaving("fork")); }));
+}
+
+TEST_F(MethodSessionTest, WhatALiveHarnessStartedIsNotCleanedUp) {
+  WorkerProcess worker(misbehaving("good"), {});
+  end_strays_of_dead_harnesses();
+  EXPECT_TRUE(testing::is_running(worker.pid()));
 }
 
 TEST_F(MethodSessionTest, AProgramThatIsNotThereIsAnError) {
