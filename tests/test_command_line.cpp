@@ -441,14 +441,15 @@ class InterruptionTest : public CommandLineTest {
 
   std::string the_plan() const { return plan({2000, 3000, 4000}, kRepetitions); }
 
-  /// Starts a run and sends `signal` when `lines` repetitions are there; its outcome.
-  Outcome stop_after(std::size_t lines, int signal) {
+  /// Starts a run and sends `signal` some time `later` than `lines` repetitions are there; its outcome.
+  Outcome stop_after(std::size_t lines, int signal, std::chrono::microseconds later = {}) {
     Program program(command({"run", the_plan(), "--out", "run"}), in_folder());
     const fs::path repetitions = folder() / "run" / "repetitions.jsonl";
     EXPECT_TRUE(testing::wait_until([&] {
       const std::string text = read_text(repetitions);
       return static_cast<std::size_t>(std::count(text.begin(), text.end(), '\n')) >= lines;
     }));
+    std::this_thread::sleep_for(later);
     const std::vector<pid_t> workers = testing::children_of(program.pid());
     program.send_signal(signal);
     const Outcome outcome = program.wait();
@@ -504,28 +505,25 @@ TEST_F(InterruptionTest, AKilledRunGivesTheSameRowsAsAnUninterruptedOne) {
     EXPECT_EQ(row["output_sha256"], hashes[row["id"]]);
 }
 
-TEST_F(InterruptionTest, KilledAtAnyMomentTheRowsAreThoseOfAnUninterruptedRun) {
-  // A start takes some 100 ms before it measures, and the whole run some 300 ms.
-  std::mt19937 random(std::random_device{}());
-  std::uniform_int_distribution<int> moments(0, 400);
+TEST_F(InterruptionTest, KilledAtRandomMomentsTheRowsAreThoseOfAnUninterruptedRun) {
+  const auto seed = std::random_device{}();
+  SCOPED_TRACE("seed " + std::to_string(seed));
+  std::mt19937 random(seed);
+  // In the middle of a repetition, a row or the report; and, where that many are there already, of the start.
+  std::uniform_int_distribution<std::size_t> lines(0, 6 * kRepetitions);
+  std::uniform_int_distribution<int> microseconds(0, 60'000);
   int killed = 0;
-  std::string said;
-  for (int code = -1; code != 0;) {
-    Program program(command({"run", the_plan(), "--out", "run"}), in_folder());
-    const int moment = moments(random);
-    said += " " + std::to_string(moment);
-    // After so many kills one start is let go on to its end, however slow the machine is.
-    if (killed < 20) {
-      std::this_thread::sleep_for(std::chrono::milliseconds(moment));
-      program.send_signal(SIGKILL);
-    }
-    code = program.wait().code;
-    ASSERT_TRUE(code == 0 || code == 128 + SIGKILL) << "exit code " << code << ", killed after ms:" << said;
-    if (code != 0) ++killed;
+  for (int i = 0; i < 10; ++i) {
+    const Outcome outcome = stop_after(i == 0 ? kRepetitions : lines(random), SIGKILL,
+                                       std::chrono::microseconds(microseconds(random)));
+    ASSERT_TRUE(outcome.code == 0 || outcome.code == 128 + SIGKILL) << outcome.code << outcome.err;
+    killed += outcome.code == 0 ? 0 : 1;
   }
   EXPECT_GT(killed, 0);
+  EXPECT_EQ(hullbench({"run", the_plan(), "--out", "run"}).code, 0);
   EXPECT_EQ(hullbench({"run", the_plan(), "--out", "whole"}).code, 0);
-  EXPECT_EQ(untimed_rows(folder() / "run"), untimed_rows(folder() / "whole")) << "killed after ms:" << said;
+  EXPECT_EQ(untimed_rows(folder() / "run"), untimed_rows(folder() / "whole"));
+  EXPECT_FALSE(fs::exists(folder() / "run" / "scratch"));
   expect_no_repetition_twice(folder() / "run", kRepetitions);
 }
 
