@@ -74,9 +74,11 @@ struct Plan {
   std::string title;
   std::string paper;  ///< which of the paper's figures and tables it stands for
   std::vector<std::string> notes;
-  int repetitions = 10;    ///< timed runs a method and case
-  int warmup = 1;          ///< untimed runs before them; the first run of all is scored, timed or not
-  double timeout_s = 120;  ///< wall-clock seconds for one request to a worker
+  int repetitions = 10;  ///< timed runs a method and case
+  /// Untimed runs before them; with 0 there is one after them. The first run of all is scored, and every
+  /// other one must give its result.
+  int warmup = 1;
+  double timeout_s = 120;             ///< wall-clock seconds for one request to a worker
   std::int64_t mem_limit_mib = 4096;  ///< address space of a worker, in MiB
   std::uint64_t seed = 1;             ///< of point samples and of the order of runs
   std::string filter;                 ///< of the runs' names, for who asks for none; empty: all runs

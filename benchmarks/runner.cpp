@@ -233,7 +233,11 @@ class Runner {
       if (!entry.measured) warm_up(entry, points);
     }
     for (int round = 0; round < plan_.repetitions; ++round) run_round(one.entries, round, points);
-    for (Entry& entry : one.entries) entry.measured = true;
+    for (Entry& entry : one.entries) {
+      // Without a warm-up, one untimed run after the timed ones, which must give the same result.
+      if (plan_.warmup == 0 && !entry.measured) attempt_run(entry, points);
+      entry.measured = true;
+    }
   }
 
   /// Fills in what the worker's first answer tells, and looks for an earlier start's row and repetitions.

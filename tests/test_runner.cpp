@@ -208,6 +208,18 @@ TEST_F(RunnerTest, WithoutWarmUpTheFirstRepetitionIsScored) {
   EXPECT_TRUE(rows().at("polylidar").metrics.at("valid").get<bool>());
 }
 
+TEST_F(RunnerTest, AnUntimedRunChecksEvenASingleRepetition) {
+  for (const int warmup : {0, 1}) {
+    Plan plan = plan_of({"polylidar", "changing_result", "crash_on_second"}, 1);
+    plan.warmup = warmup;
+    measure(plan);
+    EXPECT_EQ(to_string(rows().at("polylidar").status), "ok");
+    EXPECT_EQ(to_string(rows().at("changing_result").status), "invalid_output");
+    EXPECT_EQ(to_string(rows().at("crash_on_second").status), "crash");
+    fs::remove_all(folder_.path() / "run");
+  }
+}
+
 TEST_F(RunnerTest, AHangIsATimeoutAndNotTriedAgain) {
   Plan plan = plan_of({"hang", "good"});
   plan.timeout_s = 0.5;
