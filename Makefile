@@ -42,7 +42,7 @@ endef
 
 NATIVE_OPTION = -DHULLBENCH_NATIVE=$(if $(filter-out 0,$(NATIVE)),ON,OFF)
 
-.PHONY: help deps build bench bench-quick bench-core reference test test-sanitize build-clang test-clang test-fresh fuzz lint format clean
+.PHONY: help deps build bench bench-quick bench-core reference test test-sanitize build-clang test-clang test-fresh test-slurm fuzz lint format clean
 
 help: ## list the targets (the default)
 	@awk 'BEGIN { FS = ":.*## " } /^[a-z-]+:.*## / { printf "  make %-14s %s\n", $$1, $$2 }' Makefile
@@ -104,6 +104,11 @@ test-clang: ## the tests of the clang build
 
 test-fresh: ## prove bench-quick and test from nothing, in a bare Debian 12 root (needs root, 10 GB, an hour)
 	@tests/fresh/run.sh
+
+test-slurm: ## try the Slurm scripts on a real Slurm of one node, made for the test (needs root)
+	@$(call install,build bench slurm)
+	@$(MAKE) build
+	@tests/slurm/run.sh build/hullbench
 
 SECONDS ?= 60
 

@@ -18,9 +18,13 @@ struct PaperStep {
 };
 const std::vector<PaperStep>& paper_steps();
 
+/// Whether a claim of paper() compares times, be it of a step.
+bool is_about_time(const nlohmann::json& claim);
+
 /// Every claim of the paper that concerns state shapes, checked against the `protocol: paper` rows of
 /// `report`: a list of {id, claim, where, paper, ours (text), value (number or null), equal_work (text or
-/// null), holds (true, false or null: not measured here), detail}.
+/// null), holds (true, false or null: not measured here), detail}. Claims about
+/// time are not judged when there are no times (see Measurements).
 nlohmann::json check_claims(const nlohmann::json& report);
 
 }  // namespace hullbench

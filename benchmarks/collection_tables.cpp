@@ -6,6 +6,7 @@
 #include <set>
 #include <span>
 #include <string>
+#include <string_view>
 #include <utility>
 
 #include "benchmarks/claims.hpp"
@@ -22,8 +23,8 @@ using nlohmann::json;
 /// From so many shapes on nobody wants a row for each.
 constexpr std::size_t kTooManyForRows = 60;
 
-const std::vector<std::string> kValueColumns = {
-    "L2 mean, %", "std", "max", "Time mean, ms", "std", "max", "Equal work mean, ms"};
+const std::vector<std::string> kErrorColumns = {"L2 mean, %", "std", "max"};
+const std::vector<std::string> kTimeColumns = {"Time mean, ms", "std", "max", "Equal work mean, ms"};
 
 bool has_prefix(const json& entry, const std::string& dataset) {
   const json& prefixes = entry.at("dataset_prefixes");
@@ -69,14 +70,28 @@ void append(std::vector<std::string>& cells, const std::vector<std::string>& mor
   cells.insert(cells.end(), more.begin(), more.end());
 }
 
-void append_values(std::vector<std::string>& cells, const GroupValues& values) {
+/// What the columns of values hold, for a caption.
+std::string values_text(const TableContext& context) {
+  return context.measurements.has_times() ? "error (of the result's area) and time as the paper took them"
+                                          : "error (of the result's area) as the paper took it";
+}
+
+void append_value_columns(const TableContext& context, std::vector<std::string>& header) {
+  append(header, kErrorColumns);
+  if (context.measurements.has_times()) append(header, kTimeColumns);
+}
+
+void append_values(const TableContext& context, std::vector<std::string>& cells, const GroupValues& values) {
   append(cells, percent_cells(values.error));
+  if (!context.measurements.has_times()) return;
   append(cells, millisecond_cells(values.time));
   cells.push_back(values.equal_work ? three_digits(values.equal_work->mean) : kNothing);
 }
 
-void append_published(std::vector<std::string>& cells, const json& published) {
+void append_published(const TableContext& context, std::vector<std::string>& cells, const json& published) {
+  const bool times = context.measurements.has_times();
   for (const char* quantity : {"l2_percent", "milliseconds"}) {
+    if (quantity == std::string_view("milliseconds") && !times) return;
     for (const json& value : published.at(quantity)) cells.push_back(fixed(value.get<double>(), 1));
   }
   cells.emplace_back(kNothing);
@@ -126,23 +141,23 @@ std::string kinds_text(const std::vector<CaseGroup>& groups) {
 TableSection summary_table(TableContext& context, const std::vector<Line>& lines,
                            const std::vector<Case>& cases, const json& published) {
   std::vector<std::string> header = {"Method", "Shapes"};
-  append(header, kValueColumns);
+  append_value_columns(context, header);
   TableSection section{"summary", "", TextTable(std::move(header)), {}};
   const std::vector<CaseGroup> kinds = family_groups(context, cases);
   // Shapes that are no family have each a title of its own.
   const std::string kind = kinds.size() < cases.size() ? " (" + kinds_text(kinds) + ")" : "";
-  section.caption = std::to_string(cases.size()) + " shapes" + kind + ", " + size_text(cases) +
-                    ": error (of the result's area) and time as the paper took them";
+  section.caption =
+      std::to_string(cases.size()) + " shapes" + kind + ", " + size_text(cases) + ": " + values_text(context);
   for (const Line& line : lines) {
     const GroupValues values = group_values(context, line, cases);
     std::vector<std::string> cells = {label(context, line) + group_failure_marks(context, line, cases),
                                       std::to_string(values.measured)};
-    append_values(cells, values);
+    append_values(context, cells, values);
     section.table.add_row(std::move(cells));
     const json theirs = published_values({"", {}, published}, line);
     if (theirs.is_null()) continue;
     cells = {paper_label(line), published.at("shapes").dump()};
-    append_published(cells, theirs);
+    append_published(context, cells, theirs);
     section.table.add_row(std::move(cells));
   }
   if (!published.is_null()) {
@@ -229,7 +244,7 @@ std::vector<CaseGroup> convexity_groups(const TableContext& context, const std::
 TableSection group_table(TableContext& context, const std::string& id, const std::string& caption,
                          const std::string& first_column, const std::vector<CaseGroup>& groups) {
   std::vector<std::string> header = {first_column, "Method", "Shapes", "Invalid"};
-  append(header, kValueColumns);
+  append_value_columns(context, header);
   TableSection section{id, caption, TextTable(std::move(header)), {}};
   bool has_published = false;
   for (const CaseGroup& group : groups) {
@@ -238,13 +253,13 @@ TableSection group_table(TableContext& context, const std::string& id, const std
       std::vector<std::string> cells = {
           group.title, label(context, line) + group_failure_marks(context, line, group.cases),
           std::to_string(values.measured), std::to_string(values.invalid)};
-      append_values(cells, values);
+      append_values(context, cells, values);
       section.table.add_row(std::move(cells));
       const json theirs = published_values(group, line);
       if (theirs.is_null()) continue;
       has_published = true;
       cells = {group.title, paper_label(line), kNothing, kNothing};
-      append_published(cells, theirs);
+      append_published(context, cells, theirs);
       section.table.add_row(std::move(cells));
     }
   }
@@ -278,9 +293,8 @@ std::vector<TableSection> class_tables(TableContext& context, const std::vector<
        {std::pair{"convexity", &papers_own}, std::pair{"convexity_others", &others}}) {
     if (part->empty()) continue;
     const std::vector<CaseGroup> kinds = family_groups(context, *part);
-    const std::string caption =
-        std::to_string(part->size()) + " shapes (" + kinds_text(kinds) + "), " + size_text(*part) +
-        ", by convexity: error (of the result's area) and time as the paper took them";
+    const std::string caption = std::to_string(part->size()) + " shapes (" + kinds_text(kinds) + "), " +
+                                size_text(*part) + ", by convexity: " + values_text(context);
     sections.push_back(group_table(context, id, caption, "Convexity", convexity_groups(context, *part)));
     say_validity(context, *part, sections.back());
     if (kinds.size() > 1) {

@@ -38,6 +38,7 @@ GroupValues group_values(const TableContext& context, const Line& line, const st
     ++values.measured;
     const std::vector<double> of_case = all_values(runs, "l2_paper");
     if (!of_case.empty()) errors.push_back(median(std::span<const double>(of_case)));
+    if (!context.measurements.has_times()) continue;
     times.push_back(median(all_times(runs, Boundary::kPaper)) / 1e6);
     equal_work.push_back(median(all_times(runs, Boundary::kEqualWork)) / 1e6);
   }

@@ -11,6 +11,7 @@
 #include "adapters/adapter.hpp"
 #include "benchmarks/interrupt.hpp"
 #include "benchmarks/listing.hpp"
+#include "benchmarks/merge.hpp"
 #include "benchmarks/plan.hpp"
 #include "benchmarks/readme.hpp"
 #include "benchmarks/report.hpp"
@@ -33,7 +34,8 @@ constexpr const char* kFooter =
     "Exit codes: 0 everything asked for was done; 1 an error of the harness, or `validate` or `readme "
     "--check` found "
     "faults;\n"
-    "2 usage or configuration; 4 some methods failed (their rows say how); 6 nothing was measured; 130 "
+    "2 usage or configuration; 4 some methods failed (their rows say how), or runs of a merge are missing; 6 "
+    "nothing was measured; 130 "
     "interrupted.\n"
     "HULLBENCH_POSTGIS_DSN names a PostGIS server to use instead of a private one; HULLBENCH_POSTGRES_BIN "
     "the folder with\n"
@@ -45,6 +47,7 @@ constexpr std::int64_t kListMemoryMib = 4096;
 struct Arguments {
   bool json = false;
   RunCommand run;
+  MergeCommand merge;
   std::string tables_path = "results/latest";
   bool tables_write = false;
   std::string readme_run;
@@ -143,8 +146,18 @@ void add_run(CLI::App& app, RunCommand& run) {
   command->add_option(
       "--recordings", run.recordings,
       "Folder of recorded floors that take the place of the simulated ones (datasets/rgbd/recordings.hpp)");
+  command->add_option_function<std::string>(
+      "--shard", [&run](const std::string& text) { run.shard = parse_shard(text); },
+      "Only part K of N of the runs, given as K/N; 'hullbench merge' puts the parts together");
   command->add_flag("--force", run.force, "Start anew instead of going on with an interrupted run");
   command->add_flag("--dry-run", run.dry_run, "Print the names of the runs and do nothing");
+}
+
+void add_merge(CLI::App& app, MergeCommand& merge) {
+  CLI::App* command = app.add_subcommand("merge", "Put runs of the same plan, such as its shards, together");
+  command->add_option("RUN", merge.sources, "Folders of runs, or of suites")->required();
+  command->add_option("--out", merge.out, "Folder for the merged run, new or empty")->required();
+  command->add_flag("--force", merge.force, "Write to the folder even when something is in it");
 }
 
 void add_commands(CLI::App& app, Arguments& arguments) {
@@ -153,6 +166,7 @@ void add_commands(CLI::App& app, Arguments& arguments) {
   app.footer(kFooter);
   app.add_subcommand("list", "Show methods and data sets")->add_flag("--json", arguments.json, "As JSON");
   add_run(app, arguments.run);
+  add_merge(app, arguments.merge);
   CLI::App* tables = app.add_subcommand("tables", "Print the tables of a run");
   tables->add_option("RUN", arguments.tables_path, "The run's folder")->capture_default_str();
   tables->add_flag("--write", arguments.tables_write, "Write its tables.md and tables/ anew too");
@@ -173,6 +187,7 @@ int dispatch(const CLI::App& app, const Arguments& arguments) {
   catch_interruptions();
   if (app.got_subcommand("list")) return list(arguments.json);
   if (app.got_subcommand("run")) return run_command(arguments.run, &own_worker);
+  if (app.got_subcommand("merge")) return merge_command(arguments.merge);
   if (app.got_subcommand("tables")) return tables(arguments.tables_path, arguments.tables_write);
   if (app.got_subcommand("readme")) {
     return readme(arguments.readme_run, arguments.readme_path, arguments.readme_check);

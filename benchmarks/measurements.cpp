@@ -7,7 +7,7 @@ namespace hullbench {
 
 bool is_measured(const RunRecord& run) {
   const auto valid = run.metrics.find("valid");
-  return run.status == Status::kOk && !run.time_ns.empty() && valid != run.metrics.end() && *valid == true;
+  return run.status == Status::kOk && valid != run.metrics.end() && *valid == true;
 }
 
 bool is_invalid(const RunRecord& run) {
@@ -49,8 +49,36 @@ std::optional<double> metric(const RunRecord& run, const std::string& name) {
   return found->get<double>();
 }
 
-Measurements::Measurements(const nlohmann::json& report) {
-  for (const nlohmann::json& line : report.at("runs")) runs_.push_back(line.get<RunRecord>());
+std::set<std::string> machines_of(const nlohmann::json& report) {
+  std::set<std::string> machines;
+  for (const nlohmann::json& line : report.at("runs")) {
+    if (line.at("time_ns").empty()) continue;
+    const std::string machine = line.value("machine", std::string());
+    // Only a row that does not say its machine needs the report's description of one.
+    machines.insert(!machine.empty() ? machine
+                                     : report.at("environment").at("machine_id").get<std::string>());
+  }
+  return machines;
+}
+
+std::string no_times_sentence(const std::set<std::string>& machines) {
+  std::string names;
+  for (const std::string& machine : machines) names += (names.empty() ? "" : ", ") + machine;
+  return "Times are not shown: they were taken on " + std::to_string(machines.size()) + " machines (" +
+         names + "), and times of different machines do not go into one table.";
+}
+
+std::string Measurements::why_no_times() const {
+  return has_times() ? "" : no_times_sentence(machines_);
+}
+
+Measurements::Measurements(const nlohmann::json& report) : machines_(machines_of(report)) {
+  for (const nlohmann::json& line : report.at("runs")) {
+    RunRecord& run = runs_.emplace_back(line.get<RunRecord>());
+    if (has_times()) continue;
+    run.time_ns.clear();
+    run.phases_ns.clear();
+  }
   std::map<std::string, std::size_t> first_seen;  // by data set
   for (std::size_t position = 0; position < runs_.size(); ++position) {
     const RunRecord& run = runs_[position];

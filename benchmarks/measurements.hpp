@@ -7,6 +7,7 @@
 #include <map>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -29,7 +30,8 @@ enum class Boundary {
   kPaper       ///< what the paper timed: run
 };
 
-/// Whether the run gave a result that is believed: status ok and a valid multipolygon.
+/// Whether the run gave a result that is believed: status ok and a valid multipolygon. Whether it has times
+/// is another question (see Measurements).
 bool is_measured(const RunRecord& run);
 
 /// Whether the run gave a result that is not a valid multipolygon.
@@ -45,14 +47,26 @@ std::vector<std::int64_t> step_times(const RunRecord& run, const std::vector<std
 /// A number among the metrics; empty when it is absent or null.
 std::optional<double> metric(const RunRecord& run, const std::string& name);
 
+/// The machines on which the rows of `report` that have times were measured.
+std::set<std::string> machines_of(const nlohmann::json& report);
+
+/// One sentence: that times are not shown because of these machines.
+std::string no_times_sentence(const std::set<std::string>& machines);
+
 /// The runs of a report by method, protocol and case. Runs that share all three (other seeds or parameters)
-/// are kept in their order.
+/// are kept in their order. When they are of several machines they have no times here (the report keeps
+/// them).
 class Measurements {
  public:
   /// `report` needs only its member `runs`. Throws what from_json of a record throws.
   explicit Measurements(const nlohmann::json& report);
 
   const std::vector<RunRecord>& runs() const { return runs_; }
+
+  /// Why there are no times: one sentence when the runs were measured on several machines, whose times no
+  /// table or claim may mix. Empty when there are times.
+  std::string why_no_times() const;
+  bool has_times() const { return machines_.size() <= 1; }
 
   /// The runs of that method, protocol and case; none when there are none.
   std::vector<const RunRecord*> find(const std::string& method, const std::string& protocol,
@@ -70,6 +84,7 @@ class Measurements {
     auto operator<=>(const Key&) const = default;  // NOLINT(modernize-use-nullptr): as above
   };
   std::vector<RunRecord> runs_;
+  std::set<std::string> machines_;
   std::map<Key, std::vector<std::size_t>> index_;  ///< positions in runs_
   std::vector<Case> cases_;
 };

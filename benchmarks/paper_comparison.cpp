@@ -1,6 +1,7 @@
 #include "benchmarks/paper_comparison.hpp"
 
 #include <algorithm>
+#include <set>
 
 #include "benchmarks/claims.hpp"
 #include "benchmarks/collection_tables.hpp"
@@ -31,6 +32,7 @@ void compare_groups(const TableContext& context, std::vector<Comparison>& compar
       comparison.published = theirs.at("l2_percent").at(0).get<double>();
       if (ours.error) comparison.measured = 100 * ours.error->mean;
       comparisons.push_back(comparison);
+      if (!context.measurements.has_times()) continue;
       comparison.quantity = kTime;
       comparison.published = theirs.at("milliseconds").at(0).get<double>();
       comparison.measured.reset();
@@ -56,6 +58,7 @@ void compare_steps(const TableContext& context, std::vector<Comparison>& compari
   const json& steps = paper().at("steps");
   const Case which = {steps.at("dataset").get<std::string>(), steps.at("holes").get<bool>(),
                       steps.at("n").get<std::int64_t>()};
+  if (!context.measurements.has_times()) return;
   const auto& cases = context.measurements.cases();
   // A run of many cases has the paper's one by the way; its figures are those of the experiment on this case
   // alone.
@@ -125,8 +128,12 @@ TableSection differences_table(const std::vector<json>& reports) {
                        TextTable({"Value", "Paper", "Here", "Here / paper", "Reason"}),
                        {}};
   Notes reasons;
+  // Reports of one machine each are still of several in this one table.
+  std::set<std::string> machines;
+  for (const json& report : reports) machines.merge(machines_of(report));
   for (const json& report : reports) {
     for (const Comparison& comparison : compare_with_paper(report)) {
+      if (comparison.quantity != kError && machines.size() > 1) continue;
       std::string why = kNothing;
       if (comparison.is_large()) {
         const auto reason = reason_of(comparison);
@@ -140,8 +147,9 @@ TableSection differences_table(const std::vector<json>& reports) {
   }
   const json& limit = paper().at("differences").at("large_from");
   section.remarks.push_back(
-      "Times are as the paper took them. A reason stands where a value is " + limit.dump() +
-      " times the paper's or more, or the paper's is " + limit.dump() +
+      (machines.size() > 1 ? no_times_sentence(machines) : "Times are as the paper took them.") +
+      " A reason stands where a value is " + limit.dump() + " times the paper's or more, or the paper's is " +
+      limit.dump() +
       " times ours or more, and where nothing was measured. The paper's Figure 8 has no numbers to "
       "compare; what its text says of it is among the claims.");
   for (std::string& reason : reasons.marked()) section.remarks.push_back(std::move(reason));

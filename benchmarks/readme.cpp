@@ -2,11 +2,13 @@
 
 #include <algorithm>
 #include <array>
+#include <set>
 #include <sstream>
 #include <stdexcept>
 #include <string_view>
 
 #include "benchmarks/document.hpp"
+#include "benchmarks/measurements.hpp"
 #include "benchmarks/suite.hpp"
 
 namespace hullbench {
@@ -80,6 +82,10 @@ std::string readme_results(const std::vector<json>& reports, const std::string& 
     for (const std::string& remark : section->remarks) print_item(remark, out);
   }
   out << "\n### How these numbers were taken\n\n";
+  std::set<std::string> without_times;
+  for (const json& report : reports) without_times.insert(Measurements(report).why_no_times());
+  without_times.erase("");
+  for (const std::string& note : without_times) print_item(note, out);
   for (const std::string& note : documents.back().common_notes) print_item(note, out);
   return out.str();
 }

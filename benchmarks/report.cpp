@@ -129,26 +129,32 @@ void write_whole(const std::filesystem::path& path, const std::string& text) {
 }  // namespace
 
 json make_summary(const json& report) {
-  const Measurements measurements(report);
+  const auto runs = report.at("runs").get<std::vector<RunRecord>>();
   json rows = json::array();
-  for (const RunRecord& run : measurements.runs()) rows.push_back(summary_row(run));
-  return {{"totals", totals(measurements.runs())},
-          {"noise", noise_to_json(measurements.runs())},
+  for (const RunRecord& run : runs) rows.push_back(summary_row(run));
+  return {{"totals", totals(runs)},
+          {"noise", noise_to_json(runs)},
           {"rows", rows},
           {"claims", check_claims(report)}};
 }
 
-json make_report(const std::filesystem::path& run_directory) {
+json load_run(const std::filesystem::path& run_directory) {
   json report = read_run_file(run_directory / "run.json");
   std::filesystem::path lines_file = run_directory / "runs.jsonl";
   if (!std::filesystem::exists(lines_file)) lines_file += ".xz";
   const JsonLines lines = load_json_lines(lines_file);
   report["runs"] = last_of_each_id(lines.lines, lines_file);
-  report["notes"] = json::array();
+  // Only a merged run has notes of its own.
+  if (!report.contains("notes")) report["notes"] = json::array();
   if (!lines.torn.empty()) {
     report["notes"].push_back(
         "The last line of runs.jsonl was cut short when the run was interrupted; it is left out.");
   }
+  return report;
+}
+
+json make_report(const std::filesystem::path& run_directory) {
+  json report = load_run(run_directory);
   report["summary"] = make_summary(report);
   return report;
 }

@@ -6,6 +6,10 @@
 
 namespace hullbench {
 
+/// A run directory as it is: `run.json`, with its rows as `runs` and with `notes`; what make_report gives but
+/// for the summary.
+nlohmann::json load_run(const std::filesystem::path& run_directory);
+
 /// The report of a run directory: `run.json` (schema_version, tool, plan, seed, filter, repetitions,
 /// datasets, methods, environment, created) with the lines of `runs.jsonl`, or `runs.jsonl.xz`, as `runs`,
 /// and a `summary`. When an id occurs more than once (a forced repetition), its last line counts. A torn last

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <optional>
+#include <set>
 #include <string>
 
 #include "benchmarks/claims.hpp"
@@ -26,11 +27,13 @@ void add_repetitions(const json& report, Sentences& notes) {
                             "them together.");
 }
 
-void add_how_to_read(Sentences& notes) {
-  notes.push_back(
-      "Equal work: points in memory to a valid multipolygon in memory, for every method alike. As the paper "
-      "took it: "
-      "the method's own run only. Loading the points (the upload to a database) is in neither.");
+void add_how_to_read(bool times, Sentences& notes) {
+  if (times)
+    notes.push_back(
+        "Equal work: points in memory to a valid multipolygon in memory, for every method alike. As the "
+        "paper "
+        "took it: "
+        "the method's own run only. Loading the points (the upload to a database) is in neither.");
   notes.push_back(
       "The protocol in brackets says who chose the parameters: paper, by the paper's rules, which look at "
       "the ground "
@@ -76,14 +79,14 @@ void add_missing_methods(const json& report, const std::vector<RunRecord>& runs,
   }
 }
 
-void add_environment(const json& report, Sentences& notes) {
-  const json& environment = report.at("environment");
+/// One machine and its build; `machine` is empty or its name in the sentence.
+void add_environment(const json& environment, const std::string& machine, Sentences& notes) {
   const json& cpu = environment.at("cpu");
   const json& compiler = environment.at("compiler");
   const json& os = environment.at("os");
   notes.push_back(
-      cpu.at("model").get<std::string>() + ", " + cpu.at("logical_cores").dump() + " logical cores" +
-      (cpu.at("virtualised") == true ? " (virtual machine)" : "") +
+      machine + cpu.at("model").get<std::string>() + ", " + cpu.at("logical_cores").dump() +
+      " logical cores" + (cpu.at("virtualised") == true ? " (virtual machine)" : "") +
       (os.is_string() ? ", " + os.get<std::string>() : std::string()) + "; " +
       compiler.at("id").get<std::string>() + " " + compiler.at("version").get<std::string>() + ", " +
       compiler.at("build_type").get<std::string>() + ", " + compiler.at("flags").get<std::string>() +
@@ -119,6 +122,27 @@ void add_too_fast(const std::vector<RunRecord>& runs, Sentences& notes) {
                   " ns a point, which no method can be, so do not believe these times: " + names + ".");
 }
 
+/// Of a merged run every machine, each once.
+void add_environments(const json& report, Sentences& notes) {
+  if (!report.contains("merged")) return add_environment(report.at("environment"), "", notes);
+  Sentences all;
+  for (const json& part : report["merged"]) {
+    const json& environment = part.at("environment");
+    add_environment(environment, "Machine " + environment.at("machine_id").get<std::string>() + ": ", all);
+  }
+  for (std::string& note : all) {
+    if (std::find(notes.begin(), notes.end(), note) == notes.end()) notes.push_back(std::move(note));
+  }
+}
+
+/// Which runs a merged one consists of.
+void add_parts(const json& report, Sentences& notes) {
+  if (!report.contains("merged")) return;
+  const std::set<std::string> machines = machines_of(report);
+  notes.push_back("Merged of " + std::to_string(report["merged"].size()) + " runs" +
+                  (machines.size() == 1 ? ", all timed on machine " + *machines.begin() : "") + ".");
+}
+
 void add_totals(const json& report, Sentences& notes) {
   std::string counts;
   for (const Status status : kAllStatuses) {
@@ -133,9 +157,15 @@ void add_totals(const json& report, Sentences& notes) {
 
 }  // namespace
 
-std::vector<std::string> run_notes(const json& report, const std::vector<RunRecord>& runs) {
+std::vector<std::string> run_notes(const json& report, const Measurements& measurements) {
+  const std::vector<RunRecord>& runs = measurements.runs();
   Sentences notes;
-  add_repetitions(report, notes);
+  if (measurements.has_times()) {
+    add_repetitions(report, notes);
+  } else {
+    notes.push_back(measurements.why_no_times());
+  }
+  add_parts(report, notes);
   add_plan_notes(report, runs, notes);
   for (const json& note : report.at("notes")) notes.push_back(note.get<std::string>());
   add_missing_methods(report, runs, notes);
@@ -145,11 +175,11 @@ std::vector<std::string> run_notes(const json& report, const std::vector<RunReco
   return notes;
 }
 
-std::vector<std::string> common_notes(const json& report, const std::vector<RunRecord>& runs) {
+std::vector<std::string> common_notes(const json& report, const Measurements& measurements) {
   Sentences notes;
-  add_how_to_read(notes);
-  add_paper_notes(runs, notes);
-  add_environment(report, notes);
+  add_how_to_read(measurements.has_times(), notes);
+  add_paper_notes(measurements.runs(), notes);
+  add_environments(report, notes);
   return notes;
 }
 

@@ -6,15 +6,15 @@
 #include <string>
 #include <vector>
 
-#include "benchmarks/record.hpp"
+#include "benchmarks/measurements.hpp"
 
 namespace hullbench {
 
 /// What is special to this run: the plan's notes, what is missing, how many rows ended how, one sentence or
-/// more a note. `runs` are the parsed runs of `report`.
-std::vector<std::string> run_notes(const nlohmann::json& report, const std::vector<RunRecord>& runs);
+/// more a note; of a report without times why there are none. `measurements` are of `report`.
+std::vector<std::string> run_notes(const nlohmann::json& report, const Measurements& measurements);
 
-/// What holds for every run of a suite alike: how to read the tables, the machine, the build.
-std::vector<std::string> common_notes(const nlohmann::json& report, const std::vector<RunRecord>& runs);
+/// What holds for every run of a suite alike: how to read the tables, every machine, the build.
+std::vector<std::string> common_notes(const nlohmann::json& report, const Measurements& measurements);
 
 }  // namespace hullbench

@@ -101,6 +101,7 @@ json describe_run(const Experiment& experiment, const RunCommand& command) {
           {"rules", describe_rules(plan)},
           {"seed", plan.seed},
           {"filter", experiment.filter.empty() ? json(nullptr) : json(experiment.filter)},
+          {"shard", command.shard ? json(to_string(*command.shard)) : json(nullptr)},
           {"repetitions", plan.repetitions},
           {"datasets", describe_datasets({default_data_directory(), command.recordings}, used)}};
 }
@@ -200,10 +201,7 @@ class Measuring {
                 << ", and the same command goes on from there\n";
       return result;
     }
-    const json report = make_report(directory.path());
-    write_tables(directory.path(), make_documents({report}));
-    // Last, because it marks the run as finished.
-    write_report_file(directory.path() / "report.json", report);
+    finish_run(directory.path());
     return result;
   }
 
@@ -279,11 +277,22 @@ int measure_suite(const RunCommand& command, const std::vector<Experiment>& expe
   return exit_code(all);
 }
 
+/// Leaves of `experiment` what belongs to the shard that was asked for, and says so when that is nothing.
+void keep_shard(Experiment& experiment, const RunCommand& command) {
+  if (!command.shard || experiment.runs.empty()) return;
+  experiment.runs = runs_of_shard(experiment.plan, experiment.runs, *command.shard);
+  if (experiment.runs.empty()) {
+    std::cerr << "hullbench: the plan '" << experiment.plan.name << "' has too few cases for shard "
+              << to_string(*command.shard) << ": nothing of it is measured here\n";
+  }
+}
+
 }  // namespace
 
 int run_command(const RunCommand& command, const WorkerCommand& worker_command) {
   std::vector<Experiment> experiments;
   std::string names;
+  bool any_run = false;
   for (const std::string& name : command.plans) {
     Experiment experiment = make_experiment(name, command);
     names += (names.empty() ? "'" : ", '") + experiment.plan.name + "'";
@@ -291,8 +300,11 @@ int run_command(const RunCommand& command, const WorkerCommand& worker_command) 
     if (std::any_of(experiments.begin(), experiments.end(), same)) {
       throw ConfigurationError("the plan '" + experiment.plan.name + "' is named twice; leave one out");
     }
+    any_run = any_run || !experiment.runs.empty();
+    keep_shard(experiment, command);
     if (!experiment.runs.empty()) experiments.push_back(std::move(experiment));
   }
+  if (experiments.empty() && any_run) return 6;
   if (experiments.empty()) {
     const std::string way_out = command.filter.empty()
                                     ? "the plan's own filter; choose others with --filter"

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "benchmarks/runner.hpp"
+#include "benchmarks/shard.hpp"
 
 namespace hullbench {
 
@@ -21,7 +22,8 @@ struct RunCommand {
   std::optional<std::int64_t> mem_limit_mib;
   std::optional<std::filesystem::path> out;
   std::filesystem::path
-      recordings;  ///< folder of real floors to take the place of the simulated ones; empty: none
+      recordings;              ///< folder of real floors to take the place of the simulated ones; empty: none
+  std::optional<Shard> shard;  ///< none: all runs
   bool force = false;
   bool dry_run = false;
 };

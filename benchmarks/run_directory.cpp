@@ -246,9 +246,13 @@ json run_continuity(const json& header) {
   const auto member = [](const json& object, const char* key) {
     return object.is_object() && object.contains(key) ? object[key] : json();
   };
-  return {member(header, "schema_version"), member(header, "plan"), member(header, "filter"),
+  return {member(header, "schema_version"),
+          member(header, "plan"),
+          member(header, "filter"),
           member(member(header, "tool"), "binary_sha256"),
-          member(member(header, "environment"), "machine_id")};
+          member(member(header, "environment"), "machine_id"),
+          member(header, "shard"),
+          member(header, "merged")};
 }
 
 std::vector<fs::path> newest_first(const fs::path& runs) {

@@ -82,7 +82,7 @@ struct RunPlace {
 };
 
 /// The folder for a run that run.json will describe as `header` (plan, filter, tool, environment, created).
-/// An earlier run with the same plan, filter, binary and machine is gone on with: the newest one in
+/// An earlier run with the same plan, filter, shard, binary and machine is gone on with: the newest one in
 /// `results`/runs if it is not finished (has no report.json), or the one in `out`, finished or not. Throws
 /// ConfigurationError when the folder cannot be written, is in use by another harness, or `out` holds
 /// something else and `force` is not set; with `force` the files of an earlier run in `out` are removed.
@@ -105,7 +105,8 @@ bool is_finished_run(const std::filesystem::path& folder, const nlohmann::json& 
 /// environment). Throws ConfigurationError when it cannot be made.
 std::filesystem::path make_run_folder(const nlohmann::json& header, const std::filesystem::path& results);
 
-/// What must be the same for a run to go on: plan, filter, binary and machine of its header.
+/// What must be the same for a run to go on: plan, filter, shard, binary and machine of its header, and
+/// that it is not merged of others, or merged of the same.
 nlohmann::json run_continuity(const nlohmann::json& header);
 
 /// Lets the link `results`/latest point to the run in `run_directory`, a folder in `results`/runs. Throws

@@ -42,12 +42,6 @@ json metrics_to_json(const Metrics& metrics) {
           {"vertices", metrics.vertices}};
 }
 
-/// For estimates of time only: a data set's own points are not counted before they are read.
-std::int64_t estimated_points(const PlanCase& plan_case) {
-  constexpr std::int64_t kUsualOwnPoints = 80'000;
-  return plan_case.n > 0 ? plan_case.n : kUsualOwnPoints;
-}
-
 std::string hash_of(const std::vector<std::uint8_t>& bytes) {
   return sha256_hex({reinterpret_cast<const char*>(bytes.data()), bytes.size()});
 }
@@ -422,6 +416,11 @@ class Runner {
 RunResult run_plan(const Plan& plan, const std::vector<PlannedRun>& runs, const json& header,
                    const RunnerOptions& options, RunDirectory& directory, Progress& progress) {
   return Runner(plan, runs, options, directory, progress).run(header);
+}
+
+std::int64_t estimated_points(const PlanCase& plan_case) {
+  constexpr std::int64_t kUsualOwnPoints = 80'000;
+  return plan_case.n > 0 ? plan_case.n : kUsualOwnPoints;
 }
 
 std::vector<ProgressRun> progress_runs(const Plan& plan, const std::vector<PlannedRun>& runs) {

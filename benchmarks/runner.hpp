@@ -2,6 +2,7 @@
 // for every run, whatever happens.
 #pragma once
 
+#include <cstdint>
 #include <functional>
 #include <map>
 #include <nlohmann/json.hpp>
@@ -49,6 +50,10 @@ struct RunResult {
 /// exception.
 RunResult run_plan(const Plan& plan, const std::vector<PlannedRun>& runs, const nlohmann::json& header,
                    const RunnerOptions& options, RunDirectory& directory, Progress& progress);
+
+/// The case's number of points, for estimates of work only: a data set's own points are not counted before
+/// they are read.
+std::int64_t estimated_points(const PlanCase& plan_case);
 
 /// What `progress` needs to know of `runs`.
 std::vector<ProgressRun> progress_runs(const Plan& plan, const std::vector<PlannedRun>& runs);

@@ -106,18 +106,30 @@ bool is_suite(const fs::path& folder) {
   return fs::exists(folder / kSuiteFile);
 }
 
-std::vector<json> suite_reports(const fs::path& folder) {
+std::vector<fs::path> suite_runs(const fs::path& folder) {
   const json suite = read_suite(folder);
   if (!suite.is_object()) {
     throw std::runtime_error("cannot read " + (folder / kSuiteFile).string() +
                              ": is it a suite's description?");
   }
-  std::vector<json> reports;
+  std::vector<fs::path> runs;
   for (const json& plan : suite.at("plans")) {
     const fs::path run = folder / plan.get<std::string>();
-    if (fs::exists(run / "run.json")) reports.push_back(make_report(run));
+    if (fs::exists(run / "run.json")) runs.push_back(run);
   }
+  return runs;
+}
+
+std::vector<json> suite_reports(const fs::path& folder) {
+  std::vector<json> reports;
+  for (const fs::path& run : suite_runs(folder)) reports.push_back(make_report(run));
   return reports;
+}
+
+void finish_run(const fs::path& folder) {
+  const json report = make_report(folder);
+  write_tables(folder, make_documents({report}));
+  write_report_file(folder / "report.json", report);
 }
 
 std::vector<Document> make_documents(const std::vector<json>& reports) {

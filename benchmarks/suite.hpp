@@ -29,6 +29,13 @@ bool is_suite(const std::filesystem::path& folder);
 /// not begun are left out. Throws std::runtime_error naming the file when suite.json cannot be read.
 std::vector<nlohmann::json> suite_reports(const std::filesystem::path& folder);
 
+/// The folders of the runs in the suite in `folder`, in its order; those that were not begun are left out.
+/// Throws like suite_reports.
+std::vector<std::filesystem::path> suite_runs(const std::filesystem::path& folder);
+
+/// Writes tables and report of the run in `folder`; the report is the mark of a finished run.
+void finish_run(const std::filesystem::path& folder);
+
 /// All tables of some reports: methods and parameters, the reports' own tables, what differs from the paper,
 /// and the notes that the reports share, once. A table of steps is left out of a report of many cases when
 /// another one is about the steps alone.

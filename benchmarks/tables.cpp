@@ -44,6 +44,7 @@ std::vector<TableSection> shape_tables(TableContext& context, const Shape& shape
   const std::vector<Line> lines = lines_of(context, shape);
   std::vector<TableSection> sections;
   for (const Kind& kind : kKinds) {
+    if (kind.quantity != Quantity::kError && !context.measurements.has_times()) continue;
     std::vector<std::string> header = {"Number of points"};
     for (const Case& which : shape) header.push_back(std::to_string(which.n));
     TableSection section{shape_id(shape.front()) + "_" + kind.id,
@@ -74,6 +75,10 @@ std::vector<std::string> ratio_cells(const std::vector<double>& ratios) {
   return {three_digits(median(std::span<const double>(ratios))), three_digits(*least), three_digits(*most)};
 }
 
+const std::vector<std::string> kWithTimes = {"Method",   "Cases", "Time ratio", "least",       "most",
+                                             "L2 ratio", "least", "most",       "Holes: time", "L2"};
+const std::vector<std::string> kErrorsOnly = {"Method", "Cases", "L2 ratio", "least", "most", "Holes: L2"};
+
 /// What the paper's text says of its figure in one table: every method beside Polylidar, and what holes
 /// change.
 std::optional<TableSection> ratio_table(const TableContext& context, const std::vector<Case>& cases) {
@@ -82,17 +87,18 @@ std::optional<TableSection> ratio_table(const TableContext& context, const std::
   const std::vector<Line> lines = lines_of(context, cases);
   if (std::find(lines.begin(), lines.end(), reference) == lines.end() || lines.size() < 2)
     return std::nullopt;
+  const bool times = context.measurements.has_times();
   TableSection section{"ratios",
                        "All cases together: ratios to " + label(context, reference) +
                            ", and of the cases with holes to those without",
-                       TextTable({"Method", "Cases", "Time ratio", "least", "most", "L2 ratio", "least",
-                                  "most", "Holes: time", "L2"}),
+                       TextTable(times ? kWithTimes : kErrorsOnly),
                        {}};
   for (const Line& line : lines) {
     std::vector<std::string> cells = {label(context, line), ""};
     std::vector<std::string> holes_cells;
     std::size_t count = 0;
     for (const Quantity quantity : {Quantity::kEqualWork, Quantity::kError}) {
+      if (quantity == Quantity::kEqualWork && !times) continue;
       std::vector<double> to_reference;
       std::vector<double> to_no_holes;
       for (const Case& which : cases) {
@@ -114,11 +120,12 @@ std::optional<TableSection> ratio_table(const TableContext& context, const std::
     section.table.add_row(std::move(cells));
   }
   section.remarks.emplace_back(
-      "Ratios of the medians of the time of equal work, and of the errors as a part of the ground truth's "
-      "area; of the "
-      "cases the median, the least and the largest. Cases are a shape, with or without holes, at a number of "
-      "points. The "
-      "last two columns: with holes over without, the median.");
+      (times ? "Ratios of the medians of the time of equal work, and of the errors as a part of the ground "
+               "truth's area; "
+             : "Ratios of the errors as a part of the ground truth's area; ") +
+      std::string("of the cases the median, the least and the largest. Cases are a shape, with or without "
+                  "holes, at a number of points. The ") +
+      (times ? "last two columns" : "last column") + ": with holes over without, the median.");
   return section;
 }
 
@@ -158,6 +165,7 @@ std::vector<std::string> published_steps(const std::string& method) {
 /// The steps of the methods on the paper's shape, at the paper's size with the paper's values beside them, or
 /// at the largest size there is without.
 std::optional<TableSection> steps_table(const TableContext& context) {
+  if (!context.measurements.has_times()) return std::nullopt;
   const json& steps = paper().at("steps");
   const Case* chosen = nullptr;
   for (const Case& which : context.measurements.cases()) {
@@ -197,27 +205,29 @@ std::string holds_text(const json& holds) {
 }
 
 std::optional<TableSection> claims_table(TableContext& context) {
-  TableSection section{"claims",
-                       "The paper's claims beside ours",
-                       TextTable({"Claim", "Paper", "Here", "Equal work", "Holds"}),
-                       {}};
+  const bool times = context.measurements.has_times();
+  std::vector<std::string> header = {"Claim", "Paper", "Here", "Holds"};
+  if (times) header.insert(header.end() - 1, "Equal work");
+  TableSection section{"claims", "The paper's claims beside ours", TextTable(std::move(header)), {}};
   const json& known = paper().at("claims").at("list");
-  const auto is_about_one_case = [&](const json& id) {
-    return std::any_of(known.begin(), known.end(), [&](const json& claim) {
-      return claim.at("id") == id && claim.at("check").contains("only");
-    });
+  const auto known_claim = [&](const json& id) {
+    return *std::find_if(known.begin(), known.end(), [&](const json& claim) { return claim.at("id") == id; });
   };
   for (const json& claim : context.report.at("summary").at("claims")) {
     // Of an experiment on one case only the claims about a single case can be judged; the others need its
     // neighbours.
-    if (context.measurements.cases().size() == 1 && !is_about_one_case(claim.at("id"))) continue;
+    const json checked = known_claim(claim.at("id"));
+    if (context.measurements.cases().size() == 1 && !checked.at("check").contains("only")) continue;
+    if (is_about_time(checked) && !times) continue;
     const std::string mark = context.notes.mark(claim.at("where").get<std::string>() + ": " +
                                                 claim.at("detail").get<std::string>());
     const json& equal_work = claim.at("equal_work");
-    section.table.add_row({claim.at("claim").get<std::string>() + " " + mark,
-                           claim.at("paper").get<std::string>(), claim.at("ours").get<std::string>(),
-                           equal_work.is_string() ? equal_work.get<std::string>() : kNothing,
-                           holds_text(claim.at("holds"))});
+    std::vector<std::string> cells = {claim.at("claim").get<std::string>() + " " + mark,
+                                      claim.at("paper").get<std::string>(),
+                                      claim.at("ours").get<std::string>()};
+    if (times) cells.push_back(equal_work.is_string() ? equal_work.get<std::string>() : kNothing);
+    cells.push_back(holds_text(claim.at("holds")));
+    section.table.add_row(std::move(cells));
   }
   if (section.table.empty()) return std::nullopt;
   return section;
@@ -263,8 +273,8 @@ Document make_document(const json& report) {
   }
   for (TableSection& section : document.tables) section.id = name + "_" + section.id;
   document.notes = context.notes.marked();
-  for (auto& note : run_notes(report, context.measurements.runs())) document.notes.push_back(std::move(note));
-  document.common_notes = common_notes(report, context.measurements.runs());
+  for (auto& note : run_notes(report, context.measurements)) document.notes.push_back(std::move(note));
+  document.common_notes = common_notes(report, context.measurements);
   return document;
 }
 

@@ -5,8 +5,8 @@
 #   install-packages.sh --check SECTION...   only say what is missing; exit status 1 if anything is
 #
 # When nothing is missing it calls neither apt nor sudo. On other distributions it prints what to install and
-# exits with 2. A database server that comes with the packages is left stopped and disabled; one that was there
-# before is not touched.
+# exits with 2. A server that comes with the packages (PostgreSQL, Slurm) is left stopped and disabled; one that was
+# there before is not touched.
 set -euo pipefail
 export LC_ALL=C
 
@@ -61,26 +61,36 @@ policy=/usr/sbin/policy-rc.d
 policy_saved=/usr/sbin/policy-rc.d.before-hullbench
 cluster_setting=/etc/postgresql-common/createcluster.d/zz-hullbench.conf
 made_directories=()
-guarded=no
-postgres_is_new=no
+postgres_guarded=no
+new_services=()
 clusters() { ls -d /etc/postgresql/*/* 2>/dev/null || true; }
 
 # Debian's PostgreSQL packages create a cluster "main", start it and enable it at boot. The harness needs only the
-# programs: no cluster is to be made, and where PostgreSQL comes new, no service may start.
+# programs: no cluster is to be made.
 guard_postgres() {
-  guarded=yes
+  postgres_guarded=yes
   local directory
   for directory in /etc/postgresql-common "$(dirname "$cluster_setting")"; do
     [ -d "$directory" ] || { mkdir "$directory" && made_directories=("$directory" "${made_directories[@]}"); }
   done
   printf 'create_main_cluster = false\n' >"$cluster_setting"
-  is_installed postgresql-common && return
-  postgres_is_new=yes
+}
+
+# guard_services PACKAGE...: no service that comes new with the packages may start.
+guard_services() {
+  local package
+  for package in "$@"; do
+    case $package in
+      postgresql*) is_installed postgresql-common || new_services+=(postgresql) ;;
+      munge | slurmctld | slurmd) new_services+=("$package") ;;
+    esac
+  done
+  [ ${#new_services[@]} -gt 0 ] || return 0
   # A saved policy is there already only when an earlier installation was killed half-way.
   [ ! -e "$policy" ] || [ -e "$policy_saved" ] || mv "$policy" "$policy_saved"
   cat >"$policy" <<POLICY
 #!/bin/sh
-case "\$1" in postgresql*) exit 101 ;; esac
+case " ${new_services[*]} " in *" \${1%%@*} "*) exit 101 ;; esac
 [ ! -x "$policy_saved" ] || exec "$policy_saved" "\$@"
 exit 0
 POLICY
@@ -88,17 +98,23 @@ POLICY
 }
 
 unguard_postgres() {
-  [ "$guarded" = yes ] || return 0
+  [ "$postgres_guarded" = yes ] || return 0
   rm -f "$cluster_setting"
   # Empty unless the package has taken them over meanwhile.
   [ ${#made_directories[@]} -eq 0 ] || rmdir "${made_directories[@]}" 2>/dev/null || true
-  [ "$postgres_is_new" = yes ] || return 0
+}
+
+unguard_services() {
+  [ ${#new_services[@]} -gt 0 ] || return 0
   rm -f "$policy"
   [ ! -e "$policy_saved" ] || mv "$policy_saved" "$policy"
-  [ -e /lib/systemd/system/postgresql.service ] || [ -e /etc/init.d/postgresql ] || return 0
-  # Either may be absent: a machine has systemd, System V scripts or, in a container, neither.
-  deb-systemd-helper disable postgresql.service >/dev/null 2>&1 || true
-  update-rc.d postgresql disable >/dev/null 2>&1 || true
+  local service
+  for service in "${new_services[@]}"; do
+    [ -e "/lib/systemd/system/$service.service" ] || [ -e "/etc/init.d/$service" ] || continue
+    # Either may be absent: a machine has systemd, System V scripts or, in a container, neither.
+    deb-systemd-helper disable "$service.service" >/dev/null 2>&1 || true
+    update-rc.d "$service" disable >/dev/null 2>&1 || true
+  done
 }
 
 apt() { DEBIAN_FRONTEND=noninteractive apt-get -q -o DPkg::Lock::Timeout=300 -o Acquire::Retries=3 "$@"; }
@@ -139,6 +155,7 @@ install_as_root() {
   fi
   clusters_before=$(clusters)
   [[ " $* " != *' postgresql'* ]] || guard_postgres
+  guard_services "$@"
   say "apt-get install $*"
   if ! apt install -y --no-install-recommends "$@" >"$log" 2>&1; then
     # The usual reason: lists so old that a package has left the mirror.
@@ -161,7 +178,7 @@ install_failed() {
 if [ "${1:-}" = --as-root ]; then
   shift
   log=$(mktemp)
-  trap 'unguard_postgres; rm -f "$log"' EXIT
+  trap 'unguard_postgres; unguard_services; rm -f "$log"' EXIT
   trap 'exit 130' INT
   trap 'exit 143' TERM HUP
   install_as_root "$@"

@@ -10,6 +10,8 @@ target_link_libraries(misbehaving_worker PRIVATE hullbench::worker hullbench::co
 hullbench_test(test_plan SOURCES test_plan.cpp LIBRARIES hullbench::runner LABELS harness)
 target_compile_definitions(test_plan PRIVATE HULLBENCH_PLAN_FOLDER="${PROJECT_SOURCE_DIR}/benchmarks/plans")
 
+hullbench_test(test_shard SOURCES test_shard.cpp LIBRARIES hullbench::runner LABELS harness)
+
 hullbench_test(test_parallel SOURCES test_parallel.cpp LIBRARIES hullbench::runner LABELS harness)
 
 hullbench_test(test_worker SOURCES test_worker.cpp
@@ -26,6 +28,8 @@ add_dependencies(test_runner misbehaving_worker hullbench)
 hullbench_test(test_suite SOURCES test_suite.cpp LIBRARIES hullbench::record hullbench_test_program LABELS harness)
 hullbench_test(test_readme SOURCES test_readme.cpp
   LIBRARIES hullbench::runner hullbench_invented_run hullbench_test_program LABELS harness)
+hullbench_test(test_machines SOURCES test_machines.cpp
+  LIBRARIES hullbench::runner hullbench_invented_run hullbench::report LABELS harness)
 foreach(part IN ITEMS suite readme)
   target_compile_definitions(test_${part} PRIVATE HULLBENCH="$<TARGET_FILE:hullbench>")
   add_dependencies(test_${part} hullbench)

@@ -40,3 +40,10 @@ add_test(NAME report.python_rejects_broken
           "${CMAKE_CURRENT_LIST_DIR}/data/broken_reports.json" "${invented_report}")
 set_tests_properties(report.python_takes_it report.python_rejects_broken PROPERTIES
   FIXTURES_REQUIRED invented_report)
+
+# Merged reports are tried with both validators, and with records as a reference run keeps them.
+hullbench_test(test_merge SOURCES "${CMAKE_CURRENT_LIST_DIR}/test_merge.cpp"
+  LIBRARIES hullbench::record hullbench_test_program LABELS harness)
+target_compile_definitions(test_merge PRIVATE HULLBENCH="$<TARGET_FILE:hullbench>" XZ_PROGRAM="${XZ_PROGRAM}"
+  PYTHON_PROGRAM="${PYTHON_PROGRAM}" VALIDATE_REPORT="${CMAKE_CURRENT_LIST_DIR}/validate_report.py")
+add_dependencies(test_merge hullbench)

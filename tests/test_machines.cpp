@@ -1,0 +1,212 @@
+// A report of rows from several machines has no times in its tables and judges no claim about them.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+#include <set>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "benchmarks/claims.hpp"
+#include "benchmarks/measurements.hpp"
+#include "benchmarks/paper_comparison.hpp"
+#include "benchmarks/readme.hpp"
+#include "benchmarks/report.hpp"
+#include "benchmarks/suite.hpp"
+#include "benchmarks/tables.hpp"
+#include "benchmarks/validate.hpp"
+#include "invented_shapes.hpp"
+
+namespace hullbench {
+namespace {
+
+using nlohmann::json;
+
+constexpr const char* kSentence =
+    "Times are not shown: they were taken on 2 machines (0123abcd, ba5eba11), and times of different "
+    "machines do "
+    "not go into one table.";
+
+/// `report` as if merged of two runs, the second of which measured every other row on another machine.
+json on_two_machines(json report) {
+  json other = report.at("environment");
+  other["machine_id"] = "ba5eba11";
+  other["cpu"]["model"] = "Invented CPU 4000";
+  report["merged"] = json::array();
+  for (const json& environment : {report.at("environment"), other}) {
+    report["merged"].push_back({{"shard", nullptr},
+                                {"created", report.at("created")},
+                                {"resumed", json::array()},
+                                {"tool", report.at("tool")},
+                                {"environment", environment}});
+  }
+  for (std::size_t i = 0; i < report.at("runs").size(); i += 2) report["runs"][i]["machine"] = "ba5eba11";
+  report["summary"] = make_summary(report);
+  return report;
+}
+
+using TableRows = std::vector<std::vector<std::string>>;
+
+/// The rows of a table of the invented plan, the header first.
+TableRows rows_of(const Document& document, const std::string& id) {
+  for (const TableSection& section : document.tables) {
+    if (section.id == "invented_" + id) return section.table.rows();
+  }
+  ADD_FAILURE() << "no table " << id;
+  return {{}};
+}
+
+std::string text_of(const json& report) {
+  std::ostringstream out;
+  print_markdown(make_document(report), out);
+  return out.str();
+}
+
+/// Everything of a document that could hold a time: no word of one may stand there.
+void expect_no_times(const Document& document) {
+  for (const TableSection& section : document.tables) {
+    const std::string csv = to_csv(section.table);
+    for (const char* word : {" ms", "±", "Time", "time of", "time as", "Equal work"}) {
+      EXPECT_EQ(csv.find(word), std::string::npos) << section.id << ": " << word << "\n" << csv;
+      EXPECT_EQ(section.caption.find(word), std::string::npos) << section.id << ": " << section.caption;
+    }
+  }
+}
+
+TEST(Machines, OfAReportAreThoseOfItsTimes) {
+  json report = test::invented_report({2000});
+  EXPECT_EQ(machines_of(report), (std::set<std::string>{"0123abcd"}));
+  EXPECT_TRUE(Measurements(report).has_times());
+  EXPECT_EQ(Measurements(report).why_no_times(), "");
+  // A row without a time was not timed anywhere.
+  for (json& run : report["runs"]) {
+    if (run["time_ns"].empty()) run["machine"] = "ba5eba11";
+  }
+  EXPECT_EQ(machines_of(report).size(), 1U);
+  report["runs"][0]["machine"] = "ba5eba11";
+  EXPECT_EQ(Measurements(report).why_no_times(), kSentence);
+}
+
+TEST(Machines, SeveralLeaveNoTimeToTablesAndClaims) {
+  const Measurements measurements(on_two_machines(test::invented_report({2000})));
+  EXPECT_FALSE(measurements.has_times());
+  for (const RunRecord& run : measurements.runs()) {
+    EXPECT_TRUE(run.time_ns.empty() && run.phases_ns.empty()) << run.name;
+  }
+}
+
+TEST(Machines, SeveralHaveNoTableOfTimesAndASentenceWhy) {
+  const json report = on_two_machines(test::invented_report({2000, 64000}));
+  const Document document = make_document(report);
+  expect_no_times(document);
+  const std::string text = text_of(report);
+  std::string unbroken = text;
+  for (std::size_t at = 0; (at = unbroken.find("\n  ", at)) != std::string::npos;)
+    unbroken.replace(at, 3, " ");
+  EXPECT_NE(unbroken.find(kSentence), std::string::npos) << text;
+  EXPECT_EQ(unbroken.find("Times are medians"), std::string::npos);
+  EXPECT_NE(unbroken.find("Machine 0123abcd: Invented CPU 3000"), std::string::npos) << text;
+  EXPECT_NE(unbroken.find("Machine ba5eba11: Invented CPU 4000"), std::string::npos) << text;
+}
+
+TEST(Machines, SeveralLeaveTheErrorsAsTheyAre) {
+  const json one = test::invented_report({2000, 64000});
+  const Document whole = make_document(one);
+  const Document mixed = make_document(on_two_machines(one));
+  for (const char* id : {"ca_error", "ca_holes_error", "hi_error"})
+    EXPECT_EQ(rows_of(mixed, id), rows_of(whole, id)) << id;
+  const TableRows ratios = rows_of(mixed, "ratios");
+  const TableRows all_ratios = rows_of(whole, "ratios");
+  ASSERT_EQ(ratios.size(), all_ratios.size());
+  for (std::size_t row = 1; row < ratios.size(); ++row) {
+    const auto& all = all_ratios[row];
+    EXPECT_EQ(ratios[row], (std::vector<std::string>{all[0], all[1], all[5], all[6], all[7], all[9]}));
+  }
+}
+
+TEST(Machines, SeveralLeaveOnlyTheClaimsAboutErrors) {
+  const json one = test::invented_report({2000, 64000});
+  const json mixed = on_two_machines(one);
+  std::size_t about_time = 0;
+  std::size_t judged = 0;
+  for (std::size_t i = 0; i < paper().at("claims").at("list").size(); ++i) {
+    const json& claim = mixed.at("summary").at("claims").at(i);
+    if (is_about_time(paper()["claims"]["list"][i])) {
+      ++about_time;
+      EXPECT_TRUE(claim["holds"].is_null() && claim["value"].is_null() && claim["equal_work"].is_null())
+          << claim;
+      EXPECT_EQ(claim["detail"], kSentence);
+    } else {
+      EXPECT_EQ(claim, one.at("summary").at("claims").at(i));
+      if (!claim["holds"].is_null()) ++judged;
+    }
+  }
+  EXPECT_GT(about_time, 0U);
+  EXPECT_GT(judged, 0U);
+  EXPECT_EQ(rows_of(make_document(mixed), "claims").size() - 1,
+            paper()["claims"]["list"].size() - about_time);
+}
+
+TEST(Machines, SeveralKeepEveryTimeInTheReport) {
+  const json one = test::invented_report({2000});
+  const json mixed = on_two_machines(one);
+  EXPECT_EQ(mixed.at("summary").at("rows"), one.at("summary").at("rows"));
+  EXPECT_EQ(mixed.at("runs")[0].at("time_ns"), one.at("runs")[0].at("time_ns"));
+  EXPECT_EQ(validate_report(mixed), std::vector<std::string>{});
+}
+
+TEST(Machines, SeveralLeaveTablesOfManyShapesTheirErrors) {
+  const std::vector<test::InventedShape> letters = {{"letter_a", 2000, 0.5, 2, 0.1},
+                                                    {"letter_z", 2000, 0.5, 4, 0.2}};
+  const json one = test::report_on_shapes(letters);
+  const json mixed = on_two_machines(one);
+  expect_no_times(make_document(mixed));
+  const TableRows rows = rows_of(make_document(mixed), "summary");
+  const TableRows all = rows_of(make_document(one), "summary");
+  ASSERT_EQ(rows.size(), all.size());
+  for (std::size_t row = 0; row < rows.size(); ++row) {
+    ASSERT_EQ(rows[row].size(), 5U);
+    EXPECT_TRUE(std::equal(rows[row].begin(), rows[row].end(), all[row].begin()));
+  }
+}
+
+TEST(Machines, SeveralAreNotComparedWithThePapersTimes) {
+  const json one = test::report_on_shapes({{"letter_a", 2000, 0.5, 2, 0.1}, {"letter_z", 2000, 0.5, 4, 0.2}});
+  const auto comparisons = compare_with_paper(on_two_machines(one));
+  EXPECT_EQ(comparisons.size(), 4U);
+  for (const Comparison& comparison : comparisons) EXPECT_EQ(comparison.quantity, "error");
+  EXPECT_NE(differences_table({on_two_machines(one)}).remarks.front().find(kSentence), std::string::npos);
+}
+
+TEST(Machines, OfSeveralReportsDoNotShareOneTable) {
+  const json one = test::report_on_shapes({{"letter_a", 2000, 0.5, 2, 0.1}, {"letter_z", 2000, 0.5, 4, 0.2}});
+  json other = one;
+  other["environment"]["machine_id"] = "ba5eba11";
+  const std::size_t rows = differences_table({one}).table.rows().size();
+  EXPECT_EQ(differences_table({one, one}).table.rows().size(), 2 * rows - 1);
+  const TableSection mixed = differences_table({one, other});
+  EXPECT_EQ(mixed.table.rows().size(), rows);
+  EXPECT_NE(mixed.remarks.front().find(kSentence), std::string::npos);
+}
+
+TEST(Machines, SeveralAreSaidInTheReadme) {
+  json report = on_two_machines(test::invented_report({2000}));
+  report["plan"]["methods"] = json::array();
+  const std::string text = readme_results({report}, "results/x");
+  EXPECT_NE(text.find("Times are not shown"), std::string::npos) << text;
+}
+
+TEST(Machines, OneOfAMergedRunHasItsTimes) {
+  json report = on_two_machines(test::invented_report({2000, 64000}));
+  report["merged"][1]["environment"] = report["environment"];
+  for (json& run : report["runs"]) run["machine"] = "0123abcd";
+  report["summary"] = make_summary(report);
+  const std::string text = text_of(report);
+  EXPECT_NE(text.find("time of equal work, ms"), std::string::npos);
+  EXPECT_NE(text.find("Merged of 2 runs, all timed on machine 0123abcd."), std::string::npos) << text;
+  EXPECT_EQ(text.find("Times are not shown"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace hullbench

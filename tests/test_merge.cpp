@@ -1,0 +1,415 @@
+// Shards of a plan, measured apart and put together, are the run that one machine would have made.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "benchmarks/json_lines.hpp"
+#include "tests/program.hpp"
+#include "tests/small_plans.hpp"
+#include "tests/temporary_folder.hpp"
+
+namespace hullbench {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+using testing::california;
+using testing::expect_refusal;
+using testing::Outcome;
+using testing::read_text;
+using testing::small_plan;
+using testing::write_text;
+
+/// The lines of runs.jsonl without what another machine may have otherwise.
+std::vector<std::string> accuracy_lines(const fs::path& run) {
+  std::vector<std::string> lines;
+  for (json line : load_json_lines(run / "runs.jsonl").lines) {
+    for (const char* key : {"time_ns", "phases_ns", "machine", "flags"}) line.erase(key);
+    lines.push_back(line.dump());
+  }
+  return lines;
+}
+
+/// The tables of errors in tables/, by name.
+std::map<std::string, std::string> accuracy_tables(const fs::path& run) {
+  std::map<std::string, std::string> tables;
+  for (const auto& entry : fs::directory_iterator(run / "tables")) {
+    const std::string name = entry.path().filename().string();
+    if (name.find("error") != std::string::npos) tables[name] = read_text(entry.path());
+  }
+  return tables;
+}
+
+json read_json(const fs::path& file) {
+  return json::parse(read_text(file));
+}
+
+class MergeTest : public ::testing::Test {
+ protected:
+  fs::path folder() const { return folder_.path(); }
+
+  Outcome hullbench(std::vector<std::string> arguments) const {
+    arguments.insert(arguments.begin(), HULLBENCH);
+    testing::ProgramOptions options;
+    options.folder = folder();
+    return testing::run_program(arguments, options);
+  }
+
+  std::string write(const json& plan) const { return testing::write_plan(folder(), plan); }
+
+  /// Two methods on California with and without holes at three sizes: twelve runs of six cases.
+  std::string plan(const std::string& name = "small") const {
+    json plan = small_plan(name, california({300, 400, 500}), 1);
+    plan["methods"].push_back({{"method", "cgal_alpha_shape"},
+                               {"protocol", "paper"},
+                               {"parameters", plan["methods"][0]["parameters"]}});
+    return write(plan);
+  }
+
+  void run(const std::string& out, std::vector<std::string> words) const {
+    words.insert(words.begin(), "run");
+    words.insert(words.end(), {"--out", out});
+    const Outcome outcome = hullbench(words);
+    ASSERT_EQ(outcome.code, 0) << outcome.err;
+  }
+
+  void run_shards(int count, const std::vector<std::string>& plans) const {
+    for (int number = 1; number <= count; ++number) {
+      std::vector<std::string> words = plans;
+      words.insert(words.end(), {"--shard", std::to_string(number) + "/" + std::to_string(count)});
+      run("shard" + std::to_string(number), words);
+    }
+  }
+
+  /// Makes the run in `name` say that it is of another machine.
+  void move_to_machine(const std::string& name, const std::string& machine) const {
+    json header = read_json(folder() / name / "run.json");
+    header["environment"]["machine_id"] = machine;
+    write_text(folder() / name / "run.json", header.dump());
+    std::string text;
+    for (json line : load_json_lines(folder() / name / "runs.jsonl").lines) {
+      line["machine"] = machine;
+      text += line.dump() + "\n";
+    }
+    write_text(folder() / name / "runs.jsonl", text);
+  }
+
+  /// Changes every row of the run in `name`.
+  template <typename Change>
+  void change_rows(const std::string& name, const Change& change) const {
+    std::string text;
+    for (json line : load_json_lines(folder() / name / "runs.jsonl").lines) {
+      change(line);
+      text += line.dump() + "\n";
+    }
+    write_text(folder() / name / "runs.jsonl", text);
+  }
+
+  void expect_valid(const std::string& name) const {
+    for (const char* file : {"run.json", "runs.jsonl", "report.json"}) {
+      const Outcome ours = hullbench({"validate", name + "/" + file});
+      EXPECT_EQ(ours.code, 0) << ours.err;
+    }
+    const Outcome python =
+        testing::run_program({PYTHON_PROGRAM, VALIDATE_REPORT, (folder() / name / "report.json").string(),
+                              (folder() / name / "runs.jsonl").string()});
+    EXPECT_EQ(python.code, 0) << python.err;
+  }
+
+ private:
+  testing::TemporaryFolder folder_;
+};
+
+TEST_F(MergeTest, OfAllShardsIsTheWholeRunInItsAccuracy) {
+  run("whole", {plan()});
+  run_shards(3, {plan()});
+  const Outcome merged = hullbench({"merge", "shard3", "shard1", "shard2", "--out", "merged"});
+  ASSERT_EQ(merged.code, 0) << merged.err;
+  ASSERT_EQ(accuracy_lines(folder() / "whole").size(), 12U);
+  EXPECT_EQ(accuracy_lines(folder() / "merged"), accuracy_lines(folder() / "whole"));
+  EXPECT_EQ(accuracy_tables(folder() / "whole").size(), 4U);
+  EXPECT_EQ(accuracy_tables(folder() / "merged"), accuracy_tables(folder() / "whole"));
+  EXPECT_NE(merged.out.find("time of equal work, ms"), std::string::npos) << "all are of this one machine";
+  EXPECT_NE(merged.err.find("12 of 12 planned runs"), std::string::npos) << merged.err;
+  EXPECT_EQ(read_text(folder() / "merged" / "tables.md"), merged.out);
+  EXPECT_EQ(hullbench({"tables", "merged"}).out, merged.out);
+  expect_valid("merged");
+  expect_valid("shard1");
+}
+
+TEST_F(MergeTest, DoesNotDependOnTheOrderOfTheRuns) {
+  run_shards(3, {plan()});
+  json header = read_json(folder() / "shard2" / "run.json");
+  header["created"] = "2020-01-01T00:00:00Z";
+  write_text(folder() / "shard2" / "run.json", header.dump());
+  ASSERT_EQ(hullbench({"merge", "shard3", "shard1", "shard2", "--out", "one"}).code, 0);
+  ASSERT_EQ(hullbench({"merge", "shard2", "shard3", "shard1", "--out", "other"}).code, 0);
+  for (const char* file : {"run.json", "runs.jsonl", "report.json", "tables.md"})
+    EXPECT_EQ(read_text(folder() / "one" / file), read_text(folder() / "other" / file)) << file;
+}
+
+TEST_F(MergeTest, TellsWhereItsRowsCameFrom) {
+  run_shards(2, {plan()});
+  ASSERT_EQ(hullbench({"merge", "shard1", "shard2", "--out", "merged"}).code, 0);
+  const json header = read_json(folder() / "merged" / "run.json");
+  EXPECT_TRUE(header.at("shard").is_null());
+  ASSERT_EQ(header.at("merged").size(), 2U);
+  for (std::size_t i = 0; i < 2; ++i) {
+    const json shard = read_json(folder() / ("shard" + std::to_string(i + 1)) / "run.json");
+    for (const char* key : {"shard", "created", "resumed", "tool", "environment"})
+      EXPECT_EQ(header["merged"][i].at(key), shard.at(key)) << key;
+  }
+}
+
+TEST_F(MergeTest, MayBeMergedAgain) {
+  run_shards(3, {plan()});
+  ASSERT_EQ(hullbench({"merge", "shard1", "shard2", "shard3", "--out", "at_once"}).code, 0);
+  ASSERT_EQ(hullbench({"merge", "shard3", "shard1", "--out", "two"}).code, 4);
+  ASSERT_EQ(hullbench({"merge", "shard2", "two", "--out", "in_turn"}).code, 0);
+  for (const char* file : {"runs.jsonl", "run.json"})
+    EXPECT_EQ(read_text(folder() / "in_turn" / file), read_text(folder() / "at_once" / file)) << file;
+}
+
+TEST_F(MergeTest, WithoutAShardSaysHowManyRunsAreMissing) {
+  run_shards(3, {plan()});
+  const Outcome merged = hullbench({"merge", "shard1", "shard3", "--out", "merged"});
+  EXPECT_EQ(merged.code, 4);
+  EXPECT_NE(merged.err.find("4 of 12 planned runs are missing"), std::string::npos) << merged.err;
+  EXPECT_NE(merged.out.find("4 of 12 planned runs are missing"), std::string::npos) << merged.out;
+  EXPECT_EQ(accuracy_lines(folder() / "merged").size(), 8U);
+  expect_valid("merged");
+}
+
+TEST_F(MergeTest, OfNoRowIsNotWritten) {
+  run("run", {plan()});
+  write_text(folder() / "run" / "runs.jsonl", "");
+  expect_refusal(hullbench({"merge", "run", "--out", "merged"}), 6, "none of the folders has a finished run");
+  EXPECT_FALSE(fs::exists(folder() / "merged"));
+}
+
+TEST_F(MergeTest, OfSeveralMachinesHasNoTimesInItsTables) {
+  run("whole", {plan()});
+  run_shards(2, {plan()});
+  move_to_machine("shard2", "ba5eba11");
+  const Outcome merged = hullbench({"merge", "shard1", "shard2", "--out", "merged"});
+  ASSERT_EQ(merged.code, 0) << merged.err;
+  EXPECT_EQ(merged.out.find(", ms"), std::string::npos) << merged.out;
+  EXPECT_EQ(merged.out.find("±"), std::string::npos) << merged.out;
+  EXPECT_NE(merged.out.find("Times are not shown: they were taken on 2 machines ("), std::string::npos);
+  EXPECT_NE(merged.out.find("Machine ba5eba11: "), std::string::npos) << merged.out;
+  EXPECT_EQ(accuracy_lines(folder() / "merged"), accuracy_lines(folder() / "whole"));
+  EXPECT_EQ(accuracy_tables(folder() / "merged"), accuracy_tables(folder() / "whole"));
+  std::set<std::string> machines;
+  for (const json& line : load_json_lines(folder() / "merged" / "runs.jsonl").lines) {
+    machines.insert(line.at("machine").get<std::string>());
+    EXPECT_EQ(line.at("time_ns").size(), 1U);
+  }
+  EXPECT_EQ(machines.size(), 2U);
+  expect_valid("merged");
+}
+
+TEST_F(MergeTest, FillsInTheMachineOfOlderRows) {
+  run_shards(2, {plan()});
+  move_to_machine("shard2", "ba5eba11");
+  change_rows("shard2", [](json& row) {
+    row.erase("machine");
+    row.erase("flags");
+  });
+  ASSERT_EQ(hullbench({"merge", "shard1", "shard2", "--out", "merged"}).code, 0);
+  std::size_t moved = 0;
+  for (const json& line : load_json_lines(folder() / "merged" / "runs.jsonl").lines)
+    if (line.at("machine") == "ba5eba11") ++moved;
+  EXPECT_EQ(moved, load_json_lines(folder() / "shard2" / "runs.jsonl").lines.size());
+}
+
+TEST_F(MergeTest, OfTheSameRunTwiceTakesTheFirstThatSucceeded) {
+  run("one", {plan()});
+  run("other", {plan()});
+  change_rows("one", [](json& row) {
+    if (row.at("n") != 300) return;
+    row["status"] = "timeout";
+    row["detail"] = "no answer";
+    row["time_ns"] = row["phases_ns"] = json::array();
+    row["metrics"] = json::object();
+    row["output_sha256"] = "";
+  });
+  json header = read_json(folder() / "one" / "run.json");
+  header["created"] = "2020-01-01T00:00:00Z";
+  write_text(folder() / "one" / "run.json", header.dump());
+  const Outcome merged = hullbench({"merge", "other", "one", "--out", "merged"});
+  ASSERT_EQ(merged.code, 0) << merged.err;
+  EXPECT_NE(merged.err.find("12 were measured more than once"), std::string::npos) << merged.err;
+  const auto one = load_json_lines(folder() / "one" / "runs.jsonl").lines;
+  const auto other = load_json_lines(folder() / "other" / "runs.jsonl").lines;
+  const auto both = load_json_lines(folder() / "merged" / "runs.jsonl").lines;
+  ASSERT_EQ(both.size(), 12U);
+  for (std::size_t i = 0; i < both.size(); ++i) {
+    EXPECT_EQ(both[i], one[i].at("n") == 300 ? other[i] : one[i]);
+  }
+}
+
+TEST_F(MergeTest, OfDifferentResultsIsRefused) {
+  run("one", {plan()});
+  run("other", {plan()});
+  for (const char* key : {"output_sha256", "metrics"}) {
+    const std::string before = read_text(folder() / "other" / "runs.jsonl");
+    change_rows("other", [&](json& row) {
+      if (row.at("name") != "polylidar/ca/n:400/holes:1/protocol:paper") return;
+      if (row[key].is_string()) row[key] = std::string(64, 'a');
+      if (row[key].is_object()) row[key]["l2"] = 0.125;
+    });
+    expect_refusal(hullbench({"merge", "one", "other", "--out", "merged"}), 1,
+                   "the run polylidar/ca/n:400/holes:1/protocol:paper has another result in");
+    EXPECT_FALSE(fs::exists(folder() / "merged"));
+    write_text(folder() / "other" / "runs.jsonl", before);
+  }
+  EXPECT_EQ(hullbench({"merge", "one", "other", "--out", "merged"}).code, 0) << "and would do otherwise";
+}
+
+TEST_F(MergeTest, OfRunsThatDoNotBelongTogetherIsRefused) {
+  run("run", {plan()});
+  run("other", {plan("other")});
+  run("seed", {plan(), "--seed", "7"});
+  run("filter", {plan(), "--filter", "n:300"});
+  run("repetitions", {plan(), "--repetitions", "2"});
+  const auto merge = [&](const std::string& with) {
+    return hullbench({"merge", "run", with, "--out", "merged"});
+  };
+  expect_refusal(merge("other"), 2, "differ in their plan's name (\"");
+  expect_refusal(merge("seed"), 2, "differ in their plan's seed (");
+  expect_refusal(merge("filter"), 2, "differ in their filter (");
+  expect_refusal(merge("repetitions"), 2, "differ in their plan's repetitions (");
+  expect_refusal(merge("nothing"), 2, "there is no run in nothing");
+  write_text(folder() / "filter" / "run.json", R"({"schema_version": 99})");
+  expect_refusal(merge("filter"), 2, "filter/run.json is of another schema version");
+  EXPECT_FALSE(fs::exists(folder() / "merged"));
+}
+
+TEST_F(MergeTest, OfTwoVersionsOfAMethodIsRefused) {
+  run_shards(2, {plan()});
+  json header = read_json(folder() / "shard2" / "run.json");
+  for (json& method : header["methods"]) {
+    if (method["name"] == "cgal_alpha_shape") method["version"] = "0.0";
+  }
+  write_text(folder() / "shard2" / "run.json", header.dump());
+  const Outcome outcome = hullbench({"merge", "shard1", "shard2", "--out", "merged"});
+  expect_refusal(outcome, 2, "cgal_alpha_shape is of version ");
+  EXPECT_NE(outcome.err.find("and of version 0.0 in shard2"), std::string::npos) << outcome.err;
+}
+
+TEST_F(MergeTest, TakesAMethodFromWhereItIsInstalled) {
+  run("one", {plan()});
+  run("other", {plan()});
+  json header = read_json(folder() / "one" / "run.json");
+  for (json& method : header["methods"]) {
+    if (method["name"] != "cgal_alpha_shape") continue;
+    method["installed"] = false;
+    method["version"] = "";
+    method["detail"] = "it is not here";
+  }
+  write_text(folder() / "one" / "run.json", header.dump());
+  change_rows("one", [](json& row) {
+    if (row.at("method") != "cgal_alpha_shape") return;
+    row["status"] = "not_installed";
+    row["method_version"] = row["output_sha256"] = "";
+    row["time_ns"] = row["phases_ns"] = json::array();
+    row["metrics"] = json::object();
+    row["id"] = std::string(64, 'b');
+  });
+  ASSERT_EQ(hullbench({"merge", "one", "other", "--out", "merged"}).code, 0);
+  EXPECT_EQ(accuracy_lines(folder() / "merged"), accuracy_lines(folder() / "other"));
+  EXPECT_EQ(read_json(folder() / "merged" / "run.json").at("methods"),
+            read_json(folder() / "other" / "run.json").at("methods"));
+}
+
+TEST_F(MergeTest, WritesToAFolderWithSomethingInItByForceOnly) {
+  run_shards(2, {plan()});
+  fs::create_directory(folder() / "merged");
+  write_text(folder() / "merged" / "thesis.tex", "precious");
+  expect_refusal(hullbench({"merge", "shard1", "shard2", "--out", "merged"}), 2, "merged is not empty");
+  EXPECT_EQ(hullbench({"merge", "shard1", "shard2", "--out", "merged", "--force"}).code, 0);
+  EXPECT_EQ(hullbench({"merge", "shard1", "shard2", "--out", "merged", "--force"}).code, 0);
+  EXPECT_EQ(read_text(folder() / "merged" / "thesis.tex"), "precious");
+  EXPECT_EQ(accuracy_lines(folder() / "merged").size(), 12U);
+  expect_refusal(hullbench({"merge", "shard1", "shard2", "--out", "./shard2", "--force"}), 2,
+                 "is one of the runs to be merged");
+  EXPECT_EQ(hullbench({"run", plan(), "--out", "merged"}).code, 2) << "it is no run to go on with";
+}
+
+TEST_F(MergeTest, ReadsCompressedRecords) {
+  run_shards(2, {plan()});
+  const std::string plain = read_text(folder() / "shard2" / "runs.jsonl");
+  ASSERT_EQ(hullbench({"merge", "shard1", "shard2", "--out", "merged"}).code, 0);
+  ASSERT_EQ(testing::run_program({XZ_PROGRAM, (folder() / "shard2" / "runs.jsonl").string()}).code, 0);
+  ASSERT_EQ(hullbench({"merge", "shard1", "shard2", "--out", "from_xz"}).code, 0);
+  EXPECT_EQ(read_text(folder() / "from_xz" / "runs.jsonl"), read_text(folder() / "merged" / "runs.jsonl"));
+}
+
+TEST_F(MergeTest, OfSuitesIsASuite) {
+  // Of the second plan, which has one case, only one shard has anything.
+  const std::string one_case = write(small_plan("second", {{{"dataset", "ca"}, {"n", {300}}}}, 1));
+  run("whole", {plan("first"), one_case});
+  run_shards(2, {plan("first"), one_case});
+  EXPECT_TRUE(fs::exists(folder() / "shard1" / "second"));
+  EXPECT_FALSE(fs::exists(folder() / "shard2" / "second"));
+  const Outcome merged = hullbench({"merge", "shard2", "shard1", "--out", "merged"});
+  ASSERT_EQ(merged.code, 0) << merged.err;
+  for (const char* name : {"first", "second"}) {
+    EXPECT_EQ(accuracy_lines(folder() / "merged" / name), accuracy_lines(folder() / "whole" / name));
+    expect_valid(std::string("merged/") + name);
+  }
+  EXPECT_EQ(accuracy_tables(folder() / "merged"), accuracy_tables(folder() / "whole"));
+  EXPECT_EQ(read_json(folder() / "merged" / "suite.json").at("plans"), json({"first", "second"}));
+  EXPECT_EQ(hullbench({"tables", "merged"}).out, merged.out);
+  expect_refusal(hullbench({"merge", "shard1", "shard1/first", "--out", "mixed"}), 2,
+                 "some of the folders hold a run and some a suite");
+}
+
+class ShardTest : public MergeTest {};
+
+TEST_F(ShardTest, ADryRunNamesItsRuns) {
+  std::multiset<std::string> names;
+  for (const char* shard : {"1/2", "2/2"}) {
+    const Outcome outcome = hullbench({"run", plan(), "--dry-run", "--shard", shard});
+    EXPECT_EQ(outcome.code, 0);
+    EXPECT_EQ(std::count(outcome.out.begin(), outcome.out.end(), '\n'), 6) << outcome.out;
+    names.insert(outcome.out);
+  }
+  std::string all = hullbench({"run", plan(), "--dry-run"}).out;
+  EXPECT_EQ(all.size(), names.begin()->size() + names.rbegin()->size());
+  EXPECT_NE(*names.begin(), *names.rbegin());
+}
+
+TEST_F(ShardTest, ThatCannotBeIsRefused) {
+  for (const char* shard : {"0/2", "3/2", "2", "one/two", ""}) {
+    expect_refusal(hullbench({"run", plan(), "--shard", shard, "--out", "run"}), 2, "is no shard; give");
+  }
+  EXPECT_FALSE(fs::exists(folder() / "run"));
+}
+
+TEST_F(ShardTest, WithoutACaseIsNotBegun) {
+  expect_refusal(hullbench({"run", plan(), "--shard", "7/7", "--out", "run"}), 6,
+                 "the plan 'small' has too few cases for shard 7/7");
+  EXPECT_FALSE(fs::exists(folder() / "run"));
+}
+
+TEST_F(ShardTest, IsGoneOnWithAsItselfOnly) {
+  run("shard", {plan(), "--shard", "1/2"});
+  const std::string rows = read_text(folder() / "shard" / "runs.jsonl");
+  run("shard", {plan(), "--shard", "1/2"});
+  EXPECT_EQ(read_text(folder() / "shard" / "runs.jsonl"), rows);
+  for (const std::vector<std::string>& other :
+       {std::vector<std::string>{"--shard", "2/2"}, {"--shard", "1/3"}, {}}) {
+    std::vector<std::string> words = {"run", plan(), "--out", "shard"};
+    words.insert(words.end(), other.begin(), other.end());
+    expect_refusal(hullbench(words), 2, "holds another run");
+  }
+}
+
+}  // namespace
+}  // namespace hullbench
