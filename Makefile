@@ -5,6 +5,7 @@
 #   JOBS=N       build and test with N processes
 #   TABLE=NAME   only this experiment in "make bench": rgbd, states, alphabet, random or steps
 #   SECONDS=N    how long "make fuzz" searches
+#   BASE=REV     what "make bench-gate" compares with, instead of the merge base with the main branch
 
 SHELL := /bin/bash
 .SHELLFLAGS := -euo pipefail -c
@@ -42,14 +43,14 @@ endef
 
 NATIVE_OPTION = -DHULLBENCH_NATIVE=$(if $(filter-out 0,$(NATIVE)),ON,OFF)
 
-.PHONY: help deps build bench bench-quick bench-core reference test test-sanitize build-clang test-clang test-fresh test-slurm fuzz lint format clean
+.PHONY: help deps build bench bench-quick bench-core bench-gate bench-gate-instructions reference test test-sanitize build-clang test-clang test-fresh test-slurm test-gate fuzz lint format clean
 
 help: ## list the targets (the default)
-	@awk 'BEGIN { FS = ":.*## " } /^[a-z-]+:.*## / { printf "  make %-14s %s\n", $$1, $$2 }' Makefile
+	@awk 'BEGIN { FS = ":.*## " } /^[a-z-]+:.*## / { printf "  make %-23s %s\n", $$1, $$2 }' Makefile
 	@echo "  with NATIVE=1 (compile for this processor), SKIP_DEPS=1 (install nothing), JOBS=N (N processes)"
 
 deps: ## install what is missing of all the packages, development tools included
-	@cmake/install-packages.sh build bench test lint
+	@cmake/install-packages.sh build bench test lint gate
 	@echo "==> nothing is missing"
 
 build: ## only build: build/hullbench and build/core_benchmarks
@@ -76,6 +77,16 @@ bench-core: ## the core's speed beside CGAL and GEOS: ratios with goal and verdi
 	@$(call install,build)
 	@$(call build,release,$(NATIVE_OPTION),core_benchmarks)
 	@build/core_benchmarks --verdicts
+
+export JOBS
+
+bench-gate: ## whether the core is slower than BASE (default: the merge base with main) or gives other results
+	@$(call install,build)
+	@benchmarks/gate/gate.sh $(if $(BASE),--base "$(BASE)")
+
+bench-gate-instructions: ## the same by counted instructions, for machines that are shared
+	@$(call install,build gate)
+	@benchmarks/gate/gate.sh --instructions $(if $(BASE),--base "$(BASE)")
 
 test: ## install, build and run all tests, the core's with sanitizers too
 	@$(call install,build bench test)
@@ -110,6 +121,11 @@ test-slurm: ## try the Slurm scripts on a real Slurm of one node, made for the t
 	@$(MAKE) build
 	@tests/slurm/run.sh build/hullbench
 
+test-gate: ## prove that the gate finds what it must and nothing else, in 30 minutes (GATES=N, SLOW_GATES=N)
+	@$(call install,build gate)
+	@$(call build,release,$(NATIVE_OPTION),bench_gate)
+	@tests/gate/run.sh
+
 SECONDS ?= 60
 
 fuzz: ## search for inputs that break the core, for 60 seconds (SECONDS=N)
@@ -138,5 +154,5 @@ format: ## format all our sources with clang-format 14
 	@tests/style/check.sh format --fix
 
 clean: ## remove what was built; results stay
-	@rm -rf build build-clang build-sanitize build-sanitize-threads build-fuzz
+	@rm -rf build build-clang build-sanitize build-sanitize-threads build-fuzz build-gate
 	@echo "==> removed build and build-*"

@@ -1,0 +1,179 @@
+// bench_gate: whether head is slower than base, or gives other results. benchmarks/gate/gate.sh builds the
+// two probes and calls it.
+#include <CLI/CLI.hpp>
+#include <chrono>
+#include <filesystem>
+#include <iostream>
+#include <string>
+
+#include "benchmarks/document.hpp"
+#include "benchmarks/gate/gate_accuracy.hpp"
+#include "benchmarks/gate/gate_cases.hpp"
+#include "benchmarks/gate/gate_probes.hpp"
+#include "benchmarks/gate/gate_report.hpp"
+#include "benchmarks/gate/gate_verdict.hpp"
+#include "benchmarks/gate/time_gate.hpp"
+#include "benchmarks/interrupt.hpp"
+#include "benchmarks/plan.hpp"
+#include "benchmarks/worker_process.hpp"
+
+namespace {
+
+using namespace hullbench;
+namespace fs = std::filesystem;
+
+constexpr int kHarnessError = 1;
+constexpr int kUsage = 2;
+constexpr int kInterrupted = 130;
+
+constexpr double kTimeThreshold = 0.05;
+constexpr double kInstructionThreshold = 0.02;
+
+constexpr const char* kFooter =
+    "Exit codes: 0 no regression; 1 an error of the harness; 2 usage or configuration; 3 a regression or a "
+    "changed result;\n5 inconclusive: too noisy, or the same program differs from itself; 130 interrupted.";
+
+struct Arguments {
+  std::string base_probe;
+  std::string head_probe;
+  std::string base_name = "base";
+  std::string head_name = "head";
+  std::string out = "build-gate";
+  std::size_t blocks = 32;
+  int repeats = 5;
+  bool median = false;
+  bool instructions = false;
+  double threshold = 0;  ///< 0: the tier's own
+  double accuracy_tolerance = 1e-9;
+  std::uint64_t seed = 1;
+};
+
+void add_options(CLI::App& app, Arguments& arguments) {
+  app.footer(kFooter);
+  app.add_option("--base-probe", arguments.base_probe, "gate_probe built with base's core")
+      ->required()
+      ->check(CLI::ExistingFile);
+  app.add_option("--head-probe", arguments.head_probe, "gate_probe built with head's core")
+      ->required()
+      ->check(CLI::ExistingFile);
+  app.add_option("--base-name", arguments.base_name, "What base is, for the report");
+  app.add_option("--head-name", arguments.head_name, "What head is, for the report");
+  app.add_option("--out", arguments.out, "Folder for gate.json and what is needed meanwhile")
+      ->capture_default_str();
+  app.add_option("--blocks", arguments.blocks, "Blocks of six processes in a round")
+      ->check(CLI::Range(1, 1000))
+      ->capture_default_str();
+  app.add_option("--repeats", arguments.repeats, "Timed calls of every case in a process")
+      ->check(CLI::Range(1, 10000))
+      ->capture_default_str();
+  app.add_flag("--median", arguments.median,
+               "A process's estimate is the median of its repeats, not the least");
+  app.add_flag("--instructions", arguments.instructions,
+               "Count instructions with callgrind instead of timing");
+  app.add_option("--threshold", arguments.threshold,
+                 "Share that is a regression: 0.05, or 0.02 of instructions")
+      ->check(CLI::Range(1e-6, 10.0));
+  app.add_option("--accuracy-tolerance", arguments.accuracy_tolerance,
+                 "Symmetric difference over base's area that is still the same result")
+      ->check(CLI::NonNegativeNumber)
+      ->capture_default_str();
+  app.add_option("--seed", arguments.seed, "Of the orders in which the programs run")->capture_default_str();
+}
+
+ProbeSettings probe_settings(const Arguments& arguments, const fs::path& out) {
+  ProbeSettings settings;
+  settings.cases_folder = out / "cases";
+  settings.cases = arguments.instructions ? instruction_cases() : time_cases();
+  settings.repeats = arguments.repeats;
+  settings.median = arguments.median;
+  const std::vector<int> cores = allowed_cores();
+  if (!cores.empty()) settings.core = cores.back();
+  return settings;
+}
+
+GateFindings gate_instructions(const Arguments& arguments, const ProbeSettings& probe, const fs::path& out,
+                               const GateRules& rules, nlohmann::json& samples) {
+  const auto count = [&](const std::string& title, const std::string& program) {
+    std::cerr << "counting instructions: " << title << "\n";
+    return count_instructions(program, probe, out / "callgrind");
+  };
+  const auto base = count("base", arguments.base_probe);
+  const auto head = count("head", arguments.head_probe);
+  const auto base_again = count("base again", arguments.base_probe);
+  std::vector<InstructionCounts> counts;
+  for (const auto& [name, instructions] : base) {
+    counts.push_back({name, instructions, base_again.at(name), head.at(name)});
+    samples[name] = {instructions, base_again.at(name), head.at(name)};
+  }
+  return judge_instructions(counts, rules);
+}
+
+GateFindings measure(const Arguments& arguments, const fs::path& out, const GateRules& rules,
+                     nlohmann::json& samples) {
+  const ProbeSettings probe = probe_settings(arguments, out);
+  write_cases(probe.cases, probe.cases_folder);
+  write_results(arguments.base_probe, probe, out / "results" / "base");
+  write_results(arguments.head_probe, probe, out / "results" / "head");
+  if (probe.core) leave_core(*probe.core);
+  GateFindings findings = arguments.instructions ? gate_instructions(arguments, probe, out, rules, samples)
+                                                 : gate_times({.base_probe = arguments.base_probe,
+                                                               .head_probe = arguments.head_probe,
+                                                               .folder = out / "programs",
+                                                               .probe = probe,
+                                                               .blocks = arguments.blocks,
+                                                               .seed = arguments.seed},
+                                                              rules, samples);
+  findings.accuracy = compare_results(probe.cases, out / "results" / "base", out / "results" / "head");
+  return findings;
+}
+
+int run(const Arguments& arguments) {
+  catch_interruptions();
+  const fs::path out = arguments.out;
+  fs::remove_all(out / "results");
+  fs::create_directories(out);
+  GateRules rules;
+  rules.threshold = arguments.threshold > 0  ? arguments.threshold
+                    : arguments.instructions ? kInstructionThreshold
+                                             : kTimeThreshold;
+  rules.accuracy_tolerance = arguments.accuracy_tolerance;
+  GateContext context;
+  context.tier = arguments.instructions ? "instructions" : "time";
+  context.base = arguments.base_name;
+  context.head = arguments.head_name;
+  const auto start = std::chrono::steady_clock::now();
+  const GateFindings findings = measure(arguments, out, rules, context.samples);
+  context.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+
+  const GateVerdict verdict = decide(findings, rules);
+  print_gate(findings, verdict, context, std::cout);
+  write_text_file(out / "gate.json", gate_json(findings, verdict, rules, context).dump(2) + "\n");
+  return verdict.exit_code;
+}
+
+int complain(const std::string& what, int code) {
+  std::cerr << "bench_gate: " << what << "\n";
+  return code;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  CLI::App app("Whether head is slower than base, or gives other results.", "bench_gate");
+  Arguments arguments;
+  try {
+    add_options(app, arguments);
+    app.parse(argc, argv);
+    return run(arguments);
+  } catch (const CLI::Success& request) {
+    return app.exit(request);
+  } catch (const CLI::ParseError& error) {
+    return complain(std::string(error.what()) + "; 'bench_gate --help' shows what there is", kUsage);
+  } catch (const ConfigurationError& error) {
+    return complain(error.what(), kUsage);
+  } catch (const Interrupted&) {
+    return complain("interrupted", kInterrupted);
+  } catch (const std::exception& error) {
+    return complain(error.what(), kHarnessError);
+  }
+}

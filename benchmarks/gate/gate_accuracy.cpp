@@ -1,0 +1,60 @@
+#include "benchmarks/gate/gate_accuracy.hpp"
+
+#include <cstdint>
+#include <exception>
+#include <fstream>
+#include <iterator>
+#include <limits>
+#include <stdexcept>
+
+#include "adapters/wkb.hpp"
+#include "benchmarks/metrics.hpp"
+
+namespace hullbench {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::vector<std::uint8_t> read_bytes(const fs::path& path) {
+  std::ifstream in(path, std::ios::binary);
+  if (!in) throw std::runtime_error("there is no " + path.string());
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
+AccuracyRow compare(const std::string& name, const fs::path& base, const fs::path& head) {
+  AccuracyRow row;
+  row.name = name;
+  row.difference = std::numeric_limits<double>::infinity();
+  try {
+    const auto base_bytes = read_bytes(base);
+    const auto head_bytes = read_bytes(head);
+    row.same = base_bytes == head_bytes;
+    if (row.same) {
+      row.difference = 0;
+      return row;
+    }
+    const Metrics metrics = score(from_wkb(head_bytes), from_wkb(base_bytes));
+    if (metrics.l2) {
+      row.difference = *metrics.l2;
+    } else {
+      row.reason = "head's result is not valid: " + metrics.invalid_reason;
+    }
+  } catch (const std::exception& error) {
+    row.reason = error.what();
+  }
+  return row;
+}
+
+}  // namespace
+
+std::vector<AccuracyRow> compare_results(const std::vector<GateCase>& cases, const fs::path& base,
+                                         const fs::path& head) {
+  std::vector<AccuracyRow> rows;
+  for (const GateCase& entry : cases) {
+    const std::string file = entry.name + ".wkb";
+    rows.push_back(compare(entry.name, base / file, head / file));
+  }
+  return rows;
+}
+
+}  // namespace hullbench

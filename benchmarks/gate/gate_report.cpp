@@ -1,0 +1,156 @@
+#include "benchmarks/gate/gate_report.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "benchmarks/document.hpp"
+#include "benchmarks/number_format.hpp"
+#include "benchmarks/text_table.hpp"
+
+namespace hullbench {
+namespace {
+
+using nlohmann::json;
+
+const char* word_of(Change change) {
+  switch (change) {
+    case Change::kSlower:
+      return "slower";
+    case Change::kFaster:
+      return "faster";
+    case Change::kUndecided:
+      return "too noisy";
+    case Change::kNone:
+      break;
+  }
+  return "-";
+}
+
+/// "+3.21 %" of 1.0321.
+std::string percent(double ratio) {
+  if (!std::isfinite(ratio)) return "any";
+  const double value = (ratio - 1) * 100;
+  return (value < 0 ? "-" : "+") + fixed(std::abs(value), 2) + " %";
+}
+
+std::string interval_text(const Judged& row) {
+  return percent(row.interval.lower) + " to " + percent(row.interval.upper);
+}
+
+const Judged* find(const std::vector<Judged>& rows, const std::string& name) {
+  const auto found =
+      std::find_if(rows.begin(), rows.end(), [&](const Judged& row) { return row.name == name; });
+  return found == rows.end() ? nullptr : &*found;
+}
+
+void print_times(const GateFindings& findings, std::ostream& out) {
+  TextTable table({"quantity", "head / base", "95 % interval", "verdict", "confirmed", "base / base"});
+  for (const Judged& row : findings.first) {
+    const Judged* again = find(findings.second, row.name);
+    const Judged* control = find(findings.null_control, row.name);
+    table.add_row(
+        {row.name, percent(row.ratio), interval_text(row), word_of(row.change),
+         again == nullptr ? "" : percent(again->ratio) + (again->change == row.change ? " yes" : " no"),
+         control == nullptr ? "" : percent(control->ratio)});
+  }
+  print_markdown(table, out);
+}
+
+void print_counts(const GateFindings& findings, std::ostream& out) {
+  TextTable table({"quantity", "head / base", "verdict", "base / base"});
+  for (std::size_t i = 0; i < findings.first.size(); ++i) {
+    const Judged& row = findings.first[i];
+    table.add_row(
+        {row.name, percent(row.ratio), word_of(row.change), percent(findings.null_control[i].ratio)});
+  }
+  print_markdown(table, out);
+}
+
+void print_list(const char* title, const std::vector<std::string>& names, std::ostream& out) {
+  for (const std::string& name : names) out << title << ": " << name << "\n";
+}
+
+void print_accuracy(const std::vector<AccuracyRow>& rows, std::ostream& out) {
+  const bool all_same =
+      std::all_of(rows.begin(), rows.end(), [](const AccuracyRow& row) { return row.same; });
+  if (all_same) {
+    out << "results: the same bytes in all " << rows.size() << " cases\n";
+    return;
+  }
+  for (const AccuracyRow& row : rows) {
+    if (row.same) continue;
+    out << "result of " << row.name << ": ";
+    if (row.reason.empty()) {
+      out << "symmetric difference " << json(row.difference).dump() << " of base's area\n";
+    } else {
+      out << row.reason << "\n";
+    }
+  }
+}
+
+json json_of(const std::vector<Judged>& rows) {
+  json list = json::array();
+  for (const Judged& row : rows) {
+    list.push_back({{"quantity", row.name},
+                    {"ratio", row.ratio},
+                    {"interval", {row.interval.lower, row.interval.upper}},
+                    {"p_holm", row.p},
+                    {"change", word_of(row.change)}});
+  }
+  return list;
+}
+
+json json_of(const std::vector<AccuracyRow>& rows) {
+  json list = json::array();
+  for (const AccuracyRow& row : rows) {
+    list.push_back(
+        {{"case", row.name}, {"same", row.same}, {"difference", row.difference}, {"reason", row.reason}});
+  }
+  return list;
+}
+
+}  // namespace
+
+void print_gate(const GateFindings& findings, const GateVerdict& verdict, const GateContext& context,
+                std::ostream& out) {
+  out << "base: " << context.base << "\nhead: " << context.head << "\n\n";
+  if (context.tier == "time") {
+    print_times(findings, out);
+  } else {
+    print_counts(findings, out);
+  }
+  out << "\n";
+  print_accuracy(findings.accuracy, out);
+  print_list("improvement", verdict.improvements, out);
+  print_list("not confirmed", verdict.unconfirmed, out);
+  out << "gate (" << context.tier << ", " << fixed(context.seconds, 0) << " s): " << verdict.sentence << "\n";
+}
+
+json gate_json(const GateFindings& findings, const GateVerdict& verdict, const GateRules& rules,
+               const GateContext& context) {
+  return {{"schema_version", 1},
+          {"tier", context.tier},
+          {"base", context.base},
+          {"head", context.head},
+          {"rules",
+           {{"threshold", rules.threshold},
+            {"confidence", rules.confidence},
+            {"accuracy_tolerance", rules.accuracy_tolerance},
+            {"null_tolerance", rules.null_tolerance}}},
+          {"seconds", context.seconds},
+          {"exit_code", verdict.exit_code},
+          {"verdict", verdict.sentence},
+          {"regressions", verdict.regressions},
+          {"improvements", verdict.improvements},
+          {"unconfirmed", verdict.unconfirmed},
+          {"undecided", verdict.undecided},
+          {"failed_controls", verdict.failed_controls},
+          {"changed_results", verdict.changed_results},
+          {"first", json_of(findings.first)},
+          {"second", json_of(findings.second)},
+          {"null_control", json_of(findings.null_control)},
+          {"accuracy", json_of(findings.accuracy)},
+          {"samples", context.samples}};
+}
+
+}  // namespace hullbench

@@ -1,0 +1,65 @@
+#include "benchmarks/gate/gate_statistics.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <numeric>
+#include <stdexcept>
+
+namespace hullbench {
+namespace {
+
+/// How likely at most `k` of `n` fair coins show heads.
+double at_most_heads(std::size_t n, std::size_t k) {
+  double term = std::exp2(-static_cast<double>(n));  // below 1e-300 only beyond 1000 blocks
+  double sum = term;
+  for (std::size_t i = 1; i <= k; ++i) {
+    term *= static_cast<double>(n - i + 1) / static_cast<double>(i);
+    sum += term;
+  }
+  return std::min(sum, 1.0);
+}
+
+}  // namespace
+
+Interval sign_interval(std::span<const double> values, double confidence) {
+  if (!(confidence > 0 && confidence < 1)) {
+    throw std::invalid_argument("A confidence must lie between 0 and 1.");
+  }
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  Interval interval = {-kInfinity, kInfinity};
+  std::vector<double> sorted(values.begin(), values.end());
+  std::sort(sorted.begin(), sorted.end());
+  const std::size_t n = sorted.size();
+  for (std::size_t k = 0; k < n / 2; ++k) {
+    if (2 * at_most_heads(n, k) > 1 - confidence) break;
+    interval = {sorted[k], sorted[n - 1 - k]};
+  }
+  return interval;
+}
+
+double sign_test_above(std::span<const double> values, double threshold) {
+  const auto above =
+      std::count_if(values.begin(), values.end(), [&](double value) { return value > threshold; });
+  const auto below =
+      std::count_if(values.begin(), values.end(), [&](double value) { return value < threshold; });
+  return at_most_heads(static_cast<std::size_t>(above + below), static_cast<std::size_t>(below));
+}
+
+std::vector<double> holm_adjusted(std::span<const double> p_values) {
+  std::vector<std::size_t> order(p_values.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::stable_sort(order.begin(), order.end(),
+                   [&](std::size_t a, std::size_t b) { return p_values[a] < p_values[b]; });
+  std::vector<double> adjusted(p_values.size());
+  double largest = 0;
+  for (std::size_t rank = 0; rank < order.size(); ++rank) {
+    const double scaled = static_cast<double>(order.size() - rank) * p_values[order[rank]];
+    largest = std::max(largest, std::min(scaled, 1.0));
+    adjusted[order[rank]] = largest;
+  }
+  return adjusted;
+}
+
+}  // namespace hullbench

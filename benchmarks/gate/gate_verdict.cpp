@@ -1,0 +1,136 @@
+#include "benchmarks/gate/gate_verdict.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <span>
+
+#include "benchmarks/statistics.hpp"
+
+namespace hullbench {
+namespace {
+
+using Names = std::vector<std::string>;
+
+std::vector<double> negated(std::vector<double> values) {
+  for (double& value : values) value = -value;
+  return values;
+}
+
+Judged describe(const LogRatios& quantity, const GateRules& rules) {
+  const Interval interval = sign_interval(quantity.values, rules.confidence);
+  Judged judged;
+  judged.name = quantity.name;
+  judged.ratio = std::exp(median(std::span<const double>(quantity.values)));
+  judged.interval = {std::exp(interval.lower), std::exp(interval.upper)};
+  if (judged.interval.lower <= 1 && judged.interval.upper > 1 + rules.threshold) {
+    judged.change = Change::kUndecided;
+  }
+  return judged;
+}
+
+std::string joined(const Names& names) {
+  std::string text;
+  for (const std::string& name : names) text += (text.empty() ? "" : ", ") + name;
+  return text;
+}
+
+bool is_change(Change change) {
+  return change == Change::kSlower || change == Change::kFaster;
+}
+
+/// Sorts the first round's changes by whether the second one confirms them.
+void confirm(const GateFindings& findings, GateVerdict& verdict) {
+  for (const Judged& row : findings.first) {
+    if (row.change == Change::kUndecided) verdict.undecided.push_back(row.name);
+    if (!is_change(row.change)) continue;
+    const bool confirmed = std::any_of(
+        findings.second.begin(), findings.second.end(),
+        [&](const Judged& other) { return other.name == row.name && other.change == row.change; });
+    Names& place = !confirmed                      ? verdict.unconfirmed
+                   : row.change == Change::kSlower ? verdict.regressions
+                                                   : verdict.improvements;
+    place.push_back(row.name);
+  }
+}
+
+Change change_of(double ratio, double threshold) {
+  if (ratio > 1 + threshold) return Change::kSlower;
+  return ratio < 1 - threshold ? Change::kFaster : Change::kNone;
+}
+
+Judged counted(const std::string& name, double ratio, double threshold) {
+  return {.name = name,
+          .ratio = ratio,
+          .interval = {ratio, ratio},
+          .p = 0,
+          .change = change_of(ratio, threshold)};
+}
+
+}  // namespace
+
+std::vector<Judged> judge(const std::vector<LogRatios>& quantities, const GateRules& rules) {
+  const double limit = std::log1p(rules.threshold);
+  std::vector<double> p_slower;
+  std::vector<double> p_faster;
+  for (const LogRatios& quantity : quantities) {
+    p_slower.push_back(sign_test_above(quantity.values, limit));
+    p_faster.push_back(sign_test_above(negated(quantity.values), limit));
+  }
+  p_slower = holm_adjusted(p_slower);
+  p_faster = holm_adjusted(p_faster);
+
+  const double level = (1 - rules.confidence) / 2;
+  std::vector<Judged> rows;
+  for (std::size_t i = 0; i < quantities.size(); ++i) {
+    Judged row = describe(quantities[i], rules);
+    row.p = row.ratio >= 1 ? p_slower[i] : p_faster[i];
+    if (p_slower[i] <= level) row.change = Change::kSlower;
+    if (p_faster[i] <= level) row.change = Change::kFaster;
+    rows.push_back(std::move(row));
+  }
+  return rows;
+}
+
+GateVerdict decide(const GateFindings& findings, const GateRules& rules) {
+  GateVerdict verdict;
+  for (const AccuracyRow& row : findings.accuracy) {
+    const bool within = row.same || (row.reason.empty() && row.difference <= rules.accuracy_tolerance);
+    if (!within) verdict.changed_results.push_back(row.name);
+  }
+  for (const Judged& row : findings.null_control) {
+    if (is_change(row.change)) verdict.failed_controls.push_back(row.name);
+  }
+  confirm(findings, verdict);
+
+  if (!verdict.changed_results.empty()) {
+    verdict.exit_code = 3;
+    verdict.sentence = "result changed: " + joined(verdict.changed_results);
+    if (!verdict.regressions.empty()) verdict.sentence += "; regression: " + joined(verdict.regressions);
+  } else if (!verdict.failed_controls.empty()) {
+    verdict.exit_code = 5;
+    verdict.sentence = "inconclusive: the same program differs from itself in " +
+                       joined(verdict.failed_controls) + "; run it again when the machine is quieter";
+  } else if (!verdict.regressions.empty()) {
+    verdict.exit_code = 3;
+    verdict.sentence = "regression: " + joined(verdict.regressions);
+  } else if (!verdict.undecided.empty()) {
+    verdict.exit_code = 5;
+    verdict.sentence = "inconclusive: too noisy to tell no change from a regression in " +
+                       joined(verdict.undecided) + "; run it again when the machine is quieter";
+  } else {
+    verdict.sentence = "no regression";
+  }
+  return verdict;
+}
+
+GateFindings judge_instructions(const std::vector<InstructionCounts>& counts, const GateRules& rules) {
+  GateFindings findings;
+  for (const InstructionCounts& row : counts) {
+    findings.first.push_back(counted(row.name, row.head / row.base, rules.threshold));
+    findings.null_control.push_back(counted(row.name, row.base_again / row.base, rules.null_tolerance));
+  }
+  findings.second = findings.first;  // a count that repeats confirms itself
+  return findings;
+}
+
+}  // namespace hullbench

@@ -1,0 +1,12 @@
+# The gate on speed: its statistics, its rules, its program with scripted probes, and the workflow that calls it.
+hullbench_test(test_gate_statistics SOURCES test_gate_statistics.cpp LIBRARIES hullbench::gate LABELS gate)
+hullbench_test(test_gate_verdict SOURCES test_gate_verdict.cpp LIBRARIES hullbench::gate LABELS gate)
+hullbench_test(test_gate_program SOURCES test_gate_program.cpp
+  LIBRARIES hullbench_test_program nlohmann_json::nlohmann_json LABELS gate)
+target_compile_definitions(test_gate_program PRIVATE BENCH_GATE="$<TARGET_FILE:bench_gate>")
+add_dependencies(test_gate_program bench_gate)
+
+add_test(NAME gate.workflow
+  COMMAND "${SYSTEM_PYTHON}" "${CMAKE_CURRENT_LIST_DIR}/check_workflow.py"
+          "${PROJECT_SOURCE_DIR}/.github/workflows/ci.yml" "${PROJECT_SOURCE_DIR}/Makefile")
+set_tests_properties(gate.workflow PROPERTIES LABELS gate TIMEOUT 60)
