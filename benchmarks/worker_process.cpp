@@ -33,7 +33,7 @@ using Clock = std::chrono::steady_clock;
 constexpr auto kTick = 50ms;
 /// Between SIGTERM and SIGKILL: enough for a method to stop a server that it started.
 constexpr auto kTermGrace = 1000ms;
-constexpr rlim_t kMib = 1024 * 1024;
+constexpr rlim_t kMib = rlim_t{1024} * 1024;
 constexpr std::size_t kLastWordsBytes = 4096;
 /// Of the last words, what goes into a record.
 constexpr std::size_t kDetailCharacters = 300;
