@@ -9,6 +9,8 @@
 #include <vector>
 
 #include "adapters/adapter.hpp"
+#include "benchmarks/compare_command.hpp"
+#include "benchmarks/gbench_export.hpp"
 #include "benchmarks/interrupt.hpp"
 #include "benchmarks/listing.hpp"
 #include "benchmarks/merge.hpp"
@@ -35,11 +37,13 @@ constexpr const char* kFooter =
     "--check` found "
     "faults;\n"
     "2 usage or configuration; 4 some methods failed (their rows say how), or runs of a merge are missing; 6 "
-    "nothing was measured; 130 "
+    "nothing was measured, or nothing to compare; 130 "
     "interrupted.\n"
     "HULLBENCH_POSTGIS_DSN names a PostGIS server to use instead of a private one; HULLBENCH_POSTGRES_BIN "
     "the folder with\n"
     "the programs that a private server is made of.";
+
+constexpr const char* kExportGbenchHelp = "Also write the times into this file, as Google Benchmark's JSON";
 
 /// Memory for a worker that only says who it is.
 constexpr std::int64_t kListMemoryMib = 4096;
@@ -50,6 +54,8 @@ struct Arguments {
   MergeCommand merge;
   std::string tables_path = "results/latest";
   bool tables_write = false;
+  std::string tables_export_gbench;
+  CompareCommand compare;
   std::string readme_run;
   std::string readme_path;
   bool readme_check = false;
@@ -82,10 +88,13 @@ std::vector<nlohmann::json> reports_in(const std::string& path) {
   return is_suite(path) ? suite_reports(path) : std::vector{make_report(path)};
 }
 
-int tables(const std::string& path, bool write) {
-  const std::vector<Document> documents = make_documents(reports_in(path));
+int tables(const std::string& path, bool write, const std::string& gbench_file) {
+  check_export_place(gbench_file);
+  const std::vector<nlohmann::json> reports = reports_in(path);
+  const std::vector<Document> documents = make_documents(reports);
   print_markdown(documents, std::cout);
   if (write) write_tables(path, documents);
+  if (!gbench_file.empty()) export_gbench(gbench_file, reports);
   return kOk;
 }
 
@@ -149,6 +158,7 @@ void add_run(CLI::App& app, RunCommand& run) {
   command->add_option_function<std::string>(
       "--shard", [&run](const std::string& text) { run.shard = parse_shard(text); },
       "Only part K of N of the runs, given as K/N; 'hullbench merge' puts the parts together");
+  command->add_option("--export-gbench", run.export_gbench, kExportGbenchHelp);
   command->add_flag("--force", run.force, "Start anew instead of going on with an interrupted run");
   command->add_flag("--dry-run", run.dry_run, "Print the names of the runs and do nothing");
 }
@@ -158,6 +168,18 @@ void add_merge(CLI::App& app, MergeCommand& merge) {
   command->add_option("RUN", merge.sources, "Folders of runs, or of suites")->required();
   command->add_option("--out", merge.out, "Folder for the merged run, new or empty")->required();
   command->add_flag("--force", merge.force, "Write to the folder even when something is in it");
+}
+
+void add_compare(CLI::App& app, CompareCommand& compare) {
+  CLI::App* command = app.add_subcommand("compare", "Say what differs between two runs");
+  command
+      ->add_option("A", compare.a,
+                   "A run's or suite's folder, a report.json or a runs.jsonl: the earlier one")
+      ->required();
+  command->add_option("B", compare.b, "Likewise: the one that is held against it")->required();
+  command->add_option("--format", compare.format, "How to print it")
+      ->check(CLI::IsMember({"markdown", "csv", "latex", "json"}))
+      ->capture_default_str();
 }
 
 void add_commands(CLI::App& app, Arguments& arguments) {
@@ -170,6 +192,8 @@ void add_commands(CLI::App& app, Arguments& arguments) {
   CLI::App* tables = app.add_subcommand("tables", "Print the tables of a run");
   tables->add_option("RUN", arguments.tables_path, "The run's folder")->capture_default_str();
   tables->add_flag("--write", arguments.tables_write, "Write its tables.md and tables/ anew too");
+  tables->add_option("--export-gbench", arguments.tables_export_gbench, kExportGbenchHelp);
+  add_compare(app, arguments.compare);
   CLI::App* readme = app.add_subcommand("readme", "Write a run's results into a README, between its marks");
   readme->add_option("RUN", arguments.readme_run, "The run's folder")->required();
   readme->add_option("FILE", arguments.readme_path, "The README")->required();
@@ -188,7 +212,9 @@ int dispatch(const CLI::App& app, const Arguments& arguments) {
   if (app.got_subcommand("list")) return list(arguments.json);
   if (app.got_subcommand("run")) return run_command(arguments.run, &own_worker);
   if (app.got_subcommand("merge")) return merge_command(arguments.merge);
-  if (app.got_subcommand("tables")) return tables(arguments.tables_path, arguments.tables_write);
+  if (app.got_subcommand("tables"))
+    return tables(arguments.tables_path, arguments.tables_write, arguments.tables_export_gbench);
+  if (app.got_subcommand("compare")) return compare_command(arguments.compare);
   if (app.got_subcommand("readme")) {
     return readme(arguments.readme_run, arguments.readme_path, arguments.readme_check);
   }

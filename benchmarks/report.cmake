@@ -79,7 +79,14 @@ configure_file(build_info.cpp.in "${CMAKE_CURRENT_BINARY_DIR}/build_info.cpp.con
 file(GENERATE OUTPUT "${CMAKE_CURRENT_BINARY_DIR}/build_info.cpp"
   INPUT "${CMAKE_CURRENT_BINARY_DIR}/build_info.cpp.configured")
 
+find_package(Boost REQUIRED)
+
 add_library(hullbench_report STATIC
+  bootstrap.cpp
+  compare.cpp
+  compare_document.cpp
+  gbench_export.cpp
+  rank_test.cpp
   statistics.cpp
   environment.cpp
   claims.cpp
@@ -101,4 +108,4 @@ add_library(hullbench_report STATIC
   "${CMAKE_CURRENT_BINARY_DIR}/build_info.cpp"
   "${CMAKE_CURRENT_BINARY_DIR}/embedded.cpp")
 add_library(hullbench::report ALIAS hullbench_report)
-target_link_libraries(hullbench_report PUBLIC hullbench::record PRIVATE valijson hullbench::compile_options)
+target_link_libraries(hullbench_report PUBLIC hullbench::record PRIVATE valijson Boost::headers hullbench::compile_options)

@@ -37,33 +37,15 @@ json read_run_file(const std::filesystem::path& path) {
   }
 }
 
-/// The lines with each id once: its last line, at the place of its first.
-json last_of_each_id(const std::vector<json>& lines, const std::filesystem::path& path) {
-  json result = json::array();
-  std::map<std::string, std::size_t> places;  // by id, in result
-  for (const json& line : lines) {
-    RunRecord record;
-    try {
-      record = line.get<RunRecord>();
-    } catch (const std::exception& error) {
-      throw std::runtime_error("A line of " + path.string() + " is not a run's record: " + error.what());
-    }
-    const auto [place, is_new] = places.emplace(record.id, result.size());
-    if (is_new) {
-      result.push_back(line);
-    } else {
-      result[place->second] = line;
-    }
-  }
-  return result;
-}
-
 json statistics_to_json(const std::vector<std::int64_t>& values) {
   if (values.empty()) return nullptr;
   const Statistics statistics = describe(values);
   const auto& deviation = statistics.standard_deviation;
+  const auto& interval = statistics.median_interval;
   return {{"repetitions", statistics.count},
           {"median_ns", statistics.median},
+          {"median_low_ns", interval ? json(interval->low) : json(nullptr)},
+          {"median_high_ns", interval ? json(interval->high) : json(nullptr)},
           {"mad_ns", statistics.mad},
           {"min_ns", statistics.minimum},
           {"max_ns", statistics.maximum},
@@ -127,6 +109,26 @@ void write_whole(const std::filesystem::path& path, const std::string& text) {
 }
 
 }  // namespace
+
+json last_of_each_id(const std::vector<json>& lines, const std::filesystem::path& path) {
+  json result = json::array();
+  std::map<std::string, std::size_t> places;  // by id, in result
+  for (const json& line : lines) {
+    RunRecord record;
+    try {
+      record = line.get<RunRecord>();
+    } catch (const std::exception& error) {
+      throw std::runtime_error("A line of " + path.string() + " is not a run's record: " + error.what());
+    }
+    const auto [place, is_new] = places.emplace(record.id, result.size());
+    if (is_new) {
+      result.push_back(line);
+    } else {
+      result[place->second] = line;
+    }
+  }
+  return result;
+}
 
 json make_summary(const json& report) {
   const auto runs = report.at("runs").get<std::vector<RunRecord>>();

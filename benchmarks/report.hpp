@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <nlohmann/json.hpp>
+#include <vector>
 
 namespace hullbench {
 
@@ -16,6 +17,10 @@ nlohmann::json load_run(const std::filesystem::path& run_directory);
 /// line is left out and said in `notes`. Deterministic in its input. Throws std::runtime_error naming the
 /// file when one is missing or malformed.
 nlohmann::json make_report(const std::filesystem::path& run_directory);
+
+/// The lines of the runs file `path` with each id once: its last line, at the place of its first. Throws
+/// std::runtime_error naming the file when one is not a run's record.
+nlohmann::json last_of_each_id(const std::vector<nlohmann::json>& lines, const std::filesystem::path& path);
 
 /// The `summary` of a report's other members: `totals` (rows by status), `rows` (one a run, in the order of
 /// `runs`: id, name, status, the statistics of the headline time `time` and of the paper's boundary

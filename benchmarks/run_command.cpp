@@ -12,6 +12,7 @@
 
 #include "adapters/adapter.hpp"
 #include "benchmarks/environment.hpp"
+#include "benchmarks/gbench_export.hpp"
 #include "benchmarks/listing.hpp"
 #include "benchmarks/plan.hpp"
 #include "benchmarks/report.hpp"
@@ -229,7 +230,9 @@ int measure_one(const RunCommand& command, const Experiment& experiment,
   Measuring measuring(command, worker_command, {experiment});
   const RunResult result = measuring.measure(experiment, header, *directory, 0);
   if (result.interrupted) return exit_code(result);
-  print_markdown(make_documents({make_report(directory->path())}), std::cout);
+  const json report = make_report(directory->path());
+  print_markdown(make_documents({report}), std::cout);
+  if (!command.export_gbench.empty()) export_gbench(command.export_gbench, {report});
   say_counts(result);
   say_files(directory->path(), command.out ? directory->path() : kResults / "latest",
             {"report.json", "tables.md", "tables", "runs.jsonl", "repetitions.jsonl", "run.json"});
@@ -269,9 +272,11 @@ int measure_suite(const RunCommand& command, const std::vector<Experiment>& expe
     if (result.interrupted) return exit_code(result);
     for (const auto& [status, count] : result.counts) all.counts[status] += count;
   }
-  const std::vector<Document> documents = make_documents(suite_reports(suite));
+  const std::vector<json> reports = suite_reports(suite);
+  const std::vector<Document> documents = make_documents(reports);
   print_markdown(documents, std::cout);
   write_tables(suite, documents);
+  if (!command.export_gbench.empty()) export_gbench(command.export_gbench, reports);
   say_counts(all);
   say_files(suite, command.out ? suite : kResults / "latest", {"tables.md", "tables", "suite.json"});
   return exit_code(all);
@@ -288,6 +293,15 @@ void keep_shard(Experiment& experiment, const RunCommand& command) {
 }
 
 }  // namespace
+
+void check_export_place(const fs::path& file) {
+  if (file.empty()) return;
+  const fs::path folder = file.has_parent_path() ? file.parent_path() : fs::path(".");
+  if (fs::is_directory(file) || ::access(folder.c_str(), W_OK) != 0) {
+    throw ConfigurationError("cannot write " + file.string() +
+                             "; give --export-gbench a file in a folder that is there and writable");
+  }
+}
 
 int run_command(const RunCommand& command, const WorkerCommand& worker_command) {
   std::vector<Experiment> experiments;
@@ -319,6 +333,7 @@ int run_command(const RunCommand& command, const WorkerCommand& worker_command) 
     }
     return 0;
   }
+  check_export_place(command.export_gbench);
   end_strays_of_dead_harnesses();
   remove_stale_scratch(kResults);
   return command.plans.size() == 1 ? measure_one(command, experiments.front(), worker_command)

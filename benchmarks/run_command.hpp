@@ -24,9 +24,14 @@ struct RunCommand {
   std::filesystem::path
       recordings;              ///< folder of real floors to take the place of the simulated ones; empty: none
   std::optional<Shard> shard;  ///< none: all runs
+  std::filesystem::path export_gbench;  ///< file for the times as Google Benchmark's JSON; empty: none
   bool force = false;
   bool dry_run = false;
 };
+
+/// For before the work, because the file is written last: throws ConfigurationError when the file of
+/// --export-gbench cannot be written. Empty: none is asked for.
+void check_export_place(const std::filesystem::path& file);
 
 /// Does it and returns the exit code (see exit_code). Tables go to standard output, everything else to
 /// standard error. Throws ConfigurationError before anything is measured, std::runtime_error when something

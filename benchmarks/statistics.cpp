@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <stdexcept>
 #include <vector>
 
@@ -90,6 +91,7 @@ std::optional<double> standard_deviation(std::span<const double> values) {
 Statistics describe(std::span<const std::int64_t> values) {
   Statistics result;
   result.median = median(values);
+  result.median_interval = median_interval(values);
   result.count = values.size();
   result.mad = median_absolute_deviation(values);
   const auto [minimum, maximum] = std::minmax_element(values.begin(), values.end());
@@ -97,6 +99,21 @@ Statistics describe(std::span<const std::int64_t> values) {
   result.maximum = *maximum;
   result.mean = mean(values);
   result.standard_deviation = standard_deviation(values);
+  return result;
+}
+
+std::vector<double> holm_adjusted(std::span<const double> p_values) {
+  std::vector<std::size_t> order(p_values.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::sort(order.begin(), order.end(),
+            [&](std::size_t x, std::size_t y) { return p_values[x] < p_values[y]; });
+  std::vector<double> result(p_values.size());
+  double largest = 0;
+  for (std::size_t place = 0; place < order.size(); ++place) {
+    const double adjusted = p_values[order[place]] * static_cast<double>(order.size() - place);
+    largest = std::min(1.0, std::max(largest, adjusted));
+    result[order[place]] = largest;
+  }
   return result;
 }
 

@@ -1,10 +1,13 @@
-// Descriptive statistics of repeated times.
+// Descriptive statistics of repeated times, and the correction for many tests.
 #pragma once
 
 #include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <span>
+#include <vector>
+
+#include "benchmarks/bootstrap.hpp"
 
 namespace hullbench {
 
@@ -12,7 +15,8 @@ namespace hullbench {
 struct Statistics {
   std::size_t count = 0;
   double median = 0;
-  double mad = 0;  ///< median absolute deviation from the median, not scaled
+  std::optional<Interval> median_interval;  ///< of 95 %, see bootstrap.hpp; empty for a single value
+  double mad = 0;                           ///< median absolute deviation from the median, not scaled
   std::int64_t minimum = 0;
   std::int64_t maximum = 0;
   double mean = 0;
@@ -42,5 +46,9 @@ std::optional<double> standard_deviation(std::span<const double> values);
 
 /// All of the above.
 Statistics describe(std::span<const std::int64_t> values);
+
+/// Holm's adjusted p-values (Scandinavian Journal of Statistics 6, 1979), in the order of `p_values`: those
+/// at most a are significant with a probability of at most a for any error among them all. For none: none.
+std::vector<double> holm_adjusted(std::span<const double> p_values);
 
 }  // namespace hullbench

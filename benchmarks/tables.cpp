@@ -12,6 +12,7 @@
 #include <utility>
 #include <vector>
 
+#include "benchmarks/bootstrap.hpp"
 #include "benchmarks/claims.hpp"
 #include "benchmarks/collection_tables.hpp"
 #include "benchmarks/labels.hpp"
@@ -68,16 +69,34 @@ std::optional<double> value_of(const TableContext& context, const Line& line, co
   return median(std::span<const double>(errors));
 }
 
-/// Median, least and largest of ratios as cells.
-std::vector<std::string> ratio_cells(const std::vector<double>& ratios) {
+/// Ratios by shape.
+using Ratios = std::map<std::pair<std::string, bool>, std::vector<double>>;
+
+std::vector<double> values_of(const Ratios& by_shape) {
+  std::vector<double> result;
+  for (const auto& [shape, values] : by_shape) result.insert(result.end(), values.begin(), values.end());
+  return result;
+}
+
+/// Their median, the least and the largest as cells.
+std::vector<std::string> ratio_cells(const Ratios& by_shape) {
+  const std::vector<double> ratios = values_of(by_shape);
   if (ratios.empty()) return {kNothing, kNothing, kNothing};
   const auto [least, most] = std::minmax_element(ratios.begin(), ratios.end());
   return {three_digits(median(std::span<const double>(ratios))), three_digits(*least), three_digits(*most)};
 }
 
-const std::vector<std::string> kWithTimes = {"Method",   "Cases", "Time ratio", "least",       "most",
-                                             "L2 ratio", "least", "most",       "Holes: time", "L2"};
-const std::vector<std::string> kErrorsOnly = {"Method", "Cases", "L2 ratio", "least", "most", "Holes: L2"};
+const std::vector<std::string> kWithTimes = {"Method", "Cases", "Time", "95 %",        "least", "most",
+                                             "L2",     "least", "most", "Holes: time", "L2"};
+const std::vector<std::string> kErrorsOnly = {"Method", "Cases", "L2", "least", "most", "Holes: L2"};
+
+/// The interval of their median, clustered by shape.
+std::string interval_cell(const Ratios& by_shape) {
+  std::vector<std::vector<double>> clusters;
+  for (const auto& [shape, values] : by_shape) clusters.push_back(values);
+  const auto interval = clustered_median_interval(clusters);
+  return interval ? three_digits(interval->low) + "–" + three_digits(interval->high) : kNothing;
+}
 
 /// What the paper's text says of its figure in one table: every method beside Polylidar, and what holes
 /// change.
@@ -99,19 +118,20 @@ std::optional<TableSection> ratio_table(const TableContext& context, const std::
     std::size_t count = 0;
     for (const Quantity quantity : {Quantity::kEqualWork, Quantity::kError}) {
       if (quantity == Quantity::kEqualWork && !times) continue;
-      std::vector<double> to_reference;
-      std::vector<double> to_no_holes;
+      Ratios to_reference;
+      Ratios to_no_holes;
       for (const Case& which : cases) {
         const auto ours = value_of(context, line, which, quantity);
-        const auto divide = [&](const std::optional<double>& by, std::vector<double>& ratios) {
-          if (ours && by && *by > 0) ratios.push_back(*ours / *by);
+        const auto divide = [&](const std::optional<double>& by, Ratios& ratios) {
+          if (ours && by && *by > 0) ratios[{which.dataset, which.holes}].push_back(*ours / *by);
         };
         divide(value_of(context, reference, which, quantity), to_reference);
         if (which.holes)
           divide(value_of(context, line, {which.dataset, false, which.n}, quantity), to_no_holes);
       }
-      count = std::max(count, to_reference.size());
-      const auto ratios = ratio_cells(to_reference);
+      count = std::max(count, values_of(to_reference).size());
+      auto ratios = ratio_cells(to_reference);
+      if (quantity == Quantity::kEqualWork) ratios.insert(ratios.begin() + 1, interval_cell(to_reference));
       cells.insert(cells.end(), ratios.begin(), ratios.end());
       holes_cells.push_back(ratio_cells(to_no_holes).front());
     }
@@ -125,7 +145,11 @@ std::optional<TableSection> ratio_table(const TableContext& context, const std::
              : "Ratios of the errors as a part of the ground truth's area; ") +
       std::string("of the cases the median, the least and the largest. Cases are a shape, with or without "
                   "holes, at a number of points. The ") +
-      (times ? "last two columns" : "last column") + ": with holes over without, the median.");
+      (times ? "last two columns" : "last column") + ": with holes over without, the median." +
+      (times
+           ? " 95 %: a bootstrap interval of the median that resamples whole shapes; of so few shapes it is "
+             "a rough one."
+           : ""));
   return section;
 }
 

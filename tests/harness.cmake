@@ -30,7 +30,17 @@ hullbench_test(test_readme SOURCES test_readme.cpp
   LIBRARIES hullbench::runner hullbench_invented_run hullbench_test_program LABELS harness)
 hullbench_test(test_machines SOURCES test_machines.cpp
   LIBRARIES hullbench::runner hullbench_invented_run hullbench::report LABELS harness)
-foreach(part IN ITEMS suite readme)
+hullbench_test(test_compare SOURCES test_compare.cpp
+  LIBRARIES hullbench::report hullbench_invented_run hullbench_test_program LABELS harness)
+
+# Google Benchmark's own tool, and the Python that its package brings the libraries for.
+find_file(COMPARE_PY compare.py PATHS /usr/share/benchmark PATH_SUFFIXES tools NO_DEFAULT_PATH REQUIRED)
+find_program(DEBIAN_PYTHON python3 PATHS /usr/bin NO_DEFAULT_PATH REQUIRED)
+hullbench_test(test_gbench_export SOURCES test_gbench_export.cpp
+  LIBRARIES hullbench::report hullbench_invented_run hullbench_test_program LABELS harness)
+target_compile_definitions(test_gbench_export PRIVATE COMPARE_PY="${COMPARE_PY}" DEBIAN_PYTHON="${DEBIAN_PYTHON}")
+
+foreach(part IN ITEMS suite readme compare gbench_export)
   target_compile_definitions(test_${part} PRIVATE HULLBENCH="$<TARGET_FILE:hullbench>")
   add_dependencies(test_${part} hullbench)
 endforeach()

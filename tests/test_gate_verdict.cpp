@@ -23,12 +23,12 @@ LogRatios spread(const std::string& name, double lowest, double highest) {
   return ratios;
 }
 
-Change change_of(const LogRatios& ratios) {
+SpeedChange change_of(const LogRatios& ratios) {
   return judge({ratios}, kRules).front().change;
 }
 
 /// Findings of one quantity that has these changes in the two rounds, with controls and results in order.
-GateFindings findings(Change first, Change second = Change::kNone) {
+GateFindings findings(SpeedChange first, SpeedChange second = SpeedChange::kNone) {
   GateFindings made;
   made.first.push_back({.name = "hull", .change = first});
   made.second.push_back({.name = "hull", .change = second});
@@ -38,79 +38,79 @@ GateFindings findings(Change first, Change second = Change::kNone) {
 }
 
 TEST(GateVerdict, JudgesByTheWholeInterval) {
-  EXPECT_EQ(change_of(spread("", 0.99, 1.01)), Change::kNone);
-  EXPECT_EQ(change_of(spread("", 1.08, 1.12)), Change::kSlower);
-  EXPECT_EQ(change_of(spread("", 0.88, 0.92)), Change::kFaster);
-  EXPECT_EQ(change_of(spread("", 1.03, 1.04)), Change::kNone);  // slower, but by less than the threshold
+  EXPECT_EQ(change_of(spread("", 0.99, 1.01)), SpeedChange::kNone);
+  EXPECT_EQ(change_of(spread("", 1.08, 1.12)), SpeedChange::kSlower);
+  EXPECT_EQ(change_of(spread("", 0.88, 0.92)), SpeedChange::kFaster);
+  EXPECT_EQ(change_of(spread("", 1.03, 1.04)), SpeedChange::kNone);  // slower, but by less than the threshold
   EXPECT_EQ(change_of(spread("", 1.02, 1.10)),
-            Change::kNone);  // above the threshold, but not the whole of it
-  EXPECT_EQ(change_of(spread("", 0.80, 1.25)), Change::kUndecided);
+            SpeedChange::kNone);  // above the threshold, but not the whole of it
+  EXPECT_EQ(change_of(spread("", 0.80, 1.25)), SpeedChange::kUndecided);
 }
 
 TEST(GateVerdict, TheRatioIsTheMedianOfTheBlocks) {
   const Judged row = judge({spread("hull", 1.0, 1.2)}, kRules).front();
   EXPECT_EQ(row.name, "hull");
   EXPECT_NEAR(row.ratio, 1.1, 1e-4);  // the middle of logarithms is not quite that of ratios
-  EXPECT_LT(row.interval.lower, row.ratio);
-  EXPECT_GT(row.interval.upper, row.ratio);
+  EXPECT_LT(row.interval.low, row.ratio);
+  EXPECT_GT(row.interval.high, row.ratio);
 }
 
 TEST(GateVerdict, FewBlocksDecideNothing) {
-  EXPECT_EQ(change_of({"hull", {0.2, 0.2, 0.2, 0.2, 0.2}}), Change::kUndecided);
+  EXPECT_EQ(change_of({"hull", {0.2, 0.2, 0.2, 0.2, 0.2}}), SpeedChange::kUndecided);
 }
 
 TEST(GateVerdict, ManyQuantitiesAskForMoreEvidence) {
   // 7 of 7 above: p = 1/128, enough for one quantity at 0.025 but not for four.
   const LogRatios slower{"hull", std::vector<double>(7, 0.1)};
   const LogRatios same{"other", {-0.01, 0.01, -0.01, 0.01, -0.01, 0.01, 0.01}};
-  EXPECT_EQ(judge({slower}, kRules).front().change, Change::kSlower);
-  EXPECT_NE(judge({slower, same, same, same}, kRules).front().change, Change::kSlower);
+  EXPECT_EQ(judge({slower}, kRules).front().change, SpeedChange::kSlower);
+  EXPECT_NE(judge({slower, same, same, same}, kRules).front().change, SpeedChange::kSlower);
 }
 
 TEST(GateVerdict, NothingFoundPasses) {
-  const GateVerdict verdict = decide(findings(Change::kNone), kRules);
+  const GateVerdict verdict = decide(findings(SpeedChange::kNone), kRules);
   EXPECT_EQ(verdict.exit_code, 0);
   EXPECT_EQ(verdict.sentence, "no regression");
 }
 
 TEST(GateVerdict, ARegressionThatBothRoundsSeeFails) {
-  const GateVerdict verdict = decide(findings(Change::kSlower, Change::kSlower), kRules);
+  const GateVerdict verdict = decide(findings(SpeedChange::kSlower, SpeedChange::kSlower), kRules);
   EXPECT_EQ(verdict.exit_code, 3);
   EXPECT_EQ(verdict.sentence, "regression: hull");
 }
 
 TEST(GateVerdict, ACandidateThatIsNotConfirmedPasses) {
-  for (const Change second : {Change::kNone, Change::kFaster, Change::kUndecided}) {
-    const GateVerdict verdict = decide(findings(Change::kSlower, second), kRules);
+  for (const SpeedChange second : {SpeedChange::kNone, SpeedChange::kFaster, SpeedChange::kUndecided}) {
+    const GateVerdict verdict = decide(findings(SpeedChange::kSlower, second), kRules);
     EXPECT_EQ(verdict.exit_code, 0);
     EXPECT_EQ(verdict.unconfirmed, std::vector<std::string>{"hull"});
   }
 }
 
 TEST(GateVerdict, AnImprovementIsListed) {
-  const GateVerdict verdict = decide(findings(Change::kFaster, Change::kFaster), kRules);
+  const GateVerdict verdict = decide(findings(SpeedChange::kFaster, SpeedChange::kFaster), kRules);
   EXPECT_EQ(verdict.exit_code, 0);
   EXPECT_EQ(verdict.improvements, std::vector<std::string>{"hull"});
 }
 
 TEST(GateVerdict, AFailedControlMakesARegressionInconclusive) {
-  for (const Change control : {Change::kSlower, Change::kFaster}) {
-    GateFindings found = findings(Change::kSlower, Change::kSlower);
+  for (const SpeedChange control : {SpeedChange::kSlower, SpeedChange::kFaster}) {
+    GateFindings found = findings(SpeedChange::kSlower, SpeedChange::kSlower);
     found.null_control.front().change = control;
     EXPECT_EQ(decide(found, kRules).exit_code, 5);
   }
 }
 
 TEST(GateVerdict, NoiseIsInconclusiveUnlessThereIsARegression) {
-  EXPECT_EQ(decide(findings(Change::kUndecided), kRules).exit_code, 5);
-  GateFindings found = findings(Change::kSlower, Change::kSlower);
-  found.first.push_back({.name = "other", .change = Change::kUndecided});
+  EXPECT_EQ(decide(findings(SpeedChange::kUndecided), kRules).exit_code, 5);
+  GateFindings found = findings(SpeedChange::kSlower, SpeedChange::kSlower);
+  found.first.push_back({.name = "other", .change = SpeedChange::kUndecided});
   EXPECT_EQ(decide(found, kRules).exit_code, 3);
 }
 
 TEST(GateVerdict, AChangedResultFailsEvenWhereTheClockIsNotTrusted) {
-  GateFindings found = findings(Change::kUndecided);
-  found.null_control.front().change = Change::kSlower;
+  GateFindings found = findings(SpeedChange::kUndecided);
+  found.null_control.front().change = SpeedChange::kSlower;
   found.accuracy.front() = {.name = "ca", .same = false, .difference = 1e-6};
   const GateVerdict verdict = decide(found, kRules);
   EXPECT_EQ(verdict.exit_code, 3);
@@ -118,7 +118,7 @@ TEST(GateVerdict, AChangedResultFailsEvenWhereTheClockIsNotTrusted) {
 }
 
 TEST(GateVerdict, AccuracyHasAToleranceAndNoneForWhatCannotBeCompared) {
-  GateFindings found = findings(Change::kNone);
+  GateFindings found = findings(SpeedChange::kNone);
   found.accuracy.front() = {.name = "ca", .same = false, .difference = 1e-9};
   EXPECT_EQ(decide(found, kRules).exit_code, 0);
   found.accuracy.front().difference = 1.1e-9;

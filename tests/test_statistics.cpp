@@ -102,5 +102,16 @@ TEST(Statistics, NothingHasNoStatistic) {
   EXPECT_THROW(describe(none), std::invalid_argument);
 }
 
+TEST(Holm, ByHand) {
+  const std::vector<double> p = {0.01, 0.04, 0.03, 0.005};
+  // 4 * 0.005, 3 * 0.01, 2 * 0.03, and 0.04 is held up to the one before.
+  const std::vector<double> expected = {0.03, 0.06, 0.06, 0.02};
+  const std::vector<double> adjusted = holm_adjusted(p);
+  ASSERT_EQ(adjusted.size(), expected.size());
+  for (std::size_t i = 0; i < expected.size(); ++i) EXPECT_DOUBLE_EQ(adjusted[i], expected[i]);
+  EXPECT_TRUE(holm_adjusted({}).empty());
+  EXPECT_EQ(holm_adjusted(std::vector<double>{0.7, 0.8}), (std::vector<double>{1, 1}));
+}
+
 }  // namespace
 }  // namespace hullbench

@@ -70,6 +70,22 @@ TEST(Tables, HaveTheMethodsDataSetsAndSizesOfTheReport) {
   EXPECT_NE(text.find("| unheard_of (paper)"), std::string::npos);
 }
 
+TEST(Tables, TheIntervalOfARatioIsClusteredByShape) {
+  std::vector<std::int64_t> sizes;
+  for (std::int64_t n = 1000; n <= 20000; n += 1000) sizes.push_back(n);
+  json report = invented_report(sizes);
+  for (json& run : report["runs"]) {
+    if (run["method"] != "cgal_alpha_shape") continue;
+    const int factor = run["dataset"] == "hi" ? 3 : run["holes"] == true ? 2 : 1;
+    for (json& time : run["time_ns"]) time = factor * time.get<std::int64_t>();
+  }
+  // As three values, whose interval is their range: 5.95 times 1, 2 and 3. Of 60 independent values it would
+  // be 11.9-11.9.
+  const std::string text = tables(report);
+  const std::string line = line_with(text, "| CGAL", text.find("ratios to Polylidar"));
+  EXPECT_NE(line.find("| 11.9 | 5.95–17.9 |"), std::string::npos) << line;
+}
+
 TEST(Tables, ProtocolsNeverShareALine) {
   json report = invented_report({2000});
   json other = report["runs"][0];

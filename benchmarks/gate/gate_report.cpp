@@ -12,15 +12,15 @@ namespace {
 
 using nlohmann::json;
 
-const char* word_of(Change change) {
+const char* word_of(SpeedChange change) {
   switch (change) {
-    case Change::kSlower:
+    case SpeedChange::kSlower:
       return "slower";
-    case Change::kFaster:
+    case SpeedChange::kFaster:
       return "faster";
-    case Change::kUndecided:
+    case SpeedChange::kUndecided:
       return "too noisy";
-    case Change::kNone:
+    case SpeedChange::kNone:
       break;
   }
   return "-";
@@ -34,7 +34,7 @@ std::string percent(double ratio) {
 }
 
 std::string interval_text(const Judged& row) {
-  return percent(row.interval.lower) + " to " + percent(row.interval.upper);
+  return percent(row.interval.low) + " to " + percent(row.interval.high);
 }
 
 const Judged* find(const std::vector<Judged>& rows, const std::string& name) {
@@ -93,7 +93,7 @@ json json_of(const std::vector<Judged>& rows) {
   for (const Judged& row : rows) {
     list.push_back({{"quantity", row.name},
                     {"ratio", row.ratio},
-                    {"interval", {row.interval.lower, row.interval.upper}},
+                    {"interval", {row.interval.low, row.interval.high}},
                     {"p_holm", row.p},
                     {"change", word_of(row.change)}});
   }

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
-#include <numeric>
 #include <stdexcept>
 
 namespace hullbench {
@@ -45,21 +44,6 @@ double sign_test_above(std::span<const double> values, double threshold) {
   const auto below =
       std::count_if(values.begin(), values.end(), [&](double value) { return value < threshold; });
   return at_most_heads(static_cast<std::size_t>(above + below), static_cast<std::size_t>(below));
-}
-
-std::vector<double> holm_adjusted(std::span<const double> p_values) {
-  std::vector<std::size_t> order(p_values.size());
-  std::iota(order.begin(), order.end(), std::size_t{0});
-  std::stable_sort(order.begin(), order.end(),
-                   [&](std::size_t a, std::size_t b) { return p_values[a] < p_values[b]; });
-  std::vector<double> adjusted(p_values.size());
-  double largest = 0;
-  for (std::size_t rank = 0; rank < order.size(); ++rank) {
-    const double scaled = static_cast<double>(order.size() - rank) * p_values[order[rank]];
-    largest = std::max(largest, std::min(scaled, 1.0));
-    adjusted[order[rank]] = largest;
-  }
-  return adjusted;
 }
 
 }  // namespace hullbench

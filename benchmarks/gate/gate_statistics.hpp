@@ -3,14 +3,10 @@
 #pragma once
 
 #include <span>
-#include <vector>
+
+#include "benchmarks/bootstrap.hpp"
 
 namespace hullbench {
-
-struct Interval {
-  double lower = 0;
-  double upper = 0;
-};
 
 /// The narrowest symmetric pair of order statistics that holds the median of what `values` were drawn from
 /// with at least `confidence` in (0, 1): the interval of the sign test (Thompson 1936). Infinite in both
@@ -22,9 +18,5 @@ Interval sign_interval(std::span<const double> values, double confidence);
 /// values lie above it when above and below are equally likely. Values equal to it are left out; 1 when none
 /// is left.
 double sign_test_above(std::span<const double> values, double threshold);
-
-/// Holm's adjusted p-values (Scandinavian Journal of Statistics 6, 1979), in the order of `p_values`: those
-/// at most a are significant with a probability of at most a for any error among them all.
-std::vector<double> holm_adjusted(std::span<const double> p_values);
 
 }  // namespace hullbench

@@ -21,9 +21,9 @@ Judged describe(const LogRatios& quantity, const GateRules& rules) {
   Judged judged;
   judged.name = quantity.name;
   judged.ratio = std::exp(median(std::span<const double>(quantity.values)));
-  judged.interval = {std::exp(interval.lower), std::exp(interval.upper)};
-  if (judged.interval.lower <= 1 && judged.interval.upper > 1 + rules.threshold) {
-    judged.change = Change::kUndecided;
+  judged.interval = {std::exp(interval.low), std::exp(interval.high)};
+  if (judged.interval.low <= 1 && judged.interval.high > 1 + rules.threshold) {
+    judged.change = SpeedChange::kUndecided;
   }
   return judged;
 }
@@ -34,28 +34,28 @@ std::string joined(const Names& names) {
   return text;
 }
 
-bool is_change(Change change) {
-  return change == Change::kSlower || change == Change::kFaster;
+bool is_change(SpeedChange change) {
+  return change == SpeedChange::kSlower || change == SpeedChange::kFaster;
 }
 
 /// Sorts the first round's changes by whether the second one confirms them.
 void confirm(const GateFindings& findings, GateVerdict& verdict) {
   for (const Judged& row : findings.first) {
-    if (row.change == Change::kUndecided) verdict.undecided.push_back(row.name);
+    if (row.change == SpeedChange::kUndecided) verdict.undecided.push_back(row.name);
     if (!is_change(row.change)) continue;
     const bool confirmed = std::any_of(
         findings.second.begin(), findings.second.end(),
         [&](const Judged& other) { return other.name == row.name && other.change == row.change; });
-    Names& place = !confirmed                      ? verdict.unconfirmed
-                   : row.change == Change::kSlower ? verdict.regressions
-                                                   : verdict.improvements;
+    Names& place = !confirmed                           ? verdict.unconfirmed
+                   : row.change == SpeedChange::kSlower ? verdict.regressions
+                                                        : verdict.improvements;
     place.push_back(row.name);
   }
 }
 
-Change change_of(double ratio, double threshold) {
-  if (ratio > 1 + threshold) return Change::kSlower;
-  return ratio < 1 - threshold ? Change::kFaster : Change::kNone;
+SpeedChange change_of(double ratio, double threshold) {
+  if (ratio > 1 + threshold) return SpeedChange::kSlower;
+  return ratio < 1 - threshold ? SpeedChange::kFaster : SpeedChange::kNone;
 }
 
 Judged counted(const std::string& name, double ratio, double threshold) {
@@ -84,8 +84,8 @@ std::vector<Judged> judge(const std::vector<LogRatios>& quantities, const GateRu
   for (std::size_t i = 0; i < quantities.size(); ++i) {
     Judged row = describe(quantities[i], rules);
     row.p = row.ratio >= 1 ? p_slower[i] : p_faster[i];
-    if (p_slower[i] <= level) row.change = Change::kSlower;
-    if (p_faster[i] <= level) row.change = Change::kFaster;
+    if (p_slower[i] <= level) row.change = SpeedChange::kSlower;
+    if (p_faster[i] <= level) row.change = SpeedChange::kFaster;
     rows.push_back(std::move(row));
   }
   return rows;

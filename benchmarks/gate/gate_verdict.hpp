@@ -22,7 +22,7 @@ struct LogRatios {
   std::vector<double> values;
 };
 
-enum class Change {
+enum class SpeedChange {
   kNone,      ///< no change above the threshold
   kSlower,    ///< the whole interval is above the threshold
   kFaster,    ///< the whole interval is below 1 / (1 + threshold)
@@ -35,7 +35,7 @@ struct Judged {
   double ratio = 1;            ///< median of head / base
   Interval interval = {1, 1};  ///< of that ratio
   double p = 1;                ///< Holm-adjusted, of the direction in which the ratio points
-  Change change = Change::kNone;
+  SpeedChange change = SpeedChange::kNone;
 };
 
 /// Judges quantities together. Slower: the sign test that the median is above the threshold, one-sided at

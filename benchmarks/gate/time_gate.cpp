@@ -54,7 +54,7 @@ void measure(const std::string& title, const Programs& programs, const TimeGateS
       programs, probe, settings.blocks, seed, [&] { progress.begin_process(); }, blocks);
 }
 
-bool has(const std::vector<Judged>& rows, Change change) {
+bool has(const std::vector<Judged>& rows, SpeedChange change) {
   return std::any_of(rows.begin(), rows.end(), [&](const Judged& row) { return row.change == change; });
 }
 
@@ -66,7 +66,7 @@ void append(std::vector<Judged>& rows, const std::vector<Judged>& more) {
 std::set<std::string> candidates(const std::vector<Judged>& rows) {
   std::set<std::string> names;
   for (const Judged& row : rows) {
-    if (row.change == Change::kSlower || row.change == Change::kFaster) names.insert(row.name);
+    if (row.change == SpeedChange::kSlower || row.change == SpeedChange::kFaster) names.insert(row.name);
   }
   return names;
 }
@@ -100,7 +100,7 @@ GateFindings gate_times(const TimeGateSettings& settings, const GateRules& rules
   measure("measuring", programs, settings, settings.probe, settings.seed, first);
   findings.first = judge(log_ratios(first.change), rules);
   const bool has_time = std::chrono::steady_clock::now() - start < kLongestRoundToRepeat;
-  if (has_time && has(findings.first, Change::kUndecided)) {
+  if (has_time && has(findings.first, SpeedChange::kUndecided)) {
     measure("noisy, measuring more", programs, settings, settings.probe, settings.seed + 1, first);
     findings.first = judge(log_ratios(first.change), rules);
   }
