@@ -102,13 +102,15 @@ void add_noise(const json& report, const std::vector<RunRecord>& runs, Sentences
   const std::optional<Noise> noise = measure_noise(runs);
   if (!noise) return;
   const json& load = report.at("environment").at("load_average");
-  notes.push_back(
-      (noise->is_noisy() ? "This machine was noisy: differences of some per cent say nothing. "
-                         : std::string()) +
-      "The median absolute deviation is " + percent(noise->median_spread) +
-      " of the median in the middle row and at most " + percent(noise->ninth_decile) + " in nine of ten" +
-      (load.is_array() ? "; before the run the load average was " + fixed(load.at(0), 2) : std::string()) +
-      ".");
+  notes.push_back((noise->is_noisy() ? "This machine was noisy: differences of some per cent say nothing. "
+                                     : std::string()) +
+                  "The median absolute deviation is " + percent(noise->median_spread) +
+                  " of the median in the middle row and at most " + percent(noise->ninth_decile) +
+                  " in nine of ten" +
+                  (load.is_array() && !report.contains("merged")
+                       ? "; before the run the load average was " + fixed(load.at(0), 2)
+                       : std::string()) +
+                  ".");
 }
 
 void add_too_fast(const std::vector<RunRecord>& runs, Sentences& notes) {

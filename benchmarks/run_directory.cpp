@@ -266,7 +266,8 @@ std::vector<fs::path> newest_first(const fs::path& runs) {
 void remove_stale_scratch(const fs::path& results) {
   std::error_code ignored;
   const auto remove_in = [&](const fs::path& run) {
-    if (!fs::is_directory(run / kScratchFolder, ignored)) return;
+    // What has a folder of that name and is no run is not ours.
+    if (!fs::is_directory(run / kScratchFolder, ignored) || !fs::exists(run / kRowsFile, ignored)) return;
     const int lock = ::open(run.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
     if (lock >= 0 && ::flock(lock, LOCK_EX | LOCK_NB) == 0) fs::remove_all(run / kScratchFolder, ignored);
     if (lock >= 0) ::close(lock);

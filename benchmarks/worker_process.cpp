@@ -33,6 +33,8 @@ using Clock = std::chrono::steady_clock;
 constexpr auto kTick = 50ms;
 /// Between SIGTERM and SIGKILL: enough for a method to stop a server that it started.
 constexpr auto kTermGrace = 1000ms;
+/// Between the arrivals of one signal that is sent to all processes of a job.
+constexpr auto kJobSignalSpread = 500ms;
 constexpr rlim_t kMib = rlim_t{1024} * 1024;
 constexpr std::size_t kLastWordsBytes = 4096;
 /// Of the last words, what goes into a record.
@@ -77,6 +79,15 @@ std::vector<std::string> marked_environment(const std::string& mark) {
   return result;
 }
 
+/// Sets a limit to `mib`, or leaves it where the harness itself has a lower one. Returns errno when it fails.
+int lower_limit(__rlimit_resource what, std::int64_t mib) {
+  rlimit limit = {};
+  if (::getrlimit(what, &limit) != 0) return errno;
+  limit.rlim_max = std::min(limit.rlim_max, static_cast<rlim_t>(mib) * kMib);
+  limit.rlim_cur = std::min(limit.rlim_cur, limit.rlim_max);
+  return ::setrlimit(what, &limit) == 0 ? 0 : errno;
+}
+
 /// Everything the child does between fork and exec; only calls that are safe there. Returns errno when it
 /// fails.
 int become_worker(char* const* argv, char* const* environment, const WorkerLimits& limits, pid_t parent,
@@ -95,16 +106,9 @@ int become_worker(char* const* argv, char* const* environment, const WorkerLimit
 
   const rlimit no_core = {0, 0};
   if (::setrlimit(RLIMIT_CORE, &no_core) != 0) return errno;
-  rlimit file = {};
-  if (::getrlimit(RLIMIT_FSIZE, &file) != 0) return errno;
-  // A lower limit of the harness itself stays.
-  file.rlim_max = std::min(file.rlim_max, static_cast<rlim_t>(limits.file_mib) * kMib);
-  file.rlim_cur = std::min(file.rlim_cur, file.rlim_max);
-  if (::setrlimit(RLIMIT_FSIZE, &file) != 0) return errno;
+  if (const int error = lower_limit(RLIMIT_FSIZE, limits.file_mib)) return error;
   if (limits.memory_mib > 0) {
-    const rlim_t bytes = static_cast<rlim_t>(limits.memory_mib) * kMib;
-    const rlimit memory = {bytes, bytes};
-    if (::setrlimit(RLIMIT_AS, &memory) != 0) return errno;
+    if (const int error = lower_limit(RLIMIT_AS, limits.memory_mib)) return error;
   }
   if (limits.core) {
     cpu_set_t cores;
@@ -144,6 +148,15 @@ bool write_all(int fd, std::string_view bytes) {
   }
   pthread_sigmask(SIG_SETMASK, &before, nullptr);
   return complete;
+}
+
+/// A signal that ends a whole job (a time limit, a shutdown) reaches the worker and the harness, in any
+/// order: then it is an interruption and no crash of the method. Throws Interrupted.
+void throw_if_ended_with_us(int signal) {
+  if (signal != SIGTERM && signal != SIGINT && signal != SIGHUP && signal != SIGKILL) return;
+  const auto deadline = Clock::now() + kJobSignalSpread;
+  while (!interrupted() && Clock::now() < deadline) std::this_thread::sleep_for(10ms);
+  throw_if_interrupted();
 }
 
 Reply failure(Status status, std::string detail) {
@@ -345,6 +358,7 @@ std::optional<WorkerProcess::Ending> WorkerProcess::reap_within(std::chrono::mil
 }
 
 Reply WorkerProcess::reply_for_ending(const Ending& ending) const {
+  if (WIFSIGNALED(ending.wait_status)) throw_if_ended_with_us(WTERMSIG(ending.wait_status));
   const std::string words = printable(last_words_, kDetailCharacters);
   const std::string said = words.empty() ? "" : "; it said: " + words;
   const bool signalled = WIFSIGNALED(ending.wait_status);

@@ -54,7 +54,7 @@ class WorkerProcess {
   /// Sends a request; its reply must be received before the next one is sent.
   void send(const nlohmann::json& request);
   /// Waits for the reply, at most until `timeout` after the request was sent. Throws Interrupted on Ctrl-C,
-  /// with the worker killed.
+  /// with the worker killed, and when the worker was ended by a signal that ends the harness too.
   Reply receive(std::chrono::milliseconds timeout);
   /// Both.
   Reply request(const nlohmann::json& request, std::chrono::milliseconds timeout);

@@ -1,5 +1,6 @@
 // Workers that do everything a method may do to the harness, and the statuses that come of it.
 #include <gtest/gtest.h>
+#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -233,6 +234,43 @@ TEST_F(MethodSessionTest, AnInterruptionEndsTheWaitAndTheWorker) {
   EXPECT_THROW(run(), Interrupted);
   set_interrupted(false);
   EXPECT_LE(session_->pid(), 0);
+}
+
+TEST_F(MethodSessionTest, ASignalThatEndsTheWholeJobIsAnInterruptionWhoeverItReachesFirst) {
+  ASSERT_EQ(attempt("good").status, Status::kOk);
+  const pid_t worker = session_->pid();
+  ::kill(worker, SIGTERM);
+  std::thread later([] {
+    std::this_thread::sleep_for(100ms);
+    set_interrupted(true);
+  });
+  EXPECT_THROW(run(), Interrupted);
+  later.join();
+  set_interrupted(false);
+  EXPECT_EQ(run().status, Status::kOk);
+}
+
+TEST_F(MethodSessionTest, ASignalToTheWorkerAloneIsItsCrash) {
+  ASSERT_EQ(attempt("good").status, Status::kOk);
+  ::kill(session_->pid(), SIGTERM);
+  const Attempt result = run();
+  EXPECT_EQ(to_string(result.status), "crash");
+  EXPECT_EQ(result.detail, "SIGTERM");
+}
+
+TEST(WorkerProcess, KeepsALowerLimitOfTheHarness) {
+  const pid_t harness = ::fork();
+  if (harness == 0) {
+    const rlimit low = {300U << 20U, 300U << 20U};
+    setrlimit(RLIMIT_AS, &low);
+    const std::string script = "read line; echo \"{\\\"memory\\\": $(ulimit -v)}\"; read line";
+    WorkerProcess worker({"/bin/sh", "-c", script}, {512, std::nullopt});
+    const Reply reply = worker.request({{"request", "hello"}}, 30s);
+    ::_exit(reply.status == Status::kOk && reply.body["memory"] == 300 * 1024 ? 0 : 1);
+  }
+  int status = -1;
+  ASSERT_EQ(::waitpid(harness, &status, 0), harness);
+  EXPECT_EQ(status, 0);
 }
 
 TEST(WorkerProcess, EndsWithItsInput) {
