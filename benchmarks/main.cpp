@@ -237,7 +237,7 @@ int parse_and_run(int argc, char** argv) {
     return app.exit(request);
   } catch (const CLI::ParseError& error) {
     return complain(
-        std::string(error.what()) + "; 'hullbench --help' and 'hullbench run --help' show what there is",
+        std::string(error.what()) + "; 'hullbench --help' and 'hullbench COMMAND --help' show what there is",
         kUsage);
   }
   return dispatch(app, arguments);

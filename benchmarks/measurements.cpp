@@ -61,18 +61,35 @@ std::set<std::string> machines_of(const nlohmann::json& report) {
   return machines;
 }
 
-std::string no_times_sentence(const std::set<std::string>& machines) {
+std::set<std::string> builds_of(const nlohmann::json& report) {
+  std::set<std::string> builds;
+  const auto add = [&](const nlohmann::json& run) {
+    const nlohmann::json::json_pointer place("/tool/binary_sha256");
+    if (run.contains(place)) builds.insert(run.at(place).get<std::string>());
+  };
+  if (report.contains("merged")) {
+    for (const nlohmann::json& part : report["merged"]) add(part);
+  } else {
+    add(report);
+  }
+  return builds;
+}
+
+std::string no_times_sentence(const std::set<std::string>& machines, const std::set<std::string>& builds) {
+  if (machines.size() <= 1 && builds.size() <= 1) return "";
+  const bool by_machine = machines.size() > 1;
   std::string names;
-  for (const std::string& machine : machines) names += (names.empty() ? "" : ", ") + machine;
-  return "Times are not shown: they were taken on " + std::to_string(machines.size()) + " machines (" +
-         names + "), and times of different machines do not go into one table.";
+  for (const std::string& name : by_machine ? machines : builds)
+    names += (names.empty() ? "" : ", ") + name.substr(0, 8);
+  return "Times are not shown: they were taken " +
+         (by_machine ? "on " + std::to_string(machines.size()) + " machines ("
+                     : "with " + std::to_string(builds.size()) + " builds of the program (") +
+         names + "), and times of different " + (by_machine ? "machines" : "builds") +
+         " do not go into one table.";
 }
 
-std::string Measurements::why_no_times() const {
-  return has_times() ? "" : no_times_sentence(machines_);
-}
-
-Measurements::Measurements(const nlohmann::json& report) : machines_(machines_of(report)) {
+Measurements::Measurements(const nlohmann::json& report)
+    : why_no_times_(no_times_sentence(machines_of(report), builds_of(report))) {
   for (const nlohmann::json& line : report.at("runs")) {
     RunRecord& run = runs_.emplace_back(line.get<RunRecord>());
     if (has_times()) continue;

@@ -50,12 +50,17 @@ std::optional<double> metric(const RunRecord& run, const std::string& name);
 /// The machines on which the rows of `report` that have times were measured.
 std::set<std::string> machines_of(const nlohmann::json& report);
 
-/// One sentence: that times are not shown because of these machines.
-std::string no_times_sentence(const std::set<std::string>& machines);
+/// The builds of the program with which `report` was measured, by the SHA-256 of the binary: those of the
+/// runs that were merged into it, or else its own, if it says one.
+std::set<std::string> builds_of(const nlohmann::json& report);
+
+/// One sentence: that times are not shown because they are of several machines, or of several builds. Empty
+/// when they are of one machine and one build at most.
+std::string no_times_sentence(const std::set<std::string>& machines, const std::set<std::string>& builds);
 
 /// The runs of a report by method, protocol and case. Runs that share all three (other seeds or parameters)
-/// are kept in their order. When they are of several machines they have no times here (the report keeps
-/// them).
+/// are kept in their order. When they are of several machines or builds of the program they have no times
+/// here (the report keeps them).
 class Measurements {
  public:
   /// `report` needs only its member `runs`. Throws what from_json of a record throws.
@@ -63,10 +68,10 @@ class Measurements {
 
   const std::vector<RunRecord>& runs() const { return runs_; }
 
-  /// Why there are no times: one sentence when the runs were measured on several machines, whose times no
-  /// table or claim may mix. Empty when there are times.
-  std::string why_no_times() const;
-  bool has_times() const { return machines_.size() <= 1; }
+  /// Why there are no times: one sentence when the runs were measured on several machines or with several
+  /// builds, whose times no table or claim may mix. Empty when there are times.
+  const std::string& why_no_times() const { return why_no_times_; }
+  bool has_times() const { return why_no_times_.empty(); }
 
   /// The runs of that method, protocol and case; none when there are none.
   std::vector<const RunRecord*> find(const std::string& method, const std::string& protocol,
@@ -84,7 +89,7 @@ class Measurements {
     auto operator<=>(const Key&) const = default;  // NOLINT(modernize-use-nullptr): as above
   };
   std::vector<RunRecord> runs_;
-  std::set<std::string> machines_;
+  std::string why_no_times_;
   std::map<Key, std::vector<std::size_t>> index_;  ///< positions in runs_
   std::vector<Case> cases_;
 };

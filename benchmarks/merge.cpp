@@ -14,6 +14,7 @@
 #include "benchmarks/run_directory.hpp"
 #include "benchmarks/runner.hpp"
 #include "benchmarks/suite.hpp"
+#include "benchmarks/validate.hpp"
 
 namespace hullbench {
 namespace {
@@ -31,7 +32,11 @@ Source load_source(const fs::path& folder) {
   if (!fs::exists(folder / "run.json"))
     throw ConfigurationError("there is no run in " + folder.string() + "; give the folder of a run or suite");
   try {
-    return {folder, load_run(folder)};
+    Source source = {folder, load_run(folder)};
+    if (const auto faults = validate_file(folder / "run.json"); !faults.empty())
+      throw std::runtime_error((folder / "run.json").string() +
+                               " is not a run's description: " + faults.front());
+    return source;
   } catch (const std::runtime_error& error) {
     throw ConfigurationError(std::string("cannot merge: ") + error.what());
   }
@@ -81,6 +86,25 @@ void require_agreement(const Source& one, const Source& other) {
   require("filter", filter_of(one.run), filter_of(other.run));
 }
 
+/// Throws when a name stands for different things in `sources`: a data set or a rule of parameters.
+void require_same_definitions(const std::vector<Source>& sources) {
+  std::map<std::string, std::pair<json, fs::path>> known;
+  const auto add = [&](const std::string& what, const json& definition, const fs::path& folder) {
+    const auto [first, is_new] = known.emplace(what, std::pair(definition, folder));
+    if (is_new || first->second.first == definition) return;
+    throw ConfigurationError(first->second.second.string() + " and " + folder.string() + " have another " +
+                             what + " each; only runs on the same data with the same rules can be merged");
+  };
+  for (const Source& source : sources) {
+    for (const json& dataset : source.run.at("datasets")) {
+      add("data set " + dataset.at("name").get<std::string>(),
+          {dataset.at("sha256"), dataset.at("source"), dataset.at("area")}, source.folder);
+    }
+    const json rules = source.run.value("rules", json::object());
+    for (const auto& [name, formula] : rules.items()) add("rule " + name, formula, source.folder);
+  }
+}
+
 /// Which version of each method is in the runs, and where it was met first.
 class Versions {
  public:
@@ -111,9 +135,10 @@ class Rows {
     const auto [found, is_new] = chosen_.try_emplace(row.name, row, folder);
     if (is_new) return;
     auto& [known, its_folder] = found->second;
-    const bool both_have_results = !known.output_sha256.empty() && !row.output_sha256.empty();
-    if (both_have_results && std::tie(known.id, known.output_sha256, known.metrics) !=
-                                 std::tie(row.id, row.output_sha256, row.metrics)) {
+    // A method that is not steady may fail with one result here and another one there.
+    const bool both_are_ok = known.status == Status::kOk && row.status == Status::kOk;
+    if (both_are_ok && std::tie(known.id, known.output_sha256, known.metrics) !=
+                           std::tie(row.id, row.output_sha256, row.metrics)) {
       throw std::runtime_error("the run " + row.name + " has another result in " + folder.string() +
                                " than in " + its_folder.string() +
                                "; find out which is right before they are merged");
@@ -253,8 +278,8 @@ json merge_notes(const std::vector<Source>& sources, const Rows& rows, std::size
   if (!rows.repeated().empty()) {
     result.push_back(
         "Of the merged runs " + std::to_string(rows.repeated().size()) +
-        " were measured more than once, with the same result where they have one; the first that "
-        "succeeded counts. One of them: " +
+        " were measured more than once, with the same result where they succeeded; the first that "
+        "did counts. One of them: " +
         *rows.repeated().begin() + ".");
   }
   return result;
@@ -287,20 +312,29 @@ std::vector<std::vector<fs::path>> runs_by_plan(const std::vector<fs::path>& sou
   return result;
 }
 
+/// Whether `path` is `folder` or in it, whatever links lead there.
+bool is_within(const fs::path& path, const fs::path& folder) {
+  const auto resolved = [](const fs::path& given) { return fs::weakly_canonical(fs::absolute(given)); };
+  return *resolved(path).lexically_relative(resolved(folder)).begin() != "..";
+}
+
 /// Throws unless the output may go to `command.out`.
 void check_out(const MergeCommand& command) {
+  const std::string out = command.out.string();
   for (const fs::path& source : command.sources) {
-    if (fs::weakly_canonical(source) == fs::weakly_canonical(command.out))
-      throw ConfigurationError(command.out.string() +
-                               " is one of the runs to be merged; choose another --out");
+    if (is_within(command.out, source) || is_within(source, command.out))
+      throw ConfigurationError("the output folder " + out + " is, holds or is in " + source.string() +
+                               ", one of the runs to be merged; choose another --out");
   }
   make_writable_folder(command.out);
-  const bool other_kind = is_suite(command.out) && !is_suite(command.sources.front());
-  if (other_kind || (!command.force && !fs::is_empty(command.out))) {
-    throw ConfigurationError(
-        "the output folder " + command.out.string() +
-        (other_kind ? " holds a suite; choose another one with --out"
-                    : " is not empty; choose another one with --out, or write to it with --force"));
+  const bool of_suites = is_suite(command.sources.front());
+  if (of_suites ? fs::exists(command.out / "run.json") : is_suite(command.out)) {
+    throw ConfigurationError("the output folder " + out + " holds a " + (of_suites ? "run" : "suite") +
+                             "; choose another one with --out");
+  }
+  if (!command.force && !fs::is_empty(command.out)) {
+    throw ConfigurationError("the output folder " + out +
+                             " is not empty; choose another one with --out, or write to it with --force");
   }
 }
 
@@ -340,6 +374,7 @@ MergedRun merge_runs(const std::vector<fs::path>& folders) {
   const std::vector<Source> sources = load_sources(folders);
   const Source& first = sources.front();
   for (const Source& other : sources) require_agreement(first, other);
+  require_same_definitions(sources);
   const Plan plan = parse_plan(first.run.at("plan").dump(), (first.folder / "run.json").string());
   const json filter = filter_of(first.run);
   const std::vector<PlannedRun> runs =

@@ -23,8 +23,9 @@ struct MergedRun {
 /// by the time at which they began. Of rows of the same name the first that is ok counts, or else the first
 /// of an installed method, or else the first. A merged run may be merged again.
 ///
-/// Throws ConfigurationError when there is no run in one of the folders, or they differ in plan, filter, seed
-/// or schema version, or a method is there in two versions; std::runtime_error when two rows of the same name
+/// Throws ConfigurationError when there is no run in one of the folders or its run.json lacks something, or
+/// they differ in plan, filter, seed or schema version, or a method is there in two versions, or a data set
+/// or a rule of the same name is another one; std::runtime_error when two rows of the same name are ok and
 /// have different results, which no machine may cause.
 MergedRun merge_runs(const std::vector<std::filesystem::path>& folders);
 
@@ -32,8 +33,8 @@ MergedRun merge_runs(const std::vector<std::filesystem::path>& folders);
 struct MergeCommand {
   std::vector<std::filesystem::path>
       sources;                ///< folders of runs, or all of suites, which are merged by plan
-  std::filesystem::path out;  ///< new or empty
-  bool force = false;         ///< `out` may hold anything
+  std::filesystem::path out;  ///< new or empty; never one of `sources`, in one of them or around one
+  bool force = false;         ///< `out` may hold anything but a suite, or a run when `sources` are suites
 };
 
 /// Writes the merged run, or suite, with report and tables, which go to standard output too. Returns 0; 4

@@ -128,12 +128,17 @@ TableSection differences_table(const std::vector<json>& reports) {
                        TextTable({"Value", "Paper", "Here", "Here / paper", "Reason"}),
                        {}};
   Notes reasons;
-  // Reports of one machine each are still of several in this one table.
+  // Reports of one machine and build each are still of several in this one table.
   std::set<std::string> machines;
-  for (const json& report : reports) machines.merge(machines_of(report));
+  std::set<std::string> builds;
+  for (const json& report : reports) {
+    machines.merge(machines_of(report));
+    builds.merge(builds_of(report));
+  }
+  const std::string why_no_times = no_times_sentence(machines, builds);
   for (const json& report : reports) {
     for (const Comparison& comparison : compare_with_paper(report)) {
-      if (comparison.quantity != kError && machines.size() > 1) continue;
+      if (comparison.quantity != kError && !why_no_times.empty()) continue;
       std::string why = kNothing;
       if (comparison.is_large()) {
         const auto reason = reason_of(comparison);
@@ -147,7 +152,7 @@ TableSection differences_table(const std::vector<json>& reports) {
   }
   const json& limit = paper().at("differences").at("large_from");
   section.remarks.push_back(
-      (machines.size() > 1 ? no_times_sentence(machines) : "Times are as the paper took them.") +
+      (why_no_times.empty() ? "Times are as the paper took them." : why_no_times) +
       " A reason stands where a value is " + limit.dump() + " times the paper's or more, or the paper's is " +
       limit.dump() +
       " times ours or more, and where nothing was measured. The paper's Figure 8 has no numbers to "

@@ -14,10 +14,11 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// A probe whose every time is `ns` and whose results are `result`.
-fs::path make_probe(const fs::path& path, int ns, const std::string& result) {
-  const std::string times = "[" + std::to_string(ns) + "]";
-  write_text(path, R"(#!/bin/bash
+/// A probe whose every time is `ns` and whose results are `result`. `first` is what it does before; it may
+/// set `outline` and `once`, the times of these steps.
+fs::path make_probe(const fs::path& path, int ns, const std::string& result, const std::string& first = "") {
+  const std::string start = "#!/bin/bash\nns=" + std::to_string(ns) + "\nresult=" + result + "\n" + first;
+  write_text(path, start + R"(
 read -r request
 shift
 cases=()
@@ -32,11 +33,9 @@ while [ $# -gt 0 ]; do
 done
 line=
 for name in "${cases[@]}"; do
-  [ -z "$folder" ] || printf '%s' ')" +
-                       result + R"(' >"$folder/$name.wkb"
-  line+="${line:+,}\"$name\":{\"triangulation\":)" +
-                       times + R"(,\"outline\":)" + times + R"(,\"concave_hull_once\":)" + times +
-                       R"(,\"result\":\")" + result + R"(\"}"
+  [ -z "$folder" ] || printf '%s' "$result" >"$folder/$name.wkb"
+  line+="${line:+,}\"$name\":{\"triangulation\":[$ns],\"outline\":[${outline:-$ns}],"
+  line+="\"concave_hull_once\":[${once:-$ns}],\"result\":\"$result\"}"
 done
 echo "{$line}"
 )");
@@ -44,9 +43,19 @@ echo "{$line}"
   return path;
 }
 
-Outcome run_gate(const fs::path& base, const fs::path& head, const fs::path& out) {
-  return run_program({BENCH_GATE, "--base-probe", base.string(), "--head-probe", head.string(), "--out",
-                      out.string(), "--blocks", "12"});
+/// For make_probe: its outline takes 1000 and 1200 in turns of two runs, which are a block of the first
+/// round.
+constexpr const char* kNoisyOutline = R"(
+echo >>"$0.runs"
+outline=$((($(wc -l <"$0.runs") - 1) % 4 < 2 ? 1000 : 1200))
+)";
+
+Outcome run_gate(const fs::path& base, const fs::path& head, const fs::path& out,
+                 const std::vector<std::string>& options = {"--blocks", "12"}) {
+  std::vector<std::string> command = {BENCH_GATE,    "--base-probe", base.string(), "--head-probe",
+                                      head.string(), "--out",        out.string()};
+  command.insert(command.end(), options.begin(), options.end());
+  return run_program(command);
 }
 
 nlohmann::json report_of(const fs::path& out) {
@@ -71,6 +80,67 @@ TEST_F(GateProgram, EqualProbesPass) {
   EXPECT_EQ(report.at("exit_code"), 0);
   EXPECT_EQ(report.at("samples").at("first").at("change").at("outline ca-8000").size(), 12U);
   EXPECT_TRUE(report.at("second").empty());
+}
+
+TEST_F(GateProgram, WhatElseIsInTheFolderOfResultsStays) {
+  const std::vector<fs::path> kept = {out() / "results" / "kept", out() / "programs" / "kept"};
+  for (const fs::path& path : kept) {
+    fs::create_directories(path.parent_path());
+    write_text(path, "");
+  }
+  EXPECT_EQ(run_gate(probe("base", 1000), probe("head", 1000), out()).code, 0);
+  for (const fs::path& path : kept) EXPECT_TRUE(fs::exists(path)) << path;
+}
+
+TEST_F(GateProgram, ANoisyRoundGoesOnUnlessItFoundSomethingSlower) {
+  const auto blocks_of = [&](const char* round) {
+    return report_of(out()).at("samples").at(round).at("change").at("concave_hull_once ca-8000").size();
+  };
+  const fs::path noisy = make_probe(folder_.path() / "noisy", 1000, "same", kNoisyOutline);
+  EXPECT_EQ(run_gate(probe("base", 1000), noisy, out()).code, 5);
+  EXPECT_EQ(blocks_of("first"), 24U);
+
+  const std::string slower = std::string("once=1100") + kNoisyOutline;
+  const fs::path head = make_probe(folder_.path() / "slower", 1000, "same", slower);
+  EXPECT_EQ(run_gate(probe("base", 1000), head, out()).code, 3);
+  EXPECT_EQ(blocks_of("first"), 12U);
+
+  // Faster does not keep it from going on, and is confirmed with as many blocks.
+  const std::string faster = std::string("once=900") + kNoisyOutline;
+  EXPECT_EQ(
+      run_gate(probe("base", 1000), make_probe(folder_.path() / "faster", 1000, "same", faster), out()).code,
+      5);
+  EXPECT_EQ(blocks_of("first"), 24U);
+  EXPECT_EQ(blocks_of("second"), 24U);
+}
+
+TEST_F(GateProgram, TooFewBlocksForItsStatisticsAreAUsageError) {
+  const Outcome outcome = run_gate(probe("base", 1000), probe("head", 1000), out(), {"--blocks", "9"});
+  EXPECT_EQ(outcome.code, 2);
+  EXPECT_NE(outcome.err.find("--blocks"), std::string::npos) << outcome.err;
+  EXPECT_FALSE(fs::exists(out()));
+}
+
+TEST_F(GateProgram, TheFewestBlocksFindASlowerHead) {
+  EXPECT_EQ(run_gate(probe("base", 1000), probe("head", 1100), out(), {"--blocks", "10"}).code, 3);
+}
+
+TEST_F(GateProgram, WithoutTimeForAFirstRoundItIsInconclusive) {
+  const Outcome outcome = run_gate(probe("base", 1000), probe("head", 1100), out(), {"--time-limit", "0"});
+  EXPECT_EQ(outcome.code, 5) << outcome.err;
+  EXPECT_NE(outcome.out.find("inconclusive: the time limit"), std::string::npos) << outcome.out;
+  EXPECT_EQ(report_of(out()).at("exit_code"), 5);
+}
+
+TEST_F(GateProgram, WithoutTimeToConfirmItIsInconclusive) {
+  // Head takes a second in the place that base has in the first round and head itself in the second: the
+  // limit is over after the second round's first block, whatever the machine does besides.
+  const fs::path head =
+      make_probe(folder_.path() / "head", 1100, "same", "[[ $0 != */1/gate_probe ]] || sleep 1");
+  const Outcome outcome = run_gate(probe("base", 1000), head, out(), {"--blocks", "10", "--time-limit", "2"});
+  EXPECT_EQ(outcome.code, 5) << outcome.err;
+  EXPECT_NE(outcome.out.find("inconclusive: the time limit"), std::string::npos) << outcome.out;
+  EXPECT_TRUE(report_of(out()).at("second").empty());
 }
 
 TEST_F(GateProgram, ASlowerHeadFailsAndIsConfirmed) {

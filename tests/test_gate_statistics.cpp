@@ -1,6 +1,7 @@
 // The statistics of the gate against values worked out by hand.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <stdexcept>
@@ -72,6 +73,17 @@ TEST(GateStatistics, SignTestLeavesOutTies) {
   EXPECT_EQ(sign_test_above(Values{0, 0, 1, 2}, 0), 1.0 / 4);
   EXPECT_EQ(sign_test_above(Values{0, 0}, 0), 1);
   EXPECT_EQ(sign_test_above(Values{}, 0), 1);
+}
+
+TEST(GateStatistics, ThousandsOfValuesDoNotUnderflow) {
+  // 2^-2000 is no double. Half of 2000 below or more: by symmetry (1 + P(exactly half)) / 2, and P(exactly
+  // half) is 1 / sqrt(pi * 1000) * (1 - 1/8000 + ...) by Stirling, whose next term is below 1e-8.
+  Values values(2000, 1.0);
+  std::fill_n(values.begin(), 1000, -1.0);
+  const double half = (1 - 1.0 / 8000) / std::sqrt(std::acos(-1.0) * 1000);
+  EXPECT_NEAR(sign_test_above(values, 0), (1 + half) / 2, 1e-8);
+  // The normal approximation has its 2.5 % at 1000 - 1.96 * sqrt(500) = 956.2 of 2000, good to one here.
+  EXPECT_NEAR(sign_interval(first(2000), 0.95).low, 956.2, 1);
 }
 
 }  // namespace

@@ -42,8 +42,8 @@ TEST(GateVerdict, JudgesByTheWholeInterval) {
   EXPECT_EQ(change_of(spread("", 1.08, 1.12)), SpeedChange::kSlower);
   EXPECT_EQ(change_of(spread("", 0.88, 0.92)), SpeedChange::kFaster);
   EXPECT_EQ(change_of(spread("", 1.03, 1.04)), SpeedChange::kNone);  // slower, but by less than the threshold
-  EXPECT_EQ(change_of(spread("", 1.02, 1.10)),
-            SpeedChange::kNone);  // above the threshold, but not the whole of it
+  // Slower for certain; by more than the threshold or not cannot be told.
+  EXPECT_EQ(change_of(spread("", 1.02, 1.10)), SpeedChange::kUndecided);
   EXPECT_EQ(change_of(spread("", 0.80, 1.25)), SpeedChange::kUndecided);
 }
 
@@ -80,11 +80,38 @@ TEST(GateVerdict, ARegressionThatBothRoundsSeeFails) {
 }
 
 TEST(GateVerdict, ACandidateThatIsNotConfirmedPasses) {
-  for (const SpeedChange second : {SpeedChange::kNone, SpeedChange::kFaster, SpeedChange::kUndecided}) {
+  for (const SpeedChange second : {SpeedChange::kNone, SpeedChange::kFaster}) {
     const GateVerdict verdict = decide(findings(SpeedChange::kSlower, second), kRules);
     EXPECT_EQ(verdict.exit_code, 0);
     EXPECT_EQ(verdict.unconfirmed, std::vector<std::string>{"hull"});
   }
+}
+
+TEST(GateVerdict, ACandidateThatTheSecondRoundCannotDecideIsInconclusive) {
+  GateFindings found = findings(SpeedChange::kSlower, SpeedChange::kUndecided);
+  for (int round = 0; round < 2; ++round) {
+    const GateVerdict verdict = decide(found, kRules);
+    EXPECT_EQ(verdict.exit_code, 5);
+    EXPECT_EQ(verdict.undecided, std::vector<std::string>{"hull"});
+    EXPECT_TRUE(verdict.unconfirmed.empty());
+    found.second.clear();  // nor one that it did not measure
+  }
+}
+
+TEST(GateVerdict, AnImprovementThatIsNotConfirmedPasses) {
+  for (const SpeedChange second : {SpeedChange::kNone, SpeedChange::kSlower, SpeedChange::kUndecided}) {
+    const GateVerdict verdict = decide(findings(SpeedChange::kFaster, second), kRules);
+    EXPECT_EQ(verdict.exit_code, 0);
+    EXPECT_EQ(verdict.unconfirmed, std::vector<std::string>{"hull"});
+  }
+}
+
+TEST(GateVerdict, RunningOutOfTimeIsInconclusiveUnlessAResultChanged) {
+  GateFindings found = findings(SpeedChange::kNone);
+  found.out_of_time = true;
+  EXPECT_EQ(decide(found, kRules).exit_code, 5);
+  found.accuracy.front() = {.name = "ca", .same = false, .difference = 1e-6};
+  EXPECT_EQ(decide(found, kRules).exit_code, 3);
 }
 
 TEST(GateVerdict, AnImprovementIsListed) {

@@ -197,6 +197,22 @@ TEST(Machines, SeveralAreSaidInTheReadme) {
   EXPECT_NE(text.find("Times are not shown"), std::string::npos) << text;
 }
 
+TEST(Machines, OneWithSeveralBuildsHasNoTimes) {
+  const json one = test::invented_report({2000});
+  json report = on_two_machines(one);
+  report["merged"][1]["environment"] = report["environment"];
+  for (json& run : report["runs"]) run["machine"] = "0123abcd";
+  EXPECT_EQ(Measurements(report).why_no_times(), "");
+  report["merged"][0]["tool"]["binary_sha256"] = std::string(64, 'b');
+  report["merged"][1]["tool"]["binary_sha256"] = std::string(64, 'a');
+  const std::string sentence =
+      "Times are not shown: they were taken with 2 builds of the program (aaaaaaaa, bbbbbbbb), and times of "
+      "different builds do not go into one table.";
+  EXPECT_EQ(Measurements(report).why_no_times(), sentence);
+  EXPECT_NE(differences_table({report}).remarks.front().find(sentence), std::string::npos);
+  expect_no_times(make_document(report));
+}
+
 TEST(Machines, OneOfAMergedRunHasItsTimes) {
   json report = on_two_machines(test::invented_report({2000, 64000}));
   report["merged"][1]["environment"] = report["environment"];

@@ -99,6 +99,14 @@ class MergeTest : public ::testing::Test {
     write_text(folder() / name / "runs.jsonl", text);
   }
 
+  /// Changes run.json of the run in `name`.
+  template <typename Change>
+  void change_header(const std::string& name, const Change& change) const {
+    json header = read_json(folder() / name / "run.json");
+    change(header);
+    write_text(folder() / name / "run.json", header.dump());
+  }
+
   /// Changes every row of the run in `name`.
   template <typename Change>
   void change_rows(const std::string& name, const Change& change) const {
@@ -213,6 +221,16 @@ TEST_F(MergeTest, OfSeveralMachinesHasNoTimesInItsTables) {
   expect_valid("merged");
 }
 
+TEST_F(MergeTest, OfSeveralBuildsHasNoTimesInItsTables) {
+  run_shards(2, {plan()});
+  change_header("shard2", [](json& run) { run["tool"]["binary_sha256"] = std::string(64, 'a'); });
+  const Outcome merged = hullbench({"merge", "shard1", "shard2", "--out", "merged"});
+  ASSERT_EQ(merged.code, 0) << merged.err;
+  EXPECT_EQ(merged.out.find(", ms"), std::string::npos) << merged.out;
+  EXPECT_NE(merged.out.find("they were taken with 2 builds of the program ("), std::string::npos);
+  expect_valid("merged");
+}
+
 TEST_F(MergeTest, FillsInTheMachineOfOlderRows) {
   run_shards(2, {plan()});
   move_to_machine("shard2", "ba5eba11");
@@ -269,6 +287,53 @@ TEST_F(MergeTest, OfDifferentResultsIsRefused) {
     write_text(folder() / "other" / "runs.jsonl", before);
   }
   EXPECT_EQ(hullbench({"merge", "one", "other", "--out", "merged"}).code, 0) << "and would do otherwise";
+}
+
+TEST_F(MergeTest, OfAnUnsteadyMethodIsNotRefused) {
+  run("one", {plan()});
+  run("other", {plan()});
+  for (const char* name : {"one", "other"}) {
+    change_rows(name, [&](json& row) {
+      if (row.at("method") != "polylidar") return;
+      row["status"] = "invalid_output";
+      row["detail"] = "two runs on the same points gave different results";
+      row["output_sha256"] = std::string(64, name[1] == 'n' ? 'a' : 'b');
+    });
+  }
+  const Outcome merged = hullbench({"merge", "one", "other", "--out", "merged"});
+  EXPECT_EQ(merged.code, 4) << "its rows are failures: " << merged.err;
+  EXPECT_EQ(accuracy_lines(folder() / "merged").size(), 12U);
+}
+
+TEST_F(MergeTest, OfOtherDataOrRulesIsRefused) {
+  run_shards(2, {plan()});
+  const std::string before = read_text(folder() / "shard2" / "run.json");
+  const auto refusal = [&](const auto& change) {
+    change_header("shard2", change);
+    const Outcome outcome = hullbench({"merge", "shard1", "shard2", "--out", "merged"});
+    write_text(folder() / "shard2" / "run.json", before);
+    return outcome;
+  };
+  const std::string data = "shard1 and shard2 have another data set ca each";
+  expect_refusal(refusal([](json& run) { run["datasets"][0]["sha256"] = std::string(64, 'a'); }), 2, data);
+  expect_refusal(refusal([](json& run) { run["datasets"][0]["source"] = "elsewhere"; }), 2, data);
+  expect_refusal(refusal([](json& run) { run["datasets"][0]["area"] = 1.5; }), 2, data);
+  expect_refusal(refusal([](json& run) { run["rules"]["paper_alpha"] = "1"; }), 2,
+                 "shard1 and shard2 have another rule paper_alpha each");
+  EXPECT_EQ(refusal([](json& run) { run["datasets"][0]["title"] = "CA"; }).code, 0);
+}
+
+TEST_F(MergeTest, OfAnIncompleteDescriptionIsRefused) {
+  run("run", {plan()});
+  const std::string before = read_text(folder() / "run" / "run.json");
+  for (const char* key : {"environment", "tool", "plan", "seed", "created", "datasets", "methods"}) {
+    change_header("run", [&](json& header) { header.erase(key); });
+    const Outcome outcome = hullbench({"merge", "run", "--out", "merged"});
+    expect_refusal(outcome, 2, "cannot merge: run/run.json is not a run's description: ");
+    EXPECT_NE(outcome.err.find(key), std::string::npos) << outcome.err;
+    EXPECT_EQ(outcome.err.find("json.exception"), std::string::npos) << outcome.err;
+    write_text(folder() / "run" / "run.json", before);
+  }
 }
 
 TEST_F(MergeTest, OfRunsThatDoNotBelongTogetherIsRefused) {
@@ -337,8 +402,18 @@ TEST_F(MergeTest, WritesToAFolderWithSomethingInItByForceOnly) {
   EXPECT_EQ(read_text(folder() / "merged" / "thesis.tex"), "precious");
   EXPECT_EQ(accuracy_lines(folder() / "merged").size(), 12U);
   expect_refusal(hullbench({"merge", "shard1", "shard2", "--out", "./shard2", "--force"}), 2,
-                 "is one of the runs to be merged");
+                 "one of the runs to be merged");
+  for (const char* out : {"shard2/merged", ".", "shard2/"}) {
+    expect_refusal(hullbench({"merge", "shard1", "shard2", "--out", out, "--force"}), 2,
+                   "one of the runs to be merged");
+  }
+  EXPECT_FALSE(fs::exists(folder() / "shard2" / "merged"));
+  EXPECT_EQ(hullbench({"merge", "shard1", "shard2", "--out", "shard2_too"}).code, 0) << "that is beside it";
   EXPECT_EQ(hullbench({"run", plan(), "--out", "merged"}).code, 2) << "it is no run to go on with";
+}
+
+TEST_F(MergeTest, WithoutOutIsRefusedWithAHintForEveryCommand) {
+  expect_refusal(hullbench({"merge", "shard1"}), 2, "'hullbench COMMAND --help' show what there is");
 }
 
 TEST_F(MergeTest, ReadsCompressedRecords) {
@@ -368,6 +443,10 @@ TEST_F(MergeTest, OfSuitesIsASuite) {
   EXPECT_EQ(hullbench({"tables", "merged"}).out, merged.out);
   expect_refusal(hullbench({"merge", "shard1", "shard1/first", "--out", "mixed"}), 2,
                  "some of the folders hold a run and some a suite");
+  expect_refusal(hullbench({"merge", "shard1", "--out", "whole/first", "--force"}), 2, "first holds a run");
+  expect_refusal(hullbench({"merge", "whole/first", "--out", "merged", "--force"}), 2,
+                 "merged holds a suite");
+  EXPECT_FALSE(fs::exists(folder() / "whole" / "first" / "suite.json"));
 }
 
 class ShardTest : public MergeTest {};

@@ -21,6 +21,7 @@ namespace {
 
 using namespace hullbench;
 namespace fs = std::filesystem;
+using Clock = std::chrono::steady_clock;
 
 constexpr int kHarnessError = 1;
 constexpr int kUsage = 2;
@@ -40,6 +41,7 @@ struct Arguments {
   std::string head_name = "head";
   std::string out = "build-gate";
   std::size_t blocks = 32;
+  int time_limit = 110;  ///< seconds; a gate is to end within two minutes
   int repeats = 5;
   bool median = false;
   bool instructions = false;
@@ -58,10 +60,13 @@ void add_options(CLI::App& app, Arguments& arguments) {
       ->check(CLI::ExistingFile);
   app.add_option("--base-name", arguments.base_name, "What base is, for the report");
   app.add_option("--head-name", arguments.head_name, "What head is, for the report");
-  app.add_option("--out", arguments.out, "Folder for gate.json and what is needed meanwhile")
+  app.add_option("--out", arguments.out, "Folder for gate.json and, in gate-work, what is needed meanwhile")
       ->capture_default_str();
   app.add_option("--blocks", arguments.blocks, "Blocks of six processes in a round")
-      ->check(CLI::Range(1, 1000))
+      ->check(CLI::Range(kFewestBlocks, std::size_t{1000}))
+      ->capture_default_str();
+  app.add_option("--time-limit", arguments.time_limit, "Seconds after which no further block begins")
+      ->check(CLI::Range(0, 86400))
       ->capture_default_str();
   app.add_option("--repeats", arguments.repeats, "Timed calls of every case in a process")
       ->check(CLI::Range(1, 10000))
@@ -80,9 +85,9 @@ void add_options(CLI::App& app, Arguments& arguments) {
   app.add_option("--seed", arguments.seed, "Of the orders in which the programs run")->capture_default_str();
 }
 
-ProbeSettings probe_settings(const Arguments& arguments, const fs::path& out) {
+ProbeSettings probe_settings(const Arguments& arguments, const fs::path& work) {
   ProbeSettings settings;
-  settings.cases_folder = out / "cases";
+  settings.cases_folder = work / "cases";
   settings.cases = arguments.instructions ? instruction_cases() : time_cases();
   settings.repeats = arguments.repeats;
   settings.median = arguments.median;
@@ -91,11 +96,11 @@ ProbeSettings probe_settings(const Arguments& arguments, const fs::path& out) {
   return settings;
 }
 
-GateFindings gate_instructions(const Arguments& arguments, const ProbeSettings& probe, const fs::path& out,
+GateFindings gate_instructions(const Arguments& arguments, const ProbeSettings& probe, const fs::path& work,
                                const GateRules& rules, nlohmann::json& samples) {
   const auto count = [&](const std::string& title, const std::string& program) {
     std::cerr << "counting instructions: " << title << "\n";
-    return count_instructions(program, probe, out / "callgrind");
+    return count_instructions(program, probe, work / "callgrind");
   };
   const auto base = count("base", arguments.base_probe);
   const auto head = count("head", arguments.head_probe);
@@ -108,29 +113,33 @@ GateFindings gate_instructions(const Arguments& arguments, const ProbeSettings& 
   return judge_instructions(counts, rules);
 }
 
-GateFindings measure(const Arguments& arguments, const fs::path& out, const GateRules& rules,
+GateFindings measure(const Arguments& arguments, Clock::time_point start, const GateRules& rules,
                      nlohmann::json& samples) {
-  const ProbeSettings probe = probe_settings(arguments, out);
+  // A folder of its own, of which things are removed: whatever else is in `--out` is the user's.
+  const fs::path work = fs::path(arguments.out) / "gate-work";
+  fs::remove_all(work / "results");
+  const ProbeSettings probe = probe_settings(arguments, work);
   write_cases(probe.cases, probe.cases_folder);
-  write_results(arguments.base_probe, probe, out / "results" / "base");
-  write_results(arguments.head_probe, probe, out / "results" / "head");
+  write_results(arguments.base_probe, probe, work / "results" / "base");
+  write_results(arguments.head_probe, probe, work / "results" / "head");
   if (probe.core) leave_core(*probe.core);
-  GateFindings findings = arguments.instructions ? gate_instructions(arguments, probe, out, rules, samples)
+  const Clock::time_point deadline = start + std::chrono::seconds(arguments.time_limit);
+  GateFindings findings = arguments.instructions ? gate_instructions(arguments, probe, work, rules, samples)
                                                  : gate_times({.base_probe = arguments.base_probe,
                                                                .head_probe = arguments.head_probe,
-                                                               .folder = out / "programs",
+                                                               .folder = work / "programs",
                                                                .probe = probe,
                                                                .blocks = arguments.blocks,
+                                                               .deadline = deadline,
                                                                .seed = arguments.seed},
                                                               rules, samples);
-  findings.accuracy = compare_results(probe.cases, out / "results" / "base", out / "results" / "head");
+  findings.accuracy = compare_results(probe.cases, work / "results" / "base", work / "results" / "head");
   return findings;
 }
 
 int run(const Arguments& arguments) {
   catch_interruptions();
   const fs::path out = arguments.out;
-  fs::remove_all(out / "results");
   fs::create_directories(out);
   GateRules rules;
   rules.threshold = arguments.threshold > 0  ? arguments.threshold
@@ -141,9 +150,9 @@ int run(const Arguments& arguments) {
   context.tier = arguments.instructions ? "instructions" : "time";
   context.base = arguments.base_name;
   context.head = arguments.head_name;
-  const auto start = std::chrono::steady_clock::now();
-  const GateFindings findings = measure(arguments, out, rules, context.samples);
-  context.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  const auto start = Clock::now();
+  const GateFindings findings = measure(arguments, start, rules, context.samples);
+  context.seconds = std::chrono::duration<double>(Clock::now() - start).count();
 
   const GateVerdict verdict = decide(findings, rules);
   print_gate(findings, verdict, context, std::cout);

@@ -7,7 +7,7 @@
 #   --instructions   count instructions with callgrind instead of timing
 #   --base           default: the merge base of HEAD with origin/main, or with main where there is no origin/main
 #   --head           a checkout to gate instead of this one
-#   --out            where everything goes; default: build-gate of this checkout
+#   --out            for gate.json, log and gate-work, where everything else goes; default: build-gate of this checkout
 #   --driver         a ready bench_gate; default: built here, in build
 #   OPTION           for bench_gate, see 'bench_gate --help'
 #
@@ -41,7 +41,7 @@ while [ $# -gt 0 ]; do
       case "$1" in
         --base) base=$2 ;;
         --head) head_tree=$(cd "$2" 2>/dev/null && pwd) || fail 2 "there is no folder $2." ;;
-        --out) mkdir -p "$2" && out=$(cd "$2" && pwd) ;;
+        --out) out=$2 ;;
         --driver) driver=$2 ;;
       esac
       shift
@@ -50,6 +50,10 @@ while [ $# -gt 0 ]; do
   esac
   shift
 done
+
+mkdir -p "$out/log" "$out/gate-work" 2>/dev/null || fail 2 "the folders log and gate-work cannot be made in $out: name another folder with --out."
+out=$(cd "$out" && pwd)
+work=$out/gate-work # a folder of its own, of which things are removed: whatever else is in --out is the user's
 
 in_head() { git -C "$head_tree" "$@"; }
 
@@ -65,15 +69,14 @@ default_base() {
 logged() {
   local log="$out/log/$1.txt"
   shift
-  mkdir -p "$out/log"
   "$@" >"$log" 2>&1
 }
 
-# build_probe NAME TREE: configures and compiles NAME/build/gate_probe with the core in TREE.
+# build_probe NAME TREE: configures and compiles gate-work/NAME/build/gate_probe with the core in TREE.
 build_probe() {
   say "building $1"
-  logged "configure-$1" cmake -S "$here/probe" -B "$out/$1/build" -G Ninja -DCMAKE_BUILD_TYPE=Release "-DCORE_TREE=$2" &&
-    logged "build-$1" cmake --build "$out/$1/build" --parallel "$jobs" --target gate_probe
+  logged "configure-$1" cmake -S "$here/probe" -B "$work/$1/build" -G Ninja -DCMAKE_BUILD_TYPE=Release "-DCORE_TREE=$2" &&
+    logged "build-$1" cmake --build "$work/$1/build" --parallel "$jobs" --target gate_probe
 }
 
 # The newest log of a tree's build: where it stopped.
@@ -83,11 +86,11 @@ newest_log() { find "$out/log" -name "*-$1.txt" -printf '%T@ %p\n' | sort -n | t
 # older commit for one that it knows.
 unpack_base() {
   local commit=$1
-  [ "$(cat "$out/base/commit" 2>/dev/null)" != "$commit" ] || return 0
-  rm -rf "$out/base/tree" "$out/base/commit"
-  mkdir -p "$out/base/tree"
-  in_head archive "$commit" core cmake 2>"$out/base/archive.txt" | tar -x -m -C "$out/base/tree" 2>/dev/null || return
-  printf '%s\n' "$commit" >"$out/base/commit"
+  [ "$(cat "$work/base/commit" 2>/dev/null)" != "$commit" ] || return 0
+  rm -rf "$work/base/tree" "$work/base/commit"
+  mkdir -p "$work/base/tree"
+  in_head archive "$commit" core cmake 2>"$work/base/archive.txt" | tar -x -m -C "$work/base/tree" 2>/dev/null || return
+  printf '%s\n' "$commit" >"$work/base/commit"
 }
 
 build_driver() {
@@ -112,8 +115,9 @@ head_name="work tree of $(in_head rev-parse --short HEAD)"
 [ -z "$(in_head status --porcelain -- core cmake)" ] || head_name+=" with changes that are not committed"
 
 [ -n "$driver" ] || build_driver
-unpack_base "$base_commit" || fail 6 "the base $base_name has no core/ and cmake/ to build."
-build_probe base "$out/base/tree" || fail 6 "the base $base_name does not build: see $(newest_log base)"
+# Head first: a compiler that builds nothing is no fault of the base.
 build_probe head "$head_tree" || fail 1 "the $head_name does not build: see $(newest_log head)"
-exec "$driver" --base-probe "$out/base/build/gate_probe" --head-probe "$out/head/build/gate_probe" \
+unpack_base "$base_commit" || fail 6 "the base $base_name has no core/ and cmake/ to build."
+build_probe base "$work/base/tree" || fail 6 "the base $base_name does not build: see $(newest_log base)"
+exec "$driver" --base-probe "$work/base/build/gate_probe" --head-probe "$work/head/build/gate_probe" \
   --base-name "$base_name" --head-name "$head_name" --out "$out" "${options[@]}"

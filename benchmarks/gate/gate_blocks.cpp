@@ -51,11 +51,13 @@ Programs place_programs(const fs::path& base, const fs::path& head, const fs::pa
 }
 
 void measure_blocks(const Programs& programs, const ProbeSettings& settings, std::size_t count,
-                    std::uint64_t seed, const std::function<void()>& before_process, Blocks& blocks) {
+                    std::uint64_t seed, std::chrono::steady_clock::time_point deadline,
+                    const std::function<void()>& before_process, Blocks& blocks) {
   Random random(seed);
   const std::array<fs::path, 3> places = {programs.base, programs.head, programs.base_again};
   std::array<std::map<std::string, std::string>, 3> results;
   for (std::size_t block = 0; block < count; ++block) {
+    if (std::chrono::steady_clock::now() >= deadline) return;
     std::array<std::map<std::string, double>, 3> log_time;  // mean of the two runs' logarithms
     for (const std::size_t which : random_order(random)) {
       throw_if_interrupted();

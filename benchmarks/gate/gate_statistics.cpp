@@ -1,7 +1,7 @@
 #include "benchmarks/gate/gate_statistics.hpp"
 
 #include <algorithm>
-#include <cmath>
+#include <boost/math/special_functions/beta.hpp>
 #include <cstddef>
 #include <limits>
 #include <stdexcept>
@@ -11,13 +11,8 @@ namespace {
 
 /// How likely at most `k` of `n` fair coins show heads.
 double at_most_heads(std::size_t n, std::size_t k) {
-  double term = std::exp2(-static_cast<double>(n));  // below 1e-300 only beyond 1000 blocks
-  double sum = term;
-  for (std::size_t i = 1; i <= k; ++i) {
-    term *= static_cast<double>(n - i + 1) / static_cast<double>(i);
-    sum += term;
-  }
-  return std::min(sum, 1.0);
+  if (k >= n) return 1;
+  return boost::math::ibetac(static_cast<double>(k + 1), static_cast<double>(n - k), 0.5);
 }
 
 }  // namespace

@@ -22,9 +22,7 @@ Judged describe(const LogRatios& quantity, const GateRules& rules) {
   judged.name = quantity.name;
   judged.ratio = std::exp(median(std::span<const double>(quantity.values)));
   judged.interval = {std::exp(interval.low), std::exp(interval.high)};
-  if (judged.interval.low <= 1 && judged.interval.high > 1 + rules.threshold) {
-    judged.change = SpeedChange::kUndecided;
-  }
+  if (judged.interval.high > 1 + rules.threshold) judged.change = SpeedChange::kUndecided;
   return judged;
 }
 
@@ -38,18 +36,27 @@ bool is_change(SpeedChange change) {
   return change == SpeedChange::kSlower || change == SpeedChange::kFaster;
 }
 
+/// What a round says of a quantity; undecided where it was not measured.
+SpeedChange change_in(const std::vector<Judged>& round, const std::string& name) {
+  const auto found =
+      std::find_if(round.begin(), round.end(), [&](const Judged& row) { return row.name == name; });
+  return found == round.end() ? SpeedChange::kUndecided : found->change;
+}
+
 /// Sorts the first round's changes by whether the second one confirms them.
 void confirm(const GateFindings& findings, GateVerdict& verdict) {
   for (const Judged& row : findings.first) {
     if (row.change == SpeedChange::kUndecided) verdict.undecided.push_back(row.name);
     if (!is_change(row.change)) continue;
-    const bool confirmed = std::any_of(
-        findings.second.begin(), findings.second.end(),
-        [&](const Judged& other) { return other.name == row.name && other.change == row.change; });
-    Names& place = !confirmed                           ? verdict.unconfirmed
-                   : row.change == SpeedChange::kSlower ? verdict.regressions
-                                                        : verdict.improvements;
-    place.push_back(row.name);
+    const bool slower = row.change == SpeedChange::kSlower;
+    const SpeedChange second = change_in(findings.second, row.name);
+    if (second == row.change) {
+      (slower ? verdict.regressions : verdict.improvements).push_back(row.name);
+    } else if (slower && second == SpeedChange::kUndecided) {
+      verdict.undecided.push_back(row.name);
+    } else {
+      verdict.unconfirmed.push_back(row.name);
+    }
   }
 }
 
@@ -113,6 +120,11 @@ GateVerdict decide(const GateFindings& findings, const GateRules& rules) {
   } else if (!verdict.regressions.empty()) {
     verdict.exit_code = 3;
     verdict.sentence = "regression: " + joined(verdict.regressions);
+  } else if (findings.out_of_time) {
+    verdict.exit_code = 5;
+    verdict.sentence =
+        "inconclusive: the time limit came before enough was measured; run it again when the machine is "
+        "quieter, or with a longer --time-limit";
   } else if (!verdict.undecided.empty()) {
     verdict.exit_code = 5;
     verdict.sentence = "inconclusive: too noisy to tell no change from a regression in " +

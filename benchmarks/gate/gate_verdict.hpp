@@ -26,7 +26,7 @@ enum class SpeedChange {
   kNone,      ///< no change above the threshold
   kSlower,    ///< the whole interval is above the threshold
   kFaster,    ///< the whole interval is below 1 / (1 + threshold)
-  kUndecided  ///< the interval holds both no change and a regression: too noisy
+  kUndecided  ///< the interval reaches above the threshold, but not all of it is: too noisy
 };
 
 /// One quantity, judged.
@@ -59,6 +59,7 @@ struct GateFindings {
   std::vector<Judged> second;
   std::vector<Judged> null_control;  ///< base against base, and in the second round head against head
   std::vector<AccuracyRow> accuracy;
+  bool out_of_time = false;  ///< a time limit cut the first round too short, or the second one at all
 };
 
 struct GateVerdict {
@@ -67,13 +68,15 @@ struct GateVerdict {
   std::vector<std::string> regressions;
   std::vector<std::string> improvements;
   std::vector<std::string> unconfirmed;  ///< a change in the first round only
-  std::vector<std::string> undecided;
+  std::vector<std::string> undecided;    ///< too noisy; slower in the first round and too noisy in the second
   std::vector<std::string> failed_controls;
   std::vector<std::string> changed_results;
 };
 
 /// A changed result gives 3 whatever the clock says. A null control that is itself called slower or faster
-/// gives 5. A regression is what both rounds call slower: 3. A quantity that is too noisy gives 5.
+/// gives 5. A regression is what both rounds call slower: 3. A quantity that is too noisy gives 5, and so
+/// does one that the first round calls slower and the second one cannot decide; one that the second round
+/// says is no slower gives 0. A gate that ran out of time gives 5.
 GateVerdict decide(const GateFindings& findings, const GateRules& rules);
 
 /// The instructions of one quantity: base counted twice, head once. Counts are above 0.

@@ -17,8 +17,6 @@ namespace {
 using namespace std::chrono_literals;
 
 constexpr std::size_t kProcessesPerBlock = 6;
-/// A gate is to end within two minutes, and has three rounds at most.
-constexpr auto kLongestRoundToRepeat = 38s;
 
 /// One line that is rewritten on a terminal; elsewhere a plain line now and then.
 class RoundProgress {
@@ -48,10 +46,10 @@ class RoundProgress {
 };
 
 void measure(const std::string& title, const Programs& programs, const TimeGateSettings& settings,
-             const ProbeSettings& probe, std::uint64_t seed, Blocks& blocks) {
-  RoundProgress progress(title, settings.blocks * kProcessesPerBlock);
+             const ProbeSettings& probe, std::size_t count, std::uint64_t seed, Blocks& blocks) {
+  RoundProgress progress(title, count * kProcessesPerBlock);
   measure_blocks(
-      programs, probe, settings.blocks, seed, [&] { progress.begin_process(); }, blocks);
+      programs, probe, count, seed, settings.deadline, [&] { progress.begin_process(); }, blocks);
 }
 
 bool has(const std::vector<Judged>& rows, SpeedChange change) {
@@ -96,28 +94,30 @@ GateFindings gate_times(const TimeGateSettings& settings, const GateRules& rules
   GateFindings findings;
   Blocks first;
   const Programs programs = place_programs(settings.base_probe, settings.head_probe, settings.folder);
-  const auto start = std::chrono::steady_clock::now();
-  measure("measuring", programs, settings, settings.probe, settings.seed, first);
+  measure("measuring", programs, settings, settings.probe, settings.blocks, settings.seed, first);
   findings.first = judge(log_ratios(first.change), rules);
-  const bool has_time = std::chrono::steady_clock::now() - start < kLongestRoundToRepeat;
-  if (has_time && has(findings.first, SpeedChange::kUndecided)) {
-    measure("noisy, measuring more", programs, settings, settings.probe, settings.seed + 1, first);
+  if (has(findings.first, SpeedChange::kUndecided) && !has(findings.first, SpeedChange::kSlower)) {
+    measure("noisy, measuring more", programs, settings, settings.probe, settings.blocks, settings.seed + 1,
+            first);
     findings.first = judge(log_ratios(first.change), rules);
   }
   findings.null_control = judge(log_ratios(first.null_control), rules);
   samples["first"] = json_of(first);
+  findings.out_of_time = first.count() < kFewestBlocks;
 
   const std::set<std::string> again = candidates(findings.first);
-  if (again.empty()) return findings;
+  if (findings.out_of_time || again.empty()) return findings;
   Blocks second;
   const Programs reversed = place_programs(settings.head_probe, settings.base_probe, settings.folder);
   measure("confirming with the roles reversed", reversed, settings, only(again, settings.probe),
-          settings.seed + 2, second);
+          first.count(), settings.seed + 2, second);
   keep_only(again, second);
+  samples["second"] = json_of(second);
+  findings.out_of_time = second.count() < first.count();
+  if (findings.out_of_time) return findings;
   // Head stood in base's place: its ratios are base / head until they are turned round.
   findings.second = judge(log_ratios(second.change, -1), rules);
   append(findings.null_control, judge(log_ratios(second.null_control), rules));
-  samples["second"] = json_of(second);
   return findings;
 }
 

@@ -1,6 +1,7 @@
 // The gate on time: blocks, a verdict, and a second look with the roles reversed.
 #pragma once
 
+#include <chrono>
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
@@ -11,19 +12,25 @@
 
 namespace hullbench {
 
+/// The fewest that can call one of the time tier's 13 quantities slower after Holm's correction: 13 / 2^10 is
+/// below 0.025, 13 / 2^9 is not.
+constexpr std::size_t kFewestBlocks = 10;
+
 struct TimeGateSettings {
   std::filesystem::path base_probe;
   std::filesystem::path head_probe;
   std::filesystem::path folder;  ///< for copies of the programs
   ProbeSettings probe;
-  std::size_t blocks = 0;  ///< >= 1 in a round; of each, two runs of base, two of head and two of base's copy
-  std::uint64_t seed = 1;  ///< of the orders in the blocks
+  std::size_t blocks = 0;  ///< in a round, >= kFewestBlocks; of each, two runs of base, head and base's copy
+  std::chrono::steady_clock::time_point deadline;  ///< no block begins after it
+  std::uint64_t seed = 1;                          ///< of the orders in the blocks
 };
 
-/// Measures, and fills in the findings but for accuracy. When the first round is too noisy to decide, it
-/// goes on to twice as many blocks, unless the round took so long that a gate of three rounds would not end
-/// within two minutes. `samples` gets the log-ratios. What it is at goes to standard error. Throws as
-/// measure_blocks.
+/// Measures, and fills in the findings but for accuracy. When the first round is too noisy to decide and
+/// calls nothing slower, it goes on to twice as many blocks; the second round has as many as the first ended
+/// with. The findings are out of time when the deadline left the first round fewer than kFewestBlocks, or the
+/// second one fewer than it needs; that one is then not judged. `samples` gets the log-ratios. What it is at
+/// goes to standard error. Throws as measure_blocks.
 GateFindings gate_times(const TimeGateSettings& settings, const GateRules& rules, nlohmann::json& samples);
 
 }  // namespace hullbench

@@ -176,6 +176,8 @@ check "the requeued task ends" wait_for 180 has_ended
 resumed() { python3 -c 'import json, sys; sys.exit(0 if json.load(open(sys.argv[1]))["resumed"] else 1)' "$1"; }
 check "it went on where it had stopped" resumed requeued/shards/1-"$node"/run.json
 check "all of its runs are there" test "$(wc -l <requeued/merged/runs.jsonl)" -eq 12
+all_ok() { python3 -c 'import json, sys; sys.exit(any(json.loads(line)["status"] != "ok" for line in open(sys.argv[1])))' "$1"; }
+check "and ok" all_ok requeued/merged/runs.jsonl
 
 # ---- what submit.sh refuses -------------------------------------------------------------------------------
 
@@ -183,7 +185,29 @@ refuses() { ! "$submit" "$@" >refusal.txt 2>&1 && [ "$(grep -c '^error: ' refusa
 check "refuses a folder that is there" refuses --out sweep small.json
 check "refuses a plan that is not" refuses --out new nothing.json
 check "refuses a wrong number of shards" refuses --shards 0 --out new small.json
+check "refuses a folder for every task" refuses --out new/out small.json --out other
+check "refuses a shard of its own" refuses --out new/shard small.json --shard 1/2
+check "refuses to start anew" refuses --out new/force small.json --force
 check "and submits nothing then" test ! -e new
+
+# ---- a job that Slurm does not take -----------------------------------------------------------------------
+
+# An sbatch that takes no job to merge, and lets no other one begin.
+mkdir bin
+cat >bin/sbatch <<SBATCH
+#!/bin/sh
+case "\$*" in *merge.sbatch*) echo "sbatch: error: no more jobs" >&2; exit 1 ;; esac
+exec $(command -v sbatch) --hold "\$@"
+SBATCH
+chmod 755 bin/sbatch
+gives_up() {
+  local status=0
+  PATH=$work/bin:$PATH "$submit" --shards 2 --out halved long.json >refusal.txt 2>&1 || status=$?
+  [ "$status" -eq 1 ] && [ "$(grep -c '^error: ' refusal.txt)" -eq 1 ]
+}
+check "says when Slurm does not take the merge" gives_up
+check "cancels the shards then" wait_for 60 has_ended
+check "and leaves no folder" test ! -e halved
 
 echo "$passed passed, $failed failed"
 [ "$failed" -eq 0 ]
