@@ -99,9 +99,10 @@ identical_gates() {
 
 slow_gates() {
   local i found=0
+  # Seven of the steps that are timed triangulate; noise may hide some of them in a gate, but never most.
   for i in $(seq "$slow_gates"); do
     gate "slower-$i" clean ten-percent-more-work --seed "$i"
-    ! { says 3 'regression: .*concave_hull ca-64000' && says 3 'regression: .*concave_hull uniform-16000'; } || found=$((found + 1))
+    ! says 3 'regression: (concave_hull[^,]*(, |$)){4}' || found=$((found + 1))
   done
   check "10 % more work in the triangulation: found in $found of $slow_gates gates" [ "$found" -eq "$slow_gates" ]
 }
