@@ -194,4 +194,25 @@ void BoundaryTracer::emit(const std::uint32_t* caller_index, IndexedMultiPolygon
   }
 }
 
+std::vector<std::size_t> BoundaryTracer::count_triangles(const Mesh& mesh) const {
+  std::vector<std::size_t> counts(region_count_);
+  std::vector<bool> seen(mesh.triangle_count());
+  std::vector<Index> open;  // seen, but not their neighbours
+  const auto see = [&](Index t) {
+    if (!mesh.is_kept(t) || seen[t]) return;
+    seen[t] = true;
+    open.push_back(t);
+  };
+  for (const Walk& walk : walks_) {
+    if (walk.region == kNone) continue;
+    // Of a region's walks more than one may bear its number; the first one takes all its triangles.
+    for (see(Mesh::triangle_of(walk.first)); !open.empty(); ++counts[walk.region]) {
+      const Index t = open.back();
+      open.pop_back();
+      for (Index k = 0; k < 3; ++k) see(Mesh::triangle_of(mesh.twin(Mesh::kStride * t + k)));
+    }
+  }
+  return counts;
+}
+
 }  // namespace polylidar::detail

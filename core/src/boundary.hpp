@@ -20,6 +20,9 @@ class BoundaryTracer {
   void trace(Mesh& mesh, const Point* vertices, std::size_t vertex_count, const std::uint32_t* caller_index,
              const std::vector<Mesh::Index>& boundary, IndexedMultiPolygon& shape);
 
+  /// Polygon of the last `trace` -> how many triangles its region has. Visits all of them.
+  std::vector<std::size_t> count_triangles(const Mesh& mesh) const;
+
  private:
   using Index = Mesh::Index;
 

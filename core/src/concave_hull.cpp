@@ -78,6 +78,39 @@ const IndexedMultiPolygon& Extractor::extract_polygons() {
   return state_->shape;
 }
 
+std::vector<double> Extractor::sample_edge_lengths(std::size_t most) const {
+  using detail::Mesh;
+  if (most == 0) throw std::invalid_argument("most must be one or more");
+  const Mesh& mesh = state_->builder.mesh();
+  const Point* vertices = state_->builder.vertices();
+  std::vector<double> lengths;
+  const auto add_edges_of = [&](Mesh::Index t) {
+    if (mesh.is_ghost(t)) return;
+    for (Mesh::Index e = Mesh::kStride * t; e < Mesh::kStride * t + 3; ++e) {
+      // Of an edge's two sides the lower one counts, or the only one.
+      if (mesh.twin(e) < e && !mesh.is_ghost(Mesh::triangle_of(mesh.twin(e)))) continue;
+      const Point& a = vertices[mesh.origin(e)];
+      const Point& b = vertices[mesh.origin(Mesh::next(e))];
+      lengths.push_back(std::ldexp(std::hypot(a.x - b.x, a.y - b.y), -state_->builder.scale_exponent()));
+    }
+  };
+  const auto sample = [&](std::size_t step) {
+    for (std::size_t t = 0; t < mesh.triangle_count(); t += step) add_edges_of(static_cast<Mesh::Index>(t));
+  };
+  // At most 3/2 edges a triangle. Records come in pairs, of which an even step would only see the first.
+  const std::size_t step = (std::size_t{3} * mesh.triangle_count() / 2 / most) | 1U;
+  sample(step);
+  if (step > 1 && lengths.size() < most / 4 + 1) {  // most points repeat others and leave records unused
+    lengths.clear();
+    sample(1);
+  }
+  return lengths;
+}
+
+std::vector<std::size_t> Extractor::count_triangles() const {
+  return state_->tracer.count_triangles(state_->builder.mesh());
+}
+
 IndexedMultiPolygon concave_hull(std::span<const Point> points, const Options& options) {
   return Extractor().extract(points, options);
 }

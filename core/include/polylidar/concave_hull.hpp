@@ -37,13 +37,16 @@ struct IndexedMultiPolygon {
   /// polygon p is rings[polygon_ends[p - 1] .. polygon_ends[p]), shell first, then its holes.
   std::vector<std::uint32_t> polygon_ends;
 
+  /// How many polygons there are.
   std::size_t polygon_count() const { return polygon_ends.size(); }
+  /// Makes it empty; its memory is kept.
   void clear();
 
+  /// Index by index in the order they are listed, not as shapes.
   friend bool operator==(const IndexedMultiPolygon&, const IndexedMultiPolygon&) = default;
 };
 
-/// `shape` with coordinates instead of indices.
+/// `shape` with coordinates instead of indices. `points` are those that it was made of.
 MultiPolygon to_coordinates(const IndexedMultiPolygon& shape, std::span<const Point> points);
 
 /// The concave hull of `points` (the paper's Polylidar, sections III-A to III-D): Delaunay triangulation,
@@ -65,12 +68,16 @@ IndexedMultiPolygon concave_hull(std::span<const Point> points, const Options& o
 /// predicates and the filter form can overflow or underflow.
 class Extractor {
  public:
+  /// Starts no thread; threads and memory for points come with the first call.
   Extractor();
+  /// Ends the threads that were started.
   ~Extractor();
+  /// What was moved from can only be assigned to or destroyed.
   Extractor(Extractor&&) noexcept;
+  /// As the constructor.
   Extractor& operator=(Extractor&&) noexcept;
 
-  /// All three steps. The result is valid until the next call.
+  /// All three steps, with the contract of concave_hull(). The result is valid until the next call.
   const IndexedMultiPolygon& extract(std::span<const Point> points, const Options& options = {});
 
   /// Step 1: the Delaunay triangulation of `points`, on `threads` >= 1 threads.
@@ -79,6 +86,13 @@ class Extractor {
   void extract_regions(const Options& options);
   /// Step 3: the boundary of every region as a polygon.
   const IndexedMultiPolygon& extract_polygons();
+
+  /// After triangulate: lengths of edges of the triangulation, in the unit of the points: of all edges where
+  /// they are fewer than `most` >= 1, else of some `most` that are spread evenly over it. The same for any
+  /// number of threads; empty without triangles.
+  std::vector<double> sample_edge_lengths(std::size_t most) const;
+  /// After extract_polygons: how many triangles each of its polygons is made of, in its order. O(n).
+  std::vector<std::size_t> count_triangles() const;
 
  private:
   struct State;

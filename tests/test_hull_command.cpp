@@ -1,0 +1,300 @@
+// `hullbench hull` as its users meet it: the same polygons in every format, options, exit codes,
+// circumstances.
+#include <geos_c.h>
+#include <gtest/gtest.h>
+#include <sys/stat.h>
+
+#include <cmath>
+#include <csignal>
+#include <filesystem>
+#include <limits>
+#include <nlohmann/json.hpp>
+
+#include "adapters/wkb.hpp"
+#include "benchmarks/metrics.hpp"
+#include "polylidar/concave_hull.hpp"
+#include "tests/point_file_texts.hpp"
+#include "tests/program.hpp"
+#include "tests/temporary_folder.hpp"
+
+namespace hullbench {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+using polylidar::MultiPolygon;
+using polylidar::Point;
+using polylidar::Ring;
+using testing::expect_refusal;
+using testing::Outcome;
+using testing::Points;
+using testing::read_text;
+using testing::write_text;
+
+/// Uniform in the square of side 10 without a disc, and a few points far off.
+Points ring_and_island() {
+  Points points;
+  std::mt19937_64 random(7);
+  std::uniform_real_distribution<double> coordinate(0, 10);
+  while (points.size() < 3000) {
+    const Point p = {coordinate(random), coordinate(random)};
+    if (std::hypot(p.x - 5, p.y - 4) > 2) points.push_back(p);
+  }
+  for (const Point& p : {Point{20, 0}, Point{20.2, 0}, Point{20, 0.2}, Point{20.21, 0.21}})
+    points.push_back(p);
+  return points;
+}
+
+class HullCommandTest : public ::testing::Test {
+ protected:
+  std::string file(const std::string& name, const std::string& text) const {
+    write_text(folder() / name, text);
+    return (folder() / name).string();
+  }
+  std::string points_file() const { return file("points.npy", testing::npy_of<double>(points_, "<f8")); }
+
+  static Outcome hull(std::vector<std::string> arguments) {
+    arguments.insert(arguments.begin(), {HULLBENCH, "hull"});
+    return testing::run_program(arguments);
+  }
+  /// The same through the shell, after `before` and followed by `after`.
+  static Outcome in_shell(const std::string& before, const std::string& arguments,
+                          const std::string& after = "") {
+    return testing::run_program(
+        {"/bin/sh", "-c", before + " '" + HULLBENCH + "' hull " + arguments + " " + after});
+  }
+  MultiPolygon shape(std::vector<std::string> options) const {
+    options.insert(options.begin(), {points_file(), "--format", "wkb"});
+    return shape_of(hull(options));
+  }
+  static MultiPolygon shape_of(const Outcome& outcome) {
+    EXPECT_EQ(outcome.code, 0) << outcome.err;
+    return from_wkb({reinterpret_cast<const std::uint8_t*>(outcome.out.data()), outcome.out.size()});
+  }
+  MultiPolygon expected(double alpha, double max_edge = std::numeric_limits<double>::infinity()) const {
+    polylidar::Options options;
+    options.alpha = alpha;
+    options.max_edge_length = max_edge;
+    return to_coordinates(polylidar::concave_hull(points_, options), points_);
+  }
+  fs::path folder() const { return folder_.path(); }
+  std::string make_pipe() const {
+    const std::string path = (folder() / "pipe").string();
+    EXPECT_EQ(::mkfifo(path.c_str(), 0600), 0);
+    return path;
+  }
+
+  Points points_ = ring_and_island();
+
+ private:
+  testing::TemporaryFolder folder_;
+};
+
+MultiPolygon from_geojson(const json& coordinates) {
+  MultiPolygon shape;
+  for (const json& polygon : coordinates) {
+    std::vector<Ring> rings;
+    for (const json& ring : polygon) {
+      EXPECT_EQ(ring.front(), ring.back());
+      rings.emplace_back();
+      for (const json& position : ring)
+        rings.back().push_back({position[0].get<double>(), position[1].get<double>()});
+      rings.back().pop_back();
+    }
+    shape.push_back({rings.front(), {rings.begin() + 1, rings.end()}});
+  }
+  return shape;
+}
+
+TEST_F(HullCommandTest, TheCoresPolygonsInEveryFormat) {
+  const MultiPolygon right = expected(0.3);
+  ASSERT_EQ(right.size(), 2U);
+  ASSERT_GE(right[0].holes.size() + right[1].holes.size(), 1U);
+  EXPECT_EQ(shape({"--alpha", "0.3"}), right);
+  EXPECT_EQ(shape({"--alpha", "0.3", "--threads", "3"}), right);
+  EXPECT_EQ(shape({"--alpha", "0.3", "--max-edge-length", "0.4"}), expected(0.3, 0.4));
+  EXPECT_EQ(shape({"--max-edge-length", "0.4"}), expected(std::numeric_limits<double>::infinity(), 0.4));
+
+  const Outcome geojson = hull({points_file(), "--alpha", "0.3"});
+  EXPECT_EQ(geojson.err, "");
+  const json feature = json::parse(geojson.out);
+  EXPECT_EQ(feature["type"], "Feature");
+  EXPECT_EQ(feature["geometry"]["type"], "MultiPolygon");
+  EXPECT_EQ(from_geojson(feature["geometry"]["coordinates"]), right);
+  for (const auto& polygon : right) {
+    EXPECT_GT(signed_area(polygon.shell), 0);
+    for (const Ring& hole : polygon.holes) EXPECT_LT(signed_area(hole), 0);
+  }
+  EXPECT_EQ(feature["properties"], (json{{"points", points_.size()},
+                                         {"alpha", 0.3},
+                                         {"polygons", 2},
+                                         {"holes", right[0].holes.size() + right[1].holes.size()},
+                                         {"area", area(right)}}));
+
+  const Outcome wkt = hull({points_file(), "--alpha", "0.3", "--format", "wkt"});
+  GEOSContextHandle_t geos = GEOS_init_r();
+  GEOSWKTReader* reader = GEOSWKTReader_create_r(geos);
+  GEOSGeometry* geometry = GEOSWKTReader_read_r(geos, reader, wkt.out.c_str());
+  ASSERT_NE(geometry, nullptr);
+  std::size_t size = 0;
+  unsigned char* bytes = GEOSGeomToWKB_buf_r(geos, geometry, &size);
+  EXPECT_EQ(from_wkb({bytes, size}), right);
+  GEOSFree_r(geos, bytes);
+  GEOSGeom_destroy_r(geos, geometry);
+  GEOSWKTReader_destroy_r(geos, reader);
+  GEOS_finish_r(geos);
+}
+
+TEST_F(HullCommandTest, SvgHasPathsDotsAndATitle) {
+  const std::string svg = hull({points_file(), "--alpha", "0.3", "--format", "svg"}).out;
+  for (const char* word : {"<svg xmlns=", "viewBox=\"0 0 1040.00 ",
+                           "<title>2 polygons round 3004 points</title>", "evenodd", "<circle "}) {
+    EXPECT_NE(svg.find(word), std::string::npos) << word;
+  }
+  // The lowest point is at the bottom: 20 from the side, and the lower of the two.
+  const std::string corner =
+      hull({file("three.csv", "0,0\n10,0\n0,5\n"), "--alpha", "100", "--format", "svg"}).out;
+  EXPECT_NE(corner.find("cx=\"20.00\" cy=\"520.00\""), std::string::npos) << corner;
+  EXPECT_NE(corner.find("cx=\"20.00\" cy=\"20.00\""), std::string::npos) << corner;
+}
+
+TEST_F(HullCommandTest, EveryInputFormatGivesTheSameBytes) {
+  const std::string first = hull({points_file()}).out;
+  for (const auto& form : testing::all_forms(points_)) {
+    const std::string path = file(form.name, form.text);
+    EXPECT_EQ(hull({path}).out, first) << form.name;
+    EXPECT_EQ(in_shell("", "- < '" + path + "'").out, first) << form.name << " from a file as standard input";
+    EXPECT_EQ(in_shell("cat '" + path + "' |", "-").out, first) << form.name << " from a pipe";
+  }
+}
+
+TEST_F(HullCommandTest, ChoosesAnAlphaAndSaysIt) {
+  const Outcome outcome = hull({points_file()});
+  const double alpha = json::parse(outcome.out)["properties"]["alpha"];
+  EXPECT_NE(outcome.err.find("alpha " + testing::number(alpha) + ", chosen from the points"),
+            std::string::npos);
+  EXPECT_EQ(from_geojson(json::parse(outcome.out)["geometry"]["coordinates"]), expected(alpha));
+  // 3000 points on 100 - 4 pi.
+  EXPECT_NEAR(alpha, 2 * std::sqrt((100 - 12.57) / 3000), 0.03);
+}
+
+TEST_F(HullCommandTest, FewPointsGiveTheEmptyGeometry) {
+  for (const std::string text : {"1,2\n", "1,2\n3,4\n", "1,2\n1,2\n3,4\n1,2\n", "0,0\n1,1\n2,2\n", "x,y\n"}) {
+    const std::string path = file("few.csv", text);
+    const Outcome geojson = hull({path});
+    EXPECT_EQ(geojson.code, 0) << text;
+    EXPECT_EQ(json::parse(geojson.out)["geometry"]["coordinates"], json::array());
+    EXPECT_NE(geojson.err.find("no three distinct points"), std::string::npos) << geojson.err;
+    EXPECT_EQ(hull({path, "--format", "wkt"}).out, "MULTIPOLYGON EMPTY\n");
+    EXPECT_TRUE(shape_of(hull({path, "--format", "wkb", "--simplify", "1"})).empty());
+    EXPECT_EQ(hull({path, "--format", "svg"}).code, 0);
+  }
+  const Outcome strict = hull({points_file(), "--alpha", "0"});
+  EXPECT_EQ(strict.code, 0);
+  EXPECT_NE(strict.err.find("no triangle of the points is within the limits"), std::string::npos);
+}
+
+TEST_F(HullCommandTest, SmallPartsAreDropped) {
+  const MultiPolygon whole = expected(0.3);
+  EXPECT_EQ(shape({"--alpha", "0.3", "--min-area", "0.01"}).size(), 2U);
+  const MultiPolygon large = shape({"--alpha", "0.3", "--min-area", "0.5"});
+  ASSERT_EQ(large.size(), 1U);
+  ASSERT_EQ(large[0].holes.size(), 1U) << "the disc";
+  EXPECT_GT(-signed_area(large[0].holes[0]), 10);
+  const MultiPolygon filled = shape({"--alpha", "0.3", "--min-area", "40"});
+  ASSERT_EQ(filled.size(), 1U);
+  EXPECT_TRUE(filled[0].holes.empty());
+  EXPECT_TRUE(shape({"--alpha", "0.3", "--min-area", "1000"}).empty());
+  // The island has two triangles.
+  EXPECT_EQ(shape({"--alpha", "0.3", "--min-triangles", "2"}), whole);
+  EXPECT_EQ(shape({"--alpha", "0.3", "--min-triangles", "3"}).size(), 1U);
+  EXPECT_TRUE(shape({"--alpha", "0.3", "--min-triangles", "100000"}).empty());
+}
+
+TEST_F(HullCommandTest, SimplifyLeavesOutVerticesAndKeepsTheTopology) {
+  const MultiPolygon whole = expected(0.3);
+  const MultiPolygon simple = shape({"--alpha", "0.3", "--simplify", "0.2"});
+  EXPECT_LT(vertex_count(simple), vertex_count(whole) / 2);
+  ASSERT_EQ(simple.size(), whole.size());
+  for (std::size_t p = 0; p < whole.size(); ++p) EXPECT_EQ(simple[p].holes.size(), whole[p].holes.size());
+  EXPECT_EQ(invalid_reason(simple), "");
+  EXPECT_NEAR(area(simple), area(whole), 0.05 * area(whole));
+  EXPECT_EQ(shape({"--alpha", "0.3", "--simplify", "0"}), whole);
+}
+
+TEST_F(HullCommandTest, OutIsWrittenWholeOrNotAtAll) {
+  const std::string out = (folder() / "hull.geojson").string();
+  const std::string printed = hull({points_file()}).out;
+  const Outcome written = hull({points_file(), "--out", out});
+  EXPECT_EQ(written.code, 0) << written.err;
+  EXPECT_EQ(written.out, "");
+  EXPECT_EQ(read_text(out), printed);
+  expect_refusal(hull({file("bad.csv", "1,2\n3,x\n"), "--out", out}), 2, "line 2");
+  EXPECT_EQ(read_text(out), printed);
+  fs::create_symlink(out, folder() / "link");
+  EXPECT_EQ(hull({points_file(), "--format", "wkt", "--out", (folder() / "link").string()}).code, 0);
+  EXPECT_TRUE(fs::is_symlink(folder() / "link"));
+  EXPECT_TRUE(read_text(out).starts_with("MULTIPOLYGON"));
+  for (const auto& entry : fs::directory_iterator(folder())) {
+    EXPECT_EQ(entry.path().string().find("unfinished"), std::string::npos) << entry.path();
+  }
+}
+
+TEST_F(HullCommandTest, OutputThatCannotBeWritten) {
+  expect_refusal(hull({points_file(), "--alpha", "1", "--out", "/nowhere/hull.json"}), 1,
+                 "cannot write /nowhere/hull.json");
+  expect_refusal(hull({points_file(), "--alpha", "1", "--out", folder().string()}), 1, "Is a directory");
+  expect_refusal(hull({points_file(), "--alpha", "1", "--out", "/dev/full"}), 1, "No space left");
+  EXPECT_EQ(hull({points_file(), "--alpha", "1", "--out", "/dev/null"}).code, 0);
+  EXPECT_TRUE(fs::is_character_file("/dev/null"));
+  expect_refusal(in_shell("", "'" + points_file() + "' --alpha 1", "> /dev/full"), 1,
+                 "cannot write standard output: No space");
+  // Nobody reads from the pipe any more when the result comes.
+  const std::string pipe = "'" + make_pipe() + "'";
+  expect_refusal(
+      in_shell("exec 4<> " + pipe + " 3> " + pipe + " 4<&-;", "'" + points_file() + "' --alpha 1", ">&3"), 1,
+      "Broken pipe");
+}
+
+TEST_F(HullCommandTest, UsageErrors) {
+  const std::string points = points_file();
+  expect_refusal(hull({}), 2, "FILE is required");
+  expect_refusal(hull({points, "--alpha", "-1"}), 2, "--alpha: '-1' is not a number of 0 or more");
+  expect_refusal(hull({points, "--alpha", "nan"}), 2, "is not a number of 0 or more");
+  expect_refusal(hull({points, "--max-edge-length", "inf"}), 2, "is not a number of 0 or more");
+  expect_refusal(hull({points, "--min-area", "large"}), 2, "is not a number of 0 or more");
+  expect_refusal(hull({points, "--simplify", "-0.5"}), 2, "is not a number of 0 or more");
+  expect_refusal(hull({points, "--threads", "0"}), 2, "--threads");
+  expect_refusal(hull({points, "--input", "las"}), 2, "--input");
+  expect_refusal(hull({points, "--format", "shp"}), 2, "--format");
+  expect_refusal(hull({points, "--columns", "1,2"}), 2, "--columns is for columns of text");
+}
+
+TEST_F(HullCommandTest, InputThatCannotBeRead) {
+  expect_refusal(hull({"/nowhere/points.csv"}), 2, "there is no file /nowhere/points.csv");
+  expect_refusal(hull({folder().string()}), 2, "it is a folder");
+  expect_refusal(hull({file("empty.csv", "")}), 2, "it is empty");
+  expect_refusal(in_shell("", "- < /dev/null"), 2, "standard input: it is empty");
+  expect_refusal(in_shell("", "- < /"), 2, "standard input: it is a folder");
+  expect_refusal(hull({file("bad.csv", "x,y\n1,2\n3,nan\n")}), 2,
+                 "bad.csv, line 3: the coordinate 'nan' is not finite");
+  expect_refusal(hull({file("text.npy", "x,y\n1,2\n")}), 2, "does not begin as a NumPy file");
+  expect_refusal(hull({file("wide.csv", "1e-300,0\n1e300,1\n5,7\n")}), 2, "wide.csv: ");
+  EXPECT_EQ(hull({"--input", "csv", file("text.npy", "x,y\n0,0\n1,0\n0,1\n")}).code, 0);
+  EXPECT_EQ(hull({"--columns", "b,c", file("c.csv", "a,b,c\n9,0,0\n9,1,0\n9,0,1\n")}).code, 0);
+}
+
+TEST_F(HullCommandTest, CtrlCWhileWaitingForInput) {
+  // Opened for reading and writing, so that neither side waits for the other and no end comes.
+  testing::Program program(
+      {"/bin/sh", "-c", std::string("exec '") + HULLBENCH + "' hull - <> '" + make_pipe() + "'"});
+  ASSERT_TRUE(testing::wait_until([&] {
+    return read_text("/proc/" + std::to_string(program.pid()) + "/stat").find("(hullbench) S") !=
+           std::string::npos;
+  }));
+  program.send_signal(SIGINT);
+  expect_refusal(program.wait(), 130, "interrupted");
+}
+
+}  // namespace
+}  // namespace hullbench

@@ -1,0 +1,375 @@
+// Readers of point files: every form gives the same points, every fault one sentence, and no bytes a crash.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <fstream>
+#include <limits>
+
+#include "datasets/point_files/point_file.hpp"
+#include "tests/point_file_texts.hpp"
+#include "tests/temporary_folder.hpp"
+
+namespace hullbench {
+namespace {
+
+using polylidar::Point;
+using namespace testing;
+
+class PointFilesTest : public ::testing::Test {
+ protected:
+  std::string file(const std::string& name, const std::string& text) const {
+    const std::string path = (folder_.path() / name).string();
+    std::ofstream(path, std::ios::binary) << text;
+    return path;
+  }
+
+  Points read(const std::string& name, const std::string& text, const PointFileOptions& options = {}) const {
+    return read_points(file(name, text), options);
+  }
+
+  Points read_columns(const std::string& text, const std::string& columns) const {
+    PointFileOptions options;
+    options.columns = columns;
+    return read("columns.csv", text, options);
+  }
+
+  /// What the refusal says; a failure of the test when there is none.
+  std::string refusal(const std::string& name, const std::string& text,
+                      const PointFileOptions& options = {}) const {
+    try {
+      const Points points = read(name, text, options);
+      ADD_FAILURE() << name << " was read: " << points.size() << " points\n" << text.substr(0, 200);
+    } catch (const PointFileError& error) {
+      return error.what();
+    }
+    return {};
+  }
+
+ private:
+  TemporaryFolder folder_;
+};
+
+TEST_F(PointFilesTest, EveryFormGivesTheSamePoints) {
+  const Points points = random_points(500, 1);
+  for (const PointFileText& form : all_forms(points)) {
+    EXPECT_EQ(read(form.name, form.text), points) << form.name;
+    // Without an ending the content must tell.
+    EXPECT_EQ(read("any_" + form.name.substr(0, form.name.find('.')), form.text), points) << form.name;
+  }
+}
+
+TEST_F(PointFilesTest, FilesOfManyBlocks) {
+  const Points points = random_points(150000, 2);
+  for (const PointFileText& form : all_forms(points))
+    EXPECT_EQ(read(form.name, form.text), points) << form.name;
+}
+
+TEST_F(PointFilesTest, TypesOfNumPyArrays) {
+  const Points points = {{-3, 5}, {100, -128}, {0, 127}};
+  for (const bool fortran : {false, true}) {
+    for (const std::string order : {"<", ">"}) {
+      EXPECT_EQ(read("f4.npy", npy_of<float>(points, order + "f4", fortran)), points);
+      EXPECT_EQ(read("i8.npy", npy_of<std::int64_t>(points, order + "i8", fortran)), points);
+      EXPECT_EQ(read("i4.npy", npy_of<std::int32_t>(points, order + "i4", fortran)), points);
+      EXPECT_EQ(read("i2.npy", npy_of<std::int16_t>(points, order + "i2", fortran)), points);
+    }
+    EXPECT_EQ(read("i1.npy", npy_of<std::int8_t>(points, "|i1", fortran)), points);
+  }
+  EXPECT_EQ(read("u4.npy", npy_of<std::uint32_t>({{4294967295.0, 1}}, "<u4")), (Points{{4294967295.0, 1}}));
+}
+
+TEST_F(PointFilesTest, TypesOfPlyProperties) {
+  const auto ply_of = [](const std::string& type, const std::string& data) {
+    return "ply\r\nformat binary_little_endian 1.0\nelement vertex 1\nproperty " + type + " x\nproperty " +
+           type + " y\nend_header\n" + data;
+  };
+  const auto pair = [](auto x, auto y) { return bytes_of(x) + bytes_of(y); };
+  const Points points = {{-2, 3}};
+  EXPECT_EQ(read("a.ply", ply_of("char", pair(std::int8_t{-2}, std::int8_t{3}))), points);
+  EXPECT_EQ(read("a.ply", ply_of("int16", pair(std::int16_t{-2}, std::int16_t{3}))), points);
+  EXPECT_EQ(read("a.ply", ply_of("int", pair(-2, 3))), points);
+  EXPECT_EQ(read("a.ply", ply_of("float32", pair(-2.0F, 3.0F))), points);
+  EXPECT_EQ(read("a.ply", ply_of("uchar", pair(std::uint8_t{200}, std::uint8_t{3}))), (Points{{200, 3}}));
+  EXPECT_EQ(read("a.ply", ply_of("ushort", pair(std::uint16_t{65535}, std::uint16_t{3}))),
+            (Points{{65535, 3}}));
+}
+
+TEST_F(PointFilesTest, ColumnsByNameAndByNumber) {
+  const std::string text = "id,Lat,lon,X\n7,1,2,3\n8,4,5,6\n";
+  EXPECT_EQ(read_columns(text, ""), (Points{{2, 1}, {5, 4}}));
+  EXPECT_EQ(read_columns(text, "lon,lat"), (Points{{2, 1}, {5, 4}}));
+  EXPECT_EQ(read_columns(text, " x , 2"), (Points{{3, 1}, {6, 4}}));
+  EXPECT_EQ(read_columns(text, "4,1"), (Points{{3, 7}, {6, 8}}));
+  EXPECT_EQ(read_columns("a,b,c\n1,2,3\n", ""), (Points{{1, 2}}));
+  EXPECT_EQ(read_columns("house 1 2\n", "2,3"), (Points{{1, 2}}));
+  EXPECT_EQ(read_columns("x,X\n1,2\n", "X,x"), (Points{{2, 1}}));
+}
+
+TEST_F(PointFilesTest, SpellingsOfNumbers) {
+  EXPECT_EQ(read("a.csv", "+1,-2e+3\n.5,1E-2\n\"3\",\"4\"\n1e-400,-0\n"),
+            (Points{{1, -2000}, {0.5, 0.01}, {3, 4}, {0, -0.0}}));
+  EXPECT_EQ(read("a.csv", "0.1,0.30000000000000004\n")[0].y, 0.30000000000000004);
+}
+
+TEST_F(PointFilesTest, FilesWithoutPoints) {
+  EXPECT_TRUE(read("a.csv", "x,y\n").empty());
+  EXPECT_TRUE(read("a.csv", "# nothing\n").empty());
+  EXPECT_TRUE(read("a.wkt", "MULTIPOINT EMPTY\n").empty());
+  EXPECT_TRUE(read("a.geojson", R"({"type":"FeatureCollection","features":[]})").empty());
+  EXPECT_TRUE(read("a.geojson", R"({"type":"MultiPoint","coordinates":[]})").empty());
+  EXPECT_TRUE(read("a.npy", npy_of<double>({}, "<f8")).empty());
+  EXPECT_TRUE(
+      read("a.ply", "ply\nformat ascii 1.0\nelement vertex 0\nproperty int x\nproperty int y\nend_header\n")
+          .empty());
+}
+
+struct Fault {
+  const char* name;
+  std::string text;
+  std::string words;
+};
+
+TEST_F(PointFilesTest, FaultsInColumns) {
+  const std::vector<Fault> faults = {
+      {"a.csv", "", "it is empty"},
+      {"a.csv", "x,y\n1,2\n3\n", ", line 3: there is no column 2"},
+      {"a.csv", "1,2\n\n#\n3,\n", ", line 4: a coordinate is missing"},
+      {"a.csv", "1,2\n3,abc\n", ", line 2: 'abc' is not a number"},
+      {"a.csv", "1,abc\n", ", line 1: 'abc' is not a number"},
+      {"a.csv", "1;2,5\n", "with a point and no comma"},
+      {"a.csv", "x,y\n1,nan\n", ", line 2: the coordinate 'nan' is not finite"},
+      {"a.csv", "-inf 1\n", ", line 1: the coordinate '-inf' is not finite"},
+      {"a.csv", "1e999,1\n", "too large for a double"},
+      {"a.csv", "1,\"2\n", "a quote is not closed"},
+      {"a.csv", "1,\"2\"3\n", "text follows a closing quote"},
+      {"a.csv", "1,0x10\n", "'0x10' is not a number"},
+      {"a.csv", "+-1,2\n", "'+-1' is not a number"},
+      {"a.csv", std::string("1,2\0\n", 5), "zero byte"},
+      {"a.csv", std::string(2000000, '7'), ", line 1: the line is longer than"},
+      {"a.xyz", "1,2\n3,4\n", ", line 2: there is no column 2"},
+      {"a.csv", "LASF\1\2", "it is a LAS file"},
+      {"a.csv", "\x1F\x8B\x08", "it is compressed"},
+      {"a.csv", "PK\x03\x04", "it is an archive"},
+      {"a.csv", "\xFF\xFEx", "UTF-16"},
+  };
+  for (const Fault& fault : faults) {
+    const std::string said = refusal(fault.name, fault.text);
+    EXPECT_NE(said.find(fault.words), std::string::npos) << said << "\n" << fault.text.substr(0, 100);
+    EXPECT_EQ(said.find('\n'), std::string::npos) << said;
+    EXPECT_NE(said.find(fault.name), std::string::npos) << said;
+  }
+}
+
+TEST_F(PointFilesTest, FaultsInTheChoiceOfColumns) {
+  for (const auto& [columns, words] : std::vector<std::pair<std::string, std::string>>{
+           {"x", "does not name two columns"},
+           {"1,1", "does not name two columns"},
+           {"0,1", "does not name two columns"},
+           {",", "does not name two columns"},
+           {"a,b,", "there is no column 'b,'"},
+           {"a,z", ", line 1: there is no column 'z'; the columns of this line are 'a', 'b'"},
+           {"1,3", ", line 2: there is no column 3"}}) {
+    PointFileOptions options;
+    options.columns = columns;
+    const std::string said = refusal("a.csv", "a,b\n1,2\n", options);
+    EXPECT_NE(said.find(words), std::string::npos) << said;
+    EXPECT_NE(refusal("a.wkt", "POINT (1 2)", options).find("--columns is for"), std::string::npos);
+  }
+}
+
+TEST_F(PointFilesTest, FaultsInGeoJson) {
+  const std::vector<Fault> faults = {
+      {"a.geojson", "[1,2]", "this is no GeoJSON object"},
+      {"a.geojson", "7", "this is no GeoJSON object"},
+      {"a.geojson", "{\"type\":\n\"Point\",\n\"coordinates\":[1,nan]}", ", line 3: this is not JSON"},
+      {"a.geojson",
+       R"({"type":"Point","coordinates":[1,2]})"
+       "\n{",
+       ", line 2: this is not JSON"},
+      {"a.geojson", R"({"type":"Point","coordinates":[1,1e999]})", "number overflow"},
+      {"a.geojson", R"({"type":"Point","coordinates":[1,null]})", "a coordinate is null"},
+      {"a.geojson", R"({"type":"Point","coordinates":[1]})", "a position has no x and y"},
+      {"a.geojson", R"({"type":"MultiPoint","coordinates":[[]]})", "a position has no x and y"},
+      {"a.geojson", R"({"type":"MultiPoint","coordinates":[1,2]})", "does not have the form"},
+      {"a.geojson", R"({"type":"Point","coordinates":[[1,2]]})", "does not have the form"},
+      {"a.geojson", R"({"type":"MultiPoint","coordinates":[[1,2],[[3,4]]]})", "does not have the form"},
+      {"a.geojson", R"({"type":"MultiPoint","coordinates":[[1,[2]]]})", "does not have the form"},
+      {"a.geojson", R"({"type":"Point","coordinates":["1","2"]})", "does not have the form"},
+      {"a.geojson", R"({"type":"Point","coordinates":{"x":1}})", "does not have the form"},
+      {"a.geojson", R"({"type":"Point","coordinates":7})", "does not have the form"},
+      {"a.geojson", R"({"type":7,"coordinates":[1,2]})", "does not have the form"},
+      {"a.geojson", R"({"type":"FeatureCollection","features":[[]]})", "does not have the form"},
+      {"a.geojson", R"({"type":"FeatureCollection","features":{}})", "does not have the form"},
+      {"a.geojson", R"({"type":"Feature","geometry":[]})", "does not have the form"},
+      {"a.geojson", R"({"coordinates":[1,2]})", "has no \"type\""},
+      {"a.geojson", R"({"type":"Feature"})", "has not the members of its type"},
+      {"a.geojson", R"({"type":"Point"})", "has not the members of its type"},
+      {"a.geojson", R"({"coordinates":[[0,0],[1,1]],"type":"LineString"})",
+       "of type 'LineString', which is no set"},
+      {"a.geojson", R"({"type":"Polygon","coordinates":[[[0,0]]]})", "of type 'Polygon', which is no set"},
+  };
+  for (const Fault& fault : faults) {
+    const std::string said = refusal(fault.name, fault.text);
+    EXPECT_NE(said.find(fault.words), std::string::npos) << said << "\n" << fault.text;
+    EXPECT_NE(said.find(", line "), std::string::npos) << said;
+    EXPECT_EQ(said.find('\n'), std::string::npos) << said;
+  }
+}
+
+TEST_F(PointFilesTest, FaultsInWkt) {
+  std::string deep;
+  for (int i = 0; i < 100000; ++i) deep += "GEOMETRYCOLLECTION(";
+  const std::vector<Fault> faults = {
+      {"a.wkt", "POINT (1 2)\nLINESTRING (0 0, 1 1)", ", line 2: 'LINESTRING' is no set of points"},
+      {"a.wkt", "POINT (1 nan)", "'nan' is not finite"},
+      {"a.wkt", "POINT (1\n)", "a coordinate is missing"},
+      {"a.wkt", "POINT (1 2", "')' is missing before the end"},
+      {"a.wkt", "POINT 1 2", "a bracket or EMPTY is missing"},
+      {"a.wkt", "MULTIPOINT ((1 2) (3 4))", "')' is missing before '('"},
+      {"a.wkt", "MULTIPOINT (1 2, EMPT)", "a point is missing"},
+      {"a.wkt", "POINT (1 2 3 4 5)", "more than four coordinates"},
+      {"a.wkt", "POINT (1 2 z)", "is not a number"},
+      {"a.wkt", "(1 2)", "there is no geometry's name"},
+      {"a.wkt", "POINT (" + std::string(1000, '1') + " 2)", "a word is too long"},
+      {"a.wkt", deep, "collections nest too deeply"},
+  };
+  for (const Fault& fault : faults) {
+    const std::string said = refusal(fault.name, fault.text);
+    EXPECT_NE(said.find(fault.words), std::string::npos) << said << "\n" << fault.text.substr(0, 100);
+    EXPECT_NE(said.find(", line "), std::string::npos) << said;
+  }
+}
+
+TEST_F(PointFilesTest, FaultsInBinaryFiles) {
+  const Points points = random_points(3, 3);
+  const std::string good = npy_of<double>(points, "<f8");
+  const double infinite = std::numeric_limits<double>::infinity();
+  const std::string head = "ply\nformat binary_little_endian 1.0\n";
+  const std::string vertices = "element vertex 2\nproperty float x\nproperty float y\n";
+  const std::vector<Fault> faults = {
+      {"a.npy", "NUMPY", "does not begin as a NumPy file does"},
+      {"a.npy", good.substr(0, 9), "header is cut short"},
+      {"a.npy", good.substr(0, 50), "header is cut short"},
+      {"a.npy", good.substr(0, good.size() - 1), "ends before the 3 points"},
+      {"a.npy", good + "x", "more bytes follow the 3 points"},
+      {"a.npy", npy_of<double>(points, "<f8", false, 4), "of version 4"},
+      {"a.npy", npy_of<double>(points, "<c8"), "NumPy type '<c8' is no plain number"},
+      {"a.npy", npy_of<double>(points, "<f2"), "is no plain number"},
+      {"a.npy", npy("<f8", false, "(2, 3, 1)", std::string(48, '\0')), "and not (n, 2) or (n, 3)"},
+      {"a.npy", npy("<f8", false, "(6,)", std::string(48, '\0')), "shape is '(6,)' and not"},
+      {"a.npy", npy("<f8", false, "(99999999999999999, 2)", ""), "and not (n, 2)"},
+      {"a.npy", npy("<f8", false, "(99999999999, 2)", ""), "ends before the 99999999999 points"},
+      {"a.npy", npy_of<double>({{1, 2}, {3, infinite}}, "<f8"),
+       "point 2 has a coordinate that is not finite"},
+      {"a.npy", npy_of<float>({{1, 2}, {std::nan(""), 1}}, "<f4"),
+       "point 2 has a coordinate that is not finite"},
+      {"a.npy", npy_of<float>({{infinite, 2}, {3, 1}}, "<f4", true),
+       "point 1 has a coordinate that is not finite"},
+      {"a.ply", "plyx\n", "does not begin with the line 'ply'"},
+      {"a.ply", "ply\nend_header\n", ", line 2: the PLY header has no format"},
+      {"a.ply", "ply\nformat utf8 1.0\n", ", line 2: the format 'utf8' is not PLY's"},
+      {"a.ply", head, "the PLY header does not end"},
+      {"a.ply", head + "wings 2\n", ", line 3: 'wings' is no line of a PLY header"},
+      {"a.ply", head + "element vertex\n", "has no number"},
+      {"a.ply", head + "property float x\n", "has no name or no element"},
+      {"a.ply", head + "element vertex 1\nproperty quad x\n", ", line 4: 'quad' is no type of PLY"},
+      {"a.ply", head + "element vertex 1\nproperty list float int x\n", "length is no whole number"},
+      {"a.ply", head + "element face 1\nend_header\n", "has no element 'vertex'"},
+      {"a.ply", head + "element vertex 1\nproperty float x\nend_header\n", "have no property 'y'"},
+      {"a.ply", head + vertices + "end_header\n" + std::string(15, '\0'), "ends before 'vertex' 2 of 2"},
+      {"a.ply",
+       head + vertices + "end_header\n" + bytes_of(1.F) + bytes_of(1.F) + bytes_of(1.F) +
+           bytes_of(std::nanf("")),
+       "vertex 2 has a coordinate that is not finite"},
+      {"a.ply", head + "element e 1\nproperty list char int i\n" + vertices + "end_header\n\xFF",
+       "negative length"},
+      {"a.ply", "ply\nformat ascii 1.0\n" + vertices + "end_header\n1 2\n3\n",
+       ", line 8: there are fewer numbers"},
+      {"a.ply", "ply\nformat ascii 1.0\n" + vertices + "end_header\n1 2\n3 inf\n",
+       ", line 8: the coordinate 'inf'"},
+      {"a.ply", "ply\nformat ascii 1.0\n" + vertices + "end_header\n1 2\n", "ends before 'vertex' 2"},
+  };
+  for (const Fault& fault : faults) {
+    const std::string said = refusal(fault.name, fault.text);
+    EXPECT_NE(said.find(fault.words), std::string::npos) << said << "\n(wanted: " << fault.words << ")";
+    EXPECT_EQ(said.find('\n'), std::string::npos) << said;
+  }
+}
+
+TEST_F(PointFilesTest, NoFileAndAFolder) {
+  EXPECT_THROW(read_points("/nowhere/points.csv"), PointFileError);
+  try {
+    read_points(::testing::TempDir());
+    ADD_FAILURE();
+  } catch (const PointFileError& error) {
+    EXPECT_NE(std::string(error.what()).find("it is a folder"), std::string::npos) << error.what();
+  }
+}
+
+TEST_F(PointFilesTest, ProgressTellsBytesAndCanEndTheReading) {
+  const std::string text = rows(random_points(100000, 4), ",");
+  PointFileOptions options;
+  std::uint64_t last = 0;
+  options.on_progress = [&](std::uint64_t bytes, std::optional<std::uint64_t> size) {
+    EXPECT_GE(bytes, last);
+    EXPECT_EQ(size, text.size());
+    last = bytes;
+  };
+  EXPECT_EQ(read("a.csv", text, options).size(), 100000U);
+  EXPECT_EQ(last, text.size());
+  options.on_progress = [](std::uint64_t, std::optional<std::uint64_t>) { throw std::logic_error("enough"); };
+  EXPECT_THROW(read("a.csv", text, options), std::logic_error);
+}
+
+/// Bytes at random places changed, cut out, repeated.
+std::string mutated(std::string text, std::mt19937_64& random) {
+  for (std::uint64_t change = 1 + random() % 4; change > 0 && !text.empty(); --change) {
+    const std::size_t place = random() % text.size();
+    const std::size_t length = 1 + random() % 8;
+    switch (random() % 4) {
+      case 0:
+        text[place] = static_cast<char>(random());
+        break;
+      case 1:
+        text.erase(place, length);
+        break;
+      case 2:
+        text.insert(place, text.substr(random() % text.size(), length));
+        break;
+      default:
+        text.resize(place);
+    }
+  }
+  return text;
+}
+
+TEST_F(PointFilesTest, NoBytesDoMoreThanBeRefused) {
+  std::mt19937_64 random(20240611);
+  const std::vector<PointFileText> forms = all_forms(random_points(6, 5));
+  int refused = 0;
+  int read_well = 0;
+  for (int round = 0; round < 150; ++round) {
+    for (const PointFileText& form : forms) {
+      std::string text = mutated(form.text, random);
+      if (round % 30 == 0) {
+        for (char& c : text) c = static_cast<char>(random());
+      }
+      PointFileOptions options;
+      if (round % 10 == 0) options.format = static_cast<PointFormat>(random() % 7);
+      try {
+        for (const Point& p : read(form.name, text, options)) {
+          EXPECT_TRUE(std::isfinite(p.x) && std::isfinite(p.y)) << form.name;
+        }
+        ++read_well;
+      } catch (const PointFileError& error) {
+        EXPECT_EQ(std::string(error.what()).find('\n'), std::string::npos) << error.what();
+        ++refused;
+      }
+    }
+  }
+  EXPECT_GT(refused, 500);
+  EXPECT_GT(read_well, 100);
+}
+
+}  // namespace
+}  // namespace hullbench
