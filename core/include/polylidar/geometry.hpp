@@ -5,13 +5,15 @@
 #include <span>
 #include <vector>
 
+/// The core: concave hulls of point sets in the plane, and what they are made of.
 namespace polylidar {
 
 /// A point in the plane, in the caller's length unit.
 struct Point {
-  double x = 0;
-  double y = 0;
+  double x = 0;  ///< first coordinate
+  double y = 0;  ///< second coordinate
 
+  /// Coordinate by coordinate: -0 equals 0.
   friend bool operator==(const Point&, const Point&) = default;
 };
 
@@ -21,9 +23,10 @@ using Ring = std::vector<Point>;
 /// A polygon (OGC 06-103r4, 6.1.11): one shell and any number of holes inside it. The core and every adapter
 /// give shells counter-clockwise and holes clockwise.
 struct Polygon {
-  Ring shell;
-  std::vector<Ring> holes;
+  Ring shell;               ///< the outer boundary
+  std::vector<Ring> holes;  ///< the inner ones, in any order
 
+  /// Vertex by vertex in the order they are listed, not as shapes.
   friend bool operator==(const Polygon&, const Polygon&) = default;
 };
 
@@ -32,8 +35,8 @@ using MultiPolygon = std::vector<Polygon>;
 
 /// An axis-parallel box; `min` > `max` in an empty one.
 struct Box {
-  Point min;
-  Point max;
+  Point min;  ///< least x and least y
+  Point max;  ///< greatest x and greatest y
 };
 
 /// The smallest box round `points`; for no points, min = +infinity and max = -infinity.

@@ -1,0 +1,88 @@
+"""Concave hulls of points in the plane, by the polylidar core: points in, valid multipolygons out.
+
+    import numpy, polylidar_core, shapely.geometry
+    points = numpy.random.default_rng(1).random((1000, 2))
+    shape = polylidar_core.concave_hull(points, alpha=0.1)
+    print(shape, shapely.geometry.shape(shape).is_valid)
+"""
+from __future__ import annotations
+
+import math
+import operator
+import os
+
+import numpy as np
+import numpy.typing as npt
+
+from . import _core
+from ._core import __version__
+from .multi_polygon import MultiPolygon
+
+__all__ = ["MultiPolygon", "__version__", "concave_hull", "delaunay"]
+
+
+def concave_hull(
+    points: npt.ArrayLike,
+    alpha: float | None = None,
+    max_edge_length: float | None = None,
+    threads: int | None = 1,
+) -> MultiPolygon:
+    """The concave hull of points: their Delaunay triangulation, the triangles that both limits keep, and the outline
+    of each part that is connected by edges. Without limits it is the convex hull. O(n log n).
+
+    points: numbers of the shape (n, 2), x and y in any unit of length, in any order; they may repeat. A C-contiguous
+        float64 array is read where it is, read-only and memory-mapped ones too; anything else is converted, which
+        copies it once. Other threads run meanwhile and must leave the array as it is.
+    alpha: largest circumradius of a triangle that is kept, in the unit of the points; zero or more; None: no limit.
+        For points spread evenly over a shape, 2 * sqrt(its area / n) suits.
+    max_edge_length: longest edge of a triangle that is kept, likewise.
+    threads: how many threads compute, one or more; None: as many as this process may use processors. The result does
+        not depend on it. Worth it from some 10,000 points on.
+
+    Fewer than 3 distinct points, points all on a line, or no triangle kept: an empty multipolygon.
+
+    ValueError: another shape, no real numbers, a coordinate that is not finite (the message names the row, from 0),
+    coordinates whose magnitudes span more than a factor of 2^265, more than 2^28 points, a limit that is negative or
+    NaN, threads below 1.
+    """
+    array = _as_points(points)
+    vertices, ring_ends, polygon_ends, area = _core.concave_hull(
+        array,
+        math.inf if alpha is None else alpha,
+        math.inf if max_edge_length is None else max_edge_length,
+        _thread_count(threads),
+    )
+    return MultiPolygon(array, vertices, ring_ends, polygon_ends, area)
+
+
+def delaunay(points: npt.ArrayLike) -> npt.NDArray[np.uint32]:
+    """The triangles of the Delaunay triangulation of points, an array of the shape (m, 3): row indices of points,
+    each triangle counter-clockwise, the triangles in no particular order. Of equal points only the first is used.
+    None (m = 0) for fewer than 3 distinct points or points all on a line. O(n log n).
+
+    points, and the errors they raise: as of concave_hull.
+    """
+    return _core.delaunay(_as_points(points))
+
+
+def _as_points(points: npt.ArrayLike) -> npt.NDArray[np.float64]:
+    try:
+        array = np.asarray(points)
+    except ValueError as error:
+        raise ValueError("points must be numbers of the shape (n, 2): some rows differ in length") from error
+    if array.dtype.kind not in "iuf":
+        raise ValueError(f"points must be real numbers, not of the type {array.dtype}")
+    if array.shape == (0,):
+        array = array.reshape(0, 2)
+    if array.ndim != 2 or array.shape[1] != 2:
+        raise ValueError(f"points must have the shape (n, 2), not {array.shape}: give one row of x and y a point")
+    return np.require(array, np.float64, ["C", "ALIGNED"])
+
+
+def _thread_count(threads: int | None) -> int:
+    if threads is None:
+        return len(os.sched_getaffinity(0))
+    count = operator.index(threads)
+    if count < 1:
+        raise ValueError("threads must be one or more, or None for all processors")
+    return count

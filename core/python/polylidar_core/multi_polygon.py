@@ -1,0 +1,60 @@
+"""The result of concave_hull."""
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+
+
+class MultiPolygon:
+    """Polygons whose interiors are disjoint, each valid in the sense of OGC 06-103r4. Shells run counter-clockwise,
+    holes clockwise. Whatever reads __geo_interface__ takes it: shapely.geometry.shape(multi_polygon).
+
+    polygons: a list of polygons; each a list of rings, the shell first, then its holes; each ring a float64 array of
+        the shape (k, 2), k >= 3, the first vertex *not* repeated. A copy: the points may change afterwards.
+    indices: the same with uint32 arrays of the shape (k,): the rows of the points that the vertices are.
+    area: shells minus holes, in the squared unit of the points.
+    """
+
+    __slots__ = ("polygons", "indices", "area")
+
+    polygons: list[list[npt.NDArray[np.float64]]]
+    indices: list[list[npt.NDArray[np.uint32]]]
+    area: float
+
+    def __init__(
+        self,
+        points: npt.NDArray[np.float64],
+        vertices: npt.NDArray[np.uint32],
+        ring_ends: npt.NDArray[np.uint32],
+        polygon_ends: npt.NDArray[np.uint32],
+        area: float,
+    ) -> None:
+        """Of the core's flat arrays: ring r is vertices[ring_ends[r - 1]:ring_ends[r]], and polygons likewise of rings."""
+        self.indices = _parts(_parts(vertices, ring_ends), polygon_ends)
+        self.polygons = _parts(_parts(points[vertices], ring_ends), polygon_ends)
+        self.area = area
+
+    @property
+    def __geo_interface__(self) -> dict[str, Any]:
+        """The shape as GeoJSON has it, in lists and floats: json.dumps writes it. Rings are closed."""
+        coordinates = [[np.concatenate([ring, ring[:1]]).tolist() for ring in polygon] for polygon in self.polygons]
+        return {"type": "MultiPolygon", "coordinates": coordinates}
+
+    def __len__(self) -> int:
+        """How many polygons there are."""
+        return len(self.polygons)
+
+    def __repr__(self) -> str:
+        rings = [ring for polygon in self.polygons for ring in polygon]
+        vertices = sum(len(ring) for ring in rings)
+        return (
+            f"<MultiPolygon: polygons {len(self)}, holes {len(rings) - len(self)}, vertices {vertices}, "
+            f"area {self.area:.6g}>"
+        )
+
+
+def _parts(sequence: Any, ends: npt.NDArray[np.uint32]) -> list[Any]:
+    limits = [0, *ends.tolist()]
+    return [sequence[begin:end] for begin, end in zip(limits, limits[1:])]

@@ -1,0 +1,162 @@
+// The installed core: what is in it, and a project of a stranger's that is built against it in both ways.
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "tests/program.hpp"
+#include "tests/temporary_folder.hpp"
+
+namespace hullbench {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::Outcome;
+using testing::run_program;
+
+const fs::path kExample = fs::path(SOURCE_FOLDER) / "tests/package";
+const std::string kExampleOutput = "shell of 40 vertices, hole of 12 vertices\narea 86\n";
+
+std::string succeed(const std::vector<std::string>& command, const testing::ProgramOptions& options = {}) {
+  const Outcome outcome = run_program(command, options);
+  EXPECT_EQ(outcome.code, 0) << command[0] << ": " << outcome.out << outcome.err;
+  return outcome.out;
+}
+
+class PackageTest : public ::testing::Test {
+ protected:
+  void install(const std::vector<std::string>& options) {
+    std::vector<std::string> command = {CMAKE_PROGRAM, "--install", BUILD_FOLDER, "--prefix", prefix()};
+    command.insert(command.end(), options.begin(), options.end());
+    succeed(command);
+  }
+
+  /// The core's package, moved after it was installed.
+  void install_and_move() {
+    install({"--component", "polylidar"});
+    const fs::path moved = folder_.path() / "moved";
+    fs::rename(prefix_, moved);
+    prefix_ = moved;
+  }
+
+  std::set<std::string> installed_files() const {
+    std::set<std::string> names;
+    for (const auto& entry : fs::recursive_directory_iterator(prefix_)) {
+      if (entry.is_regular_file()) names.insert(entry.path().lexically_relative(prefix_));
+    }
+    return names;
+  }
+
+  Outcome configure(const fs::path& project) const {
+    return run_program({CMAKE_PROGRAM, "-S", project, "-B", build_of(project),
+                        "-DCMAKE_PREFIX_PATH=" + prefix(), "-DCMAKE_FIND_USE_CMAKE_SYSTEM_PATH=OFF",
+                        std::string("-DCMAKE_CXX_COMPILER=") + CXX_COMPILER});
+  }
+
+  testing::ProgramOptions pkg_config_path() const {
+    testing::ProgramOptions options;
+    options.environment["PKG_CONFIG_LIBDIR"] = prefix_ / libraries() / "pkgconfig";
+    return options;
+  }
+
+  std::string pkg_config(const std::vector<std::string>& options) const {
+    std::vector<std::string> command = {PKG_CONFIG_PROGRAM, "polylidar"};
+    command.insert(command.end(), options.begin(), options.end());
+    return succeed(command, pkg_config_path());
+  }
+
+  /// "lib", or what the system has in its stead.
+  fs::path libraries() const {
+    for (const auto& entry : fs::recursive_directory_iterator(prefix_)) {
+      if (entry.path().filename() == "libpolylidar.a") {
+        return entry.path().parent_path().lexically_relative(prefix_);
+      }
+    }
+    ADD_FAILURE() << "no library is installed";
+    return "lib";
+  }
+
+  std::string prefix() const { return prefix_; }
+  std::string build_of(const fs::path& project) const {
+    return folder_.path() / ("build-" + project.filename().string());
+  }
+
+  testing::TemporaryFolder folder_;
+  fs::path prefix_ = folder_.path() / "installed";
+};
+
+TEST_F(PackageTest, IsTheCoreAndNothingElse) {
+  install({});  // all that an installation without a component takes
+  const std::string lib = libraries();
+  std::set<std::string> expected = {lib + "/libpolylidar.a",
+                                    lib + "/cmake/polylidar/polylidar-config.cmake",
+                                    lib + "/cmake/polylidar/polylidar-config-version.cmake",
+                                    lib + "/cmake/polylidar/polylidar-targets.cmake",
+                                    lib + "/cmake/polylidar/polylidar-targets-" BUILD_TYPE ".cmake",
+                                    lib + "/pkgconfig/polylidar.pc",
+                                    "share/doc/polylidar/LICENSE"};
+  for (const auto& header : fs::directory_iterator(fs::path(SOURCE_FOLDER) / "core/include/polylidar")) {
+    expected.insert("include/polylidar/" + header.path().filename().string());
+  }
+  EXPECT_EQ(installed_files(), expected);
+}
+
+TEST_F(PackageTest, NamesNothingOfTheBuild) {
+  install({"--component", "polylidar"});
+  for (const std::string& name : installed_files()) {
+    if (name.ends_with(".a")) continue;
+    const std::string text = testing::read_text(prefix_ / name);
+    for (const std::string& unwanted : {std::string(SOURCE_FOLDER), prefix(), std::string("hullbench::")}) {
+      EXPECT_EQ(text.find(unwanted), std::string::npos) << name << " names " << unwanted;
+    }
+  }
+}
+
+TEST_F(PackageTest, IsFoundByCMakeWhereverItIsMoved) {
+  install_and_move();
+  const Outcome configured = configure(kExample);
+  ASSERT_EQ(configured.code, 0) << configured.err;
+  succeed({CMAKE_PROGRAM, "--build", build_of(kExample)});
+  EXPECT_EQ(succeed({build_of(kExample) + "/lattice"}), kExampleOutput);
+}
+
+TEST_F(PackageTest, IsFoundByPkgConfigWhereverItIsMoved) {
+  install_and_move();
+  const std::string program = folder_.path() / "lattice";
+  succeed({"/bin/sh", "-c", R"("$0" -std=c++20 "$1" -o "$2" $("$3" --cflags --libs --static polylidar))",
+           CXX_COMPILER, kExample / "main.cpp", program, PKG_CONFIG_PROGRAM},
+          pkg_config_path());
+  EXPECT_EQ(succeed({program}), kExampleOutput);
+  EXPECT_NE(pkg_config({"--libs", "--static"}).find("-pthread"), std::string::npos);
+}
+
+TEST_F(PackageTest, HasTheVersionOfTheHarnessInBothWays) {
+  install_and_move();
+  EXPECT_EQ(pkg_config({"--modversion"}), PROJECT_VERSION "\n");
+  EXPECT_NE(testing::read_text(prefix_ / libraries() / "cmake/polylidar/polylidar-config-version.cmake")
+                .find("set(PACKAGE_VERSION \"" PROJECT_VERSION "\")"),
+            std::string::npos);
+}
+
+TEST_F(PackageTest, OfAnotherMinorVersionIsRefused) {
+  install_and_move();
+  const std::string project = testing::read_text(kExample / "CMakeLists.txt");
+  const std::string wanted = "polylidar 0.1 ";
+  ASSERT_NE(project.find(wanted), std::string::npos);
+  for (const std::string other : {"0.0", "0.2"}) {
+    const fs::path folder = folder_.path() / other;
+    fs::create_directory(folder);
+    std::string text = project;
+    text.replace(text.find(wanted), wanted.size(), "polylidar " + other + " ");
+    testing::write_text(folder / "CMakeLists.txt", text);
+    testing::write_text(folder / "main.cpp", "");
+    const Outcome configured = configure(folder);
+    EXPECT_NE(configured.code, 0) << other;
+    EXPECT_NE(configured.err.find("version: " PROJECT_VERSION), std::string::npos) << configured.err;
+  }
+}
+
+}  // namespace
+}  // namespace hullbench

@@ -1,0 +1,362 @@
+"""The Python module polylidar_core, beside numpy, shapely and the harness's own worker.
+
+Run by ctest with the module in PYTHONPATH; HULLBENCH names the harness, without which the comparison with it is skipped.
+"""
+import ast
+import gc
+import inspect
+import json
+import os
+import pathlib
+import pickle
+import subprocess
+import sys
+import tempfile
+import threading
+import time
+import tracemalloc
+import unittest
+
+import numpy as np
+import polylidar_core
+import shapely.geometry
+import shapely.wkb
+from polylidar_core import _core, concave_hull, delaunay
+
+CELL = 0.75  # keeps the halves of a unit lattice's cells (circumradius 0.71), the next triangle has 1
+
+
+def lattice_with_a_hole():
+    """11 x 11 points without the middle 3 x 3."""
+    return [(x, y) for y in range(11) for x in range(11) if not (4 <= x <= 6 and 4 <= y <= 6)]
+
+
+def scattered(count, seed=1):
+    return np.random.default_rng(seed).random((count, 2))
+
+
+def signed_area(ring):
+    x, y = ring.T
+    return (x * np.roll(y, -1) - np.roll(x, -1) * y).sum() / 2
+
+
+class Shapes(unittest.TestCase):
+    def test_lattice_with_a_hole(self):
+        shape = concave_hull(lattice_with_a_hole(), alpha=CELL)
+        self.assertEqual(len(shape), 1)
+        self.assertEqual([len(ring) for ring in shape.polygons[0]], [40, 12])
+        self.assertEqual(shape.area, 86.0)
+        self.assertEqual(repr(shape), "<MultiPolygon: polygons 1, holes 1, vertices 52, area 86>")
+
+    def test_shapely_takes_it_as_valid_and_of_the_same_area(self):
+        for seed in range(20):
+            shape = concave_hull(scattered(2000, seed), alpha=0.02)
+            with self.subTest(seed=seed):
+                taken = shapely.geometry.shape(shape)
+                self.assertGreater(len(shape), 1)
+                self.assertEqual(taken.geom_type, "MultiPolygon")
+                self.assertTrue(taken.is_valid)
+                # Thousands of terms, each rounded to within 1e-16 of the unit square.
+                self.assertAlmostEqual(taken.area, shape.area, delta=1e-12)
+
+    def test_rings_are_open_and_oriented_and_closed_in_geojson(self):
+        shape = concave_hull(scattered(2000), alpha=0.02)
+        self.assertTrue(any(len(polygon) > 1 for polygon in shape.polygons))
+        interface = json.loads(json.dumps(shape.__geo_interface__))
+        self.assertEqual(interface["type"], "MultiPolygon")
+        for polygon, written in zip(shape.polygons, interface["coordinates"], strict=True):
+            self.assertGreater(signed_area(polygon[0]), 0)
+            for hole in polygon[1:]:
+                self.assertLess(signed_area(hole), 0)
+            for ring, closed in zip(polygon, written, strict=True):
+                self.assertNotEqual(ring[0].tolist(), ring[-1].tolist())
+                self.assertEqual(closed, [*ring.tolist(), ring[0].tolist()])
+
+    def test_indices_are_rows_of_the_points(self):
+        points = scattered(2000)
+        shape = concave_hull(points, alpha=0.02)
+        for polygon, indices in zip(shape.polygons, shape.indices, strict=True):
+            for ring, rows in zip(polygon, indices, strict=True):
+                self.assertEqual(rows.dtype, np.uint32)
+                np.testing.assert_array_equal(points[rows], ring)
+
+    def test_the_limits_keep_the_triangles_that_they_say(self):
+        points = scattered(2000)
+        corners = points[delaunay(points)]
+        edges = np.linalg.norm(corners - np.roll(corners, 1, axis=1), axis=2)
+        areas = np.array([signed_area(triangle) for triangle in corners])
+        radii = edges.prod(axis=1) / (4 * areas)
+        longest = edges.max(axis=1)
+        kept = []
+        for alpha, length in ((None, None), (0.03, None), (None, 0.04), (0.03, 0.04), (0.0, None)):
+            with self.subTest(alpha=alpha, length=length):
+                inside = (radii <= (np.inf if alpha is None else alpha)) & (longest <= (length or np.inf))
+                kept.append(inside.sum())
+                # Two thousand terms of at most 1, each rounded to 1e-16.
+                self.assertAlmostEqual(concave_hull(points, alpha, length).area, areas[inside].sum(), delta=1e-12)
+        self.assertEqual(len(set(kept)), 5)
+
+    def test_without_limits_it_is_the_convex_hull(self):
+        points = scattered(500)
+        hull = shapely.geometry.MultiPoint(points).convex_hull
+        self.assertTrue(shapely.geometry.shape(concave_hull(points)).equals(hull))
+
+    def test_degenerate_inputs_are_empty(self):
+        line = [(i, 2 * i) for i in range(10)]
+        for points in ([], np.empty((0, 2)), [(0, 0)], [(0, 0), (1, 1)], [(1, 1)] * 5, line):
+            with self.subTest(points=points):
+                shape = concave_hull(points)
+                self.assertEqual((len(shape), shape.area, shape.polygons, shape.indices), (0, 0.0, [], []))
+                self.assertEqual(shape.__geo_interface__, {"type": "MultiPolygon", "coordinates": []})
+                self.assertTrue(shapely.geometry.shape(shape).is_empty)
+                self.assertEqual(delaunay(points).shape, (0, 3))
+
+    def test_result_is_a_copy_and_can_be_pickled(self):
+        points = scattered(500)
+        shape = concave_hull(points, alpha=0.05)
+        before = shape.__geo_interface__
+        points[:] = 0
+        self.assertEqual(shape.__geo_interface__, before)
+        self.assertEqual(pickle.loads(pickle.dumps(shape)).__geo_interface__, before)
+
+    def test_threads_do_not_change_the_result(self):
+        points = scattered(50_000)
+        expected = concave_hull(points, alpha=0.005).__geo_interface__
+        for threads in (2, 3, np.int64(2), None):
+            with self.subTest(threads=threads):
+                self.assertEqual(concave_hull(points, alpha=0.005, threads=threads).__geo_interface__, expected)
+
+    def test_delaunay_covers_the_convex_hull_counter_clockwise(self):
+        points = scattered(1000)
+        triangles = delaunay(points)
+        self.assertEqual((triangles.dtype, triangles.shape[1]), (np.uint32, 3))
+        areas = [signed_area(corners) for corners in points[triangles]]
+        self.assertGreater(min(areas), 0)
+        # A thousand terms of at most 1, each rounded to 1e-16.
+        self.assertAlmostEqual(sum(areas), shapely.geometry.MultiPoint(points).convex_hull.area, delta=1e-12)
+        self.assertEqual(len(np.unique(triangles)), len(points))
+
+
+@unittest.skipUnless("HULLBENCH" in os.environ, "HULLBENCH does not name the harness")
+class BesideTheHarness(unittest.TestCase):
+    def test_the_worker_gives_the_same_polygons(self):
+        points = scattered(5000)
+        with tempfile.TemporaryDirectory() as folder:
+            points.tofile(f"{folder}/points")
+            requests = [
+                {"request": "hello", "protocol": 1},
+                {"request": "load", "points": f"{folder}/points", "n": len(points)},
+                {"request": "run", "nonce": "n", "parameters": {"alpha": 0.015}, "result": f"{folder}/wkb"},
+                {"request": "quit"},
+            ]
+            worker = subprocess.run(
+                [os.environ["HULLBENCH"], "worker", "--method", "polylidar"],
+                input="".join(json.dumps(request) + "\n" for request in requests),
+                stdout=subprocess.PIPE, text=True, check=True)
+            theirs = shapely.wkb.loads(pathlib.Path(folder, "wkb").read_bytes())
+        self.assertEqual(json.loads(worker.stdout.splitlines()[0])["method"]["version"], polylidar_core.__version__)
+        ours = shapely.geometry.shape(concave_hull(points, alpha=0.015))
+        self.assertGreater(len(ours.geoms), 1)
+        self.assertTrue(ours.equals_exact(theirs, 0))
+
+
+class Inputs(unittest.TestCase):
+    def test_whatever_is_converted_gives_the_same(self):
+        exact = np.array(lattice_with_a_hole(), dtype=np.float64)
+        shifted = np.empty(exact.nbytes + 1, np.uint8)[1:].view(np.float64).reshape(exact.shape)
+        shifted[:] = exact
+        self.assertFalse(shifted.flags.aligned)
+        wide = np.zeros((len(exact), 5))
+        wide[:, 1:4:2] = exact
+        expected = concave_hull(exact, alpha=CELL).__geo_interface__
+        for name, points in {
+            "list": exact.tolist(), "int64": exact.astype(np.int64), "uint8": exact.astype(np.uint8),
+            "float32": exact.astype(np.float32), "big-endian": exact.astype(">f8"), "by columns": np.asfortranarray(exact),
+            "a view": wide[:, 1:4:2], "not aligned": shifted, "backwards twice": exact[::-1].copy()[::-1],
+        }.items():
+            with self.subTest(name):
+                self.assertEqual(concave_hull(points, alpha=CELL).__geo_interface__, expected)
+                np.testing.assert_array_equal(delaunay(points), delaunay(exact))
+
+    def refused(self, message, *arguments, **options):
+        with self.assertRaisesRegex(ValueError, message):
+            concave_hull(*arguments, **options)
+
+    def test_other_shapes_and_types(self):
+        self.refused(r"must have the shape \(n, 2\), not \(4, 3\)", np.zeros((4, 3)))
+        self.refused(r"not \(4,\)", np.zeros(4))
+        self.refused(r"not \(0, 3\)", np.empty((0, 3)))
+        self.refused(r"not \(\)", 1.0)
+        self.refused(r"not \(1, 2, 2\)", [[(0, 0), (1, 1)]])
+        self.refused("some rows differ in length", [(0, 0), (1, 1, 1)])
+        self.refused("real numbers, not of the type complex128", np.zeros((4, 2), complex))
+        self.refused("real numbers", [("a", "b")])
+        with self.assertRaisesRegex(ValueError, "shape"):
+            delaunay(np.zeros((4, 3)))
+
+    def test_coordinates(self):
+        points = scattered(1000)
+        points[357, 1] = np.nan
+        self.refused("point 357 is not finite", points)
+        points[12, 0] = np.inf
+        self.refused("point 12 is not finite", points, threads=2)
+        with self.assertRaisesRegex(ValueError, "point 12 is not finite"):
+            delaunay(points)
+        self.refused(r"more than a factor of 2\^265", [(0, 1e-100), (1e100, 0), (1, 1)])
+
+    def test_options(self):
+        points = scattered(10)
+        self.refused("alpha must be zero or more", points, alpha=-1)
+        self.refused("alpha must be zero or more", points, alpha=float("nan"))
+        self.refused("max_edge_length must be zero or more", points, max_edge_length=-1)
+        for threads in (0, -1):
+            self.refused("threads must be one or more", points, threads=threads)
+        for options in ({"alpha": "1"}, {"threads": 1.5}):
+            with self.assertRaises(TypeError):
+                concave_hull(points, **options)
+
+    def test_the_extension_itself_takes_nothing_that_it_would_have_to_convert(self):
+        exact = np.array(lattice_with_a_hole(), dtype=np.float64)
+        for points in (exact.astype(np.float32), np.asfortranarray(exact), exact.tolist()):
+            with self.assertRaises(TypeError):
+                _core.delaunay(points)
+        with self.assertRaises(ValueError):
+            _core.delaunay(np.zeros((4, 3)))
+
+
+class Memory(unittest.TestCase):
+    def python_peak(self, points):
+        """Bytes that numpy and Python held at most during a call; the core's own memory is not in it."""
+        gc.collect()
+        tracemalloc.start()
+        try:
+            concave_hull(points)
+            return tracemalloc.get_traced_memory()[1]
+        finally:
+            tracemalloc.stop()
+
+    def test_only_what_must_be_converted_is_copied_and_only_once(self):
+        points = scattered(200_000)
+        frozen = points.copy()
+        frozen.flags.writeable = False
+        for array in (points, frozen):
+            self.assertLess(self.python_peak(array), points.nbytes / 20)
+        for array in (points.astype(np.float32), np.asfortranarray(points)):
+            self.assertGreaterEqual(self.python_peak(array), points.nbytes)
+            self.assertLess(self.python_peak(array), 1.05 * points.nbytes)
+
+    def test_a_file_larger_than_memory_may_be_is_taken_where_it_is(self):
+        # One point more than the core takes, which it says before it reads any: 4 GiB that do not exist, in a process
+        # that gets no more than half a gigabyte. Any copy on the way would need them.
+        program = """
+import resource, sys
+import numpy as np, polylidar_core
+points = np.memmap(sys.argv[1], np.float64, "r", shape=(2**28 + 1, 2))
+used = next(int(line.split()[1]) * 1024 for line in open("/proc/self/status") if line.startswith("VmData"))
+resource.setrlimit(resource.RLIMIT_DATA, (used + 2**29, used + 2**29))
+for call in (polylidar_core.concave_hull, polylidar_core.delaunay):
+    try:
+        call(points)
+    except ValueError as error:
+        print(error)
+"""
+        with tempfile.NamedTemporaryFile() as file:
+            file.truncate(16 * (2**28 + 1))
+            result = subprocess.run([sys.executable, "-c", program, file.name], capture_output=True, text=True)
+        self.assertEqual(result.stdout, 2 * "more than 2^28 points: split the input\n", result.stderr)
+
+    def test_results_are_freed(self):
+        points = scattered(100_000)
+
+        def resident():
+            gc.collect()
+            with open("/proc/self/statm", encoding="ascii") as file:
+                return int(file.read().split()[1]) * os.sysconf("SC_PAGESIZE")
+
+        for _ in range(3):
+            delaunay(points)
+        before = resident()
+        for _ in range(30):
+            delaunay(points)
+        # 30 results of 2.4 MB each would be 72 MB.
+        self.assertLess(resident() - before, 36e6)
+
+
+class Threads(unittest.TestCase):
+    def test_other_threads_run_meanwhile(self):
+        points = scattered(300_000)
+        for call in (lambda: concave_hull(points), lambda: delaunay(points)):
+            turns, seen, done = 0, [], threading.Event()
+
+            def compute():
+                seen.append(turns)
+                call()
+                seen.append(turns)
+                done.set()
+
+            # Nobody is asked to give way, so only who lets go of the interpreter is interrupted.
+            interval = sys.getswitchinterval()
+            sys.setswitchinterval(60)
+            try:
+                thread = threading.Thread(target=compute)
+                thread.start()
+                while not done.is_set():
+                    turns += 1
+                    time.sleep(0.0005)
+                thread.join()
+            finally:
+                sys.setswitchinterval(interval)
+            # numpy may let go for a moment too when the result is put together, but not this often.
+            self.assertGreater(seen[1] - seen[0], 10)
+
+    def test_calls_at_the_same_time(self):
+        sets = [scattered(20_000, seed) for seed in range(4)]
+        expected = [concave_hull(points, 0.01).__geo_interface__ for points in sets]
+        results = [None] * len(sets)
+
+        def compute(i):
+            results[i] = concave_hull(sets[i], 0.01, threads=2).__geo_interface__
+
+        threads = [threading.Thread(target=compute, args=(i,)) for i in range(len(sets))]
+        for thread in threads:
+            thread.start()
+        for thread in threads:
+            thread.join()
+        self.assertEqual(results, expected)
+
+
+class Types(unittest.TestCase):
+    folder = pathlib.Path(polylidar_core.__file__).parent
+
+    def test_the_stub_names_what_the_extension_has(self):
+        self.assertTrue((self.folder / "py.typed").exists())
+        stub = ast.parse((self.folder / "_core.pyi").read_text())
+        functions = {node.name: node for node in stub.body if isinstance(node, ast.FunctionDef)}
+        variables = {node.target.id for node in stub.body if isinstance(node, ast.AnnAssign)}
+        public = {name for name in vars(_core) if not name.startswith("_")} | {"__version__"}
+        self.assertEqual(set(functions) | variables, public)
+        for name, node in functions.items():
+            parameters = [parameter.arg for parameter in node.args.args]
+            signature = getattr(_core, name).__doc__.splitlines()[0]
+            self.assertEqual(parameters, [part.split(":")[0].strip() for part in signature[len(name) + 1:].split(", ")
+                                          if ":" in part.split("[")[0]])
+
+    def test_everything_public_is_typed_and_documented(self):
+        public = [getattr(polylidar_core, name) for name in polylidar_core.__all__ if name != "__version__"]
+        members = [member.fget if isinstance(member, property) else member
+                   for name, member in vars(polylidar_core.MultiPolygon).items()
+                   if inspect.isfunction(member) or isinstance(member, property)]
+        self.assertEqual(len(public), 3)
+        self.assertGreaterEqual(len(members), 4)
+        for item in public + members:
+            with self.subTest(item):
+                if inspect.isclass(item):
+                    self.assertEqual(set(item.__annotations__), set(item.__slots__))
+                else:
+                    self.assertEqual(set(item.__annotations__), {*inspect.signature(item).parameters, "return"} - {"self"})
+                if item.__name__ != "__repr__":
+                    self.assertTrue(item.__doc__)
+
+
+if __name__ == "__main__":
+    unittest.main()
