@@ -40,3 +40,48 @@ else()
   add_adapter(NAME postgis_steps TITLE "PostGIS, step by step"
     MISSING "libpq" INSTALL "sudo apt-get install libpq-dev postgresql-postgis")
 endif()
+
+# Before 3.12 GEOS's C API has the hull by ratio only; the C++ headers and library then give the hull by length.
+find_package(GEOS CONFIG QUIET)
+find_path(GEOS_CXX_INCLUDE geos/algorithm/hull/ConcaveHull.h)
+mark_as_advanced(GEOS_CXX_INCLUDE)
+set(geos_sources geos_concave_hull.cpp geos_hull_by_length.cpp)
+if(GEOS_FOUND AND GEOS_VERSION VERSION_GREATER_EQUAL 3.12)
+  add_adapter(NAME geos_concave_hull TITLE "GEOS concave hull" LIBRARIES GEOS::geos_c SOURCES ${geos_sources})
+elseif(GEOS_FOUND AND GEOS_VERSION VERSION_GREATER_EQUAL 3.11 AND GEOS_CXX_INCLUDE)
+  add_adapter(NAME geos_concave_hull TITLE "GEOS concave hull" LIBRARIES GEOS::geos_c GEOS::geos
+    SOURCES ${geos_sources})
+  # By which GEOS lets its C++ headers be used without a warning.
+  set_source_files_properties(geos_hull_by_length.cpp PROPERTIES COMPILE_DEFINITIONS USE_UNSTABLE_GEOS_CPP_API)
+else()
+  add_adapter(NAME geos_concave_hull TITLE "GEOS concave hull"
+    MISSING "GEOS 3.11 with its C++ headers, or a newer GEOS," INSTALL "sudo apt-get install libgeos-dev libgeos++-dev")
+endif()
+
+# This project's own implementations: their version is the project's.
+find_package(Boost REQUIRED)
+add_adapter(NAME chi_shape TITLE "Chi shape" LIBRARIES polylidar::core)
+add_adapter(NAME knn_hull TITLE "k-nearest-neighbours hull" LIBRARIES polylidar::core Boost::headers)
+
+# Off unless asked for: PCL's library brings VTK, TBB and OpenMP into every process of the program that has it.
+option(HULLBENCH_PCL "Build the method pcl_concave_hull (Debian's libpcl-dev)" OFF)
+if(HULLBENCH_PCL)
+  # By pkg-config and name: PCL's CMake package looks for VTK and all else that PCL can use, which takes seconds.
+  pkg_check_modules(PCL REQUIRED pcl_surface)
+  add_adapter(NAME pcl_concave_hull TITLE "PCL concave hull"
+    LIBRARIES polylidar::core pcl_surface pcl_search pcl_kdtree pcl_common
+    SOURCES pcl_concave_hull.cpp ring_nesting.cpp)
+  target_include_directories(hullbench_adapter_pcl_concave_hull SYSTEM PRIVATE "${PCL_INCLUDE_DIRS}")
+  # PCL is compiled for generic x86-64; with -march=native Eigen would align and free memory in another way.
+  set_source_files_properties(pcl_concave_hull.cpp PROPERTIES COMPILE_DEFINITIONS EIGEN_MAX_ALIGN_BYTES=16)
+else()
+  add_adapter(NAME pcl_concave_hull TITLE "PCL concave hull"
+    MISSING "PCL" INSTALL "sudo apt-get install libpcl-dev && cmake -DHULLBENCH_PCL=ON build && cmake --build build")
+endif()
+
+add_adapter(NAME convex_hull TITLE "Convex hull" LIBRARIES polylidar::core Boost::headers)
+set_source_files_properties(chi_shape.cpp PROPERTIES COMPILE_DEFINITIONS "HULLBENCH_VERSION=\"${PROJECT_VERSION}\"")
+# Boost 1.74's Geometry includes headers of its own that announce themselves as deprecated in every compilation.
+set_source_files_properties(knn_hull.cpp PROPERTIES
+  COMPILE_DEFINITIONS "HULLBENCH_VERSION=\"${PROJECT_VERSION}\";BOOST_ALLOW_DEPRECATED_HEADERS")
+set_source_files_properties(convex_hull.cpp PROPERTIES COMPILE_DEFINITIONS BOOST_ALLOW_DEPRECATED_HEADERS)

@@ -44,6 +44,15 @@ std::vector<Point> rotated(std::vector<Point> points, double radians) {
   return points;
 }
 
+std::vector<Point> near_one(std::vector<Point> points) {
+  const Box box = bounding_box(points);
+  const double extent = std::max(box.max.x - box.min.x, box.max.y - box.min.y);
+  if (!(extent > 0)) return points;
+  const int exponent = -std::ilogb(extent);
+  for (Point& point : points) point = {std::ldexp(point.x, exponent), std::ldexp(point.y, exponent)};
+  return points;
+}
+
 std::vector<Point> circle(std::size_t count, double radius, Point centre) {
   std::vector<Point> points(count);
   for (std::size_t i = 0; i < count; ++i) {

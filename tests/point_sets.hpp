@@ -52,6 +52,10 @@ std::vector<Point> lattice(std::size_t columns, std::size_t rows, double step = 
 /// `points` turned by `radians` round the origin; rounding turns exact degeneracies into near ones.
 std::vector<Point> rotated(std::vector<Point> points, double radians);
 
+/// `points` with an extent near 1, for libraries that are not made for coordinates whose squares overflow: a
+/// power of two changes no shape.
+std::vector<Point> near_one(std::vector<Point> points);
+
 /// `count` points on a circle, as near to it as doubles come.
 std::vector<Point> circle(std::size_t count, double radius, Point centre = {});
 

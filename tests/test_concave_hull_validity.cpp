@@ -17,18 +17,8 @@
 namespace polylidar {
 namespace {
 
+using testing::near_one;
 using testing::PointSet;
-
-// `points` with an extent near 1: a power of two changes no shape, and neither library is made for squares of
-// coordinates that overflow.
-std::vector<Point> near_one(std::vector<Point> points) {
-  const Box box = bounding_box(points);
-  const double extent = std::max(box.max.x - box.min.x, box.max.y - box.min.y);
-  if (!(extent > 0)) return points;
-  const int exponent = -std::ilogb(extent);
-  for (Point& point : points) point = {std::ldexp(point.x, exponent), std::ldexp(point.y, exponent)};
-  return points;
-}
 
 void expect_valid(const std::vector<Point>& points, const Options& options) {
   SCOPED_TRACE("alpha " + std::to_string(options.alpha) + ", max_edge_length " +

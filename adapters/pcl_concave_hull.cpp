@@ -1,0 +1,120 @@
+// PCL's ConcaveHull in two dimensions: the alpha shape over Qhull's triangulation, in single precision.
+//
+// Degenerate input: fewer than 3 distinct points, or points all on a line, give an empty multipolygon without
+// a call of PCL, which fails on them.
+#include <pcl/pcl_config.h>
+#include <pcl/point_cloud.h>
+#include <pcl/point_types.h>
+#include <pcl/surface/concave_hull.h>
+
+#include <cstddef>
+#include <limits>
+#include <memory>
+#include <span>
+#include <stdexcept>
+#include <utility>
+#include <vector>
+
+#include "adapters/adapter.hpp"
+#include "adapters/point_checks.hpp"
+#include "adapters/ring_nesting.hpp"
+
+namespace hullbench {
+namespace {
+
+using Cloud = pcl::PointCloud<pcl::PointXYZ>;
+
+MethodInfo describe() {
+  MethodInfo info;
+  info.name = "pcl_concave_hull";
+  info.title = "PCL concave hull";
+  // PCL has no function that says its version; its libraries' names carry it, so another one would not load.
+  info.version = PCL_VERSION_PRETTY;
+  info.licence = "BSD-3-Clause";
+  info.citation =
+      "R. B. Rusu, S. Cousins, 3D is here: Point Cloud Library (PCL), ICRA 2011; class pcl::ConcaveHull";
+  info.native_output = "rings in no order, vertices in single precision, mapped to the nearest input points";
+  info.parameters = {{.name = "alpha",
+                      .unit = "length",
+                      .description = "Largest circumradius of a triangle inside the shape.",
+                      .minimum = 0,
+                      .maximum = std::numeric_limits<double>::infinity(),
+                      .default_value = std::nullopt}};
+  info.capabilities = {.holes = true, .several_polygons = true};
+  return info;
+}
+
+class PclConcaveHull final : public Adapter {
+ public:
+  const MethodInfo& info() const override { return info_; }
+
+  void load(std::span<const Point> points) override {
+    reset();
+    require_finite(points);
+    has_area_ = span_an_area(points);
+    points_.assign(points.begin(), points.end());
+    cloud_ = std::make_shared<Cloud>();
+    cloud_->reserve(points.size());
+    for (const Point& point : points) {
+      cloud_->push_back(pcl::PointXYZ(static_cast<float>(point.x), static_cast<float>(point.y), 0));
+    }
+  }
+
+  void run(const Parameters& parameters, Steps& steps) override {
+    const double alpha = complete_parameters(info_, parameters).at("alpha");
+    reset();
+    has_run_ = true;
+    // PCL refuses alpha = 0, where no triangle is small enough.
+    if (!has_area_ || alpha == 0) return;
+    if (points_.size() < 4) throw Unsupported("PCL's ConcaveHull needs at least 4 points");
+    steps.begin("shape");
+    pcl::ConcaveHull<pcl::PointXYZ> hull;
+    hull.setInputCloud(cloud_);
+    hull.setAlpha(alpha);
+    hull.setDimension(2);
+    // Without it the vertices are what two rotations in single precision leave of the points.
+    hull.setKeepInformation(true);
+    Cloud vertices;
+    hull.reconstruct(vertices, polygons_);
+    hull.getHullPointIndices(point_of_);
+  }
+
+  MultiPolygon extract(Steps& steps) override {
+    if (!has_run_) throw std::logic_error("extract comes after run");
+    steps.begin("polygon");
+    std::vector<Ring> rings;
+    rings.reserve(polygons_.size());
+    for (const pcl::Vertices& polygon : polygons_) {
+      Ring& ring = rings.emplace_back();
+      ring.reserve(polygon.vertices.size());
+      for (const auto vertex : polygon.vertices) {
+        ring.push_back(
+            points_[static_cast<std::size_t>(point_of_.indices[static_cast<std::size_t>(vertex)])]);
+      }
+    }
+    return nest_rings(std::move(rings));
+  }
+
+  void reset() override {
+    has_run_ = false;
+    polygons_.clear();
+    point_of_.indices.clear();
+  }
+
+ private:
+  MethodInfo info_ = describe();
+  std::vector<Point> points_;
+  Cloud::Ptr cloud_;
+  bool has_area_ = false;
+  bool has_run_ = false;
+  std::vector<pcl::Vertices> polygons_;  // rings of vertices of the hull
+  pcl::PointIndices point_of_;           // vertex of the hull -> the nearest input point
+};
+
+}  // namespace
+
+std::unique_ptr<Adapter> make_pcl_concave_hull() {
+  return std::make_unique<PclConcaveHull>();
+}
+
+}  // namespace hullbench

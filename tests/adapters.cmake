@@ -1,0 +1,21 @@
+# The methods that run in this process and need no database.
+foreach(part IN ITEMS geos_concave_hull chi_shape knn_hull convex_hull)
+  if(NOT TARGET hullbench_adapter_${part})
+    message(FATAL_ERROR "The tests need the adapter ${part}: install what the line above names, or configure with -DHULLBENCH_TESTS=OFF")
+  endif()
+  hullbench_test(test_${part} SOURCES test_${part}.cpp
+    LIBRARIES hullbench_adapter_${part} hullbench_adapter_interface hullbench_test_support hullbench::metrics Boost::headers
+    LABELS adapters)
+  # g++ 12 finds uninitialised values in Boost.Geometry 1.74 where there are none.
+  set_source_files_properties(test_${part}.cpp PROPERTIES
+    COMPILE_OPTIONS "$<$<CXX_COMPILER_ID:GNU>:-Wno-maybe-uninitialized>")
+endforeach()
+target_link_libraries(test_geos_concave_hull PRIVATE hullbench_adapter_chi_shape)
+
+hullbench_test(test_ring_nesting SOURCES test_ring_nesting.cpp ../adapters/ring_nesting.cpp
+  LIBRARIES hullbench_test_support LABELS adapters)
+if(TARGET hullbench_adapter_pcl_concave_hull)
+  hullbench_test(test_pcl_concave_hull SOURCES test_pcl_concave_hull.cpp
+    LIBRARIES hullbench_adapter_pcl_concave_hull hullbench_adapter_interface hullbench_test_support hullbench::metrics
+    LABELS adapters)
+endif()

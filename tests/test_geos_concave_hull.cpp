@@ -1,0 +1,131 @@
+// The GEOS adapter: its two parameters, its extremes, and the chi shape, which GEOS's erosion by length is.
+#include <gtest/gtest.h>
+
+#include <cctype>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <memory>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "adapters/adapter.hpp"
+#include "polylidar/concave_hull.hpp"
+#include "tests/adapter_contract.hpp"
+#include "tests/hull_input.hpp"
+#include "tests/hull_oracle.hpp"
+#include "tests/point_sets.hpp"
+#include "tests/simple_hull.hpp"
+
+namespace hullbench {
+
+std::unique_ptr<Adapter> make_chi_shape();
+std::unique_ptr<Adapter> make_geos_concave_hull();
+
+namespace {
+
+using polylidar::testing::canonical;
+using polylidar::testing::hole_count;
+using test::hull_of;
+using test::kAreaTolerance;
+using test::kHoleArea;
+using test::kPoints;
+using test::square_points;
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+MultiPolygon geos_hull(const std::vector<Point>& points, const Parameters& parameters) {
+  return hull_of(*make_geos_concave_hull(), points, parameters);
+}
+
+TEST(GeosConcaveHull, SaysWhoItIs) {
+  const auto adapter = make_geos_concave_hull();
+  const MethodInfo& info = adapter->info();
+  EXPECT_EQ(info.name, "geos_concave_hull");
+  EXPECT_EQ(info.version.find_first_not_of("0123456789."), std::string::npos) << info.version;
+  EXPECT_TRUE(info.capabilities.holes);
+  EXPECT_FALSE(info.capabilities.several_polygons);
+  EXPECT_EQ(complete_parameters(info, {}),
+            (Parameters{{"length_ratio", 1}, {"max_edge_length", kInfinity}, {"allow_holes", 0}}));
+}
+
+TEST(GeosConcaveHull, KeepsTheContractByRatio) {
+  test::expect_adapter_contract(&make_geos_concave_hull, {{"length_ratio", 0.4}, {"allow_holes", 1}},
+                                {{"length_ratio", 0.2}});
+}
+
+TEST(GeosConcaveHull, KeepsTheContractByLength) {
+  test::expect_adapter_contract(&make_geos_concave_hull, {{"max_edge_length", 0.1}, {"allow_holes", 1}},
+                                {{"max_edge_length", 0.2}});
+}
+
+TEST(GeosConcaveHull, TakesOneOfItsTwoLimits) {
+  const std::vector<Point> points = square_points(100, 1, false);
+  try {
+    geos_hull(points, {{"length_ratio", 0.5}, {"max_edge_length", 0.5}});
+    FAIL() << "no exception";
+  } catch (const std::invalid_argument& error) {
+    EXPECT_NE(std::string(error.what()).find("not both"), std::string::npos) << error.what();
+  }
+  const MultiPolygon by_ratio = geos_hull(points, {{"length_ratio", 0.5}, {"max_edge_length", kInfinity}});
+  EXPECT_EQ(by_ratio, geos_hull(points, {{"length_ratio", 0.5}}));
+  const MultiPolygon by_length = geos_hull(points, {{"length_ratio", 1}, {"max_edge_length", 0.2}});
+  EXPECT_EQ(by_length, geos_hull(points, {{"max_edge_length", 0.2}}));
+}
+
+// GEOS triangulates within a frame of finite size, so that slivers along the convex hull may be missing: in
+// this set one, 1.4e-6 of the whole.
+TEST(GeosConcaveHull, WithoutALimitIsTheConvexHull) {
+  const std::vector<Point> points = square_points(kPoints, 7, true);
+  const double convex = polylidar::area(polylidar::to_coordinates(polylidar::concave_hull(points), points));
+  for (const Parameters& parameters : {Parameters{}, Parameters{{"max_edge_length", 2}}}) {
+    EXPECT_NEAR(polylidar::area(geos_hull(points, parameters)), convex, 2e-6);
+  }
+}
+
+// By hand, as in the test of the chi shape.
+TEST(GeosConcaveHull, OfATrapezoidWithOneInnerPoint) {
+  const std::vector<Point> points = {{0, 0}, {6, 0}, {5, 4}, {1, 4}, {3, 1}};
+  const MultiPolygon convex = {{{{0, 0}, {6, 0}, {5, 4}, {1, 4}}, {}}};
+  const MultiPolygon notched = {{{{0, 0}, {3, 1}, {6, 0}, {5, 4}, {1, 4}}, {}}};
+  EXPECT_EQ(canonical(geos_hull(points, {{"max_edge_length", 6.1}})), convex);
+  EXPECT_EQ(canonical(geos_hull(points, {{"max_edge_length", 5.9}})), notched);
+  EXPECT_EQ(canonical(geos_hull(points, {{"length_ratio", 0}})), notched);
+  EXPECT_EQ(canonical(geos_hull(points, {{"length_ratio", 1}})), convex);
+}
+
+TEST(GeosConcaveHull, KeepsOrFillsTheHole) {
+  const std::vector<Point> points = square_points(kPoints, 7, true);
+  const MultiPolygon filled = geos_hull(points, {{"max_edge_length", 0.12}});
+  EXPECT_NEAR(polylidar::area(filled), 1, kAreaTolerance);
+  EXPECT_EQ(hole_count(filled), 0U);
+  const MultiPolygon with_hole = geos_hull(points, {{"max_edge_length", 0.12}, {"allow_holes", 1}});
+  EXPECT_NEAR(polylidar::area(with_hole), 1 - kHoleArea, kAreaTolerance);
+  EXPECT_EQ(hole_count(with_hole), 1U);
+}
+
+TEST(GeosConcaveHull, ByLengthIsTheChiShape) {
+  const auto chi_shape = make_chi_shape();
+  for (std::uint64_t seed = 0; seed < 60; ++seed) {
+    const std::vector<Point> points = polylidar::testing::uniform_points(5 + 20 * seed, seed);
+    for (const double spacings : {0.0, 1.0, 2.0, 4.0}) {
+      SCOPED_TRACE("seed " + std::to_string(seed) + ", spacings " + std::to_string(spacings));
+      const Parameters limit = {
+          {"max_edge_length", spacings / std::sqrt(static_cast<double>(points.size()))}};
+      const MultiPolygon hull = geos_hull(points, limit);
+      EXPECT_EQ(canonical(hull), canonical(hull_of(*chi_shape, points, limit)));
+    }
+  }
+}
+
+TEST(GeosConcaveHull, OfRandomPointsIsOneSimplePolygonRoundAll) {
+  for (std::uint64_t seed = 0; seed < 40; ++seed) {
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    const std::vector<Point> points = polylidar::testing::uniform_points(5 + 5 * seed, seed);
+    test::expect_one_simple_polygon_round(points, geos_hull(points, {{"length_ratio", 0.2}}));
+  }
+}
+
+}  // namespace
+}  // namespace hullbench
