@@ -43,15 +43,20 @@ endef
 
 NATIVE_OPTION = -DHULLBENCH_NATIVE=$(if $(filter-out 0,$(NATIVE)),ON,OFF)
 
-.PHONY: help deps build bench bench-quick bench-core bench-gate bench-gate-instructions reference test test-sanitize build-clang test-clang test-fresh test-slurm test-gate fuzz lint format clean
+.PHONY: help deps deps-extra build bench bench-quick bench-core bench-gate bench-gate-instructions reference test test-sanitize build-clang test-clang test-fresh test-slurm test-gate fuzz lint format docs clean
 
 help: ## list the targets (the default)
 	@awk 'BEGIN { FS = ":.*## " } /^[a-z-]+:.*## / { printf "  make %-23s %s\n", $$1, $$2 }' Makefile
 	@echo "  with NATIVE=1 (compile for this processor), SKIP_DEPS=1 (install nothing), JOBS=N (N processes)"
 
 deps: ## install what is missing of all the packages, development tools included
-	@cmake/install-packages.sh build bench test lint gate
+	@cmake/install-packages.sh build bench test docs python lint gate
 	@echo "==> nothing is missing"
+
+deps-extra: ## install what the methods in JavaScript, Python and Java need
+	@$(call install,extra)
+	@$(if $(SKIP_DEPS),,adapters/manifests/install.sh)
+	@echo "==> nothing is missing for the methods in other languages"
 
 build: ## only build: build/hullbench and build/core_benchmarks
 	@$(call build,release,$(NATIVE_OPTION),hullbench core_benchmarks)
@@ -89,7 +94,8 @@ bench-gate-instructions: ## the same by counted instructions, for machines that 
 	@benchmarks/gate/gate.sh --instructions $(if $(BASE),--base "$(BASE)")
 
 test: ## install, build and run all tests, the core's with sanitizers too
-	@$(call install,build bench test)
+	@$(call install,build bench test docs python)
+	@$(MAKE) deps-extra
 	@$(call build,release,$(NATIVE_OPTION))
 	@$(MAKE) test-sanitize
 	@echo "==> all tests"
@@ -104,11 +110,11 @@ test-sanitize: ## the core's tests with address, undefined-behaviour and thread 
 	@ctest --preset sanitize-threads
 
 build-clang: ## build everything with clang, the second compiler, in build-clang
-	@$(call install,build lint)
+	@$(call install,build python lint)
 	@$(call build,clang,$(NATIVE_OPTION))
 
 test-clang: ## the tests of the clang build
-	@$(call install,build bench test lint)
+	@$(call install,build bench test docs python lint)
 	@$(MAKE) build-clang
 	@echo "==> all tests, built with clang"
 	@ctest --preset clang --parallel $(JOBS)
@@ -145,13 +151,18 @@ fuzz: ## search for inputs that break the core, for 60 seconds (SECONDS=N)
 	echo "==> $$runs inputs, none breaks the core"
 
 lint: ## clang-tidy and the formatting check on all our sources
-	@$(call install,build lint)
+	@$(call install,build python lint)
 	@$(call configure,clang,$(NATIVE_OPTION))
 	@tests/style/check.sh format
 	@tests/style/check.sh tidy $(JOBS)
 
 format: ## format all our sources with clang-format 14
 	@tests/style/check.sh format --fix
+
+docs: ## the core's reference as HTML in build/docs/core; fails when something public has no comment
+	@$(call install,build docs)
+	@$(call build,release,$(NATIVE_OPTION),docs)
+	@echo "==> build/docs/core/html/index.html"
 
 clean: ## remove what was built; results stay
 	@rm -rf build build-clang build-sanitize build-sanitize-threads build-fuzz build-gate

@@ -1,13 +1,14 @@
 // The JSON files that are part of the program, as text. The file that defines them is generated from
-// results/*.json.
+// results/*.json and the manifests' schema.
 #pragma once
 
 #include <string_view>
 
 namespace hullbench {
 
-extern const std::string_view kRunSchemaJson;     ///< results/run.schema.json
-extern const std::string_view kReportSchemaJson;  ///< results/report.schema.json
-extern const std::string_view kPaperJson;         ///< results/paper.json
+extern const std::string_view kRunSchemaJson;       ///< results/run.schema.json
+extern const std::string_view kReportSchemaJson;    ///< results/report.schema.json
+extern const std::string_view kPaperJson;           ///< results/paper.json
+extern const std::string_view kManifestSchemaJson;  ///< adapters/process/manifest.schema.json
 
 }  // namespace hullbench

@@ -7,7 +7,6 @@
 #include <string>
 #include <vector>
 
-#include "adapters/adapter.hpp"
 #include "benchmarks/method_session.hpp"
 #include "datasets/datasets.hpp"
 
@@ -16,18 +15,18 @@ namespace {
 
 using nlohmann::json;
 
-json list_methods(const WorkerCommand& worker_command, const WorkerLimits& limits) {
+json list_methods(const std::vector<Method>& methods, const WorkerLimits& limits) {
   std::vector<std::unique_ptr<MethodSession>> sessions;
-  for (const AdapterEntry& entry : adapter_registry()) {
-    sessions.push_back(std::make_unique<MethodSession>(entry.name, worker_command(entry.name), limits));
+  for (const Method& method : methods) {
+    sessions.push_back(std::make_unique<MethodSession>(method, limits));
     sessions.back()->begin_start();
   }
-  json methods = json::array();
-  for (std::size_t i = 0; i < sessions.size(); ++i) {
-    sessions[i]->finish_start();
-    methods.push_back(describe_method(adapter_registry()[i].name, adapter_registry()[i].title, *sessions[i]));
+  json described = json::array();
+  for (const auto& session : sessions) {
+    session->finish_start();
+    described.push_back(describe_method(*session));
   }
-  return methods;
+  return described;
 }
 
 std::string limit_text(const json& value) {
@@ -73,8 +72,8 @@ void print_dataset(const json& dataset, std::ostream& out) {
 
 }  // namespace
 
-json make_listing(const WorkerCommand& worker_command, const WorkerLimits& limits) {
-  return {{"methods", list_methods(worker_command, limits)}, {"datasets", describe_datasets()}};
+json make_listing(const std::vector<Method>& methods, const WorkerLimits& limits) {
+  return {{"methods", list_methods(methods, limits)}, {"datasets", describe_datasets()}};
 }
 
 void print_listing(const json& listing, std::ostream& out) {

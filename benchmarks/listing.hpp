@@ -4,16 +4,16 @@
 #include <nlohmann/json.hpp>
 #include <ostream>
 
-#include "benchmarks/runner.hpp"
+#include "benchmarks/method.hpp"
 #include "benchmarks/worker_process.hpp"
 #include "datasets/datasets.hpp"
 
 namespace hullbench {
 
-/// {"methods": [...], "datasets": [...]}: every method this build knows, asked through a worker each, all at
-/// the same time, and every data set. Members of a method as in describe_method, of a data set as in
-/// run.json. Throws Interrupted.
-nlohmann::json make_listing(const WorkerCommand& worker_command, const WorkerLimits& limits);
+/// {"methods": [...], "datasets": [...]}: every one of `methods`, asked through a worker each, all at the
+/// same time, and every data set. Members of a method as in describe_method, of a data set as in run.json.
+/// Throws Interrupted.
+nlohmann::json make_listing(const std::vector<Method>& methods, const WorkerLimits& limits);
 
 /// The same for people.
 void print_listing(const nlohmann::json& listing, std::ostream& out);

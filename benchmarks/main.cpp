@@ -1,6 +1,7 @@
 // hullbench: the command line.
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <iostream>
@@ -9,11 +10,14 @@
 #include <vector>
 
 #include "adapters/adapter.hpp"
+#include "benchmarks/adapter_command.hpp"
 #include "benchmarks/compare_command.hpp"
 #include "benchmarks/gbench_export.hpp"
+#include "benchmarks/hull/hull_command.hpp"
 #include "benchmarks/interrupt.hpp"
 #include "benchmarks/listing.hpp"
 #include "benchmarks/merge.hpp"
+#include "benchmarks/method_catalog.hpp"
 #include "benchmarks/plan.hpp"
 #include "benchmarks/readme.hpp"
 #include "benchmarks/report.hpp"
@@ -43,6 +47,10 @@ constexpr const char* kFooter =
     "the folder with\n"
     "the programs that a private server is made of.";
 
+constexpr const char* kAdaptersHelp =
+    "A folder with manifests of methods (adapters/process/PROTOCOL.md) besides adapters/manifests and the "
+    "user's ~/.config/hullbench/adapters";
+
 constexpr const char* kExportGbenchHelp = "Also write the times into this file, as Google Benchmark's JSON";
 
 /// Memory for a worker that only says who it is.
@@ -50,12 +58,16 @@ constexpr std::int64_t kListMemoryMib = 4096;
 
 struct Arguments {
   bool json = false;
+  std::vector<fs::path> list_adapters;
   RunCommand run;
   MergeCommand merge;
   std::string tables_path = "results/latest";
   bool tables_write = false;
   std::string tables_export_gbench;
   CompareCommand compare;
+  NewAdapterCommand new_adapter;
+  TestAdapterCommand test_adapter;
+  HullCommand hull;
   std::string readme_run;
   std::string readme_path;
   bool readme_check = false;
@@ -63,14 +75,9 @@ struct Arguments {
   std::string worker_method;
 };
 
-/// This program as a worker. /proc/self/exe is this very file, wherever it was started from and even when it
-/// was replaced since.
-std::vector<std::string> own_worker(const std::string& method) {
-  return {"/proc/self/exe", "worker", "--method", method};
-}
-
-int list(bool as_json) {
-  const nlohmann::json listing = make_listing(&own_worker, {kListMemoryMib, std::nullopt});
+int list(bool as_json, const std::vector<fs::path>& adapters) {
+  const MethodCatalog catalog(manifest_folders(adapters));
+  const nlohmann::json listing = make_listing(catalog.methods(), {kListMemoryMib, std::nullopt});
   if (as_json) {
     std::cout << listing.dump(2) << "\n";
   } else {
@@ -158,6 +165,11 @@ void add_run(CLI::App& app, RunCommand& run) {
   command->add_option_function<std::string>(
       "--shard", [&run](const std::string& text) { run.shard = parse_shard(text); },
       "Only part K of N of the runs, given as K/N; 'hullbench merge' puts the parts together");
+  command->add_option("--adapters", run.adapters, kAdaptersHelp)->allow_extra_args(false);
+  command
+      ->add_option("--with", run.with,
+                   "Also measure this method, with the parameters that its manifest gives")
+      ->allow_extra_args(false);
   command->add_option("--export-gbench", run.export_gbench, kExportGbenchHelp);
   command->add_flag("--force", run.force, "Start anew instead of going on with an interrupted run");
   command->add_flag("--dry-run", run.dry_run, "Print the names of the runs and do nothing");
@@ -182,11 +194,88 @@ void add_compare(CLI::App& app, CompareCommand& compare) {
       ->capture_default_str();
 }
 
+void add_adapter(CLI::App& app, Arguments& arguments) {
+  CLI::App* command = app.add_subcommand("adapter", "Add a method, or try one")->require_subcommand(1);
+  CLI::App* make = command->add_subcommand("new", "Write a method that works, to be filled in");
+  make->add_option("NAME", arguments.new_adapter.name, "The method's name: small letters, digits and _")
+      ->required();
+  make->add_option("--lang", arguments.new_adapter.language, "Its language")
+      ->check(CLI::IsMember({"cpp", "python", "js"}))
+      ->required();
+  make->add_option(
+      "--out", arguments.new_adapter.out,
+      "Folder for its files instead of this project's adapters (cpp) or the user's configuration "
+      "folder");
+  CLI::App* test = command->add_subcommand("test", "Say which points of the contract a method keeps");
+  test->add_option("NAME", arguments.test_adapter.name, "The method's name")->required();
+  test->add_option("--adapters", arguments.test_adapter.adapters, kAdaptersHelp)->allow_extra_args(false);
+  test->add_option("--timeout", arguments.test_adapter.timeout_s, "Seconds that one run may take")
+      ->check(CLI::Range(0.001, 1e6))
+      ->capture_default_str();
+  test->add_option("--mem-limit", arguments.test_adapter.mem_limit_mib, "MiB of address space for the method")
+      ->check(CLI::Range(std::int64_t{64}, std::int64_t{1} << 30))
+      ->capture_default_str();
+}
+
+int adapter(const CLI::App& app, const Arguments& arguments) {
+  if (app.got_subcommand("new")) return new_adapter_command(arguments.new_adapter);
+  return test_adapter_command(arguments.test_adapter);
+}
+
+CLI::Validator zero_or_more() {
+  return {[](const std::string& text) {
+            double value = 0;
+            const bool fits = CLI::detail::lexical_cast(text, value) && std::isfinite(value) && value >= 0;
+            return fits ? std::string() : "'" + text + "' is not a number of 0 or more";
+          },
+          ">=0"};
+}
+
+void add_hull(CLI::App& app, HullCommand& hull) {
+  CLI::App* command = app.add_subcommand("hull", "Turn a file of points into polygons");
+  command->footer(
+      "Without --alpha and --max-edge-length alpha is 1.8 times the median length of the Delaunay edges of "
+      "the\n"
+      "points, which suits points that are spread evenly; it is printed to standard error. Of points spread "
+      "at random\n"
+      "it leaves a chance hole in some 14000 of them, which --min-area fills.\n"
+      "The input's format is known by the ending of its name (.csv .tsv .txt .xyz .pts .asc .geojson .json "
+      ".wkt\n"
+      ".npy .ply), else by its content. Lengths are in the unit of the points.\n"
+      "Exit codes: 0 done (the shape may be empty); 1 the result cannot be written; 2 usage, or an input "
+      "that\n"
+      "cannot be read; 130 interrupted.");
+  command->add_option("FILE", hull.input, "The points; - for standard input")->required();
+  command->add_option("--alpha", hull.alpha, "Largest circumradius of a triangle of the shape")
+      ->check(zero_or_more());
+  command->add_option("--max-edge-length", hull.max_edge_length, "Longest edge of a triangle of the shape")
+      ->check(zero_or_more());
+  command->add_option("--input", hull.input_format, "The input's format")
+      ->check(CLI::IsMember({"auto", "csv", "xyz", "geojson", "wkt", "npy", "ply"}))
+      ->capture_default_str();
+  command->add_option("--columns", hull.columns,
+                      "Of text, the columns of x and y: names, as in lon,lat, or numbers from 1, as in 2,3");
+  command->add_option("--format", hull.format, "The output's format")
+      ->check(CLI::IsMember({"geojson", "wkt", "wkb", "svg"}))
+      ->capture_default_str();
+  command->add_option("--min-area", hull.min_area, "Fill smaller holes, then drop smaller polygons")
+      ->check(zero_or_more());
+  command->add_option("--min-triangles", hull.min_triangles, "Drop polygons of fewer Delaunay triangles");
+  command
+      ->add_option("--simplify", hull.simplify, "Leave out vertices that are this close to the new outline")
+      ->check(zero_or_more());
+  command->add_option("--threads", hull.threads, "Threads to compute with, instead of one a processor")
+      ->check(CLI::Range(1U, 1024U));
+  command->add_option("--out", hull.out, "File for the result instead of standard output");
+}
+
 void add_commands(CLI::App& app, Arguments& arguments) {
   app.require_subcommand(1);
   app.set_version_flag("--version", "hullbench " HULLBENCH_VERSION);
   app.footer(kFooter);
-  app.add_subcommand("list", "Show methods and data sets")->add_flag("--json", arguments.json, "As JSON");
+  CLI::App* list = app.add_subcommand("list", "Show methods and data sets");
+  list->add_flag("--json", arguments.json, "As JSON");
+  list->add_option("--adapters", arguments.list_adapters, kAdaptersHelp)->allow_extra_args(false);
   add_run(app, arguments.run);
   add_merge(app, arguments.merge);
   CLI::App* tables = app.add_subcommand("tables", "Print the tables of a run");
@@ -194,6 +283,8 @@ void add_commands(CLI::App& app, Arguments& arguments) {
   tables->add_flag("--write", arguments.tables_write, "Write its tables.md and tables/ anew too");
   tables->add_option("--export-gbench", arguments.tables_export_gbench, kExportGbenchHelp);
   add_compare(app, arguments.compare);
+  add_adapter(app, arguments);
+  add_hull(app, arguments.hull);
   CLI::App* readme = app.add_subcommand("readme", "Write a run's results into a README, between its marks");
   readme->add_option("RUN", arguments.readme_run, "The run's folder")->required();
   readme->add_option("FILE", arguments.readme_path, "The README")->required();
@@ -209,12 +300,14 @@ void add_commands(CLI::App& app, Arguments& arguments) {
 int dispatch(const CLI::App& app, const Arguments& arguments) {
   if (app.got_subcommand("worker")) return worker(arguments.worker_method);
   catch_interruptions();
-  if (app.got_subcommand("list")) return list(arguments.json);
-  if (app.got_subcommand("run")) return run_command(arguments.run, &own_worker);
+  if (app.got_subcommand("adapter")) return adapter(*app.get_subcommand("adapter"), arguments);
+  if (app.got_subcommand("list")) return list(arguments.json, arguments.list_adapters);
+  if (app.got_subcommand("run")) return run_command(arguments.run);
   if (app.got_subcommand("merge")) return merge_command(arguments.merge);
   if (app.got_subcommand("tables"))
     return tables(arguments.tables_path, arguments.tables_write, arguments.tables_export_gbench);
   if (app.got_subcommand("compare")) return compare_command(arguments.compare);
+  if (app.got_subcommand("hull")) return hull_command(arguments.hull);
   if (app.got_subcommand("readme")) {
     return readme(arguments.readme_run, arguments.readme_path, arguments.readme_check);
   }

@@ -1,6 +1,7 @@
 #include "benchmarks/method_session.hpp"
 
 #include <stdexcept>
+#include <system_error>
 #include <utility>
 
 #include "benchmarks/protocol.hpp"
@@ -22,8 +23,9 @@ Attempt failed(Status status, std::string detail, std::chrono::nanoseconds elaps
   return attempt;
 }
 
-Reply failed_start(Status status, std::string detail) {
+Reply failed_start(Status status, std::string detail, std::string remedy = "") {
   Reply reply;
+  reply.remedy = std::move(remedy);
   reply.status = status;
   reply.detail = std::move(detail);
   return reply;
@@ -53,20 +55,38 @@ std::int64_t Attempt::time_ns() const {
   return phases_ns.at("run") + phases_ns.at("extract");
 }
 
-MethodSession::MethodSession(std::string method, std::vector<std::string> command, const WorkerLimits& limits)
-    : method_(std::move(method)), command_(std::move(command)), limits_(limits) {
+MethodSession::MethodSession(Method method, const WorkerLimits& limits)
+    : method_(std::move(method)), limits_(limits) {
   start_reply_ = failed_start(Status::kError, "the worker was not started");
 }
 
 MethodSession::~MethodSession() {
-  if (worker_) worker_->quit(kQuitPatience);
+  quit(kQuitPatience);
+}
+
+bool MethodSession::quit(std::chrono::milliseconds patience) {
+  const bool ended = !worker_ || worker_->quit(patience);
+  worker_.reset();
+  return ended;
 }
 
 void MethodSession::begin_start() {
   loaded_key_.clear();
   worker_.reset();
+  for (const std::string& file : method_.needs) {
+    if (std::filesystem::exists(file)) continue;
+    start_reply_ = failed_start(Status::kNotInstalled, "there is no " + file, method_.install);
+    return;
+  }
   try {
-    worker_ = std::make_unique<WorkerProcess>(command_, limits_);
+    worker_ = std::make_unique<WorkerProcess>(method_.command, limits_);
+  } catch (const std::system_error& error) {
+    // The program of a manifest is part of what is to be installed.
+    const bool missing = method_.info && error.code() == std::errc::no_such_file_or_directory;
+    start_reply_ = missing ? failed_start(Status::kNotInstalled,
+                                          "there is no program " + method_.command.front(), method_.install)
+                           : failed_start(Status::kError, error.what());
+    return;
   } catch (const std::runtime_error& error) {
     start_reply_ = failed_start(Status::kError, error.what());
     return;
@@ -83,8 +103,13 @@ void MethodSession::finish_start() {
       if (start_reply_.body.at("protocol") != kProtocolVersion) {
         throw std::invalid_argument("it speaks another version of the protocol");
       }
-      info_ = method_from_json(start_reply_.body.at("method"));
-      if (info_->name != method_)
+      if (method_.info) {
+        info_ = method_.info;
+        start_reply_.body.at("version").get_to(info_->version);
+      } else {
+        info_ = method_from_json(start_reply_.body.at("method"));
+      }
+      if (info_->name != method_.name)
         throw std::invalid_argument("it calls itself '" + printable(info_->name, 40) + "'");
       if (info_->version.empty()) throw std::invalid_argument("it does not tell its version");
     } catch (const std::exception& error) {
@@ -92,6 +117,9 @@ void MethodSession::finish_start() {
       start_reply_ = failed_start(Status::kError, "the worker broke the protocol in its first answer: " +
                                                       printable(error.what(), 200));
     }
+  }
+  if (start_reply_.status == Status::kNotInstalled && start_reply_.remedy.empty()) {
+    start_reply_.remedy = method_.install;
   }
   if (!info_) worker_.reset();
 }
@@ -124,7 +152,7 @@ Attempt MethodSession::run(const LoadedPoints& points, const Parameters& paramet
   }
   // A name of its own for every run: what an earlier run left can never be taken for this one's result.
   const std::string nonce =
-      method_ + "-" + std::to_string(worker_->pid()) + "-" + std::to_string(++run_count_);
+      method_.name + "-" + std::to_string(worker_->pid()) + "-" + std::to_string(++run_count_);
   const std::filesystem::path result = scratch / ("result-" + nonce + ".wkb");
   const Reply reply = worker_->request({{"request", "run"},
                                         {"nonce", nonce},
@@ -154,6 +182,7 @@ Attempt MethodSession::read_result(const Reply& reply, const std::string& nonce,
         attempt.phases_ns["extract"] > attempt.elapsed.count() - attempt.phases_ns["run"]) {
       throw std::invalid_argument("it reports more time than has passed");
     }
+    attempt.phases_ns["outside"] = attempt.elapsed.count();
     attempt.wkb = read_bytes(result, kMaxResultBytes);
   } catch (const std::exception& error) {
     return failed(Status::kInvalidOutput, printable(error.what(), 300), reply.elapsed);
@@ -162,11 +191,12 @@ Attempt MethodSession::read_result(const Reply& reply, const std::string& nonce,
   return attempt;
 }
 
-json describe_method(const std::string& name, const std::string& title, const MethodSession& session) {
+json describe_method(const MethodSession& session) {
   MethodInfo info;
+  if (session.method().info) info = *session.method().info;
   if (session.info()) info = *session.info();
-  info.name = name;
-  info.title = title;
+  info.name = session.method().name;
+  info.title = session.method().title;
   json result = method_to_json(info);
   result["installed"] = session.info().has_value();
   result["detail"] = session.info() ? "" : session.start_reply().detail;

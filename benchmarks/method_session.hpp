@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "adapters/adapter.hpp"
+#include "benchmarks/method.hpp"
 #include "benchmarks/record.hpp"
 #include "benchmarks/worker_process.hpp"
 
@@ -32,8 +33,9 @@ struct LoadedPoints {
 /// One run of a method, or why there was none.
 struct Attempt {
   Status status = Status::kOk;
-  std::string detail;                   ///< empty when ok
-  PhaseTimes phases_ns;                 ///< with "load": of the load that the run used
+  std::string detail;  ///< empty when ok
+  /// As the worker tells them, with "load": of the load that the run used; and "outside": `elapsed`.
+  PhaseTimes phases_ns;
   std::vector<std::uint8_t> wkb;        ///< the result
   std::chrono::nanoseconds elapsed{0};  ///< as seen from outside
 
@@ -43,8 +45,8 @@ struct Attempt {
 
 class MethodSession {
  public:
-  /// Nothing is started yet. `command` is the worker's program and arguments.
-  MethodSession(std::string method, std::vector<std::string> command, const WorkerLimits& limits);
+  /// Nothing is started yet.
+  MethodSession(Method method, const WorkerLimits& limits);
   /// Asks the worker to end, so that it can stop what it started, and kills it when it does not.
   ~MethodSession();
 
@@ -54,6 +56,7 @@ class MethodSession {
   /// Waits for the answer. Throws Interrupted.
   void finish_start();
 
+  const Method& method() const { return method_; }
   /// Who the method is; empty when it could not be started.
   const std::optional<MethodInfo>& info() const { return info_; }
   /// Why it could not be started: status, detail and remedy; status ok when it could.
@@ -66,12 +69,15 @@ class MethodSession {
   Attempt run(const LoadedPoints& points, const Parameters& parameters, const std::filesystem::path& scratch,
               std::chrono::milliseconds timeout);
 
+  /// Asks the worker to end, waits at most `patience` and kills it then. Whether it ended by itself; the next
+  /// run starts another one.
+  bool quit(std::chrono::milliseconds patience);
+
  private:
   Reply load(const LoadedPoints& points, std::chrono::milliseconds timeout);
   Attempt read_result(const Reply& reply, const std::string& nonce, const std::filesystem::path& result);
 
-  std::string method_;
-  std::vector<std::string> command_;
+  Method method_;
   WorkerLimits limits_;
   std::unique_ptr<WorkerProcess> worker_;
   std::optional<MethodInfo> info_;
@@ -83,7 +89,6 @@ class MethodSession {
 
 /// A method as `list` and run.json show it: method_to_json with `installed`, `detail` (why not) and `remedy`.
 /// What is not known of a method that does not start is empty.
-nlohmann::json describe_method(const std::string& name, const std::string& title,
-                               const MethodSession& session);
+nlohmann::json describe_method(const MethodSession& session);
 
 }  // namespace hullbench

@@ -14,11 +14,13 @@ namespace {
 /// Wanted edge length in mean spacings of the points over their convex hull.
 constexpr double kHullSpacings = 3.0;
 
-const std::array<ParameterRule, 5> kRules = {
+const std::array<ParameterRule, 7> kRules = {
     {{"paper_alpha", "2 √(A/n)", true, &paper_alpha},
      {"paper_alpha_squared", "4 A/n", true, &paper_alpha_squared},
+     {"paper_edge_length", "4 √(A/n)", true, &paper_edge_length},
      {"paper_target_percent", "A/A_hull", true, &paper_target_percent},
      {"holes", "1 with holes, else 0", false, &holes_switch},
+     {"hull_spacing", "3 √(A_hull/n)", false, &hull_spacing},
      {"hull_spacing_ratio", "that of 3 √(A_hull/n)", false, &hull_spacing_ratio}}};
 
 double convex_hull_area(std::span<const polylidar::Point> points) {
@@ -69,6 +71,10 @@ double paper_alpha_squared(const RuleInput& input) {
   return alpha * alpha;
 }
 
+double paper_edge_length(const RuleInput& input) {
+  return 2 * paper_alpha(input);
+}
+
 double paper_target_percent(const RuleInput& input) {
   std::vector<polylidar::Point> corners;
   for (const polylidar::Polygon& polygon : input.ground_truth) {
@@ -84,12 +90,16 @@ double holes_switch(const RuleInput& input) {
   return input.holes ? 1.0 : 0.0;
 }
 
+double hull_spacing(const RuleInput& input) {
+  if (input.points.empty()) return 0;
+  return kHullSpacings * std::sqrt(convex_hull_area(input.points) / static_cast<double>(input.points.size()));
+}
+
 double hull_spacing_ratio(const RuleInput& input) {
   const LengthRange lengths = edge_lengths(input.points);
   if (!(lengths.longest > lengths.shortest)) return 1.0;
-  const double wanted =
-      kHullSpacings * std::sqrt(convex_hull_area(input.points) / static_cast<double>(input.points.size()));
-  return std::clamp((wanted - lengths.shortest) / (lengths.longest - lengths.shortest), 0.0, 1.0);
+  return std::clamp((hull_spacing(input) - lengths.shortest) / (lengths.longest - lengths.shortest), 0.0,
+                    1.0);
 }
 
 }  // namespace hullbench

@@ -41,6 +41,10 @@ double paper_alpha(const RuleInput& input);
 /// `paper_alpha_squared`: its square, for methods that want a squared radius (CGAL). Oracle-informed.
 double paper_alpha_squared(const RuleInput& input);
 
+/// `paper_edge_length`: 2 * paper_alpha, the longest edge that a triangle of that circumradius can have, for
+/// methods that want an edge length. Oracle-informed.
+double paper_edge_length(const RuleInput& input);
+
 /// `paper_target_percent`: the ground truth's area over the area of its convex hull, the share of the points'
 /// convex hull that PostGIS before 3.3 is to shrink to; a ratio in (0, 1]. The paper's choice, "to provide
 /// the optimal accuracy based on percent area reduction required" (section V); its experiment took the figure
@@ -51,11 +55,14 @@ double paper_target_percent(const RuleInput& input);
 /// hence open to every protocol.
 double holes_switch(const RuleInput& input);
 
+/// `hull_spacing`: 3 * sqrt(A / n), three times the mean spacing of n points spread over the convex hull's
+/// area A: an edge length in the unit of the points, from the points alone. 0 for no points.
+double hull_spacing(const RuleInput& input);
+
 /// `hull_spacing_ratio`: a length ratio (GEOS ConcaveHull, PostGIS >= 3.3) from the points alone. The edge
-/// length wanted is 3 * sqrt(A / n), three times the mean spacing of n points spread over the convex hull's
-/// area A; the ratio that stands for it lies between the shortest (0) and the longest (1) edge of the
-/// Delaunay triangulation, as GEOS defines it, clamped to [0, 1]. 1 (the convex hull) for points without a
-/// triangulation.
+/// length wanted is hull_spacing; the ratio that stands for it lies between the shortest (0) and the longest
+/// (1) edge of the Delaunay triangulation, as GEOS defines it, clamped to [0, 1]. 1 (the convex hull) for
+/// points without a triangulation.
 double hull_spacing_ratio(const RuleInput& input);
 
 }  // namespace hullbench

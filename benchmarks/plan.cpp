@@ -452,6 +452,35 @@ Plan load_plan(const std::string& name_or_path, const std::filesystem::path& fol
   return parse_plan(text, is_path ? name_or_path : "plan '" + name_or_path + "'");
 }
 
+std::vector<PlanMethod> parse_plan_methods(const json& entries, const std::string& method,
+                                           const std::string& source, const std::string& path) {
+  if (entries.empty()) return {};
+  json complete = entries;
+  for (json& entry : complete) {
+    if (entry.contains("method")) {
+      throw ConfigurationError(source + ": " + path + " are all of this method; leave out the key 'method'");
+    }
+    entry["method"] = method;
+  }
+  std::vector<PlanMethod> methods;
+  read_methods(Node(complete, source, path), methods);
+  return methods;
+}
+
+void add_methods(Plan& plan, const std::vector<PlanMethod>& methods) {
+  for (const PlanMethod& added : methods) {
+    const auto same = [&](const PlanMethod& other) {
+      return other.method == added.method && other.protocol == added.protocol;
+    };
+    if (std::any_of(plan.methods.begin(), plan.methods.end(), same)) {
+      throw ConfigurationError("the plan '" + plan.name + "' measures '" + added.method +
+                               "' with the protocol '" + added.protocol + "' already; leave out --with " +
+                               added.method);
+    }
+    plan.methods.push_back(added);
+  }
+}
+
 json plan_to_json(const Plan& plan) {
   json methods = json::array();
   for (const PlanMethod& method : plan.methods) methods.push_back(method_to_json(method));

@@ -101,6 +101,14 @@ Plan parse_plan(const std::string& text, const std::string& source);
 /// .json). Throws ConfigurationError.
 Plan load_plan(const std::string& name_or_path, const std::filesystem::path& folder);
 
+/// Entries for `method` as in a plan's "methods", but without the key "method": `source` and `path` say in
+/// messages where they stand. Throws ConfigurationError.
+std::vector<PlanMethod> parse_plan_methods(const nlohmann::json& entries, const std::string& method,
+                                           const std::string& source, const std::string& path);
+
+/// Adds `methods` to the plan. Throws ConfigurationError when it has one of them with the same protocol.
+void add_methods(Plan& plan, const std::vector<PlanMethod>& methods);
+
 /// The plan as JSON, complete: parsing it gives the same plan.
 nlohmann::json plan_to_json(const Plan& plan);
 

@@ -1,26 +1,5 @@
 // The worker protocol, version 1: how the harness speaks with a method in another process.
-//
-// Requests come on the worker's standard input and replies go to its standard output, one JSON object a line,
-// a reply to each request but `quit`. Points and results travel in files, so that a line stays short
-// (kMaxLineBytes).
-//
-//   {"request":"hello","protocol":1}
-//     -> {"protocol":1,"method":{...}}                      who the method is: see method_to_json
-//   {"request":"load","points":"FILE","n":2000}             x0 y0 x1 y1 ... as raw little-endian float64, 16
-//   n bytes
-//     -> {"phases_ns":{"load":12345}}
-//   {"request":"run","nonce":"NONCE","parameters":{"alpha":5.4},"result":"FILE"}
-//     -> {"nonce":"NONCE","phases_ns":{"run":1234,"extract":123,"run.triangulation":1000,"run.shape":234}}
-//        and the result as WKB in FILE, written after the clock has stopped
-//   {"request":"quit"}                                      the worker ends; so it does when its input ends
-//
-// Instead of any of these replies: {"error":{"kind":KIND,"message":"one sentence"}} with KIND one of `error`,
-// `unsupported`, `invalid_argument`, `memory` and, to `hello` only, `not_installed`, then with "remedy": the
-// command that helps. After an error the worker goes on listening, except after `hello`.
-//
-// A number that is infinite is written as null. Times are integer nanoseconds of a steady clock; `run` and
-// `extract` are required, `run.<step>` and `extract.<step>` are optional and part of them. What a worker
-// writes to standard error is kept as an explanation should it die.
+// adapters/process/PROTOCOL.md describes it.
 #pragma once
 
 #include <cstddef>

@@ -29,6 +29,7 @@ set(HULLBENCH_EMBEDDED "")
 hullbench_embed_json(kRunSchemaJson "${PROJECT_SOURCE_DIR}/results/run.schema.json")
 hullbench_embed_json(kReportSchemaJson "${PROJECT_SOURCE_DIR}/results/report.schema.json")
 hullbench_embed_json(kPaperJson "${PROJECT_SOURCE_DIR}/results/paper.json")
+hullbench_embed_json(kManifestSchemaJson "${PROJECT_SOURCE_DIR}/adapters/process/manifest.schema.json")
 file(CONFIGURE OUTPUT "${CMAKE_CURRENT_BINARY_DIR}/embedded.cpp"
   CONTENT "#include \"benchmarks/embedded.hpp\"\n\nnamespace hullbench {\n\n@HULLBENCH_EMBEDDED@\n}  // namespace hullbench\n"
   @ONLY)

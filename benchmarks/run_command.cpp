@@ -10,10 +10,10 @@
 #include <stdexcept>
 #include <vector>
 
-#include "adapters/adapter.hpp"
 #include "benchmarks/environment.hpp"
 #include "benchmarks/gbench_export.hpp"
 #include "benchmarks/listing.hpp"
+#include "benchmarks/method_catalog.hpp"
 #include "benchmarks/plan.hpp"
 #include "benchmarks/report.hpp"
 #include "benchmarks/revision.hpp"
@@ -48,8 +48,9 @@ std::size_t count_recordings(const fs::path& folder) {
   }
 }
 
-Experiment make_experiment(const std::string& name, const RunCommand& command) {
+Experiment make_experiment(const std::string& name, const RunCommand& command, const MethodCatalog& catalog) {
   Plan plan = load_plan(name, HULLBENCH_PLAN_FOLDER);
+  for (const std::string& method : command.with) add_methods(plan, catalog.runs_of(method));
   if (!command.recordings.empty()) use_recordings(plan, count_recordings(command.recordings));
   plan.repetitions = command.repetitions.value_or(plan.repetitions);
   plan.seed = command.seed.value_or(plan.seed);
@@ -59,9 +60,7 @@ Experiment make_experiment(const std::string& name, const RunCommand& command) {
     if (command.timeout_s) method.timeout_s.reset();
     if (command.mem_limit_mib) method.mem_limit_mib.reset();
   }
-  std::vector<std::string> methods;
-  for (const AdapterEntry& entry : adapter_registry()) methods.push_back(entry.name);
-  check_plan(plan, methods, datasets({default_data_directory(), command.recordings}));
+  check_plan(plan, catalog.names(), datasets({default_data_directory(), command.recordings}));
   std::string filter = command.filter.empty() ? plan.filter : command.filter;
   std::vector<PlannedRun> runs = planned_runs(plan, filter);
   return {std::move(plan), std::move(filter), std::move(runs)};
@@ -88,7 +87,17 @@ json describe_rules(const Plan& plan) {
   return rules;
 }
 
-json describe_run(const Experiment& experiment, const RunCommand& command) {
+/// The hashes of the manifests of the plan's methods.
+json manifest_hashes(const Plan& plan, const MethodCatalog& catalog) {
+  json hashes = json::object();
+  for (const PlanMethod& method : plan.methods) {
+    const auto found = catalog.hashes().find(method.method);
+    if (found != catalog.hashes().end()) hashes[found->first] = found->second;
+  }
+  return hashes;
+}
+
+json describe_run(const Experiment& experiment, const RunCommand& command, const MethodCatalog& catalog) {
   const Plan& plan = experiment.plan;
   std::vector<std::string> used;
   used.reserve(experiment.runs.size());
@@ -102,6 +111,7 @@ json describe_run(const Experiment& experiment, const RunCommand& command) {
           {"rules", describe_rules(plan)},
           {"seed", plan.seed},
           {"filter", experiment.filter.empty() ? json(nullptr) : json(experiment.filter)},
+          {"manifests", manifest_hashes(plan, catalog)},
           {"shard", command.shard ? json(to_string(*command.shard)) : json(nullptr)},
           {"repetitions", plan.repetitions},
           {"datasets", describe_datasets({default_data_directory(), command.recordings}, used)}};
@@ -119,12 +129,6 @@ Cores reserve_worker_core() {
   cores.worker = cores.all.back();
   leave_core(*cores.worker);
   return cores;
-}
-
-std::map<std::string, std::string> method_titles() {
-  std::map<std::string, std::string> titles;
-  for (const AdapterEntry& entry : adapter_registry()) titles[entry.name] = entry.title;
-  return titles;
 }
 
 std::size_t terminal_width() {
@@ -176,10 +180,10 @@ void say_files(const fs::path& directory, const fs::path& shown, const std::vect
 /// Everything that the experiments of one call share.
 class Measuring {
  public:
-  Measuring(const RunCommand& command, const WorkerCommand& worker_command,
+  Measuring(const RunCommand& command, const MethodCatalog& catalog,
             const std::vector<Experiment>& experiments)
       : command_(command),
-        worker_command_(worker_command),
+        catalog_(catalog),
         cores_(reserve_worker_core()),
         progress_(std::cerr, ::isatty(STDERR_FILENO) == 1, terminal_width(), sections_of(experiments)) {}
 
@@ -189,9 +193,8 @@ class Measuring {
                     std::size_t place) {
     progress_.enter(place);
     say_what_goes_on(directory, experiment.runs.size());
-    const RunnerOptions options = {worker_command_,
+    const RunnerOptions options = {[this](const std::string& name) { return catalog_.find(name); },
                                    cores_.worker,
-                                   method_titles(),
                                    cores_.all,
                                    {default_data_directory(), command_.recordings}};
     RunResult result = run_plan(experiment.plan, experiment.runs, header_to_write(directory, header), options,
@@ -217,17 +220,16 @@ class Measuring {
   }
 
   const RunCommand& command_;
-  const WorkerCommand& worker_command_;
+  const MethodCatalog& catalog_;
   Cores cores_;
   Progress progress_;
 };
 
-int measure_one(const RunCommand& command, const Experiment& experiment,
-                const WorkerCommand& worker_command) {
-  const json header = describe_run(experiment, command);
+int measure_one(const RunCommand& command, const Experiment& experiment, const MethodCatalog& catalog) {
+  const json header = describe_run(experiment, command, catalog);
   const auto directory = open_run_directory(header, {command.out, command.force, kResults});
   if (!command.out) point_latest_to(directory->path(), kResults);
-  Measuring measuring(command, worker_command, {experiment});
+  Measuring measuring(command, catalog, {experiment});
   const RunResult result = measuring.measure(experiment, header, *directory, 0);
   if (result.interrupted) return exit_code(result);
   const json report = make_report(directory->path());
@@ -248,13 +250,14 @@ RunResult finished_result(const fs::path& run) {
 }
 
 int measure_suite(const RunCommand& command, const std::vector<Experiment>& experiments,
-                  const WorkerCommand& worker_command) {
+                  const MethodCatalog& catalog) {
   std::vector<json> headers;
   headers.reserve(experiments.size());
-  for (const Experiment& experiment : experiments) headers.push_back(describe_run(experiment, command));
+  for (const Experiment& experiment : experiments)
+    headers.push_back(describe_run(experiment, command, catalog));
   const fs::path suite = open_suite(headers, {command.out, command.force, kResults});
   if (!command.out) point_latest_to(suite, kResults);
-  Measuring measuring(command, worker_command, experiments);
+  Measuring measuring(command, catalog, experiments);
   RunResult all;
   for (std::size_t i = 0; i < experiments.size(); ++i) {
     const Plan& plan = experiments[i].plan;
@@ -303,12 +306,13 @@ void check_export_place(const fs::path& file) {
   }
 }
 
-int run_command(const RunCommand& command, const WorkerCommand& worker_command) {
+int run_command(const RunCommand& command) {
+  const MethodCatalog catalog(manifest_folders(command.adapters));
   std::vector<Experiment> experiments;
   std::string names;
   bool any_run = false;
   for (const std::string& name : command.plans) {
-    Experiment experiment = make_experiment(name, command);
+    Experiment experiment = make_experiment(name, command, catalog);
     names += (names.empty() ? "'" : ", '") + experiment.plan.name + "'";
     const auto same = [&](const Experiment& other) { return other.plan.name == experiment.plan.name; };
     if (std::any_of(experiments.begin(), experiments.end(), same)) {
@@ -336,8 +340,8 @@ int run_command(const RunCommand& command, const WorkerCommand& worker_command) 
   check_export_place(command.export_gbench);
   end_strays_of_dead_harnesses();
   remove_stale_scratch(kResults);
-  return command.plans.size() == 1 ? measure_one(command, experiments.front(), worker_command)
-                                   : measure_suite(command, experiments, worker_command);
+  return command.plans.size() == 1 ? measure_one(command, experiments.front(), catalog)
+                                   : measure_suite(command, experiments, catalog);
 }
 
 }  // namespace hullbench

@@ -25,6 +25,8 @@ struct RunCommand {
       recordings;              ///< folder of real floors to take the place of the simulated ones; empty: none
   std::optional<Shard> shard;  ///< none: all runs
   std::filesystem::path export_gbench;  ///< file for the times as Google Benchmark's JSON; empty: none
+  std::vector<std::filesystem::path> adapters;  ///< more folders with manifests
+  std::vector<std::string> with;                ///< methods to measure that the plans do not name
   bool force = false;
   bool dry_run = false;
 };
@@ -36,6 +38,6 @@ void check_export_place(const std::filesystem::path& file);
 /// Does it and returns the exit code (see exit_code). Tables go to standard output, everything else to
 /// standard error. Throws ConfigurationError before anything is measured, std::runtime_error when something
 /// cannot be written.
-int run_command(const RunCommand& command, const WorkerCommand& worker_command);
+int run_command(const RunCommand& command);
 
 }  // namespace hullbench

@@ -248,6 +248,7 @@ json run_continuity(const json& header) {
   };
   return {member(header, "schema_version"),
           member(header, "plan"),
+          member(header, "manifests"),
           member(header, "filter"),
           member(member(header, "tool"), "binary_sha256"),
           member(member(header, "environment"), "machine_id"),

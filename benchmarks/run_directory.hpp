@@ -105,8 +105,8 @@ bool is_finished_run(const std::filesystem::path& folder, const nlohmann::json& 
 /// environment). Throws ConfigurationError when it cannot be made.
 std::filesystem::path make_run_folder(const nlohmann::json& header, const std::filesystem::path& results);
 
-/// What must be the same for a run to go on: plan, filter, shard, binary and machine of its header, and
-/// that it is not merged of others, or merged of the same.
+/// What must be the same for a run to go on: plan, manifests of its methods, filter, shard, binary and
+/// machine of its header, and that it is not merged of others, or merged of the same.
 nlohmann::json run_continuity(const nlohmann::json& header);
 
 /// Lets the link `results`/latest point to the run in `run_directory`, a folder in `results`/runs. Throws

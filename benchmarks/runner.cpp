@@ -105,7 +105,7 @@ class Runner {
       if (sessions_.contains(method)) continue;
       method_order_.push_back(method);
       const WorkerLimits limits = {entry.mem_limit_mib.value_or(plan_.mem_limit_mib), options_.worker_core};
-      sessions_[method] = std::make_unique<MethodSession>(method, options_.worker_command(method), limits);
+      sessions_[method] = std::make_unique<MethodSession>(options_.find_method(method), limits);
       sessions_[method]->begin_start();
     }
     for (const std::string& method : method_order_) {
@@ -120,11 +120,7 @@ class Runner {
 
   json describe_methods() const {
     json methods = json::array();
-    for (const std::string& method : method_order_) {
-      const auto title = options_.titles.find(method);
-      methods.push_back(describe_method(method, title == options_.titles.end() ? method : title->second,
-                                        *sessions_.at(method)));
-    }
+    for (const std::string& method : method_order_) methods.push_back(describe_method(*sessions_.at(method)));
     return methods;
   }
 

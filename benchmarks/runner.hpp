@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "benchmarks/method.hpp"
 #include "benchmarks/plan.hpp"
 #include "benchmarks/progress.hpp"
 #include "benchmarks/record.hpp"
@@ -18,13 +19,9 @@
 
 namespace hullbench {
 
-/// How to start the worker of a method: program and arguments.
-using WorkerCommand = std::function<std::vector<std::string>(const std::string& method)>;
-
 struct RunnerOptions {
-  WorkerCommand worker_command;
-  std::optional<int> worker_core;             ///< the one core that the workers run on; none: any
-  std::map<std::string, std::string> titles;  ///< of methods, by name
+  MethodFinder find_method;
+  std::optional<int> worker_core;  ///< the one core that the workers run on; none: any
   /// Where samples are drawn and results scored, which nobody times: cores as in for_each_in_parallel.
   std::vector<int> cores = {};
   DataFolders folders = {};

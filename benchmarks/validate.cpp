@@ -132,6 +132,11 @@ std::vector<std::string> validate_run(const json& run) {
   return faults(*schema, run);
 }
 
+std::vector<std::string> validate_manifest(const json& manifest) {
+  static const std::unique_ptr<valijson::Schema> schema = parse_schema(kManifestSchemaJson);
+  return faults(*schema, manifest);
+}
+
 std::vector<std::string> validate_file(const std::filesystem::path& path) {
   if (path.extension() == ".jsonl") return validate_lines(path);
   std::ifstream in(path, std::ios::binary);
@@ -141,6 +146,7 @@ std::vector<std::string> validate_file(const std::filesystem::path& path) {
     throw std::runtime_error("Cannot read " + path.string() + ".");
   try {
     json document = json::parse(content.str());
+    if (document.is_object() && document.contains("manifest_version")) return validate_manifest(document);
     if (path.filename() == "run.json" && document.is_object()) complete_run_description(document);
     return validate_report(document);
   } catch (const json::parse_error& error) {

@@ -177,7 +177,7 @@ Status status_of_kind(const std::string& kind) {
 bool speaks_of_memory(const std::string& words) {
   // The last one is the loader's, when not even the program's libraries fit.
   for (const char* sign : {"bad_alloc", "out of memory", "Out of memory", "Cannot allocate memory",
-                           "failed to map segment from shared object"}) {
+                           "insufficient memory", "failed to map segment from shared object"}) {
     if (words.find(sign) != std::string::npos) return true;
   }
   return false;
@@ -215,8 +215,7 @@ WorkerProcess::WorkerProcess(const std::vector<std::string>& command, const Work
   if (error != 0) {
     if (child > 0) reap();
     close_pipes();
-    throw std::runtime_error("cannot start the worker " + command.front() + ": " +
-                             std::generic_category().message(error));
+    throw std::system_error(error, std::generic_category(), "cannot start the worker " + command.front());
   }
   for (const int fd : {replies_, errors_}) ::fcntl(fd, F_SETFL, ::fcntl(fd, F_GETFL) | O_NONBLOCK);
 }
@@ -383,11 +382,13 @@ Reply WorkerProcess::lost_output() {
   return broken_protocol("closed its output");
 }
 
-void WorkerProcess::quit(std::chrono::milliseconds patience) {
-  if (!alive()) return;
+bool WorkerProcess::quit(std::chrono::milliseconds patience) {
+  if (!alive()) return true;
   write_all(input_, json({{"request", "quit"}}).dump() + "\n");
   close_fd(input_);
-  if (!reap_within(patience)) kill();
+  if (reap_within(patience)) return true;
+  kill();
+  return false;
 }
 
 void WorkerProcess::kill() {

@@ -44,7 +44,7 @@ struct Reply {
 /// the worker can be asked again.
 class WorkerProcess {
  public:
-  /// Starts `command` (program and arguments). Throws std::runtime_error when it cannot be started.
+  /// Starts `command` (program and arguments). Throws std::system_error when it cannot be started.
   WorkerProcess(const std::vector<std::string>& command, const WorkerLimits& limits);
   /// Kills it if it still runs.
   ~WorkerProcess();
@@ -63,8 +63,8 @@ class WorkerProcess {
   bool alive() const { return pid_ > 0; }
   pid_t pid() const { return pid_; }
 
-  /// Asks it to end, waits at most `patience` and kills it then.
-  void quit(std::chrono::milliseconds patience);
+  /// Asks it to end, waits at most `patience` and kills it then. Whether it ended by itself.
+  bool quit(std::chrono::milliseconds patience);
   /// Ends it and every process of its session's group: SIGTERM, and SIGKILL after a short grace.
   void kill();
 

@@ -22,11 +22,19 @@ fail() {
   exit "$status"
 }
 
-# Lines "name<tab>what it is" of the sections given.
+# Lines "name<tab>what it is<tab>command" of the sections given; the command is empty for most.
 wanted() {
   awk -v sections=" $* " '
     /^\[/ { name = substr($0, 2, index($0, "]") - 2); inside = index(sections, " " name " "); next }
-    inside && /^[a-z0-9]/ { package = $1; sub(/^[^#]*# */, ""); print package "\t" $0 }' "$list"
+    inside && /^[a-z0-9]/ { split($1, package, "="); sub(/^[^#]*# */, ""); print package[1] "\t" $0 "\t" package[2] }' "$list"
+}
+
+# The names of the packages wanted, without those whose command is there from somewhere else.
+wanted_names() {
+  local package command
+  wanted "$@" | while IFS=$'\t' read -r package _ command; do
+    { [ -n "$command" ] && command -v "$command" >/dev/null; } || printf '%s\n' "$package"
+  done
 }
 
 # Those of the packages given that are not installed.
@@ -203,7 +211,8 @@ if ! command -v dpkg-query >/dev/null || ! command -v apt-get >/dev/null; then
 fi
 
 check_cmake
-mapfile -t packages < <(wanted "$@" | cut -f 1)
+mapfile -t packages < <(wanted_names "$@")
+[ ${#packages[@]} -gt 0 ] || exit 0
 mapfile -t missing < <(missing_of "${packages[@]}")
 [ ${#missing[@]} -gt 0 ] || exit 0
 

@@ -57,3 +57,36 @@ target_compile_definitions(test_reference PRIVATE HULLBENCH_SOURCE_DIRECTORY="${
 add_test(NAME readme.has_the_reference_run
   COMMAND hullbench readme --check results/reference README.md
   WORKING_DIRECTORY "${PROJECT_SOURCE_DIR}")
+
+# Methods that are added: manifests, the skeletons of `hullbench adapter new`, and the contract.
+hullbench_test(test_manifest SOURCES test_manifest.cpp
+  LIBRARIES hullbench::runner hullbench_test_program LABELS harness)
+hullbench_test(test_adapter_command SOURCES test_adapter_command.cpp LIBRARIES hullbench_test_program LABELS harness)
+target_compile_definitions(test_adapter_command PRIVATE HULLBENCH="$<TARGET_FILE:hullbench>")
+add_dependencies(test_adapter_command hullbench)
+
+# The README's checklist for a method in C++, walked with a sample: hullbench writes it, add_adapter() takes it, and the
+# program that has it keeps the contract with it.
+set(sample_folder "${CMAKE_CURRENT_BINARY_DIR}/sample_method")
+add_custom_command(OUTPUT "${sample_folder}/sample_hull.cpp"
+  COMMAND ${CMAKE_COMMAND} -E rm -rf "${sample_folder}"
+  COMMAND hullbench adapter new sample_hull --lang cpp --out "${sample_folder}"
+  DEPENDS hullbench "${PROJECT_SOURCE_DIR}/benchmarks/skeletons/skeleton.cpp.in"
+  VERBATIM)
+add_adapter(NAME sample_hull TITLE "sample_hull" SOURCES "${sample_folder}/sample_hull.cpp")
+hullbench_adapter_registry(adapters_with_sample)
+add_executable(hullbench_with_sample)
+set_target_properties(hullbench_with_sample PROPERTIES RUNTIME_OUTPUT_DIRECTORY "${CMAKE_BINARY_DIR}/tests")
+target_link_libraries(hullbench_with_sample PRIVATE
+  hullbench_program adapters_with_sample hullbench::runner hullbench::hull hullbench::report hullbench::hash)
+add_test(NAME sample_method.keeps_the_contract COMMAND hullbench_with_sample adapter test sample_hull)
+
+# Real methods, the harness and all. Two of them break one point, which is a row of its own in every table.
+foreach(method IN ITEMS polylidar cgal_alpha_shape spatialite geos_concave_hull chi_shape knn_hull convex_hull
+    concaveman hull_js turf_concave jts_concave_hull scipy_alpha_shape)
+  add_test(NAME contract.${method} COMMAND hullbench adapter test ${method})
+endforeach()
+set_tests_properties(contract.spatialite PROPERTIES PASS_REGULAR_EXPRESSION
+  "FAIL  20000 points within the limits invalid polygon, Nested shells.*keeps part of the contract: 19 of 20 points")
+set_tests_properties(contract.turf_concave PROPERTIES PASS_REGULAR_EXPRESSION
+  "FAIL  20000 points within the limits invalid polygon, Ring Self-intersection.*keeps part of the contract: 19 of 20 points")

@@ -412,7 +412,7 @@ TEST(Plan, AlphabetIsThePapersExperiment) {
     EXPECT_EQ(plan.expanded_cases[i].shape(), std::string("letter_") + static_cast<char>('a' + i));
     EXPECT_EQ(plan.expanded_cases[i].n, 2000);
   }
-  EXPECT_EQ(planned_runs(plan, "protocol:paper").size(), 4 * 26U);
+  EXPECT_EQ(planned_runs(plan, "^(polylidar|cgal|spatialite|postgis).*protocol:paper").size(), 4 * 26U);
   EXPECT_EQ(planned_runs(plan, "^postgis/.*protocol:auto").size(), 26U);
   const PointSet letter = make_point_set("letter_o", false, 2000, plan.seed);
   const auto parameters = [&](std::size_t method) {
@@ -446,6 +446,8 @@ TEST(ParameterRule, ByName) {
   EXPECT_TRUE(find_rule("paper_alpha")->reads_ground_truth);
   EXPECT_TRUE(find_rule("paper_alpha_squared")->reads_ground_truth);
   EXPECT_TRUE(find_rule("paper_target_percent")->reads_ground_truth);
+  EXPECT_TRUE(find_rule("paper_edge_length")->reads_ground_truth);
+  EXPECT_FALSE(find_rule("hull_spacing")->reads_ground_truth);
   EXPECT_FALSE(find_rule("hull_spacing_ratio")->reads_ground_truth);
 }
 
@@ -463,6 +465,13 @@ TEST(ParameterRule, PaperAlpha) {
   EXPECT_DOUBLE_EQ(paper_alpha({points, 400.0, false}), 4.0);
   EXPECT_DOUBLE_EQ(paper_alpha_squared({points, 400.0, false}), 16.0);
   EXPECT_EQ(paper_alpha({{}, 400.0, false}), 0.0);
+}
+
+TEST(ParameterRule, EdgeLengths) {
+  const auto points = unit_grid(10);
+  EXPECT_DOUBLE_EQ(paper_edge_length({points, 400.0, false}), 8.0);
+  EXPECT_DOUBLE_EQ(hull_spacing({points, 0, false}), 2.7);  // 3 * sqrt(81 / 100)
+  EXPECT_EQ(hull_spacing({{}, 0, false}), 0.0);
 }
 
 TEST(ParameterRule, PaperTargetPercent) {

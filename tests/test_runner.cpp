@@ -48,9 +48,18 @@ Plan plan_of(const std::vector<std::string>& methods, int repetitions = 3) {
   return parse_plan(source.dump(), "test");
 }
 
-std::vector<std::string> worker_of(const std::string& method) {
-  if (method == "polylidar") return {HULLBENCH, "worker", "--method", method};
-  return {MISBEHAVING_WORKER, method};
+Method worker_of(const std::string& name) {
+  Method method;
+  method.name = method.title = name;
+  method.command = {MISBEHAVING_WORKER, name};
+  if (name == "polylidar") method.command = {HULLBENCH, "worker", "--method", name};
+  return method;
+}
+
+Method gone(const std::string& name) {
+  Method method = worker_of(name);
+  method.command = {"/nowhere/worker"};
+  return method;
 }
 
 json header_of(const Plan& plan) {
@@ -75,7 +84,7 @@ class RunnerTest : public ::testing::Test {
  protected:
   void TearDown() override { set_interrupted(false); }
 
-  RunResult measure(const Plan& plan, const WorkerCommand& command = &worker_of,
+  RunResult measure(const Plan& plan, const MethodFinder& find_method = &worker_of,
                     const std::vector<int>& cores = {}) {
     const json header = header_of(plan);
     const auto directory = open_run_directory(header, {folder_.path() / "run", false, folder_.path()});
@@ -83,7 +92,7 @@ class RunnerTest : public ::testing::Test {
     std::ostringstream progress_text;
     Progress progress(progress_text, false, 80, {{"test", progress_runs(plan, runs)}});
     const RunResult result =
-        run_plan(plan, runs, header, {command, std::nullopt, {}, cores}, *directory, progress);
+        run_plan(plan, runs, header, {find_method, std::nullopt, cores}, *directory, progress);
     said_ = progress_text.str();
     return result;
   }
@@ -170,7 +179,7 @@ TEST_F(RunnerTest, EveryMisbehaviourIsARowAndTheOthersAreMeasured) {
   }
   EXPECT_EQ(exit_code(measure(plan)), 4);
   for (const auto& [method, status] : expected) {
-    const std::vector<std::string> command = worker_of(method);
+    const std::vector<std::string> command = worker_of(method).command;
     EXPECT_TRUE(testing::wait_until([&] { return !testing::runs_somewhere(command); })) << method;
   }
   const auto measured = rows();
@@ -341,15 +350,15 @@ TEST_F(RunnerTest, ARowOfAnotherVersionDataOrParametersIsMeasuredAgain) {
 TEST_F(RunnerTest, ARowOfAMethodThatIsGoneIsKept) {
   const Plan plan = plan_of({"good"});
   measure(plan);
-  const auto gone = [](const std::string&) { return std::vector<std::string>{"/nowhere/worker"}; };
-  EXPECT_EQ(exit_code(measure(plan, gone)), 0);
+
+  EXPECT_EQ(exit_code(measure(plan, &gone)), 0);
   EXPECT_EQ(to_string(rows().at("good").status), "ok");
 }
 
 TEST_F(RunnerTest, AMethodThatCanRunNowIsMeasured) {
   const Plan plan = plan_of({"good"});
-  const auto gone = [](const std::string&) { return std::vector<std::string>{"/nowhere/worker"}; };
-  EXPECT_EQ(exit_code(measure(plan, gone)), 4);
+
+  EXPECT_EQ(exit_code(measure(plan, &gone)), 4);
   EXPECT_EQ(to_string(rows().at("good").status), "error");
   fs::remove(folder_.path() / "run" / "runs.jsonl");
   EXPECT_EQ(exit_code(measure(plan)), 0);
@@ -366,8 +375,7 @@ TEST_F(RunnerTest, AnInterruptionKeepsWhatIsThereAndTheNextStartGoesOn) {
   Plan same = plan;
   EXPECT_EQ(exit_code(measure(same,
                               [](const std::string& method) {
-                                return method == "hang" ? std::vector<std::string>{"/nowhere/worker"}
-                                                        : worker_of(method);
+                                return method == "hang" ? gone(method) : worker_of(method);
                               })),
             4);
   EXPECT_EQ(rows().size(), 2U);

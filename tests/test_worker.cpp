@@ -33,12 +33,29 @@ std::vector<std::string> misbehaving(const std::string& mode) {
   return {MISBEHAVING_WORKER, mode};
 }
 
+Method method_of(const std::string& name, const std::vector<std::string>& command) {
+  Method method;
+  method.name = method.title = name;
+  method.command = command;
+  return method;
+}
+
+/// As a manifest describes it: all but the version is known beforehand.
+Method described_method(const std::string& name, const std::vector<std::string>& command) {
+  Method method = method_of(name, command);
+  method.info.emplace();
+  method.info->name = name;
+  method.install = "sudo apt-get install it";
+  return method;
+}
+
 class MethodSessionTest : public ::testing::Test {
  protected:
   /// A run of the worker that misbehaves in this way, with what ctest's machine allows as a limit where it
   /// does not matter.
   Attempt attempt(const std::string& mode, std::chrono::milliseconds timeout = 30s) {
-    session_ = std::make_unique<MethodSession>(mode, misbehaving(mode), WorkerLimits{256, std::nullopt, 8});
+    session_ = std::make_unique<MethodSession>(method_of(mode, misbehaving(mode)),
+                                               WorkerLimits{256, std::nullopt, 8});
     return run(timeout);
   }
 
@@ -66,6 +83,8 @@ TEST_F(MethodSessionTest, AGoodWorkerGivesResultAndTimes) {
   ASSERT_EQ(result.status, Status::kOk) << result.detail;
   EXPECT_EQ(result.time_ns(), 1010);
   EXPECT_EQ(result.phases_ns.at("load"), 5);
+  EXPECT_EQ(result.phases_ns.at("outside"), result.elapsed.count());
+  EXPECT_GT(result.phases_ns.at("outside"), result.time_ns());
   EXPECT_EQ(result.phases_ns.at("run.shape"), 900);
   EXPECT_EQ(polylidar::area(from_wkb(result.wkb)), 1.0);
   EXPECT_GT(result.elapsed, 1010ns);
@@ -221,11 +240,38 @@ TEST_F(MethodSessionTest, WhatALiveHarnessStartedIsNotCleanedUp) {
 }
 
 TEST_F(MethodSessionTest, AProgramThatIsNotThereIsAnError) {
-  session_ =
-      std::make_unique<MethodSession>("good", std::vector<std::string>{"/nowhere/worker"}, WorkerLimits{});
+  session_ = std::make_unique<MethodSession>(method_of("good", {"/nowhere/worker"}), WorkerLimits{});
   const Attempt result = run();
   EXPECT_EQ(to_string(result.status), "error");
   EXPECT_EQ(result.detail, "cannot start the worker /nowhere/worker: No such file or directory");
+}
+
+TEST_F(MethodSessionTest, AManifestsProgramThatIsNotThereIsNotInstalled) {
+  session_ = std::make_unique<MethodSession>(described_method("good", {"/nowhere/worker"}), WorkerLimits{});
+  const Attempt result = run();
+  EXPECT_EQ(to_string(result.status), "not_installed");
+  EXPECT_EQ(result.detail, "there is no program /nowhere/worker");
+  EXPECT_EQ(session_->start_reply().remedy, "sudo apt-get install it");
+}
+
+TEST_F(MethodSessionTest, AFileThatAManifestNeedsIsNotInstalled) {
+  Method method = described_method("good", misbehaving("good"));
+  method.needs = {"/", "/nowhere/library"};
+  session_ = std::make_unique<MethodSession>(method, WorkerLimits{});
+  const Attempt result = run();
+  EXPECT_EQ(to_string(result.status), "not_installed");
+  EXPECT_EQ(result.detail, "there is no /nowhere/library");
+}
+
+TEST_F(MethodSessionTest, AWorkerThatTellsItsVersionIsDescribedByItsManifest) {
+  const std::string script =
+      "read line; echo '{\"protocol\": 1, \"version\": \"1.2\"}'; read line; echo "
+      "'{\"error\": {\"kind\": \"unsupported\", \"message\": \"no\"}}'; read line";
+  session_ =
+      std::make_unique<MethodSession>(described_method("good", {"/bin/sh", "-c", script}), WorkerLimits{});
+  EXPECT_EQ(to_string(run().status), "unsupported");
+  ASSERT_TRUE(session_->info());
+  EXPECT_EQ(session_->info()->version, "1.2");
 }
 
 TEST_F(MethodSessionTest, AnInterruptionEndsTheWaitAndTheWorker) {

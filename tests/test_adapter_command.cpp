@@ -1,0 +1,184 @@
+// Adding a method from nothing: the skeletons work, the contract finds what is wrong, and a method of a
+// folder of one's own is measured beside the others.
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "tests/program.hpp"
+#include "tests/temporary_folder.hpp"
+
+namespace hullbench {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+using testing::Outcome;
+using testing::read_text;
+using testing::write_text;
+
+class AdapterCommandTest : public ::testing::Test {
+ protected:
+  Outcome hullbench(std::vector<std::string> arguments) const {
+    arguments.insert(arguments.begin(), HULLBENCH);
+    return testing::run_program(arguments,
+                                {folder_.path(), {{"XDG_CONFIG_HOME", folder_.path() / "config"}}});
+  }
+
+  /// A method in Python whose `run(points)` is `body`.
+  void python_method(const std::string& body) {
+    if (!fs::exists(methods())) {
+      const Outcome made =
+          hullbench({"adapter", "new", "sample", "--lang", "python", "--out", methods().string()});
+      ASSERT_EQ(made.code, 0) << made.err;
+    }
+    write_text(methods() / "sample.py", "import hullbench_worker\n\ndef run(points):\n" + body +
+                                            "\n\nhullbench_worker.serve(version='1', run=run)\n");
+    // Debian's Python, which has numpy.
+    json manifest = json::parse(read_text(methods() / "sample.json"));
+    manifest["command"][0] = "/usr/bin/python3";
+    write_text(methods() / "sample.json", manifest.dump());
+  }
+
+  Outcome test_sample() const {
+    return hullbench({"adapter", "test", "sample", "--adapters", methods().string(), "--timeout", "20"});
+  }
+
+  void expect_broken(const std::string& point, const std::string& words) const {
+    const Outcome tested = test_sample();
+    EXPECT_EQ(tested.code, 4) << tested.out << tested.err;
+    const std::size_t line = tested.out.find("FAIL  " + point);
+    ASSERT_NE(line, std::string::npos) << tested.out;
+    const std::string said = tested.out.substr(line, tested.out.find('\n', line) - line);
+    EXPECT_NE(said.find(words), std::string::npos) << said;
+    EXPECT_NE(tested.out.find("sample keeps part of the contract"), std::string::npos) << tested.out;
+  }
+
+  fs::path methods() const { return folder_.path() / "methods"; }
+
+  testing::TemporaryFolder folder_;
+};
+
+TEST_F(AdapterCommandTest, TheSkeletonsKeepTheContract) {
+  for (const std::string language : {"python", "js"}) {
+    const Outcome made = hullbench({"adapter", "new", "my_" + language, "--lang", language});
+    ASSERT_EQ(made.code, 0) << made.err;
+    const fs::path folder = folder_.path() / "config" / "hullbench" / "adapters";
+    EXPECT_NE(made.out.find((folder / ("my_" + language + ".json")).string()), std::string::npos) << made.out;
+    if (language == "python") {
+      json manifest = json::parse(read_text(folder / "my_python.json"));
+      manifest["command"][0] = "/usr/bin/python3";
+      write_text(folder / "my_python.json", manifest.dump());
+    }
+    const Outcome tested = hullbench({"adapter", "test", "my_" + language});
+    EXPECT_EQ(tested.code, 0) << tested.out << tested.err;
+    EXPECT_NE(tested.out.find("my_" + language + " keeps the contract: "), std::string::npos) << tested.out;
+    EXPECT_EQ(tested.out.find("FAIL"), std::string::npos) << tested.out;
+  }
+}
+
+TEST_F(AdapterCommandTest, TheBuiltInCoreKeepsTheContract) {
+  const Outcome tested = hullbench({"adapter", "test", "polylidar"});
+  EXPECT_EQ(tested.code, 0) << tested.out << tested.err;
+}
+
+TEST_F(AdapterCommandTest, AMethodOfOnesOwnIsMeasuredBesideTheOthers) {
+  python_method(
+      "    xs, ys = points.T\n    return [[[(xs.min(), ys.min()), (xs.max(), ys.min()), (xs.max(), "
+      "ys.max())]]]");
+  const Outcome run =
+      hullbench({"run", "states", "--filter", "^(polylidar|sample)/ca/n:2000/holes:0", "--repetitions", "2",
+                 "--adapters", methods().string(), "--with", "sample", "--out", "run"});
+  ASSERT_EQ(run.code, 0) << run.out << run.err;
+  const json report = json::parse(read_text(folder_.path() / "run" / "report.json"));
+  ASSERT_EQ(report["runs"].size(), 2U);
+  const json& row = report["runs"][1];
+  EXPECT_EQ(row["name"].get<std::string>(), "sample/ca/n:2000/holes:0/protocol:default");
+  EXPECT_EQ(row["method_version"].get<std::string>(), "1");
+  for (const json& phases : row["phases_ns"]) {
+    EXPECT_GT(phases["outside"].get<std::int64_t>(),
+              phases["run"].get<std::int64_t>() + phases["extract"].get<std::int64_t>());
+  }
+  EXPECT_TRUE(report["manifests"].contains("sample"));
+  EXPECT_NE(run.out.find("| sample"), std::string::npos) << run.out;
+  const Outcome valid = hullbench({"validate", "run/report.json"});
+  EXPECT_EQ(valid.code, 0) << valid.err;
+}
+
+TEST_F(AdapterCommandTest, AnotherProgramIsAnotherRun) {
+  const std::vector<std::string> words = {"run",    "states", "--filter",      "^sample/ca/n:2000/holes:0",
+                                          "--out",  "run",    "--repetitions", "1",
+                                          "--with", "sample", "--adapters",    methods().string()};
+  python_method("    return []");
+  ASSERT_EQ(hullbench(words).code, 0);
+  EXPECT_EQ(hullbench(words).code, 0) << "the same run goes on";
+  write_text(methods() / "sample.py", read_text(methods() / "sample.py") + "# changed\n");
+  testing::expect_refusal(hullbench(words), 2, "holds another run");
+}
+
+TEST_F(AdapterCommandTest, TheContractSaysWhatToMend) {
+  python_method("    return [[points[:3]]]");
+  expect_broken("one point", "return no polygon for points without an area");
+  python_method("    import random\n    return [[random.sample(sorted(map(tuple, points)), 3)]]");
+  expect_broken("the same points again", "start every run from nothing");
+  python_method("    return [[points[[0, 1, 2]]]] if len(points) > 2 else []");
+  expect_broken("the points in another order", "let nothing depend on the order of the points");
+  python_method("    return [[[(0, 0), (9, 0), (9, 9)]]]");
+  expect_broken("a square of points", "larger than the points' convex hull");
+  python_method(
+      "    x, y = points.min(axis=0); w, z = points.max(axis=0)\n    return [[[(x, y), (w, z), (w, y), (x, "
+      "z)]]]");
+  expect_broken("a square of points", "invalid polygon");
+  python_method("    return [[points[:3]], [points[:3] + 2]]");
+  expect_broken("a square of points", "several polygons, which the method says it cannot have");
+  python_method("    import time; time.sleep(60 if len(points) > 1000 else 0); return []");
+  expect_broken("20000 points within the limits", "timeout");
+  python_method("    import os; os.abort()");
+  expect_broken("one point", "SIGABRT");
+}
+
+TEST_F(AdapterCommandTest, WhatIsPrintedDoesNotBreakTheProtocol) {
+  python_method("    print('hello'); import sys; print('there', file=sys.stderr); return []");
+  const Outcome tested = test_sample();
+  EXPECT_EQ(tested.out.find("protocol"), std::string::npos) << tested.out;
+}
+
+TEST_F(AdapterCommandTest, AModuleThatIsMissingIsNotInstalled) {
+  python_method("    return []");
+  write_text(methods() / "sample.py", "import hullbench_worker\nimport no_such_module\n");
+  const Outcome tested = test_sample();
+  EXPECT_EQ(tested.code, 6);
+  EXPECT_NE(tested.out.find("not_installed: No module named 'no_such_module'; remedy: How to install"),
+            std::string::npos)
+      << tested.out;
+}
+
+TEST_F(AdapterCommandTest, NamesAndFilesThatAreTaken) {
+  testing::expect_refusal(hullbench({"adapter", "new", "My-Hull", "--lang", "js"}), 2, "small letters");
+  testing::expect_refusal(hullbench({"adapter", "new", "polylidar", "--lang", "js"}), 2, "already");
+  testing::expect_refusal(hullbench({"adapter", "new", "sample", "--lang", "fortran"}), 2, "--lang");
+  testing::expect_refusal(hullbench({"adapter", "test", "nothing"}), 2, "there is no method 'nothing'");
+  testing::expect_refusal(hullbench({"adapter", "test", "polylidar", "--adapters", "nowhere"}), 2,
+                          "there is no folder nowhere");
+  fs::create_directories(methods());
+  write_text(methods() / "sample.mjs", "mine");
+  testing::expect_refusal(
+      hullbench({"adapter", "new", "sample", "--lang", "js", "--out", methods().string()}), 2,
+      "is there already");
+  EXPECT_EQ(read_text(methods() / "sample.mjs"), "mine");
+  EXPECT_FALSE(fs::exists(methods() / "sample.json"));
+  testing::expect_refusal(hullbench({"run", "states", "--with", "polylidar", "--dry-run"}), 2, "built in");
+}
+
+TEST_F(AdapterCommandTest, ACppMethodIsAFileAndALine) {
+  const Outcome made =
+      hullbench({"adapter", "new", "sample_hull", "--lang", "cpp", "--out", methods().string()});
+  ASSERT_EQ(made.code, 0) << made.err;
+  EXPECT_EQ(read_text(methods() / "adapters.cmake"), "add_adapter(NAME sample_hull TITLE \"sample_hull\")\n");
+  EXPECT_EQ(read_text(methods() / "sample_hull.cpp").find('@'), std::string::npos);
+}
+
+}  // namespace
+}  // namespace hullbench

@@ -1,0 +1,198 @@
+// Manifests: what they say, what is wrong with them, and where they are found.
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <limits>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "benchmarks/manifest.hpp"
+#include "benchmarks/method_catalog.hpp"
+#include "tests/program.hpp"
+#include "tests/temporary_folder.hpp"
+
+namespace hullbench {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+
+json good_manifest() {
+  return {
+      {"manifest_version", 1},
+      {"name", "my_hull"},
+      {"title", "My hull"},
+      {"licence", "MIT"},
+      {"citation", "A paper"},
+      {"native_output", "a ring"},
+      {"parameters",
+       {{{"name", "k"}, {"unit", "1"}, {"description", "Neighbours."}, {"minimum", 3}, {"maximum", nullptr}},
+        {{"name", "reach"},
+         {"unit", "length"},
+         {"description", "How far."},
+         {"minimum", 0},
+         {"maximum", nullptr},
+         {"default", nullptr}}}},
+      {"capabilities", {{"holes", true}, {"several_polygons", false}}},
+      {"command", {"python3", "./my_hull.py", "--fast"}},
+      {"needs", {"../library", "/usr/lib/library"}},
+      {"install", "make it"},
+      {"runs",
+       {{{"protocol", "auto"}, {"parameters", {{"k", 5}, {"reach", {{"rule", "hull_spacing_ratio"}}}}}}}}};
+}
+
+class ManifestTest : public ::testing::Test {
+ protected:
+  fs::path write(const json& manifest, const std::string& name = "my_hull.json") {
+    testing::write_text(folder_.path() / name, manifest.dump());
+    return folder_.path() / name;
+  }
+
+  void expect_fault(const json& manifest, const std::string& words) {
+    const fs::path file = write(manifest);
+    try {
+      load_manifest(file);
+      ADD_FAILURE() << "no fault was found; expected: " << words;
+    } catch (const ConfigurationError& error) {
+      EXPECT_NE(std::string(error.what()).find(words), std::string::npos) << error.what();
+      EXPECT_NE(std::string(error.what()).find(file.string()), std::string::npos) << error.what();
+    }
+  }
+
+  testing::TemporaryFolder folder_;
+};
+
+TEST_F(ManifestTest, SaysWhatTheMethodIsAndHowToStartIt) {
+  const Manifest manifest = load_manifest(write(good_manifest()));
+  const Method& method = manifest.method;
+  EXPECT_EQ(method.name, "my_hull");
+  EXPECT_EQ(method.title, "My hull");
+  EXPECT_EQ(method.install, "make it");
+  const fs::path folder = folder_.path();
+  EXPECT_EQ(method.command, (std::vector<std::string>{"python3", folder / "my_hull.py", "--fast"}));
+  EXPECT_EQ(method.needs, (std::vector<std::string>{folder.parent_path() / "library", "/usr/lib/library"}));
+  ASSERT_TRUE(method.info);
+  EXPECT_TRUE(method.info->capabilities.holes);
+  EXPECT_TRUE(method.info->version.empty());
+  ASSERT_EQ(method.info->parameters.size(), 2U);
+  EXPECT_FALSE(method.info->parameters[0].default_value);
+  EXPECT_EQ(method.info->parameters[1].default_value, std::numeric_limits<double>::infinity());
+  ASSERT_EQ(manifest.runs.size(), 1U);
+  EXPECT_EQ(manifest.runs[0].method, "my_hull");
+  EXPECT_EQ(manifest.runs[0].protocol, "auto");
+  EXPECT_EQ(std::get<double>(manifest.runs[0].parameters.at("k")), 5);
+}
+
+TEST_F(ManifestTest, FaultsAreSaidWithTheFileAndThePlace) {
+  const auto with = [](const std::string& key, const json& value) {
+    json manifest = good_manifest();
+    manifest[key] = value;
+    return manifest;
+  };
+  expect_fault(with("manifest_version", 2), "/manifest_version");
+  expect_fault(with("name", "My-Hull"), "/name");
+  expect_fault(with("command", json::array()), "/command");
+  expect_fault(with("colour", "blue"), "does not belong there");
+  expect_fault(with("runs", {{{"protocol", "guess"}}}), "runs[0].protocol");
+  expect_fault(with("runs", {{{"protocol", "auto"}, {"method", "other"}}}), "leave out the key 'method'");
+  expect_fault(with("runs", {{{"protocol", "auto"}, {"parameters", {{"k", {{"rule", "paper_alpha"}}}}}}}),
+               "reads the ground truth");
+  json manifest = good_manifest();
+  manifest.erase("citation");
+  expect_fault(manifest, "citation");
+  manifest = good_manifest();
+  manifest["parameters"][1]["name"] = "k";
+  expect_fault(manifest, "the parameter 'k' is there twice");
+  manifest = good_manifest();
+  manifest["parameters"][0]["maximum"] = 2;
+  expect_fault(manifest, "a minimum above its maximum");
+  manifest["parameters"][0]["maximum"] = 9;
+  manifest["parameters"][0]["default"] = 10;
+  expect_fault(manifest, "a default outside its range");
+  manifest["parameters"][0]["unit"] = "metres";
+  expect_fault(manifest, "/parameters/0/unit");
+}
+
+TEST_F(ManifestTest, WhatIsNotJsonAndWhatIsNotThere) {
+  testing::write_text(folder_.path() / "broken.json", "{");
+  EXPECT_THROW(load_manifest(folder_.path() / "broken.json"), ConfigurationError);
+  EXPECT_THROW(load_manifest(folder_.path() / "none.json"), ConfigurationError);
+  EXPECT_THROW(load_manifest(folder_.path()), ConfigurationError);
+}
+
+TEST_F(ManifestTest, ItsHashIsThatOfTheManifestAndTheProgramBesideIt) {
+  testing::write_text(folder_.path() / "my_hull.py", "print(1)");
+  const std::string first = load_manifest(write(good_manifest())).sha256;
+  EXPECT_EQ(load_manifest(write(good_manifest())).sha256, first);
+  testing::write_text(folder_.path() / "my_hull.py", "print(2)");
+  const std::string other_program = load_manifest(write(good_manifest())).sha256;
+  EXPECT_NE(other_program, first);
+  json manifest = good_manifest();
+  manifest["title"] = "Another";
+  EXPECT_NE(load_manifest(write(manifest)).sha256, other_program);
+}
+
+TEST_F(ManifestTest, AFolderIsReadInTheOrderOfItsNames) {
+  json other = good_manifest();
+  other["name"] = "a_hull";
+  write(good_manifest(), "2.json");
+  write(other, "3.json");
+  testing::write_text(folder_.path() / "package.json", "{}");
+  testing::write_text(folder_.path() / "notes.txt", "{");
+  const auto manifests = load_manifests({folder_.path(), folder_.path() / "nowhere"});
+  ASSERT_EQ(manifests.size(), 2U);
+  EXPECT_EQ(manifests[0].method.name, "my_hull");
+  EXPECT_EQ(manifests[1].method.name, "a_hull");
+  write(other, "4.json");
+  EXPECT_THROW(load_manifests({folder_.path()}), ConfigurationError);
+}
+
+TEST_F(ManifestTest, TheCatalogHasThemAfterTheMethodsThatAreBuiltIn) {
+  write(good_manifest());
+  const MethodCatalog catalog({folder_.path()});
+  EXPECT_EQ(catalog.names().front(), "polylidar");
+  EXPECT_EQ(catalog.names().back(), "my_hull");
+  EXPECT_EQ(catalog.find("my_hull").title, "My hull");
+  EXPECT_EQ(catalog.hashes().size(), 1U);
+  EXPECT_THROW(catalog.find("nothing"), ConfigurationError);
+  EXPECT_EQ(catalog.runs_of("my_hull").size(), 1U);
+  EXPECT_THROW(catalog.runs_of("polylidar"), ConfigurationError);
+}
+
+TEST_F(ManifestTest, WithoutRunsTheDefaultsAreMeasuredWhenThereAreAll) {
+  json manifest = good_manifest();
+  manifest.erase("runs");
+  write(manifest);
+  EXPECT_THROW(MethodCatalog({folder_.path()}).runs_of("my_hull"), ConfigurationError);
+  manifest["parameters"][0]["default"] = 4;
+  write(manifest);
+  const std::vector<PlanMethod> runs = MethodCatalog({folder_.path()}).runs_of("my_hull");
+  ASSERT_EQ(runs.size(), 1U);
+  EXPECT_EQ(runs[0].protocol, "default");
+  EXPECT_TRUE(runs[0].parameters.empty());
+}
+
+TEST_F(ManifestTest, ABuiltInNameIsTaken) {
+  json manifest = good_manifest();
+  manifest["name"] = "polylidar";
+  write(manifest);
+  EXPECT_THROW(MethodCatalog({folder_.path()}), ConfigurationError);
+}
+
+TEST_F(ManifestTest, TheUsersFolderIsWhereItsConfigurationIs) {
+  ::setenv("XDG_CONFIG_HOME", folder_.path().c_str(), 1);
+  EXPECT_EQ(user_manifest_folder(), folder_.path() / "hullbench" / "adapters");
+  ::unsetenv("XDG_CONFIG_HOME");
+  ::setenv("HOME", folder_.path().c_str(), 1);
+  EXPECT_EQ(user_manifest_folder(), folder_.path() / ".config" / "hullbench" / "adapters");
+  EXPECT_EQ(manifest_folders({folder_.path()}).size(), 3U);
+  EXPECT_THROW(manifest_folders({folder_.path() / "nowhere"}), ConfigurationError);
+  ::unsetenv("HOME");
+  EXPECT_EQ(manifest_folders({}).size(), 1U);
+  EXPECT_THROW(user_manifest_folder(), ConfigurationError);
+}
+
+}  // namespace
+}  // namespace hullbench
