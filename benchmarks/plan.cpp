@@ -241,6 +241,10 @@ ParameterChoice read_parameter(const Node& node, const Protocol& protocol) {
   return choice;
 }
 
+int read_repetitions(const Node& node) {
+  return static_cast<int>(node.at("repetitions").integer(1, 1'000'000));
+}
+
 double read_timeout(const Node& node) {
   return node.at("timeout_s").number(0.001, 1e6);
 }
@@ -250,7 +254,8 @@ std::int64_t read_memory_limit(const Node& node) {
 }
 
 PlanMethod read_method(const Node& node) {
-  node.only_keys({"method", "protocol", "datasets", "timeout_s", "mem_limit_mib", "parameters", "note"});
+  node.only_keys(
+      {"method", "protocol", "datasets", "repetitions", "timeout_s", "mem_limit_mib", "parameters", "note"});
   PlanMethod method;
   method.method = node.at("method").identifier();
   const Protocol& protocol = find_protocol(node.at("protocol"));
@@ -261,6 +266,7 @@ PlanMethod read_method(const Node& node) {
       method.parameters[name] = read_parameter(value, protocol);
     }
   }
+  if (node.has("repetitions")) method.repetitions = read_repetitions(node);
   if (node.has("timeout_s")) method.timeout_s = read_timeout(node);
   if (node.has("mem_limit_mib")) method.mem_limit_mib = read_memory_limit(node);
   if (node.has("note")) method.note = node.at("note").text();
@@ -328,6 +334,7 @@ json method_to_json(const PlanMethod& method) {
   for (const auto& [name, choice] : method.parameters) parameters[name] = parameter_to_json(choice);
   json result = {{"method", method.method}, {"protocol", method.protocol}, {"parameters", parameters}};
   if (!method.datasets.empty()) result["datasets"] = method.datasets;
+  if (method.repetitions) result["repetitions"] = *method.repetitions;
   if (method.timeout_s) result["timeout_s"] = *method.timeout_s;
   if (method.mem_limit_mib) result["mem_limit_mib"] = *method.mem_limit_mib;
   if (!method.note.empty()) result["note"] = method.note;
@@ -424,8 +431,7 @@ Plan parse_plan(const std::string& text, const std::string& source) {
   if (root.has("notes")) {
     for (const Node& note : root.at("notes").elements()) plan.notes.push_back(note.text());
   }
-  if (root.has("repetitions"))
-    plan.repetitions = static_cast<int>(root.at("repetitions").integer(1, 1'000'000));
+  if (root.has("repetitions")) plan.repetitions = read_repetitions(root);
   if (root.has("warmup")) plan.warmup = static_cast<int>(root.at("warmup").integer(0, 1000));
   if (root.has("timeout_s")) plan.timeout_s = read_timeout(root);
   if (root.has("mem_limit_mib")) plan.mem_limit_mib = read_memory_limit(root);
@@ -531,6 +537,10 @@ void use_recordings(Plan& plan, std::size_t count) {
   }
   plan.expanded_cases.clear();
   read_cases(Node(plan.cases, "plan '" + plan.name + "' with recordings", "cases"), plan.expanded_cases);
+}
+
+int repetitions_of(const Plan& plan, const PlanMethod& method) {
+  return method.repetitions.value_or(plan.repetitions);
 }
 
 std::vector<PlannedRun> planned_runs(const Plan& plan, const std::string& filter) {

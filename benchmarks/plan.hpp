@@ -5,15 +5,16 @@
 //    "filter": "^polylidar/",
 //    "cases":   [{"dataset": "ca", "holes": [false, true], "n": [2000, 64000]}],
 //    "methods": [{"method": "polylidar", "protocol": "paper", "datasets": ["ca"], "note": "...",
-//                 "timeout_s": 60, "mem_limit_mib": 1024, "parameters": {"alpha": PARAMETER}}]}
+//                 "repetitions": 3, "timeout_s": 60, "mem_limit_mib": 1024, "parameters": {"alpha":
+//                 PARAMETER}}]}
 //
 // PARAMETER is a number, {"rule": NAME} (parameter_rules.hpp) or {"cases": {"ca": 2.0, "ca/holes": 1.25}}.
 // A case's "dataset" is one name or a list of names; a list stands for the same case once for each name, in
 // its order. With "members": 200 the name is a family's and stands for its members from 1 to 200 ("star-1",
-// ..., "star-200"). A method's own limits take the place of the plan's; with several protocols it has one
-// worker, so all its entries must name the same "mem_limit_mib". Without "n" the data set's own points are
-// used, which only some have. Only `name`, `cases` and `methods` are required; a key that is not listed here
-// is an error.
+// ..., "star-200"). A method's own repetitions and limits take the place of the plan's; with several
+// protocols it has one worker, so all its entries must name the same "mem_limit_mib". Without "n" the data
+// set's own points are used, which only some have. Only `name`, `cases` and `methods` are required; a key
+// that is not listed here is an error.
 #pragma once
 
 #include <cstddef>
@@ -64,6 +65,7 @@ struct PlanMethod {
   std::string protocol;  ///< who chose the parameters: "paper", "default", "auto", "tuned", "oracle"
   std::vector<std::string> datasets;  ///< only these (or these families'); empty: all
   std::map<std::string, ParameterChoice> parameters;
+  std::optional<int> repetitions;             ///< its own instead of the plan's, for slow methods
   std::optional<double> timeout_s;            ///< its own instead of the plan's
   std::optional<std::int64_t> mem_limit_mib;  ///< its own instead of the plan's
   std::string note;                           ///< for readers of the tables
@@ -121,6 +123,9 @@ void check_plan(const Plan& plan, const std::vector<std::string>& methods,
 /// Puts `count` recorded floors ("recorded-1", ...) in the place of the plan's simulated ones. Throws
 /// ConfigurationError when it has no simulated floors.
 void use_recordings(Plan& plan, std::size_t count);
+
+/// How often a method is timed on every case.
+int repetitions_of(const Plan& plan, const PlanMethod& method);
 
 /// The runs of `plan` whose name has a match of `filter` (an ECMAScript regular expression; empty: all), case
 /// by case in the order of the plan. Throws ConfigurationError when `filter` is not a regular expression.

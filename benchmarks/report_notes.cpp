@@ -17,13 +17,25 @@ namespace {
 using nlohmann::json;
 using Sentences = std::vector<std::string>;
 
+/// ", of some methods over 3" where the plan gives methods repetitions of their own.
+std::string other_repetitions(const json& report) {
+  std::set<int> others;
+  for (const json& method : report.at("plan").value("methods", json::array())) {
+    if (method.contains("repetitions")) others.insert(method["repetitions"].get<int>());
+  }
+  std::string text;
+  for (const int count : others)
+    text += (text.empty() ? ", of some methods over " : " or ") + std::to_string(count);
+  return text;
+}
+
 void add_repetitions(const json& report, Sentences& notes) {
   const int repetitions = report.at("repetitions").get<int>();
   notes.push_back(repetitions == 1
                       ? "Every time is of one repetition."
                       : "Times are medians ± the median absolute deviation over " +
-                            std::to_string(repetitions) +
-                            " repetitions. Cells that hold several runs (seeds, parameter sets) put "
+                            std::to_string(repetitions) + " repetitions" + other_repetitions(report) +
+                            ". Cells that hold several runs (seeds, parameter sets) put "
                             "them together.");
 }
 

@@ -57,6 +57,7 @@ Experiment make_experiment(const std::string& name, const RunCommand& command, c
   plan.timeout_s = command.timeout_s.value_or(plan.timeout_s);
   plan.mem_limit_mib = command.mem_limit_mib.value_or(plan.mem_limit_mib);
   for (PlanMethod& method : plan.methods) {
+    if (command.repetitions) method.repetitions.reset();
     if (command.timeout_s) method.timeout_s.reset();
     if (command.mem_limit_mib) method.mem_limit_mib.reset();
   }

@@ -191,7 +191,7 @@ class Runner {
     one.set = make_point_set(plan_case.dataset, plan_case.holes, static_cast<std::size_t>(plan_case.n),
                              plan_.seed, options_.folders);
     for (Entry& entry : one.entries) {
-      const PlanMethod& method = plan_.methods[runs_[entry.index].method_index];
+      const PlanMethod& method = method_of(entry);
       RunRecord& record = entry.record;
       record.name = runs_[entry.index].name;
       record.method = method.method;
@@ -222,7 +222,7 @@ class Runner {
     for (Entry& entry : one.entries) {
       if (!entry.measured) warm_up(entry, points);
     }
-    for (int round = 0; round < plan_.repetitions; ++round) run_round(one.entries, round, points);
+    for (int round = 0; round < most_repetitions(one.entries); ++round) run_round(one.entries, round, points);
     for (Entry& entry : one.entries) {
       // Without a warm-up, one untimed run after the timed ones, which must give the same result.
       if (plan_.warmup == 0 && !entry.measured) attempt_run(entry, points);
@@ -260,6 +260,16 @@ class Runner {
     }
   }
 
+  const PlanMethod& method_of(const Entry& entry) const {
+    return plan_.methods[runs_[entry.index].method_index];
+  }
+
+  int most_repetitions(const std::vector<Entry>& entries) const {
+    int most = 0;
+    for (const Entry& entry : entries) most = std::max(most, repetitions_of(plan_, method_of(entry)));
+    return most;
+  }
+
   std::chrono::milliseconds timeout_of(const PlanMethod& method) const {
     const double seconds = method.timeout_s.value_or(plan_.timeout_s);
     return std::chrono::milliseconds(std::max<std::int64_t>(1, std::llround(seconds * 1000)));
@@ -292,7 +302,9 @@ class Runner {
     for (std::size_t i = order.size(); i > 1; --i) std::swap(order[i - 1], order[random.below(i)]);
     for (const std::size_t which : order) {
       Entry& entry = entries[which];
-      if (entry.measured || std::cmp_greater(entry.repetitions.size(), round)) continue;
+      if (entry.measured || round >= repetitions_of(plan_, method_of(entry)) ||
+          std::cmp_greater(entry.repetitions.size(), round))
+        continue;
       const std::optional<Attempt> attempt = attempt_run(entry, points);
       if (!attempt) continue;
       const Repetition repetition = {attempt->time_ns(), attempt->phases_ns, entry.record.output_sha256};
@@ -306,7 +318,7 @@ class Runner {
   std::optional<Attempt> attempt_run(Entry& entry, const LoadedPoints& points) {
     progress_.begin(entry.index);
     Attempt attempt = entry.session->run(points, entry.record.parameters, directory_.scratch(),
-                                         timeout_of(plan_.methods[runs_[entry.index].method_index]));
+                                         timeout_of(method_of(entry)));
     if (attempt.status != Status::kOk) {
       fail(entry, attempt.status, attempt.detail);
       return std::nullopt;
@@ -423,8 +435,9 @@ std::vector<ProgressRun> progress_runs(const Plan& plan, const std::vector<Plann
   std::vector<ProgressRun> result;
   result.reserve(runs.size());
   for (const PlannedRun& run : runs) {
-    result.push_back({run.name, plan.methods[run.method_index].method,
-                      estimated_points(plan.expanded_cases[run.case_index]), plan.warmup + plan.repetitions});
+    const PlanMethod& method = plan.methods[run.method_index];
+    result.push_back({run.name, method.method, estimated_points(plan.expanded_cases[run.case_index]),
+                      plan.warmup + repetitions_of(plan, method)});
   }
   return result;
 }

@@ -288,6 +288,7 @@ TEST(Plan, WrongPlansAreRefusedWithTheirPlace) {
       {"/methods/0/protocol", "auto",
        "methods[0].parameters.alpha.rule names the rule 'paper_alpha', which reads the ground truth"},
       {"/methods/0/timeout_s", 0, "methods[0].timeout_s must be a number from 0.001"},
+      {"/methods/0/repetitions", 0, "methods[0].repetitions must be a whole number from 1"},
       {"/methods/0/mem_limit_mib", 1, "methods[0].mem_limit_mib must be a whole number from 64"},
       {"/methods/2",
        {{"method", "polylidar"}, {"protocol", "default"}, {"mem_limit_mib", 100}},

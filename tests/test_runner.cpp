@@ -203,6 +203,18 @@ TEST_F(RunnerTest, AMethodsOwnLimitsTakeThePlaceOfThePlans) {
   EXPECT_EQ(limit_of(), 300);
 }
 
+TEST_F(RunnerTest, AMethodsOwnRepetitionsTakeThePlaceOfThePlans) {
+  Plan plan = plan_of({"good", "polylidar"}, 2);
+  plan.methods[0].repetitions = 1;
+  plan.methods[1].repetitions = 3;
+  EXPECT_EQ(plan_to_json(parse_plan(plan_to_json(plan).dump(), "test")), plan_to_json(plan));
+  EXPECT_EQ(exit_code(measure(plan)), 0);
+  EXPECT_EQ(rows().at("good").time_ns.size(), 1U);
+  EXPECT_EQ(rows().at("polylidar").time_ns.size(), 3U);
+  EXPECT_EQ(exit_code(measure(plan)), 0);
+  EXPECT_EQ(rows().at("polylidar").time_ns.size(), 3U);
+}
+
 TEST_F(RunnerTest, WithoutWarmUpTheFirstRepetitionIsScored) {
   Plan plan = plan_of({"polylidar", "garbage_result", "invalid_polygon"});
   plan.warmup = 0;
