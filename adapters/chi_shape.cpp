@@ -51,7 +51,7 @@ class ShrinkingPolygon {
         next_vertex_(points.size(), kNone) {
     std::vector<LongEdge> memory;
     memory.reserve(points.size());
-    long_edges_ = std::priority_queue(std::less<LongEdge>(), std::move(memory));
+    long_edges_ = std::priority_queue(std::less<>(), std::move(memory));
     for (Index edge = 0; edge < triangulation.triangles.size(); ++edge) {
       if (triangulation.halfedges[edge] == kNone) add(edge);
     }
@@ -102,7 +102,7 @@ class ShrinkingPolygon {
   double squared_limit_;
   // Vertex -> the next one counter-clockwise on the boundary; kNone when it is not on the boundary.
   std::vector<Index> next_vertex_;
-  std::priority_queue<LongEdge> long_edges_;
+  std::priority_queue<LongEdge, std::vector<LongEdge>, std::less<>> long_edges_;
 };
 
 MethodInfo describe() {

@@ -282,7 +282,7 @@ class KnnHull final : public Adapter {
     const PointTree tree(entries);
 
     steps.begin("shape");
-    const double all_others = static_cast<double>(points.size() - 1);
+    const auto all_others = static_cast<double>(points.size() - 1);
     ring_ = nearest_neighbours_hull(points, tree, static_cast<std::size_t>(std::min(k, all_others)));
   }
 

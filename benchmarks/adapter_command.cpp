@@ -1,8 +1,7 @@
 #include "benchmarks/adapter_command.hpp"
 
-#include <stdlib.h>  // mkdtemp
-
 #include <algorithm>
+#include <cstdlib>
 #include <fstream>
 #include <iomanip>
 #include <iostream>
@@ -26,7 +25,7 @@ constexpr int kNothingTried = 6;
 
 std::string read_text(const fs::path& file) {
   std::ifstream in(file, std::ios::binary);
-  const std::string text(std::istreambuf_iterator<char>(in), {});
+  std::string text(std::istreambuf_iterator<char>(in), {});
   if (!in.is_open() || text.empty()) throw std::runtime_error("cannot read " + file.string());
   return text;
 }
@@ -58,7 +57,8 @@ std::vector<NewFile> script_files(const NewAdapterCommand& command) {
   const fs::path folder = command.out ? *command.out : user_manifest_folder();
   const bool python = command.language == "python";
   const std::string ending = python ? ".py" : ".mjs";
-  const std::string script = command.name + ending;
+  // Not NAME.py, which would hide a module of that name from every method of the folder.
+  const std::string script = command.name + "_worker" + ending;
   const std::string words = (python ? R"("python3", "./)" : R"("node", "./)") + script + "\"";
   const std::string helper = "hullbench_worker" + ending;
   std::string manifest = replace_all(read_text(kSkeletons / "skeleton.json"), "@NAME@", command.name);
@@ -79,7 +79,8 @@ void check_name(const std::string& name) {
   }
   const MethodCatalog catalog(manifest_folders({}));
   const std::vector<std::string> names = catalog.names();
-  if (std::find(names.begin(), names.end(), name) != names.end()) {
+  // The worker of "hullbench" would have the name of the helper file.
+  if (name == "hullbench" || std::find(names.begin(), names.end(), name) != names.end()) {
     throw ConfigurationError("there is a method '" + name + "' already; choose another name");
   }
 }
@@ -115,7 +116,7 @@ void write_all(const std::vector<NewFile>& files) {
 class Scratch {
  public:
   Scratch() : path_((fs::temp_directory_path() / "hullbench-contract-XXXXXX").string()) {
-    if (!::mkdtemp(path_.data())) throw std::runtime_error("cannot make a folder like " + path_);
+    if (!mkdtemp(path_.data())) throw std::runtime_error("cannot make a folder like " + path_);
   }
   ~Scratch() {
     std::error_code ignored;
@@ -156,7 +157,7 @@ int test_adapter_command(const TestAdapterCommand& command) {
       test_contract(method, {command.mem_limit_mib, std::nullopt}, timeout, scratch.path(), &print);
   const auto kept =
       std::count_if(verdicts.begin(), verdicts.end(), [](const Verdict& verdict) { return verdict.kept; });
-  if (verdicts.size() == 1) return kNothingTried;
+  if (verdicts.back().status == Status::kNotInstalled) return kNothingTried;
   const bool all = kept == static_cast<std::ptrdiff_t>(verdicts.size());
   std::cout << command.name << " keeps " << (all ? "the contract: " : "part of the contract: ") << kept
             << " of " << verdicts.size() << " points\n";

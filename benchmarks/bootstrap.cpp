@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <boost/math/special_functions/beta.hpp>
 #include <cmath>
+#include <cstddef>
 #include <iterator>
 #include <map>
 #include <numeric>
@@ -33,21 +34,22 @@ double surplus(const std::vector<double>& cluster, double limit) {
 
 /// P(sum of the surpluses of as many drawn clusters as there are >= 0), exact.
 double exact_probability(const std::vector<double>& surpluses) {
-  std::map<int, double> draw;  // probability by surplus
+  std::map<std::ptrdiff_t, double> draw;  // probability by surplus
   for (const double value : surpluses)
-    draw[static_cast<int>(value)] += 1 / static_cast<double>(surpluses.size());
-  const int lowest = std::min(0, draw.begin()->first);
-  const int highest = std::max(0, draw.rbegin()->first);
-  const auto draws = static_cast<int>(surpluses.size());
+    draw[static_cast<std::ptrdiff_t>(value)] += 1 / static_cast<double>(surpluses.size());
+  const std::ptrdiff_t lowest = std::min<std::ptrdiff_t>(0, draw.begin()->first);
+  const std::ptrdiff_t highest = std::max<std::ptrdiff_t>(0, draw.rbegin()->first);
+  const auto draws = static_cast<std::ptrdiff_t>(surpluses.size());
   const auto width = static_cast<std::size_t>(draws * (highest - lowest) + 1);
   std::vector<double> sums(width);  // probability by sum, from draws * lowest on
   sums[static_cast<std::size_t>(-draws * lowest)] = 1;
-  for (int drawn = 0; drawn < draws; ++drawn) {
+  for (std::ptrdiff_t drawn = 0; drawn < draws; ++drawn) {
     std::vector<double> next(width);
     for (std::size_t place = 0; place < width; ++place) {
       if (sums[place] == 0) continue;
       for (const auto& [value, probability] : draw) {
-        next[static_cast<std::size_t>(static_cast<int>(place) + value)] += probability * sums[place];
+        next[static_cast<std::size_t>(static_cast<std::ptrdiff_t>(place) + value)] +=
+            probability * sums[place];
       }
     }
     sums = std::move(next);

@@ -13,9 +13,10 @@ namespace hullbench {
 
 /// One point of the contract.
 struct Verdict {
-  std::string name;   ///< "three points"
-  bool kept = false;  ///< whether the method does what it must
-  std::string words;  ///< what was seen, and when it was not kept what to mend
+  std::string name;             ///< "three points"
+  bool kept = false;            ///< whether the method does what it must
+  Status status = Status::kOk;  ///< of the run that decided it
+  std::string words;            ///< what was seen, and when it was not kept what to mend
 };
 
 /// Parameters for points that lie `spacing` apart on average (in their unit), for a method of which nothing
@@ -24,7 +25,8 @@ struct Verdict {
 Parameters contract_parameters(const MethodInfo& info, double spacing);
 
 /// Runs the whole contract on a worker of its own and hands every verdict to `say` as it comes. One run may
-/// take `timeout`. Files go into `scratch`. Stops after a worker that does not start. Returns the verdicts.
+/// take `timeout`. Files go into `scratch`. Stops after a worker that does not start and after the
+/// second run that takes too long. Returns the verdicts.
 /// Throws Interrupted, and std::runtime_error when a file cannot be written.
 std::vector<Verdict> test_contract(const Method& method, const WorkerLimits& limits,
                                    std::chrono::milliseconds timeout, const std::filesystem::path& scratch,

@@ -168,7 +168,7 @@ void add_run(CLI::App& app, RunCommand& run) {
   command->add_option("--adapters", run.adapters, kAdaptersHelp)->allow_extra_args(false);
   command
       ->add_option("--with", run.with,
-                   "Also measure this method, with the parameters that its manifest gives")
+                   "Also measure this method of a manifest, with the parameters that the manifest gives")
       ->allow_extra_args(false);
   command->add_option("--export-gbench", run.export_gbench, kExportGbenchHelp);
   command->add_flag("--force", run.force, "Start anew instead of going on with an interrupted run");

@@ -60,13 +60,39 @@ void check_parameters(const MethodInfo& info, const std::string& source) {
   }
 }
 
-/// A method is another one when its manifest or its own program is.
+/// npm has two files of its own beside the methods.
+bool is_manifest(const fs::path& file) {
+  const std::string name = file.filename().string();
+  return file.extension() == ".json" && name != "package.json" && name != "package-lock.json";
+}
+
+/// The hashes of the files in `folder` that are no manifests and no data: what a method there may be made of.
+std::vector<std::string> program_hashes(const fs::path& folder) {
+  constexpr std::uintmax_t kLargestProgram = 1 << 20;
+  std::vector<std::string> hashes;
+  std::error_code ignored;
+  for (const auto& entry : fs::directory_iterator(folder, ignored)) {
+    if (entry.is_regular_file(ignored) && !is_manifest(entry.path()) &&
+        entry.file_size(ignored) <= kLargestProgram) {
+      hashes.push_back(sha256_file(entry.path()));
+    }
+  }
+  return hashes;
+}
+
+/// A method is another one when its manifest, its program or a file beside one of them is, such as the helper
+/// that takes the times. Files of other methods in the folder count too: better measured once too often.
 std::string hash_of(const std::string& text, const json& command, const fs::path& folder) {
-  std::string all = sha256_hex(text);
+  std::vector<std::string> hashes = program_hashes(folder);
+  const std::vector<std::string> helpers = program_hashes(folder / ".." / "process");
+  hashes.insert(hashes.end(), helpers.begin(), helpers.end());
   for (const json& word : command) {
     const fs::path file = resolved(word.get<std::string>(), folder);
-    if (is_beside(word.get<std::string>()) && fs::is_regular_file(file)) all += sha256_file(file);
+    if (is_beside(word.get<std::string>()) && fs::is_regular_file(file)) hashes.push_back(sha256_file(file));
   }
+  std::sort(hashes.begin(), hashes.end());
+  std::string all = sha256_hex(text);
+  for (const std::string& hash : hashes) all += hash;
   return sha256_hex(all);
 }
 
@@ -102,9 +128,7 @@ std::vector<Manifest> load_manifests(const std::vector<fs::path>& folders) {
     std::vector<fs::path> files;
     std::error_code ignored;
     for (const auto& entry : fs::directory_iterator(folder, ignored)) {
-      if (entry.path().extension() == ".json" && !entry.path().filename().string().starts_with("package")) {
-        files.push_back(entry.path());
-      }
+      if (is_manifest(entry.path())) files.push_back(entry.path());
     }
     std::sort(files.begin(), files.end());
     for (const fs::path& file : files) {
@@ -112,6 +136,7 @@ std::vector<Manifest> load_manifests(const std::vector<fs::path>& folders) {
       const auto same = std::find_if(manifests.begin(), manifests.end(), [&](const Manifest& other) {
         return other.method.name == manifest.method.name;
       });
+      if (same != manifests.end() && same->sha256 == manifest.sha256) continue;
       if (same != manifests.end()) {
         throw ConfigurationError("two manifests describe the method '" + manifest.method.name +
                                  "': " + same->file.string() + " and " + file.string() + "; rename one");

@@ -15,7 +15,7 @@ namespace hullbench {
 struct Manifest {
   Method method;
   std::filesystem::path file;
-  std::string sha256;            ///< of the manifest and of the files beside it that its command names
+  std::string sha256;            ///< of the manifest, the files of its command and those in their folder
   std::vector<PlanMethod> runs;  ///< how to measure it in a plan that does not name it
 };
 

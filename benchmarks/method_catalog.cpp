@@ -20,6 +20,11 @@ Method built_in(const AdapterEntry& entry) {
   return method;
 }
 
+bool has_value(const char* variable) {
+  const char* value = std::getenv(variable);
+  return value && *value;
+}
+
 }  // namespace
 
 MethodCatalog::MethodCatalog(const std::vector<fs::path>& folders) {
@@ -73,17 +78,16 @@ std::vector<PlanMethod> MethodCatalog::runs_of(const std::string& name) const {
 }
 
 fs::path user_manifest_folder() {
-  const char* configuration = std::getenv("XDG_CONFIG_HOME");
-  if (configuration && *configuration) return fs::path(configuration) / "hullbench" / "adapters";
-  const char* home = std::getenv("HOME");
-  if (home && *home) return fs::path(home) / ".config" / "hullbench" / "adapters";
+  if (has_value("XDG_CONFIG_HOME"))
+    return fs::path(std::getenv("XDG_CONFIG_HOME")) / "hullbench" / "adapters";
+  if (has_value("HOME")) return fs::path(std::getenv("HOME")) / ".config" / "hullbench" / "adapters";
   throw ConfigurationError(
       "neither XDG_CONFIG_HOME nor HOME says where the user's configuration is; set one");
 }
 
 std::vector<fs::path> manifest_folders(const std::vector<fs::path>& folders) {
   std::vector<fs::path> all = {HULLBENCH_MANIFEST_FOLDER};
-  if (std::getenv("XDG_CONFIG_HOME") || std::getenv("HOME")) all.push_back(user_manifest_folder());
+  if (has_value("XDG_CONFIG_HOME") || has_value("HOME")) all.push_back(user_manifest_folder());
   for (const fs::path& folder : folders) {
     if (!fs::is_directory(folder)) throw ConfigurationError("there is no folder " + folder.string());
     all.push_back(folder);

@@ -34,8 +34,8 @@ class AdapterCommandTest : public ::testing::Test {
           hullbench({"adapter", "new", "sample", "--lang", "python", "--out", methods().string()});
       ASSERT_EQ(made.code, 0) << made.err;
     }
-    write_text(methods() / "sample.py", "import hullbench_worker\n\ndef run(points):\n" + body +
-                                            "\n\nhullbench_worker.serve(version='1', run=run)\n");
+    write_text(methods() / "sample_worker.py", "import hullbench_worker\n\ndef run(points):\n" + body +
+                                                   "\n\nhullbench_worker.serve(version='1', run=run)\n");
     // Debian's Python, which has numpy.
     json manifest = json::parse(read_text(methods() / "sample.json"));
     manifest["command"][0] = "/usr/bin/python3";
@@ -114,7 +114,12 @@ TEST_F(AdapterCommandTest, AnotherProgramIsAnotherRun) {
   python_method("    return []");
   ASSERT_EQ(hullbench(words).code, 0);
   EXPECT_EQ(hullbench(words).code, 0) << "the same run goes on";
-  write_text(methods() / "sample.py", read_text(methods() / "sample.py") + "# changed\n");
+  const std::string helper = read_text(methods() / "hullbench_worker.py");
+  write_text(methods() / "hullbench_worker.py", helper + "# changed\n");
+  testing::expect_refusal(hullbench(words), 2, "holds another run");
+  write_text(methods() / "hullbench_worker.py", helper);
+  EXPECT_EQ(hullbench(words).code, 0);
+  write_text(methods() / "sample_worker.py", read_text(methods() / "sample_worker.py") + "# changed\n");
   testing::expect_refusal(hullbench(words), 2, "holds another run");
 }
 
@@ -137,6 +142,11 @@ TEST_F(AdapterCommandTest, TheContractSaysWhatToMend) {
   expect_broken("20000 points within the limits", "timeout");
   python_method("    import os; os.abort()");
   expect_broken("one point", "SIGABRT");
+  python_method("    import time; time.sleep(60)");
+  const Outcome hanging =
+      hullbench({"adapter", "test", "sample", "--adapters", methods().string(), "--timeout", "0.2"});
+  EXPECT_EQ(hanging.code, 4);
+  EXPECT_NE(hanging.out.find("keeps part of the contract: 1 of 3 points"), std::string::npos) << hanging.out;
 }
 
 TEST_F(AdapterCommandTest, WhatIsPrintedDoesNotBreakTheProtocol) {
@@ -147,27 +157,42 @@ TEST_F(AdapterCommandTest, WhatIsPrintedDoesNotBreakTheProtocol) {
 
 TEST_F(AdapterCommandTest, AModuleThatIsMissingIsNotInstalled) {
   python_method("    return []");
-  write_text(methods() / "sample.py", "import hullbench_worker\nimport no_such_module\n");
+  write_text(methods() / "sample_worker.py", "import hullbench_worker\nimport no_such_module\n");
   const Outcome tested = test_sample();
-  EXPECT_EQ(tested.code, 6);
+  EXPECT_EQ(tested.code, 6) << tested.out;
   EXPECT_NE(tested.out.find("not_installed: No module named 'no_such_module'; remedy: How to install"),
             std::string::npos)
       << tested.out;
 }
 
+TEST_F(AdapterCommandTest, AWorkerThatBreaksAtItsStartIsNotMissing) {
+  python_method("    return []");
+  write_text(methods() / "sample_worker.py", "raise SystemExit(3)\n");
+  EXPECT_EQ(test_sample().code, 4);
+}
+
+TEST_F(AdapterCommandTest, NamesOfModulesAndOfNpmsFilesAreGoodNames) {
+  for (const std::string name : {"json", "package_hull"}) {
+    ASSERT_EQ(hullbench({"adapter", "new", name, "--lang", "js"}).code, 0);
+    EXPECT_EQ(hullbench({"adapter", "test", name}).code, 0) << name;
+  }
+}
+
 TEST_F(AdapterCommandTest, NamesAndFilesThatAreTaken) {
   testing::expect_refusal(hullbench({"adapter", "new", "My-Hull", "--lang", "js"}), 2, "small letters");
-  testing::expect_refusal(hullbench({"adapter", "new", "polylidar", "--lang", "js"}), 2, "already");
+  for (const std::string taken : {"polylidar", "concaveman", "hullbench"}) {
+    testing::expect_refusal(hullbench({"adapter", "new", taken, "--lang", "js"}), 2, "already");
+  }
   testing::expect_refusal(hullbench({"adapter", "new", "sample", "--lang", "fortran"}), 2, "--lang");
   testing::expect_refusal(hullbench({"adapter", "test", "nothing"}), 2, "there is no method 'nothing'");
   testing::expect_refusal(hullbench({"adapter", "test", "polylidar", "--adapters", "nowhere"}), 2,
                           "there is no folder nowhere");
   fs::create_directories(methods());
-  write_text(methods() / "sample.mjs", "mine");
+  write_text(methods() / "sample_worker.mjs", "mine");
   testing::expect_refusal(
       hullbench({"adapter", "new", "sample", "--lang", "js", "--out", methods().string()}), 2,
       "is there already");
-  EXPECT_EQ(read_text(methods() / "sample.mjs"), "mine");
+  EXPECT_EQ(read_text(methods() / "sample_worker.mjs"), "mine");
   EXPECT_FALSE(fs::exists(methods() / "sample.json"));
   testing::expect_refusal(hullbench({"run", "states", "--with", "polylidar", "--dry-run"}), 2, "built in");
 }

@@ -140,11 +140,14 @@ TEST_F(ManifestTest, AFolderIsReadInTheOrderOfItsNames) {
   write(good_manifest(), "2.json");
   write(other, "3.json");
   testing::write_text(folder_.path() / "package.json", "{}");
+  testing::write_text(folder_.path() / "package-lock.json", "{}");
   testing::write_text(folder_.path() / "notes.txt", "{");
   const auto manifests = load_manifests({folder_.path(), folder_.path() / "nowhere"});
   ASSERT_EQ(manifests.size(), 2U);
   EXPECT_EQ(manifests[0].method.name, "my_hull");
   EXPECT_EQ(manifests[1].method.name, "a_hull");
+  EXPECT_EQ(load_manifests({folder_.path(), folder_.path()}).size(), 2U) << "the same ones again";
+  other["title"] = "Another method of that name";
   write(other, "4.json");
   EXPECT_THROW(load_manifests({folder_.path()}), ConfigurationError);
 }
@@ -189,6 +192,8 @@ TEST_F(ManifestTest, TheUsersFolderIsWhereItsConfigurationIs) {
   EXPECT_EQ(user_manifest_folder(), folder_.path() / ".config" / "hullbench" / "adapters");
   EXPECT_EQ(manifest_folders({folder_.path()}).size(), 3U);
   EXPECT_THROW(manifest_folders({folder_.path() / "nowhere"}), ConfigurationError);
+  ::setenv("HOME", "", 1);
+  EXPECT_EQ(manifest_folders({}).size(), 1U);
   ::unsetenv("HOME");
   EXPECT_EQ(manifest_folders({}).size(), 1U);
   EXPECT_THROW(user_manifest_folder(), ConfigurationError);

@@ -100,7 +100,7 @@ TEST_F(PointFilesTest, ColumnsByNameAndByNumber) {
   EXPECT_EQ(read_columns(text, "lon,lat"), (Points{{2, 1}, {5, 4}}));
   EXPECT_EQ(read_columns(text, " x , 2"), (Points{{3, 1}, {6, 4}}));
   EXPECT_EQ(read_columns(text, "4,1"), (Points{{3, 7}, {6, 8}}));
-  EXPECT_EQ(read_columns("a,b,c\n1,2,3\n", ""), (Points{{1, 2}}));
+  EXPECT_EQ(read_columns("a,b\n1,2\n", ""), (Points{{1, 2}}));
   EXPECT_EQ(read_columns("house 1 2\n", "2,3"), (Points{{1, 2}}));
   EXPECT_EQ(read_columns("x,X\n1,2\n", "X,x"), (Points{{2, 1}}));
 }
@@ -133,6 +133,7 @@ TEST_F(PointFilesTest, FaultsInColumns) {
   const std::vector<Fault> faults = {
       {"a.csv", "", "it is empty"},
       {"a.csv", "x,y\n1,2\n3\n", ", line 3: there is no column 2"},
+      {"a.csv", "id,a,b\n1,2,3\n", ", line 1: none of the columns 'id', 'a', 'b' is known to be x or y"},
       {"a.csv", "1,2\n\n#\n3,\n", ", line 4: a coordinate is missing"},
       {"a.csv", "1,2\n3,abc\n", ", line 2: 'abc' is not a number"},
       {"a.csv", "1,abc\n", ", line 1: 'abc' is not a number"},

@@ -85,19 +85,16 @@ public class JtsConcaveHull {
     long runNanoseconds = System.nanoTime() - begin;
     // What has no area comes as a point or a line.
     begin = System.nanoTime();
-    Geometry shape = hull instanceof Polygon ? hull : FACTORY.createPolygon();
+    Polygon[] polygons = hull instanceof Polygon ? new Polygon[] {(Polygon) hull} : new Polygon[0];
+    Geometry shape = FACTORY.createMultiPolygon(polygons);
     long extractNanoseconds = System.nanoTime() - begin;
     Files.write(
         Path.of(request.get("result").getAsString()),
-        new WKBWriter(2, ByteOrderValues.LITTLE_ENDIAN).write(FACTORY.createMultiPolygon(polygons(shape))));
+        new WKBWriter(2, ByteOrderValues.LITTLE_ENDIAN).write(shape));
     JsonObject reply = times("run", runNanoseconds);
     reply.getAsJsonObject("phases_ns").addProperty("extract", extractNanoseconds);
     reply.add("nonce", request.get("nonce"));
     return reply;
-  }
-
-  private static Polygon[] polygons(Geometry shape) {
-    return shape.isEmpty() ? new Polygon[0] : new Polygon[] {(Polygon) shape};
   }
 
   private static Coordinate[] readPoints(JsonObject request) throws IOException {

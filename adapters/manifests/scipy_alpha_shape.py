@@ -26,7 +26,8 @@ def polygons(corners):
     """The union of the triangles."""
     union = shapely.ops.unary_union([shapely.geometry.Polygon(triangle) for triangle in corners])
     parts = getattr(union, "geoms", [union])
-    return [[part.exterior.coords, *(hole.coords for hole in part.interiors)] for part in parts if not part.is_empty]
+    rings = [[part.exterior, *part.interiors] for part in parts if not part.is_empty]
+    return [[numpy.asarray(ring.coords) for ring in polygon] for polygon in rings]
 
 
 hullbench_worker.serve(version=f"scipy {scipy.__version__}, shapely {shapely.__version__}", run=triangles, extract=polygons)

@@ -132,6 +132,15 @@ class ColumnChoice {
       columns.y = find(y);
       return;
     }
+    if (row_.size() <= 2) return;
+    reader_.fail_here("none of the columns " + column_names() +
+                      " is known to be x or y; name two of them with --columns, as in x,y or 1,2");
+  }
+
+  std::string column_names() const {
+    std::string names;
+    for (const std::string_view field : row_) names += (names.empty() ? "" : ", ") + in_quotes(field);
+    return names;
   }
 
   std::size_t place_of(std::string_view name, std::string_view wanted, Columns& columns) const {
@@ -143,9 +152,8 @@ class ColumnChoice {
     columns.with_header = true;
     const std::size_t place = find(name);
     if (place < row_.size()) return place;
-    std::string names;
-    for (const std::string_view field : row_) names += (names.empty() ? "" : ", ") + in_quotes(field);
-    reader_.fail_here("there is no column " + in_quotes(name) + "; the columns of this line are " + names);
+    reader_.fail_here("there is no column " + in_quotes(name) + "; the columns of this line are " +
+                      column_names());
   }
 
   static constexpr std::uint64_t kMostColumns = 1000000;
