@@ -102,6 +102,7 @@ MethodChange method_change(const std::string& method, const std::string& protoco
   if (ratios.empty()) return result;
   result.ratio = median(std::span<const double>(ratios));
   std::vector<std::vector<double>> clusters;
+  clusters.reserve(by_shape.size());
   for (auto& [shape, values] : by_shape) clusters.push_back(std::move(values));
   result.interval = clustered_median_interval(clusters);
   return result;

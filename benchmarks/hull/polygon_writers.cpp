@@ -123,7 +123,7 @@ void append_path(std::string& text, const Ring& ring, const Canvas& canvas) {
 void append_dots(std::string& text, std::span<const Point> points, const Canvas& canvas) {
   text += "<g fill=\"#333\" fill-opacity=\"0.35\">\n";
   for (const Point& point : points) {
-    text += "<circle r=\"1.5\" cx=\"";
+    text += R"(<circle r="1.5" cx=")";
     append_pixels(text, canvas.x(point));
     text += "\" cy=\"";
     append_pixels(text, canvas.y(point));
@@ -161,7 +161,7 @@ std::string to_svg(const MultiPolygon& shape, std::span<const Point> points) {
   append_pixels(size, canvas.width());
   size += ' ';
   append_pixels(size, canvas.height());
-  std::string text = "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 " + size + "\">\n<title>" +
+  std::string text = R"(<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 )" + size + "\">\n<title>" +
                      std::to_string(shape.size()) + (shape.size() == 1 ? " polygon" : " polygons") +
                      " round " + std::to_string(points.size()) + " points</title>\n";
   for (const Polygon& polygon : shape) {
