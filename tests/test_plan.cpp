@@ -383,7 +383,7 @@ TEST(Plan, StepsIsThePapersExperiment) {
   EXPECT_EQ(plan.repetitions, 30);
   ASSERT_EQ(plan.expanded_cases.size(), 1U);
   EXPECT_EQ(plan.expanded_cases[0].n, 64000);
-  EXPECT_EQ(planned_runs(plan, "/ca/n:64000/holes:1/").size(), 6U);
+  EXPECT_EQ(planned_runs(plan, "/ca/n:64000/holes:1/").size(), 7U);
   EXPECT_EQ(planned_runs(plan, "^(spatialite|postgis)_steps/.*protocol:paper").size(), 2U);
 }
 
