@@ -185,7 +185,7 @@ class PointHandler : public nlohmann::json_sax<json> {
   [[noreturn]] void misplaced() const {
     if (objects_.empty()) {
       reader_.fail_here(
-          "this is no GeoJSON object; begin with {\"type\": \"MultiPoint\", \"coordinates\": [[x, y], ...]}");
+          R"(this is no GeoJSON object; begin with {"type": "MultiPoint", "coordinates": [[x, y], ...]})");
     }
     reader_.fail_here(
         "a member does not have the form that GeoJSON gives it; write \"coordinates\": [x, y] for a Point, "
@@ -218,7 +218,7 @@ class PointHandler : public nlohmann::json_sax<json> {
 
   void check_complete(const Object& object) const {
     if (object.type.empty()) {
-      reader_.fail_here("the object that ends here has no \"type\"; give it one, such as \"MultiPoint\"");
+      reader_.fail_here(R"(the object that ends here has no "type"; give it one, such as "MultiPoint")");
     }
     if (is_container(object.type) ? !object.has_content || object.has_coordinates : !object.has_coordinates) {
       reader_.fail_here("the " + object.type +

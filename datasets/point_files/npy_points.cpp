@@ -71,7 +71,7 @@ std::string read_header(BlockReader& reader) {
   if (!reader.read(start, sizeof start) || std::string_view(start, 6) != "\x93NUMPY") {
     reader.fail(std::string("it does not begin as a NumPy file does") + kSaveIt);
   }
-  const int version = start[6];
+  const int version = static_cast<unsigned char>(start[6]);
   if (version < 1 || version > 3) {
     reader.fail("it is of version " + std::to_string(version) +
                 " of NumPy's format, and 1, 2 and 3 are known" + kSaveIt);

@@ -83,6 +83,7 @@ double load(const char* bytes, const Scalar& type) {
       if (type.size == 8) return std::bit_cast<double>(bits);
       return static_cast<double>(std::bit_cast<float>(static_cast<std::uint32_t>(bits)));
     case Scalar::Kind::kSigned: {
+      if (type.size == 0) return 0;
       const auto unused = static_cast<unsigned>(64 - 8 * type.size);
       return static_cast<double>(static_cast<std::int64_t>(bits << unused) >> unused);
     }
