@@ -8,6 +8,7 @@ namespace hullbench {
 
 extern const std::string_view kRunSchemaJson;       ///< results/run.schema.json
 extern const std::string_view kReportSchemaJson;    ///< results/report.schema.json
+extern const std::string_view kPictureSchemaJson;   ///< results/picture.schema.json
 extern const std::string_view kPaperJson;           ///< results/paper.json
 extern const std::string_view kManifestSchemaJson;  ///< adapters/process/manifest.schema.json
 

@@ -18,10 +18,12 @@
 #include "benchmarks/listing.hpp"
 #include "benchmarks/merge.hpp"
 #include "benchmarks/method_catalog.hpp"
+#include "benchmarks/pictures.hpp"
 #include "benchmarks/plan.hpp"
 #include "benchmarks/readme.hpp"
 #include "benchmarks/report.hpp"
 #include "benchmarks/run_command.hpp"
+#include "benchmarks/run_directory.hpp"
 #include "benchmarks/suite.hpp"
 #include "benchmarks/validate.hpp"
 #include "benchmarks/worker.hpp"
@@ -64,6 +66,8 @@ struct Arguments {
   std::string tables_path = "results/latest";
   bool tables_write = false;
   std::string tables_export_gbench;
+  std::string report_path = "results/latest";
+  fs::path report_out;
   CompareCommand compare;
   NewAdapterCommand new_adapter;
   TestAdapterCommand test_adapter;
@@ -86,12 +90,16 @@ int list(bool as_json, const std::vector<fs::path>& adapters) {
   return kOk;
 }
 
-/// The reports in `path`, the folder of a run or of a suite.
-std::vector<nlohmann::json> reports_in(const std::string& path) {
+void check_run_folder(const std::string& path) {
   if (!fs::is_directory(path)) {
     throw ConfigurationError("there is no run in " + path +
                              "; give a run's folder, or measure one with 'hullbench run'");
   }
+}
+
+/// The reports in `path`, the folder of a run or of a suite.
+std::vector<nlohmann::json> reports_in(const std::string& path) {
+  check_run_folder(path);
   return is_suite(path) ? suite_reports(path) : std::vector{make_report(path)};
 }
 
@@ -102,6 +110,22 @@ int tables(const std::string& path, bool write, const std::string& gbench_file) 
   print_markdown(documents, std::cout);
   if (write) write_tables(path, documents);
   if (!gbench_file.empty()) export_gbench(gbench_file, reports);
+  return kOk;
+}
+
+/// Writes what figures and the HTML report are made from into `out`: report.json and the pictures of the run
+/// in `path`, or of each run of a suite in a folder of its name.
+int report(const std::string& path, const fs::path& out) {
+  check_run_folder(path);
+  const bool suite = is_suite(path);
+  for (const fs::path& run : suite ? suite_runs(path) : std::vector<fs::path>{path}) {
+    const fs::path folder = suite ? out / run.filename() : out;
+    make_writable_folder(folder);
+    write_report_file(folder / "report.json", make_report(run));
+    fs::remove(folder / kPicturesFile);
+    merge_pictures({run}, folder);
+    std::cout << "wrote " << (folder / "report.json").string() << "\n";
+  }
   return kOk;
 }
 
@@ -282,6 +306,10 @@ void add_commands(CLI::App& app, Arguments& arguments) {
   tables->add_option("RUN", arguments.tables_path, "The run's folder")->capture_default_str();
   tables->add_flag("--write", arguments.tables_write, "Write its tables.md and tables/ anew too");
   tables->add_option("--export-gbench", arguments.tables_export_gbench, kExportGbenchHelp);
+  CLI::App* report = app.add_subcommand("report", "Write a run's report.json and pictures, to be drawn from");
+  report->add_option("RUN", arguments.report_path, "The folder of a run, or of a suite")
+      ->capture_default_str();
+  report->add_option("--out", arguments.report_out, "Folder for them")->required();
   add_compare(app, arguments.compare);
   add_adapter(app, arguments);
   add_hull(app, arguments.hull);
@@ -306,6 +334,7 @@ int dispatch(const CLI::App& app, const Arguments& arguments) {
   if (app.got_subcommand("merge")) return merge_command(arguments.merge);
   if (app.got_subcommand("tables"))
     return tables(arguments.tables_path, arguments.tables_write, arguments.tables_export_gbench);
+  if (app.got_subcommand("report")) return report(arguments.report_path, arguments.report_out);
   if (app.got_subcommand("compare")) return compare_command(arguments.compare);
   if (app.got_subcommand("hull")) return hull_command(arguments.hull);
   if (app.got_subcommand("readme")) {

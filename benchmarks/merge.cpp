@@ -9,6 +9,7 @@
 #include <tuple>
 #include <utility>
 
+#include "benchmarks/pictures.hpp"
 #include "benchmarks/plan.hpp"
 #include "benchmarks/report.hpp"
 #include "benchmarks/run_directory.hpp"
@@ -341,6 +342,7 @@ void check_out(const MergeCommand& command) {
 void write_run(const MergedRun& run, const fs::path& folder) {
   const auto directory = open_run_directory(run.header, {folder, true});
   directory->write_header(run.header);
+  merge_pictures(run.folders, folder);
   directory->append_rows(run.rows);
   // The rows have their times; single repetitions would only be needed to go on.
   fs::remove(folder / "repetitions.jsonl");
@@ -380,7 +382,8 @@ MergedRun merge_runs(const std::vector<fs::path>& folders) {
   const std::vector<PlannedRun> runs =
       planned_runs(plan, filter.is_string() ? filter.get<std::string>() : "");
   const Rows rows = gather_rows(sources);
-  MergedRun result = {first.run, rows.in_order(runs), runs.size()};
+  MergedRun result = {first.run, rows.in_order(runs), runs.size(), {}};
+  for (const Source& source : sources) result.folders.push_back(source.folder);
   if (result.rows.size() != rows.size())
     throw std::runtime_error("a row of " + first.folder.string() +
                              " or what is merged with it is not of its plan");

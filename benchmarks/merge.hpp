@@ -15,8 +15,9 @@ struct MergedRun {
   /// run.json: the first run's, with `merged`, a list of {shard, created, resumed, tool, environment} of
   /// every run in it, and `notes`, sentences about rows that are missing or were there more than once.
   nlohmann::json header;
-  std::vector<RunRecord> rows;  ///< in the order of the plan; each says its machine
-  std::size_t planned = 0;      ///< number of rows that the plan and its filter ask for
+  std::vector<RunRecord> rows;                 ///< in the order of the plan; each says its machine
+  std::size_t planned = 0;                     ///< number of rows that the plan and its filter ask for
+  std::vector<std::filesystem::path> folders;  ///< of the runs, in the order in which they were taken
 };
 
 /// Merges the runs in `folders` (one or more). The result does not depend on their order: the runs are taken

@@ -28,6 +28,7 @@ endfunction()
 set(HULLBENCH_EMBEDDED "")
 hullbench_embed_json(kRunSchemaJson "${PROJECT_SOURCE_DIR}/results/run.schema.json")
 hullbench_embed_json(kReportSchemaJson "${PROJECT_SOURCE_DIR}/results/report.schema.json")
+hullbench_embed_json(kPictureSchemaJson "${PROJECT_SOURCE_DIR}/results/picture.schema.json")
 hullbench_embed_json(kPaperJson "${PROJECT_SOURCE_DIR}/results/paper.json")
 hullbench_embed_json(kManifestSchemaJson "${PROJECT_SOURCE_DIR}/adapters/process/manifest.schema.json")
 file(CONFIGURE OUTPUT "${CMAKE_CURRENT_BINARY_DIR}/embedded.cpp"

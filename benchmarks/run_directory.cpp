@@ -14,6 +14,7 @@
 #include <system_error>
 
 #include "benchmarks/document.hpp"
+#include "benchmarks/pictures.hpp"
 #include "benchmarks/plan.hpp"
 #include "benchmarks/report.hpp"
 
@@ -71,7 +72,8 @@ int lock_or_throw(const fs::path& folder) {
 }
 
 void remove_run_files(const fs::path& folder) {
-  for (const char* file : {kHeaderFile, kRowsFile, kRepetitionsFile, kReportFile, kTablesFile}) {
+  for (const char* file :
+       {kHeaderFile, kRowsFile, kRepetitionsFile, kPicturesFile, kReportFile, kTablesFile}) {
     fs::remove(folder / file);
   }
   fs::remove_all(folder / kTablesFolder);
@@ -83,7 +85,8 @@ bool holds_no_run_yet(const fs::path& folder) {
                      [](const fs::directory_entry& entry) {
                        const fs::path name = entry.path().filename();
                        return name == kScratchFolder ||
-                              ((name == kRowsFile || name == kRepetitionsFile) && entry.file_size() == 0);
+                              ((name == kRowsFile || name == kRepetitionsFile || name == kPicturesFile) &&
+                               entry.file_size() == 0);
                      });
 }
 

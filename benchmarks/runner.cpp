@@ -13,6 +13,7 @@
 #include "benchmarks/method_session.hpp"
 #include "benchmarks/metrics.hpp"
 #include "benchmarks/parallel.hpp"
+#include "benchmarks/pictures.hpp"
 #include "benchmarks/protocol.hpp"
 #include "datasets/datasets.hpp"
 #include "datasets/random.hpp"
@@ -73,7 +74,12 @@ class Runner {
  public:
   Runner(const Plan& plan, const std::vector<PlannedRun>& runs, const RunnerOptions& options,
          RunDirectory& directory, Progress& progress)
-      : plan_(plan), runs_(runs), options_(options), directory_(directory), progress_(progress) {}
+      : plan_(plan),
+        runs_(runs),
+        options_(options),
+        directory_(directory),
+        progress_(progress),
+        pictures_(directory.path(), runs.size()) {}
 
   RunResult run(json header) {
     RunResult result;
@@ -363,6 +369,10 @@ class Runner {
     std::vector<RunRecord> rows;
     rows.reserve(finished.size());
     for (const auto& [entry, set] : finished) rows.push_back(finished_record(*entry));
+    // Before the rows: a run that has its row is not measured again, and its picture would be missing.
+    for (const auto& [entry, set] : finished) {
+      if (entry->result) pictures_.add(entry->record, *set, *entry->result);
+    }
     directory_.append_rows(rows);
     for (const auto& [entry, set] : finished) {
       entry->settled = true;
@@ -414,6 +424,7 @@ class Runner {
   const RunnerOptions& options_;
   RunDirectory& directory_;
   Progress& progress_;
+  PictureBook pictures_;
   std::string machine_;                    ///< this one's id, for the rows
   std::vector<std::string> method_order_;  ///< as in the plan
   std::map<std::string, std::unique_ptr<MethodSession>> sessions_;

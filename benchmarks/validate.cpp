@@ -97,12 +97,17 @@ std::vector<std::string> faults(const valijson::Schema& schema, const json& docu
   return sentences;
 }
 
+/// A line of a run's JSON lines is a row, or what is drawn of one.
+std::vector<std::string> validate_line(const json& line) {
+  return line.is_object() && line.contains("kind") ? validate_picture(line) : validate_run(line);
+}
+
 std::vector<std::string> validate_lines(const std::filesystem::path& path) {
   if (!std::filesystem::is_regular_file(path)) throw std::runtime_error("Cannot read " + path.string() + ".");
   const JsonLines lines = load_json_lines(path);
   std::vector<std::string> result;
   for (std::size_t index = 0; index < lines.lines.size(); ++index) {
-    for (const std::string& fault : validate_run(lines.lines[index])) {
+    for (const std::string& fault : validate_line(lines.lines[index])) {
       result.push_back("Record " + std::to_string(index + 1) + ": " + fault);
     }
   }
@@ -130,6 +135,11 @@ std::vector<std::string> validate_report(const json& report) {
 std::vector<std::string> validate_run(const json& run) {
   static const std::unique_ptr<valijson::Schema> schema = parse_schema(kRunSchemaJson);
   return faults(*schema, run);
+}
+
+std::vector<std::string> validate_picture(const json& picture) {
+  static const std::unique_ptr<valijson::Schema> schema = parse_schema(kPictureSchemaJson);
+  return faults(*schema, picture);
 }
 
 std::vector<std::string> validate_manifest(const json& manifest) {

@@ -24,7 +24,10 @@ for description in "$run"/*/run.json; do
   experiment=$(basename "$(dirname "$description")")
   mkdir "$kept/$experiment"
   cp "$description" "$kept/$experiment"
-  xz -9e --stdout "$run/$experiment/runs.jsonl" >"$kept/$experiment/runs.jsonl.xz"
+  for records in runs pictures; do
+    [ ! -f "$run/$experiment/$records.jsonl" ] ||
+      xz -9e --stdout "$run/$experiment/$records.jsonl" >"$kept/$experiment/$records.jsonl.xz"
+  done
 done
 ln -sfn "$(basename "$kept")" results/reference
 echo "==> kept $run as $kept ($(du -sh "$kept" | cut -f 1))"

@@ -25,6 +25,8 @@ target_compile_definitions(test_runner PRIVATE
   MISBEHAVING_WORKER="$<TARGET_FILE:misbehaving_worker>" HULLBENCH="$<TARGET_FILE:hullbench>")
 add_dependencies(test_runner misbehaving_worker hullbench)
 
+hullbench_test(test_pictures SOURCES test_pictures.cpp
+  LIBRARIES hullbench::runner hullbench::report hullbench_test_program LABELS harness)
 hullbench_test(test_suite SOURCES test_suite.cpp LIBRARIES hullbench::record hullbench_test_program LABELS harness)
 hullbench_test(test_readme SOURCES test_readme.cpp
   LIBRARIES hullbench::runner hullbench_invented_run hullbench_test_program LABELS harness)
@@ -40,7 +42,7 @@ hullbench_test(test_gbench_export SOURCES test_gbench_export.cpp
   LIBRARIES hullbench::report hullbench_invented_run hullbench_test_program LABELS harness)
 target_compile_definitions(test_gbench_export PRIVATE COMPARE_PY="${COMPARE_PY}" DEBIAN_PYTHON="${DEBIAN_PYTHON}")
 
-foreach(part IN ITEMS suite readme compare gbench_export)
+foreach(part IN ITEMS pictures suite readme compare gbench_export)
   target_compile_definitions(test_${part} PRIVATE HULLBENCH="$<TARGET_FILE:hullbench>")
   add_dependencies(test_${part} hullbench)
 endforeach()

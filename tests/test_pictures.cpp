@@ -1,0 +1,187 @@
+// What is kept to be drawn: points, ground truth and results on a grid.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <filesystem>
+#include <limits>
+#include <nlohmann/json.hpp>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "benchmarks/pictures.hpp"
+#include "benchmarks/validate.hpp"
+#include "tests/program.hpp"
+#include "tests/small_plans.hpp"
+#include "tests/temporary_folder.hpp"
+
+namespace hullbench {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+using polylidar::MultiPolygon;
+using testing::california;
+using testing::Outcome;
+using testing::small_plan;
+
+/// A square of side 10 at (100, 200) with `count` points on its diagonal.
+PointSet square(std::size_t count) {
+  PointSet set;
+  for (std::size_t k = 0; k < count; ++k) {
+    const double t = 10 * static_cast<double>(k) / static_cast<double>(count);
+    set.points.push_back({100 + t, 200 + t});
+  }
+  set.ground_truth = {{{{100, 200}, {110, 200}, {110, 210}, {100, 210}}, {}}};
+  set.ground_truth_area = 100;
+  set.sha256 = std::string(64, 'a');
+  return set;
+}
+
+RunRecord record(const std::string& dataset, double l2) {
+  RunRecord result;
+  result.method = "polylidar";
+  result.dataset = dataset;
+  result.n = 10;
+  result.protocol = "paper";
+  result.name = "polylidar/" + dataset + "/n:10/holes:0/protocol:paper";
+  result.id = std::string(64, 'b');
+  result.output_sha256 = std::string(64, 'c');
+  result.metrics["l2"] = std::isfinite(l2) ? json(l2) : json();
+  return result;
+}
+
+const MultiPolygon kTriangle = {{{{100, 200}, {110, 200}, {105, 210}}, {}}};
+
+class PicturesTest : public ::testing::Test {
+ protected:
+  fs::path folder() const { return folder_.path(); }
+  std::vector<json> lines() const { return load_json_lines(folder() / kPicturesFile).lines; }
+
+  /// The data sets whose results are kept.
+  std::set<std::string> kept() const {
+    std::set<std::string> result;
+    for (const json& line : lines()) {
+      if (line.at("kind") == "result") result.insert(line.at("case").get<std::string>());
+    }
+    return result;
+  }
+
+ private:
+  testing::TemporaryFolder folder_;
+};
+
+TEST_F(PicturesTest, ACaseIsTheRunsNameWithoutMethodAndProtocol) {
+  EXPECT_EQ(case_of_run("polylidar/ca/n:2000/holes:1/protocol:paper"), "ca/n:2000/holes:1");
+}
+
+TEST_F(PicturesTest, StandOnAGridThatGivesThePlacesBack) {
+  PictureBook(folder(), 1).add(record("square", 0.5), square(4), kTriangle);
+  ASSERT_EQ(lines().size(), 2U);
+  const json drawn_case = lines()[0];
+  const json result = lines()[1];
+  EXPECT_EQ(drawn_case.at("points_total"), 4);
+  EXPECT_EQ(drawn_case.at("ground_truth"), json::parse("[[[0,0, 65535,0, 65535,65535, 0,65535]]]"));
+  const double step = drawn_case.at("step").get<double>();
+  EXPECT_NEAR(step, 10.0 / 65535, 1e-15);
+  const auto x = [&](std::size_t i) { return 100 + step * result.at("polygons")[0][0][i].get<double>(); };
+  EXPECT_NEAR(x(0), 100, step / 2);
+  EXPECT_NEAR(x(2), 110, step / 2);
+  EXPECT_NEAR(x(4), 105, step / 2);
+  EXPECT_EQ(result.at("run"), "polylidar/square/n:10/holes:0/protocol:paper");
+  EXPECT_EQ(validate_file(folder() / kPicturesFile), std::vector<std::string>());
+}
+
+TEST_F(PicturesTest, OfManyPointsFewAreKept) {
+  PictureBook(folder(), 1).add(record("square", 0.5), square(10001), kTriangle);
+  const json drawn_case = lines()[0];
+  EXPECT_EQ(drawn_case.at("points_total"), 10001);
+  EXPECT_EQ(drawn_case.at("points").size(), 2 * PictureBook::kMostPoints);
+  // They reach from the first to nearly the last, which lies in the other corner.
+  EXPECT_EQ(drawn_case.at("points")[0], 0);
+  EXPECT_GT(drawn_case.at("points").back().get<int>(), 65400);
+}
+
+TEST_F(PicturesTest, ACaseIsWrittenOnceForAllItsResultsAndStarts) {
+  PictureBook(folder(), 2).add(record("square", 0.5), square(4), kTriangle);
+  PictureBook(folder(), 2).add(record("square", 0.4), square(4), kTriangle);
+  ASSERT_EQ(lines().size(), 3U);
+  EXPECT_EQ(lines()[0].at("kind"), "case");
+  EXPECT_EQ(lines()[2].at("kind"), "result");
+}
+
+TEST_F(PicturesTest, OfALargePlanTheWorstOfEachFamilyAreKept) {
+  const std::size_t many = PictureBook::kAllPictures + 1;
+  const std::size_t most = PictureBook::kWorstPictures;
+  PictureBook(folder(), many).add(record("star-1", 0.9), square(4), kTriangle);
+  {
+    // A second start knows what the first one has kept.
+    PictureBook book(folder(), many);
+    for (std::size_t k = 2; k <= most + 1; ++k)
+      book.add(record("star-" + std::to_string(k), 0.5), square(4), kTriangle);
+    book.add(record("star-100", 0.1), square(4), kTriangle);
+    book.add(record("star-101", 0.7), square(4), kTriangle);
+    book.add(record("star-102", std::numeric_limits<double>::quiet_NaN()), square(4), kTriangle);
+    book.add(record("comb-1", 0.1), square(4), kTriangle);
+  }
+  const std::set<std::string> cases = kept();
+  EXPECT_TRUE(cases.contains("star-1/n:10/holes:0"));
+  EXPECT_FALSE(cases.contains("star-100/n:10/holes:0")) << "better than all that are kept";
+  EXPECT_TRUE(cases.contains("star-101/n:10/holes:0")) << "worse than most";
+  EXPECT_TRUE(cases.contains("star-102/n:10/holes:0")) << "an invalid one is the worst";
+  EXPECT_TRUE(cases.contains("comb-1/n:10/holes:0")) << "another family";
+  // The first 12 took the free places; one more of the same error is not worse.
+  EXPECT_FALSE(cases.contains("star-" + std::to_string(most + 1) + "/n:10/holes:0"));
+}
+
+TEST_F(PicturesTest, AResultThatCannotBeDrawnIsLeftOut) {
+  PictureBook book(folder(), 1);
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  book.add(record("square", 0.5), square(4), {{{{100, 200}, {nan, 200}, {105, 210}}, {}}});
+  book.add(record("square", 0.5), square(4), {{{{100, 200}, {1e300, 200}, {105, 210}}, {}}});
+  EXPECT_TRUE(lines().empty());
+  book.add(record("square", 1), square(4), {});
+  EXPECT_EQ(lines().size(), 2U) << "an empty result is drawn: there is nothing to see but the truth";
+}
+
+TEST_F(PicturesTest, AFileOfSomethingElseIsSaid) {
+  testing::write_text(folder() / kPicturesFile, "{\"kind\": \"row\"}\n");
+  EXPECT_THROW(PictureBook(folder(), 1), std::runtime_error);
+}
+
+TEST_F(PicturesTest, OfARunAreThereForItsReport) {
+  const std::string plan = testing::write_plan(folder(), small_plan("small", california({300, 400}), 1));
+  testing::ProgramOptions options;
+  options.folder = folder();
+  const auto hullbench = [&](std::vector<std::string> words) {
+    words.insert(words.begin(), HULLBENCH);
+    return testing::run_program(words, options);
+  };
+  ASSERT_EQ(hullbench({"run", plan, "--out", "whole"}).code, 0);
+  EXPECT_EQ(validate_file(folder() / "whole" / kPicturesFile), std::vector<std::string>());
+  const std::vector<json> whole = load_json_lines(folder() / "whole" / kPicturesFile).lines;
+  std::set<std::string> runs;
+  for (const json& line : load_json_lines(folder() / "whole/runs.jsonl").lines)
+    runs.insert(line.at("name").get<std::string>());
+  for (const json& line : whole) {
+    if (line.at("kind") == "result") runs.erase(line.at("run").get<std::string>());
+  }
+  EXPECT_EQ(runs, std::set<std::string>()) << "runs without a picture";
+
+  for (const char* shard : {"1/2", "2/2"}) {
+    const std::string out = std::string("shard") + shard[0];
+    ASSERT_EQ(hullbench({"run", plan, "--out", out, "--shard", shard}).code, 0);
+  }
+  ASSERT_EQ(hullbench({"merge", "shard1", "shard2", "--out", "merged"}).code, 0);
+  const std::vector<json> merged = load_json_lines(folder() / "merged" / kPicturesFile).lines;
+  EXPECT_EQ(std::set<json>(merged.begin(), merged.end()), std::set<json>(whole.begin(), whole.end()));
+
+  const Outcome outcome = hullbench({"report", "whole", "--out", "drawn"});
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  EXPECT_EQ(load_json_lines(folder() / "drawn" / kPicturesFile).lines, whole);
+  EXPECT_EQ(validate_file(folder() / "drawn/report.json"), std::vector<std::string>());
+  EXPECT_EQ(hullbench({"report", "nowhere", "--out", "drawn"}).code, 2);
+}
+
+}  // namespace
+}  // namespace hullbench
