@@ -121,6 +121,9 @@ int report(const std::string& path, const fs::path& out) {
   for (const fs::path& run : suite ? suite_runs(path) : std::vector<fs::path>{path}) {
     const fs::path folder = suite ? out / run.filename() : out;
     make_writable_folder(folder);
+    if (fs::equivalent(folder, run))
+      throw ConfigurationError("the folder " + folder.string() +
+                               " is the run itself; choose another one with --out");
     write_report_file(folder / "report.json", make_report(run));
     fs::remove(folder / kPicturesFile);
     merge_pictures({run}, folder);

@@ -181,6 +181,9 @@ TEST_F(PicturesTest, OfARunAreThereForItsReport) {
   EXPECT_EQ(load_json_lines(folder() / "drawn" / kPicturesFile).lines, whole);
   EXPECT_EQ(validate_file(folder() / "drawn/report.json"), std::vector<std::string>());
   EXPECT_EQ(hullbench({"report", "nowhere", "--out", "drawn"}).code, 2);
+  // Into itself would be to remove what is to be read.
+  EXPECT_EQ(hullbench({"report", "whole", "--out", "whole"}).code, 2);
+  EXPECT_EQ(load_json_lines(folder() / "whole" / kPicturesFile).lines, whole);
 }
 
 }  // namespace

@@ -452,7 +452,7 @@ TEST_F(RunnerTest, WorkFilesDoNotStay) {
   std::set<std::string> names;
   for (const auto& entry : fs::directory_iterator(folder_.path() / "run"))
     names.insert(entry.path().filename().string());
-  EXPECT_EQ(names, (std::set<std::string>{"repetitions.jsonl", "run.json", "runs.jsonl"}));
+  EXPECT_EQ(names, (std::set<std::string>{"pictures.jsonl", "repetitions.jsonl", "run.json", "runs.jsonl"}));
 }
 
 class PlaceTest : public ::testing::Test {
