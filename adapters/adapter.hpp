@@ -37,6 +37,8 @@ struct ParameterInfo {
 struct Capabilities {
   bool holes = false;             ///< a polygon may have holes
   bool several_polygons = false;  ///< the result may have more than one polygon
+  /// The work is done in another process, such as a database server: the worker's memory tells nothing of it.
+  bool in_server = false;
 };
 
 /// Who a method is. Everything here is fixed for the life of the adapter object.

@@ -75,7 +75,7 @@ MethodInfo describe_method(const Server& server) {
          0, 1, std::nullopt});
   }
   info.parameters.push_back({"allow_holes", "switch", "Whether holes are kept (1) or filled (0).", 0, 1, 0});
-  info.capabilities = {true, false};
+  info.capabilities = {.holes = true, .several_polygons = false, .in_server = true};
   return info;
 }
 

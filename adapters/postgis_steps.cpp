@@ -65,7 +65,7 @@ MethodInfo describe(Session& session) {
   info.native_output = "WKB of a polygon or multipolygon";
   info.parameters = {{"alpha", "length", "Largest circumradius of a triangle inside the shape.", 0,
                       std::numeric_limits<double>::infinity(), std::nullopt}};
-  info.capabilities = {true, true};
+  info.capabilities = {.holes = true, .several_polygons = true, .in_server = true};
   return info;
 }
 

@@ -10,7 +10,8 @@
 #include <utility>
 
 #include "adapters/wkb.hpp"
-#include "benchmarks/metrics.hpp"
+#include "benchmarks/metrics/area.hpp"
+#include "benchmarks/metrics/validity.hpp"
 #include "benchmarks/protocol.hpp"
 #include "datasets/random.hpp"
 #include "polylidar/concave_hull.hpp"
@@ -199,10 +200,10 @@ class ContractTest {
   static std::string difference(const MultiPolygon& a, const MultiPolygon& b) {
     if (a.empty() && b.empty()) return {};
     if (a.empty() || b.empty()) return "one shape is empty and the other is not";
-    const Metrics metrics = score(a, b);
-    if (metrics.l2 && *metrics.l2 <= kSameShare) return {};
+    const AreaScores scores = area_scores(a, b);
+    if (scores.l2 && *scores.l2 <= kSameShare) return {};
     std::ostringstream share;
-    share << *metrics.l2 * 100;
+    share << *scores.l2 * 100;
     return "the shapes differ in " + share.str() + " % of their area";
   }
 

@@ -18,6 +18,7 @@
 #include "benchmarks/listing.hpp"
 #include "benchmarks/merge.hpp"
 #include "benchmarks/method_catalog.hpp"
+#include "benchmarks/metrics/metric_table.hpp"
 #include "benchmarks/pictures.hpp"
 #include "benchmarks/plan.hpp"
 #include "benchmarks/readme.hpp"
@@ -61,6 +62,8 @@ constexpr std::int64_t kListMemoryMib = 4096;
 struct Arguments {
   bool json = false;
   std::vector<fs::path> list_adapters;
+  bool metrics_json = false;
+  bool metrics_markdown = false;
   RunCommand run;
   MergeCommand merge;
   std::string tables_path = "results/latest";
@@ -86,6 +89,17 @@ int list(bool as_json, const std::vector<fs::path>& adapters) {
     std::cout << listing.dump(2) << "\n";
   } else {
     print_listing(listing, std::cout);
+  }
+  return kOk;
+}
+
+int metrics(bool as_json, bool as_markdown) {
+  if (as_json) {
+    std::cout << metric_table_to_json().dump(2) << "\n";
+  } else if (as_markdown) {
+    std::cout << metric_table_to_markdown();
+  } else {
+    print_metric_table(std::cout);
   }
   return kOk;
 }
@@ -303,6 +317,10 @@ void add_commands(CLI::App& app, Arguments& arguments) {
   CLI::App* list = app.add_subcommand("list", "Show methods and data sets");
   list->add_flag("--json", arguments.json, "As JSON");
   list->add_option("--adapters", arguments.list_adapters, kAdaptersHelp)->allow_extra_args(false);
+  CLI::App* metrics = app.add_subcommand("metrics", "Show what is scored, and how each metric is defined");
+  CLI::Option* as_json = metrics->add_flag("--json", arguments.metrics_json, "As JSON");
+  metrics->add_flag("--markdown", arguments.metrics_markdown, "As benchmarks/metrics/METRICS.md has it")
+      ->excludes(as_json);
   add_run(app, arguments.run);
   add_merge(app, arguments.merge);
   CLI::App* tables = app.add_subcommand("tables", "Print the tables of a run");
@@ -333,6 +351,7 @@ int dispatch(const CLI::App& app, const Arguments& arguments) {
   catch_interruptions();
   if (app.got_subcommand("adapter")) return adapter(*app.get_subcommand("adapter"), arguments);
   if (app.got_subcommand("list")) return list(arguments.json, arguments.list_adapters);
+  if (app.got_subcommand("metrics")) return metrics(arguments.metrics_json, arguments.metrics_markdown);
   if (app.got_subcommand("run")) return run_command(arguments.run);
   if (app.got_subcommand("merge")) return merge_command(arguments.merge);
   if (app.got_subcommand("tables"))

@@ -140,7 +140,8 @@ Reply MethodSession::load(const LoadedPoints& points, std::chrono::milliseconds 
 }
 
 Attempt MethodSession::run(const LoadedPoints& points, const Parameters& parameters,
-                           const std::filesystem::path& scratch, std::chrono::milliseconds timeout) {
+                           const std::filesystem::path& scratch, std::chrono::milliseconds timeout,
+                           Watch watch) {
   if (!worker_ || !worker_->alive()) {
     begin_start();
     finish_start();
@@ -154,6 +155,8 @@ Attempt MethodSession::run(const LoadedPoints& points, const Parameters& paramet
   const std::string nonce =
       method_.name + "-" + std::to_string(worker_->pid()) + "-" + std::to_string(++run_count_);
   const std::filesystem::path result = scratch / ("result-" + nonce + ".wkb");
+  const bool watches_memory =
+      watch == Watch::kMemory && !info_->capabilities.in_server && worker_->reset_peak_memory();
   const Reply reply = worker_->request({{"request", "run"},
                                         {"nonce", nonce},
                                         {"parameters", parameters_to_json(parameters)},
@@ -161,6 +164,7 @@ Attempt MethodSession::run(const LoadedPoints& points, const Parameters& paramet
                                        timeout);
   Attempt attempt = reply.status == Status::kOk ? read_result(reply, nonce, result)
                                                 : failed(reply.status, reply.detail, reply.elapsed);
+  if (watches_memory) attempt.peak_memory_bytes = worker_->peak_memory_bytes();
   // After a lack of memory, or an answer that is none, nobody knows what is left undone in the worker.
   if (attempt.status == Status::kMemory || attempt.status == Status::kInvalidOutput) worker_.reset();
   std::error_code ignored;

@@ -38,10 +38,16 @@ struct Attempt {
   PhaseTimes phases_ns;
   std::vector<std::uint8_t> wkb;        ///< the result
   std::chrono::nanoseconds elapsed{0};  ///< as seen from outside
+  /// Of the worker's process during the run; none unless it was asked for, when the method works in a server
+  /// and when the system does not tell.
+  std::optional<std::int64_t> peak_memory_bytes;
 
   /// Headline time: run + extract.
   std::int64_t time_ns() const;
 };
+
+/// What a run is watched for besides its result. Looking at memory is for runs that nobody times.
+enum class Watch { kNothing, kMemory };
 
 class MethodSession {
  public:
@@ -67,7 +73,7 @@ class MethodSession {
   /// Runs the method once on `points` with a result in a new file in `scratch`, which is removed again.
   /// Starts and loads a worker first where needed. Throws Interrupted.
   Attempt run(const LoadedPoints& points, const Parameters& parameters, const std::filesystem::path& scratch,
-              std::chrono::milliseconds timeout);
+              std::chrono::milliseconds timeout, Watch watch = Watch::kNothing);
 
   /// Asks the worker to end, waits at most `patience` and kills it then. Whether it ended by itself; the next
   /// run starts another one.

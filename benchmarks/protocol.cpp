@@ -62,15 +62,13 @@ ParameterInfo parameter_from_json(const json& source) {
 json method_to_json(const MethodInfo& info) {
   json parameters = json::array();
   for (const ParameterInfo& parameter : info.parameters) parameters.push_back(parameter_to_json(parameter));
-  return {{"name", info.name},
-          {"title", info.title},
-          {"version", info.version},
-          {"licence", info.licence},
-          {"citation", info.citation},
-          {"native_output", info.native_output},
-          {"parameters", parameters},
-          {"capabilities",
-           {{"holes", info.capabilities.holes}, {"several_polygons", info.capabilities.several_polygons}}}};
+  json capabilities = {{"holes", info.capabilities.holes},
+                       {"several_polygons", info.capabilities.several_polygons}};
+  // Only where it is so: a worker that does not know of it need not say it.
+  if (info.capabilities.in_server) capabilities["in_server"] = true;
+  return {{"name", info.name},        {"title", info.title},         {"version", info.version},
+          {"licence", info.licence},  {"citation", info.citation},   {"native_output", info.native_output},
+          {"parameters", parameters}, {"capabilities", capabilities}};
 }
 
 MethodInfo method_from_json(const json& source) {
@@ -85,6 +83,7 @@ MethodInfo method_from_json(const json& source) {
     info.parameters.push_back(parameter_from_json(parameter));
   source.at("capabilities").at("holes").get_to(info.capabilities.holes);
   source.at("capabilities").at("several_polygons").get_to(info.capabilities.several_polygons);
+  info.capabilities.in_server = source.at("capabilities").value("in_server", false);
   return info;
 }
 

@@ -11,7 +11,8 @@
 #include "adapters/wkb.hpp"
 #include "benchmarks/interrupt.hpp"
 #include "benchmarks/method_session.hpp"
-#include "benchmarks/metrics.hpp"
+#include "benchmarks/metrics/metric_table.hpp"
+#include "benchmarks/metrics/metrics.hpp"
 #include "benchmarks/parallel.hpp"
 #include "benchmarks/pictures.hpp"
 #include "benchmarks/protocol.hpp"
@@ -24,25 +25,6 @@ namespace {
 
 using nlohmann::json;
 
-json optional_to_json(const std::optional<double>& value) {
-  return value ? json(*value) : json(nullptr);
-}
-
-json metrics_to_json(const Metrics& metrics) {
-  return {{"valid", metrics.valid},
-          {"invalid_reason", metrics.invalid_reason},
-          {"area", metrics.area},
-          {"ground_truth_area", metrics.ground_truth_area},
-          {"ground_truth_convexity", metrics.ground_truth_convexity},
-          {"symmetric_difference_area", optional_to_json(metrics.symmetric_difference_area)},
-          {"l2", optional_to_json(metrics.l2)},
-          {"l2_paper", optional_to_json(metrics.l2_paper)},
-          {"iou", optional_to_json(metrics.iou)},
-          {"polygons", metrics.polygons},
-          {"holes", metrics.holes},
-          {"vertices", metrics.vertices}};
-}
-
 std::string hash_of(const std::vector<std::uint8_t>& bytes) {
   return sha256_hex({reinterpret_cast<const char*>(bytes.data()), bytes.size()});
 }
@@ -53,9 +35,10 @@ struct Entry {
   MethodSession* session = nullptr;
   RunRecord record;
   std::vector<Repetition> repetitions;
-  std::optional<MultiPolygon> result;  ///< of the first run; none while there is none to score
-  bool measured = false;               ///< nothing is left to run
-  bool settled = false;                ///< its row is written
+  std::optional<MultiPolygon> result;             ///< of the first run; none while there is none to score
+  std::optional<std::int64_t> peak_memory_bytes;  ///< the largest of the untimed runs
+  bool measured = false;                          ///< nothing is left to run
+  bool settled = false;                           ///< its row is written
 };
 
 /// The runs of one case, and what they are run on.
@@ -63,6 +46,8 @@ struct CaseWork {
   const PlanCase* plan_case = nullptr;
   PointSet set;
   std::vector<Entry> entries;
+  std::optional<CaseScorer> scorer;  ///< once there is something to score
+  std::string scorer_fault;          ///< why there is none then
 };
 
 /// A batch holds cases for about so many points times runs: 62 of the random polygons, which are worth
@@ -231,7 +216,7 @@ class Runner {
     for (int round = 0; round < most_repetitions(one.entries); ++round) run_round(one.entries, round, points);
     for (Entry& entry : one.entries) {
       // Without a warm-up, one untimed run after the timed ones, which must give the same result.
-      if (plan_.warmup == 0 && !entry.measured) attempt_run(entry, points);
+      if (plan_.warmup == 0 && !entry.measured) attempt_run(entry, points, Watch::kMemory);
       entry.measured = true;
     }
   }
@@ -290,7 +275,9 @@ class Runner {
   /// the scores are gone.
   void warm_up(Entry& entry, const LoadedPoints& points) {
     const int untimed = std::max(plan_.warmup, entry.repetitions.empty() ? 0 : 1);
-    for (int count = 0; count < untimed && !entry.measured; ++count) attempt_run(entry, points);
+    for (int count = 0; count < untimed && !entry.measured; ++count) {
+      attempt_run(entry, points, Watch::kMemory);
+    }
     const auto differs = [&](const Repetition& earlier) {
       return earlier.output_sha256 != entry.record.output_sha256;
     };
@@ -311,7 +298,7 @@ class Runner {
       if (entry.measured || round >= repetitions_of(plan_, method_of(entry)) ||
           std::cmp_greater(entry.repetitions.size(), round))
         continue;
-      const std::optional<Attempt> attempt = attempt_run(entry, points);
+      const std::optional<Attempt> attempt = attempt_run(entry, points, Watch::kNothing);
       if (!attempt) continue;
       const Repetition repetition = {attempt->time_ns(), attempt->phases_ns, entry.record.output_sha256};
       directory_.append_repetition(entry.record.id, entry.repetitions.size(), repetition);
@@ -321,10 +308,11 @@ class Runner {
 
   /// One run. The first one's result is kept to be scored, and every other one must give it again; without a
   /// value when the run failed, and nothing more is measured of the entry then.
-  std::optional<Attempt> attempt_run(Entry& entry, const LoadedPoints& points) {
+  std::optional<Attempt> attempt_run(Entry& entry, const LoadedPoints& points, Watch watch) {
     progress_.begin(entry.index);
     Attempt attempt = entry.session->run(points, entry.record.parameters, directory_.scratch(),
-                                         timeout_of(method_of(entry)));
+                                         timeout_of(method_of(entry)), watch);
+    entry.peak_memory_bytes = std::max(entry.peak_memory_bytes, attempt.peak_memory_bytes);
     if (attempt.status != Status::kOk) {
       fail(entry, attempt.status, attempt.detail);
       return std::nullopt;
@@ -358,23 +346,27 @@ class Runner {
 
   /// Scores what is measured of a batch and writes its rows.
   void settle(std::vector<CaseWork>& batch) {
-    std::vector<std::pair<Entry*, const PointSet*>> finished;
+    std::vector<CaseWork*> to_score;
+    std::vector<std::pair<Entry*, const CaseWork*>> finished;
     for (CaseWork& one : batch) {
       for (Entry& entry : one.entries) {
-        if (entry.measured && !entry.settled) finished.emplace_back(&entry, &one.set);
+        if (!entry.measured || entry.settled) continue;
+        finished.emplace_back(&entry, &one);
+        if (entry.result && (to_score.empty() || to_score.back() != &one)) to_score.push_back(&one);
       }
     }
+    for_each_in_parallel(to_score.size(), options_.cores, [&](std::size_t i) { make_scorer(*to_score[i]); });
     for_each_in_parallel(finished.size(), options_.cores,
                          [&](std::size_t i) { score_result(*finished[i].first, *finished[i].second); });
     std::vector<RunRecord> rows;
     rows.reserve(finished.size());
-    for (const auto& [entry, set] : finished) rows.push_back(finished_record(*entry));
+    for (const auto& [entry, one] : finished) rows.push_back(finished_record(*entry));
     // Before the rows: a run that has its row is not measured again, and its picture would be missing.
-    for (const auto& [entry, set] : finished) {
-      if (entry->result) pictures_.add(entry->record, *set, *entry->result);
+    for (const auto& [entry, one] : finished) {
+      if (entry->result) pictures_.add(entry->record, one->set, *entry->result);
     }
     directory_.append_rows(rows);
-    for (const auto& [entry, set] : finished) {
+    for (const auto& [entry, one] : finished) {
       entry->settled = true;
       const RunRecord& record = entry->record;
       // Of a method that does not start this was said once already.
@@ -385,18 +377,28 @@ class Runner {
     }
   }
 
-  static void score_result(Entry& entry, const PointSet& set) {
+  static void make_scorer(CaseWork& one) {
+    try {
+      one.scorer.emplace(one.set.points, one.set.ground_truth);
+    } catch (const std::exception& error) {
+      one.scorer_fault = error.what();
+    }
+  }
+
+  static void score_result(Entry& entry, const CaseWork& one) {
     if (!entry.result) return;
     RunRecord& record = entry.record;
     std::string fault;
     Status status = Status::kOk;
     try {
-      const Metrics metrics = score(*entry.result, set.ground_truth);
+      if (!one.scorer) throw std::runtime_error(one.scorer_fault);
+      Metrics metrics = one.scorer->score(*entry.result);
+      metrics.peak_memory_bytes = entry.peak_memory_bytes;
       record.metrics = metrics_to_json(metrics);
       // The run's times stay all the same: how fast a method gives a wrong answer is part of the record.
-      if (!metrics.valid) {
+      if (!metrics.area.valid) {
         status = Status::kInvalidOutput;
-        fault = "the result is an invalid polygon: " + metrics.invalid_reason;
+        fault = "the result is an invalid polygon: " + metrics.area.invalid_reason;
       }
     } catch (const std::runtime_error& error) {
       status = Status::kError;

@@ -13,6 +13,7 @@
 #include <cerrno>
 #include <csignal>
 #include <cstring>
+#include <fstream>
 #include <stdexcept>
 #include <string_view>
 #include <system_error>
@@ -398,6 +399,24 @@ void WorkerProcess::kill() {
   if (reap_within(kTermGrace)) return;
   ::kill(-pid_, SIGKILL);
   reap();
+}
+
+bool WorkerProcess::reset_peak_memory() const {
+  if (!alive()) return false;
+  // "5" resets nothing but VmHWM (proc(5)).
+  std::ofstream file("/proc/" + std::to_string(pid_) + "/clear_refs");
+  file << "5" << std::flush;
+  return file.good();
+}
+
+std::optional<std::int64_t> WorkerProcess::peak_memory_bytes() const {
+  if (!alive()) return std::nullopt;
+  std::ifstream file("/proc/" + std::to_string(pid_) + "/status");
+  for (std::string word; file >> word;) {
+    std::int64_t kib = 0;
+    if (word == "VmHWM:" && file >> kib) return kib * 1024;
+  }
+  return std::nullopt;
 }
 
 void WorkerProcess::close_pipes() {

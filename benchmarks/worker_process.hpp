@@ -63,6 +63,13 @@ class WorkerProcess {
   bool alive() const { return pid_ > 0; }
   pid_t pid() const { return pid_; }
 
+  /// Lets the process's peak of resident memory begin anew at what it holds now. False when it is not running
+  /// or the system does not allow it.
+  bool reset_peak_memory() const;
+  /// Largest resident size of the process since then, in bytes, without the processes that it started; none
+  /// when the system does not tell.
+  std::optional<std::int64_t> peak_memory_bytes() const;
+
   /// Asks it to end, waits at most `patience` and kills it then. Whether it ended by itself.
   bool quit(std::chrono::milliseconds patience);
   /// Ends it and every process of its session's group: SIGTERM, and SIGKILL after a short grace.

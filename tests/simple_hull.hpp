@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "benchmarks/metrics.hpp"
+#include "benchmarks/metrics/validity.hpp"
 #include "polylidar/geometry.hpp"
 #include "polylidar/predicates.hpp"
 #include "tests/boost_shapes.hpp"

@@ -19,7 +19,8 @@
 #include <vector>
 
 #include "adapters/adapter.hpp"
-#include "benchmarks/metrics.hpp"
+#include "benchmarks/metrics/area.hpp"
+#include "benchmarks/metrics/validity.hpp"
 #include "polylidar/concave_hull.hpp"
 #include "polylidar/delaunay.hpp"
 #include "tests/hull_oracle.hpp"
@@ -207,8 +208,8 @@ void expect_same_shape(const std::vector<Point>& points, double radius) {
   EXPECT_EQ(invalid_reason(cgal), "");
   ASSERT_EQ(core.empty(), cgal.empty());
   if (cgal.empty()) return;
-  const Metrics metrics = score(core, cgal);
-  EXPECT_LT(*metrics.symmetric_difference_area, 1e-9 * metrics.ground_truth_area);
+  const AreaScores scores = area_scores(core, cgal);
+  EXPECT_LT(*scores.symmetric_difference_area, 1e-9 * scores.ground_truth_area);
   EXPECT_TRUE(canonical(core) == canonical(cgal)) << "rings differ";
 }
 

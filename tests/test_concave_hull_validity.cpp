@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "benchmarks/metrics.hpp"
+#include "benchmarks/metrics/validity.hpp"
 #include "polylidar/concave_hull.hpp"
 #include "polylidar/delaunay.hpp"
 #include "tests/boost_shapes.hpp"

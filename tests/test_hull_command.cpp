@@ -11,7 +11,7 @@
 #include <nlohmann/json.hpp>
 
 #include "adapters/wkb.hpp"
-#include "benchmarks/metrics.hpp"
+#include "benchmarks/metrics/validity.hpp"
 #include "polylidar/concave_hull.hpp"
 #include "tests/point_file_texts.hpp"
 #include "tests/program.hpp"

@@ -8,7 +8,7 @@
 #include <stdexcept>
 
 #include "adapters/wkb.hpp"
-#include "benchmarks/metrics.hpp"
+#include "benchmarks/metrics/area.hpp"
 
 namespace hullbench {
 namespace {
@@ -33,11 +33,11 @@ AccuracyRow compare(const std::string& name, const fs::path& base, const fs::pat
       row.difference = 0;
       return row;
     }
-    const Metrics metrics = score(from_wkb(head_bytes), from_wkb(base_bytes));
-    if (metrics.l2) {
-      row.difference = *metrics.l2;
+    const AreaScores scores = area_scores(from_wkb(head_bytes), from_wkb(base_bytes));
+    if (scores.l2) {
+      row.difference = *scores.l2;
     } else {
-      row.reason = "head's result is not valid: " + metrics.invalid_reason;
+      row.reason = "head's result is not valid: " + scores.invalid_reason;
     }
   } catch (const std::exception& error) {
     row.reason = error.what();

@@ -7,7 +7,7 @@
 #include <string>
 
 #include "adapters/wkb.hpp"
-#include "benchmarks/metrics.hpp"
+#include "benchmarks/metrics/validity.hpp"
 
 namespace hullbench {
 namespace {

@@ -1,0 +1,37 @@
+// The two ends of the scale of skill: what anyone can do with a sample, and what the sample could give at
+// best.
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <span>
+
+#include "benchmarks/metrics/prepared_truth.hpp"
+#include "polylidar/geometry.hpp"
+
+namespace hullbench {
+
+/// l2 of two shapes made of a case's points. With fewer than 3 points, or all on a line, both shapes are
+/// empty and both are 1.
+struct Anchors {
+  double l2_convex_hull = 1;  ///< of the points' convex hull: skill 0
+  double l2_best_triangles =
+      1;  ///< of the Delaunay triangles whose centroid lies in the ground truth: skill 1
+};
+
+/// The shape of the upper anchor: the union of the Delaunay triangles of `points` whose centroid lies in
+/// `truth`, its boundary included.
+polylidar::MultiPolygon best_triangles(std::span<const polylidar::Point> points,
+                                       const polylidar::MultiPolygon& truth);
+
+/// `prepared` is `truth`. Throws as polylidar::delaunay, and std::runtime_error when GEOS fails.
+Anchors find_anchors(std::span<const polylidar::Point> points, const polylidar::MultiPolygon& truth,
+                     const PreparedTruth& prepared);
+
+/// (l2_convex_hull - l2) / (l2_convex_hull - l2_best_triangles): 0 for the convex hull, 1 for the best
+/// triangles, negative for worse than the hull, above 1 for better than the triangles. Empty when the hull is
+/// worse than the triangles by no more than 1 / `points`, the part of the area that one point stands for: a
+/// sample does not tell less, and dividing by it would blow up what is chance.
+std::optional<double> skill(const std::optional<double>& l2, const Anchors& anchors, std::size_t points);
+
+}  // namespace hullbench

@@ -1,0 +1,24 @@
+#include "benchmarks/metrics/boundary_band.hpp"
+
+namespace hullbench {
+namespace {
+
+constexpr int kChordsPerQuarter = 8;
+
+}  // namespace
+
+GeosSession::Geometry inner_band(const GeosSession& geos, const GeosSession::Geometry& shape, double width) {
+  const GeosSession::Geometry rest =
+      geos.own(GEOSBuffer_r(geos.context(), shape.get(), -width, kChordsPerQuarter), "buffer");
+  return geos.own(GEOSDifference_r(geos.context(), shape.get(), rest.get()), "difference");
+}
+
+std::optional<double> band_iou(const GeosSession& geos, const GeosSession::Geometry& a,
+                               const GeosSession::Geometry& b) {
+  const double common = geos.common_area(a, b);
+  const double either = geos.area(a) + geos.area(b) - common;
+  if (!(either > 0)) return std::nullopt;
+  return common / either;
+}
+
+}  // namespace hullbench

@@ -1,0 +1,82 @@
+#include "benchmarks/metrics/metrics.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "benchmarks/metrics/anchors.hpp"
+#include "benchmarks/metrics/area_overlay.hpp"
+#include "benchmarks/metrics/boundary_band.hpp"
+#include "benchmarks/metrics/checked_shape.hpp"
+#include "benchmarks/metrics/prepared_truth.hpp"
+#include "benchmarks/metrics/shape_measures.hpp"
+
+namespace hullbench {
+
+using polylidar::MultiPolygon;
+using polylidar::Point;
+
+struct CaseScorer::State {
+  State(std::span<const Point> points, const MultiPolygon& ground_truth)
+      : truth(ground_truth),
+        prepared(truth),
+        boundary(truth),
+        input(points),
+        point_count(std::max<std::size_t>(1, points.size())),
+        h(std::sqrt(prepared.area() / static_cast<double>(point_count))),
+        anchors(find_anchors(points, truth, prepared)),
+        band(inner_band(geos, prepared.geometry(geos), kBandWidthInH * h)) {}
+
+  MultiPolygon truth;
+  PreparedTruth prepared;
+  Boundary boundary;  ///< of `truth`
+  InputPoints input;
+  std::size_t point_count;  ///< at least 1
+  double h;
+  Anchors anchors;
+  GeosSession geos;            ///< of `band`
+  GeosSession::Geometry band;  ///< of the truth; see boundary_band.hpp
+};
+
+CaseScorer::CaseScorer(std::span<const Point> points, const MultiPolygon& ground_truth)
+    : state_(std::make_unique<const State>(points, ground_truth)) {}
+
+CaseScorer::~CaseScorer() = default;
+CaseScorer::CaseScorer(CaseScorer&&) noexcept = default;
+CaseScorer& CaseScorer::operator=(CaseScorer&&) noexcept = default;
+
+Metrics CaseScorer::score(const MultiPolygon& result) const {
+  const GeosSession geos;
+  const CheckedShape shape = check_shape(geos, result);
+  const GeosSession::Geometry truth = state_->prepared.geometry(geos);
+
+  Metrics metrics;
+  metrics.area = hullbench::area_scores(geos, result, shape, state_->prepared, truth);
+  metrics.counts = count_shape(result, state_->truth, state_->h);
+  metrics.contract = state_->input.score(result);
+  metrics.l2_convex_hull = state_->anchors.l2_convex_hull;
+  metrics.l2_best_triangles = state_->anchors.l2_best_triangles;
+  metrics.skill = skill(metrics.area.l2, state_->anchors, state_->point_count);
+  metrics.spacing = state_->h;
+  metrics.polygon_count = result.size();
+  metrics.hole_count = count_holes(result);
+  metrics.vertex_count = polylidar::vertex_count(result);
+  if (!metrics.area.valid) return metrics;
+
+  metrics.boundary = boundary_scores(Boundary(result), state_->boundary, state_->h);
+  const GeosSession::Geometry band = inner_band(geos, shape.geometry, kBandWidthInH * state_->h);
+  metrics.boundary_iou = band_iou(geos, band, geos.clone(state_->band));
+  metrics.holes = match_holes(result, state_->truth);
+  return metrics;
+}
+
+AreaScores CaseScorer::area_scores(const MultiPolygon& result) const {
+  const GeosSession geos;
+  return hullbench::area_scores(geos, result, check_shape(geos, result), state_->prepared,
+                                state_->prepared.geometry(geos));
+}
+
+double CaseScorer::spacing() const {
+  return state_->h;
+}
+
+}  // namespace hullbench

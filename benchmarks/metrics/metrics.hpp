@@ -1,0 +1,64 @@
+// All scores of a result against the shape its points came from. METRICS.md defines each.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
+
+#include "benchmarks/metrics/area.hpp"
+#include "benchmarks/metrics/boundary.hpp"
+#include "benchmarks/metrics/output_contract.hpp"
+#include "benchmarks/metrics/topology.hpp"
+#include "benchmarks/metrics/validity.hpp"
+#include "polylidar/geometry.hpp"
+
+namespace hullbench {
+
+/// Scores of one result; what is not defined is empty (null in records), never NaN. An invalid result has its
+/// validity, reason, area, counts and contract, and nothing else.
+struct Metrics {
+  AreaScores area;
+  std::optional<BoundaryScores> boundary;  ///< none for an invalid result
+  std::optional<double> boundary_iou;      ///< see boundary_band.hpp; 0 for an empty result
+  ShapeCounts counts;
+  HoleScores holes;
+  ContractScores contract;
+  std::optional<double> skill;  ///< see anchors.hpp
+  double l2_convex_hull = 0;
+  double l2_best_triangles = 0;
+  double spacing = 0;  ///< h; see CaseScorer
+  std::size_t polygon_count = 0;
+  std::size_t hole_count = 0;
+  std::size_t vertex_count = 0;
+  /// Largest resident size of the worker during an untimed run; the harness fills it in.
+  std::optional<std::int64_t> peak_memory_bytes;
+};
+
+/// Scores results on one case. What all of them share, such as the anchors of skill, is worked out once.
+class CaseScorer {
+ public:
+  /// `points` may be few or none. Copies what it needs. Throws std::runtime_error when `ground_truth` is
+  /// empty or invalid or when GEOS fails, and as polylidar::delaunay for the points.
+  CaseScorer(std::span<const polylidar::Point> points, const polylidar::MultiPolygon& ground_truth);
+  ~CaseScorer();
+  CaseScorer(CaseScorer&&) noexcept;
+  CaseScorer& operator=(CaseScorer&&) noexcept;
+
+  /// Safe from several threads at once. Throws std::runtime_error when GEOS fails.
+  Metrics score(const polylidar::MultiPolygon& result) const;
+
+  /// The area scores alone, for searches that score many results; they are those of `score`. As safe.
+  AreaScores area_scores(const polylidar::MultiPolygon& result) const;
+
+  /// h = sqrt(A / n), the nominal spacing of n points (at least 1) on the ground truth's area A, in the unit
+  /// of the points.
+  double spacing() const;
+
+ private:
+  struct State;
+  std::unique_ptr<const State> state_;
+};
+
+}  // namespace hullbench

@@ -1,0 +1,25 @@
+#include "benchmarks/metrics/prepared_truth.hpp"
+
+#include <stdexcept>
+#include <utility>
+
+#include "benchmarks/metrics/checked_shape.hpp"
+#include "benchmarks/metrics/shape_measures.hpp"
+
+namespace hullbench {
+
+PreparedTruth::PreparedTruth(const polylidar::MultiPolygon& shape) {
+  if (shape.empty()) throw std::runtime_error("the ground truth is empty; there is nothing to score against");
+  CheckedShape checked = check_shape(geos_, shape);
+  if (!checked.invalid_reason.empty()) {
+    throw std::runtime_error("the ground truth is not a valid multipolygon: " + checked.invalid_reason);
+  }
+  geometry_ = std::move(checked.geometry);
+  area_ = geos_.area(geometry_);
+  const GeosSession::Geometry hull =
+      geos_.own(GEOSConvexHull_r(geos_.context(), geometry_.get()), "making a convex hull");
+  convexity_ = area_ / geos_.area(hull);
+  perimeter_ = hullbench::perimeter(shape);
+}
+
+}  // namespace hullbench

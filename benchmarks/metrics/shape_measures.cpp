@@ -1,0 +1,33 @@
+#include "benchmarks/metrics/shape_measures.hpp"
+
+#include <cmath>
+
+namespace hullbench {
+
+using polylidar::MultiPolygon;
+using polylidar::Point;
+using polylidar::Polygon;
+using polylidar::Ring;
+
+double perimeter(const MultiPolygon& shape) {
+  double length = 0;
+  for_each_edge(
+      shape, [&](const Point& from, const Point& to) { length += std::hypot(to.x - from.x, to.y - from.y); });
+  return length;
+}
+
+std::size_t count_holes(const MultiPolygon& shape) {
+  std::size_t holes = 0;
+  for (const Polygon& polygon : shape) holes += polygon.holes.size();
+  return holes;
+}
+
+bool has_finite_coordinates(const MultiPolygon& shape) {
+  bool finite = true;
+  for_each_ring(shape, [&](const Ring& ring) {
+    for (const Point& point : ring) finite = finite && std::isfinite(point.x) && std::isfinite(point.y);
+  });
+  return finite;
+}
+
+}  // namespace hullbench
