@@ -1,5 +1,6 @@
 #include "benchmarks/labels.hpp"
 
+#include <algorithm>
 #include <optional>
 
 namespace hullbench {
@@ -30,6 +31,12 @@ std::string remedy_of(const json& report, const std::string& name) {
   return "";
 }
 
+/// ", noise 0.5" of "ca~noise:0.5".
+std::string stress_title(std::string stress) {
+  std::replace(stress.begin(), stress.end(), ':', ' ');
+  return ", " + stress;
+}
+
 }  // namespace
 
 std::string method_title(const json& report, const std::string& method) {
@@ -41,13 +48,17 @@ std::string method_label(const json& report, const std::string& method, const st
 }
 
 std::string family_title(const json& report, const std::string& dataset) {
-  return title_of(report.at("datasets"), family_of(report, dataset).value_or(dataset));
+  const std::string unstressed = dataset.substr(0, dataset.find('~'));
+  return title_of(report.at("datasets"), family_of(report, unstressed).value_or(unstressed));
 }
 
-std::string shape_title(const json& report, const std::string& dataset, bool holes) {
+std::string shape_title(const json& report, const std::string& dataset_name, bool holes) {
+  const std::size_t mark = dataset_name.find('~');
+  const std::string dataset = dataset_name.substr(0, mark);
   const auto family = family_of(report, dataset);
   const std::string number = family ? " " + dataset.substr(family->size() + 1) : "";
-  return family_title(report, dataset) + number + (holes ? " with holes" : "");
+  return family_title(report, dataset) + number + (holes ? " with holes" : "") +
+         (mark == std::string::npos ? "" : stress_title(dataset_name.substr(mark + 1)));
 }
 
 std::string not_installed_text(const json& report, const std::string& what, const std::string& method,

@@ -16,7 +16,7 @@ std::string method_label(const nlohmann::json& report, const std::string& method
 /// "Comb" for "comb-17": the title of the data set, or of the family that it is a member of.
 std::string family_title(const nlohmann::json& report, const std::string& dataset);
 
-/// "California with holes", "Comb 17".
+/// "California with holes", "Comb 17", "California, noise 0.5".
 std::string shape_title(const nlohmann::json& report, const std::string& dataset, bool holes);
 
 /// "<what> is not installed: why. To install it: how", for a method whose detail is `detail`.

@@ -9,6 +9,7 @@
 
 #include "benchmarks/method_session.hpp"
 #include "datasets/datasets.hpp"
+#include "datasets/stress.hpp"
 
 namespace hullbench {
 namespace {
@@ -70,10 +71,32 @@ void print_dataset(const json& dataset, std::ostream& out) {
       << dataset["licence"].get<std::string>() << "\n";
 }
 
+json list_stress() {
+  json kinds = json::array();
+  for (const StressKind& kind : stress_kinds()) {
+    kinds.push_back({{"name", kind.name},
+                     {"title", kind.title},
+                     {"unit", kind.unit},
+                     {"meaning", kind.meaning},
+                     {"minimum", kind.least},
+                     {"maximum", kind.most}});
+  }
+  return kinds;
+}
+
+void print_stress(const json& kind, std::ostream& out) {
+  out << "  ~" << kind["name"].get<std::string>() << ":LEVEL  " << kind["meaning"].get<std::string>() << " ("
+      << kind["minimum"].get<double>() << " to " << kind["maximum"].get<double>();
+  if (const auto unit = kind["unit"].get<std::string>(); !unit.empty()) out << " " << unit;
+  out << ")\n";
+}
+
 }  // namespace
 
 json make_listing(const std::vector<Method>& methods, const WorkerLimits& limits) {
-  return {{"methods", list_methods(methods, limits)}, {"datasets", describe_datasets()}};
+  return {{"methods", list_methods(methods, limits)},
+          {"datasets", describe_datasets()},
+          {"stress", list_stress()}};
 }
 
 void print_listing(const json& listing, std::ostream& out) {
@@ -81,6 +104,9 @@ void print_listing(const json& listing, std::ostream& out) {
   for (const json& method : listing["methods"]) print_method(method, out);
   out << "Data sets\n";
   for (const json& dataset : listing["datasets"]) print_dataset(dataset, out);
+  out << "Stress, behind the name of a data set that does not come with its points (ca~noise:0.5)\n"
+         "      h: the spacing, the root of the ground truth's area over the number of points\n";
+  for (const json& kind : listing["stress"]) print_stress(kind, out);
 }
 
 json describe_datasets(const DataFolders& folders, const std::vector<std::string>& names) {

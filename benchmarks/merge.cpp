@@ -297,7 +297,8 @@ int merged_exit_code(const std::vector<MergedRun>& runs) {
   RunResult result;
   bool missing = false;
   for (const MergedRun& run : runs) {
-    for (const RunRecord& row : run.rows) ++result.counts[row.status];
+    const auto accepted = run.header.at("plan").value("accepted", std::vector<std::string>());
+    for (const RunRecord& row : run.rows) count_row(result, row.status, accepted);
     missing = missing || run.rows.size() < run.planned;
   }
   const int code = exit_code(result);

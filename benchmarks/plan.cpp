@@ -12,6 +12,7 @@
 #include <string_view>
 
 #include "benchmarks/record.hpp"
+#include "datasets/stress.hpp"
 
 namespace hullbench {
 namespace {
@@ -29,6 +30,14 @@ struct Protocol {
 };
 constexpr std::array<Protocol, 5> kProtocols = {
     {{"paper", true}, {"default", false}, {"auto", false}, {"tuned", false}, {"oracle", true}}};
+
+bool is_name_letter(char c) {
+  return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '_' || c == '-';
+}
+
+bool is_name_letter_or_mark(char c) {
+  return is_name_letter(c) || c == '~' || c == ':' || c == '.';
+}
 
 /// A value in a plan and where it stands, for messages such as "plan 'states': methods[2].protocol must be
 /// ...".
@@ -86,10 +95,25 @@ class Node {
   /// Not empty and of letters that can stand in a run's name.
   std::string identifier() const {
     std::string name = text();
-    const bool good = !name.empty() && std::all_of(name.begin(), name.end(), [](char c) {
-      return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '_' || c == '-';
-    });
+    const bool good = !name.empty() && std::all_of(name.begin(), name.end(), is_name_letter);
     if (!good) fail("must be a name of small letters, digits, '_' and '-', not '" + name + "'");
+    return name;
+  }
+
+  /// A name of a data set, perhaps with a stress behind it; whether there is one is not looked at.
+  std::string dataset_name() const {
+    const std::string name = text();
+    const std::size_t mark = std::min(name.find('~'), name.size());
+    const bool good =
+        mark > 0 && std::all_of(name.begin(), name.end(), is_name_letter_or_mark) &&
+        std::all_of(name.begin(), name.begin() + static_cast<std::ptrdiff_t>(mark), is_name_letter);
+    if (!good) {
+      fail(
+          "must be a data set's name of small letters, digits, '_' and '-', with a stress behind it or "
+          "without "
+          "(ca, ca~noise:0.5), not '" +
+          name + "'");
+    }
     return name;
   }
 
@@ -147,31 +171,57 @@ void read_values(const Node& node, std::vector<Value>& values, Value (*read)(con
   }
 }
 
-std::vector<std::string> read_identifiers(const Node& node) {
+std::vector<std::string> read_dataset_names(const Node& node) {
   std::vector<std::string> names;
-  read_values<std::string>(node, names, [](const Node& value) { return value.identifier(); });
+  read_values<std::string>(node, names, [](const Node& value) { return value.dataset_name(); });
   return names;
+}
+
+/// "noise:0.5" as it stands behind the '~' of a data set's name.
+std::string read_stress(const Node& node) {
+  const std::string stress = node.text();
+  if (!split_stress("~" + stress)) {
+    std::vector<std::string> known;
+    for (const StressKind& kind : stress_kinds()) known.push_back(kind.name);
+    node.fail("must be one of " + join_words(known) +
+              ", with a ':' and a level in its range behind it ('hullbench list'), not '" + stress + "'");
+  }
+  return stress;
+}
+
+/// Every one of `names` with every one of `endings` behind it.
+std::vector<std::string> with_endings(const std::vector<std::string>& names,
+                                      const std::vector<std::string>& endings) {
+  std::vector<std::string> result;
+  for (const std::string& name : names) {
+    for (const std::string& ending : endings) result.push_back(name + ending);
+  }
+  return result;
 }
 
 std::vector<std::string> read_case_datasets(const Node& group) {
   const Node node = group.at("dataset");
   std::vector<std::string> names =
-      node.value().is_array() ? read_identifiers(node) : std::vector{node.identifier()};
-  if (!group.has("members")) return names;
-  std::vector<std::string> members;
-  const std::int64_t count = group.at("members").integer(1, kMaxMembers);
-  for (const std::string& family : names) {
-    for (std::int64_t number = 1; number <= count; ++number) {
-      members.push_back(family + "-" + std::to_string(number));
-    }
+      node.value().is_array() ? read_dataset_names(node) : std::vector{node.dataset_name()};
+  std::vector<std::string> endings;
+  if (group.has("members")) {
+    const std::int64_t count = group.at("members").integer(1, kMaxMembers);
+    for (std::int64_t number = 1; number <= count; ++number) endings.push_back("-" + std::to_string(number));
+    names = with_endings(names, endings);
   }
-  return members;
+  if (group.has("stress")) {
+    endings.clear();
+    read_values<std::string>(group.at("stress"), endings,
+                             [](const Node& value) { return "~" + read_stress(value); });
+    names = with_endings(names, endings);
+  }
+  return names;
 }
 
 /// The cases of one element of `cases`: data set by data set, of each first all sizes with the first value of
 /// `holes`.
 std::vector<PlanCase> read_case_group(const Node& group) {
-  group.only_keys({"dataset", "members", "holes", "n"});
+  group.only_keys({"dataset", "members", "stress", "holes", "n"});
   const std::vector<std::string> datasets = read_case_datasets(group);
   std::vector<bool> holes = {false};
   if (group.has("holes")) {
@@ -260,7 +310,7 @@ PlanMethod read_method(const Node& node) {
   method.method = node.at("method").identifier();
   const Protocol& protocol = find_protocol(node.at("protocol"));
   method.protocol = protocol.name;
-  if (node.has("datasets")) method.datasets = read_identifiers(node.at("datasets"));
+  if (node.has("datasets")) method.datasets = read_dataset_names(node.at("datasets"));
   if (node.has("parameters")) {
     for (const auto& [name, value] : node.at("parameters").members()) {
       method.parameters[name] = read_parameter(value, protocol);
@@ -293,6 +343,25 @@ void read_methods(const Node& node, std::vector<PlanMethod>& methods) {
           "' another mem_limit_mib than its other entry; they share a worker, so give both the same");
     }
   }
+}
+
+PlanAxis read_axis(const Node& node) {
+  node.only_keys({"of", "title", "unit"});
+  PlanAxis axis;
+  axis.of = node.at("of").identifier();
+  axis.title = node.has("title") ? node.at("title").text() : axis.of;
+  if (node.has("unit")) axis.unit = node.at("unit").text();
+  return axis;
+}
+
+std::string read_accepted(const Node& node) {
+  const std::string name = node.text();
+  std::vector<std::string> names;
+  for (const Status status : kAllStatuses) names.push_back(to_string(status));
+  if (std::find(names.begin(), names.end(), name) == names.end()) {
+    node.fail("must be one of " + join_words(names) + ", not '" + name + "'");
+  }
+  return name;
 }
 
 /// "line 3, column 5" of a byte in a text; bytes count from 1.
@@ -341,10 +410,12 @@ json method_to_json(const PlanMethod& method) {
   return result;
 }
 
-/// Whether `name` is the case's data set or the family it belongs to.
+/// Whether `name` is the case's data set, that without its stress, or the family it belongs to.
 bool is_dataset_of(const PlanCase& plan_case, const std::string& name) {
   if (plan_case.dataset == name) return true;
-  const auto member = split_member_name(plan_case.dataset);
+  const std::string unstressed = plan_case.dataset.substr(0, plan_case.dataset.find('~'));
+  if (unstressed == name) return true;
+  const auto member = split_member_name(unstressed);
   return member && member->first == name;
 }
 
@@ -401,6 +472,17 @@ void require_known(const std::string& what, const std::string& name, const std::
                            "', which is not known; known are " + join_words(known) + " ('hullbench list')");
 }
 
+/// Every case must have a place on the plan's axis.
+void require_axis(const Plan& plan) {
+  if (!plan.axis || plan.axis->of == "n" || plan.axis->of == "sampling") return;
+  for (const PlanCase& plan_case : plan.expanded_cases) {
+    if (levels_of(plan_case.dataset).contains(plan.axis->of)) continue;
+    throw ConfigurationError("the plan '" + plan.name + "' has the axis '" + plan.axis->of +
+                             "', of which its case " + plan_case.dataset +
+                             " has no level; choose n, sampling or a level of every case");
+  }
+}
+
 /// A parameter that is given case by case must have a value for every case of the method.
 void require_values(const Plan& plan, const PlanMethod& method) {
   for (const PlanCase& plan_case : plan.expanded_cases) {
@@ -420,7 +502,7 @@ Plan parse_plan(const std::string& text, const std::string& source) {
   const json document = parse_json(text, source);
   const Node root(document, source, "");
   root.only_keys({"schema_version", "name", "title", "paper", "notes", "repetitions", "warmup", "timeout_s",
-                  "mem_limit_mib", "seed", "filter", "cases", "methods"});
+                  "mem_limit_mib", "seed", "filter", "accepted", "axis", "cases", "methods"});
   if (root.has("schema_version") && root.at("schema_version").value() != kPlanSchemaVersion) {
     root.at("schema_version").fail("must be " + std::to_string(kPlanSchemaVersion) + " for this program");
   }
@@ -437,6 +519,8 @@ Plan parse_plan(const std::string& text, const std::string& source) {
   if (root.has("mem_limit_mib")) plan.mem_limit_mib = read_memory_limit(root);
   if (root.has("seed")) plan.seed = root.at("seed").seed();
   if (root.has("filter")) plan.filter = root.at("filter").text();
+  if (root.has("axis")) plan.axis = read_axis(root.at("axis"));
+  if (root.has("accepted")) read_values<std::string>(root.at("accepted"), plan.accepted, read_accepted);
   read_cases(root.at("cases"), plan.expanded_cases);
   plan.cases = document["cases"];
   read_methods(root.at("methods"), plan.methods);
@@ -501,6 +585,9 @@ json plan_to_json(const Plan& plan) {
                  {"cases", plan.cases},
                  {"methods", methods}};
   if (!plan.filter.empty()) result["filter"] = plan.filter;
+  if (!plan.accepted.empty()) result["accepted"] = plan.accepted;
+  if (plan.axis)
+    result["axis"] = {{"of", plan.axis->of}, {"title", plan.axis->title}, {"unit", plan.axis->unit}};
   if (!plan.paper.empty()) result["paper"] = plan.paper;
   if (!plan.notes.empty()) result["notes"] = plan.notes;
   return result;
@@ -509,6 +596,7 @@ json plan_to_json(const Plan& plan) {
 void check_plan(const Plan& plan, const std::vector<std::string>& methods,
                 const std::vector<DatasetInfo>& datasets) {
   for (const PlanCase& plan_case : plan.expanded_cases) require_dataset(plan_case, datasets, plan.name);
+  require_axis(plan);
   for (const PlanMethod& method : plan.methods) {
     require_known("method", method.method, methods, plan.name);
     for (const std::string& dataset : method.datasets) {

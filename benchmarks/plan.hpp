@@ -2,7 +2,7 @@
 //
 //   {"schema_version": 1, "name": "states", "title": "State shapes", "paper": "Figure 8, Table 6",
 //    "repetitions": 10, "warmup": 1, "timeout_s": 120, "mem_limit_mib": 4096, "seed": 1, "notes": ["..."],
-//    "filter": "^polylidar/",
+//    "filter": "^polylidar/", "accepted": ["error"], "axis": {"of": "noise", "title": "Noise", "unit": "h"},
 //    "cases":   [{"dataset": "ca", "holes": [false, true], "n": [2000, 64000]}],
 //    "methods": [{"method": "polylidar", "protocol": "paper", "datasets": ["ca"], "note": "...",
 //                 "repetitions": 3, "timeout_s": 60, "mem_limit_mib": 1024, "parameters": {"alpha":
@@ -11,10 +11,11 @@
 // PARAMETER is a number, {"rule": NAME} (parameter_rules.hpp) or {"cases": {"ca": 2.0, "ca/holes": 1.25}}.
 // A case's "dataset" is one name or a list of names; a list stands for the same case once for each name, in
 // its order. With "members": 200 the name is a family's and stands for its members from 1 to 200 ("star-1",
-// ..., "star-200"). A method's own repetitions and limits take the place of the plan's; with several
-// protocols it has one worker, so all its entries must name the same "mem_limit_mib". Without "n" the data
-// set's own points are used, which only some have. Only `name`, `cases` and `methods` are required; a key
-// that is not listed here is an error.
+// ..., "star-200"). With "stress": ["noise:0", "noise:0.5"] every name stands for the data sets with these
+// (stress.hpp): "ca~noise:0", "ca~noise:0.5". A method's own repetitions and limits take the place of the
+// plan's; with several protocols it has one worker, so all its entries must name the same "mem_limit_mib".
+// Without "n" the data set's own points are used, which only some have. Only `name`, `cases` and `methods`
+// are required; a key that is not listed here is an error.
 #pragma once
 
 #include <cstddef>
@@ -37,6 +38,15 @@ namespace hullbench {
 class ConfigurationError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
+};
+
+/// What the curves of a plan's results are drawn against.
+struct PlanAxis {
+  /// "n": the number of points. "sampling": the stress, with its level, as words and not as a number. Else
+  /// one of the names of levels_of (datasets.hpp), which every case must have.
+  std::string of;
+  std::string title;  ///< as tables and figures print it
+  std::string unit;   ///< "h", "%"; empty: a plain number
 };
 
 /// One shape at one size.
@@ -83,8 +93,11 @@ struct Plan {
   double timeout_s = 120;             ///< wall-clock seconds for one request to a worker
   std::int64_t mem_limit_mib = 4096;  ///< address space of a worker, in MiB
   std::uint64_t seed = 1;             ///< of point samples and of the order of runs
-  std::string filter;                 ///< of the runs' names, for who asks for none; empty: all runs
-  nlohmann::json cases;               ///< as written, for records
+  std::optional<PlanAxis> axis;       ///< none: the results make no curves
+  /// Statuses that are a good answer here as ok is, such as "error" where there is nothing to make a hull of.
+  std::vector<std::string> accepted;
+  std::string filter;    ///< of the runs' names, for who asks for none; empty: all runs
+  nlohmann::json cases;  ///< as written, for records
   std::vector<PlanCase> expanded_cases;
   std::vector<PlanMethod> methods;
 };
@@ -114,7 +127,8 @@ void add_methods(Plan& plan, const std::vector<PlanMethod>& methods);
 /// The plan as JSON, complete: parsing it gives the same plan.
 nlohmann::json plan_to_json(const Plan& plan);
 
-/// Throws ConfigurationError for a method or data set that is not among the known ones, for holes in a data
+/// Throws ConfigurationError for a method or data set that is not among the known ones, for a case without a
+/// place on the plan's axis, for holes in a data
 /// set that has no variant with holes, for a number of points where the data set brings its own or none where
 /// it does not, and for a case without a value for a parameter that is given case by case.
 void check_plan(const Plan& plan, const std::vector<std::string>& methods,

@@ -90,6 +90,8 @@ void to_json(json& result, const RunRecord& record) {
   result["output_sha256"] = record.output_sha256;
   result["machine"] = record.machine;
   result["flags"] = record.flags;
+  if (!record.base_shape.empty()) result["base_shape"] = record.base_shape;
+  if (!record.levels.empty()) result["levels"] = record.levels;
 }
 
 void from_json(const json& source, RunRecord& record) {
@@ -115,9 +117,11 @@ void from_json(const json& source, RunRecord& record) {
   record.metrics = source.at("metrics");
   if (!record.metrics.is_object()) throw std::invalid_argument("\"metrics\" of a record must be an object.");
   source.at("output_sha256").get_to(record.output_sha256);
-  // Records that are older than these two members have neither.
+  // Records that are older than these members have none of them.
   record.machine = source.value("machine", std::string());
   record.flags = source.value("flags", std::vector<std::string>());
+  record.base_shape = source.value("base_shape", std::string());
+  record.levels = source.value("levels", std::map<std::string, double>());
 }
 
 std::string run_name(const RunRecord& record) {

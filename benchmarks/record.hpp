@@ -38,13 +38,15 @@ struct RunRecord {
   std::string id;    ///< SHA-256 of the identity (see run_identity), lower-case hex
   std::string name;  ///< "polylidar/ca/n:64000/holes:1/protocol:paper"
   std::string method;
-  std::string method_version;  ///< empty only when not installed
-  std::string dataset;         ///< "ca", "hi"
-  std::string dataset_sha256;  ///< of the little-endian float64 bytes of the points
-  std::int64_t n = 0;          ///< number of points
-  bool holes = false;          ///< whether the ground truth has its holes cut out
-  std::uint64_t seed = 0;      ///< of the point sample
-  std::string protocol;        ///< "paper", "default", "auto", "tuned", "oracle"
+  std::string method_version;            ///< empty only when not installed
+  std::string dataset;                   ///< "ca", "ca~noise:0.5"
+  std::string base_shape;                ///< that it is a variant of, as in datasets.hpp; empty: its own
+  std::map<std::string, double> levels;  ///< what a curve can be drawn against, as levels_of in datasets.hpp
+  std::string dataset_sha256;            ///< of the little-endian float64 bytes of the points
+  std::int64_t n = 0;                    ///< number of points
+  bool holes = false;                    ///< whether the ground truth has its holes cut out
+  std::uint64_t seed = 0;                ///< of the point sample
+  std::string protocol;                  ///< "paper", "default", "auto", "tuned", "oracle"
   std::map<std::string, double>
       parameters;  ///< complete: defaults filled in; infinity (no limit) is null in JSON
   Status status = Status::kOk;

@@ -93,6 +93,7 @@ add_library(hullbench_report STATIC
   environment.cpp
   claims.cpp
   collection_tables.cpp
+  curve_table.cpp
   document.cpp
   group_values.cpp
   labels.cpp

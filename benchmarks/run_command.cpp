@@ -168,6 +168,7 @@ void say_counts(const RunResult& result) {
   std::cerr << "hullbench: " << count(Status::kOk) << " ok, " << failed << " failed, "
             << count(Status::kNotInstalled) << " not installed";
   if (count(Status::kUnsupported) > 0) std::cerr << ", " << count(Status::kUnsupported) << " unsupported";
+  if (result.accepted > 0) std::cerr << ", " << result.accepted << " not ok as the plan accepts";
   std::cerr << "\n";
 }
 
@@ -246,7 +247,8 @@ int measure_one(const RunCommand& command, const Experiment& experiment, const M
 RunResult finished_result(const fs::path& run) {
   RunResult result;
   const json report = make_report(run);
-  for (const json& row : report.at("runs")) ++result.counts[row.get<RunRecord>().status];
+  const auto accepted = report.at("plan").value("accepted", std::vector<std::string>());
+  for (const json& row : report.at("runs")) count_row(result, row.get<RunRecord>().status, accepted);
   return result;
 }
 
@@ -275,6 +277,7 @@ int measure_suite(const RunCommand& command, const std::vector<Experiment>& expe
     }
     if (result.interrupted) return exit_code(result);
     for (const auto& [status, count] : result.counts) all.counts[status] += count;
+    all.accepted += result.accepted;
   }
   const std::vector<json> reports = suite_reports(suite);
   const std::vector<Document> documents = make_documents(reports);

@@ -29,8 +29,10 @@ struct RunnerOptions {
 
 struct RunResult {
   bool interrupted = false;
-  std::map<Status, int> counts;  ///< of the rows of this plan that are there now, those of earlier starts too
-  int resumed_rows = 0;          ///< finished by an earlier start
+  /// Of the rows of this plan that are there now, those of earlier starts too, without the accepted ones.
+  std::map<Status, int> counts;
+  int accepted = 0;      ///< rows that are not ok but have a status that the plan accepts
+  int resumed_rows = 0;  ///< finished by an earlier start
 };
 
 /// Measures `runs` of `plan` into `directory`. `header` is run.json without its methods, which are added.
@@ -55,8 +57,11 @@ std::int64_t estimated_points(const PlanCase& plan_case);
 /// What `progress` needs to know of `runs`.
 std::vector<ProgressRun> progress_runs(const Plan& plan, const std::vector<PlannedRun>& runs);
 
-/// 0: all rows are ok, not installed or unsupported; 4: a row is a failure; 6: no row is ok and none is a
-/// failure; 130: interrupted.
+/// Counts a row with that status of a plan that accepts `accepted` (Plan::accepted).
+void count_row(RunResult& result, Status status, const std::vector<std::string>& accepted);
+
+/// 0: all rows are ok, accepted, not installed or unsupported; 4: a row is a failure; 6: no row is ok or
+/// accepted and none is a failure; 130: interrupted.
 int exit_code(const RunResult& result);
 
 }  // namespace hullbench

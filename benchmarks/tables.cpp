@@ -15,6 +15,7 @@
 #include "benchmarks/bootstrap.hpp"
 #include "benchmarks/claims.hpp"
 #include "benchmarks/collection_tables.hpp"
+#include "benchmarks/curve_table.hpp"
 #include "benchmarks/labels.hpp"
 #include "benchmarks/number_format.hpp"
 #include "benchmarks/report_notes.hpp"
@@ -285,7 +286,9 @@ Document make_document(const json& report) {
   document.title = report.at("plan").value("title", std::string("Benchmark run")) +
                    (experiment.empty() ? "" : " (the paper's " + experiment + ")");
   const std::vector<Shape> all_shapes = shapes(context.measurements.cases());
-  if (is_collection(all_shapes)) {
+  if (report.at("plan").contains("axis")) {
+    document.tables.push_back(curve_table(context));
+  } else if (is_collection(all_shapes)) {
     add_all(document, collection_tables(context, all_shapes));
   } else if (context.measurements.cases().size() > 1) {
     for (const Shape& shape : all_shapes) add_all(document, shape_tables(context, shape));

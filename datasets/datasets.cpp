@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <charconv>
+#include <sstream>
 #include <stdexcept>
 
+#include "datasets/degenerate.hpp"
 #include "datasets/families.hpp"
 #include "datasets/holes.hpp"
 #include "datasets/point_bytes.hpp"
@@ -12,6 +14,7 @@
 #include "datasets/rgbd/recordings.hpp"
 #include "datasets/sampling.hpp"
 #include "datasets/sha256.hpp"
+#include "datasets/stress.hpp"
 
 namespace hullbench {
 
@@ -60,6 +63,17 @@ DatasetInfo describe_recorded_floors(std::size_t count) {
           .own_points = true};
 }
 
+DatasetInfo describe_degenerate(const DegenerateInput& input) {
+  const double area = polylidar::area(input.ground_truth);
+  return {.name = input.name,
+          .title = input.title,
+          .source = "Made for this project: points that break assumptions",
+          .licence = "MIT",
+          .sha256 = {},
+          .area = area > 0 ? std::optional(area) : std::nullopt,
+          .own_points = true};
+}
+
 std::string names_of(const std::vector<DatasetInfo>& infos, bool only_with_holes) {
   std::string names;
   for (const DatasetInfo& info : infos) {
@@ -77,7 +91,19 @@ std::vector<DatasetInfo> families(const DataFolders& folders) {
   if (!folders.recordings.empty()) {
     infos.push_back(describe_recorded_floors(list_recordings(folders.recordings).size()));
   }
+  for (const DegenerateInput& input : degenerate_inputs()) infos.push_back(describe_degenerate(input));
   return infos;
+}
+
+/// What may stand behind a '~', for a name that has one.
+std::string stress_hint(const std::string& name) {
+  if (name.find('~') == std::string::npos) return "";
+  std::ostringstream text;
+  text << "; behind them, unless they come with their points, one of:";
+  for (const StressKind& kind : stress_kinds()) {
+    text << " ~" << kind.name << ":LEVEL (" << kind.least << " to " << kind.most << ")";
+  }
+  return text.str();
 }
 
 /// The data set that `name` belongs to, and that it has the variant.
@@ -91,7 +117,7 @@ DatasetInfo require_dataset(const std::string& name, bool holes, const DataFolde
   }
   if (found == nullptr) {
     throw std::invalid_argument("there is no data set '" + name +
-                                "'; choose one of: " + names_of(infos, false));
+                                "'; choose one of: " + names_of(infos, false) + stress_hint(name));
   }
   if (holes && !found->has_holes_variant) {
     throw std::invalid_argument("the data set '" + name + "' has no variant with holes; choose one of: " +
@@ -125,9 +151,39 @@ FloorScene make_floor(const std::string& name, std::uint64_t seed, const DataFol
   return load_recording(folders.recordings / list_recordings(folders.recordings).at(number - 1));
 }
 
+const DegenerateInput* find_degenerate(const std::string& name) {
+  const auto& inputs = degenerate_inputs();
+  const auto found = std::find_if(inputs.begin(), inputs.end(),
+                                  [&](const DegenerateInput& input) { return input.name == name; });
+  return found == inputs.end() ? nullptr : &*found;
+}
+
+/// Points that come with their shape.
+FloorScene make_own_points(const std::string& name, std::uint64_t seed, const DataFolders& folders) {
+  const DegenerateInput* degenerate = find_degenerate(name);
+  if (degenerate == nullptr) return make_floor(name, seed, folders);
+  return {degenerate->points, degenerate->ground_truth};
+}
+
+/// The name without its stress, of a data set that there is.
+std::string unstressed(const std::string& name) {
+  return split_stress(name)->first;
+}
+
+/// The family of which the data set, without its stress, is a member, when the member's number measures
+/// something; and that number.
+std::optional<std::pair<const ShapeFamily*, std::size_t>> find_graded(const std::string& name) {
+  const auto member = split_member_name(name);
+  if (!member) return std::nullopt;
+  for (const ShapeFamily& family : shape_families()) {
+    if (family.name == member->first && !family.feature.empty()) return std::pair{&family, member->second};
+  }
+  return std::nullopt;
+}
+
 polylidar::MultiPolygon make_shape(const DatasetInfo& info, const std::string& name, bool holes,
                                    const DataFolders& folders) {
-  if (info.own_points) return make_floor(name, 0, folders).ground_truth;
+  if (info.own_points) return make_own_points(name, 0, folders).ground_truth;
   if (info.members == 0) return make_file_shape(name, holes, folders.shapes);
   return make_member_shape(info.name, split_member_name(name)->second - 1, holes);
 }
@@ -152,16 +208,40 @@ std::vector<DatasetInfo> datasets(const DataFolders& folders) {
 }
 
 const DatasetInfo* find_dataset(const std::vector<DatasetInfo>& infos, const std::string& name) {
-  const auto member = split_member_name(name);
-  const auto found = std::find_if(infos.begin(), infos.end(), [&](const DatasetInfo& info) {
-    if (info.members == 0) return info.name == name;
-    return member && info.name == member->first && member->second <= info.members;
-  });
+  const auto parts = split_stress(name);
+  if (!parts) return nullptr;
+  const auto& [shape, stress] = *parts;
+  const auto member = split_member_name(shape);
+  const auto found = std::find_if(
+      infos.begin(), infos.end(), [&, &shape = shape, &stress = stress](const DatasetInfo& info) {
+        if (stress && info.own_points) return false;
+        if (info.members == 0) return info.name == shape;
+        return member && info.name == member->first && member->second <= info.members;
+      });
   return found == infos.end() ? nullptr : &*found;
 }
 
+std::string base_shape(const std::string& name) {
+  const auto parts = split_stress(name);
+  if (!parts) return name;
+  const auto graded = find_graded(parts->first);
+  return graded ? graded->first->name : parts->first;
+}
+
+std::map<std::string, double> levels_of(const std::string& name) {
+  std::map<std::string, double> levels;
+  const auto parts = split_stress(name);
+  if (!parts) return levels;
+  if (parts->second) levels[parts->second->kind->name] = parts->second->level;
+  if (const auto graded = find_graded(parts->first)) {
+    levels[graded->first->feature] = static_cast<double>(graded->second);
+  }
+  return levels;
+}
+
 polylidar::MultiPolygon make_ground_truth(const std::string& name, bool holes, const DataFolders& folders) {
-  return make_shape(require_dataset(name, holes, folders), name, holes, folders);
+  const DatasetInfo info = require_dataset(name, holes, folders);
+  return make_shape(info, unstressed(name), holes, folders);
 }
 
 PointSet make_point_set(const std::string& name, bool holes, std::size_t n, std::uint64_t seed,
@@ -174,13 +254,16 @@ PointSet make_point_set(const std::string& name, bool holes, std::size_t n, std:
   }
   PointSet set;
   if (info.own_points) {
-    FloorScene scene = make_floor(name, seed, folders);
+    FloorScene scene = make_own_points(name, seed, folders);
     set.points = std::move(scene.points);
     set.ground_truth = std::move(scene.ground_truth);
   } else {
-    set.ground_truth = make_shape(info, name, holes, folders);
-    const std::string label = "points/" + name + "/holes:" + (holes ? "1" : "0") + "/n:" + std::to_string(n);
-    set.points = sample_uniform(set.ground_truth, n, derive_seed(seed, label));
+    const auto [shape, stress] = *split_stress(name);
+    set.ground_truth = make_shape(info, shape, holes, folders);
+    const std::string label = "points/" + shape + "/holes:" + (holes ? "1" : "0") + "/n:" + std::to_string(n);
+    const std::uint64_t points_seed = derive_seed(seed, label);
+    set.points = stress ? stress->kind->sample(set.ground_truth, n, stress->level, points_seed)
+                        : sample_uniform(set.ground_truth, n, points_seed);
   }
   set.ground_truth_area = polylidar::area(set.ground_truth);
   set.sha256 = sha256_hex(point_bytes(set.points));

@@ -3,12 +3,14 @@
 // A data set is one shape from a file ("ca"), or a family whose members are shapes of one kind, numbered from
 // 1
 // ("star-1" ... "star-9800"). Points are drawn from the shape, as many as are asked for, or come with it, as
-// those of the floors do.
+// those of the floors and of degenerate.hpp do. Behind a '~' stands how they are drawn where not uniformly
+// ("ca~noise:0.5", "star-17~outliers:5"; see stress.hpp).
 #pragma once
 
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <map>
 #include <optional>
 #include <string>
 #include <utility>
@@ -35,11 +37,13 @@ struct DatasetInfo {
   std::string title;   ///< as printed in tables: "California"; of one member
   std::string source;  ///< who made the data
   std::string licence;
-  std::string sha256;          ///< of the shape's file, lower-case hex; empty when there is no single file
-  std::optional<double> area;  ///< of the shape without holes, squared units of the points; none: a family
+  std::string sha256;  ///< of the shape's file, lower-case hex; empty when there is no single file
+  /// Of the shape without holes, squared units of the points; none: a family, or points without a shape.
+  std::optional<double> area;
   bool has_holes_variant = false;
   std::size_t members = 0;  ///< of a family; 0: one shape
-  bool own_points = false;  ///< the points come with the shape: no number of them can be asked for
+  bool own_points =
+      false;  ///< the points come with the shape: neither a number nor a stress can be asked for
 };
 
 /// The families of floors: simulated, and recorded where there is a folder of recordings.
@@ -49,33 +53,47 @@ inline constexpr const char* kRecordedFloor = "recorded";
 /// The family and the number (from 1) in a member's name: {"star", 17} of "star-17"; none for other names.
 std::optional<std::pair<std::string, std::size_t>> split_member_name(const std::string& name);
 
+/// The shape that data set `name` is a variant of, for who must not take two variants for independent: "ca"
+/// for "ca" and "ca~noise:0.5", "star-17" for "star-17~outliers:5", "channel" for "channel-4", since the
+/// members of a family with a feature are one shape. Names that are not known are their own.
+std::string base_shape(const std::string& name);
+
+/// What a curve can be drawn against, by name: {"noise", 0.5} for "ca~noise:0.5", {"width", 4} for
+/// "channel-4", both for "channel-4~noise:0.5"; none for "ca". Units as in stress.hpp; of a feature, spacings
+/// of 2000 points.
+std::map<std::string, double> levels_of(const std::string& name);
+
 /// Points and what they came from.
 struct PointSet {
   std::vector<polylidar::Point> points;
-  polylidar::MultiPolygon ground_truth;  ///< with its holes cut out when the variant with holes was asked for
-  double ground_truth_area = 0;          ///< squared units of the points
-  std::string sha256;  ///< of point_bytes(points), lower-case hex: the record's dataset_sha256
+  /// With its holes cut out when the variant with holes was asked for; empty: there is nothing to score
+  /// against.
+  polylidar::MultiPolygon ground_truth;
+  double ground_truth_area = 0;  ///< squared units of the points
+  std::string sha256;            ///< of point_bytes(points), lower-case hex: the record's dataset_sha256
 };
 
 /// Every data set: the shapes in the order of the manifest, then the families. Throws as read_manifest.
 std::vector<DatasetInfo> datasets(const DataFolders& folders = {});
 
 /// The entry of `infos` that `name` belongs to: of that name, or the family it is a member of; null when
-/// there is none, for a family's own name, and for a number that the family has not.
+/// there is none, for a family's own name, for a number that the family has not, and for a stress that there
+/// is not or that is asked of a data set with points of its own.
 const DatasetInfo* find_dataset(const std::vector<DatasetInfo>& infos, const std::string& name);
 
-/// The ground truth of data set `name`; `holes`: of its variant with holes, which is one fixed shape (its
-/// seed is in the manifest or the family). Throws std::invalid_argument, listing the known names, when there
-/// is no such data set or it has no such variant; otherwise as load_shape, with_circular_holes and
-/// load_recording.
+/// The ground truth of data set `name`, whatever its stress; `holes`: of its variant with holes, which is one
+/// fixed shape (its seed is in the manifest or the family). Throws std::invalid_argument, listing the known
+/// names, when there is no such data set or it has no such variant; otherwise as load_shape,
+/// with_circular_holes and load_recording.
 polylidar::MultiPolygon make_ground_truth(const std::string& name, bool holes,
                                           const DataFolders& folders = {});
 
-/// `n` points uniform in that ground truth, with everything a run needs to know about them. Every combination
-/// of name, holes, n and seed has a stream of random numbers of its own, so samples of different sizes are
-/// independent. With n = 0 the data set's own points (own_points), where `seed` is that of the sensor's
-/// noise. Throws as make_ground_truth and sample_uniform, and std::invalid_argument for n = 0 where points
-/// have to be drawn and for another n where they come with the shape.
+/// `n` points in that ground truth, uniform or with the name's stress, with everything a run needs to know
+/// about them. Every combination of name without stress, holes, n and seed has a stream of random numbers of
+/// its own, so samples of different sizes are independent, and those of different levels of a stress are not.
+/// With n = 0 the data set's own points (own_points), where `seed` is that of the sensor's noise. Throws as
+/// make_ground_truth, sample_uniform and the stress, and std::invalid_argument for n = 0 where points have to
+/// be drawn and for another n where they come with the shape.
 PointSet make_point_set(const std::string& name, bool holes, std::size_t n, std::uint64_t seed,
                         const DataFolders& folders = {});
 

@@ -5,6 +5,7 @@
 #include "datasets/holes.hpp"
 #include "datasets/random.hpp"
 #include "datasets/star_polygons.hpp"
+#include "datasets/stress_shapes.hpp"
 #include "datasets/tangled_shapes.hpp"
 
 namespace hullbench {
@@ -22,6 +23,7 @@ ShapeFamily star_family() {
           .licence = "MIT",
           .count = kStarPolygons,
           .holes = HoleParameters{.count = 5, .radius = 7.5, .seed = 2021},
+          .feature = {},
           .make = star_polygon};
 }
 
@@ -33,11 +35,31 @@ ShapeFamily tangled_family(const char* title, const char* source) {
           .licence = "MIT",
           .count = tangled_count(kKind),
           .holes = std::nullopt,
+          .feature = {},
           .make = [](std::size_t index) { return tangled_shape(kKind, index); }};
 }
 
+ShapeFamily graded_family(const GradedShape& shape) {
+  const auto make = [make_shape = shape.make](std::size_t index) {
+    if (index >= kGradedMembers) {
+      throw std::invalid_argument("there are only " + std::to_string(kGradedMembers) +
+                                  " shapes of this kind");
+    }
+    return make_shape(static_cast<double>(index + 1));
+  };
+  return {.name = shape.name,
+          .title = shape.title,
+          .source = "Drawn for this project: the " + shape.feature +
+                    " is the member's number in spacings of 2000 points",
+          .licence = "MIT",
+          .count = kGradedMembers,
+          .holes = std::nullopt,
+          .feature = shape.feature,
+          .make = make};
+}
+
 std::vector<ShapeFamily> make_families() {
-  return {
+  std::vector<ShapeFamily> families = {
       star_family(),
       tangled_family<TangledKind::kComb>(
           "Comb", "Drawn for this project: a bar with teeth of random width, length and gap"),
@@ -53,6 +75,8 @@ std::vector<ShapeFamily> make_families() {
       tangled_family<TangledKind::kParts>("Separate parts",
                                           "Drawn for this project: blobs, combs and boxes with gaps between"),
   };
+  for (const GradedShape& shape : graded_shapes()) families.push_back(graded_family(shape));
+  return families;
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -20,11 +21,14 @@ struct ShapeFamily {
   std::size_t count = 0;  ///< >= 1
   /// None: no variants with holes. The seed is the family's; each shape derives its own.
   std::optional<HoleParameters> holes;
+  /// What the member's number, index + 1, measures ("radius", see stress_shapes.hpp): then the members are
+  /// one shape at several levels. Empty: each member is a shape of its own.
+  std::string feature;
   /// The shape without added holes; std::invalid_argument when `index` is not below count.
-  polylidar::MultiPolygon (*make)(std::size_t index) = nullptr;
+  std::function<polylidar::MultiPolygon(std::size_t index)> make;
 };
 
-/// Every family, the paper's first.
+/// Every family, the paper's first, those with a feature last.
 const std::vector<ShapeFamily>& shape_families();
 
 /// Shape `index` of `family`; `holes`: with the family's circular holes cut out, which lie in the same places

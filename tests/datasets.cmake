@@ -17,6 +17,8 @@ hullbench_test(test_datasets
     test_sha256.cpp
     test_shapes.cpp
     test_star_polygons.cpp
+    test_stress.cpp
+    test_stress_shapes.cpp
     test_tangled_shapes.cpp
   LIBRARIES hullbench_test_support hullbench::datasets hullbench::hash nlohmann_json::nlohmann_json Boost::headers PNG::PNG
   LABELS datasets)

@@ -57,8 +57,10 @@ TEST(ShapeFamilies, AreCompleteAndNamedOnce) {
     EXPECT_THROW(family.make(family.count), std::invalid_argument) << family.name;
     shapes += family.count;
   }
-  EXPECT_EQ(names, (std::set<std::string>{"star", "comb", "spiral", "partition", "walk", "nested", "parts"}));
-  EXPECT_EQ(shapes, 10'800U);
+  EXPECT_EQ(names, (std::set<std::string>{"star", "comb", "spiral", "partition", "walk", "nested", "parts",
+                                          "pierced", "annulus", "windows", "channel", "peninsula", "teeth",
+                                          "squares", "discs", "strips"}));
+  EXPECT_EQ(shapes, 10'890U);
 }
 
 TEST(ShapeFamilies, AreTheSameEverywhere) {
@@ -72,6 +74,15 @@ TEST(ShapeFamilies, AreTheSameEverywhere) {
       {"walk", "b89409fe4c319d8a3a4f1f1e6df769d748d6ce77875c6a934c64d75500362fbf"},
       {"nested", "5e43253cf5767d7ec7f5535f79de4641ffdf5d6ad46a80eb9469cb9fb668f781"},
       {"parts", "3dbc59d0b32f99986144e7571e6f0c6276f540beb6b7e1d54e7fdb33a65e6b52"},
+      {"pierced", "062e0a06792832714ce0ef1c95cf0f96cbf2931595a8228505fbc5bf2ca556cf"},
+      {"annulus", "e56e57e5397df6ee22cd8c2ec12a959e2e45b9cdd07f807a9269988c7e88f616"},
+      {"windows", "e550018664c6feac0c9b025dd1eadb5bd5e98aff5731a0f14ba447c17b7afdba"},
+      {"channel", "1d552e66fb5b5284ecbc14e04a2d2b631c4371cf065836b59e3edacbd71483cc"},
+      {"peninsula", "60a4a3cf0656be3669e4bc6a631738fa96e24cdfc285297cc29c4847dbe81a3c"},
+      {"teeth", "27337e473c5e6aeba2f7f51847635ebba4a1ae288ae01ee5d95b459b0ac46de3"},
+      {"squares", "92d041e3135e0eb6b02b9e9c98160dc201ab6731bb6864902420e3c4c81d7eb6"},
+      {"discs", "aca8d633e5bb0216b7fbd87b2f655922109895dd3b49d1e71ab3231888ed1150"},
+      {"strips", "0548d95cfacf74049b2a02b6254bc696bc46ac84f0edcdd6b3f62c1d188ac724"},
   };
   for (const ShapeFamily& family : shape_families()) {
     EXPECT_EQ(digest(family, family.count, false), expected.at(family.name)) << family.name;

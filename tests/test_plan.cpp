@@ -339,6 +339,108 @@ TEST(Plan, BrokenJsonIsRefusedWithItsPlace) {
   EXPECT_THROW(parse_plan("[]", "here"), ConfigurationError);
 }
 
+std::vector<std::string> datasets_of(const Plan& plan) {
+  std::vector<std::string> names;
+  for (const PlanCase& one : plan.expanded_cases) names.push_back(one.dataset);
+  return names;
+}
+
+TEST(Plan, EveryDataSetStandsWithEveryStress) {
+  const Plan plan = parse_plan(plan_with_cases(R"([{"dataset": ["ca", "star-2~noise:1"], "n": [9]},
+                          {"dataset": "star", "members": 2, "stress": ["noise:0", "outliers:2.5"], "n": [9]}])")
+                                   .dump(),
+                               "here");
+  EXPECT_EQ(datasets_of(plan),
+            (std::vector<std::string>{"ca", "star-2~noise:1", "star-1~noise:0", "star-1~outliers:2.5",
+                                      "star-2~noise:0", "star-2~outliers:2.5"}));
+  EXPECT_EQ(planned_runs(plan, "")[1].name, "polylidar/star-2~noise:1/n:9/holes:0/protocol:paper");
+  EXPECT_NO_THROW(check_plan(plan, kMethods, datasets_and_families()));
+  EXPECT_EQ(datasets_of(parse_plan(plan_to_json(plan).dump(), "there")), datasets_of(plan));
+}
+
+TEST(Plan, MethodsThatKeepToAShapeOrAFamilyKeepToItUnderStressToo) {
+  json document =
+      plan_with_cases(R"([{"dataset": ["ca", "star-2"], "stress": ["noise:0", "noise:1"], "n": [9]}])");
+  const auto count = [&](const std::string& dataset) {
+    document["methods"][0]["datasets"] = {dataset};
+    return planned_runs(parse_plan(document.dump(), "here"), "").size();
+  };
+  EXPECT_EQ(count("ca"), 2U);
+  EXPECT_EQ(count("star"), 2U);
+  EXPECT_EQ(count("star-2"), 2U);
+  EXPECT_EQ(count("star-2~noise:1"), 1U);
+  EXPECT_EQ(count("star-3"), 0U);
+}
+
+TEST(Plan, StressThatThereIsNotIsRefused) {
+  EXPECT_EQ(complaint_about_cases(R"([{"dataset": "ca", "stress": ["fog:1"], "n": [9]}])"),
+            "plan 'small': cases[0].stress[0] must be one of noise, outliers, gradient, clusters, poisson, "
+            "lattice and "
+            "boundary, with a ':' and a level in its range behind it ('hullbench list'), not 'fog:1'");
+  EXPECT_EQ(complaint_about_cases(R"([{"dataset": "ca", "stress": ["noise:1", "noise:1"], "n": [9]}])"),
+            "plan 'small': cases[0].stress[1] is there twice; leave one out");
+  EXPECT_EQ(
+      complaint_about_cases(R"([{"dataset": "ca~fog:1", "n": [9]}])"),
+      "the plan 'small' names the data set 'ca~fog:1', which is not known; known are ca, solid, star-1 to -3 "
+      "and floor-1 to -2 ('hullbench list')");
+  EXPECT_NE(complaint_about_cases(R"([{"dataset": "floor-1~noise:1"}])")
+                .find("'floor-1~noise:1', which is not known"),
+            std::string::npos);
+  for (const char* name : {"~noise:1", "Ca~noise:1", "ca:noise", "ca.5~noise:1", "ca~noise/1"}) {
+    EXPECT_EQ(
+        complaint("/cases/0/dataset", name),
+        std::string(
+            "plan 'small': cases[0].dataset must be a data set's name of small letters, digits, '_' and "
+            "'-', with a stress behind it or without (ca, ca~noise:0.5), not '") +
+            name + "'");
+  }
+}
+
+TEST(Plan, AxisIsReadAndWritten) {
+  json document = plan_with_cases(R"([{"dataset": "ca", "stress": ["noise:0", "noise:1"], "n": [9]}])");
+  EXPECT_FALSE(parse_plan(document.dump(), "here").axis);
+  document["axis"] = {{"of", "noise"}, {"title", "Noise"}, {"unit", "h"}};
+  const Plan plan = parse_plan(document.dump(), "here");
+  ASSERT_TRUE(plan.axis);
+  EXPECT_EQ(plan.axis->of, "noise");
+  EXPECT_EQ(plan_to_json(plan).at("axis"), document["axis"]);
+  EXPECT_NO_THROW(check_plan(plan, kMethods, known_datasets()));
+  document["axis"] = {{"of", "noise"}};
+  EXPECT_EQ(parse_plan(document.dump(), "here").axis->title, "noise");
+}
+
+TEST(Plan, EveryCaseHasAPlaceOnTheAxis) {
+  json document =
+      plan_with_cases(R"([{"dataset": "ca", "stress": ["noise:0"], "n": [9]}, {"dataset": "ca", "n": [9]}])");
+  const auto check = [&](const char* of) {
+    document["axis"] = {{"of", of}};
+    check_plan(parse_plan(document.dump(), "here"), kMethods, known_datasets());
+  };
+  EXPECT_NO_THROW(check("n"));
+  EXPECT_NO_THROW(check("sampling"));
+  try {
+    check("noise");
+    FAIL();
+  } catch (const ConfigurationError& error) {
+    EXPECT_STREQ(
+        error.what(),
+        "the plan 'small' has the axis 'noise', of which its case ca has no level; choose n, sampling or a "
+        "level of every case");
+  }
+}
+
+TEST(Plan, AcceptedStatusesAreReadAndWritten) {
+  json document = small_plan();
+  document["accepted"] = {"error", "unsupported"};
+  const Plan plan = parse_plan(document.dump(), "here");
+  EXPECT_EQ(plan.accepted, (std::vector<std::string>{"error", "unsupported"}));
+  EXPECT_EQ(plan_to_json(plan).at("accepted"), document["accepted"]);
+  EXPECT_EQ(complaint("/accepted", {"broken"}),
+            "plan 'small': accepted[0] must be one of ok, timeout, memory, crash, error, invalid_output, "
+            "unsupported "
+            "and not_installed, not 'broken'");
+}
+
 TEST(Plan, IsFoundByNameOrByPath) {
   const testing::TemporaryFolder folder;
   std::ofstream(folder.path() / "small.json") << small_plan();
@@ -363,6 +465,25 @@ TEST(Plan, EveryReadyPlanIsGood) {
     ++count;
   }
   EXPECT_GE(count, 3);
+}
+
+TEST(Plan, StressSuitesAreQuickAndOnTheirAxes) {
+  std::size_t cases = 0;
+  int suites = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(HULLBENCH_PLAN_FOLDER)) {
+    if (!entry.path().stem().string().starts_with("stress_")) continue;
+    const Plan plan = load_plan(entry.path().string(), "");
+    EXPECT_EQ(plan.axis.has_value(), plan.name != "stress_degenerate") << plan.name;
+    EXPECT_EQ(plan.repetitions, 1) << plan.name;
+    for (const PlanMethod& method : plan.methods) EXPECT_TRUE(method.datasets.empty()) << plan.name;
+    std::set<std::string> shapes;
+    for (const PlanCase& one : plan.expanded_cases) shapes.insert(base_shape(one.dataset));
+    EXPECT_GE(shapes.size(), 3U) << plan.name;
+    cases += plan.expanded_cases.size();
+    ++suites;
+  }
+  EXPECT_EQ(suites, 10);
+  EXPECT_LE(cases, 600U);
 }
 
 TEST(Plan, StatesIsThePapersExperiment) {

@@ -192,6 +192,59 @@ TEST_F(RunnerTest, EveryMisbehaviourIsARowAndTheOthersAreMeasured) {
   EXPECT_EQ(measured.at("crash").detail, "SIGSEGV");
 }
 
+TEST_F(RunnerTest, AnAcceptedStatusIsNoFailure) {
+  Plan plan = plan_of({"says_error", "good"}, 1);
+  EXPECT_EQ(exit_code(measure(plan)), 4);
+  plan.accepted = {"error"};
+  const RunResult result = measure(plan);
+  EXPECT_EQ(exit_code(result), 0);
+  EXPECT_EQ(result.accepted, 1);
+  EXPECT_EQ(result.counts.at(Status::kOk), 1);
+  EXPECT_FALSE(result.counts.contains(Status::kError));
+  plan.accepted = {"crash"};
+  EXPECT_EQ(exit_code(measure(plan)), 4);
+}
+
+TEST(ExitCode, RowsThatAreAllAcceptedAreMeasured) {
+  RunResult result;
+  EXPECT_EQ(exit_code(result), 6);
+  count_row(result, Status::kError, {"error"});
+  EXPECT_EQ(exit_code(result), 0);
+  count_row(result, Status::kCrash, {"error"});
+  EXPECT_EQ(exit_code(result), 4);
+}
+
+TEST_F(RunnerTest, RowsUnderStressSayTheirShapeAndLevel) {
+  Plan plan = plan_of({"polylidar"}, 1);
+  plan.expanded_cases = {{"ca~noise:0.5", false, 200}};
+  EXPECT_EQ(exit_code(measure(plan)), 0);
+  const RunRecord row = rows().at("polylidar");
+  EXPECT_EQ(row.name, "polylidar/ca~noise:0.5/n:200/holes:0/protocol:paper");
+  EXPECT_EQ(row.base_shape, "ca");
+  EXPECT_EQ(row.levels, (std::map<std::string, double>{{"noise", 0.5}}));
+  EXPECT_EQ(validate_file(folder_.path() / "run" / "runs.jsonl"), std::vector<std::string>());
+}
+
+TEST_F(RunnerTest, PointsWithoutAShapeAreMeasuredAndNotScored) {
+  Plan plan = plan_of({"polylidar", "good", "invalid_polygon"}, 1);
+  for (const char* dataset : {"degenerate_empty", "degenerate_collinear"}) {
+    fs::remove_all(folder_.path() / "run");
+    plan.expanded_cases = {{dataset, false, 0}};
+    EXPECT_EQ(exit_code(measure(plan)), 4);
+    const auto measured = rows();
+    const RunRecord& empty = measured.at("polylidar");
+    EXPECT_EQ(to_string(empty.status), "ok") << empty.detail;
+    EXPECT_EQ(empty.metrics.at("polygons"), 0);
+    EXPECT_EQ(empty.metrics.at("l2"), nullptr);
+    const RunRecord& square = measured.at("good");
+    EXPECT_EQ(to_string(square.status), "ok") << square.detail;
+    EXPECT_EQ(square.metrics.at("area"), 1);
+    EXPECT_EQ(square.metrics.at("l2"), nullptr);
+    EXPECT_EQ(to_string(measured.at("invalid_polygon").status), "invalid_output");
+    EXPECT_EQ(validate_file(folder_.path() / "run" / "runs.jsonl"), std::vector<std::string>());
+  }
+}
+
 TEST_F(RunnerTest, AMethodsOwnLimitsTakeThePlaceOfThePlans) {
   Plan plan = plan_of({"says_limits", "good"}, 1);
   const auto limit_of = [&] { return std::stoll(rows().at("says_limits").detail); };

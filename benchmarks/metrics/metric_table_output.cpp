@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <set>
 #include <string_view>
 
 #include "benchmarks/metrics/metric_table.hpp"
@@ -49,6 +50,13 @@ std::string definition_text(const MetricInfo& metric) {
   return text;
 }
 
+/// Whether `describe` gives the metric.
+bool known_without_truth(const MetricInfo& metric) {
+  static const std::set<std::string> names = {"area", "ground_truth_area", "ground_truth_convexity"};
+  static const std::set<std::string> groups = {"validity", "contract", "size"};
+  return names.contains(metric.name) || groups.contains(metric.group);
+}
+
 }  // namespace
 
 std::string to_string(Better better) {
@@ -69,7 +77,10 @@ std::string to_string(Better better) {
 
 json metrics_to_json(const Metrics& metrics) {
   json result = json::object();
-  for (const MetricInfo& metric : metric_table()) result[metric.name] = to_json(metric.value(metrics));
+  for (const MetricInfo& metric : metric_table()) {
+    const bool known = metrics.has_truth || known_without_truth(metric);
+    result[metric.name] = known ? to_json(metric.value(metrics)) : json(nullptr);
+  }
   return result;
 }
 

@@ -37,6 +37,20 @@ struct CaseScorer::State {
   GeosSession::Geometry band;  ///< of the truth; see boundary_band.hpp
 };
 
+Metrics describe(std::span<const Point> points, const MultiPolygon& result) {
+  Metrics metrics;
+  metrics.has_truth = false;
+  metrics.area.invalid_reason = invalid_reason(result);
+  metrics.area.valid = metrics.area.invalid_reason.empty();
+  const double area = polylidar::area(result);
+  metrics.area.area = std::isfinite(area) ? area : 0;
+  metrics.contract = InputPoints(points).score(result);
+  metrics.polygon_count = result.size();
+  metrics.hole_count = count_holes(result);
+  metrics.vertex_count = polylidar::vertex_count(result);
+  return metrics;
+}
+
 CaseScorer::CaseScorer(std::span<const Point> points, const MultiPolygon& ground_truth)
     : state_(std::make_unique<const State>(points, ground_truth)) {}
 

@@ -28,13 +28,19 @@ struct Metrics {
   std::optional<double> skill;  ///< see anchors.hpp
   double l2_convex_hull = 0;
   double l2_best_triangles = 0;
-  double spacing = 0;  ///< h; see CaseScorer
+  double spacing = 0;     ///< h; see CaseScorer
+  bool has_truth = true;  ///< else only what describe gives is defined
   std::size_t polygon_count = 0;
   std::size_t hole_count = 0;
   std::size_t vertex_count = 0;
   /// Largest resident size of the worker during an untimed run; the harness fills it in.
   std::optional<std::int64_t> peak_memory_bytes;
 };
+
+/// What can be said of `result` where there is no ground truth, as of degenerate input: validity, area,
+/// counts and contract; the ground truth's area and convexity are 0. Throws std::runtime_error when GEOS
+/// fails.
+Metrics describe(std::span<const polylidar::Point> points, const polylidar::MultiPolygon& result);
 
 /// Scores results on one case. What all of them share, such as the anchors of skill, is worked out once.
 class CaseScorer {

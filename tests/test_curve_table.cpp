@@ -1,0 +1,77 @@
+// The table of a plan with an axis.
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "benchmarks/curve_table.hpp"
+#include "benchmarks/tables.hpp"
+#include "invented_shapes.hpp"
+
+namespace hullbench {
+namespace {
+
+using nlohmann::json;
+
+using Cells = std::vector<std::vector<std::string>>;
+
+/// Two shapes at three levels of noise. Polylidar's L2 on the first is 10 % plus ten times the level, on the
+/// second 20 points more.
+json noisy_report() {
+  std::vector<test::InventedShape> shapes;
+  for (const char* shape : {"ca", "hi"}) {
+    for (const char* level : {"2", "0", "0.5"})
+      shapes.push_back({std::string(shape) + "~noise:" + level, 2000, 0.5});
+  }
+  json report = test::report_on_shapes(shapes);
+  report["plan"]["axis"] = {{"of", "noise"}, {"title", "Noise"}, {"unit", "h"}};
+  for (json& run : report.at("runs")) {
+    const std::string dataset = run.at("dataset").get<std::string>();
+    const double level = std::stod(dataset.substr(dataset.find(':') + 1));
+    run["levels"] = {{"noise", level}};
+    if (run.at("status") == "ok")
+      run["metrics"]["l2"] = 0.1 + 0.1 * level + (dataset.starts_with("hi") ? 0.2 : 0);
+  }
+  return report;
+}
+
+TableSection table_of(const json& report) {
+  const Document document = make_document(report);
+  EXPECT_EQ(document.tables.size(), 1U);
+  return document.tables.at(0);
+}
+
+TEST(CurveTable, HasAColumnALevelAndAMedianACell) {
+  const TableSection section = table_of(noisy_report());
+  EXPECT_TRUE(section.id.ends_with("_curves"));
+  const Cells& rows = section.table.rows();
+  EXPECT_EQ(rows.at(0), (std::vector<std::string>{"Noise, h", "0", "0.5", "2", "Failed"}));
+  EXPECT_EQ(rows.at(1), (std::vector<std::string>{"Polylidar (paper)", "20.0", "25.0", "40.0", "0"}));
+}
+
+TEST(CurveTable, AFailureIsInfinitelyBad) {
+  json report = noisy_report();
+  json& run = test::run_on(report, "polylidar", "hi~noise:2");
+  run["status"] = "crash";
+  run["detail"] = "SIGSEGV";
+  const std::vector<std::string> cells = table_of(report).table.rows().at(1);
+  EXPECT_EQ((std::vector<std::string>(cells.begin() + 1, cells.end())),
+            (std::vector<std::string>{"20.0", "25.0", "–", "1"}));
+  EXPECT_EQ(cells[0], "Polylidar (paper) [1]");
+}
+
+TEST(CurveTable, AnAxisOfPointsOrOfWords) {
+  json report = noisy_report();
+  report["plan"]["axis"] = {{"of", "n"}, {"title", "Points"}, {"unit", ""}};
+  EXPECT_EQ(table_of(report).table.rows().at(0), (std::vector<std::string>{"Points", "2000", "Failed"}));
+  report["plan"]["axis"]["of"] = "sampling";
+  test::run_on(report, "polylidar", "hi~noise:2")["dataset"] = "hi";
+  EXPECT_EQ(table_of(report).table.rows().at(0),
+            (std::vector<std::string>{"Points", "noise 2", "noise 0", "noise 0.5", "uniform", "Failed"}));
+  report["plan"]["axis"]["of"] = "gap";
+  EXPECT_EQ(table_of(report).table.rows().at(0), (std::vector<std::string>{"Points", "Failed"}));
+}
+
+}  // namespace
+}  // namespace hullbench
