@@ -42,6 +42,13 @@ void use_up_memory() {
   while (true) blocks.push_back(std::make_unique<char[]>(std::size_t{16} * 1024 * 1024));
 }
 
+/// Takes 64 MiB and gives them back.
+void borrow_memory() {
+  std::vector<char> block(std::size_t{64} * 1024 * 1024, 'x');
+  // Else the compiler may see that nobody looks.
+  if (block[block.size() / 2] != 'x') std::exit(1);
+}
+
 /// Leaves a child that keeps every pipe open, and dies.
 void leave_child_and_crash() {
   if (::fork() == 0) hang();
@@ -146,6 +153,10 @@ bool misbehave_instead(const std::string& mode, const json& request) {
 /// Ways to answer that look right at first.
 void answer_run(const std::string& mode, const json& request) {
   json reply = good_reply(request);
+  if (mode == "borrows_memory_once") {
+    static int count = 0;
+    if (++count == 1) borrow_memory();
+  }
   if (mode == "fork") leave_child_in_other_session(false);
   if (mode == "wrong_nonce") reply["nonce"] = "of yesterday";
   if (mode == "no_phases") reply.erase("phases_ns");

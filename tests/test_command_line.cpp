@@ -345,6 +345,20 @@ TEST_F(CommandLineTest, TablesAndValidateOfWhatIsNotThere) {
   EXPECT_EQ(hullbench({"validate", "report.json"}).code, 1);
 }
 
+TEST_F(CommandLineTest, MetricsAreListed) {
+  const Outcome text = hullbench({"metrics"});
+  EXPECT_EQ(text.code, 0) << text.err;
+  EXPECT_NE(text.out.find("  l2  ratio, lower is better\n"), std::string::npos) << text.out;
+  const Outcome as_json = hullbench({"metrics", "--json"});
+  EXPECT_EQ(as_json.code, 0) << as_json.err;
+  const json table = json::parse(as_json.out);
+  ASSERT_FALSE(table.empty());
+  EXPECT_EQ(table[0]["name"], "valid");
+  EXPECT_EQ(table[0]["better"], "higher");
+  EXPECT_EQ(hullbench({"metrics", "--markdown"}).out.find("### validity\n"), 0U);
+  expect_refusal(hullbench({"metrics", "--json", "--markdown"}), 2, "excludes");
+}
+
 TEST_F(CommandLineTest, ListKnowsEveryMethodAndDataSet) {
   const Outcome outcome =
       hullbench({"list", "--json"}, {{}, {{"HULLBENCH_POSTGIS_DSN", "host=127.0.0.1 port=1"}}, false});

@@ -289,6 +289,13 @@ TEST_F(MergeTest, OfDifferentResultsIsRefused) {
   EXPECT_EQ(hullbench({"merge", "one", "other", "--out", "merged"}).code, 0) << "and would do otherwise";
 }
 
+TEST_F(MergeTest, OfDifferentMemoryIsNotRefused) {
+  run("one", {plan()});
+  run("other", {plan()});
+  change_rows("other", [](json& row) { row["metrics"]["peak_memory_bytes"] = 12345; });
+  EXPECT_EQ(hullbench({"merge", "one", "other", "--out", "merged"}).code, 0);
+}
+
 TEST_F(MergeTest, OfAnUnsteadyMethodIsNotRefused) {
   run("one", {plan()});
   run("other", {plan()});

@@ -137,6 +137,13 @@ TEST_F(RunnerTest, AGoodMethodGetsACompleteRow) {
   // 500 points give a coarse outline, but California it is.
   EXPECT_LT(row.metrics.at("l2").get<double>(), 0.3);
   EXPECT_GT(row.metrics.at("iou").get<double>(), 0.7);
+  EXPECT_GT(row.metrics.at("skill").get<double>(), 0.5);
+  EXPECT_EQ(row.metrics.at("vertices_from_input"), 1.0);
+  EXPECT_EQ(row.metrics.at("oriented"), true);
+  // Not told by every system; a process that runs has some memory.
+  if (row.metrics.at("peak_memory_bytes").is_number()) {
+    EXPECT_GT(row.metrics.at("peak_memory_bytes").get<std::int64_t>(), 100'000);
+  }
   EXPECT_EQ(row.output_sha256.size(), 64U);
 }
 

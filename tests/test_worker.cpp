@@ -59,11 +59,11 @@ class MethodSessionTest : public ::testing::Test {
     return run(timeout);
   }
 
-  Attempt run(std::chrono::milliseconds timeout = 30s) {
+  Attempt run(std::chrono::milliseconds timeout = 30s, Watch watch = Watch::kNothing) {
     const std::vector<Point> points = {{0, 0}, {1, 0}, {1, 1}, {0, 1}};
     write_points_file(folder_.path() / "points", points);
     return session_->run({"square", folder_.path() / "points", points.size()}, {{"size", 1}}, folder_.path(),
-                         timeout);
+                         timeout, watch);
   }
 
   void expect(const std::string& mode, Status status, const std::string& detail,
@@ -90,6 +90,32 @@ TEST_F(MethodSessionTest, AGoodWorkerGivesResultAndTimes) {
   EXPECT_GT(result.elapsed, 1010ns);
   // Only the points are left: results are removed once they are read.
   EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder_.path()), {}), 1);
+}
+
+TEST_F(MethodSessionTest, PeakMemoryIsThatOfTheRunThatIsWatched) {
+  session_ =
+      std::make_unique<MethodSession>(method_of("borrows_memory_once", misbehaving("borrows_memory_once")),
+                                      WorkerLimits{256, std::nullopt, 8});
+  const Attempt large = run(30s, Watch::kMemory);
+  ASSERT_EQ(large.status, Status::kOk) << large.detail;
+  if (!large.peak_memory_bytes) GTEST_SKIP() << "this system does not tell the peak of a process's memory";
+  constexpr std::int64_t kBorrowed = std::int64_t{64} * 1024 * 1024;
+  EXPECT_GT(*large.peak_memory_bytes, kBorrowed);
+  EXPECT_EQ(run().peak_memory_bytes, std::nullopt);
+  const Attempt small = run(30s, Watch::kMemory);
+  EXPECT_GT(small.peak_memory_bytes.value(), 0);
+  EXPECT_LT(small.peak_memory_bytes.value(), *large.peak_memory_bytes - kBorrowed / 2);
+}
+
+TEST_F(MethodSessionTest, PeakMemoryOfAMethodInAServerIsNotKnown) {
+  Method method = described_method("good", misbehaving("good"));
+  method.info->capabilities.in_server = true;
+  session_ = std::make_unique<MethodSession>(method, WorkerLimits{256, std::nullopt, 8});
+  const Attempt result = run(30s, Watch::kMemory);
+  EXPECT_EQ(result.status, Status::kOk) << result.detail;
+  EXPECT_EQ(result.peak_memory_bytes, std::nullopt);
+  EXPECT_TRUE(method_from_json(method_to_json(*method.info)).capabilities.in_server);
+  EXPECT_FALSE(method_from_json(method_to_json(MethodInfo())).capabilities.in_server);
 }
 
 TEST_F(MethodSessionTest, Crash) {
