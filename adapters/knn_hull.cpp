@@ -243,7 +243,7 @@ MethodInfo describe() {
   info.native_output = "ring";
   info.parameters = {
       {.name = "k",
-       .unit = "1",
+       .unit = "count",
        .description = "Neighbours that the first walk looks at, a whole number; more when it fails.",
        .minimum = kFewestNeighbours,
        .maximum = kInfinity,

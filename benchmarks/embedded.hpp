@@ -9,6 +9,9 @@ namespace hullbench {
 extern const std::string_view kRunSchemaJson;       ///< results/run.schema.json
 extern const std::string_view kReportSchemaJson;    ///< results/report.schema.json
 extern const std::string_view kPictureSchemaJson;   ///< results/picture.schema.json
+extern const std::string_view kTuneSchemaJson;      ///< results/tune.schema.json
+extern const std::string_view kSweepSchemaJson;     ///< results/sweep.schema.json
+extern const std::string_view kLeagueSchemaJson;    ///< results/league.schema.json
 extern const std::string_view kPaperJson;           ///< results/paper.json
 extern const std::string_view kManifestSchemaJson;  ///< adapters/process/manifest.schema.json
 

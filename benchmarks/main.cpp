@@ -15,6 +15,7 @@
 #include "benchmarks/gbench_export.hpp"
 #include "benchmarks/hull/hull_command.hpp"
 #include "benchmarks/interrupt.hpp"
+#include "benchmarks/league/league_report.hpp"
 #include "benchmarks/listing.hpp"
 #include "benchmarks/merge.hpp"
 #include "benchmarks/method_catalog.hpp"
@@ -26,6 +27,7 @@
 #include "benchmarks/run_command.hpp"
 #include "benchmarks/run_directory.hpp"
 #include "benchmarks/suite.hpp"
+#include "benchmarks/tune/tune_command.hpp"
 #include "benchmarks/validate.hpp"
 #include "benchmarks/worker.hpp"
 
@@ -65,6 +67,8 @@ struct Arguments {
   bool metrics_json = false;
   bool metrics_markdown = false;
   RunCommand run;
+  TuneCommand tune;
+  LeagueCommand league;
   MergeCommand merge;
   std::string tables_path = "results/latest";
   bool tables_write = false;
@@ -216,6 +220,45 @@ void add_run(CLI::App& app, RunCommand& run) {
   command->add_flag("--dry-run", run.dry_run, "Print the names of the runs and do nothing");
 }
 
+void add_tune(CLI::App& app, TuneCommand& tune) {
+  CLI::App* command = app.add_subcommand(
+      "tune",
+      "Search every method's parameter and say what each way of choosing it costs (nothing is timed)");
+  command
+      ->add_option("PLAN", tune.plans,
+                   "A plan's name (benchmarks/plans) or the path of its JSON file: its cases")
+      ->required();
+  command->add_option(
+      "--methods", tune.methods,
+      "Methods whose name is a match of this regular expression, instead of all built-in ones");
+  command->add_option("--out", tune.out, "Folder for the results instead of one in results/tune");
+  command->add_option("--seed", tune.seed, "Seed of the split into training and test shapes")
+      ->check(CLI::NonNegativeNumber)
+      ->capture_default_str();
+  command
+      ->add_option("--timeout", tune.timeout_s, "Seconds that one evaluation may take, instead of the plan's")
+      ->check(CLI::Range(0.001, 1e6));
+  command->add_option("--jobs", tune.jobs, "Evaluations at a time, instead of one a processor core")
+      ->check(CLI::Range(1, 1024));
+  command->add_option_function<std::string>(
+      "--shard", [&tune](const std::string& text) { tune.shard = parse_shard(text); },
+      "Only part K of N of the cases, given as K/N; when all are done, the same command without it, over the "
+      "folder with their files sweep-K-of-N.jsonl, puts them together");
+  command->add_option("--adapters", tune.adapters, kAdaptersHelp)->allow_extra_args(false);
+}
+
+void add_league(CLI::App& app, LeagueCommand& league) {
+  CLI::App* command = app.add_subcommand(
+      "league", "Say who is the most accurate over the cases of some runs, protocol by protocol");
+  command->add_option("RUN", league.runs, "Folders of runs, or of suites")->required();
+  command->add_option("--out", league.out, "File for it as JSON (results/league.schema.json)");
+  command
+      ->add_option("--seed", league.split_seed, "Seed of the split into training and test shapes, as of tune")
+      ->check(CLI::NonNegativeNumber)
+      ->capture_default_str();
+  command->add_flag("--all-cases", league.all_cases, "Of training shapes too");
+}
+
 void add_merge(CLI::App& app, MergeCommand& merge) {
   CLI::App* command = app.add_subcommand("merge", "Put runs of the same plan, such as its shards, together");
   command->add_option("RUN", merge.sources, "Folders of runs, or of suites")->required();
@@ -322,6 +365,8 @@ void add_commands(CLI::App& app, Arguments& arguments) {
   metrics->add_flag("--markdown", arguments.metrics_markdown, "As benchmarks/metrics/METRICS.md has it")
       ->excludes(as_json);
   add_run(app, arguments.run);
+  add_tune(app, arguments.tune);
+  add_league(app, arguments.league);
   add_merge(app, arguments.merge);
   CLI::App* tables = app.add_subcommand("tables", "Print the tables of a run");
   tables->add_option("RUN", arguments.tables_path, "The run's folder")->capture_default_str();
@@ -338,7 +383,8 @@ void add_commands(CLI::App& app, Arguments& arguments) {
   readme->add_option("RUN", arguments.readme_run, "The run's folder")->required();
   readme->add_option("FILE", arguments.readme_path, "The README")->required();
   readme->add_flag("--check", arguments.readme_check, "Only say whether it has them; exit code 1 when not");
-  app.add_subcommand("validate", "Check a report.json, runs.jsonl or run.json against its schema")
+  app.add_subcommand("validate",
+                     "Check a record of a run, a search or a league (.json, .jsonl) against its schema")
       ->add_option("FILE", arguments.validate_path, "The file")
       ->required();
   app.add_subcommand("worker", "Run one method for another process (see benchmarks/protocol.hpp)")
@@ -353,6 +399,8 @@ int dispatch(const CLI::App& app, const Arguments& arguments) {
   if (app.got_subcommand("list")) return list(arguments.json, arguments.list_adapters);
   if (app.got_subcommand("metrics")) return metrics(arguments.metrics_json, arguments.metrics_markdown);
   if (app.got_subcommand("run")) return run_command(arguments.run);
+  if (app.got_subcommand("league")) return league_command(arguments.league);
+  if (app.got_subcommand("tune")) return tune_command(arguments.tune);
   if (app.got_subcommand("merge")) return merge_command(arguments.merge);
   if (app.got_subcommand("tables"))
     return tables(arguments.tables_path, arguments.tables_write, arguments.tables_export_gbench);

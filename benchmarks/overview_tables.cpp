@@ -43,8 +43,10 @@ std::vector<std::string> datasets_with_values(const json& plan) {
     const json parameters = method.value("parameters", json::object());
     for (const auto& [name, parameter] : parameters.items()) {
       if (!is_given_by_case(parameter)) continue;
-      for (const auto& [shape, unused] : parameter.at("cases").items())
-        names.insert(shape.substr(0, shape.find('/')));
+      for (const auto& [key, unused] : parameter.at("cases").items()) {
+        // Values for one number of points each are the oracle's; nobody reads hundreds of them in a table.
+        if (key.find("/n:") == std::string::npos) names.insert(key.substr(0, key.find('/')));
+      }
     }
   }
   return {names.begin(), names.end()};
@@ -76,14 +78,24 @@ std::string number_text(const json& value) {
   return text.str();
 }
 
-/// "2.0", "2.0; 1.25 with holes", or a rule's formula.
+/// "1.5 √(A_hull/n)", squared "(1.5)² A_hull/n".
+std::string scaled_text(const json& parameter) {
+  const std::string factor = number_text(parameter.at("scaled"));
+  return parameter.value("power", 1) == 2 ? "(" + factor + ")² A_hull/n" : factor + " √(A_hull/n)";
+}
+
+/// "2.0", "2.0; 1.25 with holes", "1.5 √(A_hull/n)", or a rule's formula.
 std::string value_text(const Column& column, const json& parameter) {
   if (parameter.is_object() && parameter.contains("rule")) {
     const std::string rule = parameter.at("rule").get<std::string>();
     return column.report->value("rules", json::object()).value(rule, rule);
   }
+  if (parameter.is_object() && parameter.contains("scaled")) return scaled_text(parameter);
   if (!is_given_by_case(parameter)) return number_text(parameter);
   const json& cases = parameter.at("cases");
+  if (std::any_of(cases.items().begin(), cases.items().end(),
+                  [](const auto& item) { return item.key().find("/n:") != std::string::npos; }))
+    return "case by case";
   const auto plain = cases.find(column.dataset);
   const auto holes = cases.find(column.dataset + "/holes");
   if (plain == cases.end() && holes == cases.end()) return "";

@@ -90,9 +90,13 @@ double holes_switch(const RuleInput& input) {
   return input.holes ? 1.0 : 0.0;
 }
 
+double mean_spacing(std::span<const polylidar::Point> points) {
+  if (points.empty()) return 0;
+  return std::sqrt(convex_hull_area(points) / static_cast<double>(points.size()));
+}
+
 double hull_spacing(const RuleInput& input) {
-  if (input.points.empty()) return 0;
-  return kHullSpacings * std::sqrt(convex_hull_area(input.points) / static_cast<double>(input.points.size()));
+  return kHullSpacings * mean_spacing(input.points);
 }
 
 double hull_spacing_ratio(const RuleInput& input) {

@@ -55,6 +55,11 @@ double paper_target_percent(const RuleInput& input);
 /// hence open to every protocol.
 double holes_switch(const RuleInput& input);
 
+/// sqrt(A / n): the mean spacing of n points spread over the area A of their convex hull, in the unit of the
+/// points. What lengths are given in where no ground truth may be known. 0 for no points and for points
+/// without an area.
+double mean_spacing(std::span<const polylidar::Point> points);
+
 /// `hull_spacing`: 3 * sqrt(A / n), three times the mean spacing of n points spread over the convex hull's
 /// area A: an edge length in the unit of the points, from the points alone. 0 for no points.
 double hull_spacing(const RuleInput& input);

@@ -278,16 +278,31 @@ RuleChoice read_rule(const Node& node, const Protocol& protocol) {
   return {name};
 }
 
-ParameterChoice read_parameter(const Node& node, const Protocol& protocol) {
+/// A number, or infinity for null.
+double read_value(const Node& node) {
   constexpr double kLimit = std::numeric_limits<double>::max();
-  if (node.value().is_number()) return node.number(-kLimit, kLimit);
-  if (!node.value().is_object()) node.fail("must be a number or an object with the key 'rule' or 'cases'");
-  node.only_keys({"rule", "cases"});
-  if (node.has("rule") == node.has("cases")) node.fail("must have either the key 'rule' or the key 'cases'");
+  return node.value().is_null() ? std::numeric_limits<double>::infinity() : node.number(-kLimit, kLimit);
+}
+
+ScaledChoice read_scaled(const Node& node) {
+  ScaledChoice choice;
+  choice.factor = node.at("scaled").number(0, 1e100);
+  if (node.has("power")) choice.power = static_cast<int>(node.at("power").integer(1, 2));
+  return choice;
+}
+
+ParameterChoice read_parameter(const Node& node, const Protocol& protocol) {
+  if (node.value().is_number() || node.value().is_null()) return read_value(node);
+  if (!node.value().is_object())
+    node.fail("must be a number, null or an object with the key 'rule', 'scaled' or 'cases'");
+  node.only_keys({"rule", "scaled", "power", "cases"});
+  if (node.has("rule") + node.has("scaled") + node.has("cases") != 1 ||
+      node.has("power") > node.has("scaled"))
+    node.fail("must have one of the keys 'rule', 'scaled' (with or without 'power') and 'cases'");
   if (node.has("rule")) return read_rule(node.at("rule"), protocol);
+  if (node.has("scaled")) return read_scaled(node);
   CaseChoice choice;
-  for (const auto& [shape, value] : node.at("cases").members())
-    choice.values[shape] = value.number(-kLimit, kLimit);
+  for (const auto& [key, value] : node.at("cases").members()) choice.values[key] = read_value(value);
   return choice;
 }
 
@@ -392,10 +407,21 @@ std::vector<std::string> plan_names(const std::filesystem::path& folder) {
   return names;
 }
 
+json value_to_json(double value) {
+  return std::isfinite(value) ? json(value) : json(nullptr);
+}
+
 json parameter_to_json(const ParameterChoice& choice) {
   if (const auto* rule = std::get_if<RuleChoice>(&choice)) return {{"rule", rule->rule}};
-  if (const auto* cases = std::get_if<CaseChoice>(&choice)) return {{"cases", cases->values}};
-  return std::get<double>(choice);
+  if (const auto* scaled = std::get_if<ScaledChoice>(&choice))
+    return {{"scaled", scaled->factor}, {"power", scaled->power}};
+  json result;
+  if (const auto* cases = std::get_if<CaseChoice>(&choice)) {
+    for (const auto& [key, value] : cases->values) result["cases"][key] = value_to_json(value);
+  } else {
+    result = value_to_json(std::get<double>(choice));
+  }
+  return result;
 }
 
 json method_to_json(const PlanMethod& method) {
@@ -417,12 +443,6 @@ bool is_dataset_of(const PlanCase& plan_case, const std::string& name) {
   if (unstressed == name) return true;
   const auto member = split_member_name(unstressed);
   return member && member->first == name;
-}
-
-bool applies(const PlanMethod& method, const PlanCase& plan_case) {
-  return method.datasets.empty() ||
-         std::any_of(method.datasets.begin(), method.datasets.end(),
-                     [&](const std::string& name) { return is_dataset_of(plan_case, name); });
 }
 
 std::string name_of(const PlanMethod& method, const PlanCase& plan_case) {
@@ -465,6 +485,13 @@ void require_dataset(const PlanCase& plan_case, const std::vector<DatasetInfo>& 
   }
 }
 
+/// The value for a case; null when there is none.
+const double* find_value(const CaseChoice& choice, const PlanCase& plan_case) {
+  auto found = choice.values.find(plan_case.key());
+  if (found == choice.values.end()) found = choice.values.find(plan_case.shape());
+  return found == choice.values.end() ? nullptr : &found->second;
+}
+
 void require_known(const std::string& what, const std::string& name, const std::vector<std::string>& known,
                    const std::string& plan) {
   if (std::find(known.begin(), known.end(), name) != known.end()) return;
@@ -489,7 +516,7 @@ void require_values(const Plan& plan, const PlanMethod& method) {
     if (!applies(method, plan_case)) continue;
     for (const auto& [name, choice] : method.parameters) {
       const auto* cases = std::get_if<CaseChoice>(&choice);
-      if (!cases || cases->values.contains(plan_case.shape())) continue;
+      if (!cases || find_value(*cases, plan_case)) continue;
       throw ConfigurationError("the plan '" + plan.name + "' gives " + method.method + " no '" + name +
                                "' for " + plan_case.shape() + "; add it to the parameter's cases");
     }
@@ -627,6 +654,12 @@ void use_recordings(Plan& plan, std::size_t count) {
   read_cases(Node(plan.cases, "plan '" + plan.name + "' with recordings", "cases"), plan.expanded_cases);
 }
 
+bool applies(const PlanMethod& method, const PlanCase& plan_case) {
+  return method.datasets.empty() ||
+         std::any_of(method.datasets.begin(), method.datasets.end(),
+                     [&](const std::string& name) { return is_dataset_of(plan_case, name); });
+}
+
 int repetitions_of(const Plan& plan, const PlanMethod& method) {
   return method.repetitions.value_or(plan.repetitions);
 }
@@ -657,8 +690,13 @@ std::map<std::string, double> choose_parameters(const PlanMethod& method, const 
   for (const auto& [name, choice] : method.parameters) {
     if (const auto* rule = std::get_if<RuleChoice>(&choice)) {
       result[name] = find_rule(rule->rule)->value(input);
+    } else if (const auto* scaled = std::get_if<ScaledChoice>(&choice)) {
+      const double length = scaled->factor * mean_spacing(input.points);
+      result[name] = scaled->power == 2 ? length * length : length;
     } else if (const auto* cases = std::get_if<CaseChoice>(&choice)) {
-      result[name] = cases->values.at(plan_case.shape());
+      const double* value = find_value(*cases, plan_case);
+      if (value == nullptr) throw std::out_of_range("no value of '" + name + "' for " + plan_case.key());
+      result[name] = *value;
     } else {
       result[name] = std::get<double>(choice);
     }

@@ -8,14 +8,19 @@
 //                 "repetitions": 3, "timeout_s": 60, "mem_limit_mib": 1024, "parameters": {"alpha":
 //                 PARAMETER}}]}
 //
-// PARAMETER is a number, {"rule": NAME} (parameter_rules.hpp) or {"cases": {"ca": 2.0, "ca/holes": 1.25}}.
-// A case's "dataset" is one name or a list of names; a list stands for the same case once for each name, in
-// its order. With "members": 200 the name is a family's and stands for its members from 1 to 200 ("star-1",
-// ..., "star-200"). With "stress": ["noise:0", "noise:0.5"] every name stands for the data sets with these
-// (stress.hpp): "ca~noise:0", "ca~noise:0.5". A method's own repetitions and limits take the place of the
-// plan's; with several protocols it has one worker, so all its entries must name the same "mem_limit_mib".
-// Without "n" the data set's own points are used, which only some have. Only `name`, `cases` and `methods`
-// are required; a key that is not listed here is an error.
+// PARAMETER is a VALUE, {"rule": NAME} (parameter_rules.hpp), {"scaled": 1.5} or {"cases": {"ca": 2.0,
+// "ca/holes": 1.25, "ca/n:2000": 1.5, "ca/holes/n:2000": null}}. A VALUE is a number, or null for no limit
+// (infinity). "scaled" is a length in mean spacings of the points over their convex hull (mean_spacing in
+// parameter_rules.hpp), which any protocol may use as it reads the points alone; with "power": 2 it is
+// squared after that, for parameters that are a squared length. Of a case's keys the one with its number of
+// points (n:all for a data set's own) goes before the one without. A case's "dataset" is one name or a list
+// of names; a list stands for the same case once for each name, in its order. With "members": 200 the name is
+// a family's and stands for its members from 1 to 200 ("star-1", ..., "star-200"). With "stress":
+// ["noise:0", "noise:0.5"] every name stands for the data sets with these (stress.hpp): "ca~noise:0",
+// "ca~noise:0.5". A method's own repetitions and limits take the place of the plan's; with several protocols
+// it has one worker, so all its entries must name the same "mem_limit_mib". Without "n" the data set's own
+// points are used, which only some have. Only `name`, `cases` and `methods` are required; a key that is not
+// listed here is an error.
 #pragma once
 
 #include <cstddef>
@@ -57,17 +62,25 @@ struct PlanCase {
 
   /// "ca" or "ca/holes": the key of parameters that are given case by case.
   std::string shape() const { return holes ? dataset + "/holes" : dataset; }
+
+  /// "ca/holes/n:2000", or "floor-1/n:all": the key that is this case's alone.
+  std::string key() const { return shape() + "/n:" + (n == 0 ? "all" : std::to_string(n)); }
 };
 
 /// {"rule": NAME}
 struct RuleChoice {
   std::string rule;
 };
-/// {"cases": {SHAPE: VALUE}}
+/// {"scaled": FACTOR, "power": POWER}: (FACTOR * mean_spacing) ^ POWER
+struct ScaledChoice {
+  double factor = 0;
+  int power = 1;  ///< 1, or 2 for a parameter that is a squared length
+};
+/// {"cases": {SHAPE or SHAPE/n:N: VALUE}}
 struct CaseChoice {
   std::map<std::string, double> values;
 };
-using ParameterChoice = std::variant<double, RuleChoice, CaseChoice>;
+using ParameterChoice = std::variant<double, RuleChoice, ScaledChoice, CaseChoice>;
 
 /// One method with one way of choosing its parameters.
 struct PlanMethod {
@@ -126,6 +139,9 @@ void add_methods(Plan& plan, const std::vector<PlanMethod>& methods);
 
 /// The plan as JSON, complete: parsing it gives the same plan.
 nlohmann::json plan_to_json(const Plan& plan);
+
+/// Whether an entry of `method` is measured on the case: it keeps to no other data sets.
+bool applies(const PlanMethod& method, const PlanCase& plan_case);
 
 /// Throws ConfigurationError for a method or data set that is not among the known ones, for a case without a
 /// place on the plan's axis, for holes in a data

@@ -16,14 +16,13 @@
 #include "benchmarks/method_catalog.hpp"
 #include "benchmarks/plan.hpp"
 #include "benchmarks/report.hpp"
-#include "benchmarks/revision.hpp"
 #include "benchmarks/run_directory.hpp"
 #include "benchmarks/stray_processes.hpp"
 #include "benchmarks/suite.hpp"
+#include "benchmarks/tool_description.hpp"
 #include "benchmarks/worker_process.hpp"
 #include "datasets/datasets.hpp"
 #include "datasets/rgbd/recordings.hpp"
-#include "datasets/sha256.hpp"
 
 namespace hullbench {
 namespace {
@@ -65,15 +64,6 @@ Experiment make_experiment(const std::string& name, const RunCommand& command, c
   std::string filter = command.filter.empty() ? plan.filter : command.filter;
   std::vector<PlannedRun> runs = planned_runs(plan, filter);
   return {std::move(plan), std::move(filter), std::move(runs)};
-}
-
-json describe_tool() {
-  const Revision built_from = revision();
-  return {{"name", "hullbench"},
-          {"version", HULLBENCH_VERSION},
-          {"commit", built_from.commit ? json(*built_from.commit) : json(nullptr)},
-          {"dirty", built_from.dirty ? json(*built_from.dirty) : json(nullptr)},
-          {"binary_sha256", sha256_file("/proc/self/exe")}};
 }
 
 /// The formula of every rule that the plan names.

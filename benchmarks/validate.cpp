@@ -1,6 +1,7 @@
 #include "benchmarks/validate.hpp"
 
 #include <fstream>
+#include <map>
 #include <memory>
 #include <set>
 #include <sstream>
@@ -97,9 +98,21 @@ std::vector<std::string> faults(const valijson::Schema& schema, const json& docu
   return sentences;
 }
 
-/// A line of a run's JSON lines is a row, or what is drawn of one.
-std::vector<std::string> validate_line(const json& line) {
-  return line.is_object() && line.contains("kind") ? validate_picture(line) : validate_run(line);
+/// The schema of what says its `kind`: lines of pictures.jsonl and sweep.jsonl, tune.json and league.json.
+/// Null for any other.
+const valijson::Schema* schema_of_kind(const json& document) {
+  static const auto picture = parse_schema(kPictureSchemaJson);
+  static const auto evaluation = parse_schema(kSweepSchemaJson);
+  static const auto tuning = parse_schema(kTuneSchemaJson);
+  static const auto league = parse_schema(kLeagueSchemaJson);
+  static const std::map<std::string, const valijson::Schema*> schemas = {{"case", picture.get()},
+                                                                         {"result", picture.get()},
+                                                                         {"evaluation", evaluation.get()},
+                                                                         {"tuning", tuning.get()},
+                                                                         {"league", league.get()}};
+  if (!document.is_object() || !document.contains("kind") || !document["kind"].is_string()) return nullptr;
+  const auto found = schemas.find(document["kind"].get<std::string>());
+  return found == schemas.end() ? nullptr : found->second;
 }
 
 std::vector<std::string> validate_lines(const std::filesystem::path& path) {
@@ -107,7 +120,9 @@ std::vector<std::string> validate_lines(const std::filesystem::path& path) {
   const JsonLines lines = load_json_lines(path);
   std::vector<std::string> result;
   for (std::size_t index = 0; index < lines.lines.size(); ++index) {
-    for (const std::string& fault : validate_line(lines.lines[index])) {
+    const json& line = lines.lines[index];
+    const valijson::Schema* schema = schema_of_kind(line);
+    for (const std::string& fault : schema != nullptr ? faults(*schema, line) : validate_run(line)) {
       result.push_back("Record " + std::to_string(index + 1) + ": " + fault);
     }
   }
@@ -137,9 +152,10 @@ std::vector<std::string> validate_run(const json& run) {
   return faults(*schema, run);
 }
 
-std::vector<std::string> validate_picture(const json& picture) {
-  static const std::unique_ptr<valijson::Schema> schema = parse_schema(kPictureSchemaJson);
-  return faults(*schema, picture);
+std::vector<std::string> validate_by_kind(const json& document) {
+  const valijson::Schema* schema = schema_of_kind(document);
+  if (schema == nullptr) throw std::invalid_argument("there is no schema for this kind of document");
+  return faults(*schema, document);
 }
 
 std::vector<std::string> validate_manifest(const json& manifest) {
@@ -157,6 +173,7 @@ std::vector<std::string> validate_file(const std::filesystem::path& path) {
   try {
     json document = json::parse(content.str());
     if (document.is_object() && document.contains("manifest_version")) return validate_manifest(document);
+    if (schema_of_kind(document) != nullptr) return validate_by_kind(document);
     if (path.filename() == "run.json" && document.is_object()) complete_run_description(document);
     return validate_report(document);
   } catch (const json::parse_error& error) {

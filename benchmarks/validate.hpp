@@ -8,10 +8,11 @@
 
 namespace hullbench {
 
-/// The faults of a report (`*.json`), of a manifest (`manifest_version`), of a run's description (`run.json`)
-/// or of the lines of a runs or a pictures file (`*.jsonl`), one sentence each with the place as a JSON
-/// pointer; empty when the file is valid. A torn last line of a runs file is a fault. Throws
-/// std::runtime_error naming the file when it cannot be read or is not JSON.
+/// The faults of a report (`*.json`), of a manifest (`manifest_version`), of a run's description
+/// (`run.json`), of a search's summary or a league (by their `kind`), or of the lines of a runs, a pictures or
+/// a sweep file (`*.jsonl`), one sentence each with the place as a JSON pointer; empty when the file is valid.
+/// A torn last line of a runs file is a fault. Throws std::runtime_error naming the file when it cannot be
+/// read or is not JSON.
 std::vector<std::string> validate_file(const std::filesystem::path& path);
 
 /// The same of a report in memory.
@@ -23,7 +24,8 @@ std::vector<std::string> validate_manifest(const nlohmann::json& manifest);
 /// The same of one line of runs.jsonl.
 std::vector<std::string> validate_run(const nlohmann::json& run);
 
-/// The same of one line of pictures.jsonl.
-std::vector<std::string> validate_picture(const nlohmann::json& picture);
+/// The same of what says its `kind`: a line of pictures.jsonl or sweep.jsonl, tune.json, league.json. Throws
+/// std::invalid_argument for any other document.
+std::vector<std::string> validate_by_kind(const nlohmann::json& document);
 
 }  // namespace hullbench

@@ -27,6 +27,8 @@ add_dependencies(test_runner misbehaving_worker hullbench)
 
 hullbench_test(test_pictures SOURCES test_pictures.cpp
   LIBRARIES hullbench::runner hullbench::report hullbench_test_program LABELS harness)
+hullbench_test(test_league SOURCES test_league.cpp
+  LIBRARIES hullbench::league hullbench::tune hullbench::report LABELS harness)
 hullbench_test(test_suite SOURCES test_suite.cpp LIBRARIES hullbench::record hullbench_test_program LABELS harness)
 hullbench_test(test_readme SOURCES test_readme.cpp
   LIBRARIES hullbench::runner hullbench_invented_run hullbench_test_program LABELS harness)
@@ -46,6 +48,14 @@ foreach(part IN ITEMS pictures suite readme compare gbench_export)
   target_compile_definitions(test_${part} PRIVATE HULLBENCH="$<TARGET_FILE:hullbench>")
   add_dependencies(test_${part} hullbench)
 endforeach()
+
+# The search for parameters.
+hullbench_test(test_tune_search SOURCES test_tune_search.cpp LIBRARIES hullbench::tune LABELS harness)
+hullbench_test(test_tune SOURCES test_tune.cpp
+  LIBRARIES hullbench::record hullbench::runner hullbench::metrics hullbench_test_program LABELS harness)
+target_compile_definitions(test_tune PRIVATE
+  HULLBENCH="$<TARGET_FILE:hullbench>" HULLBENCH_SOURCE_DIRECTORY="${PROJECT_SOURCE_DIR}")
+add_dependencies(test_tune hullbench)
 
 hullbench_test(test_command_line SOURCES test_command_line.cpp
   LIBRARIES hullbench::record hullbench_test_program LABELS harness)
@@ -80,7 +90,8 @@ hullbench_adapter_registry(adapters_with_sample)
 add_executable(hullbench_with_sample)
 set_target_properties(hullbench_with_sample PROPERTIES RUNTIME_OUTPUT_DIRECTORY "${CMAKE_BINARY_DIR}/tests")
 target_link_libraries(hullbench_with_sample PRIVATE
-  hullbench_program adapters_with_sample hullbench::runner hullbench::hull hullbench::report hullbench::hash)
+  hullbench_program adapters_with_sample hullbench::runner hullbench::hull hullbench::report hullbench::tune
+  hullbench::league   hullbench::hash)
 add_test(NAME sample_method.keeps_the_contract COMMAND hullbench_with_sample adapter test sample_hull)
 
 # Real methods, the harness and all. Two of them break one point, which is a row of its own in every table.

@@ -117,6 +117,16 @@ TEST(ParametersTable, HasValuesGivenByCaseAColumnADataSet) {
                               {"SpatiaLite (paper)", "c", "2; 1.25 with holes", "3 with holes"}}));
 }
 
+TEST(ParametersTable, SaysWhatWasChosenForTheShapeAlone) {
+  const json cases = {{"ca/n:2000", 2.0}, {"ca/holes/n:2000", nullptr}};
+  const json report =
+      report_with_methods({method("polylidar", "paper", {{"alpha", {{"scaled", 1.5}, {"power", 1}}}}),
+                           method("spatialite", "paper", {{"c", {{"cases", cases}}}})});
+  const TextTable table = parameters_table({report}).table;
+  EXPECT_EQ(row_of(table, {"Polylidar (paper)"})[2], "1.5 √(A_hull/n)");
+  EXPECT_EQ(row_of(table, {"SpatiaLite (paper)"})[2], "case by case");
+}
+
 TEST(ParametersTable, SaysAValueOnceThatHolesDoNotChange) {
   const json cases = {{"ca", 2.0}, {"ca/holes", 2.0}, {"hi", 4}};
   const json report = report_with_methods({method("spatialite", "paper", {{"c", {{"cases", cases}}}})});

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <fstream>
+#include <limits>
 #include <set>
 #include <string>
 #include <utility>
@@ -116,6 +117,37 @@ TEST(Plan, SurvivesJson) {
   const json once = plan_to_json(parse_plan(source.dump(), "here"));
   EXPECT_EQ(plan_to_json(parse_plan(once.dump(), "there")), once);
   for (const auto& [key, value] : source.items()) EXPECT_EQ(once.at(key), value) << key;
+}
+
+TEST(Plan, AParameterCanBeScaledByTheSpacingOfThePoints) {
+  json source = small_plan();
+  source["methods"][0]["protocol"] = "tuned";  // which may not read the ground truth
+  source["methods"][0]["parameters"] = {
+      {"alpha", {{"scaled", 1.5}}}, {"area", {{"scaled", 1.5}, {"power", 2}}}, {"max_edge_length", nullptr}};
+  const Plan plan = parse_plan(source.dump(), "here");
+  const std::vector<polylidar::Point> points = {{0, 0}, {6, 0}, {6, 6}, {0, 6}};  // spacing 3
+  const auto chosen = choose_parameters(plan.methods[0], plan.expanded_cases[0], {points, 1, false, {}});
+  EXPECT_DOUBLE_EQ(chosen.at("alpha"), 4.5);
+  EXPECT_DOUBLE_EQ(chosen.at("area"), 20.25);
+  EXPECT_EQ(chosen.at("max_edge_length"), std::numeric_limits<double>::infinity());
+  const json once = plan_to_json(plan);
+  EXPECT_EQ(plan_to_json(parse_plan(once.dump(), "there")), once);
+}
+
+TEST(Plan, AValueForOneNumberOfPointsGoesBeforeTheShapes) {
+  json source = small_plan();
+  source["methods"][1]["parameters"]["c"]["cases"] = {
+      {"ca", 2.0}, {"ca/n:500", 3.0}, {"ca/holes/n:500", nullptr}, {"ca/holes/n:1000", 5.0}};
+  const Plan plan = parse_plan(source.dump(), "here");
+  check_plan(plan, kMethods, known_datasets());
+  std::vector<double> values;
+  for (const PlanCase& plan_case : plan.expanded_cases)
+    values.push_back(choose_parameters(plan.methods[1], plan_case, {}).at("c"));
+  EXPECT_EQ(values, (std::vector<double>{3, 2, std::numeric_limits<double>::infinity(), 5}));
+  const json once = plan_to_json(plan);
+  EXPECT_EQ(plan_to_json(parse_plan(once.dump(), "there")), once);
+  source["methods"][1]["parameters"]["c"]["cases"].erase("ca/holes/n:1000");
+  EXPECT_THROW(check_plan(parse_plan(source.dump(), "here"), kMethods, known_datasets()), ConfigurationError);
 }
 
 TEST(Plan, RunsComeCaseByCaseWithTheirNames) {
@@ -295,10 +327,15 @@ TEST(Plan, WrongPlansAreRefusedWithTheirPlace) {
        "methods[2] gives 'polylidar' another mem_limit_mib than its other entry"},
       {"/methods/0/datasets", {"mars"}, "keep to the data set 'mars', of which it has no case"},
       {"/methods/0/parameters/alpha", "big",
-       "methods[0].parameters.alpha must be a number or an object with the key"},
+       "methods[0].parameters.alpha must be a number, null or an object with the key"},
+      {"/methods/0/parameters/alpha",
+       {{"scaled", -1}},
+       "methods[0].parameters.alpha.scaled must be a number"},
+      {"/methods/0/parameters/alpha", {{"scaled", 1}, {"power", 3}}, "alpha.power must be a whole number"},
+      {"/methods/0/parameters/alpha", {{"power", 2}}, "must have one of the keys 'rule', 'scaled'"},
       {"/methods/0/parameters/alpha/rule", "mine", "names the unknown rule 'mine'; known are paper_alpha"},
       {"/methods/0/parameters/alpha/cases", json::object(),
-       "must have either the key 'rule' or the key 'cases'"},
+       "must have one of the keys 'rule', 'scaled' (with or without 'power') and 'cases'"},
       {"/methods/1/parameters/c/cases", {{"ca", 2}}, "gives spatialite no 'c' for ca/holes"},
       {"/methods/1/parameters/c/cases/ca", "2", "methods[1].parameters.c.cases.ca must be a number"},
   };

@@ -1,0 +1,276 @@
+#include "benchmarks/league/league.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <set>
+#include <stdexcept>
+#include <tuple>
+#include <utility>
+
+#include "benchmarks/pictures.hpp"
+#include "benchmarks/protocol.hpp"
+#include "benchmarks/statistics.hpp"
+#include "benchmarks/tune/split.hpp"
+
+namespace hullbench {
+namespace {
+
+using nlohmann::json;
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+/// What stands for infinity in medians and intervals, which need numbers.
+constexpr double kHuge = 1e300;
+
+/// The rows of one method and protocol, by case.
+using RowsByCase = std::map<std::string, const json*>;
+using Entrant = std::pair<std::string, std::string>;  ///< method, protocol
+
+bool is_ok(const json& row) {
+  return row.at("status") == "ok";
+}
+
+std::optional<double> metric(const json& row, const char* name) {
+  const json& metrics = row.at("metrics");
+  const auto found = metrics.find(name);
+  if (found == metrics.end() || !found->is_number()) return std::nullopt;
+  return found->get<double>();
+}
+
+std::string shape_of(const json& row) {
+  const std::string dataset = row.at("dataset").get<std::string>();
+  return row.value("base_shape", dataset);
+}
+
+/// What the rows of all methods say of a case.
+struct CaseFacts {
+  std::string shape;
+  bool scored = false;     ///< there is a ground truth
+  bool has_holes = false;  ///< the ground truth has
+};
+
+void learn(CaseFacts& facts, const json& row) {
+  facts.shape = shape_of(row);
+  if (const auto area = metric(row, "ground_truth_area"); area && *area > 0) facts.scored = true;
+  const auto holes = metric(row, "holes");
+  const auto error = metric(row, "holes_error");
+  if (holes && error && *holes - *error > 0) facts.has_holes = true;
+}
+
+/// All rows, sorted.
+struct Field {
+  std::map<Entrant, RowsByCase> rows;
+  std::map<std::string, CaseFacts> cases;
+  std::set<std::string> accepted;  ///< statuses that a plan without ground truth accepts
+  std::vector<std::string> not_installed;
+};
+
+Field sort_rows(const std::vector<json>& reports, std::uint64_t split_seed, bool test_only) {
+  Field field;
+  std::set<std::string> installed;
+  std::set<std::string> missing;
+  for (const json& report : reports) {
+    for (const json& status : report.at("plan").value("accepted", json::array()))
+      field.accepted.insert(status.get<std::string>());
+    for (const json& row : report.at("runs")) {
+      if (test_only && side_of(shape_of(row), split_seed) != Side::kTest) continue;
+      const std::string method = row.at("method").get<std::string>();
+      if (row.at("status") == "not_installed") {
+        missing.insert(method);
+        continue;
+      }
+      installed.insert(method);
+      const std::string name =
+          case_of_run(row.at("name").get<std::string>()) + "/seed:" + row.at("seed").dump();
+      field.rows[{method, row.at("protocol").get<std::string>()}].emplace(name, &row);
+      learn(field.cases[name], row);
+    }
+  }
+  std::set_difference(missing.begin(), missing.end(), installed.begin(), installed.end(),
+                      std::back_inserter(field.not_installed));
+  return field;
+}
+
+double from_huge(double value) {
+  if (value >= kHuge / 2) return kInfinity;
+  return value <= -kHuge / 2 ? -kInfinity : value;
+}
+
+/// The median of the values of all shapes; none without a value.
+std::optional<MedianScore> median_score(const std::map<std::string, std::vector<double>>& by_shape) {
+  std::vector<double> all;
+  std::vector<std::vector<double>> clusters;
+  for (const auto& [shape, values] : by_shape) {
+    all.insert(all.end(), values.begin(), values.end());
+    clusters.push_back(values);
+  }
+  if (all.empty()) return std::nullopt;
+  MedianScore score = {all.size(), from_huge(median(all)), clustered_median_interval(clusters)};
+  if (score.interval)
+    score.interval = Interval{from_huge(score.interval->low), from_huge(score.interval->high)};
+  return score;
+}
+
+/// l2 of a row; kHuge for a failure.
+double error_of(const json& row) {
+  return is_ok(row) ? metric(row, "l2").value_or(kHuge) : kHuge;
+}
+
+/// Values of an entry by shape, for the medians.
+class Samples {
+ public:
+  void add(const std::string& shape, std::optional<double> value) {
+    if (value) values_[shape].push_back(*value);
+  }
+  std::optional<MedianScore> score() const { return median_score(values_); }
+
+ private:
+  std::map<std::string, std::vector<double>> values_;
+};
+
+std::optional<double> skill_of(const json& row, bool ok) {
+  return ok ? metric(row, "skill") : std::optional(-kHuge);
+}
+
+std::optional<double> hole_f1_of(const json& row, bool ok, const CaseFacts& facts) {
+  if (!facts.has_holes) return std::nullopt;
+  return ok ? metric(row, "hole_f1").value_or(0) : 0;
+}
+
+std::optional<double> regret_of(double error, const std::string& name, const RowsByCase* oracle) {
+  if (oracle == nullptr) return std::nullopt;
+  const auto best = oracle->find(name);
+  if (best == oracle->end() || error_of(*best->second) >= kHuge) return std::nullopt;
+  return error >= kHuge ? kHuge : error - error_of(*best->second);
+}
+
+LeagueEntry make_entry(const Field& field, const Entrant& entrant, const RowsByCase& rows) {
+  LeagueEntry entry;
+  entry.method = entrant.first;
+  entry.protocol = entrant.second;
+  const auto oracle = field.rows.find({entrant.first, "oracle"});
+  Samples l2;
+  Samples skill;
+  Samples hole_f1;
+  Samples regret;
+  for (const auto& [name, row] : rows) {
+    const CaseFacts& facts = field.cases.at(name);
+    const std::string status = row->at("status").get<std::string>();
+    const double error = error_of(*row);
+    const bool ok = error < kHuge;
+    if (!facts.scored) {
+      ++entry.unscored_cases;
+      if (status != "ok" && !field.accepted.contains(status)) ++entry.unscored_failures;
+      continue;
+    }
+    ++entry.cases;
+    if (!ok) {
+      ++entry.failures;
+      ++entry.failures_by_status[status];
+    }
+    l2.add(facts.shape, error);
+    skill.add(facts.shape, skill_of(*row, ok));
+    hole_f1.add(facts.shape, hole_f1_of(*row, ok, facts));
+    regret.add(facts.shape, regret_of(error, name, oracle == field.rows.end() ? nullptr : &oracle->second));
+  }
+  entry.l2 = l2.score();
+  entry.skill = skill.score();
+  entry.hole_f1 = hole_f1.score();
+  entry.regret = regret.score();
+  return entry;
+}
+
+std::size_t place_of_protocol(const std::string& protocol) {
+  static const std::vector<std::string> order = {"auto", "default", "tuned", "paper", "oracle"};
+  return static_cast<std::size_t>(std::find(order.begin(), order.end(), protocol) - order.begin());
+}
+
+std::string group_of(const std::string& protocol) {
+  if (protocol == "auto" || protocol == "default") return "blind";
+  return protocol == "paper" ? "informed" : protocol;
+}
+
+/// The names of the scored cases that all of `entrants` have.
+std::vector<std::string> common_cases(const Field& field, const std::vector<Entrant>& entrants) {
+  std::vector<std::string> result;
+  for (const auto& [name, facts] : field.cases) {
+    const std::string& key = name;
+    const bool common = std::all_of(entrants.begin(), entrants.end(), [&](const Entrant& entrant) {
+      return field.rows.at(entrant).contains(key);
+    });
+    if (facts.scored && common) result.push_back(name);
+  }
+  return result;
+}
+
+LeagueProfile make_profile(const Field& field, const std::string& group,
+                           const std::vector<Entrant>& entrants) {
+  LeagueProfile profile;
+  profile.group = group;
+  for (const auto& [method, protocol] : entrants)
+    profile.curves.push_back({method, protocol, std::vector<double>(league_taus().size(), 0.0)});
+  for (const std::string& name : common_cases(field, entrants)) {
+    std::vector<double> errors;
+    errors.reserve(entrants.size());
+    for (const Entrant& entrant : entrants) errors.push_back(error_of(*field.rows.at(entrant).at(name)));
+    const double best = *std::min_element(errors.begin(), errors.end());
+    if (best >= kHuge) continue;
+    ++profile.cases;
+    for (std::size_t i = 0; i < errors.size(); ++i) {
+      for (std::size_t k = 0; k < league_taus().size(); ++k) {
+        if (errors[i] < kHuge && errors[i] <= league_taus()[k] * best) profile.curves[i].shares[k] += 1;
+      }
+    }
+  }
+  for (LeagueProfile::Curve& curve : profile.curves) {
+    for (double& share : curve.shares) share /= static_cast<double>(std::max<std::size_t>(1, profile.cases));
+  }
+  return profile;
+}
+
+std::vector<LeagueProfile> make_profiles(const Field& field) {
+  std::map<std::string, std::vector<Entrant>> groups;
+  for (const auto& [entrant, rows] : field.rows) groups[group_of(entrant.second)].push_back(entrant);
+  std::vector<LeagueProfile> profiles;
+  for (const char* group : {"blind", "tuned", "informed", "oracle"}) {
+    const auto found = groups.find(group);
+    if (found != groups.end()) profiles.push_back(make_profile(field, group, found->second));
+  }
+  return profiles;
+}
+
+}  // namespace
+
+const std::vector<double>& league_taus() {
+  static const std::vector<double> taus = {1, 1.05, 1.1, 1.2, 1.35, 1.5, 1.75, 2, 2.5, 3, 4, 5, 7, 10};
+  return taus;
+}
+
+League make_league(const std::vector<json>& reports, std::uint64_t split_seed, bool test_only) {
+  const Field field = sort_rows(reports, split_seed, test_only);
+  if (field.rows.empty())
+    throw std::runtime_error(test_only ? "no run is of a test shape; measure more shapes, or take all cases"
+                                       : "there is no run of an installed method");
+  League league;
+  league.split_seed = split_seed;
+  league.test_only = test_only;
+  league.not_installed = field.not_installed;
+  std::set<std::string> shapes;
+  for (const auto& [name, facts] : field.cases) {
+    if (!facts.scored) continue;
+    ++league.cases;
+    shapes.insert(facts.shape);
+  }
+  league.shapes = shapes.size();
+  for (const auto& [entrant, rows] : field.rows) league.entries.push_back(make_entry(field, entrant, rows));
+  const auto key = [](const LeagueEntry& entry) {
+    return std::make_tuple(place_of_protocol(entry.protocol), entry.l2 ? entry.l2->median : kInfinity,
+                           entry.method);
+  };
+  std::sort(league.entries.begin(), league.entries.end(),
+            [&](const LeagueEntry& a, const LeagueEntry& b) { return key(a) < key(b); });
+  league.profiles = make_profiles(field);
+  return league;
+}
+
+}  // namespace hullbench

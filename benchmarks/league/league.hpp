@@ -1,0 +1,77 @@
+// Who is the most accurate over many shapes and ways to sample them: medians with intervals, and performance
+// profiles.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "benchmarks/bootstrap.hpp"
+
+namespace hullbench {
+
+/// A median over cases, and how well it is known.
+struct MedianScore {
+  std::size_t cases = 0;  ///< that it is of
+  double median = 0;  ///< infinite where the middle is a failure: to +infinity or, of a skill, to -infinity
+  std::optional<Interval> interval;  ///< by base shape (bootstrap.hpp); an end may be infinite
+};
+
+/// A method under one protocol.
+struct LeagueEntry {
+  std::string method;
+  std::string protocol;
+  std::size_t cases = 0;     ///< with a ground truth
+  std::size_t failures = 0;  ///< of these without a valid result; infinitely bad in every median below
+  std::map<std::string, std::size_t> failures_by_status;
+  /// Cases without a ground truth, such as degenerate input, and those of them that did not end in a way that
+  /// the plan accepts.
+  std::size_t unscored_cases = 0;
+  std::size_t unscored_failures = 0;
+  std::optional<MedianScore> l2;       ///< of all cases
+  std::optional<MedianScore> skill;    ///< of the cases on which it is defined
+  std::optional<MedianScore> hole_f1;  ///< of the cases whose ground truth has holes; a failure has 0
+  /// l2 minus the same method's under the protocol `oracle`, of the cases on which that has a result; none
+  /// where it was not measured.
+  std::optional<MedianScore> regret;
+};
+
+/// A performance profile (Dolan and More, Benchmarking Optimization Software with Performance Profiles,
+/// 2002): on which share of the cases an entry's l2 is at most tau times the smallest one of its group.
+struct LeagueProfile {
+  /// Who knows as much: "blind" (default and auto: the points only), "tuned" (other shapes), "informed"
+  /// (paper: the ground truth's area), "oracle" (the ground truth).
+  std::string group;
+  std::size_t cases = 0;  ///< that all of its entries have, and on which one has a result
+  struct Curve {
+    std::string method;
+    std::string protocol;
+    std::vector<double> shares;  ///< at each of league_taus(); a failure is in none
+  };
+  std::vector<Curve> curves;
+};
+
+/// The taus of a profile: from 1, where the best one is, to 10.
+const std::vector<double>& league_taus();
+
+struct League {
+  std::uint64_t split_seed = 1;
+  bool test_only = true;             ///< on the cases of test shapes only (benchmarks/tune/split.hpp)
+  std::size_t shapes = 0;            ///< base shapes that the cases are of
+  std::size_t cases = 0;             ///< with a ground truth
+  std::vector<LeagueEntry> entries;  ///< by protocol in the order of the tables, and by l2
+  std::vector<LeagueProfile> profiles;
+  std::vector<std::string> not_installed;  ///< methods of which there is no row but that
+};
+
+/// The league of the runs in `reports` (as make_report gives them), which may be of several plans. Of a run
+/// that several reports have, the first counts. With `test_only` only cases of shapes on the test side of the
+/// split with that seed: what was fitted or chosen on training shapes is judged on others. Throws
+/// std::runtime_error when no row is left.
+League make_league(const std::vector<nlohmann::json>& reports, std::uint64_t split_seed, bool test_only);
+
+}  // namespace hullbench

@@ -1,0 +1,236 @@
+#include "benchmarks/league/league_report.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <iostream>
+#include <map>
+#include <set>
+#include <stdexcept>
+
+#include "benchmarks/labels.hpp"
+#include "benchmarks/number_format.hpp"
+#include "benchmarks/plan.hpp"
+#include "benchmarks/report.hpp"
+#include "benchmarks/suite.hpp"
+
+namespace hullbench {
+namespace {
+
+using nlohmann::json;
+
+constexpr const char* kDash = "–";
+
+json finite_or_null(double value) {
+  return std::isfinite(value) ? json(value) : json(nullptr);
+}
+
+void add_score(json& entry, const std::string& name, const std::optional<MedianScore>& score) {
+  entry[name + "_median"] = score ? finite_or_null(score->median) : json(nullptr);
+  entry[name + "_interval"] =
+      score && score->interval
+          ? json::array({finite_or_null(score->interval->low), finite_or_null(score->interval->high)})
+          : json(nullptr);
+  entry[name + "_cases"] = score ? score->cases : 0;
+}
+
+/// The titles of the methods in the reports.
+std::map<std::string, std::string> titles_of(const std::vector<json>& reports) {
+  std::map<std::string, std::string> titles;
+  for (const json& report : reports) {
+    for (const json& method : report.at("methods"))
+      titles.emplace(method.at("name").get<std::string>(), method.at("title").get<std::string>());
+  }
+  return titles;
+}
+
+json entry_to_json(const LeagueEntry& entry, const std::map<std::string, std::string>& titles) {
+  const auto title = titles.find(entry.method);
+  json result = {{"method", entry.method},
+                 {"title", title == titles.end() ? entry.method : title->second},
+                 {"protocol", entry.protocol},
+                 {"cases", entry.cases},
+                 {"failures", entry.failures},
+                 {"failures_by_status", entry.failures_by_status},
+                 {"unscored_cases", entry.unscored_cases},
+                 {"unscored_failures", entry.unscored_failures}};
+  add_score(result, "l2", entry.l2);
+  add_score(result, "hole_f1", entry.hole_f1);
+  add_score(result, "skill", entry.skill);
+  add_score(result, "regret", entry.regret);
+  return result;
+}
+
+json profile_to_json(const LeagueProfile& profile) {
+  json curves = json::array();
+  for (const LeagueProfile::Curve& curve : profile.curves)
+    curves.push_back({{"method", curve.method}, {"protocol", curve.protocol}, {"shares", curve.shares}});
+  return {{"group", profile.group}, {"cases", profile.cases}, {"curves", std::move(curves)}};
+}
+
+/// "4.31 (3.90–4.80)" in units of `scale`; "failed" for a median of failures.
+std::string cell(const json& entry, const std::string& name, double scale, int decimals) {
+  if (entry.at(name + "_cases") == 0) return kDash;
+  const json& median = entry.at(name + "_median");
+  if (median.is_null()) return "failed";
+  const auto text = [&](const json& value, const char* infinite) {
+    return value.is_null() ? std::string(infinite) : fixed(value.get<double>() * scale, decimals);
+  };
+  const json& interval = entry.at(name + "_interval");
+  if (interval.is_null()) return text(median, "");
+  return text(median, "") + " (" + text(interval[0], "failed") + " to " + text(interval[1], "failed") + ")";
+}
+
+std::string failures_cell(const json& entry) {
+  const auto count = [&](const char* name) { return entry.at(name).get<std::size_t>(); };
+  std::string text = std::to_string(count("failures"));
+  if (count("unscored_failures") > 0) text += " + " + std::to_string(count("unscored_failures"));
+  return text;
+}
+
+const std::map<std::string, std::string>& protocol_titles() {
+  static const std::map<std::string, std::string> titles = {
+      {"auto", "chosen from the points alone"},
+      {"default", "the method's own defaults"},
+      {"tuned", "one value, fitted on other shapes"},
+      {"paper", "the paper's rules, which know the ground truth's area"},
+      {"oracle", "the best value for each instance, found with the ground truth"}};
+  return titles;
+}
+
+TableSection league_table(const json& league, const std::string& protocol) {
+  TextTable table(
+      {"Method", "Cases", "Failures", "L2 median, %", "Skill median", "Hole F1 median", "Regret median, %"});
+  for (const json& entry : league.at("methods")) {
+    if (entry.at("protocol") != protocol) continue;
+    table.add_row({entry.at("title").get<std::string>(), std::to_string(entry.at("cases").get<std::size_t>()),
+                   failures_cell(entry), cell(entry, "l2", 100, 2), cell(entry, "skill", 1, 2),
+                   cell(entry, "hole_f1", 1, 2), cell(entry, "regret", 100, 2)});
+  }
+  return {"league_" + protocol,
+          "Protocol " + protocol + ": " + protocol_titles().at(protocol),
+          std::move(table),
+          {}};
+}
+
+std::string title_of(const json& league, const json& curve) {
+  for (const json& entry : league.at("methods")) {
+    if (entry.at("method") == curve.at("method"))
+      return entry.at("title").get<std::string>() + " (" + curve.at("protocol").get<std::string>() + ")";
+  }
+  return curve.at("method").get<std::string>();
+}
+
+const std::map<std::string, std::string>& group_titles() {
+  static const std::map<std::string, std::string> titles = {
+      {"blind", "that see the points only"},
+      {"tuned", "with one value fitted on other shapes"},
+      {"informed", "that know the ground truth's area"},
+      {"oracle", "with the best value for each instance"}};
+  return titles;
+}
+
+/// Some of the taus, as columns.
+TableSection profile_table(const json& league, const json& profile) {
+  const std::vector<double> taus = league.at("taus").get<std::vector<double>>();
+  std::vector<std::size_t> shown;
+  for (std::size_t k = 0; k < taus.size(); ++k) {
+    for (const double tau : {1.0, 1.1, 1.5, 2.0, 5.0, 10.0}) {
+      if (taus[k] == tau) shown.push_back(k);
+    }
+  }
+  std::vector<std::string> header = {"Method"};
+  for (const std::size_t k : shown)
+    header.push_back(k == 0 ? "best" : "within " + three_digits(taus[k]) + " x");
+  TextTable table(header);
+  std::vector<json> curves = profile.at("curves").get<std::vector<json>>();
+  std::stable_sort(curves.begin(), curves.end(), [&](const json& a, const json& b) {
+    return a.at("shares")[shown[1]].get<double>() > b.at("shares")[shown[1]].get<double>();
+  });
+  for (const json& curve : curves) {
+    std::vector<std::string> cells = {title_of(league, curve)};
+    for (const std::size_t k : shown) cells.push_back(fixed(100 * curve.at("shares")[k].get<double>(), 1));
+    table.add_row(cells);
+  }
+  const std::string group = profile.at("group").get<std::string>();
+  return {"profile_" + group,
+          "Performance profile of the methods " + group_titles().at(group) + ": % of " +
+              std::to_string(profile.at("cases").get<std::size_t>()) + " cases with an L2 that is",
+          std::move(table),
+          {}};
+}
+
+}  // namespace
+
+json league_to_json(const League& league, const std::vector<json>& reports) {
+  const auto titles = titles_of(reports);
+  json result = {{"kind", "league"},
+                 {"schema_version", 1},
+                 {"created", reports.front().at("created")},
+                 {"tool", reports.front().at("tool")},
+                 {"environment", reports.front().at("environment")},
+                 {"split", {{"seed", league.split_seed}, {"cases_of", league.test_only ? "test" : "all"}}},
+                 {"shapes", league.shapes},
+                 {"cases", league.cases},
+                 {"taus", league_taus()},
+                 {"plans", json::array()},
+                 {"methods", json::array()},
+                 {"profiles", json::array()},
+                 {"not_installed", league.not_installed}};
+  for (const json& report : reports) result["plans"].push_back(report.at("plan").at("name"));
+  for (const LeagueEntry& entry : league.entries) result["methods"].push_back(entry_to_json(entry, titles));
+  for (const LeagueProfile& profile : league.profiles) result["profiles"].push_back(profile_to_json(profile));
+  return result;
+}
+
+Document league_document(const json& league) {
+  Document document;
+  const bool test = league.at("split").at("cases_of") == "test";
+  document.title = "League: " + std::to_string(league.at("cases").get<std::size_t>()) + " cases of " +
+                   std::to_string(league.at("shapes").get<std::size_t>()) + " shapes" +
+                   (test ? " that nothing was fitted on" : "");
+  std::set<std::string> there;
+  for (const json& entry : league.at("methods")) there.insert(entry.at("protocol").get<std::string>());
+  for (const char* protocol : {"auto", "default", "tuned", "paper", "oracle"}) {
+    if (there.contains(protocol)) document.tables.push_back(league_table(league, protocol));
+  }
+  for (const json& profile : league.at("profiles")) document.tables.push_back(profile_table(league, profile));
+  document.notes = {
+      "L2 as a part of the ground truth's area; regret: L2 less what the same method has with the best value "
+      "for "
+      "the instance. In brackets a 95 % bootstrap interval of the median that resamples whole shapes. A "
+      "failure is "
+      "infinitely bad and has no holes.",
+      "Skill: 0 is the convex hull, 1 are the Delaunay triangles whose centroid lies in the ground truth. "
+      "Hole F1 is "
+      "of the cases whose ground truth has holes. A second number of failures is of inputs without a ground "
+      "truth."};
+  if (!league.at("not_installed").empty())
+    document.notes.push_back("Not installed, and so in no table: " +
+                             join_words(league.at("not_installed").get<std::vector<std::string>>()) + ".");
+  return document;
+}
+
+int league_command(const LeagueCommand& command) {
+  std::vector<json> reports;
+  for (const std::filesystem::path& folder : command.runs) {
+    if (!std::filesystem::is_directory(folder))
+      throw ConfigurationError("there is no run in " + folder.string() +
+                               "; give the folder of a run or suite");
+    const std::vector<json> some = is_suite(folder) ? suite_reports(folder) : std::vector{load_run(folder)};
+    reports.insert(reports.end(), some.begin(), some.end());
+  }
+  if (std::all_of(reports.begin(), reports.end(),
+                  [](const json& report) { return report.at("runs").empty(); })) {
+    std::cerr << "hullbench: none of the folders has a finished run; there is nothing to judge\n";
+    return 6;
+  }
+  const json league = league_to_json(make_league(reports, command.split_seed, !command.all_cases), reports);
+  print_markdown(league_document(league), std::cout);
+  if (!command.out.empty()) {
+    write_json_file(command.out, league);
+    std::cerr << "hullbench: wrote " << command.out.string() << "\n";
+  }
+  return 0;
+}
+
+}  // namespace hullbench

@@ -1,0 +1,82 @@
+// What a search says about a method: how wide its good range is, which one value suits many shapes, and what
+// each way of choosing the parameter costs. Errors are l2; a failure is infinitely bad (search.hpp).
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "benchmarks/bootstrap.hpp"
+#include "benchmarks/tune/search.hpp"
+#include "benchmarks/tune/tuning.hpp"
+
+namespace hullbench {
+
+/// The error may be this many times its best inside the tolerance.
+inline constexpr double kToleratedError = 1.1;
+
+/// How many octaves wide the range around the best position is in which the error stays within
+/// kToleratedError of the best. Between evaluations the error is taken as linear in the logarithm of the
+/// position; next to a failure the range ends at the last evaluation that was none, and at the axis' ends it
+/// is cut. `points` in any order; of equal best errors the smallest position is the best one. None without an
+/// evaluation that gave a result.
+std::optional<double> tolerance_octaves(std::vector<SearchPoint> points);
+
+/// The same of the method's sweep on a case.
+std::optional<double> tolerance_octaves(const MethodOnCase& found);
+
+/// One value for many shapes.
+struct TunedValue {
+  double position = 0;         ///< of the grid, on the method's axis
+  double training_median = 0;  ///< of l2 there
+  std::size_t training_cases = 0;
+  bool at_end = false;  ///< it is the first or the last of the grid: better ones may lie outside
+};
+
+/// The grid's position with the smallest median of l2 over the training cases that were swept; the smaller
+/// one of two that are equally good. The median, as failures are infinitely bad: by the mean a single one
+/// would rule a value out. Test cases are not looked at. None without an axis or a training case, and when no
+/// position gives a result on half of them.
+std::optional<TunedValue> choose_tuned(const Tuning& tuning, const MethodTuning& method);
+
+/// Of several errors or differences; kInfinitelyBad where the middle is a failure.
+struct Spread {
+  double q1 = 0;
+  double median = 0;
+  double q3 = 0;
+};
+/// Needs one value at least.
+Spread spread_of(const std::vector<double>& values);
+
+/// How one way of choosing the parameter did on some cases.
+struct ProtocolScore {
+  std::string protocol;    ///< "paper", "default", "auto", "tuned", "oracle"
+  bool test_only = false;  ///< on test cases only; else on all
+  std::size_t cases = 0;   ///< of which the protocol has an evaluation
+  std::size_t failed = 0;  ///< of these, without a result
+  double l2_median = 0;
+  std::optional<Interval> l2_interval;  ///< of the median, by base shape (bootstrap.hpp)
+  /// l2 minus the oracle's on the same case; of cases on which the oracle has a result. None: there is none.
+  std::optional<double> regret_median;
+  std::optional<Interval> regret_interval;
+};
+
+/// Every protocol that has an evaluation, in the order of the tables: on test cases, then on all; `tuned` on
+/// test cases only. A method without an axis has no oracle and no regret.
+std::vector<ProtocolScore> protocol_scores(const Tuning& tuning, const MethodTuning& method,
+                                           const std::optional<TunedValue>& tuned);
+
+/// The errors at one position of the grid, over all cases that were swept.
+struct CurvePoint {
+  double position = 0;
+  std::size_t cases = 0;
+  std::size_t failed = 0;
+  Spread l2;
+  Spread relative;  ///< l2 divided by the oracle's on the same case, >= 1; 1 where both are 0
+};
+
+/// The sensitivity curve: l2 against the axis, ascending. Cases without any result are left out.
+std::vector<CurvePoint> sensitivity_curve(const Tuning& tuning, const MethodTuning& method);
+
+}  // namespace hullbench

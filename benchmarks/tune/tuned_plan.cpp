@@ -1,0 +1,142 @@
+#include "benchmarks/tune/tuned_plan.hpp"
+
+#include <algorithm>
+#include <cstddef>
+#include <map>
+#include <set>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "benchmarks/tune/analysis.hpp"
+
+namespace hullbench {
+namespace {
+
+/// The places in the tuning of the plan's cases that satisfy a condition.
+template <typename Condition>
+std::vector<std::size_t> cases_of(const Plan& plan, const Tuning& tuning, Condition condition) {
+  std::vector<std::size_t> result;
+  for (std::size_t i = 0; i < tuning.cases.size(); ++i) {
+    const TuningCase& one = tuning.cases[i];
+    const auto same = [&](const PlanCase& other) { return other.key() == one.plan_case.key(); };
+    if (one.seed == plan.seed && std::any_of(plan.expanded_cases.begin(), plan.expanded_cases.end(), same) &&
+        condition(i))
+      result.push_back(i);
+  }
+  return result;
+}
+
+/// The data sets of these cases; empty, for all, when the plan has no others.
+std::vector<std::string> datasets_of(const Plan& plan, const Tuning& tuning,
+                                     const std::vector<std::size_t>& cases) {
+  std::set<std::string> all;
+  for (const PlanCase& one : plan.expanded_cases) all.insert(one.dataset);
+  std::set<std::string> some;
+  for (const std::size_t i : cases) some.insert(tuning.cases[i].plan_case.dataset);
+  return some.size() == all.size() ? std::vector<std::string>()
+                                   : std::vector<std::string>(some.begin(), some.end());
+}
+
+std::map<std::string, ParameterChoice> as_choices(const Parameters& parameters) {
+  return {parameters.begin(), parameters.end()};
+}
+
+/// With the words and limits that the plan has for the method anyway.
+PlanMethod entry_for(const Plan& plan, const std::string& method, const std::string& protocol) {
+  const auto like = std::find_if(plan.methods.begin(), plan.methods.end(),
+                                 [&](const PlanMethod& other) { return other.method == method; });
+  PlanMethod entry;
+  if (like != plan.methods.end()) entry = *like;
+  entry.method = method;
+  entry.protocol = protocol;
+  entry.datasets.clear();
+  entry.parameters.clear();
+  entry.note.clear();
+  return entry;
+}
+
+void add_default(Plan& result, const Plan& plan, const MethodTuning& method) {
+  const auto& parameters = method.info->parameters;
+  const bool given = std::any_of(plan.methods.begin(), plan.methods.end(), [&](const PlanMethod& entry) {
+    return entry.method == method.name && entry.protocol == "default";
+  });
+  if (given || !std::all_of(parameters.begin(), parameters.end(),
+                            [](const ParameterInfo& one) { return one.default_value.has_value(); }))
+    return;
+  PlanMethod entry = entry_for(plan, method.name, "default");
+  entry.parameters = as_choices(fixed_parameters(*method.info));
+  result.methods.push_back(entry);
+}
+
+void add_tuned(Plan& result, const Plan& plan, const Tuning& tuning, const MethodTuning& method) {
+  const auto tuned = choose_tuned(tuning, method);
+  if (!tuned) return;
+  const auto cases = cases_of(plan, tuning, [&](std::size_t i) {
+    return tuning.cases[i].side == Side::kTest && !method.cases[i].sweep.empty();
+  });
+  if (cases.empty()) return;
+  PlanMethod entry = entry_for(plan, method.name, "tuned");
+  entry.datasets = datasets_of(plan, tuning, cases);
+  entry.parameters = as_choices(fixed_parameters(*method.info));
+  entry.parameters[method.axis->parameter] =
+      method.axis->spacings ? ParameterChoice(ScaledChoice{tuned->position, method.axis->power})
+                            : ParameterChoice(tuned->position);
+  entry.note = "One value for all shapes, with the smallest median error on " +
+               std::to_string(tuned->training_cases) + " training cases; these are the test shapes.";
+  result.methods.push_back(entry);
+}
+
+void add_oracle(Plan& result, const Plan& plan, const Tuning& tuning, const MethodTuning& method) {
+  if (!method.axis) return;
+  // A choice that the method itself refused is none.
+  const auto has_choice = [&](std::size_t i) {
+    const Evaluation* best = best_evaluation(method.cases[i]);
+    return best != nullptr && best->parameters.size() == method.info->parameters.size();
+  };
+  std::set<std::string> without;
+  for (const std::size_t i : cases_of(plan, tuning, [&](std::size_t i) { return !has_choice(i); }))
+    without.insert(tuning.cases[i].plan_case.dataset);
+  const auto cases = cases_of(
+      plan, tuning, [&](std::size_t i) { return !without.contains(tuning.cases[i].plan_case.dataset); });
+  if (cases.empty()) return;
+  PlanMethod entry = entry_for(plan, method.name, "oracle");
+  entry.datasets = datasets_of(plan, tuning, cases);
+  for (const ParameterInfo& parameter : method.info->parameters) {
+    CaseChoice choice;
+    std::set<double> different;
+    for (const std::size_t i : cases) {
+      const double value = best_evaluation(method.cases[i])->parameters.at(parameter.name);
+      choice.values[tuning.cases[i].plan_case.key()] = value;
+      different.insert(value);
+    }
+    entry.parameters[parameter.name] =
+        different.size() == 1 ? ParameterChoice(*different.begin()) : ParameterChoice(std::move(choice));
+  }
+  entry.note = "The best of a search on each instance: what this method could give at best.";
+  result.methods.push_back(entry);
+}
+
+}  // namespace
+
+Plan tuned_plan(const Plan& plan, const Tuning& tuning) {
+  Plan result = plan;
+  result.name += "-tuned";
+  result.title += ", parameters chosen by hullbench tune";
+  result.paper.clear();
+  result.filter.clear();
+  result.methods.clear();
+  for (const MethodTuning& method : tuning.methods) {
+    if (!method.info) continue;
+    for (const PlanMethod& entry : plan.methods) {
+      if (entry.method == method.name && entry.protocol != "tuned" && entry.protocol != "oracle")
+        result.methods.push_back(entry);
+    }
+    add_default(result, plan, method);
+    add_tuned(result, plan, tuning, method);
+    add_oracle(result, plan, tuning, method);
+  }
+  return result;
+}
+
+}  // namespace hullbench

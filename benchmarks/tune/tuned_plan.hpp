@@ -1,0 +1,15 @@
+// The chosen parameters as a plan, so that `hullbench run` measures them with every metric.
+#pragma once
+
+#include "benchmarks/plan.hpp"
+#include "benchmarks/tune/tuning.hpp"
+
+namespace hullbench {
+
+/// `plan` with the same cases, and for every method of `tuning` that starts here: its own entries in the plan
+/// and, in the place of any such there, `default` (where it can do without parameters; the plan's own one
+/// stays), `tuned` on the test shapes and `oracle`. Its name is the plan's with "-tuned". Other methods of
+/// the plan are left out. A protocol that has nothing to say on any case of the plan is left out.
+Plan tuned_plan(const Plan& plan, const Tuning& tuning);
+
+}  // namespace hullbench

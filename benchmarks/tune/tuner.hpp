@@ -1,0 +1,43 @@
+// Evaluates every method on every case, on all cores: nothing is timed.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "benchmarks/method.hpp"
+#include "benchmarks/progress.hpp"
+#include "benchmarks/tune/tuning.hpp"
+#include "datasets/datasets.hpp"
+
+namespace hullbench {
+
+struct TunerOptions {
+  MethodFinder find_method;
+  std::vector<std::string> methods;             ///< to evaluate, by name
+  std::map<std::string, std::string> programs;  ///< by method: SHA-256 of what runs it (Evaluation::program)
+  int jobs = 1;                                 ///< threads, each with a worker of its own a method; >= 1
+  std::int64_t mem_limit_mib = 4096;            ///< address space of a worker
+  std::filesystem::path scratch;                ///< a folder for files that live no longer than this
+  DataFolders folders = {};
+};
+
+/// The cases of `plans`, each once: a case that several have with the same seed has the entries of all, of
+/// two entries for the same method and protocol the first.
+std::vector<TuningCase> tuning_cases(const std::vector<Plan>& plans, std::uint64_t split_seed);
+
+/// Per method and case: the protocols that the plans give it, `default` where it can do without parameters,
+/// and the search over its axis (search.hpp), with the holes switched on (fixed_parameters). What `store`
+/// knows is not evaluated again. A failure is an evaluation with its status. A case whose points have no
+/// spacing has no sweep of lengths, and one without a ground truth no evaluation. `tuning.interrupted` after Ctrl-C. Throws std::runtime_error when
+/// something cannot be written or a data set cannot be read.
+Tuning run_tuning(std::vector<TuningCase> cases, std::uint64_t split_seed, const TunerOptions& options,
+                  EvaluationStore& store, Progress& progress);
+
+/// What `progress` needs to know: an element a case and method, in the order of the work.
+std::vector<ProgressRun> tuning_progress(const std::vector<TuningCase>& cases,
+                                         const std::vector<std::string>& methods);
+
+}  // namespace hullbench

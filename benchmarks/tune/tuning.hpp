@@ -1,0 +1,72 @@
+// What a search over methods and cases gives, before anything is said about it.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "adapters/adapter.hpp"
+#include "benchmarks/plan.hpp"
+#include "benchmarks/tune/evaluation.hpp"
+#include "benchmarks/tune/search_axis.hpp"
+#include "benchmarks/tune/split.hpp"
+
+namespace hullbench {
+
+/// One case of the plans: points of a shape.
+struct TuningCase {
+  PlanCase plan_case;
+  std::uint64_t seed = 0;  ///< of the points
+  double timeout_s = 0;    ///< for one evaluation
+  std::string name;        ///< "ca/n:2000/holes:1"
+  std::string shape;       ///< its base shape (split.hpp)
+  Side side = Side::kTraining;
+  std::vector<PlanMethod> entries;  ///< of the plans that have the case, those that apply to it
+  // Known once it was evaluated:
+  std::string dataset_sha256;
+  std::int64_t n = 0;
+  double spacing = 0;  ///< mean_spacing of its points (parameter_rules.hpp)
+};
+
+/// An evaluation at a position of the axis.
+struct SweepEvaluation {
+  double position = 0;
+  bool on_grid = false;  ///< of the sweep, whose positions are the same on all cases; else of the refinement
+  Evaluation evaluation;
+};
+
+/// All evaluations of one method on one case.
+struct MethodOnCase {
+  std::vector<SweepEvaluation> sweep;           ///< in the order of the search
+  std::map<std::string, Evaluation> protocols;  ///< "paper", "default", "auto", where there is one
+};
+
+/// The best of all evaluations, whoever asked for it: of equal errors the first one of the sweep, then of the
+/// protocols. Of failures alone the first; null when there is no evaluation at all.
+const Evaluation* best_evaluation(const MethodOnCase& found);
+
+/// The evaluation of the sweep at that position; null when it was not evaluated.
+const Evaluation* evaluation_at(const MethodOnCase& found, double position);
+
+/// One method.
+struct MethodTuning {
+  std::string name;
+  std::string title;
+  std::optional<MethodInfo> info;   ///< none: it does not start here
+  std::string detail;               ///< why it does not start
+  std::string remedy;               ///< the command that helps
+  std::optional<SearchAxis> axis;   ///< none: it has no parameter that could be searched
+  std::vector<MethodOnCase> cases;  ///< by case; empty when it does not start
+};
+
+struct Tuning {
+  std::uint64_t split_seed = 0;
+  std::vector<TuningCase> cases;
+  std::vector<MethodTuning> methods;
+  bool interrupted = false;  ///< then cases and methods are incomplete
+};
+
+}  // namespace hullbench

@@ -1,0 +1,334 @@
+#include "benchmarks/tune/tuning_report.hpp"
+
+#include <algorithm>
+#include <optional>
+#include <set>
+#include <span>
+
+#include "benchmarks/number_format.hpp"
+#include "benchmarks/protocol.hpp"
+#include "benchmarks/record.hpp"
+#include "benchmarks/statistics.hpp"
+#include "benchmarks/tune/analysis.hpp"
+#include "benchmarks/tune/search.hpp"
+
+namespace hullbench {
+namespace {
+
+using nlohmann::json;
+
+constexpr const char* kDash = "–";
+
+/// Null for a failure.
+json error_to_json(double error) {
+  return is_infinitely_bad(error) ? json(nullptr) : json(error);
+}
+
+json optional_to_json(const std::optional<double>& value) {
+  return value ? error_to_json(*value) : json(nullptr);
+}
+
+json interval_to_json(const std::optional<Interval>& interval) {
+  if (!interval) return nullptr;
+  return {error_to_json(interval->low), error_to_json(interval->high)};
+}
+
+json spread_to_json(const Spread& spread) {
+  return {{"q1", error_to_json(spread.q1)},
+          {"median", error_to_json(spread.median)},
+          {"q3", error_to_json(spread.q3)}};
+}
+
+json case_to_json(const TuningCase& one) {
+  return {{"case", one.name},
+          {"dataset", one.plan_case.dataset},
+          {"shape", one.shape},
+          {"side", to_string(one.side)},
+          {"n", one.n},
+          {"holes", one.plan_case.holes},
+          {"seed", one.seed},
+          {"dataset_sha256", one.dataset_sha256},
+          {"spacing", one.spacing}};
+}
+
+json axis_to_json(const std::optional<SearchAxis>& axis) {
+  if (!axis) return nullptr;
+  return {{"parameter", axis->parameter},
+          {"unit", axis->unit},
+          {"kind", axis->spacings ? "spacings" : "own"},
+          {"power", axis->power},
+          {"low", axis->low},
+          {"high", axis->high},
+          {"grid", grid(*axis, kGridPoints)}};
+}
+
+json score_to_json(const ProtocolScore& score) {
+  return {{"protocol", score.protocol},
+          {"cases_of", score.test_only ? "test" : "all"},
+          {"cases", score.cases},
+          {"failed", score.failed},
+          {"l2_median", error_to_json(score.l2_median)},
+          {"l2_interval", interval_to_json(score.l2_interval)},
+          {"regret_median", optional_to_json(score.regret_median)},
+          {"regret_interval", interval_to_json(score.regret_interval)}};
+}
+
+json tuned_to_json(const std::optional<TunedValue>& tuned) {
+  if (!tuned) return nullptr;
+  return {{"position", tuned->position},
+          {"training_median", tuned->training_median},
+          {"training_cases", tuned->training_cases},
+          {"at_end", tuned->at_end}};
+}
+
+json tolerance_to_json(const MethodTuning& method) {
+  std::vector<double> widths;
+  for (const MethodOnCase& found : method.cases) {
+    if (const auto width = tolerance_octaves(found)) widths.push_back(*width);
+  }
+  if (widths.empty()) return nullptr;
+  json result = spread_to_json(spread_of(widths));
+  result["cases"] = widths.size();
+  return result;
+}
+
+json curve_to_json(const Tuning& tuning, const MethodTuning& method) {
+  json curve = json::array();
+  for (const CurvePoint& point : sensitivity_curve(tuning, method)) {
+    curve.push_back({{"position", point.position},
+                     {"cases", point.cases},
+                     {"failed", point.failed},
+                     {"l2", spread_to_json(point.l2)},
+                     {"relative", spread_to_json(point.relative)}});
+  }
+  return curve;
+}
+
+/// Where on the axis an evaluation lies; null when it is not of the sweep.
+json position_of(const MethodOnCase& found, const Evaluation& evaluation) {
+  for (const SweepEvaluation& one : found.sweep) {
+    if (one.evaluation.id == evaluation.id) return one.position;
+  }
+  return nullptr;
+}
+
+json oracle_to_json(const Tuning& tuning, const MethodTuning& method) {
+  json choices = json::array();
+  if (!method.axis) return choices;
+  for (std::size_t i = 0; i < method.cases.size(); ++i) {
+    const Evaluation* best = best_evaluation(method.cases[i]);
+    if (best == nullptr) continue;
+    choices.push_back({{"case", tuning.cases[i].name},
+                       {"seed", tuning.cases[i].seed},
+                       {"position", position_of(method.cases[i], *best)},
+                       {"parameters", parameters_to_json(best->parameters)},
+                       {"status", to_string(best->status)},
+                       {"l2", best->l2 ? json(*best->l2) : json(nullptr)},
+                       {"tolerance_octaves", optional_to_json(tolerance_octaves(method.cases[i]))}});
+  }
+  return choices;
+}
+
+json method_to_json(const Tuning& tuning, const MethodTuning& method) {
+  json result = {{"method", method.name},
+                 {"title", method.title},
+                 {"version", method.info ? method.info->version : ""},
+                 {"installed", method.info.has_value()},
+                 {"detail", method.detail},
+                 {"remedy", method.remedy},
+                 {"axis", axis_to_json(method.axis)},
+                 {"fixed", method.info ? parameters_to_json(fixed_parameters(*method.info)) : json::object()},
+                 {"tuned", nullptr},
+                 {"tolerance_octaves", nullptr},
+                 {"protocols", json::array()},
+                 {"curve", json::array()},
+                 {"oracle", json::array()}};
+  if (!method.info) return result;
+  const auto tuned = choose_tuned(tuning, method);
+  result["tuned"] = tuned_to_json(tuned);
+  result["tolerance_octaves"] = tolerance_to_json(method);
+  for (const ProtocolScore& score : protocol_scores(tuning, method, tuned))
+    result["protocols"].push_back(score_to_json(score));
+  result["curve"] = curve_to_json(tuning, method);
+  result["oracle"] = oracle_to_json(tuning, method);
+  return result;
+}
+
+// The tables.
+
+/// l2 in percent, as other tables have it.
+std::string percent(const json& value) {
+  if (value.is_null()) return "fails";
+  const double percent = 100 * value.get<double>();
+  return fixed(percent, percent < 10 ? 2 : 1);
+}
+
+std::string interval_text(const json& interval) {
+  if (interval.is_null()) return kDash;
+  return percent(interval[0]) + " to " + percent(interval[1]);
+}
+
+TableSection protocol_table(const json& summary, const std::string& cases_of) {
+  const bool test = cases_of == "test";
+  TableSection section = {"protocols_" + cases_of,
+                          test ? "Protocols on the test shapes" : "Protocols on all shapes",
+                          TextTable({"Method", "Protocol", "Cases", "Failed", "L2 %", "L2 % interval",
+                                     "Regret %", "Regret % interval"}),
+                          {}};
+  for (const json& method : summary.at("methods")) {
+    for (const json& score : method.at("protocols")) {
+      if (score.at("cases_of") != cases_of) continue;
+      const bool regret = !method.at("axis").is_null() && !score.at("regret_interval").is_null();
+      section.table.add_row(
+          {method.at("title"), score.at("protocol"), std::to_string(score.at("cases").get<std::size_t>()),
+           std::to_string(score.at("failed").get<std::size_t>()), percent(score.at("l2_median")),
+           interval_text(score.at("l2_interval")), regret ? percent(score.at("regret_median")) : kDash,
+           regret ? interval_text(score.at("regret_interval")) : kDash});
+    }
+  }
+  return section;
+}
+
+std::string axis_text(const json& axis) {
+  if (axis.is_null()) return "no parameter to search";
+  const std::string name = axis.at("parameter");
+  if (axis.at("kind") == "own") return name;
+  return name + (axis.at("power") == 2 ? " = (x h)²" : " = x h");
+}
+
+TableSection tuned_table(const json& summary) {
+  TableSection section = {"tuned",
+                          "What was searched, the tuned value and the tolerance",
+                          TextTable({"Method", "Parameter", "From", "To", "Tuned x", "Training L2 %",
+                                     "Tolerance octaves", "Quartiles"}),
+                          {}};
+  for (const json& method : summary.at("methods")) {
+    if (!method.at("installed").get<bool>()) continue;
+    const json& axis = method.at("axis");
+    const json& tuned = method.at("tuned");
+    const json& tolerance = method.at("tolerance_octaves");
+    const auto number = [](const json& value) { return three_digits(value.get<double>()); };
+    section.table.add_row(
+        {method.at("title"), axis_text(axis), axis.is_null() ? kDash : number(axis.at("low")),
+         axis.is_null() ? kDash : number(axis.at("high")),
+         tuned.is_null() ? kDash
+                         : number(tuned.at("position")) + (tuned.at("at_end").get<bool>() ? " (end)" : ""),
+         tuned.is_null() ? kDash : percent(tuned.at("training_median")),
+         tolerance.is_null() ? kDash : fixed(tolerance.at("median").get<double>(), 2),
+         tolerance.is_null() ? kDash
+                             : fixed(tolerance.at("q1").get<double>(), 2) + " to " +
+                                   fixed(tolerance.at("q3").get<double>(), 2)});
+  }
+  return section;
+}
+
+/// The shapes of a side, each once; of more than twenty the number.
+std::string shapes_text(const json& summary, const std::string& side) {
+  std::set<std::string> shapes;
+  for (const json& one : summary.at("cases")) {
+    if (one.at("side") == side) shapes.insert(one.at("shape").get<std::string>());
+  }
+  constexpr std::size_t kMostNames = 20;
+  if (shapes.empty()) return "none";
+  if (shapes.size() > kMostNames) return std::to_string(shapes.size()) + " shapes";
+  return join_words({shapes.begin(), shapes.end()});
+}
+
+std::vector<std::string> document_notes(const json& summary) {
+  std::vector<std::string> notes = {
+      "Training shapes: " + shapes_text(summary, "training") + ".",
+      "Test shapes: " + shapes_text(summary, "test") + ".",
+      "A shape's side is a hash of the seed (" + summary.at("split").at("seed").dump() +
+          ") and its name; all variants of a shape are on one side.",
+      "h is the points' mean spacing over their convex hull, √(A_hull/n); it is known without the ground "
+      "truth.",
+      "default: without parameters, but holes switched on; tuned: the one x with the smallest median error "
+      "on "
+      "the training shapes, scored on the test shapes only; oracle: the best of all evaluations on the same "
+      "instance; paper and auto: as the plan says.",
+      "L2 is the area of the symmetric difference over the ground truth's, regret its excess over the "
+      "oracle's on the same instance; medians with 95 % bootstrap intervals that take a shape's cases as "
+      "one.",
+      "Tolerance: how wide a range of the parameter keeps the error within 10 % of its best, in factors of "
+      "two; the median over the cases.",
+      "A failure counts as infinitely bad: \"fails\" stands where the median is one."};
+  for (const json& method : summary.at("methods")) {
+    if (method.at("installed").get<bool>()) continue;
+    notes.push_back(method.at("title").get<std::string>() +
+                    " does not start here: " + method.at("detail").get<std::string>() + ".");
+  }
+  return notes;
+}
+
+// The lines of sweep.jsonl.
+
+/// The protocols that chose an evaluation of a method on a case.
+json protocols_of(const MethodTuning& method, const TuningCase& one, const MethodOnCase& found,
+                  const std::optional<TunedValue>& tuned, const std::string& id) {
+  json protocols = json::array();
+  for (const auto& [protocol, evaluation] : found.protocols) {
+    if (evaluation.id == id) protocols.push_back(protocol);
+  }
+  const Evaluation* chosen =
+      tuned && one.side == Side::kTest ? evaluation_at(found, tuned->position) : nullptr;
+  if (chosen != nullptr && chosen->id == id) protocols.push_back("tuned");
+  const Evaluation* best = best_evaluation(found);
+  if (method.axis && best != nullptr && best->id == id) protocols.push_back("oracle");
+  return protocols;
+}
+
+}  // namespace
+
+json tuning_to_json(const Tuning& tuning, const std::vector<std::string>& plans, const json& tool) {
+  json summary = {{"kind", "tuning"},
+                  {"schema_version", kSchemaVersion},
+                  {"tool", tool},
+                  {"plans", plans},
+                  {"split", {{"seed", tuning.split_seed}}},
+                  {"budget", {{"grid", kGridPoints}, {"refinement", kRefinements}}},
+                  {"cases", json::array()},
+                  {"methods", json::array()}};
+  for (const TuningCase& one : tuning.cases) summary["cases"].push_back(case_to_json(one));
+  for (const MethodTuning& method : tuning.methods)
+    summary["methods"].push_back(method_to_json(tuning, method));
+  return summary;
+}
+
+Document tuning_document(const json& summary) {
+  Document document;
+  document.title = "Parameters: " + join_words(summary.at("plans").get<std::vector<std::string>>());
+  for (TableSection section :
+       {protocol_table(summary, "test"), protocol_table(summary, "all"), tuned_table(summary)}) {
+    if (!section.table.empty()) document.tables.push_back(std::move(section));
+  }
+  document.notes = document_notes(summary);
+  return document;
+}
+
+std::vector<json> sweep_lines(const Tuning& tuning, const std::vector<Evaluation>& known) {
+  std::vector<json> lines;
+  std::set<std::string> written;
+  for (const MethodTuning& method : tuning.methods) {
+    if (!method.info) continue;
+    const auto tuned = choose_tuned(tuning, method);
+    for (std::size_t i = 0; i < method.cases.size(); ++i) {
+      const MethodOnCase& found = method.cases[i];
+      const auto add = [&](const Evaluation& evaluation, const json& position, bool on_grid) {
+        if (!written.insert(evaluation.id).second) return;
+        json& line = lines.emplace_back(evaluation_to_json(evaluation));
+        line["side"] = to_string(tuning.cases[i].side);
+        line["position"] = position;
+        line["on_grid"] = on_grid;
+        line["protocols"] = protocols_of(method, tuning.cases[i], found, tuned, evaluation.id);
+      };
+      for (const SweepEvaluation& one : found.sweep) add(one.evaluation, one.position, one.on_grid);
+      for (const auto& [protocol, evaluation] : found.protocols) add(evaluation, nullptr, false);
+    }
+  }
+  for (const Evaluation& evaluation : known) {
+    if (written.insert(evaluation.id).second) lines.push_back(evaluation_to_json(evaluation));
+  }
+  return lines;
+}
+
+}  // namespace hullbench

@@ -1,0 +1,187 @@
+// The league: medians by method and protocol with failures, regret against the method's own oracle, holes,
+// the split, and performance profiles.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <set>
+#include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "benchmarks/league/league.hpp"
+#include "benchmarks/league/league_report.hpp"
+#include "benchmarks/tune/split.hpp"
+#include "benchmarks/validate.hpp"
+
+namespace hullbench {
+namespace {
+
+using nlohmann::json;
+
+json row(const std::string& method, const std::string& protocol, const std::string& dataset, json l2) {
+  const bool ok = !l2.is_null();
+  json metrics = json::object();
+  if (ok) metrics = {{"l2", l2}, {"ground_truth_area", 10.0}, {"holes", 0}, {"holes_error", 0}};
+  return {{"name", method + "/" + dataset + "/n:100/holes:0/protocol:" + protocol},
+          {"method", method},
+          {"protocol", protocol},
+          {"dataset", dataset},
+          {"seed", 1},
+          {"status", ok ? "ok" : "crash"},
+          {"metrics", metrics}};
+}
+
+json report(const std::vector<json>& rows) {
+  return {
+      {"created", "2026-01-01T00:00:00Z"},
+      {"tool", json::object()},
+      {"environment", json::object()},
+      {"plan", {{"name", "made-up"}}},
+      {"methods", json::array({{{"name", "good"}, {"title", "Good"}}, {{"name", "bad"}, {"title", "Bad"}}})},
+      {"runs", rows}};
+}
+
+League league_of(const std::vector<json>& rows) {
+  return make_league({report(rows)}, 1, false);
+}
+
+const LeagueEntry& entry(const League& league, const std::string& method, const std::string& protocol) {
+  for (const LeagueEntry& one : league.entries) {
+    if (one.method == method && one.protocol == protocol) return one;
+  }
+  throw std::runtime_error("there is no entry " + method + " " + protocol);
+}
+
+TEST(League, TakesTheMedianOverCases) {
+  const League league = league_of({row("good", "auto", "a", 0.1), row("good", "auto", "b", 0.3),
+                                   row("good", "auto", "c", 0.2), row("bad", "auto", "a", 0.5)});
+  const LeagueEntry& good = entry(league, "good", "auto");
+  EXPECT_EQ(good.cases, 3U);
+  EXPECT_EQ(good.l2->median, 0.2);
+  ASSERT_TRUE(good.l2->interval);
+  EXPECT_EQ(good.l2->interval->low, 0.1);
+  EXPECT_EQ(good.l2->interval->high, 0.3);
+  EXPECT_FALSE(entry(league, "bad", "auto").l2->interval) << "of a single shape";
+  EXPECT_EQ(league.cases, 3U);
+  EXPECT_EQ(league.shapes, 3U);
+  EXPECT_FALSE(good.regret) << "no oracle was measured";
+}
+
+TEST(League, AFailureIsInfinitelyBadAndNeverDropped) {
+  const League league = league_of({row("bad", "auto", "a", 0.1), row("bad", "auto", "b", nullptr),
+                                   row("bad", "auto", "c", nullptr), row("good", "auto", "b", 0.4),
+                                   row("good", "auto", "c", 0.4), row("good", "auto", "a", 0.4)});
+  const LeagueEntry& bad = entry(league, "bad", "auto");
+  EXPECT_EQ(bad.failures, 2U);
+  EXPECT_EQ(bad.failures_by_status, (std::map<std::string, std::size_t>{{"crash", 2}}));
+  EXPECT_TRUE(std::isinf(bad.l2->median));
+  EXPECT_EQ(league.entries.front().method, "good") << "the better median is first";
+}
+
+TEST(League, RegretIsAgainstTheSameMethodsOracleOnTheSameCase) {
+  json with_holes = row("good", "oracle", "a", 0.05);
+  const League league = league_of({row("good", "auto", "a", 0.15), row("good", "auto", "b", 0.4), with_holes,
+                                   row("good", "oracle", "b", nullptr), row("bad", "oracle", "b", 0.01)});
+  const LeagueEntry& good = entry(league, "good", "auto");
+  ASSERT_TRUE(good.regret);
+  EXPECT_EQ(good.regret->cases, 1U) << "where the oracle failed nothing can be said";
+  EXPECT_NEAR(good.regret->median, 0.1, 1e-12);
+}
+
+TEST(League, HolesCountWhereTheGroundTruthHasSome) {
+  json found = row("good", "auto", "ring", 0.1);
+  found["metrics"].update({{"holes", 2}, {"holes_error", 1}, {"hole_f1", 0.7}});
+  json spurious = row("good", "auto", "disc", 0.1);
+  spurious["metrics"].update({{"holes", 1}, {"holes_error", 1}, {"hole_f1", 0.0}});
+  const League league = league_of({found, spurious, row("bad", "auto", "ring", nullptr)});
+  EXPECT_EQ(entry(league, "good", "auto").hole_f1->cases, 1U);
+  EXPECT_EQ(entry(league, "good", "auto").hole_f1->median, 0.7);
+  EXPECT_EQ(entry(league, "bad", "auto").hole_f1->median, 0) << "a failure finds no hole";
+}
+
+TEST(League, CasesWithoutAGroundTruthAreCountedApart) {
+  json unscored = row("good", "auto", "degenerate_one", 0.1);
+  unscored["metrics"] = {{"l2", nullptr}, {"ground_truth_area", 0.0}};
+  json refused = row("bad", "auto", "degenerate_one", nullptr);
+  refused["status"] = "unsupported";
+  json crashed = row("bad", "auto", "degenerate_two", nullptr);
+  json made = report({unscored, refused, crashed, row("good", "auto", "a", 0.1)});
+  made["plan"]["accepted"] = {"unsupported"};
+  const League league = make_league({made}, 1, false);
+  EXPECT_EQ(entry(league, "good", "auto").cases, 1U);
+  EXPECT_EQ(entry(league, "good", "auto").unscored_cases, 1U);
+  EXPECT_EQ(entry(league, "bad", "auto").unscored_cases, 2U);
+  EXPECT_EQ(entry(league, "bad", "auto").unscored_failures, 1U);
+  EXPECT_EQ(entry(league, "bad", "auto").failures, 0U);
+}
+
+TEST(League, OfTestShapesHasNoOther) {
+  std::string training;
+  std::string test;
+  for (int k = 1; training.empty() || test.empty(); ++k) {
+    const std::string name = "star-" + std::to_string(k);
+    (side_of(name, 7) == Side::kTest ? test : training) = name;
+  }
+  json variant = row("good", "auto", training + "~noise:1", 0.9);
+  variant["base_shape"] = training;
+  const std::vector<json> rows = {row("good", "auto", training, 0.5), variant,
+                                  row("good", "auto", test, 0.1)};
+  const League league = make_league({report(rows)}, 7, true);
+  EXPECT_EQ(entry(league, "good", "auto").cases, 1U);
+  EXPECT_EQ(entry(league, "good", "auto").l2->median, 0.1);
+  EXPECT_THROW(make_league({report({rows[0], rows[1]})}, 7, true), std::runtime_error);
+}
+
+TEST(League, ARunThatSeveralReportsHaveCountsOnce) {
+  const League league = make_league({report({row("good", "auto", "a", 0.1)}),
+                                     report({row("good", "auto", "a", 0.2), row("good", "auto", "b", 0.2)})},
+                                    1, false);
+  EXPECT_EQ(entry(league, "good", "auto").cases, 2U);
+  EXPECT_NEAR(entry(league, "good", "auto").l2->median, 0.15, 1e-12);
+}
+
+TEST(League, ProfilesAreAmongThoseThatKnowAsMuch) {
+  const League league = league_of({row("good", "auto", "a", 0.1), row("good", "auto", "b", 0.2),
+                                   row("good", "auto", "c", 0.3), row("bad", "default", "a", 0.2),
+                                   row("bad", "default", "b", 0.1), row("bad", "default", "c", nullptr),
+                                   row("good", "oracle", "a", 0.01), row("good", "auto", "only-here", 0.1)});
+  std::map<std::string, LeagueProfile> profiles;
+  for (const LeagueProfile& profile : league.profiles) profiles[profile.group] = profile;
+  ASSERT_TRUE(profiles.contains("blind"));
+  const LeagueProfile& blind = profiles.at("blind");
+  EXPECT_EQ(blind.cases, 3U) << "what only one of them has is no comparison";
+  std::map<std::string, std::vector<double>> shares;
+  for (const auto& curve : blind.curves) shares[curve.method] = curve.shares;
+  const auto at = [&](double tau) {
+    for (std::size_t k = 0; k < league_taus().size(); ++k) {
+      if (league_taus()[k] == tau) return k;
+    }
+    throw std::runtime_error("no such tau");
+  };
+  EXPECT_NEAR(shares.at("good")[at(1)], 2.0 / 3, 1e-12);
+  EXPECT_NEAR(shares.at("good")[at(2)], 1, 1e-12);
+  EXPECT_NEAR(shares.at("bad")[at(1)], 1.0 / 3, 1e-12);
+  EXPECT_NEAR(shares.at("bad")[at(10)], 2.0 / 3, 1e-12) << "a failure is within no factor";
+  EXPECT_EQ(profiles.at("oracle").curves.size(), 1U);
+}
+
+TEST(League, IsWrittenAsItsSchemaSaysAndPrinted) {
+  const std::vector<json> reports = {
+      report({row("good", "auto", "a", 0.1), row("good", "auto", "b", 0.3), row("bad", "auto", "a", nullptr),
+              row("bad", "auto", "b", nullptr)})};
+  const json league = league_to_json(make_league(reports, 1, false), reports);
+  EXPECT_EQ(validate_by_kind(league), std::vector<std::string>());
+  json wrong = league;
+  wrong["methods"][0]["l2_median"] = "good";
+  EXPECT_NE(validate_by_kind(wrong), std::vector<std::string>());
+  std::ostringstream text;
+  print_markdown(league_document(league), text);
+  EXPECT_NE(text.str().find("20.00 (10.00 to 30.00)"), std::string::npos) << text.str();
+  EXPECT_NE(text.str().find("failed"), std::string::npos) << text.str();
+}
+
+}  // namespace
+}  // namespace hullbench

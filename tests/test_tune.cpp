@@ -1,0 +1,311 @@
+// `hullbench tune` as its users meet it: made-up methods whose best is known, failures, interruptions,
+// shards, and the plan it writes measured by `hullbench run`.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <csignal>
+#include <filesystem>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <numbers>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "benchmarks/json_lines.hpp"
+#include "benchmarks/metrics/area.hpp"
+#include "benchmarks/parameter_rules.hpp"
+#include "datasets/datasets.hpp"
+#include "tests/program.hpp"
+#include "tests/small_plans.hpp"
+#include "tests/temporary_folder.hpp"
+
+namespace hullbench {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+using testing::expect_refusal;
+using testing::Outcome;
+using testing::Program;
+using testing::read_text;
+using testing::write_text;
+
+constexpr int kCorners = 64;
+
+/// The polygon that the made-up method `disc` answers with.
+polylidar::MultiPolygon disc(const std::vector<polylidar::Point>& points, double radius) {
+  polylidar::Point centre = {0, 0};
+  for (const polylidar::Point& point : points) {
+    centre.x += point.x / static_cast<double>(points.size());
+    centre.y += point.y / static_cast<double>(points.size());
+  }
+  polylidar::Ring ring;
+  for (int i = 0; i < kCorners; ++i) {
+    const double angle = 2 * std::numbers::pi * i / kCorners;
+    ring.push_back({centre.x + radius * std::cos(angle), centre.y + radius * std::sin(angle)});
+  }
+  return {{ring, {}}};
+}
+
+class TuneTest : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    fs::create_directories(methods());
+    method("disc", R"([{"name": "radius", "unit": "length", "description": "Of the disc.", "minimum": 0,
+                        "maximum": null, "default": 1}])",
+           "def run(points, radius):\n"
+           "    with open('" +
+               calls().string() +
+               "', 'a') as calls: calls.write('x')\n"
+               "    angles = 2 * math.pi * numpy.arange(64) / 64\n"
+               "    ring = points.mean(axis=0) + radius * numpy.stack([numpy.cos(angles), "
+               "numpy.sin(angles)], 1)\n"
+               "    return [[ring]]\n");
+  }
+
+  /// A method in Python, for which a manifest is written.
+  void method(const std::string& name, const std::string& parameters, const std::string& run) const {
+    const json manifest = {{"manifest_version", 1},
+                           {"name", name},
+                           {"title", name},
+                           {"licence", "MIT"},
+                           {"citation", "a test"},
+                           {"native_output", "a ring"},
+                           {"parameters", json::parse(parameters)},
+                           {"capabilities", {{"holes", false}, {"several_polygons", false}}},
+                           {"command", {"/usr/bin/python3", "./" + name + ".py"}}};
+    write_text(methods() / (name + ".json"), manifest.dump());
+    write_text(methods() / (name + ".py"),
+               "import sys\nsys.path.insert(0, '" HULLBENCH_SOURCE_DIRECTORY
+               "/adapters/process')\nimport hullbench_worker\nimport math, numpy, os, time\n\n" +
+                   run + "\nhullbench_worker.serve(version='1', run=run)\n");
+  }
+
+  std::vector<std::string> command(const std::vector<std::string>& arguments) const {
+    std::vector<std::string> words = {HULLBENCH};
+    words.insert(words.end(), arguments.begin(), arguments.end());
+    return words;
+  }
+
+  testing::ProgramOptions options() const { return {folder(), {{"XDG_CONFIG_HOME", folder() / "config"}}}; }
+
+  Outcome hullbench(const std::vector<std::string>& arguments) const {
+    return testing::run_program(command(arguments), options());
+  }
+
+  std::vector<std::string> tune_words(const std::string& plan, const std::string& methods_expression,
+                                      const std::string& out,
+                                      const std::vector<std::string>& more = {}) const {
+    std::vector<std::string> words = {"tune",  plan,           "--methods",  methods_expression,
+                                      "--out", folder() / out, "--adapters", methods()};
+    words.insert(words.end(), more.begin(), more.end());
+    return words;
+  }
+
+  Outcome tune(const std::string& plan, const std::string& methods_expression, const std::string& out,
+               const std::vector<std::string>& more = {}) const {
+    return hullbench(tune_words(plan, methods_expression, out, more));
+  }
+
+  std::string plan(const json& cases) const {
+    return testing::write_plan(folder(), testing::small_plan("small", cases));
+  }
+
+  json summary(const std::string& out) const { return json::parse(read_text(folder() / out / "tune.json")); }
+
+  std::vector<json> sweep(const std::string& out) const {
+    return load_json_lines(folder() / out / "sweep.jsonl").lines;
+  }
+
+  void expect_valid(const std::string& file) const {
+    const Outcome validated = hullbench({"validate", folder() / file});
+    EXPECT_EQ(validated.code, 0) << validated.err;
+  }
+
+  fs::path folder() const { return folder_.path(); }
+  /// A byte for every call of `disc`.
+  fs::path calls() const { return folder() / "calls"; }
+  fs::path methods() const { return folder_.path() / "methods"; }
+
+  testing::TemporaryFolder folder_;
+};
+
+const json& method_of(const json& summary, const std::string& name) {
+  for (const json& method : summary.at("methods")) {
+    if (method.at("method") == name) return method;
+  }
+  throw std::out_of_range("no method " + name);
+}
+
+json stars(int members) {
+  return json::array({{{"dataset", "star"}, {"members", members}, {"n", {200}}}});
+}
+
+TEST_F(TuneTest, FindsTheBestOfAMadeUpMethod) {
+  const Outcome tuned = tune(plan(json::array({{{"dataset", "ca"}, {"n", {300}}}})), "disc", "out");
+  ASSERT_EQ(tuned.code, 0) << tuned.err;
+  EXPECT_EQ(tuned.out, read_text(folder() / "out" / "tuning.md"));
+  const PointSet set = make_point_set("ca", false, 300, 1);
+  double best = 2;
+  for (double octave = -3; octave <= 5; octave += 0.001) {
+    const double radius = mean_spacing(set.points) * std::exp2(octave);
+    best = std::min(best, area_scores(disc(set.points, radius), set.ground_truth).l2.value_or(2));
+  }
+  const json oracle = method_of(summary("out"), "disc").at("oracle").at(0);
+  // The refinement ends within 0.03 octaves, where the error is a valley with a slope below 1 an octave.
+  EXPECT_NEAR(oracle.at("l2").get<double>(), best, 0.03);
+  EXPECT_EQ(sweep("out").size(), 25U + 8U + 1U) << "the sweep, the refinement and the default";
+  for (const json& line : sweep("out")) EXPECT_LE(oracle.at("l2"), line.at("l2"));
+  expect_valid("out/tune.json");
+  expect_valid("out/sweep.jsonl");
+}
+
+TEST_F(TuneTest, TheSchemasRefuseWhatIsWrong) {
+  ASSERT_EQ(tune(plan(stars(2)), "disc", "out").code, 0);
+  json broken = summary("out");
+  broken["methods"][0]["curve"][0]["relative"]["median"] = "good";
+  write_text(folder() / "broken.json", broken.dump());
+  json line = sweep("out").front();
+  line["side"] = "left";
+  write_text(folder() / "broken.jsonl", line.dump() + "\n");
+  EXPECT_EQ(hullbench({"validate", "broken.json"}).code, 1);
+  EXPECT_EQ(hullbench({"validate", "broken.jsonl"}).code, 1);
+}
+
+TEST_F(TuneTest, ItsPlanMeasuresWhatItFound) {
+  const Outcome tuned = tune(plan(stars(6)), "polylidar|disc", "out");
+  ASSERT_EQ(tuned.code, 0) << tuned.err;
+  const Outcome run = hullbench({"run", folder() / "out" / "small-tuned.json", "--out", folder() / "run",
+                                 "--adapters", methods(), "--repetitions", "1"});
+  ASSERT_EQ(run.code, 0) << run.err;
+  std::map<std::string, double> found;
+  std::set<std::string> tested;
+  for (const json& line : sweep("out")) {
+    for (const json& protocol : line.at("protocols")) {
+      found[line.at("method").get<std::string>() + "/" + line.at("case").get<std::string>() +
+            "/protocol:" + protocol.get<std::string>()] = line.at("l2");
+    }
+    if (line.at("side") == "test") tested.insert(line.at("dataset"));
+  }
+  ASSERT_FALSE(tested.empty());
+  ASSERT_LT(tested.size(), 6U) << "this seed must have both sides among six stars";
+  const auto rows = load_json_lines(folder() / "run" / "runs.jsonl").lines;
+  std::set<std::string> measured;
+  for (const json& row : rows) {
+    ASSERT_TRUE(found.contains(row.at("name"))) << row.at("name");
+    measured.insert(row.at("name"));
+    EXPECT_EQ(row.at("metrics").at("l2"), found.at(row.at("name"))) << row.at("name");
+    EXPECT_TRUE(row.at("protocol") != "tuned" || tested.contains(row.at("dataset"))) << row.at("name");
+  }
+  EXPECT_EQ(measured.size(), found.size());
+  EXPECT_TRUE(found.contains("polylidar/star-1/n:200/holes:0/protocol:paper"));
+}
+
+TEST_F(TuneTest, AMethodWithoutANumberHasItsDefaultOnly) {
+  ASSERT_EQ(tune(plan(stars(3)), "convex_hull", "out").code, 0);
+  const json method = method_of(summary("out"), "convex_hull");
+  EXPECT_TRUE(method.at("axis").is_null());
+  EXPECT_TRUE(method.at("tuned").is_null());
+  for (const json& score : method.at("protocols")) {
+    EXPECT_EQ(score.at("protocol"), "default");
+    EXPECT_TRUE(score.at("regret_median").is_null());
+  }
+  EXPECT_EQ(sweep("out").size(), 3U);
+}
+
+TEST_F(TuneTest, FailuresAreEvaluationsAndInfinitelyBad) {
+  method("moody", R"([{"name": "radius", "unit": "length", "description": "Of the disc.", "minimum": 0,
+                       "maximum": null}])",
+         "def run(points, radius):\n"
+         "    if len(points) == 201: os.abort()\n"
+         "    if radius > 3 * abs(points).max(): os.abort()\n"
+         "    c = points.mean(axis=0)\n"
+         "    return [[[c, c + [radius, 0], c + [radius, radius], c + [0, radius]]]]\n");
+  const Outcome tuned =
+      tune(plan(json::array({{{"dataset", "star"}, {"members", 4}, {"n", {200}}}})), "moody", "out");
+  ASSERT_EQ(tuned.code, 0) << tuned.err << "a failure at some value is no failure of the method";
+  const Outcome failing =
+      tune(plan(json::array({{{"dataset", "star-1"}, {"n", {201}}}})), "moody", "failing");
+  EXPECT_EQ(failing.code, 4) << failing.err;
+  for (const json& line : sweep("failing")) {
+    EXPECT_EQ(line.at("status"), "crash");
+    EXPECT_EQ(line.at("detail"), "SIGABRT");
+    EXPECT_TRUE(line.at("l2").is_null());
+  }
+  EXPECT_EQ(sweep("failing").size(), 25U);
+  EXPECT_TRUE(method_of(summary("failing"), "moody").at("tuned").is_null());
+  expect_valid("failing/tune.json");
+  expect_valid("failing/sweep.jsonl");
+}
+
+TEST_F(TuneTest, WhatDoesNotStartIsSaidAndNothingElseIsExitCodeSix) {
+  method("absent", "[]", "import no_such_module\n\ndef run(points):\n    return []\n");
+  const Outcome tuned = tune(plan(stars(2)), "absent", "out");
+  EXPECT_EQ(tuned.code, 6) << tuned.err;
+  EXPECT_NE(tuned.err.find("absent does not start"), std::string::npos) << tuned.err;
+  EXPECT_FALSE(method_of(summary("out"), "absent").at("installed").get<bool>());
+  expect_valid("out/tune.json");
+}
+
+TEST_F(TuneTest, GoesOnAfterAnInterruptionToTheSameResult) {
+  const std::string cases = plan(stars(4));
+  ASSERT_EQ(tune(cases, "disc|polylidar", "whole").code, 0);
+  const auto calls_of_whole = fs::file_size(calls());
+  const fs::path file = folder() / "parts" / "sweep.jsonl";
+  {
+    Program program(command(tune_words(cases, "disc|polylidar", "parts", {"--jobs", "1"})), options());
+    ASSERT_TRUE(
+        testing::wait_until([&] { return fs::exists(file) && load_json_lines(file).lines.size() > 20; }));
+    program.send_signal(SIGINT);
+    const Outcome outcome = program.wait();
+    EXPECT_EQ(outcome.code, 130) << outcome.err;
+  }
+  const std::size_t kept = load_json_lines(file).lines.size();
+  ASSERT_LT(kept, sweep("whole").size()) << "it was over before the interruption";
+  // As a kill leaves it.
+  write_text(file, read_text(file) + "{\"kind\": \"eval");
+  const Outcome rest = tune(cases, "disc|polylidar", "parts");
+  ASSERT_EQ(rest.code, 0) << rest.err;
+  EXPECT_NE(rest.err.find(std::to_string(kept) + " evaluations are there already"), std::string::npos)
+      << rest.err;
+  for (const char* name : {"sweep.jsonl", "tune.json", "tuning.md", "small-tuned.json"})
+    EXPECT_EQ(read_text(folder() / "parts" / name), read_text(folder() / "whole" / name)) << name;
+  // What was known was not evaluated again, but for the one that was interrupted.
+  EXPECT_LE(fs::file_size(calls()), 2 * calls_of_whole + 1);
+}
+
+TEST_F(TuneTest, ShardsInOneFolderComeTogetherToTheSameResult) {
+  const std::string cases = plan(stars(5));
+  ASSERT_EQ(tune(cases, "disc|polylidar", "whole").code, 0);
+  for (const char* shard : {"1/2", "2/2"}) {
+    const Outcome part = tune(cases, "disc|polylidar", "parts", {"--shard", shard});
+    EXPECT_EQ(part.code, 0) << part.err;
+  }
+  EXPECT_FALSE(fs::exists(folder() / "parts" / "tune.json"));
+  expect_valid("parts/sweep-1-of-2.jsonl");
+  const auto calls_before = fs::file_size(calls());
+  const Outcome all = tune(cases, "disc|polylidar", "parts");
+  EXPECT_EQ(fs::file_size(calls()), calls_before) << "nothing is evaluated twice";
+  ASSERT_EQ(all.code, 0) << all.err;
+  EXPECT_NE(all.err.find(std::to_string(sweep("whole").size()) + " evaluations are there already"),
+            std::string::npos)
+      << all.err;
+  for (const char* name : {"sweep.jsonl", "tune.json", "tuning.md", "small-tuned.json"})
+    EXPECT_EQ(read_text(folder() / "parts" / name), read_text(folder() / "whole" / name)) << name;
+  EXPECT_EQ(tune(plan(stars(1)), "disc", "none", {"--shard", "2/2"}).code, 6);
+}
+
+TEST_F(TuneTest, RefusesWhatItCannotDo) {
+  const std::string cases = plan(stars(2));
+  expect_refusal(tune(cases, "no_such_method", "out"), 2,
+                 "no method has a name that matches 'no_such_method'");
+  expect_refusal(tune(cases, "(", "out"), 2, "is not a regular expression");
+  expect_refusal(tune("no_such_plan", "disc", "out"), 2, "there is no plan 'no_such_plan'");
+  write_text(folder() / "file", "");
+  expect_refusal(tune(cases, "disc", "file"), 2, "cannot write to the output folder");
+}
+
+}  // namespace
+}  // namespace hullbench
