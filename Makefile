@@ -43,19 +43,19 @@ endef
 
 NATIVE_OPTION = -DHULLBENCH_NATIVE=$(if $(filter-out 0,$(NATIVE)),ON,OFF)
 
-.PHONY: help deps deps-extra build bench bench-quick bench-core bench-gate bench-gate-instructions reference test test-sanitize build-clang test-clang test-fresh test-slurm test-gate fuzz lint format docs clean
+.PHONY: help deps deps-extra build bench bench-quick figures figures-core report report-compare evaluate bench-core bench-gate bench-gate-instructions reference test test-sanitize build-clang test-clang test-fresh test-slurm test-gate fuzz lint format docs clean
 
 help: ## list the targets (the default)
 	@awk 'BEGIN { FS = ":.*## " } /^[a-z-]+:.*## / { printf "  make %-23s %s\n", $$1, $$2 }' Makefile
 	@echo "  with NATIVE=1 (compile for this processor), SKIP_DEPS=1 (install nothing), JOBS=N (N processes)"
 
 deps: ## install what is missing of all the packages, development tools included
-	@cmake/install-packages.sh build bench test docs python lint gate
+	@cmake/install-packages.sh build bench test docs python plots lint gate
 	@echo "==> nothing is missing"
 
 deps-extra: ## install what the methods in JavaScript, Python and Java need
 	@$(call install,extra)
-	@$(if $(SKIP_DEPS),,adapters/manifests/install.sh)
+	@$(if $(SKIP_DEPS),,cmake/install-npm.sh adapters/manifests)
 	@echo "==> nothing is missing for the methods in other languages"
 
 build: ## only build: build/hullbench and build/core_benchmarks
@@ -66,6 +66,50 @@ bench: ## install, build and run the experiments (TABLE=states: only this one); 
 	@$(call install,build bench)
 	@$(MAKE) build
 	@build/hullbench run $(or $(TABLE),rgbd states alphabet random steps)
+
+RUN ?= results/latest
+DRAWN = build/drawn
+
+# $(call drawn,run,folder): what is drawn of a run, written anew as a reference run has its records compressed.
+define drawn
+rm -rf $(2) && build/hullbench report $(1) --out $(2) >/dev/null && \
+if [ -f $(1)/core.json ]; then cp $(1)/core.json $(2); fi
+endef
+
+figures: ## draw the paper's figures from results/latest, into its folder (RUN=FOLDER: from any run)
+	@$(call install,build plots)
+	@$(MAKE) build
+	@$(call drawn,$(RUN),$(DRAWN))
+	@/usr/bin/python3 plots/make_figures.py $(DRAWN) --out $(RUN)/figures
+
+figures-core: ## measure the core from 1000 to 10 million points for the figures, into core.json of RUN=
+	@$(call install,build)
+	@$(call build,release,$(NATIVE_OPTION),core_benchmarks)
+	@build/core_benchmarks --benchmark_repetitions=3 --benchmark_min_time=0.05 \
+	  --benchmark_enable_random_interleaving=true --benchmark_out_format=json --benchmark_out=$(RUN)/core.json \
+	  --benchmark_filter='^(concave_hull|concave_hull_2_threads|triangulation|cgal_alpha_shape|cgal_delaunay|geos_concave_hull_with_holes|geos_delaunay)/uniform/'
+
+report: ## write results/latest/report.html, one file with everything about the run (RUN=FOLDER: any run)
+	@$(call install,build plots)
+	@$(if $(SKIP_DEPS),,cmake/install-npm.sh plots)
+	@$(MAKE) build
+	@$(call drawn,$(RUN),$(DRAWN))
+	@/usr/bin/python3 plots/make_report.py $(DRAWN) --out $(RUN)/report.html
+
+report-compare: ## write B's comparison.html, two runs side by side (A=FOLDER B=FOLDER)
+	@test -n "$(A)" -a -n "$(B)" || { echo "error: give two runs: make report-compare A=FOLDER B=FOLDER" >&2; exit 2; }
+	@$(call install,build plots)
+	@$(if $(SKIP_DEPS),,cmake/install-npm.sh plots)
+	@$(MAKE) build
+	@$(call drawn,$(A),$(DRAWN)-a)
+	@$(call drawn,$(B),$(DRAWN)-b)
+	@build/hullbench compare $(A) $(B) --format json >$(DRAWN)-b/compared.json
+	@/usr/bin/python3 plots/make_comparison.py $(DRAWN)-a $(DRAWN)-b --compared $(DRAWN)-b/compared.json --out $(B)/comparison.html
+
+evaluate: ## the parameters' search over all stress suites and the league, on all cores (OUT=results/evaluation)
+	@$(call install,build bench)
+	@$(MAKE) build
+	@benchmarks/league/evaluate.sh build/hullbench $(or $(OUT),results/evaluation)
 
 reference: ## keep results/latest as the reference run, and write its tables into the README
 	@$(call install,build test)
@@ -97,8 +141,10 @@ bench-gate-instructions: ## the same by counted instructions, for machines that 
 	@benchmarks/gate/gate.sh --instructions $(if $(BASE),--base "$(BASE)")
 
 test: ## install, build and run all tests, the core's with sanitizers too
-	@$(call install,build bench test docs python)
+	@$(call install,build bench test docs python plots)
 	@$(MAKE) deps-extra
+	@cmake/install-npm.sh plots
+	@cmake/install-npm.sh tests/report
 	@$(call build,release,$(NATIVE_OPTION))
 	@$(MAKE) test-sanitize
 	@echo "==> all tests"

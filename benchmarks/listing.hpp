@@ -10,9 +10,9 @@
 
 namespace hullbench {
 
-/// {"methods": [...], "datasets": [...], "stress": [...]}: every one of `methods`, asked through a worker each, all at the
-/// same time, every data set and every way to draw points that can stand behind a data set's name. Members of a method as in describe_method, of a data set as in run.json.
-/// Throws Interrupted.
+/// {"methods": [...], "datasets": [...], "stress": [...]}: every one of `methods`, asked through a worker
+/// each, all at the same time, every data set and every way to draw points that can stand behind a data set's
+/// name. Members of a method as in describe_method, of a data set as in run.json. Throws Interrupted.
 nlohmann::json make_listing(const std::vector<Method>& methods, const WorkerLimits& limits);
 
 /// The same for people.

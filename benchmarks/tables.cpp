@@ -286,7 +286,8 @@ Document make_document(const json& report) {
   document.title = report.at("plan").value("title", std::string("Benchmark run")) +
                    (experiment.empty() ? "" : " (the paper's " + experiment + ")");
   const std::vector<Shape> all_shapes = shapes(context.measurements.cases());
-  if (report.at("plan").contains("axis")) {
+  const bool has_axis = report.at("plan").contains("axis");
+  if (has_axis) {
     document.tables.push_back(curve_table(context));
   } else if (is_collection(all_shapes)) {
     add_all(document, collection_tables(context, all_shapes));
@@ -294,7 +295,7 @@ Document make_document(const json& report) {
     for (const Shape& shape : all_shapes) add_all(document, shape_tables(context, shape));
     add(document, ratio_table(context, context.measurements.cases()));
   }
-  if (is_papers_experiment(context)) {
+  if (!has_axis && is_papers_experiment(context)) {
     add(document, steps_table(context));
     add(document, claims_table(context));
   }

@@ -91,7 +91,7 @@ add_executable(hullbench_with_sample)
 set_target_properties(hullbench_with_sample PROPERTIES RUNTIME_OUTPUT_DIRECTORY "${CMAKE_BINARY_DIR}/tests")
 target_link_libraries(hullbench_with_sample PRIVATE
   hullbench_program adapters_with_sample hullbench::runner hullbench::hull hullbench::report hullbench::tune
-  hullbench::league   hullbench::hash)
+  hullbench::league hullbench::hash)
 add_test(NAME sample_method.keeps_the_contract COMMAND hullbench_with_sample adapter test sample_hull)
 
 # Real methods, the harness and all. Two of them break one point, which is a row of its own in every table.

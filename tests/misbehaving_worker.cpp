@@ -184,6 +184,7 @@ json hello(const std::string& mode) {
   info.name = mode == "other_name" ? "somebody" : mode;
   info.title = "Misbehaving";
   info.version = "1";
+  info.capabilities.in_server = mode == "in_server";
   info.parameters = {{"size", "length", "Does nothing.", 0, 10, 1.0}};
   return {{"protocol", mode == "other_protocol" ? 2 : 1}, {"method", hullbench::method_to_json(info)}};
 }

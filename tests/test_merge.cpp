@@ -30,6 +30,7 @@ std::vector<std::string> accuracy_lines(const fs::path& run) {
   std::vector<std::string> lines;
   for (json line : load_json_lines(run / "runs.jsonl").lines) {
     for (const char* key : {"time_ns", "phases_ns", "machine", "flags"}) line.erase(key);
+    line["metrics"].erase("peak_memory_bytes");
     lines.push_back(line.dump());
   }
   return lines;

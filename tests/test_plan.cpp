@@ -296,7 +296,7 @@ TEST(Plan, WrongPlansAreRefusedWithTheirPlace) {
       {"/cases", json::array(), "cases must be a list with at least one element"},
       {"/cases/0", 5, "cases[0] must be an object"},
       {"/cases/0/size", 5,
-       "cases[0].size is not a key that is known here; known are dataset, members, holes and n"},
+       "cases[0].size is not a key that is known here; known are dataset, members, stress, holes and n"},
       {"/cases/0/n", 500, "cases[0].n must be a list"},
       {"/cases/0/n/1", 2, "cases[0].n[1] must be a whole number from 3"},
       {"/cases/0/n/1", 500, "cases[0].n[1] is there twice"},

@@ -272,8 +272,13 @@ const ProtocolScore* score_of(const std::vector<ProtocolScore>& scores, const st
 }
 
 TEST(TunedTest, IsTheTrainingShapesBestAndNeverSeesATestShape) {
-  const auto tuned_with = [](double best_of_tests) {
-    return *InventedTuning(usual_method())
+  // Three training shapes among many test shapes, which would have the say if they were heard.
+  InventedTuning invented(usual_method());
+  int training = 0;
+  std::erase_if(invented.tuning.cases,
+                [&](const TuningCase& one) { return one.side == Side::kTraining && ++training > 3; });
+  const auto tuned_with = [&](double best_of_tests) {
+    return *invented
                 .with([&](const TuningCase& one, double position) {
                   return valley(position, one.side == Side::kTraining ? 2 : best_of_tests);
                 })
@@ -281,6 +286,7 @@ TEST(TunedTest, IsTheTrainingShapesBestAndNeverSeesATestShape) {
   };
   const TunedValue here = tuned_with(2);
   EXPECT_NEAR(std::log2(here.position / 2), 0, 1.0 / 6) << "the grid's next position";
+  EXPECT_EQ(here.training_cases, 3U);
   for (const double elsewhere : {0.3, 16.0}) {
     const TunedValue there = tuned_with(elsewhere);
     EXPECT_EQ(there.position, here.position);

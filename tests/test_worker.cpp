@@ -108,14 +108,12 @@ TEST_F(MethodSessionTest, PeakMemoryIsThatOfTheRunThatIsWatched) {
 }
 
 TEST_F(MethodSessionTest, PeakMemoryOfAMethodInAServerIsNotKnown) {
-  Method method = described_method("good", misbehaving("good"));
-  method.info->capabilities.in_server = true;
-  session_ = std::make_unique<MethodSession>(method, WorkerLimits{256, std::nullopt, 8});
+  session_ = std::make_unique<MethodSession>(method_of("in_server", misbehaving("in_server")),
+                                             WorkerLimits{256, std::nullopt, 8});
   const Attempt result = run(30s, Watch::kMemory);
   EXPECT_EQ(result.status, Status::kOk) << result.detail;
   EXPECT_EQ(result.peak_memory_bytes, std::nullopt);
-  EXPECT_TRUE(method_from_json(method_to_json(*method.info)).capabilities.in_server);
-  EXPECT_FALSE(method_from_json(method_to_json(MethodInfo())).capabilities.in_server);
+  EXPECT_TRUE(session_->info()->capabilities.in_server);
 }
 
 TEST_F(MethodSessionTest, Crash) {

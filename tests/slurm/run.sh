@@ -147,6 +147,7 @@ accuracy() {
 import json, sys
 for line in open(sys.argv[1]):
     row = json.loads(line)
+    row["metrics"].pop("peak_memory_bytes", None)
     print(json.dumps({k: v for k, v in row.items() if k not in ("time_ns", "phases_ns", "machine", "flags")}))
 PYTHON
 }

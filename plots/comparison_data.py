@@ -1,0 +1,381 @@
+"""Two runs side by side: what `hullbench compare A B --format json` found, with the records of both runs beside it.
+
+Everything that is judged (ratios, intervals, tests, their correction) comes from the program. Here its pairs are found
+again in the records, and what the page needs beside them is put together.
+"""
+
+from __future__ import annotations
+
+import json
+import math
+import statistics
+from collections import Counter, defaultdict
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from records import Experiment, RecordError, Row
+from report_common import Entrant, case_of, entrant_of, label, median_interval, round_to
+from report_data import _member, _words, charts, metric_entry, metric_names
+from report_summary import SAME_ERROR
+
+# What became of a pair, in the program's words, in the order in which the page tells it.
+CHANGES = ("now fails", "now works", "slower", "faster", "not told apart", "not judged", "fails in both")
+
+# Of times from two machines nothing is said to have become faster or slower: what differs is then only lower or higher.
+ACROSS_MACHINES = {"slower": "higher time", "faster": "lower time"}
+
+# Significant digits of the table's numbers.
+DIGITS = 5
+
+_COMPARED_KEYS = {"a": str, "b": str, "methods": list, "pairs": list, "only_a": list, "only_b": list, "notes": list}
+_OPTIONAL_NUMBER = (int, float, type(None))
+_METHOD_KEYS = {
+    "method": str,
+    "protocol": str,
+    "pairs": int,
+    "faster": int,
+    "slower": int,
+    "ratio": _OPTIONAL_NUMBER,
+    "ratio_low": _OPTIONAL_NUMBER,
+    "ratio_high": _OPTIONAL_NUMBER,
+}
+_PAIR_KEYS = {
+    "name": str,
+    "change": str,
+    "status_a": str,
+    "status_b": str,
+    "same_points": bool,
+    "same_parameters": bool,
+    "same_version": bool,
+    **{
+        key: _OPTIONAL_NUMBER
+        for key in (
+            "median_a_ns",
+            "median_b_ns",
+            "ratio",
+            "ratio_low",
+            "ratio_high",
+            "p_value",
+            "adjusted_p_value",
+            "l2_a",
+            "l2_b",
+        )
+    },
+}
+
+
+@dataclass(frozen=True)
+class Pair:
+    """A run that both have. `told` is the program's line about it."""
+
+    a: Row
+    b: Row
+    experiment: Experiment  # that of A
+    told: dict[str, Any]
+
+    @property
+    def change(self) -> str:
+        return self.told["change"]
+
+    @property
+    def judged(self) -> bool:
+        return self.told["adjusted_p_value"] is not None
+
+    @property
+    def error_change(self) -> float | None:
+        """Error L2 of B less that of A; 0 when they differ by rounding only, None when one has none."""
+        a, b = self.told["l2_a"], self.told["l2_b"]
+        if a is None or b is None:
+            return None
+        return 0.0 if abs(b - a) <= SAME_ERROR * max(abs(a), abs(b)) else b - a
+
+    @property
+    def other_result(self) -> bool:
+        """Both have a result, of the same points, and it is not the same to the byte."""
+        a, b = self.a.raw.get("output_sha256"), self.b.raw.get("output_sha256")
+        return bool(a and b) and a != b and self.told["same_points"]
+
+
+@dataclass(frozen=True)
+class MethodChange:
+    """A method's pairs together, B over A."""
+
+    entrant: Entrant
+    label: str
+    pairs: int  # with a ratio of times
+    judged: int  # of which a difference could have been shown
+    ratio: float | None
+    low: float | None  # of the 95 % interval of the ratio; None: of one shape there is none
+    high: float | None
+    faster: int  # pairs
+    slower: int
+
+    @property
+    def change(self) -> str:
+        """ "faster" or "slower" only when the interval leaves out 1."""
+        if self.ratio is None or self.low is None or self.high is None:
+            return "not judged"
+        return "faster" if self.high < 1 else "slower" if self.low > 1 else "not told apart"
+
+
+@dataclass
+class Comparison:
+    a: list[Experiment]
+    b: list[Experiment]
+    names: tuple[str, str]  # of A and B, their folders' names
+    pairs: list[Pair]
+    methods: list[MethodChange]  # those with a pair
+    only_a: list[str]
+    only_b: list[str]
+    notes: list[str]  # the program's
+    machines: tuple[set[str], set[str]]
+
+    @property
+    def same_machine(self) -> bool:
+        """Both sides were measured on one machine, the same one, and it is known."""
+        a, b = self.machines
+        return a == b and len(a) == 1
+
+    @property
+    def same_run(self) -> bool:
+        """Both sides hold the same measurements: every repetition is the same."""
+        return (
+            bool(self.pairs)
+            and not self.only_a
+            and not self.only_b
+            and all(
+                pair.a.raw["id"] == pair.b.raw["id"] and pair.a.raw["time_ns"] == pair.b.raw["time_ns"]
+                for pair in self.pairs
+            )
+        )
+
+    def word(self, change: str) -> str:
+        """A pair's or a method's change as the page calls it."""
+        return change if self.same_machine else ACROSS_MACHINES.get(change, change)
+
+    def having(self, *changes: str) -> list[Pair]:
+        return [pair for pair in self.pairs if pair.change in changes]
+
+
+def compare(a: list[Experiment], b: list[Experiment], told: dict[str, Any], names: tuple[str, str]) -> Comparison:
+    """`told` is what read_compared gives. Raises RecordError when it is not about these two."""
+    pairs = _find_pairs(a, b, told["pairs"])
+    judged = Counter(entrant_of(pair.a) for pair in pairs if pair.judged)
+    methods = []
+    for one in told["methods"]:
+        entrant = Entrant(one["method"], one["protocol"])
+        methods.append(
+            MethodChange(
+                entrant,
+                label([*a, *b], entrant),
+                one["pairs"],
+                judged[entrant],
+                one["ratio"],
+                one["ratio_low"],
+                one["ratio_high"],
+                one["faster"],
+                one["slower"],
+            )
+        )
+    order = {change: place for place, change in enumerate(CHANGES[:2])}
+    pairs.sort(key=lambda pair: order.get(pair.change, len(order)))  # stable: the rest stays in the order of A
+    return Comparison(
+        a, b, names, pairs, methods, told["only_a"], told["only_b"], told["notes"], (_machines(a), _machines(b))
+    )
+
+
+def read_compared(path: Path) -> dict[str, Any]:
+    """What `hullbench compare --format json` wrote. Raises RecordError when it is not that."""
+    remedy = "'hullbench compare A B --format json' writes it"
+    try:
+        told = json.loads(path.read_text(encoding="utf-8"))
+    except OSError as error:
+        raise RecordError(f"{path} cannot be read ({error.strerror}); {remedy}.") from error
+    except (UnicodeDecodeError, json.JSONDecodeError) as error:
+        raise RecordError(f"{path} cannot be read as JSON ({error}); {remedy}.") from error
+    _check(told, _COMPARED_KEYS, str(path), remedy)
+    for part, keys in (("methods", _METHOD_KEYS), ("pairs", _PAIR_KEYS)):
+        for index, entry in enumerate(told[part]):
+            _check(entry, keys, f"{path}: {part}[{index}]", remedy)
+    for index, pair in enumerate(told["pairs"]):
+        if pair["change"] not in CHANGES:
+            raise RecordError(f"{path}: pairs[{index}] has an unknown change {pair['change']!r}; {remedy}.")
+    for part in ("only_a", "only_b", "notes"):
+        if not all(isinstance(word, str) for word in told[part]):
+            raise RecordError(f"{path} is malformed: {part} must be texts; {remedy}.")
+    return told
+
+
+def _check(value: Any, keys: dict[str, Any], where: str, remedy: str) -> None:
+    if not isinstance(value, dict):
+        raise RecordError(f"{where} is not an object; {remedy}.")
+    for key, kind in keys.items():
+        good = key in value and isinstance(value[key], kind) and (kind is bool or not isinstance(value[key], bool))
+        if not good or (isinstance(value[key], float) and not math.isfinite(value[key])):
+            raise RecordError(f'{where} is malformed: "{key}" is missing or of another kind; {remedy}.')
+
+
+# Finding the program's pairs again.
+
+
+def _find_pairs(a: Sequence[Experiment], b: Sequence[Experiment], told: Sequence[dict[str, Any]]) -> list[Pair]:
+    """The rows of every pair of the program. A suite may have a name in two experiments; then status and time say which
+    is meant, and where these are the same, too, those of the same experiment belong together."""
+    in_a, in_b = _by_name(a), _by_name(b)
+    return [_take(in_a[line["name"]], in_b[line["name"]], line) for line in told]
+
+
+def _by_name(experiments: Sequence[Experiment]) -> dict[str, list[tuple[Experiment, Row]]]:
+    found: dict[str, list[tuple[Experiment, Row]]] = defaultdict(list)
+    for experiment in experiments:
+        for row in experiment.rows:
+            found[row.name].append((experiment, row))
+    return found
+
+
+def _take(in_a: list[tuple[Experiment, Row]], in_b: list[tuple[Experiment, Row]], line: dict[str, Any]) -> Pair:
+    """Takes the two rows that the line is about out of those of its name."""
+    fitting = [
+        (one, other)
+        for one in in_a
+        if _is_of(one[1], line["status_a"], line["median_a_ns"])
+        for other in in_b
+        if _is_of(other[1], line["status_b"], line["median_b_ns"])
+    ]
+    if not fitting:
+        raise RecordError(
+            f"the comparison is not of these two runs: {line['name']} is not in them as it says; compare them "
+            "again with 'hullbench compare A B --format json'."
+        )
+    one, other = next((pair for pair in fitting if pair[0][0].name == pair[1][0].name), fitting[0])
+    in_a.remove(one)
+    in_b.remove(other)
+    return Pair(one[1], other[1], one[0], line)
+
+
+def _is_of(row: Row, status: str, median_ns: float | None) -> bool:
+    if row.status != status:
+        return False
+    return median_ns is None or (
+        bool(row.raw["time_ns"]) and math.isclose(statistics.median(row.raw["time_ns"]), median_ns)
+    )
+
+
+def _machines(experiments: Sequence[Experiment]) -> set[str]:
+    """Where the rows were measured, or their run where a row does not say."""
+    return {
+        machine
+        for experiment in experiments
+        for row in experiment.rows
+        if (machine := row.raw.get("machine") or experiment.report["environment"].get("machine_id"))
+    }
+
+
+# The table and the forest plot: all pairs as columns.
+
+
+def columns(comparison: Comparison) -> dict[str, Any]:
+    """Columns like those of report_data.columns, in milliseconds and in the error's own unit (of the truth's area)."""
+    pairs = comparison.pairs
+    experiments = [experiment.name for experiment in comparison.a]
+    titles = {
+        name: dataset["title"]
+        for side in (comparison.b, comparison.a)
+        for experiment in side
+        for name, dataset in experiment.datasets.items()
+    }
+    split = [_member(pair.a.dataset) for pair in pairs]
+    made = {
+        "experiment": {"values": [experiments.index(pair.experiment.name) for pair in pairs]},
+        "entrant": _words([entrant_of(pair.a).key for pair in pairs]),
+        "family": _words([family for family, _ in split]),
+        "member": {"values": [member for _, member in split]},
+        "sample": _words([case_of(pair.a).removeprefix(f"{pair.a.dataset}/") for pair in pairs]),
+        "n": {"values": [pair.a.n for pair in pairs]},
+        "holes": {"values": [int(pair.a.holes) for pair in pairs]},
+        "status": _words([comparison.word(pair.change) for pair in pairs]),
+        "detail": _words([_detail(pair) for pair in pairs]),
+        "differs": _words([_differs(pair) for pair in pairs]),
+        "error_change": {"values": [_rounded(pair.error_change) for pair in pairs]},
+    }
+    made["family"]["titles"] = [titles.get(family, family) for family in made["family"]["words"]]
+    if any(pair.a.name != f"{pair.a.method}/{case_of(pair.a)}/protocol:{pair.a.protocol}" for pair in pairs):
+        made["name"] = _words([pair.a.name for pair in pairs])
+    for key in ("ratio", "ratio_low", "ratio_high", "adjusted_p_value", "l2_a", "l2_b"):
+        made[key] = {"values": [_rounded(pair.told[key]) for pair in pairs]}
+    for side in ("a", "b"):
+        made[f"time_{side}"] = {"values": [_rounded(pair.told[f"median_{side}_ns"], 1e-6) for pair in pairs]}
+        rows = [pair.a if side == "a" else pair.b for pair in pairs]
+        for end, name in enumerate(("low", "high")):
+            made[f"time_{side}_{name}"] = {"values": [_end(row, end) for row in rows]}
+    return {"count": len(pairs), "columns": made}
+
+
+def _end(row: Row, end: int) -> float | int | None:
+    interval = median_interval(row)
+    return _rounded(interval[end], 1e-6) if interval and row.ok else None
+
+
+def _detail(pair: Pair) -> str:
+    """Why a side has no result."""
+    a, b = (f"{row.status}{f', {row.detail}' if row.detail else ''}" if not row.ok else "" for row in (pair.a, pair.b))
+    if a and a == b:
+        return f"both: {a}"
+    return "; ".join(f"{side}: {why}" for side, why in (("A", a), ("B", b)) if why)
+
+
+def _differs(pair: Pair) -> str:
+    """What differs beside the times."""
+    told = [
+        word
+        for word, same in (("points", "same_points"), ("parameters", "same_parameters"), ("version", "same_version"))
+        if not pair.told[same]
+    ]
+    return ", ".join(told + (["result"] if pair.other_result else []))
+
+
+def _rounded(value: float | None, factor: float = 1) -> float | int | None:
+    return None if value is None else round_to(value * factor, DIGITS)
+
+
+# The charts of time and error: those of the report, both sides in one.
+
+
+def both_charts(comparison: Comparison) -> list[dict[str, Any]]:
+    """The charts of report_data.charts that both sides have, with the series of A and of B: "a" and "b" are objects of
+    entrants' points, x is that of both together."""
+    others = {_chart_key(comparison.b, chart): chart for chart in charts(comparison.b)}
+    made = []
+    for chart in charts(comparison.a):
+        other = others.get(_chart_key(comparison.a, chart))
+        if other is None:
+            continue
+        x = (
+            sorted({*chart["x"], *other["x"]})
+            if chart["kind"] == "n"
+            else list(dict.fromkeys([*chart["x"], *other["x"]]))
+        )
+        made.append(
+            {key: chart[key] for key in ("id", "experiment", "title", "kind", "axis")}
+            | {"x": x, "a": _placed(chart, x), "b": _placed(other, x)}
+        )
+    return made
+
+
+def _chart_key(experiments: Sequence[Experiment], chart: dict[str, Any]) -> tuple[str, ...]:
+    """What it is of. The title of one of every shape tells the number of points, which a filter changes."""
+    return experiments[chart["experiment"]].name, chart["kind"], "" if chart["kind"] == "shape" else chart["title"]
+
+
+def _placed(chart: dict[str, Any], x: list[Any]) -> dict[str, list[dict[str, Any]]]:
+    return {
+        entrant: [point | {"x": x.index(chart["x"][point["x"]])} for point in points]
+        for entrant, points in chart["series"].items()
+    }
+
+
+def charted_metrics(comparison: Comparison) -> list[dict[str, Any]]:
+    rows = [row for experiment in (*comparison.a, *comparison.b) for row in experiment.rows]
+    return [entry for name in metric_names(rows) if (entry := metric_entry(name))["charted"]]

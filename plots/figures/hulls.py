@@ -1,0 +1,89 @@
+"""Each method's hull of the same points, side by side, with its difference from the ground truth (the paper's
+Figure 10)."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from matplotlib.patches import Patch
+
+from figures.shapes import height_over_width, shape_picture
+from figures.states import growing_shapes
+from maps import Polygons, area_path, difference, frame, outline, points
+from records import Picture, Row
+from run import Drawn, Run, Skipped, failures
+from style import FULL_WIDTH, in_order, label, legend_row, method_style, new_figure, role_color
+
+_POINTS = 4000  # as in the paper
+_COLUMNS = 6
+
+
+def draw(run: Run) -> Iterator[Drawn]:
+    drawn = 0
+    for dataset, experiment in growing_shapes(run, 1).items():
+        picture = shape_picture(run, dataset, _POINTS)
+        if picture is None:
+            continue
+        rows = [row for row in experiment.rows if row.case == picture.name]
+        yield Drawn(f"hulls_{dataset}", _figure(picture, rows), _caption(picture, rows))
+        drawn += 1
+    if not drawn:
+        raise Skipped("the run has no pictures of a shape with holes")
+
+
+def _caption(picture: Picture, rows: list[Row]) -> str:
+    total = picture.case["points_total"]
+    return (f"Hulls of the same {total:,} points of {rows[0].dataset.upper()} with holes. Grey: right; blue: missing from "
+            "the hull; orange: in the hull but not in the ground truth, whose outline is the thin line. In percent the L² "
+            f"error: the difference's area over that of the ground truth. {failures(rows)}").strip()
+
+
+def _figure(picture: Picture, rows: list[Row]) -> Figure:
+    by_series = {row.series: row for row in rows}
+    every = in_order(by_series)
+    lines = math.ceil((len(every) + 1) / _COLUMNS)
+    columns = min(_COLUMNS, math.ceil((len(every) + 1) / lines))
+    width = FULL_WIDTH if columns > 4 else 40 * columns
+    height = width / columns * 0.95 * min(1.3, height_over_width(picture)) + 9
+    figure = new_figure(width, height * lines + 6)
+    grid = figure.add_gridspec(lines + 1, columns, height_ratios=[height] * lines + [5])
+    _points_panel(figure.add_subplot(grid[0, 0]), picture)
+    for k, one in enumerate(every, 1):
+        axes = figure.add_subplot(grid[k // columns, k % columns])
+        _hull_panel(axes, picture, by_series[one], label(one, every))
+    legend_row(figure.add_subplot(grid[lines, :]), difference_key(), failures(rows))
+    return figure
+
+
+def difference_key() -> list[Patch]:
+    words = {"both": "right", "omission": "missing", "commission": "too much"}
+    return [Patch(facecolor=role_color(role), label=text) for role, text in words.items()]
+
+
+def _points_panel(axes: Axes, picture: Picture) -> None:
+    outline(axes, area_path(picture.ground_truth()), role_color("ground_truth"), 0.5, zorder=6)
+    points(axes, picture.points(), 0.9)
+    frame(axes, picture)
+    axes.set_title("Points and truth", fontsize=7)
+
+
+def _hull_panel(axes: Axes, picture: Picture, row: Row, name: str) -> None:
+    result = picture.polygons(row.name)
+    draw_result(axes, picture, result)
+    error = row.metric("l2")
+    weight = "bold" if method_style(row.method).paper else "normal"
+    axes.set_title(name, fontsize=7, fontweight=weight, pad=11)
+    text = f"{100 * error:.1f} %" if error is not None else row.status.replace("_", " ")
+    axes.text(0.5, 1.01, text, transform=axes.transAxes, ha="center", va="bottom", fontsize=6.5)
+
+
+def draw_result(axes: Axes, picture: Picture, result: Polygons | None) -> None:
+    """The difference between a result and the ground truth; without a result only the ground truth's outline."""
+    truth = area_path(picture.ground_truth())
+    if result is not None:
+        difference(axes, truth, area_path(result))
+    outline(axes, truth, role_color("ground_truth"), 0.35, zorder=6)
+    frame(axes, picture)

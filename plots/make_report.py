@@ -1,0 +1,249 @@
+#!/usr/bin/python3
+"""Writes the report of a run or suite: one HTML file that needs no network and opens from disk.
+
+    make_report.py [RUN] [--out FILE]
+
+RUN is the folder of a run or of a suite, results/latest if it is not given; FILE is RUN/report.html. Exit codes: 0 ok;
+2 when the run cannot be read, the charting library is missing or the file cannot be written.
+"""
+
+from __future__ import annotations
+
+import argparse
+import base64
+import hashlib
+import json
+import re
+import sys
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Any
+
+from pictures import pack as pack_pictures
+from records import EXIT_CONFIGURATION, Experiment, RecordError, load
+from report_common import PROTOCOLS, entrants_of, label, text
+from report_data import charts, columns, metric_entry, metric_names, pack
+from report_html import environment_html, notes_html, paper_html, parameters_html, summary_html, tables_html
+from report_summary import measure_noise, summarise
+
+PLOTS = Path(__file__).resolve().parent
+PAGE = PLOTS / "report"
+LIBRARY = PLOTS / "node_modules" / "echarts" / "dist" / "echarts.common.min.js"
+
+# In the order in which they are put together; each may use those before it.
+SCRIPTS = (
+    "data.js",
+    "format.js",
+    "theme.js",
+    "markers.js",
+    "picture.js",
+    "gallery.js",
+    "case_dialog.js",
+    "chart_options.js",
+    "pareto.js",
+    "label_places.js",
+    "charts.js",
+    "table.js",
+    "main.js",
+)
+STYLES = ("report.css", "gallery.css")
+
+
+def main(arguments: Sequence[str] | None = None) -> int:
+    parser = argparse.ArgumentParser(prog="make_report.py", description="Writes the report of a run as one HTML file.")
+    parser.add_argument(
+        "run",
+        nargs="?",
+        default=PLOTS.parent / "results" / "latest",
+        type=Path,
+        metavar="RUN",
+        help="folder of a run or of a suite (results/latest)",
+    )
+    parser.add_argument("--out", type=Path, metavar="FILE", help="the file to write (RUN/report.html)")
+    options = parser.parse_args(arguments)
+    out = options.out or options.run / "report.html"
+    try:
+        page = make_page(load(options.run), options.run)
+        out.write_text(page, encoding="utf-8")
+    except RecordError as error:
+        print(f"make_report.py: {error}", file=sys.stderr)
+        return EXIT_CONFIGURATION
+    except OSError as error:
+        print(f"make_report.py: {out} cannot be written ({error.strerror}).", file=sys.stderr)
+        return EXIT_CONFIGURATION
+    print(f"wrote {out} ({len(page.encode()) / 2**20:.1f} MiB)")
+    return 0
+
+
+def make_page(experiments: Sequence[Experiment], folder: Path) -> str:
+    """The whole page. Raises RecordError when the records are malformed or the charting library is missing."""
+    try:
+        return _fill(_template_values(experiments, folder))
+    except (KeyError, TypeError, AttributeError, ValueError) as error:
+        raise RecordError(
+            f"the records in {folder} are not as results/report.schema.json says "
+            f"({type(error).__name__}: {error}); 'hullbench validate' tells where."
+        ) from error
+
+
+def _template_values(experiments: Sequence[Experiment], folder: Path) -> dict[str, str]:
+    summaries = [summarise(experiment) for experiment in experiments]
+    noise = measure_noise(experiments)
+    title = "Concave hulls: " + (experiments[0].title if len(experiments) == 1 else "the whole suite")
+    report, pictures = _report(experiments, folder, title), pack_pictures(experiments)
+    scripts = [_library(), "\n".join(_script(name) for name in SCRIPTS if (PAGE / name).is_file())]
+    return {
+        "policy": _policy(scripts),
+        "title": text(title),
+        "byline": _byline(experiments),
+        "style": "\n".join((PAGE / name).read_text(encoding="utf-8") for name in STYLES if (PAGE / name).is_file()),
+        "colours": _colours(report["methods"]),
+        "summary": summary_html(summaries, noise),
+        "paper": paper_html(experiments, folder),
+        "parameters": parameters_html(experiments),
+        "environment": environment_html(experiments),
+        "notes": notes_html(experiments),
+        "tables": tables_html(experiments, folder) or "<p>The run has no tables.md.</p>",
+        "report": _data("report", report),
+        "charts": _data("charts", pack(charts(experiments))),
+        "rows": _data("rows", pack(columns(experiments))),
+        "pictures": _data("pictures", pictures),
+        "library": scripts[0],
+        "script": scripts[1],
+    }
+
+
+def _report(experiments: Sequence[Experiment], folder: Path, title: str) -> dict[str, Any]:
+    """What the page's scripts know from the start."""
+    styles = _styles(experiments)
+    entrants = {entrant: None for experiment in experiments for entrant in entrants_of(experiment)}
+    order = sorted(
+        entrants, key=lambda entrant: (styles[entrant.method]["order"], entrant.protocol != "paper", entrant.protocol)
+    )
+    rows = [row for experiment in experiments for row in experiment.rows]
+    return {
+        "title": title,
+        "run": folder.resolve().name,
+        "methods": styles,
+        "protocols": PROTOCOLS,
+        "entrants": [
+            {
+                "key": entrant.key,
+                "method": entrant.method,
+                "protocol": entrant.protocol,
+                "label": label(experiments, entrant),
+            }
+            for entrant in order
+        ],
+        "experiments": [
+            {
+                "name": experiment.name,
+                "title": experiment.title,
+                "paper": experiment.plan.get("paper", ""),
+                "rows": len(experiment.rows),
+                "options": _options(experiment),
+            }
+            for experiment in experiments
+        ],
+        "metrics": [metric_entry(name) for name in metric_names(rows)],
+        "rows": len(rows),
+    }
+
+
+def _options(experiment: Experiment) -> str:
+    """What 'hullbench run' needs beside the plan's name for the same points: the seed, where it is not the usual 1."""
+    seed = experiment.report.get("seed", 1)
+    return "" if seed == 1 else f" --seed {int(seed)}"
+
+
+def _styles(experiments: Sequence[Experiment]) -> dict[str, Any]:
+    """Of every method in the run: title, order, colours, marker and dashes as methods.json gives them; a method that it
+    does not know takes one of its spare styles, in the order of the names."""
+    known = json.loads((PLOTS / "methods.json").read_text(encoding="utf-8"))
+    names = sorted(
+        {row.method for experiment in experiments for row in experiment.rows}
+        | {name for experiment in experiments for name in experiment.methods}
+    )
+    strangers = [name for name in names if name not in known["methods"]]
+    styles = {}
+    for name in names:
+        index = strangers.index(name) if name in strangers else 0
+        style = known["methods"].get(name) or {**known["others"][index % len(known["others"])], "order": 1000 + index}
+        titles = [one.methods[name]["title"] for one in experiments if name in one.methods]
+        styles[name] = {
+            "title": titles[0] if titles else name,
+            "order": style["order"],
+            "marker": style["marker"],
+            "light": style["color"]["light"],
+            "dark": style["color"]["dark"],
+        }
+    return styles
+
+
+def _byline(experiments: Sequence[Experiment]) -> str:
+    environment, tool = experiments[0].report["environment"], experiments[0].report.get("tool", {})
+    runs = f"{sum(len(experiment.rows) for experiment in experiments):,}".replace(",", "\u202f")
+    parts = (
+        f"{tool.get('name', 'hullbench')} {tool.get('version', '')}",
+        experiments[0].report.get("created", "")[:10],
+        f"{runs} runs",
+        environment.get("cpu", {}).get("model", "unknown processor"),
+        environment.get("os") or "unknown system",
+    )
+    return " · ".join(text(part) for part in parts)
+
+
+def _colours(styles: dict[str, Any]) -> str:
+    """A custom property for every method, in both themes."""
+
+    def block(theme: str) -> str:
+        return "".join(f"--method-{name}:{style[theme]};" for name, style in styles.items())
+
+    swatches = "".join(f".swatch[data-method='{name}']{{background:var(--method-{name})}}" for name in styles)
+    return (
+        f":root{{{block('light')}}}:root[data-theme='dark']{{{block('dark')}}}"
+        f"@media print{{:root[data-theme='dark']{{{block('light')}}}}}{swatches}"
+    )
+
+
+def _data(identity: str, value: Any) -> str:
+    """JSON that stays inside its element: "<" is written as an escape, so no text of a record can end the element."""
+    written = json.dumps(value, ensure_ascii=False, separators=(",", ":"), allow_nan=False).replace("<", "\\u003c")
+    return f'<script type="application/json" id="{identity}">{written}</script>'
+
+
+def _library() -> str:
+    if not LIBRARY.is_file():
+        raise RecordError("the charting library is missing; 'cmake/install-npm.sh plots' installs it.")
+    return _in_script(LIBRARY.read_text(encoding="utf-8"))
+
+
+def _script(name: str) -> str:
+    return _in_script((PAGE / name).read_text(encoding="utf-8"))
+
+
+def _in_script(source: str) -> str:
+    """As it may stand inside of a script element, which "</script" ends and "<!--" disturbs, even in a text."""
+    return source.replace("</script", "<\\/script").replace("<!--", "<\\!--")
+
+
+def _policy(scripts: Sequence[str]) -> str:
+    """No network at all, and no script but the page's own, by their hashes: markup that came in with a record would do
+    nothing. Styles are free, as the charts' labels set their own."""
+    hashes = " ".join(
+        f"'sha256-{base64.b64encode(hashlib.sha256(script.encode()).digest()).decode()}'" for script in scripts
+    )
+    return (
+        f"default-src 'none'; script-src {hashes}; style-src 'unsafe-inline'; img-src data:; base-uri 'none'; "
+        "form-action 'none'"
+    )
+
+
+def _fill(values: dict[str, str]) -> str:
+    """The template with {{name}} replaced, once: a value that holds such a mark keeps it."""
+    template = (PAGE / "template.html").read_text(encoding="utf-8")
+    return re.sub(r"\{\{(\w+)\}\}", lambda found: values[found.group(1)], template)
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,282 @@
+// The forest plots of ratios: a line a method, then a line a run.
+
+const FOREST_PAGE = 40;
+
+/** The section of ratios: a line a method, then a line a run. */
+class Forests {
+  constructor(place, report, rows, hidden, changed) {
+    Object.assign(this, { report, rows, hidden });
+    this.labels = new Map(report.entrants.map((entrant) => [entrant.key, entrant]));
+    this.withRatio = [...Array(rows.count).keys()].filter((row) => rows.get("ratio", row) !== null);
+    this.index();
+    this.state = { words: "", changed: "", order: "method", page: 0 };
+    this.build(place, changed);
+    onTheme(() => this.draw());
+    addEventListener("beforeprint", () => this.resizeAll({ width: 660 }));
+    addEventListener("afterprint", () => this.resizeAll({ width: "auto" }));
+    this.draw();
+  }
+
+  /** What filters and orders look at, by row: once, for a suite has twenty thousand rows. */
+  index() {
+    const { rows } = this;
+    const all = [...Array(rows.count).keys()];
+    const methods = new Map(this.report.entrants.map((entrant, index) => [entrant.key, index]));
+    const cases = new Map();
+    for (const row of all) if (!cases.has(rows.caseName(row))) cases.set(rows.caseName(row), cases.size);
+    this.texts = all.map((row) => `${rows.name(row)} ${rows.shape(row)}`.toLowerCase());
+    this.places = {
+      method: all.map((row) => methods.get(rows.get("entrant", row))),
+      cases: all.map((row) => cases.get(rows.caseName(row))),
+    };
+  }
+
+  build(place, changed) {
+    const option = ([value, label]) => make("option", { value }, label);
+    const choice = (words, key, options) =>
+      make(
+        "label",
+        {},
+        words,
+        make(
+          "select",
+          { id: `forest-${key}`, change: (event) => this.set({ [key]: event.target.value, page: 0 }) },
+          ...options.map(option),
+        ),
+      );
+    const words = make("input", {
+      type: "search",
+      id: "forest-words",
+      placeholder: "ca holes:1 n:64000",
+      autocomplete: "off",
+      input: (event) => this.set({ words: event.target.value, page: 0 }),
+    });
+    this.count = make("p", { class: "muted", id: "forest-count", "aria-live": "polite" });
+    place.append(this.legend());
+    this.toggles = new MethodToggles(
+      place,
+      this.report,
+      new Set(this.report.changes.map((one) => one.key)),
+      this.hidden,
+      changed,
+    );
+    place.append(
+      this.figure("methods", "Every method: the median of its runs’ ratios"),
+      make(
+        "div",
+        { class: "controls", role: "search", "aria-label": "Filter the runs of the chart" },
+        make("label", {}, "Words in the run’s name", words),
+        choice("Runs", "changed", [
+          ["", "all"],
+          ["differ", "only those that differ"],
+        ]),
+        choice("Order", "order", [
+          ["method", "by method"],
+          ["case", "by case"],
+          ["low", "smallest ratio first"],
+          ["high", "largest ratio first"],
+        ]),
+      ),
+      this.count,
+      this.figure("runs", "Every run"),
+      this.pager(),
+    );
+    this.plots = ["methods", "runs"].map((id) => {
+      const element = document.getElementById(`forest-${id}`);
+      const chart = echarts.init(element, null, { renderer: "svg", height: 100 });
+      new ResizeObserver(() => this.resized(chart, element)).observe(element);
+      return { id, element, chart };
+    });
+  }
+
+  legend() {
+    const words = this.report.same_machine ? ["faster", "slower"] : ["lower time", "higher time"];
+    const signs = [...words, "not told apart", "not judged"].map((change) => {
+      const { marker, filled } = CHANGE_MARKS[change];
+      return make(
+        "span",
+        { class: `change ${change.replaceAll(" ", "-")}${filled ? " filled" : ""}` },
+        markerPicture(marker),
+        change,
+      );
+    });
+    const why = this.report.same_machine
+      ? "Coloured only where the difference is significant, of a run after Holm’s correction over all; bars are 95 % intervals."
+      : "The machines differ, so nothing is coloured; bars are 95 % intervals.";
+    return make("p", { class: "legend", id: "forest-legend" }, ...signs, make("span", { class: "muted" }, why));
+  }
+
+  figure(id, title) {
+    return make(
+      "figure",
+      { class: "plot forest", "data-testid": `forest-${id}` },
+      make("figcaption", {}, title),
+      make("div", { id: `forest-${id}`, role: "img", class: "forest-canvas" }),
+    );
+  }
+
+  pager() {
+    const button = (words, label, step) =>
+      make("button", { type: "button", class: "small", "aria-label": label, click: () => this.go(step) }, words);
+    this.page = make("span", { class: "page" });
+    this.pages = make(
+      "nav",
+      { class: "pager", "aria-label": "Pages of the chart" },
+      button("‹", "Previous runs", -1),
+      this.page,
+      button("›", "Next runs", 1),
+    );
+    return this.pages;
+  }
+
+  resizeAll(size) {
+    for (const { chart } of this.plots) chart.resize(size);
+    this.draw();
+  }
+
+  resized(chart, element) {
+    if (printing || chart.getWidth() === element.clientWidth) return;
+    chart.resize({ width: element.clientWidth });
+    this.draw();
+  }
+
+  set(changes) {
+    Object.assign(this.state, changes);
+    this.draw();
+  }
+
+  go(step) {
+    const last = Math.max(0, Math.ceil(this.found.length / FOREST_PAGE) - 1);
+    this.set({ page: Math.min(last, Math.max(0, this.state.page + step)) });
+  }
+
+  // What is shown.
+
+  /** The rows that the choices leave, in their order. */
+  find() {
+    const { rows, state } = this;
+    const words = state.words.toLowerCase().split(/\s+/).filter(Boolean);
+    const found = this.withRatio.filter(
+      (row) =>
+        !this.hidden.has(rows.get("entrant", row)) &&
+        (!state.changed || !/^not /.test(rows.get("status", row))) &&
+        words.every((word) => this.texts[row].includes(word)),
+    );
+    const { method, cases } = this.places;
+    const ratio = (row) => rows.get("ratio", row);
+    const by = {
+      method: (a, b) => method[a] - method[b] || a - b,
+      low: (a, b) => ratio(a) - ratio(b) || a - b,
+      high: (a, b) => ratio(b) - ratio(a) || a - b,
+      case: (a, b) => cases[a] - cases[b] || method[a] - method[b] || a - b,
+    };
+    return found.sort(by[state.order]);
+  }
+
+  methodLines() {
+    return this.report.changes
+      .filter((one) => !this.hidden.has(one.key))
+      .map((one) => ({ ...one, label: this.labels.get(one.key).label, method: true }));
+  }
+
+  runLines(page) {
+    const { rows, state } = this;
+    const lines = [];
+    let group = null;
+    for (const row of page) {
+      const method = this.labels.get(rows.get("entrant", row)).label;
+      const [heading, label] =
+        state.order === "method"
+          ? [method, this.caseLabel(row)]
+          : state.order === "case"
+            ? [this.caseLabel(row), method]
+            : [null, `${this.caseLabel(row)} · ${method}`];
+      if (heading !== null && heading !== group) lines.push({ heading, ratio: null, low: null, high: null });
+      group = heading;
+      lines.push({
+        row,
+        label,
+        ratio: rows.get("ratio", row),
+        low: rows.get("ratio_low", row),
+        high: rows.get("ratio_high", row),
+        change: rows.get("status", row),
+      });
+    }
+    return lines;
+  }
+
+  caseLabel(row) {
+    const before = this.plots[1].chart.getWidth() < 500 ? " " : ", n = ";
+    return `${this.rows.shape(row)}${before}${formatCount(this.rows.get("n", row))}${this.rows.get("holes", row) ? ", holes" : ""}`;
+  }
+
+  draw() {
+    this.found = this.find();
+    const from = this.state.page * FOREST_PAGE;
+    const page = this.found.slice(from, from + FOREST_PAGE);
+    const lines = { methods: this.methodLines(), runs: this.runLines(page) };
+    const ink = comparisonInk();
+    for (const { id, element, chart } of this.plots) {
+      const height = forestHeight(lines[id].length);
+      element.style.height = `${height}px`;
+      element.parentElement.hidden = lines[id].length === 0;
+      chart.resize({ height });
+      const options = forestOptions(lines[id], ink, chart.getWidth());
+      options.tooltip.formatter = (event) => (event.data?.line ? this.tooltip(event.data.line) : "");
+      chart.setOption(options, { notMerge: true });
+      element.setAttribute(
+        "aria-label",
+        `Ratios of times, B over A, with 95 % intervals: ${lines[id].length} lines. The values are in the table of ${id === "runs" ? "all runs" : "methods"}.`,
+      );
+    }
+    this.count.textContent = this.countWords(from, page.length);
+    this.pages.hidden = this.found.length <= FOREST_PAGE;
+    this.page.textContent = `${formatCount(from + 1)} to ${formatCount(from + page.length)}`;
+    this.toggles.draw();
+    this.drawn = lines;
+  }
+
+  countWords(from, count) {
+    if (this.found.length === 0) return "No run fits.";
+    const said = `${formatCount(this.found.length)} of ${formatCount(this.withRatio.length)} runs with times in both`;
+    return count === this.found.length
+      ? said
+      : `${said}, ${formatCount(from + 1)} to ${formatCount(from + count)} shown`;
+  }
+
+  tooltip(line) {
+    const entry = (name, value) => make("div", { class: "tip-line" }, make("span", {}, name), make("b", {}, value));
+    const ratio = entry("B ÷ A", formatRatioInterval(line.ratio, line.low, line.high));
+    const change = entry("B is", `${this.report.signs[line.change]} ${line.change}`);
+    if (line.method) {
+      return make(
+        "div",
+        { class: "tip" },
+        make("strong", {}, line.label),
+        ratio,
+        change,
+        entry("Runs", `${line.pairs}, judged ${line.judged}`),
+        entry("Slower / faster", `${line.slower} / ${line.faster}`),
+      );
+    }
+    const { rows } = this;
+    const time = (side) =>
+      formatTime([
+        rows.get(`time_${side}`, line.row),
+        rows.get(`time_${side}_low`, line.row),
+        rows.get(`time_${side}_high`, line.row),
+      ]);
+    const p = rows.get("adjusted_p_value", line.row);
+    return make(
+      "div",
+      { class: "tip" },
+      make("strong", {}, this.labels.get(rows.get("entrant", line.row)).label),
+      make("div", { class: "muted" }, this.caseLabel(line.row)),
+      entry("A", time("a")),
+      entry("B", time("b")),
+      ratio,
+      change,
+      p === null ? null : entry("p by Holm", formatNumber(p)),
+    );
+  }
+}

@@ -1,0 +1,56 @@
+// Numbers and elements.
+
+/** Three significant digits (or `digits`), without an exponent between a thousandth and a million. */
+function formatNumber(value, digits = 3) {
+  if (value === null || value === undefined || Number.isNaN(value)) return "–";
+  if (typeof value !== "number") return String(value);
+  if (value === 0) return "0";
+  const size = Math.abs(value);
+  if (size < 1e-3 || size >= 1e6) return value.toExponential(digits - 1);
+  // Rounded first, so that 0.9999 and 1.0001 are written alike.
+  return value.toFixed(Math.max(0, digits - 1 - Math.floor(Math.log10(Number(size.toPrecision(digits))))));
+}
+
+/** A whole number in groups of three, from 10000 on. */
+function formatCount(value) {
+  return value < 10000 ? String(value) : String(value).replace(/\B(?=(\d{3})+$)/g, "\u202f");
+}
+
+/** [median, low, high] in milliseconds: 0.395 ms [0.390, 0.412]. */
+function formatTime(time) {
+  if (!time) return "–";
+  const interval = time[1] === null ? "" : ` [${formatNumber(time[1])}, ${formatNumber(time[2])}]`;
+  return `${formatNumber(time[0])} ms${interval}`;
+}
+
+/** A metric's value in its unit, without the unit's name: numbers of things are whole, all else has `digits` digits. */
+function formatScore(metric, value, digits = 3) {
+  if (metric.whole && Number.isInteger(value)) return formatCount(value);
+  return formatNumber(value, digits);
+}
+
+/** A metric's recorded value as the page shows it, with its unit. */
+function formatMetric(metric, value) {
+  if (value === null || value === undefined) return "–";
+  return formatScore(metric, value * metric.factor) + (metric.unit ? ` ${metric.unit}` : "");
+}
+
+/**
+ * An element with attributes and children. Strings become text nodes, never markup: a record may hold "<script>".
+ * Attributes that are functions become listeners; true and false set and leave out an attribute.
+ */
+function make(tag, attributes = {}, ...children) {
+  const element = document.createElement(tag);
+  for (const [name, value] of Object.entries(attributes)) {
+    if (typeof value === "function") element.addEventListener(name, value);
+    else if (value === true) element.setAttribute(name, "");
+    else if (value !== false && value !== null && value !== undefined) element.setAttribute(name, value);
+  }
+  element.append(...children.filter((child) => child !== null && child !== undefined));
+  return element;
+}
+
+/** Says something to screen readers. */
+function announce(words) {
+  document.getElementById("announcer").textContent = words;
+}

@@ -1,0 +1,147 @@
+// Time against error: who is beaten in both, and who is not.
+
+/**
+ * {list, leftOut}: what to draw of the entrants shown, and those left out. `chosen` is the index of a case, or "common":
+ * the medians over the shapes for which all have both values.
+ */
+function paretoEntries(chart, chosen, time, error, shown) {
+  const usable = (entrant) =>
+    (chart.series[entrant.key] ?? []).filter((point) => pointValue(point, time) && pointValue(point, error));
+  if (chosen === "common")
+    return commonEntries(
+      chart,
+      time,
+      error,
+      shown.map((entrant) => ({ entrant, points: usable(entrant) })),
+    );
+  const list = shown.flatMap((entrant) =>
+    usable(entrant)
+      .filter((point) => point.x === Number(chosen))
+      .map((point) => ({
+        entrant,
+        time: pointValue(point, time),
+        error: pointValue(point, error),
+        cases: point.count ?? 1,
+        point,
+      })),
+  );
+  return { list, leftOut: [] };
+}
+
+/** An entrant with results for less than half of the shapes would leave too few that all have; it is left out. */
+function commonEntries(chart, time, error, candidates) {
+  const able = candidates.filter(({ points }) => points.length * 2 >= chart.x.length);
+  const leftOut = candidates.filter((one) => !able.includes(one)).map(({ entrant }) => entrant);
+  const common = chart.x
+    .map((_, index) => index)
+    .filter((index) => able.every(({ points }) => points.some((point) => point.x === index)));
+  if (!common.length) return { list: [], leftOut };
+  const middle = (points, quantity) => [
+    median(points.filter((point) => common.includes(point.x)).map((point) => pointValue(point, quantity)[0])),
+    null,
+    null,
+  ];
+  const list = able.map(({ entrant, points }) => ({
+    entrant,
+    time: middle(points, time),
+    error: middle(points, error),
+    cases: common.length,
+  }));
+  return { list, leftOut };
+}
+
+function median(values) {
+  const order = [...values].sort((a, b) => a - b);
+  const half = order.length >> 1;
+  return order.length % 2 ? order[half] : (order[half - 1] + order[half]) / 2;
+}
+
+/**
+ * Time against error: one dot an entrant. `entries` are {entrant, time, error, cases}; the front joins those that no
+ * other beats in both.
+ */
+function paretoOptions(entries, time, error, settings, ink) {
+  const front = paretoFront(entries, error.metric.better);
+  return {
+    ...commonOptions(ink),
+    grid: { left: 8, right: 48, top: 40, bottom: 40, containLabel: true },
+    xAxis: {
+      ...numericAxis(
+        time.axis,
+        entries.map((one) => one.time[0]),
+        settings.logTime,
+        ink,
+        0.12,
+      ),
+      nameLocation: "middle",
+      nameGap: 32,
+    },
+    yAxis: {
+      ...numericAxis(
+        error.axis,
+        entries.map((one) => one.error[0]),
+        settings.logError,
+        ink,
+        0.1,
+      ),
+      nameLocation: "end",
+      nameTextStyle: { color: ink.muted, align: "left" },
+    },
+    series: [
+      ...(front.length > 1
+        ? [
+            {
+              id: "front",
+              name: "Front",
+              type: "line",
+              step: "end",
+              symbol: "none",
+              silent: true,
+              tooltip: { show: false },
+              lineStyle: { color: ink.muted, width: 1.2, type: [4, 4] },
+              data: front.map((one) => [one.time[0], one.error[0]]),
+              z: 1,
+            },
+          ]
+        : []),
+      ...entries.map((one) => ({
+        id: one.entrant.key,
+        name: one.entrant.label,
+        type: "scatter",
+        symbol: `path://${markerPath(one.entrant.marker)}`,
+        symbolSize: 14,
+        symbolKeepAspect: true,
+        itemStyle: {
+          color: one.entrant.colour,
+          opacity: 1,
+          borderColor: one.entrant.protocol === "paper" ? undefined : ink.ink,
+          borderWidth: one.entrant.protocol === "paper" ? 0 : 1,
+        },
+        label: {
+          show: false,
+          distance: 4,
+          backgroundColor: ink.panel,
+          color: ink.ink,
+          fontSize: 12,
+          formatter: (dot) => dot.seriesName,
+        },
+        emphasis: { scale: 1.3 },
+        data: [{ value: [one.time[0], one.error[0]], entry: one }],
+        z: 3,
+      })),
+    ],
+  };
+}
+
+/** The entries that no other beats in time and error, fastest first; none when neither side of the error is better. */
+function paretoFront(entries, better) {
+  if (!better) return [];
+  const sign = better === "high" ? -1 : 1;
+  const order = [...entries].sort((a, b) => a.time[0] - b.time[0] || sign * (a.error[0] - b.error[0]));
+  let best = Infinity;
+  return order.filter((one) => {
+    if (sign * one.error[0] >= best) return false;
+    best = sign * one.error[0];
+    return true;
+  });
+}

@@ -1,0 +1,447 @@
+"""The parts of the page that need no script: summary, comparison with the paper, parameters, environment and notes."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from pathlib import Path
+from typing import Any
+
+from records import Experiment
+from report_common import PROTOCOLS, STATUS_WORDS, Entrant, count_of, entrants_of, label, number, text
+from report_summary import (
+    Noise,
+    Ratio,
+    Standing,
+    Summary,
+    accurate_sentence,
+    failure_sentences,
+    fastest_sentence,
+    losses_sentences,
+    measure_noise,
+    noise_sentence,
+    span,
+)
+from report_tables import Section, sections, to_html
+
+EQUAL_WORK = (
+    "Times are of equal work: from the points in memory to a valid multipolygon in memory, the same for every "
+    "method. Loading the points, such as the upload to a database, is left out."
+)
+
+
+def summary_html(summaries: Sequence[Summary], noise: Noise | None) -> str:
+    parts = [
+        _finding("fastest", "Fastest", [(one.title, fastest_sentence(one)) for one in summaries]),
+        _finding("accurate", "Most accurate", [(one.title, accurate_sentence(one)) for one in summaries]),
+        _losses(summaries),
+        _failures(summaries),
+        _standings(summaries),
+    ]
+    notes = [EQUAL_WORK, noise_sentence(noise), _reading(summaries), _brackets(summaries)]
+    return "\n".join(parts) + "<ul class='notes'>" + "".join(f"<li>{text(note)}</li>" for note in notes) + "</ul>"
+
+
+def _reading(summaries: Sequence[Summary]) -> str:
+    said = (
+        "Ratios are of medians, case by case, over the cases in which both have a valid result; a time is better "
+        "only where the 95 % intervals of the two medians do not touch."
+    )
+    alone = [one.title for one in summaries if one.without_interval]
+    return said + (f" Without an interval, as each time was taken too few times: {', '.join(alone)}." if alone else "")
+
+
+def _brackets(summaries: Sequence[Summary]) -> str:
+    used = {standing.entrant.protocol for one in summaries for standing in one.standings}
+    told = "; ".join(f"{name}, {meaning}" for name, meaning in PROTOCOLS.items() if name in used)
+    return f"In brackets: who chose a method's parameters. {told[:1].upper()}{told[1:]}."
+
+
+def _finding(identity: str, title: str, findings: Sequence[tuple[str, str]]) -> str:
+    items = "".join(f"<li><b>{text(where)}:</b> {text(said)}</li>" for where, said in findings)
+    return f"<div class='finding' id='summary-{identity}'><h3>{text(title)}</h3><ul>{items}</ul></div>"
+
+
+def _losses(summaries: Sequence[Summary]) -> str:
+    if all(one.core is None for one in summaries):
+        return ""
+    findings = [(one.title, said) for one in summaries for said in losses_sentences(one)]
+    if findings:
+        return _finding("losses", "Where Polylidar loses", findings)
+    compared = any(one.contested for one in summaries)
+    said = "In no case was another method faster or more accurate." if compared else "It was compared with nothing."
+    return f"<div class='finding' id='summary-losses'><h3>Where Polylidar loses</h3><p>{said}</p></div>"
+
+
+def _failures(summaries: Sequence[Summary]) -> str:
+    findings = failure_sentences(summaries)
+    if not findings:
+        return "<div class='finding' id='summary-failures'><h3>Failures</h3><p>Every run has a valid result.</p></div>"
+    return _finding("failures", "Failures", findings)
+
+
+def _standings(summaries: Sequence[Summary]) -> str:
+    rows = "".join(
+        f"<tbody><tr class='group'><th colspan='7' scope='rowgroup'>{text(one.title)}</th></tr>"
+        + "".join(_standing(one, standing) for standing in one.standings)
+        + "</tbody>"
+        for one in summaries
+    )
+    head = "".join(
+        f"<th scope='col'{side}>{title}</th>"
+        for title, side in (
+            ("Method (who chose the parameters)", ""),
+            ("Results", " class='number'"),
+            ("Failures", ""),
+            ("Fastest in", " class='number'"),
+            ("Time ÷ Polylidar’s", " class='number'"),
+            ("Most accurate in", " class='number'"),
+            ("Error ÷ Polylidar’s", " class='number'"),
+        )
+    )
+    return (
+        "<div class='scroll' tabindex='0' role='region' aria-label='Standing of every method'>"
+        "<table id='summary-table' data-testid='summary-table'><caption>Every method beside Polylidar, over their "
+        f"common cases: median, and from the least to the largest</caption><thead><tr>{head}</tr></thead>{rows}"
+        "</table></div>"
+    )
+
+
+def _standing(summary: Summary, one: Standing) -> str:
+    failures = ", ".join(f"{count} {STATUS_WORDS.get(status, status)}" for status, count in one.failures.most_common())
+    is_core = one is summary.core
+
+    def ratio(value: Ratio | None) -> str:
+        if is_core:
+            return "<td class='number'>1</td>"
+        if value is None:
+            return "<td class='number'>–</td>"
+        mark = " better" if value.median < 1 and value.lower_in else ""
+        said = f"{span(value)}, {count_of(value.cases, 'case')}" if value.cases > 1 else "1 case"
+        return f"<td class='number{mark}'>{text(number(value.median))}<small>{text(said)}</small></td>"
+
+    def share(count: int, of: int) -> str:
+        return f"<td class='number'>{f'{count} of {of}' if of and one.results else '–'}</td>"
+
+    return (
+        f"<tr data-entrant='{text(one.entrant.key)}' data-experiment='{text(summary.name)}'"
+        f"{' class=core' if is_core else ''}>"
+        f"<th scope='row'><span class='swatch' data-method='{text(one.entrant.method)}'></span>{text(one.label)}</th>"
+        f"<td class='number'>{len(one.results)} of {one.planned}</td><td>{text(failures) or '–'}</td>"
+        f"{share(one.fastest_in, summary.contested)}{ratio(one.time)}"
+        f"{share(one.most_accurate_in, summary.compared_errors)}{ratio(one.error)}</tr>"
+    )
+
+
+# Beside the paper.
+
+
+def paper_html(experiments: Sequence[Experiment], folder: Path) -> str:
+    made = ""
+    claims = [
+        (experiment, claim) for experiment in experiments for claim in experiment.report["summary"].get("claims", [])
+    ]
+    if claims:
+        made += _claims(claims)
+    for section in _tables(experiments, folder):
+        if section.title == "Beside the paper":
+            section.blocks = _until_notes(section.blocks)
+            made += to_html(section, "paper")
+    return made or "<p>The records compare nothing with the paper.</p>"
+
+
+def _until_notes(blocks: list[tuple[str, list[str]]]) -> list[tuple[str, list[str]]]:
+    """Without the notes at the end, which stand in the page's own section."""
+    for index, block in enumerate(blocks):
+        if block == ("heading", ["Notes"]):
+            return blocks[:index]
+    return blocks
+
+
+def _claims(claims: Sequence[tuple[Experiment, dict[str, Any]]]) -> str:
+    """Each claim for every experiment that has the cases for it; those that none has are named."""
+    by_id: dict[str, list[tuple[Experiment, dict[str, Any]]]] = {}
+    for experiment, claim in claims:
+        by_id.setdefault(claim["id"], []).append((experiment, claim))
+    rows, unmeasured = "", []
+    for entries in by_id.values():
+        measured = [(experiment, claim) for experiment, claim in entries if claim["holds"] is not None]
+        rows += "".join(_claim(experiment, claim) for experiment, claim in measured)
+        if not measured:
+            unmeasured.append(entries[0][1]["claim"])
+    said = f"<p class='muted'>Not measured in this run: {text('; '.join(unmeasured))}.</p>" if unmeasured else ""
+    table = (
+        "<div class='scroll' tabindex='0' role='region' aria-label='Claims of the paper'><table id='claims'><thead>"
+        "<tr><th scope='col'>Claim</th><th scope='col'>Experiment</th><th scope='col' class='number'>Paper</th>"
+        "<th scope='col' class='number'>Here</th><th scope='col' class='number'>Equal work</th>"
+        f"<th scope='col'>Holds</th></tr></thead><tbody>{rows}</tbody></table></div>"
+    )
+    return f"<h3>The paper’s claims beside this run</h3>{table if rows else ''}{said}"
+
+
+def _claim(experiment: Experiment, claim: dict[str, Any]) -> str:
+    word, kind = ("yes", "holds") if claim["holds"] else ("no", "fails")
+    return (
+        f"<tr data-claim='{text(claim['id'])}'><th scope='row'>{text(claim['claim'])}"
+        f"<small>{text(claim['where'])}: {text(claim['detail'])}</small></th><td>{text(experiment.title)}</td>"
+        f"<td class='number'>{text(claim['paper'])}</td><td class='number'>{text(claim['ours'])}</td>"
+        f"<td class='number'>{text(claim.get('equal_work') or '–')}</td>"
+        f"<td><span class='verdict {kind}'>{word}</span></td></tr>"
+    )
+
+
+def tables_html(experiments: Sequence[Experiment], folder: Path) -> str:
+    """Every table of tables.md, an experiment behind its own heading; empty without the file."""
+    made = ""
+    for index, section in enumerate(_tables(experiments, folder)):
+        if section.title == "Beside the paper":
+            continue
+        made += f"<details><summary>{text(section.title)}</summary>{to_html(section, f'tables-{index}')}</details>"
+    return made
+
+
+def _tables(experiments: Sequence[Experiment], folder: Path) -> list[Section]:
+    path = folder / "tables.md"
+    if path.is_file():
+        return sections(path.read_text(encoding="utf-8", errors="replace"))
+    return [
+        section
+        for experiment in experiments
+        if (experiment.folder / "tables.md").is_file()
+        for section in sections((experiment.folder / "tables.md").read_text(encoding="utf-8", errors="replace"))
+    ]
+
+
+# Parameters.
+
+
+def parameters_html(experiments: Sequence[Experiment]) -> str:
+    used: dict[tuple[Entrant, str], dict[str, str]] = {}
+    for experiment in experiments:
+        for entry in experiment.plan.get("methods", []):
+            entrant = Entrant(entry.get("method", ""), entry.get("protocol", ""))
+            for name, value in entry.get("parameters", {}).items() or {"": ""}.items():
+                said = _value(value, experiment.report.get("rules", {}))
+                before = used.setdefault((entrant, name), {}).get(experiment.name)
+                used[entrant, name][experiment.name] = f"{before}; {said}" if before else said
+    head = "".join(f"<th scope='col'>{text(one.title)}</th>" for one in experiments)
+    rows = ""
+    for (entrant, name), values in sorted(used.items()):
+        cells = "".join(f"<td>{text(values.get(one.name, ''))}</td>" for one in experiments)
+        rows += (
+            f"<tr><th scope='row'>{text(label(experiments, entrant))}</th>"
+            f"<td>{text(name) or '<i>none given</i>'}</td>{cells}</tr>"
+        )
+    protocols = sorted({entrant.protocol for one in experiments for entrant in entrants_of(one)})
+    said = "".join(f"<div><dt>{text(one)}</dt><dd>{text(PROTOCOLS.get(one, ''))}</dd></div>" for one in protocols)
+    return (
+        f"<h3>Who chose them</h3><dl>{said}</dl><div class='scroll' tabindex='0' role='region' "
+        "aria-label='Parameters'><table id='parameters'><thead><tr><th scope='col'>Method</th><th scope='col'>"
+        f"Parameter</th>{head}</tr></thead><tbody>{rows}</tbody></table></div>"
+        "<p class='muted'>A is the area of the ground truth, n the number of points, A_hull the area of a convex "
+        "hull. An empty cell: not in that experiment.</p>" + _described(experiments) + _plans(experiments)
+    )
+
+
+def _value(value: Any, rules: dict[str, str]) -> str:
+    if isinstance(value, dict) and "rule" in value:
+        return rules.get(value["rule"], value["rule"])
+    if isinstance(value, dict) and isinstance(value.get("cases"), dict):
+        return "; ".join(f"{case}: {one:g}" for case, one in value["cases"].items())
+    if value is None:
+        return "no limit"
+    return f"{value:g}" if isinstance(value, (int, float)) else str(value)
+
+
+def _methods(experiments: Sequence[Experiment]) -> dict[str, dict[str, Any]]:
+    """By name; where experiments differ, from the first in which it is installed."""
+    found: dict[str, dict[str, Any]] = {}
+    for experiment in experiments:
+        for name, method in experiment.methods.items():
+            if name not in found or not found[name].get("installed"):
+                found[name] = method
+    return found
+
+
+def _described(experiments: Sequence[Experiment]) -> str:
+    rows = ""
+    for method in _methods(experiments).values():
+        for one in method.get("parameters", []):
+            low, high = one.get("minimum"), one.get("maximum")
+            limits = f"{'' if low is None else number(low)} to {'no limit' if high is None else number(high)}"
+            default = "required" if "default" not in one else _value(one["default"], {})
+            rows += (
+                f"<tr><th scope='row'>{text(method['title'])}</th><td>{text(one['name'])}</td>"
+                f"<td>{text(one.get('unit', ''))}</td><td>{text(limits)}</td><td>{text(default)}</td>"
+                f"<td class='prose'>{text(one.get('description', ''))}</td></tr>"
+            )
+    return _details("What the parameters mean", ("Method", "Parameter", "Unit", "Range", "Default", "Meaning"), rows)
+
+
+def _plans(experiments: Sequence[Experiment]) -> str:
+    rows = ""
+    for one in experiments:
+        plan = one.plan
+        rows += (
+            f"<tr><th scope='row'>{text(one.title)}</th><td>{text(plan.get('paper', '–'))}</td>"
+            f"<td class='number'>{text(one.report.get('repetitions', ''))}</td>"
+            f"<td class='number'>{text(plan.get('warmup', ''))}</td><td class='number'>{text(plan.get('timeout_s', ''))}"
+            f"</td><td class='number'>{text(plan.get('mem_limit_mib', ''))}</td>"
+            f"<td class='number'>{text(one.report.get('seed', ''))}</td>"
+            f"<td>{text(one.report.get('filter') or 'none')}</td></tr>"
+        )
+    return _details(
+        "How the experiments were run",
+        (
+            "Experiment",
+            "In the paper",
+            "Repetitions",
+            "Warm-up",
+            "Time limit, s",
+            "Memory limit, MiB",
+            "Seed",
+            "Filter",
+        ),
+        rows,
+    )
+
+
+def _details(title: str, head: Sequence[str], rows: str) -> str:
+    top = "".join(f"<th scope='col'>{text(one)}</th>" for one in head)
+    return (
+        f"<details><summary>{text(title)}</summary><div class='scroll' tabindex='0' role='region' "
+        f"aria-label='{text(title)}'><table><thead><tr>{top}</tr></thead><tbody>{rows}</tbody></table></div></details>"
+    )
+
+
+# Environment and versions.
+
+
+def environment_html(experiments: Sequence[Experiment]) -> str:
+    """One value where all experiments agree, else one an experiment."""
+    facts: dict[str, dict[str, str]] = {}
+    for experiment in experiments:
+        for name, value in _facts(experiment.report).items():
+            facts.setdefault(name, {})[experiment.title] = value
+    said = ""
+    for name, values in facts.items():
+        several = set(values.values())
+        told = (
+            text(next(iter(several)))
+            if len(several) == 1
+            else "<br>".join(f"{text(value)} <small>{text(where)}</small>" for where, value in values.items())
+        )
+        said += f"<div><dt>{text(name)}</dt><dd>{told}</dd></div>"
+    return f"<dl id='environment-facts'>{said}</dl>" + _noise(experiments) + _versions(experiments)
+
+
+def _noise(experiments: Sequence[Experiment]) -> str:
+    rows = ""
+    for experiment in experiments:
+        noise = measure_noise([experiment])
+        cells = (
+            "<td class='number'>0</td><td class='number'>–</td><td class='number'>–</td><td>nothing can be said</td>"
+        )
+        if noise:
+            verdict = (
+                "<span class='verdict fails'>noisy</span>"
+                if noise.noisy
+                else "<span class='verdict holds'>steady</span>"
+            )
+            cells = (
+                f"<td class='number'>{noise.rows}</td><td class='number'>{100 * noise.median_spread:.1f} %</td>"
+                f"<td class='number'>{100 * noise.ninth_decile:.1f} %</td><td>{verdict}</td>"
+            )
+        rows += f"<tr><th scope='row'>{text(experiment.title)}</th>{cells}</tr>"
+    return (
+        "<h3>Noise</h3><p class='muted'>The spread of a run is the median absolute deviation of its times over their "
+        "median. Up to 3 % in the median run is steady.</p><div class='scroll' tabindex='0' role='region' "
+        "aria-label='Noise'><table id='noise'><thead><tr><th scope='col'>Experiment</th><th scope='col' "
+        "class='number'>Runs with 3 repetitions or more</th><th scope='col' class='number'>Spread of the median run</th>"
+        "<th scope='col' class='number'>Of nine in ten, at most</th><th scope='col'>Verdict</th></tr></thead>"
+        f"<tbody>{rows}</tbody></table></div>"
+    )
+
+
+def _facts(report: dict[str, Any]) -> dict[str, str]:
+    environment = report["environment"]
+    cpu, compiler, tool = environment.get("cpu", {}), environment.get("compiler", {}), report.get("tool", {})
+    memory, load = environment.get("memory_bytes"), environment.get("load_average")
+    known: Callable[[Any], str] = (
+        lambda value: "unknown" if value is None else {True: "yes", False: "no"}.get(value, str(value))
+    )
+    facts = {
+        "Processor": f"{cpu.get('model', 'unknown')}, {cpu.get('logical_cores', '?')} logical cores, "
+        f"{cpu.get('architecture', '')}",
+        "Virtual machine": known(cpu.get("virtualised")),
+        "Boost": known(cpu.get("boost")),
+        "Governors": ", ".join(cpu.get("governors") or []) or "unknown",
+        "Memory": "unknown" if memory is None else f"{number(memory / 2**30)} GiB",
+        "Load before the run": "unknown"
+        if not load
+        else ", ".join(number(one) for one in load) + " (1, 5, 15 minutes)",
+        "System": f"{environment.get('os') or 'unknown'}; {environment.get('kernel') or 'unknown kernel'}",
+        "Address randomisation": known(environment.get("aslr")),
+        "Temperature": known(environment.get("temperature_celsius")),
+        "Compiler": f"{compiler.get('id', '')} {compiler.get('version', '')}, {compiler.get('build_type', '')}, "
+        f"{compiler.get('flags', '')}; {compiler.get('statement', '')}",
+        "Libraries": ", ".join(f"{name} {value}" for name, value in environment.get("libraries", {}).items()),
+        "Program": f"{tool.get('name', '')} {tool.get('version', '')}, commit {tool.get('commit') or 'unknown'}"
+        + (" with uncommitted changes" if tool.get("dirty") else ""),
+        "Begun": str(report.get("created", "")),
+    }
+    if report.get("resumed"):
+        facts["Gone on with"] = ", ".join(report["resumed"])
+    if report.get("merged"):
+        facts["Merged from"] = ", ".join(
+            f"shard {one.get('shard')} of {one.get('created')}" for one in report["merged"]
+        )
+    return facts
+
+
+def _versions(experiments: Sequence[Experiment]) -> str:
+    rows = ""
+    for method in _methods(experiments).values():
+        able = ", ".join(name.replace("_", " ") for name, has in method.get("capabilities", {}).items() if has)
+        version = (
+            text(method.get("version", ""))
+            if method.get("installed")
+            else (
+                f"<span class='verdict fails'>not installed</span><small>{text(method.get('detail', ''))}; "
+                f"{text(method.get('remedy', ''))}</small>"
+            )
+        )
+        rows += (
+            f"<tr><th scope='row'><span class='swatch' data-method='{text(method['name'])}'></span>"
+            f"{text(method['title'])}</th><td>{version}</td><td>{text(method.get('native_output', ''))}</td>"
+            f"<td>{text(able) or '–'}</td><td>{text(method.get('licence', ''))}</td>"
+            f"<td class='prose'>{text(method.get('citation', ''))}</td></tr>"
+        )
+    return (
+        "<h3>Methods and versions</h3><div class='scroll' tabindex='0' role='region' aria-label='Methods'>"
+        "<table id='methods'><thead><tr><th scope='col'>Method</th><th scope='col'>Version</th>"
+        "<th scope='col'>The library returns</th><th scope='col'>Can do</th><th scope='col'>Licence</th>"
+        f"<th scope='col'>Source</th></tr></thead><tbody>{rows}</tbody></table></div>"
+    )
+
+
+# Notes and data sets.
+
+
+def notes_html(experiments: Sequence[Experiment]) -> str:
+    said: dict[str, None] = {}
+    for experiment in experiments:
+        for note in [*experiment.plan.get("notes", []), *experiment.report.get("notes", [])]:
+            said[str(note)] = None
+        for entry in experiment.plan.get("methods", []):
+            if entry.get("note"):
+                name = label(experiments, Entrant(entry.get("method", ""), entry.get("protocol", "")))
+                said[f"{name}: {entry['note']}"] = None
+    items = "".join(f"<li>{text(note)}</li>" for note in said)
+    notes = f"<ul class='notes'>{items}</ul>" if items else "<p>The records have no notes.</p>"
+    datasets = {name: dataset for experiment in experiments for name, dataset in experiment.datasets.items()}
+    rows = "".join(
+        f"<tr><th scope='row'>{text(one['title'])}</th><td class='prose'>{text(one.get('source', ''))}</td>"
+        f"<td class='prose'>{text(one.get('licence', ''))}</td></tr>"
+        for one in datasets.values()
+    )
+    return notes + _details("Sources and licences of the shapes", ("Shape", "Source", "Licence"), rows)

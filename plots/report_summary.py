@@ -1,0 +1,382 @@
+"""The summary: who is fastest, who is most accurate, where each fails, computed from the records.
+
+Every comparison is between two entrants over the cases in which both have a valid result, from the medians of equal
+work; an entrant is a method under one protocol. A time is better only when the 95 % intervals of the two medians do
+not touch; without intervals (one repetition) the medians decide, and the text says so.
+"""
+
+from __future__ import annotations
+
+from collections import Counter, defaultdict
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, field
+
+from records import Experiment, Row
+from report_common import (
+    CORE,
+    STATUS_WORDS,
+    Entrant,
+    case_of,
+    count_of,
+    entrant_of,
+    entrants_of,
+    label,
+    median,
+    median_interval,
+    number,
+    quantile,
+    sentence_list,
+    spread,
+)
+
+# Two errors closer than this are the same shape, written in another order: their areas differ by rounding only.
+SAME_ERROR = 1e-9
+
+# An error up to so many times the core's is comparable with it.
+COMPARABLE = 2
+
+# Above this median spread differences of some per cent are nothing to go by (benchmarks/noise.hpp).
+NOISY = 0.03
+
+
+@dataclass(frozen=True)
+class Ratio:
+    """An entrant's values over the core's in their common cases."""
+
+    cases: int
+    median: float
+    low: float
+    high: float
+    lower_in: int  # cases in which the entrant's value is lower than the core's beyond doubt
+    higher_in: int
+
+
+@dataclass
+class Standing:
+    """One entrant in one experiment."""
+
+    entrant: Entrant
+    label: str
+    planned: int = 0
+    failures: Counter[str] = field(default_factory=Counter)  # by status, ok left out
+    reasons: dict[str, Counter[str]] = field(default_factory=dict)  # by status: the details, most frequent first
+    results: dict[str, Row] = field(default_factory=dict)  # the ok rows by case
+    fastest_in: int = 0
+    most_accurate_in: int = 0
+    time: Ratio | None = None  # beside the core; None: it is the core, or no case in common
+    error: Ratio | None = None
+
+
+@dataclass
+class Summary:
+    """Of one experiment."""
+
+    name: str
+    title: str
+    standings: list[Standing]
+    core: Standing | None  # the core's standing, under the paper's protocol if there are several
+    contested: int  # cases with results of two entrants or more
+    undecided: int  # contested cases in which the intervals of the two fastest touch
+    without_interval: bool  # the times have one repetition, or too few for an interval
+    compared_errors: int
+
+
+@dataclass(frozen=True)
+class Noise:
+    rows: int
+    median_spread: float
+    ninth_decile: float
+
+    @property
+    def noisy(self) -> bool:
+        return self.median_spread > NOISY
+
+
+def summarise(experiment: Experiment) -> Summary:
+    standings = {entrant: Standing(entrant, label([experiment], entrant)) for entrant in entrants_of(experiment)}
+    for row in experiment.rows:
+        _count(standings[entrant_of(row)], row)
+    everyone = list(standings.values())
+    core = min(
+        (one for one in everyone if one.entrant.method == CORE),
+        key=lambda one: (one.entrant.protocol != "paper", not one.results),
+        default=None,
+    )
+    by_case: dict[str, list[tuple[Standing, Row]]] = defaultdict(list)
+    for one in everyone:
+        for case, row in one.results.items():
+            by_case[case].append((one, row))
+    contests = [contest for contest in by_case.values() if len(contest) > 1]
+    undecided = sum(_award_time(contest) for contest in contests)
+    compared = sum(_award_error(contest) for contest in contests)
+    for one in everyone:
+        if core is not None and one is not core:
+            one.time = _ratio(one, core, lambda row: row.median_ns, _time_order)
+            one.error = _ratio(one, core, lambda row: row.metric("l2"), _error_order)
+    timed = [row for one in everyone for row in one.results.values()]
+    return Summary(
+        experiment.name,
+        experiment.title,
+        everyone,
+        core,
+        len(contests),
+        undecided,
+        bool(timed) and all(median_interval(row) is None for row in timed),
+        compared,
+    )
+
+
+def measure_noise(experiments: Sequence[Experiment]) -> Noise | None:
+    """Of all rows with 3 repetitions or more; None: there are none."""
+    spreads = [
+        value for experiment in experiments for row in experiment.rows if row.ok and (value := spread(row)) is not None
+    ]
+    return Noise(len(spreads), median(spreads), quantile(spreads, 0.9)) if spreads else None
+
+
+def _count(standing: Standing, row: Row) -> None:
+    standing.planned += 1
+    if row.ok and row.median_ns is not None:
+        standing.results[case_of(row)] = row
+    else:
+        standing.failures[row.status] += 1
+        standing.reasons.setdefault(row.status, Counter())[row.detail] += 1
+
+
+def _award_time(contest: list[tuple[Standing, Row]]) -> int:
+    """Gives the case to its fastest entrant; 1 when nobody is the fastest beyond doubt."""
+    first, second = sorted(contest, key=lambda pair: pair[1].median_ns)[:2]
+    if _time_order(first[1], second[1]) == 0:
+        return 1
+    first[0].fastest_in += 1
+    return 0
+
+
+def _award_error(contest: list[tuple[Standing, Row]]) -> int:
+    """Gives the case to the entrants with the least error, several if it is the same; 1 when two could be compared."""
+    scored = [(standing, error) for standing, row in contest if (error := row.metric("l2")) is not None]
+    if len(scored) < 2:
+        return 0
+    least = min(error for _, error in scored)
+    for standing, error in scored:
+        standing.most_accurate_in += error <= least * (1 + SAME_ERROR)
+    return 1
+
+
+def _time_order(one: Row, other: Row) -> int:
+    """-1: `one` is faster, 1: slower, 0: their intervals touch."""
+    first, second = median_interval(one), median_interval(other)
+    low, high = first or (one.median_ns, one.median_ns)
+    other_low, other_high = second or (other.median_ns, other.median_ns)
+    return (low > other_high) - (high < other_low)
+
+
+def _error_order(one: Row, other: Row) -> int:
+    first, second = one.metric("l2"), other.metric("l2")
+    if abs(first - second) <= SAME_ERROR * max(first, second):
+        return 0
+    return (first > second) - (first < second)
+
+
+def _ratio(
+    one: Standing, core: Standing, value: Callable[[Row], float | None], order: Callable[[Row, Row], int]
+) -> Ratio | None:
+    pairs = [
+        (one.results[case], core.results[case])
+        for case in one.results
+        if case in core.results and value(one.results[case]) is not None and value(core.results[case])
+    ]
+    if not pairs:
+        return None
+    ratios = [value(row) / value(beside) for row, beside in pairs]
+    orders = Counter(order(row, beside) for row, beside in pairs)
+    return Ratio(len(pairs), median(ratios), min(ratios), max(ratios), orders[-1], orders[1])
+
+
+# Sentences. They are plain text: whoever puts them into a page escapes them.
+
+
+def fastest_sentence(summary: Summary) -> str:
+    """Who is fastest in this experiment, by how much, and at which price in accuracy."""
+    if alone := _alone(summary):
+        return alone
+    winner = max(summary.standings, key=lambda one: one.fastest_in)
+    if winner.fastest_in == 0:
+        return (
+            f"nobody is the fastest beyond doubt: in {share(summary.contested, summary.contested)} the intervals of the "
+            "two fastest touch."
+        )
+    said = f"{winner.label} is the fastest in {share(winner.fastest_in, summary.contested)}"
+    if summary.undecided:
+        said += f" ({summary.undecided} undecided: intervals touch)"
+    return said + _margin(summary, winner) + "."
+
+
+def _margin(summary: Summary, winner: Standing) -> str:
+    if winner is summary.core:
+        others = [one for one in summary.standings if one.time is not None]
+        if not others:
+            return ""
+        nearest = min(others, key=lambda one: one.time.median)
+        return f"; the next, {nearest.label}, takes {times(nearest.time.median)} its time{_spanned(nearest.time)}"
+    if winner.time is None:
+        return ""
+    said = f"; it takes {times(winner.time.median)} the time of {summary.core.label}{_spanned(winner.time)}"
+    said += f" at {times(winner.error.median)} its error" if winner.error else ""
+    return said + _fastest_of_the_accurate(summary)
+
+
+def _fastest_of_the_accurate(summary: Summary) -> str:
+    """A hull that is far off is made in no time, so the fastest of those near the core's error is told too."""
+    near = [
+        (one.time.median, one.label)
+        for one in summary.standings
+        if one.time and one.error and one.error.median <= COMPARABLE
+    ]
+    ratio, name = min([*near, (1.0, summary.core.label)])
+    if name == summary.core.label:
+        return f". Of those with up to twice its error, {name} is the fastest"
+    return f". Of those with up to twice the error of {summary.core.label}, {name} is the fastest, at {times(ratio)} its time"
+
+
+def _spanned(ratio: Ratio) -> str:
+    return f" (median of {ratio.cases} common cases, {span(ratio)})" if ratio.cases > 1 else ""
+
+
+def accurate_sentence(summary: Summary) -> str:
+    """Who has the smallest error in this experiment."""
+    if alone := _alone(summary):
+        return alone
+    if summary.compared_errors == 0:
+        return "no two entrants have an error in the same case."
+    most = max(one.most_accurate_in for one in summary.standings)
+    winners = [one for one in summary.standings if one.most_accurate_in == most]
+    verb = "has" if len(winners) == 1 else "have"
+    each = " each" if len(winners) > 1 and most < summary.compared_errors else ""
+    said = (
+        f"{sentence_list([one.label for one in winners])} {verb} the smallest error in "
+        f"{share(most, summary.compared_errors)}{each}"
+    )
+    if summary.core is None or len(winners) > 1 or summary.core in winners:
+        return said + "."
+    ratio = winners[0].error
+    return said + (f"; it is {times(ratio.median)} that of {summary.core.label}{_spanned(ratio)}." if ratio else ".")
+
+
+# Characters of a reason in a sentence; the table of all runs has the whole.
+MOST_REASON = 300
+
+# So many of those who beat the core are named in the sentence; the table has all.
+MOST_NAMED = 3
+
+
+def losses_sentences(summary: Summary) -> list[str]:
+    """Who beats the core beyond doubt, in time and in error, at which price; empty: nobody."""
+    parts = [
+        _losses(summary, "faster", "time", lambda one: one.time, "error", lambda one: one.error),
+        _losses(summary, "more accurate", "error", lambda one: one.error, "time", lambda one: one.time),
+    ]
+    return [part for part in parts if part]
+
+
+def _losses(
+    summary: Summary,
+    better: str,
+    quantity: str,
+    own: Callable[[Standing], Ratio | None],
+    price: str,
+    other: Callable[[Standing], Ratio | None],
+) -> str:
+    winners = sorted(
+        (one for one in summary.standings if (ratio := own(one)) and ratio.lower_in),
+        key=lambda one: -own(one).lower_in / own(one).cases,
+    )
+    if not winners:
+        return ""
+    said = [
+        f"{one.label} in {share(own(one).lower_in, own(one).cases)} ({number(own(one).median)} times its {quantity}"
+        + (f" at {number(other(one).median)} times its {price}" if other(one) else "")
+        + ")"
+        for one in winners[:MOST_NAMED]
+    ]
+    if len(winners) > MOST_NAMED:
+        said.append(f"{count_of(len(winners) - MOST_NAMED, 'other')}")
+    return f"{better.capitalize()} than {summary.core.label}: {sentence_list(said)}."
+
+
+def failure_sentences(summaries: Sequence[Summary]) -> list[tuple[str, str]]:
+    """(entrant, sentence) for every entrant and status that is not ok, over all experiments, with the most frequent
+    reason."""
+    found: dict[tuple[Entrant, str], list[tuple[Summary, Standing]]] = defaultdict(list)
+    for summary in summaries:
+        for one in summary.standings:
+            for status in one.failures:
+                found[one.entrant, status].append((summary, one))
+    said = []
+    for (entrant, status), entries in found.items():
+        failed = sum(one.failures[status] for _, one in entries)
+        planned = sum(one.planned for summary in summaries for one in summary.standings if one.entrant == entrant)
+        where = sentence_list([f"{summary.title} {one.failures[status]}" for summary, one in entries])
+        reasons = sum((one.reasons[status] for _, one in entries), Counter())
+        said.append(
+            (
+                entries[0][1].label,
+                f"{STATUS_WORDS.get(status, status)} in {failed} of {count_of(planned, 'run')}"
+                + (f" ({where})" if len(summaries) > 1 else "")
+                + _reason(reasons),
+            )
+        )
+    return said
+
+
+def _reason(reasons: Counter[str]) -> str:
+    reason, _ = reasons.most_common(1)[0]
+    if not reason:
+        return "."
+    often = ", most often" if len(reasons) > 1 else ""
+    if len(reason) > MOST_REASON:
+        return f"{often}: {reason[:MOST_REASON].rsplit(' ', 1)[0]} …"
+    return f"{often}: {reason.rstrip('.')}."
+
+
+def noise_sentence(noise: Noise | None) -> str:
+    if noise is None:
+        return "No run has 3 repetitions or more, so nothing can be said about noise."
+    verdict = (
+        "that is noisy: differences of some per cent are nothing to go by"
+        if noise.noisy
+        else "that is steady (up to 3 %)"
+    )
+    return (
+        f"The times' spread (median absolute deviation over median) is {100 * noise.median_spread:.1f} % in the "
+        f"median run and at most {100 * noise.ninth_decile:.1f} % in nine of ten, of {noise.rows} runs with 3 "
+        f"repetitions or more; {verdict}."
+    )
+
+
+def _alone(summary: Summary) -> str:
+    """What there is to say when nothing can be compared; empty when something can."""
+    if summary.contested:
+        return ""
+    with_results = [one.label for one in summary.standings if one.results]
+    if not with_results:
+        return "nothing has a result."
+    if len(with_results) == 1:
+        return f"only {with_results[0]} has results, so there is nothing to compare it with."
+    return "no case has results of two entrants, so nothing can be compared."
+
+
+def share(count: int, of: int) -> str:
+    """3 of 11 cases; all 11 cases; the one case."""
+    if count == of:
+        return "the one case" if of == 1 else f"all {of} cases"
+    return f"{count} of {count_of(of, 'case')}"
+
+
+def times(ratio: float) -> str:
+    """13.2 times; three significant digits."""
+    return f"{number(ratio)} times"
+
+
+def span(ratio: Ratio) -> str:
+    return f"from {number(ratio.low)} to {number(ratio.high)}"

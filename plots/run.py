@@ -1,0 +1,86 @@
+"""What every figure is drawn from: a run's experiments and the paper's numbers, and what a figure hands back."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Iterable
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any
+
+from matplotlib.figure import Figure
+
+from records import Experiment, Picture, RecordError, Row
+from style import Series, in_order, label
+
+PAPER_FILE = Path(__file__).parent.parent / "results" / "paper.json"
+
+
+class Skipped(Exception):
+    """The run has not what the figure shows; the text says what is missing."""
+
+
+@dataclass(frozen=True)
+class Drawn:
+    """A figure, the name of its files and the text under it."""
+
+    name: str
+    figure: Figure
+    caption: str
+
+
+@dataclass
+class Run:
+    """A run or a suite."""
+
+    folder: Path
+    experiments: list[Experiment]
+    paper: dict[str, Any] = field(default_factory=dict)  # results/paper.json
+    _pictures: dict[tuple[str, str], Picture | None] = field(default_factory=dict)
+
+    def experiment(self, name: str) -> Experiment:
+        for experiment in self.experiments:
+            if experiment.name == name:
+                return experiment
+        raise Skipped(f"the run has no experiment called {name}")
+
+    def picture(self, experiment: Experiment, case: str) -> Picture | None:
+        """As Experiment.picture; each is read from its file once."""
+        key = (experiment.name, case)
+        if key not in self._pictures:
+            self._pictures[key] = experiment.picture(case)
+        return self._pictures[key]
+
+
+def read_paper(path: Path = PAPER_FILE) -> dict[str, Any]:
+    try:
+        return json.loads(path.read_text(encoding="utf-8"))
+    except (OSError, json.JSONDecodeError) as error:
+        raise RecordError(f"{path} cannot be read ({error}).") from error
+
+
+def missing_series(rows: Iterable[Row]) -> list[Series]:
+    """The series of which no row is ok."""
+    rows = list(rows)
+    ok = {row.series for row in rows if row.ok}
+    return in_order(row.series for row in rows if row.series not in ok)
+
+
+def failures(rows: Iterable[Row]) -> str:
+    """A sentence each on what is not installed and on what failed; empty when all rows are ok."""
+    rows = list(rows)
+    every = {row.series for row in rows}
+    not_installed = {row.series for row in rows if row.status == "not_installed"}
+    sentences = []
+    if not_installed:
+        names = ", ".join(dict.fromkeys(label(one, every) for one in in_order(not_installed)))
+        sentences.append(f"Not installed: {names}.")
+    failed = [row for row in rows if not row.ok and row.status != "not_installed"]
+    if failed:
+        counted = []
+        for one in in_order(row.series for row in failed):
+            of_one = [row.status for row in failed if row.series == one]
+            kinds = ", ".join(f"{of_one.count(kind)} {kind.replace('_', ' ')}" for kind in dict.fromkeys(of_one))
+            counted.append(f"{label(one, every)} ({kinds})")
+        sentences.append(f"Failed: {'; '.join(counted)}.")
+    return " ".join(sentences)

@@ -1,0 +1,473 @@
+// The comparison of two runs in a browser. A and B are the invented run of tests/invented_run.cpp, B with known changes;
+// `hullbench compare` itself compares them.
+//
+// The environment says where things are: WRITE_INVENTED_REPORT and HULLBENCH are those programs, PYTHON the Python for
+// plots/, OUTPUT the folder for the runs, the pages and their screenshots.
+import assert from "node:assert/strict";
+import { spawnSync } from "node:child_process";
+import { mkdirSync, readFileSync, rmSync, statSync, writeFileSync } from "node:fs";
+import { createRequire } from "node:module";
+import { join } from "node:path";
+import { after, before, test } from "node:test";
+import { fileURLToPath } from "node:url";
+import { launch, open_page } from "./browser.mjs";
+
+const { WRITE_INVENTED_REPORT, HULLBENCH, PYTHON = "python3", OUTPUT } = process.env;
+const make_comparison = fileURLToPath(new URL("../../plots/make_comparison.py", import.meta.url));
+const axe = readFileSync(createRequire(import.meta.url).resolve("axe-core/axe.min.js"), "utf8");
+const READY = () => document.documentElement.dataset.ready === "charts";
+const REPETITIONS = 20;
+const SLOWER = 1.5;
+const FASTER = 0.5;
+const FAILS = "spatialite/ca/n:2000/holes:1/protocol:paper";
+const WORKS = "spatialite/hi/n:64000/holes:0/protocol:paper";
+const LARGER_ERROR = "polylidar/ca/n:64000/holes:0/protocol:paper";
+
+let browser;
+let invented;
+const compared = {}; // by page: what the program said
+
+function run_program(program, ...words) {
+  const { status, stdout, stderr } = spawnSync(program, words, { encoding: "utf8", maxBuffer: 1e8 });
+  assert.equal(status, 0, `${program} ${words.join(" ")}: ${stdout}${stderr}`);
+  return stdout;
+}
+
+function median(values) {
+  const order = [...values].sort((a, b) => a - b);
+  return (order[(order.length - 1) >> 1] + order[order.length >> 1]) / 2;
+}
+
+/** The invented report with twenty repetitions, a per mille apart, each `factor(run)` times the first time. */
+function report_with(factor, change = () => {}) {
+  const made = structuredClone(invented);
+  change(made);
+  const statistics = new Map(made.summary.rows.map((row) => [row.id, row]));
+  for (const run of made.runs) {
+    if (run.time_ns.length)
+      run.time_ns = Array.from({ length: REPETITIONS }, (_, index) =>
+        Math.round(run.time_ns[0] * factor(run) * (1 + index / 1000)),
+      );
+    run.phases_ns = run.time_ns.map(() => run.phases_ns[0]);
+    const told = statistics.get(run.id);
+    if (run.status !== "ok") told.time = null;
+    else
+      told.time = {
+        ...told.time,
+        repetitions: REPETITIONS,
+        median_ns: median(run.time_ns),
+        median_low_ns: run.time_ns[5],
+        median_high_ns: run.time_ns[14],
+      };
+  }
+  return made;
+}
+
+function change_b(made) {
+  const named = (name) => made.runs.find((run) => run.name === name);
+  made.tool.commit = "fedcba9876543210fedcba9876543210fedcba98";
+  Object.assign(named(FAILS), { status: "timeout", detail: "after 60 s", time_ns: [], phases_ns: [], metrics: {} });
+  const twin = made.runs.find((run) => run.name === WORKS.replace("spatialite", "cgal_alpha_shape"));
+  Object.assign(named(WORKS), {
+    status: "ok",
+    detail: "",
+    time_ns: [...twin.time_ns],
+    phases_ns: [...twin.phases_ns],
+    metrics: { ...twin.metrics },
+    output_sha256: "1".repeat(64),
+  });
+  named(LARGER_ERROR).metrics.l2 *= 1.25;
+}
+
+function write_run(name, report) {
+  mkdirSync(join(OUTPUT, name), { recursive: true });
+  writeFileSync(join(OUTPUT, name, "report.json"), JSON.stringify(report));
+}
+
+function compare(page, a, b) {
+  const told = run_program(
+    HULLBENCH,
+    "compare",
+    join(OUTPUT, a, "report.json"),
+    join(OUTPUT, b, "report.json"),
+    "--format",
+    "json",
+  );
+  writeFileSync(join(OUTPUT, `${page}.json`), told);
+  run_program(
+    PYTHON,
+    make_comparison,
+    join(OUTPUT, a),
+    join(OUTPUT, b),
+    "--compared",
+    join(OUTPUT, `${page}.json`),
+    "--out",
+    file_of(page),
+  );
+  compared[page] = JSON.parse(told);
+}
+
+const file_of = (page) => join(OUTPUT, `${page}.html`);
+
+before(async () => {
+  rmSync(OUTPUT, { recursive: true, force: true });
+  mkdirSync(join(OUTPUT, "invented"), { recursive: true });
+  run_program(WRITE_INVENTED_REPORT, join(OUTPUT, "invented", "report.json"));
+  invented = JSON.parse(readFileSync(join(OUTPUT, "invented", "report.json")));
+  const factor = (run) => ({ polylidar: FASTER, cgal_alpha_shape: SLOWER })[run.method] ?? 1;
+  write_run(
+    "a",
+    report_with(() => 1),
+  );
+  write_run("b", report_with(factor, change_b));
+  write_run(
+    "other",
+    report_with(factor, (made) => Object.assign(made.environment, { machine_id: "feedbeef" })),
+  );
+  compare("before_after", "a", "b");
+  compare("machines", "a", "other");
+  compare("itself", "a", "a");
+  browser = await launch();
+});
+
+after(() => browser?.close());
+
+/** A test with a page of its own, in which nothing may go wrong on the side. */
+function page_test(name, options, body) {
+  test(name, async () => {
+    const { page, troubles } = await open_page(browser, file_of(options.page ?? "before_after"), {
+      ready: READY,
+      ...options,
+    });
+    await body(page);
+    assert.deepEqual(troubles, []);
+    await page.context().close();
+  });
+}
+
+async function open_table(page) {
+  await page.evaluate(() => hullbenchComparison.loadTable());
+  return page.locator("#runs-table tbody tr");
+}
+
+/** The rows of the table as objects by column, with the run's name. */
+async function rows_of(page) {
+  const rows = await open_table(page);
+  const heads = await page
+    .locator("#runs-table thead th")
+    .evaluateAll((cells) => cells.map((cell) => cell.dataset.column ?? ""));
+  const shown = await rows.evaluateAll((all) =>
+    all.map((row) => ({ run: row.dataset.run, cells: [...row.cells].map((cell) => cell.innerText.trim()) })),
+  );
+  return shown.map(({ run, cells }) => ({
+    run,
+    ...Object.fromEntries(heads.map((head, index) => [head, cells[index]])),
+  }));
+}
+
+/** Whether a text such as "0.935" is the value with as many digits as it has. */
+function assert_shows(text, value, what) {
+  const digits = /^[0-9]+(?:\.([0-9]+))?/.exec(text);
+  assert.ok(digits, `${what}: "${text}" is no number`);
+  assert.equal(digits[0], value.toFixed(digits[1]?.length ?? 0), what);
+  assert.ok(digits[0].replace(".", "").replace(/^0+/, "").length >= 3, `${what}: "${text}" has too few digits`);
+}
+
+/** The points that the chart of ratios draws, by the run's name: what it draws, and the change's sign. */
+function drawn_ratios(page) {
+  return page.evaluate(() => {
+    const { forests } = hullbenchComparison;
+    const { series } = forests.plots[1].chart.getOption();
+    return series
+      .filter((one) => one.type === "scatter")
+      .flatMap((one) =>
+        one.data.map(({ value, line }) => {
+          const interval = series.find((other) => other.id === `interval ${one.id}`).data;
+          const at = interval.findIndex(([, index]) => index === value[1]);
+          return {
+            run: forests.rows.name(line.row),
+            ratio: value[0],
+            low: interval[at]?.[0] ?? null,
+            high: interval[at + 1]?.[0] ?? null,
+            change: one.id,
+            filled: one.itemStyle.borderWidth === 0,
+            colour: one.itemStyle.color,
+          };
+        }),
+      );
+  });
+}
+
+page_test("opens from disk without network or messages, and the verdict is the program's", {}, async (page) => {
+  const { pairs, methods } = compared.before_after;
+  const count = (change) => pairs.filter((pair) => pair.change === change).length;
+  const judged = pairs.filter((pair) => pair.adjusted_p_value !== null).length;
+  assert.equal(
+    await page.locator("#verdict").innerText(),
+    `${pairs.length} runs in both, ${judged} of them judged: in B ${count("slower")} slower, ${count("faster")} faster, ${count("not told apart")} not told apart. ` +
+      "1 run now fails and 1 run now works. The error changed in 1 run: 1 larger, 0 smaller.",
+  );
+  const changed = { polylidar: "#verdict-faster", cgal_alpha_shape: "#verdict-slower" };
+  for (const [method, place] of Object.entries(changed)) {
+    const told = methods.find((one) => one.method === method);
+    const words = await page.locator(place).innerText();
+    assert.ok(
+      words.includes(
+        `${told.ratio.toPrecision(3)} times the time of A (95 %: ${told.ratio_low.toPrecision(3)} to ${told.ratio_high.toPrecision(3)})`,
+      ),
+      words,
+    );
+  }
+  assert.match(
+    await page.locator("#verdict-statuses").innerText(),
+    new RegExp(`✕\\s${FAILS}: now timed out \\(after 60 s\\)`),
+  );
+  assert.match(await page.locator("#verdict-errors").innerText(), new RegExp(`▲\\s${LARGER_ERROR}: L2 larger`));
+  assert.match(await page.locator("#warnings").innerText(), /Two runs of the very same program differ/);
+});
+
+page_test(
+  "the chart of ratios draws the program's ratios and intervals, coloured only where significant",
+  {},
+  async (page) => {
+    const drawn = await drawn_ratios(page);
+    const wanted = compared.before_after.pairs.filter((pair) => pair.ratio !== null);
+    assert.deepEqual(drawn.map(({ run }) => run).sort(), wanted.map(({ name }) => name).sort());
+    const [faster, slower, muted] = await page.evaluate(() => ["--faster", "--slower", "--muted"].map(cssColour));
+    const panel = await page.evaluate(() => cssColour("--panel"));
+    assert.equal(new Set([faster, slower, muted]).size, 3);
+    for (const one of drawn) {
+      const told = wanted.find(({ name }) => name === one.run);
+      for (const [key, value] of [
+        ["ratio", told.ratio],
+        ["low", told.ratio_low],
+        ["high", told.ratio_high],
+      ]) {
+        assert.ok(
+          value === null ? one[key] === null : Math.abs(one[key] / value - 1) < 1e-4,
+          `${key} of ${one.run}: ${one[key]}, not ${value}`,
+        );
+      }
+      assert.equal(one.change, told.change);
+      const significant = ["faster", "slower"].includes(told.change);
+      assert.equal(one.filled, significant);
+      assert.equal(one.colour, { faster, slower }[told.change] ?? panel, one.run);
+    }
+  },
+);
+
+page_test("times of two machines are said to be that and are not coloured", { page: "machines" }, async (page) => {
+  assert.match(await page.locator("#warnings").innerText(), /The machines differ \(A: 0123abcd; B: feedbeef\)/);
+  assert.match(await page.locator("#verdict").innerText(), /nothing is said to have become faster or slower/);
+  const drawn = await drawn_ratios(page);
+  assert.ok(drawn.some((one) => one.change === "lower time") && drawn.some((one) => one.change === "higher time"));
+  assert.ok(drawn.every((one) => !one.filled));
+  await open_table(page);
+  assert.equal(await page.locator(".change.faster, .change.slower, .legend .filled").count(), 0);
+});
+
+page_test("a run beside itself has no change", { page: "itself" }, async (page) => {
+  assert.match(await page.locator("#verdict").innerText(), /^A and B are the same measurements/);
+  const rows = await rows_of(page);
+  assert.equal(rows.length, compared.itself.pairs.length);
+  assert.deepEqual([...new Set(rows.map((row) => row.status))].sort(), ["– fails in both", "○ not told apart"]);
+  assert.match(await page.locator("#differences").innerText(), /Nothing that is recorded differs/);
+});
+
+page_test("the table has every pair with the program's numbers, status changes first", {}, async (page) => {
+  const rows = await rows_of(page);
+  const { pairs } = compared.before_after;
+  assert.deepEqual(rows.map((row) => row.run).sort(), pairs.map((pair) => pair.name).sort());
+  assert.deepEqual(
+    rows.slice(0, 2).map((row) => row.run),
+    [FAILS, WORKS],
+  );
+  for (const row of rows) {
+    const told = pairs.find((pair) => pair.name === row.run);
+    assert.ok(row.status.endsWith(told.change), `${row.run}: ${row.status}`);
+    if (told.ratio !== null) assert_shows(row.ratio, told.ratio, `ratio of ${row.run}`);
+    for (const side of ["a", "b"]) {
+      const time = told[`median_${side}_ns`];
+      const error = told[`l2_${side}`];
+      if (time !== null)
+        assert_shows(
+          row[`time_${side}`].replace(/^([0-9]+)(?= |$)/, "$1.000"),
+          time / 1e6,
+          `time of ${row.run} in ${side}`,
+        );
+      if (error !== null) assert_shows(row[`l2_${side}`], 100 * error, `error of ${row.run} in ${side}`);
+    }
+  }
+  const grown = rows.find((row) => row.run === LARGER_ERROR);
+  assert.match(grown.error_change, /^▲ \+0\.346/);
+  assert.equal(rows.find((row) => row.run === FAILS).detail, "B: timeout, after 60 s");
+});
+
+page_test("the table filters by what became of a run, finds words and sorts", {}, async (page) => {
+  await open_table(page);
+  const names = () => page.locator("#runs-table tbody tr").evaluateAll((all) => all.map((row) => row.dataset.run));
+  const { pairs } = compared.before_after;
+  await page.locator("#filter-status").selectOption("slower");
+  assert.deepEqual(
+    await names(),
+    pairs.filter((pair) => pair.change === "slower").map((pair) => pair.name),
+  );
+  await page.locator("#filter-status").selectOption("");
+  await page.locator("#filter-words").fill("hi/n:64000 polylidar");
+  assert.deepEqual(await names(), ["polylidar/hi/n:64000/holes:0/protocol:paper"]);
+  await page.locator("#filter-words").fill("");
+  await page.locator('#runs-table th[data-column="ratio"] button').click();
+  const ratios = (await names())
+    .map((name) => pairs.find((pair) => pair.name === name).ratio)
+    .filter((ratio) => ratio !== null);
+  assert.deepEqual(
+    ratios,
+    [...ratios].sort((a, b) => a - b),
+  );
+});
+
+page_test("the chart of ratios filters, orders and hides methods; the other charts follow", {}, async (page) => {
+  const labels = () =>
+    page.evaluate(() =>
+      hullbenchComparison.forests.drawn.runs.filter((line) => !line.heading).map((line) => line.ratio),
+    );
+  const all = (await labels()).length;
+  await page.locator("#forest-words").fill("hi/n:2000");
+  assert.equal(
+    (await labels()).length,
+    compared.before_after.pairs.filter((pair) => pair.ratio !== null && pair.name.includes("/hi/n:2000/")).length,
+  );
+  await page.locator("#forest-words").fill("");
+  await page.locator("#forest-order").selectOption("high");
+  assert.deepEqual(
+    await labels(),
+    [...(await labels())].sort((a, b) => b - a),
+  );
+  await page.locator("#forest-changed").selectOption("differ");
+  assert.equal(
+    (await labels()).length,
+    compared.before_after.pairs.filter((pair) => ["faster", "slower"].includes(pair.change)).length,
+  );
+  await page.locator("#forest-changed").selectOption("");
+  const toggle = page.locator('#ratios [data-entrant="polylidar/paper"]');
+  await toggle.focus();
+  await page.keyboard.press("Space");
+  assert.equal(await toggle.getAttribute("aria-pressed"), "false");
+  assert.equal(
+    (await labels()).length,
+    all -
+      compared.before_after.pairs.filter((pair) => pair.ratio !== null && pair.name.startsWith("polylidar/")).length,
+  );
+  assert.ok(!(await page.evaluate(() => hullbenchComparison.charts.drawn.shown)).includes("polylidar/paper"));
+  await toggle.click();
+  assert.equal((await labels()).length, all);
+});
+
+page_test("a line of the chart tells its numbers under the pointer", {}, async (page) => {
+  const { name, x, y } = await page.evaluate(() => {
+    const { forests } = hullbenchComparison;
+    const place = forests.drawn.runs.findIndex((line) => line.change === "slower");
+    const line = forests.drawn.runs[place];
+    forests.plots[1].element.scrollIntoView();
+    const [left, top] = forests.plots[1].chart.convertToPixel({ gridIndex: 0 }, [line.ratio, place]);
+    const box = forests.plots[1].element.getBoundingClientRect();
+    return { name: forests.rows.name(line.row), x: box.left + left, y: box.top + top };
+  });
+  await page.mouse.move(x, y);
+  const words = await page.locator("#forest-runs .tip").innerText();
+  const told = compared.before_after.pairs.find((pair) => pair.name === name);
+  assert.match(words, /▲ slower/);
+  assert.ok(
+    words.includes(
+      `${told.ratio.toPrecision(3)} [${told.ratio_low.toPrecision(3)}, ${told.ratio_high.toPrecision(3)}]`,
+    ),
+    words,
+  );
+});
+
+page_test("time and error of both runs are drawn with the reports' numbers", {}, async (page) => {
+  const reports = {
+    A: JSON.parse(readFileSync(join(OUTPUT, "a", "report.json"))),
+    B: JSON.parse(readFileSync(join(OUTPUT, "b", "report.json"))),
+  };
+  const drawn = await page.evaluate(() =>
+    hullbenchComparison.charts.plots.map(({ chart }) =>
+      chart
+        .getOption()
+        .series.flatMap((series) =>
+          series.data
+            .filter((one) => one?.point)
+            .map((one) => ({ side: series.id.slice(-1), run: one.point.run, value: one.value[1] })),
+        ),
+    ),
+  );
+  for (const [place, value] of [(run) => median(run.time_ns) / 1e6, (run) => 100 * run.metrics.l2].entries()) {
+    assert.deepEqual([...new Set(drawn[place].map(({ side }) => side))].sort(), ["A", "B"]);
+    for (const { side, run, value: shown } of drawn[place]) {
+      const row = reports[side].runs.find((one) => one.name === run);
+      assert.ok(Math.abs(shown / value(row) - 1) < 1e-4, `${run} of ${side}: ${shown}, not ${value(row)}`);
+    }
+  }
+  const california = (report) =>
+    report.runs.filter((run) => run.status === "ok" && run.dataset === "ca" && !run.holes).length;
+  assert.equal(drawn[0].length, california(reports.A) + california(reports.B));
+});
+
+page_test("what differs between the runs is marked", {}, async (page) => {
+  const rows = await page
+    .locator("#differences-table tbody tr")
+    .evaluateAll((all) => all.map((row) => row.innerText.replace(/\s+/g, " ")));
+  assert.equal(rows.length, 1, rows.join("\n"));
+  assert.match(rows[0], /^≠ differs Program hullbench .* commit 0123456789.* commit fedcba98/);
+});
+
+for (const [width, theme] of [
+  [1280, "light"],
+  [1280, "dark"],
+  [390, "light"],
+  [390, "dark"],
+  [360, "light"],
+]) {
+  for (const name of ["before_after", "machines"]) {
+    page_test(
+      `${name} is readable and accessible at ${width} pixels, ${theme}`,
+      { page: name, width, theme },
+      async (page) => {
+        await open_table(page);
+        assert.equal(await page.evaluate(() => document.documentElement.scrollWidth), width);
+        await page.screenshot({ path: join(OUTPUT, `${name}-${width}-${theme}.png`), fullPage: true });
+        // Run outside of the page's policy, which forbids scripts of others.
+        await page.evaluate(axe);
+        const { violations } = await page.evaluate(() =>
+          window.axe.run(document, { runOnly: ["wcag2a", "wcag2aa", "wcag21a", "wcag21aa"] }),
+        );
+        assert.deepEqual(
+          violations.map(
+            ({ id, nodes }) =>
+              `${id}: ${nodes
+                .slice(0, 3)
+                .map((node) => node.html.slice(0, 120))
+                .join(" | ")}`,
+          ),
+          [],
+        );
+      },
+    );
+  }
+}
+
+page_test("paper is light and without controls", { theme: "dark" }, async (page) => {
+  await open_table(page);
+  await page.emulateMedia({ media: "print", colorScheme: "dark" });
+  await page.evaluate(() => dispatchEvent(new Event("beforeprint")));
+  assert.equal(await page.evaluate(() => document.documentElement.dataset.theme), "light");
+  assert.equal(
+    await page.locator(".controls:visible, #ratios .toggles:visible, .contents:visible, button.small:visible").count(),
+    0,
+  );
+  assert.ok((await page.evaluate(() => hullbenchComparison.forests.plots[1].chart.getWidth())) <= 660);
+});
+
+test("the pages are small", () => {
+  for (const page of Object.keys(compared)) assert.ok(statSync(file_of(page)).size < 5 * 2 ** 20, page);
+});

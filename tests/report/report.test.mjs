@@ -1,0 +1,490 @@
+// The report in a browser, made from the invented run of tests/invented_run.cpp, whose numbers are known.
+//
+// The environment says where things are: WRITE_INVENTED_REPORT is that program, PYTHON the Python for plots/, OUTPUT the
+// folder for the run, the page and its screenshots.
+import assert from "node:assert/strict";
+import { spawnSync } from "node:child_process";
+import { mkdirSync, readFileSync, rmSync, statSync, writeFileSync } from "node:fs";
+import { createRequire } from "node:module";
+import { join } from "node:path";
+import { after, before, test } from "node:test";
+import { fileURLToPath } from "node:url";
+import { launch, open_page } from "./browser.mjs";
+import { SQUARE, write_invented_pictures } from "./invented_pictures.mjs";
+
+const { WRITE_INVENTED_REPORT, PYTHON = "python3", OUTPUT } = process.env;
+const folder = join(OUTPUT, "run");
+const file = join(OUTPUT, "report.html");
+const make_report = fileURLToPath(new URL("../../plots/make_report.py", import.meta.url));
+const axe = readFileSync(createRequire(import.meta.url).resolve("axe-core/axe.min.js"), "utf8");
+const CALIFORNIA = "ca/n:2000/holes:1";
+const HAWAII = "hi/n:2000/holes:0";
+// Beside the invented metrics: where the right side of the moved square is, in the data set's unit.
+const MARKED = `polylidar/${HAWAII}/protocol:paper`;
+const FARTHEST = {
+  hausdorff: 51.2,
+  hausdorff_to_truth: 51.2,
+  hausdorff_to_truth_x: 583.68,
+  hausdorff_to_truth_y: 450,
+  hausdorff_to_result: 51.2,
+  hausdorff_to_result_x: 122.88,
+  hausdorff_to_result_y: 450,
+};
+const READY = () => document.documentElement.dataset.ready === "charts";
+
+let browser;
+let report;
+
+function run_program(program, ...words) {
+  const { status, stdout, stderr } = spawnSync(program, words, { encoding: "utf8" });
+  assert.equal(status, 0, `${program} ${words.join(" ")}: ${stdout}${stderr}`);
+}
+
+before(async () => {
+  rmSync(OUTPUT, { recursive: true, force: true });
+  mkdirSync(folder, { recursive: true });
+  run_program(WRITE_INVENTED_REPORT, join(folder, "report.json"));
+  write_invented_pictures(folder);
+  report = JSON.parse(readFileSync(join(folder, "report.json")));
+  Object.assign(row_named(MARKED).metrics, FARTHEST);
+  writeFileSync(join(folder, "report.json"), JSON.stringify(report));
+  run_program(PYTHON, make_report, folder, "--out", file);
+  browser = await launch();
+});
+
+after(() => browser?.close());
+
+/** A test with a page of its own, in which nothing may go wrong on the side. */
+function page_test(name, options, body) {
+  test(name, async () => {
+    const { page, troubles } = await open_page(browser, file, { ready: READY, ...options });
+    await body(page);
+    assert.deepEqual(troubles, []);
+    await page.context().close();
+  });
+}
+
+function row_named(name) {
+  const row = report.runs.find((run) => run.name === name);
+  assert.ok(row, `no run ${name}`);
+  const statistics = report.summary.rows.find((one) => one.id === row.id);
+  return { ...row, median_ms: statistics?.time ? statistics.time.median_ns / 1e6 : null };
+}
+
+function case_of(run_name) {
+  return run_name.split("/").slice(1, -1).join("/");
+}
+
+/** Whether a text such as "7.83 %" is the value with as many digits as it has. */
+function assert_shows(text, value, what) {
+  const digits = /^-?[0-9]+(?:\.([0-9]+))?/.exec(text.trim());
+  assert.ok(digits, `${what}: "${text}" is no number`);
+  assert.equal(Number(digits[0]).toFixed(digits[1]?.length ?? 0), value.toFixed(digits[1]?.length ?? 0), what);
+  assert.ok(digits[0].replace(/[-.]/g, "").replace(/^0+/, "").length >= 3, `${what}: "${text}" has too few digits`);
+}
+
+async function open_case(page, case_name, run_name) {
+  await page.evaluate(([one, run]) => openCase(one, run), [case_name, run_name]);
+  await page.locator('dialog[open][data-ready="true"]').waitFor();
+  await page.evaluate(() => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done))));
+}
+
+/** The colour (red, green, blue, alpha) of the open case's picture at a place of the grid of pictures.jsonl. */
+function colour_at(page, x, y) {
+  return page.evaluate(
+    ([grid_x, grid_y]) => {
+      const canvas = document.querySelector("dialog[open] canvas");
+      // The square and the moved square, in the grid of plots/pictures.py.
+      const box = { left: 768, bottom: 768, right: 3648, top: 3328 };
+      const { scale, x: x0, y: y0 } = casePicture.fit(box, canvas.clientWidth, canvas.clientHeight, 14);
+      const pixel = [x0 + (scale * grid_x) / 16, y0 - (scale * grid_y) / 16].map(Math.round);
+      // From a copy: Chromium warns of canvases that are read often.
+      const copy = new OffscreenCanvas(1, 1).getContext("2d", { willReadFrequently: true });
+      copy.drawImage(canvas, ...pixel, 1, 1, 0, 0, 1, 1);
+      return [...copy.getImageData(0, 0, 1, 1).data];
+    },
+    [x, y],
+  );
+}
+
+page_test("opens from disk without network, messages or failures", {}, async (page) => {
+  await page.locator("#runs").scrollIntoViewIfNeeded();
+  await page.locator("#runs-table tbody tr").first().waitFor();
+  assert.match(await page.title(), /Concave hulls/);
+});
+
+test("a page that asks for something or complains is noticed", async () => {
+  const { page, troubles } = await open_page(browser, file, { ready: READY });
+  await page.evaluate(() => {
+    console.warn("a warning");
+    return fetch("https://example.org/").catch(() => {});
+  });
+  assert.ok(
+    troubles.some((trouble) => trouble.includes("a warning")),
+    troubles.join("; "),
+  );
+  assert.ok(troubles.length >= 2, troubles.join("; "));
+});
+
+page_test("the charts show the report's numbers", {}, async (page) => {
+  const drawn = await page.evaluate(async () => {
+    const charts = await hullbenchReport.loadCharts();
+    return charts
+      .flatMap((chart) => Object.values(chart.series).flat())
+      .map(({ run, time, metrics }) => ({ run, time: time[0], l2: metrics.l2 }));
+  });
+  const wanted = report.runs.filter((run) => run.status === "ok" && ["ca", "hi"].includes(run.dataset));
+  assert.deepEqual(drawn.map(({ run }) => run).sort(), wanted.map((run) => run.name).sort());
+  for (const { run, time, l2 } of drawn) {
+    const row = row_named(run);
+    assert.ok(
+      Math.abs(time / row.median_ms - 1) < 1e-4,
+      `${run}: ${time} ms in the chart, ${row.median_ms} in the report`,
+    );
+    assert.ok(Math.abs(l2 / row.metrics.l2 - 1) < 1e-4, `${run}: ${l2} in the chart, ${row.metrics.l2} in the report`);
+  }
+});
+
+page_test(
+  "what is drawn in the chart is what its data say, and a method can be switched off and on",
+  {},
+  async (page) => {
+    const drawn = () =>
+      page.evaluate(() =>
+        hullbenchReport.charts.plots[0].chart
+          .getOption()
+          .series.filter((series) => series.data.some((one) => one?.point))
+          .map((series) => series.name),
+      );
+    const toggle = page.locator("#method-toggles [data-entrant]").first();
+    const name = (await toggle.innerText()).trim();
+    assert.ok((await drawn()).includes(name), `${name} is not among ${await drawn()}`);
+    await toggle.click();
+    assert.ok(!(await drawn()).includes(name));
+    assert.equal(await toggle.getAttribute("aria-pressed"), "false");
+    await toggle.click();
+    assert.ok((await drawn()).includes(name));
+  },
+);
+
+page_test("the table has every run with its status and numbers", {}, async (page) => {
+  await page.locator("#runs").scrollIntoViewIfNeeded();
+  const rows = page.locator("#runs-table tbody tr");
+  await rows.first().waitFor();
+  const heads = await page
+    .locator("#runs-table thead th")
+    .evaluateAll((cells) => cells.map((cell) => cell.dataset.column ?? ""));
+  const shown = await rows.evaluateAll((all) =>
+    all.map((row) => ({ run: row.dataset.run, cells: [...row.cells].map((cell) => cell.innerText) })),
+  );
+  assert.deepEqual(shown.map(({ run }) => run).sort(), report.runs.map((run) => run.name).sort());
+  for (const { run, cells } of shown) {
+    const row = row_named(run);
+    const cell = (column) => cells[heads.indexOf(column)];
+    assert.equal(cell("status").trim(), row.status.replace("_", " "), run);
+    if (row.metrics.l2) assert_shows(cell("metric-l2"), 100 * row.metrics.l2, `L2 of ${run}`);
+    if (row.median_ms) assert_shows(cell("time"), row.median_ms, `time of ${run}`);
+  }
+});
+
+page_test("the table filters by status, finds words and sorts both ways", {}, async (page) => {
+  await page.locator("#runs").scrollIntoViewIfNeeded();
+  const rows = page.locator("#runs-table tbody tr");
+  await rows.first().waitFor();
+  await page.locator("#filter-status").selectOption("timeout");
+  assert.deepEqual(
+    await rows.evaluateAll((all) => all.map((row) => row.dataset.run)),
+    report.runs.filter((run) => run.status === "timeout").map((run) => run.name),
+  );
+  await page.locator("#filter-status").selectOption("");
+  await page.locator("#filter-words").fill("hi/n:64000 protocol");
+  assert.equal(await rows.count(), report.runs.filter((run) => run.dataset === "hi" && run.n === 64000).length);
+  await page.locator("#filter-words").fill("");
+  const by_l2 = async () => {
+    await page.locator('#runs-table th[data-column="metric-l2"] button').click();
+    const names = await rows.evaluateAll((all) => all.map((row) => row.dataset.run));
+    return names.map((name) => row_named(name).metrics.l2).filter((l2) => typeof l2 === "number");
+  };
+  const ascending = await by_l2();
+  assert.deepEqual(
+    ascending,
+    [...ascending].sort((a, b) => a - b),
+  );
+  const descending = await by_l2();
+  assert.deepEqual(descending, [...ascending].reverse());
+});
+
+page_test("the table's commands name the run", {}, async (page) => {
+  await page.locator("#runs").scrollIntoViewIfNeeded();
+  const row = page.locator("#runs-table tbody tr").first();
+  await row.waitFor();
+  const [run, command] = [await row.getAttribute("data-run"), await row.locator("code").innerText()];
+  assert.ok(command.replaceAll("\\", "").includes(run), `${command} does not name ${run}`);
+});
+
+page_test("the gallery lists every case with a picture, the worst of the chosen method first", {}, async (page) => {
+  const cards = page.locator(".gallery-card");
+  const cases = new Set(report.runs.map((run) => case_of(run.name)));
+  await page.locator("select[name=gallery-method]").selectOption("polylidar paper");
+  assert.equal(await cards.count(), cases.size);
+  const errors = (await cards.evaluateAll((all) => all.map((card) => card.dataset.run))).map(
+    (run) => row_named(run).metrics.l2,
+  );
+  assert.deepEqual(
+    errors,
+    [...errors].sort((a, b) => b - a),
+  );
+  for (const card of await cards.all()) {
+    const row = row_named(await card.getAttribute("data-run"));
+    assert_shows(/L2 (.*)/.exec(await card.innerText())[1], 100 * row.metrics.l2, row.name);
+  }
+});
+
+page_test("the gallery's failures can be found, and filters narrow the list", {}, async (page) => {
+  const cards = page.locator(".gallery-card");
+  await page.locator(".gallery-failures").click();
+  const failed = report.runs.filter((run) => !["ok", "not_installed", "unsupported"].includes(run.status));
+  const cases = new Set(failed.map((run) => case_of(run.name)));
+  assert.deepEqual(new Set(await cards.evaluateAll((all) => all.map((card) => card.dataset.case))), cases);
+  assert.match(await cards.first().innerText(), /invalid result|timeout/);
+  await page.locator("select[name=gallery-status]").selectOption("timeout");
+  assert.equal(await cards.count(), 1);
+  await page.locator("select[name=gallery-shape]").selectOption("California");
+  assert.match(await page.locator(".gallery-count").innerText(), /No case/);
+});
+
+page_test("small pictures are painted when they come into view", {}, async (page) => {
+  await page.locator("#gallery").scrollIntoViewIfNeeded();
+  const canvas = page.locator(".gallery-card canvas.painted").first();
+  await canvas.waitFor();
+  const painted = await canvas.evaluate(
+    (one) => new Set(new Uint32Array(one.getContext("2d").getImageData(0, 0, one.width, one.height).data.buffer)).size,
+  );
+  assert.ok(painted > 10, `only ${painted} colours`);
+});
+
+page_test("an open case shows the numbers of each method and what went wrong", {}, async (page) => {
+  for (const case_name of [CALIFORNIA, HAWAII, "hi/n:64000/holes:0"]) {
+    await open_case(page, case_name);
+    const runs = report.runs.filter((run) => case_of(run.name) === case_name);
+    assert.equal(await page.locator("dialog tbody tr").count(), runs.length);
+    for (const run of runs) {
+      const line = page.locator(`dialog tr[data-run="${run.name}"]`);
+      const row = row_named(run.name);
+      if (row.status === "ok")
+        assert_shows(await line.locator("[data-column=l2]").innerText(), 100 * row.metrics.l2, run.name);
+      else assert.match(await line.innerText(), /invalid result|timeout|not installed/);
+      if (row.median_ms) assert_shows(await line.locator("[data-column=time]").innerText(), row.median_ms, run.name);
+    }
+  }
+  await open_case(page, HAWAII, `postgis/${HAWAII}/protocol:auto`);
+  assert.match(await page.locator(".gallery-reason").innerText(), /Self-intersection/);
+});
+
+page_test("missed and wrongly added areas are shaded where they are, in two colours", {}, async (page) => {
+  await open_case(page, HAWAII, `polylidar/${HAWAII}/protocol:paper`);
+  for (const name of ["points", "truth"]) await page.locator(`[name=gallery-layer-${name}]`).uncheck();
+  await page.waitForTimeout(100);
+  const middle = (SQUARE.low + SQUARE.high) / 2;
+  const [missed, added] = [
+    await colour_at(page, SQUARE.low + SQUARE.moved / 2, middle),
+    await colour_at(page, SQUARE.high + SQUARE.moved / 4, middle),
+  ];
+  const [both, outside] = [await colour_at(page, middle, middle), await colour_at(page, SQUARE.low - 1500, middle)];
+  assert.ok(missed[2] > missed[0] && missed[3] > 90, `missed is ${missed}`);
+  assert.ok(added[0] > added[2] && added[3] > 90, `added is ${added}`);
+  assert.ok(both[3] > 10 && both[3] < 60, `found by both is ${both}`);
+  assert.equal(outside[3], 0, `outside is ${outside}`);
+  await page.locator("[name=gallery-layer-shade]").uncheck();
+  await page.waitForTimeout(100);
+  assert.equal((await colour_at(page, SQUARE.low + SQUARE.moved / 2, middle))[3], 0);
+});
+
+page_test("the places that are farthest apart are marked where that is known", {}, async (page) => {
+  await open_case(page, HAWAII, `cgal_alpha_shape/${HAWAII}/protocol:paper`);
+  const box = page.locator("[name=gallery-layer-farthest]");
+  assert.equal(await box.isVisible(), false);
+  await open_case(page, HAWAII, MARKED);
+  const place = [FARTHEST.hausdorff_to_truth_x * 100, FARTHEST.hausdorff_to_truth_y * 100];
+  const [red, green, blue, opaque] = await colour_at(page, ...place);
+  assert.ok(Math.max(red, green, blue) < 80 && opaque > 200, `the mark's middle is ${[red, green, blue, opaque]}`);
+  assert.match(await page.locator("dialog dd[data-metric=hausdorff]").innerText(), /^51/);
+  assert.equal(await page.locator("dialog dd[data-metric=hausdorff_to_truth_x]").count(), 0);
+  await box.uncheck();
+  await page.waitForTimeout(100);
+  const without = await colour_at(page, ...place);
+  assert.ok(without[2] > 120 && without[3] > 100, `without the mark there is ${without}, not Polylidar's blue outline`);
+});
+
+page_test("a case's method can be switched, and outlines of others laid over it", {}, async (page) => {
+  await open_case(page, CALIFORNIA, `polylidar/${CALIFORNIA}/protocol:paper`);
+  const picture = () => page.locator("dialog canvas").evaluate((canvas) => canvas.toDataURL());
+  const settle = () => page.waitForTimeout(100);
+  const of_polylidar = await picture();
+  const spatialite = page.locator(`dialog tr[data-run="spatialite/${CALIFORNIA}/protocol:paper"]`);
+  await spatialite.locator("input[type=radio]").check();
+  await settle();
+  const of_spatialite = await picture();
+  assert.notEqual(of_spatialite, of_polylidar);
+  assert.match(await page.locator(".gallery-facts h3").innerText(), /SpatiaLite/);
+  assert.match(await page.locator("dialog canvas").getAttribute("aria-label"), /SpatiaLite/);
+  await page.locator(`dialog tr[data-run="polylidar/${CALIFORNIA}/protocol:paper"] input[type=checkbox]`).check();
+  await settle();
+  assert.notEqual(await picture(), of_spatialite);
+});
+
+page_test("a case is used by keyboard: opened, next, previous, zoomed, closed, focus comes back", {}, async (page) => {
+  const card = page.locator(".gallery-card").first();
+  await card.focus();
+  await page.keyboard.press("Enter");
+  const dialog = page.locator('dialog[open][data-ready="true"]');
+  await dialog.waitFor();
+  const first = await dialog.getAttribute("data-case");
+  await page.keyboard.press("ArrowRight");
+  await page.waitForFunction((name) => document.querySelector("dialog").dataset.case !== name, first);
+  await dialog.waitFor();
+  await page.keyboard.press("ArrowLeft");
+  await page.waitForFunction((name) => document.querySelector("dialog").dataset.case === name, first);
+  await dialog.waitFor();
+  const zoom = async () => Number(await dialog.locator("canvas").getAttribute("data-zoom"));
+  assert.equal(await zoom(), 1);
+  await page.keyboard.press("+");
+  assert.ok((await zoom()) > 1.4);
+  await page.keyboard.press("0");
+  assert.equal(await zoom(), 1);
+  await dialog.locator("input[type=radio]:checked").focus();
+  for (const _ of [1, 2]) {
+    const shown = await dialog.getAttribute("data-case");
+    await page.keyboard.press("ArrowRight");
+    await page.waitForFunction((name) => document.querySelector("dialog").dataset.case !== name, shown);
+    await dialog.waitFor();
+  }
+  await page.keyboard.press("Escape");
+  assert.equal(await page.locator("dialog[open]").count(), 0);
+  assert.ok(await card.evaluate((element) => element === document.activeElement));
+});
+
+page_test("a case is zoomed by wheel and buttons and moved by dragging", {}, async (page) => {
+  await open_case(page, CALIFORNIA);
+  const canvas = page.locator("dialog canvas");
+  const box = await canvas.boundingBox();
+  const picture = () => canvas.evaluate((one) => one.toDataURL());
+  await page.mouse.move(box.x + box.width / 2, box.y + box.height / 2);
+  await page.mouse.wheel(0, -400);
+  await page.waitForFunction(() => Number(document.querySelector("dialog canvas").dataset.zoom) > 1.5);
+  await page.waitForTimeout(100);
+  const before_drag = await picture();
+  await page.mouse.down();
+  await page.mouse.move(box.x + box.width / 2 + 80, box.y + box.height / 2 + 40, { steps: 4 });
+  await page.mouse.up();
+  await page.waitForTimeout(100);
+  assert.notEqual(await picture(), before_drag);
+  await page.getByRole("button", { name: "Whole case (0)" }).click();
+  assert.equal(await canvas.getAttribute("data-zoom"), "1.00");
+});
+
+page_test("a row of the table opens its picture", {}, async (page) => {
+  await page.locator("#runs").scrollIntoViewIfNeeded();
+  const run = `spatialite/${CALIFORNIA}/protocol:paper`;
+  await page
+    .locator(`#runs-table tr[data-run="${run}"]`)
+    .getByRole("button", { name: /Picture/ })
+    .click();
+  await page.locator('dialog[open][data-ready="true"]').waitFor();
+  assert.equal(await page.locator("dialog tr.chosen").getAttribute("data-run"), run);
+  assert.equal(await page.evaluate(() => hasPicture("spatialite/hi/n:64000/holes:0/protocol:paper")), false);
+});
+
+for (const width of [360, 390, 1280]) {
+  page_test(`nothing is wider than a window of ${width} pixels`, { width, height: 800 }, async (page) => {
+    await page.locator("#runs").scrollIntoViewIfNeeded();
+    await page.locator("#runs-table tbody tr").first().waitFor();
+    const excess = () =>
+      page.evaluate(() => document.documentElement.scrollWidth - document.documentElement.clientWidth);
+    assert.ok((await excess()) <= 0, `${await excess()} pixels too wide`);
+    await open_case(page, CALIFORNIA);
+    const cut = await page.evaluate(() =>
+      [...document.querySelectorAll("dialog *")]
+        .filter((one) => one.getBoundingClientRect().right > innerWidth + 1)
+        .map((one) => one.className || one.tagName),
+    );
+    assert.deepEqual(cut, []);
+  });
+}
+
+for (const theme of ["light", "dark"]) {
+  page_test(`no serious finding of axe, ${theme}`, { theme }, async (page) => {
+    await page.locator("#runs").scrollIntoViewIfNeeded();
+    await page.locator("#runs-table tbody tr").first().waitFor();
+    await page.evaluate(axe);
+    const findings = async () => {
+      const { violations } = await page.evaluate(() => axe.run());
+      return violations
+        .filter(({ impact }) => ["serious", "critical"].includes(impact))
+        .map(
+          ({ id, nodes }) =>
+            `${id}: ${nodes
+              .slice(0, 3)
+              .map((node) => node.target.join(" "))
+              .join(", ")}`,
+        );
+    };
+    assert.deepEqual(await findings(), []);
+    await open_case(page, HAWAII, `postgis/${HAWAII}/protocol:auto`);
+    assert.deepEqual(await findings(), []);
+  });
+
+  for (const [width, height] of [
+    [1280, 900],
+    [390, 844],
+  ]) {
+    page_test(
+      `screenshots, ${width} pixels, ${theme}`,
+      { width, height, theme, deviceScaleFactor: width < 500 ? 2 : 1 },
+      async (page) => {
+        const shoot = async (name, more = {}) => {
+          const path = join(OUTPUT, `${name}-${width}-${theme}.png`);
+          await page.screenshot({ path, ...more });
+          assert.ok(statSync(path).size > 10000, `${path} is nearly empty`);
+        };
+        assert.equal(await page.evaluate(() => document.documentElement.dataset.theme), theme);
+        for (const section of ["gallery", "runs"]) await page.locator(`#${section}`).scrollIntoViewIfNeeded();
+        await page.locator("#runs-table tbody tr").first().waitFor();
+        await page.locator("#gallery").evaluate((one) => one.scrollIntoView());
+        await page.locator(".gallery-card canvas.painted").first().waitFor();
+        await page.waitForTimeout(300);
+        await shoot("gallery");
+        await page.evaluate(() => scrollTo(0, 0));
+        await page.waitForTimeout(300);
+        await shoot("page", { fullPage: true });
+        await open_case(page, CALIFORNIA, `postgis/${CALIFORNIA}/protocol:auto`);
+        await shoot("case");
+      },
+    );
+  }
+}
+
+page_test("paper is light, without controls; an open case is printed alone", { theme: "dark" }, async (page) => {
+  // Without having been in view.
+  await page.locator(".gallery-card canvas.painted").nth(5).waitFor({ state: "attached" });
+  await page.emulateMedia({ media: "print", colorScheme: "dark" });
+  const visible = (selector) => page.locator(selector).first().isVisible();
+  assert.equal(await visible(".gallery-filters"), false);
+  assert.equal(await visible("#summary"), true);
+  assert.equal(await visible(".gallery-card canvas"), true);
+  const brightness = await page.evaluate(() =>
+    Math.min(...getComputedStyle(document.body).backgroundColor.match(/\d+/g).slice(0, 3).map(Number)),
+  );
+  assert.ok(brightness > 240, `the background is ${brightness} of 255`);
+  await page.pdf({ path: join(OUTPUT, "page.pdf"), format: "A4" });
+  await page.emulateMedia({ media: "screen", colorScheme: "dark" });
+  await open_case(page, CALIFORNIA);
+  await page.emulateMedia({ media: "print", colorScheme: "dark" });
+  assert.equal(await visible("#summary"), false);
+  assert.equal(await visible("dialog canvas"), true);
+  await page.pdf({ path: join(OUTPUT, "case.pdf"), format: "A4" });
+});
+
+test("the page is small", () => {
+  assert.ok(statSync(file).size < 5 * 2 ** 20, `${statSync(file).size} bytes`);
+});

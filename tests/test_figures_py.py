@@ -1,0 +1,298 @@
+"""plots/make_figures.py: the figures show the record's own numbers, and every run gives the same bytes."""
+
+from __future__ import annotations
+
+import contextlib
+import io
+import json
+import os
+import statistics
+import subprocess
+import sys
+import tempfile
+import unittest
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+PLOTS = Path(__file__).parent.parent / "plots"
+sys.path[:0] = [str(PLOTS), str(Path(__file__).parent)]
+
+import matplotlib.colors  # noqa: E402
+import plot_samples  # noqa: E402
+from matplotlib.axes import Axes  # noqa: E402
+from matplotlib.figure import Figure  # noqa: E402
+from matplotlib.lines import Line2D  # noqa: E402
+from matplotlib.text import Text  # noqa: E402
+
+import make_figures  # noqa: E402
+import maps  # noqa: E402
+from figures import alphabet, core, examples, hulls, random_polygons, rgbd, shapes, states, steps, summary  # noqa: E402
+from records import load  # noqa: E402
+from run import Drawn, Run, read_paper  # noqa: E402
+from style import in_order, method_style  # noqa: E402
+
+LOOKS = json.loads((PLOTS / "methods.json").read_text(encoding="utf-8"))
+
+
+def lines_by_label(axes: Axes) -> dict[str, Line2D]:
+    return {line.get_label(): line for line in axes.get_lines()}
+
+
+def texts(figure: Figure) -> str:
+    found = []
+    for artist in figure.findobj(Text):
+        found.append(artist.get_text())
+    return "\n".join(found)
+
+
+class WithSuite(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls) -> None:
+        cls.temporary = tempfile.TemporaryDirectory()
+        cls.addClassCleanup(cls.temporary.cleanup)
+        cls.base = Path(cls.temporary.name)
+        cls.folder = plot_samples.write_suite(cls.base / "suite")
+        cls.run_ = Run(cls.folder, load(cls.folder), read_paper())
+
+    def rows(self, experiment: str) -> list[dict[str, Any]]:
+        return plot_samples.suite()[experiment]["runs"]
+
+    def draw(self, module: Any) -> dict[str, Drawn]:
+        return {one.name: one for one in module.draw(self.run_)}
+
+
+class Data(WithSuite):
+    def test_states_show_medians_errors_and_intervals(self) -> None:
+        drawn = self.draw(states)
+        self.assertEqual(list(drawn), ["states_ca", "states_hi"])
+        for dataset in ("ca", "hi"):
+            panels = drawn[f"states_{dataset}"].figure.axes[:4]
+            for k, axes in enumerate(panels):
+                holes, quantity = bool(k % 2), ("time", "time", "l2", "l2")[k]
+                self.assertEqual((axes.get_xscale(), axes.get_yscale()), ("log", "log"))
+                lines = lines_by_label(axes)
+                for method, protocol in plot_samples.SERIES:
+                    line = lines[f"_{method}/{protocol}"]
+                    self.assertEqual(list(line.get_xdata()), list(plot_samples.SIZES))
+                    expected = [self._value(method, protocol, dataset, n, holes, quantity) for n in plot_samples.SIZES]
+                    self.assertEqual(list(line.get_ydata()), expected)
+
+    def test_the_band_is_the_interval(self) -> None:
+        axes = self.draw(states)["states_hi"].figure.axes[0]
+        color = matplotlib.colors.to_rgb(method_style("polylidar").color)
+        (band,) = [one for one in axes.collections if tuple(one.get_facecolor()[0][:3]) == color]
+        vertices = {(round(x), y) for x, y in band.get_paths()[0].vertices}
+        for n in plot_samples.SIZES:
+            _, row = plot_samples.run("polylidar", "paper", "hi", n, False)
+            self.assertIn((n, row["time"]["median_low_ns"] / 1e6), vertices)
+            self.assertIn((n, row["time"]["median_high_ns"] / 1e6), vertices)
+
+    def test_the_inset_shows_the_same_times_on_linear_axes(self) -> None:
+        axes = self.draw(states)["states_ca"].figure.axes[0]
+        (inset,) = axes.child_axes
+        self.assertEqual((inset.get_xscale(), inset.get_yscale()), ("linear", "linear"))
+        whole = lines_by_label(axes)
+        for name, line in lines_by_label(inset).items():
+            self.assertEqual(list(line.get_ydata()), list(whole[name].get_ydata()))
+            self.assertEqual([1000 * n for n in line.get_xdata()], list(whole[name].get_xdata()))
+
+    def test_alphabet_bars_are_the_papers_error(self) -> None:
+        figure = self.draw(alphabet)["alphabet"].figure
+        by_title = {axes.get_title(loc="left").split("  ")[0]: axes for axes in figure.axes}
+        bars = by_title["Polylidar"].patches
+        expected = [100 * plot_samples.run("polylidar", "paper", f"letter_{one}", 2000)[0]["metrics"]["l2_paper"]
+                    for one in plot_samples.LETTERS]
+        self.assertEqual([bar.get_height() for bar in bars], expected)
+        published = read_paper()["collections"][1]["by_shape"]
+        diamonds = by_title["Polylidar"].get_lines()[-1]
+        self.assertEqual(list(diamonds.get_ydata()), [published[f"letter_{one}"]["polylidar"] for one in plot_samples.LETTERS])
+        self.assertIn("not installed", texts(figure))
+
+    def test_random_polygons_are_all_there(self) -> None:
+        axes = self.draw(random_polygons)["random_polygons"].figure.axes[0]
+        stars = [row["metrics"] for row in self.rows("random") if row["dataset"].startswith("star-")]
+        cloud = lines_by_label(axes)["_runs"]
+        self.assertEqual(list(cloud.get_xdata()), [one["ground_truth_convexity"] for one in stars])
+        self.assertEqual(list(cloud.get_ydata()), [100 * one["l2_paper"] for one in stars])
+        median = lines_by_label(axes)["_median"]
+        for x, y in zip(median.get_xdata(), median.get_ydata()):
+            inside = [100 * one["l2_paper"] for one in stars if abs(one["ground_truth_convexity"] - x) < 0.0125]
+            self.assertAlmostEqual(y, statistics.median(inside), places=12)
+
+    def test_steps_are_means_of_the_repetitions(self) -> None:
+        measured = steps.measured_steps(self.run_.experiment("steps"), self.run_.paper["steps"])
+        row, _ = plot_samples.run("polylidar", "paper", "ca", 64000, True)
+        found, _ = measured["polylidar"]
+        self.assertAlmostEqual(found["triangulation"], statistics.mean(p["run.triangulation"] for p in row["phases_ns"]) / 1e6)
+        self.assertAlmostEqual(sum(found.values()), statistics.mean(p["run"] + p["extract"] for p in row["phases_ns"]) / 1e6)
+        axes = self.draw(steps)["steps"].figure.axes[0]
+        ours = [bar.get_width() for bar in axes.patches if bar.get_y() < 0.5]
+        paper = [bar.get_width() for bar in axes.patches if bar.get_y() > 0.5]
+        for widths, times in ((ours, list(found.values())), (paper, [36.0, 4.4, 1.0])):
+            self.assertEqual(len(widths), len(times))
+            for width, time in zip(widths, times):
+                self.assertAlmostEqual(width, time, places=9)  # matplotlib keeps a bar's edges
+
+    def test_core_is_nanoseconds_a_point(self) -> None:
+        curves = core.read(plot_samples.core())
+        self.assertEqual({name: [one.n for one in times] for name, times in curves.items()},
+                         dict.fromkeys(("concave_hull", "cgal_alpha_shape", "triangulation"), [1000, 100_000]))
+        self.assertAlmostEqual(curves["concave_hull"][1].a_point, 100.0)
+        axes = self.draw(core)["core"].figure.axes[0]
+        first = axes.containers[0].lines[0]
+        self.assertEqual(list(first.get_ydata()), [one.a_point for one in curves["concave_hull"]])
+
+    def test_summary_shows_every_result_of_one_case(self) -> None:
+        figure = self.draw(summary)["summary"].figure
+        lines = lines_by_label(figure.axes[1])
+        rows = [row for row in self.rows("states") if (row["dataset"], row["n"], row["holes"]) == ("ca", 4000, True)]
+        ok = [row for row in rows if row["status"] == "ok"]
+        self.assertEqual(set(lines) - {"_front"}, {f"_{row['method']}/{row['protocol']}" for row in ok})
+        for row in ok:
+            line = lines[f"_{row['method']}/{row['protocol']}"]
+            self.assertEqual(line.get_xdata(), [sorted(row["time_ns"])[1] / 1e6])
+            self.assertEqual(line.get_ydata(), [100 * row["metrics"]["l2"]])
+
+    def test_nothing_is_better_than_the_front(self) -> None:
+        rows = [row for row in self.run_.experiment("states").rows if row.ok and row.case == "ca/n:8000/holes:1"]
+        best = summary.front(rows)
+        for row in rows:
+            beaten = any(b.median_ns <= row.median_ns and b.metrics["l2"] <= row.metrics["l2"] for b in best if b is not row)
+            self.assertEqual(row in best, not beaten)
+
+    def test_pictures_show_every_series(self) -> None:
+        figure = self.draw(hulls)["hulls_ca"].figure
+        self.assertEqual(list(self.draw(hulls)), ["hulls_ca", "hulls_hi"])
+        shown = texts(figure)
+        for words in ("Polylidar", "GEOS (auto)", "GEOS (paper)", "somebodys_hull", "not installed", "4,000"):
+            self.assertIn(words, shown + self.draw(hulls)["hulls_ca"].caption)
+        for module, names in ((shapes, ["shapes"]), (rgbd, ["rgbd"]), (examples, ["convex_and_concave", "convexity"])):
+            self.assertEqual(list(self.draw(module)), names)
+
+    def test_rings_are_turned_for_the_winding_rule(self) -> None:
+        clockwise = [(0.0, 0.0), (0.0, 4.0), (4.0, 4.0), (4.0, 0.0)]
+        hole = [(1.0, 1.0), (3.0, 1.0), (3.0, 3.0), (1.0, 3.0)]
+        path = maps.area_path([[clockwise, hole, [(9.0, 9.0)]]])
+        self.assertEqual(len(path.vertices), 10)
+        self.assertGreater(maps.signed_area([tuple(p) for p in path.vertices[:4]]), 0)
+        self.assertLess(maps.signed_area([tuple(p) for p in path.vertices[5:9]]), 0)
+
+    def _value(self, method: str, protocol: str, dataset: str, n: int, holes: bool, quantity: str) -> float:
+        row, summary_ = plot_samples.run(method, protocol, dataset, n, holes)
+        return summary_["time"]["median_ns"] / 1e6 if quantity == "time" else 100 * row["metrics"]["l2"]
+
+
+class Honesty(WithSuite):
+    def test_what_is_missing_or_failed_is_said(self) -> None:
+        for module in (states, hulls, summary):
+            one = next(iter(self.draw(module).values()))
+            for text in (texts(one.figure), one.caption):
+                self.assertIn("Not installed: PostGIS ≤ 3.2", text, one.name)
+        one = self.draw(states)["states_ca"]
+        self.assertIn("hull.js (1 timeout)", texts(one.figure))
+        legend = texts(one.figure)
+        for words in ("PostGIS ≤ 3.2 (none)", "hull.js", "GEOS (auto)", "GEOS (paper)", "somebodys_hull"):
+            self.assertIn(words, legend)
+
+    def test_a_figure_without_data_is_skipped_with_a_reason(self) -> None:
+        code, out, _ = self._run(self.folder / "steps", "--out", self.base / "only_steps")
+        self.assertEqual(code, 0)
+        for name in ("alphabet", "random_polygons", "rgbd", "core"):
+            self.assertRegex(out, rf"(?m)^{name}: skipped, .+$")
+        listed = (self.base / "only_steps" / "figures.md").read_text(encoding="utf-8")
+        self.assertIn("- alphabet: the run has no experiment called alphabet", listed)
+
+    def test_a_run_in_which_all_failed_gives_nothing(self) -> None:
+        reports = {"steps": plot_samples.suite()["steps"]}
+        for row in reports["steps"]["runs"]:
+            row.update(status="crash", detail="signal", metrics={}, time_ns=[], phases_ns=[])
+        for row in reports["steps"]["summary"]["rows"]:
+            row.update(status="crash", time=None)
+        folder = plot_samples.write_suite(self.base / "failed", reports)
+        (folder / "core.json").unlink()
+        code, _, err = self._run(folder)
+        self.assertEqual(code, 6)
+        self.assertEqual(len(err.splitlines()), 1)
+
+    def test_a_broken_core_json_is_an_error(self) -> None:
+        folder = plot_samples.write_suite(self.base / "broken", {"steps": plot_samples.suite()["steps"]})
+        for text in ("{", "{}", '{"benchmarks": [{"run_name": "concave_hull/uniform/x"}]}', "[]"):
+            (folder / "core.json").write_text(text, encoding="utf-8")
+            code, _, err = self._run(folder, "--only", "core")
+            self.assertEqual((code, len(err.splitlines())), (2, 1), err)
+
+    def _run(self, *arguments: object) -> tuple[int, str, str]:
+        out, err = io.StringIO(), io.StringIO()
+        with contextlib.redirect_stdout(out), contextlib.redirect_stderr(err):
+            code = make_figures.main([str(one) for one in arguments])
+        return code, out.getvalue(), err.getvalue()
+
+
+class Style(WithSuite):
+    def test_a_method_has_its_color_everywhere(self) -> None:
+        seen = 0
+        for module in (states, summary):
+            for one in self.draw(module).values():
+                for method, line in self._series_lines(one.figure):
+                    color = matplotlib.colors.to_hex(line.get_markeredgecolor())
+                    self.assertEqual(color, method_style(method).color)
+                    if method in LOOKS["methods"]:
+                        self.assertEqual(color, LOOKS["methods"][method]["color"]["light"])
+                        seen += 1
+        self.assertGreater(seen, 20)
+
+    def test_no_two_methods_look_the_same(self) -> None:
+        looks = [(look["color"]["light"], look["marker"], tuple(look["line"])) for look in LOOKS["methods"].values()]
+        self.assertEqual(len(looks), len(set(looks)))
+        apart = {name: look for name, look in LOOKS["methods"].items() if not name.endswith("_steps")}
+        for key in ("light", "dark"):
+            self.assertEqual(len({look["color"][key] for look in apart.values()}), len(apart))
+        self.assertEqual(len({look["marker"] for look in apart.values()}), len(apart))
+        self.assertEqual(len({look["order"] for look in LOOKS["methods"].values()}), len(LOOKS["methods"]))
+
+    def test_every_planned_method_has_a_look(self) -> None:
+        plans = sorted((PLOTS.parent / "benchmarks" / "plans").glob("*.json"))
+        self.assertTrue(plans)
+        for plan in plans:
+            for entry in json.loads(plan.read_text(encoding="utf-8"))["methods"]:
+                self.assertIn(entry["method"], LOOKS["methods"], plan.name)
+
+    def test_the_papers_methods_come_first(self) -> None:
+        series = in_order([("zebra", "paper"), ("geos_concave_hull", "auto"), ("geos_concave_hull", "paper"),
+                           ("polylidar", "paper"), ("polylidar", "paper")])
+        self.assertEqual([one[0] for one in series], ["polylidar", "geos_concave_hull", "geos_concave_hull", "zebra"])
+        self.assertEqual(series[1][1], "paper")
+
+    def _series_lines(self, figure: Figure) -> Iterator[tuple[str, Line2D]]:
+        for line in figure.findobj(Line2D):
+            label = line.get_label()
+            if label.startswith("_") and label.count("/") == 1:
+                yield label[1:].split("/")[0], line
+
+
+class Files(WithSuite):
+    def test_two_runs_write_the_same_files_byte_for_byte(self) -> None:
+        made = []
+        for seed in ("1", "2"):
+            out = self.base / f"figures{seed}"
+            result = subprocess.run(
+                [sys.executable, "-B", "-W", "error::UserWarning", str(PLOTS / "make_figures.py"), str(self.folder), "--out",
+                 str(out)], capture_output=True, text=True, check=False, env={**os.environ, "PYTHONHASHSEED": seed})
+            self.assertEqual((result.returncode, result.stderr), (0, ""))
+            made.append({path.name: path.read_bytes() for path in sorted(out.iterdir())})
+        self.assertEqual(list(made[0]), list(made[1]))
+        self.assertEqual([name for name in made[0] if made[0][name] != made[1][name]], [])
+        names = ["alphabet", "convex_and_concave", "convexity", "core", "hulls_ca", "hulls_hi", "random_polygons", "rgbd",
+                 "shapes", "states_ca", "states_hi", "steps", "summary"]
+        self.assertEqual(set(made[0]), {"figures.md", *(f"{name}.{kind}" for name in names for kind in ("svg", "pdf", "png"))})
+        listed = made[0]["figures.md"].decode()
+        for name in names:
+            self.assertIn(f"![{name}]({name}.png)", listed)
+            self.assertTrue(made[0][f"{name}.png"].startswith(b"\x89PNG"))
+            self.assertTrue(made[0][f"{name}.pdf"].startswith(b"%PDF"))
+            self.assertIn(b"<svg", made[0][f"{name}.svg"][:1000])
+
+
+if __name__ == "__main__":
+    unittest.main()

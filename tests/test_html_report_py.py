@@ -1,0 +1,535 @@
+"""The HTML report: what is packed, the summary's numbers beside the records, escaping, and input that is no run."""
+
+import base64
+import contextlib
+import gzip
+import hashlib
+import html.parser
+import io
+import json
+import re
+import statistics
+import sys
+import tempfile
+import unittest
+from pathlib import Path
+
+sys.path.insert(0, str(Path(__file__).resolve().parent.parent / "plots"))
+
+import make_report
+from records import load
+from report_common import median_interval, number
+from report_data import charts, columns, pack
+from report_summary import (
+    accurate_sentence,
+    failure_sentences,
+    fastest_sentence,
+    losses_sentences,
+    measure_noise,
+    summarise,
+)
+from report_tables import sections, to_html
+
+EVIL = "</script><script>window.broken=1</script><img src=x onerror='window.broken=1'> {{library}} <!-- & \"quoted\""
+
+
+def run(
+    method="polylidar",
+    dataset="ca",
+    n=2000,
+    holes=False,
+    protocol="paper",
+    status="ok",
+    times=(100, 101, 102),
+    detail="",
+    **metrics,
+):
+    """One row as results/run.schema.json has it; times in microseconds."""
+    name = f"{method}/{dataset}/n:{n}/holes:{int(holes)}/protocol:{protocol}"
+    return {
+        "schema_version": 1,
+        "id": hashlib.sha256(name.encode()).hexdigest(),
+        "name": name,
+        "method": method,
+        "method_version": "1",
+        "dataset": dataset,
+        "dataset_sha256": "0" * 64,
+        "n": n,
+        "holes": holes,
+        "seed": 1,
+        "protocol": protocol,
+        "parameters": {"alpha": 2.5, "max_edge_length": None},
+        "status": status,
+        "detail": detail,
+        "time_ns": [1000 * time for time in times] if status == "ok" else [],
+        "phases_ns": [{"run": 1, "extract": 1} for _ in times] if status == "ok" else [],
+        "metrics": {"valid": True, "l2": 0.1, "l2_paper": 0.11, "iou": 0.9, **metrics} if status == "ok" else {},
+        "output_sha256": "0" * 64 if status == "ok" else "",
+    }
+
+
+def statistics_of(row, low=None, high=None):
+    times = row["time_ns"]
+    if not times:
+        return None
+    middle = statistics.median(times)
+    return {
+        "repetitions": len(times),
+        "median_ns": middle,
+        "median_low_ns": low or min(times),
+        "median_high_ns": high or max(times),
+        "mad_ns": statistics.median(abs(time - middle) for time in times),
+        "min_ns": min(times),
+        "max_ns": max(times),
+        "mean_ns": statistics.mean(times),
+        "std_ns": None,
+    }
+
+
+def report(rows, name="states", **more):
+    methods = [
+        {
+            "name": method,
+            "title": method.title(),
+            "version": "1",
+            "licence": "MIT",
+            "citation": "",
+            "native_output": "",
+            "capabilities": {},
+            "parameters": [],
+            "installed": True,
+            "detail": "",
+            "remedy": "",
+        }
+        for method in dict.fromkeys(row["method"] for row in rows)
+    ]
+    datasets = [
+        {
+            "name": "ca",
+            "title": "California",
+            "source": "s",
+            "licence": "l",
+            "sha256": None,
+            "area": 1,
+            "holes_area": 1,
+        },
+        {
+            "name": "star",
+            "title": "Star",
+            "source": "s",
+            "licence": "l",
+            "sha256": None,
+            "area": None,
+            "holes_area": None,
+        },
+    ]
+    return {
+        "schema_version": 1,
+        "created": "2026-01-02T03:04:05Z",
+        "tool": {"name": "hullbench", "version": "0.1.0", "commit": None, "dirty": None, "binary_sha256": "0" * 64},
+        "environment": {
+            "machine_id": "0" * 8,
+            "cpu": {"model": "Invented"},
+            "memory_bytes": 1,
+            "load_average": None,
+            "aslr": None,
+            "kernel": None,
+            "os": None,
+            "compiler": {},
+            "libraries": {},
+        },
+        "plan": {"name": name, "title": name.title(), "cases": [], "methods": []},
+        "seed": 1,
+        "filter": None,
+        "repetitions": 3,
+        "datasets": datasets,
+        "methods": methods,
+        "runs": rows,
+        "summary": {
+            "totals": {},
+            "rows": [
+                {
+                    "id": row["id"],
+                    "name": row["name"],
+                    "status": row["status"],
+                    "time": statistics_of(row),
+                    "paper_time": statistics_of(row),
+                }
+                for row in rows
+            ],
+            "claims": [],
+        },
+        "notes": [],
+        **more,
+    }
+
+
+class Folder(unittest.TestCase):
+    """A test with a folder for a run."""
+
+    def setUp(self):
+        holder = tempfile.TemporaryDirectory()
+        self.addCleanup(holder.cleanup)
+        self.folder = Path(holder.name)
+        library = self.folder / "library.js"
+        library.write_text("/* licence */ window.echarts = {};", encoding="utf-8")
+        before = make_report.LIBRARY
+        make_report.LIBRARY = library
+        self.addCleanup(setattr, make_report, "LIBRARY", before)
+
+    def load(self, *rows, **more):
+        (self.folder / "report.json").write_text(json.dumps(report(list(rows), **more)), encoding="utf-8")
+        return load(self.folder)
+
+    def summary(self, *rows):
+        return summarise(self.load(*rows)[0])
+
+    def standing(self, summary, method, protocol="paper"):
+        return next(
+            one for one in summary.standings if (one.entrant.method, one.entrant.protocol) == (method, protocol)
+        )
+
+    def make(self, *arguments):
+        """(exit code, standard output, standard error) of the program."""
+        out, err = io.StringIO(), io.StringIO()
+        with contextlib.redirect_stdout(out), contextlib.redirect_stderr(err):
+            code = make_report.main([str(argument) for argument in arguments])
+        return code, out.getvalue(), err.getvalue()
+
+
+class Packing(Folder):
+    def test_a_packed_value_is_gzip_in_base64(self):
+        value = {"words": ["é", "</script>", ""], "values": [1, 2.5, None]}
+        packed = pack(value)
+        plain = gzip.decompress(base64.b64decode(packed["data"]))
+        self.assertEqual(json.loads(plain), value)
+        self.assertEqual(packed["bytes"], len(plain))
+        # No time of packing, so that the same records make the same page.
+        self.assertEqual(base64.b64decode(packed["data"])[4:8], bytes(4))
+
+    def test_columns_hold_every_row(self):
+        rows = [
+            run(),
+            run("cgal", "star-7", 8000, True, l2=0.123456, times=(1234, 1234, 9999)),
+            run("cgal", status="timeout", detail="took 120 s"),
+        ]
+        packed = columns(self.load(*rows))
+        self.assertEqual(packed["count"], 3)
+        made = packed["columns"]
+        for column in made.values():
+            self.assertEqual(len(column["values"]), 3)
+
+        def get(name, row):
+            value = made[name]["values"][row]
+            return made[name]["words"][value] if "words" in made[name] else value
+
+        for index, row in enumerate(rows):
+            member = get("member", index)
+            dataset = get("family", index) + ("" if member is None else f"-{member}")
+            method, protocol = get("entrant", index).split("/")
+            self.assertEqual(f"{method}/{dataset}/{get('sample', index)}/protocol:{protocol}", row["name"])
+            self.assertEqual(get("status", index), row["status"])
+            self.assertEqual(get("detail", index), row["detail"])
+            self.assertEqual(get("n", index), row["n"])
+            self.assertEqual(get("holes", index), int(row["holes"]))
+        self.assertEqual(made["time"]["values"], [0.101, 1.234, None])
+        self.assertEqual(made["time_high"]["values"], [0.102, 9.999, None])
+        self.assertEqual(made["metric l2"]["values"], [0.1, 0.12346, None])
+        self.assertEqual(made["parameter max_edge_length"]["values"], ["∞", "∞", "∞"])
+        self.assertNotIn("name", made)
+
+    def test_a_name_that_is_not_composed_is_kept(self):
+        odd = run()
+        odd["name"] = "polylidar/ca/n:2000/holes:0/protocol:paper/again"
+        made = columns(self.load(odd))["columns"]
+        self.assertEqual(made["name"]["words"], [odd["name"]])
+
+    def test_numbers_that_are_not_finite_stay_out(self):
+        made = columns(self.load(run(l2=float("nan")), run(n=4000)))["columns"]
+        self.assertEqual(made["metric l2"]["values"], [None, 0.1])
+
+
+class Charts(Folder):
+    def test_sizes_make_a_chart_over_n(self):
+        rows = [run(n=n, times=(n, n, n)) for n in (2000, 4000, 8000)] + [
+            run("cgal", n=n, status="crash", detail="SIGSEGV") for n in (2000, 4000, 8000)
+        ]
+        (chart,) = charts(self.load(*rows))
+        self.assertEqual((chart["kind"], chart["title"], chart["x"]), ("n", "California", [2000, 4000, 8000]))
+        self.assertEqual([point["time"][0] for point in chart["series"]["polylidar/paper"]], [2.0, 4.0, 8.0])
+        self.assertNotIn("cgal/paper", chart["series"])
+        self.assertEqual(len(chart["missing"]["cgal/paper"]), 3)
+
+    def test_few_shapes_make_a_chart_by_shape_and_protocols_stay_apart(self):
+        rows = [run(dataset=f"star-{k}", protocol=protocol) for k in (1, 2) for protocol in ("paper", "auto")]
+        (chart,) = charts(self.load(*rows))
+        self.assertEqual((chart["kind"], chart["x"]), ("shape", ["Star 1", "Star 2"]))
+        self.assertEqual(
+            {key: len(points) for key, points in chart["series"].items()}, {"polylidar/paper": 2, "polylidar/auto": 2}
+        )
+
+    def test_many_shapes_are_classes_of_convexity(self):
+        rows = [
+            run(dataset=f"star-{k}", times=(k,), l2=k / 1000, ground_truth_convexity=0.7 if k % 2 else 0.65)
+            for k in range(1, 101)
+        ]
+        chart, holes = charts(self.load(*rows, run(dataset="star-1", holes=True, ground_truth_convexity=1)))
+        self.assertEqual((holes["title"], holes["x"]), ("Star with holes, by convexity", ["0.9–1.0"]))
+        self.assertEqual((chart["kind"], chart["x"]), ("convexity", ["0.6–0.7", "0.7–0.8"]))
+        low, high = chart["series"]["polylidar/paper"]
+        self.assertEqual((low["count"], high["count"]), (50, 50))
+        self.assertEqual(low["time"][0], 0.051)  # of 2, 4 ... 100 microseconds
+        self.assertEqual(high["metrics"]["l2"][0], 0.05)
+        self.assertNotIn("run", low)
+
+
+class TheSummary(Folder):
+    def test_ratios_are_medians_over_common_cases_only(self):
+        rows = []
+        for n, other in ((1, 200), (2, 300), (3, 900)):
+            rows += [run(n=n, times=(100, 100, 100)), run("cgal", n=n, times=(other, other, other), l2=0.05 * n)]
+        rows += [run("cgal", n=4, times=(1, 1, 1)), run(n=4, status="crash", detail="SIGSEGV")]
+        summary = self.summary(*rows)
+        cgal = self.standing(summary, "cgal")
+        self.assertEqual((cgal.time.cases, cgal.time.median, cgal.time.low, cgal.time.high), (3, 3, 2, 9))
+        self.assertAlmostEqual(cgal.error.median, 1)
+        self.assertEqual((cgal.error.lower_in, cgal.error.higher_in), (1, 1))
+        self.assertEqual((summary.contested, summary.undecided), (3, 0))
+        self.assertEqual((self.standing(summary, "polylidar").fastest_in, cgal.fastest_in), (3, 0))
+        self.assertEqual((self.standing(summary, "polylidar").most_accurate_in, cgal.most_accurate_in), (2, 2))
+        self.assertIn(
+            "Polylidar (paper) is the fastest in all 3 cases; the next, Cgal (paper), takes 3.00 times its time",
+            fastest_sentence(summary),
+        )
+
+    def test_times_whose_intervals_touch_are_undecided(self):
+        summary = self.summary(
+            run(times=(100, 110, 120)),
+            run("cgal", times=(119, 130, 140)),
+            run(n=4000, times=(100, 110, 118)),
+            run("cgal", n=4000, times=(119, 130, 140)),
+        )
+        self.assertEqual((summary.contested, summary.undecided), (2, 1))
+        self.assertEqual(self.standing(summary, "polylidar").fastest_in, 1)
+        self.assertIn("1 undecided", fastest_sentence(summary))
+
+    def test_it_says_when_the_core_loses(self):
+        rows = [
+            row
+            for n in (1, 2, 3)
+            for row in (
+                run(n=n),
+                run("quick", n=n, times=(10, 11, 12), l2=0.8),
+                run("exact", n=n, times=(900,) * 3, l2=0.05),
+            )
+        ]
+        summary = self.summary(*rows)
+        said = " ".join(losses_sentences(summary))
+        self.assertIn(
+            "Faster than Polylidar (paper): Quick (paper) in all 3 cases (0.109 times its time at 8.00 times its error)",
+            said,
+        )
+        self.assertIn("More accurate than Polylidar (paper): Exact (paper) in all 3 cases (0.500 times its error", said)
+        self.assertIn("Quick (paper) is the fastest", fastest_sentence(summary))
+        self.assertIn("up to twice its error, Polylidar (paper) is the fastest", fastest_sentence(summary))
+        self.assertIn("Exact (paper) has the smallest error in all 3 cases", accurate_sentence(summary))
+
+    def test_it_does_not_say_so_when_the_core_wins(self):
+        summary = self.summary(run(), run("cgal", times=(200, 201, 202), l2=0.1 * (1 + 1e-12)))
+        self.assertEqual(losses_sentences(summary), [])
+        # The same shape, written in another order, is as accurate.
+        self.assertEqual([one.most_accurate_in for one in summary.standings], [1, 1])
+
+    def test_protocols_are_entrants_of_their_own(self):
+        summary = self.summary(
+            run(), run("cgal", protocol="paper", times=(200,) * 3), run("cgal", protocol="auto", times=(300,) * 3)
+        )
+        self.assertEqual(self.standing(summary, "cgal", "paper").time.median, 200 / 101)
+        self.assertEqual(self.standing(summary, "cgal", "auto").time.median, 300 / 101)
+
+    def test_failures_are_counted_with_their_reason(self):
+        summary = self.summary(
+            run(),
+            run(n=4000, status="timeout", detail="took 120 s."),
+            run("cgal", status="crash", detail="SIGSEGV"),
+            run("cgal", n=4000, status="crash", detail="SIGSEGV"),
+        )
+        self.assertEqual(self.standing(summary, "cgal").failures["crash"], 2)
+        self.assertEqual(
+            failure_sentences([summary]),
+            [
+                ("Polylidar (paper)", "timed out in 1 of 2 runs: took 120 s."),
+                ("Cgal (paper)", "crashed in 2 of 2 runs: SIGSEGV."),
+            ],
+        )
+
+    def test_one_method_alone_is_compared_with_nothing(self):
+        self.assertIn("nothing to compare", fastest_sentence(self.summary(run())))
+        self.assertIn("nothing has a result", fastest_sentence(self.summary(run(status="error", detail="no"))))
+
+    def test_noise_is_that_of_rows_with_three_repetitions(self):
+        noise = measure_noise(
+            self.load(run(times=(90, 100, 110)), run(n=2, times=(100, 100, 100)), run(n=3, times=(1, 100)))
+        )
+        self.assertEqual((noise.rows, noise.median_spread), (2, 0.05))
+        self.assertTrue(noise.noisy)
+
+    def test_intervals_of_older_records_are_order_statistics(self):
+        (experiment,) = self.load(run(times=tuple(range(1, 11))), run(n=2, times=(1, 2, 3, 4, 5)))
+        for row in experiment.rows:
+            del row.time["median_low_ns"], row.time["median_high_ns"]
+        # 2 * (1 + 10) / 2**10 = 2.1 % lie outside of the second smallest and second largest of ten.
+        self.assertEqual(median_interval(experiment.rows[0]), (2000, 9000))
+        self.assertIsNone(median_interval(experiment.rows[1]))
+
+    def test_numbers_are_written_with_three_digits(self):
+        self.assertEqual(
+            [number(value) for value in (0, 1, 0.99999, 13.2, 297.4, 21543, 0.0123, 1.5e-7)],
+            ["0", "1.00", "1.00", "13.2", "297", "21500", "0.0123", "1.5e-07"],
+        )
+
+
+class Elements(html.parser.HTMLParser):
+    """The elements of a page as a browser sees them, with the texts of its scripts."""
+
+    def __init__(self, page):
+        super().__init__()
+        self.tags, self.scripts, self.policy, self.inside = [], [], "", False
+        self.feed(page)
+
+    def handle_starttag(self, tag, attributes):
+        told = dict(attributes)
+        self.tags.append(tag)
+        self.inside = tag == "script"
+        if self.inside:
+            self.scripts.append((told.get("id"), ""))
+        if tag == "meta" and told.get("http-equiv") == "Content-Security-Policy":
+            self.policy = told["content"]
+
+    def handle_endtag(self, tag):
+        self.inside = self.inside and tag != "script"
+
+    def handle_data(self, data):
+        if self.inside:
+            identity, before = self.scripts[-1]
+            self.scripts[-1] = identity, before + data
+
+
+class Page(Folder):
+    def page(self, *rows, **more):
+        return make_report.make_page(self.load(*rows, **more), self.folder)
+
+    def test_text_of_records_stays_text(self):
+        evil = report([run(status="error", detail=EVIL, dataset="star-1"), run("cgal")], notes=[EVIL], title=EVIL)
+        evil["plan"].update(
+            name=EVIL,
+            title=EVIL,
+            notes=[EVIL],
+            methods=[{"method": "cgal", "protocol": "paper", "note": EVIL, "parameters": {EVIL: {"rule": EVIL}}}],
+        )
+        evil["environment"].update(os=EVIL, libraries={EVIL: EVIL})
+        for part in evil["methods"] + evil["datasets"]:
+            part.update(title=EVIL, licence=EVIL)
+        evil["summary"]["claims"] = [
+            {
+                "id": EVIL,
+                "claim": EVIL,
+                "where": EVIL,
+                "paper": EVIL,
+                "ours": EVIL,
+                "value": 1,
+                "equal_work": EVIL,
+                "holds": True,
+                "detail": EVIL,
+            }
+        ]
+        (self.folder / "report.json").write_text(json.dumps(evil), encoding="utf-8")
+        (self.folder / "tables.md").write_text(
+            f"## {EVIL}\n\n### {EVIL}\n\n| {EVIL} |\n|---|\n| {EVIL} |\n\n- {EVIL}\n", encoding="utf-8"
+        )
+        seen = Elements(make_report.make_page(load(self.folder), self.folder))
+        calm = Elements(self.page(run()))
+        self.assertEqual([identity for identity, _ in seen.scripts], [identity for identity, _ in calm.scripts])
+        self.assertNotIn("img", seen.tags)
+        self.assertFalse(any("window.broken" in source for identity, source in seen.scripts if identity is None))
+        told = dict(seen.scripts)
+        self.assertEqual(json.loads(told["report"])["experiments"][0]["title"], EVIL)
+        rows = json.loads(gzip.decompress(base64.b64decode(json.loads(told["rows"])["data"])))
+        self.assertIn(EVIL, rows["columns"]["detail"]["words"])
+
+    def test_the_policy_allows_the_pages_own_scripts_and_no_network(self):
+        seen = Elements(self.page(run()))
+        own = [source for identity, source in seen.scripts if identity is None]
+        self.assertEqual(len(own), 2)
+        allowed = set(re.findall(r"'sha256-([^']+)'", seen.policy))
+        self.assertEqual(
+            allowed, {base64.b64encode(hashlib.sha256(source.encode()).digest()).decode() for source in own}
+        )
+        self.assertTrue(seen.policy.startswith("default-src 'none'; script-src 'sha256-"))
+        self.assertNotIn("connect-src", seen.policy)
+        self.assertNotIn("unsafe-inline", seen.policy.split("style-src")[0])
+        self.assertNotIn("link", seen.tags)
+
+    def test_the_librarys_licence_stays(self):
+        self.assertIn("/* licence */", self.page(run()))
+
+    def test_every_mark_of_the_template_is_filled(self):
+        self.assertEqual(re.findall(r"\{\{\w+\}\}", self.page(run())), [])
+
+    def test_a_method_without_a_style_gets_one(self):
+        told = dict(Elements(self.page(run("brand_new"), run())).scripts)
+        self.assertRegex(json.loads(told["report"])["methods"]["brand_new"]["light"], "^#")
+
+    def test_tables_become_html(self):
+        (section,) = sections(
+            "## One\n\n### Two\n\n| A | B [1] |\n|---|--:|\n| x \\| y | 3 |\n\n- [1] a note\n  that goes on\n"
+        )
+        made = to_html(section, "t")
+        self.assertIn("<h3>Two</h3>", made)
+        self.assertIn("<th class='number' scope='col'>B <sup>[1]</sup></th>", made)
+        self.assertIn("<th scope='row'>x | y</th><td class='number'>3</td>", made)
+        self.assertIn("<li>[1] a note that goes on</li>", made)
+
+
+class TheProgram(Folder):
+    def test_it_writes_the_page_beside_the_records(self):
+        self.load(run())
+        code, out, err = self.make(self.folder)
+        self.assertEqual((code, err), (0, ""))
+        self.assertIn("report.html", out)
+        self.assertTrue((self.folder / "report.html").read_text(encoding="utf-8").startswith("<!doctype html>"))
+
+    def refused(self, *arguments):
+        """What it says, one sentence, when it ends with 2."""
+        code, out, err = self.make(*arguments)
+        self.assertEqual((code, out), (2, ""))
+        self.assertEqual(err.count("\n"), 1)
+        self.assertTrue(err.startswith("make_report.py: "), err)
+        return err
+
+    def test_what_is_no_run_is_refused(self):
+        self.assertIn("is not a folder", self.refused(self.folder / "nowhere"))
+        self.assertIn("has no report.json", self.refused(self.folder))
+
+    def test_broken_records_are_refused(self):
+        (self.folder / "report.json").write_text('{"runs": [', encoding="utf-8")
+        self.assertIn("cannot be read as JSON", self.refused(self.folder))
+        for part, value in (("seed", 1), ("plan", []), ("summary", {"rows": [{}]}), ("environment", {"cpu": 3})):
+            broken = report([run()], **{part: value})
+            if part == "seed":
+                del broken["runs"]
+            (self.folder / "report.json").write_text(json.dumps(broken), encoding="utf-8")
+            self.refused(self.folder)
+
+    def test_a_missing_library_is_told_with_its_remedy(self):
+        self.load(run())
+        make_report.LIBRARY = self.folder / "nothing.js"
+        self.assertIn("install-npm.sh", self.refused(self.folder))
+
+    def test_a_file_that_cannot_be_written_is_told(self):
+        self.load(run())
+        self.assertIn("cannot be written", self.refused(self.folder, "--out", self.folder / "no" / "report.html"))
+
+
+if __name__ == "__main__":
+    unittest.main()
