@@ -25,11 +25,11 @@ using polylidar::Ring;
 
 /// One parameter of a method. Values are numbers; a switch is 0 or 1.
 struct ParameterInfo {
-  std::string name;                     ///< as in plans and records: snake_case
-  std::string unit;                     ///< "length", "length^2", "ratio", "count" (a whole number), "switch", "1"
-  std::string description;              ///< one sentence
-  double minimum = 0;                   ///< smallest legal value, inclusive
-  double maximum = 0;                   ///< largest legal value, inclusive; infinity when there is none
+  std::string name;         ///< as in plans and records: snake_case
+  std::string unit;         ///< "length", "length^2", "ratio", "count" (a whole number), "switch", "1"
+  std::string description;  ///< one sentence
+  double minimum = 0;       ///< smallest legal value, inclusive
+  double maximum = 0;       ///< largest legal value, inclusive; infinity when there is none
   std::optional<double> default_value;  ///< what the method does when the parameter is absent; none: required
 };
 

@@ -1,7 +1,9 @@
 // The polylidar core as a method.
 #include <limits>
 #include <memory>
+#include <optional>
 #include <stdexcept>
+#include <string>
 #include <vector>
 
 #include "adapters/adapter.hpp"
@@ -11,6 +13,8 @@ namespace hullbench {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
+/// No shape has triangles within an alpha of 0, so that the number is free to mean this.
+constexpr double kNotGiven = 0;
 
 MethodInfo describe() {
   MethodInfo info;
@@ -20,18 +24,22 @@ MethodInfo describe() {
   info.licence = "MIT";
   info.citation = "J. Castagno, E. Atkins, Polylidar - Polygons from Triangular Meshes";
   info.native_output = "multipolygon as indices of the points";
-  info.parameters = {{.name = "alpha",
-                      .unit = "length",
-                      .description = "Largest circumradius of a triangle inside the shape.",
-                      .minimum = 0,
-                      .maximum = kInfinity,
-                      .default_value = kInfinity},
-                     {.name = "max_edge_length",
-                      .unit = "length",
-                      .description = "Longest edge of a triangle inside the shape.",
-                      .minimum = 0,
-                      .maximum = kInfinity,
-                      .default_value = kInfinity}};
+  const auto limit = [](const char* name, const char* description, double default_value) {
+    return ParameterInfo{.name = name,
+                         .unit = "length",
+                         .description = description,
+                         .minimum = 0,
+                         .maximum = kInfinity,
+                         .default_value = default_value};
+  };
+  // The perimeter first: it is what the core chooses, and what a search of one parameter is to search.
+  info.parameters = {limit("max_perimeter", "Largest perimeter of a triangle inside the shape.", kInfinity),
+                     limit("alpha",
+                           "Largest circumradius of a triangle inside the shape; 0: not given. With no limit "
+                           "given, that of the "
+                           "perimeter is chosen from the points.",
+                           kNotGiven),
+                     limit("max_edge_length", "Longest edge of a triangle inside the shape.", kInfinity)};
   info.capabilities = {.holes = true, .several_polygons = true};
   return info;
 }
@@ -47,8 +55,13 @@ class PolylidarAdapter final : public Adapter {
 
   void run(const Parameters& parameters, Steps& steps) override {
     const Parameters complete = complete_parameters(info_, parameters);
-    const polylidar::Options options = {.alpha = complete.at("alpha"),
-                                        .max_edge_length = complete.at("max_edge_length")};
+    const auto limit = [&](const char* name, double not_given) {
+      const double value = complete.at(name);
+      return value == not_given ? std::nullopt : std::optional(value);
+    };
+    const polylidar::Options options = {.alpha = limit("alpha", kNotGiven),
+                                        .max_edge_length = limit("max_edge_length", kInfinity),
+                                        .max_perimeter = limit("max_perimeter", kInfinity)};
     steps.begin("triangulation");
     extractor_.triangulate(points_);
     steps.begin("shape");

@@ -69,7 +69,8 @@ std::vector<Point> shuffled(std::vector<Point> points) {
 }
 
 double convex_hull_area(std::span<const Point> points) {
-  return polylidar::area(polylidar::to_coordinates(polylidar::concave_hull(points), points));
+  return polylidar::area(
+      polylidar::to_coordinates(polylidar::concave_hull(points, {.alpha = polylidar::kNoLimit}), points));
 }
 
 std::size_t count_holes(const MultiPolygon& shape) {

@@ -318,11 +318,11 @@ CLI::Validator zero_or_more() {
 void add_hull(CLI::App& app, HullCommand& hull) {
   CLI::App* command = app.add_subcommand("hull", "Turn a file of points into polygons");
   command->footer(
-      "Without --alpha and --max-edge-length alpha is 1.8 times the median length of the Delaunay edges of "
-      "the\n"
-      "points, which suits points that are spread evenly; it is printed to standard error. Of points spread "
-      "at random\n"
-      "it leaves a chance hole in some 14000 of them, which --min-area fills.\n"
+      "Without --alpha, --max-edge-length and --max-perimeter the perimeter's limit is chosen from the "
+      "points: "
+      "where the\n"
+      "area of the triangles within it depends least on it. It is printed to standard error. Holes of one\n"
+      "triangle are filled then, as chance leaves them.\n"
       "The input's format is known by the ending of its name (.csv .tsv .txt .xyz .pts .asc .geojson .json "
       ".wkt\n"
       ".npy .ply), else by its content. Lengths are in the unit of the points.\n"
@@ -333,6 +333,8 @@ void add_hull(CLI::App& app, HullCommand& hull) {
   command->add_option("--alpha", hull.alpha, "Largest circumradius of a triangle of the shape")
       ->check(zero_or_more());
   command->add_option("--max-edge-length", hull.max_edge_length, "Longest edge of a triangle of the shape")
+      ->check(zero_or_more());
+  command->add_option("--max-perimeter", hull.max_perimeter, "Largest perimeter of a triangle of the shape")
       ->check(zero_or_more());
   command->add_option("--input", hull.input_format, "The input's format")
       ->check(CLI::IsMember({"auto", "csv", "xyz", "geojson", "wkt", "npy", "ply"}))

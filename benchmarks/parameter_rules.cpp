@@ -24,7 +24,8 @@ const std::array<ParameterRule, 7> kRules = {
      {"hull_spacing_ratio", "that of 3 √(A_hull/n)", false, &hull_spacing_ratio}}};
 
 double convex_hull_area(std::span<const polylidar::Point> points) {
-  return polylidar::area(polylidar::to_coordinates(polylidar::concave_hull(points), points));
+  return polylidar::area(
+      polylidar::to_coordinates(polylidar::concave_hull(points, {.alpha = polylidar::kNoLimit}), points));
 }
 
 struct LengthRange {

@@ -9,10 +9,10 @@
 namespace hullbench {
 
 /// The faults of a report (`*.json`), of a manifest (`manifest_version`), of a run's description
-/// (`run.json`), of a search's summary or a league (by their `kind`), or of the lines of a runs, a pictures or
-/// a sweep file (`*.jsonl`), one sentence each with the place as a JSON pointer; empty when the file is valid.
-/// A torn last line of a runs file is a fault. Throws std::runtime_error naming the file when it cannot be
-/// read or is not JSON.
+/// (`run.json`), of a search's summary or a league (by their `kind`), or of the lines of a runs, a pictures
+/// or a sweep file (`*.jsonl`), one sentence each with the place as a JSON pointer; empty when the file is
+/// valid. A torn last line of a runs file is a fault. Throws std::runtime_error naming the file when it
+/// cannot be read or is not JSON.
 std::vector<std::string> validate_file(const std::filesystem::path& path);
 
 /// The same of a report in memory.

@@ -4,9 +4,6 @@ find_package(GEOS CONFIG REQUIRED)
 hullbench_test(test_point_files SOURCES test_point_files.cpp LIBRARIES hullbench::point_files LABELS hull)
 target_include_directories(test_point_files PRIVATE "${PROJECT_SOURCE_DIR}")
 
-hullbench_test(test_automatic_alpha SOURCES test_automatic_alpha.cpp
-  LIBRARIES hullbench::hull hullbench_test_support LABELS hull)
-
 hullbench_test(test_hull_command SOURCES test_hull_command.cpp
   LIBRARIES hullbench::hull hullbench::metrics hullbench_adapter_interface hullbench_test_program
     nlohmann_json::nlohmann_json GEOS::geos_c

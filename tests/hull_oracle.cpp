@@ -7,7 +7,9 @@
 #include <limits>
 #include <map>
 #include <numeric>
+#include <optional>
 #include <set>
+#include <sstream>
 #include <tuple>
 #include <utility>
 
@@ -22,6 +24,7 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 // A triangle's measures in long double, whose range no double coordinates exceed here.
 struct Measures {
   long double longest_edge = 0;
+  long double perimeter = 0;
   long double twice_area = 0;
   long double least_circumradius = 0;  // what double arithmetic may come to, at least ...
   long double most_circumradius = 0;   // ... and at most; infinite when the area may vanish
@@ -40,6 +43,7 @@ Measures measure(std::span<const Point> points, const Triangulation& triangulati
   for (std::size_t i = 0; i < 3; ++i) {
     const long double length = std::hypot(x[(i + 1) % 3] - x[i], y[(i + 1) % 3] - y[i]);
     measures.longest_edge = std::max(measures.longest_edge, length);
+    measures.perimeter += length;
     product *= length;
   }
   const long double left = (x[1] - x[0]) * (y[2] - y[0]);
@@ -115,14 +119,35 @@ void start_at_least(Ring& ring) {
 
 }  // namespace
 
+std::string describe(const Options& options) {
+  const auto text = [](const std::optional<double>& limit) {
+    std::ostringstream out;
+    if (limit) out << *limit;
+    return limit ? out.str() : "not given";
+  };
+  return "alpha " + text(options.alpha) + ", max_edge_length " + text(options.max_edge_length) +
+         ", max_perimeter " + text(options.max_perimeter);
+}
+
+Options scaled(Options options, double scale) {
+  if (options.alpha) *options.alpha *= scale;
+  if (options.max_edge_length) *options.max_edge_length *= scale;
+  if (options.max_perimeter) *options.max_perimeter *= scale;
+  return options;
+}
+
 ExpectedShape expected_shape(std::span<const Point> points, const Triangulation& triangulation,
                              const Options& options) {
   std::vector<std::size_t> kept;
   long double twice_area = 0;
   for (std::size_t t = 0; t < triangulation.triangles.size() / 3; ++t) {
     const Measures measures = measure(points, triangulation, t);
-    const bool small = options.alpha == kInfinity || measures.most_circumradius <= options.alpha;
-    if (!small || measures.longest_edge > options.max_edge_length) continue;
+    const double alpha = options.alpha.value_or(kNoLimit);
+    const bool small = alpha == kNoLimit || measures.most_circumradius <= alpha;
+    if (!small || measures.longest_edge > options.max_edge_length.value_or(kNoLimit) ||
+        measures.perimeter > options.max_perimeter.value_or(kNoLimit)) {
+      continue;
+    }
     kept.push_back(t);
     twice_area += measures.twice_area;
   }
@@ -152,19 +177,27 @@ ExpectedShape expected_shape(std::span<const Point> points, const Triangulation&
 }
 
 std::vector<Options> clear_options(std::span<const Point> points, const Triangulation& triangulation) {
-  if (triangulation.triangles.empty()) return {Options{}};
+  if (triangulation.triangles.empty()) return {kConvexHull};
   std::vector<Interval> radii;
   std::vector<Interval> lengths;
+  std::vector<Interval> perimeters;
   for (const Measures& measures : measure_all(points, triangulation)) {
     radii.push_back({measures.least_circumradius, measures.most_circumradius});
     lengths.push_back({measures.longest_edge, measures.longest_edge});
+    perimeters.push_back({measures.perimeter, measures.perimeter});
   }
-  std::vector<Options> all = {Options{}};
+  std::vector<Options> all = {kConvexHull};
   for (const double alpha : values_between(radii)) all.push_back({.alpha = alpha});
   for (const double length : values_between(lengths)) all.push_back({.max_edge_length = length});
+  for (const double perimeter : values_between(perimeters)) all.push_back({.max_perimeter = perimeter});
   const std::size_t single = all.size();
+  const auto limit = [&](std::size_t i, std::optional<double> Options::*which) {
+    return (all[i % single].*which).value_or(kNoLimit);
+  };
   for (std::size_t i = 1; i < single; i += 2) {
-    all.push_back({.alpha = all[i].alpha, .max_edge_length = all[single - i].max_edge_length});
+    all.push_back({.alpha = limit(i, &Options::alpha),
+                   .max_edge_length = limit(i + single / 3, &Options::max_edge_length),
+                   .max_perimeter = limit(i + 2 * single / 3, &Options::max_perimeter)});
   }
   return all;
 }

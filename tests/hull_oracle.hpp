@@ -3,12 +3,22 @@
 
 #include <cstddef>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "polylidar/concave_hull.hpp"
 #include "polylidar/delaunay.hpp"
 
 namespace polylidar::testing {
+
+/// Options that keep every triangle.
+inline constexpr Options kConvexHull{.alpha = kNoLimit};
+
+/// `options` in words, for messages.
+std::string describe(const Options& options);
+
+/// `options` for points that are `scale` times as far apart. Limits that are not given stay so.
+Options scaled(Options options, double scale);
 
 /// Area and counts of the shape that the kept triangles form.
 struct ExpectedShape {
@@ -17,8 +27,8 @@ struct ExpectedShape {
   std::size_t holes = 0;
 };
 
-/// Keeps the triangles of `triangulation` that `options` allow, counts their edge-connected components
-/// through a map of edges, and their holes by Euler's formula.
+/// Keeps the triangles of `triangulation` that the limits given in `options` allow, counts their
+/// edge-connected components through a map of edges, and their holes by Euler's formula.
 ExpectedShape expected_shape(std::span<const Point> points, const Triangulation& triangulation,
                              const Options& options);
 

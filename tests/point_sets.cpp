@@ -254,19 +254,20 @@ std::vector<PointSet> nasty_point_sets() {
 std::vector<NamedCase> named_cases() {
   // Keeps the triangles of a unit lattice's cells (circumradius 0.707) and no others (the next is 1).
   constexpr Options kUnitCells{.alpha = 0.75};
-  return {{"lattice turned by 0.3 rad", rotated(lattice(300, 300), 0.3), {{}, kUnitCells}},
+  constexpr Options kAll{.alpha = kNoLimit};
+  return {{"lattice turned by 0.3 rad", rotated(lattice(300, 300), 0.3), {kAll, kUnitCells}},
           {"lattice of UTM size",
            shuffled(lattice(200, 200, 0.01, {5e5, 4e6}), 1),
-           {{}, {.alpha = 0.0075}, {.max_edge_length = 0.0145}}},
-          {"circle", circle(5000, 1000), {{}, {.max_edge_length = 501}}},
-          {"circle, shuffled", shuffled(circle(5000, 1000, {1, 2}), 2), {{}, {.max_edge_length = 501}}},
-          {"one point many times", std::vector<Point>(5000, Point{0.1, 0.2}), {{}, kUnitCells}},
+           {kAll, {.alpha = 0.0075}, {.max_edge_length = 0.0145}}},
+          {"circle", circle(5000, 1000), {kAll, {.max_edge_length = 501}}},
+          {"circle, shuffled", shuffled(circle(5000, 1000, {1, 2}), 2), {kAll, {.max_edge_length = 501}}},
+          {"one point many times", std::vector<Point>(5000, Point{0.1, 0.2}), {kAll, kUnitCells}},
           {"two clusters 1e9 apart",
            joined(uniform_points(2000, 33), transformed(uniform_points(2000, 34), 1, {1e9, 1e9})),
-           {{}, {.alpha = 0.05}, {.max_edge_length = 10}}},
-          {"parabola", parabola(3000), {{}, {.max_edge_length = 100.5}}},
-          {"comb", shuffled(comb_shape(100), 3), {{}, kUnitCells}},
-          {"islands", shuffled(islands(64, 64), 4), {{}, kUnitCells, {.max_edge_length = 1.5}}}};
+           {kAll, {.alpha = 0.05}, {.max_edge_length = 10}}},
+          {"parabola", parabola(3000), {kAll, {.max_edge_length = 100.5}}},
+          {"comb", shuffled(comb_shape(100), 3), {kAll, kUnitCells}},
+          {"islands", shuffled(islands(64, 64), 4), {kAll, kUnitCells, {.max_edge_length = 1.5}}}};
 }
 
 std::vector<PointSet> flat_point_sets() {

@@ -89,7 +89,7 @@ TEST_F(AdapterCommandTest, AMethodOfOnesOwnIsMeasuredBesideTheOthers) {
       "    xs, ys = points.T\n    return [[[(xs.min(), ys.min()), (xs.max(), ys.min()), (xs.max(), "
       "ys.max())]]]");
   const Outcome run =
-      hullbench({"run", "states", "--filter", "^(polylidar|sample)/ca/n:2000/holes:0", "--repetitions", "2",
+      hullbench({"run", "states", "--filter", "^(convex_hull|sample)/ca/n:2000/holes:0", "--repetitions", "2",
                  "--adapters", methods().string(), "--with", "sample", "--out", "run"});
   ASSERT_EQ(run.code, 0) << run.out << run.err;
   const json report = json::parse(read_text(folder_.path() / "run" / "report.json"));

@@ -63,7 +63,7 @@ MultiPolygon ours(const std::vector<Point>& points, double radius) {
 std::vector<double> clear_radii(const std::vector<Point>& points) {
   std::vector<double> radii;
   for (const Options& options : polylidar::testing::clear_options(points, polylidar::delaunay(points))) {
-    if (options.max_edge_length == kInfinity) radii.push_back(options.alpha);
+    if (options.alpha && !options.max_edge_length && !options.max_perimeter) radii.push_back(*options.alpha);
   }
   return radii;
 }

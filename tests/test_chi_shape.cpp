@@ -182,7 +182,8 @@ TEST(ChiShape, WithoutALimitIsTheConvexHull) {
   for (std::uint64_t seed = 0; seed < 20; ++seed) {
     const std::vector<Point> points = polylidar::testing::integer_points(200, seed, 15);
     EXPECT_EQ(canonical(chi_shape(points, kInfinity)),
-              canonical(polylidar::to_coordinates(polylidar::concave_hull(points), points)));
+              canonical(polylidar::to_coordinates(
+                  polylidar::concave_hull(points, {.alpha = polylidar::kNoLimit}), points)));
   }
 }
 

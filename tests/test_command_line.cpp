@@ -429,7 +429,7 @@ TEST_F(CommandLineTest, ADatabaseThatAnswersNothingIsAVisibleRow) {
 TEST_F(CommandLineTest, PostgisThatIsNotInstalledIsARowWithItsRemedy) {
   const fs::path nothing = folder() / "no-programs";
   fs::create_directory(nothing);
-  const Outcome outcome = hullbench({"run", "states", "--filter", "(polylidar|postgis)/hi/n:2000/holes:0",
+  const Outcome outcome = hullbench({"run", "states", "--filter", "(convex_hull|postgis)/hi/n:2000/holes:0",
                                      "--repetitions", "1", "--out", "run"},
                                     {{}, {{"HULLBENCH_POSTGRES_BIN", nothing.string()}}, false});
   EXPECT_EQ(outcome.code, 0) << outcome.err;

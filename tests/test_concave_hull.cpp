@@ -8,7 +8,6 @@
 #include <functional>
 #include <limits>
 #include <set>
-#include <sstream>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -29,19 +28,14 @@ using testing::convex_corners;
 using testing::hole_count;
 using testing::lattice;
 using testing::PointSet;
+using testing::scaled;
 using testing::strict_corners;
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 // Keeps the triangles of a unit lattice's cells (circumradius 0.707) and no others (the next is 1).
 constexpr Options kUnitCells{.alpha = 0.75};
 
-std::string describe(const Options& options) {
-  std::ostringstream out;
-  out << "alpha " << options.alpha << ", max_edge_length " << options.max_edge_length;
-  return out.str();
-}
-
-MultiPolygon hull(const std::vector<Point>& points, const Options& options = {}) {
+MultiPolygon hull(const std::vector<Point>& points, const Options& options = testing::kConvexHull) {
   const IndexedMultiPolygon shape = concave_hull(points, options);
   EXPECT_EQ(check_polygon(points, shape), "");
   return to_coordinates(shape, points);
@@ -74,7 +68,7 @@ TEST(ConcaveHull, IsTheShapeOfItsTriangles) {
     SCOPED_TRACE(set.name);
     const Triangulation triangulation = delaunay(set.points);
     for (const Options& options : testing::clear_options(set.points, triangulation)) {
-      SCOPED_TRACE(describe(options));
+      SCOPED_TRACE(testing::describe(options));
       const MultiPolygon shape = hull(set.points, options);
       const testing::ExpectedShape expected = testing::expected_shape(set.points, triangulation, options);
       EXPECT_EQ(shape.size(), expected.polygons);
@@ -93,7 +87,7 @@ TEST(ConcaveHull, IsTheShapeOfItsTrianglesOnRandomPoints) {
                                                     : testing::integer_points(20 + 2 * seed, seed, 24);
     const Triangulation triangulation = delaunay(points);
     for (const Options& options : testing::clear_options(points, triangulation)) {
-      SCOPED_TRACE(describe(options));
+      SCOPED_TRACE(testing::describe(options));
       const MultiPolygon shape = hull(points, options);
       const testing::ExpectedShape expected = testing::expected_shape(points, triangulation, options);
       EXPECT_EQ(shape.size(), expected.polygons);
@@ -137,14 +131,59 @@ TEST(ConcaveHull, LimitsAreInclusive) {
   EXPECT_EQ(hull(points, {.alpha = std::nextafter(2.5, 0)}).size(), 0U);
   EXPECT_EQ(hull(points, {.max_edge_length = 5}).size(), 1U);
   EXPECT_EQ(hull(points, {.max_edge_length = std::nextafter(5, 0)}).size(), 0U);
+  EXPECT_EQ(hull(points, {.max_perimeter = 12}).size(), 1U);
+  EXPECT_EQ(hull(points, {.max_perimeter = std::nextafter(12, 0)}).size(), 0U);
   EXPECT_EQ(hull(points, {.alpha = 2.5, .max_edge_length = 4.9}).size(), 0U);
+  EXPECT_EQ(hull(points, {.max_edge_length = 4.9, .max_perimeter = 12}).size(), 0U);
   EXPECT_EQ(hull(points, {.alpha = 2.4, .max_edge_length = 5}).size(), 0U);
+}
+
+// The area of the triangles beyond the limit whose neighbours are all within it. A limit on edges leaves
+// none: its long edge is a neighbour's too.
+double area_of_single_triangles(const std::vector<Point>& points, double max_perimeter) {
+  const Triangulation t = delaunay(points);
+  const auto corner = [&](std::size_t e) { return points[t.triangles[e]]; };
+  const auto is_kept = [&](std::size_t triangle) {
+    double perimeter = 0;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Point a = corner(3 * triangle + k);
+      const Point b = corner(3 * triangle + (k + 1) % 3);
+      perimeter += std::hypot(a.x - b.x, a.y - b.y);
+    }
+    return perimeter <= max_perimeter;
+  };
+  double sum = 0;
+  for (std::size_t e = 0; e < t.triangles.size(); e += 3) {
+    const auto is_kept_beyond = [&](std::size_t k) {
+      return t.halfedges[e + k] != kNone && is_kept(t.halfedges[e + k] / 3);
+    };
+    if (is_kept(e / 3) || !is_kept_beyond(0) || !is_kept_beyond(1) || !is_kept_beyond(2)) continue;
+    sum += area({{{corner(e), corner(e + 1), corner(e + 2)}, {}}});
+  }
+  return sum;
+}
+
+TEST(ConcaveHull, FillsSingleTrianglesIfAsked) {
+  double total = 0;
+  for (std::uint64_t seed = 0; seed < 30; ++seed) {
+    const std::vector<Point> points = testing::uniform_points(1000, seed);
+    for (const double limit : {0.13, 0.16, 0.2}) {
+      SCOPED_TRACE("seed " + std::to_string(seed) + ", limit " + std::to_string(limit));
+      const double single = area_of_single_triangles(points, limit);
+      const double without = area(hull(points, {.max_perimeter = limit}));
+      const double with = area(hull(points, {.max_perimeter = limit, .fill_single_triangles = true}));
+      EXPECT_NEAR(with, without + single, area_tolerance(points));
+      total += single;
+    }
+  }
+  EXPECT_GT(total, 0) << "there was something to fill";
 }
 
 TEST(ConcaveHull, OfZeroLimitsIsEmpty) {
   const std::vector<Point> points = testing::uniform_points(100, 1);
   EXPECT_TRUE(hull(points, {.alpha = 0}).empty());
   EXPECT_TRUE(hull(points, {.max_edge_length = 0}).empty());
+  EXPECT_TRUE(hull(points, {.max_perimeter = 0}).empty());
   EXPECT_TRUE(hull(points, {.alpha = 5e-324}).empty());
 }
 
@@ -153,6 +192,7 @@ TEST(ConcaveHull, RefusesLimitsThatAreNoLengths) {
   for (const double bad : {-1.0, -kInfinity, std::numeric_limits<double>::quiet_NaN()}) {
     EXPECT_THROW(concave_hull(points, {.alpha = bad}), std::invalid_argument) << bad;
     EXPECT_THROW(concave_hull(points, {.max_edge_length = bad}), std::invalid_argument) << bad;
+    EXPECT_THROW(concave_hull(points, {.max_perimeter = bad}), std::invalid_argument) << bad;
     EXPECT_THROW(concave_hull({}, {.alpha = bad}), std::invalid_argument) << bad << " even for no points";
   }
 }
@@ -406,10 +446,6 @@ MultiPolygon moved(MultiPolygon shape, const Motion& motion) {
   return shape;
 }
 
-Options scaled(const Options& options, double scale) {
-  return {.alpha = options.alpha * scale, .max_edge_length = options.max_edge_length * scale};
-}
-
 // Points whose Delaunay triangulation is the only one, so that a relation has one right answer.
 std::vector<Point> points_in_general_position(std::uint64_t seed) {
   const std::vector<Point> points = testing::integer_points(150 + 5 * seed, seed, 1 << 20);
@@ -433,7 +469,7 @@ class ConcaveHullRelations : public ::testing::TestWithParam<std::uint64_t> {
 
 TEST_P(ConcaveHullRelations, MotionsMoveTheShapeAlong) {
   for (const Options& options : options_) {
-    SCOPED_TRACE(describe(options));
+    SCOPED_TRACE(testing::describe(options));
     const MultiPolygon shape = hull(points_, options);
     for (const Motion& motion : motions()) {
       SCOPED_TRACE(motion.name);
@@ -445,7 +481,7 @@ TEST_P(ConcaveHullRelations, MotionsMoveTheShapeAlong) {
 
 TEST_P(ConcaveHullRelations, TheOrderOfPointsDoesNotMatter) {
   for (const Options& options : options_) {
-    SCOPED_TRACE(describe(options));
+    SCOPED_TRACE(testing::describe(options));
     const MultiPolygon shape = canonical(hull(points_, options));
     for (std::uint64_t order = 0; order < 3; ++order) {
       EXPECT_EQ(canonical(hull(testing::shuffled(points_, order), options)), shape) << "order " << order;
@@ -458,7 +494,7 @@ TEST_P(ConcaveHullRelations, RepeatedPointsDoNotMatter) {
   std::vector<Point> repeated = points_;
   for (int i = 0; i < 100; ++i) repeated.push_back(repeated[random.below(repeated.size())]);
   for (const Options& options : options_) {
-    SCOPED_TRACE(describe(options));
+    SCOPED_TRACE(testing::describe(options));
     const MultiPolygon shape = canonical(hull(points_, options));
     EXPECT_EQ(canonical(hull(repeated, options)), shape);
     EXPECT_EQ(canonical(hull(testing::shuffled(repeated, GetParam()), options)), shape);
@@ -469,13 +505,17 @@ TEST_P(ConcaveHullRelations, RepeatedPointsDoNotMatter) {
 TEST_P(ConcaveHullRelations, LargerLimitsGiveLargerShapes) {
   double alpha_area = 0;
   double length_area = 0;
+  double perimeter_area = 0;
   for (double limit = 1 << 10; limit < 0x1p24; limit *= 1.25) {
     const double with_alpha = area(hull(points_, {.alpha = limit}));
     const double with_length = area(hull(points_, {.max_edge_length = limit}));
+    const double with_perimeter = area(hull(points_, {.max_perimeter = limit}));
     EXPECT_GE(with_alpha, alpha_area) << limit;
+    EXPECT_GE(with_perimeter, perimeter_area) << limit;
     EXPECT_GE(with_length, length_area) << limit;
     alpha_area = with_alpha;
     length_area = with_length;
+    perimeter_area = with_perimeter;
   }
 }
 
@@ -489,7 +529,7 @@ TEST(Extractor, GivesTheSameWhateverCameBefore) {
     for (const PointSet& set : testing::nasty_point_sets()) {
       SCOPED_TRACE(set.name);
       for (const Options& options : testing::clear_options(set.points, delaunay(set.points))) {
-        SCOPED_TRACE(describe(options));
+        SCOPED_TRACE(testing::describe(options));
         EXPECT_EQ(extractor.extract(set.points, options), concave_hull(set.points, options));
       }
     }

@@ -21,8 +21,7 @@ using testing::near_one;
 using testing::PointSet;
 
 void expect_valid(const std::vector<Point>& points, const Options& options) {
-  SCOPED_TRACE("alpha " + std::to_string(options.alpha) + ", max_edge_length " +
-               std::to_string(options.max_edge_length));
+  SCOPED_TRACE(testing::describe(options));
   const MultiPolygon shape = to_coordinates(concave_hull(points, options), near_one(points));
   EXPECT_EQ(hullbench::invalid_reason(shape), "") << "by GEOS";
   EXPECT_EQ(testing::boost_invalid_reason(shape), "") << "by Boost.Geometry";

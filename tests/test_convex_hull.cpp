@@ -57,7 +57,8 @@ TEST(ConvexHull, IsTheCoreWithoutALimit) {
     const MultiPolygon hull = hull_of(*adapter, points, {});
     ASSERT_EQ(hull.size(), 1U);
     EXPECT_EQ(canonical(hull)[0].shell, polylidar::testing::convex_corners(points));
-    const MultiPolygon core = polylidar::to_coordinates(polylidar::concave_hull(points), points);
+    const MultiPolygon core =
+        polylidar::to_coordinates(polylidar::concave_hull(points, {.alpha = polylidar::kNoLimit}), points);
     // The core keeps points on the hull's edges as vertices; the area is a sum of fewer than 2^11 terms.
     EXPECT_NEAR(polylidar::area(hull), polylidar::area(core), 0x1p-41);
   }

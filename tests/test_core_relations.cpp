@@ -8,7 +8,6 @@
 #include <cstdint>
 #include <limits>
 #include <optional>
-#include <sstream>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -30,12 +29,6 @@ using testing::Random;
 // Keeps the triangles of a unit lattice's cells (circumradius 0.707) and no others (the next is 1). Whichever
 // diagonal a cell got, both of its triangles are kept: the shape is unique although the triangulation is not.
 constexpr Options kUnitCells{.alpha = 0.75};
-
-std::string describe(const Options& options) {
-  std::ostringstream out;
-  out << "alpha " << options.alpha << ", max_edge_length " << options.max_edge_length;
-  return out.str();
-}
 
 MultiPolygon hull(const std::vector<Point>& points, const Options& options) {
   const IndexedMultiPolygon shape = concave_hull(points, options);
@@ -97,12 +90,6 @@ MultiPolygon moved(MultiPolygon shape, const Motion& motion) {
   return shape;
 }
 
-Options scaled(Options options, int exponent) {
-  options.alpha = std::ldexp(options.alpha, exponent);
-  options.max_edge_length = std::ldexp(options.max_edge_length, exponent);
-  return options;
-}
-
 std::vector<Point> scaled(std::vector<Point> points, int exponent_x, int exponent_y) {
   for (Point& point : points) point = {std::ldexp(point.x, exponent_x), std::ldexp(point.y, exponent_y)};
   return points;
@@ -132,7 +119,8 @@ TEST_P(CoreRelations, LatticesWithGapsKeepTheirShape) {
     const Motion motion = Motion::random(random);
     SCOPED_TRACE(::testing::PrintToString(motion));
     const std::vector<Point> other = moved(disarranged(points, random), motion);
-    EXPECT_EQ(canonical(hull(other, scaled(kUnitCells, motion.exponent))), canonical(moved(shape, motion)));
+    EXPECT_EQ(canonical(hull(other, testing::scaled(kUnitCells, std::ldexp(1.0, motion.exponent)))),
+              canonical(moved(shape, motion)));
   }
 }
 
@@ -184,7 +172,8 @@ TEST(PowersOfTwo, ChangeNoIndexOfAnyShape) {
       SCOPED_TRACE("exponent " + std::to_string(exponent));
       const std::vector<Point> points = scaled(set.points, exponent, exponent);
       for (std::size_t i = 0; i < all.size(); ++i)
-        EXPECT_EQ(concave_hull(points, scaled(all[i], exponent)), shapes[i]) << describe(all[i]);
+        EXPECT_EQ(concave_hull(points, testing::scaled(all[i], std::ldexp(1.0, exponent))), shapes[i])
+            << testing::describe(all[i]);
     }
   }
 }
@@ -219,10 +208,12 @@ TEST(Magnitudes, MixedAreEitherRightOrRefused) {
         EXPECT_EQ(check_triangulation(points, delaunay(points)), "");
         const int to_middle = 149 - range.greatest;
         for (const Options& options : testing::clear_options(points, delaunay(points))) {
-          SCOPED_TRACE(describe(options));
+          SCOPED_TRACE(testing::describe(options));
           const IndexedMultiPolygon shape = concave_hull(points, options);
           EXPECT_EQ(check_polygon(points, shape), "");
-          EXPECT_EQ(concave_hull(scaled(points, to_middle, to_middle), scaled(options, to_middle)), shape);
+          EXPECT_EQ(concave_hull(scaled(points, to_middle, to_middle),
+                                 testing::scaled(options, std::ldexp(1.0, to_middle))),
+                    shape);
         }
       }
     }
@@ -263,7 +254,7 @@ TEST(Magnitudes, TheWidestSpanIsRightAndTheNextIsRefused) {
     const double large = std::ldexp(1.999, least + kLargestSpan);
     std::vector<Point> points = {{small, small}, {large, small}, {small, large}, {-large, -3 * small}};
     EXPECT_EQ(check_triangulation(points, delaunay(points)), "");
-    EXPECT_EQ(hull(points, {}).size(), 1U);
+    EXPECT_EQ(hull(points, testing::kConvexHull).size(), 1U);
     points[1].x = std::ldexp(1.0, least + kLargestSpan + 1);
     EXPECT_THROW(delaunay(points), std::invalid_argument);
     EXPECT_THROW(concave_hull(points), std::invalid_argument);
@@ -278,7 +269,7 @@ TEST(Magnitudes, TheExtremesOfDoublesAreRight) {
     SCOPED_TRACE(unit);
     const std::vector<Point> points = lattice(9, 9, unit, {-4 * unit, -4 * unit});
     EXPECT_EQ(check_triangulation(points, delaunay(points)), "");
-    EXPECT_EQ(hull(points, {}).size(), 1U);
+    EXPECT_EQ(hull(points, testing::kConvexHull).size(), 1U);
   }
   const std::vector<Point> corners = {
       {-kLargest, -kLargest}, {kLargest, -kLargest}, {kLargest, kLargest}, {-kLargest, kLargest}, {0, 0},

@@ -78,7 +78,8 @@ TEST(GeosConcaveHull, TakesOneOfItsTwoLimits) {
 // this set one, 1.4e-6 of the whole.
 TEST(GeosConcaveHull, WithoutALimitIsTheConvexHull) {
   const std::vector<Point> points = square_points(kPoints, 7, true);
-  const double convex = polylidar::area(polylidar::to_coordinates(polylidar::concave_hull(points), points));
+  const auto hull = polylidar::concave_hull(points, {.alpha = polylidar::kNoLimit});
+  const double convex = polylidar::area(polylidar::to_coordinates(hull, points));
   for (const Parameters& parameters : {Parameters{}, Parameters{{"max_edge_length", 2}}}) {
     EXPECT_NEAR(polylidar::area(geos_hull(points, parameters)), convex, 2e-6);
   }

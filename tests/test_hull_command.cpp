@@ -168,14 +168,16 @@ TEST_F(HullCommandTest, EveryInputFormatGivesTheSameBytes) {
   }
 }
 
-TEST_F(HullCommandTest, ChoosesAnAlphaAndSaysIt) {
+TEST_F(HullCommandTest, ChoosesALimitAndSaysIt) {
   const Outcome outcome = hull({points_file()});
-  const double alpha = json::parse(outcome.out)["properties"]["alpha"];
-  EXPECT_NE(outcome.err.find("alpha " + testing::number(alpha) + ", chosen from the points"),
+  const json properties = json::parse(outcome.out)["properties"];
+  const double perimeter = properties["max_perimeter"];
+  EXPECT_FALSE(properties.contains("alpha") || properties.contains("max_edge_length"));
+  EXPECT_NE(outcome.err.find("max perimeter " + testing::number(perimeter) + ", chosen from the points"),
             std::string::npos);
-  EXPECT_EQ(from_geojson(json::parse(outcome.out)["geometry"]["coordinates"]), expected(alpha));
-  // 3000 points on 100 - 4 pi.
-  EXPECT_NEAR(alpha, 2 * std::sqrt((100 - 12.57) / 3000), 0.03);
+  EXPECT_EQ(from_geojson(json::parse(outcome.out)["geometry"]["coordinates"]),
+            to_coordinates(polylidar::concave_hull(points_), points_));
+  EXPECT_EQ(hull({points_file(), "--max-perimeter", "1"}).err, "");
 }
 
 TEST_F(HullCommandTest, FewPointsGiveTheEmptyGeometry) {

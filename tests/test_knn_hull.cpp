@@ -93,7 +93,8 @@ TEST(KnnHull, WithAllNeighboursIsTheConvexHull) {
     SCOPED_TRACE("seed " + std::to_string(seed));
     const std::vector<Point> points = polylidar::testing::integer_points(3 + 10 * seed, seed, 12);
     EXPECT_EQ(canonical(knn_hull(points, kInfinity)),
-              canonical(polylidar::to_coordinates(polylidar::concave_hull(points), points)));
+              canonical(polylidar::to_coordinates(
+                  polylidar::concave_hull(points, {.alpha = polylidar::kNoLimit}), points)));
   }
 }
 

@@ -528,8 +528,9 @@ TEST(Plan, StatesIsThePapersExperiment) {
   EXPECT_EQ(plan.repetitions, 10);
   EXPECT_EQ(plan.expanded_cases.size(), 24U);
   const auto count = [&](const std::string& filter) { return planned_runs(plan, filter).size(); };
-  for (const char* method : {"^polylidar/", "^cgal_alpha_shape/", "^spatialite/"})
+  for (const char* method : {"^polylidar/.*protocol:paper", "^cgal_alpha_shape/", "^spatialite/"})
     EXPECT_EQ(count(method), 24U) << method;
+  EXPECT_EQ(count("^polylidar/.*protocol:default"), 24U);
   EXPECT_EQ(count("^postgis_legacy/ca/"), 12U);
   EXPECT_EQ(count("^postgis_legacy/hi/"), 0U);
   EXPECT_EQ(count("^postgis/.*protocol:auto"), 24U);
@@ -580,10 +581,11 @@ TEST(Plan, AlphabetIsThePapersExperiment) {
   };
   const double alpha = 2 * std::sqrt(letter.ground_truth_area / 2000);
   EXPECT_EQ(parameters(0), (std::map<std::string, double>{{"alpha", alpha}}));
-  EXPECT_EQ(parameters(1), (std::map<std::string, double>{{"alpha", alpha * alpha}}));
-  EXPECT_EQ(parameters(2), (std::map<std::string, double>{{"c", 3}, {"allow_holes", 1}}));
-  EXPECT_EQ(parameters(3).at("allow_holes"), 1);
-  EXPECT_NEAR(parameters(3).at("target_percent"), 0.3627, 1e-4);  // the manifest's convexity has 4 decimals
+  EXPECT_EQ(parameters(1), (std::map<std::string, double>())) << "the core's own choice";
+  EXPECT_EQ(parameters(2), (std::map<std::string, double>{{"alpha", alpha * alpha}}));
+  EXPECT_EQ(parameters(3), (std::map<std::string, double>{{"c", 3}, {"allow_holes", 1}}));
+  EXPECT_EQ(parameters(4).at("allow_holes"), 1);
+  EXPECT_NEAR(parameters(4).at("target_percent"), 0.3627, 1e-4);  // the manifest's convexity has 4 decimals
 }
 
 std::vector<polylidar::Point> unit_grid(int side) {

@@ -88,18 +88,33 @@ class Shapes(unittest.TestCase):
         radii = edges.prod(axis=1) / (4 * areas)
         longest = edges.max(axis=1)
         kept = []
-        for alpha, length in ((None, None), (0.03, None), (None, 0.04), (0.03, 0.04), (0.0, None)):
-            with self.subTest(alpha=alpha, length=length):
-                inside = (radii <= (np.inf if alpha is None else alpha)) & (longest <= (length or np.inf))
+        perimeters = edges.sum(axis=1)
+        cases = ((np.inf, None, None), (0.03, None, None), (None, 0.04, None), (None, None, 0.1), (0.03, 0.04, 0.09))
+        for alpha, length, perimeter in (*cases, (0.0, None, None)):
+            with self.subTest(alpha=alpha, length=length, perimeter=perimeter):
+                inside = (
+                    (radii <= (np.inf if alpha is None else alpha))
+                    & (longest <= (length or np.inf))
+                    & (perimeters <= (perimeter or np.inf))
+                )
                 kept.append(inside.sum())
+                shape = concave_hull(points, alpha, length, max_perimeter=perimeter)
                 # Two thousand terms of at most 1, each rounded to 1e-16.
-                self.assertAlmostEqual(concave_hull(points, alpha, length).area, areas[inside].sum(), delta=1e-12)
-        self.assertEqual(len(set(kept)), 5)
+                self.assertAlmostEqual(shape.area, areas[inside].sum(), delta=1e-12)
+        self.assertEqual(len(set(kept)), 6)
 
-    def test_without_limits_it_is_the_convex_hull(self):
+    def test_with_no_limits_it_is_the_convex_hull(self):
         points = scattered(500)
         hull = shapely.geometry.MultiPoint(points).convex_hull
-        self.assertTrue(shapely.geometry.shape(concave_hull(points)).equals(hull))
+        self.assertTrue(shapely.geometry.shape(concave_hull(points, alpha=np.inf)).equals(hull))
+
+    def test_without_limits_it_chooses_one_and_tells_it(self):
+        points = scattered(500)
+        shape = concave_hull(points)
+        self.assertTrue(0 < shape.max_perimeter < 1)
+        self.assertEqual((shape.alpha, shape.max_edge_length), (np.inf, np.inf))
+        given = concave_hull(points, max_perimeter=shape.max_perimeter, fill_single_triangles=True)
+        self.assertEqual(given.__geo_interface__, shape.__geo_interface__)
 
     def test_degenerate_inputs_are_empty(self):
         line = [(i, 2 * i) for i in range(10)]

@@ -249,8 +249,8 @@ TEST(CommittedShapes, AreWhatTheManifestSays) {
       EXPECT_EQ(std::max(box.max.x, box.max.y), 200);
     } else {
       // The manifest's convexity has 4 decimals.
-      const double hull_area =
-          polylidar::area(polylidar::to_coordinates(polylidar::concave_hull(vertices), vertices));
+      const double hull_area = polylidar::area(polylidar::to_coordinates(
+          polylidar::concave_hull(vertices, {.alpha = polylidar::kNoLimit}), vertices));
       EXPECT_NEAR(infos[i].area / hull_area, entry["convexity"].get<double>(), 1e-4) << infos[i].name;
     }
   }

@@ -59,11 +59,15 @@ std::vector<PointSet> large_point_sets() {
        }()}};
 }
 
-// Limits that keep everything, about the whole, and about half of it.
+// The automatic limit, and limits that keep everything, about the whole, and about half of it.
 std::vector<Options> limits_for(const std::vector<Point>& points) {
   const Box box = bounding_box(points);
   const double spacing = (box.max.x - box.min.x) / 150;
-  return {{}, {.alpha = spacing}, {.alpha = spacing / 2, .max_edge_length = spacing}};
+  return {{},
+          {.alpha = kNoLimit},
+          {.alpha = spacing},
+          {.alpha = spacing, .fill_single_triangles = true},
+          {.alpha = spacing / 2, .max_edge_length = spacing}};
 }
 
 TEST(Threads, GiveTheSameResultWhateverTheirNumber) {

@@ -12,7 +12,6 @@
 #include <vector>
 
 #include "adapters/wkb.hpp"
-#include "benchmarks/hull/automatic_alpha.hpp"
 #include "benchmarks/hull/polygon_writers.hpp"
 #include "benchmarks/hull/result_output.hpp"
 #include "benchmarks/hull/simplify.hpp"
@@ -95,21 +94,21 @@ unsigned thread_count(const HullCommand& command, std::size_t points) {
   return command.threads > 0 ? command.threads : std::max(1U, std::thread::hardware_concurrency());
 }
 
-/// Fills the limits in, and says on standard error which alpha was chosen.
-void choose_limits(const HullCommand& command, const Extractor& extractor, HullFacts& facts) {
+/// Notes the limits that the shape was extracted with, and says on standard error which one was chosen.
+void note_limits(const HullCommand& command, const Extractor& extractor, HullFacts& facts) {
   facts.alpha = command.alpha;
   facts.max_edge_length = command.max_edge_length;
-  if (facts.alpha || facts.max_edge_length) return;
-  const std::vector<double> lengths = extractor.sample_edge_lengths(kAlphaSample);
-  if (lengths.empty()) return;
-  facts.alpha = automatic_alpha(lengths);
-  std::cerr << "hullbench: alpha " << shortest(*facts.alpha)
-            << ", chosen from the points (1.8 median Delaunay edges); --alpha sets another\n";
+  facts.max_perimeter = command.max_perimeter;
+  if (facts.alpha || facts.max_edge_length || facts.max_perimeter || !extractor.has_triangles()) return;
+  facts.max_perimeter = extractor.limits().max_perimeter;
+  std::cerr << "hullbench: max perimeter " << shortest(*facts.max_perimeter)
+            << ", chosen from the points; --max-perimeter sets another, --alpha or --max-edge-length limits "
+               "something else\n";
 }
 
 void explain_emptiness(const Extractor& extractor) {
   std::cerr
-      << (extractor.sample_edge_lengths(kAlphaSample).empty()
+      << (!extractor.has_triangles()
               ? "hullbench: there are no three distinct points off a line, so the shape is empty\n"
               : "hullbench: no triangle of the points is within the limits, so the shape is empty; larger "
                 "ones give more\n");
@@ -142,16 +141,16 @@ void drop_small_areas(MultiPolygon& shape, double least) {
 MultiPolygon compute(const HullCommand& command, const std::vector<Point>& points, ProgressLine& progress,
                      HullFacts& facts) {
   Extractor extractor;
-  polylidar::Options options;
-  options.threads = thread_count(command, points.size());
+  const polylidar::Options options = {.alpha = command.alpha,
+                                      .max_edge_length = command.max_edge_length,
+                                      .max_perimeter = command.max_perimeter,
+                                      .threads = thread_count(command, points.size())};
   progress.triangulating(points.size());
   extractor.triangulate(points, options.threads);
   progress.clear();
   throw_if_interrupted();
-  choose_limits(command, extractor, facts);
-  options.alpha = facts.alpha.value_or(options.alpha);
-  options.max_edge_length = facts.max_edge_length.value_or(options.max_edge_length);
   extractor.extract_regions(options);
+  note_limits(command, extractor, facts);
   const polylidar::IndexedMultiPolygon& indexed = extractor.extract_polygons();
   throw_if_interrupted();
   if (indexed.polygon_count() == 0) explain_emptiness(extractor);

@@ -10,8 +10,9 @@ namespace hullbench {
 /// The command line of `hull`. Lengths are in the unit of the points.
 struct HullCommand {
   std::string input;                      ///< a path, or "-" for standard input
-  std::optional<double> alpha;            ///< >= 0; without this and the next automatic_alpha() chooses
+  std::optional<double> alpha;            ///< >= 0; the three limits are those of polylidar::Options
   std::optional<double> max_edge_length;  ///< >= 0
+  std::optional<double> max_perimeter;    ///< >= 0
   std::string input_format = "auto";      ///< a name that point_format_of() knows
   std::string columns;                    ///< see PointFileOptions
   std::string format = "geojson";         ///< "geojson", "wkt", "wkb" or "svg"

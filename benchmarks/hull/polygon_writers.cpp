@@ -144,6 +144,7 @@ std::string to_geojson(const MultiPolygon& shape, const HullFacts& facts) {
   std::string text = R"({"type":"Feature","properties":{"points":)" + std::to_string(facts.points);
   if (facts.alpha) append_property(text, "alpha", *facts.alpha);
   if (facts.max_edge_length) append_property(text, "max_edge_length", *facts.max_edge_length);
+  if (facts.max_perimeter) append_property(text, "max_perimeter", *facts.max_perimeter);
   text += ",\"polygons\":" + std::to_string(shape.size()) + ",\"holes\":" + std::to_string(hole_count(shape));
   append_property(text, "area", polylidar::area(shape));
   return text + R"(},"geometry":{"type":"MultiPolygon","coordinates":)" + coordinates(shape, kGeoJsonMarks) +

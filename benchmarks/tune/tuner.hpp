@@ -31,8 +31,8 @@ std::vector<TuningCase> tuning_cases(const std::vector<Plan>& plans, std::uint64
 /// Per method and case: the protocols that the plans give it, `default` where it can do without parameters,
 /// and the search over its axis (search.hpp), with the holes switched on (fixed_parameters). What `store`
 /// knows is not evaluated again. A failure is an evaluation with its status. A case whose points have no
-/// spacing has no sweep of lengths, and one without a ground truth no evaluation. `tuning.interrupted` after Ctrl-C. Throws std::runtime_error when
-/// something cannot be written or a data set cannot be read.
+/// spacing has no sweep of lengths, and one without a ground truth no evaluation. `tuning.interrupted` after
+/// Ctrl-C. Throws std::runtime_error when something cannot be written or a data set cannot be read.
 Tuning run_tuning(std::vector<TuningCase> cases, std::uint64_t split_seed, const TunerOptions& options,
                   EvaluationStore& store, Progress& progress);
 

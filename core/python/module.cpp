@@ -2,10 +2,12 @@
 // files.
 #include <pybind11/numpy.h>
 #include <pybind11/pybind11.h>
+#include <pybind11/stl.h>
 
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <span>
 #include <type_traits>
 #include <utility>
@@ -42,18 +44,27 @@ py::array to_array(std::vector<std::uint32_t> values) {
   return to_array(std::move(values), {size});
 }
 
-py::tuple concave_hull(const PointArray& array, double alpha, double max_edge_length, unsigned threads) {
+py::tuple concave_hull(const PointArray& array, std::optional<double> alpha,
+                       std::optional<double> max_edge_length, std::optional<double> max_perimeter,
+                       std::optional<bool> fill_single_triangles, unsigned threads) {
   const std::span<const Point> points = points_of(array);
   polylidar::IndexedMultiPolygon shape;
+  polylidar::Limits limits;
   double area = 0;
   {
     const py::gil_scoped_release other_threads_may_run;
-    shape = polylidar::concave_hull(points,
-                                    {.alpha = alpha, .max_edge_length = max_edge_length, .threads = threads});
+    polylidar::Extractor extractor;
+    shape = extractor.extract(points, {.alpha = alpha,
+                                       .max_edge_length = max_edge_length,
+                                       .max_perimeter = max_perimeter,
+                                       .fill_single_triangles = fill_single_triangles,
+                                       .threads = threads});
+    limits = extractor.limits();
     area = polylidar::area(polylidar::to_coordinates(shape, points));
   }
   return py::make_tuple(to_array(std::move(shape.vertices)), to_array(std::move(shape.ring_ends)),
-                        to_array(std::move(shape.polygon_ends)), area);
+                        to_array(std::move(shape.polygon_ends)), area,
+                        py::make_tuple(limits.alpha, limits.max_edge_length, limits.max_perimeter));
 }
 
 py::array delaunay(const PointArray& array) {
@@ -73,7 +84,9 @@ PYBIND11_MODULE(_core, module) {
   module.doc() = "The polylidar core over numpy's memory: see polylidar_core.";
   module.attr("__version__") = POLYLIDAR_VERSION;
   module.def("concave_hull", &concave_hull, py::arg("points").noconvert(), py::arg("alpha"),
-             py::arg("max_edge_length"), py::arg("threads"),
-             "The arrays vertices, ring_ends and polygon_ends of the shape, and its area.");
+             py::arg("max_edge_length"), py::arg("max_perimeter"), py::arg("fill_single_triangles"),
+             py::arg("threads"),
+             "The arrays vertices, ring_ends and polygon_ends of the shape, its area, and its limits: alpha, "
+             "max_edge_length and max_perimeter.");
   module.def("delaunay", &delaunay, py::arg("points").noconvert(), "The triangles, three indices a row.");
 }

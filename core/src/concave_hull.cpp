@@ -3,6 +3,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "automatic_limit.hpp"
 #include "boundary.hpp"
 #include "delaunay_builder.hpp"
 #include "region.hpp"
@@ -36,6 +37,8 @@ MultiPolygon to_coordinates(const IndexedMultiPolygon& shape, std::span<const Po
 struct Extractor::State {
   detail::ThreadPool pool;
   detail::DelaunayBuilder builder;
+  detail::AutomaticLimit automatic_limit;
+  Limits limits;
   detail::RegionFilter filter;
   std::vector<detail::Mesh::Index> boundary;
   detail::BoundaryTracer tracer;
@@ -61,14 +64,29 @@ void Extractor::triangulate(std::span<const Point> points, unsigned threads) {
 }
 
 void Extractor::extract_regions(const Options& options) {
-  if (!(options.alpha >= 0)) throw std::invalid_argument("alpha must be zero or more");
-  if (!(options.max_edge_length >= 0)) throw std::invalid_argument("max_edge_length must be zero or more");
+  Limits limits{options.alpha.value_or(kNoLimit), options.max_edge_length.value_or(kNoLimit),
+                options.max_perimeter.value_or(kNoLimit)};
+  if (!(limits.alpha >= 0)) throw std::invalid_argument("alpha must be zero or more");
+  if (!(limits.max_edge_length >= 0)) throw std::invalid_argument("max_edge_length must be zero or more");
+  if (!(limits.max_perimeter >= 0)) throw std::invalid_argument("max_perimeter must be zero or more");
   if (options.threads == 0) throw std::invalid_argument("threads must be one or more");
   state_->pool.use(options.threads);
   detail::DelaunayBuilder& builder = state_->builder;
-  state_->filter.run(builder.mesh(), builder.vertices(), std::ldexp(options.alpha, builder.scale_exponent()),
-                     std::ldexp(options.max_edge_length, builder.scale_exponent()), state_->pool,
-                     state_->boundary);
+  const int exponent = builder.scale_exponent();
+  Limits scaled{std::ldexp(limits.alpha, exponent), std::ldexp(limits.max_edge_length, exponent),
+                std::ldexp(limits.max_perimeter, exponent)};
+  const bool is_automatic = !options.alpha && !options.max_edge_length && !options.max_perimeter;
+  if (is_automatic) {
+    scaled.max_perimeter = state_->automatic_limit.choose(builder.mesh(), builder.vertices());
+    limits.max_perimeter = std::ldexp(scaled.max_perimeter, -exponent);
+  }
+  state_->limits = limits;
+  state_->filter.run(builder.mesh(), builder.vertices(), scaled,
+                     options.fill_single_triangles.value_or(is_automatic), state_->pool, state_->boundary);
+}
+
+Limits Extractor::limits() const {
+  return state_->limits;
 }
 
 const IndexedMultiPolygon& Extractor::extract_polygons() {
@@ -78,33 +96,11 @@ const IndexedMultiPolygon& Extractor::extract_polygons() {
   return state_->shape;
 }
 
-std::vector<double> Extractor::sample_edge_lengths(std::size_t most) const {
-  using detail::Mesh;
-  if (most == 0) throw std::invalid_argument("most must be one or more");
-  const Mesh& mesh = state_->builder.mesh();
-  const Point* vertices = state_->builder.vertices();
-  std::vector<double> lengths;
-  const auto add_edges_of = [&](Mesh::Index t) {
-    if (mesh.is_ghost(t)) return;
-    for (Mesh::Index e = Mesh::kStride * t; e < Mesh::kStride * t + 3; ++e) {
-      // Of an edge's two sides the lower one counts, or the only one.
-      if (mesh.twin(e) < e && !mesh.is_ghost(Mesh::triangle_of(mesh.twin(e)))) continue;
-      const Point& a = vertices[mesh.origin(e)];
-      const Point& b = vertices[mesh.origin(Mesh::next(e))];
-      lengths.push_back(std::ldexp(std::hypot(a.x - b.x, a.y - b.y), -state_->builder.scale_exponent()));
-    }
-  };
-  const auto sample = [&](std::size_t step) {
-    for (std::size_t t = 0; t < mesh.triangle_count(); t += step) add_edges_of(static_cast<Mesh::Index>(t));
-  };
-  // At most 3/2 edges a triangle. Records come in pairs, of which an even step would only see the first.
-  const std::size_t step = (std::size_t{3} * mesh.triangle_count() / 2 / most) | 1U;
-  sample(step);
-  if (step > 1 && lengths.size() < most / 4 + 1) {  // most points repeat others and leave records unused
-    lengths.clear();
-    sample(1);
-  }
-  return lengths;
+bool Extractor::has_triangles() const {
+  const detail::Mesh& mesh = state_->builder.mesh();
+  detail::Mesh::Index t = 0;
+  while (t < mesh.triangle_count() && mesh.is_ghost(t)) ++t;
+  return t < mesh.triangle_count();
 }
 
 std::vector<std::size_t> Extractor::count_triangles() const {

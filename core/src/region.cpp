@@ -1,6 +1,7 @@
 #include "region.hpp"
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cmath>
 
@@ -14,36 +15,50 @@ double squared_distance(const Point& a, const Point& b) {
   return dx * dx + dy * dy;
 }
 
-struct Limits {
+/// The limits as triangles are compared with them.
+struct Bounds {
   double four_squared_alpha;
   double squared_max_edge;
+  double max_perimeter;
+  double squared_max_perimeter;
 };
+
+/// Of squared edges. A perimeter is more than two and at most three longest edges, which decides for nearly
+/// all triangles without a root.
+bool is_perimeter_within(const Bounds& bounds, double ab, double bc, double ca, double longest) {
+  if (9 * longest <= bounds.squared_max_perimeter) return true;
+  if (4 * longest > bounds.squared_max_perimeter) return false;
+  return std::sqrt(ab) + std::sqrt(bc) + std::sqrt(ca) <= bounds.max_perimeter;
+}
 
 /// circumradius = |ab| |bc| |ca| / (2 cross), with cross twice the area: compared squared and without
 /// division, so that a triangle that is flat up to rounding counts as infinitely large instead of giving NaN.
-template <bool kLimitRadius, bool kLimitEdge>
-bool keeps(const Limits& limits, const Point& a, const Point& b, const Point& c) {
+template <bool kLimitRadius, bool kLimitEdge, bool kLimitPerimeter>
+bool keeps(const Bounds& bounds, const Point& a, const Point& b, const Point& c) {
   const double ab = squared_distance(a, b);
   const double bc = squared_distance(b, c);
   const double ca = squared_distance(c, a);
   bool kept = true;
-  if constexpr (kLimitEdge) kept = std::max({ab, bc, ca}) <= limits.squared_max_edge;
+  if constexpr (kLimitEdge) kept = std::max({ab, bc, ca}) <= bounds.squared_max_edge;
+  if constexpr (kLimitPerimeter) {
+    kept = kept && is_perimeter_within(bounds, ab, bc, ca, std::max({ab, bc, ca}));
+  }
   if constexpr (kLimitRadius) {
     const double cross = (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
-    kept = kept && ab * bc * ca <= limits.four_squared_alpha * (cross * cross);
+    kept = kept && ab * bc * ca <= bounds.four_squared_alpha * (cross * cross);
   }
   return kept;
 }
 
 /// Says in words [begin, end) of `kept` which triangles are kept.
-template <bool kLimitRadius, bool kLimitEdge>
-void filter(const Mesh& mesh, const Point* vertices, const Limits& limits, std::size_t begin, std::size_t end,
+template <bool kLimitRadius, bool kLimitEdge, bool kLimitPerimeter>
+void filter(const Mesh& mesh, const Point* vertices, const Bounds& bounds, std::size_t begin, std::size_t end,
             std::uint64_t* kept) {
   const auto is_kept = [&](Mesh::Index t) {
     const Mesh::Index e = Mesh::kStride * t;
     return !mesh.is_ghost(t) &&
-           keeps<kLimitRadius, kLimitEdge>(limits, vertices[mesh.origin(e)], vertices[mesh.origin(e + 1)],
-                                           vertices[mesh.origin(e + 2)]);
+           keeps<kLimitRadius, kLimitEdge, kLimitPerimeter>(
+               bounds, vertices[mesh.origin(e)], vertices[mesh.origin(e + 1)], vertices[mesh.origin(e + 2)]);
   };
   for (std::size_t w = begin; w < end; ++w) {
     const auto first = static_cast<Mesh::Index>(Mesh::kWordBits * w);
@@ -54,19 +69,37 @@ void filter(const Mesh& mesh, const Point* vertices, const Limits& limits, std::
   }
 }
 
-/// Appends the half-edges of kept triangles on whose other side is a triangle in words [begin, end) of `kept`
-/// that is not: every boundary edge has one, and these are few.
+/// The filter that tests the limits there are.
+auto filter_for(const Limits& limits) {
+  constexpr std::array kFilters{&filter<false, false, false>, &filter<true, false, false>,
+                                &filter<false, true, false>,  &filter<true, true, false>,
+                                &filter<false, false, true>,  &filter<true, false, true>,
+                                &filter<false, true, true>,   &filter<true, true, true>};
+  return kFilters[(limits.alpha == kNoLimit ? 0U : 1U) + (limits.max_edge_length == kNoLimit ? 0U : 2U) +
+                  (limits.max_perimeter == kNoLimit ? 0U : 4U)];
+}
+
+/// Appends to `boundary` the half-edges of kept triangles on whose other side is a triangle in words [begin,
+/// end) of `kept` that is not: every boundary edge has one, and these are few. If `fill_single` says so, the
+/// triangles that are dropped while their neighbours are kept go to `filled` instead; no two of them are
+/// neighbours, and a ghost, which has ghosts for neighbours, is none.
 void collect_boundary(const Mesh& mesh, std::size_t begin, std::size_t end, const std::uint64_t* kept,
-                      std::vector<Mesh::Index>& boundary) {
+                      bool fill_single, std::vector<Mesh::Index>& boundary,
+                      std::vector<Mesh::Index>& filled) {
   for (std::size_t w = begin; w < end; ++w) {
     const auto first = static_cast<Mesh::Index>(Mesh::kWordBits * w);
     for (std::uint64_t dropped = ~kept[w]; dropped != 0; dropped &= dropped - 1) {
       const Mesh::Index t = first + static_cast<Mesh::Index>(std::countr_zero(dropped));
       if (t >= mesh.triangle_count()) break;
       if (mesh.is_unused(t)) continue;
+      const std::size_t before = boundary.size();
       for (Mesh::Index k = 0; k < 3; ++k) {
         const Mesh::Index e = mesh.twin(Mesh::kStride * t + k);
         if (mesh.is_kept(Mesh::triangle_of(e))) boundary.push_back(e);
+      }
+      if (fill_single && boundary.size() == before + 3) {
+        boundary.resize(before);
+        filled.push_back(t);
       }
     }
   }
@@ -74,13 +107,11 @@ void collect_boundary(const Mesh& mesh, std::size_t begin, std::size_t end, cons
 
 }  // namespace
 
-void RegionFilter::run(Mesh& mesh, const Point* vertices, double alpha, double max_edge_length,
+void RegionFilter::run(Mesh& mesh, const Point* vertices, const Limits& limits, bool fill_single,
                        ThreadPool& pool, std::vector<Index>& boundary) {
-  const Limits limits{4 * alpha * alpha, max_edge_length * max_edge_length};
-  const bool limit_radius = std::isfinite(alpha);
-  const bool limit_edge = std::isfinite(max_edge_length);
-  const auto filter_words = limit_radius ? (limit_edge ? &filter<true, true> : &filter<true, false>)
-                                         : (limit_edge ? &filter<false, true> : &filter<false, false>);
+  const Bounds bounds{4 * limits.alpha * limits.alpha, limits.max_edge_length * limits.max_edge_length,
+                      limits.max_perimeter, limits.max_perimeter * limits.max_perimeter};
+  const auto filter_words = filter_for(limits);
   std::uint64_t* kept = mesh.reserve_kept();
   const Chunks chunks(pool, mesh.triangle_count());
   // Chunks of whole words, so that no two threads write to one.
@@ -91,14 +122,22 @@ void RegionFilter::run(Mesh& mesh, const Point* vertices, double alpha, double m
     });
   };
   for_each_chunk([&](std::size_t, std::size_t begin, std::size_t end) {
-    filter_words(mesh, vertices, limits, begin, end, kept);
+    filter_words(mesh, vertices, bounds, begin, end, kept);
   });
   boundary_of_chunk_.resize(std::max(boundary_of_chunk_.size(), chunks.size() - 1));
+  filled_of_chunk_.resize(std::max(filled_of_chunk_.size(), chunks.size()));
   for_each_chunk([&](std::size_t c, std::size_t begin, std::size_t end) {
     std::vector<Index>& own = c == 0 ? boundary : boundary_of_chunk_[c - 1];
     own.clear();
-    collect_boundary(mesh, begin, end, kept, own);
+    filled_of_chunk_[c].clear();
+    collect_boundary(mesh, begin, end, kept, fill_single, own, filled_of_chunk_[c]);
   });
+  // Not before all threads have read which triangles are kept.
+  for (std::size_t c = 0; c < chunks.size(); ++c) {
+    for (const Index t : filled_of_chunk_[c]) {
+      kept[t / Mesh::kWordBits] |= std::uint64_t{1} << (t % Mesh::kWordBits);
+    }
+  }
   for (std::size_t c = 1; c < chunks.size(); ++c) {
     const std::vector<Index>& part = boundary_of_chunk_[c - 1];
     boundary.insert(boundary.end(), part.begin(), part.end());

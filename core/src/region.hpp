@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "half_edge.hpp"
+#include "polylidar/concave_hull.hpp"
 #include "thread_pool.hpp"
 
 namespace polylidar::detail {
@@ -13,15 +14,16 @@ class RegionFilter {
  public:
   using Index = Mesh::Index;
 
-  /// Keeps the finite triangles of `mesh` whose circumradius is at most `alpha` and whose longest edge is at
-  /// most `max_edge_length` (both in the unit of `vertices`, infinity for no limit), and puts into `boundary`
-  /// the half-edges of kept triangles whose twin is not kept, in the same order whatever the number of
-  /// threads. Can be called again with other limits.
-  void run(Mesh& mesh, const Point* vertices, double alpha, double max_edge_length, ThreadPool& pool,
+  /// Keeps the finite triangles of `mesh` that are within `limits` (in the unit of `vertices`) and, if
+  /// `fill_single` says so, those whose three neighbours are. Puts into `boundary` the half-edges of kept
+  /// triangles whose twin is not kept, in the same order whatever the number of threads. Can be called again
+  /// with other limits.
+  void run(Mesh& mesh, const Point* vertices, const Limits& limits, bool fill_single, ThreadPool& pool,
            std::vector<Index>& boundary);
 
  private:
   std::vector<std::vector<Index>> boundary_of_chunk_;  ///< of all chunks but the first
+  std::vector<std::vector<Index>> filled_of_chunk_;    ///< triangles
 };
 
 }  // namespace polylidar::detail

@@ -32,9 +32,11 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr int kLargestSpan = 265;  // binary orders of magnitude: from 2^-116 to below 2^150
 
 [[noreturn]] void fail(const Input& input, const std::string& what) {
-  std::cerr << "FAILED: " << what << std::hexfloat << "\nalpha " << input.options.alpha
-            << ", max_edge_length " << input.options.max_edge_length << ", threads " << input.options.threads
-            << ", choice " << unsigned{input.choice} << ", " << input.points.size() << " points:\n";
+  const Options& options = input.options;
+  std::cerr << "FAILED: " << what << std::hexfloat << "\nlimits (-1: not given) "
+            << options.alpha.value_or(-1) << ", " << options.max_edge_length.value_or(-1) << ", "
+            << options.max_perimeter.value_or(-1) << ", threads " << options.threads << ", choice "
+            << unsigned{input.choice} << ", " << input.points.size() << " points:\n";
   for (const Point& point : input.points) std::cerr << '{' << point.x << ", " << point.y << "},\n";
   std::abort();
 }
@@ -74,7 +76,8 @@ bool points_are_supported(std::span<const Point> points) {
 }
 
 bool options_are_supported(const Options& options) {
-  return options.alpha >= 0 && options.max_edge_length >= 0 && options.threads >= 1;
+  return options.alpha.value_or(0) >= 0 && options.max_edge_length.value_or(0) >= 0 &&
+         options.max_perimeter.value_or(0) >= 0 && options.threads >= 1;
 }
 
 // Empty when it was refused, which must be for the reason given.
@@ -135,13 +138,15 @@ void check_reuse(const Input& input, const IndexedMultiPolygon& shape) {
 
 // Without limits every point of the convex hull's boundary is a vertex, so ties decide nothing.
 void check_convex_hull(const Input& input, std::span<const Point> in_range) {
-  const IndexedMultiPolygon shape = checked_hull(input, {}, "convex hull");
+  const IndexedMultiPolygon shape = checked_hull(input, testing::kConvexHull, "convex hull");
   require(input, shape.polygon_count() <= 1 && shape.ring_ends.size() == shape.polygon_count(),
           "the convex hull is one ring");
   std::vector<Point> reversed(in_range.rbegin(), in_range.rend());
   const MultiPolygon hull = to_coordinates(shape, in_range);
-  require(input, canonical(to_coordinates(concave_hull(reversed), reversed)) == canonical(hull),
-          "the convex hull of the points in reverse");
+  require(
+      input,
+      canonical(to_coordinates(concave_hull(reversed, testing::kConvexHull), reversed)) == canonical(hull),
+      "the convex hull of the points in reverse");
   if (hull.empty()) return;
   require(input,
           canonical({{strict_corners(hull[0].shell), {}}}) == canonical({{convex_corners(reversed), {}}}),
@@ -175,11 +180,11 @@ void check_clear_limits(const Input& input, std::span<const Point> in_range,
 void check_scaled(const Input& input, const IndexedMultiPolygon& shape, std::span<const Point> in_range,
                   int exponent) {
   Options options = input.options;
-  options.alpha = std::ldexp(options.alpha, exponent);
-  options.max_edge_length = std::ldexp(options.max_edge_length, exponent);
-  if (std::ldexp(options.alpha, -exponent) != input.options.alpha ||
-      std::ldexp(options.max_edge_length, -exponent) != input.options.max_edge_length) {
-    return;  // a limit left the range of doubles
+  for (std::optional<double>* limit : {&options.alpha, &options.max_edge_length, &options.max_perimeter}) {
+    if (!*limit) continue;
+    const double scaled = std::ldexp(**limit, exponent);
+    if (std::ldexp(scaled, -exponent) != **limit) return;  // it left the range of doubles
+    *limit = scaled;
   }
   require(input, concave_hull(in_range, options) == shape, "the shape of the scaled points");
 }

@@ -134,10 +134,11 @@ std::vector<Point> tiled(const std::vector<Point>& points) {
   return tiles;
 }
 
-// Bits 0 and 1: which limits there are; bit 2: any double, else a part of the extent, or a multiple up to 4.
+// Bits 0 and 1: which limits there are, without any the automatic one; bit 2: any double, else a part of the
+// extent, or a multiple up to 4.
 Options decode_options(Reader& reader, std::uint8_t mode, double scale) {
-  const auto limit = [&](bool limited) {
-    if (!limited) return std::numeric_limits<double>::infinity();
+  const auto limit = [&](bool limited) -> std::optional<double> {
+    if (!limited) return std::nullopt;
     return (mode & 4U) != 0 ? reader.any_double() : reader.byte() / 64.0 * scale;
   };
   Options options;

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <limits>
 #include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -12,14 +13,36 @@
 
 namespace polylidar {
 
-/// What shape to extract. Both limits are inclusive and both must hold for a triangle to be kept; a limit of
-/// infinity is not tested. With both at infinity the result is the convex hull.
+/// A limit that every triangle is within.
+inline constexpr double kNoLimit = std::numeric_limits<double>::infinity();
+
+/// How large a triangle of the shape may be, in the length unit of the points; >= 0. The limits are inclusive
+/// and all must hold; one of kNoLimit is not tested. With all at kNoLimit the shape is the convex hull.
+struct Limits {
+  double alpha = kNoLimit;            ///< largest circumradius
+  double max_edge_length = kNoLimit;  ///< longest edge
+  double max_perimeter = kNoLimit;    ///< largest perimeter
+
+  /// Limit by limit.
+  friend bool operator==(const Limits&, const Limits&) = default;
+};
+
+/// What shape to extract. Where no limit is given, the perimeter's is chosen from the points alone (how:
+/// src/automatic_limit.hpp; what: Extractor::limits()). Where one is given, those that are not are kNoLimit.
 struct Options {
   /// Largest circumradius of a kept triangle, in the length unit of the points; >= 0. The paper's alpha
-  /// (section III-B): 2 * sqrt(area / number of points) suits uniform samples.
-  double alpha = std::numeric_limits<double>::infinity();
+  /// (section III-B): 2 * sqrt(area / number of points) suits uniform samples of a shape of known area.
+  std::optional<double> alpha = std::nullopt;
   /// Longest edge of a kept triangle, in the length unit of the points; >= 0. The paper's l_max.
-  double max_edge_length = std::numeric_limits<double>::infinity();
+  std::optional<double> max_edge_length = std::nullopt;
+  /// Largest perimeter of a kept triangle, in the length unit of the points; >= 0. Between the two: of
+  /// triangles with equal longest edges it keeps the sliver, as one along the outline is, before the one that
+  /// spans a hole.
+  std::optional<double> max_perimeter = std::nullopt;
+  /// Whether a triangle beyond a limit is kept all the same when its three neighbours are within: points that
+  /// are spread at random leave such holes of one triangle by chance. Not given: true where the limit is
+  /// chosen, false where one is given.
+  std::optional<bool> fill_single_triangles = std::nullopt;
   /// How many threads to use, the caller's among them; >= 1. The result is the same bit for bit. An
   /// Extractor keeps the threads it has started, waiting, until another number above 1 is asked for. Threads
   /// are worth their start from some 10,000 points on. std::system_error when the system refuses one.
@@ -84,13 +107,15 @@ class Extractor {
   void triangulate(std::span<const Point> points, unsigned threads = 1);
   /// Step 2: the kept triangles and their edge-connected regions.
   void extract_regions(const Options& options);
+  /// After extract_regions: the limits that it kept to, in the unit of the points. Where they were given,
+  /// these; where they were chosen, giving them, with fill_single_triangles, extracts the same shape.
+  Limits limits() const;
   /// Step 3: the boundary of every region as a polygon.
   const IndexedMultiPolygon& extract_polygons();
 
-  /// After triangulate: lengths of edges of the triangulation, in the unit of the points: of all edges where
-  /// they are fewer than `most` >= 1, else of some `most` that are spread evenly over it. The same for any
-  /// number of threads; empty without triangles.
-  std::vector<double> sample_edge_lengths(std::size_t most) const;
+  /// After triangulate: whether there is a triangle: three distinct points that are not on a line. O(n) when
+  /// there is none.
+  bool has_triangles() const;
   /// After extract_polygons: how many triangles each of its polygons is made of, in its order. O(n).
   std::vector<std::size_t> count_triangles() const;
 

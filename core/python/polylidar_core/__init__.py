@@ -2,12 +2,11 @@
 
     import numpy, polylidar_core, shapely.geometry
     points = numpy.random.default_rng(1).random((1000, 2))
-    shape = polylidar_core.concave_hull(points, alpha=0.1)
+    shape = polylidar_core.concave_hull(points)
     print(shape, shapely.geometry.shape(shape).is_valid)
 """
 from __future__ import annotations
 
-import math
 import operator
 import os
 
@@ -26,16 +25,23 @@ def concave_hull(
     alpha: float | None = None,
     max_edge_length: float | None = None,
     threads: int | None = 1,
+    max_perimeter: float | None = None,
+    fill_single_triangles: bool | None = None,
 ) -> MultiPolygon:
-    """The concave hull of points: their Delaunay triangulation, the triangles that both limits keep, and the outline
-    of each part that is connected by edges. Without limits it is the convex hull. O(n log n).
+    """The concave hull of points: their Delaunay triangulation, the triangles that all limits keep, and the outline
+    of each part that is connected by edges. Without any limit given, that of the perimeter is chosen from the points:
+    where the area of the triangles within it depends least on it. With alpha=math.inf it is the convex hull.
+    O(n log n).
 
     points: numbers of the shape (n, 2), x and y in any unit of length, in any order; they may repeat. A C-contiguous
         float64 array is read where it is, read-only and memory-mapped ones too; anything else is converted, which
         copies it once. Other threads run meanwhile and must leave the array as it is.
-    alpha: largest circumradius of a triangle that is kept, in the unit of the points; zero or more; None: no limit.
-        For points spread evenly over a shape, 2 * sqrt(its area / n) suits.
+    alpha: largest circumradius of a triangle that is kept, in the unit of the points; zero or more; None: not given.
+        For points spread evenly over a shape of known area, 2 * sqrt(area / n) suits.
     max_edge_length: longest edge of a triangle that is kept, likewise.
+    max_perimeter: largest perimeter of a triangle that is kept, likewise.
+    fill_single_triangles: whether a triangle beyond a limit is kept all the same when its three neighbours are within;
+        None: only where the limit is chosen.
     threads: how many threads compute, one or more; None: as many as this process may use processors. The result does
         not depend on it. Worth it from some 10,000 points on.
 
@@ -46,13 +52,12 @@ def concave_hull(
     NaN, threads below 1.
     """
     array = _as_points(points)
-    vertices, ring_ends, polygon_ends, area = _core.concave_hull(
+    return MultiPolygon(
         array,
-        math.inf if alpha is None else alpha,
-        math.inf if max_edge_length is None else max_edge_length,
-        _thread_count(threads),
+        *_core.concave_hull(
+            array, alpha, max_edge_length, max_perimeter, fill_single_triangles, _thread_count(threads)
+        ),
     )
-    return MultiPolygon(array, vertices, ring_ends, polygon_ends, area)
 
 
 def delaunay(points: npt.ArrayLike) -> npt.NDArray[np.uint32]:

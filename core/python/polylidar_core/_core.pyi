@@ -4,6 +4,13 @@ import numpy.typing as npt
 __version__: str
 
 def concave_hull(
-    points: npt.NDArray[np.float64], alpha: float, max_edge_length: float, threads: int
-) -> tuple[npt.NDArray[np.uint32], npt.NDArray[np.uint32], npt.NDArray[np.uint32], float]: ...
+    points: npt.NDArray[np.float64],
+    alpha: float | None,
+    max_edge_length: float | None,
+    max_perimeter: float | None,
+    fill_single_triangles: bool | None,
+    threads: int,
+) -> tuple[
+    npt.NDArray[np.uint32], npt.NDArray[np.uint32], npt.NDArray[np.uint32], float, tuple[float, float, float]
+]: ...
 def delaunay(points: npt.NDArray[np.float64]) -> npt.NDArray[np.uint32]: ...
