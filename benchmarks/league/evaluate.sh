@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# evaluate.sh HULLBENCH OUT: the whole evaluation: searches the parameters of all built-in methods on all stress suites and
-# the letters, measures what was chosen with every metric, and makes the league of it, OUT/league.json. Nothing is timed, so
+# evaluate.sh HULLBENCH OUT: the whole evaluation: searches the parameters of the methods below on all stress suites and the
+# letters, measures what was chosen with every metric, and makes the league of it, OUT/league.json. Nothing is timed, so
 # all cores work; an evaluation that was interrupted goes on where it stopped.
 #
 # Exit codes: 0 done; 2 usage; 130 interrupted; else that of the part that failed. A method's failures are no failure here:
@@ -12,6 +12,9 @@ hullbench=$1
 out=$2
 plans=(alphabet stress_density stress_noise stress_outliers stress_gradient stress_clusters stress_sampling stress_holes
   stress_width stress_gaps stress_degenerate)
+# Those that work in this process, and PostGIS, whose default is to be compared with. The steps of the databases are the same
+# methods again.
+methods='polylidar|cgal_alpha_shape|spatialite|postgis|geos_concave_hull|chi_shape|knn_hull|convex_hull'
 parts=$(nproc)
 
 # run COMMAND...: a method's failures (4) are part of what is evaluated.
@@ -23,7 +26,7 @@ run() {
 
 mkdir -p "$out"
 echo "==> searching parameters: ${#plans[@]} plans"
-run "$hullbench" tune "${plans[@]}" --out "$out/tune" >"$out/tuning.md"
+run "$hullbench" tune "${plans[@]}" --methods "$methods" --out "$out/tune" >"$out/tuning.md"
 
 chosen=()
 for plan in "${plans[@]}"; do chosen+=("$out/tune/$plan-tuned.json"); done
