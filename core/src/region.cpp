@@ -80,24 +80,25 @@ auto filter_for(const Limits& limits) {
 }
 
 /// Appends to `boundary` the half-edges of kept triangles on whose other side is a triangle in words [begin,
-/// end) of `kept` that is not: every boundary edge has one, and these are few. If `fill_single` says so, the
+/// end) of `kept` that is not: every boundary edge has one, and these are few. With `kFillSingle` the
 /// triangles that are dropped while their neighbours are kept go to `filled` instead; no two of them are
 /// neighbours, and a ghost, which has ghosts for neighbours, is none.
+template <bool kFillSingle>
 void collect_boundary(const Mesh& mesh, std::size_t begin, std::size_t end, const std::uint64_t* kept,
-                      bool fill_single, std::vector<Mesh::Index>& boundary,
-                      std::vector<Mesh::Index>& filled) {
+                      std::vector<Mesh::Index>& boundary, std::vector<Mesh::Index>& filled) {
   for (std::size_t w = begin; w < end; ++w) {
     const auto first = static_cast<Mesh::Index>(Mesh::kWordBits * w);
     for (std::uint64_t dropped = ~kept[w]; dropped != 0; dropped &= dropped - 1) {
       const Mesh::Index t = first + static_cast<Mesh::Index>(std::countr_zero(dropped));
       if (t >= mesh.triangle_count()) break;
       if (mesh.is_unused(t)) continue;
-      const std::size_t before = boundary.size();
+      [[maybe_unused]] const std::size_t before = kFillSingle ? boundary.size() : 0;
       for (Mesh::Index k = 0; k < 3; ++k) {
         const Mesh::Index e = mesh.twin(Mesh::kStride * t + k);
         if (mesh.is_kept(Mesh::triangle_of(e))) boundary.push_back(e);
       }
-      if (fill_single && boundary.size() == before + 3) {
+      if constexpr (kFillSingle) {
+        if (boundary.size() != before + 3) continue;
         boundary.resize(before);
         filled.push_back(t);
       }
@@ -130,7 +131,8 @@ void RegionFilter::run(Mesh& mesh, const Point* vertices, const Limits& limits, 
     std::vector<Index>& own = c == 0 ? boundary : boundary_of_chunk_[c - 1];
     own.clear();
     filled_of_chunk_[c].clear();
-    collect_boundary(mesh, begin, end, kept, fill_single, own, filled_of_chunk_[c]);
+    const auto collect = fill_single ? &collect_boundary<true> : &collect_boundary<false>;
+    collect(mesh, begin, end, kept, own, filled_of_chunk_[c]);
   });
   // Not before all threads have read which triangles are kept.
   for (std::size_t c = 0; c < chunks.size(); ++c) {
