@@ -4,9 +4,11 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 #include <string>
 #include <vector>
 
+#include "core/src/value_of_rank.hpp"
 #include "polylidar/check.hpp"
 #include "polylidar/concave_hull.hpp"
 #include "polylidar/delaunay.hpp"
@@ -43,6 +45,19 @@ std::vector<Point> mapped(std::vector<Point> points, const Map& map) {
   return points;
 }
 
+/// Uniform points of the square [0, 10)^2 without a disc of radius 2 in its middle, and of a square of side 2
+/// at a distance of 2 from it.
+std::vector<Point> ring_and_island(std::size_t count, std::uint64_t seed) {
+  testing::Random random(seed);
+  std::vector<Point> points;
+  while (points.size() < count) {
+    const Point p{random.between(0, 14), random.between(0, 10)};
+    const bool in_square = p.x < 10 && std::hypot(p.x - 5, p.y - 5) > 2;
+    if (in_square || (p.x > 12 && p.y > 4 && p.y < 6)) points.push_back(p);
+  }
+  return points;
+}
+
 // when it is chosen, and when not
 
 TEST(AutomaticLimit, IsForThoseWhoGiveNone) {
@@ -72,6 +87,12 @@ TEST(AutomaticLimit, ExtractsWhatGivingItExtracts) {
     const Options given{.max_perimeter = chosen_perimeter(set.points), .fill_single_triangles = true};
     EXPECT_EQ(concave_hull(set.points, given), shape);
   }
+  // About multiples of 64 triangles, which the filter takes together, and of all and of a part.
+  for (const std::size_t count : {33U, 34U, 65U, 66U, 1000U, 16384U, 16385U, 16386U, 30000U}) {
+    const std::vector<Point> points = testing::uniform_points(count, count);
+    const Options given{.max_perimeter = chosen_perimeter(points), .fill_single_triangles = true};
+    EXPECT_EQ(concave_hull(points, given), concave_hull(points)) << count;
+  }
 }
 
 TEST(AutomaticLimit, AlwaysKeepsATriangle) {
@@ -95,6 +116,121 @@ TEST(AutomaticLimit, OfPointsWithoutATriangleIsNone) {
 TEST(AutomaticLimit, OfThreePointsKeepsTheirTriangle) {
   EXPECT_EQ(hull({{0, 0}, {4, 0}, {0, 3}}).size(), 1U);
   EXPECT_EQ(hull({{0, 0}, {1e6, 0}, {5e5, 1e-3}}).size(), 1U) << "a flat one";
+}
+
+TEST(AutomaticLimit, OfAnExtractorIsForItsPointsAlone) {
+  const std::vector<Point> few = testing::uniform_points(300, 11);
+  const std::vector<Point> many = testing::uniform_points(40000, 12);  // of which it looks at a part
+  Extractor extractor;
+  for (const auto* points : {&few, &many, &few}) {
+    EXPECT_EQ(extractor.extract(*points), concave_hull(*points));
+    EXPECT_EQ(extractor.extract(*points, {.alpha = 0.02}), concave_hull(*points, {.alpha = 0.02}));
+  }
+}
+
+// what it is: the rule in its plainest words
+
+double median_of(std::vector<double> values) {
+  std::sort(values.begin(), values.end());
+  return values[values.size() / 2];
+}
+
+/// The rule's limit of the least cost for all triangles of `points`, which have one.
+double plain_limit(const std::vector<Point>& points) {
+  const Triangulation mesh = delaunay(points);
+  std::vector<double> perimeters;
+  std::vector<double> areas;
+  for (std::size_t e = 0; e < mesh.triangles.size(); e += 3) {
+    const Ring triangle{points[mesh.triangles[e]], points[mesh.triangles[e + 1]],
+                        points[mesh.triangles[e + 2]]};
+    double perimeter = 0;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Point& to = triangle[(k + 1) % 3];
+      perimeter += std::hypot(to.x - triangle[k].x, to.y - triangle[k].y);
+    }
+    perimeters.push_back(perimeter);
+    areas.push_back(std::abs(signed_area(triangle)));
+  }
+  const double median = median_of(perimeters);
+  const auto limit = [&](int cell) {  // 16 to the octave
+    return 0.93 * std::ldexp(1 + (cell & 15) / 16.0, cell >> 4) * median;
+  };
+  const auto log_area = [&](double largest) {
+    double sum = 0;
+    for (std::size_t t = 0; t < areas.size(); ++t) sum += perimeters[t] < largest ? areas[t] : 0;
+    return std::log(sum);
+  };
+  double least_cost = std::numeric_limits<double>::infinity();
+  double best = 1.6 * median;
+  for (int cell = 0; limit(cell) <= 6 * median; ++cell) {
+    if (limit(cell) < 1.1 * median) continue;
+    const double low = limit(cell - 8);
+    const double high = limit(cell + 1);
+    const double growth = (log_area(high) - log_area(low)) / std::log(high / low);
+    const double cost = std::log(growth + 0.003) + 2 * std::pow(std::log(limit(cell) / (1.6 * median)), 2);
+    if (cost < least_cost) {
+      least_cost = cost;
+      best = limit(cell);
+    }
+  }
+  return best;
+}
+
+TEST(AutomaticLimit, IsWhatTheRuleSays) {
+  std::vector<PointSet> sets{{"circle, half of its triangles ghosts", testing::circle(3000, 1)},
+                             {"lattice", testing::lattice(50, 60)},
+                             {"three points", {{0, 0}, {4, 0}, {0, 3}}}};
+  for (const std::size_t count : {40U, 500U, 520U, 1500U, 5000U, 16000U}) {
+    const std::string name = std::to_string(count);
+    sets.push_back({name + " uniform", testing::uniform_points(count, count)});
+    sets.push_back({name + " of a ring and an island", ring_and_island(count, count)});
+    const auto denser = [](const Point& p) { return Point{p.x * p.x * p.x * p.x, p.y}; };
+    sets.push_back({name + " denser on the left", mapped(testing::uniform_points(count, count + 1), denser)});
+  }
+  for (std::uint64_t seed = 0; seed < 100; ++seed) {
+    const std::string name = ", seed " + std::to_string(seed);
+    sets.push_back({"300 points" + name, ring_and_island(300, seed)});
+    const auto heavy_tailed = [](const Point& p) { return Point{std::tan(1.5 * p.x), std::tan(1.5 * p.y)}; };
+    sets.push_back({"50 points" + name, mapped(testing::uniform_points(50, seed), heavy_tailed)});
+    const std::vector<Point> split = mapped(testing::lattice(12, 12), [&](const Point& p) {
+      return Point{p.x + (p.x > 5 ? 0.02 * static_cast<double>(seed) : 0), p.y};
+    });
+    sets.push_back({"split lattice" + name, split});
+  }
+  for (const PointSet& set : sets) {
+    // The two add up in different orders: some 1e5 roundings of 2^-53.
+    EXPECT_NEAR(chosen_perimeter(set.points) / plain_limit(set.points), 1, 1e-11) << set.name;
+  }
+}
+
+TEST(AutomaticLimit, TakesTheValueThatSortingPutsThere) {
+  testing::Random random(5);
+  const auto expect_right = [](std::vector<double> values, const std::string& name) {
+    std::vector<std::uint64_t> room(values.size());
+    std::vector<double> sorted = values;
+    std::sort(sorted.begin(), sorted.end());
+    for (const std::size_t part : {0U, 1U, 30U, 49U, 50U, 51U, 99U, 100U}) {
+      const std::size_t rank = (values.size() - 1) * part / 100;
+      EXPECT_EQ(detail::value_of_rank(values, rank, room.data()), sorted[rank]) << name << ", " << rank;
+    }
+  };
+  for (const std::size_t size : {1U, 2U, 1023U, 1024U, 1025U, 1279U, 5000U}) {
+    std::vector<double> values(size);
+    for (double& value : values) value = random.unit();
+    expect_right(values, "random");
+    for (std::size_t i = 0; i < size; i += 2) values[i] = 0.5;
+    expect_right(values, "repeated");
+    for (std::size_t i = 0; i < size; i += 3) values[i] = std::numeric_limits<double>::infinity();
+    expect_right(values, "infinite");
+    std::fill(values.begin(), values.end(), 0);
+    expect_right(values, "zero");
+  }
+  // Every 20th is far from typical, and it is these that are looked at first.
+  for (const double other : {0.0, 1e300}) {
+    std::vector<double> values(256 * 20);
+    for (std::size_t i = 0; i < values.size(); ++i) values[i] = i % 20 == 0 ? other : random.unit();
+    expect_right(values, "misleading");
+  }
 }
 
 // what it does not depend on
@@ -145,24 +281,17 @@ INSTANTIATE_TEST_SUITE_P(Seeds, AutomaticLimitRelations,
                          ::testing::Range(std::uint64_t{0}, std::uint64_t{12}));
 
 TEST(AutomaticLimit, IsTheSameOnAnyNumberOfThreads) {
-  const std::vector<Point> points = testing::uniform_points(40000, 2);
-  for (const unsigned threads : {2U, 3U, 8U}) EXPECT_EQ(chosen(points, threads), chosen(points)) << threads;
+  // Of the first it looks at all triangles, and spares the filter their perimeters; of the second at a part.
+  for (const std::size_t count : {16000U, 40000U}) {
+    const std::vector<Point> points = testing::uniform_points(count, 2);
+    for (const unsigned threads : {2U, 3U, 8U}) {
+      EXPECT_EQ(chosen(points, threads), chosen(points)) << threads;
+      EXPECT_EQ(concave_hull(points, {.threads = threads}), concave_hull(points)) << threads;
+    }
+  }
 }
 
 // what it must find
-
-/// Uniform points of the square [0, 10)^2 without a disc of radius 2 in its middle, and of a square of side 2
-/// at a distance of 2 from it.
-std::vector<Point> ring_and_island(std::size_t count, std::uint64_t seed) {
-  testing::Random random(seed);
-  std::vector<Point> points;
-  while (points.size() < count) {
-    const Point p{random.between(0, 14), random.between(0, 10)};
-    const bool in_square = p.x < 10 && std::hypot(p.x - 5, p.y - 5) > 2;
-    if (in_square || (p.x > 12 && p.y > 4 && p.y < 6)) points.push_back(p);
-  }
-  return points;
-}
 
 TEST(AutomaticLimit, FindsHolesAndPartsAtAnyDensity) {
   const double area_of_shape = 100 - 4 * std::acos(-1.0) + 4;

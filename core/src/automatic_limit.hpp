@@ -2,9 +2,11 @@
 #pragma once
 
 #include <cstddef>
-#include <vector>
+#include <cstdint>
+#include <span>
 
 #include "half_edge.hpp"
+#include "scratch.hpp"
 
 namespace polylidar::detail {
 
@@ -37,15 +39,23 @@ class AutomaticLimit {
   /// unless most points repeat others. The same for the same mesh, on any number of threads.
   double choose(const Mesh& mesh, const Point* vertices);
 
- private:
-  struct Size {
-    double perimeter;
-    double twice_area;
-  };
+  /// After choose: triangle -> its perimeter in the same unit, infinity for a ghost and an unused record;
+  /// empty where only a part was looked at or no triangle is finite. The filter need not work them out again,
+  /// which pays for more than half of choosing. Valid until the next call.
+  std::span<const double> perimeters() const {
+    return {perimeters_.data(), is_complete_ ? count_ : std::size_t{0}};
+  }
 
+ private:
   void sample(const Mesh& mesh, const Point* vertices, std::size_t step);
 
-  std::vector<Size> sizes_;
+  // Indexed by what is looked at, from 0 to count_: triangles where is_complete_ says so, else finite ones.
+  Scratch<double> perimeters_;   ///< infinity where not finite
+  Scratch<double> twice_areas_;  ///< 0 where not finite; negative by rounding at most
+  Scratch<std::uint64_t> room_;  ///< for the median
+  std::size_t count_ = 0;
+  std::size_t finite_count_ = 0;
+  bool is_complete_ = false;  ///< all records are looked at, in their order
 };
 
 }  // namespace polylidar::detail

@@ -76,12 +76,14 @@ void Extractor::extract_regions(const Options& options) {
   Limits scaled{std::ldexp(limits.alpha, exponent), std::ldexp(limits.max_edge_length, exponent),
                 std::ldexp(limits.max_perimeter, exponent)};
   const bool is_automatic = !options.alpha && !options.max_edge_length && !options.max_perimeter;
+  std::span<const double> perimeters;
   if (is_automatic) {
     scaled.max_perimeter = state_->automatic_limit.choose(builder.mesh(), builder.vertices());
+    perimeters = state_->automatic_limit.perimeters();
     limits.max_perimeter = std::ldexp(scaled.max_perimeter, -exponent);
   }
   state_->limits = limits;
-  state_->filter.run(builder.mesh(), builder.vertices(), scaled,
+  state_->filter.run(builder.mesh(), builder.vertices(), scaled, perimeters,
                      options.fill_single_triangles.value_or(is_automatic), state_->pool, state_->boundary);
 }
 

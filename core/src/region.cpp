@@ -69,6 +69,20 @@ void filter(const Mesh& mesh, const Point* vertices, const Bounds& bounds, std::
   }
 }
 
+/// The same where a perimeter is all that is limited, and is known.
+void filter_perimeters(std::span<const double> perimeters, double max_perimeter, std::size_t begin,
+                       std::size_t end, std::uint64_t* kept) {
+  for (std::size_t w = begin; w < end; ++w) {
+    const double* const perimeter = perimeters.data() + Mesh::kWordBits * w;
+    std::uint64_t word = 0;
+    for (auto k = std::min<std::size_t>(Mesh::kWordBits, perimeters.size() - Mesh::kWordBits * w); k > 0;
+         --k) {
+      word = 2 * word + (perimeter[k - 1] <= max_perimeter ? 1U : 0U);
+    }
+    kept[w] = word;
+  }
+}
+
 /// The filter that tests the limits there are.
 auto filter_for(const Limits& limits) {
   constexpr std::array kFilters{&filter<false, false, false>, &filter<true, false, false>,
@@ -108,8 +122,9 @@ void collect_boundary(const Mesh& mesh, std::size_t begin, std::size_t end, cons
 
 }  // namespace
 
-void RegionFilter::run(Mesh& mesh, const Point* vertices, const Limits& limits, bool fill_single,
-                       ThreadPool& pool, std::vector<Index>& boundary) {
+void RegionFilter::run(Mesh& mesh, const Point* vertices, const Limits& limits,
+                       std::span<const double> perimeters, bool fill_single, ThreadPool& pool,
+                       std::vector<Index>& boundary) {
   const Bounds bounds{4 * limits.alpha * limits.alpha, limits.max_edge_length * limits.max_edge_length,
                       limits.max_perimeter, limits.max_perimeter * limits.max_perimeter};
   const auto filter_words = filter_for(limits);
@@ -123,7 +138,11 @@ void RegionFilter::run(Mesh& mesh, const Point* vertices, const Limits& limits, 
     });
   };
   for_each_chunk([&](std::size_t, std::size_t begin, std::size_t end) {
-    filter_words(mesh, vertices, bounds, begin, end, kept);
+    if (perimeters.empty()) {
+      filter_words(mesh, vertices, bounds, begin, end, kept);
+    } else {
+      filter_perimeters(perimeters, limits.max_perimeter, begin, end, kept);
+    }
   });
   boundary_of_chunk_.resize(std::max(boundary_of_chunk_.size(), chunks.size() - 1));
   filled_of_chunk_.resize(std::max(filled_of_chunk_.size(), chunks.size()));

@@ -1,6 +1,7 @@
 // Which triangles belong to the shape, and where the shape ends.
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "half_edge.hpp"
@@ -17,9 +18,10 @@ class RegionFilter {
   /// Keeps the finite triangles of `mesh` that are within `limits` (in the unit of `vertices`) and, if
   /// `fill_single` says so, those whose three neighbours are. Puts into `boundary` the half-edges of kept
   /// triangles whose twin is not kept, in the same order whatever the number of threads. Can be called again
-  /// with other limits.
-  void run(Mesh& mesh, const Point* vertices, const Limits& limits, bool fill_single, ThreadPool& pool,
-           std::vector<Index>& boundary);
+  /// with other limits. `perimeters`: empty, or where a perimeter is all that `limits` has, every triangle's,
+  /// infinite where it is not finite; spares working them out.
+  void run(Mesh& mesh, const Point* vertices, const Limits& limits, std::span<const double> perimeters,
+           bool fill_single, ThreadPool& pool, std::vector<Index>& boundary);
 
  private:
   std::vector<std::vector<Index>> boundary_of_chunk_;  ///< of all chunks but the first
