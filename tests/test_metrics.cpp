@@ -302,6 +302,27 @@ TEST(TriangleOutline, IsValidAndAsLargeAsItsTriangles) {
   }
 }
 
+// Points on an outline only make triangles so flat that the sign of their area is one of rounding.
+TEST(TriangleOutline, OfSliversHasAShellForEach) {
+  std::size_t shells = 0;
+  for (const char* name : {"ca~boundary:100", "hi~boundary:100"}) {
+    const std::vector<Point> points = make_point_set(name, false, 2000, 1).points;
+    const polylidar::Triangulation mesh = polylidar::delaunay(points);
+    for (std::size_t triangle = 0; triangle < mesh.triangles.size() / 3; ++triangle) {
+      std::vector<bool> kept(mesh.triangles.size() / 3, false);
+      kept[triangle] = true;
+      const MultiPolygon outline = triangle_outline(mesh, points, kept);
+      ASSERT_EQ(outline.size(), 1U);
+      ASSERT_EQ(outline[0].shell.size(), 3U) << name << ", triangle " << triangle;
+      ASSERT_TRUE(outline[0].holes.empty());
+      ++shells;
+    }
+    const PointSet set = make_point_set(name, false, 2000, 1);
+    EXPECT_TRUE(CaseScorer(set.points, set.ground_truth).score({}).area.valid);
+  }
+  EXPECT_GT(shells, 4000U);
+}
+
 TEST(TriangleOutline, OfAllTrianglesIsTheConvexHull) {
   const std::vector<Point> points = cell_centres();
   const polylidar::Triangulation mesh = polylidar::delaunay(points);

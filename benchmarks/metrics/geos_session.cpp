@@ -44,6 +44,7 @@ void GeosSession::fail(const std::string& operation) const {
 }
 
 GeosSession::Geometry GeosSession::make_ring(const Ring& ring) const {
+  if (ring.empty()) throw std::runtime_error("a ring without points is no geometry");
   const auto size = static_cast<unsigned>(ring.size());
   GEOSCoordSequence* sequence = GEOSCoordSeq_create_r(context_, size + 1, 2);
   if (sequence == nullptr) fail("making a ring");

@@ -1,5 +1,6 @@
 #include "benchmarks/metrics/triangle_outline.hpp"
 
+#include <cmath>
 #include <cstdint>
 #include <utility>
 
@@ -92,13 +93,15 @@ class Outliner {
     return ring;
   }
 
+  /// The shell encloses the most of a region's rings. Not the sign of the area tells it: that of a sliver's
+  /// is one of rounding.
   void add_ring(std::uint32_t region, Ring ring) {
     Polygon& polygon = polygons_[region];
-    if (polylidar::signed_area(ring) > 0) {
-      polygon.shell = std::move(ring);
-    } else {
-      polygon.holes.push_back(std::move(ring));
+    if (std::abs(polylidar::signed_area(ring)) > std::abs(polylidar::signed_area(polygon.shell)) ||
+        polygon.shell.empty()) {
+      std::swap(polygon.shell, ring);
     }
+    if (!ring.empty()) polygon.holes.push_back(std::move(ring));
   }
 
   const Triangulation& mesh_;

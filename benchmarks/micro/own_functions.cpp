@@ -14,6 +14,12 @@ void concave_hull(benchmark::State& state, const SpeedPointSet& set) {
   });
 }
 
+/// With the limit that is chosen from the points; how many polygons that gives is not known beforehand.
+void concave_hull_automatic(benchmark::State& state, const SpeedPointSet& set) {
+  polylidar::Extractor extractor;
+  measure(state, set, 0, Memory::kCounted, [&] { return extractor.extract(set.points).polygon_count(); });
+}
+
 void concave_hull_once(benchmark::State& state, const SpeedPointSet& set) {
   measure(state, set, set.polygons, Memory::kCounted,
           [&] { return polylidar::concave_hull(set.points, {.alpha = set.alpha}).polygon_count(); });
@@ -50,6 +56,7 @@ void polygons(benchmark::State& state, const SpeedPointSet& set) {
 constexpr std::size_t kMostPoints = 10'000'000;
 constexpr MeasuredFunction kFunctions[] = {{"concave_hull", &concave_hull<1>, kMostPoints},
                                            {"concave_hull_2_threads", &concave_hull<2>, kMostPoints},
+                                           {"concave_hull_automatic", &concave_hull_automatic, 1'000'000},
                                            {"concave_hull_once", &concave_hull_once, 1'000'000},
                                            {"triangulation", &triangulation, 1'000'000},
                                            {"regions", &regions, 1'000'000},
