@@ -168,6 +168,18 @@ TEST(League, ProfilesAreAmongThoseThatKnowAsMuch) {
   EXPECT_EQ(profiles.at("oracle").curves.size(), 1U);
 }
 
+TEST(League, AnEntryWithFewCasesDoesNotTakeAwayTheOthers) {
+  const League league =
+      league_of({row("good", "auto", "a", 0.1), row("good", "auto", "b", 0.2), row("good", "auto", "c", 0.3),
+                 row("good", "default", "a", 0.2), row("good", "default", "b", 0.2),
+                 row("good", "default", "c", 0.2), row("bad", "auto", "a", 0.01)});
+  const LeagueProfile& blind = league.profiles.front();
+  EXPECT_EQ(blind.cases, 3U);
+  EXPECT_EQ(blind.curves.size(), 2U);
+  ASSERT_EQ(blind.left_out.size(), 1U);
+  EXPECT_EQ(blind.left_out[0].first, "bad");
+}
+
 TEST(League, IsWrittenAsItsSchemaSaysAndPrinted) {
   const std::vector<json> reports = {
       report({row("good", "auto", "a", 0.1), row("good", "auto", "b", 0.3), row("bad", "auto", "a", nullptr),

@@ -203,10 +203,20 @@ std::vector<std::string> common_cases(const Field& field, const std::vector<Entr
   return result;
 }
 
-LeagueProfile make_profile(const Field& field, const std::string& group,
-                           const std::vector<Entrant>& entrants) {
+std::size_t scored_cases(const Field& field, const Entrant& entrant) {
+  const RowsByCase& rows = field.rows.at(entrant);
+  return static_cast<std::size_t>(std::count_if(
+      rows.begin(), rows.end(), [&](const auto& row) { return field.cases.at(row.first).scored; }));
+}
+
+LeagueProfile make_profile(const Field& field, const std::string& group, const std::vector<Entrant>& all) {
   LeagueProfile profile;
   profile.group = group;
+  std::size_t most = 0;
+  for (const Entrant& entrant : all) most = std::max(most, scored_cases(field, entrant));
+  std::vector<Entrant> entrants;
+  for (const Entrant& entrant : all)
+    (2 * scored_cases(field, entrant) < most ? profile.left_out : entrants).push_back(entrant);
   for (const auto& [method, protocol] : entrants)
     profile.curves.push_back({method, protocol, std::vector<double>(league_taus().size(), 0.0)});
   for (const std::string& name : common_cases(field, entrants)) {

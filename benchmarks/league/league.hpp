@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "benchmarks/bootstrap.hpp"
@@ -46,7 +47,10 @@ struct LeagueProfile {
   /// Who knows as much: "blind" (default and auto: the points only), "tuned" (other shapes), "informed"
   /// (paper: the ground truth's area), "oracle" (the ground truth).
   std::string group;
-  std::size_t cases = 0;  ///< that all of its entries have, and on which one has a result
+  std::size_t cases = 0;  ///< that all of its curves have, and on which one has a result
+  /// Method and protocol of those with less than half as many cases as another one of the group: only few
+  /// cases would be left to compare the others on.
+  std::vector<std::pair<std::string, std::string>> left_out;
   struct Curve {
     std::string method;
     std::string protocol;

@@ -64,7 +64,13 @@ json profile_to_json(const LeagueProfile& profile) {
   json curves = json::array();
   for (const LeagueProfile::Curve& curve : profile.curves)
     curves.push_back({{"method", curve.method}, {"protocol", curve.protocol}, {"shares", curve.shares}});
-  return {{"group", profile.group}, {"cases", profile.cases}, {"curves", std::move(curves)}};
+  json left_out = json::array();
+  for (const auto& [method, protocol] : profile.left_out)
+    left_out.push_back({{"method", method}, {"protocol", protocol}});
+  return {{"group", profile.group},
+          {"cases", profile.cases},
+          {"curves", std::move(curves)},
+          {"left_out", std::move(left_out)}};
 }
 
 /// "4.31 (3.90–4.80)" in units of `scale`; "failed" for a median of failures.
@@ -151,12 +157,16 @@ TableSection profile_table(const json& league, const json& profile) {
     for (const std::size_t k : shown) cells.push_back(fixed(100 * curve.at("shares")[k].get<double>(), 1));
     table.add_row(cells);
   }
+  std::vector<std::string> remarks;
+  std::vector<std::string> left_out;
+  for (const json& one : profile.at("left_out")) left_out.push_back(title_of(league, one));
+  if (!left_out.empty())
+    remarks.push_back("Left out, as they have less than half of the cases: " + join_words(left_out) + ".");
   const std::string group = profile.at("group").get<std::string>();
   return {"profile_" + group,
           "Performance profile of the methods " + group_titles().at(group) + ": % of " +
               std::to_string(profile.at("cases").get<std::size_t>()) + " cases with an L2 that is",
-          std::move(table),
-          {}};
+          std::move(table), std::move(remarks)};
 }
 
 }  // namespace
