@@ -197,7 +197,7 @@ Document league_document(const json& league) {
   const bool test = league.at("split").at("cases_of") == "test";
   document.title = "League: " + std::to_string(league.at("cases").get<std::size_t>()) + " cases of " +
                    std::to_string(league.at("shapes").get<std::size_t>()) + " shapes" +
-                   (test ? " that nothing was fitted on" : "");
+                   (test ? " on the test side of the split" : "");
   std::set<std::string> there;
   for (const json& entry : league.at("methods")) there.insert(entry.at("protocol").get<std::string>());
   for (const char* protocol : {"auto", "default", "tuned", "paper", "oracle"}) {
