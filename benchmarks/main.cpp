@@ -157,7 +157,10 @@ int readme(const std::string& run, const std::string& path, bool check) {
   // Named by what it is, not by a link that will point to another one some day.
   const fs::path folder =
       fs::is_symlink(run) ? fs::path(run).parent_path() / fs::read_symlink(run) : fs::path(run);
-  const std::string after = with_results(before, readme_results(reports_in(run), folder.string()));
+  std::string results = readme_results(reports_in(run), folder.string());
+  if (std::ifstream league(folder / kLeagueFile); league.is_open())
+    results += league_results(nlohmann::json::parse(league));
+  const std::string after = with_results(before, results);
   if (before == after) {
     std::cout << path << " agrees with " << run << "\n";
     return kOk;

@@ -29,5 +29,8 @@ for description in "$run"/*/run.json; do
       xz -9e --stdout "$run/$experiment/$records.jsonl" >"$kept/$experiment/$records.jsonl.xz"
   done
 done
+# The league belongs to no run of the suite; of an evaluation that was finished it is kept beside it.
+[ ! -f results/evaluation/league.json ] || cp results/evaluation/league.json "$kept"
+[ ! -f "$run/core.json" ] || cp "$run/core.json" "$kept"
 ln -sfn "$(basename "$kept")" results/reference
 echo "==> kept $run as $kept ($(du -sh "$kept" | cut -f 1))"

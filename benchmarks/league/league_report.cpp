@@ -5,6 +5,7 @@
 #include <iostream>
 #include <map>
 #include <set>
+#include <sstream>
 #include <stdexcept>
 
 #include "benchmarks/labels.hpp"
@@ -218,6 +219,22 @@ Document league_document(const json& league) {
     document.notes.push_back("Not installed, and so in no table: " +
                              join_words(league.at("not_installed").get<std::vector<std::string>>()) + ".");
   return document;
+}
+
+std::string league_results(const json& league) {
+  const Document document = league_document(league);
+  std::ostringstream out;
+  out << "\n### " << document.title << "\n";
+  for (const TableSection& section : document.tables) {
+    if (!section.id.starts_with("league_") && section.id != "profile_blind") continue;
+    out << "\n" << section.caption << ":\n\n";
+    print_markdown(section.table, out);
+    if (!section.remarks.empty()) out << "\n";
+    for (const std::string& remark : section.remarks) print_item(remark, out);
+  }
+  out << "\n";
+  for (const std::string& note : document.notes) print_item(note, out);
+  return out.str();
 }
 
 int league_command(const LeagueCommand& command) {

@@ -22,6 +22,9 @@ nlohmann::json league_to_json(const League& league, const std::vector<nlohmann::
 /// table a group.
 Document league_document(const nlohmann::json& league);
 
+/// What the README shows of it: the league, and the profile of the methods that see the points only.
+std::string league_results(const nlohmann::json& league);
+
 /// The command line of `league`.
 struct LeagueCommand {
   std::vector<std::filesystem::path> runs;  ///< folders of runs, or of suites
