@@ -68,7 +68,8 @@ bench: ## install, build and run the experiments (TABLE=states: only this one); 
 	@build/hullbench run $(or $(TABLE),rgbd states alphabet random steps)
 
 RUN ?= results/latest
-DRAWN = build/drawn
+# Named like the run, as the pages say it.
+drawn_folder = build/drawn/$(notdir $(realpath $(1)))
 
 # $(call drawn,run,folder): what is drawn of a run, written anew as a reference run has its records compressed.
 define drawn
@@ -79,8 +80,8 @@ endef
 figures: ## draw the paper's figures from results/latest, into its folder (RUN=FOLDER: from any run)
 	@$(call install,build plots)
 	@$(MAKE) build
-	@$(call drawn,$(RUN),$(DRAWN))
-	@/usr/bin/python3 plots/make_figures.py $(DRAWN) --out $(RUN)/figures
+	@$(call drawn,$(RUN),$(call drawn_folder,$(RUN)))
+	@/usr/bin/python3 plots/make_figures.py $(call drawn_folder,$(RUN)) --out $(RUN)/figures
 
 figures-core: ## measure the core from 1000 to 10 million points for the figures, into core.json of RUN=
 	@$(call install,build)
@@ -93,18 +94,19 @@ report: ## write results/latest/report.html, one file with everything about the 
 	@$(call install,build plots)
 	@$(if $(SKIP_DEPS),,cmake/install-npm.sh plots)
 	@$(MAKE) build
-	@$(call drawn,$(RUN),$(DRAWN))
-	@/usr/bin/python3 plots/make_report.py $(DRAWN) --out $(RUN)/report.html
+	@$(call drawn,$(RUN),$(call drawn_folder,$(RUN)))
+	@/usr/bin/python3 plots/make_report.py $(call drawn_folder,$(RUN)) --out $(RUN)/report.html
 
 report-compare: ## write B's comparison.html, two runs side by side (A=FOLDER B=FOLDER)
 	@test -n "$(A)" -a -n "$(B)" || { echo "error: give two runs: make report-compare A=FOLDER B=FOLDER" >&2; exit 2; }
 	@$(call install,build plots)
 	@$(if $(SKIP_DEPS),,cmake/install-npm.sh plots)
 	@$(MAKE) build
-	@$(call drawn,$(A),$(DRAWN)-a)
-	@$(call drawn,$(B),$(DRAWN)-b)
-	@build/hullbench compare $(A) $(B) --format json >$(DRAWN)-b/compared.json
-	@/usr/bin/python3 plots/make_comparison.py $(DRAWN)-a $(DRAWN)-b --compared $(DRAWN)-b/compared.json --out $(B)/comparison.html
+	@$(call drawn,$(A),$(call drawn_folder,$(A)))
+	@$(call drawn,$(B),$(call drawn_folder,$(B)))
+	@build/hullbench compare $(A) $(B) --format json >build/drawn/compared.json
+	@/usr/bin/python3 plots/make_comparison.py $(call drawn_folder,$(A)) $(call drawn_folder,$(B)) \
+	  --compared build/drawn/compared.json --out $(B)/comparison.html
 
 evaluate: ## the parameters' search over all stress suites and the league, on all cores (OUT=results/evaluation)
 	@$(call install,build bench)
