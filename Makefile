@@ -69,7 +69,7 @@ bench: ## install, build and run the experiments (TABLE=states: only this one); 
 
 RUN ?= results/latest
 # Named like the run, as the pages say it.
-drawn_folder = build/drawn/$(notdir $(realpath $(1)))
+drawn_folder = build/drawn/$(2)$(notdir $(realpath $(1)))
 
 # $(call drawn,run,folder): what is drawn of a run, written anew as a reference run has its records compressed.
 define drawn
@@ -102,10 +102,10 @@ report-compare: ## write B's comparison.html, two runs side by side (A=FOLDER B=
 	@$(call install,build plots)
 	@$(if $(SKIP_DEPS),,cmake/install-npm.sh plots)
 	@$(MAKE) build
-	@$(call drawn,$(A),$(call drawn_folder,$(A)))
-	@$(call drawn,$(B),$(call drawn_folder,$(B)))
+	@$(call drawn,$(A),$(call drawn_folder,$(A),a/))
+	@$(call drawn,$(B),$(call drawn_folder,$(B),b/))
 	@build/hullbench compare $(A) $(B) --format json >build/drawn/compared.json
-	@/usr/bin/python3 plots/make_comparison.py $(call drawn_folder,$(A)) $(call drawn_folder,$(B)) \
+	@/usr/bin/python3 plots/make_comparison.py $(call drawn_folder,$(A),a/) $(call drawn_folder,$(B),b/) \
 	  --compared build/drawn/compared.json --out $(B)/comparison.html
 
 evaluate: ## the parameters' search over all stress suites and the league, on all cores (OUT=results/evaluation)
