@@ -145,8 +145,8 @@ bench-gate-instructions: ## the same by counted instructions, for machines that 
 test: ## install, build and run all tests, the core's with sanitizers too
 	@$(call install,build bench test docs python plots)
 	@$(MAKE) deps-extra
-	@cmake/install-npm.sh plots
-	@cmake/install-npm.sh tests/report
+	@$(if $(SKIP_DEPS),,cmake/install-npm.sh plots)
+	@$(if $(SKIP_DEPS),,cmake/install-npm.sh tests/report)
 	@$(call build,release,$(NATIVE_OPTION))
 	@$(MAKE) test-sanitize
 	@echo "==> all tests"

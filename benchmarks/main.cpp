@@ -15,6 +15,7 @@
 #include "benchmarks/gbench_export.hpp"
 #include "benchmarks/hull/hull_command.hpp"
 #include "benchmarks/interrupt.hpp"
+#include "benchmarks/league/league_command.hpp"
 #include "benchmarks/league/league_report.hpp"
 #include "benchmarks/listing.hpp"
 #include "benchmarks/merge.hpp"

@@ -17,6 +17,7 @@
 #include "benchmarks/pictures.hpp"
 #include "benchmarks/protocol.hpp"
 #include "datasets/datasets.hpp"
+#include "datasets/degenerate.hpp"
 #include "datasets/random.hpp"
 #include "datasets/sha256.hpp"
 
@@ -447,8 +448,14 @@ RunResult run_plan(const Plan& plan, const std::vector<PlannedRun>& runs, const 
 }
 
 std::int64_t estimated_points(const PlanCase& plan_case) {
-  constexpr std::int64_t kUsualOwnPoints = 80'000;
-  return plan_case.n > 0 ? plan_case.n : kUsualOwnPoints;
+  constexpr std::int64_t kPointsOfAFloor = 80'000;
+  if (plan_case.n > 0) return plan_case.n;
+  for (const DegenerateInput& input : degenerate_inputs()) {
+    // Of no point at all there is still the way to the worker and back.
+    if (input.name == plan_case.dataset)
+      return std::max<std::int64_t>(100, static_cast<std::int64_t>(input.points.size()));
+  }
+  return kPointsOfAFloor;
 }
 
 std::vector<ProgressRun> progress_runs(const Plan& plan, const std::vector<PlannedRun>& runs) {

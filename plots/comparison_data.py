@@ -17,7 +17,7 @@ from typing import Any
 
 from records import Experiment, RecordError, Row
 from report_common import Entrant, case_of, entrant_of, label, median_interval, round_to
-from report_data import _member, _words, charts, metric_entry, metric_names
+from report_data import member_of, words_of, charts, metric_entry, metric_names
 from report_summary import SAME_ERROR
 
 # What became of a pair, in the program's words, in the order in which the page tells it.
@@ -286,23 +286,23 @@ def columns(comparison: Comparison) -> dict[str, Any]:
         for experiment in side
         for name, dataset in experiment.datasets.items()
     }
-    split = [_member(pair.a.dataset) for pair in pairs]
+    split = [member_of(pair.a.dataset) for pair in pairs]
     made = {
         "experiment": {"values": [experiments.index(pair.experiment.name) for pair in pairs]},
-        "entrant": _words([entrant_of(pair.a).key for pair in pairs]),
-        "family": _words([family for family, _ in split]),
+        "entrant": words_of([entrant_of(pair.a).key for pair in pairs]),
+        "family": words_of([family for family, _ in split]),
         "member": {"values": [member for _, member in split]},
-        "sample": _words([case_of(pair.a).removeprefix(f"{pair.a.dataset}/") for pair in pairs]),
+        "sample": words_of([case_of(pair.a).removeprefix(f"{pair.a.dataset}/") for pair in pairs]),
         "n": {"values": [pair.a.n for pair in pairs]},
         "holes": {"values": [int(pair.a.holes) for pair in pairs]},
-        "status": _words([comparison.word(pair.change) for pair in pairs]),
-        "detail": _words([_detail(pair) for pair in pairs]),
-        "differs": _words([_differs(pair) for pair in pairs]),
+        "status": words_of([comparison.word(pair.change) for pair in pairs]),
+        "detail": words_of([_detail(pair) for pair in pairs]),
+        "differs": words_of([_differs(pair) for pair in pairs]),
         "error_change": {"values": [_rounded(pair.error_change) for pair in pairs]},
     }
     made["family"]["titles"] = [titles.get(family, family) for family in made["family"]["words"]]
     if any(pair.a.name != f"{pair.a.method}/{case_of(pair.a)}/protocol:{pair.a.protocol}" for pair in pairs):
-        made["name"] = _words([pair.a.name for pair in pairs])
+        made["name"] = words_of([pair.a.name for pair in pairs])
     for key in ("ratio", "ratio_low", "ratio_high", "adjusted_p_value", "l2_a", "l2_b"):
         made[key] = {"values": [_rounded(pair.told[key]) for pair in pairs]}
     for side in ("a", "b"):

@@ -9,7 +9,7 @@ from collections.abc import Callable, Sequence
 from comparison_data import Comparison, MethodChange, Pair
 from records import Experiment
 from report_common import STATUS_WORDS, Entrant, count_of, entrant_of, entrants_of, label, number, sentence_list, text
-from report_html import _facts, _methods, _value
+from report_html import environment_facts, methods_of, parameter_value
 
 SIGNS = {
     "faster": "▼",
@@ -354,7 +354,7 @@ def _joined(values: Sequence[str]) -> str:
 
 
 def _environment(experiments: Sequence[Experiment]) -> dict[str, str]:
-    facts = [_facts(experiment.report) for experiment in experiments]
+    facts = [environment_facts(experiment.report) for experiment in experiments]
     return {
         name: _joined([one[name] for one in facts if name in one])
         for name in dict.fromkeys(key for one in facts for key in one)
@@ -364,7 +364,7 @@ def _environment(experiments: Sequence[Experiment]) -> dict[str, str]:
 def _versions(experiments: Sequence[Experiment]) -> dict[str, str]:
     return {
         f"Version of {method['title']}": method.get("version", "") if method.get("installed") else "not installed"
-        for method in _methods(experiments).values()
+        for method in methods_of(experiments).values()
     }
 
 
@@ -374,7 +374,7 @@ def _parameters(experiments: Sequence[Experiment]) -> dict[str, str]:
     for experiment in experiments:
         for entry in experiment.plan.get("methods", []):
             said = ", ".join(
-                f"{name} = {_value(value, experiment.report.get('rules', {}))}"
+                f"{name} = {parameter_value(value, experiment.report.get('rules', {}))}"
                 for name, value in entry.get("parameters", {}).items()
             )
             found.setdefault(Entrant(entry.get("method", ""), entry.get("protocol", "")), []).append(

@@ -12,7 +12,6 @@ the runs have nothing in common.
 from __future__ import annotations
 
 import argparse
-import re
 import sys
 from collections.abc import Sequence
 from pathlib import Path
@@ -20,7 +19,7 @@ from typing import Any
 
 from comparison_data import Comparison, both_charts, charted_metrics, columns, compare, read_compared
 from comparison_html import SIGNS, differences_html, only_html, verdict_html
-from make_report import PAGE, _colours, _data, _library, _policy, _script, _styles
+from page import code, colours, data, fill, method_styles
 from records import EXIT_CONFIGURATION, EXIT_NOTHING, RecordError, load
 from report_common import text
 from report_data import pack
@@ -85,7 +84,7 @@ def make_page(a: Path, b: Path, compared: Path) -> str:
         comparison = compare(*runs, told, (a.resolve().name, b.resolve().name))
         if not comparison.pairs:
             raise NothingShared(f"{a} and {b} have no run in common, so there is nothing to compare.")
-        return _fill(_template_values(comparison))
+        return fill("comparison.html", _template_values(comparison))
     except (KeyError, TypeError, AttributeError, ValueError) as error:
         raise RecordError(
             f"the records in {a} or {b} are not as results/report.schema.json says "
@@ -95,27 +94,23 @@ def make_page(a: Path, b: Path, compared: Path) -> str:
 
 def _template_values(comparison: Comparison) -> dict[str, str]:
     report = _report(comparison)
-    scripts = [_library(), "\n".join(_script(name) for name in SCRIPTS)]
     return {
-        "policy": _policy(scripts),
+        **code(STYLES, SCRIPTS),
         "title": text(report["title"]),
         "byline": _byline(comparison),
-        "style": "\n".join((PAGE / name).read_text(encoding="utf-8") for name in STYLES),
-        "colours": _colours(report["methods"]),
+        "colours": colours(report["methods"]),
         "verdict": verdict_html(comparison),
         "differences": differences_html(comparison),
         "only": only_html(comparison),
-        "report": _data("report", report),
-        "charts": _data("charts", pack(both_charts(comparison))),
-        "rows": _data("rows", pack(columns(comparison))),
-        "library": scripts[0],
-        "script": scripts[1],
+        "report": data("report", report),
+        "charts": data("charts", pack(both_charts(comparison))),
+        "rows": data("rows", pack(columns(comparison))),
     }
 
 
 def _report(comparison: Comparison) -> dict[str, Any]:
     """What the page's scripts know from the start; puts the methods in the usual order."""
-    styles = _styles([*comparison.a, *comparison.b])
+    styles = method_styles([*comparison.a, *comparison.b])
     comparison.methods.sort(
         key=lambda one: (styles[one.entrant.method]["order"], one.entrant.protocol != "paper", one.entrant.protocol)
     )
@@ -165,11 +160,6 @@ def _byline(comparison: Comparison) -> str:
         said += f"<div><b class='side'>{side}</b> {' · '.join(text(part) for part in parts if part)}</div>"
     return said
 
-
-def _fill(values: dict[str, str]) -> str:
-    """The template with {{name}} replaced, once: a value that holds such a mark keeps it."""
-    template = (PAGE / "comparison.html").read_text(encoding="utf-8")
-    return re.sub(r"\{\{(\w+)\}\}", lambda found: values[found.group(1)], template)
 
 
 if __name__ == "__main__":

@@ -10,25 +10,18 @@ RUN is the folder of a run or of a suite, results/latest if it is not given; FIL
 from __future__ import annotations
 
 import argparse
-import base64
-import hashlib
-import json
-import re
 import sys
 from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
+from page import PLOTS, code, colours, data, fill, method_styles
 from pictures import pack as pack_pictures
 from records import EXIT_CONFIGURATION, Experiment, RecordError, load
 from report_common import PROTOCOLS, entrants_of, label, text
 from report_data import charts, columns, metric_entry, metric_names, pack
 from report_html import environment_html, notes_html, paper_html, parameters_html, summary_html, tables_html
 from report_summary import measure_noise, summarise
-
-PLOTS = Path(__file__).resolve().parent
-PAGE = PLOTS / "report"
-LIBRARY = PLOTS / "node_modules" / "echarts" / "dist" / "echarts.common.min.js"
 
 # In the order in which they are put together; each may use those before it.
 SCRIPTS = (
@@ -78,7 +71,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
 def make_page(experiments: Sequence[Experiment], folder: Path) -> str:
     """The whole page. Raises RecordError when the records are malformed or the charting library is missing."""
     try:
-        return _fill(_template_values(experiments, folder))
+        return fill("template.html", _template_values(experiments, folder))
     except (KeyError, TypeError, AttributeError, ValueError) as error:
         raise RecordError(
             f"the records in {folder} are not as results/report.schema.json says "
@@ -91,31 +84,27 @@ def _template_values(experiments: Sequence[Experiment], folder: Path) -> dict[st
     noise = measure_noise(experiments)
     title = "Concave hulls: " + (experiments[0].title if len(experiments) == 1 else "the whole suite")
     report, pictures = _report(experiments, folder, title), pack_pictures(experiments)
-    scripts = [_library(), "\n".join(_script(name) for name in SCRIPTS if (PAGE / name).is_file())]
     return {
-        "policy": _policy(scripts),
+        **code(STYLES, SCRIPTS),
         "title": text(title),
         "byline": _byline(experiments),
-        "style": "\n".join((PAGE / name).read_text(encoding="utf-8") for name in STYLES if (PAGE / name).is_file()),
-        "colours": _colours(report["methods"]),
+        "colours": colours(report["methods"]),
         "summary": summary_html(summaries, noise),
         "paper": paper_html(experiments, folder),
         "parameters": parameters_html(experiments),
         "environment": environment_html(experiments),
         "notes": notes_html(experiments),
         "tables": tables_html(experiments, folder) or "<p>The run has no tables.md.</p>",
-        "report": _data("report", report),
-        "charts": _data("charts", pack(charts(experiments))),
-        "rows": _data("rows", pack(columns(experiments))),
-        "pictures": _data("pictures", pictures),
-        "library": scripts[0],
-        "script": scripts[1],
+        "report": data("report", report),
+        "charts": data("charts", pack(charts(experiments))),
+        "rows": data("rows", pack(columns(experiments))),
+        "pictures": data("pictures", pictures),
     }
 
 
 def _report(experiments: Sequence[Experiment], folder: Path, title: str) -> dict[str, Any]:
     """What the page's scripts know from the start."""
-    styles = _styles(experiments)
+    styles = method_styles(experiments)
     entrants = {entrant: None for experiment in experiments for entrant in entrants_of(experiment)}
     order = sorted(
         entrants, key=lambda entrant: (styles[entrant.method]["order"], entrant.protocol != "paper", entrant.protocol)
@@ -156,29 +145,6 @@ def _options(experiment: Experiment) -> str:
     return "" if seed == 1 else f" --seed {int(seed)}"
 
 
-def _styles(experiments: Sequence[Experiment]) -> dict[str, Any]:
-    """Of every method in the run: title, order, colours, marker and dashes as methods.json gives them; a method that it
-    does not know takes one of its spare styles, in the order of the names."""
-    known = json.loads((PLOTS / "methods.json").read_text(encoding="utf-8"))
-    names = sorted(
-        {row.method for experiment in experiments for row in experiment.rows}
-        | {name for experiment in experiments for name in experiment.methods}
-    )
-    strangers = [name for name in names if name not in known["methods"]]
-    styles = {}
-    for name in names:
-        index = strangers.index(name) if name in strangers else 0
-        style = known["methods"].get(name) or {**known["others"][index % len(known["others"])], "order": 1000 + index}
-        titles = [one.methods[name]["title"] for one in experiments if name in one.methods]
-        styles[name] = {
-            "title": titles[0] if titles else name,
-            "order": style["order"],
-            "marker": style["marker"],
-            "light": style["color"]["light"],
-            "dark": style["color"]["dark"],
-        }
-    return styles
-
 
 def _byline(experiments: Sequence[Experiment]) -> str:
     environment, tool = experiments[0].report["environment"], experiments[0].report.get("tool", {})
@@ -193,56 +159,11 @@ def _byline(experiments: Sequence[Experiment]) -> str:
     return " · ".join(text(part) for part in parts)
 
 
-def _colours(styles: dict[str, Any]) -> str:
-    """A custom property for every method, in both themes."""
-
-    def block(theme: str) -> str:
-        return "".join(f"--method-{name}:{style[theme]};" for name, style in styles.items())
-
-    swatches = "".join(f".swatch[data-method='{name}']{{background:var(--method-{name})}}" for name in styles)
-    return (
-        f":root{{{block('light')}}}:root[data-theme='dark']{{{block('dark')}}}"
-        f"@media print{{:root[data-theme='dark']{{{block('light')}}}}}{swatches}"
-    )
 
 
-def _data(identity: str, value: Any) -> str:
-    """JSON that stays inside its element: "<" is written as an escape, so no text of a record can end the element."""
-    written = json.dumps(value, ensure_ascii=False, separators=(",", ":"), allow_nan=False).replace("<", "\\u003c")
-    return f'<script type="application/json" id="{identity}">{written}</script>'
 
 
-def _library() -> str:
-    if not LIBRARY.is_file():
-        raise RecordError("the charting library is missing; 'cmake/install-npm.sh plots' installs it.")
-    return _in_script(LIBRARY.read_text(encoding="utf-8"))
 
-
-def _script(name: str) -> str:
-    return _in_script((PAGE / name).read_text(encoding="utf-8"))
-
-
-def _in_script(source: str) -> str:
-    """As it may stand inside of a script element, which "</script" ends and "<!--" disturbs, even in a text."""
-    return source.replace("</script", "<\\/script").replace("<!--", "<\\!--")
-
-
-def _policy(scripts: Sequence[str]) -> str:
-    """No network at all, and no script but the page's own, by their hashes: markup that came in with a record would do
-    nothing. Styles are free, as the charts' labels set their own."""
-    hashes = " ".join(
-        f"'sha256-{base64.b64encode(hashlib.sha256(script.encode()).digest()).decode()}'" for script in scripts
-    )
-    return (
-        f"default-src 'none'; script-src {hashes}; style-src 'unsafe-inline'; img-src data:; base-uri 'none'; "
-        "form-action 'none'"
-    )
-
-
-def _fill(values: dict[str, str]) -> str:
-    """The template with {{name}} replaced, once: a value that holds such a mark keeps it."""
-    template = (PAGE / "template.html").read_text(encoding="utf-8")
-    return re.sub(r"\{\{(\w+)\}\}", lambda found: values[found.group(1)], template)
 
 
 if __name__ == "__main__":

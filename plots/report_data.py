@@ -141,7 +141,7 @@ def columns(experiments: Sequence[Experiment]) -> dict[str, Any]:
     made: dict[str, dict[str, Any]] = {"experiment": {"values": [index for index, _, _ in rows]}}
     words: dict[str, Callable[[Experiment, Row], str]] = {
         "entrant": lambda _, row: entrant_of(row).key,
-        "family": lambda _, row: _member(row.dataset)[0],
+        "family": lambda _, row: member_of(row.dataset)[0],
         "sample": lambda _, row: case_of(row).removeprefix(f"{row.dataset}/"),
         "status": lambda _, row: row.status,
         "detail": lambda _, row: row.detail,
@@ -152,11 +152,11 @@ def columns(experiments: Sequence[Experiment]) -> dict[str, Any]:
     if large:
         del words["output"]  # nothing compresses a hash
     for name, value in words.items():
-        made[name] = _words([value(experiment, row) for _, experiment, row in rows])
+        made[name] = words_of([value(experiment, row) for _, experiment, row in rows])
     if any(row.name != f"{row.method}/{case_of(row)}/protocol:{row.protocol}" for _, _, row in rows):
-        made["name"] = _words([row.name for _, _, row in rows])
+        made["name"] = words_of([row.name for _, _, row in rows])
     made["family"]["titles"] = _titles(experiments, made["family"]["words"])
-    made["member"] = {"values": [_member(row.dataset)[1] for _, _, row in rows]}
+    made["member"] = {"values": [member_of(row.dataset)[1] for _, _, row in rows]}
     made["n"] = {"values": [row.n for _, _, row in rows]}
     made["holes"] = {"values": [int(row.holes) for _, _, row in rows]}
     made["seed"] = {"values": [row.raw.get("seed") for _, _, row in rows]}
@@ -175,7 +175,7 @@ def columns(experiments: Sequence[Experiment]) -> dict[str, Any]:
     return {"count": len(rows), "columns": made}
 
 
-def _member(dataset: str) -> tuple[str, int | None]:
+def member_of(dataset: str) -> tuple[str, int | None]:
     """star-17 is number 17 of the family star; a single shape has no number."""
     family, _, number = dataset.rpartition("-")
     return (family, int(number)) if family and number.isdigit() and str(int(number)) == number else (dataset, None)
@@ -186,7 +186,7 @@ def _titles(experiments: Sequence[Experiment], families: Sequence[str]) -> list[
     return [known.get(family, family) for family in families]
 
 
-def _words(values: list[str]) -> dict[str, Any]:
+def words_of(values: list[str]) -> dict[str, Any]:
     words = list(dict.fromkeys(values))
     place = {word: index for index, word in enumerate(words)}
     return {"words": words, "values": [place[value] for value in values]}
@@ -320,7 +320,7 @@ def _point(row: Row, x: int, names: Sequence[str]) -> dict[str, Any]:
 
 def _kind(experiment: Experiment, row: Row) -> str:
     """Star-shaped polygon with holes: the title without the member's number."""
-    return dataset_title(experiment, _member(row.dataset)[0]) + (" with holes" if row.holes else "")
+    return dataset_title(experiment, member_of(row.dataset)[0]) + (" with holes" if row.holes else "")
 
 
 def _by_convexity(kind: str, rows: Sequence[Row]) -> dict[str, Any]:

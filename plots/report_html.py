@@ -220,7 +220,7 @@ def parameters_html(experiments: Sequence[Experiment]) -> str:
         for entry in experiment.plan.get("methods", []):
             entrant = Entrant(entry.get("method", ""), entry.get("protocol", ""))
             for name, value in entry.get("parameters", {}).items() or {"": ""}.items():
-                said = _value(value, experiment.report.get("rules", {}))
+                said = parameter_value(value, experiment.report.get("rules", {}))
                 before = used.setdefault((entrant, name), {}).get(experiment.name)
                 used[entrant, name][experiment.name] = f"{before}; {said}" if before else said
     head = "".join(f"<th scope='col'>{text(one.title)}</th>" for one in experiments)
@@ -242,7 +242,7 @@ def parameters_html(experiments: Sequence[Experiment]) -> str:
     )
 
 
-def _value(value: Any, rules: dict[str, str]) -> str:
+def parameter_value(value: Any, rules: dict[str, str]) -> str:
     if isinstance(value, dict) and "rule" in value:
         return rules.get(value["rule"], value["rule"])
     if isinstance(value, dict) and isinstance(value.get("cases"), dict):
@@ -252,7 +252,7 @@ def _value(value: Any, rules: dict[str, str]) -> str:
     return f"{value:g}" if isinstance(value, (int, float)) else str(value)
 
 
-def _methods(experiments: Sequence[Experiment]) -> dict[str, dict[str, Any]]:
+def methods_of(experiments: Sequence[Experiment]) -> dict[str, dict[str, Any]]:
     """By name; where experiments differ, from the first in which it is installed."""
     found: dict[str, dict[str, Any]] = {}
     for experiment in experiments:
@@ -264,11 +264,11 @@ def _methods(experiments: Sequence[Experiment]) -> dict[str, dict[str, Any]]:
 
 def _described(experiments: Sequence[Experiment]) -> str:
     rows = ""
-    for method in _methods(experiments).values():
+    for method in methods_of(experiments).values():
         for one in method.get("parameters", []):
             low, high = one.get("minimum"), one.get("maximum")
             limits = f"{'' if low is None else number(low)} to {'no limit' if high is None else number(high)}"
-            default = "required" if "default" not in one else _value(one["default"], {})
+            default = "required" if "default" not in one else parameter_value(one["default"], {})
             rows += (
                 f"<tr><th scope='row'>{text(method['title'])}</th><td>{text(one['name'])}</td>"
                 f"<td>{text(one.get('unit', ''))}</td><td>{text(limits)}</td><td>{text(default)}</td>"
@@ -320,7 +320,7 @@ def environment_html(experiments: Sequence[Experiment]) -> str:
     """One value where all experiments agree, else one an experiment."""
     facts: dict[str, dict[str, str]] = {}
     for experiment in experiments:
-        for name, value in _facts(experiment.report).items():
+        for name, value in environment_facts(experiment.report).items():
             facts.setdefault(name, {})[experiment.title] = value
     said = ""
     for name, values in facts.items():
@@ -362,7 +362,7 @@ def _noise(experiments: Sequence[Experiment]) -> str:
     )
 
 
-def _facts(report: dict[str, Any]) -> dict[str, str]:
+def environment_facts(report: dict[str, Any]) -> dict[str, str]:
     environment = report["environment"]
     cpu, compiler, tool = environment.get("cpu", {}), environment.get("compiler", {}), report.get("tool", {})
     memory, load = environment.get("memory_bytes"), environment.get("load_average")
@@ -400,7 +400,7 @@ def _facts(report: dict[str, Any]) -> dict[str, str]:
 
 def _versions(experiments: Sequence[Experiment]) -> str:
     rows = ""
-    for method in _methods(experiments).values():
+    for method in methods_of(experiments).values():
         able = ", ".join(name.replace("_", " ") for name, has in method.get("capabilities", {}).items() if has)
         version = (
             text(method.get("version", ""))

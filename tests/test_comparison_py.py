@@ -370,7 +370,7 @@ class Comparisons(unittest.TestCase):
         self.assertIn("no run in common", said)
 
     def test_a_missing_library_is_said(self) -> None:
-        with mock.patch("make_report.LIBRARY", self.folder / "none.js"):
+        with mock.patch("page.LIBRARY", self.folder / "none.js"):
             code, _, said = self.program(told(self.lines()))
         self.assertEqual(code, 2)
         self.assertIn("install-npm.sh", said)

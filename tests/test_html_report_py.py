@@ -17,6 +17,7 @@ from pathlib import Path
 sys.path.insert(0, str(Path(__file__).resolve().parent.parent / "plots"))
 
 import make_report
+import page
 from records import load
 from report_common import median_interval, number
 from report_data import charts, columns, pack
@@ -173,9 +174,9 @@ class Folder(unittest.TestCase):
         self.folder = Path(holder.name)
         library = self.folder / "library.js"
         library.write_text("/* licence */ window.echarts = {};", encoding="utf-8")
-        before = make_report.LIBRARY
-        make_report.LIBRARY = library
-        self.addCleanup(setattr, make_report, "LIBRARY", before)
+        before = page.LIBRARY
+        page.LIBRARY = library
+        self.addCleanup(setattr, page, "LIBRARY", before)
 
     def load(self, *rows, **more):
         (self.folder / "report.json").write_text(json.dumps(report(list(rows), **more)), encoding="utf-8")
@@ -523,7 +524,7 @@ class TheProgram(Folder):
 
     def test_a_missing_library_is_told_with_its_remedy(self):
         self.load(run())
-        make_report.LIBRARY = self.folder / "nothing.js"
+        page.LIBRARY = self.folder / "nothing.js"
         self.assertIn("install-npm.sh", self.refused(self.folder))
 
     def test_a_file_that_cannot_be_written_is_told(self):

@@ -102,20 +102,23 @@ TEST(League, HolesCountWhereTheGroundTruthHasSome) {
   EXPECT_EQ(entry(league, "bad", "auto").hole_f1->median, 0) << "a failure finds no hole";
 }
 
-TEST(League, CasesWithoutAGroundTruthAreCountedApart) {
+TEST(League, DegenerateInputIsCountedApart) {
+  const json tiny = row("good", "auto", "degenerate_tiny", 12345.0);
   json unscored = row("good", "auto", "degenerate_one", 0.1);
   unscored["metrics"] = {{"l2", nullptr}, {"ground_truth_area", 0.0}};
   json refused = row("bad", "auto", "degenerate_one", nullptr);
   refused["status"] = "unsupported";
-  json crashed = row("bad", "auto", "degenerate_two", nullptr);
-  json made = report({unscored, refused, crashed, row("good", "auto", "a", 0.1)});
-  made["plan"]["accepted"] = {"unsupported"};
-  const League league = make_league({made}, 1, false);
+  const json crashed = row("bad", "auto", "degenerate_two", nullptr);
+  json degenerate = report({tiny, unscored, refused, crashed});
+  degenerate["plan"]["accepted"] = {"unsupported"};
+  const League league = make_league({degenerate, report({row("good", "auto", "a", 0.1)})}, 1, false);
   EXPECT_EQ(entry(league, "good", "auto").cases, 1U);
-  EXPECT_EQ(entry(league, "good", "auto").unscored_cases, 1U);
+  EXPECT_EQ(entry(league, "good", "auto").l2->median, 0.1);
+  EXPECT_EQ(entry(league, "good", "auto").unscored_cases, 2U);
   EXPECT_EQ(entry(league, "bad", "auto").unscored_cases, 2U);
   EXPECT_EQ(entry(league, "bad", "auto").unscored_failures, 1U);
   EXPECT_EQ(entry(league, "bad", "auto").failures, 0U);
+  EXPECT_EQ(league.cases, 1U);
 }
 
 TEST(League, OfTestShapesHasNoOther) {

@@ -123,6 +123,10 @@ TEST_F(PicturesTest, OfALargePlanTheWorstOfEachFamilyAreKept) {
     book.add(record("star-101", 0.7), square(4), kTriangle);
     book.add(record("star-102", std::numeric_limits<double>::quiet_NaN()), square(4), kTriangle);
     book.add(record("comb-1", 0.1), square(4), kTriangle);
+    // Worse ones take the places of better ones, one each.
+    for (std::size_t k = 200; k < 200 + most; ++k)
+      book.add(record("star-" + std::to_string(k), 0.8), square(4), kTriangle);
+    book.add(record("star-300", 0.6), square(4), kTriangle);
   }
   const std::set<std::string> cases = kept();
   EXPECT_TRUE(cases.contains("star-1/n:10/holes:0"));
@@ -130,6 +134,7 @@ TEST_F(PicturesTest, OfALargePlanTheWorstOfEachFamilyAreKept) {
   EXPECT_TRUE(cases.contains("star-101/n:10/holes:0")) << "worse than most";
   EXPECT_TRUE(cases.contains("star-102/n:10/holes:0")) << "an invalid one is the worst";
   EXPECT_TRUE(cases.contains("comb-1/n:10/holes:0")) << "another family";
+  EXPECT_FALSE(cases.contains("star-300/n:10/holes:0")) << "worse than the first ones, but not any more";
   // The first 12 took the free places; one more of the same error is not worse.
   EXPECT_FALSE(cases.contains("star-" + std::to_string(most + 1) + "/n:10/holes:0"));
 }

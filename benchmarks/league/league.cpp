@@ -11,6 +11,7 @@
 #include "benchmarks/pictures.hpp"
 #include "benchmarks/protocol.hpp"
 #include "benchmarks/statistics.hpp"
+#include "benchmarks/tune/search.hpp"
 #include "benchmarks/tune/split.hpp"
 
 namespace hullbench {
@@ -19,9 +20,6 @@ namespace {
 using nlohmann::json;
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-/// What stands for infinity in medians and intervals, which need numbers.
-constexpr double kHuge = 1e300;
-
 /// The rows of one method and protocol, by case.
 using RowsByCase = std::map<std::string, const json*>;
 using Entrant = std::pair<std::string, std::string>;  ///< method, protocol
@@ -45,12 +43,15 @@ std::string shape_of(const json& row) {
 /// What the rows of all methods say of a case.
 struct CaseFacts {
   std::string shape;
-  bool scored = false;     ///< there is a ground truth
+  bool scored = false;     ///< its errors count
   bool has_holes = false;  ///< the ground truth has
 };
 
-void learn(CaseFacts& facts, const json& row) {
+/// Where a plan accepts failures, how a run ends is all that counts: an error of a million per cent on points
+/// that are 1e8 apart says nothing about shapes.
+void learn(CaseFacts& facts, const json& row, bool accepts_failures) {
   facts.shape = shape_of(row);
+  if (accepts_failures) return;
   if (const auto area = metric(row, "ground_truth_area"); area && *area > 0) facts.scored = true;
   const auto holes = metric(row, "holes");
   const auto error = metric(row, "holes_error");
@@ -70,8 +71,8 @@ Field sort_rows(const std::vector<json>& reports, std::uint64_t split_seed, bool
   std::set<std::string> installed;
   std::set<std::string> missing;
   for (const json& report : reports) {
-    for (const json& status : report.at("plan").value("accepted", json::array()))
-      field.accepted.insert(status.get<std::string>());
+    const json accepted = report.at("plan").value("accepted", json::array());
+    for (const json& status : accepted) field.accepted.insert(status.get<std::string>());
     for (const json& row : report.at("runs")) {
       if (test_only && side_of(shape_of(row), split_seed) != Side::kTest) continue;
       const std::string method = row.at("method").get<std::string>();
@@ -83,7 +84,7 @@ Field sort_rows(const std::vector<json>& reports, std::uint64_t split_seed, bool
       const std::string name =
           case_of_run(row.at("name").get<std::string>()) + "/seed:" + row.at("seed").dump();
       field.rows[{method, row.at("protocol").get<std::string>()}].emplace(name, &row);
-      learn(field.cases[name], row);
+      learn(field.cases[name], row, !accepted.empty());
     }
   }
   std::set_difference(missing.begin(), missing.end(), installed.begin(), installed.end(),
@@ -91,9 +92,10 @@ Field sort_rows(const std::vector<json>& reports, std::uint64_t split_seed, bool
   return field;
 }
 
-double from_huge(double value) {
-  if (value >= kHuge / 2) return kInfinity;
-  return value <= -kHuge / 2 ? -kInfinity : value;
+/// Infinity for what stands for it in medians and intervals, which need numbers.
+double from_finite(double value) {
+  if (is_infinitely_bad(value)) return kInfinity;
+  return is_infinitely_bad(-value) ? -kInfinity : value;
 }
 
 /// The median of the values of all shapes; none without a value.
@@ -105,15 +107,15 @@ std::optional<MedianScore> median_score(const std::map<std::string, std::vector<
     clusters.push_back(values);
   }
   if (all.empty()) return std::nullopt;
-  MedianScore score = {all.size(), from_huge(median(all)), clustered_median_interval(clusters)};
+  MedianScore score = {all.size(), from_finite(median(all)), clustered_median_interval(clusters)};
   if (score.interval)
-    score.interval = Interval{from_huge(score.interval->low), from_huge(score.interval->high)};
+    score.interval = Interval{from_finite(score.interval->low), from_finite(score.interval->high)};
   return score;
 }
 
-/// l2 of a row; kHuge for a failure.
+/// l2 of a row; kInfinitelyBad for a failure.
 double error_of(const json& row) {
-  return is_ok(row) ? metric(row, "l2").value_or(kHuge) : kHuge;
+  return is_ok(row) ? metric(row, "l2").value_or(kInfinitelyBad) : kInfinitelyBad;
 }
 
 /// Values of an entry by shape, for the medians.
@@ -129,7 +131,7 @@ class Samples {
 };
 
 std::optional<double> skill_of(const json& row, bool ok) {
-  return ok ? metric(row, "skill") : std::optional(-kHuge);
+  return ok ? metric(row, "skill") : std::optional(-kInfinitelyBad);
 }
 
 std::optional<double> hole_f1_of(const json& row, bool ok, const CaseFacts& facts) {
@@ -140,8 +142,8 @@ std::optional<double> hole_f1_of(const json& row, bool ok, const CaseFacts& fact
 std::optional<double> regret_of(double error, const std::string& name, const RowsByCase* oracle) {
   if (oracle == nullptr) return std::nullopt;
   const auto best = oracle->find(name);
-  if (best == oracle->end() || error_of(*best->second) >= kHuge) return std::nullopt;
-  return error >= kHuge ? kHuge : error - error_of(*best->second);
+  if (best == oracle->end() || error_of(*best->second) >= kInfinitelyBad) return std::nullopt;
+  return error >= kInfinitelyBad ? kInfinitelyBad : error - error_of(*best->second);
 }
 
 LeagueEntry make_entry(const Field& field, const Entrant& entrant, const RowsByCase& rows) {
@@ -157,7 +159,7 @@ LeagueEntry make_entry(const Field& field, const Entrant& entrant, const RowsByC
     const CaseFacts& facts = field.cases.at(name);
     const std::string status = row->at("status").get<std::string>();
     const double error = error_of(*row);
-    const bool ok = error < kHuge;
+    const bool ok = error < kInfinitelyBad;
     if (!facts.scored) {
       ++entry.unscored_cases;
       if (status != "ok" && !field.accepted.contains(status)) ++entry.unscored_failures;
@@ -224,11 +226,12 @@ LeagueProfile make_profile(const Field& field, const std::string& group, const s
     errors.reserve(entrants.size());
     for (const Entrant& entrant : entrants) errors.push_back(error_of(*field.rows.at(entrant).at(name)));
     const double best = *std::min_element(errors.begin(), errors.end());
-    if (best >= kHuge) continue;
+    if (best >= kInfinitelyBad) continue;
     ++profile.cases;
     for (std::size_t i = 0; i < errors.size(); ++i) {
       for (std::size_t k = 0; k < league_taus().size(); ++k) {
-        if (errors[i] < kHuge && errors[i] <= league_taus()[k] * best) profile.curves[i].shares[k] += 1;
+        if (errors[i] < kInfinitelyBad && errors[i] <= league_taus()[k] * best)
+          profile.curves[i].shares[k] += 1;
       }
     }
   }

@@ -26,10 +26,11 @@ struct MedianScore {
 struct LeagueEntry {
   std::string method;
   std::string protocol;
-  std::size_t cases = 0;     ///< with a ground truth
+  std::size_t cases = 0;     ///< whose errors count
   std::size_t failures = 0;  ///< of these without a valid result; infinitely bad in every median below
   std::map<std::string, std::size_t> failures_by_status;
-  /// Cases without a ground truth, such as degenerate input, and those of them that did not end in a way that
+  /// Cases without a ground truth or of a plan that accepts failures (degenerate input), and those of them
+  /// that did not end in a way that
   /// the plan accepts.
   std::size_t unscored_cases = 0;
   std::size_t unscored_failures = 0;
@@ -66,7 +67,7 @@ struct League {
   std::uint64_t split_seed = 1;
   bool test_only = true;             ///< on the cases of test shapes only (benchmarks/tune/split.hpp)
   std::size_t shapes = 0;            ///< base shapes that the cases are of
-  std::size_t cases = 0;             ///< with a ground truth
+  std::size_t cases = 0;             ///< whose errors count
   std::vector<LeagueEntry> entries;  ///< by protocol in the order of the tables, and by l2
   std::vector<LeagueProfile> profiles;
   std::vector<std::string> not_installed;  ///< methods of which there is no row but that

@@ -2,17 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iostream>
 #include <map>
 #include <set>
 #include <sstream>
-#include <stdexcept>
 
 #include "benchmarks/labels.hpp"
 #include "benchmarks/number_format.hpp"
 #include "benchmarks/plan.hpp"
-#include "benchmarks/report.hpp"
-#include "benchmarks/suite.hpp"
 
 namespace hullbench {
 namespace {
@@ -213,8 +209,8 @@ Document league_document(const json& league) {
       "infinitely bad and has no holes.",
       "Skill: 0 is the convex hull, 1 are the Delaunay triangles whose centroid lies in the ground truth. "
       "Hole F1 is "
-      "of the cases whose ground truth has holes. A second number of failures is of inputs without a ground "
-      "truth."};
+      "of the cases whose ground truth has holes. A second number of failures is of degenerate "
+      "input."};
   if (!league.at("not_installed").empty())
     document.notes.push_back("Not installed, and so in no table: " +
                              join_words(league.at("not_installed").get<std::vector<std::string>>()) + ".");
@@ -235,29 +231,6 @@ std::string league_results(const json& league) {
   out << "\n";
   for (const std::string& note : document.notes) print_item(note, out);
   return out.str();
-}
-
-int league_command(const LeagueCommand& command) {
-  std::vector<json> reports;
-  for (const std::filesystem::path& folder : command.runs) {
-    if (!std::filesystem::is_directory(folder))
-      throw ConfigurationError("there is no run in " + folder.string() +
-                               "; give the folder of a run or suite");
-    const std::vector<json> some = is_suite(folder) ? suite_reports(folder) : std::vector{load_run(folder)};
-    reports.insert(reports.end(), some.begin(), some.end());
-  }
-  if (std::all_of(reports.begin(), reports.end(),
-                  [](const json& report) { return report.at("runs").empty(); })) {
-    std::cerr << "hullbench: none of the folders has a finished run; there is nothing to judge\n";
-    return 6;
-  }
-  const json league = league_to_json(make_league(reports, command.split_seed, !command.all_cases), reports);
-  print_markdown(league_document(league), std::cout);
-  if (!command.out.empty()) {
-    write_json_file(command.out, league);
-    std::cerr << "hullbench: wrote " << command.out.string() << "\n";
-  }
-  return 0;
 }
 
 }  // namespace hullbench

@@ -1,7 +1,6 @@
 // What is written of a league: league.json (results/league.schema.json) and its tables.
 #pragma once
 
-#include <filesystem>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
@@ -24,17 +23,5 @@ Document league_document(const nlohmann::json& league);
 
 /// What the README shows of it: the league, and the profile of the methods that see the points only.
 std::string league_results(const nlohmann::json& league);
-
-/// The command line of `league`.
-struct LeagueCommand {
-  std::vector<std::filesystem::path> runs;  ///< folders of runs, or of suites
-  std::filesystem::path out;                ///< for league.json; empty: only print
-  std::uint64_t split_seed = 1;
-  bool all_cases = false;
-};
-
-/// Prints the tables and writes the file. Returns 0, or 6 when there is nothing to be judged. Throws
-/// ConfigurationError when a folder has no run or the file cannot be written.
-int league_command(const LeagueCommand& command);
 
 }  // namespace hullbench

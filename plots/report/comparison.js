@@ -36,17 +36,4 @@ function startCharts(hooks, charts, hidden, changed) {
   else place.append(make("p", {}, "No shape has a chart in both."));
 }
 
-/** Calls `act` when the element is less than a screen away. */
-function whenNear(element, act) {
-  const observer = new IntersectionObserver(
-    (entries) => {
-      if (!entries.some((entry) => entry.isIntersecting)) return;
-      observer.disconnect();
-      act();
-    },
-    { rootMargin: "100% 0px" },
-  );
-  observer.observe(element);
-}
-
 startComparison();

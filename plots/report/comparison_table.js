@@ -4,43 +4,25 @@ class PairTable extends RunTable {
   allColumns() {
     const { rows, report } = this;
     const get = (name) => (row) => rows.get(name, row);
-    const word = (id, title, value, usual = true, group = "Run") => ({
-      id,
-      title,
-      group,
-      usual,
-      numeric: false,
-      value,
-      show: value,
-    });
-    const number = (id, title, usual, group, value, show) => ({
-      id,
-      title,
-      group,
-      usual,
-      numeric: true,
-      value,
-      show: show ?? ((row) => formatNumber(value(row), 4)),
-    });
     const interval = (low, high) => (row) =>
       rows.get(low, row) === null ? "" : `[${formatNumber(rows.get(low, row))}, ${formatNumber(rows.get(high, row))}]`;
     const withInterval = (name, words) => (row) =>
       make("span", {}, formatNumber(rows.get(name, row), 4), make("small", {}, words(row)));
     const percent = (name) => (row) => (rows.get(name, row) === null ? null : 100 * rows.get(name, row));
     const columns = [
-      word(
+      wordColumn(
         "experiment",
         "Experiment",
         (row) => report.experiments[rows.get("experiment", row)].title,
         report.experiments.length > 1,
       ),
-      word("method", "Method", (row) => this.labels.get(rows.get("entrant", row)).label),
-      word("shape", "Shape", (row) => rows.shape(row)),
-      number("n", "n", true, "Run", get("n"), (row) => formatCount(rows.get("n", row))),
-      word("holes", "Holes", (row) => (rows.get("holes", row) ? "yes" : "no")),
-      word("status", "B is", get("status")),
-      number("ratio", "B ÷ A", true, "Time", get("ratio"), (row) => this.ratio(row)),
-      number(
+      wordColumn("method", "Method", (row) => this.labels.get(rows.get("entrant", row)).label),
+      wordColumn("shape", "Shape", (row) => rows.shape(row)),
+      numberColumn("n", "n", true, "Run", get("n"), (row) => formatCount(rows.get("n", row))),
+      wordColumn("holes", "Holes", (row) => (rows.get("holes", row) ? "yes" : "no")),
+      wordColumn("status", "B is", get("status")),
+      numberColumn("ratio", "B ÷ A", true, "Time", get("ratio"), (row) => this.ratio(row)),
+      numberColumn(
         "time_a",
         "A, ms",
         true,
@@ -48,7 +30,7 @@ class PairTable extends RunTable {
         get("time_a"),
         withInterval("time_a", interval("time_a_low", "time_a_high")),
       ),
-      number(
+      numberColumn(
         "time_b",
         "B, ms",
         true,
@@ -56,14 +38,14 @@ class PairTable extends RunTable {
         get("time_b"),
         withInterval("time_b", interval("time_b_low", "time_b_high")),
       ),
-      number("adjusted_p_value", "p by Holm", false, "Time", get("adjusted_p_value")),
-      number("l2_a", "L2 of A, %", true, "Error", percent("l2_a")),
-      number("l2_b", "L2 of B, %", true, "Error", percent("l2_b")),
-      number("error_change", "L2, B\u00a0−\u00a0A", true, "Error", percent("error_change"), (row) =>
+      numberColumn("adjusted_p_value", "p by Holm", false, "Time", get("adjusted_p_value")),
+      numberColumn("l2_a", "L2 of A, %", true, "Error", percent("l2_a")),
+      numberColumn("l2_b", "L2 of B, %", true, "Error", percent("l2_b")),
+      numberColumn("error_change", "L2, B\u00a0−\u00a0A", true, "Error", percent("error_change"), (row) =>
         this.errorChange(row),
       ),
-      word("differs", "Other in B", get("differs"), rows.columns.differs.words.some(Boolean)),
-      word(
+      wordColumn("differs", "Other in B", get("differs"), rows.columns.differs.words.some(Boolean)),
+      wordColumn(
         "detail",
         "Why",
         get("detail"),

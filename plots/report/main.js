@@ -29,17 +29,4 @@ function startGallery(hooks) {
   hooks.gallery = mountGallery(document.getElementById("gallery-place"), hooks.report, hooks.pictures) ?? true;
 }
 
-/** Calls `act` when the element is less than a screen away. */
-function whenNear(element, act) {
-  const observer = new IntersectionObserver(
-    (entries) => {
-      if (!entries.some((entry) => entry.isIntersecting)) return;
-      observer.disconnect();
-      act();
-    },
-    { rootMargin: "100% 0px" },
-  );
-  observer.observe(element);
-}
-
 startReport();

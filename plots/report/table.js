@@ -2,6 +2,16 @@
 
 const PAGE_SIZES = [25, 50, 100, 250];
 
+/** A column of words, of which `value` gives a row's: shown and sorted as they are. */
+function wordColumn(id, title, value, usual = true, group = "Run") {
+  return { id, title, group, usual, numeric: false, value, show: value };
+}
+
+/** A column of numbers or nulls; `show` gives a row's text or element when it is more than the number. */
+function numberColumn(id, title, usual, group, value, show = (row) => formatNumber(value(row), 4)) {
+  return { id, title, group, usual, numeric: true, value, show };
+}
+
 class RunTable {
   constructor(place, report, rows) {
     this.report = report;
@@ -26,58 +36,40 @@ class RunTable {
   /** {id, title, group, numeric, usual, value(row), show(row)}: value is sorted by, show is a text or an element. */
   allColumns() {
     const { rows, report } = this;
-    const word = (id, title, value, usual = true, group = "Run") => ({
-      id,
-      title,
-      group,
-      usual,
-      numeric: false,
-      value,
-      show: value,
-    });
-    const number = (id, title, usual, group, value, show) => ({
-      id,
-      title,
-      group,
-      usual,
-      numeric: true,
-      value,
-      show: show ?? ((row) => formatNumber(value(row), 4)),
-    });
     const get = (name) => (row) => rows.get(name, row);
     const interval = (row) =>
       rows.get("time_low", row) === null
         ? ""
         : `[${formatNumber(rows.get("time_low", row))}, ${formatNumber(rows.get("time_high", row))}]`;
     const columns = [
-      word(
+      wordColumn(
         "experiment",
         "Experiment",
         (row) => report.experiments[rows.get("experiment", row)].title,
         report.experiments.length > 1,
       ),
-      word("method", "Method", (row) => this.labels.get(rows.get("entrant", row)).label),
-      word("shape", "Shape", (row) => rows.shape(row)),
-      number("n", "n", true, "Run", get("n"), (row) => formatCount(rows.get("n", row))),
-      word("holes", "Holes", (row) => (rows.get("holes", row) ? "yes" : "no")),
-      word("status", "Status", get("status")),
-      number("time", "Time, ms", true, "Time", get("time"), (row) =>
+      wordColumn("method", "Method", (row) => this.labels.get(rows.get("entrant", row)).label),
+      wordColumn("shape", "Shape", (row) => rows.shape(row)),
+      numberColumn("n", "n", true, "Run", get("n"), (row) => formatCount(rows.get("n", row))),
+      wordColumn("holes", "Holes", (row) => (rows.get("holes", row) ? "yes" : "no")),
+      wordColumn("status", "Status", get("status")),
+      numberColumn("time", "Time, ms", true, "Time", get("time"), (row) =>
         make("span", {}, formatNumber(rows.get("time", row)), make("small", {}, interval(row))),
       ),
-      number("paper_time", "Time as in the paper, ms", false, "Time", get("paper_time")),
-      number("repetitions", "Repetitions", false, "Time", get("repetitions"), (row) =>
+      numberColumn("paper_time", "Time as in the paper, ms", false, "Time", get("paper_time")),
+      numberColumn("repetitions", "Repetitions", false, "Time", get("repetitions"), (row) =>
         formatCount(rows.get("repetitions", row)),
       ),
       ...report.metrics
         .filter((metric) => rows.has(`metric ${metric.name}`))
-        .map((metric) => this.metricColumn(metric, number)),
+        .map((metric) => this.metricColumn(metric)),
       ...Object.keys(rows.columns)
         .filter((name) => name.startsWith("parameter "))
-        .map((name) => number(name, name.slice("parameter ".length), false, "Parameters", get(name))),
-      word("flags", "Doubts", get("flags"), rows.columns.flags.words.some(Boolean)),
-      word("version", "Version", get("version"), false),
-      ...(rows.has("output") ? [word("output", "Result’s SHA-256", get("output"), false)] : []),
-      number("seed", "Seed", false, "Run", get("seed"), (row) => String(rows.get("seed", row) ?? "–")),
+        .map((name) => numberColumn(name, name.slice("parameter ".length), false, "Parameters", get(name))),
+      wordColumn("flags", "Doubts", get("flags"), rows.columns.flags.words.some(Boolean)),
+      wordColumn("version", "Version", get("version"), false),
+      ...(rows.has("output") ? [wordColumn("output", "Result’s SHA-256", get("output"), false)] : []),
+      numberColumn("seed", "Seed", false, "Run", get("seed"), (row) => String(rows.get("seed", row) ?? "–")),
       {
         id: "reproduce",
         title: "Reproduce",
@@ -87,7 +79,7 @@ class RunTable {
         fixed: true,
         show: (row) => this.reproduce(row),
       },
-      word("detail", "Why", get("detail"), this.hasFailures()),
+      wordColumn("detail", "Why", get("detail"), this.hasFailures()),
     ];
     columns.find((column) => column.id === "method").show = (row) => this.method(row);
     columns.find((column) => column.id === "status").show = (row) =>
@@ -97,14 +89,14 @@ class RunTable {
     return columns;
   }
 
-  metricColumn(metric, number) {
+  metricColumn(metric) {
     const short = { l2: "L2, %", l2_paper: "L2 as in the paper, %", iou: "IoU" }[metric.name];
     const title = short ?? metric.title + (metric.unit ? `, ${metric.unit}` : "");
     const value = (row) => {
       const raw = this.rows.get(`metric ${metric.name}`, row);
       return raw === null ? null : raw * metric.factor;
     };
-    return number(`metric-${metric.name}`, title, ["l2", "iou"].includes(metric.name), "Scores", value, (row) =>
+    return numberColumn(`metric-${metric.name}`, title, ["l2", "iou"].includes(metric.name), "Scores", value, (row) =>
       formatScore(metric, value(row), 4),
     );
   }

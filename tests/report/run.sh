@@ -10,8 +10,10 @@ here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
 root=$here/../..
 
 command -v node >/dev/null || { echo "error: node is missing: 'make deps' installs it on Debian and Ubuntu." >&2; exit 1; }
-"$root/cmake/install-npm.sh" "$here"
-"$root/cmake/install-npm.sh" "$root/plots"
+for folder in tests/report plots; do
+  [ -d "$root/$folder/node_modules" ] ||
+    { echo "error: the npm packages of $folder are missing: 'cmake/install-npm.sh $folder' installs them." >&2; exit 1; }
+done
 # The Python of the distribution, if there is one: another may come first.
 python=/usr/bin/python3
 [ -x "$python" ] || python=python3

@@ -1,0 +1,107 @@
+"""What every page made here is put together from: its template, style sheets, scripts and data.
+
+A page is one file that needs no network. Everything from records is escaped, and no script runs but the page's own.
+"""
+
+from __future__ import annotations
+
+import base64
+import hashlib
+import json
+import re
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Any
+
+from records import Experiment, RecordError
+
+PLOTS = Path(__file__).resolve().parent
+PAGE = PLOTS / "report"
+LIBRARY = PLOTS / "node_modules" / "echarts" / "dist" / "echarts.common.min.js"
+
+
+def fill(template: str, values: dict[str, str]) -> str:
+    """The template of that name with {{name}} replaced, once: a value that holds such a mark keeps it."""
+    source = (PAGE / template).read_text(encoding="utf-8")
+    return re.sub(r"\{\{(\w+)\}\}", lambda found: values[found.group(1)], source)
+
+
+def code(styles: Sequence[str], scripts: Sequence[str]) -> dict[str, str]:
+    """The template's values "style", "library", "script" and "policy". Raises RecordError without the library."""
+    library, script = _library(), "\n".join(_script(name) for name in scripts)
+    return {
+        "style": "\n".join((PAGE / name).read_text(encoding="utf-8") for name in styles),
+        "library": library,
+        "script": script,
+        "policy": _policy((library, script)),
+    }
+
+
+def method_styles(experiments: Sequence[Experiment]) -> dict[str, Any]:
+    """Of every method in the run: title, order, colours, marker and dashes as methods.json gives them; a method that it
+    does not know takes one of its spare styles, in the order of the names."""
+    known = json.loads((PLOTS / "methods.json").read_text(encoding="utf-8"))
+    names = sorted(
+        {row.method for experiment in experiments for row in experiment.rows}
+        | {name for experiment in experiments for name in experiment.methods}
+    )
+    strangers = [name for name in names if name not in known["methods"]]
+    styles = {}
+    for name in names:
+        index = strangers.index(name) if name in strangers else 0
+        style = known["methods"].get(name) or {**known["others"][index % len(known["others"])], "order": 1000 + index}
+        titles = [one.methods[name]["title"] for one in experiments if name in one.methods]
+        styles[name] = {
+            "title": titles[0] if titles else name,
+            "order": style["order"],
+            "marker": style["marker"],
+            "light": style["color"]["light"],
+            "dark": style["color"]["dark"],
+        }
+    return styles
+
+
+def colours(styles: dict[str, Any]) -> str:
+    """A custom property for every method, in both themes."""
+
+    def block(theme: str) -> str:
+        return "".join(f"--method-{name}:{style[theme]};" for name, style in styles.items())
+
+    swatches = "".join(f".swatch[data-method='{name}']{{background:var(--method-{name})}}" for name in styles)
+    return (
+        f":root{{{block('light')}}}:root[data-theme='dark']{{{block('dark')}}}"
+        f"@media print{{:root[data-theme='dark']{{{block('light')}}}}}{swatches}"
+    )
+
+
+def data(identity: str, value: Any) -> str:
+    """JSON that stays inside its element: "<" is written as an escape, so no text of a record can end the element."""
+    written = json.dumps(value, ensure_ascii=False, separators=(",", ":"), allow_nan=False).replace("<", "\\u003c")
+    return f'<script type="application/json" id="{identity}">{written}</script>'
+
+
+def _library() -> str:
+    if not LIBRARY.is_file():
+        raise RecordError("the charting library is missing; 'cmake/install-npm.sh plots' installs it.")
+    return _in_script(LIBRARY.read_text(encoding="utf-8"))
+
+
+def _script(name: str) -> str:
+    return _in_script((PAGE / name).read_text(encoding="utf-8"))
+
+
+def _in_script(source: str) -> str:
+    """As it may stand inside of a script element, which "</script" ends and "<!--" disturbs, even in a text."""
+    return source.replace("</script", "<\\/script").replace("<!--", "<\\!--")
+
+
+def _policy(scripts: Sequence[str]) -> str:
+    """No network at all, and no script but the page's own, by their hashes: markup that came in with a record would do
+    nothing. Styles are free, as the charts' labels set their own."""
+    hashes = " ".join(
+        f"'sha256-{base64.b64encode(hashlib.sha256(script.encode()).digest()).decode()}'" for script in scripts
+    )
+    return (
+        f"default-src 'none'; script-src {hashes}; style-src 'unsafe-inline'; img-src data:; base-uri 'none'; "
+        "form-action 'none'"
+    )
