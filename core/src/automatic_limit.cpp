@@ -15,6 +15,12 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
+/// A median perimeter outside of these is measured again in another unit: single precision has numbers from
+/// 2^-149 to 2^128 for the squares of edges.
+constexpr float kLeastMedian = 0x1p-40F;
+constexpr float kMostMedian = 0x1p40F;
+constexpr int kMostUnits = 10;
+
 // The rule's constants; lengths are in medians.
 constexpr double kUsual = 1.6;
 constexpr double kPull = 2;
@@ -22,8 +28,8 @@ constexpr double kStill = 0.003;
 constexpr double kLeast = 1.1;
 constexpr double kMost = 6;
 /// Cells of the grid below and above a limit over which the growth is taken.
-constexpr std::size_t kBelow = 8;
-constexpr std::size_t kAbove = 1;
+constexpr std::size_t kBelow = 10;
+constexpr std::size_t kAbove = 2;
 
 /// The grid that lengths are counted on: an octave has 16 cells of equal width, so that a cell is found in
 /// the bits of a number. Limits lie between cells. The unit of lengths moves the cells so that the median
@@ -37,15 +43,17 @@ class Grid {
   static constexpr double kUnit = 0.93;
 
   /// Where cell `c`, of kCells too, begins, in units.
-  static constexpr double begin(std::size_t c) { return std::bit_cast<double>((c + kFirst) << kDropped); }
+  static constexpr double begin(std::size_t c) {
+    return std::bit_cast<float>(static_cast<std::uint32_t>(c + kFirst) << kDropped);
+  }
   /// The cell of a positive length, in units; kCells or more for one that lies outside.
-  static constexpr std::size_t cell(double length) {
-    return static_cast<std::size_t>(std::bit_cast<std::uint64_t>(length) >> kDropped) - kFirst;
+  static constexpr std::size_t cell(float length) {
+    return (std::bit_cast<std::uint32_t>(length) >> kDropped) - kFirst;
   }
 
  private:
-  static constexpr int kDropped = 48;                                 // of the 52 bits behind the point
-  static constexpr std::uint64_t kFirst = std::uint64_t{1022} << 4U;  // cell 0 begins at 2^-1
+  static constexpr int kDropped = 19;                            // of the 23 bits behind the point
+  static constexpr std::size_t kFirst = std::size_t{126} << 4U;  // cell 0 begins at 2^-1
 };
 
 using CellValues = std::array<double, Grid::kCells>;
@@ -92,52 +100,78 @@ double steadiest_limit(const CellValues& area) {
 }  // namespace
 
 void AutomaticLimit::sample(const Mesh& mesh, const Point* vertices, std::size_t step) {
-  const std::size_t most = (mesh.triangle_count() + step - 1) / step;
-  double* const perimeter = perimeters_.reserve(most);
-  double* const twice_area = twice_areas_.reserve(most);
-  const auto length = [](double x, double y) { return std::sqrt(x * x + y * y); };
-  const Mesh::Index* const end = mesh.record(mesh.triangle_count());
-  std::size_t count = 0;
-  std::size_t ghosts = 0;
-  for (const Mesh::Index* record = mesh.record(0); record < end; record += Mesh::kStride * step) {
-    if (record[2] == kNone) {
-      if (!is_complete_) continue;
-      perimeter[count] = kInfinity;
-      twice_area[count++] = 0;
-      ++ghosts;
-      continue;
+  count_ = (mesh.triangle_count() + step - 1) / step;
+  finite_count_ = count_;
+  float* const perimeter = perimeters_.reserve(count_);
+  double* const twice_area = twice_areas_.reserve(count_);
+  const double scale = 1 / (unit_ * unit_);
+  const auto square = [&](const Point& edge) {
+    return static_cast<float>((edge.x * edge.x + edge.y * edge.y) * scale);
+  };
+  // The roots are taken by themselves, several in one instruction: they take most of the time.
+  constexpr std::size_t kBlock = 128;
+  std::array<float, kBlock> squared_ab{};
+  std::array<float, kBlock> squared_bc{};
+  std::array<float, kBlock> squared_ca{};
+  const Mesh::Index* record = mesh.record(0);
+  for (std::size_t begin = 0; begin < count_; begin += kBlock) {
+    const std::size_t size = std::min(kBlock, count_ - begin);
+    for (std::size_t k = 0; k < size; ++k, record += Mesh::kStride * step) {
+      if (record[2] == kNone) {
+        squared_ab[k] = std::numeric_limits<float>::infinity();
+        twice_area[begin + k] = 0;
+        --finite_count_;
+        continue;
+      }
+      const Point& a = vertices[record[0]];
+      const Point& b = vertices[record[1]];
+      const Point& c = vertices[record[2]];
+      const Point ab{b.x - a.x, b.y - a.y};
+      const Point bc{c.x - b.x, c.y - b.y};
+      const Point ca{a.x - c.x, a.y - c.y};
+      squared_ab[k] = square(ab);
+      squared_bc[k] = square(bc);
+      squared_ca[k] = square(ca);
+      twice_area[begin + k] = ab.y * ca.x - ab.x * ca.y;
     }
-    const Point& a = vertices[record[0]];
-    const Point& b = vertices[record[1]];
-    const Point& c = vertices[record[2]];
-    const Point ab{b.x - a.x, b.y - a.y};
-    const Point bc{c.x - b.x, c.y - b.y};
-    const Point ca{a.x - c.x, a.y - c.y};
-    perimeter[count] = length(ab.x, ab.y) + length(bc.x, bc.y) + length(ca.x, ca.y);
-    twice_area[count++] = ab.y * ca.x - ab.x * ca.y;
+    // The longest edge is added last, so that a sum does not depend on their order. What is compared are
+    // bits, in the order of the numbers, which takes no branch.
+    for (std::size_t k = 0; k < size; ++k) {
+      perimeter[begin + k] = std::sqrt(squared_ab[k]) + std::sqrt(squared_bc[k]) + std::sqrt(squared_ca[k]);
+    }
   }
-  count_ = count;
-  finite_count_ = count - ghosts;
+}
+
+float AutomaticLimit::median() {
+  return value_of_rank({perimeters_.data(), count_}, finite_count_ / 2, room_.reserve(count_));
 }
 
 double AutomaticLimit::choose(const Mesh& mesh, const Point* vertices) {
   // Odd, as records come in pairs, of which an even step would only see the first.
-  const std::size_t step = (mesh.triangle_count() / kSample) | 1U;
-  is_complete_ = step == 1;
+  std::size_t step = (mesh.triangle_count() / kSample) | 1U;
+  unit_ = 1;
   sample(mesh, vertices, step);
   // Points that repeat others leave records unused.
-  if (step > 1 && count_ < kSample / 4) sample(mesh, vertices, 1);
-  if (finite_count_ == 0) {
-    is_complete_ = false;
-    return kInfinity;
+  if (step > 1 && finite_count_ < kSample / 4) {
+    step = 1;
+    sample(mesh, vertices, step);
   }
-  const std::span<const double> perimeters(perimeters_.data(), count_);
-  const double median = value_of_rank(perimeters, finite_count_ / 2, room_.reserve(count_));
+  is_complete_ = step == 1 && finite_count_ > 0;
+  if (finite_count_ == 0) return kInfinity;
+  float typical = median();
+  // No unit will do only where the squares are beyond double precision too.
+  for (int n = 0; n < kMostUnits && !(typical > kLeastMedian && typical < kMostMedian); ++n) {
+    is_complete_ = false;
+    unit_ *= typical < 1 ? 0x1p-50 : 0x1p50;
+    sample(mesh, vertices, step);
+    typical = median();
+  }
+  const float* const perimeter = perimeters_.data();
   const double* const twice_area = twice_areas_.data();
-  const double scale = 1 / (median * Grid::kUnit);
+  const float scale = 1 / (typical * static_cast<float>(Grid::kUnit));
   CellValues area{};
   for (std::size_t i = 0; i < count_; ++i) {
-    const double length = perimeters[i] * scale;
+    const float length = perimeter[i] * scale;
     const std::size_t cell = Grid::cell(length);
     if (cell < Grid::kCells) {
       area[cell] += twice_area[i];
@@ -145,7 +179,7 @@ double AutomaticLimit::choose(const Mesh& mesh, const Point* vertices) {
       area[0] += twice_area[i];
     }
   }
-  return steadiest_limit(area) * median;
+  return steadiest_limit(area) * typical * unit_;
 }
 
 }  // namespace polylidar::detail

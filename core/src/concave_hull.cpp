@@ -76,7 +76,7 @@ void Extractor::extract_regions(const Options& options) {
   Limits scaled{std::ldexp(limits.alpha, exponent), std::ldexp(limits.max_edge_length, exponent),
                 std::ldexp(limits.max_perimeter, exponent)};
   const bool is_automatic = !options.alpha && !options.max_edge_length && !options.max_perimeter;
-  std::span<const double> perimeters;
+  std::span<const float> perimeters;
   if (is_automatic) {
     scaled.max_perimeter = state_->automatic_limit.choose(builder.mesh(), builder.vertices());
     perimeters = state_->automatic_limit.perimeters();

@@ -69,17 +69,26 @@ void filter(const Mesh& mesh, const Point* vertices, const Bounds& bounds, std::
   }
 }
 
-/// The same where a perimeter is all that is limited, and is known.
-void filter_perimeters(std::span<const double> perimeters, double max_perimeter, std::size_t begin,
-                       std::size_t end, std::uint64_t* kept) {
+/// The same where a perimeter is all that is limited and is known in single precision, which decides but for
+/// words in which one is near the limit.
+void filter_perimeters(const Mesh& mesh, const Point* vertices, const Bounds& bounds,
+                       std::span<const float> perimeters, std::size_t begin, std::size_t end,
+                       std::uint64_t* kept) {
+  constexpr double kNear = 0x1p-20;  // a few roundings of 2^-24
+  const auto surely = static_cast<float>(bounds.max_perimeter * (1 - kNear));
+  const auto perhaps = static_cast<float>(bounds.max_perimeter * (1 + kNear));
   for (std::size_t w = begin; w < end; ++w) {
-    const double* const perimeter = perimeters.data() + Mesh::kWordBits * w;
+    const float* const perimeter = perimeters.data() + Mesh::kWordBits * w;
+    const std::size_t count = std::min<std::size_t>(Mesh::kWordBits, perimeters.size() - Mesh::kWordBits * w);
     std::uint64_t word = 0;
-    for (auto k = std::min<std::size_t>(Mesh::kWordBits, perimeters.size() - Mesh::kWordBits * w); k > 0;
-         --k) {
-      word = 2 * word + (perimeter[k - 1] <= max_perimeter ? 1U : 0U);
+    std::uint64_t near = 0;
+    for (std::size_t k = count; k > 0; --k) {
+      const std::uint64_t is_within = perimeter[k - 1] <= surely ? 1U : 0U;
+      near += (perimeter[k - 1] <= perhaps ? 1U : 0U) - is_within;
+      word = 2 * word + is_within;
     }
     kept[w] = word;
+    if (near > 0) filter<false, false, true>(mesh, vertices, bounds, w, w + 1, kept);
   }
 }
 
@@ -123,7 +132,7 @@ void collect_boundary(const Mesh& mesh, std::size_t begin, std::size_t end, cons
 }  // namespace
 
 void RegionFilter::run(Mesh& mesh, const Point* vertices, const Limits& limits,
-                       std::span<const double> perimeters, bool fill_single, ThreadPool& pool,
+                       std::span<const float> perimeters, bool fill_single, ThreadPool& pool,
                        std::vector<Index>& boundary) {
   const Bounds bounds{4 * limits.alpha * limits.alpha, limits.max_edge_length * limits.max_edge_length,
                       limits.max_perimeter, limits.max_perimeter * limits.max_perimeter};
@@ -141,7 +150,7 @@ void RegionFilter::run(Mesh& mesh, const Point* vertices, const Limits& limits,
     if (perimeters.empty()) {
       filter_words(mesh, vertices, bounds, begin, end, kept);
     } else {
-      filter_perimeters(perimeters, limits.max_perimeter, begin, end, kept);
+      filter_perimeters(mesh, vertices, bounds, perimeters, begin, end, kept);
     }
   });
   boundary_of_chunk_.resize(std::max(boundary_of_chunk_.size(), chunks.size() - 1));

@@ -19,8 +19,8 @@ class RegionFilter {
   /// `fill_single` says so, those whose three neighbours are. Puts into `boundary` the half-edges of kept
   /// triangles whose twin is not kept, in the same order whatever the number of threads. Can be called again
   /// with other limits. `perimeters`: empty, or where a perimeter is all that `limits` has, every triangle's,
-  /// infinite where it is not finite; spares working them out.
-  void run(Mesh& mesh, const Point* vertices, const Limits& limits, std::span<const double> perimeters,
+  /// of single precision, infinite where it is not finite; spares working most of them out.
+  void run(Mesh& mesh, const Point* vertices, const Limits& limits, std::span<const float> perimeters,
            bool fill_single, ThreadPool& pool, std::vector<Index>& boundary);
 
  private:
