@@ -74,7 +74,7 @@ drawn_folder = build/drawn/$(2)$(notdir $(realpath $(1)))
 # $(call drawn,run,folder): what is drawn of a run, written anew as a reference run has its records compressed.
 define drawn
 rm -rf $(2) && build/hullbench report $(1) --out $(2) >/dev/null && \
-if [ -f $(1)/core.json ]; then cp $(1)/core.json $(2); fi
+for extra in core.json league.json tune.json tune.json.xz; do [ ! -f $(1)/$$extra ] || cp $(1)/$$extra $(2); done
 endef
 
 figures: ## draw the paper's figures from results/latest, into its folder (RUN=FOLDER: from any run)
@@ -113,10 +113,11 @@ evaluate: ## the parameters' search over all stress suites and the league, on al
 	@$(MAKE) build
 	@benchmarks/league/evaluate.sh build/hullbench $(or $(OUT),results/evaluation)
 
-reference: ## keep results/latest as the reference run, and write its tables into the README
+reference: ## keep results/latest as the reference run, draw it, and write its tables into the README
 	@$(call install,build test)
 	@$(MAKE) build
 	@results/keep_reference.sh results/latest
+	@$(MAKE) figures report RUN=results/reference
 	@build/hullbench readme results/reference README.md
 
 # The paper's methods up to 8000 points, the others at 2000.

@@ -24,7 +24,8 @@ from style import RC  # noqa: E402
 
 # In the order of figures.md.
 NAMES = (
-    "summary", "states", "shapes", "hulls", "alphabet", "random_polygons", "steps", "core", "rgbd", "examples",
+    "summary", "states", "shapes", "hulls", "alphabet", "random_polygons", "steps", "core", "rgbd", "examples", "profiles",
+    "sensitivity",
 )
 # Without dates and versions, so that the same run gives the same bytes.
 _METADATA = {

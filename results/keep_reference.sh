@@ -1,6 +1,7 @@
 #!/bin/bash
 # keep_reference.sh RUN: keeps the finished suite in the folder RUN as the reference run, in results/<date>-<machine>
-# with its records compressed; results/reference points to it. An older reference run is removed.
+# with its records compressed; results/reference points to it, and so do the README's links. An older reference run is
+# removed.
 set -euo pipefail
 
 run=$1
@@ -29,8 +30,10 @@ for description in "$run"/*/run.json; do
       xz -9e --stdout "$run/$experiment/$records.jsonl" >"$kept/$experiment/$records.jsonl.xz"
   done
 done
-# The league belongs to no run of the suite; of an evaluation that was finished it is kept beside it.
+# The league and the search belong to no run of the suite; of an evaluation that was finished they are kept beside it.
 [ ! -f results/evaluation/league.json ] || cp results/evaluation/league.json "$kept"
+[ ! -f results/evaluation/tune/tune.json ] || xz -9e --stdout results/evaluation/tune/tune.json >"$kept/tune.json.xz"
 [ ! -f "$run/core.json" ] || cp "$run/core.json" "$kept"
 ln -sfn "$(basename "$kept")" results/reference
+sed -i -E "s#results/[0-9]{4}-[0-9]{2}-[0-9]{2}-[0-9a-f]{8}#$kept#g" README.md
 echo "==> kept $run as $kept ($(du -sh "$kept" | cut -f 1))"

@@ -91,6 +91,30 @@ def core() -> dict[str, Any]:
     return {"context": {}, "benchmarks": entries}
 
 
+def league() -> dict[str, Any]:
+    """Of league.json what is drawn; `tuned` has one curve only, which is no comparison."""
+    def curve(method: str, protocol: str, *shares: float) -> dict[str, Any]:
+        return {"method": method, "protocol": protocol, "shares": list(shares)}
+    return {"kind": "league", "taus": [1, 2, 10], "profiles": [
+        {"group": "informed", "cases": 30, "curves": [curve("polylidar", "paper", 0.5, 0.9, 1),
+                                                      curve("geos_concave_hull", "paper", 0.5, 0.7, 0.95)]},
+        {"group": "blind", "cases": 20, "curves": [curve("polylidar", "default", 0.7, 0.95, 1),
+                                                   curve("spatialite", "default", 0.3, 0.6, 0.8)]},
+        {"group": "tuned", "cases": 20, "curves": [curve("polylidar", "tuned", 1, 1, 1)]}]}
+
+
+def tune() -> dict[str, Any]:
+    """Of tune.json what is drawn: a method with a length, one with a number, one without a parameter."""
+    def method(name: str, kind: str, tuned: float, medians: list[float | None]) -> dict[str, Any]:
+        curve = [{"position": 2.0**k, "relative": {"q1": middle and 0.9 * middle, "median": middle, "q3": middle and 1.5 * middle}}
+                 for k, middle in enumerate(medians)]
+        return {"method": name, "axis": {"kind": kind}, "tuned": {"position": tuned}, "curve": curve,
+                "tolerance_octaves": {"median": 1.25}}
+    return {"kind": "tuning", "cases": [{}] * 12, "methods": [
+        method("polylidar", "spacings", 2, [3, 1.1, 2, 30]), method("spatialite", "own", 4, [None, 2, 1.2, 1.5]),
+        {"method": "convex_hull", "axis": None, "tuned": None, "curve": [], "tolerance_octaves": None}]}
+
+
 def suite() -> dict[str, dict[str, Any]]:
     """The reports by experiment. postgis_legacy is not installed, hull_js times out at 8000 points."""
     states = [run(*series, dataset, n, holes) for dataset in ("ca", "hi") for holes in (False, True) for n in SIZES
@@ -117,6 +141,9 @@ def write_suite(folder: Path, reports: dict[str, dict[str, Any]] | None = None) 
     folder.mkdir(parents=True, exist_ok=True)
     (folder / "suite.json").write_text(json.dumps({"schema_version": 1, "plans": list(reports)}), encoding="utf-8")
     (folder / "core.json").write_text(json.dumps(core()), encoding="utf-8")
+    (folder / "league.json").write_text(json.dumps(league()), encoding="utf-8")
+    with lzma.open(folder / "tune.json.xz", "wt", encoding="utf-8") as file:
+        json.dump(tune(), file)
     for name, document in reports.items():
         (folder / name).mkdir()
         (folder / name / "report.json").write_text(json.dumps(document), encoding="utf-8")

@@ -27,7 +27,9 @@ from matplotlib.text import Text  # noqa: E402
 
 import make_figures  # noqa: E402
 import maps  # noqa: E402
-from figures import alphabet, core, examples, hulls, random_polygons, rgbd, shapes, states, steps, summary  # noqa: E402
+from figures import (  # noqa: E402
+    alphabet, core, examples, hulls, profiles, random_polygons, rgbd, sensitivity, shapes, states, steps, summary,
+)
 from records import load  # noqa: E402
 from run import Drawn, Run, read_paper  # noqa: E402
 from style import in_order, method_style  # noqa: E402
@@ -143,6 +145,23 @@ class Data(WithSuite):
         first = axes.containers[0].lines[0]
         self.assertEqual(list(first.get_ydata()), [one.a_point for one in curves["concave_hull"]])
 
+    def test_profiles_are_those_of_the_league(self) -> None:
+        figure = self.draw(profiles)["profiles"].figure
+        groups = [one for group in ("blind", "informed") for one in plot_samples.league()["profiles"] if one["group"] == group]
+        self.assertEqual([axes.get_title(loc="left")[4:].split(":")[0] for axes in figure.axes], ["blind", "informed"])
+        for axes, group in zip(figure.axes, groups):
+            shares = {tuple(line.get_ydata()) for line in axes.get_lines()}
+            self.assertEqual(shares, {tuple(100 * share for share in one["shares"]) for one in group["curves"]})
+            self.assertEqual({tuple(line.get_xdata()) for line in axes.get_lines()}, {(1, 2, 10)})
+
+    def test_sensitivity_is_that_of_the_search(self) -> None:
+        lengths, octaves = self.draw(sensitivity)["sensitivity"].figure.axes
+        self.assertEqual([(list(line.get_xdata()), list(line.get_ydata())) for line in lengths.get_lines()],
+                         [([1, 2, 4], [3, 1.1, 2])])  # an error above the axis is left out, and so is a failure
+        self.assertEqual([(list(line.get_xdata()), list(line.get_ydata())) for line in octaves.get_lines()],
+                         [([0.5, 1, 2], [3, 1.1, 2]), ([0.5, 1, 2], [2, 1.2, 1.5])])
+        self.assertEqual([text.get_text() for text in octaves.get_legend().get_texts()], ["Polylidar, 1.2", "SpatiaLite, 1.2"])
+
     def test_summary_shows_every_result_of_one_case(self) -> None:
         figure = self.draw(summary)["summary"].figure
         lines = lines_by_label(figure.axes[1])
@@ -210,10 +229,23 @@ class Honesty(WithSuite):
         for row in reports["steps"]["summary"]["rows"]:
             row.update(status="crash", time=None)
         folder = plot_samples.write_suite(self.base / "failed", reports)
-        (folder / "core.json").unlink()
+        for name in ("core.json", "league.json", "tune.json.xz"):
+            (folder / name).unlink()
         code, _, err = self._run(folder)
         self.assertEqual(code, 6)
         self.assertEqual(len(err.splitlines()), 1)
+
+    def test_a_broken_league_or_tuning_is_an_error(self) -> None:
+        folder = plot_samples.write_suite(self.base / "broken_league", {"steps": plot_samples.suite()["steps"]})
+        for name, figure in (("league.json", "profiles"), ("tune.json", "sensitivity"), ("tune.json.xz", "sensitivity")):
+            for text in ("{", "{}", "[]", '{"profiles": [{}], "methods": [{}]}'):
+                (folder / name).write_text(text, encoding="utf-8")
+                code, _, err = self._run(folder, "--only", figure)
+                self.assertEqual((code, len(err.splitlines())), (2, 1), err)
+            (folder / name).unlink()
+        code, out, _ = self._run(folder, "--only", "profiles")
+        self.assertEqual(code, 6)
+        self.assertIn("profiles: skipped", out)
 
     def test_a_broken_core_json_is_an_error(self) -> None:
         folder = plot_samples.write_suite(self.base / "broken", {"steps": plot_samples.suite()["steps"]})
@@ -283,8 +315,8 @@ class Files(WithSuite):
             made.append({path.name: path.read_bytes() for path in sorted(out.iterdir())})
         self.assertEqual(list(made[0]), list(made[1]))
         self.assertEqual([name for name in made[0] if made[0][name] != made[1][name]], [])
-        names = ["alphabet", "convex_and_concave", "convexity", "core", "hulls_ca", "hulls_hi", "random_polygons", "rgbd",
-                 "shapes", "states_ca", "states_hi", "steps", "summary"]
+        names = ["alphabet", "convex_and_concave", "convexity", "core", "hulls_ca", "hulls_hi", "profiles",
+                 "random_polygons", "rgbd", "sensitivity", "shapes", "states_ca", "states_hi", "steps", "summary"]
         self.assertEqual(set(made[0]), {"figures.md", *(f"{name}.{kind}" for name in names for kind in ("svg", "pdf", "png"))})
         listed = made[0]["figures.md"].decode()
         for name in names:

@@ -100,6 +100,24 @@ TEST(League, HolesCountWhereTheGroundTruthHasSome) {
   EXPECT_EQ(entry(league, "good", "auto").hole_f1->cases, 1U);
   EXPECT_EQ(entry(league, "good", "auto").hole_f1->median, 0.7);
   EXPECT_EQ(entry(league, "bad", "auto").hole_f1->median, 0) << "a failure finds no hole";
+  EXPECT_EQ(entry(league, "bad", "auto").hole_f1_mean->mean, 0);
+  EXPECT_FALSE(entry(league, "bad", "auto").hole_f1_mean->interval) << "of one shape";
+}
+
+TEST(League, TheMeanOfHolesIsOverCasesWithAnIntervalByShape) {
+  const auto with_f1 = [](const std::string& shape, double f1) {
+    json one = row("good", "auto", shape, 0.1);
+    one["metrics"].update({{"holes", 2}, {"holes_error", 0}, {"hole_f1", f1}});
+    return one;
+  };
+  const League league = league_of({with_f1("a", 0), with_f1("b", 1), with_f1("c", 0.5)});
+  const LeagueEntry& good = entry(league, "good", "auto");
+  ASSERT_TRUE(good.hole_f1_mean && good.hole_f1_mean->interval);
+  EXPECT_EQ(good.hole_f1_mean->cases, 3U);
+  EXPECT_NEAR(good.hole_f1_mean->mean, 0.5, 1e-12);
+  // The standard error of 0, 1, 0.5 is 0.5 / sqrt(3).
+  EXPECT_NEAR(good.hole_f1_mean->interval->high, 0.5 + 1.95996 * 0.5 / std::sqrt(3.0), 1e-4);
+  EXPECT_NEAR(good.hole_f1_mean->interval->low, 0.5 - 1.95996 * 0.5 / std::sqrt(3.0), 1e-4);
 }
 
 TEST(League, DegenerateInputIsCountedApart) {

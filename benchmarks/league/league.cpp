@@ -125,6 +125,16 @@ class Samples {
     if (value) values_[shape].push_back(*value);
   }
   std::optional<MedianScore> score() const { return median_score(values_); }
+  std::optional<MeanScore> mean_score() const {
+    std::vector<double> all;
+    std::vector<std::vector<double>> clusters;
+    for (const auto& [shape, values] : values_) {
+      all.insert(all.end(), values.begin(), values.end());
+      clusters.push_back(values);
+    }
+    if (all.empty()) return std::nullopt;
+    return MeanScore{all.size(), mean(all), clustered_mean_interval(clusters)};
+  }
 
  private:
   std::map<std::string, std::vector<double>> values_;
@@ -178,6 +188,7 @@ LeagueEntry make_entry(const Field& field, const Entrant& entrant, const RowsByC
   entry.l2 = l2.score();
   entry.skill = skill.score();
   entry.hole_f1 = hole_f1.score();
+  entry.hole_f1_mean = hole_f1.mean_score();
   entry.regret = regret.score();
   return entry;
 }

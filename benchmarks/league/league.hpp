@@ -22,6 +22,13 @@ struct MedianScore {
   std::optional<Interval> interval;  ///< by base shape (bootstrap.hpp); an end may be infinite
 };
 
+/// A mean over cases, and how well it is known.
+struct MeanScore {
+  std::size_t cases = 0;
+  double mean = 0;
+  std::optional<Interval> interval;  ///< by base shape (statistics.hpp)
+};
+
 /// A method under one protocol.
 struct LeagueEntry {
   std::string method;
@@ -37,6 +44,8 @@ struct LeagueEntry {
   std::optional<MedianScore> l2;       ///< of all cases
   std::optional<MedianScore> skill;    ///< of the cases on which it is defined
   std::optional<MedianScore> hole_f1;  ///< of the cases whose ground truth has holes; a failure has 0
+  /// The same cases' mean: most cases have 0 or 1, of which a median says little.
+  std::optional<MeanScore> hole_f1_mean;
   /// l2 minus the same method's under the protocol `oracle`, of the cases on which that has a result; none
   /// where it was not measured.
   std::optional<MedianScore> regret;

@@ -30,6 +30,12 @@ void add_score(json& entry, const std::string& name, const std::optional<MedianS
   entry[name + "_cases"] = score ? score->cases : 0;
 }
 
+void add_mean(json& entry, const std::string& name, const std::optional<MeanScore>& score) {
+  entry[name + "_mean"] = score ? json(score->mean) : json(nullptr);
+  entry[name + "_mean_interval"] =
+      score && score->interval ? json::array({score->interval->low, score->interval->high}) : json(nullptr);
+}
+
 /// The titles of the methods in the reports.
 std::map<std::string, std::string> titles_of(const std::vector<json>& reports) {
   std::map<std::string, std::string> titles;
@@ -52,6 +58,7 @@ json entry_to_json(const LeagueEntry& entry, const std::map<std::string, std::st
                  {"unscored_failures", entry.unscored_failures}};
   add_score(result, "l2", entry.l2);
   add_score(result, "hole_f1", entry.hole_f1);
+  add_mean(result, "hole_f1", entry.hole_f1_mean);
   add_score(result, "skill", entry.skill);
   add_score(result, "regret", entry.regret);
   return result;
@@ -83,6 +90,17 @@ std::string cell(const json& entry, const std::string& name, double scale, int d
   return text(median, "") + " (" + text(interval[0], "failed") + " to " + text(interval[1], "failed") + ")";
 }
 
+/// "0.61 (0.52 to 0.70)".
+std::string mean_cell(const json& entry, const std::string& name) {
+  const json& mean = entry.at(name + "_mean");
+  if (mean.is_null()) return kDash;
+  const json& interval = entry.at(name + "_mean_interval");
+  const std::string text = fixed(mean.get<double>(), 2);
+  if (interval.is_null()) return text;
+  return text + " (" + fixed(interval[0].get<double>(), 2) + " to " + fixed(interval[1].get<double>(), 2) +
+         ")";
+}
+
 std::string failures_cell(const json& entry) {
   const auto count = [&](const char* name) { return entry.at(name).get<std::size_t>(); };
   std::string text = std::to_string(count("failures"));
@@ -102,12 +120,12 @@ const std::map<std::string, std::string>& protocol_titles() {
 
 TableSection league_table(const json& league, const std::string& protocol) {
   TextTable table(
-      {"Method", "Cases", "Failures", "L2 median, %", "Skill median", "Hole F1 median", "Regret median, %"});
+      {"Method", "Cases", "Failures", "L2 median, %", "Skill median", "Hole F1 mean", "Regret median, %"});
   for (const json& entry : league.at("methods")) {
     if (entry.at("protocol") != protocol) continue;
     table.add_row({entry.at("title").get<std::string>(), std::to_string(entry.at("cases").get<std::size_t>()),
                    failures_cell(entry), cell(entry, "l2", 100, 2), cell(entry, "skill", 1, 2),
-                   cell(entry, "hole_f1", 1, 2), cell(entry, "regret", 100, 2)});
+                   mean_cell(entry, "hole_f1"), cell(entry, "regret", 100, 2)});
   }
   return {"league_" + protocol,
           "Protocol " + protocol + ": " + protocol_titles().at(protocol),
@@ -209,7 +227,9 @@ Document league_document(const json& league) {
       "infinitely bad and has no holes.",
       "Skill: 0 is the convex hull, 1 are the Delaunay triangles whose centroid lies in the ground truth. "
       "Hole F1 is "
-      "of the cases whose ground truth has holes. A second number of failures is of degenerate "
+      "of the cases whose ground truth has holes, of which most find all or none: hence a mean, with a 95 % "
+      "interval "
+      "by shape. A second number of failures is of degenerate "
       "input."};
   if (!league.at("not_installed").empty())
     document.notes.push_back("Not installed, and so in no table: " +

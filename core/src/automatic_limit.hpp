@@ -35,7 +35,7 @@ namespace polylidar::detail {
 class AutomaticLimit {
  public:
   /// About so many triangles are looked at, at most twice as many, spread evenly over the mesh.
-  static constexpr std::size_t kSample = 4096;
+  static constexpr std::size_t kSample = 1900;
 
   /// The limit in the unit of `vertices`, inclusive; infinity when there is no triangle. O(n), and O(kSample)
   /// unless most points repeat others. The same for the same mesh, on any number of threads.

@@ -1,0 +1,94 @@
+"""How much a method's error depends on its parameter: the sensitivity curves of tune.json in the run's folder."""
+
+from __future__ import annotations
+
+import json
+import lzma
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from matplotlib.ticker import NullFormatter
+
+from records import RecordError
+from run import Drawn, Run, Skipped
+from style import FULL_WIDTH, in_order, label, method_style, new_figure, number, panel_letter
+
+FILES = ("tune.json", "tune.json.xz")
+_WORST = 10.0  # of the error's axis, in errors of the oracle
+
+
+def draw(run: Run) -> Iterator[Drawn]:
+    path = next((run.folder / name for name in FILES if (run.folder / name).is_file()), None)
+    if path is None:
+        raise Skipped(f"{run.folder / FILES[0]} is not there ('make evaluate' writes it)")
+    try:
+        tuning = read(path)
+        methods = [one for one in tuning["methods"] if one["tuned"] and len(one["curve"]) > 1]
+        if not methods:
+            raise Skipped(f"{path} has no method with a parameter to search")
+        figure = _figure(methods)
+    except (OSError, ValueError, KeyError, TypeError, lzma.LZMAError) as error:
+        raise RecordError(f"{path} is not what 'hullbench tune' writes ({error!r}); make it again.") from error
+    cases = len(tuning["cases"])
+    caption = (
+        "Sensitivity: L2 error against the method's parameter, as a multiple of the error that the method has with the "
+        f"best parameter of each case; medians over {cases} cases, the bands hold the middle half. (a) parameters that "
+        "are lengths, in spacings h (the square root of the area of the points' convex hull over their number), one axis "
+        "for all of them; (b) any parameter, in octaves from the one that is best on the training shapes. The wider the "
+        "valley, the less the choice matters; the number is the tolerance, over how many octaves the error stays within "
+        f"10 % of its best (median). What is above {_WORST:g} or fails is not shown."
+    )
+    yield Drawn("sensitivity", figure, caption)
+
+
+def read(path: Path) -> dict[str, Any]:
+    if path.suffix == ".xz":
+        with lzma.open(path, "rt", encoding="utf-8") as file:
+            return json.load(file)
+    return json.loads(path.read_text(encoding="utf-8"))
+
+
+def _figure(methods: list[dict[str, Any]]) -> Figure:
+    lengths = [one for one in methods if one["axis"]["kind"] == "spacings"]
+    panels = ([(lengths, False)] if lengths else []) + [(methods, True)]
+    figure = new_figure(FULL_WIDTH, 82)
+    for k, (shown, octaves) in enumerate(panels):
+        axes = figure.add_subplot(1, len(panels), k + 1)
+        _panel(axes, shown, octaves)
+        letter = "ab"[k] if len(panels) > 1 else ""
+        panel_letter(axes, letter, "any parameter" if octaves else "lengths, in spacings")
+        axes.set_xlabel("Parameter over the tuned one" if octaves else "Parameter (spacings h)")
+    figure.axes[0].set_ylabel("L2 error over the method's best")
+    return figure
+
+
+def _panel(axes: Axes, methods: list[dict[str, Any]], octaves: bool) -> None:
+    by_series = {(one["method"], "tuned"): one for one in methods}
+    for series in in_order(by_series):
+        one = by_series[series]
+        look = method_style(series[0])
+        unit = one["tuned"]["position"] if octaves else 1
+        curve = [point for point in one["curve"] if (point["relative"]["median"] or 2 * _WORST) <= _WORST]
+        x = [point["position"] / unit for point in curve]
+        tolerance = one["tolerance_octaves"]
+        title = label(series, by_series) + (f", {tolerance['median']:.1f}" if octaves and tolerance else "")
+        axes.plot(x, [point["relative"]["median"] for point in curve], color=look.color, linestyle=look.line,
+                  linewidth=max(look.width, 1.1), marker=look.marker, markersize=3, markerfacecolor="white",
+                  markeredgewidth=0.8, zorder=4 + 1 / look.order, label=title)
+        low = [point["relative"]["q1"] for point in curve]
+        high = [min(point["relative"]["q3"] or _WORST, _WORST) for point in curve]
+        if not octaves:
+            axes.fill_between(x, low, high, color=look.color, alpha=0.1, linewidth=0)
+    axes.set_xscale("log", base=2)
+    axes.set_yscale("log")
+    axes.set_ylim(0.97, _WORST)
+    axes.set_yticks([1, 1.5, 2, 3, 5, 10])
+    axes.yaxis.set_major_formatter(number)
+    axes.yaxis.set_minor_formatter(NullFormatter())
+    axes.xaxis.set_major_formatter(number)
+    if octaves:
+        axes.set_xlim(1 / 8, 8)
+    axes.legend(loc="upper center" if octaves else "upper right", ncol=2, handlelength=2.4, columnspacing=1.2)
