@@ -116,8 +116,8 @@ evaluate: ## the parameters' search over all stress suites and the league, on al
 reference: ## keep results/latest as the reference run, draw it, and write its tables into the README
 	@$(call install,build test)
 	@$(MAKE) build
+	@$(MAKE) figures report RUN=results/latest
 	@results/keep_reference.sh results/latest
-	@$(MAKE) figures report RUN=results/reference
 	@build/hullbench readme results/reference README.md
 
 # The paper's methods up to 8000 points, the others at 2000.

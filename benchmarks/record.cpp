@@ -99,7 +99,6 @@ void from_json(const json& source, RunRecord& record) {
     throw std::invalid_argument("A record has schema version " + std::to_string(version) +
                                 ", this program reads " + std::to_string(kSchemaVersion) + ".");
   }
-  source.at("id").get_to(record.id);
   source.at("name").get_to(record.name);
   source.at("method").get_to(record.method);
   source.at("method_version").get_to(record.method_version);
@@ -122,6 +121,7 @@ void from_json(const json& source, RunRecord& record) {
   record.flags = source.value("flags", std::vector<std::string>());
   record.base_shape = source.value("base_shape", std::string());
   record.levels = source.value("levels", std::map<std::string, double>());
+  record.id = source.contains("id") ? source.at("id").get<std::string>() : run_identity(record);
 }
 
 std::string run_name(const RunRecord& record) {

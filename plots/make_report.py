@@ -16,12 +16,19 @@ from pathlib import Path
 from typing import Any
 
 from page import PLOTS, code, colours, data, fill, method_styles
+from pictures import BUDGET_BYTES
 from pictures import pack as pack_pictures
 from records import EXIT_CONFIGURATION, Experiment, RecordError, load
 from report_common import PROTOCOLS, entrants_of, label, text
 from report_data import charts, columns, metric_entry, metric_names, pack
 from report_html import environment_html, notes_html, paper_html, parameters_html, summary_html, tables_html
 from report_summary import measure_noise, summarise
+
+# Of a report that can be sent and opened at once. What the rows take of it is not there for pictures, which give way, but
+# not below a fifth of it.
+MOST_BYTES = 5 * 2**20
+# Of the page for what the pictures' section is written into, and for what changes with them.
+_RESERVE_BYTES = 2**14
 
 # In the order in which they are put together; each may use those before it.
 SCRIPTS = (
@@ -71,7 +78,10 @@ def main(arguments: Sequence[str] | None = None) -> int:
 def make_page(experiments: Sequence[Experiment], folder: Path) -> str:
     """The whole page. Raises RecordError when the records are malformed or the charting library is missing."""
     try:
-        return fill("template.html", _template_values(experiments, folder))
+        values = _template_values(experiments, folder)
+        others = len(fill("template.html", {**values, "pictures": ""}).encode())
+        room = min(BUDGET_BYTES, max(MOST_BYTES - _RESERVE_BYTES - others, MOST_BYTES // 5))
+        return fill("template.html", {**values, "pictures": data("pictures", pack_pictures(experiments, room))})
     except (KeyError, TypeError, AttributeError, ValueError) as error:
         raise RecordError(
             f"the records in {folder} are not as results/report.schema.json says "
@@ -80,10 +90,11 @@ def make_page(experiments: Sequence[Experiment], folder: Path) -> str:
 
 
 def _template_values(experiments: Sequence[Experiment], folder: Path) -> dict[str, str]:
+    """All but the pictures."""
     summaries = [summarise(experiment) for experiment in experiments]
     noise = measure_noise(experiments)
     title = "Concave hulls: " + (experiments[0].title if len(experiments) == 1 else "the whole suite")
-    report, pictures = _report(experiments, folder, title), pack_pictures(experiments)
+    report = _report(experiments, folder, title)
     return {
         **code(STYLES, SCRIPTS),
         "title": text(title),
@@ -98,7 +109,6 @@ def _template_values(experiments: Sequence[Experiment], folder: Path) -> dict[st
         "report": data("report", report),
         "charts": data("charts", pack(charts(experiments))),
         "rows": data("rows", pack(columns(experiments))),
-        "pictures": data("pictures", pictures),
     }
 
 

@@ -10,6 +10,10 @@ if [ ! -f "$run/suite.json" ] || [ ! -f "$run/tables.md" ]; then
   echo "error: $run is not a finished 'make bench'; run that first." >&2
   exit 2
 fi
+if [ ! -f "$run/report.html" ] || [ ! -f "$run/figures/summary.png" ]; then
+  echo "error: $run is not drawn; 'make figures report RUN=$run' does it, and so does 'make reference'." >&2
+  exit 2
+fi
 
 first=$(sed -n 's/^ *"created": "\([^"]*\)".*/\1/p' "$run/suite.json" | head -n 1)
 machine=$(grep -h -m 1 -o '"machine_id": "[0-9a-f]*"' "$run"/*/run.json | head -n 1 | cut -d '"' -f 4)
@@ -25,11 +29,17 @@ for description in "$run"/*/run.json; do
   experiment=$(basename "$(dirname "$description")")
   mkdir "$kept/$experiment"
   cp "$description" "$kept/$experiment"
-  for records in runs pictures; do
-    [ ! -f "$run/$experiment/$records.jsonl" ] ||
-      xz -9e --stdout "$run/$experiment/$records.jsonl" >"$kept/$experiment/$records.jsonl.xz"
-  done
+  records=$run/$experiment/runs.jsonl
+  if [ "$(wc -l <"$records")" -gt 1000 ]; then
+    /usr/bin/python3 results/thin_records.py <"$records"
+  else
+    cat "$records"
+  fi | xz -9e >"$kept/$experiment/runs.jsonl.xz"
 done
+# What was drawn of the whole run; pictures.jsonl, from which some of it is drawn, is too large to be kept.
+cp "$run/report.html" "$kept"
+mkdir "$kept/figures"
+cp "$run/figures/summary.png" "$kept/figures"
 # The league and the search belong to no run of the suite; of an evaluation that was finished they are kept beside it.
 [ ! -f results/evaluation/league.json ] || cp results/evaluation/league.json "$kept"
 [ ! -f results/evaluation/tune/tune.json ] || xz -9e --stdout results/evaluation/tune/tune.json >"$kept/tune.json.xz"
