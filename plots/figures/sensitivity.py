@@ -30,7 +30,7 @@ def draw(run: Run) -> Iterator[Drawn]:
         if not methods:
             raise Skipped(f"{path} has no method with a parameter to search")
         figure = _figure(methods)
-    except (OSError, ValueError, KeyError, TypeError, lzma.LZMAError) as error:
+    except (OSError, EOFError, ValueError, KeyError, TypeError, lzma.LZMAError) as error:
         raise RecordError(f"{path} is not what 'hullbench tune' writes ({error!r}); make it again.") from error
     cases = len(tuning["cases"])
     caption = (
