@@ -16,7 +16,6 @@ from pathlib import Path
 from typing import Any
 
 from page import PLOTS, code, colours, data, fill, method_styles
-from pictures import BUDGET_BYTES
 from pictures import pack as pack_pictures
 from records import EXIT_CONFIGURATION, Experiment, RecordError, load
 from report_common import PROTOCOLS, entrants_of, label, text
@@ -80,7 +79,7 @@ def make_page(experiments: Sequence[Experiment], folder: Path) -> str:
     try:
         values = _template_values(experiments, folder)
         others = len(fill("template.html", {**values, "pictures": ""}).encode())
-        room = min(BUDGET_BYTES, max(MOST_BYTES - _RESERVE_BYTES - others, MOST_BYTES // 5))
+        room = max(MOST_BYTES - _RESERVE_BYTES - others, MOST_BYTES // 5)
         return fill("template.html", {**values, "pictures": data("pictures", pack_pictures(experiments, room))})
     except (KeyError, TypeError, AttributeError, ValueError) as error:
         raise RecordError(

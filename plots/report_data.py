@@ -93,6 +93,14 @@ NO_COLUMN = ("witness", "valid", "invalid_reason")
 # one less. A table shows four of the errors and three of the times.
 MAIN_COLUMNS = {"time", "time_low", "time_high", "paper_time", "metric l2", "metric l2_paper", "metric iou"}
 LARGE_RUN = 5000
+# What the rows of an experiment with more runs than that have: all metrics of tens of thousands of rows would leave no room
+# for pictures.
+BRIEF_METRICS = ("l2", "l2_paper", "iou", "hausdorff", "hole_f1", "skill")
+
+
+def is_brief(experiment: Experiment) -> bool:
+    return len(experiment.rows) > LARGE_RUN
+
 
 
 def pack(value: Any) -> dict[str, Any]:
@@ -166,7 +174,10 @@ def columns(experiments: Sequence[Experiment]) -> dict[str, Any]:
         for name, value in _times(row).items():
             numbers[name].append(value)
     for name in metric_names([row for _, _, row in rows]):
-        numbers[f"metric {name}"] = [row.metrics.get(name) for _, _, row in rows]
+        numbers[f"metric {name}"] = [
+            row.metrics.get(name) if name in BRIEF_METRICS or not is_brief(experiment) else None
+            for _, experiment, row in rows
+        ]
     for name in sorted({name for _, _, row in rows for name in row.raw["parameters"]}):
         made[f"parameter {name}"] = {"values": [_parameter(row, name, digits) for _, _, row in rows]}
     for name, values in numbers.items():

@@ -8,6 +8,7 @@ from typing import Any
 
 from records import Experiment
 from report_common import PROTOCOLS, STATUS_WORDS, Entrant, count_of, entrants_of, label, number, text
+from report_data import BRIEF_METRICS, is_brief, metric_entry
 from report_summary import (
     Noise,
     Ratio,
@@ -436,6 +437,9 @@ def notes_html(experiments: Sequence[Experiment]) -> str:
             if entry.get("note"):
                 name = label(experiments, Entrant(entry.get("method", ""), entry.get("protocol", "")))
                 said[f"{name}: {entry['note']}"] = None
+    for experiment in filter(is_brief, experiments):
+        titles = ", ".join(metric_entry(name)["title"] for name in BRIEF_METRICS)
+        said[f"{experiment.title}: of its {len(experiment.rows)} runs this page has these metrics: {titles}. All are in its records."] = None
     items = "".join(f"<li>{text(note)}</li>" for note in said)
     notes = f"<ul class='notes'>{items}</ul>" if items else "<p>The records have no notes.</p>"
     datasets = {name: dataset for experiment in experiments for name, dataset in experiment.datasets.items()}

@@ -12,15 +12,18 @@ import statistics
 import sys
 import tempfile
 import unittest
+import unittest.mock
 from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parent.parent / "plots"))
 
 import make_report
 import page
+import report_data
 from records import load
 from report_common import median_interval, number
 from report_data import charts, columns, pack
+from report_html import notes_html
 from report_summary import (
     accurate_sentence,
     failure_sentences,
@@ -248,6 +251,39 @@ class Packing(Folder):
     def test_numbers_that_are_not_finite_stay_out(self):
         made = columns(self.load(run(l2=float("nan")), run(n=4000)))["columns"]
         self.assertEqual(made["metric l2"]["values"], [None, 0.1])
+
+
+class VeryLongExperiments(Folder):
+    ROWS = [run(n=n, commission=0.05, skill=0.9) for n in (1000, 2000, 4000)]
+
+    def test_they_have_the_main_metrics_only_and_the_notes_say_so(self):
+        experiments = self.load(*self.ROWS)
+        self.assertEqual(columns(experiments)["columns"]["metric commission"]["values"], [0.05] * 3)
+        self.assertNotIn("this page has these metrics", notes_html(experiments))
+        with unittest.mock.patch.object(report_data, "LARGE_RUN", 2):
+            made = columns(experiments)["columns"]
+            self.assertEqual(made["metric skill"]["values"], [0.9] * 3)
+            self.assertEqual(made["metric commission"]["values"], [None] * 3)
+            self.assertIn("of its 3 runs this page has these metrics: ", notes_html(experiments))
+
+
+class TheSize(Folder):
+    def test_pictures_have_the_room_that_the_rest_leaves(self):
+        experiments = self.load(run())
+        rooms = []
+
+        def of_that_size(_, room):
+            rooms.append(room)
+            return "x" * room
+
+        with unittest.mock.patch.object(make_report, "pack_pictures", of_that_size):
+            made = len(make_report.make_page(experiments, self.folder).encode())
+            self.assertLess(made, make_report.MOST_BYTES)
+            self.assertGreater(made, 0.99 * make_report.MOST_BYTES)
+            # Where the rest takes all of it, they have a fifth all the same.
+            with unittest.mock.patch.object(make_report, "MOST_BYTES", 500_000):
+                make_report.make_page(experiments, self.folder)
+        self.assertEqual(rooms[1], 100_000)
 
 
 class Charts(Folder):
