@@ -155,12 +155,13 @@ class Data(WithSuite):
             self.assertEqual({tuple(line.get_xdata()) for line in axes.get_lines()}, {(1, 2, 10)})
 
     def test_sensitivity_is_that_of_the_search(self) -> None:
-        lengths, octaves = self.draw(sensitivity)["sensitivity"].figure.axes
+        lengths, octaves, below = self.draw(sensitivity)["sensitivity"].figure.axes
         self.assertEqual([(list(line.get_xdata()), list(line.get_ydata())) for line in lengths.get_lines()],
                          [([1, 2, 4], [3, 1.1, 2])])  # an error above the axis is left out, and so is a failure
         self.assertEqual([(list(line.get_xdata()), list(line.get_ydata())) for line in octaves.get_lines()],
                          [([0.5, 1, 2], [3, 1.1, 2]), ([0.5, 1, 2], [2, 1.2, 1.5])])
-        self.assertEqual([text.get_text() for text in octaves.get_legend().get_texts()], ["Polylidar, 1.2", "SpatiaLite, 1.2"])
+        self.assertEqual([text.get_text() for text in below.get_legend().get_texts()],
+                         ["Polylidar, 1.2 octaves", "SpatiaLite, 1.2 octaves"])
 
     def test_summary_shows_every_result_of_one_case(self) -> None:
         figure = self.draw(summary)["summary"].figure

@@ -38,8 +38,8 @@ def draw(run: Run) -> Iterator[Drawn]:
         f"best parameter of each case; medians over {cases} cases, the bands hold the middle half. (a) parameters that "
         "are lengths, in spacings h (the square root of the area of the points' convex hull over their number), one axis "
         "for all of them; (b) any parameter, in octaves from the one that is best on the training shapes. The wider the "
-        "valley, the less the choice matters; the number is the tolerance, over how many octaves the error stays within "
-        f"10 % of its best (median). What is above {_WORST:g} or fails is not shown."
+        "valley, the less the choice matters; the octaves beside the names are the tolerance, the width in which the error "
+        f"stays within 10 % of its best (median). What is above {_WORST:g} or fails is not shown."
     )
     yield Drawn("sensitivity", figure, caption)
 
@@ -54,14 +54,19 @@ def read(path: Path) -> dict[str, Any]:
 def _figure(methods: list[dict[str, Any]]) -> Figure:
     lengths = [one for one in methods if one["axis"]["kind"] == "spacings"]
     panels = ([(lengths, False)] if lengths else []) + [(methods, True)]
-    figure = new_figure(FULL_WIDTH, 82)
+    figure = new_figure(FULL_WIDTH, 90)
+    grid = figure.add_gridspec(2, len(panels), height_ratios=[78, 12])
     for k, (shown, octaves) in enumerate(panels):
-        axes = figure.add_subplot(1, len(panels), k + 1)
+        axes = figure.add_subplot(grid[0, k])
         _panel(axes, shown, octaves)
         letter = "ab"[k] if len(panels) > 1 else ""
         panel_letter(axes, letter, "any parameter" if octaves else "lengths, in spacings")
         axes.set_xlabel("Parameter over the tuned one" if octaves else "Parameter (spacings h)")
     figure.axes[0].set_ylabel("L2 error over the method's best")
+    handles, titles = figure.axes[-1].get_legend_handles_labels()
+    below = figure.add_subplot(grid[1, :])
+    below.axis("off")
+    below.legend(handles, titles, loc="center", ncol=4, handlelength=2.8, columnspacing=1.6, borderaxespad=0)
     return figure
 
 
@@ -74,7 +79,7 @@ def _panel(axes: Axes, methods: list[dict[str, Any]], octaves: bool) -> None:
         curve = [point for point in one["curve"] if (point["relative"]["median"] or 2 * _WORST) <= _WORST]
         x = [point["position"] / unit for point in curve]
         tolerance = one["tolerance_octaves"]
-        title = label(series, by_series) + (f", {tolerance['median']:.1f}" if octaves and tolerance else "")
+        title = label(series, by_series) + (f", {tolerance['median']:.1f} octaves" if tolerance else "")
         axes.plot(x, [point["relative"]["median"] for point in curve], color=look.color, linestyle=look.line,
                   linewidth=max(look.width, 1.1), marker=look.marker, markersize=3, markerfacecolor="white",
                   markeredgewidth=0.8, zorder=4 + 1 / look.order, label=title)
@@ -91,4 +96,3 @@ def _panel(axes: Axes, methods: list[dict[str, Any]], octaves: bool) -> None:
     axes.xaxis.set_major_formatter(number)
     if octaves:
         axes.set_xlim(1 / 8, 8)
-    axes.legend(loc="upper center" if octaves else "upper right", ncol=2, handlelength=2.4, columnspacing=1.2)
