@@ -111,9 +111,18 @@ TEST(Record, EveryFieldIsRequired) {
   for (const auto& [key, value] : whole.items()) {
     json without = whole;
     without.erase(key);
-    if (key == "machine" || key == "flags") continue;  // see below
+    if (key == "machine" || key == "flags" || key == "id") continue;  // see below
     EXPECT_ANY_THROW(without.get<RunRecord>()) << key;
   }
+}
+
+TEST(Record, AnIdentityThatIsLeftOutIsWorkedOut) {
+  json without = test::invented_record();
+  without.erase("id");
+  const auto record = without.get<RunRecord>();
+  EXPECT_EQ(record.id, run_identity(record));
+  without["n"] = without["n"].get<std::size_t>() + 1;
+  EXPECT_NE(without.get<RunRecord>().id, record.id);
 }
 
 TEST(Record, OlderOnesHaveNeitherMachineNorFlags) {
