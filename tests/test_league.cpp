@@ -110,14 +110,17 @@ TEST(League, TheMeanOfHolesIsOverCasesWithAnIntervalByShape) {
     one["metrics"].update({{"holes", 2}, {"holes_error", 0}, {"hole_f1", f1}});
     return one;
   };
-  const League league = league_of({with_f1("a", 0), with_f1("b", 1), with_f1("c", 0.5)});
+  const League league = league_of({with_f1("a", 0.4), with_f1("b", 0.6), with_f1("c", 0.5)});
   const LeagueEntry& good = entry(league, "good", "auto");
   ASSERT_TRUE(good.hole_f1_mean && good.hole_f1_mean->interval);
   EXPECT_EQ(good.hole_f1_mean->cases, 3U);
   EXPECT_NEAR(good.hole_f1_mean->mean, 0.5, 1e-12);
-  // The standard error of 0, 1, 0.5 is 0.5 / sqrt(3).
-  EXPECT_NEAR(good.hole_f1_mean->interval->high, 0.5 + 1.95996 * 0.5 / std::sqrt(3.0), 1e-4);
-  EXPECT_NEAR(good.hole_f1_mean->interval->low, 0.5 - 1.95996 * 0.5 / std::sqrt(3.0), 1e-4);
+  // The standard error of 0.4, 0.6, 0.5 is 0.1 / sqrt(3).
+  EXPECT_NEAR(good.hole_f1_mean->interval->high, 0.5 + 1.95996 * 0.1 / std::sqrt(3.0), 1e-4);
+  EXPECT_NEAR(good.hole_f1_mean->interval->low, 0.5 - 1.95996 * 0.1 / std::sqrt(3.0), 1e-4);
+  const League wide = league_of({with_f1("a", 0), with_f1("b", 1)});
+  EXPECT_EQ(entry(wide, "good", "auto").hole_f1_mean->interval->low, 0) << "no F1 is below";
+  EXPECT_EQ(entry(wide, "good", "auto").hole_f1_mean->interval->high, 1);
 }
 
 TEST(League, DegenerateInputIsCountedApart) {

@@ -125,6 +125,7 @@ class Samples {
     if (value) values_[shape].push_back(*value);
   }
   std::optional<MedianScore> score() const { return median_score(values_); }
+  /// Of values from 0 to 1.
   std::optional<MeanScore> mean_score() const {
     std::vector<double> all;
     std::vector<std::vector<double>> clusters;
@@ -133,7 +134,13 @@ class Samples {
       clusters.push_back(values);
     }
     if (all.empty()) return std::nullopt;
-    return MeanScore{all.size(), mean(all), clustered_mean_interval(clusters)};
+    MeanScore score{all.size(), mean(all), clustered_mean_interval(clusters)};
+    // A normal interval can reach beyond what an F1 can be.
+    if (score.interval) {
+      score.interval =
+          Interval{std::clamp(score.interval->low, 0.0, 1.0), std::clamp(score.interval->high, 0.0, 1.0)};
+    }
+    return score;
   }
 
  private:
