@@ -8,6 +8,8 @@
 #include <string>
 #include <vector>
 
+#include "core/src/delaunay_builder.hpp"
+#include "core/src/region.hpp"
 #include "core/src/value_of_rank.hpp"
 #include "polylidar/check.hpp"
 #include "polylidar/concave_hull.hpp"
@@ -92,6 +94,40 @@ TEST(AutomaticLimit, ExtractsWhatGivingItExtracts) {
     const std::vector<Point> points = testing::uniform_points(count, count);
     const Options given{.max_perimeter = chosen_perimeter(points), .fill_single_triangles = true};
     EXPECT_EQ(concave_hull(points, given), concave_hull(points)) << count;
+  }
+}
+
+// A limit is inclusive, and single precision cannot tell a perimeter from it: what is a perimeter in double
+// precision, and its neighbours, are where it would decide wrongly.
+TEST(AutomaticLimit, PerimetersOfSinglePrecisionKeepWhatOthersKeep) {
+  const std::vector<Point> points = testing::uniform_points(300, 36);
+  detail::ThreadPool pool;
+  detail::DelaunayBuilder builder;
+  builder.build(points, pool);
+  detail::Mesh& mesh = builder.mesh();
+  const Point* const vertices = builder.vertices();
+  std::vector<double> limits;
+  std::vector<float> perimeters(mesh.triangle_count(), std::numeric_limits<float>::infinity());
+  for (detail::Mesh::Index t = 0; t < mesh.triangle_count(); ++t) {
+    if (mesh.is_ghost(t)) continue;
+    double perimeter = 0;
+    for (detail::Mesh::Index k = 0; k < 3; ++k) {
+      const Point& from = vertices[mesh.origin(detail::Mesh::kStride * t + k)];
+      const Point& to = vertices[mesh.origin(detail::Mesh::kStride * t + (k + 1) % 3)];
+      perimeter += std::sqrt((to.x - from.x) * (to.x - from.x) + (to.y - from.y) * (to.y - from.y));
+    }
+    perimeters[t] = static_cast<float>(perimeter);
+    for (const double limit : {std::nextafter(perimeter, 0.0), perimeter, std::nextafter(perimeter, 100.0)}) {
+      limits.push_back(limit);
+    }
+  }
+  detail::RegionFilter filter;
+  for (const double limit : limits) {
+    std::vector<detail::Mesh::Index> expected;
+    filter.run(mesh, vertices, {.max_perimeter = limit}, {}, false, pool, expected);
+    std::vector<detail::Mesh::Index> boundary;
+    filter.run(mesh, vertices, {.max_perimeter = limit}, perimeters, false, pool, boundary);
+    ASSERT_EQ(boundary, expected) << limit;
   }
 }
 

@@ -98,21 +98,6 @@ double from_finite(double value) {
   return is_infinitely_bad(-value) ? -kInfinity : value;
 }
 
-/// The median of the values of all shapes; none without a value.
-std::optional<MedianScore> median_score(const std::map<std::string, std::vector<double>>& by_shape) {
-  std::vector<double> all;
-  std::vector<std::vector<double>> clusters;
-  for (const auto& [shape, values] : by_shape) {
-    all.insert(all.end(), values.begin(), values.end());
-    clusters.push_back(values);
-  }
-  if (all.empty()) return std::nullopt;
-  MedianScore score = {all.size(), from_finite(median(all)), clustered_median_interval(clusters)};
-  if (score.interval)
-    score.interval = Interval{from_finite(score.interval->low), from_finite(score.interval->high)};
-  return score;
-}
-
 /// l2 of a row; kInfinitelyBad for a failure.
 double error_of(const json& row) {
   return is_ok(row) ? metric(row, "l2").value_or(kInfinitelyBad) : kInfinitelyBad;
@@ -124,18 +109,19 @@ class Samples {
   void add(const std::string& shape, std::optional<double> value) {
     if (value) values_[shape].push_back(*value);
   }
-  std::optional<MedianScore> score() const { return median_score(values_); }
-  /// Of values from 0 to 1.
+  /// None without a value.
+  std::optional<MedianScore> median_score() const {
+    if (values_.empty()) return std::nullopt;
+    const std::vector<double> values = all();
+    MedianScore score = {values.size(), from_finite(median(values)), clustered_median_interval(by_shape())};
+    if (score.interval)
+      score.interval = Interval{from_finite(score.interval->low), from_finite(score.interval->high)};
+    return score;
+  }
+  /// Of values from 0 to 1, beyond which a normal interval can reach.
   std::optional<MeanScore> mean_score() const {
-    std::vector<double> all;
-    std::vector<std::vector<double>> clusters;
-    for (const auto& [shape, values] : values_) {
-      all.insert(all.end(), values.begin(), values.end());
-      clusters.push_back(values);
-    }
-    if (all.empty()) return std::nullopt;
-    MeanScore score{all.size(), mean(all), clustered_mean_interval(clusters)};
-    // A normal interval can reach beyond what an F1 can be.
+    if (values_.empty()) return std::nullopt;
+    MeanScore score = {mean(all()), clustered_mean_interval(by_shape())};
     if (score.interval) {
       score.interval =
           Interval{std::clamp(score.interval->low, 0.0, 1.0), std::clamp(score.interval->high, 0.0, 1.0)};
@@ -144,6 +130,17 @@ class Samples {
   }
 
  private:
+  std::vector<double> all() const {
+    std::vector<double> result;
+    for (const auto& [shape, values] : values_) result.insert(result.end(), values.begin(), values.end());
+    return result;
+  }
+  std::vector<std::vector<double>> by_shape() const {
+    std::vector<std::vector<double>> result;
+    for (const auto& [shape, values] : values_) result.push_back(values);
+    return result;
+  }
+
   std::map<std::string, std::vector<double>> values_;
 };
 
@@ -192,11 +189,11 @@ LeagueEntry make_entry(const Field& field, const Entrant& entrant, const RowsByC
     hole_f1.add(facts.shape, hole_f1_of(*row, ok, facts));
     regret.add(facts.shape, regret_of(error, name, oracle == field.rows.end() ? nullptr : &oracle->second));
   }
-  entry.l2 = l2.score();
-  entry.skill = skill.score();
-  entry.hole_f1 = hole_f1.score();
+  entry.l2 = l2.median_score();
+  entry.skill = skill.median_score();
+  entry.hole_f1 = hole_f1.median_score();
   entry.hole_f1_mean = hole_f1.mean_score();
-  entry.regret = regret.score();
+  entry.regret = regret.median_score();
   return entry;
 }
 

@@ -24,7 +24,6 @@ struct MedianScore {
 
 /// A mean over cases, and how well it is known.
 struct MeanScore {
-  std::size_t cases = 0;
   double mean = 0;
   std::optional<Interval> interval;  ///< by base shape (statistics.hpp)
 };

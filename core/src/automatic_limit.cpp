@@ -134,8 +134,6 @@ void AutomaticLimit::sample(const Mesh& mesh, const Point* vertices, std::size_t
       squared_ca[k] = square(ca);
       twice_area[begin + k] = ab.y * ca.x - ab.x * ca.y;
     }
-    // The longest edge is added last, so that a sum does not depend on their order. What is compared are
-    // bits, in the order of the numbers, which takes no branch.
     for (std::size_t k = 0; k < size; ++k) {
       perimeter[begin + k] = std::sqrt(squared_ab[k]) + std::sqrt(squared_bc[k]) + std::sqrt(squared_ca[k]);
     }

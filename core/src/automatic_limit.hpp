@@ -34,7 +34,8 @@ namespace polylidar::detail {
 /// divides them with seed 1.
 class AutomaticLimit {
  public:
-  /// About so many triangles are looked at, at most twice as many, spread evenly over the mesh.
+  /// About so many triangles are looked at, at least two thirds and at most twice as many, spread evenly over
+  /// the mesh; all of fewer.
   static constexpr std::size_t kSample = 1900;
 
   /// The limit in the unit of `vertices`, inclusive; infinity when there is no triangle. O(n), and O(kSample)
@@ -43,7 +44,7 @@ class AutomaticLimit {
 
   /// After choose: triangle -> its perimeter in the same unit and in single precision, infinity for a ghost
   /// and an unused record; empty where only a part was looked at, no triangle is finite, or single precision
-  /// has no numbers for them. The filter need not work them out again, which pays for more than half of
+  /// has no numbers for them. The filter need not work them out again, which pays for a part of
   /// choosing. Valid until the next call.
   std::span<const float> perimeters() const {
     return {perimeters_.data(), is_complete_ ? count_ : std::size_t{0}};
