@@ -86,6 +86,12 @@ void to_json(json& result, const RunRecord& record) {
   result["detail"] = record.detail;
   result["time_ns"] = record.time_ns;
   result["phases_ns"] = record.phases_ns;
+  if (!record.rounds.empty()) result["rounds"] = record.rounds;
+  if (!record.passes.empty()) result["passes"] = record.passes;
+  for (const CanaryTimes& canary : record.canary_ns) {
+    result["canary_ns"].push_back({{"memory", canary.memory}, {"compute", canary.compute}});
+  }
+  if (record.cold_time_ns) result["cold_time_ns"] = *record.cold_time_ns;
   result["metrics"] = without_non_finite(record.metrics);
   result["output_sha256"] = record.output_sha256;
   result["machine"] = record.machine;
@@ -113,6 +119,15 @@ void from_json(const json& source, RunRecord& record) {
   source.at("detail").get_to(record.detail);
   source.at("time_ns").get_to(record.time_ns);
   source.at("phases_ns").get_to(record.phases_ns);
+  record.rounds = source.value("rounds", std::vector<std::int64_t>());
+  record.passes = source.value("passes", std::vector<std::int64_t>());
+  record.canary_ns.clear();
+  for (const json& canary : source.value("canary_ns", json::array())) {
+    record.canary_ns.push_back(
+        {canary.at("memory").get<std::int64_t>(), canary.at("compute").get<std::int64_t>()});
+  }
+  record.cold_time_ns = std::nullopt;
+  if (source.contains("cold_time_ns")) record.cold_time_ns = source["cold_time_ns"].get<std::int64_t>();
   record.metrics = source.at("metrics");
   if (!record.metrics.is_object()) throw std::invalid_argument("\"metrics\" of a record must be an object.");
   source.at("output_sha256").get_to(record.output_sha256);

@@ -33,6 +33,14 @@ Status status_from_string(const std::string& name);
 /// paper timed.
 using PhaseTimes = std::map<std::string, std::int64_t>;
 
+/// How long two fixed pieces of work of the harness took in a round: what they tell is the machine's, not a
+/// method's.
+struct CanaryTimes {
+  std::int64_t memory = 0;   ///< bound by memory
+  std::int64_t compute = 0;  ///< bound by arithmetic
+  bool operator==(const CanaryTimes&) const = default;
+};
+
 /// One method with one parameter set on one point set: a line of runs.jsonl.
 struct RunRecord {
   std::string id;    ///< SHA-256 of the identity (see run_identity), lower-case hex
@@ -53,12 +61,27 @@ struct RunRecord {
   std::string detail;                 ///< why the status is not ok; empty when it is; signal by its name
   std::vector<std::int64_t> time_ns;  ///< run + extract of every repetition, in order
   std::vector<PhaseTimes> phases_ns;  ///< one object a repetition
+  /// The round that each repetition was measured in: methods with the same number were measured right after
+  /// one another. Counted over all passes; empty in older records, whose repetitions went round by round from
+  /// 0.
+  std::vector<std::int64_t> rounds;
+  std::vector<std::int64_t>
+      passes;  ///< the pass of each repetition, from 1; empty in older records: one pass
+  std::vector<CanaryTimes> canary_ns;  ///< of each repetition's round; empty in older records
+  /// run + extract of the first call in a fresh process; none where the method has no compiler to warm.
+  std::optional<std::int64_t> cold_time_ns;
   nlohmann::json metrics = nlohmann::json::object();  ///< see metrics.hpp; null for what is undefined
   std::string output_sha256;                          ///< of the WKB of the result; empty when there is none
   std::string machine;             ///< on which the times were taken (machine_id); empty: run.json's machine
   std::vector<std::string> flags;  ///< reasons to doubt the row, such as kFasterThanFloor; mostly empty
 };
 
+/// A row's flag: a round was measured again, as a canary was off the run's median.
+inline constexpr const char* kRemeasuredRound = "remeasured_round";
+/// A row's flag: a canary was still off after the last try, so the times are of a machine in another state.
+inline constexpr const char* kUnsteadyMachine = "unsteady_machine";
+/// A row's flag: the result's l2 is above that of the points' convex hull.
+inline constexpr const char* kWorseThanConvexHull = "worse_than_convex_hull";
 /// A row's flag: a repetition took less than kFloorNsPerPoint a point.
 inline constexpr const char* kFasterThanFloor = "faster_than_floor";
 /// No method can be this fast: in a nanosecond a core reads a point or two from memory, and every method has
