@@ -230,6 +230,12 @@ class Inputs(unittest.TestCase):
             with self.assertRaises(TypeError):
                 concave_hull(points, **options)
 
+    def test_only_the_first_two_limits_go_without_their_names(self):
+        points = scattered(10)
+        self.assertEqual(concave_hull(points, 1, 2).max_edge_length, 2)
+        with self.assertRaises(TypeError):
+            concave_hull(points, 1, 2, 3)
+
     def test_the_extension_itself_takes_nothing_that_it_would_have_to_convert(self):
         exact = np.array(lattice_with_a_hole(), dtype=np.float64)
         for points in (exact.astype(np.float32), np.asfortranarray(exact), exact.tolist()):

@@ -9,6 +9,24 @@
 #include "region.hpp"
 
 namespace polylidar {
+namespace {
+
+void check_threads(unsigned threads) {
+  if (threads == 0) throw std::invalid_argument("threads must be one or more");
+}
+
+/// The limits that were given. Throws std::invalid_argument where an option has no meaning.
+Limits checked_limits(const Options& options) {
+  const Limits limits{options.alpha.value_or(kNoLimit), options.max_edge_length.value_or(kNoLimit),
+                      options.max_perimeter.value_or(kNoLimit)};
+  if (!(limits.alpha >= 0)) throw std::invalid_argument("alpha must be zero or more");
+  if (!(limits.max_edge_length >= 0)) throw std::invalid_argument("max_edge_length must be zero or more");
+  if (!(limits.max_perimeter >= 0)) throw std::invalid_argument("max_perimeter must be zero or more");
+  check_threads(options.threads);
+  return limits;
+}
+
+}  // namespace
 
 void IndexedMultiPolygon::clear() {
   vertices.clear();
@@ -51,25 +69,21 @@ Extractor::Extractor(Extractor&&) noexcept = default;
 Extractor& Extractor::operator=(Extractor&&) noexcept = default;
 
 const IndexedMultiPolygon& Extractor::extract(std::span<const Point> points, const Options& options) {
+  checked_limits(options);  // before the points are triangulated in vain
   triangulate(points, options.threads);
   extract_regions(options);
   return extract_polygons();
 }
 
 void Extractor::triangulate(std::span<const Point> points, unsigned threads) {
-  if (threads == 0) throw std::invalid_argument("threads must be one or more");
+  check_threads(threads);
   state_->pool.use(threads);
-  state_->boundary.clear();
   state_->builder.build(points, state_->pool);
+  state_->boundary.clear();
 }
 
 void Extractor::extract_regions(const Options& options) {
-  Limits limits{options.alpha.value_or(kNoLimit), options.max_edge_length.value_or(kNoLimit),
-                options.max_perimeter.value_or(kNoLimit)};
-  if (!(limits.alpha >= 0)) throw std::invalid_argument("alpha must be zero or more");
-  if (!(limits.max_edge_length >= 0)) throw std::invalid_argument("max_edge_length must be zero or more");
-  if (!(limits.max_perimeter >= 0)) throw std::invalid_argument("max_perimeter must be zero or more");
-  if (options.threads == 0) throw std::invalid_argument("threads must be one or more");
+  Limits limits = checked_limits(options);
   state_->pool.use(options.threads);
   detail::DelaunayBuilder& builder = state_->builder;
   const int exponent = builder.scale_exponent();

@@ -33,11 +33,13 @@ void DelaunayBuilder::build(std::span<const Point> points, ThreadPool& pool) {
   if (points.size() > Mesh::kMaxPoints) {
     throw std::invalid_argument("more than 2^28 points: split the input");
   }
+  // What can be refused is refused before anything is changed.
+  const CoordinateRange range = points.empty() ? CoordinateRange{} : measure_coordinates(points, pool);
   mesh_.reset(points.size());
   vertex_count_ = points.size();
-  scale_exponent_ = 0;
+  scale_exponent_ = range.scale_exponent;
   if (points.empty()) return;
-  sort_along_curve(points, pool);
+  sort_along_curve(points, range, pool);
   if (pool.threads() == 1) {
     build_range(0, static_cast<Index>(points.size()));
   } else {
@@ -46,10 +48,9 @@ void DelaunayBuilder::build(std::span<const Point> points, ThreadPool& pool) {
 }
 
 /// Copies the caller's points, scaled, in the order of the curve.
-void DelaunayBuilder::sort_along_curve(std::span<const Point> points, ThreadPool& pool) {
+void DelaunayBuilder::sort_along_curve(std::span<const Point> points, CoordinateRange range,
+                                       ThreadPool& pool) {
   const std::size_t count = points.size();
-  CoordinateRange range = measure_coordinates(points, pool);
-  scale_exponent_ = range.scale_exponent;
   std::vector<Point> scaled;  // before anything is computed: differences might overflow, or lose bits
   if (scale_exponent_ != 0) {
     const auto scale = [this](const Point& p) {

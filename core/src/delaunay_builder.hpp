@@ -6,6 +6,7 @@
 #include <deque>
 #include <span>
 
+#include "coordinate_range.hpp"
 #include "half_edge.hpp"
 #include "hull_merge.hpp"
 #include "thread_pool.hpp"
@@ -22,7 +23,7 @@ namespace polylidar::detail {
 class DelaunayBuilder {
  public:
   /// Triangulates `points` on the threads of `pool`: the same mesh for any number of them. Throws
-  /// std::invalid_argument as concave_hull does.
+  /// std::invalid_argument as concave_hull does, and then leaves the mesh as it was.
   void build(std::span<const Point> points, ThreadPool& pool);
 
   const Mesh& mesh() const { return mesh_; }
@@ -52,7 +53,7 @@ class DelaunayBuilder {
     Hull hull;
   };
 
-  void sort_along_curve(std::span<const Point> points, ThreadPool& pool);
+  void sort_along_curve(std::span<const Point> points, CoordinateRange range, ThreadPool& pool);
   void build_parts(ThreadPool& pool);
   void cut(Part& part, Index largest, std::deque<Part>& parts);
   void finish(Part& part);

@@ -86,6 +86,10 @@ IndexedMultiPolygon concave_hull(std::span<const Point> points, const Options& o
 /// from several threads at once. `extract` is the three steps in order; they can be called one by one to be
 /// timed.
 ///
+/// Points and options are checked before anything is computed: std::invalid_argument leaves an extractor as
+/// it was before the call. After any other exception (no memory, no thread) the next call must be extract or
+/// triangulate.
+///
 /// Supported range: every coordinate is zero or has a magnitude between 2^-116 and 2^150 after scaling all of
 /// them by one common power of two (which the extractor does by itself); inside it no product that the exact
 /// predicates and the filter form can overflow or underflow.

@@ -24,9 +24,10 @@ def concave_hull(
     points: npt.ArrayLike,
     alpha: float | None = None,
     max_edge_length: float | None = None,
-    threads: int | None = 1,
+    *,
     max_perimeter: float | None = None,
     fill_single_triangles: bool | None = None,
+    threads: int | None = 1,
 ) -> MultiPolygon:
     """The concave hull of points: their Delaunay triangulation, the triangles that all limits keep, and the outline
     of each part that is connected by edges. Without any limit given, that of the perimeter is chosen from the points:
