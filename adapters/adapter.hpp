@@ -120,6 +120,9 @@ struct AdapterEntry {
   std::string title;
   /// Makes the adapter; throws NotInstalled when the library or server is missing.
   std::function<std::unique_ptr<Adapter>()> make;
+  /// The first 8 digits of the SHA-256 of its sources in this project: adapter, headers, what it links that
+  /// is built here. Empty where `make` throws NotInstalled, as nothing was built.
+  std::string sources = {};
 };
 
 /// All methods known to this build, in the order of the tables.

@@ -18,6 +18,9 @@ struct Method {
   std::optional<MethodInfo> info;    ///< of a manifest, without the version; none: the worker says it all
   std::vector<std::string> needs;    ///< files without which the method is not installed
   std::string install;               ///< the command that installs what is missing; may be empty
+  /// The first digits of the hash of what it is made of beside its library; its version ends with them.
+  /// May be empty.
+  std::string sources;
 };
 
 /// The method of that name. Throws ConfigurationError when there is none.

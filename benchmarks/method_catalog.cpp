@@ -17,6 +17,7 @@ Method built_in(const AdapterEntry& entry) {
   method.name = entry.name;
   method.title = entry.title;
   method.command = {"/proc/self/exe", "worker", "--method", entry.name};
+  method.sources = entry.sources;
   return method;
 }
 

@@ -112,6 +112,8 @@ void MethodSession::finish_start() {
       if (info_->name != method_.name)
         throw std::invalid_argument("it calls itself '" + printable(info_->name, 40) + "'");
       if (info_->version.empty()) throw std::invalid_argument("it does not tell its version");
+      // An adapter or a core that was changed is another method, though its library has the same version.
+      if (!method_.sources.empty()) info_->version += "+" + method_.sources;
     } catch (const std::exception& error) {
       info_.reset();
       start_reply_ = failed_start(Status::kError, "the worker broke the protocol in its first answer: " +

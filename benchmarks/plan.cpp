@@ -13,6 +13,7 @@
 
 #include "benchmarks/record.hpp"
 #include "datasets/stress.hpp"
+#include "polylidar/delaunay.hpp"
 
 namespace hullbench {
 namespace {
@@ -20,7 +21,7 @@ namespace {
 using nlohmann::json;
 
 constexpr int kPlanSchemaVersion = 1;
-constexpr std::int64_t kMaxPoints = std::int64_t{1} << 29;  // what the core takes
+constexpr auto kMaxPoints = static_cast<std::int64_t>(polylidar::kMaxPoints);
 constexpr std::int64_t kMaxMembers = 1'000'000;
 
 /// Who may choose parameters, and whether with a look at the ground truth.

@@ -207,6 +207,17 @@ TEST(Plan, MembersAreLimitedToTheFamily) {
   }
 }
 
+TEST(Plan, TakesAsManyPointsAsTheCore) {
+  const auto complaint_about = [](std::size_t n) {
+    return complaint_about_cases(R"([{"dataset": "ca", "n": [)" + std::to_string(n) + "]}]");
+  };
+  EXPECT_EQ(complaint_about(polylidar::kMaxPoints), "nothing");
+  EXPECT_NE(complaint_about(polylidar::kMaxPoints + 1), "nothing");
+  const std::vector<polylidar::Point> same(1);
+  EXPECT_THROW(polylidar::delaunay({same.data(), polylidar::kMaxPoints + 1}), std::invalid_argument)
+      << "by their number, before one is read";
+}
+
 TEST(Plan, NumbersOfPointsAreForDataSetsWithoutPointsOfTheirOwn) {
   EXPECT_EQ(complaint_about_cases(R"([{"dataset": "floor", "members": 2}])"), "nothing");
   EXPECT_NE(complaint_about_cases(R"([{"dataset": "floor", "members": 2, "n": [500]}])")

@@ -79,7 +79,7 @@ class Walker {
   double bound_ = 0;
 };
 
-Profile measure(const Boundary& boundary, const SegmentTree& other, double h) {
+Profile measure(const PreparedBoundary& boundary, const SegmentTree& other, double h) {
   Walker walker(other, sample_spacing(h, boundary.length()));
   for_each_ring(boundary.shape(), [&](const Ring& ring) { walker.walk(ring); });
   return std::move(walker.profile);
@@ -121,13 +121,14 @@ double f_score(const Profile& result, const Profile& truth, double tolerance) {
 
 }  // namespace
 
-Boundary::Boundary(const MultiPolygon& shape) : shape_(&shape), segments_(shape), length_(perimeter(shape)) {}
+PreparedBoundary::PreparedBoundary(const MultiPolygon& shape)
+    : shape_(&shape), segments_(shape), length_(perimeter(shape)) {}
 
 double sample_spacing(double h, double length) {
   return std::max(h * kSpacingInH, length / kMostSamples);
 }
 
-BoundaryScores boundary_scores(const Boundary& result, const Boundary& truth, double h) {
+BoundaryScores boundary_scores(const PreparedBoundary& result, const PreparedBoundary& truth, double h) {
   BoundaryScores scores;
   if (!(result.length() > 0)) return scores;
   Profile of_result = measure(result, truth.segments(), h);

@@ -33,10 +33,10 @@ struct BoundaryScores {
 };
 
 /// A shape's boundary, ready to be measured against others.
-class Boundary {
+class PreparedBoundary {
  public:
   /// Coordinates of `shape`, which must outlive this, are finite.
-  explicit Boundary(const polylidar::MultiPolygon& shape);
+  explicit PreparedBoundary(const polylidar::MultiPolygon& shape);
 
   const polylidar::MultiPolygon& shape() const { return *shape_; }
   const SegmentTree& segments() const { return segments_; }
@@ -54,6 +54,6 @@ class Boundary {
 double sample_spacing(double h, double length);
 
 /// Scores a valid `result` against `truth` with tolerances of `h` > 0. Safe from several threads at once.
-BoundaryScores boundary_scores(const Boundary& result, const Boundary& truth, double h);
+BoundaryScores boundary_scores(const PreparedBoundary& result, const PreparedBoundary& truth, double h);
 
 }  // namespace hullbench

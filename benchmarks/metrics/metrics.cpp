@@ -28,7 +28,7 @@ struct CaseScorer::State {
 
   MultiPolygon truth;
   PreparedTruth prepared;
-  Boundary boundary;  ///< of `truth`
+  PreparedBoundary boundary;  ///< of `truth`
   InputPoints input;
   std::size_t point_count;  ///< at least 1
   double h;
@@ -76,7 +76,7 @@ Metrics CaseScorer::score(const MultiPolygon& result) const {
   metrics.vertex_count = polylidar::vertex_count(result);
   if (!metrics.area.valid) return metrics;
 
-  metrics.boundary = boundary_scores(Boundary(result), state_->boundary, state_->h);
+  metrics.boundary = boundary_scores(PreparedBoundary(result), state_->boundary, state_->h);
   const GeosSession::Geometry band = inner_band(geos, shape.geometry, kBandWidthInH * state_->h);
   metrics.boundary_iou = band_iou(geos, band, geos.clone(state_->band));
   metrics.holes = match_holes(result, state_->truth);

@@ -145,7 +145,7 @@ std::optional<TunedValue> choose_tuned(const Tuning& tuning, const MethodTuning&
   return best;
 }
 
-Spread spread_of(const std::vector<double>& values) {
+Quartiles quartiles_of(const std::vector<double>& values) {
   const std::span<const double> all(values);
   return {quantile(all, 0.25), median(all), quantile(all, 0.75)};
 }
@@ -183,8 +183,8 @@ std::vector<CurvePoint> sensitivity_curve(const Tuning& tuning, const MethodTuni
     }
     if (errors.empty()) continue;
     point.cases = errors.size();
-    point.l2 = spread_of(errors);
-    point.relative = spread_of(relative);
+    point.l2 = quartiles_of(errors);
+    point.relative = quartiles_of(relative);
     curve.push_back(point);
   }
   return curve;

@@ -41,13 +41,13 @@ struct TunedValue {
 std::optional<TunedValue> choose_tuned(const Tuning& tuning, const MethodTuning& method);
 
 /// Of several errors or differences; kInfinitelyBad where the middle is a failure.
-struct Spread {
+struct Quartiles {
   double q1 = 0;
   double median = 0;
   double q3 = 0;
 };
 /// Needs one value at least.
-Spread spread_of(const std::vector<double>& values);
+Quartiles quartiles_of(const std::vector<double>& values);
 
 /// How one way of choosing the parameter did on some cases.
 struct ProtocolScore {
@@ -72,8 +72,8 @@ struct CurvePoint {
   double position = 0;
   std::size_t cases = 0;
   std::size_t failed = 0;
-  Spread l2;
-  Spread relative;  ///< l2 divided by the oracle's on the same case, >= 1; 1 where both are 0
+  Quartiles l2;
+  Quartiles relative;  ///< l2 divided by the oracle's on the same case, >= 1; 1 where both are 0
 };
 
 /// The sensitivity curve: l2 against the axis, ascending. Cases without any result are left out.

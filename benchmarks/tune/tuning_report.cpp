@@ -33,10 +33,10 @@ json interval_to_json(const std::optional<Interval>& interval) {
   return {error_to_json(interval->low), error_to_json(interval->high)};
 }
 
-json spread_to_json(const Spread& spread) {
-  return {{"q1", error_to_json(spread.q1)},
-          {"median", error_to_json(spread.median)},
-          {"q3", error_to_json(spread.q3)}};
+json quartiles_to_json(const Quartiles& quartiles) {
+  return {{"q1", error_to_json(quartiles.q1)},
+          {"median", error_to_json(quartiles.median)},
+          {"q3", error_to_json(quartiles.q3)}};
 }
 
 json case_to_json(const TuningCase& one) {
@@ -87,7 +87,7 @@ json tolerance_to_json(const MethodTuning& method) {
     if (const auto width = tolerance_octaves(found)) widths.push_back(*width);
   }
   if (widths.empty()) return nullptr;
-  json result = spread_to_json(spread_of(widths));
+  json result = quartiles_to_json(quartiles_of(widths));
   result["cases"] = widths.size();
   return result;
 }
@@ -98,8 +98,8 @@ json curve_to_json(const Tuning& tuning, const MethodTuning& method) {
     curve.push_back({{"position", point.position},
                      {"cases", point.cases},
                      {"failed", point.failed},
-                     {"l2", spread_to_json(point.l2)},
-                     {"relative", spread_to_json(point.relative)}});
+                     {"l2", quartiles_to_json(point.l2)},
+                     {"relative", quartiles_to_json(point.relative)}});
   }
   return curve;
 }

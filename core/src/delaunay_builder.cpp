@@ -30,7 +30,7 @@ Axis axis_of_level(unsigned level) {
 }  // namespace
 
 void DelaunayBuilder::build(std::span<const Point> points, ThreadPool& pool) {
-  if (points.size() > Mesh::kMaxPoints) {
+  if (points.size() > kMaxPoints) {
     throw std::invalid_argument("more than 2^28 points: split the input");
   }
   // What can be refused is refused before anything is changed.

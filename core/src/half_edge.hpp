@@ -30,8 +30,7 @@ class Mesh {
  public:
   using Index = std::uint32_t;
   static constexpr Index kStride = 8;
-  /// Beyond this many points half-edges would not fit into 32 bits.
-  static constexpr std::size_t kMaxPoints = std::size_t{1} << 28U;
+  static_assert(2 * kMaxPoints * kStride - 1 <= kNone);
 
   /// Room for the triangles of `points` points, 64 bytes a point; contents undefined.
   void reset(std::size_t points) {

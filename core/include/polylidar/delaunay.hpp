@@ -1,6 +1,7 @@
 // The Delaunay triangulation of a point set.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -11,6 +12,9 @@ namespace polylidar {
 
 /// "No half-edge", "no vertex".
 inline constexpr std::uint32_t kNone = 0xFFFFFFFFU;
+
+/// How many points are taken at most: of more, half-edges would not fit into 32 bits.
+inline constexpr std::size_t kMaxPoints = std::size_t{1} << 28U;
 
 /// A triangulation as half-edges (the paper's section III-A, Figure 2). Half-edge `e` belongs to triangle `e
 /// / 3` and the next one round that triangle is `3 * (e / 3) + (e + 1) % 3`. Triangles run counter-clockwise.
