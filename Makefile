@@ -113,8 +113,9 @@ evaluate: ## the parameters' search over all stress suites and the league, on al
 	@$(MAKE) build
 	@benchmarks/league/evaluate.sh build/hullbench $(or $(OUT),results/evaluation)
 
-reference: ## keep results/latest as the reference run, draw it, and write its tables into the README
+reference: ## keep results/latest, if a build of HEAD measured it, as the reference run; draw it, and write its tables into the README
 	@$(call install,build test)
+	@results/check_reference.py results/latest
 	@$(MAKE) build
 	@$(MAKE) figures report RUN=results/latest
 	@results/keep_reference.sh results/latest

@@ -1,7 +1,8 @@
 #!/bin/bash
 # keep_reference.sh RUN: keeps the finished suite in the folder RUN as the reference run, in results/<date>-<machine>
 # with its records compressed; results/reference points to it, and so do the README's links. An older reference run is
-# removed.
+# removed. Exit codes: 0 kept; 2 not kept, as it is not finished, not drawn, or of another build than HEAD's
+# (check_reference.py), and nothing was changed.
 set -euo pipefail
 
 run=$1
@@ -14,6 +15,8 @@ if [ ! -f "$run/report.html" ] || [ ! -f "$run/figures/summary.png" ]; then
   echo "error: $run is not drawn; 'make figures report RUN=$run' does it, and so does 'make reference'." >&2
   exit 2
 fi
+
+results/check_reference.py "$run"
 
 first=$(sed -n 's/^ *"created": "\([^"]*\)".*/\1/p' "$run/suite.json" | head -n 1)
 machine=$(grep -h -m 1 -o '"machine_id": "[0-9a-f]*"' "$run"/*/run.json | head -n 1 | cut -d '"' -f 4)

@@ -14,6 +14,9 @@ target_link_libraries(test_geos_concave_hull PRIVATE hullbench_adapter_chi_shape
 
 hullbench_test(test_ring_nesting SOURCES test_ring_nesting.cpp ../adapters/ring_nesting.cpp
   LIBRARIES hullbench_test_support LABELS adapters)
+add_test(NAME adapters.source_hashes
+  COMMAND "${CMAKE_CURRENT_LIST_DIR}/check_source_hashes.sh" "${PROJECT_SOURCE_DIR}/adapters/hash_sources.cmake")
+set_tests_properties(adapters.source_hashes PROPERTIES LABELS adapters)
 if(TARGET hullbench_adapter_pcl_concave_hull)
   hullbench_test(test_pcl_concave_hull SOURCES test_pcl_concave_hull.cpp
     LIBRARIES hullbench_adapter_pcl_concave_hull hullbench_adapter_interface hullbench_test_support hullbench::metrics

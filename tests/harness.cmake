@@ -62,7 +62,10 @@ hullbench_test(test_command_line SOURCES test_command_line.cpp
 target_compile_definitions(test_command_line PRIVATE HULLBENCH="$<TARGET_FILE:hullbench>")
 add_dependencies(test_command_line hullbench)
 
-# The reference run, and that the README shows its numbers.
+# The reference run: what may become it, what it is, and that the README shows its numbers.
+add_test(NAME reference.is_of_this_revision
+  COMMAND "${CMAKE_CURRENT_LIST_DIR}/check_reference.sh" "${PROJECT_SOURCE_DIR}")
+set_tests_properties(reference.is_of_this_revision PROPERTIES SKIP_RETURN_CODE 77)
 hullbench_test(test_reference SOURCES test_reference.cpp
   LIBRARIES hullbench::runner hullbench::report hullbench_test_program LABELS harness)
 target_compile_definitions(test_reference PRIVATE HULLBENCH_SOURCE_DIRECTORY="${PROJECT_SOURCE_DIR}")

@@ -96,7 +96,8 @@ TEST_F(AdapterCommandTest, AMethodOfOnesOwnIsMeasuredBesideTheOthers) {
   ASSERT_EQ(report["runs"].size(), 2U);
   const json& row = report["runs"][1];
   EXPECT_EQ(row["name"].get<std::string>(), "sample/ca/n:2000/holes:0/protocol:default");
-  EXPECT_EQ(row["method_version"].get<std::string>(), "1");
+  const auto hash = report["manifests"]["sample"].get<std::string>().substr(0, 8);
+  EXPECT_EQ(row["method_version"].get<std::string>(), "1+" + hash);
   for (const json& phases : row["phases_ns"]) {
     EXPECT_GT(phases["outside"].get<std::int64_t>(),
               phases["run"].get<std::int64_t>() + phases["extract"].get<std::int64_t>());

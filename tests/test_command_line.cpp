@@ -13,6 +13,7 @@
 #include <map>
 #include <nlohmann/json.hpp>
 #include <random>
+#include <regex>
 #include <set>
 #include <string>
 #include <thread>
@@ -372,7 +373,16 @@ TEST_F(CommandLineTest, ListKnowsEveryMethodAndDataSet) {
     ASSERT_TRUE(methods.contains(name)) << name;
   }
   EXPECT_TRUE(methods["polylidar"]["installed"].get<bool>());
-  EXPECT_FALSE(methods["polylidar"]["version"].get<std::string>().empty());
+  // Every version, of what is built here and of what a manifest describes, ends with the hash of its sources.
+  const std::regex with_hash(R"(.+\+[0-9a-f]{8})");
+  std::set<std::string> hashes;
+  for (const auto& [name, method] : methods) {
+    if (!method["installed"].get<bool>()) continue;
+    const auto version = method["version"].get<std::string>();
+    EXPECT_TRUE(std::regex_match(version, with_hash)) << name << ": " << version;
+    hashes.insert(version.substr(version.size() - 8));
+  }
+  EXPECT_GE(hashes.size(), 7U) << "each has its own";
   EXPECT_FALSE(methods["postgis"]["installed"].get<bool>());
   EXPECT_FALSE(methods["postgis"]["remedy"].get<std::string>().empty());
   EXPECT_GE(listing["datasets"].size(), 2U);

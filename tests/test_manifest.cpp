@@ -76,6 +76,7 @@ TEST_F(ManifestTest, SaysWhatTheMethodIsAndHowToStartIt) {
   ASSERT_TRUE(method.info);
   EXPECT_TRUE(method.info->capabilities.holes);
   EXPECT_TRUE(method.info->version.empty());
+  EXPECT_EQ(method.sources, manifest.sha256.substr(0, 8));
   ASSERT_EQ(method.info->parameters.size(), 2U);
   EXPECT_FALSE(method.info->parameters[0].default_value);
   EXPECT_EQ(method.info->parameters[1].default_value, std::numeric_limits<double>::infinity());
