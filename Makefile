@@ -5,6 +5,7 @@
 #   JOBS=N       build and test with N processes
 #   TABLE=NAME   only this experiment in "make bench": rgbd, states, alphabet, random or steps
 #   SECONDS=N    how long "make fuzz" searches
+#   SUITE=NAME   the Debian of "make test-fresh": bookworm (12) or trixie (13)
 #   BASE=REV     what "make bench-gate" compares with, instead of the merge base with the main branch
 
 SHELL := /bin/bash
@@ -29,7 +30,7 @@ define configure
 mkdir -p $(BUILD_LOG); \
 if ! cmake --preset $(1) $(2) >$(BUILD_LOG)/configure-$(1).txt 2>&1; then \
   cat $(BUILD_LOG)/configure-$(1).txt >&2; \
-  cmake/install-packages.sh --check build || true; \
+  cmake/install-packages.sh --check build $(if $(findstring _TESTS=OFF,$(2)),,unit) || true; \
   echo "error: the build could not be configured: if something is missing, 'make deps' installs it." >&2; exit 1; \
 fi
 endef
@@ -41,7 +42,18 @@ echo "==> compiling ($(1), $(JOBS) jobs)"; \
 cmake --build --preset $(1) --parallel $(JOBS) $(if $(3),--target $(3))
 endef
 
+# $(call tests,preset,folder): all tests of a build folder, then why any was skipped.
+define tests
+ctest --preset $(1) --parallel $(JOBS) && status=0 || status=$$?; \
+sed -n '/^skipped: /p' $(2)/Testing/Temporary/LastTest.log | sort | uniq -c >&2; \
+exit $$status
+endef
+
 NATIVE_OPTION = -DHULLBENCH_NATIVE=$(if $(filter-out 0,$(NATIVE)),ON,OFF)
+# What measures needs no test and none of the tests' packages. Both kinds share a build folder: going from one to the
+# other compiles nothing again.
+WITHOUT_TESTS = $(NATIVE_OPTION) -DHULLBENCH_TESTS=OFF
+WITH_TESTS = $(NATIVE_OPTION) -DHULLBENCH_TESTS=ON
 
 .PHONY: help deps deps-extra build bench bench-quick figures figures-core report report-compare evaluate bench-core bench-gate bench-gate-instructions reference test test-sanitize build-clang test-clang test-fresh test-slurm test-gate fuzz lint format docs clean
 
@@ -50,7 +62,7 @@ help: ## list the targets (the default)
 	@echo "  with NATIVE=1 (compile for this processor), SKIP_DEPS=1 (install nothing), JOBS=N (N processes)"
 
 deps: ## install what is missing of all the packages, development tools included
-	@cmake/install-packages.sh build bench test docs python plots lint gate
+	@cmake/install-packages.sh build bench unit test docs python plots lint gate
 	@echo "==> nothing is missing"
 
 deps-extra: ## install what the methods in JavaScript, Python and Java need
@@ -59,7 +71,7 @@ deps-extra: ## install what the methods in JavaScript, Python and Java need
 	@echo "==> nothing is missing for the methods in other languages"
 
 build: ## only build: build/hullbench and build/core_benchmarks
-	@$(call build,release,$(NATIVE_OPTION),hullbench core_benchmarks)
+	@$(call build,release,$(WITHOUT_TESTS),hullbench core_benchmarks)
 	@echo "==> built build/hullbench and build/core_benchmarks"
 
 bench: ## install, build and run the experiments (TABLE=states: only this one); go on if interrupted
@@ -85,7 +97,7 @@ figures: ## draw the paper's figures from results/latest, into its folder (RUN=F
 
 figures-core: ## measure the core from 1000 to 10 million points for the figures, into core.json of RUN=
 	@$(call install,build)
-	@$(call build,release,$(NATIVE_OPTION),core_benchmarks)
+	@$(call build,release,$(WITHOUT_TESTS),core_benchmarks)
 	@build/core_benchmarks --benchmark_repetitions=3 --benchmark_min_time=0.05 \
 	  --benchmark_enable_random_interleaving=true --benchmark_out_format=json --benchmark_out=$(RUN)/core.json \
 	  --benchmark_filter='^(concave_hull|concave_hull_2_threads|triangulation|cgal_alpha_shape|cgal_delaunay|geos_concave_hull_with_holes|geos_delaunay)/uniform/'
@@ -131,7 +143,7 @@ bench-quick: ## the state shapes' tables for n <= 8000 and 3 repetitions, in und
 
 bench-core: ## the core's speed beside CGAL and GEOS: ratios with goal and verdict
 	@$(call install,build)
-	@$(call build,release,$(NATIVE_OPTION),core_benchmarks)
+	@$(call build,release,$(WITHOUT_TESTS),core_benchmarks)
 	@build/core_benchmarks --verdicts
 
 export JOBS
@@ -145,17 +157,17 @@ bench-gate-instructions: ## the same by counted instructions, for machines that 
 	@benchmarks/gate/gate.sh --instructions $(if $(BASE),--base "$(BASE)")
 
 test: ## install, build and run all tests, the core's with sanitizers too
-	@$(call install,build bench test docs python plots)
+	@$(call install,build bench unit test docs python plots)
 	@$(MAKE) deps-extra
 	@$(if $(SKIP_DEPS),,cmake/install-npm.sh plots)
 	@$(if $(SKIP_DEPS),,cmake/install-npm.sh tests/report)
-	@$(call build,release,$(NATIVE_OPTION))
+	@$(call build,release,$(WITH_TESTS))
 	@$(MAKE) test-sanitize
 	@echo "==> all tests"
-	@ctest --preset release --parallel $(JOBS)
+	@$(call tests,release,build)
 
 test-sanitize: ## the core's tests with address, undefined-behaviour and thread sanitizers
-	@$(call install,build)
+	@$(call install,build unit)
 	@$(call build,sanitize)
 	@echo "==> the core's tests with sanitizers"
 	@ctest --preset sanitize --parallel $(JOBS)
@@ -163,17 +175,17 @@ test-sanitize: ## the core's tests with address, undefined-behaviour and thread 
 	@ctest --preset sanitize-threads
 
 build-clang: ## build everything with clang, the second compiler, in build-clang
-	@$(call install,build python lint)
-	@$(call build,clang,$(NATIVE_OPTION))
+	@$(call install,build unit python lint)
+	@$(call build,clang,$(WITH_TESTS))
 
 test-clang: ## the tests of the clang build
-	@$(call install,build bench test docs python lint)
+	@$(call install,build bench unit test docs python lint)
 	@$(MAKE) build-clang
 	@echo "==> all tests, built with clang"
-	@ctest --preset clang --parallel $(JOBS)
+	@$(call tests,clang,build-clang)
 
-test-fresh: ## prove bench-quick and test from nothing, in a bare Debian 12 root (needs root, 10 GB, an hour)
-	@tests/fresh/run.sh
+test-fresh: ## prove bench-quick and test from nothing in bare Debian 12 roots (SUITE=trixie: 13; needs root, 10 GB, 2 hours)
+	@SUITE=$(or $(SUITE),bookworm) tests/fresh/run.sh
 
 test-slurm: ## try the Slurm scripts on a real Slurm of one node, made for the test (needs root)
 	@$(call install,build bench slurm)
@@ -182,13 +194,13 @@ test-slurm: ## try the Slurm scripts on a real Slurm of one node, made for the t
 
 test-gate: ## prove that the gate finds what it must and nothing else, in 30 minutes (GATES=N, SLOW_GATES=N)
 	@$(call install,build gate)
-	@$(call build,release,$(NATIVE_OPTION),bench_gate)
+	@$(call build,release,$(WITHOUT_TESTS),bench_gate)
 	@tests/gate/run.sh
 
 SECONDS ?= 60
 
 fuzz: ## search for inputs that break the core, for 60 seconds (SECONDS=N)
-	@$(call install,build lint)
+	@$(call install,build unit lint)
 	@$(call build,fuzz,,fuzz_concave_hull)
 	@# What is found stays in build-fuzz: the kept corpus is only read.
 	@mkdir -p build-fuzz/work build-fuzz/found
@@ -204,8 +216,8 @@ fuzz: ## search for inputs that break the core, for 60 seconds (SECONDS=N)
 	echo "==> $$runs inputs, none breaks the core"
 
 lint: ## clang-tidy and the formatting check on all our sources
-	@$(call install,build python lint)
-	@$(call configure,clang,$(NATIVE_OPTION))
+	@$(call install,build unit python lint)
+	@$(call configure,clang,$(WITH_TESTS))
 	@tests/style/check.sh format
 	@tests/style/check.sh tidy $(JOBS)
 
@@ -214,7 +226,7 @@ format: ## format all our sources with clang-format 14
 
 docs: ## the core's reference as HTML in build/docs/core; fails when something public has no comment
 	@$(call install,build docs)
-	@$(call build,release,$(NATIVE_OPTION),docs)
+	@$(call build,release,$(WITHOUT_TESTS),docs)
 	@echo "==> build/docs/core/html/index.html"
 
 clean: ## remove what was built; results stay

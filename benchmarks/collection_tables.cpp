@@ -176,7 +176,7 @@ std::string error_cell(const TableContext& context, const Line& line, const Case
   const auto errors = all_values(runs, "l2_paper");
   if (errors.empty()) return kNothing;
   std::string text = fixed(100 * median(std::span<const double>(errors)), 1);
-  if (published.is_null() || line.protocol != paper().at("protocol")) return text;
+  if (published.is_null() || paper().at("protocol") != line.protocol) return text;
   const json value = published.value("by_shape", json::object())
                          .value(which.dataset, json::object())
                          .value(line.method, json());
@@ -337,7 +337,7 @@ std::vector<CaseGroup> published_groups(const TableContext& context, const std::
 }
 
 json published_values(const CaseGroup& group, const Line& line) {
-  if (group.published.is_null() || line.protocol != paper().at("protocol")) return {};
+  if (group.published.is_null() || paper().at("protocol") != line.protocol) return {};
   return group.published.at("methods").value(line.method, json());
 }
 

@@ -60,7 +60,7 @@ void add_how_to_read(bool times, Sentences& notes) {
 
 void add_paper_notes(const std::vector<RunRecord>& runs, Sentences& notes) {
   if (std::none_of(runs.begin(), runs.end(),
-                   [](const RunRecord& run) { return run.protocol == paper().at("protocol"); })) {
+                   [](const RunRecord& run) { return paper().at("protocol") == run.protocol; })) {
     return;
   }
   for (const json& note : paper().at("notes")) notes.push_back(note.get<std::string>());

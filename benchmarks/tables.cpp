@@ -156,7 +156,7 @@ std::optional<TableSection> ratio_table(const TableContext& context, const std::
 
 bool is_steps_shape(const Case& which) {
   const json& steps = paper().at("steps");
-  return which.dataset == steps.at("dataset") && which.holes == steps.at("holes");
+  return steps.at("dataset") == which.dataset && steps.at("holes") == which.holes;
 }
 
 std::vector<std::string> measured_steps(const TableContext& context, const Line& line, const Case& which) {
@@ -210,7 +210,7 @@ std::optional<TableSection> steps_table(const TableContext& context) {
   for (const Line& line : lines_of(context, {*chosen})) {
     std::vector<std::string> ours = measured_steps(context, line, *chosen);
     if (!ours.empty()) section.table.add_row(std::move(ours));
-    if (!comparable || line.protocol != paper().at("protocol") || !compared.insert(line.method).second)
+    if (!comparable || paper().at("protocol") != line.protocol || !compared.insert(line.method).second)
       continue;
     if (auto theirs = published_steps(line.method); !theirs.empty()) section.table.add_row(std::move(theirs));
   }
@@ -263,7 +263,7 @@ bool is_papers_experiment(const TableContext& context) {
   const json& datasets = paper().at("claims").at("datasets");
   const auto& runs = context.measurements.runs();
   return std::any_of(runs.begin(), runs.end(), [&](const RunRecord& run) {
-    return run.protocol == paper().at("protocol") &&
+    return paper().at("protocol") == run.protocol &&
            std::find(datasets.begin(), datasets.end(), run.dataset) != datasets.end();
   });
 }

@@ -1,7 +1,8 @@
 # The methods that run in this process and need no database.
 foreach(part IN ITEMS geos_concave_hull chi_shape knn_hull convex_hull)
   if(NOT TARGET hullbench_adapter_${part})
-    message(FATAL_ERROR "The tests need the adapter ${part}: install what the line above names, or configure with -DHULLBENCH_TESTS=OFF")
+    hullbench_skipped_test(test_${part} "this build does not have the method ${part}")
+    continue()
   endif()
   hullbench_test(test_${part} SOURCES test_${part}.cpp
     LIBRARIES hullbench_adapter_${part} hullbench_adapter_interface hullbench_test_support hullbench::metrics Boost::headers
@@ -10,7 +11,9 @@ foreach(part IN ITEMS geos_concave_hull chi_shape knn_hull convex_hull)
   set_source_files_properties(test_${part}.cpp PROPERTIES
     COMPILE_OPTIONS "$<$<CXX_COMPILER_ID:GNU>:-Wno-maybe-uninitialized>")
 endforeach()
-target_link_libraries(test_geos_concave_hull PRIVATE hullbench_adapter_chi_shape)
+if(TARGET test_geos_concave_hull)
+  target_link_libraries(test_geos_concave_hull PRIVATE hullbench_adapter_chi_shape)
+endif()
 
 hullbench_test(test_ring_nesting SOURCES test_ring_nesting.cpp ../adapters/ring_nesting.cpp
   LIBRARIES hullbench_test_support LABELS adapters)

@@ -8,7 +8,7 @@ add_dependencies(test_gate_program bench_gate)
 hullbench_test(test_gate_script SOURCES test_gate_script.cpp LIBRARIES hullbench_test_program LABELS gate)
 target_compile_definitions(test_gate_script PRIVATE GATE_SCRIPT="${PROJECT_SOURCE_DIR}/benchmarks/gate/gate.sh")
 
-add_test(NAME gate.workflow
+hullbench_tool_test(NAME gate.workflow NEEDS "${SYSTEM_PYTHON}:yaml"
   COMMAND "${SYSTEM_PYTHON}" "${CMAKE_CURRENT_LIST_DIR}/check_workflow.py"
           "${PROJECT_SOURCE_DIR}/.github/workflows/ci.yml" "${PROJECT_SOURCE_DIR}/Makefile")
 set_tests_properties(gate.workflow PROPERTIES LABELS gate TIMEOUT 60)

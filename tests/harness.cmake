@@ -2,6 +2,7 @@
 add_library(hullbench_test_program STATIC "${CMAKE_CURRENT_LIST_DIR}/program.cpp")
 target_include_directories(hullbench_test_program PUBLIC "${PROJECT_SOURCE_DIR}")
 target_link_libraries(hullbench_test_program PRIVATE GTest::gtest hullbench::compile_options)
+target_compile_definitions(hullbench_test_program PRIVATE NEEDS_SCRIPT="${CMAKE_CURRENT_LIST_DIR}/needs.sh")
 
 add_executable(misbehaving_worker "${CMAKE_CURRENT_LIST_DIR}/misbehaving_worker.cpp")
 set_target_properties(misbehaving_worker PROPERTIES RUNTIME_OUTPUT_DIRECTORY "${CMAKE_BINARY_DIR}/tests")
@@ -38,11 +39,13 @@ hullbench_test(test_compare SOURCES test_compare.cpp
   LIBRARIES hullbench::report hullbench_invented_run hullbench_test_program LABELS harness)
 
 # Google Benchmark's own tool, and the Python that its package brings the libraries for.
-find_file(COMPARE_PY compare.py PATHS /usr/share/benchmark PATH_SUFFIXES tools NO_DEFAULT_PATH REQUIRED)
-find_program(DEBIAN_PYTHON python3 PATHS /usr/bin NO_DEFAULT_PATH REQUIRED)
+find_file(COMPARE_PY compare.py PATHS /usr/share/benchmark PATH_SUFFIXES tools NO_DEFAULT_PATH)
+if(NOT COMPARE_PY)
+  set(COMPARE_PY compare.py)
+endif()
 hullbench_test(test_gbench_export SOURCES test_gbench_export.cpp
   LIBRARIES hullbench::report hullbench_invented_run hullbench_test_program LABELS harness)
-target_compile_definitions(test_gbench_export PRIVATE COMPARE_PY="${COMPARE_PY}" DEBIAN_PYTHON="${DEBIAN_PYTHON}")
+target_compile_definitions(test_gbench_export PRIVATE COMPARE_PY="${COMPARE_PY}" SYSTEM_PYTHON="${SYSTEM_PYTHON}")
 
 foreach(part IN ITEMS pictures suite readme compare gbench_export)
   target_compile_definitions(test_${part} PRIVATE HULLBENCH="$<TARGET_FILE:hullbench>")
@@ -54,7 +57,8 @@ hullbench_test(test_tune_search SOURCES test_tune_search.cpp LIBRARIES hullbench
 hullbench_test(test_tune SOURCES test_tune.cpp
   LIBRARIES hullbench::record hullbench::runner hullbench::metrics hullbench_test_program LABELS harness)
 target_compile_definitions(test_tune PRIVATE
-  HULLBENCH="$<TARGET_FILE:hullbench>" HULLBENCH_SOURCE_DIRECTORY="${PROJECT_SOURCE_DIR}")
+  HULLBENCH="$<TARGET_FILE:hullbench>" HULLBENCH_SOURCE_DIRECTORY="${PROJECT_SOURCE_DIR}"
+  SYSTEM_PYTHON="${SYSTEM_PYTHON}")
 add_dependencies(test_tune hullbench)
 
 hullbench_test(test_command_line SOURCES test_command_line.cpp
@@ -77,7 +81,8 @@ add_test(NAME readme.has_the_reference_run
 hullbench_test(test_manifest SOURCES test_manifest.cpp
   LIBRARIES hullbench::runner hullbench_test_program LABELS harness)
 hullbench_test(test_adapter_command SOURCES test_adapter_command.cpp LIBRARIES hullbench_test_program LABELS harness)
-target_compile_definitions(test_adapter_command PRIVATE HULLBENCH="$<TARGET_FILE:hullbench>")
+target_compile_definitions(test_adapter_command PRIVATE
+  HULLBENCH="$<TARGET_FILE:hullbench>" SYSTEM_PYTHON="${SYSTEM_PYTHON}")
 add_dependencies(test_adapter_command hullbench)
 
 # The README's checklist for a method in C++, walked with a sample: hullbench writes it, add_adapter() takes it, and the
@@ -97,12 +102,13 @@ target_link_libraries(hullbench_with_sample PRIVATE
   hullbench::league hullbench::hash)
 add_test(NAME sample_method.keeps_the_contract COMMAND hullbench_with_sample adapter test sample_hull)
 
-# Real methods, the harness and all. Two of them break one point, which is a row of its own in every table.
+# Real methods, the harness and all; a method that is not installed ends with 6.
 foreach(method IN ITEMS polylidar cgal_alpha_shape spatialite geos_concave_hull chi_shape knn_hull convex_hull
     concaveman hull_js turf_concave jts_concave_hull scipy_alpha_shape)
   add_test(NAME contract.${method} COMMAND hullbench adapter test ${method})
+  set_tests_properties(contract.${method} PROPERTIES SKIP_RETURN_CODE 6)
 endforeach()
-set_tests_properties(contract.spatialite PROPERTIES PASS_REGULAR_EXPRESSION
-  "FAIL  20000 points within the limits invalid polygon, Nested shells.*keeps part of the contract: 19 of 20 points")
-set_tests_properties(contract.turf_concave PROPERTIES PASS_REGULAR_EXPRESSION
-  "FAIL  20000 points within the limits invalid polygon, Ring Self-intersection.*keeps part of the contract: 19 of 20 points")
+# These two make an invalid polygon of 20000 points, which is a row of its own in every table; a version that is mended keeps
+# the whole contract. What is found invalid first, and its name, are for the version of GEOS.
+set_tests_properties(contract.spatialite contract.turf_concave PROPERTIES PASS_REGULAR_EXPRESSION
+  "FAIL  20000 points within the limits invalid polygon, .*keeps part of the contract: 19 of 20;keeps the contract: ")

@@ -1,13 +1,12 @@
 # The core as others get it: the installed package, used by the small project in package/, and the reference.
-find_program(PKG_CONFIG_PROGRAM pkg-config REQUIRED)
+find_package(PkgConfig REQUIRED)
 hullbench_test(test_package SOURCES test_package.cpp LIBRARIES hullbench_test_program LABELS package)
 target_compile_definitions(test_package PRIVATE
   BUILD_TYPE="$<LOWER_CASE:$<CONFIG>>" BUILD_FOLDER="${PROJECT_BINARY_DIR}"
   SOURCE_FOLDER="${PROJECT_SOURCE_DIR}" PROJECT_VERSION="${PROJECT_VERSION}"
-  CMAKE_PROGRAM="${CMAKE_COMMAND}" CXX_COMPILER="${CMAKE_CXX_COMPILER}" PKG_CONFIG_PROGRAM="${PKG_CONFIG_PROGRAM}")
+  CMAKE_PROGRAM="${CMAKE_COMMAND}" CXX_COMPILER="${CMAKE_CXX_COMPILER}" PKG_CONFIG_PROGRAM="${PKG_CONFIG_EXECUTABLE}")
 add_dependencies(test_package polylidar_core)
 
-if(TARGET docs)
-  add_test(NAME docs.core COMMAND "${DOXYGEN_PROGRAM}" "${PROJECT_BINARY_DIR}/core/Doxyfile")
-  set_tests_properties(docs.core PROPERTIES LABELS package TIMEOUT 120)
-endif()
+hullbench_tool_test(NAME docs.core NEEDS doxygen "${PROJECT_BINARY_DIR}/core/Doxyfile"
+  COMMAND doxygen "${PROJECT_BINARY_DIR}/core/Doxyfile")
+set_tests_properties(docs.core PROPERTIES LABELS package TIMEOUT 120)

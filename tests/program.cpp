@@ -50,7 +50,7 @@ void redirect(const fs::path& file, int to) {
   argv.reserve(command.size() + 1);
   for (const std::string& argument : command) argv.push_back(const_cast<char*>(argument.c_str()));
   argv.push_back(nullptr);
-  ::execv(argv[0], argv.data());
+  ::execvp(argv[0], argv.data());
   ::_exit(127);
 }
 
@@ -121,6 +121,15 @@ Outcome Program::wait() {
 
 Outcome run_program(const std::vector<std::string>& command, const ProgramOptions& options) {
   return Program(command, options).wait();
+}
+
+std::string missing(const std::vector<std::string>& needs) {
+  std::vector<std::string> command = {NEEDS_SCRIPT};
+  command.insert(command.end(), needs.begin(), needs.end());
+  command.insert(command.end(), {"--", "true"});
+  const Outcome looked = run_program(command);
+  if (looked.code != 0 && looked.code != 77) throw std::runtime_error(NEEDS_SCRIPT " failed: " + looked.err);
+  return looked.out;
 }
 
 void expect_refusal(const Outcome& outcome, int code, const std::string& words) {

@@ -44,8 +44,12 @@ class Program {
   std::filesystem::path err_;
 };
 
-/// Runs a program to its end.
+/// Runs a program, which is looked for in PATH, to its end.
 Outcome run_program(const std::vector<std::string>& command, const ProgramOptions& options = {});
+
+/// What tests/needs.sh says is missing of `needs`, which are as it takes them; empty when all is there. A
+/// test that needs it is then to be skipped.
+std::string missing(const std::vector<std::string>& needs);
 
 /// Expects that hullbench ended with `code` and one sentence on standard error that has these words, and
 /// wrote nothing to standard output.

@@ -14,11 +14,8 @@ endforeach()
 hullbench_test(test_document SOURCES "${CMAKE_CURRENT_LIST_DIR}/test_document.cpp"
   LIBRARIES hullbench::report hullbench_test_program)
 
-# A reference run keeps its records compressed by this program (results/keep_reference.sh).
-find_program(XZ_PROGRAM xz REQUIRED)
 hullbench_test(test_xz_file SOURCES "${CMAKE_CURRENT_LIST_DIR}/test_xz_file.cpp"
   LIBRARIES hullbench_invented_run hullbench::report hullbench_test_program)
-target_compile_definitions(test_xz_file PRIVATE XZ_PROGRAM="${XZ_PROGRAM}")
 
 hullbench_test(test_core_verdicts SOURCES "${CMAKE_CURRENT_LIST_DIR}/test_core_verdicts.cpp"
   LIBRARIES hullbench::core_verdicts)
@@ -28,15 +25,14 @@ add_executable(write_invented_report "${CMAKE_CURRENT_LIST_DIR}/write_invented_r
 target_link_libraries(write_invented_report PRIVATE hullbench_invented_run hullbench::compile_options)
 set_target_properties(write_invented_report PROPERTIES RUNTIME_OUTPUT_DIRECTORY "${CMAKE_BINARY_DIR}/tests")
 
-find_program(PYTHON_PROGRAM python3 REQUIRED)
 set(invented_report "${CMAKE_BINARY_DIR}/tests/invented_report.json")
 add_test(NAME report.write_invented COMMAND write_invented_report "${invented_report}")
 set_tests_properties(report.write_invented PROPERTIES FIXTURES_SETUP invented_report)
-add_test(NAME report.python_takes_it
-  COMMAND "${PYTHON_PROGRAM}" "${CMAKE_CURRENT_LIST_DIR}/validate_report.py"
+hullbench_tool_test(NAME report.python_takes_it NEEDS "${SYSTEM_PYTHON}:jsonschema"
+  COMMAND "${SYSTEM_PYTHON}" "${CMAKE_CURRENT_LIST_DIR}/validate_report.py"
           "${invented_report}" "${CMAKE_BINARY_DIR}/tests/invented_report_run/runs.jsonl")
-add_test(NAME report.python_rejects_broken
-  COMMAND "${PYTHON_PROGRAM}" "${CMAKE_CURRENT_LIST_DIR}/validate_report.py" --broken
+hullbench_tool_test(NAME report.python_rejects_broken NEEDS "${SYSTEM_PYTHON}:jsonschema"
+  COMMAND "${SYSTEM_PYTHON}" "${CMAKE_CURRENT_LIST_DIR}/validate_report.py" --broken
           "${CMAKE_CURRENT_LIST_DIR}/data/broken_reports.json" "${invented_report}")
 set_tests_properties(report.python_takes_it report.python_rejects_broken PROPERTIES
   FIXTURES_REQUIRED invented_report)
@@ -44,6 +40,6 @@ set_tests_properties(report.python_takes_it report.python_rejects_broken PROPERT
 # Merged reports are tried with both validators, and with records as a reference run keeps them.
 hullbench_test(test_merge SOURCES "${CMAKE_CURRENT_LIST_DIR}/test_merge.cpp"
   LIBRARIES hullbench::record hullbench_test_program LABELS harness)
-target_compile_definitions(test_merge PRIVATE HULLBENCH="$<TARGET_FILE:hullbench>" XZ_PROGRAM="${XZ_PROGRAM}"
-  PYTHON_PROGRAM="${PYTHON_PROGRAM}" VALIDATE_REPORT="${CMAKE_CURRENT_LIST_DIR}/validate_report.py")
+target_compile_definitions(test_merge PRIVATE HULLBENCH="$<TARGET_FILE:hullbench>"
+  SYSTEM_PYTHON="${SYSTEM_PYTHON}" VALIDATE_REPORT="${CMAKE_CURRENT_LIST_DIR}/validate_report.py")
 add_dependencies(test_merge hullbench)

@@ -21,6 +21,12 @@ using testing::write_text;
 
 class AdapterCommandTest : public ::testing::Test {
  protected:
+  // What hullbench_worker.py and hullbench_worker.mjs need.
+  void SetUp() override {
+    const std::string why = testing::missing({SYSTEM_PYTHON ":numpy", "node"});
+    if (!why.empty()) GTEST_SKIP() << why;
+  }
+
   Outcome hullbench(std::vector<std::string> arguments) const {
     arguments.insert(arguments.begin(), HULLBENCH);
     return testing::run_program(arguments,
@@ -38,7 +44,7 @@ class AdapterCommandTest : public ::testing::Test {
                                                    "\n\nhullbench_worker.serve(version='1', run=run)\n");
     // Debian's Python, which has numpy.
     json manifest = json::parse(read_text(methods() / "sample.json"));
-    manifest["command"][0] = "/usr/bin/python3";
+    manifest["command"][0] = SYSTEM_PYTHON;
     write_text(methods() / "sample.json", manifest.dump());
   }
 
@@ -69,7 +75,7 @@ TEST_F(AdapterCommandTest, TheSkeletonsKeepTheContract) {
     EXPECT_NE(made.out.find((folder / ("my_" + language + ".json")).string()), std::string::npos) << made.out;
     if (language == "python") {
       json manifest = json::parse(read_text(folder / "my_python.json"));
-      manifest["command"][0] = "/usr/bin/python3";
+      manifest["command"][0] = SYSTEM_PYTHON;
       write_text(folder / "my_python.json", manifest.dump());
     }
     const Outcome tested = hullbench({"adapter", "test", "my_" + language});

@@ -322,7 +322,7 @@ TEST(Environment, FlagsAreThoseOfTheBuild) {
 }
 
 TEST(Environment, MachineIdIsAFunctionOfTheMachine) {
-  EXPECT_EQ(machine_id(), collect_environment()["machine_id"]);
+  EXPECT_EQ(collect_environment()["machine_id"], machine_id());
   // printf '%s' 'Some CPU|4|15' | sha256sum
   EXPECT_EQ(machine_id("Some CPU", 4, 15), "80006477");
   EXPECT_NE(machine_id("Some CPU", 4, 15), machine_id("Some CPU", 4, 16));

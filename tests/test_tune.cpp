@@ -52,6 +52,8 @@ polylidar::MultiPolygon disc(const std::vector<polylidar::Point>& points, double
 class TuneTest : public ::testing::Test {
  protected:
   void SetUp() override {
+    const std::string why = testing::missing({SYSTEM_PYTHON ":numpy"});
+    if (!why.empty()) GTEST_SKIP() << why;
     fs::create_directories(methods());
     method("disc", R"([{"name": "radius", "unit": "length", "description": "Of the disc.", "minimum": 0,
                         "maximum": null, "default": 1}])",
@@ -75,7 +77,7 @@ class TuneTest : public ::testing::Test {
                            {"native_output", "a ring"},
                            {"parameters", json::parse(parameters)},
                            {"capabilities", {{"holes", false}, {"several_polygons", false}}},
-                           {"command", {"/usr/bin/python3", "./" + name + ".py"}}};
+                           {"command", {SYSTEM_PYTHON, "./" + name + ".py"}}};
     write_text(methods() / (name + ".json"), manifest.dump());
     write_text(methods() / (name + ".py"),
                "import sys\nsys.path.insert(0, '" HULLBENCH_SOURCE_DIRECTORY

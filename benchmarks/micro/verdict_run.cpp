@@ -1,5 +1,8 @@
 #include "benchmarks/micro/verdict_run.hpp"
 
+#include <optional>
+#include <string>
+
 #include "benchmarks/micro/measure.hpp"
 
 namespace hullbench {
@@ -8,6 +11,18 @@ namespace {
 using namespace std::chrono_literals;
 
 constexpr auto kPlainInterval = 15s;
+
+/// Why nothing was measured in a run of Google Benchmark, which names it in two ways: "error" until 1.7,
+/// "skip" since 1.8. Nothing when all went well.
+template <typename Run>
+std::optional<std::string> failure(const Run& run) {
+  if constexpr (requires { run.skip_message; }) {
+    if (run.skipped != decltype(run.skipped){}) return run.skip_message;
+  } else {
+    if (run.error_occurred) return run.error_message;
+  }
+  return std::nullopt;
+}
 
 }  // namespace
 
@@ -40,8 +55,8 @@ bool CollectingReporter::ReportContext(const Context& context) {
 void CollectingReporter::ReportRuns(const std::vector<Run>& runs) {
   for (const Run& run : runs) {
     const std::string name = run.run_name.str();
-    if (run.error_occurred) {
-      errors_[name] = run.error_message;
+    if (const auto why = failure(run)) {
+      errors_[name] = *why;
       continue;
     }
     if (run.run_type != Run::RT_Iteration || run.iterations == 0) continue;

@@ -1,22 +1,26 @@
 #!/usr/bin/env bash
-# Proves from nothing that the README's commands work: in a bare Debian 12 root made by debootstrap, with nothing but
-# git and make added, a clone of HEAD runs "make bench-quick" and "make test", once as root and once as a plain user
-# with sudo; and no database server is left running or enabled.
+# Proves from nothing that the README's commands work: in bare Debian roots made by debootstrap, with nothing but git and
+# make added, in a clone of HEAD.
 #
-#   run.sh [root|user]     both when none is named
+#   run.sh [PROOF...]      odd, root and user when none is named
 #
-# Needs root on a Debian host. TMPDIR (default /var/tmp) holds the roots while it runs; FRESH_CACHE, a folder, keeps
-# the pristine root for the next time. Logs stay in build/fresh.
+#   first   the README's first command: "make bench" with its shortest table, as root (what CI proves)
+#   root    "make bench-quick" and "make test" as root; no test is skipped, no database server left running or enabled
+#   user    the same as a plain user with sudo
+#   odd     roots that have a part of what the tests need: nothing missing stops a configuration
+#
+# SUITE=trixie takes Debian 13 instead of 12. Needs root on a Debian host. TMPDIR (default /var/tmp) holds the roots while
+# it runs; FRESH_CACHE, a folder, keeps the bare root for the next time. Logs stay in build/fresh.
 set -euo pipefail
 export LC_ALL=C
 
 here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
 checkout=$(cd "$here/../.." && pwd)
 logs="$checkout/build/fresh"
-suite=bookworm
+suite=${SUITE:-bookworm}
 disk_needed_gb=10
-variants=("${@:-root user}")
-[ $# -gt 0 ] || variants=(root user)
+proofs=("$@")
+[ $# -gt 0 ] || proofs=(odd root user)
 
 passed=0
 failed=0
@@ -56,12 +60,14 @@ isolated() {
 # in_root ROOT COMMAND...: runs COMMAND as root inside ROOT.
 in_root() { isolated bash "$here/enter.sh" "$@"; }
 
+log_of() { printf '%s/%s.log' "$logs" "$(tr -c 'a-z0-9\n' '-' <<<"$1" | cut -c -100)"; }
+
 # step NAME COMMAND...: one line of the result; the command's output goes to a log, whose end is shown on failure.
 # "set -e" does not hold in what it calls, so those functions say "|| return" themselves.
 step() {
   local name=$1 log start=$SECONDS status=0
   shift
-  log="$logs/$(tr -c 'a-z0-9\n' '-' <<<"$name").log"
+  log=$(log_of "$name")
   printf '==> %s ...\n' "$name"
   "$@" >"$log" 2>&1 || status=$?
   if [ $status -eq 0 ]; then
@@ -97,6 +103,37 @@ make_base() {
   configure_apt "$base" "$mirror" "$host_suite"
 }
 
+# The host's certificates, its own ones too: the bundle is made anew when ca-certificates is installed in the root.
+copy_certificates() {
+  local base=$1 bundle=/etc/ssl/certs/ca-certificates.crt
+  [ ! -f $bundle ] || install -D -m 644 $bundle "$base$bundle" || return
+  [ ! -d /usr/local/share/ca-certificates ] || cp -aL --parents /usr/local/share/ca-certificates "$base"
+}
+
+# npm in the root as on the host, for USER: where its registry is, proxies, certificates.
+configure_npm() {
+  local base=$1 user=$2 home=/root file name
+  [ "$user" = root ] || home=/home/$user
+  file=$(npm config get globalconfig 2>/dev/null) || file=/etc/npmrc
+  if [ -f "$file" ]; then
+    # Where npm looks depends on who has packaged it.
+    for name in /etc /usr/etc /usr/local/etc; do
+      install -D -m 644 "$file" "$base$name/npmrc" || return
+    done
+  fi
+  if [ -f "${npm_config_userconfig:-$HOME/.npmrc}" ]; then
+    install -m 600 "${npm_config_userconfig:-$HOME/.npmrc}" "$base$home/.npmrc"
+    in_root "$base" chown "$user:" "$home/.npmrc" || return
+  fi
+  # What "su -" gives to a login.
+  for name in NODE_EXTRA_CA_CERTS http_proxy https_proxy no_proxy HTTP_PROXY HTTPS_PROXY NO_PROXY; do
+    [ -z "${!name:-}" ] || printf '%s="%s"\n' "$name" "${!name}"
+  done >>"$base/etc/environment"
+  if [ -f "${NODE_EXTRA_CA_CERTS:-}" ]; then
+    install -D -m 644 "$NODE_EXTRA_CA_CERTS" "$base$NODE_EXTRA_CA_CERTS"
+  fi
+}
+
 # apt in the root as on the host: sources and their keys, options, proxies, names.
 configure_apt() {
   local base=$1 mirror=$2 host_suite=$3 uri release key file
@@ -124,14 +161,12 @@ configure_apt() {
   # A root that is thrown away needs no fsync after every file.
   printf 'force-unsafe-io\n' >"$base/etc/dpkg/dpkg.cfg.d/throw-away"
   cp -L /etc/resolv.conf /etc/hosts "$base/etc/"
-  if [ -f /etc/ssl/certs/ca-certificates.crt ] && grep -q 'https:' "$base/etc/apt/sources.list"; then
-    install -D -m 644 /etc/ssl/certs/ca-certificates.crt "$base/etc/ssl/certs/ca-certificates.crt"
-  fi
+  copy_certificates "$base" || return
   in_root "$base" apt-get -q update || return
   in_root "$base" env DEBIAN_FRONTEND=noninteractive apt-get -q install -y --no-install-recommends git make
 }
 
-# ---- one variant: as root, or as a plain user with sudo ---------------------------------------------------
+# ---- what is proven in a root --------------------------------------------------------------------------------
 
 prepare() {
   local root=$1 user=$2
@@ -144,6 +179,7 @@ prepare() {
     # A machine whose package lists were never fetched, as container images are.
     find "$root/var/lib/apt/lists" -type f -delete
   fi
+  configure_npm "$root" "$user" || return
   in_root "$root" su - "$user" -c 'git clone --quiet /checkout.bundle hullbench'
 }
 
@@ -172,26 +208,106 @@ nothing_enabled() {
   compgen -G "$1/usr/lib/postgresql/*/bin/initdb" >/dev/null || { echo "error: PostgreSQL was not installed, so this proves nothing."; return 1; }
 }
 
-run_variant() {
-  local variant=$1 root="$work/$1" user=root command
-  [ "$variant" = root ] || user=visitor
+# Everything that a test may need was installed: none was skipped. clang-format 14 is Debian 12's.
+none_skipped() {
+  local found
+  found=$(grep -E '^ +[0-9]+ skipped: ' "$1" | grep -v 'clang-format 14 is missing' || true)
+  grep -q '% tests passed' "$1" || { echo "error: $1 has no summary of ctest's."; return 1; }
+  [ -z "$found" ] || { printf 'error: skipped where all was to be there:\n%s\n' "$found"; return 1; }
+}
+
+# new_root NAME USER: a copy of the bare root with the clone; its path is in "root".
+new_root() {
+  root="$work/$1"
   cp -a "$work/base" "$root"
-  step "$variant: clone" prepare "$root" "$user" || return 0
+  step "$1: clone" prepare "$root" "$2"
+}
+
+remove_root() { rm -rf --one-file-system -- "$root"; }
+
+prove_first() {
+  new_root first root || return 0
+  step "first: make bench TABLE=alphabet" as_reader "$root" root "make bench TABLE=alphabet" || true
+  step "first: no server enabled" nothing_enabled "$root" || true
+  step "first: the work tree is unchanged" as_reader "$root" root '! git status --porcelain | grep .' || true
+  remove_root
+}
+
+# prove_all NAME USER
+prove_all() {
+  local command
+  new_root "$1" "$2" || return 0
   for command in "make bench-quick" "make test"; do
-    step "$variant: $command" as_reader "$root" "$user" "$command" || true
-    step "$variant: no server enabled after $command" nothing_enabled "$root" || true
+    step "$1: $command" as_reader "$root" "$2" "$command" || true
+    step "$1: no server enabled after $command" nothing_enabled "$root" || true
   done
-  step "$variant: the work tree is unchanged" as_reader "$root" "$user" '! git status --porcelain | grep .' || true
-  rm -rf --one-file-system -- "$root"
+  step "$1: no test was skipped" none_skipped "$(log_of "$1: make test")" || true
+  step "$1: the work tree is unchanged" as_reader "$root" "$2" '! git status --porcelain | grep .' || true
+  remove_root
+}
+
+# ---- roots that have a part of what the tests need --------------------------------------------------------
+
+packages_of() { awk -v name="[$1]" '/^\[/ { inside = $1 == name; next } inside && /^[a-z0-9]/ { sub("=.*", "", $1); print $1 }' "$checkout/cmake/packages.txt"; }
+
+# odd_root NAME PACKAGE...: a root with what the build needs and these packages.
+odd_root() {
+  local name=$1
+  shift
+  new_root "$name" root || return
+  # shellcheck disable=SC2046
+  step "$name: packages" in_root "$root" env DEBIAN_FRONTEND=noninteractive \
+    apt-get -q install -y --no-install-recommends $(packages_of build) "$@"
+}
+
+# configured NAME TEST...: with tests the build folder is configured, and these tests say what is missing.
+configured() {
+  local name=$1 tests
+  shift
+  tests=$(printf '|%s' "$@")
+  # Those of the tests that need no program of ours, as nothing is compiled.
+  step "$name: configured with tests; skipped: $*" as_reader "$root" root "
+    cmake --preset release -DHULLBENCH_TESTS=ON &&
+    ctest --preset release -R '^(${tests:1})\$' &&
+    test \$(grep -c '^skipped: .* is missing' build/Testing/Temporary/LastTest.log) -eq $#" || true
+}
+
+prove_odd() {
+  local pages="plots.report_in_browser plots.comparison_in_browser" figures="plots.records plots.figures"
+  # shellcheck disable=SC2046,SC2086
+  if odd_root googletest-without-the-rest $(packages_of unit); then
+    configured googletest-without-the-rest docker_compose gate.workflow docs.core $figures plots.html_report plots.comparison $pages
+    remove_root
+  fi
+  # shellcheck disable=SC2046,SC2086
+  if odd_root all-but-doxygen-and-compare $(packages_of unit) python3-yaml docker-compose python3-matplotlib; then
+    configured all-but-doxygen-and-compare docs.core $pages
+    remove_root
+  fi
+  if odd_root compare-without-googletest libbenchmark-tools doxygen; then
+    step "compare-without-googletest: configured without tests" as_reader "$root" root \
+      "cmake --preset release -DHULLBENCH_TESTS=OFF" || true
+    step "compare-without-googletest: with tests one sentence says what is missing" as_reader "$root" root \
+      "! cmake --preset release -DHULLBENCH_TESTS=ON 2>../said && grep 'The tests need GoogleTest: install it' ../said" || true
+    remove_root
+  fi
+  if odd_root node-without-npm nodejs; then
+    step "node-without-npm: make deps-extra" as_reader "$root" root "make deps-extra && test -d adapters/manifests/node_modules" || true
+    remove_root
+  fi
 }
 
 # ---- the driver -------------------------------------------------------------------------------------------
 
 [ "$(id -u)" -eq 0 ] || fail "debootstrap and chroot need root: run it as root."
 command -v apt-get >/dev/null || fail "this needs a Debian host: there is no apt-get."
-for variant in "${variants[@]}"; do
-  [[ "$variant" =~ ^(root|user)$ ]] || fail "'$variant' is neither root nor user."
+[[ "$suite" =~ ^(bookworm|trixie)$ ]] || fail "SUITE is bookworm (Debian 12) or trixie (Debian 13), not '$suite'."
+for proof in "${proofs[@]}"; do
+  [[ "$proof" =~ ^(first|root|user|odd)$ ]] || fail "'$proof' is none of first, root, user and odd."
 done
+# Some containers are root without the right to make namespaces and mounts.
+isolated mount -t tmpfs tmpfs /mnt 2>/dev/null ||
+  fail "this machine does not let root make namespaces and mounts (unshare, mount), so no bare root can be entered here."
 revision=$(git -C "$checkout" rev-parse --short HEAD 2>/dev/null) || fail "$checkout is no git checkout with a commit."
 parent=${TMPDIR:-/var/tmp}
 free_gb=$(df --output=avail -BG "$parent" | tail -n 1 | tr -dc 0-9)
@@ -219,7 +335,7 @@ if [ -n "${FRESH_CACHE:-}" ] && [ -d "$FRESH_CACHE/$suite" ]; then
   echo "==> using the pristine root in $FRESH_CACHE"
   cp -a "$FRESH_CACHE/$suite" "$work/base"
 else
-  step "bare Debian 12 root with git and make" make_base "$work/base" || exit 1
+  step "bare $suite root with git and make" make_base "$work/base" || exit 1
   if [ -n "${FRESH_CACHE:-}" ]; then
     mkdir -p "$FRESH_CACHE"
     cp -a "$work/base" "$FRESH_CACHE/$suite.partial"
@@ -227,8 +343,13 @@ else
   fi
 fi
 
-for variant in "${variants[@]}"; do
-  run_variant "$variant"
+for proof in "${proofs[@]}"; do
+  case $proof in
+    first) prove_first ;;
+    root) prove_all root root ;;
+    user) prove_all user visitor ;;
+    odd) prove_odd ;;
+  esac
 done
 echo "logs: $logs"
 echo "$passed passed, $failed failed"

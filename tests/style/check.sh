@@ -29,7 +29,7 @@ clang_format_14() {
       return
     fi
   done
-  echo "clang-format 14 is not installed ('make deps' installs it on Debian 12): formatting is not checked." >&2
+  echo "skipped: clang-format 14 is missing ('make deps' installs it on Debian 12): formatting is not checked." >&2
   exit 77
 }
 
