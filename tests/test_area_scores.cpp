@@ -155,29 +155,25 @@ TEST(AreaScores, OfNothingAreAllMissing) {
 struct InvalidCase {
   std::string name;
   MultiPolygon shape;
-  std::string reason;  // how GEOS's sentence, or ours, begins
+  std::string reason = {};  // how our sentence begins; empty: GEOS's words, which differ between its versions
 };
 
 std::vector<InvalidCase> invalid_cases() {
   constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
   return {
-      {"bow-tie", {{{{0, 0}, {2, 2}, {2, 0}, {0, 2}}, {}}}, "Self-intersection[1 1]"},
-      {"hole outside its shell", {{box(0, 0, 1, 1), {box(3, 3, 4, 4)}}}, "Hole lies outside shell[3 3]"},
-      {"hole across its shell", {{box(0, 0, 2, 2), {box(1, 1, 3, 3)}}}, "Self-intersection["},
-      {"nested holes", {{box(0, 0, 9, 9), {box(1, 1, 8, 8), box(3, 3, 4, 4)}}}, "Holes are nested["},
-      {"overlapping polygons", {{box(0, 0, 2, 2), {}}, {box(1, 1, 3, 3), {}}}, "Self-intersection["},
-      {"polygon within another", {{box(0, 0, 9, 9), {}}, {box(1, 1, 2, 2), {}}}, "Nested shells["},
-      {"the same polygon twice", {kSquare[0], kSquare[0]}, "Self-intersection["},
-      {"polygons that share an edge", {{box(0, 0, 1, 1), {}}, {box(1, 0, 2, 1), {}}}, "Self-intersection["},
-      {"interior cut apart",
-       {{box(0, 0, 4, 4), {{{0, 2}, {2, 3}, {4, 2}, {2, 1}}}}},
-       "Interior is disconnected["},
-      {"ring that passes a point twice",
-       {{{{0, 0}, {2, 0}, {1, 1}, {2, 2}, {0, 2}, {1, 1}}, {}}},
-       "Ring Self-intersection[1 1]"},
-      {"spike", {{{{0, 0}, {2, 0}, {2, 2}, {2, 5}, {2, 2}, {0, 2}}, {}}}, "Ring Self-intersection[2 2]"},
-      {"all points equal", {{{{1, 1}, {1, 1}, {1, 1}}, {}}}, "Too few points in geometry component[1 1]"},
+      {"bow-tie", {{{{0, 0}, {2, 2}, {2, 0}, {0, 2}}, {}}}},
+      {"hole outside its shell", {{box(0, 0, 1, 1), {box(3, 3, 4, 4)}}}},
+      {"hole across its shell", {{box(0, 0, 2, 2), {box(1, 1, 3, 3)}}}},
+      {"nested holes", {{box(0, 0, 9, 9), {box(1, 1, 8, 8), box(3, 3, 4, 4)}}}},
+      {"overlapping polygons", {{box(0, 0, 2, 2), {}}, {box(1, 1, 3, 3), {}}}},
+      {"polygon within another", {{box(0, 0, 9, 9), {}}, {box(1, 1, 2, 2), {}}}},
+      {"the same polygon twice", {kSquare[0], kSquare[0]}},
+      {"polygons that share an edge", {{box(0, 0, 1, 1), {}}, {box(1, 0, 2, 1), {}}}},
+      {"interior cut apart", {{box(0, 0, 4, 4), {{{0, 2}, {2, 3}, {4, 2}, {2, 1}}}}}},
+      {"ring that passes a point twice", {{{{0, 0}, {2, 0}, {1, 1}, {2, 2}, {0, 2}, {1, 1}}, {}}}},
+      {"spike", {{{{0, 0}, {2, 0}, {2, 2}, {2, 5}, {2, 2}, {0, 2}}, {}}}},
+      {"all points equal", {{{{1, 1}, {1, 1}, {1, 1}}, {}}}},
       {"shell of two points", {{{{0, 0}, {1, 1}}, {}}}, "Too few points in ring[0 0]"},
       {"hole of one point", {{box(0, 0, 1, 1), {{{0.5, 0.5}}}}}, "Too few points in ring[0.5 0.5]"},
       {"shell without points", {{{}, {}}}, "Ring without points"},
@@ -191,7 +187,8 @@ TEST(AreaScores, OfInvalidShapesSayWhyAndLeaveRatiosOpen) {
     SCOPED_TRACE(invalid.name);
     const AreaScores scores = area_scores(invalid.shape, kSquare);
     EXPECT_FALSE(scores.valid);
-    EXPECT_EQ(scores.invalid_reason.substr(0, invalid.reason.size()), invalid.reason);
+    EXPECT_TRUE(scores.invalid_reason.starts_with(invalid.reason)) << scores.invalid_reason;
+    EXPECT_FALSE(scores.invalid_reason.empty());
     EXPECT_EQ(scores.invalid_reason, invalid_reason(invalid.shape));
     EXPECT_TRUE(std::isfinite(scores.area));
     EXPECT_EQ(scores.ground_truth_area, 1);

@@ -4,6 +4,7 @@
 #include <CGAL/Alpha_shape_vertex_base_2.h>
 #include <CGAL/Delaunay_triangulation_2.h>
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
+#include <CGAL/version_macros.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -74,7 +75,7 @@ TEST(CgalAlphaShape, SaysWhatItIs) {
   EXPECT_EQ(info.name, "cgal_alpha_shape");
   EXPECT_EQ(info.title, "CGAL alpha shape");
   EXPECT_EQ(info.licence, "GPL-3.0-or-later");
-  EXPECT_EQ(info.version.substr(0, 2), "5.") << info.version;
+  EXPECT_EQ(info.version, CGAL_VERSION_STR);
   ASSERT_EQ(info.parameters.size(), 1U);
   EXPECT_EQ(info.parameters[0].name, "alpha");
   EXPECT_EQ(info.parameters[0].unit, "length^2");

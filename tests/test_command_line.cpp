@@ -327,15 +327,6 @@ TEST_F(CommandLineTest, LimitsReachTheWorkers) {
   EXPECT_EQ(header["plan"]["mem_limit_mib"], 1000);
 }
 
-TEST_F(CommandLineTest, ALimitInWhichNoWorkerCanStartIsALackOfMemory) {
-  const Outcome outcome =
-      hullbench({"run", plan({500}, 1), "--mem-limit", "64", "--filter", "holes:0", "--out", "run"});
-  EXPECT_EQ(outcome.code, 4) << outcome.err;
-  const auto rows = lines_of(folder() / "run" / "runs.jsonl");
-  ASSERT_EQ(rows.size(), 1U);
-  EXPECT_EQ(rows[0]["status"], "memory") << rows[0]["detail"];
-}
-
 TEST_F(CommandLineTest, TablesAndValidateOfWhatIsNotThere) {
   expect_refusal(hullbench({"tables"}), 2, "there is no run in results/latest");
   expect_refusal(hullbench({"tables", "/nowhere"}), 2, "there is no run in /nowhere");

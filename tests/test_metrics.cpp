@@ -355,7 +355,7 @@ TEST(Metrics, OfNothing) {
 TEST(Metrics, OfAnInvalidShapeAreWhatNeedsNoOverlay) {
   const Metrics metrics = score_on_square(kBowTie);
   EXPECT_FALSE(metrics.area.valid);
-  EXPECT_EQ(metrics.area.invalid_reason, "Self-intersection[1 1]");
+  EXPECT_EQ(metrics.area.invalid_reason, invalid_reason(kBowTie));
   EXPECT_FALSE(metrics.boundary || metrics.boundary_iou || metrics.skill || metrics.holes.f1);
   EXPECT_EQ(metrics.vertex_count, 4U);
   EXPECT_EQ(metrics.counts.polygons_error, 0);

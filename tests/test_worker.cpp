@@ -134,6 +134,13 @@ TEST_F(MethodSessionTest, HangThatIgnoresTermination) {
 TEST_F(MethodSessionTest, MemoryUsedUp) {
   expect("memory", Status::kMemory, "256 MiB");
 }
+TEST_F(MethodSessionTest, ALimitInWhichNoWorkerCanStartIsALackOfMemory) {
+  // Less than the C++ library takes that every worker of ours is linked with.
+  session_ = std::make_unique<MethodSession>(method_of("good", misbehaving("good")),
+                                             WorkerLimits{2, std::nullopt, 8});
+  const Attempt result = run();
+  EXPECT_EQ(to_string(result.status), "memory") << result.detail;
+}
 TEST_F(MethodSessionTest, MemoryAsTheWorkerSays) {
   expect("says_memory", Status::kMemory, "no room");
 }
