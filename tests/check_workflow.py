@@ -9,7 +9,7 @@ import sys
 
 import yaml
 
-NEEDED = {"test", "test-sanitize", "bench-gate-instructions", "bench-quick"}
+NEEDED = {"bench", "test", "test-sanitize", "bench-gate-instructions", "bench-quick"}
 ARTEFACTS = {"results/latest/report.json", "results/latest/tables.md"}
 
 

@@ -112,8 +112,7 @@ copy_certificates() {
 
 # npm in the root as on the host, for USER: where its registry is, proxies, certificates.
 configure_npm() {
-  local base=$1 user=$2 home=/root file name
-  [ "$user" = root ] || home=/home/$user
+  local base=$1 user=$2 home file name
   file=$(npm config get globalconfig 2>/dev/null) || file=/etc/npmrc
   if [ -f "$file" ]; then
     # Where npm looks depends on who has packaged it.
@@ -122,7 +121,8 @@ configure_npm() {
     done
   fi
   if [ -f "${npm_config_userconfig:-$HOME/.npmrc}" ]; then
-    install -m 600 "${npm_config_userconfig:-$HOME/.npmrc}" "$base$home/.npmrc"
+    home=$(awk -F : -v user="$user" '$1 == user { print $6 }' "$base/etc/passwd")
+    install -m 600 "${npm_config_userconfig:-$HOME/.npmrc}" "$base$home/.npmrc" || return
     in_root "$base" chown "$user:" "$home/.npmrc" || return
   fi
   # What "su -" gives to a login.
