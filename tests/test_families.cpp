@@ -6,6 +6,7 @@
 #include <set>
 #include <stdexcept>
 #include <string>
+#include <string_view>
 
 #include "datasets/families.hpp"
 #include "datasets/holes.hpp"
@@ -36,11 +37,11 @@ std::string digest(const ShapeFamily& family, std::size_t count, bool holes) {
   return sha256_hex(bytes);
 }
 
-const ShapeFamily& family_named(const std::string& name) {
+const ShapeFamily& family_named(std::string_view name) {
   const auto& families = shape_families();
   const auto found = std::find_if(families.begin(), families.end(),
                                   [&](const ShapeFamily& family) { return family.name == name; });
-  if (found == families.end()) throw std::invalid_argument(name);
+  if (found == families.end()) throw std::invalid_argument(std::string(name));
   return *found;
 }
 

@@ -8,6 +8,7 @@
 #include <set>
 #include <stdexcept>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -48,11 +49,11 @@ League league_of(const std::vector<json>& rows) {
   return make_league({report(rows)}, 1, false);
 }
 
-const LeagueEntry& entry(const League& league, const std::string& method, const std::string& protocol) {
+const LeagueEntry& entry(const League& league, std::string_view method, std::string_view protocol) {
   for (const LeagueEntry& one : league.entries) {
     if (one.method == method && one.protocol == protocol) return one;
   }
-  throw std::runtime_error("there is no entry " + method + " " + protocol);
+  throw std::runtime_error("there is no entry " + std::string(method) + " " + std::string(protocol));
 }
 
 TEST(League, TakesTheMedianOverCases) {
