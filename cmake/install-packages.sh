@@ -22,7 +22,8 @@ fail() {
   exit "$status"
 }
 
-# Lines "name<tab>what it is<tab>command" of the sections given; the command is empty for most.
+# Lines "name<tab>what it is<tab>command" of the sections given; the command is empty for most. The name of a package
+# that a distribution need not offer ends with "?".
 wanted() {
   awk -v sections=" $* " '
     /^\[/ { name = substr($0, 2, index($0, "]") - 2); inside = index(sections, " " name " "); next }
@@ -39,8 +40,11 @@ wanted_names() {
 
 # Those of the packages given that are not installed.
 missing_of() {
-  comm -23 <(printf '%s\n' "$@" | sort -u) \
-    <(dpkg-query -W -f '${Package} ${db:Status-Status}\n' "$@" 2>/dev/null | awk '$2 == "installed" { print $1 }' | sort -u)
+  local installed package
+  installed=$(dpkg-query -W -f '${Package} ${db:Status-Status}\n' "${@%\?}" 2>/dev/null | awk '$2 == "installed" { print $1 }') || true
+  printf '%s\n' "$@" | sort -u | while IFS= read -r package; do
+    grep -qxF -- "${package%\?}" <<<"$installed" || printf '%s\n' "$package"
+  done
 }
 
 is_installed() { [ -z "$(missing_of "$1")" ]; }
@@ -60,7 +64,7 @@ check_cmake() {
 list_for_other_distributions() {
   printf 'error: %s has no apt-get: install these by hand (Debian names), then add SKIP_DEPS=1 to the make command.\n\n' \
     "$(distribution)"
-  wanted "$@" | awk -F '\t' '{ printf "  %-22s %s\n", $1, $2 }'
+  wanted "$@" | awk -F '\t' '{ sub(/\?$/, "", $1); printf "  %-22s %s\n", $1, $2 }'
 } >&2
 
 # ---- the part that runs as root ---------------------------------------------------------------------------
@@ -147,11 +151,21 @@ without_candidate() {
     comm -13 - <(printf '%s\n' "$@" | sort -u)
 }
 
+# Those of the packages given that must or can be installed: not those with a "?" that the distribution does not offer.
+obtainable() {
+  [ $# -eq 0 ] || comm -23 <(printf '%s\n' "$@" | sort -u) <(without_candidate "${@%\?}" | sed 's/$/?/' | sort -u)
+}
+
 install_as_root() {
-  local unknown updated=no cmake_candidate clusters_before
-  if [ -n "$(without_candidate "$@")" ]; then
+  local unknown updated=no cmake_candidate clusters_before names
+  if [ -n "$(without_candidate "${@%\?}")" ]; then
     update_lists
     updated=yes
+  fi
+  mapfile -t names < <(obtainable "$@")
+  [ ${#names[@]} -gt 0 ] || return 0
+  set -- "${names[@]%\?}"
+  if [ $updated = yes ]; then
     unknown=$(without_candidate "$@" | paste -sd ' ')
     [ -z "$unknown" ] ||
       fail 2 "$(distribution) offers no package $unknown: Debian 12, Ubuntu 24.04 (with 'universe') or newer is needed."
@@ -214,10 +228,12 @@ check_cmake
 mapfile -t packages < <(wanted_names "$@")
 [ ${#packages[@]} -gt 0 ] || exit 0
 mapfile -t missing < <(missing_of "${packages[@]}")
+# Without lists nobody knows what the distribution offers.
+! compgen -G '/var/lib/apt/lists/*_Packages*' >/dev/null || mapfile -t missing < <(obtainable "${missing[@]}")
 [ ${#missing[@]} -gt 0 ] || exit 0
 
 if [ "$check_only" = yes ]; then
-  printf 'missing: %s\n' "${missing[*]}" >&2
+  printf 'missing: %s\n' "${missing[*]%\?}" >&2
   exit 1
 fi
 
@@ -228,9 +244,11 @@ elif command -v sudo >/dev/null; then
   say "installing needs root: calling sudo"
   sudo bash "$here/install-packages.sh" --as-root "${missing[@]}"
 else
-  fail 2 "installing needs root and there is no sudo: run 'apt-get install ${missing[*]}' as root."
+  fail 2 "installing needs root and there is no sudo: run 'apt-get install ${missing[*]%\?}' as root."
 fi
 check_cmake
 mapfile -t missing < <(missing_of "${packages[@]}")
-[ ${#missing[@]} -eq 0 ] || fail 1 "still not installed: ${missing[*]}."
+mapfile -t needed < <(obtainable "${missing[@]}")
+[ ${#needed[@]} -eq 0 ] || fail 1 "still not installed: ${needed[*]%\?}."
+[ ${#missing[@]} -eq 0 ] || say "$(distribution) does not offer ${missing[*]%\?}: what needs it is skipped"
 say "all packages are installed"

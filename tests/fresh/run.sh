@@ -248,7 +248,7 @@ prove_all() {
 
 # ---- roots that have a part of what the tests need --------------------------------------------------------
 
-packages_of() { awk -v name="[$1]" '/^\[/ { inside = $1 == name; next } inside && /^[a-z0-9]/ { sub("=.*", "", $1); print $1 }' "$checkout/cmake/packages.txt"; }
+packages_of() { awk -v name="[$1]" '/^\[/ { inside = $1 == name; next } inside && /^[a-z0-9]/ { sub("[?=].*", "", $1); print $1 }' "$checkout/cmake/packages.txt"; }
 
 # odd_root NAME PACKAGE...: a root with what the build needs and these packages.
 odd_root() {
