@@ -55,7 +55,7 @@ NATIVE_OPTION = -DHULLBENCH_NATIVE=$(if $(filter-out 0,$(NATIVE)),ON,OFF)
 WITHOUT_TESTS = $(NATIVE_OPTION) -DHULLBENCH_TESTS=OFF
 WITH_TESTS = $(NATIVE_OPTION) -DHULLBENCH_TESTS=ON
 
-.PHONY: help deps deps-extra build bench bench-quick figures figures-core report report-compare evaluate bench-core bench-gate bench-gate-instructions reference test test-sanitize build-clang test-clang test-fresh test-slurm test-gate fuzz lint format docs clean
+.PHONY: help deps deps-extra deps-legacy build bench bench-quick figures figures-core report report-compare evaluate bench-core bench-gate bench-gate-instructions reference test test-sanitize build-clang test-clang test-fresh test-slurm test-gate fuzz lint format docs clean clean-legacy
 
 help: ## list the targets (the default)
 	@awk 'BEGIN { FS = ":.*## " } /^[a-z-]+:.*## / { printf "  make %-23s %s\n", $$1, $$2 }' Makefile
@@ -65,10 +65,15 @@ deps: ## install what is missing of all the packages, development tools included
 	@cmake/install-packages.sh build bench unit test docs python plots lint gate
 	@echo "==> nothing is missing"
 
-deps-extra: ## install what the methods in JavaScript, Python and Java need
+deps-extra: ## install what the other methods need: those in JavaScript, Python and Java, PCL, the paper's PostGIS
 	@$(call install,extra)
 	@$(if $(SKIP_DEPS),,cmake/install-npm.sh adapters/manifests)
-	@echo "==> nothing is missing for the methods in other languages"
+	@$(if $(SKIP_DEPS),,cmake/install-legacy.sh)
+	@echo "==> nothing is missing for the other methods"
+
+deps-legacy: ## get the paper's PostGIS (3.1, from Debian 11) into a folder of caches, without root
+	@cmake/install-legacy.sh
+	@echo "==> nothing is missing for postgis_legacy"
 
 build: ## only build: build/hullbench and build/core_benchmarks
 	@$(call build,release,$(WITHOUT_TESTS),hullbench core_benchmarks)
@@ -232,3 +237,6 @@ docs: ## the core's reference as HTML in build/docs/core; fails when something p
 clean: ## remove what was built; results stay
 	@rm -rf build build-clang build-sanitize build-sanitize-threads build-fuzz build-gate
 	@echo "==> removed build and build-*"
+
+clean-legacy: ## remove the paper's PostGIS
+	@cmake/install-legacy.sh --remove

@@ -1,12 +1,21 @@
 // PostGIS's ST_ConcaveHull through libpq.
 //
+// The length-ratio hull takes a length too, which ST_ConcaveHull does not: PostGIS measures the ratio from
+// the shortest edge of its own Delaunay triangulation (0) to the longest (1), so load() has PostGIS
+// triangulate and remembers these two, and run() turns the length into its ratio. One of both decides: as
+// with GEOS's own hull both default to "no limit", the convex hull, and `length_ratio` must be left at 1 when
+// `max_edge_length` is finite.
+//
 // Degenerate input: fewer than 3 distinct points, or points all on a line, give an empty multipolygon
 // (PostGIS answers with a point, a line or NULL). NULL for any other input is an error of the method.
 #include "adapters/postgis.hpp"
 
+#include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <span>
@@ -23,10 +32,34 @@ namespace hullbench {
 namespace {
 
 constexpr const char* kLegacyRemedy =
-    "docker-compose up -d postgis-legacy, then set HULLBENCH_POSTGIS_DSN as docker-compose.yml shows";
+    "unset HULLBENCH_POSTGIS_LEGACY_DSN and run make deps-legacy, or docker-compose up -d postgis-legacy and "
+    "set it as docker-compose.yml shows";
 constexpr const char* kCurrentRemedy =
     "unset HULLBENCH_POSTGIS_DSN for a private server, or docker-compose up -d postgis and set it as "
     "docker-compose.yml shows";
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr double kConvexRatio = 1;
+
+constexpr const char* kShortestAndLongestEdge =
+    "SELECT min(length), max(length) FROM ("
+    "  SELECT unnest(ARRAY[ST_Distance(a, b), ST_Distance(b, c), ST_Distance(c, a)]) AS length"
+    "  FROM (SELECT ST_PointN(ring, 1) AS a, ST_PointN(ring, 2) AS b, ST_PointN(ring, 3) AS c"
+    "        FROM (SELECT ST_ExteriorRing((ST_Dump(ST_DelaunayTriangles(geom))).geom) AS ring"
+    "              FROM pg_temp.hullbench_points OFFSET 0) AS rings OFFSET 0) AS corners) AS edges";
+
+/// The two edges of the triangulation between which PostGIS measures its ratio.
+struct EdgeRange {
+  double shortest;
+  double longest;
+
+  /// The length ratio that stands for `length`; below the shortest edge and above the longest the nearest
+  /// one.
+  double ratio_of(double length) const {
+    if (length >= longest) return kConvexRatio;
+    return std::max(0.0, (length - shortest) / (longest - shortest));
+  }
+};
 
 /// What a server says about itself.
 struct Server {
@@ -72,7 +105,12 @@ MethodInfo describe_method(const Server& server) {
         {"length_ratio", "ratio",
          "Longest edge allowed, between the shortest (0) and the longest (1) edge of the Delaunay "
          "triangulation.",
-         0, 1, std::nullopt});
+         0, 1, kConvexRatio});
+    info.parameters.push_back(
+        {"max_edge_length", "length",
+         "Longest edge allowed, as a length, which is turned into its ratio; when it is finite, length_ratio "
+         "is left at 1.",
+         0, kInfinity, kInfinity});
   }
   info.parameters.push_back({"allow_holes", "switch", "Whether holes are kept (1) or filled (0).", 0, 1, 0});
   info.capabilities = {.holes = true, .several_polygons = false, .in_server = true};
@@ -117,7 +155,9 @@ void refuse_other_method(const std::filesystem::path& bin, PostgisMethod wanted)
 class Postgis final : public Adapter {
  public:
   explicit Postgis(PostgisMethod method)
-      : connection_([method](const std::filesystem::path& bin) { refuse_other_method(bin, method); }) {
+      : method_(method),
+        connection_(method == PostgisMethod::kTargetPercent ? kLegacyServer : kCurrentServer,
+                    [method](const std::filesystem::path& bin) { refuse_other_method(bin, method); }) {
     const Server server = describe_server(connection_.session());
     if (server.method != method) throw_other_method(server);
     info_ = describe_method(server);
@@ -132,13 +172,16 @@ class Postgis final : public Adapter {
     if (connection_.reopen_if_lost()) prepare();
     fill_point_table(connection_.session(), points);
     has_area_ = span_an_area(points);
+    edges_.reset();
+    if (is_by_length_ratio() && has_area_) edges_ = measure_edges();
   }
 
   void run(const Parameters& parameters, Steps& /*steps*/) override {
     hull_.reset();
     const Parameters values = complete_parameters(info_, parameters);
-    hull_ = connection_.session().execute_prepared(
-        kHull, {binary(values.at(info_.parameters[0].name)), binary(values.at("allow_holes") != 0)});
+    const double share = is_by_length_ratio() ? length_ratio(values) : values.at("target_percent");
+    hull_ =
+        connection_.session().execute_prepared(kHull, {binary(share), binary(values.at("allow_holes") != 0)});
     if (PQntuples(hull_.get()) != 1) throw std::logic_error(info_.name + ": run before load");
     if (PQgetisnull(hull_.get(), 0, 0) != 0 && has_area_) {
       throw std::runtime_error("PostGIS's ST_ConcaveHull answered NULL and gave no reason");
@@ -152,17 +195,44 @@ class Postgis final : public Adapter {
 
  private:
   static constexpr const char* kHull = "hull";
+  static constexpr const char* kEdges = "edges";
+
+  bool is_by_length_ratio() const { return method_ == PostgisMethod::kLengthRatio; }
+
+  // None when PostGIS makes no triangle of the points, which are nearly on a line then.
+  std::optional<EdgeRange> measure_edges() {
+    const Result answer = connection_.session().execute_prepared(kEdges);
+    if (PQgetisnull(answer.get(), 0, 0) != 0) return std::nullopt;
+    return EdgeRange{number(answer, 0), number(answer, 1)};
+  }
+
+  double length_ratio(const Parameters& values) const {
+    const double ratio = values.at("length_ratio");
+    const double length = values.at("max_edge_length");
+    if (!std::isfinite(length)) return ratio;
+    if (ratio != kConvexRatio) {
+      throw std::invalid_argument(
+          "postgis takes 'length_ratio' or 'max_edge_length', not both: leave 'length_ratio' out when "
+          "'max_edge_length' is finite");
+    }
+    if (!has_area_) return ratio;
+    if (!edges_) throw std::runtime_error("PostGIS's ST_DelaunayTriangles gave no triangle and no reason");
+    return edges_->ratio_of(length);
+  }
 
   void prepare() {
     Session& session = connection_.session();
     create_point_table(session);
     session.prepare(kHull, "SELECT ST_AsBinary(ST_ConcaveHull(geom, $1, $2)) FROM pg_temp.hullbench_points",
                     {kFloat8, kBool});
+    if (is_by_length_ratio()) session.prepare(kEdges, kShortestAndLongestEdge);
   }
 
+  PostgisMethod method_;
   PostgisConnection connection_;
   MethodInfo info_;
   bool has_area_ = false;
+  std::optional<EdgeRange> edges_;  ///< of the loaded points; none without an area
   Result hull_{nullptr, &PQclear};
 };
 

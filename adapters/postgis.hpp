@@ -12,8 +12,8 @@ enum class PostgisMethod {
   kTargetPercent,  ///< before that: the method which the paper describes, written in PL/pgSQL
 };
 
-/// Connects to the server that the environment variable HULLBENCH_POSTGIS_DSN names, or starts a private one
-/// when it is unset or empty. Throws NotInstalled when there is no server or when it has the other method.
+/// Connects to the method's own server: kCurrentServer, or kLegacyServer for kTargetPercent
+/// (postgis_session.hpp). Throws NotInstalled when there is no server or when it has the other method.
 std::unique_ptr<Adapter> make_postgis_adapter(PostgisMethod method);
 
 }  // namespace hullbench

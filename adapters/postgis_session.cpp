@@ -13,8 +13,6 @@
 namespace hullbench {
 namespace {
 
-constexpr const char* kDsnVariable = "HULLBENCH_POSTGIS_DSN";
-
 constexpr int kBinary = 1;
 constexpr int kText = 0;
 
@@ -88,6 +86,12 @@ std::span<const std::uint8_t> bytes(const Result& result, int column) {
   return {first, static_cast<std::size_t>(PQgetlength(result.get(), 0, column))};
 }
 
+double number(const Result& result, int column) {
+  std::uint64_t bits = 0;
+  for (const std::uint8_t byte : bytes(result, column)) bits = bits << 8U | byte;
+  return std::bit_cast<double>(bits);
+}
+
 Binary binary(const std::vector<std::uint8_t>& wkb) {
   return {kBytea, std::vector<char>(wkb.begin(), wkb.end())};
 }
@@ -144,11 +148,13 @@ Result Session::checked(PGresult* raw) {
   throw std::runtime_error("PostGIS: " + why);
 }
 
-PostgisConnection::PostgisConnection(const std::function<void(const std::filesystem::path& bin)>& inspect) {
-  const char* named = std::getenv(kDsnVariable);
+PostgisConnection::PostgisConnection(const PostgisServer& server,
+                                     const std::function<void(const std::filesystem::path& bin)>& inspect)
+    : server_(server) {
+  const char* named = std::getenv(server_.dsn_variable);
   is_private_ = named == nullptr || *named == '\0';
   if (is_private_) {
-    const std::filesystem::path bin = find_postgres(postgres_bin_folders());
+    const std::filesystem::path bin = find_postgres(server_.bin_folders(), server_.install);
     if (inspect) inspect(bin);
     private_server_.emplace(bin);
   }
@@ -166,8 +172,9 @@ void PostgisConnection::open() {
   session_.emplace(dsn_);
   if (!session_->is_open()) throw_no_connection();
   if (!find_extension(*session_)) {
-    throw NotInstalled("the database named by HULLBENCH_POSTGIS_DSN has no PostGIS extension",
-                       "run CREATE EXTENSION postgis in it");
+    throw NotInstalled(
+        "the database named by " + std::string(server_.dsn_variable) + " has no PostGIS extension",
+        "run CREATE EXTENSION postgis in it");
   }
   make_single_threaded(*session_);
 }
@@ -175,12 +182,13 @@ void PostgisConnection::open() {
 void PostgisConnection::throw_no_connection() const {
   const std::string refusal = session_->refusal();
   if (is_private_) throw std::runtime_error("the private PostgreSQL server does not answer " + refusal);
+  const std::string variable = server_.dsn_variable;
   if (!refusal.empty()) {
-    throw NotInstalled("the server named by HULLBENCH_POSTGIS_DSN refuses the connection: " + refusal,
-                       "correct HULLBENCH_POSTGIS_DSN, or unset it for a private server");
+    throw NotInstalled("the server named by " + variable + " refuses the connection: " + refusal,
+                       "correct " + variable + ", or unset it for a private server");
   }
-  throw NotInstalled("the server named by HULLBENCH_POSTGIS_DSN does not answer",
-                     "start it or correct HULLBENCH_POSTGIS_DSN, or unset it for a private server");
+  throw NotInstalled("the server named by " + variable + " does not answer",
+                     "start it or correct " + variable + ", or unset it for a private server");
 }
 
 std::string PostgisVersions::together() const {

@@ -31,6 +31,9 @@ std::string text(const Result& result, int column);
 /// The bytes of a column of the first row of a binary result; they live as long as `result`.
 std::span<const std::uint8_t> bytes(const Result& result, int column);
 
+/// The float8 in a column of the first row of a binary result.
+double number(const Result& result, int column);
+
 /// A parameter of a statement in PostgreSQL's binary format.
 struct Binary {
   Oid type;
@@ -68,13 +71,25 @@ class Session {
   std::unique_ptr<PGconn, decltype(&PQfinish)> connection_;
 };
 
-/// A server with PostGIS: the one that the environment variable HULLBENCH_POSTGIS_DSN names, or a private one
-/// when it is unset or empty.
+/// Which server a method runs on: two PostGIS of different age are measured in one run, so each has its own.
+struct PostgisServer {
+  const char* dsn_variable;  ///< environment variable with the connection string of a server that runs
+  std::vector<std::filesystem::path> (*bin_folders)();  ///< of a private server, when that is unset or empty
+  const char* install;                                  ///< the command that installs one
+};
+
+inline constexpr PostgisServer kCurrentServer = {"HULLBENCH_POSTGIS_DSN", &postgres_bin_folders,
+                                                 kInstallPostgis};
+inline constexpr PostgisServer kLegacyServer = {"HULLBENCH_POSTGIS_LEGACY_DSN", &legacy_postgres_bin_folders,
+                                                "make deps-legacy"};
+
+/// A connection to `server`: to the one that its environment variable names, or to a private one.
 class PostgisConnection {
  public:
   /// `inspect` sees the program folder of the server that would be started and throws when that would be in
   /// vain; it is not asked about a named server. Throws NotInstalled when there is no server or no PostGIS.
-  explicit PostgisConnection(const std::function<void(const std::filesystem::path& bin)>& inspect = {});
+  explicit PostgisConnection(const PostgisServer& server,
+                             const std::function<void(const std::filesystem::path& bin)>& inspect = {});
 
   Session& session() { return *session_; }
 
@@ -86,6 +101,7 @@ class PostgisConnection {
   void open();
   [[noreturn]] void throw_no_connection() const;
 
+  PostgisServer server_;
   bool is_private_ = false;
   std::string dsn_;
   std::optional<PrivatePostgres> private_server_;

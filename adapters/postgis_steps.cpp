@@ -124,7 +124,7 @@ class PostgisSteps final : public Adapter {
     is_empty_ = true;
   }
 
-  PostgisConnection connection_;
+  PostgisConnection connection_{kCurrentServer};
   MethodInfo info_ = describe(connection_.session());
   bool has_area_ = false;
   bool is_empty_ = true;  ///< whether the tables between the steps are

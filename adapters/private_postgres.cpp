@@ -29,7 +29,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* kInstall = "sudo apt-get install postgresql-postgis";
+// Where cmake/install-legacy.sh puts the paper's PostGIS, in the folder of caches of root or of the user.
+constexpr const char* kLegacyBin = "hullbench/postgis-legacy/bin";
 
 struct Pipe {
   int read_end;
@@ -89,6 +90,26 @@ std::string first_line(const std::string& program, const std::string& argument) 
   return text.substr(0, text.find('\n'));
 }
 
+// Empty when it is unset.
+std::string environment_variable(const char* name) {
+  const char* value = std::getenv(name);
+  return value == nullptr ? "" : value;
+}
+
+// Root runs nothing that lies in a user's folder: HOME may be that of whoever called sudo.
+std::vector<fs::path> cache_folders() {
+  std::vector<fs::path> folders;
+  const std::string cache = environment_variable("XDG_CACHE_HOME");
+  const std::string home = environment_variable("HOME");
+  if (geteuid() != 0 && !cache.empty()) {
+    folders.emplace_back(cache);
+  } else if (geteuid() != 0 && !home.empty()) {
+    folders.push_back(fs::path(home) / ".cache");
+  }
+  folders.emplace_back("/var/cache");
+  return folders;
+}
+
 bool can_run(const fs::path& program) {
   return access(program.c_str(), X_OK) == 0;
 }
@@ -130,7 +151,8 @@ void create_extension(const std::string& dsn) {
 }  // namespace
 
 std::vector<fs::path> postgres_bin_folders() {
-  if (const char* named = std::getenv("HULLBENCH_POSTGRES_BIN")) return {named};
+  const std::string named = environment_variable("HULLBENCH_POSTGRES_BIN");
+  if (!named.empty()) return {named};
   std::vector<fs::path> folders;
   const std::string configured = first_line("pg_config", "--bindir");
   if (!configured.empty()) folders.emplace_back(configured);
@@ -141,12 +163,26 @@ std::vector<fs::path> postgres_bin_folders() {
   return folders;
 }
 
-fs::path extension_folder(const fs::path& bin) {
-  const fs::path shared = first_line((bin / "pg_config").string(), "--sharedir");
-  return shared.empty() ? fs::path() : shared / "extension";
+std::vector<fs::path> legacy_postgres_bin_folders() {
+  const std::string named = environment_variable("HULLBENCH_POSTGRES_LEGACY_BIN");
+  if (!named.empty()) return {named};
+  for (const fs::path& cache : cache_folders()) {
+    if (can_run(cache / kLegacyBin / "postgres")) return {cache / kLegacyBin};
+  }
+  return postgres_bin_folders();
 }
 
-fs::path find_postgres(const std::vector<fs::path>& candidates) {
+fs::path extension_folder(const fs::path& bin) {
+  const std::string program = (bin / "pg_config").string();
+  const fs::path shared = first_line(program, "--sharedir");
+  const fs::path built_for = first_line(program, "--bindir");
+  if (shared.empty() || built_for.empty()) return {};
+  std::error_code ignored;
+  const fs::path from = fs::weakly_canonical(bin, ignored);
+  return (from / shared.lexically_relative(built_for) / "extension").lexically_normal();
+}
+
+fs::path find_postgres(const std::vector<fs::path>& candidates, const char* install) {
   bool any_server = false;
   std::optional<std::pair<std::pair<int, int>, fs::path>> newest;
   for (const fs::path& bin : candidates) {
@@ -158,7 +194,7 @@ fs::path find_postgres(const std::vector<fs::path>& candidates) {
   if (newest) return newest->second;
   throw NotInstalled(
       any_server ? "PostgreSQL is installed, but not its PostGIS extension" : "PostgreSQL is not installed",
-      kInstall);
+      install);
 }
 
 PrivatePostgres::PrivatePostgres(const fs::path& bin) {

@@ -9,17 +9,28 @@
 
 namespace hullbench {
 
+/// The command that installs a current PostgreSQL with PostGIS.
+inline constexpr const char* kInstallPostgis = "sudo apt-get install postgresql-postgis";
+
 /// Folders where programs of installed PostgreSQL servers may be: the one that HULLBENCH_POSTGRES_BIN names
-/// and no other; where that is not set, what `pg_config` says, then /usr/lib/postgresql/*/bin.
+/// and no other; where that is unset or empty, what `pg_config` says, then /usr/lib/postgresql/*/bin.
 std::vector<std::filesystem::path> postgres_bin_folders();
 
-/// Where the PostgreSQL in `bin` keeps the control files and scripts of its extensions; empty when it does
-/// not say.
+/// The same for the paper's PostGIS: the folder that HULLBENCH_POSTGRES_LEGACY_BIN names and no other; where
+/// that is unset or empty, the one that `make deps-legacy` makes for this user or for root; where that is not
+/// there, postgres_bin_folders(), as an older system has the paper's PostGIS itself.
+std::vector<std::filesystem::path> legacy_postgres_bin_folders();
+
+/// Where the PostgreSQL in `bin` looks for the control files and scripts of its extensions; empty when its
+/// pg_config does not say. PostgreSQL goes there from its own place by the way between the folders that it
+/// was built for, so this holds too when it was moved.
 std::filesystem::path extension_folder(const std::filesystem::path& bin);
 
 /// The folder of `candidates` with the programs of the newest PostgreSQL for which the PostGIS extension is
-/// installed. Throws NotInstalled when there is none, saying whether PostgreSQL or PostGIS is missing.
-std::filesystem::path find_postgres(const std::vector<std::filesystem::path>& candidates);
+/// installed. Throws NotInstalled with the remedy `install` when there is none, saying whether PostgreSQL or
+/// PostGIS is missing.
+std::filesystem::path find_postgres(const std::vector<std::filesystem::path>& candidates,
+                                    const char* install = kInstallPostgis);
 
 /// A running PostgreSQL server with the PostGIS extension, in a new temporary folder `hullbench-postgres-*`.
 /// It listens on a Unix socket in that folder only, no TCP, and trusts whoever can reach the socket: the
