@@ -63,20 +63,18 @@ find_package(Boost REQUIRED)
 add_adapter(NAME chi_shape TITLE "Chi shape" LIBRARIES polylidar::core)
 add_adapter(NAME knn_hull TITLE "k-nearest-neighbours hull" LIBRARIES polylidar::core Boost::headers)
 
-# Off unless asked for: PCL's library brings VTK, TBB and OpenMP into every process of the program that has it.
-option(HULLBENCH_PCL "Build the method pcl_concave_hull (Debian's libpcl-dev)" OFF)
-if(HULLBENCH_PCL)
-  # By pkg-config and name: PCL's CMake package looks for VTK and all else that PCL can use, which takes seconds.
-  pkg_check_modules(PCL REQUIRED pcl_surface)
-  add_adapter(NAME pcl_concave_hull TITLE "PCL concave hull"
+# By pkg-config and name: PCL's CMake package looks for VTK and all else that PCL can use, which takes seconds.
+pkg_check_modules(PCL QUIET pcl_surface)
+if(PCL_FOUND)
+  # A module, as PCL's library brings VTK, TBB and OpenMP into the process.
+  add_adapter(NAME pcl_concave_hull TITLE "PCL concave hull" MODULE
     LIBRARIES polylidar::core pcl_surface pcl_search pcl_kdtree pcl_common
     SOURCES pcl_concave_hull.cpp ring_nesting.cpp)
   target_include_directories(hullbench_adapter_pcl_concave_hull SYSTEM PRIVATE "${PCL_INCLUDE_DIRS}")
   # PCL is compiled for generic x86-64; with -march=native Eigen would align and free memory in another way.
   set_source_files_properties(pcl_concave_hull.cpp PROPERTIES COMPILE_DEFINITIONS EIGEN_MAX_ALIGN_BYTES=16)
 else()
-  add_adapter(NAME pcl_concave_hull TITLE "PCL concave hull"
-    MISSING "PCL" INSTALL "sudo apt-get install libpcl-dev && cmake -DHULLBENCH_PCL=ON build && cmake --build build")
+  add_adapter(NAME pcl_concave_hull TITLE "PCL concave hull" MISSING "PCL" INSTALL "make deps-extra && make build")
 endif()
 
 add_adapter(NAME convex_hull TITLE "Convex hull" LIBRARIES polylidar::core Boost::headers)

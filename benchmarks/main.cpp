@@ -51,7 +51,8 @@ constexpr const char* kFooter =
     "interrupted.\n"
     "HULLBENCH_POSTGIS_DSN names a PostGIS server to use instead of a private one; HULLBENCH_POSTGRES_BIN "
     "the folder with\n"
-    "the programs that a private server is made of.";
+    "the programs that a private server is made of; of postgis_legacy: HULLBENCH_POSTGIS_LEGACY_DSN, "
+    "HULLBENCH_POSTGRES_LEGACY_BIN.";
 
 constexpr const char* kAdaptersHelp =
     "A folder with manifests of methods (adapters/process/PROTOCOL.md) besides adapters/manifests and the "

@@ -140,9 +140,14 @@ void say_what_goes_on(const RunDirectory& directory, std::size_t planned) {
     std::cerr << "hullbench: " << planned << " runs to do, into " << directory.path().string() << "\n";
     return;
   }
+  const auto& rows = directory.rows();
+  const auto missing = std::count_if(
+      rows.begin(), rows.end(), [](const RunRecord& row) { return row.status == Status::kNotInstalled; });
   std::cerr << "hullbench: going on with the run in " << directory.path().string() << ": "
-            << directory.rows().size() << " of " << planned
-            << " runs are finished and not measured again (--force starts anew)\n";
+            << std::ssize(rows) - missing << " of " << planned
+            << " runs are finished and not measured again (--force starts anew)";
+  if (missing > 0) std::cerr << "; " << missing << " of methods that were not installed are tried again";
+  std::cerr << "\n";
 }
 
 void say_counts(const RunResult& result) {
@@ -257,9 +262,10 @@ int measure_suite(const RunCommand& command, const std::vector<Experiment>& expe
     const fs::path run = suite / plan.name;
     std::cerr << "hullbench: table " << i + 1 << " of " << experiments.size() << ": " << plan.title;
     RunResult result;
-    if (!command.force && is_finished_run(run, headers[i])) {
+    if (!command.force && is_finished_run(run, headers[i])) result = finished_result(run);
+    // A method that was not installed may be there now.
+    if (!result.counts.empty() && !result.counts.contains(Status::kNotInstalled)) {
       std::cerr << " is finished already\n";
-      result = finished_result(run);
     } else {
       std::cerr << "\n";
       const auto directory = open_run_directory(headers[i], {run, command.force, kResults});

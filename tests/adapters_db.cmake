@@ -18,11 +18,15 @@ if(TARGET hullbench_adapter_postgis)
   # One entry for all its cases: they share a server, which takes seconds to start.
   add_executable(test_postgis test_postgis.cpp test_postgis_steps.cpp)
   target_link_libraries(test_postgis PRIVATE hullbench_adapter_postgis_legacy hullbench_adapter_postgis_steps
-    hullbench_adapter_postgis hullbench_adapter_polylidar hullbench_adapter_interface hullbench_test_support
+    hullbench_adapter_postgis hullbench_adapter_geos_concave_hull hullbench_adapter_polylidar hullbench_adapter_interface hullbench_test_support
     hullbench::datasets PkgConfig::LIBPQ GTest::gtest hullbench::compile_options)
   set_target_properties(test_postgis PROPERTIES RUNTIME_OUTPUT_DIRECTORY "${CMAKE_BINARY_DIR}/tests")
   add_test(NAME test_postgis COMMAND test_postgis)
   set_tests_properties(test_postgis PROPERTIES TIMEOUT 300)
+
+  # Exit code 6: it is not installed, which its output explains. The old method is slow where points are many.
+  add_test(NAME contract.postgis_legacy COMMAND hullbench adapter test postgis_legacy --timeout 600)
+  set_tests_properties(contract.postgis_legacy PROPERTIES SKIP_RETURN_CODE 6 TIMEOUT 1200)
 else()
   hullbench_skipped_test(test_postgis "this build does not have the methods of PostGIS")
 endif()

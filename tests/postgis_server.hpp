@@ -15,6 +15,7 @@
 namespace hullbench::test {
 
 inline constexpr const char* kDsnVariable = "HULLBENCH_POSTGIS_DSN";
+inline constexpr const char* kLegacyDsnVariable = "HULLBENCH_POSTGIS_LEGACY_DSN";
 
 /// Started before the first test of a program whose main adds it, stopped after the last.
 class PostgisServer : public ::testing::Environment {
@@ -27,13 +28,21 @@ class PostgisServer : public ::testing::Environment {
   static inline std::optional<PrivatePostgres> server;
 };
 
-/// A test whose adapters find that server by the environment variable.
+/// A test whose adapters, the legacy one too, find that server by their environment variables.
 class PostgisTest : public ::testing::Test {
  protected:
   void SetUp() override { name_server(PostgisServer::dsn()); }
-  void TearDown() override { unsetenv(kDsnVariable); }
+  void TearDown() override { name_none(); }
 
-  static void name_server(const std::string& dsn) { setenv(kDsnVariable, dsn.c_str(), 1); }
+  static void name_server(const std::string& dsn) {
+    setenv(kDsnVariable, dsn.c_str(), 1);
+    setenv(kLegacyDsnVariable, dsn.c_str(), 1);
+  }
+
+  static void name_none() {
+    unsetenv(kDsnVariable);
+    unsetenv(kLegacyDsnVariable);
+  }
 
   /// Runs `sql` on that server, in a connection of its own.
   static void execute(const std::string& sql) {

@@ -1,5 +1,6 @@
-// The two PostGIS adapters on a real server, and on pretended ones where a test needs another version or a
-// failure: a schema that comes before PostGIS's own in the search path replaces single functions.
+// The two PostGIS adapters, each on a real server of its own, and on pretended ones where a test needs
+// another version or a failure: a schema that comes before PostGIS's own in the search path replaces single
+// functions.
 #include <arpa/inet.h>
 #include <gtest/gtest.h>
 #include <netinet/in.h>
@@ -7,6 +8,7 @@
 #include <unistd.h>
 
 #include <cstdlib>
+#include <limits>
 #include <memory>
 #include <new>
 #include <stdexcept>
@@ -14,22 +16,27 @@
 #include <vector>
 
 #include "adapters/adapter.hpp"
+#include "adapters/private_postgres.hpp"
 #include "tests/adapter_contract.hpp"
 #include "tests/hull_input.hpp"
+#include "tests/hull_oracle.hpp"
 #include "tests/postgis_server.hpp"
 
 namespace hullbench {
 
+std::unique_ptr<Adapter> make_geos_concave_hull();
 std::unique_ptr<Adapter> make_postgis();
 std::unique_ptr<Adapter> make_postgis_legacy();
 
 namespace {
 
+using polylidar::testing::canonical;
 using test::hole_count;
 using test::hull_of;
 using test::kAreaTolerance;
 using test::kDsnVariable;
 using test::kHoleArea;
+using test::kLegacyDsnVariable;
 using test::kPoints;
 using test::NoSteps;
 using test::PostgisServer;
@@ -38,6 +45,7 @@ using test::square_points;
 // The longest Delaunay edge spans the hole (0.4); 0.4 of that leaves no spurious holes at this density.
 const Parameters kFilled = {{"length_ratio", 0.4}, {"allow_holes", 0}};
 const Parameters kWithHoles = {{"length_ratio", 0.4}, {"allow_holes", 1}};
+const Parameters kByLength = {{"max_edge_length", 0.16}, {"allow_holes", 1}};
 
 class Postgis : public test::PostgisTest {
  protected:
@@ -72,7 +80,9 @@ TEST_F(Postgis, SaysWhoItIs) {
   EXPECT_TRUE(info.capabilities.holes);
   EXPECT_FALSE(info.capabilities.several_polygons);
   EXPECT_EQ(complete_parameters(info, {{"length_ratio", 0.5}}),
-            (Parameters{{"length_ratio", 0.5}, {"allow_holes", 0}}));
+            (Parameters{{"length_ratio", 0.5},
+                        {"max_edge_length", std::numeric_limits<double>::infinity()},
+                        {"allow_holes", 0}}));
 }
 
 TEST_F(Postgis, KeepsOrFillsTheHole) {
@@ -90,6 +100,42 @@ TEST_F(Postgis, KeepsOrFillsTheHole) {
 
 TEST_F(Postgis, KeepsTheContract) {
   test::expect_adapter_contract(&make_postgis, kWithHoles, kFilled);
+  test::expect_adapter_contract(&make_postgis, kByLength, kFilled);
+}
+
+// The server's library is the one that the GEOS adapter is built with, and that takes the length itself.
+TEST_F(Postgis, TurnsALengthIntoTheRatioOfItsOwnTriangulation) {
+  const auto postgis = make_postgis();
+  const auto geos = make_geos_concave_hull();
+  if (postgis->info().version.find("(GEOS " + geos->info().version + ",") == std::string::npos) {
+    GTEST_SKIP() << "PostGIS " << postgis->info().version << " has another GEOS than "
+                 << geos->info().version;
+  }
+  for (const double scale : {1.0, 1000.0}) {
+    std::vector<Point> points = square_points(kPoints, 7, true);
+    for (Point& point : points) point = {scale * point.x + 3 * scale, scale * point.y};
+    for (const double length : {0.05, 0.0731, 0.16}) {
+      const Parameters parameters = {{"max_edge_length", scale * length}, {"allow_holes", 1}};
+      const MultiPolygon hull = hull_of(*postgis, points, parameters);
+      EXPECT_FALSE(hull.empty());
+      EXPECT_EQ(canonical(hull), canonical(hull_of(*geos, points, parameters))) << scale * length;
+    }
+  }
+}
+
+TEST_F(Postgis, TakesALengthBeyondItsEdgesAsTheLastOne) {
+  const auto adapter = make_postgis();
+  const std::vector<Point> points = square_points(200, 9, false);
+  EXPECT_EQ(hull_of(*adapter, points, {{"max_edge_length", 0}}),
+            hull_of(*adapter, points, {{"length_ratio", 0}}));
+  EXPECT_EQ(hull_of(*adapter, points, {{"max_edge_length", 1e300}}), hull_of(*adapter, points, {}));
+}
+
+TEST_F(Postgis, TakesARatioOrALength) {
+  const auto adapter = make_postgis();
+  adapter->load(square_points(100, 6, false));
+  NoSteps steps;
+  EXPECT_THROW(adapter->run({{"length_ratio", 0.5}, {"max_edge_length", 0.5}}, steps), std::invalid_argument);
 }
 
 TEST_F(Postgis, StartsAPrivateServerWhenNoneIsNamed) {
@@ -108,9 +154,61 @@ TEST_F(Postgis, HasNoLegacyMethodOnACurrentServer) {
   EXPECT_NE(named.find("length-ratio hull; the paper's target-percent method ended with PostGIS 3.2"),
             std::string::npos)
       << named;
+  EXPECT_NE(named.find("unset HULLBENCH_POSTGIS_LEGACY_DSN and run make deps-legacy"), std::string::npos)
+      << named;
   EXPECT_NE(named.find("postgis-legacy"), std::string::npos) << named;
-  unsetenv(kDsnVariable);
+  name_none();
+  setenv("HULLBENCH_POSTGRES_LEGACY_BIN", find_postgres(postgres_bin_folders()).c_str(), 1);
   EXPECT_EQ(refusal(&make_postgis_legacy), named) << "told from the installed files, without a server";
+  setenv("HULLBENCH_POSTGRES_LEGACY_BIN", "/nowhere", 1);
+  EXPECT_EQ(refusal(&make_postgis_legacy), "PostgreSQL is not installed -> make deps-legacy");
+  unsetenv("HULLBENCH_POSTGRES_LEGACY_BIN");
+}
+
+TEST_F(Postgis, HasAServerForEachOfTheTwoMethods) {
+  pretend("RETURN ST_ConvexHull(geom);");
+  setenv(kDsnVariable, PostgisServer::dsn().c_str(), 1);
+  const std::vector<Point> corners = {{0, 0}, {2, 0}, {2, 2}, {0, 2}};
+  const auto current = make_postgis();
+  const auto legacy = make_postgis_legacy();
+  EXPECT_DOUBLE_EQ(polylidar::area(hull_of(*current, corners, {{"length_ratio", 1}})), 4);
+  EXPECT_DOUBLE_EQ(polylidar::area(hull_of(*legacy, corners, {{"target_percent", 1}})), 4);
+}
+
+/// The paper's PostGIS itself, as `make deps-legacy` gets it.
+class LegacyPostgis : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    unsetenv(kLegacyDsnVariable);
+    try {
+      adapter = make_postgis_legacy();
+    } catch (const NotInstalled& error) {
+      GTEST_SKIP() << error.what() << "; " << error.remedy();
+    }
+  }
+
+  std::unique_ptr<Adapter> adapter;
+};
+
+TEST_F(LegacyPostgis, IsThePapersMethodBesideTheCurrentOne) {
+  EXPECT_EQ(adapter->info().name, "postgis_legacy");
+  const auto current = make_postgis();
+  EXPECT_NE(adapter->info().version, current->info().version);
+  const std::vector<Point> points = square_points(500, 11, true);
+  const MultiPolygon hull = hull_of(*adapter, points, {{"target_percent", 0.9}});
+  ASSERT_EQ(hull.size(), 1U);
+  EXPECT_EQ(hole_count(hull), 0U);
+  // It stops when the area is at most the target's share of the convex hull's, or at an outline it cannot
+  // better.
+  const double convex = polylidar::area(hull_of(*current, points, {{"length_ratio", 1}}));
+  EXPECT_LT(polylidar::area(hull), convex);
+  EXPECT_GT(polylidar::area(hull), 0.8 * convex);
+}
+
+TEST_F(LegacyPostgis, KeepsTheContract) {
+  const Parameters parameters = {{"target_percent", 0.95}};
+  test::expect_nothing_without_area(&make_postgis_legacy, parameters);
+  test::expect_bad_arguments_to_be_refused(&make_postgis_legacy, parameters);
 }
 
 TEST_F(Postgis, HasOnlyTheLegacyMethodOnAnOldServer) {
@@ -160,16 +258,16 @@ TEST_F(Postgis, ReportsAFailureAndGoesOn) {
 }
 
 TEST_F(Postgis, SaysWhenTheNamedServerDoesNotAnswer) {
-  const std::string advice =
-      "the server named by HULLBENCH_POSTGIS_DSN does not answer -> start it or correct "
-      "HULLBENCH_POSTGIS_DSN, or unset it "
-      "for a private server";
+  const auto advice = [](const std::string& variable) {
+    return "the server named by " + variable + " does not answer -> start it or correct " + variable +
+           ", or unset it for a private server";
+  };
   for (const char* dsn :
        {"host=127.0.0.1 port=1 password=sesame", "host=/nowhere", "host=127.0.0.1 password=open sesame",
         "postgresql://user:ses@me@nowhere.invalid/db"}) {
     name_server(dsn);
-    EXPECT_EQ(refusal(&make_postgis), advice) << dsn;
-    EXPECT_EQ(refusal(&make_postgis_legacy), advice) << dsn;
+    EXPECT_EQ(refusal(&make_postgis), advice(kDsnVariable)) << dsn;
+    EXPECT_EQ(refusal(&make_postgis_legacy), advice(kLegacyDsnVariable)) << dsn;
   }
 }
 

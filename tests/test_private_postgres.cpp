@@ -10,10 +10,12 @@
 #include <array>
 #include <chrono>
 #include <csignal>
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <functional>
 #include <iterator>
+#include <optional>
 #include <set>
 #include <sstream>
 #include <stdexcept>
@@ -118,6 +120,12 @@ void write_script(const fs::path& file, const std::string& text) {
                             fs::perms::others_exec | fs::perms::others_read);
 }
 
+/// A pg_config in `bin` that says where PostgreSQL was built to be.
+void write_pg_config(const fs::path& bin, const fs::path& built_bin, const fs::path& built_share) {
+  write_script(bin / "pg_config", "case $1 in --bindir) echo '" + built_bin.string() +
+                                      "' ;; --sharedir) echo '" + built_share.string() + "' ;; esac");
+}
+
 /// A folder that looks like the programs of PostgreSQL `version`, with the PostGIS extension or without.
 fs::path pretend_install(const fs::path& root, const std::string& version, bool postgis) {
   const fs::path bin = root / version / "bin";
@@ -126,7 +134,7 @@ fs::path pretend_install(const fs::path& root, const std::string& version, bool 
   fs::create_directories(share / "extension");
   write_script(bin / "postgres", "echo 'postgres (PostgreSQL) " + version + " (pretended)'");
   write_script(bin / "initdb", "echo 'no space left, says the test' >&2; exit 1");
-  write_script(bin / "pg_config", "echo '" + share.string() + "'");
+  write_pg_config(bin, bin, share);
   if (postgis) std::ofstream(share / "extension" / "postgis.control") << "default_version = '3.3.2'\n";
   return bin;
 }
@@ -239,6 +247,63 @@ TEST(FindPostgres, SaysWhatIsMissing) {
   EXPECT_EQ(complaint({root.path() / "nothing"}), "PostgreSQL is not installed: " + remedy);
   EXPECT_EQ(complaint({pretend_install(root.path(), "15.3", false)}),
             "PostgreSQL is installed, but not its PostGIS extension: " + remedy);
+}
+
+// As PostgreSQL itself does: its pg_config may be told the folders that the package was built for.
+TEST(FindPostgres, LooksForExtensionsFromTheProgramsOwnPlace) {
+  const TemporaryFolder root;
+  const fs::path bin = pretend_install(root.path(), "13.16", true);
+  write_pg_config(bin, "/usr/lib/postgresql/13/bin", "/usr/lib/postgresql/13/share");
+  EXPECT_EQ(extension_folder(bin), root.path() / "13.16" / "share" / "extension");
+  EXPECT_EQ(find_postgres({bin}), bin);
+  const fs::path link = root.path() / "bin";
+  fs::create_directory_symlink(bin, link);
+  EXPECT_EQ(extension_folder(link), root.path() / "13.16" / "share" / "extension");
+  fs::remove(bin / "pg_config");
+  EXPECT_EQ(extension_folder(bin), "");
+}
+
+/// An environment variable for as long as this lives; then it is as it was.
+class Variable {
+ public:
+  Variable(const char* name, const std::string& value) : name_(name) {
+    if (const char* before = std::getenv(name)) before_ = before;
+    setenv(name, value.c_str(), 1);
+  }
+  ~Variable() {
+    if (before_) {
+      setenv(name_, before_->c_str(), 1);
+    } else {
+      unsetenv(name_);
+    }
+  }
+  Variable(const Variable&) = delete;
+  Variable& operator=(const Variable&) = delete;
+
+ private:
+  const char* name_;
+  std::optional<std::string> before_;
+};
+
+TEST(FindPostgres, LooksForThePapersPostgisInAFolderOfItsOwn) {
+  const TemporaryFolder root;
+  const Variable cache("XDG_CACHE_HOME", root.path().string());
+  const Variable current("HULLBENCH_POSTGRES_BIN", "/current");
+  using Folders = std::vector<fs::path>;
+  {
+    const Variable legacy("HULLBENCH_POSTGRES_LEGACY_BIN", "/legacy");
+    EXPECT_EQ(legacy_postgres_bin_folders(), Folders{"/legacy"});
+    EXPECT_EQ(postgres_bin_folders(), Folders{"/current"});
+  }
+  const Variable unset("HULLBENCH_POSTGRES_LEGACY_BIN", "");
+  const fs::path of_all = "/var/cache/hullbench/postgis-legacy/bin";
+  const Folders without = {fs::exists(of_all / "postgres") ? of_all : fs::path("/current")};
+  EXPECT_EQ(legacy_postgres_bin_folders(), without);
+  const fs::path own = root.path() / "hullbench" / "postgis-legacy" / "bin";
+  fs::create_directories(own);
+  write_script(own / "postgres", "exit 0");
+  EXPECT_EQ(legacy_postgres_bin_folders(), geteuid() == 0 ? without : Folders{own})
+      << "root must run nothing of a user's";
 }
 
 TEST(FindPostgres, TakesTheNewestWithPostgis) {

@@ -1,0 +1,54 @@
+// A method that is a library of its own: it comes into the process when it is asked for, and no sooner.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <fstream>
+#include <iterator>
+#include <string>
+
+#include "adapters/adapter.hpp"
+#include "adapters/adapter_module.hpp"
+
+namespace hullbench {
+namespace {
+
+bool is_in_this_process(const std::string& library) {
+  std::ifstream maps("/proc/self/maps");
+  const std::string text(std::istreambuf_iterator<char>(maps), {});
+  EXPECT_NE(text.find("libstdc++"), std::string::npos) << "the list must have what is certainly there";
+  return text.find(library) != std::string::npos;
+}
+
+TEST(AdapterModule, SaysWhyItCannotBeLoaded) {
+  const auto refusal = [](const char* file) {
+    try {
+      load_adapter_module(file, "make build");
+      return std::string("loaded");
+    } catch (const NotInstalled& error) {
+      return std::string(error.what()) + " -> " + error.remedy();
+    }
+  };
+  const std::string missing = refusal("/nowhere/libmethod.so");
+  EXPECT_NE(missing.find("/nowhere/libmethod.so"), std::string::npos) << missing;
+  EXPECT_NE(missing.find(" -> make build"), std::string::npos) << missing;
+  EXPECT_NE(refusal("libc.so.6").find("hullbench_make_adapter"), std::string::npos) << "no method is in it";
+}
+
+TEST(AdapterModule, BringsItsLibrariesWhenItIsAskedFor) {
+  const auto& registry = adapter_registry();
+  const auto pcl = std::find_if(registry.begin(), registry.end(), [](const AdapterEntry& entry) {
+    return std::string(entry.name) == "pcl_concave_hull";
+  });
+  ASSERT_NE(pcl, registry.end());
+  EXPECT_FALSE(is_in_this_process("libpcl_surface"));
+  try {
+    const auto adapter = pcl->make();
+    EXPECT_EQ(adapter->info().name, "pcl_concave_hull");
+  } catch (const NotInstalled& error) {
+    GTEST_SKIP() << error.what() << "; " << error.remedy();
+  }
+  EXPECT_TRUE(is_in_this_process("libpcl_surface"));
+}
+
+}  // namespace
+}  // namespace hullbench
