@@ -146,7 +146,7 @@ void say_what_goes_on(const RunDirectory& directory, std::size_t planned) {
   std::cerr << "hullbench: going on with the run in " << directory.path().string() << ": "
             << std::ssize(rows) - missing << " of " << planned
             << " runs are finished and not measured again (--force starts anew)";
-  if (missing > 0) std::cerr << "; " << missing << " of methods that were not installed are tried again";
+  if (missing > 0) std::cerr << "; tried again because the method was not installed: " << missing;
   std::cerr << "\n";
 }
 

@@ -441,6 +441,50 @@ TEST_F(CommandLineTest, PostgisThatIsNotInstalledIsARowWithItsRemedy) {
   EXPECT_NE(outcome.err.find("1 ok, 0 failed, 1 not installed"), std::string::npos) << outcome.err;
 }
 
+TEST_F(CommandLineTest, WhatWasNotInstalledIsMeasuredWhenItIsThere) {
+  const ProgramOptions missing = {
+      {}, {{"HULLBENCH_POSTGRES_BIN", (folder() / "no-programs").string()}}, false};
+  const auto run = [&](const std::vector<std::string>& plans, const ProgramOptions& options) {
+    std::vector<std::string> words = {"run"};
+    words.insert(words.end(), plans.begin(), plans.end());
+    for (const char* word :
+         {"--filter", "^(convex_hull|postgis)/(hi|letter_a)/n:2000/holes:0", "--repetitions", "1", "--out"}) {
+      words.emplace_back(word);
+    }
+    words.push_back(plans.size() == 1 ? "run" : "suite");
+    return hullbench(words, options);
+  };
+  const auto statuses = [&](const fs::path& rows) {
+    std::map<std::string, int> counts;
+    for (const json& row : lines_of(folder() / rows)) ++counts[row["status"]];
+    return counts;
+  };
+  const std::map<std::string, int> both = {{"ok", 2}};
+
+  ASSERT_EQ(run({"states"}, missing).code, 0);
+  EXPECT_EQ(statuses("run/runs.jsonl"), (std::map<std::string, int>{{"not_installed", 1}, {"ok", 1}}));
+  const Outcome second = run({"states"}, {});
+  EXPECT_NE(
+      second.err.find(
+          "1 of 2 runs are finished and not measured again (--force starts anew); tried again because the "
+          "method was not installed: 1\n"),
+      std::string::npos)
+      << second.err;
+  EXPECT_EQ(statuses("run/runs.jsonl"), both);
+  EXPECT_NE(
+      run({"states"}, {}).err.find("2 of 2 runs are finished and not measured again (--force starts anew)\n"),
+      std::string::npos);
+
+  ASSERT_EQ(run({"states", "alphabet"}, missing).code, 0);
+  const Outcome suite = run({"states", "alphabet"}, {});
+  EXPECT_EQ(suite.err.find("is finished already"), std::string::npos) << suite.err;
+  EXPECT_NE(suite.err.find("4 ok, 0 failed, 0 not installed"), std::string::npos) << suite.err;
+  for (const char* plan : {"states", "alphabet"}) {
+    EXPECT_EQ(statuses(fs::path("suite") / plan / "runs.jsonl"), both) << plan;
+  }
+  EXPECT_NE(run({"states", "alphabet"}, {}).err.find("State shapes is finished already"), std::string::npos);
+}
+
 TEST_F(CommandLineTest, AWorkerThatIsKilledIsARowAndTheRestIsMeasured) {
   const std::string small = plan({64000, 500}, 200);
   Program program(command({"run", small, "--out", "run"}), in_folder());
