@@ -114,7 +114,9 @@ std::optional<std::string> reason_of(const Comparison& comparison) {
     };
     const bool direction =
         !reason.contains("we_are") || (reason.at("we_are") == "lower") == (comparison.ratio() < 1);
-    if (direction && matches("where", comparison.where) && matches("method", comparison.method) &&
+    const bool measured =
+        !reason.contains("measured") || reason.at("measured") == comparison.measured.has_value();
+    if (direction && measured && matches("where", comparison.where) && matches("method", comparison.method) &&
         matches("quantity", comparison.quantity)) {
       return reason.at("reason").get<std::string>();
     }

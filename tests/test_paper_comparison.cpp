@@ -69,7 +69,12 @@ TEST(PaperComparison, OfLettersTakesTheMeans) {
   ASSERT_TRUE(missing) << "what is not installed is said, not left out";
   EXPECT_FALSE(missing->measured);
   EXPECT_TRUE(missing->is_large());
-  EXPECT_TRUE(reason_of(*missing));
+  ASSERT_TRUE(reason_of(*missing));
+  EXPECT_NE(reason_of(*missing)->find("was not installed"), std::string::npos);
+  Comparison measured = *missing;
+  measured.measured = 10 * measured.published;
+  ASSERT_TRUE(reason_of(measured));
+  EXPECT_EQ(reason_of(measured)->find("was not installed"), std::string::npos) << *reason_of(measured);
 }
 
 TEST(PaperComparison, OfFloorsIsWithTheTableOfFloors) {
