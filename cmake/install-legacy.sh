@@ -26,7 +26,7 @@ archive=http://archive.debian.org/debian
 if [ "$(id -u)" -eq 0 ]; then
   folder=/var/cache/hullbench/postgis-legacy
 else
-  folder=${XDG_CACHE_HOME:-$HOME/.cache}/hullbench/postgis-legacy
+  folder=${XDG_CACHE_HOME:-${HOME:?}/.cache}/hullbench/postgis-legacy
 fi
 
 say() { printf '==> %s\n' "$*"; }
