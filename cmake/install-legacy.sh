@@ -18,7 +18,7 @@ release=bullseye
 postgres=13
 packages=("postgresql-$postgres" "postgresql-$postgres-postgis-3")
 # What the packages ask for but these programs never load, which is two thirds of it all: said to be installed already.
-not_needed=(debconf dpkg libgdal28 libllvm11 libsfcgal1 locales perl postgresql-client-$postgres postgresql-common
+not_needed=(debconf dpkg libgdal28 libllvm11 libsfcgal1 locales perl "postgresql-client-$postgres" postgresql-common
   proj-data ssl-cert tzdata)
 mirror=http://deb.debian.org/debian
 archive=http://archive.debian.org/debian
@@ -155,7 +155,8 @@ fi
 if is_there; then exit 0; fi
 for tool in apt-get dpkg-deb; do
   command -v "$tool" >/dev/null ||
-    fail 2 "$tool is missing: the paper's PostGIS comes from Debian's packages; take 'docker-compose up -d postgis-legacy' instead."
+    fail 2 "$tool is missing, and the paper's PostGIS comes from Debian's packages: take 'docker-compose up -d" \
+      "postgis-legacy' instead."
 done
 for keys in /usr/share/keyrings/debian-archive-keyring.gpg /usr/share/keyrings/debian-archive-keyring.pgp none; do
   [ ! -f "$keys" ] || break
