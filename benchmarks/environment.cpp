@@ -18,6 +18,7 @@
 #include <vector>
 
 #include "benchmarks/build_info.hpp"
+#include "benchmarks/huge_pages.hpp"
 #include "benchmarks/record.hpp"
 
 namespace hullbench {
@@ -157,7 +158,9 @@ std::vector<std::string> missing_in(const std::vector<std::string>& words,
   return result;
 }
 
-/// Says whether every measured target has the same flags, and if not, which differ.
+/// Says whether every measured target has the same flags, and if not, which differ. The one flag that has a
+/// reason of its own comes with it: to change the rounding mode, CGAL's interval arithmetic needs a compiler
+/// that reckons with such changes.
 std::string flags_statement(const BuildInfo& info) {
   std::string differences;
   const std::vector<std::string> ours = info.target_options.empty()
@@ -170,11 +173,13 @@ std::string flags_statement(const BuildInfo& info) {
     if (!added.empty()) differences += "; " + target + " adds " + joined(added);
     if (!lacking.empty()) differences += "; " + target + " lacks " + joined(lacking);
   }
+  const bool asked_by_cgal = differences.find("-frounding-math") != std::string::npos;
   return "The core, every adapter and the header-only libraries compiled into them (CGAL) are built with the "
          "same "
          "compiler and flags" +
          (differences.empty() ? std::string(", without exception.")
-                              : ", except: " + differences.substr(2) + ".");
+                              : ", except: " + differences.substr(2) + ".") +
+         (asked_by_cgal ? " CGAL's own package adds -frounding-math to whatever uses it." : "");
 }
 
 json compiler() {
@@ -226,6 +231,7 @@ json collect_environment() {
           {"load_average", load_average()},
           {"temperature_celsius", temperature()},
           {"aslr", address_space_randomisation()},
+          {"huge_pages", huge_pages()},
           {"kernel", kernel()},
           {"os", or_null(value_of_key("/etc/os-release", "PRETTY_NAME", '='))},
           {"compiler", compiler()},

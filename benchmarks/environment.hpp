@@ -10,6 +10,7 @@ namespace hullbench {
 /// The environment as it is now, with these members (null where the system does not tell):
 /// `machine_id`; `cpu` {model, architecture, logical_cores, allowed_cores, governors, boost, virtualised};
 /// `memory_bytes`; `load_average` (1, 5 and 15 minutes); `aslr` (kernel.randomize_va_space: 0, 1 or 2);
+/// `huge_pages` {kernel, malloc} (huge_pages.hpp);
 /// `kernel`; `os`; `compiler` {id, version, build_type, native, flags, flags_by_target, statement};
 /// `libraries` (version by name, of those found when the program was built, and of the C library that runs).
 nlohmann::json collect_environment();

@@ -10,6 +10,12 @@ target_include_directories(hullbench_record PUBLIC "${PROJECT_SOURCE_DIR}")
 target_link_libraries(hullbench_record
   PUBLIC nlohmann_json::nlohmann_json hullbench::hash PRIVATE LibLZMA::LibLZMA hullbench::compile_options)
 
+# hullbench::huge_pages: what the harness gives its workers, and what the report says of it.
+add_library(hullbench_huge_pages STATIC huge_pages.cpp)
+add_library(hullbench::huge_pages ALIAS hullbench_huge_pages)
+target_include_directories(hullbench_huge_pages PUBLIC "${PROJECT_SOURCE_DIR}")
+target_link_libraries(hullbench_huge_pages PUBLIC nlohmann_json::nlohmann_json PRIVATE hullbench::compile_options)
+
 # The schemas and the paper's values become part of the program, so that it needs no file of its own at run time. A string literal
 # may not be longer than 64 KiB in every compiler, and the files are cut into pieces to stay below.
 function(hullbench_embed_json constant file)
@@ -114,4 +120,5 @@ add_library(hullbench_report STATIC
   "${CMAKE_CURRENT_BINARY_DIR}/build_info.cpp"
   "${CMAKE_CURRENT_BINARY_DIR}/embedded.cpp")
 add_library(hullbench::report ALIAS hullbench_report)
-target_link_libraries(hullbench_report PUBLIC hullbench::record PRIVATE valijson Boost::headers hullbench::compile_options)
+target_link_libraries(hullbench_report
+  PUBLIC hullbench::record PRIVATE hullbench::huge_pages valijson Boost::headers hullbench::compile_options)

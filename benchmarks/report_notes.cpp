@@ -91,6 +91,14 @@ void add_missing_methods(const json& report, const std::vector<RunRecord>& runs,
   }
 }
 
+std::string huge_pages_text(const json& huge_pages) {
+  const json& kernel = huge_pages.at("kernel");
+  return "Huge pages: the malloc of every method's process had " +
+         huge_pages.at("malloc").get<std::string>() +
+         (kernel.is_string() ? "; the kernel's setting was " + kernel.get<std::string>() : std::string()) +
+         ".";
+}
+
 /// One machine and its build; `machine` is empty or its name in the sentence.
 void add_environment(const json& environment, const std::string& machine, Sentences& notes) {
   const json& cpu = environment.at("cpu");
@@ -104,6 +112,7 @@ void add_environment(const json& environment, const std::string& machine, Senten
       compiler.at("build_type").get<std::string>() + ", " + compiler.at("flags").get<std::string>() +
       (compiler.at("native") == true ? ", for this machine's processor." : ", no processor-specific code."));
   notes.push_back(compiler.at("statement").get<std::string>());
+  if (environment.contains("huge_pages")) notes.push_back(huge_pages_text(environment.at("huge_pages")));
 }
 
 std::string percent(double part) {

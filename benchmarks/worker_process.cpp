@@ -19,6 +19,7 @@
 #include <system_error>
 #include <thread>
 
+#include "benchmarks/huge_pages.hpp"
 #include "benchmarks/interrupt.hpp"
 #include "benchmarks/protocol.hpp"
 #include "benchmarks/stray_processes.hpp"
@@ -70,13 +71,21 @@ std::vector<char*> pointers_to(const std::vector<std::string>& strings) {
   return result;
 }
 
-/// Our environment with `mark` in it.
-std::vector<std::string> marked_environment(const std::string& mark) {
-  const std::string variable = std::string(kMarkVariable) + "=";
-  std::vector<std::string> result = {variable + mark};
+/// Our environment with `mark` in it and with huge pages asked for.
+std::vector<std::string> worker_environment(const std::string& mark) {
+  const std::string marking = std::string(kMarkVariable) + "=";
+  const std::string tuning = std::string(kTunablesVariable) + "=";
+  std::string_view own_tunables;
+  std::vector<std::string> result = {marking + mark};
   for (char** entry = environ; *entry != nullptr; ++entry) {
-    if (!std::string_view(*entry).starts_with(variable)) result.emplace_back(*entry);
+    const std::string_view variable = *entry;
+    if (variable.starts_with(tuning)) {
+      own_tunables = variable.substr(tuning.size());
+    } else if (!variable.starts_with(marking)) {
+      result.emplace_back(variable);
+    }
   }
+  result.push_back(tuning + worker_tunables(own_tunables));
   return result;
 }
 
@@ -189,7 +198,7 @@ bool speaks_of_memory(const std::string& words) {
 
 WorkerProcess::WorkerProcess(const std::vector<std::string>& command, const WorkerLimits& limits)
     : mark_(new_worker_mark()), memory_mib_(limits.memory_mib) {
-  const std::vector<std::string> environment = marked_environment(mark_);
+  const std::vector<std::string> environment = worker_environment(mark_);
   const std::vector<char*> argv = pointers_to(command);
   const std::vector<char*> variables = pointers_to(environment);
 

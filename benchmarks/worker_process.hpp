@@ -34,8 +34,9 @@ struct Reply {
 };
 
 /// A running worker process, in a session of its own, that ends with this object or with the harness,
-/// whichever is first. What it started ends with it, in whatever session (see stray_processes.hpp). The
-/// limits hold for each of its processes by itself.
+/// whichever is first. It has the harness's environment, with huge pages asked for (huge_pages.hpp). What it
+/// started ends with it, in whatever session (see stray_processes.hpp). The limits hold for each of its
+/// processes by itself.
 ///
 /// Status of a reply: `timeout` when it does not come in time (the worker is killed), `crash` when the worker
 /// ends without answering (detail: the signal's name or the exit code), `memory` when it ends or says so for

@@ -25,7 +25,9 @@ target_compile_options(hullbench_compile_options INTERFACE
   $<$<AND:$<CXX_COMPILER_ID:GNU>,$<VERSION_LESS:$<CXX_COMPILER_VERSION>,13>>:-Wno-restrict>
   # A fused multiply-add rounds once where the predicates' error bounds and expansions count on two
   # roundings; contraction would also make coordinates differ between machines.
-  -ffp-contract=off)
+  -ffp-contract=off
+  # Square roots are one instruction where none of a negative number has to be reported in errno.
+  -fno-math-errno)
 if(HULLBENCH_NATIVE)
   target_compile_options(hullbench_compile_options INTERFACE -march=native)
 endif()

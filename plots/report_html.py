@@ -382,6 +382,8 @@ def environment_facts(report: dict[str, Any]) -> dict[str, str]:
         else ", ".join(number(one) for one in load) + " (1, 5, 15 minutes)",
         "System": f"{environment.get('os') or 'unknown'}; {environment.get('kernel') or 'unknown kernel'}",
         "Address randomisation": known(environment.get("aslr")),
+        "Huge pages": ", ".join(f"{name}: {known(value)}" for name, value in environment.get("huge_pages", {}).items())
+        or "asked for by Polylidar alone",
         "Temperature": known(environment.get("temperature_celsius")),
         "Compiler": f"{compiler.get('id', '')} {compiler.get('version', '')}, {compiler.get('build_type', '')}, "
         f"{compiler.get('flags', '')}; {compiler.get('statement', '')}",

@@ -16,7 +16,7 @@ hullbench_test(test_shard SOURCES test_shard.cpp LIBRARIES hullbench::runner LAB
 hullbench_test(test_parallel SOURCES test_parallel.cpp LIBRARIES hullbench::runner LABELS harness)
 
 hullbench_test(test_worker SOURCES test_worker.cpp
-  LIBRARIES hullbench::worker hullbench_test_program LABELS harness)
+  LIBRARIES hullbench::worker hullbench::huge_pages hullbench_test_program LABELS harness)
 target_compile_definitions(test_worker PRIVATE MISBEHAVING_WORKER="$<TARGET_FILE:misbehaving_worker>")
 add_dependencies(test_worker misbehaving_worker)
 

@@ -64,6 +64,7 @@ json environment() {
           {"memory_bytes", 8589934592},
           {"load_average", {0.5, 0.25, 0.125}},
           {"aslr", 2},
+          {"huge_pages", {{"kernel", "madvise"}, {"malloc", "glibc.malloc.hugetlb=1"}}},
           {"kernel", "Linux 6.1.0"},
           {"os", "Debian GNU/Linux 12 (bookworm)"},
           {"compiler",

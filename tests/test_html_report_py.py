@@ -23,7 +23,7 @@ import report_data
 from records import load
 from report_common import median_interval, number
 from report_data import charts, columns, pack
-from report_html import notes_html
+from report_html import environment_facts, notes_html
 from report_summary import (
     accurate_sentence,
     failure_sentences,
@@ -455,6 +455,12 @@ class Elements(html.parser.HTMLParser):
 class Page(Folder):
     def page(self, *rows, **more):
         return make_report.make_page(self.load(*rows, **more), self.folder)
+
+    def test_says_who_got_huge_pages(self):
+        older = report([run()])
+        self.assertEqual(environment_facts(older)["Huge pages"], "asked for by Polylidar alone")
+        older["environment"]["huge_pages"] = {"kernel": "madvise", "malloc": "glibc.malloc.hugetlb=1"}
+        self.assertEqual(environment_facts(older)["Huge pages"], "kernel: madvise, malloc: glibc.malloc.hugetlb=1")
 
     def test_text_of_records_stays_text(self):
         evil = report([run(status="error", detail=EVIL, dataset="star-1"), run("cgal")], notes=[EVIL], title=EVIL)

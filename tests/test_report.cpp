@@ -5,7 +5,10 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <iterator>
 #include <nlohmann/json.hpp>
+#include <set>
+#include <sstream>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -318,7 +321,33 @@ TEST(Environment, FlagsAreThoseOfTheBuild) {
   const json compiler = collect_environment()["compiler"];
   EXPECT_NE(compiler["flags_by_target"]["polylidar_core"].get<std::string>().find("-ffp-contract=off"),
             std::string::npos);
-  EXPECT_FALSE(compiler["statement"].get<std::string>().empty());
+  const std::string statement = compiler["statement"];
+  EXPECT_NE(statement.find("are built with the same compiler and flags"), std::string::npos) << statement;
+}
+
+// Nobody is handicapped: only the flag that CGAL's own package asks for may differ.
+TEST(Environment, FlagsAreTheSameForAll) {
+  const json by_target = collect_environment()["compiler"]["flags_by_target"];
+  const auto words_of = [&](const std::string& target) {
+    std::istringstream text(by_target.at(target).get<std::string>());
+    return std::set<std::string>(std::istream_iterator<std::string>(text), {});
+  };
+  const std::set<std::string> ours = words_of("polylidar_core");
+  EXPECT_TRUE(ours.contains("-fno-math-errno"));
+  for (const auto& [target, flags] : by_target.items()) {
+    std::set<std::string> theirs = words_of(target);
+    if (theirs.erase("-frounding-math") > 0) {
+      EXPECT_NE(target.find("cgal"), std::string::npos) << target;
+    }
+    EXPECT_EQ(theirs, ours) << target;
+  }
+}
+
+TEST(Environment, SaysWhoGotHugePages) {
+  const json huge_pages = collect_environment()["huge_pages"];
+  EXPECT_NE(huge_pages.at("malloc").get<std::string>().find("glibc.malloc.hugetlb="), std::string::npos);
+  const json& kernel = huge_pages.at("kernel");
+  EXPECT_TRUE(kernel.is_null() || kernel == "always" || kernel == "madvise" || kernel == "never") << kernel;
 }
 
 TEST(Environment, MachineIdIsAFunctionOfTheMachine) {

@@ -6,6 +6,7 @@
 
 #include <chrono>
 #include <csignal>
+#include <cstdlib>
 #include <filesystem>
 #include <limits>
 #include <memory>
@@ -14,6 +15,7 @@
 #include <vector>
 
 #include "adapters/wkb.hpp"
+#include "benchmarks/huge_pages.hpp"
 #include "benchmarks/interrupt.hpp"
 #include "benchmarks/method_session.hpp"
 #include "benchmarks/protocol.hpp"
@@ -380,6 +382,24 @@ TEST(WorkerProcess, RunsOnTheCoreAndWithTheMemoryItIsGiven) {
   EXPECT_EQ(reply.body["core"], std::to_string(core));
   EXPECT_EQ(reply.body["memory"], 512 * 1024);
   EXPECT_EQ(reply.body["dump"], 0);
+}
+
+// What the core asks for by itself, the malloc of every worker asks for too.
+TEST(WorkerProcess, AsksForHugePages) {
+  const std::string script = "read line; echo \"{\\\"tunables\\\": \\\"$GLIBC_TUNABLES\\\"}\"; read line";
+  const char* const own = std::getenv("GLIBC_TUNABLES");
+  WorkerProcess worker({"/bin/sh", "-c", script}, {});
+  const Reply reply = worker.request({{"request", "hello"}}, 30s);
+  ASSERT_EQ(reply.status, Status::kOk) << reply.detail;
+  EXPECT_EQ(reply.body["tunables"], worker_tunables(own == nullptr ? "" : own));
+}
+
+TEST(HugePages, AUsersOwnTunablesAreKept) {
+  EXPECT_EQ(worker_tunables(""), "glibc.malloc.hugetlb=1");
+  EXPECT_EQ(worker_tunables("glibc.malloc.check=3"), "glibc.malloc.check=3:glibc.malloc.hugetlb=1");
+  EXPECT_EQ(worker_tunables("glibc.malloc.hugetlb=0:a=1"), "glibc.malloc.hugetlb=0:a=1");
+  EXPECT_EQ(worker_tunables("not.glibc.malloc.hugetlb=0"),
+            "not.glibc.malloc.hugetlb=0:glibc.malloc.hugetlb=1");
 }
 
 TEST(WorkerProcess, AReplyThatComesJustBeforeTheEndCounts) {
