@@ -6,9 +6,32 @@ set_source_files_properties(polylidar.cpp PROPERTIES COMPILE_DEFINITIONS "POLYLI
 find_package(CGAL QUIET)
 if(CGAL_FOUND)
   add_adapter(NAME cgal_alpha_shape TITLE "CGAL alpha shape" LIBRARIES CGAL::CGAL)
+  add_adapter(NAME cgal_delaunay TITLE "CGAL Delaunay + filter" LIBRARIES CGAL::CGAL)
 else()
   add_adapter(NAME cgal_alpha_shape TITLE "CGAL alpha shape"
     MISSING "CGAL" INSTALL "sudo apt-get install libcgal-dev")
+  add_adapter(NAME cgal_delaunay TITLE "CGAL Delaunay + filter"
+    MISSING "CGAL" INSTALL "sudo apt-get install libcgal-dev")
+endif()
+
+# Not linked: the adapter loads the library by this name, see there. 1.4.1 is the first with alpha shapes.
+find_path(SFCGAL_INCLUDE SFCGAL/capi/sfcgal_c.h)
+find_library(SFCGAL_LIBRARY SFCGAL)
+mark_as_advanced(SFCGAL_INCLUDE SFCGAL_LIBRARY)
+set(sfcgal_has_alpha_shapes "")
+if(SFCGAL_INCLUDE AND SFCGAL_LIBRARY)
+  file(STRINGS "${SFCGAL_INCLUDE}/SFCGAL/capi/sfcgal_c.h" sfcgal_has_alpha_shapes
+    REGEX "sfcgal_geometry_optimal_alpha_shapes")
+endif()
+set(sfcgal_remedy "sudo apt-get install libsfcgal-dev")
+if(sfcgal_has_alpha_shapes)
+  add_adapter(NAME sfcgal_alpha_shape TITLE "SFCGAL alpha shape" LIBRARIES ${CMAKE_DL_LIBS})
+  target_include_directories(hullbench_adapter_sfcgal_alpha_shape SYSTEM PRIVATE "${SFCGAL_INCLUDE}")
+  set_source_files_properties(sfcgal_alpha_shape.cpp PROPERTIES
+    COMPILE_DEFINITIONS "SFCGAL_LIBRARY=\"${SFCGAL_LIBRARY}\";SFCGAL_REMEDY=\"${sfcgal_remedy}\"")
+else()
+  add_adapter(NAME sfcgal_alpha_shape TITLE "SFCGAL alpha shape"
+    MISSING "SFCGAL 1.4.1 or newer" INSTALL "${sfcgal_remedy}")
 endif()
 
 pkg_check_modules(SPATIALITE QUIET IMPORTED_TARGET GLOBAL spatialite sqlite3)

@@ -103,8 +103,8 @@ target_link_libraries(hullbench_with_sample PRIVATE
 add_test(NAME sample_method.keeps_the_contract COMMAND hullbench_with_sample adapter test sample_hull)
 
 # Real methods, the harness and all; a method that is not installed ends with 6.
-foreach(method IN ITEMS polylidar cgal_alpha_shape spatialite geos_concave_hull chi_shape knn_hull convex_hull
-    concaveman hull_js turf_concave jts_concave_hull scipy_alpha_shape)
+foreach(method IN ITEMS polylidar cgal_alpha_shape cgal_delaunay sfcgal_alpha_shape spatialite geos_concave_hull chi_shape
+    knn_hull convex_hull concaveman hull_js turf_concave jts_concave_hull scipy_alpha_shape)
   add_test(NAME contract.${method} COMMAND hullbench adapter test ${method})
   set_tests_properties(contract.${method} PROPERTIES SKIP_RETURN_CODE 6)
 endforeach()

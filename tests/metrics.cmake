@@ -9,6 +9,15 @@ target_compile_definitions(test_metric_table PRIVATE HULLBENCH_SOURCE_DIRECTORY=
 if(TARGET hullbench_adapter_cgal_alpha_shape)
   hullbench_test(test_cgal_alpha_shape SOURCES test_cgal_alpha_shape.cpp
     LIBRARIES hullbench_test_support hullbench_adapter_cgal_alpha_shape hullbench_adapter_interface
-      hullbench::metrics CGAL::CGAL
+      hullbench::metrics hullbench::datasets CGAL::CGAL
+    LABELS adapters)
+  hullbench_test(test_cgal_delaunay SOURCES test_cgal_delaunay.cpp
+    LIBRARIES hullbench_test_support hullbench_adapter_cgal_delaunay hullbench_adapter_interface hullbench::metrics
+    LABELS adapters)
+endif()
+if(TARGET hullbench_adapter_sfcgal_alpha_shape)
+  hullbench_test(test_sfcgal_alpha_shape SOURCES test_sfcgal_alpha_shape.cpp
+    LIBRARIES hullbench_test_support hullbench_adapter_sfcgal_alpha_shape hullbench_adapter_interface
+      hullbench::datasets
     LABELS adapters)
 endif()

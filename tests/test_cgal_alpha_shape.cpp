@@ -22,6 +22,7 @@
 #include "adapters/adapter.hpp"
 #include "benchmarks/metrics/area.hpp"
 #include "benchmarks/metrics/validity.hpp"
+#include "datasets/point_locator.hpp"
 #include "polylidar/concave_hull.hpp"
 #include "polylidar/delaunay.hpp"
 #include "tests/hull_oracle.hpp"
@@ -79,6 +80,7 @@ TEST(CgalAlphaShape, SaysWhatItIs) {
   ASSERT_EQ(info.parameters.size(), 1U);
   EXPECT_EQ(info.parameters[0].name, "alpha");
   EXPECT_EQ(info.parameters[0].unit, "length^2");
+  EXPECT_EQ(info.parameters[0].default_value, 0) << "find_optimal_alpha(1)";
   EXPECT_TRUE(info.capabilities.holes);
   EXPECT_TRUE(info.capabilities.several_polygons);
 }
@@ -87,7 +89,6 @@ TEST(CgalAlphaShape, RefusesBadParameters) {
   const auto adapter = make_cgal_alpha_shape();
   StepNames steps;
   adapter->load(polylidar::testing::uniform_points(10, 1));
-  EXPECT_THROW(adapter->run({}, steps), std::invalid_argument);
   EXPECT_THROW(adapter->run({{"alpha", -1}}, steps), std::invalid_argument);
   EXPECT_THROW(adapter->run({{"alpha", std::nan("")}}, steps), std::invalid_argument);
   EXPECT_THROW(adapter->run({{"alpha", 1}, {"beta", 1}}, steps), std::invalid_argument);
@@ -111,7 +112,7 @@ TEST(CgalAlphaShape, NamesItsSteps) {
   adapter->load(polylidar::testing::uniform_points(100, 1));
   EXPECT_THROW(adapter->extract(steps), std::logic_error) << "extract comes after run";
   adapter->run({{"alpha", 0.01}}, steps);
-  EXPECT_EQ(steps.names, (std::vector<std::string>{"triangulation", "alpha_shape", "edges"}));
+  EXPECT_EQ(steps.names, (std::vector<std::string>{"triangulation", "alpha_shape"}));
   steps.names.clear();
   adapter->extract(steps);
   EXPECT_EQ(steps.names, (std::vector<std::string>{"polygon"}));
@@ -122,8 +123,9 @@ TEST(CgalAlphaShape, OfNothingIsEmpty) {
     SCOPED_TRACE(set.name);
     EXPECT_TRUE(run(set.points, 1).empty());
     EXPECT_TRUE(run(set.points, kInfinity).empty());
+    EXPECT_TRUE(run(set.points, 0).empty()) << "of no alpha given";
   }
-  EXPECT_TRUE(run(polylidar::testing::uniform_points(100, 1), 0).empty());
+  EXPECT_TRUE(run(polylidar::testing::uniform_points(100, 1), 1e-9).empty());
 }
 
 TEST(CgalAlphaShape, AlphaIsASquaredRadiusAndInclusive) {
@@ -145,6 +147,47 @@ TEST(CgalAlphaShape, GivesTheSameEachTime) {
   EXPECT_THROW(adapter->extract(steps), std::logic_error);
   adapter->run({{"alpha", 0.04 * 0.04}}, steps);
   EXPECT_EQ(adapter->extract(steps), first) << "after a reset";
+}
+
+// A shape that CGAL builds straight from the points, as a user of it does.
+struct CgalsOwn {
+  using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
+  using Vertex = CGAL::Alpha_shape_vertex_base_2<Kernel>;
+  using Face = CGAL::Alpha_shape_face_base_2<Kernel>;
+  using Delaunay = CGAL::Delaunay_triangulation_2<Kernel, CGAL::Triangulation_data_structure_2<Vertex, Face>>;
+  using Shape = CGAL::Alpha_shape_2<Delaunay>;
+
+  static std::vector<Kernel::Point_2> converted(const std::vector<Point>& points) {
+    std::vector<Kernel::Point_2> result;
+    result.reserve(points.size());
+    for (const Point& point : points) result.emplace_back(point.x, point.y);
+    return result;
+  }
+};
+
+// What CGAL's manual promises of this alpha: one component, and every point a vertex of a triangle inside.
+TEST(CgalAlphaShape, WithoutAlphaTakesCgalsOptimalOne) {
+  for (std::uint64_t seed = 0; seed < 20; ++seed) {
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    std::vector<Point> points = polylidar::testing::uniform_points(20 + 100 * seed, seed);
+    std::erase_if(points, [](const Point& p) { return std::hypot(p.x - 0.4, p.y - 0.5) < 0.2; });
+    const auto adapter = make_cgal_alpha_shape();
+    StepNames steps;
+    adapter->load(points);
+    adapter->run({}, steps);
+    const MultiPolygon shape = adapter->extract(steps);
+
+    const auto converted = CgalsOwn::converted(points);
+    CgalsOwn::Shape cgal(converted.begin(), converted.end());
+    const double alpha = *cgal.find_optimal_alpha(1);
+    adapter->run({{"alpha", alpha}}, steps);
+    EXPECT_EQ(adapter->extract(steps), shape);
+    EXPECT_EQ(shape.size(), 1U);
+    const PointLocator inside(shape);
+    EXPECT_TRUE(
+        std::all_of(points.begin(), points.end(), [&](const Point& p) { return inside.contains(p); }));
+    EXPECT_LT(polylidar::area(shape), polylidar::area(run(points, kInfinity))) << "the convex hull";
+  }
 }
 
 // Edges as sorted end points, in order.
@@ -169,17 +212,11 @@ std::vector<EdgeEnds> edges_of(const MultiPolygon& shape) {
   return edges;
 }
 
-// The regular edges as a user of CGAL gets them: built straight from the points.
+// The regular edges, which the paper took.
 std::vector<EdgeEnds> regular_edges(const std::vector<Point>& points, double radius) {
-  using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
-  using Vertex = CGAL::Alpha_shape_vertex_base_2<Kernel>;
-  using Face = CGAL::Alpha_shape_face_base_2<Kernel>;
-  using Delaunay = CGAL::Delaunay_triangulation_2<Kernel, CGAL::Triangulation_data_structure_2<Vertex, Face>>;
-  using AlphaShape = CGAL::Alpha_shape_2<Delaunay>;
-  std::vector<Kernel::Point_2> cgal_points;
-  cgal_points.reserve(points.size());
-  for (const Point& point : points) cgal_points.emplace_back(point.x, point.y);
-  const AlphaShape shape(cgal_points.begin(), cgal_points.end(), radius * radius, AlphaShape::GENERAL);
+  const auto converted = CgalsOwn::converted(points);
+  using AlphaShape = CgalsOwn::Shape;
+  const AlphaShape shape(converted.begin(), converted.end(), radius * radius, AlphaShape::GENERAL);
   std::vector<EdgeEnds> edges;
   for (auto edge = shape.alpha_shape_edges_begin(); edge != shape.alpha_shape_edges_end(); ++edge) {
     if (shape.classify(*edge) != AlphaShape::REGULAR) continue;

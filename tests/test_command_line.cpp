@@ -358,9 +358,9 @@ TEST_F(CommandLineTest, ListKnowsEveryMethodAndDataSet) {
   const json listing = json::parse(outcome.out);
   std::map<std::string, json> methods;
   for (const json& method : listing["methods"]) methods[method["name"]] = method;
-  for (const char* name :
-       {"polylidar", "cgal_alpha_shape", "spatialite", "spatialite_steps", "postgis", "postgis_legacy",
-        "postgis_steps", "geos_concave_hull", "chi_shape", "knn_hull", "pcl_concave_hull", "convex_hull"}) {
+  for (const char* name : {"polylidar", "cgal_alpha_shape", "cgal_delaunay", "sfcgal_alpha_shape",
+                           "spatialite", "spatialite_steps", "postgis", "postgis_legacy", "postgis_steps",
+                           "geos_concave_hull", "chi_shape", "knn_hull", "pcl_concave_hull", "convex_hull"}) {
     ASSERT_TRUE(methods.contains(name)) << name;
   }
   EXPECT_TRUE(methods["polylidar"]["installed"].get<bool>());

@@ -9,11 +9,11 @@ function polygonPath(count, turn = 0, radius = 10) {
   return `M${corners.join("L")}Z`;
 }
 
-/** A star of five points. */
-function starPath() {
-  const corners = Array.from({ length: 10 }, (_, corner) => {
-    const angle = corner * 36 * (Math.PI / 180);
-    const radius = corner % 2 ? 4.5 : 11;
+/** A star of `count` points, whose inner corners are `inner` from the middle. */
+function starPath(count = 5, inner = 4.5) {
+  const corners = Array.from({ length: 2 * count }, (_, corner) => {
+    const angle = ((corner * 180) / count) * (Math.PI / 180);
+    const radius = corner % 2 ? inner : 11;
     return `${(10 + radius * Math.sin(angle)).toFixed(2)} ${(10 - radius * Math.cos(angle)).toFixed(2)}`;
   });
   return `M${corners.join("L")}Z`;
@@ -35,6 +35,8 @@ const MARKERS = {
   hexagon: polygonPath(6),
   octagon: polygonPath(8, 22.5),
   star: starPath(),
+  "star-four": starPath(4, 4),
+  "star-three": starPath(3, 3.5),
   plus: PLUS,
   cross: CROSS,
   bar: "M0 7H20V13H0Z",

@@ -1,0 +1,196 @@
+// The filter on CGAL's triangulation: its contract, and the same polygons as Polylidar's.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <memory>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "adapters/adapter.hpp"
+#include "benchmarks/metrics/validity.hpp"
+#include "polylidar/concave_hull.hpp"
+#include "polylidar/delaunay.hpp"
+#include "tests/adapter_contract.hpp"
+#include "tests/hull_input.hpp"
+#include "tests/hull_oracle.hpp"
+#include "tests/point_sets.hpp"
+
+namespace hullbench {
+
+std::unique_ptr<Adapter> make_cgal_delaunay();
+
+namespace {
+
+using polylidar::Options;
+using polylidar::testing::canonical;
+using polylidar::testing::PointSet;
+using polylidar::testing::uniform_points;
+using test::hull_of;
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+Parameters parameters_of(const Options& options) {
+  Parameters parameters;
+  if (options.alpha) parameters["alpha"] = *options.alpha;
+  if (options.max_edge_length) parameters["max_edge_length"] = *options.max_edge_length;
+  if (options.max_perimeter) parameters["max_perimeter"] = *options.max_perimeter;
+  return parameters;
+}
+
+MultiPolygon run(const std::vector<Point>& points, const Options& options) {
+  return hull_of(*make_cgal_delaunay(), points, parameters_of(options));
+}
+
+MultiPolygon polylidar_hull(const std::vector<Point>& points, const Options& options) {
+  return polylidar::to_coordinates(polylidar::concave_hull(points, options), points);
+}
+
+std::string text_of(const Options& options) {
+  std::string text;
+  for (const auto& [name, value] : parameters_of(options)) text += name + " " + std::to_string(value) + " ";
+  return text;
+}
+
+// How many comparisons were made of shapes that are neither empty nor one ring.
+int expect_the_same(const std::vector<Point>& points) {
+  int telling = 0;
+  for (const Options& options : polylidar::testing::clear_options(points, polylidar::delaunay(points))) {
+    SCOPED_TRACE(text_of(options));
+    const MultiPolygon theirs = run(points, options);
+    EXPECT_TRUE(canonical(theirs) == canonical(polylidar_hull(points, options)));
+    EXPECT_EQ(invalid_reason(theirs), "");
+    telling += theirs.size() + test::hole_count(theirs) > 1 ? 1 : 0;
+  }
+  return telling;
+}
+
+TEST(CgalDelaunay, SaysWhatItIs) {
+  const auto adapter = make_cgal_delaunay();
+  const MethodInfo& info = adapter->info();
+  EXPECT_EQ(info.name, "cgal_delaunay");
+  EXPECT_EQ(info.title, "CGAL Delaunay + filter");
+  EXPECT_EQ(info.version.find_first_not_of("0123456789."), std::string::npos) << info.version;
+  ASSERT_EQ(info.parameters.size(), 3U);
+  for (const ParameterInfo& parameter : info.parameters) {
+    EXPECT_EQ(parameter.unit, "length");
+    EXPECT_EQ(parameter.default_value, kInfinity);
+  }
+  EXPECT_TRUE(info.capabilities.holes);
+  EXPECT_TRUE(info.capabilities.several_polygons);
+}
+
+TEST(CgalDelaunay, KeepsTheContract) {
+  test::expect_adapter_contract(&make_cgal_delaunay, {{"alpha", 0.1}}, {{"max_perimeter", 1}});
+}
+
+TEST(CgalDelaunay, NamesItsSteps) {
+  const auto adapter = make_cgal_delaunay();
+  test::StepNames steps;
+  adapter->load(uniform_points(100, 1));
+  EXPECT_THROW(adapter->extract(steps), std::logic_error) << "extract comes after run";
+  adapter->run({{"alpha", 0.1}}, steps);
+  const MultiPolygon first = adapter->extract(steps);
+  EXPECT_EQ(steps.names(), (std::vector<std::string>{"triangulation", "shape", "polygon"}));
+  EXPECT_EQ(adapter->extract(steps), first) << "extracted again";
+  adapter->reset();
+  EXPECT_THROW(adapter->extract(steps), std::logic_error);
+}
+
+TEST(CgalDelaunay, OfNothingIsEmpty) {
+  for (const PointSet& set : polylidar::testing::flat_point_sets()) {
+    SCOPED_TRACE(set.name);
+    for (const Options& options : {Options{}, Options{.alpha = 1}, Options{.max_perimeter = 1}}) {
+      EXPECT_TRUE(run(set.points, options).empty()) << text_of(options);
+    }
+  }
+}
+
+// Of a right triangle with sides 3, 4 and 5 all three are exact.
+TEST(CgalDelaunay, LimitsAreInclusiveAndAllMustHold) {
+  const std::vector<Point> points = {{0, 0}, {4, 0}, {0, 3}};
+  const MultiPolygon triangle = {{{{0, 0}, {4, 0}, {0, 3}}, {}}};
+  const auto below = [](double value) { return std::nextafter(value, 0); };
+  EXPECT_EQ(canonical(run(points, {.alpha = 2.5, .max_edge_length = 5, .max_perimeter = 12})), triangle);
+  EXPECT_TRUE(run(points, {.alpha = below(2.5), .max_edge_length = 5, .max_perimeter = 12}).empty());
+  EXPECT_TRUE(run(points, {.alpha = 2.5, .max_edge_length = below(5), .max_perimeter = 12}).empty());
+  EXPECT_TRUE(run(points, {.alpha = 2.5, .max_edge_length = 5, .max_perimeter = below(12)}).empty());
+  EXPECT_TRUE(run(points, {.alpha = 0}).empty());
+}
+
+TEST(CgalDelaunay, WithoutALimitIsTheConvexHull) {
+  const std::vector<Point> points = uniform_points(500, 3);
+  const MultiPolygon hull = hull_of(*make_cgal_delaunay(), points, {});
+  EXPECT_EQ(canonical(hull), canonical(polylidar_hull(points, {.alpha = kInfinity})));
+  ASSERT_EQ(hull.size(), 1U);
+  EXPECT_TRUE(hull[0].holes.empty());
+}
+
+TEST(CgalDelaunay, SamePolygonsAsPolylidarsOnRandomPoints) {
+  int telling = 0;
+  for (std::uint64_t seed = 0; seed < 100; ++seed) {
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    telling += expect_the_same(uniform_points(10 + 15 * seed, seed, 100));
+  }
+  EXPECT_GT(telling, 100);
+}
+
+// The paper's rule for alpha and the limits that the core chooses, on samples like those measured.
+TEST(CgalDelaunay, SamePolygonsAsPolylidarsOnASampleWithAHole) {
+  for (std::uint64_t seed = 0; seed < 5; ++seed) {
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    std::vector<Point> points = uniform_points(20000, seed, 200);
+    std::erase_if(points,
+                  [](const Point& p) { return std::hypot(p.x - 80, p.y - 90) < 30 || p.x + p.y < 70; });
+    const double spacing = std::sqrt(40000.0 / 20000);
+    for (const Options& options :
+         {Options{.alpha = 2 * spacing}, Options{.max_edge_length = 3 * spacing},
+          Options{.max_perimeter = 9 * spacing}, Options{.alpha = spacing, .max_edge_length = 3 * spacing}}) {
+      SCOPED_TRACE(text_of(options));
+      const MultiPolygon theirs = run(points, options);
+      EXPECT_TRUE(canonical(theirs) == canonical(polylidar_hull(points, options)));
+      EXPECT_GT(test::hole_count(theirs), 0U);
+    }
+  }
+}
+
+// Where points are cocircular the triangulations differ; triangles on one circle are kept or dropped together
+// when the circle's radius is what is limited.
+TEST(CgalDelaunay, SamePolygonsAsPolylidarsOnLatticesWithGaps) {
+  for (std::uint64_t seed = 0; seed < 150; ++seed) {
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    polylidar::testing::Random random(seed);
+    const double density = random.between(0.3, 0.97);
+    std::vector<Point> points;
+    for (const Point& point : polylidar::testing::lattice(14, 14)) {
+      if (random.unit() < density) points.push_back(point);
+    }
+    for (const double radius : {0.75, 1.05}) {
+      const MultiPolygon theirs = run(points, {.alpha = radius});
+      const MultiPolygon ours = polylidar_hull(points, {.alpha = radius});
+      EXPECT_TRUE(canonical(theirs) == canonical(ours)) << radius;
+    }
+  }
+}
+
+// Circles of many points are triangulated in more than one way, so that edges and perimeters may differ: the
+// circumradius alone decides alike.
+TEST(CgalDelaunay, SamePolygonsAsPolylidarsOnNastyPointSets) {
+  int compared = 0;
+  for (const PointSet& set : polylidar::testing::nasty_point_sets()) {
+    SCOPED_TRACE(set.name);
+    const std::vector<Point> points = polylidar::testing::near_one(set.points);
+    for (const Options& options : polylidar::testing::clear_options(points, polylidar::delaunay(points))) {
+      if (!options.alpha || options.max_edge_length || options.max_perimeter) continue;
+      SCOPED_TRACE(text_of(options));
+      EXPECT_TRUE(canonical(run(points, options)) == canonical(polylidar_hull(points, options)));
+      ++compared;
+    }
+  }
+  EXPECT_GT(compared, 20);
+}
+
+}  // namespace
+}  // namespace hullbench
