@@ -64,6 +64,15 @@ TEST(FitScore, TheCurveHasEveryCandidateAndTheBestIsTheFirstOfTheLeast) {
   EXPECT_EQ(best_of(curve).candidate, 2);
 }
 
+TEST(FitScore, OneCandidateForSeveralUsesHasTheLeastProduct) {
+  const auto curve = [](double a, double b, double c) {
+    return std::vector<CandidateScore>{
+        {.candidate = 1, .score = a}, {.candidate = 2, .score = b}, {.candidate = 3, .score = c}};
+  };
+  EXPECT_EQ(best_for_all({curve(0.5, 0.4, 0.3)}), 2U);
+  EXPECT_EQ(best_for_all({curve(0.1, 0.12, 0.3), curve(0.9, 0.6, 0.5)}), 1U);
+}
+
 // The core's rule, plainly.
 
 TEST(LimitFit, WithTheConstantsOfTheCoreItIsTheCoresChoice) {

@@ -32,16 +32,34 @@ std::string percent(double share) {
   return fixed(100 * share, 2);
 }
 
-void print_curve(const RuleUse& use, const ErrorTable& table) {
-  const std::vector<CandidateScore> curve = score_curve(table);
+void print_curve(const RuleUse& use, const std::vector<CandidateScore>& curve) {
   TextTable text({"share of P", "score, %", "median, %", "failures"});
   for (const CandidateScore& one : curve)
     text.add_row(
         {fixed(one.candidate, 2), percent(one.score), percent(one.median), std::to_string(one.failures)});
   std::cout << "\n## " << use.rule << ": " << use.meaning << " (" << use.method << ")\n\n";
   print_markdown(text, std::cout);
-  std::cout << "\nBest: " << fixed(best_of(curve).candidate, 2) << ". In the code: " << fixed(use.share, 2)
-            << ".\n";
+  std::cout << "\nBest: " << fixed(best_of(curve).candidate, 2) << ".\n";
+}
+
+/// The one share for all uses of a rule, what it costs each, and what stands in the code.
+void print_share(const std::string& rule, const std::vector<RuleUse>& uses,
+                 const std::vector<std::vector<CandidateScore>>& curves) {
+  std::vector<RuleUse> of_rule;
+  std::vector<std::vector<CandidateScore>> its_curves;
+  for (std::size_t u = 0; u < uses.size(); ++u) {
+    if (uses[u].rule != rule) continue;
+    of_rule.push_back(uses[u]);
+    its_curves.push_back(curves[u]);
+  }
+  const std::size_t best = best_for_all(its_curves);
+  TextTable text({"limits", "score, %", "with its own best share, %"});
+  for (std::size_t u = 0; u < of_rule.size(); ++u)
+    text.add_row(
+        {of_rule[u].meaning, percent(its_curves[u][best].score), percent(best_of(its_curves[u]).score)});
+  std::cout << "\n## " << rule << ": one share for all, " << fixed(its_curves[0][best].candidate, 2)
+            << "; in the code " << fixed(of_rule[0].share, 2) << "\n\n";
+  print_markdown(text, std::cout);
 }
 
 std::vector<std::string> cells_of(const std::string& what, const LimitScore& one) {
@@ -89,7 +107,10 @@ int fit(const std::vector<std::string>& names, std::uint64_t split_seed, int see
   print_item("Score: the geometric mean over shapes of the geometric mean of a shape's errors (L2).",
              std::cout);
   print_item("P: the perimeter that the core chooses from the points.", std::cout);
-  for (std::size_t u = 0; u < uses.size(); ++u) print_curve(uses[u], tables.uses[u]);
+  std::vector<std::vector<CandidateScore>> curves;
+  for (const ErrorTable& table : tables.uses) curves.push_back(score_curve(table));
+  for (std::size_t u = 0; u < uses.size(); ++u) print_curve(uses[u], curves[u]);
+  for (const char* rule : {"auto_circumradius", "auto_edge_length"}) print_share(rule, uses, curves);
   print_limit(tables);
   return 0;
 }

@@ -39,4 +39,12 @@ const CandidateScore& best_of(const std::vector<CandidateScore>& curve) {
                            [](const auto& a, const auto& b) { return a.score < b.score; });
 }
 
+std::size_t best_for_all(const std::vector<std::vector<CandidateScore>>& curves) {
+  std::vector<double> products(curves.at(0).size(), 1.0);
+  for (const std::vector<CandidateScore>& curve : curves) {
+    for (std::size_t k = 0; k < products.size(); ++k) products[k] *= curve.at(k).score;
+  }
+  return static_cast<std::size_t>(std::min_element(products.begin(), products.end()) - products.begin());
+}
+
 }  // namespace hullbench

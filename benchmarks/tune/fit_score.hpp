@@ -39,4 +39,8 @@ std::vector<CandidateScore> score_curve(const ErrorTable& table);
 /// The one with the least score; of equal ones the first. Needs one at least.
 const CandidateScore& best_of(const std::vector<CandidateScore>& curve);
 
+/// The place of the candidate that suits several uses of one constant: of the least product of their scores,
+/// so that no use counts more because it is harder. `curves` are of the same candidates; one at least.
+std::size_t best_for_all(const std::vector<std::vector<CandidateScore>>& curves);
+
 }  // namespace hullbench
