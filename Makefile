@@ -43,7 +43,7 @@ endef
 
 NATIVE_OPTION = -DHULLBENCH_NATIVE=$(if $(filter-out 0,$(NATIVE)),ON,OFF)
 
-.PHONY: help deps deps-extra build bench bench-quick figures figures-core report report-compare evaluate fit-rules bench-core bench-gate bench-gate-instructions reference test test-sanitize build-clang test-clang test-fresh test-slurm test-gate fuzz lint format docs clean
+.PHONY: help deps deps-extra build bench bench-quick figures figures-core report report-compare evaluate bench-core bench-gate bench-gate-instructions reference test test-sanitize build-clang test-clang test-fresh test-slurm test-gate fuzz lint format docs clean
 
 help: ## list the targets (the default)
 	@awk 'BEGIN { FS = ":.*## " } /^[a-z-]+:.*## / { printf "  make %-23s %s\n", $$1, $$2 }' Makefile
@@ -108,15 +108,16 @@ report-compare: ## write B's comparison.html, two runs side by side (A=FOLDER B=
 	@/usr/bin/python3 plots/make_comparison.py $(call drawn_folder,$(A),a/) $(call drawn_folder,$(B),b/) \
 	  --compared build/drawn/compared.json --out $(B)/comparison.html
 
-evaluate: ## the parameters' search over all stress suites and the league, on all cores (OUT=results/evaluation)
-	@$(call install,build bench)
-	@$(MAKE) build
-	@benchmarks/league/evaluate.sh build/hullbench $(or $(OUT),results/evaluation)
-
+.PHONY: fit-rules
 fit-rules: ## fit the constants of the rules from the points, and of the core's automatic limit, on the training side
 	@$(call install,build)
 	@$(call build,release,$(NATIVE_OPTION),fit_rules)
 	@build/fit_rules
+
+evaluate: ## the parameters' search over all stress suites and the league, on all cores (OUT=results/evaluation)
+	@$(call install,build bench)
+	@$(MAKE) build
+	@benchmarks/league/evaluate.sh build/hullbench $(or $(OUT),results/evaluation)
 
 reference: ## keep results/latest as the reference run, draw it, and write its tables into the README
 	@$(call install,build test)
