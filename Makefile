@@ -125,6 +125,12 @@ report-compare: ## write B's comparison.html, two runs side by side (A=FOLDER B=
 	@/usr/bin/python3 plots/make_comparison.py $(call drawn_folder,$(A),a/) $(call drawn_folder,$(B),b/) \
 	  --compared build/drawn/compared.json --out $(B)/comparison.html
 
+.PHONY: fit-rules
+fit-rules: ## fit the constants of the rules from the points, and of the core's automatic limit, on the training side
+	@$(call install,build)
+	@$(call build,release,$(NATIVE_OPTION),fit_rules)
+	@build/fit_rules
+
 evaluate: ## the parameters' search over all stress suites and the league, on all cores (OUT=results/evaluation)
 	@$(call install,build bench)
 	@$(MAKE) build

@@ -60,14 +60,27 @@ double holes_switch(const RuleInput& input);
 /// without an area.
 double mean_spacing(std::span<const polylidar::Point> points);
 
-/// `hull_spacing`: 3 * sqrt(A / n), three times the mean spacing of n points spread over the convex hull's
-/// area A: an edge length in the unit of the points, from the points alone. 0 for no points.
-double hull_spacing(const RuleInput& input);
+/// The core's own choice for these points (Extractor::limits): the largest perimeter P of a triangle of the
+/// shape. What the other rules from the points take their lengths from, so that every method that filters or
+/// erodes Delaunay triangles gets as much from the points as the core does. The core finds P inside of its
+/// own time; the others are told it.
+///
+/// `auto_perimeter`: P, a length in the unit of the points. 0 for points without a triangle.
+double auto_perimeter(const RuleInput& input);
 
-/// `hull_spacing_ratio`: a length ratio (GEOS ConcaveHull, PostGIS >= 3.3) from the points alone. The edge
-/// length wanted is hull_spacing; the ratio that stands for it lies between the shortest (0) and the longest
-/// (1) edge of the Delaunay triangulation, as GEOS defines it, clamped to [0, 1]. 1 (the convex hull) for
-/// points without a triangulation.
-double hull_spacing_ratio(const RuleInput& input);
+/// The shares of P that stand for it where a method limits something else than the perimeter. Fitted on the
+/// training side (tune/split.hpp) of the stress suites and the letters by `make fit-rules`.
+extern const double kEdgeShare;
+extern const double kCircumradiusShare;
+
+/// `auto_edge_length`: kEdgeShare * P, a length in the unit of the points: of the longest edge of a triangle
+/// that stays, or of an edge of the border beyond which the shape is eroded.
+double auto_edge_length(const RuleInput& input);
+
+/// `auto_circumradius`: kCircumradiusShare * P, a length in the unit of the points.
+double auto_circumradius(const RuleInput& input);
+
+/// `auto_circumradius_squared`: its square, for methods that want a squared radius (CGAL).
+double auto_circumradius_squared(const RuleInput& input);
 
 }  // namespace hullbench

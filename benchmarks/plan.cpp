@@ -336,6 +336,8 @@ PlanMethod read_method(const Node& node) {
   if (node.has("timeout_s")) method.timeout_s = read_timeout(node);
   if (node.has("mem_limit_mib")) method.mem_limit_mib = read_memory_limit(node);
   if (node.has("note")) method.note = node.at("note").text();
+  if (method.protocol == "default" && !method.parameters.empty() && method.note.empty())
+    node.fail("gives parameters under the protocol default; say in its 'note' whose default they are");
   return method;
 }
 

@@ -20,7 +20,7 @@
 // "ca~noise:0.5". A method's own repetitions and limits take the place of the plan's; with several protocols
 // it has one worker, so all its entries must name the same "mem_limit_mib". Without "n" the data set's own
 // points are used, which only some have. Only `name`, `cases` and `methods` are required; a key that is not
-// listed here is an error.
+// listed here is an error. Parameters under the protocol "default" need a note that says whose they are.
 #pragma once
 
 #include <cstddef>

@@ -82,6 +82,13 @@ TEST(League, AFailureIsInfinitelyBadAndNeverDropped) {
   EXPECT_EQ(league.entries.front().method, "good") << "the better median is first";
 }
 
+TEST(League, AMedianOfFewCasesStandsBehindThoseOfAll) {
+  const League league = league_of({row("bad", "auto", "a", 0.01), row("good", "auto", "a", 0.2),
+                                   row("good", "auto", "b", 0.3), row("good", "auto", "c", 0.2)});
+  EXPECT_EQ(league.entries.front().method, "good");
+  EXPECT_EQ(league.entries.back().l2->cases, 1U);
+}
+
 TEST(League, RegretIsAgainstTheSameMethodsOracleOnTheSameCase) {
   json with_holes = row("good", "oracle", "a", 0.05);
   const League league = league_of({row("good", "auto", "a", 0.15), row("good", "auto", "b", 0.4), with_holes,

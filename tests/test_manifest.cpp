@@ -40,7 +40,7 @@ json good_manifest() {
       {"needs", {"../library", "/usr/lib/library"}},
       {"install", "make it"},
       {"runs",
-       {{{"protocol", "auto"}, {"parameters", {{"k", 5}, {"reach", {{"rule", "hull_spacing_ratio"}}}}}}}}};
+       {{{"protocol", "auto"}, {"parameters", {{"k", 5}, {"reach", {{"rule", "auto_edge_length"}}}}}}}}};
 }
 
 class ManifestTest : public ::testing::Test {

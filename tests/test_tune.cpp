@@ -203,6 +203,9 @@ TEST_F(TuneTest, ItsPlanMeasuresWhatItFound) {
   }
   EXPECT_EQ(measured.size(), found.size());
   EXPECT_TRUE(found.contains("polylidar/star-1/n:200/holes:0/protocol:paper"));
+  EXPECT_TRUE(found.contains("disc/star-1/n:200/holes:0/protocol:default")) << "which the plan does not name";
+  EXPECT_FALSE(found.contains("polylidar/star-1/n:200/holes:0/protocol:default"))
+      << "the plan names polylidar, and no default of it";
 }
 
 TEST_F(TuneTest, AMethodWithoutANumberHasItsDefaultOnly) {

@@ -291,9 +291,13 @@ League make_league(const std::vector<json>& reports, std::uint64_t split_seed, b
   }
   league.shapes = shapes.size();
   for (const auto& [entrant, rows] : field.rows) league.entries.push_back(make_entry(field, entrant, rows));
-  const auto key = [](const LeagueEntry& entry) {
-    return std::make_tuple(place_of_protocol(entry.protocol), entry.l2 ? entry.l2->median : kInfinity,
-                           entry.method);
+  std::map<std::string, std::size_t> most;  // cases of an entry of the protocol
+  for (const LeagueEntry& entry : league.entries)
+    most[entry.protocol] = std::max(most[entry.protocol], entry.cases);
+  // A median of few cases is not better than one of all.
+  const auto key = [&most](const LeagueEntry& entry) {
+    return std::make_tuple(place_of_protocol(entry.protocol), 2 * entry.cases < most.at(entry.protocol),
+                           entry.l2 ? entry.l2->median : kInfinity, entry.method);
   };
   std::sort(league.entries.begin(), league.entries.end(),
             [&](const LeagueEntry& a, const LeagueEntry& b) { return key(a) < key(b); });

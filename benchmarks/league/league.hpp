@@ -73,10 +73,12 @@ const std::vector<double>& league_taus();
 
 struct League {
   std::uint64_t split_seed = 1;
-  bool test_only = true;             ///< on the cases of test shapes only (benchmarks/tune/split.hpp)
-  std::size_t shapes = 0;            ///< base shapes that the cases are of
-  std::size_t cases = 0;             ///< whose errors count
-  std::vector<LeagueEntry> entries;  ///< by protocol in the order of the tables, and by l2
+  bool test_only = true;   ///< on the cases of test shapes only (benchmarks/tune/split.hpp)
+  std::size_t shapes = 0;  ///< base shapes that the cases are of
+  std::size_t cases = 0;   ///< whose errors count
+  /// By protocol in the order of the tables; in each those with less than half of the cases of another one
+  /// last, as their medians are of other cases; by l2.
+  std::vector<LeagueEntry> entries;
   std::vector<LeagueProfile> profiles;
   std::vector<std::string> not_installed;  ///< methods of which there is no row but that
 };

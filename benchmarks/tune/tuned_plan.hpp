@@ -6,10 +6,10 @@
 
 namespace hullbench {
 
-/// `plan` with the same cases, and for every method of `tuning` that starts here: its own entries in the plan
-/// and, in the place of any such there, `default` (where it can do without parameters; the plan's own one
-/// stays), `tuned` on the test shapes and `oracle`. Its name is the plan's with "-tuned". Other methods of
-/// the plan are left out. A protocol that has nothing to say on any case of the plan is left out.
+/// `plan` with the same cases, and for every method of `tuning` that starts here: its own entries in the
+/// plan, or `default` where the plan does not name it and it can do without parameters, and, in the place of
+/// any such there, `tuned` on the test shapes and `oracle`. Its name is the plan's with "-tuned". Other
+/// methods of the plan are left out. A protocol that has nothing to say on any case of the plan is left out.
 Plan tuned_plan(const Plan& plan, const Tuning& tuning);
 
 }  // namespace hullbench

@@ -101,16 +101,17 @@ class Bench {
   MethodOnCase evaluate(const MethodTuning& method) {
     MethodOnCase found;
     if (set_->ground_truth.empty()) return found;  // nothing is better than anything else
+    bool named = false;  // by the plan, which then says too what its default is, if there is one
     for (const PlanMethod& entry : case_->entries) {
       if (entry.method != method.name) continue;
+      named = true;
       const RuleInput input = {set_->points, set_->ground_truth_area, case_->plan_case.holes,
                                set_->ground_truth};
       found.protocols.emplace(entry.protocol,
                               evaluate(method, choose_parameters(entry, case_->plan_case, input)));
     }
     const Parameters fixed = fixed_parameters(*method.info);
-    if (!found.protocols.contains("default") && has_defaults(*method.info))
-      found.protocols.emplace("default", evaluate(method, fixed));
+    if (!named && has_defaults(*method.info)) found.protocols.emplace("default", evaluate(method, fixed));
     // Points without an area have one length only, zero.
     if (!method.axis || (method.axis->spacings && !(spacing_ > 0))) return found;
     const auto points = search(*method.axis, [&](double position) {

@@ -1,0 +1,146 @@
+// build/fit_rules: fits what stands as a number in a rule from the points, on the training side of the split,
+// and prints it beside what stands in the code. Accuracy only: nothing is timed, and the result does not
+// depend on the machine.
+//
+// Exit codes: 0 done, 1 a failure, 2 usage.
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cstdint>
+#include <exception>
+#include <iostream>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "benchmarks/document.hpp"
+#include "benchmarks/number_format.hpp"
+#include "benchmarks/plan.hpp"
+#include "benchmarks/tune/rule_fit.hpp"
+#include "benchmarks/worker_process.hpp"
+
+namespace hullbench {
+namespace {
+
+/// Those that the parameters' search and the league are made of (league/evaluate.sh).
+const std::vector<std::string> kPlans = {
+    "alphabet",        "stress_density",  "stress_noise", "stress_outliers", "stress_gradient",
+    "stress_clusters", "stress_sampling", "stress_holes", "stress_width",    "stress_gaps"};
+/// So many choices of the limit's constants are printed.
+constexpr std::size_t kShown = 10;
+
+std::string percent(double share) {
+  return fixed(100 * share, 2);
+}
+
+void print_curve(const RuleUse& use, const std::vector<CandidateScore>& curve) {
+  TextTable text({"share of P", "score, %", "median, %", "failures"});
+  for (const CandidateScore& one : curve)
+    text.add_row(
+        {fixed(one.candidate, 2), percent(one.score), percent(one.median), std::to_string(one.failures)});
+  std::cout << "\n## " << use.rule << ": " << use.meaning << " (" << use.method << ")\n\n";
+  print_markdown(text, std::cout);
+  std::cout << "\nBest: " << fixed(best_of(curve).candidate, 2) << ".\n";
+}
+
+/// The one share for all uses of a rule, what it costs each, and what stands in the code.
+void print_share(const std::string& rule, const std::vector<RuleUse>& uses,
+                 const std::vector<std::vector<CandidateScore>>& curves) {
+  std::vector<RuleUse> of_rule;
+  std::vector<std::vector<CandidateScore>> its_curves;
+  for (std::size_t u = 0; u < uses.size(); ++u) {
+    if (uses[u].rule != rule) continue;
+    of_rule.push_back(uses[u]);
+    its_curves.push_back(curves[u]);
+  }
+  const std::size_t best = best_for_all(its_curves);
+  TextTable text({"limits", "score, %", "with its own best share, %"});
+  for (std::size_t u = 0; u < of_rule.size(); ++u)
+    text.add_row(
+        {of_rule[u].meaning, percent(its_curves[u][best].score), percent(best_of(its_curves[u]).score)});
+  std::cout << "\n## " << rule << ": one share for all, " << fixed(its_curves[0][best].candidate, 2)
+            << "; in the code " << fixed(of_rule[0].share, 2) << "\n\n";
+  print_markdown(text, std::cout);
+}
+
+std::vector<std::string> cells_of(const std::string& what, const LimitScore& one) {
+  const LimitConstants& c = one.constants;
+  return {what,
+          fixed(c.usual, 1),
+          fixed(c.pull, 1),
+          fixed(c.still, 3),
+          fixed(c.least, 1),
+          fixed(c.most, 1),
+          std::to_string(c.below),
+          std::to_string(c.above),
+          percent(one.score)};
+}
+
+/// The automatic limit's constants: the best choices, and the core's.
+void print_limit(const FitTables& tables) {
+  const std::vector<LimitScore> scores = fit_limit(tables.limits, usual_limit_grid());
+  const LimitScore present = score_limit(tables.limits, {});
+  const auto better = std::count_if(scores.begin(), scores.end(),
+                                    [&](const LimitScore& one) { return one.score < present.score; });
+  TextTable text({"choice", "usual", "pull", "still", "least", "most", "below", "above", "score, %"});
+  for (std::size_t k = 0; k < std::min(kShown, scores.size()); ++k)
+    text.add_row(cells_of(std::to_string(k + 1), scores[k]));
+  text.add_row(cells_of("in the core", present));
+  std::cout << "\n## The core's automatic limit (core/src/automatic_limit.hpp)\n\n";
+  print_markdown(text, std::cout);
+  std::cout
+      << "\nOf " << scores.size() << " choices " << better
+      << " have a smaller score than the core's. The core itself, which looks at a part of many triangles: "
+      << percent(fit_score(tables.shapes, tables.core_errors)) << " %.\n";
+}
+
+int fit(const std::vector<std::string>& names, std::uint64_t split_seed, int seeds, std::int64_t points) {
+  std::vector<Plan> plans;
+  for (const std::string& name : names) plans.push_back(load_plan(name, HULLBENCH_PLAN_FOLDER));
+  const std::vector<FitCase> cases = training_cases(plans, split_seed, seeds, points);
+  if (cases.empty()) throw ConfigurationError("no case of these plans is on the training side of the split");
+  const std::vector<RuleUse> uses = rule_uses();
+  const FitTables tables = measure_fit(cases, uses, usual_shares(), usual_limit_grid(), allowed_cores());
+  const std::set<std::string> shapes(tables.shapes.begin(), tables.shapes.end());
+  std::cout << "# Constants of the rules from the points, fitted on " << cases.size() << " cases of "
+            << shapes.size() << " training shapes\n\n";
+  print_item(join_words(std::vector<std::string>(shapes.begin(), shapes.end())) + ".", std::cout);
+  print_item("Score: the geometric mean over shapes of the geometric mean of a shape's errors (L2).",
+             std::cout);
+  print_item("P: the perimeter that the core chooses from the points.", std::cout);
+  std::vector<std::vector<CandidateScore>> curves;
+  for (const ErrorTable& table : tables.uses) curves.push_back(score_curve(table));
+  for (std::size_t u = 0; u < uses.size(); ++u) print_curve(uses[u], curves[u]);
+  for (const char* rule : {"auto_circumradius", "auto_edge_length"}) print_share(rule, uses, curves);
+  print_limit(tables);
+  return 0;
+}
+
+}  // namespace
+}  // namespace hullbench
+
+int main(int argc, char** argv) {
+  CLI::App app("Fits the constants of the rules that choose parameters from the points alone");
+  std::vector<std::string> plans = hullbench::kPlans;
+  std::uint64_t split_seed = 1;
+  int seeds = 1;
+  std::int64_t points = 0;
+  app.add_option("PLAN", plans, "Plans whose training cases are fitted on");
+  app.add_option("--seed", split_seed, "Of the split into training and test shapes")->capture_default_str();
+  app.add_option("--seeds", seeds, "Samples of each case")->check(CLI::Range(1, 1000))->capture_default_str();
+  app.add_option("--points", points, "Points of each case, instead of the plans'")
+      ->check(CLI::Range(3, 1000000));
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? 0 : 2;
+  }
+  try {
+    return hullbench::fit(plans, split_seed, seeds, points);
+  } catch (const hullbench::ConfigurationError& error) {
+    std::cerr << "fit_rules: " << error.what() << "\n";
+    return 2;
+  } catch (const std::exception& error) {
+    std::cerr << "fit_rules: " << error.what() << "\n";
+    return 1;
+  }
+}

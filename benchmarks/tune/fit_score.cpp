@@ -1,0 +1,50 @@
+#include "benchmarks/tune/fit_score.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <span>
+
+#include "benchmarks/statistics.hpp"
+#include "benchmarks/tune/search.hpp"
+
+namespace hullbench {
+
+double fit_score(const std::vector<std::string>& shapes, const std::vector<double>& errors) {
+  std::map<std::string, std::vector<double>> logarithms;
+  for (std::size_t i = 0; i < errors.size(); ++i)
+    logarithms[shapes[i]].push_back(std::log(std::clamp(errors[i], kLeastError, kMostError)));
+  if (logarithms.empty()) return 0;
+  double sum = 0;
+  for (const auto& [shape, values] : logarithms) sum += mean(std::span<const double>(values));
+  return std::exp(sum / static_cast<double>(logarithms.size()));
+}
+
+std::vector<CandidateScore> score_curve(const ErrorTable& table) {
+  std::vector<CandidateScore> curve;
+  for (std::size_t k = 0; k < table.candidates.size(); ++k) {
+    std::vector<double> errors;
+    errors.reserve(table.errors.size());
+    for (const std::vector<double>& of_case : table.errors) errors.push_back(of_case[k]);
+    CandidateScore one = {.candidate = table.candidates[k], .score = fit_score(table.shapes, errors)};
+    one.failures = static_cast<std::size_t>(std::count_if(errors.begin(), errors.end(), &is_infinitely_bad));
+    if (!errors.empty()) one.median = median(std::span<const double>(errors));
+    curve.push_back(one);
+  }
+  return curve;
+}
+
+const CandidateScore& best_of(const std::vector<CandidateScore>& curve) {
+  return *std::min_element(curve.begin(), curve.end(),
+                           [](const auto& a, const auto& b) { return a.score < b.score; });
+}
+
+std::size_t best_for_all(const std::vector<std::vector<CandidateScore>>& curves) {
+  std::vector<double> products(curves.at(0).size(), 1.0);
+  for (const std::vector<CandidateScore>& curve : curves) {
+    for (std::size_t k = 0; k < products.size(); ++k) products[k] *= curve.at(k).score;
+  }
+  return static_cast<std::size_t>(std::min_element(products.begin(), products.end()) - products.begin());
+}
+
+}  // namespace hullbench

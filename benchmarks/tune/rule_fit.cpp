@@ -1,0 +1,171 @@
+#include "benchmarks/tune/rule_fit.hpp"
+
+#include <algorithm>
+#include <exception>
+#include <memory>
+#include <set>
+#include <stdexcept>
+#include <string_view>
+#include <utility>
+
+#include "adapters/adapter.hpp"
+#include "benchmarks/metrics/metrics.hpp"
+#include "benchmarks/parallel.hpp"
+#include "benchmarks/parameter_rules.hpp"
+#include "benchmarks/tune/search.hpp"
+#include "benchmarks/tune/split.hpp"
+#include "datasets/datasets.hpp"
+#include "polylidar/concave_hull.hpp"
+
+namespace hullbench {
+namespace {
+
+class NoSteps final : public Steps {
+ public:
+  void begin(std::string_view) override {}
+};
+
+std::unique_ptr<Adapter> make_method(const std::string& name) {
+  const auto& registry = adapter_registry();
+  const auto entry = std::find_if(registry.begin(), registry.end(),
+                                  [&](const AdapterEntry& candidate) { return candidate.name == name; });
+  if (entry == registry.end())
+    throw std::runtime_error("this build has no method '" + name + "' to fit a rule with");
+  return entry->make();
+}
+
+/// l2; kInfinitelyBad for an invalid result.
+double error_of(const CaseScorer& scorer, const MultiPolygon& result) {
+  const AreaScores scores = scorer.area_scores(result);
+  return scores.valid ? scores.l2.value_or(kInfinitelyBad) : kInfinitelyBad;
+}
+
+double error_of(const CaseScorer& scorer, Adapter& method, const Parameters& parameters) {
+  NoSteps steps;
+  try {
+    method.run(parameters, steps);
+    return error_of(scorer, method.extract(steps));
+  } catch (const std::exception&) {
+    return kInfinitelyBad;
+  }
+}
+
+double error_with_limit(const CaseScorer& scorer, polylidar::Extractor& extractor,
+                        const std::vector<polylidar::Point>& points, const polylidar::Options& options) {
+  extractor.extract_regions(options);
+  return error_of(scorer, polylidar::to_coordinates(extractor.extract_polygons(), points));
+}
+
+/// One case's part of the tables.
+void measure_case(FitTables& tables, std::size_t which, const FitCase& wanted,
+                  const std::vector<RuleUse>& uses, const LimitGrid& grid) {
+  const PointSet set = make_point_set(wanted.plan_case.dataset, wanted.plan_case.holes,
+                                      static_cast<std::size_t>(wanted.plan_case.n), wanted.seed);
+  const CaseScorer scorer(set.points, set.ground_truth);
+  const double perimeter = auto_perimeter({set.points});
+  for (std::size_t u = 0; u < uses.size(); ++u) {
+    const std::unique_ptr<Adapter> method = make_method(uses[u].method);
+    method->load(set.points);
+    Parameters parameters = uses[u].fixed;
+    for (std::size_t k = 0; k < tables.uses[u].candidates.size(); ++k) {
+      parameters[uses[u].parameter] = tables.uses[u].candidates[k] * perimeter;
+      tables.uses[u].errors[which][k] = error_of(scorer, *method, parameters);
+    }
+  }
+  polylidar::Extractor extractor;
+  extractor.triangulate(set.points);
+  tables.core_errors[which] = error_with_limit(scorer, extractor, set.points, {});
+  const auto sample = look_at(set.points);
+  if (!sample) throw std::runtime_error("there is no triangle in " + wanted.plan_case.key());
+  LimitCase& limits = tables.limits[which];
+  limits.sample = *sample;
+  const auto [first, last] = limit_cells(grid);
+  for (std::size_t c = first; c < last; ++c) {
+    limits.errors[c] =
+        error_with_limit(scorer, extractor, set.points,
+                         {.max_perimeter = cell_limit(c) * sample->median, .fill_single_triangles = true});
+  }
+}
+
+}  // namespace
+
+std::vector<FitCase> training_cases(const std::vector<Plan>& plans, std::uint64_t split_seed, int seeds,
+                                    std::int64_t points) {
+  std::vector<FitCase> cases;
+  std::set<std::pair<std::string, std::uint64_t>> seen;
+  const auto add = [&](PlanCase plan_case, std::uint64_t first_seed) {
+    FitCase one = {std::move(plan_case), "", first_seed};
+    one.shape = base_shape(one.plan_case.dataset);
+    if (one.plan_case.n == 0 || side_of(one.shape, split_seed) != Side::kTraining) return;
+    if (points > 0) one.plan_case.n = points;
+    for (int k = 0; k < seeds; ++k, ++one.seed) {
+      if (seen.emplace(one.plan_case.key(), one.seed).second) cases.push_back(one);
+    }
+  };
+  std::set<std::pair<std::string, std::int64_t>> stresses;  // with the number of points
+  for (const Plan& plan : plans) {
+    if (!plan.accepted.empty()) continue;
+    for (const PlanCase& plan_case : plan.expanded_cases) {
+      add(plan_case, plan.seed);
+      const std::size_t mark = plan_case.dataset.find('~');
+      if (mark != std::string::npos) stresses.emplace(plan_case.dataset.substr(mark), plan_case.n);
+    }
+  }
+  for (const Plan& plan : plans) {
+    if (!plan.accepted.empty()) continue;
+    for (const PlanCase& plan_case : plan.expanded_cases) {
+      if (!levels_of(plan_case.dataset).empty()) continue;
+      for (const auto& [ending, n] : stresses) {
+        if (n == plan_case.n) add({plan_case.dataset + ending, plan_case.holes, n}, plan.seed);
+      }
+    }
+  }
+  return cases;
+}
+
+std::vector<RuleUse> rule_uses() {
+  const std::map<std::string, double> with_holes = {{"allow_holes", 1}};
+  return {{"auto_circumradius",
+           "polylidar",
+           "alpha",
+           {},
+           kCircumradiusShare,
+           "the largest circumradius of a triangle that stays"},
+          {"auto_edge_length",
+           "polylidar",
+           "max_edge_length",
+           {},
+           kEdgeShare,
+           "the longest edge of a triangle that stays"},
+          {"auto_edge_length", "geos_concave_hull", "max_edge_length", with_holes, kEdgeShare,
+           "the longest edge that erosion leaves, from the border and from holes"},
+          {"auto_edge_length",
+           "chi_shape",
+           "max_edge_length",
+           {},
+           kEdgeShare,
+           "the longest edge that erosion leaves, from the border alone"}};
+}
+
+std::vector<double> usual_shares() {
+  std::vector<double> shares;
+  for (int percent = 16; percent <= 80; percent += 2) shares.push_back(percent / 100.0);
+  return shares;
+}
+
+FitTables measure_fit(const std::vector<FitCase>& cases, const std::vector<RuleUse>& uses,
+                      const std::vector<double>& shares, const LimitGrid& grid,
+                      const std::vector<int>& cores) {
+  FitTables tables;
+  for (const FitCase& one : cases) tables.shapes.push_back(one.shape);
+  const std::vector<std::vector<double>> nothing(cases.size(), std::vector<double>(shares.size()));
+  tables.uses.assign(uses.size(), {shares, tables.shapes, nothing});
+  tables.core_errors.resize(cases.size());
+  tables.limits.resize(cases.size());
+  for (std::size_t i = 0; i < cases.size(); ++i) tables.limits[i].shape = cases[i].shape;
+  for_each_in_parallel(cases.size(), cores,
+                       [&](std::size_t i) { measure_case(tables, i, cases[i], uses, grid); });
+  return tables;
+}
+
+}  // namespace hullbench
