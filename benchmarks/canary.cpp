@@ -19,8 +19,8 @@ using Clock = std::chrono::steady_clock;
 constexpr std::uint32_t kLines = 1U << 20U;
 // About 5 ms each on the machines of today: long against a clock's resolution and an interrupt, short against
 // a round.
-constexpr int kReads = 50'000;
-constexpr int kSteps = 2'000'000;
+constexpr int kReads = 30'000;
+constexpr int kSteps = 3'000'000;
 
 /// Keeps the thread on a core while it lives.
 class OnCore {
