@@ -79,10 +79,10 @@ build: ## only build: build/hullbench and build/core_benchmarks
 	@$(call build,release,$(WITHOUT_TESTS),hullbench core_benchmarks)
 	@echo "==> built build/hullbench and build/core_benchmarks"
 
-bench: ## install, build and run the experiments (TABLE=states: only this one); go on if interrupted
+bench: ## install, build and run the experiments in three passes (TABLE=states: only this one); go on if interrupted
 	@$(call install,build bench)
 	@$(MAKE) build
-	@build/hullbench run $(or $(TABLE),rgbd states alphabet random steps)
+	@build/hullbench run $(or $(TABLE),rgbd states alphabet random steps) --passes 3
 
 RUN ?= results/latest
 # Named like the run, as the pages say it.

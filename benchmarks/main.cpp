@@ -200,8 +200,14 @@ void add_run(CLI::App& app, RunCommand& run) {
   command->add_option("PLAN", run.plans, "A plan's name (benchmarks/plans) or the path of its JSON file")
       ->required();
   command->add_option("--filter", run.filter, "Only runs whose name has a match of this regular expression");
-  command->add_option("--repetitions", run.repetitions, "Timed repetitions of every run")
+  command->add_option("--repetitions", run.repetitions, "Timed repetitions of every run, over all passes")
       ->check(CLI::Range(1, 1000000));
+  command
+      ->add_option(
+          "--passes", run.passes,
+          "How often all plans are gone through, each time with a share of the repetitions, so that a "
+          "slow hour of the machine is not one method's")
+      ->check(CLI::Range(1, kMaxPasses));
   command->add_option("--out", run.out, "Folder for the results instead of one in results/runs");
   command->add_option("--seed", run.seed, "Seed of the point samples and of the order of runs")
       ->check(CLI::NonNegativeNumber);

@@ -1,5 +1,6 @@
 #include "benchmarks/method_session.hpp"
 
+#include <algorithm>
 #include <stdexcept>
 #include <system_error>
 #include <utility>
@@ -49,6 +50,13 @@ PhaseTimes read_phases(const json& body, std::initializer_list<const char*> requ
   return phases;
 }
 
+/// Whether the last kSteadyRuns of `times` agree.
+bool ends_steadily(const std::vector<std::int64_t>& times) {
+  if (times.size() < kSteadyRuns) return false;
+  const auto [least, most] = std::minmax_element(times.end() - kSteadyRuns, times.end());
+  return static_cast<double>(*most) <= (1 + kSteadySpread) * static_cast<double>(*least);
+}
+
 }  // namespace
 
 std::int64_t Attempt::time_ns() const {
@@ -72,6 +80,7 @@ bool MethodSession::quit(std::chrono::milliseconds patience) {
 
 void MethodSession::begin_start() {
   loaded_key_.clear();
+  warmed_up_ = false;
   worker_.reset();
   for (const std::string& file : method_.needs) {
     if (std::filesystem::exists(file)) continue;
@@ -172,6 +181,21 @@ Attempt MethodSession::run(const LoadedPoints& points, const Parameters& paramet
   std::error_code ignored;
   std::filesystem::remove(result, ignored);
   return attempt;
+}
+
+Attempt MethodSession::warm_up(const LoadedPoints& points, const Parameters& parameters,
+                               const std::filesystem::path& scratch, std::chrono::milliseconds timeout) {
+  const auto end = std::chrono::steady_clock::now() + kWarmUpTime;
+  const Attempt first = run(points, parameters, scratch, timeout);
+  if (first.status != Status::kOk) return first;
+  std::vector<std::int64_t> times = {first.time_ns()};
+  while (!ends_steadily(times) && std::chrono::steady_clock::now() < end) {
+    Attempt next = run(points, parameters, scratch, timeout);
+    if (next.status != Status::kOk) return next;
+    times.push_back(next.time_ns());
+  }
+  warmed_up_ = true;
+  return first;
 }
 
 Attempt MethodSession::read_result(const Reply& reply, const std::string& nonce,

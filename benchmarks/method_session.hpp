@@ -20,6 +20,12 @@ namespace hullbench {
 /// How long a worker may take to say who it is; a method may have to start a server.
 inline constexpr std::chrono::seconds kStartTimeout{60};
 
+/// A method that compiles while it runs is warm when this many runs one after another agree: the longest
+/// takes at most this part more than the shortest. It gets no more than this time for that.
+inline constexpr std::size_t kSteadyRuns = 3;
+inline constexpr double kSteadySpread = 0.05;
+inline constexpr std::chrono::seconds kWarmUpTime{5};
+
 /// The largest result that is read, in bytes: far above any polygon of the points that fit the memory limit.
 inline constexpr std::size_t kMaxResultBytes = std::size_t{1} << 30;
 
@@ -75,6 +81,14 @@ class MethodSession {
   Attempt run(const LoadedPoints& points, const Parameters& parameters, const std::filesystem::path& scratch,
               std::chrono::milliseconds timeout, Watch watch = Watch::kNothing);
 
+  /// Whether the method compiles while it runs (Method::jit) and its process, of now or to come, was not
+  /// warmed up.
+  bool is_cold() const { return method_.jit && (!warmed_up_ || !worker_ || !worker_->alive()); }
+  /// Runs the method until its times are steady, or for kWarmUpTime. Returns the first run, whose time is
+  /// that of a cold process, or the first one that failed, which ends it. Throws Interrupted.
+  Attempt warm_up(const LoadedPoints& points, const Parameters& parameters,
+                  const std::filesystem::path& scratch, std::chrono::milliseconds timeout);
+
   /// Asks the worker to end, waits at most `patience` and kills it then. Whether it ended by itself; the next
   /// run starts another one.
   bool quit(std::chrono::milliseconds patience);
@@ -91,6 +105,7 @@ class MethodSession {
   std::string loaded_key_;  ///< of the points the worker has; empty: none
   PhaseTimes load_phases_;
   std::uint64_t run_count_ = 0;
+  bool warmed_up_ = false;  ///< the process that runs
 };
 
 /// A method as `list` and run.json show it: method_to_json with `installed`, `detail` (why not) and `remedy`.

@@ -531,8 +531,8 @@ void require_values(const Plan& plan, const PlanMethod& method) {
 Plan parse_plan(const std::string& text, const std::string& source) {
   const json document = parse_json(text, source);
   const Node root(document, source, "");
-  root.only_keys({"schema_version", "name", "title", "paper", "notes", "repetitions", "warmup", "timeout_s",
-                  "mem_limit_mib", "seed", "filter", "accepted", "axis", "cases", "methods"});
+  root.only_keys({"schema_version", "name", "title", "paper", "notes", "repetitions", "passes", "warmup",
+                  "timeout_s", "mem_limit_mib", "seed", "filter", "accepted", "axis", "cases", "methods"});
   if (root.has("schema_version") && root.at("schema_version").value() != kPlanSchemaVersion) {
     root.at("schema_version").fail("must be " + std::to_string(kPlanSchemaVersion) + " for this program");
   }
@@ -544,6 +544,7 @@ Plan parse_plan(const std::string& text, const std::string& source) {
     for (const Node& note : root.at("notes").elements()) plan.notes.push_back(note.text());
   }
   if (root.has("repetitions")) plan.repetitions = read_repetitions(root);
+  if (root.has("passes")) plan.passes = static_cast<int>(root.at("passes").integer(1, kMaxPasses));
   if (root.has("warmup")) plan.warmup = static_cast<int>(root.at("warmup").integer(0, 1000));
   if (root.has("timeout_s")) plan.timeout_s = read_timeout(root);
   if (root.has("mem_limit_mib")) plan.mem_limit_mib = read_memory_limit(root);
@@ -614,6 +615,7 @@ json plan_to_json(const Plan& plan) {
                  {"seed", plan.seed},
                  {"cases", plan.cases},
                  {"methods", methods}};
+  if (plan.passes != 1) result["passes"] = plan.passes;
   if (!plan.filter.empty()) result["filter"] = plan.filter;
   if (!plan.accepted.empty()) result["accepted"] = plan.accepted;
   if (plan.axis)
@@ -665,6 +667,10 @@ bool applies(const PlanMethod& method, const PlanCase& plan_case) {
 
 int repetitions_of(const Plan& plan, const PlanMethod& method) {
   return method.repetitions.value_or(plan.repetitions);
+}
+
+int share_of_pass(int repetitions, int passes, int pass) {
+  return (repetitions + passes - pass) / passes;
 }
 
 std::vector<PlannedRun> planned_runs(const Plan& plan, const std::string& filter) {

@@ -1,9 +1,9 @@
 // Plans: what a run measures. A plan is a JSON file; benchmarks/plans/ has the ready ones.
 //
 //   {"schema_version": 1, "name": "states", "title": "State shapes", "paper": "Figure 8, Table 6",
-//    "repetitions": 10, "warmup": 1, "timeout_s": 120, "mem_limit_mib": 4096, "seed": 1, "notes": ["..."],
-//    "filter": "^polylidar/", "accepted": ["error"], "axis": {"of": "noise", "title": "Noise", "unit": "h"},
-//    "cases":   [{"dataset": "ca", "holes": [false, true], "n": [2000, 64000]}],
+//    "repetitions": 10, "passes": 3, "warmup": 1, "timeout_s": 120, "mem_limit_mib": 4096, "seed": 1,
+//    "notes": ["..."], "filter": "^polylidar/", "accepted": ["error"], "axis": {"of": "noise", "title":
+//    "Noise", "unit": "h"}, "cases":   [{"dataset": "ca", "holes": [false, true], "n": [2000, 64000]}],
 //    "methods": [{"method": "polylidar", "protocol": "paper", "datasets": ["ca"], "note": "...",
 //                 "repetitions": 3, "timeout_s": 60, "mem_limit_mib": 1024, "parameters": {"alpha":
 //                 PARAMETER}}]}
@@ -44,6 +44,9 @@ class ConfigurationError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
 };
+
+/// The most passes that a plan can ask for.
+inline constexpr int kMaxPasses = 100;
 
 /// What the curves of a plan's results are drawn against.
 struct PlanAxis {
@@ -99,7 +102,10 @@ struct Plan {
   std::string title;
   std::string paper;  ///< which of the paper's figures and tables it stands for
   std::vector<std::string> notes;
-  int repetitions = 10;  ///< timed runs a method and case
+  int repetitions = 10;  ///< timed runs a method and case, over all passes
+  /// How often the plan is gone through from the first case to the last, so that each method's repetitions
+  /// are spread over the whole time.
+  int passes = 1;
   /// Untimed runs before them; with 0 there is one after them. The first run of all is scored, and every
   /// other one must give its result.
   int warmup = 1;
@@ -154,8 +160,12 @@ void check_plan(const Plan& plan, const std::vector<std::string>& methods,
 /// ConfigurationError when it has no simulated floors.
 void use_recordings(Plan& plan, std::size_t count);
 
-/// How often a method is timed on every case.
+/// How often a method is timed on every case, over all passes.
 int repetitions_of(const Plan& plan, const PlanMethod& method);
+
+/// How many of `repetitions` fall in `pass` (1 to `passes`): as many in each as go evenly, and one of the
+/// rest in each of the first passes. 10 in 3 passes are 4, 3 and 3; 1 is 1, 0 and 0.
+int share_of_pass(int repetitions, int passes, int pass);
 
 /// The runs of `plan` whose name has a match of `filter` (an ECMAScript regular expression; empty: all), case
 /// by case in the order of the plan. Throws ConfigurationError when `filter` is not a regular expression.

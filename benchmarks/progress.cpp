@@ -24,6 +24,7 @@ Progress::Progress(std::ostream& out, bool terminal, std::size_t width, std::vec
   for (ProgressSection& given : sections) {
     Section& added = sections_.emplace_back();
     added.title = std::move(given.title);
+    added.plan = std::move(given.plan);
     added.finished.resize(given.runs.size());
     added.runs = std::move(given.runs);
     added.first_run = start_;
@@ -51,6 +52,10 @@ void Progress::advance(std::size_t index, std::chrono::nanoseconds elapsed) {
   rate.seconds += seconds_of(elapsed);
   rate.points += static_cast<double>(run.n);
   show(false);
+}
+
+void Progress::repeat(std::size_t index) {
+  ++section().runs[index].units;
 }
 
 void Progress::finish(std::size_t index) {
@@ -89,10 +94,23 @@ double Progress::seconds_left() const {
   return left;
 }
 
+Progress::Rates Progress::rates_of_plan(const std::string& plan) const {
+  Rates result;
+  for (const Section& section : sections_) {
+    if (plan.empty() || section.plan != plan) continue;
+    for (const auto& [method, rate] : section.rates) {
+      result[method].seconds += rate.seconds;
+      result[method].points += rate.points;
+    }
+  }
+  return result;
+}
+
 /// `rates_elsewhere` has the rate of all methods together under the empty name.
 double Progress::seconds_left(const Section& section, const Rates& rates_elsewhere) const {
+  const Rates rates_of_same_plan = rates_of_plan(section.plan);
   const auto rate_of = [&](const std::string& method) {
-    for (const Rates* rates : {&section.rates, &rates_elsewhere}) {
+    for (const Rates* rates : {&section.rates, &rates_of_same_plan, &rates_elsewhere}) {
       if (const auto known = rates->find(method); known != rates->end()) return known->second;
     }
     return rates_elsewhere.at(std::string());
@@ -111,11 +129,7 @@ double Progress::seconds_left(const Section& section, const Rates& rates_elsewhe
 
 std::string Progress::line() const {
   const Section& here = section();
-  std::string text;
-  if (sections_.size() > 1) {
-    text = here.title + ", table " + std::to_string(current_section_ + 1) + " of " +
-           std::to_string(sections_.size()) + " ";
-  }
+  std::string text = here.title.empty() ? "" : here.title + " ";
   text += "[" + std::to_string(here.finished_count) + "/" + std::to_string(here.runs.size()) + "] " +
           format_duration(seconds_of(Clock::now() - start_));
   const bool last = current_section_ + 1 == sections_.size();

@@ -19,16 +19,17 @@ struct ProgressRun {
   int units = 0;
 };
 
-/// The runs of one plan.
+/// The runs of one plan in one of its passes.
 struct ProgressSection {
-  std::string title;
+  std::string title;  ///< before everything else in the line; may be empty
   std::vector<ProgressRun> runs;
+  std::string plan = {};  ///< sections of one plan take as long as one another; empty: of none
 };
 
 /// On a terminal one line that is rewritten; elsewhere a plain line now and then. The time left, of all
 /// sections together, is estimated from the measured times of each method in its section, taken as
-/// proportional to n; of a method that has none there, from its times in other sections, and without those as
-/// the mean of the others.
+/// proportional to n; of a method that has none there, from its times in the sections of the same plan, else
+/// in all sections, and without those as the mean of the others.
 class Progress {
  public:
   /// `terminal`: whether `out` can rewrite a line; `width`: its columns. The first section is entered.
@@ -40,6 +41,8 @@ class Progress {
   void begin(std::size_t index);
   /// One unit of run `index` took `elapsed`.
   void advance(std::size_t index, std::chrono::nanoseconds elapsed);
+  /// One unit of run `index` is to be done once more.
+  void repeat(std::size_t index);
   /// Nothing is left to do of run `index`.
   void finish(std::size_t index);
   /// A line that stays.
@@ -60,6 +63,7 @@ class Progress {
   using Rates = std::map<std::string, Rate>;  ///< by method
   struct Section {
     std::string title;
+    std::string plan;
     std::vector<ProgressRun> runs;  ///< `units` counts down to 0
     std::vector<bool> finished;     ///< by run
     std::size_t finished_count = 0;
@@ -69,6 +73,8 @@ class Progress {
 
   Section& section() { return sections_[current_section_]; }
   const Section& section() const { return sections_[current_section_]; }
+  /// The rates of the sections of that plan together.
+  Rates rates_of_plan(const std::string& plan) const;
   double seconds_left(const Section& section, const Rates& rates_elsewhere) const;
   void show(bool now);
   std::string line() const;

@@ -68,6 +68,15 @@ Status status_from_string(const std::string& name) {
   throw std::invalid_argument("Unknown status \"" + name + "\" in a record.");
 }
 
+void to_json(json& result, const CanaryTimes& canary) {
+  result = {{"memory", canary.memory}, {"compute", canary.compute}};
+}
+
+void from_json(const json& source, CanaryTimes& canary) {
+  source.at("memory").get_to(canary.memory);
+  source.at("compute").get_to(canary.compute);
+}
+
 void to_json(json& result, const RunRecord& record) {
   result = json::object();
   result["schema_version"] = kSchemaVersion;
@@ -88,9 +97,7 @@ void to_json(json& result, const RunRecord& record) {
   result["phases_ns"] = record.phases_ns;
   if (!record.rounds.empty()) result["rounds"] = record.rounds;
   if (!record.passes.empty()) result["passes"] = record.passes;
-  for (const CanaryTimes& canary : record.canary_ns) {
-    result["canary_ns"].push_back({{"memory", canary.memory}, {"compute", canary.compute}});
-  }
+  if (!record.canary_ns.empty()) result["canary_ns"] = record.canary_ns;
   if (record.cold_time_ns) result["cold_time_ns"] = *record.cold_time_ns;
   result["metrics"] = without_non_finite(record.metrics);
   result["output_sha256"] = record.output_sha256;
@@ -121,11 +128,7 @@ void from_json(const json& source, RunRecord& record) {
   source.at("phases_ns").get_to(record.phases_ns);
   record.rounds = source.value("rounds", std::vector<std::int64_t>());
   record.passes = source.value("passes", std::vector<std::int64_t>());
-  record.canary_ns.clear();
-  for (const json& canary : source.value("canary_ns", json::array())) {
-    record.canary_ns.push_back(
-        {canary.at("memory").get<std::int64_t>(), canary.at("compute").get<std::int64_t>()});
-  }
+  record.canary_ns = source.value("canary_ns", std::vector<CanaryTimes>());
   record.cold_time_ns = std::nullopt;
   if (source.contains("cold_time_ns")) record.cold_time_ns = source["cold_time_ns"].get<std::int64_t>();
   record.metrics = source.at("metrics");

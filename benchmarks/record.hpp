@@ -41,6 +41,9 @@ struct CanaryTimes {
   bool operator==(const CanaryTimes&) const = default;
 };
 
+void to_json(nlohmann::json& result, const CanaryTimes& canary);
+void from_json(const nlohmann::json& source, CanaryTimes& canary);
+
 /// One method with one parameter set on one point set: a line of runs.jsonl.
 struct RunRecord {
   std::string id;    ///< SHA-256 of the identity (see run_identity), lower-case hex

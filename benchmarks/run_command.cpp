@@ -10,6 +10,7 @@
 #include <stdexcept>
 #include <vector>
 
+#include "benchmarks/canary.hpp"
 #include "benchmarks/environment.hpp"
 #include "benchmarks/gbench_export.hpp"
 #include "benchmarks/listing.hpp"
@@ -52,6 +53,7 @@ Experiment make_experiment(const std::string& name, const RunCommand& command, c
   for (const std::string& method : command.with) add_methods(plan, catalog.runs_of(method));
   if (!command.recordings.empty()) use_recordings(plan, count_recordings(command.recordings));
   plan.repetitions = command.repetitions.value_or(plan.repetitions);
+  plan.passes = command.passes.value_or(plan.passes);
   plan.seed = command.seed.value_or(plan.seed);
   plan.timeout_s = command.timeout_s.value_or(plan.timeout_s);
   plan.mem_limit_mib = command.mem_limit_mib.value_or(plan.mem_limit_mib);
@@ -105,6 +107,7 @@ json describe_run(const Experiment& experiment, const RunCommand& command, const
           {"manifests", manifest_hashes(plan, catalog)},
           {"shard", command.shard ? json(to_string(*command.shard)) : json(nullptr)},
           {"repetitions", plan.repetitions},
+          {"passes", plan.passes},
           {"datasets", describe_datasets({default_data_directory(), command.recordings}, used)}};
 }
 
@@ -135,7 +138,8 @@ json header_to_write(const RunDirectory& directory, const json& header) {
   return earlier;
 }
 
-void say_what_goes_on(const RunDirectory& directory, std::size_t planned) {
+void say_what_goes_on(const RunDirectory& directory, const Experiment& experiment) {
+  const std::size_t planned = experiment.runs.size();
   if (!directory.resumed()) {
     std::cerr << "hullbench: " << planned << " runs to do, into " << directory.path().string() << "\n";
     return;
@@ -143,8 +147,10 @@ void say_what_goes_on(const RunDirectory& directory, std::size_t planned) {
   const auto& rows = directory.rows();
   const auto missing = std::count_if(
       rows.begin(), rows.end(), [](const RunRecord& row) { return row.status == Status::kNotInstalled; });
+  const auto finished =
+      static_cast<std::ptrdiff_t>(count_finished(experiment.plan, experiment.runs, directory));
   std::cerr << "hullbench: going on with the run in " << directory.path().string() << ": "
-            << std::ssize(rows) - missing << " of " << planned
+            << finished - missing << " of " << planned
             << " runs are finished and not measured again (--force starts anew)";
   if (missing > 0) std::cerr << "; tried again because the method was not installed: " << missing;
   std::cerr << "\n";
@@ -174,68 +180,145 @@ void say_files(const fs::path& directory, const fs::path& shown, const std::vect
   std::cerr << "\n";
 }
 
-/// Everything that the experiments of one call share.
+/// One of the call's experiments on its way to its tables.
+struct Task {
+  const Experiment* experiment = nullptr;
+  json header;
+  fs::path folder;                          ///< of its run
+  std::unique_ptr<RunDirectory> directory;  ///< none: an earlier call has finished it
+  RunResult result;                         ///< of the last pass so far
+};
+
+/// Measures the tasks of one call, pass by pass through all of them.
 class Measuring {
  public:
-  Measuring(const RunCommand& command, const MethodCatalog& catalog,
-            const std::vector<Experiment>& experiments)
+  Measuring(const RunCommand& command, const MethodCatalog& catalog, std::vector<Task>& tasks)
       : command_(command),
         catalog_(catalog),
+        tasks_(tasks),
         cores_(reserve_worker_core()),
-        progress_(std::cerr, ::isatty(STDERR_FILENO) == 1, terminal_width(), sections_of(experiments)) {}
+        canary_(cores_.worker),
+        machine_([this] { return canary_.look(); }),
+        progress_(std::cerr, ::isatty(STDERR_FILENO) == 1, terminal_width(), make_sections()) {}
 
-  /// Measures `experiment` into `directory` and writes its report and its tables there. `place`: of the
-  /// experiment among all.
-  RunResult measure(const Experiment& experiment, const json& header, RunDirectory& directory,
-                    std::size_t place) {
-    progress_.enter(place);
-    say_what_goes_on(directory, experiment.runs.size());
-    const RunnerOptions options = {[this](const std::string& name) { return catalog_.find(name); },
-                                   cores_.worker,
-                                   cores_.all,
-                                   {default_data_directory(), command_.recordings}};
-    RunResult result = run_plan(experiment.plan, experiment.runs, header_to_write(directory, header), options,
-                                directory, progress_);
-    progress_.end();
-    if (result.interrupted) {
-      std::cerr << "hullbench: interrupted; finished runs are kept in " << directory.path().string()
-                << ", and the same command goes on from there\n";
-      return result;
+  /// Measures them all and writes the report and the tables of each after its last pass. Whether it was not
+  /// interrupted.
+  bool measure() {
+    for (std::size_t place = 0; place < steps_.size(); ++place) {
+      const Step& step = steps_[place];
+      progress_.enter(place);
+      if (!measure(step)) return false;
+      const bool pass_ends = place + 1 == steps_.size() || steps_[place + 1].pass != step.pass;
+      if (pass_ends && step.pass < passes_) say_pass(step.pass);
     }
-    finish_run(directory.path());
-    return result;
+    return true;
   }
 
  private:
-  static std::vector<ProgressSection> sections_of(const std::vector<Experiment>& experiments) {
+  /// One pass of one task.
+  struct Step {
+    Task* task = nullptr;
+    int pass = 1;
+  };
+
+  /// "table 1 of 2, pass 1 of 3", with what there are several of.
+  std::string where(const Task& task, int pass) const {
+    const int passes = task.experiment->plan.passes;
+    std::string text;
+    if (tasks_.size() > 1)
+      text = "table " + std::to_string(&task - tasks_.data() + 1) + " of " + std::to_string(tasks_.size());
+    if (passes > 1) {
+      text += (text.empty() ? "" : ", ");
+      text += "pass " + std::to_string(pass) + " of " + std::to_string(passes);
+    }
+    return text;
+  }
+
+  /// Finds the steps too, one for each section.
+  std::vector<ProgressSection> make_sections() {
+    for (const Task& task : tasks_) passes_ = std::max(passes_, task.experiment->plan.passes);
     std::vector<ProgressSection> sections;
-    sections.reserve(experiments.size());
-    for (const Experiment& experiment : experiments) {
-      sections.push_back({experiment.plan.title, progress_runs(experiment.plan, experiment.runs)});
+    for (int pass = 1; pass <= passes_; ++pass) {
+      for (Task& task : tasks_) {
+        const auto& [plan, filter, runs] = *task.experiment;
+        const bool last = pass == plan.passes;
+        // The last pass writes the report, whatever is left to measure.
+        if (pass > plan.passes || (!last && pass > 1 && !has_repetitions(plan, runs, pass))) continue;
+        steps_.push_back({&task, pass});
+        const bool measures = task.directory && has_repetitions(plan, runs, pass);
+        const std::string there = where(task, pass);
+        sections.push_back({there.empty() ? "" : plan.title + ", " + there,
+                            measures ? progress_runs(plan, runs, pass) : std::vector<ProgressRun>(),
+                            plan.name});
+      }
     }
     return sections;
   }
 
+  /// False when it was interrupted.
+  bool measure(const Step& step) {
+    Task& task = *step.task;
+    const Experiment& experiment = *task.experiment;
+    const std::string there = where(task, step.pass);
+    if (!there.empty() && (task.directory || step.pass == 1)) {
+      std::cerr << "hullbench: " << there << ": " << experiment.plan.title
+                << (task.directory ? "\n" : " is finished already\n");
+    }
+    if (!task.directory) return true;
+    if (step.pass == 1) say_what_goes_on(*task.directory, experiment);
+    if (has_repetitions(experiment.plan, experiment.runs, step.pass)) {
+      const RunnerOptions options = {[this](const std::string& name) { return catalog_.find(name); },
+                                     cores_.worker,
+                                     cores_.all,
+                                     {default_data_directory(), command_.recordings},
+                                     &machine_};
+      task.result = run_plan(experiment.plan, experiment.runs, header_to_write(*task.directory, task.header),
+                             options, *task.directory, progress_, step.pass);
+      progress_.end();
+    }
+    if (task.result.interrupted) {
+      std::cerr << "hullbench: interrupted; finished runs are kept in " << task.folder.string()
+                << ", and the same command goes on from there\n";
+      return false;
+    }
+    if (step.pass == experiment.plan.passes) finish_run(task.folder);
+    return true;
+  }
+
+  void say_pass(int pass) const {
+    const fs::path folder = tasks_.size() > 1 ? tasks_.front().folder.parent_path() : tasks_.front().folder;
+    std::cerr << "hullbench: pass " << pass << " of " << passes_ << " is done; 'hullbench tables "
+              << folder.string() << "' prints what it measured\n";
+  }
+
   const RunCommand& command_;
   const MethodCatalog& catalog_;
+  std::vector<Task>& tasks_;
+  int passes_ = 1;  ///< of the plan with the most
+  std::vector<Step> steps_;
   Cores cores_;
+  Canary canary_;
+  MachineWatch machine_;
   Progress progress_;
 };
 
 int measure_one(const RunCommand& command, const Experiment& experiment, const MethodCatalog& catalog) {
   const json header = describe_run(experiment, command, catalog);
-  const auto directory = open_run_directory(header, {command.out, command.force, kResults});
-  if (!command.out) point_latest_to(directory->path(), kResults);
-  Measuring measuring(command, catalog, {experiment});
-  const RunResult result = measuring.measure(experiment, header, *directory, 0);
-  if (result.interrupted) return exit_code(result);
-  const json report = make_report(directory->path());
+  std::vector<Task> tasks(1);
+  Task& task = tasks.front();
+  task.experiment = &experiment;
+  task.header = header;
+  task.directory = open_run_directory(header, {command.out, command.force, kResults});
+  task.folder = task.directory->path();
+  if (!command.out) point_latest_to(task.folder, kResults);
+  if (!Measuring(command, catalog, tasks).measure()) return exit_code(task.result);
+  const json report = make_report(task.folder);
   print_markdown(make_documents({report}), std::cout);
   if (!command.export_gbench.empty()) export_gbench(command.export_gbench, {report});
-  say_counts(result);
-  say_files(directory->path(), command.out ? directory->path() : kResults / "latest",
+  say_counts(task.result);
+  say_files(task.folder, command.out ? task.folder : kResults / "latest",
             {"report.json", "tables.md", "tables", "runs.jsonl", "repetitions.jsonl", "run.json"});
-  return exit_code(result);
+  return exit_code(task.result);
 }
 
 /// What the rows of a finished run say.
@@ -255,26 +338,27 @@ int measure_suite(const RunCommand& command, const std::vector<Experiment>& expe
     headers.push_back(describe_run(experiment, command, catalog));
   const fs::path suite = open_suite(headers, {command.out, command.force, kResults});
   if (!command.out) point_latest_to(suite, kResults);
-  Measuring measuring(command, catalog, experiments);
-  RunResult all;
-  for (std::size_t i = 0; i < experiments.size(); ++i) {
-    const Plan& plan = experiments[i].plan;
-    const fs::path run = suite / plan.name;
-    std::cerr << "hullbench: table " << i + 1 << " of " << experiments.size() << ": " << plan.title;
-    RunResult result;
-    if (!command.force && is_finished_run(run, headers[i])) result = finished_result(run);
+  std::vector<Task> tasks(experiments.size());
+  for (std::size_t i = 0; i < tasks.size(); ++i) {
+    Task& task = tasks[i];
+    task.experiment = &experiments[i];
+    task.header = headers[i];
+    task.folder = suite / experiments[i].plan.name;
+    const bool finished = !command.force && is_finished_run(task.folder, task.header);
+    if (finished) task.result = finished_result(task.folder);
     // A method that was not installed may be there now.
-    if (!result.counts.empty() && !result.counts.contains(Status::kNotInstalled)) {
-      std::cerr << " is finished already\n";
-    } else {
-      std::cerr << "\n";
-      const auto directory = open_run_directory(headers[i], {run, command.force, kResults});
-      result = measuring.measure(experiments[i], headers[i], *directory, i);
+    if (!finished || task.result.counts.contains(Status::kNotInstalled)) {
+      task.directory = open_run_directory(task.header, {task.folder, command.force, kResults});
     }
-    if (result.interrupted) return exit_code(result);
-    for (const auto& [status, count] : result.counts) all.counts[status] += count;
-    all.accepted += result.accepted;
   }
+  const bool complete = Measuring(command, catalog, tasks).measure();
+  RunResult all;
+  for (const Task& task : tasks) {
+    for (const auto& [status, count] : task.result.counts) all.counts[status] += count;
+    all.accepted += task.result.accepted;
+    all.interrupted = all.interrupted || task.result.interrupted;
+  }
+  if (!complete) return exit_code(all);
   const std::vector<json> reports = suite_reports(suite);
   const std::vector<Document> documents = make_documents(reports);
   print_markdown(documents, std::cout);

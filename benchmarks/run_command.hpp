@@ -17,6 +17,7 @@ struct RunCommand {
   std::vector<std::string> plans;  ///< one or more; several make a suite (suite.hpp)
   std::string filter;
   std::optional<int> repetitions;
+  std::optional<int> passes;
   std::optional<std::uint64_t> seed;
   std::optional<double> timeout_s;
   std::optional<std::int64_t> mem_limit_mib;

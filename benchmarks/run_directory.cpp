@@ -9,7 +9,6 @@
 #include <cerrno>
 #include <ctime>
 #include <fstream>
-#include <set>
 #include <stdexcept>
 #include <system_error>
 
@@ -130,6 +129,12 @@ Repetition repetition_from_json(const json& line) {
   line.at("time_ns").get_to(repetition.time_ns);
   line.at("phases_ns").get_to(repetition.phases_ns);
   line.at("output_sha256").get_to(repetition.output_sha256);
+  line.at("round").get_to(repetition.round);
+  line.at("pass").get_to(repetition.pass);
+  if (const auto canary = line.find("canary_ns"); canary != line.end())
+    repetition.canary_ns = canary->get<CanaryTimes>();
+  repetition.remeasured = line.value("remeasured", false);
+  repetition.unsteady = line.value("unsteady", false);
   return repetition;
 }
 
@@ -173,8 +178,7 @@ void RunDirectory::write_header(const json& header) {
 void RunDirectory::read_rows() {
   for (const json& line : load_json_lines(path_ / kRowsFile).lines) {
     try {
-      rows_.push_back(line.get<RunRecord>());
-      row_places_.emplace(rows_.back().name, rows_.size() - 1);
+      remember_row(line.get<RunRecord>());
     } catch (const std::exception&) {
       throw std::runtime_error("a line of " + (path_ / kRowsFile).string() +
                                " is not a run's record; start anew with --force or another --out");
@@ -201,25 +205,35 @@ const RunRecord* RunDirectory::find_row(const std::string& name) const {
   return found == row_places_.end() ? nullptr : &rows_[found->second];
 }
 
-void RunDirectory::append_rows(const std::vector<RunRecord>& rows) {
-  if (std::any_of(rows.begin(), rows.end(),
-                  [&](const RunRecord& row) { return find_row(row.name) != nullptr; })) {
-    rewrite_rows_without(rows);
-  }
-  for (const RunRecord& row : rows) {
-    row_writer_->append(row);
+void RunDirectory::remember_row(const RunRecord& row) {
+  const auto [place, is_new] = row_places_.emplace(row.name, rows_.size());
+  if (is_new) {
     rows_.push_back(row);
-    row_places_.emplace(row.name, rows_.size() - 1);
+  } else {
+    rows_[place->second] = row;
+    has_old_rows_ = true;
   }
+}
+
+void RunDirectory::append_rows(const std::vector<RunRecord>& rows) {
+  const bool replaces_another_id = std::any_of(rows.begin(), rows.end(), [&](const RunRecord& row) {
+    const RunRecord* earlier = find_row(row.name);
+    return earlier && earlier->id != row.id;
+  });
+  for (const RunRecord& row : rows) remember_row(row);
+  if (replaces_another_id) {
+    rewrite_rows();
+    return;
+  }
+  for (const RunRecord& row : rows) row_writer_->append(row);
   synchronise(path_ / kRowsFile);
 }
 
-void RunDirectory::rewrite_rows_without(const std::vector<RunRecord>& replaced) {
-  std::set<std::string> names;
-  for (const RunRecord& row : replaced) names.insert(row.name);
-  std::erase_if(rows_, [&](const RunRecord& row) { return names.contains(row.name); });
-  row_places_.clear();
-  for (std::size_t place = 0; place < rows_.size(); ++place) row_places_.emplace(rows_[place].name, place);
+void RunDirectory::compact_rows() {
+  if (has_old_rows_) rewrite_rows();
+}
+
+void RunDirectory::rewrite_rows() {
   const fs::path file = path_ / kRowsFile;
   const fs::path temporary = path_ / "runs.jsonl.new";
   fs::remove(temporary);
@@ -228,6 +242,7 @@ void RunDirectory::rewrite_rows_without(const std::vector<RunRecord>& replaced) 
   synchronise(temporary);
   fs::rename(temporary, file);
   row_writer_.emplace(file);
+  has_old_rows_ = false;
 }
 
 const std::vector<Repetition>& RunDirectory::repetitions(const std::string& id) const {
@@ -237,11 +252,17 @@ const std::vector<Repetition>& RunDirectory::repetitions(const std::string& id) 
 }
 
 void RunDirectory::append_repetition(const std::string& id, std::size_t index, const Repetition& repetition) {
-  repetition_writer_->append({{"id", id},
-                              {"repetition", index},
-                              {"time_ns", repetition.time_ns},
-                              {"phases_ns", repetition.phases_ns},
-                              {"output_sha256", repetition.output_sha256}});
+  json line = {{"id", id},
+               {"repetition", index},
+               {"time_ns", repetition.time_ns},
+               {"phases_ns", repetition.phases_ns},
+               {"output_sha256", repetition.output_sha256},
+               {"round", repetition.round},
+               {"pass", repetition.pass}};
+  if (repetition.canary_ns) line["canary_ns"] = *repetition.canary_ns;
+  if (repetition.remeasured) line["remeasured"] = true;
+  if (repetition.unsteady) line["unsteady"] = true;
+  repetition_writer_->append(line);
   repetitions_[id].push_back(repetition);
 }
 

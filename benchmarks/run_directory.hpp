@@ -22,6 +22,11 @@ struct Repetition {
   std::int64_t time_ns = 0;
   PhaseTimes phases_ns;
   std::string output_sha256;
+  std::int64_t round = 0;                ///< as in RunRecord
+  std::int64_t pass = 1;                 ///< as in RunRecord
+  std::optional<CanaryTimes> canary_ns;  ///< of its round; none when there was no canary
+  bool remeasured = false;               ///< its round was measured again, and this is of the last time
+  bool unsteady = false;                 ///< its round's canary was off
 };
 
 /// The folder of one run, locked against a second harness for the life of the object.
@@ -47,8 +52,11 @@ class RunDirectory {
   const std::vector<RunRecord>& rows() const { return rows_; }
   /// The row with that name; null when there is none.
   const RunRecord* find_row(const std::string& name) const;
-  /// Adds rows to runs.jsonl; they are on the disk when this returns. A row of the same name is replaced.
+  /// Adds rows to runs.jsonl; they are on the disk when this returns. A row of the same name is replaced. One
+  /// that has its id too stays in the file until compact_rows, as every reader takes the last one of an id.
   void append_rows(const std::vector<RunRecord>& rows);
+  /// Leaves each row once in the file.
+  void compact_rows();
 
   /// The repetitions of a run that are already measured, in order.
   const std::vector<Repetition>& repetitions(const std::string& id) const;
@@ -60,14 +68,16 @@ class RunDirectory {
  private:
   void read_rows();
   void read_repetitions();
-  void rewrite_rows_without(const std::vector<RunRecord>& replaced);
+  void remember_row(const RunRecord& row);
+  void rewrite_rows();
 
   std::filesystem::path path_;
   std::filesystem::path scratch_;
   int lock_;
   nlohmann::json header_;
   std::vector<RunRecord> rows_;
-  std::map<std::string, std::size_t> row_places_;  ///< in rows_, by name; of several rows the first
+  std::map<std::string, std::size_t> row_places_;               ///< in rows_, by name
+  bool has_old_rows_ = false;                                   ///< the file has rows that were replaced
   std::map<std::string, std::vector<Repetition>> repetitions_;  ///< by id
   std::optional<JsonLinesWriter> row_writer_;
   std::optional<JsonLinesWriter> repetition_writer_;

@@ -13,6 +13,8 @@ target_compile_definitions(test_plan PRIVATE HULLBENCH_PLAN_FOLDER="${PROJECT_SO
 
 hullbench_test(test_shard SOURCES test_shard.cpp LIBRARIES hullbench::runner LABELS harness)
 
+hullbench_test(test_canary SOURCES test_canary.cpp LIBRARIES hullbench::runner LABELS harness)
+
 hullbench_test(test_parallel SOURCES test_parallel.cpp LIBRARIES hullbench::runner LABELS harness)
 
 hullbench_test(test_worker SOURCES test_worker.cpp

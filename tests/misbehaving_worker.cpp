@@ -3,6 +3,7 @@
 #include <sys/resource.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <chrono>
 #include <csignal>
 #include <cstddef>
@@ -94,6 +95,12 @@ json good_reply(const json& request) {
   return {{"nonce", request["nonce"]}, {"phases_ns", {{"run", 1000}, {"extract", 10}, {"run.shape", 900}}}};
 }
 
+/// Takes `run` and says so; `extract` is whatever is to be told.
+void take_time(json& reply, std::chrono::microseconds run, int extract) {
+  std::this_thread::sleep_for(run);
+  reply["phases_ns"] = {{"run", std::chrono::nanoseconds(run).count()}, {"extract", extract}};
+}
+
 void write_result(const json& request, const hullbench::MultiPolygon& shape) {
   hullbench::write_bytes(request["result"].get<std::string>(), hullbench::to_wkb(shape));
 }
@@ -163,6 +170,13 @@ void answer_run(const std::string& mode, const json& request) {
   if (mode == "no_phases") reply.erase("phases_ns");
   if (mode == "negative_time") reply["phases_ns"]["run"] = -5;
   if (mode == "instant") reply["phases_ns"] = {{"run", 100}, {"extract", 10}};
+  static int runs = 0;
+  ++runs;
+  if (mode == "counts_runs") reply["phases_ns"]["extract"] = runs;
+  // 8, 4, 2 and then 1 ms, as of a compiler that has found what is worth its work.
+  if (mode == "gets_faster") take_time(reply, 1ms * (8 >> std::min(runs - 1, 3)), runs);
+  if (mode == "takes_long") take_time(reply, 2s, runs);
+  if (mode == "never_steady") take_time(reply, 1ms * (1 + runs % 2), runs);
   if (mode == "too_much_time") reply["phases_ns"]["run"] = 3'600'000'000'000;
   if (mode == "flood_errors") std::cerr << std::string(4'000'000, 'e') << std::flush;
   if (mode == "garbage_result") {
@@ -173,6 +187,8 @@ void answer_run(const std::string& mode, const json& request) {
     static double size = 1;
     size += 1;
     write_result(request, {{{{0, 0}, {size, 0}, {size, size}}, {}}});
+  } else if (mode == "changes_when_started") {
+    write_result(request, {{{{0, 0}, {1.0 * ::getpid(), 0}, {1.0 * ::getpid(), 1}}, {}}});
   } else if (mode != "no_result") {
     write_result(request, kSquare);
   }

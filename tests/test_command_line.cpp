@@ -115,6 +115,8 @@ TEST_F(CommandLineTest, UnknownWordsAndOptions) {
   expect_refusal(hullbench({"run", "states", "--fast"}), 2, "--fast");
   expect_refusal(hullbench({"run", "states", "--repetitions", "0"}), 2, "--repetitions");
   expect_refusal(hullbench({"run", "states", "--repetitions", "many"}), 2, "--repetitions");
+  expect_refusal(hullbench({"run", "states", "--passes", "0"}), 2, "--passes");
+  expect_refusal(hullbench({"run", "states", "--passes", "101"}), 2, "--passes");
   expect_refusal(hullbench({"run", "states", "--seed", "-1"}), 2, "--seed");
   expect_refusal(hullbench({"run", "states", "--timeout", "0"}), 2, "--timeout");
   expect_refusal(hullbench({"run", "states", "--mem-limit", "1"}), 2, "--mem-limit");
@@ -231,6 +233,30 @@ TEST_F(CommandLineTest, OptionsReplaceThePlansValues) {
   ASSERT_EQ(rows.size(), 1U);
   EXPECT_EQ(rows[0]["time_ns"].size(), 2U);
   EXPECT_EQ(rows[0]["seed"], 7);
+}
+
+TEST_F(CommandLineTest, SeveralPassesAreSaidAndRecorded) {
+  const Outcome outcome =
+      hullbench({"run", plan({500}, 3), "--passes", "2", "--filter", "holes:0", "--out", "run"});
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  EXPECT_NE(outcome.err.find("hullbench: pass 1 of 2: "), std::string::npos) << outcome.err;
+  EXPECT_NE(outcome.err.find("pass 1 of 2 is done; 'hullbench tables run' prints"), std::string::npos)
+      << outcome.err;
+  EXPECT_NE(outcome.err.find("hullbench: pass 2 of 2: "), std::string::npos) << outcome.err;
+  const auto rows = lines_of(folder() / "run" / "runs.jsonl");
+  ASSERT_EQ(rows.size(), 1U);
+  EXPECT_EQ(rows[0]["passes"], (json{1, 1, 2}));
+  EXPECT_EQ(rows[0]["canary_ns"].size(), 3U);
+  for (const json& canary : rows[0]["canary_ns"]) {
+    EXPECT_GT(canary["memory"], 0);
+    EXPECT_GT(canary["compute"], 0);
+  }
+  const json report = json::parse(read_text(folder() / "run" / "report.json"));
+  EXPECT_EQ(report["passes"], 2);
+  EXPECT_EQ(report["repetitions"], 3);
+  EXPECT_EQ(hullbench({"validate", "run/report.json"}).code, 0);
+  expect_refusal(hullbench({"run", plan({500}, 3), "--passes", "3", "--filter", "holes:0", "--out", "run"}),
+                 2, "holds another run");
 }
 
 TEST_F(CommandLineTest, AFilterOfThePlanIsForWhoAsksForNone) {
@@ -535,7 +561,7 @@ std::vector<json> untimed_rows(const fs::path& run) {
   for (json& row : rows) {
     EXPECT_EQ(row["time_ns"].size(), row["phases_ns"].size());
     row["time_ns"] = row["time_ns"].size();
-    row.erase("phases_ns");
+    for (const char* key : {"phases_ns", "canary_ns", "flags"}) row.erase(key);
     row["metrics"].erase("peak_memory_bytes");
   }
   return rows;

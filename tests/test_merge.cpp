@@ -29,7 +29,7 @@ using testing::write_text;
 std::vector<std::string> accuracy_lines(const fs::path& run) {
   std::vector<std::string> lines;
   for (json line : load_json_lines(run / "runs.jsonl").lines) {
-    for (const char* key : {"time_ns", "phases_ns", "machine", "flags"}) line.erase(key);
+    for (const char* key : {"time_ns", "phases_ns", "canary_ns", "machine", "flags"}) line.erase(key);
     line["metrics"].erase("peak_memory_bytes");
     lines.push_back(line.dump());
   }
@@ -152,6 +152,21 @@ TEST_F(MergeTest, OfAllShardsIsTheWholeRunInItsAccuracy) {
   EXPECT_EQ(hullbench({"tables", "merged"}).out, merged.out);
   expect_valid("merged");
   expect_valid("shard1");
+}
+
+TEST_F(MergeTest, KeepsThePassesOfItsShards) {
+  run_shards(2, {plan(), "--repetitions", "3", "--passes", "2"});
+  const Outcome merged = hullbench({"merge", "shard1", "shard2", "--out", "merged"});
+  ASSERT_EQ(merged.code, 0) << merged.err;
+  EXPECT_EQ(read_json(folder() / "merged" / "run.json").at("passes"), 2);
+  const std::vector<json> rows = load_json_lines(folder() / "merged" / "runs.jsonl").lines;
+  EXPECT_EQ(rows.size(), 12U);
+  for (const json& row : rows) {
+    EXPECT_EQ(row.at("passes"), (json{1, 1, 2}));
+    EXPECT_EQ(row.at("rounds"), (json{0, 1, 2}));
+    EXPECT_EQ(row.at("canary_ns").size(), 3U);
+  }
+  expect_valid("merged");
 }
 
 TEST_F(MergeTest, DoesNotDependOnTheOrderOfTheRuns) {
@@ -353,6 +368,7 @@ TEST_F(MergeTest, OfRunsThatDoNotBelongTogetherIsRefused) {
   run("seed", {plan(), "--seed", "7"});
   run("filter", {plan(), "--filter", "n:300"});
   run("repetitions", {plan(), "--repetitions", "2"});
+  run("passes", {plan(), "--passes", "2"});
   const auto merge = [&](const std::string& with) {
     return hullbench({"merge", "run", with, "--out", "merged"});
   };
@@ -360,6 +376,7 @@ TEST_F(MergeTest, OfRunsThatDoNotBelongTogetherIsRefused) {
   expect_refusal(merge("seed"), 2, "differ in their plan's seed (");
   expect_refusal(merge("filter"), 2, "differ in their filter (");
   expect_refusal(merge("repetitions"), 2, "differ in their plan's repetitions (");
+  expect_refusal(merge("passes"), 2, "differ in their plan's passes (");
   expect_refusal(merge("nothing"), 2, "there is no run in nothing");
   write_text(folder() / "filter" / "run.json", R"({"schema_version": 99})");
   expect_refusal(merge("filter"), 2, "filter/run.json is of another schema version");

@@ -131,6 +131,7 @@ TEST(Plan, DefaultsAndValues) {
 TEST(Plan, SurvivesJson) {
   json source = small_plan();
   source["repetitions"] = 3;
+  source["passes"] = 2;
   source["timeout_s"] = 0.5;
   source["seed"] = 18446744073709551615U;
   source["notes"] = {"a note"};
@@ -140,6 +141,28 @@ TEST(Plan, SurvivesJson) {
   const json once = plan_to_json(parse_plan(source.dump(), "here"));
   EXPECT_EQ(plan_to_json(parse_plan(once.dump(), "there")), once);
   for (const auto& [key, value] : source.items()) EXPECT_EQ(once.at(key), value) << key;
+}
+
+TEST(Plan, PassesShareTheRepetitions) {
+  const auto shares = [](int repetitions) {
+    return std::vector{share_of_pass(repetitions, 3, 1), share_of_pass(repetitions, 3, 2),
+                       share_of_pass(repetitions, 3, 3)};
+  };
+  EXPECT_EQ(shares(10), (std::vector{4, 3, 3}));
+  EXPECT_EQ(shares(11), (std::vector{4, 4, 3}));
+  EXPECT_EQ(shares(3), (std::vector{1, 1, 1}));
+  EXPECT_EQ(shares(2), (std::vector{1, 1, 0}));
+  EXPECT_EQ(shares(1), (std::vector{1, 0, 0}));
+  EXPECT_EQ(share_of_pass(7, 1, 1), 7);
+}
+
+TEST(Plan, APlanHasOnePassUnlessItSaysSo) {
+  json source = small_plan();
+  EXPECT_EQ(parse_plan(source.dump(), "here").passes, 1);
+  for (const json& wrong : {json(0), json(kMaxPasses + 1), json("three")}) {
+    source["passes"] = wrong;
+    EXPECT_THROW(parse_plan(source.dump(), "here"), ConfigurationError) << wrong;
+  }
 }
 
 TEST(Plan, AParameterCanBeScaledByTheSpacingOfThePoints) {

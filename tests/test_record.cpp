@@ -44,6 +44,10 @@ TEST(Record, RoundTripThroughTextKeepsEveryField) {
   record.parameters["third"] = 1.0 / 3.0;
   record.machine = "0123abcd";
   record.flags = {kFasterThanFloor};
+  record.rounds = {0, 4, 7};
+  record.passes = {1, 2, 3};
+  record.canary_ns = {{5'000'000, 4'000'000}, {5'100'000, 4'100'000}, {5'200'000, 4'200'000}};
+  record.cold_time_ns = 36'000'000;
   const RunRecord back = json::parse(json(record).dump()).get<RunRecord>();
   EXPECT_EQ(back.machine, record.machine);
   EXPECT_EQ(back.flags, record.flags);
@@ -62,9 +66,44 @@ TEST(Record, RoundTripThroughTextKeepsEveryField) {
   EXPECT_EQ(back.detail, record.detail);
   EXPECT_EQ(back.time_ns, record.time_ns);
   EXPECT_EQ(back.phases_ns, record.phases_ns);
+  EXPECT_EQ(back.rounds, record.rounds);
+  EXPECT_EQ(back.passes, record.passes);
+  EXPECT_EQ(back.canary_ns, record.canary_ns);
+  EXPECT_EQ(back.cold_time_ns, record.cold_time_ns);
   EXPECT_EQ(back.metrics, record.metrics);
   EXPECT_EQ(back.output_sha256, record.output_sha256);
   EXPECT_EQ(json(back), json(record));
+}
+
+TEST(Record, WhatAnOlderRecordDoesNotTellIsLeftOut) {
+  const RunRecord record = test::invented_record();
+  const json written = record;
+  RunRecord read_over;
+  read_over.rounds = read_over.passes = {1};
+  read_over.canary_ns = {{1, 2}};
+  read_over.cold_time_ns = 3;
+  from_json(written, read_over);
+  for (const char* key : {"rounds", "passes", "canary_ns", "cold_time_ns"})
+    EXPECT_FALSE(written.contains(key)) << key;
+  EXPECT_TRUE(read_over.rounds.empty());
+  EXPECT_TRUE(read_over.passes.empty());
+  EXPECT_TRUE(read_over.canary_ns.empty());
+  EXPECT_FALSE(read_over.cold_time_ns);
+}
+
+TEST(Record, WhenAndHowARepetitionWasMeasuredIsNoPartOfTheIdentity) {
+  RunRecord record = test::invented_record();
+  const std::string id = run_identity(record);
+  record.rounds = record.passes = {1};
+  record.canary_ns = {{1, 2}};
+  record.cold_time_ns = 3;
+  EXPECT_EQ(run_identity(record), id);
+}
+
+TEST(Record, ACanaryThatTellsOnlyHalfIsRefused) {
+  json written = test::invented_record();
+  written["canary_ns"] = json::array({{{"memory", 5}}});
+  EXPECT_THROW(written.get<RunRecord>(), json::exception);
 }
 
 TEST(Record, InfiniteParameterIsNullAndComesBack) {

@@ -52,7 +52,14 @@ Method worker_of(const std::string& name) {
   Method method;
   method.name = method.title = name;
   method.command = {MISBEHAVING_WORKER, name};
-  if (name == "polylidar") method.command = {HULLBENCH, "worker", "--method", name};
+  if (name == "polylidar" || name == "convex_hull") method.command = {HULLBENCH, "worker", "--method", name};
+  return method;
+}
+
+/// Of a method that compiles while it runs.
+Method compiling_worker_of(const std::string& name) {
+  Method method = worker_of(name);
+  method.jit = true;
   return method;
 }
 
@@ -84,15 +91,25 @@ class RunnerTest : public ::testing::Test {
  protected:
   void TearDown() override { set_interrupted(false); }
 
+  /// All passes, or those up to `passes_`; `machine_` is asked.
   RunResult measure(const Plan& plan, const MethodFinder& find_method = &worker_of,
                     const std::vector<int>& cores = {}) {
     const json header = header_of(plan);
     const auto directory = open_run_directory(header, {folder_.path() / "run", false, folder_.path()});
     const auto runs = planned_runs(plan, "");
+    const int passes = passes_.value_or(plan.passes);
+    std::vector<ProgressSection> sections;
+    for (int pass = 1; pass <= passes; ++pass)
+      sections.push_back({"test", progress_runs(plan, runs, pass), "test"});
     std::ostringstream progress_text;
-    Progress progress(progress_text, false, 80, {{"test", progress_runs(plan, runs)}});
-    const RunResult result =
-        run_plan(plan, runs, header, {find_method, std::nullopt, cores}, *directory, progress);
+    Progress progress(progress_text, false, 80, sections);
+    RunResult result;
+    for (int pass = 1; pass <= passes && !result.interrupted; ++pass) {
+      progress.enter(static_cast<std::size_t>(pass - 1));
+      result = run_plan(plan, runs, header, {find_method, std::nullopt, cores, {}, machine_}, *directory,
+                        progress, pass);
+    }
+    seconds_left_ = progress.seconds_left();
     said_ = progress_text.str();
     return result;
   }
@@ -112,6 +129,9 @@ class RunnerTest : public ::testing::Test {
 
   testing::TemporaryFolder folder_;
   std::string said_;
+  double seconds_left_ = 0;    ///< in the end
+  std::optional<int> passes_;  ///< no more than these; none: all
+  MachineWatch* machine_ = nullptr;
 };
 
 TEST_F(RunnerTest, AGoodMethodGetsACompleteRow) {
@@ -323,12 +343,28 @@ TEST_F(RunnerTest, AnInvalidPolygonIsTimedAndScoredAsInvalid) {
 TEST_F(RunnerTest, ARowSaysItsMachineAndWhetherItWasFasterThanAnyMethodCanBe) {
   // 110 ns and 1010 ns for 500 points.
   measure(plan_of({"polylidar", "instant", "good"}));
-  EXPECT_EQ(rows().at("instant").flags, std::vector<std::string>{kFasterThanFloor});
-  EXPECT_TRUE(rows().at("good").flags.empty());
+  const auto has_flag = [&](const std::string& method) {
+    const std::vector<std::string> flags = rows().at(method).flags;
+    return std::count(flags.begin(), flags.end(), kFasterThanFloor) == 1;
+  };
+  EXPECT_TRUE(has_flag("instant"));
+  EXPECT_FALSE(has_flag("good"));
+  EXPECT_FALSE(has_flag("polylidar"));
   for (const auto& [name, row] : rows()) {
     EXPECT_EQ(to_string(row.status), "ok") << row.detail;
     EXPECT_EQ(row.machine, machine_id());
   }
+}
+
+TEST_F(RunnerTest, ARowSaysThatItsResultIsWorseThanTheConvexHull) {
+  Plan plan = plan_of({"polylidar", "good", "convex_hull", "invalid_polygon"}, 1);
+  plan.methods[2].parameters.clear();
+  measure(plan);
+  // A square somewhere else.
+  EXPECT_EQ(rows().at("good").flags, std::vector<std::string>{kWorseThanConvexHull});
+  EXPECT_TRUE(rows().at("polylidar").flags.empty());
+  EXPECT_TRUE(rows().at("convex_hull").flags.empty()) << "as good as itself";
+  EXPECT_TRUE(rows().at("invalid_polygon").flags.empty()) << "it has no error";
 }
 
 TEST_F(RunnerTest, AResultThatChangesIsNotBelieved) {
@@ -510,6 +546,263 @@ TEST_F(RunnerTest, AnInterruptionWithinABatchKeepsTheRowsOfItsFinishedCases) {
   EXPECT_EQ(line_count(run / "repetitions.jsonl"), 150 * 4);
 }
 
+TEST_F(RunnerTest, PassesShareTheRepetitionsAndCountTheRounds) {
+  Plan plan = plan_of({"polylidar", "counts_runs", "good"}, 10);
+  plan.methods[1].repetitions = 3;
+  plan.methods[2].repetitions = 1;
+  plan.passes = 3;
+  EXPECT_EQ(exit_code(measure(plan)), 0);
+  using Numbers = std::vector<std::int64_t>;
+  const auto measured = rows();
+  EXPECT_EQ(measured.at("polylidar").rounds, (Numbers{0, 1, 2, 3, 4, 5, 6, 7, 8, 9}));
+  EXPECT_EQ(measured.at("polylidar").passes, (Numbers{1, 1, 1, 1, 2, 2, 2, 3, 3, 3}));
+  EXPECT_EQ(measured.at("counts_runs").rounds, (Numbers{0, 4, 7})) << "the first round of each pass";
+  EXPECT_EQ(measured.at("counts_runs").passes, (Numbers{1, 2, 3}));
+  EXPECT_EQ(measured.at("good").rounds, Numbers{0});
+  EXPECT_EQ(measured.at("good").passes, Numbers{1});
+  // Each time the second run of a new process, whose first one was the warm-up.
+  EXPECT_EQ(measured.at("counts_runs").time_ns, (Numbers{1002, 1002, 1002}));
+  for (const auto& [method, row] : measured) EXPECT_EQ(row.time_ns.size(), row.phases_ns.size()) << method;
+  EXPECT_EQ(validate_file(folder_.path() / "run" / "runs.jsonl"), std::vector<std::string>());
+  EXPECT_EQ(seconds_left_, 0.0);
+}
+
+TEST_F(RunnerTest, OnePassIsAsItWasButSaysItsRounds) {
+  measure(plan_of({"polylidar"}, 2));
+  EXPECT_EQ(rows().at("polylidar").rounds, (std::vector<std::int64_t>{0, 1}));
+  EXPECT_EQ(rows().at("polylidar").passes, (std::vector<std::int64_t>{1, 1}));
+  EXPECT_TRUE(rows().at("polylidar").canary_ns.empty()) << "nobody looked";
+}
+
+TEST_F(RunnerTest, AResultIsScoredInTheFirstPassOnly) {
+  Plan plan = plan_of({"polylidar", "good"}, 4);
+  plan.passes = 2;
+  passes_ = 1;
+  EXPECT_EQ(exit_code(measure(plan)), 0);
+  const auto first = rows();
+  const std::string pictures = testing::read_text(folder_.path() / "run" / "pictures.jsonl");
+  EXPECT_EQ(first.at("polylidar").time_ns.size(), 2U);
+  EXPECT_EQ(lines("runs.jsonl").size(), 2U);
+  passes_.reset();
+  EXPECT_EQ(exit_code(measure(plan)), 0);
+  for (const auto& [method, row] : rows()) {
+    EXPECT_EQ(row.metrics, first.at(method).metrics) << method;
+    EXPECT_EQ(row.id, first.at(method).id) << method;
+    ASSERT_EQ(row.time_ns.size(), 4U) << method;
+    EXPECT_TRUE(
+        std::equal(first.at(method).time_ns.begin(), first.at(method).time_ns.end(), row.time_ns.begin()))
+        << method;
+  }
+  EXPECT_EQ(testing::read_text(folder_.path() / "run" / "pictures.jsonl"), pictures);
+  EXPECT_EQ(validate_file(folder_.path() / "run" / "runs.jsonl"), std::vector<std::string>());
+}
+
+TEST_F(RunnerTest, ALaterPassHasNoUntimedRunOfAMethodThatTakesLong) {
+  Plan plan = plan_of({"takes_long", "counts_runs"}, 2);
+  plan.passes = 2;
+  EXPECT_EQ(exit_code(measure(plan)), 0);
+  EXPECT_EQ(rows().at("takes_long").time_ns, (std::vector<std::int64_t>{2'000'000'002, 2'000'000'001}));
+  EXPECT_EQ(rows().at("counts_runs").time_ns, (std::vector<std::int64_t>{1002, 1002}));
+}
+
+TEST_F(RunnerTest, ALaterPassMustGiveTheSameResult) {
+  Plan plan = plan_of({"changes_when_started", "good"}, 4);
+  plan.passes = 2;
+  EXPECT_EQ(exit_code(measure(plan)), 4);
+  const RunRecord row = rows().at("changes_when_started");
+  EXPECT_EQ(to_string(row.status), "invalid_output");
+  EXPECT_NE(row.detail.find("different results"), std::string::npos) << row.detail;
+  EXPECT_EQ(row.passes, (std::vector<std::int64_t>{1, 1})) << "the times before it stay";
+  EXPECT_EQ(rows().at("good").passes, (std::vector<std::int64_t>{1, 1, 2, 2}));
+}
+
+TEST_F(RunnerTest, ALaterPassStartsOnlyWhatHasSomethingLeftToDo) {
+  Plan plan = plan_of({"crash", "good", "polylidar"}, 4);
+  plan.methods[1].repetitions = 1;
+  plan.passes = 2;
+  std::vector<std::string> started;
+  const auto note = [&](const std::string& name) {
+    started.push_back(name);
+    return worker_of(name);
+  };
+  EXPECT_EQ(exit_code(measure(plan, note)), 4);
+  EXPECT_EQ(started, (std::vector<std::string>{"crash", "good", "polylidar", "polylidar"}));
+  EXPECT_EQ(to_string(rows().at("crash").status), "crash");
+  EXPECT_EQ(rows().at("good").time_ns.size(), 1U);
+  EXPECT_EQ(rows().at("polylidar").time_ns.size(), 4U);
+  EXPECT_EQ(seconds_left_, 0.0);
+}
+
+TEST_F(RunnerTest, AFinishedRunOfSeveralPassesIsNotMeasuredAgain) {
+  Plan plan = plan_of({"polylidar", "good", "crash"}, 4);
+  plan.passes = 3;
+  measure(plan);
+  const fs::path run = folder_.path() / "run";
+  const std::string before = testing::read_text(run / "runs.jsonl");
+  const std::string repetitions = testing::read_text(run / "repetitions.jsonl");
+  EXPECT_EQ(exit_code(measure(plan)), 4);
+  EXPECT_EQ(testing::read_text(run / "runs.jsonl"), before);
+  EXPECT_EQ(testing::read_text(run / "repetitions.jsonl"), repetitions);
+}
+
+TEST_F(RunnerTest, ARunThatStoppedInTheSecondPassGoesOnThere) {
+  Plan plan = plan_of({"polylidar", "good"}, 6);
+  plan.passes = 2;
+  passes_ = 1;
+  measure(plan);
+  const fs::path run = folder_.path() / "run";
+  const std::string rows_of_first = testing::read_text(run / "runs.jsonl");
+  const auto first = rows();
+  passes_.reset();
+  measure(plan);
+  // As if it had been killed in the second pass, after its first round.
+  std::string kept;
+  for (const json& line : lines("repetitions.jsonl")) {
+    if (line["round"] < 4) kept += line.dump() + "\n";
+  }
+  testing::write_text(run / "repetitions.jsonl", kept);
+  testing::write_text(run / "runs.jsonl", rows_of_first);
+
+  EXPECT_EQ(exit_code(measure(plan)), 0);
+  EXPECT_TRUE(testing::read_text(run / "repetitions.jsonl").starts_with(kept));
+  std::set<std::pair<std::string, int>> seen;
+  for (const json& line : lines("repetitions.jsonl"))
+    EXPECT_TRUE(seen.emplace(line["id"].get<std::string>(), line["repetition"].get<int>()).second) << line;
+  EXPECT_EQ(seen.size(), 12U);
+  for (const auto& [method, row] : rows()) {
+    EXPECT_EQ(row.rounds, (std::vector<std::int64_t>{0, 1, 2, 3, 4, 5})) << method;
+    EXPECT_EQ(row.passes, (std::vector<std::int64_t>{1, 1, 1, 2, 2, 2})) << method;
+    EXPECT_EQ(row.metrics, first.at(method).metrics) << method;
+  }
+}
+
+TEST_F(RunnerTest, ARowWithoutItsRepetitionsIsMeasuredAnew) {
+  Plan plan = plan_of({"polylidar"}, 4);
+  plan.passes = 2;
+  passes_ = 1;
+  measure(plan);
+  fs::remove(folder_.path() / "run" / "repetitions.jsonl");
+  passes_.reset();
+  EXPECT_EQ(exit_code(measure(plan)), 0);
+  EXPECT_EQ(rows().at("polylidar").passes, (std::vector<std::int64_t>{1, 1, 2, 2}));
+}
+
+TEST_F(RunnerTest, RowsOfALaterPassTakeThePlacesOfTheEarlierOnes) {
+  Plan plan = plan_of_small_cases({"polylidar", "good"}, 3);
+  plan.passes = 2;
+  passes_ = 1;
+  measure(plan);
+  const auto names = [&] {
+    std::vector<std::string> result;
+    for (const json& line : lines("runs.jsonl")) result.push_back(line["name"].get<std::string>());
+    return result;
+  };
+  const std::vector<std::string> first = names();
+  passes_.reset();
+  measure(plan);
+  EXPECT_EQ(first.size(), 6U);
+  EXPECT_EQ(names(), first);
+  for (const json& line : lines("runs.jsonl")) EXPECT_EQ(line["passes"], (json{1, 2})) << line;
+}
+
+/// Tells a machine whose memory is slow at these looks, counted from 1.
+class SlowAt {
+ public:
+  explicit SlowAt(std::set<int> looks)
+      : watch(
+            [this, looks = std::move(looks)] {
+              return CanaryTimes{looks.contains(++count_) ? 200 : 100, 1000};
+            },
+            std::chrono::nanoseconds(0)) {}
+
+ private:
+  int count_ = 0;
+
+ public:
+  MachineWatch watch;
+};
+
+TEST_F(RunnerTest, ARoundOnAMachineInAnotherStateIsMeasuredAgain) {
+  SlowAt machine({6});
+  machine_ = &machine.watch;
+  measure(plan_of({"counts_runs"}, 8));
+  const RunRecord row = rows().at("counts_runs");
+  // The first run is the warm-up; the seventh, of the sixth round, does not count.
+  EXPECT_EQ(row.time_ns, (std::vector<std::int64_t>{1002, 1003, 1004, 1005, 1006, 1008, 1009, 1010}));
+  EXPECT_EQ(row.rounds, (std::vector<std::int64_t>{0, 1, 2, 3, 4, 5, 6, 7}));
+  EXPECT_EQ(row.canary_ns, std::vector<CanaryTimes>(8, CanaryTimes{100, 1000}));
+  EXPECT_EQ(row.flags, (std::vector<std::string>{kRemeasuredRound, kWorseThanConvexHull}));
+  EXPECT_EQ(lines("repetitions.jsonl").size(), 8U);
+  EXPECT_EQ(seconds_left_, 0.0);
+}
+
+TEST_F(RunnerTest, AMachineThatStaysInAnotherStateIsSaid) {
+  SlowAt machine({6, 7, 8});
+  machine_ = &machine.watch;
+  Plan plan = plan_of({"counts_runs"}, 8);
+  plan.passes = 2;
+  measure(plan);
+  const RunRecord row = rows().at("counts_runs");
+  // Four rounds in the first pass. The second is a new process; its second round is measured three times.
+  EXPECT_EQ(row.time_ns, (std::vector<std::int64_t>{1002, 1003, 1004, 1005, 1002, 1005, 1006, 1007}));
+  std::vector<CanaryTimes> canaries(8, CanaryTimes{100, 1000});
+  canaries[5] = {200, 1000};
+  EXPECT_EQ(row.canary_ns, canaries);
+  EXPECT_EQ(row.flags, (std::vector<std::string>{kRemeasuredRound, kUnsteadyMachine, kWorseThanConvexHull}));
+  // Said of the repetition for ever, whoever goes on.
+  int unsteady = 0;
+  for (const json& line : lines("repetitions.jsonl")) unsteady += line.value("unsteady", false) ? 1 : 0;
+  EXPECT_EQ(unsteady, 1);
+  fs::remove(folder_.path() / "run" / "runs.jsonl");
+  machine_ = nullptr;
+  measure(plan);
+  EXPECT_EQ(rows().at("counts_runs").flags, row.flags);
+  EXPECT_EQ(rows().at("counts_runs").canary_ns, canaries);
+}
+
+TEST_F(RunnerTest, AllMethodsOfARoundAreMeasuredAgainButThoseThatFailed) {
+  SlowAt machine({6});
+  machine_ = &machine.watch;
+  measure(plan_of({"counts_runs", "crash", "polylidar"}, 7));
+  EXPECT_EQ(rows().at("counts_runs").time_ns.back(), 1009);
+  EXPECT_EQ(rows().at("polylidar").flags, std::vector<std::string>{kRemeasuredRound});
+  EXPECT_EQ(to_string(rows().at("crash").status), "crash");
+  EXPECT_TRUE(rows().at("crash").flags.empty());
+}
+
+TEST_F(RunnerTest, AMethodThatCompilesIsWarmBeforeItsFirstCase) {
+  Plan plan = plan_of_small_cases({"gets_faster"}, 2);
+  EXPECT_EQ(exit_code(measure(plan, &compiling_worker_of)), 0);
+  const auto measured = lines("runs.jsonl");
+  ASSERT_EQ(measured.size(), 2U);
+  // Six runs until three took the same, the untimed one, and the repetitions.
+  EXPECT_EQ(measured[0]["time_ns"], (json{1'000'008, 1'000'009}));
+  EXPECT_EQ(measured[0]["cold_time_ns"], 8'000'001);
+  EXPECT_EQ(measured[1]["time_ns"], (json{1'000'011, 1'000'012})) << "it is warm already";
+  EXPECT_FALSE(measured[1].contains("cold_time_ns"));
+  EXPECT_EQ(validate_file(folder_.path() / "run" / "runs.jsonl"), std::vector<std::string>());
+}
+
+TEST_F(RunnerTest, EveryPassWarmsItsOwnProcesses) {
+  Plan plan = plan_of({"gets_faster"}, 2);
+  plan.passes = 2;
+  EXPECT_EQ(exit_code(measure(plan, &compiling_worker_of)), 0);
+  EXPECT_EQ(rows().at("gets_faster").time_ns, (std::vector<std::int64_t>{1'000'008, 1'000'008}));
+  EXPECT_EQ(rows().at("gets_faster").cold_time_ns, 8'000'001);
+}
+
+TEST_F(RunnerTest, AMethodThatDoesNotCompileHasNoColdTime) {
+  EXPECT_EQ(exit_code(measure(plan_of({"gets_faster"}, 1))), 0);
+  EXPECT_EQ(rows().at("gets_faster").time_ns, std::vector<std::int64_t>{4'000'002});
+  EXPECT_FALSE(rows().at("gets_faster").cold_time_ns);
+}
+
+TEST_F(RunnerTest, AWarmUpThatFailsIsTheRowsFailure) {
+  EXPECT_EQ(exit_code(measure(plan_of({"crash"}), &compiling_worker_of)), 4);
+  EXPECT_EQ(to_string(rows().at("crash").status), "crash");
+  EXPECT_EQ(rows().at("crash").detail, "SIGSEGV");
+}
+
 TEST_F(RunnerTest, WorkFilesDoNotStay) {
   measure(plan_of({"polylidar", "crash"}));
   std::set<std::string> names;
@@ -639,11 +932,12 @@ TEST(Progress, EstimatesFromTheTimesSoFar) {
   EXPECT_NE(out.str().find("[2/2]"), std::string::npos) << out.str();
 }
 
-TEST(Progress, OfSeveralTablesSaysWhichOneItIsAt) {
+TEST(Progress, BeginsItsLineWithTheSectionsTitle) {
   std::ostringstream out;
-  Progress progress(
-      out, false, 80,
-      {{"One", {{"a", "m", 100, 1}}}, {"Two", {{"b", "m", 100, 1}}}, {"Three", {{"c", "m", 100, 1}}}});
+  Progress progress(out, false, 80,
+                    {{"One, table 1 of 3", {{"a", "m", 100, 1}}},
+                     {"Two, table 2 of 3", {{"b", "m", 100, 1}}},
+                     {"", {{"c", "m", 100, 1}}}});
   for (std::size_t section = 0; section < 3; ++section) {
     progress.enter(section);
     progress.begin(0);
@@ -653,7 +947,7 @@ TEST(Progress, OfSeveralTablesSaysWhichOneItIsAt) {
   EXPECT_EQ(out.str(),
             "hullbench: One, table 1 of 3 [1/1] 0 s, about 20 s left (estimated): a\n"
             "hullbench: Two, table 2 of 3 [1/1] 0 s, about 10 s left (estimated): b\n"
-            "hullbench: Three, table 3 of 3 [1/1] 0 s, done\n");
+            "hullbench: [1/1] 0 s, done\n");
 }
 
 TEST(Progress, WhatIsLeftCountsTheTablesThatAreNotBegun) {
@@ -676,6 +970,28 @@ TEST(Progress, WhatIsLeftCountsTheTablesThatAreNotBegun) {
   // Of m: 4 s for 100 points here, and 9 s for 300 over all; of other, which nothing is known of, the same
   // 9 s for 300.
   EXPECT_NEAR(progress.seconds_left(), 4 + 3 + 3, 1e-9);
+}
+
+TEST(Progress, ALaterPassIsEstimatedByTheEarlierOnesOfItsPlan) {
+  std::ostringstream out;
+  Progress progress(out, false, 80,
+                    {{"One", {{"a", "m", 100, 1}}, "one"},
+                     {"Two", {{"b", "m", 100, 1}}, "two"},
+                     {"One again", {{"a", "m", 100, 1}}, "one"},
+                     {"Two again", {{"b", "m", 100, 1}}, "two"}});
+  progress.advance(0, std::chrono::seconds(1));
+  progress.enter(1);
+  progress.advance(0, std::chrono::seconds(5));
+  // Only rounding: hardly any wall-clock time has passed.
+  EXPECT_NEAR(progress.seconds_left(), 1 + 5, 1e-9);
+}
+
+TEST(Progress, WhatIsDoneOnceMoreIsLeft) {
+  std::ostringstream out;
+  Progress progress(out, false, 80, {{"", {{"a", "m", 100, 2}}}});
+  progress.advance(0, std::chrono::seconds(1));
+  progress.repeat(0);
+  EXPECT_NEAR(progress.seconds_left(), 2, 1e-9);
 }
 
 TEST(Progress, WritesDurationsForPeople) {

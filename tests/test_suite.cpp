@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <csignal>
 #include <filesystem>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <set>
 #include <string>
@@ -134,6 +135,34 @@ TEST_F(SuiteTest, ThatIsFinishedIsNotMeasuredAgain) {
   EXPECT_TRUE(names_in(suite() / "tables").contains("methods.csv"));
 }
 
+TEST_F(SuiteTest, GoesThroughAllPlansPassByPass) {
+  json once = small_plan("once", california({400}), 1);
+  const std::vector<std::string> words = {"run",       write(small_plan("first", california({500}), 3)),
+                                          write(once), write(small_plan("second", california({600}), 2)),
+                                          "--passes",  "2",
+                                          "--out",     "suite"};
+  const Outcome outcome = hullbench(words);
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  std::size_t place = 0;
+  for (const char* words_said :
+       {"table 1 of 3, pass 1 of 2: Plan first\n", "table 2 of 3, pass 1 of 2: Plan once\n",
+        "table 3 of 3, pass 1 of 2: Plan second\n", "pass 1 of 2 is done; 'hullbench tables suite'",
+        "table 1 of 3, pass 2 of 2: Plan first\n", "table 3 of 3, pass 2 of 2: Plan second\n"}) {
+    place = outcome.err.find(words_said, place);
+    ASSERT_NE(place, std::string::npos) << words_said << " is not there or not in its place: " << outcome.err;
+  }
+  const std::map<std::string, json> passes = {{"first", {1, 1, 2}}, {"once", {1}}, {"second", {1, 2}}};
+  for (const auto& [plan, expected] : passes) {
+    EXPECT_EQ(rows_of(suite() / plan).size(), 2U);
+    for (const json& row : load_json_lines(suite() / plan / "runs.jsonl").lines)
+      EXPECT_EQ(row.at("passes"), expected) << plan;
+    EXPECT_TRUE(fs::exists(suite() / plan / "report.json")) << plan;
+  }
+  const Outcome again = hullbench(words);
+  EXPECT_NE(again.err.find("Plan once is finished already"), std::string::npos) << again.err;
+  EXPECT_EQ(again.out, outcome.out);
+}
+
 TEST_F(SuiteTest, IsMeasuredAnewByForce) {
   ASSERT_EQ(hullbench(run_both()).code, 0);
   const auto repetitions = [&](const char* plan) { return read_text(suite() / plan / "repetitions.jsonl"); };
@@ -246,6 +275,13 @@ class InterruptedSuiteTest : public SuiteTest {
     return program.wait();
   }
 
+  static std::map<int, int> lines_by_pass(const fs::path& suite) {
+    std::map<int, int> counts;
+    for (const json& line : load_json_lines(suite / "second" / "repetitions.jsonl").lines)
+      ++counts[line.at("pass").get<int>()];
+    return counts;
+  }
+
   static void expect_whole(const fs::path& suite) {
     EXPECT_EQ(rows_of(suite / "first").size(), 2U);
     EXPECT_EQ(rows_of(suite / "second").size(), 4U);
@@ -278,6 +314,28 @@ TEST_F(InterruptedSuiteTest, GoesOnFromWhereItStopped) {
   EXPECT_TRUE(read_text(suite() / "second" / "repetitions.jsonl").starts_with(repetitions));
   expect_whole(suite());
   EXPECT_EQ(read_text(suite() / "tables.md"), whole.out);
+}
+
+TEST_F(InterruptedSuiteTest, GoesOnInThePassInWhichItStopped) {
+  const std::vector<std::string> in_two_passes = words({"--passes", "2", "--out", "suite"});
+  // Of its 160 repetitions 80 are of the first pass.
+  for (const auto& [signal, code] : {std::pair(SIGKILL, 128 + SIGKILL), std::pair(SIGINT, 130)}) {
+    const Outcome stopped = stop_in_second(in_two_passes, signal, signal == SIGKILL ? 95 : 110, suite());
+    ASSERT_EQ(stopped.code, code) << stopped.err;
+    EXPECT_EQ(lines_by_pass(suite()).at(1), 80);
+    EXPECT_TRUE(fs::exists(suite() / "first" / "report.json"));
+    EXPECT_FALSE(fs::exists(suite() / "second" / "report.json"));
+    // Those of the first pass are there, whole and readable.
+    const Outcome tables = hullbench({"tables", "suite"});
+    EXPECT_EQ(tables.code, 0) << tables.err;
+    EXPECT_NE(tables.out.find("## Plan second\n"), std::string::npos);
+  }
+  const std::string repetitions = read_text(suite() / "second" / "repetitions.jsonl");
+  const Outcome whole = hullbench(in_two_passes);
+  EXPECT_EQ(whole.code, 0) << whole.err;
+  EXPECT_TRUE(read_text(suite() / "second" / "repetitions.jsonl").starts_with(repetitions));
+  expect_whole(suite());
+  EXPECT_EQ(lines_by_pass(suite()), (std::map<int, int>{{1, 80}, {2, 80}}));
 }
 
 TEST_F(InterruptedSuiteTest, IsFoundWithoutOutUntilItIsFinished) {

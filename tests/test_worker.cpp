@@ -76,6 +76,18 @@ class MethodSessionTest : public ::testing::Test {
     EXPECT_TRUE(result.wkb.empty());
   }
 
+  /// A session with a method that compiles while it runs, and its warm-up.
+  Attempt warm_up(const std::string& mode) {
+    Method method = method_of(mode, misbehaving(mode));
+    method.jit = true;
+    session_ = std::make_unique<MethodSession>(method, WorkerLimits{256, std::nullopt, 8});
+    EXPECT_TRUE(session_->is_cold());
+    const std::vector<Point> points = {{0, 0}, {1, 0}, {1, 1}, {0, 1}};
+    write_points_file(folder_.path() / "points", points);
+    return session_->warm_up({"square", folder_.path() / "points", points.size()}, {{"size", 1}},
+                             folder_.path(), 30s);
+  }
+
   testing::TemporaryFolder folder_;
   std::unique_ptr<MethodSession> session_;
 };
@@ -207,6 +219,39 @@ TEST_F(MethodSessionTest, AWorkerThatDiedIsStartedAgain) {
   EXPECT_EQ(run().detail, "SIGABRT");
   EXPECT_EQ(run().status, Status::kOk);
   EXPECT_NE(session_->pid(), first);
+}
+
+TEST_F(MethodSessionTest, AMethodThatCompilesIsWarmUntilThreeRunsAgree) {
+  const Attempt first = warm_up("gets_faster");
+  EXPECT_EQ(to_string(first.status), "ok") << first.detail;
+  EXPECT_EQ(first.time_ns(), 8'000'000 + 1) << "the time of the first run";
+  EXPECT_FALSE(session_->is_cold());
+  EXPECT_EQ(run().time_ns(), 1'000'000 + 7) << "the fourth, fifth and sixth run took the same";
+  session_->quit(10s);
+  EXPECT_TRUE(session_->is_cold()) << "the next process is another one";
+  run();
+  EXPECT_TRUE(session_->is_cold()) << "nobody has warmed it up";
+}
+
+TEST_F(MethodSessionTest, AMethodThatIsNeverSteadyIsWarmAfterAWhile) {
+  const auto start = std::chrono::steady_clock::now();
+  EXPECT_EQ(to_string(warm_up("never_steady").status), "ok");
+  EXPECT_GE(std::chrono::steady_clock::now() - start, kWarmUpTime);
+  EXPECT_FALSE(session_->is_cold());
+}
+
+TEST_F(MethodSessionTest, AWarmUpThatFailsSaysWhy) {
+  const Attempt result = warm_up("crash_on_second");
+  EXPECT_EQ(to_string(result.status), "crash");
+  EXPECT_EQ(result.detail, "SIGABRT");
+  EXPECT_TRUE(session_->is_cold());
+}
+
+TEST_F(MethodSessionTest, AMethodThatDoesNotCompileIsNeverCold) {
+  attempt("good");
+  EXPECT_FALSE(session_->is_cold());
+  session_->quit(10s);
+  EXPECT_FALSE(session_->is_cold());
 }
 
 TEST_F(MethodSessionTest, AWorkerThatIsKilledFromOutsideIsACrash) {

@@ -148,7 +148,7 @@ import json, sys
 for line in open(sys.argv[1]):
     row = json.loads(line)
     row["metrics"].pop("peak_memory_bytes", None)
-    print(json.dumps({k: v for k, v in row.items() if k not in ("time_ns", "phases_ns", "machine", "flags")}))
+    print(json.dumps({k: v for k, v in row.items() if k not in ("time_ns", "phases_ns", "canary_ns", "machine", "flags")}))
 PYTHON
 }
 
