@@ -10,7 +10,9 @@ namespace hullbench {
 
 // What build/fit_rules prints. The best shares of the edge are 0.46 for the longest edge of a triangle that
 // stays, 0.48 for an erosion with holes and 0.40 for one of the border alone: with 0.46 for all three they
-// have at most 1.3 % more error than with their own.
+// have at most 1.3 % more error than with their own. Of 8000 points (--points 8000, letters and sampling
+// patterns) the best are 0.58, 0.58 and 0.54 and the radius's 0.20, and these here have at most 3 % more
+// error.
 const double kEdgeShare = 0.46;
 const double kCircumradiusShare = 0.22;
 

@@ -239,7 +239,8 @@ def parameters_html(experiments: Sequence[Experiment]) -> str:
         "aria-label='Parameters'><table id='parameters'><thead><tr><th scope='col'>Method</th><th scope='col'>"
         f"Parameter</th>{head}</tr></thead><tbody>{rows}</tbody></table></div>"
         "<p class='muted'>A is the area of the ground truth, n the number of points, A_hull the area of a convex "
-        "hull, P the perimeter that the core chooses from the points. An empty cell: not in that experiment.</p>" + _described(experiments) + _plans(experiments)
+        "hull, P the perimeter that the core chooses from the points. An empty cell: not in that experiment.</p>"
+        + _described(experiments) + _plans(experiments)
     )
 
 
