@@ -1,8 +1,9 @@
 # cmake -DROOT=FOLDER -DLIST=FILE -DOUTPUT=FILE -DDEPFILE=FILE -P hash_sources.cmake
 #
 # Writes OUTPUT, a C++ header with the hash of what each method of LIST is made of: the first 8 digits of the SHA-256 over
-# its sources and all that these include in quotes, from their own folder, ROOT or ROOT/core/include, and so on. A file's
-# name and place do not count. LIST has a line NAME|SOURCE|SOURCE... for each method. DEPFILE tells the build what was read.
+# its sources and all that these include in quotes, from their own folder, ROOT or ROOT/core/include, and so on. A
+# file's name and place do not count. LIST has a line NAME|SOURCE|SOURCE... for each method. DEPFILE tells the build what
+# was read.
 cmake_minimum_required(VERSION 3.25)
 
 # included_by(file result): the files of this project that `file` includes.

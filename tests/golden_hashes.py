@@ -28,6 +28,7 @@ Point = tuple[float, float]
 Ring = list[Point]
 Polygon = list[Ring]  # the shell, then its holes
 Edge = tuple[Point, Point]
+Outline = list[tuple[float, float, float, float, Point, Point]]  # edges behind their box: low, high, right, left
 
 SHAPES = Path(__file__).resolve().parent.parent / "datasets" / "shapes"
 EXPECTATIONS = Path(__file__).resolve().parent / "test_datasets.cpp"
@@ -81,14 +82,19 @@ def edges(polygon: Polygon) -> list[Edge]:
     return [edge for ring in polygon for edge in zip(ring, ring[1:] + ring[:1])]
 
 
-def contains(outline: list[Edge], p: Point) -> bool:
+def boxed_edges(polygon: Polygon) -> Outline:
+    return [(min(a[1], b[1]), max(a[1], b[1]), max(a[0], b[0]), min(a[0], b[0]), a, b) for a, b in edges(polygon)]
+
+
+def contains(outline: Outline, p: Point) -> bool:
     """By the edges that a ray to the right crosses, an even number or an odd one; the boundary belongs to it."""
+    x, y = p
     inside = False
-    for a, b in outline:
-        if p[0] > max(a[0], b[0]) or not min(a[1], b[1]) <= p[1] <= max(a[1], b[1]):
+    for low, high, right, left, a, b in outline:
+        if not low <= y <= high or x > right:
             continue
-        crosses = (a[1] > p[1]) != (b[1] > p[1])
-        if p[0] < min(a[0], b[0]):
+        crosses = (a[1] > y) != (b[1] > y)
+        if x < left:
             inside ^= crosses
             continue
         side = turn(a, b, p)
@@ -159,7 +165,7 @@ def read_shape(file: str) -> list[Polygon]:
 
 def with_holes(name: str, shape: list[Polygon], count: int, radius: float, seed: int) -> list[Polygon]:
     result = [list(polygon) for polygon in shape]
-    outlines = [edges(polygon) for polygon in shape]
+    outlines = [boxed_edges(polygon) for polygon in shape]
     left = count
     for centre in places(shape, derived_seed(seed, f"holes/{name}")):
         if left == 0:
@@ -173,7 +179,7 @@ def with_holes(name: str, shape: list[Polygon], count: int, radius: float, seed:
 
 
 def sample(name: str, shape: list[Polygon], holes: int, n: int) -> list[Point]:
-    outlines = [edges(polygon) for polygon in shape]
+    outlines = [boxed_edges(polygon) for polygon in shape]
     points: list[Point] = []
     for place in places(shape, derived_seed(SEED, f"points/{name}/holes:{holes}/n:{n}")):
         if len(points) == n:
