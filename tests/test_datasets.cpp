@@ -59,8 +59,8 @@ TEST(Datasets, CatalogueListsTheStatesAndTheLetters) {
   }
 }
 
-// `tests/golden_hashes.py` prints the hashes below; it is written apart from this library and decides in whole
-// numbers. They change only when a data set is meant to change.
+// `tests/golden_hashes.py` prints the hashes below; it is written apart from this library and decides in
+// whole numbers. They change only when a data set is meant to change.
 
 TEST(Datasets, GoldenShapes) {
   EXPECT_EQ(hash_of(make_ground_truth("ca", false)),
