@@ -158,9 +158,8 @@ std::vector<std::string> missing_in(const std::vector<std::string>& words,
   return result;
 }
 
-/// Says whether every measured target has the same flags, and if not, which differ. The one flag that has a
-/// reason of its own comes with it: to change the rounding mode, CGAL's interval arithmetic needs a compiler
-/// that reckons with such changes.
+/// Says whether every measured target has the same flags, and if not, which differ. CGAL's package adds one
+/// of its own, because its interval arithmetic changes the rounding mode.
 std::string flags_statement(const BuildInfo& info) {
   std::string differences;
   const std::vector<std::string> ours = info.target_options.empty()
