@@ -117,3 +117,6 @@ endforeach()
 # the whole contract. What is found invalid first, and its name, are for the version of GEOS.
 set_tests_properties(contract.spatialite contract.turf_concave PROPERTIES PASS_REGULAR_EXPRESSION
   "FAIL  20000 points within the limits invalid polygon, .*keeps part of the contract: 19 of 20;keeps the contract: ")
+# SFCGAL up to 2.0 puts two shells into one ring.
+set_tests_properties(contract.sfcgal_alpha_shape PROPERTIES PASS_REGULAR_EXPRESSION
+  "keeps the contract: ;FAIL  two clusters far apart .*keeps part of the contract: 19 of 20")
