@@ -195,7 +195,7 @@ test-clang: ## the tests of the clang build
 	@echo "==> all tests, built with clang"
 	@$(call tests,clang,build-clang)
 
-test-fresh: ## prove bench-quick and test from nothing in bare Debian 12 roots (SUITE=trixie: 13; needs root, 10 GB, 2 hours)
+test-fresh: ## prove bench-quick and test from nothing in bare Debian 12 roots (SUITE=trixie: 13; needs root, 10 GB, over an hour)
 	@SUITE=$(or $(SUITE),bookworm) tests/fresh/run.sh
 
 test-slurm: ## try the Slurm scripts on a real Slurm of one node, made for the test (needs root)
