@@ -50,9 +50,10 @@ exit $$status
 endef
 
 NATIVE_OPTION = -DHULLBENCH_NATIVE=$(if $(filter-out 0,$(NATIVE)),ON,OFF)
-# What measures needs no test and none of the tests' packages. Both kinds share a build folder: going from one to the
-# other compiles nothing again.
-WITHOUT_TESTS = $(NATIVE_OPTION) -DHULLBENCH_TESTS=OFF
+# What measures needs no test and none of the tests' packages. A build folder that "make test" has configured keeps its
+# tests while GoogleTest is there: Ninja forgets targets that are left out once, and would compile all tests again.
+WITHOUT_TESTS = $(NATIVE_OPTION) $(shell grep -qs '^HULLBENCH_TESTS:BOOL=ON' build/CMakeCache.txt && \
+  [ -d "$$(sed -n 's/^GTest_DIR:PATH=//p' build/CMakeCache.txt)" ] || echo -DHULLBENCH_TESTS=OFF)
 WITH_TESTS = $(NATIVE_OPTION) -DHULLBENCH_TESTS=ON
 
 .PHONY: help deps deps-extra deps-legacy build bench bench-quick figures figures-core report report-compare evaluate bench-core bench-gate bench-gate-instructions reference test test-sanitize build-clang test-clang test-fresh test-slurm test-gate fuzz lint format docs clean clean-legacy
