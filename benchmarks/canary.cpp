@@ -47,9 +47,8 @@ std::int64_t nanoseconds_since(Clock::time_point start) {
   return std::chrono::duration_cast<std::chrono::nanoseconds>(Clock::now() - start).count();
 }
 
-bool differs(std::int64_t value, const std::vector<std::int64_t>& all) {
-  const double middle = median(all);
-  return std::abs(static_cast<double>(value) - middle) > MachineWatch::kTolerance * middle;
+bool differs(std::int64_t value, double usual) {
+  return std::abs(static_cast<double>(value) - usual) > MachineWatch::kTolerance * usual;
 }
 
 }  // namespace
@@ -115,12 +114,14 @@ CanaryTimes MachineWatch::fresh() {
   taken_ = Clock::now();
   memory_.push_back(canary.memory);
   compute_.push_back(canary.compute);
+  usual_memory_ = median(memory_);
+  usual_compute_ = median(compute_);
   return canary;
 }
 
 bool MachineWatch::is_off(const CanaryTimes& canary) const {
   if (memory_.size() < kFewest) return false;
-  return differs(canary.memory, memory_) || differs(canary.compute, compute_);
+  return differs(canary.memory, usual_memory_) || differs(canary.compute, usual_compute_);
 }
 
 bool MachineWatch::wants_again(const CanaryTimes& canary, int tries, std::chrono::nanoseconds took) {

@@ -81,6 +81,9 @@ class MachineWatch {
   // Of every canary so far, the last one at the end.
   std::vector<std::int64_t> memory_;
   std::vector<std::int64_t> compute_;
+  // Their medians, which do not change before the next canary: there are many more rounds than canaries.
+  double usual_memory_ = 0;
+  double usual_compute_ = 0;
   std::chrono::nanoseconds first_tries_{0};
   std::chrono::nanoseconds later_tries_{0};
 };
