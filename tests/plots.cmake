@@ -5,7 +5,7 @@ find_program(BASH_PROGRAM bash REQUIRED)
 foreach(part IN ITEMS records figures html_report pictures comparison)
   add_test(NAME plots.${part} COMMAND "${DEBIAN_PYTHON}" -B -m unittest test_${part}_py
     WORKING_DIRECTORY "${CMAKE_CURRENT_LIST_DIR}")
-  set_tests_properties(plots.${part} PROPERTIES LABELS plots TIMEOUT 900)
+  set_tests_properties(plots.${part} PROPERTIES LABELS plots TIMEOUT 900 ENVIRONMENT "HULLBENCH=$<TARGET_FILE:hullbench>")
 endforeach()
 foreach(page IN ITEMS report comparison)
   add_test(NAME plots.${page}_in_browser
