@@ -4,14 +4,15 @@
 #include <boost/math/special_functions/beta.hpp>
 #include <cmath>
 #include <cstddef>
+#include <functional>
 #include <iterator>
-#include <map>
 #include <numeric>
+#include <utility>
 
 namespace hullbench {
 namespace {
 
-using Clusters = std::vector<std::vector<double>>;  // by cluster, then value; sorted within a cluster
+using Clusters = std::vector<std::vector<Passes>>;  // by cluster, case, pass, round
 
 /// What may lie beyond each end.
 constexpr double kTail = (1 - kConfidence) / 2;
@@ -26,69 +27,130 @@ double order_statistic_probability(std::size_t n, std::size_t rank, std::size_t 
                             static_cast<double>(k) / static_cast<double>(n));
 }
 
-/// Of a resampled cluster: how many more of its values are at most `limit` than above it.
-double surplus(const std::vector<double>& cluster, double limit) {
-  const auto above = std::upper_bound(cluster.begin(), cluster.end(), limit);
-  return static_cast<double>(2 * (above - cluster.begin())) - static_cast<double>(cluster.size());
+/// By how many more of some resampled values are at most a limit than above it: the chance of each number
+/// from `lowest` on.
+struct Surplus {
+  std::ptrdiff_t lowest = 0;
+  std::vector<double> chances = {1};
+};
+
+/// Of two that are independent, together.
+Surplus sum_of(const Surplus& one, const Surplus& other) {
+  Surplus sum = {one.lowest + other.lowest,
+                 std::vector<double>(one.chances.size() + other.chances.size() - 1)};
+  for (std::size_t i = 0; i < one.chances.size(); ++i) {
+    if (one.chances[i] == 0) continue;
+    for (std::size_t k = 0; k < other.chances.size(); ++k)
+      sum.chances[i + k] += one.chances[i] * other.chances[k];
+  }
+  return sum;
 }
 
-/// P(sum of the surpluses of as many drawn clusters as there are >= 0), exact.
-double exact_probability(const std::vector<double>& surpluses) {
-  std::map<std::ptrdiff_t, double> draw;  // probability by surplus
-  for (const double value : surpluses)
-    draw[static_cast<std::ptrdiff_t>(value)] += 1 / static_cast<double>(surpluses.size());
-  const std::ptrdiff_t lowest = std::min<std::ptrdiff_t>(0, draw.begin()->first);
-  const std::ptrdiff_t highest = std::max<std::ptrdiff_t>(0, draw.rbegin()->first);
-  const auto draws = static_cast<std::ptrdiff_t>(surpluses.size());
-  const auto width = static_cast<std::size_t>(draws * (highest - lowest) + 1);
-  std::vector<double> sums(width);  // probability by sum, from draws * lowest on
-  sums[static_cast<std::size_t>(-draws * lowest)] = 1;
-  for (std::ptrdiff_t drawn = 0; drawn < draws; ++drawn) {
-    std::vector<double> next(width);
-    for (std::size_t place = 0; place < width; ++place) {
-      if (sums[place] == 0) continue;
-      for (const auto& [value, probability] : draw) {
-        next[static_cast<std::size_t>(static_cast<std::ptrdiff_t>(place) + value)] +=
-            probability * sums[place];
-      }
-    }
-    sums = std::move(next);
+/// Of a single value that is at most the limit with this chance.
+Surplus surplus_of_one(double chance) {
+  if (chance <= 0) return {-1, {1}};
+  if (chance >= 1) return {1, {1}};
+  return {-1, {1 - chance, 0, chance}};
+}
+
+/// Of one of `all`, each drawn as likely as the others.
+Surplus drawn_from(const std::vector<Surplus>& all) {
+  Surplus draw = {all.front().lowest, {}};
+  for (const Surplus& one : all) draw.lowest = std::min(draw.lowest, one.lowest);
+  for (const Surplus& one : all) {
+    const auto begin = static_cast<std::size_t>(one.lowest - draw.lowest);
+    draw.chances.resize(std::max(draw.chances.size(), begin + one.chances.size()));
+    for (std::size_t i = 0; i < one.chances.size(); ++i)
+      draw.chances[begin + i] += one.chances[i] / static_cast<double>(all.size());
   }
-  return std::accumulate(sums.begin() - draws * lowest, sums.end(), 0.0);
+  return draw;
+}
+
+/// P(surplus >= 0): at least half of the values are at most the limit, so the lower middle one is.
+double chance_of_half(const Surplus& surplus) {
+  const std::ptrdiff_t below = std::max<std::ptrdiff_t>(0, -surplus.lowest);
+  if (below >= static_cast<std::ptrdiff_t>(surplus.chances.size())) return 0;
+  return std::accumulate(surplus.chances.begin() + below, surplus.chances.end(), 0.0);
+}
+
+/// The same of as many draws from `all` as there are, exactly.
+double exact_chance(const std::vector<Surplus>& all) {
+  const Surplus draw = drawn_from(all);
+  Surplus sum;
+  for (std::size_t drawn = 0; drawn < all.size(); ++drawn) sum = sum_of(sum, draw);
+  return chance_of_half(sum);
 }
 
 /// The same by the central limit theorem. The sum moves in steps of two or, of clusters of different sizes,
 /// of one; the correction for continuity is that of one.
-double normal_probability(const std::vector<double>& surpluses) {
+double normal_chance(const std::vector<Surplus>& all) {
   double sum = 0;
   double squares = 0;
-  for (const double value : surpluses) {
-    sum += value;
-    squares += value * value;
+  for (const Surplus& surplus : all) {
+    for (std::size_t i = 0; i < surplus.chances.size(); ++i) {
+      const auto value = static_cast<double>(surplus.lowest + static_cast<std::ptrdiff_t>(i));
+      sum += surplus.chances[i] * value;
+      squares += surplus.chances[i] * value * value;
+    }
   }
-  const double variance = squares - sum * sum / static_cast<double>(surpluses.size());
+  const double variance = squares - sum * sum / static_cast<double>(all.size());
   if (variance <= 0) return sum >= 0 ? 1 : 0;
   return std::erfc(-(sum + 0.5) / std::sqrt(2 * variance)) / 2;
 }
 
-/// P(the lower middle one of the values of resampled clusters <= limit): at least half of them are.
-double middle_probability(const Clusters& clusters, double limit) {
-  std::vector<double> surpluses;
+/// P(the lower middle one of a resampled case's values <= limit).
+double chance_of_case(const Passes& passes, double limit) {
+  std::vector<Surplus> surpluses;
+  surpluses.reserve(passes.size());
+  for (const auto& pass : passes) {
+    const auto below = std::count_if(pass.begin(), pass.end(), [&](double value) { return value <= limit; });
+    const Surplus one = surplus_of_one(static_cast<double>(below) / static_cast<double>(pass.size()));
+    Surplus rounds;
+    for (std::size_t round = 0; round < pass.size(); ++round) rounds = sum_of(rounds, one);
+    surpluses.push_back(std::move(rounds));
+  }
+  return exact_chance(surpluses);
+}
+
+/// P(the lower middle one of the cases of resampled clusters <= limit).
+double middle_chance(const Clusters& clusters, double limit) {
+  std::vector<Surplus> surpluses;
   surpluses.reserve(clusters.size());
-  for (const auto& cluster : clusters) surpluses.push_back(surplus(cluster, limit));
-  return clusters.size() <= kMostExactClusters ? exact_probability(surpluses) : normal_probability(surpluses);
+  for (const auto& cluster : clusters) {
+    Surplus cases;
+    for (const Passes& one : cluster) cases = sum_of(cases, surplus_of_one(chance_of_case(one, limit)));
+    surpluses.push_back(std::move(cases));
+  }
+  return clusters.size() <= kMostExactClusters ? exact_chance(surpluses) : normal_chance(surpluses);
+}
+
+/// All values, sorted.
+std::vector<double> values_of(const Clusters& clusters) {
+  std::vector<double> values;
+  for (const auto& cluster : clusters) {
+    for (const Passes& passes : cluster) {
+      for (const auto& pass : passes) values.insert(values.end(), pass.begin(), pass.end());
+    }
+  }
+  std::sort(values.begin(), values.end());
+  return values;
 }
 
 /// The smallest value that the lower middle one does not exceed with the probability of a tail.
-double lower_end(Clusters clusters) {
-  std::vector<double> values;
-  for (auto& cluster : clusters) {
-    std::sort(cluster.begin(), cluster.end());
-    values.insert(values.end(), cluster.begin(), cluster.end());
-  }
-  std::sort(values.begin(), values.end());
+double lower_end(const Clusters& clusters) {
+  const std::vector<double> values = values_of(clusters);
   return *std::partition_point(values.begin(), std::prev(values.end()),
-                               [&](double value) { return middle_probability(clusters, value) < kTail; });
+                               [&](double value) { return middle_chance(clusters, value) < kTail; });
+}
+
+/// `clusters` without what has no values.
+Clusters filled(Clusters clusters) {
+  for (auto& cluster : clusters) {
+    for (Passes& passes : cluster) std::erase_if(passes, [](const auto& pass) { return pass.empty(); });
+    std::erase_if(cluster, [](const Passes& passes) { return passes.empty(); });
+  }
+  std::erase_if(clusters, [](const auto& cluster) { return cluster.empty(); });
+  return clusters;
 }
 
 }  // namespace
@@ -103,17 +165,28 @@ std::optional<Interval> median_interval(std::span<const std::int64_t> values) {
   return Interval{static_cast<double>(sorted[k - 1]), static_cast<double>(sorted[n - k])};
 }
 
-std::optional<Interval> clustered_median_interval(const Clusters& clusters) {
-  Clusters filled;
-  std::copy_if(clusters.begin(), clusters.end(), std::back_inserter(filled),
-               [](const auto& cluster) { return !cluster.empty(); });
-  if (filled.size() < 2) return std::nullopt;
-  const double low = lower_end(filled);
+std::optional<Interval> nested_median_interval(const Clusters& all) {
+  Clusters clusters = filled(all);
+  if (values_of(clusters).size() < 2) return std::nullopt;
+  const double low = lower_end(clusters);
   // The upper end is the lower one of the values with their signs turned.
-  for (auto& cluster : filled) {
-    for (double& value : cluster) value = -value;
+  for (auto& cluster : clusters) {
+    for (Passes& passes : cluster) {
+      for (auto& pass : passes) std::transform(pass.begin(), pass.end(), pass.begin(), std::negate<>());
+    }
   }
-  return Interval{low, -lower_end(std::move(filled))};
+  return Interval{low, -lower_end(clusters)};
+}
+
+std::optional<Interval> clustered_median_interval(const std::vector<std::vector<double>>& clusters) {
+  Clusters cases;
+  for (const auto& cluster : clusters) {
+    if (cluster.empty()) continue;
+    auto& values = cases.emplace_back();
+    for (const double value : cluster) values.push_back({{value}});
+  }
+  if (cases.size() < 2) return std::nullopt;
+  return nested_median_interval(cases);
 }
 
 }  // namespace hullbench

@@ -48,7 +48,9 @@ std::optional<double> value_of_run(const RunRecord& run, const std::string& quan
   return median(values);
 }
 
-/// How a ratio is judged: {"at_least" | "more_than" | "less_than": number} or {"between": [number, number]}.
+/// How a ratio is judged. One-sided, where the paper gives no number or a bound: {"at_least" | "more_than" |
+/// "less_than": number}. Two-sided, where it gives a number: {"about": number, "within": factor}, from
+/// about / within to about * within, or {"between": [number, number]}.
 class Threshold {
  public:
   explicit Threshold(const json& check) {
@@ -58,6 +60,12 @@ class Threshold {
     if (check.contains("between")) {
       at_least_ = check["between"].at(0).get<double>();
       at_most_ = check["between"].at(1).get<double>();
+    }
+    if (check.contains("about")) {
+      const auto about = check["about"].get<double>();
+      const auto within = check.at("within").get<double>();
+      at_least_ = about / within;
+      at_most_ = about * within;
     }
   }
 
@@ -69,11 +77,23 @@ class Threshold {
   /// Of two ratios the one that speaks more against the claim.
   double worse(double a, double b) const {
     if (less_than_) return std::max(a, b);
-    if (at_most_) return std::abs(std::log(a)) > std::abs(std::log(b)) ? a : b;
+    if (at_most_) return distance(a) > distance(b) ? a : b;
     return std::min(a, b);
   }
 
+  /// "confirmed", or of a number of the paper's "larger" or "smaller" than it, or "refuted".
+  std::string verdict(double ratio) const {
+    if (passes(ratio)) return "confirmed";
+    if (!at_most_) return "refuted";
+    return ratio > *at_most_ ? "larger" : "smaller";
+  }
+
  private:
+  /// By which factor, as a logarithm, a ratio is off the middle of what is confirmed.
+  double distance(double ratio) const {
+    return std::abs(std::log(ratio) - std::log(*at_least_ * *at_most_) / 2);
+  }
+
   std::optional<double> at_least_;
   std::optional<double> more_than_;
   std::optional<double> less_than_;
@@ -199,27 +219,25 @@ class Ratios {
 struct Verdict {
   std::string text;
   double value = 0;
-  bool holds = false;
+  std::string verdict;
 };
 
 Verdict judge(const std::vector<double>& ratios, const Threshold& threshold, bool every_case) {
   if (!every_case) {
     const double middle = median(std::span<const double>(ratios));
-    return {three_digits(middle), middle, threshold.passes(middle)};
+    return {three_digits(middle), middle, threshold.verdict(middle)};
   }
   const auto passed =
       std::count_if(ratios.begin(), ratios.end(), [&](double r) { return threshold.passes(r); });
   double worst = ratios.front();
   for (const double ratio : ratios) worst = threshold.worse(worst, ratio);
-  return {std::to_string(passed) + " of " + std::to_string(ratios.size()), worst,
-          passed == static_cast<std::ptrdiff_t>(ratios.size())};
+  return {std::to_string(passed) + " of " + std::to_string(ratios.size()), worst, threshold.verdict(worst)};
 }
 
 json check_claim(const json& claim, const json& report, const Measurements& measurements) {
-  json result = {{"id", claim.at("id")},       {"claim", claim.at("claim")},
-                 {"where", claim.at("where")}, {"paper", claim.at("paper")},
-                 {"ours", "not measured"},     {"value", nullptr},
-                 {"equal_work", nullptr},      {"holds", nullptr}};
+  json result = {{"id", claim.at("id")},       {"claim", claim.at("claim")}, {"where", claim.at("where")},
+                 {"paper", claim.at("paper")}, {"ours", "not measured"},     {"value", nullptr},
+                 {"equal_work", nullptr},      {"verdict", nullptr}};
   const json& check = claim.at("check");
   if (is_about_time(claim) && !measurements.has_times()) {
     result["detail"] = measurements.why_no_times();
@@ -237,7 +255,7 @@ json check_claim(const json& claim, const json& report, const Measurements& meas
   const Verdict verdict = judge(values, ratios.threshold(), every_case);
   result["ours"] = verdict.text;
   result["value"] = verdict.value;
-  result["holds"] = verdict.holds;
+  result["verdict"] = verdict.verdict;
   if (check.at("quantity") == "time") {
     result["equal_work"] = judge(ratios.by_case(Boundary::kEqualWork), ratios.threshold(), every_case).text;
   }
@@ -252,6 +270,10 @@ json check_claim(const json& claim, const json& report, const Measurements& meas
 const json& paper() {
   static const json values = json::parse(kPaperJson);
   return values;
+}
+
+Line reference_line() {
+  return {paper().at("reference_method").get<std::string>(), paper().at("protocol").get<std::string>()};
 }
 
 const std::vector<PaperStep>& paper_steps() {

@@ -5,10 +5,15 @@
 #include <string>
 #include <vector>
 
+#include "benchmarks/measurements.hpp"
+
 namespace hullbench {
 
 /// The paper's published values and claims: results/paper.json, which is part of the program.
 const nlohmann::json& paper();
+
+/// What every ratio is quoted beside: this project's method with the paper's parameters.
+Line reference_line();
 
 /// The steps of a method that the paper tells apart, in its order, each with what methods call it or its
 /// parts in their phases.
@@ -23,7 +28,8 @@ bool is_about_time(const nlohmann::json& claim);
 
 /// Every claim of the paper that concerns state shapes, checked against the `protocol: paper` rows of
 /// `report`: a list of {id, claim, where, paper, ours (text), value (number or null), equal_work (text or
-/// null), holds (true, false or null: not measured here), detail}. Claims about
+/// null), verdict, detail}. The verdict is "confirmed"; of a claim that gives a number "larger" or "smaller"
+/// where ours is outside of the band round it; of any other "refuted"; null: not measured here. Claims about
 /// time are not judged when there are no times (see Measurements).
 nlohmann::json check_claims(const nlohmann::json& report);
 

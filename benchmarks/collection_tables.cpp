@@ -138,9 +138,15 @@ std::string kinds_text(const std::vector<CaseGroup>& groups) {
   return text;
 }
 
+/// Which cases the means of a table are of, where some failed.
+constexpr const char* kMeansRemark =
+    "Means, deviations and maxima are of the same cases for all methods: those that each of them solved, as "
+    "many as \"Shapes\" says. A method that solved less than half as many as another one is left out of them "
+    "and has none. Failed: cases without a valid result.";
+
 TableSection summary_table(TableContext& context, const std::vector<Line>& lines,
                            const std::vector<Case>& cases, const json& published) {
-  std::vector<std::string> header = {"Method", "Shapes"};
+  std::vector<std::string> header = {"Method", "Shapes", "Failed"};
   append_value_columns(context, header);
   TableSection section{"summary", "", TextTable(std::move(header)), {}};
   const std::vector<CaseGroup> kinds = family_groups(context, cases);
@@ -148,18 +154,23 @@ TableSection summary_table(TableContext& context, const std::vector<Line>& lines
   const std::string kind = kinds.size() < cases.size() ? " (" + kinds_text(kinds) + ")" : "";
   section.caption =
       std::to_string(cases.size()) + " shapes" + kind + ", " + size_text(cases) + ": " + values_text(context);
-  for (const Line& line : lines) {
-    const GroupValues values = group_values(context, line, cases);
-    std::vector<std::string> cells = {label(context, line) + group_failure_marks(context, line, cases),
-                                      std::to_string(values.measured)};
-    append_values(context, cells, values);
+  bool any_failed = false;
+  const std::vector<GroupValues> all = group_values(context, lines, cases);
+  for (std::size_t i = 0; i < lines.size(); ++i) {
+    const Line& line = lines[i];
+    std::vector<std::string> cells = {
+        row_label(context, line, cases) + group_failure_marks(context, line, cases),
+        std::to_string(all[i].cases), std::to_string(all[i].failed)};
+    any_failed = any_failed || all[i].failed > 0;
+    append_values(context, cells, all[i]);
     section.table.add_row(std::move(cells));
     const json theirs = published_values({"", {}, published}, line);
     if (theirs.is_null()) continue;
-    cells = {paper_label(line), published.at("shapes").dump()};
+    cells = {paper_label(line), published.at("shapes").dump(), kNothing};
     append_published(context, cells, theirs);
     section.table.add_row(std::move(cells));
   }
+  if (any_failed) section.remarks.emplace_back(kMeansRemark);
   if (!published.is_null()) {
     section.remarks.push_back("The paper's values are from its " + published.at("where").get<std::string>() +
                               "; " + published.at("remark").get<std::string>() + ".");
@@ -176,11 +187,13 @@ std::string error_cell(const TableContext& context, const Line& line, const Case
   const auto errors = all_values(runs, "l2_paper");
   if (errors.empty()) return kNothing;
   std::string text = fixed(100 * median(std::span<const double>(errors)), 1);
-  if (published.is_null() || paper().at("protocol") != line.protocol) return text;
-  const json value = published.value("by_shape", json::object())
-                         .value(which.dataset, json::object())
-                         .value(line.method, json());
-  return value.is_number() ? text + " (" + fixed(value.get<double>(), 1) + ")" : text;
+  if (!published.is_null() && paper().at("protocol") == line.protocol) {
+    const json value = published.value("by_shape", json::object())
+                           .value(which.dataset, json::object())
+                           .value(line.method, json());
+    if (value.is_number()) text += " (" + fixed(value.get<double>(), 1) + ")";
+  }
+  return text + hull_mark(runs);
 }
 
 TableSection shape_table(const TableContext& context, const std::vector<Line>& lines,
@@ -199,6 +212,7 @@ TableSection shape_table(const TableContext& context, const std::vector<Line>& l
     section.table.add_row(std::move(cells));
   }
   if (has_brackets) section.caption += " (in brackets the paper's)";
+  explain_hull_mark(section);
   return section;
 }
 
@@ -243,26 +257,32 @@ std::vector<CaseGroup> convexity_groups(const TableContext& context, const std::
 
 TableSection group_table(TableContext& context, const std::string& id, const std::string& caption,
                          const std::string& first_column, const std::vector<CaseGroup>& groups) {
-  std::vector<std::string> header = {first_column, "Method", "Shapes", "Invalid"};
+  std::vector<std::string> header = {first_column, "Method", "Shapes", "Failed", "Invalid"};
   append_value_columns(context, header);
   TableSection section{id, caption, TextTable(std::move(header)), {}};
   bool has_published = false;
+  bool any_failed = false;
   for (const CaseGroup& group : groups) {
-    for (const Line& line : lines_of(context, group.cases)) {
-      const GroupValues values = group_values(context, line, group.cases);
+    const std::vector<Line> lines = lines_of(context, group.cases);
+    const std::vector<GroupValues> all = group_values(context, lines, group.cases);
+    for (std::size_t i = 0; i < lines.size(); ++i) {
+      const Line& line = lines[i];
       std::vector<std::string> cells = {
-          group.title, label(context, line) + group_failure_marks(context, line, group.cases),
-          std::to_string(values.measured), std::to_string(values.invalid)};
-      append_values(context, cells, values);
+          group.title,
+          row_label(context, line, group.cases) + group_failure_marks(context, line, group.cases),
+          std::to_string(all[i].cases), std::to_string(all[i].failed), std::to_string(all[i].invalid)};
+      any_failed = any_failed || all[i].failed > 0;
+      append_values(context, cells, all[i]);
       section.table.add_row(std::move(cells));
       const json theirs = published_values(group, line);
       if (theirs.is_null()) continue;
       has_published = true;
-      cells = {group.title, paper_label(line), kNothing, kNothing};
+      cells = {group.title, paper_label(line), kNothing, kNothing, kNothing};
       append_published(context, cells, theirs);
       section.table.add_row(std::move(cells));
     }
   }
+  if (any_failed) section.remarks.emplace_back(kMeansRemark);
   if (has_published) {
     const json& classes = paper().at("convexity_classes");
     section.remarks.push_back("The paper's values are from its " + classes.at("where").get<std::string>() +
@@ -274,11 +294,12 @@ TableSection group_table(TableContext& context, const std::string& id, const std
 
 /// Adds to `section` how many results of all its groups GEOS found to be invalid.
 void say_validity(const TableContext& context, const std::vector<Case>& cases, TableSection& section) {
-  for (const Line& line : lines_of(context, cases)) {
-    const GroupValues values = group_values(context, line, cases);
+  const std::vector<Line> lines = lines_of(context, cases);
+  const std::vector<GroupValues> all = group_values(context, lines, cases);
+  for (std::size_t i = 0; i < lines.size(); ++i) {
     section.remarks.push_back(
-        label(context, line) + ": of " + std::to_string(values.measured + values.invalid) +
-        " results, each checked by GEOS, " + std::to_string(values.invalid) + " are invalid.");
+        label(context, lines[i]) + ": of " + std::to_string(all[i].solved + all[i].invalid) +
+        " results, each checked by GEOS, " + std::to_string(all[i].invalid) + " are invalid.");
   }
 }
 

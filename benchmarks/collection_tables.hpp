@@ -26,7 +26,7 @@ bool is_collection(const std::vector<Shape>& shapes);
 /// Mean, standard deviation (n - 1) and maximum over the shapes of error and time, a line a method, with the
 /// paper's values where it has any of these shapes. Up to 60 shapes: one group, and the error of every shape,
 /// a column a method. More: groups by the convexity of the ground truth, in the paper's classes, and by
-/// family. Cases on which a method failed are left out of its statistics; the line says how many are in it.
+/// family. The statistics of all methods are of the cases that all solved (group_values.hpp).
 std::vector<TableSection> collection_tables(TableContext& context, const std::vector<Shape>& shapes);
 
 /// The groups that the paper has values of, for comparisons. Empty when it has none.

@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "benchmarks/number_format.hpp"
+#include "benchmarks/ratios.hpp"
 #include "benchmarks/statistics.hpp"
 
 namespace hullbench {
@@ -62,7 +62,7 @@ Errors errors_of(const TableContext& context, const Line& line, const std::vecto
 std::string error_cell(const std::vector<double>& errors) {
   if (errors.empty()) return kNothing;
   const double middle = 100 * median(std::span<const double>(errors));
-  return middle < std::numeric_limits<double>::infinity() ? three_digits(middle) : kNothing;
+  return ratio_text(middle);
 }
 
 std::string place_text(const json& at) {
@@ -117,7 +117,8 @@ TableSection curve_table(TableContext& context) {
     section.table.add_row(std::move(cells));
   }
   section.remarks.emplace_back(
-      "A failed run counts as infinitely bad; a dash: half of the runs failed, or more.");
+      "A failed run counts as infinitely bad; ∞: half of the runs failed, or more. A dash: not "
+      "run.");
   return section;
 }
 

@@ -33,9 +33,16 @@ const std::array<CellForm, 2>& cell_forms() {
   return forms;
 }
 
+std::string without_sign(const std::string& cell) {
+  const std::string sign = std::string(" ") + kSign;
+  return cell.ends_with(sign) ? cell.substr(0, cell.size() - sign.size()) : cell;
+}
+
 const CellForm* form_of_column(const std::vector<std::vector<std::string>>& rows, std::size_t column) {
   for (const CellForm& form : cell_forms()) {
-    const auto has_form = [&](const auto& row) { return std::regex_match(row[column], form.pattern); };
+    const auto has_form = [&](const auto& row) {
+      return std::regex_match(without_sign(row[column]), form.pattern);
+    };
     if (std::any_of(rows.begin() + 1, rows.end(), has_form)) return &form;
   }
   return nullptr;
@@ -56,8 +63,14 @@ std::vector<std::string> csv_fields(const std::string& cell, const CellForm* for
 }
 
 std::string latex_text(std::string_view text) {
-  static const std::array<std::pair<const char*, const char*>, 6> symbols = {
-      {{"±", "$\\pm$"}, {"–", "--"}, {"≥", "$\\ge$"}, {"≤", "$\\le$"}, {"√", "$\\surd$"}, {"²", "$^2$"}}};
+  static const std::array<std::pair<const char*, const char*>, 8> symbols = {{{"†", "$\\dagger$"},
+                                                                              {"∞", "$\\infty$"},
+                                                                              {"±", "$\\pm$"},
+                                                                              {"–", "--"},
+                                                                              {"≥", "$\\ge$"},
+                                                                              {"≤", "$\\le$"},
+                                                                              {"√", "$\\surd$"},
+                                                                              {"²", "$^2$"}}};
   std::string result;
   for (const char c : text) {
     switch (c) {
@@ -164,7 +177,7 @@ std::string to_csv(const TextTable& table) {
   for (std::size_t row = 0; row < rows.size(); ++row) {
     std::string line;
     for (std::size_t column = 0; column < rows[row].size(); ++column) {
-      const std::string cell = without_marks(rows[row][column]);
+      const std::string cell = without_sign(without_marks(rows[row][column]));
       for (const std::string& field : csv_fields(cell, form_of_column(rows, column), row == 0)) {
         line += csv_field(field) + ',';
       }

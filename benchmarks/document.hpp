@@ -43,7 +43,7 @@ void print_item(std::string_view text, std::ostream& out);
 /// The table as comma-separated values (RFC 4180, UTF-8, lines end in a line feed). A column whose cells hold
 /// a value and its spread ("1.36 ±0.01") or two values ("3.87 (3.99)") becomes two: the second one's header
 /// ends in "±" or in "in brackets". A cell of another form (a failure's name, a dash) stands in the first.
-/// Marks of notes are left out, here and in LaTeX: the notes stand in the Markdown only.
+/// Marks of notes are left out, here and in LaTeX: the notes stand in the Markdown only. So is kSign here.
 std::string to_csv(const TextTable& table);
 
 /// The table as a LaTeX table with rules of the package booktabs; nothing else is needed but UTF-8 input.

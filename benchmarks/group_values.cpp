@@ -21,31 +21,62 @@ std::vector<std::string> cells_of(const std::optional<Spread>& spread, const Tex
   return {text(spread->mean), spread->deviation ? text(*spread->deviation) : kNothing, text(spread->maximum)};
 }
 
-}  // namespace
+/// Counts a case of these runs; whether it was solved.
+bool count_case(const std::vector<const RunRecord*>& runs, GroupValues& values) {
+  if (runs.empty()) return false;
+  const RunRecord* failure = first_failure(runs);
+  if (failure == nullptr) {
+    ++values.solved;
+    return true;
+  }
+  if (failure->status != Status::kNotInstalled) ++values.failed;
+  if (is_invalid(*failure)) ++values.invalid;
+  return false;
+}
 
-GroupValues group_values(const TableContext& context, const Line& line, const std::vector<Case>& cases) {
-  GroupValues values;
+void add_spreads(const TableContext& context, const Line& line, const std::vector<Case>& cases,
+                 GroupValues& values) {
   std::vector<double> errors;
   std::vector<double> times;
   std::vector<double> equal_work;
   for (const Case& which : cases) {
     const auto runs = context.measurements.find(line.method, line.protocol, which);
-    if (runs.empty()) continue;
-    if (const RunRecord* failure = first_failure(runs)) {
-      if (is_invalid(*failure)) ++values.invalid;
-      continue;
-    }
-    ++values.measured;
     const std::vector<double> of_case = all_values(runs, "l2_paper");
     if (!of_case.empty()) errors.push_back(median(std::span<const double>(of_case)));
     if (!context.measurements.has_times()) continue;
     times.push_back(median(all_times(runs, Boundary::kPaper)) / 1e6);
     equal_work.push_back(median(all_times(runs, Boundary::kEqualWork)) / 1e6);
   }
+  values.cases = cases.size();
   values.error = spread_of(errors);
   values.time = spread_of(times);
   values.equal_work = spread_of(equal_work);
-  return values;
+}
+
+}  // namespace
+
+std::vector<GroupValues> group_values(const TableContext& context, const std::vector<Line>& lines,
+                                      const std::vector<Case>& cases) {
+  std::vector<GroupValues> all(lines.size());
+  std::vector<std::vector<bool>> solved(lines.size(), std::vector<bool>(cases.size()));  // by line, then case
+  std::size_t most = 0;
+  for (std::size_t i = 0; i < lines.size(); ++i) {
+    for (std::size_t k = 0; k < cases.size(); ++k)
+      solved[i][k] =
+          count_case(context.measurements.find(lines[i].method, lines[i].protocol, cases[k]), all[i]);
+    most = std::max(most, all[i].solved);
+  }
+  const auto has_enough = [&](std::size_t i) { return all[i].solved > 0 && 2 * all[i].solved >= most; };
+  std::vector<Case> common;
+  for (std::size_t k = 0; k < cases.size(); ++k) {
+    bool by_all = true;
+    for (std::size_t i = 0; i < lines.size(); ++i) by_all = by_all && (solved[i][k] || !has_enough(i));
+    if (by_all) common.push_back(cases[k]);
+  }
+  for (std::size_t i = 0; i < lines.size(); ++i) {
+    if (has_enough(i)) add_spreads(context, lines[i], common, all[i]);
+  }
+  return all;
 }
 
 std::vector<std::string> percent_cells(const std::optional<Spread>& fractions) {

@@ -144,7 +144,7 @@ int report(const std::string& path, const fs::path& out) {
     if (fs::equivalent(folder, run))
       throw ConfigurationError("the folder " + folder.string() +
                                " is the run itself; choose another one with --out");
-    write_report_file(folder / "report.json", make_report(run));
+    write_report_file(folder / "report.json", report_to_share(run));
     fs::remove(folder / kPicturesFile);
     merge_pictures({run}, folder);
     std::cout << "wrote " << (folder / "report.json").string() << "\n";

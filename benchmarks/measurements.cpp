@@ -16,6 +16,19 @@ bool is_invalid(const RunRecord& run) {
   return run.status == Status::kOk && (valid == run.metrics.end() || *valid != true);
 }
 
+const RunRecord* first_failure(const std::vector<const RunRecord*>& runs) {
+  const auto found =
+      std::find_if(runs.begin(), runs.end(), [](const RunRecord* run) { return !is_measured(*run); });
+  return found == runs.end() ? nullptr : *found;
+}
+
+bool is_worse_than_convex_hull(const RunRecord& run) {
+  constexpr double kRounding = 1e-9;
+  const auto error = metric(run, "l2");
+  const auto hull = metric(run, "l2_convex_hull");
+  return is_measured(run) && error && hull && *error > *hull * (1 + kRounding);
+}
+
 std::vector<std::int64_t> times(const RunRecord& run, Boundary boundary) {
   if (boundary == Boundary::kEqualWork) return run.time_ns;
   std::vector<std::int64_t> result;
@@ -47,6 +60,14 @@ std::optional<double> metric(const RunRecord& run, const std::string& name) {
   const auto found = run.metrics.find(name);
   if (found == run.metrics.end() || !found->is_number()) return std::nullopt;
   return found->get<double>();
+}
+
+std::vector<double> all_values(const std::vector<const RunRecord*>& runs, const std::string& name) {
+  std::vector<double> result;
+  for (const RunRecord* run : runs) {
+    if (const auto value = metric(*run, name)) result.push_back(*value);
+  }
+  return result;
 }
 
 std::set<std::string> machines_of(const nlohmann::json& report) {

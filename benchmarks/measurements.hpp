@@ -24,6 +24,13 @@ struct Case {
   auto operator<=>(const Case&) const = default;  // NOLINT(modernize-use-nullptr)
 };
 
+/// A method under one protocol: a line, or a column, of a table. Protocols never share one.
+struct Line {
+  std::string method;
+  std::string protocol;
+  bool operator==(const Line&) const = default;
+};
+
 /// Which part of the work a time covers.
 enum class Boundary {
   kEqualWork,  ///< points in memory to a valid multipolygon in memory: run + extract
@@ -37,6 +44,13 @@ bool is_measured(const RunRecord& run);
 /// Whether the run gave a result that is not a valid multipolygon.
 bool is_invalid(const RunRecord& run);
 
+/// The first of `runs` that gave no result to be believed; null when there is none.
+const RunRecord* first_failure(const std::vector<const RunRecord*>& runs);
+
+/// Whether the result's l2 is above that of the convex hull of its points, which every method should beat. Of
+/// the hull itself it is the same but for rounding.
+bool is_worse_than_convex_hull(const RunRecord& run);
+
 /// Nanoseconds of every repetition.
 std::vector<std::int64_t> times(const RunRecord& run, Boundary boundary);
 
@@ -46,6 +60,9 @@ std::vector<std::int64_t> step_times(const RunRecord& run, const std::vector<std
 
 /// A number among the metrics; empty when it is absent or null.
 std::optional<double> metric(const RunRecord& run, const std::string& name);
+
+/// That number of each of `runs` that has it.
+std::vector<double> all_values(const std::vector<const RunRecord*>& runs, const std::string& name);
 
 /// The machines on which the rows of `report` that have times were measured.
 std::set<std::string> machines_of(const nlohmann::json& report);

@@ -21,10 +21,13 @@ constexpr const char* kTime = "time";
 void compare_groups(const TableContext& context, std::vector<Comparison>& comparisons) {
   const std::vector<Shape> all_shapes = shapes(context.measurements.cases());
   for (const CaseGroup& group : published_groups(context, all_shapes)) {
-    for (const Line& line : lines_of(context, group.cases)) {
+    const std::vector<Line> lines = lines_of(context, group.cases);
+    const std::vector<GroupValues> all = group_values(context, lines, group.cases);
+    for (std::size_t i = 0; i < lines.size(); ++i) {
+      const Line& line = lines[i];
+      const GroupValues& ours = all[i];
       const json theirs = published_values(group, line);
       if (theirs.is_null()) continue;
-      const GroupValues ours = group_values(context, line, group.cases);
       const bool one_row = group.published.contains("where");
       const json& where = (one_row ? group.published : paper().at("convexity_classes")).at("where");
       Comparison comparison = {where.get<std::string>(), one_row ? "" : group.title, line.method, "", 0, {}};

@@ -20,13 +20,17 @@ constexpr std::string_view kBegin = "<!-- results: begin -->\n";
 constexpr std::string_view kEnd = "<!-- results: end -->";
 
 /// The tables that the README shows, in its order; the others are in the run's tables.md.
-constexpr std::array<std::string_view, 11> kShown = {"states_ca_holes_time",
+constexpr std::array<std::string_view, 15> kShown = {"states_ca_holes_time",
                                                      "states_ca_holes_error",
+                                                     "states_headline",
                                                      "states_ratios",
+                                                     "rgbd_headline",
                                                      "rgbd_summary",
+                                                     "alphabet_headline",
                                                      "alphabet_summary",
                                                      "random_convexity",
                                                      "random_convexity_others",
+                                                     "steps_headline",
                                                      "steps_steps",
                                                      "differences",
                                                      "methods",

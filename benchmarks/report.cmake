@@ -98,6 +98,7 @@ add_library(hullbench_report STATIC
   compare_document.cpp
   gbench_export.cpp
   rank_test.cpp
+  ratios.cpp
   statistics.cpp
   environment.cpp
   claims.cpp
@@ -105,6 +106,7 @@ add_library(hullbench_report STATIC
   curve_table.cpp
   document.cpp
   group_values.cpp
+  headline.cpp
   labels.cpp
   measurements.cpp
   noise.cpp

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "benchmarks/claims.hpp"
+#include "benchmarks/headline.hpp"
 #include "benchmarks/json_lines.hpp"
 #include "benchmarks/measurements.hpp"
 #include "benchmarks/noise.hpp"
@@ -137,6 +138,7 @@ json make_summary(const json& report) {
   return {{"totals", totals(runs)},
           {"noise", noise_to_json(runs)},
           {"rows", rows},
+          {"headline", make_headline(Measurements(report))},
           {"claims", check_claims(report)}};
 }
 

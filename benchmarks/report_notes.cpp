@@ -1,14 +1,18 @@
 #include "benchmarks/report_notes.hpp"
 
 #include <algorithm>
+#include <cstdint>
+#include <map>
 #include <optional>
 #include <set>
 #include <string>
+#include <utility>
 
 #include "benchmarks/claims.hpp"
 #include "benchmarks/labels.hpp"
 #include "benchmarks/noise.hpp"
 #include "benchmarks/number_format.hpp"
+#include "benchmarks/table_context.hpp"
 #include "benchmarks/text_table.hpp"
 
 namespace hullbench {
@@ -17,26 +21,27 @@ namespace {
 using nlohmann::json;
 using Sentences = std::vector<std::string>;
 
-/// ", of some methods over 3" where the plan gives methods repetitions of their own.
-std::string other_repetitions(const json& report) {
-  std::set<int> others;
-  for (const json& method : report.at("plan").value("methods", json::array())) {
-    if (method.contains("repetitions")) others.insert(method["repetitions"].get<int>());
+/// " in 3 passes" where the records tell more than one.
+std::string passes_text(const std::vector<RunRecord>& runs) {
+  std::int64_t passes = 1;
+  for (const RunRecord& run : runs) {
+    for (const std::int64_t pass : run.passes) passes = std::max(passes, pass);
   }
-  std::string text;
-  for (const int count : others)
-    text += (text.empty() ? ", of some methods over " : " or ") + std::to_string(count);
-  return text;
+  return passes == 1 ? "" : " in " + std::to_string(passes) + " passes";
 }
 
-void add_repetitions(const json& report, Sentences& notes) {
-  const int repetitions = report.at("repetitions").get<int>();
-  notes.push_back(repetitions == 1
-                      ? "Every time is of one repetition."
-                      : "Times are medians ± the median absolute deviation over " +
-                            std::to_string(repetitions) + " repetitions" + other_repetitions(report) +
-                            ". Cells that hold several runs (seeds, parameter sets) put "
-                            "them together.");
+void add_repetitions(const Measurements& measurements, Sentences& notes) {
+  const std::size_t repetitions = usual_repetitions(measurements);
+  if (repetitions == 0) return;
+  if (repetitions == 1) {
+    notes.emplace_back("Every time is of one repetition, unless its row says another number.");
+    return;
+  }
+  notes.push_back("Times are medians over " + std::to_string(repetitions) + " repetitions" +
+                  passes_text(measurements.runs()) +
+                  ", unless the row says another number; ± is their median absolute deviation on that case "
+                  "alone, and only the intervals of the ratios have what varies between shapes. Cells that "
+                  "hold several runs (seeds, parameter sets) put them together.");
 }
 
 void add_how_to_read(bool times, Sentences& notes) {
@@ -46,6 +51,18 @@ void add_how_to_read(bool times, Sentences& notes) {
         "paper "
         "took it: "
         "the method's own run only. Loading the points (the upload to a database) is in neither.");
+  notes.push_back(
+      std::string(times ? "A ratio of times is the median over the rounds of a case, in each of which both "
+                          "methods were "
+                          "measured right after one another. "
+                        : "") +
+      "Of ratios the median, the least and the largest of the cases are shown. A case that only the method "
+      "failed has the ratio ∞, and one that only the method beside it failed has 0." +
+      (times ? " 95 %: a bootstrap interval of the median that resamples whole shapes and in each case "
+               "passes and "
+               "rounds; of few shapes it is a rough one, and of a single shape it has nothing of what varies "
+               "between shapes. \"> 3\": it has no upper end."
+             : ""));
   notes.push_back(
       "The protocol in brackets says who chose the parameters: paper, by the paper's rules, which look at "
       "the ground "
@@ -145,6 +162,51 @@ void add_too_fast(const std::vector<RunRecord>& runs, Sentences& notes) {
                   " ns a point, which no method can be, so do not believe these times: " + names + ".");
 }
 
+std::string of_rows(std::size_t count, std::size_t rows) {
+  return std::to_string(count) + " of " + std::to_string(rows) + " rows";
+}
+
+/// How many rows were taken while the machine was in another state than usual.
+void add_unsteady(const std::vector<RunRecord>& runs, Sentences& notes) {
+  std::size_t timed = 0;
+  std::size_t again = 0;
+  std::size_t unsteady = 0;
+  const auto has = [](const RunRecord& run, const char* flag) {
+    return std::find(run.flags.begin(), run.flags.end(), flag) != run.flags.end();
+  };
+  for (const RunRecord& run : runs) {
+    if (run.time_ns.empty()) continue;
+    ++timed;
+    again += has(run, kRemeasuredRound) ? 1U : 0U;
+    unsteady += has(run, kUnsteadyMachine) ? 1U : 0U;
+  }
+  if (again > 0)
+    notes.push_back("The machine's state was off in a round of " + of_rows(again, timed) +
+                    ", which was measured again.");
+  if (unsteady > 0)
+    notes.push_back("It was still off after the last try in " + of_rows(unsteady, timed) +
+                    ": their times are of a machine in another state.");
+}
+
+/// Whose results are worse than the convex hull of the points.
+void add_worse_than_hull(const json& report, const std::vector<RunRecord>& runs, Sentences& notes) {
+  std::map<std::string, std::pair<std::size_t, std::size_t>> counts;  // by method: worse ones, results
+  for (const RunRecord& run : runs) {
+    if (!is_measured(run)) continue;
+    auto& [worse, results] = counts[method_label(report, run.method, run.protocol)];
+    worse += is_worse_than_convex_hull(run) ? 1U : 0U;
+    ++results;
+  }
+  std::string names;
+  for (const auto& [name, count] : counts) {
+    if (count.first == 0) continue;
+    names += (names.empty() ? "" : ", ") + name + " " + std::to_string(count.first) + " of " +
+             std::to_string(count.second);
+  }
+  if (!names.empty())
+    notes.push_back("Results whose error is above that of the points' convex hull: " + names + ".");
+}
+
 /// Of a merged run every machine, each once.
 void add_environments(const json& report, Sentences& notes) {
   if (!report.contains("merged")) return add_environment(report.at("environment"), "", notes);
@@ -184,7 +246,7 @@ std::vector<std::string> run_notes(const json& report, const Measurements& measu
   const std::vector<RunRecord>& runs = measurements.runs();
   Sentences notes;
   if (measurements.has_times()) {
-    add_repetitions(report, notes);
+    add_repetitions(measurements, notes);
   } else {
     notes.push_back(measurements.why_no_times());
   }
@@ -193,6 +255,8 @@ std::vector<std::string> run_notes(const json& report, const Measurements& measu
   for (const json& note : report.at("notes")) notes.push_back(note.get<std::string>());
   add_missing_methods(report, runs, notes);
   add_too_fast(runs, notes);
+  add_unsteady(runs, notes);
+  add_worse_than_hull(report, runs, notes);
   add_noise(report, runs, notes);
   add_totals(report, notes);
   return notes;

@@ -25,6 +25,8 @@ double quantile_of_sorted(const std::vector<double>& sorted, double q) {
   const double position = q * static_cast<double>(sorted.size() - 1);
   const auto below = static_cast<std::size_t>(position);
   const std::size_t above = std::min(below + 1, sorted.size() - 1);
+  // Between infinite values, and beside one, the formula would give NaN.
+  if (position == static_cast<double>(below) || sorted[below] == sorted[above]) return sorted[below];
   return sorted[below] + (position - static_cast<double>(below)) * (sorted[above] - sorted[below]);
 }
 

@@ -5,6 +5,7 @@
 #include <set>
 #include <stdexcept>
 
+#include "benchmarks/metrics/metric_table.hpp"
 #include "benchmarks/overview_tables.hpp"
 #include "benchmarks/paper_comparison.hpp"
 #include "benchmarks/plan.hpp"
@@ -126,8 +127,14 @@ std::vector<json> suite_reports(const fs::path& folder) {
   return reports;
 }
 
+json report_to_share(const fs::path& folder) {
+  json report = make_report(folder);
+  report["metrics"] = metric_table_to_json();
+  return report;
+}
+
 void finish_run(const fs::path& folder) {
-  const json report = make_report(folder);
+  const json report = report_to_share(folder);
   write_tables(folder, make_documents({report}));
   write_report_file(folder / "report.json", report);
 }

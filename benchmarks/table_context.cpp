@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <map>
 #include <utility>
 
 #include "benchmarks/labels.hpp"
@@ -75,25 +76,11 @@ std::vector<std::int64_t> all_step_times(const std::vector<const RunRecord*>& ru
   return result;
 }
 
-std::vector<double> all_values(const std::vector<const RunRecord*>& runs, const std::string& name) {
-  std::vector<double> result;
-  for (const RunRecord* run : runs) {
-    if (const auto value = metric(*run, name)) result.push_back(*value);
-  }
-  return result;
-}
-
 /// How a run that gave no result to be believed is called in a cell. A result that is not a valid
 /// multipolygon is one, whatever its time.
 std::string failure_name(const RunRecord& run) {
   return run.status == Status::kOk || run.status == Status::kInvalidOutput ? "invalid"
                                                                            : to_string(run.status);
-}
-
-const RunRecord* first_failure(const std::vector<const RunRecord*>& runs) {
-  const auto found =
-      std::find_if(runs.begin(), runs.end(), [](const RunRecord* run) { return !is_measured(*run); });
-  return found == runs.end() ? nullptr : *found;
 }
 
 std::string cell(const std::vector<const RunRecord*>& runs, Quantity quantity) {
@@ -105,9 +92,56 @@ std::string cell(const std::vector<const RunRecord*>& runs, Quantity quantity) {
     case Quantity::kPaperBoundary:
       return time_cell(all_times(runs, Boundary::kPaper));
     case Quantity::kError:
-      return percent(all_values(runs, "l2")) + " (" + percent(all_values(runs, "l2_paper")) + ")";
+      return percent(all_values(runs, "l2")) + " (" + percent(all_values(runs, "l2_paper")) + ")" +
+             hull_mark(runs);
   }
   return kNothing;
+}
+
+std::size_t usual_repetitions(const Measurements& measurements) {
+  std::map<std::size_t, std::size_t> rows;  // by number of repetitions
+  for (const RunRecord& run : measurements.runs()) {
+    if (!run.time_ns.empty()) ++rows[run.time_ns.size()];
+  }
+  if (rows.empty()) return 0;
+  return std::max_element(rows.begin(), rows.end(),
+                          [](const auto& a, const auto& b) { return a.second <= b.second; })
+      ->first;
+}
+
+std::string row_label(const TableContext& context, const Line& line, const std::vector<Case>& cases) {
+  const std::size_t usual = usual_repetitions(context.measurements);
+  std::size_t least = usual;
+  std::size_t most = usual;
+  bool any = false;
+  for (const Case& which : cases) {
+    for (const RunRecord* run : context.measurements.find(line.method, line.protocol, which)) {
+      const std::size_t count = run->time_ns.size();
+      if (count == 0) continue;
+      least = any ? std::min(least, count) : count;
+      most = any ? std::max(most, count) : count;
+      any = true;
+    }
+  }
+  std::string text = label(context, line);
+  if (least == usual && most == usual) return text;
+  text += ", " + std::to_string(least) + (least == most ? "" : " to " + std::to_string(most));
+  return text + (most == 1 ? " repetition" : " repetitions");
+}
+
+std::string hull_mark(const std::vector<const RunRecord*>& runs) {
+  const bool worse = std::any_of(runs.begin(), runs.end(),
+                                 [](const RunRecord* run) { return is_worse_than_convex_hull(*run); });
+  return worse ? std::string(" ") + kSign : "";
+}
+
+void explain_hull_mark(TableSection& section) {
+  const auto& rows = section.table.rows();
+  const bool any = std::any_of(rows.begin() + 1, rows.end(), [](const auto& row) {
+    return std::any_of(row.begin(), row.end(), [](const std::string& text) { return text.ends_with(kSign); });
+  });
+  if (any)
+    section.remarks.push_back(std::string(kSign) + ": the error is above that of the points' convex hull.");
 }
 
 std::vector<Shape> shapes(const std::vector<Case>& cases) {
@@ -163,7 +197,9 @@ std::string failure_marks(TableContext& context, const Line& line, const Shape& 
 }
 
 std::vector<std::string> row(TableContext& context, const Line& line, const Shape& shape, Quantity quantity) {
-  std::vector<std::string> result = {label(context, line) + failure_marks(context, line, shape)};
+  const bool is_time = quantity != Quantity::kError;
+  std::vector<std::string> result = {(is_time ? row_label(context, line, shape) : label(context, line)) +
+                                     failure_marks(context, line, shape)};
   for (const Case& which : shape) {
     result.push_back(cell(context.measurements.find(line.method, line.protocol, which), quantity));
   }

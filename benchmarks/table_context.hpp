@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "benchmarks/claims.hpp"
+#include "benchmarks/document.hpp"
 #include "benchmarks/measurements.hpp"
 #include "benchmarks/text_table.hpp"
 
@@ -14,13 +15,6 @@ namespace hullbench {
 
 /// In a cell: there is no such value.
 inline constexpr const char* kNothing = "–";
-
-/// A line, or a column, of a table: protocols never share one.
-struct Line {
-  std::string method;
-  std::string protocol;
-  bool operator==(const Line&) const = default;
-};
 
 /// A report while its tables are printed.
 struct TableContext {
@@ -44,16 +38,25 @@ std::string milliseconds(double nanoseconds);
 
 std::vector<std::int64_t> all_times(const std::vector<const RunRecord*>& runs, Boundary boundary);
 std::vector<std::int64_t> all_step_times(const std::vector<const RunRecord*>& runs, const PaperStep& step);
-std::vector<double> all_values(const std::vector<const RunRecord*>& runs, const std::string& name);
 
-/// The first of `runs` that gave no result to be believed; null when there is none.
-const RunRecord* first_failure(const std::vector<const RunRecord*>& runs);
 /// How it is called in a cell: its status, or "invalid".
 std::string failure_name(const RunRecord& run);
 /// The notes that explain a line's failures on a shape, one a kind of failure: " [1] [3]".
 std::string failure_marks(TableContext& context, const Line& line, const Shape& shape);
 
 enum class Quantity { kEqualWork, kPaperBoundary, kError };
+
+/// How many repetitions most rows with times have; 0 without times.
+std::size_t usual_repetitions(const Measurements& measurements);
+
+/// The line's label, with its number of repetitions on `cases` where that is not the usual one:
+/// "Turf concave (paper), 3 repetitions".
+std::string row_label(const TableContext& context, const Line& line, const std::vector<Case>& cases);
+
+/// Behind an error: the result is worse than the convex hull of the points. Empty when it is not.
+std::string hull_mark(const std::vector<const RunRecord*>& runs);
+/// Adds to `section` what the mark means, if a cell has it.
+void explain_hull_mark(TableSection& section);
 
 /// What the cell of one line and case says.
 std::string cell(const std::vector<const RunRecord*>& runs, Quantity quantity);

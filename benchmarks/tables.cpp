@@ -4,7 +4,7 @@
 #include <array>
 #include <cmath>
 #include <iterator>
-#include <map>
+#include <limits>
 #include <optional>
 #include <set>
 #include <span>
@@ -12,12 +12,12 @@
 #include <utility>
 #include <vector>
 
-#include "benchmarks/bootstrap.hpp"
 #include "benchmarks/claims.hpp"
 #include "benchmarks/collection_tables.hpp"
 #include "benchmarks/curve_table.hpp"
 #include "benchmarks/labels.hpp"
 #include "benchmarks/number_format.hpp"
+#include "benchmarks/ratios.hpp"
 #include "benchmarks/report_notes.hpp"
 #include "benchmarks/statistics.hpp"
 #include "benchmarks/table_context.hpp"
@@ -54,56 +54,60 @@ std::vector<TableSection> shape_tables(TableContext& context, const Shape& shape
                          TextTable(std::move(header)),
                          {}};
     for (const Line& line : lines) section.table.add_row(row(context, line, shape, kind.quantity));
+    explain_hull_mark(section);
     sections.push_back(std::move(section));
   }
   return sections;
 }
 
-/// One value of a line on a case: the median of its equal-work times or of its errors; none when it failed.
-std::optional<double> value_of(const TableContext& context, const Line& line, const Case& which,
-                               Quantity quantity) {
-  const auto runs = context.measurements.find(line.method, line.protocol, which);
-  if (runs.empty() || first_failure(runs) != nullptr) return std::nullopt;
-  if (quantity == Quantity::kEqualWork) return median(all_times(runs, Boundary::kEqualWork));
-  const std::vector<double> errors = all_values(runs, "l2");
-  if (errors.empty()) return std::nullopt;
-  return median(std::span<const double>(errors));
+/// Median, interval, least and largest as cells.
+std::vector<std::string> ratio_cells(const Ratios& ratios) {
+  if (!ratios.median) return {kNothing, kNothing, kNothing, kNothing};
+  return {ratio_text(*ratios.median), interval_text(ratios.interval), ratio_text(ratios.least),
+          ratio_text(ratios.most)};
 }
 
-/// Ratios by shape.
-using Ratios = std::map<std::pair<std::string, bool>, std::vector<double>>;
-
-std::vector<double> values_of(const Ratios& by_shape) {
-  std::vector<double> result;
-  for (const auto& [shape, values] : by_shape) result.insert(result.end(), values.begin(), values.end());
-  return result;
+/// The medians of the times and errors of the cases with holes over those without, of one line. A case with
+/// holes on which it failed is infinitely bad.
+std::vector<std::string> holes_cells(const TableContext& context, const Line& line,
+                                     const std::vector<Case>& cases) {
+  std::vector<double> times;
+  std::vector<double> errors;
+  for (const Case& which : cases) {
+    if (!which.holes) continue;
+    const auto with = context.measurements.find(line.method, line.protocol, which);
+    const auto without =
+        context.measurements.find(line.method, line.protocol, {which.dataset, false, which.n});
+    if (with.empty() || without.empty() || first_failure(without) != nullptr) continue;
+    const bool failed = first_failure(with) != nullptr;
+    const auto add = [&](std::vector<double>& ratios, auto values) {
+      if (failed) return ratios.push_back(std::numeric_limits<double>::infinity());
+      const double by = values(without);
+      if (by > 0) ratios.push_back(values(with) / by);
+    };
+    if (context.measurements.has_times())
+      add(times, [](const auto& runs) { return median(all_times(runs, Boundary::kEqualWork)); });
+    add(errors, [](const auto& runs) {
+      const std::vector<double> values = all_values(runs, "l2");
+      return values.empty() ? 0 : median(std::span<const double>(values));
+    });
+  }
+  std::vector<std::string> cells;
+  for (const auto& ratios : {times, errors}) {
+    cells.push_back(ratios.empty() ? kNothing : ratio_text(median(std::span<const double>(ratios))));
+  }
+  if (!context.measurements.has_times()) cells.erase(cells.begin());
+  return cells;
 }
 
-/// Their median, the least and the largest as cells.
-std::vector<std::string> ratio_cells(const Ratios& by_shape) {
-  const std::vector<double> ratios = values_of(by_shape);
-  if (ratios.empty()) return {kNothing, kNothing, kNothing};
-  const auto [least, most] = std::minmax_element(ratios.begin(), ratios.end());
-  return {three_digits(median(std::span<const double>(ratios))), three_digits(*least), three_digits(*most)};
-}
-
-const std::vector<std::string> kWithTimes = {"Method", "Cases", "Time", "95 %",        "least", "most",
-                                             "L2",     "least", "most", "Holes: time", "L2"};
-const std::vector<std::string> kErrorsOnly = {"Method", "Cases", "L2", "least", "most", "Holes: L2"};
-
-/// The interval of their median, clustered by shape.
-std::string interval_cell(const Ratios& by_shape) {
-  std::vector<std::vector<double>> clusters;
-  for (const auto& [shape, values] : by_shape) clusters.push_back(values);
-  const auto interval = clustered_median_interval(clusters);
-  return interval ? three_digits(interval->low) + "–" + three_digits(interval->high) : kNothing;
-}
+const std::vector<std::string> kWithTimes = {"Method", "Solved", "Time", "95 %",        "least", "most",
+                                             "L2",     "least",  "most", "Holes: time", "L2"};
+const std::vector<std::string> kErrorsOnly = {"Method", "Solved", "L2", "least", "most", "Holes: L2"};
 
 /// What the paper's text says of its figure in one table: every method beside Polylidar, and what holes
 /// change.
 std::optional<TableSection> ratio_table(const TableContext& context, const std::vector<Case>& cases) {
-  const Line reference = {paper().at("reference_method").get<std::string>(),
-                          paper().at("protocol").get<std::string>()};
+  const Line reference = reference_line();
   const std::vector<Line> lines = lines_of(context, cases);
   if (std::find(lines.begin(), lines.end(), reference) == lines.end() || lines.size() < 2)
     return std::nullopt;
@@ -114,43 +118,99 @@ std::optional<TableSection> ratio_table(const TableContext& context, const std::
                        TextTable(times ? kWithTimes : kErrorsOnly),
                        {}};
   for (const Line& line : lines) {
-    std::vector<std::string> cells = {label(context, line), ""};
-    std::vector<std::string> holes_cells;
-    std::size_t count = 0;
-    for (const Quantity quantity : {Quantity::kEqualWork, Quantity::kError}) {
-      if (quantity == Quantity::kEqualWork && !times) continue;
-      Ratios to_reference;
-      Ratios to_no_holes;
-      for (const Case& which : cases) {
-        const auto ours = value_of(context, line, which, quantity);
-        const auto divide = [&](const std::optional<double>& by, Ratios& ratios) {
-          if (ours && by && *by > 0) ratios[{which.dataset, which.holes}].push_back(*ours / *by);
-        };
-        divide(value_of(context, reference, which, quantity), to_reference);
-        if (which.holes)
-          divide(value_of(context, line, {which.dataset, false, which.n}, quantity), to_no_holes);
-      }
-      count = std::max(count, values_of(to_reference).size());
-      auto ratios = ratio_cells(to_reference);
-      if (quantity == Quantity::kEqualWork) ratios.insert(ratios.begin() + 1, interval_cell(to_reference));
-      cells.insert(cells.end(), ratios.begin(), ratios.end());
-      holes_cells.push_back(ratio_cells(to_no_holes).front());
-    }
-    cells[1] = std::to_string(count);
-    cells.insert(cells.end(), holes_cells.begin(), holes_cells.end());
+    const Ratios errors = metric_ratios(context.measurements, line, reference, cases, "l2");
+    const Ratios slower = time_ratios(context.measurements, line, reference, cases);
+    const Ratios& counted = errors.cases > slower.cases ? errors : slower;
+    std::vector<std::string> cells = {label(context, line), std::to_string(counted.cases - counted.failures) +
+                                                                " of " + std::to_string(counted.cases)};
+    const auto append = [&](const std::vector<std::string>& more) {
+      cells.insert(cells.end(), more.begin(), more.end());
+    };
+    if (times) append(ratio_cells(slower));
+    std::vector<std::string> error_cells = ratio_cells(errors);
+    error_cells.erase(error_cells.begin() + 1);
+    append(error_cells);
+    append(holes_cells(context, line, cases));
     section.table.add_row(std::move(cells));
   }
+  section.remarks.push_back(
+      (times ? "Ratios of the times of equal work, and of the errors as a part of the ground truth's area. "
+             : "Ratios of the errors as a part of the ground truth's area. ") +
+      std::string("Cases are a shape, with or without holes, at a number of points. The ") +
+      (times ? "last two columns" : "last column") + ": with holes over without, the median of the cases.");
+  return section;
+}
+
+/// The rivals that are quoted: the fastest one that gives the same polygons, and the paper's.
+std::optional<TableSection> headline_table(const TableContext& context) {
+  const json& headline = context.report.at("summary").at("headline");
+  if (headline.is_null()) return std::nullopt;
+  const auto label_of = [&](const json& line) {
+    return label(context, {line.at("method").get<std::string>(), line.at("protocol").get<std::string>()});
+  };
+  const std::string reference = label_of(headline.at("reference"));
+  TableSection section{
+      "headline",
+      "The fastest rival with the same polygons: time over that of " + reference,
+      TextTable({"Method", "Same polygons", "Cases", "Failed", "Time", "95 %", "least", "most"}),
+      {}};
+  bool any_same = false;
+  std::string does_more;
+  for (const json& rival : headline.at("rivals")) {
+    const bool same = rival.at("same_polygons").get<bool>();
+    any_same = any_same || same;
+    does_more = rival.value("does_more", does_more);
+    const auto number = [&](const char* name) {
+      return rival.at(name).is_null() ? std::numeric_limits<double>::infinity()
+                                      : rival.at(name).get<double>();
+    };
+    const auto interval =
+        rival.at("low").is_null() ? std::nullopt : std::optional(Interval{number("low"), number("high")});
+    section.table.add_row({label_of(rival), same ? "yes" : "no", rival.at("cases").dump(),
+                           rival.at("failures").dump(), ratio_text(number("median")), interval_text(interval),
+                           ratio_text(number("least")), ratio_text(number("most"))});
+  }
   section.remarks.emplace_back(
-      (times ? "Ratios of the medians of the time of equal work, and of the errors as a part of the ground "
-               "truth's area; "
-             : "Ratios of the errors as a part of the ground truth's area; ") +
-      std::string("of the cases the median, the least and the largest. Cases are a shape, with or without "
-                  "holes, at a number of points. The ") +
-      (times ? "last two columns" : "last column") + ": with holes over without, the median." +
-      (times
-           ? " 95 %: a bootstrap interval of the median that resamples whole shapes; of so few shapes it is "
-             "a rough one."
-           : ""));
+      "The same polygons, as the records tell: on every case that both solved as many polygons, holes and "
+      "vertices, and area and L2 equal to within 1e-9 of the larger one. Of all methods with the same "
+      "polygons "
+      "the one with the least median stands here" +
+      std::string(any_same ? "." : ", but there is none in this run."));
+  if (!does_more.empty()) section.remarks.push_back(does_more);
+  return section;
+}
+
+/// How long a method takes that has not been warmed up, where the records say it.
+std::optional<TableSection> cold_table(const TableContext& context) {
+  if (!context.measurements.has_times()) return std::nullopt;
+  TableSection section{
+      "cold",
+      "First call in a fresh process: time of equal work, ms",
+      TextTable({"Method", "Cases", "First call", "Warmed up", "First / warmed up", "least", "most"}),
+      {}};
+  for (const Line& line : lines_of(context, context.measurements.cases())) {
+    std::vector<double> cold;
+    std::vector<double> warm;
+    std::vector<double> ratios;
+    for (const RunRecord& run : context.measurements.runs()) {
+      if (Line{run.method, run.protocol} != line || !run.cold_time_ns || !is_measured(run)) continue;
+      cold.push_back(static_cast<double>(*run.cold_time_ns));
+      warm.push_back(median(run.time_ns));
+      if (warm.back() > 0) ratios.push_back(cold.back() / warm.back());
+    }
+    if (ratios.empty()) continue;
+    const auto [least, most] = std::minmax_element(ratios.begin(), ratios.end());
+    section.table.add_row({label(context, line), std::to_string(cold.size()),
+                           milliseconds(median(std::span<const double>(cold))),
+                           milliseconds(median(std::span<const double>(warm))),
+                           three_digits(median(std::span<const double>(ratios))), three_digits(*least),
+                           three_digits(*most)});
+  }
+  if (section.table.empty()) return std::nullopt;
+  section.remarks.emplace_back(
+      "Of methods that compile while they run, which all other tables show warmed up: medians of the cases "
+      "on "
+      "which they succeeded, and of the cases' ratios.");
   return section;
 }
 
@@ -162,7 +222,7 @@ bool is_steps_shape(const Case& which) {
 std::vector<std::string> measured_steps(const TableContext& context, const Line& line, const Case& which) {
   const auto runs = context.measurements.find(line.method, line.protocol, which);
   if (runs.empty() || first_failure(runs) != nullptr) return {};
-  std::vector<std::string> result = {label(context, line)};
+  std::vector<std::string> result = {row_label(context, line, {which})};
   for (const PaperStep& step : paper_steps()) {
     const std::vector<std::int64_t> values = all_step_times(runs, step);
     result.push_back(values.empty() ? kNothing : milliseconds(median(values)));
@@ -224,14 +284,9 @@ std::optional<TableSection> steps_table(const TableContext& context) {
   return section;
 }
 
-std::string holds_text(const json& holds) {
-  if (!holds.is_boolean()) return kNothing;
-  return holds.get<bool>() ? "yes" : "no";
-}
-
 std::optional<TableSection> claims_table(TableContext& context) {
   const bool times = context.measurements.has_times();
-  std::vector<std::string> header = {"Claim", "Paper", "Here", "Holds"};
+  std::vector<std::string> header = {"Claim", "Paper", "Here", "Verdict"};
   if (times) header.insert(header.end() - 1, "Equal work");
   TableSection section{"claims", "The paper's claims beside ours", TextTable(std::move(header)), {}};
   const json& known = paper().at("claims").at("list");
@@ -251,10 +306,15 @@ std::optional<TableSection> claims_table(TableContext& context) {
                                       claim.at("paper").get<std::string>(),
                                       claim.at("ours").get<std::string>()};
     if (times) cells.push_back(equal_work.is_string() ? equal_work.get<std::string>() : kNothing);
-    cells.push_back(holds_text(claim.at("holds")));
+    const json& verdict = claim.at("verdict");
+    cells.push_back(verdict.is_null() ? kNothing : verdict.get<std::string>());
     section.table.add_row(std::move(cells));
   }
   if (section.table.empty()) return std::nullopt;
+  section.remarks.emplace_back(
+      "Larger, smaller: than a number that the paper gives, by more than the band round it that the note "
+      "says. "
+      "Refuted: of a claim without a number.");
   return section;
 }
 
@@ -294,6 +354,10 @@ Document make_document(const json& report) {
   } else if (context.measurements.cases().size() > 1) {
     for (const Shape& shape : all_shapes) add_all(document, shape_tables(context, shape));
     add(document, ratio_table(context, context.measurements.cases()));
+  }
+  if (!has_axis) {
+    add(document, headline_table(context));
+    add(document, cold_table(context));
   }
   if (!has_axis && is_papers_experiment(context)) {
     add(document, steps_table(context));

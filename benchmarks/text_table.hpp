@@ -41,6 +41,9 @@ class Notes {
   std::vector<std::string> texts_;
 };
 
+/// Behind a value: what it means stands below the table. CSV leaves it out.
+inline constexpr const char* kSign = "†";
+
 /// `cell` without the marks of notes at its end: "SpatiaLite (paper)" of "SpatiaLite (paper) [1] [3]".
 std::string without_marks(const std::string& cell);
 

@@ -17,7 +17,7 @@ from typing import Any
 
 from records import Experiment, RecordError, Row
 from report_common import Entrant, case_of, entrant_of, label, median_interval, round_to
-from report_data import member_of, words_of, charts, metric_entry, metric_names
+from report_data import MetricTable, charts, member_of, words_of
 from report_summary import SAME_ERROR
 
 # What became of a pair, in the program's words, in the order in which the page tells it.
@@ -377,5 +377,6 @@ def _placed(chart: dict[str, Any], x: list[Any]) -> dict[str, list[dict[str, Any
 
 
 def charted_metrics(comparison: Comparison) -> list[dict[str, Any]]:
-    rows = [row for experiment in (*comparison.a, *comparison.b) for row in experiment.rows]
-    return [entry for name in metric_names(rows) if (entry := metric_entry(name))["charted"]]
+    experiments = [*comparison.a, *comparison.b]
+    table = MetricTable(experiments)
+    return [table.entry(name) for name in table.charted_names([row for one in experiments for row in one.rows])]

@@ -19,7 +19,7 @@ from page import PLOTS, code, colours, data, fill, method_styles
 from pictures import pack as pack_pictures
 from records import EXIT_CONFIGURATION, Experiment, RecordError, load
 from report_common import PROTOCOLS, entrants_of, label, text
-from report_data import charts, columns, metric_entry, metric_names, pack
+from report_data import MetricTable, charts, columns, pack
 from report_html import environment_html, notes_html, paper_html, parameters_html, summary_html, tables_html
 from report_summary import measure_noise, summarise
 
@@ -119,6 +119,7 @@ def _report(experiments: Sequence[Experiment], folder: Path, title: str) -> dict
         entrants, key=lambda entrant: (styles[entrant.method]["order"], entrant.protocol != "paper", entrant.protocol)
     )
     rows = [row for experiment in experiments for row in experiment.rows]
+    metrics = MetricTable(experiments)
     return {
         "title": title,
         "run": folder.resolve().name,
@@ -143,7 +144,7 @@ def _report(experiments: Sequence[Experiment], folder: Path, title: str) -> dict
             }
             for experiment in experiments
         ],
-        "metrics": [metric_entry(name) for name in metric_names(rows)],
+        "metrics": [metrics.entry(name) for name in metrics.names(rows)],
         "rows": len(rows),
     }
 

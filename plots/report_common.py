@@ -137,6 +137,8 @@ def round_to(value: float, digits: int) -> float | int:
 
 def number(value: float) -> str:
     """For people: three significant digits, no exponent between a thousandth and a million."""
+    if math.isinf(value):
+        return "∞"
     value = float(f"{value:.3g}")  # first, so that 0.9999 and 1 are written alike
     if value == 0:
         return "0"

@@ -58,36 +58,14 @@ METRICS: dict[str, tuple[str, str, float]] = {
     "symmetric_difference_area": ("Area of the symmetric difference", "length²", 1),
 }
 
-# Of no use in a chart of one value a case.
-NOT_CHARTED = {
-    "area",
-    "ground_truth_area",
-    "ground_truth_convexity",
-    "symmetric_difference_area",
-    "l2_convex_hull",
-    "l2_best_triangles",
-}
-
-BETTER_HIGH = {
-    "iou",
-    "boundary_iou",
-    "f_score_1h",
-    "f_score_2h",
-    "f_score_4h",
-    "hole_precision",
-    "hole_recall",
-    "hole_f1",
-    "points_covered",
-    "vertices_from_input",
-    "skill",
-}
-NEITHER = {"area_bias", "perimeter_ratio", "polygons", "holes", "oriented"} | NOT_CHARTED
+# Says what l2 says.
+NOT_CHARTED = {"symmetric_difference_area"}
 
 # Numbers of things.
 WHOLE = {"polygons", "holes", "polygons_error", "holes_error", "slivers", "vertices"}
 
-# In no column: the witnesses' coordinates, and what the status says already.
-NO_COLUMN = ("witness", "valid", "invalid_reason")
+# In no column: what the status says already.
+NO_COLUMN = {"valid", "invalid_reason"}
 
 # Significant digits: five of these columns and four of the others; in large runs, whose digits are most of the file,
 # one less. A table shows four of the errors and three of the times.
@@ -113,26 +91,52 @@ def pack(value: Any) -> dict[str, Any]:
     }
 
 
-def metric_names(rows: Sequence[Row]) -> list[str]:
-    """Of all metrics with a number in some row: those with a title first, in its order, then the others by name."""
-    seen = {name for row in rows for name, value in row.metrics.items() if _is_number(value)}
-    seen = {name for name in seen if not any(word in name for word in NO_COLUMN)}
-    return [name for name in METRICS if name in seen] + sorted(seen - METRICS.keys())
+class MetricTable:
+    """The program's table of metrics, from the records; of older reports, which have none, it is empty and nothing is
+    better."""
 
+    def __init__(self, experiments: Sequence[Experiment]) -> None:
+        self._known = {one["name"]: one for experiment in experiments for one in experiment.report.get("metrics", [])}
 
-def metric_entry(name: str) -> dict[str, Any]:
-    """As the page has it. "better": whether a low or a high value is; null: neither."""
-    title, unit, factor = METRICS.get(name, (name.replace("_", " ").capitalize(), "", 1))
-    better = "high" if name in BETTER_HIGH else None if name in NEITHER else "low"
-    return {
-        "name": name,
-        "title": title,
-        "unit": unit,
-        "factor": factor,
-        "better": better,
-        "charted": name not in NOT_CHARTED,
-        "whole": name in WHOLE,
-    }
+    def better(self, name: str) -> str | None:
+        """Which values are: "lower", "higher", "zero" or "one" (the nearer to it); None: neither."""
+        told = self._known.get(name, {}).get("better", "none")
+        return None if told == "none" else told
+
+    def is_place(self, name: str) -> bool:
+        """Whether it is a coordinate of where another metric was taken."""
+        one = self._known.get(name, {})
+        return one.get("group") == "boundary" and one.get("better") == "none"
+
+    def is_charted(self, name: str) -> bool:
+        """What describes the case, such as the spacing, is the same for all methods and is no metric to rank by."""
+        one = self._known.get(name)
+        if name in NOT_CHARTED:
+            return False
+        return one is None or one["better"] != "none" or one["group"] == "size"
+
+    def entry(self, name: str) -> dict[str, Any]:
+        """As the page has it."""
+        title, unit, factor = METRICS.get(name, (name.replace("_", " ").capitalize(), "", 1))
+        return {
+            "name": name,
+            "title": title,
+            "unit": unit,
+            "factor": factor,
+            "better": self.better(name),
+            "charted": self.is_charted(name),
+            "whole": name in WHOLE,
+        }
+
+    def names(self, rows: Sequence[Row]) -> list[str]:
+        """Of all metrics with a number in some row: those with a title first, in its order, then the others by
+        name."""
+        seen = {name for row in rows for name, value in row.metrics.items() if _is_number(value)}
+        seen = {name for name in seen - NO_COLUMN if not self.is_place(name)}
+        return [name for name in METRICS if name in seen] + sorted(seen - METRICS.keys())
+
+    def charted_names(self, rows: Sequence[Row]) -> list[str]:
+        return [name for name in self.names(rows) if self.is_charted(name)]
 
 
 # The rows, as columns.
@@ -173,7 +177,7 @@ def columns(experiments: Sequence[Experiment]) -> dict[str, Any]:
     for _, _, row in rows:
         for name, value in _times(row).items():
             numbers[name].append(value)
-    for name in metric_names([row for _, _, row in rows]):
+    for name in MetricTable(experiments).names([row for _, _, row in rows]):
         numbers[f"metric {name}"] = [
             row.metrics.get(name) if name in BRIEF_METRICS or not is_brief(experiment) else None
             for _, experiment, row in rows
@@ -258,7 +262,7 @@ def _charts(experiment: Experiment) -> list[dict[str, Any]]:
     kinds: dict[str, list[Row]] = defaultdict(list)
     for row in rest:
         kinds[_kind(experiment, row)].append(row)
-    return made + [_by_convexity(kind, rows) for kind, rows in kinds.items()]
+    return made + [_by_convexity(experiment, kind, rows) for kind, rows in kinds.items()]
 
 
 def _by_n(experiment: Experiment, dataset: str, holes: bool) -> dict[str, Any]:
@@ -299,7 +303,7 @@ def _series(experiment: Experiment, rows: Sequence[Row], place: Callable[[Row], 
     """The points of every entrant by x, and the rows that have none, by entrant and status."""
     series: dict[str, list[dict[str, Any]]] = {entrant.key: [] for entrant in entrants_of(experiment)}
     missing: dict[str, list[dict[str, Any]]] = defaultdict(list)
-    names = [name for name in metric_names(rows) if name not in NOT_CHARTED]
+    names = MetricTable([experiment]).charted_names(rows)
     for row in rows:
         key, x = entrant_of(row).key, place(row)
         if row.ok and row.median_ns is not None:
@@ -334,9 +338,9 @@ def _kind(experiment: Experiment, row: Row) -> str:
     return dataset_title(experiment, member_of(row.dataset)[0]) + (" with holes" if row.holes else "")
 
 
-def _by_convexity(kind: str, rows: Sequence[Row]) -> dict[str, Any]:
+def _by_convexity(experiment: Experiment, kind: str, rows: Sequence[Row]) -> dict[str, Any]:
     """The shapes of a kind in classes of convexity, those that have shapes."""
-    names = [name for name in metric_names(rows) if name not in NOT_CHARTED]
+    names = MetricTable([experiment]).charted_names(rows)
     classes: dict[int, dict[str, list[Row]]] = defaultdict(lambda: defaultdict(list))
     missing: dict[str, list[dict[str, Any]]] = defaultdict(list)
     for row in rows:

@@ -8,7 +8,7 @@ from typing import Any
 
 from records import Experiment
 from report_common import PROTOCOLS, STATUS_WORDS, Entrant, count_of, entrants_of, label, number, text
-from report_data import BRIEF_METRICS, is_brief, metric_entry
+from report_data import BRIEF_METRICS, METRICS, is_brief
 from report_summary import (
     Noise,
     Ratio,
@@ -17,6 +17,7 @@ from report_summary import (
     accurate_sentence,
     failure_sentences,
     fastest_sentence,
+    headline_sentences,
     losses_sentences,
     measure_noise,
     noise_sentence,
@@ -32,6 +33,7 @@ EQUAL_WORK = (
 
 def summary_html(summaries: Sequence[Summary], noise: Noise | None) -> str:
     parts = [
+        _headline(summaries),
         _finding("fastest", "Fastest", [(one.title, fastest_sentence(one)) for one in summaries]),
         _finding("accurate", "Most accurate", [(one.title, accurate_sentence(one)) for one in summaries]),
         _losses(summaries),
@@ -44,7 +46,8 @@ def summary_html(summaries: Sequence[Summary], noise: Noise | None) -> str:
 
 def _reading(summaries: Sequence[Summary]) -> str:
     said = (
-        "Ratios are of medians, case by case, over the cases in which both have a valid result; a time is better "
+        "A ratio of times is the median over the rounds of a case, in which both were measured right after one another; "
+        "of the cases the median is told. A case that only the method failed has the ratio ∞; a time is better "
         "only where the 95 % intervals of the two medians do not touch."
     )
     alone = [one.title for one in summaries if one.without_interval]
@@ -60,6 +63,11 @@ def _brackets(summaries: Sequence[Summary]) -> str:
 def _finding(identity: str, title: str, findings: Sequence[tuple[str, str]]) -> str:
     items = "".join(f"<li><b>{text(where)}:</b> {text(said)}</li>" for where, said in findings)
     return f"<div class='finding' id='summary-{identity}'><h3>{text(title)}</h3><ul>{items}</ul></div>"
+
+
+def _headline(summaries: Sequence[Summary]) -> str:
+    findings = [(one.title, said) for one in summaries for said in headline_sentences(one)]
+    return _finding("headline", "Beside the fastest method with the same polygons", findings) if findings else ""
 
 
 def _losses(summaries: Sequence[Summary]) -> str:
@@ -101,8 +109,8 @@ def _standings(summaries: Sequence[Summary]) -> str:
     )
     return (
         "<div class='scroll' tabindex='0' role='region' aria-label='Standing of every method'>"
-        "<table id='summary-table' data-testid='summary-table'><caption>Every method beside Polylidar, over their "
-        f"common cases: median, and from the least to the largest</caption><thead><tr>{head}</tr></thead>{rows}"
+        "<table id='summary-table' data-testid='summary-table'><caption>Every method beside Polylidar, over the "
+        f"cases that either solved: median, and from the least to the largest</caption><thead><tr>{head}</tr></thead>{rows}"
         "</table></div>"
     )
 
@@ -165,7 +173,7 @@ def _claims(claims: Sequence[tuple[Experiment, dict[str, Any]]]) -> str:
         by_id.setdefault(claim["id"], []).append((experiment, claim))
     rows, unmeasured = "", []
     for entries in by_id.values():
-        measured = [(experiment, claim) for experiment, claim in entries if claim["holds"] is not None]
+        measured = [(experiment, claim) for experiment, claim in entries if _verdict(claim) is not None]
         rows += "".join(_claim(experiment, claim) for experiment, claim in measured)
         if not measured:
             unmeasured.append(entries[0][1]["claim"])
@@ -174,13 +182,21 @@ def _claims(claims: Sequence[tuple[Experiment, dict[str, Any]]]) -> str:
         "<div class='scroll' tabindex='0' role='region' aria-label='Claims of the paper'><table id='claims'><thead>"
         "<tr><th scope='col'>Claim</th><th scope='col'>Experiment</th><th scope='col' class='number'>Paper</th>"
         "<th scope='col' class='number'>Here</th><th scope='col' class='number'>Equal work</th>"
-        f"<th scope='col'>Holds</th></tr></thead><tbody>{rows}</tbody></table></div>"
+        f"<th scope='col'>Verdict</th></tr></thead><tbody>{rows}</tbody></table></div>"
     )
     return f"<h3>The paper’s claims beside this run</h3>{table if rows else ''}{said}"
 
 
+def _verdict(claim: dict[str, Any]) -> str | None:
+    """None: not measured. Older reports say only whether a claim holds."""
+    if "verdict" not in claim:
+        return {True: "confirmed", False: "refuted", None: None}[claim["holds"]]
+    return f"{claim['verdict']} than the paper’s" if claim["verdict"] in ("larger", "smaller") else claim["verdict"]
+
+
 def _claim(experiment: Experiment, claim: dict[str, Any]) -> str:
-    word, kind = ("yes", "holds") if claim["holds"] else ("no", "fails")
+    word = _verdict(claim)
+    kind = "holds" if word == "confirmed" else "fails"
     return (
         f"<tr data-claim='{text(claim['id'])}'><th scope='row'>{text(claim['claim'])}"
         f"<small>{text(claim['where'])}: {text(claim['detail'])}</small></th><td>{text(experiment.title)}</td>"
@@ -441,7 +457,7 @@ def notes_html(experiments: Sequence[Experiment]) -> str:
                 name = label(experiments, Entrant(entry.get("method", ""), entry.get("protocol", "")))
                 said[f"{name}: {entry['note']}"] = None
     for experiment in filter(is_brief, experiments):
-        titles = ", ".join(metric_entry(name)["title"] for name in BRIEF_METRICS)
+        titles = ", ".join(METRICS[name][0] for name in BRIEF_METRICS)
         said[f"{experiment.title}: of its {len(experiment.rows)} runs this page has these metrics: {titles}. All are in its records."] = None
     items = "".join(f"<li>{text(note)}</li>" for note in said)
     notes = f"<ul class='notes'>{items}</ul>" if items else "<p>The records have no notes.</p>"

@@ -1,15 +1,19 @@
 """The summary: who is fastest, who is most accurate, where each fails, computed from the records.
 
-Every comparison is between two entrants over the cases in which both have a valid result, from the medians of equal
-work; an entrant is a method under one protocol. A time is better only when the 95 % intervals of the two medians do
+Every comparison is between two entrants from the times of equal work; an entrant is a method under one protocol. A case
+that only one of them solved is infinitely bad for the other: a method that fails where it is slowest must not look
+faster than it is. Who is the fastest with the same polygons as the core is not decided here but read from the report's
+summary. A time is better only when the 95 % intervals of the two medians do
 not touch; without intervals (one repetition) the medians decide, and the text says so.
 """
 
 from __future__ import annotations
 
+import math
 from collections import Counter, defaultdict
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
+from typing import Any
 
 from records import Experiment, Row
 from report_common import (
@@ -41,9 +45,10 @@ NOISY = 0.03
 
 @dataclass(frozen=True)
 class Ratio:
-    """An entrant's values over the core's in their common cases."""
+    """An entrant's values over the core's, a case that only one of them solved included."""
 
     cases: int
+    failures: int  # of these: only the core has a result
     median: float
     low: float
     high: float
@@ -61,6 +66,7 @@ class Standing:
     failures: Counter[str] = field(default_factory=Counter)  # by status, ok left out
     reasons: dict[str, Counter[str]] = field(default_factory=dict)  # by status: the details, most frequent first
     results: dict[str, Row] = field(default_factory=dict)  # the ok rows by case
+    failed: set[str] = field(default_factory=set)  # the other cases; none of a method that is not installed
     fastest_in: int = 0
     most_accurate_in: int = 0
     time: Ratio | None = None  # beside the core; None: it is the core, or no case in common
@@ -79,6 +85,8 @@ class Summary:
     undecided: int  # contested cases in which the intervals of the two fastest touch
     without_interval: bool  # the times have one repetition, or too few for an interval
     compared_errors: int
+    headline: dict[str, Any] | None  # as results/report.schema.json; None: no rival, or an older report
+    titles: dict[str, str]  # of the methods in it
 
 
 @dataclass(frozen=True)
@@ -111,8 +119,8 @@ def summarise(experiment: Experiment) -> Summary:
     compared = sum(_award_error(contest) for contest in contests)
     for one in everyone:
         if core is not None and one is not core:
-            one.time = _ratio(one, core, lambda row: row.median_ns, _time_order)
-            one.error = _ratio(one, core, lambda row: row.metric("l2"), _error_order)
+            one.time = _ratio(one, core, _time_ratio, _time_order)
+            one.error = _ratio(one, core, _error_ratio, _error_order)
     timed = [row for one in everyone for row in one.results.values()]
     return Summary(
         experiment.name,
@@ -123,6 +131,8 @@ def summarise(experiment: Experiment) -> Summary:
         undecided,
         bool(timed) and all(median_interval(row) is None for row in timed),
         compared,
+        experiment.report["summary"].get("headline"),
+        {name: method["title"] for name, method in experiment.methods.items()},
     )
 
 
@@ -140,6 +150,8 @@ def _count(standing: Standing, row: Row) -> None:
         standing.results[case_of(row)] = row
     else:
         standing.failures[row.status] += 1
+        if row.status != "not_installed":
+            standing.failed.add(case_of(row))
         standing.reasons.setdefault(row.status, Counter())[row.detail] += 1
 
 
@@ -178,22 +190,71 @@ def _error_order(one: Row, other: Row) -> int:
     return (first > second) - (first < second)
 
 
+def _time_ratio(one: Row, other: Row) -> float | None:
+    """The median over the rounds that both were measured in; rows that do not tell their rounds have them in order."""
+
+    def by_round(row: Row) -> dict[int, int]:
+        times = row.raw["time_ns"]
+        return dict(zip(row.raw.get("rounds") or range(len(times)), times))
+
+    beside = by_round(other)
+    ratios = [time / beside[place] for place, time in by_round(one).items() if beside.get(place)]
+    return median(ratios) if ratios else None
+
+
+def _error_ratio(one: Row, other: Row) -> float | None:
+    first, second = one.metric("l2"), other.metric("l2")
+    return first / second if first is not None and second else None
+
+
 def _ratio(
-    one: Standing, core: Standing, value: Callable[[Row], float | None], order: Callable[[Row, Row], int]
+    one: Standing,
+    core: Standing,
+    ratio_of: Callable[[Row, Row], float | None],
+    order: Callable[[Row, Row], int],
 ) -> Ratio | None:
-    pairs = [
-        (one.results[case], core.results[case])
-        for case in one.results
-        if case in core.results and value(one.results[case]) is not None and value(core.results[case])
-    ]
-    if not pairs:
+    orders: Counter[int] = Counter()
+    ratios = []
+    for case in one.results.keys() & core.results.keys():
+        row, beside = one.results[case], core.results[case]
+        if (ratio := ratio_of(row, beside)) is not None:
+            ratios.append(ratio)
+            orders[order(row, beside)] += 1
+    if not ratios:
         return None
-    ratios = [value(row) / value(beside) for row, beside in pairs]
-    orders = Counter(order(row, beside) for row, beside in pairs)
-    return Ratio(len(pairs), median(ratios), min(ratios), max(ratios), orders[-1], orders[1])
+    only_core, only_one = len(one.failed & core.results.keys()), len(core.failed & one.results.keys())
+    ratios += [math.inf] * only_core + [0.0] * only_one
+    orders.update({1: only_core, -1: only_one})
+    return Ratio(len(ratios), only_core, median(ratios), min(ratios), max(ratios), orders[-1], orders[1])
 
 
 # Sentences. They are plain text: whoever puts them into a page escapes them.
+
+
+def headline_sentences(summary: Summary) -> list[str]:
+    """The fastest method with the same polygons as the core, then the paper's rival and what it does more."""
+    if not summary.headline:
+        return []
+
+    def name(line: dict[str, Any]) -> str:
+        return f"{summary.titles.get(line['method'], line['method'])} ({line['protocol']})"
+
+    core = name(summary.headline["reference"])
+    said = []
+    for rival in summary.headline["rivals"]:
+        median_ratio = math.inf if rival["median"] is None else rival["median"]
+        interval = ""
+        if rival["low"] is not None:
+            high = math.inf if rival["high"] is None else rival["high"]
+            interval = f" (95 %: {number(rival['low'])} to {number(high)})"
+        cases = count_of(rival["cases"], "case")
+        failed = f", of which it failed {rival['failures']}" if rival["failures"] else ""
+        same = "the same polygons" if rival["same_polygons"] else "other polygons"
+        more = f". {rival['does_more']}" if "does_more" in rival else "."
+        said.append(f"{name(rival)}, {same}: {times(median_ratio)} the time of {core}{interval}, {cases}{failed}{more}")
+    if not any(rival["same_polygons"] for rival in summary.headline["rivals"]):
+        said.insert(0, f"no other method gives the same polygons as {core}.")
+    return said
 
 
 def fastest_sentence(summary: Summary) -> str:
@@ -240,7 +301,7 @@ def _fastest_of_the_accurate(summary: Summary) -> str:
 
 
 def _spanned(ratio: Ratio) -> str:
-    return f" (median of {ratio.cases} common cases, {span(ratio)})" if ratio.cases > 1 else ""
+    return f" (median of {ratio.cases} cases, {span(ratio)})" if ratio.cases > 1 else ""
 
 
 def accurate_sentence(summary: Summary) -> str:

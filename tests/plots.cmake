@@ -8,7 +8,8 @@ set(needs_of_comparison "${SYSTEM_PYTHON}" "${PROJECT_SOURCE_DIR}/plots/node_mod
 foreach(part IN ITEMS records figures html_report pictures comparison)
   hullbench_tool_test(NAME plots.${part} NEEDS ${needs_of_${part}}
     COMMAND "${SYSTEM_PYTHON}" -B -m unittest test_${part}_py)
-  set_tests_properties(plots.${part} PROPERTIES LABELS plots TIMEOUT 900 WORKING_DIRECTORY "${CMAKE_CURRENT_LIST_DIR}")
+  set_tests_properties(plots.${part} PROPERTIES LABELS plots TIMEOUT 900
+    WORKING_DIRECTORY "${CMAKE_CURRENT_LIST_DIR}" ENVIRONMENT "HULLBENCH=$<TARGET_FILE:hullbench>")
 endforeach()
 foreach(page IN ITEMS report comparison)
   hullbench_tool_test(NAME plots.${page}_in_browser

@@ -2,7 +2,10 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
+#include <limits>
+#include <utility>
 #include <vector>
 
 #include "benchmarks/bootstrap.hpp"
@@ -12,6 +15,9 @@ namespace {
 
 using Times = std::vector<std::int64_t>;
 using Clusters = std::vector<std::vector<double>>;
+using Nested = std::vector<std::vector<Passes>>;
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 void expect_interval(const std::optional<Interval>& interval, double low, double high) {
   ASSERT_TRUE(interval.has_value());
@@ -48,6 +54,126 @@ Interval brute_force(const Clusters& clusters) {
     }
   }
   return {smallest_but_tail(lower), -smallest_but_tail(negated_upper)};
+}
+
+/// Calls `take` with every choice of one of `counts[i]` for each i.
+template <typename Take>
+void for_each_choice(const std::vector<std::size_t>& counts, const Take& take) {
+  std::vector<std::size_t> chosen(counts.size(), 0);
+  for (bool more = true; more;) {
+    take(chosen);
+    more = false;
+    for (std::size_t place = 0; place < counts.size() && !more; ++place) {
+      more = ++chosen[place] < counts[place];
+      if (!more) chosen[place] = 0;
+    }
+  }
+}
+
+/// The middle of every resample of a case, the upper one of two or the lower, each written out with how
+/// likely it is.
+std::vector<std::pair<double, double>> resampled_case(const Passes& passes, bool upper) {
+  std::vector<std::pair<double, double>> result;
+  for_each_choice(std::vector<std::size_t>(passes.size(), passes.size()), [&](const auto& drawn) {
+    std::vector<std::size_t> counts;
+    double chance = std::pow(1.0 / static_cast<double>(passes.size()), passes.size());
+    for (const std::size_t pass : drawn) {
+      counts.insert(counts.end(), passes[pass].size(), passes[pass].size());
+      chance /= std::pow(static_cast<double>(passes[pass].size()), passes[pass].size());
+    }
+    for_each_choice(counts, [&](const auto& rounds) {
+      std::vector<double> values;
+      for (const std::size_t pass : drawn) {
+        for (std::size_t k = 0; k < passes[pass].size(); ++k)
+          values.push_back(passes[pass][rounds[values.size()]]);
+      }
+      std::sort(values.begin(), values.end());
+      result.emplace_back(values[upper ? values.size() / 2 : (values.size() - 1) / 2], chance);
+    });
+  });
+  return result;
+}
+
+/// The median of every resample of clusters, cases, passes and rounds with how likely it is.
+std::vector<std::pair<double, double>> resampled(const Nested& clusters, bool upper) {
+  std::vector<std::pair<double, double>> result;
+  for_each_choice(std::vector<std::size_t>(clusters.size(), clusters.size()), [&](const auto& drawn) {
+    std::vector<std::vector<std::pair<double, double>>> cases;
+    std::vector<std::size_t> counts;
+    for (const std::size_t which : drawn) {
+      for (const Passes& passes : clusters[which]) {
+        cases.push_back(resampled_case(passes, upper));
+        counts.push_back(cases.back().size());
+      }
+    }
+    const double chance = std::pow(1.0 / static_cast<double>(clusters.size()), clusters.size());
+    for_each_choice(counts, [&](const auto& chosen) {
+      double together = chance;
+      std::vector<double> middles;
+      for (std::size_t i = 0; i < cases.size(); ++i) {
+        middles.push_back(cases[i][chosen[i]].first);
+        together *= cases[i][chosen[i]].second;
+      }
+      std::sort(middles.begin(), middles.end());
+      result.emplace_back(middles[upper ? middles.size() / 2 : (middles.size() - 1) / 2], together);
+    });
+  });
+  return result;
+}
+
+/// The interval from all of these.
+Interval brute_force(const Nested& clusters) {
+  const auto end = [](std::vector<std::pair<double, double>> medians, double sign) {
+    for (auto& [value, chance] : medians) value *= sign;
+    std::sort(medians.begin(), medians.end());
+    double sum = 0;
+    for (const auto& [value, chance] : medians) {
+      sum += chance;
+      if (sum >= 0.025) return sign * value;
+    }
+    return sign * medians.back().first;
+  };
+  return {end(resampled(clusters, false), 1), end(resampled(clusters, true), -1)};
+}
+
+TEST(NestedMedianInterval, AgreesWithEveryResample) {
+  const std::vector<Nested> all = {
+      {{{{1, 2, 3}}}, {{{2.5, 4, 5}}}},               // two shapes, one case and pass each
+      {{{{1, 2}, {3, 9}}}},                           // one case of two passes
+      {{{{1}, {7}, {4}}}, {{{2}, {3}}}},              // passes of one round
+      {{{{1, 2}}, {{5, 8}}}, {{{4}, {6}}}},           // two cases of one shape
+      {{{{1, 6}, {2}}}, {{{3, 5}}}, {{{4}, {0.5}}}},  // different numbers of rounds
+      {{{{2, 2}, {2, 3}}}, {{{1, kInfinity}}}}};      // ties and a failure
+  for (const Nested& clusters : all) {
+    const Interval expected = brute_force(clusters);
+    expect_interval(nested_median_interval(clusters), expected.low, expected.high);
+  }
+}
+
+// The same fifteen values as three passes that differ, and as one.
+TEST(NestedMedianInterval, HasWhatVariesBetweenPasses) {
+  const Passes apart = {
+      {1.00, 1.01, 1.02, 1.03, 1.04}, {2.00, 2.01, 2.02, 2.03, 2.04}, {3.00, 3.01, 3.02, 3.03, 3.04}};
+  Passes together = {{}};
+  for (const auto& pass : apart) together[0].insert(together[0].end(), pass.begin(), pass.end());
+  const auto wide = nested_median_interval({{apart}});
+  const auto narrow = nested_median_interval({{together}});
+  ASSERT_TRUE(wide && narrow);
+  EXPECT_LT(wide->low, narrow->low);
+  EXPECT_GT(wide->high, narrow->high);
+}
+
+TEST(NestedMedianInterval, OfSingleValuesIsTheClusteredOne) {
+  const auto nested = nested_median_interval({{{{1}}, {{2}}, {{3}}}, {{{10}}, {{11}}, {{12}}}});
+  const auto clustered = clustered_median_interval({{1, 2, 3}, {10, 11, 12}});
+  ASSERT_TRUE(nested && clustered);
+  EXPECT_EQ(nested->low, clustered->low);
+  EXPECT_EQ(nested->high, clustered->high);
+}
+
+TEST(NestedMedianInterval, OneValueHasNone) {
+  EXPECT_FALSE(nested_median_interval({}).has_value());
+  EXPECT_FALSE(nested_median_interval({{{{1}}}, {{{}}}, {}}).has_value());
 }
 
 TEST(MedianInterval, ByHand) {

@@ -57,7 +57,7 @@ TEST(CurveTable, AFailureIsInfinitelyBad) {
   run["detail"] = "SIGSEGV";
   const std::vector<std::string> cells = table_of(report).table.rows().at(1);
   EXPECT_EQ((std::vector<std::string>(cells.begin() + 1, cells.end())),
-            (std::vector<std::string>{"20.0", "25.0", "–", "1"}));
+            (std::vector<std::string>{"20.0", "25.0", "∞", "1"}));
   EXPECT_EQ(cells[0], "Polylidar (paper) [1]");
   EXPECT_EQ(make_document(report).notes.at(0),
             "[1] Polylidar (paper) on Hawaii, noise 2, n = 2000: crash, SIGSEGV.");

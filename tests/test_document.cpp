@@ -86,6 +86,12 @@ TEST(Csv, MarksOfNotesAreDropped) {
             "Convexity,Method\nhigh,SpatiaLite (paper)\n");
 }
 
+TEST(Csv, ASignBehindAValueIsDropped) {
+  EXPECT_EQ(
+      to_csv(table_of({{"Method", "L2"}, {"a", "10.0 (13.6) †"}, {"b", "113.7 †"}, {"c", "1.0 (2.0)"}})),
+      "Method,L2,L2 in brackets\na,10.0,13.6\nb,113.7,\nc,1.0,2.0\n");
+}
+
 TEST(Latex, EscapesEverySpecialCharacter) {
   const std::vector<std::pair<std::string, std::string>> cases = {{"\\", "\\textbackslash{}"},
                                                                   {"~", "\\textasciitilde{}"},

@@ -7,8 +7,10 @@ import hashlib
 import html.parser
 import io
 import json
+import os
 import re
 import statistics
+import subprocess
 import sys
 import tempfile
 import unittest
@@ -22,12 +24,13 @@ import page
 import report_data
 from records import load
 from report_common import median_interval, number
-from report_data import charts, columns, pack
+from report_data import METRICS, MetricTable, charts, columns, pack
 from report_html import environment_facts, notes_html
 from report_summary import (
     accurate_sentence,
     failure_sentences,
     fastest_sentence,
+    headline_sentences,
     losses_sentences,
     measure_noise,
     summarise,
@@ -320,24 +323,100 @@ class Charts(Folder):
         self.assertNotIn("run", low)
 
 
+class TheMetricTable(Folder):
+    """The directions are the program's own."""
+
+    def table(self, metrics, *rows):
+        [experiment] = self.load(*rows or [run()])
+        experiment.report["metrics"] = metrics
+        return MetricTable([experiment]), experiment
+
+    def test_every_direction_is_that_of_the_program(self):
+        program = os.environ.get("HULLBENCH")
+        if not program:
+            self.skipTest("HULLBENCH does not name the program")
+        metrics = json.loads(subprocess.run([program, "metrics", "--json"], capture_output=True, check=True).stdout)
+        table, _ = self.table(metrics)
+        self.assertGreater(len(metrics), 40)
+        for one in metrics:
+            entry = table.entry(one["name"])
+            self.assertEqual(entry["better"], None if one["better"] == "none" else one["better"], one["name"])
+            if one["better"] == "none":
+                self.assertEqual(entry["charted"], one["group"] == "size", one["name"])
+        for name in ("polygons_error", "holes_error", "area_bias"):
+            self.assertEqual(table.entry(name)["better"], "zero")
+        self.assertEqual(table.entry("perimeter_ratio")["better"], "one")
+        for name in ("spacing", "hausdorff_to_truth_x", "hausdorff_to_result_y", "l2_convex_hull"):
+            self.assertFalse(table.entry(name)["charted"], name)
+        told = set(METRICS) - {one["name"] for one in metrics}
+        self.assertEqual(told, set(), "a metric with a title that the program does not have")
+
+    def test_a_place_is_in_no_column(self):
+        metrics = [{"name": "far_x", "group": "boundary", "better": "none"}, {"name": "far", "group": "boundary", "better": "lower"}]
+        table, experiment = self.table(metrics, run(far_x=3.0, far=2.0))
+        self.assertIn("far", table.names(experiment.rows))
+        self.assertNotIn("far_x", table.names(experiment.rows))
+
+    def test_without_a_table_nothing_is_better(self):
+        table, experiment = self.table([])
+        self.assertIsNone(table.entry("l2")["better"])
+        self.assertIn("l2", table.charted_names(experiment.rows))
+
+
 class TheSummary(Folder):
-    def test_ratios_are_medians_over_common_cases_only(self):
+    def test_ratios_are_medians_and_a_crash_of_the_core_speaks_against_it(self):
         rows = []
         for n, other in ((1, 200), (2, 300), (3, 900)):
             rows += [run(n=n, times=(100, 100, 100)), run("cgal", n=n, times=(other, other, other), l2=0.05 * n)]
         rows += [run("cgal", n=4, times=(1, 1, 1)), run(n=4, status="crash", detail="SIGSEGV")]
         summary = self.summary(*rows)
         cgal = self.standing(summary, "cgal")
-        self.assertEqual((cgal.time.cases, cgal.time.median, cgal.time.low, cgal.time.high), (3, 3, 2, 9))
-        self.assertAlmostEqual(cgal.error.median, 1)
-        self.assertEqual((cgal.error.lower_in, cgal.error.higher_in), (1, 1))
+        self.assertEqual((cgal.time.cases, cgal.time.median, cgal.time.low, cgal.time.high), (4, 2.5, 0, 9))
+        self.assertAlmostEqual(cgal.error.median, 0.75)
+        self.assertEqual((cgal.error.lower_in, cgal.error.higher_in), (2, 1))
         self.assertEqual((summary.contested, summary.undecided), (3, 0))
         self.assertEqual((self.standing(summary, "polylidar").fastest_in, cgal.fastest_in), (3, 0))
         self.assertEqual((self.standing(summary, "polylidar").most_accurate_in, cgal.most_accurate_in), (2, 2))
         self.assertIn(
-            "Polylidar (paper) is the fastest in all 3 cases; the next, Cgal (paper), takes 3.00 times its time",
+            "Polylidar (paper) is the fastest in all 3 cases; the next, Cgal (paper), takes 2.50 times its time",
             fastest_sentence(summary),
         )
+
+    def test_a_failure_is_infinitely_slow_and_not_left_out(self):
+        rows = []
+        for n, other in ((1, 200), (2, 300)):
+            rows += [run(n=n, times=(100, 100, 100)), run("cgal", n=n, times=(other, other, other))]
+        for n in (3, 4, 5):
+            rows += [run(n=n), run("cgal", n=n, status="timeout", detail="slow")]
+        rows += [run("pcl", n=1, status="not_installed", detail="no")]
+        summary = self.summary(*rows)
+        time = self.standing(summary, "cgal").time
+        self.assertEqual((time.cases, time.failures, time.median, time.low), (5, 3, float("inf"), 2))
+        self.assertEqual(number(time.median), "∞")
+        self.assertIsNone(self.standing(summary, "pcl").time)
+
+    def test_a_ratio_is_taken_round_by_round(self):
+        # The machine is three times slower in round 7, for both; by the medians the ratio would be 6.
+        core, cgal = run(times=(100, 100, 300)), run("cgal", times=(600, 200, 200))
+        core["rounds"], cgal["rounds"] = [5, 6, 7], [7, 5, 6]
+        self.assertEqual(self.standing(self.summary(core, cgal), "cgal").time.median, 2)
+        del core["rounds"], cgal["rounds"]
+        self.assertEqual(self.standing(self.summary(core, cgal), "cgal").time.median, 2)
+        cgal["time_ns"] = [200000, 300000, 900000]
+        self.assertEqual(self.standing(self.summary(core, cgal), "cgal").time.median, 3)
+
+    def test_the_headline_is_read_from_the_report(self):
+        rival = {"method": "cgal", "protocol": "paper", "same_polygons": True, "cases": 4, "failures": 1, "median": 3.25,
+                 "low": 3.0, "high": None, "least": 3.0, "most": None, "does_more": "It also sings."}
+        [experiment] = self.load(run(), run("cgal"))
+        self.assertEqual(headline_sentences(summarise(experiment)), [])
+        experiment.report["summary"]["headline"] = {
+            "reference": {"method": "polylidar", "protocol": "paper"}, "rivals": [rival]}
+        self.assertEqual(headline_sentences(summarise(experiment)), [
+            "Cgal (paper), the same polygons: 3.25 times the time of Polylidar (paper) (95 %: 3.00 to ∞), 4 cases, of which "
+            "it failed 1. It also sings."])
+        rival["same_polygons"] = False
+        self.assertIn("no other method gives the same polygons", headline_sentences(summarise(experiment))[0])
 
     def test_times_whose_intervals_touch_are_undecided(self):
         summary = self.summary(
@@ -482,7 +561,7 @@ class Page(Folder):
                 "ours": EVIL,
                 "value": 1,
                 "equal_work": EVIL,
-                "holds": True,
+                "verdict": "larger",
                 "detail": EVIL,
             }
         ]

@@ -229,5 +229,18 @@ TEST(League, IsWrittenAsItsSchemaSaysAndPrinted) {
   EXPECT_NE(readme.find("20.00 (10.00 to 30.00)"), std::string::npos) << readme;
 }
 
+TEST(League, EveryProfileIsShownWhoeverIsAhead) {
+  const std::vector<json> reports = {
+      report({row("good", "auto", "a", 0.1), row("bad", "auto", "a", 0.2), row("good", "tuned", "a", 0.3),
+              row("bad", "tuned", "a", 0.2), row("good", "paper", "a", 0.3), row("bad", "paper", "a", 0.1),
+              row("good", "oracle", "a", 0.1), row("bad", "oracle", "a", 0.1)})};
+  const std::string readme = league_results(league_to_json(make_league(reports, 1, false), reports));
+  for (const char* who : {"that see the points only", "with one value fitted on other shapes",
+                          "that know the ground truth's area", "with the best value for each instance"}) {
+    EXPECT_NE(readme.find(std::string("Performance profile of the methods ") + who), std::string::npos)
+        << readme;
+  }
+}
+
 }  // namespace
 }  // namespace hullbench

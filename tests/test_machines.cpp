@@ -134,12 +134,12 @@ TEST(Machines, SeveralLeaveOnlyTheClaimsAboutErrors) {
     const json& claim = mixed.at("summary").at("claims").at(i);
     if (is_about_time(paper()["claims"]["list"][i])) {
       ++about_time;
-      EXPECT_TRUE(claim["holds"].is_null() && claim["value"].is_null() && claim["equal_work"].is_null())
+      EXPECT_TRUE(claim["verdict"].is_null() && claim["value"].is_null() && claim["equal_work"].is_null())
           << claim;
       EXPECT_EQ(claim["detail"], kSentence);
     } else {
       EXPECT_EQ(claim, one.at("summary").at("claims").at(i));
-      if (!claim["holds"].is_null()) ++judged;
+      if (!claim["verdict"].is_null()) ++judged;
     }
   }
   EXPECT_GT(about_time, 0U);
@@ -166,7 +166,7 @@ TEST(Machines, SeveralLeaveTablesOfManyShapesTheirErrors) {
   const TableRows all = rows_of(make_document(one), "summary");
   ASSERT_EQ(rows.size(), all.size());
   for (std::size_t row = 0; row < rows.size(); ++row) {
-    ASSERT_EQ(rows[row].size(), 5U);
+    ASSERT_EQ(rows[row].size(), 6U);
     EXPECT_TRUE(std::equal(rows[row].begin(), rows[row].end(), all[row].begin()));
   }
 }

@@ -15,6 +15,17 @@ namespace {
 
 using Times = std::vector<std::int64_t>;
 
+TEST(Median, OfInfiniteValuesIsInfiniteAndNeverNaN) {
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  const auto median_of = [](const std::vector<double>& values) {
+    return median(std::span<const double>(values));
+  };
+  EXPECT_EQ(median_of({kInfinity}), kInfinity);
+  EXPECT_EQ(median_of({1, 2, kInfinity}), 2);
+  EXPECT_EQ(median_of({1, kInfinity}), kInfinity);
+  EXPECT_EQ(median_of({1, kInfinity, kInfinity, kInfinity}), kInfinity);
+}
+
 TEST(Statistics, MedianOfOddCountIsTheMiddleValue) {
   EXPECT_EQ(median(Times{9, 1, 5}), 5);
 }

@@ -105,6 +105,9 @@ TEST_F(SuiteTest, IsARunOfEveryPlanAndTheTablesOfAll) {
   const Outcome printed = hullbench({"tables", "suite"});
   EXPECT_EQ(printed.code, 0) << printed.err;
   EXPECT_EQ(printed.out, outcome.out);
+  // Who draws a report learns from it, and from nowhere else, which values of a metric are better.
+  EXPECT_EQ(json::parse(read_text(suite() / "first" / "report.json")).at("metrics"),
+            json::parse(hullbench({"metrics", "--json"}).out));
 }
 
 TEST_F(SuiteTest, HasItsTablesWrittenAnewOnlyWhenThatIsAskedFor) {

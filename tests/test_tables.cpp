@@ -86,6 +86,162 @@ TEST(Tables, TheIntervalOfARatioIsClusteredByShape) {
   EXPECT_NE(line.find("| 11.9 | 5.95–17.9 |"), std::string::npos) << line;
 }
 
+/// Adds the runs of `method` once more, as those of another one with times divided by `faster`.
+void add_rival(json& report, const std::string& method, const std::string& name, int faster) {
+  json more = json::array();
+  for (const json& run : report["runs"]) {
+    if (run["method"] != method) continue;
+    more.push_back(run);
+    more.back()["method"] = name;
+    for (json& time : more.back()["time_ns"]) time = time.get<std::int64_t>() / faster;
+  }
+  for (const json& run : more) report["runs"].push_back(run);
+}
+
+std::string headline_of(json report) {
+  report["summary"] = make_summary(report);
+  const std::string text = tables(report);
+  const std::size_t begin = text.find("### The fastest rival");
+  return begin == std::string::npos ? "" : text.substr(begin, text.find("###", begin + 3) - begin);
+}
+
+// CGAL takes 5.95 times Polylidar's time, so half of it is 2.98 and a hundredth 0.0595.
+TEST(Headline, IsTheFastestMethodWithTheSamePolygonsAndThenThePapersRival) {
+  json report = invented_report({2000, 64000});
+  add_rival(report, "cgal_alpha_shape", "twin", 2);
+  add_rival(report, "spatialite", "sloppy", 1000);
+  const std::string text = headline_of(report);
+  EXPECT_NE(line_with(text, "| twin (paper)").find("| yes           |     6 |      0 | 2.98 |"),
+            std::string::npos)
+      << text;
+  EXPECT_LT(text.find("| twin"), text.find("| CGAL alpha shape (paper) | yes")) << text;
+  EXPECT_EQ(text.find("sloppy"), std::string::npos) << "other polygons: " << text;
+  EXPECT_NE(text.find("whole spectrum of alphas"), std::string::npos) << text;
+}
+
+TEST(Headline, SamePolygonsAreDecidedFromTheRecords) {
+  const auto is_twin_with = [](const char* name, const json& value) {
+    json report = invented_report({2000, 64000});
+    add_rival(report, "cgal_alpha_shape", "twin", 2);
+    json& last = report["runs"].back();
+    last["metrics"][name] = value;
+    return headline_of(report).find("| twin") != std::string::npos;
+  };
+  EXPECT_TRUE(is_twin_with("area", 13900.0 * (1 + 1e-12)));
+  EXPECT_FALSE(is_twin_with("area", 13900.0 * (1 + 1e-8)));
+  EXPECT_FALSE(is_twin_with("vertices", 401));
+  EXPECT_FALSE(is_twin_with("polygons", 2));
+  EXPECT_FALSE(is_twin_with("holes", 11));
+  EXPECT_FALSE(is_twin_with("l2", 0.5));
+}
+
+TEST(Headline, ATwinThatFailsInMostCasesIsNotTheFastest) {
+  json report = invented_report({2000, 64000});
+  add_rival(report, "cgal_alpha_shape", "twin", 2);
+  int failed = 0;
+  for (json& run : report["runs"]) {
+    if (run["method"] != "twin" || ++failed > 4) continue;
+    run["status"] = "timeout";
+    run["detail"] = "no answer";
+  }
+  EXPECT_EQ(headline_of(report).find("| twin"), std::string::npos);
+}
+
+TEST(Headline, WithoutATwinItSaysSo) {
+  json report = invented_report({2000});
+  for (json& run : report["runs"]) {
+    if (run["method"] == "cgal_alpha_shape") run["metrics"]["vertices"] = 500;
+  }
+  const std::string text = headline_of(report);
+  EXPECT_NE(text.find("| CGAL alpha shape (paper) | no "), std::string::npos) << text;
+  EXPECT_NE(text.find("but there is none in this run"), std::string::npos) << text;
+}
+
+// In the machine's slow round everything takes ten times as long.
+TEST(Ratios, AreTakenRoundByRound) {
+  json report = invented_report({2000});
+  for (json& run : report["runs"]) {
+    if (run["status"] != "ok") continue;
+    if (run["method"] == "polylidar") {
+      run["time_ns"] = {100, 1000, 100};
+      run["rounds"] = {4, 5, 6};
+    } else if (run["method"] == "cgal_alpha_shape") {
+      run["time_ns"] = {300, 3000, 3000};
+      run["rounds"] = {6, 5, 9};  // of round 9 the other has no time
+    }
+  }
+  const auto ratio = [&] {
+    return line_with(tables(report), "| CGAL", tables(report).find("ratios to Polylidar"));
+  };
+  EXPECT_NE(ratio().find("| 3 of 3 | 3.00 | 3.00–3.00 |"), std::string::npos) << ratio();
+  for (json& run : report["runs"]) run.erase("rounds");  // then by position: 3, 3 and 30
+  EXPECT_NE(ratio().find(" 3.00 | 3.00–30.0 |"), std::string::npos) << ratio();
+}
+
+TEST(Ratios, AFailureIsInfinitelyBadOnEitherSide) {
+  json report = invented_report({2000, 64000});
+  const std::string text = tables(report);
+  const std::string failing = line_with(text, "| PostGIS (auto)", text.find("ratios to Polylidar"));
+  EXPECT_NE(failing.find("| 4 of 6 | 10.4 |    > 10.4 |  10.4 |    ∞ |"), std::string::npos) << failing;
+  for (json& run : report["runs"]) {
+    if (run["name"] != "polylidar/ca/n:2000/holes:0/protocol:paper") continue;
+    run["status"] = "crash";
+    run["detail"] = "SIGSEGV";
+  }
+  const std::string crashed = tables(report);
+  const std::string line = line_with(crashed, "| CGAL", crashed.find("ratios to Polylidar"));
+  EXPECT_NE(line.find("| 6 of 6 | 5.95 |"), std::string::npos) << line;
+  EXPECT_NE(line.find("|     0 | 5.95 |"), std::string::npos) << line;
+}
+
+TEST(Tables, ARowSaysItsNumberOfRepetitionsWhereItIsNotTheUsualOne) {
+  json report = invented_report({2000, 64000});
+  for (json& run : report["runs"]) {
+    if (run["method"] != "spatialite" || run["status"] != "ok") continue;
+    run["time_ns"] = json::array({1000000});
+    run["phases_ns"] = json::array({{{"load", 1}, {"run", 900000}, {"extract", 100000}}});
+  }
+  const std::string text = tables(report);
+  EXPECT_NE(text.find("| SpatiaLite (paper), 1 repetition "), std::string::npos) << text;
+  EXPECT_NE(text.find("| Polylidar (paper) "), std::string::npos);
+  EXPECT_NE(text.find("over 3 repetitions"), std::string::npos);
+  json& run = report["runs"][2];
+  ASSERT_EQ(run["method"], "spatialite");
+  run["time_ns"] = {1000000, 1000000};
+  EXPECT_NE(tables(report).find("| SpatiaLite (paper), 1 to 2 repetitions "), std::string::npos);
+}
+
+TEST(Tables, RowsOfAnUnsteadyMachineAreCounted) {
+  json report = invented_report({2000});
+  report["runs"][0]["flags"] = {"remeasured_round"};
+  report["runs"][1]["flags"] = {"remeasured_round", "unsteady_machine"};
+  const std::string text = tables(report);
+  EXPECT_NE(text.find("in a round of 2 of 11 rows, which was measured again"), std::string::npos) << text;
+  EXPECT_NE(text.find("after the last try in 1 of 11 rows"), std::string::npos) << text;
+}
+
+TEST(Tables, FirstCallsInAFreshProcessHaveATable) {
+  json report = invented_report({2000});
+  EXPECT_EQ(tables(report).find("First call"), std::string::npos);
+  report["runs"][0]["cold_time_ns"] = 5250000;  // ten times its median of 0.525 ms
+  const std::string text = tables(report);
+  const std::size_t table = text.find("### First call in a fresh process");
+  ASSERT_NE(table, std::string::npos);
+  EXPECT_NE(line_with(text, "| Polylidar (paper)", table)
+                .find("|     1 |       5.25 |     0.525 |              10.0 |"),
+            std::string::npos)
+      << line_with(text, "| Polylidar (paper)", table);
+}
+
+TEST(Tables, AnErrorAboveThatOfTheConvexHullIsMarked) {
+  json report = invented_report({2000});
+  report["runs"][0]["metrics"]["l2_convex_hull"] = 0.01;
+  const std::string text = tables(report);
+  EXPECT_NE(line_with(text, "| Polylidar (paper)", text.find("error L2")).find("7.83 (7.98) †"),
+            std::string::npos);
+  EXPECT_NE(text.find("†: the error is above"), std::string::npos);
+}
+
 TEST(Tables, ProtocolsNeverShareALine) {
   json report = invented_report({2000});
   json other = report["runs"][0];

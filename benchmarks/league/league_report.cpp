@@ -242,7 +242,6 @@ std::string league_results(const json& league) {
   std::ostringstream out;
   out << "\n### " << document.title << "\n";
   for (const TableSection& section : document.tables) {
-    if (!section.id.starts_with("league_") && section.id != "profile_blind") continue;
     out << "\n" << section.caption << ":\n\n";
     print_markdown(section.table, out);
     if (!section.remarks.empty()) out << "\n";

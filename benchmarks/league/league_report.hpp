@@ -21,7 +21,7 @@ nlohmann::json league_to_json(const League& league, const std::vector<nlohmann::
 /// table a group.
 Document league_document(const nlohmann::json& league);
 
-/// What the README shows of it: the league, and the profile of the methods that see the points only.
+/// What the README shows of it: all of its tables, whoever is ahead in them.
 std::string league_results(const nlohmann::json& league);
 
 }  // namespace hullbench

@@ -85,7 +85,9 @@ def _panel(axes: Axes, one: Series, rows: list[Row], letters: list[str], paper: 
     known = {letter: 100 * error for letter, error in errors.items() if error is not None}
     axes.bar([letters.index(letter) for letter in known], list(known.values()), width=0.72, color=look.color, zorder=2)
     title = name
-    if known:
+    if known and len(known) < len(letters):
+        title += f"   no mean, {len(letters) - len(known)} without a result"  # of what succeeded it would flatter
+    elif known:
         mean = sum(known.values()) / len(known)
         axes.axhline(mean, color=look.color, linewidth=0.9, zorder=3)
         title += f"   {mean:.1f} %"

@@ -224,7 +224,7 @@ class Charts {
 
   /** Shares and scores near 1 are read on a linear axis. */
   chooseMetric(name) {
-    const logError = this.metrics.get(name).better === "low";
+    const logError = this.metrics.get(name).better === "lower";
     document.getElementById("check-logError").checked = logError;
     this.set({ metric: name, logError });
   }

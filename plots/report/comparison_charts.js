@@ -83,7 +83,7 @@ class BothCharts {
   }
 
   chooseMetric(name) {
-    const logError = this.metrics.get(name).better === "low";
+    const logError = this.metrics.get(name).better === "lower";
     document.getElementById("check-logError").checked = logError;
     this.set({ metric: name, logError });
   }

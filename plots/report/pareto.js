@@ -136,12 +136,14 @@ function paretoOptions(entries, time, error, settings, ink) {
 /** The entries that no other beats in time and error, fastest first; none when neither side of the error is better. */
 function paretoFront(entries, better) {
   if (!better) return [];
-  const sign = better === "high" ? -1 : 1;
-  const order = [...entries].sort((a, b) => a.time[0] - b.time[0] || sign * (a.error[0] - b.error[0]));
+  // How far from the best a value is.
+  const distance = (one) =>
+    ({ lower: one.error[0], higher: -one.error[0], zero: Math.abs(one.error[0]), one: Math.abs(one.error[0] - 1) })[better];
+  const order = [...entries].sort((a, b) => a.time[0] - b.time[0] || distance(a) - distance(b));
   let best = Infinity;
   return order.filter((one) => {
-    if (sign * one.error[0] >= best) return false;
-    best = sign * one.error[0];
+    if (distance(one) >= best) return false;
+    best = distance(one);
     return true;
   });
 }
