@@ -18,6 +18,7 @@ struct Method {
   std::optional<MethodInfo> info;    ///< of a manifest, without the version; none: the worker says it all
   std::vector<std::string> needs;    ///< files without which the method is not installed
   std::string install;               ///< the command that installs what is missing; may be empty
+  bool jit = false;  ///< compiles while it runs, so it is warmed to a steady state before the first case
 };
 
 /// The method of that name. Throws ConfigurationError when there is none.

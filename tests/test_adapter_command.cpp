@@ -67,8 +67,9 @@ TEST_F(AdapterCommandTest, TheSkeletonsKeepTheContract) {
     ASSERT_EQ(made.code, 0) << made.err;
     const fs::path folder = folder_.path() / "config" / "hullbench" / "adapters";
     EXPECT_NE(made.out.find((folder / ("my_" + language + ".json")).string()), std::string::npos) << made.out;
+    json manifest = json::parse(read_text(folder / ("my_" + language + ".json")));
+    EXPECT_EQ(manifest["jit"].get<bool>(), language == "js");
     if (language == "python") {
-      json manifest = json::parse(read_text(folder / "my_python.json"));
       manifest["command"][0] = "/usr/bin/python3";
       write_text(folder / "my_python.json", manifest.dump());
     }
