@@ -33,7 +33,7 @@ _LOOKS = json.loads((Path(__file__).parent / "methods.json").read_text(encoding=
 _MARKERS = {
     "circle": "o", "square": "s", "triangle": "^", "diamond": "D", "triangle-down": "v", "pentagon": "p",
     "hexagon": "h", "star": "*", "plus": "P", "cross": "X", "thin-diamond": "d", "triangle-left": "<",
-    "triangle-right": ">", "octagon": "8", "bar": "|",
+    "triangle-right": ">", "octagon": "8", "bar": "|", "star-3": (3, 1, 0), "star-4": (4, 1, 0),
 }
 # In points, where the usual 3.6 looks too small or, on top of CGAL's marker, too large.
 _SIZES = {"o": 3.2, "s": 4.2, "*": 5.2, "P": 4.2, "X": 4.2, "d": 4.4, "|": 5.0}
@@ -75,7 +75,7 @@ class MethodStyle:
     order: int
     paper: bool  # whether the paper compares it
     color: str
-    marker: str
+    marker: str | tuple[int, int, int]
     dashes: tuple[float, ...]
     width: float
 

@@ -77,6 +77,10 @@ hullbench_test(test_adapter_command SOURCES test_adapter_command.cpp LIBRARIES h
 target_compile_definitions(test_adapter_command PRIVATE HULLBENCH="$<TARGET_FILE:hullbench>")
 add_dependencies(test_adapter_command hullbench)
 
+# The methods in JavaScript and Python that filter triangles, against the core.
+hullbench_test(test_triangle_methods SOURCES test_triangle_methods.cpp
+  LIBRARIES hullbench::runner hullbench::metrics hullbench_test_support LABELS harness)
+
 # The README's checklist for a method in C++, walked with a sample: hullbench writes it, add_adapter() takes it, and the
 # program that has it keeps the contract with it.
 set(sample_folder "${CMAKE_CURRENT_BINARY_DIR}/sample_method")
@@ -96,7 +100,7 @@ add_test(NAME sample_method.keeps_the_contract COMMAND hullbench_with_sample ada
 
 # Real methods, the harness and all. Two of them break one point, which is a row of its own in every table.
 foreach(method IN ITEMS polylidar cgal_alpha_shape spatialite geos_concave_hull chi_shape knn_hull convex_hull
-    concaveman hull_js turf_concave jts_concave_hull scipy_alpha_shape)
+    concaveman delaunator hull_js turf_concave jts_concave_hull scipy_alpha_shape)
   add_test(NAME contract.${method} COMMAND hullbench adapter test ${method})
 endforeach()
 set_tests_properties(contract.spatialite PROPERTIES PASS_REGULAR_EXPRESSION

@@ -9,10 +9,10 @@ function polygonPath(count, turn = 0, radius = 10) {
   return `M${corners.join("L")}Z`;
 }
 
-/** A star of five points. */
-function starPath() {
-  const corners = Array.from({ length: 10 }, (_, corner) => {
-    const angle = corner * 36 * (Math.PI / 180);
+/** A star of `count` points. */
+function starPath(count) {
+  const corners = Array.from({ length: 2 * count }, (_, corner) => {
+    const angle = corner * (Math.PI / count);
     const radius = corner % 2 ? 4.5 : 11;
     return `${(10 + radius * Math.sin(angle)).toFixed(2)} ${(10 - radius * Math.cos(angle)).toFixed(2)}`;
   });
@@ -34,7 +34,9 @@ const MARKERS = {
   pentagon: polygonPath(5),
   hexagon: polygonPath(6),
   octagon: polygonPath(8, 22.5),
-  star: starPath(),
+  star: starPath(5),
+  "star-3": starPath(3),
+  "star-4": starPath(4),
   plus: PLUS,
   cross: CROSS,
   bar: "M0 7H20V13H0Z",
