@@ -100,7 +100,8 @@ add_test(NAME sample_method.keeps_the_contract COMMAND hullbench_with_sample ada
 
 # Real methods, the harness and all. Two of them break one point, which is a row of its own in every table.
 foreach(method IN ITEMS polylidar cgal_alpha_shape spatialite geos_concave_hull chi_shape knn_hull convex_hull
-    concaveman delaunator hull_js turf_concave jts_concave_hull scipy_alpha_shape)
+    concaveman delaunator hull_js turf_concave jts_concave_hull scipy_alpha_shape
+    shrink_boundary)
   add_test(NAME contract.${method} COMMAND hullbench adapter test ${method})
 endforeach()
 set_tests_properties(contract.spatialite PROPERTIES PASS_REGULAR_EXPRESSION
