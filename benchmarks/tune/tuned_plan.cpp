@@ -57,13 +57,10 @@ PlanMethod entry_for(const Plan& plan, const std::string& method, const std::str
 }
 
 void add_default(Plan& result, const Plan& plan, const MethodTuning& method) {
-  const auto& parameters = method.info->parameters;
   const bool given = std::any_of(plan.methods.begin(), plan.methods.end(), [&](const PlanMethod& entry) {
     return entry.method == method.name && entry.protocol == "default";
   });
-  if (given || !std::all_of(parameters.begin(), parameters.end(),
-                            [](const ParameterInfo& one) { return one.default_value.has_value(); }))
-    return;
+  if (given || !has_defaults(*method.info)) return;
   PlanMethod entry = entry_for(plan, method.name, "default");
   entry.parameters = as_choices(fixed_parameters(*method.info));
   result.methods.push_back(entry);
