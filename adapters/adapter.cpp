@@ -20,7 +20,8 @@ Parameters complete_parameters(const MethodInfo& info, const Parameters& paramet
       throw std::invalid_argument(info.name + " needs the parameter '" + parameter.name + "'");
     }
     const double value = given == parameters.end() ? *parameter.default_value : given->second;
-    if (!(value >= parameter.minimum && value <= parameter.maximum)) {
+    const bool in_range = value >= parameter.minimum && value <= parameter.maximum;
+    if (!in_range && value != parameter.default_value) {
       std::ostringstream message;
       message << info.name << " takes '" << parameter.name << "' from " << parameter.minimum << " to "
               << parameter.maximum << ", not " << value;
@@ -32,6 +33,12 @@ Parameters complete_parameters(const MethodInfo& info, const Parameters& paramet
     complete[parameter.name] = value;
   }
   return complete;
+}
+
+bool has_defaults(const MethodInfo& info) {
+  return std::all_of(info.parameters.begin(), info.parameters.end(), [](const ParameterInfo& parameter) {
+    return parameter.default_value && *parameter.default_value <= parameter.maximum;
+  });
 }
 
 }  // namespace hullbench

@@ -30,7 +30,9 @@ struct ParameterInfo {
   std::string description;  ///< one sentence
   double minimum = 0;       ///< smallest legal value, inclusive
   double maximum = 0;       ///< largest legal value, inclusive; infinity when there is none
-  std::optional<double> default_value;  ///< what the method does when the parameter is absent; none: required
+  /// What the method does when the parameter is absent; none: required. Infinity above `maximum` is legal and
+  /// means that the parameter is not given.
+  std::optional<double> default_value;
 };
 
 /// What a method's result can be; a table of methods is made from these.
@@ -113,6 +115,10 @@ class Adapter {
 /// `parameters` with defaults filled in. Throws std::invalid_argument naming the first parameter that is
 /// unknown, missing without a default, NaN or out of its range.
 Parameters complete_parameters(const MethodInfo& info, const Parameters& parameters);
+
+/// Whether the method can run without any parameter: each has a default, and none's says that it is not
+/// given.
+bool has_defaults(const MethodInfo& info);
 
 /// A method that this build knows, whether or not it can run here.
 struct AdapterEntry {

@@ -1,7 +1,6 @@
 // GEOS's ConcaveHull: the Delaunay triangulation eroded from its border, by length ratio or by edge length.
 //
-// One parameter decides. Both default to "no limit", the convex hull; a finite `max_edge_length` makes the
-// hull by length, and `length_ratio` must then be left at 1.
+// One parameter decides, and one must be given: GEOS's functions have no default.
 #include <geos_c.h>
 
 #include <cmath>
@@ -23,7 +22,6 @@ namespace hullbench {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-constexpr double kConvexRatio = 1;
 
 // "3.11.1-CAPI-1.17.1" -> "3.11.1".
 std::string geos_version() {
@@ -44,14 +42,15 @@ MethodInfo describe() {
   info.parameters = {
       {.name = "length_ratio",
        .unit = "ratio",
-       .description =
-           "Longest edge of the hull, from the triangulation's shortest edge (0) to its longest (1).",
+       .description = "Longest edge of the hull, from the triangulation's shortest edge (0) to its longest "
+                      "(1, the convex "
+                      "hull); infinity: not given, and max_edge_length must be.",
        .minimum = 0,
        .maximum = 1,
-       .default_value = kConvexRatio},
+       .default_value = kInfinity},
       {.name = "max_edge_length",
        .unit = "length",
-       .description = "Longest edge of the hull; when it is finite, length_ratio is left at 1.",
+       .description = "Longest edge of the hull; infinity: not given, and length_ratio must be.",
        .minimum = 0,
        .maximum = kInfinity,
        .default_value = kInfinity},
@@ -125,10 +124,10 @@ class GeosConcaveHull final : public Adapter {
     const double length = values.at("max_edge_length");
     const bool allow_holes = values.at("allow_holes") != 0;
     const bool by_length = std::isfinite(length);
-    if (by_length && ratio != kConvexRatio) {
+    if (by_length == std::isfinite(ratio)) {
       throw std::invalid_argument(
-          "geos_concave_hull takes 'length_ratio' or 'max_edge_length', not both: leave 'length_ratio' out "
-          "when 'max_edge_length' is finite");
+          "geos_concave_hull takes one of 'length_ratio' and 'max_edge_length': give " +
+          std::string(by_length ? "only one of them" : "one, as GEOS has no default"));
     }
     reset();
     has_run_ = true;

@@ -63,6 +63,12 @@ std::vector<NewFile> script_files(const NewAdapterCommand& command) {
   const std::string helper = "hullbench_worker" + ending;
   std::string manifest = replace_all(read_text(kSkeletons / "skeleton.json"), "@NAME@", command.name);
   manifest = replace_all(manifest, "@COMMAND@", words);
+  manifest = replace_all(manifest, "@JIT@", python ? "false" : "true");
+  manifest =
+      replace_all(manifest, "@INSTALL@",
+                  python ? "sudo apt-get install python3-numpy; for a Python of your own: python3 -m pip "
+                           "install numpy"
+                         : "sudo apt-get install nodejs");
   return {{folder / (command.name + ".json"), manifest},
           {folder / script, read_text(kSkeletons / ("skeleton" + ending))},
           {folder / helper, read_text(kHelpers / helper), false, true}};

@@ -366,7 +366,8 @@ Parameters contract_parameters(const MethodInfo& info, double spacing) {
                                                              : parameter.minimum + 1;
       value = parameter.default_value.value_or(middle);
     }
-    result[parameter.name] = std::clamp(value, parameter.minimum, parameter.maximum);
+    const bool is_default = value == parameter.default_value;
+    result[parameter.name] = is_default ? value : std::clamp(value, parameter.minimum, parameter.maximum);
   }
   return result;
 }

@@ -118,6 +118,7 @@ Manifest load_manifest(const fs::path& file) {
   manifest.method.needs = resolved_words(document, "needs", folder);
   manifest.method.install = document.value("install", "");
   manifest.method.sources = manifest.sha256.substr(0, 8);
+  manifest.method.jit = document.value("jit", false);
   manifest.runs =
       parse_plan_methods(document.value("runs", json::array()), manifest.method.name, source, "runs");
   return manifest;

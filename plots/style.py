@@ -34,6 +34,7 @@ _MARKERS = {
     "circle": "o", "square": "s", "triangle": "^", "diamond": "D", "triangle-down": "v", "pentagon": "p",
     "hexagon": "h", "star": "*", "plus": "P", "cross": "X", "thin-diamond": "d", "triangle-left": "<",
     "triangle-right": ">", "octagon": "8", "bar": "|", "star-four": (4, 1, 0), "star-three": (3, 1, 0),
+    "star-six": (6, 1, 0), "hexagon-flat": "H",
 }
 # In points, where the usual 3.6 looks too small or, on top of CGAL's marker, too large.
 _SIZES = {"o": 3.2, "s": 4.2, "*": 5.2, "P": 4.2, "X": 4.2, "d": 4.4, "|": 5.0}
@@ -75,7 +76,7 @@ class MethodStyle:
     order: int
     paper: bool  # whether the paper compares it
     color: str
-    marker: str
+    marker: str | tuple[int, int, int]
     dashes: tuple[float, ...]
     width: float
 

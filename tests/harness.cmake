@@ -90,6 +90,10 @@ target_compile_definitions(test_adapter_command PRIVATE
   HULLBENCH="$<TARGET_FILE:hullbench>" SYSTEM_PYTHON="${SYSTEM_PYTHON}")
 add_dependencies(test_adapter_command hullbench)
 
+# The methods in JavaScript and Python that filter triangles, against the core.
+hullbench_test(test_triangle_methods SOURCES test_triangle_methods.cpp
+  LIBRARIES hullbench::runner hullbench::metrics hullbench_test_support LABELS harness)
+
 # The README's checklist for a method in C++, walked with a sample: hullbench writes it, add_adapter() takes it, and the
 # program that has it keeps the contract with it.
 set(sample_folder "${CMAKE_CURRENT_BINARY_DIR}/sample_method")
@@ -109,7 +113,7 @@ add_test(NAME sample_method.keeps_the_contract COMMAND hullbench_with_sample ada
 
 # Real methods, the harness and all; a method that is not installed ends with 6.
 foreach(method IN ITEMS polylidar cgal_alpha_shape cgal_delaunay sfcgal_alpha_shape spatialite geos_concave_hull chi_shape
-    knn_hull convex_hull concaveman hull_js turf_concave jts_concave_hull scipy_alpha_shape)
+    knn_hull convex_hull concaveman delaunator hull_js turf_concave jts_concave_hull scipy_alpha_shape shrink_boundary)
   add_test(NAME contract.${method} COMMAND hullbench adapter test ${method})
   set_tests_properties(contract.${method} PROPERTIES SKIP_RETURN_CODE 6)
 endforeach()

@@ -47,7 +47,8 @@ TEST(GeosConcaveHull, SaysWhoItIs) {
   EXPECT_TRUE(info.capabilities.holes);
   EXPECT_FALSE(info.capabilities.several_polygons);
   EXPECT_EQ(complete_parameters(info, {}),
-            (Parameters{{"length_ratio", 1}, {"max_edge_length", kInfinity}, {"allow_holes", 0}}));
+            (Parameters{{"length_ratio", kInfinity}, {"max_edge_length", kInfinity}, {"allow_holes", 0}}));
+  EXPECT_FALSE(has_defaults(info));
 }
 
 TEST(GeosConcaveHull, KeepsTheContractByRatio) {
@@ -62,25 +63,32 @@ TEST(GeosConcaveHull, KeepsTheContractByLength) {
 
 TEST(GeosConcaveHull, TakesOneOfItsTwoLimits) {
   const std::vector<Point> points = square_points(100, 1, false);
-  try {
-    geos_hull(points, {{"length_ratio", 0.5}, {"max_edge_length", 0.5}});
-    FAIL() << "no exception";
-  } catch (const std::invalid_argument& error) {
-    EXPECT_NE(std::string(error.what()).find("not both"), std::string::npos) << error.what();
-  }
+  const auto refusal = [&](const Parameters& parameters) -> std::string {
+    try {
+      geos_hull(points, parameters);
+    } catch (const std::invalid_argument& error) {
+      return error.what();
+    }
+    return "no exception";
+  };
+  EXPECT_EQ(refusal({{"length_ratio", 0.5}, {"max_edge_length", 0.5}}),
+            "geos_concave_hull takes one of 'length_ratio' and 'max_edge_length': give only one of them");
+  EXPECT_EQ(refusal({}),
+            "geos_concave_hull takes one of 'length_ratio' and 'max_edge_length': give one, as GEOS has no "
+            "default");
   const MultiPolygon by_ratio = geos_hull(points, {{"length_ratio", 0.5}, {"max_edge_length", kInfinity}});
   EXPECT_EQ(by_ratio, geos_hull(points, {{"length_ratio", 0.5}}));
-  const MultiPolygon by_length = geos_hull(points, {{"length_ratio", 1}, {"max_edge_length", 0.2}});
+  const MultiPolygon by_length = geos_hull(points, {{"length_ratio", kInfinity}, {"max_edge_length", 0.2}});
   EXPECT_EQ(by_length, geos_hull(points, {{"max_edge_length", 0.2}}));
 }
 
 // GEOS triangulates within a frame of finite size, so that slivers along the convex hull may be missing: in
 // this set one, 1.4e-6 of the whole.
-TEST(GeosConcaveHull, WithoutALimitIsTheConvexHull) {
+TEST(GeosConcaveHull, AtItsLargestLimitsIsTheConvexHull) {
   const std::vector<Point> points = square_points(kPoints, 7, true);
   const auto hull = polylidar::concave_hull(points, {.alpha = polylidar::kNoLimit});
   const double convex = polylidar::area(polylidar::to_coordinates(hull, points));
-  for (const Parameters& parameters : {Parameters{}, Parameters{{"max_edge_length", 2}}}) {
+  for (const Parameters& parameters : {Parameters{{"length_ratio", 1}}, Parameters{{"max_edge_length", 2}}}) {
     EXPECT_NEAR(polylidar::area(geos_hull(points, parameters)), convex, 2e-6);
   }
 }

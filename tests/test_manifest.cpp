@@ -39,6 +39,7 @@ json good_manifest() {
       {"command", {"python3", "./my_hull.py", "--fast"}},
       {"needs", {"../library", "/usr/lib/library"}},
       {"install", "make it"},
+      {"jit", true},
       {"runs",
        {{{"protocol", "auto"}, {"parameters", {{"k", 5}, {"reach", {{"rule", "auto_edge_length"}}}}}}}}};
 }
@@ -70,6 +71,7 @@ TEST_F(ManifestTest, SaysWhatTheMethodIsAndHowToStartIt) {
   EXPECT_EQ(method.name, "my_hull");
   EXPECT_EQ(method.title, "My hull");
   EXPECT_EQ(method.install, "make it");
+  EXPECT_TRUE(method.jit);
   const fs::path folder = folder_.path();
   EXPECT_EQ(method.command, (std::vector<std::string>{"python3", folder / "my_hull.py", "--fast"}));
   EXPECT_EQ(method.needs, (std::vector<std::string>{folder.parent_path() / "library", "/usr/lib/library"}));
@@ -84,6 +86,14 @@ TEST_F(ManifestTest, SaysWhatTheMethodIsAndHowToStartIt) {
   EXPECT_EQ(manifest.runs[0].method, "my_hull");
   EXPECT_EQ(manifest.runs[0].protocol, "auto");
   EXPECT_EQ(std::get<double>(manifest.runs[0].parameters.at("k")), 5);
+}
+
+TEST_F(ManifestTest, AMethodThatDoesNotSayIsNotCompiledWhileItRuns) {
+  json manifest = good_manifest();
+  manifest.erase("jit");
+  EXPECT_FALSE(load_manifest(write(manifest)).method.jit);
+  manifest["jit"] = "yes";
+  expect_fault(manifest, "/jit");
 }
 
 TEST_F(ManifestTest, FaultsAreSaidWithTheFileAndThePlace) {

@@ -42,7 +42,7 @@ def _fail(kind, message):
 
 def _report_missing_module(kind, error, trace):
     if issubclass(kind, ImportError) and sys.stdin.readline():
-        _fail("not_installed", error)
+        _fail("not_installed", f"{error}, looked for by {sys.executable}")
     else:
         sys.__excepthook__(kind, error, trace)
 

@@ -59,12 +59,9 @@ PlanMethod entry_for(const Plan& plan, const std::string& method, const std::str
 /// Of a method that the plan does not name. What the default of the others is the plan says: a parameter that
 /// can be left out is not always one that anybody leaves out.
 void add_default(Plan& result, const Plan& plan, const MethodTuning& method) {
-  const auto& parameters = method.info->parameters;
   const bool named = std::any_of(plan.methods.begin(), plan.methods.end(),
                                  [&](const PlanMethod& entry) { return entry.method == method.name; });
-  if (named || !std::all_of(parameters.begin(), parameters.end(),
-                            [](const ParameterInfo& one) { return one.default_value.has_value(); }))
-    return;
+  if (named || !has_defaults(*method.info)) return;
   PlanMethod entry = entry_for(plan, method.name, "default");
   entry.parameters = as_choices(fixed_parameters(*method.info));
   entry.note = "Of the method's own parameters those that it has without being told, and holes.";

@@ -126,11 +126,6 @@ class Bench {
   }
 
  private:
-  static bool has_defaults(const MethodInfo& info) {
-    return std::all_of(info.parameters.begin(), info.parameters.end(),
-                       [](const ParameterInfo& parameter) { return parameter.default_value.has_value(); });
-  }
-
   Evaluation evaluate(const MethodTuning& method, const Parameters& parameters) {
     throw_if_interrupted();
     Evaluation evaluation = described(method);

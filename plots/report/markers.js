@@ -37,6 +37,8 @@ const MARKERS = {
   star: starPath(),
   "star-four": starPath(4, 4),
   "star-three": starPath(3, 3.5),
+  "star-six": starPath(6, 5.5),
+  "hexagon-flat": polygonPath(6, 30),
   plus: PLUS,
   cross: CROSS,
   bar: "M0 7H20V13H0Z",
