@@ -1,12 +1,14 @@
 #include "datasets/families.hpp"
 
 #include <stdexcept>
+#include <utility>
 
 #include "datasets/holes.hpp"
 #include "datasets/random.hpp"
 #include "datasets/star_polygons.hpp"
 #include "datasets/stress_shapes.hpp"
 #include "datasets/tangled_shapes.hpp"
+#include "datasets/world_shapes.hpp"
 
 namespace hullbench {
 
@@ -75,6 +77,7 @@ std::vector<ShapeFamily> make_families() {
       tangled_family<TangledKind::kParts>("Separate parts",
                                           "Drawn for this project: blobs, combs and boxes with gaps between"),
   };
+  for (ShapeFamily& family : world_families()) families.push_back(std::move(family));
   for (const GradedShape& shape : graded_shapes()) families.push_back(graded_family(shape));
   return families;
 }

@@ -88,19 +88,41 @@ void parse_object(const json& object, MultiPolygon& shape) {
 
 }  // namespace
 
-MultiPolygon read_geojson(const std::filesystem::path& path) {
+namespace {
+
+/// What `parse` makes of the file's document, with errors that name the file.
+template <typename Parse>
+auto read_document(const std::filesystem::path& path, const Parse& parse) {
   const json document = read_json_file(path);
-  MultiPolygon shape;
   try {
-    parse_object(document, shape);
-    if (shape.empty()) fail("it has no polygon; give a Polygon or MultiPolygon");
+    return parse(document);
   } catch (const json::exception& error) {
     throw std::runtime_error(path.string() + " is not the GeoJSON of a shape (" + error.what() +
                              "); give a Polygon or MultiPolygon with its members as in RFC 7946");
   } catch (const std::runtime_error& error) {
     throw std::runtime_error(path.string() + " is not a usable shape: " + error.what());
   }
+}
+
+MultiPolygon parse_shape(const json& object) {
+  MultiPolygon shape;
+  parse_object(object, shape);
+  if (shape.empty()) fail("it has no polygon; give a Polygon or MultiPolygon");
   return shape;
+}
+
+}  // namespace
+
+MultiPolygon read_geojson(const std::filesystem::path& path) {
+  return read_document(path, parse_shape);
+}
+
+std::vector<MultiPolygon> read_geojson_features(const std::filesystem::path& path) {
+  return read_document(path, [](const json& document) {
+    std::vector<MultiPolygon> shapes;
+    for (const json& feature : document.at("features")) shapes.push_back(parse_shape(feature));
+    return shapes;
+  });
 }
 
 }  // namespace hullbench

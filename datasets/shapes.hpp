@@ -49,6 +49,9 @@ std::vector<ShapeInfo> read_manifest(const std::filesystem::path& data_directory
 /// refuses an invalid ground truth.
 polylidar::MultiPolygon read_geojson(const std::filesystem::path& path);
 
+/// The shapes of a FeatureCollection, one a feature, in the order of the file. Throws as read_geojson.
+std::vector<polylidar::MultiPolygon> read_geojson_features(const std::filesystem::path& path);
+
 /// The shape that `info` describes. Throws as read_geojson, and std::runtime_error when the file's SHA-256 is
 /// not the manifest's.
 polylidar::MultiPolygon load_shape(const std::filesystem::path& data_directory, const ShapeInfo& info);

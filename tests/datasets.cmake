@@ -20,6 +20,7 @@ hullbench_test(test_datasets
     test_stress.cpp
     test_stress_shapes.cpp
     test_tangled_shapes.cpp
+    test_world_shapes.cpp
   LIBRARIES hullbench_test_support hullbench::datasets hullbench::hash nlohmann_json::nlohmann_json Boost::headers PNG::PNG
   LABELS datasets)
 add_test(NAME datasets.golden_hashes
