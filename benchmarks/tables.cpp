@@ -151,7 +151,8 @@ std::optional<TableSection> headline_table(const TableContext& context) {
   const std::string reference = label_of(headline.at("reference"));
   TableSection section{
       "headline",
-      "The fastest rival with the same polygons: time over that of " + reference,
+      context.report.at("plan").at("title").get<std::string>() +
+          ": the fastest rival with the same polygons, time over that of " + reference,
       TextTable({"Method", "Same polygons", "Cases", "Failed", "Time", "95 %", "least", "most"}),
       {}};
   bool any_same = false;
@@ -173,8 +174,7 @@ std::optional<TableSection> headline_table(const TableContext& context) {
   section.remarks.emplace_back(
       "The same polygons, as the records tell: on every case that both solved as many polygons, holes and "
       "vertices, and area and L2 equal to within 1e-9 of the larger one. Of all methods with the same "
-      "polygons "
-      "the one with the least median stands here" +
+      "polygons the one with the least median stands here" +
       std::string(any_same ? "." : ", but there is none in this run."));
   if (!does_more.empty()) section.remarks.push_back(does_more);
   return section;
