@@ -145,8 +145,8 @@ reference: ## keep results/latest, if a build of HEAD measured it, as the refere
 	@results/keep_reference.sh results/latest
 	@build/hullbench readme results/reference README.md
 
-# The paper's methods up to 8000 points, the others at 2000.
-QUICK = ^(polylidar|cgal_alpha_shape|spatialite|postgis|postgis_legacy)/.*/n:[48]000/|/n:2000/
+# The paper's methods and the fastest rivals up to 8000 points, the others at 2000.
+QUICK = ^(polylidar|cgal_alpha_shape|cgal_delaunay|delaunator|spatialite|postgis|postgis_legacy)/.*/n:[48]000/|/n:2000/
 
 bench-quick: ## the state shapes' tables for n <= 8000 and 3 repetitions, in under 2 minutes
 	@$(call install,build bench)

@@ -85,7 +85,6 @@ json make_headline(const Measurements& measurements) {
   if (!measurements.has_times() || std::find(lines.begin(), lines.end(), reference) == lines.end())
     return nullptr;
   const std::vector<Case>& cases = measurements.cases();
-  const std::size_t of_reference = time_ratios(measurements, reference, reference, cases).cases;
   json fastest;
   json papers;
   for (const Line& line : lines) {
@@ -98,7 +97,7 @@ json make_headline(const Measurements& measurements) {
     if (ratios.cases == 0) continue;
     json rival = rival_to_json(line, same, ratios);
     if (is_papers) rival["does_more"] = paper().at("rival").at("does_more");
-    if (same && 2 * ratios.cases >= of_reference && std::isfinite(*ratios.median) &&
+    if (same && std::isfinite(*ratios.median) &&
         (fastest.is_null() || *ratios.median < fastest.at("median").get<double>())) {
       fastest = rival;
     }

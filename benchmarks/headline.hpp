@@ -22,9 +22,8 @@ bool same_polygons(const Measurements& measurements, const Line& one, const Line
 /// A rival is {"method", "protocol", "same_polygons", "cases", "failures", "median", "low", "high", "least",
 /// "most"} (see Ratios; null: infinite, or no interval), the paper's rival with "does_more", a sentence.
 /// First stands the fastest one that gives the same polygons, if there is one; then the paper's rival, if it
-/// is another one. Only who was measured on at least half of the cases of the reference, and did not fail in
-/// most of its own, can be the fastest. null: there are no times, the reference has no result, or nobody is
-/// beside it.
+/// is another one. Who failed in most of its cases cannot be the fastest; who was measured on few cases can.
+/// null: there are no times, the reference has no result, or nobody is beside it.
 nlohmann::json make_headline(const Measurements& measurements);
 
 }  // namespace hullbench

@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 #include <string>
+#include <utility>
 
 #include "benchmarks/number_format.hpp"
 #include "benchmarks/report.hpp"
@@ -101,8 +102,10 @@ void add_rival(json& report, const std::string& method, const std::string& name,
 std::string headline_of(json report) {
   report["summary"] = make_summary(report);
   const std::string text = tables(report);
-  const std::size_t begin = text.find("### The fastest rival");
-  return begin == std::string::npos ? "" : text.substr(begin, text.find("###", begin + 3) - begin);
+  const std::size_t words = text.find(": the fastest rival");
+  if (words == std::string::npos) return "";
+  const std::size_t begin = text.rfind("###", words);
+  return text.substr(begin, text.find("###", begin + 3) - begin);
 }
 
 // CGAL takes 5.95 times Polylidar's time, so half of it is 2.98 and a hundredth 0.0595.
@@ -117,6 +120,22 @@ TEST(Headline, IsTheFastestMethodWithTheSamePolygonsAndThenThePapersRival) {
   EXPECT_LT(text.find("| twin"), text.find("| CGAL alpha shape (paper) | yes")) << text;
   EXPECT_EQ(text.find("sloppy"), std::string::npos) << "other polygons: " << text;
   EXPECT_NE(text.find("whole spectrum of alphas"), std::string::npos) << text;
+}
+
+TEST(Headline, TheFastestCountsThoughItWasMeasuredOnFewCases) {
+  json report = invented_report({2000, 64000});
+  add_rival(report, "cgal_alpha_shape", "twin", 2);
+  json few = json::array();
+  bool one = false;
+  for (const json& run : report["runs"]) {
+    if (run["method"] == "twin" && std::exchange(one, true)) continue;
+    few.push_back(run);
+  }
+  report["runs"] = few;
+  EXPECT_NE(
+      line_with(headline_of(report), "| twin (paper)").find("| yes           |     1 |      0 | 2.98 |"),
+      std::string::npos)
+      << headline_of(report);
 }
 
 TEST(Headline, SamePolygonsAreDecidedFromTheRecords) {
