@@ -145,12 +145,19 @@ class ContractTest {
       return true;
     }
     const Reply& reply = session_.start_reply();
-    add("start", false,
-        to_string(reply.status) + ": " + reply.detail +
-            (reply.remedy.empty() ? "; see adapters/process/PROTOCOL.md for the answer to hello"
-                                  : "; remedy: " + reply.remedy),
-        reply.status);
+    add("start", false, to_string(reply.status) + ": " + reply.detail + advice(reply), reply.status);
     return false;
+  }
+
+  /// What helps a worker that does not start. One that ends before its first word may lack a package, of
+  /// which only its interpreter knows.
+  std::string advice(const Reply& reply) const {
+    if (!reply.remedy.empty()) return "; remedy: " + reply.remedy;
+    const Method& method = session_.method();
+    std::string text = "; see adapters/process/PROTOCOL.md for the answer to hello";
+    if (method.install.empty()) return text;
+    return text + "; it was started by '" + method.command.front() +
+           "', and what it needs is installed by '" + method.install + "'";
   }
 
   Result hull(const std::vector<Point>& points, double spacing) {

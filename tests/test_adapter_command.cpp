@@ -175,6 +175,24 @@ TEST_F(AdapterCommandTest, AModuleThatIsMissingIsNotInstalled) {
       << tested.out;
 }
 
+// Node ends before the worker's first word, so what is printed names it and the command that installs
+// packages.
+TEST_F(AdapterCommandTest, APackageThatNodeLacksIsNamedWithNodeAndTheCommandThatInstallsIt) {
+  ASSERT_EQ(hullbench({"adapter", "new", "lacking", "--lang", "js"}).code, 0);
+  const fs::path folder = folder_.path() / "config" / "hullbench" / "adapters";
+  write_text(folder / "lacking_worker.mjs", "import \"no-such-package\";\n");
+  json manifest = json::parse(read_text(folder / "lacking.json"));
+  manifest["install"] = "npm install no-such-package";
+  write_text(folder / "lacking.json", manifest.dump());
+  const Outcome tested = hullbench({"adapter", "test", "lacking"});
+  EXPECT_EQ(tested.code, 4) << tested.out;
+  EXPECT_NE(tested.out.find("no-such-package"), std::string::npos) << tested.out;
+  EXPECT_NE(
+      tested.out.find("started by 'node', and what it needs is installed by 'npm install no-such-package'"),
+      std::string::npos)
+      << tested.out;
+}
+
 TEST_F(AdapterCommandTest, AWorkerThatBreaksAtItsStartIsNotMissing) {
   python_method("    return []");
   write_text(methods() / "sample_worker.py", "raise SystemExit(3)\n");
