@@ -11,7 +11,7 @@ from collections.abc import Callable, Sequence
 from typing import Any
 
 from records import Experiment, Row
-from report_common import case_of, dataset_title, entrant_of, entrants_of, median, median_interval, quantile, round_to
+from report_common import case_of, dataset_title, entrant_of, entrants_of, median_interval, quantile, round_to
 
 # Charts show every shape of its own up to this many; above, classes of convexity.
 MOST_SHAPES = 60
@@ -238,8 +238,9 @@ def charts(experiments: Sequence[Experiment]) -> list[dict[str, Any]]:
     """One object a chart: {"experiment", "title", "kind", "axis", "points": [...], "series": {entrant: [point, ...]}}.
 
     kind "n": the x are numbers of points; "shape": names of shapes; "convexity": classes of it, of many shapes, whose
-    points are medians with the 5th and 95th percentile. A point is {"x": index, "run", "time": [median, low, high],
-    "paper_time": likewise, "metrics": {name: value or [median, low, high]}}; times in milliseconds."""
+    points are medians with the 5th and 95th percentile (None: without an end, as too many failed). A point is {"x": index,
+    "run", "time": [median, low, high], "paper_time": likewise, "metrics": {name: value or [median, low, high]}}; times in
+    milliseconds."""
     made = []
     for index, experiment in enumerate(experiments):
         for chart in _charts(experiment):
@@ -339,22 +340,29 @@ def _kind(experiment: Experiment, row: Row) -> str:
 
 
 def _by_convexity(experiment: Experiment, kind: str, rows: Sequence[Row]) -> dict[str, Any]:
-    """The shapes of a kind in classes of convexity, those that have shapes."""
-    names = MetricTable([experiment]).charted_names(rows)
+    """The shapes of a kind in classes of convexity, those that have shapes. A run without a result is infinitely bad."""
+    table = MetricTable([experiment])
+    names = table.charted_names(rows)
+    # A run that failed has no metrics; its shape is another run's too.
+    convexities = {
+        (row.dataset, row.holes): row.metrics["ground_truth_convexity"]
+        for row in rows
+        if _is_number(row.metrics.get("ground_truth_convexity"))
+    }
     classes: dict[int, dict[str, list[Row]]] = defaultdict(lambda: defaultdict(list))
     missing: dict[str, list[dict[str, Any]]] = defaultdict(list)
     for row in rows:
-        convexity = row.metrics.get("ground_truth_convexity")
-        if row.ok and row.median_ns is not None and _is_number(convexity):
+        convexity = convexities.get((row.dataset, row.holes))
+        if not _has_result(row):
+            missing[entrant_of(row).key].append({"x": None, "run": row.name, "status": row.status})
+        if convexity is not None:
             # A convexity of 1 belongs to the uppermost class, and one of 0.6999... that is 0.7 to its own.
             classes[min(9, math.floor(convexity / BIN_WIDTH + 1e-9))][entrant_of(row).key].append(row)
-        else:
-            missing[entrant_of(row).key].append({"x": None, "run": row.name, "status": row.status})
     order = sorted(classes)
     series: dict[str, list[dict[str, Any]]] = defaultdict(list)
     for x, number in enumerate(order):
         for key, members in classes[number].items():
-            series[key].append(_class_point(x, members, names))
+            series[key].append(_class_point(x, members, names, table))
     return {
         "title": f"{kind}, by convexity",
         "kind": "convexity",
@@ -365,19 +373,41 @@ def _by_convexity(experiment: Experiment, kind: str, rows: Sequence[Row]) -> dic
     }
 
 
-def _class_point(x: int, rows: Sequence[Row], names: Sequence[str]) -> dict[str, Any]:
-    def three(values: list[float], factor: float = 1) -> list[float] | None:
-        if not values:
-            return None
-        return [
-            round_to(value * factor, 5) for value in (median(values), quantile(values, 0.05), quantile(values, 0.95))
-        ]
+def _has_result(row: Row) -> bool:
+    return row.ok and row.median_ns is not None
 
-    scores = {name: three([row.metrics[name] for row in rows if _is_number(row.metrics.get(name))]) for name in names}
+
+def _class_point(x: int, rows: Sequence[Row], names: Sequence[str], table: MetricTable) -> dict[str, Any]:
+    solved = [row for row in rows if _has_result(row)]
+    failures = len(rows) - len(solved)
+
+    def three(values: list[float], worst: float | None, factor: float = 1) -> list[float | None] | None:
+        """Median and the range of nine in ten shapes; no range where it has no end, nothing where most failed."""
+        ordered = sorted(values + [worst] * failures if worst is not None else values)
+        if not values or not math.isfinite(middle := _of_rank(ordered, 0.5)):
+            return None
+        low, high = _of_rank(ordered, 0.05), _of_rank(ordered, 0.95)
+        ends = [low, high] if math.isfinite(low) and math.isfinite(high) else [None, None]
+        return [None if value is None else round_to(value * factor, 5) for value in (middle, *ends)]
+
+    def worst_of(name: str) -> float | None:
+        return {"lower": math.inf, "zero": math.inf, "higher": -math.inf, "one": -math.inf}.get(table.better(name) or "")
+
+    scores = {
+        name: three([row.metrics[name] for row in solved if _is_number(row.metrics.get(name))], worst_of(name))
+        for name in names
+    }
     return {
         "x": x,
-        "count": len(rows),
-        "time": three([row.median_ns for row in rows], 1e-6),
-        "paper_time": three([row.paper_time["median_ns"] for row in rows if row.paper_time], 1e-6),
+        "count": len(solved),
+        "time": three([row.median_ns for row in solved], math.inf, 1e-6),
+        "paper_time": three([row.paper_time["median_ns"] for row in solved if row.paper_time], math.inf, 1e-6),
         "metrics": {name: value for name, value in scores.items() if value is not None},
     }
+
+
+def _of_rank(ordered: Sequence[float], q: float) -> float:
+    """The quantile of values some of which may be infinite: infinite as soon as it leans on one."""
+    place = q * (len(ordered) - 1)
+    neighbours = {ordered[math.floor(place)], ordered[math.ceil(place)]}
+    return quantile(ordered, q) if all(map(math.isfinite, neighbours)) else next(filter(math.isinf, neighbours))

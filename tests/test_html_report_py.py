@@ -323,6 +323,35 @@ class Charts(Folder):
         self.assertNotIn("run", low)
 
 
+    def test_a_failure_is_infinitely_bad_in_a_class_of_convexity(self):
+        def chart_with(failures):
+            rows = [
+                run(dataset=f"star-{k}", times=(k,), l2=k / 1000, hole_f1=0.9, ground_truth_convexity=0.7)
+                for k in range(1, 101)
+            ]
+            failed = [
+                run(method="cgal", dataset=f"star-{k}", status="timeout" if k <= failures else "ok", times=(k,),
+                    l2=k / 1000, hole_f1=0.9, ground_truth_convexity=0.7)
+                for k in range(1, 101)
+            ]
+            [experiment] = self.load(*rows, *failed)
+            experiment.report["metrics"] = [
+                {"name": "l2", "better": "lower", "group": "area"},
+                {"name": "hole_f1", "better": "higher", "group": "topology"},
+            ]
+            (chart,) = charts([experiment])
+            return chart["series"]["cgal/paper"][0]
+
+        few = chart_with(40)  # the slowest and worst of the others are 41 ... 100
+        self.assertEqual(few["count"], 60)
+        self.assertEqual(few["time"], [0.0905, None, None])
+        self.assertEqual(few["metrics"]["l2"], [0.0905, None, None])
+        self.assertEqual(few["metrics"]["hole_f1"], [0.9, None, None])
+        most = chart_with(51)
+        self.assertIsNone(most["time"])
+        self.assertNotIn("l2", most["metrics"])
+
+
 class TheMetricTable(Folder):
     """The directions are the program's own."""
 
