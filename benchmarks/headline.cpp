@@ -90,7 +90,7 @@ json make_headline(const Measurements& measurements) {
   for (const Line& line : lines) {
     if (line.method == reference.method) continue;
     const bool is_papers =
-        line.method == paper().at("rival").at("method") && line.protocol == reference.protocol;
+        paper().at("rival").at("method") == line.method && line.protocol == reference.protocol;
     const bool same = same_polygons(measurements, line, reference);
     if (!same && !is_papers) continue;
     const Ratios ratios = time_ratios(measurements, line, reference, cases);
