@@ -2,6 +2,11 @@
 //
 // Degenerate input: fewer than 3 distinct points, or points all on a line, give an empty multipolygon without
 // a call of PCL, which fails on them.
+//
+// Some of its results are invalid, and that is PCL's doing: where its boundary touches itself at a vertex,
+// its tracing can close a ring with a chord that is no edge of the alpha shape and crosses other rings. The
+// rings cross as they come out of reconstruct(), before they are mapped and nested here (California, 32,000
+// points).
 #include <pcl/pcl_config.h>
 #include <pcl/point_cloud.h>
 #include <pcl/point_types.h>

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <optional>
 #include <span>
@@ -11,13 +12,16 @@
 
 #include "benchmarks/embedded.hpp"
 #include "benchmarks/measurements.hpp"
-#include "benchmarks/number_format.hpp"
+#include "benchmarks/ratios.hpp"
 #include "benchmarks/statistics.hpp"
 
 namespace hullbench {
 namespace {
 
 using nlohmann::json;
+
+/// The value of a run without a result, in time and error alike.
+constexpr double kFailed = std::numeric_limits<double>::infinity();
 
 std::vector<PaperStep> read_steps() {
   std::vector<PaperStep> result;
@@ -101,9 +105,9 @@ class Threshold {
 };
 
 /// The ratios a claim is about, over the cases of a report.
-class Ratios {
+class ClaimRatios {
  public:
-  Ratios(const json& report, const Measurements& measurements, const json& check)
+  ClaimRatios(const json& report, const Measurements& measurements, const json& check)
       : report_(report),
         measurements_(measurements),
         check_(check),
@@ -128,14 +132,17 @@ class Ratios {
 
   /// Why methods of this claim are not in it, one clause each; empty when all are.
   std::string missing() const {
-    std::string result;
-    for (const char* role : {"over", "under", "with_holes"}) {
-      for (const json& method : check_.value(role, json::array())) {
-        const std::string reason = why_missing(method.get<std::string>());
-        if (!reason.empty()) result += (result.empty() ? "" : "; ") + reason;
-      }
-    }
-    return result;
+    return of_each_method([&](const std::string& method) { return why_missing(method); });
+  }
+
+  /// In how many of its cases each method failed, one clause each; empty when none did.
+  std::string failures() const {
+    return of_each_method([&](const std::string& method) -> std::string {
+      const std::size_t failed = solves_any(method) ? count(method, &has_failed) : 0;
+      return failed == 0
+                 ? ""
+                 : title(method) + " in " + std::to_string(failed) + (failed == 1 ? " case" : " cases");
+    });
   }
 
   const Threshold& threshold() const { return threshold_; }
@@ -149,10 +156,47 @@ class Ratios {
     return only.at("dataset") == which.dataset && only.at("holes") == which.holes && only.at("n") == which.n;
   }
 
+  using Runs = std::vector<const RunRecord*>;
+
+  static bool has_failed(const Runs& runs) { return !is_missing(runs) && first_failure(runs) != nullptr; }
+  static bool is_solved(const Runs& runs) { return !is_missing(runs) && first_failure(runs) == nullptr; }
+
+  static std::string title(const std::string& method) { return paper().at("methods").value(method, method); }
+
+  Runs runs_of(const std::string& method, const Case& which) const {
+    return measurements_.find(method, paper().at("protocol").get<std::string>(), which);
+  }
+
+  /// Of how many of the claim's cases `is` holds.
+  std::size_t count(const std::string& method, bool (*is)(const Runs&)) const {
+    const std::vector<Case>& cases = measurements_.cases();
+    return static_cast<std::size_t>(std::count_if(cases.begin(), cases.end(), [&](const Case& which) {
+      return concerns(which) && is(runs_of(method, which));
+    }));
+  }
+
+  /// A method without any result says nothing about the claim: it may not work on this machine at all.
+  bool solves_any(const std::string& method) const { return count(method, &is_solved) > 0; }
+
+  template <typename Clause>
+  std::string of_each_method(const Clause& clause_of) const {
+    std::string result;
+    for (const char* role : {"over", "under", "with_holes"}) {
+      for (const json& method : check_.value(role, json::array())) {
+        const std::string clause = clause_of(method.get<std::string>());
+        if (!clause.empty()) result += (result.empty() ? "" : "; ") + clause;
+      }
+    }
+    return result;
+  }
+
+  /// kFailed where the method failed, if it solves another case; none where it was not run or has no value.
   std::optional<double> value(const std::string& method, const Case& which, Boundary boundary) const {
+    const Runs runs = runs_of(method, which);
+    if (has_failed(runs) && solves_any(method)) return kFailed;
+    if (!is_solved(runs)) return std::nullopt;
     std::vector<double> values;
-    for (const RunRecord* run :
-         measurements_.find(method, paper().at("protocol").get<std::string>(), which)) {
+    for (const RunRecord* run : runs) {
       if (const auto value = value_of_run(*run, quantity_, boundary)) values.push_back(*value);
     }
     if (values.empty()) return std::nullopt;
@@ -162,7 +206,8 @@ class Ratios {
   std::vector<double> ratios(const Case& which, Boundary boundary) const {
     std::vector<double> result;
     const auto add = [&](std::optional<double> over, std::optional<double> under) {
-      if (over && under && *over > 0 && *under > 0) result.push_back(*over / *under);
+      if (!over || !under || *over <= 0 || *under <= 0 || (*over == kFailed && *under == kFailed)) return;
+      result.push_back(*over / *under);
     };
     for (const json& over : check_.value("over", json::array())) {
       for (const json& under : check_.at("under")) {
@@ -179,34 +224,23 @@ class Ratios {
     return result;
   }
 
-  /// Why `method` has no value, or none in some of its cases; empty when it has all.
+  /// Why `method` has no value in any of its cases; empty when it has one.
   std::string why_missing(const std::string& method) const {
-    std::size_t with_value = 0;
-    std::size_t failed = 0;
-    bool measured = false;
-    for (const Case& which : measurements_.cases()) {
-      if (!concerns(which)) continue;
-      const auto runs = measurements_.find(method, paper().at("protocol").get<std::string>(), which);
-      const bool succeeded =
-          std::any_of(runs.begin(), runs.end(), [](const auto* run) { return is_measured(*run); });
-      measured = measured || succeeded;
-      if (value(method, which, Boundary::kPaper)) ++with_value;
-      if (!runs.empty() && !succeeded) ++failed;
-    }
-    const std::string title = paper().at("methods").value(method, method);
-    if (with_value > 0) {
-      // A method that fails where it is slowest or worst would look better than it is.
-      return failed == 0 ? "" : title + " in " + std::to_string(failed) + " case(s) without a result";
-    }
-    if (measured && quantity_ == "error") return title + " has no error that is defined";
-    if (measured) return title + " does not tell its step \"" + quantity_ + "\"";
+    const bool has_value =
+        std::any_of(measurements_.cases().begin(), measurements_.cases().end(), [&](const Case& which) {
+          return concerns(which) && is_solved(runs_of(method, which)) &&
+                 value(method, which, Boundary::kPaper);
+        });
+    if (has_value) return "";
+    if (solves_any(method) && quantity_ == "error") return title(method) + " has no error that is defined";
+    if (solves_any(method)) return title(method) + " does not tell its step \"" + quantity_ + "\"";
     for (const json& info : report_.value("methods", json::array())) {
       if (info.value("name", "") == method && !info.value("installed", true)) {
-        return info.value("title", title) + " is not installed";
+        return info.value("title", title(method)) + " is not installed";
       }
     }
-    if (!check_.contains("only")) return title + " has no successful run here";
-    return title + " has no successful run at n = " + check_["only"].at("n").dump() + " here";
+    if (!check_.contains("only")) return title(method) + " has no successful run here";
+    return title(method) + " has no successful run at n = " + check_["only"].at("n").dump() + " here";
   }
 
   const json& report_;
@@ -225,7 +259,7 @@ struct Verdict {
 Verdict judge(const std::vector<double>& ratios, const Threshold& threshold, bool every_case) {
   if (!every_case) {
     const double middle = median(std::span<const double>(ratios));
-    return {three_digits(middle), middle, threshold.verdict(middle)};
+    return {ratio_text(middle), middle, threshold.verdict(middle)};
   }
   const auto passed =
       std::count_if(ratios.begin(), ratios.end(), [&](double r) { return threshold.passes(r); });
@@ -243,8 +277,9 @@ json check_claim(const json& claim, const json& report, const Measurements& meas
     result["detail"] = measurements.why_no_times();
     return result;
   }
-  const Ratios ratios(report, measurements, check);
+  const ClaimRatios ratios(report, measurements, check);
   const std::string missing = ratios.missing();
+  const std::string failures = ratios.failures();
   const std::vector<double> values = ratios.by_case(Boundary::kPaper);
   if (values.empty()) {
     result["detail"] =
@@ -254,13 +289,14 @@ json check_claim(const json& claim, const json& report, const Measurements& meas
   const bool every_case = check.at("of") == "every_case";
   const Verdict verdict = judge(values, ratios.threshold(), every_case);
   result["ours"] = verdict.text;
-  result["value"] = verdict.value;
+  if (std::isfinite(verdict.value)) result["value"] = verdict.value;
   result["verdict"] = verdict.verdict;
   if (check.at("quantity") == "time") {
     result["equal_work"] = judge(ratios.by_case(Boundary::kEqualWork), ratios.threshold(), every_case).text;
   }
   result["detail"] = claim.at("reading").get<std::string>() + " (" + std::to_string(values.size()) +
                      (values.size() == 1 ? " case" : " cases") + ")" +
+                     (failures.empty() ? "" : "; failed, which counts as infinitely bad: " + failures) +
                      (missing.empty() ? "" : "; left out: " + missing) + ".";
   return result;
 }

@@ -16,6 +16,11 @@ bool is_invalid(const RunRecord& run) {
   return run.status == Status::kOk && (valid == run.metrics.end() || *valid != true);
 }
 
+bool is_missing(const std::vector<const RunRecord*>& runs) {
+  return std::all_of(runs.begin(), runs.end(),
+                     [](const RunRecord* run) { return run->status == Status::kNotInstalled; });
+}
+
 const RunRecord* first_failure(const std::vector<const RunRecord*>& runs) {
   const auto found =
       std::find_if(runs.begin(), runs.end(), [](const RunRecord* run) { return !is_measured(*run); });

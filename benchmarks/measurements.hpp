@@ -44,6 +44,9 @@ bool is_measured(const RunRecord& run);
 /// Whether the run gave a result that is not a valid multipolygon.
 bool is_invalid(const RunRecord& run);
 
+/// Whether none of `runs` was tried: there is none, or the method is not installed.
+bool is_missing(const std::vector<const RunRecord*>& runs);
+
 /// The first of `runs` that gave no result to be believed; null when there is none.
 const RunRecord* first_failure(const std::vector<const RunRecord*>& runs);
 

@@ -58,11 +58,6 @@ Passes metric_ratio(const Runs& runs, const Runs& references, const std::string&
   return {{median(std::span<const double>(ours)) / by}};
 }
 
-bool is_missing(const Runs& runs) {
-  return std::all_of(runs.begin(), runs.end(),
-                     [](const RunRecord* run) { return run->status == Status::kNotInstalled; });
-}
-
 double median_of_all(const Passes& passes) {
   std::vector<double> values;
   for (const auto& pass : passes) values.insert(values.end(), pass.begin(), pass.end());

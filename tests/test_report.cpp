@@ -158,7 +158,7 @@ TEST(Claims, AreComputedFromThePapersProtocol) {
   EXPECT_EQ(find_by(claims, "id", "faster_than_all")["ours"], "5.00");
   EXPECT_EQ(find_by(claims, "id", "total_spatialite")["ours"], "72.0");  // 18000 / 250
   EXPECT_EQ(find_by(claims, "id", "total_spatialite")["verdict"], "smaller");
-  EXPECT_EQ(find_by(claims, "id", "error_spatialite")["ours"], "5 of 5");
+  EXPECT_EQ(find_by(claims, "id", "error_spatialite")["ours"], "5 of 6");
   EXPECT_EQ(find_by(claims, "id", "error_cgal")["verdict"], "confirmed");
   EXPECT_EQ(find_by(claims, "id", "holes_time_spatialite")["verdict"], "refuted");
 }
@@ -197,10 +197,29 @@ TEST(Claims, SayWhyTheyWereNotMeasured) {
   EXPECT_NE(step["detail"].get<std::string>().find("does not tell its step"), std::string::npos);
 }
 
-TEST(Claims, SayWhichFailuresTheyLeaveOut) {
-  const json slowest = find_by(invented_report()["summary"]["claims"], "id", "spatialite_slowest");
-  EXPECT_EQ(slowest["ours"], "5 of 5");
-  EXPECT_NE(slowest["detail"].get<std::string>().find("1 case(s) without a result"), std::string::npos);
+TEST(Claims, CountAFailureAsInfinitelyBadAndSaySo) {
+  const json claims = invented_report()["summary"]["claims"];
+  const json slowest = find_by(claims, "id", "spatialite_slowest");
+  EXPECT_EQ(slowest["ours"], "6 of 6") << "the time-out is slower than every time";
+  EXPECT_NE(slowest["detail"].get<std::string>().find(
+                "failed, which counts as infinitely bad: SpatiaLite in 1 case"),
+            std::string::npos);
+  const json error = find_by(claims, "id", "error_spatialite");
+  EXPECT_EQ(error["ours"], "5 of 6") << "without a result there is no smaller error";
+  EXPECT_EQ(error["verdict"], "refuted");
+  EXPECT_TRUE(error["value"].is_null()) << "JSON has no infinity";
+}
+
+TEST(Claims, OfAMethodWithoutAnyResultAreNotMeasured) {
+  json report = invented_report();
+  for (json& run : report["runs"]) {
+    if (run["method"] != "spatialite") continue;
+    run["status"] = "timeout";
+    run["metrics"] = json::object();
+  }
+  const json slowest = find_by(check_claims(report), "id", "spatialite_slowest");
+  EXPECT_TRUE(slowest["verdict"].is_null());
+  EXPECT_NE(slowest["detail"].get<std::string>().find("no successful run"), std::string::npos);
 }
 
 TEST(Claims, AtASizeThatWasNotMeasured) {
@@ -217,7 +236,7 @@ TEST(Claims, OneCaseAgainstAClaimAboutEveryCaseRefutesIt) {
     if (run["name"] == "spatialite/ca/n:2000/holes:1/protocol:paper") run["metrics"]["l2_paper"] = 0.9;
   }
   const json claim = find_by(check_claims(report), "id", "error_spatialite");
-  EXPECT_EQ(claim["ours"], "4 of 5");
+  EXPECT_EQ(claim["ours"], "4 of 6");
   EXPECT_EQ(claim["verdict"], "refuted");
 }
 
