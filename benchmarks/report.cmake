@@ -41,7 +41,7 @@ hullbench_embed_json(kLeagueSchemaJson "${PROJECT_SOURCE_DIR}/results/league.sch
 hullbench_embed_json(kPaperJson "${PROJECT_SOURCE_DIR}/results/paper.json")
 hullbench_embed_json(kManifestSchemaJson "${PROJECT_SOURCE_DIR}/adapters/process/manifest.schema.json")
 file(CONFIGURE OUTPUT "${CMAKE_CURRENT_BINARY_DIR}/embedded.cpp"
-  CONTENT "#include \"benchmarks/embedded.hpp\"\n\nnamespace hullbench {\n\n@HULLBENCH_EMBEDDED@\n}  // namespace hullbench\n"
+  CONTENT "#include \"benchmarks/record/embedded.hpp\"\n\nnamespace hullbench {\n\n@HULLBENCH_EMBEDDED@\n}  // namespace hullbench\n"
   @ONLY)
 
 # What the report says about the build. The options of a target are known only when CMake generates, hence file(GENERATE).

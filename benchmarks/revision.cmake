@@ -17,7 +17,7 @@ else()
   set(values "\"${commit}\", ${dirty}")
 endif()
 file(CONFIGURE OUTPUT "${OUTPUT}" @ONLY CONTENT
-"#include \"benchmarks/revision.hpp\"
+"#include \"benchmarks/record/revision.hpp\"
 
 namespace hullbench {
 

@@ -39,7 +39,7 @@ SAME_ERROR = 1e-9
 # An error up to so many times the core's is comparable with it.
 COMPARABLE = 2
 
-# Above this median spread differences of some per cent are nothing to go by (benchmarks/noise.hpp).
+# Above this median spread differences of some per cent are nothing to go by (benchmarks/report/noise.hpp).
 NOISY = 0.03
 
 

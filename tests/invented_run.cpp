@@ -5,8 +5,8 @@
 #include <limits>
 #include <string>
 
-#include "benchmarks/json_lines.hpp"
-#include "benchmarks/report.hpp"
+#include "benchmarks/record/json_lines.hpp"
+#include "benchmarks/report/report.hpp"
 
 namespace hullbench::test {
 namespace {

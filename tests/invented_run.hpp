@@ -5,7 +5,7 @@
 #include <nlohmann/json.hpp>
 #include <vector>
 
-#include "benchmarks/record.hpp"
+#include "benchmarks/record/record.hpp"
 
 namespace hullbench::test {
 

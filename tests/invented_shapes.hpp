@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "benchmarks/report.hpp"
+#include "benchmarks/report/report.hpp"
 #include "invented_run.hpp"
 #include "temporary_folder.hpp"
 

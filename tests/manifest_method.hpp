@@ -9,9 +9,9 @@
 #include <vector>
 
 #include "adapters/wkb.hpp"
-#include "benchmarks/method_catalog.hpp"
-#include "benchmarks/method_session.hpp"
-#include "benchmarks/protocol.hpp"
+#include "benchmarks/worker/method_catalog.hpp"
+#include "benchmarks/worker/method_session.hpp"
+#include "benchmarks/worker/protocol.hpp"
 #include "tests/temporary_folder.hpp"
 
 namespace hullbench::testing {

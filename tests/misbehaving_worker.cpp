@@ -17,7 +17,7 @@
 #include <vector>
 
 #include "adapters/wkb.hpp"
-#include "benchmarks/protocol.hpp"
+#include "benchmarks/worker/protocol.hpp"
 
 namespace {
 

@@ -7,8 +7,8 @@
 #include <deque>
 #include <vector>
 
-#include "benchmarks/canary.hpp"
-#include "benchmarks/worker_process.hpp"
+#include "benchmarks/run/canary.hpp"
+#include "benchmarks/worker/worker_process.hpp"
 
 namespace hullbench {
 namespace {

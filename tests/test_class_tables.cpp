@@ -9,8 +9,8 @@
 #include <utility>
 #include <vector>
 
-#include "benchmarks/tables.hpp"
-#include "benchmarks/text_table.hpp"
+#include "benchmarks/report/tables.hpp"
+#include "benchmarks/report/text_table.hpp"
 #include "invented_shapes.hpp"
 
 namespace hullbench {

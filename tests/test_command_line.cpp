@@ -19,8 +19,8 @@
 #include <thread>
 #include <vector>
 
-#include "benchmarks/json_lines.hpp"
-#include "benchmarks/record.hpp"
+#include "benchmarks/record/json_lines.hpp"
+#include "benchmarks/record/record.hpp"
 #include "tests/program.hpp"
 #include "tests/small_plans.hpp"
 #include "tests/temporary_folder.hpp"

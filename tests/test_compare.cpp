@@ -7,9 +7,9 @@
 #include <string>
 #include <vector>
 
-#include "benchmarks/compare.hpp"
-#include "benchmarks/compare_document.hpp"
-#include "benchmarks/report.hpp"
+#include "benchmarks/report/compare.hpp"
+#include "benchmarks/report/compare_document.hpp"
+#include "benchmarks/report/report.hpp"
 #include "invented_run.hpp"
 #include "tests/program.hpp"
 #include "tests/temporary_folder.hpp"

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "benchmarks/curve_table.hpp"
-#include "benchmarks/tables.hpp"
+#include "benchmarks/report/curve_table.hpp"
+#include "benchmarks/report/tables.hpp"
 #include "invented_shapes.hpp"
 
 namespace hullbench {

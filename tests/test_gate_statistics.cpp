@@ -7,7 +7,7 @@
 #include <stdexcept>
 #include <vector>
 
-#include "benchmarks/gate/gate_statistics.hpp"
+#include "benchmarks/statistics/sign_test.hpp"
 
 namespace hullbench {
 namespace {

@@ -7,9 +7,9 @@
 #include <set>
 #include <string>
 
-#include "benchmarks/gbench_export.hpp"
-#include "benchmarks/json_lines.hpp"
-#include "benchmarks/report.hpp"
+#include "benchmarks/report/gbench_export.hpp"
+#include "benchmarks/record/json_lines.hpp"
+#include "benchmarks/report/report.hpp"
 #include "invented_run.hpp"
 #include "tests/program.hpp"
 #include "tests/temporary_folder.hpp"

@@ -15,7 +15,7 @@
 #include "benchmarks/league/league.hpp"
 #include "benchmarks/league/league_report.hpp"
 #include "benchmarks/tune/split.hpp"
-#include "benchmarks/validate.hpp"
+#include "benchmarks/record/validate.hpp"
 
 namespace hullbench {
 namespace {

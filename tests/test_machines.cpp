@@ -8,14 +8,14 @@
 #include <string>
 #include <vector>
 
-#include "benchmarks/claims.hpp"
-#include "benchmarks/measurements.hpp"
-#include "benchmarks/paper_comparison.hpp"
-#include "benchmarks/readme.hpp"
-#include "benchmarks/report.hpp"
-#include "benchmarks/suite.hpp"
-#include "benchmarks/tables.hpp"
-#include "benchmarks/validate.hpp"
+#include "benchmarks/report/claims.hpp"
+#include "benchmarks/report/measurements.hpp"
+#include "benchmarks/report/paper_comparison.hpp"
+#include "benchmarks/report/readme.hpp"
+#include "benchmarks/report/report.hpp"
+#include "benchmarks/run/suite.hpp"
+#include "benchmarks/report/tables.hpp"
+#include "benchmarks/record/validate.hpp"
 #include "invented_shapes.hpp"
 
 namespace hullbench {

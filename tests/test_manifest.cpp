@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
-#include "benchmarks/manifest.hpp"
-#include "benchmarks/method_catalog.hpp"
+#include "benchmarks/worker/manifest.hpp"
+#include "benchmarks/worker/method_catalog.hpp"
 #include "tests/program.hpp"
 #include "tests/temporary_folder.hpp"
 

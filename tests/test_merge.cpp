@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "benchmarks/json_lines.hpp"
+#include "benchmarks/record/json_lines.hpp"
 #include "tests/program.hpp"
 #include "tests/small_plans.hpp"
 #include "tests/temporary_folder.hpp"

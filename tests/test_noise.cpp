@@ -1,7 +1,7 @@
 // How steady a run's times are.
 #include <gtest/gtest.h>
 
-#include "benchmarks/noise.hpp"
+#include "benchmarks/report/noise.hpp"
 
 namespace hullbench {
 namespace {

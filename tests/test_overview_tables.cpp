@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "benchmarks/overview_tables.hpp"
+#include "benchmarks/report/overview_tables.hpp"
 #include "invented_shapes.hpp"
 
 namespace hullbench {

@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "benchmarks/claims.hpp"
-#include "benchmarks/paper_comparison.hpp"
+#include "benchmarks/report/claims.hpp"
+#include "benchmarks/report/paper_comparison.hpp"
 #include "invented_shapes.hpp"
 
 namespace hullbench {

@@ -12,8 +12,8 @@
 #include <thread>
 #include <vector>
 
-#include "benchmarks/parallel.hpp"
-#include "benchmarks/worker_process.hpp"
+#include "benchmarks/base/parallel.hpp"
+#include "benchmarks/worker/worker_process.hpp"
 
 namespace hullbench {
 namespace {

@@ -9,8 +9,8 @@
 #include <string>
 #include <vector>
 
-#include "benchmarks/pictures.hpp"
-#include "benchmarks/validate.hpp"
+#include "benchmarks/record/pictures.hpp"
+#include "benchmarks/record/validate.hpp"
 #include "tests/program.hpp"
 #include "tests/small_plans.hpp"
 #include "tests/temporary_folder.hpp"

@@ -12,8 +12,8 @@
 #include <variant>
 #include <vector>
 
-#include "benchmarks/parameter_rules.hpp"
-#include "benchmarks/plan.hpp"
+#include "benchmarks/plan/parameter_rules.hpp"
+#include "benchmarks/plan/plan.hpp"
 #include "datasets/datasets.hpp"
 #include "datasets/stress.hpp"
 #include "polylidar/concave_hull.hpp"

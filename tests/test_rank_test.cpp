@@ -7,7 +7,7 @@
 #include <stdexcept>
 #include <vector>
 
-#include "benchmarks/rank_test.hpp"
+#include "benchmarks/statistics/rank_test.hpp"
 
 namespace hullbench {
 namespace {

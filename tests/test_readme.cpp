@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "benchmarks/readme.hpp"
+#include "benchmarks/report/readme.hpp"
 #include "invented_shapes.hpp"
 #include "tests/program.hpp"
 #include "tests/small_plans.hpp"

@@ -13,8 +13,8 @@
 #include <utility>
 #include <vector>
 
-#include "benchmarks/json_lines.hpp"
-#include "benchmarks/record.hpp"
+#include "benchmarks/record/json_lines.hpp"
+#include "benchmarks/record/record.hpp"
 #include "invented_run.hpp"
 #include "temporary_folder.hpp"
 

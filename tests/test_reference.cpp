@@ -10,9 +10,9 @@
 #include <string>
 #include <vector>
 
-#include "benchmarks/document.hpp"
-#include "benchmarks/paper_comparison.hpp"
-#include "benchmarks/suite.hpp"
+#include "benchmarks/report/document.hpp"
+#include "benchmarks/report/paper_comparison.hpp"
+#include "benchmarks/run/suite.hpp"
 #include "tests/program.hpp"
 #include "tests/temporary_folder.hpp"
 

@@ -13,12 +13,12 @@
 #include <string>
 #include <vector>
 
-#include "benchmarks/claims.hpp"
-#include "benchmarks/embedded.hpp"
-#include "benchmarks/environment.hpp"
-#include "benchmarks/json_lines.hpp"
-#include "benchmarks/report.hpp"
-#include "benchmarks/validate.hpp"
+#include "benchmarks/report/claims.hpp"
+#include "benchmarks/record/embedded.hpp"
+#include "benchmarks/record/environment.hpp"
+#include "benchmarks/record/json_lines.hpp"
+#include "benchmarks/report/report.hpp"
+#include "benchmarks/record/validate.hpp"
 #include "invented_run.hpp"
 #include "temporary_folder.hpp"
 

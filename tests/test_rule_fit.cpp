@@ -10,7 +10,7 @@
 
 #include "adapters/adapter.hpp"
 #include "benchmarks/metrics/area.hpp"
-#include "benchmarks/parameter_rules.hpp"
+#include "benchmarks/plan/parameter_rules.hpp"
 #include "benchmarks/tune/fit_score.hpp"
 #include "benchmarks/tune/limit_fit.hpp"
 #include "benchmarks/tune/rule_fit.hpp"

@@ -12,14 +12,14 @@
 #include <sstream>
 #include <thread>
 
-#include "benchmarks/environment.hpp"
-#include "benchmarks/interrupt.hpp"
-#include "benchmarks/json_lines.hpp"
-#include "benchmarks/listing.hpp"
-#include "benchmarks/report.hpp"
-#include "benchmarks/run_directory.hpp"
-#include "benchmarks/runner.hpp"
-#include "benchmarks/validate.hpp"
+#include "benchmarks/record/environment.hpp"
+#include "benchmarks/base/interrupt.hpp"
+#include "benchmarks/record/json_lines.hpp"
+#include "benchmarks/cli/listing.hpp"
+#include "benchmarks/report/report.hpp"
+#include "benchmarks/run/run_directory.hpp"
+#include "benchmarks/run/runner.hpp"
+#include "benchmarks/record/validate.hpp"
 #include "datasets/sha256.hpp"
 #include "tests/program.hpp"
 #include "tests/temporary_folder.hpp"

@@ -9,9 +9,9 @@
 #include <string>
 #include <vector>
 
-#include "benchmarks/plan.hpp"
-#include "benchmarks/runner.hpp"
-#include "benchmarks/shard.hpp"
+#include "benchmarks/plan/plan.hpp"
+#include "benchmarks/run/runner.hpp"
+#include "benchmarks/plan/shard.hpp"
 
 namespace hullbench {
 namespace {

@@ -8,7 +8,7 @@
 #include <stdexcept>
 #include <vector>
 
-#include "benchmarks/statistics.hpp"
+#include "benchmarks/statistics/statistics.hpp"
 
 namespace hullbench {
 namespace {

@@ -12,7 +12,7 @@
 #include <utility>
 #include <vector>
 
-#include "benchmarks/json_lines.hpp"
+#include "benchmarks/record/json_lines.hpp"
 #include "tests/program.hpp"
 #include "tests/small_plans.hpp"
 #include "tests/temporary_folder.hpp"

@@ -8,10 +8,10 @@
 #include <string>
 #include <utility>
 
-#include "benchmarks/number_format.hpp"
-#include "benchmarks/report.hpp"
-#include "benchmarks/tables.hpp"
-#include "benchmarks/text_table.hpp"
+#include "benchmarks/base/number_format.hpp"
+#include "benchmarks/report/report.hpp"
+#include "benchmarks/report/tables.hpp"
+#include "benchmarks/report/text_table.hpp"
 #include "invented_run.hpp"
 #include "temporary_folder.hpp"
 

@@ -13,9 +13,9 @@
 #include <string>
 #include <vector>
 
-#include "benchmarks/json_lines.hpp"
+#include "benchmarks/record/json_lines.hpp"
 #include "benchmarks/metrics/area.hpp"
-#include "benchmarks/parameter_rules.hpp"
+#include "benchmarks/plan/parameter_rules.hpp"
 #include "datasets/datasets.hpp"
 #include "tests/program.hpp"
 #include "tests/small_plans.hpp"

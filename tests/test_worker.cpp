@@ -15,12 +15,12 @@
 #include <vector>
 
 #include "adapters/wkb.hpp"
-#include "benchmarks/huge_pages.hpp"
-#include "benchmarks/interrupt.hpp"
-#include "benchmarks/method_session.hpp"
-#include "benchmarks/protocol.hpp"
-#include "benchmarks/stray_processes.hpp"
-#include "benchmarks/worker_process.hpp"
+#include "benchmarks/worker/huge_pages.hpp"
+#include "benchmarks/base/interrupt.hpp"
+#include "benchmarks/worker/method_session.hpp"
+#include "benchmarks/worker/protocol.hpp"
+#include "benchmarks/worker/stray_processes.hpp"
+#include "benchmarks/worker/worker_process.hpp"
 #include "tests/program.hpp"
 #include "tests/temporary_folder.hpp"
 

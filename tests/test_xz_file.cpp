@@ -7,8 +7,8 @@
 #include <stdexcept>
 #include <string>
 
-#include "benchmarks/report.hpp"
-#include "benchmarks/xz_file.hpp"
+#include "benchmarks/report/report.hpp"
+#include "benchmarks/record/xz_file.hpp"
 #include "invented_run.hpp"
 #include "temporary_folder.hpp"
 #include "tests/program.hpp"

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "benchmarks/report.hpp"
-#include "benchmarks/tables.hpp"
+#include "benchmarks/report/report.hpp"
+#include "benchmarks/report/tables.hpp"
 #include "invented_run.hpp"
 
 int main(int argc, char** argv) {

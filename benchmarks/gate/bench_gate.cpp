@@ -6,16 +6,16 @@
 #include <iostream>
 #include <string>
 
-#include "benchmarks/document.hpp"
+#include "benchmarks/report/document.hpp"
 #include "benchmarks/gate/gate_accuracy.hpp"
 #include "benchmarks/gate/gate_cases.hpp"
 #include "benchmarks/gate/gate_probes.hpp"
 #include "benchmarks/gate/gate_report.hpp"
 #include "benchmarks/gate/gate_verdict.hpp"
 #include "benchmarks/gate/time_gate.hpp"
-#include "benchmarks/interrupt.hpp"
-#include "benchmarks/plan.hpp"
-#include "benchmarks/worker_process.hpp"
+#include "benchmarks/base/interrupt.hpp"
+#include "benchmarks/plan/plan.hpp"
+#include "benchmarks/worker/worker_process.hpp"
 
 namespace {
 

@@ -6,7 +6,7 @@
 #include <stdexcept>
 #include <utility>
 
-#include "benchmarks/interrupt.hpp"
+#include "benchmarks/base/interrupt.hpp"
 #include "datasets/random.hpp"
 
 namespace hullbench {

@@ -1,6 +1,6 @@
 #include "benchmarks/gate/gate_cases.hpp"
 
-#include "benchmarks/document.hpp"
+#include "benchmarks/report/document.hpp"
 #include "benchmarks/micro/point_sets.hpp"
 #include "datasets/point_bytes.hpp"
 

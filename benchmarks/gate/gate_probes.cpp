@@ -9,9 +9,9 @@
 #include <sstream>
 #include <stdexcept>
 
-#include "benchmarks/plan.hpp"
-#include "benchmarks/statistics.hpp"
-#include "benchmarks/worker_process.hpp"
+#include "benchmarks/plan/plan.hpp"
+#include "benchmarks/statistics/statistics.hpp"
+#include "benchmarks/worker/worker_process.hpp"
 
 namespace hullbench {
 namespace {

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "benchmarks/document.hpp"
-#include "benchmarks/number_format.hpp"
-#include "benchmarks/text_table.hpp"
+#include "benchmarks/report/document.hpp"
+#include "benchmarks/base/number_format.hpp"
+#include "benchmarks/report/text_table.hpp"
 
 namespace hullbench {
 namespace {

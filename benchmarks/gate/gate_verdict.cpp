@@ -4,7 +4,7 @@
 #include <cmath>
 #include <span>
 
-#include "benchmarks/statistics.hpp"
+#include "benchmarks/statistics/statistics.hpp"
 
 namespace hullbench {
 namespace {

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "benchmarks/gate/gate_statistics.hpp"
+#include "benchmarks/statistics/sign_test.hpp"
 
 namespace hullbench {
 

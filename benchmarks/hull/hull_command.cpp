@@ -15,8 +15,8 @@
 #include "benchmarks/hull/polygon_writers.hpp"
 #include "benchmarks/hull/result_output.hpp"
 #include "benchmarks/hull/simplify.hpp"
-#include "benchmarks/interrupt.hpp"
-#include "benchmarks/plan.hpp"
+#include "benchmarks/base/interrupt.hpp"
+#include "benchmarks/plan/plan.hpp"
 #include "datasets/point_files/point_file.hpp"
 #include "polylidar/concave_hull.hpp"
 

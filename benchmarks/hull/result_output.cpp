@@ -8,7 +8,7 @@
 #include <stdexcept>
 #include <system_error>
 
-#include "benchmarks/interrupt.hpp"
+#include "benchmarks/base/interrupt.hpp"
 
 namespace hullbench {
 namespace {

@@ -8,9 +8,9 @@
 #include <tuple>
 #include <utility>
 
-#include "benchmarks/pictures.hpp"
-#include "benchmarks/protocol.hpp"
-#include "benchmarks/statistics.hpp"
+#include "benchmarks/record/pictures.hpp"
+#include "benchmarks/worker/protocol.hpp"
+#include "benchmarks/statistics/statistics.hpp"
 #include "benchmarks/tune/search.hpp"
 #include "benchmarks/tune/split.hpp"
 

@@ -11,7 +11,7 @@
 #include <utility>
 #include <vector>
 
-#include "benchmarks/bootstrap.hpp"
+#include "benchmarks/statistics/bootstrap.hpp"
 
 namespace hullbench {
 

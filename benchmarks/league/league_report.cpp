@@ -6,9 +6,9 @@
 #include <set>
 #include <sstream>
 
-#include "benchmarks/labels.hpp"
-#include "benchmarks/number_format.hpp"
-#include "benchmarks/plan.hpp"
+#include "benchmarks/report/labels.hpp"
+#include "benchmarks/base/number_format.hpp"
+#include "benchmarks/plan/plan.hpp"
 
 namespace hullbench {
 namespace {

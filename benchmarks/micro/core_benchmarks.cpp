@@ -18,7 +18,7 @@
 #include <utility>
 #include <vector>
 
-#include "benchmarks/huge_pages.hpp"
+#include "benchmarks/base/huge_pages.hpp"
 #include "benchmarks/micro/core_verdicts.hpp"
 #include "benchmarks/micro/measured_functions.hpp"
 #include "benchmarks/micro/point_sets.hpp"

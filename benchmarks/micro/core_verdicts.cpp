@@ -8,10 +8,10 @@
 #include <stdexcept>
 #include <utility>
 
-#include "benchmarks/document.hpp"
-#include "benchmarks/number_format.hpp"
-#include "benchmarks/statistics.hpp"
-#include "benchmarks/text_table.hpp"
+#include "benchmarks/report/document.hpp"
+#include "benchmarks/base/number_format.hpp"
+#include "benchmarks/statistics/statistics.hpp"
+#include "benchmarks/report/text_table.hpp"
 
 namespace hullbench {
 namespace {

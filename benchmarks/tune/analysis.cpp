@@ -6,7 +6,7 @@
 #include <map>
 #include <span>
 
-#include "benchmarks/statistics.hpp"
+#include "benchmarks/statistics/statistics.hpp"
 
 namespace hullbench {
 namespace {

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "benchmarks/bootstrap.hpp"
+#include "benchmarks/statistics/bootstrap.hpp"
 #include "benchmarks/tune/search.hpp"
 #include "benchmarks/tune/tuning.hpp"
 

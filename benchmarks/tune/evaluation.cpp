@@ -8,8 +8,8 @@
 #include <stdexcept>
 #include <system_error>
 
-#include "benchmarks/plan.hpp"
-#include "benchmarks/protocol.hpp"
+#include "benchmarks/plan/plan.hpp"
+#include "benchmarks/worker/protocol.hpp"
 #include "benchmarks/tune/search.hpp"
 #include "datasets/sha256.hpp"
 

@@ -12,8 +12,8 @@
 #include <vector>
 
 #include "adapters/adapter.hpp"
-#include "benchmarks/json_lines.hpp"
-#include "benchmarks/record.hpp"
+#include "benchmarks/record/json_lines.hpp"
+#include "benchmarks/record/record.hpp"
 
 namespace hullbench {
 

@@ -12,11 +12,11 @@
 #include <string>
 #include <vector>
 
-#include "benchmarks/document.hpp"
-#include "benchmarks/number_format.hpp"
-#include "benchmarks/plan.hpp"
+#include "benchmarks/report/document.hpp"
+#include "benchmarks/base/number_format.hpp"
+#include "benchmarks/plan/plan.hpp"
 #include "benchmarks/tune/rule_fit.hpp"
-#include "benchmarks/worker_process.hpp"
+#include "benchmarks/worker/worker_process.hpp"
 
 namespace hullbench {
 namespace {

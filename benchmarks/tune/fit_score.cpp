@@ -5,7 +5,7 @@
 #include <map>
 #include <span>
 
-#include "benchmarks/statistics.hpp"
+#include "benchmarks/statistics/statistics.hpp"
 #include "benchmarks/tune/search.hpp"
 
 namespace hullbench {

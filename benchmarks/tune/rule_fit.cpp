@@ -10,8 +10,8 @@
 
 #include "adapters/adapter.hpp"
 #include "benchmarks/metrics/metrics.hpp"
-#include "benchmarks/parallel.hpp"
-#include "benchmarks/parameter_rules.hpp"
+#include "benchmarks/base/parallel.hpp"
+#include "benchmarks/plan/parameter_rules.hpp"
 #include "benchmarks/tune/search.hpp"
 #include "benchmarks/tune/split.hpp"
 #include "datasets/datasets.hpp"

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "benchmarks/plan.hpp"
+#include "benchmarks/plan/plan.hpp"
 #include "benchmarks/tune/fit_score.hpp"
 #include "benchmarks/tune/limit_fit.hpp"
 

@@ -1,7 +1,7 @@
 // The chosen parameters as a plan, so that `hullbench run` measures them with every metric.
 #pragma once
 
-#include "benchmarks/plan.hpp"
+#include "benchmarks/plan/plan.hpp"
 #include "benchmarks/tune/tuning.hpp"
 
 namespace hullbench {

@@ -12,12 +12,12 @@
 #include <utility>
 
 #include "adapters/wkb.hpp"
-#include "benchmarks/interrupt.hpp"
-#include "benchmarks/method_session.hpp"
+#include "benchmarks/base/interrupt.hpp"
+#include "benchmarks/worker/method_session.hpp"
 #include "benchmarks/metrics/area.hpp"
-#include "benchmarks/parameter_rules.hpp"
-#include "benchmarks/protocol.hpp"
-#include "benchmarks/runner.hpp"
+#include "benchmarks/plan/parameter_rules.hpp"
+#include "benchmarks/worker/protocol.hpp"
+#include "benchmarks/run/runner.hpp"
 #include "benchmarks/tune/search.hpp"
 
 namespace hullbench {

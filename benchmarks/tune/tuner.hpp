@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "benchmarks/method.hpp"
-#include "benchmarks/progress.hpp"
+#include "benchmarks/worker/method.hpp"
+#include "benchmarks/run/progress.hpp"
 #include "benchmarks/tune/tuning.hpp"
 #include "datasets/datasets.hpp"
 

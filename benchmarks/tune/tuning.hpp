@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "adapters/adapter.hpp"
-#include "benchmarks/plan.hpp"
+#include "benchmarks/plan/plan.hpp"
 #include "benchmarks/tune/evaluation.hpp"
 #include "benchmarks/tune/search_axis.hpp"
 #include "benchmarks/tune/split.hpp"

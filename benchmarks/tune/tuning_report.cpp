@@ -5,10 +5,10 @@
 #include <set>
 #include <span>
 
-#include "benchmarks/number_format.hpp"
-#include "benchmarks/protocol.hpp"
-#include "benchmarks/record.hpp"
-#include "benchmarks/statistics.hpp"
+#include "benchmarks/base/number_format.hpp"
+#include "benchmarks/worker/protocol.hpp"
+#include "benchmarks/record/record.hpp"
+#include "benchmarks/statistics/statistics.hpp"
 #include "benchmarks/tune/analysis.hpp"
 #include "benchmarks/tune/search.hpp"
 

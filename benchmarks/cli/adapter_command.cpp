@@ -1,0 +1,173 @@
+#include "benchmarks/cli/adapter_command.hpp"
+
+#include <algorithm>
+#include <cstdlib>
+#include <fstream>
+#include <iomanip>
+#include <iostream>
+#include <iterator>
+#include <system_error>
+
+#include "benchmarks/worker/contract.hpp"
+#include "benchmarks/worker/method_catalog.hpp"
+
+namespace hullbench {
+namespace {
+
+namespace fs = std::filesystem;
+
+const fs::path kSource = HULLBENCH_SOURCE_FOLDER;
+const fs::path kSkeletons = kSource / "benchmarks" / "skeletons";
+const fs::path kHelpers = kSource / "adapters" / "process";
+constexpr int kKept = 0;
+constexpr int kBroken = 4;
+constexpr int kNothingTried = 6;
+
+std::string read_text(const fs::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  std::string text(std::istreambuf_iterator<char>(in), {});
+  if (!in.is_open() || text.empty()) throw std::runtime_error("cannot read " + file.string());
+  return text;
+}
+
+std::string replace_all(std::string text, const std::string& what, const std::string& with) {
+  for (std::size_t at = text.find(what); at != std::string::npos; at = text.find(what, at + with.size())) {
+    text.replace(at, what.size(), with);
+  }
+  return text;
+}
+
+/// A file to be written, all of them checked before the first one is.
+struct NewFile {
+  fs::path path;
+  std::string text;
+  bool append = false;  ///< to a file that may be there
+  bool shared = false;  ///< the same for every method of the folder, so that it may be there
+};
+
+std::vector<NewFile> cpp_files(const NewAdapterCommand& command) {
+  const fs::path folder = command.out.value_or(kSource / "adapters");
+  const std::string line = "add_adapter(NAME " + command.name + " TITLE \"" + command.name + "\")\n";
+  return {{folder / (command.name + ".cpp"),
+           replace_all(read_text(kSkeletons / "skeleton.cpp.in"), "@NAME@", command.name)},
+          {folder / "adapters.cmake", line, true}};
+}
+
+std::vector<NewFile> script_files(const NewAdapterCommand& command) {
+  const fs::path folder = command.out ? *command.out : user_manifest_folder();
+  const bool python = command.language == "python";
+  const std::string ending = python ? ".py" : ".mjs";
+  // Not NAME.py, which would hide a module of that name from every method of the folder.
+  const std::string script = command.name + "_worker" + ending;
+  const std::string words = (python ? R"("python3", "./)" : R"("node", "./)") + script + "\"";
+  const std::string helper = "hullbench_worker" + ending;
+  std::string manifest = replace_all(read_text(kSkeletons / "skeleton.json"), "@NAME@", command.name);
+  manifest = replace_all(manifest, "@COMMAND@", words);
+  manifest = replace_all(manifest, "@JIT@", python ? "false" : "true");
+  manifest =
+      replace_all(manifest, "@INSTALL@",
+                  python ? "sudo apt-get install python3-numpy; for a Python of your own: python3 -m pip "
+                           "install numpy"
+                         : "sudo apt-get install nodejs");
+  return {{folder / (command.name + ".json"), manifest},
+          {folder / script, read_text(kSkeletons / ("skeleton" + ending))},
+          {folder / helper, read_text(kHelpers / helper), false, true}};
+}
+
+void check_name(const std::string& name) {
+  const bool good = !name.empty() && name.front() >= 'a' && name.front() <= 'z' &&
+                    std::all_of(name.begin(), name.end(), [](char c) {
+                      return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '_';
+                    });
+  if (!good) {
+    throw ConfigurationError(
+        "a method's name has small letters, digits and '_' and begins with a letter, not '" + name + "'");
+  }
+  const MethodCatalog catalog(manifest_folders({}));
+  const std::vector<std::string> names = catalog.names();
+  // The worker of "hullbench" would have the name of the helper file.
+  if (name == "hullbench" || std::find(names.begin(), names.end(), name) != names.end()) {
+    throw ConfigurationError("there is a method '" + name + "' already; choose another name");
+  }
+}
+
+void write(const NewFile& file) {
+  std::ofstream out(file.path, std::ios::binary | (file.append ? std::ios::app : std::ios::trunc));
+  out << file.text;
+  out.close();
+  if (!out) throw std::runtime_error("cannot write " + file.path.string());
+}
+
+void write_all(const std::vector<NewFile>& files) {
+  for (const NewFile& file : files) {
+    if (!file.append && !file.shared && fs::exists(file.path)) {
+      throw ConfigurationError("the file " + file.path.string() +
+                               " is there already; remove it or choose another name");
+    }
+  }
+  std::error_code error;
+  fs::create_directories(files.front().path.parent_path(), error);
+  if (error) {
+    throw ConfigurationError("cannot make the folder " + files.front().path.parent_path().string() + ": " +
+                             error.message());
+  }
+  for (const NewFile& file : files) {
+    const bool added_to = file.append && fs::exists(file.path);
+    if (!(file.shared && fs::exists(file.path))) write(file);
+    std::cout << (added_to ? "added a line to " : "wrote ") << file.path.string() << "\n";
+  }
+}
+
+/// A folder for the files of one test, removed with this object.
+class Scratch {
+ public:
+  Scratch() : path_((fs::temp_directory_path() / "hullbench-contract-XXXXXX").string()) {
+    if (!mkdtemp(path_.data())) throw std::runtime_error("cannot make a folder like " + path_);
+  }
+  ~Scratch() {
+    std::error_code ignored;
+    fs::remove_all(path_, ignored);
+  }
+  Scratch(const Scratch&) = delete;
+  Scratch& operator=(const Scratch&) = delete;
+  fs::path path() const { return path_; }
+
+ private:
+  std::string path_;
+};
+
+void print(const Verdict& verdict) {
+  std::cout << (verdict.kept ? "ok    " : "FAIL  ") << std::left << std::setw(30) << verdict.name << " "
+            << verdict.words << std::endl;
+}
+
+}  // namespace
+
+int new_adapter_command(const NewAdapterCommand& command) {
+  check_name(command.name);
+  const bool cpp = command.language == "cpp";
+  write_all(cpp ? cpp_files(command) : script_files(command));
+  std::string next = "hullbench adapter test " + command.name;
+  if (command.out && !cpp) next += " --adapters " + command.out->string();
+  std::cout << "next: put the method in its place, " << (cpp ? "'make build', " : "") << "then '" << next
+            << "'\n";
+  return kKept;
+}
+
+int test_adapter_command(const TestAdapterCommand& command) {
+  const MethodCatalog catalog(manifest_folders(command.adapters));
+  const Method& method = catalog.find(command.name);
+  const Scratch scratch;
+  const auto timeout = std::chrono::milliseconds(static_cast<std::int64_t>(command.timeout_s * 1000));
+  const std::vector<Verdict> verdicts =
+      test_contract(method, {command.mem_limit_mib, std::nullopt}, timeout, scratch.path(), &print);
+  const auto kept =
+      std::count_if(verdicts.begin(), verdicts.end(), [](const Verdict& verdict) { return verdict.kept; });
+  if (verdicts.back().status == Status::kNotInstalled) return kNothingTried;
+  const bool all = kept == static_cast<std::ptrdiff_t>(verdicts.size());
+  std::cout << command.name << " keeps " << (all ? "the contract: " : "part of the contract: ") << kept
+            << " of " << verdicts.size() << " points\n";
+  return all ? kKept : kBroken;
+}
+
+}  // namespace hullbench

@@ -1,0 +1,431 @@
+#include "benchmarks/cli/run_command.hpp"
+
+#include <sys/ioctl.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <iostream>
+#include <memory>
+#include <sstream>
+#include <stdexcept>
+#include <vector>
+
+#include "benchmarks/run/canary.hpp"
+#include "benchmarks/record/environment.hpp"
+#include "benchmarks/report/gbench_export.hpp"
+#include "benchmarks/cli/listing.hpp"
+#include "benchmarks/worker/method_catalog.hpp"
+#include "benchmarks/plan/plan.hpp"
+#include "benchmarks/report/report.hpp"
+#include "benchmarks/run/run_directory.hpp"
+#include "benchmarks/worker/stray_processes.hpp"
+#include "benchmarks/run/suite.hpp"
+#include "benchmarks/record/tool_description.hpp"
+#include "benchmarks/worker/worker_process.hpp"
+#include "datasets/datasets.hpp"
+#include "datasets/rgbd/recordings.hpp"
+
+namespace hullbench {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+
+const fs::path kResults = "results";
+
+/// A plan and those of its runs that were asked for.
+struct Experiment {
+  Plan plan;
+  std::string filter;
+  std::vector<PlannedRun> runs;
+};
+
+std::size_t count_recordings(const fs::path& folder) {
+  try {
+    return list_recordings(folder).size();
+  } catch (const std::runtime_error& error) {
+    throw ConfigurationError(error.what());
+  }
+}
+
+Experiment make_experiment(const std::string& name, const RunCommand& command, const MethodCatalog& catalog) {
+  Plan plan = load_plan(name, HULLBENCH_PLAN_FOLDER);
+  for (const std::string& method : command.with) add_methods(plan, catalog.runs_of(method));
+  if (!command.recordings.empty()) use_recordings(plan, count_recordings(command.recordings));
+  plan.repetitions = command.repetitions.value_or(plan.repetitions);
+  plan.passes = command.passes.value_or(plan.passes);
+  plan.seed = command.seed.value_or(plan.seed);
+  plan.timeout_s = command.timeout_s.value_or(plan.timeout_s);
+  plan.mem_limit_mib = command.mem_limit_mib.value_or(plan.mem_limit_mib);
+  for (PlanMethod& method : plan.methods) {
+    if (command.repetitions) method.repetitions.reset();
+    if (command.timeout_s) method.timeout_s.reset();
+    if (command.mem_limit_mib) method.mem_limit_mib.reset();
+  }
+  check_plan(plan, catalog.names(), datasets({default_data_directory(), command.recordings}));
+  std::string filter = command.filter.empty() ? plan.filter : command.filter;
+  std::vector<PlannedRun> runs = planned_runs(plan, filter);
+  return {std::move(plan), std::move(filter), std::move(runs)};
+}
+
+/// The formula of every rule that the plan names.
+json describe_rules(const Plan& plan) {
+  json rules = json::object();
+  for (const PlanMethod& method : plan.methods) {
+    for (const auto& [name, choice] : method.parameters) {
+      if (const auto* rule = std::get_if<RuleChoice>(&choice))
+        rules[rule->rule] = find_rule(rule->rule)->formula;
+    }
+  }
+  return rules;
+}
+
+/// The hashes of the manifests of the plan's methods.
+json manifest_hashes(const Plan& plan, const MethodCatalog& catalog) {
+  json hashes = json::object();
+  for (const PlanMethod& method : plan.methods) {
+    const auto found = catalog.hashes().find(method.method);
+    if (found != catalog.hashes().end()) hashes[found->first] = found->second;
+  }
+  return hashes;
+}
+
+json describe_run(const Experiment& experiment, const RunCommand& command, const MethodCatalog& catalog) {
+  const Plan& plan = experiment.plan;
+  std::vector<std::string> used;
+  used.reserve(experiment.runs.size());
+  for (const PlannedRun& run : experiment.runs) used.push_back(plan.expanded_cases[run.case_index].dataset);
+  return {{"schema_version", kSchemaVersion},
+          {"created", utc_now()},
+          {"resumed", json::array()},
+          {"tool", describe_tool()},
+          {"environment", collect_environment()},
+          {"plan", plan_to_json(plan)},
+          {"rules", describe_rules(plan)},
+          {"seed", plan.seed},
+          {"filter", experiment.filter.empty() ? json(nullptr) : json(experiment.filter)},
+          {"manifests", manifest_hashes(plan, catalog)},
+          {"shard", command.shard ? json(to_string(*command.shard)) : json(nullptr)},
+          {"repetitions", plan.repetitions},
+          {"passes", plan.passes},
+          {"datasets", describe_datasets({default_data_directory(), command.recordings}, used)}};
+}
+
+/// Which cores do what: the last allowed one is the workers', and the harness keeps off it while they work.
+struct Cores {
+  std::vector<int> all;
+  std::optional<int> worker;
+};
+
+Cores reserve_worker_core() {
+  Cores cores = {allowed_cores(), std::nullopt};
+  if (cores.all.empty()) return cores;
+  cores.worker = cores.all.back();
+  leave_core(*cores.worker);
+  return cores;
+}
+
+std::size_t terminal_width() {
+  winsize size{};
+  return ::ioctl(STDERR_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 0 ? size.ws_col : 80;
+}
+
+/// The header of the run in `directory`: the earlier start's, with this start added, or the new one.
+json header_to_write(const RunDirectory& directory, const json& header) {
+  if (!directory.resumed()) return header;
+  json earlier = directory.header();
+  earlier["resumed"].push_back(header.at("created"));
+  return earlier;
+}
+
+void say_what_goes_on(const RunDirectory& directory, const Experiment& experiment) {
+  const std::size_t planned = experiment.runs.size();
+  if (!directory.resumed()) {
+    std::cerr << "hullbench: " << planned << " runs to do, into " << directory.path().string() << "\n";
+    return;
+  }
+  const auto& rows = directory.rows();
+  const auto missing = std::count_if(
+      rows.begin(), rows.end(), [](const RunRecord& row) { return row.status == Status::kNotInstalled; });
+  const auto finished =
+      static_cast<std::ptrdiff_t>(count_finished(experiment.plan, experiment.runs, directory));
+  std::cerr << "hullbench: going on with the run in " << directory.path().string() << ": "
+            << finished - missing << " of " << planned
+            << " runs are finished and not measured again (--force starts anew)";
+  if (missing > 0) std::cerr << "; tried again because the method was not installed: " << missing;
+  std::cerr << "\n";
+}
+
+void say_counts(const RunResult& result) {
+  int failed = 0;
+  const auto count = [&](Status status) {
+    const auto found = result.counts.find(status);
+    return found == result.counts.end() ? 0 : found->second;
+  };
+  for (const Status status :
+       {Status::kTimeout, Status::kMemory, Status::kCrash, Status::kError, Status::kInvalidOutput}) {
+    failed += count(status);
+  }
+  std::cerr << "hullbench: " << count(Status::kOk) << " ok, " << failed << " failed, "
+            << count(Status::kNotInstalled) << " not installed";
+  if (count(Status::kUnsupported) > 0) std::cerr << ", " << count(Status::kUnsupported) << " unsupported";
+  if (result.accepted > 0) std::cerr << ", " << result.accepted << " not ok as the plan accepts";
+  std::cerr << "\n";
+}
+
+void say_files(const fs::path& directory, const fs::path& shown, const std::vector<const char*>& files) {
+  std::cerr << "hullbench: wrote";
+  for (const char* file : files) std::cerr << " " << (shown / file).string();
+  if (shown != directory) std::cerr << " (in " << directory.string() << ")";
+  std::cerr << "\n";
+}
+
+/// One of the call's experiments on its way to its tables.
+struct Task {
+  const Experiment* experiment = nullptr;
+  json header;
+  fs::path folder;                          ///< of its run
+  std::unique_ptr<RunDirectory> directory;  ///< none: an earlier call has finished it
+  RunResult result;                         ///< of the last pass so far
+};
+
+/// Measures the tasks of one call, pass by pass through all of them.
+class Measuring {
+ public:
+  Measuring(const RunCommand& command, const MethodCatalog& catalog, std::vector<Task>& tasks)
+      : command_(command),
+        catalog_(catalog),
+        tasks_(tasks),
+        cores_(reserve_worker_core()),
+        canary_(cores_.worker),
+        machine_([this] { return canary_.look(); }),
+        progress_(std::cerr, ::isatty(STDERR_FILENO) == 1, terminal_width(), make_sections()) {}
+
+  /// Measures them all and writes the report and the tables of each after its last pass. Whether it was not
+  /// interrupted.
+  bool measure() {
+    for (std::size_t place = 0; place < steps_.size(); ++place) {
+      const Step& step = steps_[place];
+      progress_.enter(place);
+      if (!measure(step)) return false;
+      const bool pass_ends = place + 1 == steps_.size() || steps_[place + 1].pass != step.pass;
+      if (pass_ends && step.pass < passes_) say_pass(step.pass);
+    }
+    return true;
+  }
+
+ private:
+  /// One pass of one task.
+  struct Step {
+    Task* task = nullptr;
+    int pass = 1;
+  };
+
+  /// "table 1 of 2, pass 1 of 3", with what there are several of.
+  std::string where(const Task& task, int pass) const {
+    const int passes = task.experiment->plan.passes;
+    std::string text;
+    if (tasks_.size() > 1)
+      text = "table " + std::to_string(&task - tasks_.data() + 1) + " of " + std::to_string(tasks_.size());
+    if (passes > 1) {
+      text += (text.empty() ? "" : ", ");
+      text += "pass " + std::to_string(pass) + " of " + std::to_string(passes);
+    }
+    return text;
+  }
+
+  /// Finds the steps too, one for each section.
+  std::vector<ProgressSection> make_sections() {
+    for (const Task& task : tasks_) passes_ = std::max(passes_, task.experiment->plan.passes);
+    std::vector<ProgressSection> sections;
+    for (int pass = 1; pass <= passes_; ++pass) {
+      for (Task& task : tasks_) {
+        const auto& [plan, filter, runs] = *task.experiment;
+        const bool last = pass == plan.passes;
+        // The last pass writes the report, whatever is left to measure.
+        if (pass > plan.passes || (!last && pass > 1 && !has_repetitions(plan, runs, pass))) continue;
+        steps_.push_back({&task, pass});
+        const bool measures = task.directory && has_repetitions(plan, runs, pass);
+        const std::string there = where(task, pass);
+        sections.push_back({there.empty() ? "" : plan.title + ", " + there,
+                            measures ? progress_runs(plan, runs, pass) : std::vector<ProgressRun>(),
+                            plan.name});
+      }
+    }
+    return sections;
+  }
+
+  /// False when it was interrupted.
+  bool measure(const Step& step) {
+    Task& task = *step.task;
+    const Experiment& experiment = *task.experiment;
+    const std::string there = where(task, step.pass);
+    if (!there.empty() && (task.directory || step.pass == 1)) {
+      std::cerr << "hullbench: " << there << ": " << experiment.plan.title
+                << (task.directory ? "\n" : " is finished already\n");
+    }
+    if (!task.directory) return true;
+    if (step.pass == 1) say_what_goes_on(*task.directory, experiment);
+    if (has_repetitions(experiment.plan, experiment.runs, step.pass)) {
+      const RunnerOptions options = {[this](const std::string& name) { return catalog_.find(name); },
+                                     cores_.worker,
+                                     cores_.all,
+                                     {default_data_directory(), command_.recordings},
+                                     &machine_};
+      task.result = run_plan(experiment.plan, experiment.runs, header_to_write(*task.directory, task.header),
+                             options, *task.directory, progress_, step.pass);
+      progress_.end();
+    }
+    if (task.result.interrupted) {
+      std::cerr << "hullbench: interrupted; finished runs are kept in " << task.folder.string()
+                << ", and the same command goes on from there\n";
+      return false;
+    }
+    if (step.pass == experiment.plan.passes) finish_run(task.folder);
+    return true;
+  }
+
+  void say_pass(int pass) const {
+    const fs::path folder = tasks_.size() > 1 ? tasks_.front().folder.parent_path() : tasks_.front().folder;
+    std::cerr << "hullbench: pass " << pass << " of " << passes_ << " is done; 'hullbench tables "
+              << folder.string() << "' prints what it measured\n";
+  }
+
+  const RunCommand& command_;
+  const MethodCatalog& catalog_;
+  std::vector<Task>& tasks_;
+  int passes_ = 1;  ///< of the plan with the most
+  std::vector<Step> steps_;
+  Cores cores_;
+  Canary canary_;
+  MachineWatch machine_;
+  Progress progress_;
+};
+
+int measure_one(const RunCommand& command, const Experiment& experiment, const MethodCatalog& catalog) {
+  const json header = describe_run(experiment, command, catalog);
+  std::vector<Task> tasks(1);
+  Task& task = tasks.front();
+  task.experiment = &experiment;
+  task.header = header;
+  task.directory = open_run_directory(header, {command.out, command.force, kResults});
+  task.folder = task.directory->path();
+  if (!command.out) point_latest_to(task.folder, kResults);
+  if (!Measuring(command, catalog, tasks).measure()) return exit_code(task.result);
+  const json report = make_report(task.folder);
+  print_markdown(make_documents({report}), std::cout);
+  if (!command.export_gbench.empty()) export_gbench(command.export_gbench, {report});
+  say_counts(task.result);
+  say_files(task.folder, command.out ? task.folder : kResults / "latest",
+            {"report.json", "tables.md", "tables", "runs.jsonl", "repetitions.jsonl", "run.json"});
+  return exit_code(task.result);
+}
+
+/// What the rows of a finished run say.
+RunResult finished_result(const fs::path& run) {
+  RunResult result;
+  const json report = make_report(run);
+  const auto accepted = report.at("plan").value("accepted", std::vector<std::string>());
+  for (const json& row : report.at("runs")) count_row(result, row.get<RunRecord>().status, accepted);
+  return result;
+}
+
+int measure_suite(const RunCommand& command, const std::vector<Experiment>& experiments,
+                  const MethodCatalog& catalog) {
+  std::vector<json> headers;
+  headers.reserve(experiments.size());
+  for (const Experiment& experiment : experiments)
+    headers.push_back(describe_run(experiment, command, catalog));
+  const fs::path suite = open_suite(headers, {command.out, command.force, kResults});
+  if (!command.out) point_latest_to(suite, kResults);
+  std::vector<Task> tasks(experiments.size());
+  for (std::size_t i = 0; i < tasks.size(); ++i) {
+    Task& task = tasks[i];
+    task.experiment = &experiments[i];
+    task.header = headers[i];
+    task.folder = suite / experiments[i].plan.name;
+    const bool finished = !command.force && is_finished_run(task.folder, task.header);
+    if (finished) task.result = finished_result(task.folder);
+    // A method that was not installed may be there now.
+    if (!finished || task.result.counts.contains(Status::kNotInstalled)) {
+      task.directory = open_run_directory(task.header, {task.folder, command.force, kResults});
+    }
+  }
+  const bool complete = Measuring(command, catalog, tasks).measure();
+  RunResult all;
+  for (const Task& task : tasks) {
+    for (const auto& [status, count] : task.result.counts) all.counts[status] += count;
+    all.accepted += task.result.accepted;
+    all.interrupted = all.interrupted || task.result.interrupted;
+  }
+  if (!complete) return exit_code(all);
+  const std::vector<json> reports = suite_reports(suite);
+  const std::vector<Document> documents = make_documents(reports);
+  print_markdown(documents, std::cout);
+  write_tables(suite, documents);
+  if (!command.export_gbench.empty()) export_gbench(command.export_gbench, reports);
+  say_counts(all);
+  say_files(suite, command.out ? suite : kResults / "latest", {"tables.md", "tables", "suite.json"});
+  return exit_code(all);
+}
+
+/// Leaves of `experiment` what belongs to the shard that was asked for, and says so when that is nothing.
+void keep_shard(Experiment& experiment, const RunCommand& command) {
+  if (!command.shard || experiment.runs.empty()) return;
+  experiment.runs = runs_of_shard(experiment.plan, experiment.runs, *command.shard);
+  if (experiment.runs.empty()) {
+    std::cerr << "hullbench: the plan '" << experiment.plan.name << "' has too few cases for shard "
+              << to_string(*command.shard) << ": nothing of it is measured here\n";
+  }
+}
+
+}  // namespace
+
+void check_export_place(const fs::path& file) {
+  if (file.empty()) return;
+  const fs::path folder = file.has_parent_path() ? file.parent_path() : fs::path(".");
+  if (fs::is_directory(file) || ::access(folder.c_str(), W_OK) != 0) {
+    throw ConfigurationError("cannot write " + file.string() +
+                             "; give --export-gbench a file in a folder that is there and writable");
+  }
+}
+
+int run_command(const RunCommand& command) {
+  const MethodCatalog catalog(manifest_folders(command.adapters));
+  std::vector<Experiment> experiments;
+  std::string names;
+  bool any_run = false;
+  for (const std::string& name : command.plans) {
+    Experiment experiment = make_experiment(name, command, catalog);
+    names += (names.empty() ? "'" : ", '") + experiment.plan.name + "'";
+    const auto same = [&](const Experiment& other) { return other.plan.name == experiment.plan.name; };
+    if (std::any_of(experiments.begin(), experiments.end(), same)) {
+      throw ConfigurationError("the plan '" + experiment.plan.name + "' is named twice; leave one out");
+    }
+    any_run = any_run || !experiment.runs.empty();
+    keep_shard(experiment, command);
+    if (!experiment.runs.empty()) experiments.push_back(std::move(experiment));
+  }
+  if (experiments.empty() && any_run) return 6;
+  if (experiments.empty()) {
+    const std::string way_out = command.filter.empty()
+                                    ? "the plan's own filter; choose others with --filter"
+                                    : "'" + command.filter + "'; --dry-run without --filter prints the names";
+    std::cerr << "hullbench: no run of the plan" << (command.plans.size() == 1 ? " " : "s ") << names
+              << " has a name that matches " << way_out << "\n";
+    return 6;
+  }
+  if (command.dry_run) {
+    for (const Experiment& experiment : experiments) {
+      for (const PlannedRun& run : experiment.runs) std::cout << run.name << "\n";
+    }
+    return 0;
+  }
+  check_export_place(command.export_gbench);
+  end_strays_of_dead_harnesses();
+  remove_stale_scratch(kResults);
+  return command.plans.size() == 1 ? measure_one(command, experiments.front(), catalog)
+                                   : measure_suite(command, experiments, catalog);
+}
+
+}  // namespace hullbench

@@ -1,0 +1,70 @@
+#include "benchmarks/record/json_lines.hpp"
+
+#include <sstream>
+#include <stdexcept>
+#include <system_error>
+
+#include "benchmarks/record/xz_file.hpp"
+
+namespace hullbench {
+namespace {
+
+std::string read_all(const std::filesystem::path& path) {
+  std::ifstream in(path, std::ios::binary);
+  std::ostringstream content;
+  // An empty file makes operator<< fail, which is no error here.
+  if (in && in.peek() != std::ifstream::traits_type::eof()) content << in.rdbuf();
+  if (!in.is_open() || in.bad()) throw std::runtime_error("Cannot read " + path.string() + ".");
+  return content.str();
+}
+
+nlohmann::json parse_line(const std::string& line, const std::filesystem::path& path, std::size_t number) {
+  try {
+    return nlohmann::json::parse(line);
+  } catch (const nlohmann::json::parse_error& error) {
+    throw std::runtime_error("Line " + std::to_string(number) + " of " + path.string() +
+                             " is not JSON: " + error.what() + ".");
+  }
+}
+
+}  // namespace
+
+JsonLines load_json_lines(const std::filesystem::path& path) {
+  JsonLines result;
+  if (!std::filesystem::exists(path)) return result;
+  const std::string content = path.extension() == ".xz" ? read_xz_file(path) : read_all(path);
+  std::size_t begin = 0;
+  std::size_t number = 0;
+  for (std::size_t end = content.find('\n'); end != std::string::npos; end = content.find('\n', begin)) {
+    ++number;
+    const std::string line = content.substr(begin, end - begin);
+    if (line.find_first_not_of(" \t\r") != std::string::npos)
+      result.lines.push_back(parse_line(line, path, number));
+    begin = end + 1;
+  }
+  result.complete_bytes = begin;
+  result.torn = content.substr(begin);
+  return result;
+}
+
+JsonLinesWriter::JsonLinesWriter(const std::filesystem::path& path) : path_(path) {
+  const JsonLines existing = load_json_lines(path);
+  if (!existing.torn.empty()) {
+    std::error_code error;
+    std::filesystem::resize_file(path, existing.complete_bytes, error);
+    if (error) throw std::runtime_error("Cannot write " + path.string() + ": " + error.message() + ".");
+    repaired_ = true;
+  }
+  out_.open(path, std::ios::binary | std::ios::app);
+  if (!out_)
+    throw std::runtime_error("Cannot write " + path.string() + ": is its folder there and writable?");
+}
+
+void JsonLinesWriter::append(const nlohmann::json& json) {
+  // Method and library messages may hold bytes that are not UTF-8; they are replaced, never a reason to lose
+  // a row.
+  out_ << json.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace) + "\n" << std::flush;
+  if (!out_) throw std::runtime_error("Cannot write " + path_.string() + ": is the disk full?");
+}
+
+}  // namespace hullbench

@@ -1,0 +1,49 @@
+#include "benchmarks/record/xz_file.hpp"
+
+#include <lzma.h>
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <fstream>
+#include <iterator>
+#include <limits>
+#include <memory>
+#include <stdexcept>
+#include <vector>
+
+namespace hullbench {
+namespace {
+
+constexpr std::size_t kMaxBytes = std::size_t{1} << 30;
+
+}  // namespace
+
+std::string read_xz_file(const std::filesystem::path& path) {
+  std::ifstream in(path, std::ios::binary);
+  if (!in.is_open() || std::filesystem::is_directory(path)) {
+    throw std::runtime_error("Cannot read " + path.string() + ".");
+  }
+  const std::vector<char> compressed(std::istreambuf_iterator<char>(in), {});
+
+  lzma_stream stream = LZMA_STREAM_INIT;
+  const std::unique_ptr<lzma_stream, void (*)(lzma_stream*)> owner(&stream, &lzma_end);
+  lzma_ret state = lzma_stream_decoder(&stream, std::numeric_limits<std::uint64_t>::max(), LZMA_CONCATENATED);
+  stream.next_in = reinterpret_cast<const std::uint8_t*>(compressed.data());
+  stream.avail_in = compressed.size();
+  std::string content;
+  std::array<char, 65536> chunk{};
+  while (state == LZMA_OK) {
+    stream.next_out = reinterpret_cast<std::uint8_t*>(chunk.data());
+    stream.avail_out = chunk.size();
+    state = lzma_code(&stream, LZMA_FINISH);
+    content.append(chunk.data(), chunk.size() - stream.avail_out);
+    if (content.size() > kMaxBytes) throw std::runtime_error(path.string() + " holds more than 1 GiB.");
+  }
+  if (state != LZMA_STREAM_END) {
+    throw std::runtime_error(path.string() + " is not a whole xz file; get it anew.");
+  }
+  return content;
+}
+
+}  // namespace hullbench

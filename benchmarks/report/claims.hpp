@@ -1,0 +1,36 @@
+// The paper's claims beside what a run measured.
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "benchmarks/report/measurements.hpp"
+
+namespace hullbench {
+
+/// The paper's published values and claims: results/paper.json, which is part of the program.
+const nlohmann::json& paper();
+
+/// What every ratio is quoted beside: this project's method with the paper's parameters.
+Line reference_line();
+
+/// The steps of a method that the paper tells apart, in its order, each with what methods call it or its
+/// parts in their phases.
+struct PaperStep {
+  std::string name;
+  std::vector<std::string> parts;
+};
+const std::vector<PaperStep>& paper_steps();
+
+/// Whether a claim of paper() compares times, be it of a step.
+bool is_about_time(const nlohmann::json& claim);
+
+/// Every claim of the paper that concerns state shapes, checked against the `protocol: paper` rows of
+/// `report`: a list of {id, claim, where, paper, ours (text), value (number or null), equal_work (text or
+/// null), verdict, detail}. The verdict is "confirmed"; of a claim that gives a number "larger" or "smaller"
+/// where ours is outside of the band round it; of any other "refuted"; null: not measured here. Claims about
+/// time are not judged when there are no times (see Measurements).
+nlohmann::json check_claims(const nlohmann::json& report);
+
+}  // namespace hullbench

@@ -1,0 +1,125 @@
+#include "benchmarks/report/curve_table.hpp"
+
+#include <algorithm>
+#include <limits>
+#include <span>
+#include <sstream>
+#include <utility>
+#include <vector>
+
+#include "benchmarks/report/ratios.hpp"
+#include "benchmarks/statistics/statistics.hpp"
+
+namespace hullbench {
+namespace {
+
+using nlohmann::json;
+
+struct Place {
+  json at;                  ///< on the axis
+  std::vector<Case> cases;  ///< there
+};
+
+/// The places on the axis, from the least number on, or in the order in which they occur.
+std::vector<Place> places_of(const TableContext& context, const json& axis) {
+  std::vector<Place> places;
+  for (const RunRecord& row : context.measurements.runs()) {
+    const json at = place_on_axis(axis, row);
+    if (at.is_null()) continue;
+    auto found =
+        std::find_if(places.begin(), places.end(), [&](const Place& place) { return place.at == at; });
+    if (found == places.end()) found = places.insert(places.end(), {at, {}});
+    const Case which = {row.dataset, row.holes, row.n};
+    if (std::find(found->cases.begin(), found->cases.end(), which) == found->cases.end()) {
+      found->cases.push_back(which);
+    }
+  }
+  std::stable_sort(places.begin(), places.end(), [](const Place& one, const Place& other) {
+    return one.at.is_number() && other.at.is_number() && one.at.get<double>() < other.at.get<double>();
+  });
+  return places;
+}
+
+struct Errors {
+  std::vector<double> values;  ///< L2 of every case; infinity where the run failed or has none
+  std::size_t failures = 0;
+};
+
+Errors errors_of(const TableContext& context, const Line& line, const std::vector<Case>& cases) {
+  Errors errors;
+  for (const Case& which : cases) {
+    const auto runs = context.measurements.find(line.method, line.protocol, which);
+    if (runs.empty()) continue;
+    const std::vector<double> values = all_values(runs, "l2");
+    const bool failed = first_failure(runs) != nullptr || values.empty();
+    errors.failures += failed ? 1 : 0;
+    errors.values.push_back(failed ? std::numeric_limits<double>::infinity()
+                                   : median(std::span<const double>(values)));
+  }
+  return errors;
+}
+
+std::string error_cell(const std::vector<double>& errors) {
+  if (errors.empty()) return kNothing;
+  const double middle = 100 * median(std::span<const double>(errors));
+  return ratio_text(middle);
+}
+
+std::string place_text(const json& at) {
+  if (at.is_string()) return at.get<std::string>();
+  std::ostringstream text;
+  text << at.get<double>();
+  return text.str();
+}
+
+std::vector<std::string> header_of(const json& axis, const std::vector<Place>& places) {
+  const std::string title = axis.at("title").get<std::string>();
+  const std::string unit = axis.at("unit").get<std::string>();
+  std::vector<std::string> header = {title + (unit.empty() ? "" : ", " + unit)};
+  for (const Place& place : places) header.push_back(place_text(place.at));
+  header.emplace_back("Failed");
+  return header;
+}
+
+}  // namespace
+
+json place_on_axis(const json& axis, const RunRecord& row) {
+  const std::string of = axis.at("of").get<std::string>();
+  if (of == "n") return row.n;
+  if (of == "sampling") {
+    const std::size_t mark = row.dataset.find('~');
+    if (mark == std::string::npos) return "uniform";
+    std::string stress = row.dataset.substr(mark + 1);
+    std::replace(stress.begin(), stress.end(), ':', ' ');
+    return stress;
+  }
+  const auto level = row.levels.find(of);
+  return level == row.levels.end() ? json() : json(level->second);
+}
+
+TableSection curve_table(TableContext& context) {
+  const json& axis = context.report.at("plan").at("axis");
+  const std::vector<Place> places = places_of(context, axis);
+  TableSection section{"curves",
+                       "Error L2 along the axis, % of the ground truth's area, median of the cases",
+                       TextTable(header_of(axis, places)),
+                       {}};
+  for (const Line& line : lines_of(context, context.measurements.cases())) {
+    std::vector<std::string> cells = {label(context, line) +
+                                      failure_marks(context, line, context.measurements.cases())};
+    std::size_t failures = 0;
+    for (const Place& place : places) {
+      const Errors errors = errors_of(context, line, place.cases);
+      failures += errors.failures;
+      cells.push_back(error_cell(errors.values));
+    }
+    cells.push_back(std::to_string(failures));
+    section.table.add_row(std::move(cells));
+  }
+  section.remarks.emplace_back(
+      "A failed run counts as infinitely bad; ∞: half of the runs failed, or more. A dash: not "
+      "run.");
+  return section;
+}
+
+}  // namespace hullbench

@@ -1,0 +1,90 @@
+#include "benchmarks/report/group_values.hpp"
+
+#include <algorithm>
+#include <span>
+
+#include "benchmarks/base/number_format.hpp"
+#include "benchmarks/statistics/statistics.hpp"
+
+namespace hullbench {
+namespace {
+
+std::optional<Spread> spread_of(const std::vector<double>& values) {
+  if (values.empty()) return std::nullopt;
+  return Spread{mean(std::span<const double>(values)), standard_deviation(std::span<const double>(values)),
+                *std::max_element(values.begin(), values.end())};
+}
+
+template <typename Text>
+std::vector<std::string> cells_of(const std::optional<Spread>& spread, const Text& text) {
+  if (!spread) return {kNothing, kNothing, kNothing};
+  return {text(spread->mean), spread->deviation ? text(*spread->deviation) : kNothing, text(spread->maximum)};
+}
+
+/// Counts a case of these runs; whether it was solved.
+bool count_case(const std::vector<const RunRecord*>& runs, GroupValues& values) {
+  if (runs.empty()) return false;
+  const RunRecord* failure = first_failure(runs);
+  if (failure == nullptr) {
+    ++values.solved;
+    return true;
+  }
+  if (failure->status != Status::kNotInstalled) ++values.failed;
+  if (is_invalid(*failure)) ++values.invalid;
+  return false;
+}
+
+void add_spreads(const TableContext& context, const Line& line, const std::vector<Case>& cases,
+                 GroupValues& values) {
+  std::vector<double> errors;
+  std::vector<double> times;
+  std::vector<double> equal_work;
+  for (const Case& which : cases) {
+    const auto runs = context.measurements.find(line.method, line.protocol, which);
+    const std::vector<double> of_case = all_values(runs, "l2_paper");
+    if (!of_case.empty()) errors.push_back(median(std::span<const double>(of_case)));
+    if (!context.measurements.has_times()) continue;
+    times.push_back(median(all_times(runs, Boundary::kPaper)) / 1e6);
+    equal_work.push_back(median(all_times(runs, Boundary::kEqualWork)) / 1e6);
+  }
+  values.cases = cases.size();
+  values.error = spread_of(errors);
+  values.time = spread_of(times);
+  values.equal_work = spread_of(equal_work);
+}
+
+}  // namespace
+
+std::vector<GroupValues> group_values(const TableContext& context, const std::vector<Line>& lines,
+                                      const std::vector<Case>& cases) {
+  std::vector<GroupValues> all(lines.size());
+  std::vector<std::vector<bool>> solved(lines.size(), std::vector<bool>(cases.size()));  // by line, then case
+  std::size_t most = 0;
+  for (std::size_t i = 0; i < lines.size(); ++i) {
+    for (std::size_t k = 0; k < cases.size(); ++k)
+      solved[i][k] =
+          count_case(context.measurements.find(lines[i].method, lines[i].protocol, cases[k]), all[i]);
+    most = std::max(most, all[i].solved);
+  }
+  const auto has_enough = [&](std::size_t i) { return all[i].solved > 0 && 2 * all[i].solved >= most; };
+  std::vector<Case> common;
+  for (std::size_t k = 0; k < cases.size(); ++k) {
+    bool by_all = true;
+    for (std::size_t i = 0; i < lines.size(); ++i) by_all = by_all && (solved[i][k] || !has_enough(i));
+    if (by_all) common.push_back(cases[k]);
+  }
+  for (std::size_t i = 0; i < lines.size(); ++i) {
+    if (has_enough(i)) add_spreads(context, lines[i], common, all[i]);
+  }
+  return all;
+}
+
+std::vector<std::string> percent_cells(const std::optional<Spread>& fractions) {
+  return cells_of(fractions, [](double value) { return fixed(100 * value, 1); });
+}
+
+std::vector<std::string> millisecond_cells(const std::optional<Spread>& milliseconds) {
+  return cells_of(milliseconds, [](double value) { return three_digits(value); });
+}
+
+}  // namespace hullbench

@@ -1,0 +1,77 @@
+#include "benchmarks/report/labels.hpp"
+
+#include <algorithm>
+#include <optional>
+
+namespace hullbench {
+namespace {
+
+using nlohmann::json;
+
+std::string title_of(const json& list, const std::string& name) {
+  for (const json& entry : list) {
+    if (entry.value("name", "") == name) return entry.value("title", name);
+  }
+  return name;
+}
+
+/// The family that `dataset` is a member of: "comb" for "comb-17".
+std::optional<std::string> family_of(const json& report, const std::string& dataset) {
+  for (const json& entry : report.at("datasets")) {
+    const std::string name = entry.value("name", "");
+    if (entry.value("members", 0) > 0 && dataset.starts_with(name + "-")) return name;
+  }
+  return std::nullopt;
+}
+
+std::string remedy_of(const json& report, const std::string& name) {
+  for (const json& method : report.at("methods")) {
+    if (method.value("name", "") == name) return method.value("remedy", "");
+  }
+  return "";
+}
+
+/// ", noise 0.5" of "ca~noise:0.5".
+std::string stress_title(std::string stress) {
+  std::replace(stress.begin(), stress.end(), ':', ' ');
+  return ", " + stress;
+}
+
+}  // namespace
+
+std::string method_title(const json& report, const std::string& method) {
+  return title_of(report.at("methods"), method);
+}
+
+std::string method_label(const json& report, const std::string& method, const std::string& protocol) {
+  return method_title(report, method) + " (" + protocol + ")";
+}
+
+std::string family_title(const json& report, const std::string& dataset) {
+  const std::string unstressed = dataset.substr(0, dataset.find('~'));
+  return title_of(report.at("datasets"), family_of(report, unstressed).value_or(unstressed));
+}
+
+std::string shape_title(const json& report, const std::string& dataset_name, bool holes) {
+  const std::size_t mark = dataset_name.find('~');
+  const std::string dataset = dataset_name.substr(0, mark);
+  const auto family = family_of(report, dataset);
+  const std::string number = family ? " " + dataset.substr(family->size() + 1) : "";
+  return family_title(report, dataset) + number + (holes ? " with holes" : "") +
+         (mark == std::string::npos ? "" : stress_title(dataset_name.substr(mark + 1)));
+}
+
+std::string not_installed_text(const json& report, const std::string& what, const std::string& method,
+                               const std::string& detail) {
+  const std::string remedy = remedy_of(report, method);
+  std::string text = what + " is not installed: " + sentence(detail);
+  if (remedy.empty() || detail.find(remedy) != std::string::npos) return text;
+  return text + " To install it: " + remedy;
+}
+
+std::string sentence(std::string text) {
+  if (!text.empty() && text.back() != '.') text += '.';
+  return text;
+}
+
+}  // namespace hullbench

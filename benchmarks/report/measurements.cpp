@@ -1,0 +1,149 @@
+#include "benchmarks/report/measurements.hpp"
+
+#include <algorithm>
+#include <tuple>
+
+namespace hullbench {
+
+bool is_measured(const RunRecord& run) {
+  const auto valid = run.metrics.find("valid");
+  return run.status == Status::kOk && valid != run.metrics.end() && *valid == true;
+}
+
+bool is_invalid(const RunRecord& run) {
+  if (run.status == Status::kInvalidOutput) return true;
+  const auto valid = run.metrics.find("valid");
+  return run.status == Status::kOk && (valid == run.metrics.end() || *valid != true);
+}
+
+bool is_missing(const std::vector<const RunRecord*>& runs) {
+  return std::all_of(runs.begin(), runs.end(),
+                     [](const RunRecord* run) { return run->status == Status::kNotInstalled; });
+}
+
+const RunRecord* first_failure(const std::vector<const RunRecord*>& runs) {
+  const auto found =
+      std::find_if(runs.begin(), runs.end(), [](const RunRecord* run) { return !is_measured(*run); });
+  return found == runs.end() ? nullptr : *found;
+}
+
+bool is_worse_than_convex_hull(const RunRecord& run) {
+  constexpr double kRounding = 1e-9;
+  const auto error = metric(run, "l2");
+  const auto hull = metric(run, "l2_convex_hull");
+  return is_measured(run) && error && hull && *error > *hull * (1 + kRounding);
+}
+
+std::vector<std::int64_t> times(const RunRecord& run, Boundary boundary) {
+  if (boundary == Boundary::kEqualWork) return run.time_ns;
+  std::vector<std::int64_t> result;
+  for (const PhaseTimes& phases : run.phases_ns) {
+    if (const auto found = phases.find("run"); found != phases.end()) result.push_back(found->second);
+  }
+  return result;
+}
+
+std::vector<std::int64_t> step_times(const RunRecord& run, const std::vector<std::string>& parts) {
+  std::vector<std::int64_t> result;
+  for (const PhaseTimes& phases : run.phases_ns) {
+    bool told = false;
+    std::int64_t sum = 0;
+    for (const auto& [phase, time] : phases) {
+      const std::size_t dot = phase.find('.');
+      if (dot == std::string::npos) continue;
+      if (std::find(parts.begin(), parts.end(), phase.substr(dot + 1)) == parts.end()) continue;
+      told = true;
+      sum += time;
+    }
+    if (!told) return {};
+    result.push_back(sum);
+  }
+  return result;
+}
+
+std::optional<double> metric(const RunRecord& run, const std::string& name) {
+  const auto found = run.metrics.find(name);
+  if (found == run.metrics.end() || !found->is_number()) return std::nullopt;
+  return found->get<double>();
+}
+
+std::vector<double> all_values(const std::vector<const RunRecord*>& runs, const std::string& name) {
+  std::vector<double> result;
+  for (const RunRecord* run : runs) {
+    if (const auto value = metric(*run, name)) result.push_back(*value);
+  }
+  return result;
+}
+
+std::set<std::string> machines_of(const nlohmann::json& report) {
+  std::set<std::string> machines;
+  for (const nlohmann::json& line : report.at("runs")) {
+    if (line.at("time_ns").empty()) continue;
+    const std::string machine = line.value("machine", std::string());
+    // Only a row that does not say its machine needs the report's description of one.
+    machines.insert(!machine.empty() ? machine
+                                     : report.at("environment").at("machine_id").get<std::string>());
+  }
+  return machines;
+}
+
+std::set<std::string> builds_of(const nlohmann::json& report) {
+  std::set<std::string> builds;
+  const auto add = [&](const nlohmann::json& run) {
+    const nlohmann::json::json_pointer place("/tool/binary_sha256");
+    if (run.contains(place)) builds.insert(run.at(place).get<std::string>());
+  };
+  if (report.contains("merged")) {
+    for (const nlohmann::json& part : report["merged"]) add(part);
+  } else {
+    add(report);
+  }
+  return builds;
+}
+
+std::string no_times_sentence(const std::set<std::string>& machines, const std::set<std::string>& builds) {
+  if (machines.size() <= 1 && builds.size() <= 1) return "";
+  const bool by_machine = machines.size() > 1;
+  std::string names;
+  for (const std::string& name : by_machine ? machines : builds)
+    names += (names.empty() ? "" : ", ") + name.substr(0, 8);
+  return "Times are not shown: they were taken " +
+         (by_machine ? "on " + std::to_string(machines.size()) + " machines ("
+                     : "with " + std::to_string(builds.size()) + " builds of the program (") +
+         names + "), and times of different " + (by_machine ? "machines" : "builds") +
+         " do not go into one table.";
+}
+
+Measurements::Measurements(const nlohmann::json& report)
+    : why_no_times_(no_times_sentence(machines_of(report), builds_of(report))) {
+  for (const nlohmann::json& line : report.at("runs")) {
+    RunRecord& run = runs_.emplace_back(line.get<RunRecord>());
+    if (has_times()) continue;
+    run.time_ns.clear();
+    run.phases_ns.clear();
+  }
+  std::map<std::string, std::size_t> first_seen;  // by data set
+  for (std::size_t position = 0; position < runs_.size(); ++position) {
+    const RunRecord& run = runs_[position];
+    const Case which{run.dataset, run.holes, run.n};
+    index_[{run.method, run.protocol, which}].push_back(position);
+    first_seen.emplace(run.dataset, position);
+    cases_.push_back(which);
+  }
+  const auto place = [&](const Case& which) {
+    return std::make_tuple(first_seen.at(which.dataset), which.holes, which.n);
+  };
+  std::sort(cases_.begin(), cases_.end(), [&](const Case& a, const Case& b) { return place(a) < place(b); });
+  cases_.erase(std::unique(cases_.begin(), cases_.end()), cases_.end());
+}
+
+std::vector<const RunRecord*> Measurements::find(const std::string& method, const std::string& protocol,
+                                                 const Case& which) const {
+  std::vector<const RunRecord*> result;
+  const auto found = index_.find({method, protocol, which});
+  if (found == index_.end()) return result;
+  for (const std::size_t position : found->second) result.push_back(&runs_[position]);
+  return result;
+}
+
+}  // namespace hullbench

@@ -1,0 +1,23 @@
+#include "benchmarks/report/noise.hpp"
+
+#include "benchmarks/statistics/statistics.hpp"
+
+namespace hullbench {
+
+bool Noise::is_noisy() const {
+  return median_spread > kNoisySpread;
+}
+
+std::optional<Noise> measure_noise(const std::vector<RunRecord>& runs) {
+  constexpr std::size_t kFewest = 3;
+  std::vector<double> spreads;
+  for (const RunRecord& run : runs) {
+    if (run.time_ns.size() < kFewest) continue;
+    const double middle = median(run.time_ns);
+    if (middle > 0) spreads.push_back(median_absolute_deviation(run.time_ns) / middle);
+  }
+  if (spreads.empty()) return std::nullopt;
+  return Noise{spreads.size(), median(spreads), quantile(spreads, 0.9)};
+}
+
+}  // namespace hullbench

@@ -1,0 +1,131 @@
+#include "benchmarks/report/ratios.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <map>
+#include <span>
+#include <utility>
+
+#include "benchmarks/base/number_format.hpp"
+#include "benchmarks/statistics/statistics.hpp"
+
+namespace hullbench {
+namespace {
+
+using Runs = std::vector<const RunRecord*>;
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+/// The round of each repetition; of older records, which do not tell it, its position.
+std::vector<std::int64_t> rounds_of(const RunRecord& run) {
+  if (run.rounds.size() == run.time_ns.size()) return run.rounds;
+  std::vector<std::int64_t> rounds(run.time_ns.size());
+  for (std::size_t i = 0; i < rounds.size(); ++i) rounds[i] = static_cast<std::int64_t>(i);
+  return rounds;
+}
+
+/// The ratios of a case by pass, one a round that both have.
+Passes round_ratios(const Runs& runs, const Runs& references) {
+  std::map<std::int64_t, std::vector<double>> by_pass;
+  for (const RunRecord* run : runs) {
+    const RunRecord* reference = counterpart(*run, references);
+    if (reference == nullptr) continue;
+    std::map<std::int64_t, std::int64_t> beside;  // the reference's time by round
+    const std::vector<std::int64_t> reference_rounds = rounds_of(*reference);
+    for (std::size_t i = 0; i < reference_rounds.size(); ++i)
+      beside[reference_rounds[i]] = reference->time_ns[i];
+    const std::vector<std::int64_t> rounds = rounds_of(*run);
+    for (std::size_t i = 0; i < rounds.size(); ++i) {
+      const auto other = beside.find(rounds[i]);
+      if (other == beside.end() || other->second <= 0) continue;
+      const std::int64_t pass = run->passes.size() == rounds.size() ? run->passes[i] : 1;
+      by_pass[pass].push_back(static_cast<double>(run->time_ns[i]) / static_cast<double>(other->second));
+    }
+  }
+  Passes passes;
+  for (auto& [pass, ratios] : by_pass) passes.push_back(std::move(ratios));
+  return passes;
+}
+
+Passes metric_ratio(const Runs& runs, const Runs& references, const std::string& name) {
+  const std::vector<double> ours = all_values(runs, name);
+  const std::vector<double> theirs = all_values(references, name);
+  if (ours.empty() || theirs.empty()) return {};
+  const double by = median(std::span<const double>(theirs));
+  if (by <= 0) return {};
+  return {{median(std::span<const double>(ours)) / by}};
+}
+
+double median_of_all(const Passes& passes) {
+  std::vector<double> values;
+  for (const auto& pass : passes) values.insert(values.end(), pass.begin(), pass.end());
+  return median(std::span<const double>(values));
+}
+
+/// `ratio_of` gives the ratios of a case that both solved.
+Ratios ratios_over(const Measurements& measurements, const Line& line, const Line& reference,
+                   const std::vector<Case>& cases,
+                   const std::function<Passes(const Runs&, const Runs&)>& ratio_of) {
+  Ratios result;
+  std::map<std::pair<std::string, bool>, std::vector<Passes>> by_shape;
+  std::vector<double> middles;
+  for (const Case& which : cases) {
+    const Runs ours = measurements.find(line.method, line.protocol, which);
+    const Runs theirs = measurements.find(reference.method, reference.protocol, which);
+    if (is_missing(ours) || is_missing(theirs)) continue;
+    const bool failed = first_failure(ours) != nullptr;
+    const bool reference_failed = first_failure(theirs) != nullptr;
+    if (failed && reference_failed) continue;
+    Passes passes = failed ? Passes{{kInfinity}} : reference_failed ? Passes{{0}} : ratio_of(ours, theirs);
+    if (passes.empty()) continue;
+    ++result.cases;
+    result.failures += failed ? 1 : 0;
+    middles.push_back(median_of_all(passes));
+    by_shape[{which.dataset, which.holes}].push_back(std::move(passes));
+  }
+  if (middles.empty()) return result;
+  result.median = median(std::span<const double>(middles));
+  std::tie(result.least, result.most) = std::pair(*std::min_element(middles.begin(), middles.end()),
+                                                  *std::max_element(middles.begin(), middles.end()));
+  std::vector<std::vector<Passes>> clusters;
+  for (auto& [shape, values] : by_shape) clusters.push_back(std::move(values));
+  result.interval = nested_median_interval(clusters);
+  return result;
+}
+
+}  // namespace
+
+Ratios time_ratios(const Measurements& measurements, const Line& line, const Line& reference,
+                   const std::vector<Case>& cases) {
+  if (!measurements.has_times()) return {};
+  return ratios_over(measurements, line, reference, cases, round_ratios);
+}
+
+Ratios metric_ratios(const Measurements& measurements, const Line& line, const Line& reference,
+                     const std::vector<Case>& cases, const std::string& metric) {
+  return ratios_over(measurements, line, reference, cases, [&](const Runs& ours, const Runs& theirs) {
+    return metric_ratio(ours, theirs, metric);
+  });
+}
+
+const RunRecord* counterpart(const RunRecord& run, const std::vector<const RunRecord*>& references) {
+  const auto found = std::find_if(references.begin(), references.end(), [&](const RunRecord* other) {
+    return other->dataset_sha256 == run.dataset_sha256 && other->seed == run.seed;
+  });
+  return found == references.end() ? nullptr : *found;
+}
+
+std::string ratio_text(double ratio) {
+  return std::isinf(ratio) ? "∞" : three_digits(ratio);
+}
+
+std::string interval_text(const std::optional<Interval>& interval) {
+  if (!interval) return "–";
+  if (std::isinf(interval->low)) return "∞";
+  return std::isinf(interval->high) ? "> " + three_digits(interval->low)
+                                    : three_digits(interval->low) + "–" + three_digits(interval->high);
+}
+
+}  // namespace hullbench

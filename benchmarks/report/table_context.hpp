@@ -1,0 +1,67 @@
+// What the tables of a report share: what a line is, what a cell says, and how failures are explained.
+#pragma once
+
+#include <cstdint>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "benchmarks/report/claims.hpp"
+#include "benchmarks/report/document.hpp"
+#include "benchmarks/report/measurements.hpp"
+#include "benchmarks/report/text_table.hpp"
+
+namespace hullbench {
+
+/// In a cell: there is no such value.
+inline constexpr const char* kNothing = "–";
+
+/// A report while its tables are printed.
+struct TableContext {
+  const nlohmann::json& report;
+  Measurements measurements;
+  Notes notes;
+};
+
+/// One shape: the cases of one data set, with or without holes, that differ in n only.
+using Shape = std::vector<Case>;
+
+/// `cases`, which stand in the order of Measurements::cases, by shape.
+std::vector<Shape> shapes(const std::vector<Case>& cases);
+
+/// The lines that have a run of `shape`: in the order of the report's methods, then of the protocols.
+std::vector<Line> lines_of(const TableContext& context, const Shape& shape);
+
+std::string label(const TableContext& context, const Line& line);
+std::string shape_title(const TableContext& context, const Case& which);
+std::string milliseconds(double nanoseconds);
+
+std::vector<std::int64_t> all_times(const std::vector<const RunRecord*>& runs, Boundary boundary);
+std::vector<std::int64_t> all_step_times(const std::vector<const RunRecord*>& runs, const PaperStep& step);
+
+/// How it is called in a cell: its status, or "invalid".
+std::string failure_name(const RunRecord& run);
+/// The notes that explain a line's failures on a shape, one a kind of failure: " [1] [3]".
+std::string failure_marks(TableContext& context, const Line& line, const Shape& shape);
+
+enum class Quantity { kEqualWork, kPaperBoundary, kError };
+
+/// How many repetitions most rows with times have; 0 without times.
+std::size_t usual_repetitions(const Measurements& measurements);
+
+/// The line's label, with its number of repetitions on `cases` where that is not the usual one:
+/// "Turf concave (paper), 3 repetitions".
+std::string row_label(const TableContext& context, const Line& line, const std::vector<Case>& cases);
+
+/// Behind an error: the result is worse than the convex hull of the points. Empty when it is not.
+std::string hull_mark(const std::vector<const RunRecord*>& runs);
+/// Adds to `section` what the mark means, if a cell has it.
+void explain_hull_mark(TableSection& section);
+
+/// What the cell of one line and case says.
+std::string cell(const std::vector<const RunRecord*>& runs, Quantity quantity);
+
+/// A line's cells. A method that is not installed says so once instead of in every column.
+std::vector<std::string> row(TableContext& context, const Line& line, const Shape& shape, Quantity quantity);
+
+}  // namespace hullbench

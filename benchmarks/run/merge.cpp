@@ -1,0 +1,436 @@
+#include "benchmarks/run/merge.hpp"
+
+#include <algorithm>
+#include <iostream>
+#include <map>
+#include <set>
+#include <stdexcept>
+#include <string>
+#include <tuple>
+#include <utility>
+
+#include "benchmarks/record/pictures.hpp"
+#include "benchmarks/plan/plan.hpp"
+#include "benchmarks/report/report.hpp"
+#include "benchmarks/run/run_directory.hpp"
+#include "benchmarks/run/runner.hpp"
+#include "benchmarks/run/suite.hpp"
+#include "benchmarks/record/validate.hpp"
+
+namespace hullbench {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+
+/// A run that is merged into another one.
+struct Source {
+  fs::path folder;
+  json run;  ///< as load_run gives it
+};
+
+Source load_source(const fs::path& folder) {
+  if (!fs::exists(folder / "run.json"))
+    throw ConfigurationError("there is no run in " + folder.string() + "; give the folder of a run or suite");
+  try {
+    Source source = {folder, load_run(folder)};
+    if (const auto faults = validate_file(folder / "run.json"); !faults.empty())
+      throw std::runtime_error((folder / "run.json").string() +
+                               " is not a run's description: " + faults.front());
+    return source;
+  } catch (const std::runtime_error& error) {
+    throw ConfigurationError(std::string("cannot merge: ") + error.what());
+  }
+}
+
+/// By the time at which they began, whatever their order on the command line was.
+std::vector<Source> load_sources(const std::vector<fs::path>& folders) {
+  std::vector<Source> sources;
+  sources.reserve(folders.size());
+  for (const fs::path& folder : folders) sources.push_back(load_source(folder));
+  const auto key = [](const Source& source) {
+    return std::make_tuple(source.run.at("created").get<std::string>(),
+                           source.run.value("shard", json()).dump(), source.run.at("environment").dump());
+  };
+  std::sort(sources.begin(), sources.end(), [&](const Source& a, const Source& b) {
+    return key(a) != key(b) ? key(a) < key(b) : a.run.at("runs") < b.run.at("runs");
+  });
+  return sources;
+}
+
+/// A value in a sentence, in brackets; nothing when it is too long for one.
+std::string in_brackets(const json& one, const json& other) {
+  const std::string text = " (" + one.dump() + " and " + other.dump() + ")";
+  return text.size() <= 60 ? text : "";
+}
+
+/// An empty filter is written in two ways.
+json filter_of(const json& run) {
+  const json filter = run.value("filter", json());
+  return filter == json("") ? json() : filter;
+}
+
+void require_agreement(const Source& one, const Source& other) {
+  const auto require = [&](const std::string& what, const json& ours, const json& theirs) {
+    if (ours == theirs) return;
+    throw ConfigurationError(one.folder.string() + " and " + other.folder.string() + " differ in their " +
+                             what + in_brackets(ours, theirs) + "; only runs of the same plan can be merged");
+  };
+  json ours = one.run.at("plan");
+  json theirs = other.run.at("plan");
+  require("plan's name", ours.value("name", ""), theirs.value("name", ""));
+  ours.update(theirs);
+  for (const auto& [key, unused] : ours.items()) {
+    require("plan's " + key, one.run.at("plan").value(key, json()), theirs.value(key, json()));
+  }
+  require("seed", one.run.at("seed"), other.run.at("seed"));
+  require("filter", filter_of(one.run), filter_of(other.run));
+}
+
+/// Throws when a name stands for different things in `sources`: a data set or a rule of parameters.
+void require_same_definitions(const std::vector<Source>& sources) {
+  std::map<std::string, std::pair<json, fs::path>> known;
+  const auto add = [&](const std::string& what, const json& definition, const fs::path& folder) {
+    const auto [first, is_new] = known.emplace(what, std::pair(definition, folder));
+    if (is_new || first->second.first == definition) return;
+    throw ConfigurationError(first->second.second.string() + " and " + folder.string() + " have another " +
+                             what + " each; only runs on the same data with the same rules can be merged");
+  };
+  for (const Source& source : sources) {
+    for (const json& dataset : source.run.at("datasets")) {
+      add("data set " + dataset.at("name").get<std::string>(),
+          {dataset.at("sha256"), dataset.at("source"), dataset.at("area")}, source.folder);
+    }
+    const json rules = source.run.value("rules", json::object());
+    for (const auto& [name, formula] : rules.items()) add("rule " + name, formula, source.folder);
+  }
+}
+
+/// Which version of each method is in the runs, and where it was met first.
+class Versions {
+ public:
+  void add(const std::string& method, const std::string& version, const fs::path& folder) {
+    if (version.empty()) return;
+    const auto [known, is_new] = known_.emplace(method, std::pair(version, folder));
+    if (is_new || known->second.first == version) return;
+    throw ConfigurationError(method + " is of version " + known->second.first + " in " +
+                             known->second.second.string() + " and of version " + version + " in " +
+                             folder.string() +
+                             ", which no table may mix; measure both with the same version");
+  }
+
+ private:
+  std::map<std::string, std::pair<std::string, fs::path>> known_;
+};
+
+/// Less is better.
+int rank(const RunRecord& row) {
+  if (row.status == Status::kOk) return 0;
+  return row.status == Status::kNotInstalled ? 2 : 1;
+}
+
+/// What two measurements of the same run agree in: its metrics but the memory, which is never twice the same.
+json repeatable_metrics(const RunRecord& row) {
+  json metrics = row.metrics;
+  metrics.erase("peak_memory_bytes");
+  return metrics;
+}
+
+/// The rows of several runs by name.
+class Rows {
+ public:
+  void add(RunRecord row, const fs::path& folder) {
+    const auto [found, is_new] = chosen_.try_emplace(row.name, row, folder);
+    if (is_new) return;
+    auto& [known, its_folder] = found->second;
+    // A method that is not steady may fail with one result here and another one there.
+    const bool both_are_ok = known.status == Status::kOk && row.status == Status::kOk;
+    if (both_are_ok && (known.id != row.id || known.output_sha256 != row.output_sha256 ||
+                        repeatable_metrics(known) != repeatable_metrics(row))) {
+      throw std::runtime_error("the run " + row.name + " has another result in " + folder.string() +
+                               " than in " + its_folder.string() +
+                               "; find out which is right before they are merged");
+    }
+    repeated_.insert(row.name);
+    if (rank(row) < rank(known)) found->second = {std::move(row), folder};
+  }
+
+  /// Those of `runs` that are there, in their order.
+  std::vector<RunRecord> in_order(const std::vector<PlannedRun>& runs) const {
+    std::vector<RunRecord> result;
+    for (const PlannedRun& run : runs) {
+      if (const auto found = chosen_.find(run.name); found != chosen_.end())
+        result.push_back(found->second.first);
+    }
+    return result;
+  }
+
+  std::size_t size() const { return chosen_.size(); }
+  const std::set<std::string>& repeated() const { return repeated_; }
+
+ private:
+  std::map<std::string, std::pair<RunRecord, fs::path>> chosen_;
+  std::set<std::string> repeated_;
+};
+
+Rows gather_rows(const std::vector<Source>& sources) {
+  Versions versions;
+  Rows rows;
+  for (const Source& source : sources) {
+    for (const json& method : source.run.at("methods"))
+      versions.add(method.at("name").get<std::string>(), method.at("version").get<std::string>(),
+                   source.folder);
+    for (const json& line : source.run.at("runs")) {
+      RunRecord row = line.get<RunRecord>();
+      versions.add(row.method, row.method_version, source.folder);
+      if (row.machine.empty()) row.machine = source.run.at("environment").at("machine_id").get<std::string>();
+      rows.add(std::move(row), source.folder);
+    }
+  }
+  return rows;
+}
+
+/// The names of several lists, each once, so that each list's order is kept as far as the others' allow it.
+std::vector<std::string> common_order(std::vector<std::vector<std::string>> lists) {
+  // The longest first: what a shard lacks, its list cannot put in its place.
+  std::sort(lists.begin(), lists.end(),
+            [](const auto& a, const auto& b) { return a.size() != b.size() ? a.size() > b.size() : a < b; });
+  std::vector<std::string> result;
+  for (const auto& list : lists) {
+    // A new name goes behind the one that it follows in its list.
+    auto place = result.begin();
+    for (const std::string& name : list) {
+      const auto known = std::find(result.begin(), result.end(), name);
+      place = (known == result.end() ? result.insert(place, name) : known) + 1;
+    }
+  }
+  return result;
+}
+
+/// The descriptions of `what` ("datasets", "methods") in all sources by name; of a method that is installed
+/// somewhere the one from there.
+std::map<std::string, json> descriptions(const std::vector<Source>& sources, const char* what) {
+  std::map<std::string, json> result;
+  for (const Source& source : sources) {
+    for (const json& entry : source.run.at(what)) {
+      json& known = result[entry.at("name").get<std::string>()];
+      if (known.is_null() || (entry.value("installed", false) && !known.value("installed", false)))
+        known = entry;
+    }
+  }
+  return result;
+}
+
+json merged_datasets(const std::vector<Source>& sources) {
+  std::vector<std::vector<std::string>> lists;
+  for (const Source& source : sources) {
+    auto& list = lists.emplace_back();
+    for (const json& dataset : source.run.at("datasets"))
+      list.push_back(dataset.at("name").get<std::string>());
+  }
+  const auto all = descriptions(sources, "datasets");
+  json result = json::array();
+  for (const std::string& name : common_order(lists)) result.push_back(all.at(name));
+  return result;
+}
+
+/// In the order in which the plan's runs need them, like those of a run.
+json merged_methods(const std::vector<Source>& sources, const Plan& plan,
+                    const std::vector<PlannedRun>& runs) {
+  std::map<std::string, json> all = descriptions(sources, "methods");
+  json result = json::array();
+  for (const PlannedRun& run : runs) {
+    const auto found = all.find(plan.methods[run.method_index].method);
+    if (found == all.end()) continue;
+    result.push_back(found->second);
+    all.erase(found);
+  }
+  return result;
+}
+
+/// Where the rows came from: a run that is merged already tells it of its own parts.
+json merged_from(const std::vector<Source>& sources) {
+  json result = json::array();
+  for (const Source& source : sources) {
+    const json& run = source.run;
+    if (run.contains("merged")) {
+      for (const json& part : run["merged"]) result.push_back(part);
+      continue;
+    }
+    result.push_back({{"shard", run.value("shard", json())},
+                      {"created", run.at("created")},
+                      {"resumed", run.value("resumed", json::array())},
+                      {"tool", run.at("tool")},
+                      {"environment", run.at("environment")}});
+  }
+  std::sort(result.begin(), result.end(), [](const json& a, const json& b) {
+    return std::tie(a.at("created"), a.at("shard"), a.at("environment")) <
+           std::tie(b.at("created"), b.at("shard"), b.at("environment"));
+  });
+  result.erase(std::unique(result.begin(), result.end()), result.end());
+  return result;
+}
+
+json merge_notes(const std::vector<Source>& sources, const Rows& rows, std::size_t planned) {
+  std::set<std::string> notes;
+  for (const Source& source : sources) {
+    // What an earlier merge says of missing rows may not be true any more.
+    if (source.run.contains("merged")) continue;
+    for (const json& note : source.run.at("notes")) notes.insert(note.get<std::string>());
+  }
+  json result = notes;
+  if (rows.size() < planned) {
+    result.push_back(std::to_string(planned - rows.size()) + " of " + std::to_string(planned) +
+                     " planned runs are missing: they were not measured, or not in what was merged.");
+  }
+  if (!rows.repeated().empty()) {
+    result.push_back(
+        "Of the merged runs " + std::to_string(rows.repeated().size()) +
+        " were measured more than once, with the same result where they succeeded; the first that "
+        "did counts. One of them: " +
+        *rows.repeated().begin() + ".");
+  }
+  return result;
+}
+
+int merged_exit_code(const std::vector<MergedRun>& runs) {
+  RunResult result;
+  bool missing = false;
+  for (const MergedRun& run : runs) {
+    const auto accepted = run.header.at("plan").value("accepted", std::vector<std::string>());
+    for (const RunRecord& row : run.rows) count_row(result, row.status, accepted);
+    missing = missing || run.rows.size() < run.planned;
+  }
+  const int code = exit_code(result);
+  return code == 0 && missing ? 4 : code;
+}
+
+/// The folders with runs in `sources` by plan, in the order of the plans.
+std::vector<std::vector<fs::path>> runs_by_plan(const std::vector<fs::path>& sources) {
+  std::vector<std::vector<std::string>> lists;
+  std::map<std::string, std::vector<fs::path>> folders;
+  for (const fs::path& source : sources) {
+    auto& list = lists.emplace_back();
+    for (const fs::path& run : suite_runs(source)) {
+      list.push_back(run.filename().string());
+      folders[list.back()].push_back(run);
+    }
+  }
+  std::vector<std::vector<fs::path>> result;
+  for (const std::string& name : common_order(lists)) result.push_back(folders.at(name));
+  return result;
+}
+
+/// Whether `path` is `folder` or in it, whatever links lead there.
+bool is_within(const fs::path& path, const fs::path& folder) {
+  const auto resolved = [](const fs::path& given) { return fs::weakly_canonical(fs::absolute(given)); };
+  return *resolved(path).lexically_relative(resolved(folder)).begin() != "..";
+}
+
+/// Throws unless the output may go to `command.out`.
+void check_out(const MergeCommand& command) {
+  const std::string out = command.out.string();
+  for (const fs::path& source : command.sources) {
+    if (is_within(command.out, source) || is_within(source, command.out))
+      throw ConfigurationError("the output folder " + out + " is, holds or is in " + source.string() +
+                               ", one of the runs to be merged; choose another --out");
+  }
+  make_writable_folder(command.out);
+  const bool of_suites = is_suite(command.sources.front());
+  if (of_suites ? fs::exists(command.out / "run.json") : is_suite(command.out)) {
+    throw ConfigurationError("the output folder " + out + " holds a " + (of_suites ? "run" : "suite") +
+                             "; choose another one with --out");
+  }
+  if (!command.force && !fs::is_empty(command.out)) {
+    throw ConfigurationError("the output folder " + out +
+                             " is not empty; choose another one with --out, or write to it with --force");
+  }
+}
+
+void write_run(const MergedRun& run, const fs::path& folder) {
+  const auto directory = open_run_directory(run.header, {folder, true});
+  directory->write_header(run.header);
+  merge_pictures(run.folders, folder);
+  directory->append_rows(run.rows);
+  // The rows have their times; single repetitions would only be needed to go on.
+  fs::remove(folder / "repetitions.jsonl");
+  finish_run(folder);
+}
+
+void write_suite(const std::vector<MergedRun>& runs, const fs::path& folder) {
+  std::vector<json> headers;
+  headers.reserve(runs.size());
+  for (const MergedRun& run : runs) headers.push_back(run.header);
+  open_suite(headers, {folder, true});
+  for (const MergedRun& run : runs)
+    write_run(run, folder / run.header.at("plan").at("name").get<std::string>());
+  write_tables(folder, make_documents(suite_reports(folder)));
+}
+
+void say_merged(const std::vector<MergedRun>& runs, const MergeCommand& command) {
+  for (const MergedRun& run : runs) {
+    std::cerr << "hullbench: " << run.header.at("plan").at("name").get<std::string>() << ": "
+              << run.rows.size() << " of " << run.planned << " planned runs\n";
+    for (const json& note : run.header.at("notes"))
+      std::cerr << "hullbench: " << note.get<std::string>() << "\n";
+  }
+  std::cerr << "hullbench: merged " << command.sources.size() << " folders into " << command.out.string()
+            << "\n";
+}
+
+}  // namespace
+
+MergedRun merge_runs(const std::vector<fs::path>& folders) {
+  const std::vector<Source> sources = load_sources(folders);
+  const Source& first = sources.front();
+  for (const Source& other : sources) require_agreement(first, other);
+  require_same_definitions(sources);
+  const Plan plan = parse_plan(first.run.at("plan").dump(), (first.folder / "run.json").string());
+  const json filter = filter_of(first.run);
+  const std::vector<PlannedRun> runs =
+      planned_runs(plan, filter.is_string() ? filter.get<std::string>() : "");
+  const Rows rows = gather_rows(sources);
+  MergedRun result = {first.run, rows.in_order(runs), runs.size(), {}};
+  for (const Source& source : sources) result.folders.push_back(source.folder);
+  if (result.rows.size() != rows.size())
+    throw std::runtime_error("a row of " + first.folder.string() +
+                             " or what is merged with it is not of its plan");
+  result.header.erase("runs");
+  result.header["methods"] = merged_methods(sources, plan, runs);
+  result.header["datasets"] = merged_datasets(sources);
+  result.header["merged"] = merged_from(sources);
+  result.header["notes"] = merge_notes(sources, rows, runs.size());
+  result.header["shard"] = nullptr;
+  result.header["resumed"] = json::array();
+  return result;
+}
+
+int merge_command(const MergeCommand& command) {
+  const auto suites =
+      static_cast<std::size_t>(std::count_if(command.sources.begin(), command.sources.end(), is_suite));
+  if (suites != 0 && suites != command.sources.size())
+    throw ConfigurationError("some of the folders hold a run and some a suite; merge runs or suites");
+  std::vector<MergedRun> runs;
+  if (suites == 0) {
+    runs.push_back(merge_runs(command.sources));
+  } else {
+    for (const auto& folders : runs_by_plan(command.sources)) runs.push_back(merge_runs(folders));
+  }
+  if (std::all_of(runs.begin(), runs.end(), [](const MergedRun& run) { return run.rows.empty(); })) {
+    std::cerr << "hullbench: none of the folders has a finished run; nothing is merged\n";
+    return 6;
+  }
+  check_out(command);
+  if (suites == 0) {
+    write_run(runs.front(), command.out);
+  } else {
+    write_suite(runs, command.out);
+  }
+  print_markdown(
+      make_documents(suites == 0 ? std::vector{make_report(command.out)} : suite_reports(command.out)),
+      std::cout);
+  say_merged(runs, command);
+  return merged_exit_code(runs);
+}
+
+}  // namespace hullbench

@@ -1,0 +1,47 @@
+// `hullbench merge`: runs of the same plan, mostly shards of it from several machines, become one.
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <vector>
+
+#include "benchmarks/record/record.hpp"
+
+namespace hullbench {
+
+/// Several runs as one.
+struct MergedRun {
+  /// run.json: the first run's, with `merged`, a list of {shard, created, resumed, tool, environment} of
+  /// every run in it, and `notes`, sentences about rows that are missing or were there more than once.
+  nlohmann::json header;
+  std::vector<RunRecord> rows;                 ///< in the order of the plan; each says its machine
+  std::size_t planned = 0;                     ///< number of rows that the plan and its filter ask for
+  std::vector<std::filesystem::path> folders;  ///< of the runs, in the order in which they were taken
+};
+
+/// Merges the runs in `folders` (one or more). The result does not depend on their order: the runs are taken
+/// by the time at which they began. Of rows of the same name the first that is ok counts, or else the first
+/// of an installed method, or else the first. A merged run may be merged again.
+///
+/// Throws ConfigurationError when there is no run in one of the folders or its run.json lacks something, or
+/// they differ in plan, filter, seed or schema version, or a method is there in two versions, or a data set
+/// or a rule of the same name is another one; std::runtime_error when two rows of the same name are ok and
+/// have different results, which no machine may cause.
+MergedRun merge_runs(const std::vector<std::filesystem::path>& folders);
+
+/// The command line of `merge`.
+struct MergeCommand {
+  std::vector<std::filesystem::path>
+      sources;                ///< folders of runs, or all of suites, which are merged by plan
+  std::filesystem::path out;  ///< new or empty; never one of `sources`, in one of them or around one
+  bool force = false;         ///< `out` may hold anything but a suite, or a run when `sources` are suites
+};
+
+/// Writes the merged run, or suite, with report and tables, which go to standard output too. Returns 0; 4
+/// when a row is a failure or a planned one is missing; 6 when there is no row, and nothing is written then,
+/// or none is ok. Throws like merge_runs, before anything is written, and ConfigurationError when `out`
+/// cannot be used.
+int merge_command(const MergeCommand& command);
+
+}  // namespace hullbench

@@ -1,0 +1,366 @@
+#include "benchmarks/run/run_directory.hpp"
+
+#include <fcntl.h>
+#include <sys/file.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <ctime>
+#include <fstream>
+#include <stdexcept>
+#include <system_error>
+
+#include "benchmarks/report/document.hpp"
+#include "benchmarks/record/pictures.hpp"
+#include "benchmarks/plan/plan.hpp"
+#include "benchmarks/report/report.hpp"
+
+namespace hullbench {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+
+constexpr const char* kHeaderFile = "run.json";
+constexpr const char* kRowsFile = "runs.jsonl";
+constexpr const char* kRepetitionsFile = "repetitions.jsonl";
+constexpr const char* kReportFile = "report.json";
+constexpr const char* kScratchFolder = "scratch";
+
+std::string reason(int error) {
+  return std::generic_category().message(error);
+}
+
+/// run.json of a folder; null when it has none that can be read.
+json read_header(const fs::path& folder) {
+  std::ifstream in(folder / kHeaderFile, std::ios::binary);
+  json header = in ? json::parse(in, nullptr, false) : json();
+  return header.is_object() ? header : json();
+}
+
+ConfigurationError not_writable(const fs::path& folder, const std::string& why) {
+  // NOLINTNEXTLINE(modernize-return-braced-init-list): the inherited constructor is explicit
+  return ConfigurationError("cannot write to the output folder " + folder.string() + " (" + why +
+                            "); choose another one with --out");
+}
+
+/// The folder's descriptor with the lock on it, or -1 when another process has it. The lock goes with the
+/// descriptor, however its owner ends.
+int try_lock(const fs::path& folder) {
+  const int lock = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  if (lock < 0 || ::faccessat(AT_FDCWD, folder.c_str(), W_OK | X_OK, AT_EACCESS) != 0) {
+    const int error = errno;
+    if (lock >= 0) ::close(lock);
+    throw not_writable(folder, reason(error));
+  }
+  // A file system without locks is no reason to refuse: the lock only guards against a second harness.
+  if (::flock(lock, LOCK_EX | LOCK_NB) == 0 || errno != EWOULDBLOCK) return lock;
+  ::close(lock);
+  return -1;
+}
+
+int lock_or_throw(const fs::path& folder) {
+  const int lock = try_lock(folder);
+  if (lock < 0) {
+    throw ConfigurationError("another hullbench is writing to " + folder.string() +
+                             "; wait for it or choose another folder with --out");
+  }
+  return lock;
+}
+
+void remove_run_files(const fs::path& folder) {
+  for (const char* file :
+       {kHeaderFile, kRowsFile, kRepetitionsFile, kPicturesFile, kReportFile, kTablesFile}) {
+    fs::remove(folder / file);
+  }
+  fs::remove_all(folder / kTablesFolder);
+}
+
+/// Whether nothing is in the folder but what a start leaves that was killed before it wrote run.json.
+bool holds_no_run_yet(const fs::path& folder) {
+  return std::all_of(fs::directory_iterator(folder), fs::directory_iterator(),
+                     [](const fs::directory_entry& entry) {
+                       const fs::path name = entry.path().filename();
+                       return name == kScratchFolder ||
+                              ((name == kRowsFile || name == kRepetitionsFile || name == kPicturesFile) &&
+                               entry.file_size() == 0);
+                     });
+}
+
+std::unique_ptr<RunDirectory> open_chosen(const json& header, const fs::path& folder, bool force) {
+  make_writable_folder(folder);
+  const json earlier = read_header(folder);
+  const bool same = earlier.is_object() && run_continuity(earlier) == run_continuity(header);
+  if (!force && !same && !holds_no_run_yet(folder)) {
+    throw ConfigurationError("the output folder " + folder.string() + " holds " +
+                             (earlier.is_object() ? "another run" : "something else than a run") +
+                             "; choose another one with --out, or overwrite it with --force");
+  }
+  const int lock = lock_or_throw(folder);
+  if (force) remove_run_files(folder);
+  return std::make_unique<RunDirectory>(folder, lock);
+}
+
+/// The newest earlier run that is the same, when it is not finished and nobody is at it.
+std::unique_ptr<RunDirectory> open_unfinished(const json& header, const fs::path& runs) {
+  for (const fs::path& folder : newest_first(runs)) {
+    const json earlier = read_header(folder);
+    if (!earlier.is_object() || run_continuity(earlier) != run_continuity(header)) continue;
+    if (fs::exists(folder / kReportFile)) return nullptr;
+    const int lock = try_lock(folder);
+    return lock < 0 ? nullptr : std::make_unique<RunDirectory>(folder, lock);
+  }
+  return nullptr;
+}
+
+/// "20260131T120000Z-<machine>-<commit>", from the header's own words.
+std::string folder_name(const json& header) {
+  std::string time = header.at("created").get<std::string>();
+  std::erase_if(time, [](char c) { return c == '-' || c == ':'; });
+  const json& commit = header.at("tool").at("commit");
+  return time + "-" + header.at("environment").at("machine_id").get<std::string>() + "-" +
+         (commit.is_string() ? commit.get<std::string>().substr(0, 7) : "nocommit");
+}
+
+Repetition repetition_from_json(const json& line) {
+  Repetition repetition;
+  line.at("time_ns").get_to(repetition.time_ns);
+  line.at("phases_ns").get_to(repetition.phases_ns);
+  line.at("output_sha256").get_to(repetition.output_sha256);
+  line.at("round").get_to(repetition.round);
+  line.at("pass").get_to(repetition.pass);
+  if (const auto canary = line.find("canary_ns"); canary != line.end())
+    repetition.canary_ns = canary->get<CanaryTimes>();
+  repetition.remeasured = line.value("remeasured", false);
+  repetition.unsteady = line.value("unsteady", false);
+  return repetition;
+}
+
+void synchronise(const fs::path& file) {
+  const int fd = ::open(file.c_str(), O_RDONLY | O_CLOEXEC);
+  const int failed = fd < 0 ? -1 : ::fsync(fd);
+  const int error = errno;
+  if (fd >= 0) ::close(fd);
+  // Some file systems know no fsync; that is no reason to stop.
+  if (failed != 0 && error != EINVAL && error != EROFS) {
+    throw std::runtime_error("cannot write " + file.string() + ": " + reason(error));
+  }
+}
+
+}  // namespace
+
+RunDirectory::RunDirectory(fs::path path, int lock)
+    : path_(std::move(path)),
+      scratch_(fs::absolute(path_) / kScratchFolder),
+      lock_(lock),
+      header_(read_header(path_)) {
+  row_writer_.emplace(path_ / kRowsFile);
+  repetition_writer_.emplace(path_ / kRepetitionsFile);
+  read_rows();
+  read_repetitions();
+  fs::remove_all(scratch_);
+  fs::create_directory(scratch_);
+}
+
+RunDirectory::~RunDirectory() {
+  std::error_code ignored;
+  fs::remove_all(scratch_, ignored);
+  ::close(lock_);
+}
+
+void RunDirectory::write_header(const json& header) {
+  write_json_file(path_ / kHeaderFile, header);
+  header_ = header;
+}
+
+void RunDirectory::read_rows() {
+  for (const json& line : load_json_lines(path_ / kRowsFile).lines) {
+    try {
+      remember_row(line.get<RunRecord>());
+    } catch (const std::exception&) {
+      throw std::runtime_error("a line of " + (path_ / kRowsFile).string() +
+                               " is not a run's record; start anew with --force or another --out");
+    }
+  }
+}
+
+void RunDirectory::read_repetitions() {
+  for (const json& line : load_json_lines(path_ / kRepetitionsFile).lines) {
+    try {
+      auto& known = repetitions_[line.at("id").get<std::string>()];
+      // Out of order can only be what two harnesses wrote; the lock excludes that.
+      if (line.at("repetition").get<std::size_t>() == known.size())
+        known.push_back(repetition_from_json(line));
+    } catch (const json::exception&) {
+      throw std::runtime_error("a line of " + (path_ / kRepetitionsFile).string() +
+                               " is not a repetition; start anew with --force or another --out");
+    }
+  }
+}
+
+const RunRecord* RunDirectory::find_row(const std::string& name) const {
+  const auto found = row_places_.find(name);
+  return found == row_places_.end() ? nullptr : &rows_[found->second];
+}
+
+void RunDirectory::remember_row(const RunRecord& row) {
+  const auto [place, is_new] = row_places_.emplace(row.name, rows_.size());
+  if (is_new) {
+    rows_.push_back(row);
+  } else {
+    rows_[place->second] = row;
+    has_old_rows_ = true;
+  }
+}
+
+void RunDirectory::append_rows(const std::vector<RunRecord>& rows) {
+  const bool replaces_another_id = std::any_of(rows.begin(), rows.end(), [&](const RunRecord& row) {
+    const RunRecord* earlier = find_row(row.name);
+    return earlier && earlier->id != row.id;
+  });
+  for (const RunRecord& row : rows) remember_row(row);
+  if (replaces_another_id) {
+    rewrite_rows();
+    return;
+  }
+  for (const RunRecord& row : rows) row_writer_->append(row);
+  synchronise(path_ / kRowsFile);
+}
+
+void RunDirectory::compact_rows() {
+  if (has_old_rows_) rewrite_rows();
+}
+
+void RunDirectory::rewrite_rows() {
+  const fs::path file = path_ / kRowsFile;
+  const fs::path temporary = path_ / "runs.jsonl.new";
+  fs::remove(temporary);
+  JsonLinesWriter writer(temporary);
+  for (const RunRecord& row : rows_) writer.append(row);
+  synchronise(temporary);
+  fs::rename(temporary, file);
+  row_writer_.emplace(file);
+  has_old_rows_ = false;
+}
+
+const std::vector<Repetition>& RunDirectory::repetitions(const std::string& id) const {
+  static const std::vector<Repetition> none;
+  const auto found = repetitions_.find(id);
+  return found == repetitions_.end() ? none : found->second;
+}
+
+void RunDirectory::append_repetition(const std::string& id, std::size_t index, const Repetition& repetition) {
+  json line = {{"id", id},
+               {"repetition", index},
+               {"time_ns", repetition.time_ns},
+               {"phases_ns", repetition.phases_ns},
+               {"output_sha256", repetition.output_sha256},
+               {"round", repetition.round},
+               {"pass", repetition.pass}};
+  if (repetition.canary_ns) line["canary_ns"] = *repetition.canary_ns;
+  if (repetition.remeasured) line["remeasured"] = true;
+  if (repetition.unsteady) line["unsteady"] = true;
+  repetition_writer_->append(line);
+  repetitions_[id].push_back(repetition);
+}
+
+json run_continuity(const json& header) {
+  const auto member = [](const json& object, const char* key) {
+    return object.is_object() && object.contains(key) ? object[key] : json();
+  };
+  return {member(header, "schema_version"),
+          member(header, "plan"),
+          member(header, "manifests"),
+          member(header, "filter"),
+          member(member(header, "tool"), "binary_sha256"),
+          member(member(header, "environment"), "machine_id"),
+          member(header, "shard"),
+          member(header, "merged")};
+}
+
+std::vector<fs::path> newest_first(const fs::path& runs) {
+  std::vector<fs::path> folders;
+  std::error_code ignored;
+  for (const auto& entry : fs::directory_iterator(runs, ignored)) folders.push_back(entry.path());
+  std::sort(folders.rbegin(), folders.rend());
+  return folders;
+}
+
+void remove_stale_scratch(const fs::path& results) {
+  std::error_code ignored;
+  const auto remove_in = [&](const fs::path& run) {
+    // What has a folder of that name and is no run is not ours.
+    if (!fs::is_directory(run / kScratchFolder, ignored) || !fs::exists(run / kRowsFile, ignored)) return;
+    const int lock = ::open(run.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+    if (lock >= 0 && ::flock(lock, LOCK_EX | LOCK_NB) == 0) fs::remove_all(run / kScratchFolder, ignored);
+    if (lock >= 0) ::close(lock);
+  };
+  for (const fs::path& folder : newest_first(results / "runs")) {
+    remove_in(folder);
+    for (const fs::path& member : newest_first(folder)) remove_in(member);
+  }
+}
+
+void make_writable_folder(const fs::path& folder) {
+  std::error_code error;
+  fs::create_directories(folder, error);
+  if (!error && ::faccessat(AT_FDCWD, folder.c_str(), W_OK | X_OK, AT_EACCESS) != 0) {
+    error.assign(errno, std::generic_category());
+  }
+  if (error) throw not_writable(folder, error.message());
+}
+
+bool is_finished_run(const fs::path& folder, const json& header) {
+  const json earlier = read_header(folder);
+  return earlier.is_object() && run_continuity(earlier) == run_continuity(header) &&
+         fs::exists(folder / kReportFile);
+}
+
+fs::path make_run_folder(const json& header, const fs::path& results) {
+  const fs::path runs = results / "runs";
+  make_writable_folder(runs);
+  const std::string name = folder_name(header);
+  // Two runs may begin in the same second.
+  for (int count = 1; count < 1000; ++count) {
+    fs::path folder = runs / (count == 1 ? name : name + "-" + std::to_string(count));
+    std::error_code error;
+    const bool made = fs::create_directory(folder, error);
+    if (error) throw not_writable(runs, error.message());
+    if (made) return folder;
+  }
+  throw not_writable(runs, "too many runs began in this second");
+}
+
+std::unique_ptr<RunDirectory> open_run_directory(const json& header, const RunPlace& place) {
+  if (place.out) return open_chosen(header, *place.out, place.force);
+  if (!place.force) {
+    if (auto unfinished = open_unfinished(header, place.results / "runs")) return unfinished;
+  }
+  const fs::path folder = make_run_folder(header, place.results);
+  return std::make_unique<RunDirectory>(folder, lock_or_throw(folder));
+}
+
+void point_latest_to(const fs::path& run_directory, const fs::path& results) {
+  // Made beside it and renamed over it, so that there is a link at every moment.
+  const fs::path link = results / "latest";
+  const fs::path temporary = results / "latest.new";
+  std::error_code error;
+  fs::remove(temporary, error);
+  fs::create_directory_symlink(fs::path("runs") / run_directory.filename(), temporary, error);
+  if (!error) fs::rename(temporary, link, error);
+  if (error)
+    throw std::runtime_error("cannot let " + link.string() + " point to the run: " + error.message());
+}
+
+std::string utc_now() {
+  const std::time_t now = std::time(nullptr);
+  std::tm parts{};
+  gmtime_r(&now, &parts);
+  std::array<char, 32> text{};
+  const std::size_t size = std::strftime(text.data(), text.size(), "%Y-%m-%dT%H:%M:%SZ", &parts);
+  return {text.data(), size};
+}
+
+}  // namespace hullbench

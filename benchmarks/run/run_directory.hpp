@@ -1,0 +1,129 @@
+// The folder of a run: run.json (what is measured, with what, where), repetitions.jsonl (every timed
+// repetition as it happens), runs.jsonl (a line a finished run), and in the end report.json and tables.md. A
+// run that was interrupted goes on in its folder.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "benchmarks/record/json_lines.hpp"
+#include "benchmarks/record/record.hpp"
+
+namespace hullbench {
+
+/// One timed repetition: a line of repetitions.jsonl.
+struct Repetition {
+  std::int64_t time_ns = 0;
+  PhaseTimes phases_ns;
+  std::string output_sha256;
+  std::int64_t round = 0;                ///< as in RunRecord
+  std::int64_t pass = 1;                 ///< as in RunRecord
+  std::optional<CanaryTimes> canary_ns;  ///< of its round; none when there was no canary
+  bool remeasured = false;               ///< its round was measured again, and this is of the last time
+  bool unsteady = false;                 ///< its round's canary was off
+};
+
+/// The folder of one run, locked against a second harness for the life of the object.
+class RunDirectory {
+ public:
+  /// `path` must be there; `lock` is its descriptor with the lock, closed with this object. Reads what an
+  /// earlier start left, and cuts off torn last lines. Throws std::runtime_error naming the file when one is
+  /// damaged otherwise.
+  RunDirectory(std::filesystem::path path, int lock);
+  ~RunDirectory();
+  RunDirectory(const RunDirectory&) = delete;
+  RunDirectory& operator=(const RunDirectory&) = delete;
+
+  const std::filesystem::path& path() const { return path_; }
+  /// run.json of the earlier start; null when there was none.
+  const nlohmann::json& header() const { return header_; }
+  bool resumed() const { return header_.is_object(); }
+
+  /// Writes run.json, whole or not at all.
+  void write_header(const nlohmann::json& header);
+
+  /// The finished runs so far, in the order of the file.
+  const std::vector<RunRecord>& rows() const { return rows_; }
+  /// The row with that name; null when there is none.
+  const RunRecord* find_row(const std::string& name) const;
+  /// Adds rows to runs.jsonl; they are on the disk when this returns. A row of the same name is replaced. One
+  /// that has its id too stays in the file until compact_rows, as every reader takes the last one of an id.
+  void append_rows(const std::vector<RunRecord>& rows);
+  /// Leaves each row once in the file.
+  void compact_rows();
+
+  /// The repetitions of a run that are already measured, in order.
+  const std::vector<Repetition>& repetitions(const std::string& id) const;
+  void append_repetition(const std::string& id, std::size_t index, const Repetition& repetition);
+
+  /// A folder for files that live no longer than the run. Made anew, and removed with this object.
+  const std::filesystem::path& scratch() const { return scratch_; }
+
+ private:
+  void read_rows();
+  void read_repetitions();
+  void remember_row(const RunRecord& row);
+  void rewrite_rows();
+
+  std::filesystem::path path_;
+  std::filesystem::path scratch_;
+  int lock_;
+  nlohmann::json header_;
+  std::vector<RunRecord> rows_;
+  std::map<std::string, std::size_t> row_places_;               ///< in rows_, by name
+  bool has_old_rows_ = false;                                   ///< the file has rows that were replaced
+  std::map<std::string, std::vector<Repetition>> repetitions_;  ///< by id
+  std::optional<JsonLinesWriter> row_writer_;
+  std::optional<JsonLinesWriter> repetition_writer_;
+};
+
+/// Where a run is to go.
+struct RunPlace {
+  std::optional<std::filesystem::path>
+      out;             ///< the user's choice; none: a folder of its own in `results`/runs
+  bool force = false;  ///< never go on with an earlier run
+  std::filesystem::path results = "results";
+};
+
+/// The folder for a run that run.json will describe as `header` (plan, filter, tool, environment, created).
+/// An earlier run with the same plan, filter, shard, binary and machine is gone on with: the newest one in
+/// `results`/runs if it is not finished (has no report.json), or the one in `out`, finished or not. Throws
+/// ConfigurationError when the folder cannot be written, is in use by another harness, or `out` holds
+/// something else and `force` is not set; with `force` the files of an earlier run in `out` are removed.
+std::unique_ptr<RunDirectory> open_run_directory(const nlohmann::json& header, const RunPlace& place);
+
+/// The folders in `runs` by name, which begins with the time, the last one first.
+std::vector<std::filesystem::path> newest_first(const std::filesystem::path& runs);
+
+/// Removes the temporary files of all runs in `results`/runs, those in suites too, that a harness left which
+/// was killed. Those of runs that somebody is at stay.
+void remove_stale_scratch(const std::filesystem::path& results);
+
+/// Makes `folder` where it is not there. Throws ConfigurationError when it cannot be made or written to.
+void make_writable_folder(const std::filesystem::path& folder);
+
+/// Whether `folder` holds a run that `header` describes, and it is finished (has a report.json).
+bool is_finished_run(const std::filesystem::path& folder, const nlohmann::json& header);
+
+/// The folder `results`/runs/<time>-<machine>-<commit>, made new, with the words of `header` (created, tool,
+/// environment). Throws ConfigurationError when it cannot be made.
+std::filesystem::path make_run_folder(const nlohmann::json& header, const std::filesystem::path& results);
+
+/// What must be the same for a run to go on: plan, manifests of its methods, filter, shard, binary and
+/// machine of its header, and that it is not merged of others, or merged of the same.
+nlohmann::json run_continuity(const nlohmann::json& header);
+
+/// Lets the link `results`/latest point to the run in `run_directory`, a folder in `results`/runs. Throws
+/// std::runtime_error when it cannot.
+void point_latest_to(const std::filesystem::path& run_directory, const std::filesystem::path& results);
+
+/// "2026-01-31T12:00:00Z" now.
+std::string utc_now();
+
+}  // namespace hullbench

@@ -1,0 +1,657 @@
+#include "benchmarks/run/runner.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <memory>
+#include <optional>
+#include <stdexcept>
+#include <utility>
+
+#include "adapters/wkb.hpp"
+#include "benchmarks/base/interrupt.hpp"
+#include "benchmarks/worker/method_session.hpp"
+#include "benchmarks/metrics/metric_table.hpp"
+#include "benchmarks/metrics/metrics.hpp"
+#include "benchmarks/base/parallel.hpp"
+#include "benchmarks/record/pictures.hpp"
+#include "benchmarks/worker/protocol.hpp"
+#include "datasets/datasets.hpp"
+#include "datasets/degenerate.hpp"
+#include "datasets/random.hpp"
+#include "datasets/sha256.hpp"
+
+namespace hullbench {
+namespace {
+
+using nlohmann::json;
+
+std::string hash_of(const std::vector<std::uint8_t>& bytes) {
+  return sha256_hex({reinterpret_cast<const char*>(bytes.data()), bytes.size()});
+}
+
+/// One run on its way to its row.
+struct Entry {
+  std::size_t index = 0;  ///< into the planned runs
+  MethodSession* session = nullptr;
+  RunRecord record;
+  std::vector<Repetition> repetitions;            ///< of all passes
+  std::optional<Repetition> latest;               ///< of the round that is not over
+  std::optional<MultiPolygon> result;             ///< of the first run; none while there is none to score
+  std::optional<std::int64_t> peak_memory_bytes;  ///< the largest of the untimed runs
+  bool measured = false;                          ///< nothing is left to run
+  bool settled = false;                           ///< its row is written
+};
+
+/// The runs of one case, and what they are run on.
+struct CaseWork {
+  const PlanCase* plan_case = nullptr;
+  PointSet set;
+  std::vector<Entry> entries;
+  std::optional<CaseScorer> scorer;  ///< once there is something to score
+  std::string scorer_fault;          ///< why there is none then
+};
+
+/// A batch holds cases for about so many points times runs: 62 of the random polygons, which are worth
+/// drawing and scoring in parallel, but one of the largest state shapes, as little is to be lost when the
+/// machine stops.
+constexpr std::int64_t kBatchWork = 1'000'000;
+
+/// How many of a method's repetitions are in the passes up to `pass`.
+int repetitions_until(const Plan& plan, const PlanMethod& method, int pass) {
+  int count = 0;
+  for (int each = 1; each <= pass; ++each)
+    count += share_of_pass(repetitions_of(plan, method), plan.passes, each);
+  return count;
+}
+
+/// Whether nothing is left to measure of `run` in the passes up to `pass`.
+bool is_done(const Plan& plan, const PlannedRun& run, const RunDirectory& directory, int pass) {
+  const RunRecord* row = directory.find_row(run.name);
+  if (!row) return false;
+  if (row->status != Status::kOk) return true;
+  const PlanMethod& method = plan.methods[run.method_index];
+  const std::size_t there = row->time_ns.size();
+  if (std::cmp_less(there, repetitions_until(plan, method, pass))) return false;
+  // A later pass adds to the repetitions, so they must be there too.
+  return std::cmp_greater_equal(there, repetitions_of(plan, method)) ||
+         directory.repetitions(row->id).size() >= there;
+}
+
+/// Whether the result's error is above that of the points' convex hull. The same polygon from another vertex
+/// on differs in the last digits of its areas, of which there are 15.
+bool is_worse_than_convex_hull(const json& metrics) {
+  constexpr double kRounding = 1e-9;
+  const auto value = [&](const char* name) {
+    const auto found = metrics.find(name);
+    return found != metrics.end() && found->is_number() ? std::optional(found->get<double>()) : std::nullopt;
+  };
+  const auto error = value("l2");
+  const auto of_hull = value("l2_convex_hull");
+  return error && of_hull && *error > *of_hull * (1 + kRounding);
+}
+
+/// The reasons to doubt a row.
+std::vector<std::string> flags_of(const RunRecord& record, const std::vector<Repetition>& repetitions) {
+  const auto any = [&](auto is_so) { return std::any_of(repetitions.begin(), repetitions.end(), is_so); };
+  const double floor = kFloorNsPerPoint * static_cast<double>(record.n);
+  std::vector<std::string> flags;
+  if (any([&](const Repetition& one) { return static_cast<double>(one.time_ns) < floor; }))
+    flags.emplace_back(kFasterThanFloor);
+  if (any([](const Repetition& one) { return one.remeasured; })) flags.emplace_back(kRemeasuredRound);
+  if (any([](const Repetition& one) { return one.unsteady; })) flags.emplace_back(kUnsteadyMachine);
+  if (is_worse_than_convex_hull(record.metrics)) flags.emplace_back(kWorseThanConvexHull);
+  return flags;
+}
+
+/// What a first run loads and allocates takes milliseconds, which nobody sees in a run of this length.
+constexpr std::chrono::nanoseconds kLongRun = std::chrono::seconds(2);
+
+class Runner {
+ public:
+  Runner(const Plan& plan, const std::vector<PlannedRun>& runs, const RunnerOptions& options,
+         RunDirectory& directory, Progress& progress, int pass)
+      : plan_(plan),
+        runs_(runs),
+        options_(options),
+        directory_(directory),
+        progress_(progress),
+        pass_(pass),
+        pictures_(directory.path(), runs.size()) {}
+
+  RunResult run(json header) {
+    RunResult result;
+    if (!header.contains("methods")) header["methods"] = json::array();
+    machine_ = header.at("environment").at("machine_id").get<std::string>();
+    result.resumed_rows = static_cast<int>(directory_.rows().size());
+    try {
+      // Before anything can be interrupted, so that the folder is known for what it is.
+      if (pass_ == 1) directory_.write_header(header);
+      find_cases();
+      start_methods();
+      if (pass_ == 1) {
+        header["methods"] = describe_methods();
+        directory_.write_header(header);
+      }
+      check_parameter_names();
+      for (std::size_t next = 0; next < cases_.size();) next = run_batch(next);
+    } catch (const Interrupted&) {
+      result.interrupted = true;
+    }
+    directory_.compact_rows();
+    for (const PlannedRun& run : runs_) {
+      if (const RunRecord* row = directory_.find_row(run.name))
+        count_row(result, row->status, plan_.accepted);
+    }
+    return result;
+  }
+
+ private:
+  /// The runs of one case: indices into runs_, the last one not included.
+  struct CaseRuns {
+    std::size_t begin = 0;
+    std::size_t end = 0;
+  };
+
+  /// Pass 1 asks the worker of every method which version it is before it believes a row. Later passes know.
+  bool is_done_before(std::size_t index) const {
+    return pass_ > 1 && is_done(plan_, runs_[index], directory_, pass_);
+  }
+
+  /// The cases with something to do; of the others no points are drawn.
+  void find_cases() {
+    for (CaseRuns one; one.begin < runs_.size(); one.begin = one.end) {
+      one.end = one.begin;
+      bool done = true;
+      while (one.end < runs_.size() && runs_[one.end].case_index == runs_[one.begin].case_index)
+        done = is_done_before(one.end++) && done;
+      if (!done) cases_.push_back(one);
+      for (std::size_t i = one.begin; done && i < one.end; ++i) progress_.finish(i);
+    }
+  }
+
+  void start_methods() {
+    for (std::size_t i = 0; i < runs_.size(); ++i) {
+      if (is_done_before(i)) continue;
+      const PlanMethod& entry = plan_.methods[runs_[i].method_index];
+      const std::string& method = entry.method;
+      if (sessions_.contains(method)) continue;
+      method_order_.push_back(method);
+      const WorkerLimits limits = {entry.mem_limit_mib.value_or(plan_.mem_limit_mib), options_.worker_core};
+      sessions_[method] = std::make_unique<MethodSession>(options_.find_method(method), limits);
+      sessions_[method]->begin_start();
+    }
+    for (const std::string& method : method_order_) {
+      const MethodSession& session = *sessions_[method];
+      sessions_[method]->finish_start();
+      if (!session.info()) {
+        progress_.note("hullbench: " + method + " does not start (" +
+                       to_string(session.start_reply().status) + "): " + start_failure(session));
+      }
+    }
+  }
+
+  json describe_methods() const {
+    json methods = json::array();
+    for (const std::string& method : method_order_) methods.push_back(describe_method(*sessions_.at(method)));
+    return methods;
+  }
+
+  void check_parameter_names() const {
+    for (const PlannedRun& run : runs_) {
+      const PlanMethod& method = plan_.methods[run.method_index];
+      const auto session = sessions_.find(method.method);
+      if (session == sessions_.end() || !session->second->info()) continue;
+      const auto& info = session->second->info();
+      for (const auto& given : method.parameters) {
+        const std::string& name = given.first;
+        const bool known =
+            std::any_of(info->parameters.begin(), info->parameters.end(),
+                        [&name = name](const ParameterInfo& parameter) { return parameter.name == name; });
+        if (!known) {
+          throw ConfigurationError("the plan '" + plan_.name + "' gives " + method.method +
+                                   " the parameter '" + name +
+                                   "', which it does not have; 'hullbench list' shows what it has");
+        }
+      }
+    }
+  }
+
+  /// The cases from the one at `next` in cases_ on that make a batch.
+  std::vector<CaseWork> gather_batch(std::size_t next) const {
+    const int runs_each = plan_.warmup + share_of_pass(plan_.repetitions, plan_.passes, pass_);
+    std::vector<CaseWork> batch;
+    std::int64_t work = 0;
+    for (; next < cases_.size(); ++next) {
+      const CaseRuns& runs = cases_[next];
+      const PlanCase& plan_case = plan_.expanded_cases[runs_[runs.begin].case_index];
+      work += estimated_points(plan_case) * static_cast<std::int64_t>(runs.end - runs.begin) * runs_each;
+      if (!batch.empty() && work > kBatchWork) break;
+      CaseWork& one = batch.emplace_back();
+      one.plan_case = &plan_case;
+      for (std::size_t i = runs.begin; i < runs.end; ++i) one.entries.emplace_back().index = i;
+    }
+    return batch;
+  }
+
+  /// Measures the cases of one batch and returns the place in cases_ of the one behind it.
+  std::size_t run_batch(std::size_t next) {
+    throw_if_interrupted();
+    progress_.begin(cases_[next].begin);
+    std::vector<CaseWork> batch = gather_batch(next);
+    for_each_in_parallel(batch.size(), options_.cores, [&](std::size_t i) { prepare(batch[i]); });
+    try {
+      for (CaseWork& one : batch) measure(one);
+    } catch (const Interrupted&) {
+      settle(batch);
+      throw;
+    }
+    settle(batch);
+    return next + batch.size();
+  }
+
+  /// Draws a case's points and chooses its parameters; nothing is asked of a worker, as several cases do this
+  /// at the same time.
+  void prepare(CaseWork& one) const {
+    const PlanCase& plan_case = *one.plan_case;
+    one.set = make_point_set(plan_case.dataset, plan_case.holes, static_cast<std::size_t>(plan_case.n),
+                             plan_.seed, options_.folders);
+    for (Entry& entry : one.entries) {
+      const PlanMethod& method = method_of(entry);
+      RunRecord& record = entry.record;
+      record.name = runs_[entry.index].name;
+      record.method = method.method;
+      record.dataset = plan_case.dataset;
+      record.levels = levels_of(plan_case.dataset);
+      if (const std::string base = base_shape(plan_case.dataset); base != plan_case.dataset) {
+        record.base_shape = base;
+      }
+      record.dataset_sha256 = one.set.sha256;
+      record.n = static_cast<std::int64_t>(one.set.points.size());
+      record.holes = plan_case.holes;
+      record.seed = plan_.seed;
+      record.protocol = method.protocol;
+      record.machine = machine_;
+      record.parameters = choose_parameters(
+          method, plan_case,
+          {one.set.points, one.set.ground_truth_area, plan_case.holes, one.set.ground_truth});
+    }
+  }
+
+  /// Everything that is timed of a case, one worker at a time.
+  void measure(CaseWork& one) {
+    for (Entry& entry : one.entries) {
+      if (is_done_before(entry.index)) {
+        leave_as_it_is(entry);
+        continue;
+      }
+      entry.session = sessions_.at(entry.record.method).get();
+      complete(entry);
+    }
+    if (std::all_of(one.entries.begin(), one.entries.end(),
+                    [](const Entry& entry) { return entry.measured; }))
+      return;
+    const LoadedPoints points = {one.set.sha256, directory_.scratch() / "points.f64", one.set.points.size()};
+    write_points_file(points.file, one.set.points);
+    for (Entry& entry : one.entries) {
+      if (!entry.measured) warm_up(entry, points);
+    }
+    int first_round = 0;
+    for (int earlier = 1; earlier < pass_; ++earlier) first_round += rounds_of(one.entries, earlier);
+    for (int turn = 0; turn < rounds_of(one.entries, pass_); ++turn)
+      run_round(one.entries, turn, first_round + turn, points);
+    for (Entry& entry : one.entries) {
+      // Without a warm-up, one untimed run after the timed ones, which must give the same result.
+      if (plan_.warmup == 0 && pass_ == 1 && !entry.measured) attempt_run(entry, points, Watch::kMemory);
+      entry.measured = true;
+    }
+  }
+
+  /// Fills in what the worker's first answer tells, and looks for an earlier start's row and repetitions.
+  void complete(Entry& entry) {
+    RunRecord& record = entry.record;
+    const auto& info = entry.session->info();
+    std::optional<std::string> refusal;
+    if (info) {
+      record.method_version = info->version;
+      try {
+        record.parameters = complete_parameters(*info, record.parameters);
+      } catch (const std::invalid_argument& error) {
+        refusal = error.what();
+      }
+    }
+    record.id = run_identity(record);
+    const RunRecord* earlier = directory_.find_row(record.name);
+    // A row of a method that is not there any more is kept: nothing newer can take its place.
+    const bool lost = earlier && !info && earlier->status != Status::kNotInstalled;
+    const bool same = earlier && earlier->id == record.id;
+    if (lost || (same && is_done(plan_, runs_[entry.index], directory_, pass_))) {
+      leave_as_it_is(entry);
+    } else if (refusal) {
+      fail(entry, Status::kError, *refusal);
+    } else if (!info) {
+      fail(entry, entry.session->start_reply().status, start_failure(*entry.session));
+    } else {
+      entry.repetitions = directory_.repetitions(record.id);
+      // What an earlier pass scored is not scored again, as long as all that it timed is there.
+      if (same && entry.repetitions.size() >= earlier->time_ns.size()) record = *earlier;
+    }
+  }
+
+  /// Nothing is to be done, and the row is there.
+  void leave_as_it_is(Entry& entry) {
+    entry.measured = true;
+    entry.settled = true;
+    progress_.finish(entry.index);
+  }
+
+  const PlanMethod& method_of(const Entry& entry) const {
+    return plan_.methods[runs_[entry.index].method_index];
+  }
+
+  /// How many repetitions of the entry fall in `pass`.
+  int share_of(const Entry& entry, int pass) const {
+    return share_of_pass(repetitions_of(plan_, method_of(entry)), plan_.passes, pass);
+  }
+
+  int rounds_of(const std::vector<Entry>& entries, int pass) const {
+    int most = 0;
+    for (const Entry& entry : entries) most = std::max(most, share_of(entry, pass));
+    return most;
+  }
+
+  std::chrono::milliseconds timeout_of(const PlanMethod& method) const {
+    const double seconds = method.timeout_s.value_or(plan_.timeout_s);
+    return std::chrono::milliseconds(std::max<std::int64_t>(1, std::llround(seconds * 1000)));
+  }
+
+  static std::string start_failure(const MethodSession& session) {
+    const Reply& reply = session.start_reply();
+    return reply.remedy.empty() ? reply.detail : reply.detail + "; remedy: " + reply.remedy;
+  }
+
+  /// The untimed runs. Repetitions of an earlier start call for one at least: their result was scored, but
+  /// the scores are gone. A later pass, which has the scores, does without them where a run takes long.
+  void warm_up(Entry& entry, const LoadedPoints& points) {
+    const bool is_scored = !entry.record.output_sha256.empty() && !entry.repetitions.empty();
+    const bool is_long = is_scored && entry.repetitions.back().time_ns >= kLongRun.count();
+    const int untimed = is_long ? 0 : std::max(plan_.warmup, entry.repetitions.empty() ? 0 : 1);
+    for (int count = 0; count < untimed && !entry.measured; ++count) {
+      attempt_run(entry, points, Watch::kMemory);
+    }
+    const auto differs = [&](const Repetition& earlier) {
+      return earlier.output_sha256 != entry.record.output_sha256;
+    };
+    if (!entry.measured && std::any_of(entry.repetitions.begin(), entry.repetitions.end(), differs)) {
+      entry.repetitions.clear();
+      fail(entry, Status::kInvalidOutput, "the result is not the one that it gave before the interruption");
+    }
+  }
+
+  /// The entries that take part in the round of the pass's number `turn`, in random order.
+  std::vector<Entry*> draw_turns(std::vector<Entry>& entries, int turn, int round,
+                                 const LoadedPoints& points) const {
+    std::vector<Entry*> turns;
+    for (Entry& entry : entries) turns.push_back(&entry);
+    // Drawn from the case and the round, so that a run that goes on after an interruption keeps its order.
+    Random random(derive_seed(plan_.seed, "order/" + points.key + "/" + std::to_string(round)));
+    for (std::size_t i = turns.size(); i > 1; --i) std::swap(turns[i - 1], turns[random.below(i)]);
+    std::erase_if(turns, [&](const Entry* entry) {
+      const int before = pass_ == 1 ? 0 : repetitions_until(plan_, method_of(*entry), pass_ - 1);
+      return entry->measured || turn >= share_of(*entry, pass_) ||
+             std::cmp_greater(entry->repetitions.size(), before + turn);
+    });
+    return turns;
+  }
+
+  /// `turn`: the round's number within the pass; `round`: over all passes.
+  void run_round(std::vector<Entry>& entries, int turn, int round, const LoadedPoints& points) {
+    const std::vector<Entry*> turns = draw_turns(entries, turn, round, points);
+    if (turns.empty()) return;
+    MachineWatch* const machine = options_.machine;
+    std::optional<CanaryTimes> canary;
+    int tries = 0;
+    for (bool again = true; again;) {
+      ++tries;
+      const auto start = std::chrono::steady_clock::now();
+      for (Entry* entry : turns) take_turn(*entry, tries, points);
+      if (!machine) break;
+      const auto took = std::chrono::steady_clock::now() - start;
+      canary = tries == 1 ? machine->recent() : machine->fresh();
+      again = machine->wants_again(*canary, tries, took);
+    }
+    const bool unsteady = machine && machine->is_off(*canary);
+    for (Entry* entry : turns) {
+      if (!entry->latest) continue;
+      Repetition& repetition = *entry->latest;
+      repetition.round = round;
+      repetition.pass = pass_;
+      repetition.canary_ns = canary;
+      repetition.remeasured = tries > 1;
+      repetition.unsteady = unsteady;
+      directory_.append_repetition(entry->record.id, entry->repetitions.size(), repetition);
+      entry->repetitions.push_back(std::move(repetition));
+      entry->latest.reset();
+    }
+  }
+
+  void take_turn(Entry& entry, int tries, const LoadedPoints& points) {
+    entry.latest.reset();
+    if (entry.measured) return;
+    if (tries > 1) progress_.repeat(entry.index);
+    const std::optional<Attempt> attempt = attempt_run(entry, points, Watch::kNothing);
+    if (!attempt) return;
+    Repetition& repetition = entry.latest.emplace();
+    repetition.time_ns = attempt->time_ns();
+    repetition.phases_ns = attempt->phases_ns;
+    repetition.output_sha256 = entry.record.output_sha256;
+  }
+
+  /// One run. The first one's result is kept to be scored, and every other one must give it again; without a
+  /// value when the run failed, and nothing more is measured of the entry then.
+  std::optional<Attempt> attempt_run(Entry& entry, const LoadedPoints& points, Watch watch) {
+    progress_.begin(entry.index);
+    const auto timeout = timeout_of(method_of(entry));
+    if (entry.session->is_cold()) {
+      const Attempt cold =
+          entry.session->warm_up(points, entry.record.parameters, directory_.scratch(), timeout);
+      if (cold.status != Status::kOk) {
+        fail(entry, cold.status, cold.detail);
+        return std::nullopt;
+      }
+      if (!entry.record.cold_time_ns) entry.record.cold_time_ns = cold.time_ns();
+    }
+    Attempt attempt =
+        entry.session->run(points, entry.record.parameters, directory_.scratch(), timeout, watch);
+    entry.peak_memory_bytes = std::max(entry.peak_memory_bytes, attempt.peak_memory_bytes);
+    if (attempt.status != Status::kOk) {
+      fail(entry, attempt.status, attempt.detail);
+      return std::nullopt;
+    }
+    const std::string hash = hash_of(attempt.wkb);
+    if (entry.record.output_sha256.empty()) {
+      entry.record.output_sha256 = hash;
+      keep_result(entry, attempt);
+    }
+    if (!entry.measured && entry.record.output_sha256 != hash) {
+      fail(entry, Status::kInvalidOutput, "two runs on the same points gave different results");
+    }
+    if (entry.measured) return std::nullopt;
+    progress_.advance(entry.index, attempt.elapsed);
+    return attempt;
+  }
+
+  static void keep_result(Entry& entry, const Attempt& attempt) {
+    try {
+      entry.result = from_wkb(attempt.wkb);
+    } catch (const std::exception& error) {
+      fail(entry, Status::kInvalidOutput, "the result is no polygon: " + printable(error.what(), 200));
+    }
+  }
+
+  static void fail(Entry& entry, Status status, const std::string& detail) {
+    entry.record.status = status;
+    entry.record.detail = detail;
+    entry.measured = true;
+  }
+
+  /// Scores what is measured of a batch and writes its rows.
+  void settle(std::vector<CaseWork>& batch) {
+    std::vector<CaseWork*> to_score;
+    std::vector<std::pair<Entry*, const CaseWork*>> finished;
+    for (CaseWork& one : batch) {
+      for (Entry& entry : one.entries) {
+        if (!entry.measured || entry.settled) continue;
+        finished.emplace_back(&entry, &one);
+        if (entry.result && (to_score.empty() || to_score.back() != &one)) to_score.push_back(&one);
+      }
+    }
+    for_each_in_parallel(to_score.size(), options_.cores, [&](std::size_t i) { make_scorer(*to_score[i]); });
+    for_each_in_parallel(finished.size(), options_.cores,
+                         [&](std::size_t i) { score_result(*finished[i].first, *finished[i].second); });
+    std::vector<RunRecord> rows;
+    rows.reserve(finished.size());
+    for (const auto& [entry, one] : finished) rows.push_back(finished_record(*entry));
+    // Before the rows: a run that has its row is not measured again, and its picture would be missing.
+    for (const auto& [entry, one] : finished) {
+      if (entry->result) pictures_.add(entry->record, one->set, *entry->result);
+    }
+    directory_.append_rows(rows);
+    for (const auto& [entry, one] : finished) {
+      entry->settled = true;
+      const RunRecord& record = entry->record;
+      // Of a method that does not start this was said once already.
+      if (record.status != Status::kOk && entry->session->info()) {
+        progress_.note("hullbench: " + record.name + ": " + to_string(record.status) + ": " + record.detail);
+      }
+      progress_.finish(entry->index);
+    }
+  }
+
+  static void make_scorer(CaseWork& one) {
+    if (one.set.ground_truth.empty()) return;  // there is nothing to score against
+    try {
+      one.scorer.emplace(one.set.points, one.set.ground_truth);
+    } catch (const std::exception& error) {
+      one.scorer_fault = error.what();
+    }
+  }
+
+  static void score_result(Entry& entry, const CaseWork& one) {
+    if (!entry.result) return;
+    RunRecord& record = entry.record;
+    std::string fault;
+    Status status = Status::kOk;
+    try {
+      if (!one.scorer_fault.empty()) throw std::runtime_error(one.scorer_fault);
+      Metrics metrics =
+          one.scorer ? one.scorer->score(*entry.result) : describe(one.set.points, *entry.result);
+      metrics.peak_memory_bytes = entry.peak_memory_bytes;
+      record.metrics = metrics_to_json(metrics);
+      // The run's times stay all the same: how fast a method gives a wrong answer is part of the record.
+      if (!metrics.area.valid) {
+        status = Status::kInvalidOutput;
+        fault = "the result is an invalid polygon: " + metrics.area.invalid_reason;
+      }
+    } catch (const std::runtime_error& error) {
+      status = Status::kError;
+      fault = std::string("the result cannot be scored: ") + error.what();
+    }
+    if (record.status == Status::kOk) {
+      record.status = status;
+      record.detail = fault;
+    }
+  }
+
+  static RunRecord finished_record(const Entry& entry) {
+    RunRecord record = entry.record;
+    record.time_ns.clear();
+    record.phases_ns.clear();
+    record.rounds.clear();
+    record.passes.clear();
+    record.canary_ns.clear();
+    for (const Repetition& repetition : entry.repetitions) {
+      record.time_ns.push_back(repetition.time_ns);
+      record.phases_ns.push_back(repetition.phases_ns);
+      record.rounds.push_back(repetition.round);
+      record.passes.push_back(repetition.pass);
+      if (repetition.canary_ns) record.canary_ns.push_back(*repetition.canary_ns);
+    }
+    record.flags = flags_of(record, entry.repetitions);
+    return record;
+  }
+
+  const Plan& plan_;
+  const std::vector<PlannedRun>& runs_;
+  const RunnerOptions& options_;
+  RunDirectory& directory_;
+  Progress& progress_;
+  int pass_;
+  PictureBook pictures_;
+  std::vector<CaseRuns> cases_;            ///< those with something to do
+  std::string machine_;                    ///< this one's id, for the rows
+  std::vector<std::string> method_order_;  ///< as in the plan
+  std::map<std::string, std::unique_ptr<MethodSession>> sessions_;
+};
+
+}  // namespace
+
+RunResult run_plan(const Plan& plan, const std::vector<PlannedRun>& runs, const json& header,
+                   const RunnerOptions& options, RunDirectory& directory, Progress& progress, int pass) {
+  return Runner(plan, runs, options, directory, progress, pass).run(header);
+}
+
+bool has_repetitions(const Plan& plan, const std::vector<PlannedRun>& runs, int pass) {
+  return std::any_of(runs.begin(), runs.end(), [&](const PlannedRun& run) {
+    return share_of_pass(repetitions_of(plan, plan.methods[run.method_index]), plan.passes, pass) > 0;
+  });
+}
+
+std::size_t count_finished(const Plan& plan, const std::vector<PlannedRun>& runs,
+                           const RunDirectory& directory) {
+  return static_cast<std::size_t>(std::count_if(runs.begin(), runs.end(), [&](const PlannedRun& run) {
+    return is_done(plan, run, directory, plan.passes);
+  }));
+}
+
+std::int64_t estimated_points(const PlanCase& plan_case) {
+  constexpr std::int64_t kPointsOfAFloor = 80'000;
+  if (plan_case.n > 0) return plan_case.n;
+  for (const DegenerateInput& input : degenerate_inputs()) {
+    // Of no point at all there is still the way to the worker and back.
+    if (input.name == plan_case.dataset)
+      return std::max<std::int64_t>(100, static_cast<std::int64_t>(input.points.size()));
+  }
+  return kPointsOfAFloor;
+}
+
+std::vector<ProgressRun> progress_runs(const Plan& plan, const std::vector<PlannedRun>& runs, int pass) {
+  std::vector<ProgressRun> result;
+  result.reserve(runs.size());
+  for (const PlannedRun& run : runs) {
+    const PlanMethod& method = plan.methods[run.method_index];
+    const int share = share_of_pass(repetitions_of(plan, method), plan.passes, pass);
+    result.push_back({run.name, method.method, estimated_points(plan.expanded_cases[run.case_index]),
+                      share == 0 ? 0 : plan.warmup + share});
+  }
+  return result;
+}
+
+void count_row(RunResult& result, Status status, const std::vector<std::string>& accepted) {
+  const bool good = status != Status::kOk &&
+                    std::find(accepted.begin(), accepted.end(), to_string(status)) != accepted.end();
+  ++(good ? result.accepted : result.counts[status]);
+}
+
+int exit_code(const RunResult& result) {
+  if (result.interrupted) return 130;
+  int measured = result.accepted;
+  for (const auto& [status, count] : result.counts) {
+    if (status == Status::kNotInstalled || status == Status::kUnsupported || count == 0) continue;
+    if (status != Status::kOk) return 4;
+    measured += count;
+  }
+  return measured > 0 ? 0 : 6;
+}
+
+}  // namespace hullbench

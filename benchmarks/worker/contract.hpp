@@ -1,0 +1,35 @@
+// The contract of a method, tried on its worker: what every method must do whatever its algorithm is.
+#pragma once
+
+#include <chrono>
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "benchmarks/worker/method_session.hpp"
+
+namespace hullbench {
+
+/// One point of the contract.
+struct Verdict {
+  std::string name;             ///< "three points"
+  bool kept = false;            ///< whether the method does what it must
+  Status status = Status::kOk;  ///< of the run that decided it
+  std::string words;            ///< what was seen, and when it was not kept what to mend
+};
+
+/// Parameters for points that lie `spacing` apart on average (in their unit), for a method of which nothing
+/// else is known: lengths are three spacings, squared lengths nine of them squared, everything else is at its
+/// default, or in the middle of its range when it has none; all clamped to their ranges.
+Parameters contract_parameters(const MethodInfo& info, double spacing);
+
+/// Runs the whole contract on a worker of its own and hands every verdict to `say` as it comes. One run may
+/// take `timeout`. Files go into `scratch`. Stops after a worker that does not start and after the
+/// second run that takes too long. Returns the verdicts.
+/// Throws Interrupted, and std::runtime_error when a file cannot be written.
+std::vector<Verdict> test_contract(const Method& method, const WorkerLimits& limits,
+                                   std::chrono::milliseconds timeout, const std::filesystem::path& scratch,
+                                   const std::function<void(const Verdict&)>& say);
+
+}  // namespace hullbench

@@ -1,0 +1,30 @@
+// Manifests: methods in any language, described by a JSON file each. adapters/process/PROTOCOL.md says what
+// is in one, adapters/process/manifest.schema.json is its schema.
+#pragma once
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "benchmarks/worker/method.hpp"
+#include "benchmarks/plan/plan.hpp"
+
+namespace hullbench {
+
+struct Manifest {
+  Method method;
+  std::filesystem::path file;
+  std::string sha256;            ///< of the manifest, the files of its command and those in their folder
+  std::vector<PlanMethod> runs;  ///< how to measure it in a plan that does not name it
+};
+
+/// The manifest in `file`. Words of the command and files needed that begin with "./" or "../" are taken from
+/// the manifest's folder. Throws ConfigurationError, one sentence, when it cannot be read or has a fault.
+Manifest load_manifest(const std::filesystem::path& file);
+
+/// All manifests (*.json) in the folders, by folder and then by name. A folder that is not there has none.
+/// Throws ConfigurationError when one has a fault or two have the same name.
+std::vector<Manifest> load_manifests(const std::vector<std::filesystem::path>& folders);
+
+}  // namespace hullbench

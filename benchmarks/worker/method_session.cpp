@@ -1,0 +1,237 @@
+#include "benchmarks/worker/method_session.hpp"
+
+#include <algorithm>
+#include <stdexcept>
+#include <system_error>
+#include <utility>
+
+#include "benchmarks/worker/protocol.hpp"
+
+namespace hullbench {
+namespace {
+
+using namespace std::chrono_literals;
+using nlohmann::json;
+
+/// For a worker that is asked to end: it may have a database server to stop.
+constexpr auto kQuitPatience = 10s;
+
+Attempt failed(Status status, std::string detail, std::chrono::nanoseconds elapsed = 0ns) {
+  Attempt attempt;
+  attempt.status = status;
+  attempt.detail = std::move(detail);
+  attempt.elapsed = elapsed;
+  return attempt;
+}
+
+Reply failed_start(Status status, std::string detail, std::string remedy = "") {
+  Reply reply;
+  reply.remedy = std::move(remedy);
+  reply.status = status;
+  reply.detail = std::move(detail);
+  return reply;
+}
+
+/// The phases in a reply; throws std::invalid_argument when they are not what the protocol says.
+PhaseTimes read_phases(const json& body, std::initializer_list<const char*> required) {
+  const auto found = body.find("phases_ns");
+  if (found == body.end() || !found->is_object()) throw std::invalid_argument("the reply has no phases_ns");
+  PhaseTimes phases;
+  for (const auto& [name, value] : found->items()) {
+    if (!value.is_number_integer() || value.get<std::int64_t>() < 0) {
+      throw std::invalid_argument("the phase '" + printable(name, 40) + "' is not a time in nanoseconds");
+    }
+    phases[name] = value.get<std::int64_t>();
+  }
+  for (const char* name : required) {
+    if (!phases.contains(name))
+      throw std::invalid_argument("the reply has no phase '" + std::string(name) + "'");
+  }
+  return phases;
+}
+
+/// Whether the last kSteadyRuns of `times` agree.
+bool ends_steadily(const std::vector<std::int64_t>& times) {
+  if (times.size() < kSteadyRuns) return false;
+  const auto [least, most] = std::minmax_element(times.end() - kSteadyRuns, times.end());
+  return static_cast<double>(*most) <= (1 + kSteadySpread) * static_cast<double>(*least);
+}
+
+}  // namespace
+
+std::int64_t Attempt::time_ns() const {
+  return phases_ns.at("run") + phases_ns.at("extract");
+}
+
+MethodSession::MethodSession(Method method, const WorkerLimits& limits)
+    : method_(std::move(method)), limits_(limits) {
+  start_reply_ = failed_start(Status::kError, "the worker was not started");
+}
+
+MethodSession::~MethodSession() {
+  quit(kQuitPatience);
+}
+
+bool MethodSession::quit(std::chrono::milliseconds patience) {
+  const bool ended = !worker_ || worker_->quit(patience);
+  worker_.reset();
+  return ended;
+}
+
+void MethodSession::begin_start() {
+  loaded_key_.clear();
+  warmed_up_ = false;
+  worker_.reset();
+  for (const std::string& file : method_.needs) {
+    if (std::filesystem::exists(file)) continue;
+    start_reply_ = failed_start(Status::kNotInstalled, "there is no " + file, method_.install);
+    return;
+  }
+  try {
+    worker_ = std::make_unique<WorkerProcess>(method_.command, limits_);
+  } catch (const std::system_error& error) {
+    // The program of a manifest is part of what is to be installed.
+    const bool missing = method_.info && error.code() == std::errc::no_such_file_or_directory;
+    start_reply_ = missing ? failed_start(Status::kNotInstalled,
+                                          "there is no program " + method_.command.front(), method_.install)
+                           : failed_start(Status::kError, error.what());
+    return;
+  } catch (const std::runtime_error& error) {
+    start_reply_ = failed_start(Status::kError, error.what());
+    return;
+  }
+  worker_->send({{"request", "hello"}, {"protocol", kProtocolVersion}});
+}
+
+void MethodSession::finish_start() {
+  info_.reset();
+  if (!worker_) return;
+  start_reply_ = worker_->receive(kStartTimeout);
+  if (start_reply_.status == Status::kOk) {
+    try {
+      if (start_reply_.body.at("protocol") != kProtocolVersion) {
+        throw std::invalid_argument("it speaks another version of the protocol");
+      }
+      if (method_.info) {
+        info_ = method_.info;
+        start_reply_.body.at("version").get_to(info_->version);
+      } else {
+        info_ = method_from_json(start_reply_.body.at("method"));
+      }
+      if (info_->name != method_.name)
+        throw std::invalid_argument("it calls itself '" + printable(info_->name, 40) + "'");
+      if (info_->version.empty()) throw std::invalid_argument("it does not tell its version");
+      // An adapter or a core that was changed is another method, though its library has the same version.
+      if (!method_.sources.empty()) info_->version += "+" + method_.sources;
+    } catch (const std::exception& error) {
+      info_.reset();
+      start_reply_ = failed_start(Status::kError, "the worker broke the protocol in its first answer: " +
+                                                      printable(error.what(), 200));
+    }
+  }
+  if (start_reply_.status == Status::kNotInstalled && start_reply_.remedy.empty()) {
+    start_reply_.remedy = method_.install;
+  }
+  if (!info_) worker_.reset();
+}
+
+Reply MethodSession::load(const LoadedPoints& points, std::chrono::milliseconds timeout) {
+  loaded_key_.clear();
+  Reply reply =
+      worker_->request({{"request", "load"}, {"points", points.file.string()}, {"n", points.n}}, timeout);
+  if (reply.status != Status::kOk) return reply;
+  try {
+    load_phases_ = read_phases(reply.body, {"load"});
+    loaded_key_ = points.key;
+  } catch (const std::invalid_argument& error) {
+    reply.status = Status::kError;
+    reply.detail = std::string("the worker broke the protocol: ") + error.what();
+  }
+  return reply;
+}
+
+Attempt MethodSession::run(const LoadedPoints& points, const Parameters& parameters,
+                           const std::filesystem::path& scratch, std::chrono::milliseconds timeout,
+                           Watch watch) {
+  if (!worker_ || !worker_->alive()) {
+    begin_start();
+    finish_start();
+  }
+  if (!info_) return failed(start_reply_.status, start_reply_.detail);
+  if (loaded_key_ != points.key) {
+    const Reply loaded = load(points, timeout);
+    if (loaded.status != Status::kOk) return failed(loaded.status, "on loading the points: " + loaded.detail);
+  }
+  // A name of its own for every run: what an earlier run left can never be taken for this one's result.
+  const std::string nonce =
+      method_.name + "-" + std::to_string(worker_->pid()) + "-" + std::to_string(++run_count_);
+  const std::filesystem::path result = scratch / ("result-" + nonce + ".wkb");
+  const bool watches_memory =
+      watch == Watch::kMemory && !info_->capabilities.in_server && worker_->reset_peak_memory();
+  const Reply reply = worker_->request({{"request", "run"},
+                                        {"nonce", nonce},
+                                        {"parameters", parameters_to_json(parameters)},
+                                        {"result", result.string()}},
+                                       timeout);
+  Attempt attempt = reply.status == Status::kOk ? read_result(reply, nonce, result)
+                                                : failed(reply.status, reply.detail, reply.elapsed);
+  if (watches_memory) attempt.peak_memory_bytes = worker_->peak_memory_bytes();
+  // After a lack of memory, or an answer that is none, nobody knows what is left undone in the worker.
+  if (attempt.status == Status::kMemory || attempt.status == Status::kInvalidOutput) worker_.reset();
+  std::error_code ignored;
+  std::filesystem::remove(result, ignored);
+  return attempt;
+}
+
+Attempt MethodSession::warm_up(const LoadedPoints& points, const Parameters& parameters,
+                               const std::filesystem::path& scratch, std::chrono::milliseconds timeout) {
+  const auto end = std::chrono::steady_clock::now() + kWarmUpTime;
+  const Attempt first = run(points, parameters, scratch, timeout);
+  if (first.status != Status::kOk) return first;
+  std::vector<std::int64_t> times = {first.time_ns()};
+  while (!ends_steadily(times) && std::chrono::steady_clock::now() < end) {
+    Attempt next = run(points, parameters, scratch, timeout);
+    if (next.status != Status::kOk) return next;
+    times.push_back(next.time_ns());
+  }
+  warmed_up_ = true;
+  return first;
+}
+
+Attempt MethodSession::read_result(const Reply& reply, const std::string& nonce,
+                                   const std::filesystem::path& result) {
+  Attempt attempt;
+  attempt.elapsed = reply.elapsed;
+  try {
+    const auto said = reply.body.find("nonce");
+    if (said == reply.body.end() || *said != nonce) {
+      throw std::invalid_argument("the reply is to another run than the one that was asked for");
+    }
+    attempt.phases_ns = read_phases(reply.body, {"run", "extract"});
+    if (attempt.phases_ns["run"] > attempt.elapsed.count() ||
+        attempt.phases_ns["extract"] > attempt.elapsed.count() - attempt.phases_ns["run"]) {
+      throw std::invalid_argument("it reports more time than has passed");
+    }
+    attempt.phases_ns["outside"] = attempt.elapsed.count();
+    attempt.wkb = read_bytes(result, kMaxResultBytes);
+  } catch (const std::exception& error) {
+    return failed(Status::kInvalidOutput, printable(error.what(), 300), reply.elapsed);
+  }
+  for (const auto& [name, time] : load_phases_) attempt.phases_ns[name] = time;
+  return attempt;
+}
+
+json describe_method(const MethodSession& session) {
+  MethodInfo info;
+  if (session.method().info) info = *session.method().info;
+  if (session.info()) info = *session.info();
+  info.name = session.method().name;
+  info.title = session.method().title;
+  json result = method_to_json(info);
+  result["installed"] = session.info().has_value();
+  result["detail"] = session.info() ? "" : session.start_reply().detail;
+  result["remedy"] = session.info() ? "" : session.start_reply().remedy;
+  return result;
+}
+
+}  // namespace hullbench

@@ -1,0 +1,115 @@
+// A method and the worker that runs it: started once, loaded once a case, started again after it died.
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "adapters/adapter.hpp"
+#include "benchmarks/worker/method.hpp"
+#include "benchmarks/record/record.hpp"
+#include "benchmarks/worker/worker_process.hpp"
+
+namespace hullbench {
+
+/// How long a worker may take to say who it is; a method may have to start a server.
+inline constexpr std::chrono::seconds kStartTimeout{60};
+
+/// A method that compiles while it runs is warm when this many runs one after another agree: the longest
+/// takes at most this part more than the shortest. It gets no more than this time for that.
+inline constexpr std::size_t kSteadyRuns = 3;
+inline constexpr double kSteadySpread = 0.05;
+inline constexpr std::chrono::seconds kWarmUpTime{5};
+
+/// The largest result that is read, in bytes: far above any polygon of the points that fit the memory limit.
+inline constexpr std::size_t kMaxResultBytes = std::size_t{1} << 30;
+
+/// The points a worker is to have before it runs.
+struct LoadedPoints {
+  std::string key;             ///< differs for different points
+  std::filesystem::path file;  ///< raw little-endian float64, x before y
+  std::size_t n = 0;
+};
+
+/// One run of a method, or why there was none.
+struct Attempt {
+  Status status = Status::kOk;
+  std::string detail;  ///< empty when ok
+  /// As the worker tells them, with "load": of the load that the run used; and "outside": `elapsed`.
+  PhaseTimes phases_ns;
+  std::vector<std::uint8_t> wkb;        ///< the result
+  std::chrono::nanoseconds elapsed{0};  ///< as seen from outside
+  /// Of the worker's process during the run; none unless it was asked for, when the method works in a server
+  /// and when the system does not tell.
+  std::optional<std::int64_t> peak_memory_bytes;
+
+  /// Headline time: run + extract.
+  std::int64_t time_ns() const;
+};
+
+/// What a run is watched for besides its result. Looking at memory is for runs that nobody times.
+enum class Watch { kNothing, kMemory };
+
+class MethodSession {
+ public:
+  /// Nothing is started yet.
+  MethodSession(Method method, const WorkerLimits& limits);
+  /// Asks the worker to end, so that it can stop what it started, and kills it when it does not.
+  ~MethodSession();
+
+  /// Starts the worker and asks who it is, without waiting, so that several methods can start at the same
+  /// time.
+  void begin_start();
+  /// Waits for the answer. Throws Interrupted.
+  void finish_start();
+
+  const Method& method() const { return method_; }
+  /// Who the method is; empty when it could not be started.
+  const std::optional<MethodInfo>& info() const { return info_; }
+  /// Why it could not be started: status, detail and remedy; status ok when it could.
+  const Reply& start_reply() const { return start_reply_; }
+  /// The worker's process; not positive while there is none.
+  pid_t pid() const { return worker_ ? worker_->pid() : -1; }
+
+  /// Runs the method once on `points` with a result in a new file in `scratch`, which is removed again.
+  /// Starts and loads a worker first where needed. Throws Interrupted.
+  Attempt run(const LoadedPoints& points, const Parameters& parameters, const std::filesystem::path& scratch,
+              std::chrono::milliseconds timeout, Watch watch = Watch::kNothing);
+
+  /// Whether the method compiles while it runs (Method::jit) and its process, of now or to come, was not
+  /// warmed up.
+  bool is_cold() const { return method_.jit && (!warmed_up_ || !worker_ || !worker_->alive()); }
+  /// Runs the method until its times are steady, or for kWarmUpTime. Returns the first run, whose time is
+  /// that of a cold process, or the first one that failed, which ends it. Throws Interrupted.
+  Attempt warm_up(const LoadedPoints& points, const Parameters& parameters,
+                  const std::filesystem::path& scratch, std::chrono::milliseconds timeout);
+
+  /// Asks the worker to end, waits at most `patience` and kills it then. Whether it ended by itself; the next
+  /// run starts another one.
+  bool quit(std::chrono::milliseconds patience);
+
+ private:
+  Reply load(const LoadedPoints& points, std::chrono::milliseconds timeout);
+  Attempt read_result(const Reply& reply, const std::string& nonce, const std::filesystem::path& result);
+
+  Method method_;
+  WorkerLimits limits_;
+  std::unique_ptr<WorkerProcess> worker_;
+  std::optional<MethodInfo> info_;
+  Reply start_reply_;
+  std::string loaded_key_;  ///< of the points the worker has; empty: none
+  PhaseTimes load_phases_;
+  std::uint64_t run_count_ = 0;
+  bool warmed_up_ = false;  ///< the process that runs
+};
+
+/// A method as `list` and run.json show it: method_to_json with `installed`, `detail` (why not) and `remedy`.
+/// What is not known of a method that does not start is empty.
+nlohmann::json describe_method(const MethodSession& session);
+
+}  // namespace hullbench
