@@ -8,35 +8,35 @@ add_executable(misbehaving_worker "${CMAKE_CURRENT_LIST_DIR}/misbehaving_worker.
 set_target_properties(misbehaving_worker PROPERTIES RUNTIME_OUTPUT_DIRECTORY "${CMAKE_BINARY_DIR}/tests")
 target_link_libraries(misbehaving_worker PRIVATE hullbench::worker hullbench::compile_options)
 
-hullbench_test(test_plan SOURCES test_plan.cpp LIBRARIES hullbench::runner LABELS harness)
+hullbench_test(test_plan SOURCES test_plan.cpp LIBRARIES hullbench::run LABELS harness)
 target_compile_definitions(test_plan PRIVATE HULLBENCH_PLAN_FOLDER="${PROJECT_SOURCE_DIR}/benchmarks/plans")
 
-hullbench_test(test_shard SOURCES test_shard.cpp LIBRARIES hullbench::runner LABELS harness)
+hullbench_test(test_shard SOURCES test_shard.cpp LIBRARIES hullbench::run LABELS harness)
 
-hullbench_test(test_canary SOURCES test_canary.cpp LIBRARIES hullbench::runner LABELS harness)
+hullbench_test(test_canary SOURCES test_canary.cpp LIBRARIES hullbench::run LABELS harness)
 
-hullbench_test(test_parallel SOURCES test_parallel.cpp LIBRARIES hullbench::runner LABELS harness)
+hullbench_test(test_parallel SOURCES test_parallel.cpp LIBRARIES hullbench::run LABELS harness)
 
 hullbench_test(test_worker SOURCES test_worker.cpp
-  LIBRARIES hullbench::worker hullbench::huge_pages hullbench_test_program LABELS harness)
+  LIBRARIES hullbench::worker hullbench::base hullbench_test_program LABELS harness)
 target_compile_definitions(test_worker PRIVATE MISBEHAVING_WORKER="$<TARGET_FILE:misbehaving_worker>")
 add_dependencies(test_worker misbehaving_worker)
 
 hullbench_test(test_runner SOURCES test_runner.cpp
-  LIBRARIES hullbench::runner hullbench::report hullbench_test_program LABELS harness)
+  LIBRARIES hullbench::run hullbench::report hullbench_test_program LABELS harness)
 target_compile_definitions(test_runner PRIVATE
   MISBEHAVING_WORKER="$<TARGET_FILE:misbehaving_worker>" HULLBENCH="$<TARGET_FILE:hullbench>")
 add_dependencies(test_runner misbehaving_worker hullbench)
 
 hullbench_test(test_pictures SOURCES test_pictures.cpp
-  LIBRARIES hullbench::runner hullbench::report hullbench_test_program LABELS harness)
+  LIBRARIES hullbench::run hullbench::report hullbench_test_program LABELS harness)
 hullbench_test(test_league SOURCES test_league.cpp
   LIBRARIES hullbench::league hullbench::tune hullbench::report LABELS harness)
 hullbench_test(test_suite SOURCES test_suite.cpp LIBRARIES hullbench::record hullbench_test_program LABELS harness)
 hullbench_test(test_readme SOURCES test_readme.cpp
-  LIBRARIES hullbench::runner hullbench_invented_run hullbench_test_program LABELS harness)
+  LIBRARIES hullbench::run hullbench_invented_run hullbench_test_program LABELS harness)
 hullbench_test(test_machines SOURCES test_machines.cpp
-  LIBRARIES hullbench::runner hullbench_invented_run hullbench::report LABELS harness)
+  LIBRARIES hullbench::run hullbench_invented_run hullbench::report LABELS harness)
 hullbench_test(test_compare SOURCES test_compare.cpp
   LIBRARIES hullbench::report hullbench_invented_run hullbench_test_program LABELS harness)
 
@@ -60,7 +60,7 @@ hullbench_test(test_rule_fit SOURCES test_rule_fit.cpp
   LIBRARIES hullbench::tune hullbench::adapters hullbench::metrics hullbench::datasets LABELS harness)
 target_compile_definitions(test_rule_fit PRIVATE HULLBENCH_PLAN_FOLDER="${PROJECT_SOURCE_DIR}/benchmarks/plans")
 hullbench_test(test_tune SOURCES test_tune.cpp
-  LIBRARIES hullbench::record hullbench::runner hullbench::metrics hullbench_test_program LABELS harness)
+  LIBRARIES hullbench::record hullbench::run hullbench::metrics hullbench_test_program LABELS harness)
 target_compile_definitions(test_tune PRIVATE
   HULLBENCH="$<TARGET_FILE:hullbench>" HULLBENCH_SOURCE_DIRECTORY="${PROJECT_SOURCE_DIR}"
   SYSTEM_PYTHON="${SYSTEM_PYTHON}")
@@ -76,7 +76,7 @@ add_test(NAME reference.is_of_this_revision
   COMMAND "${CMAKE_CURRENT_LIST_DIR}/check_reference.sh" "${PROJECT_SOURCE_DIR}")
 set_tests_properties(reference.is_of_this_revision PROPERTIES SKIP_RETURN_CODE 77)
 hullbench_test(test_reference SOURCES test_reference.cpp
-  LIBRARIES hullbench::runner hullbench::report hullbench_test_program LABELS harness)
+  LIBRARIES hullbench::run hullbench::report hullbench_test_program LABELS harness)
 target_compile_definitions(test_reference PRIVATE HULLBENCH_SOURCE_DIRECTORY="${PROJECT_SOURCE_DIR}")
 add_test(NAME readme.has_the_reference_run
   COMMAND hullbench readme --check results/reference README.md
@@ -84,7 +84,7 @@ add_test(NAME readme.has_the_reference_run
 
 # Methods that are added: manifests, the skeletons of `hullbench adapter new`, and the contract.
 hullbench_test(test_manifest SOURCES test_manifest.cpp
-  LIBRARIES hullbench::runner hullbench_test_program LABELS harness)
+  LIBRARIES hullbench::run hullbench_test_program LABELS harness)
 hullbench_test(test_adapter_command SOURCES test_adapter_command.cpp LIBRARIES hullbench_test_program LABELS harness)
 target_compile_definitions(test_adapter_command PRIVATE
   HULLBENCH="$<TARGET_FILE:hullbench>" SYSTEM_PYTHON="${SYSTEM_PYTHON}")
@@ -92,7 +92,7 @@ add_dependencies(test_adapter_command hullbench)
 
 # The methods in JavaScript and Python that filter triangles, against the core.
 hullbench_test(test_triangle_methods SOURCES test_triangle_methods.cpp
-  LIBRARIES hullbench::runner hullbench::metrics hullbench_test_support LABELS harness)
+  LIBRARIES hullbench::run hullbench::metrics hullbench_test_support LABELS harness)
 
 # The README's checklist for a method in C++, walked with a sample: hullbench writes it, add_adapter() takes it, and the
 # program that has it keeps the contract with it.
@@ -107,8 +107,7 @@ hullbench_adapter_registry(adapters_with_sample)
 add_executable(hullbench_with_sample)
 set_target_properties(hullbench_with_sample PROPERTIES RUNTIME_OUTPUT_DIRECTORY "${CMAKE_BINARY_DIR}/tests")
 target_link_libraries(hullbench_with_sample PRIVATE
-  hullbench_program adapters_with_sample hullbench::runner hullbench::hull hullbench::report hullbench::tune
-  hullbench::league hullbench::hash)
+  hullbench_program adapters_with_sample)
 add_test(NAME sample_method.keeps_the_contract COMMAND hullbench_with_sample adapter test sample_hull)
 
 # Real methods, the harness and all; a method that is not installed ends with 6.

@@ -1,3 +1,4 @@
+#include "benchmarks/base/files.hpp"
 #include "invented_run.hpp"
 
 #include <cmath>
@@ -6,7 +7,6 @@
 #include <string>
 
 #include "benchmarks/record/json_lines.hpp"
-#include "benchmarks/report/report.hpp"
 
 namespace hullbench::test {
 namespace {

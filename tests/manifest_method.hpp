@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "adapters/wkb.hpp"
-#include "benchmarks/worker/method_catalog.hpp"
+#include "benchmarks/run/method_catalog.hpp"
 #include "benchmarks/worker/method_session.hpp"
 #include "benchmarks/worker/protocol.hpp"
 #include "tests/temporary_folder.hpp"

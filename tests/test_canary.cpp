@@ -7,6 +7,7 @@
 #include <deque>
 #include <vector>
 
+#include "benchmarks/base/cores.hpp"
 #include "benchmarks/run/canary.hpp"
 #include "benchmarks/worker/worker_process.hpp"
 

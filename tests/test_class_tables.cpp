@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "benchmarks/report/tables.hpp"
-#include "benchmarks/report/text_table.hpp"
+#include "benchmarks/table/text_table.hpp"
 #include "invented_shapes.hpp"
 
 namespace hullbench {

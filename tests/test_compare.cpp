@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "benchmarks/base/files.hpp"
 #include "benchmarks/report/compare.hpp"
 #include "benchmarks/report/compare_document.hpp"
 #include "benchmarks/report/report.hpp"

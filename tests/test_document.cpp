@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-#include "benchmarks/report/document.hpp"
+#include "benchmarks/table/document.hpp"
 #include "temporary_folder.hpp"
 #include "tests/program.hpp"
 

@@ -7,6 +7,7 @@
 #include <set>
 #include <string>
 
+#include "benchmarks/base/files.hpp"
 #include "benchmarks/report/gbench_export.hpp"
 #include "benchmarks/record/json_lines.hpp"
 #include "benchmarks/report/report.hpp"

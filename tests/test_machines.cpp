@@ -13,7 +13,6 @@
 #include "benchmarks/report/paper_comparison.hpp"
 #include "benchmarks/report/readme.hpp"
 #include "benchmarks/report/report.hpp"
-#include "benchmarks/run/suite.hpp"
 #include "benchmarks/report/tables.hpp"
 #include "benchmarks/record/validate.hpp"
 #include "invented_shapes.hpp"

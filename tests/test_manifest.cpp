@@ -8,8 +8,9 @@
 #include <string>
 #include <vector>
 
-#include "benchmarks/worker/manifest.hpp"
-#include "benchmarks/worker/method_catalog.hpp"
+#include "benchmarks/base/configuration_error.hpp"
+#include "benchmarks/run/manifest.hpp"
+#include "benchmarks/run/method_catalog.hpp"
 #include "tests/program.hpp"
 #include "tests/temporary_folder.hpp"
 

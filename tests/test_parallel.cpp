@@ -12,6 +12,7 @@
 #include <thread>
 #include <vector>
 
+#include "benchmarks/base/cores.hpp"
 #include "benchmarks/base/parallel.hpp"
 #include "benchmarks/worker/worker_process.hpp"
 

@@ -12,6 +12,7 @@
 #include <variant>
 #include <vector>
 
+#include "benchmarks/base/configuration_error.hpp"
 #include "benchmarks/plan/parameter_rules.hpp"
 #include "benchmarks/plan/plan.hpp"
 #include "datasets/datasets.hpp"

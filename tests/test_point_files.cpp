@@ -5,7 +5,7 @@
 #include <fstream>
 #include <limits>
 
-#include "datasets/point_files/point_file.hpp"
+#include "benchmarks/hull/point_files/point_file.hpp"
 #include "tests/point_file_texts.hpp"
 #include "tests/temporary_folder.hpp"
 

@@ -10,9 +10,10 @@
 #include <string>
 #include <vector>
 
-#include "benchmarks/report/document.hpp"
+#include "benchmarks/report/documents.hpp"
+#include "benchmarks/report/report.hpp"
+#include "benchmarks/table/document.hpp"
 #include "benchmarks/report/paper_comparison.hpp"
-#include "benchmarks/run/suite.hpp"
 #include "tests/program.hpp"
 #include "tests/temporary_folder.hpp"
 

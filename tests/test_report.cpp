@@ -13,6 +13,7 @@
 #include <string>
 #include <vector>
 
+#include "benchmarks/base/files.hpp"
 #include "benchmarks/report/claims.hpp"
 #include "benchmarks/record/embedded.hpp"
 #include "benchmarks/record/environment.hpp"

@@ -12,6 +12,9 @@
 #include <sstream>
 #include <thread>
 
+#include "benchmarks/base/configuration_error.hpp"
+#include "benchmarks/base/files.hpp"
+#include "benchmarks/base/utc_now.hpp"
 #include "benchmarks/record/environment.hpp"
 #include "benchmarks/base/interrupt.hpp"
 #include "benchmarks/record/json_lines.hpp"

@@ -9,9 +9,10 @@
 #include <string>
 #include <vector>
 
+#include "benchmarks/base/configuration_error.hpp"
 #include "benchmarks/plan/plan.hpp"
 #include "benchmarks/run/runner.hpp"
-#include "benchmarks/plan/shard.hpp"
+#include "benchmarks/run/shard.hpp"
 
 namespace hullbench {
 namespace {

@@ -11,7 +11,7 @@
 #include "benchmarks/base/number_format.hpp"
 #include "benchmarks/report/report.hpp"
 #include "benchmarks/report/tables.hpp"
-#include "benchmarks/report/text_table.hpp"
+#include "benchmarks/table/text_table.hpp"
 #include "invented_run.hpp"
 #include "temporary_folder.hpp"
 

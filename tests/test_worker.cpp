@@ -14,6 +14,7 @@
 #include <thread>
 #include <vector>
 
+#include "benchmarks/base/cores.hpp"
 #include "adapters/wkb.hpp"
 #include "benchmarks/worker/huge_pages.hpp"
 #include "benchmarks/base/interrupt.hpp"

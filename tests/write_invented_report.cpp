@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "benchmarks/base/files.hpp"
 #include "benchmarks/report/report.hpp"
 #include "benchmarks/report/tables.hpp"
 #include "invented_run.hpp"

@@ -8,8 +8,9 @@
 #include <iterator>
 #include <system_error>
 
-#include "benchmarks/worker/contract.hpp"
-#include "benchmarks/worker/method_catalog.hpp"
+#include "benchmarks/base/configuration_error.hpp"
+#include "benchmarks/run/contract.hpp"
+#include "benchmarks/run/method_catalog.hpp"
 
 namespace hullbench {
 namespace {

@@ -7,12 +7,12 @@
 #include <stdexcept>
 #include <vector>
 
+#include "benchmarks/record/stored_run.hpp"
+#include "benchmarks/base/configuration_error.hpp"
 #include "benchmarks/report/compare.hpp"
 #include "benchmarks/report/compare_document.hpp"
 #include "benchmarks/record/json_lines.hpp"
-#include "benchmarks/plan/plan.hpp"
 #include "benchmarks/report/report.hpp"
-#include "benchmarks/run/suite.hpp"
 
 namespace hullbench {
 namespace {

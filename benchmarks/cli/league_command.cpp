@@ -4,11 +4,12 @@
 #include <iostream>
 #include <nlohmann/json.hpp>
 
+#include "benchmarks/record/stored_run.hpp"
+#include "benchmarks/base/configuration_error.hpp"
+#include "benchmarks/base/files.hpp"
 #include "benchmarks/league/league.hpp"
 #include "benchmarks/league/league_report.hpp"
-#include "benchmarks/plan/plan.hpp"
 #include "benchmarks/report/report.hpp"
-#include "benchmarks/run/suite.hpp"
 
 namespace hullbench {
 

@@ -9,6 +9,12 @@
 #include <string>
 #include <vector>
 
+#include "benchmarks/cli/finish_run.hpp"
+#include "benchmarks/cli/merge_command.hpp"
+#include "benchmarks/record/stored_run.hpp"
+#include "benchmarks/report/documents.hpp"
+#include "benchmarks/base/configuration_error.hpp"
+#include "benchmarks/base/files.hpp"
 #include "adapters/adapter.hpp"
 #include "benchmarks/cli/adapter_command.hpp"
 #include "benchmarks/cli/compare_command.hpp"
@@ -18,8 +24,7 @@
 #include "benchmarks/cli/league_command.hpp"
 #include "benchmarks/league/league_report.hpp"
 #include "benchmarks/cli/listing.hpp"
-#include "benchmarks/run/merge.hpp"
-#include "benchmarks/worker/method_catalog.hpp"
+#include "benchmarks/run/method_catalog.hpp"
 #include "benchmarks/metrics/metric_table.hpp"
 #include "benchmarks/record/pictures.hpp"
 #include "benchmarks/plan/plan.hpp"
@@ -27,7 +32,6 @@
 #include "benchmarks/report/report.hpp"
 #include "benchmarks/cli/run_command.hpp"
 #include "benchmarks/run/run_directory.hpp"
-#include "benchmarks/run/suite.hpp"
 #include "benchmarks/cli/tune_command.hpp"
 #include "benchmarks/record/validate.hpp"
 #include "benchmarks/worker/worker.hpp"

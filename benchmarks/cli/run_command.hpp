@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "benchmarks/run/runner.hpp"
-#include "benchmarks/plan/shard.hpp"
+#include "benchmarks/run/shard.hpp"
 
 namespace hullbench {
 

@@ -12,16 +12,19 @@
 #include <string>
 #include <utility>
 
-#include "benchmarks/report/document.hpp"
-#include "benchmarks/worker/method_catalog.hpp"
+#include "benchmarks/base/configuration_error.hpp"
+#include "benchmarks/base/cores.hpp"
+#include "benchmarks/base/files.hpp"
+#include "benchmarks/cli/tool_description.hpp"
 #include "benchmarks/plan/plan.hpp"
+#include "benchmarks/run/method_catalog.hpp"
 #include "benchmarks/run/progress.hpp"
 #include "benchmarks/run/run_directory.hpp"
-#include "benchmarks/worker/stray_processes.hpp"
-#include "benchmarks/record/tool_description.hpp"
+#include "benchmarks/table/document.hpp"
 #include "benchmarks/tune/tuned_plan.hpp"
 #include "benchmarks/tune/tuner.hpp"
 #include "benchmarks/tune/tuning_report.hpp"
+#include "benchmarks/worker/stray_processes.hpp"
 #include "benchmarks/worker/worker_process.hpp"
 #include "datasets/datasets.hpp"
 

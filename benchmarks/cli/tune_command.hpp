@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "benchmarks/plan/shard.hpp"
+#include "benchmarks/run/shard.hpp"
 
 namespace hullbench {
 

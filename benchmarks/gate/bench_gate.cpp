@@ -6,7 +6,10 @@
 #include <iostream>
 #include <string>
 
-#include "benchmarks/report/document.hpp"
+#include "benchmarks/base/configuration_error.hpp"
+#include "benchmarks/base/cores.hpp"
+#include "benchmarks/base/files.hpp"
+#include "benchmarks/table/document.hpp"
 #include "benchmarks/gate/gate_accuracy.hpp"
 #include "benchmarks/gate/gate_cases.hpp"
 #include "benchmarks/gate/gate_probes.hpp"
@@ -14,7 +17,6 @@
 #include "benchmarks/gate/gate_verdict.hpp"
 #include "benchmarks/gate/time_gate.hpp"
 #include "benchmarks/base/interrupt.hpp"
-#include "benchmarks/plan/plan.hpp"
 #include "benchmarks/worker/worker_process.hpp"
 
 namespace {

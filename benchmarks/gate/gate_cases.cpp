@@ -1,6 +1,7 @@
 #include "benchmarks/gate/gate_cases.hpp"
 
-#include "benchmarks/report/document.hpp"
+#include "benchmarks/base/files.hpp"
+#include "benchmarks/table/document.hpp"
 #include "benchmarks/micro/point_sets.hpp"
 #include "datasets/point_bytes.hpp"
 

@@ -9,7 +9,7 @@
 #include <sstream>
 #include <stdexcept>
 
-#include "benchmarks/plan/plan.hpp"
+#include "benchmarks/base/configuration_error.hpp"
 #include "benchmarks/statistics/statistics.hpp"
 #include "benchmarks/worker/worker_process.hpp"
 

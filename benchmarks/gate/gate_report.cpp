@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "benchmarks/report/document.hpp"
+#include "benchmarks/table/document.hpp"
 #include "benchmarks/base/number_format.hpp"
-#include "benchmarks/report/text_table.hpp"
+#include "benchmarks/table/text_table.hpp"
 
 namespace hullbench {
 namespace {

@@ -11,13 +11,13 @@
 #include <thread>
 #include <vector>
 
+#include "benchmarks/base/configuration_error.hpp"
 #include "adapters/wkb.hpp"
 #include "benchmarks/hull/polygon_writers.hpp"
 #include "benchmarks/hull/result_output.hpp"
 #include "benchmarks/hull/simplify.hpp"
 #include "benchmarks/base/interrupt.hpp"
-#include "benchmarks/plan/plan.hpp"
-#include "datasets/point_files/point_file.hpp"
+#include "benchmarks/hull/point_files/point_file.hpp"
 #include "polylidar/concave_hull.hpp"
 
 namespace hullbench {

@@ -6,9 +6,8 @@
 #include <set>
 #include <sstream>
 
-#include "benchmarks/report/labels.hpp"
+#include "benchmarks/base/words.hpp"
 #include "benchmarks/base/number_format.hpp"
-#include "benchmarks/plan/plan.hpp"
 
 namespace hullbench {
 namespace {

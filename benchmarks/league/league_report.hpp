@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "benchmarks/report/document.hpp"
+#include "benchmarks/table/document.hpp"
 #include "benchmarks/league/league.hpp"
 
 namespace hullbench {

@@ -8,10 +8,10 @@
 #include <stdexcept>
 #include <utility>
 
-#include "benchmarks/report/document.hpp"
+#include "benchmarks/table/document.hpp"
 #include "benchmarks/base/number_format.hpp"
 #include "benchmarks/statistics/statistics.hpp"
-#include "benchmarks/report/text_table.hpp"
+#include "benchmarks/table/text_table.hpp"
 
 namespace hullbench {
 namespace {

@@ -11,6 +11,8 @@
 #include <sstream>
 #include <string_view>
 
+#include "benchmarks/base/configuration_error.hpp"
+#include "benchmarks/base/words.hpp"
 #include "benchmarks/record/record.hpp"
 #include "datasets/stress.hpp"
 #include "polylidar/delaunay.hpp"
@@ -709,15 +711,6 @@ std::map<std::string, double> choose_parameters(const PlanMethod& method, const 
     } else {
       result[name] = std::get<double>(choice);
     }
-  }
-  return result;
-}
-
-std::string join_words(const std::vector<std::string>& words) {
-  std::string result;
-  for (std::size_t i = 0; i < words.size(); ++i) {
-    if (i > 0) result += i + 1 == words.size() ? " and " : ", ";
-    result += words[i];
   }
   return result;
 }

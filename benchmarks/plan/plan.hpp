@@ -39,12 +39,6 @@
 
 namespace hullbench {
 
-/// Something the user asked for that cannot be done as it stands; one sentence with the way out. Exit code 2.
-class ConfigurationError : public std::runtime_error {
- public:
-  using std::runtime_error::runtime_error;
-};
-
 /// The most passes that a plan can ask for.
 inline constexpr int kMaxPasses = 100;
 
@@ -175,8 +169,5 @@ std::vector<PlannedRun> planned_runs(const Plan& plan, const std::string& filter
 /// else).
 std::map<std::string, double> choose_parameters(const PlanMethod& method, const PlanCase& plan_case,
                                                 const RuleInput& input);
-
-/// "a, b and c"
-std::string join_words(const std::vector<std::string>& words);
 
 }  // namespace hullbench

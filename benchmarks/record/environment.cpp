@@ -17,6 +17,7 @@
 #include <string_view>
 #include <vector>
 
+#include "benchmarks/base/cores.hpp"
 #include "benchmarks/record/build_info.hpp"
 #include "benchmarks/base/huge_pages.hpp"
 #include "benchmarks/record/record.hpp"

@@ -15,7 +15,7 @@
 
 #include "benchmarks/record/embedded.hpp"
 #include "benchmarks/record/json_lines.hpp"
-#include "benchmarks/report/labels.hpp"
+#include "benchmarks/base/words.hpp"
 #include "benchmarks/record/record.hpp"
 
 namespace hullbench {

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "benchmarks/report/document.hpp"
+#include "benchmarks/table/document.hpp"
 #include "benchmarks/report/table_context.hpp"
 
 namespace hullbench {

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "benchmarks/report/compare.hpp"
-#include "benchmarks/report/document.hpp"
+#include "benchmarks/table/document.hpp"
 
 namespace hullbench {
 

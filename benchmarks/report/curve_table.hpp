@@ -4,7 +4,7 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
-#include "benchmarks/report/document.hpp"
+#include "benchmarks/table/document.hpp"
 #include "benchmarks/record/record.hpp"
 #include "benchmarks/report/table_context.hpp"
 

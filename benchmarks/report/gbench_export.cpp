@@ -4,7 +4,8 @@
 #include <map>
 #include <string>
 
-#include "benchmarks/report/document.hpp"
+#include "benchmarks/base/files.hpp"
+#include "benchmarks/table/document.hpp"
 #include "benchmarks/report/measurements.hpp"
 #include "benchmarks/statistics/statistics.hpp"
 

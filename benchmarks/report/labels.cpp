@@ -1,3 +1,4 @@
+#include "benchmarks/base/words.hpp"
 #include "benchmarks/report/labels.hpp"
 
 #include <algorithm>
@@ -67,11 +68,6 @@ std::string not_installed_text(const json& report, const std::string& what, cons
   std::string text = what + " is not installed: " + sentence(detail);
   if (remedy.empty() || detail.find(remedy) != std::string::npos) return text;
   return text + " To install it: " + remedy;
-}
-
-std::string sentence(std::string text) {
-  if (!text.empty() && text.back() != '.') text += '.';
-  return text;
 }
 
 }  // namespace hullbench

@@ -23,7 +23,4 @@ std::string shape_title(const nlohmann::json& report, const std::string& dataset
 std::string not_installed_text(const nlohmann::json& report, const std::string& what,
                                const std::string& method, const std::string& detail);
 
-/// `text` with a full stop at its end.
-std::string sentence(std::string text);
-
 }  // namespace hullbench

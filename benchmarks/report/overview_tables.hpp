@@ -4,7 +4,7 @@
 #include <nlohmann/json.hpp>
 #include <vector>
 
-#include "benchmarks/report/document.hpp"
+#include "benchmarks/table/document.hpp"
 
 namespace hullbench {
 

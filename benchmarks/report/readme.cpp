@@ -7,9 +7,9 @@
 #include <stdexcept>
 #include <string_view>
 
-#include "benchmarks/report/document.hpp"
+#include "benchmarks/report/documents.hpp"
+#include "benchmarks/table/document.hpp"
 #include "benchmarks/report/measurements.hpp"
-#include "benchmarks/run/suite.hpp"
 
 namespace hullbench {
 namespace {

@@ -10,33 +10,20 @@
 #include <utility>
 #include <vector>
 
+#include "benchmarks/base/files.hpp"
 #include "benchmarks/report/claims.hpp"
 #include "benchmarks/report/headline.hpp"
 #include "benchmarks/record/json_lines.hpp"
 #include "benchmarks/report/measurements.hpp"
 #include "benchmarks/report/noise.hpp"
 #include "benchmarks/record/record.hpp"
+#include "benchmarks/record/stored_run.hpp"
 #include "benchmarks/statistics/statistics.hpp"
 
 namespace hullbench {
 namespace {
 
 using nlohmann::json;
-
-json read_run_file(const std::filesystem::path& path) {
-  std::ifstream in(path, std::ios::binary);
-  if (!in) throw std::runtime_error("Cannot read " + path.string() + ": is this the folder of a run?");
-  try {
-    json run = json::parse(in);
-    if (!run.is_object()) throw std::runtime_error(path.string() + " does not hold a JSON object.");
-    if (run.value("schema_version", 0) != kSchemaVersion) {
-      throw std::runtime_error(path.string() + " is of another schema version than this program's.");
-    }
-    return run;
-  } catch (const json::exception& error) {
-    throw std::runtime_error(path.string() + " is not a run's description: " + error.what() + ".");
-  }
-}
 
 json statistics_to_json(const std::vector<std::int64_t>& values) {
   if (values.empty()) return nullptr;
@@ -90,46 +77,7 @@ json noise_to_json(const std::vector<RunRecord>& runs) {
           {"noisy", noise->is_noisy()}};
 }
 
-std::string dump_text(const json& content, int indent) {
-  return content.dump(indent, ' ', false, json::error_handler_t::replace);
-}
-
-/// Writes a file whole or not at all.
-void write_whole(const std::filesystem::path& path, const std::string& text) {
-  std::filesystem::path temporary = path;
-  temporary += ".new";
-  {
-    std::ofstream out(temporary, std::ios::binary | std::ios::trunc);
-    out << text << '\n' << std::flush;
-    if (!out)
-      throw std::runtime_error("Cannot write " + temporary.string() + ": is its folder there and writable?");
-  }
-  std::error_code error;
-  std::filesystem::rename(temporary, path, error);
-  if (error) throw std::runtime_error("Cannot write " + path.string() + ": " + error.message() + ".");
-}
-
 }  // namespace
-
-json last_of_each_id(const std::vector<json>& lines, const std::filesystem::path& path) {
-  json result = json::array();
-  std::map<std::string, std::size_t> places;  // by id, in result
-  for (const json& line : lines) {
-    RunRecord record;
-    try {
-      record = line.get<RunRecord>();
-    } catch (const std::exception& error) {
-      throw std::runtime_error("A line of " + path.string() + " is not a run's record: " + error.what());
-    }
-    const auto [place, is_new] = places.emplace(record.id, result.size());
-    if (is_new) {
-      result.push_back(line);
-    } else {
-      result[place->second] = line;
-    }
-  }
-  return result;
-}
 
 json make_summary(const json& report) {
   const auto runs = report.at("runs").get<std::vector<RunRecord>>();
@@ -142,25 +90,16 @@ json make_summary(const json& report) {
           {"claims", check_claims(report)}};
 }
 
-json load_run(const std::filesystem::path& run_directory) {
-  json report = read_run_file(run_directory / "run.json");
-  std::filesystem::path lines_file = run_directory / "runs.jsonl";
-  if (!std::filesystem::exists(lines_file)) lines_file += ".xz";
-  const JsonLines lines = load_json_lines(lines_file);
-  report["runs"] = last_of_each_id(lines.lines, lines_file);
-  // Only a merged run has notes of its own.
-  if (!report.contains("notes")) report["notes"] = json::array();
-  if (!lines.torn.empty()) {
-    report["notes"].push_back(
-        "The last line of runs.jsonl was cut short when the run was interrupted; it is left out.");
-  }
-  return report;
-}
-
 json make_report(const std::filesystem::path& run_directory) {
   json report = load_run(run_directory);
   report["summary"] = make_summary(report);
   return report;
+}
+
+std::vector<json> suite_reports(const std::filesystem::path& folder) {
+  std::vector<json> reports;
+  for (const std::filesystem::path& run : suite_runs(folder)) reports.push_back(make_report(run));
+  return reports;
 }
 
 void write_report_file(const std::filesystem::path& path, const json& report) {
@@ -179,11 +118,7 @@ void write_report_file(const std::filesystem::path& path, const json& report) {
   for (const auto& [key, list] : {std::pair{"\"rows\": ", &rows}, std::pair{"\"runs\": ", &runs}}) {
     text.replace(text.rfind(key) + std::string_view(key).size(), 2, *list);
   }
-  write_whole(path, text);
-}
-
-void write_json_file(const std::filesystem::path& path, const json& content) {
-  write_whole(path, dump_text(content, 2));
+  write_text_file(path, text + "\n");
 }
 
 }  // namespace hullbench

@@ -7,10 +7,6 @@
 
 namespace hullbench {
 
-/// A run directory as it is: `run.json`, with its rows as `runs` and with `notes`; what make_report gives but
-/// for the summary.
-nlohmann::json load_run(const std::filesystem::path& run_directory);
-
 /// The report of a run directory: `run.json` (schema_version, tool, plan, seed, filter, repetitions,
 /// datasets, methods, environment, created) with the lines of `runs.jsonl`, or `runs.jsonl.xz`, as `runs`,
 /// and a `summary`. When an id occurs more than once (a forced repetition), its last line counts. A torn last
@@ -18,9 +14,9 @@ nlohmann::json load_run(const std::filesystem::path& run_directory);
 /// file when one is missing or malformed.
 nlohmann::json make_report(const std::filesystem::path& run_directory);
 
-/// The lines of the runs file `path` with each id once: its last line, at the place of its first. Throws
-/// std::runtime_error naming the file when one is not a run's record.
-nlohmann::json last_of_each_id(const std::vector<nlohmann::json>& lines, const std::filesystem::path& path);
+/// The reports of the runs in the suite in `folder`, in its order, as make_report gives them; those that were
+/// not begun are left out. Throws std::runtime_error naming the file when suite.json cannot be read.
+std::vector<nlohmann::json> suite_reports(const std::filesystem::path& folder);
 
 /// The `summary` of a report's other members: `totals` (rows by status), `rows` (one a run, in the order of
 /// `runs`: id, name, status, the statistics of the headline time `time` and of the paper's boundary
@@ -30,9 +26,5 @@ nlohmann::json make_summary(const nlohmann::json& report);
 /// Writes `report` to `path` like write_json_file, but each run and each row of the summary on one line:
 /// there may be many thousands.
 void write_report_file(const std::filesystem::path& path, const nlohmann::json& report);
-
-/// Writes `content` to `path`, indented, whole or not at all (a temporary file beside it is renamed). Throws
-/// std::runtime_error naming the file when it cannot be written.
-void write_json_file(const std::filesystem::path& path, const nlohmann::json& content);
 
 }  // namespace hullbench

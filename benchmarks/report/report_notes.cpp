@@ -1,3 +1,4 @@
+#include "benchmarks/base/words.hpp"
 #include "benchmarks/report/report_notes.hpp"
 
 #include <algorithm>
@@ -13,7 +14,7 @@
 #include "benchmarks/report/noise.hpp"
 #include "benchmarks/base/number_format.hpp"
 #include "benchmarks/report/table_context.hpp"
-#include "benchmarks/report/text_table.hpp"
+#include "benchmarks/table/text_table.hpp"
 
 namespace hullbench {
 namespace {

@@ -1,3 +1,4 @@
+#include "benchmarks/base/words.hpp"
 #include "benchmarks/report/table_context.hpp"
 
 #include <algorithm>

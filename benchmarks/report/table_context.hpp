@@ -7,9 +7,9 @@
 #include <vector>
 
 #include "benchmarks/report/claims.hpp"
-#include "benchmarks/report/document.hpp"
+#include "benchmarks/table/document.hpp"
 #include "benchmarks/report/measurements.hpp"
-#include "benchmarks/report/text_table.hpp"
+#include "benchmarks/table/text_table.hpp"
 
 namespace hullbench {
 

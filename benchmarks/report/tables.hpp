@@ -3,7 +3,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "benchmarks/report/document.hpp"
+#include "benchmarks/table/document.hpp"
 
 namespace hullbench {
 

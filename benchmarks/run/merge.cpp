@@ -9,12 +9,13 @@
 #include <tuple>
 #include <utility>
 
+#include "benchmarks/record/stored_run.hpp"
+#include "benchmarks/base/configuration_error.hpp"
+#include "benchmarks/base/files.hpp"
 #include "benchmarks/record/pictures.hpp"
 #include "benchmarks/plan/plan.hpp"
-#include "benchmarks/report/report.hpp"
 #include "benchmarks/run/run_directory.hpp"
 #include "benchmarks/run/runner.hpp"
-#include "benchmarks/run/suite.hpp"
 #include "benchmarks/record/validate.hpp"
 
 namespace hullbench {
@@ -293,91 +294,6 @@ json merge_notes(const std::vector<Source>& sources, const Rows& rows, std::size
   return result;
 }
 
-int merged_exit_code(const std::vector<MergedRun>& runs) {
-  RunResult result;
-  bool missing = false;
-  for (const MergedRun& run : runs) {
-    const auto accepted = run.header.at("plan").value("accepted", std::vector<std::string>());
-    for (const RunRecord& row : run.rows) count_row(result, row.status, accepted);
-    missing = missing || run.rows.size() < run.planned;
-  }
-  const int code = exit_code(result);
-  return code == 0 && missing ? 4 : code;
-}
-
-/// The folders with runs in `sources` by plan, in the order of the plans.
-std::vector<std::vector<fs::path>> runs_by_plan(const std::vector<fs::path>& sources) {
-  std::vector<std::vector<std::string>> lists;
-  std::map<std::string, std::vector<fs::path>> folders;
-  for (const fs::path& source : sources) {
-    auto& list = lists.emplace_back();
-    for (const fs::path& run : suite_runs(source)) {
-      list.push_back(run.filename().string());
-      folders[list.back()].push_back(run);
-    }
-  }
-  std::vector<std::vector<fs::path>> result;
-  for (const std::string& name : common_order(lists)) result.push_back(folders.at(name));
-  return result;
-}
-
-/// Whether `path` is `folder` or in it, whatever links lead there.
-bool is_within(const fs::path& path, const fs::path& folder) {
-  const auto resolved = [](const fs::path& given) { return fs::weakly_canonical(fs::absolute(given)); };
-  return *resolved(path).lexically_relative(resolved(folder)).begin() != "..";
-}
-
-/// Throws unless the output may go to `command.out`.
-void check_out(const MergeCommand& command) {
-  const std::string out = command.out.string();
-  for (const fs::path& source : command.sources) {
-    if (is_within(command.out, source) || is_within(source, command.out))
-      throw ConfigurationError("the output folder " + out + " is, holds or is in " + source.string() +
-                               ", one of the runs to be merged; choose another --out");
-  }
-  make_writable_folder(command.out);
-  const bool of_suites = is_suite(command.sources.front());
-  if (of_suites ? fs::exists(command.out / "run.json") : is_suite(command.out)) {
-    throw ConfigurationError("the output folder " + out + " holds a " + (of_suites ? "run" : "suite") +
-                             "; choose another one with --out");
-  }
-  if (!command.force && !fs::is_empty(command.out)) {
-    throw ConfigurationError("the output folder " + out +
-                             " is not empty; choose another one with --out, or write to it with --force");
-  }
-}
-
-void write_run(const MergedRun& run, const fs::path& folder) {
-  const auto directory = open_run_directory(run.header, {folder, true});
-  directory->write_header(run.header);
-  merge_pictures(run.folders, folder);
-  directory->append_rows(run.rows);
-  // The rows have their times; single repetitions would only be needed to go on.
-  fs::remove(folder / "repetitions.jsonl");
-  finish_run(folder);
-}
-
-void write_suite(const std::vector<MergedRun>& runs, const fs::path& folder) {
-  std::vector<json> headers;
-  headers.reserve(runs.size());
-  for (const MergedRun& run : runs) headers.push_back(run.header);
-  open_suite(headers, {folder, true});
-  for (const MergedRun& run : runs)
-    write_run(run, folder / run.header.at("plan").at("name").get<std::string>());
-  write_tables(folder, make_documents(suite_reports(folder)));
-}
-
-void say_merged(const std::vector<MergedRun>& runs, const MergeCommand& command) {
-  for (const MergedRun& run : runs) {
-    std::cerr << "hullbench: " << run.header.at("plan").at("name").get<std::string>() << ": "
-              << run.rows.size() << " of " << run.planned << " planned runs\n";
-    for (const json& note : run.header.at("notes"))
-      std::cerr << "hullbench: " << note.get<std::string>() << "\n";
-  }
-  std::cerr << "hullbench: merged " << command.sources.size() << " folders into " << command.out.string()
-            << "\n";
-}
-
 }  // namespace
 
 MergedRun merge_runs(const std::vector<fs::path>& folders) {
@@ -403,34 +319,6 @@ MergedRun merge_runs(const std::vector<fs::path>& folders) {
   result.header["shard"] = nullptr;
   result.header["resumed"] = json::array();
   return result;
-}
-
-int merge_command(const MergeCommand& command) {
-  const auto suites =
-      static_cast<std::size_t>(std::count_if(command.sources.begin(), command.sources.end(), is_suite));
-  if (suites != 0 && suites != command.sources.size())
-    throw ConfigurationError("some of the folders hold a run and some a suite; merge runs or suites");
-  std::vector<MergedRun> runs;
-  if (suites == 0) {
-    runs.push_back(merge_runs(command.sources));
-  } else {
-    for (const auto& folders : runs_by_plan(command.sources)) runs.push_back(merge_runs(folders));
-  }
-  if (std::all_of(runs.begin(), runs.end(), [](const MergedRun& run) { return run.rows.empty(); })) {
-    std::cerr << "hullbench: none of the folders has a finished run; nothing is merged\n";
-    return 6;
-  }
-  check_out(command);
-  if (suites == 0) {
-    write_run(runs.front(), command.out);
-  } else {
-    write_suite(runs, command.out);
-  }
-  print_markdown(
-      make_documents(suites == 0 ? std::vector{make_report(command.out)} : suite_reports(command.out)),
-      std::cout);
-  say_merged(runs, command);
-  return merged_exit_code(runs);
 }
 
 }  // namespace hullbench

@@ -12,10 +12,10 @@
 #include <stdexcept>
 #include <system_error>
 
-#include "benchmarks/report/document.hpp"
+#include "benchmarks/base/configuration_error.hpp"
+#include "benchmarks/base/files.hpp"
 #include "benchmarks/record/pictures.hpp"
-#include "benchmarks/plan/plan.hpp"
-#include "benchmarks/report/report.hpp"
+#include "benchmarks/record/stored_run.hpp"
 
 namespace hullbench {
 namespace {
@@ -23,10 +23,7 @@ namespace {
 namespace fs = std::filesystem;
 using nlohmann::json;
 
-constexpr const char* kHeaderFile = "run.json";
-constexpr const char* kRowsFile = "runs.jsonl";
 constexpr const char* kRepetitionsFile = "repetitions.jsonl";
-constexpr const char* kReportFile = "report.json";
 constexpr const char* kScratchFolder = "scratch";
 
 std::string reason(int error) {
@@ -303,15 +300,6 @@ void remove_stale_scratch(const fs::path& results) {
   }
 }
 
-void make_writable_folder(const fs::path& folder) {
-  std::error_code error;
-  fs::create_directories(folder, error);
-  if (!error && ::faccessat(AT_FDCWD, folder.c_str(), W_OK | X_OK, AT_EACCESS) != 0) {
-    error.assign(errno, std::generic_category());
-  }
-  if (error) throw not_writable(folder, error.message());
-}
-
 bool is_finished_run(const fs::path& folder, const json& header) {
   const json earlier = read_header(folder);
   return earlier.is_object() && run_continuity(earlier) == run_continuity(header) &&
@@ -352,15 +340,6 @@ void point_latest_to(const fs::path& run_directory, const fs::path& results) {
   if (!error) fs::rename(temporary, link, error);
   if (error)
     throw std::runtime_error("cannot let " + link.string() + " point to the run: " + error.message());
-}
-
-std::string utc_now() {
-  const std::time_t now = std::time(nullptr);
-  std::tm parts{};
-  gmtime_r(&now, &parts);
-  std::array<char, 32> text{};
-  const std::size_t size = std::strftime(text.data(), text.size(), "%Y-%m-%dT%H:%M:%SZ", &parts);
-  return {text.data(), size};
 }
 
 }  // namespace hullbench

@@ -105,9 +105,6 @@ std::vector<std::filesystem::path> newest_first(const std::filesystem::path& run
 /// was killed. Those of runs that somebody is at stay.
 void remove_stale_scratch(const std::filesystem::path& results);
 
-/// Makes `folder` where it is not there. Throws ConfigurationError when it cannot be made or written to.
-void make_writable_folder(const std::filesystem::path& folder);
-
 /// Whether `folder` holds a run that `header` describes, and it is finished (has a report.json).
 bool is_finished_run(const std::filesystem::path& folder, const nlohmann::json& header);
 
@@ -122,8 +119,5 @@ nlohmann::json run_continuity(const nlohmann::json& header);
 /// Lets the link `results`/latest point to the run in `run_directory`, a folder in `results`/runs. Throws
 /// std::runtime_error when it cannot.
 void point_latest_to(const std::filesystem::path& run_directory, const std::filesystem::path& results);
-
-/// "2026-01-31T12:00:00Z" now.
-std::string utc_now();
 
 }  // namespace hullbench

@@ -8,6 +8,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "benchmarks/base/configuration_error.hpp"
 #include "adapters/wkb.hpp"
 #include "benchmarks/base/interrupt.hpp"
 #include "benchmarks/worker/method_session.hpp"

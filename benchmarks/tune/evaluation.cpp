@@ -8,7 +8,7 @@
 #include <stdexcept>
 #include <system_error>
 
-#include "benchmarks/plan/plan.hpp"
+#include "benchmarks/base/configuration_error.hpp"
 #include "benchmarks/worker/protocol.hpp"
 #include "benchmarks/tune/search.hpp"
 #include "datasets/sha256.hpp"

@@ -12,7 +12,10 @@
 #include <string>
 #include <vector>
 
-#include "benchmarks/report/document.hpp"
+#include "benchmarks/base/configuration_error.hpp"
+#include "benchmarks/base/cores.hpp"
+#include "benchmarks/base/words.hpp"
+#include "benchmarks/table/document.hpp"
 #include "benchmarks/base/number_format.hpp"
 #include "benchmarks/plan/plan.hpp"
 #include "benchmarks/tune/rule_fit.hpp"

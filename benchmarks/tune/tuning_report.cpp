@@ -5,6 +5,7 @@
 #include <set>
 #include <span>
 
+#include "benchmarks/base/words.hpp"
 #include "benchmarks/base/number_format.hpp"
 #include "benchmarks/worker/protocol.hpp"
 #include "benchmarks/record/record.hpp"

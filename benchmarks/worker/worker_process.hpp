@@ -113,10 +113,4 @@ class WorkerProcess {
 /// "SIGSEGV" for 11.
 std::string signal_name(int signal);
 
-/// The cores this process may run on, ascending.
-std::vector<int> allowed_cores();
-
-/// Keeps this process off `core`, where there is another core for it.
-void leave_core(int core);
-
 }  // namespace hullbench

@@ -1,0 +1,51 @@
+#include "benchmarks/base/files.hpp"
+
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <fstream>
+#include <stdexcept>
+#include <system_error>
+
+#include "benchmarks/base/configuration_error.hpp"
+
+namespace hullbench {
+
+void write_text_file(const std::filesystem::path& path, const std::string& text) {
+  std::filesystem::path temporary = path;
+  temporary += ".new";
+  {
+    std::ofstream out(temporary, std::ios::binary | std::ios::trunc);
+    out << text << std::flush;
+    if (!out) {
+      throw std::runtime_error("cannot write " + path.string() +
+                               "; is its folder there and writable, and the disk not full?");
+    }
+  }
+  std::error_code error;
+  std::filesystem::rename(temporary, path, error);
+  if (error) throw std::runtime_error("cannot write " + path.string() + ": " + error.message());
+}
+
+std::string dump_text(const nlohmann::json& content, int indent) {
+  return content.dump(indent, ' ', false, nlohmann::json::error_handler_t::replace);
+}
+
+void write_json_file(const std::filesystem::path& path, const nlohmann::json& content) {
+  write_text_file(path, dump_text(content, 2) + "\n");
+}
+
+void make_writable_folder(const std::filesystem::path& folder) {
+  std::error_code error;
+  std::filesystem::create_directories(folder, error);
+  if (!error && ::faccessat(AT_FDCWD, folder.c_str(), W_OK | X_OK, AT_EACCESS) != 0) {
+    error.assign(errno, std::generic_category());
+  }
+  if (error) {
+    throw ConfigurationError("cannot write to the output folder " + folder.string() + " (" + error.message() +
+                             "); choose another one with --out");
+  }
+}
+
+}  // namespace hullbench

@@ -1,0 +1,18 @@
+#include "benchmarks/cli/tool_description.hpp"
+
+#include "benchmarks/cli/revision.hpp"
+#include "datasets/sha256.hpp"
+
+namespace hullbench {
+
+nlohmann::json describe_tool() {
+  using nlohmann::json;
+  const Revision built_from = revision();
+  return {{"name", "hullbench"},
+          {"version", HULLBENCH_VERSION},
+          {"commit", built_from.commit ? json(*built_from.commit) : json(nullptr)},
+          {"dirty", built_from.dirty ? json(*built_from.dirty) : json(nullptr)},
+          {"binary_sha256", sha256_file("/proc/self/exe")}};
+}
+
+}  // namespace hullbench

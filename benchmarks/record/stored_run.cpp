@@ -1,0 +1,94 @@
+#include "benchmarks/record/stored_run.hpp"
+
+#include <cstddef>
+#include <fstream>
+#include <map>
+#include <stdexcept>
+#include <string>
+
+#include "benchmarks/record/json_lines.hpp"
+#include "benchmarks/record/record.hpp"
+
+namespace hullbench {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+
+json read_run_file(const std::filesystem::path& path) {
+  std::ifstream in(path, std::ios::binary);
+  if (!in) throw std::runtime_error("Cannot read " + path.string() + ": is this the folder of a run?");
+  try {
+    json run = json::parse(in);
+    if (!run.is_object()) throw std::runtime_error(path.string() + " does not hold a JSON object.");
+    if (run.value("schema_version", 0) != kSchemaVersion) {
+      throw std::runtime_error(path.string() + " is of another schema version than this program's.");
+    }
+    return run;
+  } catch (const json::exception& error) {
+    throw std::runtime_error(path.string() + " is not a run's description: " + error.what() + ".");
+  }
+}
+
+}  // namespace
+
+json last_of_each_id(const std::vector<json>& lines, const std::filesystem::path& path) {
+  json result = json::array();
+  std::map<std::string, std::size_t> places;  // by id, in result
+  for (const json& line : lines) {
+    RunRecord record;
+    try {
+      record = line.get<RunRecord>();
+    } catch (const std::exception& error) {
+      throw std::runtime_error("A line of " + path.string() + " is not a run's record: " + error.what());
+    }
+    const auto [place, is_new] = places.emplace(record.id, result.size());
+    if (is_new) {
+      result.push_back(line);
+    } else {
+      result[place->second] = line;
+    }
+  }
+  return result;
+}
+
+json load_run(const std::filesystem::path& run_directory) {
+  json report = read_run_file(run_directory / kHeaderFile);
+  std::filesystem::path lines_file = run_directory / kRowsFile;
+  if (!std::filesystem::exists(lines_file)) lines_file += ".xz";
+  const JsonLines lines = load_json_lines(lines_file);
+  report["runs"] = last_of_each_id(lines.lines, lines_file);
+  // Only a merged run has notes of its own.
+  if (!report.contains("notes")) report["notes"] = json::array();
+  if (!lines.torn.empty()) {
+    report["notes"].push_back(
+        "The last line of runs.jsonl was cut short when the run was interrupted; it is left out.");
+  }
+  return report;
+}
+
+bool is_suite(const fs::path& folder) {
+  return fs::exists(folder / kSuiteFile);
+}
+
+json read_suite(const fs::path& folder) {
+  std::ifstream in(folder / kSuiteFile, std::ios::binary);
+  json suite = in ? json::parse(in, nullptr, false) : json();
+  return suite.is_object() && suite.contains("plans") ? suite : json();
+}
+
+std::vector<fs::path> suite_runs(const fs::path& folder) {
+  const json suite = read_suite(folder);
+  if (!suite.is_object()) {
+    throw std::runtime_error("cannot read " + (folder / kSuiteFile).string() +
+                             ": is it a suite's description?");
+  }
+  std::vector<fs::path> runs;
+  for (const json& plan : suite.at("plans")) {
+    const fs::path run = folder / plan.get<std::string>();
+    if (fs::exists(run / kHeaderFile)) runs.push_back(run);
+  }
+  return runs;
+}
+
+}  // namespace hullbench

@@ -1,0 +1,42 @@
+// What runs and suites have left in their folders.
+//
+//   run.json       what was measured, with what, where
+//   runs.jsonl     a line a finished run; of reference runs compressed, runs.jsonl.xz
+//   report.json    written last: the mark of a finished run
+//   suite.json     of a suite: its plans in their order; each has its run in the folder of its name
+//   tables.md, tables/
+#pragma once
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <vector>
+
+namespace hullbench {
+
+inline constexpr const char* kHeaderFile = "run.json";
+inline constexpr const char* kRowsFile = "runs.jsonl";
+inline constexpr const char* kReportFile = "report.json";
+inline constexpr const char* kSuiteFile = "suite.json";
+inline constexpr const char* kTablesFile = "tables.md";
+inline constexpr const char* kTablesFolder = "tables";
+
+/// A run directory as it is: `run.json`, with its rows as `runs` and with `notes`; what make_report gives but
+/// for the summary.
+nlohmann::json load_run(const std::filesystem::path& run_directory);
+
+/// The lines of the runs file `path` with each id once: its last line, at the place of its first. Throws
+/// std::runtime_error naming the file when one is not a run's record.
+nlohmann::json last_of_each_id(const std::vector<nlohmann::json>& lines, const std::filesystem::path& path);
+
+/// Whether there is a suite in `folder`.
+bool is_suite(const std::filesystem::path& folder);
+
+/// suite.json of a folder; null when it has none that can be read.
+nlohmann::json read_suite(const std::filesystem::path& folder);
+
+/// The folders of the runs in the suite in `folder`, in its order; those that were not begun are left out.
+/// Throws std::runtime_error naming the
+/// file when suite.json cannot be read.
+std::vector<std::filesystem::path> suite_runs(const std::filesystem::path& folder);
+
+}  // namespace hullbench
