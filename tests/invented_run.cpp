@@ -1,4 +1,3 @@
-#include "benchmarks/base/files.hpp"
 #include "invented_run.hpp"
 
 #include <cmath>
@@ -6,6 +5,7 @@
 #include <limits>
 #include <string>
 
+#include "benchmarks/base/files.hpp"
 #include "benchmarks/record/json_lines.hpp"
 
 namespace hullbench::test {
@@ -94,17 +94,17 @@ constexpr Character kSpatialite = {"spatialite", "paper", 18000, 500, 0.8};
 constexpr Character kLegacy = {"postgis_legacy", "paper", 0, 0, 0};
 constexpr Character kPostgis = {"postgis", "auto", 2500, 200, 1.5};
 
-void add_steps(PhaseTimes& phases, const std::string& method) {
+void add_steps(record::PhaseTimes& phases, const std::string& method) {
   if (method == "spatialite" || method == "postgis") return;
   phases["run.triangulation"] = phases["run"] / 2;
   phases["run.shape"] = phases["run"] - phases["run"] / 2;
   phases["extract.polygon"] = phases["extract"];
 }
 
-void add_times(RunRecord& record, const Character& character) {
+void add_times(record::RunRecord& record, const Character& character) {
   constexpr std::int64_t kMicrosecond = 1000;
   for (const std::int64_t wobble : {0, 2, 1}) {
-    PhaseTimes phases;
+    record::PhaseTimes phases;
     phases["load"] = 5 * record.n;
     phases["run"] = character.run_time * kMicrosecond * record.n / 1000 * (100 + wobble) / 100;
     phases["extract"] = character.extract_time * kMicrosecond * record.n / 1000;
@@ -114,7 +114,7 @@ void add_times(RunRecord& record, const Character& character) {
   }
 }
 
-void add_metrics(RunRecord& record, double relative_error, bool valid) {
+void add_metrics(record::RunRecord& record, double relative_error, bool valid) {
   const double l2 = relative_error * 3.5 / std::sqrt(static_cast<double>(record.n));
   record.metrics = {{"valid", valid},
                     {"invalid_reason", valid ? "" : "Self-intersection[1 2]"},
@@ -134,9 +134,9 @@ void add_metrics(RunRecord& record, double relative_error, bool valid) {
   record.metrics["iou"] = 1 - l2;
 }
 
-RunRecord make_record(const Character& character, const std::string& dataset_name, bool holes,
-                      std::int64_t n) {
-  RunRecord record;
+record::RunRecord make_record(const Character& character, const std::string& dataset_name, bool holes,
+                              std::int64_t n) {
+  record::RunRecord record;
   record.method = character.method;
   record.method_version = "1.0";
   record.dataset = dataset_name;
@@ -147,37 +147,37 @@ RunRecord make_record(const Character& character, const std::string& dataset_nam
   record.protocol = character.protocol;
   record.parameters = {{"alpha", 2 * std::sqrt(14000.0 / static_cast<double>(n))},
                        {"max_edge_length", std::numeric_limits<double>::infinity()}};
-  record.name = run_name(record);
+  record.name = record::run_name(record);
   return record;
 }
 
-RunRecord failed(RunRecord record, Status status, const std::string& detail) {
+record::RunRecord failed(record::RunRecord record, record::Status status, const std::string& detail) {
   record.status = status;
   record.detail = detail;
-  if (status == Status::kNotInstalled) record.method_version.clear();
-  record.id = run_identity(record);
+  if (status == record::Status::kNotInstalled) record.method_version.clear();
+  record.id = record::run_identity(record);
   return record;
 }
 
-RunRecord succeeded(RunRecord record, const Character& character) {
+record::RunRecord succeeded(record::RunRecord record, const Character& character) {
   add_times(record, character);
   add_metrics(record, character.error, true);
   record.output_sha256 = sha256_hex(record.name);
-  record.id = run_identity(record);
+  record.id = record::run_identity(record);
   return record;
 }
 
-RunRecord invalid(RunRecord record, const Character& character) {
+record::RunRecord invalid(record::RunRecord record, const Character& character) {
   add_times(record, character);
   add_metrics(record, character.error, false);
   record.output_sha256 = sha256_hex(record.name);
-  return failed(record, Status::kInvalidOutput, "the result is not valid: Self-intersection[1 2]");
+  return failed(record, record::Status::kInvalidOutput, "the result is not valid: Self-intersection[1 2]");
 }
 
 }  // namespace
 
 json invented_run() {
-  return {{"schema_version", kSchemaVersion},
+  return {{"schema_version", record::kSchemaVersion},
           {"created", "2026-01-02T03:04:05Z"},
           {"tool",
            {{"name", "hullbench"},
@@ -198,26 +198,26 @@ json invented_run() {
                                    method("postgis", "PostGIS", "1.0"), missing_method()})}};
 }
 
-RunRecord invented_record() {
+record::RunRecord invented_record() {
   return succeeded(make_record(kPolylidar, "ca", true, 2000), kPolylidar);
 }
 
-std::vector<RunRecord> invented_records(const std::vector<std::int64_t>& sizes) {
-  std::vector<RunRecord> result;
+std::vector<record::RunRecord> invented_records(const std::vector<std::int64_t>& sizes) {
+  std::vector<record::RunRecord> result;
   for (const auto& [name, holes] : {std::pair("ca", false), std::pair("ca", true), std::pair("hi", false)}) {
     const bool is_hawaii = std::string(name) == "hi";
     for (const std::int64_t n : sizes) {
       for (const Character& character : {kPolylidar, kCgal}) {
         result.push_back(succeeded(make_record(character, name, holes, n), character));
       }
-      const RunRecord spatialite = make_record(kSpatialite, name, holes, n);
+      const record::RunRecord spatialite = make_record(kSpatialite, name, holes, n);
       result.push_back(is_hawaii && n == sizes.back()
-                           ? failed(spatialite, Status::kTimeout, "no answer within 120 s")
+                           ? failed(spatialite, record::Status::kTimeout, "no answer within 120 s")
                            : succeeded(spatialite, kSpatialite));
-      const RunRecord postgis = make_record(kPostgis, name, holes, n);
+      const record::RunRecord postgis = make_record(kPostgis, name, holes, n);
       result.push_back(is_hawaii ? invalid(postgis, kPostgis) : succeeded(postgis, kPostgis));
       if (is_hawaii) continue;
-      result.push_back(failed(make_record(kLegacy, name, holes, n), Status::kNotInstalled,
+      result.push_back(failed(make_record(kLegacy, name, holes, n), record::Status::kNotInstalled,
                               "the server has PostGIS 3.3, which is another method"));
     }
   }
@@ -228,8 +228,8 @@ void write_invented_run(const std::filesystem::path& directory, const std::vecto
   std::filesystem::create_directories(directory);
   write_json_file(directory / "run.json", invented_run());
   std::filesystem::remove(directory / "runs.jsonl");
-  JsonLinesWriter lines(directory / "runs.jsonl");
-  for (const RunRecord& record : invented_records(sizes)) lines.append(record);
+  record::JsonLinesWriter lines(directory / "runs.jsonl");
+  for (const record::RunRecord& record : invented_records(sizes)) lines.append(record);
 }
 
 }  // namespace hullbench::test

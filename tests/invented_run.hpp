@@ -13,12 +13,12 @@ namespace hullbench::test {
 nlohmann::json invented_run();
 
 /// A successful record with every field filled in, and its id and name.
-RunRecord invented_record();
+record::RunRecord invented_record();
 
 /// The records: three installed methods and a missing one in the paper protocol and one in the auto protocol,
 /// on California with and without holes and on Hawaii, at the given sizes. On Hawaii, SpatiaLite runs out of
 /// time at the largest size and PostGIS gives an invalid polygon.
-std::vector<RunRecord> invented_records(const std::vector<std::int64_t>& sizes);
+std::vector<record::RunRecord> invented_records(const std::vector<std::int64_t>& sizes);
 
 /// Writes the two files into `directory`, which is made.
 void write_invented_run(const std::filesystem::path& directory, const std::vector<std::int64_t>& sizes);

@@ -18,7 +18,7 @@ namespace hullbench::test {
 inline nlohmann::json invented_report(const std::vector<std::int64_t>& sizes) {
   const testing::TemporaryFolder folder;
   write_invented_run(folder.path(), sizes);
-  return make_report(folder.path());
+  return report::make_report(folder.path());
 }
 
 /// A shape on which every method takes `milliseconds` as the paper took it and half as long again in all, and

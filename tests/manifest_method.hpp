@@ -19,38 +19,39 @@ namespace hullbench::testing {
 class ManifestMethod {
  public:
   explicit ManifestMethod(const std::string& name)
-      : session_(MethodCatalog(manifest_folders({})).find(name), {4096, std::nullopt}) {
+      : session_(run::MethodCatalog(run::manifest_folders({})).find(name), {4096, std::nullopt}) {
     session_.begin_start();
     session_.finish_start();
   }
 
   /// Why it cannot run here, and what helps; empty when it can.
   std::string missing() const {
-    const Reply& reply = session_.start_reply();
-    if (reply.status != Status::kNotInstalled) return {};
+    const worker::Reply& reply = session_.start_reply();
+    if (reply.status != record::Status::kNotInstalled) return {};
     return reply.detail + "; remedy: " + reply.remedy;
   }
 
   const MethodInfo& info() const { return session_.info().value(); }
 
   /// One run with `parameters` and the defaults of the others.
-  Attempt run(const std::vector<Point>& points, const Parameters& parameters) {
-    const LoadedPoints loaded = {std::to_string(++loads_), folder_.path() / "points.f64", points.size()};
-    write_points_file(loaded.file, points);
+  worker::Attempt run(const std::vector<Point>& points, const Parameters& parameters) {
+    const worker::LoadedPoints loaded = {std::to_string(++loads_), folder_.path() / "points.f64",
+                                         points.size()};
+    worker::write_points_file(loaded.file, points);
     return session_.run(loaded, complete_parameters(info(), parameters), folder_.path(),
                         std::chrono::seconds(60));
   }
 
   /// The result of such a run, which must succeed.
   MultiPolygon hull(const std::vector<Point>& points, const Parameters& parameters) {
-    const Attempt attempt = run(points, parameters);
-    EXPECT_EQ(attempt.status, Status::kOk) << attempt.detail;
-    return attempt.status == Status::kOk ? from_wkb(attempt.wkb) : MultiPolygon();
+    const worker::Attempt attempt = run(points, parameters);
+    EXPECT_EQ(attempt.status, record::Status::kOk) << attempt.detail;
+    return attempt.status == record::Status::kOk ? from_wkb(attempt.wkb) : MultiPolygon();
   }
 
  private:
   TemporaryFolder folder_;
-  MethodSession session_;
+  worker::MethodSession session_;
   int loads_ = 0;
 };
 

@@ -102,7 +102,7 @@ void take_time(json& reply, std::chrono::microseconds run, int extract) {
 }
 
 void write_result(const json& request, const hullbench::MultiPolygon& shape) {
-  hullbench::write_bytes(request["result"].get<std::string>(), hullbench::to_wkb(shape));
+  hullbench::worker::write_bytes(request["result"].get<std::string>(), hullbench::to_wkb(shape));
 }
 
 /// Ways that end the worker or its conversation before it could answer.
@@ -139,7 +139,7 @@ bool misbehave_instead(const std::string& mode, const json& request) {
   if (mode == "garbage") {
     std::cout << "lorem ipsum" << std::endl;
   } else if (mode == "long_line") {
-    std::cout << std::string(3 * hullbench::kMaxLineBytes, 'x') << std::endl;
+    std::cout << std::string(3 * hullbench::worker::kMaxLineBytes, 'x') << std::endl;
   } else if (mode == "says_memory") {
     say_error("memory", "no room");
   } else if (mode == "says_unsupported") {
@@ -180,7 +180,7 @@ void answer_run(const std::string& mode, const json& request) {
   if (mode == "too_much_time") reply["phases_ns"]["run"] = 3'600'000'000'000;
   if (mode == "flood_errors") std::cerr << std::string(4'000'000, 'e') << std::flush;
   if (mode == "garbage_result") {
-    hullbench::write_bytes(request["result"].get<std::string>(), std::vector<std::uint8_t>{1, 2, 3});
+    hullbench::worker::write_bytes(request["result"].get<std::string>(), std::vector<std::uint8_t>{1, 2, 3});
   } else if (mode == "invalid_polygon") {
     write_result(request, kBowTie);
   } else if (mode == "changing_result") {
@@ -208,7 +208,8 @@ json hello(const std::string& mode) {
   info.version = "1";
   info.capabilities.in_server = mode == "in_server";
   info.parameters = {{"size", "length", "Does nothing.", 0, 10, 1.0}};
-  return {{"protocol", mode == "other_protocol" ? 2 : 1}, {"method", hullbench::method_to_json(info)}};
+  return {{"protocol", mode == "other_protocol" ? 2 : 1},
+          {"method", hullbench::worker::method_to_json(info)}};
 }
 
 }  // namespace

@@ -58,7 +58,7 @@ inline void expect_one_simple_polygon_round(const std::vector<polylidar::Point>&
     ASSERT_TRUE(is_covered(point, shell)) << point.x << " " << point.y << " is outside";
   }
   const polylidar::MultiPolygon scaled = {{polylidar::testing::near_one(shell), {}}};
-  EXPECT_EQ(invalid_reason(scaled), "");
+  EXPECT_EQ(metrics::invalid_reason(scaled), "");
   EXPECT_EQ(polylidar::testing::boost_invalid_reason(scaled), "");
   EXPECT_TRUE(runs_counter_clockwise(shell));
 }

@@ -37,7 +37,7 @@ Ring reversed(const Ring& ring) {
 const MultiPolygon kSquare = {{box(0, 0, 1, 1), {}}};
 
 TEST(AreaScores, OfTheGroundTruthItselfArePerfect) {
-  const AreaScores scores = area_scores(kSquare, kSquare);
+  const metrics::AreaScores scores = metrics::area_scores(kSquare, kSquare);
   EXPECT_TRUE(scores.valid);
   EXPECT_EQ(scores.invalid_reason, "");
   EXPECT_EQ(scores.area, 1);
@@ -59,7 +59,7 @@ TEST(AreaScores, EveryDataSetIsValidAndPerfectAgainstItself) {
       const std::string name = info.members == 0 ? info.name : info.name + "-" + std::to_string(number);
       const MultiPolygon shape = make_ground_truth(name, info.has_holes_variant);
       if (shape.empty()) continue;  // points without a shape
-      const AreaScores scores = area_scores(shape, shape);
+      const metrics::AreaScores scores = metrics::area_scores(shape, shape);
       EXPECT_TRUE(scores.valid) << name << ": " << scores.invalid_reason;
       EXPECT_EQ(scores.l2, 0) << name;
       EXPECT_GT(scores.ground_truth_convexity, 0) << name;
@@ -71,7 +71,7 @@ TEST(AreaScores, EveryDataSetIsValidAndPerfectAgainstItself) {
 // Which area divides is what tells l2 from the paper's.
 TEST(AreaScores, DivideByTheRightArea) {
   const MultiPolygon wide = {{box(0, 0, 4, 1), {}}};
-  const AreaScores too_small = area_scores(kSquare, wide);
+  const metrics::AreaScores too_small = metrics::area_scores(kSquare, wide);
   EXPECT_EQ(too_small.symmetric_difference_area, 3);
   EXPECT_EQ(too_small.l2, 0.75);
   EXPECT_EQ(too_small.l2_paper, 3);
@@ -80,7 +80,7 @@ TEST(AreaScores, DivideByTheRightArea) {
   EXPECT_EQ(too_small.commission, 0);
   EXPECT_EQ(too_small.area_bias, -0.75);
   EXPECT_EQ(too_small.perimeter_ratio, 0.4);
-  const AreaScores too_large = area_scores(wide, kSquare);
+  const metrics::AreaScores too_large = metrics::area_scores(wide, kSquare);
   EXPECT_EQ(too_large.l2, 3);
   EXPECT_EQ(too_large.l2_paper, 0.75);
   EXPECT_EQ(too_large.iou, 0.25);
@@ -91,7 +91,7 @@ TEST(AreaScores, DivideByTheRightArea) {
 }
 
 TEST(AreaScores, CountWhatIsMissingAndWhatIsTooMuch) {
-  const AreaScores scores = area_scores({{box(0.5, 0, 1.5, 1), {}}}, kSquare);
+  const metrics::AreaScores scores = metrics::area_scores({{box(0.5, 0, 1.5, 1), {}}}, kSquare);
   EXPECT_EQ(scores.symmetric_difference_area, 1);
   EXPECT_EQ(scores.l2, 1);
   EXPECT_EQ(scores.iou, 0.5 / 1.5);
@@ -102,7 +102,7 @@ TEST(AreaScores, CountWhatIsMissingAndWhatIsTooMuch) {
 }
 
 TEST(AreaScores, OfDisjointShapes) {
-  const AreaScores scores = area_scores({{box(5, 5, 7, 7), {}}}, kSquare);
+  const metrics::AreaScores scores = metrics::area_scores({{box(5, 5, 7, 7), {}}}, kSquare);
   EXPECT_EQ(scores.symmetric_difference_area, 5);
   EXPECT_EQ(scores.l2, 5);
   EXPECT_EQ(scores.l2_paper, 1.25);
@@ -113,7 +113,7 @@ TEST(AreaScores, SeeHolesAndSeveralPolygons) {
   const MultiPolygon truth = {{box(0, 0, 10, 10), {reversed(box(2, 2, 4, 4))}}, {box(20, 0, 30, 10), {}}};
   const MultiPolygon result = {{box(0, 0, 10, 10), {reversed(box(2, 2, 4, 4)), reversed(box(6, 6, 7, 8))}},
                                {box(20, 0, 30, 10), {reversed(box(22, 2, 25, 5))}}};
-  const AreaScores scores = area_scores(result, truth);
+  const metrics::AreaScores scores = metrics::area_scores(result, truth);
   EXPECT_TRUE(scores.valid) << scores.invalid_reason;
   EXPECT_EQ(scores.area, 185);
   EXPECT_EQ(scores.ground_truth_area, 196);
@@ -129,17 +129,17 @@ TEST(AreaScores, SeeHolesAndSeveralPolygons) {
 TEST(AreaScores, DoNotDependOnTheWayRingsRun) {
   const MultiPolygon truth = {{box(0, 0, 10, 10), {reversed(box(2, 2, 4, 4))}}};
   const MultiPolygon turned = {{reversed(box(0, 0, 10, 10)), {box(2, 2, 4, 4)}}};
-  EXPECT_EQ(area_scores(turned, truth).l2, 0);
-  EXPECT_EQ(area_scores(turned, truth).area, 96);
+  EXPECT_EQ(metrics::area_scores(turned, truth).l2, 0);
+  EXPECT_EQ(metrics::area_scores(turned, truth).area, 96);
 }
 
 TEST(AreaScores, AllowPolygonsAndRingsThatTouchInAPoint) {
-  EXPECT_EQ(invalid_reason({{box(0, 0, 1, 1), {}}, {box(1, 1, 2, 2), {}}}), "");
-  EXPECT_EQ(invalid_reason({{box(0, 0, 4, 4), {{{0, 2}, {1, 3}, {2, 2}, {1, 1}}}}}), "");
+  EXPECT_EQ(metrics::invalid_reason({{box(0, 0, 1, 1), {}}, {box(1, 1, 2, 2), {}}}), "");
+  EXPECT_EQ(metrics::invalid_reason({{box(0, 0, 4, 4), {{{0, 2}, {1, 3}, {2, 2}, {1, 1}}}}}), "");
 }
 
 TEST(AreaScores, OfNothingAreAllMissing) {
-  const AreaScores scores = area_scores({}, kSquare);
+  const metrics::AreaScores scores = metrics::area_scores({}, kSquare);
   EXPECT_TRUE(scores.valid);
   EXPECT_EQ(scores.area, 0);
   EXPECT_EQ(scores.symmetric_difference_area, 1);
@@ -185,11 +185,11 @@ std::vector<InvalidCase> invalid_cases() {
 TEST(AreaScores, OfInvalidShapesSayWhyAndLeaveRatiosOpen) {
   for (const InvalidCase& invalid : invalid_cases()) {
     SCOPED_TRACE(invalid.name);
-    const AreaScores scores = area_scores(invalid.shape, kSquare);
+    const metrics::AreaScores scores = metrics::area_scores(invalid.shape, kSquare);
     EXPECT_FALSE(scores.valid);
     EXPECT_TRUE(scores.invalid_reason.starts_with(invalid.reason)) << scores.invalid_reason;
     EXPECT_FALSE(scores.invalid_reason.empty());
-    EXPECT_EQ(scores.invalid_reason, invalid_reason(invalid.shape));
+    EXPECT_EQ(scores.invalid_reason, metrics::invalid_reason(invalid.shape));
     EXPECT_TRUE(std::isfinite(scores.area));
     EXPECT_EQ(scores.ground_truth_area, 1);
     EXPECT_EQ(scores.symmetric_difference_area, std::nullopt);
@@ -204,16 +204,17 @@ TEST(AreaScores, OfInvalidShapesSayWhyAndLeaveRatiosOpen) {
 }
 
 TEST(AreaScores, OfInvalidShapesKeepTheArea) {
-  const AreaScores scores = area_scores({{box(0, 0, 2, 2), {}}, {box(1, 1, 3, 3), {}}}, kSquare);
+  const metrics::AreaScores scores =
+      metrics::area_scores({{box(0, 0, 2, 2), {}}, {box(1, 1, 3, 3), {}}}, kSquare);
   EXPECT_EQ(scores.area, 8);
 }
 
 TEST(AreaScores, RefuseAGroundTruthThatIsNone) {
-  EXPECT_THROW(area_scores(kSquare, {}), std::runtime_error);
+  EXPECT_THROW(metrics::area_scores(kSquare, {}), std::runtime_error);
   for (const InvalidCase& invalid : invalid_cases()) {
     SCOPED_TRACE(invalid.name);
     try {
-      area_scores(kSquare, invalid.shape);
+      metrics::area_scores(kSquare, invalid.shape);
       ADD_FAILURE() << "scored";
     } catch (const std::runtime_error& error) {
       EXPECT_NE(std::string(error.what()).find(invalid.reason), std::string::npos) << error.what();
@@ -287,7 +288,7 @@ TEST(AreaScoresAgainstBoost, AgreeOnRandomPolygons) {
       result.push_back(star_with_holes(random, {41, 1}, spread, corners, holes));
     }
     ASSERT_EQ(polylidar::testing::boost_invalid_reason(truth), "");
-    const AreaScores scores = area_scores(result, truth);
+    const metrics::AreaScores scores = metrics::area_scores(result, truth);
     ASSERT_TRUE(scores.valid) << scores.invalid_reason;
     // GEOS places crossings in double arithmetic, each within some ulps of a coordinate; a few hundred of
     // them move an area by far less than 1e-9 of it.

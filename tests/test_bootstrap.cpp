@@ -15,11 +15,11 @@ namespace {
 
 using Times = std::vector<std::int64_t>;
 using Clusters = std::vector<std::vector<double>>;
-using Nested = std::vector<std::vector<Passes>>;
+using Nested = std::vector<std::vector<statistics::Passes>>;
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-void expect_interval(const std::optional<Interval>& interval, double low, double high) {
+void expect_interval(const std::optional<statistics::Interval>& interval, double low, double high) {
   ASSERT_TRUE(interval.has_value());
   EXPECT_EQ(interval->low, low);
   EXPECT_EQ(interval->high, high);
@@ -33,7 +33,7 @@ double smallest_but_tail(std::vector<double> values) {
 }
 
 /// The interval from all resamples of whole clusters, each written out.
-Interval brute_force(const Clusters& clusters) {
+statistics::Interval brute_force(const Clusters& clusters) {
   std::vector<double> lower;
   std::vector<double> negated_upper;
   std::vector<std::size_t> drawn(clusters.size(), 0);
@@ -72,7 +72,7 @@ void for_each_choice(const std::vector<std::size_t>& counts, const Take& take) {
 
 /// The middle of every resample of a case, the upper one of two or the lower, each written out with how
 /// likely it is.
-std::vector<std::pair<double, double>> resampled_case(const Passes& passes, bool upper) {
+std::vector<std::pair<double, double>> resampled_case(const statistics::Passes& passes, bool upper) {
   std::vector<std::pair<double, double>> result;
   for_each_choice(std::vector<std::size_t>(passes.size(), passes.size()), [&](const auto& drawn) {
     std::vector<std::size_t> counts;
@@ -101,7 +101,7 @@ std::vector<std::pair<double, double>> resampled(const Nested& clusters, bool up
     std::vector<std::vector<std::pair<double, double>>> cases;
     std::vector<std::size_t> counts;
     for (const std::size_t which : drawn) {
-      for (const Passes& passes : clusters[which]) {
+      for (const statistics::Passes& passes : clusters[which]) {
         cases.push_back(resampled_case(passes, upper));
         counts.push_back(cases.back().size());
       }
@@ -122,7 +122,7 @@ std::vector<std::pair<double, double>> resampled(const Nested& clusters, bool up
 }
 
 /// The interval from all of these.
-Interval brute_force(const Nested& clusters) {
+statistics::Interval brute_force(const Nested& clusters) {
   const auto end = [](std::vector<std::pair<double, double>> medians, double sign) {
     for (auto& [value, chance] : medians) value *= sign;
     std::sort(medians.begin(), medians.end());
@@ -145,60 +145,60 @@ TEST(NestedMedianInterval, AgreesWithEveryResample) {
       {{{{1, 6}, {2}}}, {{{3, 5}}}, {{{4}, {0.5}}}},  // different numbers of rounds
       {{{{2, 2}, {2, 3}}}, {{{1, kInfinity}}}}};      // ties and a failure
   for (const Nested& clusters : all) {
-    const Interval expected = brute_force(clusters);
-    expect_interval(nested_median_interval(clusters), expected.low, expected.high);
+    const statistics::Interval expected = brute_force(clusters);
+    expect_interval(statistics::nested_median_interval(clusters), expected.low, expected.high);
   }
 }
 
 // The same fifteen values as three passes that differ, and as one.
 TEST(NestedMedianInterval, HasWhatVariesBetweenPasses) {
-  const Passes apart = {
+  const statistics::Passes apart = {
       {1.00, 1.01, 1.02, 1.03, 1.04}, {2.00, 2.01, 2.02, 2.03, 2.04}, {3.00, 3.01, 3.02, 3.03, 3.04}};
-  Passes together = {{}};
+  statistics::Passes together = {{}};
   for (const auto& pass : apart) together[0].insert(together[0].end(), pass.begin(), pass.end());
-  const auto wide = nested_median_interval({{apart}});
-  const auto narrow = nested_median_interval({{together}});
+  const auto wide = statistics::nested_median_interval({{apart}});
+  const auto narrow = statistics::nested_median_interval({{together}});
   ASSERT_TRUE(wide && narrow);
   EXPECT_LT(wide->low, narrow->low);
   EXPECT_GT(wide->high, narrow->high);
 }
 
 TEST(NestedMedianInterval, OfSingleValuesIsTheClusteredOne) {
-  const auto nested = nested_median_interval({{{{1}}, {{2}}, {{3}}}, {{{10}}, {{11}}, {{12}}}});
-  const auto clustered = clustered_median_interval({{1, 2, 3}, {10, 11, 12}});
+  const auto nested = statistics::nested_median_interval({{{{1}}, {{2}}, {{3}}}, {{{10}}, {{11}}, {{12}}}});
+  const auto clustered = statistics::clustered_median_interval({{1, 2, 3}, {10, 11, 12}});
   ASSERT_TRUE(nested && clustered);
   EXPECT_EQ(nested->low, clustered->low);
   EXPECT_EQ(nested->high, clustered->high);
 }
 
 TEST(NestedMedianInterval, OneValueHasNone) {
-  EXPECT_FALSE(nested_median_interval({}).has_value());
-  EXPECT_FALSE(nested_median_interval({{{{1}}}, {{{}}}, {}}).has_value());
+  EXPECT_FALSE(statistics::nested_median_interval({}).has_value());
+  EXPECT_FALSE(statistics::nested_median_interval({{{{1}}}, {{{}}}, {}}).has_value());
 }
 
 TEST(MedianInterval, ByHand) {
   // P(a middle one of three is the smallest) = 7 / 27, of five 0.058: both above 0.025, so the whole range.
-  expect_interval(median_interval(Times{30, 10, 20}), 10, 30);
-  expect_interval(median_interval(Times{5, 4, 1, 3, 2}), 1, 5);
+  expect_interval(statistics::median_interval(Times{30, 10, 20}), 10, 30);
+  expect_interval(statistics::median_interval(Times{5, 4, 1, 3, 2}), 1, 5);
   // Of seven 35 / 7^4 (6/7)^3 + ... = 0.0102, and of the two smallest 0.11.
-  expect_interval(median_interval(Times{1, 2, 3, 4, 5, 6, 7}), 2, 6);
-  expect_interval(median_interval(Times{1, 2}), 1, 2);
+  expect_interval(statistics::median_interval(Times{1, 2, 3, 4, 5, 6, 7}), 2, 6);
+  expect_interval(statistics::median_interval(Times{1, 2}), 1, 2);
 }
 
 TEST(MedianInterval, OfTwentyValuesIsFromTheSixthToTheFifteenth) {
   Times values(20);
   for (std::size_t i = 0; i < values.size(); ++i) values[i] = static_cast<std::int64_t>(i + 1);
   // P(Bin(20, 5/20) >= 10) = 0.0139, P(Bin(20, 6/20) >= 10) = 0.0480.
-  expect_interval(median_interval(values), 6, 15);
+  expect_interval(statistics::median_interval(values), 6, 15);
 }
 
 TEST(MedianInterval, OneValueHasNone) {
-  EXPECT_FALSE(median_interval(Times{7}).has_value());
-  EXPECT_FALSE(median_interval(Times{}).has_value());
+  EXPECT_FALSE(statistics::median_interval(Times{7}).has_value());
+  EXPECT_FALSE(statistics::median_interval(Times{}).has_value());
 }
 
 TEST(MedianInterval, EqualValuesHaveAnIntervalOfOnePoint) {
-  expect_interval(median_interval(Times{4, 4, 4, 4}), 4, 4);
+  expect_interval(statistics::median_interval(Times{4, 4, 4, 4}), 4, 4);
 }
 
 TEST(MedianInterval, AgreesWithEveryResample) {
@@ -209,9 +209,9 @@ TEST(MedianInterval, AgreesWithEveryResample) {
       values.push_back(static_cast<std::int64_t>((i * 5) % 11 * 10 + 1));
       single.push_back({static_cast<double>(values.back())});
     }
-    const Interval expected = brute_force(single);
-    expect_interval(median_interval(values), expected.low, expected.high);
-    expect_interval(clustered_median_interval(single), expected.low, expected.high);
+    const statistics::Interval expected = brute_force(single);
+    expect_interval(statistics::median_interval(values), expected.low, expected.high);
+    expect_interval(statistics::clustered_median_interval(single), expected.low, expected.high);
   }
 }
 
@@ -221,30 +221,31 @@ TEST(ClusteredMedianInterval, AgreesWithEveryResample) {
                                      {{1, 1, 5}, {2, 2}, {1, 9, 9, 9}, {3}, {4, 4}},
                                      {{5, 6}, {1, 2}, {3, 4}, {9, 9}, {7, 0.5}, {2, 8}}};
   for (const Clusters& clusters : all) {
-    const Interval expected = brute_force(clusters);
-    expect_interval(clustered_median_interval(clusters), expected.low, expected.high);
+    const statistics::Interval expected = brute_force(clusters);
+    expect_interval(statistics::clustered_median_interval(clusters), expected.low, expected.high);
   }
 }
 
 // Two clusters, drawn twice: both the first with probability 1/4, and then the middle is 2; both the
 // second, 11.
 TEST(ClusteredMedianInterval, OfTwoClustersByHand) {
-  expect_interval(clustered_median_interval({{1, 2, 3}, {10, 11, 12}}), 2, 11);
+  expect_interval(statistics::clustered_median_interval({{1, 2, 3}, {10, 11, 12}}), 2, 11);
 }
 
 TEST(ClusteredMedianInterval, IsWiderThanThatOfIndependentValues) {
   const Times values = {10, 11, 12, 13, 20, 21, 22, 23, 30, 31, 32, 33};
-  const auto independent = median_interval(values);
-  const auto clustered = clustered_median_interval({{10, 11, 12, 13}, {20, 21, 22, 23}, {30, 31, 32, 33}});
+  const auto independent = statistics::median_interval(values);
+  const auto clustered =
+      statistics::clustered_median_interval({{10, 11, 12, 13}, {20, 21, 22, 23}, {30, 31, 32, 33}});
   ASSERT_TRUE(independent && clustered);
   EXPECT_LT(clustered->low, independent->low);
   EXPECT_GT(clustered->high, independent->high);
 }
 
 TEST(ClusteredMedianInterval, OneClusterHasNone) {
-  EXPECT_FALSE(clustered_median_interval({{1, 2, 3}}).has_value());
-  EXPECT_FALSE(clustered_median_interval({{1, 2, 3}, {}}).has_value());
-  EXPECT_FALSE(clustered_median_interval({}).has_value());
+  EXPECT_FALSE(statistics::clustered_median_interval({{1, 2, 3}}).has_value());
+  EXPECT_FALSE(statistics::clustered_median_interval({{1, 2, 3}, {}}).has_value());
+  EXPECT_FALSE(statistics::clustered_median_interval({}).has_value());
 }
 
 TEST(ClusteredMedianInterval, BesideTheLimitOfExactnessBothWaysAgree) {
@@ -255,8 +256,8 @@ TEST(ClusteredMedianInterval, BesideTheLimitOfExactnessBothWaysAgree) {
       values.push_back(static_cast<std::int64_t>(i));
       single.push_back({static_cast<double>(i)});
     }
-    const auto exact = median_interval(values);
-    const auto clustered = clustered_median_interval(single);
+    const auto exact = statistics::median_interval(values);
+    const auto clustered = statistics::clustered_median_interval(single);
     ASSERT_TRUE(exact && clustered);
     // The normal distribution is off by a value at most; up to 100 clusters nothing is.
     const double off = n <= 100 ? 0 : 1;

@@ -17,9 +17,9 @@ namespace {
 using namespace std::chrono_literals;
 
 TEST(Canary, TakesTheTimeOfItsWork) {
-  Canary canary(allowed_cores().back());
+  run::Canary canary(allowed_cores().back());
   for (int i = 0; i < 3; ++i) {
-    const CanaryTimes times = canary.look();
+    const record::CanaryTimes times = canary.look();
     // 30,000 reads of which each waits for the one before, and 3 million steps of a multiplication and an
     // addition that do so too: not even a cache's answer or a step takes less than a third of a nanosecond.
     EXPECT_GT(times.memory, 30'000 / 3);
@@ -29,7 +29,7 @@ TEST(Canary, TakesTheTimeOfItsWork) {
 
 TEST(Canary, LeavesTheThreadOnItsCores) {
   const std::vector<int> before = allowed_cores();
-  Canary canary(before.back());
+  run::Canary canary(before.back());
   EXPECT_EQ(allowed_cores(), before);
   canary.look();
   EXPECT_EQ(allowed_cores(), before);
@@ -39,8 +39,8 @@ TEST(Canary, WorksWhereItMayNotUseTheCore) {
   constexpr int kNoSuchCore = CPU_SETSIZE - 1;
   const std::vector<int> allowed = allowed_cores();
   ASSERT_EQ(std::count(allowed.begin(), allowed.end(), kNoSuchCore), 0);
-  EXPECT_GT(Canary(kNoSuchCore).look().memory, 0);
-  EXPECT_GT(Canary(std::nullopt).look().memory, 0);
+  EXPECT_GT(run::Canary(kNoSuchCore).look().memory, 0);
+  EXPECT_GT(run::Canary(std::nullopt).look().memory, 0);
 }
 
 /// A watch that sees these canaries, one after the other.
@@ -48,8 +48,8 @@ class Watched {
  public:
   explicit Watched(std::chrono::nanoseconds lifetime = 0s) : machine([this] { return next(); }, lifetime) {}
 
-  CanaryTimes next() {
-    const CanaryTimes canary = coming.front();
+  record::CanaryTimes next() {
+    const record::CanaryTimes canary = coming.front();
     coming.pop_front();
     return canary;
   }
@@ -62,17 +62,18 @@ class Watched {
     }
   }
 
-  std::deque<CanaryTimes> coming;
-  MachineWatch machine;
+  std::deque<record::CanaryTimes> coming;
+  run::MachineWatch machine;
 };
 
 TEST(MachineWatch, FindsWhatIsOffInEitherDirectionAndKind) {
   Watched watched;
   watched.look(9);
-  for (const CanaryTimes& fine : {CanaryTimes{115, 1150}, CanaryTimes{85, 850}, CanaryTimes{100, 1000}})
+  for (const record::CanaryTimes& fine :
+       {record::CanaryTimes{115, 1150}, record::CanaryTimes{85, 850}, record::CanaryTimes{100, 1000}})
     EXPECT_FALSE(watched.machine.is_off(fine)) << fine.memory << " " << fine.compute;
-  for (const CanaryTimes& off :
-       {CanaryTimes{116, 1000}, CanaryTimes{84, 1000}, CanaryTimes{100, 1151}, CanaryTimes{100, 849}})
+  for (const record::CanaryTimes& off : {record::CanaryTimes{116, 1000}, record::CanaryTimes{84, 1000},
+                                         record::CanaryTimes{100, 1151}, record::CanaryTimes{100, 849}})
     EXPECT_TRUE(watched.machine.is_off(off)) << off.memory << " " << off.compute;
 }
 
@@ -111,7 +112,7 @@ TEST(MachineWatch, SharesACanaryWhileItLives) {
 TEST(MachineWatch, HasARoundMeasuredThreeTimesAtMost) {
   Watched watched;
   watched.look(9);
-  const CanaryTimes off = {200, 1000};
+  const record::CanaryTimes off = {200, 1000};
   EXPECT_FALSE(watched.machine.wants_again({100, 1000}, 1, 1ms));
   EXPECT_TRUE(watched.machine.wants_again(off, 1, 1ms));
   EXPECT_TRUE(watched.machine.wants_again(off, 2, 1ms));
@@ -121,7 +122,7 @@ TEST(MachineWatch, HasARoundMeasuredThreeTimesAtMost) {
 TEST(MachineWatch, RepeatsNoMoreThanAFifthOfTheTime) {
   Watched watched;
   watched.look(9);
-  const CanaryTimes off = {200, 1000};
+  const record::CanaryTimes off = {200, 1000};
   // One minute is more than ten seconds and a fifth of a minute.
   EXPECT_FALSE(watched.machine.wants_again(off, 1, 60s));
   for (int i = 0; i < 4; ++i) EXPECT_FALSE(watched.machine.wants_again({100, 1000}, 1, 60s));

@@ -243,10 +243,10 @@ void expect_same_shape(const std::vector<Point>& points, double radius) {
   SCOPED_TRACE("radius " + std::to_string(radius));
   const MultiPolygon cgal = run(points, radius);
   const MultiPolygon core = ours(points, radius);
-  EXPECT_EQ(invalid_reason(cgal), "");
+  EXPECT_EQ(metrics::invalid_reason(cgal), "");
   ASSERT_EQ(core.empty(), cgal.empty());
   if (cgal.empty()) return;
-  const AreaScores scores = area_scores(core, cgal);
+  const metrics::AreaScores scores = metrics::area_scores(core, cgal);
   EXPECT_LT(*scores.symmetric_difference_area, 1e-9 * scores.ground_truth_area);
   EXPECT_TRUE(canonical(core) == canonical(cgal)) << "rings differ";
 }

@@ -61,7 +61,7 @@ int expect_the_same(const std::vector<Point>& points) {
     SCOPED_TRACE(text_of(options));
     const MultiPolygon theirs = run(points, options);
     EXPECT_TRUE(canonical(theirs) == canonical(polylidar_hull(points, options)));
-    EXPECT_EQ(invalid_reason(theirs), "");
+    EXPECT_EQ(metrics::invalid_reason(theirs), "");
     telling += theirs.size() + test::hole_count(theirs) > 1 ? 1 : 0;
   }
   return telling;

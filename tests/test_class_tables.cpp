@@ -31,36 +31,37 @@ std::vector<InventedShape> members_of(const std::string& family, std::int64_t co
   return shapes;
 }
 
-const TableSection* section_of(const Document& document, const std::string& id) {
-  for (const TableSection& section : document.tables) {
+const table::TableSection* section_of(const table::Document& document, const std::string& id) {
+  for (const table::TableSection& section : document.tables) {
     if (section.id == id) return &section;
   }
   return nullptr;
 }
 
 /// The rows of a group and a method, without the marks of their notes.
-std::vector<Row> rows_of(const TableSection& section, const std::string& group, const std::string& method) {
+std::vector<Row> rows_of(const table::TableSection& section, const std::string& group,
+                         const std::string& method) {
   std::vector<Row> found;
   for (const Row& row : section.table.rows()) {
-    if (row[0] == group && without_marks(row[1]) == method) found.push_back(row);
+    if (row[0] == group && table::without_marks(row[1]) == method) found.push_back(row);
   }
   return found;
 }
 
 /// The only one of them.
-Row row_of(const TableSection& section, const std::string& group, const std::string& method) {
+Row row_of(const table::TableSection& section, const std::string& group, const std::string& method) {
   const std::vector<Row> found = rows_of(section, group, method);
   if (found.size() == 1) return found.front();
   ADD_FAILURE() << found.size() << " rows of " << group << " and " << method;
   return Row(section.table.rows().front().size());
 }
 
-bool has_remark(const TableSection& section, const std::string& part) {
+bool has_remark(const table::TableSection& section, const std::string& part) {
   return std::any_of(section.remarks.begin(), section.remarks.end(),
                      [&](const std::string& remark) { return remark.find(part) != std::string::npos; });
 }
 
-bool has_row_of_the_paper(const TableSection& section) {
+bool has_row_of_the_paper(const table::TableSection& section) {
   const auto& rows = section.table.rows();
   return std::any_of(rows.begin(), rows.end(),
                      [](const Row& row) { return row[1].ends_with(", in the paper"); });
@@ -74,13 +75,13 @@ constexpr const char* kByConvexityOthers = "invented_convexity_others";
 
 TEST(ClassTables, AreForMoreThanSixtyShapes) {
   const auto with = [](std::int64_t count) {
-    return make_document(test::report_on_shapes(members_of("star", count, 8000, {0.8})));
+    return report::make_document(test::report_on_shapes(members_of("star", count, 8000, {0.8})));
   };
   EXPECT_TRUE(section_of(with(60), "invented_shapes"));
   EXPECT_FALSE(section_of(with(60), kByConvexity));
-  const Document document = with(61);
+  const table::Document document = with(61);
   EXPECT_FALSE(section_of(document, "invented_shapes"));
-  const TableSection* section = section_of(document, kByConvexity);
+  const table::TableSection* section = section_of(document, kByConvexity);
   ASSERT_TRUE(section);
   EXPECT_EQ(section->table.rows().front(),
             (Row{"Convexity", "Method", "Shapes", "Failed", "Invalid", "L2 mean, %", "std", "max",
@@ -94,9 +95,9 @@ TEST(ClassTables, AreForMoreThanSixtyShapes) {
 }
 
 TEST(ClassTables, HaveThePapersRowsBeneathOursOfStarPolygonsAtItsSize) {
-  const Document document =
-      make_document(test::report_on_shapes(members_of("star", 61, 8000, {0.8, 0.6, 0.5})));
-  const TableSection* section = section_of(document, kByConvexity);
+  const table::Document document =
+      report::make_document(test::report_on_shapes(members_of("star", 61, 8000, {0.8, 0.6, 0.5})));
+  const table::TableSection* section = section_of(document, kByConvexity);
   ASSERT_TRUE(section);
   EXPECT_EQ(rows_of(*section, kHigh, "Polylidar, in the paper"),
             (std::vector<Row>{{kHigh, "Polylidar, in the paper", "–", "–", "–", "4.4", "0.5", "6.1", "4.6",
@@ -109,9 +110,10 @@ TEST(ClassTables, HaveThePapersRowsBeneathOursOfStarPolygonsAtItsSize) {
 
 TEST(ClassTables, HaveNoRowsOfThePaperAtOtherSizesAndOfOtherShapes) {
   for (const auto& [family, n] : {std::pair("star", 4000), std::pair("comb", 8000)}) {
-    const Document document = make_document(test::report_on_shapes(members_of(family, 61, n, {0.8, 0.5})));
+    const table::Document document =
+        report::make_document(test::report_on_shapes(members_of(family, 61, n, {0.8, 0.5})));
     EXPECT_FALSE(section_of(document, kByConvexity));
-    const TableSection* section = section_of(document, kByConvexityOthers);
+    const table::TableSection* section = section_of(document, kByConvexityOthers);
     ASSERT_TRUE(section) << family;
     EXPECT_FALSE(has_row_of_the_paper(*section));
     EXPECT_FALSE(has_remark(*section, "The paper's values"));
@@ -123,8 +125,8 @@ TEST(ClassTables, AShapeOnABorderIsInTheHigherClass) {
   std::vector<InventedShape> shapes = members_of("star", 62, 8000, {0.75, 0.55});
   shapes.push_back({"star-63", 8000, std::nextafter(0.75, 0), 1, 0.01});
   shapes.push_back({"star-64", 8000, std::nextafter(0.55, 0), 1, 0.01});
-  const Document document = make_document(test::report_on_shapes(shapes));
-  const TableSection* section = section_of(document, kByConvexity);
+  const table::Document document = report::make_document(test::report_on_shapes(shapes));
+  const table::TableSection* section = section_of(document, kByConvexity);
   ASSERT_TRUE(section);
   EXPECT_EQ(row_of(*section, kHigh, "Polylidar (paper)")[2], "31");
   EXPECT_EQ(row_of(*section, kMid, "Polylidar (paper)")[2], "32");
@@ -137,8 +139,8 @@ TEST(ClassTables, AnInvalidResultIsCountedAndNotInTheStatistics) {
   run["status"] = "invalid_output";
   run["detail"] = "the result is an invalid polygon: Self-intersection";
   run["metrics"]["valid"] = false;
-  const Document document = make_document(report);
-  const TableSection* section = section_of(document, kByConvexity);
+  const table::Document document = report::make_document(report);
+  const table::TableSection* section = section_of(document, kByConvexity);
   ASSERT_TRUE(section);
   const Row row = row_of(*section, kHigh, "Polylidar (paper)");
   EXPECT_EQ(Row(row.begin() + 1, row.begin() + 8),
@@ -153,8 +155,8 @@ TEST(ClassTables, AFailureIsMarkedAndNotInTheStatistics) {
   json& run = test::run_on(report, "spatialite", "star-61");
   run["status"] = "timeout";
   run["detail"] = "no answer within 120 s";
-  const Document document = make_document(report);
-  const TableSection* section = section_of(document, kByConvexity);
+  const table::Document document = report::make_document(report);
+  const table::TableSection* section = section_of(document, kByConvexity);
   ASSERT_TRUE(section);
   const Row row = row_of(*section, kHigh, "SpatiaLite (paper)");
   EXPECT_EQ(Row(row.begin() + 1, row.begin() + 6), (Row{"SpatiaLite (paper) [1]", "60", "1", "0", "30.5"}));
@@ -177,14 +179,14 @@ TEST(ClassTables, OtherFamiliesStandApartAndByKind) {
        {std::pair("star", "Star-shaped"), std::pair("comb", "Comb"), std::pair("spiral", "Spiral")}) {
     report["datasets"].push_back({{"name", name}, {"title", title}, {"members", 100}});
   }
-  const Document document = make_document(report);
+  const table::Document document = report::make_document(report);
   EXPECT_EQ(row_of(*section_of(document, kByConvexity), kHigh, "Polylidar (paper)")[2], "61");
-  const TableSection* others = section_of(document, kByConvexityOthers);
+  const table::TableSection* others = section_of(document, kByConvexityOthers);
   ASSERT_TRUE(others);
   EXPECT_TRUE(others->caption.starts_with("6 shapes (comb and spiral), n = 8000, by convexity"))
       << others->caption;
   EXPECT_EQ(row_of(*others, kLow, "Polylidar (paper)")[2], "6");
-  const TableSection* kinds = section_of(document, "invented_kinds");
+  const table::TableSection* kinds = section_of(document, "invented_kinds");
   ASSERT_TRUE(kinds);
   EXPECT_EQ(row_of(*kinds, "Comb", "Polylidar (paper)")[2], "3");
   EXPECT_EQ(row_of(*kinds, "Spiral", "Polylidar (paper)")[2], "3");
@@ -198,15 +200,15 @@ TEST(ClassTables, AShapeThatNothingWasScoredOnHasNoClass) {
     run["status"] = "timeout";
     run["metrics"] = json::object();
   }
-  const Document document = make_document(report);
+  const table::Document document = report::make_document(report);
   EXPECT_EQ(row_of(*section_of(document, kByConvexity), "not known", "Polylidar (paper)")[2], "0");
 }
 
 TEST(ClassTables, ShapesWithPointsOfTheirOwnHaveThemOnAverage) {
   const json report = test::report_on_shapes(
       {{"floor-1", 80000, 0.5, 1, 0.01}, {"floor-2", 90000, 0.5, 2, 0.02}, {"floor-3", 90001, 0.5, 3, 0.03}});
-  const Document document = make_document(report);
-  const TableSection* section = section_of(document, "invented_summary");
+  const table::Document document = report::make_document(report);
+  const table::TableSection* section = section_of(document, "invented_summary");
   ASSERT_TRUE(section);
   EXPECT_TRUE(section->caption.starts_with("3 shapes, 86667 points on average: ")) << section->caption;
 }

@@ -21,7 +21,7 @@ using nlohmann::json;
 json invented_report() {
   const testing::TemporaryFolder folder;
   test::write_invented_run(folder.path(), {2000});
-  return make_report(folder.path());
+  return report::make_report(folder.path());
 }
 
 // The invented runs on California as if on letters: on the k-th every method takes k ms and errs by 10 k %.
@@ -56,7 +56,7 @@ json* run_of(json& report, const std::string& method, const std::string& dataset
 // With single spaces, whatever the columns' widths.
 std::string tables(const json& report) {
   std::ostringstream out;
-  print_markdown(make_document(report), out);
+  table::print_markdown(report::make_document(report), out);
   return std::regex_replace(out.str(), std::regex(" +"), " ");
 }
 

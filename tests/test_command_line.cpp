@@ -78,7 +78,7 @@ class CommandLineTest : public ::testing::Test {
 };
 
 std::vector<json> lines_of(const fs::path& file) {
-  return load_json_lines(file).lines;
+  return record::load_json_lines(file).lines;
 }
 
 std::set<std::string> ids_of(const fs::path& run) {

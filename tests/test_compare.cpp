@@ -24,17 +24,17 @@ using testing::expect_refusal;
 using testing::Outcome;
 
 /// A successful run of polylidar with these times.
-RunRecord run_on(const std::string& dataset, const std::vector<std::int64_t>& times) {
-  RunRecord run = test::invented_record();
+record::RunRecord run_on(const std::string& dataset, const std::vector<std::int64_t>& times) {
+  record::RunRecord run = test::invented_record();
   run.dataset = dataset;
   run.time_ns = times;
   run.phases_ns.resize(times.size());
-  run.name = run_name(run);
-  run.id = run_identity(run);
+  run.name = record::run_name(run);
+  run.id = record::run_identity(run);
   return run;
 }
 
-json report_of(const std::vector<RunRecord>& runs, const std::string& plan = "p") {
+json report_of(const std::vector<record::RunRecord>& runs, const std::string& plan = "p") {
   return {{"plan", {{"name", plan}}}, {"runs", runs}};
 }
 
@@ -42,14 +42,14 @@ const std::vector<std::int64_t> kSlow = {200, 204, 202, 206, 208, 210};
 const std::vector<std::int64_t> kFast = {100, 102, 101, 103, 104, 105};
 
 TEST(CompareRuns, CallsWhatIsApartAndNothingElse) {
-  const RunsCompared compared =
-      compare_runs({report_of({run_on("a", kSlow), run_on("b", kFast), run_on("c", kFast)})},
-                   {report_of({run_on("a", kFast), run_on("b", kSlow), run_on("c", kFast)})});
+  const report::RunsCompared compared =
+      report::compare_runs({report_of({run_on("a", kSlow), run_on("b", kFast), run_on("c", kFast)})},
+                           {report_of({run_on("a", kFast), run_on("b", kSlow), run_on("c", kFast)})});
   ASSERT_EQ(compared.pairs.size(), 3U);
   EXPECT_EQ(compared.judged, 3U);
-  EXPECT_EQ(compared.pairs[0].change, Change::kFaster);
-  EXPECT_EQ(compared.pairs[1].change, Change::kSlower);
-  EXPECT_EQ(compared.pairs[2].change, Change::kNotApart);
+  EXPECT_EQ(compared.pairs[0].change, report::Change::kFaster);
+  EXPECT_EQ(compared.pairs[1].change, report::Change::kSlower);
+  EXPECT_EQ(compared.pairs[2].change, report::Change::kNotApart);
   // Two orders of 12! / (6! 6!), and three pairs.
   EXPECT_NEAR(compared.pairs[0].adjusted_p_value, 3 * 2.0 / 924, 1e-15);
 }
@@ -58,34 +58,36 @@ TEST(CompareRuns, ManyPairsNeedMoreThanOneDoes) {
   // Four against four values lie apart with p = 2 / 70: enough alone, not among two.
   const std::vector<std::int64_t> slow = {20, 21, 22, 23};
   const std::vector<std::int64_t> fast = {10, 11, 12, 13};
-  EXPECT_EQ(compare_runs({report_of({run_on("a", slow)})}, {report_of({run_on("a", fast)})}).pairs[0].change,
-            Change::kFaster);
-  const RunsCompared two = compare_runs({report_of({run_on("a", slow), run_on("b", slow)})},
-                                        {report_of({run_on("a", fast), run_on("b", fast)})});
-  EXPECT_EQ(two.pairs[0].change, Change::kNotApart);
+  EXPECT_EQ(report::compare_runs({report_of({run_on("a", slow)})}, {report_of({run_on("a", fast)})})
+                .pairs[0]
+                .change,
+            report::Change::kFaster);
+  const report::RunsCompared two = report::compare_runs({report_of({run_on("a", slow), run_on("b", slow)})},
+                                                        {report_of({run_on("a", fast), run_on("b", fast)})});
+  EXPECT_EQ(two.pairs[0].change, report::Change::kNotApart);
   EXPECT_LT(two.pairs[0].time->interval->high, 1);
 }
 
 TEST(CompareRuns, FewRepetitionsAreNotJudged) {
-  const RunsCompared compared =
-      compare_runs({report_of({run_on("a", {5})})}, {report_of({run_on("a", {10})})});
-  EXPECT_EQ(compared.pairs[0].change, Change::kNotJudged);
+  const report::RunsCompared compared =
+      report::compare_runs({report_of({run_on("a", {5})})}, {report_of({run_on("a", {10})})});
+  EXPECT_EQ(compared.pairs[0].change, report::Change::kNotJudged);
   EXPECT_EQ(compared.pairs[0].time->ratio, 2);
   EXPECT_EQ(compared.judged, 0U);
 }
 
 TEST(CompareRuns, FailuresAreChangesToo) {
-  RunRecord crashed = run_on("a", {});
-  crashed.status = Status::kCrash;
-  const auto change = [](const RunRecord& a, const RunRecord& b) {
-    return compare_runs({report_of({a})}, {report_of({b})}).pairs.at(0).change;
+  record::RunRecord crashed = run_on("a", {});
+  crashed.status = record::Status::kCrash;
+  const auto change = [](const record::RunRecord& a, const record::RunRecord& b) {
+    return report::compare_runs({report_of({a})}, {report_of({b})}).pairs.at(0).change;
   };
-  EXPECT_EQ(change(run_on("a", kFast), crashed), Change::kNowFails);
-  EXPECT_EQ(change(crashed, run_on("a", kFast)), Change::kNowWorks);
-  EXPECT_EQ(change(crashed, crashed), Change::kFailsInBoth);
-  RunRecord invalid = run_on("a", kFast);
+  EXPECT_EQ(change(run_on("a", kFast), crashed), report::Change::kNowFails);
+  EXPECT_EQ(change(crashed, run_on("a", kFast)), report::Change::kNowWorks);
+  EXPECT_EQ(change(crashed, crashed), report::Change::kFailsInBoth);
+  record::RunRecord invalid = run_on("a", kFast);
   invalid.metrics["valid"] = false;
-  EXPECT_EQ(change(run_on("a", kFast), invalid), Change::kNowFails);
+  EXPECT_EQ(change(run_on("a", kFast), invalid), report::Change::kNowFails);
 }
 
 TEST(CompareRuns, PairsByPlanFirstThenByNameThenInOrder) {
@@ -94,9 +96,9 @@ TEST(CompareRuns, PairsByPlanFirstThenByNameThenInOrder) {
                                report_of({run_on("a", {3}), run_on("b", {4})}, "y")};
   const std::vector<json> b = {report_of({run_on("a", {30})}, "y"), report_of({run_on("a", {10})}, "x"),
                                report_of({run_on("a", {20}), run_on("c", {50})}, "z")};
-  const RunsCompared compared = compare_runs(a, b);
+  const report::RunsCompared compared = report::compare_runs(a, b);
   std::vector<std::pair<std::int64_t, std::int64_t>> times;
-  for (const RunPair& pair : compared.pairs) times.emplace_back(pair.a.time_ns[0], pair.b.time_ns[0]);
+  for (const report::RunPair& pair : compared.pairs) times.emplace_back(pair.a.time_ns[0], pair.b.time_ns[0]);
   const std::vector<std::pair<std::int64_t, std::int64_t>> expected = {{1, 10}, {2, 20}, {3, 30}};
   EXPECT_EQ(times, expected);
   EXPECT_EQ(compared.only_a, std::vector<std::string>{run_on("b", {4}).name});
@@ -104,22 +106,22 @@ TEST(CompareRuns, PairsByPlanFirstThenByNameThenInOrder) {
 }
 
 TEST(CompareRuns, AMethodsMedianIsClusteredByShape) {
-  std::vector<RunRecord> a;
-  std::vector<RunRecord> b;
+  std::vector<record::RunRecord> a;
+  std::vector<record::RunRecord> b;
   for (const int time : {20, 30, 40, 50, 60}) {
     const std::string dataset = "shape-" + std::to_string(time);
     for (const std::int64_t n : {1000, 2000, 3000, 4000}) {
       a.push_back(run_on(dataset, {10}));
       b.push_back(run_on(dataset, {time}));
-      for (RunRecord* run : {&a.back(), &b.back()}) {
+      for (record::RunRecord* run : {&a.back(), &b.back()}) {
         run->n = n;
-        run->name = run_name(*run);
+        run->name = record::run_name(*run);
       }
     }
   }
-  const RunsCompared compared = compare_runs({report_of(a)}, {report_of(b)});
+  const report::RunsCompared compared = report::compare_runs({report_of(a)}, {report_of(b)});
   ASSERT_EQ(compared.methods.size(), 1U);
-  const MethodChange& method = compared.methods[0];
+  const report::MethodChange& method = compared.methods[0];
   EXPECT_EQ(method.pairs, 20U);
   EXPECT_EQ(method.ratio, 4);
   // Five shapes, as five values: the whole range. Twenty independent values would give 3 to 5.
@@ -128,44 +130,44 @@ TEST(CompareRuns, AMethodsMedianIsClusteredByShape) {
   EXPECT_EQ(method.interval->high, 6);
 }
 
-bool has_note(const Document& document, const std::string& words) {
+bool has_note(const table::Document& document, const std::string& words) {
   return std::any_of(document.notes.begin(), document.notes.end(),
                      [&](const std::string& note) { return note.find(words) != std::string::npos; });
 }
 
-Document document_of(const json& a, const json& b) {
-  return comparison_document(compare_runs({a}, {b}), {"A.json", {a}}, {"B.json", {b}}, false);
+table::Document document_of(const json& a, const json& b) {
+  return report::comparison_document(report::compare_runs({a}, {b}), {"A.json", {a}}, {"B.json", {b}}, false);
 }
 
 TEST(CompareDocument, SaysOtherMachinesPointsParametersAndVersions) {
-  RunRecord other = run_on("a", kFast);
+  record::RunRecord other = run_on("a", kFast);
   other.machine = "ffffffff";
   other.dataset_sha256 = std::string(64, '0');
   other.parameters["alpha"] = 1;
   other.method_version = "2.0";
-  RunRecord run = run_on("a", kFast);
+  record::RunRecord run = run_on("a", kFast);
   run.machine = "0123abcd";
-  const Document document = document_of(report_of({run}), report_of({other}));
+  const table::Document document = document_of(report_of({run}), report_of({other}));
   EXPECT_TRUE(has_note(document, "THE MACHINES DIFFER (A: 0123abcd; B: ffffffff)"));
   EXPECT_TRUE(has_note(document, "OTHER POINTS in 1 of 1 pairs (polylidar)"));
   EXPECT_TRUE(has_note(document, "Other parameters in 1 of 1 pairs"));
   EXPECT_TRUE(has_note(document, "Other versions of polylidar: A 1.0; B 2.0."));
-  const Document same = document_of(report_of({run}), report_of({run}));
+  const table::Document same = document_of(report_of({run}), report_of({run}));
   for (const char* words : {"MACHINES", "OTHER POINTS", "Other parameters", "Other versions"})
     EXPECT_FALSE(has_note(same, words)) << words;
 }
 
 TEST(CompareDocument, OfManyPairsShowsThoseThatChanged) {
-  std::vector<RunRecord> a;
-  std::vector<RunRecord> b;
+  std::vector<record::RunRecord> a;
+  std::vector<record::RunRecord> b;
   for (int place = 0; place < 300; ++place) a.push_back(run_on("d-" + std::to_string(place), {1}));
   b = a;
-  b[7].status = Status::kTimeout;
+  b[7].status = record::Status::kTimeout;
   const json report_a = report_of(a);
   const json report_b = report_of(b);
-  const RunsCompared compared = compare_runs({report_a}, {report_b});
+  const report::RunsCompared compared = report::compare_runs({report_a}, {report_b});
   const auto rows = [&](bool every_pair) {
-    return comparison_document(compared, {"A", {report_a}}, {"B", {report_b}}, every_pair)
+    return report::comparison_document(compared, {"A", {report_a}}, {"B", {report_b}}, every_pair)
         .tables.back()
         .table.rows()
         .size();
@@ -178,7 +180,7 @@ class CompareCommandTest : public ::testing::Test {
  protected:
   CompareCommandTest() {
     for (const char* name : {"a", "b"}) test::write_invented_run(path(name), {2000, 64000});
-    json report = make_report(path("a"));
+    json report = report::make_report(path("a"));
     write_json_file(path("report.json"), report);
     fs::copy(path("a") / "runs.jsonl", path("lines.jsonl"));
   }

@@ -23,7 +23,7 @@ using testing::PointSet;
 void expect_valid(const std::vector<Point>& points, const Options& options) {
   SCOPED_TRACE(testing::describe(options));
   const MultiPolygon shape = to_coordinates(concave_hull(points, options), near_one(points));
-  EXPECT_EQ(hullbench::invalid_reason(shape), "") << "by GEOS";
+  EXPECT_EQ(hullbench::metrics::invalid_reason(shape), "") << "by GEOS";
   EXPECT_EQ(testing::boost_invalid_reason(shape), "") << "by Boost.Geometry";
 }
 

@@ -36,14 +36,14 @@ json noisy_report() {
   return report;
 }
 
-TableSection table_of(const json& report) {
-  const Document document = make_document(report);
+table::TableSection table_of(const json& report) {
+  const table::Document document = report::make_document(report);
   EXPECT_EQ(document.tables.size(), 1U);
   return document.tables.at(0);
 }
 
 TEST(CurveTable, HasAColumnALevelAndAMedianACell) {
-  const TableSection section = table_of(noisy_report());
+  const table::TableSection section = table_of(noisy_report());
   EXPECT_TRUE(section.id.ends_with("_curves"));
   const Cells& rows = section.table.rows();
   EXPECT_EQ(rows.at(0), (std::vector<std::string>{"Noise, h", "0", "0.5", "2", "Failed"}));
@@ -59,7 +59,7 @@ TEST(CurveTable, AFailureIsInfinitelyBad) {
   EXPECT_EQ((std::vector<std::string>(cells.begin() + 1, cells.end())),
             (std::vector<std::string>{"20.0", "25.0", "∞", "1"}));
   EXPECT_EQ(cells[0], "Polylidar (paper) [1]");
-  EXPECT_EQ(make_document(report).notes.at(0),
+  EXPECT_EQ(report::make_document(report).notes.at(0),
             "[1] Polylidar (paper) on Hawaii, noise 2, n = 2000: crash, SIGSEGV.");
 }
 

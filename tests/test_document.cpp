@@ -21,20 +21,20 @@ namespace fs = std::filesystem;
 using testing::read_text;
 
 /// A table whose header and rows are these.
-TextTable table_of(const std::vector<std::vector<std::string>>& rows) {
-  TextTable table(rows.front());
+table::TextTable table_of(const std::vector<std::vector<std::string>>& rows) {
+  table::TextTable table(rows.front());
   for (std::size_t row = 1; row < rows.size(); ++row) table.add_row(rows[row]);
   return table;
 }
 
 /// A table of one cell.
-TableSection section_of(const std::string& id, std::vector<std::string> remarks = {}) {
+table::TableSection section_of(const std::string& id, std::vector<std::string> remarks = {}) {
   return {id, "Caption of " + id, table_of({{"Name", "x"}, {"first", "1"}}), std::move(remarks)};
 }
 
-std::string markdown(const std::vector<Document>& documents) {
+std::string markdown(const std::vector<table::Document>& documents) {
   std::ostringstream out;
-  print_markdown(documents, out);
+  table::print_markdown(documents, out);
   return out.str();
 }
 
@@ -43,53 +43,57 @@ bool contains(const std::string& text, const std::string& part) {
 }
 
 TEST(Csv, QuotesCommasAndQuotes) {
-  EXPECT_EQ(to_csv(table_of({{"Name", "a, b"}, {"say \"hello\"", "plain"}, {"\"", ","}})),
+  EXPECT_EQ(table::to_csv(table_of({{"Name", "a, b"}, {"say \"hello\"", "plain"}, {"\"", ","}})),
             "Name,\"a, b\"\n\"say \"\"hello\"\"\",plain\n\"\"\"\",\",\"\n");
 }
 
 TEST(Csv, LeavesOtherCharactersAsTheyAre) {
-  EXPECT_EQ(to_csv(table_of({{"n", "√(A/n) ≥ 1"}, {"a; b", "it's – ±"}})), "n,√(A/n) ≥ 1\na; b,it's – ±\n");
+  EXPECT_EQ(table::to_csv(table_of({{"n", "√(A/n) ≥ 1"}, {"a; b", "it's – ±"}})),
+            "n,√(A/n) ≥ 1\na; b,it's – ±\n");
 }
 
 TEST(Csv, AValueAndItsSpreadAreTwoColumns) {
-  EXPECT_EQ(to_csv(table_of({{"Method", "2000", "4000"}, {"a", "1.36 ±0.01", "2"}, {"b", "13.6 ±0.1", "3"}})),
+  EXPECT_EQ(table::to_csv(
+                table_of({{"Method", "2000", "4000"}, {"a", "1.36 ±0.01", "2"}, {"b", "13.6 ±0.1", "3"}})),
             "Method,2000,2000 ±,4000\na,1.36,0.01,2\nb,13.6,0.1,3\n");
 }
 
 TEST(Csv, TwoValuesAreTwoColumns) {
-  EXPECT_EQ(to_csv(table_of({{"Method", "L2, %"}, {"a", "3.87 (3.99)"}})),
+  EXPECT_EQ(table::to_csv(table_of({{"Method", "L2, %"}, {"a", "3.87 (3.99)"}})),
             "Method,\"L2, %\",\"L2, % in brackets\"\na,3.87,3.99\n");
 }
 
 TEST(Csv, WhatHasNotTheColumnsFormStandsInItsFirstField) {
-  EXPECT_EQ(to_csv(table_of({{"Method", "t"}, {"a", "1.36 ±0.01"}, {"b", "timeout"}, {"c", "–"}, {"d", ""}})),
+  EXPECT_EQ(table::to_csv(
+                table_of({{"Method", "t"}, {"a", "1.36 ±0.01"}, {"b", "timeout"}, {"c", "–"}, {"d", ""}})),
             "Method,t,t ±\na,1.36,0.01\nb,timeout,\nc,–,\nd,,\n");
-  EXPECT_EQ(to_csv(table_of({{"Shape", "L2"}, {"a", "10.0 (13.6)"}, {"b", "10.0"}, {"c", "invalid"}})),
+  EXPECT_EQ(table::to_csv(table_of({{"Shape", "L2"}, {"a", "10.0 (13.6)"}, {"b", "10.0"}, {"c", "invalid"}})),
             "Shape,L2,L2 in brackets\na,10.0,13.6\nb,10.0,\nc,invalid,\n");
 }
 
 TEST(Csv, EveryLineHasTheSameNumberOfFields) {
   // The first column too may have a form, and an empty cell.
-  EXPECT_EQ(to_csv(table_of({{"t", "n"}, {"1.5 ±0.5", "1"}, {"", "2"}})), "t,t ±,n\n1.5,0.5,1\n,,2\n");
+  EXPECT_EQ(table::to_csv(table_of({{"t", "n"}, {"1.5 ±0.5", "1"}, {"", "2"}})), "t,t ±,n\n1.5,0.5,1\n,,2\n");
 }
 
 TEST(Csv, AColumnWithoutAnyFormStaysOne) {
-  EXPECT_EQ(to_csv(table_of({{"Method", "t"}, {"a", "timeout"}, {"b", "about ±1"}})),
+  EXPECT_EQ(table::to_csv(table_of({{"Method", "t"}, {"a", "timeout"}, {"b", "about ±1"}})),
             "Method,t\na,timeout\nb,about ±1\n");
 }
 
 TEST(Csv, MarksOfNotesAreDropped) {
-  EXPECT_EQ(to_csv(table_of({{"Method", "n"}, {"SpatiaLite (paper) [1] [13]", "2"}, {"b [sic]", "[1]"}})),
-            "Method,n\nSpatiaLite (paper),2\nb [sic],[1]\n");
+  EXPECT_EQ(
+      table::to_csv(table_of({{"Method", "n"}, {"SpatiaLite (paper) [1] [13]", "2"}, {"b [sic]", "[1]"}})),
+      "Method,n\nSpatiaLite (paper),2\nb [sic],[1]\n");
   // In tables by convexity the method is the second column.
-  EXPECT_EQ(to_csv(table_of({{"Convexity", "Method"}, {"high", "SpatiaLite (paper) [2]"}})),
+  EXPECT_EQ(table::to_csv(table_of({{"Convexity", "Method"}, {"high", "SpatiaLite (paper) [2]"}})),
             "Convexity,Method\nhigh,SpatiaLite (paper)\n");
 }
 
 TEST(Csv, ASignBehindAValueIsDropped) {
-  EXPECT_EQ(
-      to_csv(table_of({{"Method", "L2"}, {"a", "10.0 (13.6) †"}, {"b", "113.7 †"}, {"c", "1.0 (2.0)"}})),
-      "Method,L2,L2 in brackets\na,10.0,13.6\nb,113.7,\nc,1.0,2.0\n");
+  EXPECT_EQ(table::to_csv(
+                table_of({{"Method", "L2"}, {"a", "10.0 (13.6) †"}, {"b", "113.7 †"}, {"c", "1.0 (2.0)"}})),
+            "Method,L2,L2 in brackets\na,10.0,13.6\nb,113.7,\nc,1.0,2.0\n");
 }
 
 TEST(Latex, EscapesEverySpecialCharacter) {
@@ -112,8 +116,9 @@ TEST(Latex, EscapesEverySpecialCharacter) {
                                                                   {"≤", "$\\le$"},
                                                                   {"²", "$^2$"}};
   for (const auto& [from, to] : cases) {
-    const TableSection section = {"t", "In x" + from + "y", table_of({{"h" + from}, {"1" + from + "2"}}), {}};
-    const std::string text = to_latex(section);
+    const table::TableSection section = {
+        "t", "In x" + from + "y", table_of({{"h" + from}, {"1" + from + "2"}}), {}};
+    const std::string text = table::to_latex(section);
     EXPECT_TRUE(contains(text, "\\caption{In x" + to + "y}")) << from << ": " << text;
     EXPECT_TRUE(contains(text, "    h" + to + " \\\\\n")) << from << ": " << text;
     EXPECT_TRUE(contains(text, "    1" + to + "2 \\\\\n")) << from << ": " << text;
@@ -121,11 +126,12 @@ TEST(Latex, EscapesEverySpecialCharacter) {
 }
 
 TEST(Latex, IsATableWithRulesOfBooktabs) {
-  const TableSection section = {"states_time",
-                                "Time",
-                                table_of({{"Method", "2000", "4000"}, {"a [1] [3]", "1.36 ±0.01", "2"}}),
-                                {"A remark."}};
-  EXPECT_EQ(to_latex(section),
+  const table::TableSection section = {
+      "states_time",
+      "Time",
+      table_of({{"Method", "2000", "4000"}, {"a [1] [3]", "1.36 ±0.01", "2"}}),
+      {"A remark."}};
+  EXPECT_EQ(table::to_latex(section),
             "% needs \\usepackage{booktabs}\n"
             "\\begin{table}\n"
             "  \\centering\n"
@@ -142,13 +148,13 @@ TEST(Latex, IsATableWithRulesOfBooktabs) {
 }
 
 TEST(Latex, MarksOfNotesAreDroppedInEveryColumn) {
-  const std::string text =
-      to_latex({"t", "Time", table_of({{"Convexity", "Method"}, {"high", "SpatiaLite (paper) [2]"}}), {}});
+  const std::string text = table::to_latex(
+      {"t", "Time", table_of({{"Convexity", "Method"}, {"high", "SpatiaLite (paper) [2]"}}), {}});
   EXPECT_TRUE(contains(text, "high & SpatiaLite (paper) \\\\\n")) << text;
 }
 
 TEST(Markdown, IsTitleTablesRemarksAndNotes) {
-  const Document document = {
+  const table::Document document = {
       "States", {section_of("a", {"A remark."}), section_of("b")}, {"Own."}, {"Common."}};
   EXPECT_EQ(markdown({document}),
             "## States\n\n"
@@ -163,13 +169,13 @@ TEST(Markdown, IsTitleTablesRemarksAndNotes) {
 
 // Documents with and without tables, remarks and notes, in every order of two.
 TEST(Markdown, SeveralDocumentsAreSetApartByOneBlankLine) {
-  const std::array<Document, 5> kinds = {{{"One", {section_of("a")}, {}, {}},
-                                          {"Two", {section_of("b", {"Remark."})}, {"Note."}, {}},
-                                          {"Three", {section_of("c")}, {}, {"Common."}},
-                                          {"Four", {}, {"Note."}, {}},
-                                          {"Five", {}, {}, {}}}};
-  for (const Document& first : kinds) {
-    for (const Document& second : kinds) {
+  const std::array<table::Document, 5> kinds = {{{"One", {section_of("a")}, {}, {}},
+                                                 {"Two", {section_of("b", {"Remark."})}, {"Note."}, {}},
+                                                 {"Three", {section_of("c")}, {}, {"Common."}},
+                                                 {"Four", {}, {"Note."}, {}},
+                                                 {"Five", {}, {}, {}}}};
+  for (const table::Document& first : kinds) {
+    for (const table::Document& second : kinds) {
       const std::string text = markdown({first, second});
       EXPECT_FALSE(contains(text, "\n\n\n")) << text;
       EXPECT_TRUE(contains(text, "\n\n## " + second.title + "\n\n")) << text;
@@ -204,7 +210,7 @@ class WrittenTables : public ::testing::Test {
 
   std::string complaint() const {
     try {
-      write_tables(folder(), {{"One", {section_of("a")}, {}, {}}});
+      table::write_tables(folder(), {{"One", {section_of("a")}, {}, {}}});
     } catch (const std::runtime_error& error) {
       return error.what();
     }
@@ -216,19 +222,19 @@ class WrittenTables : public ::testing::Test {
 };
 
 TEST_F(WrittenTables, AreMarkdownAndTwoFilesATable) {
-  const std::vector<Document> documents = {{"One", {section_of("a"), section_of("b")}, {"Note."}, {}},
-                                           {"Two", {section_of("c")}, {}, {}}};
-  write_tables(folder(), documents);
+  const std::vector<table::Document> documents = {{"One", {section_of("a"), section_of("b")}, {"Note."}, {}},
+                                                  {"Two", {section_of("c")}, {}, {}}};
+  table::write_tables(folder(), documents);
   EXPECT_EQ(files(), (std::vector<std::string>{"a.csv", "a.tex", "b.csv", "b.tex", "c.csv", "c.tex"}));
   EXPECT_EQ(read_text(folder() / "tables.md"), markdown(documents));
-  EXPECT_EQ(read_text(folder() / "tables" / "c.csv"), to_csv(section_of("c").table));
-  EXPECT_EQ(read_text(folder() / "tables" / "c.tex"), to_latex(section_of("c")));
+  EXPECT_EQ(read_text(folder() / "tables" / "c.csv"), table::to_csv(section_of("c").table));
+  EXPECT_EQ(read_text(folder() / "tables" / "c.tex"), table::to_latex(section_of("c")));
 }
 
 TEST_F(WrittenTables, OfAnEarlierCallAreGone) {
-  write_tables(folder(), {{"One", {section_of("a"), section_of("b")}, {}, {}}});
-  const std::vector<Document> later = {{"Two", {section_of("c")}, {}, {}}};
-  write_tables(folder(), later);
+  table::write_tables(folder(), {{"One", {section_of("a"), section_of("b")}, {}, {}}});
+  const std::vector<table::Document> later = {{"Two", {section_of("c")}, {}, {}}};
+  table::write_tables(folder(), later);
   EXPECT_EQ(files(), (std::vector<std::string>{"c.csv", "c.tex"}));
   EXPECT_EQ(read_text(folder() / "tables.md"), markdown(later));
 }
@@ -242,7 +248,7 @@ TEST_F(WrittenTables, ThatCannotBeWrittenAreASentenceWithTheFile) {
 
 TEST(WrittenTablesElsewhere, AFolderThatIsNotThereIsASentence) {
   try {
-    write_tables("/proc/hullbench", {{"One", {section_of("a")}, {}, {}}});
+    table::write_tables("/proc/hullbench", {{"One", {section_of("a")}, {}, {}}});
     FAIL();
   } catch (const std::runtime_error& error) {
     EXPECT_STREQ(error.what(), "cannot write /proc/hullbench/tables: No such file or directory");

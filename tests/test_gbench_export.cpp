@@ -8,8 +8,8 @@
 #include <string>
 
 #include "benchmarks/base/files.hpp"
-#include "benchmarks/report/gbench_export.hpp"
 #include "benchmarks/record/json_lines.hpp"
+#include "benchmarks/report/gbench_export.hpp"
 #include "benchmarks/report/report.hpp"
 #include "invented_run.hpp"
 #include "tests/program.hpp"
@@ -25,10 +25,10 @@ using testing::Outcome;
 json exported(int copies = 1) {
   const testing::TemporaryFolder folder;
   test::write_invented_run(folder.path(), {2000});
-  const json report = make_report(folder.path());
+  const json report = report::make_report(folder.path());
   std::vector<json> reports(static_cast<std::size_t>(copies), report);
   if (copies > 1) reports[1]["plan"]["name"] = "second";
-  return gbench_report(reports);
+  return report::gbench_report(reports);
 }
 
 TEST(GbenchExport, ContextSaysWhereAndWhatIsNotMeasured) {
@@ -98,11 +98,11 @@ TEST(GbenchExport, OfSeveralReportsNamesTheirPlans) {
 TEST(GbenchExport, ASecondRunOfANameHasItsOwn) {
   const testing::TemporaryFolder folder;
   test::write_invented_run(folder.path(), {2000});
-  RunRecord other = test::invented_record();
+  record::RunRecord other = test::invented_record();
   other.seed = 2;
-  other.id = run_identity(other);
-  JsonLinesWriter(folder.path() / "runs.jsonl").append(other);
-  const json entries = gbench_report({make_report(folder.path())}).at("benchmarks");
+  other.id = record::run_identity(other);
+  record::JsonLinesWriter(folder.path() / "runs.jsonl").append(other);
+  const json entries = report::gbench_report({report::make_report(folder.path())}).at("benchmarks");
   EXPECT_EQ(entries.back().at("name"), other.name + "/run:2_cv");
 }
 
@@ -117,10 +117,10 @@ TEST(GbenchExport, GoogleBenchmarksOwnToolComparesTwo) {
     write_json_file(folder.path() / run / "run.json", header);
   }
   // In b everything takes half as long again.
-  std::vector<RunRecord> records = test::invented_records({2000});
+  std::vector<record::RunRecord> records = test::invented_records({2000});
   fs::remove(folder.path() / "b" / "runs.jsonl");
-  JsonLinesWriter lines(folder.path() / "b" / "runs.jsonl");
-  for (RunRecord& record : records) {
+  record::JsonLinesWriter lines(folder.path() / "b" / "runs.jsonl");
+  for (record::RunRecord& record : records) {
     for (std::int64_t& time : record.time_ns) time += time / 2;
     lines.append(record);
   }

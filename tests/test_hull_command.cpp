@@ -219,7 +219,7 @@ TEST_F(HullCommandTest, SimplifyLeavesOutVerticesAndKeepsTheTopology) {
   EXPECT_LT(vertex_count(simple), vertex_count(whole) / 2);
   ASSERT_EQ(simple.size(), whole.size());
   for (std::size_t p = 0; p < whole.size(); ++p) EXPECT_EQ(simple[p].holes.size(), whole[p].holes.size());
-  EXPECT_EQ(invalid_reason(simple), "");
+  EXPECT_EQ(metrics::invalid_reason(simple), "");
   EXPECT_NEAR(area(simple), area(whole), 0.05 * area(whole));
   EXPECT_EQ(shape({"--alpha", "0.3", "--simplify", "0"}), whole);
 }

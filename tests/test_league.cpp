@@ -14,8 +14,8 @@
 
 #include "benchmarks/league/league.hpp"
 #include "benchmarks/league/league_report.hpp"
-#include "benchmarks/tune/split.hpp"
 #include "benchmarks/record/validate.hpp"
+#include "benchmarks/tune/split.hpp"
 
 namespace hullbench {
 namespace {
@@ -45,21 +45,22 @@ json report(const std::vector<json>& rows) {
       {"runs", rows}};
 }
 
-League league_of(const std::vector<json>& rows) {
-  return make_league({report(rows)}, 1, false);
+league::League league_of(const std::vector<json>& rows) {
+  return league::make_league({report(rows)}, 1, false);
 }
 
-const LeagueEntry& entry(const League& league, std::string_view method, std::string_view protocol) {
-  for (const LeagueEntry& one : league.entries) {
+const league::LeagueEntry& entry(const league::League& league, std::string_view method,
+                                 std::string_view protocol) {
+  for (const league::LeagueEntry& one : league.entries) {
     if (one.method == method && one.protocol == protocol) return one;
   }
   throw std::runtime_error("there is no entry " + std::string(method) + " " + std::string(protocol));
 }
 
 TEST(League, TakesTheMedianOverCases) {
-  const League league = league_of({row("good", "auto", "a", 0.1), row("good", "auto", "b", 0.3),
-                                   row("good", "auto", "c", 0.2), row("bad", "auto", "a", 0.5)});
-  const LeagueEntry& good = entry(league, "good", "auto");
+  const league::League league = league_of({row("good", "auto", "a", 0.1), row("good", "auto", "b", 0.3),
+                                           row("good", "auto", "c", 0.2), row("bad", "auto", "a", 0.5)});
+  const league::LeagueEntry& good = entry(league, "good", "auto");
   EXPECT_EQ(good.cases, 3U);
   EXPECT_EQ(good.l2->median, 0.2);
   ASSERT_TRUE(good.l2->interval);
@@ -72,10 +73,10 @@ TEST(League, TakesTheMedianOverCases) {
 }
 
 TEST(League, AFailureIsInfinitelyBadAndNeverDropped) {
-  const League league = league_of({row("bad", "auto", "a", 0.1), row("bad", "auto", "b", nullptr),
-                                   row("bad", "auto", "c", nullptr), row("good", "auto", "b", 0.4),
-                                   row("good", "auto", "c", 0.4), row("good", "auto", "a", 0.4)});
-  const LeagueEntry& bad = entry(league, "bad", "auto");
+  const league::League league = league_of({row("bad", "auto", "a", 0.1), row("bad", "auto", "b", nullptr),
+                                           row("bad", "auto", "c", nullptr), row("good", "auto", "b", 0.4),
+                                           row("good", "auto", "c", 0.4), row("good", "auto", "a", 0.4)});
+  const league::LeagueEntry& bad = entry(league, "bad", "auto");
   EXPECT_EQ(bad.failures, 2U);
   EXPECT_EQ(bad.failures_by_status, (std::map<std::string, std::size_t>{{"crash", 2}}));
   EXPECT_TRUE(std::isinf(bad.l2->median));
@@ -83,17 +84,18 @@ TEST(League, AFailureIsInfinitelyBadAndNeverDropped) {
 }
 
 TEST(League, AMedianOfFewCasesStandsBehindThoseOfAll) {
-  const League league = league_of({row("bad", "auto", "a", 0.01), row("good", "auto", "a", 0.2),
-                                   row("good", "auto", "b", 0.3), row("good", "auto", "c", 0.2)});
+  const league::League league = league_of({row("bad", "auto", "a", 0.01), row("good", "auto", "a", 0.2),
+                                           row("good", "auto", "b", 0.3), row("good", "auto", "c", 0.2)});
   EXPECT_EQ(league.entries.front().method, "good");
   EXPECT_EQ(league.entries.back().l2->cases, 1U);
 }
 
 TEST(League, RegretIsAgainstTheSameMethodsOracleOnTheSameCase) {
   json with_holes = row("good", "oracle", "a", 0.05);
-  const League league = league_of({row("good", "auto", "a", 0.15), row("good", "auto", "b", 0.4), with_holes,
-                                   row("good", "oracle", "b", nullptr), row("bad", "oracle", "b", 0.01)});
-  const LeagueEntry& good = entry(league, "good", "auto");
+  const league::League league =
+      league_of({row("good", "auto", "a", 0.15), row("good", "auto", "b", 0.4), with_holes,
+                 row("good", "oracle", "b", nullptr), row("bad", "oracle", "b", 0.01)});
+  const league::LeagueEntry& good = entry(league, "good", "auto");
   ASSERT_TRUE(good.regret);
   EXPECT_EQ(good.regret->cases, 1U) << "where the oracle failed nothing can be said";
   EXPECT_NEAR(good.regret->median, 0.1, 1e-12);
@@ -104,7 +106,7 @@ TEST(League, HolesCountWhereTheGroundTruthHasSome) {
   found["metrics"].update({{"holes", 2}, {"holes_error", 1}, {"hole_f1", 0.7}});
   json spurious = row("good", "auto", "disc", 0.1);
   spurious["metrics"].update({{"holes", 1}, {"holes_error", 1}, {"hole_f1", 0.0}});
-  const League league = league_of({found, spurious, row("bad", "auto", "ring", nullptr)});
+  const league::League league = league_of({found, spurious, row("bad", "auto", "ring", nullptr)});
   EXPECT_EQ(entry(league, "good", "auto").hole_f1->cases, 1U);
   EXPECT_EQ(entry(league, "good", "auto").hole_f1->median, 0.7);
   EXPECT_EQ(entry(league, "bad", "auto").hole_f1->median, 0) << "a failure finds no hole";
@@ -118,14 +120,14 @@ TEST(League, TheMeanOfHolesIsOverCasesWithAnIntervalByShape) {
     one["metrics"].update({{"holes", 2}, {"holes_error", 0}, {"hole_f1", f1}});
     return one;
   };
-  const League league = league_of({with_f1("a", 0.4), with_f1("b", 0.6), with_f1("c", 0.5)});
-  const LeagueEntry& good = entry(league, "good", "auto");
+  const league::League league = league_of({with_f1("a", 0.4), with_f1("b", 0.6), with_f1("c", 0.5)});
+  const league::LeagueEntry& good = entry(league, "good", "auto");
   ASSERT_TRUE(good.hole_f1_mean && good.hole_f1_mean->interval);
   EXPECT_NEAR(good.hole_f1_mean->mean, 0.5, 1e-12);
   // The standard error of 0.4, 0.6, 0.5 is 0.1 / sqrt(3).
   EXPECT_NEAR(good.hole_f1_mean->interval->high, 0.5 + 1.95996 * 0.1 / std::sqrt(3.0), 1e-4);
   EXPECT_NEAR(good.hole_f1_mean->interval->low, 0.5 - 1.95996 * 0.1 / std::sqrt(3.0), 1e-4);
-  const League wide = league_of({with_f1("a", 0), with_f1("b", 1)});
+  const league::League wide = league_of({with_f1("a", 0), with_f1("b", 1)});
   EXPECT_EQ(entry(wide, "good", "auto").hole_f1_mean->interval->low, 0) << "no F1 is below";
   EXPECT_EQ(entry(wide, "good", "auto").hole_f1_mean->interval->high, 1);
 }
@@ -139,7 +141,8 @@ TEST(League, DegenerateInputIsCountedApart) {
   const json crashed = row("bad", "auto", "degenerate_two", nullptr);
   json degenerate = report({tiny, unscored, refused, crashed});
   degenerate["plan"]["accepted"] = {"unsupported"};
-  const League league = make_league({degenerate, report({row("good", "auto", "a", 0.1)})}, 1, false);
+  const league::League league =
+      league::make_league({degenerate, report({row("good", "auto", "a", 0.1)})}, 1, false);
   EXPECT_EQ(entry(league, "good", "auto").cases, 1U);
   EXPECT_EQ(entry(league, "good", "auto").l2->median, 0.1);
   EXPECT_EQ(entry(league, "good", "auto").unscored_cases, 2U);
@@ -154,41 +157,42 @@ TEST(League, OfTestShapesHasNoOther) {
   std::string test;
   for (int k = 1; training.empty() || test.empty(); ++k) {
     const std::string name = "star-" + std::to_string(k);
-    (side_of(name, 7) == Side::kTest ? test : training) = name;
+    (tune::side_of(name, 7) == tune::Side::kTest ? test : training) = name;
   }
   json variant = row("good", "auto", training + "~noise:1", 0.9);
   variant["base_shape"] = training;
   const std::vector<json> rows = {row("good", "auto", training, 0.5), variant,
                                   row("good", "auto", test, 0.1)};
-  const League league = make_league({report(rows)}, 7, true);
+  const league::League league = league::make_league({report(rows)}, 7, true);
   EXPECT_EQ(entry(league, "good", "auto").cases, 1U);
   EXPECT_EQ(entry(league, "good", "auto").l2->median, 0.1);
-  EXPECT_THROW(make_league({report({rows[0], rows[1]})}, 7, true), std::runtime_error);
+  EXPECT_THROW(league::make_league({report({rows[0], rows[1]})}, 7, true), std::runtime_error);
 }
 
 TEST(League, ARunThatSeveralReportsHaveCountsOnce) {
-  const League league = make_league({report({row("good", "auto", "a", 0.1)}),
-                                     report({row("good", "auto", "a", 0.2), row("good", "auto", "b", 0.2)})},
-                                    1, false);
+  const league::League league =
+      league::make_league({report({row("good", "auto", "a", 0.1)}),
+                           report({row("good", "auto", "a", 0.2), row("good", "auto", "b", 0.2)})},
+                          1, false);
   EXPECT_EQ(entry(league, "good", "auto").cases, 2U);
   EXPECT_NEAR(entry(league, "good", "auto").l2->median, 0.15, 1e-12);
 }
 
 TEST(League, ProfilesAreAmongThoseThatKnowAsMuch) {
-  const League league = league_of({row("good", "auto", "a", 0.1), row("good", "auto", "b", 0.2),
-                                   row("good", "auto", "c", 0.3), row("bad", "default", "a", 0.2),
-                                   row("bad", "default", "b", 0.1), row("bad", "default", "c", nullptr),
-                                   row("good", "oracle", "a", 0.01), row("good", "auto", "only-here", 0.1)});
-  std::map<std::string, LeagueProfile> profiles;
-  for (const LeagueProfile& profile : league.profiles) profiles[profile.group] = profile;
+  const league::League league = league_of(
+      {row("good", "auto", "a", 0.1), row("good", "auto", "b", 0.2), row("good", "auto", "c", 0.3),
+       row("bad", "default", "a", 0.2), row("bad", "default", "b", 0.1), row("bad", "default", "c", nullptr),
+       row("good", "oracle", "a", 0.01), row("good", "auto", "only-here", 0.1)});
+  std::map<std::string, league::LeagueProfile> profiles;
+  for (const league::LeagueProfile& profile : league.profiles) profiles[profile.group] = profile;
   ASSERT_TRUE(profiles.contains("blind"));
-  const LeagueProfile& blind = profiles.at("blind");
+  const league::LeagueProfile& blind = profiles.at("blind");
   EXPECT_EQ(blind.cases, 3U) << "what only one of them has is no comparison";
   std::map<std::string, std::vector<double>> shares;
   for (const auto& curve : blind.curves) shares[curve.method] = curve.shares;
   const auto at = [&](double tau) {
-    for (std::size_t k = 0; k < league_taus().size(); ++k) {
-      if (league_taus()[k] == tau) return k;
+    for (std::size_t k = 0; k < league::league_taus().size(); ++k) {
+      if (league::league_taus()[k] == tau) return k;
     }
     throw std::runtime_error("no such tau");
   };
@@ -200,11 +204,11 @@ TEST(League, ProfilesAreAmongThoseThatKnowAsMuch) {
 }
 
 TEST(League, AnEntryWithFewCasesDoesNotTakeAwayTheOthers) {
-  const League league =
+  const league::League league =
       league_of({row("good", "auto", "a", 0.1), row("good", "auto", "b", 0.2), row("good", "auto", "c", 0.3),
                  row("good", "default", "a", 0.2), row("good", "default", "b", 0.2),
                  row("good", "default", "c", 0.2), row("bad", "auto", "a", 0.01)});
-  const LeagueProfile& blind = league.profiles.front();
+  const league::LeagueProfile& blind = league.profiles.front();
   EXPECT_EQ(blind.cases, 3U);
   EXPECT_EQ(blind.curves.size(), 2U);
   ASSERT_EQ(blind.left_out.size(), 1U);
@@ -215,16 +219,16 @@ TEST(League, IsWrittenAsItsSchemaSaysAndPrinted) {
   const std::vector<json> reports = {
       report({row("good", "auto", "a", 0.1), row("good", "auto", "b", 0.3), row("bad", "auto", "a", nullptr),
               row("bad", "auto", "b", nullptr)})};
-  const json league = league_to_json(make_league(reports, 1, false), reports);
-  EXPECT_EQ(validate_by_kind(league), std::vector<std::string>());
+  const json league = league::league_to_json(league::make_league(reports, 1, false), reports);
+  EXPECT_EQ(record::validate_by_kind(league), std::vector<std::string>());
   json wrong = league;
   wrong["methods"][0]["l2_median"] = "good";
-  EXPECT_NE(validate_by_kind(wrong), std::vector<std::string>());
+  EXPECT_NE(record::validate_by_kind(wrong), std::vector<std::string>());
   std::ostringstream text;
-  print_markdown(league_document(league), text);
+  table::print_markdown(league::league_document(league), text);
   EXPECT_NE(text.str().find("20.00 (10.00 to 30.00)"), std::string::npos) << text.str();
   EXPECT_NE(text.str().find("failed"), std::string::npos) << text.str();
-  const std::string readme = league_results(league);
+  const std::string readme = league::league_results(league);
   EXPECT_NE(readme.find("\n### League: 2 cases of 2 shapes\n"), std::string::npos) << readme;
   EXPECT_NE(readme.find("20.00 (10.00 to 30.00)"), std::string::npos) << readme;
 }
@@ -234,7 +238,8 @@ TEST(League, EveryProfileIsShownWhoeverIsAhead) {
       report({row("good", "auto", "a", 0.1), row("bad", "auto", "a", 0.2), row("good", "tuned", "a", 0.3),
               row("bad", "tuned", "a", 0.2), row("good", "paper", "a", 0.3), row("bad", "paper", "a", 0.1),
               row("good", "oracle", "a", 0.1), row("bad", "oracle", "a", 0.1)})};
-  const std::string readme = league_results(league_to_json(make_league(reports, 1, false), reports));
+  const std::string readme =
+      league::league_results(league::league_to_json(league::make_league(reports, 1, false), reports));
   for (const char* who : {"that see the points only", "with one value fitted on other shapes",
                           "that know the ground truth's area", "with the best value for each instance"}) {
     EXPECT_NE(readme.find(std::string("Performance profile of the methods ") + who), std::string::npos)

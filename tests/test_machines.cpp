@@ -8,13 +8,13 @@
 #include <string>
 #include <vector>
 
+#include "benchmarks/record/validate.hpp"
 #include "benchmarks/report/claims.hpp"
 #include "benchmarks/report/measurements.hpp"
 #include "benchmarks/report/paper_comparison.hpp"
 #include "benchmarks/report/readme.hpp"
 #include "benchmarks/report/report.hpp"
 #include "benchmarks/report/tables.hpp"
-#include "benchmarks/record/validate.hpp"
 #include "invented_shapes.hpp"
 
 namespace hullbench {
@@ -41,15 +41,15 @@ json on_two_machines(json report) {
                                 {"environment", environment}});
   }
   for (std::size_t i = 0; i < report.at("runs").size(); i += 2) report["runs"][i]["machine"] = "ba5eba11";
-  report["summary"] = make_summary(report);
+  report["summary"] = report::make_summary(report);
   return report;
 }
 
 using TableRows = std::vector<std::vector<std::string>>;
 
 /// The rows of a table of the invented plan, the header first.
-TableRows rows_of(const Document& document, const std::string& id) {
-  for (const TableSection& section : document.tables) {
+TableRows rows_of(const table::Document& document, const std::string& id) {
+  for (const table::TableSection& section : document.tables) {
     if (section.id == "invented_" + id) return section.table.rows();
   }
   ADD_FAILURE() << "no table " << id;
@@ -58,14 +58,14 @@ TableRows rows_of(const Document& document, const std::string& id) {
 
 std::string text_of(const json& report) {
   std::ostringstream out;
-  print_markdown(make_document(report), out);
+  table::print_markdown(report::make_document(report), out);
   return out.str();
 }
 
 /// Everything of a document that could hold a time: no word of one may stand there.
-void expect_no_times(const Document& document) {
-  for (const TableSection& section : document.tables) {
-    const std::string csv = to_csv(section.table);
+void expect_no_times(const table::Document& document) {
+  for (const table::TableSection& section : document.tables) {
+    const std::string csv = table::to_csv(section.table);
     for (const char* word : {" ms", "±", "Time", "time of", "time as", "Equal work"}) {
       EXPECT_EQ(csv.find(word), std::string::npos) << section.id << ": " << word << "\n" << csv;
       EXPECT_EQ(section.caption.find(word), std::string::npos) << section.id << ": " << section.caption;
@@ -75,14 +75,14 @@ void expect_no_times(const Document& document) {
 
 TEST(Machines, OfAReportAreThoseOfItsTimes) {
   json report = test::invented_report({2000});
-  EXPECT_EQ(machines_of(report), (std::set<std::string>{"0123abcd"}));
+  EXPECT_EQ(report::machines_of(report), (std::set<std::string>{"0123abcd"}));
   EXPECT_TRUE(Measurements(report).has_times());
   EXPECT_EQ(Measurements(report).why_no_times(), "");
   // A row without a time was not timed anywhere.
   for (json& run : report["runs"]) {
     if (run["time_ns"].empty()) run["machine"] = "ba5eba11";
   }
-  EXPECT_EQ(machines_of(report).size(), 1U);
+  EXPECT_EQ(report::machines_of(report).size(), 1U);
   report["runs"][0]["machine"] = "ba5eba11";
   EXPECT_EQ(Measurements(report).why_no_times(), kSentence);
 }
@@ -90,14 +90,14 @@ TEST(Machines, OfAReportAreThoseOfItsTimes) {
 TEST(Machines, SeveralLeaveNoTimeToTablesAndClaims) {
   const Measurements measurements(on_two_machines(test::invented_report({2000})));
   EXPECT_FALSE(measurements.has_times());
-  for (const RunRecord& run : measurements.runs()) {
+  for (const record::RunRecord& run : measurements.runs()) {
     EXPECT_TRUE(run.time_ns.empty() && run.phases_ns.empty()) << run.name;
   }
 }
 
 TEST(Machines, SeveralHaveNoTableOfTimesAndASentenceWhy) {
   const json report = on_two_machines(test::invented_report({2000, 64000}));
-  const Document document = make_document(report);
+  const table::Document document = report::make_document(report);
   expect_no_times(document);
   const std::string text = text_of(report);
   std::string unbroken = text;
@@ -111,8 +111,8 @@ TEST(Machines, SeveralHaveNoTableOfTimesAndASentenceWhy) {
 
 TEST(Machines, SeveralLeaveTheErrorsAsTheyAre) {
   const json one = test::invented_report({2000, 64000});
-  const Document whole = make_document(one);
-  const Document mixed = make_document(on_two_machines(one));
+  const table::Document whole = report::make_document(one);
+  const table::Document mixed = report::make_document(on_two_machines(one));
   for (const char* id : {"ca_error", "ca_holes_error", "hi_error"})
     EXPECT_EQ(rows_of(mixed, id), rows_of(whole, id)) << id;
   const TableRows ratios = rows_of(mixed, "ratios");
@@ -129,9 +129,9 @@ TEST(Machines, SeveralLeaveOnlyTheClaimsAboutErrors) {
   const json mixed = on_two_machines(one);
   std::size_t about_time = 0;
   std::size_t judged = 0;
-  for (std::size_t i = 0; i < paper().at("claims").at("list").size(); ++i) {
+  for (std::size_t i = 0; i < report::paper().at("claims").at("list").size(); ++i) {
     const json& claim = mixed.at("summary").at("claims").at(i);
-    if (is_about_time(paper()["claims"]["list"][i])) {
+    if (report::is_about_time(report::paper()["claims"]["list"][i])) {
       ++about_time;
       EXPECT_TRUE(claim["verdict"].is_null() && claim["value"].is_null() && claim["equal_work"].is_null())
           << claim;
@@ -143,8 +143,8 @@ TEST(Machines, SeveralLeaveOnlyTheClaimsAboutErrors) {
   }
   EXPECT_GT(about_time, 0U);
   EXPECT_GT(judged, 0U);
-  EXPECT_EQ(rows_of(make_document(mixed), "claims").size() - 1,
-            paper()["claims"]["list"].size() - about_time);
+  EXPECT_EQ(rows_of(report::make_document(mixed), "claims").size() - 1,
+            report::paper()["claims"]["list"].size() - about_time);
 }
 
 TEST(Machines, SeveralKeepEveryTimeInTheReport) {
@@ -152,7 +152,7 @@ TEST(Machines, SeveralKeepEveryTimeInTheReport) {
   const json mixed = on_two_machines(one);
   EXPECT_EQ(mixed.at("summary").at("rows"), one.at("summary").at("rows"));
   EXPECT_EQ(mixed.at("runs")[0].at("time_ns"), one.at("runs")[0].at("time_ns"));
-  EXPECT_EQ(validate_report(mixed), std::vector<std::string>{});
+  EXPECT_EQ(record::validate_report(mixed), std::vector<std::string>{});
 }
 
 TEST(Machines, SeveralLeaveTablesOfManyShapesTheirErrors) {
@@ -160,9 +160,9 @@ TEST(Machines, SeveralLeaveTablesOfManyShapesTheirErrors) {
                                                     {"letter_z", 2000, 0.5, 4, 0.2}};
   const json one = test::report_on_shapes(letters);
   const json mixed = on_two_machines(one);
-  expect_no_times(make_document(mixed));
-  const TableRows rows = rows_of(make_document(mixed), "summary");
-  const TableRows all = rows_of(make_document(one), "summary");
+  expect_no_times(report::make_document(mixed));
+  const TableRows rows = rows_of(report::make_document(mixed), "summary");
+  const TableRows all = rows_of(report::make_document(one), "summary");
   ASSERT_EQ(rows.size(), all.size());
   for (std::size_t row = 0; row < rows.size(); ++row) {
     ASSERT_EQ(rows[row].size(), 6U);
@@ -172,19 +172,20 @@ TEST(Machines, SeveralLeaveTablesOfManyShapesTheirErrors) {
 
 TEST(Machines, SeveralAreNotComparedWithThePapersTimes) {
   const json one = test::report_on_shapes({{"letter_a", 2000, 0.5, 2, 0.1}, {"letter_z", 2000, 0.5, 4, 0.2}});
-  const auto comparisons = compare_with_paper(on_two_machines(one));
+  const auto comparisons = report::compare_with_paper(on_two_machines(one));
   EXPECT_EQ(comparisons.size(), 4U);
-  for (const Comparison& comparison : comparisons) EXPECT_EQ(comparison.quantity, "error");
-  EXPECT_NE(differences_table({on_two_machines(one)}).remarks.front().find(kSentence), std::string::npos);
+  for (const report::Comparison& comparison : comparisons) EXPECT_EQ(comparison.quantity, "error");
+  EXPECT_NE(report::differences_table({on_two_machines(one)}).remarks.front().find(kSentence),
+            std::string::npos);
 }
 
 TEST(Machines, OfSeveralReportsDoNotShareOneTable) {
   const json one = test::report_on_shapes({{"letter_a", 2000, 0.5, 2, 0.1}, {"letter_z", 2000, 0.5, 4, 0.2}});
   json other = one;
   other["environment"]["machine_id"] = "ba5eba11";
-  const std::size_t rows = differences_table({one}).table.rows().size();
-  EXPECT_EQ(differences_table({one, one}).table.rows().size(), 2 * rows - 1);
-  const TableSection mixed = differences_table({one, other});
+  const std::size_t rows = report::differences_table({one}).table.rows().size();
+  EXPECT_EQ(report::differences_table({one, one}).table.rows().size(), 2 * rows - 1);
+  const table::TableSection mixed = report::differences_table({one, other});
   EXPECT_EQ(mixed.table.rows().size(), rows);
   EXPECT_NE(mixed.remarks.front().find(kSentence), std::string::npos);
 }
@@ -192,7 +193,7 @@ TEST(Machines, OfSeveralReportsDoNotShareOneTable) {
 TEST(Machines, SeveralAreSaidInTheReadme) {
   json report = on_two_machines(test::invented_report({2000}));
   report["plan"]["methods"] = json::array();
-  const std::string text = readme_results({report}, "results/x");
+  const std::string text = report::readme_results({report}, "results/x");
   EXPECT_NE(text.find("Times are not shown"), std::string::npos) << text;
 }
 
@@ -208,15 +209,15 @@ TEST(Machines, OneWithSeveralBuildsHasNoTimes) {
       "Times are not shown: they were taken with 2 builds of the program (aaaaaaaa, bbbbbbbb), and times of "
       "different builds do not go into one table.";
   EXPECT_EQ(Measurements(report).why_no_times(), sentence);
-  EXPECT_NE(differences_table({report}).remarks.front().find(sentence), std::string::npos);
-  expect_no_times(make_document(report));
+  EXPECT_NE(report::differences_table({report}).remarks.front().find(sentence), std::string::npos);
+  expect_no_times(report::make_document(report));
 }
 
 TEST(Machines, OneOfAMergedRunHasItsTimes) {
   json report = on_two_machines(test::invented_report({2000, 64000}));
   report["merged"][1]["environment"] = report["environment"];
   for (json& run : report["runs"]) run["machine"] = "0123abcd";
-  report["summary"] = make_summary(report);
+  report["summary"] = report::make_summary(report);
   const std::string text = text_of(report);
   EXPECT_NE(text.find("time of equal work, ms"), std::string::npos);
   EXPECT_NE(text.find("Merged of 2 runs, all timed on machine 0123abcd."), std::string::npos) << text;

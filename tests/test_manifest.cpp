@@ -55,7 +55,7 @@ class ManifestTest : public ::testing::Test {
   void expect_fault(const json& manifest, const std::string& words) {
     const fs::path file = write(manifest);
     try {
-      load_manifest(file);
+      run::load_manifest(file);
       ADD_FAILURE() << "no fault was found; expected: " << words;
     } catch (const ConfigurationError& error) {
       EXPECT_NE(std::string(error.what()).find(words), std::string::npos) << error.what();
@@ -67,8 +67,8 @@ class ManifestTest : public ::testing::Test {
 };
 
 TEST_F(ManifestTest, SaysWhatTheMethodIsAndHowToStartIt) {
-  const Manifest manifest = load_manifest(write(good_manifest()));
-  const Method& method = manifest.method;
+  const run::Manifest manifest = run::load_manifest(write(good_manifest()));
+  const worker::Method& method = manifest.method;
   EXPECT_EQ(method.name, "my_hull");
   EXPECT_EQ(method.title, "My hull");
   EXPECT_EQ(method.install, "make it");
@@ -92,7 +92,7 @@ TEST_F(ManifestTest, SaysWhatTheMethodIsAndHowToStartIt) {
 TEST_F(ManifestTest, AMethodThatDoesNotSayIsNotCompiledWhileItRuns) {
   json manifest = good_manifest();
   manifest.erase("jit");
-  EXPECT_FALSE(load_manifest(write(manifest)).method.jit);
+  EXPECT_FALSE(run::load_manifest(write(manifest)).method.jit);
   manifest["jit"] = "yes";
   expect_fault(manifest, "/jit");
 }
@@ -129,21 +129,21 @@ TEST_F(ManifestTest, FaultsAreSaidWithTheFileAndThePlace) {
 
 TEST_F(ManifestTest, WhatIsNotJsonAndWhatIsNotThere) {
   testing::write_text(folder_.path() / "broken.json", "{");
-  EXPECT_THROW(load_manifest(folder_.path() / "broken.json"), ConfigurationError);
-  EXPECT_THROW(load_manifest(folder_.path() / "none.json"), ConfigurationError);
-  EXPECT_THROW(load_manifest(folder_.path()), ConfigurationError);
+  EXPECT_THROW(run::load_manifest(folder_.path() / "broken.json"), ConfigurationError);
+  EXPECT_THROW(run::load_manifest(folder_.path() / "none.json"), ConfigurationError);
+  EXPECT_THROW(run::load_manifest(folder_.path()), ConfigurationError);
 }
 
 TEST_F(ManifestTest, ItsHashIsThatOfTheManifestAndTheProgramBesideIt) {
   testing::write_text(folder_.path() / "my_hull.py", "print(1)");
-  const std::string first = load_manifest(write(good_manifest())).sha256;
-  EXPECT_EQ(load_manifest(write(good_manifest())).sha256, first);
+  const std::string first = run::load_manifest(write(good_manifest())).sha256;
+  EXPECT_EQ(run::load_manifest(write(good_manifest())).sha256, first);
   testing::write_text(folder_.path() / "my_hull.py", "print(2)");
-  const std::string other_program = load_manifest(write(good_manifest())).sha256;
+  const std::string other_program = run::load_manifest(write(good_manifest())).sha256;
   EXPECT_NE(other_program, first);
   json manifest = good_manifest();
   manifest["title"] = "Another";
-  EXPECT_NE(load_manifest(write(manifest)).sha256, other_program);
+  EXPECT_NE(run::load_manifest(write(manifest)).sha256, other_program);
 }
 
 TEST_F(ManifestTest, AFolderIsReadInTheOrderOfItsNames) {
@@ -154,19 +154,19 @@ TEST_F(ManifestTest, AFolderIsReadInTheOrderOfItsNames) {
   testing::write_text(folder_.path() / "package.json", "{}");
   testing::write_text(folder_.path() / "package-lock.json", "{}");
   testing::write_text(folder_.path() / "notes.txt", "{");
-  const auto manifests = load_manifests({folder_.path(), folder_.path() / "nowhere"});
+  const auto manifests = run::load_manifests({folder_.path(), folder_.path() / "nowhere"});
   ASSERT_EQ(manifests.size(), 2U);
   EXPECT_EQ(manifests[0].method.name, "my_hull");
   EXPECT_EQ(manifests[1].method.name, "a_hull");
-  EXPECT_EQ(load_manifests({folder_.path(), folder_.path()}).size(), 2U) << "the same ones again";
+  EXPECT_EQ(run::load_manifests({folder_.path(), folder_.path()}).size(), 2U) << "the same ones again";
   other["title"] = "Another method of that name";
   write(other, "4.json");
-  EXPECT_THROW(load_manifests({folder_.path()}), ConfigurationError);
+  EXPECT_THROW(run::load_manifests({folder_.path()}), ConfigurationError);
 }
 
 TEST_F(ManifestTest, TheCatalogHasThemAfterTheMethodsThatAreBuiltIn) {
   write(good_manifest());
-  const MethodCatalog catalog({folder_.path()});
+  const run::MethodCatalog catalog({folder_.path()});
   EXPECT_EQ(catalog.names().front(), "polylidar");
   EXPECT_EQ(catalog.names().back(), "my_hull");
   EXPECT_EQ(catalog.find("my_hull").title, "My hull");
@@ -180,10 +180,10 @@ TEST_F(ManifestTest, WithoutRunsTheDefaultsAreMeasuredWhenThereAreAll) {
   json manifest = good_manifest();
   manifest.erase("runs");
   write(manifest);
-  EXPECT_THROW(MethodCatalog({folder_.path()}).runs_of("my_hull"), ConfigurationError);
+  EXPECT_THROW(run::MethodCatalog({folder_.path()}).runs_of("my_hull"), ConfigurationError);
   manifest["parameters"][0]["default"] = 4;
   write(manifest);
-  const std::vector<PlanMethod> runs = MethodCatalog({folder_.path()}).runs_of("my_hull");
+  const std::vector<plan::PlanMethod> runs = run::MethodCatalog({folder_.path()}).runs_of("my_hull");
   ASSERT_EQ(runs.size(), 1U);
   EXPECT_EQ(runs[0].protocol, "default");
   EXPECT_TRUE(runs[0].parameters.empty());
@@ -193,22 +193,22 @@ TEST_F(ManifestTest, ABuiltInNameIsTaken) {
   json manifest = good_manifest();
   manifest["name"] = "polylidar";
   write(manifest);
-  EXPECT_THROW(MethodCatalog({folder_.path()}), ConfigurationError);
+  EXPECT_THROW(run::MethodCatalog({folder_.path()}), ConfigurationError);
 }
 
 TEST_F(ManifestTest, TheUsersFolderIsWhereItsConfigurationIs) {
   ::setenv("XDG_CONFIG_HOME", folder_.path().c_str(), 1);
-  EXPECT_EQ(user_manifest_folder(), folder_.path() / "hullbench" / "adapters");
+  EXPECT_EQ(run::user_manifest_folder(), folder_.path() / "hullbench" / "adapters");
   ::unsetenv("XDG_CONFIG_HOME");
   ::setenv("HOME", folder_.path().c_str(), 1);
-  EXPECT_EQ(user_manifest_folder(), folder_.path() / ".config" / "hullbench" / "adapters");
-  EXPECT_EQ(manifest_folders({folder_.path()}).size(), 3U);
-  EXPECT_THROW(manifest_folders({folder_.path() / "nowhere"}), ConfigurationError);
+  EXPECT_EQ(run::user_manifest_folder(), folder_.path() / ".config" / "hullbench" / "adapters");
+  EXPECT_EQ(run::manifest_folders({folder_.path()}).size(), 3U);
+  EXPECT_THROW(run::manifest_folders({folder_.path() / "nowhere"}), ConfigurationError);
   ::setenv("HOME", "", 1);
-  EXPECT_EQ(manifest_folders({}).size(), 1U);
+  EXPECT_EQ(run::manifest_folders({}).size(), 1U);
   ::unsetenv("HOME");
-  EXPECT_EQ(manifest_folders({}).size(), 1U);
-  EXPECT_THROW(user_manifest_folder(), ConfigurationError);
+  EXPECT_EQ(run::manifest_folders({}).size(), 1U);
+  EXPECT_THROW(run::user_manifest_folder(), ConfigurationError);
 }
 
 }  // namespace

@@ -28,7 +28,7 @@ using testing::write_text;
 /// The lines of runs.jsonl without what another machine may have otherwise.
 std::vector<std::string> accuracy_lines(const fs::path& run) {
   std::vector<std::string> lines;
-  for (json line : load_json_lines(run / "runs.jsonl").lines) {
+  for (json line : record::load_json_lines(run / "runs.jsonl").lines) {
     for (const char* key : {"time_ns", "phases_ns", "canary_ns", "machine", "flags"}) line.erase(key);
     line["metrics"].erase("peak_memory_bytes");
     lines.push_back(line.dump());
@@ -93,7 +93,7 @@ class MergeTest : public ::testing::Test {
     header["environment"]["machine_id"] = machine;
     write_text(folder() / name / "run.json", header.dump());
     std::string text;
-    for (json line : load_json_lines(folder() / name / "runs.jsonl").lines) {
+    for (json line : record::load_json_lines(folder() / name / "runs.jsonl").lines) {
       line["machine"] = machine;
       text += line.dump() + "\n";
     }
@@ -101,18 +101,18 @@ class MergeTest : public ::testing::Test {
   }
 
   /// Changes run.json of the run in `name`.
-  template <typename Change>
-  void change_header(const std::string& name, const Change& change) const {
+  template <typename report::Change>
+  void change_header(const std::string& name, const report::Change& change) const {
     json header = read_json(folder() / name / "run.json");
     change(header);
     write_text(folder() / name / "run.json", header.dump());
   }
 
   /// Changes every row of the run in `name`.
-  template <typename Change>
-  void change_rows(const std::string& name, const Change& change) const {
+  template <typename report::Change>
+  void change_rows(const std::string& name, const report::Change& change) const {
     std::string text;
-    for (json line : load_json_lines(folder() / name / "runs.jsonl").lines) {
+    for (json line : record::load_json_lines(folder() / name / "runs.jsonl").lines) {
       change(line);
       text += line.dump() + "\n";
     }
@@ -159,7 +159,7 @@ TEST_F(MergeTest, KeepsThePassesOfItsShards) {
   const Outcome merged = hullbench({"merge", "shard1", "shard2", "--out", "merged"});
   ASSERT_EQ(merged.code, 0) << merged.err;
   EXPECT_EQ(read_json(folder() / "merged" / "run.json").at("passes"), 2);
-  const std::vector<json> rows = load_json_lines(folder() / "merged" / "runs.jsonl").lines;
+  const std::vector<json> rows = record::load_json_lines(folder() / "merged" / "runs.jsonl").lines;
   EXPECT_EQ(rows.size(), 12U);
   for (const json& row : rows) {
     EXPECT_EQ(row.at("passes"), (json{1, 1, 2}));
@@ -232,7 +232,7 @@ TEST_F(MergeTest, OfSeveralMachinesHasNoTimesInItsTables) {
   EXPECT_EQ(accuracy_lines(folder() / "merged"), accuracy_lines(folder() / "whole"));
   EXPECT_EQ(accuracy_tables(folder() / "merged"), accuracy_tables(folder() / "whole"));
   std::set<std::string> machines;
-  for (const json& line : load_json_lines(folder() / "merged" / "runs.jsonl").lines) {
+  for (const json& line : record::load_json_lines(folder() / "merged" / "runs.jsonl").lines) {
     machines.insert(line.at("machine").get<std::string>());
     EXPECT_EQ(line.at("time_ns").size(), 1U);
   }
@@ -259,9 +259,9 @@ TEST_F(MergeTest, FillsInTheMachineOfOlderRows) {
   });
   ASSERT_EQ(hullbench({"merge", "shard1", "shard2", "--out", "merged"}).code, 0);
   std::size_t moved = 0;
-  for (const json& line : load_json_lines(folder() / "merged" / "runs.jsonl").lines)
+  for (const json& line : record::load_json_lines(folder() / "merged" / "runs.jsonl").lines)
     if (line.at("machine") == "ba5eba11") ++moved;
-  EXPECT_EQ(moved, load_json_lines(folder() / "shard2" / "runs.jsonl").lines.size());
+  EXPECT_EQ(moved, record::load_json_lines(folder() / "shard2" / "runs.jsonl").lines.size());
 }
 
 TEST_F(MergeTest, OfTheSameRunTwiceTakesTheFirstThatSucceeded) {
@@ -281,9 +281,9 @@ TEST_F(MergeTest, OfTheSameRunTwiceTakesTheFirstThatSucceeded) {
   const Outcome merged = hullbench({"merge", "other", "one", "--out", "merged"});
   ASSERT_EQ(merged.code, 0) << merged.err;
   EXPECT_NE(merged.err.find("12 were measured more than once"), std::string::npos) << merged.err;
-  const auto one = load_json_lines(folder() / "one" / "runs.jsonl").lines;
-  const auto other = load_json_lines(folder() / "other" / "runs.jsonl").lines;
-  const auto both = load_json_lines(folder() / "merged" / "runs.jsonl").lines;
+  const auto one = record::load_json_lines(folder() / "one" / "runs.jsonl").lines;
+  const auto other = record::load_json_lines(folder() / "other" / "runs.jsonl").lines;
+  const auto both = record::load_json_lines(folder() / "merged" / "runs.jsonl").lines;
   ASSERT_EQ(both.size(), 12U);
   for (std::size_t i = 0; i < both.size(); ++i) {
     EXPECT_EQ(both[i], one[i].at("n") == 300 ? other[i] : one[i]);

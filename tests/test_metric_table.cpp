@@ -26,7 +26,7 @@ std::string read_file(const std::string& path) {
 
 std::set<std::string> table_names() {
   std::set<std::string> names;
-  for (const MetricInfo& metric : metric_table()) names.insert(metric.name);
+  for (const metrics::MetricInfo& metric : metrics::metric_table()) names.insert(metric.name);
   return names;
 }
 
@@ -40,8 +40,8 @@ const MultiPolygon kSquare = {{{{0, 0}, {1, 0}, {1, 1}, {0, 1}}, {}}};
 const MultiPolygon kBowTie = {{{{0, 0}, {1, 1}, {1, 0}, {0, 1}}, {}}};
 
 TEST(MetricTable, NamesAreUniqueAndEveryEntryIsComplete) {
-  EXPECT_EQ(table_names().size(), metric_table().size());
-  for (const MetricInfo& metric : metric_table()) {
+  EXPECT_EQ(table_names().size(), metrics::metric_table().size());
+  for (const metrics::MetricInfo& metric : metrics::metric_table()) {
     SCOPED_TRACE(metric.name);
     EXPECT_EQ(metric.name.find_first_not_of("abcdefghijklmnopqrstuvwxyz0123456789_"), std::string::npos);
     for (const std::string& text : {metric.group, metric.unit, metric.definition, metric.function}) {
@@ -53,7 +53,7 @@ TEST(MetricTable, NamesAreUniqueAndEveryEntryIsComplete) {
 }
 
 TEST(MetricTable, NamesFilesThatHaveWhatComputes) {
-  for (const MetricInfo& metric : metric_table()) {
+  for (const metrics::MetricInfo& metric : metrics::metric_table()) {
     SCOPED_TRACE(metric.function);
     const std::size_t comma = metric.function.find(", ");
     ASSERT_NE(comma, std::string::npos);
@@ -75,17 +75,17 @@ TEST(MetricTable, IsThatOfThePage) {
   const std::size_t to = page.find("<!-- metrics: end -->");
   ASSERT_NE(from, std::string::npos);
   ASSERT_NE(to, std::string::npos);
-  EXPECT_EQ(page.substr(from + begin.size(), to - from - begin.size()), metric_table_to_markdown())
+  EXPECT_EQ(page.substr(from + begin.size(), to - from - begin.size()), metrics::metric_table_to_markdown())
       << "'hullbench metrics --markdown' prints what belongs there";
 }
 
 TEST(MetricTable, MakesTheRow) {
-  const CaseScorer scorer(std::vector<Point>{{0, 0}, {1, 0}, {1, 1}, {0, 1}}, kSquare);
+  const metrics::CaseScorer scorer(std::vector<Point>{{0, 0}, {1, 0}, {1, 1}, {0, 1}}, kSquare);
   for (const MultiPolygon& result : {kSquare, kBowTie, MultiPolygon{}}) {
-    const json row = metrics_to_json(scorer.score(result));
+    const json row = metrics::metrics_to_json(scorer.score(result));
     EXPECT_EQ(keys_of(row), table_names());
   }
-  const json row = metrics_to_json(scorer.score(kSquare));
+  const json row = metrics::metrics_to_json(scorer.score(kSquare));
   EXPECT_EQ(row["valid"], true);
   EXPECT_EQ(row["invalid_reason"], "");
   EXPECT_EQ(row["l2"], 0.0);
@@ -97,11 +97,11 @@ TEST(MetricTable, MakesTheRow) {
 
 /// What is null is what the table says can be.
 TEST(MetricTable, SaysWhatCanBeNull) {
-  const CaseScorer scorer(std::vector<Point>{{0, 0}, {1, 0}, {1, 1}, {0, 1}}, kSquare);
-  const json empty = metrics_to_json(scorer.score({}));
-  const json invalid = metrics_to_json(scorer.score(kBowTie));
-  const json perfect = metrics_to_json(scorer.score(kSquare));
-  for (const MetricInfo& metric : metric_table()) {
+  const metrics::CaseScorer scorer(std::vector<Point>{{0, 0}, {1, 0}, {1, 1}, {0, 1}}, kSquare);
+  const json empty = metrics::metrics_to_json(scorer.score({}));
+  const json invalid = metrics::metrics_to_json(scorer.score(kBowTie));
+  const json perfect = metrics::metrics_to_json(scorer.score(kSquare));
+  for (const metrics::MetricInfo& metric : metrics::metric_table()) {
     SCOPED_TRACE(metric.name);
     if (metric.undefined.empty()) {
       EXPECT_FALSE(empty[metric.name].is_null() || invalid[metric.name].is_null());
@@ -121,10 +121,10 @@ TEST(MetricTable, SaysWhatCanBeNull) {
 }
 
 TEST(MetricTable, IsPrintedWithEveryMember) {
-  const json table = metric_table_to_json();
-  ASSERT_EQ(table.size(), metric_table().size());
+  const json table = metrics::metric_table_to_json();
+  ASSERT_EQ(table.size(), metrics::metric_table().size());
   std::ostringstream out;
-  print_metric_table(out);
+  metrics::print_metric_table(out);
   for (const json& metric : table) {
     EXPECT_EQ(keys_of(metric), (std::set<std::string>{"name", "group", "unit", "better", "definition",
                                                       "undefined", "citation", "function"}));

@@ -52,21 +52,21 @@ std::vector<Point> cell_centres(std::size_t count = 100) {
   return points;
 }
 
-Metrics score_on_square(const MultiPolygon& result) {
-  return CaseScorer(cell_centres(), kSquare).score(result);
+metrics::Metrics score_on_square(const MultiPolygon& result) {
+  return metrics::CaseScorer(cell_centres(), kSquare).score(result);
 }
 
 /// A share of boundary is off by at most half of the distance between two places, for every place where the
 /// tolerance is crossed.
 double share_error(int crossings, double length) {
-  return crossings * sample_spacing(1, length) / 2 / length;
+  return crossings * metrics::sample_spacing(1, length) / 2 / length;
 }
 
 TEST(BoundaryScores, OfAShiftedSquare) {
-  const Metrics metrics = score_on_square({{box(2, 0, 12, 10), {}}});
+  const metrics::Metrics metrics = score_on_square({{box(2, 0, 12, 10), {}}});
   EXPECT_EQ(metrics.spacing, 1);
   ASSERT_TRUE(metrics.boundary);
-  const BoundaryScores& scores = *metrics.boundary;
+  const metrics::BoundaryScores& scores = *metrics.boundary;
   EXPECT_EQ(scores.hausdorff_to_truth->distance, 2);
   EXPECT_EQ(scores.hausdorff_to_result->distance, 2);
   EXPECT_EQ(scores.hausdorff, 2);
@@ -83,8 +83,8 @@ TEST(BoundaryScores, OfAShiftedSquare) {
 
 TEST(BoundaryScores, OfAMissedHole) {
   const MultiPolygon truth = {{box(0, 0, 10, 10), {hole_box(4, 4, 6, 6)}}};
-  const Metrics metrics = CaseScorer(cell_centres(96), truth).score(kSquare);
-  const BoundaryScores& scores = *metrics.boundary;
+  const metrics::Metrics metrics = metrics::CaseScorer(cell_centres(96), truth).score(kSquare);
+  const metrics::BoundaryScores& scores = *metrics.boundary;
   EXPECT_EQ(scores.hausdorff_to_truth->distance, 0);
   EXPECT_EQ(scores.hausdorff_to_result->distance, 4);
   EXPECT_EQ(scores.hausdorff, 4);
@@ -105,13 +105,13 @@ TEST(BoundaryScores, OfAMissedHole) {
 }
 
 TEST(BoundaryScores, WitnessTheirDistances) {
-  const Metrics metrics =
+  const metrics::Metrics metrics =
       score_on_square({{{{0, 0}, {10, 0}, {10, 4}, {13, 5}, {10, 6}, {10, 10}, {0, 10}}, {}}});
   EXPECT_EQ(metrics.boundary->hausdorff_to_truth->distance, 3);
   EXPECT_EQ(metrics.boundary->hausdorff_to_truth->place, (Point{13, 5}));
   EXPECT_NEAR(metrics.boundary->hausdorff_to_result->distance, 3 / std::sqrt(10), 1e-12);
   EXPECT_EQ(metrics.boundary->hausdorff_to_result->place, (Point{10, 5}));
-  const json row = metrics_to_json(metrics);
+  const json row = metrics::metrics_to_json(metrics);
   EXPECT_EQ(row["hausdorff"], 3.0);
   EXPECT_EQ(row["hausdorff_to_truth_x"], 13.0);
   EXPECT_EQ(row["hausdorff_to_truth_y"], 5.0);
@@ -121,7 +121,7 @@ TEST(BoundaryScores, WitnessTheirDistances) {
 
 TEST(BoundaryScores, TellPrecisionFromRecall) {
   // Of the result, half as long as the truth's boundary, 6 are on it; of the truth's, the same 6.
-  const Metrics metrics = score_on_square({{box(0, 3, 5, 8), {}}});
+  const metrics::Metrics metrics = score_on_square({{box(0, 3, 5, 8), {}}});
   // Left side on the truth; at tolerance 1 another 1 of the upper and lower side each.
   const double precision = 7.0 / 20;
   const double recall = 7.0 / 40;
@@ -132,17 +132,17 @@ TEST(BoundaryScores, TellPrecisionFromRecall) {
 TEST(BoundaryScores, PercentileIsThatOfTheLength) {
   // A bump of 2 x 2: of the result's 44, 2.2 are more than 1.9 away, on its far side and the ends of the
   // others.
-  const Metrics metrics =
+  const metrics::Metrics metrics =
       score_on_square({{{{0, 0}, {10, 0}, {10, 4}, {12, 4}, {12, 6}, {10, 6}, {10, 10}, {0, 10}}, {}}});
   EXPECT_NEAR(*metrics.boundary->p95, 1.9, 0.125);  // h / 8
 }
 
 TEST(BoundaryScores, SpacingIsBounded) {
-  EXPECT_EQ(sample_spacing(1, 100), 0.25);
-  EXPECT_EQ(sample_spacing(4, 100), 1);
-  EXPECT_EQ(sample_spacing(1, 262'144e3), 1000);
+  EXPECT_EQ(metrics::sample_spacing(1, 100), 0.25);
+  EXPECT_EQ(metrics::sample_spacing(4, 100), 1);
+  EXPECT_EQ(metrics::sample_spacing(1, 262'144e3), 1000);
   // A result a thousand million h away is scored all the same.
-  const Metrics metrics = score_on_square({{box(1e9, 0, 2e9, 1e9), {}}});
+  const metrics::Metrics metrics = score_on_square({{box(1e9, 0, 2e9, 1e9), {}}});
   EXPECT_NEAR(metrics.boundary->hausdorff_to_result->distance, 1e9, 10);
 }
 
@@ -151,7 +151,7 @@ TEST(TopologyScores, MatchHolesOneToOne) {
   // The first one matches, the second one shares a half only, the third one is too much.
   const MultiPolygon result = {
       {box(0, 0, 10, 10), {hole_box(1, 6, 2, 7), hole_box(5, 1, 7, 3), hole_box(1, 1, 3, 3)}}};
-  const Metrics metrics = CaseScorer(cell_centres(88), truth).score(result);
+  const metrics::Metrics metrics = metrics::CaseScorer(cell_centres(88), truth).score(result);
   EXPECT_EQ(metrics.spacing, 1);
   EXPECT_DOUBLE_EQ(*metrics.holes.precision, 1.0 / 3);
   EXPECT_EQ(metrics.holes.recall, 0.5);
@@ -166,11 +166,11 @@ TEST(TopologyScores, AHoleHasOnePartnerOnlyEvenWhereHolesNest) {
   const MultiPolygon truth = {{box(0, 0, 10, 10), {hole_box(1.3, 1.3, 8.7, 8.7)}}};
   const MultiPolygon result = {{box(0, 0, 10, 10), {hole_box(1, 1, 9, 9)}},
                                {box(1.2, 1.2, 8.8, 8.8), {hole_box(1.4, 1.4, 8.6, 8.6)}}};
-  ASSERT_EQ(invalid_reason(result), "");
-  const Metrics metrics = CaseScorer(cell_centres(), truth).score(result);
+  ASSERT_EQ(metrics::invalid_reason(result), "");
+  const metrics::Metrics metrics = metrics::CaseScorer(cell_centres(), truth).score(result);
   EXPECT_EQ(metrics.holes.precision, 0.5);
   EXPECT_EQ(metrics.holes.recall, 1);
-  const Metrics turned_round = CaseScorer(cell_centres(), result).score(truth);
+  const metrics::Metrics turned_round = metrics::CaseScorer(cell_centres(), result).score(truth);
   EXPECT_EQ(turned_round.holes.precision, 1);
   EXPECT_EQ(turned_round.holes.recall, 0.5);
 }
@@ -178,17 +178,17 @@ TEST(TopologyScores, AHoleHasOnePartnerOnlyEvenWhereHolesNest) {
 TEST(TopologyScores, AHalfIsNotEnough) {
   const MultiPolygon truth = {{box(0, 0, 10, 10), {hole_box(5, 1, 8, 3)}}};
   const MultiPolygon shifted = {{box(0, 0, 10, 10), {hole_box(6, 1, 9, 3)}}};  // 4 of 6 shared: IoU 4 / 8
-  EXPECT_EQ(CaseScorer(cell_centres(), truth).score(shifted).holes.f1, 0);
+  EXPECT_EQ(metrics::CaseScorer(cell_centres(), truth).score(shifted).holes.f1, 0);
   const MultiPolygon nearer = {{box(0, 0, 10, 10), {hole_box(5.875, 1, 8.875, 3)}}};
-  EXPECT_EQ(CaseScorer(cell_centres(), truth).score(nearer).holes.f1, 1);
+  EXPECT_EQ(metrics::CaseScorer(cell_centres(), truth).score(nearer).holes.f1, 1);
 }
 
 TEST(TopologyScores, WithoutHolesAreNone) {
-  const Metrics metrics = score_on_square(kSquare);
+  const metrics::Metrics metrics = score_on_square(kSquare);
   EXPECT_EQ(metrics.holes.precision, std::nullopt);
   EXPECT_EQ(metrics.holes.recall, std::nullopt);
   EXPECT_EQ(metrics.holes.f1, std::nullopt);
-  const Metrics spurious = score_on_square({{box(0, 0, 10, 10), {hole_box(4, 4, 6, 6)}}});
+  const metrics::Metrics spurious = score_on_square({{box(0, 0, 10, 10), {hole_box(4, 4, 6, 6)}}});
   EXPECT_EQ(spurious.holes.precision, 0);
   EXPECT_EQ(spurious.holes.recall, 0);
   EXPECT_EQ(spurious.holes.f1, 0);
@@ -196,12 +196,12 @@ TEST(TopologyScores, WithoutHolesAreNone) {
 
 TEST(TopologyScores, CountPolygons) {
   const MultiPolygon three = {{box(0, 0, 4, 10), {}}, {box(5, 0, 10, 5), {}}, {box(6, 6, 7, 7), {}}};
-  const Metrics metrics = score_on_square(three);
+  const metrics::Metrics metrics = score_on_square(three);
   EXPECT_EQ(metrics.counts.polygons_error, 2);
   EXPECT_EQ(metrics.counts.slivers, 1);
   EXPECT_EQ(metrics.polygon_count, 3U);
   EXPECT_EQ(metrics.vertex_count, 12U);
-  EXPECT_EQ(CaseScorer(cell_centres(), three).score(kSquare).counts.polygons_error, -2);
+  EXPECT_EQ(metrics::CaseScorer(cell_centres(), three).score(kSquare).counts.polygons_error, -2);
 }
 
 TEST(ContractScores, OfCoverage) {
@@ -235,9 +235,9 @@ const MultiPolygon kCorner = {{{{0, 0}, {2, 0}, {2, 1}, {1, 1}, {1, 2}, {0, 2}},
 const std::vector<Point> kCornerPoints = {{0, 0}, {1, 0}, {2, 0}, {0, 1}, {1, 1}, {2, 1}, {0, 2}, {1, 2}};
 
 TEST(Skill, IsAnchoredByTheConvexHullAndTheBestTriangles) {
-  const CaseScorer scorer(kCornerPoints, kCorner);
+  const metrics::CaseScorer scorer(kCornerPoints, kCorner);
   const MultiPolygon hull = {{{{0, 0}, {2, 0}, {2, 1}, {1, 2}, {0, 2}}, {}}};
-  const Metrics of_hull = scorer.score(hull);
+  const metrics::Metrics of_hull = scorer.score(hull);
   EXPECT_DOUBLE_EQ(of_hull.l2_convex_hull, 0.5 / 3);
   EXPECT_EQ(of_hull.l2_best_triangles, 0);
   EXPECT_NEAR(*of_hull.skill, 0, 1e-12);  // two overlays of the same shapes
@@ -249,12 +249,12 @@ TEST(Skill, IsNotDefinedWhereThereIsNothingToGain) {
   EXPECT_EQ(score_on_square(kSquare).skill, std::nullopt);
   EXPECT_DOUBLE_EQ(score_on_square(kSquare).l2_convex_hull, 0.19);
   // The difference of the anchors against 1 / n.
-  EXPECT_EQ(skill(0.0, {0.5, 0.25}, 4), std::nullopt);
-  EXPECT_EQ(skill(0.0, {0.5, 0.25}, 5), 2);
-  EXPECT_EQ(skill(0.25, {0.5, 0.25}, 5), 1);
-  EXPECT_EQ(skill(0.5, {0.5, 0.25}, 5), 0);
-  EXPECT_EQ(skill(0.5, {0.25, 0.5}, 5), std::nullopt);
-  EXPECT_EQ(skill(std::nullopt, {0.5, 0.25}, 5), std::nullopt);
+  EXPECT_EQ(metrics::skill(0.0, {0.5, 0.25}, 4), std::nullopt);
+  EXPECT_EQ(metrics::skill(0.0, {0.5, 0.25}, 5), 2);
+  EXPECT_EQ(metrics::skill(0.25, {0.5, 0.25}, 5), 1);
+  EXPECT_EQ(metrics::skill(0.5, {0.5, 0.25}, 5), 0);
+  EXPECT_EQ(metrics::skill(0.5, {0.25, 0.5}, 5), std::nullopt);
+  EXPECT_EQ(metrics::skill(std::nullopt, {0.5, 0.25}, 5), std::nullopt);
 }
 
 TEST(Skill, OfTooFewPoints) {
@@ -263,8 +263,8 @@ TEST(Skill, OfTooFewPoints) {
                                            {{1, 1}, {2, 2}},
                                            {{1, 1}, {2, 2}, {3, 3}},
                                            {{1, 1}, {1, 1}, {1, 1}}}) {
-    const CaseScorer scorer(points, kSquare);
-    const Metrics metrics = scorer.score(kSquare);
+    const metrics::CaseScorer scorer(points, kSquare);
+    const metrics::Metrics metrics = scorer.score(kSquare);
     EXPECT_EQ(metrics.l2_convex_hull, 1);
     EXPECT_EQ(metrics.l2_best_triangles, 1);
     EXPECT_EQ(metrics.skill, std::nullopt);
@@ -294,11 +294,11 @@ TEST(TriangleOutline, IsValidAndAsLargeAsItsTriangles) {
                             points[mesh.triangles[3 * triangle + 2]]};
       if (kept.back()) area += polylidar::signed_area(corners);
     }
-    const MultiPolygon outline = triangle_outline(mesh, points, kept);
-    EXPECT_EQ(invalid_reason(outline), "");
+    const MultiPolygon outline = metrics::triangle_outline(mesh, points, kept);
+    EXPECT_EQ(metrics::invalid_reason(outline), "");
     EXPECT_NEAR(polylidar::area(outline), area, 1e-9);  // sums of some hundred areas below 100
-    EXPECT_EQ(InputPoints(points).score(outline).vertices_from_input.value_or(1), 1);
-    EXPECT_EQ(InputPoints(points).score(outline).oriented.value_or(true), true);
+    EXPECT_EQ(metrics::InputPoints(points).score(outline).vertices_from_input.value_or(1), 1);
+    EXPECT_EQ(metrics::InputPoints(points).score(outline).oriented.value_or(true), true);
   }
 }
 
@@ -311,14 +311,14 @@ TEST(TriangleOutline, OfSliversHasAShellForEach) {
     for (std::size_t triangle = 0; triangle < mesh.triangles.size() / 3; ++triangle) {
       std::vector<bool> kept(mesh.triangles.size() / 3, false);
       kept[triangle] = true;
-      const MultiPolygon outline = triangle_outline(mesh, points, kept);
+      const MultiPolygon outline = metrics::triangle_outline(mesh, points, kept);
       ASSERT_EQ(outline.size(), 1U);
       ASSERT_EQ(outline[0].shell.size(), 3U) << name << ", triangle " << triangle;
       ASSERT_TRUE(outline[0].holes.empty());
       ++shells;
     }
     const PointSet set = make_point_set(name, false, 2000, 1);
-    EXPECT_TRUE(CaseScorer(set.points, set.ground_truth).score({}).area.valid);
+    EXPECT_TRUE(metrics::CaseScorer(set.points, set.ground_truth).score({}).area.valid);
   }
   EXPECT_GT(shells, 4000U);
 }
@@ -327,14 +327,14 @@ TEST(TriangleOutline, OfAllTrianglesIsTheConvexHull) {
   const std::vector<Point> points = cell_centres();
   const polylidar::Triangulation mesh = polylidar::delaunay(points);
   const MultiPolygon hull =
-      triangle_outline(mesh, points, std::vector<bool>(mesh.triangles.size() / 3, true));
+      metrics::triangle_outline(mesh, points, std::vector<bool>(mesh.triangles.size() / 3, true));
   ASSERT_EQ(hull.size(), 1U);
   EXPECT_EQ(polylidar::area(hull), 81);
 }
 
 TEST(Metrics, OfNothing) {
   const MultiPolygon truth = {{box(0, 0, 10, 10), {hole_box(4, 4, 6, 6)}}};
-  const Metrics metrics = CaseScorer(cell_centres(), truth).score({});
+  const metrics::Metrics metrics = metrics::CaseScorer(cell_centres(), truth).score({});
   EXPECT_TRUE(metrics.area.valid);
   EXPECT_EQ(metrics.area.l2, 1);
   ASSERT_TRUE(metrics.boundary);
@@ -353,9 +353,9 @@ TEST(Metrics, OfNothing) {
 }
 
 TEST(Metrics, OfAnInvalidShapeAreWhatNeedsNoOverlay) {
-  const Metrics metrics = score_on_square(kBowTie);
+  const metrics::Metrics metrics = score_on_square(kBowTie);
   EXPECT_FALSE(metrics.area.valid);
-  EXPECT_EQ(metrics.area.invalid_reason, invalid_reason(kBowTie));
+  EXPECT_EQ(metrics.area.invalid_reason, metrics::invalid_reason(kBowTie));
   EXPECT_FALSE(metrics.boundary || metrics.boundary_iou || metrics.skill || metrics.holes.f1);
   EXPECT_EQ(metrics.vertex_count, 4U);
   EXPECT_EQ(metrics.counts.polygons_error, 0);
@@ -366,7 +366,8 @@ TEST(Metrics, OfAnInvalidShapeAreWhatNeedsNoOverlay) {
 TEST(Metrics, OfCoordinatesThatAreNotFinite) {
   for (const double bad :
        {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()}) {
-    const Metrics metrics = score_on_square({{{{0.5, 0.5}, {bad, 0.5}, {0.5, bad}, {1.5, 1.5}}, {}}});
+    const metrics::Metrics metrics =
+        score_on_square({{{{0.5, 0.5}, {bad, 0.5}, {0.5, bad}, {1.5, 1.5}}, {}}});
     EXPECT_FALSE(metrics.area.valid);
     EXPECT_EQ(metrics.contract.points_covered, std::nullopt);
     EXPECT_EQ(metrics.contract.vertices_from_input, 0.5);
@@ -383,7 +384,8 @@ TEST(Metrics, OfTheTruthItselfArePerfect) {
                                     {"parts-3", false}}) {
     SCOPED_TRACE(name);
     const MultiPolygon truth = make_ground_truth(name, holes);
-    const Metrics metrics = CaseScorer(make_point_set(name, holes, 2000, 1).points, truth).score(truth);
+    const metrics::Metrics metrics =
+        metrics::CaseScorer(make_point_set(name, holes, 2000, 1).points, truth).score(truth);
     EXPECT_EQ(metrics.area.l2, 0);
     EXPECT_LT(*metrics.boundary->hausdorff, 1e-12);  // places between vertices are rounded
     EXPECT_LT(*metrics.boundary->mean, 1e-12);
@@ -415,7 +417,7 @@ SampleCase star_case(std::size_t number) {
 TEST(SegmentTree, AgreesWithBoost) {
   for (const std::size_t number : {1U, 4000U, 9000U}) {
     const SampleCase sample = star_case(number);
-    const SegmentTree tree(sample.truth);
+    const metrics::SegmentTree tree(sample.truth);
     Random random(number);
     for (int i = 0; i < 300; ++i) {
       const Point& near = sample.points[random.below(sample.points.size())];
@@ -431,12 +433,12 @@ TEST(SegmentTree, AgreesWithBoost) {
       EXPECT_EQ(tree.distance(point, expected * 1.5), tree.distance(point));
     }
   }
-  EXPECT_EQ(SegmentTree({}).distance({1, 1}), std::numeric_limits<double>::infinity());
+  EXPECT_EQ(metrics::SegmentTree({}).distance({1, 1}), std::numeric_limits<double>::infinity());
 }
 
 /// The largest distance from the edges of `from` to `to`, looked for at places h / 512 apart.
 double dense_distance(const MultiPolygon& from, const MultiPolygon& to, double h) {
-  const SegmentTree tree(to);
+  const metrics::SegmentTree tree(to);
   double largest = 0;
   for (const Polygon& polygon : from) {
     std::vector<Ring> rings = polygon.holes;
@@ -459,7 +461,7 @@ double dense_distance(const MultiPolygon& from, const MultiPolygon& to, double h
 TEST(BoundaryScores, AreAsNearToTheLargestDistanceAsStated) {
   for (const std::size_t number : {100U, 5000U}) {
     const SampleCase sample = star_case(number);
-    const Metrics metrics = CaseScorer(sample.points, sample.truth).score(sample.result);
+    const metrics::Metrics metrics = metrics::CaseScorer(sample.points, sample.truth).score(sample.result);
     const double h = metrics.spacing;
     const double to_truth = dense_distance(sample.result, sample.truth, h);
     const double to_result = dense_distance(sample.truth, sample.result, h);
@@ -473,14 +475,16 @@ TEST(BoundaryScores, AreAsNearToTheLargestDistanceAsStated) {
 
 TEST(Metrics, AreTheSameFromSeveralThreads) {
   const SampleCase sample = star_case(8000);
-  const CaseScorer scorer(sample.points, sample.truth);
+  const metrics::CaseScorer scorer(sample.points, sample.truth);
   const std::vector<MultiPolygon> results = {sample.result, sample.truth, {}, kBowTie};
   std::vector<json> expected;
-  for (const MultiPolygon& result : results) expected.push_back(metrics_to_json(scorer.score(result)));
+  for (const MultiPolygon& result : results)
+    expected.push_back(metrics::metrics_to_json(scorer.score(result)));
   std::vector<json> seen(16);
   std::vector<std::thread> threads;
   for (std::size_t i = 0; i < seen.size(); ++i) {
-    threads.emplace_back([&, i] { seen[i] = metrics_to_json(scorer.score(results[i % results.size()])); });
+    threads.emplace_back(
+        [&, i] { seen[i] = metrics::metrics_to_json(scorer.score(results[i % results.size()])); });
   }
   for (std::thread& thread : threads) thread.join();
   for (std::size_t i = 0; i < seen.size(); ++i) EXPECT_EQ(seen[i], expected[i % results.size()]) << i;
@@ -488,10 +492,10 @@ TEST(Metrics, AreTheSameFromSeveralThreads) {
 
 TEST(Metrics, HaveTheAreaScoresThatSearchesUse) {
   const SampleCase sample = star_case(300);
-  const CaseScorer scorer(sample.points, sample.truth);
-  const AreaScores all = scorer.score(sample.result).area;
-  for (const AreaScores& scores :
-       {scorer.area_scores(sample.result), area_scores(sample.result, sample.truth)}) {
+  const metrics::CaseScorer scorer(sample.points, sample.truth);
+  const metrics::AreaScores all = scorer.score(sample.result).area;
+  for (const metrics::AreaScores& scores :
+       {scorer.area_scores(sample.result), metrics::area_scores(sample.result, sample.truth)}) {
     EXPECT_EQ(scores.l2, all.l2);
     EXPECT_EQ(scores.iou, all.iou);
     EXPECT_EQ(scores.perimeter_ratio, all.perimeter_ratio);
@@ -527,15 +531,15 @@ TEST(Metrics, DoNotDependOnOriginUnitOrQuarterTurns) {
     }
     return shape;
   };
-  const Metrics before = CaseScorer(sample.points, sample.truth).score(sample.result);
+  const metrics::Metrics before = metrics::CaseScorer(sample.points, sample.truth).score(sample.result);
   for (const Motion& motion : motions) {
     SCOPED_TRACE(motion.name);
-    const CaseScorer scorer(moved_ring(sample.points, motion), moved(sample.truth, motion));
-    const Metrics after = scorer.score(moved(sample.result, motion));
-    for (const MetricInfo& metric : metric_table()) {
+    const metrics::CaseScorer scorer(moved_ring(sample.points, motion), moved(sample.truth, motion));
+    const metrics::Metrics after = scorer.score(moved(sample.result, motion));
+    for (const metrics::MetricInfo& metric : metrics::metric_table()) {
       SCOPED_TRACE(metric.name);
-      const MetricValue a = metric.value(before);
-      const MetricValue b = metric.value(after);
+      const metrics::MetricValue a = metric.value(before);
+      const metrics::MetricValue b = metric.value(after);
       ASSERT_EQ(a.index(), b.index());
       if (!std::holds_alternative<double>(a)) {
         EXPECT_EQ(a, b);

@@ -17,16 +17,18 @@ namespace {
 using nlohmann::json;
 
 /// The comparison of these; none when there is none.
-std::optional<Comparison> find(const std::vector<Comparison>& comparisons, const std::string& method,
-                               const std::string& quantity, const std::string& row = "") {
-  const auto found = std::find_if(comparisons.begin(), comparisons.end(), [&](const Comparison& comparison) {
-    return comparison.method == method && comparison.quantity == quantity && comparison.row == row;
-  });
+std::optional<report::Comparison> find(const std::vector<report::Comparison>& comparisons,
+                                       const std::string& method, const std::string& quantity,
+                                       const std::string& row = "") {
+  const auto found =
+      std::find_if(comparisons.begin(), comparisons.end(), [&](const report::Comparison& comparison) {
+        return comparison.method == method && comparison.quantity == quantity && comparison.row == row;
+      });
   if (found == comparisons.end()) return std::nullopt;
   return *found;
 }
 
-Comparison with_ratio(double ratio) {
+report::Comparison with_ratio(double ratio) {
   return {"Table IV", "", "polylidar", "time", 8, 8 * ratio};
 }
 
@@ -36,7 +38,7 @@ TEST(PaperComparison, RatioIsOursOverTheirs) {
 }
 
 TEST(PaperComparison, IsLargeFromAQuarterMoreInBothDirections) {
-  ASSERT_EQ(paper().at("differences").at("large_from"), 1.25);
+  ASSERT_EQ(report::paper().at("differences").at("large_from"), 1.25);
   EXPECT_FALSE(with_ratio(1).is_large());
   EXPECT_FALSE(with_ratio(1.249).is_large());
   EXPECT_TRUE(with_ratio(1.25).is_large());
@@ -52,7 +54,7 @@ json letters_report() {
 }
 
 TEST(PaperComparison, OfLettersTakesTheMeans) {
-  const auto comparisons = compare_with_paper(letters_report());
+  const auto comparisons = report::compare_with_paper(letters_report());
   // The paper's four methods, each with error and time; PostGIS 3 is none of them.
   EXPECT_EQ(comparisons.size(), 8U);
   const auto error = find(comparisons, "polylidar", "error");
@@ -69,16 +71,17 @@ TEST(PaperComparison, OfLettersTakesTheMeans) {
   ASSERT_TRUE(missing) << "what is not installed is said, not left out";
   EXPECT_FALSE(missing->measured);
   EXPECT_TRUE(missing->is_large());
-  ASSERT_TRUE(reason_of(*missing));
-  EXPECT_NE(reason_of(*missing)->find("was not installed"), std::string::npos);
-  Comparison measured = *missing;
+  ASSERT_TRUE(report::reason_of(*missing));
+  EXPECT_NE(report::reason_of(*missing)->find("was not installed"), std::string::npos);
+  report::Comparison measured = *missing;
   measured.measured = 10 * measured.published;
-  ASSERT_TRUE(reason_of(measured));
-  EXPECT_EQ(reason_of(measured)->find("was not installed"), std::string::npos) << *reason_of(measured);
+  ASSERT_TRUE(report::reason_of(measured));
+  EXPECT_EQ(report::reason_of(measured)->find("was not installed"), std::string::npos)
+      << *report::reason_of(measured);
 }
 
 TEST(PaperComparison, OfFloorsIsWithTheTableOfFloors) {
-  const auto comparisons = compare_with_paper(
+  const auto comparisons = report::compare_with_paper(
       test::report_on_shapes({{"floor-1", 80000, 0.5, 48, 0.022}, {"floor-2", 90000, 0.5, 48, 0.022}}));
   const auto time = find(comparisons, "polylidar", "time");
   ASSERT_TRUE(time);
@@ -92,7 +95,7 @@ TEST(PaperComparison, LeavesOtherProtocolsAlone) {
   for (json& run : report["runs"]) {
     if (run["method"] == "polylidar") run["protocol"] = "tuned";
   }
-  EXPECT_FALSE(find(compare_with_paper(report), "polylidar", "time"));
+  EXPECT_FALSE(find(report::compare_with_paper(report), "polylidar", "time"));
 }
 
 std::vector<test::InventedShape> star_polygons(std::size_t count, std::int64_t n) {
@@ -105,7 +108,7 @@ std::vector<test::InventedShape> star_polygons(std::size_t count, std::int64_t n
 }
 
 TEST(PaperComparison, OfRandomPolygonsIsByConvexity) {
-  const auto comparisons = compare_with_paper(test::report_on_shapes(star_polygons(61, 8000)));
+  const auto comparisons = report::compare_with_paper(test::report_on_shapes(star_polygons(61, 8000)));
   EXPECT_EQ(comparisons.size(), 4U);  // error and time of Polylidar in two classes
   const auto high = find(comparisons, "polylidar", "time", "high (from 0.75)");
   const auto low = find(comparisons, "polylidar", "time", "low (below 0.55)");
@@ -115,7 +118,7 @@ TEST(PaperComparison, OfRandomPolygonsIsByConvexity) {
   EXPECT_DOUBLE_EQ(high->measured.value_or(-1), 5);
   EXPECT_EQ(low->published, 4.7);
   EXPECT_DOUBLE_EQ(low->measured.value_or(-1), 7);
-  EXPECT_TRUE(compare_with_paper(test::report_on_shapes(star_polygons(61, 4000))).empty());
+  EXPECT_TRUE(report::compare_with_paper(test::report_on_shapes(star_polygons(61, 4000))).empty());
 }
 
 /// The invented report with only California with holes at n points.
@@ -130,7 +133,7 @@ json steps_report(std::int64_t n) {
 }
 
 TEST(PaperComparison, OfStepsIsForThePapersCaseAlone) {
-  const auto comparisons = compare_with_paper(steps_report(64000));
+  const auto comparisons = report::compare_with_paper(steps_report(64000));
   // Polylidar 16 ms, in halves for triangulation and shape, and 0.64 ms for the polygon; the wobble's median
   // is 1 %.
   const auto total = find(comparisons, "polylidar", "time");
@@ -150,20 +153,20 @@ TEST(PaperComparison, OfStepsIsForThePapersCaseAlone) {
 }
 
 TEST(PaperComparison, OfStepsIsNotForOtherCases) {
-  EXPECT_TRUE(compare_with_paper(steps_report(32000)).empty());
-  EXPECT_TRUE(compare_with_paper(test::invented_report({64000})).empty());
+  EXPECT_TRUE(report::compare_with_paper(steps_report(32000)).empty());
+  EXPECT_TRUE(report::compare_with_paper(test::invented_report({64000})).empty());
   json solid = steps_report(64000);
   for (json& run : solid["runs"]) run["holes"] = false;
-  EXPECT_TRUE(compare_with_paper(solid).empty());
+  EXPECT_TRUE(report::compare_with_paper(solid).empty());
 }
 
 TEST(PaperComparison, SpatialitesStepsAreToldByTheMethodThatHasThem) {
   json report = steps_report(64000);
-  EXPECT_FALSE(find(compare_with_paper(report), "spatialite", "triangulation"));
+  EXPECT_FALSE(find(report::compare_with_paper(report), "spatialite", "triangulation"));
   json told = test::run_on(report, "polylidar", "ca");
   told["method"] = "spatialite_steps";
   report["runs"].push_back(told);
-  const auto comparisons = compare_with_paper(report);
+  const auto comparisons = report::compare_with_paper(report);
   const auto step = find(comparisons, "spatialite_steps", "triangulation");
   ASSERT_TRUE(step);
   EXPECT_EQ(step->published, 234.2);
@@ -176,13 +179,13 @@ TEST(PaperComparison, SpatialitesStepsAreToldByTheMethodThatHasThem) {
 }
 
 /// A comparison that `reason` is meant for, by what it names.
-Comparison example_of(const json& reason) {
+report::Comparison example_of(const json& reason) {
   const auto first = [&](const char* key, const std::string& otherwise) {
     if (!reason.contains(key)) return otherwise;
     const json& value = reason.at(key);
     return (value.is_array() ? value.at(0) : value).get<std::string>();
   };
-  Comparison comparison = with_ratio(reason.value("we_are", "lower") == "lower" ? 0.5 : 2);
+  report::Comparison comparison = with_ratio(reason.value("we_are", "lower") == "lower" ? 0.5 : 2);
   comparison.where = first("where", comparison.where);
   comparison.method = first("method", comparison.method);
   comparison.quantity = first("quantity", comparison.quantity);
@@ -190,36 +193,36 @@ Comparison example_of(const json& reason) {
 }
 
 TEST(PaperComparison, EveryReasonIsForADirectionMethodAndQuantityThatThereIs) {
-  for (const json& reason : paper().at("differences").at("reasons")) {
-    Comparison comparison = example_of(reason);
-    EXPECT_TRUE(reason_of(comparison)) << reason;
+  for (const json& reason : report::paper().at("differences").at("reasons")) {
+    report::Comparison comparison = example_of(reason);
+    EXPECT_TRUE(report::reason_of(comparison)) << reason;
     const std::string text = reason.at("reason").get<std::string>();
     if (reason.contains("method")) {
       comparison.method = "unheard_of";
-      EXPECT_NE(reason_of(comparison), text);
+      EXPECT_NE(report::reason_of(comparison), text);
       comparison = example_of(reason);
     }
     if (reason.contains("quantity")) {
       comparison.quantity = "unheard of";
-      EXPECT_NE(reason_of(comparison), text);
+      EXPECT_NE(report::reason_of(comparison), text);
       comparison = example_of(reason);
     }
     if (reason.contains("where")) {
       comparison.where = "Table 0";
-      EXPECT_NE(reason_of(comparison), text);
+      EXPECT_NE(report::reason_of(comparison), text);
       comparison = example_of(reason);
     }
     if (reason.contains("we_are")) {
       EXPECT_TRUE(reason["we_are"] == "lower" || reason["we_are"] == "higher") << reason;
       comparison.measured = comparison.published * comparison.published / *comparison.measured;
-      EXPECT_NE(reason_of(comparison), text);
+      EXPECT_NE(report::reason_of(comparison), text);
     }
   }
 }
 
 TEST(PaperComparison, WhatNobodyHeardOfHasNoReasonOfAMethod) {
-  const Comparison unheard = {"Table 0", "", "unheard_of", "unheard of", 1, 2};
-  EXPECT_EQ(reason_of(unheard), std::nullopt);
+  const report::Comparison unheard = {"Table 0", "", "unheard_of", "unheard of", 1, 2};
+  EXPECT_EQ(report::reason_of(unheard), std::nullopt);
 }
 
 TEST(DifferencesTable, HasValuePaperHereRatioAndWhetherAReasonIsKnown) {
@@ -228,12 +231,12 @@ TEST(DifferencesTable, HasValuePaperHereRatioAndWhetherAReasonIsKnown) {
   for (json& run : report["runs"]) {
     if (run["method"] == "polylidar") run["metrics"]["l2_paper"] = 0.128;
   }
-  const TableSection section = differences_table({report});
+  const table::TableSection section = report::differences_table({report});
   const auto& rows = section.table.rows();
   ASSERT_EQ(rows.size(), 9U);
   EXPECT_EQ(rows[1],
             (std::vector<std::string>{"Table IV, Polylidar: L2 mean, %", "12.8", "12.8", "1.00", "–"}));
-  const auto reason = reason_of({"Table IV", "", "polylidar", "time", 1.2, 3});
+  const auto reason = report::reason_of({"Table IV", "", "polylidar", "time", 1.2, 3});
   EXPECT_EQ(rows[2], (std::vector<std::string>{"Table IV, Polylidar: time, ms", "1.2", "3.00", "2.50",
                                                reason ? rows[2].back() : "not known"}));
   EXPECT_EQ(rows[2].back().starts_with("["), reason.has_value()) << rows[2].back();
@@ -241,15 +244,16 @@ TEST(DifferencesTable, HasValuePaperHereRatioAndWhetherAReasonIsKnown) {
 }
 
 TEST(DifferencesTable, NamesTheClassOfAValue) {
-  const TableSection section = differences_table({test::report_on_shapes(star_polygons(61, 8000))});
+  const table::TableSection section =
+      report::differences_table({test::report_on_shapes(star_polygons(61, 8000))});
   const auto& rows = section.table.rows();
   ASSERT_EQ(rows.size(), 5U);
   EXPECT_EQ(rows[2][0], "Table V, high (from 0.75), Polylidar: time, ms");
 }
 
 TEST(DifferencesTable, IsEmptyForWhatThePaperHasNoTableOf) {
-  EXPECT_TRUE(differences_table({test::invented_report({2000})}).table.empty());
-  EXPECT_TRUE(differences_table({}).table.empty());
+  EXPECT_TRUE(report::differences_table({test::invented_report({2000})}).table.empty());
+  EXPECT_TRUE(report::differences_table({}).table.empty());
 }
 
 }  // namespace

@@ -62,7 +62,7 @@ TEST(PclConcaveHull, HasHolesAndSeveralPolygons) {
   const MultiPolygon hull = pcl_hull(points, 0.1);
   EXPECT_EQ(hull.size(), 2U);
   EXPECT_EQ(hole_count(hull), 1U);
-  EXPECT_EQ(invalid_reason(hull), "");
+  EXPECT_EQ(metrics::invalid_reason(hull), "");
   EXPECT_NEAR(polylidar::area(hull), 2 - kHoleArea, 2 * kAreaTolerance);
 }
 
@@ -87,8 +87,8 @@ TEST(PclConcaveHull, IsNearlyTheCoresAlphaShape) {
     const MultiPolygon core =
         polylidar::to_coordinates(polylidar::concave_hull(points, {.alpha = alpha}), points);
     const MultiPolygon hull = pcl_hull(points, alpha);
-    ASSERT_EQ(invalid_reason(hull), "");
-    EXPECT_LT(*area_scores(hull, core).l2, 1e-3);
+    ASSERT_EQ(metrics::invalid_reason(hull), "");
+    EXPECT_LT(*metrics::area_scores(hull, core).l2, 1e-3);
   }
 }
 

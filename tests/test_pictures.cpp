@@ -38,8 +38,8 @@ PointSet square(std::size_t count) {
   return set;
 }
 
-RunRecord record(const std::string& dataset, double l2) {
-  RunRecord result;
+record::RunRecord record(const std::string& dataset, double l2) {
+  record::RunRecord result;
   result.method = "polylidar";
   result.dataset = dataset;
   result.n = 10;
@@ -56,7 +56,7 @@ const MultiPolygon kTriangle = {{{{100, 200}, {110, 200}, {105, 210}}, {}}};
 class PicturesTest : public ::testing::Test {
  protected:
   fs::path folder() const { return folder_.path(); }
-  std::vector<json> lines() const { return load_json_lines(folder() / kPicturesFile).lines; }
+  std::vector<json> lines() const { return record::load_json_lines(folder() / record::kPicturesFile).lines; }
 
   /// The data sets whose results are kept.
   std::set<std::string> kept() const {
@@ -72,11 +72,11 @@ class PicturesTest : public ::testing::Test {
 };
 
 TEST_F(PicturesTest, ACaseIsTheRunsNameWithoutMethodAndProtocol) {
-  EXPECT_EQ(case_of_run("polylidar/ca/n:2000/holes:1/protocol:paper"), "ca/n:2000/holes:1");
+  EXPECT_EQ(record::case_of_run("polylidar/ca/n:2000/holes:1/protocol:paper"), "ca/n:2000/holes:1");
 }
 
 TEST_F(PicturesTest, StandOnAGridThatGivesThePlacesBack) {
-  PictureBook(folder(), 1).add(record("square", 0.5), square(4), kTriangle);
+  record::PictureBook(folder(), 1).add(record("square", 0.5), square(4), kTriangle);
   ASSERT_EQ(lines().size(), 2U);
   const json drawn_case = lines()[0];
   const json result = lines()[1];
@@ -89,34 +89,34 @@ TEST_F(PicturesTest, StandOnAGridThatGivesThePlacesBack) {
   EXPECT_NEAR(x(2), 110, step / 2);
   EXPECT_NEAR(x(4), 105, step / 2);
   EXPECT_EQ(result.at("run"), "polylidar/square/n:10/holes:0/protocol:paper");
-  EXPECT_EQ(validate_file(folder() / kPicturesFile), std::vector<std::string>());
+  EXPECT_EQ(record::validate_file(folder() / record::kPicturesFile), std::vector<std::string>());
 }
 
 TEST_F(PicturesTest, OfManyPointsFewAreKept) {
-  PictureBook(folder(), 1).add(record("square", 0.5), square(10001), kTriangle);
+  record::PictureBook(folder(), 1).add(record("square", 0.5), square(10001), kTriangle);
   const json drawn_case = lines()[0];
   EXPECT_EQ(drawn_case.at("points_total"), 10001);
-  EXPECT_EQ(drawn_case.at("points").size(), 2 * PictureBook::kMostPoints);
+  EXPECT_EQ(drawn_case.at("points").size(), 2 * record::PictureBook::kMostPoints);
   // They reach from the first to nearly the last, which lies in the other corner.
   EXPECT_EQ(drawn_case.at("points")[0], 0);
   EXPECT_GT(drawn_case.at("points").back().get<int>(), 65400);
 }
 
 TEST_F(PicturesTest, ACaseIsWrittenOnceForAllItsResultsAndStarts) {
-  PictureBook(folder(), 2).add(record("square", 0.5), square(4), kTriangle);
-  PictureBook(folder(), 2).add(record("square", 0.4), square(4), kTriangle);
+  record::PictureBook(folder(), 2).add(record("square", 0.5), square(4), kTriangle);
+  record::PictureBook(folder(), 2).add(record("square", 0.4), square(4), kTriangle);
   ASSERT_EQ(lines().size(), 3U);
   EXPECT_EQ(lines()[0].at("kind"), "case");
   EXPECT_EQ(lines()[2].at("kind"), "result");
 }
 
 TEST_F(PicturesTest, OfALargePlanTheWorstOfEachFamilyAreKept) {
-  const std::size_t many = PictureBook::kAllPictures + 1;
-  const std::size_t most = PictureBook::kWorstPictures;
-  PictureBook(folder(), many).add(record("star-1", 0.9), square(4), kTriangle);
+  const std::size_t many = record::PictureBook::kAllPictures + 1;
+  const std::size_t most = record::PictureBook::kWorstPictures;
+  record::PictureBook(folder(), many).add(record("star-1", 0.9), square(4), kTriangle);
   {
     // A second start knows what the first one has kept.
-    PictureBook book(folder(), many);
+    record::PictureBook book(folder(), many);
     for (std::size_t k = 2; k <= most + 1; ++k)
       book.add(record("star-" + std::to_string(k), 0.5), square(4), kTriangle);
     book.add(record("star-100", 0.1), square(4), kTriangle);
@@ -140,7 +140,7 @@ TEST_F(PicturesTest, OfALargePlanTheWorstOfEachFamilyAreKept) {
 }
 
 TEST_F(PicturesTest, AResultThatCannotBeDrawnIsLeftOut) {
-  PictureBook book(folder(), 1);
+  record::PictureBook book(folder(), 1);
   const double nan = std::numeric_limits<double>::quiet_NaN();
   book.add(record("square", 0.5), square(4), {{{{100, 200}, {nan, 200}, {105, 210}}, {}}});
   book.add(record("square", 0.5), square(4), {{{{100, 200}, {1e300, 200}, {105, 210}}, {}}});
@@ -150,8 +150,8 @@ TEST_F(PicturesTest, AResultThatCannotBeDrawnIsLeftOut) {
 }
 
 TEST_F(PicturesTest, AFileOfSomethingElseIsSaid) {
-  testing::write_text(folder() / kPicturesFile, "{\"kind\": \"row\"}\n");
-  EXPECT_THROW(PictureBook(folder(), 1), std::runtime_error);
+  testing::write_text(folder() / record::kPicturesFile, "{\"kind\": \"row\"}\n");
+  EXPECT_THROW(record::PictureBook(folder(), 1), std::runtime_error);
 }
 
 TEST_F(PicturesTest, OfARunAreThereForItsReport) {
@@ -163,10 +163,10 @@ TEST_F(PicturesTest, OfARunAreThereForItsReport) {
     return testing::run_program(words, options);
   };
   ASSERT_EQ(hullbench({"run", plan, "--out", "whole"}).code, 0);
-  EXPECT_EQ(validate_file(folder() / "whole" / kPicturesFile), std::vector<std::string>());
-  const std::vector<json> whole = load_json_lines(folder() / "whole" / kPicturesFile).lines;
+  EXPECT_EQ(record::validate_file(folder() / "whole" / record::kPicturesFile), std::vector<std::string>());
+  const std::vector<json> whole = record::load_json_lines(folder() / "whole" / record::kPicturesFile).lines;
   std::set<std::string> runs;
-  for (const json& line : load_json_lines(folder() / "whole/runs.jsonl").lines)
+  for (const json& line : record::load_json_lines(folder() / "whole/runs.jsonl").lines)
     runs.insert(line.at("name").get<std::string>());
   for (const json& line : whole) {
     if (line.at("kind") == "result") runs.erase(line.at("run").get<std::string>());
@@ -178,17 +178,17 @@ TEST_F(PicturesTest, OfARunAreThereForItsReport) {
     ASSERT_EQ(hullbench({"run", plan, "--out", out, "--shard", shard}).code, 0);
   }
   ASSERT_EQ(hullbench({"merge", "shard1", "shard2", "--out", "merged"}).code, 0);
-  const std::vector<json> merged = load_json_lines(folder() / "merged" / kPicturesFile).lines;
+  const std::vector<json> merged = record::load_json_lines(folder() / "merged" / record::kPicturesFile).lines;
   EXPECT_EQ(std::set<json>(merged.begin(), merged.end()), std::set<json>(whole.begin(), whole.end()));
 
   const Outcome outcome = hullbench({"report", "whole", "--out", "drawn"});
   ASSERT_EQ(outcome.code, 0) << outcome.err;
-  EXPECT_EQ(load_json_lines(folder() / "drawn" / kPicturesFile).lines, whole);
-  EXPECT_EQ(validate_file(folder() / "drawn/report.json"), std::vector<std::string>());
+  EXPECT_EQ(record::load_json_lines(folder() / "drawn" / record::kPicturesFile).lines, whole);
+  EXPECT_EQ(record::validate_file(folder() / "drawn/report.json"), std::vector<std::string>());
   EXPECT_EQ(hullbench({"report", "nowhere", "--out", "drawn"}).code, 2);
   // Into itself would be to remove what is to be read.
   EXPECT_EQ(hullbench({"report", "whole", "--out", "whole"}).code, 2);
-  EXPECT_EQ(load_json_lines(folder() / "whole" / kPicturesFile).lines, whole);
+  EXPECT_EQ(record::load_json_lines(folder() / "whole" / record::kPicturesFile).lines, whole);
 }
 
 }  // namespace

@@ -72,7 +72,8 @@ json plan_with_cases(const std::string& cases) {
 /// What is said about such a plan.
 std::string complaint_about_cases(const std::string& cases) {
   try {
-    check_plan(parse_plan(plan_with_cases(cases).dump(), "plan 'small'"), kMethods, datasets_and_families());
+    plan::check_plan(plan::parse_plan(plan_with_cases(cases).dump(), "plan 'small'"), kMethods,
+                     datasets_and_families());
   } catch (const ConfigurationError& error) {
     return error.what();
   }
@@ -99,9 +100,9 @@ std::string refusal_of(const Work& work) {
   return "nothing";
 }
 
-std::vector<std::string> names_of(const std::vector<PlannedRun>& runs) {
+std::vector<std::string> names_of(const std::vector<plan::PlannedRun>& runs) {
   std::vector<std::string> names;
-  for (const PlannedRun& run : runs) names.push_back(run.name);
+  for (const plan::PlannedRun& run : runs) names.push_back(run.name);
   return names;
 }
 
@@ -110,7 +111,7 @@ std::string complaint(const std::string& pointer, const json& value) {
   json plan = small_plan();
   plan[json::json_pointer(pointer)] = value;
   try {
-    check_plan(parse_plan(plan.dump(), "plan 'small'"), kMethods, known_datasets());
+    plan::check_plan(plan::parse_plan(plan.dump(), "plan 'small'"), kMethods, known_datasets());
   } catch (const ConfigurationError& error) {
     return error.what();
   }
@@ -118,7 +119,7 @@ std::string complaint(const std::string& pointer, const json& value) {
 }
 
 TEST(Plan, DefaultsAndValues) {
-  const Plan plan = parse_plan(small_plan().dump(), "here");
+  const plan::Plan plan = plan::parse_plan(small_plan().dump(), "here");
   EXPECT_EQ(plan.name, "small");
   EXPECT_EQ(plan.title, "small");
   EXPECT_EQ(plan.repetitions, 10);
@@ -139,30 +140,30 @@ TEST(Plan, SurvivesJson) {
   source["paper"] = "Table 6";
   source["methods"][0]["note"] = "fast";
   source["methods"][0]["datasets"] = {"ca"};
-  const json once = plan_to_json(parse_plan(source.dump(), "here"));
-  EXPECT_EQ(plan_to_json(parse_plan(once.dump(), "there")), once);
+  const json once = plan::plan_to_json(plan::parse_plan(source.dump(), "here"));
+  EXPECT_EQ(plan::plan_to_json(plan::parse_plan(once.dump(), "there")), once);
   for (const auto& [key, value] : source.items()) EXPECT_EQ(once.at(key), value) << key;
 }
 
 TEST(Plan, PassesShareTheRepetitions) {
   const auto shares = [](int repetitions) {
-    return std::vector{share_of_pass(repetitions, 3, 1), share_of_pass(repetitions, 3, 2),
-                       share_of_pass(repetitions, 3, 3)};
+    return std::vector{plan::share_of_pass(repetitions, 3, 1), plan::share_of_pass(repetitions, 3, 2),
+                       plan::share_of_pass(repetitions, 3, 3)};
   };
   EXPECT_EQ(shares(10), (std::vector{4, 3, 3}));
   EXPECT_EQ(shares(11), (std::vector{4, 4, 3}));
   EXPECT_EQ(shares(3), (std::vector{1, 1, 1}));
   EXPECT_EQ(shares(2), (std::vector{1, 1, 0}));
   EXPECT_EQ(shares(1), (std::vector{1, 0, 0}));
-  EXPECT_EQ(share_of_pass(7, 1, 1), 7);
+  EXPECT_EQ(plan::share_of_pass(7, 1, 1), 7);
 }
 
 TEST(Plan, APlanHasOnePassUnlessItSaysSo) {
   json source = small_plan();
-  EXPECT_EQ(parse_plan(source.dump(), "here").passes, 1);
-  for (const json& wrong : {json(0), json(kMaxPasses + 1), json("three")}) {
+  EXPECT_EQ(plan::parse_plan(source.dump(), "here").passes, 1);
+  for (const json& wrong : {json(0), json(plan::kMaxPasses + 1), json("three")}) {
     source["passes"] = wrong;
-    EXPECT_THROW(parse_plan(source.dump(), "here"), ConfigurationError) << wrong;
+    EXPECT_THROW(plan::parse_plan(source.dump(), "here"), ConfigurationError) << wrong;
   }
 }
 
@@ -171,34 +172,36 @@ TEST(Plan, AParameterCanBeScaledByTheSpacingOfThePoints) {
   source["methods"][0]["protocol"] = "tuned";  // which may not read the ground truth
   source["methods"][0]["parameters"] = {
       {"alpha", {{"scaled", 1.5}}}, {"area", {{"scaled", 1.5}, {"power", 2}}}, {"max_edge_length", nullptr}};
-  const Plan plan = parse_plan(source.dump(), "here");
+  const plan::Plan plan = plan::parse_plan(source.dump(), "here");
   const std::vector<polylidar::Point> points = {{0, 0}, {6, 0}, {6, 6}, {0, 6}};  // spacing 3
-  const auto chosen = choose_parameters(plan.methods[0], plan.expanded_cases[0], {points, 1, false, {}});
+  const auto chosen =
+      plan::choose_parameters(plan.methods[0], plan.expanded_cases[0], {points, 1, false, {}});
   EXPECT_DOUBLE_EQ(chosen.at("alpha"), 4.5);
   EXPECT_DOUBLE_EQ(chosen.at("area"), 20.25);
   EXPECT_EQ(chosen.at("max_edge_length"), std::numeric_limits<double>::infinity());
-  const json once = plan_to_json(plan);
-  EXPECT_EQ(plan_to_json(parse_plan(once.dump(), "there")), once);
+  const json once = plan::plan_to_json(plan);
+  EXPECT_EQ(plan::plan_to_json(plan::parse_plan(once.dump(), "there")), once);
 }
 
 TEST(Plan, AValueForOneNumberOfPointsGoesBeforeTheShapes) {
   json source = small_plan();
   source["methods"][1]["parameters"]["c"]["cases"] = {
       {"ca", 2.0}, {"ca/n:500", 3.0}, {"ca/holes/n:500", nullptr}, {"ca/holes/n:1000", 5.0}};
-  const Plan plan = parse_plan(source.dump(), "here");
-  check_plan(plan, kMethods, known_datasets());
+  const plan::Plan plan = plan::parse_plan(source.dump(), "here");
+  plan::check_plan(plan, kMethods, known_datasets());
   std::vector<double> values;
-  for (const PlanCase& plan_case : plan.expanded_cases)
-    values.push_back(choose_parameters(plan.methods[1], plan_case, {}).at("c"));
+  for (const plan::PlanCase& plan_case : plan.expanded_cases)
+    values.push_back(plan::choose_parameters(plan.methods[1], plan_case, {}).at("c"));
   EXPECT_EQ(values, (std::vector<double>{3, 2, std::numeric_limits<double>::infinity(), 5}));
-  const json once = plan_to_json(plan);
-  EXPECT_EQ(plan_to_json(parse_plan(once.dump(), "there")), once);
+  const json once = plan::plan_to_json(plan);
+  EXPECT_EQ(plan::plan_to_json(plan::parse_plan(once.dump(), "there")), once);
   source["methods"][1]["parameters"]["c"]["cases"].erase("ca/holes/n:1000");
-  EXPECT_THROW(check_plan(parse_plan(source.dump(), "here"), kMethods, known_datasets()), ConfigurationError);
+  EXPECT_THROW(plan::check_plan(plan::parse_plan(source.dump(), "here"), kMethods, known_datasets()),
+               ConfigurationError);
 }
 
 TEST(Plan, RunsComeCaseByCaseWithTheirNames) {
-  const auto runs = planned_runs(parse_plan(small_plan().dump(), "here"), "");
+  const auto runs = plan::planned_runs(plan::parse_plan(small_plan().dump(), "here"), "");
   ASSERT_EQ(runs.size(), 8U);
   EXPECT_EQ(runs[0].name, "polylidar/ca/n:500/holes:0/protocol:paper");
   EXPECT_EQ(runs[1].name, "spatialite/ca/n:500/holes:0/protocol:paper");
@@ -210,29 +213,30 @@ TEST(Plan, ACaseCanStandForSeveralDataSets) {
   source["cases"] = json::parse(R"([{"dataset": ["solid", "ca"], "n": [500, 1000]},
                                     {"dataset": "ca", "holes": [true], "n": [500]}])");
   source["methods"][1]["parameters"]["c"] = 2.0;
-  const Plan plan = parse_plan(source.dump(), "here");
-  check_plan(plan, kMethods, known_datasets());
+  const plan::Plan plan = plan::parse_plan(source.dump(), "here");
+  plan::check_plan(plan, kMethods, known_datasets());
   std::vector<std::string> cases;
-  for (const PlanCase& one : plan.expanded_cases) cases.push_back(one.shape() + " " + std::to_string(one.n));
+  for (const plan::PlanCase& one : plan.expanded_cases)
+    cases.push_back(one.shape() + " " + std::to_string(one.n));
   EXPECT_EQ(cases,
             (std::vector<std::string>{"solid 500", "solid 1000", "ca 500", "ca 1000", "ca/holes 500"}));
-  const json once = plan_to_json(plan);
+  const json once = plan::plan_to_json(plan);
   EXPECT_EQ(once.at("cases"), source["cases"]);
-  EXPECT_EQ(plan_to_json(parse_plan(once.dump(), "there")), once);
+  EXPECT_EQ(plan::plan_to_json(plan::parse_plan(once.dump(), "there")), once);
 }
 
 TEST(Plan, MembersStandForTheShapesOfAFamily) {
   const json source =
       plan_with_cases(R"([{"dataset": ["star", "comb"], "members": 2, "holes": [false, true], "n": [500]}])");
-  const Plan plan = parse_plan(source.dump(), "here");
+  const plan::Plan plan = plan::parse_plan(source.dump(), "here");
   std::vector<std::string> cases;
-  for (const PlanCase& one : plan.expanded_cases) cases.push_back(one.shape());
+  for (const plan::PlanCase& one : plan.expanded_cases) cases.push_back(one.shape());
   EXPECT_EQ(cases, (std::vector<std::string>{"star-1", "star-1/holes", "star-2", "star-2/holes", "comb-1",
                                              "comb-1/holes", "comb-2", "comb-2/holes"}));
-  EXPECT_EQ(planned_runs(plan, "").front().name, "polylidar/star-1/n:500/holes:0/protocol:paper");
-  const json once = plan_to_json(plan);
+  EXPECT_EQ(plan::planned_runs(plan, "").front().name, "polylidar/star-1/n:500/holes:0/protocol:paper");
+  const json once = plan::plan_to_json(plan);
   EXPECT_EQ(once.at("cases"), source["cases"]);
-  EXPECT_EQ(parse_plan(once.dump(), "there").expanded_cases.size(), plan.expanded_cases.size());
+  EXPECT_EQ(plan::parse_plan(once.dump(), "there").expanded_cases.size(), plan.expanded_cases.size());
 }
 
 TEST(Plan, MembersAreLimitedToTheFamily) {
@@ -276,43 +280,45 @@ TEST(Plan, AMethodCanKeepToAFamily) {
   json source =
       plan_with_cases(R"([{"dataset": "star", "members": 2, "n": [500]}, {"dataset": "solid", "n": [500]}])");
   source["methods"][0]["datasets"] = {"star"};
-  const Plan plan = parse_plan(source.dump(), "here");
-  EXPECT_NO_THROW(check_plan(plan, kMethods, datasets_and_families()));
-  EXPECT_EQ(planned_runs(plan, "").size(), 2U);
+  const plan::Plan plan = plan::parse_plan(source.dump(), "here");
+  EXPECT_NO_THROW(plan::check_plan(plan, kMethods, datasets_and_families()));
+  EXPECT_EQ(plan::planned_runs(plan, "").size(), 2U);
 }
 
 TEST(Plan, RecordingsTakeThePlaceOfSimulatedFloors) {
   const json source =
       plan_with_cases(R"([{"dataset": "floor", "members": 11}, {"dataset": "ca", "n": [500]}])");
-  Plan plan = parse_plan(source.dump(), "here");
-  use_recordings(plan, 2);
+  plan::Plan plan = plan::parse_plan(source.dump(), "here");
+  plan::use_recordings(plan, 2);
   const std::vector<std::string> names = {"polylidar/recorded-1/n:all/holes:0/protocol:paper",
                                           "polylidar/recorded-2/n:all/holes:0/protocol:paper",
                                           "polylidar/ca/n:500/holes:0/protocol:paper"};
-  EXPECT_EQ(names_of(planned_runs(plan, "")), names);
-  EXPECT_EQ(names_of(planned_runs(parse_plan(plan_to_json(plan).dump(), "there"), "")), names);
+  EXPECT_EQ(names_of(plan::planned_runs(plan, "")), names);
+  EXPECT_EQ(names_of(plan::planned_runs(plan::parse_plan(plan::plan_to_json(plan).dump(), "there"), "")),
+            names);
 }
 
 TEST(Plan, RecordingsNeedSimulatedFloors) {
-  Plan plan = parse_plan(small_plan().dump(), "here");
-  EXPECT_TRUE(names_all(refusal_of([&] { use_recordings(plan, 2); }), {"'small'", "--recordings", "'rgbd'"}));
+  plan::Plan plan = plan::parse_plan(small_plan().dump(), "here");
+  EXPECT_TRUE(
+      names_all(refusal_of([&] { plan::use_recordings(plan, 2); }), {"'small'", "--recordings", "'rgbd'"}));
 }
 
 TEST(Plan, FilterIsSearchedInNames) {
-  const Plan plan = parse_plan(small_plan().dump(), "here");
-  EXPECT_EQ(planned_runs(plan, "polylidar").size(), 4U);
-  EXPECT_EQ(planned_runs(plan, "^ca").size(), 0U);
-  EXPECT_EQ(planned_runs(plan, "n:500/.*holes:1").size(), 2U);
-  EXPECT_THROW(planned_runs(plan, "n:(500"), ConfigurationError);
+  const plan::Plan plan = plan::parse_plan(small_plan().dump(), "here");
+  EXPECT_EQ(plan::planned_runs(plan, "polylidar").size(), 4U);
+  EXPECT_EQ(plan::planned_runs(plan, "^ca").size(), 0U);
+  EXPECT_EQ(plan::planned_runs(plan, "n:500/.*holes:1").size(), 2U);
+  EXPECT_THROW(plan::planned_runs(plan, "n:(500"), ConfigurationError);
 }
 
 TEST(Plan, AMethodCanKeepToSomeDataSets) {
   json source = small_plan();
   source["cases"].push_back({{"dataset", "solid"}, {"n", {500}}});
   source["methods"][1]["datasets"] = {"ca"};
-  const Plan plan = parse_plan(source.dump(), "here");
-  check_plan(plan, kMethods, known_datasets());
-  EXPECT_EQ(planned_runs(plan, "solid").size(), 1U);
+  const plan::Plan plan = plan::parse_plan(source.dump(), "here");
+  plan::check_plan(plan, kMethods, known_datasets());
+  EXPECT_EQ(plan::planned_runs(plan, "solid").size(), 1U);
 }
 
 TEST(Plan, NothingIsWrongWithTheSmallPlan) {
@@ -388,36 +394,37 @@ TEST(Plan, MissingKeysAreNamed) {
   for (const char* key : {"name", "cases", "methods"}) {
     json source = small_plan();
     source.erase(key);
-    EXPECT_TRUE(names_all(refusal_of([&] { parse_plan(source.dump(), "plan 'small'"); }),
+    EXPECT_TRUE(names_all(refusal_of([&] { plan::parse_plan(source.dump(), "plan 'small'"); }),
                           {"plan 'small'", "'" + std::string(key) + "'"}));
   }
 }
 
 TEST(Plan, BrokenJsonIsRefusedWithItsPlace) {
-  EXPECT_TRUE(
-      names_all(refusal_of([] { parse_plan("{\n  \"name\": \"small\",\n  \"cases\" [\n}", "plan 'small'"); }),
-                {"plan 'small'", "JSON", "line 3, column 11"}));
-  EXPECT_THROW(parse_plan("", "here"), ConfigurationError);
-  EXPECT_THROW(parse_plan("[]", "here"), ConfigurationError);
+  EXPECT_TRUE(names_all(
+      refusal_of([] { plan::parse_plan("{\n  \"name\": \"small\",\n  \"cases\" [\n}", "plan 'small'"); }),
+      {"plan 'small'", "JSON", "line 3, column 11"}));
+  EXPECT_THROW(plan::parse_plan("", "here"), ConfigurationError);
+  EXPECT_THROW(plan::parse_plan("[]", "here"), ConfigurationError);
 }
 
-std::vector<std::string> datasets_of(const Plan& plan) {
+std::vector<std::string> datasets_of(const plan::Plan& plan) {
   std::vector<std::string> names;
-  for (const PlanCase& one : plan.expanded_cases) names.push_back(one.dataset);
+  for (const plan::PlanCase& one : plan.expanded_cases) names.push_back(one.dataset);
   return names;
 }
 
 TEST(Plan, EveryDataSetStandsWithEveryStress) {
-  const Plan plan = parse_plan(plan_with_cases(R"([{"dataset": ["ca", "star-2~noise:1"], "n": [9]},
+  const plan::Plan plan =
+      plan::parse_plan(plan_with_cases(R"([{"dataset": ["ca", "star-2~noise:1"], "n": [9]},
                           {"dataset": "star", "members": 2, "stress": ["noise:0", "outliers:2.5"], "n": [9]}])")
-                                   .dump(),
-                               "here");
+                           .dump(),
+                       "here");
   EXPECT_EQ(datasets_of(plan),
             (std::vector<std::string>{"ca", "star-2~noise:1", "star-1~noise:0", "star-1~outliers:2.5",
                                       "star-2~noise:0", "star-2~outliers:2.5"}));
-  EXPECT_EQ(planned_runs(plan, "")[1].name, "polylidar/star-2~noise:1/n:9/holes:0/protocol:paper");
-  EXPECT_NO_THROW(check_plan(plan, kMethods, datasets_and_families()));
-  EXPECT_EQ(datasets_of(parse_plan(plan_to_json(plan).dump(), "there")), datasets_of(plan));
+  EXPECT_EQ(plan::planned_runs(plan, "")[1].name, "polylidar/star-2~noise:1/n:9/holes:0/protocol:paper");
+  EXPECT_NO_THROW(plan::check_plan(plan, kMethods, datasets_and_families()));
+  EXPECT_EQ(datasets_of(plan::parse_plan(plan::plan_to_json(plan).dump(), "there")), datasets_of(plan));
 }
 
 TEST(Plan, MethodsThatKeepToAShapeOrAFamilyKeepToItUnderStressToo) {
@@ -425,7 +432,7 @@ TEST(Plan, MethodsThatKeepToAShapeOrAFamilyKeepToItUnderStressToo) {
       plan_with_cases(R"([{"dataset": ["ca", "star-2"], "stress": ["noise:0", "noise:1"], "n": [9]}])");
   const auto count = [&](const std::string& dataset) {
     document["methods"][0]["datasets"] = {dataset};
-    return planned_runs(parse_plan(document.dump(), "here"), "").size();
+    return plan::planned_runs(plan::parse_plan(document.dump(), "here"), "").size();
   };
   EXPECT_EQ(count("ca"), 2U);
   EXPECT_EQ(count("star"), 2U);
@@ -454,15 +461,15 @@ TEST(Plan, StressThatThereIsNotIsRefused) {
 
 TEST(Plan, AxisIsReadAndWritten) {
   json document = plan_with_cases(R"([{"dataset": "ca", "stress": ["noise:0", "noise:1"], "n": [9]}])");
-  EXPECT_FALSE(parse_plan(document.dump(), "here").axis);
+  EXPECT_FALSE(plan::parse_plan(document.dump(), "here").axis);
   document["axis"] = {{"of", "noise"}, {"title", "Noise"}, {"unit", "h"}};
-  const Plan plan = parse_plan(document.dump(), "here");
+  const plan::Plan plan = plan::parse_plan(document.dump(), "here");
   ASSERT_TRUE(plan.axis);
   EXPECT_EQ(plan.axis->of, "noise");
-  EXPECT_EQ(plan_to_json(plan).at("axis"), document["axis"]);
-  EXPECT_NO_THROW(check_plan(plan, kMethods, known_datasets()));
+  EXPECT_EQ(plan::plan_to_json(plan).at("axis"), document["axis"]);
+  EXPECT_NO_THROW(plan::check_plan(plan, kMethods, known_datasets()));
   document["axis"] = {{"of", "noise"}};
-  EXPECT_EQ(parse_plan(document.dump(), "here").axis->title, "noise");
+  EXPECT_EQ(plan::parse_plan(document.dump(), "here").axis->title, "noise");
 }
 
 TEST(Plan, EveryCaseHasAPlaceOnTheAxis) {
@@ -470,7 +477,7 @@ TEST(Plan, EveryCaseHasAPlaceOnTheAxis) {
       plan_with_cases(R"([{"dataset": "ca", "stress": ["noise:0"], "n": [9]}, {"dataset": "ca", "n": [9]}])");
   const auto check = [&](const char* of) {
     document["axis"] = {{"of", of}};
-    check_plan(parse_plan(document.dump(), "here"), kMethods, known_datasets());
+    plan::check_plan(plan::parse_plan(document.dump(), "here"), kMethods, known_datasets());
   };
   EXPECT_NO_THROW(check("n"));
   EXPECT_NO_THROW(check("sampling"));
@@ -480,9 +487,9 @@ TEST(Plan, EveryCaseHasAPlaceOnTheAxis) {
 TEST(Plan, AcceptedStatusesAreReadAndWritten) {
   json document = small_plan();
   document["accepted"] = {"error", "unsupported"};
-  const Plan plan = parse_plan(document.dump(), "here");
+  const plan::Plan plan = plan::parse_plan(document.dump(), "here");
   EXPECT_EQ(plan.accepted, (std::vector<std::string>{"error", "unsupported"}));
-  EXPECT_EQ(plan_to_json(plan).at("accepted"), document["accepted"]);
+  EXPECT_EQ(plan::plan_to_json(plan).at("accepted"), document["accepted"]);
   EXPECT_TRUE(
       names_all(complaint("/accepted", {"broken"}), {"accepted[0]", "timeout", "not_installed", "'broken'"}));
 }
@@ -500,20 +507,20 @@ TEST(Plan, ADefaultWithParametersSaysWhoseItIs) {
 TEST(Plan, IsFoundByNameOrByPath) {
   const testing::TemporaryFolder folder;
   std::ofstream(folder.path() / "small.json") << small_plan();
-  EXPECT_EQ(load_plan("small", folder.path()).name, "small");
-  EXPECT_EQ(load_plan((folder.path() / "small.json").string(), "/nowhere").name, "small");
+  EXPECT_EQ(plan::load_plan("small", folder.path()).name, "small");
+  EXPECT_EQ(plan::load_plan((folder.path() / "small.json").string(), "/nowhere").name, "small");
   EXPECT_TRUE(
-      names_all(refusal_of([&] { load_plan("smal", folder.path()); }), {"'smal'", "known are small"}));
+      names_all(refusal_of([&] { plan::load_plan("smal", folder.path()); }), {"'smal'", "known are small"}));
 }
 
 TEST(Plan, EveryReadyPlanIsGood) {
   std::vector<std::string> methods;
   int count = 0;
   for (const auto& entry : std::filesystem::directory_iterator(HULLBENCH_PLAN_FOLDER)) {
-    const Plan plan = load_plan(entry.path().string(), "");
+    const plan::Plan plan = plan::load_plan(entry.path().string(), "");
     EXPECT_EQ(plan.name, entry.path().stem().string());
-    for (const PlanMethod& method : plan.methods) methods.push_back(method.method);
-    EXPECT_NO_THROW(check_plan(plan, methods, datasets()));
+    for (const plan::PlanMethod& method : plan.methods) methods.push_back(method.method);
+    EXPECT_NO_THROW(plan::check_plan(plan, methods, datasets()));
     ++count;
   }
   EXPECT_GE(count, 3);
@@ -522,10 +529,10 @@ TEST(Plan, EveryReadyPlanIsGood) {
 // What is compared under one protocol got its parameters in one way.
 TEST(Plan, EveryRuleFromThePointsIsUnderAuto) {
   for (const auto& file : std::filesystem::directory_iterator(HULLBENCH_PLAN_FOLDER)) {
-    const Plan plan = load_plan(file.path().string(), "");
-    for (const PlanMethod& method : plan.methods) {
+    const plan::Plan plan = plan::load_plan(file.path().string(), "");
+    for (const plan::PlanMethod& method : plan.methods) {
       for (const auto& [name, choice] : method.parameters) {
-        const auto* rule = std::get_if<RuleChoice>(&choice);
+        const auto* rule = std::get_if<plan::RuleChoice>(&choice);
         const bool automatic = rule != nullptr && rule->rule.starts_with("auto_");
         const bool of_holes = name == "allow_holes";
         EXPECT_TRUE(of_holes || automatic == (method.protocol == "auto"))
@@ -540,12 +547,12 @@ TEST(Plan, StressSuitesAreQuickAndOnTheirAxes) {
   int suites = 0;
   for (const auto& entry : std::filesystem::directory_iterator(HULLBENCH_PLAN_FOLDER)) {
     if (!entry.path().stem().string().starts_with("stress_")) continue;
-    const Plan plan = load_plan(entry.path().string(), "");
+    const plan::Plan plan = plan::load_plan(entry.path().string(), "");
     EXPECT_EQ(plan.axis.has_value(), plan.name != "stress_degenerate") << plan.name;
     EXPECT_EQ(plan.repetitions, 1) << plan.name;
-    for (const PlanMethod& method : plan.methods) EXPECT_TRUE(method.datasets.empty()) << plan.name;
+    for (const plan::PlanMethod& method : plan.methods) EXPECT_TRUE(method.datasets.empty()) << plan.name;
     std::set<std::string> shapes;
-    for (const PlanCase& one : plan.expanded_cases) shapes.insert(base_shape(one.dataset));
+    for (const plan::PlanCase& one : plan.expanded_cases) shapes.insert(base_shape(one.dataset));
     EXPECT_GE(shapes.size(), 3U) << plan.name;
     cases += plan.expanded_cases.size();
     ++suites;
@@ -555,10 +562,10 @@ TEST(Plan, StressSuitesAreQuickAndOnTheirAxes) {
 }
 
 TEST(Plan, StatesIsThePapersExperiment) {
-  const Plan plan = load_plan("states", HULLBENCH_PLAN_FOLDER);
+  const plan::Plan plan = plan::load_plan("states", HULLBENCH_PLAN_FOLDER);
   EXPECT_EQ(plan.repetitions, 10);
   EXPECT_EQ(plan.expanded_cases.size(), 24U);
-  const auto count = [&](const std::string& filter) { return planned_runs(plan, filter).size(); };
+  const auto count = [&](const std::string& filter) { return plan::planned_runs(plan, filter).size(); };
   for (const char* method :
        {"^polylidar/.*protocol:paper", "^cgal_alpha_shape/.*protocol:paper", "^spatialite/"})
     EXPECT_EQ(count(method), 24U) << method;
@@ -570,40 +577,42 @@ TEST(Plan, StatesIsThePapersExperiment) {
 }
 
 TEST(Plan, StepsIsThePapersExperiment) {
-  const Plan plan = load_plan("steps", HULLBENCH_PLAN_FOLDER);
+  const plan::Plan plan = plan::load_plan("steps", HULLBENCH_PLAN_FOLDER);
   EXPECT_EQ(plan.repetitions, 30);
   ASSERT_EQ(plan.expanded_cases.size(), 1U);
   EXPECT_EQ(plan.expanded_cases[0].n, 64000);
-  for (const PlannedRun& run : planned_runs(plan, ""))
+  for (const plan::PlannedRun& run : plan::planned_runs(plan, ""))
     EXPECT_NE(run.name.find("/ca/n:64000/holes:1/"), std::string::npos);
   for (const char* method : {"polylidar", "cgal_alpha_shape", "spatialite", "postgis_steps", "chi_shape"})
-    EXPECT_EQ(planned_runs(plan, "^" + std::string(method) + "/.*protocol:paper").size(), 1U) << method;
-  EXPECT_EQ(planned_runs(plan, "^(spatialite|postgis)_steps/.*protocol:paper").size(), 2U);
+    EXPECT_EQ(plan::planned_runs(plan, "^" + std::string(method) + "/.*protocol:paper").size(), 1U) << method;
+  EXPECT_EQ(plan::planned_runs(plan, "^(spatialite|postgis)_steps/.*protocol:paper").size(), 2U);
 }
 
 TEST(Plan, RandomIsThePapersExperimentAndAThousandOtherShapes) {
-  const Plan plan = load_plan("random", HULLBENCH_PLAN_FOLDER);
+  const plan::Plan plan = plan::load_plan("random", HULLBENCH_PLAN_FOLDER);
   const auto count = [&](const std::string& family) {
-    return std::count_if(plan.expanded_cases.begin(), plan.expanded_cases.end(), [&](const PlanCase& one) {
-      return one.n == 8000 && split_member_name(one.dataset)->first == family;
-    });
+    return std::count_if(plan.expanded_cases.begin(), plan.expanded_cases.end(),
+                         [&](const plan::PlanCase& one) {
+                           return one.n == 8000 && split_member_name(one.dataset)->first == family;
+                         });
   };
   EXPECT_EQ(count("star"), 2 * 9800);
   EXPECT_EQ(plan.expanded_cases.size(), 2 * 9800 + 1000U);
-  for (const PlannedRun& run : planned_runs(plan, plan.filter))
+  for (const plan::PlannedRun& run : plan::planned_runs(plan, plan.filter))
     ASSERT_EQ(plan.methods[run.method_index].method, "polylidar");
-  EXPECT_EQ(planned_runs(plan, plan.filter).size(), 2 * plan.expanded_cases.size());
-  EXPECT_EQ(plan_to_json(plan).at("filter"), plan.filter);
+  EXPECT_EQ(plan::planned_runs(plan, plan.filter).size(), 2 * plan.expanded_cases.size());
+  EXPECT_EQ(plan::plan_to_json(plan).at("filter"), plan.filter);
 }
 
 TEST(Plan, RgbdIsThePapersExperiment) {
-  const Plan plan = load_plan("rgbd", HULLBENCH_PLAN_FOLDER);
+  const plan::Plan plan = plan::load_plan("rgbd", HULLBENCH_PLAN_FOLDER);
   EXPECT_EQ(plan.expanded_cases.size(), 11U);
-  EXPECT_EQ(planned_runs(plan, "^polylidar/floor-11/n:all/holes:0/protocol:paper$").size(), 1U);
+  EXPECT_EQ(plan::planned_runs(plan, "^polylidar/floor-11/n:all/holes:0/protocol:paper$").size(), 1U);
 }
 
-const PlanMethod& entry_of(const Plan& plan, const std::string& method, const std::string& protocol) {
-  const auto found = std::find_if(plan.methods.begin(), plan.methods.end(), [&](const PlanMethod& one) {
+const plan::PlanMethod& entry_of(const plan::Plan& plan, const std::string& method,
+                                 const std::string& protocol) {
+  const auto found = std::find_if(plan.methods.begin(), plan.methods.end(), [&](const plan::PlanMethod& one) {
     return one.method == method && one.protocol == protocol;
   });
   if (found == plan.methods.end())
@@ -612,20 +621,21 @@ const PlanMethod& entry_of(const Plan& plan, const std::string& method, const st
 }
 
 TEST(Plan, AlphabetIsThePapersExperiment) {
-  const Plan plan = load_plan("alphabet", HULLBENCH_PLAN_FOLDER);
+  const plan::Plan plan = plan::load_plan("alphabet", HULLBENCH_PLAN_FOLDER);
   ASSERT_EQ(plan.expanded_cases.size(), 26U);
   for (std::size_t i = 0; i < 26; ++i) {
     EXPECT_EQ(plan.expanded_cases[i].shape(), std::string("letter_") + static_cast<char>('a' + i));
     EXPECT_EQ(plan.expanded_cases[i].n, 2000);
   }
   EXPECT_EQ(
-      planned_runs(plan, "^(polylidar|cgal_alpha_shape|spatialite|postgis_legacy)/.*protocol:paper").size(),
+      plan::planned_runs(plan, "^(polylidar|cgal_alpha_shape|spatialite|postgis_legacy)/.*protocol:paper")
+          .size(),
       4 * 26U);
-  EXPECT_EQ(planned_runs(plan, "^postgis/.*protocol:auto").size(), 26U);
+  EXPECT_EQ(plan::planned_runs(plan, "^postgis/.*protocol:auto").size(), 26U);
   const PointSet letter = make_point_set("letter_o", false, 2000, plan.seed);
   const auto parameters = [&](const std::string& method, const std::string& protocol) {
-    return choose_parameters(entry_of(plan, method, protocol), plan.expanded_cases[14],
-                             {letter.points, letter.ground_truth_area, false, letter.ground_truth});
+    return plan::choose_parameters(entry_of(plan, method, protocol), plan.expanded_cases[14],
+                                   {letter.points, letter.ground_truth_area, false, letter.ground_truth});
   };
   const double alpha = 2 * std::sqrt(letter.ground_truth_area / 2000);
   EXPECT_EQ(parameters("polylidar", "paper"), (std::map<std::string, double>{{"alpha", alpha}}));
@@ -652,22 +662,22 @@ const polylidar::MultiPolygon kTwoSquares = {
     {{{2, 0}, {3, 0}, {3, 1}, {2, 1}}, {{{2.25, 0.25}, {2.25, 0.75}, {2.75, 0.75}, {2.75, 0.25}}}}};
 
 TEST(ParameterRule, ByName) {
-  for (const std::string& name : rule_names()) EXPECT_EQ(find_rule(name)->name, name);
-  EXPECT_EQ(find_rule("none"), nullptr);
-  EXPECT_TRUE(find_rule("paper_alpha")->reads_ground_truth);
-  EXPECT_TRUE(find_rule("paper_alpha_squared")->reads_ground_truth);
-  EXPECT_TRUE(find_rule("paper_target_percent")->reads_ground_truth);
-  EXPECT_TRUE(find_rule("paper_edge_length")->reads_ground_truth);
+  for (const std::string& name : plan::rule_names()) EXPECT_EQ(plan::find_rule(name)->name, name);
+  EXPECT_EQ(plan::find_rule("none"), nullptr);
+  EXPECT_TRUE(plan::find_rule("paper_alpha")->reads_ground_truth);
+  EXPECT_TRUE(plan::find_rule("paper_alpha_squared")->reads_ground_truth);
+  EXPECT_TRUE(plan::find_rule("paper_target_percent")->reads_ground_truth);
+  EXPECT_TRUE(plan::find_rule("paper_edge_length")->reads_ground_truth);
   for (const char* name :
        {"auto_perimeter", "auto_edge_length", "auto_circumradius", "auto_circumradius_squared"})
-    EXPECT_FALSE(find_rule(name)->reads_ground_truth) << name;
-  EXPECT_EQ(find_rule("hull_spacing"), nullptr) << "whose factor was never fitted";
+    EXPECT_FALSE(plan::find_rule(name)->reads_ground_truth) << name;
+  EXPECT_EQ(plan::find_rule("hull_spacing"), nullptr) << "whose factor was never fitted";
 }
 
 TEST(ParameterRule, RulesThatDoNotReadTheGroundTruthDoNotReadIt) {
   const auto points = unit_grid(5);
-  for (const std::string& name : rule_names()) {
-    const ParameterRule& rule = *find_rule(name);
+  for (const std::string& name : plan::rule_names()) {
+    const plan::ParameterRule& rule = *plan::find_rule(name);
     if (rule.reads_ground_truth) continue;
     EXPECT_EQ(rule.value({points, 1.0, true}), rule.value({points, 1e6, true, kTwoSquares})) << name;
   }
@@ -675,26 +685,27 @@ TEST(ParameterRule, RulesThatDoNotReadTheGroundTruthDoNotReadIt) {
 
 TEST(ParameterRule, PaperAlpha) {
   const auto points = unit_grid(10);
-  EXPECT_DOUBLE_EQ(paper_alpha({points, 400.0, false}), 4.0);
-  EXPECT_DOUBLE_EQ(paper_alpha_squared({points, 400.0, false}), 16.0);
-  EXPECT_EQ(paper_alpha({{}, 400.0, false}), 0.0);
+  EXPECT_DOUBLE_EQ(plan::paper_alpha({points, 400.0, false}), 4.0);
+  EXPECT_DOUBLE_EQ(plan::paper_alpha_squared({points, 400.0, false}), 16.0);
+  EXPECT_EQ(plan::paper_alpha({{}, 400.0, false}), 0.0);
 }
 
 TEST(ParameterRule, PaperEdgeLength) {
   const auto points = unit_grid(10);
-  EXPECT_DOUBLE_EQ(paper_edge_length({points, 400.0, false}), 8.0);
+  EXPECT_DOUBLE_EQ(plan::paper_edge_length({points, 400.0, false}), 8.0);
 }
 
 TEST(ParameterRule, PaperTargetPercent) {
-  EXPECT_DOUBLE_EQ(paper_target_percent({{}, polylidar::area(kTwoSquares), false, kTwoSquares}), 1.75 / 3);
+  EXPECT_DOUBLE_EQ(plan::paper_target_percent({{}, polylidar::area(kTwoSquares), false, kTwoSquares}),
+                   1.75 / 3);
   const polylidar::MultiPolygon square = {{{{0, 0}, {0.1, 0}, {0.1, 0.1}, {0, 0.1}}, {}}};
-  EXPECT_EQ(paper_target_percent({{}, 0.02, false, square}), 1.0);  // never above the hull
-  EXPECT_EQ(paper_target_percent({{}, 0, false, {}}), 1.0);
+  EXPECT_EQ(plan::paper_target_percent({{}, 0.02, false, square}), 1.0);  // never above the hull
+  EXPECT_EQ(plan::paper_target_percent({{}, 0, false, {}}), 1.0);
 }
 
 TEST(ParameterRule, Holes) {
-  EXPECT_EQ(holes_switch({{}, 0, true}), 1.0);
-  EXPECT_EQ(holes_switch({{}, 0, false}), 0.0);
+  EXPECT_EQ(plan::holes_switch({{}, 0, true}), 1.0);
+  EXPECT_EQ(plan::holes_switch({{}, 0, false}), 0.0);
 }
 
 /// Of every triangle of the Delaunay triangulation.
@@ -716,7 +727,7 @@ std::vector<double> perimeters_of(const std::vector<polylidar::Point>& points) {
 // What the limit is, by the rule in plain words, is tested with the core and with the fit of its constants.
 TEST(ParameterRule, AutoPerimeterIsWhatTheCoreKeepsTo) {
   const PointSet set = make_point_set("ca", true, 600, 1);
-  const double perimeter = auto_perimeter({set.points});
+  const double perimeter = plan::auto_perimeter({set.points});
   const auto perimeters = perimeters_of(set.points);
   const auto within =
       std::count_if(perimeters.begin(), perimeters.end(), [&](double p) { return p <= perimeter; });
@@ -728,28 +739,29 @@ TEST(ParameterRule, AutoPerimeterIsWhatTheCoreKeepsTo) {
 
 TEST(ParameterRule, AutoRulesAreSharesOfOnePerimeter) {
   const PointSet set = make_point_set("hi", false, 600, 1);
-  const double perimeter = auto_perimeter({set.points});
-  EXPECT_DOUBLE_EQ(auto_edge_length({set.points}), kEdgeShare * perimeter);
-  EXPECT_DOUBLE_EQ(auto_circumradius({set.points}), kCircumradiusShare * perimeter);
-  EXPECT_DOUBLE_EQ(auto_circumradius_squared({set.points}), std::pow(kCircumradiusShare * perimeter, 2));
+  const double perimeter = plan::auto_perimeter({set.points});
+  EXPECT_DOUBLE_EQ(plan::auto_edge_length({set.points}), plan::kEdgeShare * perimeter);
+  EXPECT_DOUBLE_EQ(plan::auto_circumradius({set.points}), plan::kCircumradiusShare * perimeter);
+  EXPECT_DOUBLE_EQ(plan::auto_circumradius_squared({set.points}),
+                   std::pow(plan::kCircumradiusShare * perimeter, 2));
   // A triangle's longest edge is a third of its perimeter at least, and the radius of its circle 1 / (3 √3).
-  EXPECT_GT(kEdgeShare, 1.0 / 3);
-  EXPECT_GT(kCircumradiusShare, 1 / (3 * std::sqrt(3)));
+  EXPECT_GT(plan::kEdgeShare, 1.0 / 3);
+  EXPECT_GT(plan::kCircumradiusShare, 1 / (3 * std::sqrt(3)));
 }
 
 TEST(ParameterRule, AutoRulesFollowTheScaleOfThePoints) {
   PointSet set = make_point_set("letter_b", false, 500, 1);
-  const double before = auto_perimeter({set.points});
+  const double before = plan::auto_perimeter({set.points});
   for (polylidar::Point& p : set.points) p = {4 * p.x, 4 * p.y};
-  EXPECT_DOUBLE_EQ(auto_perimeter({set.points}), 4 * before);
+  EXPECT_DOUBLE_EQ(plan::auto_perimeter({set.points}), 4 * before);
 }
 
 TEST(ParameterRule, AutoRulesOfPointsWithoutATriangleAreZero) {
   const std::vector<polylidar::Point> line = {{0, 0}, {1, 1}, {2, 2}};
   for (const char* name :
        {"auto_perimeter", "auto_edge_length", "auto_circumradius", "auto_circumradius_squared"}) {
-    EXPECT_EQ(find_rule(name)->value({line}), 0) << name;
-    EXPECT_EQ(find_rule(name)->value({}), 0) << name;
+    EXPECT_EQ(plan::find_rule(name)->value({line}), 0) << name;
+    EXPECT_EQ(plan::find_rule(name)->value({}), 0) << name;
   }
 }
 

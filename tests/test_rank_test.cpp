@@ -16,13 +16,13 @@ using Times = std::vector<std::int64_t>;
 
 TEST(RatioOfTimes, IsTheMedianOfAllRatios) {
   // 8/1 8/2 8/4 2/1 2/2 2/4 = 8 4 2 2 1 0.5
-  EXPECT_EQ(ratio_of_times(Times{1, 2, 4}, Times{8, 2})->ratio, 2);
-  EXPECT_EQ(ratio_of_times(Times{4}, Times{6})->ratio, 1.5);
-  EXPECT_EQ(ratio_of_times(Times{1, 2}, Times{6, 9})->ratio, 5.25);  // 3 4.5 6 9
+  EXPECT_EQ(statistics::ratio_of_times(Times{1, 2, 4}, Times{8, 2})->ratio, 2);
+  EXPECT_EQ(statistics::ratio_of_times(Times{4}, Times{6})->ratio, 1.5);
+  EXPECT_EQ(statistics::ratio_of_times(Times{1, 2}, Times{6, 9})->ratio, 5.25);  // 3 4.5 6 9
 }
 
 TEST(RatioOfTimes, OfListsThatAreApart) {
-  const auto apart = ratio_of_times(Times{10, 11, 12, 13}, Times{20, 21, 22, 23});
+  const auto apart = statistics::ratio_of_times(Times{10, 11, 12, 13}, Times{20, 21, 22, 23});
   ASSERT_TRUE(apart && apart->interval);
   EXPECT_DOUBLE_EQ(apart->p_value, 2.0 / 70);  // one of 8! / (4! 4!) orders, on either side
   // Only the outermost ratio on each side is rejected at 5 %: with the next ones it is 4 / 70.
@@ -31,7 +31,7 @@ TEST(RatioOfTimes, OfListsThatAreApart) {
 }
 
 TEST(RatioOfTimes, ThreeValuesASideRejectNothing) {
-  const auto few = ratio_of_times(Times{1, 2, 3}, Times{100, 200, 300});
+  const auto few = statistics::ratio_of_times(Times{1, 2, 3}, Times{100, 200, 300});
   ASSERT_TRUE(few.has_value());
   EXPECT_FALSE(few->interval.has_value());
   EXPECT_DOUBLE_EQ(few->p_value, 0.1);
@@ -39,7 +39,7 @@ TEST(RatioOfTimes, ThreeValuesASideRejectNothing) {
 
 TEST(RatioOfTimes, TheSameListIsNotApart) {
   const Times times = {10, 12, 11, 14, 13, 10};
-  const auto same = ratio_of_times(times, times);
+  const auto same = statistics::ratio_of_times(times, times);
   ASSERT_TRUE(same && same->interval);
   EXPECT_EQ(same->ratio, 1);
   EXPECT_EQ(same->p_value, 1);
@@ -50,8 +50,8 @@ TEST(RatioOfTimes, TheSameListIsNotApart) {
 TEST(RatioOfTimes, TurnedRoundTurnsTheRatioRound) {
   const Times a = {100, 130, 115, 120, 108};
   const Times b = {90, 95, 117, 80, 99};
-  const auto there = ratio_of_times(a, b);
-  const auto back = ratio_of_times(b, a);
+  const auto there = statistics::ratio_of_times(a, b);
+  const auto back = statistics::ratio_of_times(b, a);
   ASSERT_TRUE(there && back && there->interval && back->interval);
   EXPECT_EQ(there->p_value, back->p_value);
   EXPECT_DOUBLE_EQ(there->ratio, 1 / back->ratio);
@@ -59,9 +59,9 @@ TEST(RatioOfTimes, TurnedRoundTurnsTheRatioRound) {
 }
 
 TEST(RatioOfTimes, ZeroHasNoRatioAndNothingIsRefused) {
-  EXPECT_FALSE(ratio_of_times(Times{0, 1}, Times{1}).has_value());
-  EXPECT_THROW(ratio_of_times(Times{}, Times{1}), std::invalid_argument);
-  EXPECT_THROW(ratio_of_times(Times{1}, Times{}), std::invalid_argument);
+  EXPECT_FALSE(statistics::ratio_of_times(Times{0, 1}, Times{1}).has_value());
+  EXPECT_THROW(statistics::ratio_of_times(Times{}, Times{1}), std::invalid_argument);
+  EXPECT_THROW(statistics::ratio_of_times(Times{1}, Times{}), std::invalid_argument);
 }
 
 /// Of every way to share out 1..n+m: how often it lies at least as far on one of the sides.
@@ -94,7 +94,7 @@ TEST(RatioOfTimes, PValueIsThatOfEveryOrder) {
       const double expected = brute_force_p_value(static_cast<std::size_t>(n), static_cast<std::size_t>(m),
                                                   static_cast<std::size_t>(k * n));
       // The recurrence adds and multiplies fewer than a hundred numbers below 1.
-      EXPECT_NEAR(ratio_of_times(a, b)->p_value, expected, 1e-14) << n << " " << m << " " << k;
+      EXPECT_NEAR(statistics::ratio_of_times(a, b)->p_value, expected, 1e-14) << n << " " << m << " " << k;
     }
   }
 }
@@ -108,7 +108,7 @@ TEST(RatioOfTimes, IntervalHoldsOneExactlyWhenTheTestDoesNotReject) {
       a.push_back(100 + 3 * i);
       b.push_back(101 + 2 * i + shift);
     }
-    const auto ratio = ratio_of_times(a, b);
+    const auto ratio = statistics::ratio_of_times(a, b);
     ASSERT_TRUE(ratio && ratio->interval);
     EXPECT_EQ(ratio->p_value<0.05, ratio->interval->low> 1 || ratio->interval->high < 1) << shift;
     if (ratio->p_value < 0.05) ++rejected;
@@ -122,7 +122,7 @@ TEST(RatioOfTimes, BeyondTwentyValuesTheNormalDistributionTakesOver) {
   std::iota(a.begin(), a.end(), 1000);
   Times b = a;
   for (std::int64_t& time : b) time += 8;
-  const auto ratio = ratio_of_times(a, b);
+  const auto ratio = statistics::ratio_of_times(a, b);
   ASSERT_TRUE(ratio && ratio->interval);
   // scipy.stats.mannwhitneyu(a, b, method="asymptotic") without ties: U = 91, (U + 0.5 - 220.5) / 39.74.
   // The 13 pairs of equal values count for no difference: U = 78 + 13.

@@ -26,7 +26,7 @@ const std::string kEnd = "<!-- results: end -->";
 
 std::string complaint(const std::string& readme) {
   try {
-    with_results(readme, "new\n");
+    report::with_results(readme, "new\n");
   } catch (const std::runtime_error& error) {
     return error.what();
   }
@@ -34,9 +34,9 @@ std::string complaint(const std::string& readme) {
 }
 
 TEST(ReadmeMarks, ResultsTakeThePlaceOfWhatStandsBetweenThem) {
-  EXPECT_EQ(with_results("# Title\n\n" + kBegin + "old\nolder\n" + kEnd + "\n\nRest", "new\n"),
+  EXPECT_EQ(report::with_results("# Title\n\n" + kBegin + "old\nolder\n" + kEnd + "\n\nRest", "new\n"),
             "# Title\n\n" + kBegin + "new\n" + kEnd + "\n\nRest");
-  EXPECT_EQ(with_results(kBegin + kEnd, ""), kBegin + kEnd);
+  EXPECT_EQ(report::with_results(kBegin + kEnd, ""), kBegin + kEnd);
 }
 
 TEST(ReadmeMarks, MissingOnesAreASentence) {
@@ -60,7 +60,7 @@ TEST(ReadmeResults, NameTheRunAndHaveTablesWithoutMarksOfNotes) {
   // On the largest size of Hawaii SpatiaLite ran out of time: its label has a mark in tables.md.
   nlohmann::json report = test::invented_report({2000, 64000});
   report["plan"].update({{"name", "states"}, {"methods", nlohmann::json::array()}});
-  const std::string text = readme_results({report}, "results/reference");
+  const std::string text = report::readme_results({report}, "results/reference");
   EXPECT_NE(
       text.find("in\n[results/reference](results/reference), begun on 2026-01-02: 28 runs, 1 experiment."),
       std::string::npos)
@@ -75,14 +75,14 @@ TEST(ReadmeResults, HaveNoMarksInTablesByConvexityEither) {
   for (int k = 1; k <= 61; ++k) shapes.push_back({"star-" + std::to_string(k), 8000, 0.8, 1, 0.1});
   nlohmann::json report = test::report_on_shapes(shapes);
   report["plan"].update({{"name", "random"}, {"methods", nlohmann::json::array()}});
-  const std::string text = readme_results({report}, "results/reference");
+  const std::string text = report::readme_results({report}, "results/reference");
   EXPECT_NE(text.find("by convexity"), std::string::npos) << text;
   EXPECT_EQ(text.find("(paper) ["), std::string::npos) << text;
 }
 
 TEST(ReadmeResults, OfNoRunsAreASentence) {
   try {
-    readme_results({}, "results/reference");
+    report::readme_results({}, "results/reference");
     FAIL();
   } catch (const std::runtime_error& error) {
     EXPECT_STREQ(error.what(), "there is no run in results/reference yet; measure it first");
@@ -100,7 +100,7 @@ class ReadmeCommand : public ::testing::Test {
     return testing::run_program(arguments, options);
   }
 
-  void measure() const {
+  void micro::measure() const {
     const auto plan = testing::small_plan("states", testing::california({500, 600}));
     ASSERT_EQ(hullbench({"run", testing::write_plan(folder_.path(), plan), "--out", "run"}).code, 0);
   }
@@ -110,7 +110,7 @@ class ReadmeCommand : public ::testing::Test {
 };
 
 TEST_F(ReadmeCommand, WritesTheResultsAndSeesWhenADigitIsAnother) {
-  measure();
+  micro::measure();
   const std::string before = "# Title 1\n\n" + kBegin;
   const std::string behind = kEnd + "\n\nRest: \"\\ 2\"\n";
   write_text(file(), before + "old\n" + behind);
@@ -143,7 +143,7 @@ TEST_F(ReadmeCommand, WritesTheResultsAndSeesWhenADigitIsAnother) {
 }
 
 TEST_F(ReadmeCommand, WhatIsNotThereIsASentence) {
-  measure();
+  micro::measure();
   EXPECT_EQ(hullbench({"readme", "run", "README.md"}).err, "hullbench: there is no file README.md\n");
   EXPECT_EQ(hullbench({"readme", "run", "."}).err, "hullbench: there is no file .\n");
   write_text(file(), "# Title\n");

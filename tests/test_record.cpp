@@ -39,16 +39,16 @@ void write(const std::filesystem::path& path, const std::string& content) {
 }
 
 TEST(Record, RoundTripThroughTextKeepsEveryField) {
-  RunRecord record = test::invented_record();
+  record::RunRecord record = test::invented_record();
   record.seed = std::numeric_limits<std::uint64_t>::max();
   record.parameters["third"] = 1.0 / 3.0;
   record.machine = "0123abcd";
-  record.flags = {kFasterThanFloor};
+  record.flags = {record::kFasterThanFloor};
   record.rounds = {0, 4, 7};
   record.passes = {1, 2, 3};
   record.canary_ns = {{5'000'000, 4'000'000}, {5'100'000, 4'100'000}, {5'200'000, 4'200'000}};
   record.cold_time_ns = 36'000'000;
-  const RunRecord back = json::parse(json(record).dump()).get<RunRecord>();
+  const record::RunRecord back = json::parse(json(record).dump()).get<record::RunRecord>();
   EXPECT_EQ(back.machine, record.machine);
   EXPECT_EQ(back.flags, record.flags);
   EXPECT_EQ(back.id, record.id);
@@ -76,9 +76,9 @@ TEST(Record, RoundTripThroughTextKeepsEveryField) {
 }
 
 TEST(Record, WhatAnOlderRecordDoesNotTellIsLeftOut) {
-  const RunRecord record = test::invented_record();
+  const record::RunRecord record = test::invented_record();
   const json written = record;
-  RunRecord read_over;
+  record::RunRecord read_over;
   read_over.rounds = read_over.passes = {1};
   read_over.canary_ns = {{1, 2}};
   read_over.cold_time_ns = 3;
@@ -92,39 +92,39 @@ TEST(Record, WhatAnOlderRecordDoesNotTellIsLeftOut) {
 }
 
 TEST(Record, WhenAndHowARepetitionWasMeasuredIsNoPartOfTheIdentity) {
-  RunRecord record = test::invented_record();
-  const std::string id = run_identity(record);
+  record::RunRecord record = test::invented_record();
+  const std::string id = record::run_identity(record);
   record.rounds = record.passes = {1};
   record.canary_ns = {{1, 2}};
   record.cold_time_ns = 3;
-  EXPECT_EQ(run_identity(record), id);
+  EXPECT_EQ(record::run_identity(record), id);
 }
 
 TEST(Record, ACanaryThatTellsOnlyHalfIsRefused) {
   json written = test::invented_record();
   written["canary_ns"] = json::array({{{"memory", 5}}});
-  EXPECT_THROW(written.get<RunRecord>(), json::exception);
+  EXPECT_THROW(written.get<record::RunRecord>(), json::exception);
 }
 
 TEST(Record, InfiniteParameterIsNullAndComesBack) {
-  RunRecord record = test::invented_record();
+  record::RunRecord record = test::invented_record();
   record.parameters = {{"limit", kInfinity}};
   const json written = record;
   EXPECT_TRUE(written["parameters"]["limit"].is_null());
-  EXPECT_EQ(written.get<RunRecord>().parameters.at("limit"), kInfinity);
+  EXPECT_EQ(written.get<record::RunRecord>().parameters.at("limit"), kInfinity);
 }
 
 TEST(Record, ParameterThatNoMethodTakesIsRefused) {
   for (const double value : {kNaN, -kInfinity}) {
-    RunRecord record = test::invented_record();
+    record::RunRecord record = test::invented_record();
     record.parameters["alpha"] = value;
     EXPECT_THROW(json{record}, std::invalid_argument);
-    EXPECT_THROW(run_identity(record), std::invalid_argument);
+    EXPECT_THROW(record::run_identity(record), std::invalid_argument);
   }
 }
 
 TEST(Record, MetricsThatAreNotFiniteBecomeNull) {
-  RunRecord record = test::invented_record();
+  record::RunRecord record = test::invented_record();
   record.metrics["l2"] = kNaN;
   record.metrics["iou"] = kInfinity;
   const json written = record;
@@ -135,14 +135,14 @@ TEST(Record, MetricsThatAreNotFiniteBecomeNull) {
 
 TEST(Record, EveryStatusHasANameOfItsOwn) {
   std::set<std::string> names;
-  for (const Status status : kAllStatuses) {
+  for (const record::Status status : record::kAllStatuses) {
     names.insert(to_string(status));
-    EXPECT_EQ(status_from_string(to_string(status)), status);
+    EXPECT_EQ(record::status_from_string(to_string(status)), status);
   }
   const std::set<std::string> expected = {"ok",    "timeout",        "memory",      "crash",
                                           "error", "invalid_output", "unsupported", "not_installed"};
   EXPECT_EQ(names, expected);
-  EXPECT_THROW(status_from_string("OK"), std::invalid_argument);
+  EXPECT_THROW(record::status_from_string("OK"), std::invalid_argument);
 }
 
 TEST(Record, EveryFieldIsRequired) {
@@ -151,40 +151,40 @@ TEST(Record, EveryFieldIsRequired) {
     json without = whole;
     without.erase(key);
     if (key == "machine" || key == "flags" || key == "id") continue;  // see below
-    EXPECT_ANY_THROW(without.get<RunRecord>()) << key;
+    EXPECT_ANY_THROW(without.get<record::RunRecord>()) << key;
   }
 }
 
 TEST(Record, AnIdentityThatIsLeftOutIsWorkedOut) {
   json without = test::invented_record();
   without.erase("id");
-  const auto record = without.get<RunRecord>();
-  EXPECT_EQ(record.id, run_identity(record));
+  const auto record = without.get<record::RunRecord>();
+  EXPECT_EQ(record.id, record::run_identity(record));
   without["n"] = without["n"].get<std::size_t>() + 1;
-  EXPECT_NE(without.get<RunRecord>().id, record.id);
+  EXPECT_NE(without.get<record::RunRecord>().id, record.id);
 }
 
 TEST(Record, OlderOnesHaveNeitherMachineNorFlags) {
   json older = test::invented_record();
   older.erase("machine");
   older.erase("flags");
-  const auto record = older.get<RunRecord>();
+  const auto record = older.get<record::RunRecord>();
   EXPECT_EQ(record.machine, "");
   EXPECT_TRUE(record.flags.empty());
 }
 
 TEST(Record, OtherSchemaVersionIsRefused) {
   json record = test::invented_record();
-  record["schema_version"] = kSchemaVersion + 1;
-  EXPECT_THROW(record.get<RunRecord>(), std::invalid_argument);
+  record["schema_version"] = record::kSchemaVersion + 1;
+  EXPECT_THROW(record.get<record::RunRecord>(), std::invalid_argument);
 }
 
 TEST(Record, NameFollowsGoogleBenchmark) {
-  EXPECT_EQ(run_name(test::invented_record()), "polylidar/ca/n:2000/holes:1/protocol:paper");
+  EXPECT_EQ(record::run_name(test::invented_record()), "polylidar/ca/n:2000/holes:1/protocol:paper");
 }
 
 TEST(Identity, IsTheHashOfTheCanonicalJson) {
-  RunRecord record;
+  record::RunRecord record;
   record.method = "m";
   record.method_version = "1";
   record.dataset = "d";
@@ -196,58 +196,58 @@ TEST(Identity, IsTheHashOfTheCanonicalJson) {
   record.parameters = {{"b", kInfinity}, {"a", 0.5}, {"c", 2}};
   // printf '%s' '{"dataset":"d","dataset_sha256":"ab","holes":true,"method":"m","method_version":"1","n":3,
   // "parameters":{"a":0.5,"b":null,"c":2.0},"protocol":"auto","seed":7}' (without the line break) | sha256sum
-  EXPECT_EQ(run_identity(record), "e3f1e2393893e26085bee0469c2f128eaa71ae6a660a80886b52112e42ecbde8");
+  EXPECT_EQ(record::run_identity(record), "e3f1e2393893e26085bee0469c2f128eaa71ae6a660a80886b52112e42ecbde8");
 }
 
 TEST(Identity, ChangesWithEveryFieldThatSaysWhatIsRun) {
-  const std::vector<std::pair<const char*, std::function<void(RunRecord&)>>> changes = {
-      {"method", [](RunRecord& record) { record.method = "other"; }},
-      {"method_version", [](RunRecord& record) { record.method_version = "2.0"; }},
-      {"dataset", [](RunRecord& record) { record.dataset = "hi"; }},
-      {"dataset_sha256", [](RunRecord& record) { record.dataset_sha256[0] ^= 1; }},
-      {"n", [](RunRecord& record) { ++record.n; }},
-      {"holes", [](RunRecord& record) { record.holes = !record.holes; }},
-      {"seed", [](RunRecord& record) { ++record.seed; }},
-      {"protocol", [](RunRecord& record) { record.protocol = "auto"; }},
+  const std::vector<std::pair<const char*, std::function<void(record::RunRecord&)>>> changes = {
+      {"method", [](record::RunRecord& record) { record.method = "other"; }},
+      {"method_version", [](record::RunRecord& record) { record.method_version = "2.0"; }},
+      {"dataset", [](record::RunRecord& record) { record.dataset = "hi"; }},
+      {"dataset_sha256", [](record::RunRecord& record) { record.dataset_sha256[0] ^= 1; }},
+      {"n", [](record::RunRecord& record) { ++record.n; }},
+      {"holes", [](record::RunRecord& record) { record.holes = !record.holes; }},
+      {"seed", [](record::RunRecord& record) { ++record.seed; }},
+      {"protocol", [](record::RunRecord& record) { record.protocol = "auto"; }},
       {"parameter's value",
-       [](RunRecord& record) {
+       [](record::RunRecord& record) {
          record.parameters["alpha"] = std::nextafter(record.parameters["alpha"], kInfinity);
        }},
-      {"parameter more", [](RunRecord& record) { record.parameters["more"] = 0; }},
-      {"parameter less", [](RunRecord& record) { record.parameters.erase("alpha"); }}};
-  std::set<std::string> ids = {run_identity(test::invented_record())};
+      {"parameter more", [](record::RunRecord& record) { record.parameters["more"] = 0; }},
+      {"parameter less", [](record::RunRecord& record) { record.parameters.erase("alpha"); }}};
+  std::set<std::string> ids = {record::run_identity(test::invented_record())};
   for (const auto& [what, change] : changes) {
-    RunRecord record = test::invented_record();
+    record::RunRecord record = test::invented_record();
     change(record);
-    EXPECT_TRUE(ids.insert(run_identity(record)).second) << what;
+    EXPECT_TRUE(ids.insert(record::run_identity(record)).second) << what;
   }
 }
 
 TEST(Identity, DoesNotChangeWithWhatARunLeaves) {
-  RunRecord record = test::invented_record();
-  const std::string id = run_identity(record);
+  record::RunRecord record = test::invented_record();
+  const std::string id = record::run_identity(record);
   record.id = "";
   record.name = "";
-  record.status = Status::kCrash;
+  record.status = record::Status::kCrash;
   record.detail = "SIGSEGV";
   record.time_ns.clear();
   record.phases_ns.clear();
   record.metrics = json::object();
   record.output_sha256.clear();
-  EXPECT_EQ(run_identity(record), id);
+  EXPECT_EQ(record::run_identity(record), id);
 }
 
 TEST(Identity, SurvivesTheRoundTrip) {
-  const RunRecord record = test::invented_record();
-  EXPECT_EQ(run_identity(json::parse(json(record).dump()).get<RunRecord>()), record.id);
+  const record::RunRecord record = test::invented_record();
+  EXPECT_EQ(record::run_identity(json::parse(json(record).dump()).get<record::RunRecord>()), record.id);
 }
 
 TEST(JsonLines, AppendedLinesComeBackInOrder) {
   const TemporaryFolder folder;
   const auto path = folder.path() / "lines.jsonl";
-  JsonLinesWriter(path).append({{"a", 1}});
-  JsonLinesWriter(path).append({{"b", "ü\n"}});
-  const JsonLines lines = load_json_lines(path);
+  record::JsonLinesWriter(path).append({{"a", 1}});
+  record::JsonLinesWriter(path).append({{"b", "ü\n"}});
+  const record::JsonLines lines = record::load_json_lines(path);
   EXPECT_EQ(lines.lines, (std::vector<json>{{{"a", 1}}, {{"b", "ü\n"}}}));
   EXPECT_TRUE(lines.torn.empty());
   EXPECT_EQ(lines.complete_bytes, std::filesystem::file_size(path));
@@ -255,26 +255,26 @@ TEST(JsonLines, AppendedLinesComeBackInOrder) {
 
 TEST(JsonLines, LineIsOnDiskAsSoonAsItIsAppended) {
   const TemporaryFolder folder;
-  JsonLinesWriter writer(folder.path() / "lines.jsonl");
+  record::JsonLinesWriter writer(folder.path() / "lines.jsonl");
   writer.append(1);
   EXPECT_EQ(content_of(folder.path() / "lines.jsonl"), "1\n");
 }
 
 TEST(JsonLines, MissingFileAndEmptyFileHaveNoLines) {
   const TemporaryFolder folder;
-  EXPECT_TRUE(load_json_lines(folder.path() / "none.jsonl").lines.empty());
+  EXPECT_TRUE(record::load_json_lines(folder.path() / "none.jsonl").lines.empty());
   write(folder.path() / "empty.jsonl", "");
-  EXPECT_TRUE(load_json_lines(folder.path() / "empty.jsonl").lines.empty());
+  EXPECT_TRUE(record::load_json_lines(folder.path() / "empty.jsonl").lines.empty());
 }
 
 TEST(JsonLines, TornLastLineIsReportedAndCutOffBeforeTheNext) {
   const TemporaryFolder folder;
   const auto path = folder.path() / "lines.jsonl";
   write(path, "{\"a\":1}\n{\"b\":");
-  const JsonLines torn = load_json_lines(path);
+  const record::JsonLines torn = record::load_json_lines(path);
   EXPECT_EQ(torn.lines.size(), 1U);
   EXPECT_EQ(torn.torn, "{\"b\":");
-  JsonLinesWriter writer(path);
+  record::JsonLinesWriter writer(path);
   EXPECT_TRUE(writer.repaired());
   writer.append(2);
   EXPECT_EQ(content_of(path), "{\"a\":1}\n2\n");
@@ -284,8 +284,8 @@ TEST(JsonLines, LastLineWithoutLineFeedIsTornEvenIfItIsJson) {
   const TemporaryFolder folder;
   const auto path = folder.path() / "lines.jsonl";
   write(path, "1\n12");  // cut from 123
-  EXPECT_EQ(load_json_lines(path).lines, std::vector<json>{1});
-  EXPECT_EQ(load_json_lines(path).torn, "12");
+  EXPECT_EQ(record::load_json_lines(path).lines, std::vector<json>{1});
+  EXPECT_EQ(record::load_json_lines(path).torn, "12");
 }
 
 TEST(JsonLines, BrokenLineInTheMiddleIsAnErrorThatNamesIt) {
@@ -293,7 +293,7 @@ TEST(JsonLines, BrokenLineInTheMiddleIsAnErrorThatNamesIt) {
   const auto path = folder.path() / "lines.jsonl";
   write(path, "1\n{]\n3\n");
   try {
-    load_json_lines(path);
+    record::load_json_lines(path);
     FAIL() << "no exception";
   } catch (const std::runtime_error& error) {
     EXPECT_NE(std::string(error.what()).find("Line 2 of " + path.string()), std::string::npos)
@@ -305,7 +305,7 @@ TEST(JsonLines, FileThatCannotBeWrittenIsNamed) {
   const TemporaryFolder folder;
   const auto path = folder.path() / "no" / "such" / "folder.jsonl";
   try {
-    JsonLinesWriter writer(path);
+    record::JsonLinesWriter writer(path);
     FAIL() << "no exception";
   } catch (const std::runtime_error& error) {
     EXPECT_NE(std::string(error.what()).find(path.string()), std::string::npos) << error.what();
@@ -314,15 +314,16 @@ TEST(JsonLines, FileThatCannotBeWrittenIsNamed) {
 
 TEST(JsonLines, NaNIsNeverWritten) {
   const TemporaryFolder folder;
-  JsonLinesWriter writer(folder.path() / "lines.jsonl");
+  record::JsonLinesWriter writer(folder.path() / "lines.jsonl");
   writer.append({kNaN, kInfinity, -kInfinity});
   EXPECT_EQ(content_of(folder.path() / "lines.jsonl"), "[null,null,null]\n");
 }
 
 TEST(JsonLines, BytesThatAreNotUtf8DoNotLoseTheLine) {
   const TemporaryFolder folder;
-  JsonLinesWriter(folder.path() / "lines.jsonl").append({{"detail", "bad \xff byte"}});
-  EXPECT_EQ(load_json_lines(folder.path() / "lines.jsonl").lines.front()["detail"], "bad \xef\xbf\xbd byte");
+  record::JsonLinesWriter(folder.path() / "lines.jsonl").append({{"detail", "bad \xff byte"}});
+  EXPECT_EQ(record::load_json_lines(folder.path() / "lines.jsonl").lines.front()["detail"],
+            "bad \xef\xbf\xbd byte");
 }
 
 }  // namespace

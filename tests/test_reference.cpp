@@ -11,9 +11,9 @@
 #include <vector>
 
 #include "benchmarks/report/documents.hpp"
+#include "benchmarks/report/paper_comparison.hpp"
 #include "benchmarks/report/report.hpp"
 #include "benchmarks/table/document.hpp"
-#include "benchmarks/report/paper_comparison.hpp"
 #include "tests/program.hpp"
 #include "tests/temporary_folder.hpp"
 
@@ -26,7 +26,7 @@ using nlohmann::json;
 const fs::path kReference = fs::path(HULLBENCH_SOURCE_DIRECTORY) / "results" / "reference";
 
 const std::vector<json>& reports() {
-  static const std::vector<json> result = suite_reports(kReference);
+  static const std::vector<json> result = report::suite_reports(kReference);
   return result;
 }
 
@@ -60,7 +60,7 @@ TEST(Reference, NoneOfThePapersMethodsFails) {
 // last line.
 TEST(Reference, ItsTablesAreThoseOfItsRecords) {
   const testing::TemporaryFolder folder;
-  write_tables(folder.path(), make_documents(reports()));
+  table::write_tables(folder.path(), report::make_documents(reports()));
   std::size_t files = 0;
   for (const auto& entry : fs::recursive_directory_iterator(folder.path())) {
     if (!entry.is_regular_file()) continue;
@@ -88,9 +88,9 @@ TEST(Reference, ItsRecordsAndItsReportStayBelowFiveMebibytesEach) {
 TEST(Reference, EveryTableOfThePaperIsComparedAndEveryLargeDifferenceHasAReason) {
   std::set<std::string> tables;
   for (const json& report : reports()) {
-    for (const Comparison& comparison : compare_with_paper(report)) {
+    for (const report::Comparison& comparison : report::compare_with_paper(report)) {
       tables.insert(comparison.where);
-      EXPECT_TRUE(!comparison.is_large() || reason_of(comparison))
+      EXPECT_TRUE(!comparison.is_large() || report::reason_of(comparison))
           << comparison.where << " " << comparison.row << " " << comparison.method << " "
           << comparison.quantity << ": " << comparison.ratio();
     }

@@ -14,12 +14,12 @@
 #include <vector>
 
 #include "benchmarks/base/files.hpp"
-#include "benchmarks/report/claims.hpp"
 #include "benchmarks/record/embedded.hpp"
 #include "benchmarks/record/environment.hpp"
 #include "benchmarks/record/json_lines.hpp"
-#include "benchmarks/report/report.hpp"
 #include "benchmarks/record/validate.hpp"
+#include "benchmarks/report/claims.hpp"
+#include "benchmarks/report/report.hpp"
 #include "invented_run.hpp"
 #include "temporary_folder.hpp"
 
@@ -34,7 +34,7 @@ const std::filesystem::path kSource = HULLBENCH_SOURCE_DIRECTORY;
 json invented_report() {
   const TemporaryFolder folder;
   test::write_invented_run(folder.path(), {2000, 64000});
-  return make_report(folder.path());
+  return report::make_report(folder.path());
 }
 
 json read_json(const std::filesystem::path& path) {
@@ -52,7 +52,7 @@ json find_by(const json& list, const char* key, const std::string& value) {
 
 std::string message_of(const std::filesystem::path& directory) {
   try {
-    make_report(directory);
+    report::make_report(directory);
   } catch (const std::runtime_error& error) {
     return error.what();
   }
@@ -63,29 +63,29 @@ TEST(Report, HoldsTheRunAndItsLines) {
   const json report = invented_report();
   const json run = test::invented_run();
   for (const auto& [key, value] : run.items()) EXPECT_EQ(report.at(key), value) << key;
-  const std::vector<RunRecord> records = test::invented_records({2000, 64000});
+  const std::vector<record::RunRecord> records = test::invented_records({2000, 64000});
   ASSERT_EQ(report.at("runs").size(), records.size());
   for (std::size_t i = 0; i < records.size(); ++i) EXPECT_EQ(report["runs"][i], json(records[i]));
 }
 
 TEST(Report, IsValid) {
-  const std::vector<std::string> faults = validate_report(invented_report());
+  const std::vector<std::string> faults = record::validate_report(invented_report());
   EXPECT_TRUE(faults.empty()) << faults.front();
 }
 
 TEST(Report, OfTheEnvironmentAsItIsHereIsValid) {
   json report = invented_report();
-  report["environment"] = collect_environment();
-  const std::vector<std::string> faults = validate_report(report);
+  report["environment"] = record::collect_environment();
+  const std::vector<std::string> faults = record::validate_report(report);
   EXPECT_TRUE(faults.empty()) << faults.front();
 }
 
 TEST(Report, OfNoRunsIsValid) {
   const TemporaryFolder folder;
   write_json_file(folder.path() / "run.json", test::invented_run());
-  const json report = make_report(folder.path());
+  const json report = report::make_report(folder.path());
   EXPECT_TRUE(report["runs"].empty());
-  EXPECT_TRUE(validate_report(report).empty());
+  EXPECT_TRUE(record::validate_report(report).empty());
 }
 
 TEST(Report, SummaryHasTheStatisticsOfARun) {
@@ -118,10 +118,10 @@ TEST(Report, FailuresAreRowsToo) {
 TEST(Report, LastLineOfAnIdCounts) {
   const TemporaryFolder folder;
   test::write_invented_run(folder.path(), {2000});
-  RunRecord again = test::invented_record();
+  record::RunRecord again = test::invented_record();
   again.time_ns = {1};
-  JsonLinesWriter(folder.path() / "runs.jsonl").append(again);
-  const json report = make_report(folder.path());
+  record::JsonLinesWriter(folder.path() / "runs.jsonl").append(again);
+  const json report = report::make_report(folder.path());
   EXPECT_EQ(report["runs"].size(), test::invented_records({2000}).size());
   EXPECT_EQ(find_by(report["runs"], "id", again.id)["time_ns"], json::array({1}));
 }
@@ -130,11 +130,11 @@ TEST(Report, TornLastLineIsLeftOutAndSaid) {
   const TemporaryFolder folder;
   test::write_invented_run(folder.path(), {2000});
   std::ofstream(folder.path() / "runs.jsonl", std::ios::app) << "{\"id\": \"12";
-  const json report = make_report(folder.path());
+  const json report = report::make_report(folder.path());
   EXPECT_EQ(report["runs"].size(), test::invented_records({2000}).size());
   ASSERT_EQ(report["notes"].size(), 1U);
   EXPECT_NE(report["notes"][0].get<std::string>().find("cut short"), std::string::npos);
-  EXPECT_TRUE(validate_report(report).empty());
+  EXPECT_TRUE(record::validate_report(report).empty());
 }
 
 TEST(Report, WhatIsMissingOrMalformedIsNamed) {
@@ -174,7 +174,7 @@ TEST(Claims, ANumberOfThePaperIsConfirmedOnBothSidesOnly) {
       for (json& phases : run["phases_ns"])
         phases["run"] = cgal ? static_cast<int>(ratio * 1'000'000) : 1'000'000;
     }
-    return find_by(check_claims(report), "id", "faster_than_cgal")["verdict"];
+    return find_by(report::check_claims(report), "id", "faster_than_cgal")["verdict"];
   };
   EXPECT_EQ(verdict_at(2.6), "smaller");
   EXPECT_EQ(verdict_at(2.7), "confirmed");
@@ -194,7 +194,7 @@ TEST(Claims, SayWhyTheyWereNotMeasured) {
   for (json& run : report["runs"]) {
     if (run["method"] == "spatialite") run["method"] = "spatialite_steps";
   }
-  const json step = find_by(check_claims(report), "id", "shape_spatialite");
+  const json step = find_by(report::check_claims(report), "id", "shape_spatialite");
   EXPECT_NE(step["detail"].get<std::string>().find("does not tell its step"), std::string::npos);
 }
 
@@ -218,7 +218,7 @@ TEST(Claims, OfAMethodWithoutAnyResultAreNotMeasured) {
     run["status"] = "timeout";
     run["metrics"] = json::object();
   }
-  const json slowest = find_by(check_claims(report), "id", "spatialite_slowest");
+  const json slowest = find_by(report::check_claims(report), "id", "spatialite_slowest");
   EXPECT_TRUE(slowest["verdict"].is_null());
   EXPECT_NE(slowest["detail"].get<std::string>().find("no successful run"), std::string::npos);
 }
@@ -226,7 +226,7 @@ TEST(Claims, OfAMethodWithoutAnyResultAreNotMeasured) {
 TEST(Claims, AtASizeThatWasNotMeasured) {
   const TemporaryFolder folder;
   test::write_invented_run(folder.path(), {2000});
-  const json claim = find_by(make_report(folder.path())["summary"]["claims"], "id", "total_cgal");
+  const json claim = find_by(report::make_report(folder.path())["summary"]["claims"], "id", "total_cgal");
   EXPECT_TRUE(claim["verdict"].is_null());
   EXPECT_NE(claim["detail"].get<std::string>().find("n = 64000"), std::string::npos);
 }
@@ -236,7 +236,7 @@ TEST(Claims, OneCaseAgainstAClaimAboutEveryCaseRefutesIt) {
   for (json& run : report["runs"]) {
     if (run["name"] == "spatialite/ca/n:2000/holes:1/protocol:paper") run["metrics"]["l2_paper"] = 0.9;
   }
-  const json claim = find_by(check_claims(report), "id", "error_spatialite");
+  const json claim = find_by(report::check_claims(report), "id", "error_spatialite");
   EXPECT_EQ(claim["ours"], "4 of 6");
   EXPECT_EQ(claim["verdict"], "refuted");
 }
@@ -246,7 +246,7 @@ TEST(Claims, AnotherProtocolIsAnotherMethod) {
   for (json& run : report["runs"]) {
     if (run["method"] == "polylidar") run["protocol"] = "auto";
   }
-  EXPECT_TRUE(find_by(check_claims(report), "id", "faster_than_cgal")["verdict"].is_null());
+  EXPECT_TRUE(find_by(report::check_claims(report), "id", "faster_than_cgal")["verdict"].is_null());
 }
 
 TEST(Validate, EveryBrokenReportIsRejectedAtItsPlace) {
@@ -261,7 +261,7 @@ TEST(Validate, EveryBrokenReportIsRejectedAtItsPlace) {
     } else {
       changed[place.parent_pointer()].erase(place.back());
     }
-    const std::vector<std::string> faults = validate_report(changed);
+    const std::vector<std::string> faults = record::validate_report(changed);
     EXPECT_FALSE(faults.empty()) << broken;
     const std::string parent = place.parent_pointer().to_string();
     for (const std::string& fault : faults) {
@@ -280,7 +280,7 @@ TEST(Validate, FaultsAreSentencesWithThePlaceAndTheValue) {
   report["environment"]["host/name"] = "box";
   report.erase("tool");
   report["environment"]["cpu"]["logical_cores"] = 0;
-  const std::vector<std::string> faults = validate_report(report);
+  const std::vector<std::string> faults = record::validate_report(report);
   const auto has = [&](const std::string& fault) {
     return std::count(faults.begin(), faults.end(), fault) == 1;
   };
@@ -295,19 +295,19 @@ TEST(Validate, FaultsAreSentencesWithThePlaceAndTheValue) {
   EXPECT_EQ(faults.size(), 5U) << json(
       faults);  // an unknown status is no success, so a reason is missing too
   report = json::array();
-  EXPECT_EQ(validate_report(report).size(), 1U);
+  EXPECT_EQ(record::validate_report(report).size(), 1U);
 }
 
 TEST(Validate, LinesOfARunsFile) {
   const TemporaryFolder folder;
   test::write_invented_run(folder.path(), {2000});
   const auto path = folder.path() / "runs.jsonl";
-  EXPECT_TRUE(validate_file(path).empty());
+  EXPECT_TRUE(record::validate_file(path).empty());
   json broken = test::invented_record();
   broken["n"] = "many";
-  JsonLinesWriter(path).append(broken);
+  record::JsonLinesWriter(path).append(broken);
   std::ofstream(path, std::ios::app) << "{";
-  const std::vector<std::string> faults = validate_file(path);
+  const std::vector<std::string> faults = record::validate_file(path);
   ASSERT_EQ(faults.size(), 2U);
   EXPECT_EQ(faults[0].rfind("Record 15: At /n: ", 0), 0U) << faults[0];
   EXPECT_NE(faults[1].find("cut short"), std::string::npos);
@@ -315,41 +315,41 @@ TEST(Validate, LinesOfARunsFile) {
 
 TEST(Validate, FileThatIsNoReport) {
   const TemporaryFolder folder;
-  EXPECT_THROW(validate_file(folder.path() / "none.json"), std::runtime_error);
-  EXPECT_THROW(validate_file(folder.path() / "none.jsonl"), std::runtime_error);
-  EXPECT_THROW(validate_file(folder.path()), std::runtime_error);
+  EXPECT_THROW(record::validate_file(folder.path() / "none.json"), std::runtime_error);
+  EXPECT_THROW(record::validate_file(folder.path() / "none.jsonl"), std::runtime_error);
+  EXPECT_THROW(record::validate_file(folder.path()), std::runtime_error);
   std::ofstream(folder.path() / "empty.json") << "";
-  EXPECT_THROW(validate_file(folder.path() / "empty.json"), std::runtime_error);
+  EXPECT_THROW(record::validate_file(folder.path() / "empty.json"), std::runtime_error);
   std::ofstream(folder.path() / "nan.json") << "{\"schema_version\": NaN}";
-  EXPECT_THROW(validate_file(folder.path() / "nan.json"), std::runtime_error);
+  EXPECT_THROW(record::validate_file(folder.path() / "nan.json"), std::runtime_error);
   std::ofstream(folder.path() / "list.json") << "[]";
-  EXPECT_FALSE(validate_file(folder.path() / "list.json").empty());
+  EXPECT_FALSE(record::validate_file(folder.path() / "list.json").empty());
 }
 
 TEST(Validate, ReportOnDiskAfterWriting) {
   const json report = invented_report();
   const TemporaryFolder folder;
   write_json_file(folder.path() / "report.json", report);
-  EXPECT_TRUE(validate_file(folder.path() / "report.json").empty());
+  EXPECT_TRUE(record::validate_file(folder.path() / "report.json").empty());
   EXPECT_EQ(read_json(folder.path() / "report.json"), report);
   EXPECT_FALSE(std::filesystem::exists(folder.path() / "report.json.new"));
 }
 
 TEST(Embedded, FilesAreTheOnesInResults) {
-  EXPECT_EQ(json::parse(kRunSchemaJson), read_json(kSource / "results/run.schema.json"));
-  EXPECT_EQ(json::parse(kReportSchemaJson), read_json(kSource / "results/report.schema.json"));
-  EXPECT_EQ(json::parse(kPaperJson), read_json(kSource / "results/paper.json"));
+  EXPECT_EQ(json::parse(record::kRunSchemaJson), read_json(kSource / "results/run.schema.json"));
+  EXPECT_EQ(json::parse(record::kReportSchemaJson), read_json(kSource / "results/report.schema.json"));
+  EXPECT_EQ(json::parse(record::kPaperJson), read_json(kSource / "results/paper.json"));
 }
 
 TEST(Embedded, StatusesOfTheSchemaAreOurs) {
-  const json schema = json::parse(kRunSchemaJson);
+  const json schema = json::parse(record::kRunSchemaJson);
   std::vector<std::string> ours;
-  for (const Status status : kAllStatuses) ours.push_back(to_string(status));
+  for (const record::Status status : record::kAllStatuses) ours.push_back(to_string(status));
   EXPECT_EQ(schema["properties"]["status"]["enum"], json(ours));
 }
 
 TEST(Environment, TellsNothingPersonal) {
-  const std::string text = collect_environment().dump();
+  const std::string text = record::collect_environment().dump();
   for (const char* variable : {"HOME", "PWD", "HOSTNAME"}) {
     const char* value = std::getenv(variable);
     if (value == nullptr || std::string(value).size() < 2) continue;
@@ -358,7 +358,7 @@ TEST(Environment, TellsNothingPersonal) {
 }
 
 TEST(Environment, FlagsAreThoseOfTheBuild) {
-  const json compiler = collect_environment()["compiler"];
+  const json compiler = record::collect_environment()["compiler"];
   EXPECT_NE(compiler["flags_by_target"]["polylidar_core"].get<std::string>().find("-ffp-contract=off"),
             std::string::npos);
   const std::string statement = compiler["statement"];
@@ -367,7 +367,7 @@ TEST(Environment, FlagsAreThoseOfTheBuild) {
 
 // Nobody is handicapped: only the flag that CGAL's own package asks for may differ.
 TEST(Environment, FlagsAreTheSameForAll) {
-  const json by_target = collect_environment()["compiler"]["flags_by_target"];
+  const json by_target = record::collect_environment()["compiler"]["flags_by_target"];
   const auto words_of = [&](const std::string& target) {
     std::istringstream text(by_target.at(target).get<std::string>());
     return std::set<std::string>(std::istream_iterator<std::string>(text), {});
@@ -384,17 +384,17 @@ TEST(Environment, FlagsAreTheSameForAll) {
 }
 
 TEST(Environment, SaysWhoGotHugePages) {
-  const json huge_pages = collect_environment()["huge_pages"];
+  const json huge_pages = record::collect_environment()["huge_pages"];
   EXPECT_NE(huge_pages.at("malloc").get<std::string>().find("glibc.malloc.hugetlb="), std::string::npos);
   const json& kernel = huge_pages.at("kernel");
   EXPECT_TRUE(kernel.is_null() || kernel == "always" || kernel == "madvise" || kernel == "never") << kernel;
 }
 
 TEST(Environment, MachineIdIsAFunctionOfTheMachine) {
-  EXPECT_EQ(collect_environment()["machine_id"], machine_id());
+  EXPECT_EQ(record::collect_environment()["machine_id"], record::machine_id());
   // printf '%s' 'Some CPU|4|15' | sha256sum
-  EXPECT_EQ(machine_id("Some CPU", 4, 15), "80006477");
-  EXPECT_NE(machine_id("Some CPU", 4, 15), machine_id("Some CPU", 4, 16));
+  EXPECT_EQ(record::machine_id("Some CPU", 4, 15), "80006477");
+  EXPECT_NE(record::machine_id("Some CPU", 4, 15), record::machine_id("Some CPU", 4, 16));
 }
 
 }  // namespace

@@ -22,10 +22,10 @@
 namespace hullbench {
 namespace {
 
-Plan plan_of(const std::string& cases, const std::string& more = "") {
-  return parse_plan(R"({"name": "small", "seed": 5, )" + more + R"("cases": )" + cases +
-                        R"(, "methods": [{"method": "polylidar", "protocol": "default"}]})",
-                    "here");
+plan::Plan plan_of(const std::string& cases, const std::string& more = "") {
+  return plan::parse_plan(R"({"name": "small", "seed": 5, )" + more + R"("cases": )" + cases +
+                              R"(, "methods": [{"method": "polylidar", "protocol": "default"}]})",
+                          "here");
 }
 
 /// Some letters on the training side.
@@ -33,7 +33,7 @@ std::vector<std::string> training_letters(std::size_t count) {
   std::vector<std::string> letters;
   for (char c = 'a'; letters.size() < count; ++c) {
     const std::string name = std::string("letter_") + c;
-    if (side_of(name, 1) == Side::kTraining) letters.push_back(name);
+    if (tune::side_of(name, 1) == tune::Side::kTraining) letters.push_back(name);
   }
   return letters;
 }
@@ -42,35 +42,36 @@ std::vector<std::string> training_letters(std::size_t count) {
 
 TEST(FitScore, EveryShapeCountsTheSameAndErrorsCountByTheirRatio) {
   // Geometric means: 0.2 of a's two cases, 0.8 of b's one.
-  EXPECT_NEAR(fit_score({"a", "b", "a"}, {0.1, 0.8, 0.4}), std::sqrt(0.2 * 0.8), 1e-12);
-  EXPECT_EQ(fit_score({}, {}), 0);
+  EXPECT_NEAR(tune::fit_score({"a", "b", "a"}, {0.1, 0.8, 0.4}), std::sqrt(0.2 * 0.8), 1e-12);
+  EXPECT_EQ(tune::fit_score({}, {}), 0);
 }
 
 TEST(FitScore, NoErrorIsBeyondItsRange) {
-  EXPECT_NEAR(fit_score({"a"}, {0}) / kLeastError, 1, 1e-12);  // rounding only
-  EXPECT_NEAR(fit_score({"a"}, {kInfinitelyBad}) / kMostError, 1, 1e-12);
+  EXPECT_NEAR(tune::fit_score({"a"}, {0}) / tune::kLeastError, 1, 1e-12);  // rounding only
+  EXPECT_NEAR(tune::fit_score({"a"}, {tune::kInfinitelyBad}) / tune::kMostError, 1, 1e-12);
 }
 
 TEST(FitScore, TheCurveHasEveryCandidateAndTheBestIsTheFirstOfTheLeast) {
-  const ErrorTable table = {{1, 2, 3, 4},
-                            {"a", "a", "b"},
-                            {{0.4, 0.1, 0.1, 0.2}, {0.4, 0.2, 0.2, 0.1}, {0.4, 0.1, 0.1, kInfinitelyBad}}};
-  const auto curve = score_curve(table);
+  const tune::ErrorTable table = {
+      {1, 2, 3, 4},
+      {"a", "a", "b"},
+      {{0.4, 0.1, 0.1, 0.2}, {0.4, 0.2, 0.2, 0.1}, {0.4, 0.1, 0.1, tune::kInfinitelyBad}}};
+  const auto curve = tune::score_curve(table);
   ASSERT_EQ(curve.size(), 4U);
   EXPECT_EQ(curve[0].candidate, 1);
   EXPECT_NEAR(curve[0].score, 0.4, 1e-12);
   EXPECT_EQ(curve[1].median, 0.1);
   EXPECT_EQ(curve[3].failures, 1U);
-  EXPECT_EQ(best_of(curve).candidate, 2);
+  EXPECT_EQ(tune::best_of(curve).candidate, 2);
 }
 
 TEST(FitScore, OneCandidateForSeveralUsesHasTheLeastProduct) {
   const auto curve = [](double a, double b, double c) {
-    return std::vector<CandidateScore>{
+    return std::vector<tune::CandidateScore>{
         {.candidate = 1, .score = a}, {.candidate = 2, .score = b}, {.candidate = 3, .score = c}};
   };
-  EXPECT_EQ(best_for_all({curve(0.5, 0.4, 0.3)}), 2U);
-  EXPECT_EQ(best_for_all({curve(0.1, 0.12, 0.3), curve(0.9, 0.6, 0.5)}), 1U);
+  EXPECT_EQ(tune::best_for_all({curve(0.5, 0.4, 0.3)}), 2U);
+  EXPECT_EQ(tune::best_for_all({curve(0.1, 0.12, 0.3), curve(0.9, 0.6, 0.5)}), 1U);
 }
 
 // The core's rule, plainly.
@@ -80,36 +81,36 @@ TEST(LimitFit, WithTheConstantsOfTheCoreItIsTheCoresChoice) {
        {"ca", "letter_b~gradient:8", "star-1~clusters:4", "ca~lattice:0.25", "hi~noise:1"}) {
     for (const std::size_t n : {50U, 400U, 900U}) {
       const PointSet set = make_point_set(name, false, n, 3);
-      const auto sample = look_at(set.points);
+      const auto sample = tune::look_at(set.points);
       ASSERT_TRUE(sample) << name;
-      const auto cell = chosen_cell(*sample, {});
+      const auto cell = tune::chosen_cell(*sample, {});
       ASSERT_TRUE(cell) << name;
       // The core looks at perimeters in single precision: some roundings of 2^-24.
-      EXPECT_NEAR(auto_perimeter({set.points}) / (cell_limit(*cell) * sample->median), 1, 1e-6)
+      EXPECT_NEAR(plan::auto_perimeter({set.points}) / (tune::cell_limit(*cell) * sample->median), 1, 1e-6)
           << name << " " << n;
     }
   }
 }
 
 TEST(LimitFit, PointsWithoutATriangleHaveNothingToLookAt) {
-  EXPECT_FALSE(look_at({}));
-  EXPECT_FALSE(look_at(std::vector<polylidar::Point>{{0, 0}, {1, 1}, {2, 2}}));
+  EXPECT_FALSE(tune::look_at({}));
+  EXPECT_FALSE(tune::look_at(std::vector<polylidar::Point>{{0, 0}, {1, 1}, {2, 2}}));
 }
 
 TEST(LimitFit, TheGridOfChoicesIsSearchedWhole) {
-  LimitCase one;
+  tune::LimitCase one;
   one.shape = "a";
   const PointSet set = make_point_set("ca", false, 400, 1);
-  one.sample = *look_at(set.points);
+  one.sample = *tune::look_at(set.points);
   // The error is the limit itself, so the best choice is one that takes the least limit.
-  for (std::size_t c = 0; c < kLimitCells; ++c) one.errors[c] = cell_limit(c);
-  const LimitGrid grid = {{1.2, 1.6, 3}, {1, 4}, {0.003}, {1.1, 2}, {6}, {10}, {1, 2}};
-  const auto scores = fit_limit({one}, grid);
+  for (std::size_t c = 0; c < tune::kLimitCells; ++c) one.errors[c] = tune::cell_limit(c);
+  const tune::LimitGrid grid = {{1.2, 1.6, 3}, {1, 4}, {0.003}, {1.1, 2}, {6}, {10}, {1, 2}};
+  const auto scores = tune::fit_limit({one}, grid);
   ASSERT_EQ(scores.size(), 3U * 2 * 2 * 2);
   EXPECT_TRUE(std::is_sorted(scores.begin(), scores.end(),
                              [](const auto& a, const auto& b) { return a.score < b.score; }));
-  for (const LimitScore& each : scores) {
-    EXPECT_DOUBLE_EQ(score_limit({one}, each.constants).score, each.score);
+  for (const tune::LimitScore& each : scores) {
+    EXPECT_DOUBLE_EQ(tune::score_limit({one}, each.constants).score, each.score);
     EXPECT_GE(each.score, each.constants.least);
   }
   EXPECT_LT(scores.front().score, scores.back().score);
@@ -118,15 +119,15 @@ TEST(LimitFit, TheGridOfChoicesIsSearchedWhole) {
 // The cases.
 
 TEST(TrainingCases, AreOfTrainingShapesOnlyAndEachIsThereOnce) {
-  const auto cases = training_cases(
-      {load_plan("alphabet", HULLBENCH_PLAN_FOLDER), load_plan("stress_density", HULLBENCH_PLAN_FOLDER),
-       load_plan("stress_noise", HULLBENCH_PLAN_FOLDER)},
-      1, 1, 0);
+  const auto cases = tune::training_cases({plan::load_plan("alphabet", HULLBENCH_PLAN_FOLDER),
+                                           plan::load_plan("stress_density", HULLBENCH_PLAN_FOLDER),
+                                           plan::load_plan("stress_noise", HULLBENCH_PLAN_FOLDER)},
+                                          1, 1, 0);
   std::set<std::string> keys;
   std::set<std::string> shapes;
-  for (const FitCase& one : cases) {
+  for (const tune::FitCase& one : cases) {
     EXPECT_TRUE(keys.insert(one.plan_case.key()).second) << one.plan_case.key();
-    EXPECT_EQ(side_of(one.shape, 1), Side::kTraining);
+    EXPECT_EQ(tune::side_of(one.shape, 1), tune::Side::kTraining);
     shapes.insert(one.shape);
   }
   for (const std::string& letter : training_letters(5)) {
@@ -138,61 +139,61 @@ TEST(TrainingCases, AreOfTrainingShapesOnlyAndEachIsThereOnce) {
 
 TEST(TrainingCases, CanHaveMoreSamplesAndOtherNumbersOfPoints) {
   const std::string letter = training_letters(1)[0];
-  const Plan plan = plan_of(R"([{"dataset": ")" + letter + R"(", "n": [500, 600]}])");
-  const auto cases = training_cases({plan}, 1, 3, 0);
+  const plan::Plan plan = plan_of(R"([{"dataset": ")" + letter + R"(", "n": [500, 600]}])");
+  const auto cases = tune::training_cases({plan}, 1, 3, 0);
   ASSERT_EQ(cases.size(), 6U);
   EXPECT_EQ(cases[0].seed, 5U);
   EXPECT_EQ(cases[2].seed, 7U);
-  const auto larger = training_cases({plan}, 1, 1, 8000);
+  const auto larger = tune::training_cases({plan}, 1, 1, 8000);
   ASSERT_EQ(larger.size(), 1U) << "the two are one now";
   EXPECT_EQ(larger[0].plan_case.n, 8000);
 }
 
 TEST(TrainingCases, LeaveOutPointsThatComeWithTheirShapeAndPlansThatAcceptFailures) {
-  EXPECT_TRUE(training_cases({plan_of(R"([{"dataset": "floor", "members": 11}])")}, 1, 1, 0).empty());
+  EXPECT_TRUE(tune::training_cases({plan_of(R"([{"dataset": "floor", "members": 11}])")}, 1, 1, 0).empty());
   const std::string letters = R"([{"dataset": ")" + training_letters(1)[0] + R"(", "n": [500]}])";
-  EXPECT_EQ(training_cases({plan_of(letters)}, 1, 1, 0).size(), 1U);
-  EXPECT_TRUE(training_cases({plan_of(letters, R"("accepted": ["error"], )")}, 1, 1, 0).empty());
+  EXPECT_EQ(tune::training_cases({plan_of(letters)}, 1, 1, 0).size(), 1U);
+  EXPECT_TRUE(tune::training_cases({plan_of(letters, R"("accepted": ["error"], )")}, 1, 1, 0).empty());
 }
 
 // A small fit.
 
 /// Eight letters, uniform, denser on one side and noisy.
-std::vector<FitCase> small_fit_cases() {
+std::vector<tune::FitCase> small_fit_cases() {
   std::string names;
   for (const std::string& letter : training_letters(8))
     names += (names.empty() ? "\"" : ", \"") + letter + "\"";
-  return training_cases({plan_of(R"([{"dataset": [)" + names + R"(], "n": [600]},
+  return tune::training_cases({plan_of(R"([{"dataset": [)" + names + R"(], "n": [600]},
                                      {"dataset": [)" +
-                                 names + R"(], "n": [600], "stress": ["gradient:4", "noise:0.5"]}])")},
-                        1, 1, 0);
+                                       names + R"(], "n": [600], "stress": ["gradient:4", "noise:0.5"]}])")},
+                              1, 1, 0);
 }
 
 TEST(RuleFit, TheConstantsInTheCodeAreAboutTheBestOfASmallFit) {
-  const std::vector<FitCase> cases = small_fit_cases();
+  const std::vector<tune::FitCase> cases = small_fit_cases();
   ASSERT_EQ(cases.size(), 24U);
-  LimitGrid grid = usual_limit_grid();
+  tune::LimitGrid grid = tune::usual_limit_grid();
   grid.usual = {1.4, 1.6, 1.8};
   grid.below = {10};
   grid.above = {2};
-  const std::vector<RuleUse> uses = rule_uses();
-  const FitTables tables =
-      measure_fit(cases, uses, {0.1, kCircumradiusShare, 0.4, kEdgeShare, 0.7, 1}, grid, {});
+  const std::vector<tune::RuleUse> uses = tune::rule_uses();
+  const tune::FitTables tables = tune::measure_fit(
+      cases, uses, {0.1, plan::kCircumradiusShare, 0.4, plan::kEdgeShare, 0.7, 1}, grid, {});
   for (std::size_t u = 0; u < uses.size(); ++u) {
     SCOPED_TRACE(uses[u].rule + " of " + uses[u].method);
-    const auto curve = score_curve(tables.uses[u]);
-    const auto in_the_code = std::find_if(curve.begin(), curve.end(), [&](const CandidateScore& one) {
+    const auto curve = tune::score_curve(tables.uses[u]);
+    const auto in_the_code = std::find_if(curve.begin(), curve.end(), [&](const tune::CandidateScore& one) {
       return std::abs(one.candidate - uses[u].share) < 1e-9;
     });
     ASSERT_NE(in_the_code, curve.end()) << uses[u].share;
     // So few cases have a best share of their own; the curves are flat about it.
-    EXPECT_LT(in_the_code->score, 1.15 * best_of(curve).score);
-    EXPECT_GT(curve.front().score, 1.15 * best_of(curve).score) << "a bad one costs more";
+    EXPECT_LT(in_the_code->score, 1.15 * tune::best_of(curve).score);
+    EXPECT_GT(curve.front().score, 1.15 * tune::best_of(curve).score) << "a bad one costs more";
   }
-  const double core = fit_score(tables.shapes, tables.core_errors);
-  const double plain = score_limit(tables.limits, {}).score;
+  const double core = tune::fit_score(tables.shapes, tables.core_errors);
+  const double plain = tune::score_limit(tables.limits, {}).score;
   EXPECT_NEAR(core / plain, 1, 0.02) << "the core looks at a part of the triangles";
-  EXPECT_LT(plain, 1.15 * fit_limit(tables.limits, grid).front().score);
+  EXPECT_LT(plain, 1.15 * tune::fit_limit(tables.limits, grid).front().score);
 }
 
 // What the fitted rules are for.
@@ -219,12 +220,13 @@ MultiPolygon hull_of(const std::string& method, const std::vector<polylidar::Poi
 TEST(RuleFit, OneCircumradiusGivesPolylidarAndCgalTheSamePolygons) {
   for (const char* name : {"ca", "letter_b~gradient:4"}) {
     const PointSet set = make_point_set(name, false, 800, 1);
-    const MultiPolygon ours = hull_of("polylidar", set.points, {{"alpha", auto_circumradius({set.points})}});
+    const MultiPolygon ours =
+        hull_of("polylidar", set.points, {{"alpha", plan::auto_circumradius({set.points})}});
     const MultiPolygon theirs =
-        hull_of("cgal_alpha_shape", set.points, {{"alpha", auto_circumradius_squared({set.points})}});
+        hull_of("cgal_alpha_shape", set.points, {{"alpha", plan::auto_circumradius_squared({set.points})}});
     ASSERT_FALSE(ours.empty());
     EXPECT_EQ(ours.size(), theirs.size());
-    EXPECT_EQ(area_scores(ours, theirs).l2, 0) << name;
+    EXPECT_EQ(metrics::area_scores(ours, theirs).l2, 0) << name;
   }
 }
 

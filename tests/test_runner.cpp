@@ -14,15 +14,15 @@
 
 #include "benchmarks/base/configuration_error.hpp"
 #include "benchmarks/base/files.hpp"
-#include "benchmarks/base/utc_now.hpp"
-#include "benchmarks/record/environment.hpp"
 #include "benchmarks/base/interrupt.hpp"
-#include "benchmarks/record/json_lines.hpp"
+#include "benchmarks/base/utc_now.hpp"
 #include "benchmarks/cli/listing.hpp"
+#include "benchmarks/record/environment.hpp"
+#include "benchmarks/record/json_lines.hpp"
+#include "benchmarks/record/validate.hpp"
 #include "benchmarks/report/report.hpp"
 #include "benchmarks/run/run_directory.hpp"
 #include "benchmarks/run/runner.hpp"
-#include "benchmarks/record/validate.hpp"
 #include "datasets/sha256.hpp"
 #include "tests/program.hpp"
 #include "tests/temporary_folder.hpp"
@@ -34,7 +34,7 @@ namespace fs = std::filesystem;
 using nlohmann::json;
 
 /// A plan of these methods on California with 500 points, without holes.
-Plan plan_of(const std::vector<std::string>& methods, int repetitions = 3) {
+plan::Plan plan_of(const std::vector<std::string>& methods, int repetitions = 3) {
   json source = {{"name", "test"},
                  {"repetitions", repetitions},
                  {"timeout_s", 20},
@@ -48,11 +48,11 @@ Plan plan_of(const std::vector<std::string>& methods, int repetitions = 3) {
          {"protocol", "paper"},
          {"parameters", real ? json{{"alpha", {{"rule", "paper_alpha"}}}} : json{{"size", 1}}}});
   }
-  return parse_plan(source.dump(), "test");
+  return plan::parse_plan(source.dump(), "test");
 }
 
-Method worker_of(const std::string& name) {
-  Method method;
+worker::Method worker_of(const std::string& name) {
+  worker::Method method;
   method.name = method.title = name;
   method.command = {MISBEHAVING_WORKER, name};
   if (name == "polylidar" || name == "convex_hull") method.command = {HULLBENCH, "worker", "--method", name};
@@ -60,21 +60,21 @@ Method worker_of(const std::string& name) {
 }
 
 /// Of a method that compiles while it runs.
-Method compiling_worker_of(const std::string& name) {
-  Method method = worker_of(name);
+worker::Method compiling_worker_of(const std::string& name) {
+  worker::Method method = worker_of(name);
   method.jit = true;
   return method;
 }
 
-Method gone(const std::string& name) {
-  Method method = worker_of(name);
+worker::Method gone(const std::string& name) {
+  worker::Method method = worker_of(name);
   method.command = {"/nowhere/worker"};
   return method;
 }
 
-json header_of(const Plan& plan) {
+json header_of(const plan::Plan& plan) {
   const std::string hash = sha256_hex("the program");
-  return {{"schema_version", kSchemaVersion},
+  return {{"schema_version", record::kSchemaVersion},
           {"created", utc_now()},
           {"tool",
            {{"name", "hullbench"},
@@ -82,8 +82,8 @@ json header_of(const Plan& plan) {
             {"commit", nullptr},
             {"dirty", nullptr},
             {"binary_sha256", hash}}},
-          {"environment", collect_environment()},
-          {"plan", plan_to_json(plan)},
+          {"environment", record::collect_environment()},
+          {"plan", plan::plan_to_json(plan)},
           {"seed", plan.seed},
           {"filter", nullptr},
           {"repetitions", plan.repetitions},
@@ -95,22 +95,22 @@ class RunnerTest : public ::testing::Test {
   void TearDown() override { set_interrupted(false); }
 
   /// All passes, or those up to `passes_`; `machine_` is asked.
-  RunResult measure(const Plan& plan, const MethodFinder& find_method = &worker_of,
-                    const std::vector<int>& cores = {}) {
+  run::RunResult micro::measure(const plan::Plan& plan, const worker::MethodFinder& find_method = &worker_of,
+                                const std::vector<int>& cores = {}) {
     const json header = header_of(plan);
-    const auto directory = open_run_directory(header, {folder_.path() / "run", false, folder_.path()});
-    const auto runs = planned_runs(plan, "");
+    const auto directory = run::open_run_directory(header, {folder_.path() / "run", false, folder_.path()});
+    const auto runs = plan::planned_runs(plan, "");
     const int passes = passes_.value_or(plan.passes);
-    std::vector<ProgressSection> sections;
+    std::vector<run::ProgressSection> sections;
     for (int pass = 1; pass <= passes; ++pass)
-      sections.push_back({"test", progress_runs(plan, runs, pass), "test"});
+      sections.push_back({"test", run::progress_runs(plan, runs, pass), "test"});
     std::ostringstream progress_text;
-    Progress progress(progress_text, false, 80, sections);
-    RunResult result;
+    run::Progress progress(progress_text, false, 80, sections);
+    run::RunResult result;
     for (int pass = 1; pass <= passes && !result.interrupted; ++pass) {
       progress.enter(static_cast<std::size_t>(pass - 1));
-      result = run_plan(plan, runs, header, {find_method, std::nullopt, cores, {}, machine_}, *directory,
-                        progress, pass);
+      result = run::run_plan(plan, runs, header, {find_method, std::nullopt, cores, {}, machine_}, *directory,
+                             progress, pass);
     }
     seconds_left_ = progress.seconds_left();
     said_ = progress_text.str();
@@ -118,13 +118,13 @@ class RunnerTest : public ::testing::Test {
   }
 
   std::vector<json> lines(const std::string& file) const {
-    return load_json_lines(folder_.path() / "run" / file).lines;
+    return record::load_json_lines(folder_.path() / "run" / file).lines;
   }
 
-  std::map<std::string, RunRecord> rows() const {
-    std::map<std::string, RunRecord> result;
+  std::map<std::string, record::RunRecord> rows() const {
+    std::map<std::string, record::RunRecord> result;
     for (const json& line : lines("runs.jsonl")) {
-      const auto record = line.get<RunRecord>();
+      const auto record = line.get<record::RunRecord>();
       EXPECT_TRUE(result.emplace(record.method, record).second) << record.name << " is there twice";
     }
     return result;
@@ -134,19 +134,19 @@ class RunnerTest : public ::testing::Test {
   std::string said_;
   double seconds_left_ = 0;    ///< in the end
   std::optional<int> passes_;  ///< no more than these; none: all
-  MachineWatch* machine_ = nullptr;
+  run::MachineWatch* machine_ = nullptr;
 };
 
 TEST_F(RunnerTest, AGoodMethodGetsACompleteRow) {
-  const RunResult result = measure(plan_of({"polylidar"}));
+  const run::RunResult result = micro::measure(plan_of({"polylidar"}));
   EXPECT_EQ(exit_code(result), 0);
-  const RunRecord row = rows().at("polylidar");
+  const record::RunRecord row = rows().at("polylidar");
   EXPECT_EQ(to_string(row.status), "ok") << row.detail;
   EXPECT_EQ(row.name, "polylidar/ca/n:500/holes:0/protocol:paper");
-  EXPECT_EQ(row.id, run_identity(row));
+  EXPECT_EQ(row.id, record::run_identity(row));
   ASSERT_EQ(row.time_ns.size(), 3U);
   for (std::size_t i = 0; i < 3; ++i) {
-    const PhaseTimes& phases = row.phases_ns.at(i);
+    const record::PhaseTimes& phases = row.phases_ns.at(i);
     EXPECT_EQ(row.time_ns[i], phases.at("run") + phases.at("extract"));
     EXPECT_TRUE(phases.contains("load"));
     const std::int64_t steps =
@@ -801,13 +801,13 @@ TEST_F(RunnerTest, AMethodThatDoesNotCompileHasNoColdTime) {
 }
 
 TEST_F(RunnerTest, AWarmUpThatFailsIsTheRowsFailure) {
-  EXPECT_EQ(exit_code(measure(plan_of({"crash"}), &compiling_worker_of)), 4);
+  EXPECT_EQ(exit_code(micro::measure(plan_of({"crash"}), &compiling_worker_of)), 4);
   EXPECT_EQ(to_string(rows().at("crash").status), "crash");
   EXPECT_EQ(rows().at("crash").detail, "SIGSEGV");
 }
 
 TEST_F(RunnerTest, WorkFilesDoNotStay) {
-  measure(plan_of({"polylidar", "crash"}));
+  micro::measure(plan_of({"polylidar", "crash"}));
   std::set<std::string> names;
   for (const auto& entry : fs::directory_iterator(folder_.path() / "run"))
     names.insert(entry.path().filename().string());
@@ -819,11 +819,11 @@ class PlaceTest : public ::testing::Test {
   json header_ = header_of(plan_of({"good"}));
   testing::TemporaryFolder folder_;
 
-  std::unique_ptr<RunDirectory> open(bool force = false) {
-    return open_run_directory(header_, {std::nullopt, force, folder_.path()});
+  std::unique_ptr<run::RunDirectory> open(bool force = false) {
+    return run::open_run_directory(header_, {std::nullopt, force, folder_.path()});
   }
-  std::unique_ptr<RunDirectory> open_out(const fs::path& out, bool force = false) {
-    return open_run_directory(header_, {out, force, folder_.path()});
+  std::unique_ptr<run::RunDirectory> open_out(const fs::path& out, bool force = false) {
+    return run::open_run_directory(header_, {out, force, folder_.path()});
   }
 };
 
@@ -831,7 +831,8 @@ TEST_F(PlaceTest, TheFolderSaysWhenWhereAndWhat) {
   header_["created"] = "2026-01-31T12:34:56Z";
   header_["tool"]["commit"] = "0123456789abcdef";
   const auto directory = open();
-  EXPECT_EQ(directory->path(), folder_.path() / "runs" / ("20260131T123456Z-" + machine_id() + "-0123456"));
+  EXPECT_EQ(directory->path(),
+            folder_.path() / "runs" / ("20260131T123456Z-" + record::machine_id() + "-0123456"));
 }
 
 TEST_F(PlaceTest, AnUnfinishedRunGoesOn) {
@@ -900,29 +901,34 @@ TEST_F(PlaceTest, LatestPointsToTheRun) {
     header_["created"] = created;
     header_["filter"] = created;
     const auto directory = open();
-    point_latest_to(directory->path(), folder_.path());
+    run::point_latest_to(directory->path(), folder_.path());
     EXPECT_EQ(fs::canonical(folder_.path() / "latest"), fs::canonical(directory->path()));
     EXPECT_TRUE(fs::read_symlink(folder_.path() / "latest").is_relative());
   }
 }
 
 TEST(ExitCode, SaysWhatHappened) {
-  const auto code = [](std::map<Status, int> counts) { return exit_code({false, std::move(counts), 0}); };
-  EXPECT_EQ(code({{Status::kOk, 3}}), 0);
-  EXPECT_EQ(code({{Status::kOk, 3}, {Status::kNotInstalled, 1}, {Status::kUnsupported, 1}}), 0);
-  EXPECT_EQ(code({{Status::kNotInstalled, 1}}), 6);
+  const auto code = [](std::map<record::Status, int> counts) {
+    return exit_code({false, std::move(counts), 0});
+  };
+  EXPECT_EQ(code({{record::Status::kOk, 3}}), 0);
+  EXPECT_EQ(
+      code({{record::Status::kOk, 3}, {record::Status::kNotInstalled, 1}, {record::Status::kUnsupported, 1}}),
+      0);
+  EXPECT_EQ(code({{record::Status::kNotInstalled, 1}}), 6);
   EXPECT_EQ(code({}), 6);
-  for (const Status failure :
-       {Status::kTimeout, Status::kMemory, Status::kCrash, Status::kError, Status::kInvalidOutput}) {
-    EXPECT_EQ(code({{Status::kOk, 3}, {failure, 1}}), 4);
+  for (const record::Status failure :
+       {record::Status::kTimeout, record::Status::kMemory, record::Status::kCrash, record::Status::kError,
+        record::Status::kInvalidOutput}) {
+    EXPECT_EQ(code({{record::Status::kOk, 3}, {failure, 1}}), 4);
   }
-  EXPECT_EQ(exit_code({true, {{Status::kOk, 3}}, 0}), 130);
+  EXPECT_EQ(exit_code({true, {{record::Status::kOk, 3}}, 0}), 130);
 }
 
 TEST(Progress, EstimatesFromTheTimesSoFar) {
   std::ostringstream out;
   // Two runs of one method, the second one with twice the points, three units each.
-  Progress progress(out, false, 80, {{"one", {{"a", "m", 100, 3}, {"b", "m", 200, 3}}}});
+  run::Progress progress(out, false, 80, {{"one", {{"a", "m", 100, 3}, {"b", "m", 200, 3}}}});
   EXPECT_LT(progress.seconds_left(), 0);
   progress.begin(0);
   progress.advance(0, std::chrono::seconds(1));
@@ -937,10 +943,10 @@ TEST(Progress, EstimatesFromTheTimesSoFar) {
 
 TEST(Progress, BeginsItsLineWithTheSectionsTitle) {
   std::ostringstream out;
-  Progress progress(out, false, 80,
-                    {{"One, table 1 of 3", {{"a", "m", 100, 1}}},
-                     {"Two, table 2 of 3", {{"b", "m", 100, 1}}},
-                     {"", {{"c", "m", 100, 1}}}});
+  run::Progress progress(out, false, 80,
+                         {{"One, table 1 of 3", {{"a", "m", 100, 1}}},
+                          {"Two, table 2 of 3", {{"b", "m", 100, 1}}},
+                          {"", {{"c", "m", 100, 1}}}});
   for (std::size_t section = 0; section < 3; ++section) {
     progress.enter(section);
     progress.begin(0);
@@ -956,10 +962,10 @@ TEST(Progress, BeginsItsLineWithTheSectionsTitle) {
 TEST(Progress, WhatIsLeftCountsTheTablesThatAreNotBegun) {
   std::ostringstream out;
   // Runs with a method, points and units.
-  Progress progress(out, false, 80,
-                    {{"One", {{"a", "m", 100, 2}}},
-                     {"Two", {{"b", "m", 200, 1}, {"c", "m", 100, 1}}},
-                     {"Three", {{"d", "other", 100, 1}, {"e", "m", 100, 1}}}});
+  run::Progress progress(out, false, 80,
+                         {{"One", {{"a", "m", 100, 2}}},
+                          {"Two", {{"b", "m", 200, 1}, {"c", "m", 100, 1}}},
+                          {"Three", {{"d", "other", 100, 1}, {"e", "m", 100, 1}}}});
   EXPECT_LT(progress.seconds_left(), 0);
   progress.begin(0);
   progress.advance(0, std::chrono::seconds(1));
@@ -977,11 +983,11 @@ TEST(Progress, WhatIsLeftCountsTheTablesThatAreNotBegun) {
 
 TEST(Progress, ALaterPassIsEstimatedByTheEarlierOnesOfItsPlan) {
   std::ostringstream out;
-  Progress progress(out, false, 80,
-                    {{"One", {{"a", "m", 100, 1}}, "one"},
-                     {"Two", {{"b", "m", 100, 1}}, "two"},
-                     {"One again", {{"a", "m", 100, 1}}, "one"},
-                     {"Two again", {{"b", "m", 100, 1}}, "two"}});
+  run::Progress progress(out, false, 80,
+                         {{"One", {{"a", "m", 100, 1}}, "one"},
+                          {"Two", {{"b", "m", 100, 1}}, "two"},
+                          {"One again", {{"a", "m", 100, 1}}, "one"},
+                          {"Two again", {{"b", "m", 100, 1}}, "two"}});
   progress.advance(0, std::chrono::seconds(1));
   progress.enter(1);
   progress.advance(0, std::chrono::seconds(5));
@@ -991,17 +997,17 @@ TEST(Progress, ALaterPassIsEstimatedByTheEarlierOnesOfItsPlan) {
 
 TEST(Progress, WhatIsDoneOnceMoreIsLeft) {
   std::ostringstream out;
-  Progress progress(out, false, 80, {{"", {{"a", "m", 100, 2}}}});
+  run::Progress progress(out, false, 80, {{"", {{"a", "m", 100, 2}}}});
   progress.advance(0, std::chrono::seconds(1));
   progress.repeat(0);
   EXPECT_NEAR(progress.seconds_left(), 2, 1e-9);
 }
 
 TEST(Progress, WritesDurationsForPeople) {
-  EXPECT_EQ(format_duration(0.2), "0 s");
-  EXPECT_EQ(format_duration(59.4), "59 s");
-  EXPECT_EQ(format_duration(200), "3 min 20 s");
-  EXPECT_EQ(format_duration(7500), "2 h 5 min");
+  EXPECT_EQ(run::format_duration(0.2), "0 s");
+  EXPECT_EQ(run::format_duration(59.4), "59 s");
+  EXPECT_EQ(run::format_duration(200), "3 min 20 s");
+  EXPECT_EQ(run::format_duration(7500), "2 h 5 min");
 }
 
 }  // namespace

@@ -18,7 +18,7 @@ using Times = std::vector<std::int64_t>;
 TEST(Median, OfInfiniteValuesIsInfiniteAndNeverNaN) {
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
   const auto median_of = [](const std::vector<double>& values) {
-    return median(std::span<const double>(values));
+    return statistics::median(std::span<const double>(values));
   };
   EXPECT_EQ(median_of({kInfinity}), kInfinity);
   EXPECT_EQ(median_of({1, 2, kInfinity}), 2);
@@ -27,56 +27,56 @@ TEST(Median, OfInfiniteValuesIsInfiniteAndNeverNaN) {
 }
 
 TEST(Statistics, MedianOfOddCountIsTheMiddleValue) {
-  EXPECT_EQ(median(Times{9, 1, 5}), 5);
+  EXPECT_EQ(statistics::median(Times{9, 1, 5}), 5);
 }
 
 TEST(Statistics, MedianOfEvenCountIsTheMeanOfTheMiddleTwo) {
-  EXPECT_EQ(median(Times{9, 1, 4, 5}), 4.5);
+  EXPECT_EQ(statistics::median(Times{9, 1, 4, 5}), 4.5);
 }
 
 TEST(Statistics, MedianOfDoubles) {
   const std::vector<double> values = {0.5, 0.25, 4};
-  EXPECT_EQ(median(std::span<const double>(values)), 0.5);
+  EXPECT_EQ(statistics::median(std::span<const double>(values)), 0.5);
 }
 
 TEST(Statistics, OneOutlierMovesTheMeanOnly) {
   const Times values = {10, 11, 12, 13, 1000000};
-  EXPECT_EQ(median(values), 12);
-  EXPECT_EQ(median_absolute_deviation(values), 1);  // deviations 2 1 0 1 999988
-  EXPECT_EQ(mean(values), 200009.2);
+  EXPECT_EQ(statistics::median(values), 12);
+  EXPECT_EQ(statistics::median_absolute_deviation(values), 1);  // deviations 2 1 0 1 999988
+  EXPECT_EQ(statistics::mean(values), 200009.2);
 }
 
 TEST(Statistics, QuantilesInterpolateBetweenOrderStatistics) {
   const Times values = {40, 10, 30, 20};
-  EXPECT_EQ(quantile(values, 0), 10);
-  EXPECT_EQ(quantile(values, 1), 40);
-  EXPECT_EQ(quantile(values, 0.5), 25);
-  EXPECT_EQ(quantile(values, 0.25), 17.5);  // position 0.75
-  EXPECT_EQ(quantile(values, 0.75), 32.5);  // position 2.25
+  EXPECT_EQ(statistics::quantile(values, 0), 10);
+  EXPECT_EQ(statistics::quantile(values, 1), 40);
+  EXPECT_EQ(statistics::quantile(values, 0.5), 25);
+  EXPECT_EQ(statistics::quantile(values, 0.25), 17.5);  // position 0.75
+  EXPECT_EQ(statistics::quantile(values, 0.75), 32.5);  // position 2.25
 }
 
 TEST(Statistics, QuantileOutsideZeroToOneIsRefused) {
   const Times values = {1, 2};
-  EXPECT_THROW(quantile(values, -0.1), std::invalid_argument);
-  EXPECT_THROW(quantile(values, 1.1), std::invalid_argument);
-  EXPECT_THROW(quantile(values, std::numeric_limits<double>::quiet_NaN()), std::invalid_argument);
+  EXPECT_THROW(statistics::quantile(values, -0.1), std::invalid_argument);
+  EXPECT_THROW(statistics::quantile(values, 1.1), std::invalid_argument);
+  EXPECT_THROW(statistics::quantile(values, std::numeric_limits<double>::quiet_NaN()), std::invalid_argument);
 }
 
 TEST(Statistics, StandardDeviationDividesByOneLess) {
   // Mean 5, squares of the deviations 9 1 1 1 0 0 4 16, sum 32.
   const Times values = {2, 4, 4, 4, 5, 5, 7, 9};
-  ASSERT_TRUE(standard_deviation(values).has_value());
-  EXPECT_DOUBLE_EQ(*standard_deviation(values), std::sqrt(32.0 / 7.0));
+  ASSERT_TRUE(statistics::standard_deviation(values).has_value());
+  EXPECT_DOUBLE_EQ(*statistics::standard_deviation(values), std::sqrt(32.0 / 7.0));
 }
 
 TEST(Statistics, MeanAndStandardDeviationOfDoubles) {
   const std::vector<double> values = {0.5, 1.5, 4};
-  EXPECT_DOUBLE_EQ(mean(std::span<const double>(values)), 2);
-  EXPECT_DOUBLE_EQ(standard_deviation(std::span<const double>(values)).value(), std::sqrt(3.25));
+  EXPECT_DOUBLE_EQ(statistics::mean(std::span<const double>(values)), 2);
+  EXPECT_DOUBLE_EQ(statistics::standard_deviation(std::span<const double>(values)).value(), std::sqrt(3.25));
 }
 
 TEST(Statistics, OneValueHasNoStandardDeviation) {
-  const Statistics one = describe(Times{7});
+  const statistics::Statistics one = describe(Times{7});
   EXPECT_EQ(one.count, 1U);
   EXPECT_EQ(one.median, 7);
   EXPECT_EQ(one.mad, 0);
@@ -87,7 +87,7 @@ TEST(Statistics, OneValueHasNoStandardDeviation) {
 }
 
 TEST(Statistics, DescribeHasAllOfThem) {
-  const Statistics all = describe(Times{3, 1, 2, 10});
+  const statistics::Statistics all = describe(Times{3, 1, 2, 10});
   EXPECT_EQ(all.count, 4U);
   EXPECT_EQ(all.median, 2.5);
   EXPECT_EQ(all.mad, 1);  // deviations 0.5 1.5 0.5 7.5
@@ -99,35 +99,35 @@ TEST(Statistics, DescribeHasAllOfThem) {
 
 TEST(Statistics, LargeTimesKeepEveryNanosecond) {
   const std::int64_t day = 86'400'000'000'000;
-  EXPECT_EQ(median(Times{day, day + 1, day + 2}), static_cast<double>(day + 1));
-  EXPECT_EQ(*standard_deviation(Times{day, day + 2}), std::sqrt(2.0));
+  EXPECT_EQ(statistics::median(Times{day, day + 1, day + 2}), static_cast<double>(day + 1));
+  EXPECT_EQ(*statistics::standard_deviation(Times{day, day + 2}), std::sqrt(2.0));
 }
 
 TEST(Statistics, NothingHasNoStatistic) {
   const Times none;
-  EXPECT_THROW(median(none), std::invalid_argument);
-  EXPECT_THROW(quantile(none, 0.5), std::invalid_argument);
-  EXPECT_THROW(median_absolute_deviation(none), std::invalid_argument);
-  EXPECT_THROW(mean(none), std::invalid_argument);
-  EXPECT_THROW(standard_deviation(none), std::invalid_argument);
+  EXPECT_THROW(statistics::median(none), std::invalid_argument);
+  EXPECT_THROW(statistics::quantile(none, 0.5), std::invalid_argument);
+  EXPECT_THROW(statistics::median_absolute_deviation(none), std::invalid_argument);
+  EXPECT_THROW(statistics::mean(none), std::invalid_argument);
+  EXPECT_THROW(statistics::standard_deviation(none), std::invalid_argument);
   EXPECT_THROW(describe(none), std::invalid_argument);
 }
 
 TEST(ClusteredMean, ByHand) {
-  EXPECT_FALSE(clustered_mean_interval({}));
-  EXPECT_FALSE(clustered_mean_interval({{1, 2, 3}, {}})) << "one cluster says nothing of others";
+  EXPECT_FALSE(statistics::clustered_mean_interval({}));
+  EXPECT_FALSE(statistics::clustered_mean_interval({{1, 2, 3}, {}})) << "one cluster says nothing of others";
   // Of single values it is the usual interval: deviation 1, three values.
-  const auto single = clustered_mean_interval({{1}, {2}, {3}});
+  const auto single = statistics::clustered_mean_interval({{1}, {2}, {3}});
   ASSERT_TRUE(single);
   EXPECT_NEAR(single->low, 2 - 1.959964 / std::sqrt(3.0), 1e-6);
   EXPECT_NEAR(single->high, 2 + 1.959964 / std::sqrt(3.0), 1e-6);
   // Repeating every value in its cluster adds nothing.
-  const auto repeated = clustered_mean_interval({{1, 1}, {2, 2}, {}, {3, 3}});
+  const auto repeated = statistics::clustered_mean_interval({{1, 1}, {2, 2}, {}, {3, 3}});
   ASSERT_TRUE(repeated);
   EXPECT_NEAR(repeated->low, single->low, 1e-12);
   EXPECT_NEAR(repeated->high, single->high, 1e-12);
   // Mean 2, sums 1 - 2 and 7 - 6 beside their sizes' share: 1.96 sqrt(2 / 1 * 2) / 4.
-  const auto unequal = clustered_mean_interval({{1}, {2, 2, 3}});
+  const auto unequal = statistics::clustered_mean_interval({{1}, {2, 2, 3}});
   ASSERT_TRUE(unequal);
   EXPECT_NEAR(unequal->high - unequal->low, 2 * 1.959964 * 2 / 4, 1e-6);
 }
@@ -136,11 +136,11 @@ TEST(Holm, ByHand) {
   const std::vector<double> p = {0.01, 0.04, 0.03, 0.005};
   // 4 * 0.005, 3 * 0.01, 2 * 0.03, and 0.04 is held up to the one before.
   const std::vector<double> expected = {0.03, 0.06, 0.06, 0.02};
-  const std::vector<double> adjusted = holm_adjusted(p);
+  const std::vector<double> adjusted = statistics::holm_adjusted(p);
   ASSERT_EQ(adjusted.size(), expected.size());
   for (std::size_t i = 0; i < expected.size(); ++i) EXPECT_DOUBLE_EQ(adjusted[i], expected[i]);
-  EXPECT_TRUE(holm_adjusted({}).empty());
-  EXPECT_EQ(holm_adjusted(std::vector<double>{0.7, 0.8}), (std::vector<double>{1, 1}));
+  EXPECT_TRUE(statistics::holm_adjusted({}).empty());
+  EXPECT_EQ(statistics::holm_adjusted(std::vector<double>{0.7, 0.8}), (std::vector<double>{1, 1}));
 }
 
 }  // namespace

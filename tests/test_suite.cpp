@@ -67,7 +67,7 @@ std::set<std::string> names_in(const fs::path& folder) {
 /// The names of the rows of a run, each of which must be there once.
 std::set<std::string> rows_of(const fs::path& run) {
   std::set<std::string> names;
-  for (const json& line : load_json_lines(run / "runs.jsonl").lines)
+  for (const json& line : record::load_json_lines(run / "runs.jsonl").lines)
     EXPECT_TRUE(names.insert(line.at("name")).second) << line.at("name") << " is there twice";
   return names;
 }
@@ -157,7 +157,7 @@ TEST_F(SuiteTest, GoesThroughAllPlansPassByPass) {
   const std::map<std::string, json> passes = {{"first", {1, 1, 2}}, {"once", {1}}, {"second", {1, 2}}};
   for (const auto& [plan, expected] : passes) {
     EXPECT_EQ(rows_of(suite() / plan).size(), 2U);
-    for (const json& row : load_json_lines(suite() / plan / "runs.jsonl").lines)
+    for (const json& row : record::load_json_lines(suite() / plan / "runs.jsonl").lines)
       EXPECT_EQ(row.at("passes"), expected) << plan;
     EXPECT_TRUE(fs::exists(suite() / plan / "report.json")) << plan;
   }
@@ -280,7 +280,7 @@ class InterruptedSuiteTest : public SuiteTest {
 
   static std::map<int, int> lines_by_pass(const fs::path& suite) {
     std::map<int, int> counts;
-    for (const json& line : load_json_lines(suite / "second" / "repetitions.jsonl").lines)
+    for (const json& line : record::load_json_lines(suite / "second" / "repetitions.jsonl").lines)
       ++counts[line.at("pass").get<int>()];
     return counts;
   }
@@ -289,10 +289,10 @@ class InterruptedSuiteTest : public SuiteTest {
     EXPECT_EQ(rows_of(suite / "first").size(), 2U);
     EXPECT_EQ(rows_of(suite / "second").size(), 4U);
     std::set<std::pair<std::string, int>> seen;
-    for (const json& line : load_json_lines(suite / "second" / "repetitions.jsonl").lines)
+    for (const json& line : record::load_json_lines(suite / "second" / "repetitions.jsonl").lines)
       EXPECT_TRUE(seen.emplace(line.at("id"), line.at("repetition")).second) << line;
     EXPECT_EQ(seen.size(), std::size_t{4} * kRepetitions);
-    for (const json& line : load_json_lines(suite / "second" / "runs.jsonl").lines)
+    for (const json& line : record::load_json_lines(suite / "second" / "runs.jsonl").lines)
       EXPECT_EQ(line.at("time_ns").size(), std::size_t{kRepetitions});
   }
 };

@@ -24,12 +24,12 @@ using testing::TemporaryFolder;
 json invented_report(const std::vector<std::int64_t>& sizes) {
   const TemporaryFolder folder;
   test::write_invented_run(folder.path(), sizes);
-  return make_report(folder.path());
+  return report::make_report(folder.path());
 }
 
 std::string tables(const json& report) {
   std::ostringstream out;
-  print_markdown(make_document(report), out);
+  table::print_markdown(report::make_document(report), out);
   return out.str();
 }
 
@@ -53,7 +53,7 @@ TEST(Tables, FitATerminalOf120Columns) {
   std::istringstream lines(tables(invented_report({2000, 4000, 8000, 16000, 32000, 64000})));
   for (std::string line; std::getline(lines, line);) {
     const bool is_heading = line.rfind("###", 0) == 0;
-    EXPECT_TRUE(is_heading || display_width(line) <= 120) << line;
+    EXPECT_TRUE(is_heading || table::display_width(line) <= 120) << line;
   }
 }
 
@@ -100,7 +100,7 @@ void add_rival(json& report, const std::string& method, const std::string& name,
 }
 
 std::string headline_of(json report) {
-  report["summary"] = make_summary(report);
+  report["summary"] = report::make_summary(report);
   const std::string text = tables(report);
   const std::size_t words = text.find(": the fastest rival");
   if (words == std::string::npos) return "";
@@ -328,7 +328,7 @@ TEST(Tables, OfOtherDataSetsHaveNoClaimsOfThePaper) {
 TEST(Tables, OfNoRunsSaySo) {
   json report = invented_report({2000});
   report["runs"] = json::array();
-  report["summary"] = make_summary(report);
+  report["summary"] = report::make_summary(report);
   EXPECT_NE(tables(report).find("Rows by status: none."), std::string::npos);
 }
 
@@ -343,11 +343,11 @@ TEST(Tables, NeverShowNaN) {
 }
 
 TEST(TextTable, ColumnsLineUpAndBarsAreEscaped) {
-  TextTable table({"name", "a|b"});
+  table::TextTable table({"name", "a|b"});
   table.add_row({"±é", "1"});
   table.add_row({"x\ny", "12345"});
   std::ostringstream out;
-  print_markdown(table, out);
+  table::print_markdown(table, out);
   EXPECT_EQ(out.str(),
             "| name |  a\\|b |\n"
             "|------|------:|\n"
@@ -357,7 +357,7 @@ TEST(TextTable, ColumnsLineUpAndBarsAreEscaped) {
 }
 
 TEST(TextTable, SameNoteHasTheSameMark) {
-  Notes notes;
+  table::Notes notes;
   EXPECT_EQ(notes.mark("first"), "[1]");
   EXPECT_EQ(notes.mark("second"), "[2]");
   EXPECT_EQ(notes.mark("first"), "[1]");
@@ -366,7 +366,7 @@ TEST(TextTable, SameNoteHasTheSameMark) {
 
 TEST(TextTable, LongItemsAreBrokenBetweenWords) {
   std::ostringstream out;
-  print_item(std::string(115, 'a') + " bb " + std::string(130, 'c') + " d", out);
+  table::print_item(std::string(115, 'a') + " bb " + std::string(130, 'c') + " d", out);
   EXPECT_EQ(out.str(), "- " + std::string(115, 'a') + "\n  bb\n  " + std::string(130, 'c') + "\n  d\n");
 }
 

@@ -83,7 +83,7 @@ class TriangleMethod : public ::testing::Test {
   void expect_same_polygons(const std::vector<Point>& points, const Options& options) {
     SCOPED_TRACE(polylidar::testing::describe(options));
     const MultiPolygon shape = method_.hull(points, parameters_of(options));
-    EXPECT_EQ(invalid_reason(shape), "");
+    EXPECT_EQ(metrics::invalid_reason(shape), "");
     EXPECT_TRUE(canonical(shape) == canonical(core_hull(points, options)));
   }
 
@@ -165,7 +165,7 @@ TEST_F(DelaunatorTest, GivesTheCoresPolygonsOnNastyPointSets) {
       expect_same_polygons(points);
       ++compared;
     } else {
-      EXPECT_EQ(invalid_reason(method_.hull(points, {{"alpha", 0.01}})), "");
+      EXPECT_EQ(metrics::invalid_reason(method_.hull(points, {{"alpha", 0.01}})), "");
     }
   }
   EXPECT_GT(compared, 20U);
@@ -200,7 +200,7 @@ TEST_F(SciPyAlphaShapeTest, IsValidWhereTrianglesOverlap) {
     for (Point& point : points) point = {point.x * 0.1 + 1e6, point.y * 0.1 + 1e6};
     for (const double alpha : {0.3, 1.0}) {
       const MultiPolygon shape = method_.hull(points, {{"alpha", alpha}});
-      EXPECT_EQ(invalid_reason(shape), "") << alpha;
+      EXPECT_EQ(metrics::invalid_reason(shape), "") << alpha;
       const double area = polylidar::area(core_hull(points, {.alpha = alpha}));
       EXPECT_NEAR(polylidar::area(shape), area, 0.05 * area) << alpha;
     }
@@ -215,7 +215,7 @@ TEST_F(SciPyAlphaShapeTest, IsValidOnNastyPointSets) {
     const double largest = polylidar::area(core_hull(points, polylidar::testing::kConvexHull));
     for (const double alpha : {0.0, 0.01, 0.05, 1.0, polylidar::kNoLimit}) {
       const MultiPolygon shape = method_.hull(points, {{"alpha", alpha}});
-      EXPECT_EQ(invalid_reason(shape), "") << alpha;
+      EXPECT_EQ(metrics::invalid_reason(shape), "") << alpha;
       EXPECT_LE(polylidar::area(shape), largest * (1 + 1e-9)) << alpha;
     }
   }
@@ -303,7 +303,7 @@ TEST_F(ShrinkBoundaryTest, IsOneValidPolygonOrNoneOfNastyPointSets) {
     for (const double factor : {0.0, 0.5, 1.0}) {
       const MultiPolygon shape = method_.hull(points, {{"shrink_factor", factor}});
       EXPECT_LE(shape.size(), polylidar::delaunay(points).triangles.empty() ? 0U : 1U);
-      EXPECT_EQ(invalid_reason(shape), "");
+      EXPECT_EQ(metrics::invalid_reason(shape), "");
     }
   }
 }

@@ -13,9 +13,9 @@
 #include <string>
 #include <vector>
 
-#include "benchmarks/record/json_lines.hpp"
 #include "benchmarks/metrics/area.hpp"
 #include "benchmarks/plan/parameter_rules.hpp"
+#include "benchmarks/record/json_lines.hpp"
 #include "datasets/datasets.hpp"
 #include "tests/program.hpp"
 #include "tests/small_plans.hpp"
@@ -118,7 +118,7 @@ class TuneTest : public ::testing::Test {
   json summary(const std::string& out) const { return json::parse(read_text(folder() / out / "tune.json")); }
 
   std::vector<json> sweep(const std::string& out) const {
-    return load_json_lines(folder() / out / "sweep.jsonl").lines;
+    return record::load_json_lines(folder() / out / "sweep.jsonl").lines;
   }
 
   void expect_valid(const std::string& file) const {
@@ -152,8 +152,8 @@ TEST_F(TuneTest, FindsTheBestOfAMadeUpMethod) {
   const PointSet set = make_point_set("ca", false, 300, 1);
   double best = 2;
   for (double octave = -3; octave <= 5; octave += 0.01) {
-    const double radius = mean_spacing(set.points) * std::exp2(octave);
-    best = std::min(best, area_scores(disc(set.points, radius), set.ground_truth).l2.value_or(2));
+    const double radius = plan::mean_spacing(set.points) * std::exp2(octave);
+    best = std::min(best, metrics::area_scores(disc(set.points, radius), set.ground_truth).l2.value_or(2));
   }
   const json oracle = method_of(summary("out"), "disc").at("oracle").at(0);
   // The refinement ends within 0.03 octaves, where the error is a valley with a slope below 1 an octave.
@@ -193,7 +193,7 @@ TEST_F(TuneTest, ItsPlanMeasuresWhatItFound) {
   }
   ASSERT_FALSE(tested.empty());
   ASSERT_LT(tested.size(), 6U) << "this seed must have both sides among six stars";
-  const auto rows = load_json_lines(folder() / "run" / "runs.jsonl").lines;
+  const auto rows = record::load_json_lines(folder() / "run" / "runs.jsonl").lines;
   std::set<std::string> measured;
   for (const json& row : rows) {
     ASSERT_TRUE(found.contains(row.at("name"))) << row.at("name");
@@ -261,13 +261,13 @@ TEST_F(TuneTest, GoesOnAfterAnInterruptionToTheSameResult) {
   const fs::path file = folder() / "parts" / "sweep.jsonl";
   {
     Program program(command(tune_words(cases, "disc|polylidar", "parts", {"--jobs", "1"})), options());
-    ASSERT_TRUE(
-        testing::wait_until([&] { return fs::exists(file) && load_json_lines(file).lines.size() > 60; }));
+    ASSERT_TRUE(testing::wait_until(
+        [&] { return fs::exists(file) && record::load_json_lines(file).lines.size() > 60; }));
     program.send_signal(SIGINT);
     const Outcome outcome = program.wait();
     EXPECT_EQ(outcome.code, 130) << outcome.err;
   }
-  const std::size_t kept = load_json_lines(file).lines.size();
+  const std::size_t kept = record::load_json_lines(file).lines.size();
   ASSERT_LT(kept, sweep("whole").size()) << "it was over before the interruption";
   // As a kill leaves it.
   write_text(file, read_text(file) + "{\"kind\": \"eval");

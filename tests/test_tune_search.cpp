@@ -38,42 +38,43 @@ MethodInfo method_with(std::vector<ParameterInfo> parameters, bool holes = true)
   return info;
 }
 
-SearchAxis length_axis() {
-  return *search_axis(method_with({parameter("reach", "length", 0, kInfinity)}));
+tune::SearchAxis length_axis() {
+  return *tune::search_axis(method_with({parameter("reach", "length", 0, kInfinity)}));
 }
 
 TEST(SearchAxisTest, LengthsShareOneAxisWhateverTheirPower) {
-  const SearchAxis length = length_axis();
+  const tune::SearchAxis length = length_axis();
   EXPECT_EQ(length.parameter, "reach");
   EXPECT_TRUE(length.spacings);
   EXPECT_EQ(length.low, 0.125);
   EXPECT_EQ(length.high, 32);
-  const SearchAxis area = *search_axis(method_with({parameter("alpha", "length^2", 0, kInfinity)}));
-  EXPECT_EQ(grid(area, kGridPoints), grid(length, kGridPoints));
-  EXPECT_DOUBLE_EQ(value_at(length, 1.5, 10), 15);
-  EXPECT_DOUBLE_EQ(value_at(area, 1.5, 10), 225);
+  const tune::SearchAxis area =
+      *tune::search_axis(method_with({parameter("alpha", "length^2", 0, kInfinity)}));
+  EXPECT_EQ(tune::grid(area, tune::kGridPoints), tune::grid(length, tune::kGridPoints));
+  EXPECT_DOUBLE_EQ(tune::value_at(length, 1.5, 10), 15);
+  EXPECT_DOUBLE_EQ(tune::value_at(area, 1.5, 10), 225);
 }
 
 TEST(SearchAxisTest, OtherParametersHaveTheirOwnRange) {
-  const SearchAxis ratio = *search_axis(method_with({parameter("ratio", "ratio", 0, 1)}));
+  const tune::SearchAxis ratio = *tune::search_axis(method_with({parameter("ratio", "ratio", 0, 1)}));
   EXPECT_FALSE(ratio.spacings);
   EXPECT_EQ(ratio.high, 1);
   EXPECT_EQ(ratio.low, 1.0 / 256);
-  EXPECT_EQ(value_at(ratio, 0.5, 1000), 0.5);
-  const SearchAxis number = *search_axis(method_with({parameter("c", "1", 0, kInfinity)}));
+  EXPECT_EQ(tune::value_at(ratio, 0.5, 1000), 0.5);
+  const tune::SearchAxis number = *tune::search_axis(method_with({parameter("c", "1", 0, kInfinity)}));
   EXPECT_EQ(number.low, 0.125);
   EXPECT_EQ(number.high, 32);
-  const SearchAxis narrow = *search_axis(method_with({parameter("c", "1", 2, 5)}));
+  const tune::SearchAxis narrow = *tune::search_axis(method_with({parameter("c", "1", 2, 5)}));
   EXPECT_EQ(narrow.low, 2);
   EXPECT_EQ(narrow.high, 5);
-  const SearchAxis above = *search_axis(method_with({parameter("c", "1", 1, kInfinity)}));
+  const tune::SearchAxis above = *tune::search_axis(method_with({parameter("c", "1", 1, kInfinity)}));
   EXPECT_EQ(above.low, 1);
   EXPECT_EQ(above.high, 256);
 }
 
 TEST(SearchAxisTest, CountsAreWholeAndEachIsThereOnce) {
-  const SearchAxis axis = *search_axis(method_with({parameter("k", "count", 3, kInfinity)}));
-  const std::vector<double> positions = grid(axis, kGridPoints);
+  const tune::SearchAxis axis = *tune::search_axis(method_with({parameter("k", "count", 3, kInfinity)}));
+  const std::vector<double> positions = tune::grid(axis, tune::kGridPoints);
   EXPECT_EQ(positions.front(), 3);
   EXPECT_EQ(positions.back(), 768);
   for (const double position : positions) EXPECT_EQ(position, std::round(position));
@@ -82,36 +83,37 @@ TEST(SearchAxisTest, CountsAreWholeAndEachIsThereOnce) {
 }
 
 TEST(SearchAxisTest, TakesTheFirstNumberAndALengthBeforeARatio) {
-  EXPECT_EQ(
-      search_axis(method_with({parameter("holes", "switch", 0, 1, 0), parameter("c", "1", 0, kInfinity, 2),
-                               parameter("reach", "length", 0, kInfinity, 0)}))
-          ->parameter,
-      "c");
-  EXPECT_EQ(
-      search_axis(method_with({parameter("ratio", "ratio", 0, 1, 1), parameter("holes", "switch", 0, 1, 0),
-                               parameter("reach", "length", 0, kInfinity, kInfinity)}))
-          ->parameter,
-      "reach");
-  EXPECT_FALSE(search_axis(method_with({})));
-  EXPECT_FALSE(search_axis(method_with({parameter("holes", "switch", 0, 1, 0)})));
-  EXPECT_FALSE(search_axis(method_with({parameter("c", "1", -1, 1)}))) << "there is no logarithm";
-  EXPECT_FALSE(search_axis(method_with({parameter("a", "length", 0, 1), parameter("b", "length", 0, 1)})))
+  EXPECT_EQ(tune::search_axis(
+                method_with({parameter("holes", "switch", 0, 1, 0), parameter("c", "1", 0, kInfinity, 2),
+                             parameter("reach", "length", 0, kInfinity, 0)}))
+                ->parameter,
+            "c");
+  EXPECT_EQ(tune::search_axis(
+                method_with({parameter("ratio", "ratio", 0, 1, 1), parameter("holes", "switch", 0, 1, 0),
+                             parameter("reach", "length", 0, kInfinity, kInfinity)}))
+                ->parameter,
+            "reach");
+  EXPECT_FALSE(tune::search_axis(method_with({})));
+  EXPECT_FALSE(tune::search_axis(method_with({parameter("holes", "switch", 0, 1, 0)})));
+  EXPECT_FALSE(tune::search_axis(method_with({parameter("c", "1", -1, 1)}))) << "there is no logarithm";
+  EXPECT_FALSE(
+      tune::search_axis(method_with({parameter("a", "length", 0, 1), parameter("b", "length", 0, 1)})))
       << "the other one is required";
 }
 
 TEST(SearchAxisTest, SwitchesForHolesAreSetWhereTheMethodHasHoles) {
   const std::vector<ParameterInfo> parameters = {parameter("allow_holes", "switch", 0, 1, 0),
                                                  parameter("fast", "switch", 0, 1, 0)};
-  EXPECT_EQ(fixed_parameters(method_with(parameters)), (Parameters{{"allow_holes", 1}}));
-  EXPECT_EQ(fixed_parameters(method_with(parameters, false)), Parameters());
+  EXPECT_EQ(tune::fixed_parameters(method_with(parameters)), (Parameters{{"allow_holes", 1}}));
+  EXPECT_EQ(tune::fixed_parameters(method_with(parameters, false)), Parameters());
 }
 
 TEST(SearchTest, FindsTheBestOfAUnimodalError) {
   for (const double best : {0.15, 0.9, 1.37, 7.7, 29.0}) {
-    const auto points = search(length_axis(), [&](double position) {
-      return Trial{0.1 + std::pow(std::log2(position / best), 2), false};
+    const auto points = tune::search(length_axis(), [&](double position) {
+      return tune::Trial{0.1 + std::pow(std::log2(position / best), 2), false};
     });
-    ASSERT_EQ(points.size(), static_cast<std::size_t>(kGridPoints + kRefinements));
+    ASSERT_EQ(points.size(), static_cast<std::size_t>(tune::kGridPoints + tune::kRefinements));
     const auto found = std::min_element(points.begin(), points.end(),
                                         [](const auto& a, const auto& b) { return a.error < b.error; });
     // Two thirds of an octave, shortened 7 times by the golden ratio.
@@ -121,67 +123,70 @@ TEST(SearchTest, FindsTheBestOfAUnimodalError) {
 }
 
 TEST(SearchTest, AsksForNoPositionTwice) {
-  const SearchAxis counts = *search_axis(method_with({parameter("k", "count", 3, kInfinity)}));
+  const tune::SearchAxis counts = *tune::search_axis(method_with({parameter("k", "count", 3, kInfinity)}));
   std::set<double> asked;
-  search(counts, [&](double position) {
+  tune::search(counts, [&](double position) {
     EXPECT_TRUE(asked.insert(position).second) << position;
     EXPECT_EQ(position, std::round(position));
-    return Trial{std::abs(position - 11), false};
+    return tune::Trial{std::abs(position - 11), false};
   });
   EXPECT_TRUE(asked.contains(11));
 }
 
 TEST(SearchTest, FailuresAreInfinitelyBadAndTimeoutsEndTheSweep) {
-  const auto all_fail = search(length_axis(), [](double) { return Trial{}; });
-  EXPECT_EQ(all_fail.size(), static_cast<std::size_t>(kGridPoints)) << "nothing to refine";
+  const auto all_fail = tune::search(length_axis(), [](double) { return tune::Trial{}; });
+  EXPECT_EQ(all_fail.size(), static_cast<std::size_t>(tune::kGridPoints)) << "nothing to refine";
   // Good only where nobody would look after failures.
-  const auto one = search(length_axis(), [](double position) {
-    return position > 20 ? Trial{0.5, false} : Trial{};
+  const auto one = tune::search(length_axis(), [](double position) {
+    return position > 20 ? tune::Trial{0.5, false} : tune::Trial{};
   });
   EXPECT_TRUE(std::any_of(one.begin(), one.end(), [](const auto& point) { return point.error == 0.5; }));
-  const auto slow = search(length_axis(), [](double position) {
-    return position < 1 ? Trial{0.5, false} : Trial{kInfinitelyBad, true};
+  const auto slow = tune::search(length_axis(), [](double position) {
+    return position < 1 ? tune::Trial{0.5, false} : tune::Trial{tune::kInfinitelyBad, true};
   });
   const auto tried = std::count_if(slow.begin(), slow.end(), [](const auto& point) {
-    return point.on_grid && point.error == kInfinitelyBad;
+    return point.on_grid && point.error == tune::kInfinitelyBad;
   });
-  EXPECT_EQ(tried, kMostTimeouts);
+  EXPECT_EQ(tried, tune::kMostTimeouts);
 }
 
-std::vector<SearchPoint> curve(const std::vector<std::pair<double, double>>& values) {
-  std::vector<SearchPoint> points;
+std::vector<tune::SearchPoint> curve(const std::vector<std::pair<double, double>>& values) {
+  std::vector<tune::SearchPoint> points;
   for (const auto& [position, error] : values) points.push_back({position, error, true});
   return points;
 }
 
 TEST(ToleranceTest, IsTheWidthOfTheRangeWithinTenPercent) {
   // Flat from 1 to 4: two octaves, and nothing outside, where it jumps at once.
-  EXPECT_NEAR(*tolerance_octaves(curve({{0.999999, 9}, {1, 1}, {2, 1}, {4, 1}, {4.000001, 9}})), 2, 1e-5);
+  EXPECT_NEAR(*tune::tolerance_octaves(curve({{0.999999, 9}, {1, 1}, {2, 1}, {4, 1}, {4.000001, 9}})), 2,
+              1e-5);
   // A tent in the logarithm, from 1 at 2 to 2 an octave away on both sides: a tenth of an octave each way.
-  EXPECT_NEAR(*tolerance_octaves(curve({{4, 2}, {1, 2}, {2, 1}})), 0.2, 1e-12);
+  EXPECT_NEAR(*tune::tolerance_octaves(curve({{4, 2}, {1, 2}, {2, 1}})), 0.2, 1e-12);
   // It ends where the error leaves the range for the first time.
-  EXPECT_NEAR(*tolerance_octaves(curve({{1, 1}, {2, 2}, {4, 1}, {8, 1}})), 0.1, 1e-12);
+  EXPECT_NEAR(*tune::tolerance_octaves(curve({{1, 1}, {2, 2}, {4, 1}, {8, 1}})), 0.1, 1e-12);
   // At the axis' ends it is cut, and beside a failure it ends at the last good evaluation.
-  EXPECT_NEAR(*tolerance_octaves(curve({{1, 1}, {2, 1.05}})), 1, 1e-12);
-  EXPECT_NEAR(*tolerance_octaves(curve({{0.5, kInfinitelyBad}, {1, 1}, {2, 1.05}, {4, kInfinitelyBad}})), 1,
-              1e-12);
-  EXPECT_EQ(*tolerance_octaves(curve({{1, kInfinitelyBad}, {2, 0}, {4, kInfinitelyBad}})), 0);
-  EXPECT_FALSE(tolerance_octaves(curve({{1, kInfinitelyBad}})));
-  EXPECT_FALSE(tolerance_octaves(std::vector<SearchPoint>()));
+  EXPECT_NEAR(*tune::tolerance_octaves(curve({{1, 1}, {2, 1.05}})), 1, 1e-12);
+  EXPECT_NEAR(*tune::tolerance_octaves(
+                  curve({{0.5, tune::kInfinitelyBad}, {1, 1}, {2, 1.05}, {4, tune::kInfinitelyBad}})),
+              1, 1e-12);
+  EXPECT_EQ(*tune::tolerance_octaves(curve({{1, tune::kInfinitelyBad}, {2, 0}, {4, tune::kInfinitelyBad}})),
+            0);
+  EXPECT_FALSE(tune::tolerance_octaves(curve({{1, tune::kInfinitelyBad}})));
+  EXPECT_FALSE(tune::tolerance_octaves(std::vector<tune::SearchPoint>()));
 }
 
 TEST(SplitTest, IsFixedBySeedAndName) {
   // These must not change: recorded results are of these sides.
   std::string sides;
   for (const char* shape : {"ca", "hi", "letter_a", "letter_b", "letter_c", "star-1", "star-2", "comb-1"})
-    sides += side_of(shape, 1) == Side::kTest ? 'e' : 'r';
+    sides += tune::side_of(shape, 1) == tune::Side::kTest ? 'e' : 'r';
   EXPECT_EQ(sides, "eeeerrre");
   int tests = 0;
   int moved = 0;
   for (int i = 1; i <= 1000; ++i) {
     const std::string shape = "star-" + std::to_string(i);
-    if (side_of(shape, 1) == Side::kTest) ++tests;
-    if (side_of(shape, 1) != side_of(shape, 2)) ++moved;
+    if (tune::side_of(shape, 1) == tune::Side::kTest) ++tests;
+    if (tune::side_of(shape, 1) != tune::side_of(shape, 2)) ++moved;
   }
   // Within five standard deviations of a fair coin's 500.
   EXPECT_NEAR(tests, 500, 80);
@@ -193,17 +198,17 @@ class InventedTuning {
  public:
   explicit InventedTuning(const MethodInfo& info, int count = 40) {
     tuning.split_seed = 1;
-    MethodTuning& method = tuning.methods.emplace_back();
+    tune::MethodTuning& method = tuning.methods.emplace_back();
     method.name = method.title = info.name;
     method.info = info;
-    method.axis = search_axis(info);
+    method.axis = tune::search_axis(info);
     for (int i = 1; i <= count; ++i) {
-      TuningCase& one = tuning.cases.emplace_back();
+      tune::TuningCase& one = tuning.cases.emplace_back();
       one.plan_case = {"star-" + std::to_string(i), false, 500};
       one.seed = 1;
       one.name = one.plan_case.dataset + "/n:500/holes:0";
       one.shape = base_shape(one.plan_case.dataset);
-      one.side = side_of(one.shape, 1);
+      one.side = tune::side_of(one.shape, 1);
       one.n = 500;
       one.spacing = 1;
       one.dataset_sha256 = std::string(64, '0');
@@ -212,12 +217,12 @@ class InventedTuning {
 
   template <typename Error>
   InventedTuning& with(Error error_of) {
-    MethodTuning& method = tuning.methods.front();
+    tune::MethodTuning& method = tuning.methods.front();
     method.cases.clear();
-    for (const TuningCase& one : tuning.cases) {
-      MethodOnCase& found = method.cases.emplace_back();
-      for (const SearchPoint& point : search(*method.axis, [&](double position) {
-             return Trial{error_of(one, position), false};
+    for (const tune::TuningCase& one : tuning.cases) {
+      tune::MethodOnCase& found = method.cases.emplace_back();
+      for (const tune::SearchPoint& point : tune::search(*method.axis, [&](double position) {
+             return tune::Trial{error_of(one, position), false};
            })) {
         found.sweep.push_back({point.position, point.on_grid, evaluation(one, point.position, point.error)});
       }
@@ -225,9 +230,9 @@ class InventedTuning {
     return *this;
   }
 
-  Evaluation evaluation(const TuningCase& one, double position, double error) const {
-    const MethodTuning& method = tuning.methods.front();
-    Evaluation result;
+  tune::Evaluation evaluation(const tune::TuningCase& one, double position, double error) const {
+    const tune::MethodTuning& method = tuning.methods.front();
+    tune::Evaluation result;
     result.case_name = one.name;
     result.method = method.name;
     result.method_version = "1";
@@ -236,22 +241,22 @@ class InventedTuning {
     result.dataset_sha256 = one.dataset_sha256;
     result.n = one.n;
     result.seed = one.seed;
-    result.parameters = fixed_parameters(*method.info);
-    result.parameters[method.axis->parameter] = value_at(*method.axis, position, one.spacing);
-    if (is_infinitely_bad(error)) {
-      result.status = Status::kCrash;
+    result.parameters = tune::fixed_parameters(*method.info);
+    result.parameters[method.axis->parameter] = tune::value_at(*method.axis, position, one.spacing);
+    if (tune::is_infinitely_bad(error)) {
+      result.status = record::Status::kCrash;
       result.detail = "SIGSEGV";
     } else {
       result.l2 = error;
     }
-    result.id = evaluation_identity(result);
+    result.id = tune::evaluation_identity(result);
     return result;
   }
 
-  const MethodTuning& method() const { return tuning.methods.front(); }
-  std::optional<TunedValue> tuned() const { return choose_tuned(tuning, method()); }
+  const tune::MethodTuning& method() const { return tuning.methods.front(); }
+  std::optional<tune::TunedValue> tuned() const { return tune::choose_tuned(tuning, method()); }
 
-  Tuning tuning;
+  tune::Tuning tuning;
 };
 
 MethodInfo usual_method() {
@@ -263,9 +268,9 @@ double valley(double position, double best) {
   return 0.1 + std::abs(std::log2(position / best));
 }
 
-const ProtocolScore* score_of(const std::vector<ProtocolScore>& scores, const std::string& protocol,
-                              bool test_only) {
-  for (const ProtocolScore& score : scores) {
+const tune::ProtocolScore* score_of(const std::vector<tune::ProtocolScore>& scores,
+                                    const std::string& protocol, bool test_only) {
+  for (const tune::ProtocolScore& score : scores) {
     if (score.protocol == protocol && score.test_only == test_only) return &score;
   }
   return nullptr;
@@ -275,27 +280,28 @@ TEST(TunedTest, IsTheTrainingShapesBestAndNeverSeesATestShape) {
   // Three training shapes among many test shapes, which would have the say if they were heard.
   InventedTuning invented(usual_method());
   int training = 0;
-  std::erase_if(invented.tuning.cases,
-                [&](const TuningCase& one) { return one.side == Side::kTraining && ++training > 3; });
+  std::erase_if(invented.tuning.cases, [&](const tune::TuningCase& one) {
+    return one.side == tune::Side::kTraining && ++training > 3;
+  });
   const auto tuned_with = [&](double best_of_tests) {
     return *invented
-                .with([&](const TuningCase& one, double position) {
-                  return valley(position, one.side == Side::kTraining ? 2 : best_of_tests);
+                .with([&](const tune::TuningCase& one, double position) {
+                  return valley(position, one.side == tune::Side::kTraining ? 2 : best_of_tests);
                 })
                 .tuned();
   };
-  const TunedValue here = tuned_with(2);
+  const tune::TunedValue here = tuned_with(2);
   EXPECT_NEAR(std::log2(here.position / 2), 0, 1.0 / 6) << "the grid's next position";
   EXPECT_EQ(here.training_cases, 3U);
   for (const double elsewhere : {0.3, 16.0}) {
-    const TunedValue there = tuned_with(elsewhere);
+    const tune::TunedValue there = tuned_with(elsewhere);
     EXPECT_EQ(there.position, here.position);
     EXPECT_EQ(there.training_median, here.training_median);
     EXPECT_EQ(there.training_cases, here.training_cases);
   }
   EXPECT_FALSE(here.at_end);
   EXPECT_TRUE(InventedTuning(usual_method())
-                  .with([](const TuningCase&, double position) { return valley(position, 1000); })
+                  .with([](const tune::TuningCase&, double position) { return valley(position, 1000); })
                   .tuned()
                   ->at_end);
 }
@@ -303,17 +309,18 @@ TEST(TunedTest, IsTheTrainingShapesBestAndNeverSeesATestShape) {
 TEST(TunedTest, FailuresAreInfinitelyBadButAFewDoNotRuleAValueOut) {
   int count = 0;
   InventedTuning invented(usual_method());
-  for (const TuningCase& one : invented.tuning.cases) count += one.side == Side::kTraining ? 1 : 0;
+  for (const tune::TuningCase& one : invented.tuning.cases)
+    count += one.side == tune::Side::kTraining ? 1 : 0;
   ASSERT_GE(count, 8);
   int fails = 0;
   std::map<std::string, bool> failing;
-  for (const TuningCase& one : invented.tuning.cases)
-    failing[one.shape] = one.side == Side::kTraining && fails++ < count / 4;
-  invented.with([&](const TuningCase& one, double position) {
-    return failing[one.shape] ? kInfinitelyBad : valley(position, 2);
+  for (const tune::TuningCase& one : invented.tuning.cases)
+    failing[one.shape] = one.side == tune::Side::kTraining && fails++ < count / 4;
+  invented.with([&](const tune::TuningCase& one, double position) {
+    return failing[one.shape] ? tune::kInfinitelyBad : valley(position, 2);
   });
   EXPECT_NEAR(std::log2(invented.tuned()->position / 2), 0, 1.0 / 6);
-  invented.with([](const TuningCase&, double) { return kInfinitelyBad; });
+  invented.with([](const tune::TuningCase&, double) { return tune::kInfinitelyBad; });
   EXPECT_FALSE(invented.tuned());
   InventedTuning nothing(usual_method(), 0);
   EXPECT_FALSE(nothing.tuned()) << "no training shape";
@@ -321,67 +328,67 @@ TEST(TunedTest, FailuresAreInfinitelyBadButAFewDoNotRuleAValueOut) {
 
 TEST(ProtocolTest, TheOracleIsTheBestAndRegretIsWhatTheOthersAddToIt) {
   InventedTuning invented(usual_method());
-  invented.with([](const TuningCase&, double position) { return valley(position, 2); });
+  invented.with([](const tune::TuningCase&, double position) { return valley(position, 2); });
   for (std::size_t i = 0; i < invented.tuning.cases.size(); ++i) {
-    MethodOnCase& found = invented.tuning.methods[0].cases[i];
+    tune::MethodOnCase& found = invented.tuning.methods[0].cases[i];
     found.protocols.emplace("default", invented.evaluation(invented.tuning.cases[i], 32, 0.75));
-    for (const SweepEvaluation& one : found.sweep)
-      EXPECT_LE(best_evaluation(found)->error(), one.evaluation.error());
+    for (const tune::SweepEvaluation& one : found.sweep)
+      EXPECT_LE(tune::best_evaluation(found)->error(), one.evaluation.error());
   }
-  const auto scores = protocol_scores(invented.tuning, invented.method(), invented.tuned());
-  const ProtocolScore* oracle = score_of(scores, "oracle", false);
+  const auto scores = tune::protocol_scores(invented.tuning, invented.method(), invented.tuned());
+  const tune::ProtocolScore* oracle = score_of(scores, "oracle", false);
   ASSERT_NE(oracle, nullptr);
   EXPECT_EQ(oracle->regret_median, 0);
   EXPECT_NEAR(oracle->l2_median, 0.1, 0.03);
-  const ProtocolScore* left_alone = score_of(scores, "default", false);
+  const tune::ProtocolScore* left_alone = score_of(scores, "default", false);
   ASSERT_NE(left_alone, nullptr);
   EXPECT_DOUBLE_EQ(left_alone->l2_median, 0.75);
   EXPECT_DOUBLE_EQ(*left_alone->regret_median, 0.75 - oracle->l2_median);
   EXPECT_EQ(left_alone->cases, invented.tuning.cases.size());
   EXPECT_EQ(score_of(scores, "tuned", false), nullptr) << "on test shapes only";
-  const ProtocolScore* tuned = score_of(scores, "tuned", true);
+  const tune::ProtocolScore* tuned = score_of(scores, "tuned", true);
   ASSERT_NE(tuned, nullptr);
   const auto tests = std::count_if(invented.tuning.cases.begin(), invented.tuning.cases.end(),
-                                   [](const TuningCase& one) { return one.side == Side::kTest; });
+                                   [](const tune::TuningCase& one) { return one.side == tune::Side::kTest; });
   EXPECT_EQ(tuned->cases, static_cast<std::size_t>(tests));
   EXPECT_EQ(score_of(scores, "paper", true), nullptr);
 }
 
 TEST(ProtocolTest, ABetterDefaultIsTheOracle) {
   InventedTuning invented(usual_method(), 1);
-  invented.with([](const TuningCase&, double position) { return valley(position, 2); });
-  MethodOnCase& found = invented.tuning.methods[0].cases[0];
+  invented.with([](const tune::TuningCase&, double position) { return valley(position, 2); });
+  tune::MethodOnCase& found = invented.tuning.methods[0].cases[0];
   found.protocols.emplace("default", invented.evaluation(invented.tuning.cases[0], 50, 0.01));
-  EXPECT_EQ(best_evaluation(found), &found.protocols.at("default"));
+  EXPECT_EQ(tune::best_evaluation(found), &found.protocols.at("default"));
 }
 
 TEST(ProtocolTest, FailedCasesCountAsInfinitelyBad) {
   InventedTuning invented(usual_method());
-  invented.with([](const TuningCase&, double position) { return valley(position, 2); });
+  invented.with([](const tune::TuningCase&, double position) { return valley(position, 2); });
   for (std::size_t i = 0; i < invented.tuning.cases.size(); ++i) {
     invented.tuning.methods[0].cases[i].protocols.emplace(
-        "default", invented.evaluation(invented.tuning.cases[i], 32, kInfinitelyBad));
+        "default", invented.evaluation(invented.tuning.cases[i], 32, tune::kInfinitelyBad));
   }
-  const auto scores = protocol_scores(invented.tuning, invented.method(), invented.tuned());
-  const ProtocolScore* failing = score_of(scores, "default", false);
+  const auto scores = tune::protocol_scores(invented.tuning, invented.method(), invented.tuned());
+  const tune::ProtocolScore* failing = score_of(scores, "default", false);
   EXPECT_EQ(failing->failed, invented.tuning.cases.size());
-  EXPECT_TRUE(is_infinitely_bad(failing->l2_median));
-  EXPECT_TRUE(is_infinitely_bad(*failing->regret_median));
+  EXPECT_TRUE(tune::is_infinitely_bad(failing->l2_median));
+  EXPECT_TRUE(tune::is_infinitely_bad(*failing->regret_median));
 }
 
 TEST(CurveTest, IsRelativeToEachCasesOwnBest) {
   InventedTuning invented(usual_method());
   // Twice as hard on every second shape, which must not show in the relative curve.
-  invented.with([](const TuningCase& one, double position) {
+  invented.with([](const tune::TuningCase& one, double position) {
     const double hardness = one.shape.back() % 2 == 0 ? 2 : 1;
-    return position > 20 ? kInfinitelyBad : hardness * valley(position, 2);
+    return position > 20 ? tune::kInfinitelyBad : hardness * valley(position, 2);
   });
-  const auto curve = sensitivity_curve(invented.tuning, invented.method());
-  ASSERT_EQ(curve.size(), static_cast<std::size_t>(kGridPoints));
-  for (const CurvePoint& point : curve) {
+  const auto curve = tune::sensitivity_curve(invented.tuning, invented.method());
+  ASSERT_EQ(curve.size(), static_cast<std::size_t>(tune::kGridPoints));
+  for (const tune::CurvePoint& point : curve) {
     if (point.position > 20) {
       EXPECT_EQ(point.failed, point.cases);
-      EXPECT_TRUE(is_infinitely_bad(point.relative.median));
+      EXPECT_TRUE(tune::is_infinitely_bad(point.relative.median));
       continue;
     }
     EXPECT_EQ(point.failed, 0U);
@@ -392,8 +399,8 @@ TEST(CurveTest, IsRelativeToEachCasesOwnBest) {
 }
 
 /// The plan whose cases the invented search has.
-Plan star_plan(const std::string& methods) {
-  return parse_plan(
+plan::Plan star_plan(const std::string& methods) {
+  return plan::parse_plan(
       R"({"name": "stars", "cases": [{"dataset": "star", "members": 40, "n": [500]}], "methods": )" +
           methods + "}",
       "test");
@@ -403,62 +410,64 @@ TEST(TunedPlanTest, HasTheChosenParametersOnTheRightCases) {
   MethodInfo info = method_with(
       {parameter("alpha", "length^2", 0, kInfinity), parameter("allow_holes", "switch", 0, 1, 0)});
   InventedTuning invented(info);
-  invented.with(
-      [](const TuningCase& one, double position) { return valley(position, one.shape == "star-7" ? 5 : 2); });
-  const Plan plan = star_plan(R"([{"method": "made_up", "protocol": "paper", "parameters": {"alpha": 3}},
+  invented.with([](const tune::TuningCase& one, double position) {
+    return valley(position, one.shape == "star-7" ? 5 : 2);
+  });
+  const plan::Plan plan =
+      star_plan(R"([{"method": "made_up", "protocol": "paper", "parameters": {"alpha": 3}},
                                   {"method": "polylidar", "protocol": "default"}])");
-  const Plan chosen = tuned_plan(plan, invented.tuning);
+  const plan::Plan chosen = tune::tuned_plan(plan, invented.tuning);
   EXPECT_EQ(chosen.name, "stars-tuned");
-  std::map<std::string, const PlanMethod*> entries;
-  for (const PlanMethod& entry : chosen.methods) {
+  std::map<std::string, const plan::PlanMethod*> entries;
+  for (const plan::PlanMethod& entry : chosen.methods) {
     EXPECT_EQ(entry.method, "made_up");
     entries[entry.protocol] = &entry;
   }
   EXPECT_EQ(chosen.methods.size(), 3U) << "paper, tuned and oracle; alpha is required, so no default";
-  const TunedValue tuned = *invented.tuned();
+  const tune::TunedValue tuned = *invented.tuned();
   std::vector<polylidar::Point> square = {{0, 0}, {2, 0}, {2, 2}, {0, 2}};  // 4 points, spacing 1
-  const RuleInput input = {square, 1, false, {}};
+  const plan::RuleInput input = {square, 1, false, {}};
   for (std::size_t i = 0; i < invented.tuning.cases.size(); ++i) {
-    const TuningCase& one = invented.tuning.cases[i];
-    EXPECT_EQ(applies(*entries.at("tuned"), one.plan_case), one.side == Side::kTest) << one.name;
-    ASSERT_TRUE(applies(*entries.at("oracle"), one.plan_case)) << one.name;
-    EXPECT_EQ(choose_parameters(*entries.at("oracle"), one.plan_case, input),
-              best_evaluation(invented.method().cases[i])->parameters);
-    EXPECT_EQ(choose_parameters(*entries.at("tuned"), one.plan_case, input),
+    const tune::TuningCase& one = invented.tuning.cases[i];
+    EXPECT_EQ(plan::applies(*entries.at("tuned"), one.plan_case), one.side == tune::Side::kTest) << one.name;
+    ASSERT_TRUE(plan::applies(*entries.at("oracle"), one.plan_case)) << one.name;
+    EXPECT_EQ(plan::choose_parameters(*entries.at("oracle"), one.plan_case, input),
+              tune::best_evaluation(invented.method().cases[i])->parameters);
+    EXPECT_EQ(plan::choose_parameters(*entries.at("tuned"), one.plan_case, input),
               (Parameters{{"alpha", tuned.position * tuned.position}, {"allow_holes", 1}}));
   }
-  const std::string text = plan_to_json(chosen).dump();
-  EXPECT_EQ(plan_to_json(parse_plan(text, "written")), plan_to_json(chosen));
+  const std::string text = plan::plan_to_json(chosen).dump();
+  EXPECT_EQ(plan::plan_to_json(plan::parse_plan(text, "written")), plan::plan_to_json(chosen));
 }
 
 TEST(TunedPlanTest, AnOracleWithoutALimitStaysWithoutOne) {
   InventedTuning invented(usual_method());
-  invented.with([](const TuningCase&, double position) { return valley(position, 2); });
-  Evaluation unlimited = invented.evaluation(invented.tuning.cases[0], 2, 0.001);
+  invented.with([](const tune::TuningCase&, double position) { return valley(position, 2); });
+  tune::Evaluation unlimited = invented.evaluation(invented.tuning.cases[0], 2, 0.001);
   unlimited.parameters["reach"] = kInfinity;
   invented.tuning.methods[0].cases[0].protocols.emplace("default", unlimited);
-  const Plan chosen =
-      tuned_plan(star_plan(R"([{"method": "made_up", "protocol": "default"}])"), invented.tuning);
-  const Plan read = parse_plan(plan_to_json(chosen).dump(), "written");
-  EXPECT_EQ(choose_parameters(read.methods.back(), invented.tuning.cases[0].plan_case, {}).at("reach"),
+  const plan::Plan chosen =
+      tune::tuned_plan(star_plan(R"([{"method": "made_up", "protocol": "default"}])"), invented.tuning);
+  const plan::Plan read = plan::parse_plan(plan::plan_to_json(chosen).dump(), "written");
+  EXPECT_EQ(plan::choose_parameters(read.methods.back(), invented.tuning.cases[0].plan_case, {}).at("reach"),
             kInfinity);
 }
 
 TEST(TuningCasesTest, VariantsOfAShapeAreOnOneSideAndACaseOfTwoPlansIsThereOnce) {
   const auto plan_of = [](const std::string& name, const std::string& cases) {
-    return parse_plan(
+    return plan::parse_plan(
         R"({"name": ")" + name + R"(", "cases": )" + cases +
             R"(, "methods": [{"method": "polylidar", "protocol": "paper", "parameters": {"alpha": 3}},
                                            {"method": "polylidar", "protocol": "oracle", "parameters": {"alpha": 2}}]})",
         "test");
   };
-  const auto cases =
-      tuning_cases({plan_of("a", R"([{"dataset": ["ca", "hi"], "holes": [false, true], "n": [500, 2000]}])"),
-                    plan_of("b", R"([{"dataset": "ca", "n": [2000, 4000]}])")},
-                   1);
+  const auto cases = tune::tuning_cases(
+      {plan_of("a", R"([{"dataset": ["ca", "hi"], "holes": [false, true], "n": [500, 2000]}])"),
+       plan_of("b", R"([{"dataset": "ca", "n": [2000, 4000]}])")},
+      1);
   EXPECT_EQ(cases.size(), 9U);
-  std::map<std::string, std::set<Side>> sides;
-  for (const TuningCase& one : cases) {
+  std::map<std::string, std::set<tune::Side>> sides;
+  for (const tune::TuningCase& one : cases) {
     sides[one.plan_case.dataset].insert(one.side);
     ASSERT_EQ(one.entries.size(), 1U) << "the oracle is chosen here, and the other is there once";
     EXPECT_EQ(one.entries[0].protocol, "paper");

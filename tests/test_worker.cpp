@@ -14,10 +14,10 @@
 #include <thread>
 #include <vector>
 
-#include "benchmarks/base/cores.hpp"
 #include "adapters/wkb.hpp"
-#include "benchmarks/worker/huge_pages.hpp"
+#include "benchmarks/base/cores.hpp"
 #include "benchmarks/base/interrupt.hpp"
+#include "benchmarks/worker/huge_pages.hpp"
 #include "benchmarks/worker/method_session.hpp"
 #include "benchmarks/worker/protocol.hpp"
 #include "benchmarks/worker/stray_processes.hpp"
@@ -36,16 +36,16 @@ std::vector<std::string> misbehaving(const std::string& mode) {
   return {MISBEHAVING_WORKER, mode};
 }
 
-Method method_of(const std::string& name, const std::vector<std::string>& command) {
-  Method method;
+worker::Method method_of(const std::string& name, const std::vector<std::string>& command) {
+  worker::Method method;
   method.name = method.title = name;
   method.command = command;
   return method;
 }
 
 /// As a manifest describes it: all but the version is known beforehand.
-Method described_method(const std::string& name, const std::vector<std::string>& command) {
-  Method method = method_of(name, command);
+worker::Method described_method(const std::string& name, const std::vector<std::string>& command) {
+  worker::Method method = method_of(name, command);
   method.info.emplace();
   method.info->name = name;
   method.install = "sudo apt-get install it";
@@ -56,46 +56,47 @@ class MethodSessionTest : public ::testing::Test {
  protected:
   /// A run of the worker that misbehaves in this way, with what ctest's machine allows as a limit where it
   /// does not matter.
-  Attempt attempt(const std::string& mode, std::chrono::milliseconds timeout = 30s) {
-    session_ = std::make_unique<MethodSession>(method_of(mode, misbehaving(mode)),
-                                               WorkerLimits{256, std::nullopt, 8});
+  worker::Attempt attempt(const std::string& mode, std::chrono::milliseconds timeout = 30s) {
+    session_ = std::make_unique<worker::MethodSession>(method_of(mode, misbehaving(mode)),
+                                                       worker::WorkerLimits{256, std::nullopt, 8});
     return run(timeout);
   }
 
-  Attempt run(std::chrono::milliseconds timeout = 30s, Watch watch = Watch::kNothing) {
+  worker::Attempt run(std::chrono::milliseconds timeout = 30s,
+                      worker::Watch watch = worker::Watch::kNothing) {
     const std::vector<Point> points = {{0, 0}, {1, 0}, {1, 1}, {0, 1}};
-    write_points_file(folder_.path() / "points", points);
+    worker::write_points_file(folder_.path() / "points", points);
     return session_->run({"square", folder_.path() / "points", points.size()}, {{"size", 1}}, folder_.path(),
                          timeout, watch);
   }
 
-  void expect(const std::string& mode, Status status, const std::string& detail,
+  void expect(const std::string& mode, record::Status status, const std::string& detail,
               std::chrono::milliseconds timeout = 30s) {
-    const Attempt result = attempt(mode, timeout);
+    const worker::Attempt result = attempt(mode, timeout);
     EXPECT_EQ(to_string(result.status), to_string(status)) << mode << ": " << result.detail;
     EXPECT_NE(result.detail.find(detail), std::string::npos) << mode << ": " << result.detail;
     EXPECT_TRUE(result.wkb.empty());
   }
 
   /// A session with a method that compiles while it runs, and its warm-up.
-  Attempt warm_up(const std::string& mode) {
-    Method method = method_of(mode, misbehaving(mode));
+  worker::Attempt warm_up(const std::string& mode) {
+    worker::Method method = method_of(mode, misbehaving(mode));
     method.jit = true;
-    session_ = std::make_unique<MethodSession>(method, WorkerLimits{256, std::nullopt, 8});
+    session_ = std::make_unique<worker::MethodSession>(method, worker::WorkerLimits{256, std::nullopt, 8});
     EXPECT_TRUE(session_->is_cold());
     const std::vector<Point> points = {{0, 0}, {1, 0}, {1, 1}, {0, 1}};
-    write_points_file(folder_.path() / "points", points);
+    worker::write_points_file(folder_.path() / "points", points);
     return session_->warm_up({"square", folder_.path() / "points", points.size()}, {{"size", 1}},
                              folder_.path(), 30s);
   }
 
   testing::TemporaryFolder folder_;
-  std::unique_ptr<MethodSession> session_;
+  std::unique_ptr<worker::MethodSession> session_;
 };
 
 TEST_F(MethodSessionTest, AGoodWorkerGivesResultAndTimes) {
-  const Attempt result = attempt("good");
-  ASSERT_EQ(result.status, Status::kOk) << result.detail;
+  const worker::Attempt result = attempt("good");
+  ASSERT_EQ(result.status, record::Status::kOk) << result.detail;
   EXPECT_EQ(result.time_ns(), 1010);
   EXPECT_EQ(result.phases_ns.at("load"), 5);
   EXPECT_EQ(result.phases_ns.at("outside"), result.elapsed.count());
@@ -108,122 +109,122 @@ TEST_F(MethodSessionTest, AGoodWorkerGivesResultAndTimes) {
 }
 
 TEST_F(MethodSessionTest, PeakMemoryIsThatOfTheRunThatIsWatched) {
-  session_ =
-      std::make_unique<MethodSession>(method_of("borrows_memory_once", misbehaving("borrows_memory_once")),
-                                      WorkerLimits{256, std::nullopt, 8});
-  const Attempt large = run(30s, Watch::kMemory);
-  ASSERT_EQ(large.status, Status::kOk) << large.detail;
+  session_ = std::make_unique<worker::MethodSession>(
+      method_of("borrows_memory_once", misbehaving("borrows_memory_once")),
+      worker::WorkerLimits{256, std::nullopt, 8});
+  const worker::Attempt large = run(30s, worker::Watch::kMemory);
+  ASSERT_EQ(large.status, record::Status::kOk) << large.detail;
   if (!large.peak_memory_bytes) GTEST_SKIP() << "this system does not tell the peak of a process's memory";
   constexpr std::int64_t kBorrowed = std::int64_t{64} * 1024 * 1024;
   EXPECT_GT(*large.peak_memory_bytes, kBorrowed);
   EXPECT_EQ(run().peak_memory_bytes, std::nullopt);
-  const Attempt small = run(30s, Watch::kMemory);
+  const worker::Attempt small = run(30s, worker::Watch::kMemory);
   EXPECT_GT(small.peak_memory_bytes.value(), 0);
   EXPECT_LT(small.peak_memory_bytes.value(), *large.peak_memory_bytes - kBorrowed / 2);
 }
 
 TEST_F(MethodSessionTest, PeakMemoryOfAMethodInAServerIsNotKnown) {
-  session_ = std::make_unique<MethodSession>(method_of("in_server", misbehaving("in_server")),
-                                             WorkerLimits{256, std::nullopt, 8});
-  const Attempt result = run(30s, Watch::kMemory);
-  EXPECT_EQ(result.status, Status::kOk) << result.detail;
+  session_ = std::make_unique<worker::MethodSession>(method_of("in_server", misbehaving("in_server")),
+                                                     worker::WorkerLimits{256, std::nullopt, 8});
+  const worker::Attempt result = run(30s, worker::Watch::kMemory);
+  EXPECT_EQ(result.status, record::Status::kOk) << result.detail;
   EXPECT_EQ(result.peak_memory_bytes, std::nullopt);
   EXPECT_TRUE(session_->info()->capabilities.in_server);
 }
 
 TEST_F(MethodSessionTest, Crash) {
-  expect("crash", Status::kCrash, "SIGSEGV");
+  expect("crash", record::Status::kCrash, "SIGSEGV");
 }
 TEST_F(MethodSessionTest, CrashAtStart) {
-  expect("crash_at_start", Status::kCrash, "SIGSEGV");
+  expect("crash_at_start", record::Status::kCrash, "SIGSEGV");
 }
 TEST_F(MethodSessionTest, CrashOnLoad) {
-  expect("crash_on_load", Status::kCrash, "SIGBUS");
+  expect("crash_on_load", record::Status::kCrash, "SIGBUS");
 }
 TEST_F(MethodSessionTest, Hang) {
-  expect("hang", Status::kTimeout, "no answer within 0.2 s", 200ms);
+  expect("hang", record::Status::kTimeout, "no answer within 0.2 s", 200ms);
 }
 TEST_F(MethodSessionTest, HangThatIgnoresTermination) {
-  expect("hang_hard", Status::kTimeout, "0.2 s", 200ms);
+  expect("hang_hard", record::Status::kTimeout, "0.2 s", 200ms);
 }
 TEST_F(MethodSessionTest, MemoryUsedUp) {
-  expect("memory", Status::kMemory, "256 MiB");
+  expect("memory", record::Status::kMemory, "256 MiB");
 }
 TEST_F(MethodSessionTest, ALimitInWhichNoWorkerCanStartIsALackOfMemory) {
   // Less than the C++ library takes that every worker of ours is linked with.
-  session_ = std::make_unique<MethodSession>(method_of("good", misbehaving("good")),
-                                             WorkerLimits{2, std::nullopt, 8});
-  const Attempt result = run();
+  session_ = std::make_unique<worker::MethodSession>(method_of("good", misbehaving("good")),
+                                                     worker::WorkerLimits{2, std::nullopt, 8});
+  const worker::Attempt result = run();
   EXPECT_EQ(to_string(result.status), "memory") << result.detail;
 }
 TEST_F(MethodSessionTest, MemoryAsTheWorkerSays) {
-  expect("says_memory", Status::kMemory, "no room");
+  expect("says_memory", record::Status::kMemory, "no room");
 }
 TEST_F(MethodSessionTest, Unsupported) {
-  expect("says_unsupported", Status::kUnsupported, "this many points");
+  expect("says_unsupported", record::Status::kUnsupported, "this many points");
 }
 TEST_F(MethodSessionTest, Error) {
-  expect("says_error", Status::kError, "no luck");
+  expect("says_error", record::Status::kError, "no luck");
 }
 TEST_F(MethodSessionTest, EarlyExit) {
-  expect("early_exit", Status::kCrash, "exit code 7 without an answer; it said: I have seen enough");
+  expect("early_exit", record::Status::kCrash, "exit code 7 without an answer; it said: I have seen enough");
 }
 TEST_F(MethodSessionTest, ClosedOutput) {
-  expect("close_output", Status::kError, "closed its output");
+  expect("close_output", record::Status::kError, "closed its output");
 }
 TEST_F(MethodSessionTest, GarbageOnTheProtocol) {
-  expect("garbage", Status::kError, "answered 'lorem ipsum'");
+  expect("garbage", record::Status::kError, "answered 'lorem ipsum'");
 }
 TEST_F(MethodSessionTest, EndlessLine) {
-  expect("long_line", Status::kError, "more than 1 MiB");
+  expect("long_line", record::Status::kError, "more than 1 MiB");
 }
 TEST_F(MethodSessionTest, ErrorWithoutKind) {
-  expect("error_without_kind", Status::kError, "has no kind");
+  expect("error_without_kind", record::Status::kError, "has no kind");
 }
 TEST_F(MethodSessionTest, OtherName) {
-  expect("other_name", Status::kError, "calls itself 'somebody'");
+  expect("other_name", record::Status::kError, "calls itself 'somebody'");
 }
 TEST_F(MethodSessionTest, OtherProtocol) {
-  expect("other_protocol", Status::kError, "another version");
+  expect("other_protocol", record::Status::kError, "another version");
 }
 TEST_F(MethodSessionTest, WrongNonce) {
-  expect("wrong_nonce", Status::kInvalidOutput, "another run");
+  expect("wrong_nonce", record::Status::kInvalidOutput, "another run");
 }
 TEST_F(MethodSessionTest, NoPhases) {
-  expect("no_phases", Status::kInvalidOutput, "no phases_ns");
+  expect("no_phases", record::Status::kInvalidOutput, "no phases_ns");
 }
 TEST_F(MethodSessionTest, NegativeTime) {
-  expect("negative_time", Status::kInvalidOutput, "'run' is not a time");
+  expect("negative_time", record::Status::kInvalidOutput, "'run' is not a time");
 }
 TEST_F(MethodSessionTest, MoreTimeThanPassed) {
-  expect("too_much_time", Status::kInvalidOutput, "more time than");
+  expect("too_much_time", record::Status::kInvalidOutput, "more time than");
 }
 TEST_F(MethodSessionTest, NoResult) {
-  expect("no_result", Status::kInvalidOutput, "there is no file");
+  expect("no_result", record::Status::kInvalidOutput, "there is no file");
 }
 
 TEST_F(MethodSessionTest, FloodOfErrorOutputDoesNotBlockTheWorker) {
-  EXPECT_EQ(attempt("flood_errors").status, Status::kOk);
-  EXPECT_EQ(run().status, Status::kOk);
+  EXPECT_EQ(attempt("flood_errors").status, record::Status::kOk);
+  EXPECT_EQ(run().status, record::Status::kOk);
 }
 
 TEST_F(MethodSessionTest, AnAnswerThatNobodyAskedForIsNotTakenForTheNextOne) {
-  ASSERT_EQ(attempt("unasked").status, Status::kOk);
-  const Attempt second = run();
-  EXPECT_EQ(second.status, Status::kError);
+  ASSERT_EQ(attempt("unasked").status, record::Status::kOk);
+  const worker::Attempt second = run();
+  EXPECT_EQ(second.status, record::Status::kError);
   EXPECT_NE(second.detail.find("spoke without being asked"), std::string::npos) << second.detail;
 }
 
 TEST_F(MethodSessionTest, AWorkerThatDiedIsStartedAgain) {
-  ASSERT_EQ(attempt("crash_on_second").status, Status::kOk);
+  ASSERT_EQ(attempt("crash_on_second").status, record::Status::kOk);
   const pid_t first = session_->pid();
   EXPECT_EQ(run().detail, "SIGABRT");
-  EXPECT_EQ(run().status, Status::kOk);
+  EXPECT_EQ(run().status, record::Status::kOk);
   EXPECT_NE(session_->pid(), first);
 }
 
 TEST_F(MethodSessionTest, AMethodThatCompilesIsWarmUntilThreeRunsAgree) {
-  const Attempt first = warm_up("gets_faster");
+  const worker::Attempt first = warm_up("gets_faster");
   EXPECT_EQ(to_string(first.status), "ok") << first.detail;
   EXPECT_EQ(first.time_ns(), 8'000'000 + 1) << "the time of the first run";
   EXPECT_FALSE(session_->is_cold());
@@ -237,12 +238,12 @@ TEST_F(MethodSessionTest, AMethodThatCompilesIsWarmUntilThreeRunsAgree) {
 TEST_F(MethodSessionTest, AMethodThatIsNeverSteadyIsWarmAfterAWhile) {
   const auto start = std::chrono::steady_clock::now();
   EXPECT_EQ(to_string(warm_up("never_steady").status), "ok");
-  EXPECT_GE(std::chrono::steady_clock::now() - start, kWarmUpTime);
+  EXPECT_GE(std::chrono::steady_clock::now() - start, worker::kWarmUpTime);
   EXPECT_FALSE(session_->is_cold());
 }
 
 TEST_F(MethodSessionTest, AWarmUpThatFailsSaysWhy) {
-  const Attempt result = warm_up("crash_on_second");
+  const worker::Attempt result = warm_up("crash_on_second");
   EXPECT_EQ(to_string(result.status), "crash");
   EXPECT_EQ(result.detail, "SIGABRT");
   EXPECT_TRUE(session_->is_cold());
@@ -256,40 +257,40 @@ TEST_F(MethodSessionTest, AMethodThatDoesNotCompileIsNeverCold) {
 }
 
 TEST_F(MethodSessionTest, AWorkerThatIsKilledFromOutsideIsACrash) {
-  ASSERT_EQ(attempt("good").status, Status::kOk);
+  ASSERT_EQ(attempt("good").status, record::Status::kOk);
   ::kill(session_->pid(), SIGKILL);
-  const Attempt result = run();
+  const worker::Attempt result = run();
   EXPECT_EQ(to_string(result.status), "crash");
   EXPECT_NE(result.detail.find("SIGKILL"), std::string::npos) << result.detail;
 }
 
 TEST_F(MethodSessionTest, FloodOfLines) {
   // The first of them is taken for the answer.
-  expect("flood_output", Status::kInvalidOutput, "the reply is to another run");
+  expect("flood_output", record::Status::kInvalidOutput, "the reply is to another run");
 }
 
 TEST_F(MethodSessionTest, FloodWithoutALineFeed) {
-  expect("flood_line", Status::kError, "sent a line of more than 1 MiB");
+  expect("flood_line", record::Status::kError, "sent a line of more than 1 MiB");
 }
 
 TEST_F(MethodSessionTest, FloodOfErrorOutputWithoutEnd) {
-  expect("flood_errors_for_ever", Status::kTimeout, "no answer within 0.5 s", 500ms);
+  expect("flood_errors_for_ever", record::Status::kTimeout, "no answer within 0.5 s", 500ms);
 }
 
 TEST_F(MethodSessionTest, FloodOfItsResult) {
-  expect("flood_result", Status::kCrash, "SIGXFSZ");
+  expect("flood_result", record::Status::kCrash, "SIGXFSZ");
 }
 
 TEST_F(MethodSessionTest, ForkingWithoutRest) {
-  expect("fork_and_fork", Status::kTimeout, "no answer within 0.5 s", 500ms);
+  expect("fork_and_fork", record::Status::kTimeout, "no answer within 0.5 s", 500ms);
 }
 
 /// Each way to end, with what it leaves: a child in the worker's own group, in a session of its own, one that
 /// does not hear SIGTERM either, and a hundred of them.
 TEST_F(MethodSessionTest, WhatAWorkerLeavesBehindGoesWithIt) {
   for (const char* mode : {"orphan", "fork", "fork_and_crash", "fork_and_fork"}) {
-    const Status status = attempt(mode, 500ms).status;
-    EXPECT_EQ(status == Status::kOk, std::string(mode) == "fork") << to_string(status);
+    const record::Status status = attempt(mode, 500ms).status;
+    EXPECT_EQ(status == record::Status::kOk, std::string(mode) == "fork") << to_string(status);
     session_.reset();
     // Killed, but by whom it is reaped is out of our hands.
     EXPECT_TRUE(testing::wait_until([&] { return !testing::runs_somewhere(misbehaving(mode)); })) << mode;
@@ -308,36 +309,38 @@ TEST_F(MethodSessionTest, WhatAKilledHarnessLeftIsCleanedUpByTheNextOne) {
   ASSERT_EQ(::waitpid(harness, nullptr, 0), harness);
   // The worker went with the harness; its child is in a session of its own and lives.
   EXPECT_TRUE(testing::runs_somewhere(misbehaving("fork")));
-  end_strays_of_dead_harnesses();
+  worker::end_strays_of_dead_harnesses();
   EXPECT_TRUE(testing::wait_until([&] { return !testing::runs_somewhere(misbehaving("fork")); }));
 }
 
 TEST_F(MethodSessionTest, WhatALiveHarnessStartedIsNotCleanedUp) {
-  WorkerProcess worker(misbehaving("good"), {});
-  end_strays_of_dead_harnesses();
+  worker::WorkerProcess worker(misbehaving("good"), {});
+  worker::end_strays_of_dead_harnesses();
   EXPECT_TRUE(testing::is_running(worker.pid()));
 }
 
 TEST_F(MethodSessionTest, AProgramThatIsNotThereIsAnError) {
-  session_ = std::make_unique<MethodSession>(method_of("good", {"/nowhere/worker"}), WorkerLimits{});
-  const Attempt result = run();
+  session_ =
+      std::make_unique<worker::MethodSession>(method_of("good", {"/nowhere/worker"}), worker::WorkerLimits{});
+  const worker::Attempt result = run();
   EXPECT_EQ(to_string(result.status), "error");
   EXPECT_EQ(result.detail, "cannot start the worker /nowhere/worker: No such file or directory");
 }
 
 TEST_F(MethodSessionTest, AManifestsProgramThatIsNotThereIsNotInstalled) {
-  session_ = std::make_unique<MethodSession>(described_method("good", {"/nowhere/worker"}), WorkerLimits{});
-  const Attempt result = run();
+  session_ = std::make_unique<worker::MethodSession>(described_method("good", {"/nowhere/worker"}),
+                                                     worker::WorkerLimits{});
+  const worker::Attempt result = run();
   EXPECT_EQ(to_string(result.status), "not_installed");
   EXPECT_EQ(result.detail, "there is no program /nowhere/worker");
   EXPECT_EQ(session_->start_reply().remedy, "sudo apt-get install it");
 }
 
 TEST_F(MethodSessionTest, AFileThatAManifestNeedsIsNotInstalled) {
-  Method method = described_method("good", misbehaving("good"));
+  worker::Method method = described_method("good", misbehaving("good"));
   method.needs = {"/", "/nowhere/library"};
-  session_ = std::make_unique<MethodSession>(method, WorkerLimits{});
-  const Attempt result = run();
+  session_ = std::make_unique<worker::MethodSession>(method, worker::WorkerLimits{});
+  const worker::Attempt result = run();
   EXPECT_EQ(to_string(result.status), "not_installed");
   EXPECT_EQ(result.detail, "there is no /nowhere/library");
 }
@@ -346,24 +349,24 @@ TEST_F(MethodSessionTest, AWorkerThatTellsItsVersionIsDescribedByItsManifest) {
   const std::string script =
       "read line; echo '{\"protocol\": 1, \"version\": \"1.2\"}'; read line; echo "
       "'{\"error\": {\"kind\": \"unsupported\", \"message\": \"no\"}}'; read line";
-  session_ =
-      std::make_unique<MethodSession>(described_method("good", {"/bin/sh", "-c", script}), WorkerLimits{});
+  session_ = std::make_unique<worker::MethodSession>(described_method("good", {"/bin/sh", "-c", script}),
+                                                     worker::WorkerLimits{});
   EXPECT_EQ(to_string(run().status), "unsupported");
   ASSERT_TRUE(session_->info());
   EXPECT_EQ(session_->info()->version, "1.2");
 }
 
 TEST_F(MethodSessionTest, TheVersionEndsWithTheHashOfTheSources) {
-  Method method = method_of("good", misbehaving("good"));
+  worker::Method method = method_of("good", misbehaving("good"));
   method.sources = "0123abcd";
-  session_ = std::make_unique<MethodSession>(method, WorkerLimits{256, std::nullopt, 8});
-  ASSERT_EQ(run().status, Status::kOk);
+  session_ = std::make_unique<worker::MethodSession>(method, worker::WorkerLimits{256, std::nullopt, 8});
+  ASSERT_EQ(run().status, record::Status::kOk);
   EXPECT_EQ(session_->info()->version, "1+0123abcd");
-  EXPECT_EQ(describe_method(*session_)["version"].get<std::string>(), "1+0123abcd");
+  EXPECT_EQ(worker::describe_method(*session_)["version"].get<std::string>(), "1+0123abcd");
 }
 
 TEST_F(MethodSessionTest, AnInterruptionEndsTheWaitAndTheWorker) {
-  ASSERT_EQ(attempt("hang", 100ms).status, Status::kTimeout);
+  ASSERT_EQ(attempt("hang", 100ms).status, record::Status::kTimeout);
   set_interrupted(true);
   EXPECT_THROW(run(), Interrupted);
   set_interrupted(false);
@@ -371,7 +374,7 @@ TEST_F(MethodSessionTest, AnInterruptionEndsTheWaitAndTheWorker) {
 }
 
 TEST_F(MethodSessionTest, ASignalThatEndsTheWholeJobIsAnInterruptionWhoeverItReachesFirst) {
-  ASSERT_EQ(attempt("good").status, Status::kOk);
+  ASSERT_EQ(attempt("good").status, record::Status::kOk);
   const pid_t worker = session_->pid();
   ::kill(worker, SIGTERM);
   std::thread later([] {
@@ -381,13 +384,13 @@ TEST_F(MethodSessionTest, ASignalThatEndsTheWholeJobIsAnInterruptionWhoeverItRea
   EXPECT_THROW(run(), Interrupted);
   later.join();
   set_interrupted(false);
-  EXPECT_EQ(run().status, Status::kOk);
+  EXPECT_EQ(run().status, record::Status::kOk);
 }
 
 TEST_F(MethodSessionTest, ASignalToTheWorkerAloneIsItsCrash) {
-  ASSERT_EQ(attempt("good").status, Status::kOk);
+  ASSERT_EQ(attempt("good").status, record::Status::kOk);
   ::kill(session_->pid(), SIGTERM);
-  const Attempt result = run();
+  const worker::Attempt result = run();
   EXPECT_EQ(to_string(result.status), "crash");
   EXPECT_EQ(result.detail, "SIGTERM");
 }
@@ -398,9 +401,9 @@ TEST(WorkerProcess, KeepsALowerLimitOfTheHarness) {
     const rlimit low = {300U << 20U, 300U << 20U};
     setrlimit(RLIMIT_AS, &low);
     const std::string script = "read line; echo \"{\\\"memory\\\": $(ulimit -v)}\"; read line";
-    WorkerProcess worker({"/bin/sh", "-c", script}, {512, std::nullopt});
-    const Reply reply = worker.request({{"request", "hello"}}, 30s);
-    ::_exit(reply.status == Status::kOk && reply.body["memory"] == 300 * 1024 ? 0 : 1);
+    worker::WorkerProcess worker({"/bin/sh", "-c", script}, {512, std::nullopt});
+    const worker::Reply reply = worker.request({{"request", "hello"}}, 30s);
+    ::_exit(reply.status == record::Status::kOk && reply.body["memory"] == 300 * 1024 ? 0 : 1);
   }
   int status = -1;
   ASSERT_EQ(::waitpid(harness, &status, 0), harness);
@@ -408,7 +411,7 @@ TEST(WorkerProcess, KeepsALowerLimitOfTheHarness) {
 }
 
 TEST(WorkerProcess, EndsWithItsInput) {
-  WorkerProcess worker(misbehaving("good"), {});
+  worker::WorkerProcess worker(misbehaving("good"), {});
   const pid_t pid = worker.pid();
   worker.quit(10s);
   EXPECT_FALSE(worker.alive());
@@ -422,9 +425,9 @@ TEST(WorkerProcess, RunsOnTheCoreAndWithTheMemoryItIsGiven) {
       "read line; core=$(grep Cpus_allowed_list /proc/self/status | cut -f2); "
       "echo \"{\\\"core\\\": \\\"$core\\\", \\\"memory\\\": $(ulimit -v), \\\"dump\\\": $(ulimit -c)}\"; "
       "read line";
-  WorkerProcess worker({"/bin/sh", "-c", script}, {512, core});
-  const Reply reply = worker.request({{"request", "hello"}}, 30s);
-  ASSERT_EQ(reply.status, Status::kOk) << reply.detail;
+  worker::WorkerProcess worker({"/bin/sh", "-c", script}, {512, core});
+  const worker::Reply reply = worker.request({{"request", "hello"}}, 30s);
+  ASSERT_EQ(reply.status, record::Status::kOk) << reply.detail;
   EXPECT_EQ(reply.body["core"], std::to_string(core));
   EXPECT_EQ(reply.body["memory"], 512 * 1024);
   EXPECT_EQ(reply.body["dump"], 0);
@@ -434,9 +437,9 @@ TEST(WorkerProcess, RunsOnTheCoreAndWithTheMemoryItIsGiven) {
 TEST(WorkerProcess, AsksForHugePages) {
   const std::string script = "read line; echo \"{\\\"tunables\\\": \\\"$GLIBC_TUNABLES\\\"}\"; read line";
   const char* const own = std::getenv("GLIBC_TUNABLES");
-  WorkerProcess worker({"/bin/sh", "-c", script}, {});
-  const Reply reply = worker.request({{"request", "hello"}}, 30s);
-  ASSERT_EQ(reply.status, Status::kOk) << reply.detail;
+  worker::WorkerProcess worker({"/bin/sh", "-c", script}, {});
+  const worker::Reply reply = worker.request({{"request", "hello"}}, 30s);
+  ASSERT_EQ(reply.status, record::Status::kOk) << reply.detail;
   EXPECT_EQ(reply.body["tunables"], worker_tunables(own == nullptr ? "" : own));
 }
 
@@ -450,20 +453,20 @@ TEST(HugePages, AUsersOwnTunablesAreKept) {
 
 TEST(WorkerProcess, AReplyThatComesJustBeforeTheEndCounts) {
   const std::string script = "read line; echo '{\"last\": \"word\"}'";
-  WorkerProcess worker({"/bin/sh", "-c", script}, {});
-  const Reply reply = worker.request({{"request", "hello"}}, 30s);
-  EXPECT_EQ(reply.status, Status::kOk) << reply.detail;
+  worker::WorkerProcess worker({"/bin/sh", "-c", script}, {});
+  const worker::Reply reply = worker.request({{"request", "hello"}}, 30s);
+  EXPECT_EQ(reply.status, record::Status::kOk) << reply.detail;
   EXPECT_EQ(reply.body["last"], "word");
 }
 
 TEST(Protocol, PointsSurviveTheFile) {
   const testing::TemporaryFolder folder;
   const std::vector<Point> points = {{1.5, -2.25}, {1e300, 5e-324}};
-  write_points_file(folder.path() / "points", points);
+  worker::write_points_file(folder.path() / "points", points);
   EXPECT_EQ(std::filesystem::file_size(folder.path() / "points"), 32U);
-  EXPECT_EQ(read_points_file(folder.path() / "points", 2), points);
-  EXPECT_THROW(read_points_file(folder.path() / "points", 3), std::runtime_error);
-  EXPECT_THROW(read_points_file(folder.path() / "none", 0), std::runtime_error);
+  EXPECT_EQ(worker::read_points_file(folder.path() / "points", 2), points);
+  EXPECT_THROW(worker::read_points_file(folder.path() / "points", 3), std::runtime_error);
+  EXPECT_THROW(worker::read_points_file(folder.path() / "none", 0), std::runtime_error);
 }
 
 TEST(Protocol, MethodsSurviveJson) {
@@ -473,7 +476,7 @@ TEST(Protocol, MethodsSurviveJson) {
   info.parameters = {{"alpha", "length", "A radius.", 0, std::numeric_limits<double>::infinity(), 4.5},
                      {"c", "1", "Required.", 1, 2, std::nullopt}};
   info.capabilities = {true, false};
-  const MethodInfo copy = method_from_json(json::parse(method_to_json(info).dump()));
+  const MethodInfo copy = worker::method_from_json(json::parse(worker::method_to_json(info).dump()));
   EXPECT_EQ(copy.name, "some");
   ASSERT_EQ(copy.parameters.size(), 2U);
   EXPECT_EQ(copy.parameters[0].maximum, std::numeric_limits<double>::infinity());
@@ -484,9 +487,9 @@ TEST(Protocol, MethodsSurviveJson) {
 }
 
 TEST(Protocol, LastWordsAreMadePrintable) {
-  EXPECT_EQ(printable("  a\nb\tc\x01\xC3\xA9 \n", 100), "a b c ??");
-  EXPECT_EQ(printable("0123456789", 4), "6789");
-  EXPECT_EQ(printable("\n\n", 10), "");
+  EXPECT_EQ(worker::printable("  a\nb\tc\x01\xC3\xA9 \n", 100), "a b c ??");
+  EXPECT_EQ(worker::printable("0123456789", 4), "6789");
+  EXPECT_EQ(worker::printable("\n\n", 10), "");
 }
 
 }  // namespace

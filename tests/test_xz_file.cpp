@@ -7,8 +7,8 @@
 #include <stdexcept>
 #include <string>
 
-#include "benchmarks/report/report.hpp"
 #include "benchmarks/record/xz_file.hpp"
+#include "benchmarks/report/report.hpp"
 #include "invented_run.hpp"
 #include "temporary_folder.hpp"
 #include "tests/program.hpp"
@@ -48,13 +48,13 @@ class XzFile : public ::testing::Test {
   /// What is read of a file with these bytes.
   std::string content(const std::string& bytes) const {
     write_text(file(), bytes);
-    return read_xz_file(file());
+    return record::read_xz_file(file());
   }
 
   /// What is said of a file with these bytes, or of the file as it is there.
   std::string complaint() const {
     try {
-      read_xz_file(file());
+      record::read_xz_file(file());
     } catch (const std::runtime_error& error) {
       return error.what();
     }
@@ -126,10 +126,10 @@ class CompressedRun : public ::testing::Test {
 };
 
 TEST_F(CompressedRun, HasTheSameReport) {
-  const nlohmann::json before = make_report(run_);
+  const nlohmann::json before = report::make_report(run_);
   ASSERT_FALSE(before.at("runs").empty());
   compress();
-  EXPECT_EQ(make_report(run_), before);
+  EXPECT_EQ(report::make_report(run_), before);
 }
 
 TEST_F(CompressedRun, ThatIsDamagedIsASentenceWithTheFile) {
@@ -139,7 +139,7 @@ TEST_F(CompressedRun, ThatIsDamagedIsASentenceWithTheFile) {
   bytes[bytes.size() / 2] = static_cast<char>(bytes[bytes.size() / 2] ^ 1);
   write_text(file, bytes);
   try {
-    make_report(run_);
+    report::make_report(run_);
     FAIL();
   } catch (const std::runtime_error& error) {
     EXPECT_EQ(error.what(), file.string() + " is not a whole xz file; get it anew.");

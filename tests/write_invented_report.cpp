@@ -21,8 +21,8 @@ int main(int argc, char** argv) {
   if (sizes.empty()) sizes = {2000, 64000};
   const std::filesystem::path directory = file.parent_path() / (file.stem().string() + "_run");
   hullbench::test::write_invented_run(directory, sizes);
-  const nlohmann::json report = hullbench::make_report(directory);
+  const nlohmann::json report = hullbench::report::make_report(directory);
   hullbench::write_json_file(file, report);
-  hullbench::print_markdown(hullbench::make_document(report), std::cout);
+  hullbench::table::print_markdown(hullbench::report::make_document(report), std::cout);
   return 0;
 }

@@ -12,7 +12,7 @@
 #include "benchmarks/run/contract.hpp"
 #include "benchmarks/run/method_catalog.hpp"
 
-namespace hullbench {
+namespace hullbench::cli {
 namespace {
 
 namespace fs = std::filesystem;
@@ -55,7 +55,7 @@ std::vector<NewFile> cpp_files(const NewAdapterCommand& command) {
 }
 
 std::vector<NewFile> script_files(const NewAdapterCommand& command) {
-  const fs::path folder = command.out ? *command.out : user_manifest_folder();
+  const fs::path folder = command.out ? *command.out : run::user_manifest_folder();
   const bool python = command.language == "python";
   const std::string ending = python ? ".py" : ".mjs";
   // Not NAME.py, which would hide a module of that name from every method of the folder.
@@ -84,7 +84,7 @@ void check_name(const std::string& name) {
     throw ConfigurationError(
         "a method's name has small letters, digits and '_' and begins with a letter, not '" + name + "'");
   }
-  const MethodCatalog catalog(manifest_folders({}));
+  const run::MethodCatalog catalog(run::manifest_folders({}));
   const std::vector<std::string> names = catalog.names();
   // The worker of "hullbench" would have the name of the helper file.
   if (name == "hullbench" || std::find(names.begin(), names.end(), name) != names.end()) {
@@ -156,19 +156,19 @@ int new_adapter_command(const NewAdapterCommand& command) {
 }
 
 int test_adapter_command(const TestAdapterCommand& command) {
-  const MethodCatalog catalog(manifest_folders(command.adapters));
-  const Method& method = catalog.find(command.name);
+  const run::MethodCatalog catalog(run::manifest_folders(command.adapters));
+  const worker::Method& method = catalog.find(command.name);
   const Scratch scratch;
   const auto timeout = std::chrono::milliseconds(static_cast<std::int64_t>(command.timeout_s * 1000));
   const std::vector<Verdict> verdicts =
-      test_contract(method, {command.mem_limit_mib, std::nullopt}, timeout, scratch.path(), &print);
+      run::test_contract(method, {command.mem_limit_mib, std::nullopt}, timeout, scratch.path(), &print);
   const auto kept =
       std::count_if(verdicts.begin(), verdicts.end(), [](const Verdict& verdict) { return verdict.kept; });
-  if (verdicts.back().status == Status::kNotInstalled) return kNothingTried;
+  if (verdicts.back().status == record::Status::kNotInstalled) return kNothingTried;
   const bool all = kept == static_cast<std::ptrdiff_t>(verdicts.size());
   std::cout << command.name << " keeps " << (all ? "the contract: " : "part of the contract: ") << kept
             << " of " << verdicts.size() << " points\n";
   return all ? kKept : kBroken;
 }
 
-}  // namespace hullbench
+}  // namespace hullbench::cli

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-namespace hullbench {
+namespace hullbench::cli {
 
 /// The command line of `adapter new`.
 struct NewAdapterCommand {
@@ -36,4 +36,4 @@ struct TestAdapterCommand {
 /// not, 6 when the method is not installed.
 int test_adapter_command(const TestAdapterCommand& command);
 
-}  // namespace hullbench
+}  // namespace hullbench::cli

@@ -7,14 +7,14 @@
 #include <stdexcept>
 #include <vector>
 
-#include "benchmarks/record/stored_run.hpp"
 #include "benchmarks/base/configuration_error.hpp"
+#include "benchmarks/record/json_lines.hpp"
+#include "benchmarks/record/stored_run.hpp"
 #include "benchmarks/report/compare.hpp"
 #include "benchmarks/report/compare_document.hpp"
-#include "benchmarks/record/json_lines.hpp"
 #include "benchmarks/report/report.hpp"
 
-namespace hullbench {
+namespace hullbench::cli {
 namespace {
 
 namespace fs = std::filesystem;
@@ -27,7 +27,7 @@ json read_report(const fs::path& file) {
     throw std::runtime_error(file.string() +
                              " is not a report; give a run's folder, its report.json or its runs.jsonl");
   }
-  if (report.value("schema_version", json()) != kSchemaVersion) {
+  if (report.value("schema_version", json()) != record::kSchemaVersion) {
     throw std::runtime_error(file.string() +
                              " is of another schema version than this program's; make it anew with "
                              "this version's 'hullbench run'");
@@ -36,12 +36,13 @@ json read_report(const fs::path& file) {
 }
 
 json read_lines(const fs::path& file) {
-  return {{"runs", last_of_each_id(load_json_lines(file).lines, file)}};
+  return {{"runs", record::last_of_each_id(record::load_json_lines(file).lines, file)}};
 }
 
-ComparedSide read_side(const std::string& path) {
+report::ComparedSide read_side(const std::string& path) {
   if (fs::is_directory(path))
-    return {path, is_suite(path) ? suite_reports(path) : std::vector{make_report(path)}};
+    return {path,
+            record::is_suite(path) ? report::suite_reports(path) : std::vector{report::make_report(path)}};
   if (!fs::is_regular_file(path)) {
     throw ConfigurationError("there is no run " + path +
                              "; give a run's folder, its report.json or its runs.jsonl");
@@ -50,31 +51,31 @@ ComparedSide read_side(const std::string& path) {
   return {path, {has_lines ? read_lines(path) : read_report(path)}};
 }
 
-RunsCompared compare_sides(const ComparedSide& a, const ComparedSide& b) {
+report::RunsCompared compare_sides(const report::ComparedSide& a, const report::ComparedSide& b) {
   try {
-    return compare_runs(a.reports, b.reports);
+    return report::compare_runs(a.reports, b.reports);
   } catch (const std::exception& error) {
     throw std::runtime_error("a run in " + a.name + " or " + b.name +
                              " cannot be read; 'hullbench validate' says what is wrong: " + error.what());
   }
 }
 
-void print(const Document& document, const std::string& format) {
+void print(const table::Document& document, const std::string& format) {
   if (format == "csv") {
-    std::cout << to_csv(document.tables.back().table);
+    std::cout << table::to_csv(document.tables.back().table);
   } else if (format == "latex") {
-    for (const TableSection& section : document.tables) std::cout << to_latex(section);
+    for (const table::TableSection& section : document.tables) std::cout << table::to_latex(section);
   } else {
-    print_markdown(document, std::cout);
+    table::print_markdown(document, std::cout);
   }
 }
 
 }  // namespace
 
 int compare_command(const CompareCommand& command) {
-  const ComparedSide a = read_side(command.a);
-  const ComparedSide b = read_side(command.b);
-  const RunsCompared compared = compare_sides(a, b);
+  const report::ComparedSide a = read_side(command.a);
+  const report::ComparedSide b = read_side(command.b);
+  const report::RunsCompared compared = compare_sides(a, b);
   if (compared.pairs.empty()) {
     std::cerr << "hullbench: " << a.name << " and " << b.name << " have no run in common ("
               << compared.only_a.size() << " and " << compared.only_b.size()
@@ -82,11 +83,11 @@ int compare_command(const CompareCommand& command) {
     return 6;
   }
   if (command.format == "json") {
-    std::cout << comparison_json(compared, a, b).dump(2) << "\n";
+    std::cout << report::comparison_json(compared, a, b).dump(2) << "\n";
   } else {
-    print(comparison_document(compared, a, b, command.format == "csv"), command.format);
+    print(report::comparison_document(compared, a, b, command.format == "csv"), command.format);
   }
   return 0;
 }
 
-}  // namespace hullbench
+}  // namespace hullbench::cli

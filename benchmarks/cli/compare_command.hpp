@@ -3,7 +3,7 @@
 
 #include <string>
 
-namespace hullbench {
+namespace hullbench::cli {
 
 /// The command line of `compare`. A side is the folder of a run or of a suite, a report.json, or the lines of
 /// a run (runs.jsonl, runs.jsonl.xz).
@@ -18,4 +18,4 @@ struct CompareCommand {
 /// damaged.
 int compare_command(const CompareCommand& command);
 
-}  // namespace hullbench
+}  // namespace hullbench::cli

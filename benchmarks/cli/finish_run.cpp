@@ -5,21 +5,21 @@
 #include "benchmarks/report/documents.hpp"
 #include "benchmarks/report/report.hpp"
 
-namespace hullbench {
+namespace hullbench::cli {
 
 namespace fs = std::filesystem;
 using nlohmann::json;
 
 json report_to_share(const fs::path& folder) {
-  json report = make_report(folder);
-  report["metrics"] = metric_table_to_json();
+  json report = report::make_report(folder);
+  report["metrics"] = metrics::metric_table_to_json();
   return report;
 }
 
 void finish_run(const fs::path& folder) {
   const json report = report_to_share(folder);
-  write_tables(folder, make_documents({report}));
-  write_report_file(folder / kReportFile, report);
+  table::write_tables(folder, report::make_documents({report}));
+  report::write_report_file(folder / record::kReportFile, report);
 }
 
-}  // namespace hullbench
+}  // namespace hullbench::cli

@@ -4,14 +4,14 @@
 #include <iostream>
 #include <nlohmann/json.hpp>
 
-#include "benchmarks/record/stored_run.hpp"
 #include "benchmarks/base/configuration_error.hpp"
 #include "benchmarks/base/files.hpp"
 #include "benchmarks/league/league.hpp"
 #include "benchmarks/league/league_report.hpp"
+#include "benchmarks/record/stored_run.hpp"
 #include "benchmarks/report/report.hpp"
 
-namespace hullbench {
+namespace hullbench::cli {
 
 using nlohmann::json;
 
@@ -21,7 +21,8 @@ int league_command(const LeagueCommand& command) {
     if (!std::filesystem::is_directory(folder))
       throw ConfigurationError("there is no run in " + folder.string() +
                                "; give the folder of a run or suite");
-    const std::vector<json> some = is_suite(folder) ? suite_reports(folder) : std::vector{load_run(folder)};
+    const std::vector<json> some =
+        record::is_suite(folder) ? report::suite_reports(folder) : std::vector{record::load_run(folder)};
     reports.insert(reports.end(), some.begin(), some.end());
   }
   if (std::all_of(reports.begin(), reports.end(),
@@ -29,8 +30,9 @@ int league_command(const LeagueCommand& command) {
     std::cerr << "hullbench: none of the folders has a finished run; there is nothing to judge\n";
     return 6;
   }
-  const json league = league_to_json(make_league(reports, command.split_seed, !command.all_cases), reports);
-  print_markdown(league_document(league), std::cout);
+  const json league =
+      league::league_to_json(league::make_league(reports, command.split_seed, !command.all_cases), reports);
+  table::print_markdown(league::league_document(league), std::cout);
   if (!command.out.empty()) {
     write_json_file(command.out, league);
     std::cerr << "hullbench: wrote " << command.out.string() << "\n";
@@ -38,4 +40,4 @@ int league_command(const LeagueCommand& command) {
   return 0;
 }
 
-}  // namespace hullbench
+}  // namespace hullbench::cli

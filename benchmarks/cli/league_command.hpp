@@ -5,7 +5,7 @@
 #include <filesystem>
 #include <vector>
 
-namespace hullbench {
+namespace hullbench::cli {
 
 /// The command line of `league`.
 struct LeagueCommand {
@@ -19,4 +19,4 @@ struct LeagueCommand {
 /// ConfigurationError when a folder has no run or the file cannot be written.
 int league_command(const LeagueCommand& command);
 
-}  // namespace hullbench
+}  // namespace hullbench::cli

@@ -11,21 +11,21 @@
 #include "datasets/datasets.hpp"
 #include "datasets/stress.hpp"
 
-namespace hullbench {
+namespace hullbench::cli {
 namespace {
 
 using nlohmann::json;
 
-json list_methods(const std::vector<Method>& methods, const WorkerLimits& limits) {
-  std::vector<std::unique_ptr<MethodSession>> sessions;
-  for (const Method& method : methods) {
-    sessions.push_back(std::make_unique<MethodSession>(method, limits));
+json list_methods(const std::vector<worker::Method>& methods, const worker::WorkerLimits& limits) {
+  std::vector<std::unique_ptr<worker::MethodSession>> sessions;
+  for (const worker::Method& method : methods) {
+    sessions.push_back(std::make_unique<worker::MethodSession>(method, limits));
     sessions.back()->begin_start();
   }
   json described = json::array();
   for (const auto& session : sessions) {
     session->finish_start();
-    described.push_back(describe_method(*session));
+    described.push_back(worker::describe_method(*session));
   }
   return described;
 }
@@ -93,7 +93,7 @@ void print_stress(const json& kind, std::ostream& out) {
 
 }  // namespace
 
-json make_listing(const std::vector<Method>& methods, const WorkerLimits& limits) {
+json make_listing(const std::vector<worker::Method>& methods, const worker::WorkerLimits& limits) {
   return {{"methods", list_methods(methods, limits)},
           {"datasets", describe_datasets()},
           {"stress", list_stress()}};
@@ -132,4 +132,4 @@ json describe_datasets(const DataFolders& folders, const std::vector<std::string
   return result;
 }
 
-}  // namespace hullbench
+}  // namespace hullbench::cli

@@ -8,12 +8,12 @@
 #include "benchmarks/worker/worker_process.hpp"
 #include "datasets/datasets.hpp"
 
-namespace hullbench {
+namespace hullbench::cli {
 
 /// {"methods": [...], "datasets": [...], "stress": [...]}: every one of `methods`, asked through a worker
 /// each, all at the same time, every data set and every way to draw points that can stand behind a data set's
 /// name. Members of a method as in describe_method, of a data set as in run.json. Throws Interrupted.
-nlohmann::json make_listing(const std::vector<Method>& methods, const WorkerLimits& limits);
+nlohmann::json make_listing(const std::vector<worker::Method>& methods, const worker::WorkerLimits& limits);
 
 /// The same for people.
 void print_listing(const nlohmann::json& listing, std::ostream& out);
@@ -22,4 +22,4 @@ void print_listing(const nlohmann::json& listing, std::ostream& out);
 /// it is empty.
 nlohmann::json describe_datasets(const DataFolders& folders = {}, const std::vector<std::string>& names = {});
 
-}  // namespace hullbench
+}  // namespace hullbench::cli

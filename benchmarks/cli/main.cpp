@@ -9,31 +9,31 @@
 #include <string>
 #include <vector>
 
-#include "benchmarks/cli/finish_run.hpp"
-#include "benchmarks/cli/merge_command.hpp"
-#include "benchmarks/record/stored_run.hpp"
-#include "benchmarks/report/documents.hpp"
+#include "adapters/adapter.hpp"
 #include "benchmarks/base/configuration_error.hpp"
 #include "benchmarks/base/files.hpp"
-#include "adapters/adapter.hpp"
+#include "benchmarks/base/interrupt.hpp"
 #include "benchmarks/cli/adapter_command.hpp"
 #include "benchmarks/cli/compare_command.hpp"
-#include "benchmarks/report/gbench_export.hpp"
-#include "benchmarks/hull/hull_command.hpp"
-#include "benchmarks/base/interrupt.hpp"
+#include "benchmarks/cli/finish_run.hpp"
 #include "benchmarks/cli/league_command.hpp"
-#include "benchmarks/league/league_report.hpp"
 #include "benchmarks/cli/listing.hpp"
-#include "benchmarks/run/method_catalog.hpp"
+#include "benchmarks/cli/merge_command.hpp"
+#include "benchmarks/cli/run_command.hpp"
+#include "benchmarks/cli/tune_command.hpp"
+#include "benchmarks/hull/hull_command.hpp"
+#include "benchmarks/league/league_report.hpp"
 #include "benchmarks/metrics/metric_table.hpp"
-#include "benchmarks/record/pictures.hpp"
 #include "benchmarks/plan/plan.hpp"
+#include "benchmarks/record/pictures.hpp"
+#include "benchmarks/record/stored_run.hpp"
+#include "benchmarks/record/validate.hpp"
+#include "benchmarks/report/documents.hpp"
+#include "benchmarks/report/gbench_export.hpp"
 #include "benchmarks/report/readme.hpp"
 #include "benchmarks/report/report.hpp"
-#include "benchmarks/cli/run_command.hpp"
+#include "benchmarks/run/method_catalog.hpp"
 #include "benchmarks/run/run_directory.hpp"
-#include "benchmarks/cli/tune_command.hpp"
-#include "benchmarks/record/validate.hpp"
 #include "benchmarks/worker/worker.hpp"
 
 namespace {
@@ -84,7 +84,7 @@ struct Arguments {
   CompareCommand compare;
   NewAdapterCommand new_adapter;
   TestAdapterCommand test_adapter;
-  HullCommand hull;
+  hull::HullCommand hull;
   std::string readme_run;
   std::string readme_path;
   bool readme_check = false;
@@ -93,7 +93,7 @@ struct Arguments {
 };
 
 int list(bool as_json, const std::vector<fs::path>& adapters) {
-  const MethodCatalog catalog(manifest_folders(adapters));
+  const run::MethodCatalog catalog(run::manifest_folders(adapters));
   const nlohmann::json listing = make_listing(catalog.methods(), {kListMemoryMib, std::nullopt});
   if (as_json) {
     std::cout << listing.dump(2) << "\n";
@@ -105,11 +105,11 @@ int list(bool as_json, const std::vector<fs::path>& adapters) {
 
 int metrics(bool as_json, bool as_markdown) {
   if (as_json) {
-    std::cout << metric_table_to_json().dump(2) << "\n";
+    std::cout << metrics::metric_table_to_json().dump(2) << "\n";
   } else if (as_markdown) {
-    std::cout << metric_table_to_markdown();
+    std::cout << metrics::metric_table_to_markdown();
   } else {
-    print_metric_table(std::cout);
+    metrics::print_metric_table(std::cout);
   }
   return kOk;
 }
@@ -124,16 +124,16 @@ void check_run_folder(const std::string& path) {
 /// The reports in `path`, the folder of a run or of a suite.
 std::vector<nlohmann::json> reports_in(const std::string& path) {
   check_run_folder(path);
-  return is_suite(path) ? suite_reports(path) : std::vector{make_report(path)};
+  return record::is_suite(path) ? report::suite_reports(path) : std::vector{report::make_report(path)};
 }
 
 int tables(const std::string& path, bool write, const std::string& gbench_file) {
   check_export_place(gbench_file);
   const std::vector<nlohmann::json> reports = reports_in(path);
-  const std::vector<Document> documents = make_documents(reports);
-  print_markdown(documents, std::cout);
-  if (write) write_tables(path, documents);
-  if (!gbench_file.empty()) export_gbench(gbench_file, reports);
+  const std::vector<table::Document> documents = report::make_documents(reports);
+  table::print_markdown(documents, std::cout);
+  if (write) table::write_tables(path, documents);
+  if (!gbench_file.empty()) report::export_gbench(gbench_file, reports);
   return kOk;
 }
 
@@ -141,16 +141,16 @@ int tables(const std::string& path, bool write, const std::string& gbench_file) 
 /// in `path`, or of each run of a suite in a folder of its name.
 int report(const std::string& path, const fs::path& out) {
   check_run_folder(path);
-  const bool suite = is_suite(path);
-  for (const fs::path& run : suite ? suite_runs(path) : std::vector<fs::path>{path}) {
+  const bool suite = record::is_suite(path);
+  for (const fs::path& run : suite ? record::suite_runs(path) : std::vector<fs::path>{path}) {
     const fs::path folder = suite ? out / run.filename() : out;
     make_writable_folder(folder);
     if (fs::equivalent(folder, run))
       throw ConfigurationError("the folder " + folder.string() +
                                " is the run itself; choose another one with --out");
-    write_report_file(folder / "report.json", report_to_share(run));
-    fs::remove(folder / kPicturesFile);
-    merge_pictures({run}, folder);
+    report::write_report_file(folder / "report.json", report_to_share(run));
+    fs::remove(folder / record::kPicturesFile);
+    record::merge_pictures({run}, folder);
     std::cout << "wrote " << (folder / "report.json").string() << "\n";
   }
   return kOk;
@@ -163,10 +163,10 @@ int readme(const std::string& run, const std::string& path, bool check) {
   // Named by what it is, not by a link that will point to another one some day.
   const fs::path folder =
       fs::is_symlink(run) ? fs::path(run).parent_path() / fs::read_symlink(run) : fs::path(run);
-  std::string results = readme_results(reports_in(run), folder.string());
-  if (std::ifstream league(folder / kLeagueFile); league.is_open())
-    results += league_results(nlohmann::json::parse(league));
-  const std::string after = with_results(before, results);
+  std::string results = report::readme_results(reports_in(run), folder.string());
+  if (std::ifstream league(folder / league::kLeagueFile); league.is_open())
+    results += league::league_results(nlohmann::json::parse(league));
+  const std::string after = report::with_results(before, results);
   if (before == after) {
     std::cout << path << " agrees with " << run << "\n";
     return kOk;
@@ -183,7 +183,7 @@ int readme(const std::string& run, const std::string& path, bool check) {
 
 int validate(const std::string& path) {
   if (!fs::is_regular_file(path)) throw ConfigurationError("there is no file " + path + " to validate");
-  const std::vector<std::string> faults = validate_file(path);
+  const std::vector<std::string> faults = record::validate_file(path);
   for (const std::string& fault : faults) std::cerr << "hullbench: " << path << ": " << fault << "\n";
   if (faults.empty()) std::cout << path << " is valid\n";
   return faults.empty() ? kOk : kHarnessError;
@@ -196,7 +196,7 @@ int worker(const std::string& method) {
   if (entry == registry.end()) {
     throw ConfigurationError("there is no method '" + method + "'; 'hullbench list' shows them");
   }
-  return run_worker(*entry);
+  return worker::run_worker(*entry);
 }
 
 void add_run(CLI::App& app, RunCommand& run) {
@@ -211,7 +211,7 @@ void add_run(CLI::App& app, RunCommand& run) {
           "--passes", run.passes,
           "How often all plans are gone through, each time with a share of the repetitions, so that a "
           "slow hour of the machine is not one method's")
-      ->check(CLI::Range(1, kMaxPasses));
+      ->check(CLI::Range(1, plan::kMaxPasses));
   command->add_option("--out", run.out, "Folder for the results instead of one in results/runs");
   command->add_option("--seed", run.seed, "Seed of the point samples and of the order of runs")
       ->check(CLI::NonNegativeNumber);
@@ -223,7 +223,7 @@ void add_run(CLI::App& app, RunCommand& run) {
       "--recordings", run.recordings,
       "Folder of recorded floors that take the place of the simulated ones (datasets/rgbd/recordings.hpp)");
   command->add_option_function<std::string>(
-      "--shard", [&run](const std::string& text) { run.shard = parse_shard(text); },
+      "--shard", [&run](const std::string& text) { run.shard = run::parse_shard(text); },
       "Only part K of N of the runs, given as K/N; 'hullbench merge' puts the parts together");
   command->add_option("--adapters", run.adapters, kAdaptersHelp)->allow_extra_args(false);
   command
@@ -256,7 +256,7 @@ void add_tune(CLI::App& app, TuneCommand& tune) {
   command->add_option("--jobs", tune.jobs, "Evaluations at a time, instead of one a processor core")
       ->check(CLI::Range(1, 1024));
   command->add_option_function<std::string>(
-      "--shard", [&tune](const std::string& text) { tune.shard = parse_shard(text); },
+      "--shard", [&tune](const std::string& text) { tune.shard = run::parse_shard(text); },
       "Only part K of N of the cases, given as K/N; when all are done, the same command without it, over the "
       "folder with their files sweep-K-of-N.jsonl, puts them together");
   command->add_option("--adapters", tune.adapters, kAdaptersHelp)->allow_extra_args(false);
@@ -330,7 +330,7 @@ CLI::Validator zero_or_more() {
           ">=0"};
 }
 
-void add_hull(CLI::App& app, HullCommand& hull) {
+void add_hull(CLI::App& app, hull::HullCommand& hull) {
   CLI::App* command = app.add_subcommand("hull", "Turn a file of points into polygons");
   command->footer(
       "Without --alpha, --max-edge-length and --max-perimeter the perimeter's limit is chosen from the "
@@ -423,7 +423,7 @@ int dispatch(const CLI::App& app, const Arguments& arguments) {
     return tables(arguments.tables_path, arguments.tables_write, arguments.tables_export_gbench);
   if (app.got_subcommand("report")) return report(arguments.report_path, arguments.report_out);
   if (app.got_subcommand("compare")) return compare_command(arguments.compare);
-  if (app.got_subcommand("hull")) return hull_command(arguments.hull);
+  if (app.got_subcommand("hull")) return hull::hull_command(arguments.hull);
   if (app.got_subcommand("readme")) {
     return readme(arguments.readme_run, arguments.readme_path, arguments.readme_check);
   }

@@ -17,18 +17,18 @@
 #include "benchmarks/run/run_directory.hpp"
 #include "benchmarks/run/suite.hpp"
 
-namespace hullbench {
+namespace hullbench::cli {
 namespace {
 
 namespace fs = std::filesystem;
 using nlohmann::json;
 
-int merged_exit_code(const std::vector<MergedRun>& runs) {
-  RunResult result;
+int merged_exit_code(const std::vector<run::MergedRun>& runs) {
+  run::RunResult result;
   bool missing = false;
-  for (const MergedRun& run : runs) {
+  for (const run::MergedRun& run : runs) {
     const auto accepted = run.header.at("plan").value("accepted", std::vector<std::string>());
-    for (const RunRecord& row : run.rows) count_row(result, row.status, accepted);
+    for (const record::RunRecord& row : run.rows) run::count_row(result, row.status, accepted);
     missing = missing || run.rows.size() < run.planned;
   }
   const int code = exit_code(result);
@@ -41,7 +41,7 @@ std::vector<std::vector<fs::path>> runs_by_plan(const std::vector<fs::path>& sou
   std::map<std::string, std::vector<fs::path>> folders;
   for (const fs::path& source : sources) {
     auto& list = lists.emplace_back();
-    for (const fs::path& run : suite_runs(source)) {
+    for (const fs::path& run : record::suite_runs(source)) {
       list.push_back(run.filename().string());
       folders[list.back()].push_back(run);
     }
@@ -66,8 +66,8 @@ void check_out(const MergeCommand& command) {
                                ", one of the runs to be merged; choose another --out");
   }
   make_writable_folder(command.out);
-  const bool of_suites = is_suite(command.sources.front());
-  if (of_suites ? fs::exists(command.out / "run.json") : is_suite(command.out)) {
+  const bool of_suites = record::is_suite(command.sources.front());
+  if (of_suites ? fs::exists(command.out / "run.json") : record::is_suite(command.out)) {
     throw ConfigurationError("the output folder " + out + " holds a " + (of_suites ? "run" : "suite") +
                              "; choose another one with --out");
   }
@@ -77,28 +77,28 @@ void check_out(const MergeCommand& command) {
   }
 }
 
-void write_run(const MergedRun& run, const fs::path& folder) {
-  const auto directory = open_run_directory(run.header, {folder, true});
+void write_run(const run::MergedRun& run, const fs::path& folder) {
+  const auto directory = run::open_run_directory(run.header, {folder, true});
   directory->write_header(run.header);
-  merge_pictures(run.folders, folder);
+  record::merge_pictures(run.folders, folder);
   directory->append_rows(run.rows);
   // The rows have their times; single repetitions would only be needed to go on.
   fs::remove(folder / "repetitions.jsonl");
   finish_run(folder);
 }
 
-void write_suite(const std::vector<MergedRun>& runs, const fs::path& folder) {
+void write_suite(const std::vector<run::MergedRun>& runs, const fs::path& folder) {
   std::vector<json> headers;
   headers.reserve(runs.size());
-  for (const MergedRun& run : runs) headers.push_back(run.header);
-  open_suite(headers, {folder, true});
-  for (const MergedRun& run : runs)
+  for (const run::MergedRun& run : runs) headers.push_back(run.header);
+  run::open_suite(headers, {folder, true});
+  for (const run::MergedRun& run : runs)
     write_run(run, folder / run.header.at("plan").at("name").get<std::string>());
-  write_tables(folder, make_documents(suite_reports(folder)));
+  table::write_tables(folder, report::make_documents(report::suite_reports(folder)));
 }
 
-void say_merged(const std::vector<MergedRun>& runs, const MergeCommand& command) {
-  for (const MergedRun& run : runs) {
+void say_merged(const std::vector<run::MergedRun>& runs, const MergeCommand& command) {
+  for (const run::MergedRun& run : runs) {
     std::cerr << "hullbench: " << run.header.at("plan").at("name").get<std::string>() << ": "
               << run.rows.size() << " of " << run.planned << " planned runs\n";
     for (const json& note : run.header.at("notes"))
@@ -115,13 +115,13 @@ int merge_command(const MergeCommand& command) {
       static_cast<std::size_t>(std::count_if(command.sources.begin(), command.sources.end(), is_suite));
   if (suites != 0 && suites != command.sources.size())
     throw ConfigurationError("some of the folders hold a run and some a suite; merge runs or suites");
-  std::vector<MergedRun> runs;
+  std::vector<run::MergedRun> runs;
   if (suites == 0) {
-    runs.push_back(merge_runs(command.sources));
+    runs.push_back(run::merge_runs(command.sources));
   } else {
-    for (const auto& folders : runs_by_plan(command.sources)) runs.push_back(merge_runs(folders));
+    for (const auto& folders : runs_by_plan(command.sources)) runs.push_back(run::merge_runs(folders));
   }
-  if (std::all_of(runs.begin(), runs.end(), [](const MergedRun& run) { return run.rows.empty(); })) {
+  if (std::all_of(runs.begin(), runs.end(), [](const run::MergedRun& run) { return run.rows.empty(); })) {
     std::cerr << "hullbench: none of the folders has a finished run; nothing is merged\n";
     return 6;
   }
@@ -131,11 +131,11 @@ int merge_command(const MergeCommand& command) {
   } else {
     write_suite(runs, command.out);
   }
-  print_markdown(
-      make_documents(suites == 0 ? std::vector{make_report(command.out)} : suite_reports(command.out)),
-      std::cout);
+  table::print_markdown(report::make_documents(suites == 0 ? std::vector{report::make_report(command.out)}
+                                                           : report::suite_reports(command.out)),
+                        std::cout);
   say_merged(runs, command);
   return merged_exit_code(runs);
 }
 
-}  // namespace hullbench
+}  // namespace hullbench::cli

@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <vector>
 
-namespace hullbench {
+namespace hullbench::cli {
 
 /// The command line of `merge`.
 struct MergeCommand {
@@ -20,4 +20,4 @@ struct MergeCommand {
 /// cannot be used.
 int merge_command(const MergeCommand& command);
 
-}  // namespace hullbench
+}  // namespace hullbench::cli

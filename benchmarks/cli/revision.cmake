@@ -19,9 +19,9 @@ endif()
 file(CONFIGURE OUTPUT "${OUTPUT}" @ONLY CONTENT
 "#include \"benchmarks/cli/revision.hpp\"
 
-namespace hullbench {
+namespace hullbench::cli {
 
 Revision revision() { return {@values@}; }
 
-}  // namespace hullbench
+}  // namespace hullbench::cli
 ")

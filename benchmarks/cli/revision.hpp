@@ -5,7 +5,7 @@
 #include <optional>
 #include <string>
 
-namespace hullbench {
+namespace hullbench::cli {
 
 struct Revision {
   std::optional<std::string>
@@ -15,4 +15,4 @@ struct Revision {
 
 Revision revision();
 
-}  // namespace hullbench
+}  // namespace hullbench::cli

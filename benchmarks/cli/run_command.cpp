@@ -30,7 +30,7 @@
 #include "datasets/datasets.hpp"
 #include "datasets/rgbd/recordings.hpp"
 
-namespace hullbench {
+namespace hullbench::cli {
 namespace {
 
 namespace fs = std::filesystem;
@@ -40,9 +40,9 @@ const fs::path kResults = "results";
 
 /// A plan and those of its runs that were asked for.
 struct Experiment {
-  Plan plan;
+  plan::Plan plan;
   std::string filter;
-  std::vector<PlannedRun> runs;
+  std::vector<plan::PlannedRun> runs;
 };
 
 std::size_t count_recordings(const fs::path& folder) {
@@ -53,59 +53,62 @@ std::size_t count_recordings(const fs::path& folder) {
   }
 }
 
-Experiment make_experiment(const std::string& name, const RunCommand& command, const MethodCatalog& catalog) {
-  Plan plan = load_plan(name, HULLBENCH_PLAN_FOLDER);
-  for (const std::string& method : command.with) add_methods(plan, catalog.runs_of(method));
-  if (!command.recordings.empty()) use_recordings(plan, count_recordings(command.recordings));
+Experiment make_experiment(const std::string& name, const RunCommand& command,
+                           const run::MethodCatalog& catalog) {
+  plan::Plan plan = plan::load_plan(name, HULLBENCH_PLAN_FOLDER);
+  for (const std::string& method : command.with) plan::add_methods(plan, catalog.runs_of(method));
+  if (!command.recordings.empty()) plan::use_recordings(plan, count_recordings(command.recordings));
   plan.repetitions = command.repetitions.value_or(plan.repetitions);
   plan.passes = command.passes.value_or(plan.passes);
   plan.seed = command.seed.value_or(plan.seed);
   plan.timeout_s = command.timeout_s.value_or(plan.timeout_s);
   plan.mem_limit_mib = command.mem_limit_mib.value_or(plan.mem_limit_mib);
-  for (PlanMethod& method : plan.methods) {
+  for (plan::PlanMethod& method : plan.methods) {
     if (command.repetitions) method.repetitions.reset();
     if (command.timeout_s) method.timeout_s.reset();
     if (command.mem_limit_mib) method.mem_limit_mib.reset();
   }
-  check_plan(plan, catalog.names(), datasets({default_data_directory(), command.recordings}));
+  plan::check_plan(plan, catalog.names(), datasets({default_data_directory(), command.recordings}));
   std::string filter = command.filter.empty() ? plan.filter : command.filter;
-  std::vector<PlannedRun> runs = planned_runs(plan, filter);
+  std::vector<plan::PlannedRun> runs = plan::planned_runs(plan, filter);
   return {std::move(plan), std::move(filter), std::move(runs)};
 }
 
 /// The formula of every rule that the plan names.
-json describe_rules(const Plan& plan) {
+json describe_rules(const plan::Plan& plan) {
   json rules = json::object();
-  for (const PlanMethod& method : plan.methods) {
+  for (const plan::PlanMethod& method : plan.methods) {
     for (const auto& [name, choice] : method.parameters) {
-      if (const auto* rule = std::get_if<RuleChoice>(&choice))
-        rules[rule->rule] = find_rule(rule->rule)->formula;
+      if (const auto* rule = std::get_if<plan::RuleChoice>(&choice))
+        rules[rule->rule] = plan::find_rule(rule->rule)->formula;
     }
   }
   return rules;
 }
 
 /// The hashes of the manifests of the plan's methods.
-json manifest_hashes(const Plan& plan, const MethodCatalog& catalog) {
+json manifest_hashes(const plan::Plan& plan, const run::MethodCatalog& catalog) {
   json hashes = json::object();
-  for (const PlanMethod& method : plan.methods) {
+  for (const plan::PlanMethod& method : plan.methods) {
     const auto found = catalog.hashes().find(method.method);
     if (found != catalog.hashes().end()) hashes[found->first] = found->second;
   }
   return hashes;
 }
 
-json describe_run(const Experiment& experiment, const RunCommand& command, const MethodCatalog& catalog) {
-  const Plan& plan = experiment.plan;
+json describe_run(const Experiment& experiment, const RunCommand& command,
+                  const run::MethodCatalog& catalog) {
+  const plan::Plan& plan = experiment.plan;
   std::vector<std::string> used;
   used.reserve(experiment.runs.size());
-  for (const PlannedRun& run : experiment.runs) used.push_back(plan.expanded_cases[run.case_index].dataset);
-  return {{"schema_version", kSchemaVersion},
+  for (const plan::PlannedRun& run : experiment.runs)
+    used.push_back(plan.expanded_cases[run.case_index].dataset);
+  return {{"schema_version", record::kSchemaVersion},
           {"created", utc_now()},
           {"resumed", json::array()},
           {"tool", describe_tool()},
-          {"environment", collect_environment()},
-          {"plan", plan_to_json(plan)},
+          {"environment", record::collect_environment()},
+          {"plan", plan::plan_to_json(plan)},
           {"rules", describe_rules(plan)},
           {"seed", plan.seed},
           {"filter", experiment.filter.empty() ? json(nullptr) : json(experiment.filter)},
@@ -136,24 +139,25 @@ std::size_t terminal_width() {
 }
 
 /// The header of the run in `directory`: the earlier start's, with this start added, or the new one.
-json header_to_write(const RunDirectory& directory, const json& header) {
+json header_to_write(const run::RunDirectory& directory, const json& header) {
   if (!directory.resumed()) return header;
   json earlier = directory.header();
   earlier["resumed"].push_back(header.at("created"));
   return earlier;
 }
 
-void say_what_goes_on(const RunDirectory& directory, const Experiment& experiment) {
+void say_what_goes_on(const run::RunDirectory& directory, const Experiment& experiment) {
   const std::size_t planned = experiment.runs.size();
   if (!directory.resumed()) {
     std::cerr << "hullbench: " << planned << " runs to do, into " << directory.path().string() << "\n";
     return;
   }
   const auto& rows = directory.rows();
-  const auto missing = std::count_if(
-      rows.begin(), rows.end(), [](const RunRecord& row) { return row.status == Status::kNotInstalled; });
+  const auto missing = std::count_if(rows.begin(), rows.end(), [](const record::RunRecord& row) {
+    return row.status == record::Status::kNotInstalled;
+  });
   const auto finished =
-      static_cast<std::ptrdiff_t>(count_finished(experiment.plan, experiment.runs, directory));
+      static_cast<std::ptrdiff_t>(run::count_finished(experiment.plan, experiment.runs, directory));
   std::cerr << "hullbench: going on with the run in " << directory.path().string() << ": "
             << finished - missing << " of " << planned
             << " runs are finished and not measured again (--force starts anew)";
@@ -161,19 +165,21 @@ void say_what_goes_on(const RunDirectory& directory, const Experiment& experimen
   std::cerr << "\n";
 }
 
-void say_counts(const RunResult& result) {
+void say_counts(const run::RunResult& result) {
   int failed = 0;
-  const auto count = [&](Status status) {
+  const auto count = [&](record::Status status) {
     const auto found = result.counts.find(status);
     return found == result.counts.end() ? 0 : found->second;
   };
-  for (const Status status :
-       {Status::kTimeout, Status::kMemory, Status::kCrash, Status::kError, Status::kInvalidOutput}) {
+  for (const record::Status status :
+       {record::Status::kTimeout, record::Status::kMemory, record::Status::kCrash, record::Status::kError,
+        record::Status::kInvalidOutput}) {
     failed += count(status);
   }
-  std::cerr << "hullbench: " << count(Status::kOk) << " ok, " << failed << " failed, "
-            << count(Status::kNotInstalled) << " not installed";
-  if (count(Status::kUnsupported) > 0) std::cerr << ", " << count(Status::kUnsupported) << " unsupported";
+  std::cerr << "hullbench: " << count(record::Status::kOk) << " ok, " << failed << " failed, "
+            << count(record::Status::kNotInstalled) << " not installed";
+  if (count(record::Status::kUnsupported) > 0)
+    std::cerr << ", " << count(record::Status::kUnsupported) << " unsupported";
   if (result.accepted > 0) std::cerr << ", " << result.accepted << " not ok as the plan accepts";
   std::cerr << "\n";
 }
@@ -189,15 +195,15 @@ void say_files(const fs::path& directory, const fs::path& shown, const std::vect
 struct Task {
   const Experiment* experiment = nullptr;
   json header;
-  fs::path folder;                          ///< of its run
-  std::unique_ptr<RunDirectory> directory;  ///< none: an earlier call has finished it
-  RunResult result;                         ///< of the last pass so far
+  fs::path folder;                               ///< of its run
+  std::unique_ptr<run::RunDirectory> directory;  ///< none: an earlier call has finished it
+  run::RunResult result;                         ///< of the last pass so far
 };
 
 /// Measures the tasks of one call, pass by pass through all of them.
 class Measuring {
  public:
-  Measuring(const RunCommand& command, const MethodCatalog& catalog, std::vector<Task>& tasks)
+  Measuring(const RunCommand& command, const run::MethodCatalog& catalog, std::vector<Task>& tasks)
       : command_(command),
         catalog_(catalog),
         tasks_(tasks),
@@ -208,11 +214,11 @@ class Measuring {
 
   /// Measures them all and writes the report and the tables of each after its last pass. Whether it was not
   /// interrupted.
-  bool measure() {
+  bool micro::measure() {
     for (std::size_t place = 0; place < steps_.size(); ++place) {
       const Step& step = steps_[place];
       progress_.enter(place);
-      if (!measure(step)) return false;
+      if (!micro::measure(step)) return false;
       const bool pass_ends = place + 1 == steps_.size() || steps_[place + 1].pass != step.pass;
       if (pass_ends && step.pass < passes_) say_pass(step.pass);
     }
@@ -240,20 +246,20 @@ class Measuring {
   }
 
   /// Finds the steps too, one for each section.
-  std::vector<ProgressSection> make_sections() {
+  std::vector<run::ProgressSection> make_sections() {
     for (const Task& task : tasks_) passes_ = std::max(passes_, task.experiment->plan.passes);
-    std::vector<ProgressSection> sections;
+    std::vector<run::ProgressSection> sections;
     for (int pass = 1; pass <= passes_; ++pass) {
       for (Task& task : tasks_) {
         const auto& [plan, filter, runs] = *task.experiment;
         const bool last = pass == plan.passes;
         // The last pass writes the report, whatever is left to measure.
-        if (pass > plan.passes || (!last && pass > 1 && !has_repetitions(plan, runs, pass))) continue;
+        if (pass > plan.passes || (!last && pass > 1 && !run::has_repetitions(plan, runs, pass))) continue;
         steps_.push_back({&task, pass});
-        const bool measures = task.directory && has_repetitions(plan, runs, pass);
+        const bool measures = task.directory && run::has_repetitions(plan, runs, pass);
         const std::string there = where(task, pass);
         sections.push_back({there.empty() ? "" : plan.title + ", " + there,
-                            measures ? progress_runs(plan, runs, pass) : std::vector<ProgressRun>(),
+                            measures ? run::progress_runs(plan, runs, pass) : std::vector<run::ProgressRun>(),
                             plan.name});
       }
     }
@@ -261,7 +267,7 @@ class Measuring {
   }
 
   /// False when it was interrupted.
-  bool measure(const Step& step) {
+  bool micro::measure(const Step& step) {
     Task& task = *step.task;
     const Experiment& experiment = *task.experiment;
     const std::string there = where(task, step.pass);
@@ -271,14 +277,15 @@ class Measuring {
     }
     if (!task.directory) return true;
     if (step.pass == 1) say_what_goes_on(*task.directory, experiment);
-    if (has_repetitions(experiment.plan, experiment.runs, step.pass)) {
-      const RunnerOptions options = {[this](const std::string& name) { return catalog_.find(name); },
-                                     cores_.worker,
-                                     cores_.all,
-                                     {default_data_directory(), command_.recordings},
-                                     &machine_};
-      task.result = run_plan(experiment.plan, experiment.runs, header_to_write(*task.directory, task.header),
-                             options, *task.directory, progress_, step.pass);
+    if (run::has_repetitions(experiment.plan, experiment.runs, step.pass)) {
+      const run::RunnerOptions options = {[this](const std::string& name) { return catalog_.find(name); },
+                                          cores_.worker,
+                                          cores_.all,
+                                          {default_data_directory(), command_.recordings},
+                                          &machine_};
+      task.result =
+          run::run_plan(experiment.plan, experiment.runs, header_to_write(*task.directory, task.header),
+                        options, *task.directory, progress_, step.pass);
       progress_.end();
     }
     if (task.result.interrupted) {
@@ -297,29 +304,29 @@ class Measuring {
   }
 
   const RunCommand& command_;
-  const MethodCatalog& catalog_;
+  const run::MethodCatalog& catalog_;
   std::vector<Task>& tasks_;
   int passes_ = 1;  ///< of the plan with the most
   std::vector<Step> steps_;
   Cores cores_;
-  Canary canary_;
-  MachineWatch machine_;
-  Progress progress_;
+  run::Canary canary_;
+  run::MachineWatch machine_;
+  run::Progress progress_;
 };
 
-int measure_one(const RunCommand& command, const Experiment& experiment, const MethodCatalog& catalog) {
+int measure_one(const RunCommand& command, const Experiment& experiment, const run::MethodCatalog& catalog) {
   const json header = describe_run(experiment, command, catalog);
   std::vector<Task> tasks(1);
   Task& task = tasks.front();
   task.experiment = &experiment;
   task.header = header;
-  task.directory = open_run_directory(header, {command.out, command.force, kResults});
+  task.directory = run::open_run_directory(header, {command.out, command.force, kResults});
   task.folder = task.directory->path();
-  if (!command.out) point_latest_to(task.folder, kResults);
+  if (!command.out) run::point_latest_to(task.folder, kResults);
   if (!Measuring(command, catalog, tasks).measure()) return exit_code(task.result);
-  const json report = make_report(task.folder);
-  print_markdown(make_documents({report}), std::cout);
-  if (!command.export_gbench.empty()) export_gbench(command.export_gbench, {report});
+  const json report = report::make_report(task.folder);
+  table::print_markdown(report::make_documents({report}), std::cout);
+  if (!command.export_gbench.empty()) report::export_gbench(command.export_gbench, {report});
   say_counts(task.result);
   say_files(task.folder, command.out ? task.folder : kResults / "latest",
             {"report.json", "tables.md", "tables", "runs.jsonl", "repetitions.jsonl", "run.json"});
@@ -327,48 +334,49 @@ int measure_one(const RunCommand& command, const Experiment& experiment, const M
 }
 
 /// What the rows of a finished run say.
-RunResult finished_result(const fs::path& run) {
-  RunResult result;
-  const json report = make_report(run);
+run::RunResult finished_result(const fs::path& run) {
+  run::RunResult result;
+  const json report = report::make_report(run);
   const auto accepted = report.at("plan").value("accepted", std::vector<std::string>());
-  for (const json& row : report.at("runs")) count_row(result, row.get<RunRecord>().status, accepted);
+  for (const json& row : report.at("runs"))
+    run::count_row(result, row.get<record::RunRecord>().status, accepted);
   return result;
 }
 
 int measure_suite(const RunCommand& command, const std::vector<Experiment>& experiments,
-                  const MethodCatalog& catalog) {
+                  const run::MethodCatalog& catalog) {
   std::vector<json> headers;
   headers.reserve(experiments.size());
   for (const Experiment& experiment : experiments)
     headers.push_back(describe_run(experiment, command, catalog));
-  const fs::path suite = open_suite(headers, {command.out, command.force, kResults});
-  if (!command.out) point_latest_to(suite, kResults);
+  const fs::path suite = run::open_suite(headers, {command.out, command.force, kResults});
+  if (!command.out) run::point_latest_to(suite, kResults);
   std::vector<Task> tasks(experiments.size());
   for (std::size_t i = 0; i < tasks.size(); ++i) {
     Task& task = tasks[i];
     task.experiment = &experiments[i];
     task.header = headers[i];
     task.folder = suite / experiments[i].plan.name;
-    const bool finished = !command.force && is_finished_run(task.folder, task.header);
+    const bool finished = !command.force && run::is_finished_run(task.folder, task.header);
     if (finished) task.result = finished_result(task.folder);
     // A method that was not installed may be there now.
-    if (!finished || task.result.counts.contains(Status::kNotInstalled)) {
-      task.directory = open_run_directory(task.header, {task.folder, command.force, kResults});
+    if (!finished || task.result.counts.contains(record::Status::kNotInstalled)) {
+      task.directory = run::open_run_directory(task.header, {task.folder, command.force, kResults});
     }
   }
   const bool complete = Measuring(command, catalog, tasks).measure();
-  RunResult all;
+  run::RunResult all;
   for (const Task& task : tasks) {
     for (const auto& [status, count] : task.result.counts) all.counts[status] += count;
     all.accepted += task.result.accepted;
     all.interrupted = all.interrupted || task.result.interrupted;
   }
   if (!complete) return exit_code(all);
-  const std::vector<json> reports = suite_reports(suite);
-  const std::vector<Document> documents = make_documents(reports);
-  print_markdown(documents, std::cout);
-  write_tables(suite, documents);
-  if (!command.export_gbench.empty()) export_gbench(command.export_gbench, reports);
+  const std::vector<json> reports = report::suite_reports(suite);
+  const std::vector<table::Document> documents = report::make_documents(reports);
+  table::print_markdown(documents, std::cout);
+  table::write_tables(suite, documents);
+  if (!command.export_gbench.empty()) report::export_gbench(command.export_gbench, reports);
   say_counts(all);
   say_files(suite, command.out ? suite : kResults / "latest", {"tables.md", "tables", "suite.json"});
   return exit_code(all);
@@ -377,7 +385,7 @@ int measure_suite(const RunCommand& command, const std::vector<Experiment>& expe
 /// Leaves of `experiment` what belongs to the shard that was asked for, and says so when that is nothing.
 void keep_shard(Experiment& experiment, const RunCommand& command) {
   if (!command.shard || experiment.runs.empty()) return;
-  experiment.runs = runs_of_shard(experiment.plan, experiment.runs, *command.shard);
+  experiment.runs = run::runs_of_shard(experiment.plan, experiment.runs, *command.shard);
   if (experiment.runs.empty()) {
     std::cerr << "hullbench: the plan '" << experiment.plan.name << "' has too few cases for shard "
               << to_string(*command.shard) << ": nothing of it is measured here\n";
@@ -396,7 +404,7 @@ void check_export_place(const fs::path& file) {
 }
 
 int run_command(const RunCommand& command) {
-  const MethodCatalog catalog(manifest_folders(command.adapters));
+  const run::MethodCatalog catalog(run::manifest_folders(command.adapters));
   std::vector<Experiment> experiments;
   std::string names;
   bool any_run = false;
@@ -422,15 +430,15 @@ int run_command(const RunCommand& command) {
   }
   if (command.dry_run) {
     for (const Experiment& experiment : experiments) {
-      for (const PlannedRun& run : experiment.runs) std::cout << run.name << "\n";
+      for (const plan::PlannedRun& run : experiment.runs) std::cout << run.name << "\n";
     }
     return 0;
   }
   check_export_place(command.export_gbench);
-  end_strays_of_dead_harnesses();
-  remove_stale_scratch(kResults);
+  worker::end_strays_of_dead_harnesses();
+  run::remove_stale_scratch(kResults);
   return command.plans.size() == 1 ? measure_one(command, experiments.front(), catalog)
                                    : measure_suite(command, experiments, catalog);
 }
 
-}  // namespace hullbench
+}  // namespace hullbench::cli

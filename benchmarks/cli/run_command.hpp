@@ -10,7 +10,7 @@
 #include "benchmarks/run/runner.hpp"
 #include "benchmarks/run/shard.hpp"
 
-namespace hullbench {
+namespace hullbench::cli {
 
 /// The command line of `run`; what is not given is as the plan says.
 struct RunCommand {
@@ -23,8 +23,8 @@ struct RunCommand {
   std::optional<std::int64_t> mem_limit_mib;
   std::optional<std::filesystem::path> out;
   std::filesystem::path
-      recordings;              ///< folder of real floors to take the place of the simulated ones; empty: none
-  std::optional<Shard> shard;  ///< none: all runs
+      recordings;  ///< folder of real floors to take the place of the simulated ones; empty: none
+  std::optional<run::Shard> shard;      ///< none: all runs
   std::filesystem::path export_gbench;  ///< file for the times as Google Benchmark's JSON; empty: none
   std::vector<std::filesystem::path> adapters;  ///< more folders with manifests
   std::vector<std::string> with;                ///< methods to measure that the plans do not name
@@ -41,4 +41,4 @@ void check_export_place(const std::filesystem::path& file);
 /// cannot be written.
 int run_command(const RunCommand& command);
 
-}  // namespace hullbench
+}  // namespace hullbench::cli

@@ -3,7 +3,7 @@
 #include "benchmarks/cli/revision.hpp"
 #include "datasets/sha256.hpp"
 
-namespace hullbench {
+namespace hullbench::cli {
 
 nlohmann::json describe_tool() {
   using nlohmann::json;
@@ -15,4 +15,4 @@ nlohmann::json describe_tool() {
           {"binary_sha256", sha256_file("/proc/self/exe")}};
 }
 
-}  // namespace hullbench
+}  // namespace hullbench::cli

@@ -3,9 +3,9 @@
 
 #include <nlohmann/json.hpp>
 
-namespace hullbench {
+namespace hullbench::cli {
 
 /// {name, version, commit, dirty, binary_sha256}; commit and dirty are null when built outside a checkout.
 nlohmann::json describe_tool();
 
-}  // namespace hullbench
+}  // namespace hullbench::cli

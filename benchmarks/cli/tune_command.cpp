@@ -28,7 +28,7 @@
 #include "benchmarks/worker/worker_process.hpp"
 #include "datasets/datasets.hpp"
 
-namespace hullbench {
+namespace hullbench::cli {
 namespace {
 
 namespace fs = std::filesystem;
@@ -38,22 +38,22 @@ constexpr const char* kSweepFile = "sweep.jsonl";
 constexpr const char* kSummaryFile = "tune.json";
 constexpr const char* kTuningTablesFile = "tuning.md";
 
-std::vector<Plan> load_plans(const TuneCommand& command, const MethodCatalog& catalog) {
-  std::vector<Plan> plans;
+std::vector<plan::Plan> load_plans(const TuneCommand& command, const run::MethodCatalog& catalog) {
+  std::vector<plan::Plan> plans;
   for (const std::string& name : command.plans) {
-    Plan plan = load_plan(name, HULLBENCH_PLAN_FOLDER);
-    const auto same = [&](const Plan& other) { return other.name == plan.name; };
+    plan::Plan plan = plan::load_plan(name, HULLBENCH_PLAN_FOLDER);
+    const auto same = [&](const plan::Plan& other) { return other.name == plan.name; };
     if (std::any_of(plans.begin(), plans.end(), same))
       throw ConfigurationError("the plan '" + plan.name + "' is named twice; leave one out");
     plan.timeout_s = command.timeout_s.value_or(plan.timeout_s);
-    check_plan(plan, catalog.names(), datasets());
+    plan::check_plan(plan, catalog.names(), datasets());
     plans.push_back(std::move(plan));
   }
   return plans;
 }
 
 /// The methods that `pattern` chooses, in the catalogue's order.
-std::vector<std::string> chosen_methods(const std::string& pattern, const MethodCatalog& catalog) {
+std::vector<std::string> chosen_methods(const std::string& pattern, const run::MethodCatalog& catalog) {
   std::regex expression;
   try {
     expression = std::regex(pattern, std::regex::ECMAScript);
@@ -62,7 +62,7 @@ std::vector<std::string> chosen_methods(const std::string& pattern, const Method
                              "' is not a regular expression; mend it or quote its characters");
   }
   std::vector<std::string> chosen;
-  for (const Method& method : catalog.methods()) {
+  for (const worker::Method& method : catalog.methods()) {
     // A method of a manifest says who it is before it starts; a built-in one does not.
     const bool wanted = pattern.empty() ? !method.info : std::regex_match(method.name, expression);
     if (wanted) chosen.push_back(method.name);
@@ -75,35 +75,35 @@ std::vector<std::string> chosen_methods(const std::string& pattern, const Method
 }
 
 /// The cases of each plan that are in the shard.
-std::vector<Plan> part_of(std::vector<Plan> plans, const std::optional<Shard>& shard) {
+std::vector<plan::Plan> part_of(std::vector<plan::Plan> plans, const std::optional<run::Shard>& shard) {
   if (!shard) return plans;
-  for (Plan& plan : plans) {
-    std::vector<PlannedRun> runs;
+  for (plan::Plan& plan : plans) {
+    std::vector<plan::PlannedRun> runs;
     for (std::size_t i = 0; i < plan.expanded_cases.size(); ++i) runs.push_back({i, 0, ""});
-    std::vector<PlanCase> kept;
-    for (const PlannedRun& run : runs_of_shard(plan, runs, *shard))
+    std::vector<plan::PlanCase> kept;
+    for (const plan::PlannedRun& run : run::runs_of_shard(plan, runs, *shard))
       kept.push_back(plan.expanded_cases[run.case_index]);
     plan.expanded_cases = std::move(kept);
   }
   return plans;
 }
 
-fs::path folder_of(const TuneCommand& command, const std::vector<Plan>& plans) {
+fs::path folder_of(const TuneCommand& command, const std::vector<plan::Plan>& plans) {
   if (command.out) return *command.out;
   std::string name;
-  for (const Plan& plan : plans) name += (name.empty() ? "" : "+") + plan.name;
+  for (const plan::Plan& plan : plans) name += (name.empty() ? "" : "+") + plan.name;
   return fs::path("results") / "tune" / name;
 }
 
 /// "sweep.jsonl", "sweep-2-of-3.jsonl"
-std::string sweep_file(const std::optional<Shard>& shard) {
+std::string sweep_file(const std::optional<run::Shard>& shard) {
   if (!shard) return kSweepFile;
   return "sweep-" + std::to_string(shard->number) + "-of-" + std::to_string(shard->count) + ".jsonl";
 }
 
-TunerOptions tuner_options(const TuneCommand& command, const MethodCatalog& catalog,
-                           const std::vector<Plan>& plans, const json& tool) {
-  TunerOptions options;
+tune::TunerOptions tuner_options(const TuneCommand& command, const run::MethodCatalog& catalog,
+                                 const std::vector<plan::Plan>& plans, const json& tool) {
+  tune::TunerOptions options;
   options.find_method = [&catalog](const std::string& name) { return catalog.find(name); };
   options.methods = chosen_methods(command.methods, catalog);
   for (const std::string& method : options.methods) {
@@ -114,7 +114,8 @@ TunerOptions tuner_options(const TuneCommand& command, const MethodCatalog& cata
   const auto cores = static_cast<int>(allowed_cores().size());
   options.jobs = command.jobs.value_or(std::max(cores, 1));
   options.mem_limit_mib = 0;
-  for (const Plan& plan : plans) options.mem_limit_mib = std::max(options.mem_limit_mib, plan.mem_limit_mib);
+  for (const plan::Plan& plan : plans)
+    options.mem_limit_mib = std::max(options.mem_limit_mib, plan.mem_limit_mib);
   return options;
 }
 
@@ -143,41 +144,41 @@ class Scratch {
 };
 
 /// 4 when a method has nothing but failures on a case, 6 when there is no result at all.
-int exit_code(const Tuning& tuning) {
+int exit_code(const tune::Tuning& tuning) {
   bool any_result = false;
   bool any_failure = false;
-  for (const MethodTuning& method : tuning.methods) {
-    for (const MethodOnCase& found : method.cases) {
-      const Evaluation* best = best_evaluation(found);
+  for (const tune::MethodTuning& method : tuning.methods) {
+    for (const tune::MethodOnCase& found : method.cases) {
+      const tune::Evaluation* best = tune::best_evaluation(found);
       if (best == nullptr) continue;
       any_result = any_result || best->l2.has_value();
-      any_failure = any_failure || (!best->l2 && best->status != Status::kUnsupported &&
-                                    best->status != Status::kNotInstalled);
+      any_failure = any_failure || (!best->l2 && best->status != record::Status::kUnsupported &&
+                                    best->status != record::Status::kNotInstalled);
     }
   }
   if (any_failure) return 4;
   return any_result ? 0 : 6;
 }
 
-void write_results(const fs::path& folder, const Tuning& tuning, const std::vector<Plan>& plans,
-                   const json& tool, const EvaluationStore& store) {
+void write_results(const fs::path& folder, const tune::Tuning& tuning, const std::vector<plan::Plan>& plans,
+                   const json& tool, const tune::EvaluationStore& store) {
   std::string sweep;
-  for (const json& line : sweep_lines(tuning, store.all()))
+  for (const json& line : tune::sweep_lines(tuning, store.all()))
     sweep += line.dump(-1, ' ', false, json::error_handler_t::replace) + "\n";
   // Whole or not at all: the evaluations are what took the time.
   write_text_file(folder / "sweep.new", sweep);
   fs::rename(folder / "sweep.new", folder / kSweepFile);
   std::vector<std::string> names;
-  for (const Plan& plan : plans) {
+  for (const plan::Plan& plan : plans) {
     names.push_back(plan.name);
-    const Plan chosen = tuned_plan(plan, tuning);
+    const plan::Plan chosen = tune::tuned_plan(plan, tuning);
     if (!chosen.methods.empty())
-      write_text_file(folder / (chosen.name + ".json"), plan_to_json(chosen).dump(1) + "\n");
+      write_text_file(folder / (chosen.name + ".json"), plan::plan_to_json(chosen).dump(1) + "\n");
   }
-  const json summary = tuning_to_json(tuning, names, tool);
+  const json summary = tune::tuning_to_json(tuning, names, tool);
   write_text_file(folder / kSummaryFile, summary.dump(1, ' ', false, json::error_handler_t::replace) + "\n");
   std::ostringstream tables;
-  print_markdown(tuning_document(summary), tables);
+  table::print_markdown(tune::tuning_document(summary), tables);
   write_text_file(folder / kTuningTablesFile, tables.str());
   std::cout << tables.str();
 }
@@ -185,12 +186,12 @@ void write_results(const fs::path& folder, const Tuning& tuning, const std::vect
 }  // namespace
 
 int tune_command(const TuneCommand& command) {
-  const MethodCatalog catalog(manifest_folders(command.adapters));
-  const std::vector<Plan> plans = load_plans(command, catalog);
-  const std::vector<Plan> parts = part_of(plans, command.shard);
+  const run::MethodCatalog catalog(run::manifest_folders(command.adapters));
+  const std::vector<plan::Plan> plans = load_plans(command, catalog);
+  const std::vector<plan::Plan> parts = part_of(plans, command.shard);
   const json tool = describe_tool();
-  TunerOptions options = tuner_options(command, catalog, plans, tool);
-  std::vector<TuningCase> cases = tuning_cases(parts, command.seed);
+  tune::TunerOptions options = tuner_options(command, catalog, plans, tool);
+  std::vector<tune::TuningCase> cases = tune::tuning_cases(parts, command.seed);
   if (cases.empty()) {
     std::cerr << "hullbench: there are too few cases for shard " << to_string(*command.shard)
               << ": nothing is evaluated here\n";
@@ -199,15 +200,15 @@ int tune_command(const TuneCommand& command) {
   const fs::path folder = folder_of(command, plans);
   make_writable_folder(folder);
   const std::string file = sweep_file(command.shard);
-  EvaluationStore store(folder, file);
+  tune::EvaluationStore store(folder, file);
   const Scratch scratch(folder / ("scratch-" + file));
   options.scratch = scratch.path();
-  end_strays_of_dead_harnesses();
-  Progress progress(std::cerr, ::isatty(STDERR_FILENO) == 1, terminal_width(),
-                    {{"tune", tuning_progress(cases, options.methods)}});
+  worker::end_strays_of_dead_harnesses();
+  run::Progress progress(std::cerr, ::isatty(STDERR_FILENO) == 1, terminal_width(),
+                         {{"tune", tune::tuning_progress(cases, options.methods)}});
   std::cerr << "hullbench: " << options.methods.size() << " methods on " << cases.size() << " cases, into "
             << folder.string() << "; " << store.found() << " evaluations are there already\n";
-  const Tuning tuning = run_tuning(std::move(cases), command.seed, options, store, progress);
+  const tune::Tuning tuning = tune::run_tuning(std::move(cases), command.seed, options, store, progress);
   progress.end();
   if (tuning.interrupted) {
     std::cerr << "hullbench: interrupted; evaluations are kept in " << (folder / file).string()
@@ -219,4 +220,4 @@ int tune_command(const TuneCommand& command) {
   return exit_code(tuning);
 }
 
-}  // namespace hullbench
+}  // namespace hullbench::cli

@@ -9,7 +9,7 @@
 
 #include "benchmarks/run/shard.hpp"
 
-namespace hullbench {
+namespace hullbench::cli {
 
 /// The command line of `tune`.
 struct TuneCommand {
@@ -19,7 +19,7 @@ struct TuneCommand {
   std::uint64_t seed = 1;                       ///< of the split; points are drawn with the plans' seeds
   std::optional<double> timeout_s;              ///< for one evaluation, instead of the plan's
   std::optional<int> jobs;                      ///< none: one a core
-  std::optional<Shard> shard;                   ///< none: all cases
+  std::optional<run::Shard> shard;              ///< none: all cases
   std::vector<std::filesystem::path> adapters;  ///< more folders with manifests
 };
 
@@ -36,4 +36,4 @@ struct TuneCommand {
 /// anything is evaluated, std::runtime_error when something cannot be written.
 int tune_command(const TuneCommand& command);
 
-}  // namespace hullbench
+}  // namespace hullbench::cli

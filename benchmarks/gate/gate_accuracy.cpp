@@ -10,7 +10,7 @@
 #include "adapters/wkb.hpp"
 #include "benchmarks/metrics/area.hpp"
 
-namespace hullbench {
+namespace hullbench::gate {
 namespace {
 
 namespace fs = std::filesystem;
@@ -33,7 +33,7 @@ AccuracyRow compare(const std::string& name, const fs::path& base, const fs::pat
       row.difference = 0;
       return row;
     }
-    const AreaScores scores = area_scores(from_wkb(head_bytes), from_wkb(base_bytes));
+    const metrics::AreaScores scores = metrics::area_scores(from_wkb(head_bytes), from_wkb(base_bytes));
     if (scores.l2) {
       row.difference = *scores.l2;
     } else {
@@ -57,4 +57,4 @@ std::vector<AccuracyRow> compare_results(const std::vector<GateCase>& cases, con
   return rows;
 }
 
-}  // namespace hullbench
+}  // namespace hullbench::gate

@@ -9,7 +9,7 @@
 #include "benchmarks/base/interrupt.hpp"
 #include "datasets/random.hpp"
 
-namespace hullbench {
+namespace hullbench::gate {
 namespace {
 
 namespace fs = std::filesystem;
@@ -82,4 +82,4 @@ std::vector<LogRatios> log_ratios(const std::map<std::string, std::vector<double
   return rows;
 }
 
-}  // namespace hullbench
+}  // namespace hullbench::gate

@@ -13,7 +13,7 @@
 #include "benchmarks/gate/gate_probes.hpp"
 #include "benchmarks/gate/gate_verdict.hpp"
 
-namespace hullbench {
+namespace hullbench::gate {
 
 /// The log-ratios of all blocks, by quantity.
 struct Blocks {
@@ -47,4 +47,4 @@ void measure_blocks(const Programs& programs, const ProbeSettings& settings, std
 /// The log-ratios as judge takes them; `sign` -1 turns them round.
 std::vector<LogRatios> log_ratios(const std::map<std::string, std::vector<double>>& values, double sign = 1);
 
-}  // namespace hullbench
+}  // namespace hullbench::gate

@@ -1,11 +1,11 @@
 #include "benchmarks/gate/gate_cases.hpp"
 
 #include "benchmarks/base/files.hpp"
-#include "benchmarks/table/document.hpp"
 #include "benchmarks/micro/point_sets.hpp"
+#include "benchmarks/table/document.hpp"
 #include "datasets/point_bytes.hpp"
 
-namespace hullbench {
+namespace hullbench::gate {
 namespace {
 
 GateCase make_case(const std::string& point_set, std::size_t n, bool once = false) {
@@ -31,11 +31,11 @@ std::vector<GateCase> instruction_cases() {
 void write_cases(const std::vector<GateCase>& cases, const std::filesystem::path& folder) {
   std::filesystem::create_directories(folder);
   for (const GateCase& entry : cases) {
-    const SpeedPointSet set = make_speed_point_set(entry.point_set, entry.n);
+    const micro::SpeedPointSet set = micro::make_speed_point_set(entry.point_set, entry.n);
     const polylidar::Point alpha[] = {{set.alpha, 0}};
     write_text_file(folder / (entry.name + ".f64"),
                     point_bytes(alpha).substr(0, 8) + point_bytes(set.points));
   }
 }
 
-}  // namespace hullbench
+}  // namespace hullbench::gate

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-namespace hullbench {
+namespace hullbench::gate {
 
 struct GateCase {
   std::string name;       ///< "ca-64000": the point set and its number of points
@@ -25,4 +25,4 @@ std::vector<GateCase> instruction_cases();
 /// cannot be written.
 void write_cases(const std::vector<GateCase>& cases, const std::filesystem::path& folder);
 
-}  // namespace hullbench
+}  // namespace hullbench::gate

@@ -13,7 +13,7 @@
 #include "benchmarks/statistics/statistics.hpp"
 #include "benchmarks/worker/worker_process.hpp"
 
-namespace hullbench {
+namespace hullbench::gate {
 namespace {
 
 namespace fs = std::filesystem;
@@ -37,9 +37,9 @@ std::vector<std::string> probe_command(const fs::path& program, const ProbeSetti
 
 json answer_of(const std::vector<std::string>& command, const ProbeSettings& settings,
                std::chrono::milliseconds timeout) {
-  WorkerProcess process(command, {.memory_mib = 0, .core = settings.core});
-  const Reply reply = process.request({{"request", "measure"}}, timeout);
-  if (reply.status != Status::kOk) {
+  worker::WorkerProcess process(command, {.memory_mib = 0, .core = settings.core});
+  const worker::Reply reply = process.request({{"request", "measure"}}, timeout);
+  if (reply.status != record::Status::kOk) {
     throw std::runtime_error("the probe " + command.front() + " failed: " + reply.detail);
   }
   process.quit(kQuitPatience);
@@ -48,7 +48,7 @@ json answer_of(const std::vector<std::string>& command, const ProbeSettings& set
 
 double estimate(const Nanoseconds& times, bool median_of_repeats) {
   if (times.empty()) throw std::runtime_error("a probe gave no times");
-  if (median_of_repeats) return median(times);
+  if (median_of_repeats) return statistics::median(times);
   return static_cast<double>(*std::min_element(times.begin(), times.end()));
 }
 
@@ -135,4 +135,4 @@ std::map<std::string, double> count_instructions(const fs::path& program, const 
   return counts;
 }
 
-}  // namespace hullbench
+}  // namespace hullbench::gate

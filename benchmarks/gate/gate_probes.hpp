@@ -11,7 +11,7 @@
 
 #include "benchmarks/gate/gate_cases.hpp"
 
-namespace hullbench {
+namespace hullbench::gate {
 
 /// What one process measured: the estimate of every quantity in nanoseconds, and the hash of every case's
 /// result.
@@ -46,4 +46,4 @@ std::map<std::string, double> count_instructions(const std::filesystem::path& pr
                                                  const ProbeSettings& settings,
                                                  const std::filesystem::path& folder);
 
-}  // namespace hullbench
+}  // namespace hullbench::gate

@@ -3,11 +3,11 @@
 #include <algorithm>
 #include <cmath>
 
-#include "benchmarks/table/document.hpp"
 #include "benchmarks/base/number_format.hpp"
+#include "benchmarks/table/document.hpp"
 #include "benchmarks/table/text_table.hpp"
 
-namespace hullbench {
+namespace hullbench::gate {
 namespace {
 
 using nlohmann::json;
@@ -44,7 +44,7 @@ const Judged* find(const std::vector<Judged>& rows, const std::string& name) {
 }
 
 void print_times(const GateFindings& findings, std::ostream& out) {
-  TextTable table({"quantity", "head / base", "95 % interval", "verdict", "confirmed", "base / base"});
+  table::TextTable table({"quantity", "head / base", "95 % interval", "verdict", "confirmed", "base / base"});
   for (const Judged& row : findings.first) {
     const Judged* again = find(findings.second, row.name);
     const Judged* control = find(findings.null_control, row.name);
@@ -53,17 +53,17 @@ void print_times(const GateFindings& findings, std::ostream& out) {
          again == nullptr ? "" : percent(again->ratio) + (again->change == row.change ? " yes" : " no"),
          control == nullptr ? "" : percent(control->ratio)});
   }
-  print_markdown(table, out);
+  table::print_markdown(table, out);
 }
 
 void print_counts(const GateFindings& findings, std::ostream& out) {
-  TextTable table({"quantity", "head / base", "verdict", "base / base"});
+  table::TextTable table({"quantity", "head / base", "verdict", "base / base"});
   for (std::size_t i = 0; i < findings.first.size(); ++i) {
     const Judged& row = findings.first[i];
     table.add_row(
         {row.name, percent(row.ratio), word_of(row.change), percent(findings.null_control[i].ratio)});
   }
-  print_markdown(table, out);
+  table::print_markdown(table, out);
 }
 
 void print_list(const char* title, const std::vector<std::string>& names, std::ostream& out) {
@@ -153,4 +153,4 @@ json gate_json(const GateFindings& findings, const GateVerdict& verdict, const G
           {"samples", context.samples}};
 }
 
-}  // namespace hullbench
+}  // namespace hullbench::gate

@@ -9,7 +9,7 @@
 
 #include "benchmarks/gate/gate_verdict.hpp"
 
-namespace hullbench {
+namespace hullbench::gate {
 
 /// What was compared and how, beside the findings.
 struct GateContext {
@@ -33,4 +33,4 @@ void print_gate(const GateFindings& findings, const GateVerdict& verdict, const 
 nlohmann::json gate_json(const GateFindings& findings, const GateVerdict& verdict, const GateRules& rules,
                          const GateContext& context);
 
-}  // namespace hullbench
+}  // namespace hullbench::gate

@@ -6,7 +6,7 @@
 
 #include "benchmarks/statistics/statistics.hpp"
 
-namespace hullbench {
+namespace hullbench::gate {
 namespace {
 
 using Names = std::vector<std::string>;
@@ -17,10 +17,10 @@ std::vector<double> negated(std::vector<double> values) {
 }
 
 Judged describe(const LogRatios& quantity, const GateRules& rules) {
-  const Interval interval = sign_interval(quantity.values, rules.confidence);
+  const statistics::Interval interval = statistics::sign_interval(quantity.values, rules.confidence);
   Judged judged;
   judged.name = quantity.name;
-  judged.ratio = std::exp(median(std::span<const double>(quantity.values)));
+  judged.ratio = std::exp(statistics::median(std::span<const double>(quantity.values)));
   judged.interval = {std::exp(interval.low), std::exp(interval.high)};
   if (judged.interval.high > 1 + rules.threshold) judged.change = SpeedChange::kUndecided;
   return judged;
@@ -80,11 +80,11 @@ std::vector<Judged> judge(const std::vector<LogRatios>& quantities, const GateRu
   std::vector<double> p_slower;
   std::vector<double> p_faster;
   for (const LogRatios& quantity : quantities) {
-    p_slower.push_back(sign_test_above(quantity.values, limit));
-    p_faster.push_back(sign_test_above(negated(quantity.values), limit));
+    p_slower.push_back(statistics::sign_test_above(quantity.values, limit));
+    p_faster.push_back(statistics::sign_test_above(negated(quantity.values), limit));
   }
-  p_slower = holm_adjusted(p_slower);
-  p_faster = holm_adjusted(p_faster);
+  p_slower = statistics::holm_adjusted(p_slower);
+  p_faster = statistics::holm_adjusted(p_faster);
 
   const double level = (1 - rules.confidence) / 2;
   std::vector<Judged> rows;
@@ -145,4 +145,4 @@ GateFindings judge_instructions(const std::vector<InstructionCounts>& counts, co
   return findings;
 }
 
-}  // namespace hullbench
+}  // namespace hullbench::gate

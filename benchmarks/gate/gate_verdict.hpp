@@ -6,7 +6,7 @@
 
 #include "benchmarks/statistics/sign_test.hpp"
 
-namespace hullbench {
+namespace hullbench::gate {
 
 /// What decides. `threshold` and `accuracy_tolerance` are shares: 0.05 is 5 %.
 struct GateRules {
@@ -32,9 +32,9 @@ enum class SpeedChange {
 /// One quantity, judged.
 struct Judged {
   std::string name;
-  double ratio = 1;            ///< median of head / base
-  Interval interval = {1, 1};  ///< of that ratio
-  double p = 1;                ///< Holm-adjusted, of the direction in which the ratio points
+  double ratio = 1;                        ///< median of head / base
+  statistics::Interval interval = {1, 1};  ///< of that ratio
+  double p = 1;                            ///< Holm-adjusted, of the direction in which the ratio points
   SpeedChange change = SpeedChange::kNone;
 };
 
@@ -91,4 +91,4 @@ struct InstructionCounts {
 /// control fails when the two counts of base differ by more than null_tolerance.
 GateFindings judge_instructions(const std::vector<InstructionCounts>& counts, const GateRules& rules);
 
-}  // namespace hullbench
+}  // namespace hullbench::gate

@@ -11,7 +11,7 @@
 
 #include "benchmarks/gate/gate_blocks.hpp"
 
-namespace hullbench {
+namespace hullbench::gate {
 namespace {
 
 using namespace std::chrono_literals;
@@ -121,4 +121,4 @@ GateFindings gate_times(const TimeGateSettings& settings, const GateRules& rules
   return findings;
 }
 
-}  // namespace hullbench
+}  // namespace hullbench::gate

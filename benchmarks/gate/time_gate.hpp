@@ -10,7 +10,7 @@
 #include "benchmarks/gate/gate_probes.hpp"
 #include "benchmarks/gate/gate_verdict.hpp"
 
-namespace hullbench {
+namespace hullbench::gate {
 
 /// The fewest that can call one of the time tier's 13 quantities slower after Holm's correction: 13 / 2^10 is
 /// below 0.025, 13 / 2^9 is not.
@@ -33,4 +33,4 @@ struct TimeGateSettings {
 /// goes to standard error. Throws as measure_blocks.
 GateFindings gate_times(const TimeGateSettings& settings, const GateRules& rules, nlohmann::json& samples);
 
-}  // namespace hullbench
+}  // namespace hullbench::gate

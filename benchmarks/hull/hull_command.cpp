@@ -11,16 +11,16 @@
 #include <thread>
 #include <vector>
 
-#include "benchmarks/base/configuration_error.hpp"
 #include "adapters/wkb.hpp"
+#include "benchmarks/base/configuration_error.hpp"
+#include "benchmarks/base/interrupt.hpp"
+#include "benchmarks/hull/point_files/point_file.hpp"
 #include "benchmarks/hull/polygon_writers.hpp"
 #include "benchmarks/hull/result_output.hpp"
 #include "benchmarks/hull/simplify.hpp"
-#include "benchmarks/base/interrupt.hpp"
-#include "benchmarks/hull/point_files/point_file.hpp"
 #include "polylidar/concave_hull.hpp"
 
-namespace hullbench {
+namespace hullbench::hull {
 namespace {
 
 using namespace std::chrono_literals;
@@ -203,4 +203,4 @@ int hull_command(const HullCommand& command) {
   }
 }
 
-}  // namespace hullbench
+}  // namespace hullbench::hull

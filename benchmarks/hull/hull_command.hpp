@@ -5,7 +5,7 @@
 #include <optional>
 #include <string>
 
-namespace hullbench {
+namespace hullbench::hull {
 
 /// The command line of `hull`. Lengths are in the unit of the points.
 struct HullCommand {
@@ -28,4 +28,4 @@ struct HullCommand {
 /// the result cannot be written, Interrupted.
 int hull_command(const HullCommand& command);
 
-}  // namespace hullbench
+}  // namespace hullbench::hull

@@ -5,7 +5,7 @@
 #include <charconv>
 #include <cmath>
 
-namespace hullbench {
+namespace hullbench::hull {
 namespace {
 
 using polylidar::Box;
@@ -177,4 +177,4 @@ std::string to_svg(const MultiPolygon& shape, std::span<const Point> points) {
   return text + "</svg>\n";
 }
 
-}  // namespace hullbench
+}  // namespace hullbench::hull

@@ -8,7 +8,7 @@
 
 #include "polylidar/geometry.hpp"
 
-namespace hullbench {
+namespace hullbench::hull {
 
 /// What is said beside the polygons.
 struct HullFacts {
@@ -33,4 +33,4 @@ std::string to_wkt(const polylidar::MultiPolygon& shape);
 /// when they are at most 5000.
 std::string to_svg(const polylidar::MultiPolygon& shape, std::span<const polylidar::Point> points);
 
-}  // namespace hullbench
+}  // namespace hullbench::hull

@@ -10,7 +10,7 @@
 
 #include "benchmarks/base/interrupt.hpp"
 
-namespace hullbench {
+namespace hullbench::hull {
 namespace {
 
 namespace fs = std::filesystem;
@@ -74,4 +74,4 @@ void write_result(const std::string& path, std::string_view bytes) {
   }
 }
 
-}  // namespace hullbench
+}  // namespace hullbench::hull

@@ -9,7 +9,7 @@
 #include "adapters/wkb.hpp"
 #include "benchmarks/metrics/validity.hpp"
 
-namespace hullbench {
+namespace hullbench::hull {
 namespace {
 
 using Session = std::unique_ptr<GEOSContextHandle_HS, decltype(&GEOS_finish_r)>;
@@ -43,9 +43,9 @@ polylidar::MultiPolygon simplify(const polylidar::MultiPolygon& shape, double to
       GEOSGeomToWKB_buf_r(geos, after.get(), &size), free_bytes);
   if (!bytes) fail(message);
   polylidar::MultiPolygon simple = from_wkb({bytes.get(), size});
-  const std::string fault = invalid_reason(simple);
+  const std::string fault = metrics::invalid_reason(simple);
   if (!fault.empty()) fail("GEOS made an invalid one of it: " + fault);
   return simple;
 }
 
-}  // namespace hullbench
+}  // namespace hullbench::hull

@@ -9,12 +9,12 @@
 #include <utility>
 
 #include "benchmarks/record/pictures.hpp"
-#include "benchmarks/worker/protocol.hpp"
 #include "benchmarks/statistics/statistics.hpp"
 #include "benchmarks/tune/search.hpp"
 #include "benchmarks/tune/split.hpp"
+#include "benchmarks/worker/protocol.hpp"
 
-namespace hullbench {
+namespace hullbench::league {
 namespace {
 
 using nlohmann::json;
@@ -74,7 +74,7 @@ Field sort_rows(const std::vector<json>& reports, std::uint64_t split_seed, bool
     const json accepted = report.at("plan").value("accepted", json::array());
     for (const json& status : accepted) field.accepted.insert(status.get<std::string>());
     for (const json& row : report.at("runs")) {
-      if (test_only && side_of(shape_of(row), split_seed) != Side::kTest) continue;
+      if (test_only && tune::side_of(shape_of(row), split_seed) != tune::Side::kTest) continue;
       const std::string method = row.at("method").get<std::string>();
       if (row.at("status") == "not_installed") {
         missing.insert(method);
@@ -82,8 +82,8 @@ Field sort_rows(const std::vector<json>& reports, std::uint64_t split_seed, bool
       }
       installed.insert(method);
       const std::string name =
-          case_of_run(row.at("name").get<std::string>()) + "/seed:" + row.at("seed").dump();
-      field.rows[{method, row.at("protocol").get<std::string>()}].emplace(name, &row);
+          record::case_of_run(row.at("name").get<std::string>()) + "/seed:" + row.at("seed").dump();
+      field.rows[{method, row.at("protocol").get<std::string>()}].emplace(name, &report::row);
       learn(field.cases[name], row, !accepted.empty());
     }
   }
@@ -94,13 +94,13 @@ Field sort_rows(const std::vector<json>& reports, std::uint64_t split_seed, bool
 
 /// Infinity for what stands for it in medians and intervals, which need numbers.
 double from_finite(double value) {
-  if (is_infinitely_bad(value)) return kInfinity;
-  return is_infinitely_bad(-value) ? -kInfinity : value;
+  if (tune::is_infinitely_bad(value)) return kInfinity;
+  return tune::is_infinitely_bad(-value) ? -kInfinity : value;
 }
 
 /// l2 of a row; kInfinitelyBad for a failure.
 double error_of(const json& row) {
-  return is_ok(row) ? metric(row, "l2").value_or(kInfinitelyBad) : kInfinitelyBad;
+  return is_ok(row) ? metric(row, "l2").value_or(tune::kInfinitelyBad) : tune::kInfinitelyBad;
 }
 
 /// Values of an entry by shape, for the medians.
@@ -113,18 +113,20 @@ class Samples {
   std::optional<MedianScore> median_score() const {
     if (values_.empty()) return std::nullopt;
     const std::vector<double> values = all();
-    MedianScore score = {values.size(), from_finite(median(values)), clustered_median_interval(by_shape())};
+    MedianScore score = {values.size(), from_finite(statistics::median(values)),
+                         statistics::clustered_median_interval(by_shape())};
     if (score.interval)
-      score.interval = Interval{from_finite(score.interval->low), from_finite(score.interval->high)};
+      score.interval =
+          statistics::Interval{from_finite(score.interval->low), from_finite(score.interval->high)};
     return score;
   }
   /// Of values from 0 to 1, beyond which a normal interval can reach.
   std::optional<MeanScore> mean_score() const {
     if (values_.empty()) return std::nullopt;
-    MeanScore score = {mean(all()), clustered_mean_interval(by_shape())};
+    MeanScore score = {statistics::mean(all()), statistics::clustered_mean_interval(by_shape())};
     if (score.interval) {
-      score.interval =
-          Interval{std::clamp(score.interval->low, 0.0, 1.0), std::clamp(score.interval->high, 0.0, 1.0)};
+      score.interval = statistics::Interval{std::clamp(score.interval->low, 0.0, 1.0),
+                                            std::clamp(score.interval->high, 0.0, 1.0)};
     }
     return score;
   }
@@ -145,7 +147,7 @@ class Samples {
 };
 
 std::optional<double> skill_of(const json& row, bool ok) {
-  return ok ? metric(row, "skill") : std::optional(-kInfinitelyBad);
+  return ok ? metric(row, "skill") : std::optional(-tune::kInfinitelyBad);
 }
 
 std::optional<double> hole_f1_of(const json& row, bool ok, const CaseFacts& facts) {
@@ -156,8 +158,8 @@ std::optional<double> hole_f1_of(const json& row, bool ok, const CaseFacts& fact
 std::optional<double> regret_of(double error, const std::string& name, const RowsByCase* oracle) {
   if (oracle == nullptr) return std::nullopt;
   const auto best = oracle->find(name);
-  if (best == oracle->end() || error_of(*best->second) >= kInfinitelyBad) return std::nullopt;
-  return error >= kInfinitelyBad ? kInfinitelyBad : error - error_of(*best->second);
+  if (best == oracle->end() || error_of(*best->second) >= tune::kInfinitelyBad) return std::nullopt;
+  return error >= tune::kInfinitelyBad ? tune::kInfinitelyBad : error - error_of(*best->second);
 }
 
 LeagueEntry make_entry(const Field& field, const Entrant& entrant, const RowsByCase& rows) {
@@ -173,7 +175,7 @@ LeagueEntry make_entry(const Field& field, const Entrant& entrant, const RowsByC
     const CaseFacts& facts = field.cases.at(name);
     const std::string status = row->at("status").get<std::string>();
     const double error = error_of(*row);
-    const bool ok = error < kInfinitelyBad;
+    const bool ok = error < tune::kInfinitelyBad;
     if (!facts.scored) {
       ++entry.unscored_cases;
       if (status != "ok" && !field.accepted.contains(status)) ++entry.unscored_failures;
@@ -241,11 +243,11 @@ LeagueProfile make_profile(const Field& field, const std::string& group, const s
     errors.reserve(entrants.size());
     for (const Entrant& entrant : entrants) errors.push_back(error_of(*field.rows.at(entrant).at(name)));
     const double best = *std::min_element(errors.begin(), errors.end());
-    if (best >= kInfinitelyBad) continue;
+    if (best >= tune::kInfinitelyBad) continue;
     ++profile.cases;
     for (std::size_t i = 0; i < errors.size(); ++i) {
       for (std::size_t k = 0; k < league_taus().size(); ++k) {
-        if (errors[i] < kInfinitelyBad && errors[i] <= league_taus()[k] * best)
+        if (errors[i] < tune::kInfinitelyBad && errors[i] <= league_taus()[k] * best)
           profile.curves[i].shares[k] += 1;
       }
     }
@@ -305,4 +307,4 @@ League make_league(const std::vector<json>& reports, std::uint64_t split_seed, b
   return league;
 }
 
-}  // namespace hullbench
+}  // namespace hullbench::league

@@ -13,19 +13,19 @@
 
 #include "benchmarks/statistics/bootstrap.hpp"
 
-namespace hullbench {
+namespace hullbench::league {
 
 /// A median over cases, and how well it is known.
 struct MedianScore {
   std::size_t cases = 0;  ///< that it is of
   double median = 0;  ///< infinite where the middle is a failure: to +infinity or, of a skill, to -infinity
-  std::optional<Interval> interval;  ///< by base shape (bootstrap.hpp); an end may be infinite
+  std::optional<statistics::Interval> interval;  ///< by base shape (bootstrap.hpp); an end may be infinite
 };
 
 /// A mean over cases, and how well it is known.
 struct MeanScore {
   double mean = 0;
-  std::optional<Interval> interval;  ///< by base shape (statistics.hpp)
+  std::optional<statistics::Interval> interval;  ///< by base shape (statistics.hpp)
 };
 
 /// A method under one protocol.
@@ -89,4 +89,4 @@ struct League {
 /// std::runtime_error when no row is left.
 League make_league(const std::vector<nlohmann::json>& reports, std::uint64_t split_seed, bool test_only);
 
-}  // namespace hullbench
+}  // namespace hullbench::league

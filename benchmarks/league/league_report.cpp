@@ -6,10 +6,10 @@
 #include <set>
 #include <sstream>
 
-#include "benchmarks/base/words.hpp"
 #include "benchmarks/base/number_format.hpp"
+#include "benchmarks/base/words.hpp"
 
-namespace hullbench {
+namespace hullbench::league {
 namespace {
 
 using nlohmann::json;
@@ -117,8 +117,8 @@ const std::map<std::string, std::string>& protocol_titles() {
   return titles;
 }
 
-TableSection league_table(const json& league, const std::string& protocol) {
-  TextTable table(
+table::TableSection league_table(const json& league, const std::string& protocol) {
+  table::TextTable table(
       {"Method", "Cases", "Failures", "L2 median, %", "Skill median", "Hole F1 mean", "Regret median, %"});
   for (const json& entry : league.at("methods")) {
     if (entry.at("protocol") != protocol) continue;
@@ -150,7 +150,7 @@ const std::map<std::string, std::string>& group_titles() {
 }
 
 /// Some of the taus, as columns.
-TableSection profile_table(const json& league, const json& profile) {
+table::TableSection profile_table(const json& league, const json& profile) {
   const std::vector<double> taus = league.at("taus").get<std::vector<double>>();
   std::vector<std::size_t> shown;
   for (std::size_t k = 0; k < taus.size(); ++k) {
@@ -161,7 +161,7 @@ TableSection profile_table(const json& league, const json& profile) {
   std::vector<std::string> header = {"Method"};
   for (const std::size_t k : shown)
     header.push_back(k == 0 ? "best" : "within " + three_digits(taus[k]) + " x");
-  TextTable table(header);
+  table::TextTable table(header);
   std::vector<json> curves = profile.at("curves").get<std::vector<json>>();
   std::stable_sort(curves.begin(), curves.end(), [&](const json& a, const json& b) {
     return a.at("shares")[shown[1]].get<double>() > b.at("shares")[shown[1]].get<double>();
@@ -206,8 +206,8 @@ json league_to_json(const League& league, const std::vector<json>& reports) {
   return result;
 }
 
-Document league_document(const json& league) {
-  Document document;
+table::Document league_document(const json& league) {
+  table::Document document;
   const bool test = league.at("split").at("cases_of") == "test";
   document.title = "League: " + std::to_string(league.at("cases").get<std::size_t>()) + " cases of " +
                    std::to_string(league.at("shapes").get<std::size_t>()) + " shapes" +
@@ -237,18 +237,18 @@ Document league_document(const json& league) {
 }
 
 std::string league_results(const json& league) {
-  const Document document = league_document(league);
+  const table::Document document = league_document(league);
   std::ostringstream out;
   out << "\n### " << document.title << "\n";
-  for (const TableSection& section : document.tables) {
+  for (const table::TableSection& section : document.tables) {
     out << "\n" << section.caption << ":\n\n";
-    print_markdown(section.table, out);
+    table::print_markdown(section.table, out);
     if (!section.remarks.empty()) out << "\n";
-    for (const std::string& remark : section.remarks) print_item(remark, out);
+    for (const std::string& remark : section.remarks) table::print_item(remark, out);
   }
   out << "\n";
-  for (const std::string& note : document.notes) print_item(note, out);
+  for (const std::string& note : document.notes) table::print_item(note, out);
   return out.str();
 }
 
-}  // namespace hullbench
+}  // namespace hullbench::league

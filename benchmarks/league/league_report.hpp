@@ -5,10 +5,10 @@
 #include <string>
 #include <vector>
 
-#include "benchmarks/table/document.hpp"
 #include "benchmarks/league/league.hpp"
+#include "benchmarks/table/document.hpp"
 
-namespace hullbench {
+namespace hullbench::league {
 
 /// What a kept league's file is called.
 inline constexpr const char* kLeagueFile = "league.json";
@@ -19,9 +19,9 @@ nlohmann::json league_to_json(const League& league, const std::vector<nlohmann::
 
 /// The tables of what league_to_json made: the league, a table a protocol, and the performance profiles, a
 /// table a group.
-Document league_document(const nlohmann::json& league);
+table::Document league_document(const nlohmann::json& league);
 
 /// What the README shows of it: all of its tables, whoever is ahead in them.
 std::string league_results(const nlohmann::json& league);
 
-}  // namespace hullbench
+}  // namespace hullbench::league

@@ -7,7 +7,7 @@
 #include "datasets/point_locator.hpp"
 #include "polylidar/delaunay.hpp"
 
-namespace hullbench {
+namespace hullbench::metrics {
 namespace {
 
 using polylidar::MultiPolygon;
@@ -60,4 +60,4 @@ std::optional<double> skill(const std::optional<double>& l2, const Anchors& anch
   return (anchors.l2_convex_hull - *l2) / range;
 }
 
-}  // namespace hullbench
+}  // namespace hullbench::metrics

@@ -9,7 +9,7 @@
 #include "benchmarks/metrics/prepared_truth.hpp"
 #include "polylidar/geometry.hpp"
 
-namespace hullbench {
+namespace hullbench::metrics {
 
 /// l2 of two shapes made of a case's points. With fewer than 3 points, or all on a line, both shapes are
 /// empty and both are 1.
@@ -34,4 +34,4 @@ Anchors find_anchors(std::span<const polylidar::Point> points, const polylidar::
 /// sample does not tell less, and dividing by it would blow up what is chance.
 std::optional<double> skill(const std::optional<double>& l2, const Anchors& anchors, std::size_t points);
 
-}  // namespace hullbench
+}  // namespace hullbench::metrics

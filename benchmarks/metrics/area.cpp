@@ -6,7 +6,7 @@
 #include "benchmarks/metrics/area_overlay.hpp"
 #include "benchmarks/metrics/shape_measures.hpp"
 
-namespace hullbench {
+namespace hullbench::metrics {
 namespace {
 
 using polylidar::MultiPolygon;
@@ -54,4 +54,4 @@ AreaScores area_scores(const MultiPolygon& result, const MultiPolygon& ground_tr
   return area_scores(geos, result, check_shape(geos, result), truth, truth.geometry(geos));
 }
 
-}  // namespace hullbench
+}  // namespace hullbench::metrics

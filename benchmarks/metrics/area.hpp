@@ -6,7 +6,7 @@
 
 #include "polylidar/geometry.hpp"
 
-namespace hullbench {
+namespace hullbench::metrics {
 
 /// Areas in the squared unit of the points. Of an invalid result `area` is the only score: it is neither
 /// repaired nor dropped. Of an empty one l2, omission and so on are those of a shape without area.
@@ -31,4 +31,4 @@ struct AreaScores {
 /// std::runtime_error when `ground_truth` is itself empty or invalid, or when GEOS fails.
 AreaScores area_scores(const polylidar::MultiPolygon& result, const polylidar::MultiPolygon& ground_truth);
 
-}  // namespace hullbench
+}  // namespace hullbench::metrics

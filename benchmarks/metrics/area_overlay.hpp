@@ -5,7 +5,7 @@
 #include "benchmarks/metrics/checked_shape.hpp"
 #include "benchmarks/metrics/prepared_truth.hpp"
 
-namespace hullbench {
+namespace hullbench::metrics {
 
 /// `shape` is `result` as check_shape gives it, `truth_geometry` the truth's geometry in `geos`. Throws
 /// std::runtime_error when GEOS fails.
@@ -13,4 +13,4 @@ AreaScores area_scores(const GeosSession& geos, const polylidar::MultiPolygon& r
                        const CheckedShape& shape, const PreparedTruth& truth,
                        const GeosSession::Geometry& truth_geometry);
 
-}  // namespace hullbench
+}  // namespace hullbench::metrics

@@ -6,7 +6,7 @@
 
 #include "benchmarks/metrics/shape_measures.hpp"
 
-namespace hullbench {
+namespace hullbench::metrics {
 namespace {
 
 using polylidar::MultiPolygon;
@@ -145,4 +145,4 @@ BoundaryScores boundary_scores(const PreparedBoundary& result, const PreparedBou
   return scores;
 }
 
-}  // namespace hullbench
+}  // namespace hullbench::metrics

@@ -6,7 +6,7 @@
 #include "benchmarks/metrics/segment_tree.hpp"
 #include "polylidar/geometry.hpp"
 
-namespace hullbench {
+namespace hullbench::metrics {
 
 /// A distance and the point where it is taken.
 struct Witness {
@@ -56,4 +56,4 @@ double sample_spacing(double h, double length);
 /// Scores a valid `result` against `truth` with tolerances of `h` > 0. Safe from several threads at once.
 BoundaryScores boundary_scores(const PreparedBoundary& result, const PreparedBoundary& truth, double h);
 
-}  // namespace hullbench
+}  // namespace hullbench::metrics

@@ -1,6 +1,6 @@
 #include "benchmarks/metrics/boundary_band.hpp"
 
-namespace hullbench {
+namespace hullbench::metrics {
 namespace {
 
 constexpr int kChordsPerQuarter = 8;
@@ -21,4 +21,4 @@ std::optional<double> band_iou(const GeosSession& geos, const GeosSession::Geome
   return common / either;
 }
 
-}  // namespace hullbench
+}  // namespace hullbench::metrics

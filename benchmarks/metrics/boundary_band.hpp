@@ -5,7 +5,7 @@
 
 #include "benchmarks/metrics/geos_session.hpp"
 
-namespace hullbench {
+namespace hullbench::metrics {
 
 /// Width of the bands in nominal spacings h: what a sample leaves open at its edge, about h, is a half of it.
 inline constexpr double kBandWidthInH = 2;
@@ -18,4 +18,4 @@ GeosSession::Geometry inner_band(const GeosSession& geos, const GeosSession::Geo
 std::optional<double> band_iou(const GeosSession& geos, const GeosSession::Geometry& a,
                                const GeosSession::Geometry& b);
 
-}  // namespace hullbench
+}  // namespace hullbench::metrics

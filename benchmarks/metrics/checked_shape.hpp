@@ -6,7 +6,7 @@
 #include "benchmarks/metrics/geos_session.hpp"
 #include "polylidar/geometry.hpp"
 
-namespace hullbench {
+namespace hullbench::metrics {
 
 struct CheckedShape {
   GeosSession::Geometry geometry;  ///< null when it could not be made
@@ -16,4 +16,4 @@ struct CheckedShape {
 /// Throws std::runtime_error when GEOS fails.
 CheckedShape check_shape(const GeosSession& geos, const polylidar::MultiPolygon& shape);
 
-}  // namespace hullbench
+}  // namespace hullbench::metrics

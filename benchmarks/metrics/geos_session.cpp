@@ -3,7 +3,7 @@
 #include <stdexcept>
 #include <vector>
 
-namespace hullbench {
+namespace hullbench::metrics {
 namespace {
 
 using polylidar::MultiPolygon;
@@ -88,4 +88,4 @@ double GeosSession::common_area(const Geometry& a, const Geometry& b) const {
   return area(own(GEOSIntersection_r(context_, a.get(), b.get()), "intersection"));
 }
 
-}  // namespace hullbench
+}  // namespace hullbench::metrics

@@ -8,7 +8,7 @@
 
 #include "polylidar/geometry.hpp"
 
-namespace hullbench {
+namespace hullbench::metrics {
 
 /// A GEOS context. GEOS reports errors through a callback and a null or out-of-range return value; `fail`
 /// turns them into an exception. Geometries end before the session they were made in. Not for use from
@@ -53,4 +53,4 @@ class GeosSession {
   std::string message_;
 };
 
-}  // namespace hullbench
+}  // namespace hullbench::metrics

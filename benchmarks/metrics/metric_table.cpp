@@ -2,7 +2,7 @@
 
 #include <vector>
 
-namespace hullbench {
+namespace hullbench::metrics {
 namespace {
 
 template <typename Value>
@@ -276,4 +276,4 @@ std::span<const MetricInfo> metric_table() {
   return kTable;
 }
 
-}  // namespace hullbench
+}  // namespace hullbench::metrics

@@ -12,7 +12,7 @@
 
 #include "benchmarks/metrics/metrics.hpp"
 
-namespace hullbench {
+namespace hullbench::metrics {
 
 /// Which values are better. kOne: the nearer to 1; kZero: the nearer to 0 from either side; kNone: it tells
 /// something of the case, or of where another metric was taken.
@@ -52,4 +52,4 @@ void print_metric_table(std::ostream& out);
 /// The same in Markdown, as METRICS.md has it between its marks.
 std::string metric_table_to_markdown();
 
-}  // namespace hullbench
+}  // namespace hullbench::metrics

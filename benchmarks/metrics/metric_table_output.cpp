@@ -4,7 +4,7 @@
 
 #include "benchmarks/metrics/metric_table.hpp"
 
-namespace hullbench {
+namespace hullbench::metrics {
 namespace {
 
 using nlohmann::json;
@@ -126,4 +126,4 @@ std::string metric_table_to_markdown() {
   return text;
 }
 
-}  // namespace hullbench
+}  // namespace hullbench::metrics

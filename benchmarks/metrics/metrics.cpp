@@ -10,7 +10,7 @@
 #include "benchmarks/metrics/prepared_truth.hpp"
 #include "benchmarks/metrics/shape_measures.hpp"
 
-namespace hullbench {
+namespace hullbench::metrics {
 
 using polylidar::MultiPolygon;
 using polylidar::Point;
@@ -64,7 +64,7 @@ Metrics CaseScorer::score(const MultiPolygon& result) const {
   const GeosSession::Geometry truth = state_->prepared.geometry(geos);
 
   Metrics metrics;
-  metrics.area = hullbench::area_scores(geos, result, shape, state_->prepared, truth);
+  metrics.area = hullbench::metrics::area_scores(geos, result, shape, state_->prepared, truth);
   metrics.counts = count_shape(result, state_->truth, state_->h);
   metrics.contract = state_->input.score(result);
   metrics.l2_convex_hull = state_->anchors.l2_convex_hull;
@@ -85,12 +85,12 @@ Metrics CaseScorer::score(const MultiPolygon& result) const {
 
 AreaScores CaseScorer::area_scores(const MultiPolygon& result) const {
   const GeosSession geos;
-  return hullbench::area_scores(geos, result, check_shape(geos, result), state_->prepared,
-                                state_->prepared.geometry(geos));
+  return hullbench::metrics::area_scores(geos, result, check_shape(geos, result), state_->prepared,
+                                         state_->prepared.geometry(geos));
 }
 
 double CaseScorer::spacing() const {
   return state_->h;
 }
 
-}  // namespace hullbench
+}  // namespace hullbench::metrics

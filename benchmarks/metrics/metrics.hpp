@@ -14,7 +14,7 @@
 #include "benchmarks/metrics/validity.hpp"
 #include "polylidar/geometry.hpp"
 
-namespace hullbench {
+namespace hullbench::metrics {
 
 /// Scores of one result; what is not defined is empty (null in records), never NaN. An invalid result has its
 /// validity, reason, area, counts and contract, and nothing else.
@@ -67,4 +67,4 @@ class CaseScorer {
   std::unique_ptr<const State> state_;
 };
 
-}  // namespace hullbench
+}  // namespace hullbench::metrics

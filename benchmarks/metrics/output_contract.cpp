@@ -5,7 +5,7 @@
 #include "benchmarks/metrics/shape_measures.hpp"
 #include "datasets/point_locator.hpp"
 
-namespace hullbench {
+namespace hullbench::metrics {
 namespace {
 
 using polylidar::MultiPolygon;
@@ -59,4 +59,4 @@ ContractScores InputPoints::score(const MultiPolygon& result) const {
   return scores;
 }
 
-}  // namespace hullbench
+}  // namespace hullbench::metrics

@@ -8,7 +8,7 @@
 
 #include "polylidar/geometry.hpp"
 
-namespace hullbench {
+namespace hullbench::metrics {
 
 struct ContractScores {
   /// Share of the input points in the result by the even-odd rule, its boundary included. Empty without
@@ -33,4 +33,4 @@ class InputPoints {
   std::vector<polylidar::Point> sorted_;  ///< by y, then x
 };
 
-}  // namespace hullbench
+}  // namespace hullbench::metrics

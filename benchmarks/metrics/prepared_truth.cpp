@@ -6,7 +6,7 @@
 #include "benchmarks/metrics/checked_shape.hpp"
 #include "benchmarks/metrics/shape_measures.hpp"
 
-namespace hullbench {
+namespace hullbench::metrics {
 
 PreparedTruth::PreparedTruth(const polylidar::MultiPolygon& shape) {
   if (shape.empty()) throw std::runtime_error("the ground truth is empty; there is nothing to score against");
@@ -19,7 +19,7 @@ PreparedTruth::PreparedTruth(const polylidar::MultiPolygon& shape) {
   const GeosSession::Geometry hull =
       geos_.own(GEOSConvexHull_r(geos_.context(), geometry_.get()), "making a convex hull");
   convexity_ = area_ / geos_.area(hull);
-  perimeter_ = hullbench::perimeter(shape);
+  perimeter_ = hullbench::metrics::perimeter(shape);
 }
 
-}  // namespace hullbench
+}  // namespace hullbench::metrics

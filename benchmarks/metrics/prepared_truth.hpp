@@ -4,7 +4,7 @@
 #include "benchmarks/metrics/geos_session.hpp"
 #include "polylidar/geometry.hpp"
 
-namespace hullbench {
+namespace hullbench::metrics {
 
 class PreparedTruth {
  public:
@@ -26,4 +26,4 @@ class PreparedTruth {
   double perimeter_ = 0;
 };
 
-}  // namespace hullbench
+}  // namespace hullbench::metrics

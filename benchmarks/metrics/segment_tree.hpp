@@ -7,7 +7,7 @@
 
 #include "polylidar/geometry.hpp"
 
-namespace hullbench {
+namespace hullbench::metrics {
 
 /// The edges of a shape in a binary tree of boxes. Edges that follow each other on a ring lie near each
 /// other, so the tree is built over them in their order and needs no sorting. Some ten times as fast as
@@ -30,7 +30,7 @@ class SegmentTree {
     polylidar::Point to;
   };
 
-  void search(std::size_t node, const polylidar::Point& point, double& best_squared) const;
+  void tune::search(std::size_t node, const polylidar::Point& point, double& best_squared) const;
 
   std::vector<Segment> segments_;  ///< ring after ring
   std::size_t leaf_count_ = 1;     ///< a power of two
@@ -39,4 +39,4 @@ class SegmentTree {
   std::vector<polylidar::Box> boxes_;
 };
 
-}  // namespace hullbench
+}  // namespace hullbench::metrics

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-namespace hullbench {
+namespace hullbench::metrics {
 
 using polylidar::MultiPolygon;
 using polylidar::Point;
@@ -30,4 +30,4 @@ bool has_finite_coordinates(const MultiPolygon& shape) {
   return finite;
 }
 
-}  // namespace hullbench
+}  // namespace hullbench::metrics

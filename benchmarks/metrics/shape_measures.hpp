@@ -5,7 +5,7 @@
 
 #include "polylidar/geometry.hpp"
 
-namespace hullbench {
+namespace hullbench::metrics {
 
 /// Length of all rings, in the unit of the points.
 double perimeter(const polylidar::MultiPolygon& shape);
@@ -32,4 +32,4 @@ void for_each_edge(const polylidar::MultiPolygon& shape, const Visit& visit) {
   });
 }
 
-}  // namespace hullbench
+}  // namespace hullbench::metrics

@@ -7,7 +7,7 @@
 #include "benchmarks/metrics/geos_session.hpp"
 #include "benchmarks/metrics/shape_measures.hpp"
 
-namespace hullbench {
+namespace hullbench::metrics {
 namespace {
 
 using polylidar::MultiPolygon;
@@ -126,4 +126,4 @@ HoleScores match_holes(const MultiPolygon& result, const MultiPolygon& truth) {
           2 * matched / static_cast<double>(in_result + in_truth)};
 }
 
-}  // namespace hullbench
+}  // namespace hullbench::metrics

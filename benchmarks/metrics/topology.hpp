@@ -6,7 +6,7 @@
 
 #include "polylidar/geometry.hpp"
 
-namespace hullbench {
+namespace hullbench::metrics {
 
 /// A hole of the result and one of the truth are the same hole when their intersection over union is more
 /// than this. Then neither can have another partner, unless a hole lies within a hole.
@@ -38,4 +38,4 @@ struct HoleScores {
 /// ring encloses, a polygon that lies in it too. Throws std::runtime_error when GEOS fails.
 HoleScores match_holes(const polylidar::MultiPolygon& result, const polylidar::MultiPolygon& truth);
 
-}  // namespace hullbench
+}  // namespace hullbench::metrics

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <utility>
 
-namespace hullbench {
+namespace hullbench::metrics {
 namespace {
 
 using polylidar::kNone;
@@ -120,4 +120,4 @@ MultiPolygon triangle_outline(const Triangulation& mesh, std::span<const Point> 
   return Outliner(mesh, points, kept).outline();
 }
 
-}  // namespace hullbench
+}  // namespace hullbench::metrics

@@ -7,7 +7,7 @@
 #include "polylidar/delaunay.hpp"
 #include "polylidar/geometry.hpp"
 
-namespace hullbench {
+namespace hullbench::metrics {
 
 /// The union of the triangles of `mesh`, a triangulation of `points`, that `kept` (one entry a triangle)
 /// names: a polygon for every edge-connected set of them, valid in the sense of the OGC, shells
@@ -17,4 +17,4 @@ polylidar::MultiPolygon triangle_outline(const polylidar::Triangulation& mesh,
                                          std::span<const polylidar::Point> points,
                                          const std::vector<bool>& kept);
 
-}  // namespace hullbench
+}  // namespace hullbench::metrics

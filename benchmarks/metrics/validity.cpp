@@ -5,7 +5,7 @@
 
 #include "benchmarks/metrics/checked_shape.hpp"
 
-namespace hullbench {
+namespace hullbench::metrics {
 namespace {
 
 using polylidar::MultiPolygon;
@@ -60,4 +60,4 @@ std::string invalid_reason(const MultiPolygon& shape) {
   return check_shape(GeosSession(), shape).invalid_reason;
 }
 
-}  // namespace hullbench
+}  // namespace hullbench::metrics

@@ -5,10 +5,10 @@
 
 #include "polylidar/geometry.hpp"
 
-namespace hullbench {
+namespace hullbench::metrics {
 
 /// Why `shape` is not a valid multipolygon in the sense of the OGC (06-103r4, 6.1.14), in GEOS's words and
 /// with the place; empty when it is valid, as an empty shape is. Throws std::runtime_error when GEOS fails.
 std::string invalid_reason(const polylidar::MultiPolygon& shape);
 
-}  // namespace hullbench
+}  // namespace hullbench::metrics

@@ -10,7 +10,7 @@
 #include "benchmarks/micro/measure.hpp"
 #include "benchmarks/micro/measured_functions.hpp"
 
-namespace hullbench {
+namespace hullbench::micro {
 namespace {
 
 using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
@@ -57,4 +57,4 @@ std::span<const MeasuredFunction> cgal_functions() {
   return kFunctions;
 }
 
-}  // namespace hullbench
+}  // namespace hullbench::micro

@@ -24,7 +24,7 @@
 #include "benchmarks/micro/point_sets.hpp"
 #include "benchmarks/micro/verdict_run.hpp"
 
-namespace hullbench {
+namespace hullbench::micro {
 namespace {
 
 constexpr std::string_view kRepetitions = "--benchmark_repetitions=";
@@ -173,7 +173,7 @@ void ask_for_huge_pages(char** argv) {
 }
 
 }  // namespace
-}  // namespace hullbench
+}  // namespace hullbench::micro
 
 int main(int argc, char** argv) {
   hullbench::ask_for_huge_pages(argv);

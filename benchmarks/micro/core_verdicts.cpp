@@ -8,12 +8,12 @@
 #include <stdexcept>
 #include <utility>
 
-#include "benchmarks/table/document.hpp"
 #include "benchmarks/base/number_format.hpp"
 #include "benchmarks/statistics/statistics.hpp"
+#include "benchmarks/table/document.hpp"
 #include "benchmarks/table/text_table.hpp"
 
-namespace hullbench {
+namespace hullbench::micro {
 namespace {
 
 using Names = std::vector<std::string>;
@@ -191,7 +191,7 @@ void fill_in_times(const Goal& goal, const Measurements& measurements, VerdictLi
     repetitions = std::min(repetitions, found->second.times.size());
   }
   line.value = time_quantity(goal, [&](const std::string& benchmark) {
-    return median(std::span<const double>(measurements.at(benchmark).times));
+    return statistics::median(std::span<const double>(measurements.at(benchmark).times));
   });
   for (std::size_t repetition = 0; repetition < repetitions; ++repetition) {
     const double value = time_quantity(
@@ -284,14 +284,14 @@ int exit_code(const std::vector<VerdictLine>& lines) {
 }
 
 void print_verdicts(const std::vector<VerdictLine>& lines, std::ostream& out) {
-  TextTable table({"ratio of medians", "value", "repetitions", "goal", "verdict"});
+  table::TextTable table({"ratio of medians", "value", "repetitions", "goal", "verdict"});
   for (const VerdictLine& line : lines) {
     const std::string spread =
         line.smallest ? three_digits(*line.smallest) + " to " + three_digits(*line.largest) : "";
     table.add_row(
         {line.what, line.value ? three_digits(*line.value) : "", spread, line.goal, verdict_text(line)});
   }
-  print_markdown(table, out);
+  table::print_markdown(table, out);
   out << "\n"
       << count(lines, Verdict::kMet) << " goals met, " << count(lines, Verdict::kMissed) << " missed, "
       << count(lines, Verdict::kUndecided) << " undecided, " << count(lines, Verdict::kNotMeasured)
@@ -299,21 +299,21 @@ void print_verdicts(const std::vector<VerdictLine>& lines, std::ostream& out) {
 }
 
 void print_measurements(const Measurements& measurements, std::ostream& out) {
-  TextTable table({"benchmark", "median ms", "repetitions", "ns a point", "peak bytes a point"});
+  table::TextTable table({"benchmark", "median ms", "repetitions", "ns a point", "peak bytes a point"});
   for (const auto& [benchmark, measured] : measurements) {
     if (measured.times.empty()) continue;
-    const double middle = median(std::span<const double>(measured.times));
+    const double middle = statistics::median(std::span<const double>(measured.times));
     const auto [least, most] = std::minmax_element(measured.times.begin(), measured.times.end());
     table.add_row({benchmark, three_digits(middle / 1e6),
                    three_digits(*least / 1e6) + " to " + three_digits(*most / 1e6),
                    three_digits(middle / points_of(benchmark)),
                    measured.peak_bytes ? three_digits(*measured.peak_bytes) : ""});
   }
-  if (!table.empty()) print_markdown(table, out);
+  if (!table.empty()) table::print_markdown(table, out);
 }
 
 double points_of(const std::string& benchmark) {
   return std::stod(benchmark.substr(benchmark.rfind('/') + 1));
 }
 
-}  // namespace hullbench
+}  // namespace hullbench::micro

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-namespace hullbench {
+namespace hullbench::micro {
 
 /// What was measured of one benchmark.
 struct Measured {
@@ -53,4 +53,4 @@ void print_measurements(const Measurements& measurements, std::ostream& out);
 /// How many points a benchmark has; its name's last part.
 double points_of(const std::string& benchmark);
 
-}  // namespace hullbench
+}  // namespace hullbench::micro

@@ -7,7 +7,7 @@
 #include <cstdlib>
 #include <new>
 
-namespace hullbench {
+namespace hullbench::micro {
 namespace {
 
 std::atomic<bool> counting = false;
@@ -74,7 +74,7 @@ std::int64_t CountedMemory::peak() const {
   return most;
 }
 
-}  // namespace hullbench
+}  // namespace hullbench::micro
 
 // clang-format off: the whole set that [new.delete] lets a program replace, one a line.
 void* operator new(std::size_t size) {

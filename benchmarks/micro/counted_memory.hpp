@@ -3,7 +3,7 @@
 
 #include <cstdint>
 
-namespace hullbench {
+namespace hullbench::micro {
 
 /// Counts, from its construction to its destruction, the bytes that the process (all its threads and
 /// libraries) holds through operator new beyond those it held before; as malloc_usable_size counts them, so
@@ -20,4 +20,4 @@ class CountedMemory {
   std::int64_t peak() const;
 };
 
-}  // namespace hullbench
+}  // namespace hullbench::micro

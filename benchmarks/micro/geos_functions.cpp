@@ -15,7 +15,7 @@
 #include "benchmarks/micro/measured_functions.hpp"
 #include "polylidar/delaunay.hpp"
 
-namespace hullbench {
+namespace hullbench::micro {
 namespace {
 
 struct FinishGeos {
@@ -99,4 +99,4 @@ std::span<const MeasuredFunction> geos_functions() {
   return kFunctions;
 }
 
-}  // namespace hullbench
+}  // namespace hullbench::micro

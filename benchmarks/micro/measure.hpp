@@ -10,7 +10,7 @@
 #include "benchmarks/micro/counted_memory.hpp"
 #include "benchmarks/micro/point_sets.hpp"
 
-namespace hullbench {
+namespace hullbench::micro {
 
 /// The counter of the memory that a first call holds at its peak, in bytes a point beyond the caller's
 /// points; as CountedMemory counts.
@@ -44,4 +44,4 @@ void measure(benchmark::State& state, const SpeedPointSet& set, std::size_t expe
   state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(set.points.size()));
 }
 
-}  // namespace hullbench
+}  // namespace hullbench::micro

@@ -9,7 +9,7 @@
 
 #include "benchmarks/micro/point_sets.hpp"
 
-namespace hullbench {
+namespace hullbench::micro {
 
 struct MeasuredFunction {
   std::string_view name;
@@ -27,4 +27,4 @@ std::span<const MeasuredFunction> cgal_functions();
 /// `geos_delaunay`, `geos_concave_hull` and `geos_concave_hull_with_holes`.
 std::span<const MeasuredFunction> geos_functions();
 
-}  // namespace hullbench
+}  // namespace hullbench::micro

@@ -3,7 +3,7 @@
 #include "benchmarks/micro/measured_functions.hpp"
 #include "polylidar/concave_hull.hpp"
 
-namespace hullbench {
+namespace hullbench::micro {
 namespace {
 
 template <unsigned threads>
@@ -68,4 +68,4 @@ std::span<const MeasuredFunction> own_functions() {
   return kFunctions;
 }
 
-}  // namespace hullbench
+}  // namespace hullbench::micro

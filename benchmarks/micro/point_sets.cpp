@@ -6,7 +6,7 @@
 #include "datasets/datasets.hpp"
 #include "datasets/random.hpp"
 
-namespace hullbench {
+namespace hullbench::micro {
 
 namespace {
 
@@ -88,4 +88,4 @@ SpeedPointSet make_speed_point_set(const std::string& name, std::size_t n) {
                               "': ca, uniform, lattice, rgbd, islands, sieve");
 }
 
-}  // namespace hullbench
+}  // namespace hullbench::micro

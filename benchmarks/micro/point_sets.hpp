@@ -7,7 +7,7 @@
 
 #include "polylidar/geometry.hpp"
 
-namespace hullbench {
+namespace hullbench::micro {
 
 /// Points, and the alpha that the paper's rule 2 * sqrt(area / n) gives for the area they fill.
 struct SpeedPointSet {
@@ -26,4 +26,4 @@ struct SpeedPointSet {
 /// Throws std::invalid_argument for another name.
 SpeedPointSet make_speed_point_set(const std::string& name, std::size_t n);
 
-}  // namespace hullbench
+}  // namespace hullbench::micro

@@ -5,7 +5,7 @@
 
 #include "benchmarks/micro/measure.hpp"
 
-namespace hullbench {
+namespace hullbench::micro {
 namespace {
 
 using namespace std::chrono_literals;
@@ -68,4 +68,4 @@ void CollectingReporter::ReportRuns(const std::vector<Run>& runs) {
   }
 }
 
-}  // namespace hullbench
+}  // namespace hullbench::micro

@@ -12,7 +12,7 @@
 
 #include "benchmarks/micro/core_verdicts.hpp"
 
-namespace hullbench {
+namespace hullbench::micro {
 
 /// Which repetition is being measured: with repetitions interleaved Google Benchmark is silent until the end.
 /// On a terminal one line that is rewritten; elsewhere a plain line now and then.
@@ -50,4 +50,4 @@ class CollectingReporter final : public benchmark::BenchmarkReporter {
   std::map<std::string, std::string> errors_;
 };
 
-}  // namespace hullbench
+}  // namespace hullbench::micro

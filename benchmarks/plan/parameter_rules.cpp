@@ -6,7 +6,7 @@
 #include "benchmarks/base/number_format.hpp"
 #include "polylidar/concave_hull.hpp"
 
-namespace hullbench {
+namespace hullbench::plan {
 
 // What build/fit_rules prints. The best shares of the edge are 0.46 for the longest edge of a triangle that
 // stays, 0.48 for an erosion with holes and 0.40 for one of the border alone: with 0.46 for all three they
@@ -113,4 +113,4 @@ double auto_circumradius_squared(const RuleInput& input) {
   return radius * radius;
 }
 
-}  // namespace hullbench
+}  // namespace hullbench::plan

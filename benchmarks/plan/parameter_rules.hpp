@@ -8,7 +8,7 @@
 
 #include "polylidar/geometry.hpp"
 
-namespace hullbench {
+namespace hullbench::plan {
 
 /// What a rule may look at.
 struct RuleInput {
@@ -83,4 +83,4 @@ double auto_circumradius(const RuleInput& input);
 /// `auto_circumradius_squared`: its square, for methods that want a squared radius (CGAL).
 double auto_circumradius_squared(const RuleInput& input);
 
-}  // namespace hullbench
+}  // namespace hullbench::plan

@@ -17,7 +17,7 @@
 #include "datasets/stress.hpp"
 #include "polylidar/delaunay.hpp"
 
-namespace hullbench {
+namespace hullbench::plan {
 namespace {
 
 using nlohmann::json;
@@ -377,7 +377,7 @@ PlanAxis read_axis(const Node& node) {
 std::string read_accepted(const Node& node) {
   const std::string name = node.text();
   std::vector<std::string> names;
-  for (const Status status : kAllStatuses) names.push_back(to_string(status));
+  for (const record::Status status : record::kAllStatuses) names.push_back(to_string(status));
   if (std::find(names.begin(), names.end(), name) == names.end()) {
     node.fail("must be one of " + join_words(names) + ", not '" + name + "'");
   }
@@ -451,13 +451,13 @@ bool is_dataset_of(const PlanCase& plan_case, const std::string& name) {
 }
 
 std::string name_of(const PlanMethod& method, const PlanCase& plan_case) {
-  RunRecord record;
+  record::RunRecord record;
   record.method = method.method;
   record.dataset = plan_case.dataset;
   record.n = plan_case.n;
   record.holes = plan_case.holes;
   record.protocol = method.protocol;
-  return run_name(record);
+  return record::run_name(record);
 }
 
 /// That there is what a case asks for.
@@ -715,4 +715,4 @@ std::map<std::string, double> choose_parameters(const PlanMethod& method, const 
   return result;
 }
 
-}  // namespace hullbench
+}  // namespace hullbench::plan

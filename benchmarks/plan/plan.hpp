@@ -37,7 +37,7 @@
 #include "benchmarks/plan/parameter_rules.hpp"
 #include "datasets/datasets.hpp"
 
-namespace hullbench {
+namespace hullbench::plan {
 
 /// The most passes that a plan can ask for.
 inline constexpr int kMaxPasses = 100;
@@ -170,4 +170,4 @@ std::vector<PlannedRun> planned_runs(const Plan& plan, const std::string& filter
 std::map<std::string, double> choose_parameters(const PlanMethod& method, const PlanCase& plan_case,
                                                 const RuleInput& input);
 
-}  // namespace hullbench
+}  // namespace hullbench::plan

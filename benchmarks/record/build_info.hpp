@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-namespace hullbench {
+namespace hullbench::record {
 
 struct BuildInfo {
   std::string compiler_id;
@@ -20,4 +20,4 @@ struct BuildInfo {
 
 const BuildInfo& build_info();
 
-}  // namespace hullbench
+}  // namespace hullbench::record

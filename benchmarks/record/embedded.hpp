@@ -4,7 +4,7 @@
 
 #include <string_view>
 
-namespace hullbench {
+namespace hullbench::record {
 
 extern const std::string_view kRunSchemaJson;       ///< results/run.schema.json
 extern const std::string_view kReportSchemaJson;    ///< results/report.schema.json
@@ -15,4 +15,4 @@ extern const std::string_view kLeagueSchemaJson;    ///< results/league.schema.j
 extern const std::string_view kPaperJson;           ///< results/paper.json
 extern const std::string_view kManifestSchemaJson;  ///< adapters/process/manifest.schema.json
 
-}  // namespace hullbench
+}  // namespace hullbench::record

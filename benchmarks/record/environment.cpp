@@ -18,11 +18,11 @@
 #include <vector>
 
 #include "benchmarks/base/cores.hpp"
-#include "benchmarks/record/build_info.hpp"
 #include "benchmarks/base/huge_pages.hpp"
+#include "benchmarks/record/build_info.hpp"
 #include "benchmarks/record/record.hpp"
 
-namespace hullbench {
+namespace hullbench::record {
 namespace {
 
 using nlohmann::json;
@@ -238,4 +238,4 @@ json collect_environment() {
           {"libraries", libraries()}};
 }
 
-}  // namespace hullbench
+}  // namespace hullbench::record

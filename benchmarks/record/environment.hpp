@@ -5,7 +5,7 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
-namespace hullbench {
+namespace hullbench::record {
 
 /// The environment as it is now, with these members (null where the system does not tell):
 /// `machine_id`; `cpu` {model, architecture, logical_cores, allowed_cores, governors, boost, virtualised};
@@ -23,4 +23,4 @@ std::string machine_id();
 /// The same of given values.
 std::string machine_id(const std::string& cpu_model, long logical_cores, long memory_gib);
 
-}  // namespace hullbench
+}  // namespace hullbench::record

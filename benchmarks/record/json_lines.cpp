@@ -6,7 +6,7 @@
 
 #include "benchmarks/record/xz_file.hpp"
 
-namespace hullbench {
+namespace hullbench::record {
 namespace {
 
 std::string read_all(const std::filesystem::path& path) {
@@ -67,4 +67,4 @@ void JsonLinesWriter::append(const nlohmann::json& json) {
   if (!out_) throw std::runtime_error("Cannot write " + path_.string() + ": is the disk full?");
 }
 
-}  // namespace hullbench
+}  // namespace hullbench::record

@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-namespace hullbench {
+namespace hullbench::record {
 
 /// What a JSON lines file holds.
 struct JsonLines {
@@ -47,4 +47,4 @@ class JsonLinesWriter {
   bool repaired_ = false;
 };
 
-}  // namespace hullbench
+}  // namespace hullbench::record

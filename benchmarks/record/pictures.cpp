@@ -6,7 +6,7 @@
 #include <limits>
 #include <stdexcept>
 
-namespace hullbench {
+namespace hullbench::record {
 namespace {
 
 namespace fs = std::filesystem;
@@ -173,4 +173,4 @@ void merge_pictures(const std::vector<fs::path>& folders, const fs::path& out) {
   }
 }
 
-}  // namespace hullbench
+}  // namespace hullbench::record

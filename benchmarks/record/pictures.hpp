@@ -25,7 +25,7 @@
 #include "datasets/datasets.hpp"
 #include "polylidar/geometry.hpp"
 
-namespace hullbench {
+namespace hullbench::record {
 
 inline constexpr const char* kPicturesFile = "pictures.jsonl";
 
@@ -65,4 +65,4 @@ class PictureBook {
 /// be read or written.
 void merge_pictures(const std::vector<std::filesystem::path>& folders, const std::filesystem::path& out);
 
-}  // namespace hullbench
+}  // namespace hullbench::record

@@ -6,7 +6,7 @@
 #include <stdexcept>
 #include <utility>
 
-namespace hullbench {
+namespace hullbench::record {
 namespace {
 
 using nlohmann::json;
@@ -160,4 +160,4 @@ std::string run_identity(const RunRecord& record) {
   return sha256_hex(identity.dump(-1, ' ', false, json::error_handler_t::replace));
 }
 
-}  // namespace hullbench
+}  // namespace hullbench::record

@@ -12,7 +12,7 @@
 
 #include "datasets/sha256.hpp"
 
-namespace hullbench {
+namespace hullbench::record {
 
 inline constexpr int kSchemaVersion = 1;
 
@@ -107,4 +107,4 @@ std::string run_name(const RunRecord& record);
 /// method, method version, parameters, dataset and its hash, n, holes, seed and protocol.
 std::string run_identity(const RunRecord& record);
 
-}  // namespace hullbench
+}  // namespace hullbench::record

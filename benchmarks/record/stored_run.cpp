@@ -9,7 +9,7 @@
 #include "benchmarks/record/json_lines.hpp"
 #include "benchmarks/record/record.hpp"
 
-namespace hullbench {
+namespace hullbench::record {
 namespace {
 
 namespace fs = std::filesystem;
@@ -91,4 +91,4 @@ std::vector<fs::path> suite_runs(const fs::path& folder) {
   return runs;
 }
 
-}  // namespace hullbench
+}  // namespace hullbench::record

@@ -11,7 +11,7 @@
 #include <nlohmann/json.hpp>
 #include <vector>
 
-namespace hullbench {
+namespace hullbench::record {
 
 inline constexpr const char* kHeaderFile = "run.json";
 inline constexpr const char* kRowsFile = "runs.jsonl";
@@ -39,4 +39,4 @@ nlohmann::json read_suite(const std::filesystem::path& folder);
 /// file when suite.json cannot be read.
 std::vector<std::filesystem::path> suite_runs(const std::filesystem::path& folder);
 
-}  // namespace hullbench
+}  // namespace hullbench::record

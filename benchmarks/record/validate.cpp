@@ -13,12 +13,12 @@
 #include <valijson/validation_results.hpp>
 #include <valijson/validator.hpp>
 
+#include "benchmarks/base/words.hpp"
 #include "benchmarks/record/embedded.hpp"
 #include "benchmarks/record/json_lines.hpp"
-#include "benchmarks/base/words.hpp"
 #include "benchmarks/record/record.hpp"
 
-namespace hullbench {
+namespace hullbench::record {
 namespace {
 
 using nlohmann::json;
@@ -181,4 +181,4 @@ std::vector<std::string> validate_file(const std::filesystem::path& path) {
   }
 }
 
-}  // namespace hullbench
+}  // namespace hullbench::record

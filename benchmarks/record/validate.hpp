@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-namespace hullbench {
+namespace hullbench::record {
 
 /// The faults of a report (`*.json`), of a manifest (`manifest_version`), of a run's description
 /// (`run.json`), of a search's summary or a league (by their `kind`), or of the lines of a runs, a pictures
@@ -28,4 +28,4 @@ std::vector<std::string> validate_run(const nlohmann::json& run);
 /// std::invalid_argument for any other document.
 std::vector<std::string> validate_by_kind(const nlohmann::json& document);
 
-}  // namespace hullbench
+}  // namespace hullbench::record

@@ -12,7 +12,7 @@
 #include <stdexcept>
 #include <vector>
 
-namespace hullbench {
+namespace hullbench::record {
 namespace {
 
 constexpr std::size_t kMaxBytes = std::size_t{1} << 30;
@@ -46,4 +46,4 @@ std::string read_xz_file(const std::filesystem::path& path) {
   return content;
 }
 
-}  // namespace hullbench
+}  // namespace hullbench::record

@@ -15,7 +15,7 @@
 #include "benchmarks/report/ratios.hpp"
 #include "benchmarks/statistics/statistics.hpp"
 
-namespace hullbench {
+namespace hullbench::report {
 namespace {
 
 using nlohmann::json;
@@ -33,7 +33,7 @@ std::vector<PaperStep> read_steps() {
 }
 
 /// The repetitions of the step that the paper calls `name`.
-std::vector<std::int64_t> times_of_step(const RunRecord& run, const std::string& name) {
+std::vector<std::int64_t> times_of_step(const record::RunRecord& run, const std::string& name) {
   for (const PaperStep& step : paper_steps()) {
     if (step.name == name) return step_times(run, step.parts);
   }
@@ -43,13 +43,14 @@ std::vector<std::int64_t> times_of_step(const RunRecord& run, const std::string&
 
 /// One median a run: of the time within `boundary`, of the error as the paper divides it, or of a step's
 /// time.
-std::optional<double> value_of_run(const RunRecord& run, const std::string& quantity, Boundary boundary) {
+std::optional<double> value_of_run(const record::RunRecord& run, const std::string& quantity,
+                                   Boundary boundary) {
   if (!is_measured(run)) return std::nullopt;
   if (quantity == "error") return metric(run, "l2_paper");
   const std::vector<std::int64_t> values =
       quantity == "time" ? times(run, boundary) : times_of_step(run, quantity);
   if (values.empty()) return std::nullopt;
-  return median(values);
+  return statistics::median(values);
 }
 
 /// How a ratio is judged. One-sided, where the paper gives no number or a bound: {"at_least" | "more_than" |
@@ -156,7 +157,7 @@ class ClaimRatios {
     return only.at("dataset") == which.dataset && only.at("holes") == which.holes && only.at("n") == which.n;
   }
 
-  using Runs = std::vector<const RunRecord*>;
+  using Runs = std::vector<const record::RunRecord*>;
 
   static bool has_failed(const Runs& runs) { return !is_missing(runs) && first_failure(runs) != nullptr; }
   static bool is_solved(const Runs& runs) { return !is_missing(runs) && first_failure(runs) == nullptr; }
@@ -196,11 +197,11 @@ class ClaimRatios {
     if (has_failed(runs) && solves_any(method)) return kFailed;
     if (!is_solved(runs)) return std::nullopt;
     std::vector<double> values;
-    for (const RunRecord* run : runs) {
+    for (const record::RunRecord* run : runs) {
       if (const auto value = value_of_run(*run, quantity_, boundary)) values.push_back(*value);
     }
     if (values.empty()) return std::nullopt;
-    return median(std::span<const double>(values));
+    return statistics::median(std::span<const double>(values));
   }
 
   std::vector<double> ratios(const Case& which, Boundary boundary) const {
@@ -258,7 +259,7 @@ struct Verdict {
 
 Verdict judge(const std::vector<double>& ratios, const Threshold& threshold, bool every_case) {
   if (!every_case) {
-    const double middle = median(std::span<const double>(ratios));
+    const double middle = statistics::median(std::span<const double>(ratios));
     return {ratio_text(middle), middle, threshold.verdict(middle)};
   }
   const auto passed =
@@ -304,7 +305,7 @@ json check_claim(const json& claim, const json& report, const Measurements& meas
 }  // namespace
 
 const json& paper() {
-  static const json values = json::parse(kPaperJson);
+  static const json values = json::parse(record::kPaperJson);
   return values;
 }
 
@@ -330,4 +331,4 @@ json check_claims(const json& report) {
   return result;
 }
 
-}  // namespace hullbench
+}  // namespace hullbench::report

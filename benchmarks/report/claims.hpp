@@ -7,7 +7,7 @@
 
 #include "benchmarks/report/measurements.hpp"
 
-namespace hullbench {
+namespace hullbench::report {
 
 /// The paper's published values and claims: results/paper.json, which is part of the program.
 const nlohmann::json& paper();
@@ -33,4 +33,4 @@ bool is_about_time(const nlohmann::json& claim);
 /// time are not judged when there are no times (see Measurements).
 nlohmann::json check_claims(const nlohmann::json& report);
 
-}  // namespace hullbench
+}  // namespace hullbench::report

@@ -9,13 +9,13 @@
 #include <string_view>
 #include <utility>
 
+#include "benchmarks/base/number_format.hpp"
 #include "benchmarks/report/claims.hpp"
 #include "benchmarks/report/group_values.hpp"
 #include "benchmarks/report/labels.hpp"
-#include "benchmarks/base/number_format.hpp"
 #include "benchmarks/statistics/statistics.hpp"
 
-namespace hullbench {
+namespace hullbench::report {
 namespace {
 
 using nlohmann::json;
@@ -144,11 +144,11 @@ constexpr const char* kMeansRemark =
     "many as \"Shapes\" says. A method that solved less than half as many as another one is left out of them "
     "and has none. Failed: cases without a valid result.";
 
-TableSection summary_table(TableContext& context, const std::vector<Line>& lines,
-                           const std::vector<Case>& cases, const json& published) {
+table::TableSection summary_table(TableContext& context, const std::vector<Line>& lines,
+                                  const std::vector<Case>& cases, const json& published) {
   std::vector<std::string> header = {"Method", "Shapes", "Failed"};
   append_value_columns(context, header);
-  TableSection section{"summary", "", TextTable(std::move(header)), {}};
+  table::TableSection section{"summary", "", table::TextTable(std::move(header)), {}};
   const std::vector<CaseGroup> kinds = family_groups(context, cases);
   // Shapes that are no family have each a title of its own.
   const std::string kind = kinds.size() < cases.size() ? " (" + kinds_text(kinds) + ")" : "";
@@ -181,12 +181,12 @@ TableSection summary_table(TableContext& context, const std::vector<Line>& lines
 std::string error_cell(const TableContext& context, const Line& line, const Case& which,
                        const json& published) {
   const auto runs = context.measurements.find(line.method, line.protocol, which);
-  if (const RunRecord* failure = first_failure(runs)) {
-    return failure->status == Status::kNotInstalled ? "" : failure_name(*failure);
+  if (const record::RunRecord* failure = first_failure(runs)) {
+    return failure->status == record::Status::kNotInstalled ? "" : failure_name(*failure);
   }
   const auto errors = all_values(runs, "l2_paper");
   if (errors.empty()) return kNothing;
-  std::string text = fixed(100 * median(std::span<const double>(errors)), 1);
+  std::string text = fixed(100 * statistics::median(std::span<const double>(errors)), 1);
   if (!published.is_null() && paper().at("protocol") == line.protocol) {
     const json value = published.value("by_shape", json::object())
                            .value(which.dataset, json::object())
@@ -196,12 +196,12 @@ std::string error_cell(const TableContext& context, const Line& line, const Case
   return text + hull_mark(runs);
 }
 
-TableSection shape_table(const TableContext& context, const std::vector<Line>& lines,
-                         const std::vector<Case>& cases, const json& published) {
+table::TableSection shape_table(const TableContext& context, const std::vector<Line>& lines,
+                                const std::vector<Case>& cases, const json& published) {
   std::vector<std::string> header = {"Shape"};
   for (const Line& line : lines) header.push_back(label(context, line));
-  TableSection section{
-      "shapes", "Error L2 of every shape, % of the result's area", TextTable(std::move(header)), {}};
+  table::TableSection section{
+      "shapes", "Error L2 of every shape, % of the result's area", table::TextTable(std::move(header)), {}};
   bool has_brackets = false;
   for (const Case& which : cases) {
     std::vector<std::string> cells = {shape_title(context, which)};
@@ -219,7 +219,7 @@ TableSection shape_table(const TableContext& context, const std::vector<Line>& l
 /// The convexity of a case's ground truth, from any run that was scored.
 std::map<Case, double> convexities(const TableContext& context) {
   std::map<Case, double> result;
-  for (const RunRecord& run : context.measurements.runs()) {
+  for (const record::RunRecord& run : context.measurements.runs()) {
     if (const auto convexity = metric(run, "ground_truth_convexity")) {
       result.emplace(Case{run.dataset, run.holes, run.n}, *convexity);
     }
@@ -255,11 +255,11 @@ std::vector<CaseGroup> convexity_groups(const TableContext& context, const std::
   return groups;
 }
 
-TableSection group_table(TableContext& context, const std::string& id, const std::string& caption,
-                         const std::string& first_column, const std::vector<CaseGroup>& groups) {
+table::TableSection group_table(TableContext& context, const std::string& id, const std::string& caption,
+                                const std::string& first_column, const std::vector<CaseGroup>& groups) {
   std::vector<std::string> header = {first_column, "Method", "Shapes", "Failed", "Invalid"};
   append_value_columns(context, header);
-  TableSection section{id, caption, TextTable(std::move(header)), {}};
+  table::TableSection section{id, caption, table::TextTable(std::move(header)), {}};
   bool has_published = false;
   bool any_failed = false;
   for (const CaseGroup& group : groups) {
@@ -293,7 +293,7 @@ TableSection group_table(TableContext& context, const std::string& id, const std
 }
 
 /// Adds to `section` how many results of all its groups GEOS found to be invalid.
-void say_validity(const TableContext& context, const std::vector<Case>& cases, TableSection& section) {
+void say_validity(const TableContext& context, const std::vector<Case>& cases, table::TableSection& section) {
   const std::vector<Line> lines = lines_of(context, cases);
   const std::vector<GroupValues> all = group_values(context, lines, cases);
   for (std::size_t i = 0; i < lines.size(); ++i) {
@@ -303,13 +303,13 @@ void say_validity(const TableContext& context, const std::vector<Case>& cases, T
   }
 }
 
-std::vector<TableSection> class_tables(TableContext& context, const std::vector<Case>& cases) {
+std::vector<table::TableSection> class_tables(TableContext& context, const std::vector<Case>& cases) {
   std::vector<Case> papers_own;
   std::vector<Case> others;
   for (const Case& which : cases) {
     (is_about(paper().at("convexity_classes"), which) ? papers_own : others).push_back(which);
   }
-  std::vector<TableSection> sections;
+  std::vector<table::TableSection> sections;
   for (const auto& [id, part] :
        {std::pair{"convexity", &papers_own}, std::pair{"convexity_others", &others}}) {
     if (part->empty()) continue;
@@ -335,7 +335,7 @@ bool is_collection(const std::vector<Shape>& shapes) {
   return shapes.size() >= kMany || !published_collection(shapes).is_null();
 }
 
-std::vector<TableSection> collection_tables(TableContext& context, const std::vector<Shape>& shapes) {
+std::vector<table::TableSection> collection_tables(TableContext& context, const std::vector<Shape>& shapes) {
   const std::vector<Case> cases = cases_of(shapes);
   if (cases.size() > kTooManyForRows) return class_tables(context, cases);
   const std::vector<Line> lines = lines_of(context, cases);
@@ -362,4 +362,4 @@ json published_values(const CaseGroup& group, const Line& line) {
   return group.published.at("methods").value(line.method, json());
 }
 
-}  // namespace hullbench
+}  // namespace hullbench::report

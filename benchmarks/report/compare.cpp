@@ -8,16 +8,16 @@
 #include "benchmarks/report/measurements.hpp"
 #include "benchmarks/statistics/statistics.hpp"
 
-namespace hullbench {
+namespace hullbench::report {
 namespace {
 
 using nlohmann::json;
 
-constexpr double kLevel = 1 - kConfidence;
+constexpr double kLevel = 1 - statistics::kConfidence;
 
 struct PlannedRecord {
   std::string plan;
-  RunRecord run;
+  record::RunRecord run;
   bool is_paired = false;
 };
 
@@ -25,7 +25,7 @@ std::vector<PlannedRecord> records_of(const std::vector<json>& reports) {
   std::vector<PlannedRecord> result;
   for (const json& report : reports) {
     const std::string plan = report.value("plan", json::object()).value("name", std::string());
-    for (const json& line : report.at("runs")) result.push_back({plan, line.get<RunRecord>()});
+    for (const json& line : report.at("runs")) result.push_back({plan, line.get<record::RunRecord>()});
   }
   return result;
 }
@@ -48,15 +48,15 @@ void pair_by(const Key& key, std::vector<PlannedRecord>& a, std::vector<PlannedR
   }
 }
 
-Change change_of_status(const RunRecord& a, const RunRecord& b) {
+Change change_of_status(const record::RunRecord& a, const record::RunRecord& b) {
   if (is_measured(a)) return Change::kNowFails;
   return is_measured(b) ? Change::kNowWorks : Change::kFailsInBoth;
 }
 
-RunPair make_pair(RunRecord a, RunRecord b) {
+RunPair make_pair(record::RunRecord a, record::RunRecord b) {
   RunPair pair{std::move(a), std::move(b), std::nullopt, 1, Change::kNotJudged};
   if (is_measured(pair.a) && is_measured(pair.b)) {
-    pair.time = ratio_of_times(pair.a.time_ns, pair.b.time_ns);
+    pair.time = statistics::ratio_of_times(pair.a.time_ns, pair.b.time_ns);
   } else {
     pair.change = change_of_status(pair.a, pair.b);
   }
@@ -73,7 +73,7 @@ void judge(RunsCompared& compared) {
   for (const RunPair& pair : compared.pairs) {
     if (can_be_judged(pair)) p_values.push_back(pair.time->p_value);
   }
-  const std::vector<double> adjusted = holm_adjusted(p_values);
+  const std::vector<double> adjusted = statistics::holm_adjusted(p_values);
   compared.judged = adjusted.size();
   auto next = adjusted.begin();
   for (RunPair& pair : compared.pairs) {
@@ -100,11 +100,11 @@ MethodChange method_change(const std::string& method, const std::string& protoco
   }
   result.pairs = ratios.size();
   if (ratios.empty()) return result;
-  result.ratio = median(std::span<const double>(ratios));
+  result.ratio = statistics::median(std::span<const double>(ratios));
   std::vector<std::vector<double>> clusters;
   clusters.reserve(by_shape.size());
   for (auto& [shape, values] : by_shape) clusters.push_back(std::move(values));
-  result.interval = clustered_median_interval(clusters);
+  result.interval = statistics::clustered_median_interval(clusters);
   return result;
 }
 
@@ -168,4 +168,4 @@ RunsCompared compare_runs(const std::vector<json>& a_reports, const std::vector<
   return compared;
 }
 
-}  // namespace hullbench
+}  // namespace hullbench::report

@@ -7,11 +7,11 @@
 #include <string>
 #include <vector>
 
+#include "benchmarks/record/record.hpp"
 #include "benchmarks/statistics/bootstrap.hpp"
 #include "benchmarks/statistics/rank_test.hpp"
-#include "benchmarks/record/record.hpp"
 
-namespace hullbench {
+namespace hullbench::report {
 
 /// What became of a run from A to B.
 enum class Change {
@@ -29,10 +29,10 @@ std::string to_string(Change change);
 
 /// A run that both have.
 struct RunPair {
-  RunRecord a;
-  RunRecord b;
-  std::optional<RatioOfTimes> time;  ///< of equal work, B over A; none when one of them failed
-  double adjusted_p_value = 1;       ///< of `time`, by Holm over all pairs that can be judged
+  record::RunRecord a;
+  record::RunRecord b;
+  std::optional<statistics::RatioOfTimes> time;  ///< of equal work, B over A; none when one of them failed
+  double adjusted_p_value = 1;                   ///< of `time`, by Holm over all pairs that can be judged
   Change change = Change::kNotJudged;
 
   bool same_points() const { return a.dataset_sha256 == b.dataset_sha256; }
@@ -49,7 +49,7 @@ struct MethodChange {
   std::optional<double> ratio;
   /// Of that median, clustered by shape: a data set (each member of a family) with or without holes. None of
   /// a single shape.
-  std::optional<Interval> interval;
+  std::optional<statistics::Interval> interval;
   std::size_t faster = 0;
   std::size_t slower = 0;
 };
@@ -68,4 +68,4 @@ struct RunsCompared {
 /// `runs` is needed, and `plan` for its name. Throws what from_json of a record throws.
 RunsCompared compare_runs(const std::vector<nlohmann::json>& a, const std::vector<nlohmann::json>& b);
 
-}  // namespace hullbench
+}  // namespace hullbench::report

@@ -7,13 +7,13 @@
 #include <set>
 #include <utility>
 
+#include "benchmarks/base/number_format.hpp"
 #include "benchmarks/report/labels.hpp"
 #include "benchmarks/report/measurements.hpp"
-#include "benchmarks/base/number_format.hpp"
-#include "benchmarks/statistics/statistics.hpp"
 #include "benchmarks/report/table_context.hpp"
+#include "benchmarks/statistics/statistics.hpp"
 
-namespace hullbench {
+namespace hullbench::report {
 namespace {
 
 using nlohmann::json;
@@ -37,12 +37,12 @@ std::string ratio_text(double ratio) {
   return fixed(ratio, std::max(2, decimals_of(ratio)));
 }
 
-std::string interval_text(const std::optional<Interval>& interval) {
+std::string interval_text(const std::optional<statistics::Interval>& interval) {
   return interval ? ratio_text(interval->low) + "–" + ratio_text(interval->high) : kNothing;
 }
 
-std::string time_text(const RunRecord& run) {
-  return is_measured(run) ? milliseconds(median(run.time_ns)) : failure_name(run);
+std::string time_text(const record::RunRecord& run) {
+  return is_measured(run) ? milliseconds(statistics::median(run.time_ns)) : failure_name(run);
 }
 
 std::string percent_text(const std::optional<double>& fraction) {
@@ -67,11 +67,12 @@ std::string label_of(const ComparedSide& side, const MethodChange& method) {
   return method.method + " (" + method.protocol + ")";
 }
 
-TableSection methods_section(const RunsCompared& compared, const ComparedSide& a) {
-  TableSection section{"compare_methods",
-                       "Time of equal work by method, B / A",
-                       TextTable({"Method", "Pairs", "Median of B / A", "95 %", "B faster", "B slower"}),
-                       {}};
+table::TableSection methods_section(const RunsCompared& compared, const ComparedSide& a) {
+  table::TableSection section{
+      "compare_methods",
+      "Time of equal work by method, B / A",
+      table::TextTable({"Method", "Pairs", "Median of B / A", "95 %", "B faster", "B slower"}),
+      {}};
   for (const MethodChange& method : compared.methods) {
     section.table.add_row({label_of(a, method), std::to_string(method.pairs),
                            method.ratio ? ratio_text(*method.ratio) : kNothing,
@@ -112,11 +113,11 @@ std::string pairs_remark(const RunsCompared& compared) {
   return text;
 }
 
-TableSection pairs_section(const RunsCompared& compared, bool every_pair) {
-  TableSection section{
+table::TableSection pairs_section(const RunsCompared& compared, bool every_pair) {
+  table::TableSection section{
       "compare_runs",
       "Run by run: time of equal work, and error L2 in % of the ground truth's area",
-      TextTable({"Run", "A, ms", "B, ms", "B / A", "95 %", "B is", "L2 of A", "L2 of B", "B - A"}),
+      table::TextTable({"Run", "A, ms", "B, ms", "B / A", "95 %", "B is", "L2 of A", "L2 of B", "B - A"}),
       {}};
   std::size_t left_out = 0;
   for (const RunPair& pair : compared.pairs) {
@@ -251,7 +252,7 @@ ordered_json number_or_null(const std::optional<double>& value) {
   return value ? ordered_json(*value) : ordered_json(nullptr);
 }
 
-void add_interval(ordered_json& entry, const std::optional<Interval>& interval) {
+void add_interval(ordered_json& entry, const std::optional<statistics::Interval>& interval) {
   entry["ratio_low"] = interval ? ordered_json(interval->low) : ordered_json(nullptr);
   entry["ratio_high"] = interval ? ordered_json(interval->high) : ordered_json(nullptr);
 }
@@ -267,8 +268,8 @@ ordered_json method_json(const MethodChange& method) {
   return entry;
 }
 
-ordered_json median_or_null(const RunRecord& run) {
-  return is_measured(run) ? ordered_json(median(run.time_ns)) : ordered_json(nullptr);
+ordered_json median_or_null(const record::RunRecord& run) {
+  return is_measured(run) ? ordered_json(statistics::median(run.time_ns)) : ordered_json(nullptr);
 }
 
 ordered_json pair_json(const RunPair& pair) {
@@ -293,13 +294,13 @@ ordered_json pair_json(const RunPair& pair) {
 
 }  // namespace
 
-Document comparison_document(const RunsCompared& compared, const ComparedSide& a, const ComparedSide& b,
-                             bool every_pair) {
-  Document document;
+table::Document comparison_document(const RunsCompared& compared, const ComparedSide& a,
+                                    const ComparedSide& b, bool every_pair) {
+  table::Document document;
   document.title = "A " + a.name + " and B " + b.name;
   document.tables.push_back(methods_section(compared, a));
   document.notes = comparison_notes(compared, a, b);
-  TableSection pairs = pairs_section(compared, every_pair);
+  table::TableSection pairs = pairs_section(compared, every_pair);
   if (pairs.table.empty()) {
     document.notes.insert(document.notes.end(), pairs.remarks.begin(), pairs.remarks.end());
   } else {
@@ -322,4 +323,4 @@ ordered_json comparison_json(const RunsCompared& compared, const ComparedSide& a
   return result;
 }
 
-}  // namespace hullbench
+}  // namespace hullbench::report

@@ -8,7 +8,7 @@
 #include "benchmarks/report/compare.hpp"
 #include "benchmarks/table/document.hpp"
 
-namespace hullbench {
+namespace hullbench::report {
 
 /// One side of a comparison: what it is called, and its reports (see compare_runs), which may also have
 /// `environment`, `tool`, `created` and `methods`.
@@ -23,8 +23,8 @@ inline constexpr std::size_t kMostPairsShown = 200;
 /// A line a method, then a line a pair (up to kMostPairsShown, or only those that changed unless
 /// `every_pair`), and what must be known to read them: other machines, builds, versions, points or
 /// parameters; which runs only one side has.
-Document comparison_document(const RunsCompared& compared, const ComparedSide& a, const ComparedSide& b,
-                             bool every_pair);
+table::Document comparison_document(const RunsCompared& compared, const ComparedSide& a,
+                                    const ComparedSide& b, bool every_pair);
 
 /// The same as JSON: `a`, `b` (names), `methods`, `pairs` (all of them, with times in nanoseconds, ratios,
 /// the p-value of the pair and the one by Holm), `only_a`, `only_b` and `notes`. null for what is not
@@ -32,4 +32,4 @@ Document comparison_document(const RunsCompared& compared, const ComparedSide& a
 nlohmann::ordered_json comparison_json(const RunsCompared& compared, const ComparedSide& a,
                                        const ComparedSide& b);
 
-}  // namespace hullbench
+}  // namespace hullbench::report

@@ -10,7 +10,7 @@
 #include "benchmarks/report/ratios.hpp"
 #include "benchmarks/statistics/statistics.hpp"
 
-namespace hullbench {
+namespace hullbench::report {
 namespace {
 
 using nlohmann::json;
@@ -23,7 +23,7 @@ struct Place {
 /// The places on the axis, from the least number on, or in the order in which they occur.
 std::vector<Place> places_of(const TableContext& context, const json& axis) {
   std::vector<Place> places;
-  for (const RunRecord& row : context.measurements.runs()) {
+  for (const record::RunRecord& row : context.measurements.runs()) {
     const json at = place_on_axis(axis, row);
     if (at.is_null()) continue;
     auto found =
@@ -54,14 +54,14 @@ Errors errors_of(const TableContext& context, const Line& line, const std::vecto
     const bool failed = first_failure(runs) != nullptr || values.empty();
     errors.failures += failed ? 1 : 0;
     errors.values.push_back(failed ? std::numeric_limits<double>::infinity()
-                                   : median(std::span<const double>(values)));
+                                   : statistics::median(std::span<const double>(values)));
   }
   return errors;
 }
 
 std::string error_cell(const std::vector<double>& errors) {
   if (errors.empty()) return kNothing;
-  const double middle = 100 * median(std::span<const double>(errors));
+  const double middle = 100 * statistics::median(std::span<const double>(errors));
   return ratio_text(middle);
 }
 
@@ -83,7 +83,7 @@ std::vector<std::string> header_of(const json& axis, const std::vector<Place>& p
 
 }  // namespace
 
-json place_on_axis(const json& axis, const RunRecord& row) {
+json place_on_axis(const json& axis, const record::RunRecord& row) {
   const std::string of = axis.at("of").get<std::string>();
   if (of == "n") return row.n;
   if (of == "sampling") {
@@ -97,13 +97,13 @@ json place_on_axis(const json& axis, const RunRecord& row) {
   return level == row.levels.end() ? json() : json(level->second);
 }
 
-TableSection curve_table(TableContext& context) {
+table::TableSection curve_table(TableContext& context) {
   const json& axis = context.report.at("plan").at("axis");
   const std::vector<Place> places = places_of(context, axis);
-  TableSection section{"curves",
-                       "Error L2 along the axis, % of the ground truth's area, median of the cases",
-                       TextTable(header_of(axis, places)),
-                       {}};
+  table::TableSection section{"curves",
+                              "Error L2 along the axis, % of the ground truth's area, median of the cases",
+                              table::TextTable(header_of(axis, places)),
+                              {}};
   for (const Line& line : lines_of(context, context.measurements.cases())) {
     std::vector<std::string> cells = {label(context, line) +
                                       failure_marks(context, line, context.measurements.cases())};
@@ -122,4 +122,4 @@ TableSection curve_table(TableContext& context) {
   return section;
 }
 
-}  // namespace hullbench
+}  // namespace hullbench::report

@@ -9,30 +9,30 @@
 #include "benchmarks/report/paper_comparison.hpp"
 #include "benchmarks/report/tables.hpp"
 
-namespace hullbench {
+namespace hullbench::report {
 namespace {
 
 using nlohmann::json;
 
 /// Leaves out the steps of a report that has other cases too, when a report of the steps alone is there.
-void drop_repeated_steps(std::vector<Document>& documents) {
+void drop_repeated_steps(std::vector<table::Document>& documents) {
   const std::string steps = std::string("_") + kStepsTable;
-  const auto is_steps = [&](const TableSection& section) { return section.id.ends_with(steps); };
-  const bool alone = std::any_of(documents.begin(), documents.end(), [&](const Document& document) {
+  const auto is_steps = [&](const table::TableSection& section) { return section.id.ends_with(steps); };
+  const bool alone = std::any_of(documents.begin(), documents.end(), [&](const table::Document& document) {
     return !document.tables.empty() && is_steps(document.tables.front());
   });
   if (!alone) return;
-  for (Document& document : documents) {
+  for (table::Document& document : documents) {
     if (!document.tables.empty() && !is_steps(document.tables.front()))
       std::erase_if(document.tables, is_steps);
   }
 }
 
 /// Takes the common notes out of `documents`: each text once, in the order in which they first occur.
-std::vector<std::string> take_common_notes(std::vector<Document>& documents) {
+std::vector<std::string> take_common_notes(std::vector<table::Document>& documents) {
   std::vector<std::string> result;
   std::set<std::string> seen;
-  for (Document& document : documents) {
+  for (table::Document& document : documents) {
     for (std::string& note : document.common_notes) {
       if (seen.insert(note).second) result.push_back(std::move(note));
     }
@@ -43,22 +43,22 @@ std::vector<std::string> take_common_notes(std::vector<Document>& documents) {
 
 }  // namespace
 
-std::vector<Document> make_documents(const std::vector<json>& reports) {
-  std::vector<Document> documents;
+std::vector<table::Document> make_documents(const std::vector<json>& reports) {
+  std::vector<table::Document> documents;
   documents.reserve(reports.size() + 2);
   for (const json& report : reports) documents.push_back(make_document(report));
   drop_repeated_steps(documents);
-  Document end;
+  table::Document end;
   end.title = "Beside the paper";
   end.tables.push_back(differences_table(reports));
-  if (end.tables.front().table.empty()) end = Document{"All runs", {}, {}, {}};
+  if (end.tables.front().table.empty()) end = table::Document{"All runs", {}, {}, {}};
   end.common_notes = take_common_notes(documents);
   documents.push_back(std::move(end));
-  Document overview;
+  table::Document overview;
   overview.title = "Methods and parameters";
   overview.tables = {methods_table(reports), parameters_table(reports)};
   documents.insert(documents.begin(), std::move(overview));
   return documents;
 }
 
-}  // namespace hullbench
+}  // namespace hullbench::report

@@ -5,11 +5,11 @@
 #include <string>
 
 #include "benchmarks/base/files.hpp"
-#include "benchmarks/table/document.hpp"
 #include "benchmarks/report/measurements.hpp"
 #include "benchmarks/statistics/statistics.hpp"
+#include "benchmarks/table/document.hpp"
 
-namespace hullbench {
+namespace hullbench::report {
 namespace {
 
 using nlohmann::json;
@@ -78,7 +78,7 @@ void add_series(ordered_json& benchmarks, const Series& series) {
     finish(entry, 1, static_cast<double>(series.times[repetition]));
     benchmarks.push_back(std::move(entry));
   }
-  const Statistics statistics = describe(series.times);
+  const statistics::Statistics statistics = describe(series.times);
   if (!statistics.standard_deviation) return;
   benchmarks.push_back(aggregate_of(series, "mean", statistics.mean));
   benchmarks.push_back(aggregate_of(series, "median", statistics.median));
@@ -96,7 +96,7 @@ ordered_json gbench_report(const std::vector<json>& reports) {
   for (const json& report : reports) {
     const std::string plan = report.at("plan").value("name", std::string());
     const Measurements measurements(report);
-    for (const RunRecord& run : measurements.runs()) {
+    for (const record::RunRecord& run : measurements.runs()) {
       std::string name = (reports.size() > 1 && !plan.empty() ? plan + "/" : "") + run.name;
       // Failures count too, so that a run has the same name in two exports.
       const std::size_t occurrence = ++occurrences[name];
@@ -112,4 +112,4 @@ void export_gbench(const std::filesystem::path& file, const std::vector<json>& r
   write_text_file(file, gbench_report(reports).dump(2) + "\n");
 }
 
-}  // namespace hullbench
+}  // namespace hullbench::report

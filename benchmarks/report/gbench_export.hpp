@@ -5,7 +5,7 @@
 #include <nlohmann/json.hpp>
 #include <vector>
 
-namespace hullbench {
+namespace hullbench::report {
 
 /// The reports (as made by make_report, one or more) in the layout of Google Benchmark 1.7: a `context`, and
 /// `benchmarks` with an entry for every repetition of every run that gave a valid result, in nanoseconds of
@@ -19,4 +19,4 @@ nlohmann::ordered_json gbench_report(const std::vector<nlohmann::json>& reports)
 /// Writes it to `file`. Throws std::runtime_error naming the file when it cannot be written.
 void export_gbench(const std::filesystem::path& file, const std::vector<nlohmann::json>& reports);
 
-}  // namespace hullbench
+}  // namespace hullbench::report

@@ -6,12 +6,13 @@
 #include "benchmarks/base/number_format.hpp"
 #include "benchmarks/statistics/statistics.hpp"
 
-namespace hullbench {
+namespace hullbench::report {
 namespace {
 
 std::optional<Spread> spread_of(const std::vector<double>& values) {
   if (values.empty()) return std::nullopt;
-  return Spread{mean(std::span<const double>(values)), standard_deviation(std::span<const double>(values)),
+  return Spread{statistics::mean(std::span<const double>(values)),
+                statistics::standard_deviation(std::span<const double>(values)),
                 *std::max_element(values.begin(), values.end())};
 }
 
@@ -22,14 +23,14 @@ std::vector<std::string> cells_of(const std::optional<Spread>& spread, const Tex
 }
 
 /// Counts a case of these runs; whether it was solved.
-bool count_case(const std::vector<const RunRecord*>& runs, GroupValues& values) {
+bool count_case(const std::vector<const record::RunRecord*>& runs, GroupValues& values) {
   if (runs.empty()) return false;
-  const RunRecord* failure = first_failure(runs);
+  const record::RunRecord* failure = first_failure(runs);
   if (failure == nullptr) {
     ++values.solved;
     return true;
   }
-  if (failure->status != Status::kNotInstalled) ++values.failed;
+  if (failure->status != record::Status::kNotInstalled) ++values.failed;
   if (is_invalid(*failure)) ++values.invalid;
   return false;
 }
@@ -42,10 +43,10 @@ void add_spreads(const TableContext& context, const Line& line, const std::vecto
   for (const Case& which : cases) {
     const auto runs = context.measurements.find(line.method, line.protocol, which);
     const std::vector<double> of_case = all_values(runs, "l2_paper");
-    if (!of_case.empty()) errors.push_back(median(std::span<const double>(of_case)));
+    if (!of_case.empty()) errors.push_back(statistics::median(std::span<const double>(of_case)));
     if (!context.measurements.has_times()) continue;
-    times.push_back(median(all_times(runs, Boundary::kPaper)) / 1e6);
-    equal_work.push_back(median(all_times(runs, Boundary::kEqualWork)) / 1e6);
+    times.push_back(statistics::median(all_times(runs, Boundary::kPaper)) / 1e6);
+    equal_work.push_back(statistics::median(all_times(runs, Boundary::kEqualWork)) / 1e6);
   }
   values.cases = cases.size();
   values.error = spread_of(errors);
@@ -87,4 +88,4 @@ std::vector<std::string> millisecond_cells(const std::optional<Spread>& millisec
   return cells_of(milliseconds, [](double value) { return three_digits(value); });
 }
 
-}  // namespace hullbench
+}  // namespace hullbench::report

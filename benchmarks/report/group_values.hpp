@@ -8,7 +8,7 @@
 
 #include "benchmarks/report/table_context.hpp"
 
-namespace hullbench {
+namespace hullbench::report {
 
 /// Of one value a shape.
 struct Spread {
@@ -41,4 +41,4 @@ std::vector<std::string> percent_cells(const std::optional<Spread>& fractions);
 /// The same of milliseconds, with three digits.
 std::vector<std::string> millisecond_cells(const std::optional<Spread>& milliseconds);
 
-}  // namespace hullbench
+}  // namespace hullbench::report

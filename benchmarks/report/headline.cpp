@@ -12,7 +12,7 @@
 #include "benchmarks/report/claims.hpp"
 #include "benchmarks/report/ratios.hpp"
 
-namespace hullbench {
+namespace hullbench::report {
 namespace {
 
 using nlohmann::json;
@@ -22,7 +22,7 @@ bool is_close(double one, double other) {
 }
 
 /// Of two runs on the same points that gave a result.
-bool same_result(const RunRecord& one, const RunRecord& other) {
+bool same_result(const record::RunRecord& one, const record::RunRecord& other) {
   constexpr std::array kCounts = {"polygons", "holes", "vertices"};
   constexpr std::array kAreas = {"area", "l2"};
   const auto agree = [&](const char* name, const auto& same) {
@@ -38,7 +38,7 @@ bool same_result(const RunRecord& one, const RunRecord& other) {
 /// The lines that have a result, in the order of the records.
 std::vector<Line> lines_with_results(const Measurements& measurements) {
   std::vector<Line> lines;
-  for (const RunRecord& run : measurements.runs()) {
+  for (const record::RunRecord& run : measurements.runs()) {
     const Line line = {run.method, run.protocol};
     if (is_measured(run) && std::find(lines.begin(), lines.end(), line) == lines.end()) lines.push_back(line);
   }
@@ -69,8 +69,8 @@ bool same_polygons(const Measurements& measurements, const Line& one, const Line
   bool compared = false;
   for (const Case& which : measurements.cases()) {
     const auto others = measurements.find(other.method, other.protocol, which);
-    for (const RunRecord* run : measurements.find(one.method, one.protocol, which)) {
-      const RunRecord* beside = counterpart(*run, others);
+    for (const record::RunRecord* run : measurements.find(one.method, one.protocol, which)) {
+      const record::RunRecord* beside = counterpart(*run, others);
       if (beside == nullptr || !is_measured(*run) || !is_measured(*beside)) continue;
       if (!same_result(*run, *beside)) return false;
       compared = true;
@@ -111,4 +111,4 @@ json make_headline(const Measurements& measurements) {
           {"rivals", std::move(rivals)}};
 }
 
-}  // namespace hullbench
+}  // namespace hullbench::report

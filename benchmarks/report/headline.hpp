@@ -5,7 +5,7 @@
 
 #include "benchmarks/report/measurements.hpp"
 
-namespace hullbench {
+namespace hullbench::report {
 
 /// How far areas and errors of the same polygons may lie apart, as a part of the larger one. The same shape
 /// written in another order differs by the rounding of its area, some 1e-13 of it; other triangles differ by
@@ -26,4 +26,4 @@ bool same_polygons(const Measurements& measurements, const Line& one, const Line
 /// null: there are no times, the reference has no result, or nobody is beside it.
 nlohmann::json make_headline(const Measurements& measurements);
 
-}  // namespace hullbench
+}  // namespace hullbench::report

@@ -1,10 +1,11 @@
-#include "benchmarks/base/words.hpp"
 #include "benchmarks/report/labels.hpp"
 
 #include <algorithm>
 #include <optional>
 
-namespace hullbench {
+#include "benchmarks/base/words.hpp"
+
+namespace hullbench::report {
 namespace {
 
 using nlohmann::json;
@@ -70,4 +71,4 @@ std::string not_installed_text(const json& report, const std::string& what, cons
   return text + " To install it: " + remedy;
 }
 
-}  // namespace hullbench
+}  // namespace hullbench::report

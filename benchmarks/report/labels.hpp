@@ -4,7 +4,7 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
-namespace hullbench {
+namespace hullbench::report {
 
 /// "Polylidar" for "polylidar"; the name itself when `report` has no title for it.
 std::string method_title(const nlohmann::json& report, const std::string& method);
@@ -23,4 +23,4 @@ std::string shape_title(const nlohmann::json& report, const std::string& dataset
 std::string not_installed_text(const nlohmann::json& report, const std::string& what,
                                const std::string& method, const std::string& detail);
 
-}  // namespace hullbench
+}  // namespace hullbench::report

@@ -3,49 +3,50 @@
 #include <algorithm>
 #include <tuple>
 
-namespace hullbench {
+namespace hullbench::report {
 
-bool is_measured(const RunRecord& run) {
+bool is_measured(const record::RunRecord& run) {
   const auto valid = run.metrics.find("valid");
-  return run.status == Status::kOk && valid != run.metrics.end() && *valid == true;
+  return run.status == record::Status::kOk && valid != run.metrics.end() && *valid == true;
 }
 
-bool is_invalid(const RunRecord& run) {
-  if (run.status == Status::kInvalidOutput) return true;
+bool is_invalid(const record::RunRecord& run) {
+  if (run.status == record::Status::kInvalidOutput) return true;
   const auto valid = run.metrics.find("valid");
-  return run.status == Status::kOk && (valid == run.metrics.end() || *valid != true);
+  return run.status == record::Status::kOk && (valid == run.metrics.end() || *valid != true);
 }
 
-bool is_missing(const std::vector<const RunRecord*>& runs) {
-  return std::all_of(runs.begin(), runs.end(),
-                     [](const RunRecord* run) { return run->status == Status::kNotInstalled; });
+bool is_missing(const std::vector<const record::RunRecord*>& runs) {
+  return std::all_of(runs.begin(), runs.end(), [](const record::RunRecord* run) {
+    return run->status == record::Status::kNotInstalled;
+  });
 }
 
-const RunRecord* first_failure(const std::vector<const RunRecord*>& runs) {
+const record::RunRecord* first_failure(const std::vector<const record::RunRecord*>& runs) {
   const auto found =
-      std::find_if(runs.begin(), runs.end(), [](const RunRecord* run) { return !is_measured(*run); });
+      std::find_if(runs.begin(), runs.end(), [](const record::RunRecord* run) { return !is_measured(*run); });
   return found == runs.end() ? nullptr : *found;
 }
 
-bool is_worse_than_convex_hull(const RunRecord& run) {
+bool is_worse_than_convex_hull(const record::RunRecord& run) {
   constexpr double kRounding = 1e-9;
   const auto error = metric(run, "l2");
   const auto hull = metric(run, "l2_convex_hull");
   return is_measured(run) && error && hull && *error > *hull * (1 + kRounding);
 }
 
-std::vector<std::int64_t> times(const RunRecord& run, Boundary boundary) {
+std::vector<std::int64_t> times(const record::RunRecord& run, Boundary boundary) {
   if (boundary == Boundary::kEqualWork) return run.time_ns;
   std::vector<std::int64_t> result;
-  for (const PhaseTimes& phases : run.phases_ns) {
+  for (const record::PhaseTimes& phases : run.phases_ns) {
     if (const auto found = phases.find("run"); found != phases.end()) result.push_back(found->second);
   }
   return result;
 }
 
-std::vector<std::int64_t> step_times(const RunRecord& run, const std::vector<std::string>& parts) {
+std::vector<std::int64_t> step_times(const record::RunRecord& run, const std::vector<std::string>& parts) {
   std::vector<std::int64_t> result;
-  for (const PhaseTimes& phases : run.phases_ns) {
+  for (const record::PhaseTimes& phases : run.phases_ns) {
     bool told = false;
     std::int64_t sum = 0;
     for (const auto& [phase, time] : phases) {
@@ -61,15 +62,15 @@ std::vector<std::int64_t> step_times(const RunRecord& run, const std::vector<std
   return result;
 }
 
-std::optional<double> metric(const RunRecord& run, const std::string& name) {
+std::optional<double> metric(const record::RunRecord& run, const std::string& name) {
   const auto found = run.metrics.find(name);
   if (found == run.metrics.end() || !found->is_number()) return std::nullopt;
   return found->get<double>();
 }
 
-std::vector<double> all_values(const std::vector<const RunRecord*>& runs, const std::string& name) {
+std::vector<double> all_values(const std::vector<const record::RunRecord*>& runs, const std::string& name) {
   std::vector<double> result;
-  for (const RunRecord* run : runs) {
+  for (const record::RunRecord* run : runs) {
     if (const auto value = metric(*run, name)) result.push_back(*value);
   }
   return result;
@@ -117,14 +118,14 @@ std::string no_times_sentence(const std::set<std::string>& machines, const std::
 Measurements::Measurements(const nlohmann::json& report)
     : why_no_times_(no_times_sentence(machines_of(report), builds_of(report))) {
   for (const nlohmann::json& line : report.at("runs")) {
-    RunRecord& run = runs_.emplace_back(line.get<RunRecord>());
+    record::RunRecord& run = runs_.emplace_back(line.get<record::RunRecord>());
     if (has_times()) continue;
     run.time_ns.clear();
     run.phases_ns.clear();
   }
   std::map<std::string, std::size_t> first_seen;  // by data set
   for (std::size_t position = 0; position < runs_.size(); ++position) {
-    const RunRecord& run = runs_[position];
+    const record::RunRecord& run = runs_[position];
     const Case which{run.dataset, run.holes, run.n};
     index_[{run.method, run.protocol, which}].push_back(position);
     first_seen.emplace(run.dataset, position);
@@ -137,13 +138,14 @@ Measurements::Measurements(const nlohmann::json& report)
   cases_.erase(std::unique(cases_.begin(), cases_.end()), cases_.end());
 }
 
-std::vector<const RunRecord*> Measurements::find(const std::string& method, const std::string& protocol,
-                                                 const Case& which) const {
-  std::vector<const RunRecord*> result;
+std::vector<const record::RunRecord*> Measurements::find(const std::string& method,
+                                                         const std::string& protocol,
+                                                         const Case& which) const {
+  std::vector<const record::RunRecord*> result;
   const auto found = index_.find({method, protocol, which});
   if (found == index_.end()) return result;
   for (const std::size_t position : found->second) result.push_back(&runs_[position]);
   return result;
 }
 
-}  // namespace hullbench
+}  // namespace hullbench::report

@@ -13,7 +13,7 @@
 
 #include "benchmarks/record/record.hpp"
 
-namespace hullbench {
+namespace hullbench::report {
 
 /// What a method was run on.
 struct Case {
@@ -39,33 +39,33 @@ enum class Boundary {
 
 /// Whether the run gave a result that is believed: status ok and a valid multipolygon. Whether it has times
 /// is another question (see Measurements).
-bool is_measured(const RunRecord& run);
+bool is_measured(const record::RunRecord& run);
 
 /// Whether the run gave a result that is not a valid multipolygon.
-bool is_invalid(const RunRecord& run);
+bool is_invalid(const record::RunRecord& run);
 
 /// Whether none of `runs` was tried: there is none, or the method is not installed.
-bool is_missing(const std::vector<const RunRecord*>& runs);
+bool is_missing(const std::vector<const record::RunRecord*>& runs);
 
 /// The first of `runs` that gave no result to be believed; null when there is none.
-const RunRecord* first_failure(const std::vector<const RunRecord*>& runs);
+const record::RunRecord* first_failure(const std::vector<const record::RunRecord*>& runs);
 
 /// Whether the result's l2 is above that of the convex hull of its points, which every method should beat. Of
 /// the hull itself it is the same but for rounding.
-bool is_worse_than_convex_hull(const RunRecord& run);
+bool is_worse_than_convex_hull(const record::RunRecord& run);
 
 /// Nanoseconds of every repetition.
-std::vector<std::int64_t> times(const RunRecord& run, Boundary boundary);
+std::vector<std::int64_t> times(const record::RunRecord& run, Boundary boundary);
 
 /// Nanoseconds of a step in every repetition: the sum of its `parts`, whichever phase they belong to
 /// ("run.polygon" and "extract.polygon" for the part "polygon"). Empty when a repetition has none of them.
-std::vector<std::int64_t> step_times(const RunRecord& run, const std::vector<std::string>& parts);
+std::vector<std::int64_t> step_times(const record::RunRecord& run, const std::vector<std::string>& parts);
 
 /// A number among the metrics; empty when it is absent or null.
-std::optional<double> metric(const RunRecord& run, const std::string& name);
+std::optional<double> metric(const record::RunRecord& run, const std::string& name);
 
 /// That number of each of `runs` that has it.
-std::vector<double> all_values(const std::vector<const RunRecord*>& runs, const std::string& name);
+std::vector<double> all_values(const std::vector<const record::RunRecord*>& runs, const std::string& name);
 
 /// The machines on which the rows of `report` that have times were measured.
 std::set<std::string> machines_of(const nlohmann::json& report);
@@ -86,7 +86,7 @@ class Measurements {
   /// `report` needs only its member `runs`. Throws what from_json of a record throws.
   explicit Measurements(const nlohmann::json& report);
 
-  const std::vector<RunRecord>& runs() const { return runs_; }
+  const std::vector<record::RunRecord>& runs() const { return runs_; }
 
   /// Why there are no times: one sentence when the runs were measured on several machines or with several
   /// builds, whose times no table or claim may mix. Empty when there are times.
@@ -94,8 +94,8 @@ class Measurements {
   bool has_times() const { return why_no_times_.empty(); }
 
   /// The runs of that method, protocol and case; none when there are none.
-  std::vector<const RunRecord*> find(const std::string& method, const std::string& protocol,
-                                     const Case& which) const;
+  std::vector<const record::RunRecord*> find(const std::string& method, const std::string& protocol,
+                                             const Case& which) const;
 
   /// All cases that occur, ordered by data set (as they first occur), without holes before with holes, then
   /// n.
@@ -108,10 +108,10 @@ class Measurements {
     Case which;
     auto operator<=>(const Key&) const = default;  // NOLINT(modernize-use-nullptr): as above
   };
-  std::vector<RunRecord> runs_;
+  std::vector<record::RunRecord> runs_;
   std::string why_no_times_;
   std::map<Key, std::vector<std::size_t>> index_;  ///< positions in runs_
   std::vector<Case> cases_;
 };
 
-}  // namespace hullbench
+}  // namespace hullbench::report

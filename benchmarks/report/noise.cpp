@@ -2,22 +2,22 @@
 
 #include "benchmarks/statistics/statistics.hpp"
 
-namespace hullbench {
+namespace hullbench::report {
 
 bool Noise::is_noisy() const {
   return median_spread > kNoisySpread;
 }
 
-std::optional<Noise> measure_noise(const std::vector<RunRecord>& runs) {
+std::optional<Noise> measure_noise(const std::vector<record::RunRecord>& runs) {
   constexpr std::size_t kFewest = 3;
   std::vector<double> spreads;
-  for (const RunRecord& run : runs) {
+  for (const record::RunRecord& run : runs) {
     if (run.time_ns.size() < kFewest) continue;
-    const double middle = median(run.time_ns);
-    if (middle > 0) spreads.push_back(median_absolute_deviation(run.time_ns) / middle);
+    const double middle = statistics::median(run.time_ns);
+    if (middle > 0) spreads.push_back(statistics::median_absolute_deviation(run.time_ns) / middle);
   }
   if (spreads.empty()) return std::nullopt;
-  return Noise{spreads.size(), median(spreads), quantile(spreads, 0.9)};
+  return Noise{spreads.size(), statistics::median(spreads), statistics::quantile(spreads, 0.9)};
 }
 
-}  // namespace hullbench
+}  // namespace hullbench::report

@@ -7,7 +7,7 @@
 
 #include "benchmarks/record/record.hpp"
 
-namespace hullbench {
+namespace hullbench::report {
 
 /// The spread of a row is the median absolute deviation of its times (run + extract) over their median.
 struct Noise {
@@ -22,6 +22,6 @@ struct Noise {
 inline constexpr double kNoisySpread = 0.03;
 
 /// Empty when no row has 3 repetitions.
-std::optional<Noise> measure_noise(const std::vector<RunRecord>& runs);
+std::optional<Noise> measure_noise(const std::vector<record::RunRecord>& runs);
 
-}  // namespace hullbench
+}  // namespace hullbench::report

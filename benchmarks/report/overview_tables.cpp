@@ -9,7 +9,7 @@
 #include "benchmarks/report/labels.hpp"
 #include "benchmarks/report/table_context.hpp"
 
-namespace hullbench {
+namespace hullbench::report {
 namespace {
 
 using nlohmann::json;
@@ -156,11 +156,11 @@ std::string label_in(const std::vector<json>& reports, const Line& line) {
 
 }  // namespace
 
-TableSection methods_table(const std::vector<json>& reports) {
-  TableSection section{
+table::TableSection methods_table(const std::vector<json>& reports) {
+  table::TableSection section{
       "methods",
       "Methods: what each returns",
-      TextTable({"Method", "The library returns", "Holes", "Several polygons", "Version", "Licence"}),
+      table::TextTable({"Method", "The library returns", "Holes", "Several polygons", "Version", "Licence"}),
       {}};
   std::set<std::string> seen;
   for (const json& report : reports) {
@@ -174,11 +174,12 @@ TableSection methods_table(const std::vector<json>& reports) {
   return section;
 }
 
-TableSection parameters_table(const std::vector<json>& reports) {
+table::TableSection parameters_table(const std::vector<json>& reports) {
   const std::vector<Column> columns = columns_of(reports);
   std::vector<std::string> header = {"Method", "Parameter"};
   for (const Column& column : columns) header.push_back(column.title);
-  TableSection section{"parameters", "Parameters of the experiments", TextTable(std::move(header)), {}};
+  table::TableSection section{
+      "parameters", "Parameters of the experiments", table::TextTable(std::move(header)), {}};
   for (const auto& [line, parameter] : parameter_lines(reports)) {
     std::vector<std::string> cells = {label_in(reports, line), parameter};
     for (const Column& column : columns) cells.push_back(cell_text(column, line, parameter));
@@ -192,4 +193,4 @@ TableSection parameters_table(const std::vector<json>& reports) {
   return section;
 }
 
-}  // namespace hullbench
+}  // namespace hullbench::report

@@ -6,16 +6,16 @@
 
 #include "benchmarks/table/document.hpp"
 
-namespace hullbench {
+namespace hullbench::report {
 
 /// A line a method of any of `reports`: what its library returns, whether its result may have holes and
 /// several polygons (its adapter's capability flags), version and licence. A method that never started has
 /// dashes.
-TableSection methods_table(const std::vector<nlohmann::json>& reports);
+table::TableSection methods_table(const std::vector<nlohmann::json>& reports);
 
 /// A line a parameter of a method with a protocol that was run, and a column an experiment of `reports`, or a
 /// data set where a plan gives values case by case: what the plan gives, a rule by its formula. Without text:
 /// the method is not in it.
-TableSection parameters_table(const std::vector<nlohmann::json>& reports);
+table::TableSection parameters_table(const std::vector<nlohmann::json>& reports);
 
-}  // namespace hullbench
+}  // namespace hullbench::report

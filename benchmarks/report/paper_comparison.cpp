@@ -3,14 +3,14 @@
 #include <algorithm>
 #include <set>
 
+#include "benchmarks/base/number_format.hpp"
 #include "benchmarks/report/claims.hpp"
 #include "benchmarks/report/collection_tables.hpp"
 #include "benchmarks/report/group_values.hpp"
-#include "benchmarks/base/number_format.hpp"
-#include "benchmarks/statistics/statistics.hpp"
 #include "benchmarks/report/table_context.hpp"
+#include "benchmarks/statistics/statistics.hpp"
 
-namespace hullbench {
+namespace hullbench::report {
 namespace {
 
 using nlohmann::json;
@@ -54,7 +54,7 @@ std::optional<double> step_time(const TableContext& context, const std::string& 
   const std::vector<std::int64_t> values =
       step == nullptr ? all_times(runs, Boundary::kPaper) : all_step_times(runs, *step);
   if (values.empty()) return std::nullopt;
-  return median(values) / 1e6;
+  return statistics::median(values) / 1e6;
 }
 
 void compare_steps(const TableContext& context, std::vector<Comparison>& comparisons) {
@@ -127,12 +127,12 @@ std::optional<std::string> reason_of(const Comparison& comparison) {
   return std::nullopt;
 }
 
-TableSection differences_table(const std::vector<json>& reports) {
-  TableSection section{"differences",
-                       "What differs from the paper and why",
-                       TextTable({"Value", "Paper", "Here", "Here / paper", "Reason"}),
-                       {}};
-  Notes reasons;
+table::TableSection differences_table(const std::vector<json>& reports) {
+  table::TableSection section{"differences",
+                              "What differs from the paper and why",
+                              table::TextTable({"Value", "Paper", "Here", "Here / paper", "Reason"}),
+                              {}};
+  table::Notes reasons;
   // Reports of one machine and build each are still of several in this one table.
   std::set<std::string> machines;
   std::set<std::string> builds;
@@ -166,4 +166,4 @@ TableSection differences_table(const std::vector<json>& reports) {
   return section;
 }
 
-}  // namespace hullbench
+}  // namespace hullbench::report

@@ -8,7 +8,7 @@
 
 #include "benchmarks/table/document.hpp"
 
-namespace hullbench {
+namespace hullbench::report {
 
 /// One published value beside the same of a run.
 struct Comparison {
@@ -35,6 +35,6 @@ std::optional<std::string> reason_of(const Comparison& comparison);
 
 /// One section of all comparisons of `reports`: value, paper, here, ratio, and of every large difference the
 /// reason, or that none is known. Without rows when the reports share nothing with the paper's tables.
-TableSection differences_table(const std::vector<nlohmann::json>& reports);
+table::TableSection differences_table(const std::vector<nlohmann::json>& reports);
 
-}  // namespace hullbench
+}  // namespace hullbench::report

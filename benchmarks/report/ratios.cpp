@@ -11,15 +11,15 @@
 #include "benchmarks/base/number_format.hpp"
 #include "benchmarks/statistics/statistics.hpp"
 
-namespace hullbench {
+namespace hullbench::report {
 namespace {
 
-using Runs = std::vector<const RunRecord*>;
+using Runs = std::vector<const record::RunRecord*>;
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 /// The round of each repetition; of older records, which do not tell it, its position.
-std::vector<std::int64_t> rounds_of(const RunRecord& run) {
+std::vector<std::int64_t> rounds_of(const record::RunRecord& run) {
   if (run.rounds.size() == run.time_ns.size()) return run.rounds;
   std::vector<std::int64_t> rounds(run.time_ns.size());
   for (std::size_t i = 0; i < rounds.size(); ++i) rounds[i] = static_cast<std::int64_t>(i);
@@ -27,10 +27,10 @@ std::vector<std::int64_t> rounds_of(const RunRecord& run) {
 }
 
 /// The ratios of a case by pass, one a round that both have.
-Passes round_ratios(const Runs& runs, const Runs& references) {
+statistics::Passes round_ratios(const Runs& runs, const Runs& references) {
   std::map<std::int64_t, std::vector<double>> by_pass;
-  for (const RunRecord* run : runs) {
-    const RunRecord* reference = counterpart(*run, references);
+  for (const record::RunRecord* run : runs) {
+    const record::RunRecord* reference = counterpart(*run, references);
     if (reference == nullptr) continue;
     std::map<std::int64_t, std::int64_t> beside;  // the reference's time by round
     const std::vector<std::int64_t> reference_rounds = rounds_of(*reference);
@@ -44,32 +44,32 @@ Passes round_ratios(const Runs& runs, const Runs& references) {
       by_pass[pass].push_back(static_cast<double>(run->time_ns[i]) / static_cast<double>(other->second));
     }
   }
-  Passes passes;
+  statistics::Passes passes;
   for (auto& [pass, ratios] : by_pass) passes.push_back(std::move(ratios));
   return passes;
 }
 
-Passes metric_ratio(const Runs& runs, const Runs& references, const std::string& name) {
+statistics::Passes metric_ratio(const Runs& runs, const Runs& references, const std::string& name) {
   const std::vector<double> ours = all_values(runs, name);
   const std::vector<double> theirs = all_values(references, name);
   if (ours.empty() || theirs.empty()) return {};
-  const double by = median(std::span<const double>(theirs));
+  const double by = statistics::median(std::span<const double>(theirs));
   if (by <= 0) return {};
-  return {{median(std::span<const double>(ours)) / by}};
+  return {{statistics::median(std::span<const double>(ours)) / by}};
 }
 
-double median_of_all(const Passes& passes) {
+double median_of_all(const statistics::Passes& passes) {
   std::vector<double> values;
   for (const auto& pass : passes) values.insert(values.end(), pass.begin(), pass.end());
-  return median(std::span<const double>(values));
+  return statistics::median(std::span<const double>(values));
 }
 
 /// `ratio_of` gives the ratios of a case that both solved.
 Ratios ratios_over(const Measurements& measurements, const Line& line, const Line& reference,
                    const std::vector<Case>& cases,
-                   const std::function<Passes(const Runs&, const Runs&)>& ratio_of) {
+                   const std::function<statistics::Passes(const Runs&, const Runs&)>& ratio_of) {
   Ratios result;
-  std::map<std::pair<std::string, bool>, std::vector<Passes>> by_shape;
+  std::map<std::pair<std::string, bool>, std::vector<statistics::Passes>> by_shape;
   std::vector<double> middles;
   for (const Case& which : cases) {
     const Runs ours = measurements.find(line.method, line.protocol, which);
@@ -78,7 +78,9 @@ Ratios ratios_over(const Measurements& measurements, const Line& line, const Lin
     const bool failed = first_failure(ours) != nullptr;
     const bool reference_failed = first_failure(theirs) != nullptr;
     if (failed && reference_failed) continue;
-    Passes passes = failed ? Passes{{kInfinity}} : reference_failed ? Passes{{0}} : ratio_of(ours, theirs);
+    statistics::Passes passes = failed             ? statistics::Passes{{kInfinity}}
+                                : reference_failed ? statistics::Passes{{0}}
+                                                   : ratio_of(ours, theirs);
     if (passes.empty()) continue;
     ++result.cases;
     result.failures += failed ? 1 : 0;
@@ -86,12 +88,12 @@ Ratios ratios_over(const Measurements& measurements, const Line& line, const Lin
     by_shape[{which.dataset, which.holes}].push_back(std::move(passes));
   }
   if (middles.empty()) return result;
-  result.median = median(std::span<const double>(middles));
+  result.median = statistics::median(std::span<const double>(middles));
   std::tie(result.least, result.most) = std::pair(*std::min_element(middles.begin(), middles.end()),
                                                   *std::max_element(middles.begin(), middles.end()));
-  std::vector<std::vector<Passes>> clusters;
+  std::vector<std::vector<statistics::Passes>> clusters;
   for (auto& [shape, values] : by_shape) clusters.push_back(std::move(values));
-  result.interval = nested_median_interval(clusters);
+  result.interval = statistics::nested_median_interval(clusters);
   return result;
 }
 
@@ -110,8 +112,9 @@ Ratios metric_ratios(const Measurements& measurements, const Line& line, const L
   });
 }
 
-const RunRecord* counterpart(const RunRecord& run, const std::vector<const RunRecord*>& references) {
-  const auto found = std::find_if(references.begin(), references.end(), [&](const RunRecord* other) {
+const record::RunRecord* counterpart(const record::RunRecord& run,
+                                     const std::vector<const record::RunRecord*>& references) {
+  const auto found = std::find_if(references.begin(), references.end(), [&](const record::RunRecord* other) {
     return other->dataset_sha256 == run.dataset_sha256 && other->seed == run.seed;
   });
   return found == references.end() ? nullptr : *found;
@@ -121,11 +124,11 @@ std::string ratio_text(double ratio) {
   return std::isinf(ratio) ? "∞" : three_digits(ratio);
 }
 
-std::string interval_text(const std::optional<Interval>& interval) {
+std::string interval_text(const std::optional<statistics::Interval>& interval) {
   if (!interval) return "–";
   if (std::isinf(interval->low)) return "∞";
   return std::isinf(interval->high) ? "> " + three_digits(interval->low)
                                     : three_digits(interval->low) + "–" + three_digits(interval->high);
 }
 
-}  // namespace hullbench
+}  // namespace hullbench::report

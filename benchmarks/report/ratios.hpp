@@ -7,21 +7,22 @@
 #include <string>
 #include <vector>
 
-#include "benchmarks/statistics/bootstrap.hpp"
 #include "benchmarks/report/measurements.hpp"
+#include "benchmarks/statistics/bootstrap.hpp"
 
-namespace hullbench {
+namespace hullbench::report {
 
 /// A line's values over a reference's. A case's ratio of times is the median over the rounds that both were
 /// measured in: a slow phase of the machine is then in both. A case on which the line failed and the
 /// reference did not has the ratio infinity, one the other way round 0, and one on which both failed none.
 struct Ratios {
-  std::size_t cases = 0;             ///< that have a ratio
-  std::size_t failures = 0;          ///< of these the line's; a method that is not installed has none
-  std::optional<double> median;      ///< of the cases; may be infinite
-  std::optional<Interval> interval;  ///< of the median, nested (bootstrap.hpp); its ends may be infinite
-  double least = 0;                  ///< 0 without a case
-  double most = 0;                   ///< may be infinite
+  std::size_t cases = 0;         ///< that have a ratio
+  std::size_t failures = 0;      ///< of these the line's; a method that is not installed has none
+  std::optional<double> median;  ///< of the cases; may be infinite
+  std::optional<statistics::Interval>
+      interval;      ///< of the median, nested (bootstrap.hpp); its ends may be infinite
+  double least = 0;  ///< 0 without a case
+  double most = 0;   ///< may be infinite
 };
 
 /// Ratios of the times of equal work. None without times.
@@ -34,11 +35,12 @@ Ratios metric_ratios(const Measurements& measurements, const Line& line, const L
                      const std::vector<Case>& cases, const std::string& metric);
 
 /// Of `references` the run on the same points as `run`; null when there is none.
-const RunRecord* counterpart(const RunRecord& run, const std::vector<const RunRecord*>& references);
+const record::RunRecord* counterpart(const record::RunRecord& run,
+                                     const std::vector<const record::RunRecord*>& references);
 
 /// "1.23", or "∞".
 std::string ratio_text(double ratio);
 /// "1.20–1.31", "> 1.20" when the upper end is infinite, "∞" when both are, or a dash for none.
-std::string interval_text(const std::optional<Interval>& interval);
+std::string interval_text(const std::optional<statistics::Interval>& interval);
 
-}  // namespace hullbench
+}  // namespace hullbench::report

@@ -8,10 +8,10 @@
 #include <string_view>
 
 #include "benchmarks/report/documents.hpp"
-#include "benchmarks/table/document.hpp"
 #include "benchmarks/report/measurements.hpp"
+#include "benchmarks/table/document.hpp"
 
-namespace hullbench {
+namespace hullbench::report {
 namespace {
 
 using nlohmann::json;
@@ -36,9 +36,9 @@ constexpr std::array<std::string_view, 15> kShown = {"states_ca_holes_time",
                                                      "methods",
                                                      "parameters"};
 
-const TableSection* find_table(const std::vector<Document>& documents, std::string_view id) {
-  for (const Document& document : documents) {
-    for (const TableSection& section : document.tables) {
+const table::TableSection* find_table(const std::vector<table::Document>& documents, std::string_view id) {
+  for (const table::Document& document : documents) {
+    for (const table::TableSection& section : document.tables) {
       if (section.id == id) return &section;
     }
   }
@@ -46,12 +46,12 @@ const TableSection* find_table(const std::vector<Document>& documents, std::stri
 }
 
 /// The marks in its cells refer to notes that are not here.
-TextTable without_marks(const TextTable& table) {
+table::TextTable without_marks(const table::TextTable& table) {
   const auto plain = [](std::vector<std::string> row) {
-    for (std::string& cell : row) cell = hullbench::without_marks(cell);
+    for (std::string& cell : row) cell = hullbench::table::without_marks(cell);
     return row;
   };
-  TextTable result(plain(table.rows().front()));
+  table::TextTable result(plain(table.rows().front()));
   for (std::size_t row = 1; row < table.rows().size(); ++row) result.add_row(plain(table.rows()[row]));
   return result;
 }
@@ -69,7 +69,7 @@ std::size_t place_of(const std::string& text, std::string_view mark) {
 
 std::string readme_results(const std::vector<json>& reports, const std::string& folder) {
   if (reports.empty()) throw std::runtime_error("there is no run in " + folder + " yet; measure it first");
-  const std::vector<Document> documents = make_documents(reports);
+  const std::vector<table::Document> documents = make_documents(reports);
   std::size_t runs = 0;
   for (const json& report : reports) runs += report.at("runs").size();
   std::ostringstream out;
@@ -78,19 +78,19 @@ std::string readme_results(const std::vector<json>& reports, const std::string& 
       << " runs, " << reports.size() << (reports.size() == 1 ? " experiment" : " experiments")
       << ".\nAll of its tables are in [" << folder << "/tables.md](" << folder << "/tables.md).\n";
   for (const std::string_view id : kShown) {
-    const TableSection* section = find_table(documents, id);
+    const table::TableSection* section = find_table(documents, id);
     if (section == nullptr) continue;
     out << "\n### " << section->caption << "\n\n";
-    print_markdown(without_marks(section->table), out);
+    table::print_markdown(without_marks(section->table), out);
     if (!section->remarks.empty()) out << '\n';
-    for (const std::string& remark : section->remarks) print_item(remark, out);
+    for (const std::string& remark : section->remarks) table::print_item(remark, out);
   }
   out << "\n### How these numbers were taken\n\n";
   std::set<std::string> without_times;
   for (const json& report : reports) without_times.insert(Measurements(report).why_no_times());
   without_times.erase("");
-  for (const std::string& note : without_times) print_item(note, out);
-  for (const std::string& note : documents.back().common_notes) print_item(note, out);
+  for (const std::string& note : without_times) table::print_item(note, out);
+  for (const std::string& note : documents.back().common_notes) table::print_item(note, out);
   return out.str();
 }
 
@@ -102,4 +102,4 @@ std::string with_results(const std::string& readme, const std::string& results) 
   return readme.substr(0, begin) + results + readme.substr(end);
 }
 
-}  // namespace hullbench
+}  // namespace hullbench::report

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-namespace hullbench {
+namespace hullbench::report {
 
 /// What stands between the marks: where the numbers are from, the tables that a reader wants first, and the
 /// notes. `folder`: how the README calls the run's folder. Throws std::runtime_error when `reports` is empty.
@@ -15,4 +15,4 @@ std::string readme_results(const std::vector<nlohmann::json>& reports, const std
 /// std::runtime_error when it has not both, each once, in this order.
 std::string with_results(const std::string& readme, const std::string& results);
 
-}  // namespace hullbench
+}  // namespace hullbench::report

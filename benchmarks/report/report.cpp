@@ -11,23 +11,23 @@
 #include <vector>
 
 #include "benchmarks/base/files.hpp"
-#include "benchmarks/report/claims.hpp"
-#include "benchmarks/report/headline.hpp"
 #include "benchmarks/record/json_lines.hpp"
-#include "benchmarks/report/measurements.hpp"
-#include "benchmarks/report/noise.hpp"
 #include "benchmarks/record/record.hpp"
 #include "benchmarks/record/stored_run.hpp"
+#include "benchmarks/report/claims.hpp"
+#include "benchmarks/report/headline.hpp"
+#include "benchmarks/report/measurements.hpp"
+#include "benchmarks/report/noise.hpp"
 #include "benchmarks/statistics/statistics.hpp"
 
-namespace hullbench {
+namespace hullbench::report {
 namespace {
 
 using nlohmann::json;
 
 json statistics_to_json(const std::vector<std::int64_t>& values) {
   if (values.empty()) return nullptr;
-  const Statistics statistics = describe(values);
+  const statistics::Statistics statistics = describe(values);
   const auto& deviation = statistics.standard_deviation;
   const auto& interval = statistics.median_interval;
   return {{"repetitions", statistics.count},
@@ -46,7 +46,7 @@ json metric_or_null(const json& metrics, const char* name) {
   return found == metrics.end() ? json(nullptr) : *found;
 }
 
-json summary_row(const RunRecord& run) {
+json summary_row(const record::RunRecord& run) {
   return {{"id", run.id},
           {"name", run.name},
           {"status", to_string(run.status)},
@@ -58,17 +58,17 @@ json summary_row(const RunRecord& run) {
           {"valid", metric_or_null(run.metrics, "valid")}};
 }
 
-json totals(const std::vector<RunRecord>& runs) {
+json totals(const std::vector<record::RunRecord>& runs) {
   json result = json::object();
-  for (const Status status : kAllStatuses) result[to_string(status)] = 0;
-  for (const RunRecord& run : runs) {
+  for (const record::Status status : record::kAllStatuses) result[to_string(status)] = 0;
+  for (const record::RunRecord& run : runs) {
     json& count = result[to_string(run.status)];
     count = count.get<int>() + 1;
   }
   return result;
 }
 
-json noise_to_json(const std::vector<RunRecord>& runs) {
+json noise_to_json(const std::vector<record::RunRecord>& runs) {
   const std::optional<Noise> noise = measure_noise(runs);
   if (!noise) return nullptr;
   return {{"rows", noise->rows},
@@ -80,9 +80,9 @@ json noise_to_json(const std::vector<RunRecord>& runs) {
 }  // namespace
 
 json make_summary(const json& report) {
-  const auto runs = report.at("runs").get<std::vector<RunRecord>>();
+  const auto runs = report.at("runs").get<std::vector<record::RunRecord>>();
   json rows = json::array();
-  for (const RunRecord& run : runs) rows.push_back(summary_row(run));
+  for (const record::RunRecord& run : runs) rows.push_back(summary_row(run));
   return {{"totals", totals(runs)},
           {"noise", noise_to_json(runs)},
           {"rows", rows},
@@ -91,14 +91,14 @@ json make_summary(const json& report) {
 }
 
 json make_report(const std::filesystem::path& run_directory) {
-  json report = load_run(run_directory);
+  json report = record::load_run(run_directory);
   report["summary"] = make_summary(report);
   return report;
 }
 
 std::vector<json> suite_reports(const std::filesystem::path& folder) {
   std::vector<json> reports;
-  for (const std::filesystem::path& run : suite_runs(folder)) reports.push_back(make_report(run));
+  for (const std::filesystem::path& run : record::suite_runs(folder)) reports.push_back(make_report(run));
   return reports;
 }
 
@@ -121,4 +121,4 @@ void write_report_file(const std::filesystem::path& path, const json& report) {
   write_text_file(path, text + "\n");
 }
 
-}  // namespace hullbench
+}  // namespace hullbench::report

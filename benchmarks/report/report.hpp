@@ -5,7 +5,7 @@
 #include <nlohmann/json.hpp>
 #include <vector>
 
-namespace hullbench {
+namespace hullbench::report {
 
 /// The report of a run directory: `run.json` (schema_version, tool, plan, seed, filter, repetitions,
 /// datasets, methods, environment, created) with the lines of `runs.jsonl`, or `runs.jsonl.xz`, as `runs`,
@@ -27,4 +27,4 @@ nlohmann::json make_summary(const nlohmann::json& report);
 /// there may be many thousands.
 void write_report_file(const std::filesystem::path& path, const nlohmann::json& report);
 
-}  // namespace hullbench
+}  // namespace hullbench::report

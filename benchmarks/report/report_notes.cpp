@@ -1,4 +1,3 @@
-#include "benchmarks/base/words.hpp"
 #include "benchmarks/report/report_notes.hpp"
 
 #include <algorithm>
@@ -9,23 +8,24 @@
 #include <string>
 #include <utility>
 
+#include "benchmarks/base/number_format.hpp"
+#include "benchmarks/base/words.hpp"
 #include "benchmarks/report/claims.hpp"
 #include "benchmarks/report/labels.hpp"
 #include "benchmarks/report/noise.hpp"
-#include "benchmarks/base/number_format.hpp"
 #include "benchmarks/report/table_context.hpp"
 #include "benchmarks/table/text_table.hpp"
 
-namespace hullbench {
+namespace hullbench::report {
 namespace {
 
 using nlohmann::json;
 using Sentences = std::vector<std::string>;
 
 /// " in 3 passes" where the records tell more than one.
-std::string passes_text(const std::vector<RunRecord>& runs) {
+std::string passes_text(const std::vector<record::RunRecord>& runs) {
   std::int64_t passes = 1;
-  for (const RunRecord& run : runs) {
+  for (const record::RunRecord& run : runs) {
     for (const std::int64_t pass : run.passes) passes = std::max(passes, pass);
   }
   return passes == 1 ? "" : " in " + std::to_string(passes) + " passes";
@@ -76,20 +76,20 @@ void add_how_to_read(bool times, Sentences& notes) {
       "multipolygon. A dash: not run or not defined.");
 }
 
-void add_paper_notes(const std::vector<RunRecord>& runs, Sentences& notes) {
+void add_paper_notes(const std::vector<record::RunRecord>& runs, Sentences& notes) {
   if (std::none_of(runs.begin(), runs.end(),
-                   [](const RunRecord& run) { return paper().at("protocol") == run.protocol; })) {
+                   [](const record::RunRecord& run) { return paper().at("protocol") == run.protocol; })) {
     return;
   }
   for (const json& note : paper().at("notes")) notes.push_back(note.get<std::string>());
 }
 
-void add_plan_notes(const json& report, const std::vector<RunRecord>& runs, Sentences& notes) {
+void add_plan_notes(const json& report, const std::vector<record::RunRecord>& runs, Sentences& notes) {
   const json& plan = report.at("plan");
   for (const json& note : plan.value("notes", json::array())) notes.push_back(note.get<std::string>());
   for (const json& method : plan.value("methods", json::array())) {
     const std::string note = method.value("note", "");
-    const bool has_row = std::any_of(runs.begin(), runs.end(), [&](const RunRecord& run) {
+    const bool has_row = std::any_of(runs.begin(), runs.end(), [&](const record::RunRecord& run) {
       return run.method == method.value("method", "") && run.protocol == method.value("protocol", "");
     });
     if (note.empty() || !has_row) continue;
@@ -99,11 +99,12 @@ void add_plan_notes(const json& report, const std::vector<RunRecord>& runs, Sent
 }
 
 /// Methods that are missing and have no row that could say so.
-void add_missing_methods(const json& report, const std::vector<RunRecord>& runs, Sentences& notes) {
+void add_missing_methods(const json& report, const std::vector<record::RunRecord>& runs, Sentences& notes) {
   for (const json& method : report.at("methods")) {
     if (method.value("installed", true)) continue;
     const std::string name = method.at("name").get<std::string>();
-    if (std::any_of(runs.begin(), runs.end(), [&](const RunRecord& run) { return run.method == name; }))
+    if (std::any_of(runs.begin(), runs.end(),
+                    [&](const record::RunRecord& run) { return run.method == name; }))
       continue;
     notes.push_back(not_installed_text(report, method_title(report, name), name, method.value("detail", "")));
   }
@@ -137,7 +138,7 @@ std::string percent(double part) {
   return three_digits(100 * part) + " %";
 }
 
-void add_noise(const json& report, const std::vector<RunRecord>& runs, Sentences& notes) {
+void add_noise(const json& report, const std::vector<record::RunRecord>& runs, Sentences& notes) {
   const std::optional<Noise> noise = measure_noise(runs);
   if (!noise) return;
   const json& load = report.at("environment").at("load_average");
@@ -152,14 +153,14 @@ void add_noise(const json& report, const std::vector<RunRecord>& runs, Sentences
                   ".");
 }
 
-void add_too_fast(const std::vector<RunRecord>& runs, Sentences& notes) {
+void add_too_fast(const std::vector<record::RunRecord>& runs, Sentences& notes) {
   std::string names;
-  for (const RunRecord& run : runs) {
-    if (std::count(run.flags.begin(), run.flags.end(), kFasterThanFloor) > 0)
+  for (const record::RunRecord& run : runs) {
+    if (std::count(run.flags.begin(), run.flags.end(), record::kFasterThanFloor) > 0)
       names += (names.empty() ? "" : ", ") + run.name;
   }
   if (names.empty()) return;
-  notes.push_back("Faster than " + three_digits(kFloorNsPerPoint) +
+  notes.push_back("Faster than " + three_digits(record::kFloorNsPerPoint) +
                   " ns a point, which no method can be, so do not believe these times: " + names + ".");
 }
 
@@ -168,18 +169,18 @@ std::string of_rows(std::size_t count, std::size_t rows) {
 }
 
 /// How many rows were taken while the machine was in another state than usual.
-void add_unsteady(const std::vector<RunRecord>& runs, Sentences& notes) {
+void add_unsteady(const std::vector<record::RunRecord>& runs, Sentences& notes) {
   std::size_t timed = 0;
   std::size_t again = 0;
   std::size_t unsteady = 0;
-  const auto has = [](const RunRecord& run, const char* flag) {
+  const auto has = [](const record::RunRecord& run, const char* flag) {
     return std::find(run.flags.begin(), run.flags.end(), flag) != run.flags.end();
   };
-  for (const RunRecord& run : runs) {
+  for (const record::RunRecord& run : runs) {
     if (run.time_ns.empty()) continue;
     ++timed;
-    again += has(run, kRemeasuredRound) ? 1U : 0U;
-    unsteady += has(run, kUnsteadyMachine) ? 1U : 0U;
+    again += has(run, record::kRemeasuredRound) ? 1U : 0U;
+    unsteady += has(run, record::kUnsteadyMachine) ? 1U : 0U;
   }
   if (again > 0)
     notes.push_back("The machine's state was off in a round of " + of_rows(again, timed) +
@@ -190,9 +191,9 @@ void add_unsteady(const std::vector<RunRecord>& runs, Sentences& notes) {
 }
 
 /// Whose results are worse than the convex hull of the points.
-void add_worse_than_hull(const json& report, const std::vector<RunRecord>& runs, Sentences& notes) {
+void add_worse_than_hull(const json& report, const std::vector<record::RunRecord>& runs, Sentences& notes) {
   std::map<std::string, std::pair<std::size_t, std::size_t>> counts;  // by method: worse ones, results
-  for (const RunRecord& run : runs) {
+  for (const record::RunRecord& run : runs) {
     if (!is_measured(run)) continue;
     auto& [worse, results] = counts[method_label(report, run.method, run.protocol)];
     worse += is_worse_than_convex_hull(run) ? 1U : 0U;
@@ -231,7 +232,7 @@ void add_parts(const json& report, Sentences& notes) {
 
 void add_totals(const json& report, Sentences& notes) {
   std::string counts;
-  for (const Status status : kAllStatuses) {
+  for (const record::Status status : record::kAllStatuses) {
     const json& count = report.at("summary").at("totals").at(to_string(status));
     if (count != 0) counts += (counts.empty() ? "" : ", ") + count.dump() + " " + to_string(status);
   }
@@ -244,7 +245,7 @@ void add_totals(const json& report, Sentences& notes) {
 }  // namespace
 
 std::vector<std::string> run_notes(const json& report, const Measurements& measurements) {
-  const std::vector<RunRecord>& runs = measurements.runs();
+  const std::vector<record::RunRecord>& runs = measurements.runs();
   Sentences notes;
   if (measurements.has_times()) {
     add_repetitions(measurements, notes);
@@ -271,4 +272,4 @@ std::vector<std::string> common_notes(const json& report, const Measurements& me
   return notes;
 }
 
-}  // namespace hullbench
+}  // namespace hullbench::report

@@ -8,7 +8,7 @@
 
 #include "benchmarks/report/measurements.hpp"
 
-namespace hullbench {
+namespace hullbench::report {
 
 /// What is special to this run: the plan's notes, what is missing, how many rows ended how, one sentence or
 /// more a note; of a report without times why there are none. `measurements` are of `report`.
@@ -17,4 +17,4 @@ std::vector<std::string> run_notes(const nlohmann::json& report, const Measureme
 /// What holds for every run of a suite alike: how to read the tables, every machine, the build.
 std::vector<std::string> common_notes(const nlohmann::json& report, const Measurements& measurements);
 
-}  // namespace hullbench
+}  // namespace hullbench::report

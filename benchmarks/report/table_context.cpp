@@ -1,4 +1,3 @@
-#include "benchmarks/base/words.hpp"
 #include "benchmarks/report/table_context.hpp"
 
 #include <algorithm>
@@ -6,12 +5,13 @@
 #include <map>
 #include <utility>
 
-#include "benchmarks/report/labels.hpp"
 #include "benchmarks/base/number_format.hpp"
+#include "benchmarks/base/words.hpp"
+#include "benchmarks/report/labels.hpp"
 #include "benchmarks/report/report_notes.hpp"
 #include "benchmarks/statistics/statistics.hpp"
 
-namespace hullbench {
+namespace hullbench::report {
 namespace {
 
 using nlohmann::json;
@@ -20,27 +20,28 @@ constexpr std::array kProtocolOrder = {"paper", "default", "auto", "tuned", "ora
 /// "41.4 ±0.3": median and median absolute deviation in milliseconds, with the median's number of decimals.
 std::string time_cell(const std::vector<std::int64_t>& nanoseconds) {
   if (nanoseconds.empty()) return kNothing;
-  const double middle = median(nanoseconds) / 1e6;
+  const double middle = statistics::median(nanoseconds) / 1e6;
   const int decimals = decimals_of(middle);
-  return fixed(middle, decimals) + " ±" + fixed(median_absolute_deviation(nanoseconds) / 1e6, decimals);
+  return fixed(middle, decimals) + " ±" +
+         fixed(statistics::median_absolute_deviation(nanoseconds) / 1e6, decimals);
 }
 
 std::string percent(const std::vector<double>& values) {
   if (values.empty()) return kNothing;
-  const double value = 100 * median(std::span<const double>(values));
+  const double value = 100 * statistics::median(std::span<const double>(values));
   return fixed(value, value < 10 ? 2 : 1);
 }
 
 /// What happened to the runs of a line on one shape that failed in the same way.
 std::string failure_text(const TableContext& context, const Line& line, const std::string& name,
-                         const std::vector<const RunRecord*>& runs) {
-  const RunRecord& first = *runs.front();
-  if (first.status == Status::kNotInstalled) {
+                         const std::vector<const record::RunRecord*>& runs) {
+  const record::RunRecord& first = *runs.front();
+  if (first.status == record::Status::kNotInstalled) {
     return not_installed_text(context.report, label(context, line), line.method, first.detail);
   }
   std::string sizes;
-  for (const RunRecord* run : runs) sizes += (sizes.empty() ? "" : ", ") + std::to_string(run->n);
-  const std::string shape = hullbench::shape_title(context.report, first.dataset, first.holes);
+  for (const record::RunRecord* run : runs) sizes += (sizes.empty() ? "" : ", ") + std::to_string(run->n);
+  const std::string shape = hullbench::report::shape_title(context.report, first.dataset, first.holes);
   return label(context, line) + " on " + shape + ", n = " + sizes + ": " + name + ", " +
          sentence(first.detail);
 }
@@ -52,25 +53,26 @@ std::string label(const TableContext& context, const Line& line) {
 }
 
 std::string shape_title(const TableContext& context, const Case& which) {
-  return hullbench::shape_title(context.report, which.dataset, which.holes);
+  return hullbench::report::shape_title(context.report, which.dataset, which.holes);
 }
 
 std::string milliseconds(double nanoseconds) {
   return three_digits(nanoseconds / 1e6);
 }
 
-std::vector<std::int64_t> all_times(const std::vector<const RunRecord*>& runs, Boundary boundary) {
+std::vector<std::int64_t> all_times(const std::vector<const record::RunRecord*>& runs, Boundary boundary) {
   std::vector<std::int64_t> result;
-  for (const RunRecord* run : runs) {
+  for (const record::RunRecord* run : runs) {
     const auto repetitions = times(*run, boundary);
     result.insert(result.end(), repetitions.begin(), repetitions.end());
   }
   return result;
 }
 
-std::vector<std::int64_t> all_step_times(const std::vector<const RunRecord*>& runs, const PaperStep& step) {
+std::vector<std::int64_t> all_step_times(const std::vector<const record::RunRecord*>& runs,
+                                         const PaperStep& step) {
   std::vector<std::int64_t> result;
-  for (const RunRecord* run : runs) {
+  for (const record::RunRecord* run : runs) {
     const auto repetitions = step_times(*run, step.parts);
     result.insert(result.end(), repetitions.begin(), repetitions.end());
   }
@@ -79,14 +81,15 @@ std::vector<std::int64_t> all_step_times(const std::vector<const RunRecord*>& ru
 
 /// How a run that gave no result to be believed is called in a cell. A result that is not a valid
 /// multipolygon is one, whatever its time.
-std::string failure_name(const RunRecord& run) {
-  return run.status == Status::kOk || run.status == Status::kInvalidOutput ? "invalid"
-                                                                           : to_string(run.status);
+std::string failure_name(const record::RunRecord& run) {
+  return run.status == record::Status::kOk || run.status == record::Status::kInvalidOutput
+             ? "invalid"
+             : to_string(run.status);
 }
 
-std::string cell(const std::vector<const RunRecord*>& runs, Quantity quantity) {
+std::string cell(const std::vector<const record::RunRecord*>& runs, Quantity quantity) {
   if (runs.empty()) return kNothing;
-  if (const RunRecord* failure = first_failure(runs)) return failure_name(*failure);
+  if (const record::RunRecord* failure = first_failure(runs)) return failure_name(*failure);
   switch (quantity) {
     case Quantity::kEqualWork:
       return time_cell(all_times(runs, Boundary::kEqualWork));
@@ -101,7 +104,7 @@ std::string cell(const std::vector<const RunRecord*>& runs, Quantity quantity) {
 
 std::size_t usual_repetitions(const Measurements& measurements) {
   std::map<std::size_t, std::size_t> rows;  // by number of repetitions
-  for (const RunRecord& run : measurements.runs()) {
+  for (const record::RunRecord& run : measurements.runs()) {
     if (!run.time_ns.empty()) ++rows[run.time_ns.size()];
   }
   if (rows.empty()) return 0;
@@ -116,7 +119,7 @@ std::string row_label(const TableContext& context, const Line& line, const std::
   std::size_t most = usual;
   bool any = false;
   for (const Case& which : cases) {
-    for (const RunRecord* run : context.measurements.find(line.method, line.protocol, which)) {
+    for (const record::RunRecord* run : context.measurements.find(line.method, line.protocol, which)) {
       const std::size_t count = run->time_ns.size();
       if (count == 0) continue;
       least = any ? std::min(least, count) : count;
@@ -130,19 +133,21 @@ std::string row_label(const TableContext& context, const Line& line, const std::
   return text + (most == 1 ? " repetition" : " repetitions");
 }
 
-std::string hull_mark(const std::vector<const RunRecord*>& runs) {
-  const bool worse = std::any_of(runs.begin(), runs.end(),
-                                 [](const RunRecord* run) { return is_worse_than_convex_hull(*run); });
-  return worse ? std::string(" ") + kSign : "";
+std::string hull_mark(const std::vector<const record::RunRecord*>& runs) {
+  const bool worse = std::any_of(
+      runs.begin(), runs.end(), [](const record::RunRecord* run) { return is_worse_than_convex_hull(*run); });
+  return worse ? std::string(" ") + table::kSign : "";
 }
 
-void explain_hull_mark(TableSection& section) {
+void explain_hull_mark(table::TableSection& section) {
   const auto& rows = section.table.rows();
   const bool any = std::any_of(rows.begin() + 1, rows.end(), [](const auto& row) {
-    return std::any_of(row.begin(), row.end(), [](const std::string& text) { return text.ends_with(kSign); });
+    return std::any_of(row.begin(), row.end(),
+                       [](const std::string& text) { return text.ends_with(table::kSign); });
   });
   if (any)
-    section.remarks.push_back(std::string(kSign) + ": the error is above that of the points' convex hull.");
+    section.remarks.push_back(std::string(table::kSign) +
+                              ": the error is above that of the points' convex hull.");
 }
 
 std::vector<Shape> shapes(const std::vector<Case>& cases) {
@@ -161,7 +166,7 @@ std::vector<Line> lines_of(const TableContext& context, const Shape& shape) {
   std::vector<std::string> methods;
   for (const json& method : context.report.at("methods"))
     methods.push_back(method.at("name").get<std::string>());
-  for (const RunRecord& run : context.measurements.runs()) {
+  for (const record::RunRecord& run : context.measurements.runs()) {
     if (std::find(methods.begin(), methods.end(), run.method) == methods.end()) methods.push_back(run.method);
   }
   std::vector<Line> result;
@@ -177,9 +182,11 @@ std::vector<Line> lines_of(const TableContext& context, const Shape& shape) {
 }
 
 std::string failure_marks(TableContext& context, const Line& line, const Shape& shape) {
-  std::vector<std::pair<std::string, std::vector<const RunRecord*>>> kinds;  // by name, in the order of n
+  std::vector<std::pair<std::string, std::vector<const record::RunRecord*>>>
+      kinds;  // by name, in the order of n
   for (const Case& which : shape) {
-    const RunRecord* failure = first_failure(context.measurements.find(line.method, line.protocol, which));
+    const record::RunRecord* failure =
+        first_failure(context.measurements.find(line.method, line.protocol, which));
     if (failure == nullptr) continue;
     const std::string name = failure_name(*failure);
     const auto found =
@@ -204,7 +211,7 @@ std::vector<std::string> row(TableContext& context, const Line& line, const Shap
   for (const Case& which : shape) {
     result.push_back(cell(context.measurements.find(line.method, line.protocol, which), quantity));
   }
-  const std::string missing = to_string(Status::kNotInstalled);
+  const std::string missing = to_string(record::Status::kNotInstalled);
   if (std::all_of(result.begin() + 1, result.end(),
                   [&](const std::string& text) { return text == missing; })) {
     std::fill(result.begin() + 1, result.end(), "");
@@ -213,4 +220,4 @@ std::vector<std::string> row(TableContext& context, const Line& line, const Shap
   return result;
 }
 
-}  // namespace hullbench
+}  // namespace hullbench::report

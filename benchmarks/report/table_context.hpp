@@ -7,11 +7,11 @@
 #include <vector>
 
 #include "benchmarks/report/claims.hpp"
-#include "benchmarks/table/document.hpp"
 #include "benchmarks/report/measurements.hpp"
+#include "benchmarks/table/document.hpp"
 #include "benchmarks/table/text_table.hpp"
 
-namespace hullbench {
+namespace hullbench::report {
 
 /// In a cell: there is no such value.
 inline constexpr const char* kNothing = "–";
@@ -20,7 +20,7 @@ inline constexpr const char* kNothing = "–";
 struct TableContext {
   const nlohmann::json& report;
   Measurements measurements;
-  Notes notes;
+  table::Notes notes;
 };
 
 /// One shape: the cases of one data set, with or without holes, that differ in n only.
@@ -36,11 +36,12 @@ std::string label(const TableContext& context, const Line& line);
 std::string shape_title(const TableContext& context, const Case& which);
 std::string milliseconds(double nanoseconds);
 
-std::vector<std::int64_t> all_times(const std::vector<const RunRecord*>& runs, Boundary boundary);
-std::vector<std::int64_t> all_step_times(const std::vector<const RunRecord*>& runs, const PaperStep& step);
+std::vector<std::int64_t> all_times(const std::vector<const record::RunRecord*>& runs, Boundary boundary);
+std::vector<std::int64_t> all_step_times(const std::vector<const record::RunRecord*>& runs,
+                                         const PaperStep& step);
 
 /// How it is called in a cell: its status, or "invalid".
-std::string failure_name(const RunRecord& run);
+std::string failure_name(const record::RunRecord& run);
 /// The notes that explain a line's failures on a shape, one a kind of failure: " [1] [3]".
 std::string failure_marks(TableContext& context, const Line& line, const Shape& shape);
 
@@ -54,14 +55,14 @@ std::size_t usual_repetitions(const Measurements& measurements);
 std::string row_label(const TableContext& context, const Line& line, const std::vector<Case>& cases);
 
 /// Behind an error: the result is worse than the convex hull of the points. Empty when it is not.
-std::string hull_mark(const std::vector<const RunRecord*>& runs);
+std::string hull_mark(const std::vector<const record::RunRecord*>& runs);
 /// Adds to `section` what the mark means, if a cell has it.
-void explain_hull_mark(TableSection& section);
+void explain_hull_mark(table::TableSection& section);
 
 /// What the cell of one line and case says.
-std::string cell(const std::vector<const RunRecord*>& runs, Quantity quantity);
+std::string cell(const std::vector<const record::RunRecord*>& runs, Quantity quantity);
 
 /// A line's cells. A method that is not installed says so once instead of in every column.
 std::vector<std::string> row(TableContext& context, const Line& line, const Shape& shape, Quantity quantity);
 
-}  // namespace hullbench
+}  // namespace hullbench::report

@@ -12,17 +12,17 @@
 #include <utility>
 #include <vector>
 
+#include "benchmarks/base/number_format.hpp"
 #include "benchmarks/report/claims.hpp"
 #include "benchmarks/report/collection_tables.hpp"
 #include "benchmarks/report/curve_table.hpp"
 #include "benchmarks/report/labels.hpp"
-#include "benchmarks/base/number_format.hpp"
 #include "benchmarks/report/ratios.hpp"
 #include "benchmarks/report/report_notes.hpp"
-#include "benchmarks/statistics/statistics.hpp"
 #include "benchmarks/report/table_context.hpp"
+#include "benchmarks/statistics/statistics.hpp"
 
-namespace hullbench {
+namespace hullbench::report {
 namespace {
 
 using nlohmann::json;
@@ -32,7 +32,7 @@ std::string shape_id(const Case& which) {
   return which.dataset + (which.holes ? "_holes" : "");
 }
 
-std::vector<TableSection> shape_tables(TableContext& context, const Shape& shape) {
+std::vector<table::TableSection> shape_tables(TableContext& context, const Shape& shape) {
   struct Kind {
     Quantity quantity;
     const char* id;
@@ -44,15 +44,15 @@ std::vector<TableSection> shape_tables(TableContext& context, const Shape& shape
        {Quantity::kError, "error",
         "error L2, % of the ground truth's area (as the paper divides it: of the result's area)"}}};
   const std::vector<Line> lines = lines_of(context, shape);
-  std::vector<TableSection> sections;
+  std::vector<table::TableSection> sections;
   for (const Kind& kind : kKinds) {
     if (kind.quantity != Quantity::kError && !context.measurements.has_times()) continue;
     std::vector<std::string> header = {"Number of points"};
     for (const Case& which : shape) header.push_back(std::to_string(which.n));
-    TableSection section{shape_id(shape.front()) + "_" + kind.id,
-                         shape_title(context, shape.front()) + ": " + kind.caption,
-                         TextTable(std::move(header)),
-                         {}};
+    table::TableSection section{shape_id(shape.front()) + "_" + kind.id,
+                                shape_title(context, shape.front()) + ": " + kind.caption,
+                                table::TextTable(std::move(header)),
+                                {}};
     for (const Line& line : lines) section.table.add_row(row(context, line, shape, kind.quantity));
     explain_hull_mark(section);
     sections.push_back(std::move(section));
@@ -86,15 +86,16 @@ std::vector<std::string> holes_cells(const TableContext& context, const Line& li
       if (by > 0) ratios.push_back(values(with) / by);
     };
     if (context.measurements.has_times())
-      add(times, [](const auto& runs) { return median(all_times(runs, Boundary::kEqualWork)); });
+      add(times, [](const auto& runs) { return statistics::median(all_times(runs, Boundary::kEqualWork)); });
     add(errors, [](const auto& runs) {
       const std::vector<double> values = all_values(runs, "l2");
-      return values.empty() ? 0 : median(std::span<const double>(values));
+      return values.empty() ? 0 : statistics::median(std::span<const double>(values));
     });
   }
   std::vector<std::string> cells;
   for (const auto& ratios : {times, errors}) {
-    cells.push_back(ratios.empty() ? kNothing : ratio_text(median(std::span<const double>(ratios))));
+    cells.push_back(ratios.empty() ? kNothing
+                                   : ratio_text(statistics::median(std::span<const double>(ratios))));
   }
   if (!context.measurements.has_times()) cells.erase(cells.begin());
   return cells;
@@ -106,17 +107,17 @@ const std::vector<std::string> kErrorsOnly = {"Method", "Solved", "L2", "least",
 
 /// What the paper's text says of its figure in one table: every method beside Polylidar, and what holes
 /// change.
-std::optional<TableSection> ratio_table(const TableContext& context, const std::vector<Case>& cases) {
+std::optional<table::TableSection> ratio_table(const TableContext& context, const std::vector<Case>& cases) {
   const Line reference = reference_line();
   const std::vector<Line> lines = lines_of(context, cases);
   if (std::find(lines.begin(), lines.end(), reference) == lines.end() || lines.size() < 2)
     return std::nullopt;
   const bool times = context.measurements.has_times();
-  TableSection section{"ratios",
-                       "All cases together: ratios to " + label(context, reference) +
-                           ", and of the cases with holes to those without",
-                       TextTable(times ? kWithTimes : kErrorsOnly),
-                       {}};
+  table::TableSection section{"ratios",
+                              "All cases together: ratios to " + label(context, reference) +
+                                  ", and of the cases with holes to those without",
+                              table::TextTable(times ? kWithTimes : kErrorsOnly),
+                              {}};
   for (const Line& line : lines) {
     const Ratios errors = metric_ratios(context.measurements, line, reference, cases, "l2");
     const Ratios slower = time_ratios(context.measurements, line, reference, cases);
@@ -142,18 +143,18 @@ std::optional<TableSection> ratio_table(const TableContext& context, const std::
 }
 
 /// The rivals that are quoted: the fastest one that gives the same polygons, and the paper's.
-std::optional<TableSection> headline_table(const TableContext& context) {
+std::optional<table::TableSection> headline_table(const TableContext& context) {
   const json& headline = context.report.at("summary").at("headline");
   if (headline.is_null()) return std::nullopt;
   const auto label_of = [&](const json& line) {
     return label(context, {line.at("method").get<std::string>(), line.at("protocol").get<std::string>()});
   };
   const std::string reference = label_of(headline.at("reference"));
-  TableSection section{
+  table::TableSection section{
       "headline",
       context.report.at("plan").at("title").get<std::string>() +
           ": the fastest rival with the same polygons, time over that of " + reference,
-      TextTable({"Method", "Same polygons", "Cases", "Failed", "Time", "95 %", "least", "most"}),
+      table::TextTable({"Method", "Same polygons", "Cases", "Failed", "Time", "95 %", "least", "most"}),
       {}};
   bool any_same = false;
   std::string does_more;
@@ -165,8 +166,9 @@ std::optional<TableSection> headline_table(const TableContext& context) {
       return rival.at(name).is_null() ? std::numeric_limits<double>::infinity()
                                       : rival.at(name).get<double>();
     };
-    const auto interval =
-        rival.at("low").is_null() ? std::nullopt : std::optional(Interval{number("low"), number("high")});
+    const auto interval = rival.at("low").is_null()
+                              ? std::nullopt
+                              : std::optional(statistics::Interval{number("low"), number("high")});
     section.table.add_row({label_of(rival), same ? "yes" : "no", rival.at("cases").dump(),
                            rival.at("failures").dump(), ratio_text(number("median")), interval_text(interval),
                            ratio_text(number("least")), ratio_text(number("most"))});
@@ -181,30 +183,30 @@ std::optional<TableSection> headline_table(const TableContext& context) {
 }
 
 /// How long a method takes that has not been warmed up, where the records say it.
-std::optional<TableSection> cold_table(const TableContext& context) {
+std::optional<table::TableSection> cold_table(const TableContext& context) {
   if (!context.measurements.has_times()) return std::nullopt;
-  TableSection section{
+  table::TableSection section{
       "cold",
       "First call in a fresh process: time of equal work, ms",
-      TextTable({"Method", "Cases", "First call", "Warmed up", "First / warmed up", "least", "most"}),
+      table::TextTable({"Method", "Cases", "First call", "Warmed up", "First / warmed up", "least", "most"}),
       {}};
   for (const Line& line : lines_of(context, context.measurements.cases())) {
     std::vector<double> cold;
     std::vector<double> warm;
     std::vector<double> ratios;
-    for (const RunRecord& run : context.measurements.runs()) {
+    for (const record::RunRecord& run : context.measurements.runs()) {
       if (Line{run.method, run.protocol} != line || !run.cold_time_ns || !is_measured(run)) continue;
       cold.push_back(static_cast<double>(*run.cold_time_ns));
-      warm.push_back(median(run.time_ns));
+      warm.push_back(statistics::median(run.time_ns));
       if (warm.back() > 0) ratios.push_back(cold.back() / warm.back());
     }
     if (ratios.empty()) continue;
     const auto [least, most] = std::minmax_element(ratios.begin(), ratios.end());
     section.table.add_row({label(context, line), std::to_string(cold.size()),
-                           milliseconds(median(std::span<const double>(cold))),
-                           milliseconds(median(std::span<const double>(warm))),
-                           three_digits(median(std::span<const double>(ratios))), three_digits(*least),
-                           three_digits(*most)});
+                           milliseconds(statistics::median(std::span<const double>(cold))),
+                           milliseconds(statistics::median(std::span<const double>(warm))),
+                           three_digits(statistics::median(std::span<const double>(ratios))),
+                           three_digits(*least), three_digits(*most)});
   }
   if (section.table.empty()) return std::nullopt;
   section.remarks.emplace_back(
@@ -225,11 +227,11 @@ std::vector<std::string> measured_steps(const TableContext& context, const Line&
   std::vector<std::string> result = {row_label(context, line, {which})};
   for (const PaperStep& step : paper_steps()) {
     const std::vector<std::int64_t> values = all_step_times(runs, step);
-    result.push_back(values.empty() ? kNothing : milliseconds(median(values)));
+    result.push_back(values.empty() ? kNothing : milliseconds(statistics::median(values)));
   }
   for (const Boundary boundary : {Boundary::kPaper, Boundary::kEqualWork}) {
     const std::vector<std::int64_t> values = all_times(runs, boundary);
-    result.push_back(values.empty() ? kNothing : milliseconds(median(values)));
+    result.push_back(values.empty() ? kNothing : milliseconds(statistics::median(values)));
   }
   return result;
 }
@@ -249,7 +251,7 @@ std::vector<std::string> published_steps(const std::string& method) {
 
 /// The steps of the methods on the paper's shape, at the paper's size with the paper's values beside them, or
 /// at the largest size there is without.
-std::optional<TableSection> steps_table(const TableContext& context) {
+std::optional<table::TableSection> steps_table(const TableContext& context) {
   if (!context.measurements.has_times()) return std::nullopt;
   const json& steps = paper().at("steps");
   const Case* chosen = nullptr;
@@ -261,10 +263,10 @@ std::optional<TableSection> steps_table(const TableContext& context) {
   std::vector<std::string> header = {"Method"};
   for (const PaperStep& step : paper_steps()) header.push_back(step.name);
   header.insert(header.end(), {"as the paper took it", "equal work"});
-  TableSection section{
+  table::TableSection section{
       kStepsTable,
       shape_title(context, *chosen) + ", n = " + std::to_string(chosen->n) + ": time of the steps, ms",
-      TextTable(std::move(header)),
+      table::TextTable(std::move(header)),
       {}};
   std::set<std::string> compared;
   for (const Line& line : lines_of(context, {*chosen})) {
@@ -284,11 +286,12 @@ std::optional<TableSection> steps_table(const TableContext& context) {
   return section;
 }
 
-std::optional<TableSection> claims_table(TableContext& context) {
+std::optional<table::TableSection> claims_table(TableContext& context) {
   const bool times = context.measurements.has_times();
   std::vector<std::string> header = {"Claim", "Paper", "Here", "Verdict"};
   if (times) header.insert(header.end() - 1, "Equal work");
-  TableSection section{"claims", "The paper's claims beside ours", TextTable(std::move(header)), {}};
+  table::TableSection section{
+      "claims", "The paper's claims beside ours", table::TextTable(std::move(header)), {}};
   const json& known = paper().at("claims").at("list");
   const auto known_claim = [&](const json& id) {
     return *std::find_if(known.begin(), known.end(), [&](const json& claim) { return claim.at("id") == id; });
@@ -322,25 +325,25 @@ std::optional<TableSection> claims_table(TableContext& context) {
 bool is_papers_experiment(const TableContext& context) {
   const json& datasets = paper().at("claims").at("datasets");
   const auto& runs = context.measurements.runs();
-  return std::any_of(runs.begin(), runs.end(), [&](const RunRecord& run) {
+  return std::any_of(runs.begin(), runs.end(), [&](const record::RunRecord& run) {
     return paper().at("protocol") == run.protocol &&
            std::find(datasets.begin(), datasets.end(), run.dataset) != datasets.end();
   });
 }
 
-void add(Document& document, std::optional<TableSection> section) {
+void add(table::Document& document, std::optional<table::TableSection> section) {
   if (section) document.tables.push_back(std::move(*section));
 }
 
-void add_all(Document& document, std::vector<TableSection> sections) {
+void add_all(table::Document& document, std::vector<table::TableSection> sections) {
   std::move(sections.begin(), sections.end(), std::back_inserter(document.tables));
 }
 
 }  // namespace
 
-Document make_document(const json& report) {
+table::Document make_document(const json& report) {
   TableContext context{report, Measurements(report), {}};
-  Document document;
+  table::Document document;
   const std::string name = report.at("plan").value("name", std::string("run"));
   const std::string experiment = report.at("plan").value("paper", std::string());
   document.title = report.at("plan").value("title", std::string("Benchmark run")) +
@@ -363,11 +366,11 @@ Document make_document(const json& report) {
     add(document, steps_table(context));
     add(document, claims_table(context));
   }
-  for (TableSection& section : document.tables) section.id = name + "_" + section.id;
+  for (table::TableSection& section : document.tables) section.id = name + "_" + section.id;
   document.notes = context.notes.marked();
   for (auto& note : run_notes(report, context.measurements)) document.notes.push_back(std::move(note));
   document.common_notes = common_notes(report, context.measurements);
   return document;
 }
 
-}  // namespace hullbench
+}  // namespace hullbench::report

@@ -5,7 +5,7 @@
 
 #include "benchmarks/table/document.hpp"
 
-namespace hullbench {
+namespace hullbench::report {
 
 /// What a steps table is called after the plan's name: "states_steps".
 inline constexpr const char* kStepsTable = "steps";
@@ -16,6 +16,6 @@ inline constexpr const char* kStepsTable = "steps";
 /// fastest rival with the same polygons, and first calls where they are known; of
 /// the paper's own shapes, the time of the steps and the paper's claims beside ours. Which methods, data sets
 /// and sizes there are is read from the report. A table's id begins with the plan's name.
-Document make_document(const nlohmann::json& report);
+table::Document make_document(const nlohmann::json& report);
 
-}  // namespace hullbench
+}  // namespace hullbench::report

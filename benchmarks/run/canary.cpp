@@ -10,7 +10,7 @@
 #include "benchmarks/statistics/statistics.hpp"
 #include "datasets/random.hpp"
 
-namespace hullbench {
+namespace hullbench::run {
 namespace {
 
 using Clock = std::chrono::steady_clock;
@@ -53,17 +53,17 @@ bool differs(std::int64_t value, double usual) {
 
 }  // namespace
 
-void Canary::Free::operator()(Line* lines) const {
-  ::munmap(lines, kLines * sizeof(Line));
+void Canary::Free::operator()(report::Line* lines) const {
+  ::munmap(lines, kLines * sizeof(report::Line));
 }
 
 std::unique_ptr<Canary::Line[], Canary::Free> Canary::reserve_lines() {
-  void* memory =
-      ::mmap(nullptr, kLines * sizeof(Line), PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
+  void* memory = ::mmap(nullptr, kLines * sizeof(report::Line), PROT_READ | PROT_WRITE,
+                        MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
   if (memory == MAP_FAILED) throw std::bad_alloc();
   // The system may turn it into huge pages in the middle of a run, and the same reads would be faster then.
-  ::madvise(memory, kLines * sizeof(Line), MADV_NOHUGEPAGE);
-  return std::unique_ptr<Line[], Free>(new (memory) Line[kLines]);
+  ::madvise(memory, kLines * sizeof(report::Line), MADV_NOHUGEPAGE);
+  return std::unique_ptr<report::Line[], Free>(new (memory) report::Line[kLines]);
 }
 
 Canary::Canary(std::optional<int> core) : core_(core) {
@@ -78,7 +78,7 @@ Canary::Canary(std::optional<int> core) : core_(core) {
   }
 }
 
-CanaryTimes Canary::look() {
+record::CanaryTimes Canary::look() {
   const OnCore here(core_);
   const std::int64_t memory = time_memory();
   return {memory, time_arithmetic()};
@@ -101,33 +101,33 @@ std::int64_t Canary::time_arithmetic() {
   return nanoseconds_since(start);
 }
 
-MachineWatch::MachineWatch(std::function<CanaryTimes()> look, std::chrono::nanoseconds lifetime)
+MachineWatch::MachineWatch(std::function<record::CanaryTimes()> look, std::chrono::nanoseconds lifetime)
     : look_(std::move(look)), lifetime_(lifetime) {}
 
-CanaryTimes MachineWatch::recent() {
+record::CanaryTimes MachineWatch::recent() {
   if (memory_.empty() || Clock::now() - taken_ >= lifetime_) return fresh();
   return {memory_.back(), compute_.back()};
 }
 
-CanaryTimes MachineWatch::fresh() {
-  const CanaryTimes canary = look_();
+record::CanaryTimes MachineWatch::fresh() {
+  const record::CanaryTimes canary = look_();
   taken_ = Clock::now();
   memory_.push_back(canary.memory);
   compute_.push_back(canary.compute);
-  usual_memory_ = median(memory_);
-  usual_compute_ = median(compute_);
+  usual_memory_ = statistics::median(memory_);
+  usual_compute_ = statistics::median(compute_);
   return canary;
 }
 
-bool MachineWatch::is_off(const CanaryTimes& canary) const {
+bool MachineWatch::is_off(const record::CanaryTimes& canary) const {
   if (memory_.size() < kFewest) return false;
   return differs(canary.memory, usual_memory_) || differs(canary.compute, usual_compute_);
 }
 
-bool MachineWatch::wants_again(const CanaryTimes& canary, int tries, std::chrono::nanoseconds took) {
+bool MachineWatch::wants_again(const record::CanaryTimes& canary, int tries, std::chrono::nanoseconds took) {
   (tries == 1 ? first_tries_ : later_tries_) += took;
   return is_off(canary) && tries < kMostTries &&
          later_tries_ + took <= kRepeatShare * first_tries_ + kRepeatTime;
 }
 
-}  // namespace hullbench
+}  // namespace hullbench::run

@@ -12,7 +12,7 @@
 
 #include "benchmarks/record/record.hpp"
 
-namespace hullbench {
+namespace hullbench::run {
 
 /// Two pieces of work of about 5 ms each on the workers' core: reads from 64 MiB of which each says where the
 /// next one is, bound by memory, and a chain of multiplications and additions, bound by arithmetic.
@@ -22,23 +22,23 @@ class Canary {
   explicit Canary(std::optional<int> core);
 
   /// Does both once. The thread that asks is back on its own cores when this returns.
-  CanaryTimes look();
+  record::CanaryTimes look();
 
  private:
   /// As long as a line of a processor's cache, so that every read fetches another one.
-  struct alignas(64) Line {
+  struct alignas(64) report::Line {
     std::uint32_t next = 0;  ///< the line to read after this one
   };
   struct Free {
-    void operator()(Line* lines) const;
+    void operator()(report::Line* lines) const;
   };
-  static std::unique_ptr<Line[], Free> reserve_lines();
+  static std::unique_ptr<report::Line[], Free> reserve_lines();
 
   std::int64_t time_memory();
   std::int64_t time_arithmetic();
 
   std::optional<int> core_;
-  std::unique_ptr<Line[], Free> lines_;  ///< one cycle through all of them, in random order
+  std::unique_ptr<report::Line[], Free> lines_;  ///< one cycle through all of them, in random order
   std::uint32_t line_ = 0;      ///< where the next read goes on, so that none finds what an earlier one left
   volatile double result_ = 0;  ///< else the compiler may see that nobody looks
 };
@@ -52,16 +52,16 @@ class MachineWatch {
   static constexpr std::size_t kFewest = 5;
 
   /// `look` gives a new canary, which holds for `lifetime`.
-  explicit MachineWatch(std::function<CanaryTimes()> look,
+  explicit MachineWatch(std::function<record::CanaryTimes()> look,
                         std::chrono::nanoseconds lifetime = std::chrono::seconds(1));
 
   /// A new canary, or the last one when it is not older than its lifetime: rounds of a few milliseconds would
   /// take twice as long otherwise.
-  CanaryTimes recent();
-  CanaryTimes fresh();
+  record::CanaryTimes recent();
+  record::CanaryTimes fresh();
 
   /// Whether one of both times differs from its median by more than kTolerance, up or down.
-  bool is_off(const CanaryTimes& canary) const;
+  bool is_off(const record::CanaryTimes& canary) const;
 
   /// A round is measured at most so often.
   static constexpr int kMostTries = 3;
@@ -72,10 +72,10 @@ class MachineWatch {
 
   /// Whether a round with that canary is to be measured again, which took `took` at its try number `tries`,
   /// counted from 1. To be asked once after every try.
-  bool wants_again(const CanaryTimes& canary, int tries, std::chrono::nanoseconds took);
+  bool wants_again(const record::CanaryTimes& canary, int tries, std::chrono::nanoseconds took);
 
  private:
-  std::function<CanaryTimes()> look_;
+  std::function<record::CanaryTimes()> look_;
   std::chrono::nanoseconds lifetime_;
   std::chrono::steady_clock::time_point taken_;
   // Of every canary so far, the last one at the end.
@@ -88,4 +88,4 @@ class MachineWatch {
   std::chrono::nanoseconds later_tries_{0};
 };
 
-}  // namespace hullbench
+}  // namespace hullbench::run

@@ -16,7 +16,7 @@
 #include "datasets/random.hpp"
 #include "polylidar/concave_hull.hpp"
 
-namespace hullbench {
+namespace hullbench::run {
 namespace {
 
 constexpr std::size_t kPoints = 500;
@@ -90,7 +90,7 @@ std::string describe(const MultiPolygon& shape) {
 
 /// What a run gave: a shape, or why there is none.
 struct Result {
-  Status status = Status::kOk;
+  record::Status status = record::Status::kOk;
   std::string fault;  ///< empty when there is a shape that keeps what every shape must
   MultiPolygon shape;
   std::vector<std::uint8_t> wkb;
@@ -102,8 +102,9 @@ struct TooManyTimeouts {};
 
 class ContractTest {
  public:
-  ContractTest(const Method& method, const WorkerLimits& limits, std::chrono::milliseconds timeout,
-               std::filesystem::path scratch, const std::function<void(const Verdict&)>& say)
+  ContractTest(const worker::Method& method, const worker::WorkerLimits& limits,
+               std::chrono::milliseconds timeout, std::filesystem::path scratch,
+               const std::function<void(const Verdict&)>& say)
       : session_(method, limits), timeout_(timeout), scratch_(std::move(scratch)), say_(say) {}
 
   std::vector<Verdict> run() {
@@ -127,7 +128,8 @@ class ContractTest {
   }
 
  private:
-  void add(const std::string& name, bool kept, const std::string& words, Status status = Status::kOk) {
+  void add(const std::string& name, bool kept, const std::string& words,
+           record::Status status = record::Status::kOk) {
     verdicts_.push_back({name, kept, status, words});
     say_(verdicts_.back());
   }
@@ -144,16 +146,16 @@ class ContractTest {
       add("start", true, "version " + session_.info()->version);
       return true;
     }
-    const Reply& reply = session_.start_reply();
+    const worker::Reply& reply = session_.start_reply();
     add("start", false, to_string(reply.status) + ": " + reply.detail + advice(reply), reply.status);
     return false;
   }
 
   /// What helps a worker that does not start. One that ends before its first word may lack a package, of
   /// which only its interpreter knows.
-  std::string advice(const Reply& reply) const {
+  std::string advice(const worker::Reply& reply) const {
     if (!reply.remedy.empty()) return "; remedy: " + reply.remedy;
-    const Method& method = session_.method();
+    const worker::Method& method = session_.method();
     std::string text = "; see adapters/process/PROTOCOL.md for the answer to hello";
     if (method.install.empty()) return text;
     return text + "; it was started by '" + method.command.front() +
@@ -162,17 +164,17 @@ class ContractTest {
 
   Result hull(const std::vector<Point>& points, double spacing) {
     if (timeouts_ == kMostTimeouts) throw TooManyTimeouts();
-    const LoadedPoints loaded = {"contract-" + std::to_string(++loads_), scratch_ / "points.f64",
-                                 points.size()};
-    write_points_file(loaded.file, points);
-    const Attempt attempt =
+    const worker::LoadedPoints loaded = {"contract-" + std::to_string(++loads_), scratch_ / "points.f64",
+                                         points.size()};
+    worker::write_points_file(loaded.file, points);
+    const worker::Attempt attempt =
         session_.run(loaded, contract_parameters(*session_.info(), spacing), scratch_, timeout_);
     Result result;
     result.status = attempt.status;
     result.wkb = attempt.wkb;
     result.elapsed = attempt.elapsed;
-    if (attempt.status == Status::kTimeout) ++timeouts_;
-    if (attempt.status != Status::kOk) {
+    if (attempt.status == record::Status::kTimeout) ++timeouts_;
+    if (attempt.status != record::Status::kOk) {
       result.fault = to_string(attempt.status) + ": " + attempt.detail;
       return result;
     }
@@ -187,7 +189,7 @@ class ContractTest {
 
   /// What no shape of any method may have.
   std::string fault_of(const MultiPolygon& shape, const std::vector<Point>& points) const {
-    if (const std::string reason = invalid_reason(shape); !reason.empty()) {
+    if (const std::string reason = metrics::invalid_reason(shape); !reason.empty()) {
       return "invalid polygon, " + reason + ": return polygons that are valid in the sense of the OGC";
     }
     const Capabilities& can = session_.info()->capabilities;
@@ -208,7 +210,7 @@ class ContractTest {
   static std::string difference(const MultiPolygon& a, const MultiPolygon& b) {
     if (a.empty() && b.empty()) return {};
     if (a.empty() || b.empty()) return "one shape is empty and the other is not";
-    const AreaScores scores = area_scores(a, b);
+    const metrics::AreaScores scores = metrics::area_scores(a, b);
     if (scores.l2 && *scores.l2 <= kSameShare) return {};
     std::ostringstream share;
     share << *scores.l2 * 100;
@@ -243,11 +245,12 @@ class ContractTest {
     for (const auto& [name, points] : inputs) {
       const Result result = hull(points, 0.25);
       // A refusal in words is as good as an empty shape; a method that breaks is not.
-      const bool refused = result.status == Status::kUnsupported || result.status == Status::kError;
+      const bool refused =
+          result.status == record::Status::kUnsupported || result.status == record::Status::kError;
       const bool empty = result.fault.empty() && result.shape.empty();
       std::string words = empty ? "an empty shape" : "refused, " + result.fault;
       if (!empty && !refused) words = result.fault.empty() ? "a polygon" : result.fault;
-      if (result.status == Status::kOk && !empty) {
+      if (result.status == record::Status::kOk && !empty) {
         words += "; return no polygon for points without an area, or refuse them as 'unsupported'";
       }
       add(name, empty || refused, words);
@@ -256,7 +259,8 @@ class ContractTest {
 
   void three_points() {
     const Result result = hull({{0, 0}, {1, 0}, {0, 1}}, 1);
-    const bool refused = result.status == Status::kUnsupported || result.status == Status::kError;
+    const bool refused =
+        result.status == record::Status::kUnsupported || result.status == record::Status::kError;
     add("three points", result.fault.empty() || refused,
         result.fault.empty() ? describe(result.shape) : result.fault);
   }
@@ -274,7 +278,8 @@ class ContractTest {
       std::vector<Point> points = sample(100, 2);
       points[50].y = value;
       const Result result = hull(points, spacing_of(100));
-      const bool refused = result.status == Status::kUnsupported || result.status == Status::kError;
+      const bool refused =
+          result.status == record::Status::kUnsupported || result.status == record::Status::kError;
       add(name, refused,
           refused ? "refused, " + result.fault
                   : (result.fault.empty() ? describe(result.shape) : result.fault) +
@@ -350,7 +355,7 @@ class ContractTest {
         ended ? "the worker ends when it is told to" : "the worker had to be killed: let it end on 'quit'");
   }
 
-  MethodSession session_;
+  worker::MethodSession session_;
   std::chrono::milliseconds timeout_;
   std::filesystem::path scratch_;
   const std::function<void(const Verdict&)>& say_;
@@ -379,10 +384,10 @@ Parameters contract_parameters(const MethodInfo& info, double spacing) {
   return result;
 }
 
-std::vector<Verdict> test_contract(const Method& method, const WorkerLimits& limits,
+std::vector<Verdict> test_contract(const worker::Method& method, const worker::WorkerLimits& limits,
                                    std::chrono::milliseconds timeout, const std::filesystem::path& scratch,
                                    const std::function<void(const Verdict&)>& say) {
   return ContractTest(method, limits, timeout, scratch, say).run();
 }
 
-}  // namespace hullbench
+}  // namespace hullbench::run

@@ -9,14 +9,14 @@
 
 #include "benchmarks/worker/method_session.hpp"
 
-namespace hullbench {
+namespace hullbench::run {
 
 /// One point of the contract.
 struct Verdict {
-  std::string name;             ///< "three points"
-  bool kept = false;            ///< whether the method does what it must
-  Status status = Status::kOk;  ///< of the run that decided it
-  std::string words;            ///< what was seen, and when it was not kept what to mend
+  std::string name;                             ///< "three points"
+  bool kept = false;                            ///< whether the method does what it must
+  record::Status status = record::Status::kOk;  ///< of the run that decided it
+  std::string words;                            ///< what was seen, and when it was not kept what to mend
 };
 
 /// Parameters for points that lie `spacing` apart on average (in their unit), for a method of which nothing
@@ -28,8 +28,8 @@ Parameters contract_parameters(const MethodInfo& info, double spacing);
 /// take `timeout`. Files go into `scratch`. Stops after a worker that does not start and after the
 /// second run that takes too long. Returns the verdicts.
 /// Throws Interrupted, and std::runtime_error when a file cannot be written.
-std::vector<Verdict> test_contract(const Method& method, const WorkerLimits& limits,
+std::vector<Verdict> test_contract(const worker::Method& method, const worker::WorkerLimits& limits,
                                    std::chrono::milliseconds timeout, const std::filesystem::path& scratch,
                                    const std::function<void(const Verdict&)>& say);
 
-}  // namespace hullbench
+}  // namespace hullbench::run

@@ -6,11 +6,11 @@
 #include <sstream>
 
 #include "benchmarks/base/configuration_error.hpp"
-#include "benchmarks/worker/protocol.hpp"
 #include "benchmarks/record/validate.hpp"
+#include "benchmarks/worker/protocol.hpp"
 #include "datasets/sha256.hpp"
 
-namespace hullbench {
+namespace hullbench::run {
 namespace {
 
 namespace fs = std::filesystem;
@@ -42,7 +42,7 @@ std::vector<std::string> resolved_words(const json& manifest, const char* key, c
 
 MethodInfo info_of(json manifest) {
   manifest["version"] = "";
-  return method_from_json(manifest);
+  return worker::method_from_json(manifest);
 }
 
 /// What the schema cannot say.
@@ -104,7 +104,7 @@ Manifest load_manifest(const fs::path& file) {
   const std::string text = read_text(file);
   const json document = json::parse(text, nullptr, false);
   if (document.is_discarded()) throw ConfigurationError(source + " is not JSON; mend or remove it");
-  if (const auto faults = validate_manifest(document); !faults.empty()) {
+  if (const auto faults = record::validate_manifest(document); !faults.empty()) {
     throw ConfigurationError(source + " has a fault; mend or remove it: " + faults.front());
   }
   const fs::path folder = fs::absolute(file).parent_path();
@@ -121,7 +121,7 @@ Manifest load_manifest(const fs::path& file) {
   manifest.method.sources = manifest.sha256.substr(0, 8);
   manifest.method.jit = document.value("jit", false);
   manifest.runs =
-      parse_plan_methods(document.value("runs", json::array()), manifest.method.name, source, "runs");
+      plan::parse_plan_methods(document.value("runs", json::array()), manifest.method.name, source, "runs");
   return manifest;
 }
 
@@ -150,4 +150,4 @@ std::vector<Manifest> load_manifests(const std::vector<fs::path>& folders) {
   return manifests;
 }
 
-}  // namespace hullbench
+}  // namespace hullbench::run

@@ -7,16 +7,16 @@
 #include <string>
 #include <vector>
 
-#include "benchmarks/worker/method.hpp"
 #include "benchmarks/plan/plan.hpp"
+#include "benchmarks/worker/method.hpp"
 
-namespace hullbench {
+namespace hullbench::run {
 
 struct Manifest {
-  Method method;
+  worker::Method method;
   std::filesystem::path file;
-  std::string sha256;            ///< of the manifest, the files of its command and those in their folder
-  std::vector<PlanMethod> runs;  ///< how to measure it in a plan that does not name it
+  std::string sha256;  ///< of the manifest, the files of its command and those in their folder
+  std::vector<plan::PlanMethod> runs;  ///< how to measure it in a plan that does not name it
 };
 
 /// The manifest in `file`. Words of the command and files needed that begin with "./" or "../" are taken from
@@ -27,4 +27,4 @@ Manifest load_manifest(const std::filesystem::path& file);
 /// Throws ConfigurationError when one has a fault or two have the same name.
 std::vector<Manifest> load_manifests(const std::vector<std::filesystem::path>& folders);
 
-}  // namespace hullbench
+}  // namespace hullbench::run

@@ -9,16 +9,16 @@
 #include <tuple>
 #include <utility>
 
-#include "benchmarks/record/stored_run.hpp"
 #include "benchmarks/base/configuration_error.hpp"
 #include "benchmarks/base/files.hpp"
-#include "benchmarks/record/pictures.hpp"
 #include "benchmarks/plan/plan.hpp"
+#include "benchmarks/record/pictures.hpp"
+#include "benchmarks/record/stored_run.hpp"
+#include "benchmarks/record/validate.hpp"
 #include "benchmarks/run/run_directory.hpp"
 #include "benchmarks/run/runner.hpp"
-#include "benchmarks/record/validate.hpp"
 
-namespace hullbench {
+namespace hullbench::run {
 namespace {
 
 namespace fs = std::filesystem;
@@ -34,8 +34,8 @@ Source load_source(const fs::path& folder) {
   if (!fs::exists(folder / "run.json"))
     throw ConfigurationError("there is no run in " + folder.string() + "; give the folder of a run or suite");
   try {
-    Source source = {folder, load_run(folder)};
-    if (const auto faults = validate_file(folder / "run.json"); !faults.empty())
+    Source source = {folder, record::load_run(folder)};
+    if (const auto faults = record::validate_file(folder / "run.json"); !faults.empty())
       throw std::runtime_error((folder / "run.json").string() +
                                " is not a run's description: " + faults.front());
     return source;
@@ -125,13 +125,13 @@ class Versions {
 };
 
 /// Less is better.
-int rank(const RunRecord& row) {
-  if (row.status == Status::kOk) return 0;
-  return row.status == Status::kNotInstalled ? 2 : 1;
+int rank(const record::RunRecord& row) {
+  if (row.status == record::Status::kOk) return 0;
+  return row.status == record::Status::kNotInstalled ? 2 : 1;
 }
 
 /// What two measurements of the same run agree in: its metrics but the memory, which is never twice the same.
-json repeatable_metrics(const RunRecord& row) {
+json repeatable_metrics(const record::RunRecord& row) {
   json metrics = row.metrics;
   metrics.erase("peak_memory_bytes");
   return metrics;
@@ -140,12 +140,12 @@ json repeatable_metrics(const RunRecord& row) {
 /// The rows of several runs by name.
 class Rows {
  public:
-  void add(RunRecord row, const fs::path& folder) {
+  void add(record::RunRecord row, const fs::path& folder) {
     const auto [found, is_new] = chosen_.try_emplace(row.name, row, folder);
     if (is_new) return;
     auto& [known, its_folder] = found->second;
     // A method that is not steady may fail with one result here and another one there.
-    const bool both_are_ok = known.status == Status::kOk && row.status == Status::kOk;
+    const bool both_are_ok = known.status == record::Status::kOk && row.status == record::Status::kOk;
     if (both_are_ok && (known.id != row.id || known.output_sha256 != row.output_sha256 ||
                         repeatable_metrics(known) != repeatable_metrics(row))) {
       throw std::runtime_error("the run " + row.name + " has another result in " + folder.string() +
@@ -157,9 +157,9 @@ class Rows {
   }
 
   /// Those of `runs` that are there, in their order.
-  std::vector<RunRecord> in_order(const std::vector<PlannedRun>& runs) const {
-    std::vector<RunRecord> result;
-    for (const PlannedRun& run : runs) {
+  std::vector<record::RunRecord> in_order(const std::vector<plan::PlannedRun>& runs) const {
+    std::vector<record::RunRecord> result;
+    for (const plan::PlannedRun& run : runs) {
       if (const auto found = chosen_.find(run.name); found != chosen_.end())
         result.push_back(found->second.first);
     }
@@ -170,7 +170,7 @@ class Rows {
   const std::set<std::string>& repeated() const { return repeated_; }
 
  private:
-  std::map<std::string, std::pair<RunRecord, fs::path>> chosen_;
+  std::map<std::string, std::pair<record::RunRecord, fs::path>> chosen_;
   std::set<std::string> repeated_;
 };
 
@@ -182,7 +182,7 @@ Rows gather_rows(const std::vector<Source>& sources) {
       versions.add(method.at("name").get<std::string>(), method.at("version").get<std::string>(),
                    source.folder);
     for (const json& line : source.run.at("runs")) {
-      RunRecord row = line.get<RunRecord>();
+      record::RunRecord row = line.get<record::RunRecord>();
       versions.add(row.method, row.method_version, source.folder);
       if (row.machine.empty()) row.machine = source.run.at("environment").at("machine_id").get<std::string>();
       rows.add(std::move(row), source.folder);
@@ -236,11 +236,11 @@ json merged_datasets(const std::vector<Source>& sources) {
 }
 
 /// In the order in which the plan's runs need them, like those of a run.
-json merged_methods(const std::vector<Source>& sources, const Plan& plan,
-                    const std::vector<PlannedRun>& runs) {
+json merged_methods(const std::vector<Source>& sources, const plan::Plan& plan,
+                    const std::vector<plan::PlannedRun>& runs) {
   std::map<std::string, json> all = descriptions(sources, "methods");
   json result = json::array();
-  for (const PlannedRun& run : runs) {
+  for (const plan::PlannedRun& run : runs) {
     const auto found = all.find(plan.methods[run.method_index].method);
     if (found == all.end()) continue;
     result.push_back(found->second);
@@ -301,10 +301,10 @@ MergedRun merge_runs(const std::vector<fs::path>& folders) {
   const Source& first = sources.front();
   for (const Source& other : sources) require_agreement(first, other);
   require_same_definitions(sources);
-  const Plan plan = parse_plan(first.run.at("plan").dump(), (first.folder / "run.json").string());
+  const plan::Plan plan = plan::parse_plan(first.run.at("plan").dump(), (first.folder / "run.json").string());
   const json filter = filter_of(first.run);
-  const std::vector<PlannedRun> runs =
-      planned_runs(plan, filter.is_string() ? filter.get<std::string>() : "");
+  const std::vector<plan::PlannedRun> runs =
+      plan::planned_runs(plan, filter.is_string() ? filter.get<std::string>() : "");
   const Rows rows = gather_rows(sources);
   MergedRun result = {first.run, rows.in_order(runs), runs.size(), {}};
   for (const Source& source : sources) result.folders.push_back(source.folder);
@@ -321,4 +321,4 @@ MergedRun merge_runs(const std::vector<fs::path>& folders) {
   return result;
 }
 
-}  // namespace hullbench
+}  // namespace hullbench::run

@@ -8,14 +8,14 @@
 
 #include "benchmarks/record/record.hpp"
 
-namespace hullbench {
+namespace hullbench::run {
 
 /// Several runs as one.
 struct MergedRun {
   /// run.json: the first run's, with `merged`, a list of {shard, created, resumed, tool, environment} of
   /// every run in it, and `notes`, sentences about rows that are missing or were there more than once.
   nlohmann::json header;
-  std::vector<RunRecord> rows;                 ///< in the order of the plan; each says its machine
+  std::vector<record::RunRecord> rows;         ///< in the order of the plan; each says its machine
   std::size_t planned = 0;                     ///< number of rows that the plan and its filter ask for
   std::vector<std::filesystem::path> folders;  ///< of the runs, in the order in which they were taken
 };
@@ -30,4 +30,4 @@ struct MergedRun {
 /// have different results, which no machine may cause.
 MergedRun merge_runs(const std::vector<std::filesystem::path>& folders);
 
-}  // namespace hullbench
+}  // namespace hullbench::run

@@ -3,18 +3,18 @@
 #include <algorithm>
 #include <cstdlib>
 
-#include "benchmarks/base/configuration_error.hpp"
 #include "adapters/adapter.hpp"
+#include "benchmarks/base/configuration_error.hpp"
 
-namespace hullbench {
+namespace hullbench::run {
 namespace {
 
 namespace fs = std::filesystem;
 
 /// This program as a worker. /proc/self/exe is this very file, wherever it was started from and even when it
 /// was replaced since.
-Method built_in(const AdapterEntry& entry) {
-  Method method;
+worker::Method built_in(const AdapterEntry& entry) {
+  worker::Method method;
   method.name = entry.name;
   method.title = entry.title;
   method.command = {"/proc/self/exe", "worker", "--method", entry.name};
@@ -35,7 +35,8 @@ MethodCatalog::MethodCatalog(const std::vector<fs::path>& folders) {
   for (Manifest& manifest : load_manifests(folders)) {
     const std::string& name = manifest.method.name;
     const auto end = methods_.begin() + static_cast<std::ptrdiff_t>(built_ins);
-    if (std::any_of(methods_.begin(), end, [&](const Method& method) { return method.name == name; })) {
+    if (std::any_of(methods_.begin(), end,
+                    [&](const worker::Method& method) { return method.name == name; })) {
       throw ConfigurationError("the manifest " + manifest.file.string() +
                                " has the name of the built-in method '" + name + "'; choose another one");
     }
@@ -48,21 +49,21 @@ MethodCatalog::MethodCatalog(const std::vector<fs::path>& folders) {
 std::vector<std::string> MethodCatalog::names() const {
   std::vector<std::string> names;
   names.reserve(methods_.size());
-  for (const Method& method : methods_) names.push_back(method.name);
+  for (const worker::Method& method : methods_) names.push_back(method.name);
   return names;
 }
 
-const Method& MethodCatalog::find(const std::string& name) const {
+const worker::Method& MethodCatalog::find(const std::string& name) const {
   const auto found = std::find_if(methods_.begin(), methods_.end(),
-                                  [&](const Method& method) { return method.name == name; });
+                                  [&](const worker::Method& method) { return method.name == name; });
   if (found == methods_.end()) {
     throw ConfigurationError("there is no method '" + name + "'; 'hullbench list' shows them");
   }
   return *found;
 }
 
-std::vector<PlanMethod> MethodCatalog::runs_of(const std::string& name) const {
-  const Method& method = find(name);
+std::vector<plan::PlanMethod> MethodCatalog::runs_of(const std::string& name) const {
+  const worker::Method& method = find(name);
   if (!method.info) {
     throw ConfigurationError("the method '" + name +
                              "' is built in and chooses no parameters by itself; name it in a plan");
@@ -73,7 +74,7 @@ std::vector<PlanMethod> MethodCatalog::runs_of(const std::string& name) const {
     throw ConfigurationError("the method '" + name + "' needs the parameter '" + parameter.name +
                              "': say in the key 'runs' of its manifest how to choose it");
   }
-  PlanMethod run;
+  plan::PlanMethod run;
   run.method = name;
   run.protocol = "default";
   return {run};
@@ -97,4 +98,4 @@ std::vector<fs::path> manifest_folders(const std::vector<fs::path>& folders) {
   return all;
 }
 
-}  // namespace hullbench
+}  // namespace hullbench::run

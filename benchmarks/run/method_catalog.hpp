@@ -9,7 +9,7 @@
 #include "benchmarks/run/manifest.hpp"
 #include "benchmarks/worker/method.hpp"
 
-namespace hullbench {
+namespace hullbench::run {
 
 class MethodCatalog {
  public:
@@ -17,22 +17,22 @@ class MethodCatalog {
   /// ConfigurationError when a manifest has a fault or the name of another method.
   explicit MethodCatalog(const std::vector<std::filesystem::path>& folders);
 
-  const std::vector<Method>& methods() const { return methods_; }
+  const std::vector<worker::Method>& methods() const { return methods_; }
   std::vector<std::string> names() const;
 
   /// Throws ConfigurationError when there is none of that name.
-  const Method& find(const std::string& name) const;
+  const worker::Method& find(const std::string& name) const;
 
   /// The entries for a plan that does not name the method: its manifest's, or one with the protocol `default`
   /// where no parameter is required. Throws ConfigurationError when neither is there.
-  std::vector<PlanMethod> runs_of(const std::string& name) const;
+  std::vector<plan::PlanMethod> runs_of(const std::string& name) const;
 
   /// The hash of the manifest, by the method's name, of those that have one.
   const std::map<std::string, std::string>& hashes() const { return hashes_; }
 
  private:
-  std::vector<Method> methods_;
-  std::map<std::string, std::vector<PlanMethod>> runs_;
+  std::vector<worker::Method> methods_;
+  std::map<std::string, std::vector<plan::PlanMethod>> runs_;
   std::map<std::string, std::string> hashes_;
 };
 
@@ -45,4 +45,4 @@ std::vector<std::filesystem::path> manifest_folders(const std::vector<std::files
 /// HOME says where it is.
 std::filesystem::path user_manifest_folder();
 
-}  // namespace hullbench
+}  // namespace hullbench::run

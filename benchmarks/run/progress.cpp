@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace hullbench {
+namespace hullbench::run {
 namespace {
 
 using namespace std::chrono_literals;
@@ -158,4 +158,4 @@ std::string format_duration(double seconds) {
   return std::to_string(total / 3600) + " h " + std::to_string(total % 3600 / 60) + " min";
 }
 
-}  // namespace hullbench
+}  // namespace hullbench::run

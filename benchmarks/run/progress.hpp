@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-namespace hullbench {
+namespace hullbench::run {
 
 /// One run as the estimate sees it: `units` repetitions, warm-up included, of `method` on n points.
 struct ProgressRun {
@@ -92,4 +92,4 @@ class Progress {
 /// "48 s", "3 min 20 s", "2 h 5 min".
 std::string format_duration(double seconds);
 
-}  // namespace hullbench
+}  // namespace hullbench::run

@@ -17,7 +17,7 @@
 #include "benchmarks/record/pictures.hpp"
 #include "benchmarks/record/stored_run.hpp"
 
-namespace hullbench {
+namespace hullbench::run {
 namespace {
 
 namespace fs = std::filesystem;
@@ -32,7 +32,7 @@ std::string reason(int error) {
 
 /// run.json of a folder; null when it has none that can be read.
 json read_header(const fs::path& folder) {
-  std::ifstream in(folder / kHeaderFile, std::ios::binary);
+  std::ifstream in(folder / record::kHeaderFile, std::ios::binary);
   json header = in ? json::parse(in, nullptr, false) : json();
   return header.is_object() ? header : json();
 }
@@ -68,22 +68,22 @@ int lock_or_throw(const fs::path& folder) {
 }
 
 void remove_run_files(const fs::path& folder) {
-  for (const char* file :
-       {kHeaderFile, kRowsFile, kRepetitionsFile, kPicturesFile, kReportFile, kTablesFile}) {
+  for (const char* file : {record::kHeaderFile, record::kRowsFile, kRepetitionsFile, record::kPicturesFile,
+                           record::kReportFile, record::kTablesFile}) {
     fs::remove(folder / file);
   }
-  fs::remove_all(folder / kTablesFolder);
+  fs::remove_all(folder / record::kTablesFolder);
 }
 
 /// Whether nothing is in the folder but what a start leaves that was killed before it wrote run.json.
 bool holds_no_run_yet(const fs::path& folder) {
-  return std::all_of(fs::directory_iterator(folder), fs::directory_iterator(),
-                     [](const fs::directory_entry& entry) {
-                       const fs::path name = entry.path().filename();
-                       return name == kScratchFolder ||
-                              ((name == kRowsFile || name == kRepetitionsFile || name == kPicturesFile) &&
-                               entry.file_size() == 0);
-                     });
+  return std::all_of(
+      fs::directory_iterator(folder), fs::directory_iterator(), [](const fs::directory_entry& entry) {
+        const fs::path name = entry.path().filename();
+        return name == kScratchFolder ||
+               ((name == record::kRowsFile || name == kRepetitionsFile || name == record::kPicturesFile) &&
+                entry.file_size() == 0);
+      });
 }
 
 std::unique_ptr<RunDirectory> open_chosen(const json& header, const fs::path& folder, bool force) {
@@ -105,7 +105,7 @@ std::unique_ptr<RunDirectory> open_unfinished(const json& header, const fs::path
   for (const fs::path& folder : newest_first(runs)) {
     const json earlier = read_header(folder);
     if (!earlier.is_object() || run_continuity(earlier) != run_continuity(header)) continue;
-    if (fs::exists(folder / kReportFile)) return nullptr;
+    if (fs::exists(folder / record::kReportFile)) return nullptr;
     const int lock = try_lock(folder);
     return lock < 0 ? nullptr : std::make_unique<RunDirectory>(folder, lock);
   }
@@ -129,7 +129,7 @@ Repetition repetition_from_json(const json& line) {
   line.at("round").get_to(repetition.round);
   line.at("pass").get_to(repetition.pass);
   if (const auto canary = line.find("canary_ns"); canary != line.end())
-    repetition.canary_ns = canary->get<CanaryTimes>();
+    repetition.canary_ns = canary->get<record::CanaryTimes>();
   repetition.remeasured = line.value("remeasured", false);
   repetition.unsteady = line.value("unsteady", false);
   return repetition;
@@ -153,7 +153,7 @@ RunDirectory::RunDirectory(fs::path path, int lock)
       scratch_(fs::absolute(path_) / kScratchFolder),
       lock_(lock),
       header_(read_header(path_)) {
-  row_writer_.emplace(path_ / kRowsFile);
+  row_writer_.emplace(path_ / record::kRowsFile);
   repetition_writer_.emplace(path_ / kRepetitionsFile);
   read_rows();
   read_repetitions();
@@ -168,23 +168,23 @@ RunDirectory::~RunDirectory() {
 }
 
 void RunDirectory::write_header(const json& header) {
-  write_json_file(path_ / kHeaderFile, header);
+  write_json_file(path_ / record::kHeaderFile, header);
   header_ = header;
 }
 
 void RunDirectory::read_rows() {
-  for (const json& line : load_json_lines(path_ / kRowsFile).lines) {
+  for (const json& line : record::load_json_lines(path_ / record::kRowsFile).lines) {
     try {
-      remember_row(line.get<RunRecord>());
+      remember_row(line.get<record::RunRecord>());
     } catch (const std::exception&) {
-      throw std::runtime_error("a line of " + (path_ / kRowsFile).string() +
+      throw std::runtime_error("a line of " + (path_ / record::kRowsFile).string() +
                                " is not a run's record; start anew with --force or another --out");
     }
   }
 }
 
 void RunDirectory::read_repetitions() {
-  for (const json& line : load_json_lines(path_ / kRepetitionsFile).lines) {
+  for (const json& line : record::load_json_lines(path_ / kRepetitionsFile).lines) {
     try {
       auto& known = repetitions_[line.at("id").get<std::string>()];
       // Out of order can only be what two harnesses wrote; the lock excludes that.
@@ -197,12 +197,12 @@ void RunDirectory::read_repetitions() {
   }
 }
 
-const RunRecord* RunDirectory::find_row(const std::string& name) const {
+const record::RunRecord* RunDirectory::find_row(const std::string& name) const {
   const auto found = row_places_.find(name);
   return found == row_places_.end() ? nullptr : &rows_[found->second];
 }
 
-void RunDirectory::remember_row(const RunRecord& row) {
+void RunDirectory::remember_row(const record::RunRecord& row) {
   const auto [place, is_new] = row_places_.emplace(row.name, rows_.size());
   if (is_new) {
     rows_.push_back(row);
@@ -212,18 +212,18 @@ void RunDirectory::remember_row(const RunRecord& row) {
   }
 }
 
-void RunDirectory::append_rows(const std::vector<RunRecord>& rows) {
-  const bool replaces_another_id = std::any_of(rows.begin(), rows.end(), [&](const RunRecord& row) {
-    const RunRecord* earlier = find_row(row.name);
+void RunDirectory::append_rows(const std::vector<record::RunRecord>& rows) {
+  const bool replaces_another_id = std::any_of(rows.begin(), rows.end(), [&](const record::RunRecord& row) {
+    const record::RunRecord* earlier = find_row(row.name);
     return earlier && earlier->id != row.id;
   });
-  for (const RunRecord& row : rows) remember_row(row);
+  for (const record::RunRecord& row : rows) remember_row(row);
   if (replaces_another_id) {
     rewrite_rows();
     return;
   }
-  for (const RunRecord& row : rows) row_writer_->append(row);
-  synchronise(path_ / kRowsFile);
+  for (const record::RunRecord& row : rows) row_writer_->append(row);
+  synchronise(path_ / record::kRowsFile);
 }
 
 void RunDirectory::compact_rows() {
@@ -231,11 +231,11 @@ void RunDirectory::compact_rows() {
 }
 
 void RunDirectory::rewrite_rows() {
-  const fs::path file = path_ / kRowsFile;
+  const fs::path file = path_ / record::kRowsFile;
   const fs::path temporary = path_ / "runs.jsonl.new";
   fs::remove(temporary);
-  JsonLinesWriter writer(temporary);
-  for (const RunRecord& row : rows_) writer.append(row);
+  record::JsonLinesWriter writer(temporary);
+  for (const record::RunRecord& row : rows_) writer.append(row);
   synchronise(temporary);
   fs::rename(temporary, file);
   row_writer_.emplace(file);
@@ -289,7 +289,8 @@ void remove_stale_scratch(const fs::path& results) {
   std::error_code ignored;
   const auto remove_in = [&](const fs::path& run) {
     // What has a folder of that name and is no run is not ours.
-    if (!fs::is_directory(run / kScratchFolder, ignored) || !fs::exists(run / kRowsFile, ignored)) return;
+    if (!fs::is_directory(run / kScratchFolder, ignored) || !fs::exists(run / record::kRowsFile, ignored))
+      return;
     const int lock = ::open(run.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
     if (lock >= 0 && ::flock(lock, LOCK_EX | LOCK_NB) == 0) fs::remove_all(run / kScratchFolder, ignored);
     if (lock >= 0) ::close(lock);
@@ -303,7 +304,7 @@ void remove_stale_scratch(const fs::path& results) {
 bool is_finished_run(const fs::path& folder, const json& header) {
   const json earlier = read_header(folder);
   return earlier.is_object() && run_continuity(earlier) == run_continuity(header) &&
-         fs::exists(folder / kReportFile);
+         fs::exists(folder / record::kReportFile);
 }
 
 fs::path make_run_folder(const json& header, const fs::path& results) {
@@ -342,4 +343,4 @@ void point_latest_to(const fs::path& run_directory, const fs::path& results) {
     throw std::runtime_error("cannot let " + link.string() + " point to the run: " + error.message());
 }
 
-}  // namespace hullbench
+}  // namespace hullbench::run

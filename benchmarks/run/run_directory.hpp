@@ -15,18 +15,18 @@
 #include "benchmarks/record/json_lines.hpp"
 #include "benchmarks/record/record.hpp"
 
-namespace hullbench {
+namespace hullbench::run {
 
 /// One timed repetition: a line of repetitions.jsonl.
 struct Repetition {
   std::int64_t time_ns = 0;
-  PhaseTimes phases_ns;
+  record::PhaseTimes phases_ns;
   std::string output_sha256;
-  std::int64_t round = 0;                ///< as in RunRecord
-  std::int64_t pass = 1;                 ///< as in RunRecord
-  std::optional<CanaryTimes> canary_ns;  ///< of its round; none when there was no canary
-  bool remeasured = false;               ///< its round was measured again, and this is of the last time
-  bool unsteady = false;                 ///< its round's canary was off
+  std::int64_t round = 0;                        ///< as in RunRecord
+  std::int64_t pass = 1;                         ///< as in RunRecord
+  std::optional<record::CanaryTimes> canary_ns;  ///< of its round; none when there was no canary
+  bool remeasured = false;  ///< its round was measured again, and this is of the last time
+  bool unsteady = false;    ///< its round's canary was off
 };
 
 /// The folder of one run, locked against a second harness for the life of the object.
@@ -49,12 +49,12 @@ class RunDirectory {
   void write_header(const nlohmann::json& header);
 
   /// The finished runs so far, in the order of the file.
-  const std::vector<RunRecord>& rows() const { return rows_; }
+  const std::vector<record::RunRecord>& rows() const { return rows_; }
   /// The row with that name; null when there is none.
-  const RunRecord* find_row(const std::string& name) const;
+  const record::RunRecord* find_row(const std::string& name) const;
   /// Adds rows to runs.jsonl; they are on the disk when this returns. A row of the same name is replaced. One
   /// that has its id too stays in the file until compact_rows, as every reader takes the last one of an id.
-  void append_rows(const std::vector<RunRecord>& rows);
+  void append_rows(const std::vector<record::RunRecord>& rows);
   /// Leaves each row once in the file.
   void compact_rows();
 
@@ -68,19 +68,19 @@ class RunDirectory {
  private:
   void read_rows();
   void read_repetitions();
-  void remember_row(const RunRecord& row);
+  void remember_row(const record::RunRecord& row);
   void rewrite_rows();
 
   std::filesystem::path path_;
   std::filesystem::path scratch_;
   int lock_;
   nlohmann::json header_;
-  std::vector<RunRecord> rows_;
+  std::vector<record::RunRecord> rows_;
   std::map<std::string, std::size_t> row_places_;               ///< in rows_, by name
   bool has_old_rows_ = false;                                   ///< the file has rows that were replaced
   std::map<std::string, std::vector<Repetition>> repetitions_;  ///< by id
-  std::optional<JsonLinesWriter> row_writer_;
-  std::optional<JsonLinesWriter> repetition_writer_;
+  std::optional<record::JsonLinesWriter> row_writer_;
+  std::optional<record::JsonLinesWriter> repetition_writer_;
 };
 
 /// Where a run is to go.
@@ -120,4 +120,4 @@ nlohmann::json run_continuity(const nlohmann::json& header);
 /// std::runtime_error when it cannot.
 void point_latest_to(const std::filesystem::path& run_directory, const std::filesystem::path& results);
 
-}  // namespace hullbench
+}  // namespace hullbench::run

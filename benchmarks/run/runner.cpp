@@ -8,21 +8,21 @@
 #include <stdexcept>
 #include <utility>
 
-#include "benchmarks/base/configuration_error.hpp"
 #include "adapters/wkb.hpp"
+#include "benchmarks/base/configuration_error.hpp"
 #include "benchmarks/base/interrupt.hpp"
-#include "benchmarks/worker/method_session.hpp"
+#include "benchmarks/base/parallel.hpp"
 #include "benchmarks/metrics/metric_table.hpp"
 #include "benchmarks/metrics/metrics.hpp"
-#include "benchmarks/base/parallel.hpp"
 #include "benchmarks/record/pictures.hpp"
+#include "benchmarks/worker/method_session.hpp"
 #include "benchmarks/worker/protocol.hpp"
 #include "datasets/datasets.hpp"
 #include "datasets/degenerate.hpp"
 #include "datasets/random.hpp"
 #include "datasets/sha256.hpp"
 
-namespace hullbench {
+namespace hullbench::run {
 namespace {
 
 using nlohmann::json;
@@ -34,8 +34,8 @@ std::string hash_of(const std::vector<std::uint8_t>& bytes) {
 /// One run on its way to its row.
 struct Entry {
   std::size_t index = 0;  ///< into the planned runs
-  MethodSession* session = nullptr;
-  RunRecord record;
+  worker::MethodSession* session = nullptr;
+  record::RunRecord record;
   std::vector<Repetition> repetitions;            ///< of all passes
   std::optional<Repetition> latest;               ///< of the round that is not over
   std::optional<MultiPolygon> result;             ///< of the first run; none while there is none to score
@@ -46,11 +46,11 @@ struct Entry {
 
 /// The runs of one case, and what they are run on.
 struct CaseWork {
-  const PlanCase* plan_case = nullptr;
+  const plan::PlanCase* plan_case = nullptr;
   PointSet set;
   std::vector<Entry> entries;
-  std::optional<CaseScorer> scorer;  ///< once there is something to score
-  std::string scorer_fault;          ///< why there is none then
+  std::optional<metrics::CaseScorer> scorer;  ///< once there is something to score
+  std::string scorer_fault;                   ///< why there is none then
 };
 
 /// A batch holds cases for about so many points times runs: 62 of the random polygons, which are worth
@@ -59,23 +59,23 @@ struct CaseWork {
 constexpr std::int64_t kBatchWork = 1'000'000;
 
 /// How many of a method's repetitions are in the passes up to `pass`.
-int repetitions_until(const Plan& plan, const PlanMethod& method, int pass) {
+int repetitions_until(const plan::Plan& plan, const plan::PlanMethod& method, int pass) {
   int count = 0;
   for (int each = 1; each <= pass; ++each)
-    count += share_of_pass(repetitions_of(plan, method), plan.passes, each);
+    count += plan::share_of_pass(plan::repetitions_of(plan, method), plan.passes, each);
   return count;
 }
 
 /// Whether nothing is left to measure of `run` in the passes up to `pass`.
-bool is_done(const Plan& plan, const PlannedRun& run, const RunDirectory& directory, int pass) {
-  const RunRecord* row = directory.find_row(run.name);
+bool is_done(const plan::Plan& plan, const plan::PlannedRun& run, const RunDirectory& directory, int pass) {
+  const record::RunRecord* row = directory.find_row(run.name);
   if (!row) return false;
-  if (row->status != Status::kOk) return true;
-  const PlanMethod& method = plan.methods[run.method_index];
+  if (row->status != record::Status::kOk) return true;
+  const plan::PlanMethod& method = plan.methods[run.method_index];
   const std::size_t there = row->time_ns.size();
   if (std::cmp_less(there, repetitions_until(plan, method, pass))) return false;
   // A later pass adds to the repetitions, so they must be there too.
-  return std::cmp_greater_equal(there, repetitions_of(plan, method)) ||
+  return std::cmp_greater_equal(there, plan::repetitions_of(plan, method)) ||
          directory.repetitions(row->id).size() >= there;
 }
 
@@ -93,15 +93,16 @@ bool is_worse_than_convex_hull(const json& metrics) {
 }
 
 /// The reasons to doubt a row.
-std::vector<std::string> flags_of(const RunRecord& record, const std::vector<Repetition>& repetitions) {
+std::vector<std::string> flags_of(const record::RunRecord& record,
+                                  const std::vector<Repetition>& repetitions) {
   const auto any = [&](auto is_so) { return std::any_of(repetitions.begin(), repetitions.end(), is_so); };
-  const double floor = kFloorNsPerPoint * static_cast<double>(record.n);
+  const double floor = record::kFloorNsPerPoint * static_cast<double>(record.n);
   std::vector<std::string> flags;
   if (any([&](const Repetition& one) { return static_cast<double>(one.time_ns) < floor; }))
-    flags.emplace_back(kFasterThanFloor);
-  if (any([](const Repetition& one) { return one.remeasured; })) flags.emplace_back(kRemeasuredRound);
-  if (any([](const Repetition& one) { return one.unsteady; })) flags.emplace_back(kUnsteadyMachine);
-  if (is_worse_than_convex_hull(record.metrics)) flags.emplace_back(kWorseThanConvexHull);
+    flags.emplace_back(record::kFasterThanFloor);
+  if (any([](const Repetition& one) { return one.remeasured; })) flags.emplace_back(record::kRemeasuredRound);
+  if (any([](const Repetition& one) { return one.unsteady; })) flags.emplace_back(record::kUnsteadyMachine);
+  if (is_worse_than_convex_hull(record.metrics)) flags.emplace_back(record::kWorseThanConvexHull);
   return flags;
 }
 
@@ -110,7 +111,7 @@ constexpr std::chrono::nanoseconds kLongRun = std::chrono::seconds(2);
 
 class Runner {
  public:
-  Runner(const Plan& plan, const std::vector<PlannedRun>& runs, const RunnerOptions& options,
+  Runner(const plan::Plan& plan, const std::vector<plan::PlannedRun>& runs, const RunnerOptions& options,
          RunDirectory& directory, Progress& progress, int pass)
       : plan_(plan),
         runs_(runs),
@@ -140,8 +141,8 @@ class Runner {
       result.interrupted = true;
     }
     directory_.compact_rows();
-    for (const PlannedRun& run : runs_) {
-      if (const RunRecord* row = directory_.find_row(run.name))
+    for (const plan::PlannedRun& run : runs_) {
+      if (const record::RunRecord* row = directory_.find_row(run.name))
         count_row(result, row->status, plan_.accepted);
     }
     return result;
@@ -174,16 +175,17 @@ class Runner {
   void start_methods() {
     for (std::size_t i = 0; i < runs_.size(); ++i) {
       if (is_done_before(i)) continue;
-      const PlanMethod& entry = plan_.methods[runs_[i].method_index];
+      const plan::PlanMethod& entry = plan_.methods[runs_[i].method_index];
       const std::string& method = entry.method;
       if (sessions_.contains(method)) continue;
       method_order_.push_back(method);
-      const WorkerLimits limits = {entry.mem_limit_mib.value_or(plan_.mem_limit_mib), options_.worker_core};
-      sessions_[method] = std::make_unique<MethodSession>(options_.find_method(method), limits);
+      const worker::WorkerLimits limits = {entry.mem_limit_mib.value_or(plan_.mem_limit_mib),
+                                           options_.worker_core};
+      sessions_[method] = std::make_unique<worker::MethodSession>(options_.find_method(method), limits);
       sessions_[method]->begin_start();
     }
     for (const std::string& method : method_order_) {
-      const MethodSession& session = *sessions_[method];
+      const worker::MethodSession& session = *sessions_[method];
       sessions_[method]->finish_start();
       if (!session.info()) {
         progress_.note("hullbench: " + method + " does not start (" +
@@ -194,13 +196,14 @@ class Runner {
 
   json describe_methods() const {
     json methods = json::array();
-    for (const std::string& method : method_order_) methods.push_back(describe_method(*sessions_.at(method)));
+    for (const std::string& method : method_order_)
+      methods.push_back(worker::describe_method(*sessions_.at(method)));
     return methods;
   }
 
   void check_parameter_names() const {
-    for (const PlannedRun& run : runs_) {
-      const PlanMethod& method = plan_.methods[run.method_index];
+    for (const plan::PlannedRun& run : runs_) {
+      const plan::PlanMethod& method = plan_.methods[run.method_index];
       const auto session = sessions_.find(method.method);
       if (session == sessions_.end() || !session->second->info()) continue;
       const auto& info = session->second->info();
@@ -220,12 +223,12 @@ class Runner {
 
   /// The cases from the one at `next` in cases_ on that make a batch.
   std::vector<CaseWork> gather_batch(std::size_t next) const {
-    const int runs_each = plan_.warmup + share_of_pass(plan_.repetitions, plan_.passes, pass_);
+    const int runs_each = plan_.warmup + plan::share_of_pass(plan_.repetitions, plan_.passes, pass_);
     std::vector<CaseWork> batch;
     std::int64_t work = 0;
     for (; next < cases_.size(); ++next) {
       const CaseRuns& runs = cases_[next];
-      const PlanCase& plan_case = plan_.expanded_cases[runs_[runs.begin].case_index];
+      const plan::PlanCase& plan_case = plan_.expanded_cases[runs_[runs.begin].case_index];
       work += estimated_points(plan_case) * static_cast<std::int64_t>(runs.end - runs.begin) * runs_each;
       if (!batch.empty() && work > kBatchWork) break;
       CaseWork& one = batch.emplace_back();
@@ -242,7 +245,7 @@ class Runner {
     std::vector<CaseWork> batch = gather_batch(next);
     for_each_in_parallel(batch.size(), options_.cores, [&](std::size_t i) { prepare(batch[i]); });
     try {
-      for (CaseWork& one : batch) measure(one);
+      for (CaseWork& one : batch) micro::measure(one);
     } catch (const Interrupted&) {
       settle(batch);
       throw;
@@ -254,12 +257,12 @@ class Runner {
   /// Draws a case's points and chooses its parameters; nothing is asked of a worker, as several cases do this
   /// at the same time.
   void prepare(CaseWork& one) const {
-    const PlanCase& plan_case = *one.plan_case;
+    const plan::PlanCase& plan_case = *one.plan_case;
     one.set = make_point_set(plan_case.dataset, plan_case.holes, static_cast<std::size_t>(plan_case.n),
                              plan_.seed, options_.folders);
     for (Entry& entry : one.entries) {
-      const PlanMethod& method = method_of(entry);
-      RunRecord& record = entry.record;
+      const plan::PlanMethod& method = method_of(entry);
+      record::RunRecord& record = entry.record;
       record.name = runs_[entry.index].name;
       record.method = method.method;
       record.dataset = plan_case.dataset;
@@ -273,14 +276,14 @@ class Runner {
       record.seed = plan_.seed;
       record.protocol = method.protocol;
       record.machine = machine_;
-      record.parameters = choose_parameters(
+      record.parameters = plan::choose_parameters(
           method, plan_case,
           {one.set.points, one.set.ground_truth_area, plan_case.holes, one.set.ground_truth});
     }
   }
 
   /// Everything that is timed of a case, one worker at a time.
-  void measure(CaseWork& one) {
+  void micro::measure(CaseWork& one) {
     for (Entry& entry : one.entries) {
       if (is_done_before(entry.index)) {
         leave_as_it_is(entry);
@@ -292,8 +295,9 @@ class Runner {
     if (std::all_of(one.entries.begin(), one.entries.end(),
                     [](const Entry& entry) { return entry.measured; }))
       return;
-    const LoadedPoints points = {one.set.sha256, directory_.scratch() / "points.f64", one.set.points.size()};
-    write_points_file(points.file, one.set.points);
+    const worker::LoadedPoints points = {one.set.sha256, directory_.scratch() / "points.f64",
+                                         one.set.points.size()};
+    worker::write_points_file(points.file, one.set.points);
     for (Entry& entry : one.entries) {
       if (!entry.measured) warm_up(entry, points);
     }
@@ -303,14 +307,15 @@ class Runner {
       run_round(one.entries, turn, first_round + turn, points);
     for (Entry& entry : one.entries) {
       // Without a warm-up, one untimed run after the timed ones, which must give the same result.
-      if (plan_.warmup == 0 && pass_ == 1 && !entry.measured) attempt_run(entry, points, Watch::kMemory);
+      if (plan_.warmup == 0 && pass_ == 1 && !entry.measured)
+        attempt_run(entry, points, worker::Watch::kMemory);
       entry.measured = true;
     }
   }
 
   /// Fills in what the worker's first answer tells, and looks for an earlier start's row and repetitions.
   void complete(Entry& entry) {
-    RunRecord& record = entry.record;
+    record::RunRecord& record = entry.record;
     const auto& info = entry.session->info();
     std::optional<std::string> refusal;
     if (info) {
@@ -321,15 +326,15 @@ class Runner {
         refusal = error.what();
       }
     }
-    record.id = run_identity(record);
-    const RunRecord* earlier = directory_.find_row(record.name);
+    record.id = record::run_identity(record);
+    const record::RunRecord* earlier = directory_.find_row(record.name);
     // A row of a method that is not there any more is kept: nothing newer can take its place.
-    const bool lost = earlier && !info && earlier->status != Status::kNotInstalled;
+    const bool lost = earlier && !info && earlier->status != record::Status::kNotInstalled;
     const bool same = earlier && earlier->id == record.id;
     if (lost || (same && is_done(plan_, runs_[entry.index], directory_, pass_))) {
       leave_as_it_is(entry);
     } else if (refusal) {
-      fail(entry, Status::kError, *refusal);
+      fail(entry, record::Status::kError, *refusal);
     } else if (!info) {
       fail(entry, entry.session->start_reply().status, start_failure(*entry.session));
     } else {
@@ -346,13 +351,13 @@ class Runner {
     progress_.finish(entry.index);
   }
 
-  const PlanMethod& method_of(const Entry& entry) const {
+  const plan::PlanMethod& method_of(const Entry& entry) const {
     return plan_.methods[runs_[entry.index].method_index];
   }
 
   /// How many repetitions of the entry fall in `pass`.
   int share_of(const Entry& entry, int pass) const {
-    return share_of_pass(repetitions_of(plan_, method_of(entry)), plan_.passes, pass);
+    return plan::share_of_pass(plan::repetitions_of(plan_, method_of(entry)), plan_.passes, pass);
   }
 
   int rounds_of(const std::vector<Entry>& entries, int pass) const {
@@ -361,37 +366,38 @@ class Runner {
     return most;
   }
 
-  std::chrono::milliseconds timeout_of(const PlanMethod& method) const {
+  std::chrono::milliseconds timeout_of(const plan::PlanMethod& method) const {
     const double seconds = method.timeout_s.value_or(plan_.timeout_s);
     return std::chrono::milliseconds(std::max<std::int64_t>(1, std::llround(seconds * 1000)));
   }
 
-  static std::string start_failure(const MethodSession& session) {
-    const Reply& reply = session.start_reply();
+  static std::string start_failure(const worker::MethodSession& session) {
+    const worker::Reply& reply = session.start_reply();
     return reply.remedy.empty() ? reply.detail : reply.detail + "; remedy: " + reply.remedy;
   }
 
   /// The untimed runs. Repetitions of an earlier start call for one at least: their result was scored, but
   /// the scores are gone. A later pass, which has the scores, does without them where a run takes long.
-  void warm_up(Entry& entry, const LoadedPoints& points) {
+  void warm_up(Entry& entry, const worker::LoadedPoints& points) {
     const bool is_scored = !entry.record.output_sha256.empty() && !entry.repetitions.empty();
     const bool is_long = is_scored && entry.repetitions.back().time_ns >= kLongRun.count();
     const int untimed = is_long ? 0 : std::max(plan_.warmup, entry.repetitions.empty() ? 0 : 1);
     for (int count = 0; count < untimed && !entry.measured; ++count) {
-      attempt_run(entry, points, Watch::kMemory);
+      attempt_run(entry, points, worker::Watch::kMemory);
     }
     const auto differs = [&](const Repetition& earlier) {
       return earlier.output_sha256 != entry.record.output_sha256;
     };
     if (!entry.measured && std::any_of(entry.repetitions.begin(), entry.repetitions.end(), differs)) {
       entry.repetitions.clear();
-      fail(entry, Status::kInvalidOutput, "the result is not the one that it gave before the interruption");
+      fail(entry, record::Status::kInvalidOutput,
+           "the result is not the one that it gave before the interruption");
     }
   }
 
   /// The entries that take part in the round of the pass's number `turn`, in random order.
   std::vector<Entry*> draw_turns(std::vector<Entry>& entries, int turn, int round,
-                                 const LoadedPoints& points) const {
+                                 const worker::LoadedPoints& points) const {
     std::vector<Entry*> turns;
     for (Entry& entry : entries) turns.push_back(&entry);
     // Drawn from the case and the round, so that a run that goes on after an interruption keeps its order.
@@ -406,11 +412,11 @@ class Runner {
   }
 
   /// `turn`: the round's number within the pass; `round`: over all passes.
-  void run_round(std::vector<Entry>& entries, int turn, int round, const LoadedPoints& points) {
+  void run_round(std::vector<Entry>& entries, int turn, int round, const worker::LoadedPoints& points) {
     const std::vector<Entry*> turns = draw_turns(entries, turn, round, points);
     if (turns.empty()) return;
     MachineWatch* const machine = options_.machine;
-    std::optional<CanaryTimes> canary;
+    std::optional<record::CanaryTimes> canary;
     int tries = 0;
     for (bool again = true; again;) {
       ++tries;
@@ -436,11 +442,11 @@ class Runner {
     }
   }
 
-  void take_turn(Entry& entry, int tries, const LoadedPoints& points) {
+  void take_turn(Entry& entry, int tries, const worker::LoadedPoints& points) {
     entry.latest.reset();
     if (entry.measured) return;
     if (tries > 1) progress_.repeat(entry.index);
-    const std::optional<Attempt> attempt = attempt_run(entry, points, Watch::kNothing);
+    const std::optional<worker::Attempt> attempt = attempt_run(entry, points, worker::Watch::kNothing);
     if (!attempt) return;
     Repetition& repetition = entry.latest.emplace();
     repetition.time_ns = attempt->time_ns();
@@ -450,22 +456,23 @@ class Runner {
 
   /// One run. The first one's result is kept to be scored, and every other one must give it again; without a
   /// value when the run failed, and nothing more is measured of the entry then.
-  std::optional<Attempt> attempt_run(Entry& entry, const LoadedPoints& points, Watch watch) {
+  std::optional<worker::Attempt> attempt_run(Entry& entry, const worker::LoadedPoints& points,
+                                             worker::Watch watch) {
     progress_.begin(entry.index);
     const auto timeout = timeout_of(method_of(entry));
     if (entry.session->is_cold()) {
-      const Attempt cold =
+      const worker::Attempt cold =
           entry.session->warm_up(points, entry.record.parameters, directory_.scratch(), timeout);
-      if (cold.status != Status::kOk) {
+      if (cold.status != record::Status::kOk) {
         fail(entry, cold.status, cold.detail);
         return std::nullopt;
       }
       if (!entry.record.cold_time_ns) entry.record.cold_time_ns = cold.time_ns();
     }
-    Attempt attempt =
+    worker::Attempt attempt =
         entry.session->run(points, entry.record.parameters, directory_.scratch(), timeout, watch);
     entry.peak_memory_bytes = std::max(entry.peak_memory_bytes, attempt.peak_memory_bytes);
-    if (attempt.status != Status::kOk) {
+    if (attempt.status != record::Status::kOk) {
       fail(entry, attempt.status, attempt.detail);
       return std::nullopt;
     }
@@ -475,22 +482,23 @@ class Runner {
       keep_result(entry, attempt);
     }
     if (!entry.measured && entry.record.output_sha256 != hash) {
-      fail(entry, Status::kInvalidOutput, "two runs on the same points gave different results");
+      fail(entry, record::Status::kInvalidOutput, "two runs on the same points gave different results");
     }
     if (entry.measured) return std::nullopt;
     progress_.advance(entry.index, attempt.elapsed);
     return attempt;
   }
 
-  static void keep_result(Entry& entry, const Attempt& attempt) {
+  static void keep_result(Entry& entry, const worker::Attempt& attempt) {
     try {
       entry.result = from_wkb(attempt.wkb);
     } catch (const std::exception& error) {
-      fail(entry, Status::kInvalidOutput, "the result is no polygon: " + printable(error.what(), 200));
+      fail(entry, record::Status::kInvalidOutput,
+           "the result is no polygon: " + worker::printable(error.what(), 200));
     }
   }
 
-  static void fail(Entry& entry, Status status, const std::string& detail) {
+  static void fail(Entry& entry, record::Status status, const std::string& detail) {
     entry.record.status = status;
     entry.record.detail = detail;
     entry.measured = true;
@@ -510,7 +518,7 @@ class Runner {
     for_each_in_parallel(to_score.size(), options_.cores, [&](std::size_t i) { make_scorer(*to_score[i]); });
     for_each_in_parallel(finished.size(), options_.cores,
                          [&](std::size_t i) { score_result(*finished[i].first, *finished[i].second); });
-    std::vector<RunRecord> rows;
+    std::vector<record::RunRecord> rows;
     rows.reserve(finished.size());
     for (const auto& [entry, one] : finished) rows.push_back(finished_record(*entry));
     // Before the rows: a run that has its row is not measured again, and its picture would be missing.
@@ -520,9 +528,9 @@ class Runner {
     directory_.append_rows(rows);
     for (const auto& [entry, one] : finished) {
       entry->settled = true;
-      const RunRecord& record = entry->record;
+      const record::RunRecord& record = entry->record;
       // Of a method that does not start this was said once already.
-      if (record.status != Status::kOk && entry->session->info()) {
+      if (record.status != record::Status::kOk && entry->session->info()) {
         progress_.note("hullbench: " + record.name + ": " + to_string(record.status) + ": " + record.detail);
       }
       progress_.finish(entry->index);
@@ -540,32 +548,32 @@ class Runner {
 
   static void score_result(Entry& entry, const CaseWork& one) {
     if (!entry.result) return;
-    RunRecord& record = entry.record;
+    record::RunRecord& record = entry.record;
     std::string fault;
-    Status status = Status::kOk;
+    record::Status status = record::Status::kOk;
     try {
       if (!one.scorer_fault.empty()) throw std::runtime_error(one.scorer_fault);
-      Metrics metrics =
+      metrics::Metrics metrics =
           one.scorer ? one.scorer->score(*entry.result) : describe(one.set.points, *entry.result);
       metrics.peak_memory_bytes = entry.peak_memory_bytes;
-      record.metrics = metrics_to_json(metrics);
+      record.metrics = metrics::metrics_to_json(metrics);
       // The run's times stay all the same: how fast a method gives a wrong answer is part of the record.
       if (!metrics.area.valid) {
-        status = Status::kInvalidOutput;
+        status = record::Status::kInvalidOutput;
         fault = "the result is an invalid polygon: " + metrics.area.invalid_reason;
       }
     } catch (const std::runtime_error& error) {
-      status = Status::kError;
+      status = record::Status::kError;
       fault = std::string("the result cannot be scored: ") + error.what();
     }
-    if (record.status == Status::kOk) {
+    if (record.status == record::Status::kOk) {
       record.status = status;
       record.detail = fault;
     }
   }
 
-  static RunRecord finished_record(const Entry& entry) {
-    RunRecord record = entry.record;
+  static record::RunRecord finished_record(const Entry& entry) {
+    record::RunRecord record = entry.record;
     record.time_ns.clear();
     record.phases_ns.clear();
     record.rounds.clear();
@@ -582,40 +590,41 @@ class Runner {
     return record;
   }
 
-  const Plan& plan_;
-  const std::vector<PlannedRun>& runs_;
+  const plan::Plan& plan_;
+  const std::vector<plan::PlannedRun>& runs_;
   const RunnerOptions& options_;
   RunDirectory& directory_;
   Progress& progress_;
   int pass_;
-  PictureBook pictures_;
+  record::PictureBook pictures_;
   std::vector<CaseRuns> cases_;            ///< those with something to do
   std::string machine_;                    ///< this one's id, for the rows
   std::vector<std::string> method_order_;  ///< as in the plan
-  std::map<std::string, std::unique_ptr<MethodSession>> sessions_;
+  std::map<std::string, std::unique_ptr<worker::MethodSession>> sessions_;
 };
 
 }  // namespace
 
-RunResult run_plan(const Plan& plan, const std::vector<PlannedRun>& runs, const json& header,
+RunResult run_plan(const plan::Plan& plan, const std::vector<plan::PlannedRun>& runs, const json& header,
                    const RunnerOptions& options, RunDirectory& directory, Progress& progress, int pass) {
   return Runner(plan, runs, options, directory, progress, pass).run(header);
 }
 
-bool has_repetitions(const Plan& plan, const std::vector<PlannedRun>& runs, int pass) {
-  return std::any_of(runs.begin(), runs.end(), [&](const PlannedRun& run) {
-    return share_of_pass(repetitions_of(plan, plan.methods[run.method_index]), plan.passes, pass) > 0;
+bool has_repetitions(const plan::Plan& plan, const std::vector<plan::PlannedRun>& runs, int pass) {
+  return std::any_of(runs.begin(), runs.end(), [&](const plan::PlannedRun& run) {
+    return plan::share_of_pass(plan::repetitions_of(plan, plan.methods[run.method_index]), plan.passes,
+                               pass) > 0;
   });
 }
 
-std::size_t count_finished(const Plan& plan, const std::vector<PlannedRun>& runs,
+std::size_t count_finished(const plan::Plan& plan, const std::vector<plan::PlannedRun>& runs,
                            const RunDirectory& directory) {
-  return static_cast<std::size_t>(std::count_if(runs.begin(), runs.end(), [&](const PlannedRun& run) {
+  return static_cast<std::size_t>(std::count_if(runs.begin(), runs.end(), [&](const plan::PlannedRun& run) {
     return is_done(plan, run, directory, plan.passes);
   }));
 }
 
-std::int64_t estimated_points(const PlanCase& plan_case) {
+std::int64_t estimated_points(const plan::PlanCase& plan_case) {
   constexpr std::int64_t kPointsOfAFloor = 80'000;
   if (plan_case.n > 0) return plan_case.n;
   for (const DegenerateInput& input : degenerate_inputs()) {
@@ -626,20 +635,21 @@ std::int64_t estimated_points(const PlanCase& plan_case) {
   return kPointsOfAFloor;
 }
 
-std::vector<ProgressRun> progress_runs(const Plan& plan, const std::vector<PlannedRun>& runs, int pass) {
+std::vector<ProgressRun> progress_runs(const plan::Plan& plan, const std::vector<plan::PlannedRun>& runs,
+                                       int pass) {
   std::vector<ProgressRun> result;
   result.reserve(runs.size());
-  for (const PlannedRun& run : runs) {
-    const PlanMethod& method = plan.methods[run.method_index];
-    const int share = share_of_pass(repetitions_of(plan, method), plan.passes, pass);
+  for (const plan::PlannedRun& run : runs) {
+    const plan::PlanMethod& method = plan.methods[run.method_index];
+    const int share = plan::share_of_pass(plan::repetitions_of(plan, method), plan.passes, pass);
     result.push_back({run.name, method.method, estimated_points(plan.expanded_cases[run.case_index]),
                       share == 0 ? 0 : plan.warmup + share});
   }
   return result;
 }
 
-void count_row(RunResult& result, Status status, const std::vector<std::string>& accepted) {
-  const bool good = status != Status::kOk &&
+void count_row(RunResult& result, record::Status status, const std::vector<std::string>& accepted) {
+  const bool good = status != record::Status::kOk &&
                     std::find(accepted.begin(), accepted.end(), to_string(status)) != accepted.end();
   ++(good ? result.accepted : result.counts[status]);
 }
@@ -648,11 +658,12 @@ int exit_code(const RunResult& result) {
   if (result.interrupted) return 130;
   int measured = result.accepted;
   for (const auto& [status, count] : result.counts) {
-    if (status == Status::kNotInstalled || status == Status::kUnsupported || count == 0) continue;
-    if (status != Status::kOk) return 4;
+    if (status == record::Status::kNotInstalled || status == record::Status::kUnsupported || count == 0)
+      continue;
+    if (status != record::Status::kOk) return 4;
     measured += count;
   }
   return measured > 0 ? 0 : 6;
 }
 
-}  // namespace hullbench
+}  // namespace hullbench::run

@@ -10,18 +10,18 @@
 #include <string>
 #include <vector>
 
-#include "benchmarks/run/canary.hpp"
-#include "benchmarks/worker/method.hpp"
 #include "benchmarks/plan/plan.hpp"
-#include "benchmarks/run/progress.hpp"
 #include "benchmarks/record/record.hpp"
+#include "benchmarks/run/canary.hpp"
+#include "benchmarks/run/progress.hpp"
 #include "benchmarks/run/run_directory.hpp"
+#include "benchmarks/worker/method.hpp"
 #include "datasets/datasets.hpp"
 
-namespace hullbench {
+namespace hullbench::run {
 
 struct RunnerOptions {
-  MethodFinder find_method;
+  worker::MethodFinder find_method;
   std::optional<int> worker_core;  ///< the one core that the workers run on; none: any
   /// Where samples are drawn and results scored, which nobody times: cores as in for_each_in_parallel.
   std::vector<int> cores = {};
@@ -32,7 +32,7 @@ struct RunnerOptions {
 struct RunResult {
   bool interrupted = false;
   /// Of the rows of this plan that are there now, those of earlier starts too, without the accepted ones.
-  std::map<Status, int> counts;
+  std::map<record::Status, int> counts;
   int accepted = 0;      ///< rows that are not ok but have a status that the plan accepts
   int resumed_rows = 0;  ///< finished by an earlier start
 };
@@ -59,29 +59,31 @@ struct RunResult {
 /// Throws ConfigurationError when a method that is installed does not have a parameter that the plan gives
 /// it, and std::runtime_error when something cannot be written. An interruption is a result, not an
 /// exception.
-RunResult run_plan(const Plan& plan, const std::vector<PlannedRun>& runs, const nlohmann::json& header,
-                   const RunnerOptions& options, RunDirectory& directory, Progress& progress, int pass = 1);
+RunResult run_plan(const plan::Plan& plan, const std::vector<plan::PlannedRun>& runs,
+                   const nlohmann::json& header, const RunnerOptions& options, RunDirectory& directory,
+                   Progress& progress, int pass = 1);
 
 /// Whether `pass` has repetitions of one of `runs`.
-bool has_repetitions(const Plan& plan, const std::vector<PlannedRun>& runs, int pass);
+bool has_repetitions(const plan::Plan& plan, const std::vector<plan::PlannedRun>& runs, int pass);
 
 /// How many of `runs` have a row with nothing left to measure in any pass, as far as the rows themselves
 /// tell.
-std::size_t count_finished(const Plan& plan, const std::vector<PlannedRun>& runs,
+std::size_t count_finished(const plan::Plan& plan, const std::vector<plan::PlannedRun>& runs,
                            const RunDirectory& directory);
 
 /// The case's number of points, for estimates of work only: a data set's own points are not counted before
 /// they are read.
-std::int64_t estimated_points(const PlanCase& plan_case);
+std::int64_t estimated_points(const plan::PlanCase& plan_case);
 
 /// What `progress` needs to know of `runs` in `pass`.
-std::vector<ProgressRun> progress_runs(const Plan& plan, const std::vector<PlannedRun>& runs, int pass = 1);
+std::vector<ProgressRun> progress_runs(const plan::Plan& plan, const std::vector<plan::PlannedRun>& runs,
+                                       int pass = 1);
 
 /// Counts a row with that status of a plan that accepts `accepted` (Plan::accepted).
-void count_row(RunResult& result, Status status, const std::vector<std::string>& accepted);
+void count_row(RunResult& result, record::Status status, const std::vector<std::string>& accepted);
 
 /// 0: all rows are ok, accepted, not installed or unsupported; 4: a row is a failure; 6: no row is ok or
 /// accepted and none is a failure; 130: interrupted.
 int exit_code(const RunResult& result);
 
-}  // namespace hullbench
+}  // namespace hullbench::run

@@ -11,7 +11,7 @@
 #include "benchmarks/base/configuration_error.hpp"
 #include "benchmarks/run/runner.hpp"
 
-namespace hullbench {
+namespace hullbench::run {
 namespace {
 
 constexpr std::size_t kMostShards = 10'000;
@@ -75,11 +75,11 @@ std::string to_string(const Shard& shard) {
   return std::to_string(shard.number) + "/" + std::to_string(shard.count);
 }
 
-std::vector<PlannedRun> runs_of_shard(const Plan& plan, const std::vector<PlannedRun>& runs,
-                                      const Shard& shard) {
+std::vector<plan::PlannedRun> runs_of_shard(const plan::Plan& plan, const std::vector<plan::PlannedRun>& runs,
+                                            const Shard& shard) {
   const std::vector<CaseRuns> cases = cases_of(plan, runs);
   const std::vector<std::size_t> shards = distribute(cases, shard.count);
-  std::vector<PlannedRun> result;
+  std::vector<plan::PlannedRun> result;
   for (std::size_t i = 0; i < cases.size(); ++i) {
     if (shards[i] + 1 != shard.number) continue;
     std::copy(runs.begin() + static_cast<std::ptrdiff_t>(cases[i].begin),
@@ -88,4 +88,4 @@ std::vector<PlannedRun> runs_of_shard(const Plan& plan, const std::vector<Planne
   return result;
 }
 
-}  // namespace hullbench
+}  // namespace hullbench::run

@@ -7,7 +7,7 @@
 
 #include "benchmarks/plan/plan.hpp"
 
-namespace hullbench {
+namespace hullbench::run {
 
 /// One of `count` parts.
 struct Shard {
@@ -27,7 +27,7 @@ std::string to_string(const Shard& shard);
 /// so that the methods of a case are timed on the same machine. Every run is in one of the shards, whatever
 /// machine asks. Shards have about the same work: case by case, the largest first, each goes to the shard
 /// that has the least so far. Empty when there are fewer cases than shards and this is one of the last.
-std::vector<PlannedRun> runs_of_shard(const Plan& plan, const std::vector<PlannedRun>& runs,
-                                      const Shard& shard);
+std::vector<plan::PlannedRun> runs_of_shard(const plan::Plan& plan, const std::vector<plan::PlannedRun>& runs,
+                                            const Shard& shard);
 
-}  // namespace hullbench
+}  // namespace hullbench::run

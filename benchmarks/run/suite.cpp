@@ -1,17 +1,17 @@
 #include "benchmarks/run/suite.hpp"
 
-#include "benchmarks/record/stored_run.hpp"
 #include "benchmarks/base/configuration_error.hpp"
 #include "benchmarks/base/files.hpp"
+#include "benchmarks/record/stored_run.hpp"
 
-namespace hullbench {
+namespace hullbench::run {
 namespace {
 
 namespace fs = std::filesystem;
 using nlohmann::json;
 
 json describe_suite(const std::vector<json>& headers) {
-  json suite = {{"schema_version", kSchemaVersion},
+  json suite = {{"schema_version", record::kSchemaVersion},
                 {"created", headers.front().at("created")},
                 {"plans", json::array()},
                 {"continuity", json::array()}};
@@ -28,14 +28,15 @@ bool is_same(const json& earlier, const json& suite) {
 
 fs::path find_unfinished(const json& suite, const fs::path& runs) {
   for (const fs::path& folder : newest_first(runs)) {
-    if (is_same(read_suite(folder), suite)) return fs::exists(folder / kTablesFile) ? fs::path() : folder;
+    if (is_same(record::read_suite(folder), suite))
+      return fs::exists(folder / record::kTablesFile) ? fs::path() : folder;
   }
   return {};
 }
 
 fs::path open_chosen(const json& suite, const fs::path& folder, bool force) {
   make_writable_folder(folder);
-  if (!force && !fs::is_empty(folder) && !is_same(read_suite(folder), suite)) {
+  if (!force && !fs::is_empty(folder) && !is_same(record::read_suite(folder), suite)) {
     throw ConfigurationError(
         "the output folder " + folder.string() +
         " holds something else; choose another one with --out, or overwrite it with --force");
@@ -54,9 +55,9 @@ fs::path open_suite(const std::vector<json>& headers, const RunPlace& place) {
     if (!place.force) folder = find_unfinished(suite, place.results / "runs");
     if (folder.empty()) folder = make_run_folder(headers.front(), place.results);
   }
-  if (place.force) fs::remove(folder / kTablesFile);
-  write_json_file(folder / kSuiteFile, suite);
+  if (place.force) fs::remove(folder / record::kTablesFile);
+  write_json_file(folder / record::kSuiteFile, suite);
   return folder;
 }
 
-}  // namespace hullbench
+}  // namespace hullbench::run

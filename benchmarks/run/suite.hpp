@@ -7,7 +7,7 @@
 
 #include "benchmarks/run/run_directory.hpp"
 
-namespace hullbench {
+namespace hullbench::run {
 
 /// The folder for a suite of runs with these headers (one or more, of plans with different names). The newest
 /// suite of the same runs in `place.results`/runs is gone on with when it is not finished, and so is the one
@@ -16,4 +16,4 @@ namespace hullbench {
 /// earlier suite left in it are started anew.
 std::filesystem::path open_suite(const std::vector<nlohmann::json>& headers, const RunPlace& place);
 
-}  // namespace hullbench
+}  // namespace hullbench::run

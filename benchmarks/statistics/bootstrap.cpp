@@ -9,7 +9,7 @@
 #include <numeric>
 #include <utility>
 
-namespace hullbench {
+namespace hullbench::statistics {
 namespace {
 
 using Clusters = std::vector<std::vector<Passes>>;  // by cluster, case, pass, round
@@ -189,4 +189,4 @@ std::optional<Interval> clustered_median_interval(const std::vector<std::vector<
   return nested_median_interval(cases);
 }
 
-}  // namespace hullbench
+}  // namespace hullbench::statistics

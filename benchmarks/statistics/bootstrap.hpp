@@ -13,7 +13,7 @@
 #include <span>
 #include <vector>
 
-namespace hullbench {
+namespace hullbench::statistics {
 
 /// What every interval here is meant to cover. An interval of few values covers less: of three values it is
 /// their range, which has the true median in 3 of 4 cases, of five in 15 of 16; from nine on it is close.
@@ -44,4 +44,4 @@ std::optional<Interval> nested_median_interval(const std::vector<std::vector<Pas
 /// median_interval gives.
 std::optional<Interval> clustered_median_interval(const std::vector<std::vector<double>>& clusters);
 
-}  // namespace hullbench
+}  // namespace hullbench::statistics

@@ -7,7 +7,7 @@
 #include <numeric>
 #include <stdexcept>
 
-namespace hullbench {
+namespace hullbench::statistics {
 namespace {
 
 using Times = std::vector<double>;  // sorted
@@ -109,4 +109,4 @@ std::optional<RatioOfTimes> ratio_of_times(std::span<const std::int64_t> a_value
   return result;
 }
 
-}  // namespace hullbench
+}  // namespace hullbench::statistics

@@ -9,7 +9,7 @@
 
 #include "benchmarks/statistics/bootstrap.hpp"
 
-namespace hullbench {
+namespace hullbench::statistics {
 
 /// Times of b over times of a.
 struct RatioOfTimes {
@@ -26,4 +26,4 @@ struct RatioOfTimes {
 /// Both lists need at least one value (else std::invalid_argument). None when a time is not positive.
 std::optional<RatioOfTimes> ratio_of_times(std::span<const std::int64_t> a, std::span<const std::int64_t> b);
 
-}  // namespace hullbench
+}  // namespace hullbench::statistics

@@ -6,7 +6,7 @@
 #include <limits>
 #include <stdexcept>
 
-namespace hullbench {
+namespace hullbench::statistics {
 namespace {
 
 /// How likely at most `k` of `n` fair coins show heads.
@@ -41,4 +41,4 @@ double sign_test_above(std::span<const double> values, double threshold) {
   return at_most_heads(static_cast<std::size_t>(above + below), static_cast<std::size_t>(below));
 }
 
-}  // namespace hullbench
+}  // namespace hullbench::statistics

@@ -6,7 +6,7 @@
 
 #include "benchmarks/statistics/bootstrap.hpp"
 
-namespace hullbench {
+namespace hullbench::statistics {
 
 /// The narrowest symmetric pair of order statistics that holds the median of what `values` were drawn from
 /// with at least `confidence` in (0, 1): the interval of the sign test (Thompson 1936). Infinite in both
@@ -19,4 +19,4 @@ Interval sign_interval(std::span<const double> values, double confidence);
 /// is left.
 double sign_test_above(std::span<const double> values, double threshold);
 
-}  // namespace hullbench
+}  // namespace hullbench::statistics

@@ -6,7 +6,7 @@
 #include <stdexcept>
 #include <vector>
 
-namespace hullbench {
+namespace hullbench::statistics {
 namespace {
 
 template <typename T>
@@ -140,4 +140,4 @@ std::vector<double> holm_adjusted(std::span<const double> p_values) {
   return result;
 }
 
-}  // namespace hullbench
+}  // namespace hullbench::statistics

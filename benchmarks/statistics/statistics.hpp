@@ -9,7 +9,7 @@
 
 #include "benchmarks/statistics/bootstrap.hpp"
 
-namespace hullbench {
+namespace hullbench::statistics {
 
 /// Of a list of times, all in the unit of the times (nanoseconds).
 struct Statistics {
@@ -56,4 +56,4 @@ Statistics describe(std::span<const std::int64_t> values);
 /// at most a are significant with a probability of at most a for any error among them all. For none: none.
 std::vector<double> holm_adjusted(std::span<const double> p_values);
 
-}  // namespace hullbench
+}  // namespace hullbench::statistics

@@ -8,10 +8,10 @@
 #include <stdexcept>
 #include <utility>
 
-#include "benchmarks/record/stored_run.hpp"
 #include "benchmarks/base/files.hpp"
+#include "benchmarks/record/stored_run.hpp"
 
-namespace hullbench {
+namespace hullbench::table {
 namespace {
 
 constexpr std::size_t kLineWidth = 118;
@@ -212,7 +212,7 @@ std::string to_latex(const TableSection& section) {
 }
 
 void write_tables(const std::filesystem::path& folder, const std::vector<Document>& documents) {
-  const std::filesystem::path tables = folder / kTablesFolder;
+  const std::filesystem::path tables = folder / record::kTablesFolder;
   std::error_code error;
   std::filesystem::remove_all(tables, error);
   std::filesystem::create_directory(tables, error);
@@ -225,7 +225,7 @@ void write_tables(const std::filesystem::path& folder, const std::vector<Documen
       write_text_file(tables / (section.id + ".tex"), to_latex(section));
     }
   }
-  write_text_file(folder / kTablesFile, markdown.str());
+  write_text_file(folder / record::kTablesFile, markdown.str());
 }
 
-}  // namespace hullbench
+}  // namespace hullbench::table

@@ -9,7 +9,7 @@
 
 #include "benchmarks/table/text_table.hpp"
 
-namespace hullbench {
+namespace hullbench::table {
 
 /// One table of a document.
 struct TableSection {
@@ -54,4 +54,4 @@ std::string to_latex(const TableSection& section);
 /// cannot be written.
 void write_tables(const std::filesystem::path& folder, const std::vector<Document>& documents);
 
-}  // namespace hullbench
+}  // namespace hullbench::table

@@ -5,7 +5,7 @@
 #include <stdexcept>
 #include <utility>
 
-namespace hullbench {
+namespace hullbench::table {
 namespace {
 
 /// `cells` on one line each: a line break would end the table.
@@ -64,4 +64,4 @@ std::string without_marks(const std::string& cell) {
   return std::regex_replace(cell, marks, "");
 }
 
-}  // namespace hullbench
+}  // namespace hullbench::table

@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-namespace hullbench {
+namespace hullbench::table {
 
 /// Number of columns that `text` (UTF-8 without wide or combining characters) takes in a terminal.
 std::size_t display_width(std::string_view text);
@@ -47,4 +47,4 @@ inline constexpr const char* kSign = "†";
 /// `cell` without the marks of notes at its end: "SpatiaLite (paper)" of "SpatiaLite (paper) [1] [3]".
 std::string without_marks(const std::string& cell);
 
-}  // namespace hullbench
+}  // namespace hullbench::table

@@ -8,7 +8,7 @@
 
 #include "benchmarks/statistics/statistics.hpp"
 
-namespace hullbench {
+namespace hullbench::tune {
 namespace {
 
 constexpr std::array kProtocols = {"paper", "default", "auto", "tuned", "oracle"};
@@ -52,11 +52,11 @@ class Clusters {
     all_.push_back(value);
   }
   bool empty() const { return all_.empty(); }
-  double middle() const { return median(std::span<const double>(all_)); }
-  std::optional<Interval> interval() const {
+  double middle() const { return statistics::median(std::span<const double>(all_)); }
+  std::optional<statistics::Interval> interval() const {
     std::vector<std::vector<double>> clusters;
     for (const auto& [shape, values] : by_shape_) clusters.push_back(values);
-    return clustered_median_interval(clusters);
+    return statistics::clustered_median_interval(clusters);
   }
 
  private:
@@ -135,7 +135,7 @@ std::optional<TunedValue> choose_tuned(const Tuning& tuning, const MethodTuning&
     std::vector<double> errors;
     errors.reserve(training.size());
     for (const MethodOnCase* found : training) errors.push_back(error_at(*found, position));
-    const double middle = median(std::span<const double>(errors));
+    const double middle = statistics::median(std::span<const double>(errors));
     if (middle >= best.training_median) continue;
     best.training_median = middle;
     best.position = position;
@@ -147,7 +147,7 @@ std::optional<TunedValue> choose_tuned(const Tuning& tuning, const MethodTuning&
 
 Quartiles quartiles_of(const std::vector<double>& values) {
   const std::span<const double> all(values);
-  return {quantile(all, 0.25), median(all), quantile(all, 0.75)};
+  return {statistics::quantile(all, 0.25), statistics::median(all), statistics::quantile(all, 0.75)};
 }
 
 std::vector<ProtocolScore> protocol_scores(const Tuning& tuning, const MethodTuning& method,
@@ -190,4 +190,4 @@ std::vector<CurvePoint> sensitivity_curve(const Tuning& tuning, const MethodTuni
   return curve;
 }
 
-}  // namespace hullbench
+}  // namespace hullbench::tune

@@ -11,7 +11,7 @@
 #include "benchmarks/tune/search.hpp"
 #include "benchmarks/tune/tuning.hpp"
 
-namespace hullbench {
+namespace hullbench::tune {
 
 /// The error may be this many times its best inside the tolerance.
 inline constexpr double kToleratedError = 1.1;
@@ -56,10 +56,10 @@ struct ProtocolScore {
   std::size_t cases = 0;   ///< of which the protocol has an evaluation
   std::size_t failed = 0;  ///< of these, without a result
   double l2_median = 0;
-  std::optional<Interval> l2_interval;  ///< of the median, by base shape (bootstrap.hpp)
+  std::optional<statistics::Interval> l2_interval;  ///< of the median, by base shape (bootstrap.hpp)
   /// l2 minus the oracle's on the same case; of cases on which the oracle has a result. None: there is none.
   std::optional<double> regret_median;
-  std::optional<Interval> regret_interval;
+  std::optional<statistics::Interval> regret_interval;
 };
 
 /// Every protocol that has an evaluation, in the order of the tables: on test cases, then on all; `tuned` on
@@ -79,4 +79,4 @@ struct CurvePoint {
 /// The sensitivity curve: l2 against the axis, ascending. Cases without any result are left out.
 std::vector<CurvePoint> sensitivity_curve(const Tuning& tuning, const MethodTuning& method);
 
-}  // namespace hullbench
+}  // namespace hullbench::tune

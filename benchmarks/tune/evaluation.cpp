@@ -9,11 +9,11 @@
 #include <system_error>
 
 #include "benchmarks/base/configuration_error.hpp"
-#include "benchmarks/worker/protocol.hpp"
 #include "benchmarks/tune/search.hpp"
+#include "benchmarks/worker/protocol.hpp"
 #include "datasets/sha256.hpp"
 
-namespace hullbench {
+namespace hullbench::tune {
 namespace {
 
 namespace fs = std::filesystem;
@@ -50,13 +50,13 @@ std::string evaluation_identity(const Evaluation& evaluation) {
                          {"dataset", evaluation.dataset},
                          {"dataset_sha256", evaluation.dataset_sha256},
                          {"holes", evaluation.holes},
-                         {"parameters", parameters_to_json(evaluation.parameters)}};
+                         {"parameters", worker::parameters_to_json(evaluation.parameters)}};
   return sha256_hex(identity.dump(-1, ' ', false, json::error_handler_t::replace));
 }
 
 json evaluation_to_json(const Evaluation& evaluation) {
   return {{"kind", "evaluation"},
-          {"schema_version", kSchemaVersion},
+          {"schema_version", record::kSchemaVersion},
           {"id", evaluation.id},
           {"case", evaluation.case_name},
           {"method", evaluation.method},
@@ -67,7 +67,7 @@ json evaluation_to_json(const Evaluation& evaluation) {
           {"n", evaluation.n},
           {"holes", evaluation.holes},
           {"seed", evaluation.seed},
-          {"parameters", parameters_to_json(evaluation.parameters)},
+          {"parameters", worker::parameters_to_json(evaluation.parameters)},
           {"status", to_string(evaluation.status)},
           {"detail", evaluation.detail},
           {"l2", evaluation.l2 ? json(*evaluation.l2) : json(nullptr)}};
@@ -85,8 +85,8 @@ Evaluation evaluation_from_json(const json& source) {
   source.at("n").get_to(result.n);
   source.at("holes").get_to(result.holes);
   source.at("seed").get_to(result.seed);
-  result.parameters = parameters_from_json(source.at("parameters"));
-  result.status = status_from_string(source.at("status").get<std::string>());
+  result.parameters = worker::parameters_from_json(source.at("parameters"));
+  result.status = record::status_from_string(source.at("status").get<std::string>());
   source.at("detail").get_to(result.detail);
   if (!source.at("l2").is_null()) result.l2 = source.at("l2").get<double>();
   return result;
@@ -97,7 +97,7 @@ EvaluationStore::EvaluationStore(const fs::path& folder, const std::string& file
   writer_.emplace(folder / file);
   for (const auto& entry : fs::directory_iterator(folder)) {
     if (!is_sweep_file(entry.path())) continue;
-    for (const json& line : load_json_lines(entry.path()).lines) {
+    for (const json& line : record::load_json_lines(entry.path()).lines) {
       try {
         Evaluation evaluation = evaluation_from_json(line);
         known_.emplace(evaluation.id, std::move(evaluation));
@@ -134,4 +134,4 @@ void EvaluationStore::append(const Evaluation& evaluation) {
   known_.emplace(evaluation.id, evaluation);
 }
 
-}  // namespace hullbench
+}  // namespace hullbench::tune

@@ -15,7 +15,7 @@
 #include "benchmarks/record/json_lines.hpp"
 #include "benchmarks/record/record.hpp"
 
-namespace hullbench {
+namespace hullbench::tune {
 
 struct Evaluation {
   std::string id;         ///< see evaluation_identity
@@ -29,7 +29,7 @@ struct Evaluation {
   bool holes = false;
   std::uint64_t seed = 0;  ///< of the points
   Parameters parameters;   ///< complete
-  Status status = Status::kOk;
+  record::Status status = record::Status::kOk;
   std::string detail;        ///< why the status is not ok; empty when it is
   std::optional<double> l2;  ///< area of the symmetric difference / ground truth's; none when not ok
 
@@ -71,7 +71,7 @@ class EvaluationStore {
   int lock_ = -1;
   std::map<std::string, Evaluation> known_;  ///< by id
   std::size_t found_ = 0;
-  std::optional<JsonLinesWriter> writer_;
+  std::optional<record::JsonLinesWriter> writer_;
 };
 
-}  // namespace hullbench
+}  // namespace hullbench::tune

@@ -14,14 +14,14 @@
 
 #include "benchmarks/base/configuration_error.hpp"
 #include "benchmarks/base/cores.hpp"
-#include "benchmarks/base/words.hpp"
-#include "benchmarks/table/document.hpp"
 #include "benchmarks/base/number_format.hpp"
+#include "benchmarks/base/words.hpp"
 #include "benchmarks/plan/plan.hpp"
+#include "benchmarks/table/document.hpp"
 #include "benchmarks/tune/rule_fit.hpp"
 #include "benchmarks/worker/worker_process.hpp"
 
-namespace hullbench {
+namespace hullbench::tune {
 namespace {
 
 /// Those that the parameters' search and the league are made of (league/evaluate.sh).
@@ -36,12 +36,12 @@ std::string percent(double share) {
 }
 
 void print_curve(const RuleUse& use, const std::vector<CandidateScore>& curve) {
-  TextTable text({"share of P", "score, %", "median, %", "failures"});
+  table::TextTable text({"share of P", "score, %", "median, %", "failures"});
   for (const CandidateScore& one : curve)
     text.add_row(
         {fixed(one.candidate, 2), percent(one.score), percent(one.median), std::to_string(one.failures)});
   std::cout << "\n## " << use.rule << ": " << use.meaning << " (" << use.method << ")\n\n";
-  print_markdown(text, std::cout);
+  table::print_markdown(text, std::cout);
   std::cout << "\nBest: " << fixed(best_of(curve).candidate, 2) << ".\n";
 }
 
@@ -56,13 +56,13 @@ void print_share(const std::string& rule, const std::vector<RuleUse>& uses,
     its_curves.push_back(curves[u]);
   }
   const std::size_t best = best_for_all(its_curves);
-  TextTable text({"limits", "score, %", "with its own best share, %"});
+  table::TextTable text({"limits", "score, %", "with its own best share, %"});
   for (std::size_t u = 0; u < of_rule.size(); ++u)
     text.add_row(
         {of_rule[u].meaning, percent(its_curves[u][best].score), percent(best_of(its_curves[u]).score)});
   std::cout << "\n## " << rule << ": one share for all, " << fixed(its_curves[0][best].candidate, 2)
             << "; in the code " << fixed(of_rule[0].share, 2) << "\n\n";
-  print_markdown(text, std::cout);
+  table::print_markdown(text, std::cout);
 }
 
 std::vector<std::string> cells_of(const std::string& what, const LimitScore& one) {
@@ -84,12 +84,12 @@ void print_limit(const FitTables& tables) {
   const LimitScore present = score_limit(tables.limits, {});
   const auto better = std::count_if(scores.begin(), scores.end(),
                                     [&](const LimitScore& one) { return one.score < present.score; });
-  TextTable text({"choice", "usual", "pull", "still", "least", "most", "below", "above", "score, %"});
+  table::TextTable text({"choice", "usual", "pull", "still", "least", "most", "below", "above", "score, %"});
   for (std::size_t k = 0; k < std::min(kShown, scores.size()); ++k)
     text.add_row(cells_of(std::to_string(k + 1), scores[k]));
   text.add_row(cells_of("in the core", present));
   std::cout << "\n## The core's automatic limit (core/src/automatic_limit.hpp)\n\n";
-  print_markdown(text, std::cout);
+  table::print_markdown(text, std::cout);
   std::cout
       << "\nOf " << scores.size() << " choices " << better
       << " have a smaller score than the core's. The core itself, which looks at a part of many triangles: "
@@ -97,19 +97,19 @@ void print_limit(const FitTables& tables) {
 }
 
 int fit(const std::vector<std::string>& names, std::uint64_t split_seed, int seeds, std::int64_t points) {
-  std::vector<Plan> plans;
-  for (const std::string& name : names) plans.push_back(load_plan(name, HULLBENCH_PLAN_FOLDER));
+  std::vector<plan::Plan> plans;
+  for (const std::string& name : names) plans.push_back(plan::load_plan(name, HULLBENCH_PLAN_FOLDER));
   const std::vector<FitCase> cases = training_cases(plans, split_seed, seeds, points);
   if (cases.empty()) throw ConfigurationError("no case of these plans is on the training side of the split");
   const std::vector<RuleUse> uses = rule_uses();
   const FitTables tables = measure_fit(cases, uses, usual_shares(), usual_limit_grid(), allowed_cores());
-  const std::set<std::string> shapes(tables.shapes.begin(), tables.shapes.end());
+  const std::set<std::string> report::shapes(tables.shapes.begin(), tables.shapes.end());
   std::cout << "# Constants of the rules from the points, fitted on " << cases.size() << " cases of "
             << shapes.size() << " training shapes\n\n";
-  print_item(join_words(std::vector<std::string>(shapes.begin(), shapes.end())) + ".", std::cout);
-  print_item("Score: the geometric mean over shapes of the geometric mean of a shape's errors (L2).",
-             std::cout);
-  print_item("P: the perimeter that the core chooses from the points.", std::cout);
+  table::print_item(join_words(std::vector<std::string>(shapes.begin(), shapes.end())) + ".", std::cout);
+  table::print_item("Score: the geometric mean over shapes of the geometric mean of a shape's errors (L2).",
+                    std::cout);
+  table::print_item("P: the perimeter that the core chooses from the points.", std::cout);
   std::vector<std::vector<CandidateScore>> curves;
   for (const ErrorTable& table : tables.uses) curves.push_back(score_curve(table));
   for (std::size_t u = 0; u < uses.size(); ++u) print_curve(uses[u], curves[u]);
@@ -119,7 +119,7 @@ int fit(const std::vector<std::string>& names, std::uint64_t split_seed, int see
 }
 
 }  // namespace
-}  // namespace hullbench
+}  // namespace hullbench::tune
 
 int main(int argc, char** argv) {
   CLI::App app("Fits the constants of the rules that choose parameters from the points alone");

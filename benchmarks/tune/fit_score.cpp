@@ -8,7 +8,7 @@
 #include "benchmarks/statistics/statistics.hpp"
 #include "benchmarks/tune/search.hpp"
 
-namespace hullbench {
+namespace hullbench::tune {
 
 double fit_score(const std::vector<std::string>& shapes, const std::vector<double>& errors) {
   std::map<std::string, std::vector<double>> logarithms;
@@ -16,7 +16,7 @@ double fit_score(const std::vector<std::string>& shapes, const std::vector<doubl
     logarithms[shapes[i]].push_back(std::log(std::clamp(errors[i], kLeastError, kMostError)));
   if (logarithms.empty()) return 0;
   double sum = 0;
-  for (const auto& [shape, values] : logarithms) sum += mean(std::span<const double>(values));
+  for (const auto& [shape, values] : logarithms) sum += statistics::mean(std::span<const double>(values));
   return std::exp(sum / static_cast<double>(logarithms.size()));
 }
 
@@ -28,7 +28,7 @@ std::vector<CandidateScore> score_curve(const ErrorTable& table) {
     for (const std::vector<double>& of_case : table.errors) errors.push_back(of_case[k]);
     CandidateScore one = {.candidate = table.candidates[k], .score = fit_score(table.shapes, errors)};
     one.failures = static_cast<std::size_t>(std::count_if(errors.begin(), errors.end(), &is_infinitely_bad));
-    if (!errors.empty()) one.median = median(std::span<const double>(errors));
+    if (!errors.empty()) one.median = statistics::median(std::span<const double>(errors));
     curve.push_back(one);
   }
   return curve;
@@ -47,4 +47,4 @@ std::size_t best_for_all(const std::vector<std::vector<CandidateScore>>& curves)
   return static_cast<std::size_t>(std::min_element(products.begin(), products.end()) - products.begin());
 }
 
-}  // namespace hullbench
+}  // namespace hullbench::tune

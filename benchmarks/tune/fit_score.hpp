@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-namespace hullbench {
+namespace hullbench::tune {
 
 /// The errors of one method with each of some values of a constant.
 struct ErrorTable {
@@ -43,4 +43,4 @@ const CandidateScore& best_of(const std::vector<CandidateScore>& curve);
 /// so that no use counts more because it is harder. `curves` are of the same candidates; one at least.
 std::size_t best_for_all(const std::vector<std::vector<CandidateScore>>& curves);
 
-}  // namespace hullbench
+}  // namespace hullbench::tune

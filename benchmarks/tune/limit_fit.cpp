@@ -8,7 +8,7 @@
 #include "benchmarks/tune/fit_score.hpp"
 #include "polylidar/delaunay.hpp"
 
-namespace hullbench {
+namespace hullbench::tune {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
@@ -185,4 +185,4 @@ std::vector<LimitScore> fit_limit(const std::vector<LimitCase>& cases, const Lim
   return scores;
 }
 
-}  // namespace hullbench
+}  // namespace hullbench::tune

@@ -13,7 +13,7 @@
 
 #include "polylidar/geometry.hpp"
 
-namespace hullbench {
+namespace hullbench::tune {
 
 /// The rule's constants, with the values that stand in core/src/automatic_limit.cpp (a test compares).
 /// Lengths are in medians of the perimeters, differences in cells of the grid, 16 to the octave.
@@ -79,4 +79,4 @@ LimitScore score_limit(const std::vector<LimitCase>& cases, const LimitConstants
 /// All choices of the grid, by score; of equal ones in the grid's order.
 std::vector<LimitScore> fit_limit(const std::vector<LimitCase>& cases, const LimitGrid& grid);
 
-}  // namespace hullbench
+}  // namespace hullbench::tune

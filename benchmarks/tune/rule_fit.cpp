@@ -9,15 +9,15 @@
 #include <utility>
 
 #include "adapters/adapter.hpp"
-#include "benchmarks/metrics/metrics.hpp"
 #include "benchmarks/base/parallel.hpp"
+#include "benchmarks/metrics/metrics.hpp"
 #include "benchmarks/plan/parameter_rules.hpp"
 #include "benchmarks/tune/search.hpp"
 #include "benchmarks/tune/split.hpp"
 #include "datasets/datasets.hpp"
 #include "polylidar/concave_hull.hpp"
 
-namespace hullbench {
+namespace hullbench::tune {
 namespace {
 
 class NoSteps final : public Steps {
@@ -35,12 +35,12 @@ std::unique_ptr<Adapter> make_method(const std::string& name) {
 }
 
 /// l2; kInfinitelyBad for an invalid result.
-double error_of(const CaseScorer& scorer, const MultiPolygon& result) {
-  const AreaScores scores = scorer.area_scores(result);
+double error_of(const metrics::CaseScorer& scorer, const MultiPolygon& result) {
+  const metrics::AreaScores scores = scorer.area_scores(result);
   return scores.valid ? scores.l2.value_or(kInfinitelyBad) : kInfinitelyBad;
 }
 
-double error_of(const CaseScorer& scorer, Adapter& method, const Parameters& parameters) {
+double error_of(const metrics::CaseScorer& scorer, Adapter& method, const Parameters& parameters) {
   NoSteps steps;
   try {
     method.run(parameters, steps);
@@ -50,7 +50,7 @@ double error_of(const CaseScorer& scorer, Adapter& method, const Parameters& par
   }
 }
 
-double error_with_limit(const CaseScorer& scorer, polylidar::Extractor& extractor,
+double error_with_limit(const metrics::CaseScorer& scorer, polylidar::Extractor& extractor,
                         const std::vector<polylidar::Point>& points, const polylidar::Options& options) {
   extractor.extract_regions(options);
   return error_of(scorer, polylidar::to_coordinates(extractor.extract_polygons(), points));
@@ -61,8 +61,8 @@ void measure_case(FitTables& tables, std::size_t which, const FitCase& wanted,
                   const std::vector<RuleUse>& uses, const LimitGrid& grid) {
   const PointSet set = make_point_set(wanted.plan_case.dataset, wanted.plan_case.holes,
                                       static_cast<std::size_t>(wanted.plan_case.n), wanted.seed);
-  const CaseScorer scorer(set.points, set.ground_truth);
-  const double perimeter = auto_perimeter({set.points});
+  const metrics::CaseScorer scorer(set.points, set.ground_truth);
+  const double perimeter = plan::auto_perimeter({set.points});
   for (std::size_t u = 0; u < uses.size(); ++u) {
     const std::unique_ptr<Adapter> method = make_method(uses[u].method);
     method->load(set.points);
@@ -89,11 +89,11 @@ void measure_case(FitTables& tables, std::size_t which, const FitCase& wanted,
 
 }  // namespace
 
-std::vector<FitCase> training_cases(const std::vector<Plan>& plans, std::uint64_t split_seed, int seeds,
+std::vector<FitCase> training_cases(const std::vector<plan::Plan>& plans, std::uint64_t split_seed, int seeds,
                                     std::int64_t points) {
   std::vector<FitCase> cases;
   std::set<std::pair<std::string, std::uint64_t>> seen;
-  const auto add = [&](PlanCase plan_case, std::uint64_t first_seed) {
+  const auto add = [&](plan::PlanCase plan_case, std::uint64_t first_seed) {
     FitCase one = {std::move(plan_case), "", first_seed};
     one.shape = base_shape(one.plan_case.dataset);
     if (one.plan_case.n == 0 || side_of(one.shape, split_seed) != Side::kTraining) return;
@@ -103,17 +103,17 @@ std::vector<FitCase> training_cases(const std::vector<Plan>& plans, std::uint64_
     }
   };
   std::set<std::pair<std::string, std::int64_t>> stresses;  // with the number of points
-  for (const Plan& plan : plans) {
+  for (const plan::Plan& plan : plans) {
     if (!plan.accepted.empty()) continue;
-    for (const PlanCase& plan_case : plan.expanded_cases) {
+    for (const plan::PlanCase& plan_case : plan.expanded_cases) {
       add(plan_case, plan.seed);
       const std::size_t mark = plan_case.dataset.find('~');
       if (mark != std::string::npos) stresses.emplace(plan_case.dataset.substr(mark), plan_case.n);
     }
   }
-  for (const Plan& plan : plans) {
+  for (const plan::Plan& plan : plans) {
     if (!plan.accepted.empty()) continue;
-    for (const PlanCase& plan_case : plan.expanded_cases) {
+    for (const plan::PlanCase& plan_case : plan.expanded_cases) {
       if (!levels_of(plan_case.dataset).empty()) continue;
       for (const auto& [ending, n] : stresses) {
         if (n == plan_case.n) add({plan_case.dataset + ending, plan_case.holes, n}, plan.seed);
@@ -129,21 +129,21 @@ std::vector<RuleUse> rule_uses() {
            "polylidar",
            "alpha",
            {},
-           kCircumradiusShare,
+           plan::kCircumradiusShare,
            "the largest circumradius of a triangle that stays"},
           {"auto_edge_length",
            "polylidar",
            "max_edge_length",
            {},
-           kEdgeShare,
+           plan::kEdgeShare,
            "the longest edge of a triangle that stays"},
-          {"auto_edge_length", "geos_concave_hull", "max_edge_length", with_holes, kEdgeShare,
+          {"auto_edge_length", "geos_concave_hull", "max_edge_length", with_holes, plan::kEdgeShare,
            "the longest edge that erosion leaves, from the border and from holes"},
           {"auto_edge_length",
            "chi_shape",
            "max_edge_length",
            {},
-           kEdgeShare,
+           plan::kEdgeShare,
            "the longest edge that erosion leaves, from the border alone"}};
 }
 
@@ -168,4 +168,4 @@ FitTables measure_fit(const std::vector<FitCase>& cases, const std::vector<RuleU
   return tables;
 }
 
-}  // namespace hullbench
+}  // namespace hullbench::tune

@@ -11,11 +11,11 @@
 #include "benchmarks/tune/fit_score.hpp"
 #include "benchmarks/tune/limit_fit.hpp"
 
-namespace hullbench {
+namespace hullbench::tune {
 
 /// Points to fit on: a plan's case with the seed of its sample.
 struct FitCase {
-  PlanCase plan_case;
+  plan::PlanCase plan_case;
   std::string shape;  ///< base shape
   std::uint64_t seed = 1;
 };
@@ -26,7 +26,7 @@ struct FitCase {
 /// the `seeds` - 1 that follow. Not those that come with their points, of which no other sample can be drawn,
 /// nor those of plans that accept failures. With `points` > 0 that many points stand in the place of the
 /// plans' numbers.
-std::vector<FitCase> training_cases(const std::vector<Plan>& plans, std::uint64_t split_seed, int seeds,
+std::vector<FitCase> training_cases(const std::vector<plan::Plan>& plans, std::uint64_t split_seed, int seeds,
                                     std::int64_t points);
 
 /// A method whose parameter is to be a share of the automatic perimeter.
@@ -60,4 +60,4 @@ FitTables measure_fit(const std::vector<FitCase>& cases, const std::vector<RuleU
                       const std::vector<double>& shares, const LimitGrid& grid,
                       const std::vector<int>& cores);
 
-}  // namespace hullbench
+}  // namespace hullbench::tune

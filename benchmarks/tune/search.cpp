@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <numbers>
 
-namespace hullbench {
+namespace hullbench::tune {
 namespace {
 
 class Search {
@@ -79,4 +79,4 @@ std::vector<SearchPoint> search(const SearchAxis& axis, const std::function<Tria
   return Search(axis, evaluate).run();
 }
 
-}  // namespace hullbench
+}  // namespace hullbench::tune

@@ -8,7 +8,7 @@
 
 #include "benchmarks/tune/search_axis.hpp"
 
-namespace hullbench {
+namespace hullbench::tune {
 
 /// Positions of the sweep over the axis, a third of an octave apart where the axis has its eight.
 inline constexpr int kGridPoints = 25;
@@ -47,4 +47,4 @@ struct SearchPoint {
 std::vector<SearchPoint> search(const SearchAxis& axis,
                                 const std::function<Trial(double position)>& evaluate);
 
-}  // namespace hullbench
+}  // namespace hullbench::tune

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <cstddef>
 
-namespace hullbench {
+namespace hullbench::tune {
 namespace {
 
 /// Where the window of octaves begins that is searched of a length in spacings and of a plain number.
@@ -83,4 +83,4 @@ Parameters fixed_parameters(const MethodInfo& info) {
   return fixed;
 }
 
-}  // namespace hullbench
+}  // namespace hullbench::tune

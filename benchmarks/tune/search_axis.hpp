@@ -8,7 +8,7 @@
 
 #include "adapters/adapter.hpp"
 
-namespace hullbench {
+namespace hullbench::tune {
 
 /// How many octaves (factors of two) of a parameter are searched.
 inline constexpr int kAxisOctaves = 8;
@@ -46,4 +46,4 @@ double value_at(const SearchAxis& axis, double position, double spacing);
 /// can have holes.
 Parameters fixed_parameters(const MethodInfo& info);
 
-}  // namespace hullbench
+}  // namespace hullbench::tune

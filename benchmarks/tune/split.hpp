@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <string>
 
-namespace hullbench {
+namespace hullbench::tune {
 
 enum class Side { kTraining, kTest };
 
@@ -16,4 +16,4 @@ std::string to_string(Side side);
 /// side.
 Side side_of(const std::string& shape, std::uint64_t seed);
 
-}  // namespace hullbench
+}  // namespace hullbench::tune

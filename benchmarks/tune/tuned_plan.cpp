@@ -10,16 +10,16 @@
 
 #include "benchmarks/tune/analysis.hpp"
 
-namespace hullbench {
+namespace hullbench::tune {
 namespace {
 
 /// The places in the tuning of the plan's cases that satisfy a condition.
 template <typename Condition>
-std::vector<std::size_t> cases_of(const Plan& plan, const Tuning& tuning, Condition condition) {
+std::vector<std::size_t> cases_of(const plan::Plan& plan, const Tuning& tuning, Condition condition) {
   std::vector<std::size_t> result;
   for (std::size_t i = 0; i < tuning.cases.size(); ++i) {
     const TuningCase& one = tuning.cases[i];
-    const auto same = [&](const PlanCase& other) { return other.key() == one.plan_case.key(); };
+    const auto same = [&](const plan::PlanCase& other) { return other.key() == one.plan_case.key(); };
     if (one.seed == plan.seed && std::any_of(plan.expanded_cases.begin(), plan.expanded_cases.end(), same) &&
         condition(i))
       result.push_back(i);
@@ -28,25 +28,25 @@ std::vector<std::size_t> cases_of(const Plan& plan, const Tuning& tuning, Condit
 }
 
 /// The data sets of these cases; empty, for all, when the plan has no others.
-std::vector<std::string> datasets_of(const Plan& plan, const Tuning& tuning,
+std::vector<std::string> datasets_of(const plan::Plan& plan, const Tuning& tuning,
                                      const std::vector<std::size_t>& cases) {
   std::set<std::string> all;
-  for (const PlanCase& one : plan.expanded_cases) all.insert(one.dataset);
+  for (const plan::PlanCase& one : plan.expanded_cases) all.insert(one.dataset);
   std::set<std::string> some;
   for (const std::size_t i : cases) some.insert(tuning.cases[i].plan_case.dataset);
   return some.size() == all.size() ? std::vector<std::string>()
                                    : std::vector<std::string>(some.begin(), some.end());
 }
 
-std::map<std::string, ParameterChoice> as_choices(const Parameters& parameters) {
+std::map<std::string, plan::ParameterChoice> as_choices(const Parameters& parameters) {
   return {parameters.begin(), parameters.end()};
 }
 
 /// With the words and limits that the plan has for the method anyway.
-PlanMethod entry_for(const Plan& plan, const std::string& method, const std::string& protocol) {
+plan::PlanMethod entry_for(const plan::Plan& plan, const std::string& method, const std::string& protocol) {
   const auto like = std::find_if(plan.methods.begin(), plan.methods.end(),
-                                 [&](const PlanMethod& other) { return other.method == method; });
-  PlanMethod entry;
+                                 [&](const plan::PlanMethod& other) { return other.method == method; });
+  plan::PlanMethod entry;
   if (like != plan.methods.end()) entry = *like;
   entry.method = method;
   entry.protocol = protocol;
@@ -58,35 +58,36 @@ PlanMethod entry_for(const Plan& plan, const std::string& method, const std::str
 
 /// Of a method that the plan does not name. What the default of the others is the plan says: a parameter that
 /// can be left out is not always one that anybody leaves out.
-void add_default(Plan& result, const Plan& plan, const MethodTuning& method) {
+void add_default(plan::Plan& result, const plan::Plan& plan, const MethodTuning& method) {
   const bool named = std::any_of(plan.methods.begin(), plan.methods.end(),
-                                 [&](const PlanMethod& entry) { return entry.method == method.name; });
+                                 [&](const plan::PlanMethod& entry) { return entry.method == method.name; });
   if (named || !has_defaults(*method.info)) return;
-  PlanMethod entry = entry_for(plan, method.name, "default");
+  plan::PlanMethod entry = entry_for(plan, method.name, "default");
   entry.parameters = as_choices(fixed_parameters(*method.info));
   entry.note = "Of the method's own parameters those that it has without being told, and holes.";
   result.methods.push_back(entry);
 }
 
-void add_tuned(Plan& result, const Plan& plan, const Tuning& tuning, const MethodTuning& method) {
+void add_tuned(plan::Plan& result, const plan::Plan& plan, const Tuning& tuning, const MethodTuning& method) {
   const auto tuned = choose_tuned(tuning, method);
   if (!tuned) return;
   const auto cases = cases_of(plan, tuning, [&](std::size_t i) {
     return tuning.cases[i].side == Side::kTest && !method.cases[i].sweep.empty();
   });
   if (cases.empty()) return;
-  PlanMethod entry = entry_for(plan, method.name, "tuned");
+  plan::PlanMethod entry = entry_for(plan, method.name, "tuned");
   entry.datasets = datasets_of(plan, tuning, cases);
   entry.parameters = as_choices(fixed_parameters(*method.info));
   entry.parameters[method.axis->parameter] =
-      method.axis->spacings ? ParameterChoice(ScaledChoice{tuned->position, method.axis->power})
-                            : ParameterChoice(tuned->position);
+      method.axis->spacings ? plan::ParameterChoice(plan::ScaledChoice{tuned->position, method.axis->power})
+                            : plan::ParameterChoice(tuned->position);
   entry.note = "One value for all shapes, with the smallest median error on " +
                std::to_string(tuned->training_cases) + " training cases; these are the test shapes.";
   result.methods.push_back(entry);
 }
 
-void add_oracle(Plan& result, const Plan& plan, const Tuning& tuning, const MethodTuning& method) {
+void add_oracle(plan::Plan& result, const plan::Plan& plan, const Tuning& tuning,
+                const MethodTuning& method) {
   if (!method.axis) return;
   // A choice that the method itself refused is none.
   const auto has_choice = [&](std::size_t i) {
@@ -99,18 +100,18 @@ void add_oracle(Plan& result, const Plan& plan, const Tuning& tuning, const Meth
   const auto cases = cases_of(
       plan, tuning, [&](std::size_t i) { return !without.contains(tuning.cases[i].plan_case.dataset); });
   if (cases.empty()) return;
-  PlanMethod entry = entry_for(plan, method.name, "oracle");
+  plan::PlanMethod entry = entry_for(plan, method.name, "oracle");
   entry.datasets = datasets_of(plan, tuning, cases);
   for (const ParameterInfo& parameter : method.info->parameters) {
-    CaseChoice choice;
+    plan::CaseChoice choice;
     std::set<double> different;
     for (const std::size_t i : cases) {
       const double value = best_evaluation(method.cases[i])->parameters.at(parameter.name);
       choice.values[tuning.cases[i].plan_case.key()] = value;
       different.insert(value);
     }
-    entry.parameters[parameter.name] =
-        different.size() == 1 ? ParameterChoice(*different.begin()) : ParameterChoice(std::move(choice));
+    entry.parameters[parameter.name] = different.size() == 1 ? plan::ParameterChoice(*different.begin())
+                                                             : plan::ParameterChoice(std::move(choice));
   }
   entry.note = "The best of a search on each instance: what this method could give at best.";
   result.methods.push_back(entry);
@@ -118,8 +119,8 @@ void add_oracle(Plan& result, const Plan& plan, const Tuning& tuning, const Meth
 
 }  // namespace
 
-Plan tuned_plan(const Plan& plan, const Tuning& tuning) {
-  Plan result = plan;
+plan::Plan tuned_plan(const plan::Plan& plan, const Tuning& tuning) {
+  plan::Plan result = plan;
   result.name += "-tuned";
   result.title += ", parameters chosen by hullbench tune";
   result.paper.clear();
@@ -127,7 +128,7 @@ Plan tuned_plan(const Plan& plan, const Tuning& tuning) {
   result.methods.clear();
   for (const MethodTuning& method : tuning.methods) {
     if (!method.info) continue;
-    for (const PlanMethod& entry : plan.methods) {
+    for (const plan::PlanMethod& entry : plan.methods) {
       if (entry.method == method.name && entry.protocol != "tuned" && entry.protocol != "oracle")
         result.methods.push_back(entry);
     }
@@ -138,4 +139,4 @@ Plan tuned_plan(const Plan& plan, const Tuning& tuning) {
   return result;
 }
 
-}  // namespace hullbench
+}  // namespace hullbench::tune

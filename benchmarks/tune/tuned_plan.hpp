@@ -4,12 +4,12 @@
 #include "benchmarks/plan/plan.hpp"
 #include "benchmarks/tune/tuning.hpp"
 
-namespace hullbench {
+namespace hullbench::tune {
 
 /// `plan` with the same cases, and for every method of `tuning` that starts here: its own entries in the
 /// plan, or `default` where the plan does not name it and it can do without parameters, and, in the place of
 /// any such there, `tuned` on the test shapes and `oracle`. Its name is the plan's with "-tuned". Other
 /// methods of the plan are left out. A protocol that has nothing to say on any case of the plan is left out.
-Plan tuned_plan(const Plan& plan, const Tuning& tuning);
+plan::Plan tuned_plan(const plan::Plan& plan, const Tuning& tuning);
 
-}  // namespace hullbench
+}  // namespace hullbench::tune

@@ -13,14 +13,14 @@
 
 #include "adapters/wkb.hpp"
 #include "benchmarks/base/interrupt.hpp"
-#include "benchmarks/worker/method_session.hpp"
 #include "benchmarks/metrics/area.hpp"
 #include "benchmarks/plan/parameter_rules.hpp"
-#include "benchmarks/worker/protocol.hpp"
 #include "benchmarks/run/runner.hpp"
 #include "benchmarks/tune/search.hpp"
+#include "benchmarks/worker/method_session.hpp"
+#include "benchmarks/worker/protocol.hpp"
 
-namespace hullbench {
+namespace hullbench::tune {
 namespace {
 
 namespace fs = std::filesystem;
@@ -32,18 +32,18 @@ void score_into(Evaluation& evaluation, const std::vector<std::uint8_t>& wkb,
   try {
     result = from_wkb(wkb);
   } catch (const std::exception& error) {
-    evaluation.status = Status::kInvalidOutput;
-    evaluation.detail = "the result is no polygon: " + printable(error.what(), 200);
+    evaluation.status = record::Status::kInvalidOutput;
+    evaluation.detail = "the result is no polygon: " + worker::printable(error.what(), 200);
     return;
   }
   try {
-    const AreaScores scores = area_scores(result, ground_truth);
+    const metrics::AreaScores scores = metrics::area_scores(result, ground_truth);
     evaluation.l2 = scores.valid ? scores.l2 : std::nullopt;
     if (scores.valid) return;
-    evaluation.status = Status::kInvalidOutput;
+    evaluation.status = record::Status::kInvalidOutput;
     evaluation.detail = "the result is an invalid polygon: " + scores.invalid_reason;
   } catch (const std::runtime_error& error) {
-    evaluation.status = Status::kError;
+    evaluation.status = record::Status::kError;
     evaluation.detail = std::string("the result cannot be scored: ") + error.what();
   }
 }
@@ -60,7 +60,7 @@ class PointSets {
     const std::scoped_lock guard(place.mutex);
     std::shared_ptr<const PointSet> set = place.set.lock();
     if (!set) {
-      const PlanCase& wanted = cases_[which].plan_case;
+      const plan::PlanCase& wanted = cases_[which].plan_case;
       set = std::make_shared<const PointSet>(make_point_set(
           wanted.dataset, wanted.holes, static_cast<std::size_t>(wanted.n), cases_[which].seed, folders_));
       place.set = set;
@@ -91,7 +91,7 @@ class Bench {
   void enter(const TuningCase& which, std::shared_ptr<const PointSet> set) {
     case_ = &which;
     set_ = std::move(set);
-    spacing_ = mean_spacing(set_->points);
+    spacing_ = plan::mean_spacing(set_->points);
     written_ = false;
   }
 
@@ -102,13 +102,13 @@ class Bench {
     MethodOnCase found;
     if (set_->ground_truth.empty()) return found;  // nothing is better than anything else
     bool named = false;  // by the plan, which then says too what its default is, if there is one
-    for (const PlanMethod& entry : case_->entries) {
+    for (const plan::PlanMethod& entry : case_->entries) {
       if (entry.method != method.name) continue;
       named = true;
-      const RuleInput input = {set_->points, set_->ground_truth_area, case_->plan_case.holes,
-                               set_->ground_truth};
+      const plan::RuleInput input = {set_->points, set_->ground_truth_area, case_->plan_case.holes,
+                                     set_->ground_truth};
       found.protocols.emplace(entry.protocol,
-                              evaluate(method, choose_parameters(entry, case_->plan_case, input)));
+                              evaluate(method, plan::choose_parameters(entry, case_->plan_case, input)));
     }
     const Parameters fixed = fixed_parameters(*method.info);
     if (!named && has_defaults(*method.info)) found.protocols.emplace("default", evaluate(method, fixed));
@@ -119,7 +119,7 @@ class Bench {
       parameters[method.axis->parameter] = value_at(*method.axis, position, spacing_);
       found.sweep.push_back({position, false, evaluate(method, parameters)});
       const Evaluation& evaluation = found.sweep.back().evaluation;
-      return Trial{evaluation.error(), evaluation.status == Status::kTimeout};
+      return Trial{evaluation.error(), evaluation.status == record::Status::kTimeout};
     });
     for (std::size_t i = 0; i < points.size(); ++i) found.sweep[i].on_grid = points[i].on_grid;
     return found;
@@ -133,12 +133,12 @@ class Bench {
       evaluation.parameters = complete_parameters(*method.info, parameters);
     } catch (const std::invalid_argument& error) {
       evaluation.parameters = parameters;
-      evaluation.status = Status::kError;
+      evaluation.status = record::Status::kError;
       evaluation.detail = error.what();
     }
     evaluation.id = evaluation_identity(evaluation);
     if (const auto known = store_.find(evaluation.id)) return *known;
-    if (evaluation.status == Status::kOk) run(evaluation, method.name);
+    if (evaluation.status == record::Status::kOk) run(evaluation, method.name);
     store_.append(evaluation);
     return evaluation;
   }
@@ -158,21 +158,21 @@ class Bench {
   }
 
   void run(Evaluation& evaluation, const std::string& method) {
-    const LoadedPoints points = {set_->sha256, scratch_ / "points.f64", set_->points.size()};
-    if (!std::exchange(written_, true)) write_points_file(points.file, set_->points);
+    const worker::LoadedPoints points = {set_->sha256, scratch_ / "points.f64", set_->points.size()};
+    if (!std::exchange(written_, true)) worker::write_points_file(points.file, set_->points);
     const auto timeout =
         std::chrono::milliseconds(std::max<std::int64_t>(1, std::llround(case_->timeout_s * 1000)));
-    const Attempt attempt = session(method).run(points, evaluation.parameters, scratch_, timeout);
+    const worker::Attempt attempt = session(method).run(points, evaluation.parameters, scratch_, timeout);
     evaluation.status = attempt.status;
     evaluation.detail = attempt.detail;
-    if (attempt.status == Status::kOk) score_into(evaluation, attempt.wkb, set_->ground_truth);
+    if (attempt.status == record::Status::kOk) score_into(evaluation, attempt.wkb, set_->ground_truth);
   }
 
-  MethodSession& session(const std::string& method) {
+  worker::MethodSession& session(const std::string& method) {
     auto& session = sessions_[method];
     if (!session) {
-      session = std::make_unique<MethodSession>(options_.find_method(method),
-                                                WorkerLimits{options_.mem_limit_mib, std::nullopt});
+      session = std::make_unique<worker::MethodSession>(
+          options_.find_method(method), worker::WorkerLimits{options_.mem_limit_mib, std::nullopt});
     }
     return *session;
   }
@@ -180,7 +180,7 @@ class Bench {
   const TunerOptions& options_;
   EvaluationStore& store_;
   fs::path scratch_;
-  std::map<std::string, std::unique_ptr<MethodSession>> sessions_;
+  std::map<std::string, std::unique_ptr<worker::MethodSession>> sessions_;
   const TuningCase* case_ = nullptr;
   std::shared_ptr<const PointSet> set_;
   double spacing_ = 0;
@@ -189,10 +189,10 @@ class Bench {
 
 /// Asks every method who it is.
 std::vector<MethodTuning> describe_methods(const TunerOptions& options) {
-  std::vector<std::unique_ptr<MethodSession>> sessions;
+  std::vector<std::unique_ptr<worker::MethodSession>> sessions;
   for (const std::string& name : options.methods) {
-    sessions.push_back(std::make_unique<MethodSession>(options.find_method(name),
-                                                       WorkerLimits{options.mem_limit_mib, std::nullopt}));
+    sessions.push_back(std::make_unique<worker::MethodSession>(
+        options.find_method(name), worker::WorkerLimits{options.mem_limit_mib, std::nullopt}));
     sessions.back()->begin_start();
   }
   std::vector<MethodTuning> methods;
@@ -213,7 +213,7 @@ std::vector<MethodTuning> describe_methods(const TunerOptions& options) {
   return methods;
 }
 
-TuningCase tuning_case(const Plan& plan, const PlanCase& plan_case, std::uint64_t split_seed) {
+TuningCase tuning_case(const plan::Plan& plan, const plan::PlanCase& plan_case, std::uint64_t split_seed) {
   TuningCase one;
   one.plan_case = plan_case;
   one.seed = plan.seed;
@@ -226,10 +226,11 @@ TuningCase tuning_case(const Plan& plan, const PlanCase& plan_case, std::uint64_
 }
 
 /// The plan's entries for the case, but those whose parameters are to be chosen here.
-void add_entries(TuningCase& one, const Plan& plan) {
-  for (const PlanMethod& entry : plan.methods) {
-    if (entry.protocol == "tuned" || entry.protocol == "oracle" || !applies(entry, one.plan_case)) continue;
-    const auto same = [&](const PlanMethod& other) {
+void add_entries(TuningCase& one, const plan::Plan& plan) {
+  for (const plan::PlanMethod& entry : plan.methods) {
+    if (entry.protocol == "tuned" || entry.protocol == "oracle" || !plan::applies(entry, one.plan_case))
+      continue;
+    const auto same = [&](const plan::PlanMethod& other) {
       return other.method == entry.method && other.protocol == entry.protocol;
     };
     if (std::none_of(one.entries.begin(), one.entries.end(), same)) one.entries.push_back(entry);
@@ -238,7 +239,7 @@ void add_entries(TuningCase& one, const Plan& plan) {
 
 class Tuner {
  public:
-  Tuner(Tuning& tuning, const TunerOptions& options, EvaluationStore& store, Progress& progress)
+  Tuner(Tuning& tuning, const TunerOptions& options, EvaluationStore& store, run::Progress& progress)
       : tuning_(tuning),
         options_(options),
         store_(store),
@@ -312,7 +313,7 @@ class Tuner {
   Tuning& tuning_;
   const TunerOptions& options_;
   EvaluationStore& store_;
-  Progress& progress_;
+  run::Progress& progress_;
   PointSets sets_;
   std::mutex mutex_;
   std::atomic<std::size_t> next_{0};
@@ -337,10 +338,10 @@ const Evaluation* evaluation_at(const MethodOnCase& found, double position) {
   return place == found.sweep.end() ? nullptr : &place->evaluation;
 }
 
-std::vector<TuningCase> tuning_cases(const std::vector<Plan>& plans, std::uint64_t split_seed) {
+std::vector<TuningCase> tuning_cases(const std::vector<plan::Plan>& plans, std::uint64_t split_seed) {
   std::vector<TuningCase> cases;
-  for (const Plan& plan : plans) {
-    for (const PlanCase& plan_case : plan.expanded_cases) {
+  for (const plan::Plan& plan : plans) {
+    for (const plan::PlanCase& plan_case : plan.expanded_cases) {
       const auto same = [&](const TuningCase& other) {
         return other.plan_case.key() == plan_case.key() && other.seed == plan.seed;
       };
@@ -353,7 +354,7 @@ std::vector<TuningCase> tuning_cases(const std::vector<Plan>& plans, std::uint64
 }
 
 Tuning run_tuning(std::vector<TuningCase> cases, std::uint64_t split_seed, const TunerOptions& options,
-                  EvaluationStore& store, Progress& progress) {
+                  EvaluationStore& store, run::Progress& progress) {
   Tuning tuning;
   tuning.split_seed = split_seed;
   tuning.cases = std::move(cases);
@@ -374,15 +375,15 @@ Tuning run_tuning(std::vector<TuningCase> cases, std::uint64_t split_seed, const
   return tuning;
 }
 
-std::vector<ProgressRun> tuning_progress(const std::vector<TuningCase>& cases,
-                                         const std::vector<std::string>& methods) {
-  std::vector<ProgressRun> result;
+std::vector<run::ProgressRun> tuning_progress(const std::vector<TuningCase>& cases,
+                                              const std::vector<std::string>& methods) {
+  std::vector<run::ProgressRun> result;
   result.reserve(cases.size() * methods.size());
   for (const TuningCase& one : cases) {
     for (const std::string& method : methods)
-      result.push_back({method + "/" + one.name, method, estimated_points(one.plan_case), 1});
+      result.push_back({method + "/" + one.name, method, run::estimated_points(one.plan_case), 1});
   }
   return result;
 }
 
-}  // namespace hullbench
+}  // namespace hullbench::tune

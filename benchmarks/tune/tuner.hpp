@@ -7,15 +7,15 @@
 #include <string>
 #include <vector>
 
-#include "benchmarks/worker/method.hpp"
 #include "benchmarks/run/progress.hpp"
 #include "benchmarks/tune/tuning.hpp"
+#include "benchmarks/worker/method.hpp"
 #include "datasets/datasets.hpp"
 
-namespace hullbench {
+namespace hullbench::tune {
 
 struct TunerOptions {
-  MethodFinder find_method;
+  worker::MethodFinder find_method;
   std::vector<std::string> methods;             ///< to evaluate, by name
   std::map<std::string, std::string> programs;  ///< by method: SHA-256 of what runs it (Evaluation::program)
   int jobs = 1;                                 ///< threads, each with a worker of its own a method; >= 1
@@ -26,7 +26,7 @@ struct TunerOptions {
 
 /// The cases of `plans`, each once: a case that several have with the same seed has the entries of all, of
 /// two entries for the same method and protocol the first.
-std::vector<TuningCase> tuning_cases(const std::vector<Plan>& plans, std::uint64_t split_seed);
+std::vector<TuningCase> tuning_cases(const std::vector<plan::Plan>& plans, std::uint64_t split_seed);
 
 /// Per method and case: the protocols that the plans give it, `default` where it can do without parameters,
 /// and the search over its axis (search.hpp), with the holes switched on (fixed_parameters). What `store`
@@ -34,10 +34,10 @@ std::vector<TuningCase> tuning_cases(const std::vector<Plan>& plans, std::uint64
 /// spacing has no sweep of lengths, and one without a ground truth no evaluation. `tuning.interrupted` after
 /// Ctrl-C. Throws std::runtime_error when something cannot be written or a data set cannot be read.
 Tuning run_tuning(std::vector<TuningCase> cases, std::uint64_t split_seed, const TunerOptions& options,
-                  EvaluationStore& store, Progress& progress);
+                  EvaluationStore& store, run::Progress& progress);
 
 /// What `progress` needs to know: an element a case and method, in the order of the work.
-std::vector<ProgressRun> tuning_progress(const std::vector<TuningCase>& cases,
-                                         const std::vector<std::string>& methods);
+std::vector<run::ProgressRun> tuning_progress(const std::vector<TuningCase>& cases,
+                                              const std::vector<std::string>& methods);
 
-}  // namespace hullbench
+}  // namespace hullbench::tune

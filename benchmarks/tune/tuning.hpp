@@ -14,17 +14,17 @@
 #include "benchmarks/tune/search_axis.hpp"
 #include "benchmarks/tune/split.hpp"
 
-namespace hullbench {
+namespace hullbench::tune {
 
 /// One case of the plans: points of a shape.
 struct TuningCase {
-  PlanCase plan_case;
+  plan::PlanCase plan_case;
   std::uint64_t seed = 0;  ///< of the points
   double timeout_s = 0;    ///< for one evaluation
   std::string name;        ///< "ca/n:2000/holes:1"
   std::string shape;       ///< its base shape (split.hpp)
   Side side = Side::kTraining;
-  std::vector<PlanMethod> entries;  ///< of the plans that have the case, those that apply to it
+  std::vector<plan::PlanMethod> entries;  ///< of the plans that have the case, those that apply to it
   // Known once it was evaluated:
   std::string dataset_sha256;
   std::int64_t n = 0;
@@ -69,4 +69,4 @@ struct Tuning {
   bool interrupted = false;  ///< then cases and methods are incomplete
 };
 
-}  // namespace hullbench
+}  // namespace hullbench::tune

@@ -5,15 +5,15 @@
 #include <set>
 #include <span>
 
-#include "benchmarks/base/words.hpp"
 #include "benchmarks/base/number_format.hpp"
-#include "benchmarks/worker/protocol.hpp"
+#include "benchmarks/base/words.hpp"
 #include "benchmarks/record/record.hpp"
 #include "benchmarks/statistics/statistics.hpp"
 #include "benchmarks/tune/analysis.hpp"
 #include "benchmarks/tune/search.hpp"
+#include "benchmarks/worker/protocol.hpp"
 
-namespace hullbench {
+namespace hullbench::tune {
 namespace {
 
 using nlohmann::json;
@@ -29,7 +29,7 @@ json optional_to_json(const std::optional<double>& value) {
   return value ? error_to_json(*value) : json(nullptr);
 }
 
-json interval_to_json(const std::optional<Interval>& interval) {
+json interval_to_json(const std::optional<statistics::Interval>& interval) {
   if (!interval) return nullptr;
   return {error_to_json(interval->low), error_to_json(interval->high)};
 }
@@ -122,7 +122,7 @@ json oracle_to_json(const Tuning& tuning, const MethodTuning& method) {
     choices.push_back({{"case", tuning.cases[i].name},
                        {"seed", tuning.cases[i].seed},
                        {"position", position_of(method.cases[i], *best)},
-                       {"parameters", parameters_to_json(best->parameters)},
+                       {"parameters", worker::parameters_to_json(best->parameters)},
                        {"status", to_string(best->status)},
                        {"l2", best->l2 ? json(*best->l2) : json(nullptr)},
                        {"tolerance_octaves", optional_to_json(tolerance_octaves(method.cases[i]))}});
@@ -131,19 +131,20 @@ json oracle_to_json(const Tuning& tuning, const MethodTuning& method) {
 }
 
 json method_to_json(const Tuning& tuning, const MethodTuning& method) {
-  json result = {{"method", method.name},
-                 {"title", method.title},
-                 {"version", method.info ? method.info->version : ""},
-                 {"installed", method.info.has_value()},
-                 {"detail", method.detail},
-                 {"remedy", method.remedy},
-                 {"axis", axis_to_json(method.axis)},
-                 {"fixed", method.info ? parameters_to_json(fixed_parameters(*method.info)) : json::object()},
-                 {"tuned", nullptr},
-                 {"tolerance_octaves", nullptr},
-                 {"protocols", json::array()},
-                 {"curve", json::array()},
-                 {"oracle", json::array()}};
+  json result = {
+      {"method", method.name},
+      {"title", method.title},
+      {"version", method.info ? method.info->version : ""},
+      {"installed", method.info.has_value()},
+      {"detail", method.detail},
+      {"remedy", method.remedy},
+      {"axis", axis_to_json(method.axis)},
+      {"fixed", method.info ? worker::parameters_to_json(fixed_parameters(*method.info)) : json::object()},
+      {"tuned", nullptr},
+      {"tolerance_octaves", nullptr},
+      {"protocols", json::array()},
+      {"curve", json::array()},
+      {"oracle", json::array()}};
   if (!method.info) return result;
   const auto tuned = choose_tuned(tuning, method);
   result["tuned"] = tuned_to_json(tuned);
@@ -169,13 +170,13 @@ std::string interval_text(const json& interval) {
   return percent(interval[0]) + " to " + percent(interval[1]);
 }
 
-TableSection protocol_table(const json& summary, const std::string& cases_of) {
+table::TableSection protocol_table(const json& summary, const std::string& cases_of) {
   const bool test = cases_of == "test";
-  TableSection section = {"protocols_" + cases_of,
-                          test ? "Protocols on the test shapes" : "Protocols on all shapes",
-                          TextTable({"Method", "Protocol", "Cases", "Failed", "L2 %", "L2 % interval",
-                                     "Regret %", "Regret % interval"}),
-                          {}};
+  table::TableSection section = {"protocols_" + cases_of,
+                                 test ? "Protocols on the test shapes" : "Protocols on all shapes",
+                                 table::TextTable({"Method", "Protocol", "Cases", "Failed", "L2 %",
+                                                   "L2 % interval", "Regret %", "Regret % interval"}),
+                                 {}};
   for (const json& method : summary.at("methods")) {
     for (const json& score : method.at("protocols")) {
       if (score.at("cases_of") != cases_of) continue;
@@ -197,12 +198,12 @@ std::string axis_text(const json& axis) {
   return name + (axis.at("power") == 2 ? " = (x h)²" : " = x h");
 }
 
-TableSection tuned_table(const json& summary) {
-  TableSection section = {"tuned",
-                          "What was searched, the tuned value and the tolerance",
-                          TextTable({"Method", "Parameter", "From", "To", "Tuned x", "Training L2 %",
-                                     "Tolerance octaves", "Quartiles"}),
-                          {}};
+table::TableSection tuned_table(const json& summary) {
+  table::TableSection section = {"tuned",
+                                 "What was searched, the tuned value and the tolerance",
+                                 table::TextTable({"Method", "Parameter", "From", "To", "Tuned x",
+                                                   "Training L2 %", "Tolerance octaves", "Quartiles"}),
+                                 {}};
   for (const json& method : summary.at("methods")) {
     if (!method.at("installed").get<bool>()) continue;
     const json& axis = method.at("axis");
@@ -282,7 +283,7 @@ json protocols_of(const MethodTuning& method, const TuningCase& one, const Metho
 
 json tuning_to_json(const Tuning& tuning, const std::vector<std::string>& plans, const json& tool) {
   json summary = {{"kind", "tuning"},
-                  {"schema_version", kSchemaVersion},
+                  {"schema_version", record::kSchemaVersion},
                   {"tool", tool},
                   {"plans", plans},
                   {"split", {{"seed", tuning.split_seed}}},
@@ -295,10 +296,10 @@ json tuning_to_json(const Tuning& tuning, const std::vector<std::string>& plans,
   return summary;
 }
 
-Document tuning_document(const json& summary) {
-  Document document;
+table::Document tuning_document(const json& summary) {
+  table::Document document;
   document.title = "Parameters: " + join_words(summary.at("plans").get<std::vector<std::string>>());
-  for (TableSection section :
+  for (table::TableSection section :
        {protocol_table(summary, "test"), protocol_table(summary, "all"), tuned_table(summary)}) {
     if (!section.table.empty()) document.tables.push_back(std::move(section));
   }
@@ -332,4 +333,4 @@ std::vector<json> sweep_lines(const Tuning& tuning, const std::vector<Evaluation
   return lines;
 }
 
-}  // namespace hullbench
+}  // namespace hullbench::tune

@@ -11,7 +11,7 @@
 #include "benchmarks/tune/evaluation.hpp"
 #include "benchmarks/tune/tuning.hpp"
 
-namespace hullbench {
+namespace hullbench::tune {
 
 /// The summary: the split, the cases with their sides, and of every method its axis, protocols, tuned value,
 /// tolerance, sensitivity curve and the oracle's choices. Errors that are not there (failures) are null.
@@ -19,11 +19,11 @@ nlohmann::json tuning_to_json(const Tuning& tuning, const std::vector<std::strin
                               const nlohmann::json& tool);
 
 /// The tables of a summary that tuning_to_json made.
-Document tuning_document(const nlohmann::json& summary);
+table::Document tuning_document(const nlohmann::json& summary);
 
 /// Every evaluation, each once, method by method on each case in the order of the search, with what it was
 /// for: `side`, `position` (null: not of the sweep), `on_grid` and `protocols` ("oracle" and "tuned" among
 /// them). Then those that `known` has besides, which an earlier search of this folder asked for.
 std::vector<nlohmann::json> sweep_lines(const Tuning& tuning, const std::vector<Evaluation>& known);
 
-}  // namespace hullbench
+}  // namespace hullbench::tune

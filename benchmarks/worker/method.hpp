@@ -8,7 +8,7 @@
 
 #include "adapters/adapter.hpp"
 
-namespace hullbench {
+namespace hullbench::worker {
 
 /// How to start a method's worker, and what is known of the method before it has answered.
 struct Method {
@@ -27,4 +27,4 @@ struct Method {
 /// The method of that name. Throws ConfigurationError when there is none.
 using MethodFinder = std::function<Method(const std::string& name)>;
 
-}  // namespace hullbench
+}  // namespace hullbench::worker

@@ -7,7 +7,7 @@
 
 #include "benchmarks/worker/protocol.hpp"
 
-namespace hullbench {
+namespace hullbench::worker {
 namespace {
 
 using namespace std::chrono_literals;
@@ -16,7 +16,7 @@ using nlohmann::json;
 /// For a worker that is asked to end: it may have a database server to stop.
 constexpr auto kQuitPatience = 10s;
 
-Attempt failed(Status status, std::string detail, std::chrono::nanoseconds elapsed = 0ns) {
+Attempt failed(record::Status status, std::string detail, std::chrono::nanoseconds elapsed = 0ns) {
   Attempt attempt;
   attempt.status = status;
   attempt.detail = std::move(detail);
@@ -24,7 +24,7 @@ Attempt failed(Status status, std::string detail, std::chrono::nanoseconds elaps
   return attempt;
 }
 
-Reply failed_start(Status status, std::string detail, std::string remedy = "") {
+Reply failed_start(record::Status status, std::string detail, std::string remedy = "") {
   Reply reply;
   reply.remedy = std::move(remedy);
   reply.status = status;
@@ -33,10 +33,10 @@ Reply failed_start(Status status, std::string detail, std::string remedy = "") {
 }
 
 /// The phases in a reply; throws std::invalid_argument when they are not what the protocol says.
-PhaseTimes read_phases(const json& body, std::initializer_list<const char*> required) {
+record::PhaseTimes read_phases(const json& body, std::initializer_list<const char*> required) {
   const auto found = body.find("phases_ns");
   if (found == body.end() || !found->is_object()) throw std::invalid_argument("the reply has no phases_ns");
-  PhaseTimes phases;
+  record::PhaseTimes phases;
   for (const auto& [name, value] : found->items()) {
     if (!value.is_number_integer() || value.get<std::int64_t>() < 0) {
       throw std::invalid_argument("the phase '" + printable(name, 40) + "' is not a time in nanoseconds");
@@ -65,7 +65,7 @@ std::int64_t Attempt::time_ns() const {
 
 MethodSession::MethodSession(Method method, const WorkerLimits& limits)
     : method_(std::move(method)), limits_(limits) {
-  start_reply_ = failed_start(Status::kError, "the worker was not started");
+  start_reply_ = failed_start(record::Status::kError, "the worker was not started");
 }
 
 MethodSession::~MethodSession() {
@@ -84,7 +84,7 @@ void MethodSession::begin_start() {
   worker_.reset();
   for (const std::string& file : method_.needs) {
     if (std::filesystem::exists(file)) continue;
-    start_reply_ = failed_start(Status::kNotInstalled, "there is no " + file, method_.install);
+    start_reply_ = failed_start(record::Status::kNotInstalled, "there is no " + file, method_.install);
     return;
   }
   try {
@@ -92,12 +92,12 @@ void MethodSession::begin_start() {
   } catch (const std::system_error& error) {
     // The program of a manifest is part of what is to be installed.
     const bool missing = method_.info && error.code() == std::errc::no_such_file_or_directory;
-    start_reply_ = missing ? failed_start(Status::kNotInstalled,
+    start_reply_ = missing ? failed_start(record::Status::kNotInstalled,
                                           "there is no program " + method_.command.front(), method_.install)
-                           : failed_start(Status::kError, error.what());
+                           : failed_start(record::Status::kError, error.what());
     return;
   } catch (const std::runtime_error& error) {
-    start_reply_ = failed_start(Status::kError, error.what());
+    start_reply_ = failed_start(record::Status::kError, error.what());
     return;
   }
   worker_->send({{"request", "hello"}, {"protocol", kProtocolVersion}});
@@ -107,7 +107,7 @@ void MethodSession::finish_start() {
   info_.reset();
   if (!worker_) return;
   start_reply_ = worker_->receive(kStartTimeout);
-  if (start_reply_.status == Status::kOk) {
+  if (start_reply_.status == record::Status::kOk) {
     try {
       if (start_reply_.body.at("protocol") != kProtocolVersion) {
         throw std::invalid_argument("it speaks another version of the protocol");
@@ -125,11 +125,12 @@ void MethodSession::finish_start() {
       if (!method_.sources.empty()) info_->version += "+" + method_.sources;
     } catch (const std::exception& error) {
       info_.reset();
-      start_reply_ = failed_start(Status::kError, "the worker broke the protocol in its first answer: " +
-                                                      printable(error.what(), 200));
+      start_reply_ =
+          failed_start(record::Status::kError,
+                       "the worker broke the protocol in its first answer: " + printable(error.what(), 200));
     }
   }
-  if (start_reply_.status == Status::kNotInstalled && start_reply_.remedy.empty()) {
+  if (start_reply_.status == record::Status::kNotInstalled && start_reply_.remedy.empty()) {
     start_reply_.remedy = method_.install;
   }
   if (!info_) worker_.reset();
@@ -139,12 +140,12 @@ Reply MethodSession::load(const LoadedPoints& points, std::chrono::milliseconds 
   loaded_key_.clear();
   Reply reply =
       worker_->request({{"request", "load"}, {"points", points.file.string()}, {"n", points.n}}, timeout);
-  if (reply.status != Status::kOk) return reply;
+  if (reply.status != record::Status::kOk) return reply;
   try {
     load_phases_ = read_phases(reply.body, {"load"});
     loaded_key_ = points.key;
   } catch (const std::invalid_argument& error) {
-    reply.status = Status::kError;
+    reply.status = record::Status::kError;
     reply.detail = std::string("the worker broke the protocol: ") + error.what();
   }
   return reply;
@@ -160,7 +161,8 @@ Attempt MethodSession::run(const LoadedPoints& points, const Parameters& paramet
   if (!info_) return failed(start_reply_.status, start_reply_.detail);
   if (loaded_key_ != points.key) {
     const Reply loaded = load(points, timeout);
-    if (loaded.status != Status::kOk) return failed(loaded.status, "on loading the points: " + loaded.detail);
+    if (loaded.status != record::Status::kOk)
+      return failed(loaded.status, "on loading the points: " + loaded.detail);
   }
   // A name of its own for every run: what an earlier run left can never be taken for this one's result.
   const std::string nonce =
@@ -173,11 +175,12 @@ Attempt MethodSession::run(const LoadedPoints& points, const Parameters& paramet
                                         {"parameters", parameters_to_json(parameters)},
                                         {"result", result.string()}},
                                        timeout);
-  Attempt attempt = reply.status == Status::kOk ? read_result(reply, nonce, result)
-                                                : failed(reply.status, reply.detail, reply.elapsed);
+  Attempt attempt = reply.status == record::Status::kOk ? read_result(reply, nonce, result)
+                                                        : failed(reply.status, reply.detail, reply.elapsed);
   if (watches_memory) attempt.peak_memory_bytes = worker_->peak_memory_bytes();
   // After a lack of memory, or an answer that is none, nobody knows what is left undone in the worker.
-  if (attempt.status == Status::kMemory || attempt.status == Status::kInvalidOutput) worker_.reset();
+  if (attempt.status == record::Status::kMemory || attempt.status == record::Status::kInvalidOutput)
+    worker_.reset();
   std::error_code ignored;
   std::filesystem::remove(result, ignored);
   return attempt;
@@ -187,11 +190,11 @@ Attempt MethodSession::warm_up(const LoadedPoints& points, const Parameters& par
                                const std::filesystem::path& scratch, std::chrono::milliseconds timeout) {
   const auto end = std::chrono::steady_clock::now() + kWarmUpTime;
   const Attempt first = run(points, parameters, scratch, timeout);
-  if (first.status != Status::kOk) return first;
+  if (first.status != record::Status::kOk) return first;
   std::vector<std::int64_t> times = {first.time_ns()};
   while (!ends_steadily(times) && std::chrono::steady_clock::now() < end) {
     Attempt next = run(points, parameters, scratch, timeout);
-    if (next.status != Status::kOk) return next;
+    if (next.status != record::Status::kOk) return next;
     times.push_back(next.time_ns());
   }
   warmed_up_ = true;
@@ -215,7 +218,7 @@ Attempt MethodSession::read_result(const Reply& reply, const std::string& nonce,
     attempt.phases_ns["outside"] = attempt.elapsed.count();
     attempt.wkb = read_bytes(result, kMaxResultBytes);
   } catch (const std::exception& error) {
-    return failed(Status::kInvalidOutput, printable(error.what(), 300), reply.elapsed);
+    return failed(record::Status::kInvalidOutput, printable(error.what(), 300), reply.elapsed);
   }
   for (const auto& [name, time] : load_phases_) attempt.phases_ns[name] = time;
   return attempt;
@@ -234,4 +237,4 @@ json describe_method(const MethodSession& session) {
   return result;
 }
 
-}  // namespace hullbench
+}  // namespace hullbench::worker

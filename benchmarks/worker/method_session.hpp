@@ -11,11 +11,11 @@
 #include <vector>
 
 #include "adapters/adapter.hpp"
-#include "benchmarks/worker/method.hpp"
 #include "benchmarks/record/record.hpp"
+#include "benchmarks/worker/method.hpp"
 #include "benchmarks/worker/worker_process.hpp"
 
-namespace hullbench {
+namespace hullbench::worker {
 
 /// How long a worker may take to say who it is; a method may have to start a server.
 inline constexpr std::chrono::seconds kStartTimeout{60};
@@ -38,10 +38,10 @@ struct LoadedPoints {
 
 /// One run of a method, or why there was none.
 struct Attempt {
-  Status status = Status::kOk;
+  record::Status status = record::Status::kOk;
   std::string detail;  ///< empty when ok
   /// As the worker tells them, with "load": of the load that the run used; and "outside": `elapsed`.
-  PhaseTimes phases_ns;
+  record::PhaseTimes phases_ns;
   std::vector<std::uint8_t> wkb;        ///< the result
   std::chrono::nanoseconds elapsed{0};  ///< as seen from outside
   /// Of the worker's process during the run; none unless it was asked for, when the method works in a server
@@ -53,7 +53,7 @@ struct Attempt {
 };
 
 /// What a run is watched for besides its result. Looking at memory is for runs that nobody times.
-enum class Watch { kNothing, kMemory };
+enum class Watch { report::kNothing, kMemory };
 
 class MethodSession {
  public:
@@ -103,7 +103,7 @@ class MethodSession {
   std::optional<MethodInfo> info_;
   Reply start_reply_;
   std::string loaded_key_;  ///< of the points the worker has; empty: none
-  PhaseTimes load_phases_;
+  record::PhaseTimes load_phases_;
   std::uint64_t run_count_ = 0;
   bool warmed_up_ = false;  ///< the process that runs
 };
@@ -112,4 +112,4 @@ class MethodSession {
 /// What is not known of a method that does not start is empty.
 nlohmann::json describe_method(const MethodSession& session);
 
-}  // namespace hullbench
+}  // namespace hullbench::worker

@@ -12,7 +12,7 @@
 #include <stdexcept>
 #include <system_error>
 
-namespace hullbench {
+namespace hullbench::worker {
 namespace {
 
 using nlohmann::json;
@@ -152,4 +152,4 @@ std::string printable(std::string_view text, std::size_t max_size) {
   return result.substr(first, result.find_last_not_of(' ') - first + 1);
 }
 
-}  // namespace hullbench
+}  // namespace hullbench::worker

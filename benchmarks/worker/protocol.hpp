@@ -12,7 +12,7 @@
 
 #include "adapters/adapter.hpp"
 
-namespace hullbench {
+namespace hullbench::worker {
 
 inline constexpr int kProtocolVersion = 1;
 
@@ -46,4 +46,4 @@ void write_bytes(const std::filesystem::path& path, std::span<const std::uint8_t
 /// `?`, and of more than `max_size` characters the last ones are kept.
 std::string printable(std::string_view text, std::size_t max_size);
 
-}  // namespace hullbench
+}  // namespace hullbench::worker

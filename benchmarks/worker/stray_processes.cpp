@@ -16,7 +16,7 @@
 
 #include "adapters/process_identity.hpp"
 
-namespace hullbench {
+namespace hullbench::worker {
 namespace {
 
 using namespace std::chrono_literals;
@@ -93,4 +93,4 @@ void end_strays_of_dead_harnesses() {
   end_all([](const std::string& mark) { return !is_process_alive(mark.substr(0, mark.rfind('.'))); });
 }
 
-}  // namespace hullbench
+}  // namespace hullbench::worker

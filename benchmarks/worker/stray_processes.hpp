@@ -4,7 +4,7 @@
 
 #include <string>
 
-namespace hullbench {
+namespace hullbench::worker {
 
 /// The environment variable that carries the mark.
 inline constexpr const char* kMarkVariable = "HULLBENCH_WORKER";
@@ -20,4 +20,4 @@ void end_strays(const std::string& mark);
 /// Does that with what the workers of harnesses left behind that do not live any more.
 void end_strays_of_dead_harnesses();
 
-}  // namespace hullbench
+}  // namespace hullbench::worker

@@ -17,7 +17,7 @@
 #include "adapters/wkb.hpp"
 #include "benchmarks/worker/protocol.hpp"
 
-namespace hullbench {
+namespace hullbench::worker {
 namespace {
 
 using nlohmann::json;
@@ -193,4 +193,4 @@ int run_worker(const AdapterEntry& entry) {
   return 0;
 }
 
-}  // namespace hullbench
+}  // namespace hullbench::worker

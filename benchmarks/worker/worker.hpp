@@ -5,7 +5,7 @@
 
 #include "adapters/adapter.hpp"
 
-namespace hullbench {
+namespace hullbench::worker {
 
 /// Answers requests for the adapter that `entry` makes (protocol.hpp) on standard input and output until
 /// `quit` or the end of the input, and returns the exit code: 0, or 1 when the adapter cannot be made or a
@@ -15,4 +15,4 @@ namespace hullbench {
 /// empty, so that a library that prints or reads cannot break into the protocol.
 int run_worker(const AdapterEntry& entry);
 
-}  // namespace hullbench
+}  // namespace hullbench::worker

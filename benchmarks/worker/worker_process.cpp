@@ -24,7 +24,7 @@
 #include "benchmarks/worker/protocol.hpp"
 #include "benchmarks/worker/stray_processes.hpp"
 
-namespace hullbench {
+namespace hullbench::worker {
 namespace {
 
 using namespace std::chrono_literals;
@@ -169,7 +169,7 @@ void throw_if_ended_with_us(int signal) {
   throw_if_interrupted();
 }
 
-Reply failure(Status status, std::string detail) {
+Reply failure(record::Status status, std::string detail) {
   Reply reply;
   reply.status = status;
   reply.detail = std::move(detail);
@@ -177,11 +177,11 @@ Reply failure(Status status, std::string detail) {
   return reply;
 }
 
-Status status_of_kind(const std::string& kind) {
-  if (kind == "memory") return Status::kMemory;
-  if (kind == "unsupported") return Status::kUnsupported;
-  if (kind == "not_installed") return Status::kNotInstalled;
-  return Status::kError;
+record::Status status_of_kind(const std::string& kind) {
+  if (kind == "memory") return record::Status::kMemory;
+  if (kind == "unsupported") return record::Status::kUnsupported;
+  if (kind == "not_installed") return record::Status::kNotInstalled;
+  return record::Status::kError;
 }
 
 bool speaks_of_memory(const std::string& words) {
@@ -247,7 +247,7 @@ void WorkerProcess::send(const json& request) {
 }
 
 Reply WorkerProcess::receive(std::chrono::milliseconds timeout) {
-  if (!alive()) return failure(Status::kCrash, "the worker is not running");
+  if (!alive()) return failure(record::Status::kCrash, "the worker is not running");
   if (unasked_) return broken_protocol("spoke without being asked");
   Reply reply = wait_for_line(sent_ + timeout, timeout);
   reply.elapsed = Clock::now() - sent_;
@@ -269,8 +269,8 @@ Reply WorkerProcess::wait_for_line(Clock::time_point deadline, std::chrono::mill
     const auto left = std::chrono::duration_cast<std::chrono::milliseconds>(deadline - Clock::now());
     if (left <= 0ms) {
       kill();
-      return failure(Status::kTimeout, "no answer within " + std::to_string(timeout.count() / 1000) + "." +
-                                           std::to_string(timeout.count() % 1000 / 100) + " s");
+      return failure(record::Status::kTimeout, "no answer within " + std::to_string(timeout.count() / 1000) +
+                                                   "." + std::to_string(timeout.count() % 1000 / 100) + " s");
     }
     if (!read_pipes(std::min(left, std::chrono::milliseconds(kTick)))) return lost_output();
     if (!has_complete_line() && ended()) {
@@ -377,15 +377,15 @@ Reply WorkerProcess::reply_for_ending(const Ending& ending) const {
   const bool full = memory_mib_ > 0 && static_cast<double>(ending.peak_kib) >
                                            kMemoryShare * 1024.0 * static_cast<double>(memory_mib_);
   if (full || speaks_of_memory(last_words_)) {
-    return failure(Status::kMemory,
+    return failure(record::Status::kMemory,
                    cause + " for lack of memory (limit " + std::to_string(memory_mib_) + " MiB)" + said);
   }
-  return failure(Status::kCrash, (signalled ? cause : cause + " without an answer") + said);
+  return failure(record::Status::kCrash, (signalled ? cause : cause + " without an answer") + said);
 }
 
 Reply WorkerProcess::broken_protocol(const std::string& what) {
   kill();
-  return failure(Status::kError, "the worker broke the protocol: it " + what);
+  return failure(record::Status::kError, "the worker broke the protocol: it " + what);
 }
 
 Reply WorkerProcess::lost_output() {
@@ -437,4 +437,4 @@ std::string signal_name(int signal) {
   return name ? "SIG" + std::string(name) : "signal " + std::to_string(signal);
 }
 
-}  // namespace hullbench
+}  // namespace hullbench::worker

@@ -14,7 +14,7 @@
 
 #include "benchmarks/record/record.hpp"
 
-namespace hullbench {
+namespace hullbench::worker {
 
 /// What a worker may use.
 struct WorkerLimits {
@@ -26,7 +26,7 @@ struct WorkerLimits {
 
 /// A worker's answer to one request, or what happened instead.
 struct Reply {
-  Status status = Status::kOk;
+  record::Status status = record::Status::kOk;
   std::string detail;                   ///< one sentence or a signal's name; empty when ok
   std::string remedy;                   ///< the command that helps; only with kNotInstalled
   nlohmann::json body;                  ///< the reply; an empty object when not ok
@@ -113,4 +113,4 @@ class WorkerProcess {
 /// "SIGSEGV" for 11.
 std::string signal_name(int signal);
 
-}  // namespace hullbench
+}  // namespace hullbench::worker

@@ -171,7 +171,7 @@ bool is_passed_over(std::string_view line) {
 
 std::vector<Point> read_columns(BlockReader& reader, bool only_blanks) {
   std::vector<Point> points;
-  Row row(reader);
+  Row report::row(reader);
   Columns columns;
   std::size_t needed = 0;  // fields; 0: the first row has not come yet
   const auto start = [&](std::string_view line) {
