@@ -9,7 +9,7 @@
 #include "benchmarks/hull/point_files/block_reader.hpp"
 #include "benchmarks/hull/point_files/readers.hpp"
 
-namespace hullbench {
+namespace hullbench::hull {
 namespace {
 
 using point_files::BlockReader;
@@ -138,4 +138,4 @@ std::vector<Point> read_points(const std::string& path, const PointFileOptions& 
   return read_as(format, reader);
 }
 
-}  // namespace hullbench
+}  // namespace hullbench::hull

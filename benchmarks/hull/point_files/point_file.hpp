@@ -10,7 +10,7 @@
 
 #include "polylidar/geometry.hpp"
 
-namespace hullbench {
+namespace hullbench::hull {
 
 /// What is wrong with a file of points, where, and what would be right: one sentence that begins with the
 /// file's name and, for text, the line.
@@ -48,4 +48,4 @@ struct PointFileOptions {
 /// coordinate that is not finite. A file may hold no points.
 std::vector<polylidar::Point> read_points(const std::string& path, const PointFileOptions& options = {});
 
-}  // namespace hullbench
+}  // namespace hullbench::hull
