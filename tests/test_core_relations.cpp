@@ -166,7 +166,7 @@ TEST(PowersOfTwo, ChangeNoIndexOfAnyShape) {
     const auto range = exponents(set.points);
     if (!range || range->least < -200 || range->greatest > 200) continue;
     const std::vector<Options> all = testing::clear_options(set.points, delaunay(set.points));
-    std::vector<IndexedMultiPolygon> report::shapes(all.size());
+    std::vector<IndexedMultiPolygon> shapes(all.size());
     for (std::size_t i = 0; i < all.size(); ++i) shapes[i] = concave_hull(set.points, all[i]);
     for (int exponent = -490; exponent <= 490; exponent += 70) {
       SCOPED_TRACE("exponent " + std::to_string(exponent));

@@ -27,7 +27,7 @@ std::vector<std::size_t> region_sizes(const Points& points, double max_edge) {
     }
     return true;
   };
-  std::vector<std::size_t> report::label(count);
+  std::vector<std::size_t> label(count);
   std::iota(label.begin(), label.end(), 0U);
   for (bool changed = true; changed;) {
     changed = false;
