@@ -2,7 +2,7 @@
 # test joins them when Boost's headers are at hand.
 add_library(hullbench_test_support STATIC point_sets.cpp hull_oracle.cpp)
 target_include_directories(hullbench_test_support PUBLIC "${PROJECT_SOURCE_DIR}")
-target_link_libraries(hullbench_test_support PUBLIC polylidar::core PRIVATE hullbench::compile_options)
+target_link_libraries(hullbench_test_support PUBLIC polylidar::core polylidar::check PRIVATE hullbench::compile_options)
 
 hullbench_test(test_delaunay SOURCES test_delaunay.cpp LIBRARIES hullbench_test_support LABELS core)
 hullbench_test(test_concave_hull SOURCES test_concave_hull.cpp LIBRARIES hullbench_test_support LABELS core)

@@ -101,6 +101,7 @@ TEST_F(PackageTest, IsTheCoreAndNothingElse) {
     expected.insert("include/polylidar/" + header.path().filename().string());
   }
   EXPECT_EQ(installed_files(), expected);
+  EXPECT_FALSE(expected.contains("include/polylidar/check.hpp")) << "that is for tests";
 }
 
 TEST_F(PackageTest, NamesNothingOfTheBuild) {

@@ -1,5 +1,5 @@
-// Independent checks of what the core produces, for tests and for the suspicious. Slow on purpose: they share
-// no code with the algorithms they check except the predicates.
+// Independent checks of what the core produces, for tests: a library of its own, which is not installed. Slow
+// on purpose: they share no code with the algorithms they check except the predicates.
 #pragma once
 
 #include <span>
