@@ -98,7 +98,7 @@ class Shapes(unittest.TestCase):
                     & (perimeters <= (perimeter or np.inf))
                 )
                 kept.append(inside.sum())
-                shape = concave_hull(points, alpha, length, max_perimeter=perimeter)
+                shape = concave_hull(points, alpha=alpha, max_edge_length=length, max_perimeter=perimeter)
                 # Two thousand terms of at most 1, each rounded to 1e-16.
                 self.assertAlmostEqual(shape.area, areas[inside].sum(), delta=1e-12)
         self.assertEqual(len(set(kept)), 6)
@@ -230,11 +230,12 @@ class Inputs(unittest.TestCase):
             with self.assertRaises(TypeError):
                 concave_hull(points, **options)
 
-    def test_only_the_first_two_limits_go_without_their_names(self):
-        points = scattered(10)
-        self.assertEqual(concave_hull(points, 1, 2).max_edge_length, 2)
+    def test_only_the_points_go_without_their_name(self):
+        kinds = {name: parameter.kind for name, parameter in inspect.signature(concave_hull).parameters.items()}
+        self.assertEqual(kinds.pop("points"), inspect.Parameter.POSITIONAL_OR_KEYWORD)
+        self.assertEqual(set(kinds.values()), {inspect.Parameter.KEYWORD_ONLY})
         with self.assertRaises(TypeError):
-            concave_hull(points, 1, 2, 3)
+            concave_hull(scattered(10), 1)
 
     def test_the_extension_itself_takes_nothing_that_it_would_have_to_convert(self):
         exact = np.array(lattice_with_a_hole(), dtype=np.float64)
@@ -332,11 +333,11 @@ class Threads(unittest.TestCase):
 
     def test_calls_at_the_same_time(self):
         sets = [scattered(20_000, seed) for seed in range(4)]
-        expected = [concave_hull(points, 0.01).__geo_interface__ for points in sets]
+        expected = [concave_hull(points, alpha=0.01).__geo_interface__ for points in sets]
         results = [None] * len(sets)
 
         def compute(i):
-            results[i] = concave_hull(sets[i], 0.01, threads=2).__geo_interface__
+            results[i] = concave_hull(sets[i], alpha=0.01, threads=2).__geo_interface__
 
         threads = [threading.Thread(target=compute, args=(i,)) for i in range(len(sets))]
         for thread in threads:

@@ -22,9 +22,9 @@ __all__ = ["MultiPolygon", "__version__", "concave_hull", "delaunay"]
 
 def concave_hull(
     points: npt.ArrayLike,
+    *,
     alpha: float | None = None,
     max_edge_length: float | None = None,
-    *,
     max_perimeter: float | None = None,
     fill_single_triangles: bool | None = None,
     threads: int | None = 1,
@@ -35,8 +35,8 @@ def concave_hull(
     O(n log n).
 
     points: numbers of the shape (n, 2), x and y in any unit of length, in any order; they may repeat. A C-contiguous
-        float64 array is read where it is, read-only and memory-mapped ones too; anything else is converted, which
-        copies it once. Other threads run meanwhile and must leave the array as it is.
+        float64 array is used without a copy, read-only and memory-mapped ones too; anything else is converted, which
+        copies it once. The GIL is released: other threads must not change the array meanwhile.
     alpha: largest circumradius of a triangle that is kept, in the unit of the points; zero or more; None: not given.
         For points spread evenly over a shape of known area, 2 * sqrt(area / n) suits.
     max_edge_length: longest edge of a triangle that is kept, likewise.
