@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "predicates_inline.hpp"
+#include "vector.hpp"
 
 namespace polylidar::detail {
 
@@ -44,15 +45,11 @@ Mesh::Index next_boundary_to_the_left(const Mesh& mesh, const Point* vertices, M
   }
 }
 
-bool lexicographically_less(const Point& a, const Point& b) {
-  return a.x < b.x || (a.x == b.x && a.y < b.y);
-}
-
 /// The half-edge that leaves the lexicographically least vertex of the walk that `first` is on.
 Mesh::Index leave_least_vertex(const Mesh& mesh, const Point* vertices, Mesh::Index first) {
   Mesh::Index least = first;
   for (Mesh::Index e = next_boundary(mesh, first); e != first; e = next_boundary(mesh, e)) {
-    if (lexicographically_less(vertices[mesh.origin(e)], vertices[mesh.origin(least)])) least = e;
+    if (less_by_x(vertices[mesh.origin(e)], vertices[mesh.origin(least)])) least = e;
   }
   return least;
 }
@@ -60,9 +57,7 @@ Mesh::Index leave_least_vertex(const Mesh& mesh, const Point* vertices, Mesh::In
 /// Whether a simple ring runs counter-clockwise, exactly: it turns the same way at its lexicographically
 /// least vertex.
 bool is_counter_clockwise(const Point* vertices, std::span<const std::uint32_t> ring) {
-  const auto less = [&](std::uint32_t a, std::uint32_t b) {
-    return lexicographically_less(vertices[a], vertices[b]);
-  };
+  const auto less = [&](std::uint32_t a, std::uint32_t b) { return less_by_x(vertices[a], vertices[b]); };
   const std::size_t count = ring.size();
   const auto least =
       static_cast<std::size_t>(std::min_element(ring.begin(), ring.end(), less) - ring.begin());

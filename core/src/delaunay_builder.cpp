@@ -10,6 +10,7 @@
 #include "coordinate_range.hpp"
 #include "curve.hpp"
 #include "predicates_inline.hpp"
+#include "vector.hpp"
 
 namespace polylidar::detail {
 
@@ -17,10 +18,6 @@ namespace {
 
 // Cells with at most this many points are halved by sorting them; larger ones get a finer curve of their own.
 constexpr std::uint32_t kSmallCell = 16;
-
-bool less_by_x(const Point& a, const Point& b) {
-  return a.x < b.x || (a.x == b.x && a.y < b.y);
-}
 
 /// Which line separates points whose keys differ first in bit `level`, counted from 1.
 Axis axis_of_level(unsigned level) {

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "predicates_inline.hpp"
+#include "vector.hpp"
 
 namespace polylidar::detail {
 
@@ -13,26 +14,12 @@ using Index = Mesh::Index;
 
 enum class Side : std::uint8_t { kLeft, kRight };
 
-struct Vector {
-  double x;
-  double y;
-};
-
-Vector operator-(const Point& a, const Point& b) {
-  return {a.x - b.x, a.y - b.y};
-}
-double squared(const Vector& v) {
-  return v.x * v.x + v.y * v.y;
-}
-double cross(const Vector& a, const Vector& b) {
-  return a.x * b.y - a.y * b.x;
-}
-
-bool less_by_x(const Point& a, const Point& b) {
-  return a.x < b.x || (a.x == b.x && a.y < b.y);
-}
-bool less_by_y(const Point& a, const Point& b) {
-  return a.y < b.y || (a.y == b.y && a.x < b.x);
+/// Writes the origins of the ghost over the hull edge from -> to: it runs the other way round and ends at
+/// infinity.
+[[gnu::always_inline]] inline void write_ghost(Index* memory, std::size_t ghost, Index from, Index to) {
+  memory[ghost] = to;
+  memory[ghost + 1] = from;
+  memory[ghost + 2] = kNone;
 }
 
 /// A point as seen from the end of the base on its own side, which is the origin of the predicates'
@@ -136,11 +123,15 @@ class Merge {
 /// From the vertices of two hulls that face each other, walks down to the edge below which neither hull has a
 /// point. Collinear points beyond the ends are left where they are: the strict test keeps the edge as short
 /// as possible.
+///
+/// A round walks the left end down, then the right one. Only the right one's steps ask for another round:
+/// they change the edge after the left end was tested, while the left one's are followed by the right one's
+/// tests in the same round. A left half that is a single point has nowhere to go.
 void Merge::find_lower_tangent(HullVertex& left, HullVertex& right) const {
   Point left_end = points_[left.vertex];
   Point right_end = points_[right.vertex];
-  for (bool moved = true; moved;) {
-    moved = false;
+  for (bool right_moved = true; right_moved;) {
+    right_moved = false;
     if (left.ghost != kNone) {
       for (;;) {
         const Index ghost = twin(std::size_t{left.ghost} + 1) - 2;  // of the edge that arrives
@@ -156,10 +147,10 @@ void Merge::find_lower_tangent(HullVertex& left, HullVertex& right) const {
         if (!is_below(left_end, right_end, candidate)) break;
         right = {candidate, twin(std::size_t{right.ghost} + 2) - 1};
         right_end = points_[candidate];
-        moved = true;
+        right_moved = true;
       }
     }
-    if (left.ghost == kNone) moved = false;
+    if (left.ghost == kNone) right_moved = false;
   }
 }
 
@@ -181,9 +172,7 @@ void Merge::open_bottom(const HullVertex& left, const HullVertex& right, Index b
   left_end_ = points_[l_];
   right_end_ = points_[r_];
   base_ = bottom;
-  origin(bottom) = r_;
-  origin(std::size_t{bottom} + 1) = l_;
-  origin(std::size_t{bottom} + 2) = kNone;
+  write_ghost(memory_, bottom, l_, r_);
   if (left.ghost != kNone) {
     left_.ghost = left.ghost;
     bond(bottom + 1, twin(std::size_t{left.ghost} + 1));
@@ -199,9 +188,7 @@ void Merge::open_bottom(const HullVertex& left, const HullVertex& right, Index b
 /// The ghost (l, r, infinity) over the upper tangent, to which the base has risen.
 void Merge::close_top(Index bottom) const {
   const Index top = bottom + Mesh::kStride;
-  origin(top) = l_;
-  origin(std::size_t{top} + 1) = r_;
-  origin(std::size_t{top} + 2) = kNone;
+  write_ghost(memory_, top, r_, l_);
   bond(top, base_);
   bond(top + 1, right_.ghost == kNone ? bottom + 2 : right_.ghost + 2);
   bond(top + 2, left_.ghost == kNone ? bottom + 1 : left_.ghost + 1);
@@ -210,7 +197,7 @@ void Merge::close_top(Index bottom) const {
 void Merge::close_gap() {
   for (;;) {
     base_from_l_ = right_end_ - left_end_;
-    squared_base_ = squared(base_from_l_);
+    squared_base_ = squared_length(base_from_l_);
     const bool left = left_.ghost != kNone && has_candidate<Side::kLeft>();
     const bool right = right_.ghost != kNone && has_candidate<Side::kRight>();
     if (!left && !right) return;
@@ -226,7 +213,7 @@ Apex Merge::apex(Index vertex, const Point& base_end) const {
   Apex result;
   result.vertex = vertex;
   result.offset = points_[vertex] - base_end;
-  result.squared = squared(result.offset);
+  result.squared = squared_length(result.offset);
   return result;
 }
 
@@ -310,9 +297,7 @@ void Merge::flip() {
   const Index after = twin(Mesh::next(front.inner));       // outside l2 -> x or r -> x
   const Index before = twin(Mesh::previous(front.inner));  // outside x -> l or x -> r2
   const Index x = front.behind.vertex;
-  origin(far_ghost) = kLeft ? front.candidate.vertex : x;
-  origin(std::size_t{far_ghost} + 1) = kLeft ? x : front.candidate.vertex;
-  origin(std::size_t{far_ghost} + 2) = kNone;
+  write_ghost(memory_, far_ghost, kLeft ? x : front.candidate.vertex, kLeft ? front.candidate.vertex : x);
   bond(far_ghost, kLeft ? after : before);
   if constexpr (kLeft) {
     bond(far_ghost + 2, twin(std::size_t{ghost} + 2));
@@ -363,15 +348,11 @@ void Merge::take_right() {
 /// The edge a - b with a ghost on either side, in two records.
 void join_points(Mesh& mesh, Index a, Index b, Index first_record) {
   const Index second_record = first_record + Mesh::kStride;
-  mesh.origin(first_record) = b;
-  mesh.origin(first_record + 1) = a;
-  mesh.origin(first_record + 2) = kNone;
-  mesh.origin(second_record) = a;
-  mesh.origin(second_record + 1) = b;
-  mesh.origin(second_record + 2) = kNone;
   mesh.bond(first_record, second_record);
   mesh.bond(first_record + 1, second_record + 2);
   mesh.bond(first_record + 2, second_record + 1);
+  write_ghost(mesh.memory(), first_record, a, b);
+  write_ghost(mesh.memory(), second_record, b, a);
 }
 
 HullVertex choose(bool first, const HullVertex& a, const HullVertex& b) {
@@ -388,9 +369,7 @@ Hull join_triangle(Mesh& mesh, const Point* points, Index a, Index b, Index c, I
     const Index ghost = first_record + Mesh::kStride * (k + 1);
     const Index next_ghost = first_record + Mesh::kStride * (next + 1);
     mesh.origin(first_record + k) = vertices[k];
-    mesh.origin(ghost) = vertices[next];
-    mesh.origin(ghost + 1) = vertices[k];
-    mesh.origin(ghost + 2) = kNone;
+    write_ghost(mesh.memory(), ghost, vertices[k], vertices[next]);
     mesh.bond(first_record + k, ghost);
     mesh.bond(ghost + 2, next_ghost + 1);
     hull[k] = {vertices[k], ghost};

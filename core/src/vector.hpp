@@ -1,0 +1,33 @@
+// Vectors of the plane, and the two orders in which points are compared.
+#pragma once
+
+#include "polylidar/geometry.hpp"
+
+namespace polylidar::detail {
+
+/// From one point to another.
+struct Vector {
+  double x;
+  double y;
+};
+
+// static: with inline alone GCC 12 needs half a percent more instructions for merging triangulations.
+static inline Vector operator-(const Point& a, const Point& b) {
+  return {a.x - b.x, a.y - b.y};
+}
+static inline double squared_length(const Vector& v) {
+  return v.x * v.x + v.y * v.y;
+}
+/// Positive when `b` points to the left of `a`, but for rounding.
+static inline double cross(const Vector& a, const Vector& b) {
+  return a.x * b.y - a.y * b.x;
+}
+
+inline bool less_by_x(const Point& a, const Point& b) {
+  return a.x < b.x || (a.x == b.x && a.y < b.y);
+}
+inline bool less_by_y(const Point& a, const Point& b) {
+  return a.y < b.y || (a.y == b.y && a.x < b.x);
+}
+
+}  // namespace polylidar::detail
