@@ -5,12 +5,13 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <set>
 #include <string>
 #include <vector>
 
 #include "core/src/delaunay_builder.hpp"
+#include "core/src/filter_rules.hpp"
 #include "core/src/region.hpp"
-#include "core/src/value_of_rank.hpp"
 #include "polylidar/check.hpp"
 #include "polylidar/concave_hull.hpp"
 #include "polylidar/delaunay.hpp"
@@ -97,37 +98,37 @@ TEST(AutomaticLimit, ExtractsWhatGivingItExtracts) {
   }
 }
 
-// A limit is inclusive, and single precision cannot tell a perimeter from it: what is a perimeter in double
-// precision, and its neighbours, are where it would decide wrongly.
-TEST(AutomaticLimit, PerimetersOfSinglePrecisionKeepWhatOthersKeep) {
-  const std::vector<Point> points = testing::uniform_points(300, 36);
-  detail::ThreadPool pool;
-  detail::DelaunayBuilder builder;
-  builder.build(points, pool);
-  detail::Mesh& mesh = builder.mesh();
-  const Point* const vertices = builder.vertices();
-  std::vector<double> limits;
-  std::vector<float> perimeters(mesh.triangle_count(), std::numeric_limits<float>::infinity());
-  for (detail::Mesh::Index t = 0; t < mesh.triangle_count(); ++t) {
-    if (mesh.is_ghost(t)) continue;
-    double perimeter = 0;
-    for (detail::Mesh::Index k = 0; k < 3; ++k) {
-      const Point& from = vertices[mesh.origin(detail::Mesh::kStride * t + k)];
-      const Point& to = vertices[mesh.origin(detail::Mesh::kStride * t + (k + 1) % 3)];
-      perimeter += std::sqrt((to.x - from.x) * (to.x - from.x) + (to.y - from.y) * (to.y - from.y));
-    }
-    perimeters[t] = static_cast<float>(perimeter);
-    for (const double limit : {std::nextafter(perimeter, 0.0), perimeter, std::nextafter(perimeter, 100.0)}) {
-      limits.push_back(limit);
-    }
+// A limit is inclusive, and where perimeters are not known most triangles are told without a root, which
+// rounds otherwise. Perimeters and their neighbours are the limits that would tell the two ways apart, most
+// of all where all edges of a triangle are equal.
+TEST(AutomaticLimit, KnownPerimetersKeepWhatOthersKeep) {
+  std::vector<Point> equilateral;
+  for (const Point& p : testing::lattice(12, 12)) {
+    equilateral.push_back({0.37 * (p.x + p.y / 2), 0.37 * std::sqrt(0.75) * p.y});
   }
-  detail::RegionFilter filter;
-  for (const double limit : limits) {
-    std::vector<detail::Mesh::Index> expected;
-    filter.run(mesh, vertices, {.max_perimeter = limit}, {}, false, pool, expected);
-    std::vector<detail::Mesh::Index> boundary;
-    filter.run(mesh, vertices, {.max_perimeter = limit}, perimeters, false, pool, boundary);
-    ASSERT_EQ(boundary, expected) << limit;
+  for (const std::vector<Point>& points : {testing::uniform_points(300, 36), equilateral}) {
+    detail::ThreadPool pool;
+    detail::DelaunayBuilder builder;
+    builder.build(points, pool);
+    detail::Mesh& mesh = builder.mesh();
+    const Point* const vertices = builder.vertices();
+    std::set<double> limits;
+    std::vector<double> perimeters(mesh.triangle_count(), std::numeric_limits<double>::infinity());
+    for (detail::Mesh::Index t = 0; t < mesh.triangle_count(); ++t) {
+      if (mesh.is_ghost(t)) continue;
+      perimeters[t] = detail::Triangle(mesh, vertices, t).perimeter();
+      limits.insert(
+          {std::nextafter(perimeters[t], 0.0), perimeters[t], std::nextafter(perimeters[t], 100.0)});
+    }
+    detail::RegionFilter filter;
+    for (const double limit : limits) {
+      std::vector<detail::Mesh::Index> expected;
+      filter.run(mesh, vertices, detail::filter_rules({.max_perimeter = limit}), false, pool, expected);
+      std::vector<detail::Mesh::Index> boundary;
+      filter.run(mesh, vertices, detail::filter_rules({.max_perimeter = limit}, perimeters), false, pool,
+                 boundary);
+      ASSERT_EQ(boundary, expected) << limit;
+    }
   }
 }
 
@@ -234,39 +235,7 @@ TEST(AutomaticLimit, IsWhatTheRuleSays) {
     sets.push_back({"split lattice" + name, split});
   }
   for (const PointSet& set : sets) {
-    // The median is one of single precision: some roundings of 2^-24.
-    EXPECT_NEAR(chosen_perimeter(set.points) / plain_limit(set.points), 1, 1e-6) << set.name;
-  }
-}
-
-TEST(AutomaticLimit, TakesTheValueThatSortingPutsThere) {
-  testing::Random random(5);
-  const auto expect_right = [](std::vector<float> values, const std::string& name) {
-    std::vector<std::uint32_t> room(values.size());
-    std::vector<float> sorted = values;
-    std::sort(sorted.begin(), sorted.end());
-    for (const std::size_t part : {0U, 1U, 30U, 49U, 50U, 51U, 99U, 100U}) {
-      const std::size_t rank = (values.size() - 1) * part / 100;
-      EXPECT_EQ(detail::value_of_rank(values, rank, room.data()), sorted[rank]) << name << ", " << rank;
-    }
-  };
-  for (const std::size_t size : {1U, 2U, 1023U, 1024U, 1025U, 1279U, 5000U}) {
-    std::vector<float> values(size);
-    for (float& value : values) value = static_cast<float>(random.unit());
-    expect_right(values, "random");
-    for (std::size_t i = 0; i < size; i += 2) values[i] = 0.5F;
-    expect_right(values, "repeated");
-    for (std::size_t i = 0; i < size; i += 3) values[i] = std::numeric_limits<float>::infinity();
-    expect_right(values, "infinite");
-    std::fill(values.begin(), values.end(), 0.0F);
-    expect_right(values, "zero");
-  }
-  // Every 20th is far from typical, and it is these that are looked at first.
-  for (const float other : {0.0F, 1e30F}) {
-    std::vector<float> values(256 * 20);
-    for (std::size_t i = 0; i < values.size(); ++i)
-      values[i] = i % 20 == 0 ? other : static_cast<float>(random.unit());
-    expect_right(values, "misleading");
+    EXPECT_DOUBLE_EQ(chosen_perimeter(set.points), plain_limit(set.points)) << set.name;
   }
 }
 
@@ -275,9 +244,6 @@ TEST(AutomaticLimit, TakesTheValueThatSortingPutsThere) {
 class AutomaticLimitRelations : public ::testing::TestWithParam<std::uint64_t> {
  protected:
   // Integers, so that moving, mirroring and doubling the points changes no rounding.
-  void expect_but_for_rounding(double perimeter) const {
-    EXPECT_FLOAT_EQ(static_cast<float>(perimeter / perimeter_), 1);
-  }
   const std::vector<Point> points_ = testing::integer_points(200 + 100 * GetParam(), GetParam(), 1 << 20);
   const double perimeter_ = chosen_perimeter(points_);
 };
@@ -294,16 +260,15 @@ TEST_P(AutomaticLimitRelations, PowersOfTwoScaleIt) {
 TEST_P(AutomaticLimitRelations, OtherFactorsScaleItButForRounding) {
   for (const double factor : {3.0, 0.1, 1e-12}) {
     const auto scaled = [&](const Point& p) { return Point{p.x * factor, p.y * factor}; };
-    // Perimeters are rounded to single precision.
-    EXPECT_NEAR(chosen_perimeter(mapped(points_, scaled)) / (perimeter_ * factor), 1, 1e-6) << factor;
+    // Coordinates are rounded, to 2^-53 of themselves, which may be a thousand times as long as an edge.
+    EXPECT_NEAR(chosen_perimeter(mapped(points_, scaled)) / (perimeter_ * factor), 1, 1e-12) << factor;
   }
 }
 
-// A perimeter's three terms may be added in another order, in single precision, hence FLOAT_EQ here and
-// below.
+// A perimeter's three terms may be added in another order, hence DOUBLE_EQ here and below.
 TEST_P(AutomaticLimitRelations, MovingAndMirroringDoNotMatter) {
   const auto expect_the_same = [&](const auto& motion) {
-    expect_but_for_rounding(chosen_perimeter(mapped(points_, motion)));
+    EXPECT_DOUBLE_EQ(chosen_perimeter(mapped(points_, motion)), perimeter_);
   };
   expect_the_same([](const Point& p) { return Point{p.x + 12345, p.y - 98765}; });
   expect_the_same([](const Point& p) { return Point{-p.y, p.x}; });
@@ -322,9 +287,13 @@ INSTANTIATE_TEST_SUITE_P(Seeds, AutomaticLimitRelations,
                          ::testing::Range(std::uint64_t{0}, std::uint64_t{12}));
 
 TEST(AutomaticLimit, IsTheSameOnAnyNumberOfThreads) {
-  // Of the first it looks at all triangles, and spares the filter their perimeters; of the second at a part.
-  for (const std::size_t count : {16000U, 40000U}) {
-    const std::vector<Point> points = testing::uniform_points(count, 2);
+  // Of the first it looks at all triangles, as repeats leave most records unused, and spares the filter their
+  // perimeters; of the second at a part.
+  std::vector<Point> repeated;
+  for (int i = 0; i < 80; ++i) {
+    for (const Point& p : testing::uniform_points(200, 2)) repeated.push_back(p);
+  }
+  for (const std::vector<Point>& points : {repeated, testing::uniform_points(40000, 2)}) {
     for (const unsigned threads : {2U, 3U, 8U}) {
       EXPECT_EQ(chosen(points, threads), chosen(points)) << threads;
       EXPECT_EQ(concave_hull(points, {.threads = threads}), concave_hull(points)) << threads;
@@ -369,7 +338,6 @@ TEST(AutomaticLimit, IsSmallBesideALongGap) {
   EXPECT_LT(chosen_perimeter(points), 0.3);
 }
 
-// The squares of such edges are beyond single precision.
 TEST(AutomaticLimit, IsFoundForPointsThatAreTinyBesideADistance) {
   const std::vector<Point> points = testing::uniform_points(1000, 35);
   const double perimeter = chosen_perimeter(points);

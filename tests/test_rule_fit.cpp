@@ -85,8 +85,7 @@ TEST(LimitFit, WithTheConstantsOfTheCoreItIsTheCoresChoice) {
       ASSERT_TRUE(sample) << name;
       const auto cell = tune::chosen_cell(*sample, {});
       ASSERT_TRUE(cell) << name;
-      // The core looks at perimeters in single precision: some roundings of 2^-24.
-      EXPECT_NEAR(plan::auto_perimeter({set.points}) / (tune::cell_limit(*cell) * sample->median), 1, 1e-6)
+      EXPECT_DOUBLE_EQ(plan::auto_perimeter({set.points}), tune::cell_limit(*cell) * sample->median)
           << name << " " << n;
     }
   }

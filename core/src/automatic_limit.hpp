@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cstddef>
-#include <cstdint>
 #include <span>
 
 #include "half_edge.hpp"
@@ -26,9 +25,8 @@ namespace polylidar::detail {
 /// can be chosen with the ground truth in hand leaves more error than this rule does without it.
 ///
 /// m, s and the grid scale with the points, so the limit does. It does not depend on where they lie, on their
-/// order or on repeats, but for rounding (perimeters are looked at in single precision), and for which
-/// triangles are looked at where they are more than kSample. Some triangle is always within it: half of those
-/// looked at are within m.
+/// order or on repeats, but for rounding, and for which triangles are looked at where they are more than
+/// kSample. Some triangle is always within it: half of those looked at are within m.
 ///
 /// Source: this project. The constants were fitted on the training side of its shapes, as `hullbench tune`
 /// divides them with seed 1.
@@ -42,24 +40,20 @@ class AutomaticLimit {
   /// unless most points repeat others. The same for the same mesh, on any number of threads.
   double choose(const Mesh& mesh, const Point* vertices);
 
-  /// After choose: triangle -> its perimeter in the same unit and in single precision, infinity for a ghost
-  /// and an unused record; empty where only a part was looked at, no triangle is finite, or single precision
-  /// has no numbers for them. The filter need not work them out again, which pays for a part of
-  /// choosing. Valid until the next call.
-  std::span<const float> perimeters() const {
+  /// After choose: triangle -> its perimeter in the same unit, infinity for a ghost and an unused record;
+  /// empty where only a part was looked at or no triangle is finite. The filter need not work them out
+  /// again, which pays for a part of choosing. Valid until the next call.
+  std::span<const double> perimeters() const {
     return {perimeters_.data(), is_complete_ ? count_ : std::size_t{0}};
   }
 
  private:
-  void sample(const Mesh& mesh, const Point* vertices, std::size_t step);
-
-  float median();
+  void look_at(const Mesh& mesh, const Point* vertices, std::size_t step);
 
   // Indexed by what is looked at, from 0 to count_.
-  Scratch<float> perimeters_;    ///< in unit_; infinity where not finite
-  Scratch<double> twice_areas_;  ///< 0 where not finite; negative by rounding at most
-  Scratch<std::uint32_t> room_;  ///< for the median
-  double unit_ = 1;
+  Scratch<double> perimeters_;   ///< infinity where not finite
+  Scratch<double> twice_areas_;  ///< 0 where not finite
+  Scratch<double> finite_;       ///< the finite perimeters, finite_count_ of them, in any order
   std::size_t count_ = 0;
   std::size_t finite_count_ = 0;
   bool is_complete_ = false;  ///< all records are looked at, in their order

@@ -1,7 +1,10 @@
 #include "polylidar/concave_hull.hpp"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <stdexcept>
+#include <string>
 
 #include "automatic_limit.hpp"
 #include "boundary.hpp"
@@ -11,18 +14,42 @@
 namespace polylidar {
 namespace {
 
+/// A limit by its name and by where it stands in what is asked for and in what is kept to.
+struct LimitField {
+  const char* name;
+  std::optional<double> Options::*option;
+  double Limits::*limit;
+};
+constexpr std::array kLimitFields{
+    LimitField{"alpha", &Options::alpha, &Limits::alpha},
+    LimitField{"max_edge_length", &Options::max_edge_length, &Limits::max_edge_length},
+    LimitField{"max_perimeter", &Options::max_perimeter, &Limits::max_perimeter}};
+
 void check_threads(unsigned threads) {
   if (threads == 0) throw std::invalid_argument("threads must be one or more");
 }
 
 /// The limits that were given. Throws std::invalid_argument where an option has no meaning.
 Limits checked_limits(const Options& options) {
-  const Limits limits{options.alpha.value_or(kNoLimit), options.max_edge_length.value_or(kNoLimit),
-                      options.max_perimeter.value_or(kNoLimit)};
-  if (!(limits.alpha >= 0)) throw std::invalid_argument("alpha must be zero or more");
-  if (!(limits.max_edge_length >= 0)) throw std::invalid_argument("max_edge_length must be zero or more");
-  if (!(limits.max_perimeter >= 0)) throw std::invalid_argument("max_perimeter must be zero or more");
+  Limits limits;
+  for (const auto& [name, option, limit] : kLimitFields) {
+    limits.*limit = (options.*option).value_or(kNoLimit);
+    if (!(limits.*limit >= 0)) throw std::invalid_argument(std::string(name) + " must be zero or more");
+  }
   check_threads(options.threads);
+  return limits;
+}
+
+bool is_any_limit_given(const Options& options) {
+  return std::any_of(kLimitFields.begin(), kLimitFields.end(),
+                     [&](const LimitField& field) { return (options.*field.option).has_value(); });
+}
+
+/// `limits` in the unit of coordinates that are 2^exponent times as large.
+Limits scaled(Limits limits, int exponent) {
+  for (const LimitField& field : kLimitFields) {
+    limits.*field.limit = std::ldexp(limits.*field.limit, exponent);
+  }
   return limits;
 }
 
@@ -83,21 +110,19 @@ void Extractor::triangulate(std::span<const Point> points, unsigned threads) {
 }
 
 void Extractor::extract_regions(const Options& options) {
-  Limits limits = checked_limits(options);
+  state_->limits = checked_limits(options);
   state_->pool.use(options.threads);
   detail::DelaunayBuilder& builder = state_->builder;
   const int exponent = builder.scale_exponent();
-  Limits scaled{std::ldexp(limits.alpha, exponent), std::ldexp(limits.max_edge_length, exponent),
-                std::ldexp(limits.max_perimeter, exponent)};
-  const bool is_automatic = !options.alpha && !options.max_edge_length && !options.max_perimeter;
-  std::span<const float> perimeters;
+  Limits limits = scaled(state_->limits, exponent);
+  const bool is_automatic = !is_any_limit_given(options);
+  std::span<const double> perimeters;
   if (is_automatic) {
-    scaled.max_perimeter = state_->automatic_limit.choose(builder.mesh(), builder.vertices());
+    limits.max_perimeter = state_->automatic_limit.choose(builder.mesh(), builder.vertices());
     perimeters = state_->automatic_limit.perimeters();
-    limits.max_perimeter = std::ldexp(scaled.max_perimeter, -exponent);
+    state_->limits = scaled(limits, -exponent);
   }
-  state_->limits = limits;
-  state_->filter.run(builder.mesh(), builder.vertices(), scaled, perimeters,
+  state_->filter.run(builder.mesh(), builder.vertices(), detail::filter_rules(limits, perimeters),
                      options.fill_single_triangles.value_or(is_automatic), state_->pool, state_->boundary);
 }
 

@@ -40,8 +40,6 @@ class Mesh {
 
   Index triangle_count() const { return triangle_count_; }
   Index* memory() { return memory_; }
-  /// Triangle t's record; t = triangle_count() is the end of all.
-  const Index* record(std::size_t t) const { return memory_ + kStride * t; }
 
   /// The memory of the records from `first_record` (a half-edge) on, for other use until triangles are
   /// written there: it needs none of its own.

@@ -1,64 +1,18 @@
 #include "region.hpp"
 
 #include <algorithm>
-#include <array>
 #include <bit>
-#include <cmath>
 
 namespace polylidar::detail {
 
 namespace {
 
-double squared_distance(const Point& a, const Point& b) {
-  const double dx = a.x - b.x;
-  const double dy = a.y - b.y;
-  return dx * dx + dy * dy;
-}
-
-/// The limits as triangles are compared with them.
-struct Bounds {
-  double four_squared_alpha;
-  double squared_max_edge;
-  double max_perimeter;
-  double squared_max_perimeter;
-};
-
-/// Of squared edges. A perimeter is more than two and at most three longest edges, which decides for nearly
-/// all triangles without a root.
-bool is_perimeter_within(const Bounds& bounds, double ab, double bc, double ca, double longest) {
-  if (9 * longest <= bounds.squared_max_perimeter) return true;
-  if (4 * longest > bounds.squared_max_perimeter) return false;
-  return std::sqrt(ab) + std::sqrt(bc) + std::sqrt(ca) <= bounds.max_perimeter;
-}
-
-/// circumradius = |ab| |bc| |ca| / (2 cross), with cross twice the area: compared squared and without
-/// division, so that a triangle that is flat up to rounding counts as infinitely large instead of giving NaN.
-template <bool kLimitRadius, bool kLimitEdge, bool kLimitPerimeter>
-bool keeps(const Bounds& bounds, const Point& a, const Point& b, const Point& c) {
-  const double ab = squared_distance(a, b);
-  const double bc = squared_distance(b, c);
-  const double ca = squared_distance(c, a);
-  bool kept = true;
-  if constexpr (kLimitEdge) kept = std::max({ab, bc, ca}) <= bounds.squared_max_edge;
-  if constexpr (kLimitPerimeter) {
-    kept = kept && is_perimeter_within(bounds, ab, bc, ca, std::max({ab, bc, ca}));
-  }
-  if constexpr (kLimitRadius) {
-    const double cross = (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
-    kept = kept && ab * bc * ca <= bounds.four_squared_alpha * (cross * cross);
-  }
-  return kept;
-}
-
-/// Says in words [begin, end) of `kept` which triangles are kept.
-template <bool kLimitRadius, bool kLimitEdge, bool kLimitPerimeter>
-void filter(const Mesh& mesh, const Point* vertices, const Bounds& bounds, std::size_t begin, std::size_t end,
-            std::uint64_t* kept) {
+/// Says in words [begin, end) of `kept` which triangles keep to all `rules`.
+template <class... Rules>
+void filter(const Mesh& mesh, const Point* vertices, std::size_t begin, std::size_t end, std::uint64_t* kept,
+            const Rules&... rules) {
   const auto is_kept = [&](Mesh::Index t) {
-    const Mesh::Index e = Mesh::kStride * t;
-    return !mesh.is_ghost(t) &&
-           keeps<kLimitRadius, kLimitEdge, kLimitPerimeter>(
-               bounds, vertices[mesh.origin(e)], vertices[mesh.origin(e + 1)], vertices[mesh.origin(e + 2)]);
+    return !mesh.is_ghost(t) && (rules.keeps(Triangle(mesh, vertices, t)) && ...);
   };
   for (std::size_t w = begin; w < end; ++w) {
     const auto first = static_cast<Mesh::Index>(Mesh::kWordBits * w);
@@ -67,39 +21,6 @@ void filter(const Mesh& mesh, const Point* vertices, const Bounds& bounds, std::
     for (Mesh::Index k = 0; k < count; ++k) word |= std::uint64_t{is_kept(first + k)} << k;
     kept[w] = word;
   }
-}
-
-/// The same where a perimeter is all that is limited and is known in single precision, which decides but for
-/// words in which one is near the limit.
-void filter_perimeters(const Mesh& mesh, const Point* vertices, const Bounds& bounds,
-                       std::span<const float> perimeters, std::size_t begin, std::size_t end,
-                       std::uint64_t* kept) {
-  constexpr double kNear = 0x1p-20;  // a few roundings of 2^-24
-  const auto surely = static_cast<float>(bounds.max_perimeter * (1 - kNear));
-  const auto perhaps = static_cast<float>(bounds.max_perimeter * (1 + kNear));
-  for (std::size_t w = begin; w < end; ++w) {
-    const float* const perimeter = perimeters.data() + Mesh::kWordBits * w;
-    const std::size_t count = std::min<std::size_t>(Mesh::kWordBits, perimeters.size() - Mesh::kWordBits * w);
-    std::uint64_t word = 0;
-    std::uint64_t near = 0;
-    for (std::size_t k = count; k > 0; --k) {
-      const std::uint64_t is_within = perimeter[k - 1] <= surely ? 1U : 0U;
-      near += (perimeter[k - 1] <= perhaps ? 1U : 0U) - is_within;
-      word = 2 * word + is_within;
-    }
-    kept[w] = word;
-    if (near > 0) filter<false, false, true>(mesh, vertices, bounds, w, w + 1, kept);
-  }
-}
-
-/// The filter that tests the limits there are.
-auto filter_for(const Limits& limits) {
-  constexpr std::array kFilters{&filter<false, false, false>, &filter<true, false, false>,
-                                &filter<false, true, false>,  &filter<true, true, false>,
-                                &filter<false, false, true>,  &filter<true, false, true>,
-                                &filter<false, true, true>,   &filter<true, true, true>};
-  return kFilters[(limits.alpha == kNoLimit ? 0U : 1U) + (limits.max_edge_length == kNoLimit ? 0U : 2U) +
-                  (limits.max_perimeter == kNoLimit ? 0U : 4U)];
 }
 
 /// Appends to `boundary` the half-edges of kept triangles on whose other side is a triangle in words [begin,
@@ -131,12 +52,8 @@ void collect_boundary(const Mesh& mesh, std::size_t begin, std::size_t end, cons
 
 }  // namespace
 
-void RegionFilter::run(Mesh& mesh, const Point* vertices, const Limits& limits,
-                       std::span<const float> perimeters, bool fill_single, ThreadPool& pool,
-                       std::vector<Index>& boundary) {
-  const Bounds bounds{4 * limits.alpha * limits.alpha, limits.max_edge_length * limits.max_edge_length,
-                      limits.max_perimeter, limits.max_perimeter * limits.max_perimeter};
-  const auto filter_words = filter_for(limits);
+void RegionFilter::run(Mesh& mesh, const Point* vertices, const FilterRules& rules, bool fill_single,
+                       ThreadPool& pool, std::vector<Index>& boundary) {
   std::uint64_t* kept = mesh.reserve_kept();
   const Chunks chunks(pool, mesh.triangle_count());
   // Chunks of whole words, so that no two threads write to one.
@@ -147,11 +64,8 @@ void RegionFilter::run(Mesh& mesh, const Point* vertices, const Limits& limits,
     });
   };
   for_each_chunk([&](std::size_t, std::size_t begin, std::size_t end) {
-    if (perimeters.empty()) {
-      filter_words(mesh, vertices, bounds, begin, end, kept);
-    } else {
-      filter_perimeters(mesh, vertices, bounds, perimeters, begin, end, kept);
-    }
+    const auto filter_by = [&](const auto&... each) { filter(mesh, vertices, begin, end, kept, each...); };
+    std::apply([&](const auto&... choice) { std::visit(filter_by, choice...); }, rules);
   });
   boundary_of_chunk_.resize(std::max(boundary_of_chunk_.size(), chunks.size() - 1));
   filled_of_chunk_.resize(std::max(filled_of_chunk_.size(), chunks.size()));

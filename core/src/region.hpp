@@ -1,11 +1,10 @@
 // Which triangles belong to the shape, and where the shape ends.
 #pragma once
 
-#include <span>
 #include <vector>
 
+#include "filter_rules.hpp"
 #include "half_edge.hpp"
-#include "polylidar/concave_hull.hpp"
 #include "thread_pool.hpp"
 
 namespace polylidar::detail {
@@ -15,13 +14,11 @@ class RegionFilter {
  public:
   using Index = Mesh::Index;
 
-  /// Keeps the finite triangles of `mesh` that are within `limits` (in the unit of `vertices`) and, if
-  /// `fill_single` says so, those whose three neighbours are. Puts into `boundary` the half-edges of kept
-  /// triangles whose twin is not kept, in the same order whatever the number of threads. Can be called again
-  /// with other limits. `perimeters`: empty, or where a perimeter is all that `limits` has, every triangle's,
-  /// of single precision, infinite where it is not finite; spares working most of them out.
-  void run(Mesh& mesh, const Point* vertices, const Limits& limits, std::span<const float> perimeters,
-           bool fill_single, ThreadPool& pool, std::vector<Index>& boundary);
+  /// Keeps the finite triangles of `mesh` that keep to `rules` and, if `fill_single` says so, those whose
+  /// three neighbours do. Puts into `boundary` the half-edges of kept triangles whose twin is not kept, in
+  /// the same order whatever the number of threads. Can be called again with other rules.
+  void run(Mesh& mesh, const Point* vertices, const FilterRules& rules, bool fill_single, ThreadPool& pool,
+           std::vector<Index>& boundary);
 
  private:
   std::vector<std::vector<Index>> boundary_of_chunk_;  ///< of all chunks but the first

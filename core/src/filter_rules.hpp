@@ -1,0 +1,138 @@
+// What a triangle must satisfy to belong to the shape: each rule is one small object.
+//
+// To add a rule, write a class with `bool keeps(const Triangle&) const` and name it in filter_rules().
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <span>
+#include <tuple>
+#include <variant>
+
+#include "half_edge.hpp"
+#include "polylidar/concave_hull.hpp"
+#include "vector.hpp"
+
+namespace polylidar::detail {
+
+/// A finite triangle of the mesh as the rules see it. All is inlined: what no rule asks for is not computed.
+struct Triangle {
+  Triangle(const Mesh& mesh, const Point* vertices, Mesh::Index t)
+      : index(t),
+        a(vertices[mesh.origin(Mesh::kStride * t)]),
+        b(vertices[mesh.origin(Mesh::kStride * t + 1)]),
+        c(vertices[mesh.origin(Mesh::kStride * t + 2)]) {}
+
+  double squared_ab() const { return squared_length(a - b); }
+  double squared_bc() const { return squared_length(b - c); }
+  double squared_ca() const { return squared_length(c - a); }
+  double squared_longest_edge() const { return std::max({squared_ab(), squared_bc(), squared_ca()}); }
+  double perimeter() const {
+    return std::sqrt(squared_ab()) + std::sqrt(squared_bc()) + std::sqrt(squared_ca());
+  }
+  /// Rounded: negative by rounding at most.
+  double twice_area() const { return cross(c - a, a - b); }
+
+  Mesh::Index index;
+  const Point& a;
+  const Point& b;
+  const Point& c;
+};
+
+/// The rule that is always kept to.
+struct NoRule {
+  bool keeps(const Triangle& /*triangle*/) const { return true; }
+};
+
+class LongestEdgeRule {
+ public:
+  explicit LongestEdgeRule(double limit) : squared_limit_(limit * limit) {}
+  bool keeps(const Triangle& triangle) const { return triangle.squared_longest_edge() <= squared_limit_; }
+
+ private:
+  double squared_limit_;
+};
+
+/// A perimeter is more than two and at most three longest edges, which decides for nearly all triangles
+/// without a root.
+class PerimeterRule {
+ public:
+  explicit PerimeterRule(double limit) : limit_(limit), squared_limit_(limit * limit) {}
+  bool keeps(const Triangle& triangle) const {
+    const double longest = triangle.squared_longest_edge();
+    if (9 * longest <= squared_limit_) return true;
+    if (4 * longest > squared_limit_) return false;
+    return triangle.perimeter() <= limit_;
+  }
+
+ private:
+  double limit_;
+  double squared_limit_;
+};
+
+/// PerimeterRule where Triangle::perimeter() of all triangles of the mesh is known. It decides unless it is
+/// within a few roundings of the limit: there PerimeterRule's ways without a root may round differently.
+class KnownPerimeterRule {
+ public:
+  KnownPerimeterRule(double limit, std::span<const double> perimeters)
+      : perimeters_(perimeters),
+        surely_(limit * (1 - kNear)),
+        perhaps_(limit * (1 + kNear)),
+        near_rule_(limit) {}
+  bool keeps(const Triangle& triangle) const {
+    const double perimeter = perimeters_[triangle.index];
+    if (perimeter <= surely_) return true;
+    return perimeter <= perhaps_ && near_rule_.keeps(triangle);
+  }
+
+ private:
+  static constexpr double kNear = 0x1p-48;
+
+  std::span<const double> perimeters_;  ///< of each triangle
+  double surely_;
+  double perhaps_;
+  PerimeterRule near_rule_;
+};
+
+/// circumradius = |ab| |bc| |ca| / (2 cross), with cross twice the area: compared squared and without
+/// division, so that a triangle that is flat up to rounding counts as infinitely large instead of giving NaN.
+class CircumradiusRule {
+ public:
+  explicit CircumradiusRule(double limit) : four_squared_limit_(4 * limit * limit) {}
+  bool keeps(const Triangle& triangle) const {
+    const double cross = triangle.twice_area();
+    return triangle.squared_ab() * triangle.squared_bc() * triangle.squared_ca() <=
+           four_squared_limit_ * (cross * cross);
+  }
+
+ private:
+  double four_squared_limit_;
+};
+
+/// Rule(limit), where there is a limit.
+template <class Rule>
+std::variant<NoRule, Rule> rule_of(double limit) {
+  if (limit == kNoLimit) return NoRule{};
+  return Rule(limit);
+}
+
+inline std::variant<NoRule, PerimeterRule, KnownPerimeterRule> perimeter_rule_of(
+    double limit, std::span<const double> perimeters) {
+  if (limit == kNoLimit) return NoRule{};
+  if (perimeters.empty()) return PerimeterRule(limit);
+  return KnownPerimeterRule(limit, perimeters);
+}
+
+/// The rules of one shape, in the order in which they are best asked; a triangle must keep to all of them.
+/// The filter is compiled for every combination, so that a rule that is not asked for costs nothing. A limit
+/// that varies by place is one more of the perimeter's: a rule sees where the corners are.
+///
+/// `perimeters`: triangle -> Triangle::perimeter(), infinite for a ghost; empty where they are not known.
+inline auto filter_rules(const Limits& limits, std::span<const double> perimeters = {}) {
+  return std::tuple{rule_of<LongestEdgeRule>(limits.max_edge_length),
+                    perimeter_rule_of(limits.max_perimeter, perimeters),
+                    rule_of<CircumradiusRule>(limits.alpha)};
+}
+using FilterRules = decltype(filter_rules({}));
+
+}  // namespace polylidar::detail
