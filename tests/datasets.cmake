@@ -18,6 +18,7 @@ hullbench_test(test_datasets
     test_shapes.cpp
     test_star_polygons.cpp
     test_stress.cpp
+    test_stress_sensors.cpp
     test_stress_shapes.cpp
     test_tangled_shapes.cpp
     test_world_shapes.cpp
