@@ -84,7 +84,7 @@ struct StressKind {
 ///              SensorNoise says (rgbd/floor_scenes.hpp), the error shared over windows of 3 x 3 pixels; the
 ///              baseline is a 40th of the distance of the middle. At the middle the error is of
 ///              2 / sqrt(1 + level^2) rows: points lie outside the shape. Half of the pixels with a neighbour
-///              off the floor have no depth.
+///              off the floor have no depth, nor has one whose disparity comes out below half.
 /// airborne     A laser scanner with a rotating mirror over three strips, which cover 0.4 of the extent each
 ///              and share a quarter with the next: there the density is 2 to 1. Lines are `level` times as
 ///              far apart as points of a line; points are off by up to a tenth of the latter in x and in y.
