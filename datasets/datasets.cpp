@@ -12,7 +12,6 @@
 #include "datasets/random.hpp"
 #include "datasets/rgbd/floor_scenes.hpp"
 #include "datasets/rgbd/recordings.hpp"
-#include "datasets/sampling.hpp"
 #include "datasets/sha256.hpp"
 #include "datasets/stress.hpp"
 
@@ -103,6 +102,7 @@ std::string stress_hint(const std::string& name) {
   for (const StressKind& kind : stress_kinds()) {
     text << " ~" << kind.name << ":LEVEL (" << kind.least << " to " << kind.most << ")";
   }
+  text << ", or several: one that draws points, then outliers, noise and quantised";
   return text.str();
 }
 
@@ -210,11 +210,11 @@ std::vector<DatasetInfo> datasets(const DataFolders& folders) {
 const DatasetInfo* find_dataset(const std::vector<DatasetInfo>& infos, const std::string& name) {
   const auto parts = split_stress(name);
   if (!parts) return nullptr;
-  const auto& [shape, stress] = *parts;
+  const auto& [shape, stresses] = *parts;
   const auto member = split_member_name(shape);
   const auto found = std::find_if(
-      infos.begin(), infos.end(), [&, &shape = shape, &stress = stress](const DatasetInfo& info) {
-        if (stress && info.own_points) return false;
+      infos.begin(), infos.end(), [&, &shape = shape, &stresses = stresses](const DatasetInfo& info) {
+        if (!stresses.empty() && info.own_points) return false;
         if (info.members == 0) return info.name == shape;
         return member && info.name == member->first && member->second <= info.members;
       });
@@ -232,7 +232,7 @@ std::map<std::string, double> levels_of(const std::string& name) {
   std::map<std::string, double> levels;
   const auto parts = split_stress(name);
   if (!parts) return levels;
-  if (parts->second) levels[parts->second->kind->name] = parts->second->level;
+  for (const Stress& stress : parts->second) levels[stress.kind->name] = stress.level;
   if (const auto graded = find_graded(parts->first)) {
     levels[graded->first->feature] = static_cast<double>(graded->second);
   }
@@ -258,12 +258,10 @@ PointSet make_point_set(const std::string& name, bool holes, std::size_t n, std:
     set.points = std::move(scene.points);
     set.ground_truth = std::move(scene.ground_truth);
   } else {
-    const auto [shape, stress] = *split_stress(name);
+    const auto [shape, stresses] = *split_stress(name);
     set.ground_truth = make_shape(info, shape, holes, folders);
     const std::string label = "points/" + shape + "/holes:" + (holes ? "1" : "0") + "/n:" + std::to_string(n);
-    const std::uint64_t points_seed = derive_seed(seed, label);
-    set.points = stress ? stress->kind->sample(set.ground_truth, n, stress->level, points_seed)
-                        : sample_uniform(set.ground_truth, n, points_seed);
+    set.points = sample_stressed(set.ground_truth, n, stresses, derive_seed(seed, label));
   }
   set.ground_truth_area = polylidar::area(set.ground_truth);
   set.sha256 = sha256_hex(point_bytes(set.points));

@@ -4,7 +4,7 @@
 // 1
 // ("star-1" ... "star-9800"). Points are drawn from the shape, as many as are asked for, or come with it, as
 // those of the floors and of degenerate.hpp do. Behind a '~' stands how they are drawn where not uniformly
-// ("ca~noise:0.5", "star-17~outliers:5"; see stress.hpp).
+// ("ca~noise:0.5", "star-17~gradient:16~outliers:5"; see stress.hpp).
 #pragma once
 
 #include <cstddef>
@@ -59,8 +59,8 @@ std::optional<std::pair<std::string, std::size_t>> split_member_name(const std::
 std::string base_shape(const std::string& name);
 
 /// What a curve can be drawn against, by name: {"noise", 0.5} for "ca~noise:0.5", {"width", 4} for
-/// "channel-4", both for "channel-4~noise:0.5"; none for "ca". Units as in stress.hpp; of a feature, spacings
-/// of 2000 points.
+/// "channel-4", both for "channel-4~noise:0.5", a level for each of several stresses; none for "ca". Units as
+/// in stress.hpp; of a feature, spacings of 2000 points.
 std::map<std::string, double> levels_of(const std::string& name);
 
 /// Points and what they came from.
@@ -88,7 +88,7 @@ const DatasetInfo* find_dataset(const std::vector<DatasetInfo>& infos, const std
 polylidar::MultiPolygon make_ground_truth(const std::string& name, bool holes,
                                           const DataFolders& folders = {});
 
-/// `n` points in that ground truth, uniform or with the name's stress, with everything a run needs to know
+/// `n` points in that ground truth, uniform or with the name's stresses, with everything a run needs to know
 /// about them. Every combination of name without stress, holes, n and seed has a stream of random numbers of
 /// its own, so samples of different sizes are independent, and those of different levels of a stress are not.
 /// With n = 0 the data set's own points (own_points), where `seed` is that of the sensor's noise. Throws as

@@ -18,14 +18,17 @@ hullbench_test(test_datasets
     test_shapes.cpp
     test_star_polygons.cpp
     test_stress.cpp
+    test_stress_sensors.cpp
     test_stress_shapes.cpp
     test_tangled_shapes.cpp
     test_world_shapes.cpp
   LIBRARIES hullbench_test_support hullbench::datasets hullbench::hash nlohmann_json::nlohmann_json Boost::headers PNG::PNG
   LABELS datasets)
-add_test(NAME datasets.golden_hashes
-  COMMAND /usr/bin/python3 -B "${CMAKE_CURRENT_LIST_DIR}/golden_hashes.py" --check)
-set_tests_properties(datasets.golden_hashes PROPERTIES LABELS datasets TIMEOUT 600)
+foreach(golden IN ITEMS golden_hashes golden_stress)
+  add_test(NAME datasets.${golden}
+    COMMAND /usr/bin/python3 -B "${CMAKE_CURRENT_LIST_DIR}/${golden}.py" --check)
+  set_tests_properties(datasets.${golden} PROPERTIES LABELS datasets TIMEOUT 600)
+endforeach()
 # g++ 12 finds uninitialised values in Boost.Geometry 1.74 where there are none.
 set_source_files_properties(boost_checks.cpp PROPERTIES
   COMPILE_OPTIONS "$<$<CXX_COMPILER_ID:GNU>:-Wno-maybe-uninitialized>")

@@ -39,8 +39,8 @@ CORNERS = 64  # of a circular hole
 SCALE = 2**200
 
 
-def random_numbers(seed: int) -> Iterator[float]:
-    """Uniform in [0, 1): xoshiro256++, its state filled by SplitMix64."""
+def random_words(seed: int) -> Iterator[int]:
+    """Of 64 bits: xoshiro256++, its state filled by SplitMix64."""
     mask = 2**64 - 1
     state = []
     for i in range(1, 5):
@@ -57,7 +57,12 @@ def random_numbers(seed: int) -> Iterator[float]:
         drawn = (turned((a + d) & mask, 23) + a) & mask
         c, d, shifted = c ^ a, d ^ b, b << 17 & mask
         a, b, c, d = a ^ d, b ^ c, c ^ shifted, turned(d, 45)
-        yield math.ldexp(drawn >> 11, -53)
+        yield drawn
+
+
+def random_numbers(seed: int) -> Iterator[float]:
+    """Uniform in [0, 1)."""
+    return (math.ldexp(word >> 11, -53) for word in random_words(seed))
 
 
 def derived_seed(seed: int, label: str) -> int:

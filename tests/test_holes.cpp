@@ -36,8 +36,8 @@ double distance_to_rings(const MultiPolygon& shape, const Point& point, const Ri
     nearest = std::min(nearest, testing::boost_distance(point, ring));
   };
   for (const Polygon& polygon : shape) {
-    tune::look_at(polygon.shell);
-    for (const Ring& hole : polygon.holes) tune::look_at(hole);
+    look_at(polygon.shell);
+    for (const Ring& hole : polygon.holes) look_at(hole);
   }
   return nearest;
 }

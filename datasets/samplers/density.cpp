@@ -1,0 +1,80 @@
+#include "datasets/samplers/density.hpp"
+
+#include <cmath>
+#include <numbers>
+
+#include "datasets/point_locator.hpp"
+#include "datasets/random.hpp"
+#include "datasets/samplers/draw.hpp"
+#include "datasets/sampling.hpp"
+
+namespace hullbench {
+
+using polylidar::Box;
+using polylidar::MultiPolygon;
+using polylidar::Point;
+
+Point drawn_place(const MultiPolygon& shape, std::uint64_t seed) {
+  return UniformPoints(shape, derive_seed(seed, "place")).next();
+}
+
+/// Thins the uniform sample.
+std::vector<Point> sample_gradient(const MultiPolygon& shape, std::size_t n, double level,
+                                   std::uint64_t seed) {
+  UniformPoints uniform(shape, seed);
+  const Box& bounds = uniform.locator().bounds();
+  const double width = bounds.max.x - bounds.min.x;
+  Random random(derive_seed(seed, "gradient"));
+  std::vector<Point> points;
+  points.reserve(n);
+  while (points.size() < n) {
+    const Point point = uniform.next();
+    const double density = 1 + (level - 1) * (bounds.max.x - point.x) / width;
+    if (level * random.uniform() < density) points.push_back(point);
+  }
+  return points;
+}
+
+/// Mixes the uniform sample with a Gaussian of which only the part in the shape is kept. A Gaussian of
+/// standard deviation s with the mass 2 pi s^2 (level - 1) has the height level - 1 over a background of 1,
+/// whose mass is the area.
+std::vector<Point> sample_hotspot(const MultiPolygon& shape, std::size_t n, double level,
+                                  std::uint64_t seed) {
+  UniformPoints background(shape, seed);
+  const Point middle = drawn_place(shape, seed);
+  const double deviation = kHotSpotDeviation * std::sqrt(polylidar::area(shape));
+  const double bump = 2 * std::numbers::pi * kHotSpotDeviation * kHotSpotDeviation * (level - 1);
+  const double bump_share = bump / (1 + bump);
+  Random random(derive_seed(seed, "hotspot"));
+  std::vector<Point> points;
+  points.reserve(n);
+  while (points.size() < n) {
+    if (random.uniform() >= bump_share) {
+      points.push_back(background.next());
+      continue;
+    }
+    const Point point = moved_by_gaussian(middle, deviation, random);
+    if (background.locator().contains(point)) points.push_back(point);
+  }
+  return points;
+}
+
+std::vector<Point> sample_clusters(const MultiPolygon& shape, std::size_t n, double level,
+                                   std::uint64_t seed) {
+  const PointLocator locator(shape);
+  const double h = spacing(shape, n);
+  const Box box = grown(locator.bounds(), 6 * h);
+  const double box_area = (box.max.x - box.min.x) * (box.max.y - box.min.y);
+  const double count = static_cast<double>(n) / level * (box_area / polylidar::area(shape));
+  Random random(derive_seed(seed, "clusters"));
+  std::vector<Point> centres(static_cast<std::size_t>(std::ceil(count)));
+  for (Point& centre : centres) centre = uniform_in(box, random);
+  std::vector<Point> points;
+  while (points.size() < n) {
+    const Point point = moved_by_gaussian(centres[random.below(centres.size())], h, random);
+    if (locator.contains(point)) points.push_back(point);
+  }
+  return points;
+}
+
+}  // namespace hullbench
