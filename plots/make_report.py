@@ -104,7 +104,7 @@ def _template_values(experiments: Sequence[Experiment], folder: Path) -> dict[st
         "parameters": parameters_html(experiments),
         "environment": environment_html(experiments),
         "notes": notes_html(experiments),
-        "tables": tables_html(experiments, folder) or "<p>The run has no tables.md.</p>",
+        "tables": tables_html(experiments, folder) or "<p>The run has no tables/tables.json.</p>",
         "report": data("report", report),
         "charts": data("charts", pack(charts(experiments))),
         "rows": data("rows", pack(columns(experiments))),

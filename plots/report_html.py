@@ -23,7 +23,7 @@ from report_summary import (
     noise_sentence,
     span,
 )
-from report_tables import Section, sections, to_html
+from report_tables import documents, list_html, table_html
 
 EQUAL_WORK = (
     "Times are of equal work: from the points in memory to a valid multipolygon in memory, the same for every "
@@ -143,6 +143,9 @@ def _standing(summary: Summary, one: Standing) -> str:
 
 # Beside the paper.
 
+# What the table of differences from the paper is called.
+_DIFFERENCES = "differences"
+
 
 def paper_html(experiments: Sequence[Experiment], folder: Path) -> str:
     made = ""
@@ -151,19 +154,13 @@ def paper_html(experiments: Sequence[Experiment], folder: Path) -> str:
     ]
     if claims:
         made += _claims(claims)
-    for section in _tables(experiments, folder):
-        if section.title == "Beside the paper":
-            section.blocks = _until_notes(section.blocks)
-            made += to_html(section, "paper")
+    made += "".join(
+        table_html(table)
+        for document in documents(experiments, folder)
+        for table in document["tables"]
+        if table["id"] == _DIFFERENCES
+    )
     return made or "<p>The records compare nothing with the paper.</p>"
-
-
-def _until_notes(blocks: list[tuple[str, list[str]]]) -> list[tuple[str, list[str]]]:
-    """Without the notes at the end, which stand in the page's own section."""
-    for index, block in enumerate(blocks):
-        if block == ("heading", ["Notes"]):
-            return blocks[:index]
-    return blocks
 
 
 def _claims(claims: Sequence[tuple[Experiment, dict[str, Any]]]) -> str:
@@ -207,25 +204,18 @@ def _claim(experiment: Experiment, claim: dict[str, Any]) -> str:
 
 
 def tables_html(experiments: Sequence[Experiment], folder: Path) -> str:
-    """Every table of tables.md, an experiment behind its own heading; empty without the file."""
-    made = ""
-    for index, section in enumerate(_tables(experiments, folder)):
-        if section.title == "Beside the paper":
-            continue
-        made += f"<details><summary>{text(section.title)}</summary>{to_html(section, f'tables-{index}')}</details>"
-    return made
+    """Every table, an experiment behind its own heading; empty without any. What is beside the paper and the notes that
+    all share stand in sections of their own."""
+    return "".join(
+        f"<details><summary>{text(document['title'])}</summary>"
+        f"{''.join(map(table_html, document['tables']))}{_notes(document['notes'])}</details>"
+        for document in documents(experiments, folder)
+        if all(table["id"] != _DIFFERENCES for table in document["tables"])
+    )
 
 
-def _tables(experiments: Sequence[Experiment], folder: Path) -> list[Section]:
-    path = folder / "tables.md"
-    if path.is_file():
-        return sections(path.read_text(encoding="utf-8", errors="replace"))
-    return [
-        section
-        for experiment in experiments
-        if (experiment.folder / "tables.md").is_file()
-        for section in sections((experiment.folder / "tables.md").read_text(encoding="utf-8", errors="replace"))
-    ]
+def _notes(notes: Sequence[str]) -> str:
+    return f"<h3>Notes</h3>{list_html(notes)}" if notes else ""
 
 
 # Parameters.

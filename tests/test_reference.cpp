@@ -13,7 +13,7 @@
 #include "benchmarks/report/documents.hpp"
 #include "benchmarks/report/paper_comparison.hpp"
 #include "benchmarks/report/report.hpp"
-#include "benchmarks/table/document.hpp"
+#include "benchmarks/table/writers.hpp"
 #include "tests/program.hpp"
 #include "tests/temporary_folder.hpp"
 

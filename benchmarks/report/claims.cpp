@@ -260,7 +260,7 @@ struct Verdict {
 Verdict judge(const std::vector<double>& ratios, const Threshold& threshold, bool every_case) {
   if (!every_case) {
     const double middle = statistics::median(std::span<const double>(ratios));
-    return {ratio_text(middle), middle, threshold.verdict(middle)};
+    return {table::Number(middle).text(), middle, threshold.verdict(middle)};
   }
   const auto passed =
       std::count_if(ratios.begin(), ratios.end(), [&](double r) { return threshold.passes(r); });

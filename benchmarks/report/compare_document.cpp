@@ -33,29 +33,33 @@ constexpr const char* kWithinRunsOnly =
     "run of A to see how much it is; to judge a change of the code, measure both in turns.";
 
 /// A ratio with three digits, but at least two after the point: 1.00 and 0.99 must not look alike.
-std::string ratio_text(double ratio) {
-  return fixed(ratio, std::max(2, decimals_of(ratio)));
+table::Number ratio_number(double ratio) {
+  return {ratio, std::max(2, decimals_of(ratio))};
 }
 
-std::string interval_text(const std::optional<statistics::Interval>& interval) {
-  return interval ? ratio_text(interval->low) + "–" + ratio_text(interval->high) : kNothing;
+table::Cell ratio_cell(const std::optional<double>& ratio) {
+  return ratio ? ratio_number(*ratio) : table::Cell();
 }
 
-std::string time_text(const record::RunRecord& run) {
-  return is_measured(run) ? milliseconds(statistics::median(run.time_ns)) : failure_name(run);
+table::Cell range_cell(const std::optional<statistics::Interval>& interval) {
+  if (!interval) return {};
+  return table::Range{ratio_number(interval->low), ratio_number(interval->high)};
 }
 
-std::string percent_text(const std::optional<double>& fraction) {
-  return fraction ? fixed(100 * *fraction, 2) : kNothing;
+table::Cell time_cell(const record::RunRecord& run) {
+  return is_measured(run) ? milliseconds(statistics::median(run.time_ns)) : table::Cell(failure_name(run));
+}
+
+table::Cell percent_cell(const std::optional<double>& fraction) {
+  return fraction ? table::Number(100 * *fraction, 2) : table::Cell();
 }
 
 /// "+0.12": of the errors, in points of a per cent.
-std::string difference_text(const std::optional<double>& a, const std::optional<double>& b) {
-  if (!a || !b) return kNothing;
+table::Cell difference_cell(const std::optional<double>& a, const std::optional<double>& b) {
+  if (!a || !b) return {};
+  if (*a == *b) return 0;
   const double difference = 100 * (*b - *a);
-  const std::string text = fixed(std::abs(difference), 2);
-  if (text == fixed(0, 2)) return *a == *b ? "0" : "<0.01";
-  return (difference < 0 ? "-" : "+") + text;
+  return std::abs(difference) < 0.005 ? "<0.01" : table::Cell(table::Number(difference, 2, true));
 }
 
 /// By its title where a report of the side has one.
@@ -67,24 +71,20 @@ std::string label_of(const ComparedSide& side, const MethodChange& method) {
   return method.method + " (" + method.protocol + ")";
 }
 
-table::TableSection methods_section(const RunsCompared& compared, const ComparedSide& a) {
-  table::TableSection section{
-      "compare_methods",
-      "Time of equal work by method, B / A",
-      table::TextTable({"Method", "Pairs", "Median of B / A", "95 %", "B faster", "B slower"}),
-      {}};
+table::Table changes_table(const RunsCompared& compared, const ComparedSide& a) {
+  table::Table table{"compare_methods",
+                     "Time of equal work by method, B / A",
+                     {table::words("Method"), "Pairs", "Median of B / A", "95 %", "B faster", "B slower"}};
   for (const MethodChange& method : compared.methods) {
-    section.table.add_row({label_of(a, method), std::to_string(method.pairs),
-                           method.ratio ? ratio_text(*method.ratio) : kNothing,
-                           interval_text(method.interval), std::to_string(method.faster),
-                           std::to_string(method.slower)});
+    table.add_row({label_of(a, method), method.pairs, ratio_cell(method.ratio), range_cell(method.interval),
+                   method.faster, method.slower});
   }
-  section.remarks.emplace_back(
+  table.remarks.emplace_back(
       "Below 1, B is faster. The interval is a bootstrap of whole shapes (a data set, with or without "
       "holes); a "
       "single shape has none.");
-  section.remarks.emplace_back(kWithinRunsOnly);
-  return section;
+  table.remarks.emplace_back(kWithinRunsOnly);
+  return table;
 }
 
 bool is_changed(const RunPair& pair) {
@@ -113,12 +113,18 @@ std::string pairs_remark(const RunsCompared& compared) {
   return text;
 }
 
-table::TableSection pairs_section(const RunsCompared& compared, bool every_pair) {
-  table::TableSection section{
-      "compare_runs",
-      "Run by run: time of equal work, and error L2 in % of the ground truth's area",
-      table::TextTable({"Run", "A, ms", "B, ms", "B / A", "95 %", "B is", "L2 of A", "L2 of B", "B - A"}),
-      {}};
+table::Table pairs_table(const RunsCompared& compared, bool every_pair) {
+  table::Table table{"compare_runs",
+                     "Run by run: time of equal work, and error L2 in % of the ground truth's area",
+                     {table::words("Run"),
+                      table::with_unit("A", "ms"),
+                      table::with_unit("B", "ms"),
+                      "B / A",
+                      "95 %",
+                      table::words("B is"),
+                      table::Column("L2 of A", "%"),
+                      table::Column("L2 of B", "%"),
+                      {"B - A", "%"}}};
   std::size_t left_out = 0;
   for (const RunPair& pair : compared.pairs) {
     if (!every_pair && compared.pairs.size() > kMostPairsShown && !is_changed(pair)) {
@@ -127,17 +133,17 @@ table::TableSection pairs_section(const RunsCompared& compared, bool every_pair)
     }
     const auto error_a = metric(pair.a, "l2");
     const auto error_b = metric(pair.b, "l2");
-    section.table.add_row({pair.a.name, time_text(pair.a), time_text(pair.b),
-                           pair.time ? ratio_text(pair.time->ratio) : kNothing,
-                           pair.time ? interval_text(pair.time->interval) : kNothing, to_string(pair.change),
-                           percent_text(error_a), percent_text(error_b), difference_text(error_a, error_b)});
+    table.add_row({pair.a.name, time_cell(pair.a), time_cell(pair.b),
+                   pair.time ? ratio_number(pair.time->ratio) : table::Cell(),
+                   pair.time ? range_cell(pair.time->interval) : table::Cell(), to_string(pair.change),
+                   percent_cell(error_a), percent_cell(error_b), difference_cell(error_a, error_b)});
   }
-  section.remarks.push_back(pairs_remark(compared));
+  table.remarks.push_back(pairs_remark(compared));
   if (left_out > 0) {
-    section.remarks.push_back("Left out, because nothing was shown to have changed: " +
-                              std::to_string(left_out) + " pairs; --format csv has them all.");
+    table.remarks.push_back("Left out, because nothing was shown to have changed: " +
+                            std::to_string(left_out) + " pairs; --format csv has them all.");
   }
-  return section;
+  return table;
 }
 
 std::string joined(const Words& words) {
@@ -296,12 +302,10 @@ ordered_json pair_json(const RunPair& pair) {
 
 table::Document comparison_document(const RunsCompared& compared, const ComparedSide& a,
                                     const ComparedSide& b, bool every_pair) {
-  table::Document document;
-  document.title = "A " + a.name + " and B " + b.name;
-  document.tables.push_back(methods_section(compared, a));
-  document.notes = comparison_notes(compared, a, b);
-  table::TableSection pairs = pairs_section(compared, every_pair);
-  if (pairs.table.empty()) {
+  table::Document document = {
+      "A " + a.name + " and B " + b.name, {changes_table(compared, a)}, comparison_notes(compared, a, b)};
+  table::Table pairs = pairs_table(compared, every_pair);
+  if (pairs.rows.empty()) {
     document.notes.insert(document.notes.end(), pairs.remarks.begin(), pairs.remarks.end());
   } else {
     document.tables.push_back(std::move(pairs));

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <span>
 
-#include "benchmarks/base/number_format.hpp"
 #include "benchmarks/statistics/statistics.hpp"
 
 namespace hullbench::report {
@@ -16,10 +15,11 @@ std::optional<Spread> spread_of(const std::vector<double>& values) {
                 *std::max_element(values.begin(), values.end())};
 }
 
-template <typename Text>
-std::vector<std::string> cells_of(const std::optional<Spread>& spread, const Text& text) {
-  if (!spread) return {kNothing, kNothing, kNothing};
-  return {text(spread->mean), spread->deviation ? text(*spread->deviation) : kNothing, text(spread->maximum)};
+template <typename Show>
+std::vector<table::Cell> cells_of(const std::optional<Spread>& spread, const Show& show) {
+  if (!spread) return std::vector<table::Cell>(3);
+  return {show(spread->mean), spread->deviation ? show(*spread->deviation) : table::Cell(),
+          show(spread->maximum)};
 }
 
 /// Counts a case of these runs; whether it was solved.
@@ -80,12 +80,12 @@ std::vector<GroupValues> group_values(const TableContext& context, const std::ve
   return all;
 }
 
-std::vector<std::string> percent_cells(const std::optional<Spread>& fractions) {
-  return cells_of(fractions, [](double value) { return fixed(100 * value, 1); });
+std::vector<table::Cell> percent_cells(const std::optional<Spread>& fractions) {
+  return cells_of(fractions, [](double value) -> table::Cell { return table::Number(100 * value, 1); });
 }
 
-std::vector<std::string> millisecond_cells(const std::optional<Spread>& milliseconds) {
-  return cells_of(milliseconds, [](double value) { return three_digits(value); });
+std::vector<table::Cell> millisecond_cells(const std::optional<Spread>& milliseconds) {
+  return cells_of(milliseconds, [](double value) -> table::Cell { return table::Number(value); });
 }
 
 }  // namespace hullbench::report

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <set>
 
-#include "benchmarks/base/number_format.hpp"
 #include "benchmarks/report/claims.hpp"
 #include "benchmarks/report/collection_tables.hpp"
 #include "benchmarks/report/group_values.hpp"
@@ -127,11 +126,10 @@ std::optional<std::string> reason_of(const Comparison& comparison) {
   return std::nullopt;
 }
 
-table::TableSection differences_table(const std::vector<json>& reports) {
-  table::TableSection section{"differences",
-                              "What differs from the paper and why",
-                              table::TextTable({"Value", "Paper", "Here", "Here / paper", "Reason"}),
-                              {}};
+table::Table differences_table(const std::vector<json>& reports) {
+  table::Table table{"differences",
+                     "What differs from the paper and why",
+                     {table::words("Value"), "Paper", "Here", "Here / paper", "Reason"}};
   table::Notes reasons;
   // Reports of one machine and build each are still of several in this one table.
   std::set<std::string> machines;
@@ -144,26 +142,31 @@ table::TableSection differences_table(const std::vector<json>& reports) {
   for (const json& report : reports) {
     for (const Comparison& comparison : compare_with_paper(report)) {
       if (comparison.quantity != kError && !why_no_times.empty()) continue;
-      std::string why = kNothing;
+      table::Cell why;
       if (comparison.is_large()) {
         const auto reason = reason_of(comparison);
-        why = reason ? reasons.mark(*reason) : "not known";
+        why.words = reason ? "" : "not known";
+        if (reason) why.notes = {reasons.number(*reason)};
       }
-      const bool measured = comparison.measured.has_value();
-      section.table.add_row({value_text(report, comparison), fixed(comparison.published, 1),
-                             measured ? three_digits(*comparison.measured) : kNothing,
-                             measured ? three_digits(comparison.ratio()) : kNothing, why});
+      table::Cell here;
+      table::Cell ratio;
+      if (comparison.measured) {
+        here = table::Number(*comparison.measured);
+        ratio = table::Number(comparison.ratio());
+      }
+      table.add_row(
+          {value_text(report, comparison), table::Number(comparison.published, 1), here, ratio, why});
     }
   }
   const json& limit = paper().at("differences").at("large_from");
-  section.remarks.push_back(
+  table.remarks.push_back(
       (why_no_times.empty() ? "Times are as the paper took them." : why_no_times) +
       " A reason stands where a value is " + limit.dump() + " times the paper's or more, or the paper's is " +
       limit.dump() +
       " times ours or more, and where nothing was measured. The paper's Figure 8 has no numbers to "
       "compare; what its text says of it is among the claims.");
-  for (std::string& reason : reasons.marked()) section.remarks.push_back(std::move(reason));
-  return section;
+  for (std::string& reason : reasons.marked()) table.remarks.push_back(std::move(reason));
+  return table;
 }
 
 }  // namespace hullbench::report

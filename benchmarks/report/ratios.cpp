@@ -1,14 +1,12 @@
 #include "benchmarks/report/ratios.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <functional>
 #include <limits>
 #include <map>
 #include <span>
 #include <utility>
 
-#include "benchmarks/base/number_format.hpp"
 #include "benchmarks/statistics/statistics.hpp"
 
 namespace hullbench::report {
@@ -120,15 +118,9 @@ const record::RunRecord* counterpart(const record::RunRecord& run,
   return found == references.end() ? nullptr : *found;
 }
 
-std::string ratio_text(double ratio) {
-  return std::isinf(ratio) ? "∞" : three_digits(ratio);
-}
-
-std::string interval_text(const std::optional<statistics::Interval>& interval) {
-  if (!interval) return "–";
-  if (std::isinf(interval->low)) return "∞";
-  return std::isinf(interval->high) ? "> " + three_digits(interval->low)
-                                    : three_digits(interval->low) + "–" + three_digits(interval->high);
+table::Cell interval_cell(const std::optional<statistics::Interval>& interval) {
+  if (!interval) return {};
+  return table::Range{table::Number(interval->low), table::Number(interval->high)};
 }
 
 }  // namespace hullbench::report

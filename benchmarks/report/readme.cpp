@@ -9,7 +9,7 @@
 
 #include "benchmarks/report/documents.hpp"
 #include "benchmarks/report/measurements.hpp"
-#include "benchmarks/table/document.hpp"
+#include "benchmarks/table/writers.hpp"
 
 namespace hullbench::report {
 namespace {
@@ -36,24 +36,23 @@ constexpr std::array<std::string_view, 15> kShown = {"states_ca_holes_time",
                                                      "methods",
                                                      "parameters"};
 
-const table::TableSection* find_table(const std::vector<table::Document>& documents, std::string_view id) {
+const table::Table* find_table(const std::vector<table::Document>& documents, std::string_view id) {
   for (const table::Document& document : documents) {
-    for (const table::TableSection& section : document.tables) {
-      if (section.id == id) return &section;
+    for (const table::Table& table : document.tables) {
+      if (table.id == id) return &table;
     }
   }
   return nullptr;
 }
 
-/// The marks in its cells refer to notes that are not here.
-table::TextTable without_marks(const table::TextTable& table) {
-  const auto plain = [](std::vector<std::string> row) {
-    for (std::string& cell : row) cell = hullbench::table::without_marks(cell);
-    return row;
-  };
-  table::TextTable result(plain(table.rows().front()));
-  for (std::size_t row = 1; row < table.rows().size(); ++row) result.add_row(plain(table.rows()[row]));
-  return result;
+/// The notes that belong to a value are not here; those that stand alone are the table's own.
+table::Table without_notes(table::Table table) {
+  for (auto& row : table.rows) {
+    for (table::Cell& cell : row) {
+      if (!cell.text().empty()) cell.notes.clear();
+    }
+  }
+  return table;
 }
 
 std::size_t place_of(const std::string& text, std::string_view mark) {
@@ -78,12 +77,12 @@ std::string readme_results(const std::vector<json>& reports, const std::string& 
       << " runs, " << reports.size() << (reports.size() == 1 ? " experiment" : " experiments")
       << ".\nAll of its tables are in [" << folder << "/tables.md](" << folder << "/tables.md).\n";
   for (const std::string_view id : kShown) {
-    const table::TableSection* section = find_table(documents, id);
-    if (section == nullptr) continue;
-    out << "\n### " << section->caption << "\n\n";
-    table::print_markdown(without_marks(section->table), out);
-    if (!section->remarks.empty()) out << '\n';
-    for (const std::string& remark : section->remarks) table::print_item(remark, out);
+    const table::Table* table = find_table(documents, id);
+    if (table == nullptr) continue;
+    out << "\n### " << table->caption << "\n\n";
+    table::print_markdown(without_notes(*table), out);
+    if (!table->remarks.empty()) out << '\n';
+    for (const std::string& remark : table->remarks) table::print_item(remark, out);
   }
   out << "\n### How these numbers were taken\n\n";
   std::set<std::string> without_times;

@@ -14,7 +14,6 @@
 #include "benchmarks/report/labels.hpp"
 #include "benchmarks/report/noise.hpp"
 #include "benchmarks/report/table_context.hpp"
-#include "benchmarks/table/text_table.hpp"
 
 namespace hullbench::report {
 namespace {
