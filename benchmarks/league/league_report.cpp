@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <fstream>
 #include <limits>
 #include <map>
 #include <set>
@@ -14,6 +15,8 @@ namespace hullbench::league {
 namespace {
 
 using nlohmann::json;
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 json finite_or_null(double value) {
   return std::isfinite(value) ? json(value) : json(nullptr);
@@ -75,25 +78,25 @@ json profile_to_json(const LeagueProfile& profile) {
           {"left_out", std::move(left_out)}};
 }
 
-/// A value with its interval in units of `scale`; null is infinite.
-table::Cell interval_cell(const json& value, const json& interval, double scale) {
+/// A value with its interval in units of `scale`; null is `worst`.
+table::Cell interval_cell(const json& value, const json& interval, double scale = 1,
+                          double worst = kInfinity) {
   const auto number = [&](const json& one) {
-    return table::Number(one.is_null() ? std::numeric_limits<double>::infinity() : one.get<double>() * scale,
-                         2);
+    return table::Number(one.is_null() ? worst : one.get<double>() * scale, 2);
   };
   table::Cell cell = number(value);
   if (!interval.is_null() && !value.is_null()) cell.range = {number(interval[0]), number(interval[1])};
   return cell;
 }
 
-table::Cell median_cell(const json& entry, const std::string& name, double scale) {
+table::Cell median_cell(const json& entry, const std::string& name, double scale, double worst = kInfinity) {
   if (entry.at(name + "_cases") == 0) return {};
-  return interval_cell(entry.at(name + "_median"), entry.at(name + "_interval"), scale);
+  return interval_cell(entry.at(name + "_median"), entry.at(name + "_interval"), scale, worst);
 }
 
 table::Cell mean_cell(const json& entry, const std::string& name) {
   if (entry.at(name + "_mean").is_null()) return {};
-  return interval_cell(entry.at(name + "_mean"), entry.at(name + "_mean_interval"), 1);
+  return interval_cell(entry.at(name + "_mean"), entry.at(name + "_mean_interval"));
 }
 
 table::Cell failures_cell(const json& entry) {
@@ -121,8 +124,9 @@ table::Table league_table(const json& league, const std::string& protocol) {
   for (const json& entry : league.at("methods")) {
     if (entry.at("protocol") != protocol) continue;
     table.add_row({entry.at("title").get<std::string>(), entry.at("cases").get<std::size_t>(),
-                   failures_cell(entry), median_cell(entry, "l2", 100), median_cell(entry, "skill", 1),
-                   mean_cell(entry, "hole_f1"), median_cell(entry, "regret", 100)});
+                   failures_cell(entry), median_cell(entry, "l2", 100),
+                   median_cell(entry, "skill", 1, -kInfinity), mean_cell(entry, "hole_f1"),
+                   median_cell(entry, "regret", 100)});
   }
   return table;
 }
@@ -231,18 +235,37 @@ table::Document league_document(const json& league) {
   return document;
 }
 
+json load_league(const std::filesystem::path& folder) {
+  std::ifstream in(folder / kLeagueFile);
+  return in.is_open() ? json::parse(in) : json();
+}
+
 std::string league_results(const json& league) {
-  const table::Document document = league_document(league);
-  std::ostringstream out;
-  out << "\n### " << document.title << "\n";
-  for (const table::Table& table : document.tables) {
-    out << "\n" << table.caption << ":\n\n";
-    table::print_markdown(table, out);
-    if (!table.remarks.empty()) out << "\n";
-    for (const std::string& remark : table.remarks) table::print_item(remark, out);
+  constexpr std::size_t kFirst = 3;
+  table::Table table{"league",
+                     league_document(league).title + ", the first three of every protocol",
+                     {table::words("Protocol"), table::words("Method"), "Cases", "Failures",
+                      table::with_unit("L2 median", "%"), "Hole F1 mean"}};
+  std::map<std::string, std::size_t> shown;
+  std::string protocols;
+  for (const json& entry : league.at("methods")) {
+    const std::string protocol = entry.at("protocol").get<std::string>();
+    if (++shown[protocol] > kFirst) continue;
+    if (shown[protocol] == 1)
+      protocols += (protocols.empty() ? "" : "; ") + protocol + ", " + protocol_titles().at(protocol);
+    table.add_row({protocol, entry.at("title").get<std::string>(), entry.at("cases").get<std::size_t>(),
+                   failures_cell(entry), median_cell(entry, "l2", 100), mean_cell(entry, "hole_f1")});
   }
-  out << "\n";
-  for (const std::string& note : document.notes) table::print_item(note, out);
+  std::ostringstream out;
+  out << "\n### " << table.caption << "\n\n";
+  table::print_markdown(table, out);
+  out << '\n';
+  table::print_item("Parameters: " + protocols + ".", out);
+  table::print_item(
+      "L2 as a part of the ground truth's area; a failure is infinitely bad. Hole F1 is of the cases whose "
+      "ground truth "
+      "has holes. In brackets 95 % intervals by shape.",
+      out);
   return out.str();
 }
 
