@@ -219,16 +219,11 @@ table::Document league_document(const json& league) {
   for (const json& profile : league.at("profiles")) document.tables.push_back(profile_table(league, profile));
   document.notes = {
       "L2 as a part of the ground truth's area; regret: L2 less what the same method has with the best value "
-      "for "
-      "the instance. In brackets a 95 % bootstrap interval of the median that resamples whole shapes. A "
-      "failure is "
-      "infinitely bad and has no holes.",
+      "for the instance. In brackets a 95 % bootstrap interval of the median that resamples whole shapes. A "
+      "failure is infinitely bad and has no holes.",
       "Skill: 0 is the convex hull, 1 are the Delaunay triangles whose centroid lies in the ground truth. "
-      "Hole F1 is "
-      "of the cases whose ground truth has holes, of which most find all or none: hence a mean, with a 95 % "
-      "interval "
-      "by shape. A second number of failures is of degenerate "
-      "input."};
+      "Hole F1 is of the cases whose ground truth has holes, of which most find all or none: hence a mean, "
+      "with a 95 % interval by shape. A second number of failures is of degenerate input."};
   if (!league.at("not_installed").empty())
     document.notes.push_back("Not installed, and so in no table: " +
                              join_words(league.at("not_installed").get<std::vector<std::string>>()) + ".");
@@ -263,8 +258,7 @@ std::string league_results(const json& league) {
   table::print_item("Parameters: " + protocols + ".", out);
   table::print_item(
       "L2 as a part of the ground truth's area; a failure is infinitely bad. Hole F1 is of the cases whose "
-      "ground truth "
-      "has holes. In brackets 95 % intervals by shape.",
+      "ground truth has holes. In brackets 95 % intervals by shape.",
       out);
   return out.str();
 }

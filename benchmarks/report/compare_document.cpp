@@ -25,12 +25,10 @@ constexpr std::size_t kMostNames = 20;
 
 constexpr const char* kWithinRunsOnly =
     "Faster and slower are of these two runs: the intervals and the test know the spread of the repetitions "
-    "within "
-    "them only. What differs from one run to the next of the very same program (the moment, the memory's "
-    "layout, "
-    "neighbours on the machine) is not in them, and can by itself make most pairs differ. Compare A with a "
-    "second "
-    "run of A to see how much it is; to judge a change of the code, measure both in turns.";
+    "within them only. What differs from one run to the next of the very same program (the moment, the "
+    "memory's layout, neighbours on the machine) is not in them, and can by itself make most pairs differ. "
+    "Compare A with a second run of A to see how much it is; to judge a change of the code, measure both in "
+    "turns.";
 
 /// A ratio with three digits, but at least two after the point: 1.00 and 0.99 must not look alike.
 table::Number ratio_number(double ratio) {
@@ -81,8 +79,7 @@ table::Table changes_table(const RunsCompared& compared, const ComparedSide& a) 
   }
   table.remarks.emplace_back(
       "Below 1, B is faster. The interval is a bootstrap of whole shapes (a data set, with or without "
-      "holes); a "
-      "single shape has none.");
+      "holes); a single shape has none.");
   table.remarks.emplace_back(kWithinRunsOnly);
   return table;
 }
@@ -98,10 +95,8 @@ std::string pairs_remark(const RunsCompared& compared) {
                     [](const RunPair& pair) { return pair.change == Change::kNotJudged; }));
   std::string text =
       "Times are medians in ms. B / A is the median of all ratios of a time of B to one of A (Hodges and "
-      "Lehmann "
-      "1963), its interval that of Moses (1965). A pair is called faster or slower when the rank test of "
-      "Mann "
-      "and Whitney (1947) says so at 5 % after Holm's correction (1979) over the " +
+      "Lehmann 1963), its interval that of Moses (1965). A pair is called faster or slower when the rank "
+      "test of Mann and Whitney (1947) says so at 5 % after Holm's correction (1979) over the " +
       std::to_string(compared.judged) +
       " pairs tested: if nothing but the spread of the repetitions lay between the two runs, 1 of 20 such "
       "comparisons would make a wrong call or more. So a pair whose interval leaves out 1 may still be \"not "
@@ -185,11 +180,11 @@ void add_machines(const ComparedSide& a, const ComparedSide& b, std::vector<std:
   const Words of_a = machines_of(a);
   const Words of_b = machines_of(b);
   if (of_a == of_b && of_a.size() == 1) return;
-  notes.push_back((of_a.empty() || of_b.empty() ? "WHERE THE TIMES WERE TAKEN IS NOT KNOWN (A: "
-                                                : "THE MACHINES DIFFER (A: ") +
-                  joined(of_a) + "; B: " + joined(of_b) +
-                  "): a ratio of times across machines compares the machines, not the methods. Errors can be "
-                  "compared.");
+  notes.push_back(
+      (of_a.empty() || of_b.empty() ? "WHERE THE TIMES WERE TAKEN IS NOT KNOWN (A: "
+                                    : "THE MACHINES DIFFER (A: ") +
+      joined(of_a) + "; B: " + joined(of_b) +
+      "): a ratio of times across machines compares the machines, not the methods. Errors can be compared.");
 }
 
 /// The pairs of which `is_same` is false, as a note.

@@ -113,8 +113,7 @@ table::Table curve_table(TableContext& context) {
     table.add_row(std::move(cells));
   }
   table.remarks.emplace_back(
-      "A failed run counts as infinitely bad; ∞: half of the runs failed, or more. A dash: not "
-      "run.");
+      "A failed run counts as infinitely bad; ∞: half of the runs failed, or more. A dash: not run.");
   return table;
 }
 

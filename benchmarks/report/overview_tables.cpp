@@ -186,8 +186,7 @@ table::Table parameters_table(const std::vector<json>& reports) {
   table.remarks.emplace_back(
       "A is the area of the ground truth, n the number of points, A_hull the area of a convex hull: of the "
       "ground truth for target_percent, else of the points. P is the perimeter that the core chooses from "
-      "the "
-      "points. A cell without text: the method is not in that experiment.");
+      "the points. A cell without text: the method is not in that experiment.");
   return table;
 }
 

@@ -159,12 +159,11 @@ table::Table differences_table(const std::vector<json>& reports) {
     }
   }
   const json& limit = paper().at("differences").at("large_from");
-  table.remarks.push_back(
-      (why_no_times.empty() ? "Times are as the paper took them." : why_no_times) +
-      " A reason stands where a value is " + limit.dump() + " times the paper's or more, or the paper's is " +
-      limit.dump() +
-      " times ours or more, and where nothing was measured. The paper's Figure 8 has no numbers to "
-      "compare; what its text says of it is among the claims.");
+  table.remarks.push_back((why_no_times.empty() ? "Times are as the paper took them." : why_no_times) +
+                          " A reason stands where a value is " + limit.dump() +
+                          " times the paper's or more, or the paper's is " + limit.dump() +
+                          " times ours or more, and where nothing was measured. The paper's Figure 8 has no "
+                          "numbers to compare; what its text says of it is among the claims.");
   for (std::string& reason : reasons.marked()) table.remarks.push_back(std::move(reason));
   return table;
 }

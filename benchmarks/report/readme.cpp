@@ -57,8 +57,7 @@ std::optional<table::Table> methods_table(const json& report) {
   }
   table.remarks.emplace_back(
       "Error: the symmetric difference, % of the ground truth's area (in brackets as the paper divides it, "
-      "of the "
-      "result's area). (paper): with the paper's parameters, which come from the ground truth.");
+      "of the result's area). (paper): with the paper's parameters, which come from the ground truth.");
   if (times)
     table.remarks.emplace_back(
         "Time: from points in memory to a valid multipolygon in memory, median ± median absolute deviation.");

@@ -210,8 +210,7 @@ std::optional<table::Table> cold_table(const TableContext& context) {
   if (table.rows.empty()) return std::nullopt;
   table.remarks.emplace_back(
       "Of methods that compile while they run, which all other tables show warmed up: medians of the cases "
-      "on "
-      "which they succeeded, and of the cases' ratios.");
+      "on which they succeeded, and of the cases' ratios.");
   return table;
 }
 
@@ -307,8 +306,7 @@ std::optional<table::Table> claims_table(TableContext& context) {
   if (table.rows.empty()) return std::nullopt;
   table.remarks.emplace_back(
       "Larger, smaller: than a number that the paper gives, by more than the band round it that the note "
-      "says. "
-      "Refuted: of a claim without a number.");
+      "says. Refuted: of a claim without a number.");
   return table;
 }
 

@@ -251,9 +251,8 @@ std::vector<std::string> document_notes(const json& summary) {
       "h is the points' mean spacing over their convex hull, √(A_hull/n); it is known without the ground "
       "truth.",
       "default: without parameters, but holes switched on; tuned: the one x with the smallest median error "
-      "on "
-      "the training shapes, scored on the test shapes only; oracle: the best of all evaluations on the same "
-      "instance; paper and auto: as the plan says.",
+      "on the training shapes, scored on the test shapes only; oracle: the best of all evaluations on the "
+      "same instance; paper and auto: as the plan says.",
       "L2 is the area of the symmetric difference over the ground truth's, regret its excess over the "
       "oracle's on the same instance; medians with 95 % bootstrap intervals that take a shape's cases as "
       "one.",
