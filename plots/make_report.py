@@ -101,7 +101,7 @@ def _template_values(experiments: Sequence[Experiment], folder: Path) -> dict[st
         "colours": colours(report["methods"]),
         "summary": summary_html(summaries, noise),
         "paper": paper_html(experiments, folder),
-        "parameters": parameters_html(experiments),
+        "parameters": parameters_html(experiments, folder),
         "environment": environment_html(experiments),
         "notes": notes_html(experiments),
         "tables": tables_html(experiments, folder) or "<p>The run has no tables/tables.json.</p>",

@@ -23,7 +23,7 @@ from report_summary import (
     noise_sentence,
     span,
 )
-from report_tables import documents, list_html, table_html
+from report_tables import documents, list_html, table_html, tables_beside
 
 EQUAL_WORK = (
     "Times are of equal work: from the points in memory to a valid multipolygon in memory, the same for every "
@@ -143,8 +143,9 @@ def _standing(summary: Summary, one: Standing) -> str:
 
 # Beside the paper.
 
-# What the table of differences from the paper is called.
+# Tables that stand in a section of the page with what is beside them.
 _DIFFERENCES = "differences"
+_PARAMETERS = "parameters"
 
 
 def paper_html(experiments: Sequence[Experiment], folder: Path) -> str:
@@ -154,12 +155,7 @@ def paper_html(experiments: Sequence[Experiment], folder: Path) -> str:
     ]
     if claims:
         made += _claims(claims)
-    made += "".join(
-        table_html(table)
-        for document in documents(experiments, folder)
-        for table in document["tables"]
-        if table["id"] == _DIFFERENCES
-    )
+    made += "".join(map(table_html, tables_beside(documents(experiments, folder), _DIFFERENCES)))
     return made or "<p>The records compare nothing with the paper.</p>"
 
 
@@ -204,13 +200,12 @@ def _claim(experiment: Experiment, claim: dict[str, Any]) -> str:
 
 
 def tables_html(experiments: Sequence[Experiment], folder: Path) -> str:
-    """Every table, an experiment behind its own heading; empty without any. What is beside the paper and the notes that
-    all share stand in sections of their own."""
+    """Every table that no other section has, an experiment behind its own heading; empty without any."""
     return "".join(
         f"<details><summary>{text(document['title'])}</summary>"
         f"{''.join(map(table_html, document['tables']))}{_notes(document['notes'])}</details>"
         for document in documents(experiments, folder)
-        if all(table["id"] != _DIFFERENCES for table in document["tables"])
+        if not {_DIFFERENCES, _PARAMETERS} & {table["id"] for table in document["tables"]}
     )
 
 
@@ -221,31 +216,12 @@ def _notes(notes: Sequence[str]) -> str:
 # Parameters.
 
 
-def parameters_html(experiments: Sequence[Experiment]) -> str:
-    used: dict[tuple[Entrant, str], dict[str, str]] = {}
-    for experiment in experiments:
-        for entry in experiment.plan.get("methods", []):
-            entrant = Entrant(entry.get("method", ""), entry.get("protocol", ""))
-            for name, value in entry.get("parameters", {}).items() or {"": ""}.items():
-                said = parameter_value(value, experiment.report.get("rules", {}))
-                before = used.setdefault((entrant, name), {}).get(experiment.name)
-                used[entrant, name][experiment.name] = f"{before}; {said}" if before else said
-    head = "".join(f"<th scope='col'>{text(one.title)}</th>" for one in experiments)
-    rows = ""
-    for (entrant, name), values in sorted(used.items()):
-        cells = "".join(f"<td>{text(values.get(one.name, ''))}</td>" for one in experiments)
-        rows += (
-            f"<tr><th scope='row'>{text(label(experiments, entrant))}</th>"
-            f"<td>{text(name) or '<i>none given</i>'}</td>{cells}</tr>"
-        )
+def parameters_html(experiments: Sequence[Experiment], folder: Path) -> str:
     protocols = sorted({entrant.protocol for one in experiments for entrant in entrants_of(one)})
     said = "".join(f"<div><dt>{text(one)}</dt><dd>{text(PROTOCOLS.get(one, ''))}</dd></div>" for one in protocols)
     return (
-        f"<h3>Who chose them</h3><dl>{said}</dl><div class='scroll' tabindex='0' role='region' "
-        "aria-label='Parameters'><table id='parameters'><thead><tr><th scope='col'>Method</th><th scope='col'>"
-        f"Parameter</th>{head}</tr></thead><tbody>{rows}</tbody></table></div>"
-        "<p class='muted'>A is the area of the ground truth, n the number of points, A_hull the area of a convex "
-        "hull, P the perimeter that the core chooses from the points. An empty cell: not in that experiment.</p>"
+        f"<h3>Who chose them</h3><dl>{said}</dl>"
+        + "".join(map(table_html, tables_beside(documents(experiments, folder), _PARAMETERS)))
         + _described(experiments) + _plans(experiments)
     )
 

@@ -21,7 +21,19 @@ def _read(folder: Path) -> list[dict[str, Any]]:
     try:
         return json.loads(path.read_text(encoding="utf-8"))["documents"] if path.is_file() else []
     except (OSError, ValueError, KeyError, TypeError) as error:
-        raise RecordError(f"{path} cannot be read ({error}); 'hullbench tables {folder} --write' makes it anew.") from error
+        raise RecordError(
+            f"{path} cannot be read ({error}); 'hullbench tables {folder} --write' makes it anew."
+        ) from error
+
+
+def tables_beside(found: Sequence[dict[str, Any]], identity: str) -> list[dict[str, Any]]:
+    """The tables under the same title as the one with this id; none when there is none."""
+    return [
+        table
+        for document in found
+        if any(one["id"] == identity for one in document["tables"])
+        for table in document["tables"]
+    ]
 
 
 def list_html(sentences: Sequence[str]) -> str:

@@ -665,6 +665,13 @@ class Page(Folder):
         self.assertLess(made.index("Caption of differences"), made.index("Caption of states_time"))
         self.assertNotIn("<li>Common.</li>", made)
 
+    def test_the_tables_of_parameters_stand_in_their_section(self):
+        self.write_tables(document("Methods and parameters", "parameters"))
+        made = self.page(run())
+        self.assertEqual(made.count("Caption of parameters"), 1)
+        self.assertLess(made.index("Who chose them"), made.index("Caption of parameters"))
+        self.assertLess(made.index("Caption of parameters"), made.index("What the parameters mean"))
+
     def test_a_run_without_tables_says_so(self):
         self.assertIn("The run has no tables/tables.json.", self.page(run()))
 
