@@ -4,7 +4,6 @@
 #include <map>
 #include <optional>
 #include <set>
-#include <span>
 #include <string>
 #include <utility>
 
@@ -211,7 +210,7 @@ table::Cell error_cell(const TableContext& context, const Line& line, const Case
   }
   const auto errors = all_values(runs, "l2_paper");
   if (errors.empty()) return {};
-  table::Cell cell = table::Number(100 * statistics::median(std::span<const double>(errors)), 1);
+  table::Cell cell = table::Number(100 * statistics::median(errors), 1);
   cell.sign = hull_sign(runs);
   if (!published.is_null() && paper().at("protocol") == line.protocol) {
     const json value = published.value("by_shape", json::object())

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <limits>
-#include <span>
 #include <sstream>
 #include <utility>
 #include <vector>
@@ -52,15 +51,14 @@ Errors errors_of(const TableContext& context, const Line& line, const std::vecto
     const std::vector<double> values = all_values(runs, "l2");
     const bool failed = first_failure(runs) != nullptr || values.empty();
     errors.failures += failed ? 1 : 0;
-    errors.values.push_back(failed ? std::numeric_limits<double>::infinity()
-                                   : statistics::median(std::span<const double>(values)));
+    errors.values.push_back(failed ? std::numeric_limits<double>::infinity() : statistics::median(values));
   }
   return errors;
 }
 
 table::Cell error_cell(const std::vector<double>& errors) {
   if (errors.empty()) return {};
-  return table::Number(100 * statistics::median(std::span<const double>(errors)));
+  return table::Number(100 * statistics::median(errors));
 }
 
 std::string place_text(const json& at) {

@@ -1,7 +1,6 @@
 #include "benchmarks/report/group_values.hpp"
 
 #include <algorithm>
-#include <span>
 
 #include "benchmarks/statistics/statistics.hpp"
 
@@ -10,8 +9,7 @@ namespace {
 
 std::optional<Spread> spread_of(const std::vector<double>& values) {
   if (values.empty()) return std::nullopt;
-  return Spread{statistics::mean(std::span<const double>(values)),
-                statistics::standard_deviation(std::span<const double>(values)),
+  return Spread{statistics::mean(values), statistics::standard_deviation(values),
                 *std::max_element(values.begin(), values.end())};
 }
 
@@ -23,7 +21,7 @@ std::vector<table::Cell> cells_of(const std::optional<Spread>& spread, const Sho
 }
 
 /// Counts a case of these runs; whether it was solved.
-bool count_case(const std::vector<const record::RunRecord*>& runs, GroupValues& values) {
+bool count_case(const Runs& runs, GroupValues& values) {
   if (runs.empty()) return false;
   const record::RunRecord* failure = first_failure(runs);
   if (failure == nullptr) {
@@ -43,7 +41,7 @@ void add_spreads(const TableContext& context, const Line& line, const std::vecto
   for (const Case& which : cases) {
     const auto runs = context.measurements.find(line.method, line.protocol, which);
     const std::vector<double> of_case = all_values(runs, "l2_paper");
-    if (!of_case.empty()) errors.push_back(statistics::median(std::span<const double>(of_case)));
+    if (!of_case.empty()) errors.push_back(statistics::median(of_case));
     if (!context.measurements.has_times()) continue;
     times.push_back(statistics::median(all_times(runs, Boundary::kPaper)) / 1e6);
     equal_work.push_back(statistics::median(all_times(runs, Boundary::kEqualWork)) / 1e6);

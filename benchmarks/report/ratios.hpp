@@ -36,8 +36,7 @@ Ratios metric_ratios(const Measurements& measurements, const Line& line, const L
                      const std::vector<Case>& cases, const std::string& metric);
 
 /// Of `references` the run on the same points as `run`; null when there is none.
-const record::RunRecord* counterpart(const record::RunRecord& run,
-                                     const std::vector<const record::RunRecord*>& references);
+const record::RunRecord* counterpart(const record::RunRecord& run, const Runs& references);
 
 /// The interval; nothing when there is none.
 table::Cell interval_cell(const std::optional<statistics::Interval>& interval);

@@ -4,7 +4,6 @@
 #include <array>
 #include <map>
 #include <optional>
-#include <span>
 #include <utility>
 
 #include "benchmarks/base/words.hpp"
@@ -29,11 +28,11 @@ table::Cell time_cell(const std::vector<std::int64_t>& nanoseconds) {
 
 std::optional<table::Number> percent(const std::vector<double>& values) {
   if (values.empty()) return std::nullopt;
-  const double value = 100 * statistics::median(std::span<const double>(values));
+  const double value = 100 * statistics::median(values);
   return table::Number(value, value < 10 ? 2 : 1);
 }
 
-table::Cell error_cell(const std::vector<const record::RunRecord*>& runs) {
+table::Cell error_cell(const Runs& runs) {
   table::Cell cell;
   cell.value = percent(all_values(runs, "l2"));
   cell.other = percent(all_values(runs, "l2_paper"));
@@ -41,9 +40,19 @@ table::Cell error_cell(const std::vector<const record::RunRecord*>& runs) {
   return cell;
 }
 
+template <typename Times>
+std::vector<std::int64_t> collect(const Runs& runs, const Times& times_of) {
+  std::vector<std::int64_t> result;
+  for (const record::RunRecord* run : runs) {
+    const std::vector<std::int64_t> some = times_of(*run);
+    result.insert(result.end(), some.begin(), some.end());
+  }
+  return result;
+}
+
 /// What happened to the runs of a line on one shape that failed in the same way.
 std::string failure_text(const TableContext& context, const Line& line, const std::string& name,
-                         const std::vector<const record::RunRecord*>& runs) {
+                         const Runs& runs) {
   const record::RunRecord& first = *runs.front();
   if (first.status == record::Status::kNotInstalled) {
     return not_installed_text(context.report, label(context, line), line.method, first.detail);
@@ -73,23 +82,12 @@ table::Cell median_cell(const std::vector<std::int64_t>& nanoseconds) {
   return nanoseconds.empty() ? table::Cell() : milliseconds(statistics::median(nanoseconds));
 }
 
-std::vector<std::int64_t> all_times(const std::vector<const record::RunRecord*>& runs, Boundary boundary) {
-  std::vector<std::int64_t> result;
-  for (const record::RunRecord* run : runs) {
-    const auto repetitions = times(*run, boundary);
-    result.insert(result.end(), repetitions.begin(), repetitions.end());
-  }
-  return result;
+std::vector<std::int64_t> all_times(const Runs& runs, Boundary boundary) {
+  return collect(runs, [&](const record::RunRecord& run) { return times(run, boundary); });
 }
 
-std::vector<std::int64_t> all_step_times(const std::vector<const record::RunRecord*>& runs,
-                                         const PaperStep& step) {
-  std::vector<std::int64_t> result;
-  for (const record::RunRecord* run : runs) {
-    const auto repetitions = step_times(*run, step.parts);
-    result.insert(result.end(), repetitions.begin(), repetitions.end());
-  }
-  return result;
+std::vector<std::int64_t> all_step_times(const Runs& runs, const PaperStep& step) {
+  return collect(runs, [&](const record::RunRecord& run) { return step_times(run, step.parts); });
 }
 
 /// How a run that gave no result to be believed is called in a cell. A result that is not a valid
@@ -100,7 +98,7 @@ std::string failure_name(const record::RunRecord& run) {
              : to_string(run.status);
 }
 
-table::Cell cell(const std::vector<const record::RunRecord*>& runs, Quantity quantity) {
+table::Cell cell(const Runs& runs, Quantity quantity) {
   if (runs.empty()) return {};
   if (const record::RunRecord* failure = first_failure(runs)) return failure_name(*failure);
   switch (quantity) {
@@ -145,7 +143,7 @@ std::string row_label(const TableContext& context, const Line& line, const std::
   return text + (most == 1 ? " repetition" : " repetitions");
 }
 
-std::string hull_sign(const std::vector<const record::RunRecord*>& runs) {
+std::string hull_sign(const Runs& runs) {
   const bool worse = std::any_of(
       runs.begin(), runs.end(), [](const record::RunRecord* run) { return is_worse_than_convex_hull(*run); });
   return worse ? table::kSign : "";
@@ -193,8 +191,7 @@ std::vector<Line> lines_of(const TableContext& context, const Shape& shape) {
 }
 
 std::vector<std::size_t> failure_notes(TableContext& context, const Line& line, const Shape& shape) {
-  std::vector<std::pair<std::string, std::vector<const record::RunRecord*>>>
-      kinds;  // by name, in the order of n
+  std::vector<std::pair<std::string, Runs>> kinds;  // by name, in the order of n
   for (const Case& which : shape) {
     const record::RunRecord* failure =
         first_failure(context.measurements.find(line.method, line.protocol, which));

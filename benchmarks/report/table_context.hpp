@@ -34,9 +34,8 @@ table::Number milliseconds(double nanoseconds);
 /// The median in milliseconds; nothing of no times.
 table::Cell median_cell(const std::vector<std::int64_t>& nanoseconds);
 
-std::vector<std::int64_t> all_times(const std::vector<const record::RunRecord*>& runs, Boundary boundary);
-std::vector<std::int64_t> all_step_times(const std::vector<const record::RunRecord*>& runs,
-                                         const PaperStep& step);
+std::vector<std::int64_t> all_times(const Runs& runs, Boundary boundary);
+std::vector<std::int64_t> all_step_times(const Runs& runs, const PaperStep& step);
 
 /// How it is called in a cell: its status, or "invalid".
 std::string failure_name(const record::RunRecord& run);
@@ -53,12 +52,12 @@ std::size_t usual_repetitions(const Measurements& measurements);
 std::string row_label(const TableContext& context, const Line& line, const std::vector<Case>& cases);
 
 /// Behind an error: the result is worse than the convex hull of the points. Empty when it is not.
-std::string hull_sign(const std::vector<const record::RunRecord*>& runs);
+std::string hull_sign(const Runs& runs);
 /// Adds to `table` what the sign means, if a cell has it.
 void explain_hull_sign(table::Table& table);
 
 /// What the cell of one line and case says.
-table::Cell cell(const std::vector<const record::RunRecord*>& runs, Quantity quantity);
+table::Cell cell(const Runs& runs, Quantity quantity);
 
 /// A line's cells. A method that is not installed says so once instead of in every column.
 std::vector<table::Cell> row(TableContext& context, const Line& line, const Shape& shape, Quantity quantity);

@@ -7,7 +7,6 @@
 #include <limits>
 #include <optional>
 #include <set>
-#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -87,12 +86,11 @@ std::vector<table::Cell> holes_cells(const TableContext& context, const Line& li
       add(times, [](const auto& runs) { return statistics::median(all_times(runs, Boundary::kEqualWork)); });
     add(errors, [](const auto& runs) {
       const std::vector<double> values = all_values(runs, "l2");
-      return values.empty() ? 0 : statistics::median(std::span<const double>(values));
+      return values.empty() ? 0 : statistics::median(values);
     });
   }
   const auto ratio_cell = [](const std::vector<double>& ratios) {
-    return ratios.empty() ? table::Cell()
-                          : table::Number(statistics::median(std::span<const double>(ratios)));
+    return ratios.empty() ? table::Cell() : table::Number(statistics::median(ratios));
   };
   if (!context.measurements.has_times()) return {ratio_cell(errors)};
   return {ratio_cell(times), ratio_cell(errors)};
@@ -201,11 +199,9 @@ std::optional<table::Table> cold_table(const TableContext& context) {
     }
     if (ratios.empty()) continue;
     const auto [least, most] = std::minmax_element(ratios.begin(), ratios.end());
-    table.add_row({label(context, line), cold.size(),
-                   milliseconds(statistics::median(std::span<const double>(cold))),
-                   milliseconds(statistics::median(std::span<const double>(warm))),
-                   table::Number(statistics::median(std::span<const double>(ratios))), table::Number(*least),
-                   table::Number(*most)});
+    table.add_row({label(context, line), cold.size(), milliseconds(statistics::median(cold)),
+                   milliseconds(statistics::median(warm)), table::Number(statistics::median(ratios)),
+                   table::Number(*least), table::Number(*most)});
   }
   if (table.rows.empty()) return std::nullopt;
   table.remarks.emplace_back(

@@ -6,33 +6,33 @@
 namespace hullbench::table {
 namespace {
 
-using Part = std::optional<Number>;
+/// What each of a column's fields has behind its title: there is one more for whatever its values have beside
+/// them.
+constexpr std::array<const char*, 5> kTitles = {"", " ±", " in brackets", " from", " to"};
 
-/// What may stand beside a value, each in a column of its own.
-constexpr std::array<const char*, 4> kPartTitles = {" ±", " in brackets", " from", " to"};
-
-std::array<Part, kPartTitles.size()> parts_of(const Cell& cell) {
-  const bool lies_in_range = cell.value && cell.range;
-  return {cell.spread, cell.other, lies_in_range ? Part(cell.range->low) : Part(),
-          lies_in_range ? Part(cell.range->high) : Part()};
-}
-
-/// What stands before those parts, or a mark that stands alone.
-std::string first_text(const Cell& cell) {
+std::array<std::string, kTitles.size()> fields_of(const Cell& cell) {
+  const auto text_of = [](const std::optional<Number>& number) { return number ? number->text() : ""; };
   Cell first = cell;
   first.spread.reset();
   first.other.reset();
   first.sign.clear();
-  if (cell.value) first.range.reset();
-  const std::string text = first.text();
-  return text.empty() ? cell.marks() : text;
+  std::array<std::string, kTitles.size()> fields = {"", text_of(cell.spread), text_of(cell.other)};
+  if (cell.value && cell.range) {
+    first.range.reset();
+    fields[3] = cell.range->low.text();
+    fields[4] = cell.range->high.text();
+  }
+  fields[0] = first.text();
+  // A mark that stands alone stays.
+  if (fields[0].empty()) fields[0] = cell.marks();
+  return fields;
 }
 
-std::string field(const std::string& text) {
+std::string quoted(const std::string& text) {
   if (text.find_first_of(",\"\n\r") == std::string::npos) return text;
-  std::string quoted = "\"";
-  for (const char c : text) quoted += c == '"' ? std::string("\"\"") : std::string(1, c);
-  return quoted + '"';
+  std::string result = "\"";
+  for (const char c : text) result += c == '"' ? std::string("\"\"") : std::string(1, c);
+  return result + '"';
 }
 
 }  // namespace
@@ -40,20 +40,14 @@ std::string field(const std::string& text) {
 std::string to_csv(const Table& table) {
   std::vector<std::string> lines(1 + table.rows.size());
   for (std::size_t column = 0; column < table.columns.size(); ++column) {
-    const auto add = [&](const std::string& title, const auto& text_of) {
-      lines.front() += field(title) + ',';
-      for (std::size_t row = 0; row < table.rows.size(); ++row)
-        lines[row + 1] += field(text_of(table.rows[row][column])) + ',';
-    };
-    const std::string& title = table.columns[column].title;
-    add(title, first_text);
-    for (std::size_t part = 0; part < kPartTitles.size(); ++part) {
-      if (std::any_of(table.rows.begin(), table.rows.end(),
-                      [&](const auto& row) { return parts_of(row[column])[part].has_value(); }))
-        add(title + kPartTitles[part], [&](const Cell& cell) {
-          const Part number = parts_of(cell)[part];
-          return number ? number->text() : std::string();
-        });
+    std::vector<std::array<std::string, kTitles.size()>> cells;
+    for (const auto& row : table.rows) cells.push_back(fields_of(row[column]));
+    for (std::size_t field = 0; field < kTitles.size(); ++field) {
+      if (field > 0 &&
+          std::all_of(cells.begin(), cells.end(), [&](const auto& one) { return one[field].empty(); }))
+        continue;
+      lines[0] += quoted(table.columns[column].title + kTitles[field]) + ',';
+      for (std::size_t row = 0; row < cells.size(); ++row) lines[row + 1] += quoted(cells[row][field]) + ',';
     }
   }
   std::string text;

@@ -1,6 +1,7 @@
 // Tables of values, with captions and notes. writers.hpp writes them.
 #pragma once
 
+#include <stdexcept>
 #include <string>
 #include <utility>
 #include <vector>
@@ -39,7 +40,10 @@ inline Column with_unit(const std::string& title, const std::string& unit) {
 
 struct Table {
   /// Throws std::invalid_argument when `cells` has not one cell a column.
-  void add_row(std::vector<Cell> cells);
+  void add_row(std::vector<Cell> cells) {
+    if (cells.size() != columns.size()) throw std::invalid_argument("A row has not one cell a column.");
+    rows.push_back(std::move(cells));
+  }
 
   std::string id;  ///< what its files are called: small letters, digits, '_' and '-'; unique in a document
   std::string caption;  ///< without a full stop
