@@ -14,8 +14,7 @@ std::string mark(std::size_t note) {
 
 }  // namespace
 
-Number::Number(double of_value)
-    : value(of_value), decimals(std::isfinite(of_value) ? decimals_of(of_value) : 0) {}
+Number::Number(double of_value) : value(of_value), decimals(decimals_of(of_value)) {}
 
 std::string Number::text() const {
   if (std::isinf(value)) return value < 0 ? "-∞" : "∞";

@@ -1,4 +1,6 @@
+#include <algorithm>
 #include <array>
+#include <string_view>
 #include <utility>
 
 #include "benchmarks/table/writers.hpp"
