@@ -40,11 +40,11 @@ std::string column_text(const Column& column) {
   return dump(entry);
 }
 
-/// "[a, b]", with `before` before each entry.
+/// "[a, b]"
 template <typename Entries, typename Text>
-std::string list_text(const Entries& entries, const Text& text_of, const std::string& before = "") {
+std::string list_text(const Entries& entries, const Text& text_of, const std::string& between = ", ") {
   std::string text;
-  for (const auto& entry : entries) text += (text.empty() ? "" : ", ") + before + text_of(entry);
+  for (const auto& entry : entries) text += (text.empty() ? "" : between) + text_of(entry);
   return "[" + text + "]";
 }
 
@@ -52,7 +52,7 @@ std::string table_text(const Table& table) {
   const auto row_text = [](const std::vector<Cell>& row) { return list_text(row, cell_text); };
   return "{\"id\": " + dump(table.id) + ", \"caption\": " + dump(table.caption) +
          ",\n  \"columns\": " + list_text(table.columns, column_text) +
-         ",\n  \"rows\": " + list_text(table.rows, row_text, "\n    ") +
+         ",\n  \"rows\": " + list_text(table.rows, row_text, ",\n    ") +
          ",\n  \"remarks\": " + dump(table.remarks) + "}";
 }
 
@@ -60,7 +60,7 @@ std::string document_text(const Document& document) {
   std::vector<std::string> notes = document.notes;
   notes.insert(notes.end(), document.common_notes.begin(), document.common_notes.end());
   return "{\"title\": " + dump(document.title) +
-         ", \"tables\": " + list_text(document.tables, table_text, "\n ") + ",\n \"notes\": " + dump(notes) +
+         ", \"tables\": " + list_text(document.tables, table_text, ",\n ") + ",\n \"notes\": " + dump(notes) +
          "}";
 }
 
@@ -68,7 +68,7 @@ std::string document_text(const Document& document) {
 
 std::string to_json(const std::vector<Document>& documents) {
   return "{\"kind\": \"tables\", \"schema_version\": 1, \"documents\": " +
-         list_text(documents, document_text, "\n") + "}\n";
+         list_text(documents, document_text, ",\n") + "}\n";
 }
 
 }  // namespace hullbench::table
