@@ -60,22 +60,13 @@ table::Cell difference_cell(const std::optional<double>& a, const std::optional<
   return std::abs(difference) < 0.005 ? "<0.01" : table::Cell(table::Number(difference, 2, true));
 }
 
-/// By its title where a report of the side has one.
-std::string label_of(const ComparedSide& side, const MethodChange& method) {
-  for (const json& report : side.reports) {
-    if (!report.contains("methods") || method_title(report, method.method) == method.method) continue;
-    return method_label(report, method.method, method.protocol);
-  }
-  return method.method + " (" + method.protocol + ")";
-}
-
 table::Table changes_table(const RunsCompared& compared, const ComparedSide& a) {
   table::Table table{"compare_methods",
                      "Time of equal work by method, B / A",
                      {table::words("Method"), "Pairs", "Median of B / A", "95 %", "B faster", "B slower"}};
   for (const MethodChange& method : compared.methods) {
-    table.add_row({label_of(a, method), method.pairs, ratio_cell(method.ratio), range_cell(method.interval),
-                   method.faster, method.slower});
+    table.add_row({method_label(a.reports, method.method, method.protocol), method.pairs,
+                   ratio_cell(method.ratio), range_cell(method.interval), method.faster, method.slower});
   }
   table.remarks.emplace_back(
       "Below 1, B is faster. The interval is a bootstrap of whole shapes (a data set, with or without "

@@ -146,14 +146,6 @@ std::vector<std::pair<Line, std::string>> parameter_lines(const std::vector<json
   return lines;
 }
 
-std::string label_in(const std::vector<json>& reports, const Line& line) {
-  for (const json& report : reports) {
-    const std::string title = method_title(report, line.method);
-    if (title != line.method) return method_label(report, line.method, line.protocol);
-  }
-  return line.method + " (" + line.protocol + ")";
-}
-
 }  // namespace
 
 table::Table methods_table(const std::vector<json>& reports) {
@@ -179,7 +171,7 @@ table::Table parameters_table(const std::vector<json>& reports) {
       "parameters", "Parameters of the experiments", {table::words("Method"), table::words("Parameter")}};
   for (const Column& column : columns) table.columns.emplace_back(column.title);
   for (const auto& [line, parameter] : parameter_lines(reports)) {
-    std::vector<table::Cell> cells = {label_in(reports, line), parameter};
+    std::vector<table::Cell> cells = {method_label(reports, line.method, line.protocol), parameter};
     for (const Column& column : columns) cells.emplace_back(cell_text(column, line, parameter));
     table.add_row(std::move(cells));
   }

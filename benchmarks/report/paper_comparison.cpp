@@ -6,6 +6,7 @@
 #include "benchmarks/report/claims.hpp"
 #include "benchmarks/report/collection_tables.hpp"
 #include "benchmarks/report/group_values.hpp"
+#include "benchmarks/report/labels.hpp"
 #include "benchmarks/report/table_context.hpp"
 #include "benchmarks/statistics/statistics.hpp"
 
@@ -83,9 +84,7 @@ void compare_steps(const TableContext& context, std::vector<Comparison>& compari
 std::string value_text(const json& report, const Comparison& comparison) {
   std::string text = comparison.where + ", ";
   if (!comparison.row.empty()) text += comparison.row + ", ";
-  for (const json& method : report.at("methods")) {
-    if (method.at("name") == comparison.method) text += method.at("title").get<std::string>() + ": ";
-  }
+  text += method_title(report, comparison.method) + ": ";
   if (comparison.quantity == kError) return text + "L2 mean, %";
   if (comparison.quantity == kTime) return text + "time, ms";
   return text + comparison.quantity + ", ms";
