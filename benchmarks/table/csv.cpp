@@ -28,7 +28,7 @@ std::array<std::string, kTitles.size()> fields_of(const Cell& cell) {
   return fields;
 }
 
-std::string quoted(const std::string& text) {
+std::string csv_text(const std::string& text) {
   if (text.find_first_of(",\"\n\r") == std::string::npos) return text;
   std::string result = "\"";
   for (const char c : text) result += c == '"' ? std::string("\"\"") : std::string(1, c);
@@ -46,8 +46,9 @@ std::string to_csv(const Table& table) {
       if (field > 0 &&
           std::all_of(cells.begin(), cells.end(), [&](const auto& one) { return one[field].empty(); }))
         continue;
-      lines[0] += quoted(table.columns[column].title + kTitles[field]) + ',';
-      for (std::size_t row = 0; row < cells.size(); ++row) lines[row + 1] += quoted(cells[row][field]) + ',';
+      lines[0] += csv_text(table.columns[column].title + kTitles[field]) + ',';
+      for (std::size_t row = 0; row < cells.size(); ++row)
+        lines[row + 1] += csv_text(cells[row][field]) + ',';
     }
   }
   std::string text;
