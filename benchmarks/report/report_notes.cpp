@@ -59,10 +59,11 @@ void add_how_to_read(bool times, Sentences& notes) {
                            "each case passes and rounds; of few shapes it is a rough one, and of a single "
                            "shape it has nothing of what varies between shapes. \"> 3\": it has no upper end."
                          : ""));
-  notes.push_back(
-      "The protocol in brackets says who chose the parameters: paper, by the paper's rules, which look at "
-      "the ground truth (oracle-informed); default, the method's own; auto, by a rule from the points alone; "
-      "tuned, on other shapes; oracle, the best for this very case.");
+  std::string protocols;
+  for (const auto& [protocol, words] : kProtocolWords) {
+    protocols += (protocols.empty() ? "" : "; ") + std::string(protocol) + ", " + words;
+  }
+  notes.push_back("The protocol in brackets says who chose the parameters: " + protocols + ".");
   notes.push_back(
       "A cell with a word is a run without a result: its status, or \"invalid\" for a result that is not a "
       "valid multipolygon. A dash: not run or not defined.");
