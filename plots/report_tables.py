@@ -2,12 +2,11 @@
 
 from __future__ import annotations
 
-import json
 from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
-from records import Experiment, RecordError
+from records import Experiment, read_json
 from report_common import text
 
 
@@ -18,21 +17,14 @@ def documents(experiments: Sequence[Experiment], folder: Path) -> list[dict[str,
 
 def _read(folder: Path) -> list[dict[str, Any]]:
     path = folder / "tables" / "tables.json"
-    try:
-        return json.loads(path.read_text(encoding="utf-8"))["documents"] if path.is_file() else []
-    except (OSError, ValueError, KeyError, TypeError) as error:
-        raise RecordError(
-            f"{path} cannot be read ({error}); 'hullbench tables {folder} --write' makes it anew."
-        ) from error
+    remedy = f"; 'hullbench tables {folder} --write' makes it anew"
+    return read_json(path, "tables.schema.json", remedy)["documents"] if path.is_file() else []
 
 
 def tables_beside(found: Sequence[dict[str, Any]], identity: str) -> list[dict[str, Any]]:
     """The tables under the same title as the one with this id; none when there is none."""
     return [
-        table
-        for document in found
-        if any(one["id"] == identity for one in document["tables"])
-        for table in document["tables"]
+        table for document in found if any(one["id"] == identity for one in document["tables"]) for table in document["tables"]
     ]
 
 
@@ -43,9 +35,7 @@ def list_html(sentences: Sequence[str]) -> str:
 def table_html(table: dict[str, Any]) -> str:
     """With its caption above it and its remarks below it."""
     sides = [" class='number'" if column["kind"] == "number" else "" for column in table["columns"]]
-    head = "".join(
-        f"<th{side} scope='col'>{text(column['title'])}</th>" for side, column in zip(sides, table["columns"])
-    )
+    head = "".join(f"<th{side} scope='col'>{text(column['title'])}</th>" for side, column in zip(sides, table["columns"]))
     body = "".join(f"<tr>{_row(sides, row)}</tr>" for row in table["rows"])
     return (
         f"<h3>{text(table['caption'])}</h3>"
