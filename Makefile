@@ -87,19 +87,22 @@ bench: ## install, build and run the experiments in three passes (TABLE=states: 
 
 RUN ?= results/latest
 # Named like the run, as the pages say it.
-drawn_folder = build/drawn/$(2)$(notdir $(realpath $(1)))
+drawn_folder = build/drawn/records/$(2)$(notdir $(realpath $(1)))
+# Where the drawing goes: beside the records. Of a kept reference run, which has no report.json, into a folder of its own:
+# what is kept beside its records was drawn with the pictures.
+drawn_into = $(if $(wildcard $(1)/report.json $(1)/*/report.json),$(1),build/drawn/$(notdir $(realpath $(1))))
 
 # $(call drawn,run,folder): what is drawn of a run, written anew as a reference run has its records compressed.
 define drawn
-rm -rf $(2) && build/hullbench report $(1) --out $(2) >/dev/null && \
-for extra in core.json league.json tune.json tune.json.xz; do [ ! -f $(1)/$$extra ] || cp $(1)/$$extra $(2); done
+rm -rf $(2) && mkdir -p $(call drawn_into,$(1)) && build/hullbench report $(1) --out $(2) >/dev/null && \
+for extra in tables core.json league.json tune.json tune.json.xz; do [ ! -e $(1)/$$extra ] || cp -r $(1)/$$extra $(2); done
 endef
 
 figures: ## draw the paper's figures from results/latest, into its folder (RUN=FOLDER: from any run)
 	@$(call install,build plots)
 	@$(MAKE) build
 	@$(call drawn,$(RUN),$(call drawn_folder,$(RUN)))
-	@/usr/bin/python3 plots/make_figures.py $(call drawn_folder,$(RUN)) --out $(RUN)/figures
+	@/usr/bin/python3 plots/make_figures.py $(call drawn_folder,$(RUN)) --out $(call drawn_into,$(RUN))/figures
 
 figures-core: ## measure the core from 1000 to 10 million points for the figures, into core.json of RUN=
 	@$(call install,build)
@@ -113,7 +116,7 @@ report: ## write results/latest/report.html, one file with everything about the 
 	@$(if $(SKIP_DEPS),,cmake/install-npm.sh plots)
 	@$(MAKE) build
 	@$(call drawn,$(RUN),$(call drawn_folder,$(RUN)))
-	@/usr/bin/python3 plots/make_report.py $(call drawn_folder,$(RUN)) --out $(RUN)/report.html
+	@/usr/bin/python3 plots/make_report.py $(call drawn_folder,$(RUN)) --out $(call drawn_into,$(RUN))/report.html
 
 report-compare: ## write B's comparison.html, two runs side by side (A=FOLDER B=FOLDER)
 	@test -n "$(A)" -a -n "$(B)" || { echo "error: give two runs: make report-compare A=FOLDER B=FOLDER" >&2; exit 2; }
@@ -143,6 +146,7 @@ reference: ## keep results/latest, if a build of HEAD measured it, as the refere
 	@$(MAKE) build
 	@$(MAKE) figures report RUN=results/latest
 	@results/keep_reference.sh results/latest
+	@build/hullbench tables results/reference --write >/dev/null
 	@build/hullbench readme results/reference README.md
 
 # The paper's methods and the fastest rivals up to 8000 points, the others at 2000.
@@ -227,14 +231,15 @@ fuzz: ## search for inputs that break the core, for 60 seconds (SECONDS=N)
 	[ "$${runs:-0}" -gt 0 ] || { echo "error: nothing ran; see $(BUILD_LOG)/fuzz.txt." >&2; exit 1; }; \
 	echo "==> $$runs inputs, none breaks the core"
 
-lint: ## clang-tidy and the formatting check on all our sources
+lint: ## clang-tidy, and the formatting check on all our C++, Python and JavaScript
 	@$(call install,build unit python lint)
+	@$(if $(SKIP_DEPS),,cmake/install-npm.sh tests/report)
 	@$(call configure,clang,$(WITH_TESTS))
-	@tests/style/check.sh format
+	@for language in format python javascript; do tests/style/check.sh $$language || [ $$? = 77 ] || exit 1; done
 	@tests/style/check.sh tidy $(JOBS)
 
-format: ## format all our sources with clang-format 14
-	@tests/style/check.sh format --fix
+format: ## format all our sources with clang-format 14, black 23 and prettier
+	@for language in format python javascript; do tests/style/check.sh $$language --fix || [ $$? = 77 ] || exit 1; done
 
 docs: ## the core's reference as HTML in build/docs/core; fails when something public has no comment
 	@$(call install,build docs)

@@ -29,8 +29,9 @@ SET = "alphabet"
 LETTERS = "ABCDEFGHIJKLMNOPQRSTUVWXYZ"
 PACKAGE = "fonts-ebgaramond"
 FONT_FILE = "EBGaramond12-Regular.otf"
-COPYRIGHT = ("Copyright 2010-2013, Georg A. Duffner (<http://www.georgduffner.at/ebgaramond|g.duffner@gmail.com>), "
-             "2013 Siva Kalyan")
+COPYRIGHT = (
+    "Copyright 2010-2013, Georg A. Duffner (<http://www.georgduffner.at/ebgaramond|g.duffner@gmail.com>), " "2013 Siva Kalyan"
+)
 LICENCE = "SIL Open Font License 1.1"
 
 # Length units an em.
@@ -89,8 +90,7 @@ def piece_count(points, tolerance):
     P[i+1] + P[i+2]), and so never longer than the longest of them.
     """
     degree = len(points) - 1
-    bend = max(math.hypot(*(a - 2 * b + c for a, b, c in zip(p, q, r)))
-               for p, q, r in zip(points, points[1:], points[2:]))
+    bend = max(math.hypot(*(a - 2 * b + c for a, b, c in zip(p, q, r))) for p, q, r in zip(points, points[1:], points[2:]))
     return max(1, math.ceil(math.sqrt(degree * (degree - 1) * bend / (8 * tolerance))))
 
 
@@ -121,8 +121,10 @@ def fit(rings, units_per_em):
     """Scaled and moved so that the smallest x and y are 0; integer vertices, rounded half to even."""
     scale = Fraction(SIZE * UNITS_PER_LENGTH, units_per_em)
     low = [min(vertex[axis] for ring in rings for vertex in ring) for axis in (0, 1)]
-    return [without_repeats([tuple(round((value - least) * scale) for value, least in zip(vertex, low))
-                             for vertex in ring]) for ring in rings]
+    return [
+        without_repeats([tuple(round((value - least) * scale) for value, least in zip(vertex, low)) for vertex in ring])
+        for ring in rings
+    ]
 
 
 def twice_area(ring):
@@ -164,11 +166,15 @@ def decimal(value):
 def geojson(name, letter, polygons):
     """One vertex a line: a change in an outline then shows in a diff."""
     properties = {"name": name, "title": letter, "copyright": COPYRIGHT, "licence": f"{LICENCE}, see OFL.txt"}
-    ring_texts = [["[\n" + ",\n".join(f"[{decimal(x)}, {decimal(y)}]" for x, y in ring + ring[:1]) + "\n]"
-                   for ring in rings] for rings in polygons]
+    ring_texts = [
+        ["[\n" + ",\n".join(f"[{decimal(x)}, {decimal(y)}]" for x, y in ring + ring[:1]) + "\n]" for ring in rings]
+        for rings in polygons
+    ]
     coordinates = ",\n".join("[" + ", ".join(rings) + "]" for rings in ring_texts)
-    return (f'{{"type": "Feature", "properties": {json.dumps(properties)},\n'
-            f'"geometry": {{"type": "MultiPolygon", "coordinates": [\n{coordinates}\n]}}}}\n')
+    return (
+        f'{{"type": "Feature", "properties": {json.dumps(properties)},\n'
+        f'"geometry": {{"type": "MultiPolygon", "coordinates": [\n{coordinates}\n]}}}}\n'
+    )
 
 
 def plain(value):
@@ -193,13 +199,16 @@ def describe(letter, name, polygons, shapes, text, font):
         "polygons": len(polygons),
         "vertices": sum(len(ring) for rings in polygons for ring in rings),
         "area": plain(round(float(area), DECIMALS)),
-        "bounding_box": [plain(pick(vertex[axis] for vertex in corners) / UNITS_PER_LENGTH)
-                         for pick in (min, max) for axis in (0, 1)],
+        "bounding_box": [
+            plain(pick(vertex[axis] for vertex in corners) / UNITS_PER_LENGTH) for pick in (min, max) for axis in (0, 1)
+        ],
         "convexity": round(float(area) / hull_area, 4),
     }
     if letter in PAPER_CONVEXITY:
-        entry["paper"] = {"convexity": PAPER_CONVEXITY[letter],
-                          "note": "The paper used another Garamond, so its figure is for comparison only."}
+        entry["paper"] = {
+            "convexity": PAPER_CONVEXITY[letter],
+            "note": "The paper used another Garamond, so its figure is for comparison only.",
+        }
     return entry
 
 
@@ -208,17 +217,17 @@ def describe_set(font):
         "name": SET,
         "made_by": "datasets/make_alphabet.py",
         "how_made": f"Outlines in font units, unscaled and unhinted, y up; every Bezier curve replaced by chords at "
-                    f"most {float(TOLERANCE)} length units away from it; scaled so that one em is {SIZE} length units "
-                    f"(the paper's letters were scaled by {SIZE} too, from outlines in a unit that is not known); "
-                    f"each letter moved so that its smallest x and y are 0; coordinates rounded to {DECIMALS} "
-                    f"decimals; shells counter-clockwise, holes (the letters' counters) clockwise. convexity is the area "
-                    f"over the area of the convex hull.",
+        f"most {float(TOLERANCE)} length units away from it; scaled so that one em is {SIZE} length units "
+        f"(the paper's letters were scaled by {SIZE} too, from outlines in a unit that is not known); "
+        f"each letter moved so that its smallest x and y are 0; coordinates rounded to {DECIMALS} "
+        f"decimals; shells counter-clockwise, holes (the letters' counters) clockwise. convexity is the area "
+        f"over the area of the convex hull.",
         "licences": f"The letters are derived from the font named here, by a change of format, and are under the same "
-                    f"licence, the {LICENCE} (OFL.txt in this folder, which must be passed on with them). The font "
-                    f"declares no Reserved Font Name, and the letters are data, not a font: no font is presented under "
-                    f"the font's name, which stands here only to say where they come from. Points, hulls, scores and "
-                    f"pictures made from the letters are taken to be documents in the licence's sense, to which it "
-                    f"does not extend.",
+        f"licence, the {LICENCE} (OFL.txt in this folder, which must be passed on with them). The font "
+        f"declares no Reserved Font Name, and the letters are data, not a font: no font is presented under "
+        f"the font's name, which stands here only to say where they come from. Points, hulls, scores and "
+        f"pictures made from the letters are taken to be documents in the licence's sense, to which it "
+        f"does not extend.",
         "font": font,
     }
 
@@ -268,8 +277,10 @@ def main():
         (folder / entry["file"]).write_text(text)
     write_manifest(folder / "manifest.json", describe_set(font), entries)
     for entry in entries:
-        print(f"{entry['file']}: {entry['polygons']} polygons, {entry['vertices']} vertices, area {entry['area']}, "
-              f"convexity {entry['convexity']}")
+        print(
+            f"{entry['file']}: {entry['polygons']} polygons, {entry['vertices']} vertices, area {entry['area']}, "
+            f"convexity {entry['convexity']}"
+        )
 
 
 if __name__ == "__main__":

@@ -7,38 +7,48 @@
 // stops with an error, and writes nothing, when an outline is not a valid multipolygon. In the manifest it
 // rewrites the set "states" and its shapes, and keeps the rest.
 
-import { createHash } from 'node:crypto';
-import { existsSync, mkdirSync, readFileSync, writeFileSync } from 'node:fs';
-import { createRequire } from 'node:module';
-import { join } from 'node:path';
-import { fileURLToPath } from 'node:url';
+import { createHash } from "node:crypto";
+import { existsSync, mkdirSync, readFileSync, writeFileSync } from "node:fs";
+import { createRequire } from "node:module";
+import { join } from "node:path";
+import { fileURLToPath } from "node:url";
 
-import { check, fit, twiceArea } from './outline.mjs';
+import { check, fit, twiceArea } from "./outline.mjs";
 
 /// `state`: the FIPS code. `holes`: the circles that the variant with holes gets.
 const shapes = [
-  { name: 'ca', title: 'California', state: '06', holes: { count: 10, radius: 5, seed: 1 },
-    paper: { area: 14697.6, area_with_holes: 13913.5, polygons: 1 } },
-  { name: 'hi', title: 'Hawaii', state: '15', holes: { count: 10, radius: 2, seed: 1 },
-    paper: { area: 1862.2, area_with_holes: 1736.7, polygons: 9 } },
+  {
+    name: "ca",
+    title: "California",
+    state: "06",
+    holes: { count: 10, radius: 5, seed: 1 },
+    paper: { area: 14697.6, area_with_holes: 13913.5, polygons: 1 },
+  },
+  {
+    name: "hi",
+    title: "Hawaii",
+    state: "15",
+    holes: { count: 10, radius: 2, seed: 1 },
+    paper: { area: 1862.2, area_with_holes: 1736.7, polygons: 9 },
+  },
 ];
 /// What the manifest calls these outlines.
-const set = 'states';
+const set = "states";
 /// The larger side of every bounding box, in length units.
 const size = 200;
 const decimals = 6;
 const unitsPerLength = 10 ** decimals;
 
 const require = createRequire(import.meta.url);
-const { feature } = load('topojson-client');
-const topology = load('us-atlas/states-10m.json');
-const sourcePackage = load('us-atlas/package.json');
+const { feature } = load("topojson-client");
+const topology = load("us-atlas/states-10m.json");
+const sourcePackage = load("us-atlas/package.json");
 
 function load(module) {
   try {
     return require(module);
   } catch (error) {
-    if (error.code === 'MODULE_NOT_FOUND') {
+    if (error.code === "MODULE_NOT_FOUND") {
       fail(`'${module}' is not installed: run 'npm ci' in datasets first`);
     }
     throw error;
@@ -55,7 +65,7 @@ function stateOutline({ state, title }) {
   const geometry = topology.objects.states.geometries.find(({ id }) => id === state);
   if (!geometry) fail(`us-atlas has no state ${state} (${title})`);
   const { type, coordinates } = feature(topology, geometry).geometry;
-  const polygons = type === 'MultiPolygon' ? coordinates : [coordinates];
+  const polygons = type === "MultiPolygon" ? coordinates : [coordinates];
   if (polygons.some((rings) => rings.length !== 1)) {
     fail(`the outline of ${title} has a hole, which is not expected`);
   }
@@ -75,11 +85,11 @@ function validOutline(shape) {
 
 /// One vertex a line: a change in an outline then shows in a diff.
 function geojson({ name, title }, outline) {
-  const vertex = (v) => `[${v.map((value) => value / unitsPerLength).join(', ')}]`;
-  const polygon = (ring) => `[[\n${[...ring, ring[0]].map(vertex).join(',\n')}\n]]`;
+  const vertex = (v) => `[${v.map((value) => value / unitsPerLength).join(", ")}]`;
+  const polygon = (ring) => `[[\n${[...ring, ring[0]].map(vertex).join(",\n")}\n]]`;
   return `{"type": "Feature", "properties": ${JSON.stringify({ name, title })},
 "geometry": {"type": "MultiPolygon", "coordinates": [
-${outline.map(polygon).join(',\n')}
+${outline.map(polygon).join(",\n")}
 ]}}
 `;
 }
@@ -96,16 +106,15 @@ function describe(shape, outline, text) {
     title: shape.title,
     set,
     file: `${shape.name}.geojson`,
-    sha256: createHash('sha256').update(text).digest('hex'),
-    source: 'US Census Bureau, cartographic boundary files, states, edition of 2017, '
-      + 'simplified and quantised by us-atlas',
+    sha256: createHash("sha256").update(text).digest("hex"),
+    source: "US Census Bureau, cartographic boundary files, states, edition of 2017, " + "simplified and quantised by us-atlas",
     source_package: {
       name: sourcePackage.name,
       version: sourcePackage.version,
       licence: sourcePackage.license,
-      file: 'states-10m.json',
+      file: "states-10m.json",
     },
-    licence: 'Public domain (US government work, 17 U.S.C. 105)',
+    licence: "Public domain (US government work, 17 U.S.C. 105)",
     polygons: outline.length,
     vertices: outline.flat().length,
     area: Number(area.toFixed(decimals)),
@@ -113,7 +122,7 @@ function describe(shape, outline, text) {
     holes: shape.holes,
     paper: {
       ...shape.paper,
-      note: 'The paper used another outline of the same state, so its figures are for comparison only.',
+      note: "The paper used another outline of the same state, so its figures are for comparison only.",
     },
   };
 }
@@ -121,13 +130,15 @@ function describe(shape, outline, text) {
 function describeSet() {
   return {
     name: set,
-    made_by: 'datasets/make_states.mjs',
-    how_made: 'Spherical Mercator projection, y up; moved so that the smallest x and y are 0; scaled so '
-      + `that the larger side of the bounding box is ${size}; all islands kept; coordinates rounded to `
-      + `${decimals} decimals; shells counter-clockwise.`,
-    licences: 'The outlines are in the public domain and may be used for anything: they come from data of the '
-      + 'US Census Bureau. The npm package that carries the data (us-atlas, copyright 2013-2019 Michael '
-      + 'Bostock) is under the ISC licence, which allows the same.',
+    made_by: "datasets/make_states.mjs",
+    how_made:
+      "Spherical Mercator projection, y up; moved so that the smallest x and y are 0; scaled so " +
+      `that the larger side of the bounding box is ${size}; all islands kept; coordinates rounded to ` +
+      `${decimals} decimals; shells counter-clockwise.`,
+    licences:
+      "The outlines are in the public domain and may be used for anything: they come from data of the " +
+      "US Census Bureau. The npm package that carries the data (us-atlas, copyright 2013-2019 Michael " +
+      "Bostock) is under the ISC licence, which allows the same.",
   };
 }
 
@@ -141,7 +152,7 @@ function replaced(elements, isOwn, own) {
 
 /// The manifest at `path`, if there is one, with this script's set and its shapes in their places.
 function manifest(path, entries) {
-  const before = existsSync(path) ? JSON.parse(readFileSync(path, 'utf8')) : {};
+  const before = existsSync(path) ? JSON.parse(readFileSync(path, "utf8")) : {};
   return {
     ...before,
     sets: replaced(before.sets ?? [], ({ name }) => name === set, [describeSet()]),
@@ -149,7 +160,7 @@ function manifest(path, entries) {
   };
 }
 
-const folder = process.argv[2] ?? fileURLToPath(new URL('shapes', import.meta.url));
+const folder = process.argv[2] ?? fileURLToPath(new URL("shapes", import.meta.url));
 const made = shapes.map((shape) => {
   const outline = validOutline(shape);
   const text = geojson(shape, outline);
@@ -157,8 +168,12 @@ const made = shapes.map((shape) => {
 });
 mkdirSync(folder, { recursive: true });
 made.forEach(({ text, entry }) => writeFileSync(join(folder, entry.file), text));
-const manifestPath = join(folder, 'manifest.json');
-const summary = manifest(manifestPath, made.map(({ entry }) => entry));
+const manifestPath = join(folder, "manifest.json");
+const summary = manifest(
+  manifestPath,
+  made.map(({ entry }) => entry),
+);
 writeFileSync(manifestPath, `${JSON.stringify(summary, null, 2)}\n`);
 made.forEach(({ entry }) =>
-  console.log(`${entry.file}: ${entry.polygons} polygons, ${entry.vertices} vertices, area ${entry.area}`));
+  console.log(`${entry.file}: ${entry.polygons} polygons, ${entry.vertices} vertices, area ${entry.area}`),
+);

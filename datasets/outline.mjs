@@ -18,7 +18,8 @@ export function fit(outline, size, unitsPerLength) {
   const scale = size / Math.max(maximum[0] - minimum[0], maximum[1] - minimum[1]);
   return projected.map((ring) => {
     const fitted = ring.map((vertex) =>
-      vertex.map((value, axis) => Math.round((value - minimum[axis]) * scale * unitsPerLength)));
+      vertex.map((value, axis) => Math.round((value - minimum[axis]) * scale * unitsPerLength)),
+    );
     return twiceArea(fitted) < 0n ? fitted.reverse() : fitted;
   });
 }
@@ -38,30 +39,37 @@ function side(a, b, c) {
 }
 
 function between(a, b, c) {
-  return [0, 1].every((axis) =>
-    Math.min(a[axis], b[axis]) <= c[axis] && c[axis] <= Math.max(a[axis], b[axis]));
+  return [0, 1].every((axis) => Math.min(a[axis], b[axis]) <= c[axis] && c[axis] <= Math.max(a[axis], b[axis]));
 }
 
 /// Whether the closed segments ab and cd have a point in common.
 function meet(a, b, c, d) {
   const sides = [side(a, b, c), side(a, b, d), side(c, d, a), side(c, d, b)];
   if (sides[0] !== sides[1] && sides[2] !== sides[3] && !sides.includes(0)) return true;
-  return (sides[0] === 0 && between(a, b, c)) || (sides[1] === 0 && between(a, b, d)) ||
-    (sides[2] === 0 && between(c, d, a)) || (sides[3] === 0 && between(c, d, b));
+  return (
+    (sides[0] === 0 && between(a, b, c)) ||
+    (sides[1] === 0 && between(a, b, d)) ||
+    (sides[2] === 0 && between(c, d, a)) ||
+    (sides[3] === 0 && between(c, d, b))
+  );
 }
 
 /// Whether `point` lies inside `ring` (not asked for points on it).
 function inside(ring, point) {
-  return ring.filter((a, i) => {
-    const b = ring[(i + 1) % ring.length];
-    return (a[1] <= point[1]) !== (b[1] <= point[1]) && side(a, b, point) === (b[1] > a[1] ? 1 : -1);
-  }).length % 2 === 1;
+  return (
+    ring.filter((a, i) => {
+      const b = ring[(i + 1) % ring.length];
+      return a[1] <= point[1] !== b[1] <= point[1] && side(a, b, point) === (b[1] > a[1] ? 1 : -1);
+    }).length %
+      2 ===
+    1
+  );
 }
 
 /// Throws an Error that names the first fault when an integer outline is not a valid multipolygon of disjoint
 /// polygons whose rings touch neither themselves nor each other.
 export function check(outline) {
-  if (outline.length === 0) throw new Error('it has no polygon');
+  if (outline.length === 0) throw new Error("it has no polygon");
   outline.forEach((ring, i) => {
     if (!ring.flat().every(Number.isSafeInteger)) {
       throw new Error(`polygon ${i} has a coordinate that is not finite`);
@@ -70,16 +78,21 @@ export function check(outline) {
     if (ring.length < 3) throw new Error(`polygon ${i} has fewer than 3 vertices`);
     if (twiceArea(ring) <= 0n) throw new Error(`polygon ${i} has no area or runs clockwise`);
   });
-  const edges = outline.flatMap((ring, polygon) => ring.map((start, i) =>
-    ({ polygon, i, count: ring.length, start, end: ring[(i + 1) % ring.length] })));
-  edges.forEach((e, k) => edges.slice(k + 1).forEach((f) => {
-    if (clash(e, f)) {
-      throw new Error(`edge ${e.i} of polygon ${e.polygon} touches edge ${f.i} of polygon ${f.polygon}`);
-    }
-  }));
-  outline.forEach((outer, i) => outline.forEach((inner, j) => {
-    if (i !== j && inside(outer, inner[0])) throw new Error(`polygon ${j} lies inside polygon ${i}`);
-  }));
+  const edges = outline.flatMap((ring, polygon) =>
+    ring.map((start, i) => ({ polygon, i, count: ring.length, start, end: ring[(i + 1) % ring.length] })),
+  );
+  edges.forEach((e, k) =>
+    edges.slice(k + 1).forEach((f) => {
+      if (clash(e, f)) {
+        throw new Error(`edge ${e.i} of polygon ${e.polygon} touches edge ${f.i} of polygon ${f.polygon}`);
+      }
+    }),
+  );
+  outline.forEach((outer, i) =>
+    outline.forEach((inner, j) => {
+      if (i !== j && inside(outer, inner[0])) throw new Error(`polygon ${j} lies inside polygon ${i}`);
+    }),
+  );
 }
 
 /// Whether two edges have more in common than neighbours in a ring may: their shared vertex.
@@ -88,6 +101,8 @@ function clash(e, f) {
   const precedes = e.polygon === f.polygon && (f.i + 1) % f.count === e.i;
   if (!follows && !precedes) return meet(e.start, e.end, f.start, f.end);
   const [first, second] = follows ? [e, f] : [f, e];
-  return side(first.start, first.end, second.end) === 0 &&
-    (between(first.start, first.end, second.end) || between(second.start, second.end, first.start));
+  return (
+    side(first.start, first.end, second.end) === 0 &&
+    (between(first.start, first.end, second.end) || between(second.start, second.end, first.start))
+  );
 }

@@ -6,7 +6,6 @@ again in the records, and what the page needs beside them is put together.
 
 from __future__ import annotations
 
-import json
 import math
 import statistics
 from collections import Counter, defaultdict
@@ -15,55 +14,19 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from records import Experiment, RecordError, Row
-from report_common import Entrant, case_of, entrant_of, label, median_interval, round_to
-from report_data import MetricTable, charts, member_of, words_of
+from records import Experiment, RecordError, Row, Series, member_of, read_json
+from report_common import label, round_to
+from report_data import MetricTable, charts, composed_name, titles_of, words_of
 from report_summary import SAME_ERROR
 
-# What became of a pair, in the program's words, in the order in which the page tells it.
-CHANGES = ("now fails", "now works", "slower", "faster", "not told apart", "not judged", "fails in both")
+# The changes that the page tells first, in this order.
+FIRST = ("now fails", "now works")
 
 # Of times from two machines nothing is said to have become faster or slower: what differs is then only lower or higher.
 ACROSS_MACHINES = {"slower": "higher time", "faster": "lower time"}
 
 # Significant digits of the table's numbers.
 DIGITS = 5
-
-_COMPARED_KEYS = {"a": str, "b": str, "methods": list, "pairs": list, "only_a": list, "only_b": list, "notes": list}
-_OPTIONAL_NUMBER = (int, float, type(None))
-_METHOD_KEYS = {
-    "method": str,
-    "protocol": str,
-    "pairs": int,
-    "faster": int,
-    "slower": int,
-    "ratio": _OPTIONAL_NUMBER,
-    "ratio_low": _OPTIONAL_NUMBER,
-    "ratio_high": _OPTIONAL_NUMBER,
-}
-_PAIR_KEYS = {
-    "name": str,
-    "change": str,
-    "status_a": str,
-    "status_b": str,
-    "same_points": bool,
-    "same_parameters": bool,
-    "same_version": bool,
-    **{
-        key: _OPTIONAL_NUMBER
-        for key in (
-            "median_a_ns",
-            "median_b_ns",
-            "ratio",
-            "ratio_low",
-            "ratio_high",
-            "p_value",
-            "adjusted_p_value",
-            "l2_a",
-            "l2_b",
-        )
-    },
-}
 
 
 @dataclass(frozen=True)
@@ -102,7 +65,7 @@ class Pair:
 class MethodChange:
     """A method's pairs together, B over A."""
 
-    entrant: Entrant
+    series: Series
     label: str
     pairs: int  # with a ratio of times
     judged: int  # of which a difference could have been shown
@@ -134,22 +97,15 @@ class Comparison:
 
     @property
     def same_machine(self) -> bool:
-        """Both sides were measured on one machine, the same one, and it is known."""
+        """Both sides were measured on one machine, the same one."""
         a, b = self.machines
         return a == b and len(a) == 1
 
     @property
     def same_run(self) -> bool:
-        """Both sides hold the same measurements: every repetition is the same."""
-        return (
-            bool(self.pairs)
-            and not self.only_a
-            and not self.only_b
-            and all(
-                pair.a.raw["id"] == pair.b.raw["id"] and pair.a.raw["time_ns"] == pair.b.raw["time_ns"]
-                for pair in self.pairs
-            )
-        )
+        """Both sides hold the same records, every repetition included."""
+        same = all(pair.a.raw == pair.b.raw for pair in self.pairs)
+        return same and bool(self.pairs) and not self.only_a and not self.only_b
 
     def word(self, change: str) -> str:
         """A pair's or a method's change as the page calls it."""
@@ -162,16 +118,16 @@ class Comparison:
 def compare(a: list[Experiment], b: list[Experiment], told: dict[str, Any], names: tuple[str, str]) -> Comparison:
     """`told` is what read_compared gives. Raises RecordError when it is not about these two."""
     pairs = _find_pairs(a, b, told["pairs"])
-    judged = Counter(entrant_of(pair.a) for pair in pairs if pair.judged)
+    judged = Counter(pair.a.series for pair in pairs if pair.judged)
     methods = []
     for one in told["methods"]:
-        entrant = Entrant(one["method"], one["protocol"])
+        series = Series(one["method"], one["protocol"])
         methods.append(
             MethodChange(
-                entrant,
-                label([*a, *b], entrant),
+                series,
+                label([*a, *b], series),
                 one["pairs"],
-                judged[entrant],
+                judged[series],
                 one["ratio"],
                 one["ratio_low"],
                 one["ratio_high"],
@@ -179,42 +135,14 @@ def compare(a: list[Experiment], b: list[Experiment], told: dict[str, Any], name
                 one["slower"],
             )
         )
-    order = {change: place for place, change in enumerate(CHANGES[:2])}
-    pairs.sort(key=lambda pair: order.get(pair.change, len(order)))  # stable: the rest stays in the order of A
-    return Comparison(
-        a, b, names, pairs, methods, told["only_a"], told["only_b"], told["notes"], (_machines(a), _machines(b))
-    )
+    # Stable: the rest stays in the order of A.
+    pairs.sort(key=lambda pair: FIRST.index(pair.change) if pair.change in FIRST else len(FIRST))
+    return Comparison(a, b, names, pairs, methods, told["only_a"], told["only_b"], told["notes"], (_machines(a), _machines(b)))
 
 
 def read_compared(path: Path) -> dict[str, Any]:
     """What `hullbench compare --format json` wrote. Raises RecordError when it is not that."""
-    remedy = "'hullbench compare A B --format json' writes it"
-    try:
-        told = json.loads(path.read_text(encoding="utf-8"))
-    except OSError as error:
-        raise RecordError(f"{path} cannot be read ({error.strerror}); {remedy}.") from error
-    except (UnicodeDecodeError, json.JSONDecodeError) as error:
-        raise RecordError(f"{path} cannot be read as JSON ({error}); {remedy}.") from error
-    _check(told, _COMPARED_KEYS, str(path), remedy)
-    for part, keys in (("methods", _METHOD_KEYS), ("pairs", _PAIR_KEYS)):
-        for index, entry in enumerate(told[part]):
-            _check(entry, keys, f"{path}: {part}[{index}]", remedy)
-    for index, pair in enumerate(told["pairs"]):
-        if pair["change"] not in CHANGES:
-            raise RecordError(f"{path}: pairs[{index}] has an unknown change {pair['change']!r}; {remedy}.")
-    for part in ("only_a", "only_b", "notes"):
-        if not all(isinstance(word, str) for word in told[part]):
-            raise RecordError(f"{path} is malformed: {part} must be texts; {remedy}.")
-    return told
-
-
-def _check(value: Any, keys: dict[str, Any], where: str, remedy: str) -> None:
-    if not isinstance(value, dict):
-        raise RecordError(f"{where} is not an object; {remedy}.")
-    for key, kind in keys.items():
-        good = key in value and isinstance(value[key], kind) and (kind is bool or not isinstance(value[key], bool))
-        if not good or (isinstance(value[key], float) and not math.isfinite(value[key])):
-            raise RecordError(f'{where} is malformed: "{key}" is missing or of another kind; {remedy}.')
+    return read_json(path, "comparison.schema.json", "; 'hullbench compare A B --format json' writes it")
 
 
 # Finding the program's pairs again.
@@ -258,18 +186,15 @@ def _take(in_a: list[tuple[Experiment, Row]], in_b: list[tuple[Experiment, Row]]
 def _is_of(row: Row, status: str, median_ns: float | None) -> bool:
     if row.status != status:
         return False
-    return median_ns is None or (
-        bool(row.raw["time_ns"]) and math.isclose(statistics.median(row.raw["time_ns"]), median_ns)
-    )
+    return median_ns is None or (bool(row.raw["time_ns"]) and math.isclose(statistics.median(row.raw["time_ns"]), median_ns))
 
 
 def _machines(experiments: Sequence[Experiment]) -> set[str]:
     """Where the rows were measured, or their run where a row does not say."""
     return {
-        machine
+        row.raw.get("machine") or experiment.report["environment"]["machine_id"]
         for experiment in experiments
         for row in experiment.rows
-        if (machine := row.raw.get("machine") or experiment.report["environment"].get("machine_id"))
     }
 
 
@@ -280,19 +205,13 @@ def columns(comparison: Comparison) -> dict[str, Any]:
     """Columns like those of report_data.columns, in milliseconds and in the error's own unit (of the truth's area)."""
     pairs = comparison.pairs
     experiments = [experiment.name for experiment in comparison.a]
-    titles = {
-        name: dataset["title"]
-        for side in (comparison.b, comparison.a)
-        for experiment in side
-        for name, dataset in experiment.datasets.items()
-    }
     split = [member_of(pair.a.dataset) for pair in pairs]
     made = {
         "experiment": {"values": [experiments.index(pair.experiment.name) for pair in pairs]},
-        "entrant": words_of([entrant_of(pair.a).key for pair in pairs]),
+        "entrant": words_of([pair.a.series.key for pair in pairs]),
         "family": words_of([family for family, _ in split]),
         "member": {"values": [member for _, member in split]},
-        "sample": words_of([case_of(pair.a).removeprefix(f"{pair.a.dataset}/") for pair in pairs]),
+        "sample": words_of([pair.a.case.removeprefix(f"{pair.a.dataset}/") for pair in pairs]),
         "n": {"values": [pair.a.n for pair in pairs]},
         "holes": {"values": [int(pair.a.holes) for pair in pairs]},
         "status": words_of([comparison.word(pair.change) for pair in pairs]),
@@ -300,8 +219,8 @@ def columns(comparison: Comparison) -> dict[str, Any]:
         "differs": words_of([_differs(pair) for pair in pairs]),
         "error_change": {"values": [_rounded(pair.error_change) for pair in pairs]},
     }
-    made["family"]["titles"] = [titles.get(family, family) for family in made["family"]["words"]]
-    if any(pair.a.name != f"{pair.a.method}/{case_of(pair.a)}/protocol:{pair.a.protocol}" for pair in pairs):
+    made["family"]["titles"] = titles_of([*comparison.b, *comparison.a], made["family"]["words"])
+    if any(pair.a.name != composed_name(pair.a) for pair in pairs):
         made["name"] = words_of([pair.a.name for pair in pairs])
     for key in ("ratio", "ratio_low", "ratio_high", "adjusted_p_value", "l2_a", "l2_b"):
         made[key] = {"values": [_rounded(pair.told[key]) for pair in pairs]}
@@ -314,7 +233,7 @@ def columns(comparison: Comparison) -> dict[str, Any]:
 
 
 def _end(row: Row, end: int) -> float | int | None:
-    interval = median_interval(row)
+    interval = row.interval()
     return _rounded(interval[end], 1e-6) if interval and row.ok else None
 
 
@@ -352,11 +271,7 @@ def both_charts(comparison: Comparison) -> list[dict[str, Any]]:
         other = others.get(_chart_key(comparison.a, chart))
         if other is None:
             continue
-        x = (
-            sorted({*chart["x"], *other["x"]})
-            if chart["kind"] == "n"
-            else list(dict.fromkeys([*chart["x"], *other["x"]]))
-        )
+        x = sorted({*chart["x"], *other["x"]}) if chart["kind"] == "n" else list(dict.fromkeys([*chart["x"], *other["x"]]))
         made.append(
             {key: chart[key] for key in ("id", "experiment", "title", "kind", "axis")}
             | {"x": x, "a": _placed(chart, x), "b": _placed(other, x)}

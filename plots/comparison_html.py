@@ -7,8 +7,8 @@ from collections import Counter
 from collections.abc import Callable, Sequence
 
 from comparison_data import Comparison, MethodChange, Pair
-from records import Experiment
-from report_common import STATUS_WORDS, Entrant, count_of, entrant_of, entrants_of, label, number, sentence_list, text
+from records import Experiment, Series
+from report_common import STATUS_WORDS, count_of, label, number, sentence_list, text
 from report_html import environment_facts, methods_of, parameter_value
 
 SIGNS = {
@@ -122,12 +122,10 @@ def headline(comparison: Comparison) -> str:
 
 
 def _machine_warning(comparison: Comparison) -> str:
-    a, b = (", ".join(sorted(machines)) or "not recorded" for machines in comparison.machines)
-    known = all(comparison.machines)
+    a, b = (", ".join(sorted(machines)) for machines in comparison.machines)
     return (
-        f"{'The machines differ' if known else 'Where the times were taken is not known'} (A: {a}; B: {b}). A ratio of "
-        "times across machines compares the machines, not the methods: no time is judged as a regression, and none is "
-        "coloured. Errors can be compared."
+        f"The machines differ (A: {a}; B: {b}). A ratio of times across machines compares the machines, not the methods: no "
+        "time is judged as a regression, and none is coloured. Errors can be compared."
     )
 
 
@@ -141,7 +139,7 @@ def _warnings(comparison: Comparison) -> str:
     ):
         differ = [pair for pair in comparison.pairs if not pair.told[key]]
         if differ:
-            methods = sentence_list(sorted({label([pair.experiment], entrant_of(pair.a)) for pair in differ}))
+            methods = sentence_list(sorted({label([pair.experiment], pair.a.series) for pair in differ}))
             said.append(
                 f"{len(differ)} of {count_of(total, 'run')} had {what} in B ({methods}), which the times and errors "
                 "show as well."
@@ -154,19 +152,11 @@ def _warnings(comparison: Comparison) -> str:
             )
     if comparison.same_machine and not comparison.same_run:
         said.append(SAME_PROGRAM)
-    return (
-        "<ul class='warnings' id='warnings'>" + "".join(f"<li>{text(one)}</li>" for one in said) + "</ul>"
-        if said
-        else ""
-    )
+    return "<ul class='warnings' id='warnings'>" + "".join(f"<li>{text(one)}</li>" for one in said) + "</ul>" if said else ""
 
 
 def _method_sentences(comparison: Comparison, change: str) -> list[tuple[str, str]]:
-    return [
-        (one.label, _method_sentence(one))
-        for one in comparison.methods
-        if one.ratio is not None and one.change == change
-    ]
+    return [(one.label, _method_sentence(one)) for one in comparison.methods if one.ratio is not None and one.change == change]
 
 
 def _method_sentence(one: MethodChange) -> str:
@@ -214,14 +204,9 @@ def _status_sentence(pair: Pair) -> str:
 def _error_finding(comparison: Comparison) -> str:
     changed = sorted((pair for pair in comparison.pairs if pair.error_change), key=lambda pair: -abs(pair.error_change))
     others = sum(pair.other_result and not pair.error_change for pair in comparison.pairs)
-    more = (
-        f"<p class='muted'>In {count_of(others, 'run')} the result is another, with the same error.</p>"
-        if others
-        else ""
-    )
+    more = f"<p class='muted'>In {count_of(others, 'run')} the result is another, with the same error.</p>" if others else ""
     found = [
-        (f"{'▲' if pair.error_change > 0 else '▼'}\u00a0{pair.a.name}", error_sentence(pair))
-        for pair in changed[:MOST_NAMED]
+        (f"{'▲' if pair.error_change > 0 else '▼'}\u00a0{pair.a.name}", error_sentence(pair)) for pair in changed[:MOST_NAMED]
     ]
     empty = "Every run with an error in both has the same one, to rounding."
     if not any(pair.error_change is not None for pair in comparison.pairs):
@@ -285,8 +270,8 @@ def _method_row(one: MethodChange, comparison: Comparison) -> str:
     interval = "–" if one.low is None or one.high is None else f"{number(one.low)} to {number(one.high)}"
     verdict = "no times in both" if one.ratio is None else "not judged: a single shape" if one.low is None else None
     return (
-        f"<tr data-entrant='{text(one.entrant.key)}'><th scope='row'><span class='swatch' "
-        f"data-method='{text(one.entrant.method)}'></span>{text(one.label)}</th><td class='number'>{ratio}</td>"
+        f"<tr data-entrant='{text(one.series.key)}'><th scope='row'><span class='swatch' "
+        f"data-method='{text(one.series.method)}'></span>{text(one.label)}</th><td class='number'>{ratio}</td>"
         f"<td class='number'>{interval}</td><td>{verdict or mark(comparison.word(one.change))}</td>"
         f"<td class='number'>{one.pairs}</td><td class='number'>{one.judged}</td>"
         f"<td class='number'>{one.slower}</td><td class='number'>{one.faster}</td></tr>"
@@ -370,17 +355,15 @@ def _versions(experiments: Sequence[Experiment]) -> dict[str, str]:
 
 def _parameters(experiments: Sequence[Experiment]) -> dict[str, str]:
     """Of every entrant, as the plans have them."""
-    found: dict[Entrant, list[str]] = {}
+    found: dict[Series, list[str]] = {}
     for experiment in experiments:
         for entry in experiment.plan.get("methods", []):
             said = ", ".join(
                 f"{name} = {parameter_value(value, experiment.report.get('rules', {}))}"
                 for name, value in entry.get("parameters", {}).items()
             )
-            found.setdefault(Entrant(entry.get("method", ""), entry.get("protocol", "")), []).append(
-                said or "none given"
-            )
-    return {f"Parameters of {label(experiments, entrant)}": _joined(values) for entrant, values in found.items()}
+            found.setdefault(Series(entry.get("method", ""), entry.get("protocol", "")), []).append(said or "none given")
+    return {f"Parameters of {label(experiments, series)}": _joined(values) for series, values in found.items()}
 
 
 def _plans(experiments: Sequence[Experiment]) -> dict[str, str]:
@@ -389,8 +372,8 @@ def _plans(experiments: Sequence[Experiment]) -> dict[str, str]:
         made[name] = _joined([str(one.report.get(key) or "none") for one in experiments])
     for name, key in (("Warm-up", "warmup"), ("Time limit, s", "timeout_s"), ("Memory limit, MiB", "mem_limit_mib")):
         made[name] = _joined([str(one.plan.get(key, "none")) for one in experiments])
-    entrants = {entrant for experiment in experiments for entrant in entrants_of(experiment)}
-    made["Methods"] = ", ".join(sorted(label(experiments, entrant) for entrant in entrants))
+    series = {one for experiment in experiments for one in experiment.series()}
+    made["Methods"] = ", ".join(sorted(label(experiments, one) for one in series))
     return made
 
 
@@ -409,11 +392,7 @@ def _points(comparison: Comparison) -> list[tuple[str, str, str]]:
         else [("Points of the shared cases", "the same", "the same")]
     )
     shapes = [
-        {
-            dataset["title"]: str(dataset.get("sha256", ""))
-            for experiment in side
-            for dataset in experiment.datasets.values()
-        }
+        {dataset["title"]: str(dataset.get("sha256", "")) for experiment in side for dataset in experiment.datasets.values()}
         for side in (comparison.a, comparison.b)
     ]
     for title in dict.fromkeys([*shapes[0], *shapes[1]]):

@@ -16,15 +16,26 @@ _PLACES = [
     (dx * reach, dy * reach, horizontal, vertical)
     for reach in (1.0, 1.8, 3.0, 4.5, 6.5)
     for dx, dy, horizontal, vertical in (
-        (5, 0, "left", "center"), (-5, 0, "right", "center"), (0, 5, "center", "bottom"), (0, -5, "center", "top"),
-        (4, 4, "left", "bottom"), (4, -4, "left", "top"), (-4, 4, "right", "bottom"), (-4, -4, "right", "top"),
+        (5, 0, "left", "center"),
+        (-5, 0, "right", "center"),
+        (0, 5, "center", "bottom"),
+        (0, -5, "center", "top"),
+        (4, 4, "left", "bottom"),
+        (4, -4, "left", "top"),
+        (-4, 4, "right", "bottom"),
+        (-4, -4, "right", "top"),
     )
 ]
 _MARKER = 4.0  # half a marker's side, in points
 
 
-def place_labels(figure: Figure, axes: Axes, places: Sequence[tuple[float, float]],
-                 texts: Sequence[Mapping[str, object]], line: Sequence[tuple[float, float]] = ()) -> list[Annotation]:
+def place_labels(
+    figure: Figure,
+    axes: Axes,
+    places: Sequence[tuple[float, float]],
+    texts: Sequence[Mapping[str, object]],
+    line: Sequence[tuple[float, float]] = (),
+) -> list[Annotation]:
     """One text a place (in data coordinates), each with the options of Axes.annotate; a text far from its marker gets a
     thin line to it. Texts keep off a line through the corners `line` too. The layout is fixed first, as it decides on
     what covers what."""
@@ -59,8 +70,17 @@ def _best(axes: Axes, place, options, others: Sequence[Bbox], renderer) -> tuple
     tried = []
     for rank, (dx, dy, horizontal, vertical) in enumerate(_PLACES):
         looks = {key: value for key, value in options.items() if key != "text"}
-        note = axes.annotate(options["text"], place, xytext=(dx, dy), textcoords="offset points", ha=horizontal,
-                             va=vertical, annotation_clip=False, zorder=6, **looks)
+        note = axes.annotate(
+            options["text"],
+            place,
+            xytext=(dx, dy),
+            textcoords="offset points",
+            ha=horizontal,
+            va=vertical,
+            annotation_clip=False,
+            zorder=6,
+            **looks,
+        )
         box = note.get_window_extent(renderer)
         covered = sum(_common(box, other) for other in others) + 4 * _outside(box, axes.bbox)
         tried.append((covered, rank, note, box))

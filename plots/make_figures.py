@@ -3,7 +3,8 @@
 Each figure becomes SVG, PDF and PNG (200 dpi); figures.md lists them with their captions. Says one line a figure, also
 for those that are skipped because the run has not their data.
 
-Exit codes: 0 drawn; 2 usage, or a record is missing or malformed; 6 the run has the data of none.
+Exit codes: 0 drawn; 1 a fault of ours, with its traceback; 2 usage, or a record is missing or malformed; 6 the run has the
+data of none.
 """
 
 from __future__ import annotations
@@ -18,13 +19,23 @@ sys.path.insert(0, str(Path(__file__).parent))
 
 import matplotlib  # noqa: E402  the path comes first
 
-from records import EXIT_CONFIGURATION, EXIT_NOTHING, RecordError, load  # noqa: E402
+from records import NothingToShow, exit_code_of, load  # noqa: E402
 from run import Drawn, Run, Skipped, read_paper  # noqa: E402
 from style import RC  # noqa: E402
 
 # In the order of figures.md.
 NAMES = (
-    "summary", "states", "shapes", "hulls", "alphabet", "random_polygons", "steps", "core", "rgbd", "examples", "profiles",
+    "summary",
+    "states",
+    "shapes",
+    "hulls",
+    "alphabet",
+    "random_polygons",
+    "steps",
+    "core",
+    "rgbd",
+    "examples",
+    "profiles",
     "sensitivity",
 )
 # Without dates and versions, so that the same run gives the same bytes.
@@ -37,20 +48,18 @@ _METADATA = {
 
 def main(arguments: list[str] | None = None) -> int:
     options = _options(arguments)
-    folder = Path(options.run)
-    out = Path(options.out) if options.out else folder / "figures"
-    try:
-        run = Run(folder, load(folder), read_paper())
-        drawn, skipped = draw_all(run, [options.only] if options.only else list(NAMES), out)
-    except (RecordError, OSError) as error:
-        print(f"make_figures: {error}", file=sys.stderr)
-        return EXIT_CONFIGURATION
+    return exit_code_of("make_figures.py", lambda: write(Path(options.run), options.out, options.only))
+
+
+def write(folder: Path, out: str | None, only: str | None) -> None:
+    """Draws the figures, all or one, and the list of all. Raises NothingToShow when there is none."""
+    place = Path(out) if out else folder / "figures"
+    run = Run(folder, load(folder), read_paper())
+    drawn, skipped = draw_all(run, [only] if only else list(NAMES), place)
     if not drawn:
-        print(f"make_figures: {folder} has the data of no figure that was asked for.", file=sys.stderr)
-        return EXIT_NOTHING
-    if not options.only:
-        (out / "figures.md").write_text(index(drawn, skipped), encoding="utf-8")
-    return 0
+        raise NothingToShow(f"{folder} has the data of no figure that was asked for.")
+    if not only:
+        (place / "figures.md").write_text(index(drawn, skipped), encoding="utf-8")
 
 
 def draw_all(run: Run, names: list[str], out: Path) -> tuple[list[Drawn], dict[str, str]]:

@@ -67,8 +67,17 @@ def difference(axes: Axes, truth: Path, result: Path) -> None:
 def points(axes: Axes, places: Sequence[Place], size: float, color: str | None = None) -> None:
     """`size` in points. As pixels: thousands of small marks are no use as curves."""
     x, y = zip(*places) if places else ((), ())
-    axes.plot(x, y, linestyle="none", marker=".", markersize=size, markeredgewidth=0, rasterized=True, zorder=5,
-              color=color or role_color("points"))
+    axes.plot(
+        x,
+        y,
+        linestyle="none",
+        marker=".",
+        markersize=size,
+        markeredgewidth=0,
+        rasterized=True,
+        zorder=5,
+        color=color or role_color("points"),
+    )
 
 
 def frame(axes: Axes, picture: Picture, margin: float = 0.03) -> None:

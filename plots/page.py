@@ -9,15 +9,18 @@ import base64
 import hashlib
 import json
 import re
+import subprocess
 from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
 from records import Experiment, RecordError
+from report_common import label
 
 PLOTS = Path(__file__).resolve().parent
 PAGE = PLOTS / "report"
 LIBRARY = PLOTS / "node_modules" / "echarts" / "dist" / "echarts.common.min.js"
+BUNDLER = "esbuild"
 
 
 def fill(template: str, values: dict[str, str]) -> str:
@@ -26,9 +29,10 @@ def fill(template: str, values: dict[str, str]) -> str:
     return re.sub(r"\{\{(\w+)\}\}", lambda found: values[found.group(1)], source)
 
 
-def code(styles: Sequence[str], scripts: Sequence[str]) -> dict[str, str]:
-    """The template's values "style", "library", "script" and "policy". Raises RecordError without the library."""
-    library, script = _library(), "\n".join(_script(name) for name in scripts)
+def code(styles: Sequence[str], script: str) -> dict[str, str]:
+    """The template's values "style", "library", "script" (the module of that name with all that it imports) and "policy".
+    Raises RecordError without the library or esbuild."""
+    library, script = _library(), _bundle(script)
     return {
         "style": "\n".join((PAGE / name).read_text(encoding="utf-8") for name in styles),
         "library": library,
@@ -61,6 +65,22 @@ def method_styles(experiments: Sequence[Experiment]) -> dict[str, Any]:
     return styles
 
 
+def entrants(experiments: Sequence[Experiment], styles: dict[str, Any]) -> list[dict[str, str]]:
+    """Every method under every protocol that it has rows of, in the order in which the page names them."""
+    series = {one for experiment in experiments for one in experiment.series()}
+    order = sorted(series, key=lambda one: (styles[one.method]["order"], one.protocol != "paper", one.protocol))
+    return [{"key": one.key, "method": one.method, "protocol": one.protocol, "label": label(experiments, one)} for one in order]
+
+
+def write_page(out: Path, page: str) -> None:
+    """Writes the file and says so. Raises RecordError when it cannot be written."""
+    try:
+        out.write_text(page, encoding="utf-8")
+    except OSError as error:
+        raise RecordError(f"{out} cannot be written ({error.strerror}).") from error
+    print(f"wrote {out} ({len(page.encode()) / 2**20:.1f} MiB)")
+
+
 def colours(styles: dict[str, Any]) -> str:
     """A custom property for every method, in both themes."""
 
@@ -86,8 +106,13 @@ def _library() -> str:
     return _in_script(LIBRARY.read_text(encoding="utf-8"))
 
 
-def _script(name: str) -> str:
-    return _in_script((PAGE / name).read_text(encoding="utf-8"))
+def _bundle(name: str) -> str:
+    command = [BUNDLER, name, "--bundle", "--format=iife", "--charset=utf8", "--log-level=warning"]
+    try:
+        made = subprocess.run(command, cwd=PAGE, stdout=subprocess.PIPE, encoding="utf-8", check=True)
+    except FileNotFoundError as error:
+        raise RecordError("esbuild, which puts the page's scripts together, is missing; 'make deps' installs it.") from error
+    return _in_script(made.stdout)
 
 
 def _in_script(source: str) -> str:
@@ -98,9 +123,7 @@ def _in_script(source: str) -> str:
 def _policy(scripts: Sequence[str]) -> str:
     """No network at all, and no script but the page's own, by their hashes: markup that came in with a record would do
     nothing. Styles are free, as the charts' labels set their own."""
-    hashes = " ".join(
-        f"'sha256-{base64.b64encode(hashlib.sha256(script.encode()).digest()).decode()}'" for script in scripts
-    )
+    hashes = " ".join(f"'sha256-{base64.b64encode(hashlib.sha256(script.encode()).digest()).decode()}'" for script in scripts)
     return (
         f"default-src 'none'; script-src {hashes}; style-src 'unsafe-inline'; img-src data:; base-uri 'none'; "
         "form-action 'none'"

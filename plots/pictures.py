@@ -86,7 +86,7 @@ def pack(experiments: Iterable[Experiment], budget_bytes: int = BUDGET_BYTES) ->
     """The pictures of all experiments as an object for JSON, at most `budget_bytes` long when written as such with
     separators (",", ":"). Without any picture "cases" is empty. Raises RecordError when a file of pictures is malformed.
 
-    "grid", "run_columns", "methods" (titles by name), "points_limit", "rule" (a sentence), "cases" (each with "case",
+    "grid", "run_columns", "not_tried" (statuses), "points_limit", "rule" (a sentence), "cases" (each with "case",
     "experiments", "dataset", "title", "n", "holes", "runs", "block"; worst first), "results_left_out" (a number) and, by
     experiment, "without_picture" (cases that were measured but have none) and "dropped" (those among them that did not
     fit)."""
@@ -104,11 +104,6 @@ def pack(experiments: Iterable[Experiment], budget_bytes: int = BUDGET_BYTES) ->
     return _document(experiments, cases, _within(entries, room), limit, left_out)
 
 
-def case_of(run_name: str) -> str:
-    """The case's name in a run's: ca/n:2000/holes:1 of polylidar/ca/n:2000/holes:1/protocol:paper."""
-    return run_name.split("/", 1)[1].rsplit("/protocol:", 1)[0]
-
-
 def _collect(experiments: Sequence[Experiment]) -> list[_Case]:
     """The cases that have a picture. One that two experiments measured on the same points is one case; of a run that
     both have, the first experiment's is shown."""
@@ -116,13 +111,21 @@ def _collect(experiments: Sequence[Experiment]) -> list[_Case]:
     for experiment in experiments:
         here, polygons = _read(experiment)
         for row in experiment.rows:
-            line = here.get(case_of(row.name))
+            line = here.get(row.case)
             if line is None:
                 continue
             key = (line["case"], line.get("dataset_sha256", ""))
             case = cases.setdefault(
-                key, _Case(*key, [], _title(experiment, row.dataset), line["origin"], line["step"], line["points"],
-                           line["ground_truth"])
+                key,
+                _Case(
+                    *key,
+                    [],
+                    experiment.dataset_title(row.dataset),
+                    line["origin"],
+                    line["step"],
+                    line["points"],
+                    line["ground_truth"],
+                ),
             )
             if experiment.name not in case.experiments:
                 case.experiments.append(experiment.name)
@@ -143,14 +146,6 @@ def _read(experiment: Experiment) -> tuple[dict[str, dict[str, Any]], dict[str, 
         else:
             polygons[line["run"]] = line["polygons"]
     return cases, polygons
-
-
-def _title(experiment: Experiment, dataset: str) -> str:
-    """A data set's title; that of a member, such as star-17, is its family's with the number."""
-    family, _, number = dataset.rpartition("-")
-    if dataset not in experiment.datasets and family in experiment.datasets and number.isdigit():
-        return f'{experiment.datasets[family]["title"]} {number}'
-    return experiment.datasets.get(dataset, {"title": dataset})["title"]
 
 
 def _error(row: Row) -> float:
@@ -198,12 +193,12 @@ def _document(
     experiments: Sequence[Experiment], cases: Sequence[_Case], kept: list[dict[str, Any]], limit: int, left_out: int
 ) -> dict[str, Any]:
     shown = {(name, entry["case"]) for entry in kept for name in entry["experiments"]}
-    measured = {(experiment.name, case_of(row.name)) for experiment in experiments for row in experiment.rows}
+    measured = {(experiment.name, row.case) for experiment in experiments for row in experiment.rows}
     packable = {(name, case.name) for case in cases for name in case.experiments}
     return {
         "grid": GRID,
         "run_columns": RUN,
-        "methods": {name: method["title"] for experiment in experiments for name, method in experiment.methods.items()},
+        "not_tried": sorted(NOT_TRIED),
         "points_limit": limit,
         "rule": RULE,
         "results_left_out": left_out,
@@ -266,7 +261,7 @@ class _Drawing:
         l2 = row.metrics.get("l2")
         return [
             row.method,
-            row.protocol,
+            row.series.protocol,
             row.status,
             None if l2 is None else float(f"{l2:.9g}"),
             None if row.median_ns is None else round(row.median_ns),
@@ -334,7 +329,8 @@ def _in_order(polygon: Sequence[Sequence[int]]) -> list[list[tuple[int, int]]]:
 
 def _ring(flat: Sequence[int]) -> list[tuple[int, int]]:
     """The vertices without repeated ones and without those in the middle of a straight line; from the leftmost one on,
-    towards the lower of its neighbours, since methods begin and turn as they like. Empty when fewer than three are left."""
+    towards the lower of its neighbours, since methods begin and turn as they like. Empty when fewer than three are left.
+    """
     vertices: list[tuple[int, int]] = []
     for vertex in zip(flat[::2], flat[1::2]):
         if vertices and vertices[-1] == vertex:

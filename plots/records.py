@@ -1,44 +1,71 @@
 """Reads the records of a run or of a suite, and nothing of the program.
 
 A run's folder has `report.json` (results/report.schema.json) and may have `pictures.jsonl` or `pictures.jsonl.xz`; a
-suite's has `suite.json` and such a folder for each experiment. Only the standard library is needed.
+suite's has `suite.json` and such a folder for each experiment. The schemas say what a record is: Debian's
+python3-jsonschema checks it, and nothing else is checked here.
 
     for experiment in load("results/latest"):
         for row in experiment.rows:
             print(row.name, row.median_ns, row.metrics.get("l2"))
         picture = experiment.picture("ca/n:2000/holes:1")
 
-What is missing or malformed raises RecordError, whose text is one sentence for the user; programs end with
-EXIT_CONFIGURATION then.
+What is missing or malformed raises RecordError, whose text is one sentence for the user. Any other exception is a fault
+of ours: it is not caught, so the program ends with its traceback and exit code 1.
 """
 
 from __future__ import annotations
 
+import contextlib
+import functools
 import json
 import lzma
-from collections.abc import Iterator, Sequence
+import sys
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Any, TextIO
+from typing import Any, NamedTuple, TextIO
 
-EXIT_CONFIGURATION = 2
-EXIT_NOTHING = 6
+import jsonschema
+
+SCHEMAS = Path(__file__).resolve().parent.parent / "results"
 
 # The order of a suite that does not say its own.
 USUAL_ORDER = ("rgbd", "states", "alphabet", "random", "steps")
 
-# What a report must have for anything to be shown of it, with the types.
-_REPORT_KEYS = {"plan": dict, "environment": dict, "methods": list, "datasets": list, "runs": list, "summary": dict}
-_RUN_KEYS = {
-    "id": str, "name": str, "method": str, "dataset": str, "n": int, "holes": bool, "protocol": str, "status": str,
-    "detail": str, "time_ns": list, "phases_ns": list, "metrics": dict, "parameters": dict,
-}
-_CASE_KEYS = {"case": str, "origin": list, "step": (int, float), "points": list, "ground_truth": list}
-_RESULT_KEYS = {"case": str, "run": str, "polygons": list}
+_SUITE_SCHEMA = {"type": "object", "properties": {"plans": {"type": "array", "items": {"type": "string"}}}}
 
 
 class RecordError(Exception):
     """A record is missing or malformed; the text says which and what to do."""
+
+    exit_code = 2
+
+
+class NothingToShow(RecordError):
+    """The records are well, but have not what was asked for."""
+
+    exit_code = 6
+
+
+def exit_code_of(program: str, work: Callable[[], None]) -> int:
+    """Does the work of a program; what is wrong with its input or output is said in one sentence."""
+    try:
+        work()
+    except (RecordError, OSError) as error:
+        print(f"{program}: {error}", file=sys.stderr)
+        return getattr(error, "exit_code", RecordError.exit_code)
+    return 0
+
+
+class Series(NamedTuple):
+    """A method under one protocol: what is compared. Results of two protocols are never put together."""
+
+    method: str
+    protocol: str  # who chose the parameters
+
+    @property
+    def key(self) -> str:
+        return "/".join(self)
 
 
 @dataclass(frozen=True)
@@ -46,8 +73,27 @@ class Row:
     """One run: a method with one parameter set on one point set. Times in nanoseconds."""
 
     raw: dict[str, Any]  # as results/run.schema.json
-    time: dict[str, float | None] | None  # statistics of run + extract, as the schema's "statistics"; None: no time
-    paper_time: dict[str, float | None] | None  # the same up to where the paper's clock stopped
+    told: dict[str, Any]  # what the summary says of it, as the schema's "row"
+
+    @property
+    def time(self) -> dict[str, float | None] | None:
+        """Statistics of run + extract, as the schema's "statistics"; None: no time."""
+        return self.told.get("time")
+
+    @property
+    def paper_time(self) -> dict[str, float | None] | None:
+        """The same up to where the paper's clock stopped."""
+        return self.told.get("paper_time")
+
+    @property
+    def order(self) -> int:
+        """Of its time beside the core's on the same points, as the program judges it: -1 faster, 1 slower, 0 undecided."""
+        return {"faster": -1, "slower": 1}.get(self.told.get("order"), 0)
+
+    @property
+    def fastest(self) -> bool:
+        """Of all methods on the same points, beyond doubt, as the program judges it."""
+        return self.told.get("fastest", False)
 
     @property
     def name(self) -> str:
@@ -59,14 +105,8 @@ class Row:
         return self.raw["method"]
 
     @property
-    def protocol(self) -> str:
-        """Who chose the parameters; results of two protocols are never one series."""
-        return self.raw["protocol"]
-
-    @property
-    def series(self) -> tuple[str, str]:
-        """(method, protocol)."""
-        return self.method, self.protocol
+    def series(self) -> Series:
+        return Series(self.method, self.raw["protocol"])
 
     @property
     def dataset(self) -> str:
@@ -113,9 +153,21 @@ class Row:
     def median_ns(self) -> float | None:
         return self.time["median_ns"] if self.time else None
 
+    def interval(self, which: str = "time") -> tuple[float, float] | None:
+        """The 95 % interval of the median of "time" or "paper_time"; None: there is none, as of a single repetition."""
+        told = getattr(self, which) or {}
+        low, high = told.get("median_low_ns"), told.get("median_high_ns")
+        return None if low is None or high is None else (low, high)
+
     def metric(self, name: str) -> float | None:
         """A score; None where the run has none. Only a run that is ok has scores to be compared."""
         return self.metrics.get(name) if self.ok else None
+
+
+def member_of(dataset: str) -> tuple[str, int | None]:
+    """The family and the number of star-17; for a data set of no family its name and None."""
+    family, _, number = dataset.rpartition("-")
+    return (family, int(number)) if family and number.isdigit() and str(int(number)) == number else (dataset, None)
 
 
 @dataclass
@@ -154,16 +206,29 @@ class Picture:
 class Experiment:
     """One experiment's report."""
 
-    def __init__(self, folder: Path, report: dict[str, Any]) -> None:
+    def __init__(self, folder: Path) -> None:
         self.folder = folder
-        self.report = report
+        self.report: dict[str, Any] = read_json(folder / "report.json", "report.schema.json")
+        report = self.report
         self.plan: dict[str, Any] = report["plan"]
         self.name: str = self.plan.get("name") or folder.name
         self.title: str = self.plan.get("title") or self.name
         self.methods: dict[str, dict[str, Any]] = {method["name"]: method for method in report["methods"]}
         self.datasets: dict[str, dict[str, Any]] = {dataset["name"]: dataset for dataset in report["datasets"]}
-        statistics = {row["id"]: row for row in report["summary"].get("rows", [])}
-        self.rows: list[Row] = [_row(raw, statistics.get(raw["id"], {})) for raw in report["runs"]]
+        told = report["summary"]["rows"]  # one for every run; thinned records have no identity to find it by
+        if [row["name"] for row in told] != [run["name"] for run in report["runs"]]:
+            raise RecordError(f"{folder / 'report.json'} is malformed: its summary is of other runs.")
+        self.rows = [Row(*both) for both in zip(report["runs"], told)]
+
+    def series(self) -> list[Series]:
+        """In the order of the records, which is that of the plan."""
+        return list(dict.fromkeys(row.series for row in self.rows))
+
+    def dataset_title(self, name: str) -> str:
+        """California; for a member of a family, Simulated floor 3."""
+        family, number = (name, None) if name in self.datasets else member_of(name)
+        title = self.datasets[family]["title"] if family in self.datasets else family
+        return title if number is None else f"{title} {number}"
 
     def pictures_file(self) -> Path | None:
         """The file of the pictures; None: the run has none."""
@@ -179,16 +244,13 @@ class Experiment:
         if path is None:
             return
         wanted = None if case is None else json.dumps(case)
-        try:
-            with _open_text(path) as lines:
-                for number, text in enumerate(lines, 1):
-                    if wanted is not None and wanted not in text:
-                        continue
-                    line = _picture_line(path, number, text)
-                    if case is None or line["case"] == case:
-                        yield line
-        except (OSError, EOFError, UnicodeDecodeError, lzma.LZMAError) as error:
-            raise RecordError(f"{path} cannot be read ({error}); measure again or remove it.") from error
+        with _opened(path, "; measure again or remove it") as lines:
+            for number, text in enumerate(lines, 1):
+                if wanted is not None and wanted not in text:
+                    continue
+                line = _checked(text, "picture.schema.json", f"{path}: line {number}")
+                if case is None or line["case"] == case:
+                    yield line
 
     def picture(self, case: str) -> Picture | None:
         """The pictures of one case, such as ca/n:2000/holes:1; None: there are none. Reads the file once."""
@@ -212,81 +274,68 @@ def load(folder: str | Path) -> list[Experiment]:
     if not folder.is_dir():
         raise RecordError(f"{folder} is not a folder; name that of a run, such as results/latest.")
     if (folder / "report.json").is_file():
-        return [_experiment(folder)]
+        return [Experiment(folder)]
     folders = [folder / name for name in _order(folder) if (folder / name / "report.json").is_file()]
     if not folders:
         raise RecordError(
-            f"{folder} has no report.json, neither itself nor in a folder of an experiment; of a kept reference run "
-            f"'hullbench merge {folder} --out NEW' makes a run that has them."
+            f"{folder} has no report.json, neither itself nor in a folder of an experiment; 'hullbench report {folder} "
+            "--out NEW' writes what can be drawn of a kept reference run."
         )
-    return [_experiment(one) for one in folders]
+    return [Experiment(one) for one in folders]
 
 
 def _order(folder: Path) -> list[str]:
     """The names of a suite's experiments."""
     here = sorted(entry.name for entry in folder.iterdir() if entry.is_dir())
-    told = USUAL_ORDER
-    if (folder / "suite.json").is_file():
-        suite = _json(folder / "suite.json")
-        plans = suite.get("plans", list(told)) if isinstance(suite, dict) else None
-        if not isinstance(plans, list) or not all(isinstance(plan, str) for plan in plans):
-            raise RecordError(f'{folder / "suite.json"} is malformed: "plans" must be a list of names.')
-        told = tuple(plans)
+    suite = folder / "suite.json"
+    told = read_json(suite, _SUITE_SCHEMA).get("plans", USUAL_ORDER) if suite.is_file() else USUAL_ORDER
     return [name for name in told if name in here] + [name for name in here if name not in told]
 
 
-def _experiment(folder: Path) -> Experiment:
-    path = folder / "report.json"
-    report = _json(path)
-    _check(report, _REPORT_KEYS, str(path))
-    if report.get("schema_version") != 1:
-        raise RecordError(f'{path} has schema_version {report.get("schema_version")!r}; only 1 is known here.')
-    for index, run in enumerate(report["runs"]):
-        _check(run, _RUN_KEYS, f"{path}: runs[{index}]")
-    for part in ("methods", "datasets"):
-        for index, entry in enumerate(report[part]):
-            _check(entry, {"name": str, "title": str}, f"{path}: {part}[{index}]")
-    for index, row in enumerate(report["summary"].get("rows", [])):
-        _check(row, {"id": str}, f"{path}: summary.rows[{index}]")
-    return Experiment(folder, report)
+def read_json(path: Path, schema: str | dict[str, Any], remedy: str = "") -> Any:
+    """What is in the file, compressed or not, if it is as the schema says: the name of one in results/, or one itself.
+    `remedy` ends the sentence of the RecordError."""
+    with _opened(path, remedy) as file:
+        return _checked(file.read(), schema, str(path), remedy)
 
 
-def _row(raw: dict[str, Any], summary: dict[str, Any]) -> Row:
-    return Row(raw, summary.get("time"), summary.get("paper_time"))
-
-
-def _json(path: Path) -> Any:
+def _checked(text: str, schema: str | dict[str, Any], where: str, remedy: str = "") -> Any:
     try:
-        return json.loads(path.read_text(encoding="utf-8"))
-    except (OSError, UnicodeDecodeError, json.JSONDecodeError) as error:
-        raise RecordError(f"{path} cannot be read as JSON ({error}).") from error
+        value = json.loads(text, parse_constant=_refuse)
+    except ValueError as error:
+        raise RecordError(f"{where} cannot be read as JSON ({error}){remedy}.") from error
+    validator = _validator(schema) if isinstance(schema, str) else jsonschema.Draft202012Validator(schema)
+    fault = next(validator.iter_errors(value), None)
+    if fault is not None:
+        named = f"results/{schema}" if isinstance(schema, str) else "expected"
+        what = fault.message if len(fault.message) < 200 else f"{fault.message[:100]} … {fault.message[-100:]}"
+        raise RecordError(f"{where} is malformed, not as {named}: {fault.json_path}: {what}{remedy}.")
+    return value
 
 
-def _check(value: Any, keys: dict[str, Any], where: str) -> None:
-    """Raises unless `value` is an object with these keys of these types."""
-    if not isinstance(value, dict):
-        raise RecordError(f"{where} is malformed: it is not an object.")
-    for key, kind in keys.items():
-        if key not in value:
-            raise RecordError(f'{where} is malformed: "{key}" is missing.')
-        if not isinstance(value[key], kind):
-            raise RecordError(f'{where} is malformed: "{key}" is not what results/report.schema.json says.')
+def _refuse(constant: str) -> None:
+    raise ValueError(f"{constant} is no JSON")
 
 
-def _open_text(path: Path) -> TextIO:
-    if path.suffix == ".xz":
-        return lzma.open(path, "rt", encoding="utf-8")
-    return path.open(encoding="utf-8")
+@functools.cache
+def _validator(name: str) -> jsonschema.Draft202012Validator:
+    def read(name: str) -> dict[str, Any]:
+        return json.loads((SCHEMAS / name).read_text(encoding="utf-8"))
+
+    schema = read(name)
+    if name == "report.schema.json":
+        schema["properties"]["runs"]["items"] = read("run.schema.json")  # where it refers to it: nothing is fetched
+    if name == "picture.schema.json":
+        # Single coordinates are not looked at, as there are millions.
+        del schema["properties"]["points"]["items"], schema["$defs"]["polygons"]["items"]["items"]["items"]
+    return jsonschema.Draft202012Validator(schema)
 
 
-def _picture_line(path: Path, number: int, text: str) -> dict[str, Any]:
-    where = f"{path}: line {number}"
+@contextlib.contextmanager
+def _opened(path: Path, remedy: str) -> Iterator[TextIO]:
+    """The file's text, compressed or not."""
     try:
-        line = json.loads(text)
-    except json.JSONDecodeError as error:
-        raise RecordError(f"{where} cannot be read as JSON ({error}).") from error
-    _check(line, {"kind": str}, where)
-    if line["kind"] not in ("case", "result"):
-        raise RecordError(f'{where} is malformed: its "kind" is neither "case" nor "result".')
-    _check(line, _CASE_KEYS if line["kind"] == "case" else _RESULT_KEYS, where)
-    return line
+        with (lzma.open if path.suffix == ".xz" else open)(path, "rt", encoding="utf-8") as file:
+            yield file
+    except (OSError, EOFError, UnicodeDecodeError, lzma.LZMAError) as error:
+        raise RecordError(f"{path} cannot be read ({error}){remedy}.") from error

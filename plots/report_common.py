@@ -1,24 +1,14 @@
-"""What every part of the report shares: entrants, cases, intervals, and text that is safe in HTML."""
+"""What every part of the report shares: what methods are called, numbers, words, and text that is safe in HTML."""
 
 from __future__ import annotations
 
 import html
 import math
-import statistics
-from collections.abc import Iterable, Sequence
-from dataclasses import dataclass
+from collections.abc import Sequence
 
-from records import Experiment, Row
+from records import Experiment, Series
 
 CORE = "polylidar"
-
-PROTOCOLS = {
-    "paper": "chosen by the paper's rules, which look at the ground truth",
-    "default": "the method's own defaults",
-    "auto": "chosen by a rule from the points alone",
-    "tuned": "tuned on other shapes",
-    "oracle": "the best for this very case, found with the ground truth",
-}
 
 STATUS_WORDS = {
     "ok": "ok",
@@ -32,33 +22,6 @@ STATUS_WORDS = {
 }
 
 
-@dataclass(frozen=True, order=True)
-class Entrant:
-    """A method under one protocol: what is compared. Results of two protocols are never put together."""
-
-    method: str
-    protocol: str
-
-    @property
-    def key(self) -> str:
-        return f"{self.method}/{self.protocol}"
-
-
-def entrant_of(row: Row) -> Entrant:
-    return Entrant(row.method, row.protocol)
-
-
-def case_of(row: Row) -> str:
-    """The run's name without method and protocol, such as ca/n:2000/holes:0; with the seed where a name has it."""
-    parts = row.name.split("/")
-    return "/".join(parts[1:-1]) if len(parts) > 2 else row.case
-
-
-def entrants_of(experiment: Experiment) -> list[Entrant]:
-    """In the order of the records, which is that of the plan."""
-    return list(dict.fromkeys(entrant_of(row) for row in experiment.rows))
-
-
 def method_title(experiments: Sequence[Experiment], method: str) -> str:
     for experiment in experiments:
         if method in experiment.methods:
@@ -66,67 +29,18 @@ def method_title(experiments: Sequence[Experiment], method: str) -> str:
     return method
 
 
-def label(experiments: Sequence[Experiment], entrant: Entrant) -> str:
+def label(experiments: Sequence[Experiment], series: Series) -> str:
     """As the tables write it: CGAL alpha shape (paper)."""
-    return f"{method_title(experiments, entrant.method)} ({entrant.protocol})"
+    return f"{method_title(experiments, series.method)} ({series.protocol})"
 
 
-def dataset_title(experiment: Experiment, name: str) -> str:
-    """California; for a member of a family, Simulated floor 3."""
-    if name in experiment.datasets:
-        return experiment.datasets[name]["title"]
-    family, _, member = name.rpartition("-")
-    if family in experiment.datasets and member.isdigit():
-        return f"{experiment.datasets[family]['title']} {member}"
-    return name
-
-
-def median_interval(row: Row, which: str = "time") -> tuple[float, float] | None:
-    """The 95 % interval of the median in nanoseconds: that of the record, or for records that have none yet the order
-    statistics whose coverage is at least 95 % whatever the distribution (binomial); None for fewer than 6 times."""
-    told = getattr(row, which)
-    if told is None:
-        return None
-    low, high = told.get("median_low_ns"), told.get("median_high_ns")
-    if low is not None and high is not None:
-        return low, high
-    if which != "time" or "median_low_ns" in told:
-        return None
-    times = sorted(row.raw["time_ns"])
-    rank = _binomial_rank(len(times))
-    return (float(times[rank]), float(times[-1 - rank])) if rank is not None else None
-
-
-def _binomial_rank(count: int) -> int | None:
-    """The largest k for which the k-th smallest and k-th largest (from 0) enclose the median with 95 %; None: none."""
-    outside, rank = 0.0, None
-    for k in range(count // 2):
-        outside += 2 * math.comb(count, k) / 2**count
-        if outside > 0.05:
-            break
-        rank = k
-    return rank
-
-
-def spread(row: Row) -> float | None:
-    """Median absolute deviation over median; None below 3 repetitions."""
-    told = row.time
-    if not told or told["repetitions"] < 3 or not told["median_ns"]:
-        return None
-    return told["mad_ns"] / told["median_ns"]
-
-
-def quantile(values: Sequence[float], q: float) -> float:
-    """By linear interpolation between the order statistics at q * (n - 1), as the program's own."""
-    ordered = sorted(values)
-    place = q * (len(ordered) - 1)
-    below = math.floor(place)
-    above = min(below + 1, len(ordered) - 1)
-    return ordered[below] + (ordered[above] - ordered[below]) * (place - below)
-
-
-def median(values: Iterable[float]) -> float:
-    return statistics.median(values)
+def protocol_words(experiments: Sequence[Experiment]) -> dict[str, str]:
+    """Who chose the parameters, by the protocols that the experiments have, in the records' words."""
+    told: dict[str, str] = {}
+    for experiment in experiments:
+        told |= experiment.report["summary"].get("protocols", {})
+    used = {series.protocol for experiment in experiments for series in experiment.series()}
+    return {name: told.get(name, name) for name in sorted(used)}
 
 
 def round_to(value: float, digits: int) -> float | int:

@@ -2,15 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+import json
+from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
-from records import Experiment
-from report_common import PROTOCOLS, STATUS_WORDS, Entrant, count_of, entrants_of, label, number, text
-from report_data import BRIEF_METRICS, METRICS, is_brief
+from records import Experiment, Series
+from report_common import STATUS_WORDS, count_of, label, number, protocol_words, text
+from report_data import BRIEF_METRICS, is_brief, title_of
 from report_summary import (
-    Noise,
     Ratio,
     Standing,
     Summary,
@@ -19,11 +19,10 @@ from report_summary import (
     fastest_sentence,
     headline_sentences,
     losses_sentences,
-    measure_noise,
     noise_sentence,
     span,
 )
-from report_tables import Section, sections, to_html
+from report_tables import documents, list_html, table_html, tables_beside
 
 EQUAL_WORK = (
     "Times are of equal work: from the points in memory to a valid multipolygon in memory, the same for every "
@@ -31,7 +30,7 @@ EQUAL_WORK = (
 )
 
 
-def summary_html(summaries: Sequence[Summary], noise: Noise | None) -> str:
+def summary_html(experiments: Sequence[Experiment], summaries: Sequence[Summary]) -> str:
     parts = [
         _headline(summaries),
         _finding("fastest", "Fastest", [(one.title, fastest_sentence(one)) for one in summaries]),
@@ -40,23 +39,22 @@ def summary_html(summaries: Sequence[Summary], noise: Noise | None) -> str:
         _failures(summaries),
         _standings(summaries),
     ]
-    notes = [EQUAL_WORK, noise_sentence(noise), _reading(summaries), _brackets(summaries)]
+    notes = [EQUAL_WORK, noise_sentence(experiments), _reading(summaries), _brackets(experiments)]
     return "\n".join(parts) + "<ul class='notes'>" + "".join(f"<li>{text(note)}</li>" for note in notes) + "</ul>"
 
 
 def _reading(summaries: Sequence[Summary]) -> str:
     said = (
         "A ratio of times is the median over the rounds of a case, in which both were measured right after one another; "
-        "of the cases the median is told. A case that only the method failed has the ratio ∞; a time is better "
-        "only where the 95 % intervals of the two medians do not touch."
+        "of the cases the median is told. A case that only the method failed has the ratio ∞; a time is better only where the "
+        "95 % interval of the ratio leaves out 1."
     )
     alone = [one.title for one in summaries if one.without_interval]
-    return said + (f" Without an interval, as each time was taken too few times: {', '.join(alone)}." if alone else "")
+    return said + (f" Without an interval, as each time was taken once: {', '.join(alone)}." if alone else "")
 
 
-def _brackets(summaries: Sequence[Summary]) -> str:
-    used = {standing.entrant.protocol for one in summaries for standing in one.standings}
-    told = "; ".join(f"{name}, {meaning}" for name, meaning in PROTOCOLS.items() if name in used)
+def _brackets(experiments: Sequence[Experiment]) -> str:
+    told = "; ".join(f"{name}, {words}" for name, words in protocol_words(experiments).items())
     return f"In brackets: who chose a method's parameters. {told[:1].upper()}{told[1:]}."
 
 
@@ -132,9 +130,9 @@ def _standing(summary: Summary, one: Standing) -> str:
         return f"<td class='number'>{f'{count} of {of}' if of and one.results else '–'}</td>"
 
     return (
-        f"<tr data-entrant='{text(one.entrant.key)}' data-experiment='{text(summary.name)}'"
+        f"<tr data-entrant='{text(one.series.key)}' data-experiment='{text(summary.name)}'"
         f"{' class=core' if is_core else ''}>"
-        f"<th scope='row'><span class='swatch' data-method='{text(one.entrant.method)}'></span>{text(one.label)}</th>"
+        f"<th scope='row'><span class='swatch' data-method='{text(one.series.method)}'></span>{text(one.label)}</th>"
         f"<td class='number'>{len(one.results)} of {one.planned}</td><td>{text(failures) or '–'}</td>"
         f"{share(one.fastest_in, summary.contested)}{ratio(one.time)}"
         f"{share(one.most_accurate_in, summary.compared_errors)}{ratio(one.error)}</tr>"
@@ -143,27 +141,18 @@ def _standing(summary: Summary, one: Standing) -> str:
 
 # Beside the paper.
 
+# Tables that stand in a section of the page with what is beside them.
+_DIFFERENCES = "differences"
+_PARAMETERS = "parameters"
+
 
 def paper_html(experiments: Sequence[Experiment], folder: Path) -> str:
     made = ""
-    claims = [
-        (experiment, claim) for experiment in experiments for claim in experiment.report["summary"].get("claims", [])
-    ]
+    claims = [(experiment, claim) for experiment in experiments for claim in experiment.report["summary"]["claims"]]
     if claims:
         made += _claims(claims)
-    for section in _tables(experiments, folder):
-        if section.title == "Beside the paper":
-            section.blocks = _until_notes(section.blocks)
-            made += to_html(section, "paper")
+    made += "".join(map(table_html, tables_beside(documents(experiments, folder), _DIFFERENCES)))
     return made or "<p>The records compare nothing with the paper.</p>"
-
-
-def _until_notes(blocks: list[tuple[str, list[str]]]) -> list[tuple[str, list[str]]]:
-    """Without the notes at the end, which stand in the page's own section."""
-    for index, block in enumerate(blocks):
-        if block == ("heading", ["Notes"]):
-            return blocks[:index]
-    return blocks
 
 
 def _claims(claims: Sequence[tuple[Experiment, dict[str, Any]]]) -> str:
@@ -188,10 +177,9 @@ def _claims(claims: Sequence[tuple[Experiment, dict[str, Any]]]) -> str:
 
 
 def _verdict(claim: dict[str, Any]) -> str | None:
-    """None: not measured. Older reports say only whether a claim holds."""
-    if "verdict" not in claim:
-        return {True: "confirmed", False: "refuted", None: None}[claim["holds"]]
-    return f"{claim['verdict']} than the paper’s" if claim["verdict"] in ("larger", "smaller") else claim["verdict"]
+    """None: not measured."""
+    verdict = claim["verdict"]
+    return f"{verdict} than the paper’s" if verdict in ("larger", "smaller") else verdict
 
 
 def _claim(experiment: Experiment, claim: dict[str, Any]) -> str:
@@ -201,73 +189,42 @@ def _claim(experiment: Experiment, claim: dict[str, Any]) -> str:
         f"<tr data-claim='{text(claim['id'])}'><th scope='row'>{text(claim['claim'])}"
         f"<small>{text(claim['where'])}: {text(claim['detail'])}</small></th><td>{text(experiment.title)}</td>"
         f"<td class='number'>{text(claim['paper'])}</td><td class='number'>{text(claim['ours'])}</td>"
-        f"<td class='number'>{text(claim.get('equal_work') or '–')}</td>"
+        f"<td class='number'>{text(claim['equal_work'] or '–')}</td>"
         f"<td><span class='verdict {kind}'>{word}</span></td></tr>"
     )
 
 
 def tables_html(experiments: Sequence[Experiment], folder: Path) -> str:
-    """Every table of tables.md, an experiment behind its own heading; empty without the file."""
-    made = ""
-    for index, section in enumerate(_tables(experiments, folder)):
-        if section.title == "Beside the paper":
-            continue
-        made += f"<details><summary>{text(section.title)}</summary>{to_html(section, f'tables-{index}')}</details>"
-    return made
+    """Every table that no other section has, an experiment behind its own heading; empty without any."""
+    return "".join(
+        f"<details><summary>{text(document['title'])}</summary>"
+        f"{''.join(map(table_html, document['tables']))}{_notes(document['notes'])}</details>"
+        for document in documents(experiments, folder)
+        if not {_DIFFERENCES, _PARAMETERS} & {table["id"] for table in document["tables"]}
+    )
 
 
-def _tables(experiments: Sequence[Experiment], folder: Path) -> list[Section]:
-    path = folder / "tables.md"
-    if path.is_file():
-        return sections(path.read_text(encoding="utf-8", errors="replace"))
-    return [
-        section
-        for experiment in experiments
-        if (experiment.folder / "tables.md").is_file()
-        for section in sections((experiment.folder / "tables.md").read_text(encoding="utf-8", errors="replace"))
-    ]
+def _notes(notes: Sequence[str]) -> str:
+    return f"<h3>Notes</h3>{list_html(notes)}" if notes else ""
 
 
 # Parameters.
 
 
-def parameters_html(experiments: Sequence[Experiment]) -> str:
-    used: dict[tuple[Entrant, str], dict[str, str]] = {}
-    for experiment in experiments:
-        for entry in experiment.plan.get("methods", []):
-            entrant = Entrant(entry.get("method", ""), entry.get("protocol", ""))
-            for name, value in entry.get("parameters", {}).items() or {"": ""}.items():
-                said = parameter_value(value, experiment.report.get("rules", {}))
-                before = used.setdefault((entrant, name), {}).get(experiment.name)
-                used[entrant, name][experiment.name] = f"{before}; {said}" if before else said
-    head = "".join(f"<th scope='col'>{text(one.title)}</th>" for one in experiments)
-    rows = ""
-    for (entrant, name), values in sorted(used.items()):
-        cells = "".join(f"<td>{text(values.get(one.name, ''))}</td>" for one in experiments)
-        rows += (
-            f"<tr><th scope='row'>{text(label(experiments, entrant))}</th>"
-            f"<td>{text(name) or '<i>none given</i>'}</td>{cells}</tr>"
-        )
-    protocols = sorted({entrant.protocol for one in experiments for entrant in entrants_of(one)})
-    said = "".join(f"<div><dt>{text(one)}</dt><dd>{text(PROTOCOLS.get(one, ''))}</dd></div>" for one in protocols)
-    return (
-        f"<h3>Who chose them</h3><dl>{said}</dl><div class='scroll' tabindex='0' role='region' "
-        "aria-label='Parameters'><table id='parameters'><thead><tr><th scope='col'>Method</th><th scope='col'>"
-        f"Parameter</th>{head}</tr></thead><tbody>{rows}</tbody></table></div>"
-        "<p class='muted'>A is the area of the ground truth, n the number of points, A_hull the area of a convex "
-        "hull, P the perimeter that the core chooses from the points. An empty cell: not in that experiment.</p>"
-        + _described(experiments) + _plans(experiments)
+def parameters_html(experiments: Sequence[Experiment], folder: Path) -> str:
+    """Who chose them, the program's table of them, what they mean and how the experiments were run."""
+    said = "".join(
+        f"<div><dt>{text(name)}</dt><dd>{text(words)}</dd></div>" for name, words in protocol_words(experiments).items()
     )
+    tables = "".join(map(table_html, tables_beside(documents(experiments, folder), _PARAMETERS)))
+    return f"<h3>Who chose them</h3><dl>{said}</dl>" + tables + _described(experiments) + _plans(experiments)
 
 
 def parameter_value(value: Any, rules: dict[str, str]) -> str:
-    if isinstance(value, dict) and "rule" in value:
-        return rules.get(value["rule"], value["rule"])
-    if isinstance(value, dict) and isinstance(value.get("cases"), dict):
-        return "; ".join(f"{case}: {one:g}" for case, one in value["cases"].items())
-    if value is None:
-        return "no limit"
-    return f"{value:g}" if isinstance(value, (int, float)) else str(value)
+    """As a plan has it, a rule with its formula."""
+    if isinstance(value, dict):
+        return rules.get(value.get("rule", ""), json.dumps(value, ensure_ascii=False))
+    return "no limit" if value is None else f"{value:g}"
 
 
 def methods_of(experiments: Sequence[Experiment]) -> dict[str, dict[str, Any]]:
@@ -275,7 +232,7 @@ def methods_of(experiments: Sequence[Experiment]) -> dict[str, dict[str, Any]]:
     found: dict[str, dict[str, Any]] = {}
     for experiment in experiments:
         for name, method in experiment.methods.items():
-            if name not in found or not found[name].get("installed"):
+            if name not in found or not found[name]["installed"]:
                 found[name] = method
     return found
 
@@ -283,14 +240,14 @@ def methods_of(experiments: Sequence[Experiment]) -> dict[str, dict[str, Any]]:
 def _described(experiments: Sequence[Experiment]) -> str:
     rows = ""
     for method in methods_of(experiments).values():
-        for one in method.get("parameters", []):
-            low, high = one.get("minimum"), one.get("maximum")
+        for one in method["parameters"]:
+            low, high = one["minimum"], one["maximum"]
             limits = f"{'' if low is None else number(low)} to {'no limit' if high is None else number(high)}"
-            default = "required" if "default" not in one else parameter_value(one["default"], {})
+            default = parameter_value(one["default"], {}) if "default" in one else "required"
             rows += (
                 f"<tr><th scope='row'>{text(method['title'])}</th><td>{text(one['name'])}</td>"
-                f"<td>{text(one.get('unit', ''))}</td><td>{text(limits)}</td><td>{text(default)}</td>"
-                f"<td class='prose'>{text(one.get('description', ''))}</td></tr>"
+                f"<td>{text(one['unit'])}</td><td>{text(limits)}</td><td>{text(default)}</td>"
+                f"<td class='prose'>{text(one['description'])}</td></tr>"
             )
     return _details("What the parameters mean", ("Method", "Parameter", "Unit", "Range", "Default", "Meaning"), rows)
 
@@ -301,24 +258,15 @@ def _plans(experiments: Sequence[Experiment]) -> str:
         plan = one.plan
         rows += (
             f"<tr><th scope='row'>{text(one.title)}</th><td>{text(plan.get('paper', '–'))}</td>"
-            f"<td class='number'>{text(one.report.get('repetitions', ''))}</td>"
+            f"<td class='number'>{text(one.report['repetitions'])}</td>"
             f"<td class='number'>{text(plan.get('warmup', ''))}</td><td class='number'>{text(plan.get('timeout_s', ''))}"
             f"</td><td class='number'>{text(plan.get('mem_limit_mib', ''))}</td>"
-            f"<td class='number'>{text(one.report.get('seed', ''))}</td>"
-            f"<td>{text(one.report.get('filter') or 'none')}</td></tr>"
+            f"<td class='number'>{text(one.report['seed'])}</td>"
+            f"<td>{text(one.report['filter'] or 'none')}</td></tr>"
         )
     return _details(
         "How the experiments were run",
-        (
-            "Experiment",
-            "In the paper",
-            "Repetitions",
-            "Warm-up",
-            "Time limit, s",
-            "Memory limit, MiB",
-            "Seed",
-            "Filter",
-        ),
+        ("Experiment", "In the paper", "Repetitions", "Warm-up", "Time limit, s", "Memory limit, MiB", "Seed", "Filter"),
         rows,
     )
 
@@ -355,24 +303,17 @@ def environment_html(experiments: Sequence[Experiment]) -> str:
 def _noise(experiments: Sequence[Experiment]) -> str:
     rows = ""
     for experiment in experiments:
-        noise = measure_noise([experiment])
-        cells = (
-            "<td class='number'>0</td><td class='number'>–</td><td class='number'>–</td><td>nothing can be said</td>"
-        )
-        if noise:
-            verdict = (
-                "<span class='verdict fails'>noisy</span>"
-                if noise.noisy
-                else "<span class='verdict holds'>steady</span>"
-            )
-            cells = (
-                f"<td class='number'>{noise.rows}</td><td class='number'>{100 * noise.median_spread:.1f} %</td>"
-                f"<td class='number'>{100 * noise.ninth_decile:.1f} %</td><td>{verdict}</td>"
-            )
-        rows += f"<tr><th scope='row'>{text(experiment.title)}</th>{cells}</tr>"
+        told = experiment.report["summary"].get("noise")
+        count, middle, most, verdict = 0, "–", "–", "nothing can be said"
+        if told:
+            count, middle, most = told["rows"], *(f"{100 * told[key]:.1f} %" for key in ("median_spread", "ninth_decile"))
+            kind, word = ("fails", "noisy") if told["noisy"] else ("holds", "steady")
+            verdict = f"<span class='verdict {kind}'>{word}</span>"
+        cells = "".join(f"<td class='number'>{cell}</td>" for cell in (count, middle, most))
+        rows += f"<tr><th scope='row'>{text(experiment.title)}</th>{cells}<td>{verdict}</td></tr>"
     return (
         "<h3>Noise</h3><p class='muted'>The spread of a run is the median absolute deviation of its times over their "
-        "median. Up to 3 % in the median run is steady.</p><div class='scroll' tabindex='0' role='region' "
+        "median.</p><div class='scroll' tabindex='0' role='region' "
         "aria-label='Noise'><table id='noise'><thead><tr><th scope='col'>Experiment</th><th scope='col' "
         "class='number'>Runs with 3 repetitions or more</th><th scope='col' class='number'>Spread of the median run</th>"
         "<th scope='col' class='number'>Of nine in ten, at most</th><th scope='col'>Verdict</th></tr></thead>"
@@ -381,60 +322,51 @@ def _noise(experiments: Sequence[Experiment]) -> str:
 
 
 def environment_facts(report: dict[str, Any]) -> dict[str, str]:
-    environment = report["environment"]
-    cpu, compiler, tool = environment.get("cpu", {}), environment.get("compiler", {}), report.get("tool", {})
-    memory, load = environment.get("memory_bytes"), environment.get("load_average")
-    known: Callable[[Any], str] = (
-        lambda value: "unknown" if value is None else {True: "yes", False: "no"}.get(value, str(value))
-    )
+    environment, tool = report["environment"], report["tool"]
+    cpu, compiler, load = environment["cpu"], environment["compiler"], environment["load_average"]
+
+    def known(value: Any) -> str:
+        return "unknown" if value is None else {True: "yes", False: "no"}.get(value, str(value))
+
     facts = {
-        "Processor": f"{cpu.get('model', 'unknown')}, {cpu.get('logical_cores', '?')} logical cores, "
-        f"{cpu.get('architecture', '')}",
-        "Virtual machine": known(cpu.get("virtualised")),
-        "Boost": known(cpu.get("boost")),
-        "Governors": ", ".join(cpu.get("governors") or []) or "unknown",
-        "Memory": "unknown" if memory is None else f"{number(memory / 2**30)} GiB",
-        "Load before the run": "unknown"
-        if not load
-        else ", ".join(number(one) for one in load) + " (1, 5, 15 minutes)",
-        "System": f"{environment.get('os') or 'unknown'}; {environment.get('kernel') or 'unknown kernel'}",
-        "Address randomisation": known(environment.get("aslr")),
+        "Processor": f"{cpu['model']}, {cpu['logical_cores']} logical cores, {cpu['architecture']}",
+        "Virtual machine": known(cpu["virtualised"]),
+        "Boost": known(cpu["boost"]),
+        "Governors": ", ".join(cpu["governors"] or []) or "unknown",
+        "Memory": f"{number(environment['memory_bytes'] / 2**30)} GiB",
+        "Load before the run": ", ".join(map(number, load)) + " (1, 5, 15 minutes)" if load else "unknown",
+        "System": f"{known(environment['os'])}; {environment['kernel'] or 'unknown kernel'}",
+        "Address randomisation": known(environment["aslr"]),
         "Huge pages": ", ".join(f"{name}: {known(value)}" for name, value in environment.get("huge_pages", {}).items())
         or "asked for by Polylidar alone",
         "Temperature": known(environment.get("temperature_celsius")),
-        "Compiler": f"{compiler.get('id', '')} {compiler.get('version', '')}, {compiler.get('build_type', '')}, "
-        f"{compiler.get('flags', '')}; {compiler.get('statement', '')}",
-        "Libraries": ", ".join(f"{name} {value}" for name, value in environment.get("libraries", {}).items()),
-        "Program": f"{tool.get('name', '')} {tool.get('version', '')}, commit {tool.get('commit') or 'unknown'}"
-        + (" with uncommitted changes" if tool.get("dirty") else ""),
-        "Begun": str(report.get("created", "")),
+        "Compiler": f"{compiler['id']} {compiler['version']}, {compiler['build_type']}, {compiler['flags']}; "
+        f"{compiler['statement']}",
+        "Libraries": ", ".join(f"{name} {value}" for name, value in environment["libraries"].items()),
+        "Program": f"{tool['name']} {tool['version']}, commit {known(tool['commit'])}"
+        + (" with uncommitted changes" if tool["dirty"] else ""),
+        "Begun": report["created"],
     }
     if report.get("resumed"):
         facts["Gone on with"] = ", ".join(report["resumed"])
     if report.get("merged"):
-        facts["Merged from"] = ", ".join(
-            f"shard {one.get('shard')} of {one.get('created')}" for one in report["merged"]
-        )
+        facts["Merged from"] = ", ".join(f"shard {one['shard']} of {one['created']}" for one in report["merged"])
     return facts
 
 
 def _versions(experiments: Sequence[Experiment]) -> str:
     rows = ""
     for method in methods_of(experiments).values():
-        able = ", ".join(name.replace("_", " ") for name, has in method.get("capabilities", {}).items() if has)
+        able = ", ".join(name.replace("_", " ") for name, has in method["capabilities"].items() if has)
+        missing = f"<small>{text(method['detail'])}; {text(method['remedy'])}</small>"
         version = (
-            text(method.get("version", ""))
-            if method.get("installed")
-            else (
-                f"<span class='verdict fails'>not installed</span><small>{text(method.get('detail', ''))}; "
-                f"{text(method.get('remedy', ''))}</small>"
-            )
+            text(method["version"]) if method["installed"] else f"<span class='verdict fails'>not installed</span>{missing}"
         )
         rows += (
             f"<tr><th scope='row'><span class='swatch' data-method='{text(method['name'])}'></span>"
-            f"{text(method['title'])}</th><td>{version}</td><td>{text(method.get('native_output', ''))}</td>"
-            f"<td>{text(able) or '–'}</td><td>{text(method.get('licence', ''))}</td>"
-            f"<td class='prose'>{text(method.get('citation', ''))}</td></tr>"
+            f"{text(method['title'])}</th><td>{version}</td><td>{text(method['native_output'])}</td>"
+            f"<td>{text(able) or '–'}</td><td>{text(method['licence'])}</td>"
+            f"<td class='prose'>{text(method['citation'])}</td></tr>"
         )
     return (
         "<h3>Methods and versions</h3><div class='scroll' tabindex='0' role='region' aria-label='Methods'>"
@@ -450,21 +382,23 @@ def _versions(experiments: Sequence[Experiment]) -> str:
 def notes_html(experiments: Sequence[Experiment]) -> str:
     said: dict[str, None] = {}
     for experiment in experiments:
-        for note in [*experiment.plan.get("notes", []), *experiment.report.get("notes", [])]:
+        for note in [*experiment.plan.get("notes", []), *experiment.report["notes"]]:
             said[str(note)] = None
         for entry in experiment.plan.get("methods", []):
             if entry.get("note"):
-                name = label(experiments, Entrant(entry.get("method", ""), entry.get("protocol", "")))
+                name = label(experiments, Series(entry.get("method", ""), entry.get("protocol", "")))
                 said[f"{name}: {entry['note']}"] = None
     for experiment in filter(is_brief, experiments):
-        titles = ", ".join(METRICS[name][0] for name in BRIEF_METRICS)
-        said[f"{experiment.title}: of its {len(experiment.rows)} runs this page has these metrics: {titles}. All are in its records."] = None
+        titles = ", ".join(title_of(name) for name in BRIEF_METRICS)
+        said[
+            f"{experiment.title}: of its {len(experiment.rows)} runs this page has these metrics: {titles}. All are in its records."
+        ] = None
     items = "".join(f"<li>{text(note)}</li>" for note in said)
     notes = f"<ul class='notes'>{items}</ul>" if items else "<p>The records have no notes.</p>"
     datasets = {name: dataset for experiment in experiments for name, dataset in experiment.datasets.items()}
     rows = "".join(
-        f"<tr><th scope='row'>{text(one['title'])}</th><td class='prose'>{text(one.get('source', ''))}</td>"
-        f"<td class='prose'>{text(one.get('licence', ''))}</td></tr>"
+        f"<tr><th scope='row'>{text(one['title'])}</th><td class='prose'>{text(one['source'])}</td>"
+        f"<td class='prose'>{text(one['licence'])}</td></tr>"
         for one in datasets.values()
     )
     return notes + _details("Sources and licences of the shapes", ("Shape", "Source", "Licence"), rows)

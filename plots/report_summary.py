@@ -2,9 +2,7 @@
 
 Every comparison is between two entrants from the times of equal work; an entrant is a method under one protocol. A case
 that only one of them solved is infinitely bad for the other: a method that fails where it is slowest must not look
-faster than it is. Who is the fastest with the same polygons as the core is not decided here but read from the report's
-summary. A time is better only when the 95 % intervals of the two medians do
-not touch; without intervals (one repetition) the medians decide, and the text says so.
+faster than it is. What is faster is not decided here but read from the report's summary.
 """
 
 from __future__ import annotations
@@ -13,34 +11,17 @@ import math
 from collections import Counter, defaultdict
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
+from statistics import median
 from typing import Any
 
-from records import Experiment, Row
-from report_common import (
-    CORE,
-    STATUS_WORDS,
-    Entrant,
-    case_of,
-    count_of,
-    entrant_of,
-    entrants_of,
-    label,
-    median,
-    median_interval,
-    number,
-    quantile,
-    sentence_list,
-    spread,
-)
+from records import Experiment, Row, Series
+from report_common import CORE, STATUS_WORDS, count_of, label, number, sentence_list
 
 # Two errors closer than this are the same shape, written in another order: their areas differ by rounding only.
 SAME_ERROR = 1e-9
 
 # An error up to so many times the core's is comparable with it.
 COMPARABLE = 2
-
-# Above this median spread differences of some per cent are nothing to go by (benchmarks/report/noise.hpp).
-NOISY = 0.03
 
 
 @dataclass(frozen=True)
@@ -60,7 +41,7 @@ class Ratio:
 class Standing:
     """One entrant in one experiment."""
 
-    entrant: Entrant
+    series: Series
     label: str
     planned: int = 0
     failures: Counter[str] = field(default_factory=Counter)  # by status, ok left out
@@ -82,44 +63,31 @@ class Summary:
     standings: list[Standing]
     core: Standing | None  # the core's standing, under the paper's protocol if there are several
     contested: int  # cases with results of two entrants or more
-    undecided: int  # contested cases in which the intervals of the two fastest touch
-    without_interval: bool  # the times have one repetition, or too few for an interval
+    undecided: int  # contested cases in which nobody is the fastest beyond doubt
+    without_interval: bool  # of no time there is an interval: one repetition
     compared_errors: int
     headline: dict[str, Any] | None  # as results/report.schema.json; None: no rival, or an older report
     titles: dict[str, str]  # of the methods in it
 
 
-@dataclass(frozen=True)
-class Noise:
-    rows: int
-    median_spread: float
-    ninth_decile: float
-
-    @property
-    def noisy(self) -> bool:
-        return self.median_spread > NOISY
-
-
 def summarise(experiment: Experiment) -> Summary:
-    standings = {entrant: Standing(entrant, label([experiment], entrant)) for entrant in entrants_of(experiment)}
+    standings = {series: Standing(series, label([experiment], series)) for series in experiment.series()}
     for row in experiment.rows:
-        _count(standings[entrant_of(row)], row)
+        _count(standings[row.series], row)
     everyone = list(standings.values())
     core = min(
-        (one for one in everyone if one.entrant.method == CORE),
-        key=lambda one: (one.entrant.protocol != "paper", not one.results),
-        default=None,
+        (one for one in everyone if one.series.method == CORE), key=lambda one: one.series.protocol != "paper", default=None
     )
     by_case: dict[str, list[tuple[Standing, Row]]] = defaultdict(list)
     for one in everyone:
         for case, row in one.results.items():
             by_case[case].append((one, row))
     contests = [contest for contest in by_case.values() if len(contest) > 1]
-    undecided = sum(_award_time(contest) for contest in contests)
+    undecided = sum(not any(row.fastest for _, row in contest) for contest in contests)
     compared = sum(_award_error(contest) for contest in contests)
     for one in everyone:
         if core is not None and one is not core:
-            one.time = _ratio(one, core, _time_ratio, _time_order)
+            one.time = _ratio(one, core, _time_ratio, lambda row, _: row.order)
             one.error = _ratio(one, core, _error_ratio, _error_order)
     timed = [row for one in everyone for row in one.results.values()]
     return Summary(
@@ -129,39 +97,23 @@ def summarise(experiment: Experiment) -> Summary:
         core,
         len(contests),
         undecided,
-        bool(timed) and all(median_interval(row) is None for row in timed),
+        bool(timed) and all(row.interval() is None for row in timed),
         compared,
         experiment.report["summary"].get("headline"),
         {name: method["title"] for name, method in experiment.methods.items()},
     )
 
 
-def measure_noise(experiments: Sequence[Experiment]) -> Noise | None:
-    """Of all rows with 3 repetitions or more; None: there are none."""
-    spreads = [
-        value for experiment in experiments for row in experiment.rows if row.ok and (value := spread(row)) is not None
-    ]
-    return Noise(len(spreads), median(spreads), quantile(spreads, 0.9)) if spreads else None
-
-
 def _count(standing: Standing, row: Row) -> None:
     standing.planned += 1
     if row.ok and row.median_ns is not None:
-        standing.results[case_of(row)] = row
+        standing.results[row.case] = row
+        standing.fastest_in += row.fastest
     else:
         standing.failures[row.status] += 1
         if row.status != "not_installed":
-            standing.failed.add(case_of(row))
+            standing.failed.add(row.case)
         standing.reasons.setdefault(row.status, Counter())[row.detail] += 1
-
-
-def _award_time(contest: list[tuple[Standing, Row]]) -> int:
-    """Gives the case to its fastest entrant; 1 when nobody is the fastest beyond doubt."""
-    first, second = sorted(contest, key=lambda pair: pair[1].median_ns)[:2]
-    if _time_order(first[1], second[1]) == 0:
-        return 1
-    first[0].fastest_in += 1
-    return 0
 
 
 def _award_error(contest: list[tuple[Standing, Row]]) -> int:
@@ -173,14 +125,6 @@ def _award_error(contest: list[tuple[Standing, Row]]) -> int:
     for standing, error in scored:
         standing.most_accurate_in += error <= least * (1 + SAME_ERROR)
     return 1
-
-
-def _time_order(one: Row, other: Row) -> int:
-    """-1: `one` is faster, 1: slower, 0: their intervals touch."""
-    first, second = median_interval(one), median_interval(other)
-    low, high = first or (one.median_ns, one.median_ns)
-    other_low, other_high = second or (other.median_ns, other.median_ns)
-    return (low > other_high) - (high < other_low)
 
 
 def _error_order(one: Row, other: Row) -> int:
@@ -208,10 +152,7 @@ def _error_ratio(one: Row, other: Row) -> float | None:
 
 
 def _ratio(
-    one: Standing,
-    core: Standing,
-    ratio_of: Callable[[Row, Row], float | None],
-    order: Callable[[Row, Row], int],
+    one: Standing, core: Standing, ratio_of: Callable[[Row, Row], float | None], order: Callable[[Row, Row], int]
 ) -> Ratio | None:
     orders: Counter[int] = Counter()
     ratios = []
@@ -263,13 +204,10 @@ def fastest_sentence(summary: Summary) -> str:
         return alone
     winner = max(summary.standings, key=lambda one: one.fastest_in)
     if winner.fastest_in == 0:
-        return (
-            f"nobody is the fastest beyond doubt: in {share(summary.contested, summary.contested)} the intervals of the "
-            "two fastest touch."
-        )
+        return f"nobody is the fastest beyond doubt in {share(summary.contested, summary.contested)}."
     said = f"{winner.label} is the fastest in {share(winner.fastest_in, summary.contested)}"
     if summary.undecided:
-        said += f" ({summary.undecided} undecided: intervals touch)"
+        said += f" ({summary.undecided} undecided)"
     return said + _margin(summary, winner) + "."
 
 
@@ -290,9 +228,7 @@ def _margin(summary: Summary, winner: Standing) -> str:
 def _fastest_of_the_accurate(summary: Summary) -> str:
     """A hull that is far off is made in no time, so the fastest of those near the core's error is told too."""
     near = [
-        (one.time.median, one.label)
-        for one in summary.standings
-        if one.time and one.error and one.error.median <= COMPARABLE
+        (one.time.median, one.label) for one in summary.standings if one.time and one.error and one.error.median <= COMPARABLE
     ]
     ratio, name = min([*near, (1.0, summary.core.label)])
     if name == summary.core.label:
@@ -368,15 +304,15 @@ def _losses(
 def failure_sentences(summaries: Sequence[Summary]) -> list[tuple[str, str]]:
     """(entrant, sentence) for every entrant and status that is not ok, over all experiments, with the most frequent
     reason."""
-    found: dict[tuple[Entrant, str], list[tuple[Summary, Standing]]] = defaultdict(list)
+    found: dict[tuple[Series, str], list[tuple[Summary, Standing]]] = defaultdict(list)
     for summary in summaries:
         for one in summary.standings:
             for status in one.failures:
-                found[one.entrant, status].append((summary, one))
+                found[one.series, status].append((summary, one))
     said = []
-    for (entrant, status), entries in found.items():
+    for (series, status), entries in found.items():
         failed = sum(one.failures[status] for _, one in entries)
-        planned = sum(one.planned for summary in summaries for one in summary.standings if one.entrant == entrant)
+        planned = sum(one.planned for summary in summaries for one in summary.standings if one.series == series)
         where = sentence_list([f"{summary.title} {one.failures[status]}" for summary, one in entries])
         reasons = sum((one.reasons[status] for _, one in entries), Counter())
         said.append(
@@ -400,19 +336,19 @@ def _reason(reasons: Counter[str]) -> str:
     return f"{often}: {reason.rstrip('.')}."
 
 
-def noise_sentence(noise: Noise | None) -> str:
-    if noise is None:
-        return "No run has 3 repetitions or more, so nothing can be said about noise."
-    verdict = (
-        "that is noisy: differences of some per cent are nothing to go by"
-        if noise.noisy
-        else "that is steady (up to 3 %)"
-    )
-    return (
-        f"The times' spread (median absolute deviation over median) is {100 * noise.median_spread:.1f} % in the "
-        f"median run and at most {100 * noise.ninth_decile:.1f} % in nine of ten, of {noise.rows} runs with 3 "
-        f"repetitions or more; {verdict}."
-    )
+def noise_sentence(experiments: Sequence[Experiment]) -> str:
+    """The records' own verdict on each experiment."""
+    noise = {one.title: one.report["summary"].get("noise") for one in experiments}
+    said = [
+        (titles, words)
+        for verdict, words in (
+            (True, "are noisy: differences of some per cent are nothing to go by"),
+            (False, "are steady"),
+            (None, "have fewer than 3 repetitions, so nothing can be said about noise"),
+        )
+        if (titles := [title for title, told in noise.items() if (told["noisy"] if told else None) is verdict])
+    ]
+    return " ".join(f"The times of {sentence_list(titles)} {words}." for titles, words in said)
 
 
 def _alone(summary: Summary) -> str:

@@ -10,10 +10,8 @@ from typing import Any
 
 from matplotlib.figure import Figure
 
-from records import Experiment, Picture, RecordError, Row
-from style import Series, in_order, label
-
-PAPER_FILE = Path(__file__).parent.parent / "results" / "paper.json"
+from records import SCHEMAS, Experiment, Picture, Row, Series
+from style import in_order, label
 
 
 class Skipped(Exception):
@@ -52,11 +50,8 @@ class Run:
         return self._pictures[key]
 
 
-def read_paper(path: Path = PAPER_FILE) -> dict[str, Any]:
-    try:
-        return json.loads(path.read_text(encoding="utf-8"))
-    except (OSError, json.JSONDecodeError) as error:
-        raise RecordError(f"{path} cannot be read ({error}).") from error
+def read_paper() -> dict[str, Any]:
+    return json.loads((SCHEMAS / "paper.json").read_text(encoding="utf-8"))
 
 
 def missing_series(rows: Iterable[Row]) -> list[Series]:

@@ -23,7 +23,7 @@ from matplotlib.axes import Axes  # noqa: E402
 from matplotlib.figure import Figure  # noqa: E402
 from matplotlib.lines import Line2D  # noqa: E402
 
-Series = tuple[str, str]  # method and protocol
+from records import Series  # noqa: E402
 
 MILLIMETRE = 1 / 25.4  # in inches, matplotlib's unit
 ONE_COLUMN = 85  # widths of a printed column and of a page, in millimetres
@@ -31,10 +31,25 @@ FULL_WIDTH = 180
 
 _LOOKS = json.loads((Path(__file__).parent / "methods.json").read_text(encoding="utf-8"))
 _MARKERS = {
-    "circle": "o", "square": "s", "triangle": "^", "diamond": "D", "triangle-down": "v", "pentagon": "p",
-    "hexagon": "h", "star": "*", "plus": "P", "cross": "X", "thin-diamond": "d", "triangle-left": "<",
-    "triangle-right": ">", "octagon": "8", "bar": "|", "star-four": (4, 1, 0), "star-three": (3, 1, 0),
-    "star-six": (6, 1, 0), "hexagon-flat": "H",
+    "circle": "o",
+    "square": "s",
+    "triangle": "^",
+    "diamond": "D",
+    "triangle-down": "v",
+    "pentagon": "p",
+    "hexagon": "h",
+    "star": "*",
+    "plus": "P",
+    "cross": "X",
+    "thin-diamond": "d",
+    "triangle-left": "<",
+    "triangle-right": ">",
+    "octagon": "8",
+    "bar": "|",
+    "star-four": (4, 1, 0),
+    "star-three": (3, 1, 0),
+    "star-six": (6, 1, 0),
+    "hexagon-flat": "H",
 }
 # In points, where the usual 3.6 looks too small or, on top of CGAL's marker, too large.
 _SIZES = {"o": 3.2, "s": 4.2, "*": 5.2, "P": 4.2, "X": 4.2, "d": 4.4, "|": 5.0}
@@ -91,8 +106,13 @@ def method_style(method: str) -> MethodStyle:
     spare = _LOOKS["others"][zlib.crc32(method.encode()) % len(_LOOKS["others"])]
     look = known or {"title": method, "order": 1000, "paper": False, **spare}
     return MethodStyle(
-        look["title"], look["order"], look["paper"], look["color"]["light"], _MARKERS[look["marker"]],
-        tuple(look["line"]), look.get("width", 1.5 if look["paper"] else 0.8),
+        look["title"],
+        look["order"],
+        look["paper"],
+        look["color"]["light"],
+        _MARKERS[look["marker"]],
+        tuple(look["line"]),
+        look.get("width", 1.5 if look["paper"] else 0.8),
     )
 
 
@@ -158,8 +178,7 @@ def series_legend(axes: Axes, series: Iterable[Series], missing: Iterable[Series
     every = in_order([*series, *absent])
     handles = [legend_entry(one, every, one in absent) for one in every]
     axes.axis("off")
-    legend = axes.legend(handles=handles, handlelength=3, ncol=columns, loc="center", borderaxespad=0,
-                         columnspacing=1.4)
+    legend = axes.legend(handles=handles, handlelength=3, ncol=columns, loc="center", borderaxespad=0, columnspacing=1.4)
     for one, text in zip(every, legend.get_texts()):
         if method_style(one[0]).paper:
             text.set_fontweight("bold")

@@ -2,18 +2,18 @@
 # is installed, and in its browser.
 set(needs_of_records "${SYSTEM_PYTHON}:matplotlib")
 set(needs_of_figures "${SYSTEM_PYTHON}:matplotlib")
-set(needs_of_html_report "${SYSTEM_PYTHON}" "${PROJECT_SOURCE_DIR}/plots/node_modules")
-set(needs_of_pictures "${SYSTEM_PYTHON}")
-set(needs_of_comparison "${SYSTEM_PYTHON}" "${PROJECT_SOURCE_DIR}/plots/node_modules")
+set(needs_of_html_report esbuild)
+set(needs_of_pictures)
+set(needs_of_comparison esbuild "${PROJECT_SOURCE_DIR}/plots/node_modules")
 foreach(part IN ITEMS records figures html_report pictures comparison)
-  hullbench_tool_test(NAME plots.${part} NEEDS ${needs_of_${part}}
+  hullbench_tool_test(NAME plots.${part} NEEDS "${SYSTEM_PYTHON}:jsonschema" ${needs_of_${part}}
     COMMAND "${SYSTEM_PYTHON}" -B -m unittest test_${part}_py)
   set_tests_properties(plots.${part} PROPERTIES LABELS plots TIMEOUT 900
     WORKING_DIRECTORY "${CMAKE_CURRENT_LIST_DIR}" ENVIRONMENT "HULLBENCH=$<TARGET_FILE:hullbench>")
 endforeach()
 foreach(page IN ITEMS report comparison)
   hullbench_tool_test(NAME plots.${page}_in_browser
-    NEEDS "${SYSTEM_PYTHON}" node "chromium|chromium-browser|google-chrome"
+    NEEDS "${SYSTEM_PYTHON}:jsonschema" esbuild node "chromium|chromium-browser|google-chrome"
       "${PROJECT_SOURCE_DIR}/plots/node_modules" "${CMAKE_CURRENT_LIST_DIR}/report/node_modules"
     COMMAND "${CMAKE_CURRENT_LIST_DIR}/report/run.sh" ${page}
             "$<TARGET_FILE:hullbench>" "$<TARGET_FILE:write_invented_report>" "${CMAKE_BINARY_DIR}/tests/${page}_in_browser")

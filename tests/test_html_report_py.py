@@ -9,7 +9,6 @@ import io
 import json
 import os
 import re
-import statistics
 import subprocess
 import sys
 import tempfile
@@ -17,158 +16,49 @@ import unittest
 import unittest.mock
 from pathlib import Path
 
-sys.path.insert(0, str(Path(__file__).resolve().parent.parent / "plots"))
+sys.path[:0] = [str(Path(__file__).parent.parent / "plots"), str(Path(__file__).parent)]
 
 import make_report
 import page
+import plot_samples
 import report_data
 from records import load
-from report_common import median_interval, number
-from report_data import METRICS, MetricTable, charts, columns, pack
-from report_html import environment_facts, notes_html
+from report_common import number
+from report_data import MetricTable, charts, columns, pack, title_of
+from report_html import environment_facts, notes_html, parameters_html
 from report_summary import (
     accurate_sentence,
     failure_sentences,
     fastest_sentence,
     headline_sentences,
     losses_sentences,
-    measure_noise,
+    noise_sentence,
     summarise,
 )
-from report_tables import sections, to_html
 
 EVIL = "</script><script>window.broken=1</script><img src=x onerror='window.broken=1'> {{library}} <!-- & \"quoted\""
 
 
-def run(
-    method="polylidar",
-    dataset="ca",
-    n=2000,
-    holes=False,
-    protocol="paper",
-    status="ok",
-    times=(100, 101, 102),
-    detail="",
-    **metrics,
-):
-    """One row as results/run.schema.json has it; times in microseconds."""
-    name = f"{method}/{dataset}/n:{n}/holes:{int(holes)}/protocol:{protocol}"
-    return {
-        "schema_version": 1,
-        "id": hashlib.sha256(name.encode()).hexdigest(),
-        "name": name,
-        "method": method,
-        "method_version": "1",
-        "dataset": dataset,
-        "dataset_sha256": "0" * 64,
-        "n": n,
-        "holes": holes,
-        "seed": 1,
-        "protocol": protocol,
-        "parameters": {"alpha": 2.5, "max_edge_length": None},
-        "status": status,
-        "detail": detail,
-        "time_ns": [1000 * time for time in times] if status == "ok" else [],
-        "phases_ns": [{"run": 1, "extract": 1} for _ in times] if status == "ok" else [],
-        "metrics": {"valid": True, "l2": 0.1, "l2_paper": 0.11, "iou": 0.9, **metrics} if status == "ok" else {},
-        "output_sha256": "0" * 64 if status == "ok" else "",
-    }
-
-
-def statistics_of(row, low=None, high=None):
-    times = row["time_ns"]
-    if not times:
-        return None
-    middle = statistics.median(times)
-    return {
-        "repetitions": len(times),
-        "median_ns": middle,
-        "median_low_ns": low or min(times),
-        "median_high_ns": high or max(times),
-        "mad_ns": statistics.median(abs(time - middle) for time in times),
-        "min_ns": min(times),
-        "max_ns": max(times),
-        "mean_ns": statistics.mean(times),
-        "std_ns": None,
-    }
+def run(method="polylidar", dataset="ca", n=2000, holes=False, protocol="paper", status="ok", times=(100, 101, 102), **more):
+    """A row; times in microseconds."""
+    scores = {"l2": 0.1, "l2_paper": 0.11, **more}
+    return plot_samples.run(method, protocol, dataset, n, holes, status, times=[1000 * time for time in times], **scores)
 
 
 def report(rows, name="states", **more):
-    methods = [
-        {
-            "name": method,
-            "title": method.title(),
-            "version": "1",
-            "licence": "MIT",
-            "citation": "",
-            "native_output": "",
-            "capabilities": {},
-            "parameters": [],
-            "installed": True,
-            "detail": "",
-            "remedy": "",
-        }
-        for method in dict.fromkeys(row["method"] for row in rows)
-    ]
-    datasets = [
-        {
-            "name": "ca",
-            "title": "California",
-            "source": "s",
-            "licence": "l",
-            "sha256": None,
-            "area": 1,
-            "holes_area": 1,
-        },
-        {
-            "name": "star",
-            "title": "Star",
-            "source": "s",
-            "licence": "l",
-            "sha256": None,
-            "area": None,
-            "holes_area": None,
-        },
-    ]
-    return {
-        "schema_version": 1,
-        "created": "2026-01-02T03:04:05Z",
-        "tool": {"name": "hullbench", "version": "0.1.0", "commit": None, "dirty": None, "binary_sha256": "0" * 64},
-        "environment": {
-            "machine_id": "0" * 8,
-            "cpu": {"model": "Invented"},
-            "memory_bytes": 1,
-            "load_average": None,
-            "aslr": None,
-            "kernel": None,
-            "os": None,
-            "compiler": {},
-            "libraries": {},
-        },
-        "plan": {"name": name, "title": name.title(), "cases": [], "methods": []},
-        "seed": 1,
-        "filter": None,
-        "repetitions": 3,
-        "datasets": datasets,
-        "methods": methods,
-        "runs": rows,
-        "summary": {
-            "totals": {},
-            "rows": [
-                {
-                    "id": row["id"],
-                    "name": row["name"],
-                    "status": row["status"],
-                    "time": statistics_of(row),
-                    "paper_time": statistics_of(row),
-                }
-                for row in rows
-            ],
-            "claims": [],
-        },
-        "notes": [],
-        **more,
+    return plot_samples.report(name, {"ca": 0, "star": 100}, rows, **more)
+
+
+def document(title, identity, notes=()):
+    """One of tables.json, with a table."""
+    table = {
+        "id": identity,
+        "caption": f"Caption of {identity}",
+        "columns": [{"title": "Method", "kind": "words"}, {"title": "t, ms", "kind": "number", "unit": "ms"}],
+        "rows": [[{"text": "CGAL", "notes": [1, 2]}, {"text": "1.36 ±0.01", "value": 1.36, "spread": 0.01}]],
+        "remarks": ["A remark."],
     }
+    return {"title": title, "tables": [table], "notes": list(notes)}
 
 
 class Folder(unittest.TestCase):
@@ -188,13 +78,16 @@ class Folder(unittest.TestCase):
         (self.folder / "report.json").write_text(json.dumps(report(list(rows), **more)), encoding="utf-8")
         return load(self.folder)
 
+    def write_tables(self, *documents):
+        (self.folder / "tables").mkdir()
+        tables = {"kind": "tables", "schema_version": 1, "documents": documents}
+        (self.folder / "tables" / "tables.json").write_text(json.dumps(tables), encoding="utf-8")
+
     def summary(self, *rows):
         return summarise(self.load(*rows)[0])
 
     def standing(self, summary, method, protocol="paper"):
-        return next(
-            one for one in summary.standings if (one.entrant.method, one.entrant.protocol) == (method, protocol)
-        )
+        return next(one for one in summary.standings if one.series == (method, protocol))
 
     def make(self, *arguments):
         """(exit code, standard output, standard error) of the program."""
@@ -250,10 +143,6 @@ class Packing(Folder):
         odd["name"] = "polylidar/ca/n:2000/holes:0/protocol:paper/again"
         made = columns(self.load(odd))["columns"]
         self.assertEqual(made["name"]["words"], [odd["name"]])
-
-    def test_numbers_that_are_not_finite_stay_out(self):
-        made = columns(self.load(run(l2=float("nan")), run(n=4000)))["columns"]
-        self.assertEqual(made["metric l2"]["values"], [None, 0.1])
 
 
 class VeryLongExperiments(Folder):
@@ -322,7 +211,6 @@ class Charts(Folder):
         self.assertEqual(high["metrics"]["l2"][0], 0.05)
         self.assertNotIn("run", low)
 
-
     def test_a_failure_is_infinitely_bad_in_a_class_of_convexity(self):
         def chart_with(failures):
             rows = [
@@ -330,14 +218,21 @@ class Charts(Folder):
                 for k in range(1, 101)
             ]
             failed = [
-                run(method="cgal", dataset=f"star-{k}", status="timeout" if k <= failures else "ok", times=(k,),
-                    l2=k / 1000, hole_f1=0.9, ground_truth_convexity=0.7)
+                run(
+                    method="cgal",
+                    dataset=f"star-{k}",
+                    status="timeout" if k <= failures else "ok",
+                    times=(k,),
+                    l2=k / 1000,
+                    hole_f1=0.9,
+                    ground_truth_convexity=0.7,
+                )
                 for k in range(1, 101)
             ]
             [experiment] = self.load(*rows, *failed)
             experiment.report["metrics"] = [
-                {"name": "l2", "better": "lower", "group": "area"},
-                {"name": "hole_f1", "better": "higher", "group": "topology"},
+                {"name": "l2", "better": "lower", "group": "area", "unit": "ratio"},
+                {"name": "hole_f1", "better": "higher", "group": "topology", "unit": "ratio"},
             ]
             (chart,) = charts([experiment])
             return chart["series"]["cgal/paper"][0]
@@ -370,18 +265,22 @@ class TheMetricTable(Folder):
         for one in metrics:
             entry = table.entry(one["name"])
             self.assertEqual(entry["better"], None if one["better"] == "none" else one["better"], one["name"])
+            self.assertEqual(entry["definition"], one["definition"])
             if one["better"] == "none":
                 self.assertEqual(entry["charted"], one["group"] == "size", one["name"])
-        for name in ("polygons_error", "holes_error", "area_bias"):
-            self.assertEqual(table.entry(name)["better"], "zero")
-        self.assertEqual(table.entry("perimeter_ratio")["better"], "one")
-        for name in ("spacing", "hausdorff_to_truth_x", "hausdorff_to_result_y", "l2_convex_hull"):
+        for name, percent in (("l2", True), ("area_bias", True), ("iou", False), ("perimeter_ratio", False)):
+            self.assertEqual(table.entry(name)["unit"], "%" if percent else "", name)
+        for name in ("spacing", "hausdorff_to_truth_x", "symmetric_difference_area", "l2_convex_hull"):
             self.assertFalse(table.entry(name)["charted"], name)
-        told = set(METRICS) - {one["name"] for one in metrics}
-        self.assertEqual(told, set(), "a metric with a title that the program does not have")
+
+    def test_a_title_is_the_name_in_words(self):
+        titles = {"l2": "L2", "iou": "IoU", "boundary_iou": "Boundary IoU", "hole_f1": "Hole F1", "f_score_1h": "F score 1h"}
+        self.assertEqual({name: title_of(name) for name in titles}, titles)
 
     def test_a_place_is_in_no_column(self):
-        metrics = [{"name": "far_x", "group": "boundary", "better": "none"}, {"name": "far", "group": "boundary", "better": "lower"}]
+        metrics = [
+            {"name": name, "group": "boundary", "better": better} for name, better in (("far_x", "none"), ("far", "lower"))
+        ]
         table, experiment = self.table(metrics, run(far_x=3.0, far=2.0))
         self.assertIn("far", table.names(experiment.rows))
         self.assertNotIn("far_x", table.names(experiment.rows))
@@ -435,19 +334,36 @@ class TheSummary(Folder):
         self.assertEqual(self.standing(self.summary(core, cgal), "cgal").time.median, 3)
 
     def test_the_headline_is_read_from_the_report(self):
-        rival = {"method": "cgal", "protocol": "paper", "same_polygons": True, "cases": 4, "failures": 1, "median": 3.25,
-                 "low": 3.0, "high": None, "least": 3.0, "most": None, "does_more": "It also sings."}
+        rival = {
+            "method": "cgal",
+            "protocol": "paper",
+            "same_polygons": True,
+            "cases": 4,
+            "failures": 1,
+            "median": 3.25,
+            "low": 3.0,
+            "high": None,
+            "least": 3.0,
+            "most": None,
+            "does_more": "It also sings.",
+        }
         [experiment] = self.load(run(), run("cgal"))
         self.assertEqual(headline_sentences(summarise(experiment)), [])
         experiment.report["summary"]["headline"] = {
-            "reference": {"method": "polylidar", "protocol": "paper"}, "rivals": [rival]}
-        self.assertEqual(headline_sentences(summarise(experiment)), [
-            "Cgal (paper), the same polygons: 3.25 times the time of Polylidar (paper) (95 %: 3.00 to ∞), 4 cases, of which "
-            "it failed 1. It also sings."])
+            "reference": {"method": "polylidar", "protocol": "paper"},
+            "rivals": [rival],
+        }
+        self.assertEqual(
+            headline_sentences(summarise(experiment)),
+            [
+                "Cgal (paper), the same polygons: 3.25 times the time of Polylidar (paper) (95 %: 3.00 to ∞), 4 cases, of which "
+                "it failed 1. It also sings."
+            ],
+        )
         rival["same_polygons"] = False
         self.assertIn("no other method gives the same polygons", headline_sentences(summarise(experiment))[0])
 
-    def test_times_whose_intervals_touch_are_undecided(self):
+    def test_what_the_program_does_not_decide_is_undecided(self):
         summary = self.summary(
             run(times=(100, 110, 120)),
             run("cgal", times=(119, 130, 140)),
@@ -462,17 +378,12 @@ class TheSummary(Folder):
         rows = [
             row
             for n in (1, 2, 3)
-            for row in (
-                run(n=n),
-                run("quick", n=n, times=(10, 11, 12), l2=0.8),
-                run("exact", n=n, times=(900,) * 3, l2=0.05),
-            )
+            for row in (run(n=n), run("quick", n=n, times=(10, 11, 12), l2=0.8), run("exact", n=n, times=(900,) * 3, l2=0.05))
         ]
         summary = self.summary(*rows)
         said = " ".join(losses_sentences(summary))
         self.assertIn(
-            "Faster than Polylidar (paper): Quick (paper) in all 3 cases (0.109 times its time at 8.00 times its error)",
-            said,
+            "Faster than Polylidar (paper): Quick (paper) in all 3 cases (0.109 times its time at 8.00 times its error)", said
         )
         self.assertIn("More accurate than Polylidar (paper): Exact (paper) in all 3 cases (0.500 times its error", said)
         self.assertIn("Quick (paper) is the fastest", fastest_sentence(summary))
@@ -512,20 +423,19 @@ class TheSummary(Folder):
         self.assertIn("nothing to compare", fastest_sentence(self.summary(run())))
         self.assertIn("nothing has a result", fastest_sentence(self.summary(run(status="error", detail="no"))))
 
-    def test_noise_is_that_of_rows_with_three_repetitions(self):
-        noise = measure_noise(
-            self.load(run(times=(90, 100, 110)), run(n=2, times=(100, 100, 100)), run(n=3, times=(1, 100)))
-        )
-        self.assertEqual((noise.rows, noise.median_spread), (2, 0.05))
-        self.assertTrue(noise.noisy)
+    def test_noise_is_what_the_records_say(self):
+        [experiment] = self.load(run())
+        self.assertIn("The times of States have fewer than 3 repetitions", noise_sentence([experiment]))
+        for noisy, words in ((True, "are noisy"), (False, "are steady")):
+            experiment.report["summary"]["noise"] = {"rows": 1, "median_spread": 0, "ninth_decile": 0, "noisy": noisy}
+            self.assertIn(f"The times of States {words}", noise_sentence([experiment]))
 
-    def test_intervals_of_older_records_are_order_statistics(self):
-        (experiment,) = self.load(run(times=tuple(range(1, 11))), run(n=2, times=(1, 2, 3, 4, 5)))
-        for row in experiment.rows:
-            del row.time["median_low_ns"], row.time["median_high_ns"]
-        # 2 * (1 + 10) / 2**10 = 2.1 % lie outside of the second smallest and second largest of ten.
-        self.assertEqual(median_interval(experiment.rows[0]), (2000, 9000))
-        self.assertIsNone(median_interval(experiment.rows[1]))
+    def test_who_chose_the_parameters_is_what_the_records_say(self):
+        [experiment] = self.load(run(protocol="auto"))
+        experiment.report["summary"]["protocols"] = {"auto": "by magic", "paper": "by rules"}
+        page = parameters_html([experiment], self.folder)
+        self.assertIn("<dt>auto</dt><dd>by magic</dd>", page)
+        self.assertNotIn("by rules", page)
 
     def test_numbers_are_written_with_three_digits(self):
         self.assertEqual(
@@ -571,7 +481,7 @@ class Page(Folder):
         self.assertEqual(environment_facts(older)["Huge pages"], "kernel: madvise, malloc: glibc.malloc.hugetlb=1")
 
     def test_text_of_records_stays_text(self):
-        evil = report([run(status="error", detail=EVIL, dataset="star-1"), run("cgal")], notes=[EVIL], title=EVIL)
+        evil = report([run(status="error", detail=EVIL, dataset="star-1"), run("cgal")], notes=[EVIL])
         evil["plan"].update(
             name=EVIL,
             title=EVIL,
@@ -595,9 +505,9 @@ class Page(Folder):
             }
         ]
         (self.folder / "report.json").write_text(json.dumps(evil), encoding="utf-8")
-        (self.folder / "tables.md").write_text(
-            f"## {EVIL}\n\n### {EVIL}\n\n| {EVIL} |\n|---|\n| {EVIL} |\n\n- {EVIL}\n", encoding="utf-8"
-        )
+        tables = document(EVIL, EVIL, [EVIL])
+        tables["tables"][0].update(columns=[{"title": EVIL, "kind": "words"}], rows=[[{"text": EVIL}]], remarks=[EVIL])
+        self.write_tables(tables)
         seen = Elements(make_report.make_page(load(self.folder), self.folder))
         calm = Elements(self.page(run()))
         self.assertEqual([identity for identity, _ in seen.scripts], [identity for identity, _ in calm.scripts])
@@ -613,9 +523,7 @@ class Page(Folder):
         own = [source for identity, source in seen.scripts if identity is None]
         self.assertEqual(len(own), 2)
         allowed = set(re.findall(r"'sha256-([^']+)'", seen.policy))
-        self.assertEqual(
-            allowed, {base64.b64encode(hashlib.sha256(source.encode()).digest()).decode() for source in own}
-        )
+        self.assertEqual(allowed, {base64.b64encode(hashlib.sha256(source.encode()).digest()).decode() for source in own})
         self.assertTrue(seen.policy.startswith("default-src 'none'; script-src 'sha256-"))
         self.assertNotIn("connect-src", seen.policy)
         self.assertNotIn("unsafe-inline", seen.policy.split("style-src")[0])
@@ -632,14 +540,32 @@ class Page(Folder):
         self.assertRegex(json.loads(told["report"])["methods"]["brand_new"]["light"], "^#")
 
     def test_tables_become_html(self):
-        (section,) = sections(
-            "## One\n\n### Two\n\n| A | B [1] |\n|---|--:|\n| x \\| y | 3 |\n\n- [1] a note\n  that goes on\n"
+        self.write_tables(document("States", "states_time", ["[1] a note"]))
+        made = self.page(run())
+        self.assertIn("<details><summary>States</summary><h3>Caption of states_time</h3>", made)
+        self.assertIn("<th scope='col'>Method</th><th class='number' scope='col'>t, ms</th>", made)
+        self.assertIn(
+            "<tr><th scope='row'>CGAL <sup>[1]</sup> <sup>[2]</sup></th><td class='number'>1.36 ±0.01</td></tr>", made
         )
-        made = to_html(section, "t")
-        self.assertIn("<h3>Two</h3>", made)
-        self.assertIn("<th class='number' scope='col'>B <sup>[1]</sup></th>", made)
-        self.assertIn("<th scope='row'>x | y</th><td class='number'>3</td>", made)
-        self.assertIn("<li>[1] a note that goes on</li>", made)
+        self.assertIn("<ul class='notes'><li>A remark.</li></ul>", made)
+        self.assertIn("<h3>Notes</h3><ul class='notes'><li>[1] a note</li></ul>", made)
+
+    def test_what_differs_from_the_paper_stands_beside_its_claims(self):
+        self.write_tables(document("States", "states_time"), document("Beside the paper", "differences", ["Common."]))
+        made = self.page(run())
+        self.assertEqual(made.count("Caption of differences"), 1)
+        self.assertLess(made.index("Caption of differences"), made.index("Caption of states_time"))
+        self.assertNotIn("<li>Common.</li>", made)
+
+    def test_the_tables_of_parameters_stand_in_their_section(self):
+        self.write_tables(document("Methods and parameters", "parameters"))
+        made = self.page(run())
+        self.assertEqual(made.count("Caption of parameters"), 1)
+        self.assertLess(made.index("Who chose them"), made.index("Caption of parameters"))
+        self.assertLess(made.index("Caption of parameters"), made.index("What the parameters mean"))
+
+    def test_a_run_without_tables_says_so(self):
+        self.assertIn("The run has no tables/tables.json.", self.page(run()))
 
 
 class TheProgram(Folder):
@@ -665,6 +591,10 @@ class TheProgram(Folder):
     def test_broken_records_are_refused(self):
         (self.folder / "report.json").write_text('{"runs": [', encoding="utf-8")
         self.assertIn("cannot be read as JSON", self.refused(self.folder))
+        self.load(run())
+        self.write_tables()
+        (self.folder / "tables" / "tables.json").write_text("[]", encoding="utf-8")
+        self.assertIn("'hullbench tables", self.refused(self.folder))
         for part, value in (("seed", 1), ("plan", []), ("summary", {"rows": [{}]}), ("environment", {"cpu": 3})):
             broken = report([run()], **{part: value})
             if part == "seed":
@@ -672,10 +602,17 @@ class TheProgram(Folder):
             (self.folder / "report.json").write_text(json.dumps(broken), encoding="utf-8")
             self.refused(self.folder)
 
-    def test_a_missing_library_is_told_with_its_remedy(self):
+    def test_a_missing_library_or_bundler_is_told_with_its_remedy(self):
         self.load(run())
+        with unittest.mock.patch.object(page, "BUNDLER", "no-such-esbuild"):
+            self.assertIn("'make deps' installs it", self.refused(self.folder))
         page.LIBRARY = self.folder / "nothing.js"
         self.assertIn("install-npm.sh", self.refused(self.folder))
+
+    def test_a_fault_of_ours_is_not_the_users(self):
+        self.load(run())
+        with unittest.mock.patch.object(make_report, "charts", side_effect=KeyError("l2")), self.assertRaises(KeyError):
+            self.make(self.folder)
 
     def test_a_file_that_cannot_be_written_is_told(self):
         self.load(run())

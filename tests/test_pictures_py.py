@@ -11,8 +11,9 @@ import tempfile
 import unittest
 from pathlib import Path
 
-sys.path.insert(0, str(Path(__file__).resolve().parent.parent / "plots"))
+sys.path[:0] = [str(Path(__file__).parent.parent / "plots"), str(Path(__file__).parent)]
 
+import plot_samples  # noqa: E402
 from pictures import BUDGET_BYTES, GRID, MOST_VERTICES, pack  # noqa: E402
 from records import RecordError, load  # noqa: E402
 
@@ -27,20 +28,17 @@ SAME_SQUARE = [48000, 48000, 16000, 48000, 16000, 16000, 48000, 16000]
 
 def row(case: str, method: str = "polylidar", l2: float | None = 0.1, status: str = "ok") -> dict:
     dataset, n, holes = case.split("/")
-    return {
-        "id": f"{method} {case}", "name": f"{method}/{case}/protocol:paper", "method": method, "dataset": dataset,
-        "n": 2000 if n == "n:all" else int(n[2:]), "holes": holes == "holes:1", "protocol": "paper", "status": status,
-        "detail": "", "time_ns": [1000], "phases_ns": [{}], "metrics": {"l2": l2}, "parameters": {},
-    }
+    size = 2000 if n == "n:all" else int(n[2:])
+    made = plot_samples.run(method, "paper", dataset, size, holes == "holes:1", status, times=[1000], l2=l2)
+    return {**made, "name": f"{method}/{case}/protocol:paper"}
 
 
 def case_line(case: str, points: list[int], truth: list) -> dict:
-    return {"kind": "case", "case": case, "dataset_sha256": "0" * 64, "origin": [1.5, -2.5], "step": 0.25,
-            "points_total": len(points) // 2, "points": points, "ground_truth": truth}
+    return plot_samples.case_line(case, points, truth, len(points) // 2)
 
 
 def result_line(case: str, polygons: list, method: str = "polylidar") -> dict:
-    return {"kind": "result", "case": case, "run": f"{method}/{case}/protocol:paper", "polygons": polygons}
+    return plot_samples.result_line(row(case, method), polygons)
 
 
 def spread_points(count: int) -> list[int]:
@@ -53,11 +51,11 @@ def block_of(entry: dict) -> tuple[dict, list[tuple[int, int]], list, list]:
     """Header, points, ground truth and results of a case, read as report/picture.js does."""
     plain = gzip.decompress(base64.b64decode(entry["block"]))
     length = struct.unpack("<I", plain[:4])[0]
-    header, position = json.loads(plain[4:4 + length]), 4 + length
+    header, position = json.loads(plain[4 : 4 + length]), 4 + length
 
     def numbers(count: int) -> list[int]:
         nonlocal position
-        low, high = plain[position:position + count], plain[position + count:position + 2 * count]
+        low, high = plain[position : position + count], plain[position + count : position + 2 * count]
         position += 2 * count
         return [a | b << 8 for a, b in zip(low, high)]
 
@@ -88,12 +86,7 @@ class Pictures(unittest.TestCase):
     def write(self, name: str, rows: list[dict], lines: list[dict]) -> None:
         folder = self.folder / name
         folder.mkdir()
-        report = {
-            "schema_version": 1, "plan": {"name": name, "title": name}, "environment": {}, "runs": rows,
-            "methods": [{"name": "polylidar", "title": "Polylidar"}],
-            "datasets": [{"name": "ca", "title": "California"}, {"name": "star", "title": "Star"}],
-            "summary": {"rows": [{"id": one["id"], "time": {"median_ns": 1000.0}} for one in rows]},
-        }
+        report = plot_samples.report(name, {"ca": 0, "star": 40}, rows)
         (folder / "report.json").write_text(json.dumps(report))
         (folder / "pictures.jsonl").write_text("".join(json.dumps(line) + "\n" for line in lines))
 
@@ -110,7 +103,7 @@ class Pictures(unittest.TestCase):
         self.assertEqual([(2, 4096), (1000, 1000), (3000, 1000)], packed_points)
         self.assertEqual([[v // STEP for v in SQUARE]], results[0][1])
         self.assertEqual([-2 * GRID, 0, GRID, 0, GRID, 3 * GRID], results[0][0][0], "far vertices are cut off")
-        self.assertEqual(([1.5, -2.5], 0.25 * STEP), (header["origin"], header["step"]))
+        self.assertEqual(([10.0, 20.0], 0.5 * STEP), (header["origin"], header["step"]))
         self.assertEqual(("California", 2000, True), (entry["title"], entry["n"], entry["holes"]))
 
     def test_needless_vertices_and_vanishing_rings_are_left_out(self) -> None:
@@ -127,8 +120,14 @@ class Pictures(unittest.TestCase):
         lines = [case_line(case, [0, 0], [[SQUARE]]), result_line(case, [[SQUARE]]), result_line(case, [[SAME_SQUARE]], "cgal")]
         self.write("states", rows, lines)
         entry = self.packed()["cases"][0]
-        self.assertEqual([["polylidar", "paper", "ok", 0.1, 1000, 0], ["cgal", "paper", "ok", 0.123456789, 1000, 0],
-                          ["slow", "paper", "timeout", None, 1000, None]], entry["runs"])
+        self.assertEqual(
+            [
+                ["polylidar", "paper", "ok", 0.1, 1000, 0],
+                ["cgal", "paper", "ok", 0.123456789, 1000, 0],
+                ["slow", "paper", "timeout", None, None, None],
+            ],
+            entry["runs"],
+        )
         self.assertEqual(1, len(block_of(entry)[3]))
 
     def test_the_worst_case_comes_first_and_a_failure_before_it(self) -> None:
@@ -162,8 +161,15 @@ class Pictures(unittest.TestCase):
         packed = self.packed(size // 2)
         self.assertEqual((2, 3, {}), (packed["results_left_out"], len(packed["cases"]), packed["dropped"]))
         kept = [(entry["case"], run[0]) for entry in packed["cases"] for run in entry["runs"] if run[5] is not None]
-        self.assertEqual([("floor-1/n:all/holes:0", "polylidar"), ("floor-1/n:all/holes:0", "cgal"),
-                          ("floor-2/n:all/holes:0", "cgal"), ("floor-0/n:all/holes:0", "cgal")], kept)
+        self.assertEqual(
+            [
+                ("floor-1/n:all/holes:0", "polylidar"),
+                ("floor-1/n:all/holes:0", "cgal"),
+                ("floor-2/n:all/holes:0", "cgal"),
+                ("floor-0/n:all/holes:0", "cgal"),
+            ],
+            kept,
+        )
 
     def test_the_largest_experiment_gives_up_its_most_accurate_cases(self) -> None:
         many = [f"star-{k}/n:8000/holes:0" for k in range(40)]
@@ -192,7 +198,9 @@ class Pictures(unittest.TestCase):
     def test_a_case_of_two_experiments_is_shown_once(self) -> None:
         case = "ca/n:64000/holes:1"
         self.write("states", [row(case)], [case_line(case, [0, 0], [[SQUARE]]), result_line(case, [[SQUARE]])])
-        self.write("steps", [row(case), row(case, "by_steps")], [case_line(case, [0, 0], [[SQUARE]]), result_line(case, [[FAR]])])
+        self.write(
+            "steps", [row(case), row(case, "by_steps")], [case_line(case, [0, 0], [[SQUARE]]), result_line(case, [[FAR]])]
+        )
         packed = self.packed()
         self.assertEqual([["states", "steps"]], [entry["experiments"] for entry in packed["cases"]])
         self.assertEqual(["polylidar", "by_steps"], [run[0] for run in packed["cases"][0]["runs"]])

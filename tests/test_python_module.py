@@ -167,7 +167,10 @@ class BesideTheHarness(unittest.TestCase):
             worker = subprocess.run(
                 [os.environ["HULLBENCH"], "worker", "--method", "polylidar"],
                 input="".join(json.dumps(request) + "\n" for request in requests),
-                stdout=subprocess.PIPE, text=True, check=True)
+                stdout=subprocess.PIPE,
+                text=True,
+                check=True,
+            )
             theirs = shapely.wkb.loads(pathlib.Path(folder, "wkb").read_bytes())
         self.assertEqual(json.loads(worker.stdout.splitlines()[0])["method"]["version"], polylidar_core.__version__)
         ours = shapely.geometry.shape(concave_hull(points, alpha=0.015))
@@ -185,9 +188,15 @@ class Inputs(unittest.TestCase):
         wide[:, 1:4:2] = exact
         expected = concave_hull(exact, alpha=CELL).__geo_interface__
         for name, points in {
-            "list": exact.tolist(), "int64": exact.astype(np.int64), "uint8": exact.astype(np.uint8),
-            "float32": exact.astype(np.float32), "big-endian": exact.astype(">f8"), "by columns": np.asfortranarray(exact),
-            "a view": wide[:, 1:4:2], "not aligned": shifted, "backwards twice": exact[::-1].copy()[::-1],
+            "list": exact.tolist(),
+            "int64": exact.astype(np.int64),
+            "uint8": exact.astype(np.uint8),
+            "float32": exact.astype(np.float32),
+            "big-endian": exact.astype(">f8"),
+            "by columns": np.asfortranarray(exact),
+            "a view": wide[:, 1:4:2],
+            "not aligned": shifted,
+            "backwards twice": exact[::-1].copy()[::-1],
         }.items():
             with self.subTest(name):
                 self.assertEqual(concave_hull(points, alpha=CELL).__geo_interface__, expected)
@@ -360,14 +369,18 @@ class Types(unittest.TestCase):
         for name, node in functions.items():
             parameters = [parameter.arg for parameter in node.args.args]
             signature = getattr(_core, name).__doc__.splitlines()[0]
-            self.assertEqual(parameters, [part.split(":")[0].strip() for part in signature[len(name) + 1:].split(", ")
-                                          if ":" in part.split("[")[0]])
+            self.assertEqual(
+                parameters,
+                [part.split(":")[0].strip() for part in signature[len(name) + 1 :].split(", ") if ":" in part.split("[")[0]],
+            )
 
     def test_everything_public_is_typed_and_documented(self):
         public = [getattr(polylidar_core, name) for name in polylidar_core.__all__ if name != "__version__"]
-        members = [member.fget if isinstance(member, property) else member
-                   for name, member in vars(polylidar_core.MultiPolygon).items()
-                   if inspect.isfunction(member) or isinstance(member, property)]
+        members = [
+            member.fget if isinstance(member, property) else member
+            for name, member in vars(polylidar_core.MultiPolygon).items()
+            if inspect.isfunction(member) or isinstance(member, property)
+        ]
         self.assertEqual(len(public), 3)
         self.assertGreaterEqual(len(members), 4)
         for item in public + members:

@@ -68,6 +68,13 @@ TEST(Report, HoldsTheRunAndItsLines) {
   for (std::size_t i = 0; i < records.size(); ++i) EXPECT_EQ(report["runs"][i], json(records[i]));
 }
 
+TEST(Report, SaysWhatItsProtocolsMean) {
+  const json report = invented_report();
+  for (const json& run : report["runs"]) {
+    EXPECT_FALSE(report["summary"]["protocols"].value(run["protocol"], "").empty()) << run["protocol"];
+  }
+}
+
 TEST(Report, IsValid) {
   const std::vector<std::string> faults = record::validate_report(invented_report());
   EXPECT_TRUE(faults.empty()) << faults.front();

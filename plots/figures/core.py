@@ -3,7 +3,6 @@ Google Benchmark writes of build/core_benchmarks: the command is in plots/README
 
 from __future__ import annotations
 
-import json
 from collections.abc import Iterator
 from dataclasses import dataclass, field
 from statistics import median
@@ -12,7 +11,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.ticker import LogLocator, NullFormatter
 
-from records import RecordError
+from records import read_json
 from run import Drawn, Run, Skipped
 from style import FULL_WIDTH, method_style, new_figure, number, panel_letter
 
@@ -29,6 +28,22 @@ _FUNCTIONS = {
     "cgal_delaunay": ("cgal_alpha_shape", _TRIANGULATION, (), "CGAL"),
     "geos_delaunay": ("geos_concave_hull", _TRIANGULATION, (), "GEOS"),
 }
+# Of what Google Benchmark writes, what is read here.
+_ENTRY = {
+    "type": "object",
+    "required": ["run_name"],
+    "properties": {"run_name": {"type": "string"}},
+    "if": {"properties": {"run_name": {"pattern": f"^({'|'.join(_FUNCTIONS)})/uniform/"}, "error_occurred": {"enum": [False]}}},
+    "then": {
+        "required": ["real_time", "time_unit"],
+        "properties": {
+            "run_name": {"pattern": "^[^/]+/uniform/[1-9][0-9]*$"},
+            "real_time": {"type": "number"},
+            "time_unit": {"enum": list(_UNITS)},
+        },
+    },
+}
+_SCHEMA = {"type": "object", "required": ["benchmarks"], "properties": {"benchmarks": {"type": "array", "items": _ENTRY}}}
 
 
 @dataclass
@@ -47,10 +62,7 @@ def draw(run: Run) -> Iterator[Drawn]:
     path = run.folder / FILE
     if not path.is_file():
         raise Skipped(f"{path} is not there (plots/README.md says what writes it)")
-    try:
-        curves = read(json.loads(path.read_text(encoding="utf-8")))
-    except (OSError, ValueError, KeyError, TypeError, AttributeError) as error:
-        raise RecordError(f"{path} is not what Google Benchmark writes ({error!r}); make it again.") from error
+    curves = read(read_json(path, _SCHEMA, "; 'make figures-core' writes it"))
     if not curves:
         raise Skipped(f"{path} has none of the functions that are shown")
     caption = (
@@ -104,5 +116,16 @@ def _curve(axes: Axes, name: str, times: list[Times]) -> None:
     middle = [one.a_point for one in times]
     below = [one.a_point - min(one.calls) / one.n for one in times]
     above = [max(one.calls) / one.n - one.a_point for one in times]
-    axes.errorbar([one.n for one in times], middle, yerr=[below, above], label=title, color=look.color, marker=look.marker,
-                  markersize=3.6, linewidth=1.3, linestyle=(0, dashes) if dashes else "-", elinewidth=0.7, capsize=1.5)
+    axes.errorbar(
+        [one.n for one in times],
+        middle,
+        yerr=[below, above],
+        label=title,
+        color=look.color,
+        marker=look.marker,
+        markersize=3.6,
+        linewidth=1.3,
+        linestyle=(0, dashes) if dashes else "-",
+        elinewidth=0.7,
+        capsize=1.5,
+    )

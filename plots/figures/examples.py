@@ -37,8 +37,11 @@ def _convex_and_concave(run: Run) -> Drawn | None:
     if len(found) < 2 or None in found.values():
         return None
     panels = [(method_style(method).title, method, *result) for method, result in found.items()]
-    return Drawn("convex_and_concave", _figure(panels), "The convex hull of the points of a letter A, and Polylidar's concave "
-                 "hull with its hole.")
+    return Drawn(
+        "convex_and_concave",
+        _figure(panels),
+        "The convex hull of the points of a letter A, and Polylidar's concave " "hull with its hole.",
+    )
 
 
 def _convexity(run: Run) -> Drawn | None:
@@ -55,8 +58,10 @@ def _convexity(run: Run) -> Drawn | None:
     for row in (ranked[-1], ranked[0]):
         title = f"{row.dataset}, convexity {100 * row.metrics['ground_truth_convexity']:.1f} %"
         panels.append((title, row.method, *_result(run, experiment, row)))
-    caption = ("The most and the least convex of the random polygons that pictures were kept of (the worst results of each "
-               "method), with Polylidar's result: points, result (filled) and ground truth (line).")
+    caption = (
+        "The most and the least convex of the random polygons that pictures were kept of (the worst results of each "
+        "method), with Polylidar's result: points, result (filled) and ground truth (line)."
+    )
     return Drawn("convexity", _figure(panels, truth=True), caption)
 
 

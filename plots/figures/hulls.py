@@ -36,9 +36,11 @@ def draw(run: Run) -> Iterator[Drawn]:
 
 def _caption(picture: Picture, rows: list[Row]) -> str:
     total = picture.case["points_total"]
-    return (f"Hulls of the same {total:,} points of {rows[0].dataset.upper()} with holes. Grey: right; blue: missing from "
-            "the hull; orange: in the hull but not in the ground truth, whose outline is the thin line. In percent the L² "
-            f"error: the difference's area over that of the ground truth. {failures(rows)}").strip()
+    return (
+        f"Hulls of the same {total:,} points of {rows[0].dataset.upper()} with holes. Grey: right; blue: missing from "
+        "the hull; orange: in the hull but not in the ground truth, whose outline is the thin line. In percent the L² "
+        f"error: the difference's area over that of the ground truth. {failures(rows)}"
+    ).strip()
 
 
 def _figure(picture: Picture, rows: list[Row]) -> Figure:

@@ -3,7 +3,6 @@ Benchmarking Optimization Software with Performance Profiles, 2002)."""
 
 from __future__ import annotations
 
-import json
 from collections.abc import Iterator
 from typing import Any
 
@@ -11,7 +10,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.ticker import NullLocator
 
-from records import RecordError
+from records import read_json
 from run import Drawn, Run, Skipped
 from style import FULL_WIDTH, in_order, label, method_style, new_figure, number, panel_letter
 
@@ -29,15 +28,12 @@ def draw(run: Run) -> Iterator[Drawn]:
     path = run.folder / FILE
     if not path.is_file():
         raise Skipped(f"{path} is not there ('make evaluate' writes it)")
-    try:
-        league = json.loads(path.read_text(encoding="utf-8"))
-        profiles = {one["group"]: one for one in league["profiles"] if len(one["curves"]) > 1}
-        groups = [group for group in _GROUPS if group in profiles]
-        if not groups:
-            raise Skipped(f"{path} has no group of two methods")
-        figure = _figure(league["taus"], [profiles[group] for group in groups])
-    except (OSError, ValueError, KeyError, TypeError) as error:
-        raise RecordError(f"{path} is not what 'hullbench league' writes ({error!r}); make it again.") from error
+    league = read_json(path, "league.schema.json", "; 'hullbench league' writes it")
+    profiles = {one["group"]: one for one in league["profiles"] if len(one["curves"]) > 1}
+    groups = [group for group in _GROUPS if group in profiles]
+    if not groups:
+        raise Skipped(f"{path} has no group of two methods")
+    figure = _figure(league["taus"], [profiles[group] for group in groups])
     counts = ", ".join(f"{profiles[group]['cases']} cases ({group})" for group in groups)
     caption = (
         "Performance profiles: on which share of the cases a method's L2 error is at most τ times the smallest one among "
@@ -69,10 +65,20 @@ def _panel(axes: Axes, taus: list[float], profile: dict[str, Any]) -> None:
     curves = {(one["method"], one["protocol"]): one["shares"] for one in profile["curves"]}
     for one in in_order(curves):
         look = method_style(one[0])
-        axes.plot(taus, [100 * share for share in curves[one]], color=look.color, linestyle=look.line,
-                  linewidth=max(look.width, 1.1), marker=look.marker, markersize=3.2, markevery=0.12,
-                  markerfacecolor=look.color if one[1] == "paper" else "white", markeredgewidth=0.8,
-                  zorder=4 + 1 / look.order, label=label(one, curves))
+        axes.plot(
+            taus,
+            [100 * share for share in curves[one]],
+            color=look.color,
+            linestyle=look.line,
+            linewidth=max(look.width, 1.1),
+            marker=look.marker,
+            markersize=3.2,
+            markevery=0.12,
+            markerfacecolor=look.color if one[1] == "paper" else "white",
+            markeredgewidth=0.8,
+            zorder=4 + 1 / look.order,
+            label=label(one, curves),
+        )
     axes.set_xscale("log")
     axes.set_xlim(min(taus), max(taus))
     axes.set_ylim(0, 100)

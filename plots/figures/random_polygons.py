@@ -50,8 +50,10 @@ def kind(row: Row) -> str:
 
 def _values(rows: list[Row]) -> tuple[np.ndarray, np.ndarray]:
     """Convexity and error in percent."""
-    return (np.array([row.metric("ground_truth_convexity") for row in rows], dtype=float),
-            np.array([100 * row.metric("l2_paper") for row in rows], dtype=float))
+    return (
+        np.array([row.metric("ground_truth_convexity") for row in rows], dtype=float),
+        np.array([100 * row.metric("l2_paper") for row in rows], dtype=float),
+    )
 
 
 def _figure(chosen: list[Row], stars: list[Row], classes: list[dict[str, Any]], notes: str) -> Figure:
@@ -66,8 +68,19 @@ def _figure(chosen: list[Row], stars: list[Row], classes: list[dict[str, Any]], 
 def _convexity_panel(axes: Axes, rows: list[Row], classes: list[dict[str, Any]]) -> None:
     color = method_style(rows[0].method).color
     convexity, error = _values(rows)
-    axes.plot(convexity, error, linestyle="none", marker=".", markersize=0.9, markeredgewidth=0, color=color, alpha=0.35,
-              rasterized=True, zorder=2, label="_runs")
+    axes.plot(
+        convexity,
+        error,
+        linestyle="none",
+        marker=".",
+        markersize=0.9,
+        markeredgewidth=0,
+        color=color,
+        alpha=0.35,
+        rasterized=True,
+        zorder=2,
+        label="_runs",
+    )
     middle, quantiles = binned(convexity, error)
     if len(middle):
         axes.fill_between(middle, quantiles[0], quantiles[2], color=color, alpha=0.25, linewidth=0, zorder=3)
@@ -85,8 +98,16 @@ def _key(color: str) -> list[Artist]:
     return [
         Line2D([], [], color=color, linewidth=1.6, label="median"),
         Patch(facecolor=color, alpha=0.3, label="5 to 95 %"),
-        Line2D([], [], color=paper, linewidth=0.9, marker="D", markersize=3.6, markerfacecolor="white",
-               label="the paper: mean ± std"),
+        Line2D(
+            [],
+            [],
+            color=paper,
+            linewidth=0.9,
+            marker="D",
+            markersize=3.6,
+            markerfacecolor="white",
+            label="the paper: mean ± std",
+        ),
         Line2D([], [], color=paper, linestyle="none", marker="_", markersize=6, label="the paper: maximum"),
     ]
 
@@ -111,8 +132,18 @@ def _classes(axes: Axes, convexity: np.ndarray, classes: list[dict[str, Any]]) -
         x = float(np.median(inside))
         mean, deviation, most = one["l2_percent"]
         color = role_color("paper_value")
-        axes.errorbar([x], [mean], yerr=[deviation], marker="D", markersize=3.6, markerfacecolor="white", color=color,
-                      elinewidth=0.9, capsize=2, zorder=6)
+        axes.errorbar(
+            [x],
+            [mean],
+            yerr=[deviation],
+            marker="D",
+            markersize=3.6,
+            markerfacecolor="white",
+            color=color,
+            elinewidth=0.9,
+            capsize=2,
+            zorder=6,
+        )
         axes.plot([x], [most], marker="_", markersize=6, color=color, zorder=6)
         axes.text(x, 0.985, one["title"].split()[0], transform=axes.get_xaxis_transform(), ha="center", va="top", fontsize=6.5)
 
@@ -121,9 +152,18 @@ def _kinds_panel(axes: Axes, rows: list[Row]) -> None:
     kinds = list(dict.fromkeys(kind(row) for row in rows))
     color = method_style(rows[0].method).color
     boxes = [_values([row for row in rows if kind(row) == one])[1] for one in kinds]
-    axes.boxplot(boxes, vert=False, whis=(5, 95), showfliers=False, widths=0.6, patch_artist=True,
-                 boxprops={"facecolor": color, "alpha": 0.35, "linewidth": 0}, medianprops={"color": color, "linewidth": 1.6},
-                 whiskerprops={"color": color, "linewidth": 0.8}, capprops={"color": color, "linewidth": 0.8})
+    axes.boxplot(
+        boxes,
+        vert=False,
+        whis=(5, 95),
+        showfliers=False,
+        widths=0.6,
+        patch_artist=True,
+        boxprops={"facecolor": color, "alpha": 0.35, "linewidth": 0},
+        medianprops={"color": color, "linewidth": 1.6},
+        whiskerprops={"color": color, "linewidth": 0.8},
+        capprops={"color": color, "linewidth": 0.8},
+    )
     axes.set_yticks(range(1, len(kinds) + 1), [f"{one} ({len(box):,})" for one, box in zip(kinds, boxes)])
     axes.invert_yaxis()
     axes.grid(axis="y", visible=False)

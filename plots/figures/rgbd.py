@@ -21,9 +21,11 @@ def draw(run: Run) -> Iterator[Drawn]:
     if not scenes:
         raise Skipped("the run has no pictures of a floor with Polylidar's result")
     floors = " and ".join(row.dataset for row, _ in scenes)
-    caption = (f"Floors of the RGBD experiment ({floors}), in metres as if seen from above: left the points (at most 4,000 of "
-               "them) and the outline of the ground truth, right Polylidar's result: grey right, blue missing, orange "
-               "too much.")
+    caption = (
+        f"Floors of the RGBD experiment ({floors}), in metres as if seen from above: left the points (at most 4,000 of "
+        "them) and the outline of the ground truth, right Polylidar's result: grey right, blue missing, orange "
+        "too much."
+    )
     yield Drawn("rgbd", _figure(scenes), caption)
 
 

@@ -2,17 +2,14 @@
 
 from __future__ import annotations
 
-import json
-import lzma
 from collections.abc import Iterator
-from pathlib import Path
 from typing import Any
 
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.ticker import NullFormatter
 
-from records import RecordError
+from records import read_json
 from run import Drawn, Run, Skipped
 from style import FULL_WIDTH, in_order, label, method_style, new_figure, number, panel_letter
 
@@ -24,14 +21,11 @@ def draw(run: Run) -> Iterator[Drawn]:
     path = next((run.folder / name for name in FILES if (run.folder / name).is_file()), None)
     if path is None:
         raise Skipped(f"{run.folder / FILES[0]} is not there ('make evaluate' writes it)")
-    try:
-        tuning = read(path)
-        methods = [one for one in tuning["methods"] if one["tuned"] and len(one["curve"]) > 1]
-        if not methods:
-            raise Skipped(f"{path} has no method with a parameter to search")
-        figure = _figure(methods)
-    except (OSError, EOFError, ValueError, KeyError, TypeError, lzma.LZMAError) as error:
-        raise RecordError(f"{path} is not what 'hullbench tune' writes ({error!r}); make it again.") from error
+    tuning = read_json(path, "tune.schema.json", "; 'hullbench tune' writes it")
+    methods = [one for one in tuning["methods"] if one["tuned"] and len(one["curve"]) > 1]
+    if not methods:
+        raise Skipped(f"{path} has no method with a parameter to search")
+    figure = _figure(methods)
     cases = len(tuning["cases"])
     caption = (
         "Sensitivity: L2 error against the method's parameter, as a multiple of the error that the method has with the "
@@ -42,13 +36,6 @@ def draw(run: Run) -> Iterator[Drawn]:
         f"stays within 10 % of its best (median). What is above {_WORST:g} or fails is not shown."
     )
     yield Drawn("sensitivity", figure, caption)
-
-
-def read(path: Path) -> dict[str, Any]:
-    if path.suffix == ".xz":
-        with lzma.open(path, "rt", encoding="utf-8") as file:
-            return json.load(file)
-    return json.loads(path.read_text(encoding="utf-8"))
 
 
 def _figure(methods: list[dict[str, Any]]) -> Figure:
@@ -80,9 +67,19 @@ def _panel(axes: Axes, methods: list[dict[str, Any]], octaves: bool) -> None:
         x = [point["position"] / unit for point in curve]
         tolerance = one["tolerance_octaves"]
         title = label(series, by_series) + (f", {tolerance['median']:.1f} octaves" if tolerance else "")
-        axes.plot(x, [point["relative"]["median"] for point in curve], color=look.color, linestyle=look.line,
-                  linewidth=max(look.width, 1.1), marker=look.marker, markersize=3, markerfacecolor="white",
-                  markeredgewidth=0.8, zorder=4 + 1 / look.order, label=title)
+        axes.plot(
+            x,
+            [point["relative"]["median"] for point in curve],
+            color=look.color,
+            linestyle=look.line,
+            linewidth=max(look.width, 1.1),
+            marker=look.marker,
+            markersize=3,
+            markerfacecolor="white",
+            markeredgewidth=0.8,
+            zorder=4 + 1 / look.order,
+            label=title,
+        )
         low = [point["relative"]["q1"] for point in curve]
         high = [min(point["relative"]["q3"] or _WORST, _WORST) for point in curve]
         if not octaves:

@@ -26,8 +26,11 @@ def draw(run: Run) -> Iterator[Drawn]:
         _shape(axes, picture)
         axes.set_anchor("N")
         panel_letter(axes, "abcdef"[k], f"{dataset.upper()}, {picture.case['points_total']:,} points")
-    yield Drawn("shapes", figure, "The ground truth of the state shapes with holes, the holes in orange, and the points "
-                "that were sampled from it.")
+    yield Drawn(
+        "shapes",
+        figure,
+        "The ground truth of the state shapes with holes, the holes in orange, and the points " "that were sampled from it.",
+    )
 
 
 def shape_picture(run: Run, dataset: str, n: int = _POINTS) -> Picture | None:
@@ -36,8 +39,9 @@ def shape_picture(run: Run, dataset: str, n: int = _POINTS) -> Picture | None:
     experiment = growing_shapes(run, 1).get(dataset)
     if experiment is None:
         return None
-    rows = sorted((row for row in experiment.rows if row.dataset == dataset),
-                  key=lambda row: (not row.holes, abs(row.n - n), row.n))
+    rows = sorted(
+        (row for row in experiment.rows if row.dataset == dataset), key=lambda row: (not row.holes, abs(row.n - n), row.n)
+    )
     for case in dict.fromkeys(row.case for row in rows):
         if (picture := run.picture(experiment, case)) is not None:
             return picture

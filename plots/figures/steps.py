@@ -92,6 +92,8 @@ def _panel(axes: Axes, method: str, steps: dict[str, float], paper: dict[str, fl
 def _bar(axes: Axes, y: int, steps: dict[str, float], total: float) -> None:
     left = 0.0
     for step, time in steps.items():
-        axes.barh([y], [time], left=[left], height=0.72, color=step_color(step), edgecolor="white", linewidth=0.3, label=f"_{step}")
+        axes.barh(
+            [y], [time], left=[left], height=0.72, color=step_color(step), edgecolor="white", linewidth=0.3, label=f"_{step}"
+        )
         left += time
     axes.annotate(f"{total:,.1f} ms", (left, y), xytext=(3, 0), textcoords="offset points", va="center", fontsize=6.5)

@@ -34,10 +34,16 @@ def draw(run: Run) -> Iterator[Drawn]:
     own = _own_result(shapes[dataset].rows, picture)
     title = shapes[dataset].datasets[dataset]["title"]
     holes = " with holes" if rows[0].holes else ""
-    left = (f"Left: {title}{holes}, {picture.case['points_total']:,} points (at most 4,000 of them drawn) and Polylidar's result. Right: " if own else "")
-    caption = (f"{left}median time and L² error of every method for {rows[0].n:,} points of {title}{holes}; down and to the "
-               "left is better, and no method is both faster and more accurate than those on the line. Filled markers: "
-               f"parameters by the paper's rule. {failures(rows)}")
+    left = (
+        f"Left: {title}{holes}, {picture.case['points_total']:,} points (at most 4,000 of them drawn) and Polylidar's result. Right: "
+        if own
+        else ""
+    )
+    caption = (
+        f"{left}median time and L² error of every method for {rows[0].n:,} points of {title}{holes}; down and to the "
+        "left is better, and no method is both faster and more accurate than those on the line. Filled markers: "
+        f"parameters by the paper's rule. {failures(rows)}"
+    )
     yield Drawn("summary", _figure(rows, scored, picture, own), caption.strip())
 
 
@@ -75,8 +81,13 @@ def _figure(rows: list[Row], scored: list[Row], picture: Picture | None, own: li
     _pareto(axes, scored)
     panel_letter(axes, "b" if own is not None else "", f"time and error, {rows[0].n:,} points")
     footnote(figure, failures(rows))
-    place_labels(figure, axes, [(row.median_ns / 1e6, 100 * row.metrics["l2"]) for row in scored],
-                 [_label_options(row, rows) for row in scored], _corners(front(scored)))
+    place_labels(
+        figure,
+        axes,
+        [(row.median_ns / 1e6, 100 * row.metrics["l2"]) for row in scored],
+        [_label_options(row, rows) for row in scored],
+        _corners(front(scored)),
+    )
     return figure
 
 
@@ -95,8 +106,9 @@ def _pareto(axes: Axes, rows: list[Row]) -> None:
     axes.plot(*zip(*_corners(best)), color="#c4c4c4", linewidth=1.2, zorder=1, label="_front")
     for row in sorted(rows, key=lambda row: -method_style(row.method).order):
         scale = 1.7 if method_style(row.method).paper else 1.35
-        axes.plot([row.median_ns / 1e6], [100 * row.metrics["l2"]], linestyle="none", zorder=3,
-                  **marker_options(row.series, scale))
+        axes.plot(
+            [row.median_ns / 1e6], [100 * row.metrics["l2"]], linestyle="none", zorder=3, **marker_options(row.series, scale)
+        )
     axes.set_xscale("log")
     axes.set_yscale("log")
     for axis in (axes.xaxis, axes.yaxis):
@@ -117,5 +129,9 @@ def _corners(best: list[Row]) -> list[tuple[float, float]]:
 def _label_options(row: Row, rows: list[Row]) -> dict[str, object]:
     look = method_style(row.method)
     weight = "bold" if look.paper else "normal"
-    return {"text": label(row.series, in_order(one.series for one in rows)), "color": look.color, "fontweight": weight,
-            "fontsize": 7.5 if look.paper else 6.8}
+    return {
+        "text": label(row.series, in_order(one.series for one in rows)),
+        "color": look.color,
+        "fontweight": weight,
+        "fontsize": 7.5 if look.paper else 6.8,
+    }

@@ -1,10 +1,18 @@
 // From the report's numbers to what ECharts draws. Nothing here touches the page.
+import { formatCount } from "./format.js";
+import { markerPath } from "./markers.js";
 
-// Who chose the parameters, by the line's dashes.
-const DASHES = { paper: "solid", auto: [7, 4], default: [2, 3], tuned: [9, 3, 2, 3], oracle: [1, 4] };
+// Who chose the parameters, by the line's dashes, and what these are called.
+export const DASHES = {
+  paper: ["solid", "solid"],
+  auto: [[7, 4], "long dashes"],
+  default: [[2, 3], "dots"],
+  tuned: [[9, 3, 2, 3], "dashes and dots"],
+  oracle: [[1, 4], "sparse dots"],
+};
 
 /** [value, low, high] of a point for "time", "paper_time" or a metric; null: the point has none. */
-function pointValue(point, quantity) {
+export function pointValue(point, quantity) {
   if (quantity.kind === "time") return point[quantity.name] ?? null;
   const value = point.metrics[quantity.name];
   if (value === undefined || value === null) return null;
@@ -13,7 +21,7 @@ function pointValue(point, quantity) {
 }
 
 /** Ticks 1, 2, 5 in every decade that the values span, only decades when there are many. */
-function logTicks(low, high) {
+export function logTicks(low, high) {
   const from = Math.floor(Math.log10(low));
   const to = Math.ceil(Math.log10(high));
   const decades = Math.log10(high / low);
@@ -33,7 +41,7 @@ function logTicks(low, high) {
 }
 
 /** A numeric axis over these values. Logarithmic only when all of them are above zero. */
-function numericAxis(name, values, logarithmic, ink, share = 0.06) {
+export function numericAxis(name, values, logarithmic, ink, share = 0.06) {
   const axis = {
     name,
     nameTextStyle: { color: ink.muted },
@@ -101,7 +109,7 @@ function caseAxis(chart, logarithmic, ink, width) {
 }
 
 /** The options of one chart of a quantity over the cases. `shown` are the entrants in their order. */
-function caseChartOptions(chart, quantity, shown, settings, ink, width) {
+export function caseChartOptions(chart, quantity, shown, settings, ink, width) {
   const place = (point) => (chart.kind === "n" ? chart.x[point.x] : point.x);
   const series = [];
   const values = [];
@@ -113,9 +121,7 @@ function caseChartOptions(chart, quantity, shown, settings, ink, width) {
     const data = points.map((point) => ({ value: [place(point), pointValue(point, quantity)[0]], point }));
     values.push(...data.map((one) => one.value[1]));
     const band =
-      settings.bands && chart.kind !== "shape"
-        ? bandSeries(entrant, points, place, quantity)
-        : { values: [], series: [] };
+      settings.bands && chart.kind !== "shape" ? bandSeries(entrant, points, place, quantity) : { values: [], series: [] };
     values.push(...band.values);
     // The first entrants are drawn last: where two lines coincide, the first is on top.
     series.unshift(...band.series, {
@@ -137,9 +143,7 @@ function caseChartOptions(chart, quantity, shown, settings, ink, width) {
 
 /** The interval of every point as a band: an unseen line along its lower end, and the rest stacked on it. */
 function bandSeries(entrant, points, place, quantity) {
-  const inside = points
-    .map((point) => [place(point), pointValue(point, quantity)])
-    .filter(([, value]) => value[1] !== null);
+  const inside = points.map((point) => [place(point), pointValue(point, quantity)]).filter(([, value]) => value[1] !== null);
   const base = {
     type: "line",
     stack: `band ${entrant.key}`,
@@ -176,12 +180,7 @@ function lineStyle(entrant, kind) {
     symbolKeepAspect: true,
     showAllSymbol: true,
     // Between shapes there is nothing to be interpolated.
-    lineStyle: {
-      color: entrant.colour,
-      width: 1.8,
-      type: DASHES[entrant.protocol] ?? "solid",
-      opacity: kind === "shape" ? 0 : 1,
-    },
+    lineStyle: { color: entrant.colour, width: 1.8, type: DASHES[entrant.protocol][0], opacity: kind === "shape" ? 0 : 1 },
     itemStyle: { color: entrant.colour, opacity: kind === "shape" ? 0.85 : 1 },
     emphasis: { scale: 1.5, focus: "series", lineStyle: { width: 2.6 } },
     blur: { lineStyle: { opacity: kind === "shape" ? 0 : 0.15 } },
@@ -191,7 +190,7 @@ function lineStyle(entrant, kind) {
 }
 
 /** The wheel alone scrolls the page. */
-function commonOptions(ink) {
+export function commonOptions(ink) {
   const zoom = {
     type: "inside",
     filterMode: "none",

@@ -1,310 +1,77 @@
-// The section "Time and error": what is chosen, the three charts and their values as a table.
+// The section "Time and error": three charts, and what can be chosen of them.
+import { DASHES, caseChartOptions, pointValue } from "./chart_options.js";
+import { groupBy } from "./data.js";
+import { formatCount, formatNumber, formatScore, formatTime, make, makeChoice, makeTip } from "./format.js";
+import { placeLabels } from "./label_places.js";
+import { MethodToggles } from "./method_toggles.js";
+import { paretoEntries, paretoOptions } from "./pareto.js";
+import { PlotSection, formatScores } from "./plot_section.js";
+import { themeInk } from "./theme.js";
 
-class Charts {
-  /** Builds the section in `place` and draws. `report` and `charts` are the page's data. */
-  constructor(place, report, charts) {
-    this.report = report;
-    this.charts = charts;
-    this.metrics = new Map(report.metrics.map((metric) => [metric.name, metric]));
-    this.state = {
-      chart: 0,
-      time: "time",
-      metric: "l2",
-      logX: true,
-      logTime: true,
-      logError: true,
-      bands: true,
-      hidden: new Set(),
-      paretoCase: null,
-    };
-    this.state.chart = this.firstChart();
+export class Charts extends PlotSection {
+  /** Builds the section in `place` and draws. `gallery` is {has(run), open(case, run)}; null: there are no pictures. */
+  constructor(place, report, charts, gallery) {
+    super(report, charts, new Set(), true);
+    this.gallery = gallery;
+    this.state.paretoCase = null;
     this.build(place);
-    this.plots = ["time", "error", "pareto"].map((id) => this.plot(id));
-    onTheme(() => this.draw());
-    // As wide as a sheet, and drawn anew, for labels and dots are placed by the width.
-    addEventListener("beforeprint", () => this.resizeAll({ width: 660, height: 360 }));
-    addEventListener("afterprint", () => this.resizeAll({ width: "auto", height: "auto" }));
-    this.choose();
+    this.start("time", "error", "pareto");
   }
 
-  /** The chart to begin with: the first over numbers of points, else the first. */
-  firstChart() {
-    return Math.max(
-      0,
-      this.charts.findIndex((chart) => chart.kind === "n"),
-    );
+  has(chart, entrant) {
+    return entrant.key in chart.series;
   }
-
-  chart() {
-    return this.charts[this.state.chart];
-  }
-
-  metric() {
-    return this.metrics.get(this.state.metric) ?? [...this.metrics.values()].find((metric) => metric.charted);
-  }
-
-  quantities() {
-    const metric = this.metric();
-    const paper = this.state.time === "paper_time";
-    return {
-      time: {
-        kind: "time",
-        name: this.state.time,
-        title: paper ? "Time as the paper took it" : "Time of equal work",
-        axis: paper ? "Time as the paper took it, ms" : "Time of equal work, ms",
-      },
-      error: {
-        kind: "metric",
-        name: metric.name,
-        metric,
-        title: metric.title,
-        axis: metric.title + (metric.unit ? `, ${metric.unit}` : ""),
-      },
-    };
-  }
-
-  /** The entrants that have results in the chart, in their order, with their colours in this theme. */
-  entrants() {
-    const theme = currentTheme();
-    return this.report.entrants
-      .filter((entrant) => this.chart().series[entrant.key])
-      .map((entrant) => ({
-        ...entrant,
-        marker: this.report.methods[entrant.method].marker,
-        colour: this.report.methods[entrant.method][theme],
-      }));
-  }
-
-  shown() {
-    return this.entrants().filter((entrant) => !this.state.hidden.has(entrant.key));
-  }
-
-  // What stays while choices change.
 
   build(place) {
-    const option = (value, label) => make("option", { value }, label);
-    const groups = this.report.experiments.map((experiment, index) =>
-      make(
-        "optgroup",
-        { label: experiment.title },
-        ...this.charts.flatMap((chart, number) =>
-          chart.experiment === index ? [option(number, `${experiment.title}: ${chart.title}`)] : [],
-        ),
-      ),
-    );
-    this.chartSelect = make(
-      "select",
-      { id: "chart-select", change: (event) => this.set({ chart: Number(event.target.value), paretoCase: null }) },
-      ...groups,
-    );
-    this.chartSelect.value = this.state.chart;
-    this.timeSelect = make(
-      "select",
-      { id: "time-select", change: (event) => this.set({ time: event.target.value }) },
-      option("time", "of equal work"),
-      option("paper_time", "as the paper took it"),
-    );
-    this.metricSelect = make("select", {
-      id: "metric-select",
-      change: (event) => this.chooseMetric(event.target.value),
-    });
-    this.toggles = make("div", {
-      class: "toggles",
-      id: "method-toggles",
-      role: "group",
-      "aria-label": "Methods shown",
-    });
+    const times = [
+      ["time", "of equal work"],
+      ["paper_time", "as the paper took it"],
+    ];
+    place.append(this.controls(makeChoice("Time", { id: "time-select" }, times, (time) => this.set({ time }))));
+    this.toggles = new MethodToggles(place, this.report, this.hidden, () => this.choose());
+    this.toggles.element.id = "method-toggles";
     this.missing = make("p", { class: "muted", id: "chart-missing" });
+    const change = (event) => this.set({ paretoCase: event.target.value });
+    this.paretoSelect = make("select", { id: "pareto-select", change });
+    const choice = make("label", { class: "inline" }, "Case ", this.paretoSelect);
     place.append(
-      make(
-        "div",
-        { class: "controls" },
-        make("label", {}, "Shape", this.chartSelect),
-        make("label", {}, "Time", this.timeSelect),
-        make("label", {}, "Error", this.metricSelect),
-        make(
-          "span",
-          { class: "checks" },
-          this.check("logX", "log n"),
-          this.check("logTime", "log time"),
-          this.check("logError", "log error"),
-          this.check("bands", "intervals"),
-        ),
-      ),
-      this.toggles,
-      make("div", { class: "plots" }, this.figure("time"), this.figure("error"), this.figure("pareto")),
+      make("div", { class: "plots" }, this.figure("time"), this.figure("error"), this.figure("pareto", choice)),
+      this.meaning,
       this.missing,
-      make(
-        "p",
-        { class: "muted controls-hint" },
-        "Drag over a chart to zoom in, or hold Ctrl and turn the wheel; on a touch screen pinch. Bands: the 95 % interval of the median; by convexity, nine in ten shapes. Lines: solid, parameters by the paper’s rules; long dashes, by a rule from the points alone; dots, the method’s defaults.",
-      ),
+      make("p", { class: "muted controls-hint" }, this.hint()),
     );
   }
 
-  check(key, words) {
-    return make(
-      "label",
-      { class: "check" },
-      make("input", {
-        type: "checkbox",
-        id: `check-${key}`,
-        checked: this.state[key],
-        change: (event) => this.set({ [key]: event.target.checked }),
-      }),
-      words,
+  hint() {
+    const lines = Object.entries(DASHES)
+      .filter(([protocol]) => this.report.entrants.some((entrant) => entrant.protocol === protocol))
+      .map(([protocol, [, words]]) => `${words}, ${protocol}`);
+    return (
+      "Drag over a chart to zoom in, or hold Ctrl and turn the wheel; on a touch screen pinch. Bands: the 95 % interval " +
+      `of the median; by convexity, nine in ten shapes. Lines by who chose the parameters: ${lines.join("; ")}.`
     );
-  }
-
-  figure(id) {
-    const button = (words, label, act) =>
-      make("button", { type: "button", class: "small", "aria-label": `${label}: ${id} chart`, click: act }, words);
-    const extra =
-      id === "pareto"
-        ? make(
-            "label",
-            { class: "inline" },
-            "Case ",
-            make("select", { id: "pareto-select", change: (event) => this.set({ paretoCase: event.target.value }) }),
-          )
-        : null;
-    return make(
-      "figure",
-      { class: `plot plot-${id}`, "data-testid": `plot-${id}` },
-      make(
-        "figcaption",
-        {},
-        make("span", { id: `title-${id}` }),
-        make(
-          "span",
-          { class: "zoom" },
-          extra,
-          button("+", "Zoom in", () => this.zoom(id, 0.7)),
-          button("−", "Zoom out", () => this.zoom(id, 1 / 0.7)),
-          button("Reset", "Reset zoom", () => this.zoom(id, Infinity)),
-        ),
-      ),
-      make("div", { class: "canvas", id: `chart-${id}`, role: "img" }),
-      make(
-        "details",
-        { class: "values", id: `values-${id}` },
-        make("summary", {}, "Values as a table"),
-        make("div", { class: "scroll", tabindex: "0", role: "region", "aria-label": `Values of the ${id} chart` }),
-      ),
-    );
-  }
-
-  plot(id) {
-    const element = document.getElementById(`chart-${id}`);
-    const chart = echarts.init(element, null, { renderer: "svg" });
-    chart.on("click", (event) => this.open(event.data?.point));
-    element.addEventListener("dblclick", () => this.zoom(id, Infinity));
-    new ResizeObserver(() => this.resized(chart, element)).observe(element);
-    return { id, element, chart };
-  }
-
-  resizeAll(size) {
-    for (const { chart } of this.plots) chart.resize(size);
-    this.draw();
-  }
-
-  /** An observer also calls once at the beginning, when nothing has changed. */
-  resized(chart, element) {
-    if (printing || (chart.getWidth() === element.clientWidth && chart.getHeight() === element.clientHeight)) return;
-    chart.resize();
-    this.draw();
-  }
-
-  // Choices.
-
-  set(changes) {
-    Object.assign(this.state, changes);
-    this.choose();
-  }
-
-  /** Shares and scores near 1 are read on a linear axis. */
-  chooseMetric(name) {
-    const logError = this.metrics.get(name).better === "lower";
-    document.getElementById("check-logError").checked = logError;
-    this.set({ metric: name, logError });
-  }
-
-  toggle(key) {
-    if (!this.state.hidden.delete(key)) this.state.hidden.add(key);
-    this.choose();
   }
 
   /** After a choice: what can be chosen next, then the charts. */
   choose() {
-    const present = new Set(
-      Object.values(this.chart().series)
-        .flat()
-        .flatMap((point) => Object.keys(point.metrics)),
-    );
-    const usable = this.report.metrics.filter((metric) => metric.charted && present.has(metric.name));
-    if (usable.length && !usable.some((metric) => metric.name === this.state.metric))
-      this.state.metric = usable[0].name;
-    this.metricSelect.replaceChildren(...usable.map((metric) => make("option", { value: metric.name }, metric.title)));
-    this.metricSelect.value = this.state.metric;
-    document.getElementById("check-logX").parentElement.hidden = this.chart().kind !== "n";
-    document.getElementById("check-bands").parentElement.hidden = this.chart().kind === "shape";
-    this.drawToggles();
+    const points = Object.values(this.chart().series).flat();
+    const present = new Set(points.flatMap((point) => Object.keys(point.metrics)));
+    this.offer(this.report.metrics.filter((metric) => metric.charted && present.has(metric.name)));
+    this.toggles.draw(this.entrants());
     this.choosePareto();
     this.draw();
   }
 
-  drawToggles() {
-    const focused = document.activeElement?.dataset?.entrant;
-    const toggle = (entrant) => {
-      const button = make(
-        "button",
-        {
-          type: "button",
-          class: "toggle",
-          "data-entrant": entrant.key,
-          "aria-pressed": String(!this.state.hidden.has(entrant.key)),
-          style: `--own: var(--method-${entrant.method})`,
-          click: () => this.toggle(entrant.key),
-        },
-        markerPicture(entrant.marker),
-        entrant.label,
-      );
-      return button;
-    };
-    const every = (words, keep) =>
-      make(
-        "button",
-        {
-          type: "button",
-          class: "small",
-          click: () => {
-            for (const entrant of this.entrants()) this.state.hidden[keep(entrant) ? "delete" : "add"](entrant.key);
-            this.choose();
-          },
-        },
-        words,
-      );
-    const entrants = this.entrants();
-    const quick = entrants.length > 3 ? [every("All", () => true), every("None", () => false)] : [];
-    if (quick.length && new Set(entrants.map((one) => one.protocol)).size > 1)
-      quick.push(every("Only paper’s rules", (entrant) => entrant.protocol === "paper"));
-    this.toggles.replaceChildren(...entrants.map(toggle), ...quick);
-    if (focused) this.toggles.querySelector(`[data-entrant="${CSS.escape(focused)}"]`)?.focus();
-  }
-
   choosePareto() {
-    const select = document.getElementById("pareto-select");
     const chart = this.chart();
-    const options = chart.x.map((x, index) =>
-      make("option", { value: index }, chart.kind === "n" ? `n = ${formatCount(x)}` : x),
-    );
+    const options = chart.x.map((_, index) => make("option", { value: index }, this.placeName(index)));
     if (chart.kind === "shape" && chart.x.length > 1)
       options.unshift(make("option", { value: "common" }, "median of the common shapes"));
-    select.replaceChildren(...options);
+    this.paretoSelect.replaceChildren(...options);
     const wanted = this.state.paretoCase;
     const first = chart.kind === "n" ? String(this.fullest()) : options[0]?.value;
-    select.value = options.some((one) => one.value === wanted) ? wanted : first;
-    this.state.paretoCase = select.value;
+    this.paretoSelect.value = options.some((one) => one.value === wanted) ? wanted : first;
+    this.state.paretoCase = this.paretoSelect.value;
   }
 
   /** The largest number of points at which most entrants have a result. */
@@ -316,40 +83,24 @@ class Charts {
     return counts.lastIndexOf(Math.max(...counts));
   }
 
-  // Drawing.
-
   draw() {
-    const ink = {
-      ink: cssColour("--ink"),
-      muted: cssColour("--muted"),
-      line: cssColour("--line"),
-      grid: cssColour("--grid"),
-      panel: cssColour("--panel"),
-    };
+    const ink = themeInk();
     const { time, error } = this.quantities();
     const chart = this.chart();
     const shown = this.shown();
     const entries = paretoEntries(chart, this.state.paretoCase, time, error, shown);
-    const where = `${this.report.experiments[chart.experiment].title}: ${chart.title}`;
-    const options = {
-      time: caseChartOptions(chart, time, shown, this.state, ink, this.plots[0].chart.getWidth()),
-      error: caseChartOptions(chart, error, shown, this.state, ink, this.plots[1].chart.getWidth()),
-      pareto: paretoOptions(entries.list, time, error, this.state, ink),
-    };
-    const titles = { time: time.axis, error: error.axis, pareto: "Time against error" };
-    for (const { id, element, chart: plot } of this.plots) {
-      const option = options[id];
-      option.tooltip.formatter = (event) => this.tooltip(event, id);
-      plot.setOption(option, { notMerge: true });
-      // A fine pointer draws a box to zoom; with a finger that would hold the page fast.
-      if (matchMedia("(pointer: fine)").matches)
-        plot.dispatchAction({ type: "takeGlobalCursor", key: "dataZoomSelect", dataZoomSelectActive: true });
-      document.getElementById(`title-${id}`).textContent = titles[id];
-      element.setAttribute("aria-label", `${titles[id]}. ${where}. The values are in the table below the chart.`);
+    const where = `. ${this.report.experiments[chart.experiment].title}: ${chart.title}`;
+    for (const plot of this.plots) {
+      const quantity = { time, error }[plot.id];
+      const options = quantity
+        ? caseChartOptions(chart, quantity, shown, this.state, ink, plot.chart.getWidth())
+        : paretoOptions(entries.list, time, error, this.state, ink);
+      this.drawPlot(plot, options, quantity ? quantity.axis : "Time against error", where);
     }
     this.placeParetoLabels(entries.list);
-    this.valueTable("time", time, shown);
-    this.valueTable("error", error, shown);
+    const columns = shown.map((entrant) => ({ label: entrant.label, points: chart.series[entrant.key] }));
+    this.valueTable("time", time, columns);
+    this.valueTable("error", error, columns);
     this.paretoTable(entries.list, time, error);
     this.missing.textContent = this.missingWords(entries.leftOut);
     this.drawn = { chart: chart.id, time: time.name, metric: error.name, shown: shown.map((one) => one.key) };
@@ -391,89 +142,25 @@ class Charts {
     return (this.chart().series[entrant.key] ?? []).reduce((sum, point) => sum + (point.count ?? 1), 0);
   }
 
-  tooltip(event, id) {
-    if (!event.data || (!event.data.point && !event.data.entry)) return "";
-    const { time, error } = this.quantities();
-    const point = event.data.point ?? event.data.entry.point;
-    const entry = event.data.entry;
-    const chart = this.chart();
-    const where =
-      entry && !point
-        ? `median of ${entry.cases} shapes`
-        : chart.kind === "n"
-          ? `n = ${formatCount(chart.x[point.x])}`
-          : chart.x[point.x];
-    const line = (name, value) => make("div", { class: "tip-line" }, make("span", {}, name), make("b", {}, value));
-    const times = entry ? entry.time : pointValue(point, time);
-    const errors = entry ? entry.error : pointValue(point, error);
-    const unit = error.metric.unit ? ` ${error.metric.unit}` : "";
-    const score = (value) => formatScore(error.metric, value);
-    const errorWords = errors
-      ? score(errors[0]) + unit + (errors[1] === null ? "" : ` [${score(errors[1])}, ${score(errors[2])}]`)
-      : "–";
-    const hint =
-      point?.run && typeof hasPicture === "function" && hasPicture(point.run)
-        ? make("div", { class: "muted" }, "Click for the picture.")
-        : null;
-    return make(
-      "div",
-      { class: "tip" },
-      make("strong", {}, event.seriesName),
-      make(
-        "div",
-        { class: "muted" },
-        where + (point?.count ? `, ${formatCount(point.count)} shapes: median [5 %, 95 %]` : ""),
-      ),
-      line("Time", formatTime(times)),
-      line(error.metric.title, errorWords),
-      hint,
-    );
+  tooltip(event, { time, error }) {
+    const { entry } = event.data;
+    const point = event.data.point ?? entry.point;
+    const several = point?.count ? `, ${formatCount(point.count)} shapes: median [5 %, 95 %]` : "";
+    const where = point ? this.placeName(point.x) + several : `median of ${entry.cases} shapes`;
+    const hint = this.hasPicture(point) ? "Click for the picture." : "";
+    const lines = [
+      ["Time", formatTime(entry ? entry.time : pointValue(point, time))],
+      [error.metric.title, formatScores(entry ? entry.error : pointValue(point, error), error.metric)],
+    ];
+    return makeTip(event.seriesName, where, lines, hint);
+  }
+
+  hasPicture(point) {
+    return Boolean(point?.run && this.gallery?.has(point.run));
   }
 
   open(point) {
-    if (point?.run && typeof hasPicture === "function" && hasPicture(point.run)) openCase(point.case, point.run);
-  }
-
-  zoom(id, factor) {
-    const { chart } = this.plots.find((plot) => plot.id === id);
-    // The two entries of the charts' own; the tool for drawing a box adds its own behind them.
-    chart
-      .getOption()
-      .dataZoom.slice(0, 2)
-      .forEach((entry, dataZoomIndex) => {
-        const middle = (entry.start + entry.end) / 2;
-        const half = Math.min(50, ((entry.end - entry.start) / 2) * factor);
-        chart.dispatchAction({
-          type: "dataZoom",
-          dataZoomIndex,
-          start: Math.max(0, middle - half),
-          end: Math.min(100, middle + half),
-        });
-      });
-    if (factor === Infinity)
-      chart.dispatchAction({
-        type: "dataZoom",
-        batch: chart.getOption().dataZoom.map((_, dataZoomIndex) => ({ dataZoomIndex, start: 0, end: 100 })),
-      });
-  }
-
-  // The same numbers as text.
-
-  valueTable(id, quantity, shown) {
-    const chart = this.chart();
-    const cell = (entrant, index) => {
-      const point = (chart.series[entrant.key] ?? []).find((one) => one.x === index);
-      const value = point && pointValue(point, quantity);
-      if (!value) return "–";
-      const said = (one) => (quantity.metric ? formatScore(quantity.metric, one) : formatNumber(one));
-      return said(value[0]) + (value[1] === null ? "" : ` [${said(value[1])}, ${said(value[2])}]`);
-    };
-    const names = chart.x.map((x) => (chart.kind === "n" ? formatCount(x) : x));
-    this.fillTable(
-      id,
-      [quantity.axis, ...shown.map((entrant) => entrant.label)],
-      names.map((name, index) => [name, ...shown.map((entrant) => cell(entrant, index))]),
-    );
+    if (this.hasPicture(point)) this.gallery.open(point.case, point.run);
   }
 
   paretoTable(entries, time, error) {
@@ -482,35 +169,5 @@ class Charts {
       ["Method", time.axis, error.axis],
       entries.map((one) => [one.entrant.label, formatNumber(one.time[0]), formatScore(error.metric, one.error[0])]),
     );
-  }
-
-  fillTable(id, head, rows) {
-    const table = make(
-      "table",
-      {},
-      make(
-        "thead",
-        {},
-        make(
-          "tr",
-          {},
-          ...head.map((word, index) => make("th", { scope: "col", class: index ? "number" : null }, word)),
-        ),
-      ),
-      make(
-        "tbody",
-        {},
-        ...rows.map((row) =>
-          make(
-            "tr",
-            {},
-            ...row.map((word, index) =>
-              make(index ? "td" : "th", index ? { class: "number" } : { scope: "row" }, word),
-            ),
-          ),
-        ),
-      ),
-    );
-    document.querySelector(`#values-${id} .scroll`).replaceChildren(table);
   }
 }

@@ -1,8 +1,14 @@
 // Puts the page together. All parts share which methods are hidden.
+import { BothCharts } from "./comparison_charts.js";
+import { Forests } from "./comparison_forest.js";
+import { PairTable } from "./comparison_table.js";
+import { Rows, once, readJson, unpack, whenNear } from "./data.js";
+import { make } from "./format.js";
+import { cssColour, startTheme } from "./theme.js";
 
 function startComparison() {
   const report = readJson("report");
-  const hooks = { report, forests: null, charts: null, table: null };
+  const hooks = { report, cssColour, forests: null, charts: null, table: null };
   window.hullbenchComparison = hooks;
   startTheme();
   const hidden = new Set();

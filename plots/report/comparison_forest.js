@@ -1,9 +1,13 @@
 // The forest plots of ratios: a line a method, then a line a run.
+import { CHANGE_MARKS, forestHeight, forestOptions, formatRatioInterval } from "./comparison_options.js";
+import { formatCount, formatNumber, formatTime, make, makeChoice, makeTip, smallButton } from "./format.js";
+import { markerPicture } from "./markers.js";
+import { MethodToggles } from "./method_toggles.js";
+import { onTheme, printing, themeInk } from "./theme.js";
 
 const FOREST_PAGE = 40;
 
-/** The section of ratios: a line a method, then a line a run. */
-class Forests {
+export class Forests {
   constructor(place, report, rows, hidden, changed) {
     Object.assign(this, { report, rows, hidden });
     this.labels = new Map(report.entrants.map((entrant) => [entrant.key, entrant]));
@@ -32,18 +36,8 @@ class Forests {
   }
 
   build(place, changed) {
-    const option = ([value, label]) => make("option", { value }, label);
     const choice = (words, key, options) =>
-      make(
-        "label",
-        {},
-        words,
-        make(
-          "select",
-          { id: `forest-${key}`, change: (event) => this.set({ [key]: event.target.value, page: 0 }) },
-          ...options.map(option),
-        ),
-      );
+      makeChoice(words, { id: `forest-${key}` }, options, (value) => this.set({ [key]: value, page: 0 }));
     const words = make("input", {
       type: "search",
       id: "forest-words",
@@ -53,13 +47,9 @@ class Forests {
     });
     this.count = make("p", { class: "muted", id: "forest-count", "aria-live": "polite" });
     place.append(this.legend());
-    this.toggles = new MethodToggles(
-      place,
-      this.report,
-      new Set(this.report.changes.map((one) => one.key)),
-      this.hidden,
-      changed,
-    );
+    this.toggles = new MethodToggles(place, this.report, this.hidden, changed);
+    const changes = new Set(this.report.changes.map((one) => one.key));
+    this.entrants = this.report.entrants.filter((entrant) => changes.has(entrant.key));
     place.append(
       this.figure("methods", "Every method: the median of its runs’ ratios"),
       make(
@@ -116,8 +106,7 @@ class Forests {
   }
 
   pager() {
-    const button = (words, label, step) =>
-      make("button", { type: "button", class: "small", "aria-label": label, click: () => this.go(step) }, words);
+    const button = (words, label, step) => smallButton(words, () => this.go(step), { "aria-label": label });
     this.page = make("span", { class: "page" });
     this.pages = make(
       "nav",
@@ -215,7 +204,7 @@ class Forests {
     const from = this.state.page * FOREST_PAGE;
     const page = this.found.slice(from, from + FOREST_PAGE);
     const lines = { methods: this.methodLines(), runs: this.runLines(page) };
-    const ink = comparisonInk();
+    const ink = themeInk();
     for (const { id, element, chart } of this.plots) {
       const height = forestHeight(lines[id].length);
       element.style.height = `${height}px`;
@@ -232,51 +221,33 @@ class Forests {
     this.count.textContent = this.countWords(from, page.length);
     this.pages.hidden = this.found.length <= FOREST_PAGE;
     this.page.textContent = `${formatCount(from + 1)} to ${formatCount(from + page.length)}`;
-    this.toggles.draw();
+    this.toggles.draw(this.entrants);
     this.drawn = lines;
   }
 
   countWords(from, count) {
     if (this.found.length === 0) return "No run fits.";
     const said = `${formatCount(this.found.length)} of ${formatCount(this.withRatio.length)} runs with times in both`;
-    return count === this.found.length
-      ? said
-      : `${said}, ${formatCount(from + 1)} to ${formatCount(from + count)} shown`;
+    return count === this.found.length ? said : `${said}, ${formatCount(from + 1)} to ${formatCount(from + count)} shown`;
   }
 
   tooltip(line) {
-    const entry = (name, value) => make("div", { class: "tip-line" }, make("span", {}, name), make("b", {}, value));
-    const ratio = entry("B ÷ A", formatRatioInterval(line.ratio, line.low, line.high));
-    const change = entry("B is", `${this.report.signs[line.change]} ${line.change}`);
+    const { report, rows } = this;
+    const numbers = [
+      ["B ÷ A", formatRatioInterval(line.ratio, line.low, line.high)],
+      ["B is", `${report.signs[line.change]} ${line.change}`],
+    ];
     if (line.method) {
-      return make(
-        "div",
-        { class: "tip" },
-        make("strong", {}, line.label),
-        ratio,
-        change,
-        entry("Runs", `${line.pairs}, judged ${line.judged}`),
-        entry("Slower / faster", `${line.slower} / ${line.faster}`),
-      );
+      const runs = [
+        ["Runs", `${line.pairs}, judged ${line.judged}`],
+        ["Slower / faster", `${line.slower} / ${line.faster}`],
+      ];
+      return makeTip(line.label, "", [...numbers, ...runs]);
     }
-    const { rows } = this;
-    const time = (side) =>
-      formatTime([
-        rows.get(`time_${side}`, line.row),
-        rows.get(`time_${side}_low`, line.row),
-        rows.get(`time_${side}_high`, line.row),
-      ]);
+    const time = (side) => formatTime(["", "_low", "_high"].map((end) => rows.get(`time_${side}${end}`, line.row)));
     const p = rows.get("adjusted_p_value", line.row);
-    return make(
-      "div",
-      { class: "tip" },
-      make("strong", {}, this.labels.get(rows.get("entrant", line.row)).label),
-      make("div", { class: "muted" }, this.caseLabel(line.row)),
-      entry("A", time("a")),
-      entry("B", time("b")),
-      ratio,
-      change,
-      p === null ? null : entry("p by Holm", formatNumber(p)),
-    );
+    const label = this.labels.get(rows.get("entrant", line.row)).label;
+    const judged = p === null ? [] : [["p by Holm", formatNumber(p)]];
+    return makeTip(label, this.caseLabel(line.row), [["A", time("a")], ["B", time("b")], ...numbers, ...judged]);
   }
 }

@@ -1,7 +1,10 @@
 // From the comparison's numbers to what ECharts draws. Nothing here changes the page.
+import { caseChartOptions, commonOptions, logTicks } from "./chart_options.js";
+import { formatNumber } from "./format.js";
+import { markerPath } from "./markers.js";
 
 // Only what is significant has a colour and a filled sign; the others are drawn in grey, hollow.
-const CHANGE_MARKS = {
+export const CHANGE_MARKS = {
   faster: { marker: "triangle-left", colour: "faster", filled: true, size: 12 },
   slower: { marker: "triangle-right", colour: "slower", filled: true, size: 12 },
   "lower time": { marker: "triangle-left", colour: "muted", filled: false, size: 12 },
@@ -14,7 +17,7 @@ const FOREST_ROW = 22;
 const LABEL_SIZE = 12;
 
 /** The height of a forest plot of so many lines, in pixels. */
-function forestHeight(count) {
+export function forestHeight(count) {
   return FOREST_ROW * count + 64;
 }
 
@@ -32,7 +35,7 @@ function ratioTicks(low, high, most) {
  * A line with its interval for every ratio, round the line at 1, on a logarithmic axis. `lines` are {label, heading,
  * ratio, low, high, change}, from the top; those with a heading have only that.
  */
-function forestOptions(lines, ink, width) {
+export function forestOptions(lines, ink, width) {
   const values = lines.flatMap((line) => [line.ratio, line.low, line.high]).filter((value) => value > 0);
   const low = Math.min(0.95, ...values);
   const high = Math.max(1.05, ...values);
@@ -77,8 +80,7 @@ function forestOptions(lines, ink, width) {
         color: ink.ink,
         width: labels - 8,
         overflow: "truncate",
-        formatter: (index) =>
-          lines[index].heading ? `{heading|${plain(lines[index].heading)}}` : plain(lines[index].label),
+        formatter: (index) => (lines[index].heading ? `{heading|${plain(lines[index].heading)}}` : plain(lines[index].label)),
         rich: { heading: { ...font, fontWeight: 600, color: ink.ink, width: labels - 8, overflow: "truncate" } },
       },
     },
@@ -161,12 +163,12 @@ function forestSeries(change, mark, lines, ink) {
 }
 
 /** A ratio with three digits: 1.00 where formatNumber writes 1, for 1.00 and 0.99 must not look alike. */
-function formatRatio(value) {
+export function formatRatio(value) {
   return Number.isInteger(value) && value < 10 ? value.toFixed(2) : formatNumber(value);
 }
 
 /** 0.935 [0.923, 0.948]; without the interval where there is none. */
-function formatRatioInterval(ratio, low, high) {
+export function formatRatioInterval(ratio, low, high) {
   return formatRatio(ratio) + (low === null || low === undefined ? "" : ` [${formatRatio(low)}, ${formatRatio(high)}]`);
 }
 
@@ -174,16 +176,14 @@ function formatRatioInterval(ratio, low, high) {
  * The options of a chart of the report, with both runs in it: those of A pale and hollow. `shown` are the entrants; the
  * series' ids are the entrant's key and the side.
  */
-function bothChartOptions(chart, quantity, shown, settings, ink, width) {
+export function bothChartOptions(chart, quantity, shown, settings, ink, width) {
   // The first is drawn on top: the full sign of B within the ring of A.
   const order = chart.kind === "shape" ? ["A", "B"] : ["B", "A"];
   const sides = shown.flatMap((entrant) =>
     order.map((side) => ({ ...entrant, key: `${entrant.key} ${side}`, label: `${entrant.label}, ${side}` })),
   );
   const series = Object.fromEntries(
-    ["A", "B"].flatMap((side) =>
-      Object.entries(chart[side.toLowerCase()]).map(([key, points]) => [`${key} ${side}`, points]),
-    ),
+    ["A", "B"].flatMap((side) => Object.entries(chart[side.toLowerCase()]).map(([key, points]) => [`${key} ${side}`, points])),
   );
   const options = caseChartOptions({ ...chart, series }, quantity, sides, settings, ink, width);
   for (const one of options.series) {

@@ -1,28 +1,26 @@
-"use strict";
-
 // What the page was given: small parts as JSON, large ones packed and decoded when they are first needed.
 
 /** The value of a <script type="application/json"> element; null: there is no such element. */
-function readJson(id) {
+export function readJson(id) {
   const element = document.getElementById(id);
   return element ? JSON.parse(element.textContent) : null;
 }
 
 /** A value packed by report_data.pack: gzip in base64. */
-async function unpack(packed) {
+export async function unpack(packed) {
   const bytes = Uint8Array.from(atob(packed.data), (character) => character.charCodeAt(0));
   const stream = new Blob([bytes]).stream().pipeThrough(new DecompressionStream("gzip"));
   return new Response(stream).json();
 }
 
 /** A function that calls `make` once, when it is first called, and always returns that result. */
-function once(make) {
+export function once(make) {
   let made;
   return () => (made ??= make());
 }
 
 /** The columns of all runs, with a `get(name, row)` that resolves words; undefined columns give null. */
-class Rows {
+export class Rows {
   constructor(packed) {
     this.count = packed.count;
     this.columns = packed.columns;
@@ -66,20 +64,20 @@ class Rows {
 }
 
 /** The command that measures one run again. */
-function reproduceCommand(experiment, name) {
+export function reproduceCommand(experiment, name) {
   const pattern = `^${name.replace(/[\\^$.*+?()[\]{}|]/g, "\\$&")}$`;
   return `build/hullbench run ${experiment.name}${experiment.options} --filter '${pattern.replaceAll("'", "'\\''")}'`;
 }
 
 /** The values by their key, in the order of the keys' first appearance. */
-function groupBy(values, key) {
+export function groupBy(values, key) {
   const groups = new Map();
   for (const value of values) groups.set(key(value), [...(groups.get(key(value)) ?? []), value]);
   return groups;
 }
 
 /** Calls `act` when the element is less than a screen away. */
-function whenNear(element, act) {
+export function whenNear(element, act) {
   const observer = new IntersectionObserver(
     (entries) => {
       if (!entries.some((entry) => entry.isIntersecting)) return;

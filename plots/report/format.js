@@ -1,7 +1,7 @@
 // Numbers and elements.
 
 /** Three significant digits (or `digits`), without an exponent between a thousandth and a million. */
-function formatNumber(value, digits = 3) {
+export function formatNumber(value, digits = 3) {
   if (value === null || value === undefined || Number.isNaN(value)) return "–";
   if (typeof value !== "number") return String(value);
   if (value === 0) return "0";
@@ -12,25 +12,25 @@ function formatNumber(value, digits = 3) {
 }
 
 /** A whole number in groups of three, from 10000 on. */
-function formatCount(value) {
+export function formatCount(value) {
   return value < 10000 ? String(value) : String(value).replace(/\B(?=(\d{3})+$)/g, "\u202f");
 }
 
 /** [median, low, high] in milliseconds: 0.395 ms [0.390, 0.412]. */
-function formatTime(time) {
+export function formatTime(time) {
   if (!time) return "–";
   const interval = time[1] === null ? "" : ` [${formatNumber(time[1])}, ${formatNumber(time[2])}]`;
   return `${formatNumber(time[0])} ms${interval}`;
 }
 
 /** A metric's value in its unit, without the unit's name: numbers of things are whole, all else has `digits` digits. */
-function formatScore(metric, value, digits = 3) {
+export function formatScore(metric, value, digits = 3) {
   if (metric.whole && Number.isInteger(value)) return formatCount(value);
   return formatNumber(value, digits);
 }
 
 /** A metric's recorded value as the page shows it, with its unit. */
-function formatMetric(metric, value) {
+export function formatMetric(metric, value) {
   if (value === null || value === undefined) return "–";
   return formatScore(metric, value * metric.factor) + (metric.unit ? ` ${metric.unit}` : "");
 }
@@ -39,7 +39,7 @@ function formatMetric(metric, value) {
  * An element with attributes and children. Strings become text nodes, never markup: a record may hold "<script>".
  * Attributes that are functions become listeners; true and false set and leave out an attribute.
  */
-function make(tag, attributes = {}, ...children) {
+export function make(tag, attributes = {}, ...children) {
   const element = document.createElement(tag);
   for (const [name, value] of Object.entries(attributes)) {
     if (typeof value === "function") element.addEventListener(name, value);
@@ -50,7 +50,26 @@ function make(tag, attributes = {}, ...children) {
   return element;
 }
 
+/** A small button; `more` are attributes beside the usual ones. */
+export function smallButton(words, click, more = {}) {
+  return make("button", { type: "button", class: "small", click, ...more }, words);
+}
+
+/** A labelled choice between `options`, which are [value, text]; `chosen` is called with the value. */
+export function makeChoice(words, attributes, options, chosen) {
+  const made = options.map(([value, text]) => make("option", { value }, text));
+  const select = make("select", { ...attributes, change: (event) => chosen(event.target.value) }, ...made);
+  return make("label", {}, words, select);
+}
+
+/** The box at the pointer: a title, a line on where it is, names with values ([name, value]), and a hint. */
+export function makeTip(title, where, lines, hint = "") {
+  const line = ([name, value]) => make("div", { class: "tip-line" }, make("span", {}, name), make("b", {}, value));
+  const muted = (words) => (words ? make("div", { class: "muted" }, words) : null);
+  return make("div", { class: "tip" }, make("strong", {}, title), muted(where), ...lines.map(line), muted(hint));
+}
+
 /** Says something to screen readers. */
-function announce(words) {
+export function announce(words) {
   document.getElementById("announcer").textContent = words;
 }

@@ -1,32 +1,39 @@
 // Puts the page together. Charts first; the table when it comes near, for its rows are most of the data.
+import { openCase } from "./case_dialog.js";
+import { hasPicture } from "./cases.js";
+import { Charts } from "./charts.js";
+import { Rows, once, readJson, unpack, whenNear } from "./data.js";
+import { mountGallery } from "./gallery.js";
+import { fit } from "./picture.js";
+import { RunTable } from "./table.js";
+import { startTheme } from "./theme.js";
 
 function startReport() {
   const report = readJson("report");
   const pictures = readJson("pictures");
+  const gallery = pictures.cases.length ? { has: hasPicture, open: openCase } : null;
   const charts = once(() => unpack(readJson("charts")));
   const rows = once(async () => new Rows(await unpack(readJson("rows"))));
-  const hooks = { report, pictures, loadCharts: charts, loadRows: rows, charts: null, table: null, gallery: null };
+  const hooks = { report, pictures, gallery, fit, loadCharts: charts, loadRows: rows, charts: null, table: null };
   window.hullbenchReport = hooks;
 
   startTheme();
-  if (pictures?.cases?.length && typeof mountGallery === "function") startGallery(hooks);
-  const loadTable = once(async () => {
-    hooks.table = new RunTable(document.getElementById("table-place"), report, await rows());
+  if (gallery) startGallery(report, pictures);
+  hooks.loadTable = once(async () => {
+    hooks.table = new RunTable(document.getElementById("table-place"), report, await rows(), gallery);
   });
-  hooks.loadTable = loadTable;
   hooks.ready = charts().then((decoded) => {
-    if (decoded.length) hooks.charts = new Charts(document.getElementById("charts-place"), report, decoded);
+    if (decoded.length) hooks.charts = new Charts(document.getElementById("charts-place"), report, decoded, gallery);
     document.documentElement.dataset.ready = "charts";
   });
-  whenNear(document.getElementById("runs"), loadTable);
-  addEventListener("beforeprint", loadTable);
+  whenNear(document.getElementById("runs"), hooks.loadTable);
+  addEventListener("beforeprint", hooks.loadTable);
 }
 
-function startGallery(hooks) {
-  const section = document.getElementById("gallery");
-  section.hidden = false;
+function startGallery(report, pictures) {
+  document.getElementById("gallery").hidden = false;
   document.getElementById("gallery-link").hidden = false;
-  hooks.gallery = mountGallery(document.getElementById("gallery-place"), hooks.report, hooks.pictures) ?? true;
+  mountGallery(document.getElementById("gallery-place"), report, pictures);
 }
 
 startReport();

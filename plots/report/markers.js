@@ -45,12 +45,12 @@ const MARKERS = {
 };
 
 /** A marker's path; a circle for a name that is not known. */
-function markerPath(name) {
+export function markerPath(name) {
   return MARKERS[name] ?? MARKERS.circle;
 }
 
 /** A marker as a small picture in the text's colour. */
-function markerPicture(name) {
+export function markerPicture(name) {
   const space = "http://www.w3.org/2000/svg";
   const picture = document.createElementNS(space, "svg");
   picture.setAttribute("viewBox", "-1 -1 22 22");

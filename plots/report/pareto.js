@@ -1,10 +1,12 @@
 // Time against error: who is beaten in both, and who is not.
+import { commonOptions, numericAxis, pointValue } from "./chart_options.js";
+import { markerPath } from "./markers.js";
 
 /**
  * {list, leftOut}: what to draw of the entrants shown, and those left out. `chosen` is the index of a case, or "common":
  * the medians over the shapes for which all have both values.
  */
-function paretoEntries(chart, chosen, time, error, shown) {
+export function paretoEntries(chart, chosen, time, error, shown) {
   const usable = (entrant) =>
     (chart.series[entrant.key] ?? []).filter((point) => pointValue(point, time) && pointValue(point, error));
   if (chosen === "common")
@@ -60,7 +62,7 @@ function median(values) {
  * Time against error: one dot an entrant. `entries` are {entrant, time, error, cases}; the front joins those that no
  * other beats in both.
  */
-function paretoOptions(entries, time, error, settings, ink) {
+export function paretoOptions(entries, time, error, settings, ink) {
   const front = paretoFront(entries, error.metric.better);
   return {
     ...commonOptions(ink),

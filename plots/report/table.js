@@ -1,21 +1,23 @@
 // The table of all runs: filters, sorting, pages, a choice of columns and the command that repeats each run.
+import { reproduceCommand, groupBy } from "./data.js";
+import { announce, formatCount, formatNumber, formatScore, make, makeChoice, smallButton } from "./format.js";
 
 const PAGE_SIZES = [25, 50, 100, 250];
 
-/** A column of words, of which `value` gives a row's: shown and sorted as they are. */
-function wordColumn(id, title, value, usual = true, group = "Run") {
-  return { id, title, group, usual, numeric: false, value, show: value };
+/** A column of words, of which `value` gives a row's: sorted as they are; `show` gives what is shown where it is more. */
+export function wordColumn(id, title, value, usual = true, show = value) {
+  return { id, title, group: "Run", usual, numeric: false, value, show };
 }
 
 /** A column of numbers or nulls; `show` gives a row's text or element when it is more than the number. */
-function numberColumn(id, title, usual, group, value, show = (row) => formatNumber(value(row), 4)) {
+export function numberColumn(id, title, usual, group, value, show = (row) => formatNumber(value(row), 4)) {
   return { id, title, group, usual, numeric: true, value, show };
 }
 
-class RunTable {
-  constructor(place, report, rows) {
-    this.report = report;
-    this.rows = rows;
+export class RunTable {
+  /** `gallery` is {has(run), open(case, run)}; null: there are no pictures. */
+  constructor(place, report, rows, gallery = null) {
+    Object.assign(this, { report, rows, gallery });
     this.labels = new Map(report.entrants.map((entrant) => [entrant.key, entrant]));
     this.columns = this.allColumns();
     this.state = {
@@ -33,65 +35,76 @@ class RunTable {
     this.find();
   }
 
+  /** What the column and the filter of statuses are called. */
+  statusTitle() {
+    return "Status";
+  }
+
+  /** A function that gives a row's value in a column of the page's data. */
+  get(name) {
+    return (row) => this.rows.get(name, row);
+  }
+
+  /** [low, high] in small letters behind a value; nothing where there is no interval. */
+  withInterval(value, low, high, format = formatNumber) {
+    const [from, to] = [this.get(low), this.get(high)];
+    return (row) =>
+      make("span", {}, value(row), make("small", {}, from(row) === null ? "" : `[${format(from(row))}, ${format(to(row))}]`));
+  }
+
   /** {id, title, group, numeric, usual, value(row), show(row)}: value is sorted by, show is a text or an element. */
   allColumns() {
     const { rows, report } = this;
-    const get = (name) => (row) => rows.get(name, row);
-    const interval = (row) =>
-      rows.get("time_low", row) === null
-        ? ""
-        : `[${formatNumber(rows.get("time_low", row))}, ${formatNumber(rows.get("time_high", row))}]`;
-    const columns = [
-      wordColumn(
-        "experiment",
-        "Experiment",
-        (row) => report.experiments[rows.get("experiment", row)].title,
-        report.experiments.length > 1,
-      ),
-      wordColumn("method", "Method", (row) => this.labels.get(rows.get("entrant", row)).label),
-      wordColumn("shape", "Shape", (row) => rows.shape(row)),
-      numberColumn("n", "n", true, "Run", get("n"), (row) => formatCount(rows.get("n", row))),
-      wordColumn("holes", "Holes", (row) => (rows.get("holes", row) ? "yes" : "no")),
-      wordColumn("status", "Status", get("status")),
-      numberColumn("time", "Time, ms", true, "Time", get("time"), (row) =>
-        make("span", {}, formatNumber(rows.get("time", row)), make("small", {}, interval(row))),
-      ),
-      numberColumn("paper_time", "Time as in the paper, ms", false, "Time", get("paper_time")),
-      numberColumn("repetitions", "Repetitions", false, "Time", get("repetitions"), (row) =>
-        formatCount(rows.get("repetitions", row)),
-      ),
-      ...report.metrics
-        .filter((metric) => rows.has(`metric ${metric.name}`))
-        .map((metric) => this.metricColumn(metric)),
-      ...Object.keys(rows.columns)
-        .filter((name) => name.startsWith("parameter "))
-        .map((name) => numberColumn(name, name.slice("parameter ".length), false, "Parameters", get(name))),
-      wordColumn("flags", "Doubts", get("flags"), rows.columns.flags.words.some(Boolean)),
-      wordColumn("version", "Version", get("version"), false),
-      ...(rows.has("output") ? [wordColumn("output", "Result’s SHA-256", get("output"), false)] : []),
-      numberColumn("seed", "Seed", false, "Run", get("seed"), (row) => String(rows.get("seed", row) ?? "–")),
-      {
-        id: "reproduce",
-        title: "Reproduce",
-        group: "Run",
-        usual: true,
-        numeric: false,
-        fixed: true,
-        show: (row) => this.reproduce(row),
-      },
-      wordColumn("detail", "Why", get("detail"), this.hasFailures()),
+    const interval = this.withInterval((row) => formatNumber(rows.get("time", row)), "time_low", "time_high");
+    const repetitions = (row) => formatCount(rows.get("repetitions", row));
+    const seed = (row) => String(rows.get("seed", row) ?? "–");
+    const metrics = report.metrics.filter((metric) => rows.has(`metric ${metric.name}`));
+    const parameters = Object.keys(rows.columns).filter((name) => name.startsWith("parameter "));
+    const show = (row) => this.reproduce(row);
+    return [
+      ...this.caseColumns(),
+      numberColumn("time", "Time, ms", true, "Time", this.get("time"), interval),
+      numberColumn("paper_time", "Time as in the paper, ms", false, "Time", this.get("paper_time")),
+      numberColumn("repetitions", "Repetitions", false, "Time", this.get("repetitions"), repetitions),
+      ...metrics.map((metric) => this.metricColumn(metric)),
+      ...parameters.map((name) => numberColumn(name, name.slice("parameter ".length), false, "Parameters", this.get(name))),
+      wordColumn("flags", "Doubts", this.get("flags"), rows.columns.flags.words.some(Boolean)),
+      wordColumn("version", "Version", this.get("version"), false),
+      ...(rows.has("output") ? [wordColumn("output", "Result’s SHA-256", this.get("output"), false)] : []),
+      numberColumn("seed", "Seed", false, "Run", this.get("seed"), seed),
+      { id: "reproduce", title: "Reproduce", group: "Run", usual: true, numeric: false, fixed: true, show },
+      this.detailColumn(rows.columns.status.words.some((status) => status !== "ok")),
     ];
-    columns.find((column) => column.id === "method").show = (row) => this.method(row);
-    columns.find((column) => column.id === "status").show = (row) =>
-      make("span", { class: `status ${rows.get("status", row)}` }, rows.get("status", row).replace("_", " "));
-    columns.find((column) => column.id === "detail").show = (row) =>
-      make("span", { class: "detail" }, rows.get("detail", row));
-    return columns;
+  }
+
+  /** What tells a row from the others, and how it ended. */
+  caseColumns() {
+    const { rows } = this;
+    const { experiments } = this.report;
+    const experiment = (row) => experiments[rows.get("experiment", row)].title;
+    const method = (row) => this.labels.get(rows.get("entrant", row)).label;
+    return [
+      wordColumn("experiment", "Experiment", experiment, experiments.length > 1),
+      wordColumn("method", "Method", method, true, (row) => this.method(row)),
+      wordColumn("shape", "Shape", (row) => rows.shape(row)),
+      numberColumn("n", "n", true, "Run", this.get("n"), (row) => formatCount(rows.get("n", row))),
+      wordColumn("holes", "Holes", (row) => (rows.get("holes", row) ? "yes" : "no")),
+      wordColumn("status", this.statusTitle(), this.get("status"), true, (row) => this.status(row)),
+    ];
+  }
+
+  detailColumn(usual) {
+    const detail = this.get("detail");
+    return wordColumn("detail", "Why", detail, usual, (row) => make("span", { class: "detail" }, detail(row)));
+  }
+
+  status(row) {
+    const status = this.rows.get("status", row);
+    return make("span", { class: `status ${status}` }, status.replace("_", " "));
   }
 
   metricColumn(metric) {
-    const short = { l2: "L2, %", l2_paper: "L2 as in the paper, %", iou: "IoU" }[metric.name];
-    const title = short ?? metric.title + (metric.unit ? `, ${metric.unit}` : "");
+    const title = metric.title + (metric.unit ? `, ${metric.unit}` : "");
     const value = (row) => {
       const raw = this.rows.get(`metric ${metric.name}`, row);
       return raw === null ? null : raw * metric.factor;
@@ -99,10 +112,6 @@ class RunTable {
     return numberColumn(`metric-${metric.name}`, title, ["l2", "iou"].includes(metric.name), "Scores", value, (row) =>
       formatScore(metric, value(row), 4),
     );
-  }
-
-  hasFailures() {
-    return this.rows.columns.status.words.some((status) => status !== "ok");
   }
 
   method(row) {
@@ -113,48 +122,26 @@ class RunTable {
   reproduce(row) {
     const command = reproduceCommand(this.report.experiments[this.rows.get("experiment", row)], this.rows.name(row));
     const code = make("code", { title: command }, command);
-    const copy = make(
-      "button",
-      {
-        type: "button",
-        class: "small",
-        "aria-label": `Copy the command for ${this.rows.name(row)}`,
-        click: () => copyText(command, code, copy),
-      },
-      "Copy",
-    );
     const run = this.rows.name(row);
-    const picture =
-      typeof hasPicture === "function" && hasPicture(run)
-        ? make(
-            "button",
-            {
-              type: "button",
-              class: "small",
-              "aria-label": `Picture of ${run}`,
-              click: () => openCase(this.rows.caseName(row), run),
-            },
-            "Picture",
-          )
-        : null;
+    const copied = () => copyText(command, code, copy);
+    const copy = smallButton("Copy", copied, { "aria-label": `Copy the command for ${run}` });
+    const open = () => this.gallery.open(this.rows.caseName(row), run);
+    const picture = this.gallery?.has(run) ? smallButton("Picture", open, { "aria-label": `Picture of ${run}` }) : null;
     return make("span", { class: "reproduce" }, picture, copy, code);
   }
 
   // What stays.
 
   build(place) {
+    const { experiments, entrants } = this.report;
     const filter = (words, key, options) =>
-      make(
-        "label",
-        {},
-        words,
-        make(
-          "select",
-          { id: `filter-${key}`, change: (event) => this.set({ [key]: event.target.value }) },
-          make("option", { value: "" }, "all"),
-          ...options.map(([value, label]) => make("option", { value }, label)),
-        ),
-      );
+      makeChoice(words, { id: `filter-${key}` }, [["", "all"], ...options], (value) => this.set({ [key]: value }));
+    const titles = experiments.map((one, index) => [index, one.title]);
+    const labels = entrants.map((entrant) => [entrant.key, entrant.label]);
+    const statuses = this.rows.columns.status.words.map((status) => [status, status.replace("_", " ")]);
+    const sizes = PAGE_SIZES.map((size) => [size, String(size)]);
+    const size = makeChoice("Rows a page", { id: "page-size" }, sizes, (value) => this.set({ size: Number(value) }));
+    size.lastChild.value = this.state.size;
     this.count = make("p", { class: "muted", id: "table-count", "aria-live": "polite" });
     this.table = make("table", { id: "runs-table", "data-testid": "runs-table" });
     this.pagers = ["top", "bottom"].map((where) => this.pager(where));
@@ -165,49 +152,21 @@ class RunTable {
       autocomplete: "off",
       input: (event) => this.set({ words: event.target.value }),
     });
+    const scroll = { class: "scroll", id: "runs-scroll", tabindex: "0", role: "region", "aria-label": "All runs" };
     place.append(
       make(
         "div",
         { class: "controls", role: "search", "aria-label": "Filter the runs" },
         make("label", {}, "Words in the name or reason", search),
-        this.report.experiments.length > 1
-          ? filter(
-              "Experiment",
-              "experiment",
-              this.report.experiments.map((one, index) => [index, one.title]),
-            )
-          : null,
-        filter(
-          "Method",
-          "entrant",
-          this.report.entrants.map((entrant) => [entrant.key, entrant.label]),
-        ),
-        filter(
-          "Status",
-          "status",
-          this.rows.columns.status.words.map((status) => [status, status.replace("_", " ")]),
-        ),
-        make(
-          "label",
-          {},
-          "Rows a page",
-          make(
-            "select",
-            { id: "page-size", change: (event) => this.set({ size: Number(event.target.value) }) },
-            ...PAGE_SIZES.map((size) =>
-              make("option", { value: size, selected: size === this.state.size }, String(size)),
-            ),
-          ),
-        ),
+        experiments.length > 1 ? filter("Experiment", "experiment", titles) : null,
+        filter("Method", "entrant", labels),
+        filter(this.statusTitle(), "status", statuses),
+        size,
       ),
       this.columnChooser(),
       this.count,
       this.pagers[0],
-      make(
-        "div",
-        { class: "scroll", id: "runs-scroll", tabindex: "0", role: "region", "aria-label": "All runs" },
-        this.table,
-      ),
+      make("div", scroll, this.table),
       this.pagers[1],
     );
   }
@@ -217,21 +176,14 @@ class RunTable {
       this.columns.filter((column) => !column.fixed),
       (column) => column.group,
     );
-    const box = (column) =>
-      make(
-        "label",
-        { class: "check" },
-        make("input", {
-          type: "checkbox",
-          checked: column.usual,
-          "data-column": column.id,
-          change: (event) => {
-            this.state.shown[event.target.checked ? "add" : "delete"](column.id);
-            this.draw();
-          },
-        }),
-        column.title,
-      );
+    const box = (column) => {
+      const change = (event) => {
+        this.state.shown[event.target.checked ? "add" : "delete"](column.id);
+        this.draw();
+      };
+      const input = make("input", { type: "checkbox", checked: column.usual, "data-column": column.id, change });
+      return make("label", { class: "check" }, input, column.title);
+    };
     return make(
       "details",
       { class: "columns", id: "column-chooser" },
@@ -241,20 +193,11 @@ class RunTable {
   }
 
   pager(where) {
-    const button = (words, label, go) =>
-      make(
-        "button",
-        { type: "button", class: "small", "aria-label": label, "data-go": label, click: () => this.go(go()) },
-        words,
-      );
+    const button = (words, label, go) => smallButton(words, () => this.go(go()), { "aria-label": label, "data-go": label });
+    const keydown = (event) => this.key(event);
     return make(
       "nav",
-      {
-        class: "pager",
-        "aria-label": `Pages, ${where}`,
-        "data-testid": `pager-${where}`,
-        keydown: (event) => this.key(event),
-      },
+      { class: "pager", "aria-label": `Pages, ${where}`, "data-testid": `pager-${where}`, keydown },
       button("«", "First page", () => 0),
       button("‹", "Previous page", () => this.state.page - 1),
       make("span", { class: "page" }),
@@ -264,9 +207,7 @@ class RunTable {
   }
 
   key(event) {
-    const to = { ArrowLeft: this.state.page - 1, ArrowRight: this.state.page + 1, Home: 0, End: this.pages() - 1 }[
-      event.key
-    ];
+    const to = { ArrowLeft: this.state.page - 1, ArrowRight: this.state.page + 1, Home: 0, End: this.pages() - 1 }[event.key];
     if (to === undefined) return;
     event.preventDefault();
     this.go(to);
@@ -298,8 +239,7 @@ class RunTable {
       if (state.entrant && rows.get("entrant", row) !== state.entrant) continue;
       if (state.status && rows.get("status", row) !== state.status) continue;
       if (words.length) {
-        const text =
-          `${rows.name(row)} ${rows.shape(row)} ${rows.get("status", row)} ${rows.get("detail", row)}`.toLowerCase();
+        const text = `${rows.name(row)} ${rows.shape(row)} ${rows.get("status", row)} ${rows.get("detail", row)}`.toLowerCase();
         if (!words.every((word) => text.includes(word))) continue;
       }
       this.found.push(row);
@@ -367,8 +307,7 @@ class RunTable {
 
   drawPager(pager) {
     pager.hidden = this.pages() === 1;
-    pager.querySelector(".page").textContent =
-      `Page ${formatCount(this.state.page + 1)} of ${formatCount(this.pages())}`;
+    pager.querySelector(".page").textContent = `Page ${formatCount(this.state.page + 1)} of ${formatCount(this.pages())}`;
     const [first, last] = [this.state.page === 0, this.state.page === this.pages() - 1];
     // aria-disabled, so that a button that has the focus keeps it.
     for (const button of pager.querySelectorAll("button"))

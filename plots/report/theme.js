@@ -2,23 +2,29 @@
 
 const themeListeners = [];
 const systemDark = matchMedia("(prefers-color-scheme: dark)");
-let printing = false;
+export let printing = false;
 
 /** "light" or "dark". */
-function currentTheme() {
+export function currentTheme() {
   const chosen = document.querySelector("#theme input:checked")?.value ?? "auto";
   if (printing) return "light";
   return chosen === "auto" ? (systemDark.matches ? "dark" : "light") : chosen;
 }
 
 /** Calls `listener` after every change of the theme. */
-function onTheme(listener) {
+export function onTheme(listener) {
   themeListeners.push(listener);
 }
 
 /** The value of a custom property such as --ink. */
-function cssColour(name) {
+export function cssColour(name) {
   return getComputedStyle(document.documentElement).getPropertyValue(name).trim();
+}
+
+/** The colours of the theme that charts are drawn in; those of a change only where the page has them. */
+export function themeInk() {
+  const names = ["ink", "muted", "line", "grid", "panel", "faster", "slower"];
+  return Object.fromEntries(names.map((name) => [name, cssColour(`--${name}`)]));
 }
 
 function applyTheme() {
@@ -26,7 +32,7 @@ function applyTheme() {
   for (const listener of themeListeners) listener();
 }
 
-function startTheme() {
+export function startTheme() {
   // Private windows and pages from disk may have no storage; the choice then lasts as long as the page.
   const storage = (use) => {
     try {

@@ -43,6 +43,7 @@ function report_with(factor, change = () => {}) {
   const made = structuredClone(invented);
   change(made);
   const statistics = new Map(made.summary.rows.map((row) => [row.id, row]));
+  const usual = made.summary.rows.find((row) => row.time).time;
   for (const run of made.runs) {
     if (run.time_ns.length)
       run.time_ns = Array.from({ length: REPETITIONS }, (_, index) =>
@@ -53,7 +54,7 @@ function report_with(factor, change = () => {}) {
     if (run.status !== "ok") told.time = null;
     else
       told.time = {
-        ...told.time,
+        ...usual,
         repetitions: REPETITIONS,
         median_ns: median(run.time_ns),
         median_low_ns: run.time_ns[5],
@@ -114,6 +115,7 @@ before(async () => {
   mkdirSync(join(OUTPUT, "invented"), { recursive: true });
   run_program(WRITE_INVENTED_REPORT, join(OUTPUT, "invented", "report.json"));
   invented = JSON.parse(readFileSync(join(OUTPUT, "invented", "report.json")));
+  invented.metrics = JSON.parse(run_program(HULLBENCH, "metrics", "--json"));
   const factor = (run) => ({ polylidar: FASTER, cgal_alpha_shape: SLOWER })[run.method] ?? 1;
   write_run(
     "a",
@@ -135,10 +137,7 @@ after(() => browser?.close());
 /** A test with a page of its own, in which nothing may go wrong on the side. */
 function page_test(name, options, body) {
   test(name, async () => {
-    const { page, troubles } = await open_page(browser, file_of(options.page ?? "before_after"), {
-      ready: READY,
-      ...options,
-    });
+    const { page, troubles } = await open_page(browser, file_of(options.page ?? "before_after"), { ready: READY, ...options });
     await body(page);
     assert.deepEqual(troubles, []);
     await page.context().close();
@@ -159,10 +158,7 @@ async function rows_of(page) {
   const shown = await rows.evaluateAll((all) =>
     all.map((row) => ({ run: row.dataset.run, cells: [...row.cells].map((cell) => cell.innerText.trim()) })),
   );
-  return shown.map(({ run, cells }) => ({
-    run,
-    ...Object.fromEntries(heads.map((head, index) => [head, cells[index]])),
-  }));
+  return shown.map(({ run, cells }) => ({ run, ...Object.fromEntries(heads.map((head, index) => [head, cells[index]])) }));
 }
 
 /** Whether a text such as "0.935" is the value with as many digits as it has. */
@@ -218,43 +214,38 @@ page_test("opens from disk without network or messages, and the verdict is the p
       words,
     );
   }
-  assert.match(
-    await page.locator("#verdict-statuses").innerText(),
-    new RegExp(`✕\\s${FAILS}: now timed out \\(after 60 s\\)`),
-  );
+  assert.match(await page.locator("#verdict-statuses").innerText(), new RegExp(`✕\\s${FAILS}: now timed out \\(after 60 s\\)`));
   assert.match(await page.locator("#verdict-errors").innerText(), new RegExp(`▲\\s${LARGER_ERROR}: L2 larger`));
   assert.match(await page.locator("#warnings").innerText(), /Two runs of the very same program differ/);
 });
 
-page_test(
-  "the chart of ratios draws the program's ratios and intervals, coloured only where significant",
-  {},
-  async (page) => {
-    const drawn = await drawn_ratios(page);
-    const wanted = compared.before_after.pairs.filter((pair) => pair.ratio !== null);
-    assert.deepEqual(drawn.map(({ run }) => run).sort(), wanted.map(({ name }) => name).sort());
-    const [faster, slower, muted] = await page.evaluate(() => ["--faster", "--slower", "--muted"].map(cssColour));
-    const panel = await page.evaluate(() => cssColour("--panel"));
-    assert.equal(new Set([faster, slower, muted]).size, 3);
-    for (const one of drawn) {
-      const told = wanted.find(({ name }) => name === one.run);
-      for (const [key, value] of [
-        ["ratio", told.ratio],
-        ["low", told.ratio_low],
-        ["high", told.ratio_high],
-      ]) {
-        assert.ok(
-          value === null ? one[key] === null : Math.abs(one[key] / value - 1) < 1e-4,
-          `${key} of ${one.run}: ${one[key]}, not ${value}`,
-        );
-      }
-      assert.equal(one.change, told.change);
-      const significant = ["faster", "slower"].includes(told.change);
-      assert.equal(one.filled, significant);
-      assert.equal(one.colour, { faster, slower }[told.change] ?? panel, one.run);
+page_test("the chart of ratios draws the program's ratios and intervals, coloured only where significant", {}, async (page) => {
+  const drawn = await drawn_ratios(page);
+  const wanted = compared.before_after.pairs.filter((pair) => pair.ratio !== null);
+  assert.deepEqual(drawn.map(({ run }) => run).sort(), wanted.map(({ name }) => name).sort());
+  const [faster, slower, muted] = await page.evaluate(() =>
+    ["--faster", "--slower", "--muted"].map(hullbenchComparison.cssColour),
+  );
+  const panel = await page.evaluate(() => hullbenchComparison.cssColour("--panel"));
+  assert.equal(new Set([faster, slower, muted]).size, 3);
+  for (const one of drawn) {
+    const told = wanted.find(({ name }) => name === one.run);
+    for (const [key, value] of [
+      ["ratio", told.ratio],
+      ["low", told.ratio_low],
+      ["high", told.ratio_high],
+    ]) {
+      assert.ok(
+        value === null ? one[key] === null : Math.abs(one[key] / value - 1) < 1e-4,
+        `${key} of ${one.run}: ${one[key]}, not ${value}`,
+      );
     }
-  },
-);
+    assert.equal(one.change, told.change);
+    const significant = ["faster", "slower"].includes(told.change);
+    assert.equal(one.filled, significant);
+    assert.equal(one.colour, { faster, slower }[told.change] ?? panel, one.run);
+  }
+});
 
 page_test("times of two machines are said to be that and are not coloured", { page: "machines" }, async (page) => {
   assert.match(await page.locator("#warnings").innerText(), /The machines differ \(A: 0123abcd; B: feedbeef\)/);
@@ -290,11 +281,7 @@ page_test("the table has every pair with the program's numbers, status changes f
       const time = told[`median_${side}_ns`];
       const error = told[`l2_${side}`];
       if (time !== null)
-        assert_shows(
-          row[`time_${side}`].replace(/^([0-9]+)(?= |$)/, "$1.000"),
-          time / 1e6,
-          `time of ${row.run} in ${side}`,
-        );
+        assert_shows(row[`time_${side}`].replace(/^([0-9]+)(?= |$)/, "$1.000"), time / 1e6, `time of ${row.run} in ${side}`);
       if (error !== null) assert_shows(row[`l2_${side}`], 100 * error, `error of ${row.run} in ${side}`);
     }
   }
@@ -328,9 +315,7 @@ page_test("the table filters by what became of a run, finds words and sorts", {}
 
 page_test("the chart of ratios filters, orders and hides methods; the other charts follow", {}, async (page) => {
   const labels = () =>
-    page.evaluate(() =>
-      hullbenchComparison.forests.drawn.runs.filter((line) => !line.heading).map((line) => line.ratio),
-    );
+    page.evaluate(() => hullbenchComparison.forests.drawn.runs.filter((line) => !line.heading).map((line) => line.ratio));
   const all = (await labels()).length;
   await page.locator("#forest-words").fill("hi/n:2000");
   assert.equal(
@@ -355,8 +340,7 @@ page_test("the chart of ratios filters, orders and hides methods; the other char
   assert.equal(await toggle.getAttribute("aria-pressed"), "false");
   assert.equal(
     (await labels()).length,
-    all -
-      compared.before_after.pairs.filter((pair) => pair.ratio !== null && pair.name.startsWith("polylidar/")).length,
+    all - compared.before_after.pairs.filter((pair) => pair.ratio !== null && pair.name.startsWith("polylidar/")).length,
   );
   assert.ok(!(await page.evaluate(() => hullbenchComparison.charts.drawn.shown)).includes("polylidar/paper"));
   await toggle.click();
@@ -378,9 +362,7 @@ page_test("a line of the chart tells its numbers under the pointer", {}, async (
   const told = compared.before_after.pairs.find((pair) => pair.name === name);
   assert.match(words, /▲ slower/);
   assert.ok(
-    words.includes(
-      `${told.ratio.toPrecision(3)} [${told.ratio_low.toPrecision(3)}, ${told.ratio_high.toPrecision(3)}]`,
-    ),
+    words.includes(`${told.ratio.toPrecision(3)} [${told.ratio_low.toPrecision(3)}, ${told.ratio_high.toPrecision(3)}]`),
     words,
   );
 });
@@ -408,8 +390,7 @@ page_test("time and error of both runs are drawn with the reports' numbers", {},
       assert.ok(Math.abs(shown / value(row) - 1) < 1e-4, `${run} of ${side}: ${shown}, not ${value(row)}`);
     }
   }
-  const california = (report) =>
-    report.runs.filter((run) => run.status === "ok" && run.dataset === "ca" && !run.holes).length;
+  const california = (report) => report.runs.filter((run) => run.status === "ok" && run.dataset === "ca" && !run.holes).length;
   assert.equal(drawn[0].length, california(reports.A) + california(reports.B));
 });
 
@@ -429,30 +410,26 @@ for (const [width, theme] of [
   [360, "light"],
 ]) {
   for (const name of ["before_after", "machines"]) {
-    page_test(
-      `${name} is readable and accessible at ${width} pixels, ${theme}`,
-      { page: name, width, theme },
-      async (page) => {
-        await open_table(page);
-        assert.equal(await page.evaluate(() => document.documentElement.scrollWidth), width);
-        await page.screenshot({ path: join(OUTPUT, `${name}-${width}-${theme}.png`), fullPage: true });
-        // Run outside of the page's policy, which forbids scripts of others.
-        await page.evaluate(axe);
-        const { violations } = await page.evaluate(() =>
-          window.axe.run(document, { runOnly: ["wcag2a", "wcag2aa", "wcag21a", "wcag21aa"] }),
-        );
-        assert.deepEqual(
-          violations.map(
-            ({ id, nodes }) =>
-              `${id}: ${nodes
-                .slice(0, 3)
-                .map((node) => node.html.slice(0, 120))
-                .join(" | ")}`,
-          ),
-          [],
-        );
-      },
-    );
+    page_test(`${name} is readable and accessible at ${width} pixels, ${theme}`, { page: name, width, theme }, async (page) => {
+      await open_table(page);
+      assert.equal(await page.evaluate(() => document.documentElement.scrollWidth), width);
+      await page.screenshot({ path: join(OUTPUT, `${name}-${width}-${theme}.png`), fullPage: true });
+      // Run outside of the page's policy, which forbids scripts of others.
+      await page.evaluate(axe);
+      const { violations } = await page.evaluate(() =>
+        window.axe.run(document, { runOnly: ["wcag2a", "wcag2aa", "wcag21a", "wcag21aa"] }),
+      );
+      assert.deepEqual(
+        violations.map(
+          ({ id, nodes }) =>
+            `${id}: ${nodes
+              .slice(0, 3)
+              .map((node) => node.html.slice(0, 120))
+              .join(" | ")}`,
+        ),
+        [],
+      );
+    });
   }
 }
 

@@ -25,8 +25,7 @@ function california() {
   const all = polygons.flat(2);
   const low = [0, 1].map((axis) => Math.min(...all.map((vertex) => vertex[axis])));
   const side = Math.max(...[0, 1].map((axis) => Math.max(...all.map((vertex) => vertex[axis])) - low[axis]));
-  const snap = (ring) =>
-    ring.flatMap(([x, y]) => [x - low[0], y - low[1]].map((value) => Math.round((value / side) * GRID)));
+  const snap = (ring) => ring.flatMap(([x, y]) => [x - low[0], y - low[1]].map((value) => Math.round((value / side) * GRID)));
   return polygons.map((polygon) => polygon.map(snap));
 }
 
@@ -48,9 +47,7 @@ function with_hole(polygons) {
 /** Every vertex moved by up to `size` steps. */
 function shaken(polygons, size, seed) {
   const random = weyl(seed);
-  return polygons.map((polygon) =>
-    polygon.map((ring) => ring.map((value) => Math.round(value + size * (2 * random() - 1)))),
-  );
+  return polygons.map((polygon) => polygon.map((ring) => ring.map((value) => Math.round(value + size * (2 * random() - 1)))));
 }
 
 /** Even-odd test. */
@@ -110,6 +107,7 @@ function lines_of(report) {
           run: run.name,
           id: run.id,
           output_sha256: run.output_sha256,
+          l2: run.metrics.l2 ?? null,
           polygons: result(run),
         })),
     ];

@@ -1,7 +1,7 @@
 // The report in a browser, made from the invented run of tests/invented_run.cpp, whose numbers are known.
 //
-// The environment says where things are: WRITE_INVENTED_REPORT is that program, PYTHON the Python for plots/, OUTPUT the
-// folder for the run, the page and its screenshots.
+// The environment says where things are: WRITE_INVENTED_REPORT and HULLBENCH are those programs, PYTHON the Python for
+// plots/, OUTPUT the folder for the run, the page and its screenshots.
 import assert from "node:assert/strict";
 import { spawnSync } from "node:child_process";
 import { mkdirSync, readFileSync, rmSync, statSync, writeFileSync } from "node:fs";
@@ -12,7 +12,7 @@ import { fileURLToPath } from "node:url";
 import { launch, open_page } from "./browser.mjs";
 import { SQUARE, write_invented_pictures } from "./invented_pictures.mjs";
 
-const { WRITE_INVENTED_REPORT, PYTHON = "python3", OUTPUT } = process.env;
+const { WRITE_INVENTED_REPORT, HULLBENCH, PYTHON = "python3", OUTPUT } = process.env;
 const folder = join(OUTPUT, "run");
 const file = join(OUTPUT, "report.html");
 const make_report = fileURLToPath(new URL("../../plots/make_report.py", import.meta.url));
@@ -38,6 +38,7 @@ let report;
 function run_program(program, ...words) {
   const { status, stdout, stderr } = spawnSync(program, words, { encoding: "utf8" });
   assert.equal(status, 0, `${program} ${words.join(" ")}: ${stdout}${stderr}`);
+  return stdout;
 }
 
 before(async () => {
@@ -47,6 +48,7 @@ before(async () => {
   write_invented_pictures(folder);
   report = JSON.parse(readFileSync(join(folder, "report.json")));
   Object.assign(row_named(MARKED).metrics, FARTHEST);
+  report.metrics = JSON.parse(run_program(HULLBENCH, "metrics", "--json"));
   writeFileSync(join(folder, "report.json"), JSON.stringify(report));
   run_program(PYTHON, make_report, folder, "--out", file);
   browser = await launch();
@@ -84,7 +86,7 @@ function assert_shows(text, value, what) {
 }
 
 async function open_case(page, case_name, run_name) {
-  await page.evaluate(([one, run]) => openCase(one, run), [case_name, run_name]);
+  await page.evaluate(([one, run]) => hullbenchReport.gallery.open(one, run), [case_name, run_name]);
   await page.locator('dialog[open][data-ready="true"]').waitFor();
   await page.evaluate(() => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done))));
 }
@@ -96,7 +98,7 @@ function colour_at(page, x, y) {
       const canvas = document.querySelector("dialog[open] canvas");
       // The square and the moved square, in the grid of plots/pictures.py.
       const box = { left: 768, bottom: 768, right: 3648, top: 3328 };
-      const { scale, x: x0, y: y0 } = casePicture.fit(box, canvas.clientWidth, canvas.clientHeight, 14);
+      const { scale, x: x0, y: y0 } = hullbenchReport.fit(box, canvas.clientWidth, canvas.clientHeight, 14);
       const pixel = [x0 + (scale * grid_x) / 16, y0 - (scale * grid_y) / 16].map(Math.round);
       // From a copy: Chromium warns of canvases that are read often.
       const copy = new OffscreenCanvas(1, 1).getContext("2d", { willReadFrequently: true });
@@ -137,35 +139,28 @@ page_test("the charts show the report's numbers", {}, async (page) => {
   assert.deepEqual(drawn.map(({ run }) => run).sort(), wanted.map((run) => run.name).sort());
   for (const { run, time, l2 } of drawn) {
     const row = row_named(run);
-    assert.ok(
-      Math.abs(time / row.median_ms - 1) < 1e-4,
-      `${run}: ${time} ms in the chart, ${row.median_ms} in the report`,
-    );
+    assert.ok(Math.abs(time / row.median_ms - 1) < 1e-4, `${run}: ${time} ms in the chart, ${row.median_ms} in the report`);
     assert.ok(Math.abs(l2 / row.metrics.l2 - 1) < 1e-4, `${run}: ${l2} in the chart, ${row.metrics.l2} in the report`);
   }
 });
 
-page_test(
-  "what is drawn in the chart is what its data say, and a method can be switched off and on",
-  {},
-  async (page) => {
-    const drawn = () =>
-      page.evaluate(() =>
-        hullbenchReport.charts.plots[0].chart
-          .getOption()
-          .series.filter((series) => series.data.some((one) => one?.point))
-          .map((series) => series.name),
-      );
-    const toggle = page.locator("#method-toggles [data-entrant]").first();
-    const name = (await toggle.innerText()).trim();
-    assert.ok((await drawn()).includes(name), `${name} is not among ${await drawn()}`);
-    await toggle.click();
-    assert.ok(!(await drawn()).includes(name));
-    assert.equal(await toggle.getAttribute("aria-pressed"), "false");
-    await toggle.click();
-    assert.ok((await drawn()).includes(name));
-  },
-);
+page_test("what is drawn in the chart is what its data say, and a method can be switched off and on", {}, async (page) => {
+  const drawn = () =>
+    page.evaluate(() =>
+      hullbenchReport.charts.plots[0].chart
+        .getOption()
+        .series.filter((series) => series.data.some((one) => one?.point))
+        .map((series) => series.name),
+    );
+  const toggle = page.locator("#method-toggles [data-entrant]").first();
+  const name = (await toggle.innerText()).trim();
+  assert.ok((await drawn()).includes(name), `${name} is not among ${await drawn()}`);
+  await toggle.click();
+  assert.ok(!(await drawn()).includes(name));
+  assert.equal(await toggle.getAttribute("aria-pressed"), "false");
+  await toggle.click();
+  assert.ok((await drawn()).includes(name));
+});
 
 page_test("the table has every run with its status and numbers", {}, async (page) => {
   await page.locator("#runs").scrollIntoViewIfNeeded();
@@ -225,7 +220,7 @@ page_test("the table's commands name the run", {}, async (page) => {
 page_test("the gallery lists every case with a picture, the worst of the chosen method first", {}, async (page) => {
   const cards = page.locator(".gallery-card");
   const cases = new Set(report.runs.map((run) => case_of(run.name)));
-  await page.locator("select[name=gallery-method]").selectOption("polylidar paper");
+  await page.locator("select[name=gallery-method]").selectOption("polylidar/paper");
   assert.equal(await cards.count(), cases.size);
   const errors = (await cards.evaluateAll((all) => all.map((card) => card.dataset.run))).map(
     (run) => row_named(run).metrics.l2,
@@ -246,7 +241,7 @@ page_test("the gallery's failures can be found, and filters narrow the list", {}
   const failed = report.runs.filter((run) => !["ok", "not_installed", "unsupported"].includes(run.status));
   const cases = new Set(failed.map((run) => case_of(run.name)));
   assert.deepEqual(new Set(await cards.evaluateAll((all) => all.map((card) => card.dataset.case))), cases);
-  assert.match(await cards.first().innerText(), /invalid result|timeout/);
+  assert.match(await cards.first().innerText(), /invalid output|timeout/);
   await page.locator("select[name=gallery-status]").selectOption("timeout");
   assert.equal(await cards.count(), 1);
   await page.locator("select[name=gallery-shape]").selectOption("California");
@@ -271,9 +266,8 @@ page_test("an open case shows the numbers of each method and what went wrong", {
     for (const run of runs) {
       const line = page.locator(`dialog tr[data-run="${run.name}"]`);
       const row = row_named(run.name);
-      if (row.status === "ok")
-        assert_shows(await line.locator("[data-column=l2]").innerText(), 100 * row.metrics.l2, run.name);
-      else assert.match(await line.innerText(), /invalid result|timeout|not installed/);
+      if (row.status === "ok") assert_shows(await line.locator("[data-column=l2]").innerText(), 100 * row.metrics.l2, run.name);
+      else assert.match(await line.innerText(), /invalid output|timeout|not installed/);
       if (row.median_ms) assert_shows(await line.locator("[data-column=time]").innerText(), row.median_ms, run.name);
     }
   }
@@ -392,15 +386,14 @@ page_test("a row of the table opens its picture", {}, async (page) => {
     .click();
   await page.locator('dialog[open][data-ready="true"]').waitFor();
   assert.equal(await page.locator("dialog tr.chosen").getAttribute("data-run"), run);
-  assert.equal(await page.evaluate(() => hasPicture("spatialite/hi/n:64000/holes:0/protocol:paper")), false);
+  assert.equal(await page.evaluate(() => hullbenchReport.gallery.has("spatialite/hi/n:64000/holes:0/protocol:paper")), false);
 });
 
 for (const width of [360, 390, 1280]) {
   page_test(`nothing is wider than a window of ${width} pixels`, { width, height: 800 }, async (page) => {
     await page.locator("#runs").scrollIntoViewIfNeeded();
     await page.locator("#runs-table tbody tr").first().waitFor();
-    const excess = () =>
-      page.evaluate(() => document.documentElement.scrollWidth - document.documentElement.clientWidth);
+    const excess = () => page.evaluate(() => document.documentElement.scrollWidth - document.documentElement.clientWidth);
     assert.ok((await excess()) <= 0, `${await excess()} pixels too wide`);
     await open_case(page, CALIFORNIA);
     const cut = await page.evaluate(() =>

@@ -1,11 +1,13 @@
 #!/usr/bin/env bash
 # Checks of the project's own files. Exit status 0: fine; 1: found something, which is printed; 77: cannot tell here.
 #
-#   check.sh format [--fix]   our C++ is as clang-format 14 writes it
-#   check.sh tidy [JOBS]      clang-tidy has nothing to say; needs build-clang/compile_commands.json
-#   check.sh paths            no file names a path of one machine
-#   check.sh layout           the top level is what the design allows
-#   check.sh help             "make help" and the README name every target
+#   check.sh format [--fix]       our C++ is as clang-format 14 writes it
+#   check.sh python [--fix]       our Python is as black 23 writes it
+#   check.sh javascript [--fix]   our JavaScript is as prettier writes it, in the version of tests/report
+#   check.sh tidy [JOBS]          clang-tidy has nothing to say; needs build-clang/compile_commands.json
+#   check.sh paths                no file names a path of one machine
+#   check.sh layout               the top level is what the design allows
+#   check.sh help                 "make help" and the README name every target
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/../.."
 
@@ -20,31 +22,48 @@ project_files() {
 
 sources() { project_files | grep -E '\.(cpp|hpp)$' | sort; }
 
-# clang-format's output differs between versions, so one version decides.
-clang_format_14() {
-  local program
-  for program in clang-format-14 clang-format; do
-    if "$program" --version 2>/dev/null | grep -qE 'version 14\.'; then
-      command -v "$program"
-      return
-    fi
-  done
-  echo "skipped: clang-format 14 is missing ('make deps' installs it on Debian 12): formatting is not checked." >&2
+# Not the adapters': a hash of their sources is part of a method's version, which a blank must not change.
+scripts() { project_files | grep -E "\.$1\$" | grep -v '^adapters/' | sort; }
+
+skip() {
+  echo "skipped: $1: formatting is not checked." >&2
   exit 77
 }
 
+# What clang-format and black write differs between versions, so one version decides.
 check_format() {
   local program found
-  program=$(clang_format_14)
+  program=$(command -v clang-format-14 || command -v clang-format) &&
+    "$program" --version | grep -qE 'version 14\.' ||
+    skip "clang-format 14 is missing ('make deps' installs it on Debian 12)"
   if [ "${1:-}" = --fix ]; then
     sources | xargs "$program" -i
     return
   fi
   if ! found=$(sources | xargs "$program" --dry-run -Werror 2>&1); then
     sed -n 's/^\([^ :]*:[0-9]*\):[0-9]*: error: .*/\1/p' <<<"$found" | sort -u -V >&2
-    echo "error: not formatted; 'make format' puts it right." >&2
-    return 1
+    not_formatted
   fi
+}
+
+check_python() {
+  black --version 2>/dev/null | grep -qE '^black, 23\.' || skip "black 23 is missing ('make deps' installs it on Debian 12)"
+  local check=--check
+  [ "${1:-}" != --fix ] || check=
+  scripts py | xargs black $check --line-length 128 --skip-magic-trailing-comma || not_formatted
+}
+
+check_javascript() {
+  local prettier=tests/report/node_modules/.bin/prettier check=--check
+  [ -x $prettier ] || skip "prettier is missing ('cmake/install-npm.sh tests/report' installs it)"
+  [ "${1:-}" != --fix ] || check=--write
+  scripts 'm?js' | xargs $prettier $check --log-level warn --print-width 128 --object-wrap collapse ||
+    not_formatted
+}
+
+not_formatted() {
+  echo "error: not formatted; 'make format' puts it right." >&2
+  return 1
 }
 
 check_tidy() {
@@ -98,9 +117,9 @@ check_help() {
 }
 
 case "${1:-}" in
-  format | tidy | paths | layout | help) "check_$1" "${@:2}" ;;
+  format | python | javascript | tidy | paths | layout | help) "check_$1" "${@:2}" ;;
   *)
-    sed -n '2,9s/^# \{0,1\}//p' "$0" >&2
+    sed -n '2,11s/^# \{0,1\}//p' "$0" >&2
     exit 2
     ;;
 esac

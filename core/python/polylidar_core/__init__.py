@@ -54,10 +54,7 @@ def concave_hull(
     """
     array = _as_points(points)
     return MultiPolygon(
-        array,
-        *_core.concave_hull(
-            array, alpha, max_edge_length, max_perimeter, fill_single_triangles, _thread_count(threads)
-        ),
+        array, *_core.concave_hull(array, alpha, max_edge_length, max_perimeter, fill_single_triangles, _thread_count(threads))
     )
 
 
