@@ -6,8 +6,9 @@
 #   check.sh javascript [--fix]   our JavaScript is as prettier writes it, in the version of tests/report
 #   check.sh tidy [JOBS]          clang-tidy has nothing to say; needs build-clang/compile_commands.json
 #   check.sh paths                no file names a path of one machine
-#   check.sh layout               the top level is what the design allows
-#   check.sh help                 "make help" and the README name every target
+#   check.sh layout               the top level is what the design allows; its folders have a README
+#   check.sh rooms                a room of benchmarks/ includes only rooms before it
+#   check.sh help                 "make help" and benchmarks/README.md name every target
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/../.."
 
@@ -90,7 +91,7 @@ check_paths() {
 }
 
 allowed_at_top="CMakeLists.txt core adapters benchmarks datasets results plots tests docker-compose.yml README.md
-  Makefile CMakePresets.json cmake LICENSE CHANGELOG.md"
+  Makefile CMakePresets.json cmake LICENSE CHANGELOG.md CITATION.cff CONTRIBUTING.md"
 
 check_layout() {
   local name status=0
@@ -101,6 +102,23 @@ check_layout() {
   for name in $allowed_at_top; do
     [ -e "$name" ] || { echo "error: '$name' is missing at the top level." >&2; status=1; }
   done
+  for name in core adapters datasets benchmarks results plots tests; do
+    [ -e "$name/README.md" ] || { echo "error: $name/README.md is missing: it is the map of the folder." >&2; status=1; }
+  done
+  [ "$(wc -l <README.md)" -le 250 ] || { echo "error: README.md is longer than 250 lines." >&2; status=1; }
+  return $status
+}
+
+# The order is that of benchmarks/CMakeLists.txt.
+check_rooms() {
+  local room used before=" " status=0
+  for room in $(sed -n 's/^add_subdirectory(\([a-z]*\)).*/\1/p' benchmarks/CMakeLists.txt); do
+    before+="$room "
+    for used in $(grep -rhoE '#include "benchmarks/[a-z]+/' "benchmarks/$room" | sed 's|.*benchmarks/\(.*\)/|\1|' | sort -u); do
+      [[ $before == *" $used "* ]] || { echo "error: benchmarks/$room includes benchmarks/$used, a later room." >&2; status=1; }
+    done
+  done
+  [ "$before" != " " ] || { echo "error: benchmarks/CMakeLists.txt adds no room." >&2; return 1; }
   return $status
 }
 
@@ -111,15 +129,16 @@ check_help() {
   listing=$(make --no-print-directory help)
   for target in $targets; do
     grep -qE "^  make $target +[a-z]" <<<"$listing" || { echo "error: 'make help' does not list $target." >&2; status=1; }
-    grep -qF "make $target\`" README.md || { echo "error: README.md does not name \`make $target\`." >&2; status=1; }
+    grep -qF "make $target\`" benchmarks/README.md ||
+      { echo "error: benchmarks/README.md does not name \`make $target\`." >&2; status=1; }
   done
   return $status
 }
 
 case "${1:-}" in
-  format | python | javascript | tidy | paths | layout | help) "check_$1" "${@:2}" ;;
+  format | python | javascript | tidy | paths | layout | rooms | help) "check_$1" "${@:2}" ;;
   *)
-    sed -n '2,11s/^# \{0,1\}//p' "$0" >&2
+    sed -n '2,12s/^# \{0,1\}//p' "$0" >&2
     exit 2
     ;;
 esac
