@@ -14,6 +14,7 @@
 #include "datasets/rgbd/recordings.hpp"
 #include "datasets/sha256.hpp"
 #include "datasets/stress.hpp"
+#include "datasets/zoo/zoo.hpp"
 
 namespace hullbench {
 
@@ -73,6 +74,16 @@ DatasetInfo describe_degenerate(const DegenerateInput& input) {
           .own_points = true};
 }
 
+DatasetInfo describe_zoo(const zoo::Case& one) {
+  return {.name = one.name,
+          .title = one.title,
+          .source = "Made for this project after the description in " + one.citation,
+          .licence = "MIT",
+          .sha256 = {},
+          .area = std::nullopt,
+          .own_points = true};
+}
+
 std::string names_of(const std::vector<DatasetInfo>& infos, bool only_with_holes) {
   std::string names;
   for (const DatasetInfo& info : infos) {
@@ -91,6 +102,7 @@ std::vector<DatasetInfo> families(const DataFolders& folders) {
     infos.push_back(describe_recorded_floors(list_recordings(folders.recordings).size()));
   }
   for (const DegenerateInput& input : degenerate_inputs()) infos.push_back(describe_degenerate(input));
+  for (const zoo::Case& one : zoo::cases()) infos.push_back(describe_zoo(one));
   return infos;
 }
 
@@ -160,9 +172,14 @@ const DegenerateInput* find_degenerate(const std::string& name) {
 
 /// Points that come with their shape.
 FloorScene make_own_points(const std::string& name, std::uint64_t seed, const DataFolders& folders) {
-  const DegenerateInput* degenerate = find_degenerate(name);
-  if (degenerate == nullptr) return make_floor(name, seed, folders);
-  return {degenerate->points, degenerate->ground_truth};
+  if (const DegenerateInput* degenerate = find_degenerate(name)) {
+    return {degenerate->points, degenerate->ground_truth};
+  }
+  if (const zoo::Case* animal = zoo::find_case(name)) {
+    zoo::Input input = animal->make();
+    return {std::move(input.points), std::move(input.ground_truth)};
+  }
+  return make_floor(name, seed, folders);
 }
 
 /// The name without its stress, of a data set that there is.

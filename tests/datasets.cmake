@@ -32,3 +32,11 @@ endforeach()
 # g++ 12 finds uninitialised values in Boost.Geometry 1.74 where there are none.
 set_source_files_properties(boost_checks.cpp PROPERTIES
   COMPILE_OPTIONS "$<$<CXX_COMPILER_ID:GNU>:-Wno-maybe-uninitialized>")
+hullbench_test(test_zoo
+  SOURCES test_zoo.cpp
+  LIBRARIES hullbench::datasets hullbench::hash nlohmann_json::nlohmann_json
+  LABELS datasets)
+target_compile_definitions(test_zoo PRIVATE
+  HULLBENCH_ZOO_HASHES="${CMAKE_CURRENT_LIST_DIR}/data/zoo_hashes.txt"
+  HULLBENCH_ZOO_PAGE="${PROJECT_SOURCE_DIR}/datasets/zoo/README.md"
+  HULLBENCH_ZOO_PLAN="${PROJECT_SOURCE_DIR}/benchmarks/plans/zoo.json")
