@@ -116,7 +116,7 @@ class ReadmeCommand : public ::testing::Test {
     return testing::run_program(arguments, options);
   }
 
-  void micro::measure() const {
+  void measure() const {
     const auto plan = testing::small_plan("states", testing::california({500, 600}));
     ASSERT_EQ(hullbench({"run", testing::write_plan(folder_.path(), plan), "--out", "run"}).code, 0);
   }
@@ -126,7 +126,7 @@ class ReadmeCommand : public ::testing::Test {
 };
 
 TEST_F(ReadmeCommand, WritesTheResultsAndSeesWhenADigitIsAnother) {
-  micro::measure();
+  measure();
   const std::string before = "# Title 1\n\n" + kBegin;
   const std::string behind = kEnd + "\n\nRest: \"\\ 2\"\n";
   write_text(file(), before + "old\n" + behind);
@@ -159,7 +159,7 @@ TEST_F(ReadmeCommand, WritesTheResultsAndSeesWhenADigitIsAnother) {
 }
 
 TEST_F(ReadmeCommand, WhatIsNotThereIsASentence) {
-  micro::measure();
+  measure();
   EXPECT_EQ(hullbench({"readme", "run", "README.md"}).err, "hullbench: there is no file README.md\n");
   EXPECT_EQ(hullbench({"readme", "run", "."}).err, "hullbench: there is no file .\n");
   write_text(file(), "# Title\n");

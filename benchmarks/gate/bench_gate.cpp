@@ -16,7 +16,6 @@
 #include "benchmarks/gate/gate_report.hpp"
 #include "benchmarks/gate/gate_verdict.hpp"
 #include "benchmarks/gate/time_gate.hpp"
-#include "benchmarks/table/document.hpp"
 #include "benchmarks/worker/worker_process.hpp"
 
 namespace {
