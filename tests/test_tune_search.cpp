@@ -233,7 +233,7 @@ class InventedTuning {
   tune::Evaluation evaluation(const tune::TuningCase& one, double position, double error) const {
     const tune::MethodTuning& method = tuning.methods.front();
     tune::Evaluation result;
-    result.case_name = one.name;
+    result.name = one.name;
     result.method = method.name;
     result.method_version = "1";
     result.program = std::string(64, '1');
@@ -247,7 +247,7 @@ class InventedTuning {
       result.status = record::Status::kCrash;
       result.detail = "SIGSEGV";
     } else {
-      result.l2 = error;
+      result.metrics["l2"] = error;
     }
     result.id = tune::evaluation_identity(result);
     return result;
@@ -333,7 +333,7 @@ TEST(ProtocolTest, TheOracleIsTheBestAndRegretIsWhatTheOthersAddToIt) {
     tune::MethodOnCase& found = invented.tuning.methods[0].cases[i];
     found.protocols.emplace("default", invented.evaluation(invented.tuning.cases[i], 32, 0.75));
     for (const tune::SweepEvaluation& one : found.sweep)
-      EXPECT_LE(tune::best_evaluation(found)->error(), one.evaluation.error());
+      EXPECT_LE(tune::error_of(*tune::best_evaluation(found)), tune::error_of(one.evaluation));
   }
   const auto scores = tune::protocol_scores(invented.tuning, invented.method(), invented.tuned());
   const tune::ProtocolScore* oracle = score_of(scores, "oracle", false);

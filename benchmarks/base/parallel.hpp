@@ -13,4 +13,8 @@ namespace hullbench {
 void for_each_in_parallel(std::size_t count, const std::vector<int>& cores,
                           const std::function<void(std::size_t)>& work);
 
+/// Calls `work(thread)` for every number below `count`, each on a thread of its own, on any core. Returns
+/// when all are done; of several exceptions that of the smallest number is thrown here.
+void run_on_threads(std::size_t count, const std::function<void(std::size_t)>& work);
+
 }  // namespace hullbench

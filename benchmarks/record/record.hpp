@@ -75,7 +75,10 @@ struct RunRecord {
   std::optional<std::int64_t> cold_time_ns;
   nlohmann::json metrics = nlohmann::json::object();  ///< see metrics.hpp; null for what is undefined
   std::string output_sha256;                          ///< of the WKB of the result; empty when there is none
-  std::string machine;             ///< on which the times were taken (machine_id); empty: run.json's machine
+  std::string machine;  ///< on which the times were taken (machine_id); empty: run.json's machine
+  /// SHA-256 of what ran it, a program or a manifest and its files, where rows of several are kept in one
+  /// file (sweep.jsonl); no member of a line of runs.jsonl.
+  std::string program;
   std::vector<std::string> flags;  ///< reasons to doubt the row, such as kFasterThanFloor; mostly empty
 };
 

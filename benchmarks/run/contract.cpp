@@ -12,7 +12,6 @@
 #include "adapters/wkb.hpp"
 #include "benchmarks/metrics/area.hpp"
 #include "benchmarks/metrics/validity.hpp"
-#include "benchmarks/worker/protocol.hpp"
 #include "datasets/random.hpp"
 #include "polylidar/concave_hull.hpp"
 
@@ -164,9 +163,8 @@ class ContractTest {
 
   Result hull(const std::vector<Point>& points, double spacing) {
     if (timeouts_ == kMostTimeouts) throw TooManyTimeouts();
-    const worker::LoadedPoints loaded = {"contract-" + std::to_string(++loads_), scratch_ / "points.f64",
-                                         points.size()};
-    worker::write_points_file(loaded.file, points);
+    const worker::LoadedPoints loaded =
+        worker::write_points("contract-" + std::to_string(++loads_), points, scratch_);
     const worker::Attempt attempt =
         session_.run(loaded, contract_parameters(*session_.info(), spacing), scratch_, timeout_);
     Result result;

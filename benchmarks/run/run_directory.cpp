@@ -37,34 +37,26 @@ json read_header(const fs::path& folder) {
   return header.is_object() ? header : json();
 }
 
-ConfigurationError not_writable(const fs::path& folder, const std::string& why) {
+ConfigurationError not_writable(const fs::path& path, const std::string& why) {
   // NOLINTNEXTLINE(modernize-return-braced-init-list): the inherited constructor is explicit
-  return ConfigurationError("cannot write to the output folder " + folder.string() + " (" + why +
+  return ConfigurationError("cannot write to the output folder " + path.string() + " (" + why +
                             "); choose another one with --out");
 }
 
-/// The folder's descriptor with the lock on it, or -1 when another process has it. The lock goes with the
-/// descriptor, however its owner ends.
-int try_lock(const fs::path& folder) {
-  const int lock = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-  if (lock < 0 || ::faccessat(AT_FDCWD, folder.c_str(), W_OK | X_OK, AT_EACCESS) != 0) {
+/// The descriptor of a folder or file with the lock on it, or -1 when another process has it. The lock goes
+/// with the descriptor, however its owner ends.
+int try_lock(const fs::path& path) {
+  const bool is_folder = fs::is_directory(path);
+  const int lock = ::open(path.c_str(), (is_folder ? O_RDONLY : O_RDWR | O_CREAT) | O_CLOEXEC, 0666);
+  if (lock < 0 || (is_folder && ::faccessat(AT_FDCWD, path.c_str(), W_OK | X_OK, AT_EACCESS) != 0)) {
     const int error = errno;
     if (lock >= 0) ::close(lock);
-    throw not_writable(folder, reason(error));
+    throw not_writable(path, reason(error));
   }
   // A file system without locks is no reason to refuse: the lock only guards against a second harness.
   if (::flock(lock, LOCK_EX | LOCK_NB) == 0 || errno != EWOULDBLOCK) return lock;
   ::close(lock);
   return -1;
-}
-
-int lock_or_throw(const fs::path& folder) {
-  const int lock = try_lock(folder);
-  if (lock < 0) {
-    throw ConfigurationError("another hullbench is writing to " + folder.string() +
-                             "; wait for it or choose another folder with --out");
-  }
-  return lock;
 }
 
 void remove_run_files(const fs::path& folder) {
@@ -261,6 +253,15 @@ void RunDirectory::append_repetition(const std::string& id, std::size_t index, c
   if (repetition.unsteady) line["unsteady"] = true;
   repetition_writer_->append(line);
   repetitions_[id].push_back(repetition);
+}
+
+int lock_or_throw(const fs::path& path) {
+  const int lock = try_lock(path);
+  if (lock < 0) {
+    throw ConfigurationError("another hullbench is writing to " + path.string() +
+                             "; wait for it or choose another folder with --out");
+  }
+  return lock;
 }
 
 json run_continuity(const json& header) {

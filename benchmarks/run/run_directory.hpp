@@ -29,6 +29,11 @@ struct Repetition {
   bool unsteady = false;    ///< its round's canary was off
 };
 
+/// Locks a folder, or a file, which is made where it is not there, against a second harness: a descriptor
+/// that has the lock until it is closed, however its owner ends. Throws ConfigurationError when it cannot be
+/// written to or another process has it.
+int lock_or_throw(const std::filesystem::path& path);
+
 /// The folder of one run, locked against a second harness for the life of the object.
 class RunDirectory {
  public:

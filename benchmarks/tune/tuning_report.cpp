@@ -124,7 +124,7 @@ json oracle_to_json(const Tuning& tuning, const MethodTuning& method) {
                        {"position", position_of(method.cases[i], *best)},
                        {"parameters", worker::parameters_to_json(best->parameters)},
                        {"status", to_string(best->status)},
-                       {"l2", best->l2 ? json(*best->l2) : json(nullptr)},
+                       {"l2", best->metrics.value("l2", json())},
                        {"tolerance_octaves", optional_to_json(tolerance_octaves(method.cases[i]))}});
   }
   return choices;
