@@ -53,7 +53,6 @@ JsonLinesWriter::JsonLinesWriter(const std::filesystem::path& path) : path_(path
     std::error_code error;
     std::filesystem::resize_file(path, existing.complete_bytes, error);
     if (error) throw std::runtime_error("Cannot write " + path.string() + ": " + error.message() + ".");
-    repaired_ = true;
   }
   out_.open(path, std::ios::binary | std::ios::app);
   if (!out_)

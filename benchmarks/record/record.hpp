@@ -39,10 +39,8 @@ struct CanaryTimes {
   std::int64_t memory = 0;   ///< bound by memory
   std::int64_t compute = 0;  ///< bound by arithmetic
   bool operator==(const CanaryTimes&) const = default;
+  NLOHMANN_DEFINE_TYPE_INTRUSIVE(CanaryTimes, memory, compute)
 };
-
-void to_json(nlohmann::json& result, const CanaryTimes& canary);
-void from_json(const nlohmann::json& source, CanaryTimes& canary);
 
 /// One method with one parameter set on one point set: a line of runs.jsonl.
 struct RunRecord {
@@ -80,6 +78,8 @@ struct RunRecord {
   /// file (sweep.jsonl); no member of a line of runs.jsonl.
   std::string program;
   std::vector<std::string> flags;  ///< reasons to doubt the row, such as kFasterThanFloor; mostly empty
+
+  bool operator==(const RunRecord&) const = default;
 };
 
 /// A row's flag: a round was measured again, as a canary was off the run's median.

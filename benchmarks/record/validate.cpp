@@ -115,6 +115,11 @@ const valijson::Schema* schema_of_kind(const json& document) {
   return found == schemas.end() ? nullptr : found->second;
 }
 
+std::vector<std::string> validate_run(const json& run) {
+  static const std::unique_ptr<valijson::Schema> schema = parse_schema(kRunSchemaJson);
+  return faults(*schema, run);
+}
+
 std::vector<std::string> validate_lines(const std::filesystem::path& path) {
   if (!std::filesystem::is_regular_file(path)) throw std::runtime_error("Cannot read " + path.string() + ".");
   const JsonLines lines = load_json_lines(path);
@@ -145,11 +150,6 @@ void complete_run_description(json& document) {
 std::vector<std::string> validate_report(const json& report) {
   static const std::unique_ptr<valijson::Schema> schema = parse_schema(kReportSchemaJson);
   return faults(*schema, report);
-}
-
-std::vector<std::string> validate_run(const json& run) {
-  static const std::unique_ptr<valijson::Schema> schema = parse_schema(kRunSchemaJson);
-  return faults(*schema, run);
 }
 
 std::vector<std::string> validate_by_kind(const json& document) {

@@ -119,7 +119,6 @@ class Runner {
     RunResult result;
     if (!header.contains("methods")) header["methods"] = json::array();
     machine_ = header.at("environment").at("machine_id").get<std::string>();
-    result.resumed_rows = static_cast<int>(directory_.rows().size());
     try {
       // Before anything can be interrupted, so that the folder is known for what it is.
       if (pass_ == 1) directory_.write_header(header);

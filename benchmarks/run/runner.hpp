@@ -35,8 +35,7 @@ struct RunResult {
   bool interrupted = false;
   /// Of the rows of this plan that are there now, those of earlier starts too, without the accepted ones.
   std::map<record::Status, int> counts;
-  int accepted = 0;      ///< rows that are not ok but have a status that the plan accepts
-  int resumed_rows = 0;  ///< finished by an earlier start
+  int accepted = 0;  ///< rows that are not ok but have a status that the plan accepts
 };
 
 /// Measures what `pass` (1 to Plan::passes) has of `runs` of `plan` into `directory`. `header` is run.json
