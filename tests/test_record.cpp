@@ -145,10 +145,6 @@ TEST(Record, OtherSchemaVersionIsRefused) {
   EXPECT_THROW(record.get<record::RunRecord>(), std::invalid_argument);
 }
 
-TEST(Record, NameFollowsGoogleBenchmark) {
-  EXPECT_EQ(record::run_name(test::invented_record()), "polylidar/ca/n:2000/holes:1/protocol:paper");
-}
-
 TEST(Identity, IsTheHashOfTheCanonicalJson) {
   record::RunRecord record;
   record.method = "m";

@@ -206,7 +206,6 @@ class InventedTuning {
       tune::TuningCase& one = tuning.cases.emplace_back();
       one.plan_case = {"star-" + std::to_string(i), false, 500};
       one.seed = 1;
-      one.name = one.plan_case.dataset + "/n:500/holes:0";
       one.shape = base_shape(one.plan_case.dataset);
       one.side = tune::side_of(one.shape, 1);
       one.n = 500;
@@ -233,7 +232,7 @@ class InventedTuning {
   tune::Evaluation evaluation(const tune::TuningCase& one, double position, double error) const {
     const tune::MethodTuning& method = tuning.methods.front();
     tune::Evaluation result;
-    result.name = one.name;
+    result.name = one.plan_case.name();
     result.method = method.name;
     result.method_version = "1";
     result.program = std::string(64, '1');
@@ -429,8 +428,9 @@ TEST(TunedPlanTest, HasTheChosenParametersOnTheRightCases) {
   const plan::RuleInput input = {square, 1, false, {}};
   for (std::size_t i = 0; i < invented.tuning.cases.size(); ++i) {
     const tune::TuningCase& one = invented.tuning.cases[i];
-    EXPECT_EQ(plan::applies(*entries.at("tuned"), one.plan_case), one.side == tune::Side::kTest) << one.name;
-    ASSERT_TRUE(plan::applies(*entries.at("oracle"), one.plan_case)) << one.name;
+    EXPECT_EQ(plan::applies(*entries.at("tuned"), one.plan_case), one.side == tune::Side::kTest)
+        << one.plan_case.name();
+    ASSERT_TRUE(plan::applies(*entries.at("oracle"), one.plan_case)) << one.plan_case.name();
     EXPECT_EQ(plan::choose_parameters(*entries.at("oracle"), one.plan_case, input),
               tune::best_evaluation(invented.method().cases[i])->parameters);
     EXPECT_EQ(plan::choose_parameters(*entries.at("tuned"), one.plan_case, input),

@@ -133,11 +133,6 @@ void from_json(const json& source, RunRecord& record) {
   record.id = source.contains("id") ? source["id"].get<std::string>() : run_identity(record);
 }
 
-std::string run_name(const RunRecord& record) {
-  return record.method + "/" + record.dataset + "/n:" + (record.n == 0 ? "all" : std::to_string(record.n)) +
-         "/holes:" + (record.holes ? "1" : "0") + "/protocol:" + record.protocol;
-}
-
 std::string run_identity(const RunRecord& record) {
   const json identity = {{"method", record.method},
                          {"method_version", record.method_version},

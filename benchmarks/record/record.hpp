@@ -101,11 +101,6 @@ void to_json(nlohmann::json& result, const RunRecord& record);
 /// Throws nlohmann::json::exception or std::invalid_argument when a field is missing or of the wrong type.
 void from_json(const nlohmann::json& source, RunRecord& record);
 
-/// The name in Google Benchmark's manner: "polylidar/ca/n:64000/holes:1/protocol:paper". n = 0 gives "n:all",
-/// which stands for a data set's own points. For people; two runs that differ in seed or parameters share it,
-/// and only the id tells them apart.
-std::string run_name(const RunRecord& record);
-
 /// The id: SHA-256 of the canonical JSON (keys sorted, no white space, shortest round-trip numbers) of
 /// method, method version, parameters, dataset and its hash, n, holes, seed and protocol.
 std::string run_identity(const RunRecord& record);

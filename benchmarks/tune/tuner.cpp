@@ -135,7 +135,7 @@ class Bench {
   Evaluation evaluate(const MethodTuning& method, const Parameters& parameters) {
     throw_if_interrupted();
     Evaluation evaluation = drawn_->record_of(method.name);
-    evaluation.name = tuning_case().name;
+    evaluation.name = tuning_case().plan_case.name();
     evaluation.program = shared_.options.programs.at(method.name);
     evaluation.parameters = parameters;
     run::complete_record(evaluation, *method.info);
@@ -198,13 +198,11 @@ std::vector<MethodTuning> describe_methods(const TunerOptions& options, std::siz
   return methods;
 }
 
-TuningCase tuning_case(const plan::Plan& plan, const plan::PlanCase& plan_case, std::uint64_t split_seed) {
+TuningCase make_case(const plan::Plan& plan, const plan::PlanCase& plan_case, std::uint64_t split_seed) {
   TuningCase one;
   one.plan_case = plan_case;
   one.seed = plan.seed;
   one.timeout_s = plan.timeout_s;
-  one.name = plan_case.dataset + "/n:" + (plan_case.n == 0 ? "all" : std::to_string(plan_case.n)) +
-             "/holes:" + (plan_case.holes ? "1" : "0");
   one.shape = base_shape(plan_case.dataset);
   one.side = side_of(one.shape, split_seed);
   return one;
@@ -248,7 +246,7 @@ std::vector<TuningCase> tuning_cases(const std::vector<plan::Plan>& plans, std::
         return other.plan_case.key() == plan_case.key() && other.seed == plan.seed;
       };
       auto place = std::find_if(cases.begin(), cases.end(), same);
-      if (place == cases.end()) place = cases.insert(place, tuning_case(plan, plan_case, split_seed));
+      if (place == cases.end()) place = cases.insert(place, make_case(plan, plan_case, split_seed));
       add_entries(*place, plan);
     }
   }
@@ -283,7 +281,8 @@ std::vector<run::ProgressRun> tuning_progress(const std::vector<TuningCase>& cas
   result.reserve(cases.size() * methods.size());
   for (const TuningCase& one : cases) {
     for (const std::string& method : methods)
-      result.push_back({method + "/" + one.name, method, run::estimated_points(one.plan_case), 1});
+      result.push_back(
+          {method + "/" + one.plan_case.name(), method, run::estimated_points(one.plan_case), 1});
   }
   return result;
 }

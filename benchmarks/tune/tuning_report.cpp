@@ -41,7 +41,7 @@ json quartiles_to_json(const Quartiles& quartiles) {
 }
 
 json case_to_json(const TuningCase& one) {
-  return {{"case", one.name},
+  return {{"case", one.plan_case.name()},
           {"dataset", one.plan_case.dataset},
           {"shape", one.shape},
           {"side", to_string(one.side)},
@@ -119,7 +119,7 @@ json oracle_to_json(const Tuning& tuning, const MethodTuning& method) {
   for (std::size_t i = 0; i < method.cases.size(); ++i) {
     const Evaluation* best = best_evaluation(method.cases[i]);
     if (best == nullptr) continue;
-    choices.push_back({{"case", tuning.cases[i].name},
+    choices.push_back({{"case", tuning.cases[i].plan_case.name()},
                        {"seed", tuning.cases[i].seed},
                        {"position", position_of(method.cases[i], *best)},
                        {"parameters", worker::parameters_to_json(best->parameters)},
