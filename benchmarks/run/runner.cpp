@@ -52,11 +52,15 @@ struct CaseWork {
 /// machine stops.
 constexpr std::int64_t kBatchWork = 1'000'000;
 
-/// How many of a method's repetitions are in the passes up to `pass`.
+/// How many of a method's repetitions fall in `pass`.
+int share_of(const plan::Plan& plan, const plan::PlanMethod& method, int pass) {
+  return plan::share_of_pass(plan::repetitions_of(plan, method), plan.passes, pass);
+}
+
+/// And in the passes up to `pass`.
 int repetitions_until(const plan::Plan& plan, const plan::PlanMethod& method, int pass) {
   int count = 0;
-  for (int each = 1; each <= pass; ++each)
-    count += plan::share_of_pass(plan::repetitions_of(plan, method), plan.passes, each);
+  for (int each = 1; each <= pass; ++each) count += share_of(plan, method, each);
   return count;
 }
 
@@ -320,14 +324,9 @@ class Runner {
     return plan_.methods[runs_[entry.index].method_index];
   }
 
-  /// How many repetitions of the entry fall in `pass`.
-  int share_of(const Entry& entry, int pass) const {
-    return plan::share_of_pass(plan::repetitions_of(plan_, method_of(entry)), plan_.passes, pass);
-  }
-
   int rounds_of(const std::vector<Entry>& entries, int pass) const {
     int most = 0;
-    for (const Entry& entry : entries) most = std::max(most, share_of(entry, pass));
+    for (const Entry& entry : entries) most = std::max(most, share_of(plan_, method_of(entry), pass));
     return most;
   }
 
@@ -360,7 +359,7 @@ class Runner {
     for (std::size_t i = turns.size(); i > 1; --i) std::swap(turns[i - 1], turns[random.below(i)]);
     std::erase_if(turns, [&](const Entry* entry) {
       const int before = pass_ == 1 ? 0 : repetitions_until(plan_, method_of(*entry), pass_ - 1);
-      return entry->measured || turn >= share_of(*entry, pass_) ||
+      return entry->measured || turn >= share_of(plan_, method_of(*entry), pass_) ||
              std::cmp_greater(entry->repetitions.size(), before + turn);
     });
     return turns;
@@ -539,8 +538,7 @@ void start_workers(const std::vector<std::unique_ptr<worker::MethodSession>>& se
 
 bool has_repetitions(const plan::Plan& plan, const std::vector<plan::PlannedRun>& runs, int pass) {
   return std::any_of(runs.begin(), runs.end(), [&](const plan::PlannedRun& run) {
-    return plan::share_of_pass(plan::repetitions_of(plan, plan.methods[run.method_index]), plan.passes,
-                               pass) > 0;
+    return share_of(plan, plan.methods[run.method_index], pass) > 0;
   });
 }
 
@@ -568,7 +566,7 @@ std::vector<ProgressRun> progress_runs(const plan::Plan& plan, const std::vector
   result.reserve(runs.size());
   for (const plan::PlannedRun& run : runs) {
     const plan::PlanMethod& method = plan.methods[run.method_index];
-    const int share = plan::share_of_pass(plan::repetitions_of(plan, method), plan.passes, pass);
+    const int share = share_of(plan, method, pass);
     result.push_back({run.name, method.method, estimated_points(plan.expanded_cases[run.case_index]),
                       share == 0 ? 0 : plan.warmup + share});
   }

@@ -261,7 +261,8 @@ Tuning run_tuning(std::vector<TuningCase> cases, std::uint64_t split_seed, const
   try {
     tuning.methods = describe_methods(options, tuning.cases.size(), progress);
     Shared shared{tuning, options, store, progress};
-    run_on_threads(static_cast<std::size_t>(options.jobs), [&](std::size_t thread) {
+    const std::vector<int> threads(static_cast<std::size_t>(options.jobs), kAnyCore);
+    for_each_in_parallel(threads.size(), threads, [&](std::size_t thread) {
       try {
         Bench(shared, store.scratch() / ("thread-" + std::to_string(thread))).take_turns();
       } catch (...) {
