@@ -52,12 +52,12 @@ const metrics::CaseScorer& DrawnCase::scorer() const {
   return *scorer_;
 }
 
-template <typename Score>
-void DrawnCase::score_with(record::RunRecord& record, Score score) const {
+template <typename Scores>
+void DrawnCase::score_with(record::RunRecord& record, Scores scores_of) const {
   std::string fault;
   record::Status status = record::Status::kInvalidOutput;
   try {
-    const metrics::AreaScores scores = score();
+    const metrics::AreaScores scores = scores_of();
     if (scores.valid) return;
     fault = "the result is an invalid polygon: " + scores.invalid_reason;
   } catch (const std::runtime_error& error) {

@@ -43,8 +43,8 @@ class DrawnCase {
   void score_l2(record::RunRecord& record, const MultiPolygon& result) const;
 
  private:
-  template <typename Score>
-  void score_with(record::RunRecord& record, Score score) const;
+  template <typename Scores>
+  void score_with(record::RunRecord& record, Scores scores_of) const;
   const metrics::CaseScorer& scorer() const;
 
   plan::PlanCase plan_case_;

@@ -78,13 +78,25 @@ bool holds_no_run_yet(const fs::path& folder) {
       });
 }
 
+/// The folders in `runs` by name, which begins with the time, the last one first.
+std::vector<fs::path> newest_first(const fs::path& runs) {
+  std::vector<fs::path> folders;
+  std::error_code ignored;
+  for (const auto& entry : fs::directory_iterator(runs, ignored)) folders.push_back(entry.path());
+  std::sort(folders.rbegin(), folders.rend());
+  return folders;
+}
+
+bool holds_run(const fs::path& folder, const json& header) {
+  const json earlier = read_header(folder);
+  return earlier.is_object() && run_continuity(earlier) == run_continuity(header);
+}
+
 std::unique_ptr<RunDirectory> open_chosen(const json& header, const fs::path& folder, bool force) {
   make_writable_folder(folder);
-  const json earlier = read_header(folder);
-  const bool same = earlier.is_object() && run_continuity(earlier) == run_continuity(header);
-  if (!force && !same && !holds_no_run_yet(folder)) {
+  if (!force && !holds_run(folder, header) && !holds_no_run_yet(folder)) {
     throw ConfigurationError("the output folder " + folder.string() + " holds " +
-                             (earlier.is_object() ? "another run" : "something else than a run") +
+                             (read_header(folder).is_object() ? "another run" : "something else than a run") +
                              "; choose another one with --out, or overwrite it with --force");
   }
   const int lock = lock_or_throw(folder);
@@ -94,14 +106,10 @@ std::unique_ptr<RunDirectory> open_chosen(const json& header, const fs::path& fo
 
 /// The newest earlier run that is the same, when it is not finished and nobody is at it.
 std::unique_ptr<RunDirectory> open_unfinished(const json& header, const fs::path& runs) {
-  for (const fs::path& folder : newest_first(runs)) {
-    const json earlier = read_header(folder);
-    if (!earlier.is_object() || run_continuity(earlier) != run_continuity(header)) continue;
-    if (fs::exists(folder / record::kReportFile)) return nullptr;
-    const int lock = try_lock(folder);
-    return lock < 0 ? nullptr : std::make_unique<RunDirectory>(folder, lock);
-  }
-  return nullptr;
+  const auto is_same = [&](const fs::path& folder) { return holds_run(folder, header); };
+  const auto folder = find_unfinished(runs, is_same, record::kReportFile);
+  const int lock = folder ? try_lock(*folder) : -1;
+  return lock < 0 ? nullptr : std::make_unique<RunDirectory>(*folder, lock);
 }
 
 /// "20260131T120000Z-<machine>-<commit>", from the header's own words.
@@ -278,14 +286,6 @@ json run_continuity(const json& header) {
           member(header, "merged")};
 }
 
-std::vector<fs::path> newest_first(const fs::path& runs) {
-  std::vector<fs::path> folders;
-  std::error_code ignored;
-  for (const auto& entry : fs::directory_iterator(runs, ignored)) folders.push_back(entry.path());
-  std::sort(folders.rbegin(), folders.rend());
-  return folders;
-}
-
 void remove_stale_scratch(const fs::path& results) {
   std::error_code ignored;
   const auto remove_in = [&](const fs::path& run) {
@@ -303,9 +303,16 @@ void remove_stale_scratch(const fs::path& results) {
 }
 
 bool is_finished_run(const fs::path& folder, const json& header) {
-  const json earlier = read_header(folder);
-  return earlier.is_object() && run_continuity(earlier) == run_continuity(header) &&
-         fs::exists(folder / record::kReportFile);
+  return holds_run(folder, header) && fs::exists(folder / record::kReportFile);
+}
+
+std::optional<fs::path> find_unfinished(const fs::path& runs,
+                                        const std::function<bool(const fs::path&)>& is_same,
+                                        const char* mark) {
+  const std::vector<fs::path> folders = newest_first(runs);
+  const auto newest = std::find_if(folders.begin(), folders.end(), is_same);
+  if (newest == folders.end() || fs::exists(*newest / mark)) return std::nullopt;
+  return *newest;
 }
 
 fs::path make_run_folder(const json& header, const fs::path& results) {

@@ -5,6 +5,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <map>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -103,8 +104,11 @@ struct RunPlace {
 /// something else and `force` is not set; with `force` the files of an earlier run in `out` are removed.
 std::unique_ptr<RunDirectory> open_run_directory(const nlohmann::json& header, const RunPlace& place);
 
-/// The folders in `runs` by name, which begins with the time, the last one first.
-std::vector<std::filesystem::path> newest_first(const std::filesystem::path& runs);
+/// The newest of the folders in `runs` (their names begin with the time) that `is_same`; none when it is
+/// finished, which its file `mark` says.
+std::optional<std::filesystem::path> find_unfinished(
+    const std::filesystem::path& runs, const std::function<bool(const std::filesystem::path&)>& is_same,
+    const char* mark);
 
 /// Removes the temporary files of all runs in `results`/runs, those in suites too, that a harness left which
 /// was killed. Those of runs that somebody is at stay.

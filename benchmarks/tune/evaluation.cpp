@@ -2,6 +2,7 @@
 
 #include <unistd.h>
 
+#include <array>
 #include <exception>
 #include <stdexcept>
 #include <system_error>
@@ -18,9 +19,9 @@ namespace fs = std::filesystem;
 using nlohmann::json;
 
 /// What a line has of a run's record.
-constexpr const char* kSharedMembers[] = {"schema_version", "id",    "method", "method_version", "dataset",
-                                          "dataset_sha256", "n",     "holes",  "seed",           "parameters",
-                                          "status",         "detail"};
+constexpr std::array kSharedMembers = {"schema_version", "id",    "method", "method_version", "dataset",
+                                       "dataset_sha256", "n",     "holes",  "seed",           "parameters",
+                                       "status",         "detail"};
 
 bool is_sweep_file(const fs::path& file) {
   return file.extension() == ".jsonl" && file.filename().string().starts_with("sweep");
@@ -90,14 +91,6 @@ const Evaluation* EvaluationStore::find(const std::string& id) const {
   const std::scoped_lock guard(mutex_);
   const auto found = known_.find(id);
   return found == known_.end() ? nullptr : &found->second;
-}
-
-std::vector<Evaluation> EvaluationStore::all() const {
-  const std::scoped_lock guard(mutex_);
-  std::vector<Evaluation> result;
-  result.reserve(known_.size());
-  for (const auto& [id, evaluation] : known_) result.push_back(evaluation);
-  return result;
 }
 
 void EvaluationStore::append(const Evaluation& evaluation) {

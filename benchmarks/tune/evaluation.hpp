@@ -9,7 +9,6 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
-#include <vector>
 
 #include "benchmarks/record/json_lines.hpp"
 #include "benchmarks/record/record.hpp"
@@ -48,8 +47,8 @@ class EvaluationStore {
   std::size_t found() const { return found_; }
   /// The one with that identity; null when it is not known.
   const Evaluation* find(const std::string& id) const;
-  /// All that are known, by id.
-  std::vector<Evaluation> all() const;
+  /// All that are known, by id. Not while another thread appends.
+  const std::map<std::string, Evaluation>& all() const { return known_; }
   /// Appends it; it is in the file when this returns.
   void append(const Evaluation& evaluation);
 

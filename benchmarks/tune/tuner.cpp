@@ -64,7 +64,7 @@ struct Shared {
   EvaluationStore& store;
   run::Progress& progress;
   DrawnCases drawn{tuning.cases, options.folders};
-  std::mutex mutex = {};             ///< of tuning.cases and progress
+  std::mutex mutex{};                ///< of tuning.cases and progress
   std::atomic<std::size_t> next{0};  ///< case by case, the method to evaluate next
 };
 

@@ -307,7 +307,7 @@ table::Document tuning_document(const json& summary) {
   return document;
 }
 
-std::vector<json> sweep_lines(const Tuning& tuning, const std::vector<Evaluation>& known) {
+std::vector<json> sweep_lines(const Tuning& tuning, const std::map<std::string, Evaluation>& known) {
   std::vector<json> lines;
   std::set<std::string> written;
   for (const MethodTuning& method : tuning.methods) {
@@ -327,8 +327,8 @@ std::vector<json> sweep_lines(const Tuning& tuning, const std::vector<Evaluation
       for (const auto& [protocol, evaluation] : found.protocols) add(evaluation, nullptr, false);
     }
   }
-  for (const Evaluation& evaluation : known) {
-    if (written.insert(evaluation.id).second) lines.push_back(evaluation_to_json(evaluation));
+  for (const auto& [id, evaluation] : known) {
+    if (written.insert(id).second) lines.push_back(evaluation_to_json(evaluation));
   }
   return lines;
 }
