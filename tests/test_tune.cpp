@@ -199,6 +199,7 @@ TEST_F(TuneTest, FailuresAreEvaluationsAndInfinitelyBad) {
          "    if len(points) == 201: os.abort()\n"
          "    if radius > 3 * abs(points).max(): os.abort()\n"
          "    c = points.mean(axis=0)\n"
+         "    if len(points) == 202: return [[[c, c + [radius, radius], c + [radius, 0], c + [0, radius]]]]\n"
          "    return [[[c, c + [radius, 0], c + [radius, radius], c + [0, radius]]]]\n");
   const Outcome tuned =
       tune(plan(json::array({{{"dataset", "star"}, {"members", 4}, {"n", {200}}}})), "moody", "out");
@@ -212,6 +213,11 @@ TEST_F(TuneTest, FailuresAreEvaluationsAndInfinitelyBad) {
     EXPECT_TRUE(line.at("l2").is_null());
   }
   EXPECT_EQ(sweep("failing").size(), 25U);
+  EXPECT_EQ(tune(plan(json::array({{{"dataset", "star-1"}, {"n", {202}}}})), "moody", "crossing").code, 4);
+  const json crossing = sweep("crossing").front();
+  EXPECT_EQ(crossing.at("status"), "invalid_output");
+  EXPECT_TRUE(crossing.at("detail").get<std::string>().starts_with("the result is an invalid polygon: "));
+  EXPECT_TRUE(crossing.at("l2").is_null());
   EXPECT_TRUE(method_of(summary("failing"), "moody").at("tuned").is_null());
   expect_valid("failing/tune.json");
   expect_valid("failing/sweep.jsonl");
