@@ -16,7 +16,6 @@
 #include "benchmarks/tune/split.hpp"
 #include "benchmarks/tune/tuned_plan.hpp"
 #include "benchmarks/tune/tuner.hpp"
-#include "benchmarks/tune/tuning_report.hpp"
 #include "datasets/datasets.hpp"
 
 namespace hullbench {
@@ -208,9 +207,7 @@ class InventedTuning {
       one.seed = 1;
       one.shape = base_shape(one.plan_case.dataset);
       one.side = tune::side_of(one.shape, 1);
-      one.n = 500;
       one.spacing = 1;
-      one.dataset_sha256 = std::string(64, '0');
     }
   }
 
@@ -232,23 +229,13 @@ class InventedTuning {
   tune::Evaluation evaluation(const tune::TuningCase& one, double position, double error) const {
     const tune::MethodTuning& method = tuning.methods.front();
     tune::Evaluation result;
-    result.name = one.plan_case.name();
-    result.method = method.name;
-    result.method_version = "1";
-    result.program = std::string(64, '1');
-    result.dataset = one.plan_case.dataset;
-    result.dataset_sha256 = one.dataset_sha256;
-    result.n = one.n;
-    result.seed = one.seed;
     result.parameters = tune::fixed_parameters(*method.info);
     result.parameters[method.axis->parameter] = tune::value_at(*method.axis, position, one.spacing);
     if (tune::is_infinitely_bad(error)) {
       result.status = record::Status::kCrash;
-      result.detail = "SIGSEGV";
     } else {
       result.metrics["l2"] = error;
     }
-    result.id = tune::evaluation_identity(result);
     return result;
   }
 
