@@ -4,22 +4,18 @@
 #include <cmath>
 #include <limits>
 #include <stdexcept>
-#include <utility>
+
+#include "benchmarks/base/files.hpp"
 
 namespace hullbench::record {
 namespace {
 
 using nlohmann::json;
 
-constexpr std::array<std::pair<Status, const char*>, 8> kStatusNames = {
-    {{Status::kOk, "ok"},
-     {Status::kTimeout, "timeout"},
-     {Status::kMemory, "memory"},
-     {Status::kCrash, "crash"},
-     {Status::kError, "error"},
-     {Status::kInvalidOutput, "invalid_output"},
-     {Status::kUnsupported, "unsupported"},
-     {Status::kNotInstalled, "not_installed"}}};
+/// By status.
+constexpr std::array kStatusNames = {"ok",    "timeout",        "memory",      "crash",
+                                     "error", "invalid_output", "unsupported", "not_installed"};
+static_assert(kStatusNames.size() == kAllStatuses.size());
 
 json parameters_to_json(const std::map<std::string, double>& parameters) {
   json result = json::object();
@@ -83,15 +79,12 @@ json without_non_finite(const json& value) {
 }  // namespace
 
 std::string to_string(Status status) {
-  for (const auto& [value, name] : kStatusNames) {
-    if (value == status) return name;
-  }
-  throw std::invalid_argument("A status has a value that is none of the enumerators.");
+  return kStatusNames.at(static_cast<std::size_t>(status));
 }
 
 Status status_from_string(const std::string& name) {
-  for (const auto& [value, known] : kStatusNames) {
-    if (name == known) return value;
+  for (const Status status : kAllStatuses) {
+    if (name == to_string(status)) return status;
   }
   throw std::invalid_argument("Unknown status \"" + name + "\" in a record.");
 }
@@ -143,7 +136,7 @@ std::string run_identity(const RunRecord& record) {
                          {"holes", record.holes},
                          {"seed", record.seed},
                          {"protocol", record.protocol}};
-  return sha256_hex(identity.dump(-1, ' ', false, json::error_handler_t::replace));
+  return sha256_hex(dump_text(identity, -1));
 }
 
 }  // namespace hullbench::record

@@ -8,6 +8,7 @@
 #include <system_error>
 #include <utility>
 
+#include "benchmarks/base/files.hpp"
 #include "benchmarks/run/run_directory.hpp"
 #include "benchmarks/tune/search.hpp"
 #include "datasets/sha256.hpp"
@@ -37,7 +38,7 @@ std::string evaluation_identity(const Evaluation& evaluation) {
   json identity = evaluation_to_json(evaluation);
   for (const char* key : {"kind", "schema_version", "id", "case", "n", "seed", "status", "detail", "l2"})
     identity.erase(key);
-  return sha256_hex(identity.dump(-1, ' ', false, json::error_handler_t::replace));
+  return sha256_hex(dump_text(identity, -1));
 }
 
 json evaluation_to_json(const Evaluation& evaluation) {
