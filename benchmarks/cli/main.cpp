@@ -39,6 +39,7 @@
 namespace {
 
 using namespace hullbench;
+using namespace hullbench::cli;
 namespace fs = std::filesystem;
 
 constexpr int kOk = 0;

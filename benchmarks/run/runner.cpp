@@ -236,7 +236,7 @@ class Runner {
     std::vector<CaseWork> batch = gather_batch(next);
     for_each_in_parallel(batch.size(), options_.cores, [&](std::size_t i) { prepare(batch[i]); });
     try {
-      for (CaseWork& one : batch) micro::measure(one);
+      for (CaseWork& one : batch) measure(one);
     } catch (const Interrupted&) {
       settle(batch);
       throw;
@@ -261,7 +261,7 @@ class Runner {
   }
 
   /// Everything that is timed of a case, one worker at a time.
-  void micro::measure(CaseWork& one) {
+  void measure(CaseWork& one) {
     for (Entry& entry : one.entries) {
       if (is_done_before(entry.index)) {
         leave_as_it_is(entry);
