@@ -851,12 +851,9 @@ TEST_F(PlaceTest, AnotherRunDoesNot) {
   first->write_header(header_);
   first.reset();
   const json original = header_;
-  const std::vector<std::pair<const char*, json>> changes = {{"/filter", "polylidar"},
-                                                             {"/plan/repetitions", 99},
-                                                             {"/plan/seed", 99},
-                                                             {"/plan/timeout_s", 99},
-                                                             {"/tool/binary_sha256", "other"},
-                                                             {"/environment/record::machine_id", "other"}};
+  const std::vector<std::pair<const char*, json>> changes = {
+      {"/filter", "polylidar"}, {"/plan/repetitions", 99},        {"/plan/seed", 99},
+      {"/plan/timeout_s", 99},  {"/tool/binary_sha256", "other"}, {"/environment/machine_id", "other"}};
   for (const auto& [pointer, value] : changes) {
     header_ = original;
     header_[json::json_pointer(pointer)] = value;
