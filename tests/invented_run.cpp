@@ -147,7 +147,7 @@ record::RunRecord make_record(const Character& character, const std::string& dat
   record.protocol = character.protocol;
   record.parameters = {{"alpha", 2 * std::sqrt(14000.0 / static_cast<double>(n))},
                        {"max_edge_length", std::numeric_limits<double>::infinity()}};
-  record.name = record::run_name(record);
+  record.name = run_name(record);
   return record;
 }
 
@@ -175,6 +175,11 @@ record::RunRecord invalid(record::RunRecord record, const Character& character) 
 }
 
 }  // namespace
+
+std::string run_name(const record::RunRecord& record) {
+  return record.method + "/" + record.dataset + "/n:" + std::to_string(record.n) +
+         "/holes:" + (record.holes ? "1" : "0") + "/protocol:" + record.protocol;
+}
 
 json invented_run() {
   return {{"schema_version", record::kSchemaVersion},

@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <nlohmann/json.hpp>
+#include <string>
 #include <vector>
 
 #include "benchmarks/record/record.hpp"
@@ -11,6 +12,9 @@ namespace hullbench::test {
 
 /// run.json of the invented run.
 nlohmann::json invented_run();
+
+/// The name that a plan gives the run.
+std::string run_name(const record::RunRecord& record);
 
 /// A successful record with every field filled in, and its id and name.
 record::RunRecord invented_record();

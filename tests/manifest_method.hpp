@@ -11,7 +11,6 @@
 #include "adapters/wkb.hpp"
 #include "benchmarks/run/method_catalog.hpp"
 #include "benchmarks/worker/method_session.hpp"
-#include "benchmarks/worker/protocol.hpp"
 #include "tests/temporary_folder.hpp"
 
 namespace hullbench::testing {
@@ -26,18 +25,15 @@ class ManifestMethod {
 
   /// Why it cannot run here, and what helps; empty when it can.
   std::string missing() const {
-    const worker::Reply& reply = session_.start_reply();
-    if (reply.status != record::Status::kNotInstalled) return {};
-    return reply.detail + "; remedy: " + reply.remedy;
+    return session_.start_reply().status == record::Status::kNotInstalled ? session_.start_failure() : "";
   }
 
   const MethodInfo& info() const { return session_.info().value(); }
 
   /// One run with `parameters` and the defaults of the others.
   worker::Attempt run(const std::vector<Point>& points, const Parameters& parameters) {
-    const worker::LoadedPoints loaded = {std::to_string(++loads_), folder_.path() / "points.f64",
-                                         points.size()};
-    worker::write_points_file(loaded.file, points);
+    const worker::LoadedPoints loaded =
+        worker::write_points(std::to_string(++loads_), points, folder_.path());
     return session_.run(loaded, complete_parameters(info(), parameters), folder_.path(),
                         std::chrono::seconds(60));
   }

@@ -11,6 +11,8 @@ foreach(part IN ITEMS record statistics bootstrap rank_test judge noise report t
   target_compile_definitions(test_${part} PRIVATE HULLBENCH_SOURCE_DIRECTORY="${PROJECT_SOURCE_DIR}")
 endforeach()
 
+target_link_libraries(test_record PRIVATE hullbench_test_program)
+
 hullbench_test(test_document SOURCES "${CMAKE_CURRENT_LIST_DIR}/test_document.cpp"
   LIBRARIES hullbench::report hullbench_test_program)
 

@@ -29,7 +29,7 @@ record::RunRecord run_on(const std::string& dataset, const std::vector<std::int6
   run.dataset = dataset;
   run.time_ns = times;
   run.phases_ns.resize(times.size());
-  run.name = record::run_name(run);
+  run.name = test::run_name(run);
   run.id = record::run_identity(run);
   return run;
 }
@@ -115,7 +115,7 @@ TEST(CompareRuns, AMethodsMedianIsClusteredByShape) {
       b.push_back(run_on(dataset, {time}));
       for (record::RunRecord* run : {&a.back(), &b.back()}) {
         run->n = n;
-        run->name = record::run_name(*run);
+        run->name = test::run_name(*run);
       }
     }
   }

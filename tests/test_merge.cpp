@@ -8,10 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "benchmarks/record/json_lines.hpp"
-#include "tests/program.hpp"
-#include "tests/small_plans.hpp"
-#include "tests/temporary_folder.hpp"
+#include "tests/hullbench_test.hpp"
 
 namespace hullbench {
 namespace {
@@ -46,23 +43,8 @@ std::map<std::string, std::string> accuracy_tables(const fs::path& run) {
   return tables;
 }
 
-json read_json(const fs::path& file) {
-  return json::parse(read_text(file));
-}
-
-class MergeTest : public ::testing::Test {
+class MergeTest : public testing::HullbenchTest {
  protected:
-  fs::path folder() const { return folder_.path(); }
-
-  Outcome hullbench(std::vector<std::string> arguments) const {
-    arguments.insert(arguments.begin(), HULLBENCH);
-    testing::ProgramOptions options;
-    options.folder = folder();
-    return testing::run_program(arguments, options);
-  }
-
-  std::string write(const json& plan) const { return testing::write_plan(folder(), plan); }
-
   /// Two methods on California with and without holes at three sizes: twelve runs of six cases.
   std::string plan(const std::string& name = "small") const {
     json plan = small_plan(name, california({300, 400, 500}), 1);
@@ -87,43 +69,33 @@ class MergeTest : public ::testing::Test {
     }
   }
 
-  /// Makes the run in `name` say that it is of another machine.
-  void move_to_machine(const std::string& name, const std::string& machine) const {
-    json header = read_json(folder() / name / "run.json");
-    header["environment"]["machine_id"] = machine;
-    write_text(folder() / name / "run.json", header.dump());
-    std::string text;
-    for (json line : record::load_json_lines(folder() / name / "runs.jsonl").lines) {
-      line["machine"] = machine;
-      text += line.dump() + "\n";
-    }
-    write_text(folder() / name / "runs.jsonl", text);
-  }
-
   /// Changes run.json of the run in `name`.
-  template <typename report::Change>
-  void change_header(const std::string& name, const report::Change& change) const {
-    json header = read_json(folder() / name / "run.json");
+  template <typename Change>
+  void change_header(const std::string& name, const Change& change) const {
+    json header = read_json(name + "/run.json");
     change(header);
     write_text(folder() / name / "run.json", header.dump());
   }
 
   /// Changes every row of the run in `name`.
-  template <typename report::Change>
-  void change_rows(const std::string& name, const report::Change& change) const {
+  template <typename Change>
+  void change_rows(const std::string& name, const Change& change) const {
     std::string text;
-    for (json line : record::load_json_lines(folder() / name / "runs.jsonl").lines) {
+    for (json line : read_lines(name + "/runs.jsonl")) {
       change(line);
       text += line.dump() + "\n";
     }
     write_text(folder() / name / "runs.jsonl", text);
   }
 
-  void expect_valid(const std::string& name) const {
-    for (const char* file : {"run.json", "runs.jsonl", "report.json"}) {
-      const Outcome ours = hullbench({"validate", name + "/" + file});
-      EXPECT_EQ(ours.code, 0) << ours.err;
-    }
+  /// Makes the run in `name` say that it is of another machine.
+  void move_to_machine(const std::string& name, const std::string& machine) const {
+    change_header(name, [&](json& header) { header["environment"]["machine_id"] = machine; });
+    change_rows(name, [&](json& row) { row["machine"] = machine; });
+  }
+
+  void expect_valid_run(const std::string& name) const {
+    for (const char* file : {"/run.json", "/runs.jsonl", "/report.json"}) expect_valid(name + file);
     if (const std::string why = testing::missing({SYSTEM_PYTHON ":jsonschema"}); !why.empty()) {
       GTEST_SKIP() << why;
     }
@@ -132,9 +104,6 @@ class MergeTest : public ::testing::Test {
                               (folder() / name / "runs.jsonl").string()});
     EXPECT_EQ(python.code, 0) << python.err;
   }
-
- private:
-  testing::TemporaryFolder folder_;
 };
 
 TEST_F(MergeTest, OfAllShardsIsTheWholeRunInItsAccuracy) {
@@ -150,30 +119,28 @@ TEST_F(MergeTest, OfAllShardsIsTheWholeRunInItsAccuracy) {
   EXPECT_NE(merged.err.find("12 of 12 planned runs"), std::string::npos) << merged.err;
   EXPECT_EQ(read_text(folder() / "merged" / "tables.md"), merged.out);
   EXPECT_EQ(hullbench({"tables", "merged"}).out, merged.out);
-  expect_valid("merged");
-  expect_valid("shard1");
+  expect_valid_run("merged");
+  expect_valid_run("shard1");
 }
 
 TEST_F(MergeTest, KeepsThePassesOfItsShards) {
   run_shards(2, {plan(), "--repetitions", "3", "--passes", "2"});
   const Outcome merged = hullbench({"merge", "shard1", "shard2", "--out", "merged"});
   ASSERT_EQ(merged.code, 0) << merged.err;
-  EXPECT_EQ(read_json(folder() / "merged" / "run.json").at("passes"), 2);
-  const std::vector<json> rows = record::load_json_lines(folder() / "merged" / "runs.jsonl").lines;
+  EXPECT_EQ(read_json("merged/run.json").at("passes"), 2);
+  const std::vector<json> rows = read_lines("merged/runs.jsonl");
   EXPECT_EQ(rows.size(), 12U);
   for (const json& row : rows) {
     EXPECT_EQ(row.at("passes"), (json{1, 1, 2}));
     EXPECT_EQ(row.at("rounds"), (json{0, 1, 2}));
     EXPECT_EQ(row.at("canary_ns").size(), 3U);
   }
-  expect_valid("merged");
+  expect_valid_run("merged");
 }
 
 TEST_F(MergeTest, DoesNotDependOnTheOrderOfTheRuns) {
   run_shards(3, {plan()});
-  json header = read_json(folder() / "shard2" / "run.json");
-  header["created"] = "2020-01-01T00:00:00Z";
-  write_text(folder() / "shard2" / "run.json", header.dump());
+  change_header("shard2", [](json& header) { header["created"] = "2020-01-01T00:00:00Z"; });
   ASSERT_EQ(hullbench({"merge", "shard3", "shard1", "shard2", "--out", "one"}).code, 0);
   ASSERT_EQ(hullbench({"merge", "shard2", "shard3", "shard1", "--out", "other"}).code, 0);
   for (const char* file : {"run.json", "runs.jsonl", "report.json", "tables.md"})
@@ -183,7 +150,7 @@ TEST_F(MergeTest, DoesNotDependOnTheOrderOfTheRuns) {
 TEST_F(MergeTest, TellsWhereItsRowsCameFrom) {
   run_shards(2, {plan()});
   ASSERT_EQ(hullbench({"merge", "shard1", "shard2", "--out", "merged"}).code, 0);
-  const json header = read_json(folder() / "merged" / "run.json");
+  const json header = read_json("merged/run.json");
   EXPECT_TRUE(header.at("shard").is_null());
   ASSERT_EQ(header.at("merged").size(), 2U);
   for (std::size_t i = 0; i < 2; ++i) {
@@ -209,7 +176,7 @@ TEST_F(MergeTest, WithoutAShardSaysHowManyRunsAreMissing) {
   EXPECT_NE(merged.err.find("4 of 12 planned runs are missing"), std::string::npos) << merged.err;
   EXPECT_NE(merged.out.find("4 of 12 planned runs are missing"), std::string::npos) << merged.out;
   EXPECT_EQ(accuracy_lines(folder() / "merged").size(), 8U);
-  expect_valid("merged");
+  expect_valid_run("merged");
 }
 
 TEST_F(MergeTest, OfNoRowIsNotWritten) {
@@ -232,12 +199,12 @@ TEST_F(MergeTest, OfSeveralMachinesHasNoTimesInItsTables) {
   EXPECT_EQ(accuracy_lines(folder() / "merged"), accuracy_lines(folder() / "whole"));
   EXPECT_EQ(accuracy_tables(folder() / "merged"), accuracy_tables(folder() / "whole"));
   std::set<std::string> machines;
-  for (const json& line : record::load_json_lines(folder() / "merged" / "runs.jsonl").lines) {
+  for (const json& line : read_lines("merged/runs.jsonl")) {
     machines.insert(line.at("machine").get<std::string>());
     EXPECT_EQ(line.at("time_ns").size(), 1U);
   }
   EXPECT_EQ(machines.size(), 2U);
-  expect_valid("merged");
+  expect_valid_run("merged");
 }
 
 TEST_F(MergeTest, OfSeveralBuildsHasNoTimesInItsTables) {
@@ -247,7 +214,7 @@ TEST_F(MergeTest, OfSeveralBuildsHasNoTimesInItsTables) {
   ASSERT_EQ(merged.code, 0) << merged.err;
   EXPECT_EQ(merged.out.find(", ms"), std::string::npos) << merged.out;
   EXPECT_NE(merged.out.find("they were taken with 2 builds of the program ("), std::string::npos);
-  expect_valid("merged");
+  expect_valid_run("merged");
 }
 
 TEST_F(MergeTest, FillsInTheMachineOfOlderRows) {
@@ -259,9 +226,9 @@ TEST_F(MergeTest, FillsInTheMachineOfOlderRows) {
   });
   ASSERT_EQ(hullbench({"merge", "shard1", "shard2", "--out", "merged"}).code, 0);
   std::size_t moved = 0;
-  for (const json& line : record::load_json_lines(folder() / "merged" / "runs.jsonl").lines)
+  for (const json& line : read_lines("merged/runs.jsonl"))
     if (line.at("machine") == "ba5eba11") ++moved;
-  EXPECT_EQ(moved, record::load_json_lines(folder() / "shard2" / "runs.jsonl").lines.size());
+  EXPECT_EQ(moved, read_lines("shard2/runs.jsonl").size());
 }
 
 TEST_F(MergeTest, OfTheSameRunTwiceTakesTheFirstThatSucceeded) {
@@ -275,15 +242,13 @@ TEST_F(MergeTest, OfTheSameRunTwiceTakesTheFirstThatSucceeded) {
     row["metrics"] = json::object();
     row["output_sha256"] = "";
   });
-  json header = read_json(folder() / "one" / "run.json");
-  header["created"] = "2020-01-01T00:00:00Z";
-  write_text(folder() / "one" / "run.json", header.dump());
+  change_header("one", [](json& header) { header["created"] = "2020-01-01T00:00:00Z"; });
   const Outcome merged = hullbench({"merge", "other", "one", "--out", "merged"});
   ASSERT_EQ(merged.code, 0) << merged.err;
   EXPECT_NE(merged.err.find("12 were measured more than once"), std::string::npos) << merged.err;
-  const auto one = record::load_json_lines(folder() / "one" / "runs.jsonl").lines;
-  const auto other = record::load_json_lines(folder() / "other" / "runs.jsonl").lines;
-  const auto both = record::load_json_lines(folder() / "merged" / "runs.jsonl").lines;
+  const auto one = read_lines("one/runs.jsonl");
+  const auto other = read_lines("other/runs.jsonl");
+  const auto both = read_lines("merged/runs.jsonl");
   ASSERT_EQ(both.size(), 12U);
   for (std::size_t i = 0; i < both.size(); ++i) {
     EXPECT_EQ(both[i], one[i].at("n") == 300 ? other[i] : one[i]);
@@ -385,11 +350,11 @@ TEST_F(MergeTest, OfRunsThatDoNotBelongTogetherIsRefused) {
 
 TEST_F(MergeTest, OfTwoVersionsOfAMethodIsRefused) {
   run_shards(2, {plan()});
-  json header = read_json(folder() / "shard2" / "run.json");
-  for (json& method : header["methods"]) {
-    if (method["name"] == "cgal_alpha_shape") method["version"] = "0.0";
-  }
-  write_text(folder() / "shard2" / "run.json", header.dump());
+  change_header("shard2", [](json& header) {
+    for (json& method : header["methods"]) {
+      if (method["name"] == "cgal_alpha_shape") method["version"] = "0.0";
+    }
+  });
   const Outcome outcome = hullbench({"merge", "shard1", "shard2", "--out", "merged"});
   expect_refusal(outcome, 2, "cgal_alpha_shape is of version ");
   EXPECT_NE(outcome.err.find("and of version 0.0 in shard2"), std::string::npos) << outcome.err;
@@ -398,14 +363,14 @@ TEST_F(MergeTest, OfTwoVersionsOfAMethodIsRefused) {
 TEST_F(MergeTest, TakesAMethodFromWhereItIsInstalled) {
   run("one", {plan()});
   run("other", {plan()});
-  json header = read_json(folder() / "one" / "run.json");
-  for (json& method : header["methods"]) {
-    if (method["name"] != "cgal_alpha_shape") continue;
-    method["installed"] = false;
-    method["version"] = "";
-    method["detail"] = "it is not here";
-  }
-  write_text(folder() / "one" / "run.json", header.dump());
+  change_header("one", [](json& header) {
+    for (json& method : header["methods"]) {
+      if (method["name"] != "cgal_alpha_shape") continue;
+      method["installed"] = false;
+      method["version"] = "";
+      method["detail"] = "it is not here";
+    }
+  });
   change_rows("one", [](json& row) {
     if (row.at("method") != "cgal_alpha_shape") return;
     row["status"] = "not_installed";
@@ -416,8 +381,7 @@ TEST_F(MergeTest, TakesAMethodFromWhereItIsInstalled) {
   });
   ASSERT_EQ(hullbench({"merge", "one", "other", "--out", "merged"}).code, 0);
   EXPECT_EQ(accuracy_lines(folder() / "merged"), accuracy_lines(folder() / "other"));
-  EXPECT_EQ(read_json(folder() / "merged" / "run.json").at("methods"),
-            read_json(folder() / "other" / "run.json").at("methods"));
+  EXPECT_EQ(read_json("merged/run.json").at("methods"), read_json("other/run.json").at("methods"));
 }
 
 TEST_F(MergeTest, WritesToAFolderWithSomethingInItByForceOnly) {
@@ -465,10 +429,10 @@ TEST_F(MergeTest, OfSuitesIsASuite) {
   ASSERT_EQ(merged.code, 0) << merged.err;
   for (const char* name : {"first", "second"}) {
     EXPECT_EQ(accuracy_lines(folder() / "merged" / name), accuracy_lines(folder() / "whole" / name));
-    expect_valid(std::string("merged/") + name);
+    expect_valid_run(std::string("merged/") + name);
   }
   EXPECT_EQ(accuracy_tables(folder() / "merged"), accuracy_tables(folder() / "whole"));
-  EXPECT_EQ(read_json(folder() / "merged" / "suite.json").at("plans"), json({"first", "second"}));
+  EXPECT_EQ(read_json("merged/suite.json").at("plans"), json({"first", "second"}));
   EXPECT_EQ(hullbench({"tables", "merged"}).out, merged.out);
   expect_refusal(hullbench({"merge", "shard1", "shard1/first", "--out", "mixed"}), 2,
                  "some of the folders hold a run and some a suite");

@@ -270,7 +270,7 @@ TEST(Skill, OfTooFewPoints) {
     EXPECT_EQ(metrics.skill, std::nullopt);
     EXPECT_EQ(metrics.area.l2, 0);
     const double count = static_cast<double>(std::max<std::size_t>(1, points.size()));
-    EXPECT_DOUBLE_EQ(scorer.spacing(), 10 / std::sqrt(count));
+    EXPECT_DOUBLE_EQ(metrics.spacing, 10 / std::sqrt(count));
     EXPECT_EQ(metrics.contract.points_covered.has_value(), !points.empty());
   }
 }

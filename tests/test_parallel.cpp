@@ -22,7 +22,8 @@ namespace {
 using namespace std::chrono_literals;
 
 /// No cores, one, and more threads than most machines have cores; a core that there is not does no harm.
-const std::vector<std::vector<int>> kCoreLists = {{}, {0}, {0, 1}, {0, 0, 0, 0, 0, 0, 0, 1000}};
+const std::vector<std::vector<int>> kCoreLists = {
+    {}, {0}, {0, 1}, {kAnyCore, kAnyCore}, {0, 0, 0, 0, 0, 0, 0, 1000}};
 
 TEST(ForEachInParallel, CallsEveryIndexOnce) {
   for (const std::vector<int>& cores : kCoreLists) {
@@ -93,6 +94,11 @@ TEST(ForEachInParallel, LeavesTheCallersCoresAsTheyWere) {
   const std::vector<int> before = allowed_cores();
   for_each_in_parallel(100, before, [](std::size_t) {});
   EXPECT_EQ(allowed_cores(), before);
+}
+
+TEST(ForEachInParallel, LeavesAThreadOfAnyCoreWhereItMayBe) {
+  const std::vector<int> all = allowed_cores();
+  for_each_in_parallel(2, {kAnyCore, kAnyCore}, [&](std::size_t) { EXPECT_EQ(allowed_cores(), all); });
 }
 
 }  // namespace

@@ -2,12 +2,10 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <fstream>
 #include <functional>
 #include <limits>
 #include <nlohmann/json.hpp>
 #include <set>
-#include <sstream>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -16,6 +14,7 @@
 #include "benchmarks/record/json_lines.hpp"
 #include "benchmarks/record/record.hpp"
 #include "invented_run.hpp"
+#include "program.hpp"
 #include "temporary_folder.hpp"
 
 namespace hullbench {
@@ -26,17 +25,6 @@ using testing::TemporaryFolder;
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
-
-std::string content_of(const std::filesystem::path& path) {
-  std::ifstream in(path, std::ios::binary);
-  std::ostringstream content;
-  content << in.rdbuf();
-  return content.str();
-}
-
-void write(const std::filesystem::path& path, const std::string& content) {
-  std::ofstream(path, std::ios::binary) << content;
-}
 
 TEST(Record, RoundTripThroughTextKeepsEveryField) {
   record::RunRecord record = test::invented_record();
@@ -49,29 +37,7 @@ TEST(Record, RoundTripThroughTextKeepsEveryField) {
   record.canary_ns = {{5'000'000, 4'000'000}, {5'100'000, 4'100'000}, {5'200'000, 4'200'000}};
   record.cold_time_ns = 36'000'000;
   const record::RunRecord back = json::parse(json(record).dump()).get<record::RunRecord>();
-  EXPECT_EQ(back.machine, record.machine);
-  EXPECT_EQ(back.flags, record.flags);
-  EXPECT_EQ(back.id, record.id);
-  EXPECT_EQ(back.name, record.name);
-  EXPECT_EQ(back.method, record.method);
-  EXPECT_EQ(back.method_version, record.method_version);
-  EXPECT_EQ(back.dataset, record.dataset);
-  EXPECT_EQ(back.dataset_sha256, record.dataset_sha256);
-  EXPECT_EQ(back.n, record.n);
-  EXPECT_EQ(back.holes, record.holes);
-  EXPECT_EQ(back.seed, record.seed);
-  EXPECT_EQ(back.protocol, record.protocol);
-  EXPECT_EQ(back.parameters, record.parameters);
-  EXPECT_EQ(back.status, record.status);
-  EXPECT_EQ(back.detail, record.detail);
-  EXPECT_EQ(back.time_ns, record.time_ns);
-  EXPECT_EQ(back.phases_ns, record.phases_ns);
-  EXPECT_EQ(back.rounds, record.rounds);
-  EXPECT_EQ(back.passes, record.passes);
-  EXPECT_EQ(back.canary_ns, record.canary_ns);
-  EXPECT_EQ(back.cold_time_ns, record.cold_time_ns);
-  EXPECT_EQ(back.metrics, record.metrics);
-  EXPECT_EQ(back.output_sha256, record.output_sha256);
+  EXPECT_EQ(back, record);
   EXPECT_EQ(json(back), json(record));
 }
 
@@ -179,10 +145,6 @@ TEST(Record, OtherSchemaVersionIsRefused) {
   EXPECT_THROW(record.get<record::RunRecord>(), std::invalid_argument);
 }
 
-TEST(Record, NameFollowsGoogleBenchmark) {
-  EXPECT_EQ(record::run_name(test::invented_record()), "polylidar/ca/n:2000/holes:1/protocol:paper");
-}
-
 TEST(Identity, IsTheHashOfTheCanonicalJson) {
   record::RunRecord record;
   record.method = "m";
@@ -257,33 +219,32 @@ TEST(JsonLines, LineIsOnDiskAsSoonAsItIsAppended) {
   const TemporaryFolder folder;
   record::JsonLinesWriter writer(folder.path() / "lines.jsonl");
   writer.append(1);
-  EXPECT_EQ(content_of(folder.path() / "lines.jsonl"), "1\n");
+  EXPECT_EQ(testing::read_text(folder.path() / "lines.jsonl"), "1\n");
 }
 
 TEST(JsonLines, MissingFileAndEmptyFileHaveNoLines) {
   const TemporaryFolder folder;
   EXPECT_TRUE(record::load_json_lines(folder.path() / "none.jsonl").lines.empty());
-  write(folder.path() / "empty.jsonl", "");
+  testing::write_text(folder.path() / "empty.jsonl", "");
   EXPECT_TRUE(record::load_json_lines(folder.path() / "empty.jsonl").lines.empty());
 }
 
 TEST(JsonLines, TornLastLineIsReportedAndCutOffBeforeTheNext) {
   const TemporaryFolder folder;
   const auto path = folder.path() / "lines.jsonl";
-  write(path, "{\"a\":1}\n{\"b\":");
+  testing::write_text(path, "{\"a\":1}\n{\"b\":");
   const record::JsonLines torn = record::load_json_lines(path);
   EXPECT_EQ(torn.lines.size(), 1U);
   EXPECT_EQ(torn.torn, "{\"b\":");
   record::JsonLinesWriter writer(path);
-  EXPECT_TRUE(writer.repaired());
   writer.append(2);
-  EXPECT_EQ(content_of(path), "{\"a\":1}\n2\n");
+  EXPECT_EQ(testing::read_text(path), "{\"a\":1}\n2\n");
 }
 
 TEST(JsonLines, LastLineWithoutLineFeedIsTornEvenIfItIsJson) {
   const TemporaryFolder folder;
   const auto path = folder.path() / "lines.jsonl";
-  write(path, "1\n12");  // cut from 123
+  testing::write_text(path, "1\n12");  // cut from 123
   EXPECT_EQ(record::load_json_lines(path).lines, std::vector<json>{1});
   EXPECT_EQ(record::load_json_lines(path).torn, "12");
 }
@@ -291,7 +252,7 @@ TEST(JsonLines, LastLineWithoutLineFeedIsTornEvenIfItIsJson) {
 TEST(JsonLines, BrokenLineInTheMiddleIsAnErrorThatNamesIt) {
   const TemporaryFolder folder;
   const auto path = folder.path() / "lines.jsonl";
-  write(path, "1\n{]\n3\n");
+  testing::write_text(path, "1\n{]\n3\n");
   try {
     record::load_json_lines(path);
     FAIL() << "no exception";
@@ -316,7 +277,7 @@ TEST(JsonLines, NaNIsNeverWritten) {
   const TemporaryFolder folder;
   record::JsonLinesWriter writer(folder.path() / "lines.jsonl");
   writer.append({kNaN, kInfinity, -kInfinity});
-  EXPECT_EQ(content_of(folder.path() / "lines.jsonl"), "[null,null,null]\n");
+  EXPECT_EQ(testing::read_text(folder.path() / "lines.jsonl"), "[null,null,null]\n");
 }
 
 TEST(JsonLines, BytesThatAreNotUtf8DoNotLoseTheLine) {

@@ -18,6 +18,7 @@
 #include "benchmarks/tune/split.hpp"
 #include "datasets/datasets.hpp"
 #include "polylidar/concave_hull.hpp"
+#include "tests/hull_input.hpp"
 
 namespace hullbench {
 namespace {
@@ -197,17 +198,12 @@ TEST(RuleFit, TheConstantsInTheCodeAreAboutTheBestOfASmallFit) {
 
 // What the fitted rules are for.
 
-class NoSteps final : public Steps {
- public:
-  void begin(std::string_view) override {}
-};
-
 MultiPolygon hull_of(const std::string& method, const std::vector<polylidar::Point>& points,
                      const Parameters& parameters) {
   for (const AdapterEntry& entry : adapter_registry()) {
     if (entry.name != method) continue;
     const auto adapter = entry.make();
-    NoSteps steps;
+    test::NoSteps steps;
     adapter->load(points);
     adapter->run(parameters, steps);
     return adapter->extract(steps);

@@ -95,8 +95,8 @@ class RunnerTest : public ::testing::Test {
   void TearDown() override { set_interrupted(false); }
 
   /// All passes, or those up to `passes_`; `machine_` is asked.
-  run::RunResult micro::measure(const plan::Plan& plan, const worker::MethodFinder& find_method = &worker_of,
-                                const std::vector<int>& cores = {}) {
+  run::RunResult measure(const plan::Plan& plan, const worker::MethodFinder& find_method = &worker_of,
+                         const std::vector<int>& cores = {}) {
     const json header = header_of(plan);
     const auto directory = run::open_run_directory(header, {folder_.path() / "run", false, folder_.path()});
     const auto runs = plan::planned_runs(plan, "");
@@ -138,7 +138,7 @@ class RunnerTest : public ::testing::Test {
 };
 
 TEST_F(RunnerTest, AGoodMethodGetsACompleteRow) {
-  const run::RunResult result = micro::measure(plan_of({"polylidar"}));
+  const run::RunResult result = measure(plan_of({"polylidar"}));
   EXPECT_EQ(exit_code(result), 0);
   const record::RunRecord row = rows().at("polylidar");
   EXPECT_EQ(to_string(row.status), "ok") << row.detail;
@@ -172,40 +172,40 @@ TEST_F(RunnerTest, AGoodMethodGetsACompleteRow) {
 
 TEST_F(RunnerTest, TheFilesAreWhatTheSchemasSay) {
   measure(plan_of({"polylidar", "crash", "invalid_polygon", "says_unsupported"}));
-  EXPECT_EQ(validate_file(folder_.path() / "run" / "runs.jsonl"), std::vector<std::string>());
-  const json report = make_report(folder_.path() / "run");
+  EXPECT_EQ(record::validate_file(folder_.path() / "run" / "runs.jsonl"), std::vector<std::string>());
+  const json report = report::make_report(folder_.path() / "run");
   write_json_file(folder_.path() / "report.json", report);
-  EXPECT_EQ(validate_file(folder_.path() / "report.json"), std::vector<std::string>());
+  EXPECT_EQ(record::validate_file(folder_.path() / "report.json"), std::vector<std::string>());
   EXPECT_EQ(report["methods"].size(), 4U);
 }
 
 TEST_F(RunnerTest, EveryMisbehaviourIsARowAndTheOthersAreMeasured) {
-  const std::map<std::string, Status> expected = {{"crash", Status::kCrash},
-                                                  {"memory", Status::kMemory},
-                                                  {"early_exit", Status::kCrash},
-                                                  {"garbage", Status::kError},
-                                                  {"garbage_result", Status::kInvalidOutput},
-                                                  {"no_result", Status::kInvalidOutput},
-                                                  {"wrong_nonce", Status::kInvalidOutput},
-                                                  {"invalid_polygon", Status::kInvalidOutput},
-                                                  {"changing_result", Status::kInvalidOutput},
-                                                  {"says_unsupported", Status::kUnsupported},
-                                                  {"says_error", Status::kError},
-                                                  {"crash_at_start", Status::kCrash},
-                                                  {"crash_on_load", Status::kCrash},
-                                                  {"fork", Status::kOk},
-                                                  {"fork_and_fork", Status::kTimeout},
-                                                  {"flood_output", Status::kInvalidOutput},
-                                                  {"flood_line", Status::kError},
-                                                  {"flood_errors_for_ever", Status::kTimeout},
-                                                  {"hang", Status::kTimeout},
-                                                  {"polylidar", Status::kOk},
-                                                  {"good", Status::kOk}};
+  const std::map<std::string, record::Status> expected = {{"crash", record::Status::kCrash},
+                                                          {"memory", record::Status::kMemory},
+                                                          {"early_exit", record::Status::kCrash},
+                                                          {"garbage", record::Status::kError},
+                                                          {"garbage_result", record::Status::kInvalidOutput},
+                                                          {"no_result", record::Status::kInvalidOutput},
+                                                          {"wrong_nonce", record::Status::kInvalidOutput},
+                                                          {"invalid_polygon", record::Status::kInvalidOutput},
+                                                          {"changing_result", record::Status::kInvalidOutput},
+                                                          {"says_unsupported", record::Status::kUnsupported},
+                                                          {"says_error", record::Status::kError},
+                                                          {"crash_at_start", record::Status::kCrash},
+                                                          {"crash_on_load", record::Status::kCrash},
+                                                          {"fork", record::Status::kOk},
+                                                          {"fork_and_fork", record::Status::kTimeout},
+                                                          {"flood_output", record::Status::kInvalidOutput},
+                                                          {"flood_line", record::Status::kError},
+                                                          {"flood_errors_for_ever", record::Status::kTimeout},
+                                                          {"hang", record::Status::kTimeout},
+                                                          {"polylidar", record::Status::kOk},
+                                                          {"good", record::Status::kOk}};
   std::vector<std::string> methods;
   for (const auto& [method, status] : expected) methods.push_back(method);
-  Plan plan = plan_of(methods, 2);
-  for (PlanMethod& method : plan.methods) {
-    if (expected.at(method.method) == Status::kTimeout) method.timeout_s = 0.5;
+  plan::Plan plan = plan_of(methods, 2);
+  for (plan::PlanMethod& method : plan.methods) {
+    if (expected.at(method.method) == record::Status::kTimeout) method.timeout_s = 0.5;
   }
   EXPECT_EQ(exit_code(measure(plan)), 4);
   for (const auto& [method, status] : expected) {
@@ -215,70 +215,70 @@ TEST_F(RunnerTest, EveryMisbehaviourIsARowAndTheOthersAreMeasured) {
   const auto measured = rows();
   ASSERT_EQ(measured.size(), expected.size());
   for (const auto& [method, status] : expected) {
-    const RunRecord& row = measured.at(method);
+    const record::RunRecord& row = measured.at(method);
     EXPECT_EQ(to_string(row.status), to_string(status)) << method << ": " << row.detail;
-    EXPECT_EQ(row.detail.empty(), status == Status::kOk) << method;
+    EXPECT_EQ(row.detail.empty(), status == record::Status::kOk) << method;
   }
   EXPECT_EQ(measured.at("crash").detail, "SIGSEGV");
 }
 
 TEST_F(RunnerTest, AnAcceptedStatusIsNoFailure) {
-  Plan plan = plan_of({"says_error", "good"}, 1);
+  plan::Plan plan = plan_of({"says_error", "good"}, 1);
   EXPECT_EQ(exit_code(measure(plan)), 4);
   fs::remove_all(folder_.path() / "run");
   plan.accepted = {"error"};
-  const RunResult result = measure(plan);
+  const run::RunResult result = measure(plan);
   EXPECT_EQ(exit_code(result), 0);
   EXPECT_EQ(result.accepted, 1);
-  EXPECT_EQ(result.counts.at(Status::kOk), 1);
-  EXPECT_FALSE(result.counts.contains(Status::kError));
+  EXPECT_EQ(result.counts.at(record::Status::kOk), 1);
+  EXPECT_FALSE(result.counts.contains(record::Status::kError));
   fs::remove_all(folder_.path() / "run");
   plan.accepted = {"crash"};
   EXPECT_EQ(exit_code(measure(plan)), 4);
 }
 
 TEST(ExitCode, RowsThatAreAllAcceptedAreMeasured) {
-  RunResult result;
+  run::RunResult result;
   EXPECT_EQ(exit_code(result), 6);
-  count_row(result, Status::kError, {"error"});
+  run::count_row(result, record::Status::kError, {"error"});
   EXPECT_EQ(exit_code(result), 0);
-  count_row(result, Status::kCrash, {"error"});
+  run::count_row(result, record::Status::kCrash, {"error"});
   EXPECT_EQ(exit_code(result), 4);
 }
 
 TEST_F(RunnerTest, RowsUnderStressSayTheirShapeAndLevel) {
-  Plan plan = plan_of({"polylidar"}, 1);
+  plan::Plan plan = plan_of({"polylidar"}, 1);
   plan.expanded_cases = {{"ca~noise:0.5", false, 200}};
   EXPECT_EQ(exit_code(measure(plan)), 0);
-  const RunRecord row = rows().at("polylidar");
+  const record::RunRecord row = rows().at("polylidar");
   EXPECT_EQ(row.name, "polylidar/ca~noise:0.5/n:200/holes:0/protocol:paper");
   EXPECT_EQ(row.base_shape, "ca");
   EXPECT_EQ(row.levels, (std::map<std::string, double>{{"noise", 0.5}}));
-  EXPECT_EQ(validate_file(folder_.path() / "run" / "runs.jsonl"), std::vector<std::string>());
+  EXPECT_EQ(record::validate_file(folder_.path() / "run" / "runs.jsonl"), std::vector<std::string>());
 }
 
 TEST_F(RunnerTest, PointsWithoutAShapeAreMeasuredAndNotScored) {
-  Plan plan = plan_of({"polylidar", "good", "invalid_polygon"}, 1);
+  plan::Plan plan = plan_of({"polylidar", "good", "invalid_polygon"}, 1);
   for (const char* dataset : {"degenerate_empty", "degenerate_collinear"}) {
     fs::remove_all(folder_.path() / "run");
     plan.expanded_cases = {{dataset, false, 0}};
     EXPECT_EQ(exit_code(measure(plan)), 4);
     const auto measured = rows();
-    const RunRecord& empty = measured.at("polylidar");
+    const record::RunRecord& empty = measured.at("polylidar");
     EXPECT_EQ(to_string(empty.status), "ok") << empty.detail;
     EXPECT_EQ(empty.metrics.at("polygons"), 0);
     EXPECT_EQ(empty.metrics.at("l2"), nullptr);
-    const RunRecord& square = measured.at("good");
+    const record::RunRecord& square = measured.at("good");
     EXPECT_EQ(to_string(square.status), "ok") << square.detail;
     EXPECT_EQ(square.metrics.at("area"), 1);
     EXPECT_EQ(square.metrics.at("l2"), nullptr);
     EXPECT_EQ(to_string(measured.at("invalid_polygon").status), "invalid_output");
-    EXPECT_EQ(validate_file(folder_.path() / "run" / "runs.jsonl"), std::vector<std::string>());
+    EXPECT_EQ(record::validate_file(folder_.path() / "run" / "runs.jsonl"), std::vector<std::string>());
   }
 }
 
 TEST_F(RunnerTest, AMethodsOwnLimitsTakeThePlaceOfThePlans) {
-  Plan plan = plan_of({"says_limits", "good"}, 1);
+  plan::Plan plan = plan_of({"says_limits", "good"}, 1);
   const auto limit_of = [&] { return std::stoll(rows().at("says_limits").detail); };
   measure(plan);
   EXPECT_EQ(limit_of(), 512);
@@ -289,10 +289,11 @@ TEST_F(RunnerTest, AMethodsOwnLimitsTakeThePlaceOfThePlans) {
 }
 
 TEST_F(RunnerTest, AMethodsOwnRepetitionsTakeThePlaceOfThePlans) {
-  Plan plan = plan_of({"good", "polylidar"}, 2);
+  plan::Plan plan = plan_of({"good", "polylidar"}, 2);
   plan.methods[0].repetitions = 1;
   plan.methods[1].repetitions = 3;
-  EXPECT_EQ(plan_to_json(parse_plan(plan_to_json(plan).dump(), "test")), plan_to_json(plan));
+  EXPECT_EQ(plan::plan_to_json(plan::parse_plan(plan::plan_to_json(plan).dump(), "test")),
+            plan::plan_to_json(plan));
   EXPECT_EQ(exit_code(measure(plan)), 0);
   EXPECT_EQ(rows().at("good").time_ns.size(), 1U);
   EXPECT_EQ(rows().at("polylidar").time_ns.size(), 3U);
@@ -301,7 +302,7 @@ TEST_F(RunnerTest, AMethodsOwnRepetitionsTakeThePlaceOfThePlans) {
 }
 
 TEST_F(RunnerTest, WithoutWarmUpTheFirstRepetitionIsScored) {
-  Plan plan = plan_of({"polylidar", "garbage_result", "invalid_polygon"});
+  plan::Plan plan = plan_of({"polylidar", "garbage_result", "invalid_polygon"});
   plan.warmup = 0;
   measure(plan);
   EXPECT_EQ(rows().at("polylidar").time_ns.size(), 3U);
@@ -316,7 +317,7 @@ TEST_F(RunnerTest, WithoutWarmUpTheFirstRepetitionIsScored) {
 
 TEST_F(RunnerTest, AnUntimedRunChecksEvenASingleRepetition) {
   for (const int warmup : {0, 1}) {
-    Plan plan = plan_of({"polylidar", "changing_result", "crash_on_second"}, 1);
+    plan::Plan plan = plan_of({"polylidar", "changing_result", "crash_on_second"}, 1);
     plan.warmup = warmup;
     measure(plan);
     EXPECT_EQ(to_string(rows().at("polylidar").status), "ok");
@@ -327,7 +328,7 @@ TEST_F(RunnerTest, AnUntimedRunChecksEvenASingleRepetition) {
 }
 
 TEST_F(RunnerTest, AHangIsATimeoutAndNotTriedAgain) {
-  Plan plan = plan_of({"hang", "good"});
+  plan::Plan plan = plan_of({"hang", "good"});
   plan.timeout_s = 0.5;
   measure(plan);
   EXPECT_EQ(to_string(rows().at("hang").status), "timeout");
@@ -336,7 +337,7 @@ TEST_F(RunnerTest, AHangIsATimeoutAndNotTriedAgain) {
 
 TEST_F(RunnerTest, AnInvalidPolygonIsTimedAndScoredAsInvalid) {
   measure(plan_of({"invalid_polygon"}));
-  const RunRecord row = rows().at("invalid_polygon");
+  const record::RunRecord row = rows().at("invalid_polygon");
   EXPECT_EQ(row.time_ns.size(), 3U);
   EXPECT_FALSE(row.metrics.at("valid").get<bool>());
   EXPECT_TRUE(row.detail.starts_with("the result is an invalid polygon: ")) << row.detail;
@@ -348,23 +349,23 @@ TEST_F(RunnerTest, ARowSaysItsMachineAndWhetherItWasFasterThanAnyMethodCanBe) {
   measure(plan_of({"polylidar", "instant", "good"}));
   const auto has_flag = [&](const std::string& method) {
     const std::vector<std::string> flags = rows().at(method).flags;
-    return std::count(flags.begin(), flags.end(), kFasterThanFloor) == 1;
+    return std::count(flags.begin(), flags.end(), record::kFasterThanFloor) == 1;
   };
   EXPECT_TRUE(has_flag("instant"));
   EXPECT_FALSE(has_flag("good"));
   EXPECT_FALSE(has_flag("polylidar"));
   for (const auto& [name, row] : rows()) {
     EXPECT_EQ(to_string(row.status), "ok") << row.detail;
-    EXPECT_EQ(row.machine, machine_id());
+    EXPECT_EQ(row.machine, record::machine_id());
   }
 }
 
 TEST_F(RunnerTest, ARowSaysThatItsResultIsWorseThanTheConvexHull) {
-  Plan plan = plan_of({"polylidar", "good", "convex_hull", "invalid_polygon"}, 1);
+  plan::Plan plan = plan_of({"polylidar", "good", "convex_hull", "invalid_polygon"}, 1);
   plan.methods[2].parameters.clear();
   measure(plan);
   // A square somewhere else.
-  EXPECT_EQ(rows().at("good").flags, std::vector<std::string>{kWorseThanConvexHull});
+  EXPECT_EQ(rows().at("good").flags, std::vector<std::string>{record::kWorseThanConvexHull});
   EXPECT_TRUE(rows().at("polylidar").flags.empty());
   EXPECT_TRUE(rows().at("convex_hull").flags.empty()) << "as good as itself";
   EXPECT_TRUE(rows().at("invalid_polygon").flags.empty()) << "it has no error";
@@ -377,7 +378,7 @@ TEST_F(RunnerTest, AResultThatChangesIsNotBelieved) {
 
 TEST_F(RunnerTest, ACrashKeepsTheRepetitionsBeforeIt) {
   measure(plan_of({"crash_on_second"}));
-  const RunRecord row = rows().at("crash_on_second");
+  const record::RunRecord row = rows().at("crash_on_second");
   EXPECT_EQ(row.detail, "SIGABRT");
   // The first run was the warm-up, the second one the first repetition.
   EXPECT_EQ(row.time_ns.size(), 0U);
@@ -385,32 +386,31 @@ TEST_F(RunnerTest, ACrashKeepsTheRepetitionsBeforeIt) {
 }
 
 TEST_F(RunnerTest, AParameterThatAMethodDoesNotHaveIsAConfigurationError) {
-  Plan plan = plan_of({"good"});
+  plan::Plan plan = plan_of({"good"});
   plan.methods[0].parameters = {{"colour", 1.0}};
   EXPECT_THROW(measure(plan), ConfigurationError);
 }
 
 TEST_F(RunnerTest, AParameterOutOfItsRangeIsAnErrorRow) {
-  Plan plan = plan_of({"good"});
+  plan::Plan plan = plan_of({"good"});
   plan.methods[0].parameters = {{"size", 11.0}};
   EXPECT_EQ(exit_code(measure(plan)), 4);
   EXPECT_EQ(rows().at("good").detail, "good takes 'size' from 0 to 10, not 11");
 }
 
 TEST_F(RunnerTest, AFinishedRunIsNotMeasuredAgain) {
-  const Plan plan = plan_of({"polylidar", "good", "crash"});
+  const plan::Plan plan = plan_of({"polylidar", "good", "crash"});
   measure(plan);
   const std::string before = testing::read_text(folder_.path() / "run" / "runs.jsonl");
   const std::string repetitions = testing::read_text(folder_.path() / "run" / "repetitions.jsonl");
-  const RunResult again = measure(plan);
-  EXPECT_EQ(again.resumed_rows, 3);
+  const run::RunResult again = measure(plan);
   EXPECT_EQ(exit_code(again), 4);
   EXPECT_EQ(testing::read_text(folder_.path() / "run" / "runs.jsonl"), before);
   EXPECT_EQ(testing::read_text(folder_.path() / "run" / "repetitions.jsonl"), repetitions);
 }
 
 TEST_F(RunnerTest, RepetitionsOfAnEarlierStartAreKept) {
-  const Plan plan = plan_of({"polylidar", "good"}, 5);
+  const plan::Plan plan = plan_of({"polylidar", "good"}, 5);
   measure(plan);
   // As if the first start had been killed in the middle of a line, after two repetitions of each and before
   // any row.
@@ -434,20 +434,20 @@ TEST_F(RunnerTest, RepetitionsOfAnEarlierStartAreKept) {
 }
 
 TEST_F(RunnerTest, ARowOfAnotherVersionDataOrParametersIsMeasuredAgain) {
-  const Plan plan = plan_of({"good", "polylidar"});
-  const std::vector<std::function<void(RunRecord&)>> differences = {
-      [](RunRecord& record) { record.method_version = "0.9"; },
-      [](RunRecord& record) { record.dataset_sha256 = sha256_hex("other points"); },
-      [](RunRecord& record) { record.parameters.at("size") = 2; },
-      [](RunRecord& record) { record.seed = 7; }};
+  const plan::Plan plan = plan_of({"good", "polylidar"});
+  const std::vector<std::function<void(record::RunRecord&)>> differences = {
+      [](record::RunRecord& record) { record.method_version = "0.9"; },
+      [](record::RunRecord& record) { record.dataset_sha256 = sha256_hex("other points"); },
+      [](record::RunRecord& record) { record.parameters.at("size") = 2; },
+      [](record::RunRecord& record) { record.seed = 7; }};
   for (const auto& make_different : differences) {
     measure(plan);
-    const RunRecord whole = rows().at("good");
+    const record::RunRecord whole = rows().at("good");
     std::string text;
     for (const json& line : lines("runs.jsonl")) {
-      auto record = line.get<RunRecord>();
+      auto record = line.get<record::RunRecord>();
       if (record.method == "good") make_different(record);
-      record.id = run_identity(record);
+      record.id = record::run_identity(record);
       text += json(record).dump() + "\n";
     }
     testing::write_text(folder_.path() / "run" / "runs.jsonl", text);
@@ -461,7 +461,7 @@ TEST_F(RunnerTest, ARowOfAnotherVersionDataOrParametersIsMeasuredAgain) {
 }
 
 TEST_F(RunnerTest, ARowOfAMethodThatIsGoneIsKept) {
-  const Plan plan = plan_of({"good"});
+  const plan::Plan plan = plan_of({"good"});
   measure(plan);
 
   EXPECT_EQ(exit_code(measure(plan, &gone)), 0);
@@ -469,7 +469,7 @@ TEST_F(RunnerTest, ARowOfAMethodThatIsGoneIsKept) {
 }
 
 TEST_F(RunnerTest, AMethodThatCanRunNowIsMeasured) {
-  const Plan plan = plan_of({"good"});
+  const plan::Plan plan = plan_of({"good"});
 
   EXPECT_EQ(exit_code(measure(plan, &gone)), 4);
   EXPECT_EQ(to_string(rows().at("good").status), "error");
@@ -478,14 +478,14 @@ TEST_F(RunnerTest, AMethodThatCanRunNowIsMeasured) {
 }
 
 TEST_F(RunnerTest, AnInterruptionKeepsWhatIsThereAndTheNextStartGoesOn) {
-  const Plan plan = plan_of({"polylidar", "hang"});
+  const plan::Plan plan = plan_of({"polylidar", "hang"});
   const auto interrupt_at_hang = [](const std::string& method) {
     if (method == "hang") set_interrupted(true);
     return worker_of(method);
   };
   EXPECT_EQ(exit_code(measure(plan, interrupt_at_hang)), 130);
   set_interrupted(false);
-  Plan same = plan;
+  plan::Plan same = plan;
   EXPECT_EQ(exit_code(measure(same,
                               [](const std::string& method) {
                                 return method == "hang" ? gone(method) : worker_of(method);
@@ -495,15 +495,15 @@ TEST_F(RunnerTest, AnInterruptionKeepsWhatIsThereAndTheNextStartGoesOn) {
 }
 
 /// A plan of `count` cases so small that they make one batch.
-Plan plan_of_small_cases(const std::vector<std::string>& methods, int count) {
-  json source = plan_to_json(plan_of(methods, 2));
+plan::Plan plan_of_small_cases(const std::vector<std::string>& methods, int count) {
+  json source = plan::plan_to_json(plan_of(methods, 2));
   source["cases"][0]["n"] = json::array();
   for (int i = 0; i < count; ++i) source["cases"][0]["n"].push_back(100 + i);
-  return parse_plan(source.dump(), "test");
+  return plan::parse_plan(source.dump(), "test");
 }
 
 TEST_F(RunnerTest, ABatchGivesTheSameRowsOnOneCoreAndOnSeveral) {
-  const Plan plan = plan_of_small_cases({"polylidar", "good", "invalid_polygon", "crash"}, 20);
+  const plan::Plan plan = plan_of_small_cases({"polylidar", "good", "invalid_polygon", "crash"}, 20);
   std::vector<std::vector<json>> rows;
   for (const std::vector<int>& cores : {std::vector<int>{}, std::vector<int>{0, 1}}) {
     EXPECT_EQ(exit_code(measure(plan, &worker_of, cores)), 4);
@@ -525,7 +525,7 @@ std::ptrdiff_t line_count(const fs::path& file) {
 }
 
 TEST_F(RunnerTest, AnInterruptionWithinABatchKeepsTheRowsOfItsFinishedCases) {
-  const Plan plan = plan_of_small_cases({"polylidar", "good"}, 150);
+  const plan::Plan plan = plan_of_small_cases({"polylidar", "good"}, 150);
   const fs::path run = folder_.path() / "run";
   const std::jthread interrupter([&] {
     testing::wait_until([&] { return line_count(run / "repetitions.jsonl") >= 30; });
@@ -541,16 +541,15 @@ TEST_F(RunnerTest, AnInterruptionWithinABatchKeepsTheRowsOfItsFinishedCases) {
   for (const json& row : lines("runs.jsonl")) EXPECT_EQ(row["time_ns"].size(), 2U) << row;
 
   set_interrupted(false);
-  const RunResult second = measure(plan);
+  const run::RunResult second = measure(plan);
   EXPECT_EQ(exit_code(second), 0);
-  EXPECT_EQ(second.resumed_rows, repetitions / 4 * 2);
   EXPECT_TRUE(testing::read_text(run / "runs.jsonl").starts_with(kept));
   EXPECT_EQ(line_count(run / "runs.jsonl"), 150 * 2);
   EXPECT_EQ(line_count(run / "repetitions.jsonl"), 150 * 4);
 }
 
 TEST_F(RunnerTest, PassesShareTheRepetitionsAndCountTheRounds) {
-  Plan plan = plan_of({"polylidar", "counts_runs", "good"}, 10);
+  plan::Plan plan = plan_of({"polylidar", "counts_runs", "good"}, 10);
   plan.methods[1].repetitions = 3;
   plan.methods[2].repetitions = 1;
   plan.passes = 3;
@@ -566,7 +565,7 @@ TEST_F(RunnerTest, PassesShareTheRepetitionsAndCountTheRounds) {
   // Each time the second run of a new process, whose first one was the warm-up.
   EXPECT_EQ(measured.at("counts_runs").time_ns, (Numbers{1002, 1002, 1002}));
   for (const auto& [method, row] : measured) EXPECT_EQ(row.time_ns.size(), row.phases_ns.size()) << method;
-  EXPECT_EQ(validate_file(folder_.path() / "run" / "runs.jsonl"), std::vector<std::string>());
+  EXPECT_EQ(record::validate_file(folder_.path() / "run" / "runs.jsonl"), std::vector<std::string>());
   EXPECT_EQ(seconds_left_, 0.0);
 }
 
@@ -578,7 +577,7 @@ TEST_F(RunnerTest, OnePassIsAsItWasButSaysItsRounds) {
 }
 
 TEST_F(RunnerTest, AResultIsScoredInTheFirstPassOnly) {
-  Plan plan = plan_of({"polylidar", "good"}, 4);
+  plan::Plan plan = plan_of({"polylidar", "good"}, 4);
   plan.passes = 2;
   passes_ = 1;
   EXPECT_EQ(exit_code(measure(plan)), 0);
@@ -597,11 +596,11 @@ TEST_F(RunnerTest, AResultIsScoredInTheFirstPassOnly) {
         << method;
   }
   EXPECT_EQ(testing::read_text(folder_.path() / "run" / "pictures.jsonl"), pictures);
-  EXPECT_EQ(validate_file(folder_.path() / "run" / "runs.jsonl"), std::vector<std::string>());
+  EXPECT_EQ(record::validate_file(folder_.path() / "run" / "runs.jsonl"), std::vector<std::string>());
 }
 
 TEST_F(RunnerTest, ALaterPassHasNoUntimedRunOfAMethodThatTakesLong) {
-  Plan plan = plan_of({"takes_long", "counts_runs"}, 2);
+  plan::Plan plan = plan_of({"takes_long", "counts_runs"}, 2);
   plan.passes = 2;
   EXPECT_EQ(exit_code(measure(plan)), 0);
   EXPECT_EQ(rows().at("takes_long").time_ns, (std::vector<std::int64_t>{2'000'000'002, 2'000'000'001}));
@@ -609,10 +608,10 @@ TEST_F(RunnerTest, ALaterPassHasNoUntimedRunOfAMethodThatTakesLong) {
 }
 
 TEST_F(RunnerTest, ALaterPassMustGiveTheSameResult) {
-  Plan plan = plan_of({"changes_when_started", "good"}, 4);
+  plan::Plan plan = plan_of({"changes_when_started", "good"}, 4);
   plan.passes = 2;
   EXPECT_EQ(exit_code(measure(plan)), 4);
-  const RunRecord row = rows().at("changes_when_started");
+  const record::RunRecord row = rows().at("changes_when_started");
   EXPECT_EQ(to_string(row.status), "invalid_output");
   EXPECT_NE(row.detail.find("different results"), std::string::npos) << row.detail;
   EXPECT_EQ(row.passes, (std::vector<std::int64_t>{1, 1})) << "the times before it stay";
@@ -620,7 +619,7 @@ TEST_F(RunnerTest, ALaterPassMustGiveTheSameResult) {
 }
 
 TEST_F(RunnerTest, ALaterPassStartsOnlyWhatHasSomethingLeftToDo) {
-  Plan plan = plan_of({"crash", "good", "polylidar"}, 4);
+  plan::Plan plan = plan_of({"crash", "good", "polylidar"}, 4);
   plan.methods[1].repetitions = 1;
   plan.passes = 2;
   std::vector<std::string> started;
@@ -637,7 +636,7 @@ TEST_F(RunnerTest, ALaterPassStartsOnlyWhatHasSomethingLeftToDo) {
 }
 
 TEST_F(RunnerTest, AFinishedRunOfSeveralPassesIsNotMeasuredAgain) {
-  Plan plan = plan_of({"polylidar", "good", "crash"}, 4);
+  plan::Plan plan = plan_of({"polylidar", "good", "crash"}, 4);
   plan.passes = 3;
   measure(plan);
   const fs::path run = folder_.path() / "run";
@@ -649,7 +648,7 @@ TEST_F(RunnerTest, AFinishedRunOfSeveralPassesIsNotMeasuredAgain) {
 }
 
 TEST_F(RunnerTest, ARunThatStoppedInTheSecondPassGoesOnThere) {
-  Plan plan = plan_of({"polylidar", "good"}, 6);
+  plan::Plan plan = plan_of({"polylidar", "good"}, 6);
   plan.passes = 2;
   passes_ = 1;
   measure(plan);
@@ -680,7 +679,7 @@ TEST_F(RunnerTest, ARunThatStoppedInTheSecondPassGoesOnThere) {
 }
 
 TEST_F(RunnerTest, ARowWithoutItsRepetitionsIsMeasuredAnew) {
-  Plan plan = plan_of({"polylidar"}, 4);
+  plan::Plan plan = plan_of({"polylidar"}, 4);
   plan.passes = 2;
   passes_ = 1;
   measure(plan);
@@ -691,7 +690,7 @@ TEST_F(RunnerTest, ARowWithoutItsRepetitionsIsMeasuredAnew) {
 }
 
 TEST_F(RunnerTest, RowsOfALaterPassTakeThePlacesOfTheEarlierOnes) {
-  Plan plan = plan_of_small_cases({"polylidar", "good"}, 3);
+  plan::Plan plan = plan_of_small_cases({"polylidar", "good"}, 3);
   plan.passes = 2;
   passes_ = 1;
   measure(plan);
@@ -714,7 +713,7 @@ class SlowAt {
   explicit SlowAt(std::set<int> looks)
       : watch(
             [this, looks = std::move(looks)] {
-              return CanaryTimes{looks.contains(++count_) ? 200 : 100, 1000};
+              return record::CanaryTimes{looks.contains(++count_) ? 200 : 100, 1000};
             },
             std::chrono::nanoseconds(0)) {}
 
@@ -722,19 +721,19 @@ class SlowAt {
   int count_ = 0;
 
  public:
-  MachineWatch watch;
+  run::MachineWatch watch;
 };
 
 TEST_F(RunnerTest, ARoundOnAMachineInAnotherStateIsMeasuredAgain) {
   SlowAt machine({6});
   machine_ = &machine.watch;
   measure(plan_of({"counts_runs"}, 8));
-  const RunRecord row = rows().at("counts_runs");
+  const record::RunRecord row = rows().at("counts_runs");
   // The first run is the warm-up; the seventh, of the sixth round, does not count.
   EXPECT_EQ(row.time_ns, (std::vector<std::int64_t>{1002, 1003, 1004, 1005, 1006, 1008, 1009, 1010}));
   EXPECT_EQ(row.rounds, (std::vector<std::int64_t>{0, 1, 2, 3, 4, 5, 6, 7}));
-  EXPECT_EQ(row.canary_ns, std::vector<CanaryTimes>(8, CanaryTimes{100, 1000}));
-  EXPECT_EQ(row.flags, (std::vector<std::string>{kRemeasuredRound, kWorseThanConvexHull}));
+  EXPECT_EQ(row.canary_ns, std::vector<record::CanaryTimes>(8, record::CanaryTimes{100, 1000}));
+  EXPECT_EQ(row.flags, (std::vector<std::string>{record::kRemeasuredRound, record::kWorseThanConvexHull}));
   EXPECT_EQ(lines("repetitions.jsonl").size(), 8U);
   EXPECT_EQ(seconds_left_, 0.0);
 }
@@ -742,16 +741,17 @@ TEST_F(RunnerTest, ARoundOnAMachineInAnotherStateIsMeasuredAgain) {
 TEST_F(RunnerTest, AMachineThatStaysInAnotherStateIsSaid) {
   SlowAt machine({6, 7, 8});
   machine_ = &machine.watch;
-  Plan plan = plan_of({"counts_runs"}, 8);
+  plan::Plan plan = plan_of({"counts_runs"}, 8);
   plan.passes = 2;
   measure(plan);
-  const RunRecord row = rows().at("counts_runs");
+  const record::RunRecord row = rows().at("counts_runs");
   // Four rounds in the first pass. The second is a new process; its second round is measured three times.
   EXPECT_EQ(row.time_ns, (std::vector<std::int64_t>{1002, 1003, 1004, 1005, 1002, 1005, 1006, 1007}));
-  std::vector<CanaryTimes> canaries(8, CanaryTimes{100, 1000});
+  std::vector<record::CanaryTimes> canaries(8, record::CanaryTimes{100, 1000});
   canaries[5] = {200, 1000};
   EXPECT_EQ(row.canary_ns, canaries);
-  EXPECT_EQ(row.flags, (std::vector<std::string>{kRemeasuredRound, kUnsteadyMachine, kWorseThanConvexHull}));
+  EXPECT_EQ(row.flags, (std::vector<std::string>{record::kRemeasuredRound, record::kUnsteadyMachine,
+                                                 record::kWorseThanConvexHull}));
   // Said of the repetition for ever, whoever goes on.
   int unsteady = 0;
   for (const json& line : lines("repetitions.jsonl")) unsteady += line.value("unsteady", false) ? 1 : 0;
@@ -768,13 +768,13 @@ TEST_F(RunnerTest, AllMethodsOfARoundAreMeasuredAgainButThoseThatFailed) {
   machine_ = &machine.watch;
   measure(plan_of({"counts_runs", "crash", "polylidar"}, 7));
   EXPECT_EQ(rows().at("counts_runs").time_ns.back(), 1009);
-  EXPECT_EQ(rows().at("polylidar").flags, std::vector<std::string>{kRemeasuredRound});
+  EXPECT_EQ(rows().at("polylidar").flags, std::vector<std::string>{record::kRemeasuredRound});
   EXPECT_EQ(to_string(rows().at("crash").status), "crash");
   EXPECT_TRUE(rows().at("crash").flags.empty());
 }
 
 TEST_F(RunnerTest, AMethodThatCompilesIsWarmBeforeItsFirstCase) {
-  Plan plan = plan_of_small_cases({"gets_faster"}, 2);
+  plan::Plan plan = plan_of_small_cases({"gets_faster"}, 2);
   EXPECT_EQ(exit_code(measure(plan, &compiling_worker_of)), 0);
   const auto measured = lines("runs.jsonl");
   ASSERT_EQ(measured.size(), 2U);
@@ -783,11 +783,11 @@ TEST_F(RunnerTest, AMethodThatCompilesIsWarmBeforeItsFirstCase) {
   EXPECT_EQ(measured[0]["cold_time_ns"], 8'000'001);
   EXPECT_EQ(measured[1]["time_ns"], (json{1'000'011, 1'000'012})) << "it is warm already";
   EXPECT_FALSE(measured[1].contains("cold_time_ns"));
-  EXPECT_EQ(validate_file(folder_.path() / "run" / "runs.jsonl"), std::vector<std::string>());
+  EXPECT_EQ(record::validate_file(folder_.path() / "run" / "runs.jsonl"), std::vector<std::string>());
 }
 
 TEST_F(RunnerTest, EveryPassWarmsItsOwnProcesses) {
-  Plan plan = plan_of({"gets_faster"}, 2);
+  plan::Plan plan = plan_of({"gets_faster"}, 2);
   plan.passes = 2;
   EXPECT_EQ(exit_code(measure(plan, &compiling_worker_of)), 0);
   EXPECT_EQ(rows().at("gets_faster").time_ns, (std::vector<std::int64_t>{1'000'008, 1'000'008}));
@@ -801,13 +801,13 @@ TEST_F(RunnerTest, AMethodThatDoesNotCompileHasNoColdTime) {
 }
 
 TEST_F(RunnerTest, AWarmUpThatFailsIsTheRowsFailure) {
-  EXPECT_EQ(exit_code(micro::measure(plan_of({"crash"}), &compiling_worker_of)), 4);
+  EXPECT_EQ(exit_code(measure(plan_of({"crash"}), &compiling_worker_of)), 4);
   EXPECT_EQ(to_string(rows().at("crash").status), "crash");
   EXPECT_EQ(rows().at("crash").detail, "SIGSEGV");
 }
 
 TEST_F(RunnerTest, WorkFilesDoNotStay) {
-  micro::measure(plan_of({"polylidar", "crash"}));
+  measure(plan_of({"polylidar", "crash"}));
   std::set<std::string> names;
   for (const auto& entry : fs::directory_iterator(folder_.path() / "run"))
     names.insert(entry.path().filename().string());
@@ -909,7 +909,7 @@ TEST_F(PlaceTest, LatestPointsToTheRun) {
 
 TEST(ExitCode, SaysWhatHappened) {
   const auto code = [](std::map<record::Status, int> counts) {
-    return exit_code({false, std::move(counts), 0});
+    return run::exit_code({false, std::move(counts)});
   };
   EXPECT_EQ(code({{record::Status::kOk, 3}}), 0);
   EXPECT_EQ(
@@ -922,7 +922,7 @@ TEST(ExitCode, SaysWhatHappened) {
         record::Status::kInvalidOutput}) {
     EXPECT_EQ(code({{record::Status::kOk, 3}, {failure, 1}}), 4);
   }
-  EXPECT_EQ(exit_code({true, {{record::Status::kOk, 3}}, 0}), 130);
+  EXPECT_EQ(run::exit_code({true, {{record::Status::kOk, 3}}}), 130);
 }
 
 TEST(Progress, EstimatesFromTheTimesSoFar) {

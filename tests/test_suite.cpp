@@ -12,10 +12,7 @@
 #include <utility>
 #include <vector>
 
-#include "benchmarks/record/json_lines.hpp"
-#include "tests/program.hpp"
-#include "tests/small_plans.hpp"
-#include "tests/temporary_folder.hpp"
+#include "tests/hullbench_test.hpp"
 
 namespace hullbench {
 namespace {
@@ -29,22 +26,9 @@ using testing::Program;
 using testing::read_text;
 using testing::small_plan;
 
-class SuiteTest : public ::testing::Test {
+class SuiteTest : public testing::HullbenchTest {
  protected:
-  fs::path folder() const { return folder_.path(); }
   fs::path suite() const { return folder() / "suite"; }
-
-  static std::vector<std::string> command(std::vector<std::string> arguments) {
-    arguments.insert(arguments.begin(), HULLBENCH);
-    return arguments;
-  }
-
-  Outcome hullbench(std::vector<std::string> arguments, testing::ProgramOptions options = {}) const {
-    options.folder = folder();
-    return testing::run_program(command(std::move(arguments)), options);
-  }
-
-  std::string write(const json& plan) const { return testing::write_plan(folder(), plan); }
 
   /// "first" with 500 and "second" with 600 points.
   std::vector<std::string> run_both(std::vector<std::string> more = {"--out", "suite"}) const {
@@ -53,9 +37,6 @@ class SuiteTest : public ::testing::Test {
     words.insert(words.end(), more.begin(), more.end());
     return words;
   }
-
- private:
-  testing::TemporaryFolder folder_;
 };
 
 std::set<std::string> names_in(const fs::path& folder) {
@@ -267,9 +248,7 @@ class InterruptedSuiteTest : public SuiteTest {
   /// Starts the suite and sends `signal` in the middle of the second plan; how it ended.
   Outcome stop_in_second(const std::vector<std::string>& words, int signal, std::size_t lines,
                          const fs::path& in) const {
-    testing::ProgramOptions options;
-    options.folder = folder();
-    Program program(command(words), options);
+    Program program(command(words), in_folder());
     EXPECT_TRUE(testing::wait_until([&] {
       const std::string text = read_text(in / "second" / "repetitions.jsonl");
       return static_cast<std::size_t>(std::count(text.begin(), text.end(), '\n')) >= lines;

@@ -15,11 +15,8 @@
 
 #include "benchmarks/metrics/area.hpp"
 #include "benchmarks/plan/parameter_rules.hpp"
-#include "benchmarks/record/json_lines.hpp"
 #include "datasets/datasets.hpp"
-#include "tests/program.hpp"
-#include "tests/small_plans.hpp"
-#include "tests/temporary_folder.hpp"
+#include "tests/hullbench_test.hpp"
 
 namespace hullbench {
 namespace {
@@ -49,7 +46,7 @@ polylidar::MultiPolygon disc(const std::vector<polylidar::Point>& points, double
   return {{ring, {}}};
 }
 
-class TuneTest : public ::testing::Test {
+class TuneTest : public testing::HullbenchTest {
  protected:
   void SetUp() override {
     const std::string why = testing::missing({SYSTEM_PYTHON ":numpy"});
@@ -85,18 +82,6 @@ class TuneTest : public ::testing::Test {
                    run + "\nhullbench_worker.serve(version='1', run=run)\n");
   }
 
-  std::vector<std::string> command(const std::vector<std::string>& arguments) const {
-    std::vector<std::string> words = {HULLBENCH};
-    words.insert(words.end(), arguments.begin(), arguments.end());
-    return words;
-  }
-
-  testing::ProgramOptions options() const { return {folder(), {{"XDG_CONFIG_HOME", folder() / "config"}}}; }
-
-  Outcome hullbench(const std::vector<std::string>& arguments) const {
-    return testing::run_program(command(arguments), options());
-  }
-
   std::vector<std::string> tune_words(const std::string& plan, const std::string& methods_expression,
                                       const std::string& out,
                                       const std::vector<std::string>& more = {}) const {
@@ -111,27 +96,14 @@ class TuneTest : public ::testing::Test {
     return hullbench(tune_words(plan, methods_expression, out, more));
   }
 
-  std::string plan(const json& cases) const {
-    return testing::write_plan(folder(), testing::small_plan("small", cases));
-  }
+  std::string plan(const json& cases) const { return write(testing::small_plan("small", cases)); }
 
-  json summary(const std::string& out) const { return json::parse(read_text(folder() / out / "tune.json")); }
+  json summary(const std::string& out) const { return read_json(out + "/tune.json"); }
+  std::vector<json> sweep(const std::string& out) const { return read_lines(out + "/sweep.jsonl"); }
 
-  std::vector<json> sweep(const std::string& out) const {
-    return record::load_json_lines(folder() / out / "sweep.jsonl").lines;
-  }
-
-  void expect_valid(const std::string& file) const {
-    const Outcome validated = hullbench({"validate", folder() / file});
-    EXPECT_EQ(validated.code, 0) << validated.err;
-  }
-
-  fs::path folder() const { return folder_.path(); }
   /// A byte for every call of `disc`.
   fs::path calls() const { return folder() / "calls"; }
-  fs::path methods() const { return folder_.path() / "methods"; }
-
-  testing::TemporaryFolder folder_;
+  fs::path methods() const { return folder() / "methods"; }
 };
 
 const json& method_of(const json& summary, const std::string& name) {
@@ -193,7 +165,7 @@ TEST_F(TuneTest, ItsPlanMeasuresWhatItFound) {
   }
   ASSERT_FALSE(tested.empty());
   ASSERT_LT(tested.size(), 6U) << "this seed must have both sides among six stars";
-  const auto rows = record::load_json_lines(folder() / "run" / "runs.jsonl").lines;
+  const auto rows = read_lines("run/runs.jsonl");
   std::set<std::string> measured;
   for (const json& row : rows) {
     ASSERT_TRUE(found.contains(row.at("name"))) << row.at("name");
@@ -227,6 +199,7 @@ TEST_F(TuneTest, FailuresAreEvaluationsAndInfinitelyBad) {
          "    if len(points) == 201: os.abort()\n"
          "    if radius > 3 * abs(points).max(): os.abort()\n"
          "    c = points.mean(axis=0)\n"
+         "    if len(points) == 202: return [[[c, c + [radius, radius], c + [radius, 0], c + [0, radius]]]]\n"
          "    return [[[c, c + [radius, 0], c + [radius, radius], c + [0, radius]]]]\n");
   const Outcome tuned =
       tune(plan(json::array({{{"dataset", "star"}, {"members", 4}, {"n", {200}}}})), "moody", "out");
@@ -240,6 +213,11 @@ TEST_F(TuneTest, FailuresAreEvaluationsAndInfinitelyBad) {
     EXPECT_TRUE(line.at("l2").is_null());
   }
   EXPECT_EQ(sweep("failing").size(), 25U);
+  EXPECT_EQ(tune(plan(json::array({{{"dataset", "star-1"}, {"n", {202}}}})), "moody", "crossing").code, 4);
+  const json crossing = sweep("crossing").front();
+  EXPECT_EQ(crossing.at("status"), "invalid_output");
+  EXPECT_TRUE(crossing.at("detail").get<std::string>().starts_with("the result is an invalid polygon: "));
+  EXPECT_TRUE(crossing.at("l2").is_null());
   EXPECT_TRUE(method_of(summary("failing"), "moody").at("tuned").is_null());
   expect_valid("failing/tune.json");
   expect_valid("failing/sweep.jsonl");
@@ -260,14 +238,13 @@ TEST_F(TuneTest, GoesOnAfterAnInterruptionToTheSameResult) {
   const auto calls_of_whole = fs::file_size(calls());
   const fs::path file = folder() / "parts" / "sweep.jsonl";
   {
-    Program program(command(tune_words(cases, "disc|polylidar", "parts", {"--jobs", "1"})), options());
-    ASSERT_TRUE(testing::wait_until(
-        [&] { return fs::exists(file) && record::load_json_lines(file).lines.size() > 60; }));
+    Program program(command(tune_words(cases, "disc|polylidar", "parts", {"--jobs", "1"})), in_folder());
+    ASSERT_TRUE(testing::wait_until([&] { return sweep("parts").size() > 60; }));
     program.send_signal(SIGINT);
     const Outcome outcome = program.wait();
     EXPECT_EQ(outcome.code, 130) << outcome.err;
   }
-  const std::size_t kept = record::load_json_lines(file).lines.size();
+  const std::size_t kept = sweep("parts").size();
   ASSERT_LT(kept, sweep("whole").size()) << "it was over before the interruption";
   // As a kill leaves it.
   write_text(file, read_text(file) + "{\"kind\": \"eval");

@@ -16,7 +16,6 @@
 #include "benchmarks/tune/split.hpp"
 #include "benchmarks/tune/tuned_plan.hpp"
 #include "benchmarks/tune/tuner.hpp"
-#include "benchmarks/tune/tuning_report.hpp"
 #include "datasets/datasets.hpp"
 
 namespace hullbench {
@@ -206,12 +205,9 @@ class InventedTuning {
       tune::TuningCase& one = tuning.cases.emplace_back();
       one.plan_case = {"star-" + std::to_string(i), false, 500};
       one.seed = 1;
-      one.name = one.plan_case.dataset + "/n:500/holes:0";
       one.shape = base_shape(one.plan_case.dataset);
       one.side = tune::side_of(one.shape, 1);
-      one.n = 500;
       one.spacing = 1;
-      one.dataset_sha256 = std::string(64, '0');
     }
   }
 
@@ -233,23 +229,13 @@ class InventedTuning {
   tune::Evaluation evaluation(const tune::TuningCase& one, double position, double error) const {
     const tune::MethodTuning& method = tuning.methods.front();
     tune::Evaluation result;
-    result.case_name = one.name;
-    result.method = method.name;
-    result.method_version = "1";
-    result.program = std::string(64, '1');
-    result.dataset = one.plan_case.dataset;
-    result.dataset_sha256 = one.dataset_sha256;
-    result.n = one.n;
-    result.seed = one.seed;
     result.parameters = tune::fixed_parameters(*method.info);
     result.parameters[method.axis->parameter] = tune::value_at(*method.axis, position, one.spacing);
     if (tune::is_infinitely_bad(error)) {
       result.status = record::Status::kCrash;
-      result.detail = "SIGSEGV";
     } else {
-      result.l2 = error;
+      result.metrics["l2"] = error;
     }
-    result.id = tune::evaluation_identity(result);
     return result;
   }
 
@@ -333,7 +319,7 @@ TEST(ProtocolTest, TheOracleIsTheBestAndRegretIsWhatTheOthersAddToIt) {
     tune::MethodOnCase& found = invented.tuning.methods[0].cases[i];
     found.protocols.emplace("default", invented.evaluation(invented.tuning.cases[i], 32, 0.75));
     for (const tune::SweepEvaluation& one : found.sweep)
-      EXPECT_LE(tune::best_evaluation(found)->error(), one.evaluation.error());
+      EXPECT_LE(tune::error_of(*tune::best_evaluation(found)), tune::error_of(one.evaluation));
   }
   const auto scores = tune::protocol_scores(invented.tuning, invented.method(), invented.tuned());
   const tune::ProtocolScore* oracle = score_of(scores, "oracle", false);
@@ -429,8 +415,9 @@ TEST(TunedPlanTest, HasTheChosenParametersOnTheRightCases) {
   const plan::RuleInput input = {square, 1, false, {}};
   for (std::size_t i = 0; i < invented.tuning.cases.size(); ++i) {
     const tune::TuningCase& one = invented.tuning.cases[i];
-    EXPECT_EQ(plan::applies(*entries.at("tuned"), one.plan_case), one.side == tune::Side::kTest) << one.name;
-    ASSERT_TRUE(plan::applies(*entries.at("oracle"), one.plan_case)) << one.name;
+    EXPECT_EQ(plan::applies(*entries.at("tuned"), one.plan_case), one.side == tune::Side::kTest)
+        << one.plan_case.name();
+    ASSERT_TRUE(plan::applies(*entries.at("oracle"), one.plan_case)) << one.plan_case.name();
     EXPECT_EQ(plan::choose_parameters(*entries.at("oracle"), one.plan_case, input),
               tune::best_evaluation(invented.method().cases[i])->parameters);
     EXPECT_EQ(plan::choose_parameters(*entries.at("tuned"), one.plan_case, input),

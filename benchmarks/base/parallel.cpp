@@ -13,6 +13,7 @@ namespace {
 /// Lets the calling thread run on `core` only. The harness keeps off the workers' core; its threads, which
 /// work while no worker does, may use that core too.
 void move_to_core(int core) {
+  if (core == kAnyCore) return;
   cpu_set_t set;
   CPU_ZERO(&set);
   CPU_SET(static_cast<std::size_t>(core), &set);

@@ -123,25 +123,6 @@ std::size_t terminal_width() {
   return ::ioctl(STDERR_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 0 ? size.ws_col : 80;
 }
 
-/// A folder that goes with this object.
-class Scratch {
- public:
-  explicit Scratch(fs::path path) : path_(fs::absolute(std::move(path))) {
-    fs::remove_all(path_);
-    fs::create_directories(path_);
-  }
-  ~Scratch() {
-    std::error_code ignored;
-    fs::remove_all(path_, ignored);
-  }
-  Scratch(const Scratch&) = delete;
-  Scratch& operator=(const Scratch&) = delete;
-  const fs::path& path() const { return path_; }
-
- private:
-  fs::path path_;
-};
-
 /// 4 when a method has nothing but failures on a case, 6 when there is no result at all.
 int exit_code(const tune::Tuning& tuning) {
   bool any_result = false;
@@ -150,9 +131,10 @@ int exit_code(const tune::Tuning& tuning) {
     for (const tune::MethodOnCase& found : method.cases) {
       const tune::Evaluation* best = tune::best_evaluation(found);
       if (best == nullptr) continue;
-      any_result = any_result || best->l2.has_value();
-      any_failure = any_failure || (!best->l2 && best->status != record::Status::kUnsupported &&
-                                    best->status != record::Status::kNotInstalled);
+      any_result = any_result || best->metrics.contains("l2");
+      any_failure =
+          any_failure || (!best->metrics.contains("l2") && best->status != record::Status::kUnsupported &&
+                          best->status != record::Status::kNotInstalled);
     }
   }
   if (any_failure) return 4;
@@ -189,7 +171,7 @@ int tune_command(const TuneCommand& command) {
   const std::vector<plan::Plan> plans = load_plans(command, catalog);
   const std::vector<plan::Plan> parts = part_of(plans, command.shard);
   const json tool = describe_tool();
-  tune::TunerOptions options = tuner_options(command, catalog, plans, tool);
+  const tune::TunerOptions options = tuner_options(command, catalog, plans, tool);
   std::vector<tune::TuningCase> cases = tune::tuning_cases(parts, command.seed);
   if (cases.empty()) {
     std::cerr << "hullbench: there are too few cases for shard " << to_string(*command.shard)
@@ -200,8 +182,6 @@ int tune_command(const TuneCommand& command) {
   make_writable_folder(folder);
   const std::string file = sweep_file(command.shard);
   tune::EvaluationStore store(folder, file);
-  const Scratch scratch(folder / ("scratch-" + file));
-  options.scratch = scratch.path();
   worker::end_strays_of_dead_harnesses();
   run::Progress progress(std::cerr, ::isatty(STDERR_FILENO) == 1, terminal_width(),
                          {{"tune", tune::tuning_progress(cases, options.methods)}});

@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "benchmarks/metrics/anchors.hpp"
-#include "benchmarks/metrics/area_overlay.hpp"
 #include "benchmarks/metrics/boundary_band.hpp"
 #include "benchmarks/metrics/checked_shape.hpp"
 #include "benchmarks/metrics/prepared_truth.hpp"
@@ -61,10 +60,9 @@ CaseScorer& CaseScorer::operator=(CaseScorer&&) noexcept = default;
 Metrics CaseScorer::score(const MultiPolygon& result) const {
   const GeosSession geos;
   const CheckedShape shape = check_shape(geos, result);
-  const GeosSession::Geometry truth = state_->prepared.geometry(geos);
 
   Metrics metrics;
-  metrics.area = hullbench::metrics::area_scores(geos, result, shape, state_->prepared, truth);
+  metrics.area = state_->prepared.score(geos, result, shape);
   metrics.counts = count_shape(result, state_->truth, state_->h);
   metrics.contract = state_->input.score(result);
   metrics.l2_convex_hull = state_->anchors.l2_convex_hull;
@@ -85,12 +83,7 @@ Metrics CaseScorer::score(const MultiPolygon& result) const {
 
 AreaScores CaseScorer::area_scores(const MultiPolygon& result) const {
   const GeosSession geos;
-  return hullbench::metrics::area_scores(geos, result, check_shape(geos, result), state_->prepared,
-                                         state_->prepared.geometry(geos));
-}
-
-double CaseScorer::spacing() const {
-  return state_->h;
+  return state_->prepared.score(geos, result, check_shape(geos, result));
 }
 
 }  // namespace hullbench::metrics

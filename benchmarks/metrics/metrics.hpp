@@ -28,7 +28,9 @@ struct Metrics {
   std::optional<double> skill;  ///< see anchors.hpp
   double l2_convex_hull = 0;
   double l2_best_triangles = 0;
-  double spacing = 0;     ///< h; see CaseScorer
+  /// h = sqrt(A / n), the nominal spacing of n points (at least 1) on the ground truth's area A, in the unit
+  /// of the points.
+  double spacing = 0;
   bool has_truth = true;  ///< else only what describe gives is defined
   std::size_t polygon_count = 0;
   std::size_t hole_count = 0;
@@ -55,12 +57,8 @@ class CaseScorer {
   /// Safe from several threads at once. Throws std::runtime_error when GEOS fails.
   Metrics score(const polylidar::MultiPolygon& result) const;
 
-  /// The area scores alone, for searches that score many results; they are those of `score`. As safe.
+  /// The area scores alone, for searches that score many results: those of `score`, as safe.
   AreaScores area_scores(const polylidar::MultiPolygon& result) const;
-
-  /// h = sqrt(A / n), the nominal spacing of n points (at least 1) on the ground truth's area A, in the unit
-  /// of the points.
-  double spacing() const;
 
  private:
   struct State;

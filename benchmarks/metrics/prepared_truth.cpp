@@ -19,7 +19,7 @@ PreparedTruth::PreparedTruth(const polylidar::MultiPolygon& shape) {
   const GeosSession::Geometry hull =
       geos_.own(GEOSConvexHull_r(geos_.context(), geometry_.get()), "making a convex hull");
   convexity_ = area_ / geos_.area(hull);
-  perimeter_ = hullbench::metrics::perimeter(shape);
+  perimeter_ = perimeter(shape);
 }
 
 }  // namespace hullbench::metrics

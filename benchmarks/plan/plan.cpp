@@ -451,13 +451,7 @@ bool is_dataset_of(const PlanCase& plan_case, const std::string& name) {
 }
 
 std::string name_of(const PlanMethod& method, const PlanCase& plan_case) {
-  record::RunRecord record;
-  record.method = method.method;
-  record.dataset = plan_case.dataset;
-  record.n = plan_case.n;
-  record.holes = plan_case.holes;
-  record.protocol = method.protocol;
-  return record::run_name(record);
+  return method.method + "/" + plan_case.name() + "/protocol:" + method.protocol;
 }
 
 /// That there is what a case asks for.

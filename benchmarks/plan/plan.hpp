@@ -60,8 +60,14 @@ struct PlanCase {
   /// "ca" or "ca/holes": the key of parameters that are given case by case.
   std::string shape() const { return holes ? dataset + "/holes" : dataset; }
 
+  /// "n:2000", or "n:all" for a data set's own points.
+  std::string size() const { return n == 0 ? "n:all" : "n:" + std::to_string(n); }
+
   /// "ca/holes/n:2000", or "floor-1/n:all": the key that is this case's alone.
-  std::string key() const { return shape() + "/n:" + (n == 0 ? "all" : std::to_string(n)); }
+  std::string key() const { return shape() + "/" + size(); }
+
+  /// "ca/n:2000/holes:1", as the names of runs have it.
+  std::string name() const { return dataset + "/" + size() + "/holes:" + (holes ? "1" : "0"); }
 };
 
 /// {"rule": NAME}
@@ -119,7 +125,9 @@ struct Plan {
 struct PlannedRun {
   std::size_t case_index = 0;    ///< into Plan::expanded_cases
   std::size_t method_index = 0;  ///< into Plan::methods
-  std::string name;              ///< "polylidar/ca/n:64000/holes:1/protocol:paper"
+  /// "polylidar/ca/n:64000/holes:1/protocol:paper", in Google Benchmark's manner. For people: two runs that
+  /// differ in seed or parameters share it.
+  std::string name;
 };
 
 /// The plan in `text`. `source` is how messages call it. Throws ConfigurationError.

@@ -4,6 +4,7 @@
 #include <stdexcept>
 #include <system_error>
 
+#include "benchmarks/base/files.hpp"
 #include "benchmarks/record/xz_file.hpp"
 
 namespace hullbench::record {
@@ -53,7 +54,6 @@ JsonLinesWriter::JsonLinesWriter(const std::filesystem::path& path) : path_(path
     std::error_code error;
     std::filesystem::resize_file(path, existing.complete_bytes, error);
     if (error) throw std::runtime_error("Cannot write " + path.string() + ": " + error.message() + ".");
-    repaired_ = true;
   }
   out_.open(path, std::ios::binary | std::ios::app);
   if (!out_)
@@ -63,7 +63,7 @@ JsonLinesWriter::JsonLinesWriter(const std::filesystem::path& path) : path_(path
 void JsonLinesWriter::append(const nlohmann::json& json) {
   // Method and library messages may hold bytes that are not UTF-8; they are replaced, never a reason to lose
   // a row.
-  out_ << json.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace) + "\n" << std::flush;
+  out_ << dump_text(json, -1) + "\n" << std::flush;
   if (!out_) throw std::runtime_error("Cannot write " + path_.string() + ": is the disk full?");
 }
 

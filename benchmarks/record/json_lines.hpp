@@ -38,13 +38,9 @@ class JsonLinesWriter {
   /// std::runtime_error naming the file when it cannot be written (a full disk).
   void append(const nlohmann::json& json);
 
-  /// Whether opening the file cut off a torn last line.
-  bool repaired() const { return repaired_; }
-
  private:
   std::filesystem::path path_;
   std::ofstream out_;
-  bool repaired_ = false;
 };
 
 }  // namespace hullbench::record

@@ -4,22 +4,18 @@
 #include <cmath>
 #include <limits>
 #include <stdexcept>
-#include <utility>
+
+#include "benchmarks/base/files.hpp"
 
 namespace hullbench::record {
 namespace {
 
 using nlohmann::json;
 
-constexpr std::array<std::pair<Status, const char*>, 8> kStatusNames = {
-    {{Status::kOk, "ok"},
-     {Status::kTimeout, "timeout"},
-     {Status::kMemory, "memory"},
-     {Status::kCrash, "crash"},
-     {Status::kError, "error"},
-     {Status::kInvalidOutput, "invalid_output"},
-     {Status::kUnsupported, "unsupported"},
-     {Status::kNotInstalled, "not_installed"}}};
+/// By status.
+constexpr std::array kStatusNames = {"ok",    "timeout",        "memory",      "crash",
+                                     "error", "invalid_output", "unsupported", "not_installed"};
+static_assert(kStatusNames.size() == kAllStatuses.size());
 
 json parameters_to_json(const std::map<std::string, double>& parameters) {
   json result = json::object();
@@ -42,6 +38,34 @@ std::map<std::string, double> parameters_from_json(const json& parameters) {
   return result;
 }
 
+/// Calls `visit(key, member)` for the members that every record has and that are in JSON as they are here.
+template <typename Record, typename Visit>
+void for_each_required(Record& record, const Visit& visit) {
+  visit("name", record.name);
+  visit("method", record.method);
+  visit("method_version", record.method_version);
+  visit("dataset", record.dataset);
+  visit("dataset_sha256", record.dataset_sha256);
+  visit("n", record.n);
+  visit("holes", record.holes);
+  visit("seed", record.seed);
+  visit("protocol", record.protocol);
+  visit("detail", record.detail);
+  visit("time_ns", record.time_ns);
+  visit("phases_ns", record.phases_ns);
+  visit("output_sha256", record.output_sha256);
+}
+
+/// The same of those that are left out where they are empty.
+template <typename Record, typename Visit>
+void for_each_optional(Record& record, const Visit& visit) {
+  visit("base_shape", record.base_shape);
+  visit("levels", record.levels);
+  visit("rounds", record.rounds);
+  visit("passes", record.passes);
+  visit("canary_ns", record.canary_ns);
+}
+
 /// `value` with every number that is not finite replaced by null, so that a comparison in memory sees what a
 /// reader of the file will see.
 json without_non_finite(const json& value) {
@@ -55,56 +79,29 @@ json without_non_finite(const json& value) {
 }  // namespace
 
 std::string to_string(Status status) {
-  for (const auto& [value, name] : kStatusNames) {
-    if (value == status) return name;
-  }
-  throw std::invalid_argument("A status has a value that is none of the enumerators.");
+  return kStatusNames.at(static_cast<std::size_t>(status));
 }
 
 Status status_from_string(const std::string& name) {
-  for (const auto& [value, known] : kStatusNames) {
-    if (name == known) return value;
+  for (const Status status : kAllStatuses) {
+    if (name == to_string(status)) return status;
   }
   throw std::invalid_argument("Unknown status \"" + name + "\" in a record.");
 }
 
-void to_json(json& result, const CanaryTimes& canary) {
-  result = {{"memory", canary.memory}, {"compute", canary.compute}};
-}
-
-void from_json(const json& source, CanaryTimes& canary) {
-  source.at("memory").get_to(canary.memory);
-  source.at("compute").get_to(canary.compute);
-}
-
 void to_json(json& result, const RunRecord& record) {
-  result = json::object();
-  result["schema_version"] = kSchemaVersion;
-  result["id"] = record.id;
-  result["name"] = record.name;
-  result["method"] = record.method;
-  result["method_version"] = record.method_version;
-  result["dataset"] = record.dataset;
-  result["dataset_sha256"] = record.dataset_sha256;
-  result["n"] = record.n;
-  result["holes"] = record.holes;
-  result["seed"] = record.seed;
-  result["protocol"] = record.protocol;
-  result["parameters"] = parameters_to_json(record.parameters);
-  result["status"] = to_string(record.status);
-  result["detail"] = record.detail;
-  result["time_ns"] = record.time_ns;
-  result["phases_ns"] = record.phases_ns;
-  if (!record.rounds.empty()) result["rounds"] = record.rounds;
-  if (!record.passes.empty()) result["passes"] = record.passes;
-  if (!record.canary_ns.empty()) result["canary_ns"] = record.canary_ns;
+  result = {{"schema_version", kSchemaVersion},
+            {"id", record.id},
+            {"parameters", parameters_to_json(record.parameters)},
+            {"status", to_string(record.status)},
+            {"metrics", without_non_finite(record.metrics)},
+            {"machine", record.machine},
+            {"flags", record.flags}};
+  for_each_required(record, [&](const char* key, const auto& member) { result[key] = member; });
+  for_each_optional(record, [&](const char* key, const auto& member) {
+    if (!member.empty()) result[key] = member;
+  });
   if (record.cold_time_ns) result["cold_time_ns"] = *record.cold_time_ns;
-  result["metrics"] = without_non_finite(record.metrics);
-  result["output_sha256"] = record.output_sha256;
-  result["machine"] = record.machine;
-  result["flags"] = record.flags;
-  if (!record.base_shape.empty()) result["base_shape"] = record.base_shape;
-  if (!record.levels.empty()) result["levels"] = record.levels;
 }
 
 void from_json(const json& source, RunRecord& record) {
@@ -112,39 +109,21 @@ void from_json(const json& source, RunRecord& record) {
     throw std::invalid_argument("A record has schema version " + std::to_string(version) +
                                 ", this program reads " + std::to_string(kSchemaVersion) + ".");
   }
-  source.at("name").get_to(record.name);
-  source.at("method").get_to(record.method);
-  source.at("method_version").get_to(record.method_version);
-  source.at("dataset").get_to(record.dataset);
-  source.at("dataset_sha256").get_to(record.dataset_sha256);
-  source.at("n").get_to(record.n);
-  source.at("holes").get_to(record.holes);
-  source.at("seed").get_to(record.seed);
-  source.at("protocol").get_to(record.protocol);
+  record = {};
+  for_each_required(record, [&](const char* key, auto& member) { source.at(key).get_to(member); });
   record.parameters = parameters_from_json(source.at("parameters"));
   record.status = status_from_string(source.at("status").get<std::string>());
-  source.at("detail").get_to(record.detail);
-  source.at("time_ns").get_to(record.time_ns);
-  source.at("phases_ns").get_to(record.phases_ns);
-  record.rounds = source.value("rounds", std::vector<std::int64_t>());
-  record.passes = source.value("passes", std::vector<std::int64_t>());
-  record.canary_ns = source.value("canary_ns", std::vector<CanaryTimes>());
-  record.cold_time_ns = std::nullopt;
-  if (source.contains("cold_time_ns")) record.cold_time_ns = source["cold_time_ns"].get<std::int64_t>();
   record.metrics = source.at("metrics");
   if (!record.metrics.is_object()) throw std::invalid_argument("\"metrics\" of a record must be an object.");
-  source.at("output_sha256").get_to(record.output_sha256);
-  // Records that are older than these members have none of them.
-  record.machine = source.value("machine", std::string());
-  record.flags = source.value("flags", std::vector<std::string>());
-  record.base_shape = source.value("base_shape", std::string());
-  record.levels = source.value("levels", std::map<std::string, double>());
-  record.id = source.contains("id") ? source.at("id").get<std::string>() : run_identity(record);
-}
-
-std::string run_name(const RunRecord& record) {
-  return record.method + "/" + record.dataset + "/n:" + (record.n == 0 ? "all" : std::to_string(record.n)) +
-         "/holes:" + (record.holes ? "1" : "0") + "/protocol:" + record.protocol;
+  const auto read_if_there = [&](const char* key, auto& member) {
+    if (source.contains(key)) source[key].get_to(member);
+  };
+  for_each_optional(record, read_if_there);
+  // Older records have neither.
+  read_if_there("machine", record.machine);
+  read_if_there("flags", record.flags);
+  if (source.contains("cold_time_ns")) record.cold_time_ns = source["cold_time_ns"].get<std::int64_t>();
+  record.id = source.contains("id") ? source["id"].get<std::string>() : run_identity(record);
 }
 
 std::string run_identity(const RunRecord& record) {
@@ -157,7 +136,7 @@ std::string run_identity(const RunRecord& record) {
                          {"holes", record.holes},
                          {"seed", record.seed},
                          {"protocol", record.protocol}};
-  return sha256_hex(identity.dump(-1, ' ', false, json::error_handler_t::replace));
+  return sha256_hex(dump_text(identity, -1));
 }
 
 }  // namespace hullbench::record

@@ -39,10 +39,8 @@ struct CanaryTimes {
   std::int64_t memory = 0;   ///< bound by memory
   std::int64_t compute = 0;  ///< bound by arithmetic
   bool operator==(const CanaryTimes&) const = default;
+  NLOHMANN_DEFINE_TYPE_INTRUSIVE(CanaryTimes, memory, compute)
 };
-
-void to_json(nlohmann::json& result, const CanaryTimes& canary);
-void from_json(const nlohmann::json& source, CanaryTimes& canary);
 
 /// One method with one parameter set on one point set: a line of runs.jsonl.
 struct RunRecord {
@@ -75,8 +73,13 @@ struct RunRecord {
   std::optional<std::int64_t> cold_time_ns;
   nlohmann::json metrics = nlohmann::json::object();  ///< see metrics.hpp; null for what is undefined
   std::string output_sha256;                          ///< of the WKB of the result; empty when there is none
-  std::string machine;             ///< on which the times were taken (machine_id); empty: run.json's machine
+  std::string machine;  ///< on which the times were taken (machine_id); empty: run.json's machine
+  /// SHA-256 of what ran it, a program or a manifest and its files, where rows of several are kept in one
+  /// file (sweep.jsonl); no member of a line of runs.jsonl.
+  std::string program;
   std::vector<std::string> flags;  ///< reasons to doubt the row, such as kFasterThanFloor; mostly empty
+
+  bool operator==(const RunRecord&) const = default;
 };
 
 /// A row's flag: a round was measured again, as a canary was off the run's median.
@@ -97,11 +100,6 @@ inline constexpr double kFloorNsPerPoint = 1;
 void to_json(nlohmann::json& result, const RunRecord& record);
 /// Throws nlohmann::json::exception or std::invalid_argument when a field is missing or of the wrong type.
 void from_json(const nlohmann::json& source, RunRecord& record);
-
-/// The name in Google Benchmark's manner: "polylidar/ca/n:64000/holes:1/protocol:paper". n = 0 gives "n:all",
-/// which stands for a data set's own points. For people; two runs that differ in seed or parameters share it,
-/// and only the id tells them apart.
-std::string run_name(const RunRecord& record);
 
 /// The id: SHA-256 of the canonical JSON (keys sorted, no white space, shortest round-trip numbers) of
 /// method, method version, parameters, dataset and its hash, n, holes, seed and protocol.

@@ -7,12 +7,14 @@
 #include <sstream>
 #include <stdexcept>
 #include <string_view>
+#include <utility>
 #include <valijson/adapters/nlohmann_json_adapter.hpp>
 #include <valijson/schema.hpp>
 #include <valijson/schema_parser.hpp>
 #include <valijson/validation_results.hpp>
 #include <valijson/validator.hpp>
 
+#include "benchmarks/base/files.hpp"
 #include "benchmarks/base/words.hpp"
 #include "benchmarks/record/embedded.hpp"
 #include "benchmarks/record/json_lines.hpp"
@@ -38,24 +40,16 @@ std::unique_ptr<valijson::Schema> parse_schema(std::string_view text) {
   return schema;
 }
 
-/// The place of an error, which comes as {"<root>", "[\"runs\"]", "[3]", ...}, as a JSON pointer (RFC 6901).
-std::string json_pointer(const std::vector<std::string>& context) {
-  std::string pointer;
+/// The place of an error, which comes as {"<root>", "[\"runs\"]", "[3]", ...}.
+json::json_pointer place_of(const std::vector<std::string>& context) {
+  json::json_pointer place;
   for (std::size_t level = 1; level < context.size(); ++level) {
     std::string step = context[level];
     if (step.size() >= 2 && step.front() == '[' && step.back() == ']') step = step.substr(1, step.size() - 2);
     if (step.size() >= 2 && step.front() == '"' && step.back() == '"') step = step.substr(1, step.size() - 2);
-    pointer += '/';
-    for (const char c : step) {
-      if (c == '~')
-        pointer += "~0";
-      else if (c == '/')
-        pointer += "~1";
-      else
-        pointer += c;
-    }
+    place.push_back(std::move(step));
   }
-  return pointer;
+  return place;
 }
 
 /// An object with a fault also fails every schema around it; that is said in these words and tells nothing
@@ -65,20 +59,19 @@ bool is_consequence(const std::string& description) {
 }
 
 /// One sentence about a fault: the place, what the validator says and, where it is short, what stands there.
-std::string fault_sentence(const json& document, const std::string& place, std::string description) {
+std::string fault_sentence(const json& document, const json::json_pointer& place, std::string description) {
   constexpr std::string_view kUnknownMember =
       "Object contains a property that could not be validated using 'properties' or 'additionalProperties' "
       "constraints";
   if (description.rfind(kUnknownMember, 0) == 0) {
     description = "There is a member that does not belong there" + description.substr(kUnknownMember.size());
   }
-  const json::json_pointer pointer(place);
-  if (document.contains(pointer) && document.at(pointer).is_primitive()) {
+  if (document.contains(place) && document.at(place).is_primitive()) {
     while (!description.empty() && description.back() == '.') description.pop_back();
-    description +=
-        ", found " + document.at(pointer).dump(-1, ' ', false, json::error_handler_t::replace).substr(0, 80);
+    description += ", found " + dump_text(document.at(place), -1).substr(0, 80);
   }
-  return "At " + (place.empty() ? std::string("the top level") : place) + ": " + sentence(description);
+  return "At " + (place.empty() ? std::string("the top level") : place.to_string()) + ": " +
+         sentence(description);
 }
 
 std::vector<std::string> faults(const valijson::Schema& schema, const json& document) {
@@ -90,7 +83,7 @@ std::vector<std::string> faults(const valijson::Schema& schema, const json& docu
   for (const bool with_consequences : {false, true}) {
     for (const auto& error : results) {
       if (is_consequence(error.description) && !with_consequences) continue;
-      const std::string text = fault_sentence(document, json_pointer(error.context), error.description);
+      const std::string text = fault_sentence(document, place_of(error.context), error.description);
       if (known.insert(text).second) sentences.push_back(text);
     }
     if (!sentences.empty()) break;
@@ -112,6 +105,11 @@ const valijson::Schema* schema_of_kind(const json& document) {
   if (!document.is_object() || !document.contains("kind") || !document["kind"].is_string()) return nullptr;
   const auto found = schemas.find(document["kind"].get<std::string>());
   return found == schemas.end() ? nullptr : found->second;
+}
+
+std::vector<std::string> validate_run(const json& run) {
+  static const std::unique_ptr<valijson::Schema> schema = parse_schema(kRunSchemaJson);
+  return faults(*schema, run);
 }
 
 std::vector<std::string> validate_lines(const std::filesystem::path& path) {
@@ -144,11 +142,6 @@ void complete_run_description(json& document) {
 std::vector<std::string> validate_report(const json& report) {
   static const std::unique_ptr<valijson::Schema> schema = parse_schema(kReportSchemaJson);
   return faults(*schema, report);
-}
-
-std::vector<std::string> validate_run(const json& run) {
-  static const std::unique_ptr<valijson::Schema> schema = parse_schema(kRunSchemaJson);
-  return faults(*schema, run);
 }
 
 std::vector<std::string> validate_by_kind(const json& document) {

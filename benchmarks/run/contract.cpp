@@ -11,8 +11,8 @@
 
 #include "adapters/wkb.hpp"
 #include "benchmarks/metrics/area.hpp"
+#include "benchmarks/metrics/shape_measures.hpp"
 #include "benchmarks/metrics/validity.hpp"
-#include "benchmarks/worker/protocol.hpp"
 #include "datasets/random.hpp"
 #include "polylidar/concave_hull.hpp"
 
@@ -73,19 +73,33 @@ double convex_hull_area(std::span<const Point> points) {
       polylidar::to_coordinates(polylidar::concave_hull(points, {.alpha = polylidar::kNoLimit}), points));
 }
 
-std::size_t count_holes(const MultiPolygon& shape) {
-  std::size_t holes = 0;
-  for (const Polygon& polygon : shape) holes += polygon.holes.size();
-  return holes;
-}
-
 std::string plural(std::size_t count, const std::string& noun) {
   return std::to_string(count) + " " + noun + (count == 1 ? "" : "s");
 }
 
 std::string describe(const MultiPolygon& shape) {
   if (shape.empty()) return "an empty shape";
-  return plural(shape.size(), "polygon") + ", " + plural(count_holes(shape), "hole");
+  return plural(shape.size(), "polygon") + ", " + plural(metrics::count_holes(shape), "hole");
+}
+
+/// For points that lie `spacing` apart on average (in their unit) and a method of which nothing else is
+/// known: lengths are three spacings, squared lengths nine of them squared, everything else is at its
+/// default, or in the middle of its range when it has none; all clamped to their ranges.
+Parameters contract_parameters(const MethodInfo& info, double spacing) {
+  constexpr double kSpacings = 3;
+  Parameters result;
+  for (const ParameterInfo& parameter : info.parameters) {
+    double value = kSpacings * spacing;
+    if (parameter.unit == "length^2") value *= value;
+    if (parameter.unit != "length" && parameter.unit != "length^2") {
+      const double middle = std::isfinite(parameter.maximum) ? (parameter.minimum + parameter.maximum) / 2
+                                                             : parameter.minimum + 1;
+      value = parameter.default_value.value_or(middle);
+    }
+    const bool is_default = value == parameter.default_value;
+    result[parameter.name] = is_default ? value : std::clamp(value, parameter.minimum, parameter.maximum);
+  }
+  return result;
 }
 
 /// What a run gave: a shape, or why there is none.
@@ -95,6 +109,9 @@ struct Result {
   MultiPolygon shape;
   std::vector<std::uint8_t> wkb;
   std::chrono::nanoseconds elapsed{0};
+
+  /// In words, which for some points is as good as an empty shape; a method that breaks is not.
+  bool refused() const { return status == record::Status::kUnsupported || status == record::Status::kError; }
 };
 
 /// Ends a test that would only wait.
@@ -164,9 +181,8 @@ class ContractTest {
 
   Result hull(const std::vector<Point>& points, double spacing) {
     if (timeouts_ == kMostTimeouts) throw TooManyTimeouts();
-    const worker::LoadedPoints loaded = {"contract-" + std::to_string(++loads_), scratch_ / "points.f64",
-                                         points.size()};
-    worker::write_points_file(loaded.file, points);
+    const worker::LoadedPoints loaded =
+        worker::write_points("contract-" + std::to_string(++loads_), points, scratch_);
     const worker::Attempt attempt =
         session_.run(loaded, contract_parameters(*session_.info(), spacing), scratch_, timeout_);
     Result result;
@@ -193,7 +209,7 @@ class ContractTest {
       return "invalid polygon, " + reason + ": return polygons that are valid in the sense of the OGC";
     }
     const Capabilities& can = session_.info()->capabilities;
-    if (!can.holes && count_holes(shape) > 0) {
+    if (!can.holes && metrics::count_holes(shape) > 0) {
       return "a hole, which the method says it cannot have: say so in its capabilities";
     }
     if (!can.several_polygons && shape.size() > 1) {
@@ -244,24 +260,19 @@ class ContractTest {
         {"one point, 20 times", std::vector<Point>(20, Point{0.5, 0.25})}};
     for (const auto& [name, points] : inputs) {
       const Result result = hull(points, 0.25);
-      // A refusal in words is as good as an empty shape; a method that breaks is not.
-      const bool refused =
-          result.status == record::Status::kUnsupported || result.status == record::Status::kError;
       const bool empty = result.fault.empty() && result.shape.empty();
       std::string words = empty ? "an empty shape" : "refused, " + result.fault;
-      if (!empty && !refused) words = result.fault.empty() ? "a polygon" : result.fault;
+      if (!empty && !result.refused()) words = result.fault.empty() ? "a polygon" : result.fault;
       if (result.status == record::Status::kOk && !empty) {
         words += "; return no polygon for points without an area, or refuse them as 'unsupported'";
       }
-      add(name, empty || refused, words);
+      add(name, empty || result.refused(), words);
     }
   }
 
   void three_points() {
     const Result result = hull({{0, 0}, {1, 0}, {0, 1}}, 1);
-    const bool refused =
-        result.status == record::Status::kUnsupported || result.status == record::Status::kError;
-    add("three points", result.fault.empty() || refused,
+    add("three points", result.fault.empty() || result.refused(),
         result.fault.empty() ? describe(result.shape) : result.fault);
   }
 
@@ -278,12 +289,10 @@ class ContractTest {
       std::vector<Point> points = sample(100, 2);
       points[50].y = value;
       const Result result = hull(points, spacing_of(100));
-      const bool refused =
-          result.status == record::Status::kUnsupported || result.status == record::Status::kError;
-      add(name, refused,
-          refused ? "refused, " + result.fault
-                  : (result.fault.empty() ? describe(result.shape) : result.fault) +
-                        "; refuse it in 'load' as 'invalid_argument'");
+      add(name, result.refused(),
+          result.refused() ? "refused, " + result.fault
+                           : (result.fault.empty() ? describe(result.shape) : result.fault) +
+                                 "; refuse it in 'load' as 'invalid_argument'");
     }
   }
 
@@ -366,23 +375,6 @@ class ContractTest {
 };
 
 }  // namespace
-
-Parameters contract_parameters(const MethodInfo& info, double spacing) {
-  constexpr double kSpacings = 3;
-  Parameters result;
-  for (const ParameterInfo& parameter : info.parameters) {
-    double value = kSpacings * spacing;
-    if (parameter.unit == "length^2") value *= value;
-    if (parameter.unit != "length" && parameter.unit != "length^2") {
-      const double middle = std::isfinite(parameter.maximum) ? (parameter.minimum + parameter.maximum) / 2
-                                                             : parameter.minimum + 1;
-      value = parameter.default_value.value_or(middle);
-    }
-    const bool is_default = value == parameter.default_value;
-    result[parameter.name] = is_default ? value : std::clamp(value, parameter.minimum, parameter.maximum);
-  }
-  return result;
-}
 
 std::vector<Verdict> test_contract(const worker::Method& method, const worker::WorkerLimits& limits,
                                    std::chrono::milliseconds timeout, const std::filesystem::path& scratch,

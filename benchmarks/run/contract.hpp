@@ -19,11 +19,6 @@ struct Verdict {
   std::string words;                            ///< what was seen, and when it was not kept what to mend
 };
 
-/// Parameters for points that lie `spacing` apart on average (in their unit), for a method of which nothing
-/// else is known: lengths are three spacings, squared lengths nine of them squared, everything else is at its
-/// default, or in the middle of its range when it has none; all clamped to their ranges.
-Parameters contract_parameters(const MethodInfo& info, double spacing);
-
 /// Runs the whole contract on a worker of its own and hands every verdict to `say` as it comes. One run may
 /// take `timeout`. Files go into `scratch`. Stops after a worker that does not start and after the
 /// second run that takes too long. Returns the verdicts.

@@ -37,34 +37,26 @@ json read_header(const fs::path& folder) {
   return header.is_object() ? header : json();
 }
 
-ConfigurationError not_writable(const fs::path& folder, const std::string& why) {
+ConfigurationError not_writable(const fs::path& path, const std::string& why) {
   // NOLINTNEXTLINE(modernize-return-braced-init-list): the inherited constructor is explicit
-  return ConfigurationError("cannot write to the output folder " + folder.string() + " (" + why +
+  return ConfigurationError("cannot write to the output folder " + path.string() + " (" + why +
                             "); choose another one with --out");
 }
 
-/// The folder's descriptor with the lock on it, or -1 when another process has it. The lock goes with the
-/// descriptor, however its owner ends.
-int try_lock(const fs::path& folder) {
-  const int lock = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-  if (lock < 0 || ::faccessat(AT_FDCWD, folder.c_str(), W_OK | X_OK, AT_EACCESS) != 0) {
+/// The descriptor of a folder or file with the lock on it, or -1 when another process has it. The lock goes
+/// with the descriptor, however its owner ends.
+int try_lock(const fs::path& path) {
+  const bool is_folder = fs::is_directory(path);
+  const int lock = ::open(path.c_str(), (is_folder ? O_RDONLY : O_RDWR | O_CREAT) | O_CLOEXEC, 0666);
+  if (lock < 0 || (is_folder && ::faccessat(AT_FDCWD, path.c_str(), W_OK | X_OK, AT_EACCESS) != 0)) {
     const int error = errno;
     if (lock >= 0) ::close(lock);
-    throw not_writable(folder, reason(error));
+    throw not_writable(path, reason(error));
   }
   // A file system without locks is no reason to refuse: the lock only guards against a second harness.
   if (::flock(lock, LOCK_EX | LOCK_NB) == 0 || errno != EWOULDBLOCK) return lock;
   ::close(lock);
   return -1;
-}
-
-int lock_or_throw(const fs::path& folder) {
-  const int lock = try_lock(folder);
-  if (lock < 0) {
-    throw ConfigurationError("another hullbench is writing to " + folder.string() +
-                             "; wait for it or choose another folder with --out");
-  }
-  return lock;
 }
 
 void remove_run_files(const fs::path& folder) {
@@ -86,13 +78,25 @@ bool holds_no_run_yet(const fs::path& folder) {
       });
 }
 
+/// The folders in `runs` by name, which begins with the time, the last one first.
+std::vector<fs::path> newest_first(const fs::path& runs) {
+  std::vector<fs::path> folders;
+  std::error_code ignored;
+  for (const auto& entry : fs::directory_iterator(runs, ignored)) folders.push_back(entry.path());
+  std::sort(folders.rbegin(), folders.rend());
+  return folders;
+}
+
+bool holds_run(const fs::path& folder, const json& header) {
+  const json earlier = read_header(folder);
+  return earlier.is_object() && run_continuity(earlier) == run_continuity(header);
+}
+
 std::unique_ptr<RunDirectory> open_chosen(const json& header, const fs::path& folder, bool force) {
   make_writable_folder(folder);
-  const json earlier = read_header(folder);
-  const bool same = earlier.is_object() && run_continuity(earlier) == run_continuity(header);
-  if (!force && !same && !holds_no_run_yet(folder)) {
+  if (!force && !holds_run(folder, header) && !holds_no_run_yet(folder)) {
     throw ConfigurationError("the output folder " + folder.string() + " holds " +
-                             (earlier.is_object() ? "another run" : "something else than a run") +
+                             (read_header(folder).is_object() ? "another run" : "something else than a run") +
                              "; choose another one with --out, or overwrite it with --force");
   }
   const int lock = lock_or_throw(folder);
@@ -102,14 +106,10 @@ std::unique_ptr<RunDirectory> open_chosen(const json& header, const fs::path& fo
 
 /// The newest earlier run that is the same, when it is not finished and nobody is at it.
 std::unique_ptr<RunDirectory> open_unfinished(const json& header, const fs::path& runs) {
-  for (const fs::path& folder : newest_first(runs)) {
-    const json earlier = read_header(folder);
-    if (!earlier.is_object() || run_continuity(earlier) != run_continuity(header)) continue;
-    if (fs::exists(folder / record::kReportFile)) return nullptr;
-    const int lock = try_lock(folder);
-    return lock < 0 ? nullptr : std::make_unique<RunDirectory>(folder, lock);
-  }
-  return nullptr;
+  const auto is_same = [&](const fs::path& folder) { return holds_run(folder, header); };
+  const auto folder = find_unfinished(runs, is_same, record::kReportFile);
+  const int lock = folder ? try_lock(*folder) : -1;
+  return lock < 0 ? nullptr : std::make_unique<RunDirectory>(*folder, lock);
 }
 
 /// "20260131T120000Z-<machine>-<commit>", from the header's own words.
@@ -263,6 +263,15 @@ void RunDirectory::append_repetition(const std::string& id, std::size_t index, c
   repetitions_[id].push_back(repetition);
 }
 
+int lock_or_throw(const fs::path& path) {
+  const int lock = try_lock(path);
+  if (lock < 0) {
+    throw ConfigurationError("another hullbench is writing to " + path.string() +
+                             "; wait for it or choose another folder with --out");
+  }
+  return lock;
+}
+
 json run_continuity(const json& header) {
   const auto member = [](const json& object, const char* key) {
     return object.is_object() && object.contains(key) ? object[key] : json();
@@ -275,14 +284,6 @@ json run_continuity(const json& header) {
           member(member(header, "environment"), "machine_id"),
           member(header, "shard"),
           member(header, "merged")};
-}
-
-std::vector<fs::path> newest_first(const fs::path& runs) {
-  std::vector<fs::path> folders;
-  std::error_code ignored;
-  for (const auto& entry : fs::directory_iterator(runs, ignored)) folders.push_back(entry.path());
-  std::sort(folders.rbegin(), folders.rend());
-  return folders;
 }
 
 void remove_stale_scratch(const fs::path& results) {
@@ -302,9 +303,16 @@ void remove_stale_scratch(const fs::path& results) {
 }
 
 bool is_finished_run(const fs::path& folder, const json& header) {
-  const json earlier = read_header(folder);
-  return earlier.is_object() && run_continuity(earlier) == run_continuity(header) &&
-         fs::exists(folder / record::kReportFile);
+  return holds_run(folder, header) && fs::exists(folder / record::kReportFile);
+}
+
+std::optional<fs::path> find_unfinished(const fs::path& runs,
+                                        const std::function<bool(const fs::path&)>& is_same,
+                                        const char* mark) {
+  const std::vector<fs::path> folders = newest_first(runs);
+  const auto newest = std::find_if(folders.begin(), folders.end(), is_same);
+  if (newest == folders.end() || fs::exists(*newest / mark)) return std::nullopt;
+  return *newest;
 }
 
 fs::path make_run_folder(const json& header, const fs::path& results) {

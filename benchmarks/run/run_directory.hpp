@@ -5,6 +5,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <map>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -28,6 +29,11 @@ struct Repetition {
   bool remeasured = false;  ///< its round was measured again, and this is of the last time
   bool unsteady = false;    ///< its round's canary was off
 };
+
+/// Locks a folder, or a file, which is made where it is not there, against a second harness: a descriptor
+/// that has the lock until it is closed, however its owner ends. Throws ConfigurationError when it cannot be
+/// written to or another process has it.
+int lock_or_throw(const std::filesystem::path& path);
 
 /// The folder of one run, locked against a second harness for the life of the object.
 class RunDirectory {
@@ -98,8 +104,11 @@ struct RunPlace {
 /// something else and `force` is not set; with `force` the files of an earlier run in `out` are removed.
 std::unique_ptr<RunDirectory> open_run_directory(const nlohmann::json& header, const RunPlace& place);
 
-/// The folders in `runs` by name, which begins with the time, the last one first.
-std::vector<std::filesystem::path> newest_first(const std::filesystem::path& runs);
+/// The newest of the folders in `runs` (their names begin with the time) that `is_same`; none when it is
+/// finished, which its file `mark` says.
+std::optional<std::filesystem::path> find_unfinished(
+    const std::filesystem::path& runs, const std::function<bool(const std::filesystem::path&)>& is_same,
+    const char* mark);
 
 /// Removes the temporary files of all runs in `results`/runs, those in suites too, that a harness left which
 /// was killed. Those of runs that somebody is at stay.

@@ -5,18 +5,14 @@
 #include <cmath>
 #include <memory>
 #include <optional>
-#include <stdexcept>
 #include <utility>
 
-#include "adapters/wkb.hpp"
 #include "benchmarks/base/configuration_error.hpp"
 #include "benchmarks/base/interrupt.hpp"
 #include "benchmarks/base/parallel.hpp"
-#include "benchmarks/metrics/metric_table.hpp"
-#include "benchmarks/metrics/metrics.hpp"
 #include "benchmarks/record/pictures.hpp"
+#include "benchmarks/run/drawn_case.hpp"
 #include "benchmarks/worker/method_session.hpp"
-#include "benchmarks/worker/protocol.hpp"
 #include "datasets/datasets.hpp"
 #include "datasets/degenerate.hpp"
 #include "datasets/random.hpp"
@@ -47,10 +43,8 @@ struct Entry {
 /// The runs of one case, and what they are run on.
 struct CaseWork {
   const plan::PlanCase* plan_case = nullptr;
-  PointSet set;
+  std::unique_ptr<const DrawnCase> drawn;
   std::vector<Entry> entries;
-  std::optional<metrics::CaseScorer> scorer;  ///< once there is something to score
-  std::string scorer_fault;                   ///< why there is none then
 };
 
 /// A batch holds cases for about so many points times runs: 62 of the random polygons, which are worth
@@ -58,11 +52,15 @@ struct CaseWork {
 /// machine stops.
 constexpr std::int64_t kBatchWork = 1'000'000;
 
-/// How many of a method's repetitions are in the passes up to `pass`.
+/// How many of a method's repetitions fall in `pass`.
+int share_of(const plan::Plan& plan, const plan::PlanMethod& method, int pass) {
+  return plan::share_of_pass(plan::repetitions_of(plan, method), plan.passes, pass);
+}
+
+/// And in the passes up to `pass`.
 int repetitions_until(const plan::Plan& plan, const plan::PlanMethod& method, int pass) {
   int count = 0;
-  for (int each = 1; each <= pass; ++each)
-    count += plan::share_of_pass(plan::repetitions_of(plan, method), plan.passes, each);
+  for (int each = 1; each <= pass; ++each) count += share_of(plan, method, each);
   return count;
 }
 
@@ -125,12 +123,12 @@ class Runner {
     RunResult result;
     if (!header.contains("methods")) header["methods"] = json::array();
     machine_ = header.at("environment").at("machine_id").get<std::string>();
-    result.resumed_rows = static_cast<int>(directory_.rows().size());
     try {
       // Before anything can be interrupted, so that the folder is known for what it is.
       if (pass_ == 1) directory_.write_header(header);
       find_cases();
-      start_methods();
+      make_sessions();
+      start_workers(sessions_, progress_);
       if (pass_ == 1) {
         header["methods"] = describe_methods();
         directory_.write_header(header);
@@ -172,45 +170,38 @@ class Runner {
     }
   }
 
-  void start_methods() {
+  worker::MethodSession* find_session(const std::string& method) const {
+    const auto found = std::find_if(sessions_.begin(), sessions_.end(),
+                                    [&](const auto& session) { return session->method().name == method; });
+    return found == sessions_.end() ? nullptr : found->get();
+  }
+
+  void make_sessions() {
     for (std::size_t i = 0; i < runs_.size(); ++i) {
-      if (is_done_before(i)) continue;
       const plan::PlanMethod& entry = plan_.methods[runs_[i].method_index];
-      const std::string& method = entry.method;
-      if (sessions_.contains(method)) continue;
-      method_order_.push_back(method);
+      if (is_done_before(i) || find_session(entry.method)) continue;
       const worker::WorkerLimits limits = {entry.mem_limit_mib.value_or(plan_.mem_limit_mib),
                                            options_.worker_core};
-      sessions_[method] = std::make_unique<worker::MethodSession>(options_.find_method(method), limits);
-      sessions_[method]->begin_start();
-    }
-    for (const std::string& method : method_order_) {
-      const worker::MethodSession& session = *sessions_[method];
-      sessions_[method]->finish_start();
-      if (!session.info()) {
-        progress_.note("hullbench: " + method + " does not start (" +
-                       to_string(session.start_reply().status) + "): " + start_failure(session));
-      }
+      sessions_.push_back(
+          std::make_unique<worker::MethodSession>(options_.find_method(entry.method), limits));
     }
   }
 
   json describe_methods() const {
     json methods = json::array();
-    for (const std::string& method : method_order_)
-      methods.push_back(worker::describe_method(*sessions_.at(method)));
+    for (const auto& session : sessions_) methods.push_back(worker::describe_method(*session));
     return methods;
   }
 
   void check_parameter_names() const {
     for (const plan::PlannedRun& run : runs_) {
       const plan::PlanMethod& method = plan_.methods[run.method_index];
-      const auto session = sessions_.find(method.method);
-      if (session == sessions_.end() || !session->second->info()) continue;
-      const auto& info = session->second->info();
+      const worker::MethodSession* session = find_session(method.method);
+      if (!session || !session->info()) continue;
       for (const auto& given : method.parameters) {
         const std::string& name = given.first;
         const bool known =
-            std::any_of(info->parameters.begin(), info->parameters.end(),
+            std::any_of(session->info()->parameters.begin(), session->info()->parameters.end(),
                         [&name = name](const ParameterInfo& parameter) { return parameter.name == name; });
         if (!known) {
           throw ConfigurationError("the plan '" + plan_.name + "' gives " + method.method +
@@ -257,28 +248,15 @@ class Runner {
   /// Draws a case's points and chooses its parameters; nothing is asked of a worker, as several cases do this
   /// at the same time.
   void prepare(CaseWork& one) const {
-    const plan::PlanCase& plan_case = *one.plan_case;
-    one.set = make_point_set(plan_case.dataset, plan_case.holes, static_cast<std::size_t>(plan_case.n),
-                             plan_.seed, options_.folders);
+    one.drawn = std::make_unique<DrawnCase>(*one.plan_case, plan_.seed, options_.folders);
     for (Entry& entry : one.entries) {
       const plan::PlanMethod& method = method_of(entry);
       record::RunRecord& record = entry.record;
+      record = one.drawn->record_of(method.method);
       record.name = runs_[entry.index].name;
-      record.method = method.method;
-      record.dataset = plan_case.dataset;
-      record.levels = levels_of(plan_case.dataset);
-      if (const std::string base = base_shape(plan_case.dataset); base != plan_case.dataset) {
-        record.base_shape = base;
-      }
-      record.dataset_sha256 = one.set.sha256;
-      record.n = static_cast<std::int64_t>(one.set.points.size());
-      record.holes = plan_case.holes;
-      record.seed = plan_.seed;
       record.protocol = method.protocol;
       record.machine = machine_;
-      record.parameters = plan::choose_parameters(
-          method, plan_case,
-          {one.set.points, one.set.ground_truth_area, plan_case.holes, one.set.ground_truth});
+      record.parameters = one.drawn->choose_parameters(method);
     }
   }
 
@@ -289,15 +267,14 @@ class Runner {
         leave_as_it_is(entry);
         continue;
       }
-      entry.session = sessions_.at(entry.record.method).get();
+      entry.session = find_session(entry.record.method);
       complete(entry);
     }
     if (std::all_of(one.entries.begin(), one.entries.end(),
                     [](const Entry& entry) { return entry.measured; }))
       return;
-    const worker::LoadedPoints points = {one.set.sha256, directory_.scratch() / "points.f64",
-                                         one.set.points.size()};
-    worker::write_points_file(points.file, one.set.points);
+    const worker::LoadedPoints points =
+        worker::write_points(one.drawn->set().sha256, one.drawn->set().points, directory_.scratch());
     for (Entry& entry : one.entries) {
       if (!entry.measured) warm_up(entry, points);
     }
@@ -317,15 +294,7 @@ class Runner {
   void complete(Entry& entry) {
     record::RunRecord& record = entry.record;
     const auto& info = entry.session->info();
-    std::optional<std::string> refusal;
-    if (info) {
-      record.method_version = info->version;
-      try {
-        record.parameters = complete_parameters(*info, record.parameters);
-      } catch (const std::invalid_argument& error) {
-        refusal = error.what();
-      }
-    }
+    if (info) complete_record(record, *info);
     record.id = record::run_identity(record);
     const record::RunRecord* earlier = directory_.find_row(record.name);
     // A row of a method that is not there any more is kept: nothing newer can take its place.
@@ -333,10 +302,10 @@ class Runner {
     const bool same = earlier && earlier->id == record.id;
     if (lost || (same && is_done(plan_, runs_[entry.index], directory_, pass_))) {
       leave_as_it_is(entry);
-    } else if (refusal) {
-      fail(entry, record::Status::kError, *refusal);
     } else if (!info) {
-      fail(entry, entry.session->start_reply().status, start_failure(*entry.session));
+      fail(entry, entry.session->start_reply().status, entry.session->start_failure());
+    } else if (record.status != record::Status::kOk) {
+      entry.measured = true;
     } else {
       entry.repetitions = directory_.repetitions(record.id);
       // What an earlier pass scored is not scored again, as long as all that it timed is there.
@@ -355,25 +324,10 @@ class Runner {
     return plan_.methods[runs_[entry.index].method_index];
   }
 
-  /// How many repetitions of the entry fall in `pass`.
-  int share_of(const Entry& entry, int pass) const {
-    return plan::share_of_pass(plan::repetitions_of(plan_, method_of(entry)), plan_.passes, pass);
-  }
-
   int rounds_of(const std::vector<Entry>& entries, int pass) const {
     int most = 0;
-    for (const Entry& entry : entries) most = std::max(most, share_of(entry, pass));
+    for (const Entry& entry : entries) most = std::max(most, share_of(plan_, method_of(entry), pass));
     return most;
-  }
-
-  std::chrono::milliseconds timeout_of(const plan::PlanMethod& method) const {
-    const double seconds = method.timeout_s.value_or(plan_.timeout_s);
-    return std::chrono::milliseconds(std::max<std::int64_t>(1, std::llround(seconds * 1000)));
-  }
-
-  static std::string start_failure(const worker::MethodSession& session) {
-    const worker::Reply& reply = session.start_reply();
-    return reply.remedy.empty() ? reply.detail : reply.detail + "; remedy: " + reply.remedy;
   }
 
   /// The untimed runs. Repetitions of an earlier start call for one at least: their result was scored, but
@@ -405,7 +359,7 @@ class Runner {
     for (std::size_t i = turns.size(); i > 1; --i) std::swap(turns[i - 1], turns[random.below(i)]);
     std::erase_if(turns, [&](const Entry* entry) {
       const int before = pass_ == 1 ? 0 : repetitions_until(plan_, method_of(*entry), pass_ - 1);
-      return entry->measured || turn >= share_of(*entry, pass_) ||
+      return entry->measured || turn >= share_of(plan_, method_of(*entry), pass_) ||
              std::cmp_greater(entry->repetitions.size(), before + turn);
     });
     return turns;
@@ -459,7 +413,7 @@ class Runner {
   std::optional<worker::Attempt> attempt_run(Entry& entry, const worker::LoadedPoints& points,
                                              worker::Watch watch) {
     progress_.begin(entry.index);
-    const auto timeout = timeout_of(method_of(entry));
+    const auto timeout = to_timeout(method_of(entry).timeout_s.value_or(plan_.timeout_s));
     if (entry.session->is_cold()) {
       const worker::Attempt cold =
           entry.session->warm_up(points, entry.record.parameters, directory_.scratch(), timeout);
@@ -479,7 +433,8 @@ class Runner {
     const std::string hash = hash_of(attempt.wkb);
     if (entry.record.output_sha256.empty()) {
       entry.record.output_sha256 = hash;
-      keep_result(entry, attempt);
+      entry.result = read_result(entry.record, attempt.wkb);
+      entry.measured = !entry.result;
     }
     if (!entry.measured && entry.record.output_sha256 != hash) {
       fail(entry, record::Status::kInvalidOutput, "two runs on the same points gave different results");
@@ -487,15 +442,6 @@ class Runner {
     if (entry.measured) return std::nullopt;
     progress_.advance(entry.index, attempt.elapsed);
     return attempt;
-  }
-
-  static void keep_result(Entry& entry, const worker::Attempt& attempt) {
-    try {
-      entry.result = from_wkb(attempt.wkb);
-    } catch (const std::exception& error) {
-      fail(entry, record::Status::kInvalidOutput,
-           "the result is no polygon: " + worker::printable(error.what(), 200));
-    }
   }
 
   static void fail(Entry& entry, record::Status status, const std::string& detail) {
@@ -506,27 +452,32 @@ class Runner {
 
   /// Scores what is measured of a batch and writes its rows.
   void settle(std::vector<CaseWork>& batch) {
-    std::vector<CaseWork*> to_score;
-    std::vector<std::pair<Entry*, const CaseWork*>> finished;
+    std::vector<std::pair<Entry*, const DrawnCase*>> finished;
     for (CaseWork& one : batch) {
       for (Entry& entry : one.entries) {
-        if (!entry.measured || entry.settled) continue;
-        finished.emplace_back(&entry, &one);
-        if (entry.result && (to_score.empty() || to_score.back() != &one)) to_score.push_back(&one);
+        if (entry.measured && !entry.settled) finished.emplace_back(&entry, one.drawn.get());
       }
     }
-    for_each_in_parallel(to_score.size(), options_.cores, [&](std::size_t i) { make_scorer(*to_score[i]); });
-    for_each_in_parallel(finished.size(), options_.cores,
-                         [&](std::size_t i) { score_result(*finished[i].first, *finished[i].second); });
+    // Case by case first: the results of one case would wait for each other.
+    for_each_in_parallel(batch.size(), options_.cores, [&](std::size_t i) {
+      const std::vector<Entry>& entries = batch[i].entries;
+      if (std::any_of(entries.begin(), entries.end(),
+                      [](const Entry& entry) { return entry.result.has_value(); }))
+        batch[i].drawn->prepare_scoring();
+    });
+    for_each_in_parallel(finished.size(), options_.cores, [&](std::size_t i) {
+      const auto& [entry, drawn] = finished[i];
+      if (entry->result) drawn->score(entry->record, *entry->result, entry->peak_memory_bytes);
+    });
     std::vector<record::RunRecord> rows;
     rows.reserve(finished.size());
-    for (const auto& [entry, one] : finished) rows.push_back(finished_record(*entry));
+    for (const auto& [entry, drawn] : finished) rows.push_back(finished_record(*entry));
     // Before the rows: a run that has its row is not measured again, and its picture would be missing.
-    for (const auto& [entry, one] : finished) {
-      if (entry->result) pictures_.add(entry->record, one->set, *entry->result);
+    for (const auto& [entry, drawn] : finished) {
+      if (entry->result) pictures_.add(entry->record, drawn->set(), *entry->result);
     }
     directory_.append_rows(rows);
-    for (const auto& [entry, one] : finished) {
+    for (const auto& [entry, drawn] : finished) {
       entry->settled = true;
       const record::RunRecord& record = entry->record;
       // Of a method that does not start this was said once already.
@@ -534,41 +485,6 @@ class Runner {
         progress_.note("hullbench: " + record.name + ": " + to_string(record.status) + ": " + record.detail);
       }
       progress_.finish(entry->index);
-    }
-  }
-
-  static void make_scorer(CaseWork& one) {
-    if (one.set.ground_truth.empty()) return;  // there is nothing to score against
-    try {
-      one.scorer.emplace(one.set.points, one.set.ground_truth);
-    } catch (const std::exception& error) {
-      one.scorer_fault = error.what();
-    }
-  }
-
-  static void score_result(Entry& entry, const CaseWork& one) {
-    if (!entry.result) return;
-    record::RunRecord& record = entry.record;
-    std::string fault;
-    record::Status status = record::Status::kOk;
-    try {
-      if (!one.scorer_fault.empty()) throw std::runtime_error(one.scorer_fault);
-      metrics::Metrics metrics =
-          one.scorer ? one.scorer->score(*entry.result) : metrics::describe(one.set.points, *entry.result);
-      metrics.peak_memory_bytes = entry.peak_memory_bytes;
-      record.metrics = metrics::metrics_to_json(metrics);
-      // The run's times stay all the same: how fast a method gives a wrong answer is part of the record.
-      if (!metrics.area.valid) {
-        status = record::Status::kInvalidOutput;
-        fault = "the result is an invalid polygon: " + metrics.area.invalid_reason;
-      }
-    } catch (const std::runtime_error& error) {
-      status = record::Status::kError;
-      fault = std::string("the result cannot be scored: ") + error.what();
-    }
-    if (record.status == record::Status::kOk) {
-      record.status = status;
-      record.detail = fault;
     }
   }
 
@@ -597,10 +513,10 @@ class Runner {
   Progress& progress_;
   int pass_;
   record::PictureBook pictures_;
-  std::vector<CaseRuns> cases_;            ///< those with something to do
-  std::string machine_;                    ///< this one's id, for the rows
-  std::vector<std::string> method_order_;  ///< as in the plan
-  std::map<std::string, std::unique_ptr<worker::MethodSession>> sessions_;
+  std::vector<CaseRuns> cases_;  ///< those with something to do
+  std::string machine_;          ///< this one's id, for the rows
+  std::vector<std::unique_ptr<worker::MethodSession>>
+      sessions_;  ///< of the methods that are needed, as in the plan
 };
 
 }  // namespace
@@ -610,10 +526,19 @@ RunResult run_plan(const plan::Plan& plan, const std::vector<plan::PlannedRun>& 
   return Runner(plan, runs, options, directory, progress, pass).run(header);
 }
 
+void start_workers(const std::vector<std::unique_ptr<worker::MethodSession>>& sessions, Progress& progress) {
+  for (const auto& session : sessions) session->begin_start();
+  for (const auto& session : sessions) {
+    session->finish_start();
+    if (session->info()) continue;
+    progress.note("hullbench: " + session->method().name + " does not start (" +
+                  to_string(session->start_reply().status) + "): " + session->start_failure());
+  }
+}
+
 bool has_repetitions(const plan::Plan& plan, const std::vector<plan::PlannedRun>& runs, int pass) {
   return std::any_of(runs.begin(), runs.end(), [&](const plan::PlannedRun& run) {
-    return plan::share_of_pass(plan::repetitions_of(plan, plan.methods[run.method_index]), plan.passes,
-                               pass) > 0;
+    return share_of(plan, plan.methods[run.method_index], pass) > 0;
   });
 }
 
@@ -641,7 +566,7 @@ std::vector<ProgressRun> progress_runs(const plan::Plan& plan, const std::vector
   result.reserve(runs.size());
   for (const plan::PlannedRun& run : runs) {
     const plan::PlanMethod& method = plan.methods[run.method_index];
-    const int share = plan::share_of_pass(plan::repetitions_of(plan, method), plan.passes, pass);
+    const int share = share_of(plan, method, pass);
     result.push_back({run.name, method.method, estimated_points(plan.expanded_cases[run.case_index]),
                       share == 0 ? 0 : plan.warmup + share});
   }

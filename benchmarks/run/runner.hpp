@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <functional>
 #include <map>
+#include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
@@ -16,6 +17,7 @@
 #include "benchmarks/run/progress.hpp"
 #include "benchmarks/run/run_directory.hpp"
 #include "benchmarks/worker/method.hpp"
+#include "benchmarks/worker/method_session.hpp"
 #include "datasets/datasets.hpp"
 
 namespace hullbench::run {
@@ -33,8 +35,7 @@ struct RunResult {
   bool interrupted = false;
   /// Of the rows of this plan that are there now, those of earlier starts too, without the accepted ones.
   std::map<record::Status, int> counts;
-  int accepted = 0;      ///< rows that are not ok but have a status that the plan accepts
-  int resumed_rows = 0;  ///< finished by an earlier start
+  int accepted = 0;  ///< rows that are not ok but have a status that the plan accepts
 };
 
 /// Measures what `pass` (1 to Plan::passes) has of `runs` of `plan` into `directory`. `header` is run.json
@@ -62,6 +63,9 @@ struct RunResult {
 RunResult run_plan(const plan::Plan& plan, const std::vector<plan::PlannedRun>& runs,
                    const nlohmann::json& header, const RunnerOptions& options, RunDirectory& directory,
                    Progress& progress, int pass = 1);
+
+/// Starts the workers of `sessions`, all at the same time, and says of those that do not start why.
+void start_workers(const std::vector<std::unique_ptr<worker::MethodSession>>& sessions, Progress& progress);
 
 /// Whether `pass` has repetitions of one of `runs`.
 bool has_repetitions(const plan::Plan& plan, const std::vector<plan::PlannedRun>& runs, int pass);

@@ -22,21 +22,14 @@ json describe_suite(const std::vector<json>& headers) {
   return suite;
 }
 
-bool is_same(const json& earlier, const json& suite) {
+bool holds_suite(const fs::path& folder, const json& suite) {
+  const json earlier = record::read_suite(folder);
   return earlier.is_object() && earlier.value("continuity", json()) == suite.at("continuity");
-}
-
-fs::path find_unfinished(const json& suite, const fs::path& runs) {
-  for (const fs::path& folder : newest_first(runs)) {
-    if (is_same(record::read_suite(folder), suite))
-      return fs::exists(folder / record::kTablesFile) ? fs::path() : folder;
-  }
-  return {};
 }
 
 fs::path open_chosen(const json& suite, const fs::path& folder, bool force) {
   make_writable_folder(folder);
-  if (!force && !fs::is_empty(folder) && !is_same(record::read_suite(folder), suite)) {
+  if (!force && !fs::is_empty(folder) && !holds_suite(folder, suite)) {
     throw ConfigurationError(
         "the output folder " + folder.string() +
         " holds something else; choose another one with --out, or overwrite it with --force");
@@ -48,16 +41,17 @@ fs::path open_chosen(const json& suite, const fs::path& folder, bool force) {
 
 fs::path open_suite(const std::vector<json>& headers, const RunPlace& place) {
   const json suite = describe_suite(headers);
-  fs::path folder;
+  std::optional<fs::path> folder;
   if (place.out) {
     folder = open_chosen(suite, *place.out, place.force);
-  } else {
-    if (!place.force) folder = find_unfinished(suite, place.results / "runs");
-    if (folder.empty()) folder = make_run_folder(headers.front(), place.results);
+  } else if (!place.force) {
+    const auto is_same = [&](const fs::path& other) { return holds_suite(other, suite); };
+    folder = find_unfinished(place.results / "runs", is_same, record::kTablesFile);
   }
-  if (place.force) fs::remove(folder / record::kTablesFile);
-  write_json_file(folder / record::kSuiteFile, suite);
-  return folder;
+  if (!folder) folder = make_run_folder(headers.front(), place.results);
+  if (place.force) fs::remove(*folder / record::kTablesFile);
+  write_json_file(*folder / record::kSuiteFile, suite);
+  return *folder;
 }
 
 }  // namespace hullbench::run

@@ -24,24 +24,24 @@ double crossing(const SearchPoint& below, const SearchPoint& above, double limit
 /// The error at a grid position, that of a failure where it was not evaluated.
 double error_at(const MethodOnCase& found, double position) {
   const Evaluation* evaluation = evaluation_at(found, position);
-  return evaluation == nullptr ? kInfinitelyBad : evaluation->error();
+  return evaluation == nullptr ? kInfinitelyBad : error_of(*evaluation);
 }
 
 double best_error(const MethodOnCase& found) {
   const Evaluation* best = best_evaluation(found);
-  return best == nullptr ? kInfinitelyBad : best->error();
+  return best == nullptr ? kInfinitelyBad : error_of(*best);
 }
 
 /// The error of what a protocol chose on a case; none when it has nothing to say there.
-std::optional<double> error_of(const MethodTuning& method, const MethodOnCase& found,
-                               const std::string& protocol, const std::optional<TunedValue>& tuned) {
+std::optional<double> error_with(const MethodTuning& method, const MethodOnCase& found,
+                                 const std::string& protocol, const std::optional<TunedValue>& tuned) {
   if (protocol == "oracle") return method.axis ? std::optional(best_error(found)) : std::nullopt;
   if (protocol == "tuned") {
     if (!tuned || found.sweep.empty()) return std::nullopt;
     return error_at(found, tuned->position);
   }
   const auto place = found.protocols.find(protocol);
-  return place == found.protocols.end() ? std::nullopt : std::optional(place->second.error());
+  return place == found.protocols.end() ? std::nullopt : std::optional(error_of(place->second));
 }
 
 /// Values by base shape, for intervals.
@@ -75,7 +75,7 @@ std::optional<ProtocolScore> score_of(const Tuning& tuning, const MethodTuning& 
   for (std::size_t i = 0; i < tuning.cases.size(); ++i) {
     const TuningCase& one = tuning.cases[i];
     if (test_only && one.side != Side::kTest) continue;
-    const auto error = error_of(method, method.cases[i], protocol, tuned);
+    const auto error = error_with(method, method.cases[i], protocol, tuned);
     if (!error) continue;
     ++score.cases;
     if (is_infinitely_bad(*error)) ++score.failed;
@@ -117,7 +117,7 @@ std::optional<double> tolerance_octaves(const MethodOnCase& found) {
   std::vector<SearchPoint> points;
   points.reserve(found.sweep.size());
   for (const SweepEvaluation& one : found.sweep)
-    points.push_back({one.position, one.evaluation.error(), one.on_grid});
+    points.push_back({one.position, error_of(one.evaluation), one.on_grid});
   return tolerance_octaves(std::move(points));
 }
 

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cstdint>
-#include <filesystem>
 #include <map>
 #include <string>
 #include <vector>
@@ -20,7 +19,6 @@ struct TunerOptions {
   std::map<std::string, std::string> programs;  ///< by method: SHA-256 of what runs it (Evaluation::program)
   int jobs = 1;                                 ///< threads, each with a worker of its own a method; >= 1
   std::int64_t mem_limit_mib = 4096;            ///< address space of a worker
-  std::filesystem::path scratch;                ///< a folder for files that live no longer than this
   DataFolders folders = {};
 };
 

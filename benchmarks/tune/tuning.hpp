@@ -21,7 +21,6 @@ struct TuningCase {
   plan::PlanCase plan_case;
   std::uint64_t seed = 0;  ///< of the points
   double timeout_s = 0;    ///< for one evaluation
-  std::string name;        ///< "ca/n:2000/holes:1"
   std::string shape;       ///< its base shape (split.hpp)
   Side side = Side::kTraining;
   std::vector<plan::PlanMethod> entries;  ///< of the plans that have the case, those that apply to it

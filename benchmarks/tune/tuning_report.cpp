@@ -39,7 +39,7 @@ json quartiles_to_json(const Quartiles& quartiles) {
 }
 
 json case_to_json(const TuningCase& one) {
-  return {{"case", one.name},
+  return {{"case", one.plan_case.name()},
           {"dataset", one.plan_case.dataset},
           {"shape", one.shape},
           {"side", to_string(one.side)},
@@ -117,12 +117,12 @@ json oracle_to_json(const Tuning& tuning, const MethodTuning& method) {
   for (std::size_t i = 0; i < method.cases.size(); ++i) {
     const Evaluation* best = best_evaluation(method.cases[i]);
     if (best == nullptr) continue;
-    choices.push_back({{"case", tuning.cases[i].name},
+    choices.push_back({{"case", tuning.cases[i].plan_case.name()},
                        {"seed", tuning.cases[i].seed},
                        {"position", position_of(method.cases[i], *best)},
                        {"parameters", worker::parameters_to_json(best->parameters)},
                        {"status", to_string(best->status)},
-                       {"l2", best->l2 ? json(*best->l2) : json(nullptr)},
+                       {"l2", best->metrics.value("l2", json())},
                        {"tolerance_octaves", optional_to_json(tolerance_octaves(method.cases[i]))}});
   }
   return choices;
@@ -312,7 +312,7 @@ table::Document tuning_document(const json& summary) {
   return document;
 }
 
-std::vector<json> sweep_lines(const Tuning& tuning, const std::vector<Evaluation>& known) {
+std::vector<json> sweep_lines(const Tuning& tuning, const std::map<std::string, Evaluation>& known) {
   std::vector<json> lines;
   std::set<std::string> written;
   for (const MethodTuning& method : tuning.methods) {
@@ -332,8 +332,8 @@ std::vector<json> sweep_lines(const Tuning& tuning, const std::vector<Evaluation
       for (const auto& [protocol, evaluation] : found.protocols) add(evaluation, nullptr, false);
     }
   }
-  for (const Evaluation& evaluation : known) {
-    if (written.insert(evaluation.id).second) lines.push_back(evaluation_to_json(evaluation));
+  for (const auto& [id, evaluation] : known) {
+    if (written.insert(id).second) lines.push_back(evaluation_to_json(evaluation));
   }
   return lines;
 }

@@ -72,6 +72,11 @@ MethodSession::~MethodSession() {
   quit(kQuitPatience);
 }
 
+std::string MethodSession::start_failure() const {
+  return start_reply_.remedy.empty() ? start_reply_.detail
+                                     : start_reply_.detail + "; remedy: " + start_reply_.remedy;
+}
+
 bool MethodSession::quit(std::chrono::milliseconds patience) {
   const bool ended = !worker_ || worker_->quit(patience);
   worker_.reset();
@@ -222,6 +227,13 @@ Attempt MethodSession::read_result(const Reply& reply, const std::string& nonce,
   }
   for (const auto& [name, time] : load_phases_) attempt.phases_ns[name] = time;
   return attempt;
+}
+
+LoadedPoints write_points(std::string key, std::span<const Point> points,
+                          const std::filesystem::path& folder) {
+  LoadedPoints result = {std::move(key), folder / "points.f64", points.size()};
+  write_points_file(result.file, points);
+  return result;
 }
 
 json describe_method(const MethodSession& session) {

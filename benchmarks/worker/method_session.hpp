@@ -7,6 +7,7 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -73,6 +74,8 @@ class MethodSession {
   const std::optional<MethodInfo>& info() const { return info_; }
   /// Why it could not be started: status, detail and remedy; status ok when it could.
   const Reply& start_reply() const { return start_reply_; }
+  /// Why, in words, with the remedy.
+  std::string start_failure() const;
   /// The worker's process; not positive while there is none.
   pid_t pid() const { return worker_ ? worker_->pid() : -1; }
 
@@ -107,6 +110,11 @@ class MethodSession {
   std::uint64_t run_count_ = 0;
   bool warmed_up_ = false;  ///< the process that runs
 };
+
+/// Writes `points` into a file in `folder`, which has the points of one case at a time. Throws
+/// std::runtime_error naming the file when it cannot be written.
+LoadedPoints write_points(std::string key, std::span<const Point> points,
+                          const std::filesystem::path& folder);
 
 /// A method as `list` and run.json show it: method_to_json with `installed`, `detail` (why not) and `remedy`.
 /// What is not known of a method that does not start is empty.

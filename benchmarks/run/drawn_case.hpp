@@ -1,0 +1,68 @@
+// A case with its points drawn, and the way from a method's answer to a scored record. Timed runs
+// (runner.hpp) and searches without a clock (tune/tuner.hpp) share it.
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "adapters/adapter.hpp"
+#include "benchmarks/metrics/metrics.hpp"
+#include "benchmarks/plan/plan.hpp"
+#include "benchmarks/record/record.hpp"
+#include "datasets/datasets.hpp"
+
+namespace hullbench::run {
+
+class DrawnCase {
+ public:
+  /// Throws as make_point_set.
+  DrawnCase(const plan::PlanCase& plan_case, std::uint64_t seed, const DataFolders& folders);
+
+  const PointSet& set() const { return set_; }
+
+  /// The parameters that the plan's entry asks for here.
+  Parameters choose_parameters(const plan::PlanMethod& method) const;
+
+  /// The record of a run of `method` here, with what is known before it: the points, and no parameters.
+  record::RunRecord record_of(const std::string& method) const;
+
+  /// Works out what results are scored against, once for all of them; scoring the first one does it
+  /// otherwise.
+  void prepare_scoring() const;
+
+  /// Fills in all metrics of the record whose run gave `result`. When the result is invalid or cannot be
+  /// scored, a record that was ok gets that status and the reason. Safe from several threads at once.
+  void score(record::RunRecord& record, const MultiPolygon& result,
+             std::optional<std::int64_t> peak_memory_bytes) const;
+
+  /// The same with the metric `l2` alone, which is absent where it is not defined. Needs a ground truth.
+  void score_l2(record::RunRecord& record, const MultiPolygon& result) const;
+
+ private:
+  template <typename Scores>
+  void score_with(record::RunRecord& record, Scores scores_of) const;
+  const metrics::CaseScorer& scorer() const;
+
+  plan::PlanCase plan_case_;
+  std::uint64_t seed_;
+  PointSet set_;
+  mutable std::once_flag scoring_is_prepared_;
+  mutable std::optional<metrics::CaseScorer> scorer_;  ///< none: there is no ground truth, or it has a fault
+  mutable std::string scorer_fault_;
+};
+
+/// Fills in the version and, for those of the method's parameters that the record does not name, the
+/// defaults. When the method does not take a parameter, the record is an error.
+void complete_record(record::RunRecord& record, const MethodInfo& info);
+
+/// The result in `wkb`. None when it is no polygon: the record is an invalid output then.
+std::optional<MultiPolygon> read_result(record::RunRecord& record, const std::vector<std::uint8_t>& wkb);
+
+/// `seconds` as a worker's requests have them: at least 1 ms.
+std::chrono::milliseconds to_timeout(double seconds);
+
+}  // namespace hullbench::run

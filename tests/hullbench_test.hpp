@@ -1,0 +1,59 @@
+// Tests of the whole program, each in a folder of its own.
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "benchmarks/record/json_lines.hpp"
+#include "tests/program.hpp"
+#include "tests/small_plans.hpp"
+#include "tests/temporary_folder.hpp"
+
+namespace hullbench::testing {
+
+class HullbenchTest : public ::testing::Test {
+ protected:
+  std::filesystem::path folder() const { return folder_.path(); }
+
+  static std::vector<std::string> command(std::vector<std::string> arguments) {
+    arguments.insert(arguments.begin(), HULLBENCH);
+    return arguments;
+  }
+
+  /// In the test's folder, with manifests of its own.
+  ProgramOptions in_folder(ProgramOptions options = {}) const {
+    options.folder = folder();
+    options.environment["XDG_CONFIG_HOME"] = folder() / "config";
+    return options;
+  }
+
+  Outcome hullbench(const std::vector<std::string>& arguments, const ProgramOptions& options = {}) const {
+    return run_program(command(arguments), in_folder(options));
+  }
+
+  /// Writes the plan into a file; its path.
+  std::string write(const nlohmann::json& plan) const { return write_plan(folder(), plan); }
+
+  nlohmann::json read_json(const std::filesystem::path& file) const {
+    return nlohmann::json::parse(read_text(folder() / file));
+  }
+
+  std::vector<nlohmann::json> read_lines(const std::filesystem::path& file) const {
+    return record::load_json_lines(folder() / file).lines;
+  }
+
+  void expect_valid(const std::string& file) const {
+    const Outcome validated = hullbench({"validate", file});
+    EXPECT_EQ(validated.code, 0) << validated.err;
+  }
+
+ private:
+  TemporaryFolder folder_;
+};
+
+}  // namespace hullbench::testing
