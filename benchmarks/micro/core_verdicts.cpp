@@ -277,10 +277,10 @@ std::vector<VerdictLine> core_verdicts(const Measurements& measurements) {
   return lines;
 }
 
-int exit_code(const std::vector<VerdictLine>& lines) {
-  if (count(lines, Verdict::kMissed) > 0) return 3;
-  if (count(lines, Verdict::kNotMeasured) > 0) return 6;
-  return count(lines, Verdict::kUndecided) > 0 ? 5 : 0;
+ExitCode exit_code(const std::vector<VerdictLine>& lines) {
+  if (count(lines, Verdict::kMissed) > 0) return kExitRegression;
+  if (count(lines, Verdict::kNotMeasured) > 0) return kExitNothing;
+  return count(lines, Verdict::kUndecided) > 0 ? kExitInconclusive : kExitOk;
 }
 
 void print_verdicts(const std::vector<VerdictLine>& lines, std::ostream& out) {

@@ -5,6 +5,7 @@
 #   check.sh tidy [JOBS]      clang-tidy has nothing to say; needs build-clang/compile_commands.json
 #   check.sh paths            no file names a path of one machine
 #   check.sh layout           the top level is what the design allows
+#   check.sh printing         no library prints
 #   check.sh help             "make help" and the README name every target
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/../.."
@@ -85,6 +86,14 @@ check_layout() {
   return $status
 }
 
+# A library gets a stream or a callback from who calls it. Programs print: the command line and what has a main().
+check_printing() {
+  local found
+  found=$(sources | grep -E '^(core|datasets|adapters|benchmarks)/' | grep -v '^benchmarks/cli/' |
+    xargs grep -L '^int main(' | xargs grep -nE 'std::(cout|cerr|clog|printf|puts)\b' || true)
+  [ -z "$found" ] || { printf 'error: a library prints:\n%s\n' "$found" >&2; return 1; }
+}
+
 check_help() {
   local targets listing target status=0
   targets=$(sed -n 's/^\.PHONY: //p' Makefile)
@@ -98,9 +107,9 @@ check_help() {
 }
 
 case "${1:-}" in
-  format | tidy | paths | layout | help) "check_$1" "${@:2}" ;;
+  format | tidy | paths | layout | printing | help) "check_$1" "${@:2}" ;;
   *)
-    sed -n '2,9s/^# \{0,1\}//p' "$0" >&2
+    sed -n '2,10s/^# \{0,1\}//p' "$0" >&2
     exit 2
     ;;
 esac
