@@ -15,6 +15,7 @@
 #include "benchmarks/report/report.hpp"
 #include "benchmarks/run/merge.hpp"
 #include "benchmarks/run/run_directory.hpp"
+#include "benchmarks/run/runner.hpp"
 #include "benchmarks/run/suite.hpp"
 
 namespace hullbench::cli {
@@ -53,7 +54,7 @@ std::vector<std::vector<fs::path>> runs_by_plan(const std::vector<fs::path>& sou
     }
   }
   std::vector<std::vector<fs::path>> result;
-  for (const std::string& name : common_order(lists)) result.push_back(folders.at(name));
+  for (const std::string& name : run::common_order(lists)) result.push_back(folders.at(name));
   return result;
 }
 
@@ -117,7 +118,7 @@ void say_merged(const std::vector<run::MergedRun>& runs, const MergeCommand& com
 /// Writes the merged run, or suite, with report and tables. Throws before anything is written.
 ExitCode merge(const MergeCommand& command) {
   const auto suites =
-      static_cast<std::size_t>(std::count_if(command.sources.begin(), command.sources.end(), is_suite));
+      static_cast<std::size_t>(std::count_if(command.sources.begin(), command.sources.end(), record::is_suite));
   if (suites != 0 && suites != command.sources.size())
     throw ConfigurationError("some of the folders hold a run and some a suite; merge runs or suites");
   std::vector<run::MergedRun> runs;

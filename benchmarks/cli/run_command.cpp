@@ -22,6 +22,7 @@
 #include "benchmarks/run/canary.hpp"
 #include "benchmarks/run/method_catalog.hpp"
 #include "benchmarks/run/run_directory.hpp"
+#include "benchmarks/run/runner.hpp"
 #include "benchmarks/run/suite.hpp"
 #include "benchmarks/worker/stray_processes.hpp"
 #include "benchmarks/worker/worker_process.hpp"
