@@ -175,8 +175,8 @@ ExitCode test_adapter(const TestAdapterCommand& command) {
   const auto timeout = std::chrono::milliseconds(static_cast<std::int64_t>(command.timeout_s * 1000));
   const std::vector<run::Verdict> verdicts =
       run::test_contract(method, {command.mem_limit_mib, std::nullopt}, timeout, scratch.path(), &print);
-  const auto kept =
-      std::count_if(verdicts.begin(), verdicts.end(), [](const run::Verdict& verdict) { return verdict.kept; });
+  const auto kept = std::count_if(verdicts.begin(), verdicts.end(),
+                                  [](const run::Verdict& verdict) { return verdict.kept; });
   if (verdicts.back().status == record::Status::kNotInstalled) return kExitNothing;
   const bool all = kept == static_cast<std::ptrdiff_t>(verdicts.size());
   std::cout << command.name << " keeps " << (all ? "the contract: " : "part of the contract: ") << kept

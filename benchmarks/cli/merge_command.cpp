@@ -117,8 +117,8 @@ void say_merged(const std::vector<run::MergedRun>& runs, const MergeCommand& com
 
 /// Writes the merged run, or suite, with report and tables. Throws before anything is written.
 ExitCode merge(const MergeCommand& command) {
-  const auto suites =
-      static_cast<std::size_t>(std::count_if(command.sources.begin(), command.sources.end(), record::is_suite));
+  const auto suites = static_cast<std::size_t>(
+      std::count_if(command.sources.begin(), command.sources.end(), record::is_suite));
   if (suites != 0 && suites != command.sources.size())
     throw ConfigurationError("some of the folders hold a run and some a suite; merge runs or suites");
   std::vector<run::MergedRun> runs;

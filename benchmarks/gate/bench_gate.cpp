@@ -26,6 +26,7 @@
 namespace {
 
 using namespace hullbench;
+using namespace hullbench::gate;
 namespace fs = std::filesystem;
 using Clock = std::chrono::steady_clock;
 

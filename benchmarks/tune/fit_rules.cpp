@@ -102,7 +102,7 @@ ExitCode fit(const std::vector<std::string>& names, std::uint64_t split_seed, in
   if (cases.empty()) throw ConfigurationError("no case of these plans is on the training side of the split");
   const std::vector<RuleUse> uses = rule_uses();
   const FitTables tables = measure_fit(cases, uses, usual_shares(), usual_limit_grid(), allowed_cores());
-  const std::set<std::string> report::shapes(tables.shapes.begin(), tables.shapes.end());
+  const std::set<std::string> shapes(tables.shapes.begin(), tables.shapes.end());
   std::cout << "# Constants of the rules from the points, fitted on " << cases.size() << " cases of "
             << shapes.size() << " training shapes\n\n";
   table::print_item(join_words(std::vector<std::string>(shapes.begin(), shapes.end())) + ".", std::cout);
