@@ -72,8 +72,9 @@ const std::vector<Goal>& all_goals() {
   static const std::vector<Goal> goals = [] {
     std::ifstream in(kGoalsFile);
     if (!in) throw std::runtime_error(std::string("cannot read the goals in ") + kGoalsFile);
+    const json document = json::parse(in);
     std::vector<Goal> result;
-    for (const json& entry : json::parse(in).at("goals")) {
+    for (const json& entry : document.at("goals")) {
       for (const json& points : entry.value("points", json::array({""}))) {
         result.push_back(read_goal(entry, points));
       }
