@@ -15,8 +15,10 @@
 #include <random>
 #include <regex>
 #include <set>
+#include <sstream>
 #include <string>
 #include <thread>
+#include <utility>
 #include <vector>
 
 #include "benchmarks/record/json_lines.hpp"
@@ -106,6 +108,54 @@ TEST_F(CommandLineTest, HelpTellsCommandsAndExitCodes) {
   }
   EXPECT_EQ(hullbench({"run", "--help"}).code, 0);
   EXPECT_EQ(hullbench({"--version"}).code, 0);
+}
+
+/// The lines below "Subcommands:" begin with their names.
+std::vector<std::string> subcommands_in(const std::string& help) {
+  std::vector<std::string> names;
+  std::istringstream lines(help);
+  std::string line;
+  const std::regex title("subcommands:", std::regex::icase);
+  while (std::getline(lines, line) && !std::regex_match(line, title)) {
+  }
+  std::smatch found;
+  while (std::getline(lines, line) && !line.empty()) {
+    if (std::regex_search(line, found, std::regex("^  ([a-z]+)"))) names.push_back(found[1]);
+  }
+  return names;
+}
+
+TEST_F(CommandLineTest, EverySubcommandsHelpHasAnExample) {
+  // In their order, so that what one leaves another can take.
+  std::vector<std::pair<std::string, std::string>> examples;
+  std::vector<std::vector<std::string>> commands;
+  for (const std::string& name : subcommands_in(hullbench({"--help"}).out)) {
+    commands.push_back({name});
+    for (const std::string& nested : subcommands_in(hullbench({name, "--help"}).out))
+      commands.push_back({name, nested});
+  }
+  EXPECT_GE(commands.size(), 16U);
+  for (std::vector<std::string> words : commands) {
+    const std::string name = words.back();
+    words.emplace_back("--help");
+    const std::string help = hullbench(words).out;
+    std::smatch found;
+    ASSERT_TRUE(std::regex_search(help, found, std::regex("Example: (.*hullbench .+)\n"))) << help;
+    EXPECT_NE(help.find("Exit codes:"), std::string::npos) << help;
+    examples.emplace_back(name, found[1]);
+  }
+
+  write_text(folder() / "points.csv", "lon,lat\n0,0\n1,0\n1,1\n0,1\n");
+  fs::create_symlink("results/latest", folder() / "before");
+  // A search takes time; two shards, this project's README and the libraries of a skeleton are not here.
+  const std::set<std::string> left_out = {"tune", "merge", "readme", "adapter", "test"};
+  const std::string path = "PATH='" + fs::path(HULLBENCH).parent_path().string() + "':$PATH; ";
+  const ProgramOptions options = {{}, {{"HULLBENCH_POSTGIS_DSN", "host=127.0.0.1 port=1"}}, false};
+  for (const auto& [name, example] : examples) {
+    if (left_out.contains(name)) continue;
+    const Outcome outcome = testing::run_program({"/bin/sh", "-c", path + example}, in_folder(options));
+    EXPECT_EQ(outcome.code, 0) << example << "\n" << outcome.err;
+  }
 }
 
 TEST_F(CommandLineTest, UnknownWordsAndOptions) {

@@ -3,8 +3,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <fstream>
 #include <limits>
+#include <map>
 #include <set>
 #include <stdexcept>
 #include <string>
@@ -13,8 +15,10 @@
 #include <vector>
 
 #include "benchmarks/base/configuration_error.hpp"
+#include "benchmarks/base/json_schema.hpp"
 #include "benchmarks/plan/parameter_rules.hpp"
 #include "benchmarks/plan/plan.hpp"
+#include "benchmarks/record/record.hpp"
 #include "datasets/datasets.hpp"
 #include "datasets/stress.hpp"
 #include "polylidar/concave_hull.hpp"
@@ -161,6 +165,8 @@ TEST(Plan, PassesShareTheRepetitions) {
 TEST(Plan, APlanHasOnePassUnlessItSaysSo) {
   json source = small_plan();
   EXPECT_EQ(plan::parse_plan(source.dump(), "here").passes, 1);
+  source["passes"] = plan::kMaxPasses;
+  EXPECT_EQ(plan::parse_plan(source.dump(), "here").passes, plan::kMaxPasses);
   for (const json& wrong : {json(0), json(plan::kMaxPasses + 1), json("three")}) {
     source["passes"] = wrong;
     EXPECT_THROW(plan::parse_plan(source.dump(), "here"), ConfigurationError) << wrong;
@@ -342,7 +348,7 @@ TEST(Plan, WrongPlansAreRefusedWithTheirPlace) {
       {"/warmup", -1, {"warmup", "whole number from 0"}},
       {"/timeout_s", 0, {"timeout_s", "from 0.001"}},
       {"/mem_limit_mib", 1, {"mem_limit_mib", "whole number from 64"}},
-      {"/seed", -1, {"seed", "from 0 to 2^64 - 1"}},
+      {"/seed", -1, {"seed", "whole number from 0", "2^64"}},
       {"/cases", json::array(), {"cases", "at least one"}},
       {"/cases/0", 5, {"cases[0]", "object"}},
       {"/cases/0/size", 5, {"cases[0].size", "dataset", "members", "stress", "holes"}},
@@ -350,7 +356,8 @@ TEST(Plan, WrongPlansAreRefusedWithTheirPlace) {
       {"/cases/0/n/1", 2, {"cases[0].n[1]", "whole number from 3"}},
       {"/cases/0/n/1", 500, {"cases[0].n[1]", "twice"}},
       {"/cases/0/holes/1", "yes", {"cases[0].holes[1]", "true or false"}},
-      {"/cases/0/holes/1", false, {"cases[0]", "case ca", "n = 500", "second time"}},
+      {"/cases/0/holes/1", false, {"cases[0].holes[1]", "twice"}},
+      {"/cases/1", {{"dataset", "ca"}, {"n", {500}}}, {"cases[1]", "case ca", "n = 500", "second time"}},
       {"/cases/0/dataset", "mars", {"'small'", "data set 'mars'", "ca and solid"}},
       {"/cases/0/dataset", "solid", {"solid with holes"}},
       {"/cases/0/dataset", json::array(), {"cases[0].dataset", "at least one"}},
@@ -360,7 +367,7 @@ TEST(Plan, WrongPlansAreRefusedWithTheirPlace) {
       {"/cases/1", {{"dataset", {"solid", "ca"}}, {"n", {500}}}, {"cases[1]", "case ca", "n = 500"}},
       {"/methods/0/method", "magic", {"method 'magic'", "polylidar and spatialite"}},
       {"/methods/0/colour", "red", {"methods[0].colour", "protocol"}},
-      {"/methods/0/protocol", "best", {"methods[0].protocol", "default", "oracle", "'best'"}},
+      {"/methods/0/protocol", "best", {"methods[0].protocol", "default", "oracle", "best"}},
       {"/methods/0/protocol", "auto", {"methods[0].parameters.alpha.rule", "'paper_alpha'", "ground truth"}},
       {"/methods/0/timeout_s", 0, {"methods[0].timeout_s", "from 0.001"}},
       {"/methods/0/repetitions", 0, {"methods[0].repetitions", "from 1"}},
@@ -381,6 +388,46 @@ TEST(Plan, WrongPlansAreRefusedWithTheirPlace) {
   for (const Case& one : cases) {
     EXPECT_TRUE(names_all(complaint(one.pointer, one.value), one.parts)) << one.pointer;
   }
+}
+
+json plan_schema() {
+  std::ifstream in(std::filesystem::path(HULLBENCH_PLAN_FOLDER) / "plan.schema.json");
+  return json::parse(in);
+}
+
+/// The parts of a schema in and below `part`, by their places.
+void collect_parts(const json& part, const std::string& place, std::map<std::string, json>& parts) {
+  parts[place] = part;
+  for (const char* group : {"properties", "$defs"}) {
+    const json children = part.value(group, json::object());
+    for (const auto& [name, child] : children.items()) collect_parts(child, place + "/" + name, parts);
+  }
+  for (const char* key : {"items", "additionalProperties"}) {
+    if (part.contains(key) && part[key].is_object()) collect_parts(part[key], place + "/" + key, parts);
+  }
+}
+
+TEST(PlanSchema, SaysOfEveryFieldWhatItIsWithExamplesThatAreValid) {
+  const json schema = plan_schema();
+  std::map<std::string, json> parts;
+  collect_parts(schema, "", parts);
+  EXPECT_GE(parts.size(), 40U);
+  for (const auto& [place, part] : parts) {
+    // A bare reference is described where it leads.
+    if (part.size() == 1 && part.contains("$ref")) continue;
+    ASSERT_TRUE(part.contains("description") && part.contains("examples")) << place;
+    EXPECT_FALSE(part["description"].get<std::string>().empty()) << place;
+    EXPECT_FALSE(part["examples"].empty()) << place;
+    const json alone = {{"$defs", schema["$defs"]}, {"allOf", json::array({part})}};
+    const JsonSchema checked(alone);
+    for (const json& example : part["examples"])
+      EXPECT_TRUE(checked.faults(example).empty()) << place << example;
+  }
+}
+
+TEST(PlanSchema, ItsExampleIsAPlan) {
+  for (const json& example : plan_schema()["examples"])
+    EXPECT_NO_THROW(plan::parse_plan(example.dump(), "example"));
 }
 
 TEST(Plan, TwoEntriesWithTheSameRunNamesAreRefused) {
@@ -453,9 +500,8 @@ TEST(Plan, StressThatThereIsNotIsRefused) {
   EXPECT_TRUE(names_all(complaint_about_cases(R"([{"dataset": "floor-1~noise:1"}])"),
                         {"'floor-1~noise:1'", "not known"}));
   for (const char* name : {"~noise:1", "Ca~noise:1", "ca:noise", "ca.5~noise:1", "ca~noise/1"}) {
-    EXPECT_TRUE(
-        names_all(complaint("/cases/0/dataset", name),
-                  {"cases[0].dataset", "small letters", "ca~noise:0.5", "'" + std::string(name) + "'"}));
+    EXPECT_TRUE(names_all(complaint("/cases/0/dataset", name),
+                          {"cases[0].dataset", "small letters", "ca~noise:0.5", name}));
   }
 }
 
@@ -486,12 +532,16 @@ TEST(Plan, EveryCaseHasAPlaceOnTheAxis) {
 
 TEST(Plan, AcceptedStatusesAreReadAndWritten) {
   json document = small_plan();
+  for (const record::Status status : record::kAllStatuses) {
+    document["accepted"] = json::array({to_string(status)});
+    EXPECT_EQ(plan::parse_plan(document.dump(), "here").accepted.size(), 1U) << to_string(status);
+  }
   document["accepted"] = {"error", "unsupported"};
   const plan::Plan plan = plan::parse_plan(document.dump(), "here");
   EXPECT_EQ(plan.accepted, (std::vector<std::string>{"error", "unsupported"}));
   EXPECT_EQ(plan::plan_to_json(plan).at("accepted"), document["accepted"]);
   EXPECT_TRUE(
-      names_all(complaint("/accepted", {"broken"}), {"accepted[0]", "timeout", "not_installed", "'broken'"}));
+      names_all(complaint("/accepted", {"broken"}), {"accepted[0]", "timeout", "not_installed", "broken"}));
 }
 
 TEST(Plan, ADefaultWithParametersSaysWhoseItIs) {
@@ -506,30 +556,37 @@ TEST(Plan, ADefaultWithParametersSaysWhoseItIs) {
 
 TEST(Plan, IsFoundByNameOrByPath) {
   const testing::TemporaryFolder folder;
+  std::ofstream(folder.path() / "plan.schema.json") << "{}";
   std::ofstream(folder.path() / "small.json") << small_plan();
   EXPECT_EQ(plan::load_plan("small", folder.path()).name, "small");
   EXPECT_EQ(plan::load_plan((folder.path() / "small.json").string(), "/nowhere").name, "small");
   EXPECT_TRUE(
-      names_all(refusal_of([&] { plan::load_plan("smal", folder.path()); }), {"'smal'", "known are small"}));
+      names_all(refusal_of([&] { plan::load_plan("smal", folder.path()); }), {"'smal'", "known are small,"}));
+}
+
+std::vector<std::filesystem::path> ready_plans() {
+  std::vector<std::filesystem::path> files;
+  for (const auto& entry : std::filesystem::directory_iterator(HULLBENCH_PLAN_FOLDER)) {
+    if (!entry.path().stem().string().ends_with(".schema")) files.push_back(entry.path());
+  }
+  return files;
 }
 
 TEST(Plan, EveryReadyPlanIsGood) {
   std::vector<std::string> methods;
-  int count = 0;
-  for (const auto& entry : std::filesystem::directory_iterator(HULLBENCH_PLAN_FOLDER)) {
-    const plan::Plan plan = plan::load_plan(entry.path().string(), "");
-    EXPECT_EQ(plan.name, entry.path().stem().string());
+  EXPECT_GE(ready_plans().size(), 3U);
+  for (const auto& file : ready_plans()) {
+    const plan::Plan plan = plan::load_plan(file.string(), "");
+    EXPECT_EQ(plan.name, file.stem().string());
     for (const plan::PlanMethod& method : plan.methods) methods.push_back(method.method);
     EXPECT_NO_THROW(plan::check_plan(plan, methods, datasets()));
-    ++count;
   }
-  EXPECT_GE(count, 3);
 }
 
 // What is compared under one protocol got its parameters in one way.
 TEST(Plan, EveryRuleFromThePointsIsUnderAuto) {
-  for (const auto& file : std::filesystem::directory_iterator(HULLBENCH_PLAN_FOLDER)) {
-    const plan::Plan plan = plan::load_plan(file.path().string(), "");
+  for (const auto& file : ready_plans()) {
+    const plan::Plan plan = plan::load_plan(file.string(), "");
     for (const plan::PlanMethod& method : plan.methods) {
       for (const auto& [name, choice] : method.parameters) {
         const auto* rule = std::get_if<plan::RuleChoice>(&choice);
@@ -545,9 +602,9 @@ TEST(Plan, EveryRuleFromThePointsIsUnderAuto) {
 TEST(Plan, StressSuitesAreQuickAndOnTheirAxes) {
   std::size_t cases = 0;
   int suites = 0;
-  for (const auto& entry : std::filesystem::directory_iterator(HULLBENCH_PLAN_FOLDER)) {
-    if (!entry.path().stem().string().starts_with("stress_")) continue;
-    const plan::Plan plan = plan::load_plan(entry.path().string(), "");
+  for (const auto& file : ready_plans()) {
+    if (!file.stem().string().starts_with("stress_")) continue;
+    const plan::Plan plan = plan::load_plan(file.string(), "");
     EXPECT_EQ(plan.axis.has_value(), plan.name != "stress_degenerate") << plan.name;
     EXPECT_EQ(plan.repetitions, 1) << plan.name;
     for (const plan::PlanMethod& method : plan.methods) EXPECT_TRUE(method.datasets.empty()) << plan.name;

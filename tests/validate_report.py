@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
-"""Validates reports and run lines with an implementation of JSON Schema 2020-12 that is not the program's own.
+"""Validates reports, run lines and plans with an implementation of JSON Schema 2020-12 that is not the program's own.
 
-    validate_report.py FILE...              every *.json against the report's schema, every line of *.jsonl against the run's
+    validate_report.py FILE...              every *.json against the report's schema (a plan: the plan's), every line of *.jsonl against the run's
     validate_report.py --broken CASES FILE  FILE is valid, and with each change in CASES it is not
 
 Exit status: 0 valid; 1 a fault was found, printed with its place as a JSON pointer; 2 a file cannot be read.
@@ -14,6 +14,7 @@ import sys
 import jsonschema
 
 SCHEMAS = pathlib.Path(__file__).resolve().parent.parent / "results"
+PLAN_SCHEMA = "../benchmarks/plans/plan.schema.json"
 
 
 def strict_json(text):
@@ -51,7 +52,10 @@ def faults(validator, document):
 def faults_of_file(path):
     text = path.read_text()
     if path.suffix != ".jsonl":
-        return faults(report_validator(), strict_json(text))
+        document = strict_json(text)
+        if "cases" in document:
+            return faults(jsonschema.Draft202012Validator(read_schema(PLAN_SCHEMA)), document)
+        return faults(report_validator(), document)
     validator = run_validator()
     found = [
         f"line {number}: {fault}"

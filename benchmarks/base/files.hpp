@@ -7,14 +7,15 @@
 
 namespace hullbench {
 
-/// Writes a file whole or not at all: a temporary file beside it is renamed. Throws std::runtime_error naming the
-/// file when it cannot be written.
+/// Writes a file whole or not at all: a temporary file beside it is renamed. Throws std::runtime_error naming
+/// the file when it cannot be written.
 void write_text_file(const std::filesystem::path& path, const std::string& text);
 
 /// Writes `content`, indented, as write_text_file does.
 void write_json_file(const std::filesystem::path& path, const nlohmann::json& content);
 
-/// `content` as text, with U+FFFD for bytes that are no UTF-8; indented by `indent`, or on one line when it is -1.
+/// `content` as text, with U+FFFD for bytes that are no UTF-8; indented by `indent`, or on one line when it
+/// is -1.
 std::string dump_text(const nlohmann::json& content, int indent);
 
 /// Makes `folder` where it is not there. Throws ConfigurationError when it cannot be made or written to.

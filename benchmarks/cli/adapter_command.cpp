@@ -1,5 +1,4 @@
-#include "benchmarks/cli/adapter_command.hpp"
-
+// `hullbench adapter new` and `hullbench adapter test`: a method from its first file to a kept contract.
 #include <algorithm>
 #include <cstdlib>
 #include <fstream>
@@ -9,6 +8,7 @@
 #include <system_error>
 
 #include "benchmarks/base/configuration_error.hpp"
+#include "benchmarks/cli/options.hpp"
 #include "benchmarks/run/contract.hpp"
 #include "benchmarks/run/method_catalog.hpp"
 
@@ -20,9 +20,19 @@ namespace fs = std::filesystem;
 const fs::path kSource = HULLBENCH_SOURCE_FOLDER;
 const fs::path kSkeletons = kSource / "benchmarks" / "skeletons";
 const fs::path kHelpers = kSource / "adapters" / "process";
-constexpr int kKept = 0;
-constexpr int kBroken = 4;
-constexpr int kNothingTried = 6;
+
+struct NewAdapterCommand {
+  std::string name;
+  std::string language;         ///< "cpp", "python" or "js"
+  std::optional<fs::path> out;  ///< none: where hullbench finds it, see new_adapter
+};
+
+struct TestAdapterCommand {
+  std::string name;
+  std::vector<fs::path> adapters;     ///< more folders with manifests
+  double timeout_s = 60;              ///< for one run
+  std::int64_t mem_limit_mib = 4096;  ///< address space of the worker
+};
 
 std::string read_text(const fs::path& file) {
   std::ifstream in(file, std::ios::binary);
@@ -142,9 +152,11 @@ void print(const run::Verdict& verdict) {
             << verdict.words << std::endl;
 }
 
-}  // namespace
-
-int new_adapter_command(const NewAdapterCommand& command) {
+/// Writes a method that works: the convex hull, with the place to put another one. In C++ the file
+/// adapters/NAME.cpp of this project and its line in adapters/adapters.cmake; in Python and JavaScript the
+/// manifest, the worker and a copy of its helper file, into the user's configuration folder. With --out all
+/// of it goes there, and the CMake line into a file adapters.cmake there. Nothing is overwritten.
+ExitCode new_adapter(const NewAdapterCommand& command) {
   check_name(command.name);
   const bool cpp = command.language == "cpp";
   write_all(cpp ? cpp_files(command) : script_files(command));
@@ -152,10 +164,11 @@ int new_adapter_command(const NewAdapterCommand& command) {
   if (command.out && !cpp) next += " --adapters " + command.out->string();
   std::cout << "next: put the method in its place, " << (cpp ? "'make build', " : "") << "then '" << next
             << "'\n";
-  return kKept;
+  return kExitOk;
 }
 
-int test_adapter_command(const TestAdapterCommand& command) {
+/// Tries the contract (contract.hpp) and prints a verdict a line.
+ExitCode test_adapter(const TestAdapterCommand& command) {
   const run::MethodCatalog catalog(run::manifest_folders(command.adapters));
   const worker::Method& method = catalog.find(command.name);
   const Scratch scratch;
@@ -164,11 +177,50 @@ int test_adapter_command(const TestAdapterCommand& command) {
       run::test_contract(method, {command.mem_limit_mib, std::nullopt}, timeout, scratch.path(), &print);
   const auto kept = std::count_if(verdicts.begin(), verdicts.end(),
                                   [](const run::Verdict& verdict) { return verdict.kept; });
-  if (verdicts.back().status == record::Status::kNotInstalled) return kNothingTried;
+  if (verdicts.back().status == record::Status::kNotInstalled) return kExitNothing;
   const bool all = kept == static_cast<std::ptrdiff_t>(verdicts.size());
   std::cout << command.name << " keeps " << (all ? "the contract: " : "part of the contract: ") << kept
             << " of " << verdicts.size() << " points\n";
-  return all ? kKept : kBroken;
+  return all ? kExitOk : kExitFailures;
+}
+
+void add_new(CLI::App& app, Action& action) {
+  const auto command = std::make_shared<NewAdapterCommand>();
+  CLI::App& options = add_command(app, "new", "Write a method that works, to be filled in",
+                                  "hullbench adapter new my_hull --lang python --out methods");
+  options.add_option("NAME", command->name, "The method's name: small letters, digits and _")->required();
+  options.add_option("--lang", command->language, "Its language")
+      ->check(CLI::IsMember({"cpp", "python", "js"}))
+      ->required();
+  options.add_option(
+      "--out", command->out,
+      "Folder for its files instead of this project's adapters (cpp) or the user's configuration folder");
+  set_action(options, action, command, &new_adapter);
+}
+
+void add_test(CLI::App& app, Action& action) {
+  const auto command = std::make_shared<TestAdapterCommand>();
+  CLI::App& options = add_command(app, "test", "Say which points of the contract a method keeps",
+                                  "hullbench adapter test my_hull --adapters methods");
+  options.add_option("NAME", command->name, "The method's name")->required();
+  add_adapters(options, command->adapters);
+  options.add_option("--timeout", command->timeout_s, "Seconds that one run may take")
+      ->check(timeout_range())
+      ->capture_default_str();
+  options.add_option("--mem-limit", command->mem_limit_mib, "MiB of address space for the method")
+      ->check(memory_range())
+      ->capture_default_str();
+  set_action(options, action, command, &test_adapter);
+}
+
+}  // namespace
+
+void add_adapter(CLI::App& app, Action& action) {
+  CLI::App& options = add_command(app, "adapter", "Add a method, or try one",
+                                  "hullbench adapter new my_hull --lang python --out methods");
+  options.require_subcommand(1);
+  add_new(options, action);
+  add_test(options, action);
 }
 
 }  // namespace hullbench::cli

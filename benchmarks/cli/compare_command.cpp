@@ -1,5 +1,4 @@
-#include "benchmarks/cli/compare_command.hpp"
-
+// `hullbench compare A B`: from two paths to what differs between them.
 #include <filesystem>
 #include <fstream>
 #include <iostream>
@@ -8,6 +7,7 @@
 #include <vector>
 
 #include "benchmarks/base/configuration_error.hpp"
+#include "benchmarks/cli/options.hpp"
 #include "benchmarks/record/json_lines.hpp"
 #include "benchmarks/record/stored_run.hpp"
 #include "benchmarks/report/compare.hpp"
@@ -19,6 +19,14 @@ namespace {
 
 namespace fs = std::filesystem;
 using nlohmann::json;
+
+/// A side is the folder of a run or of a suite, a report.json, or the lines of a run (runs.jsonl,
+/// runs.jsonl.xz).
+struct CompareCommand {
+  std::string a;
+  std::string b;
+  std::string format = "markdown";  ///< "csv": the pairs
+};
 
 json read_report(const fs::path& file) {
   std::ifstream in(file, std::ios::binary);
@@ -70,9 +78,7 @@ void print(const table::Document& document, const std::string& format) {
   }
 }
 
-}  // namespace
-
-int compare_command(const CompareCommand& command) {
+ExitCode compare(const CompareCommand& command) {
   const report::ComparedSide a = read_side(command.a);
   const report::ComparedSide b = read_side(command.b);
   const report::RunsCompared compared = compare_sides(a, b);
@@ -80,14 +86,31 @@ int compare_command(const CompareCommand& command) {
     std::cerr << "hullbench: " << a.name << " and " << b.name << " have no run in common ("
               << compared.only_a.size() << " and " << compared.only_b.size()
               << " runs); compare runs of the same plan\n";
-    return 6;
+    return kExitNothing;
   }
   if (command.format == "json") {
     std::cout << report::comparison_json(compared, a, b).dump(2) << "\n";
   } else {
     print(report::comparison_document(compared, a, b, command.format == "csv"), command.format);
   }
-  return 0;
+  return kExitOk;
+}
+
+}  // namespace
+
+void add_compare(CLI::App& app, Action& action) {
+  const auto command = std::make_shared<CompareCommand>();
+  CLI::App& options = add_command(app, "compare", "Say what differs between two runs",
+                                  "hullbench compare before/report.json results/latest --format csv");
+  options
+      .add_option("A", command->a,
+                  "A run's or suite's folder, a report.json or a runs.jsonl: the earlier one")
+      ->required();
+  options.add_option("B", command->b, "Likewise: the one that is held against it")->required();
+  options.add_option("--format", command->format, "How to print it")
+      ->check(CLI::IsMember({"markdown", "csv", "latex", "json"}))
+      ->capture_default_str();
+  set_action(options, action, command, &compare);
 }
 
 }  // namespace hullbench::cli

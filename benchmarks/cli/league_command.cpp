@@ -1,21 +1,29 @@
-#include "benchmarks/cli/league_command.hpp"
-
+// `hullbench league`: the league of some runs, printed and written.
 #include <algorithm>
 #include <iostream>
 #include <nlohmann/json.hpp>
 
 #include "benchmarks/base/configuration_error.hpp"
 #include "benchmarks/base/files.hpp"
+#include "benchmarks/cli/options.hpp"
 #include "benchmarks/league/league.hpp"
 #include "benchmarks/league/league_report.hpp"
 #include "benchmarks/record/stored_run.hpp"
 #include "benchmarks/report/report.hpp"
 
 namespace hullbench::cli {
+namespace {
 
 using nlohmann::json;
 
-int league_command(const LeagueCommand& command) {
+struct LeagueCommand {
+  std::vector<std::filesystem::path> runs;
+  std::filesystem::path out;  ///< empty: only print
+  std::uint64_t split_seed = 1;
+  bool all_cases = false;
+};
+
+ExitCode print_league(const LeagueCommand& command) {
   std::vector<json> reports;
   for (const std::filesystem::path& folder : command.runs) {
     if (!std::filesystem::is_directory(folder))
@@ -28,7 +36,7 @@ int league_command(const LeagueCommand& command) {
   if (std::all_of(reports.begin(), reports.end(),
                   [](const json& report) { return report.at("runs").empty(); })) {
     std::cerr << "hullbench: none of the folders has a finished run; there is nothing to judge\n";
-    return 6;
+    return kExitNothing;
   }
   const json league =
       league::league_to_json(league::make_league(reports, command.split_seed, !command.all_cases), reports);
@@ -37,7 +45,25 @@ int league_command(const LeagueCommand& command) {
     write_json_file(command.out, league);
     std::cerr << "hullbench: wrote " << command.out.string() << "\n";
   }
-  return 0;
+  return kExitOk;
+}
+
+}  // namespace
+
+void add_league(CLI::App& app, Action& action) {
+  const auto command = std::make_shared<LeagueCommand>();
+  CLI::App& options = add_command(
+      app, "league", "Say who is the most accurate over the cases of some runs, protocol by protocol",
+      "hullbench league results/latest --out league.json");
+  options.add_option("RUN", command->runs, "Folders of runs, or of suites")->required();
+  options.add_option("--out", command->out, "File for it as JSON (results/league.schema.json)");
+  options
+      .add_option("--seed", command->split_seed,
+                  "Seed of the split into training and test shapes, as of tune")
+      ->check(CLI::NonNegativeNumber)
+      ->capture_default_str();
+  options.add_flag("--all-cases", command->all_cases, "Of training shapes too");
+  set_action(options, action, command, &print_league);
 }
 
 }  // namespace hullbench::cli

@@ -1,5 +1,4 @@
-#include "benchmarks/cli/merge_command.hpp"
-
+// `hullbench merge`
 #include <algorithm>
 #include <cstddef>
 #include <iostream>
@@ -8,7 +7,8 @@
 
 #include "benchmarks/base/configuration_error.hpp"
 #include "benchmarks/base/files.hpp"
-#include "benchmarks/cli/finish_run.hpp"
+#include "benchmarks/cli/options.hpp"
+#include "benchmarks/cli/run_folder.hpp"
 #include "benchmarks/record/pictures.hpp"
 #include "benchmarks/record/stored_run.hpp"
 #include "benchmarks/report/documents.hpp"
@@ -24,7 +24,13 @@ namespace {
 namespace fs = std::filesystem;
 using nlohmann::json;
 
-int merged_exit_code(const std::vector<run::MergedRun>& runs) {
+struct MergeCommand {
+  std::vector<fs::path> sources;  ///< folders of runs, or all of suites, which are merged by plan
+  fs::path out;                   ///< new or empty; never one of `sources`, in one of them or around one
+  bool force = false;             ///< `out` may hold anything but a suite, or a run when `sources` are suites
+};
+
+ExitCode merged_exit_code(const std::vector<run::MergedRun>& runs) {
   run::RunResult result;
   bool missing = false;
   for (const run::MergedRun& run : runs) {
@@ -32,8 +38,8 @@ int merged_exit_code(const std::vector<run::MergedRun>& runs) {
     for (const record::RunRecord& row : run.rows) run::count_row(result, row.status, accepted);
     missing = missing || run.rows.size() < run.planned;
   }
-  const int code = run::exit_code(result);
-  return code == 0 && missing ? 4 : code;
+  const ExitCode code = run::exit_code(result);
+  return code == kExitOk && missing ? kExitFailures : code;
 }
 
 /// The folders with runs in `sources` by plan, in the order of the plans.
@@ -109,9 +115,8 @@ void say_merged(const std::vector<run::MergedRun>& runs, const MergeCommand& com
             << "\n";
 }
 
-}  // namespace
-
-int merge_command(const MergeCommand& command) {
+/// Writes the merged run, or suite, with report and tables. Throws before anything is written.
+ExitCode merge(const MergeCommand& command) {
   const auto suites = static_cast<std::size_t>(
       std::count_if(command.sources.begin(), command.sources.end(), record::is_suite));
   if (suites != 0 && suites != command.sources.size())
@@ -124,7 +129,7 @@ int merge_command(const MergeCommand& command) {
   }
   if (std::all_of(runs.begin(), runs.end(), [](const run::MergedRun& run) { return run.rows.empty(); })) {
     std::cerr << "hullbench: none of the folders has a finished run; nothing is merged\n";
-    return 6;
+    return kExitNothing;
   }
   check_out(command);
   if (suites == 0) {
@@ -132,11 +137,21 @@ int merge_command(const MergeCommand& command) {
   } else {
     write_suite(runs, command.out);
   }
-  table::print_markdown(report::make_documents(suites == 0 ? std::vector{report::make_report(command.out)}
-                                                           : report::suite_reports(command.out)),
-                        std::cout);
+  table::print_markdown(report::make_documents(reports_in(command.out)), std::cout);
   say_merged(runs, command);
   return merged_exit_code(runs);
+}
+
+}  // namespace
+
+void add_merge(CLI::App& app, Action& action) {
+  const auto command = std::make_shared<MergeCommand>();
+  CLI::App& options = add_command(app, "merge", "Put runs of the same plan, such as its shards, together",
+                                  "hullbench merge shard-1 shard-2 --out whole");
+  options.add_option("RUN", command->sources, "Folders of runs, or of suites")->required();
+  options.add_option("--out", command->out, "Folder for the merged run, new or empty")->required();
+  options.add_flag("--force", command->force, "Write to the folder even when something is in it");
+  set_action(options, action, command, &merge);
 }
 
 }  // namespace hullbench::cli

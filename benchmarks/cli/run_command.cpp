@@ -1,8 +1,4 @@
-#include "benchmarks/cli/run_command.hpp"
-
-#include <sys/ioctl.h>
-#include <unistd.h>
-
+// `hullbench run`: from the command line's words to rows, report and tables.
 #include <algorithm>
 #include <iostream>
 #include <memory>
@@ -13,8 +9,10 @@
 #include "benchmarks/base/configuration_error.hpp"
 #include "benchmarks/base/cores.hpp"
 #include "benchmarks/base/utc_now.hpp"
-#include "benchmarks/cli/finish_run.hpp"
 #include "benchmarks/cli/listing.hpp"
+#include "benchmarks/cli/options.hpp"
+#include "benchmarks/cli/run_folder.hpp"
+#include "benchmarks/cli/terminal.hpp"
 #include "benchmarks/cli/tool_description.hpp"
 #include "benchmarks/plan/plan.hpp"
 #include "benchmarks/record/environment.hpp"
@@ -24,6 +22,7 @@
 #include "benchmarks/run/canary.hpp"
 #include "benchmarks/run/method_catalog.hpp"
 #include "benchmarks/run/run_directory.hpp"
+#include "benchmarks/run/runner.hpp"
 #include "benchmarks/run/suite.hpp"
 #include "benchmarks/worker/stray_processes.hpp"
 #include "benchmarks/worker/worker_process.hpp"
@@ -37,6 +36,25 @@ namespace fs = std::filesystem;
 using nlohmann::json;
 
 const fs::path kResults = "results";
+
+/// What is not given is as the plan says.
+struct RunCommand {
+  std::vector<std::string> plans;  ///< one or more; several make a suite (suite.hpp)
+  std::string filter;
+  std::optional<int> repetitions;
+  std::optional<int> passes;
+  std::optional<std::uint64_t> seed;
+  std::optional<double> timeout_s;
+  std::optional<std::int64_t> mem_limit_mib;
+  std::optional<fs::path> out;
+  fs::path recordings;  ///< folder of real floors to take the place of the simulated ones; empty: none
+  std::optional<run::Shard> shard;  ///< none: all runs
+  fs::path export_gbench;           ///< file for the times as Google Benchmark's JSON; empty: none
+  std::vector<fs::path> adapters;   ///< more folders with manifests
+  std::vector<std::string> with;    ///< methods to measure that the plans do not name
+  bool force = false;
+  bool dry_run = false;
+};
 
 /// A plan and those of its runs that were asked for.
 struct Experiment {
@@ -133,11 +151,6 @@ Cores reserve_worker_core() {
   return cores;
 }
 
-std::size_t terminal_width() {
-  winsize size{};
-  return ::ioctl(STDERR_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 0 ? size.ws_col : 80;
-}
-
 /// The header of the run in `directory`: the earlier start's, with this start added, or the new one.
 json header_to_write(const run::RunDirectory& directory, const json& header) {
   if (!directory.resumed()) return header;
@@ -210,7 +223,7 @@ class Measuring {
         cores_(reserve_worker_core()),
         canary_(cores_.worker),
         machine_([this] { return canary_.look(); }),
-        progress_(std::cerr, ::isatty(STDERR_FILENO) == 1, terminal_width(), make_sections()) {}
+        progress_(make_progress(make_sections())) {}
 
   /// Measures them all and writes the report and the tables of each after its last pass. Whether it was not
   /// interrupted.
@@ -314,7 +327,8 @@ class Measuring {
   run::Progress progress_;
 };
 
-int measure_one(const RunCommand& command, const Experiment& experiment, const run::MethodCatalog& catalog) {
+ExitCode measure_one(const RunCommand& command, const Experiment& experiment,
+                     const run::MethodCatalog& catalog) {
   const json header = describe_run(experiment, command, catalog);
   std::vector<Task> tasks(1);
   Task& task = tasks.front();
@@ -343,8 +357,8 @@ run::RunResult finished_result(const fs::path& run) {
   return result;
 }
 
-int measure_suite(const RunCommand& command, const std::vector<Experiment>& experiments,
-                  const run::MethodCatalog& catalog) {
+ExitCode measure_suite(const RunCommand& command, const std::vector<Experiment>& experiments,
+                       const run::MethodCatalog& catalog) {
   std::vector<json> headers;
   headers.reserve(experiments.size());
   for (const Experiment& experiment : experiments)
@@ -392,18 +406,7 @@ void keep_shard(Experiment& experiment, const RunCommand& command) {
   }
 }
 
-}  // namespace
-
-void check_export_place(const fs::path& file) {
-  if (file.empty()) return;
-  const fs::path folder = file.has_parent_path() ? file.parent_path() : fs::path(".");
-  if (fs::is_directory(file) || ::access(folder.c_str(), W_OK) != 0) {
-    throw ConfigurationError("cannot write " + file.string() +
-                             "; give --export-gbench a file in a folder that is there and writable");
-  }
-}
-
-int run_command(const RunCommand& command) {
+ExitCode run_plans(const RunCommand& command) {
   const run::MethodCatalog catalog(run::manifest_folders(command.adapters));
   std::vector<Experiment> experiments;
   std::string names;
@@ -419,26 +422,67 @@ int run_command(const RunCommand& command) {
     keep_shard(experiment, command);
     if (!experiment.runs.empty()) experiments.push_back(std::move(experiment));
   }
-  if (experiments.empty() && any_run) return 6;
+  if (experiments.empty() && any_run) return kExitNothing;
   if (experiments.empty()) {
     const std::string way_out = command.filter.empty()
                                     ? "the plan's own filter; choose others with --filter"
                                     : "'" + command.filter + "'; --dry-run without --filter prints the names";
     std::cerr << "hullbench: no run of the plan" << (command.plans.size() == 1 ? " " : "s ") << names
               << " has a name that matches " << way_out << "\n";
-    return 6;
+    return kExitNothing;
   }
   if (command.dry_run) {
     for (const Experiment& experiment : experiments) {
       for (const plan::PlannedRun& run : experiment.runs) std::cout << run.name << "\n";
     }
-    return 0;
+    return kExitOk;
   }
   check_export_place(command.export_gbench);
   worker::end_strays_of_dead_harnesses();
   run::remove_stale_scratch(kResults);
   return command.plans.size() == 1 ? measure_one(command, experiments.front(), catalog)
                                    : measure_suite(command, experiments, catalog);
+}
+
+}  // namespace
+
+void add_run(CLI::App& app, Action& action) {
+  const auto command = std::make_shared<RunCommand>();
+  CLI::App& options = add_command(app, "run", "Measure a plan, or several one after the other",
+                                  "hullbench run states --filter '^polylidar/ca/n:2000/' --repetitions 3");
+  add_plans(options, command->plans, "");
+  options.add_option("--filter", command->filter,
+                     "Only runs whose name has a match of this regular expression");
+  options
+      .add_option("--repetitions", command->repetitions, "Timed repetitions of every run, over all passes")
+      ->check(CLI::Range(1, 1000000));
+  options
+      .add_option(
+          "--passes", command->passes,
+          "How often all plans are gone through, each time with a share of the repetitions, so that a "
+          "slow hour of the machine is not one method's")
+      ->check(CLI::Range(1, plan::kMaxPasses));
+  options.add_option("--out", command->out, "Folder for the results instead of one in results/runs");
+  options.add_option("--seed", command->seed, "Seed of the point samples and of the order of runs")
+      ->check(CLI::NonNegativeNumber);
+  options.add_option("--timeout", command->timeout_s, "Seconds that one repetition may take")
+      ->check(timeout_range());
+  options.add_option("--mem-limit", command->mem_limit_mib, "MiB of address space for a method")
+      ->check(memory_range());
+  options.add_option(
+      "--recordings", command->recordings,
+      "Folder of recorded floors that take the place of the simulated ones (datasets/rgbd/recordings.hpp)");
+  add_shard(options, command->shard,
+            "Only part K of N of the runs, given as K/N; 'hullbench merge' puts the parts together");
+  add_adapters(options, command->adapters);
+  options
+      .add_option("--with", command->with,
+                  "Also measure this method of a manifest, with the parameters that the manifest gives")
+      ->allow_extra_args(false);
+  add_export_gbench(options, command->export_gbench);
+  options.add_flag("--force", command->force, "Start anew instead of going on with an interrupted run");
+  options.add_flag("--dry-run", command->dry_run, "Print the names of the runs and do nothing");
+  set_action(options, action, command, &run_plans);
 }
 
 }  // namespace hullbench::cli

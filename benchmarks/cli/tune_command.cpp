@@ -1,8 +1,4 @@
-#include "benchmarks/cli/tune_command.hpp"
-
-#include <sys/ioctl.h>
-#include <unistd.h>
-
+// `hullbench tune`: searches every method's parameter and says what each way of choosing it costs.
 #include <algorithm>
 #include <iostream>
 #include <iterator>
@@ -15,6 +11,8 @@
 #include "benchmarks/base/configuration_error.hpp"
 #include "benchmarks/base/cores.hpp"
 #include "benchmarks/base/files.hpp"
+#include "benchmarks/cli/options.hpp"
+#include "benchmarks/cli/terminal.hpp"
 #include "benchmarks/cli/tool_description.hpp"
 #include "benchmarks/plan/plan.hpp"
 #include "benchmarks/run/method_catalog.hpp"
@@ -36,6 +34,17 @@ using nlohmann::json;
 constexpr const char* kSweepFile = "sweep.jsonl";
 constexpr const char* kSummaryFile = "tune.json";
 constexpr const char* kTuningTablesFile = "tuning.md";
+
+struct TuneCommand {
+  std::vector<std::string> plans;  ///< one or more: their cases
+  std::string methods;             ///< regular expression; empty: all built-in methods
+  std::optional<fs::path> out;
+  std::uint64_t seed = 1;           ///< of the split; points are drawn with the plans' seeds
+  std::optional<double> timeout_s;  ///< for one evaluation, instead of the plan's
+  std::optional<int> jobs;          ///< none: one a core
+  std::optional<run::Shard> shard;  ///< none: all cases
+  std::vector<fs::path> adapters;   ///< more folders with manifests
+};
 
 std::vector<plan::Plan> load_plans(const TuneCommand& command, const run::MethodCatalog& catalog) {
   std::vector<plan::Plan> plans;
@@ -118,13 +127,8 @@ tune::TunerOptions tuner_options(const TuneCommand& command, const run::MethodCa
   return options;
 }
 
-std::size_t terminal_width() {
-  winsize size{};
-  return ::ioctl(STDERR_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 0 ? size.ws_col : 80;
-}
-
-/// 4 when a method has nothing but failures on a case, 6 when there is no result at all.
-int exit_code(const tune::Tuning& tuning) {
+/// A method that has nothing but failures on a case has failed.
+ExitCode exit_code(const tune::Tuning& tuning) {
   bool any_result = false;
   bool any_failure = false;
   for (const tune::MethodTuning& method : tuning.methods) {
@@ -137,8 +141,8 @@ int exit_code(const tune::Tuning& tuning) {
                           best->status != record::Status::kNotInstalled);
     }
   }
-  if (any_failure) return 4;
-  return any_result ? 0 : 6;
+  if (any_failure) return kExitFailures;
+  return any_result ? kExitOk : kExitNothing;
 }
 
 void write_results(const fs::path& folder, const tune::Tuning& tuning, const std::vector<plan::Plan>& plans,
@@ -164,9 +168,16 @@ void write_results(const fs::path& folder, const tune::Tuning& tuning, const std
   std::cout << tables.str();
 }
 
-}  // namespace
-
-int tune_command(const TuneCommand& command) {
+/// The same command goes on with what is there. The folder (--out, else results/tune/PLAN) gets
+///
+///   sweep.jsonl       every evaluation (results/sweep.schema.json), as they happen
+///   tune.json         the summary (results/tune.schema.json)
+///   tuning.md         its tables, which go to standard output too
+///   PLAN-tuned.json   each plan with the chosen parameters (tuned_plan.hpp)
+///
+/// A shard only leaves its evaluations there, in sweep-K-of-N.jsonl. Throws ConfigurationError before
+/// anything is evaluated.
+ExitCode tune_plans(const TuneCommand& command) {
   const run::MethodCatalog catalog(run::manifest_folders(command.adapters));
   const std::vector<plan::Plan> plans = load_plans(command, catalog);
   const std::vector<plan::Plan> parts = part_of(plans, command.shard);
@@ -176,15 +187,14 @@ int tune_command(const TuneCommand& command) {
   if (cases.empty()) {
     std::cerr << "hullbench: there are too few cases for shard " << to_string(*command.shard)
               << ": nothing is evaluated here\n";
-    return 6;
+    return kExitNothing;
   }
   const fs::path folder = folder_of(command, plans);
   make_writable_folder(folder);
   const std::string file = sweep_file(command.shard);
   tune::EvaluationStore store(folder, file);
   worker::end_strays_of_dead_harnesses();
-  run::Progress progress(std::cerr, ::isatty(STDERR_FILENO) == 1, terminal_width(),
-                         {{"tune", tune::tuning_progress(cases, options.methods)}});
+  run::Progress progress = make_progress({{"tune", tune::tuning_progress(cases, options.methods)}});
   std::cerr << "hullbench: " << options.methods.size() << " methods on " << cases.size() << " cases, into "
             << folder.string() << "; " << store.found() << " evaluations are there already\n";
   const tune::Tuning tuning = tune::run_tuning(std::move(cases), command.seed, options, store, progress);
@@ -192,11 +202,41 @@ int tune_command(const TuneCommand& command) {
   if (tuning.interrupted) {
     std::cerr << "hullbench: interrupted; evaluations are kept in " << (folder / file).string()
               << ", and the same command goes on from there\n";
-    return 130;
+    return kExitInterrupted;
   }
   if (!command.shard) write_results(folder, tuning, plans, tool, store);
   std::cerr << "hullbench: wrote " << (folder / (command.shard ? file : kSummaryFile)).string() << "\n";
   return exit_code(tuning);
+}
+
+}  // namespace
+
+void add_tune(CLI::App& app, Action& action) {
+  const auto command = std::make_shared<TuneCommand>();
+  CLI::App& options = add_command(
+      app, "tune",
+      "Search every method's parameter and say what each way of choosing it costs (nothing is timed)",
+      "hullbench tune alphabet --methods 'polylidar|geos_concave_hull'");
+  add_plans(options, command->plans, ": its cases");
+  options.add_option(
+      "--methods", command->methods,
+      "Methods whose name is a match of this regular expression, instead of all built-in ones");
+  options.add_option("--out", command->out, "Folder for the results instead of one in results/tune");
+  options.add_option("--seed", command->seed, "Seed of the split into training and test shapes")
+      ->check(CLI::NonNegativeNumber)
+      ->capture_default_str();
+  options
+      .add_option("--timeout", command->timeout_s,
+                  "Seconds that one evaluation may take, instead of the plan's")
+      ->check(timeout_range());
+  options.add_option("--jobs", command->jobs, "Evaluations at a time, instead of one a processor core")
+      ->check(CLI::Range(1, 1024));
+  add_shard(
+      options, command->shard,
+      "Only part K of N of the cases, given as K/N; when all are done, the same command without it, over the "
+      "folder with their files sweep-K-of-N.jsonl, puts them together");
+  add_adapters(options, command->adapters);
+  set_action(options, action, command, &tune_plans);
 }
 
 }  // namespace hullbench::cli

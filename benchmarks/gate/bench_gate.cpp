@@ -1,5 +1,7 @@
 // bench_gate: whether head is slower than base, or gives other results. benchmarks/gate/gate.sh builds the
 // two probes and calls it.
+#include <unistd.h>
+
 #include <CLI/CLI.hpp>
 #include <chrono>
 #include <filesystem>
@@ -8,8 +10,10 @@
 
 #include "benchmarks/base/configuration_error.hpp"
 #include "benchmarks/base/cores.hpp"
+#include "benchmarks/base/exit_code.hpp"
 #include "benchmarks/base/files.hpp"
 #include "benchmarks/base/interrupt.hpp"
+#include "benchmarks/base/status_line.hpp"
 #include "benchmarks/gate/gate_accuracy.hpp"
 #include "benchmarks/gate/gate_cases.hpp"
 #include "benchmarks/gate/gate_probes.hpp"
@@ -25,16 +29,8 @@ using namespace hullbench::gate;
 namespace fs = std::filesystem;
 using Clock = std::chrono::steady_clock;
 
-constexpr int kHarnessError = 1;
-constexpr int kUsage = 2;
-constexpr int kInterrupted = 130;
-
 constexpr double kTimeThreshold = 0.05;
 constexpr double kInstructionThreshold = 0.02;
-
-constexpr const char* kFooter =
-    "Exit codes: 0 no regression; 1 an error of the harness; 2 usage or configuration; 3 a regression or a "
-    "changed result;\n5 inconclusive: too noisy, or the same program differs from itself; 130 interrupted.";
 
 struct Arguments {
   std::string base_probe;
@@ -53,7 +49,7 @@ struct Arguments {
 };
 
 void add_options(CLI::App& app, Arguments& arguments) {
-  app.footer(kFooter);
+  app.footer(kExitCodesHelp);
   app.add_option("--base-probe", arguments.base_probe, "gate_probe built with base's core")
       ->required()
       ->check(CLI::ExistingFile);
@@ -126,6 +122,10 @@ GateFindings measure(const Arguments& arguments, Clock::time_point start, const 
   write_results(arguments.head_probe, probe, work / "results" / "head");
   if (probe.core) leave_core(*probe.core);
   const Clock::time_point deadline = start + std::chrono::seconds(arguments.time_limit);
+  StatusLine status(std::cerr, ::isatty(STDERR_FILENO) == 1);
+  const auto show = [&](const std::string& title, std::size_t begun, std::size_t total) {
+    status.show(title + " [" + std::to_string(begun) + "/" + std::to_string(total) + "]");
+  };
   GateFindings findings = arguments.instructions ? gate_instructions(arguments, probe, work, rules, samples)
                                                  : gate_times({.base_probe = arguments.base_probe,
                                                                .head_probe = arguments.head_probe,
@@ -133,13 +133,14 @@ GateFindings measure(const Arguments& arguments, Clock::time_point start, const 
                                                                .probe = probe,
                                                                .blocks = arguments.blocks,
                                                                .deadline = deadline,
-                                                               .seed = arguments.seed},
+                                                               .seed = arguments.seed,
+                                                               .on_process = show},
                                                               rules, samples);
   findings.accuracy = compare_results(probe.cases, work / "results" / "base", work / "results" / "head");
   return findings;
 }
 
-int run(const Arguments& arguments) {
+ExitCode run(const Arguments& arguments) {
   catch_interruptions();
   const fs::path out = arguments.out;
   fs::create_directories(out);
@@ -162,29 +163,21 @@ int run(const Arguments& arguments) {
   return verdict.exit_code;
 }
 
-int complain(const std::string& what, int code) {
-  std::cerr << "bench_gate: " << what << "\n";
-  return code;
-}
-
 }  // namespace
 
 int main(int argc, char** argv) {
-  CLI::App app("Whether head is slower than base, or gives other results.", "bench_gate");
-  Arguments arguments;
-  try {
+  return exit_code_of("bench_gate", std::cerr, [&] {
+    CLI::App app("Whether head is slower than base, or gives other results.", "bench_gate");
+    Arguments arguments;
     add_options(app, arguments);
-    app.parse(argc, argv);
+    try {
+      app.parse(argc, argv);
+    } catch (const CLI::Success& request) {
+      app.exit(request);
+      return kExitOk;
+    } catch (const CLI::ParseError& error) {
+      throw ConfigurationError(std::string(error.what()) + "; 'bench_gate --help' shows what there is");
+    }
     return run(arguments);
-  } catch (const CLI::Success& request) {
-    return app.exit(request);
-  } catch (const CLI::ParseError& error) {
-    return complain(std::string(error.what()) + "; 'bench_gate --help' shows what there is", kUsage);
-  } catch (const ConfigurationError& error) {
-    return complain(error.what(), kUsage);
-  } catch (const Interrupted&) {
-    return complain("interrupted", kInterrupted);
-  } catch (const std::exception& error) {
-    return complain(error.what(), kHarnessError);
-  }
+  });
 }

@@ -122,23 +122,23 @@ GateVerdict decide(const GateFindings& findings, const GateRules& rules) {
   confirm(findings, verdict);
 
   if (!verdict.changed_results.empty()) {
-    verdict.exit_code = 3;
+    verdict.exit_code = kExitRegression;
     verdict.sentence = "result changed: " + joined(verdict.changed_results);
     if (!verdict.regressions.empty()) verdict.sentence += "; regression: " + joined(verdict.regressions);
   } else if (!verdict.failed_controls.empty()) {
-    verdict.exit_code = 5;
+    verdict.exit_code = kExitInconclusive;
     verdict.sentence = "inconclusive: the same program differs from itself in " +
                        joined(verdict.failed_controls) + "; run it again when the machine is quieter";
   } else if (!verdict.regressions.empty()) {
-    verdict.exit_code = 3;
+    verdict.exit_code = kExitRegression;
     verdict.sentence = "regression: " + joined(verdict.regressions);
   } else if (findings.out_of_time) {
-    verdict.exit_code = 5;
+    verdict.exit_code = kExitInconclusive;
     verdict.sentence =
         "inconclusive: the time limit came before enough was measured; run it again when the machine is "
         "quieter, or with a longer --time-limit";
   } else if (!verdict.undecided.empty()) {
-    verdict.exit_code = 5;
+    verdict.exit_code = kExitInconclusive;
     verdict.sentence = "inconclusive: too noisy to tell no change from a regression in " +
                        joined(verdict.undecided) + "; run it again when the machine is quieter";
   } else {

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "benchmarks/base/exit_code.hpp"
 #include "benchmarks/statistics/sign_test.hpp"
 
 namespace hullbench::gate {
@@ -63,7 +64,7 @@ struct GateFindings {
 };
 
 struct GateVerdict {
-  int exit_code = 0;  ///< 0 no regression; 3 regression or changed result; 5 inconclusive
+  ExitCode exit_code = kExitOk;  ///< or kExitRegression, of a changed result too, or kExitInconclusive
   std::string sentence;
   std::vector<std::string> regressions;
   std::vector<std::string> improvements;
@@ -73,10 +74,10 @@ struct GateVerdict {
   std::vector<std::string> changed_results;
 };
 
-/// A changed result gives 3 whatever the clock says. A null control that is itself called slower or faster
-/// gives 5. A regression is what both rounds call slower: 3. A quantity that is too noisy gives 5, and so
-/// does one that the first round calls slower and the second one cannot decide; one that the second round
-/// says is no slower gives 0. A gate that ran out of time gives 5.
+/// A changed result is a regression whatever the clock says. A null control that is itself called slower or
+/// faster makes the gate inconclusive. A regression is what both rounds call slower. A quantity that is too
+/// noisy makes it inconclusive, and so does one that the first round calls slower and the second one cannot
+/// decide; one that the second round says is no slower does not. A gate that ran out of time is inconclusive.
 GateVerdict decide(const GateFindings& findings, const GateRules& rules);
 
 /// The instructions of one quantity: base counted twice, head once. Counts are above 0.

@@ -1,10 +1,6 @@
 #include "benchmarks/gate/time_gate.hpp"
 
-#include <unistd.h>
-
 #include <algorithm>
-#include <chrono>
-#include <iostream>
 #include <set>
 #include <string>
 #include <vector>
@@ -14,42 +10,15 @@
 namespace hullbench::gate {
 namespace {
 
-using namespace std::chrono_literals;
-
 constexpr std::size_t kProcessesPerBlock = 6;
-
-/// One line that is rewritten on a terminal; elsewhere a plain line now and then.
-class RoundProgress {
- public:
-  RoundProgress(std::string title, std::size_t processes) : title_(std::move(title)), total_(processes) {}
-  ~RoundProgress() {
-    if (terminal_) std::cerr << "\r\033[K" << std::flush;
-  }
-  RoundProgress(const RoundProgress&) = delete;
-  RoundProgress& operator=(const RoundProgress&) = delete;
-
-  void begin_process() {
-    ++begun_;
-    const auto now = std::chrono::steady_clock::now();
-    if (!terminal_ && begun_ > 1 && now - shown_ < 15s) return;
-    shown_ = now;
-    std::cerr << (terminal_ ? "\r\033[K" : "") << title_ << " [" << begun_ << "/" << total_ << "]"
-              << (terminal_ ? "" : "\n") << std::flush;
-  }
-
- private:
-  std::string title_;
-  std::size_t total_;
-  std::size_t begun_ = 0;
-  bool terminal_ = ::isatty(STDERR_FILENO) == 1;
-  std::chrono::steady_clock::time_point shown_;
-};
 
 void measure(const std::string& title, const Programs& programs, const TimeGateSettings& settings,
              const ProbeSettings& probe, std::size_t count, std::uint64_t seed, Blocks& blocks) {
-  RoundProgress progress(title, count * kProcessesPerBlock);
-  measure_blocks(
-      programs, probe, count, seed, settings.deadline, [&] { progress.begin_process(); }, blocks);
+  std::size_t begun = 0;
+  const auto before_process = [&] {
+    if (settings.on_process) settings.on_process(title, ++begun, count * kProcessesPerBlock);
+  };
+  measure_blocks(programs, probe, count, seed, settings.deadline, before_process, blocks);
 }
 
 bool has(const std::vector<Judged>& rows, SpeedChange change) {

@@ -5,7 +5,9 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <nlohmann/json.hpp>
+#include <string>
 
 #include "benchmarks/gate/gate_probes.hpp"
 #include "benchmarks/gate/gate_verdict.hpp"
@@ -24,13 +26,15 @@ struct TimeGateSettings {
   std::size_t blocks = 0;  ///< in a round, >= kFewestBlocks; of each, two runs of base, head and base's copy
   std::chrono::steady_clock::time_point deadline;  ///< no block begins after it
   std::uint64_t seed = 1;                          ///< of the orders in the blocks
+  /// Called before every process with what is being done, the number of the process and how many there are.
+  std::function<void(const std::string& title, std::size_t begun, std::size_t total)> on_process = {};
 };
 
 /// Measures, and fills in the findings but for accuracy. When the first round is too noisy to decide and
 /// calls nothing slower, it goes on to twice as many blocks; the second round has as many as the first ended
 /// with. The findings are out of time when the deadline left the first round fewer than kFewestBlocks, or the
-/// second one fewer than it needs; that one is then not judged. `samples` gets the log-ratios. What it is at
-/// goes to standard error. Throws as measure_blocks.
+/// second one fewer than it needs; that one is then not judged. `samples` gets the log-ratios. Throws as
+/// measure_blocks.
 GateFindings gate_times(const TimeGateSettings& settings, const GateRules& rules, nlohmann::json& samples);
 
 }  // namespace hullbench::gate

@@ -93,14 +93,12 @@ bool filter_takes(const std::string& name) {
 void print_help() {
   std::cout
       << "core_benchmarks [--verdicts] [options of Google Benchmark]\n"
-         "  --verdicts  measure what has a goal, in 7 interleaved repetitions, and say which goals are met;\n"
-         "              exit code 0: all of them; 3: one is missed; otherwise 6: one was not measured;\n"
-         "              otherwise 5: of one the repetitions disagree\n"
-         "\n";
+         "  --verdicts  measure what has a goal, in 7 interleaved repetitions, and say which goals are met\n"
+      << kExitCodesHelp << "\n\n";
   benchmark::PrintDefaultHelp();
 }
 
-int run_for_verdicts(std::size_t repetitions) {
+ExitCode run_for_verdicts(std::size_t repetitions) {
   const std::set<std::string> needed = benchmarks_of_goals();
   std::vector<Benchmark> benchmarks;
   for (Benchmark& entry : all_benchmarks()) {
@@ -139,7 +137,7 @@ std::size_t repetitions_of(const std::vector<std::string>& arguments) {
   return repetitions;
 }
 
-int run(std::vector<std::string> arguments) {
+ExitCode run(std::vector<std::string> arguments) {
   const bool verdicts = take_verdicts(arguments);
   std::vector<char*> pointers;
   pointers.reserve(arguments.size() + 1);
@@ -147,9 +145,9 @@ int run(std::vector<std::string> arguments) {
   int count = static_cast<int>(pointers.size());
   pointers.push_back(nullptr);
   benchmark::Initialize(&count, pointers.data(), &print_help);
-  if (benchmark::ReportUnrecognizedArguments(count, pointers.data())) return 2;
+  if (benchmark::ReportUnrecognizedArguments(count, pointers.data())) return kExitUsage;
 
-  int status = 0;
+  ExitCode status = kExitOk;
   if (verdicts) {
     status = run_for_verdicts(repetitions_of(arguments));
   } else {

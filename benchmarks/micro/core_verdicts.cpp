@@ -71,9 +71,9 @@ const std::vector<Goal>& all_goals() {
   static const std::vector<Goal> goals = [] {
     std::ifstream in(kGoalsFile);
     if (!in) throw std::runtime_error(std::string("cannot read the goals in ") + kGoalsFile);
-    const json file = json::parse(in);
+    const json document = json::parse(in);
     std::vector<Goal> result;
-    for (const json& entry : file.at("goals")) {
+    for (const json& entry : document.at("goals")) {
       for (const json& points : entry.value("points", json::array({""}))) {
         result.push_back(read_goal(entry, points));
       }
@@ -220,10 +220,10 @@ std::vector<VerdictLine> core_verdicts(const Measurements& measurements) {
   return lines;
 }
 
-int exit_code(const std::vector<VerdictLine>& lines) {
-  if (count(lines, Verdict::kMissed) > 0) return 3;
-  if (count(lines, Verdict::kNotMeasured) > 0) return 6;
-  return count(lines, Verdict::kUndecided) > 0 ? 5 : 0;
+ExitCode exit_code(const std::vector<VerdictLine>& lines) {
+  if (count(lines, Verdict::kMissed) > 0) return kExitRegression;
+  if (count(lines, Verdict::kNotMeasured) > 0) return kExitNothing;
+  return count(lines, Verdict::kUndecided) > 0 ? kExitInconclusive : kExitOk;
 }
 
 void print_verdicts(const std::vector<VerdictLine>& lines, std::ostream& out) {

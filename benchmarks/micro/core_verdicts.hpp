@@ -9,6 +9,8 @@
 #include <string>
 #include <vector>
 
+#include "benchmarks/base/exit_code.hpp"
+
 namespace hullbench::micro {
 
 /// What was measured of one benchmark.
@@ -41,9 +43,9 @@ std::set<std::string> benchmarks_of_goals();
 /// One line a goal, always all of them and in the same order; a value that is the limit itself meets it.
 std::vector<VerdictLine> core_verdicts(const Measurements& measurements);
 
-/// The project's exit codes: 3 when a goal is missed; otherwise 6 when one was not measured; otherwise 5 when
-/// one is undecided; otherwise 0.
-int exit_code(const std::vector<VerdictLine>& lines);
+/// kExitRegression when a goal is missed; otherwise kExitNothing when one was not measured; otherwise
+/// kExitInconclusive when one is undecided.
+ExitCode exit_code(const std::vector<VerdictLine>& lines);
 
 void print_verdicts(const std::vector<VerdictLine>& lines, std::ostream& out);
 

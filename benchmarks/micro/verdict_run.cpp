@@ -8,10 +8,6 @@
 namespace hullbench::micro {
 namespace {
 
-using namespace std::chrono_literals;
-
-constexpr auto kPlainInterval = 15s;
-
 /// Why nothing was measured in a run of Google Benchmark, which names it in two ways: "error" until 1.7,
 /// "skip" since 1.8. Nothing when all went well.
 template <typename Run>
@@ -27,7 +23,7 @@ std::optional<std::string> failure(const Run& run) {
 }  // namespace
 
 RepetitionProgress::RepetitionProgress(std::ostream& out, bool terminal, std::size_t total)
-    : out_(out), terminal_(terminal), total_(total) {}
+    : status_(out, terminal), total_(total) {}
 
 void RepetitionProgress::begin(const std::string& benchmark, benchmark::IterationCount iterations) {
   // Inside its first repetition Google Benchmark calls a benchmark with more and more iterations until they
@@ -35,16 +31,7 @@ void RepetitionProgress::begin(const std::string& benchmark, benchmark::Iteratio
   benchmark::IterationCount& last = iterations_[benchmark];
   if (last == 0 || last == iterations) ++begun_;
   last = iterations;
-
-  const auto now = std::chrono::steady_clock::now();
-  if (!terminal_ && begun_ > 1 && now - shown_ < kPlainInterval) return;
-  shown_ = now;
-  out_ << (terminal_ ? "\r\033[K" : "") << "[" << begun_ << "/" << total_ << "] " << benchmark
-       << (terminal_ ? "" : "\n") << std::flush;
-}
-
-void RepetitionProgress::end() {
-  if (terminal_) out_ << "\r\033[K" << std::flush;
+  status_.show("[" + std::to_string(begun_) + "/" + std::to_string(total_) + "] " + benchmark);
 }
 
 bool CollectingReporter::ReportContext(const Context& context) {

@@ -3,19 +3,18 @@
 
 #include <benchmark/benchmark.h>
 
-#include <chrono>
 #include <cstddef>
 #include <map>
 #include <ostream>
 #include <string>
 #include <vector>
 
+#include "benchmarks/base/status_line.hpp"
 #include "benchmarks/micro/core_verdicts.hpp"
 
 namespace hullbench::micro {
 
 /// Which repetition is being measured: with repetitions interleaved Google Benchmark is silent until the end.
-/// On a terminal one line that is rewritten; elsewhere a plain line now and then.
 class RepetitionProgress {
  public:
   /// `total`: of all benchmarks together.
@@ -23,16 +22,14 @@ class RepetitionProgress {
 
   /// `benchmark` is about to be called with this number of iterations.
   void begin(const std::string& benchmark, benchmark::IterationCount iterations);
-  /// Takes the rewritten line away.
-  void end();
+  /// Takes the line away.
+  void end() { status_.clear(); }
 
  private:
-  std::ostream& out_;
-  bool terminal_;
+  StatusLine status_;
   std::size_t total_;
   std::size_t begun_ = 0;
   std::map<std::string, benchmark::IterationCount> iterations_;  ///< by benchmark: of its last call
-  std::chrono::steady_clock::time_point shown_;
 };
 
 /// Keeps every repetition's time instead of printing it.

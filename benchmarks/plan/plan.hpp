@@ -1,26 +1,5 @@
-// Plans: what a run measures. A plan is a JSON file; benchmarks/plans/ has the ready ones.
-//
-//   {"schema_version": 1, "name": "states", "title": "State shapes", "paper": "Figure 8, Table 6",
-//    "repetitions": 10, "passes": 3, "warmup": 1, "timeout_s": 120, "mem_limit_mib": 4096, "seed": 1,
-//    "notes": ["..."], "filter": "^polylidar/", "accepted": ["error"], "axis": {"of": "noise", "title":
-//    "Noise", "unit": "h"}, "cases":   [{"dataset": "ca", "holes": [false, true], "n": [2000, 64000]}],
-//    "methods": [{"method": "polylidar", "protocol": "paper", "datasets": ["ca"], "note": "...",
-//                 "repetitions": 3, "timeout_s": 60, "mem_limit_mib": 1024, "parameters": {"alpha":
-//                 PARAMETER}}]}
-//
-// PARAMETER is a VALUE, {"rule": NAME} (parameter_rules.hpp), {"scaled": 1.5} or {"cases": {"ca": 2.0,
-// "ca/holes": 1.25, "ca/n:2000": 1.5, "ca/holes/n:2000": null}}. A VALUE is a number, or null for no limit
-// (infinity). "scaled" is a length in mean spacings of the points over their convex hull (mean_spacing in
-// parameter_rules.hpp), which any protocol may use as it reads the points alone; with "power": 2 it is
-// squared after that, for parameters that are a squared length. Of a case's keys the one with its number of
-// points (n:all for a data set's own) goes before the one without. A case's "dataset" is one name or a list
-// of names; a list stands for the same case once for each name, in its order. With "members": 200 the name is
-// a family's and stands for its members from 1 to 200 ("star-1", ..., "star-200"). With "stress":
-// ["noise:0", "noise:0.5"] every name stands for the data sets with these (stress.hpp): "ca~noise:0",
-// "ca~noise:0.5". A method's own repetitions and limits take the place of the plan's; with several protocols
-// it has one worker, so all its entries must name the same "mem_limit_mib". Without "n" the data set's own
-// points are used, which only some have. Only `name`, `cases` and `methods` are required; a key that is not
-// listed here is an error. Parameters under the protocol "default" need a note that says whose they are.
+// Plans: what a run measures. A plan is a JSON file; benchmarks/plans/ has the ready ones, and their schema
+// says what each key means, with examples (plan.schema.json).
 #pragma once
 
 #include <cstddef>
@@ -39,7 +18,7 @@
 
 namespace hullbench::plan {
 
-/// The most passes that a plan can ask for.
+/// The most passes that a plan can ask for, as its schema says.
 inline constexpr int kMaxPasses = 100;
 
 /// What the curves of a plan's results are drawn against.

@@ -2,20 +2,11 @@
 
 #include <fstream>
 #include <map>
-#include <memory>
-#include <set>
 #include <sstream>
 #include <stdexcept>
 #include <string_view>
-#include <utility>
-#include <valijson/adapters/nlohmann_json_adapter.hpp>
-#include <valijson/schema.hpp>
-#include <valijson/schema_parser.hpp>
-#include <valijson/validation_results.hpp>
-#include <valijson/validator.hpp>
 
-#include "benchmarks/base/files.hpp"
-#include "benchmarks/base/words.hpp"
+#include "benchmarks/base/json_schema.hpp"
 #include "benchmarks/record/embedded.hpp"
 #include "benchmarks/record/json_lines.hpp"
 #include "benchmarks/record/record.hpp"
@@ -24,84 +15,38 @@ namespace hullbench::record {
 namespace {
 
 using nlohmann::json;
-using Adapter = valijson::adapters::NlohmannJsonAdapter;
 
-constexpr std::string_view kRunSchemaReference = "run.schema.json";
-
-std::unique_ptr<valijson::Schema> parse_schema(std::string_view text) {
-  const json document = json::parse(text);
+JsonSchema parse_schema(std::string_view text) {
   const json run_schema = json::parse(kRunSchemaJson);
-  const auto fetch = [&](const std::string& reference) -> const json* {
-    return reference == kRunSchemaReference ? &run_schema : nullptr;
-  };
-  auto schema = std::make_unique<valijson::Schema>();
-  valijson::SchemaParser parser;
-  parser.populateSchema(Adapter(document), *schema, fetch, [](const json*) {});
-  return schema;
+  return JsonSchema(json::parse(text), [&](const std::string& name) {
+    return name == "run.schema.json" ? &run_schema : nullptr;
+  });
 }
 
-/// The place of an error, which comes as {"<root>", "[\"runs\"]", "[3]", ...}.
-json::json_pointer place_of(const std::vector<std::string>& context) {
-  json::json_pointer place;
-  for (std::size_t level = 1; level < context.size(); ++level) {
-    std::string step = context[level];
-    if (step.size() >= 2 && step.front() == '[' && step.back() == ']') step = step.substr(1, step.size() - 2);
-    if (step.size() >= 2 && step.front() == '"' && step.back() == '"') step = step.substr(1, step.size() - 2);
-    place.push_back(std::move(step));
-  }
-  return place;
-}
-
-/// An object with a fault also fails every schema around it; that is said in these words and tells nothing
-/// new.
-bool is_consequence(const std::string& description) {
-  return description.rfind("Failed to validate", 0) == 0;
-}
-
-/// One sentence about a fault: the place, what the validator says and, where it is short, what stands there.
-std::string fault_sentence(const json& document, const json::json_pointer& place, std::string description) {
-  constexpr std::string_view kUnknownMember =
-      "Object contains a property that could not be validated using 'properties' or 'additionalProperties' "
-      "constraints";
-  if (description.rfind(kUnknownMember, 0) == 0) {
-    description = "There is a member that does not belong there" + description.substr(kUnknownMember.size());
-  }
-  if (document.contains(place) && document.at(place).is_primitive()) {
-    while (!description.empty() && description.back() == '.') description.pop_back();
-    description += ", found " + dump_text(document.at(place), -1).substr(0, 80);
-  }
-  return "At " + (place.empty() ? std::string("the top level") : place.to_string()) + ": " +
-         sentence(description);
-}
-
-std::vector<std::string> faults(const valijson::Schema& schema, const json& document) {
-  valijson::Validator validator;
-  valijson::ValidationResults results;
-  if (validator.validate(schema, Adapter(document), &results)) return {};
+/// One sentence a fault, with its place.
+std::vector<std::string> faults(const JsonSchema& schema, const json& document) {
   std::vector<std::string> sentences;
-  std::set<std::string> known;
-  for (const bool with_consequences : {false, true}) {
-    for (const auto& error : results) {
-      if (is_consequence(error.description) && !with_consequences) continue;
-      const std::string text = fault_sentence(document, place_of(error.context), error.description);
-      if (known.insert(text).second) sentences.push_back(text);
-    }
-    if (!sentences.empty()) break;
+  for (const SchemaFault& fault : schema.faults(document)) {
+    const std::string place = fault.place.empty() ? "the top level" : fault.place.to_string();
+    sentences.push_back("At " + place + ": " + fault.sentence);
   }
   return sentences;
 }
 
 /// The schema of what says its `kind`: lines of pictures.jsonl and sweep.jsonl, tune.json, league.json and
-/// tables.json. Null for any other.
-const valijson::Schema* schema_of_kind(const json& document) {
-  static const auto picture = parse_schema(kPictureSchemaJson);
-  static const auto evaluation = parse_schema(kSweepSchemaJson);
-  static const auto tuning = parse_schema(kTuneSchemaJson);
-  static const auto league = parse_schema(kLeagueSchemaJson);
-  static const auto tables = parse_schema(kTablesSchemaJson);
-  static const std::map<std::string, const valijson::Schema*> schemas = {
-      {"case", picture.get()},  {"result", picture.get()}, {"evaluation", evaluation.get()},
-      {"tuning", tuning.get()}, {"league", league.get()},  {"tables", tables.get()}};
+/// tables.json. /// Null for any other.
+const JsonSchema* schema_of_kind(const json& document) {
+  static const JsonSchema picture = parse_schema(kPictureSchemaJson);
+  static const JsonSchema evaluation = parse_schema(kSweepSchemaJson);
+  static const JsonSchema tuning = parse_schema(kTuneSchemaJson);
+  static const JsonSchema league = parse_schema(kLeagueSchemaJson);
+  static const JsonSchema tables = parse_schema(kTablesSchemaJson);
+  static const std::map<std::string, const JsonSchema*> schemas = {{"case", &picture},
+                                                                   {"result", &picture},
+                                                                   {"evaluation", &evaluation},
+                                                                   {"tuning", &tuning},
+                                                                   {"league", &league},
+                                                                   {"tables", &tables}};
   if (!document.is_object() || !document.contains("kind") || !document["kind"].is_string()) return nullptr;
   const auto found = schemas.find(document["kind"].get<std::string>());
   return found == schemas.end() ? nullptr : found->second;
@@ -118,7 +63,7 @@ std::vector<std::string> validate_lines(const std::filesystem::path& path) {
   std::vector<std::string> result;
   for (std::size_t index = 0; index < lines.lines.size(); ++index) {
     const json& line = lines.lines[index];
-    const valijson::Schema* schema = schema_of_kind(line);
+    const JsonSchema* schema = schema_of_kind(line);
     for (const std::string& fault : schema != nullptr ? faults(*schema, line) : validate_run(line)) {
       result.push_back("Record " + std::to_string(index + 1) + ": " + fault);
     }
@@ -140,19 +85,24 @@ void complete_run_description(json& document) {
 }  // namespace
 
 std::vector<std::string> validate_report(const json& report) {
-  static const std::unique_ptr<valijson::Schema> schema = parse_schema(kReportSchemaJson);
-  return faults(*schema, report);
+  static const JsonSchema schema = parse_schema(kReportSchemaJson);
+  return faults(schema, report);
+}
+
+std::vector<std::string> validate_run(const json& run) {
+  static const JsonSchema schema = parse_schema(kRunSchemaJson);
+  return faults(schema, run);
 }
 
 std::vector<std::string> validate_by_kind(const json& document) {
-  const valijson::Schema* schema = schema_of_kind(document);
+  const JsonSchema* schema = schema_of_kind(document);
   if (schema == nullptr) throw std::invalid_argument("there is no schema for this kind of document");
   return faults(*schema, document);
 }
 
 std::vector<std::string> validate_manifest(const json& manifest) {
-  static const std::unique_ptr<valijson::Schema> schema = parse_schema(kManifestSchemaJson);
-  return faults(*schema, manifest);
+  static const JsonSchema schema = parse_schema(kManifestSchemaJson);
+  return faults(schema, manifest);
 }
 
 std::vector<std::string> validate_file(const std::filesystem::path& path) {

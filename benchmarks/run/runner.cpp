@@ -579,16 +579,16 @@ void count_row(RunResult& result, record::Status status, const std::vector<std::
   ++(good ? result.accepted : result.counts[status]);
 }
 
-int exit_code(const RunResult& result) {
-  if (result.interrupted) return 130;
+ExitCode exit_code(const RunResult& result) {
+  if (result.interrupted) return kExitInterrupted;
   int measured = result.accepted;
   for (const auto& [status, count] : result.counts) {
     if (status == record::Status::kNotInstalled || status == record::Status::kUnsupported || count == 0)
       continue;
-    if (status != record::Status::kOk) return 4;
+    if (status != record::Status::kOk) return kExitFailures;
     measured += count;
   }
-  return measured > 0 ? 0 : 6;
+  return measured > 0 ? kExitOk : kExitNothing;
 }
 
 }  // namespace hullbench::run

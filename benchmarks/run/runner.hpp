@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "benchmarks/base/exit_code.hpp"
 #include "benchmarks/plan/plan.hpp"
 #include "benchmarks/record/record.hpp"
 #include "benchmarks/run/canary.hpp"
@@ -86,8 +87,8 @@ std::vector<ProgressRun> progress_runs(const plan::Plan& plan, const std::vector
 /// Counts a row with that status of a plan that accepts `accepted` (Plan::accepted).
 void count_row(RunResult& result, record::Status status, const std::vector<std::string>& accepted);
 
-/// 0: all rows are ok, accepted, not installed or unsupported; 4: a row is a failure; 6: no row is ok or
-/// accepted and none is a failure; 130: interrupted.
-int exit_code(const RunResult& result);
+/// kExitOk: all rows are ok, accepted, not installed or unsupported; kExitFailures: a row is a failure;
+/// kExitNothing: no row is ok or accepted and none is a failure; kExitInterrupted.
+ExitCode exit_code(const RunResult& result);
 
 }  // namespace hullbench::run

@@ -1,12 +1,9 @@
 // build/fit_rules: fits what stands as a number in a rule from the points, on the training side of the split,
 // and prints it beside what stands in the code. Accuracy only: nothing is timed, and the result does not
 // depend on the machine.
-//
-// Exit codes: 0 done, 1 a failure, 2 usage.
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cstdint>
-#include <exception>
 #include <iostream>
 #include <set>
 #include <string>
@@ -14,6 +11,7 @@
 
 #include "benchmarks/base/configuration_error.hpp"
 #include "benchmarks/base/cores.hpp"
+#include "benchmarks/base/exit_code.hpp"
 #include "benchmarks/base/number_format.hpp"
 #include "benchmarks/base/words.hpp"
 #include "benchmarks/plan/plan.hpp"
@@ -103,7 +101,8 @@ void print_limit(const FitTables& tables) {
       << percent(fit_score(tables.shapes, tables.core_errors)).text() << " %.\n";
 }
 
-int fit(const std::vector<std::string>& names, std::uint64_t split_seed, int seeds, std::int64_t points) {
+ExitCode fit(const std::vector<std::string>& names, std::uint64_t split_seed, int seeds,
+             std::int64_t points) {
   std::vector<plan::Plan> plans;
   for (const std::string& name : names) plans.push_back(plan::load_plan(name, HULLBENCH_PLAN_FOLDER));
   const std::vector<FitCase> cases = training_cases(plans, split_seed, seeds, points);
@@ -122,7 +121,7 @@ int fit(const std::vector<std::string>& names, std::uint64_t split_seed, int see
   for (std::size_t u = 0; u < uses.size(); ++u) print_curve(uses[u], curves[u]);
   for (const char* rule : {"auto_circumradius", "auto_edge_length"}) print_share(rule, uses, curves);
   print_limit(tables);
-  return 0;
+  return kExitOk;
 }
 
 }  // namespace
@@ -139,18 +138,12 @@ int main(int argc, char** argv) {
   app.add_option("--seeds", seeds, "Samples of each case")->check(CLI::Range(1, 1000))->capture_default_str();
   app.add_option("--points", points, "Points of each case, instead of the plans'")
       ->check(CLI::Range(3, 1000000));
+  app.footer(hullbench::kExitCodesHelp);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? 0 : 2;
+    return app.exit(error) == 0 ? hullbench::kExitOk : hullbench::kExitUsage;
   }
-  try {
-    return hullbench::tune::fit(plans, split_seed, seeds, points);
-  } catch (const hullbench::ConfigurationError& error) {
-    std::cerr << "fit_rules: " << error.what() << "\n";
-    return 2;
-  } catch (const std::exception& error) {
-    std::cerr << "fit_rules: " << error.what() << "\n";
-    return 1;
-  }
+  return hullbench::exit_code_of("fit_rules", std::cerr,
+                                 [&] { return hullbench::tune::fit(plans, split_seed, seeds, points); });
 }

@@ -169,28 +169,28 @@ json answer(Adapter& adapter, const std::string& kind, const json& request) {
 
 }  // namespace
 
-int run_worker(const AdapterEntry& entry) {
+ExitCode run_worker(const AdapterEntry& entry) {
   Channel channel;
   std::unique_ptr<Adapter> adapter;
   while (const std::optional<std::string> line = channel.read_line()) {
     const json request = json::parse(*line, nullptr, false);
     const std::string kind = request.is_object() ? request.value("request", "") : "";
-    if (kind == "quit") return 0;
+    if (kind == "quit") return kExitOk;
     if (kind == "hello") {
       const json reply = guarded([&]() -> json {
         adapter = entry.make();
         return {{"protocol", kProtocolVersion}, {"method", method_to_json(adapter->info())}};
       });
       channel.write_line(reply);
-      if (!adapter) return 1;
+      if (!adapter) return kExitError;
     } else if (!adapter || kind.empty()) {
       channel.write_line(error_reply("error", "the first request must be 'hello'"));
-      return 1;
+      return kExitError;
     } else {
       channel.write_line(guarded([&] { return answer(*adapter, kind, request); }));
     }
   }
-  return 0;
+  return kExitOk;
 }
 
 }  // namespace hullbench::worker

@@ -8,6 +8,7 @@
 #   check.sh paths                no file names a path of one machine
 #   check.sh layout               the top level is what the design allows; its folders have a README
 #   check.sh rooms                a room of benchmarks/ includes only rooms before it
+#   check.sh printing             no library prints
 #   check.sh help                 "make help" and benchmarks/README.md name every target
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/../.."
@@ -122,6 +123,14 @@ check_rooms() {
   return $status
 }
 
+# A library gets a stream or a callback from who calls it. Programs print: the command line and what has a main().
+check_printing() {
+  local found
+  found=$(sources | grep -E '^(core|datasets|adapters|benchmarks)/' | grep -v '^benchmarks/cli/' |
+    xargs grep -L '^int main(' | xargs grep -nE 'std::(cout|cerr|clog|printf|puts)\b' || true)
+  [ -z "$found" ] || { printf 'error: a library prints:\n%s\n' "$found" >&2; return 1; }
+}
+
 check_help() {
   local targets listing target status=0
   targets=$(sed -n 's/^\.PHONY: //p' Makefile)
@@ -136,9 +145,9 @@ check_help() {
 }
 
 case "${1:-}" in
-  format | python | javascript | tidy | paths | layout | rooms | help) "check_$1" "${@:2}" ;;
+  format | python | javascript | tidy | paths | layout | rooms | printing | help) "check_$1" "${@:2}" ;;
   *)
-    sed -n '2,12s/^# \{0,1\}//p' "$0" >&2
+    sed -n '2,13s/^# \{0,1\}//p' "$0" >&2
     exit 2
     ;;
 esac

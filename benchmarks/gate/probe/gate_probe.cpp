@@ -27,6 +27,7 @@
 #include <vector>
 
 #include "adapters/wkb.hpp"
+#include "benchmarks/base/exit_code.hpp"
 #include "benchmarks/gate/probe/measured_steps.hpp"
 
 namespace {
@@ -171,9 +172,9 @@ void run(const Arguments& arguments) {
 int main(int argc, char** argv) {
   try {
     run(parse({argv + 1, argv + argc}));
-    return 0;
+    return hullbench::kExitOk;
   } catch (const std::exception& error) {
     std::cerr << "gate_probe: " << error.what() << "\n";
-    return 2;
+    return hullbench::kExitUsage;
   }
 }

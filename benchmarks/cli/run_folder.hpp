@@ -1,10 +1,17 @@
-// What the harness writes when a run is over.
+// The folders of runs, as the commands read and finish them.
 #pragma once
 
 #include <filesystem>
 #include <nlohmann/json.hpp>
+#include <vector>
 
 namespace hullbench::cli {
+
+/// Throws ConfigurationError unless `folder` is one.
+void check_run_folder(const std::filesystem::path& folder);
+
+/// The reports in `folder`, that of a run or of a suite. Throws as check_run_folder().
+std::vector<nlohmann::json> reports_in(const std::filesystem::path& folder);
 
 /// The report of the run in `folder` with what a reader of report.json needs beside: the table of metrics, as
 /// metric_table_to_json gives it.

@@ -1,5 +1,6 @@
-#include "benchmarks/cli/finish_run.hpp"
+#include "benchmarks/cli/run_folder.hpp"
 
+#include "benchmarks/base/configuration_error.hpp"
 #include "benchmarks/metrics/metric_table.hpp"
 #include "benchmarks/record/stored_run.hpp"
 #include "benchmarks/report/documents.hpp"
@@ -9,6 +10,18 @@ namespace hullbench::cli {
 
 namespace fs = std::filesystem;
 using nlohmann::json;
+
+void check_run_folder(const fs::path& folder) {
+  if (!fs::is_directory(folder)) {
+    throw ConfigurationError("there is no run in " + folder.string() +
+                             "; give a run's folder, or measure one with 'hullbench run'");
+  }
+}
+
+std::vector<json> reports_in(const fs::path& folder) {
+  check_run_folder(folder);
+  return record::is_suite(folder) ? report::suite_reports(folder) : std::vector{report::make_report(folder)};
+}
 
 json report_to_share(const fs::path& folder) {
   json report = report::make_report(folder);

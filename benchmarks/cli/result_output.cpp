@@ -1,4 +1,4 @@
-#include "benchmarks/hull/result_output.hpp"
+#include "benchmarks/cli/result_output.hpp"
 
 #include <fcntl.h>
 #include <unistd.h>
@@ -10,7 +10,7 @@
 
 #include "benchmarks/base/interrupt.hpp"
 
-namespace hullbench::hull {
+namespace hullbench::cli {
 namespace {
 
 namespace fs = std::filesystem;
@@ -74,4 +74,4 @@ void write_result(const std::string& path, std::string_view bytes) {
   }
 }
 
-}  // namespace hullbench::hull
+}  // namespace hullbench::cli

@@ -4,7 +4,7 @@
 #include <string>
 #include <string_view>
 
-namespace hullbench::hull {
+namespace hullbench::cli {
 
 /// Throws std::runtime_error when no file can be written at `path`, which would otherwise be known only when
 /// the result is there. Nothing to check for an empty path, standard output.
@@ -16,4 +16,4 @@ void check_output_place(const std::string& path);
 /// Standard output: SIGPIPE must be ignored.
 void write_result(const std::string& path, std::string_view bytes);
 
-}  // namespace hullbench::hull
+}  // namespace hullbench::cli

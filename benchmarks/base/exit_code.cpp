@@ -1,0 +1,25 @@
+#include "benchmarks/base/exit_code.hpp"
+
+#include <exception>
+
+#include "benchmarks/base/configuration_error.hpp"
+#include "benchmarks/base/interrupt.hpp"
+
+namespace hullbench {
+ExitCode exit_code_of(const std::string& program, std::ostream& err, const std::function<ExitCode()>& work) {
+  const auto complain = [&](const std::string& what, ExitCode code) {
+    err << program << ": " << what << "\n";
+    return code;
+  };
+  try {
+    return work();
+  } catch (const ConfigurationError& error) {
+    return complain(error.what(), kExitUsage);
+  } catch (const Interrupted&) {
+    return complain("interrupted", kExitInterrupted);
+  } catch (const std::exception& error) {
+    return complain(error.what(), kExitError);
+  }
+}
+
+}  // namespace hullbench

@@ -1,0 +1,66 @@
+// `hullbench readme`
+#include <fstream>
+#include <iostream>
+#include <iterator>
+
+#include "benchmarks/base/configuration_error.hpp"
+#include "benchmarks/base/files.hpp"
+#include "benchmarks/cli/options.hpp"
+#include "benchmarks/cli/run_folder.hpp"
+#include "benchmarks/league/league_report.hpp"
+#include "benchmarks/report/readme.hpp"
+
+namespace hullbench::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct ReadmeCommand {
+  std::string run;
+  std::string file;
+  bool check = false;
+};
+
+std::string results_of(const std::string& run) {
+  // Named by what it is, not by a link that will point to another one some day.
+  const fs::path folder =
+      fs::is_symlink(run) ? fs::path(run).parent_path() / fs::read_symlink(run) : fs::path(run);
+  std::string results = report::readme_results(reports_in(run), folder.string());
+  if (const nlohmann::json league = league::load_league(folder); !league.is_null())
+    results += league::league_results(league, folder.string());
+  return results;
+}
+
+ExitCode readme(const ReadmeCommand& command) {
+  const auto& [run, file, check] = command;
+  std::ifstream in(file, std::ios::binary);
+  if (!in.is_open() || fs::is_directory(file)) throw ConfigurationError("there is no file " + file);
+  const std::string before(std::istreambuf_iterator<char>(in), {});
+  const std::string after = report::with_results(before, results_of(run));
+  if (before == after) {
+    std::cout << file << " agrees with " << run << "\n";
+    return kExitOk;
+  }
+  if (check) {
+    std::cerr << "hullbench: the results in " << file << " are not those of " << run << "; 'hullbench readme "
+              << run << " " << file << "' writes them anew\n";
+    return kExitError;
+  }
+  write_text_file(file, after);
+  std::cout << "wrote the results of " << run << " into " << file << "\n";
+  return kExitOk;
+}
+
+}  // namespace
+
+void add_readme(CLI::App& app, Action& action) {
+  const auto command = std::make_shared<ReadmeCommand>();
+  CLI::App& options = add_command(app, "readme", "Write a run's results into a README, between its marks",
+                                  "hullbench readme results/reference README.md --check");
+  options.add_option("RUN", command->run, "The run's folder")->required();
+  options.add_option("FILE", command->file, "The README")->required();
+  options.add_flag("--check", command->check, "Only say whether it has them; exit code 1 when not");
+  set_action(options, action, command, &readme);
+}
+
+}  // namespace hullbench::cli

@@ -1,0 +1,16 @@
+// Standard error, where people see what a long work is at.
+#pragma once
+
+#include <vector>
+
+#include "benchmarks/run/progress.hpp"
+
+namespace hullbench::cli {
+
+/// Whether its last line can be rewritten.
+bool is_terminal();
+
+/// The progress of these sections, on standard error.
+run::Progress make_progress(std::vector<run::ProgressSection> sections);
+
+}  // namespace hullbench::cli
