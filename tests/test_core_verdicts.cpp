@@ -9,29 +9,29 @@
 
 #include "benchmarks/micro/core_verdicts.hpp"
 
-namespace hullbench {
+namespace hullbench::micro {
 namespace {
 
-micro::VerdictLine line_of(const std::vector<micro::VerdictLine>& lines, const std::string& what) {
+VerdictLine line_of(const std::vector<VerdictLine>& lines, const std::string& what) {
   const auto found = std::find_if(lines.begin(), lines.end(),
-                                  [&](const micro::VerdictLine& line) { return line.what == what; });
+                                  [&](const VerdictLine& line) { return line.what == what; });
   if (found == lines.end()) throw std::invalid_argument("no goal is called " + what);
   return *found;
 }
 
-micro::VerdictLine line_of(const Measurements& measurements, const std::string& what) {
-  return line_of(micro::core_verdicts(measurements), what);
+VerdictLine line_of(const Measurements& measurements, const std::string& what) {
+  return line_of(core_verdicts(measurements), what);
 }
 
 // Every benchmark at a time a point at which every goal is met.
 Measurements all_met() {
   Measurements measurements;
-  for (const std::string& benchmark : micro::benchmarks_of_goals()) {
+  for (const std::string& benchmark : benchmarks_of_goals()) {
     double a_point = 100;
     if (benchmark.starts_with("regions/") || benchmark.starts_with("polygons/")) a_point = 5;
     if (benchmark.starts_with("concave_hull_2_threads/")) a_point = 50;
     if (benchmark.starts_with("cgal_delaunay/")) a_point = 1000;
-    measurements[benchmark] = {{a_point * micro::points_of(benchmark)}, 100.0};
+    measurements[benchmark] = {{a_point * points_of(benchmark)}, 100.0};
   }
   return measurements;
 }
@@ -39,9 +39,9 @@ Measurements all_met() {
 const std::string kAgainstCgal = "concave_hull / cgal_delaunay, ca/2000";
 
 TEST(CoreVerdicts, NothingMeasuredIsSaidOfEveryGoal) {
-  const std::vector<micro::VerdictLine> lines = micro::core_verdicts({});
+  const std::vector<VerdictLine> lines = core_verdicts({});
   ASSERT_FALSE(lines.empty());
-  for (const micro::VerdictLine& line : lines) {
+  for (const VerdictLine& line : lines) {
     EXPECT_EQ(line.verdict, Verdict::kNotMeasured) << line.what;
     EXPECT_FALSE(line.value.has_value()) << line.what;
   }
@@ -49,8 +49,8 @@ TEST(CoreVerdicts, NothingMeasuredIsSaidOfEveryGoal) {
 }
 
 TEST(CoreVerdicts, AllGoalsCanBeMet) {
-  const std::vector<micro::VerdictLine> lines = micro::core_verdicts(all_met());
-  for (const micro::VerdictLine& line : lines) {
+  const std::vector<VerdictLine> lines = core_verdicts(all_met());
+  for (const VerdictLine& line : lines) {
     EXPECT_EQ(line.verdict, line.goal.empty() ? Verdict::kInformation : Verdict::kMet) << line.what;
   }
   EXPECT_EQ(exit_code(lines), 0);
@@ -61,7 +61,7 @@ TEST(CoreVerdicts, AGoalThatSomeRepetitionsMeetIsUndecided) {
   measurements["cgal_delaunay/ca/2000"].times = {1e6, 1e6, 1e6};
   measurements["concave_hull/ca/2000"].times = {3.9e5, 4.1e5, 4.2e5};
   EXPECT_EQ(line_of(measurements, kAgainstCgal).verdict, Verdict::kUndecided);
-  EXPECT_EQ(exit_code(micro::core_verdicts(measurements)), 5);
+  EXPECT_EQ(exit_code(core_verdicts(measurements)), 5);
   measurements["concave_hull/ca/2000"].times = {3.8e5, 3.9e5, 4.2e5};
   EXPECT_EQ(line_of(measurements, kAgainstCgal).verdict, Verdict::kUndecided) << "one repetition misses it";
   measurements["concave_hull/ca/2000"].times = {3.8e5, 3.9e5, 4e5};
@@ -77,7 +77,7 @@ TEST(CoreVerdicts, AMissedGoalIsARegression) {
   Measurements measurements = all_met();
   measurements["concave_hull/ca/2000"].times = {401};
   measurements["cgal_delaunay/ca/2000"].times = {1000};
-  const std::vector<micro::VerdictLine> lines = micro::core_verdicts(measurements);
+  const std::vector<VerdictLine> lines = core_verdicts(measurements);
   EXPECT_EQ(line_of(lines, kAgainstCgal).verdict, Verdict::kMissed);
   EXPECT_EQ(exit_code(lines), 3);
 }
@@ -85,13 +85,13 @@ TEST(CoreVerdicts, AMissedGoalIsARegression) {
 TEST(CoreVerdicts, AMissedGoalWeighsMoreThanOneNotMeasured) {
   const Measurements measurements = {{"concave_hull/ca/2000", {{2}, {}}},
                                      {"cgal_delaunay/ca/2000", {{1}, {}}}};
-  EXPECT_EQ(exit_code(micro::core_verdicts(measurements)), 3);
+  EXPECT_EQ(exit_code(core_verdicts(measurements)), 3);
 }
 
 TEST(CoreVerdicts, OneGoalNotMeasuredIsNotSuccess) {
   Measurements measurements = all_met();
   measurements.erase("cgal_delaunay/ca/2000");
-  const std::vector<micro::VerdictLine> lines = micro::core_verdicts(measurements);
+  const std::vector<VerdictLine> lines = core_verdicts(measurements);
   EXPECT_EQ(line_of(lines, kAgainstCgal).verdict, Verdict::kNotMeasured);
   EXPECT_EQ(exit_code(lines), 6);
 }
@@ -127,7 +127,7 @@ TEST(CoreVerdicts, MemoryThatWasNotCountedIsNotMeasured) {
 TEST(CoreVerdicts, ValueIsOfTheMediansAndSpreadOfTheRepetitions) {
   const Measurements measurements = {{"concave_hull/ca/2000", {{3, 1, 2}, {}}},
                                      {"cgal_delaunay/ca/2000", {{10, 10, 40}, {}}}};
-  const micro::VerdictLine line = line_of(measurements, kAgainstCgal);
+  const VerdictLine line = line_of(measurements, kAgainstCgal);
   EXPECT_EQ(line.value, 2.0 / 10);
   EXPECT_EQ(line.smallest, 2.0 / 40);
   EXPECT_EQ(line.largest, 3.0 / 10);
@@ -145,7 +145,7 @@ TEST(CoreVerdicts, StepsAreAdded) {
   const Measurements measurements = {{"regions/ca/64000", {{7}, {}}},
                                      {"polygons/ca/64000", {{14}, {}}},
                                      {"concave_hull/ca/64000", {{100}, {}}}};
-  const micro::VerdictLine line = line_of(measurements, "(regions + polygons) / concave_hull, ca/64000");
+  const VerdictLine line = line_of(measurements, "(regions + polygons) / concave_hull, ca/64000");
   EXPECT_EQ(line.value, 0.21);
   EXPECT_EQ(line.verdict, Verdict::kMissed);
 }
@@ -153,7 +153,7 @@ TEST(CoreVerdicts, StepsAreAdded) {
 TEST(CoreVerdicts, DifferentSizesAreComparedByThePoint) {
   const Measurements measurements = {{"concave_hull/rgbd/101760", {{101760 * 3}, {}}},
                                      {"concave_hull/uniform/100000", {{100000 * 2}, {}}}};
-  const micro::VerdictLine line = line_of(measurements, "time a point, rgbd/101760 / uniform/100000");
+  const VerdictLine line = line_of(measurements, "time a point, rgbd/101760 / uniform/100000");
   EXPECT_EQ(line.value, 1.5);
   EXPECT_EQ(line.verdict, Verdict::kMet);
 }
@@ -164,10 +164,10 @@ TEST(CoreVerdicts, GrowthComparesTheLargestTimeAPointWithTheSmallest) {
                                      {"concave_hull/uniform/100000", {{100000 * 3}, {}}},
                                      {"concave_hull/uniform/1000000", {{1000000 * 5}, {}}},
                                      {"concave_hull/uniform/10000000", {{10000000 * 9.0}, {}}}};
-  const micro::VerdictLine spread = line_of(measurements, "growth: a point, uniform, slowest / fastest size");
+  const VerdictLine spread = line_of(measurements, "growth: a point, uniform, slowest / fastest size");
   EXPECT_EQ(spread.value, 4.5);
   EXPECT_EQ(spread.verdict, Verdict::kInformation);
-  const micro::VerdictLine ends = line_of(measurements, "n log n: a point, uniform/10000000 / uniform/1000");
+  const VerdictLine ends = line_of(measurements, "n log n: a point, uniform/10000000 / uniform/1000");
   EXPECT_EQ(ends.value, 2.25);
   EXPECT_EQ(ends.verdict, Verdict::kMet);
 }
@@ -176,11 +176,11 @@ TEST(CoreVerdicts, NoLineIsWiderThanATerminal) {
   Measurements measurements = all_met();
   for (auto& [benchmark, measured] : measurements) measured.times.push_back(measured.times.front() * 1.234);
   std::ostringstream out;
-  micro::print_measurements(measurements, out);
-  micro::print_verdicts(micro::core_verdicts(measurements), out);
+  print_measurements(measurements, out);
+  print_verdicts(core_verdicts(measurements), out);
   std::istringstream lines(out.str());
   for (std::string line; std::getline(lines, line);) EXPECT_LE(line.size(), 110U) << line;
 }
 
 }  // namespace
-}  // namespace hullbench
+}  // namespace hullbench::micro

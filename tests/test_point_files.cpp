@@ -9,7 +9,7 @@
 #include "tests/point_file_texts.hpp"
 #include "tests/temporary_folder.hpp"
 
-namespace hullbench {
+namespace hullbench::hull {
 namespace {
 
 using polylidar::Point;
@@ -373,4 +373,4 @@ TEST_F(PointFilesTest, NoBytesDoMoreThanBeRefused) {
 }
 
 }  // namespace
-}  // namespace hullbench
+}  // namespace hullbench::hull

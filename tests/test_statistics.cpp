@@ -76,7 +76,7 @@ TEST(Statistics, MeanAndStandardDeviationOfDoubles) {
 }
 
 TEST(Statistics, OneValueHasNoStandardDeviation) {
-  const statistics::Statistics one = describe(Times{7});
+  const statistics::Statistics one = statistics::describe(Times{7});
   EXPECT_EQ(one.count, 1U);
   EXPECT_EQ(one.median, 7);
   EXPECT_EQ(one.mad, 0);
@@ -87,7 +87,7 @@ TEST(Statistics, OneValueHasNoStandardDeviation) {
 }
 
 TEST(Statistics, DescribeHasAllOfThem) {
-  const statistics::Statistics all = describe(Times{3, 1, 2, 10});
+  const statistics::Statistics all = statistics::describe(Times{3, 1, 2, 10});
   EXPECT_EQ(all.count, 4U);
   EXPECT_EQ(all.median, 2.5);
   EXPECT_EQ(all.mad, 1);  // deviations 0.5 1.5 0.5 7.5
@@ -110,7 +110,7 @@ TEST(Statistics, NothingHasNoStatistic) {
   EXPECT_THROW(statistics::median_absolute_deviation(none), std::invalid_argument);
   EXPECT_THROW(statistics::mean(none), std::invalid_argument);
   EXPECT_THROW(statistics::standard_deviation(none), std::invalid_argument);
-  EXPECT_THROW(describe(none), std::invalid_argument);
+  EXPECT_THROW(statistics::describe(none), std::invalid_argument);
 }
 
 TEST(ClusteredMean, ByHand) {

@@ -140,6 +140,7 @@ Verdict verdict_of(const Goal& goal, const VerdictLine& line) {
                                          line.largest.value_or(*line.value)};
   // The limit itself meets a goal of either kind.
   if (interval.low == limit && interval.high == limit) return Verdict::kMet;
+  if ((goal.at_most ? interval.low : interval.high) == limit) return Verdict::kUndecided;
   switch (statistics::side_of(interval, limit)) {
     case statistics::Side::kBelow:
       return goal.at_most ? Verdict::kMet : Verdict::kMissed;

@@ -52,11 +52,6 @@ const JsonSchema* schema_of_kind(const json& document) {
   return found == schemas.end() ? nullptr : found->second;
 }
 
-std::vector<std::string> validate_run(const json& run) {
-  static const std::unique_ptr<valijson::Schema> schema = parse_schema(kRunSchemaJson);
-  return faults(*schema, run);
-}
-
 std::vector<std::string> validate_lines(const std::filesystem::path& path) {
   if (!std::filesystem::is_regular_file(path)) throw std::runtime_error("Cannot read " + path.string() + ".");
   const JsonLines lines = load_json_lines(path);
