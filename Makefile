@@ -143,6 +143,7 @@ reference: ## keep results/latest, if a build of HEAD measured it, as the refere
 	@$(MAKE) build
 	@$(MAKE) figures report RUN=results/latest
 	@results/keep_reference.sh results/latest
+	@build/hullbench tables results/reference --write >/dev/null
 	@build/hullbench readme results/reference README.md
 
 # The paper's methods and the fastest rivals up to 8000 points, the others at 2000.

@@ -23,7 +23,7 @@ from report_summary import (
     noise_sentence,
     span,
 )
-from report_tables import Section, sections, to_html
+from report_tables import documents, list_html, table_html, tables_beside
 
 EQUAL_WORK = (
     "Times are of equal work: from the points in memory to a valid multipolygon in memory, the same for every "
@@ -143,6 +143,10 @@ def _standing(summary: Summary, one: Standing) -> str:
 
 # Beside the paper.
 
+# Tables that stand in a section of the page with what is beside them.
+_DIFFERENCES = "differences"
+_PARAMETERS = "parameters"
+
 
 def paper_html(experiments: Sequence[Experiment], folder: Path) -> str:
     made = ""
@@ -151,19 +155,8 @@ def paper_html(experiments: Sequence[Experiment], folder: Path) -> str:
     ]
     if claims:
         made += _claims(claims)
-    for section in _tables(experiments, folder):
-        if section.title == "Beside the paper":
-            section.blocks = _until_notes(section.blocks)
-            made += to_html(section, "paper")
+    made += "".join(map(table_html, tables_beside(documents(experiments, folder), _DIFFERENCES)))
     return made or "<p>The records compare nothing with the paper.</p>"
-
-
-def _until_notes(blocks: list[tuple[str, list[str]]]) -> list[tuple[str, list[str]]]:
-    """Without the notes at the end, which stand in the page's own section."""
-    for index, block in enumerate(blocks):
-        if block == ("heading", ["Notes"]):
-            return blocks[:index]
-    return blocks
 
 
 def _claims(claims: Sequence[tuple[Experiment, dict[str, Any]]]) -> str:
@@ -207,55 +200,28 @@ def _claim(experiment: Experiment, claim: dict[str, Any]) -> str:
 
 
 def tables_html(experiments: Sequence[Experiment], folder: Path) -> str:
-    """Every table of tables.md, an experiment behind its own heading; empty without the file."""
-    made = ""
-    for index, section in enumerate(_tables(experiments, folder)):
-        if section.title == "Beside the paper":
-            continue
-        made += f"<details><summary>{text(section.title)}</summary>{to_html(section, f'tables-{index}')}</details>"
-    return made
+    """Every table that no other section has, an experiment behind its own heading; empty without any."""
+    return "".join(
+        f"<details><summary>{text(document['title'])}</summary>"
+        f"{''.join(map(table_html, document['tables']))}{_notes(document['notes'])}</details>"
+        for document in documents(experiments, folder)
+        if not {_DIFFERENCES, _PARAMETERS} & {table["id"] for table in document["tables"]}
+    )
 
 
-def _tables(experiments: Sequence[Experiment], folder: Path) -> list[Section]:
-    path = folder / "tables.md"
-    if path.is_file():
-        return sections(path.read_text(encoding="utf-8", errors="replace"))
-    return [
-        section
-        for experiment in experiments
-        if (experiment.folder / "tables.md").is_file()
-        for section in sections((experiment.folder / "tables.md").read_text(encoding="utf-8", errors="replace"))
-    ]
+def _notes(notes: Sequence[str]) -> str:
+    return f"<h3>Notes</h3>{list_html(notes)}" if notes else ""
 
 
 # Parameters.
 
 
-def parameters_html(experiments: Sequence[Experiment]) -> str:
-    used: dict[tuple[Entrant, str], dict[str, str]] = {}
-    for experiment in experiments:
-        for entry in experiment.plan.get("methods", []):
-            entrant = Entrant(entry.get("method", ""), entry.get("protocol", ""))
-            for name, value in entry.get("parameters", {}).items() or {"": ""}.items():
-                said = parameter_value(value, experiment.report.get("rules", {}))
-                before = used.setdefault((entrant, name), {}).get(experiment.name)
-                used[entrant, name][experiment.name] = f"{before}; {said}" if before else said
-    head = "".join(f"<th scope='col'>{text(one.title)}</th>" for one in experiments)
-    rows = ""
-    for (entrant, name), values in sorted(used.items()):
-        cells = "".join(f"<td>{text(values.get(one.name, ''))}</td>" for one in experiments)
-        rows += (
-            f"<tr><th scope='row'>{text(label(experiments, entrant))}</th>"
-            f"<td>{text(name) or '<i>none given</i>'}</td>{cells}</tr>"
-        )
+def parameters_html(experiments: Sequence[Experiment], folder: Path) -> str:
     protocols = sorted({entrant.protocol for one in experiments for entrant in entrants_of(one)})
     said = "".join(f"<div><dt>{text(one)}</dt><dd>{text(PROTOCOLS.get(one, ''))}</dd></div>" for one in protocols)
     return (
-        f"<h3>Who chose them</h3><dl>{said}</dl><div class='scroll' tabindex='0' role='region' "
-        "aria-label='Parameters'><table id='parameters'><thead><tr><th scope='col'>Method</th><th scope='col'>"
-        f"Parameter</th>{head}</tr></thead><tbody>{rows}</tbody></table></div>"
-        "<p class='muted'>A is the area of the ground truth, n the number of points, A_hull the area of a convex "
-        "hull, P the perimeter that the core chooses from the points. An empty cell: not in that experiment.</p>"
+        f"<h3>Who chose them</h3><dl>{said}</dl>"
+        + "".join(map(table_html, tables_beside(documents(experiments, folder), _PARAMETERS)))
         + _described(experiments) + _plans(experiments)
     )
 

@@ -1,100 +1,64 @@
-"""Turns the tables.md of a run into HTML: headings, tables, lists and paragraphs, which is all that it has."""
+"""The tables of a run or suite, which the program left as values (results/tables.schema.json), as HTML."""
 
 from __future__ import annotations
 
-import re
-from dataclasses import dataclass
+import json
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Any
 
+from records import Experiment, RecordError
 from report_common import text
 
-_RULE = re.compile(r"^\|[\s:|-]+\|$")
-_REFERENCE = re.compile(r"\[(\d+)\]")
+
+def documents(experiments: Sequence[Experiment], folder: Path) -> list[dict[str, Any]]:
+    """Tables under a title each, with notes: those of the suite in `folder`, or else of each run."""
+    return _read(folder) or [document for experiment in experiments for document in _read(experiment.folder)]
 
 
-@dataclass
-class Section:
-    """What stands under one heading of the second level."""
-
-    title: str
-    blocks: list[tuple[str, list[str]]]  # (kind, lines); kind: heading, table, list or paragraph
-
-
-def sections(markdown: str) -> list[Section]:
-    """In the file's order. Text before the first such heading is left out: the file has none."""
-    found: list[Section] = []
-    for line in markdown.splitlines():
-        if line.startswith("## "):
-            found.append(Section(line[3:].strip(), []))
-        elif found:
-            _take(found[-1].blocks, line)
-    for section in found:
-        section.blocks = [(kind, lines) for kind, lines in section.blocks if kind != "gap"]
-    return found
+def _read(folder: Path) -> list[dict[str, Any]]:
+    path = folder / "tables" / "tables.json"
+    try:
+        return json.loads(path.read_text(encoding="utf-8"))["documents"] if path.is_file() else []
+    except (OSError, ValueError, KeyError, TypeError) as error:
+        raise RecordError(
+            f"{path} cannot be read ({error}); 'hullbench tables {folder} --write' makes it anew."
+        ) from error
 
 
-def _take(blocks: list[tuple[str, list[str]]], line: str) -> None:
-    last = blocks[-1] if blocks else ("gap", [])
-    if not line.strip():
-        blocks.append(("gap", []))
-    elif line.startswith("### "):
-        blocks.append(("heading", [line[4:].strip()]))
-    elif line.startswith("|"):
-        if last[0] != "table":
-            blocks.append(("table", []))
-        blocks[-1][1].append(line)
-    elif line.startswith("- "):
-        if last[0] != "list":
-            blocks.append(("list", []))
-        blocks[-1][1].append(line[2:].strip())
-    elif last[0] in ("list", "paragraph"):
-        last[1][-1] += " " + line.strip()
-    else:
-        blocks.append(("paragraph", [line.strip()]))
+def tables_beside(found: Sequence[dict[str, Any]], identity: str) -> list[dict[str, Any]]:
+    """The tables under the same title as the one with this id; none when there is none."""
+    return [
+        table
+        for document in found
+        if any(one["id"] == identity for one in document["tables"])
+        for table in document["tables"]
+    ]
 
 
-def to_html(section: Section, identity: str) -> str:
-    """The blocks of a section. References such as [3] in its tables lead to the notes that begin so."""
-    made, part = [], 0
-    for kind, lines in section.blocks:
-        if kind == "heading":
-            part += 1
-            made.append(f"<h3>{text(lines[0])}</h3>")
-        elif kind == "table":
-            made.append(_table(lines, f"{identity}-{part}"))
-        elif kind == "list":
-            # The notes of an experiment stand under a heading of their own and belong to all its tables.
-            made.append("<ul class='notes'>" + "".join(f"<li>{text(line)}</li>" for line in lines) + "</ul>")
-        else:
-            made.append("".join(f"<p>{text(line)}</p>" for line in lines))
-    return "\n".join(made)
+def list_html(sentences: Sequence[str]) -> str:
+    return "<ul class='notes'>" + "".join(f"<li>{text(one)}</li>" for one in sentences) + "</ul>" if sentences else ""
 
 
-def _cells(line: str) -> list[str]:
-    return [cell.replace("\\|", "|").strip() for cell in re.split(r"(?<!\\)\|", line.strip())[1:-1]]
-
-
-def _table(lines: list[str], identity: str) -> str:
-    rule = next((line for line in lines if _RULE.match(line)), "")
-    right = [cell.endswith(":") for cell in _cells(rule)]
-    rows = [_cells(line) for line in lines if line != rule]
-    head = rows[0] if rows else []
-
-    def cell(tag: str, column: int, content: str, more: str = "") -> str:
-        side = " class='number'" if column < len(right) and right[column] else ""
-        marked = _REFERENCE.sub(r"<sup>[\1]</sup>", text(content))
-        return f"<{tag}{side}{more}>{marked}</{tag}>"
-
-    top = "".join(cell("th", column, content, " scope='col'") for column, content in enumerate(head))
-    body = "".join(
-        "<tr>"
-        + "".join(
-            cell("th" if column == 0 else "td", column, content, " scope='row'" if column == 0 else "")
-            for column, content in enumerate(row)
-        )
-        + "</tr>"
-        for row in rows[1:]
+def table_html(table: dict[str, Any]) -> str:
+    """With its caption above it and its remarks below it."""
+    sides = [" class='number'" if column["kind"] == "number" else "" for column in table["columns"]]
+    head = "".join(
+        f"<th{side} scope='col'>{text(column['title'])}</th>" for side, column in zip(sides, table["columns"])
     )
+    body = "".join(f"<tr>{_row(sides, row)}</tr>" for row in table["rows"])
     return (
-        f"<div class='scroll' tabindex='0' role='region' aria-label='Table' id='{text(identity)}'>"
-        f"<table><thead><tr>{top}</tr></thead><tbody>{body}</tbody></table></div>"
+        f"<h3>{text(table['caption'])}</h3>"
+        f"<div class='scroll' tabindex='0' role='region' aria-label='Table' id='table-{text(table['id'])}'>"
+        f"<table><thead><tr>{head}</tr></thead><tbody>{body}</tbody></table></div>{list_html(table['remarks'])}"
+    )
+
+
+def _row(sides: Sequence[str], cells: Sequence[dict[str, Any]]) -> str:
+    shown = [
+        " ".join([text(cell["text"]), *(f"<sup>[{int(note)}]</sup>" for note in cell.get("notes", []))]).strip()
+        for cell in cells
+    ]
+    return f"<th{sides[0]} scope='row'>{shown[0]}</th>" + "".join(
+        f"<td{side}>{one}</td>" for side, one in zip(sides[1:], shown[1:])
     )

@@ -76,7 +76,7 @@ add_test(NAME reference.is_of_this_revision
   COMMAND "${CMAKE_CURRENT_LIST_DIR}/check_reference.sh" "${PROJECT_SOURCE_DIR}")
 set_tests_properties(reference.is_of_this_revision PROPERTIES SKIP_RETURN_CODE 77)
 hullbench_test(test_reference SOURCES test_reference.cpp
-  LIBRARIES hullbench::run hullbench::report hullbench_test_program LABELS harness)
+  LIBRARIES hullbench::league hullbench::report hullbench_test_program LABELS harness)
 target_compile_definitions(test_reference PRIVATE HULLBENCH_SOURCE_DIRECTORY="${PROJECT_SOURCE_DIR}")
 add_test(NAME readme.has_the_reference_run
   COMMAND hullbench readme --check results/reference README.md

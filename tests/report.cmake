@@ -3,7 +3,7 @@ add_library(hullbench_invented_run STATIC "${CMAKE_CURRENT_LIST_DIR}/invented_ru
 target_include_directories(hullbench_invented_run PUBLIC "${CMAKE_CURRENT_LIST_DIR}")
 target_link_libraries(hullbench_invented_run PUBLIC hullbench::report PRIVATE hullbench::compile_options)
 
-foreach(part IN ITEMS record statistics bootstrap rank_test noise report tables collection_tables class_tables overview_tables
+foreach(part IN ITEMS record statistics bootstrap rank_test judge noise report tables collection_tables class_tables overview_tables
                       curve_table paper_comparison)
   hullbench_test(test_${part}
     SOURCES "${CMAKE_CURRENT_LIST_DIR}/test_${part}.cpp"

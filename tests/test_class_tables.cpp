@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "benchmarks/report/tables.hpp"
-#include "benchmarks/table/text_table.hpp"
+#include "benchmarks/table/writers.hpp"
 #include "invented_shapes.hpp"
 
 namespace hullbench {
@@ -31,40 +31,39 @@ std::vector<InventedShape> members_of(const std::string& family, std::int64_t co
   return shapes;
 }
 
-const table::TableSection* section_of(const table::Document& document, const std::string& id) {
-  for (const table::TableSection& section : document.tables) {
-    if (section.id == id) return &section;
+const table::Table* section_of(const table::Document& document, const std::string& id) {
+  for (const table::Table& table : document.tables) {
+    if (table.id == id) return &table;
   }
   return nullptr;
 }
 
-/// The rows of a group and a method, without the marks of their notes.
-std::vector<Row> rows_of(const table::TableSection& section, const std::string& group,
-                         const std::string& method) {
+/// What the rows of a group and a method show.
+std::vector<Row> rows_of(const table::Table& section, const std::string& group, const std::string& method) {
   std::vector<Row> found;
-  for (const Row& row : section.table.rows()) {
-    if (row[0] == group && table::without_marks(row[1]) == method) found.push_back(row);
+  const std::vector<Row> shown = table::shown(section);
+  for (std::size_t row = 0; row < section.rows.size(); ++row) {
+    if (shown[row + 1][0] == group && section.rows[row][1].text() == method) found.push_back(shown[row + 1]);
   }
   return found;
 }
 
 /// The only one of them.
-Row row_of(const table::TableSection& section, const std::string& group, const std::string& method) {
+Row row_of(const table::Table& section, const std::string& group, const std::string& method) {
   const std::vector<Row> found = rows_of(section, group, method);
   if (found.size() == 1) return found.front();
   ADD_FAILURE() << found.size() << " rows of " << group << " and " << method;
-  return Row(section.table.rows().front().size());
+  return Row(section.columns.size());
 }
 
-bool has_remark(const table::TableSection& section, const std::string& part) {
+bool has_remark(const table::Table& section, const std::string& part) {
   return std::any_of(section.remarks.begin(), section.remarks.end(),
                      [&](const std::string& remark) { return remark.find(part) != std::string::npos; });
 }
 
-bool has_row_of_the_paper(const table::TableSection& section) {
-  const auto& rows = section.table.rows();
-  return std::any_of(rows.begin(), rows.end(),
-                     [](const Row& row) { return row[1].ends_with(", in the paper"); });
+bool has_row_of_the_paper(const table::Table& section) {
+  return std::any_of(section.rows.begin(), section.rows.end(),
+                     [](const auto& row) { return row[1].text().ends_with(", in the paper"); });
 }
 
 constexpr const char* kHigh = "high (from 0.75)";
@@ -81,9 +80,9 @@ TEST(ClassTables, AreForMoreThanSixtyShapes) {
   EXPECT_FALSE(section_of(with(60), kByConvexity));
   const table::Document document = with(61);
   EXPECT_FALSE(section_of(document, "invented_shapes"));
-  const table::TableSection* section = section_of(document, kByConvexity);
+  const table::Table* section = section_of(document, kByConvexity);
   ASSERT_TRUE(section);
-  EXPECT_EQ(section->table.rows().front(),
+  EXPECT_EQ(table::shown(*section).front(),
             (Row{"Convexity", "Method", "Shapes", "Failed", "Invalid", "L2 mean, %", "std", "max",
                  "Time mean, ms", "std", "max", "Equal work mean, ms"}));
   // 1 to 61: mean 31, variance 61 * 62 / 12.
@@ -97,7 +96,7 @@ TEST(ClassTables, AreForMoreThanSixtyShapes) {
 TEST(ClassTables, HaveThePapersRowsBeneathOursOfStarPolygonsAtItsSize) {
   const table::Document document =
       report::make_document(test::report_on_shapes(members_of("star", 61, 8000, {0.8, 0.6, 0.5})));
-  const table::TableSection* section = section_of(document, kByConvexity);
+  const table::Table* section = section_of(document, kByConvexity);
   ASSERT_TRUE(section);
   EXPECT_EQ(rows_of(*section, kHigh, "Polylidar, in the paper"),
             (std::vector<Row>{{kHigh, "Polylidar, in the paper", "–", "–", "–", "4.4", "0.5", "6.1", "4.6",
@@ -113,7 +112,7 @@ TEST(ClassTables, HaveNoRowsOfThePaperAtOtherSizesAndOfOtherShapes) {
     const table::Document document =
         report::make_document(test::report_on_shapes(members_of(family, 61, n, {0.8, 0.5})));
     EXPECT_FALSE(section_of(document, kByConvexity));
-    const table::TableSection* section = section_of(document, kByConvexityOthers);
+    const table::Table* section = section_of(document, kByConvexityOthers);
     ASSERT_TRUE(section) << family;
     EXPECT_FALSE(has_row_of_the_paper(*section));
     EXPECT_FALSE(has_remark(*section, "The paper's values"));
@@ -126,7 +125,7 @@ TEST(ClassTables, AShapeOnABorderIsInTheHigherClass) {
   shapes.push_back({"star-63", 8000, std::nextafter(0.75, 0), 1, 0.01});
   shapes.push_back({"star-64", 8000, std::nextafter(0.55, 0), 1, 0.01});
   const table::Document document = report::make_document(test::report_on_shapes(shapes));
-  const table::TableSection* section = section_of(document, kByConvexity);
+  const table::Table* section = section_of(document, kByConvexity);
   ASSERT_TRUE(section);
   EXPECT_EQ(row_of(*section, kHigh, "Polylidar (paper)")[2], "31");
   EXPECT_EQ(row_of(*section, kMid, "Polylidar (paper)")[2], "32");
@@ -140,7 +139,7 @@ TEST(ClassTables, AnInvalidResultIsCountedAndNotInTheStatistics) {
   run["detail"] = "the result is an invalid polygon: Self-intersection";
   run["metrics"]["valid"] = false;
   const table::Document document = report::make_document(report);
-  const table::TableSection* section = section_of(document, kByConvexity);
+  const table::Table* section = section_of(document, kByConvexity);
   ASSERT_TRUE(section);
   const Row row = row_of(*section, kHigh, "Polylidar (paper)");
   EXPECT_EQ(Row(row.begin() + 1, row.begin() + 8),
@@ -156,7 +155,7 @@ TEST(ClassTables, AFailureIsMarkedAndNotInTheStatistics) {
   run["status"] = "timeout";
   run["detail"] = "no answer within 120 s";
   const table::Document document = report::make_document(report);
-  const table::TableSection* section = section_of(document, kByConvexity);
+  const table::Table* section = section_of(document, kByConvexity);
   ASSERT_TRUE(section);
   const Row row = row_of(*section, kHigh, "SpatiaLite (paper)");
   EXPECT_EQ(Row(row.begin() + 1, row.begin() + 6), (Row{"SpatiaLite (paper) [1]", "60", "1", "0", "30.5"}));
@@ -181,12 +180,12 @@ TEST(ClassTables, OtherFamiliesStandApartAndByKind) {
   }
   const table::Document document = report::make_document(report);
   EXPECT_EQ(row_of(*section_of(document, kByConvexity), kHigh, "Polylidar (paper)")[2], "61");
-  const table::TableSection* others = section_of(document, kByConvexityOthers);
+  const table::Table* others = section_of(document, kByConvexityOthers);
   ASSERT_TRUE(others);
   EXPECT_TRUE(others->caption.starts_with("6 shapes (comb and spiral), n = 8000, by convexity"))
       << others->caption;
   EXPECT_EQ(row_of(*others, kLow, "Polylidar (paper)")[2], "6");
-  const table::TableSection* kinds = section_of(document, "invented_kinds");
+  const table::Table* kinds = section_of(document, "invented_kinds");
   ASSERT_TRUE(kinds);
   EXPECT_EQ(row_of(*kinds, "Comb", "Polylidar (paper)")[2], "3");
   EXPECT_EQ(row_of(*kinds, "Spiral", "Polylidar (paper)")[2], "3");
@@ -208,7 +207,7 @@ TEST(ClassTables, ShapesWithPointsOfTheirOwnHaveThemOnAverage) {
   const json report = test::report_on_shapes(
       {{"floor-1", 80000, 0.5, 1, 0.01}, {"floor-2", 90000, 0.5, 2, 0.02}, {"floor-3", 90001, 0.5, 3, 0.03}});
   const table::Document document = report::make_document(report);
-  const table::TableSection* section = section_of(document, "invented_summary");
+  const table::Table* section = section_of(document, "invented_summary");
   ASSERT_TRUE(section);
   EXPECT_TRUE(section->caption.starts_with("3 shapes, 86667 points on average: ")) << section->caption;
 }

@@ -10,6 +10,7 @@
 
 #include "benchmarks/report/report.hpp"
 #include "benchmarks/report/tables.hpp"
+#include "benchmarks/table/writers.hpp"
 #include "invented_run.hpp"
 #include "temporary_folder.hpp"
 

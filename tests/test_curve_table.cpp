@@ -7,6 +7,7 @@
 
 #include "benchmarks/report/curve_table.hpp"
 #include "benchmarks/report/tables.hpp"
+#include "benchmarks/table/writers.hpp"
 #include "invented_shapes.hpp"
 
 namespace hullbench {
@@ -36,16 +37,16 @@ json noisy_report() {
   return report;
 }
 
-table::TableSection table_of(const json& report) {
+table::Table table_of(const json& report) {
   const table::Document document = report::make_document(report);
   EXPECT_EQ(document.tables.size(), 1U);
   return document.tables.at(0);
 }
 
 TEST(CurveTable, HasAColumnALevelAndAMedianACell) {
-  const table::TableSection section = table_of(noisy_report());
-  EXPECT_TRUE(section.id.ends_with("_curves"));
-  const Cells& rows = section.table.rows();
+  const table::Table table = table_of(noisy_report());
+  EXPECT_TRUE(table.id.ends_with("_curves"));
+  const Cells rows = table::shown(table);
   EXPECT_EQ(rows.at(0), (std::vector<std::string>{"Noise, h", "0", "0.5", "2", "Failed"}));
   EXPECT_EQ(rows.at(1), (std::vector<std::string>{"Polylidar (paper)", "20.0", "25.0", "40.0", "0"}));
 }
@@ -55,7 +56,7 @@ TEST(CurveTable, AFailureIsInfinitelyBad) {
   json& run = test::run_on(report, "polylidar", "hi~noise:2");
   run["status"] = "crash";
   run["detail"] = "SIGSEGV";
-  const std::vector<std::string> cells = table_of(report).table.rows().at(1);
+  const std::vector<std::string> cells = table::shown(table_of(report)).at(1);
   EXPECT_EQ((std::vector<std::string>(cells.begin() + 1, cells.end())),
             (std::vector<std::string>{"20.0", "25.0", "∞", "1"}));
   EXPECT_EQ(cells[0], "Polylidar (paper) [1]");
@@ -66,13 +67,13 @@ TEST(CurveTable, AFailureIsInfinitelyBad) {
 TEST(CurveTable, AnAxisOfPointsOrOfWords) {
   json report = noisy_report();
   report["plan"]["axis"] = {{"of", "n"}, {"title", "Points"}, {"unit", ""}};
-  EXPECT_EQ(table_of(report).table.rows().at(0), (std::vector<std::string>{"Points", "2000", "Failed"}));
+  EXPECT_EQ(table::shown(table_of(report)).at(0), (std::vector<std::string>{"Points", "2000", "Failed"}));
   report["plan"]["axis"]["of"] = "sampling";
   test::run_on(report, "polylidar", "hi~noise:2")["dataset"] = "hi";
-  EXPECT_EQ(table_of(report).table.rows().at(0),
+  EXPECT_EQ(table::shown(table_of(report)).at(0),
             (std::vector<std::string>{"Points", "noise 2", "noise 0", "noise 0.5", "uniform", "Failed"}));
   report["plan"]["axis"]["of"] = "gap";
-  EXPECT_EQ(table_of(report).table.rows().at(0), (std::vector<std::string>{"Points", "Failed"}));
+  EXPECT_EQ(table::shown(table_of(report)).at(0), (std::vector<std::string>{"Points", "Failed"}));
 }
 
 }  // namespace

@@ -35,7 +35,6 @@ from report_summary import (
     measure_noise,
     summarise,
 )
-from report_tables import sections, to_html
 
 EVIL = "</script><script>window.broken=1</script><img src=x onerror='window.broken=1'> {{library}} <!-- & \"quoted\""
 
@@ -171,6 +170,18 @@ def report(rows, name="states", **more):
     }
 
 
+def document(title, identity, notes=()):
+    """One of tables.json, with a table."""
+    table = {
+        "id": identity,
+        "caption": f"Caption of {identity}",
+        "columns": [{"title": "Method", "kind": "words"}, {"title": "t, ms", "kind": "number", "unit": "ms"}],
+        "rows": [[{"text": "CGAL", "notes": [1, 2]}, {"text": "1.36 ±0.01", "value": 1.36, "spread": 0.01}]],
+        "remarks": ["A remark."],
+    }
+    return {"title": title, "tables": [table], "notes": list(notes)}
+
+
 class Folder(unittest.TestCase):
     """A test with a folder for a run."""
 
@@ -187,6 +198,11 @@ class Folder(unittest.TestCase):
     def load(self, *rows, **more):
         (self.folder / "report.json").write_text(json.dumps(report(list(rows), **more)), encoding="utf-8")
         return load(self.folder)
+
+    def write_tables(self, *documents):
+        (self.folder / "tables").mkdir()
+        tables = {"kind": "tables", "schema_version": 1, "documents": documents}
+        (self.folder / "tables" / "tables.json").write_text(json.dumps(tables), encoding="utf-8")
 
     def summary(self, *rows):
         return summarise(self.load(*rows)[0])
@@ -595,9 +611,9 @@ class Page(Folder):
             }
         ]
         (self.folder / "report.json").write_text(json.dumps(evil), encoding="utf-8")
-        (self.folder / "tables.md").write_text(
-            f"## {EVIL}\n\n### {EVIL}\n\n| {EVIL} |\n|---|\n| {EVIL} |\n\n- {EVIL}\n", encoding="utf-8"
-        )
+        tables = document(EVIL, EVIL, [EVIL])
+        tables["tables"][0].update(columns=[{"title": EVIL, "kind": "words"}], rows=[[{"text": EVIL}]], remarks=[EVIL])
+        self.write_tables(tables)
         seen = Elements(make_report.make_page(load(self.folder), self.folder))
         calm = Elements(self.page(run()))
         self.assertEqual([identity for identity, _ in seen.scripts], [identity for identity, _ in calm.scripts])
@@ -632,14 +648,32 @@ class Page(Folder):
         self.assertRegex(json.loads(told["report"])["methods"]["brand_new"]["light"], "^#")
 
     def test_tables_become_html(self):
-        (section,) = sections(
-            "## One\n\n### Two\n\n| A | B [1] |\n|---|--:|\n| x \\| y | 3 |\n\n- [1] a note\n  that goes on\n"
+        self.write_tables(document("States", "states_time", ["[1] a note"]))
+        made = self.page(run())
+        self.assertIn("<details><summary>States</summary><h3>Caption of states_time</h3>", made)
+        self.assertIn("<th scope='col'>Method</th><th class='number' scope='col'>t, ms</th>", made)
+        self.assertIn(
+            "<tr><th scope='row'>CGAL <sup>[1]</sup> <sup>[2]</sup></th><td class='number'>1.36 ±0.01</td></tr>", made
         )
-        made = to_html(section, "t")
-        self.assertIn("<h3>Two</h3>", made)
-        self.assertIn("<th class='number' scope='col'>B <sup>[1]</sup></th>", made)
-        self.assertIn("<th scope='row'>x | y</th><td class='number'>3</td>", made)
-        self.assertIn("<li>[1] a note that goes on</li>", made)
+        self.assertIn("<ul class='notes'><li>A remark.</li></ul>", made)
+        self.assertIn("<h3>Notes</h3><ul class='notes'><li>[1] a note</li></ul>", made)
+
+    def test_what_differs_from_the_paper_stands_beside_its_claims(self):
+        self.write_tables(document("States", "states_time"), document("Beside the paper", "differences", ["Common."]))
+        made = self.page(run())
+        self.assertEqual(made.count("Caption of differences"), 1)
+        self.assertLess(made.index("Caption of differences"), made.index("Caption of states_time"))
+        self.assertNotIn("<li>Common.</li>", made)
+
+    def test_the_tables_of_parameters_stand_in_their_section(self):
+        self.write_tables(document("Methods and parameters", "parameters"))
+        made = self.page(run())
+        self.assertEqual(made.count("Caption of parameters"), 1)
+        self.assertLess(made.index("Who chose them"), made.index("Caption of parameters"))
+        self.assertLess(made.index("Caption of parameters"), made.index("What the parameters mean"))
+
+    def test_a_run_without_tables_says_so(self):
+        self.assertIn("The run has no tables/tables.json.", self.page(run()))
 
 
 class TheProgram(Folder):
@@ -665,6 +699,10 @@ class TheProgram(Folder):
     def test_broken_records_are_refused(self):
         (self.folder / "report.json").write_text('{"runs": [', encoding="utf-8")
         self.assertIn("cannot be read as JSON", self.refused(self.folder))
+        self.load(run())
+        self.write_tables()
+        (self.folder / "tables" / "tables.json").write_text("[]", encoding="utf-8")
+        self.assertIn("'hullbench tables", self.refused(self.folder))
         for part, value in (("seed", 1), ("plan", []), ("summary", {"rows": [{}]}), ("environment", {"cpu": 3})):
             broken = report([run()], **{part: value})
             if part == "seed":

@@ -15,6 +15,7 @@
 #include "benchmarks/report/readme.hpp"
 #include "benchmarks/report/report.hpp"
 #include "benchmarks/report/tables.hpp"
+#include "benchmarks/table/writers.hpp"
 #include "invented_shapes.hpp"
 
 namespace hullbench {
@@ -49,8 +50,8 @@ using TableRows = std::vector<std::vector<std::string>>;
 
 /// The rows of a table of the invented plan, the header first.
 TableRows rows_of(const table::Document& document, const std::string& id) {
-  for (const table::TableSection& section : document.tables) {
-    if (section.id == "invented_" + id) return section.table.rows();
+  for (const table::Table& table : document.tables) {
+    if (table.id == "invented_" + id) return table::shown(table);
   }
   ADD_FAILURE() << "no table " << id;
   return {{}};
@@ -64,11 +65,11 @@ std::string text_of(const json& report) {
 
 /// Everything of a document that could hold a time: no word of one may stand there.
 void expect_no_times(const table::Document& document) {
-  for (const table::TableSection& section : document.tables) {
-    const std::string csv = table::to_csv(section.table);
+  for (const table::Table& table : document.tables) {
+    const std::string csv = table::to_csv(table);
     for (const char* word : {" ms", "±", "Time", "time of", "time as", "Equal work"}) {
-      EXPECT_EQ(csv.find(word), std::string::npos) << section.id << ": " << word << "\n" << csv;
-      EXPECT_EQ(section.caption.find(word), std::string::npos) << section.id << ": " << section.caption;
+      EXPECT_EQ(csv.find(word), std::string::npos) << table.id << ": " << word << "\n" << csv;
+      EXPECT_EQ(table.caption.find(word), std::string::npos) << table.id << ": " << table.caption;
     }
   }
 }
@@ -183,10 +184,10 @@ TEST(Machines, OfSeveralReportsDoNotShareOneTable) {
   const json one = test::report_on_shapes({{"letter_a", 2000, 0.5, 2, 0.1}, {"letter_z", 2000, 0.5, 4, 0.2}});
   json other = one;
   other["environment"]["machine_id"] = "ba5eba11";
-  const std::size_t rows = report::differences_table({one}).table.rows().size();
-  EXPECT_EQ(report::differences_table({one, one}).table.rows().size(), 2 * rows - 1);
-  const table::TableSection mixed = report::differences_table({one, other});
-  EXPECT_EQ(mixed.table.rows().size(), rows);
+  const std::size_t rows = report::differences_table({one}).rows.size();
+  EXPECT_EQ(report::differences_table({one, one}).rows.size(), 2 * rows);
+  const table::Table mixed = report::differences_table({one, other});
+  EXPECT_EQ(mixed.rows.size(), rows);
   EXPECT_NE(mixed.remarks.front().find(kSentence), std::string::npos);
 }
 

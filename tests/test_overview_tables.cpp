@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "benchmarks/report/overview_tables.hpp"
+#include "benchmarks/table/writers.hpp"
 #include "invented_shapes.hpp"
 
 namespace hullbench {
@@ -15,16 +16,16 @@ using nlohmann::json;
 using Row = std::vector<std::string>;
 
 /// The row that begins with these cells; empty, and a failure, when there is none.
-Row row_of(const table::TextTable& table, const Row& begin) {
-  for (const Row& row : table.rows()) {
+Row row_of(const table::Table& table, const Row& begin) {
+  for (const Row& row : table::shown(table)) {
     if (Row(row.begin(), row.begin() + static_cast<Row::difference_type>(begin.size())) == begin) return row;
   }
   ADD_FAILURE() << "no row of " << begin.front();
   return {};
 }
 
-bool has_row(const table::TextTable& table, const std::string& begin) {
-  for (const Row& row : table.rows()) {
+bool has_row(const table::Table& table, const std::string& begin) {
+  for (const Row& row : table::shown(table)) {
     if (row.front() == begin) return true;
   }
   return false;
@@ -39,16 +40,16 @@ json* method_in(json& report, const std::string& name) {
 
 TEST(MethodsTable, SaysWhatTheAdaptersSay) {
   json report = test::invented_report({2000});
-  EXPECT_EQ(report::methods_table({report}).table.rows().front(),
+  EXPECT_EQ(table::shown(report::methods_table({report})).front(),
             (Row{"Method", "The library returns", "Holes", "Several polygons", "Version", "Licence"}));
-  EXPECT_EQ(row_of(report::methods_table({report}).table, {"Polylidar"}),
+  EXPECT_EQ(row_of(report::methods_table({report}), {"Polylidar"}),
             (Row{"Polylidar", "polygons", "yes", "yes", "1.0", "MIT"}));
   (*method_in(report, "polylidar"))["capabilities"]["holes"] = false;
-  EXPECT_EQ(row_of(report::methods_table({report}).table, {"Polylidar"}),
+  EXPECT_EQ(row_of(report::methods_table({report}), {"Polylidar"}),
             (Row{"Polylidar", "polygons", "no", "yes", "1.0", "MIT"}));
   (*method_in(report, "polylidar"))["capabilities"]["several_polygons"] = false;
   (*method_in(report, "polylidar"))["native_output"] = "triangles";
-  EXPECT_EQ(row_of(report::methods_table({report}).table, {"Polylidar"}),
+  EXPECT_EQ(row_of(report::methods_table({report}), {"Polylidar"}),
             (Row{"Polylidar", "triangles", "no", "no", "1.0", "MIT"}));
 }
 
@@ -57,18 +58,18 @@ TEST(MethodsTable, OfAMethodThatNeverStartedHasDashes) {
   json& missing = *method_in(report, "postgis_legacy");
   for (const char* key : {"native_output", "licence"}) missing[key] = "";
   missing["capabilities"] = json::object();
-  EXPECT_EQ(row_of(report::methods_table({report}).table, {"PostGIS 2.5"}),
+  EXPECT_EQ(row_of(report::methods_table({report}), {"PostGIS 2.5"}),
             (Row{"PostGIS 2.5", "–", "–", "–", "–", "–"}));
 }
 
 TEST(MethodsTable, HasAMethodOfSeveralReportsOnce) {
   const json report = test::invented_report({2000});
-  EXPECT_EQ(report::methods_table({report, report}).table.rows().size(), 1 + report.at("methods").size());
+  EXPECT_EQ(report::methods_table({report, report}).rows.size(), report.at("methods").size());
 }
 
 TEST(MethodsTable, OfNoReportsIsEmpty) {
-  EXPECT_TRUE(report::methods_table({}).table.empty());
-  EXPECT_TRUE(report::parameters_table({}).table.empty());
+  EXPECT_TRUE(report::methods_table({}).rows.empty());
+  EXPECT_TRUE(report::parameters_table({}).rows.empty());
 }
 
 /// The invented report with a plan of these methods.
@@ -89,19 +90,20 @@ TEST(ParametersTable, HasNumbersAndFormulasAColumnAnExperiment) {
                            method("spatialite", "paper", {{"c", 2.5}, {"allow_holes", 1}})});
   json second = report_with_methods({method("polylidar", "paper", {{"alpha", nullptr}})});
   second["plan"]["title"] = "Another";
-  const table::TextTable table = report::parameters_table({first, second}).table;
-  EXPECT_EQ(table.rows(), (std::vector<Row>{{"Method", "Parameter", "Invented numbers", "Another"},
-                                            {"Polylidar (paper)", "alpha", "2 sqrt(A / n)", "no limit"},
-                                            {"SpatiaLite (paper)", "allow_holes", "1", ""},
-                                            {"SpatiaLite (paper)", "c", "2.5", ""}}));
+  const table::Table table = report::parameters_table({first, second});
+  EXPECT_EQ(table::shown(table),
+            (std::vector<Row>{{"Method", "Parameter", "Invented numbers", "Another"},
+                              {"Polylidar (paper)", "alpha", "2 sqrt(A / n)", "no limit"},
+                              {"SpatiaLite (paper)", "allow_holes", "1", ""},
+                              {"SpatiaLite (paper)", "c", "2.5", ""}}));
 }
 
 TEST(ParametersTable, TakesARulesFormulaFromTheReport) {
   json report = report_with_methods({method("polylidar", "paper", {{"alpha", {{"rule", "paper_alpha"}}}})});
   report["rules"]["paper_alpha"] = "another formula";
-  EXPECT_EQ(row_of(report::parameters_table({report}).table, {"Polylidar (paper)"})[2], "another formula");
+  EXPECT_EQ(row_of(report::parameters_table({report}), {"Polylidar (paper)"})[2], "another formula");
   report.erase("rules");
-  EXPECT_EQ(row_of(report::parameters_table({report}).table, {"Polylidar (paper)"})[2], "paper_alpha");
+  EXPECT_EQ(row_of(report::parameters_table({report}), {"Polylidar (paper)"})[2], "paper_alpha");
 }
 
 TEST(ParametersTable, HasValuesGivenByCaseAColumnADataSet) {
@@ -109,8 +111,8 @@ TEST(ParametersTable, HasValuesGivenByCaseAColumnADataSet) {
   const json report =
       report_with_methods({method("polylidar", "paper", {{"alpha", 1.5}}),
                            method("spatialite", "paper", {{"c", {{"cases", cases}}}, {"allow_holes", 1}})});
-  const table::TextTable table = report::parameters_table({report}).table;
-  EXPECT_EQ(table.rows(),
+  const table::Table table = report::parameters_table({report});
+  EXPECT_EQ(table::shown(table),
             (std::vector<Row>{{"Method", "Parameter", "California", "Hawaii"},
                               {"Polylidar (paper)", "alpha", "1.5", "1.5"},
                               {"SpatiaLite (paper)", "allow_holes", "1", "1"},
@@ -122,7 +124,7 @@ TEST(ParametersTable, SaysWhatWasChosenForTheShapeAlone) {
   const json report =
       report_with_methods({method("polylidar", "paper", {{"alpha", {{"scaled", 1.5}, {"power", 1}}}}),
                            method("spatialite", "paper", {{"c", {{"cases", cases}}}})});
-  const table::TextTable table = report::parameters_table({report}).table;
+  const table::Table table = report::parameters_table({report});
   EXPECT_EQ(row_of(table, {"Polylidar (paper)"})[2], "1.5 √(A_hull/n)");
   EXPECT_EQ(row_of(table, {"SpatiaLite (paper)"})[2], "case by case");
 }
@@ -130,14 +132,14 @@ TEST(ParametersTable, SaysWhatWasChosenForTheShapeAlone) {
 TEST(ParametersTable, SaysAValueOnceThatHolesDoNotChange) {
   const json cases = {{"ca", 2.0}, {"ca/holes", 2.0}, {"hi", 4}};
   const json report = report_with_methods({method("spatialite", "paper", {{"c", {{"cases", cases}}}})});
-  EXPECT_EQ(row_of(report::parameters_table({report}).table, {"SpatiaLite (paper)"}),
+  EXPECT_EQ(row_of(report::parameters_table({report}), {"SpatiaLite (paper)"}),
             (Row{"SpatiaLite (paper)", "c", "2", "4"}));
 }
 
 TEST(ParametersTable, LeavesOutDataSetsWithoutARun) {
   const json cases = {{"ca", 2.0}, {"mars", 4}};
   const json report = report_with_methods({method("spatialite", "paper", {{"c", {{"cases", cases}}}})});
-  EXPECT_EQ(report::parameters_table({report}).table.rows().front(),
+  EXPECT_EQ(table::shown(report::parameters_table({report})).front(),
             (Row{"Method", "Parameter", "California"}));
 }
 
@@ -147,7 +149,7 @@ TEST(ParametersTable, IsEmptyWhereAMethodKeepsToOtherDataSets) {
   polylidar["datasets"] = {"hi"};
   const json report =
       report_with_methods({polylidar, method("spatialite", "paper", {{"c", {{"cases", cases}}}})});
-  EXPECT_EQ(row_of(report::parameters_table({report}).table, {"Polylidar (paper)"}),
+  EXPECT_EQ(row_of(report::parameters_table({report}), {"Polylidar (paper)"}),
             (Row{"Polylidar (paper)", "alpha", "", "1.5"}));
 }
 
@@ -155,13 +157,13 @@ TEST(ParametersTable, LeavesOutMethodsWithoutRuns) {
   json report = report_with_methods({method("polylidar", "paper", {{"alpha", 1.5}}),
                                      method("polylidar", "tuned", {{"alpha", 2}}),
                                      method("spatialite", "paper", {{"c", 3}})});
-  const table::TextTable all = report::parameters_table({report}).table;
+  const table::Table all = report::parameters_table({report});
   EXPECT_TRUE(has_row(all, "SpatiaLite (paper)"));
   EXPECT_FALSE(has_row(all, "Polylidar (tuned)"));
   for (json& run : report["runs"]) {
     if (run["method"] == "spatialite") run["method"] = "polylidar";
   }
-  EXPECT_FALSE(has_row(report::parameters_table({report}).table, "SpatiaLite (paper)"));
+  EXPECT_FALSE(has_row(report::parameters_table({report}), "SpatiaLite (paper)"));
 }
 
 }  // namespace

@@ -9,6 +9,7 @@
 
 #include "benchmarks/report/claims.hpp"
 #include "benchmarks/report/paper_comparison.hpp"
+#include "benchmarks/table/writers.hpp"
 #include "invented_shapes.hpp"
 
 namespace hullbench {
@@ -231,8 +232,8 @@ TEST(DifferencesTable, HasValuePaperHereRatioAndWhetherAReasonIsKnown) {
   for (json& run : report["runs"]) {
     if (run["method"] == "polylidar") run["metrics"]["l2_paper"] = 0.128;
   }
-  const table::TableSection section = report::differences_table({report});
-  const auto& rows = section.table.rows();
+  const table::Table table = report::differences_table({report});
+  const auto rows = table::shown(table);
   ASSERT_EQ(rows.size(), 9U);
   EXPECT_EQ(rows[1],
             (std::vector<std::string>{"Table IV, Polylidar: L2 mean, %", "12.8", "12.8", "1.00", "–"}));
@@ -240,20 +241,19 @@ TEST(DifferencesTable, HasValuePaperHereRatioAndWhetherAReasonIsKnown) {
   EXPECT_EQ(rows[2], (std::vector<std::string>{"Table IV, Polylidar: time, ms", "1.2", "3.00", "2.50",
                                                reason ? rows[2].back() : "not known"}));
   EXPECT_EQ(rows[2].back().starts_with("["), reason.has_value()) << rows[2].back();
-  EXPECT_NE(section.remarks.front().find("1.25 times"), std::string::npos) << section.remarks.front();
+  EXPECT_NE(table.remarks.front().find("1.25 times"), std::string::npos) << table.remarks.front();
 }
 
 TEST(DifferencesTable, NamesTheClassOfAValue) {
-  const table::TableSection section =
-      report::differences_table({test::report_on_shapes(star_polygons(61, 8000))});
-  const auto& rows = section.table.rows();
+  const auto rows =
+      table::shown(report::differences_table({test::report_on_shapes(star_polygons(61, 8000))}));
   ASSERT_EQ(rows.size(), 5U);
   EXPECT_EQ(rows[2][0], "Table V, high (from 0.75), Polylidar: time, ms");
 }
 
 TEST(DifferencesTable, IsEmptyForWhatThePaperHasNoTableOf) {
-  EXPECT_TRUE(report::differences_table({test::invented_report({2000})}).table.empty());
-  EXPECT_TRUE(report::differences_table({}).table.empty());
+  EXPECT_TRUE(report::differences_table({test::invented_report({2000})}).rows.empty());
+  EXPECT_TRUE(report::differences_table({}).rows.empty());
 }
 
 }  // namespace

@@ -56,28 +56,42 @@ TEST(ReadmeMarks, TheWrongOrderIsASentence) {
             "the README's marks of the results stand in the wrong order; swap them");
 }
 
-TEST(ReadmeResults, NameTheRunAndHaveTablesWithoutMarksOfNotes) {
-  // On the largest size of Hawaii SpatiaLite ran out of time: its label has a mark in tables.md.
-  nlohmann::json report = test::invented_report({2000, 64000});
-  report["plan"].update({{"name", "states"}, {"methods", nlohmann::json::array()}});
+TEST(ReadmeResults, NameTheRunAndHaveThePapersMethodsAtTheLeastAndTheLargestSize) {
+  const nlohmann::json report = test::invented_report({2000, 8000, 64000});
   const std::string text = report::readme_results({report}, "results/reference");
   EXPECT_NE(
-      text.find("in\n[results/reference](results/reference), begun on 2026-01-02: 28 runs, 1 experiment."),
+      text.find("in\n[results/reference](results/reference), begun on 2026-01-02: 42 runs, 1 experiment."),
       std::string::npos)
       << text;
-  EXPECT_NE(text.find("### California with holes: time of equal work, ms"), std::string::npos) << text;
-  EXPECT_NE(text.find("### Methods: what each returns"), std::string::npos) << text;
-  EXPECT_EQ(text.find("(paper) ["), std::string::npos) << text;
+  EXPECT_NE(text.find("\n### California with holes: time and error of the paper's methods"),
+            std::string::npos)
+      << text;
+  EXPECT_NE(text.find("| 2000 points, ms |    error, % | 64000 points, ms |    error, % |\n"),
+            std::string::npos)
+      << text;
+  EXPECT_NE(
+      text.find(
+          "| Polylidar (paper)        |    0.525 ±0.005 | 7.83 (7.98) |        16.8 ±0.2 | 1.38 (1.41) |\n"),
+      std::string::npos)
+      << text;
+  EXPECT_EQ(text.find("(auto)"), std::string::npos) << "not the paper's: " << text;
+  EXPECT_EQ(text.find("(paper) ["), std::string::npos) << "a note that is not here: " << text;
 }
 
-TEST(ReadmeResults, HaveNoMarksInTablesByConvexityEither) {
-  std::vector<test::InventedShape> shapes;
-  for (int k = 1; k <= 61; ++k) shapes.push_back({"star-" + std::to_string(k), 8000, 0.8, 1, 0.1});
-  nlohmann::json report = test::report_on_shapes(shapes);
-  report["plan"].update({{"name", "random"}, {"methods", nlohmann::json::array()}});
-  const std::string text = report::readme_results({report}, "results/reference");
-  EXPECT_NE(text.find("by convexity"), std::string::npos) << text;
-  EXPECT_EQ(text.find("(paper) ["), std::string::npos) << text;
+TEST(ReadmeResults, HaveTheFastestRivalWithTheSamePolygons) {
+  nlohmann::json report = test::invented_report({2000});
+  EXPECT_EQ(report::readme_results({report}, "x").find("PostGIS (auto)"), std::string::npos);
+  report["summary"]["headline"]["rivals"][0].update({{"method", "postgis"}, {"protocol", "auto"}});
+  EXPECT_NE(report::readme_results({report}, "x").find("PostGIS (auto)"), std::string::npos);
+}
+
+TEST(ReadmeResults, AreOfTheFirstExperimentThatHasTheShape) {
+  nlohmann::json other = test::report_on_shapes({{"star-1", 8000, 0.8}});
+  EXPECT_EQ(report::readme_results({other}, "x").find("###"), std::string::npos);
+  const std::string text =
+      report::readme_results({other, test::invented_report({2000}), test::invented_report({64000})}, "x");
+  EXPECT_NE(text.find("| 2000 points"), std::string::npos) << text;
+  EXPECT_EQ(text.find("| 64000 points"), std::string::npos) << text;
 }
 
 TEST(ReadmeResults, OfNoRunsAreASentence) {

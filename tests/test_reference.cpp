@@ -10,10 +10,11 @@
 #include <string>
 #include <vector>
 
+#include "benchmarks/league/league_report.hpp"
 #include "benchmarks/report/documents.hpp"
 #include "benchmarks/report/paper_comparison.hpp"
 #include "benchmarks/report/report.hpp"
-#include "benchmarks/table/document.hpp"
+#include "benchmarks/table/writers.hpp"
 #include "tests/program.hpp"
 #include "tests/temporary_folder.hpp"
 
@@ -60,7 +61,9 @@ TEST(Reference, NoneOfThePapersMethodsFails) {
 // last line.
 TEST(Reference, ItsTablesAreThoseOfItsRecords) {
   const testing::TemporaryFolder folder;
-  table::write_tables(folder.path(), report::make_documents(reports()));
+  std::vector<table::Document> documents = report::make_documents(reports());
+  documents.push_back(league::league_document(league::load_league(kReference)));
+  table::write_tables(folder.path(), documents);
   std::size_t files = 0;
   for (const auto& entry : fs::recursive_directory_iterator(folder.path())) {
     if (!entry.is_regular_file()) continue;

@@ -11,7 +11,7 @@
 #include "benchmarks/base/number_format.hpp"
 #include "benchmarks/report/report.hpp"
 #include "benchmarks/report/tables.hpp"
-#include "benchmarks/table/text_table.hpp"
+#include "benchmarks/table/writers.hpp"
 #include "invented_run.hpp"
 #include "temporary_folder.hpp"
 
@@ -340,34 +340,6 @@ TEST(Tables, NeverShowNaN) {
   const std::string text = tables(report);
   EXPECT_EQ(text.find("nan"), std::string::npos);
   EXPECT_NE(text.find("– ("), std::string::npos);
-}
-
-TEST(TextTable, ColumnsLineUpAndBarsAreEscaped) {
-  table::TextTable table({"name", "a|b"});
-  table.add_row({"±é", "1"});
-  table.add_row({"x\ny", "12345"});
-  std::ostringstream out;
-  table::print_markdown(table, out);
-  EXPECT_EQ(out.str(),
-            "| name |  a\\|b |\n"
-            "|------|------:|\n"
-            "| ±é   |     1 |\n"
-            "| x y  | 12345 |\n");
-  EXPECT_THROW(table.add_row({"too few"}), std::invalid_argument);
-}
-
-TEST(TextTable, SameNoteHasTheSameMark) {
-  table::Notes notes;
-  EXPECT_EQ(notes.mark("first"), "[1]");
-  EXPECT_EQ(notes.mark("second"), "[2]");
-  EXPECT_EQ(notes.mark("first"), "[1]");
-  EXPECT_EQ(notes.marked(), (std::vector<std::string>{"[1] first", "[2] second"}));
-}
-
-TEST(TextTable, LongItemsAreBrokenBetweenWords) {
-  std::ostringstream out;
-  table::print_item(std::string(115, 'a') + " bb " + std::string(130, 'c') + " d", out);
-  EXPECT_EQ(out.str(), "- " + std::string(115, 'a') + "\n  bb\n  " + std::string(130, 'c') + "\n  d\n");
 }
 
 TEST(NumberFormat, ThreeDigitsWithoutExponent) {

@@ -8,6 +8,7 @@
 #include "benchmarks/base/files.hpp"
 #include "benchmarks/report/report.hpp"
 #include "benchmarks/report/tables.hpp"
+#include "benchmarks/table/writers.hpp"
 #include "invented_run.hpp"
 
 int main(int argc, char** argv) {

@@ -21,7 +21,7 @@ std::string fixed(double value, int decimals) {
 }
 
 int decimals_of(double value) {
-  if (!(value > 0)) return 0;
+  if (!(value > 0) || std::isinf(value)) return 0;
   const int decimals = std::clamp(2 - static_cast<int>(std::floor(std::log10(value))), 0, kMostDecimals);
   // Rounding may carry into a further digit: 9.999 is "10.0", not "10.00".
   const bool carries = std::round(value * std::pow(10.0, decimals)) >= 1000 && decimals > 0;

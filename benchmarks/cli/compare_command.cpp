@@ -62,9 +62,9 @@ report::RunsCompared compare_sides(const report::ComparedSide& a, const report::
 
 void print(const table::Document& document, const std::string& format) {
   if (format == "csv") {
-    std::cout << table::to_csv(document.tables.back().table);
+    std::cout << table::to_csv(document.tables.back());
   } else if (format == "latex") {
-    for (const table::TableSection& section : document.tables) std::cout << table::to_latex(section);
+    for (const table::Table& table : document.tables) std::cout << table::to_latex(table);
   } else {
     table::print_markdown(document, std::cout);
   }

@@ -130,7 +130,9 @@ std::vector<nlohmann::json> reports_in(const std::string& path) {
 int tables(const std::string& path, bool write, const std::string& gbench_file) {
   check_export_place(gbench_file);
   const std::vector<nlohmann::json> reports = reports_in(path);
-  const std::vector<table::Document> documents = report::make_documents(reports);
+  std::vector<table::Document> documents = report::make_documents(reports);
+  if (const nlohmann::json league = league::load_league(path); !league.is_null())
+    documents.push_back(league::league_document(league));
   table::print_markdown(documents, std::cout);
   if (write) table::write_tables(path, documents);
   if (!gbench_file.empty()) report::export_gbench(gbench_file, reports);
@@ -164,8 +166,8 @@ int readme(const std::string& run, const std::string& path, bool check) {
   const fs::path folder =
       fs::is_symlink(run) ? fs::path(run).parent_path() / fs::read_symlink(run) : fs::path(run);
   std::string results = report::readme_results(reports_in(run), folder.string());
-  if (std::ifstream league(folder / league::kLeagueFile); league.is_open())
-    results += league::league_results(nlohmann::json::parse(league));
+  if (const nlohmann::json league = league::load_league(folder); !league.is_null())
+    results += league::league_results(league);
   const std::string after = report::with_results(before, results);
   if (before == after) {
     std::cout << path << " agrees with " << run << "\n";

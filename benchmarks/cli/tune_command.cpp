@@ -20,7 +20,6 @@
 #include "benchmarks/run/method_catalog.hpp"
 #include "benchmarks/run/progress.hpp"
 #include "benchmarks/run/run_directory.hpp"
-#include "benchmarks/table/document.hpp"
 #include "benchmarks/tune/tuned_plan.hpp"
 #include "benchmarks/tune/tuner.hpp"
 #include "benchmarks/tune/tuning_report.hpp"

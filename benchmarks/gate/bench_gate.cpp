@@ -9,7 +9,6 @@
 #include "benchmarks/base/configuration_error.hpp"
 #include "benchmarks/base/cores.hpp"
 #include "benchmarks/base/files.hpp"
-#include "benchmarks/table/document.hpp"
 #include "benchmarks/gate/gate_accuracy.hpp"
 #include "benchmarks/gate/gate_cases.hpp"
 #include "benchmarks/gate/gate_probes.hpp"

@@ -2,7 +2,6 @@
 
 #include "benchmarks/base/files.hpp"
 #include "benchmarks/micro/point_sets.hpp"
-#include "benchmarks/table/document.hpp"
 #include "datasets/point_bytes.hpp"
 
 namespace hullbench::gate {

@@ -1,11 +1,9 @@
 #include "benchmarks/gate/gate_report.hpp"
 
 #include <algorithm>
-#include <cmath>
 
 #include "benchmarks/base/number_format.hpp"
-#include "benchmarks/table/document.hpp"
-#include "benchmarks/table/text_table.hpp"
+#include "benchmarks/table/writers.hpp"
 
 namespace hullbench::gate {
 namespace {
@@ -26,15 +24,9 @@ const char* word_of(SpeedChange change) {
   return "-";
 }
 
-/// "+3.21 %" of 1.0321.
-std::string percent(double ratio) {
-  if (!std::isfinite(ratio)) return "any";
-  const double value = (ratio - 1) * 100;
-  return (value < 0 ? "-" : "+") + fixed(std::abs(value), 2) + " %";
-}
-
-std::string interval_text(const Judged& row) {
-  return percent(row.interval.low) + " to " + percent(row.interval.high);
+/// "+3.21" of 1.0321.
+table::Number percent(double ratio) {
+  return {(ratio - 1) * 100, 2, true};
 }
 
 const Judged* find(const std::vector<Judged>& rows, const std::string& name) {
@@ -44,20 +36,31 @@ const Judged* find(const std::vector<Judged>& rows, const std::string& name) {
 }
 
 void print_times(const GateFindings& findings, std::ostream& out) {
-  table::TextTable table({"quantity", "head / base", "95 % interval", "verdict", "confirmed", "base / base"});
+  table::Table table{
+      "times",
+      "Change of time",
+      {table::words("quantity"), table::with_unit("head / base", "%"), table::with_unit("95 % interval", "%"),
+       table::words("verdict"), table::with_unit("measured again", "%"), table::words("confirmed"),
+       table::with_unit("base / base", "%")}};
   for (const Judged& row : findings.first) {
     const Judged* again = find(findings.second, row.name);
     const Judged* control = find(findings.null_control, row.name);
-    table.add_row(
-        {row.name, percent(row.ratio), interval_text(row), word_of(row.change),
-         again == nullptr ? "" : percent(again->ratio) + (again->change == row.change ? " yes" : " no"),
-         control == nullptr ? "" : percent(control->ratio)});
+    table.add_row({row.name, percent(row.ratio),
+                   table::Range{percent(row.interval.low), percent(row.interval.high)}, word_of(row.change),
+                   again == nullptr ? table::Cell("") : percent(again->ratio),
+                   again == nullptr              ? ""
+                   : again->change == row.change ? "yes"
+                                                 : "no",
+                   control == nullptr ? table::Cell("") : percent(control->ratio)});
   }
   table::print_markdown(table, out);
 }
 
 void print_counts(const GateFindings& findings, std::ostream& out) {
-  table::TextTable table({"quantity", "head / base", "verdict", "base / base"});
+  table::Table table{"counts",
+                     "Change of instructions",
+                     {table::words("quantity"), table::with_unit("head / base", "%"), table::words("verdict"),
+                      table::with_unit("base / base", "%")}};
   for (std::size_t i = 0; i < findings.first.size(); ++i) {
     const Judged& row = findings.first[i];
     table.add_row(

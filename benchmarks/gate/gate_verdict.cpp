@@ -4,6 +4,7 @@
 #include <cmath>
 #include <span>
 
+#include "benchmarks/statistics/judge.hpp"
 #include "benchmarks/statistics/statistics.hpp"
 
 namespace hullbench::gate {
@@ -16,14 +17,14 @@ std::vector<double> negated(std::vector<double> values) {
   return values;
 }
 
-Judged describe(const LogRatios& quantity, const GateRules& rules) {
+/// The interval of the median ratio and what the sign test says against `limit`: that the ratio is above it,
+/// or with `above` false below it.
+statistics::Evidence evidence_of(const LogRatios& quantity, const GateRules& rules, double limit,
+                                 bool above) {
   const statistics::Interval interval = statistics::sign_interval(quantity.values, rules.confidence);
-  Judged judged;
-  judged.name = quantity.name;
-  judged.ratio = std::exp(statistics::median(std::span<const double>(quantity.values)));
-  judged.interval = {std::exp(interval.low), std::exp(interval.high)};
-  if (judged.interval.high > 1 + rules.threshold) judged.change = SpeedChange::kUndecided;
-  return judged;
+  const double p = above ? statistics::sign_test_above(quantity.values, std::log(limit))
+                         : statistics::sign_test_above(negated(quantity.values), -std::log(limit));
+  return {{std::exp(interval.low), std::exp(interval.high)}, p};
 }
 
 std::string joined(const Names& names) {
@@ -61,8 +62,10 @@ void confirm(const GateFindings& findings, GateVerdict& verdict) {
 }
 
 SpeedChange change_of(double ratio, double threshold) {
-  if (ratio > 1 + threshold) return SpeedChange::kSlower;
-  return ratio < 1 - threshold ? SpeedChange::kFaster : SpeedChange::kNone;
+  const statistics::Interval exact = {ratio, ratio};
+  if (statistics::side_of(exact, 1 + threshold) == statistics::Side::kAbove) return SpeedChange::kSlower;
+  const bool faster = statistics::side_of(exact, 1 - threshold) == statistics::Side::kBelow;
+  return faster ? SpeedChange::kFaster : SpeedChange::kNone;
 }
 
 Judged counted(const std::string& name, double ratio, double threshold) {
@@ -76,23 +79,32 @@ Judged counted(const std::string& name, double ratio, double threshold) {
 }  // namespace
 
 std::vector<Judged> judge(const std::vector<LogRatios>& quantities, const GateRules& rules) {
-  const double limit = std::log1p(rules.threshold);
-  std::vector<double> p_slower;
-  std::vector<double> p_faster;
+  const double slower_limit = 1 + rules.threshold;
+  const double faster_limit = 1 / slower_limit;
+  std::vector<statistics::Evidence> slower;
+  std::vector<statistics::Evidence> faster;
   for (const LogRatios& quantity : quantities) {
-    p_slower.push_back(statistics::sign_test_above(quantity.values, limit));
-    p_faster.push_back(statistics::sign_test_above(negated(quantity.values), limit));
+    slower.push_back(evidence_of(quantity, rules, slower_limit, true));
+    faster.push_back(evidence_of(quantity, rules, faster_limit, false));
   }
-  p_slower = statistics::holm_adjusted(p_slower);
-  p_faster = statistics::holm_adjusted(p_faster);
-
   const double level = (1 - rules.confidence) / 2;
+  const std::vector<statistics::Judgement> is_slower = statistics::judge(slower, slower_limit, level);
+  const std::vector<statistics::Judgement> is_faster = statistics::judge(faster, faster_limit, level);
+
   std::vector<Judged> rows;
   for (std::size_t i = 0; i < quantities.size(); ++i) {
-    Judged row = describe(quantities[i], rules);
-    row.p = row.ratio >= 1 ? p_slower[i] : p_faster[i];
-    if (p_slower[i] <= level) row.change = SpeedChange::kSlower;
-    if (p_faster[i] <= level) row.change = SpeedChange::kFaster;
+    Judged row;
+    row.name = quantities[i].name;
+    row.ratio = std::exp(statistics::median(std::span<const double>(quantities[i].values)));
+    row.interval = slower[i].interval;
+    row.p = row.ratio >= 1 ? is_slower[i].p_value : is_faster[i].p_value;
+    if (is_slower[i].side == statistics::Side::kAbove) {
+      row.change = SpeedChange::kSlower;
+    } else if (is_faster[i].side == statistics::Side::kBelow) {
+      row.change = SpeedChange::kFaster;
+    } else if (statistics::side_of(row.interval, slower_limit) != statistics::Side::kBelow) {
+      row.change = SpeedChange::kUndecided;
+    }
     rows.push_back(std::move(row));
   }
   return rows;

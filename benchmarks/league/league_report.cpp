@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <fstream>
+#include <limits>
 #include <map>
 #include <set>
 #include <sstream>
@@ -14,7 +16,7 @@ namespace {
 
 using nlohmann::json;
 
-constexpr const char* kDash = "–";
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 json finite_or_null(double value) {
   return std::isfinite(value) ? json(value) : json(nullptr);
@@ -76,35 +78,32 @@ json profile_to_json(const LeagueProfile& profile) {
           {"left_out", std::move(left_out)}};
 }
 
-/// "4.31 (3.90–4.80)" in units of `scale`; "failed" for a median of failures.
-std::string cell(const json& entry, const std::string& name, double scale, int decimals) {
-  if (entry.at(name + "_cases") == 0) return kDash;
-  const json& median = entry.at(name + "_median");
-  if (median.is_null()) return "failed";
-  const auto text = [&](const json& value, const char* infinite) {
-    return value.is_null() ? std::string(infinite) : fixed(value.get<double>() * scale, decimals);
+/// A value with its interval in units of `scale`; null is `worst`.
+table::Cell interval_cell(const json& value, const json& interval, double scale = 1,
+                          double worst = kInfinity) {
+  const auto number = [&](const json& one) {
+    return table::Number(one.is_null() ? worst : one.get<double>() * scale, 2);
   };
-  const json& interval = entry.at(name + "_interval");
-  if (interval.is_null()) return text(median, "");
-  return text(median, "") + " (" + text(interval[0], "failed") + " to " + text(interval[1], "failed") + ")";
+  table::Cell cell = number(value);
+  if (!interval.is_null() && !value.is_null()) cell.range = {number(interval[0]), number(interval[1])};
+  return cell;
 }
 
-/// "0.61 (0.52 to 0.70)".
-std::string mean_cell(const json& entry, const std::string& name) {
-  const json& mean = entry.at(name + "_mean");
-  if (mean.is_null()) return kDash;
-  const json& interval = entry.at(name + "_mean_interval");
-  const std::string text = fixed(mean.get<double>(), 2);
-  if (interval.is_null()) return text;
-  return text + " (" + fixed(interval[0].get<double>(), 2) + " to " + fixed(interval[1].get<double>(), 2) +
-         ")";
+table::Cell median_cell(const json& entry, const std::string& name, double scale, double worst = kInfinity) {
+  if (entry.at(name + "_cases") == 0) return {};
+  return interval_cell(entry.at(name + "_median"), entry.at(name + "_interval"), scale, worst);
 }
 
-std::string failures_cell(const json& entry) {
-  const auto count = [&](const char* name) { return entry.at(name).get<std::size_t>(); };
-  std::string text = std::to_string(count("failures"));
-  if (count("unscored_failures") > 0) text += " + " + std::to_string(count("unscored_failures"));
-  return text;
+table::Cell mean_cell(const json& entry, const std::string& name) {
+  if (entry.at(name + "_mean").is_null()) return {};
+  return interval_cell(entry.at(name + "_mean"), entry.at(name + "_mean_interval"));
+}
+
+table::Cell failures_cell(const json& entry) {
+  table::Cell cell = entry.at("failures").get<std::size_t>();
+  const json& unscored = entry.at("unscored_failures");
+  if (unscored > 0) cell.sign = "+ " + unscored.dump();
+  return cell;
 }
 
 const std::map<std::string, std::string>& protocol_titles() {
@@ -117,19 +116,19 @@ const std::map<std::string, std::string>& protocol_titles() {
   return titles;
 }
 
-table::TableSection league_table(const json& league, const std::string& protocol) {
-  table::TextTable table(
-      {"Method", "Cases", "Failures", "L2 median, %", "Skill median", "Hole F1 mean", "Regret median, %"});
+table::Table league_table(const json& league, const std::string& protocol) {
+  table::Table table{"league_" + protocol,
+                     "Protocol " + protocol + ": " + protocol_titles().at(protocol),
+                     {table::words("Method"), "Cases", "Failures", table::with_unit("L2 median", "%"),
+                      "Skill median", "Hole F1 mean", table::with_unit("Regret median", "%")}};
   for (const json& entry : league.at("methods")) {
     if (entry.at("protocol") != protocol) continue;
-    table.add_row({entry.at("title").get<std::string>(), std::to_string(entry.at("cases").get<std::size_t>()),
-                   failures_cell(entry), cell(entry, "l2", 100, 2), cell(entry, "skill", 1, 2),
-                   mean_cell(entry, "hole_f1"), cell(entry, "regret", 100, 2)});
+    table.add_row({entry.at("title").get<std::string>(), entry.at("cases").get<std::size_t>(),
+                   failures_cell(entry), median_cell(entry, "l2", 100),
+                   median_cell(entry, "skill", 1, -kInfinity), mean_cell(entry, "hole_f1"),
+                   median_cell(entry, "regret", 100)});
   }
-  return {"league_" + protocol,
-          "Protocol " + protocol + ": " + protocol_titles().at(protocol),
-          std::move(table),
-          {}};
+  return table;
 }
 
 std::string title_of(const json& league, const json& curve) {
@@ -150,7 +149,7 @@ const std::map<std::string, std::string>& group_titles() {
 }
 
 /// Some of the taus, as columns.
-table::TableSection profile_table(const json& league, const json& profile) {
+table::Table profile_table(const json& league, const json& profile) {
   const std::vector<double> taus = league.at("taus").get<std::vector<double>>();
   std::vector<std::size_t> shown;
   for (std::size_t k = 0; k < taus.size(); ++k) {
@@ -158,29 +157,29 @@ table::TableSection profile_table(const json& league, const json& profile) {
       if (taus[k] == tau) shown.push_back(k);
     }
   }
-  std::vector<std::string> header = {"Method"};
+  const std::string group = profile.at("group").get<std::string>();
+  table::Table table{"profile_" + group,
+                     "Performance profile of the methods " + group_titles().at(group) + ": % of " +
+                         profile.at("cases").dump() + " cases with an L2 that is",
+                     {table::words("Method")}};
   for (const std::size_t k : shown)
-    header.push_back(k == 0 ? "best" : "within " + three_digits(taus[k]) + " x");
-  table::TextTable table(header);
+    table.columns.emplace_back(k == 0 ? "best" : "within " + three_digits(taus[k]) + " x", "%");
   std::vector<json> curves = profile.at("curves").get<std::vector<json>>();
   std::stable_sort(curves.begin(), curves.end(), [&](const json& a, const json& b) {
     return a.at("shares")[shown[1]].get<double>() > b.at("shares")[shown[1]].get<double>();
   });
   for (const json& curve : curves) {
-    std::vector<std::string> cells = {title_of(league, curve)};
-    for (const std::size_t k : shown) cells.push_back(fixed(100 * curve.at("shares")[k].get<double>(), 1));
-    table.add_row(cells);
+    std::vector<table::Cell> cells = {title_of(league, curve)};
+    for (const std::size_t k : shown)
+      cells.emplace_back(table::Number(100 * curve.at("shares")[k].get<double>(), 1));
+    table.add_row(std::move(cells));
   }
-  std::vector<std::string> remarks;
   std::vector<std::string> left_out;
   for (const json& one : profile.at("left_out")) left_out.push_back(title_of(league, one));
   if (!left_out.empty())
-    remarks.push_back("Left out, as they have less than half of the cases: " + join_words(left_out) + ".");
-  const std::string group = profile.at("group").get<std::string>();
-  return {"profile_" + group,
-          "Performance profile of the methods " + group_titles().at(group) + ": % of " +
-              std::to_string(profile.at("cases").get<std::size_t>()) + " cases with an L2 that is",
-          std::move(table), std::move(remarks)};
+    table.remarks.push_back("Left out, as they have less than half of the cases: " + join_words(left_out) +
+                            ".");
+  return table;
 }
 
 }  // namespace
@@ -220,34 +219,47 @@ table::Document league_document(const json& league) {
   for (const json& profile : league.at("profiles")) document.tables.push_back(profile_table(league, profile));
   document.notes = {
       "L2 as a part of the ground truth's area; regret: L2 less what the same method has with the best value "
-      "for "
-      "the instance. In brackets a 95 % bootstrap interval of the median that resamples whole shapes. A "
-      "failure is "
-      "infinitely bad and has no holes.",
+      "for the instance. In brackets a 95 % bootstrap interval of the median that resamples whole shapes. A "
+      "failure is infinitely bad and has no holes.",
       "Skill: 0 is the convex hull, 1 are the Delaunay triangles whose centroid lies in the ground truth. "
-      "Hole F1 is "
-      "of the cases whose ground truth has holes, of which most find all or none: hence a mean, with a 95 % "
-      "interval "
-      "by shape. A second number of failures is of degenerate "
-      "input."};
+      "Hole F1 is of the cases whose ground truth has holes, of which most find all or none: hence a mean, "
+      "with a 95 % interval by shape. A second number of failures is of degenerate input."};
   if (!league.at("not_installed").empty())
     document.notes.push_back("Not installed, and so in no table: " +
                              join_words(league.at("not_installed").get<std::vector<std::string>>()) + ".");
   return document;
 }
 
+json load_league(const std::filesystem::path& folder) {
+  std::ifstream in(folder / kLeagueFile);
+  return in.is_open() ? json::parse(in) : json();
+}
+
 std::string league_results(const json& league) {
-  const table::Document document = league_document(league);
-  std::ostringstream out;
-  out << "\n### " << document.title << "\n";
-  for (const table::TableSection& section : document.tables) {
-    out << "\n" << section.caption << ":\n\n";
-    table::print_markdown(section.table, out);
-    if (!section.remarks.empty()) out << "\n";
-    for (const std::string& remark : section.remarks) table::print_item(remark, out);
+  constexpr std::size_t kFirst = 3;
+  table::Table table{"league",
+                     league_document(league).title + ", the first three of every protocol",
+                     {table::words("Protocol"), table::words("Method"), "Cases", "Failures",
+                      table::with_unit("L2 median", "%"), "Hole F1 mean"}};
+  std::map<std::string, std::size_t> shown;
+  std::string protocols;
+  for (const json& entry : league.at("methods")) {
+    const std::string protocol = entry.at("protocol").get<std::string>();
+    if (++shown[protocol] > kFirst) continue;
+    if (shown[protocol] == 1)
+      protocols += (protocols.empty() ? "" : "; ") + protocol + ", " + protocol_titles().at(protocol);
+    table.add_row({protocol, entry.at("title").get<std::string>(), entry.at("cases").get<std::size_t>(),
+                   failures_cell(entry), median_cell(entry, "l2", 100), mean_cell(entry, "hole_f1")});
   }
-  out << "\n";
-  for (const std::string& note : document.notes) table::print_item(note, out);
+  std::ostringstream out;
+  out << "\n### " << table.caption << "\n\n";
+  table::print_markdown(table, out);
+  out << '\n';
+  table::print_item("Parameters: " + protocols + ".", out);
+  table::print_item(
+      "L2 as a part of the ground truth's area; a failure is infinitely bad. Hole F1 is of the cases whose "
+      "ground truth has holes. In brackets 95 % intervals by shape.",
+      out);
   return out.str();
 }
 

@@ -1,12 +1,13 @@
 // What is written of a league: league.json (results/league.schema.json) and its tables.
 #pragma once
 
+#include <filesystem>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
 #include "benchmarks/league/league.hpp"
-#include "benchmarks/table/document.hpp"
+#include "benchmarks/table/writers.hpp"
 
 namespace hullbench::league {
 
@@ -21,7 +22,10 @@ nlohmann::json league_to_json(const League& league, const std::vector<nlohmann::
 /// table a group.
 table::Document league_document(const nlohmann::json& league);
 
-/// What the README shows of it: all of its tables, whoever is ahead in them.
+/// The league that is kept in `folder`; null when there is none.
+nlohmann::json load_league(const std::filesystem::path& folder);
+
+/// What the README shows of it: the first three of every protocol, whoever they are.
 std::string league_results(const nlohmann::json& league);
 
 }  // namespace hullbench::league

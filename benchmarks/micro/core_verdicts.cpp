@@ -1,153 +1,84 @@
 #include "benchmarks/micro/core_verdicts.hpp"
 
 #include <algorithm>
-#include <cmath>
+#include <fstream>
 #include <functional>
 #include <limits>
+#include <map>
+#include <nlohmann/json.hpp>
 #include <span>
 #include <stdexcept>
 #include <utility>
 
 #include "benchmarks/base/number_format.hpp"
+#include "benchmarks/statistics/judge.hpp"
 #include "benchmarks/statistics/statistics.hpp"
-#include "benchmarks/table/document.hpp"
-#include "benchmarks/table/text_table.hpp"
+#include "benchmarks/table/writers.hpp"
 
 namespace hullbench::micro {
 namespace {
 
+constexpr const char* kGoalsFile = HULLBENCH_GOALS_FILE;
+
 using Names = std::vector<std::string>;
+using nlohmann::json;
 
-enum class Quantity {
-  kTimeRatio,         ///< all of `of`, added, over `over`
-  kTimeAPointRatio,   ///< the same of times a point
-  kTimeAPointSpread,  ///< the largest over the smallest time a point of all of `of`
-  kPeakBytes          ///< of the one in `of`
-};
+enum class Quantity { kTimeRatio, kTimeAPointRatio, kTimeAPointSpread, kPeakBytes };
 
+/// One goal of goals.json, which says what its members mean.
 struct Goal {
   std::string what;
   Quantity quantity = Quantity::kTimeRatio;
-  Names of = {};
-  std::string over = {};
-  std::optional<double> at_most = {}, at_least = {};  ///< at most one of the two; none: information
-  std::optional<double> hoped_for = {};               ///< a stricter `at_most`
+  Names of;
+  std::string over;
+  std::optional<double> at_most, at_least, hoped_for;
 };
 
-std::string name(const std::string& function, const std::string& points) {
-  return function + "/" + points;
+Quantity quantity_of(const std::string& name) {
+  static const std::map<std::string, Quantity> quantities = {
+      {"time_ratio", Quantity::kTimeRatio},
+      {"time_a_point_ratio", Quantity::kTimeAPointRatio},
+      {"time_a_point_spread", Quantity::kTimeAPointSpread},
+      {"peak_bytes", Quantity::kPeakBytes}};
+  const auto found = quantities.find(name);
+  if (found == quantities.end()) throw std::invalid_argument("\"" + name + "\" is no quantity of a goal");
+  return found->second;
 }
 
-Goal ratio(const std::string& of, const std::string& over, const std::string& points) {
-  return {.what = of + " / " + over + ", " + points, .of = {name(of, points)}, .over = name(over, points)};
+/// `text` with `points` in the place of {points}.
+std::string with_points(std::string text, const std::string& points) {
+  const std::string mark = "{points}";
+  const std::size_t place = text.find(mark);
+  return place == std::string::npos ? text : text.replace(place, mark.size(), points);
 }
 
-void add_single_thread_goals(std::vector<Goal>& goals) {
-  for (const char* set : {"ca/", "uniform/"}) {
-    for (const char* n : {"2000", "8000", "64000", "1000000"}) {
-      Goal goal = ratio("concave_hull", "cgal_delaunay", std::string(set) + n);
-      goal.at_most = 0.40;
-      goal.hoped_for = 0.30;
-      goals.push_back(std::move(goal));
+Goal read_goal(const json& entry, const std::string& points) {
+  const auto number = [&](const char* key) {
+    return entry.contains(key) ? std::optional(entry[key].get<double>()) : std::nullopt;
+  };
+  Goal goal;
+  goal.what = with_points(entry.at("what"), points);
+  goal.quantity = quantity_of(entry.at("quantity"));
+  for (const json& benchmark : entry.at("of")) goal.of.push_back(with_points(benchmark, points));
+  goal.over = with_points(entry.value("over", ""), points);
+  goal.at_most = number("at_most");
+  goal.at_least = number("at_least");
+  goal.hoped_for = number("hoped_for");
+  return goal;
+}
+
+const std::vector<Goal>& all_goals() {
+  static const std::vector<Goal> goals = [] {
+    std::ifstream in(kGoalsFile);
+    if (!in) throw std::runtime_error(std::string("cannot read the goals in ") + kGoalsFile);
+    std::vector<Goal> result;
+    for (const json& entry : json::parse(in).at("goals")) {
+      for (const json& points : entry.value("points", json::array({""}))) {
+        result.push_back(read_goal(entry, points));
+      }
     }
-  }
-  for (const char* set : {"ca/", "uniform/"}) {
-    goals.push_back(ratio("concave_hull_once", "concave_hull", std::string(set) + "64000"));
-    goals.back().at_most = 1.3;
-  }
-  for (const char* set : {"ca/", "uniform/"}) {
-    for (const char* n : {"64000", "1000000"}) {
-      const std::string points = std::string(set) + n;
-      goals.push_back({.what = "(regions + polygons) / concave_hull, " + points,
-                       .of = {name("regions", points), name("polygons", points)},
-                       .over = name("concave_hull", points),
-                       .at_most = 0.20});
-    }
-  }
-}
-
-// What it costs to choose the limit from the points. The shape is another one than with the paper's alpha,
-// and so is its outline.
-void add_automatic_goals(std::vector<Goal>& goals) {
-  for (const char* points : {"ca/2000", "ca/8000", "ca/64000", "ca/1000000", "uniform/2000", "uniform/8000",
-                             "uniform/64000", "uniform/1000000"}) {
-    goals.push_back(ratio("concave_hull_automatic", "concave_hull", points));
-    goals.back().at_most = 1.05;
-  }
-}
-
-// Inputs that are harder, or not what others are made for, against uniform points.
-void add_input_goals(std::vector<Goal>& goals) {
-  const std::pair<const char*, const char*> degenerate[] = {{"lattice/64000", "uniform/64000"},
-                                                            {"lattice/1000000", "uniform/1000000"},
-                                                            {"rgbd/64000", "uniform/64000"},
-                                                            {"rgbd/101760", "uniform/100000"},
-                                                            {"rgbd/1000000", "uniform/1000000"}};
-  for (const auto& [points, uniform] : degenerate) {
-    goals.push_back({.what = std::string("time a point, ") + points + " / " + uniform,
-                     .quantity = Quantity::kTimeAPointRatio,
-                     .of = {name("concave_hull", points)},
-                     .over = name("concave_hull", uniform),
-                     .at_most = 1.5});
-  }
-  goals.push_back({.what = "4000 regions / 1 with as long an outline, 1000000 points",
-                   .of = {"concave_hull/islands/1000000"},
-                   .over = "concave_hull/sieve/1000000",
-                   .at_most = 1.0});
-  goals.push_back({.what = "islands/1000000 / uniform/1000000",
-                   .of = {"concave_hull/islands/1000000"},
-                   .over = "concave_hull/uniform/1000000"});
-  goals.push_back({.what = "n log n: a point, uniform/10000000 / uniform/1000",
-                   .quantity = Quantity::kTimeAPointRatio,
-                   .of = {"concave_hull/uniform/10000000"},
-                   .over = "concave_hull/uniform/1000",
-                   .at_most = std::log(1e7) / std::log(1e3)});
-  Names sizes;
-  for (const char* n : {"1000", "10000", "100000", "1000000", "10000000"}) {
-    sizes.push_back(std::string("concave_hull/uniform/") + n);
-  }
-  goals.push_back({.what = "growth: a point, uniform, slowest / fastest size",
-                   .quantity = Quantity::kTimeAPointSpread,
-                   .of = std::move(sizes)});
-}
-
-void add_memory_goals(std::vector<Goal>& goals) {
-  for (const char* points : {"ca/1000000", "ca/10000000", "uniform/1000000", "uniform/10000000"}) {
-    goals.push_back({.what = std::string("peak bytes a point, ") + points,
-                     .quantity = Quantity::kPeakBytes,
-                     .of = {name("concave_hull", points)},
-                     .at_most = 120});
-  }
-}
-
-void add_thread_goals(std::vector<Goal>& goals) {
-  for (const char* set : {"ca/", "uniform/"}) {
-    for (const auto& [n, least] : {std::pair{"64000", 1.6}, {"1000000", 1.8}, {"10000000", 1.8}}) {
-      goals.push_back(ratio("concave_hull", "concave_hull_2_threads", std::string(set) + n));
-      goals.back().what = std::string("one thread / 2 threads, ") + set + n;
-      goals.back().at_least = least;
-    }
-  }
-}
-
-void add_information(std::vector<Goal>& goals) {
-  for (const char* points : {"ca/64000", "uniform/64000"}) {
-    for (const char* other :
-         {"cgal_alpha_shape", "geos_delaunay", "geos_concave_hull", "geos_concave_hull_with_holes"}) {
-      goals.push_back(ratio(other, "concave_hull", points));
-      goals.back().what = std::string(other) + " / ours, " + points;
-    }
-  }
-}
-
-std::vector<Goal> all_goals() {
-  std::vector<Goal> goals;
-  add_single_thread_goals(goals);
-  add_automatic_goals(goals);
-  add_input_goals(goals);
-  add_memory_goals(goals);
-  add_thread_goals(goals);
-  add_information(goals);
+    return result;
+  }();
   return goals;
 }
 
@@ -201,15 +132,22 @@ void fill_in_times(const Goal& goal, const Measurements& measurements, VerdictLi
   }
 }
 
-bool meets(const Goal& goal, double value) {
-  return goal.at_most ? value <= *goal.at_most : value >= *goal.at_least;
-}
-
 Verdict verdict_of(const Goal& goal, const VerdictLine& line) {
   if (!goal.at_most && !goal.at_least) return Verdict::kInformation;
-  if (meets(goal, *line.value)) return Verdict::kMet;
-  const bool one_meets = line.smallest && (meets(goal, *line.smallest) || meets(goal, *line.largest));
-  return one_meets ? Verdict::kUndecided : Verdict::kMissed;
+  const double limit = goal.at_most ? *goal.at_most : *goal.at_least;
+  const statistics::Interval interval = {line.smallest.value_or(*line.value),
+                                         line.largest.value_or(*line.value)};
+  // The limit itself meets a goal of either kind.
+  if (interval.low == limit && interval.high == limit) return Verdict::kMet;
+  switch (statistics::side_of(interval, limit)) {
+    case statistics::Side::kBelow:
+      return goal.at_most ? Verdict::kMet : Verdict::kMissed;
+    case statistics::Side::kAbove:
+      return goal.at_least ? Verdict::kMet : Verdict::kMissed;
+    case statistics::Side::kUndecided:
+      break;
+  }
+  return Verdict::kUndecided;
 }
 
 /// A limit as it was set: no digits that say nothing, at most three that do.
@@ -256,6 +194,10 @@ std::string verdict_text(const VerdictLine& line) {
   return "";
 }
 
+table::Cell range_cell(double low, double high) {
+  return table::Range{table::Number(low), table::Number(high)};
+}
+
 std::size_t count(const std::vector<VerdictLine>& lines, Verdict verdict) {
   return static_cast<std::size_t>(std::count_if(
       lines.begin(), lines.end(), [=](const VerdictLine& line) { return line.verdict == verdict; }));
@@ -284,12 +226,14 @@ int exit_code(const std::vector<VerdictLine>& lines) {
 }
 
 void print_verdicts(const std::vector<VerdictLine>& lines, std::ostream& out) {
-  table::TextTable table({"ratio of medians", "value", "repetitions", "goal", "verdict"});
+  table::Table table{
+      "verdicts",
+      "The core's goals",
+      {table::words("ratio of medians"), "value", "repetitions", "goal", table::words("verdict")}};
   for (const VerdictLine& line : lines) {
-    const std::string spread =
-        line.smallest ? three_digits(*line.smallest) + " to " + three_digits(*line.largest) : "";
-    table.add_row(
-        {line.what, line.value ? three_digits(*line.value) : "", spread, line.goal, verdict_text(line)});
+    table.add_row({line.what, line.value ? table::Number(*line.value) : table::Cell(""),
+                   line.smallest ? range_cell(*line.smallest, *line.largest) : "", line.goal,
+                   verdict_text(line)});
   }
   table::print_markdown(table, out);
   out << "\n"
@@ -299,17 +243,20 @@ void print_verdicts(const std::vector<VerdictLine>& lines, std::ostream& out) {
 }
 
 void print_measurements(const Measurements& measurements, std::ostream& out) {
-  table::TextTable table({"benchmark", "median ms", "repetitions", "ns a point", "peak bytes a point"});
+  table::Table table{
+      "measurements",
+      "What was measured",
+      {table::words("benchmark"), table::Column("median ms", "ms"), table::Column("repetitions", "ms"),
+       table::Column("ns a point", "ns"), table::Column("peak bytes a point", "B")}};
   for (const auto& [benchmark, measured] : measurements) {
     if (measured.times.empty()) continue;
     const double middle = statistics::median(std::span<const double>(measured.times));
     const auto [least, most] = std::minmax_element(measured.times.begin(), measured.times.end());
-    table.add_row({benchmark, three_digits(middle / 1e6),
-                   three_digits(*least / 1e6) + " to " + three_digits(*most / 1e6),
-                   three_digits(middle / points_of(benchmark)),
-                   measured.peak_bytes ? three_digits(*measured.peak_bytes) : ""});
+    table.add_row({benchmark, table::Number(middle / 1e6), range_cell(*least / 1e6, *most / 1e6),
+                   table::Number(middle / points_of(benchmark)),
+                   measured.peak_bytes ? table::Number(*measured.peak_bytes) : table::Cell("")});
   }
-  if (!table.empty()) table::print_markdown(table, out);
+  if (!table.rows.empty()) table::print_markdown(table, out);
 }
 
 double points_of(const std::string& benchmark) {

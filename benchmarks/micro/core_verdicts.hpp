@@ -1,4 +1,4 @@
-// The goals that the core's speed and memory have, and what a run says of them.
+// The goals that the core's speed and memory have (goals.json), and what a run says of them.
 #pragma once
 
 #include <cstddef>
@@ -20,8 +20,8 @@ struct Measured {
 /// By the benchmark's name, "function/point set/number of points".
 using Measurements = std::map<std::string, Measured>;
 
-/// kUndecided: the median misses the limit, but not every repetition does. With 7 repetitions, the smallest
-/// and the largest enclose the true median with a confidence of 98 % (sign test).
+/// kMet, kMissed: every repetition is on that side of the limit. kUndecided: not every one is. With 7
+/// repetitions, the smallest and the largest enclose the true median with a confidence of 98 % (sign test).
 enum class Verdict { kMet, kMissed, kUndecided, kNotMeasured, kInformation };
 
 /// What came of one goal.

@@ -12,6 +12,7 @@ extern const std::string_view kPictureSchemaJson;   ///< results/picture.schema.
 extern const std::string_view kTuneSchemaJson;      ///< results/tune.schema.json
 extern const std::string_view kSweepSchemaJson;     ///< results/sweep.schema.json
 extern const std::string_view kLeagueSchemaJson;    ///< results/league.schema.json
+extern const std::string_view kTablesSchemaJson;    ///< results/tables.schema.json
 extern const std::string_view kPaperJson;           ///< results/paper.json
 extern const std::string_view kManifestSchemaJson;  ///< adapters/process/manifest.schema.json
 

@@ -98,18 +98,17 @@ std::vector<std::string> faults(const valijson::Schema& schema, const json& docu
   return sentences;
 }
 
-/// The schema of what says its `kind`: lines of pictures.jsonl and sweep.jsonl, tune.json and league.json.
-/// Null for any other.
+/// The schema of what says its `kind`: lines of pictures.jsonl and sweep.jsonl, tune.json, league.json and
+/// tables.json. Null for any other.
 const valijson::Schema* schema_of_kind(const json& document) {
   static const auto picture = parse_schema(kPictureSchemaJson);
   static const auto evaluation = parse_schema(kSweepSchemaJson);
   static const auto tuning = parse_schema(kTuneSchemaJson);
   static const auto league = parse_schema(kLeagueSchemaJson);
-  static const std::map<std::string, const valijson::Schema*> schemas = {{"case", picture.get()},
-                                                                         {"result", picture.get()},
-                                                                         {"evaluation", evaluation.get()},
-                                                                         {"tuning", tuning.get()},
-                                                                         {"league", league.get()}};
+  static const auto tables = parse_schema(kTablesSchemaJson);
+  static const std::map<std::string, const valijson::Schema*> schemas = {
+      {"case", picture.get()},  {"result", picture.get()}, {"evaluation", evaluation.get()},
+      {"tuning", tuning.get()}, {"league", league.get()},  {"tables", tables.get()}};
   if (!document.is_object() || !document.contains("kind") || !document["kind"].is_string()) return nullptr;
   const auto found = schemas.find(document["kind"].get<std::string>());
   return found == schemas.end() ? nullptr : found->second;

@@ -24,8 +24,8 @@ std::vector<std::string> validate_manifest(const nlohmann::json& manifest);
 /// The same of one line of runs.jsonl.
 std::vector<std::string> validate_run(const nlohmann::json& run);
 
-/// The same of what says its `kind`: a line of pictures.jsonl or sweep.jsonl, tune.json, league.json. Throws
-/// std::invalid_argument for any other document.
+/// The same of what says its `kind`: a line of pictures.jsonl or sweep.jsonl, tune.json, league.json,
+/// tables.json. Throws std::invalid_argument for any other document.
 std::vector<std::string> validate_by_kind(const nlohmann::json& document);
 
 }  // namespace hullbench::record

@@ -5,7 +5,6 @@
 #include <limits>
 #include <map>
 #include <optional>
-#include <span>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -157,8 +156,6 @@ class ClaimRatios {
     return only.at("dataset") == which.dataset && only.at("holes") == which.holes && only.at("n") == which.n;
   }
 
-  using Runs = std::vector<const record::RunRecord*>;
-
   static bool has_failed(const Runs& runs) { return !is_missing(runs) && first_failure(runs) != nullptr; }
   static bool is_solved(const Runs& runs) { return !is_missing(runs) && first_failure(runs) == nullptr; }
 
@@ -201,7 +198,7 @@ class ClaimRatios {
       if (const auto value = value_of_run(*run, quantity_, boundary)) values.push_back(*value);
     }
     if (values.empty()) return std::nullopt;
-    return statistics::median(std::span<const double>(values));
+    return statistics::median(values);
   }
 
   std::vector<double> ratios(const Case& which, Boundary boundary) const {
@@ -259,8 +256,8 @@ struct Verdict {
 
 Verdict judge(const std::vector<double>& ratios, const Threshold& threshold, bool every_case) {
   if (!every_case) {
-    const double middle = statistics::median(std::span<const double>(ratios));
-    return {ratio_text(middle), middle, threshold.verdict(middle)};
+    const double middle = statistics::median(ratios);
+    return {table::Number(middle).text(), middle, threshold.verdict(middle)};
   }
   const auto passed =
       std::count_if(ratios.begin(), ratios.end(), [&](double r) { return threshold.passes(r); });

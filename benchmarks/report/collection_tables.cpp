@@ -4,9 +4,7 @@
 #include <map>
 #include <optional>
 #include <set>
-#include <span>
 #include <string>
-#include <string_view>
 #include <utility>
 
 #include "benchmarks/base/number_format.hpp"
@@ -23,8 +21,11 @@ using nlohmann::json;
 /// From so many shapes on nobody wants a row for each.
 constexpr std::size_t kTooManyForRows = 60;
 
-const std::vector<std::string> kErrorColumns = {"L2 mean, %", "std", "max"};
-const std::vector<std::string> kTimeColumns = {"Time mean, ms", "std", "max", "Equal work mean, ms"};
+const std::vector<table::Column> kErrorColumns = {table::with_unit("L2 mean", "%"), table::Column("std", "%"),
+                                                  table::Column("max", "%")};
+const std::vector<table::Column> kTimeColumns = {table::with_unit("Time mean", "ms"),
+                                                 table::Column("std", "ms"), table::Column("max", "ms"),
+                                                 table::with_unit("Equal work mean", "ms")};
 
 bool has_prefix(const json& entry, const std::string& dataset) {
   const json& prefixes = entry.at("dataset_prefixes");
@@ -66,8 +67,9 @@ std::string size_text(const std::vector<Case>& cases) {
   return fixed(sum / static_cast<double>(cases.size()), 0) + " points on average";
 }
 
-void append(std::vector<std::string>& cells, const std::vector<std::string>& more) {
-  cells.insert(cells.end(), more.begin(), more.end());
+template <typename Entry>
+void append(std::vector<Entry>& entries, const std::vector<Entry>& more) {
+  entries.insert(entries.end(), more.begin(), more.end());
 }
 
 /// What the columns of values hold, for a caption.
@@ -76,39 +78,42 @@ std::string values_text(const TableContext& context) {
                                           : "error (of the result's area) as the paper took it";
 }
 
-void append_value_columns(const TableContext& context, std::vector<std::string>& header) {
-  append(header, kErrorColumns);
-  if (context.measurements.has_times()) append(header, kTimeColumns);
+void append_value_columns(const TableContext& context, std::vector<table::Column>& columns) {
+  append(columns, kErrorColumns);
+  if (context.measurements.has_times()) append(columns, kTimeColumns);
 }
 
-void append_values(const TableContext& context, std::vector<std::string>& cells, const GroupValues& values) {
+void append_values(const TableContext& context, const GroupValues& values, std::vector<table::Cell>& cells) {
   append(cells, percent_cells(values.error));
   if (!context.measurements.has_times()) return;
   append(cells, millisecond_cells(values.time));
-  cells.push_back(values.equal_work ? three_digits(values.equal_work->mean) : kNothing);
+  cells.push_back(values.equal_work ? table::Number(values.equal_work->mean) : table::Cell());
 }
 
-void append_published(const TableContext& context, std::vector<std::string>& cells, const json& published) {
-  const bool times = context.measurements.has_times();
-  for (const char* quantity : {"l2_percent", "milliseconds"}) {
-    if (quantity == std::string_view("milliseconds") && !times) return;
-    for (const json& value : published.at(quantity)) cells.push_back(fixed(value.get<double>(), 1));
-  }
-  cells.emplace_back(kNothing);
+void append_published(const TableContext& context, const json& published, std::vector<table::Cell>& cells) {
+  const auto append_all = [&](const json& values) {
+    for (const json& value : values) cells.emplace_back(table::Number(value.get<double>(), 1));
+  };
+  append_all(published.at("l2_percent"));
+  if (!context.measurements.has_times()) return;
+  append_all(published.at("milliseconds"));
+  cells.emplace_back();
 }
 
 std::string paper_label(const Line& line) {
   return paper().at("methods").value(line.method, line.method) + ", in the paper";
 }
 
-/// The marks of every failure of a line, each kind once a shape.
-std::string group_failure_marks(TableContext& context, const Line& line, const std::vector<Case>& cases) {
-  std::string marks;
+/// A line's label with the notes of all its failures, each kind once a shape.
+table::Cell label_with_failures(TableContext& context, const Line& line, const std::vector<Case>& cases) {
+  table::Cell cell = row_label(context, line, cases);
   for (const Case& which : cases) {
-    const std::string mark = failure_marks(context, line, {which});
-    if (marks.find(mark) == std::string::npos) marks += mark;
+    for (const std::size_t note : failure_notes(context, line, {which})) {
+      if (std::find(cell.notes.begin(), cell.notes.end(), note) == cell.notes.end())
+        cell.notes.push_back(note);
+    }
   }
-  return marks;
+  return cell;
 }
 
 std::vector<CaseGroup> family_groups(const TableContext& context, const std::vector<Case>& cases) {
@@ -144,76 +149,94 @@ constexpr const char* kMeansRemark =
     "many as \"Shapes\" says. A method that solved less than half as many as another one is left out of them "
     "and has none. Failed: cases without a valid result.";
 
-table::TableSection summary_table(TableContext& context, const std::vector<Line>& lines,
-                                  const std::vector<Case>& cases, const json& published) {
-  std::vector<std::string> header = {"Method", "Shapes", "Failed"};
-  append_value_columns(context, header);
-  table::TableSection section{"summary", "", table::TextTable(std::move(header)), {}};
+/// What the rows of a table hold that a remark must explain.
+struct Held {
+  bool failures = false;
+  bool published = false;
+};
+
+/// Adds the rows of a group: a line each, and beneath it what the paper published. `by_class`: the group's
+/// title and the number of invalid results have columns.
+Held add_rows(TableContext& context, const CaseGroup& group, bool by_class, table::Table& table) {
+  Held held;
+  const std::vector<Line> lines = lines_of(context, group.cases);
+  const std::vector<GroupValues> all = group_values(context, lines, group.cases);
+  std::vector<table::Cell> begin;
+  if (by_class) begin.emplace_back(group.title);
+  for (std::size_t i = 0; i < lines.size(); ++i) {
+    std::vector<table::Cell> cells = begin;
+    append(cells, {label_with_failures(context, lines[i], group.cases), all[i].cases, all[i].failed});
+    if (by_class) cells.emplace_back(all[i].invalid);
+    append_values(context, all[i], cells);
+    table.add_row(std::move(cells));
+    held.failures = held.failures || all[i].failed > 0;
+    const json theirs = published_values(group, lines[i]);
+    if (theirs.is_null()) continue;
+    held.published = true;
+    cells = begin;
+    const bool has_count = group.published.contains("shapes");
+    append(cells, {paper_label(lines[i]),
+                   has_count ? table::Cell(group.published.at("shapes").get<int>()) : table::Cell(),
+                   {}});
+    if (by_class) cells.emplace_back();
+    append_published(context, theirs, cells);
+    table.add_row(std::move(cells));
+  }
+  return held;
+}
+
+table::Table summary_table(TableContext& context, const std::vector<Case>& cases, const json& published) {
+  table::Table table{"summary", "", {table::words("Method"), "Shapes", "Failed"}};
+  append_value_columns(context, table.columns);
   const std::vector<CaseGroup> kinds = family_groups(context, cases);
   // Shapes that are no family have each a title of its own.
   const std::string kind = kinds.size() < cases.size() ? " (" + kinds_text(kinds) + ")" : "";
-  section.caption =
+  table.caption =
       std::to_string(cases.size()) + " shapes" + kind + ", " + size_text(cases) + ": " + values_text(context);
-  bool any_failed = false;
-  const std::vector<GroupValues> all = group_values(context, lines, cases);
-  for (std::size_t i = 0; i < lines.size(); ++i) {
-    const Line& line = lines[i];
-    std::vector<std::string> cells = {
-        row_label(context, line, cases) + group_failure_marks(context, line, cases),
-        std::to_string(all[i].cases), std::to_string(all[i].failed)};
-    any_failed = any_failed || all[i].failed > 0;
-    append_values(context, cells, all[i]);
-    section.table.add_row(std::move(cells));
-    const json theirs = published_values({"", {}, published}, line);
-    if (theirs.is_null()) continue;
-    cells = {paper_label(line), published.at("shapes").dump(), kNothing};
-    append_published(context, cells, theirs);
-    section.table.add_row(std::move(cells));
-  }
-  if (any_failed) section.remarks.emplace_back(kMeansRemark);
+  if (add_rows(context, {"", cases, published}, false, table).failures)
+    table.remarks.emplace_back(kMeansRemark);
   if (!published.is_null()) {
-    section.remarks.push_back("The paper's values are from its " + published.at("where").get<std::string>() +
-                              "; " + published.at("remark").get<std::string>() + ".");
+    table.remarks.push_back("The paper's values are from its " + published.at("where").get<std::string>() +
+                            "; " + published.at("remark").get<std::string>() + ".");
   }
-  return section;
+  return table;
 }
 
-std::string error_cell(const TableContext& context, const Line& line, const Case& which,
+table::Cell error_cell(const TableContext& context, const Line& line, const Case& which,
                        const json& published) {
   const auto runs = context.measurements.find(line.method, line.protocol, which);
   if (const record::RunRecord* failure = first_failure(runs)) {
     return failure->status == record::Status::kNotInstalled ? "" : failure_name(*failure);
   }
   const auto errors = all_values(runs, "l2_paper");
-  if (errors.empty()) return kNothing;
-  std::string text = fixed(100 * statistics::median(std::span<const double>(errors)), 1);
+  if (errors.empty()) return {};
+  table::Cell cell = table::Number(100 * statistics::median(errors), 1);
+  cell.sign = hull_sign(runs);
   if (!published.is_null() && paper().at("protocol") == line.protocol) {
     const json value = published.value("by_shape", json::object())
                            .value(which.dataset, json::object())
                            .value(line.method, json());
-    if (value.is_number()) text += " (" + fixed(value.get<double>(), 1) + ")";
+    if (value.is_number()) cell.other = {value.get<double>(), 1};
   }
-  return text + hull_mark(runs);
+  return cell;
 }
 
-table::TableSection shape_table(const TableContext& context, const std::vector<Line>& lines,
-                                const std::vector<Case>& cases, const json& published) {
-  std::vector<std::string> header = {"Shape"};
-  for (const Line& line : lines) header.push_back(label(context, line));
-  table::TableSection section{
-      "shapes", "Error L2 of every shape, % of the result's area", table::TextTable(std::move(header)), {}};
+table::Table shape_table(const TableContext& context, const std::vector<Case>& cases, const json& published) {
+  table::Table table{"shapes", "Error L2 of every shape, % of the result's area", {table::words("Shape")}};
+  const std::vector<Line> lines = lines_of(context, cases);
+  for (const Line& line : lines) table.columns.emplace_back(label(context, line), "%");
   bool has_brackets = false;
   for (const Case& which : cases) {
-    std::vector<std::string> cells = {shape_title(context, which)};
+    std::vector<table::Cell> cells = {shape_title(context, which)};
     for (const Line& line : lines) {
       cells.push_back(error_cell(context, line, which, published));
-      has_brackets = has_brackets || cells.back().find('(') != std::string::npos;
+      has_brackets = has_brackets || cells.back().other;
     }
-    section.table.add_row(std::move(cells));
+    table.add_row(std::move(cells));
   }
-  if (has_brackets) section.caption += " (in brackets the paper's)";
-  explain_hull_mark(section);
-  return section;
+  if (has_brackets) table.caption += " (in brackets the paper's)";
+  explain_hull_sign(table);
+  return table;
 }
 
 /// The convexity of a case's ground truth, from any run that was scored.
@@ -255,74 +278,57 @@ std::vector<CaseGroup> convexity_groups(const TableContext& context, const std::
   return groups;
 }
 
-table::TableSection group_table(TableContext& context, const std::string& id, const std::string& caption,
-                                const std::string& first_column, const std::vector<CaseGroup>& groups) {
-  std::vector<std::string> header = {first_column, "Method", "Shapes", "Failed", "Invalid"};
-  append_value_columns(context, header);
-  table::TableSection section{id, caption, table::TextTable(std::move(header)), {}};
-  bool has_published = false;
-  bool any_failed = false;
+table::Table group_table(TableContext& context, const std::string& id, const std::string& caption,
+                         const std::string& first_column, const std::vector<CaseGroup>& groups) {
+  table::Table table{
+      id, caption, {table::words(first_column), table::words("Method"), "Shapes", "Failed", "Invalid"}};
+  append_value_columns(context, table.columns);
+  Held any;
   for (const CaseGroup& group : groups) {
-    const std::vector<Line> lines = lines_of(context, group.cases);
-    const std::vector<GroupValues> all = group_values(context, lines, group.cases);
-    for (std::size_t i = 0; i < lines.size(); ++i) {
-      const Line& line = lines[i];
-      std::vector<std::string> cells = {
-          group.title,
-          row_label(context, line, group.cases) + group_failure_marks(context, line, group.cases),
-          std::to_string(all[i].cases), std::to_string(all[i].failed), std::to_string(all[i].invalid)};
-      any_failed = any_failed || all[i].failed > 0;
-      append_values(context, cells, all[i]);
-      section.table.add_row(std::move(cells));
-      const json theirs = published_values(group, line);
-      if (theirs.is_null()) continue;
-      has_published = true;
-      cells = {group.title, paper_label(line), kNothing, kNothing, kNothing};
-      append_published(context, cells, theirs);
-      section.table.add_row(std::move(cells));
-    }
+    const Held held = add_rows(context, group, true, table);
+    any = {any.failures || held.failures, any.published || held.published};
   }
-  if (any_failed) section.remarks.emplace_back(kMeansRemark);
-  if (has_published) {
+  if (any.failures) table.remarks.emplace_back(kMeansRemark);
+  if (any.published) {
     const json& classes = paper().at("convexity_classes");
-    section.remarks.push_back("The paper's values are from its " + classes.at("where").get<std::string>() +
-                              ", " + classes.at("shapes").dump() + " polygons; " +
-                              classes.at("remark").get<std::string>() + ".");
+    table.remarks.push_back("The paper's values are from its " + classes.at("where").get<std::string>() +
+                            ", " + classes.at("shapes").dump() + " polygons; " +
+                            classes.at("remark").get<std::string>() + ".");
   }
-  return section;
+  return table;
 }
 
-/// Adds to `section` how many results of all its groups GEOS found to be invalid.
-void say_validity(const TableContext& context, const std::vector<Case>& cases, table::TableSection& section) {
+/// Adds to `table` how many results of all its groups GEOS found to be invalid.
+void say_validity(const TableContext& context, const std::vector<Case>& cases, table::Table& table) {
   const std::vector<Line> lines = lines_of(context, cases);
   const std::vector<GroupValues> all = group_values(context, lines, cases);
   for (std::size_t i = 0; i < lines.size(); ++i) {
-    section.remarks.push_back(
+    table.remarks.push_back(
         label(context, lines[i]) + ": of " + std::to_string(all[i].solved + all[i].invalid) +
         " results, each checked by GEOS, " + std::to_string(all[i].invalid) + " are invalid.");
   }
 }
 
-std::vector<table::TableSection> class_tables(TableContext& context, const std::vector<Case>& cases) {
+std::vector<table::Table> class_tables(TableContext& context, const std::vector<Case>& cases) {
   std::vector<Case> papers_own;
   std::vector<Case> others;
   for (const Case& which : cases) {
     (is_about(paper().at("convexity_classes"), which) ? papers_own : others).push_back(which);
   }
-  std::vector<table::TableSection> sections;
+  std::vector<table::Table> tables;
   for (const auto& [id, part] :
        {std::pair{"convexity", &papers_own}, std::pair{"convexity_others", &others}}) {
     if (part->empty()) continue;
     const std::vector<CaseGroup> kinds = family_groups(context, *part);
     const std::string caption = std::to_string(part->size()) + " shapes (" + kinds_text(kinds) + "), " +
                                 size_text(*part) + ", by convexity: " + values_text(context);
-    sections.push_back(group_table(context, id, caption, "Convexity", convexity_groups(context, *part)));
-    say_validity(context, *part, sections.back());
+    tables.push_back(group_table(context, id, caption, "Convexity", convexity_groups(context, *part)));
+    say_validity(context, *part, tables.back());
     if (kinds.size() > 1) {
-      sections.push_back(group_table(context, "kinds", "The same by kind", "Kind", kinds));
+      tables.push_back(group_table(context, "kinds", "The same by kind", "Kind", kinds));
     }
   }
-  return sections;
+  return tables;
 }
 
 }  // namespace
@@ -335,12 +341,11 @@ bool is_collection(const std::vector<Shape>& shapes) {
   return shapes.size() >= kMany || !published_collection(shapes).is_null();
 }
 
-std::vector<table::TableSection> collection_tables(TableContext& context, const std::vector<Shape>& shapes) {
+std::vector<table::Table> collection_tables(TableContext& context, const std::vector<Shape>& shapes) {
   const std::vector<Case> cases = cases_of(shapes);
   if (cases.size() > kTooManyForRows) return class_tables(context, cases);
-  const std::vector<Line> lines = lines_of(context, cases);
   const json& published = published_collection(shapes);
-  return {summary_table(context, lines, cases, published), shape_table(context, lines, cases, published)};
+  return {summary_table(context, cases, published), shape_table(context, cases, published)};
 }
 
 std::vector<CaseGroup> published_groups(const TableContext& context, const std::vector<Shape>& shapes) {

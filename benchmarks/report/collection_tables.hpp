@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "benchmarks/report/table_context.hpp"
-#include "benchmarks/table/document.hpp"
+#include "benchmarks/table/table.hpp"
 
 namespace hullbench::report {
 
@@ -27,7 +27,7 @@ bool is_collection(const std::vector<Shape>& shapes);
 /// paper's values where it has any of these shapes. Up to 60 shapes: one group, and the error of every shape,
 /// a column a method. More: groups by the convexity of the ground truth, in the paper's classes, and by
 /// family. The statistics of all methods are of the cases that all solved (group_values.hpp).
-std::vector<table::TableSection> collection_tables(TableContext& context, const std::vector<Shape>& shapes);
+std::vector<table::Table> collection_tables(TableContext& context, const std::vector<Shape>& shapes);
 
 /// The groups that the paper has values of, for comparisons. Empty when it has none.
 std::vector<CaseGroup> published_groups(const TableContext& context, const std::vector<Shape>& shapes);

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "benchmarks/report/measurements.hpp"
+#include "benchmarks/statistics/judge.hpp"
 #include "benchmarks/statistics/statistics.hpp"
 
 namespace hullbench::report {
@@ -69,20 +70,20 @@ bool can_be_judged(const RunPair& pair) {
 
 /// Calls the differences that remain when the tests of all pairs are looked at together.
 void judge(RunsCompared& compared) {
-  std::vector<double> p_values;
+  std::vector<statistics::Evidence> evidence;
   for (const RunPair& pair : compared.pairs) {
-    if (can_be_judged(pair)) p_values.push_back(pair.time->p_value);
+    if (can_be_judged(pair)) evidence.push_back({*pair.time->interval, pair.time->p_value});
   }
-  const std::vector<double> adjusted = statistics::holm_adjusted(p_values);
-  compared.judged = adjusted.size();
-  auto next = adjusted.begin();
+  const std::vector<statistics::Judgement> judgements = statistics::judge(evidence, 1, kLevel);
+  compared.judged = judgements.size();
+  auto next = judgements.begin();
   for (RunPair& pair : compared.pairs) {
     if (!can_be_judged(pair)) continue;
-    pair.adjusted_p_value = *next++;
-    const bool is_faster = pair.time->interval->high < 1;
-    pair.change = pair.adjusted_p_value >= kLevel ? Change::kNotApart
-                  : is_faster                     ? Change::kFaster
-                                                  : Change::kSlower;
+    pair.adjusted_p_value = next->p_value;
+    pair.change = next->side == statistics::Side::kBelow   ? Change::kFaster
+                  : next->side == statistics::Side::kAbove ? Change::kSlower
+                                                           : Change::kNotApart;
+    ++next;
   }
 }
 

@@ -25,66 +25,54 @@ constexpr std::size_t kMostNames = 20;
 
 constexpr const char* kWithinRunsOnly =
     "Faster and slower are of these two runs: the intervals and the test know the spread of the repetitions "
-    "within "
-    "them only. What differs from one run to the next of the very same program (the moment, the memory's "
-    "layout, "
-    "neighbours on the machine) is not in them, and can by itself make most pairs differ. Compare A with a "
-    "second "
-    "run of A to see how much it is; to judge a change of the code, measure both in turns.";
+    "within them only. What differs from one run to the next of the very same program (the moment, the "
+    "memory's layout, neighbours on the machine) is not in them, and can by itself make most pairs differ. "
+    "Compare A with a second run of A to see how much it is; to judge a change of the code, measure both in "
+    "turns.";
 
 /// A ratio with three digits, but at least two after the point: 1.00 and 0.99 must not look alike.
-std::string ratio_text(double ratio) {
-  return fixed(ratio, std::max(2, decimals_of(ratio)));
+table::Number ratio_number(double ratio) {
+  return {ratio, std::max(2, decimals_of(ratio))};
 }
 
-std::string interval_text(const std::optional<statistics::Interval>& interval) {
-  return interval ? ratio_text(interval->low) + "–" + ratio_text(interval->high) : kNothing;
+table::Cell ratio_cell(const std::optional<double>& ratio) {
+  return ratio ? ratio_number(*ratio) : table::Cell();
 }
 
-std::string time_text(const record::RunRecord& run) {
-  return is_measured(run) ? milliseconds(statistics::median(run.time_ns)) : failure_name(run);
+table::Cell range_cell(const std::optional<statistics::Interval>& interval) {
+  if (!interval) return {};
+  return table::Range{ratio_number(interval->low), ratio_number(interval->high)};
 }
 
-std::string percent_text(const std::optional<double>& fraction) {
-  return fraction ? fixed(100 * *fraction, 2) : kNothing;
+table::Cell time_cell(const record::RunRecord& run) {
+  return is_measured(run) ? milliseconds(statistics::median(run.time_ns)) : table::Cell(failure_name(run));
+}
+
+table::Cell percent_cell(const std::optional<double>& fraction) {
+  return fraction ? table::Number(100 * *fraction, 2) : table::Cell();
 }
 
 /// "+0.12": of the errors, in points of a per cent.
-std::string difference_text(const std::optional<double>& a, const std::optional<double>& b) {
-  if (!a || !b) return kNothing;
+table::Cell difference_cell(const std::optional<double>& a, const std::optional<double>& b) {
+  if (!a || !b) return {};
+  if (*a == *b) return 0;
   const double difference = 100 * (*b - *a);
-  const std::string text = fixed(std::abs(difference), 2);
-  if (text == fixed(0, 2)) return *a == *b ? "0" : "<0.01";
-  return (difference < 0 ? "-" : "+") + text;
+  return std::abs(difference) < 0.005 ? "<0.01" : table::Cell(table::Number(difference, 2, true));
 }
 
-/// By its title where a report of the side has one.
-std::string label_of(const ComparedSide& side, const MethodChange& method) {
-  for (const json& report : side.reports) {
-    if (!report.contains("methods") || method_title(report, method.method) == method.method) continue;
-    return method_label(report, method.method, method.protocol);
-  }
-  return method.method + " (" + method.protocol + ")";
-}
-
-table::TableSection methods_section(const RunsCompared& compared, const ComparedSide& a) {
-  table::TableSection section{
-      "compare_methods",
-      "Time of equal work by method, B / A",
-      table::TextTable({"Method", "Pairs", "Median of B / A", "95 %", "B faster", "B slower"}),
-      {}};
+table::Table changes_table(const RunsCompared& compared, const ComparedSide& a) {
+  table::Table table{"compare_methods",
+                     "Time of equal work by method, B / A",
+                     {table::words("Method"), "Pairs", "Median of B / A", "95 %", "B faster", "B slower"}};
   for (const MethodChange& method : compared.methods) {
-    section.table.add_row({label_of(a, method), std::to_string(method.pairs),
-                           method.ratio ? ratio_text(*method.ratio) : kNothing,
-                           interval_text(method.interval), std::to_string(method.faster),
-                           std::to_string(method.slower)});
+    table.add_row({method_label(a.reports, method.method, method.protocol), method.pairs,
+                   ratio_cell(method.ratio), range_cell(method.interval), method.faster, method.slower});
   }
-  section.remarks.emplace_back(
+  table.remarks.emplace_back(
       "Below 1, B is faster. The interval is a bootstrap of whole shapes (a data set, with or without "
-      "holes); a "
-      "single shape has none.");
-  section.remarks.emplace_back(kWithinRunsOnly);
-  return section;
+      "holes); a single shape has none.");
+  table.remarks.emplace_back(kWithinRunsOnly);
+  return table;
 }
 
 bool is_changed(const RunPair& pair) {
@@ -98,10 +86,8 @@ std::string pairs_remark(const RunsCompared& compared) {
                     [](const RunPair& pair) { return pair.change == Change::kNotJudged; }));
   std::string text =
       "Times are medians in ms. B / A is the median of all ratios of a time of B to one of A (Hodges and "
-      "Lehmann "
-      "1963), its interval that of Moses (1965). A pair is called faster or slower when the rank test of "
-      "Mann "
-      "and Whitney (1947) says so at 5 % after Holm's correction (1979) over the " +
+      "Lehmann 1963), its interval that of Moses (1965). A pair is called faster or slower when the rank "
+      "test of Mann and Whitney (1947) says so at 5 % after Holm's correction (1979) over the " +
       std::to_string(compared.judged) +
       " pairs tested: if nothing but the spread of the repetitions lay between the two runs, 1 of 20 such "
       "comparisons would make a wrong call or more. So a pair whose interval leaves out 1 may still be \"not "
@@ -113,12 +99,18 @@ std::string pairs_remark(const RunsCompared& compared) {
   return text;
 }
 
-table::TableSection pairs_section(const RunsCompared& compared, bool every_pair) {
-  table::TableSection section{
-      "compare_runs",
-      "Run by run: time of equal work, and error L2 in % of the ground truth's area",
-      table::TextTable({"Run", "A, ms", "B, ms", "B / A", "95 %", "B is", "L2 of A", "L2 of B", "B - A"}),
-      {}};
+table::Table pairs_table(const RunsCompared& compared, bool every_pair) {
+  table::Table table{"compare_runs",
+                     "Run by run: time of equal work, and error L2 in % of the ground truth's area",
+                     {table::words("Run"),
+                      table::with_unit("A", "ms"),
+                      table::with_unit("B", "ms"),
+                      "B / A",
+                      "95 %",
+                      table::words("B is"),
+                      table::Column("L2 of A", "%"),
+                      table::Column("L2 of B", "%"),
+                      {"B - A", "%"}}};
   std::size_t left_out = 0;
   for (const RunPair& pair : compared.pairs) {
     if (!every_pair && compared.pairs.size() > kMostPairsShown && !is_changed(pair)) {
@@ -127,17 +119,17 @@ table::TableSection pairs_section(const RunsCompared& compared, bool every_pair)
     }
     const auto error_a = metric(pair.a, "l2");
     const auto error_b = metric(pair.b, "l2");
-    section.table.add_row({pair.a.name, time_text(pair.a), time_text(pair.b),
-                           pair.time ? ratio_text(pair.time->ratio) : kNothing,
-                           pair.time ? interval_text(pair.time->interval) : kNothing, to_string(pair.change),
-                           percent_text(error_a), percent_text(error_b), difference_text(error_a, error_b)});
+    table.add_row({pair.a.name, time_cell(pair.a), time_cell(pair.b),
+                   pair.time ? ratio_number(pair.time->ratio) : table::Cell(),
+                   pair.time ? range_cell(pair.time->interval) : table::Cell(), to_string(pair.change),
+                   percent_cell(error_a), percent_cell(error_b), difference_cell(error_a, error_b)});
   }
-  section.remarks.push_back(pairs_remark(compared));
+  table.remarks.push_back(pairs_remark(compared));
   if (left_out > 0) {
-    section.remarks.push_back("Left out, because nothing was shown to have changed: " +
-                              std::to_string(left_out) + " pairs; --format csv has them all.");
+    table.remarks.push_back("Left out, because nothing was shown to have changed: " +
+                            std::to_string(left_out) + " pairs; --format csv has them all.");
   }
-  return section;
+  return table;
 }
 
 std::string joined(const Words& words) {
@@ -179,11 +171,11 @@ void add_machines(const ComparedSide& a, const ComparedSide& b, std::vector<std:
   const Words of_a = machines_of(a);
   const Words of_b = machines_of(b);
   if (of_a == of_b && of_a.size() == 1) return;
-  notes.push_back((of_a.empty() || of_b.empty() ? "WHERE THE TIMES WERE TAKEN IS NOT KNOWN (A: "
-                                                : "THE MACHINES DIFFER (A: ") +
-                  joined(of_a) + "; B: " + joined(of_b) +
-                  "): a ratio of times across machines compares the machines, not the methods. Errors can be "
-                  "compared.");
+  notes.push_back(
+      (of_a.empty() || of_b.empty() ? "WHERE THE TIMES WERE TAKEN IS NOT KNOWN (A: "
+                                    : "THE MACHINES DIFFER (A: ") +
+      joined(of_a) + "; B: " + joined(of_b) +
+      "): a ratio of times across machines compares the machines, not the methods. Errors can be compared.");
 }
 
 /// The pairs of which `is_same` is false, as a note.
@@ -296,12 +288,10 @@ ordered_json pair_json(const RunPair& pair) {
 
 table::Document comparison_document(const RunsCompared& compared, const ComparedSide& a,
                                     const ComparedSide& b, bool every_pair) {
-  table::Document document;
-  document.title = "A " + a.name + " and B " + b.name;
-  document.tables.push_back(methods_section(compared, a));
-  document.notes = comparison_notes(compared, a, b);
-  table::TableSection pairs = pairs_section(compared, every_pair);
-  if (pairs.table.empty()) {
+  table::Document document = {
+      "A " + a.name + " and B " + b.name, {changes_table(compared, a)}, comparison_notes(compared, a, b)};
+  table::Table pairs = pairs_table(compared, every_pair);
+  if (pairs.rows.empty()) {
     document.notes.insert(document.notes.end(), pairs.remarks.begin(), pairs.remarks.end());
   } else {
     document.tables.push_back(std::move(pairs));

@@ -2,12 +2,10 @@
 
 #include <algorithm>
 #include <limits>
-#include <span>
 #include <sstream>
 #include <utility>
 #include <vector>
 
-#include "benchmarks/report/ratios.hpp"
 #include "benchmarks/statistics/statistics.hpp"
 
 namespace hullbench::report {
@@ -53,16 +51,14 @@ Errors errors_of(const TableContext& context, const Line& line, const std::vecto
     const std::vector<double> values = all_values(runs, "l2");
     const bool failed = first_failure(runs) != nullptr || values.empty();
     errors.failures += failed ? 1 : 0;
-    errors.values.push_back(failed ? std::numeric_limits<double>::infinity()
-                                   : statistics::median(std::span<const double>(values)));
+    errors.values.push_back(failed ? std::numeric_limits<double>::infinity() : statistics::median(values));
   }
   return errors;
 }
 
-std::string error_cell(const std::vector<double>& errors) {
-  if (errors.empty()) return kNothing;
-  const double middle = 100 * statistics::median(std::span<const double>(errors));
-  return ratio_text(middle);
+table::Cell error_cell(const std::vector<double>& errors) {
+  if (errors.empty()) return {};
+  return table::Number(100 * statistics::median(errors));
 }
 
 std::string place_text(const json& at) {
@@ -72,13 +68,13 @@ std::string place_text(const json& at) {
   return text.str();
 }
 
-std::vector<std::string> header_of(const json& axis, const std::vector<Place>& places) {
+std::vector<table::Column> columns_of(const json& axis, const std::vector<Place>& places) {
   const std::string title = axis.at("title").get<std::string>();
   const std::string unit = axis.at("unit").get<std::string>();
-  std::vector<std::string> header = {title + (unit.empty() ? "" : ", " + unit)};
-  for (const Place& place : places) header.push_back(place_text(place.at));
-  header.emplace_back("Failed");
-  return header;
+  std::vector<table::Column> columns = {table::words(title + (unit.empty() ? "" : ", " + unit))};
+  for (const Place& place : places) columns.emplace_back(place_text(place.at), "%");
+  columns.emplace_back("Failed");
+  return columns;
 }
 
 }  // namespace
@@ -97,29 +93,26 @@ json place_on_axis(const json& axis, const record::RunRecord& row) {
   return level == row.levels.end() ? json() : json(level->second);
 }
 
-table::TableSection curve_table(TableContext& context) {
+table::Table curve_table(TableContext& context) {
   const json& axis = context.report.at("plan").at("axis");
   const std::vector<Place> places = places_of(context, axis);
-  table::TableSection section{"curves",
-                              "Error L2 along the axis, % of the ground truth's area, median of the cases",
-                              table::TextTable(header_of(axis, places)),
-                              {}};
+  table::Table table{"curves", "Error L2 along the axis, % of the ground truth's area, median of the cases",
+                     columns_of(axis, places)};
   for (const Line& line : lines_of(context, context.measurements.cases())) {
-    std::vector<std::string> cells = {label(context, line) +
-                                      failure_marks(context, line, context.measurements.cases())};
+    std::vector<table::Cell> cells = {label(context, line)};
+    cells.front().notes = failure_notes(context, line, context.measurements.cases());
     std::size_t failures = 0;
     for (const Place& place : places) {
       const Errors errors = errors_of(context, line, place.cases);
       failures += errors.failures;
       cells.push_back(error_cell(errors.values));
     }
-    cells.push_back(std::to_string(failures));
-    section.table.add_row(std::move(cells));
+    cells.emplace_back(failures);
+    table.add_row(std::move(cells));
   }
-  section.remarks.emplace_back(
-      "A failed run counts as infinitely bad; ∞: half of the runs failed, or more. A dash: not "
-      "run.");
-  return section;
+  table.remarks.emplace_back(
+      "A failed run counts as infinitely bad; ∞: half of the runs failed, or more. A dash: not run.");
+  return table;
 }
 
 }  // namespace hullbench::report

@@ -6,7 +6,7 @@
 
 #include "benchmarks/record/record.hpp"
 #include "benchmarks/report/table_context.hpp"
-#include "benchmarks/table/document.hpp"
+#include "benchmarks/table/table.hpp"
 
 namespace hullbench::report {
 
@@ -17,6 +17,6 @@ nlohmann::json place_on_axis(const nlohmann::json& axis, const record::RunRecord
 /// A line a method, a column a place on the axis, from the least; words in the order in which they occur. A
 /// cell is the median over the cases of L2; a failed run is infinitely bad, so a cell without a number says
 /// that half of them failed, or more. The report's plan must have an axis.
-table::TableSection curve_table(TableContext& context);
+table::Table curve_table(TableContext& context);
 
 }  // namespace hullbench::report

@@ -17,7 +17,7 @@ using nlohmann::json;
 /// Leaves out the steps of a report that has other cases too, when a report of the steps alone is there.
 void drop_repeated_steps(std::vector<table::Document>& documents) {
   const std::string steps = std::string("_") + kStepsTable;
-  const auto is_steps = [&](const table::TableSection& section) { return section.id.ends_with(steps); };
+  const auto is_steps = [&](const table::Table& table) { return table.id.ends_with(steps); };
   const bool alone = std::any_of(documents.begin(), documents.end(), [&](const table::Document& document) {
     return !document.tables.empty() && is_steps(document.tables.front());
   });
@@ -48,16 +48,12 @@ std::vector<table::Document> make_documents(const std::vector<json>& reports) {
   documents.reserve(reports.size() + 2);
   for (const json& report : reports) documents.push_back(make_document(report));
   drop_repeated_steps(documents);
-  table::Document end;
-  end.title = "Beside the paper";
-  end.tables.push_back(differences_table(reports));
-  if (end.tables.front().table.empty()) end = table::Document{"All runs", {}, {}, {}};
+  table::Document end = {"Beside the paper", {differences_table(reports)}};
+  if (end.tables.front().rows.empty()) end = table::Document{"All runs"};
   end.common_notes = take_common_notes(documents);
   documents.push_back(std::move(end));
-  table::Document overview;
-  overview.title = "Methods and parameters";
-  overview.tables = {methods_table(reports), parameters_table(reports)};
-  documents.insert(documents.begin(), std::move(overview));
+  documents.insert(documents.begin(), table::Document{"Methods and parameters",
+                                                      {methods_table(reports), parameters_table(reports)}});
   return documents;
 }
 

@@ -4,7 +4,7 @@
 #include <nlohmann/json.hpp>
 #include <vector>
 
-#include "benchmarks/table/document.hpp"
+#include "benchmarks/table/writers.hpp"
 
 namespace hullbench::report {
 

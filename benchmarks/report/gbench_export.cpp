@@ -7,7 +7,6 @@
 #include "benchmarks/base/files.hpp"
 #include "benchmarks/report/measurements.hpp"
 #include "benchmarks/statistics/statistics.hpp"
-#include "benchmarks/table/document.hpp"
 
 namespace hullbench::report {
 namespace {

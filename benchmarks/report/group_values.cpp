@@ -1,9 +1,7 @@
 #include "benchmarks/report/group_values.hpp"
 
 #include <algorithm>
-#include <span>
 
-#include "benchmarks/base/number_format.hpp"
 #include "benchmarks/statistics/statistics.hpp"
 
 namespace hullbench::report {
@@ -11,19 +9,19 @@ namespace {
 
 std::optional<Spread> spread_of(const std::vector<double>& values) {
   if (values.empty()) return std::nullopt;
-  return Spread{statistics::mean(std::span<const double>(values)),
-                statistics::standard_deviation(std::span<const double>(values)),
+  return Spread{statistics::mean(values), statistics::standard_deviation(values),
                 *std::max_element(values.begin(), values.end())};
 }
 
-template <typename Text>
-std::vector<std::string> cells_of(const std::optional<Spread>& spread, const Text& text) {
-  if (!spread) return {kNothing, kNothing, kNothing};
-  return {text(spread->mean), spread->deviation ? text(*spread->deviation) : kNothing, text(spread->maximum)};
+template <typename Show>
+std::vector<table::Cell> cells_of(const std::optional<Spread>& spread, const Show& show) {
+  if (!spread) return std::vector<table::Cell>(3);
+  return {show(spread->mean), spread->deviation ? show(*spread->deviation) : table::Cell(),
+          show(spread->maximum)};
 }
 
 /// Counts a case of these runs; whether it was solved.
-bool count_case(const std::vector<const record::RunRecord*>& runs, GroupValues& values) {
+bool count_case(const Runs& runs, GroupValues& values) {
   if (runs.empty()) return false;
   const record::RunRecord* failure = first_failure(runs);
   if (failure == nullptr) {
@@ -43,7 +41,7 @@ void add_spreads(const TableContext& context, const Line& line, const std::vecto
   for (const Case& which : cases) {
     const auto runs = context.measurements.find(line.method, line.protocol, which);
     const std::vector<double> of_case = all_values(runs, "l2_paper");
-    if (!of_case.empty()) errors.push_back(statistics::median(std::span<const double>(of_case)));
+    if (!of_case.empty()) errors.push_back(statistics::median(of_case));
     if (!context.measurements.has_times()) continue;
     times.push_back(statistics::median(all_times(runs, Boundary::kPaper)) / 1e6);
     equal_work.push_back(statistics::median(all_times(runs, Boundary::kEqualWork)) / 1e6);
@@ -80,12 +78,12 @@ std::vector<GroupValues> group_values(const TableContext& context, const std::ve
   return all;
 }
 
-std::vector<std::string> percent_cells(const std::optional<Spread>& fractions) {
-  return cells_of(fractions, [](double value) { return fixed(100 * value, 1); });
+std::vector<table::Cell> percent_cells(const std::optional<Spread>& fractions) {
+  return cells_of(fractions, [](double value) -> table::Cell { return table::Number(100 * value, 1); });
 }
 
-std::vector<std::string> millisecond_cells(const std::optional<Spread>& milliseconds) {
-  return cells_of(milliseconds, [](double value) { return three_digits(value); });
+std::vector<table::Cell> millisecond_cells(const std::optional<Spread>& milliseconds) {
+  return cells_of(milliseconds, [](double value) -> table::Cell { return table::Number(value); });
 }
 
 }  // namespace hullbench::report

@@ -35,10 +35,9 @@ struct GroupValues {
 std::vector<GroupValues> group_values(const TableContext& context, const std::vector<Line>& lines,
                                       const std::vector<Case>& cases);
 
-/// Mean, standard deviation and maximum as three cells, dashes for none; percent with one digit after the
-/// point.
-std::vector<std::string> percent_cells(const std::optional<Spread>& fractions);
+/// Mean, standard deviation and maximum as three cells; percent with one digit after the point.
+std::vector<table::Cell> percent_cells(const std::optional<Spread>& fractions);
 /// The same of milliseconds, with three digits.
-std::vector<std::string> millisecond_cells(const std::optional<Spread>& milliseconds);
+std::vector<table::Cell> millisecond_cells(const std::optional<Spread>& milliseconds);
 
 }  // namespace hullbench::report

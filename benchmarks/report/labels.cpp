@@ -49,6 +49,15 @@ std::string method_label(const json& report, const std::string& method, const st
   return method_title(report, method) + " (" + protocol + ")";
 }
 
+std::string method_label(const std::vector<json>& reports, const std::string& method,
+                         const std::string& protocol) {
+  for (const json& report : reports) {
+    if (report.contains("methods") && method_title(report, method) != method)
+      return method_label(report, method, protocol);
+  }
+  return method + " (" + protocol + ")";
+}
+
 std::string family_title(const json& report, const std::string& dataset) {
   const std::string unstressed = dataset.substr(0, dataset.find('~'));
   return title_of(report.at("datasets"), family_of(report, unstressed).value_or(unstressed));

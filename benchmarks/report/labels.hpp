@@ -3,6 +3,7 @@
 
 #include <nlohmann/json.hpp>
 #include <string>
+#include <vector>
 
 namespace hullbench::report {
 
@@ -11,6 +12,10 @@ std::string method_title(const nlohmann::json& report, const std::string& method
 
 /// "Polylidar (paper)": protocols never share a line, so each is part of its line's name.
 std::string method_label(const nlohmann::json& report, const std::string& method,
+                         const std::string& protocol);
+
+/// The same in the first of `reports` that has a title for it; some may have no methods at all.
+std::string method_label(const std::vector<nlohmann::json>& reports, const std::string& method,
                          const std::string& protocol);
 
 /// "Comb" for "comb-17": the title of the data set, or of the family that it is a member of.

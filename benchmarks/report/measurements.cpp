@@ -16,13 +16,13 @@ bool is_invalid(const record::RunRecord& run) {
   return run.status == record::Status::kOk && (valid == run.metrics.end() || *valid != true);
 }
 
-bool is_missing(const std::vector<const record::RunRecord*>& runs) {
+bool is_missing(const Runs& runs) {
   return std::all_of(runs.begin(), runs.end(), [](const record::RunRecord* run) {
     return run->status == record::Status::kNotInstalled;
   });
 }
 
-const record::RunRecord* first_failure(const std::vector<const record::RunRecord*>& runs) {
+const record::RunRecord* first_failure(const Runs& runs) {
   const auto found =
       std::find_if(runs.begin(), runs.end(), [](const record::RunRecord* run) { return !is_measured(*run); });
   return found == runs.end() ? nullptr : *found;
@@ -68,7 +68,7 @@ std::optional<double> metric(const record::RunRecord& run, const std::string& na
   return found->get<double>();
 }
 
-std::vector<double> all_values(const std::vector<const record::RunRecord*>& runs, const std::string& name) {
+std::vector<double> all_values(const Runs& runs, const std::string& name) {
   std::vector<double> result;
   for (const record::RunRecord* run : runs) {
     if (const auto value = metric(*run, name)) result.push_back(*value);
@@ -138,10 +138,8 @@ Measurements::Measurements(const nlohmann::json& report)
   cases_.erase(std::unique(cases_.begin(), cases_.end()), cases_.end());
 }
 
-std::vector<const record::RunRecord*> Measurements::find(const std::string& method,
-                                                         const std::string& protocol,
-                                                         const Case& which) const {
-  std::vector<const record::RunRecord*> result;
+Runs Measurements::find(const std::string& method, const std::string& protocol, const Case& which) const {
+  Runs result;
   const auto found = index_.find({method, protocol, which});
   if (found == index_.end()) return result;
   for (const std::size_t position : found->second) result.push_back(&runs_[position]);

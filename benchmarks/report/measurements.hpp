@@ -31,6 +31,9 @@ struct Line {
   bool operator==(const Line&) const = default;
 };
 
+/// The runs of one line and case.
+using Runs = std::vector<const record::RunRecord*>;
+
 /// Which part of the work a time covers.
 enum class Boundary {
   kEqualWork,  ///< points in memory to a valid multipolygon in memory: run + extract
@@ -45,10 +48,10 @@ bool is_measured(const record::RunRecord& run);
 bool is_invalid(const record::RunRecord& run);
 
 /// Whether none of `runs` was tried: there is none, or the method is not installed.
-bool is_missing(const std::vector<const record::RunRecord*>& runs);
+bool is_missing(const Runs& runs);
 
 /// The first of `runs` that gave no result to be believed; null when there is none.
-const record::RunRecord* first_failure(const std::vector<const record::RunRecord*>& runs);
+const record::RunRecord* first_failure(const Runs& runs);
 
 /// Whether the result's l2 is above that of the convex hull of its points, which every method should beat. Of
 /// the hull itself it is the same but for rounding.
@@ -65,7 +68,7 @@ std::vector<std::int64_t> step_times(const record::RunRecord& run, const std::ve
 std::optional<double> metric(const record::RunRecord& run, const std::string& name);
 
 /// That number of each of `runs` that has it.
-std::vector<double> all_values(const std::vector<const record::RunRecord*>& runs, const std::string& name);
+std::vector<double> all_values(const Runs& runs, const std::string& name);
 
 /// The machines on which the rows of `report` that have times were measured.
 std::set<std::string> machines_of(const nlohmann::json& report);
@@ -94,8 +97,7 @@ class Measurements {
   bool has_times() const { return why_no_times_.empty(); }
 
   /// The runs of that method, protocol and case; none when there are none.
-  std::vector<const record::RunRecord*> find(const std::string& method, const std::string& protocol,
-                                             const Case& which) const;
+  Runs find(const std::string& method, const std::string& protocol, const Case& which) const;
 
   /// All cases that occur, ordered by data set (as they first occur), without holes before with holes, then
   /// n.

@@ -14,15 +14,15 @@ namespace {
 
 using nlohmann::json;
 
-std::string yes_or_no(const json& method, const char* capability) {
+table::Cell yes_or_no(const json& method, const char* capability) {
   const json& capabilities = method.at("capabilities");
-  if (method.at("version").get<std::string>().empty() || !capabilities.contains(capability)) return kNothing;
+  if (method.at("version").get<std::string>().empty() || !capabilities.contains(capability)) return {};
   return capabilities.at(capability).get<bool>() ? "yes" : "no";
 }
 
-std::string text_or_dash(const json& method, const char* key) {
+table::Cell text_or_nothing(const json& method, const char* key) {
   const std::string text = method.at(key).get<std::string>();
-  return text.empty() ? kNothing : text;
+  return text.empty() ? table::Cell() : text;
 }
 
 /// Which values of a plan a column shows.
@@ -146,51 +146,40 @@ std::vector<std::pair<Line, std::string>> parameter_lines(const std::vector<json
   return lines;
 }
 
-std::string label_in(const std::vector<json>& reports, const Line& line) {
-  for (const json& report : reports) {
-    const std::string title = method_title(report, line.method);
-    if (title != line.method) return method_label(report, line.method, line.protocol);
-  }
-  return line.method + " (" + line.protocol + ")";
-}
-
 }  // namespace
 
-table::TableSection methods_table(const std::vector<json>& reports) {
-  table::TableSection section{
-      "methods",
-      "Methods: what each returns",
-      table::TextTable({"Method", "The library returns", "Holes", "Several polygons", "Version", "Licence"}),
-      {}};
+table::Table methods_table(const std::vector<json>& reports) {
+  table::Table table{"methods",
+                     "Methods: what each returns",
+                     {table::words("Method"), table::words("The library returns"), table::words("Holes"),
+                      table::words("Several polygons"), "Version", table::words("Licence")}};
   std::set<std::string> seen;
   for (const json& report : reports) {
     for (const json& method : report.at("methods")) {
       if (!seen.insert(method.at("name").get<std::string>()).second) continue;
-      section.table.add_row({method.at("title").get<std::string>(), text_or_dash(method, "native_output"),
-                             yes_or_no(method, "holes"), yes_or_no(method, "several_polygons"),
-                             text_or_dash(method, "version"), text_or_dash(method, "licence")});
+      table.add_row({method.at("title").get<std::string>(), text_or_nothing(method, "native_output"),
+                     yes_or_no(method, "holes"), yes_or_no(method, "several_polygons"),
+                     text_or_nothing(method, "version"), text_or_nothing(method, "licence")});
     }
   }
-  return section;
+  return table;
 }
 
-table::TableSection parameters_table(const std::vector<json>& reports) {
+table::Table parameters_table(const std::vector<json>& reports) {
   const std::vector<Column> columns = columns_of(reports);
-  std::vector<std::string> header = {"Method", "Parameter"};
-  for (const Column& column : columns) header.push_back(column.title);
-  table::TableSection section{
-      "parameters", "Parameters of the experiments", table::TextTable(std::move(header)), {}};
+  table::Table table{
+      "parameters", "Parameters of the experiments", {table::words("Method"), table::words("Parameter")}};
+  for (const Column& column : columns) table.columns.emplace_back(column.title);
   for (const auto& [line, parameter] : parameter_lines(reports)) {
-    std::vector<std::string> cells = {label_in(reports, line), parameter};
-    for (const Column& column : columns) cells.push_back(cell_text(column, line, parameter));
-    section.table.add_row(std::move(cells));
+    std::vector<table::Cell> cells = {method_label(reports, line.method, line.protocol), parameter};
+    for (const Column& column : columns) cells.emplace_back(cell_text(column, line, parameter));
+    table.add_row(std::move(cells));
   }
-  section.remarks.emplace_back(
+  table.remarks.emplace_back(
       "A is the area of the ground truth, n the number of points, A_hull the area of a convex hull: of the "
       "ground truth for target_percent, else of the points. P is the perimeter that the core chooses from "
-      "the "
-      "points. A cell without text: the method is not in that experiment.");
-  return section;
+      "the points. A cell without text: the method is not in that experiment.");
+  return table;
 }
 
 }  // namespace hullbench::report

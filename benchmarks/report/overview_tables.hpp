@@ -4,18 +4,18 @@
 #include <nlohmann/json.hpp>
 #include <vector>
 
-#include "benchmarks/table/document.hpp"
+#include "benchmarks/table/table.hpp"
 
 namespace hullbench::report {
 
 /// A line a method of any of `reports`: what its library returns, whether its result may have holes and
 /// several polygons (its adapter's capability flags), version and licence. A method that never started has
 /// dashes.
-table::TableSection methods_table(const std::vector<nlohmann::json>& reports);
+table::Table methods_table(const std::vector<nlohmann::json>& reports);
 
 /// A line a parameter of a method with a protocol that was run, and a column an experiment of `reports`, or a
 /// data set where a plan gives values case by case: what the plan gives, a rule by its formula. Without text:
 /// the method is not in it.
-table::TableSection parameters_table(const std::vector<nlohmann::json>& reports);
+table::Table parameters_table(const std::vector<nlohmann::json>& reports);
 
 }  // namespace hullbench::report

@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <set>
 
-#include "benchmarks/base/number_format.hpp"
 #include "benchmarks/report/claims.hpp"
 #include "benchmarks/report/collection_tables.hpp"
 #include "benchmarks/report/group_values.hpp"
+#include "benchmarks/report/labels.hpp"
 #include "benchmarks/report/table_context.hpp"
 #include "benchmarks/statistics/statistics.hpp"
 
@@ -84,9 +84,7 @@ void compare_steps(const TableContext& context, std::vector<Comparison>& compari
 std::string value_text(const json& report, const Comparison& comparison) {
   std::string text = comparison.where + ", ";
   if (!comparison.row.empty()) text += comparison.row + ", ";
-  for (const json& method : report.at("methods")) {
-    if (method.at("name") == comparison.method) text += method.at("title").get<std::string>() + ": ";
-  }
+  text += method_title(report, comparison.method) + ": ";
   if (comparison.quantity == kError) return text + "L2 mean, %";
   if (comparison.quantity == kTime) return text + "time, ms";
   return text + comparison.quantity + ", ms";
@@ -127,11 +125,10 @@ std::optional<std::string> reason_of(const Comparison& comparison) {
   return std::nullopt;
 }
 
-table::TableSection differences_table(const std::vector<json>& reports) {
-  table::TableSection section{"differences",
-                              "What differs from the paper and why",
-                              table::TextTable({"Value", "Paper", "Here", "Here / paper", "Reason"}),
-                              {}};
+table::Table differences_table(const std::vector<json>& reports) {
+  table::Table table{"differences",
+                     "What differs from the paper and why",
+                     {table::words("Value"), "Paper", "Here", "Here / paper", "Reason"}};
   table::Notes reasons;
   // Reports of one machine and build each are still of several in this one table.
   std::set<std::string> machines;
@@ -144,26 +141,30 @@ table::TableSection differences_table(const std::vector<json>& reports) {
   for (const json& report : reports) {
     for (const Comparison& comparison : compare_with_paper(report)) {
       if (comparison.quantity != kError && !why_no_times.empty()) continue;
-      std::string why = kNothing;
+      table::Cell why;
       if (comparison.is_large()) {
         const auto reason = reason_of(comparison);
-        why = reason ? reasons.mark(*reason) : "not known";
+        why.words = reason ? "" : "not known";
+        if (reason) why.notes = {reasons.number(*reason)};
       }
-      const bool measured = comparison.measured.has_value();
-      section.table.add_row({value_text(report, comparison), fixed(comparison.published, 1),
-                             measured ? three_digits(*comparison.measured) : kNothing,
-                             measured ? three_digits(comparison.ratio()) : kNothing, why});
+      table::Cell here;
+      table::Cell ratio;
+      if (comparison.measured) {
+        here = table::Number(*comparison.measured);
+        ratio = table::Number(comparison.ratio());
+      }
+      table.add_row(
+          {value_text(report, comparison), table::Number(comparison.published, 1), here, ratio, why});
     }
   }
   const json& limit = paper().at("differences").at("large_from");
-  section.remarks.push_back(
-      (why_no_times.empty() ? "Times are as the paper took them." : why_no_times) +
-      " A reason stands where a value is " + limit.dump() + " times the paper's or more, or the paper's is " +
-      limit.dump() +
-      " times ours or more, and where nothing was measured. The paper's Figure 8 has no numbers to "
-      "compare; what its text says of it is among the claims.");
-  for (std::string& reason : reasons.marked()) section.remarks.push_back(std::move(reason));
-  return section;
+  table.remarks.push_back((why_no_times.empty() ? "Times are as the paper took them." : why_no_times) +
+                          " A reason stands where a value is " + limit.dump() +
+                          " times the paper's or more, or the paper's is " + limit.dump() +
+                          " times ours or more, and where nothing was measured. The paper's Figure 8 has no "
+                          "numbers to compare; what its text says of it is among the claims.");
+  for (std::string& reason : reasons.marked()) table.remarks.push_back(std::move(reason));
+  return table;
 }
 
 }  // namespace hullbench::report

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "benchmarks/table/document.hpp"
+#include "benchmarks/table/table.hpp"
 
 namespace hullbench::report {
 
@@ -33,8 +33,8 @@ std::vector<Comparison> compare_with_paper(const nlohmann::json& report);
 /// there is none.
 std::optional<std::string> reason_of(const Comparison& comparison);
 
-/// One section of all comparisons of `reports`: value, paper, here, ratio, and of every large difference the
+/// All comparisons of `reports`: value, paper, here, ratio, and of every large difference the
 /// reason, or that none is known. Without rows when the reports share nothing with the paper's tables.
-table::TableSection differences_table(const std::vector<nlohmann::json>& reports);
+table::Table differences_table(const std::vector<nlohmann::json>& reports);
 
 }  // namespace hullbench::report

@@ -1,20 +1,15 @@
 #include "benchmarks/report/ratios.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <functional>
 #include <limits>
 #include <map>
-#include <span>
 #include <utility>
 
-#include "benchmarks/base/number_format.hpp"
 #include "benchmarks/statistics/statistics.hpp"
 
 namespace hullbench::report {
 namespace {
-
-using Runs = std::vector<const record::RunRecord*>;
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
@@ -53,15 +48,15 @@ statistics::Passes metric_ratio(const Runs& runs, const Runs& references, const 
   const std::vector<double> ours = all_values(runs, name);
   const std::vector<double> theirs = all_values(references, name);
   if (ours.empty() || theirs.empty()) return {};
-  const double by = statistics::median(std::span<const double>(theirs));
+  const double by = statistics::median(theirs);
   if (by <= 0) return {};
-  return {{statistics::median(std::span<const double>(ours)) / by}};
+  return {{statistics::median(ours) / by}};
 }
 
 double median_of_all(const statistics::Passes& passes) {
   std::vector<double> values;
   for (const auto& pass : passes) values.insert(values.end(), pass.begin(), pass.end());
-  return statistics::median(std::span<const double>(values));
+  return statistics::median(values);
 }
 
 /// `ratio_of` gives the ratios of a case that both solved.
@@ -88,7 +83,7 @@ Ratios ratios_over(const Measurements& measurements, const Line& line, const Lin
     by_shape[{which.dataset, which.holes}].push_back(std::move(passes));
   }
   if (middles.empty()) return result;
-  result.median = statistics::median(std::span<const double>(middles));
+  result.median = statistics::median(middles);
   std::tie(result.least, result.most) = std::pair(*std::min_element(middles.begin(), middles.end()),
                                                   *std::max_element(middles.begin(), middles.end()));
   std::vector<std::vector<statistics::Passes>> clusters;
@@ -112,23 +107,16 @@ Ratios metric_ratios(const Measurements& measurements, const Line& line, const L
   });
 }
 
-const record::RunRecord* counterpart(const record::RunRecord& run,
-                                     const std::vector<const record::RunRecord*>& references) {
+const record::RunRecord* counterpart(const record::RunRecord& run, const Runs& references) {
   const auto found = std::find_if(references.begin(), references.end(), [&](const record::RunRecord* other) {
     return other->dataset_sha256 == run.dataset_sha256 && other->seed == run.seed;
   });
   return found == references.end() ? nullptr : *found;
 }
 
-std::string ratio_text(double ratio) {
-  return std::isinf(ratio) ? "∞" : three_digits(ratio);
-}
-
-std::string interval_text(const std::optional<statistics::Interval>& interval) {
-  if (!interval) return "–";
-  if (std::isinf(interval->low)) return "∞";
-  return std::isinf(interval->high) ? "> " + three_digits(interval->low)
-                                    : three_digits(interval->low) + "–" + three_digits(interval->high);
+table::Cell interval_cell(const std::optional<statistics::Interval>& interval) {
+  if (!interval) return {};
+  return table::Range{table::Number(interval->low), table::Number(interval->high)};
 }
 
 }  // namespace hullbench::report

@@ -9,6 +9,7 @@
 
 #include "benchmarks/report/measurements.hpp"
 #include "benchmarks/statistics/bootstrap.hpp"
+#include "benchmarks/table/cell.hpp"
 
 namespace hullbench::report {
 
@@ -35,12 +36,9 @@ Ratios metric_ratios(const Measurements& measurements, const Line& line, const L
                      const std::vector<Case>& cases, const std::string& metric);
 
 /// Of `references` the run on the same points as `run`; null when there is none.
-const record::RunRecord* counterpart(const record::RunRecord& run,
-                                     const std::vector<const record::RunRecord*>& references);
+const record::RunRecord* counterpart(const record::RunRecord& run, const Runs& references);
 
-/// "1.23", or "∞".
-std::string ratio_text(double ratio);
-/// "1.20–1.31", "> 1.20" when the upper end is infinite, "∞" when both are, or a dash for none.
-std::string interval_text(const std::optional<statistics::Interval>& interval);
+/// The interval; nothing when there is none.
+table::Cell interval_cell(const std::optional<statistics::Interval>& interval);
 
 }  // namespace hullbench::report

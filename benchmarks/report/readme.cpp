@@ -1,15 +1,13 @@
 #include "benchmarks/report/readme.hpp"
 
 #include <algorithm>
-#include <array>
-#include <set>
+#include <optional>
 #include <sstream>
 #include <stdexcept>
 #include <string_view>
 
-#include "benchmarks/report/documents.hpp"
-#include "benchmarks/report/measurements.hpp"
-#include "benchmarks/table/document.hpp"
+#include "benchmarks/report/table_context.hpp"
+#include "benchmarks/table/writers.hpp"
 
 namespace hullbench::report {
 namespace {
@@ -19,41 +17,52 @@ using nlohmann::json;
 constexpr std::string_view kBegin = "<!-- results: begin -->\n";
 constexpr std::string_view kEnd = "<!-- results: end -->";
 
-/// The tables that the README shows, in its order; the others are in the run's tables.md.
-constexpr std::array<std::string_view, 15> kShown = {"states_ca_holes_time",
-                                                     "states_ca_holes_error",
-                                                     "states_headline",
-                                                     "states_ratios",
-                                                     "rgbd_headline",
-                                                     "rgbd_summary",
-                                                     "alphabet_headline",
-                                                     "alphabet_summary",
-                                                     "random_convexity",
-                                                     "random_convexity_others",
-                                                     "steps_headline",
-                                                     "steps_steps",
-                                                     "differences",
-                                                     "methods",
-                                                     "parameters"};
-
-const table::TableSection* find_table(const std::vector<table::Document>& documents, std::string_view id) {
-  for (const table::Document& document : documents) {
-    for (const table::TableSection& section : document.tables) {
-      if (section.id == id) return &section;
-    }
+/// Time and error of the paper's methods with its parameters, and of the rivals that are quoted first, on the
+/// shape whose steps the paper timed, at the least and the largest number of points. None of a report without
+/// that shape.
+std::optional<table::Table> methods_table(const json& report) {
+  const TableContext context{report, Measurements(report), {}};
+  Shape shape;
+  for (const Shape& one : shapes(context.measurements.cases())) {
+    if (paper().at("steps").at("dataset") == one.front().dataset) shape = one;
   }
-  return nullptr;
-}
-
-/// The marks in its cells refer to notes that are not here.
-table::TextTable without_marks(const table::TextTable& table) {
-  const auto plain = [](std::vector<std::string> row) {
-    for (std::string& cell : row) cell = hullbench::table::without_marks(cell);
-    return row;
-  };
-  table::TextTable result(plain(table.rows().front()));
-  for (std::size_t row = 1; row < table.rows().size(); ++row) result.add_row(plain(table.rows()[row]));
-  return result;
+  if (shape.empty()) return std::nullopt;
+  if (shape.size() > 2) shape = {shape.front(), shape.back()};
+  const bool times = context.measurements.has_times();
+  table::Table table{"paper_methods",
+                     shape_title(context, shape.front()) + (times ? ": time and error" : ": error") +
+                         " of the paper's methods and of the fastest one with the same polygons",
+                     {table::words("Method")}};
+  for (const Case& which : shape) {
+    const std::string points = std::to_string(which.n) + " points";
+    if (times) table.columns.push_back(table::with_unit(points, "ms"));
+    table.columns.push_back(table::with_unit(times ? "error" : points, "%"));
+  }
+  const json& headline = report.at("summary").at("headline");
+  const json rivals = headline.is_null() ? json::array() : headline.at("rivals");
+  for (const Line& line : lines_of(context, shape)) {
+    const bool is_papers =
+        paper().at("methods").contains(line.method) && paper().at("protocol") == line.protocol;
+    const bool is_rival = std::any_of(rivals.begin(), rivals.end(), [&](const json& rival) {
+      return rival.at("method") == line.method && rival.at("protocol") == line.protocol;
+    });
+    if (!is_papers && !is_rival) continue;
+    std::vector<table::Cell> cells = {row_label(context, line, shape)};
+    for (const Case& which : shape) {
+      const auto runs = context.measurements.find(line.method, line.protocol, which);
+      if (times) cells.push_back(cell(runs, Quantity::kEqualWork));
+      cells.push_back(cell(runs, Quantity::kError));
+    }
+    table.add_row(std::move(cells));
+  }
+  table.remarks.emplace_back(
+      "Error: the symmetric difference, % of the ground truth's area (in brackets as the paper divides it, "
+      "of the result's area). (paper): with the paper's parameters, which come from the ground truth.");
+  if (times)
+    table.remarks.emplace_back(
+        "Time: from points in memory to a valid multipolygon in memory, median ± median absolute deviation.");
+  explain_hull_sign(table);
+  return table;
 }
 
 std::size_t place_of(const std::string& text, std::string_view mark) {
@@ -69,28 +78,25 @@ std::size_t place_of(const std::string& text, std::string_view mark) {
 
 std::string readme_results(const std::vector<json>& reports, const std::string& folder) {
   if (reports.empty()) throw std::runtime_error("there is no run in " + folder + " yet; measure it first");
-  const std::vector<table::Document> documents = make_documents(reports);
   std::size_t runs = 0;
   for (const json& report : reports) runs += report.at("runs").size();
   std::ostringstream out;
   out << "The numbers below are those of the reference run in\n[" << folder << "](" << folder
       << "), begun on " << reports.front().at("created").get<std::string>().substr(0, 10) << ": " << runs
       << " runs, " << reports.size() << (reports.size() == 1 ? " experiment" : " experiments")
-      << ".\nAll of its tables are in [" << folder << "/tables.md](" << folder << "/tables.md).\n";
-  for (const std::string_view id : kShown) {
-    const table::TableSection* section = find_table(documents, id);
-    if (section == nullptr) continue;
-    out << "\n### " << section->caption << "\n\n";
-    table::print_markdown(without_marks(section->table), out);
-    if (!section->remarks.empty()) out << '\n';
-    for (const std::string& remark : section->remarks) table::print_item(remark, out);
+      << ".\nAll of its tables, and how to read them, are in [" << folder << "/tables.md](" << folder
+      << "/tables.md).\n";
+  for (const json& report : reports) {
+    const auto table = methods_table(report);
+    if (!table) continue;
+    out << "\n### " << table->caption << "\n\n";
+    table::print_markdown(*table, out);
+    out << '\n';
+    for (const std::string& remark : table->remarks) table::print_item(remark, out);
+    const std::string why_no_times = Measurements(report).why_no_times();
+    if (!why_no_times.empty()) table::print_item(why_no_times, out);
+    break;
   }
-  out << "\n### How these numbers were taken\n\n";
-  std::set<std::string> without_times;
-  for (const json& report : reports) without_times.insert(Measurements(report).why_no_times());
-  without_times.erase("");
-  for (const std::string& note : without_times) table::print_item(note, out);
-  for (const std::string& note : documents.back().common_notes) table::print_item(note, out);
   return out.str();
 }
 

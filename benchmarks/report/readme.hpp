@@ -1,4 +1,4 @@
-// The results in the README: tables of a reference run between two marks.
+// The results in the README: a table of a reference run between two marks.
 #pragma once
 
 #include <nlohmann/json.hpp>
@@ -7,8 +7,9 @@
 
 namespace hullbench::report {
 
-/// What stands between the marks: where the numbers are from, the tables that a reader wants first, and the
-/// notes. `folder`: how the README calls the run's folder. Throws std::runtime_error when `reports` is empty.
+/// What stands between the marks: where the numbers are from, and time and error of the paper's methods on
+/// one shape, of the first report that has it. `folder`: how the README calls the run's folder. Throws
+/// std::runtime_error when `reports` is empty.
 std::string readme_results(const std::vector<nlohmann::json>& reports, const std::string& folder);
 
 /// `readme` with `results` between its marks <!-- results: begin --> and <!-- results: end -->. Throws

@@ -15,6 +15,7 @@
 #include "benchmarks/record/record.hpp"
 #include "benchmarks/record/stored_run.hpp"
 #include "benchmarks/report/claims.hpp"
+#include "benchmarks/report/contests.hpp"
 #include "benchmarks/report/headline.hpp"
 #include "benchmarks/report/measurements.hpp"
 #include "benchmarks/report/noise.hpp"
@@ -46,7 +47,9 @@ json metric_or_null(const json& metrics, const char* name) {
   return found == metrics.end() ? json(nullptr) : *found;
 }
 
-json summary_row(const record::RunRecord& run) {
+json summary_row(const record::RunRecord& run, const std::map<std::string, Contest>& contests) {
+  const auto contest = contests.find(run.id);
+  const bool judged = contest != contests.end();
   return {{"id", run.id},
           {"name", run.name},
           {"status", to_string(run.status)},
@@ -55,7 +58,9 @@ json summary_row(const record::RunRecord& run) {
           {"l2", metric_or_null(run.metrics, "l2")},
           {"l2_paper", metric_or_null(run.metrics, "l2_paper")},
           {"iou", metric_or_null(run.metrics, "iou")},
-          {"valid", metric_or_null(run.metrics, "valid")}};
+          {"valid", metric_or_null(run.metrics, "valid")},
+          {"order", judged && contest->second.order ? json(*contest->second.order) : json(nullptr)},
+          {"fastest", judged && contest->second.is_fastest}};
 }
 
 json totals(const std::vector<record::RunRecord>& runs) {
@@ -81,8 +86,9 @@ json noise_to_json(const std::vector<record::RunRecord>& runs) {
 
 json make_summary(const json& report) {
   const auto runs = report.at("runs").get<std::vector<record::RunRecord>>();
+  const std::map<std::string, Contest> contests = judge_contests(runs);
   json rows = json::array();
-  for (const record::RunRecord& run : runs) rows.push_back(summary_row(run));
+  for (const record::RunRecord& run : runs) rows.push_back(summary_row(run, contests));
   return {{"totals", totals(runs)},
           {"noise", noise_to_json(runs)},
           {"rows", rows},

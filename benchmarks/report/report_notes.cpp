@@ -14,7 +14,6 @@
 #include "benchmarks/report/labels.hpp"
 #include "benchmarks/report/noise.hpp"
 #include "benchmarks/report/table_context.hpp"
-#include "benchmarks/table/text_table.hpp"
 
 namespace hullbench::report {
 namespace {
@@ -49,31 +48,24 @@ void add_how_to_read(bool times, Sentences& notes) {
   if (times)
     notes.push_back(
         "Equal work: points in memory to a valid multipolygon in memory, for every method alike. As the "
-        "paper "
-        "took it: "
-        "the method's own run only. Loading the points (the upload to a database) is in neither.");
-  notes.push_back(
-      std::string(times ? "A ratio of times is the median over the rounds of a case, in each of which both "
-                          "methods were "
-                          "measured right after one another. "
-                        : "") +
-      "Of ratios the median, the least and the largest of the cases are shown. A case that only the method "
-      "failed has the ratio ∞, and one that only the method beside it failed has 0." +
-      (times ? " 95 %: a bootstrap interval of the median that resamples whole shapes and in each case "
-               "passes and "
-               "rounds; of few shapes it is a rough one, and of a single shape it has nothing of what varies "
-               "between shapes. \"> 3\": it has no upper end."
-             : ""));
+        "paper took it: the method's own run only. Loading the points (the upload to a database) is in "
+        "neither.");
+  notes.push_back(std::string(times ? "A ratio of times is the median over the rounds of a case, in each of "
+                                      "which both methods were measured right after one another. "
+                                    : "") +
+                  "Of ratios the median, the least and the largest of the cases are shown. A case that only "
+                  "the method failed has the ratio ∞, and one that only the method beside it failed has 0." +
+                  (times ? " 95 %: a bootstrap interval of the median that resamples whole shapes and in "
+                           "each case passes and rounds; of few shapes it is a rough one, and of a single "
+                           "shape it has nothing of what varies between shapes. \"> 3\": it has no upper end."
+                         : ""));
   notes.push_back(
       "The protocol in brackets says who chose the parameters: paper, by the paper's rules, which look at "
-      "the ground "
-      "truth (oracle-informed); default, the method's own; auto, by a rule from the points alone; tuned, on "
-      "other "
-      "shapes; oracle, the best for this very case.");
+      "the ground truth (oracle-informed); default, the method's own; auto, by a rule from the points alone; "
+      "tuned, on other shapes; oracle, the best for this very case.");
   notes.push_back(
       "A cell with a word is a run without a result: its status, or \"invalid\" for a result that is not a "
-      "valid "
-      "multipolygon. A dash: not run or not defined.");
+      "valid multipolygon. A dash: not run or not defined.");
 }
 
 void add_paper_notes(const std::vector<record::RunRecord>& runs, Sentences& notes) {

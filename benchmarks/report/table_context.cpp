@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <array>
 #include <map>
+#include <optional>
 #include <utility>
 
-#include "benchmarks/base/number_format.hpp"
 #include "benchmarks/base/words.hpp"
 #include "benchmarks/report/labels.hpp"
 #include "benchmarks/report/report_notes.hpp"
@@ -17,24 +17,42 @@ namespace {
 using nlohmann::json;
 
 constexpr std::array kProtocolOrder = {"paper", "default", "auto", "tuned", "oracle"};
-/// "41.4 ±0.3": median and median absolute deviation in milliseconds, with the median's number of decimals.
-std::string time_cell(const std::vector<std::int64_t>& nanoseconds) {
-  if (nanoseconds.empty()) return kNothing;
-  const double middle = statistics::median(nanoseconds) / 1e6;
-  const int decimals = decimals_of(middle);
-  return fixed(middle, decimals) + " ±" +
-         fixed(statistics::median_absolute_deviation(nanoseconds) / 1e6, decimals);
+
+/// Median and median absolute deviation, with the median's number of decimals.
+table::Cell time_cell(const std::vector<std::int64_t>& nanoseconds) {
+  table::Cell cell = median_cell(nanoseconds);
+  if (cell.value)
+    cell.spread = {statistics::median_absolute_deviation(nanoseconds) / 1e6, cell.value->decimals};
+  return cell;
 }
 
-std::string percent(const std::vector<double>& values) {
-  if (values.empty()) return kNothing;
-  const double value = 100 * statistics::median(std::span<const double>(values));
-  return fixed(value, value < 10 ? 2 : 1);
+std::optional<table::Number> percent(const std::vector<double>& values) {
+  if (values.empty()) return std::nullopt;
+  const double value = 100 * statistics::median(values);
+  return table::Number(value, value < 10 ? 2 : 1);
+}
+
+table::Cell error_cell(const Runs& runs) {
+  table::Cell cell;
+  cell.value = percent(all_values(runs, "l2"));
+  cell.other = percent(all_values(runs, "l2_paper"));
+  cell.sign = hull_sign(runs);
+  return cell;
+}
+
+template <typename Times>
+std::vector<std::int64_t> collect(const Runs& runs, const Times& times_of) {
+  std::vector<std::int64_t> result;
+  for (const record::RunRecord* run : runs) {
+    const std::vector<std::int64_t> some = times_of(*run);
+    result.insert(result.end(), some.begin(), some.end());
+  }
+  return result;
 }
 
 /// What happened to the runs of a line on one shape that failed in the same way.
 std::string failure_text(const TableContext& context, const Line& line, const std::string& name,
-                         const std::vector<const record::RunRecord*>& runs) {
+                         const Runs& runs) {
   const record::RunRecord& first = *runs.front();
   if (first.status == record::Status::kNotInstalled) {
     return not_installed_text(context.report, label(context, line), line.method, first.detail);
@@ -56,27 +74,20 @@ std::string shape_title(const TableContext& context, const Case& which) {
   return hullbench::report::shape_title(context.report, which.dataset, which.holes);
 }
 
-std::string milliseconds(double nanoseconds) {
-  return three_digits(nanoseconds / 1e6);
+table::Number milliseconds(double nanoseconds) {
+  return table::Number(nanoseconds / 1e6);
 }
 
-std::vector<std::int64_t> all_times(const std::vector<const record::RunRecord*>& runs, Boundary boundary) {
-  std::vector<std::int64_t> result;
-  for (const record::RunRecord* run : runs) {
-    const auto repetitions = times(*run, boundary);
-    result.insert(result.end(), repetitions.begin(), repetitions.end());
-  }
-  return result;
+table::Cell median_cell(const std::vector<std::int64_t>& nanoseconds) {
+  return nanoseconds.empty() ? table::Cell() : milliseconds(statistics::median(nanoseconds));
 }
 
-std::vector<std::int64_t> all_step_times(const std::vector<const record::RunRecord*>& runs,
-                                         const PaperStep& step) {
-  std::vector<std::int64_t> result;
-  for (const record::RunRecord* run : runs) {
-    const auto repetitions = step_times(*run, step.parts);
-    result.insert(result.end(), repetitions.begin(), repetitions.end());
-  }
-  return result;
+std::vector<std::int64_t> all_times(const Runs& runs, Boundary boundary) {
+  return collect(runs, [&](const record::RunRecord& run) { return times(run, boundary); });
+}
+
+std::vector<std::int64_t> all_step_times(const Runs& runs, const PaperStep& step) {
+  return collect(runs, [&](const record::RunRecord& run) { return step_times(run, step.parts); });
 }
 
 /// How a run that gave no result to be believed is called in a cell. A result that is not a valid
@@ -87,8 +98,8 @@ std::string failure_name(const record::RunRecord& run) {
              : to_string(run.status);
 }
 
-std::string cell(const std::vector<const record::RunRecord*>& runs, Quantity quantity) {
-  if (runs.empty()) return kNothing;
+table::Cell cell(const Runs& runs, Quantity quantity) {
+  if (runs.empty()) return {};
   if (const record::RunRecord* failure = first_failure(runs)) return failure_name(*failure);
   switch (quantity) {
     case Quantity::kEqualWork:
@@ -96,10 +107,9 @@ std::string cell(const std::vector<const record::RunRecord*>& runs, Quantity qua
     case Quantity::kPaperBoundary:
       return time_cell(all_times(runs, Boundary::kPaper));
     case Quantity::kError:
-      return percent(all_values(runs, "l2")) + " (" + percent(all_values(runs, "l2_paper")) + ")" +
-             hull_mark(runs);
+      return error_cell(runs);
   }
-  return kNothing;
+  return {};
 }
 
 std::size_t usual_repetitions(const Measurements& measurements) {
@@ -133,21 +143,20 @@ std::string row_label(const TableContext& context, const Line& line, const std::
   return text + (most == 1 ? " repetition" : " repetitions");
 }
 
-std::string hull_mark(const std::vector<const record::RunRecord*>& runs) {
+std::string hull_sign(const Runs& runs) {
   const bool worse = std::any_of(
       runs.begin(), runs.end(), [](const record::RunRecord* run) { return is_worse_than_convex_hull(*run); });
-  return worse ? std::string(" ") + table::kSign : "";
+  return worse ? table::kSign : "";
 }
 
-void explain_hull_mark(table::TableSection& section) {
-  const auto& rows = section.table.rows();
-  const bool any = std::any_of(rows.begin() + 1, rows.end(), [](const auto& row) {
-    return std::any_of(row.begin(), row.end(),
-                       [](const std::string& text) { return text.ends_with(table::kSign); });
+void explain_hull_sign(table::Table& table) {
+  const bool any = std::any_of(table.rows.begin(), table.rows.end(), [](const auto& cells) {
+    return std::any_of(cells.begin(), cells.end(),
+                       [](const table::Cell& cell) { return cell.sign == table::kSign; });
   });
   if (any)
-    section.remarks.push_back(std::string(table::kSign) +
-                              ": the error is above that of the points' convex hull.");
+    table.remarks.push_back(std::string(table::kSign) +
+                            ": the error is above that of the points' convex hull.");
 }
 
 std::vector<Shape> shapes(const std::vector<Case>& cases) {
@@ -181,9 +190,8 @@ std::vector<Line> lines_of(const TableContext& context, const Shape& shape) {
   return result;
 }
 
-std::string failure_marks(TableContext& context, const Line& line, const Shape& shape) {
-  std::vector<std::pair<std::string, std::vector<const record::RunRecord*>>>
-      kinds;  // by name, in the order of n
+std::vector<std::size_t> failure_notes(TableContext& context, const Line& line, const Shape& shape) {
+  std::vector<std::pair<std::string, Runs>> kinds;  // by name, in the order of n
   for (const Case& which : shape) {
     const record::RunRecord* failure =
         first_failure(context.measurements.find(line.method, line.protocol, which));
@@ -197,24 +205,23 @@ std::string failure_marks(TableContext& context, const Line& line, const Shape& 
       found->second.push_back(failure);
     }
   }
-  std::string marks;
-  for (const auto& [name, runs] : kinds) {
-    marks += ' ' + context.notes.mark(failure_text(context, line, name, runs));
-  }
-  return marks;
+  std::vector<std::size_t> notes;
+  for (const auto& [name, runs] : kinds)
+    notes.push_back(context.notes.number(failure_text(context, line, name, runs)));
+  return notes;
 }
 
-std::vector<std::string> row(TableContext& context, const Line& line, const Shape& shape, Quantity quantity) {
+std::vector<table::Cell> row(TableContext& context, const Line& line, const Shape& shape, Quantity quantity) {
   const bool is_time = quantity != Quantity::kError;
-  std::vector<std::string> result = {(is_time ? row_label(context, line, shape) : label(context, line)) +
-                                     failure_marks(context, line, shape)};
+  std::vector<table::Cell> result = {is_time ? row_label(context, line, shape) : label(context, line)};
+  result.front().notes = failure_notes(context, line, shape);
   for (const Case& which : shape) {
     result.push_back(cell(context.measurements.find(line.method, line.protocol, which), quantity));
   }
   const std::string missing = to_string(record::Status::kNotInstalled);
   if (std::all_of(result.begin() + 1, result.end(),
-                  [&](const std::string& text) { return text == missing; })) {
-    std::fill(result.begin() + 1, result.end(), "");
+                  [&](const table::Cell& one) { return one.words == missing; })) {
+    std::fill(result.begin() + 1, result.end(), table::Cell(""));
     result[1] = "not installed";
   }
   return result;

@@ -8,13 +8,9 @@
 
 #include "benchmarks/report/claims.hpp"
 #include "benchmarks/report/measurements.hpp"
-#include "benchmarks/table/document.hpp"
-#include "benchmarks/table/text_table.hpp"
+#include "benchmarks/table/table.hpp"
 
 namespace hullbench::report {
-
-/// In a cell: there is no such value.
-inline constexpr const char* kNothing = "–";
 
 /// A report while its tables are printed.
 struct TableContext {
@@ -34,16 +30,17 @@ std::vector<Line> lines_of(const TableContext& context, const Shape& shape);
 
 std::string label(const TableContext& context, const Line& line);
 std::string shape_title(const TableContext& context, const Case& which);
-std::string milliseconds(double nanoseconds);
+table::Number milliseconds(double nanoseconds);
+/// The median in milliseconds; nothing of no times.
+table::Cell median_cell(const std::vector<std::int64_t>& nanoseconds);
 
-std::vector<std::int64_t> all_times(const std::vector<const record::RunRecord*>& runs, Boundary boundary);
-std::vector<std::int64_t> all_step_times(const std::vector<const record::RunRecord*>& runs,
-                                         const PaperStep& step);
+std::vector<std::int64_t> all_times(const Runs& runs, Boundary boundary);
+std::vector<std::int64_t> all_step_times(const Runs& runs, const PaperStep& step);
 
 /// How it is called in a cell: its status, or "invalid".
 std::string failure_name(const record::RunRecord& run);
-/// The notes that explain a line's failures on a shape, one a kind of failure: " [1] [3]".
-std::string failure_marks(TableContext& context, const Line& line, const Shape& shape);
+/// The notes that explain a line's failures on a shape, one a kind of failure.
+std::vector<std::size_t> failure_notes(TableContext& context, const Line& line, const Shape& shape);
 
 enum class Quantity { kEqualWork, kPaperBoundary, kError };
 
@@ -55,14 +52,14 @@ std::size_t usual_repetitions(const Measurements& measurements);
 std::string row_label(const TableContext& context, const Line& line, const std::vector<Case>& cases);
 
 /// Behind an error: the result is worse than the convex hull of the points. Empty when it is not.
-std::string hull_mark(const std::vector<const record::RunRecord*>& runs);
-/// Adds to `section` what the mark means, if a cell has it.
-void explain_hull_mark(table::TableSection& section);
+std::string hull_sign(const Runs& runs);
+/// Adds to `table` what the sign means, if a cell has it.
+void explain_hull_sign(table::Table& table);
 
 /// What the cell of one line and case says.
-std::string cell(const std::vector<const record::RunRecord*>& runs, Quantity quantity);
+table::Cell cell(const Runs& runs, Quantity quantity);
 
 /// A line's cells. A method that is not installed says so once instead of in every column.
-std::vector<std::string> row(TableContext& context, const Line& line, const Shape& shape, Quantity quantity);
+std::vector<table::Cell> row(TableContext& context, const Line& line, const Shape& shape, Quantity quantity);
 
 }  // namespace hullbench::report

@@ -7,12 +7,10 @@
 #include <limits>
 #include <optional>
 #include <set>
-#include <span>
 #include <string>
 #include <utility>
 #include <vector>
 
-#include "benchmarks/base/number_format.hpp"
 #include "benchmarks/report/claims.hpp"
 #include "benchmarks/report/collection_tables.hpp"
 #include "benchmarks/report/curve_table.hpp"
@@ -32,44 +30,43 @@ std::string shape_id(const Case& which) {
   return which.dataset + (which.holes ? "_holes" : "");
 }
 
-std::vector<table::TableSection> shape_tables(TableContext& context, const Shape& shape) {
+std::vector<table::Table> shape_tables(TableContext& context, const Shape& shape) {
   struct Kind {
     Quantity quantity;
     const char* id;
+    const char* unit;
     const char* caption;
   };
   constexpr std::array<Kind, 3> kKinds = {
-      {{Quantity::kEqualWork, "time", "time of equal work, ms"},
-       {Quantity::kPaperBoundary, "paper_time", "time as the paper took it, ms"},
-       {Quantity::kError, "error",
+      {{Quantity::kEqualWork, "time", "ms", "time of equal work, ms"},
+       {Quantity::kPaperBoundary, "paper_time", "ms", "time as the paper took it, ms"},
+       {Quantity::kError, "error", "%",
         "error L2, % of the ground truth's area (as the paper divides it: of the result's area)"}}};
   const std::vector<Line> lines = lines_of(context, shape);
-  std::vector<table::TableSection> sections;
+  std::vector<table::Table> tables;
   for (const Kind& kind : kKinds) {
     if (kind.quantity != Quantity::kError && !context.measurements.has_times()) continue;
-    std::vector<std::string> header = {"Number of points"};
-    for (const Case& which : shape) header.push_back(std::to_string(which.n));
-    table::TableSection section{shape_id(shape.front()) + "_" + kind.id,
-                                shape_title(context, shape.front()) + ": " + kind.caption,
-                                table::TextTable(std::move(header)),
-                                {}};
-    for (const Line& line : lines) section.table.add_row(row(context, line, shape, kind.quantity));
-    explain_hull_mark(section);
-    sections.push_back(std::move(section));
+    table::Table table{shape_id(shape.front()) + "_" + kind.id,
+                       shape_title(context, shape.front()) + ": " + kind.caption,
+                       {table::words("Number of points")}};
+    for (const Case& which : shape) table.columns.emplace_back(std::to_string(which.n), kind.unit);
+    for (const Line& line : lines) table.add_row(row(context, line, shape, kind.quantity));
+    explain_hull_sign(table);
+    tables.push_back(std::move(table));
   }
-  return sections;
+  return tables;
 }
 
 /// Median, interval, least and largest as cells.
-std::vector<std::string> ratio_cells(const Ratios& ratios) {
-  if (!ratios.median) return {kNothing, kNothing, kNothing, kNothing};
-  return {ratio_text(*ratios.median), interval_text(ratios.interval), ratio_text(ratios.least),
-          ratio_text(ratios.most)};
+std::vector<table::Cell> ratio_cells(const Ratios& ratios) {
+  if (!ratios.median) return std::vector<table::Cell>(4);
+  return {table::Number(*ratios.median), interval_cell(ratios.interval), table::Number(ratios.least),
+          table::Number(ratios.most)};
 }
 
 /// The medians of the times and errors of the cases with holes over those without, of one line. A case with
 /// holes on which it failed is infinitely bad.
-std::vector<std::string> holes_cells(const TableContext& context, const Line& line,
+std::vector<table::Cell> holes_cells(const TableContext& context, const Line& line,
                                      const std::vector<Case>& cases) {
   std::vector<double> times;
   std::vector<double> errors;
@@ -89,73 +86,74 @@ std::vector<std::string> holes_cells(const TableContext& context, const Line& li
       add(times, [](const auto& runs) { return statistics::median(all_times(runs, Boundary::kEqualWork)); });
     add(errors, [](const auto& runs) {
       const std::vector<double> values = all_values(runs, "l2");
-      return values.empty() ? 0 : statistics::median(std::span<const double>(values));
+      return values.empty() ? 0 : statistics::median(values);
     });
   }
-  std::vector<std::string> cells;
-  for (const auto& ratios : {times, errors}) {
-    cells.push_back(ratios.empty() ? kNothing
-                                   : ratio_text(statistics::median(std::span<const double>(ratios))));
-  }
-  if (!context.measurements.has_times()) cells.erase(cells.begin());
-  return cells;
+  const auto ratio_cell = [](const std::vector<double>& ratios) {
+    return ratios.empty() ? table::Cell() : table::Number(statistics::median(ratios));
+  };
+  if (!context.measurements.has_times()) return {ratio_cell(errors)};
+  return {ratio_cell(times), ratio_cell(errors)};
 }
 
-const std::vector<std::string> kWithTimes = {"Method", "Solved", "Time", "95 %",        "least", "most",
-                                             "L2",     "least",  "most", "Holes: time", "L2"};
-const std::vector<std::string> kErrorsOnly = {"Method", "Solved", "L2", "least", "most", "Holes: L2"};
+std::vector<table::Column> ratio_columns(bool times) {
+  std::vector<table::Column> columns = {table::words("Method")};
+  for (const char* title : times ? std::vector{"Solved", "Time", "95 %", "least", "most", "L2", "least",
+                                               "most", "Holes: time", "L2"}
+                                 : std::vector{"Solved", "L2", "least", "most", "Holes: L2"})
+    columns.emplace_back(title);
+  return columns;
+}
 
 /// What the paper's text says of its figure in one table: every method beside Polylidar, and what holes
 /// change.
-std::optional<table::TableSection> ratio_table(const TableContext& context, const std::vector<Case>& cases) {
+std::optional<table::Table> ratio_table(const TableContext& context, const std::vector<Case>& cases) {
   const Line reference = reference_line();
   const std::vector<Line> lines = lines_of(context, cases);
   if (std::find(lines.begin(), lines.end(), reference) == lines.end() || lines.size() < 2)
     return std::nullopt;
   const bool times = context.measurements.has_times();
-  table::TableSection section{"ratios",
-                              "All cases together: ratios to " + label(context, reference) +
-                                  ", and of the cases with holes to those without",
-                              table::TextTable(times ? kWithTimes : kErrorsOnly),
-                              {}};
+  table::Table table{"ratios",
+                     "All cases together: ratios to " + label(context, reference) +
+                         ", and of the cases with holes to those without",
+                     ratio_columns(times)};
   for (const Line& line : lines) {
     const Ratios errors = metric_ratios(context.measurements, line, reference, cases, "l2");
     const Ratios slower = time_ratios(context.measurements, line, reference, cases);
     const Ratios& counted = errors.cases > slower.cases ? errors : slower;
-    std::vector<std::string> cells = {label(context, line), std::to_string(counted.cases - counted.failures) +
-                                                                " of " + std::to_string(counted.cases)};
-    const auto append = [&](const std::vector<std::string>& more) {
+    std::vector<table::Cell> cells = {label(context, line), counted.cases - counted.failures};
+    cells.back().of = {static_cast<double>(counted.cases), 0};
+    const auto append = [&](const std::vector<table::Cell>& more) {
       cells.insert(cells.end(), more.begin(), more.end());
     };
     if (times) append(ratio_cells(slower));
-    std::vector<std::string> error_cells = ratio_cells(errors);
+    std::vector<table::Cell> error_cells = ratio_cells(errors);
     error_cells.erase(error_cells.begin() + 1);
     append(error_cells);
     append(holes_cells(context, line, cases));
-    section.table.add_row(std::move(cells));
+    table.add_row(std::move(cells));
   }
-  section.remarks.push_back(
+  table.remarks.push_back(
       (times ? "Ratios of the times of equal work, and of the errors as a part of the ground truth's area. "
              : "Ratios of the errors as a part of the ground truth's area. ") +
       std::string("Cases are a shape, with or without holes, at a number of points. The ") +
       (times ? "last two columns" : "last column") + ": with holes over without, the median of the cases.");
-  return section;
+  return table;
 }
 
 /// The rivals that are quoted: the fastest one that gives the same polygons, and the paper's.
-std::optional<table::TableSection> headline_table(const TableContext& context) {
+std::optional<table::Table> headline_table(const TableContext& context) {
   const json& headline = context.report.at("summary").at("headline");
   if (headline.is_null()) return std::nullopt;
   const auto label_of = [&](const json& line) {
     return label(context, {line.at("method").get<std::string>(), line.at("protocol").get<std::string>()});
   };
   const std::string reference = label_of(headline.at("reference"));
-  table::TableSection section{
-      "headline",
-      context.report.at("plan").at("title").get<std::string>() +
-          ": the fastest rival with the same polygons, time over that of " + reference,
-      table::TextTable({"Method", "Same polygons", "Cases", "Failed", "Time", "95 %", "least", "most"}),
-      {}};
+  table::Table table{"headline",
+                     context.report.at("plan").at("title").get<std::string>() +
+                         ": the fastest rival with the same polygons, time over that of " + reference,
+                     {table::words("Method"), table::words("Same polygons"), "Cases", "Failed", "Time",
+                      "95 %", "least", "most"}};
   bool any_same = false;
   std::string does_more;
   for (const json& rival : headline.at("rivals")) {
@@ -169,27 +167,26 @@ std::optional<table::TableSection> headline_table(const TableContext& context) {
     const auto interval = rival.at("low").is_null()
                               ? std::nullopt
                               : std::optional(statistics::Interval{number("low"), number("high")});
-    section.table.add_row({label_of(rival), same ? "yes" : "no", rival.at("cases").dump(),
-                           rival.at("failures").dump(), ratio_text(number("median")), interval_text(interval),
-                           ratio_text(number("least")), ratio_text(number("most"))});
+    table.add_row({label_of(rival), same ? "yes" : "no", rival.at("cases").get<std::size_t>(),
+                   rival.at("failures").get<std::size_t>(), table::Number(number("median")),
+                   interval_cell(interval), table::Number(number("least")), table::Number(number("most"))});
   }
-  section.remarks.emplace_back(
+  table.remarks.emplace_back(
       "The same polygons, as the records tell: on every case that both solved as many polygons, holes and "
       "vertices, and area and L2 equal to within 1e-9 of the larger one. Of all methods with the same "
       "polygons the one with the least median stands here" +
       std::string(any_same ? "." : ", but there is none in this run."));
-  if (!does_more.empty()) section.remarks.push_back(does_more);
-  return section;
+  if (!does_more.empty()) table.remarks.push_back(does_more);
+  return table;
 }
 
 /// How long a method takes that has not been warmed up, where the records say it.
-std::optional<table::TableSection> cold_table(const TableContext& context) {
+std::optional<table::Table> cold_table(const TableContext& context) {
   if (!context.measurements.has_times()) return std::nullopt;
-  table::TableSection section{
-      "cold",
-      "First call in a fresh process: time of equal work, ms",
-      table::TextTable({"Method", "Cases", "First call", "Warmed up", "First / warmed up", "least", "most"}),
-      {}};
+  table::Table table{"cold",
+                     "First call in a fresh process: time of equal work, ms",
+                     {table::words("Method"), "Cases", table::Column("First call", "ms"),
+                      table::Column("Warmed up", "ms"), "First / warmed up", "least", "most"}};
   for (const Line& line : lines_of(context, context.measurements.cases())) {
     std::vector<double> cold;
     std::vector<double> warm;
@@ -202,18 +199,15 @@ std::optional<table::TableSection> cold_table(const TableContext& context) {
     }
     if (ratios.empty()) continue;
     const auto [least, most] = std::minmax_element(ratios.begin(), ratios.end());
-    section.table.add_row({label(context, line), std::to_string(cold.size()),
-                           milliseconds(statistics::median(std::span<const double>(cold))),
-                           milliseconds(statistics::median(std::span<const double>(warm))),
-                           three_digits(statistics::median(std::span<const double>(ratios))),
-                           three_digits(*least), three_digits(*most)});
+    table.add_row({label(context, line), cold.size(), milliseconds(statistics::median(cold)),
+                   milliseconds(statistics::median(warm)), table::Number(statistics::median(ratios)),
+                   table::Number(*least), table::Number(*most)});
   }
-  if (section.table.empty()) return std::nullopt;
-  section.remarks.emplace_back(
+  if (table.rows.empty()) return std::nullopt;
+  table.remarks.emplace_back(
       "Of methods that compile while they run, which all other tables show warmed up: medians of the cases "
-      "on "
-      "which they succeeded, and of the cases' ratios.");
-  return section;
+      "on which they succeeded, and of the cases' ratios.");
+  return table;
 }
 
 bool is_steps_shape(const Case& which) {
@@ -221,37 +215,32 @@ bool is_steps_shape(const Case& which) {
   return steps.at("dataset") == which.dataset && steps.at("holes") == which.holes;
 }
 
-std::vector<std::string> measured_steps(const TableContext& context, const Line& line, const Case& which) {
+std::vector<table::Cell> measured_steps(const TableContext& context, const Line& line, const Case& which) {
   const auto runs = context.measurements.find(line.method, line.protocol, which);
   if (runs.empty() || first_failure(runs) != nullptr) return {};
-  std::vector<std::string> result = {row_label(context, line, {which})};
-  for (const PaperStep& step : paper_steps()) {
-    const std::vector<std::int64_t> values = all_step_times(runs, step);
-    result.push_back(values.empty() ? kNothing : milliseconds(statistics::median(values)));
-  }
-  for (const Boundary boundary : {Boundary::kPaper, Boundary::kEqualWork}) {
-    const std::vector<std::int64_t> values = all_times(runs, boundary);
-    result.push_back(values.empty() ? kNothing : milliseconds(statistics::median(values)));
-  }
+  std::vector<table::Cell> result = {row_label(context, line, {which})};
+  for (const PaperStep& step : paper_steps()) result.push_back(median_cell(all_step_times(runs, step)));
+  for (const Boundary boundary : {Boundary::kPaper, Boundary::kEqualWork})
+    result.push_back(median_cell(all_times(runs, boundary)));
   return result;
 }
 
-std::vector<std::string> published_steps(const std::string& method) {
+std::vector<table::Cell> published_steps(const std::string& method) {
   const json& published = paper().at("steps").at("milliseconds");
   if (!published.contains(method)) return {};
-  std::vector<std::string> result = {paper().at("methods").value(method, method) + ", in the paper"};
-  const auto text = [&](const json& value) {
-    return value.is_number() ? fixed(value.get<double>(), 1) : kNothing;
+  std::vector<table::Cell> result = {paper().at("methods").value(method, method) + ", in the paper"};
+  const auto add = [&](const json& value) {
+    result.push_back(value.is_number() ? table::Number(value.get<double>(), 1) : table::Cell());
   };
-  for (const PaperStep& step : paper_steps()) result.push_back(text(published.at(method).at(step.name)));
-  result.push_back(text(published.at(method).at("total")));
-  result.emplace_back(kNothing);
+  for (const PaperStep& step : paper_steps()) add(published.at(method).at(step.name));
+  add(published.at(method).at("total"));
+  result.emplace_back();
   return result;
 }
 
 /// The steps of the methods on the paper's shape, at the paper's size with the paper's values beside them, or
 /// at the largest size there is without.
-std::optional<table::TableSection> steps_table(const TableContext& context) {
+std::optional<table::Table> steps_table(const TableContext& context) {
   if (!context.measurements.has_times()) return std::nullopt;
   const json& steps = paper().at("steps");
   const Case* chosen = nullptr;
@@ -260,38 +249,35 @@ std::optional<table::TableSection> steps_table(const TableContext& context) {
   }
   if (chosen == nullptr) return std::nullopt;
   const bool comparable = chosen->n == steps.at("n");
-  std::vector<std::string> header = {"Method"};
-  for (const PaperStep& step : paper_steps()) header.push_back(step.name);
-  header.insert(header.end(), {"as the paper took it", "equal work"});
-  table::TableSection section{
+  table::Table table{
       kStepsTable,
       shape_title(context, *chosen) + ", n = " + std::to_string(chosen->n) + ": time of the steps, ms",
-      table::TextTable(std::move(header)),
-      {}};
+      {table::words("Method")}};
+  for (const PaperStep& step : paper_steps()) table.columns.emplace_back(step.name, "ms");
+  for (const char* title : {"as the paper took it", "equal work"}) table.columns.emplace_back(title, "ms");
   std::set<std::string> compared;
   for (const Line& line : lines_of(context, {*chosen})) {
-    std::vector<std::string> ours = measured_steps(context, line, *chosen);
-    if (!ours.empty()) section.table.add_row(std::move(ours));
+    std::vector<table::Cell> ours = measured_steps(context, line, *chosen);
+    if (!ours.empty()) table.add_row(std::move(ours));
     if (!comparable || paper().at("protocol") != line.protocol || !compared.insert(line.method).second)
       continue;
-    if (auto theirs = published_steps(line.method); !theirs.empty()) section.table.add_row(std::move(theirs));
+    if (auto theirs = published_steps(line.method); !theirs.empty()) table.add_row(std::move(theirs));
   }
   const std::string where = steps.at("where").get<std::string>();
-  section.remarks.push_back(
+  table.remarks.push_back(
       comparable
           ? "Medians; the paper's values are from its " + where + ", each the " +
                 steps.at("statistic").get<std::string>() + ". A dash: the method does not tell the step."
           : "Medians. The paper's " + where + " is for n = " + steps.at("n").dump() +
                 ", which was not measured here. A dash: the method does not tell the step.");
-  return section;
+  return table;
 }
 
-std::optional<table::TableSection> claims_table(TableContext& context) {
+std::optional<table::Table> claims_table(TableContext& context) {
   const bool times = context.measurements.has_times();
-  std::vector<std::string> header = {"Claim", "Paper", "Here", "Verdict"};
-  if (times) header.insert(header.end() - 1, "Equal work");
-  table::TableSection section{
-      "claims", "The paper's claims beside ours", table::TextTable(std::move(header)), {}};
+  table::Table table{"claims", "The paper's claims beside ours", {table::words("Claim"), "Paper", "Here"}};
+  if (times) table.columns.emplace_back("Equal work");
+  table.columns.push_back(table::words("Verdict"));
   const json& known = paper().at("claims").at("list");
   const auto known_claim = [&](const json& id) {
     return *std::find_if(known.begin(), known.end(), [&](const json& claim) { return claim.at("id") == id; });
@@ -302,23 +288,22 @@ std::optional<table::TableSection> claims_table(TableContext& context) {
     const json checked = known_claim(claim.at("id"));
     if (context.measurements.cases().size() == 1 && !checked.at("check").contains("only")) continue;
     if (is_about_time(checked) && !times) continue;
-    const std::string mark = context.notes.mark(claim.at("where").get<std::string>() + ": " +
-                                                claim.at("detail").get<std::string>());
-    const json& equal_work = claim.at("equal_work");
-    std::vector<std::string> cells = {claim.at("claim").get<std::string>() + " " + mark,
-                                      claim.at("paper").get<std::string>(),
-                                      claim.at("ours").get<std::string>()};
-    if (times) cells.push_back(equal_work.is_string() ? equal_work.get<std::string>() : kNothing);
-    const json& verdict = claim.at("verdict");
-    cells.push_back(verdict.is_null() ? kNothing : verdict.get<std::string>());
-    section.table.add_row(std::move(cells));
+    const auto text = [&](const char* key) {
+      const json& value = claim.at(key);
+      return value.is_null() ? table::Cell() : value.get<std::string>();
+    };
+    std::vector<table::Cell> cells = {text("claim"), text("paper"), text("ours")};
+    cells.front().notes = {context.notes.number(claim.at("where").get<std::string>() + ": " +
+                                                claim.at("detail").get<std::string>())};
+    if (times) cells.push_back(text("equal_work"));
+    cells.push_back(text("verdict"));
+    table.add_row(std::move(cells));
   }
-  if (section.table.empty()) return std::nullopt;
-  section.remarks.emplace_back(
+  if (table.rows.empty()) return std::nullopt;
+  table.remarks.emplace_back(
       "Larger, smaller: than a number that the paper gives, by more than the band round it that the note "
-      "says. "
-      "Refuted: of a claim without a number.");
-  return section;
+      "says. Refuted: of a claim without a number.");
+  return table;
 }
 
 /// Whether the paper's claims and step times can be put beside this report at all.
@@ -331,12 +316,12 @@ bool is_papers_experiment(const TableContext& context) {
   });
 }
 
-void add(table::Document& document, std::optional<table::TableSection> section) {
-  if (section) document.tables.push_back(std::move(*section));
+void add(table::Document& document, std::optional<table::Table> table) {
+  if (table) document.tables.push_back(std::move(*table));
 }
 
-void add_all(table::Document& document, std::vector<table::TableSection> sections) {
-  std::move(sections.begin(), sections.end(), std::back_inserter(document.tables));
+void add_all(table::Document& document, std::vector<table::Table> tables) {
+  std::move(tables.begin(), tables.end(), std::back_inserter(document.tables));
 }
 
 }  // namespace
@@ -366,7 +351,7 @@ table::Document make_document(const json& report) {
     add(document, steps_table(context));
     add(document, claims_table(context));
   }
-  for (table::TableSection& section : document.tables) section.id = name + "_" + section.id;
+  for (table::Table& table : document.tables) table.id = name + "_" + table.id;
   document.notes = context.notes.marked();
   for (auto& note : run_notes(report, context.measurements)) document.notes.push_back(std::move(note));
   document.common_notes = common_notes(report, context.measurements);

@@ -3,7 +3,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "benchmarks/table/document.hpp"
+#include "benchmarks/table/table.hpp"
 
 namespace hullbench::report {
 

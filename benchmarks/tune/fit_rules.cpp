@@ -17,7 +17,7 @@
 #include "benchmarks/base/number_format.hpp"
 #include "benchmarks/base/words.hpp"
 #include "benchmarks/plan/plan.hpp"
-#include "benchmarks/table/document.hpp"
+#include "benchmarks/table/writers.hpp"
 #include "benchmarks/tune/rule_fit.hpp"
 #include "benchmarks/worker/worker_process.hpp"
 
@@ -31,17 +31,19 @@ const std::vector<std::string> kPlans = {
 /// So many choices of the limit's constants are printed.
 constexpr std::size_t kShown = 10;
 
-std::string percent(double share) {
-  return fixed(100 * share, 2);
+table::Number percent(double share) {
+  return {100 * share, 2};
 }
 
 void print_curve(const RuleUse& use, const std::vector<CandidateScore>& curve) {
-  table::TextTable text({"share of P", "score, %", "median, %", "failures"});
+  table::Table table{"curve",
+                     use.meaning,
+                     {table::words("share of P"), table::with_unit("score", "%"),
+                      table::with_unit("median", "%"), "failures"}};
   for (const CandidateScore& one : curve)
-    text.add_row(
-        {fixed(one.candidate, 2), percent(one.score), percent(one.median), std::to_string(one.failures)});
+    table.add_row({table::Number(one.candidate, 2), percent(one.score), percent(one.median), one.failures});
   std::cout << "\n## " << use.rule << ": " << use.meaning << " (" << use.method << ")\n\n";
-  table::print_markdown(text, std::cout);
+  table::print_markdown(table, std::cout);
   std::cout << "\nBest: " << fixed(best_of(curve).candidate, 2) << ".\n";
 }
 
@@ -56,25 +58,29 @@ void print_share(const std::string& rule, const std::vector<RuleUse>& uses,
     its_curves.push_back(curves[u]);
   }
   const std::size_t best = best_for_all(its_curves);
-  table::TextTable text({"limits", "score, %", "with its own best share, %"});
+  table::Table table{"share",
+                     rule,
+                     {table::words("limits"), table::with_unit("score", "%"),
+                      table::with_unit("with its own best share", "%")}};
   for (std::size_t u = 0; u < of_rule.size(); ++u)
-    text.add_row(
+    table.add_row(
         {of_rule[u].meaning, percent(its_curves[u][best].score), percent(best_of(its_curves[u]).score)});
   std::cout << "\n## " << rule << ": one share for all, " << fixed(its_curves[0][best].candidate, 2)
             << "; in the code " << fixed(of_rule[0].share, 2) << "\n\n";
-  table::print_markdown(text, std::cout);
+  table::print_markdown(table, std::cout);
 }
 
-std::vector<std::string> cells_of(const std::string& what, const LimitScore& one) {
+std::vector<table::Cell> cells_of(const table::Cell& what, const LimitScore& one) {
+  using table::Number;
   const LimitConstants& c = one.constants;
   return {what,
-          fixed(c.usual, 1),
-          fixed(c.pull, 1),
-          fixed(c.still, 3),
-          fixed(c.least, 1),
-          fixed(c.most, 1),
-          std::to_string(c.below),
-          std::to_string(c.above),
+          Number(c.usual, 1),
+          Number(c.pull, 1),
+          Number(c.still, 3),
+          Number(c.least, 1),
+          Number(c.most, 1),
+          c.below,
+          c.above,
           percent(one.score)};
 }
 
@@ -84,16 +90,17 @@ void print_limit(const FitTables& tables) {
   const LimitScore present = score_limit(tables.limits, {});
   const auto better = std::count_if(scores.begin(), scores.end(),
                                     [&](const LimitScore& one) { return one.score < present.score; });
-  table::TextTable text({"choice", "usual", "pull", "still", "least", "most", "below", "above", "score, %"});
-  for (std::size_t k = 0; k < std::min(kShown, scores.size()); ++k)
-    text.add_row(cells_of(std::to_string(k + 1), scores[k]));
-  text.add_row(cells_of("in the core", present));
+  table::Table table{"limit", "The core's automatic limit", {table::words("choice")}};
+  for (const char* title : {"usual", "pull", "still", "least", "most", "below", "above", "score, %"})
+    table.columns.emplace_back(title);
+  for (std::size_t k = 0; k < std::min(kShown, scores.size()); ++k) table.add_row(cells_of(k + 1, scores[k]));
+  table.add_row(cells_of("in the core", present));
   std::cout << "\n## The core's automatic limit (core/src/automatic_limit.hpp)\n\n";
-  table::print_markdown(text, std::cout);
+  table::print_markdown(table, std::cout);
   std::cout
       << "\nOf " << scores.size() << " choices " << better
       << " have a smaller score than the core's. The core itself, which looks at a part of many triangles: "
-      << percent(fit_score(tables.shapes, tables.core_errors)) << " %.\n";
+      << percent(fit_score(tables.shapes, tables.core_errors)).text() << " %.\n";
 }
 
 int fit(const std::vector<std::string>& names, std::uint64_t split_seed, int seeds, std::int64_t points) {

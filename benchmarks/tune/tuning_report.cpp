@@ -1,11 +1,11 @@
 #include "benchmarks/tune/tuning_report.hpp"
 
 #include <algorithm>
+#include <limits>
 #include <optional>
 #include <set>
 #include <span>
 
-#include "benchmarks/base/number_format.hpp"
 #include "benchmarks/base/words.hpp"
 #include "benchmarks/record/record.hpp"
 #include "benchmarks/statistics/statistics.hpp"
@@ -17,8 +17,6 @@ namespace hullbench::tune {
 namespace {
 
 using nlohmann::json;
-
-constexpr const char* kDash = "–";
 
 /// Null for a failure.
 json error_to_json(double error) {
@@ -158,37 +156,37 @@ json method_to_json(const Tuning& tuning, const MethodTuning& method) {
 
 // The tables.
 
-/// l2 in percent, as other tables have it.
-std::string percent(const json& value) {
-  if (value.is_null()) return "fails";
-  const double percent = 100 * value.get<double>();
-  return fixed(percent, percent < 10 ? 2 : 1);
+/// l2 in percent, as other tables have it; null is infinite.
+table::Number percent(const json& value) {
+  const double percent =
+      value.is_null() ? std::numeric_limits<double>::infinity() : 100 * value.get<double>();
+  return {percent, percent < 10 ? 2 : 1};
 }
 
-std::string interval_text(const json& interval) {
-  if (interval.is_null()) return kDash;
-  return percent(interval[0]) + " to " + percent(interval[1]);
+table::Cell interval_cell(const json& interval) {
+  if (interval.is_null()) return {};
+  return table::Range{percent(interval[0]), percent(interval[1])};
 }
 
-table::TableSection protocol_table(const json& summary, const std::string& cases_of) {
+table::Table protocol_table(const json& summary, const std::string& cases_of) {
   const bool test = cases_of == "test";
-  table::TableSection section = {"protocols_" + cases_of,
-                                 test ? "Protocols on the test shapes" : "Protocols on all shapes",
-                                 table::TextTable({"Method", "Protocol", "Cases", "Failed", "L2 %",
-                                                   "L2 % interval", "Regret %", "Regret % interval"}),
-                                 {}};
+  table::Table table{"protocols_" + cases_of,
+                     test ? "Protocols on the test shapes" : "Protocols on all shapes",
+                     {table::words("Method"), table::words("Protocol"), "Cases", "Failed",
+                      table::Column("L2 %", "%"), table::Column("L2 % interval", "%"),
+                      table::Column("Regret %", "%"), table::Column("Regret % interval", "%")}};
   for (const json& method : summary.at("methods")) {
     for (const json& score : method.at("protocols")) {
       if (score.at("cases_of") != cases_of) continue;
       const bool regret = !method.at("axis").is_null() && !score.at("regret_interval").is_null();
-      section.table.add_row(
-          {method.at("title"), score.at("protocol"), std::to_string(score.at("cases").get<std::size_t>()),
-           std::to_string(score.at("failed").get<std::size_t>()), percent(score.at("l2_median")),
-           interval_text(score.at("l2_interval")), regret ? percent(score.at("regret_median")) : kDash,
-           regret ? interval_text(score.at("regret_interval")) : kDash});
+      table.add_row({method.at("title").get<std::string>(), score.at("protocol").get<std::string>(),
+                     score.at("cases").get<std::size_t>(), score.at("failed").get<std::size_t>(),
+                     percent(score.at("l2_median")), interval_cell(score.at("l2_interval")),
+                     regret ? percent(score.at("regret_median")) : table::Cell(),
+                     regret ? interval_cell(score.at("regret_interval")) : table::Cell()});
     }
   }
-  return section;
+  return table;
 }
 
 std::string axis_text(const json& axis) {
@@ -198,30 +196,38 @@ std::string axis_text(const json& axis) {
   return name + (axis.at("power") == 2 ? " = (x h)²" : " = x h");
 }
 
-table::TableSection tuned_table(const json& summary) {
-  table::TableSection section = {"tuned",
-                                 "What was searched, the tuned value and the tolerance",
-                                 table::TextTable({"Method", "Parameter", "From", "To", "Tuned x",
-                                                   "Training L2 %", "Tolerance octaves", "Quartiles"}),
-                                 {}};
+table::Table tuned_table(const json& summary) {
+  table::Table table{"tuned",
+                     "What was searched, the tuned value and the tolerance",
+                     {table::words("Method"), table::words("Parameter"), "From", "To", "Tuned x",
+                      table::Column("Training L2 %", "%"), table::Column("Tolerance octaves", "octaves"),
+                      table::Column("Quartiles", "octaves")}};
+  const auto number = [](const json& value) { return table::Number(value.get<double>()); };
+  const auto octaves = [](const json& value) { return table::Number(value.get<double>(), 2); };
   for (const json& method : summary.at("methods")) {
     if (!method.at("installed").get<bool>()) continue;
     const json& axis = method.at("axis");
     const json& tuned = method.at("tuned");
     const json& tolerance = method.at("tolerance_octaves");
-    const auto number = [](const json& value) { return three_digits(value.get<double>()); };
-    section.table.add_row(
-        {method.at("title"), axis_text(axis), axis.is_null() ? kDash : number(axis.at("low")),
-         axis.is_null() ? kDash : number(axis.at("high")),
-         tuned.is_null() ? kDash
-                         : number(tuned.at("position")) + (tuned.at("at_end").get<bool>() ? " (end)" : ""),
-         tuned.is_null() ? kDash : percent(tuned.at("training_median")),
-         tolerance.is_null() ? kDash : fixed(tolerance.at("median").get<double>(), 2),
-         tolerance.is_null() ? kDash
-                             : fixed(tolerance.at("q1").get<double>(), 2) + " to " +
-                                   fixed(tolerance.at("q3").get<double>(), 2)});
+    std::vector<table::Cell> cells(table.columns.size());
+    cells[0] = method.at("title").get<std::string>();
+    cells[1] = axis_text(axis);
+    if (!axis.is_null()) {
+      cells[2] = number(axis.at("low"));
+      cells[3] = number(axis.at("high"));
+    }
+    if (!tuned.is_null()) {
+      cells[4] = number(tuned.at("position"));
+      if (tuned.at("at_end").get<bool>()) cells[4].sign = "(end)";
+      cells[5] = percent(tuned.at("training_median"));
+    }
+    if (!tolerance.is_null()) {
+      cells[6] = octaves(tolerance.at("median"));
+      cells[7] = table::Range{octaves(tolerance.at("q1")), octaves(tolerance.at("q3"))};
+    }
+    table.add_row(std::move(cells));
   }
-  return section;
+  return table;
 }
 
 /// The shapes of a side, each once; of more than twenty the number.
@@ -245,15 +251,14 @@ std::vector<std::string> document_notes(const json& summary) {
       "h is the points' mean spacing over their convex hull, √(A_hull/n); it is known without the ground "
       "truth.",
       "default: without parameters, but holes switched on; tuned: the one x with the smallest median error "
-      "on "
-      "the training shapes, scored on the test shapes only; oracle: the best of all evaluations on the same "
-      "instance; paper and auto: as the plan says.",
+      "on the training shapes, scored on the test shapes only; oracle: the best of all evaluations on the "
+      "same instance; paper and auto: as the plan says.",
       "L2 is the area of the symmetric difference over the ground truth's, regret its excess over the "
       "oracle's on the same instance; medians with 95 % bootstrap intervals that take a shape's cases as "
       "one.",
       "Tolerance: how wide a range of the parameter keeps the error within 10 % of its best, in factors of "
       "two; the median over the cases.",
-      "A failure counts as infinitely bad: \"fails\" stands where the median is one."};
+      "A failure counts as infinitely bad: \"∞\" stands where the median is one."};
   for (const json& method : summary.at("methods")) {
     if (method.at("installed").get<bool>()) continue;
     notes.push_back(method.at("title").get<std::string>() +
@@ -299,9 +304,9 @@ json tuning_to_json(const Tuning& tuning, const std::vector<std::string>& plans,
 table::Document tuning_document(const json& summary) {
   table::Document document;
   document.title = "Parameters: " + join_words(summary.at("plans").get<std::vector<std::string>>());
-  for (table::TableSection section :
+  for (table::Table table :
        {protocol_table(summary, "test"), protocol_table(summary, "all"), tuned_table(summary)}) {
-    if (!section.table.empty()) document.tables.push_back(std::move(section));
+    if (!table.rows.empty()) document.tables.push_back(std::move(table));
   }
   document.notes = document_notes(summary);
   return document;

@@ -1,0 +1,26 @@
+// Who is the fastest on a case, and who is faster than the reference method: judged from the repetitions, as
+// everything that is called faster here (statistics/judge.hpp).
+#pragma once
+
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "benchmarks/record/record.hpp"
+
+namespace hullbench::report {
+
+/// What the time of a run is beside the others' on the same points.
+struct Contest {
+  /// Beside the reference method's run: "faster", "slower", or "undecided" where the interval of the ratio
+  /// holds 1 or there are too few repetitions for one. None for that run itself, and where it has no result.
+  std::optional<std::string> order;
+  bool is_fastest = false;  ///< beyond doubt: of two runs or more, and undecided against none
+};
+
+/// By the run's id, for every run with a result and times. The reference is the method and protocol of
+/// reference_line(), or where it was not run, that method's first protocol.
+std::map<std::string, Contest> judge_contests(const std::vector<record::RunRecord>& runs);
+
+}  // namespace hullbench::report

@@ -1,0 +1,39 @@
+// What is faster, slower or undecided.
+#include <gtest/gtest.h>
+
+#include <vector>
+
+#include "benchmarks/statistics/judge.hpp"
+
+namespace hullbench::statistics {
+namespace {
+
+TEST(Judge, TheWholeIntervalDecides) {
+  EXPECT_EQ(side_of({0.8, 0.9}, 1), Side::kBelow);
+  EXPECT_EQ(side_of({1.1, 1.2}, 1), Side::kAbove);
+  EXPECT_EQ(side_of({0.9, 1.1}, 1), Side::kUndecided);
+}
+
+TEST(Judge, AnIntervalMayEndAtTheLimit) {
+  EXPECT_EQ(side_of({0.8, 1}, 1), Side::kBelow);
+  EXPECT_EQ(side_of({1, 1.2}, 1), Side::kAbove);
+  EXPECT_EQ(side_of({1, 1}, 1), Side::kBelow);
+}
+
+TEST(Judge, ManyQuestionsAskForMoreEvidence) {
+  const Evidence clear = {{1.1, 1.2}, 0.02};
+  const Evidence nothing = {{0.9, 1.1}, 0.5};
+  EXPECT_EQ(judge(std::vector{clear}, 1, 0.05).front().side, Side::kAbove);
+  const std::vector<Judgement> three = judge(std::vector{clear, nothing, nothing}, 1, 0.05);
+  EXPECT_EQ(three.front().side, Side::kUndecided);
+  EXPECT_DOUBLE_EQ(three.front().p_value, 0.06);
+  EXPECT_EQ(three.back().side, Side::kUndecided);
+}
+
+TEST(Judge, WithoutATestTheIntervalSaysItAll) {
+  EXPECT_EQ(judge(std::vector{Evidence{{0.5, 0.6}}}, 1, 0.05).front().side, Side::kBelow);
+  EXPECT_TRUE(judge({}, 1, 0.05).empty());
+}
+
+}  // namespace
+}  // namespace hullbench::statistics
