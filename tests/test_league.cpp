@@ -250,7 +250,8 @@ TEST(League, TheReadmeHasTheFirstThreeOfEveryProtocol) {
   for (int k = 1; k <= 4; ++k) rows.push_back(row("rival" + std::to_string(k), "auto", "a", 0.1 * k));
   const std::vector<json> reports = {report(rows)};
   const std::string text =
-      league::league_results(league::league_to_json(league::make_league(reports, 1, false), reports));
+      league::league_results(league::league_to_json(league::make_league(reports, 1, false), reports), "kept");
+  EXPECT_NE(text.find("[kept/league.md](kept/league.md)"), std::string::npos) << text;
   EXPECT_NE(text.find("\n### League: 1 cases of 1 shapes, the first three of every protocol\n"),
             std::string::npos)
       << text;

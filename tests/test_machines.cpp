@@ -77,19 +77,19 @@ void expect_no_times(const table::Document& document) {
 TEST(Machines, OfAReportAreThoseOfItsTimes) {
   json report = test::invented_report({2000});
   EXPECT_EQ(report::machines_of(report), (std::set<std::string>{"0123abcd"}));
-  EXPECT_TRUE(Measurements(report).has_times());
-  EXPECT_EQ(Measurements(report).why_no_times(), "");
+  EXPECT_TRUE(report::Measurements(report).has_times());
+  EXPECT_EQ(report::Measurements(report).why_no_times(), "");
   // A row without a time was not timed anywhere.
   for (json& run : report["runs"]) {
     if (run["time_ns"].empty()) run["machine"] = "ba5eba11";
   }
   EXPECT_EQ(report::machines_of(report).size(), 1U);
   report["runs"][0]["machine"] = "ba5eba11";
-  EXPECT_EQ(Measurements(report).why_no_times(), kSentence);
+  EXPECT_EQ(report::Measurements(report).why_no_times(), kSentence);
 }
 
 TEST(Machines, SeveralLeaveNoTimeToTablesAndClaims) {
-  const Measurements measurements(on_two_machines(test::invented_report({2000})));
+  const report::Measurements measurements(on_two_machines(test::invented_report({2000})));
   EXPECT_FALSE(measurements.has_times());
   for (const record::RunRecord& run : measurements.runs()) {
     EXPECT_TRUE(run.time_ns.empty() && run.phases_ns.empty()) << run.name;
@@ -203,13 +203,13 @@ TEST(Machines, OneWithSeveralBuildsHasNoTimes) {
   json report = on_two_machines(one);
   report["merged"][1]["environment"] = report["environment"];
   for (json& run : report["runs"]) run["machine"] = "0123abcd";
-  EXPECT_EQ(Measurements(report).why_no_times(), "");
+  EXPECT_EQ(report::Measurements(report).why_no_times(), "");
   report["merged"][0]["tool"]["binary_sha256"] = std::string(64, 'b');
   report["merged"][1]["tool"]["binary_sha256"] = std::string(64, 'a');
   const std::string sentence =
       "Times are not shown: they were taken with 2 builds of the program (aaaaaaaa, bbbbbbbb), and times of "
       "different builds do not go into one table.";
-  EXPECT_EQ(Measurements(report).why_no_times(), sentence);
+  EXPECT_EQ(report::Measurements(report).why_no_times(), sentence);
   EXPECT_NE(report::differences_table({report}).remarks.front().find(sentence), std::string::npos);
   expect_no_times(report::make_document(report));
 }

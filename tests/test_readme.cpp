@@ -74,6 +74,8 @@ TEST(ReadmeResults, NameTheRunAndHaveThePapersMethodsAtTheLeastAndTheLargestSize
           "| Polylidar (paper)        |    0.525 ±0.005 | 7.83 (7.98) |        16.8 ±0.2 | 1.38 (1.41) |\n"),
       std::string::npos)
       << text;
+  EXPECT_NE(text.find("| PostGIS 2.5 (paper)      |   not installed |             |"), std::string::npos)
+      << text;
   EXPECT_EQ(text.find("(auto)"), std::string::npos) << "not the paper's: " << text;
   EXPECT_EQ(text.find("(paper) ["), std::string::npos) << "a note that is not here: " << text;
 }
@@ -114,7 +116,7 @@ class ReadmeCommand : public ::testing::Test {
     return testing::run_program(arguments, options);
   }
 
-  void micro::measure() const {
+  void measure() const {
     const auto plan = testing::small_plan("states", testing::california({500, 600}));
     ASSERT_EQ(hullbench({"run", testing::write_plan(folder_.path(), plan), "--out", "run"}).code, 0);
   }
@@ -124,7 +126,7 @@ class ReadmeCommand : public ::testing::Test {
 };
 
 TEST_F(ReadmeCommand, WritesTheResultsAndSeesWhenADigitIsAnother) {
-  micro::measure();
+  measure();
   const std::string before = "# Title 1\n\n" + kBegin;
   const std::string behind = kEnd + "\n\nRest: \"\\ 2\"\n";
   write_text(file(), before + "old\n" + behind);
@@ -157,7 +159,7 @@ TEST_F(ReadmeCommand, WritesTheResultsAndSeesWhenADigitIsAnother) {
 }
 
 TEST_F(ReadmeCommand, WhatIsNotThereIsASentence) {
-  micro::measure();
+  measure();
   EXPECT_EQ(hullbench({"readme", "run", "README.md"}).err, "hullbench: there is no file README.md\n");
   EXPECT_EQ(hullbench({"readme", "run", "."}).err, "hullbench: there is no file .\n");
   write_text(file(), "# Title\n");

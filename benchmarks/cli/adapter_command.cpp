@@ -137,7 +137,7 @@ class Scratch {
   std::string path_;
 };
 
-void print(const Verdict& verdict) {
+void print(const run::Verdict& verdict) {
   std::cout << (verdict.kept ? "ok    " : "FAIL  ") << std::left << std::setw(30) << verdict.name << " "
             << verdict.words << std::endl;
 }
@@ -160,10 +160,10 @@ int test_adapter_command(const TestAdapterCommand& command) {
   const worker::Method& method = catalog.find(command.name);
   const Scratch scratch;
   const auto timeout = std::chrono::milliseconds(static_cast<std::int64_t>(command.timeout_s * 1000));
-  const std::vector<Verdict> verdicts =
+  const std::vector<run::Verdict> verdicts =
       run::test_contract(method, {command.mem_limit_mib, std::nullopt}, timeout, scratch.path(), &print);
-  const auto kept =
-      std::count_if(verdicts.begin(), verdicts.end(), [](const Verdict& verdict) { return verdict.kept; });
+  const auto kept = std::count_if(verdicts.begin(), verdicts.end(),
+                                  [](const run::Verdict& verdict) { return verdict.kept; });
   if (verdicts.back().status == record::Status::kNotInstalled) return kNothingTried;
   const bool all = kept == static_cast<std::ptrdiff_t>(verdicts.size());
   std::cout << command.name << " keeps " << (all ? "the contract: " : "part of the contract: ") << kept

@@ -39,6 +39,7 @@
 namespace {
 
 using namespace hullbench;
+using namespace hullbench::cli;
 namespace fs = std::filesystem;
 
 constexpr int kOk = 0;
@@ -130,11 +131,12 @@ std::vector<nlohmann::json> reports_in(const std::string& path) {
 int tables(const std::string& path, bool write, const std::string& gbench_file) {
   check_export_place(gbench_file);
   const std::vector<nlohmann::json> reports = reports_in(path);
-  std::vector<table::Document> documents = report::make_documents(reports);
-  if (const nlohmann::json league = league::load_league(path); !league.is_null())
-    documents.push_back(league::league_document(league));
+  const std::vector<table::Document> documents = report::make_documents(reports);
   table::print_markdown(documents, std::cout);
-  if (write) table::write_tables(path, documents);
+  if (write) {
+    table::write_tables(path, documents);
+    league::write_league_tables(path);
+  }
   if (!gbench_file.empty()) report::export_gbench(gbench_file, reports);
   return kOk;
 }
@@ -167,7 +169,7 @@ int readme(const std::string& run, const std::string& path, bool check) {
       fs::is_symlink(run) ? fs::path(run).parent_path() / fs::read_symlink(run) : fs::path(run);
   std::string results = report::readme_results(reports_in(run), folder.string());
   if (const nlohmann::json league = league::load_league(folder); !league.is_null())
-    results += league::league_results(league);
+    results += league::league_results(league, folder.string());
   const std::string after = report::with_results(before, results);
   if (before == after) {
     std::cout << path << " agrees with " << run << "\n";

@@ -15,6 +15,7 @@
 #include "benchmarks/report/report.hpp"
 #include "benchmarks/run/merge.hpp"
 #include "benchmarks/run/run_directory.hpp"
+#include "benchmarks/run/runner.hpp"
 #include "benchmarks/run/suite.hpp"
 
 namespace hullbench::cli {
@@ -31,7 +32,7 @@ int merged_exit_code(const std::vector<run::MergedRun>& runs) {
     for (const record::RunRecord& row : run.rows) run::count_row(result, row.status, accepted);
     missing = missing || run.rows.size() < run.planned;
   }
-  const int code = exit_code(result);
+  const int code = run::exit_code(result);
   return code == 0 && missing ? 4 : code;
 }
 
@@ -47,7 +48,7 @@ std::vector<std::vector<fs::path>> runs_by_plan(const std::vector<fs::path>& sou
     }
   }
   std::vector<std::vector<fs::path>> result;
-  for (const std::string& name : common_order(lists)) result.push_back(folders.at(name));
+  for (const std::string& name : run::common_order(lists)) result.push_back(folders.at(name));
   return result;
 }
 
@@ -111,8 +112,8 @@ void say_merged(const std::vector<run::MergedRun>& runs, const MergeCommand& com
 }  // namespace
 
 int merge_command(const MergeCommand& command) {
-  const auto suites =
-      static_cast<std::size_t>(std::count_if(command.sources.begin(), command.sources.end(), is_suite));
+  const auto suites = static_cast<std::size_t>(
+      std::count_if(command.sources.begin(), command.sources.end(), record::is_suite));
   if (suites != 0 && suites != command.sources.size())
     throw ConfigurationError("some of the folders hold a run and some a suite; merge runs or suites");
   std::vector<run::MergedRun> runs;

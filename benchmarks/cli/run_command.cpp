@@ -214,11 +214,11 @@ class Measuring {
 
   /// Measures them all and writes the report and the tables of each after its last pass. Whether it was not
   /// interrupted.
-  bool micro::measure() {
+  bool measure() {
     for (std::size_t place = 0; place < steps_.size(); ++place) {
       const Step& step = steps_[place];
       progress_.enter(place);
-      if (!micro::measure(step)) return false;
+      if (!measure(step)) return false;
       const bool pass_ends = place + 1 == steps_.size() || steps_[place + 1].pass != step.pass;
       if (pass_ends && step.pass < passes_) say_pass(step.pass);
     }
@@ -267,7 +267,7 @@ class Measuring {
   }
 
   /// False when it was interrupted.
-  bool micro::measure(const Step& step) {
+  bool measure(const Step& step) {
     Task& task = *step.task;
     const Experiment& experiment = *task.experiment;
     const std::string there = where(task, step.pass);

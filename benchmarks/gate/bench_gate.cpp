@@ -9,18 +9,19 @@
 #include "benchmarks/base/configuration_error.hpp"
 #include "benchmarks/base/cores.hpp"
 #include "benchmarks/base/files.hpp"
+#include "benchmarks/base/interrupt.hpp"
 #include "benchmarks/gate/gate_accuracy.hpp"
 #include "benchmarks/gate/gate_cases.hpp"
 #include "benchmarks/gate/gate_probes.hpp"
 #include "benchmarks/gate/gate_report.hpp"
 #include "benchmarks/gate/gate_verdict.hpp"
 #include "benchmarks/gate/time_gate.hpp"
-#include "benchmarks/base/interrupt.hpp"
 #include "benchmarks/worker/worker_process.hpp"
 
 namespace {
 
 using namespace hullbench;
+using namespace hullbench::gate;
 namespace fs = std::filesystem;
 using Clock = std::chrono::steady_clock;
 

@@ -83,7 +83,7 @@ Field sort_rows(const std::vector<json>& reports, std::uint64_t split_seed, bool
       installed.insert(method);
       const std::string name =
           record::case_of_run(row.at("name").get<std::string>()) + "/seed:" + row.at("seed").dump();
-      field.rows[{method, row.at("protocol").get<std::string>()}].emplace(name, &report::row);
+      field.rows[{method, row.at("protocol").get<std::string>()}].emplace(name, &row);
       learn(field.cases[name], row, !accepted.empty());
     }
   }

@@ -8,6 +8,7 @@
 #include <set>
 #include <sstream>
 
+#include "benchmarks/base/files.hpp"
 #include "benchmarks/base/number_format.hpp"
 #include "benchmarks/base/words.hpp"
 
@@ -235,7 +236,15 @@ json load_league(const std::filesystem::path& folder) {
   return in.is_open() ? json::parse(in) : json();
 }
 
-std::string league_results(const json& league) {
+void write_league_tables(const std::filesystem::path& folder) {
+  const json league = load_league(folder);
+  if (league.is_null()) return;
+  std::ostringstream out;
+  table::print_markdown(league_document(league), out);
+  write_text_file(folder / kLeagueTablesFile, out.str());
+}
+
+std::string league_results(const json& league, const std::string& folder) {
   constexpr std::size_t kFirst = 3;
   table::Table table{"league",
                      league_document(league).title + ", the first three of every protocol",
@@ -255,6 +264,8 @@ std::string league_results(const json& league) {
   out << "\n### " << table.caption << "\n\n";
   table::print_markdown(table, out);
   out << '\n';
+  const std::string file = folder + "/" + kLeagueTablesFile;
+  table::print_item("All of the league's tables: [" + file + "](" + file + ").", out);
   table::print_item("Parameters: " + protocols + ".", out);
   table::print_item(
       "L2 as a part of the ground truth's area; a failure is infinitely bad. Hole F1 is of the cases whose "

@@ -13,6 +13,7 @@ namespace hullbench::league {
 
 /// What a kept league's file is called.
 inline constexpr const char* kLeagueFile = "league.json";
+inline constexpr const char* kLeagueTablesFile = "league.md";
 
 /// The league as JSON, with what `reports` say of tool, machine and plans. A median or an end of an interval
 /// that is infinite is null.
@@ -25,7 +26,11 @@ table::Document league_document(const nlohmann::json& league);
 /// The league that is kept in `folder`; null when there is none.
 nlohmann::json load_league(const std::filesystem::path& folder);
 
-/// What the README shows of it: the first three of every protocol, whoever they are.
-std::string league_results(const nlohmann::json& league);
+/// Writes league.md, the tables of the league that is kept in `folder`; nothing without one.
+void write_league_tables(const std::filesystem::path& folder);
+
+/// What the README shows of it: the first three of every protocol, whoever they are. `folder`: how the README
+/// calls the folder with league.md.
+std::string league_results(const nlohmann::json& league, const std::string& folder);
 
 }  // namespace hullbench::league

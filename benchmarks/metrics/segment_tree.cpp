@@ -57,7 +57,7 @@ double SegmentTree::distance(const Point& point, double bound) const {
   // Widened by far more than the rounding of a distance, so that the nearest edge itself is found.
   const double widened = bound * (1 + 1e-9);
   double best_squared = widened * widened;
-  tune::search(1, point, best_squared);
+  search(1, point, best_squared);
   return std::sqrt(best_squared);
 }
 
@@ -75,8 +75,8 @@ void SegmentTree::search(std::size_t node, const Point& point, double& best_squa
   const double to_right = squared_distance(point, boxes_[left + 1]);
   const std::size_t nearer = to_right < to_left ? left + 1 : left;
   const std::size_t other = to_right < to_left ? left : left + 1;
-  if (std::min(to_left, to_right) < best_squared) tune::search(nearer, point, best_squared);
-  if (std::max(to_left, to_right) < best_squared) tune::search(other, point, best_squared);
+  if (std::min(to_left, to_right) < best_squared) search(nearer, point, best_squared);
+  if (std::max(to_left, to_right) < best_squared) search(other, point, best_squared);
 }
 
 }  // namespace hullbench::metrics

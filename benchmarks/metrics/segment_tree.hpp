@@ -30,7 +30,7 @@ class SegmentTree {
     polylidar::Point to;
   };
 
-  void tune::search(std::size_t node, const polylidar::Point& point, double& best_squared) const;
+  void search(std::size_t node, const polylidar::Point& point, double& best_squared) const;
 
   std::vector<Segment> segments_;  ///< ring after ring
   std::size_t leaf_count_ = 1;     ///< a power of two

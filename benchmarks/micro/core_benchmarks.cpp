@@ -176,6 +176,6 @@ void ask_for_huge_pages(char** argv) {
 }  // namespace hullbench::micro
 
 int main(int argc, char** argv) {
-  hullbench::ask_for_huge_pages(argv);
-  return hullbench::run(std::vector<std::string>(argv, argv + argc));
+  hullbench::micro::ask_for_huge_pages(argv);
+  return hullbench::micro::run(std::vector<std::string>(argv, argv + argc));
 }

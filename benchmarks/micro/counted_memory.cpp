@@ -78,63 +78,63 @@ std::int64_t CountedMemory::peak() const {
 
 // clang-format off: the whole set that [new.delete] lets a program replace, one a line.
 void* operator new(std::size_t size) {
-  return hullbench::allocate(size);
+  return hullbench::micro::allocate(size);
 }
 void* operator new[](std::size_t size) {
-  return hullbench::allocate(size);
+  return hullbench::micro::allocate(size);
 }
 void* operator new(std::size_t size, std::align_val_t alignment) {
-  return hullbench::allocate(size, static_cast<std::size_t>(alignment));
+  return hullbench::micro::allocate(size, static_cast<std::size_t>(alignment));
 }
 void* operator new[](std::size_t size, std::align_val_t alignment) {
-  return hullbench::allocate(size, static_cast<std::size_t>(alignment));
+  return hullbench::micro::allocate(size, static_cast<std::size_t>(alignment));
 }
 void* operator new(std::size_t size, const std::nothrow_t&) noexcept {
-  return hullbench::allocate_or_null(size);
+  return hullbench::micro::allocate_or_null(size);
 }
 void* operator new[](std::size_t size, const std::nothrow_t&) noexcept {
-  return hullbench::allocate_or_null(size);
+  return hullbench::micro::allocate_or_null(size);
 }
 void* operator new(std::size_t size, std::align_val_t alignment, const std::nothrow_t&) noexcept {
-  return hullbench::allocate_or_null(size, static_cast<std::size_t>(alignment));
+  return hullbench::micro::allocate_or_null(size, static_cast<std::size_t>(alignment));
 }
 void* operator new[](std::size_t size, std::align_val_t alignment, const std::nothrow_t&) noexcept {
-  return hullbench::allocate_or_null(size, static_cast<std::size_t>(alignment));
+  return hullbench::micro::allocate_or_null(size, static_cast<std::size_t>(alignment));
 }
 void operator delete(void* block) noexcept {
-  hullbench::release(block);
+  hullbench::micro::release(block);
 }
 void operator delete[](void* block) noexcept {
-  hullbench::release(block);
+  hullbench::micro::release(block);
 }
 void operator delete(void* block, std::size_t) noexcept {
-  hullbench::release(block);
+  hullbench::micro::release(block);
 }
 void operator delete[](void* block, std::size_t) noexcept {
-  hullbench::release(block);
+  hullbench::micro::release(block);
 }
 void operator delete(void* block, std::align_val_t) noexcept {
-  hullbench::release(block);
+  hullbench::micro::release(block);
 }
 void operator delete[](void* block, std::align_val_t) noexcept {
-  hullbench::release(block);
+  hullbench::micro::release(block);
 }
 void operator delete(void* block, std::size_t, std::align_val_t) noexcept {
-  hullbench::release(block);
+  hullbench::micro::release(block);
 }
 void operator delete[](void* block, std::size_t, std::align_val_t) noexcept {
-  hullbench::release(block);
+  hullbench::micro::release(block);
 }
 void operator delete(void* block, const std::nothrow_t&) noexcept {
-  hullbench::release(block);
+  hullbench::micro::release(block);
 }
 void operator delete[](void* block, const std::nothrow_t&) noexcept {
-  hullbench::release(block);
+  hullbench::micro::release(block);
 }
 void operator delete(void* block, std::align_val_t, const std::nothrow_t&) noexcept {
-  hullbench::release(block);
+  hullbench::micro::release(block);
 }
 void operator delete[](void* block, std::align_val_t, const std::nothrow_t&) noexcept {
-  hullbench::release(block);
+  hullbench::micro::release(block);
 }
 // clang-format on

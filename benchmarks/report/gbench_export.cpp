@@ -77,7 +77,7 @@ void add_series(ordered_json& benchmarks, const Series& series) {
     finish(entry, 1, static_cast<double>(series.times[repetition]));
     benchmarks.push_back(std::move(entry));
   }
-  const statistics::Statistics statistics = describe(series.times);
+  const statistics::Statistics statistics = statistics::describe(series.times);
   if (!statistics.standard_deviation) return;
   benchmarks.push_back(aggregate_of(series, "mean", statistics.mean));
   benchmarks.push_back(aggregate_of(series, "median", statistics.median));

@@ -53,6 +53,7 @@ std::optional<table::Table> methods_table(const json& report) {
       if (times) cells.push_back(cell(runs, Quantity::kEqualWork));
       cells.push_back(cell(runs, Quantity::kError));
     }
+    say_not_installed_once(cells);
     table.add_row(std::move(cells));
   }
   table.remarks.emplace_back(

@@ -28,7 +28,7 @@ using nlohmann::json;
 
 json statistics_to_json(const std::vector<std::int64_t>& values) {
   if (values.empty()) return nullptr;
-  const statistics::Statistics statistics = describe(values);
+  const statistics::Statistics statistics = statistics::describe(values);
   const auto& deviation = statistics.standard_deviation;
   const auto& interval = statistics.median_interval;
   return {{"repetitions", statistics.count},

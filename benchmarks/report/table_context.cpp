@@ -218,13 +218,17 @@ std::vector<table::Cell> row(TableContext& context, const Line& line, const Shap
   for (const Case& which : shape) {
     result.push_back(cell(context.measurements.find(line.method, line.protocol, which), quantity));
   }
-  const std::string missing = to_string(record::Status::kNotInstalled);
-  if (std::all_of(result.begin() + 1, result.end(),
-                  [&](const table::Cell& one) { return one.words == missing; })) {
-    std::fill(result.begin() + 1, result.end(), table::Cell(""));
-    result[1] = "not installed";
-  }
+  say_not_installed_once(result);
   return result;
+}
+
+void say_not_installed_once(std::vector<table::Cell>& cells) {
+  const std::string missing = to_string(record::Status::kNotInstalled);
+  if (!std::all_of(cells.begin() + 1, cells.end(),
+                   [&](const table::Cell& one) { return one.words == missing; }))
+    return;
+  std::fill(cells.begin() + 1, cells.end(), table::Cell(""));
+  cells[1] = "not installed";
 }
 
 }  // namespace hullbench::report

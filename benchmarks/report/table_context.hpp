@@ -59,7 +59,11 @@ void explain_hull_sign(table::Table& table);
 /// What the cell of one line and case says.
 table::Cell cell(const Runs& runs, Quantity quantity);
 
-/// A line's cells. A method that is not installed says so once instead of in every column.
+/// Of a line's cells, its label first: a method that is not installed says so once instead of in every
+/// column.
+void say_not_installed_once(std::vector<table::Cell>& cells);
+
+/// A line's cells.
 std::vector<table::Cell> row(TableContext& context, const Line& line, const Shape& shape, Quantity quantity);
 
 }  // namespace hullbench::report

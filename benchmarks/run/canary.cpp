@@ -53,17 +53,17 @@ bool differs(std::int64_t value, double usual) {
 
 }  // namespace
 
-void Canary::Free::operator()(report::Line* lines) const {
-  ::munmap(lines, kLines * sizeof(report::Line));
+void Canary::Free::operator()(Line* lines) const {
+  ::munmap(lines, kLines * sizeof(Line));
 }
 
 std::unique_ptr<Canary::Line[], Canary::Free> Canary::reserve_lines() {
-  void* memory = ::mmap(nullptr, kLines * sizeof(report::Line), PROT_READ | PROT_WRITE,
-                        MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
+  void* memory =
+      ::mmap(nullptr, kLines * sizeof(Line), PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
   if (memory == MAP_FAILED) throw std::bad_alloc();
   // The system may turn it into huge pages in the middle of a run, and the same reads would be faster then.
-  ::madvise(memory, kLines * sizeof(report::Line), MADV_NOHUGEPAGE);
-  return std::unique_ptr<report::Line[], Free>(new (memory) report::Line[kLines]);
+  ::madvise(memory, kLines * sizeof(Line), MADV_NOHUGEPAGE);
+  return std::unique_ptr<Line[], Free>(new (memory) Line[kLines]);
 }
 
 Canary::Canary(std::optional<int> core) : core_(core) {

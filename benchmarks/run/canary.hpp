@@ -26,19 +26,19 @@ class Canary {
 
  private:
   /// As long as a line of a processor's cache, so that every read fetches another one.
-  struct alignas(64) report::Line {
+  struct alignas(64) Line {
     std::uint32_t next = 0;  ///< the line to read after this one
   };
   struct Free {
-    void operator()(report::Line* lines) const;
+    void operator()(Line* lines) const;
   };
-  static std::unique_ptr<report::Line[], Free> reserve_lines();
+  static std::unique_ptr<Line[], Free> reserve_lines();
 
   std::int64_t time_memory();
   std::int64_t time_arithmetic();
 
   std::optional<int> core_;
-  std::unique_ptr<report::Line[], Free> lines_;  ///< one cycle through all of them, in random order
+  std::unique_ptr<Line[], Free> lines_;  ///< one cycle through all of them, in random order
   std::uint32_t line_ = 0;      ///< where the next read goes on, so that none finds what an earlier one left
   volatile double result_ = 0;  ///< else the compiler may see that nobody looks
 };

@@ -191,23 +191,6 @@ Rows gather_rows(const std::vector<Source>& sources) {
   return rows;
 }
 
-/// The names of several lists, each once, so that each list's order is kept as far as the others' allow it.
-std::vector<std::string> common_order(std::vector<std::vector<std::string>> lists) {
-  // The longest first: what a shard lacks, its list cannot put in its place.
-  std::sort(lists.begin(), lists.end(),
-            [](const auto& a, const auto& b) { return a.size() != b.size() ? a.size() > b.size() : a < b; });
-  std::vector<std::string> result;
-  for (const auto& list : lists) {
-    // A new name goes behind the one that it follows in its list.
-    auto place = result.begin();
-    for (const std::string& name : list) {
-      const auto known = std::find(result.begin(), result.end(), name);
-      place = (known == result.end() ? result.insert(place, name) : known) + 1;
-    }
-  }
-  return result;
-}
-
 /// The descriptions of `what` ("datasets", "methods") in all sources by name; of a method that is installed
 /// somewhere the one from there.
 std::map<std::string, json> descriptions(const std::vector<Source>& sources, const char* what) {
@@ -295,6 +278,22 @@ json merge_notes(const std::vector<Source>& sources, const Rows& rows, std::size
 }
 
 }  // namespace
+
+std::vector<std::string> common_order(std::vector<std::vector<std::string>> lists) {
+  // The longest first: what a shard lacks, its list cannot put in its place.
+  std::sort(lists.begin(), lists.end(),
+            [](const auto& a, const auto& b) { return a.size() != b.size() ? a.size() > b.size() : a < b; });
+  std::vector<std::string> result;
+  for (const auto& list : lists) {
+    // A new name goes behind the one that it follows in its list.
+    auto place = result.begin();
+    for (const std::string& name : list) {
+      const auto known = std::find(result.begin(), result.end(), name);
+      place = (known == result.end() ? result.insert(place, name) : known) + 1;
+    }
+  }
+  return result;
+}
 
 MergedRun merge_runs(const std::vector<fs::path>& folders) {
   const std::vector<Source> sources = load_sources(folders);

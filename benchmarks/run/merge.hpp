@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <filesystem>
 #include <nlohmann/json.hpp>
+#include <string>
 #include <vector>
 
 #include "benchmarks/record/record.hpp"
@@ -19,6 +20,9 @@ struct MergedRun {
   std::size_t planned = 0;                     ///< number of rows that the plan and its filter ask for
   std::vector<std::filesystem::path> folders;  ///< of the runs, in the order in which they were taken
 };
+
+/// The names of several lists, each once, so that each list's order is kept as far as the others' allow it.
+std::vector<std::string> common_order(std::vector<std::vector<std::string>> lists);
 
 /// Merges the runs in `folders` (one or more). The result does not depend on their order: the runs are taken
 /// by the time at which they began. Of rows of the same name the first that is ok counts, or else the first

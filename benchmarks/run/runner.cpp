@@ -245,7 +245,7 @@ class Runner {
     std::vector<CaseWork> batch = gather_batch(next);
     for_each_in_parallel(batch.size(), options_.cores, [&](std::size_t i) { prepare(batch[i]); });
     try {
-      for (CaseWork& one : batch) micro::measure(one);
+      for (CaseWork& one : batch) measure(one);
     } catch (const Interrupted&) {
       settle(batch);
       throw;
@@ -283,7 +283,7 @@ class Runner {
   }
 
   /// Everything that is timed of a case, one worker at a time.
-  void micro::measure(CaseWork& one) {
+  void measure(CaseWork& one) {
     for (Entry& entry : one.entries) {
       if (is_done_before(entry.index)) {
         leave_as_it_is(entry);
@@ -554,7 +554,7 @@ class Runner {
     try {
       if (!one.scorer_fault.empty()) throw std::runtime_error(one.scorer_fault);
       metrics::Metrics metrics =
-          one.scorer ? one.scorer->score(*entry.result) : describe(one.set.points, *entry.result);
+          one.scorer ? one.scorer->score(*entry.result) : metrics::describe(one.set.points, *entry.result);
       metrics.peak_memory_bytes = entry.peak_memory_bytes;
       record.metrics = metrics::metrics_to_json(metrics);
       // The run's times stay all the same: how fast a method gives a wrong answer is part of the record.

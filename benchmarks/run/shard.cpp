@@ -30,7 +30,7 @@ struct CaseRuns {
   std::int64_t work = 0;  ///< points times runs
 };
 
-std::vector<CaseRuns> cases_of(const Plan& plan, const std::vector<PlannedRun>& runs) {
+std::vector<CaseRuns> cases_of(const plan::Plan& plan, const std::vector<plan::PlannedRun>& runs) {
   std::vector<CaseRuns> cases;
   for (std::size_t i = 0; i < runs.size(); ++i) {
     if (i == 0 || runs[i].case_index != runs[i - 1].case_index) cases.push_back({i, i, 0});

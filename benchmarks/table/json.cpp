@@ -16,11 +16,11 @@ std::string dump(const json& value) {
 }
 
 std::string cell_text(const Cell& cell) {
-  std::string text = "{\"text\": " + dump(cell.text());
+  std::string text = "{\"text\":" + dump(cell.text());
   const auto add = [&](const char* name, const std::optional<Number>& number) {
     if (!number) return;
-    text += std::string(", \"") + name +
-            "\": " + (std::isfinite(number->value) ? fixed(number->value, number->decimals) : "null");
+    text += std::string(",\"") + name +
+            "\":" + (std::isfinite(number->value) ? fixed(number->value, number->decimals) : "null");
   };
   add("value", cell.value);
   add("spread", cell.spread);
@@ -30,7 +30,7 @@ std::string cell_text(const Cell& cell) {
     add("low", cell.range->low);
     add("high", cell.range->high);
   }
-  if (!cell.notes.empty()) text += ", \"notes\": " + dump(cell.notes);
+  if (!cell.notes.empty()) text += ",\"notes\":" + dump(cell.notes);
   return text + "}";
 }
 
@@ -40,9 +40,9 @@ std::string column_text(const Column& column) {
   return dump(entry);
 }
 
-/// "[a, b]"
+/// "[a,b]"
 template <typename Entries, typename Text>
-std::string list_text(const Entries& entries, const Text& text_of, const std::string& between = ", ") {
+std::string list_text(const Entries& entries, const Text& text_of, const std::string& between = ",") {
   std::string text;
   for (const auto& entry : entries) text += (text.empty() ? "" : between) + text_of(entry);
   return "[" + text + "]";

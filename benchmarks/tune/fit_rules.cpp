@@ -110,7 +110,7 @@ int fit(const std::vector<std::string>& names, std::uint64_t split_seed, int see
   if (cases.empty()) throw ConfigurationError("no case of these plans is on the training side of the split");
   const std::vector<RuleUse> uses = rule_uses();
   const FitTables tables = measure_fit(cases, uses, usual_shares(), usual_limit_grid(), allowed_cores());
-  const std::set<std::string> report::shapes(tables.shapes.begin(), tables.shapes.end());
+  const std::set<std::string> shapes(tables.shapes.begin(), tables.shapes.end());
   std::cout << "# Constants of the rules from the points, fitted on " << cases.size() << " cases of "
             << shapes.size() << " training shapes\n\n";
   table::print_item(join_words(std::vector<std::string>(shapes.begin(), shapes.end())) + ".", std::cout);
@@ -130,7 +130,7 @@ int fit(const std::vector<std::string>& names, std::uint64_t split_seed, int see
 
 int main(int argc, char** argv) {
   CLI::App app("Fits the constants of the rules that choose parameters from the points alone");
-  std::vector<std::string> plans = hullbench::kPlans;
+  std::vector<std::string> plans = hullbench::tune::kPlans;
   std::uint64_t split_seed = 1;
   int seeds = 1;
   std::int64_t points = 0;
@@ -145,7 +145,7 @@ int main(int argc, char** argv) {
     return app.exit(error) == 0 ? 0 : 2;
   }
   try {
-    return hullbench::fit(plans, split_seed, seeds, points);
+    return hullbench::tune::fit(plans, split_seed, seeds, points);
   } catch (const hullbench::ConfigurationError& error) {
     std::cerr << "fit_rules: " << error.what() << "\n";
     return 2;

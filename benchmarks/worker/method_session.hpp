@@ -53,7 +53,7 @@ struct Attempt {
 };
 
 /// What a run is watched for besides its result. Looking at memory is for runs that nobody times.
-enum class Watch { report::kNothing, kMemory };
+enum class Watch { kNothing, kMemory };
 
 class MethodSession {
  public:

@@ -9,7 +9,7 @@
 #include <cstring>
 #include <system_error>
 
-namespace hullbench::point_files {
+namespace hullbench::hull::point_files {
 namespace {
 
 constexpr std::size_t kBlock = std::size_t{1} << 20U;
@@ -136,4 +136,4 @@ void BlockReader::fail_here(const std::string& what) const {
   throw PointFileError(name_ + ", line " + std::to_string(std::max<std::uint64_t>(line_, 1)) + ": " + what);
 }
 
-}  // namespace hullbench::point_files
+}  // namespace hullbench::hull::point_files

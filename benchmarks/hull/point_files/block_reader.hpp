@@ -10,7 +10,7 @@
 
 #include "benchmarks/hull/point_files/point_file.hpp"
 
-namespace hullbench::point_files {
+namespace hullbench::hull::point_files {
 
 /// Reads from front to back through one block of memory and knows where it is. All functions throw
 /// PointFileError when the system refuses to read.
@@ -73,4 +73,4 @@ class BlockReader {
   bool at_line_end_ = true;
 };
 
-}  // namespace hullbench::point_files
+}  // namespace hullbench::hull::point_files

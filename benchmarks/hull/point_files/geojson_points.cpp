@@ -6,7 +6,7 @@
 #include "benchmarks/hull/point_files/numbers.hpp"
 #include "benchmarks/hull/point_files/readers.hpp"
 
-namespace hullbench::point_files {
+namespace hullbench::hull::point_files {
 namespace {
 
 using nlohmann::json;
@@ -246,4 +246,4 @@ std::vector<Point> read_geojson_points(BlockReader& reader) {
   return handler.take();
 }
 
-}  // namespace hullbench::point_files
+}  // namespace hullbench::hull::point_files

@@ -5,7 +5,7 @@
 #include "benchmarks/hull/point_files/numbers.hpp"
 #include "benchmarks/hull/point_files/readers.hpp"
 
-namespace hullbench::point_files {
+namespace hullbench::hull::point_files {
 namespace {
 
 using polylidar::Point;
@@ -191,4 +191,4 @@ std::vector<Point> read_npy(BlockReader& reader) {
   return points;
 }
 
-}  // namespace hullbench::point_files
+}  // namespace hullbench::hull::point_files

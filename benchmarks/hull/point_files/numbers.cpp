@@ -6,7 +6,7 @@
 #include <cmath>
 #include <cstdlib>
 
-namespace hullbench::point_files {
+namespace hullbench::hull::point_files {
 namespace {
 
 constexpr std::string_view kBlanks = " \t\v\f\r";
@@ -93,4 +93,4 @@ double load(const char* bytes, const Scalar& type) {
   return static_cast<double>(bits);
 }
 
-}  // namespace hullbench::point_files
+}  // namespace hullbench::hull::point_files

@@ -8,7 +8,7 @@
 
 #include "benchmarks/hull/point_files/block_reader.hpp"
 
-namespace hullbench::point_files {
+namespace hullbench::hull::point_files {
 
 /// Whether the whole of `text` is a number, be it one that a coordinate cannot be (nan, inf, 1e999).
 bool is_number(std::string_view text);
@@ -38,4 +38,4 @@ struct Scalar {
 /// The number in the `type.size` bytes at `bytes`; whole numbers beyond 2^53 are rounded.
 double load(const char* bytes, const Scalar& type);
 
-}  // namespace hullbench::point_files
+}  // namespace hullbench::hull::point_files

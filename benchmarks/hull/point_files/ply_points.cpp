@@ -4,7 +4,7 @@
 #include "benchmarks/hull/point_files/numbers.hpp"
 #include "benchmarks/hull/point_files/readers.hpp"
 
-namespace hullbench::point_files {
+namespace hullbench::hull::point_files {
 namespace {
 
 using polylidar::Point;
@@ -265,4 +265,4 @@ std::vector<Point> read_ply(BlockReader& reader) {
   return BodyReader(reader, header).read();
 }
 
-}  // namespace hullbench::point_files
+}  // namespace hullbench::hull::point_files

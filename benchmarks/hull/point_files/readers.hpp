@@ -6,7 +6,7 @@
 #include "benchmarks/hull/point_files/block_reader.hpp"
 #include "polylidar/geometry.hpp"
 
-namespace hullbench::point_files {
+namespace hullbench::hull::point_files {
 
 /// Columns of text. `only_blanks`: blanks alone separate them (XYZ). Empty lines and those that begin with #
 /// are passed over. The first row is a header when columns are chosen by name or when no field of it is a
@@ -24,4 +24,4 @@ std::vector<polylidar::Point> read_npy(BlockReader& reader);
 /// x and y of any type; other properties, lists among them, and other elements are passed over.
 std::vector<polylidar::Point> read_ply(BlockReader& reader);
 
-}  // namespace hullbench::point_files
+}  // namespace hullbench::hull::point_files

@@ -5,7 +5,7 @@
 #include "benchmarks/hull/point_files/numbers.hpp"
 #include "benchmarks/hull/point_files/readers.hpp"
 
-namespace hullbench::point_files {
+namespace hullbench::hull::point_files {
 namespace {
 
 using polylidar::Point;
@@ -171,7 +171,7 @@ bool is_passed_over(std::string_view line) {
 
 std::vector<Point> read_columns(BlockReader& reader, bool only_blanks) {
   std::vector<Point> points;
-  Row report::row(reader);
+  Row row(reader);
   Columns columns;
   std::size_t needed = 0;  // fields; 0: the first row has not come yet
   const auto start = [&](std::string_view line) {
@@ -200,4 +200,4 @@ std::vector<Point> read_columns(BlockReader& reader, bool only_blanks) {
   return points;
 }
 
-}  // namespace hullbench::point_files
+}  // namespace hullbench::hull::point_files

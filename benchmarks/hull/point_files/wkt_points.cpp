@@ -3,7 +3,7 @@
 #include "benchmarks/hull/point_files/numbers.hpp"
 #include "benchmarks/hull/point_files/readers.hpp"
 
-namespace hullbench::point_files {
+namespace hullbench::hull::point_files {
 namespace {
 
 using polylidar::Point;
@@ -177,4 +177,4 @@ std::vector<Point> read_wkt_points(BlockReader& reader) {
   return WktReader(reader).read();
 }
 
-}  // namespace hullbench::point_files
+}  // namespace hullbench::hull::point_files
