@@ -1,10 +1,9 @@
 // The catalogue of data sets: by name, a shape and points of it.
 //
-// A data set is one shape from a file ("ca"), or a family whose members are shapes of one kind, numbered from
-// 1
-// ("star-1" ... "star-9800"). Points are drawn from the shape, as many as are asked for, or come with it, as
-// those of the floors, of degenerate.hpp and of the zoo do. Behind a '~' stands how they are drawn where not uniformly
-// ("ca~noise:0.5", "star-17~outliers:5"; see stress.hpp).
+// A data set is one shape from a file ("ca"), or a family whose members are shapes of one kind, numbered
+// from 1 ("star-1" ... "star-9800"). Points are drawn from the shape, as many as are asked for, or come with
+// it, as those of the floors, of degenerate.hpp and of the zoo do. Behind a '~' stands how they are drawn
+// where not uniformly ("ca~noise:0.5", "star-17~outliers:5"; see stress.hpp).
 #pragma once
 
 #include <cstddef>
