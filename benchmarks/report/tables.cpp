@@ -18,6 +18,7 @@
 #include "benchmarks/report/ratios.hpp"
 #include "benchmarks/report/report_notes.hpp"
 #include "benchmarks/report/table_context.hpp"
+#include "benchmarks/report/zoo_table.hpp"
 #include "benchmarks/statistics/statistics.hpp"
 
 namespace hullbench::report {
@@ -337,6 +338,8 @@ table::Document make_document(const json& report) {
   const bool has_axis = report.at("plan").contains("axis");
   if (has_axis) {
     document.tables.push_back(curve_table(context));
+  } else if (name == "zoo") {
+    document.tables.push_back(zoo_table(context));
   } else if (is_collection(all_shapes)) {
     add_all(document, collection_tables(context, all_shapes));
   } else if (context.measurements.cases().size() > 1) {

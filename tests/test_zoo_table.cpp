@@ -1,0 +1,108 @@
+// The table of the plan zoo: what each cell says, and that it takes the place of the other tables.
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "benchmarks/report/tables.hpp"
+#include "benchmarks/report/zoo_table.hpp"
+#include "benchmarks/table/writers.hpp"
+#include "invented_run.hpp"
+#include "invented_shapes.hpp"
+
+namespace hullbench {
+namespace {
+
+using nlohmann::json;
+
+record::RunRecord good_run() {
+  record::RunRecord run = test::invented_record();
+  run.metrics["valid"] = true;
+  run.metrics["polygons"] = 1;
+  run.metrics["points_covered"] = 0.95;
+  run.metrics["l2"] = 0.2;
+  run.metrics["l2_convex_hull"] = 0.3;
+  return run;
+}
+
+std::string word_with(const char* metric, const json& value, bool has_area = true) {
+  record::RunRecord run = good_run();
+  run.metrics[metric] = value;
+  return report::zoo_word(run, has_area);
+}
+
+std::string word_of(record::Status status, bool has_area = true) {
+  record::RunRecord run = good_run();
+  run.status = status;
+  return report::zoo_word(run, has_area);
+}
+
+TEST(ZooTable, SaysHowARunEnded) {
+  using record::Status;
+  EXPECT_EQ(report::zoo_word(good_run(), true), "ok");
+  EXPECT_EQ(word_of(Status::kTimeout), "time-out");
+  EXPECT_EQ(word_of(Status::kMemory), "no memory");
+  EXPECT_EQ(word_of(Status::kCrash), "crash");
+  EXPECT_EQ(word_of(Status::kError), "error");
+  EXPECT_EQ(word_of(Status::kUnsupported), "error");
+  EXPECT_EQ(word_of(Status::kInvalidOutput), "invalid");
+  EXPECT_EQ(word_of(Status::kNotInstalled), table::kNothing);
+}
+
+TEST(ZooTable, SaysWhatIsWrongWithAResult) {
+  EXPECT_EQ(word_with("valid", false), "invalid");
+  EXPECT_EQ(word_with("polygons", 0), "empty");
+  EXPECT_EQ(word_with("points_covered", 0.9), "ok");
+  EXPECT_EQ(word_with("points_covered", 0.89), "lost points");
+  EXPECT_EQ(word_with("l2", 0.39), "ok");
+  EXPECT_EQ(word_with("l2", 0.41), "wrong");  // by more than a tenth worse than the convex hull
+  EXPECT_EQ(word_with("l2_convex_hull", 0.05), "wrong");
+  EXPECT_EQ(word_with("l2", nullptr), "ok");  // of no known shape
+  record::RunRecord as_bad_as_the_hull = good_run();
+  as_bad_as_the_hull.metrics["l2"] = 0.51;
+  as_bad_as_the_hull.metrics["l2_convex_hull"] = 0.51;
+  EXPECT_EQ(report::zoo_word(as_bad_as_the_hull, true), "wrong");
+}
+
+TEST(ZooTable, PointsWithoutAnAreaHaveAnEmptyHull) {
+  EXPECT_EQ(word_with("polygons", 0, false), "ok");
+  EXPECT_EQ(word_with("polygons", 1, false), "wrong");
+  EXPECT_EQ(word_of(record::Status::kError, false), "ok");
+  EXPECT_EQ(word_of(record::Status::kCrash, false), "crash");
+}
+
+/// Two cases; the points of the second one have no area, as their convex hull tells.
+json zoo_report() {
+  json report = test::report_on_shapes({{"zoo-one", 5, 1}, {"zoo-flat", 5, 1}});
+  report["plan"]["name"] = "zoo";
+  for (json& run : report.at("runs")) {
+    if (run.at("method") == "cgal_alpha_shape") {
+      run["method"] = "convex_hull";
+      run["protocol"] = "default";
+    }
+    if (run.at("status") != "ok") continue;
+    run["metrics"]["l2"] = 0.1;
+    run["metrics"]["points_covered"] = 1;
+    run["metrics"]["polygons"] = run.at("dataset") == "zoo-flat" ? 0 : 1;
+  }
+  test::run_on(report, "polylidar", "zoo-one")["status"] = "crash";
+  return report;
+}
+
+TEST(ZooTable, HasARowACaseAndAColumnAMethod) {
+  const table::Document document = report::make_document(zoo_report());
+  EXPECT_EQ(document.tables.at(0).id, "zoo_cases");
+  const std::vector<std::vector<std::string>> rows = table::shown(document.tables.at(0));
+  ASSERT_EQ(rows.size(), 4U);
+  EXPECT_EQ(rows.at(1).at(0), "zoo-one");
+  EXPECT_EQ(rows.at(1).at(1), "crash");
+  EXPECT_EQ(rows.at(2).at(0), "zoo-flat");
+  EXPECT_EQ(rows.at(2).at(1), "ok");
+  EXPECT_EQ(rows.at(3).at(0), "ok, of 2");
+  EXPECT_EQ(rows.at(3).at(1), "1");
+  for (const table::Table& table : document.tables) EXPECT_EQ(table.id.find("collection"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace hullbench
