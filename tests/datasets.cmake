@@ -34,7 +34,7 @@ set_source_files_properties(boost_checks.cpp PROPERTIES
   COMPILE_OPTIONS "$<$<CXX_COMPILER_ID:GNU>:-Wno-maybe-uninitialized>")
 hullbench_test(test_zoo
   SOURCES test_zoo.cpp
-  LIBRARIES hullbench::datasets hullbench::hash nlohmann_json::nlohmann_json
+  LIBRARIES hullbench::datasets hullbench::hash polylidar::check nlohmann_json::nlohmann_json
   LABELS datasets)
 target_compile_definitions(test_zoo PRIVATE
   HULLBENCH_ZOO_HASHES="${CMAKE_CURRENT_LIST_DIR}/data/zoo_hashes.txt"

@@ -16,8 +16,8 @@
 
 #include "adapters/wkb.hpp"
 #include "benchmarks/base/cores.hpp"
+#include "benchmarks/base/huge_pages.hpp"
 #include "benchmarks/base/interrupt.hpp"
-#include "benchmarks/worker/huge_pages.hpp"
 #include "benchmarks/worker/method_session.hpp"
 #include "benchmarks/worker/protocol.hpp"
 #include "benchmarks/worker/stray_processes.hpp"

@@ -20,7 +20,7 @@
 #include "datasets/point_bytes.hpp"
 #include "datasets/sha256.hpp"
 #include "datasets/zoo/zoo.hpp"
-#include "core/check/check.hpp"
+#include "polylidar/check.hpp"
 #include "polylidar/concave_hull.hpp"
 #include "polylidar/predicates.hpp"
 

@@ -41,15 +41,18 @@ const JsonSchema* schema_of_kind(const json& document) {
   static const JsonSchema tuning = parse_schema(kTuneSchemaJson);
   static const JsonSchema league = parse_schema(kLeagueSchemaJson);
   static const JsonSchema tables = parse_schema(kTablesSchemaJson);
-  static const std::map<std::string, const JsonSchema*> schemas = {{"case", &picture},
-                                                                   {"result", &picture},
-                                                                   {"evaluation", &evaluation},
-                                                                   {"tuning", &tuning},
-                                                                   {"league", &league},
-                                                                   {"tables", &tables}};
+  static const std::map<std::string, const JsonSchema*> schemas = {
+      {"case", &picture},  {"result", &picture}, {"evaluation", &evaluation},
+      {"tuning", &tuning}, {"league", &league},  {"tables", &tables}};
   if (!document.is_object() || !document.contains("kind") || !document["kind"].is_string()) return nullptr;
   const auto found = schemas.find(document["kind"].get<std::string>());
   return found == schemas.end() ? nullptr : found->second;
+}
+
+/// Of one line of runs.jsonl.
+std::vector<std::string> validate_run(const json& run) {
+  static const JsonSchema schema = parse_schema(kRunSchemaJson);
+  return faults(schema, run);
 }
 
 std::vector<std::string> validate_lines(const std::filesystem::path& path) {
@@ -82,11 +85,6 @@ void complete_run_description(json& document) {
 std::vector<std::string> validate_report(const json& report) {
   static const JsonSchema schema = parse_schema(kReportSchemaJson);
   return faults(schema, report);
-}
-
-std::vector<std::string> validate_run(const json& run) {
-  static const JsonSchema schema = parse_schema(kRunSchemaJson);
-  return faults(schema, run);
 }
 
 std::vector<std::string> validate_by_kind(const json& document) {
