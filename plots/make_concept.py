@@ -42,9 +42,7 @@ def hull(program: str, cloud: list[tuple[float, float]], limit: list[str]) -> st
     shape = json.loads(done.stdout)
     shape = shape["features"][0]["geometry"] if shape["type"] == "FeatureCollection" else shape.get("geometry", shape)
     polygons = shape["coordinates"] if shape["type"] == "MultiPolygon" else [shape["coordinates"]]
-    return " ".join(
-        "M" + " ".join(f"{x:g},{y:g}" for x, y in ring[:-1]) + "Z" for polygon in polygons for ring in polygon
-    )
+    return " ".join("M" + " ".join(f"{x:g},{y:g}" for x, y in ring[:-1]) + "Z" for polygon in polygons for ring in polygon)
 
 
 def main(program: str) -> None:

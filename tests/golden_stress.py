@@ -338,15 +338,13 @@ def main(arguments: list[str]) -> int:
 
     def is_known(name: str) -> bool:
         base, *stresses = name.split("~")
-        return base in entries and all(re.fullmatch(r"[a-z]+:[0-9.]+", one) and one.split(":")[0] in known
-                                       for one in stresses)
+        return base in entries and all(re.fullmatch(r"[a-z]+:[0-9.]+", one) and one.split(":")[0] in known for one in stresses)
 
     names = arguments[check:] or [name for name in golden if is_known(name)]
     wrong = [] if names else ["that it can be checked at all"]
     for name in names:
         if not is_known(name):
-            print(f"error: there is no data set '{name}', or it is none of those that this program knows.",
-                  file=sys.stderr)
+            print(f"error: there is no data set '{name}', or it is none of those that this program knows.", file=sys.stderr)
             return 2
         sha256 = sha256_of(make_points(name, Shape(read_shape(entries[name.split("~")[0]]["file"]))))
         print(f"{name} {sha256}", flush=True)

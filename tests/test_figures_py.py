@@ -304,7 +304,7 @@ class Style(WithSuite):
         self.assertEqual(len({look["order"] for look in LOOKS["methods"].values()}), len(LOOKS["methods"]))
 
     def test_every_planned_method_has_a_look(self) -> None:
-        plans = sorted((PLOTS.parent / "benchmarks" / "plans").glob("*.json"))
+        plans = [plan for plan in sorted((PLOTS.parent / "benchmarks" / "plans").glob("*.json")) if ".schema." not in plan.name]
         self.assertTrue(plans)
         for plan in plans:
             for entry in json.loads(plan.read_text(encoding="utf-8"))["methods"]:

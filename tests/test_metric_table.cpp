@@ -58,7 +58,7 @@ TEST(MetricTable, NamesFilesThatHaveWhatComputes) {
     const std::size_t comma = metric.function.find(", ");
     ASSERT_NE(comma, std::string::npos);
     const std::string file = metric.function.substr(comma + 2);
-    const std::string folder = file == "worker_process.cpp" ? "benchmarks/" : "benchmarks/metrics/";
+    const std::string folder = file == "worker_process.cpp" ? "benchmarks/worker/" : "benchmarks/metrics/";
     EXPECT_NE(read_file(folder + file).find(metric.function.substr(0, comma)), std::string::npos);
   }
 }

@@ -246,7 +246,7 @@ void add_skill(Table& table) {
 void add_case(Table& table) {
   table.push_back({"spacing", "case", "length", Better::kNone,
                    "h = sqrt(area of T / n), the nominal spacing of the n points", "", "",
-                   "CaseScorer::spacing, metrics.cpp",
+                   "CaseScorer::score, metrics.cpp",
                    [](const Metrics& m) -> MetricValue { return m.spacing; }});
   table.push_back({"ground_truth_area", "case", "length^2", Better::kNone, "area of T", "", "",
                    "PreparedTruth, prepared_truth.cpp",
