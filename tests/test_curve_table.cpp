@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "benchmarks/report/curve_table.hpp"
+#include "benchmarks/report/labels.hpp"
 #include "benchmarks/report/tables.hpp"
 #include "benchmarks/table/writers.hpp"
 #include "invented_shapes.hpp"
@@ -41,6 +42,11 @@ table::Table table_of(const json& report) {
   const table::Document document = report::make_document(report);
   EXPECT_EQ(document.tables.size(), 1U);
   return document.tables.at(0);
+}
+
+TEST(StressTitle, SaysSeveralStressesOneAfterTheOther) {
+  EXPECT_EQ(report::stress_title("noise:0.5"), "noise 0.5");
+  EXPECT_EQ(report::stress_title("gradient:16~outliers:3~noise:0.5"), "gradient 16, outliers 3, noise 0.5");
 }
 
 TEST(CurveTable, HasAColumnALevelAndAMedianACell) {

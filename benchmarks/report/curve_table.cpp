@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "benchmarks/report/labels.hpp"
 #include "benchmarks/statistics/statistics.hpp"
 
 namespace hullbench::report {
@@ -85,9 +86,7 @@ json place_on_axis(const json& axis, const record::RunRecord& row) {
   if (of == "sampling") {
     const std::size_t mark = row.dataset.find('~');
     if (mark == std::string::npos) return "uniform";
-    std::string stress = row.dataset.substr(mark + 1);
-    std::replace(stress.begin(), stress.end(), ':', ' ');
-    return stress;
+    return stress_title(row.dataset.substr(mark + 1));
   }
   const auto level = row.levels.find(of);
   return level == row.levels.end() ? json() : json(level->second);

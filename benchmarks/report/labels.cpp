@@ -1,6 +1,5 @@
 #include "benchmarks/report/labels.hpp"
 
-#include <algorithm>
 #include <optional>
 
 #include "benchmarks/base/words.hpp"
@@ -33,13 +32,13 @@ std::string remedy_of(const json& report, const std::string& name) {
   return "";
 }
 
-/// ", noise 0.5" of "ca~noise:0.5".
-std::string stress_title(std::string stress) {
-  std::replace(stress.begin(), stress.end(), ':', ' ');
-  return ", " + stress;
-}
-
 }  // namespace
+
+std::string stress_title(const std::string& stress) {
+  std::string title;
+  for (const char c : stress) title += c == ':' ? " " : c == '~' ? ", " : std::string(1, c);
+  return title;
+}
 
 std::string method_title(const json& report, const std::string& method) {
   return title_of(report.at("methods"), method);
@@ -69,7 +68,7 @@ std::string shape_title(const json& report, const std::string& dataset_name, boo
   const auto family = family_of(report, dataset);
   const std::string number = family ? " " + dataset.substr(family->size() + 1) : "";
   return family_title(report, dataset) + number + (holes ? " with holes" : "") +
-         (mark == std::string::npos ? "" : stress_title(dataset_name.substr(mark + 1)));
+         (mark == std::string::npos ? "" : ", " + stress_title(dataset_name.substr(mark + 1)));
 }
 
 std::string not_installed_text(const json& report, const std::string& what, const std::string& method,

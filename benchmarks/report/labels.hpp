@@ -32,6 +32,10 @@ std::string method_label(const std::vector<nlohmann::json>& reports, const std::
 /// "Comb" for "comb-17": the title of the data set, or of the family that it is a member of.
 std::string family_title(const nlohmann::json& report, const std::string& dataset);
 
+/// "gradient 16, noise 0.5" of "gradient:16~noise:0.5", what stands behind the first '~' of a data set's
+/// name.
+std::string stress_title(const std::string& stress);
+
 /// "California with holes", "Comb 17", "California, noise 0.5".
 std::string shape_title(const nlohmann::json& report, const std::string& dataset, bool holes);
 
