@@ -1,7 +1,7 @@
 #include "automatic_limit.hpp"
 
 #include <algorithm>
-#include <array>
+#include <bit>
 #include <cmath>
 #include <limits>
 
@@ -13,104 +13,240 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-// The rule's constants; lengths are in medians.
-constexpr double kUsual = 1.6;
-constexpr double kPull = 2;
-constexpr double kStill = 0.003;
-constexpr double kLeast = 1.1;
-constexpr double kMost = 6;
-/// Cells of the grid below and above a limit over which the growth is taken.
-constexpr std::size_t kBelow = 10;
-constexpr std::size_t kAbove = 2;
+/// So many triangles of a block are looked at; all of them where fewer than a quarter of these are there, as
+/// points that repeat others leave records unused.
+constexpr std::size_t kMeasured = 64;
+/// So many triangles, at most, are looked at for the growth of the area.
+constexpr std::size_t kSampled = 4096;
 
-// The grid of limits: an octave has 16 cells of equal width. Four octaves are enough for all limits and the
-// cells about them. All cells begin at whole steps of the narrowest ones' width, and areas are summed up by
-// these. The unit of lengths moves the cells so that the median itself, which is every triangle's perimeter
-// in a lattice, and its simple multiples do not lie where one ends.
-constexpr std::size_t kCells = 64;
-constexpr std::size_t kSteps = 256;
-constexpr double kStep = 0.93 / 32;  // in medians
-
-/// Step -> area of the triangles whose perimeter lies in it, from 0 on.
-using StepAreas = std::array<double, kSteps>;
-
-/// At which step cell `c` begins.
-constexpr std::size_t first_step(std::size_t c) {
-  return (16 + c % 16) << (c / 16);
+double fourth_power(double x) {
+  return (x * x) * (x * x);
 }
 
-/// The limit of the least cost, in medians; kUsual where all areas are zero, as those of triangles that are
-/// flat up to rounding.
-double steadiest_limit(const StepAreas& area) {
-  std::array<double, kCells> log_limit{};
-  std::array<double, kCells> log_area{};  // below the limit
-  double below = 0;
-  for (std::size_t c = 0, step = 0; c < kCells; ++c) {
-    for (; step < first_step(c); ++step) below += std::max(area[step], 0.0);
-    log_limit[c] = std::log(kStep * static_cast<double>(step));
-    log_area[c] = std::log(below);
+/// The value at `quantile` of `values`, which it reorders; there is one.
+double quantile_of(std::vector<double>& values, double quantile) {
+  const auto place =
+      std::min(values.size() - 1, static_cast<std::size_t>(quantile * static_cast<double>(values.size())));
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(place);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+// The grid of limits: 16 cells to an octave of sizes, so 4 to one of their fourth powers, by the first two
+// bits of these numbers' fractions. The least size is 2^(-3/4).
+constexpr std::size_t kCells = 64;
+constexpr unsigned kFractionBits = 52;
+constexpr std::uint64_t kFirstCell = std::bit_cast<std::uint64_t>(0.125) >> (kFractionBits - 2);
+
+/// The cell of a fourth power; those below the grid count to its first cell, and beyond it is kCells.
+std::size_t cell_of(double size4) {
+  const std::uint64_t place = std::bit_cast<std::uint64_t>(size4) >> (kFractionBits - 2);
+  return place < kFirstCell ? 0 : std::min<std::size_t>(kCells, place - kFirstCell);
+}
+
+/// The fourth power of the size at which cell `c` begins.
+double cell_begin(std::size_t c) {
+  return std::bit_cast<double>((kFirstCell + c) << (kFractionBits - 2));
+}
+
+/// Records that are used, of all; from a part of them. Those of points that repeat others are not.
+double used_share(const Mesh& mesh) {
+  constexpr std::size_t kLookedAt = 512;
+  std::size_t used = 0;
+  std::size_t seen = 0;
+  for (std::size_t t = 0; t < mesh.triangle_count(); t += (mesh.triangle_count() / kLookedAt) | 1U) {
+    used += mesh.is_unused(static_cast<Mesh::Index>(t)) ? 0U : 1U;
+    ++seen;
   }
-  double least_cost = kInfinity;
-  double steadiest = kUsual;
-  for (std::size_t c = kBelow; c + kAbove < kCells; ++c) {
-    const double limit = kStep * static_cast<double>(first_step(c));
-    if (limit < kLeast || limit > kMost) continue;
-    const double growth =
-        (log_area[c + kAbove] - log_area[c - kBelow]) / (log_limit[c + kAbove] - log_limit[c - kBelow]);
-    const double distance = log_limit[c] - std::log(kUsual);
-    const double cost = std::log(growth + kStill) + kPull * distance * distance;
-    if (cost < least_cost) {  // no: without an area below, where it is infinite or NaN
-      least_cost = cost;
-      steadiest = limit;
-    }
-  }
-  return steadiest;
+  return static_cast<double>(std::max<std::size_t>(used, 1)) /
+         static_cast<double>(std::max<std::size_t>(seen, 1));
 }
 
 }  // namespace
 
-/// Measures every `step`-th triangle.
-void AutomaticLimit::look_at(const Mesh& mesh, const Point* vertices, std::size_t step) {
-  count_ = (mesh.triangle_count() + step - 1) / step;
-  finite_count_ = 0;
-  double* const perimeter = perimeters_.reserve(count_);
-  double* const twice_area = twice_areas_.reserve(count_);
-  double* const finite = finite_.reserve(count_);
-  for (std::size_t i = 0; i < count_; ++i) {
-    const auto t = static_cast<Mesh::Index>(i * step);
-    perimeter[i] = kInfinity;
-    twice_area[i] = 0;
-    if (mesh.is_ghost(t)) continue;
-    const Triangle triangle(mesh, vertices, t);
-    perimeter[i] = triangle.perimeter();
-    twice_area[i] = triangle.twice_area();
-    finite[finite_count_++] = perimeter[i];
+/// Looks at `block`: returns the fourth power of its usual size, infinity where it has no triangle with an
+/// area, and appends its borders with other blocks.
+double AutomaticLimit::measure_block(const Mesh& mesh, const Point* vertices, std::uint32_t block,
+                                     double quantile, std::vector<double>& sizes,
+                                     std::vector<Border>& borders) const {
+  const auto begin = static_cast<Mesh::Index>(std::size_t{block} << field_.shift);
+  const auto end = static_cast<Mesh::Index>(
+      std::min<std::size_t>(mesh.triangle_count(), std::size_t{block + 1} << field_.shift));
+  const std::size_t first_border = borders.size();
+  // Odd, as records come in pairs, of which an even step would only see the first.
+  Mesh::Index step = ((end - begin) / kMeasured) | 1U;
+  if (step == 1) step = (end - begin) > kMeasured ? 2 : 1;
+  for (;; step = 1) {
+    sizes.clear();
+    borders.resize(first_border);
+    for (Mesh::Index t = begin; t < end; t += step) {
+      if (mesh.is_ghost(t)) continue;
+      const Triangle triangle(mesh, vertices, t);
+      const double size4 = triangle.size4();
+      if (size4 > 0) sizes.push_back(size4);
+      const std::array squared{triangle.squared_ab(), triangle.squared_bc(), triangle.squared_ca()};
+      for (Mesh::Index k = 0; k < 3; ++k) {
+        const Mesh::Index other = Mesh::triangle_of(mesh.twin(Mesh::kStride * t + k));
+        const auto neighbour = static_cast<std::uint32_t>(field_.block_of(other));
+        if (neighbour == block || mesh.is_ghost(other)) continue;
+        const double length4 = squared[k] * squared[k];
+        std::size_t known = first_border;
+        while (known < borders.size() && borders[known].neighbour != neighbour) ++known;
+        if (known == borders.size()) borders.push_back({block, neighbour, length4});
+        borders[known].length4 = std::min(borders[known].length4, length4);
+      }
+    }
+    if (step == 1 || sizes.size() >= kMeasured / 4) break;
+  }
+  return sizes.empty() ? kInfinity : quantile_of(sizes, quantile);
+}
+
+void AutomaticLimit::measure_blocks(const Mesh& mesh, const Point* vertices, ThreadPool& pool,
+                                    const AutomaticConstants& constants) {
+  const Chunks chunks(pool, mesh.triangle_count());
+  const std::size_t blocks = usual4_.size();
+  const auto begin_of = [&](std::size_t chunk) { return blocks * chunk / chunks.size(); };
+  sizes_of_chunk_.resize(std::max(sizes_of_chunk_.size(), chunks.size()));
+  borders_of_chunk_.resize(chunks.size());
+  pool.for_each(chunks.size(), [&](std::size_t c) {
+    borders_of_chunk_[c].clear();
+    for (std::size_t b = begin_of(c); b < begin_of(c + 1); ++b) {
+      usual4_[b] = measure_block(mesh, vertices, static_cast<std::uint32_t>(b), constants.quantile,
+                                 sizes_of_chunk_[c], borders_of_chunk_[c]);
+    }
+  });
+}
+
+/// No block may be larger than its neighbours allow, nor these than theirs.
+void AutomaticLimit::bound_growth(const AutomaticConstants& constants) {
+  measured4_ = usual4_;
+  const double factor4 = fourth_power(1 + constants.growth / std::sqrt(static_cast<double>(usual4_.size())));
+  const double reach4 = fourth_power(constants.reach);
+  bool is_changed = true;
+  const auto bound = [&](std::uint32_t from, std::uint32_t to, double length4) {
+    if (length4 > reach4 * measured4_[to]) return;  // another part, or nothing is known of it
+    const double most = factor4 * usual4_[from];
+    if (usual4_[to] <= most) return;
+    usual4_[to] = most;
+    is_changed = true;
+  };
+  while (is_changed) {
+    is_changed = false;
+    for (const std::vector<Border>& borders : borders_of_chunk_) {
+      for (const Border& border : borders) {
+        bound(border.block, border.neighbour, border.length4);
+        bound(border.neighbour, border.block, border.length4);
+      }
+    }
   }
 }
 
-double AutomaticLimit::choose(const Mesh& mesh, const Point* vertices) {
-  // Odd, as records come in pairs, of which an even step would only see the first.
-  std::size_t step = (mesh.triangle_count() / kSample) | 1U;
-  look_at(mesh, vertices, step);
-  // Points that repeat others leave records unused.
-  if (step > 1 && finite_count_ < kSample / 4) {
-    step = 1;
-    look_at(mesh, vertices, step);
+/// Takes from the usual sizes' differences what noise explains.
+void AutomaticLimit::shrink_to_median(double noise) {
+  constexpr double kSpreadQuantile = 0.75;
+  constexpr double kSpreadOfNormal = 1.150;  // its 75 % quantile of |x|, in standard deviations
+  logs_.clear();
+  for (const double usual4 : usual4_) {
+    if (usual4 != kInfinity) logs_.push_back(std::log(usual4) / 4);
   }
-  is_complete_ = step == 1 && finite_count_ > 0;
-  if (finite_count_ == 0) return kInfinity;
-  double* const finite = finite_.data();
-  double* const middle = finite + finite_count_ / 2;
-  std::nth_element(finite, middle, finite + finite_count_);
-  const double median = *middle;
+  if (logs_.empty()) return;
+  const double median = quantile_of(logs_, 0.5);
+  for (double& log : logs_) log = std::abs(log - median);
+  const double spread = quantile_of(logs_, kSpreadQuantile) / kSpreadOfNormal;
+  const double kept = spread > noise ? std::sqrt(1 - (noise / spread) * (noise / spread)) : 0;
+  for (double& usual4 : usual4_) {
+    const double log = usual4 == kInfinity ? median : std::log(usual4) / 4;
+    usual4 = std::exp(4 * (median + kept * (log - median)));
+  }
+}
 
-  StepAreas area{};
-  const double steps_per_length = 1 / (kStep * median);
-  for (std::size_t i = 0; i < count_; ++i) {
-    const double place = perimeters_.data()[i] * steps_per_length;
-    if (place < kSteps) area[static_cast<std::size_t>(place)] += twice_areas_.data()[i];
+/// Takes triangles evenly from the whole mesh.
+void AutomaticLimit::sample(const Mesh& mesh, const Point* vertices) {
+  samples_.clear();
+  for (std::size_t step = (mesh.triangle_count() / kSampled) | 1U;; step = 1) {
+    samples_.clear();
+    for (std::size_t i = 0; i < mesh.triangle_count(); i += step) {
+      const auto t = static_cast<Mesh::Index>(i);
+      if (mesh.is_ghost(t)) continue;
+      const Triangle triangle(mesh, vertices, t);
+      const double size4 = triangle.size4();
+      if (!(size4 > 0)) continue;
+      const double unit4 = usual4_[field_.block_of(t)];
+      samples_.push_back({size4 / unit4, triangle.twice_area() / std::sqrt(unit4)});
+    }
+    if (step == 1 || samples_.size() >= kSampled / 4) break;
   }
-  return steadiest_limit(area) * median;
+}
+
+/// The fourth power of the size of the least cost, in usual sizes.
+double AutomaticLimit::steadiest_size4(const AutomaticConstants& constants) const {
+  constexpr double kLeast = 1.2;
+  constexpr double kMost = 8;
+  std::vector<double> sizes;
+  sizes.reserve(samples_.size());
+  for (const Sampled& one : samples_) sizes.push_back(one.size4);
+  // So that the size which all triangles of a lattice have lies within a cell and not where one ends.
+  constexpr double kInCell = 1.1;
+  const double unit4 = quantile_of(sizes, 0.5) / kInCell;
+  std::array<double, kCells + 1> area{};
+  for (const Sampled& one : samples_) area[cell_of(one.size4 / unit4)] += one.area;
+
+  std::array<double, kCells> log_size{};
+  std::array<double, kCells> log_area{};  // below the size at which the cell begins
+  double below = 0;
+  for (std::size_t c = 0; c < kCells; ++c) {
+    log_size[c] = std::log(cell_begin(c) / kInCell) / 4;
+    log_area[c] = std::log(below);
+    below += std::max(area[c], 0.0);
+  }
+  double least_cost = kInfinity;
+  double steadiest = std::log(constants.usual);
+  for (std::size_t c = constants.below; c + constants.above < kCells; ++c) {
+    const std::size_t low = c - constants.below;
+    const std::size_t high = c + constants.above;
+    if (log_size[c] < std::log(kLeast) || log_size[c] > std::log(kMost)) continue;
+    const double growth = (log_area[high] - log_area[low]) / (log_size[high] - log_size[low]);
+    const double distance = log_size[c] - std::log(constants.usual);
+    const double cost = std::log(growth + constants.still) + constants.pull * distance * distance;
+    if (cost < least_cost) {  // no: without an area below, where it is infinite or NaN
+      least_cost = cost;
+      steadiest = log_size[c];
+    }
+  }
+  return std::exp(4 * steadiest) * unit4 * kInCell;
+}
+
+void AutomaticLimit::choose(const Mesh& mesh, const Point* vertices, double detail, ThreadPool& pool,
+                            const AutomaticConstants& constants) {
+  const std::size_t records = mesh.triangle_count();
+  const double used = used_share(mesh) * static_cast<double>(records);
+  const double blocks = std::clamp(used / (2 * kBlockPoints), 1.0, static_cast<double>(kMostBlocks));
+  field_.shift = static_cast<unsigned>(std::bit_width(2 * kBlockPoints - 1));
+  while (static_cast<double>(records >> field_.shift) > blocks) ++field_.shift;
+  usual4_.assign((records >> field_.shift) + 1, kInfinity);
+  measure_blocks(mesh, vertices, pool, constants);
+  bound_growth(constants);
+  shrink_to_median(constants.noise);
+  sample(mesh, vertices);
+
+  range_.reset();
+  field_.limit4 = usual4_;
+  field_.spike_share = 1;
+  field_.least_part = 0;
+  field_.least_hole = 0;
+  if (samples_.empty()) return;  // no triangle
+  const double limit4 = steadiest_size4(constants);
+  field_.spike_share = fourth_power(constants.spike) / limit4;
+  // Voids and clusters that chance makes among n points grow with log n. Where points are spread at random,
+  // the square of a usual size has 1.7 points.
+  constexpr double kPointsPerSquare = 1.7;
+  const double log_n = std::log(used / 2 + 1);
+  field_.least_part = static_cast<std::size_t>(constants.part * log_n);
+  field_.least_hole = 2 * (log_n + constants.hole) / (kPointsPerSquare * detail * detail);
+  for (double& limit : field_.limit4) limit *= limit4 / fourth_power(detail);
+  logs_ = field_.limit4;
+  const auto size = [&](double quantile) { return std::sqrt(std::sqrt(quantile_of(logs_, quantile))); };
+  range_ = ChosenSizes{size(0), size(0.5), size(1)};
 }
 
 }  // namespace polylidar::detail

@@ -1,62 +1,112 @@
 // How large a triangle of the shape may be when nobody says it: a rule that sees the points alone.
 #pragma once
 
+#include <array>
 #include <cstddef>
-#include <span>
+#include <cstdint>
+#include <optional>
+#include <vector>
 
 #include "half_edge.hpp"
+#include "polylidar/concave_hull.hpp"
 #include "scratch.hpp"
+#include "size_field.hpp"
+#include "thread_pool.hpp"
 
 namespace polylidar::detail {
 
-/// Chooses a limit for the perimeter of triangles from the triangulation, keeping its memory between calls.
+/// The rule's numbers, fitted on the training side of this project's shapes (`make fit-default`). Sizes are
+/// Triangle::size(), a length.
+struct AutomaticConstants {
+  double quantile = 0.56;  ///< a block's usual size is this quantile of its triangles' sizes
+  double growth = 11;      ///< bound on the usual sizes: about e^growth over as many blocks as a side has
+  double reach = 5;        ///< usual sizes over which an edge joins two blocks
+  double noise = 0.11;     ///< standard deviation of the logarithm of a usual size where all are equal
+
+  double usual = 2.1;     ///< where the limit usually is, in usual sizes
+  double pull = 2.9;      ///< how much another one costs
+  double still = 0.0058;  ///< a growth of the area that is as good as none
+  std::size_t below = 5;  ///< over so many cells of the grid below a limit the growth is taken
+  std::size_t above = 5;  ///< and above it
+  double spike = 1.45;    ///< the size from which a triangle on two border edges may be a spike
+  double part = 2;        ///< a part has at least so many times log n triangles
+  double hole = 2;        ///< a hole's place would have at least log n and so many points
+};
+
+/// Chooses the limit from the triangulation, keeping its memory between calls.
 ///
-/// Let A(p) be the area of the triangles whose perimeter is at most p, and m the median perimeter. While p is
-/// of the order of m, A grows quickly, by the triangles that chance made larger than others. Once p reaches
-/// the width of the shape's holes, notches and gaps, A grows quickly again, by what is not of the shape.
-/// Between the two it hardly grows: what is added are the slivers along the outline. The rule takes p where A
-/// is stable, not far from where that usually is:
+/// **The field.** Triangles stand in the mesh along the space-filling curve, so a block of consecutive ones
+/// covers a compact place. A block's usual size is a quantile of its triangles' sizes, whatever it is that
+/// makes them: density, scan lines, a lattice. Chance gives blocks of 64 points usual sizes that differ by
+/// `noise`; where they differ by no more, all blocks take the median, as uniform points should; where they
+/// differ by more, they keep what noise does not explain (James and Stein 1961). A block may not be much
+/// larger than one that it touches, since outliers round a shape are no sparser part of it: going from block
+/// to block, the usual size grows at most by the factor 1 + growth / sqrt(number of blocks). A sparse part
+/// of the shape far from the others, in its own scale, is not bounded: no short edge joins it.
 ///
-///   p = argmin  log(s(p) + 0.003) + 2 log^2(p / (1.6 m))   over 1.1 m <= p <= 6 m,
-///   s(p) = d log A / d log p as a difference from ten values below p to two above it,
+/// **The limit.** In usual sizes, let A(s) be the area of the triangles of size s at most. Below the size of
+/// the usual voids A grows quickly, by the triangles that chance made larger than others; beyond the width of
+/// holes, notches and gaps it grows quickly again, by what is not of the shape. Between the two it hardly
+/// grows. The rule takes s where A is stable, not far from where that usually is:
 ///
-/// on a grid of 16 values to the octave. A perimeter and not a circumradius, because a sliver along the
-/// outline has a large circle however short its edges: on this project's shapes the best circumradius that
-/// can be chosen with the ground truth in hand leaves more error than this rule does without it.
+///   s = argmin  log(g(s) + still) + pull log^2(s / usual),   g = d log A / d log s,
 ///
-/// m, s and the grid scale with the points, so the limit does. It does not depend on where they lie, on their
-/// order or on repeats, but for rounding, and for which triangles are looked at where they are more than
-/// kSample. Some triangle is always within it: half of those looked at are within m.
+/// on a grid of 16 sizes to the octave, g as a difference over `below` + `above` cells. `detail` divides s.
 ///
-/// Source: this project. The constants were fitted on the training side of its shapes, as `hullbench tune`
-/// divides them with seed 1.
+/// Sizes are those of Triangle::size4(): a
+/// a sliver along the outline is small however long it is, a triangle that spans a hole is not.
+///
+/// The size field does not depend on the unit of the points or on where they lie but for rounding, nor on
+/// their order or the number of threads. Points that repeat others move the blocks' borders, which moves the
+/// limit within its noise. In every block but those that the bound makes smaller more than half of the
+/// triangles are within the limit, so that some triangle always is.
+///
+/// Source: this project; what was tried: core/AUTOMATIC.md.
 class AutomaticLimit {
  public:
-  /// About so many triangles are looked at, at least two thirds and at most twice as many, spread evenly over
-  /// the mesh; all of fewer.
-  static constexpr std::size_t kSample = 1900;
+  /// Points of a block, in a mesh of few; of many, as many as make kMostBlocks blocks.
+  static constexpr std::size_t kBlockPoints = 64;
+  static constexpr std::size_t kMostBlocks = 4096;
 
-  /// The limit in the unit of `vertices`, inclusive; infinity when there is no triangle. O(n), and O(kSample)
-  /// unless most points repeat others. The same for the same mesh, on any number of threads.
-  double choose(const Mesh& mesh, const Point* vertices);
+  /// Chooses the sizes for `detail` > 0. O(n) for few points; of many only a part is looked at.
+  void choose(const Mesh& mesh, const Point* vertices, double detail, ThreadPool& pool,
+              const AutomaticConstants& constants = {});
 
-  /// After choose: triangle -> its perimeter in the same unit, infinity for a ghost and an unused record;
-  /// empty where only a part was looked at or no triangle is finite. The filter need not work them out
-  /// again, which pays for a part of choosing. Valid until the next call.
-  std::span<const double> perimeters() const {
-    return {perimeters_.data(), is_complete_ ? count_ : std::size_t{0}};
-  }
+  /// What was chosen; valid until the next call.
+  const SizeField& field() const { return field_; }
+  /// The least, the median and the largest size that a triangle may have, in the unit of `vertices`; none
+  /// where no triangle has a size above zero, and so all are kept.
+  const std::optional<ChosenSizes>& range() const { return range_; }
 
  private:
-  void look_at(const Mesh& mesh, const Point* vertices, std::size_t step);
+  /// Blocks that share an edge, and the fourth power of the length of the shortest that was looked at.
+  struct Border {
+    std::uint32_t block;
+    std::uint32_t neighbour;
+    double length4;
+  };
+  struct Sampled {
+    double size4;  ///< in usual sizes of its block
+    double area;   ///< in squares of them
+  };
 
-  // Indexed by what is looked at, from 0 to count_.
-  Scratch<double> perimeters_;   ///< infinity where not finite
-  Scratch<double> twice_areas_;  ///< 0 where not finite
-  Scratch<double> finite_;       ///< the finite perimeters, finite_count_ of them, in any order
-  std::size_t count_ = 0;
-  std::size_t finite_count_ = 0;
-  bool is_complete_ = false;  ///< all records are looked at, in their order
+  void measure_blocks(const Mesh& mesh, const Point* vertices, ThreadPool& pool,
+                      const AutomaticConstants& constants);
+  double measure_block(const Mesh& mesh, const Point* vertices, std::uint32_t block, double quantile,
+                       std::vector<double>& sizes, std::vector<Border>& borders) const;
+  void bound_growth(const AutomaticConstants& constants);
+  void shrink_to_median(double noise);
+  void sample(const Mesh& mesh, const Point* vertices);
+  double steadiest_size4(const AutomaticConstants& constants) const;
+
+  SizeField field_;
+  std::optional<ChosenSizes> range_;
+  std::vector<double> usual4_;  ///< block -> fourth power of its usual size; infinity where nothing is known
+  std::vector<double> measured4_;  ///< the same before it was bounded
+  std::vector<double> logs_;
+  std::vector<std::vector<double>> sizes_of_chunk_;
+  std::vector<std::vector<Border>> borders_of_chunk_;
+  std::vector<Sampled> samples_;
 };
 
 }  // namespace polylidar::detail

@@ -36,6 +36,9 @@ Limits checked_limits(const Options& options) {
     limits.*limit = (options.*option).value_or(kNoLimit);
     if (!(limits.*limit >= 0)) throw std::invalid_argument(std::string(name) + " must be zero or more");
   }
+  if (!(options.detail > 0 && std::isfinite(options.detail))) {
+    throw std::invalid_argument("detail must be positive and finite");
+  }
   check_threads(options.threads);
   return limits;
 }
@@ -84,6 +87,7 @@ struct Extractor::State {
   detail::DelaunayBuilder builder;
   detail::AutomaticLimit automatic_limit;
   Limits limits;
+  std::optional<ChosenSizes> chosen_sizes;
   detail::RegionFilter filter;
   std::vector<detail::Mesh::Index> boundary;
   detail::BoundaryTracer tracer;
@@ -112,18 +116,27 @@ void Extractor::triangulate(std::span<const Point> points, unsigned threads) {
 void Extractor::extract_regions(const Options& options) {
   state_->limits = checked_limits(options);
   state_->pool.use(options.threads);
+  state_->chosen_sizes.reset();
   detail::DelaunayBuilder& builder = state_->builder;
   const int exponent = builder.scale_exponent();
-  Limits limits = scaled(state_->limits, exponent);
-  const bool is_automatic = !is_any_limit_given(options);
-  std::span<const double> perimeters;
-  if (is_automatic) {
-    limits.max_perimeter = state_->automatic_limit.choose(builder.mesh(), builder.vertices());
-    perimeters = state_->automatic_limit.perimeters();
-    state_->limits = scaled(limits, -exponent);
+  if (is_any_limit_given(options)) {
+    const auto rules = detail::filter_rules(scaled(state_->limits, exponent));
+    state_->filter.run(builder.mesh(), builder.vertices(), rules,
+                       options.fill_single_triangles.value_or(false), state_->pool, state_->boundary);
+    return;
   }
-  state_->filter.run(builder.mesh(), builder.vertices(), detail::filter_rules(limits, perimeters),
-                     options.fill_single_triangles.value_or(is_automatic), state_->pool, state_->boundary);
+  detail::AutomaticLimit& automatic = state_->automatic_limit;
+  automatic.choose(builder.mesh(), builder.vertices(), options.detail, state_->pool);
+  if (const auto& sizes = automatic.range()) {
+    state_->chosen_sizes = {std::ldexp(sizes->least, -exponent), std::ldexp(sizes->median, -exponent),
+                            std::ldexp(sizes->most, -exponent)};
+  }
+  state_->filter.run(builder.mesh(), builder.vertices(), automatic.field(),
+                     options.fill_single_triangles.value_or(true), state_->pool, state_->boundary);
+}
+
+std::optional<ChosenSizes> Extractor::chosen_sizes() const {
+  return state_->chosen_sizes;
 }
 
 Limits Extractor::limits() const {

@@ -5,12 +5,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <span>
 #include <tuple>
 #include <variant>
 
 #include "half_edge.hpp"
 #include "polylidar/concave_hull.hpp"
+#include "size_field.hpp"
 #include "vector.hpp"
 
 namespace polylidar::detail {
@@ -32,6 +32,17 @@ struct Triangle {
   }
   /// Rounded: negative by rounding at most.
   double twice_area() const { return cross(c - a, a - b); }
+  /// The fourth power of the triangle's size, a length: (4 / sqrt 3 e^2 A)^(1/4) with its area A and its
+  /// second-longest edge e, and e / 2 where that is more, as in triangles that are all but flat. Of an
+  /// equilateral triangle it is the edge. A triangle with a long edge has a size like its circumradius where
+  /// it spans a hole, and a small one where it is a sliver along the outline.
+  double size4() const {
+    constexpr double kEquilateral = 1.1547005383792515;  // 2 / sqrt 3
+    const double ab = squared_ab();
+    const double bc = squared_bc();
+    const double middle = std::max(std::min(ab, bc), std::min(std::max(ab, bc), squared_ca()));
+    return middle * std::max(kEquilateral * twice_area(), middle / 16);
+  }
 
   Mesh::Index index;
   const Point& a;
@@ -70,28 +81,16 @@ class PerimeterRule {
   double squared_limit_;
 };
 
-/// PerimeterRule where Triangle::perimeter() of all triangles of the mesh is known. It decides unless it is
-/// within a few roundings of the limit: there PerimeterRule's ways without a root may round differently.
-class KnownPerimeterRule {
+/// The limit that varies by place.
+class SizeRule {
  public:
-  KnownPerimeterRule(double limit, std::span<const double> perimeters)
-      : perimeters_(perimeters),
-        surely_(limit * (1 - kNear)),
-        perhaps_(limit * (1 + kNear)),
-        near_rule_(limit) {}
+  explicit SizeRule(const SizeField& field) : field_(field) {}
   bool keeps(const Triangle& triangle) const {
-    const double perimeter = perimeters_[triangle.index];
-    if (perimeter <= surely_) return true;
-    return perimeter <= perhaps_ && near_rule_.keeps(triangle);
+    return triangle.size4() <= field_.limit4[field_.block_of(triangle.index)];
   }
 
  private:
-  static constexpr double kNear = 0x1p-48;
-
-  std::span<const double> perimeters_;  ///< of each triangle
-  double surely_;
-  double perhaps_;
-  PerimeterRule near_rule_;
+  const SizeField& field_;
 };
 
 /// circumradius = |ab| |bc| |ca| / (2 cross), with cross twice the area: compared squared and without
@@ -116,22 +115,11 @@ std::variant<NoRule, Rule> rule_of(double limit) {
   return Rule(limit);
 }
 
-inline std::variant<NoRule, PerimeterRule, KnownPerimeterRule> perimeter_rule_of(
-    double limit, std::span<const double> perimeters) {
-  if (limit == kNoLimit) return NoRule{};
-  if (perimeters.empty()) return PerimeterRule(limit);
-  return KnownPerimeterRule(limit, perimeters);
-}
-
 /// The rules of one shape, in the order in which they are best asked; a triangle must keep to all of them.
-/// The filter is compiled for every combination, so that a rule that is not asked for costs nothing. A limit
-/// that varies by place is one more of the perimeter's: a rule sees where the corners are.
-///
-/// `perimeters`: triangle -> Triangle::perimeter(), infinite for a ghost; empty where they are not known.
-inline auto filter_rules(const Limits& limits, std::span<const double> perimeters = {}) {
+/// The filter is compiled for every combination, so that a rule that is not asked for costs nothing.
+inline auto filter_rules(const Limits& limits) {
   return std::tuple{rule_of<LongestEdgeRule>(limits.max_edge_length),
-                    perimeter_rule_of(limits.max_perimeter, perimeters),
-                    rule_of<CircumradiusRule>(limits.alpha)};
+                    rule_of<PerimeterRule>(limits.max_perimeter), rule_of<CircumradiusRule>(limits.alpha)};
 }
 using FilterRules = decltype(filter_rules({}));
 

@@ -18,6 +18,9 @@ static inline Vector operator-(const Point& a, const Point& b) {
 static inline double squared_length(const Vector& v) {
   return v.x * v.x + v.y * v.y;
 }
+static inline double dot(const Vector& a, const Vector& b) {
+  return a.x * b.x + a.y * b.y;
+}
 /// Positive when `b` points to the left of `a`, but for rounding.
 static inline double cross(const Vector& a, const Vector& b) {
   return a.x * b.y - a.y * b.x;

@@ -27,8 +27,21 @@ struct Limits {
   friend bool operator==(const Limits&, const Limits&) = default;
 };
 
-/// What shape to extract. Where no limit is given, the perimeter's is chosen from the points alone (how:
-/// src/automatic_limit.hpp; what: Extractor::limits()). Where one is given, those that are not are kNoLimit.
+/// The limit that is chosen where none is given: the largest size of a triangle, place by place. A triangle's
+/// size is a length: (4 / sqrt 3 e^2 A)^(1/4) with its area A and its second-longest edge e, or e / 2 where
+/// that is more; of an equilateral triangle it is the edge. In the unit of the points.
+struct ChosenSizes {
+  double least = 0;   ///< where the points are densest
+  double median = 0;  ///< in half of the places, each of which has about the same number of points
+  double most = 0;    ///< where they are sparsest
+
+  /// Value by value.
+  friend bool operator==(const ChosenSizes&, const ChosenSizes&) = default;
+};
+
+/// What shape to extract. Where no limit is given, one is chosen from the points alone, place by place (how:
+/// src/automatic_limit.hpp; what: Extractor::chosen_sizes()). Where one is given, those that are not are
+/// kNoLimit.
 struct Options {
   /// Largest circumradius of a kept triangle, in the length unit of the points; >= 0. The paper's alpha
   /// (section III-B): 2 * sqrt(area / number of points) suits uniform samples of a shape of known area.
@@ -39,6 +52,10 @@ struct Options {
   /// triangles with equal longest edges it keeps the sliver, as one along the outline is, before the one that
   /// spans a hole.
   std::optional<double> max_perimeter = std::nullopt;
+  /// How much of the outline is kept where the limit is chosen; > 0 and finite, no unit. Twice the detail
+  /// keeps triangles of half the size: holes and notches of half the width are found, and more by chance. A
+  /// larger one never adds a triangle. Not used where a limit is given.
+  double detail = 1;
   /// Whether a triangle beyond a limit is kept all the same when its three neighbours are within: points that
   /// are spread at random leave such holes of one triangle by chance. Not given: true where the limit is
   /// chosen, false where one is given.
@@ -111,9 +128,11 @@ class Extractor {
   void triangulate(std::span<const Point> points, unsigned threads = 1);
   /// Step 2: the kept triangles and their edge-connected regions.
   void extract_regions(const Options& options);
-  /// After extract_regions: the limits that it kept to, in the unit of the points. Where they were given,
-  /// these; where they were chosen, giving them, with fill_single_triangles, extracts the same shape.
+  /// After extract_regions: the limits that were given, in the unit of the points; where none was, all are
+  /// kNoLimit.
   Limits limits() const;
+  /// After extract_regions: the limit that was chosen; none where one was given or there is no triangle.
+  std::optional<ChosenSizes> chosen_sizes() const;
   /// Step 3: the boundary of every region as a polygon.
   const IndexedMultiPolygon& extract_polygons();
 
