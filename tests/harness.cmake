@@ -61,6 +61,7 @@ endforeach()
 
 # The search for parameters.
 hullbench_test(test_tune_search SOURCES test_tune_search.cpp LIBRARIES hullbench::tune LABELS harness)
+target_compile_definitions(test_tune_search PRIVATE HULLBENCH_PLAN_FOLDER="${PROJECT_SOURCE_DIR}/benchmarks/plans")
 hullbench_test(test_rule_fit SOURCES test_rule_fit.cpp
   LIBRARIES hullbench::tune hullbench::adapters hullbench::metrics hullbench::datasets LABELS harness)
 target_compile_definitions(test_rule_fit PRIVATE HULLBENCH_PLAN_FOLDER="${PROJECT_SOURCE_DIR}/benchmarks/plans")

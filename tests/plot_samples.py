@@ -24,6 +24,7 @@ LETTERS = "abc"
 HASH = "0" * 64
 TITLES = {"ca": "California", "hi": "Hawaii"}
 STATUSES = ("ok", "timeout", "memory", "crash", "error", "invalid_output", "unsupported", "not_installed")
+SPLIT = {"shapes": {"ca": "test"}, "samplers": {"uniform": "training"}}
 TOOL = {"name": "hullbench", "version": "0.1.0", "commit": None, "dirty": None, "binary_sha256": HASH}
 FAILED = {"time_ns": [], "phases_ns": [], "metrics": {}, "output_sha256": ""}
 
@@ -243,7 +244,7 @@ def league() -> dict[str, Any]:
         profile("tuned", 20, "tuned", polylidar=[1, 1, 1]),
     ]
     numbers = {"schema_version": 1, "shapes": 5, "cases": 30, "taus": [1, 2, 10], "plans": ["p"], "methods": []}
-    origin = {"created": "now", "tool": TOOL, "environment": {}, "split": {"seed": 1, "cases_of": "all"}}
+    origin = {"created": "now", "tool": TOOL, "environment": {}, "split": {**SPLIT, "cases_of": "all"}}
     return {"kind": "league", **origin, **numbers, "profiles": profiles, "not_installed": []}
 
 
@@ -277,7 +278,7 @@ def tune() -> dict[str, Any]:
         method("spatialite", "own", 4, [None, 2, 1.2, 1.5]),
         method("convex_hull", None, 0, []),
     ]
-    budget = {"plans": ["p"], "split": {"seed": 1}, "budget": {"grid": 2, "refinement": 0}}
+    budget = {"plans": ["p"], "split": SPLIT, "budget": {"grid": 2, "refinement": 0}}
     cases = [{**about, "dataset_sha256": HASH, "spacing": 1}] * 12
     return {"kind": "tuning", "schema_version": 1, "tool": TOOL, **budget, "cases": cases, "methods": methods}
 

@@ -15,7 +15,6 @@
 #include "benchmarks/league/league.hpp"
 #include "benchmarks/league/league_report.hpp"
 #include "benchmarks/record/validate.hpp"
-#include "benchmarks/tune/split.hpp"
 
 namespace hullbench {
 namespace {
@@ -46,7 +45,7 @@ json report(const std::vector<json>& rows) {
 }
 
 league::League league_of(const std::vector<json>& rows) {
-  return league::make_league({report(rows)}, 1, false);
+  return league::make_league({report(rows)}, false);
 }
 
 const league::LeagueEntry& entry(const league::League& league, std::string_view method,
@@ -142,7 +141,7 @@ TEST(League, DegenerateInputIsCountedApart) {
   json degenerate = report({tiny, unscored, refused, crashed});
   degenerate["plan"]["accepted"] = {"unsupported"};
   const league::League league =
-      league::make_league({degenerate, report({row("good", "auto", "a", 0.1)})}, 1, false);
+      league::make_league({degenerate, report({row("good", "auto", "a", 0.1)})}, false);
   EXPECT_EQ(entry(league, "good", "auto").cases, 1U);
   EXPECT_EQ(entry(league, "good", "auto").l2->median, 0.1);
   EXPECT_EQ(entry(league, "good", "auto").unscored_cases, 2U);
@@ -153,27 +152,20 @@ TEST(League, DegenerateInputIsCountedApart) {
 }
 
 TEST(League, OfTestShapesHasNoOther) {
-  std::string training;
-  std::string test;
-  for (int k = 1; training.empty() || test.empty(); ++k) {
-    const std::string name = "star-" + std::to_string(k);
-    (tune::side_of(name, 7) == tune::Side::kTest ? test : training) = name;
-  }
-  json variant = row("good", "auto", training + "~noise:1", 0.9);
-  variant["base_shape"] = training;
-  const std::vector<json> rows = {row("good", "auto", training, 0.5), variant,
-                                  row("good", "auto", test, 0.1)};
-  const league::League league = league::make_league({report(rows)}, 7, true);
+  const std::vector<json> rows = {
+      row("good", "auto", "star-1", 0.5), row("good", "auto", "star-1~noise:1", 0.9),
+      row("good", "auto", "star-1~lattice:0", 0.9), row("good", "auto", "ca", 0.1)};
+  const league::League league = league::make_league({report(rows)}, true);
   EXPECT_EQ(entry(league, "good", "auto").cases, 1U);
   EXPECT_EQ(entry(league, "good", "auto").l2->median, 0.1);
-  EXPECT_THROW(league::make_league({report({rows[0], rows[1]})}, 7, true), std::runtime_error);
+  EXPECT_THROW(league::make_league({report({rows[0], rows[1], rows[2]})}, true), std::runtime_error);
 }
 
 TEST(League, ARunThatSeveralReportsHaveCountsOnce) {
   const league::League league =
       league::make_league({report({row("good", "auto", "a", 0.1)}),
                            report({row("good", "auto", "a", 0.2), row("good", "auto", "b", 0.2)})},
-                          1, false);
+                          false);
   EXPECT_EQ(entry(league, "good", "auto").cases, 2U);
   EXPECT_NEAR(entry(league, "good", "auto").l2->median, 0.15, 1e-12);
 }
@@ -219,7 +211,7 @@ TEST(League, IsWrittenAsItsSchemaSaysAndPrinted) {
   const std::vector<json> reports = {
       report({row("good", "auto", "a", 0.1), row("good", "auto", "b", 0.3), row("bad", "auto", "a", nullptr),
               row("bad", "auto", "b", nullptr)})};
-  const json league = league::league_to_json(league::make_league(reports, 1, false), reports);
+  const json league = league::league_to_json(league::make_league(reports, false), reports);
   EXPECT_EQ(record::validate_by_kind(league), std::vector<std::string>());
   json wrong = league;
   wrong["methods"][0]["l2_median"] = "good";
@@ -237,7 +229,7 @@ TEST(League, EveryProfileIsShownWhoeverIsAhead) {
               row("good", "oracle", "a", 0.1), row("bad", "oracle", "a", 0.1)})};
   std::ostringstream out;
   table::print_markdown(
-      league::league_document(league::league_to_json(league::make_league(reports, 1, false), reports)), out);
+      league::league_document(league::league_to_json(league::make_league(reports, false), reports)), out);
   const std::string text = out.str();
   for (const char* who : {"that see the points only", "with one value fitted on other shapes",
                           "that know the ground truth's area", "with the best value for each instance"}) {
@@ -250,7 +242,7 @@ TEST(League, TheReadmeHasTheFirstThreeOfEveryProtocol) {
   for (int k = 1; k <= 4; ++k) rows.push_back(row("rival" + std::to_string(k), "auto", "a", 0.1 * k));
   const std::vector<json> reports = {report(rows)};
   const std::string text =
-      league::league_results(league::league_to_json(league::make_league(reports, 1, false), reports), "kept");
+      league::league_results(league::league_to_json(league::make_league(reports, false), reports), "kept");
   EXPECT_NE(text.find("[kept/league.md](kept/league.md)"), std::string::npos) << text;
   EXPECT_NE(text.find("\n### League: 1 cases of 1 shapes, the first three of every protocol\n"),
             std::string::npos)

@@ -17,6 +17,7 @@
 #include "benchmarks/tune/tuned_plan.hpp"
 #include "benchmarks/tune/tuner.hpp"
 #include "datasets/datasets.hpp"
+#include "datasets/stress.hpp"
 
 namespace hullbench {
 namespace {
@@ -174,39 +175,70 @@ TEST(ToleranceTest, IsTheWidthOfTheRangeWithinTenPercent) {
   EXPECT_FALSE(tune::tolerance_octaves(std::vector<tune::SearchPoint>()));
 }
 
-TEST(SplitTest, IsFixedBySeedAndName) {
-  // These must not change: recorded results are of these sides.
-  std::string sides;
-  for (const char* shape : {"ca", "hi", "letter_a", "letter_b", "letter_c", "star-1", "star-2", "comb-1"})
-    sides += tune::side_of(shape, 1) == tune::Side::kTest ? 'e' : 'r';
-  EXPECT_EQ(sides, "eeeerrre");
-  int tests = 0;
-  int moved = 0;
-  for (int i = 1; i <= 1000; ++i) {
-    const std::string shape = "star-" + std::to_string(i);
-    if (tune::side_of(shape, 1) == tune::Side::kTest) ++tests;
-    if (tune::side_of(shape, 1) != tune::side_of(shape, 2)) ++moved;
+std::ptrdiff_t count_rows(const std::vector<tune::SplitRow>& rows, const std::string& name) {
+  return std::count_if(rows.begin(), rows.end(), [&](const tune::SplitRow& row) { return row.name == name; });
+}
+
+TEST(SplitTest, EverySourceOfShapesAndEverySamplerHasItsSideAndAReason) {
+  for (const DatasetInfo& info : datasets()) {
+    const std::string name = info.members == 0 ? info.name : info.name + "-1";
+    const std::string source = tune::source_of(name);
+    EXPECT_EQ(count_rows(tune::shape_split(), source), 1)
+        << name << ": give it a row in benchmarks/tune/split.cpp";
   }
-  // Within five standard deviations of a fair coin's 500.
-  EXPECT_NEAR(tests, 500, 80);
-  EXPECT_NEAR(moved, 500, 80);
+  for (const StressKind& kind : stress_kinds()) {
+    EXPECT_EQ(count_rows(tune::sampler_split(), kind.name), 1)
+        << kind.name << ": give it a row in benchmarks/tune/split.cpp";
+  }
+  for (const auto& rows : {tune::shape_split(), tune::sampler_split()}) {
+    for (const tune::SplitRow& row : rows) EXPECT_TRUE(row.reason.ends_with(".")) << row.name;
+  }
+  for (const tune::SplitRow& row : tune::sampler_split())
+    EXPECT_NE(row.side, tune::Side::kNeither) << row.name;
+}
+
+TEST(SplitTest, WhatThePaperReportsIsForTests) {
+  for (const std::string plan_name : {"states", "alphabet", "rgbd"}) {
+    for (const plan::PlanCase& one : plan::load_plan(plan_name, HULLBENCH_PLAN_FOLDER).expanded_cases)
+      EXPECT_EQ(tune::side_of(one.dataset), tune::Side::kTest) << one.dataset;
+  }
+}
+
+TEST(SplitTest, ACaseIsTrainingWhereShapeAndAllSamplersAre) {
+  EXPECT_EQ(tune::side_of("star-17"), tune::Side::kTraining);
+  EXPECT_EQ(tune::side_of("star-17~gradient:4~outliers:1~noise:0.5"), tune::Side::kTraining);
+  EXPECT_EQ(tune::side_of("star-17~gradient:4~quantised:0.5"), tune::Side::kNeither);
+  EXPECT_EQ(tune::side_of("country-17"), tune::Side::kTest);
+  EXPECT_EQ(tune::side_of("country-17~quantised:0.5"), tune::Side::kTest);
+  EXPECT_EQ(tune::side_of("country-17~noise:0.5"), tune::Side::kTest);
+  EXPECT_EQ(tune::side_of("channel-4~noise:0.5"), tune::Side::kTest);
+  EXPECT_EQ(tune::side_of("degenerate_tiny"), tune::Side::kNeither);
+  EXPECT_EQ(tune::side_of("zoo-geos-754"), tune::Side::kNeither);
+  EXPECT_EQ(tune::side_of("somebody's-1"), tune::Side::kNeither) << "which the split does not know";
+  EXPECT_FALSE(tune::has_unseen_sampler("country-17~noise:0.5"));
+  EXPECT_TRUE(tune::has_unseen_sampler("country-17~noise:0.5~quantised:1"));
+  EXPECT_FALSE(tune::has_unseen_sampler("country-17"));
+}
+
+/// The name of the i-th invented shape, from 1: odd ones are training shapes, even ones are test shapes.
+std::string invented_shape(int i) {
+  return (i % 2 == 1 ? "star-" : "country-") + std::to_string(i);
 }
 
 /// A search over `count` shapes with an error that `error_of(shape, position)` invents.
 class InventedTuning {
  public:
   explicit InventedTuning(const MethodInfo& info, int count = 40) {
-    tuning.split_seed = 1;
     tune::MethodTuning& method = tuning.methods.emplace_back();
     method.name = method.title = info.name;
     method.info = info;
     method.axis = tune::search_axis(info);
     for (int i = 1; i <= count; ++i) {
       tune::TuningCase& one = tuning.cases.emplace_back();
-      one.plan_case = {"star-" + std::to_string(i), false, 500};
+      one.plan_case = {invented_shape(i), false, 500};
       one.seed = 1;
       one.shape = base_shape(one.plan_case.dataset);
-      one.side = tune::side_of(one.shape, 1);
+      one.side = tune::side_of(one.shape);
       one.spacing = 1;
     }
   }
@@ -386,10 +418,11 @@ TEST(CurveTest, IsRelativeToEachCasesOwnBest) {
 
 /// The plan whose cases the invented search has.
 plan::Plan star_plan(const std::string& methods) {
-  return plan::parse_plan(
-      R"({"name": "stars", "cases": [{"dataset": "star", "members": 40, "n": [500]}], "methods": )" +
-          methods + "}",
-      "test");
+  std::string names;
+  for (int i = 1; i <= 40; ++i) names += (i == 1 ? "\"" : ", \"") + invented_shape(i) + "\"";
+  return plan::parse_plan(R"({"name": "stars", "cases": [{"dataset": [)" + names +
+                              R"(], "n": [500]}], "methods": )" + methods + "}",
+                          "test");
 }
 
 TEST(TunedPlanTest, HasTheChosenParametersOnTheRightCases) {
@@ -450,8 +483,7 @@ TEST(TuningCasesTest, VariantsOfAShapeAreOnOneSideAndACaseOfTwoPlansIsThereOnce)
   };
   const auto cases = tune::tuning_cases(
       {plan_of("a", R"([{"dataset": ["ca", "hi"], "holes": [false, true], "n": [500, 2000]}])"),
-       plan_of("b", R"([{"dataset": "ca", "n": [2000, 4000]}])")},
-      1);
+       plan_of("b", R"([{"dataset": ["ca", "star-1~lattice:0"], "n": [2000, 4000]}])")});
   EXPECT_EQ(cases.size(), 9U);
   std::map<std::string, std::set<tune::Side>> sides;
   for (const tune::TuningCase& one : cases) {

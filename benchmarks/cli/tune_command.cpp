@@ -39,7 +39,6 @@ struct TuneCommand {
   std::vector<std::string> plans;  ///< one or more: their cases
   std::string methods;             ///< regular expression; empty: all built-in methods
   std::optional<fs::path> out;
-  std::uint64_t seed = 1;           ///< of the split; points are drawn with the plans' seeds
   std::optional<double> timeout_s;  ///< for one evaluation, instead of the plan's
   std::optional<int> jobs;          ///< none: one a core
   std::optional<run::Shard> shard;  ///< none: all cases
@@ -183,9 +182,12 @@ ExitCode tune_plans(const TuneCommand& command) {
   const std::vector<plan::Plan> parts = part_of(plans, command.shard);
   const json tool = describe_tool();
   const tune::TunerOptions options = tuner_options(command, catalog, plans, tool);
-  std::vector<tune::TuningCase> cases = tune::tuning_cases(parts, command.seed);
+  std::vector<tune::TuningCase> cases = tune::tuning_cases(parts);
   if (cases.empty()) {
-    std::cerr << "hullbench: there are too few cases for shard " << to_string(*command.shard)
+    std::cerr << "hullbench: "
+              << (command.shard
+                      ? "there are too few cases for shard " + to_string(*command.shard)
+                      : std::string("no case is on a side of the split (benchmarks/tune/split.cpp)"))
               << ": nothing is evaluated here\n";
     return kExitNothing;
   }
@@ -197,7 +199,7 @@ ExitCode tune_plans(const TuneCommand& command) {
   run::Progress progress = make_progress({{"tune", tune::tuning_progress(cases, options.methods)}});
   std::cerr << "hullbench: " << options.methods.size() << " methods on " << cases.size() << " cases, into "
             << folder.string() << "; " << store.found() << " evaluations are there already\n";
-  const tune::Tuning tuning = tune::run_tuning(std::move(cases), command.seed, options, store, progress);
+  const tune::Tuning tuning = tune::run_tuning(std::move(cases), options, store, progress);
   progress.end();
   if (tuning.interrupted) {
     std::cerr << "hullbench: interrupted; evaluations are kept in " << (folder / file).string()
@@ -222,9 +224,6 @@ void add_tune(CLI::App& app, Action& action) {
       "--methods", command->methods,
       "Methods whose name is a match of this regular expression, instead of all built-in ones");
   options.add_option("--out", command->out, "Folder for the results instead of one in results/tune");
-  options.add_option("--seed", command->seed, "Seed of the split into training and test shapes")
-      ->check(CLI::NonNegativeNumber)
-      ->capture_default_str();
   options
       .add_option("--timeout", command->timeout_s,
                   "Seconds that one evaluation may take, instead of the plan's")

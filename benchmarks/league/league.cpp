@@ -66,7 +66,7 @@ struct Field {
   std::vector<std::string> not_installed;
 };
 
-Field sort_rows(const std::vector<json>& reports, std::uint64_t split_seed, bool test_only) {
+Field sort_rows(const std::vector<json>& reports, bool test_only) {
   Field field;
   std::set<std::string> installed;
   std::set<std::string> missing;
@@ -74,7 +74,8 @@ Field sort_rows(const std::vector<json>& reports, std::uint64_t split_seed, bool
     const json accepted = report.at("plan").value("accepted", json::array());
     for (const json& status : accepted) field.accepted.insert(status.get<std::string>());
     for (const json& row : report.at("runs")) {
-      if (test_only && tune::side_of(shape_of(row), split_seed) != tune::Side::kTest) continue;
+      const bool is_test = tune::side_of(row.at("dataset").get<std::string>()) == tune::Side::kTest;
+      if (test_only && accepted.empty() && !is_test) continue;
       const std::string method = row.at("method").get<std::string>();
       if (row.at("status") == "not_installed") {
         missing.insert(method);
@@ -276,13 +277,12 @@ const std::vector<double>& league_taus() {
   return taus;
 }
 
-League make_league(const std::vector<json>& reports, std::uint64_t split_seed, bool test_only) {
-  const Field field = sort_rows(reports, split_seed, test_only);
+League make_league(const std::vector<json>& reports, bool test_only) {
+  const Field field = sort_rows(reports, test_only);
   if (field.rows.empty())
     throw std::runtime_error(test_only ? "no run is of a test shape; measure more shapes, or take all cases"
                                        : "there is no run of an installed method");
   League league;
-  league.split_seed = split_seed;
   league.test_only = test_only;
   league.not_installed = field.not_installed;
   std::set<std::string> shapes;

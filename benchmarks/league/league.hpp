@@ -72,7 +72,6 @@ struct LeagueProfile {
 const std::vector<double>& league_taus();
 
 struct League {
-  std::uint64_t split_seed = 1;
   bool test_only = true;   ///< on the cases of test shapes only (benchmarks/tune/split.hpp)
   std::size_t shapes = 0;  ///< base shapes that the cases are of
   std::size_t cases = 0;   ///< whose errors count
@@ -84,9 +83,9 @@ struct League {
 };
 
 /// The league of the runs in `reports` (as make_report gives them), which may be of several plans. Of a run
-/// that several reports have, the first counts. With `test_only` only cases of shapes on the test side of the
-/// split with that seed: what was fitted or chosen on training shapes is judged on others. Throws
-/// std::runtime_error when no row is left.
-League make_league(const std::vector<nlohmann::json>& reports, std::uint64_t split_seed, bool test_only);
+/// that several reports have, the first counts. With `test_only` only cases on the test side of the split:
+/// what was fitted or chosen on training shapes is judged on others. Cases of plans that accept failures
+/// count in any case. Throws std::runtime_error when no row is left.
+League make_league(const std::vector<nlohmann::json>& reports, bool test_only);
 
 }  // namespace hullbench::league

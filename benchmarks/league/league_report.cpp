@@ -11,6 +11,7 @@
 #include "benchmarks/base/files.hpp"
 #include "benchmarks/base/number_format.hpp"
 #include "benchmarks/base/words.hpp"
+#include "benchmarks/tune/split.hpp"
 
 namespace hullbench::league {
 namespace {
@@ -192,7 +193,7 @@ json league_to_json(const League& league, const std::vector<json>& reports) {
                  {"created", reports.front().at("created")},
                  {"tool", reports.front().at("tool")},
                  {"environment", reports.front().at("environment")},
-                 {"split", {{"seed", league.split_seed}, {"cases_of", league.test_only ? "test" : "all"}}},
+                 {"split", tune::split_to_json()},
                  {"shapes", league.shapes},
                  {"cases", league.cases},
                  {"taus", league_taus()},
@@ -200,6 +201,7 @@ json league_to_json(const League& league, const std::vector<json>& reports) {
                  {"methods", json::array()},
                  {"profiles", json::array()},
                  {"not_installed", league.not_installed}};
+  result["split"]["cases_of"] = league.test_only ? "test" : "all";
   for (const json& report : reports) result["plans"].push_back(report.at("plan").at("name"));
   for (const LeagueEntry& entry : league.entries) result["methods"].push_back(entry_to_json(entry, titles));
   for (const LeagueProfile& profile : league.profiles) result["profiles"].push_back(profile_to_json(profile));

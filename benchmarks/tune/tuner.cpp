@@ -198,13 +198,13 @@ std::vector<MethodTuning> describe_methods(const TunerOptions& options, std::siz
   return methods;
 }
 
-TuningCase make_case(const plan::Plan& plan, const plan::PlanCase& plan_case, std::uint64_t split_seed) {
+TuningCase make_case(const plan::Plan& plan, const plan::PlanCase& plan_case) {
   TuningCase one;
   one.plan_case = plan_case;
   one.seed = plan.seed;
   one.timeout_s = plan.timeout_s;
   one.shape = base_shape(plan_case.dataset);
-  one.side = side_of(one.shape, split_seed);
+  one.side = side_of(plan_case.dataset);
   return one;
 }
 
@@ -238,25 +238,25 @@ const Evaluation* evaluation_at(const MethodOnCase& found, double position) {
   return place == found.sweep.end() ? nullptr : &place->evaluation;
 }
 
-std::vector<TuningCase> tuning_cases(const std::vector<plan::Plan>& plans, std::uint64_t split_seed) {
+std::vector<TuningCase> tuning_cases(const std::vector<plan::Plan>& plans) {
   std::vector<TuningCase> cases;
   for (const plan::Plan& plan : plans) {
     for (const plan::PlanCase& plan_case : plan.expanded_cases) {
+      if (side_of(plan_case.dataset) == Side::kNeither) continue;
       const auto same = [&](const TuningCase& other) {
         return other.plan_case.key() == plan_case.key() && other.seed == plan.seed;
       };
       auto place = std::find_if(cases.begin(), cases.end(), same);
-      if (place == cases.end()) place = cases.insert(place, make_case(plan, plan_case, split_seed));
+      if (place == cases.end()) place = cases.insert(place, make_case(plan, plan_case));
       add_entries(*place, plan);
     }
   }
   return cases;
 }
 
-Tuning run_tuning(std::vector<TuningCase> cases, std::uint64_t split_seed, const TunerOptions& options,
-                  EvaluationStore& store, run::Progress& progress) {
+Tuning run_tuning(std::vector<TuningCase> cases, const TunerOptions& options, EvaluationStore& store,
+                  run::Progress& progress) {
   Tuning tuning;
-  tuning.split_seed = split_seed;
   tuning.cases = std::move(cases);
   try {
     tuning.methods = describe_methods(options, tuning.cases.size(), progress);

@@ -62,7 +62,6 @@ struct MethodTuning {
 };
 
 struct Tuning {
-  std::uint64_t split_seed = 0;
   std::vector<TuningCase> cases;
   std::vector<MethodTuning> methods;
   bool interrupted = false;  ///< then cases and methods are incomplete

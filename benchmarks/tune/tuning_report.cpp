@@ -246,8 +246,8 @@ std::vector<std::string> document_notes(const json& summary) {
   std::vector<std::string> notes = {
       "Training shapes: " + shapes_text(summary, "training") + ".",
       "Test shapes: " + shapes_text(summary, "test") + ".",
-      "A shape's side is a hash of the seed (" + summary.at("split").at("seed").dump() +
-          ") and its name; all variants of a shape are on one side.",
+      "Whole sources of shapes and whole ways to sample are of one side (benchmarks/tune/split.cpp, with the "
+      "reasons); a training shape that is sampled as only tests are is left out.",
       "h is the points' mean spacing over their convex hull, √(A_hull/n); it is known without the ground "
       "truth.",
       "default: without parameters, but holes switched on; tuned: the one x with the smallest median error "
@@ -291,7 +291,7 @@ json tuning_to_json(const Tuning& tuning, const std::vector<std::string>& plans,
                   {"schema_version", record::kSchemaVersion},
                   {"tool", tool},
                   {"plans", plans},
-                  {"split", {{"seed", tuning.split_seed}}},
+                  {"split", split_to_json()},
                   {"budget", {{"grid", kGridPoints}, {"refinement", kRefinements}}},
                   {"cases", json::array()},
                   {"methods", json::array()}};
