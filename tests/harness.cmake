@@ -8,7 +8,8 @@ add_executable(misbehaving_worker "${CMAKE_CURRENT_LIST_DIR}/misbehaving_worker.
 set_target_properties(misbehaving_worker PROPERTIES RUNTIME_OUTPUT_DIRECTORY "${CMAKE_BINARY_DIR}/tests")
 target_link_libraries(misbehaving_worker PRIVATE hullbench::worker hullbench::compile_options)
 
-hullbench_test(test_plan SOURCES test_plan.cpp LIBRARIES hullbench::plan hullbench::record LABELS harness)
+hullbench_test(test_plan SOURCES test_plan.cpp
+  LIBRARIES hullbench::plan hullbench::record hullbench::hash LABELS harness)
 target_compile_definitions(test_plan PRIVATE HULLBENCH_PLAN_FOLDER="${PROJECT_SOURCE_DIR}/benchmarks/plans")
 
 file(GLOB plans CONFIGURE_DEPENDS "${PROJECT_SOURCE_DIR}/benchmarks/plans/*.json")

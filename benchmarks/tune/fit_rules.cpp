@@ -23,9 +23,7 @@ namespace hullbench::tune {
 namespace {
 
 /// Those that the parameters' search and the league are made of (league/evaluate.sh).
-const std::vector<std::string> kPlans = {
-    "alphabet",        "stress_density",  "stress_noise", "stress_outliers", "stress_gradient",
-    "stress_clusters", "stress_sampling", "stress_holes", "stress_width",    "stress_gaps"};
+const std::vector<std::string> kPlans = {"world_shapes", "world_samplers", "world_crossed"};
 /// So many choices of the limit's constants are printed.
 constexpr std::size_t kShown = 10;
 

@@ -101,6 +101,8 @@ std::string source_of(const std::string& dataset) {
 }
 
 std::vector<std::string> samplers_of(const std::string& dataset) {
+  const std::string source = source_of(dataset);
+  if (source == kSimulatedFloor || source == kRecordedFloor) return {"depthcamera"};
   std::vector<std::string> samplers;
   if (const auto parts = split_stress(dataset)) {
     for (const Stress& stress : parts->second) samplers.push_back(stress.kind->name);

@@ -33,7 +33,7 @@ const std::vector<SplitRow>& sampler_split();
 std::string source_of(const std::string& dataset);
 
 /// The ways in which a data set's points are drawn: {"gradient", "noise"} of "ca~gradient:4~noise:0.5",
-/// {"uniform"} of a name without stress.
+/// {"uniform"} of a name without stress, {"depthcamera"} of floors, which come with their points.
 std::vector<std::string> samplers_of(const std::string& dataset);
 
 /// Whether one of the data set's ways to sample is for tests only: no parameter was fitted on points like
