@@ -261,7 +261,7 @@ def tune() -> dict[str, Any]:
             {"position": 2.0**k, "cases": 1, "failed": 0, "l2": spread(middle), "relative": spread(middle)}
             for k, middle in enumerate(medians)
         ]
-        about = {"version": "1", "installed": True, "detail": "", "remedy": "", "fixed": {}, "protocols": [], "oracle": []}
+        about = {"version": "1", "installed": True, "detail": "", "remedy": "", "fixed": {}, "rounds": [], "protocols": [], "oracle": []}
         return {
             "method": name,
             "title": name,
@@ -272,13 +272,13 @@ def tune() -> dict[str, Any]:
             "tolerance_octaves": {"q1": 1, "median": 1.25, "q3": 2, "cases": 1} if kind else None,
         }
 
-    about = {"case": "ca/n:1/holes:0", "dataset": "ca", "shape": "ca", "side": "test", "n": 1, "holes": False, "seed": 1}
+    about = {"case": "ca/n:1/holes:0", "dataset": "ca", "shape": "ca", "side": "test", "kind": "simple", "n": 1, "holes": False, "seed": 1}
     methods = [
         method("polylidar", "spacings", 2, [3, 1.1, 2, 30]),
         method("spatialite", "own", 4, [None, 2, 1.2, 1.5]),
         method("convex_hull", None, 0, []),
     ]
-    budget = {"plans": ["p"], "split": SPLIT, "budget": {"grid": 2, "refinement": 0}}
+    budget = {"plans": ["p"], "split": SPLIT, "budget": {"grid": 2, "sweep": 2, "refinement": 0}}
     cases = [{**about, "dataset_sha256": HASH, "spacing": 1}] * 12
     return {"kind": "tuning", "schema_version": 1, "tool": TOOL, **budget, "cases": cases, "methods": methods}
 

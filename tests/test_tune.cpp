@@ -129,9 +129,10 @@ TEST_F(TuneTest, FindsTheBestOfAMadeUpMethod) {
     best = std::min(best, metrics::area_scores(disc(set.points, radius), set.ground_truth).l2.value_or(2));
   }
   const json oracle = method_of(summary("out"), "disc").at("oracle").at(0);
-  // The refinement ends within 0.03 octaves, where the error is a valley with a slope below 1 an octave.
-  EXPECT_NEAR(oracle.at("l2").get<double>(), best, 0.03);
-  EXPECT_EQ(sweep("out").size(), 25U + 8U + 1U) << "the sweep, the refinement and the default";
+  // The refinement ends within 0.18 octaves, its best is the middle of it or nearer, and the slope is
+  // below 1.
+  EXPECT_NEAR(oracle.at("l2").get<double>(), best, 0.09);
+  EXPECT_EQ(sweep("out").size(), 9U + 6U + 1U) << "the sweep, the refinement and the default";
   for (const json& line : sweep("out")) EXPECT_LE(oracle.at("l2"), line.at("l2"));
   expect_valid("out/tune.json");
   expect_valid("out/sweep.jsonl");
@@ -175,9 +176,10 @@ TEST_F(TuneTest, ItsPlanMeasuresWhatItFound) {
     EXPECT_TRUE(row.at("protocol") != "tuned" || tested.contains(row.at("dataset"))) << row.at("name");
   }
   EXPECT_EQ(measured.size(), found.size());
-  EXPECT_TRUE(found.contains("polylidar/star-1/n:200/holes:0/protocol:paper"));
-  EXPECT_TRUE(found.contains("disc/star-1/n:200/holes:0/protocol:default")) << "which the plan does not name";
-  EXPECT_FALSE(found.contains("polylidar/star-1/n:200/holes:0/protocol:default"))
+  EXPECT_TRUE(found.contains("polylidar/country-1/n:200/holes:0/protocol:paper"));
+  EXPECT_TRUE(found.contains("disc/country-1/n:200/holes:0/protocol:default"))
+      << "which the plan does not name";
+  EXPECT_FALSE(found.contains("polylidar/country-1/n:200/holes:0/protocol:default"))
       << "the plan names polylidar, and no default of it";
 }
 
@@ -190,7 +192,7 @@ TEST_F(TuneTest, AMethodWithoutANumberHasItsDefaultOnly) {
     EXPECT_EQ(score.at("protocol"), "default");
     EXPECT_TRUE(score.at("regret_median").is_null());
   }
-  EXPECT_EQ(sweep("out").size(), 4U);
+  EXPECT_EQ(sweep("out").size(), 2U) << "of the test cases";
 }
 
 TEST_F(TuneTest, FailuresAreEvaluationsAndInfinitelyBad) {
