@@ -243,7 +243,7 @@ def league() -> dict[str, Any]:
         profile("blind", 20, "default", polylidar=[0.7, 0.95, 1], spatialite=[0.3, 0.6, 0.8]),
         profile("tuned", 20, "tuned", polylidar=[1, 1, 1]),
     ]
-    numbers = {"schema_version": 1, "shapes": 5, "cases": 30, "taus": [1, 2, 10], "plans": ["p"], "methods": []}
+    numbers = {"schema_version": 1, "shapes": 5, "cases": 30, "kinds": [], "samplers": [], "taus": [1, 2, 10], "plans": ["p"], "methods": []}
     origin = {"created": "now", "tool": TOOL, "environment": {}, "split": {**SPLIT, "cases_of": "all"}}
     return {"kind": "league", **origin, **numbers, "profiles": profiles, "not_installed": []}
 

@@ -131,6 +131,59 @@ TEST(League, TheMeanOfHolesIsOverCasesWithAnIntervalByShape) {
   EXPECT_EQ(entry(wide, "good", "auto").hole_f1_mean->interval->high, 1);
 }
 
+/// A row whose ground truth has so many parts and holes.
+json row_of_truth(const std::string& method, const std::string& dataset, double l2, int parts, int holes) {
+  json one = row(method, "auto", dataset, l2);
+  one["metrics"].update(
+      {{"polygons", 1}, {"polygons_error", 1 - parts}, {"holes", 0}, {"holes_error", -holes}});
+  return one;
+}
+
+TEST(League, EveryStratumCountsTheSameAndInItEveryShape) {
+  // Three strata: uniform simple (two shapes), noise simple (one shape with two cases), uniform holes.
+  const league::League league =
+      league_of({row_of_truth("good", "a", 0.1, 1, 0), row_of_truth("good", "b", 0.2, 1, 0),
+                 row_of_truth("good", "c~noise:1", 0.5, 1, 0), row_of_truth("good", "c~noise:2", 0.5, 1, 0),
+                 row_of_truth("good", "d", 0.9, 1, 2)});
+  const league::LeagueEntry& good = entry(league, "good", "auto");
+  EXPECT_EQ(good.l2->median, 0.5) << "a third lies below, a third above";
+  EXPECT_EQ(good.kinds.at("simple").cases, 4U);
+  EXPECT_NEAR(good.kinds.at("simple").l2_median, 0.35, 1e-12) << "half of it is 0.2 or less";
+  EXPECT_EQ(good.kinds.at("holes").l2_median, 0.9);
+  EXPECT_FALSE(good.kinds.contains("several parts"));
+  EXPECT_EQ(good.samplers.at("noise").cases, 2U);
+  ASSERT_EQ(league.samplers.size(), 2U);
+  EXPECT_EQ(league.samplers[0].name, "uniform");
+  EXPECT_EQ(league.kinds.size(), 2U);
+}
+
+TEST(League, WhoCannotHaveHolesOrPartsIsJudgedWhereItCanAndEverywhere) {
+  json made = report({row_of_truth("good", "a", 0.1, 1, 0), row_of_truth("good", "b", 0.2, 1, 1),
+                      row_of_truth("good", "c", 0.3, 2, 0), row_of_truth("bad", "a", 0.1, 1, 0),
+                      row_of_truth("bad", "b", 0.5, 1, 1), row_of_truth("bad", "c", 0.6, 2, 0)});
+  made["methods"][1]["capabilities"] = {{"holes", false}, {"several_polygons", false}};
+  const league::League league = league::make_league({made}, false);
+  EXPECT_EQ(entry(league, "bad", "auto").l2->median, 0.5);
+  EXPECT_EQ(entry(league, "bad", "auto").l2_where_able->median, 0.1);
+  EXPECT_EQ(entry(league, "bad", "auto").l2_where_able->cases, 1U);
+  EXPECT_EQ(entry(league, "good", "auto").l2_where_able->cases, 3U);
+  made["methods"][1]["capabilities"] = {{"holes", true}, {"several_polygons", false}};
+  EXPECT_EQ(entry(league::make_league({made}, false), "bad", "auto").l2_where_able->cases, 2U);
+}
+
+TEST(League, AWayToSampleThatTrainingDoesNotKnowIsMarked) {
+  const std::vector<json> reports = {
+      report({row("good", "auto", "ca", 0.1), row("good", "auto", "ca~noise:1", 0.123),
+              row("good", "auto", "ca~lattice:0", 0.2), row("good", "auto", "ca~gradient:4~noise:1", 0.3)})};
+  const json league = league::league_to_json(league::make_league(reports, true), reports);
+  EXPECT_EQ(record::validate_by_kind(league), std::vector<std::string>());
+  std::ostringstream text;
+  table::print_markdown(league::league_document(league), text);
+  for (const char* words :
+       {"| noise |", "lattice † |", "several |", "12.3", "†: a way to sample that was not seen"})
+    EXPECT_NE(text.str().find(words), std::string::npos) << words << "\n" << text.str();
+}
+
 TEST(League, DegenerateInputIsCountedApart) {
   const json tiny = row("good", "auto", "degenerate_tiny", 12345.0);
   json unscored = row("good", "auto", "degenerate_one", 0.1);
