@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <csignal>
+#include <cstdlib>
 #include <filesystem>
 #include <map>
 #include <nlohmann/json.hpp>
@@ -181,6 +182,27 @@ TEST_F(TuneTest, ItsPlanMeasuresWhatItFound) {
       << "which the plan does not name";
   EXPECT_FALSE(found.contains("polylidar/country-1/n:200/holes:0/protocol:default"))
       << "the plan names polylidar, and no default of it";
+}
+
+TEST_F(TuneTest, TheLeagueIsTheSameAgainFromTheRowsThatAreKept) {
+  ASSERT_EQ(tune(plan(json::array({{{"dataset", {"star-1", "country-1", "symbol-1", "country-2~lattice:0"}},
+                                    {"n", {200}}}})),
+                 "polylidar|disc", "out")
+                .code,
+            0)
+      << "star-1 is for training";
+  const Outcome run = hullbench({"run", folder() / "out" / "small-tuned.json",
+                                 write(testing::small_plan("other", both_sides(1))), "--out",
+                                 folder() / "suite", "--adapters", methods(), "--repetitions", "1"});
+  ASSERT_EQ(run.code, 0) << run.err;
+  const Outcome league = hullbench({"league", "suite", "--out", "league.json"});
+  ASSERT_EQ(league.code, 0) << league.err;
+  expect_valid("league.json");
+  EXPECT_NE(league.out.find("lattice †"), std::string::npos) << league.out;
+  const std::string keep = SYSTEM_PYTHON " " HULLBENCH_SOURCE_DIRECTORY "/results/keep_league.py ";
+  ASSERT_EQ(std::system((keep + (folder() / "suite").string() + " " + (folder() / "kept").string()).c_str()),
+            0);
+  EXPECT_EQ(hullbench({"league", "kept"}).out, league.out);
 }
 
 TEST_F(TuneTest, AMethodWithoutANumberHasItsDefaultOnly) {

@@ -9,7 +9,6 @@
 #include "benchmarks/league/league.hpp"
 #include "benchmarks/league/league_report.hpp"
 #include "benchmarks/record/stored_run.hpp"
-#include "benchmarks/report/report.hpp"
 
 namespace hullbench::cli {
 namespace {
@@ -28,9 +27,8 @@ ExitCode print_league(const LeagueCommand& command) {
     if (!std::filesystem::is_directory(folder))
       throw ConfigurationError("there is no run in " + folder.string() +
                                "; give the folder of a run or suite");
-    const std::vector<json> some =
-        record::is_suite(folder) ? report::suite_reports(folder) : std::vector{record::load_run(folder)};
-    reports.insert(reports.end(), some.begin(), some.end());
+    const auto runs = record::is_suite(folder) ? record::suite_runs(folder) : std::vector{folder};
+    for (const std::filesystem::path& run : runs) reports.push_back(record::load_run(run));
   }
   if (std::all_of(reports.begin(), reports.end(),
                   [](const json& report) { return report.at("runs").empty(); })) {
