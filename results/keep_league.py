@@ -12,7 +12,6 @@ from __future__ import annotations
 
 import json
 import lzma
-import shutil
 import sys
 from pathlib import Path
 from typing import Any
@@ -43,13 +42,12 @@ def kept_description(run: dict[str, Any]) -> dict[str, Any]:
 
 def main(runs: Path, kept: Path) -> None:
     kept.mkdir()
-    shutil.copy(runs / "suite.json", kept)
+    suite = json.loads((runs / "suite.json").read_text())
+    (kept / "suite.json").write_text(json.dumps({"plans": suite["plans"]}) + "\n")
     for description in sorted(runs.glob("*/run.json")):
         folder = kept / description.parent.name
         folder.mkdir()
-        (folder / "run.json").write_text(
-            json.dumps(kept_description(json.loads(description.read_text())), indent=1) + "\n"
-        )
+        (folder / "run.json").write_text(json.dumps(kept_description(json.loads(description.read_text())), indent=1) + "\n")
         with lzma.open(folder / "runs.jsonl.xz", "wt", preset=9 | lzma.PRESET_EXTREME, encoding="utf-8") as out:
             for line in (description.parent / "runs.jsonl").read_text().splitlines():
                 row = kept_row(json.loads(line))

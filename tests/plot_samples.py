@@ -134,14 +134,7 @@ def judged(rows: list[dict[str, Any]]) -> list[dict[str, Any]]:
 
 def environment() -> dict[str, Any]:
     cpu = {"model": "Invented", "architecture": "none", "logical_cores": 1, "allowed_cores": 1}
-    compiler = {
-        "id": "none",
-        "version": "1",
-        "build_type": "Release",
-        "native": False,
-        "flags": "",
-        "statement": "none",
-    }
+    compiler = {"id": "none", "version": "1", "build_type": "Release", "native": False, "flags": "", "statement": "none"}
     return {
         "machine_id": "0123abcd",
         "cpu": {**cpu, "governors": None, "boost": None, "virtualised": None},
@@ -157,14 +150,7 @@ def environment() -> dict[str, Any]:
 
 def report(name: str, datasets: dict[str, int], rows: list[dict[str, Any]], **more: Any) -> dict[str, Any]:
     """As results/report.schema.json says. `datasets`: the members of each, 0 for a single shape."""
-    about = {
-        "version": "1",
-        "licence": "MIT",
-        "citation": "",
-        "native_output": "",
-        "capabilities": {},
-        "parameters": [],
-    }
+    about = {"version": "1", "licence": "MIT", "citation": "", "native_output": "", "capabilities": {}, "parameters": []}
     installed = {"installed": True, "detail": "", "remedy": ""}
     source = {"source": "invented", "licence": "none", "sha256": None, "area": None, "holes_area": None}
     return {
@@ -239,9 +225,7 @@ def core() -> dict[str, Any]:
                         "real_time": factor * repetition * n / 1000,
                     }
                 )
-            entries.append(
-                {"run_name": f"{name}/uniform/{n}", "run_type": "aggregate", "time_unit": "us", "real_time": 1e9}
-            )
+            entries.append({"run_name": f"{name}/uniform/{n}", "run_type": "aggregate", "time_unit": "us", "real_time": 1e9})
     entries.append({"run_name": "concave_hull/uniform/7000", "run_type": "iteration", "error_occurred": True})
     entries.append({"run_name": "concave_hull/rgbd/1000", "run_type": "iteration", "time_unit": "us", "real_time": 1.0})
     return {"context": {}, "benchmarks": entries}
@@ -259,18 +243,10 @@ def league() -> dict[str, Any]:
         profile("blind", 20, "default", polylidar=[0.7, 0.95, 1], spatialite=[0.3, 0.6, 0.8]),
         profile("tuned", 20, "tuned", polylidar=[1, 1, 1]),
     ]
-    numbers = {
-        "schema_version": 1,
-        "shapes": 5,
-        "cases": 30,
-        "kinds": [],
-        "samplers": [],
-        "taus": [1, 2, 10],
-        "plans": ["p"],
-        "methods": [],
-    }
+    numbers = {"schema_version": 1, "shapes": 5, "cases": 30, "taus": [1, 2, 10], "plans": ["p"], "methods": []}
+    parts = {"kinds": [], "samplers": []}
     origin = {"created": "now", "tool": TOOL, "environment": {}, "split": {**SPLIT, "cases_of": "all"}}
-    return {"kind": "league", **origin, **numbers, "profiles": profiles, "not_installed": []}
+    return {"kind": "league", **origin, **numbers, **parts, "profiles": profiles, "not_installed": []}
 
 
 def tune() -> dict[str, Any]:
@@ -286,36 +262,21 @@ def tune() -> dict[str, Any]:
             {"position": 2.0**k, "cases": 1, "failed": 0, "l2": spread(middle), "relative": spread(middle)}
             for k, middle in enumerate(medians)
         ]
-        about = {
-            "version": "1",
-            "installed": True,
-            "detail": "",
-            "remedy": "",
-            "fixed": {},
-            "rounds": [],
-            "protocols": [],
-            "oracle": [],
-        }
+        about = {"version": "1", "installed": True, "detail": "", "remedy": "", "fixed": {}}
+        nothing = {"rounds": [], "protocols": [], "oracle": []}
         return {
             "method": name,
             "title": name,
             **about,
+            **nothing,
             "axis": {"kind": kind, **range_} if kind else None,
             "tuned": chosen if kind else None,
             "curve": curve,
             "tolerance_octaves": {"q1": 1, "median": 1.25, "q3": 2, "cases": 1} if kind else None,
         }
 
-    about = {
-        "case": "ca/n:1/holes:0",
-        "dataset": "ca",
-        "shape": "ca",
-        "side": "test",
-        "kind": "simple",
-        "n": 1,
-        "holes": False,
-        "seed": 1,
-    }
+    shape = {"dataset": "ca", "shape": "ca", "side": "test", "kind": "simple"}
+    about = {"case": "ca/n:1/holes:0", **shape, "n": 1, "holes": False, "seed": 1}
     methods = [
         method("polylidar", "spacings", 2, [3, 1.1, 2, 30]),
         method("spatialite", "own", 4, [None, 2, 1.2, 1.5]),
@@ -342,9 +303,7 @@ def suite() -> dict[str, dict[str, Any]]:
     alphabet += [run("postgis_legacy", "paper", f"letter_{letter}", 2000, status="not_installed") for letter in LETTERS]
     random = [run("polylidar", "paper", f"star-{k}", 8000) for k in range(1, 400)]
     random += [run("polylidar", "paper", f"comb-{k}", 8000) for k in range(1, 9)]
-    steps = [
-        run(method, "paper", "ca", 64000, True) for method in ("polylidar", "cgal_alpha_shape", "spatialite_steps")
-    ]
+    steps = [run(method, "paper", "ca", 64000, True) for method in ("polylidar", "cgal_alpha_shape", "spatialite_steps")]
     rgbd = [run(*series, f"floor-{k}", 900 + k) for k in (1, 2) for series in SERIES]
     return copy.deepcopy(
         {

@@ -248,6 +248,12 @@ TEST(League, ProfilesAreAmongThoseThatKnowAsMuch) {
   EXPECT_EQ(profiles.at("oracle").curves.size(), 1U);
 }
 
+TEST(League, WhoDiffersByRoundingIsBestToo) {
+  const league::League league =
+      league_of({row("good", "auto", "a", 0.1), row("bad", "auto", "a", 0.1 + 1e-10)});
+  for (const auto& curve : league.profiles.front().curves) EXPECT_EQ(curve.shares.front(), 1) << curve.method;
+}
+
 TEST(League, AnEntryWithFewCasesDoesNotTakeAwayTheOthers) {
   const league::League league =
       league_of({row("good", "auto", "a", 0.1), row("good", "auto", "b", 0.2), row("good", "auto", "c", 0.3),

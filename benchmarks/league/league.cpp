@@ -21,6 +21,9 @@ namespace {
 using nlohmann::json;
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
+/// Errors of the same polygons differ by rounding, and those of rows that were kept have nine digits. This
+/// part of an error is neither.
+constexpr double kSameError = 1e-7;
 /// The rows of one method and protocol, by case.
 using RowsByCase = std::map<std::string, const json*>;
 using Entrant = std::pair<std::string, std::string>;  ///< method, protocol
@@ -328,7 +331,7 @@ LeagueProfile make_profile(const Field& field, const std::string& group, const s
     weight += case_weight;
     for (std::size_t i = 0; i < errors.size(); ++i) {
       for (std::size_t k = 0; k < league_taus().size(); ++k) {
-        if (errors[i] < tune::kInfinitelyBad && errors[i] <= league_taus()[k] * best)
+        if (errors[i] < tune::kInfinitelyBad && errors[i] <= league_taus()[k] * best * (1 + kSameError))
           profile.curves[i].shares[k] += case_weight;
       }
     }

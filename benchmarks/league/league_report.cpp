@@ -274,13 +274,17 @@ table::Document league_document(const json& league) {
                    std::to_string(league.at("shapes").get<std::size_t>()) + " shapes" +
                    (test ? " on the test side of the split" : "");
   std::set<std::string> there;
-  for (const json& entry : league.at("methods")) there.insert(entry.at("protocol").get<std::string>());
+  for (const json& entry : league.at("methods")) {
+    if (entry.at("cases") > 0) there.insert(entry.at("protocol").get<std::string>());
+  }
   for (const char* protocol : {"auto", "default", "tuned", "paper", "oracle"}) {
     if (!there.contains(protocol)) continue;
     document.tables.push_back(league_table(league, protocol));
     document.tables.push_back(parts_table(league, protocol));
   }
-  for (const json& profile : league.at("profiles")) document.tables.push_back(profile_table(league, profile));
+  for (const json& profile : league.at("profiles")) {
+    if (profile.at("cases") > 0) document.tables.push_back(profile_table(league, profile));
+  }
   document.notes = {
       "L2 as a part of the ground truth's area; regret: L2 less what the same method has with the best value "
       "for the instance. In brackets a 95 % bootstrap interval of the median that resamples whole shapes. A "
