@@ -46,6 +46,7 @@ const std::vector<SplitRow>& shape_split() {
       {"state", kTest, "The paper reports them."},
       {"letter", kTest, "The paper reports them."},
       {"floor", kTest, "The paper reports such floors."},
+      {"lowfloor", kTest, "Floors as the paper's, from a low camera."},
       {"recorded", kTest, "Floors that users recorded: nothing may be fitted to them."},
       {"country", kTest,
        "Real borders by another author than the counties': fjords, archipelagos, enclaves."},
@@ -82,6 +83,8 @@ const std::vector<SplitRow>& sampler_split() {
       {"quantised", kTest, "Another regularity than Poisson disks': points that fall on each other."},
       {"lattice", kTest, "Another regularity than Poisson disks': rows and columns."},
       {"boundary", kTest, "Needs the outline itself, which no sensor knows: nobody may fit to it."},
+      {"outline", kTest, "Needs the outline itself, like boundary: nobody may fit to it."},
+      {"water", kTest, "A scanner's fault: lakes without points, which no rule may learn to fill."},
       {"depthcamera", kTest, "A sensor's own pattern, and that of the paper's floors."},
       {"zigzag", kTest, "Another pattern of scan lines than parallel ones."},
       {"rotating", kTest, "Another pattern of scan lines than parallel ones: rings."},
@@ -102,7 +105,7 @@ std::string source_of(const std::string& dataset) {
 
 std::vector<std::string> samplers_of(const std::string& dataset) {
   const std::string source = source_of(dataset);
-  if (source == kSimulatedFloor || source == kRecordedFloor) return {"depthcamera"};
+  if (source.ends_with(kSimulatedFloor) || source == kRecordedFloor) return {"depthcamera"};
   std::vector<std::string> samplers;
   if (const auto parts = split_stress(dataset)) {
     for (const Stress& stress : parts->second) samplers.push_back(stress.kind->name);
