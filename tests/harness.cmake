@@ -78,6 +78,10 @@ hullbench_test(test_command_line SOURCES test_command_line.cpp
 target_compile_definitions(test_command_line PRIVATE HULLBENCH="$<TARGET_FILE:hullbench>")
 add_dependencies(test_command_line hullbench)
 
+add_test(NAME evaluate.searches_measures_and_judges
+  COMMAND "${CMAKE_CURRENT_LIST_DIR}/check_evaluate.sh" "${PROJECT_SOURCE_DIR}")
+set_tests_properties(evaluate.searches_measures_and_judges PROPERTIES LABELS harness)
+
 # The reference run: what may become it, what it is, and that the README shows its numbers.
 add_test(NAME reference.is_of_this_revision
   COMMAND "${CMAKE_CURRENT_LIST_DIR}/check_reference.sh" "${PROJECT_SOURCE_DIR}")

@@ -36,12 +36,14 @@ for plan in "${plans[@]}"; do chosen+=("$out/tune/$plan-tuned.json"); done
 # Nothing is to be chosen for degenerate input: its plan is measured as it is.
 chosen+=(stress_degenerate)
 echo "==> measuring what was chosen, in $parts parts; the first one says how far it is"
+# measure PART: into a folder of its own; its progress is seen of the first part only.
+measure() {
+  run "$hullbench" run "${chosen[@]}" --filter "^($methods)/" --repetitions 1 --shard "$1/$parts" --out "$out/part-$1" \
+    2>&1 >"$out/part-$1.txt" | if [ "$1" -eq 1 ]; then tee "$out/part-1.log" >&2; else cat >"$out/part-$1.log"; fi
+}
 pids=()
 for ((part = 1; part <= parts; ++part)); do
-  run "$hullbench" run "${chosen[@]}" --filter "^($methods)/" --repetitions 1 --shard "$part/$parts" \
-    --out "$out/part-$part" >"$out/part-$part.txt" 2> >(
-      if [ "$part" -eq 1 ]; then tee "$out/part-1.log" >&2; else cat >"$out/part-$part.log"; fi
-    ) &
+  measure "$part" &
   pids+=($!)
 done
 failed=0

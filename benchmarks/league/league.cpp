@@ -86,10 +86,12 @@ struct Capabilities {
   }
 };
 
+/// Nothing of a method that did not start there.
 void learn(std::map<std::string, Capabilities>& capabilities, const json& method) {
   const json said = method.value("capabilities", json::object());
-  capabilities[method.at("name").get<std::string>()] = {said.value("holes", true),
-                                                        said.value("several_polygons", true)};
+  if (!said.contains("holes")) return;
+  capabilities[method.at("name").get<std::string>()] = {said.at("holes").get<bool>(),
+                                                        said.at("several_polygons").get<bool>()};
 }
 
 /// All rows, sorted.
@@ -160,7 +162,6 @@ class Samples {
   void add(const CaseFacts& facts, std::optional<double> value) {
     if (value) values_[facts.shape].push_back({*value, facts.weight});
   }
-  bool empty() const { return values_.empty(); }
   double median() const { return from_finite(statistics::weighted_median(all())); }
   /// None without a value.
   std::optional<MedianScore> median_score() const {
