@@ -299,7 +299,9 @@ TEST(League, EveryProfileIsShownWhoeverIsAhead) {
 TEST(League, TheReadmeHasTheFirstThreeOfEveryProtocol) {
   std::vector<json> rows = {row("ours", "tuned", "a", 0.1)};
   for (int k = 1; k <= 4; ++k) rows.push_back(row("rival" + std::to_string(k), "auto", "a", 0.1 * k));
-  const std::vector<json> reports = {report(rows)};
+  json degenerate = report({row("ours", "paper", "degenerate_tiny", 0.1)});
+  degenerate["plan"]["accepted"] = {"error"};
+  const std::vector<json> reports = {report(rows), degenerate};
   const std::string text =
       league::league_results(league::league_to_json(league::make_league(reports, false), reports), "kept");
   EXPECT_NE(text.find("[kept/league.md](kept/league.md)"), std::string::npos) << text;
@@ -308,6 +310,7 @@ TEST(League, TheReadmeHasTheFirstThreeOfEveryProtocol) {
       << text;
   EXPECT_NE(text.find("| auto     | rival3 |     1 |        0 |        30.00 |"), std::string::npos) << text;
   EXPECT_EQ(text.find("rival4"), std::string::npos) << text;
+  EXPECT_EQ(text.find("paper"), std::string::npos) << text;
   EXPECT_NE(text.find("| tuned    | ours   |"), std::string::npos) << text;
 }
 

@@ -328,7 +328,7 @@ std::string league_results(const json& league, const std::string& folder) {
   std::string protocols;
   for (const json& entry : league.at("methods")) {
     const std::string protocol = entry.at("protocol").get<std::string>();
-    if (++shown[protocol] > kFirst) continue;
+    if (entry.at("cases") == 0 || ++shown[protocol] > kFirst) continue;
     if (shown[protocol] == 1)
       protocols += (protocols.empty() ? "" : "; ") + protocol + ", " + protocol_titles().at(protocol);
     table.add_row({protocol, entry.at("title").get<std::string>(), entry.at("cases").get<std::size_t>(),
