@@ -24,6 +24,8 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 /// Errors of the same polygons differ by rounding, and those of rows that were kept have nine digits. This
 /// part of an error is neither.
 constexpr double kSameError = 1e-7;
+/// Finer than tables show: medians that are the same in this unit are in the order of the methods' names.
+constexpr double kShownError = 1e-6;
 /// The rows of one method and protocol, by case.
 using RowsByCase = std::map<std::string, const json*>;
 using Entrant = std::pair<std::string, std::string>;  ///< method, protocol
@@ -403,7 +405,7 @@ League make_league(const std::vector<json>& reports, bool test_only) {
   // A median of few cases is not better than one of all.
   const auto key = [&most](const LeagueEntry& entry) {
     return std::make_tuple(place_of_protocol(entry.protocol), 2 * entry.cases < most.at(entry.protocol),
-                           entry.l2 ? entry.l2->median : kInfinity, entry.method);
+                           entry.l2 ? std::round(entry.l2->median / kShownError) : kInfinity, entry.method);
   };
   std::sort(league.entries.begin(), league.entries.end(),
             [&](const LeagueEntry& a, const LeagueEntry& b) { return key(a) < key(b); });
