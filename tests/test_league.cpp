@@ -251,6 +251,7 @@ TEST(League, ProfilesAreAmongThoseThatKnowAsMuch) {
 TEST(League, WhoDiffersByRoundingIsBestToo) {
   const league::League league =
       league_of({row("good", "auto", "a", 0.1), row("bad", "auto", "a", 0.1 + 1e-10)});
+  EXPECT_EQ(league.entries.front().method, "bad") << "by name";
   for (const auto& curve : league.profiles.front().curves) EXPECT_EQ(curve.shares.front(), 1) << curve.method;
 }
 
