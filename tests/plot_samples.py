@@ -24,6 +24,7 @@ LETTERS = "abc"
 HASH = "0" * 64
 TITLES = {"ca": "California", "hi": "Hawaii"}
 STATUSES = ("ok", "timeout", "memory", "crash", "error", "invalid_output", "unsupported", "not_installed")
+SPLIT = {"shapes": {"ca": "test"}, "samplers": {"uniform": "training"}}
 TOOL = {"name": "hullbench", "version": "0.1.0", "commit": None, "dirty": None, "binary_sha256": HASH}
 FAILED = {"time_ns": [], "phases_ns": [], "metrics": {}, "output_sha256": ""}
 
@@ -243,8 +244,9 @@ def league() -> dict[str, Any]:
         profile("tuned", 20, "tuned", polylidar=[1, 1, 1]),
     ]
     numbers = {"schema_version": 1, "shapes": 5, "cases": 30, "taus": [1, 2, 10], "plans": ["p"], "methods": []}
-    origin = {"created": "now", "tool": TOOL, "environment": {}, "split": {"seed": 1, "cases_of": "all"}}
-    return {"kind": "league", **origin, **numbers, "profiles": profiles, "not_installed": []}
+    parts = {"kinds": [], "samplers": []}
+    origin = {"created": "now", "tool": TOOL, "environment": {}, "split": {**SPLIT, "cases_of": "all"}}
+    return {"kind": "league", **origin, **numbers, **parts, "profiles": profiles, "not_installed": []}
 
 
 def tune() -> dict[str, Any]:
@@ -260,24 +262,27 @@ def tune() -> dict[str, Any]:
             {"position": 2.0**k, "cases": 1, "failed": 0, "l2": spread(middle), "relative": spread(middle)}
             for k, middle in enumerate(medians)
         ]
-        about = {"version": "1", "installed": True, "detail": "", "remedy": "", "fixed": {}, "protocols": [], "oracle": []}
+        about = {"version": "1", "installed": True, "detail": "", "remedy": "", "fixed": {}}
+        nothing = {"rounds": [], "protocols": [], "oracle": []}
         return {
             "method": name,
             "title": name,
             **about,
+            **nothing,
             "axis": {"kind": kind, **range_} if kind else None,
             "tuned": chosen if kind else None,
             "curve": curve,
             "tolerance_octaves": {"q1": 1, "median": 1.25, "q3": 2, "cases": 1} if kind else None,
         }
 
-    about = {"case": "ca/n:1/holes:0", "dataset": "ca", "shape": "ca", "side": "test", "n": 1, "holes": False, "seed": 1}
+    shape = {"dataset": "ca", "shape": "ca", "side": "test", "kind": "simple"}
+    about = {"case": "ca/n:1/holes:0", **shape, "n": 1, "holes": False, "seed": 1}
     methods = [
         method("polylidar", "spacings", 2, [3, 1.1, 2, 30]),
         method("spatialite", "own", 4, [None, 2, 1.2, 1.5]),
         method("convex_hull", None, 0, []),
     ]
-    budget = {"plans": ["p"], "split": {"seed": 1}, "budget": {"grid": 2, "refinement": 0}}
+    budget = {"plans": ["p"], "split": SPLIT, "budget": {"grid": 2, "sweep": 2, "refinement": 0}}
     cases = [{**about, "dataset_sha256": HASH, "spacing": 1}] * 12
     return {"kind": "tuning", "schema_version": 1, "tool": TOOL, **budget, "cases": cases, "methods": methods}
 

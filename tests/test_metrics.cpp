@@ -558,5 +558,16 @@ TEST(Metrics, DoNotDependOnOriginUnitOrQuarterTurns) {
   }
 }
 
+TEST(Metrics, AResultIsScoredWhereTheBufferOfItIsInvalid) {
+  const PointSet set = make_point_set("country-2~lattice:0", false, 2000, 1258990650);
+  const MultiPolygon result = polylidar::to_coordinates(
+      polylidar::concave_hull(set.points, {.alpha = 1.1550034993241562}), set.points);
+  const metrics::Metrics metrics = metrics::CaseScorer(set.points, set.ground_truth).score(result);
+  EXPECT_TRUE(metrics.area.valid);
+  ASSERT_TRUE(metrics.boundary_iou);
+  EXPECT_GT(*metrics.boundary_iou, 0.1);
+  EXPECT_LT(*metrics.boundary_iou, 1);
+}
+
 }  // namespace
 }  // namespace hullbench

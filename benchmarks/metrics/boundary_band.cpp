@@ -8,8 +8,12 @@ constexpr int kChordsPerQuarter = 8;
 }  // namespace
 
 GeosSession::Geometry inner_band(const GeosSession& geos, const GeosSession::Geometry& shape, double width) {
-  const GeosSession::Geometry rest =
+  GeosSession::Geometry rest =
       geos.own(GEOSBuffer_r(geos.context(), shape.get(), -width, kChordsPerQuarter), "buffer");
+  // GEOS's buffer of a valid shape can touch itself where it must not, of points on a lattice for instance.
+  // That is no fault of the shape.
+  if (GEOSisValid_r(geos.context(), rest.get()) != 1)
+    rest = geos.own(GEOSMakeValid_r(geos.context(), rest.get()), "making a buffer valid");
   return geos.own(GEOSDifference_r(geos.context(), shape.get(), rest.get()), "difference");
 }
 
