@@ -4,8 +4,10 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <iomanip>
 #include <limits>
 #include <nlohmann/json.hpp>
+#include <sstream>
 #include <string>
 #include <thread>
 #include <vector>
@@ -211,6 +213,57 @@ TEST(ContractScores, OfCoverage) {
   EXPECT_EQ(score_on_square({{box(0, 0, 10, 10), {hole_box(1, 1, 3, 3)}}}).contract.points_covered, 0.96);
   EXPECT_EQ(score_on_square({{box(0, 0, 10, 10), {hole_box(0.5, 0.5, 2.5, 2.5)}}}).contract.points_covered,
             0.99);
+}
+
+/// Of the square from (0, 0) to (10, 10), by the largest coordinate of which the rounding goes, the coverage
+/// of one point.
+double coverage_of(const Point& point) {
+  return metrics::InputPoints(std::vector<Point>{point}).score(kSquare).points_covered.value();
+}
+
+TEST(ContractScores, CoverageForgivesRoundingAndNoMore) {
+  const double bound = 10 * metrics::kRoundingOfText;
+  for (const double inside : {0.5, 0.9}) {
+    EXPECT_EQ(coverage_of({5, -inside * bound}), 1) << inside;
+    EXPECT_EQ(coverage_of({10 + std::ceil(inside * 40) * 0x1p-49, 5}), 1) << inside;
+  }
+  for (const double outside : {1.1, 2.0, 3.0, 1e6}) {
+    EXPECT_EQ(coverage_of({5, -outside * bound}), 0) << outside;
+    EXPECT_EQ(coverage_of({-outside * bound, -outside * bound}), 0) << outside;
+  }
+  // An empty shape and one too small for the squares of its distances cover what they did.
+  const metrics::InputPoints corner(std::vector<Point>{{0, 0}});
+  EXPECT_EQ(corner.score({}).points_covered, 0);
+  EXPECT_EQ(corner.score({{box(1e-200, 1e-200, 2e-200, 2e-200), {}}}).points_covered, 0);
+}
+
+TEST(ContractScores, TextOf15DigitsLosesNoPointAndTextOf12Does) {
+  std::size_t lost = 0;
+  for (std::uint64_t seed = 0; seed < 60; ++seed) {
+    Random random(seed);
+    const double scale = std::pow(10, static_cast<double>(seed % 15) - 7);
+    const Point centre = {random.between(-9, 9) * scale, random.between(-9, 9) * scale};
+    std::vector<Point> points;
+    for (int i = 0; i < 100; ++i)
+      points.push_back({centre.x + scale * random.between(-1, 1), centre.y + scale * random.between(-1, 1)});
+    const MultiPolygon hull =
+        polylidar::to_coordinates(polylidar::concave_hull(points, {.alpha = polylidar::kNoLimit}), points);
+    const auto covered_by_text_of = [&](int digits) {
+      MultiPolygon text = hull;
+      for (Point& vertex : text.at(0).shell) {
+        for (double* coordinate : {&vertex.x, &vertex.y}) {
+          std::ostringstream out;
+          out << std::setprecision(digits) << *coordinate;
+          *coordinate = std::stod(out.str());
+        }
+      }
+      return metrics::InputPoints(points).score(text).points_covered.value();
+    };
+    EXPECT_EQ(covered_by_text_of(17), 1) << seed;
+    EXPECT_EQ(covered_by_text_of(15), 1) << seed;
+    lost += covered_by_text_of(12) < 1 ? 1U : 0U;
+  }
+  EXPECT_GT(lost, 50U);
 }
 
 TEST(ContractScores, OfVertices) {

@@ -196,7 +196,8 @@ void add_contract(Table& table) {
                      "InputPoints::score, output_contract.cpp", value});
   };
   add("points_covered", "ratio",
-      "share of the input points that lie in R or on its boundary, exactly, by the even-odd rule",
+      "share of the input points that lie in R by the even-odd rule, or no farther from its boundary than "
+      "2^-47 of R's largest coordinate, as far as text with 15 digits moves it",
       "without points and when a coordinate of R is not finite",
       [](const Metrics& m) { return optional_value(m.contract.points_covered); });
   add("vertices_from_input", "ratio", "share of R's vertices that are input points, to the last bit",
