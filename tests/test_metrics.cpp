@@ -328,6 +328,62 @@ TEST(Skill, OfTooFewPoints) {
   }
 }
 
+TEST(Agreement, OfHalvesAndQuarters) {
+  const MultiPolygon left = {{box(0, 0, 5, 10), {}}};
+  const MultiPolygon middle = {{box(2.5, 0, 7.5, 10), {}}};
+  const MultiPolygon right = {{box(5, 0, 10, 10), {}}};
+  EXPECT_EQ(metrics::intersection_over_union(kSquare, kSquare), 1);
+  EXPECT_DOUBLE_EQ(metrics::intersection_over_union(kSquare, left).value(), 0.5);
+  EXPECT_DOUBLE_EQ(metrics::intersection_over_union(left, middle).value(), 1.0 / 3);
+  EXPECT_EQ(metrics::intersection_over_union(left, right), 0);
+  EXPECT_EQ(metrics::intersection_over_union(left, {}), 0);
+  EXPECT_EQ(metrics::intersection_over_union({}, {}), std::nullopt);
+  EXPECT_EQ(metrics::intersection_over_union(kSquare, kBowTie), std::nullopt);
+}
+
+TEST(Agreement, StabilityIsTheMeanOfTheDrawsAndAFailureIsZero) {
+  const MultiPolygon left = {{box(0, 0, 5, 10), {}}};
+  const std::vector<metrics::PartResults> good = {{kSquare, kSquare, left}, {left, kSquare, kSquare}};
+  EXPECT_DOUBLE_EQ(metrics::stability(kSquare, good).value().halves, 0.75);
+  EXPECT_DOUBLE_EQ(metrics::stability(kSquare, good).value().subsamples, 0.75);
+  const std::vector<metrics::PartResults> failed = {{kSquare, std::nullopt, std::nullopt}};
+  const std::vector<metrics::PartResults> empty = {{MultiPolygon{}, MultiPolygon{}, MultiPolygon{}}};
+  const std::vector<metrics::PartResults> invalid = {{kBowTie, kBowTie, kBowTie}};
+  for (const auto& draws : {failed, empty, invalid}) {
+    EXPECT_EQ(metrics::stability(kSquare, draws).value().halves, 0);
+    EXPECT_EQ(metrics::stability(kSquare, draws).value().subsamples, 0);
+  }
+  EXPECT_FALSE(metrics::stability(kSquare, {}).has_value());
+  EXPECT_FALSE(metrics::stability(kBowTie, good).has_value());
+}
+
+TEST(Agreement, WithoutATruthOfAConvexHullAllPointsAreCovered) {
+  for (std::uint64_t seed = 0; seed < 50; ++seed) {
+    Random random(seed);
+    const double scale = std::pow(10, random.between(-9, 9));
+    const Point centre = {scale * random.between(-1e4, 1e4), scale * random.between(-1e4, 1e4)};
+    std::vector<Point> points;
+    for (int i = 0; i < 200; ++i)
+      points.push_back({centre.x + scale * random.between(0, 1), centre.y + scale * random.between(0, 1)});
+    const MultiPolygon hull =
+        polylidar::to_coordinates(polylidar::concave_hull(points, {.alpha = polylidar::kNoLimit}), points);
+    const metrics::Metrics metrics = metrics::describe(points, hull, hull, {});
+    EXPECT_EQ(metrics.contract.points_covered, 1) << seed;
+    EXPECT_DOUBLE_EQ(metrics.convex_hull_share.value(), 1) << seed;
+    EXPECT_NEAR(metrics.window_iou.value(), 1, 1e-9) << seed;
+    EXPECT_FALSE(metrics.stability.has_value());
+  }
+}
+
+TEST(Agreement, OfAWindowIsTheIoUWithIt) {
+  const MultiPolygon left = {{box(0, 0, 5, 10), {}}};
+  const metrics::Metrics metrics = metrics::describe(cell_centres(), left, kSquare, {});
+  EXPECT_DOUBLE_EQ(metrics.window_iou.value(), 0.5);
+  EXPECT_DOUBLE_EQ(metrics.convex_hull_share.value(), 50.0 / 81);
+  EXPECT_FALSE(metrics::describe(cell_centres(), left).window_iou.has_value());
+  EXPECT_FALSE(metrics::describe(cell_centres(), kBowTie, kSquare).convex_hull_share.has_value());
+}
+
 TEST(TriangleOutline, IsValidAndAsLargeAsItsTriangles) {
   for (std::uint64_t seed = 0; seed < 40; ++seed) {
     SCOPED_TRACE(seed);
