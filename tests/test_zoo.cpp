@@ -206,8 +206,9 @@ TEST(Zoo, FewPointsStandAsPromised) {
   EXPECT_EQ(points_of("turf-550")[0].x, points_of("turf-550")[1].x);
 
   const std::vector<Point> ring = points_of("senhorsolar-1");
-  EXPECT_EQ(ring.front(), ring.back());
-  EXPECT_EQ(places(ring).size(), ring.size() - 1);
+  EXPECT_EQ(places(ring).size(), ring.size());
+  for (std::size_t i = 0; i < ring.size(); ++i)
+    EXPECT_LE(distance(ring[i], ring[(i + 1) % ring.size()]), std::sqrt(2)) << i;
   EXPECT_TRUE(has_decimals(ring, 1));
 }
 

@@ -21,7 +21,7 @@ Input last_bits();
 Input growing_heights();
 Input tiny_squares();
 Input tiny_numbers();
-Input closed_ring();
+Input ring_of_whole_numbers();
 Input one_sided_outline();
 Input two_rows();
 
