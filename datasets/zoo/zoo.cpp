@@ -81,8 +81,6 @@ const std::vector<Case>& cases() {
        kEmpty, slanted_line},
       {"zoo-georust-1028", "The sides of a triangle in single precision", "a hull that is not convex",
        "georust/geo#1028", kCovers, single_precision_triangle},
-      {"zoo-delabella-8", "A polygon of twelve sides with points along them", "crashed",
-       "msokalski/delabella#8", kCovers, polygon_with_subdivided_sides},
 
       // Close ones.
       {"zoo-nts-716", "Circles in degrees, every point twice, 1e-9 apart",
@@ -130,6 +128,8 @@ const std::vector<Case>& cases() {
        "mapbox/delaunator#43", kShape, slanted_rows},
       {"zoo-delaunator-13", "Seventeen points on a circle", "a broken triangulation", "mapbox/delaunator#13",
        kShape, seventeen_gon},
+      {"zoo-delabella-8", "The corners of an octagon, on one circle", "crashed", "msokalski/delabella#8",
+       kShape, octagon},
       {"zoo-delaunator-cpp-16", "The corners of an image and a curve in single precision", "never ended",
        "delfrrr/delaunator-cpp#16", kCovers, curve_in_an_image},
       {"zoo-delaunator-cpp-28", "The walls of a building in millimetres, around the origin",
