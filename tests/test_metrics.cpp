@@ -237,7 +237,7 @@ TEST(ContractScores, CoverageForgivesRoundingAndNoMore) {
   EXPECT_EQ(corner.score({{box(1e-200, 1e-200, 2e-200, 2e-200), {}}}).points_covered, 0);
 }
 
-TEST(ContractScores, TextOf15DigitsLosesNoPointAndTextOf12Does) {
+TEST(ContractScores, TextOf15DigitsLosesNoPointAndTextOf14Does) {
   std::size_t lost = 0;
   for (std::uint64_t seed = 0; seed < 60; ++seed) {
     Random random(seed);
@@ -261,9 +261,9 @@ TEST(ContractScores, TextOf15DigitsLosesNoPointAndTextOf12Does) {
     };
     EXPECT_EQ(covered_by_text_of(17), 1) << seed;
     EXPECT_EQ(covered_by_text_of(15), 1) << seed;
-    lost += covered_by_text_of(12) < 1 ? 1U : 0U;
+    lost += covered_by_text_of(14) < 1 ? 1U : 0U;
   }
-  EXPECT_GT(lost, 50U);
+  EXPECT_GT(lost, 15U);  // of 60, near half of them
 }
 
 TEST(ContractScores, OfVertices) {
