@@ -56,7 +56,7 @@ WITHOUT_TESTS = $(NATIVE_OPTION) $(shell grep -qs '^HULLBENCH_TESTS:BOOL=ON' bui
   [ -d "$$(sed -n 's/^GTest_DIR:PATH=//p' build/CMakeCache.txt)" ] || echo -DHULLBENCH_TESTS=OFF)
 WITH_TESTS = $(NATIVE_OPTION) -DHULLBENCH_TESTS=ON
 
-.PHONY: help deps deps-extra deps-legacy build bench bench-quick figures figures-core report report-compare evaluate bench-core bench-gate bench-gate-instructions reference test test-sanitize build-clang test-clang test-fresh test-slurm test-gate fuzz lint format docs clean clean-legacy
+.PHONY: help deps deps-extra deps-real deps-legacy build bench bench-quick figures figures-core report report-compare evaluate bench-core bench-gate bench-gate-instructions reference test test-sanitize build-clang test-clang test-fresh test-slurm test-gate fuzz lint format docs clean clean-legacy
 
 help: ## list the targets (the default)
 	@awk 'BEGIN { FS = ":.*## " } /^[a-z-]+:.*## / { printf "  make %-23s %s\n", $$1, $$2 }' Makefile
@@ -71,6 +71,10 @@ deps-extra: ## install what the other methods need: those in JavaScript, Python 
 	@$(if $(SKIP_DEPS),,cmake/install-npm.sh adapters/manifests)
 	@$(if $(SKIP_DEPS),,cmake/install-legacy.sh)
 	@echo "==> nothing is missing for the other methods"
+
+deps-real: ## install Debian's packages with the real points of "hullbench run real"
+	@$(call install,real)
+	@echo "==> nothing is missing for the real points"
 
 deps-legacy: ## get the paper's PostGIS (3.1, from Debian 11) into a folder of caches, without root
 	@cmake/install-legacy.sh

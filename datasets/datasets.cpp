@@ -10,6 +10,7 @@
 #include "datasets/holes.hpp"
 #include "datasets/point_bytes.hpp"
 #include "datasets/random.hpp"
+#include "datasets/real/real_points.hpp"
 #include "datasets/rgbd/floor_scenes.hpp"
 #include "datasets/rgbd/recordings.hpp"
 #include "datasets/sha256.hpp"
@@ -84,6 +85,23 @@ DatasetInfo describe_zoo(const zoo::Case& one) {
           .own_points = true};
 }
 
+DatasetInfo describe_real(const real::Source& source) {
+  return {.name = source.name,
+          .title = source.title,
+          .source = "Debian's package " + source.package + ": " + source.object,
+          .licence = source.licence,
+          .sha256 = {},
+          .area = std::nullopt,
+          .own_points = true};
+}
+
+DatasetInfo describe_real_recordings(std::size_t count) {
+  DatasetInfo info = describe_recorded_floors(count);
+  info.name = kRealRecording;
+  info.title = "Recorded points";
+  return info;
+}
+
 std::string names_of(const std::vector<DatasetInfo>& infos, bool only_with_holes) {
   std::string names;
   for (const DatasetInfo& info : infos) {
@@ -99,10 +117,13 @@ std::vector<DatasetInfo> families(const DataFolders& folders) {
   for (const ShapeFamily& family : shape_families()) infos.push_back(describe_family(family));
   infos.push_back(describe_simulated_floors());
   if (!folders.recordings.empty()) {
-    infos.push_back(describe_recorded_floors(list_recordings(folders.recordings).size()));
+    const std::size_t count = list_recordings(folders.recordings).size();
+    infos.push_back(describe_recorded_floors(count));
+    infos.push_back(describe_real_recordings(count));
   }
   for (const DegenerateInput& input : degenerate_inputs()) infos.push_back(describe_degenerate(input));
   for (const zoo::Case& one : zoo::cases()) infos.push_back(describe_zoo(one));
+  for (const real::Source& source : real::sources()) infos.push_back(describe_real(source));
   return infos;
 }
 
@@ -160,7 +181,9 @@ polylidar::MultiPolygon make_member_shape(const std::string& family_name, std::s
 FloorScene make_floor(const std::string& name, std::uint64_t seed, const DataFolders& folders) {
   const auto [family, number] = *split_member_name(name);
   if (family == kSimulatedFloor) return simulate_floor(number - 1, derive_seed(seed, "points/" + name));
-  return load_recording(folders.recordings / list_recordings(folders.recordings).at(number - 1));
+  const auto scene = folders.recordings / list_recordings(folders.recordings).at(number - 1);
+  if (family == kRealRecording) return {recorded_points(scene), {}};
+  return load_recording(scene);
 }
 
 const DegenerateInput* find_degenerate(const std::string& name) {
@@ -198,8 +221,16 @@ std::optional<std::pair<const ShapeFamily*, std::size_t>> find_graded(const std:
   return std::nullopt;
 }
 
+/// Those of a source, or of a recording.
+real::Sample make_real(const std::string& name, const DataFolders& folders) {
+  const real::Source* source = real::find_source(name);
+  if (source != nullptr) return real::read_sample(*source, folders.system);
+  return {make_floor(name, 0, folders).points, {}};
+}
+
 polylidar::MultiPolygon make_shape(const DatasetInfo& info, const std::string& name, bool holes,
                                    const DataFolders& folders) {
+  if (is_real(name)) return {};
   if (info.own_points) return make_own_points(name, 0, folders).ground_truth;
   if (info.members == 0) return make_file_shape(name, holes, folders.shapes);
   return make_member_shape(info.name, split_member_name(name)->second - 1, holes);
@@ -215,6 +246,10 @@ std::optional<std::pair<std::string, std::size_t>> split_member_name(const std::
   const auto [stopped, error] = std::from_chars(name.data() + dash + 1, end, number);
   if (error != std::errc() || stopped != end) return std::nullopt;
   return std::pair{name.substr(0, dash), number};
+}
+
+bool is_real(const std::string& name) {
+  return name.starts_with("real-");
 }
 
 std::vector<DatasetInfo> datasets(const DataFolders& folders) {
@@ -270,7 +305,11 @@ PointSet make_point_set(const std::string& name, bool holes, std::size_t n, std:
                                                  : "' has no points of its own; ask for a number of them"));
   }
   PointSet set;
-  if (info.own_points) {
+  if (is_real(name)) {
+    real::Sample sample = make_real(name, folders);
+    set.points = std::move(sample.points);
+    set.window = std::move(sample.window);
+  } else if (info.own_points) {
     FloorScene scene = make_own_points(name, seed, folders);
     set.points = std::move(scene.points);
     set.ground_truth = std::move(scene.ground_truth);

@@ -2,8 +2,8 @@
 //
 // A data set is one shape from a file ("ca"), or a family whose members are shapes of one kind, numbered
 // from 1 ("star-1" ... "star-9800"). Points are drawn from the shape, as many as are asked for, or come with
-// it, as those of the floors, of degenerate.hpp and of the zoo do. Behind a '~' stands how they are drawn
-// where not uniformly ("ca~noise:0.5", "star-17~gradient:16~outliers:5"; see stress.hpp).
+// it, as those of the floors, of degenerate.hpp, of the zoo and of real/ do. Behind a '~' stands how they are
+// drawn where not uniformly ("ca~noise:0.5", "star-17~gradient:16~outliers:5"; see stress.hpp).
 #pragma once
 
 #include <cstddef>
@@ -23,11 +23,14 @@ namespace hullbench {
 /// Where data sets are read from.
 struct DataFolders {
   DataFolders(std::filesystem::path shape_folder = default_data_directory(),
-              std::filesystem::path recording_folder = {})
-      : shapes(std::move(shape_folder)), recordings(std::move(recording_folder)) {}
+              std::filesystem::path recording_folder = {}, std::filesystem::path system_root = "/")
+      : shapes(std::move(shape_folder)),
+        recordings(std::move(recording_folder)),
+        system(std::move(system_root)) {}
 
   std::filesystem::path shapes;      ///< with the manifest; see shapes.hpp
-  std::filesystem::path recordings;  ///< of real floors, see rgbd/recordings.hpp; empty: there are none
+  std::filesystem::path recordings;  ///< of the user's, see rgbd/recordings.hpp; empty: there are none
+  std::filesystem::path system;      ///< whose packages have the real points; see real/real_points.hpp
 };
 
 /// A data set as `hullbench list` shows it.
@@ -49,6 +52,12 @@ struct DatasetInfo {
 inline constexpr const char* kSimulatedFloor = "floor";
 inline constexpr const char* kRecordedFloor = "recorded";
 
+/// The user's recordings again, as points without a truth.
+inline constexpr const char* kRealRecording = "real-recorded";
+
+/// Whether `name` is of real points without a truth, which no table of errors may have.
+bool is_real(const std::string& name);
+
 /// The family and the number (from 1) in a member's name: {"star", 17} of "star-17"; none for other names.
 std::optional<std::pair<std::string, std::size_t>> split_member_name(const std::string& name);
 
@@ -69,7 +78,9 @@ struct PointSet {
   /// against.
   polylidar::MultiPolygon ground_truth;
   double ground_truth_area = 0;  ///< squared units of the points
-  std::string sha256;            ///< of point_bytes(points), lower-case hex: the record's dataset_sha256
+  /// In which real points were looked for; no truth, and empty where it is not known.
+  polylidar::MultiPolygon window;
+  std::string sha256;  ///< of point_bytes(points), lower-case hex: the record's dataset_sha256
 };
 
 /// Every data set: the shapes in the order of the manifest, then the families. Throws as read_manifest.
@@ -81,9 +92,9 @@ std::vector<DatasetInfo> datasets(const DataFolders& folders = {});
 const DatasetInfo* find_dataset(const std::vector<DatasetInfo>& infos, const std::string& name);
 
 /// The ground truth of data set `name`, whatever its stress; `holes`: of its variant with holes, which is one
-/// fixed shape (its seed is in the manifest or the family). Throws std::invalid_argument, listing the known
-/// names, when there is no such data set or it has no such variant; otherwise as load_shape,
-/// with_circular_holes and load_recording.
+/// fixed shape (its seed is in the manifest or the family); empty of real points. Throws
+/// std::invalid_argument, listing the known names, when there is no such data set or it has no such variant;
+/// otherwise as load_shape, with_circular_holes and load_recording.
 polylidar::MultiPolygon make_ground_truth(const std::string& name, bool holes,
                                           const DataFolders& folders = {});
 
@@ -91,8 +102,9 @@ polylidar::MultiPolygon make_ground_truth(const std::string& name, bool holes,
 /// about them. Every combination of name without stress, holes, n and seed has a stream of random numbers of
 /// its own, so samples of different sizes are independent, and those of different levels of a stress are not.
 /// With n = 0 the data set's own points (own_points), where `seed` is that of the sensor's noise. Throws as
-/// make_ground_truth, sample_uniform and the stress, and std::invalid_argument for n = 0 where points have to
-/// be drawn and for another n where they come with the shape.
+/// make_ground_truth, sample_uniform and the stress, std::invalid_argument for n = 0 where points have to be
+/// drawn and for another n where they come with the shape, and real::NotInstalled for real points whose
+/// package is not there.
 PointSet make_point_set(const std::string& name, bool holes, std::size_t n, std::uint64_t seed,
                         const DataFolders& folders = {});
 

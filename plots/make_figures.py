@@ -29,6 +29,7 @@ NAMES = (
     "states",
     "shapes",
     "hulls",
+    "real",
     "alphabet",
     "random_polygons",
     "steps",

@@ -32,6 +32,13 @@ endforeach()
 # g++ 12 finds uninitialised values in Boost.Geometry 1.74 where there are none.
 set_source_files_properties(boost_checks.cpp PROPERTIES
   COMPILE_OPTIONS "$<$<CXX_COMPILER_ID:GNU>:-Wno-maybe-uninitialized>")
+hullbench_test(test_real_points
+  SOURCES test_real_points.cpp
+  LIBRARIES hullbench_test_program hullbench::datasets nlohmann_json::nlohmann_json
+  LABELS datasets)
+target_compile_definitions(test_real_points PRIVATE
+  HULLBENCH_REAL_PAGE="${PROJECT_SOURCE_DIR}/datasets/real/README.md"
+  HULLBENCH_REAL_PLAN="${PROJECT_SOURCE_DIR}/benchmarks/plans/real.json")
 hullbench_test(test_zoo
   SOURCES test_zoo.cpp
   LIBRARIES hullbench::datasets hullbench::hash polylidar::check nlohmann_json::nlohmann_json

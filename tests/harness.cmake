@@ -19,6 +19,8 @@ hullbench_tool_test(NAME plans.python_takes_them NEEDS "${SYSTEM_PYTHON}:jsonsch
 
 hullbench_test(test_shard SOURCES test_shard.cpp LIBRARIES hullbench::run LABELS harness)
 
+hullbench_test(test_point_parts SOURCES test_point_parts.cpp LIBRARIES hullbench::run LABELS harness)
+
 hullbench_test(test_canary SOURCES test_canary.cpp LIBRARIES hullbench::run LABELS harness)
 
 hullbench_test(test_parallel SOURCES test_parallel.cpp LIBRARIES hullbench::run LABELS harness)

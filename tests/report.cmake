@@ -4,7 +4,7 @@ target_include_directories(hullbench_invented_run PUBLIC "${CMAKE_CURRENT_LIST_D
 target_link_libraries(hullbench_invented_run PUBLIC hullbench::report PRIVATE hullbench::compile_options)
 
 foreach(part IN ITEMS record statistics bootstrap rank_test judge noise report tables collection_tables class_tables overview_tables
-                      curve_table paper_comparison zoo_table)
+                      curve_table paper_comparison real_table zoo_table)
   hullbench_test(test_${part}
     SOURCES "${CMAKE_CURRENT_LIST_DIR}/test_${part}.cpp"
     LIBRARIES hullbench_invented_run hullbench::report hullbench::hash)

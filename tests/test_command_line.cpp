@@ -380,6 +380,22 @@ TEST_F(CommandLineTest, RecordedFloorsTakeThePlaceOfTheSimulatedOnes) {
   EXPECT_EQ(outcome.out.find("Simulated floor"), std::string::npos) << outcome.out;
 }
 
+TEST_F(CommandLineTest, RecordingsAreAddedToTheRealPointsWithoutATruth) {
+  write_scene(folder() / "floors" / "hall", 5);
+  fs::remove(folder() / "floors" / "hall" / "gt.geojson");
+  const Outcome outcome = hullbench(
+      {"run", "real", "--recordings", "floors", "--filter", "^convex_hull/real-recorded", "--out", "run"});
+  EXPECT_EQ(outcome.code, 0) << outcome.err;
+  const std::vector<json> rows = lines_of(folder() / "run" / "runs.jsonl");
+  ASSERT_EQ(rows.size(), 1U);
+  EXPECT_EQ(rows[0]["dataset"], "real-recorded-1");
+  EXPECT_EQ(rows[0]["n"], 41 * 31);
+  EXPECT_EQ(rows[0]["metrics"]["l2"], nullptr);
+  EXPECT_EQ(rows[0]["metrics"]["points_covered"], 1);
+  EXPECT_GT(rows[0]["metrics"]["agreement_subsamples"].get<double>(), 0.9);
+  EXPECT_NE(outcome.out.find("Recorded points 1, 1271"), std::string::npos) << outcome.out;
+}
+
 TEST_F(CommandLineTest, RecordingsThatAreNotThere) {
   fs::create_directories(folder() / "empty" / "scene");
   expect_refusal(hullbench({"run", "rgbd", "--recordings", "empty"}), 2, "empty has no recording; put each");

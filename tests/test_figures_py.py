@@ -34,6 +34,7 @@ from figures import (  # noqa: E402
     hulls,
     profiles,
     random_polygons,
+    real,
     rgbd,
     sensitivity,
     shapes,
@@ -208,6 +209,27 @@ class Data(WithSuite):
             self.assertIn(words, shown + self.draw(hulls)["hulls_ca"].caption)
         for module, names in ((shapes, ["shapes"]), (rgbd, ["rgbd"]), (examples, ["convex_and_concave", "convexity"])):
             self.assertEqual(list(self.draw(module)), names)
+
+    def test_real_points_have_a_panel_a_method_and_no_truth(self) -> None:
+        rows = [plot_samples.run(*series, "real-trees", 700) for series in plot_samples.SERIES]
+        for row in rows:
+            row["metrics"].update({"points_covered": 0.985, "polygons": 3, "holes": 2, "l2": None})
+        rows += [plot_samples.run("hull_js", "auto", "real-trees", 700, status="timeout")]
+        with tempfile.TemporaryDirectory() as place:
+            folder = Path(place) / "suite"
+            plot_samples.write_suite(folder, {"real": plot_samples.report("real", {"real-trees": 0}, rows)})
+            path = folder / "real" / "pictures.jsonl"
+            lines = [json.loads(line) for line in path.read_text(encoding="utf-8").splitlines()]
+            lines[0]["ground_truth"] = []
+            path.write_text("".join(json.dumps(line) + "\n" for line in lines), encoding="utf-8")
+            drawn = list(real.draw(Run(folder, load(folder), read_paper())))
+        self.assertEqual([one.name for one in drawn], ["real_trees"])
+        self.assertEqual(len(drawn[0].figure.axes), 1 + len(rows))
+        shown = texts(drawn[0].figure)
+        for words in ("Points", "98.5 %, 3 | 2", "timeout", "GEOS (auto)"):
+            self.assertIn(words, shown)
+        for words in ("700 points", "200 of them drawn", "not known", "hull.js (1 timeout)"):
+            self.assertIn(words, drawn[0].caption)
 
     def test_rings_are_turned_for_the_winding_rule(self) -> None:
         clockwise = [(0.0, 0.0), (0.0, 4.0), (4.0, 4.0), (4.0, 0.0)]

@@ -4,8 +4,10 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <iomanip>
 #include <limits>
 #include <nlohmann/json.hpp>
+#include <sstream>
 #include <string>
 #include <thread>
 #include <vector>
@@ -213,6 +215,57 @@ TEST(ContractScores, OfCoverage) {
             0.99);
 }
 
+/// Of the square from (0, 0) to (10, 10), by the largest coordinate of which the rounding goes, the coverage
+/// of one point.
+double coverage_of(const Point& point) {
+  return metrics::InputPoints(std::vector<Point>{point}).score(kSquare).points_covered.value();
+}
+
+TEST(ContractScores, CoverageForgivesRoundingAndNoMore) {
+  const double bound = 10 * metrics::kRoundingOfText;
+  for (const double inside : {0.5, 0.9}) {
+    EXPECT_EQ(coverage_of({5, -inside * bound}), 1) << inside;
+    EXPECT_EQ(coverage_of({10 + std::ceil(inside * 40) * 0x1p-49, 5}), 1) << inside;
+  }
+  for (const double outside : {1.1, 2.0, 3.0, 1e6}) {
+    EXPECT_EQ(coverage_of({5, -outside * bound}), 0) << outside;
+    EXPECT_EQ(coverage_of({-outside * bound, -outside * bound}), 0) << outside;
+  }
+  // An empty shape and one too small for the squares of its distances cover what they did.
+  const metrics::InputPoints corner(std::vector<Point>{{0, 0}});
+  EXPECT_EQ(corner.score({}).points_covered, 0);
+  EXPECT_EQ(corner.score({{box(1e-200, 1e-200, 2e-200, 2e-200), {}}}).points_covered, 0);
+}
+
+TEST(ContractScores, TextOf15DigitsLosesNoPointAndTextOf14Does) {
+  std::size_t lost = 0;
+  for (std::uint64_t seed = 0; seed < 60; ++seed) {
+    Random random(seed);
+    const double scale = std::pow(10, static_cast<double>(seed % 15) - 7);
+    const Point centre = {random.between(-9, 9) * scale, random.between(-9, 9) * scale};
+    std::vector<Point> points;
+    for (int i = 0; i < 100; ++i)
+      points.push_back({centre.x + scale * random.between(-1, 1), centre.y + scale * random.between(-1, 1)});
+    const MultiPolygon hull =
+        polylidar::to_coordinates(polylidar::concave_hull(points, {.alpha = polylidar::kNoLimit}), points);
+    const auto covered_by_text_of = [&](int digits) {
+      MultiPolygon text = hull;
+      for (Point& vertex : text.at(0).shell) {
+        for (double* coordinate : {&vertex.x, &vertex.y}) {
+          std::ostringstream out;
+          out << std::setprecision(digits) << *coordinate;
+          *coordinate = std::stod(out.str());
+        }
+      }
+      return metrics::InputPoints(points).score(text).points_covered.value();
+    };
+    EXPECT_EQ(covered_by_text_of(17), 1) << seed;
+    EXPECT_EQ(covered_by_text_of(15), 1) << seed;
+    lost += covered_by_text_of(14) < 1 ? 1U : 0U;
+  }
+  EXPECT_GT(lost, 15U);  // of 60, near half of them
+}
+
 TEST(ContractScores, OfVertices) {
   EXPECT_EQ(score_on_square(kSquare).contract.vertices_from_input, 0);
   const Ring ring = {{0.5, 0.5}, {9.5, 0.5}, {9.5, 9.5}, {0, 10}};
@@ -273,6 +326,62 @@ TEST(Skill, OfTooFewPoints) {
     EXPECT_DOUBLE_EQ(metrics.spacing, 10 / std::sqrt(count));
     EXPECT_EQ(metrics.contract.points_covered.has_value(), !points.empty());
   }
+}
+
+TEST(Agreement, OfHalvesAndQuarters) {
+  const MultiPolygon left = {{box(0, 0, 5, 10), {}}};
+  const MultiPolygon middle = {{box(2.5, 0, 7.5, 10), {}}};
+  const MultiPolygon right = {{box(5, 0, 10, 10), {}}};
+  EXPECT_EQ(metrics::intersection_over_union(kSquare, kSquare), 1);
+  EXPECT_DOUBLE_EQ(metrics::intersection_over_union(kSquare, left).value(), 0.5);
+  EXPECT_DOUBLE_EQ(metrics::intersection_over_union(left, middle).value(), 1.0 / 3);
+  EXPECT_EQ(metrics::intersection_over_union(left, right), 0);
+  EXPECT_EQ(metrics::intersection_over_union(left, {}), 0);
+  EXPECT_EQ(metrics::intersection_over_union({}, {}), std::nullopt);
+  EXPECT_EQ(metrics::intersection_over_union(kSquare, kBowTie), std::nullopt);
+}
+
+TEST(Agreement, StabilityIsTheMeanOfTheDrawsAndAFailureIsZero) {
+  const MultiPolygon left = {{box(0, 0, 5, 10), {}}};
+  const std::vector<metrics::PartResults> good = {{kSquare, kSquare, left}, {left, kSquare, kSquare}};
+  EXPECT_DOUBLE_EQ(metrics::stability(kSquare, good).value().halves, 0.75);
+  EXPECT_DOUBLE_EQ(metrics::stability(kSquare, good).value().subsamples, 0.75);
+  const std::vector<metrics::PartResults> failed = {{kSquare, std::nullopt, std::nullopt}};
+  const std::vector<metrics::PartResults> empty = {{MultiPolygon{}, MultiPolygon{}, MultiPolygon{}}};
+  const std::vector<metrics::PartResults> invalid = {{kBowTie, kBowTie, kBowTie}};
+  for (const auto& draws : {failed, empty, invalid}) {
+    EXPECT_EQ(metrics::stability(kSquare, draws).value().halves, 0);
+    EXPECT_EQ(metrics::stability(kSquare, draws).value().subsamples, 0);
+  }
+  EXPECT_FALSE(metrics::stability(kSquare, {}).has_value());
+  EXPECT_FALSE(metrics::stability(kBowTie, good).has_value());
+}
+
+TEST(Agreement, WithoutATruthOfAConvexHullAllPointsAreCovered) {
+  for (std::uint64_t seed = 0; seed < 50; ++seed) {
+    Random random(seed);
+    const double scale = std::pow(10, random.between(-9, 9));
+    const Point centre = {scale * random.between(-1e4, 1e4), scale * random.between(-1e4, 1e4)};
+    std::vector<Point> points;
+    for (int i = 0; i < 200; ++i)
+      points.push_back({centre.x + scale * random.between(0, 1), centre.y + scale * random.between(0, 1)});
+    const MultiPolygon hull =
+        polylidar::to_coordinates(polylidar::concave_hull(points, {.alpha = polylidar::kNoLimit}), points);
+    const metrics::Metrics metrics = metrics::describe(points, hull, hull, {});
+    EXPECT_EQ(metrics.contract.points_covered, 1) << seed;
+    EXPECT_DOUBLE_EQ(metrics.convex_hull_share.value(), 1) << seed;
+    EXPECT_NEAR(metrics.window_iou.value(), 1, 1e-9) << seed;
+    EXPECT_FALSE(metrics.stability.has_value());
+  }
+}
+
+TEST(Agreement, OfAWindowIsTheIoUWithIt) {
+  const MultiPolygon left = {{box(0, 0, 5, 10), {}}};
+  const metrics::Metrics metrics = metrics::describe(cell_centres(), left, kSquare, {});
+  EXPECT_DOUBLE_EQ(metrics.window_iou.value(), 0.5);
+  EXPECT_DOUBLE_EQ(metrics.convex_hull_share.value(), 50.0 / 81);
+  EXPECT_FALSE(metrics::describe(cell_centres(), left).window_iou.has_value());
+  EXPECT_FALSE(metrics::describe(cell_centres(), kBowTie, kSquare).convex_hull_share.has_value());
 }
 
 TEST(TriangleOutline, IsValidAndAsLargeAsItsTriangles) {

@@ -306,10 +306,30 @@ TEST(Plan, RecordingsTakeThePlaceOfSimulatedFloors) {
             names);
 }
 
+TEST(Plan, RecordingsAreAddedToRealPoints) {
+  plan::Plan plan = plan::parse_plan(plan_with_cases(R"([{"dataset": "real-clmfires"}])").dump(), "here");
+  plan::use_recordings(plan, 2);
+  EXPECT_EQ(names_of(plan::planned_runs(plan, "")),
+            (std::vector<std::string>{"polylidar/real-clmfires/n:all/holes:0/protocol:paper",
+                                      "polylidar/real-recorded-1/n:all/holes:0/protocol:paper",
+                                      "polylidar/real-recorded-2/n:all/holes:0/protocol:paper"}));
+}
+
+TEST(Plan, DrawsAreCountedAndWritten) {
+  json source = small_plan();
+  EXPECT_EQ(plan::parse_plan(source.dump(), "here").draws, 0);
+  source["draws"] = 3;
+  const plan::Plan plan = plan::parse_plan(source.dump(), "here");
+  EXPECT_EQ(plan.draws, 3);
+  EXPECT_EQ(plan::plan_to_json(plan).at("draws"), 3);
+  source["draws"] = -1;
+  EXPECT_THROW(plan::parse_plan(source.dump(), "here"), ConfigurationError);
+}
+
 TEST(Plan, RecordingsNeedSimulatedFloors) {
   plan::Plan plan = plan::parse_plan(small_plan().dump(), "here");
-  EXPECT_TRUE(
-      names_all(refusal_of([&] { plan::use_recordings(plan, 2); }), {"'small'", "--recordings", "'rgbd'"}));
+  EXPECT_TRUE(names_all(refusal_of([&] { plan::use_recordings(plan, 2); }),
+                        {"'small'", "--recordings", "'rgbd'", "'real'"}));
 }
 
 TEST(Plan, FilterIsSearchedInNames) {

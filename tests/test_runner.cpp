@@ -23,6 +23,8 @@
 #include "benchmarks/report/report.hpp"
 #include "benchmarks/run/run_directory.hpp"
 #include "benchmarks/run/runner.hpp"
+#include "datasets/datasets.hpp"
+#include "datasets/random.hpp"
 #include "datasets/sha256.hpp"
 #include "tests/program.hpp"
 #include "tests/temporary_folder.hpp"
@@ -109,8 +111,8 @@ class RunnerTest : public ::testing::Test {
     run::RunResult result;
     for (int pass = 1; pass <= passes && !result.interrupted; ++pass) {
       progress.enter(static_cast<std::size_t>(pass - 1));
-      result = run::run_plan(plan, runs, header, {find_method, std::nullopt, cores, {}, machine_}, *directory,
-                             progress, pass);
+      result = run::run_plan(plan, runs, header, {find_method, std::nullopt, cores, folders_, machine_},
+                             *directory, progress, pass);
     }
     seconds_left_ = progress.seconds_left();
     said_ = progress_text.str();
@@ -135,7 +137,93 @@ class RunnerTest : public ::testing::Test {
   double seconds_left_ = 0;    ///< in the end
   std::optional<int> passes_;  ///< no more than these; none: all
   run::MachineWatch* machine_ = nullptr;
+  DataFolders folders_;
 };
+
+/// Two points in each cell of a lattice of 20 x 20, as a recording without a truth.
+void write_recording(const fs::path& scene) {
+  fs::create_directories(scene);
+  Random random(7);
+  std::ofstream points(scene / "points.txt");
+  for (int i = 0; i < 800; ++i)
+    points << i % 20 + random.uniform() << " " << i / 20 % 20 + random.uniform() << "\n";
+}
+
+/// A plan of these methods on real points, with so many draws.
+plan::Plan real_plan_of(const std::vector<std::string>& methods, const std::string& dataset, int draws) {
+  json source = plan::plan_to_json(plan_of({"polylidar"}, 1));
+  source["cases"] = {{{"dataset", dataset}}};
+  source["draws"] = draws;
+  source["methods"] = json::array();
+  for (const std::string& method : methods)
+    source["methods"].push_back({{"method", method}, {"protocol", "default"}});
+  return plan::parse_plan(source.dump(), "test");
+}
+
+TEST_F(RunnerTest, RealPointsAreHalvedToSeeWhetherTheResultStays) {
+  write_recording(folder_.path() / "recordings" / "scene");
+  folders_.recordings = folder_.path() / "recordings";
+  const plan::Plan plan = real_plan_of({"polylidar", "convex_hull"}, "real-recorded-1", 2);
+  EXPECT_EQ(exit_code(measure(plan)), 0);
+  const auto first = rows();
+  for (const auto& [method, row] : first) {
+    EXPECT_EQ(to_string(row.status), "ok") << row.detail;
+    EXPECT_EQ(row.n, 800);
+    EXPECT_TRUE(row.metrics.at("l2").is_null());
+    EXPECT_TRUE(row.metrics.at("window_iou").is_null());
+    for (const char* name : {"agreement_halves", "agreement_subsamples"}) {
+      EXPECT_GT(row.metrics.at(name).get<double>(), 0.8) << method;
+      EXPECT_LE(row.metrics.at(name).get<double>(), 1) << method;
+    }
+  }
+  EXPECT_EQ(first.at("convex_hull").metrics.at("points_covered"), 1);
+  EXPECT_EQ(first.at("convex_hull").metrics.at("convex_hull_share"), 1);
+  EXPECT_GT(first.at("convex_hull").metrics.at("agreement_subsamples").get<double>(),
+            first.at("convex_hull").metrics.at("agreement_halves").get<double>());
+  fs::remove_all(folder_.path() / "run");
+  measure(plan);
+  for (const auto& [method, row] : rows()) {
+    json again = row.metrics;
+    again["peak_memory_bytes"] = first.at(method).metrics.at("peak_memory_bytes");
+    EXPECT_EQ(again, first.at(method).metrics) << method;
+  }
+}
+
+TEST_F(RunnerTest, WithoutDrawsNothingIsSaidOfStability) {
+  write_recording(folder_.path() / "recordings" / "scene");
+  folders_.recordings = folder_.path() / "recordings";
+  measure(real_plan_of({"convex_hull"}, "real-recorded-1", 0));
+  EXPECT_TRUE(rows().at("convex_hull").metrics.at("agreement_halves").is_null());
+  EXPECT_EQ(rows().at("convex_hull").metrics.at("points_covered"), 1);
+}
+
+TEST_F(RunnerTest, AMethodThatFailsOnRealPointsHasARowWithoutStability) {
+  write_recording(folder_.path() / "recordings" / "scene");
+  folders_.recordings = folder_.path() / "recordings";
+  json source = plan::plan_to_json(real_plan_of({"convex_hull", "crash"}, "real-recorded-1", 1));
+  source["methods"][1]["parameters"] = {{"size", 1}};
+  source["methods"][1]["note"] = "a test's";
+  EXPECT_EQ(exit_code(measure(plan::parse_plan(source.dump(), "test"))), kExitFailures);
+  EXPECT_EQ(to_string(rows().at("crash").status), "crash");
+  EXPECT_FALSE(rows().at("convex_hull").metrics.at("agreement_halves").is_null());
+}
+
+TEST_F(RunnerTest, RealPointsThatAreNotInstalledAreRowsThatSaySo) {
+  folders_.system = folder_.path() / "empty";
+  const plan::Plan plan = real_plan_of({"polylidar", "convex_hull"}, "real-house", 1);
+  const run::RunResult result = measure(plan);
+  EXPECT_EQ(result.counts.at(record::Status::kNotInstalled), 2);
+  EXPECT_EQ(exit_code(result), kExitNothing);
+  for (const auto& [method, row] : rows()) {
+    EXPECT_EQ(to_string(row.status), "not_installed");
+    EXPECT_NE(row.detail.find("r-cran-spdata"), std::string::npos) << row.detail;
+    EXPECT_NE(row.detail.find("'make deps-real'"), std::string::npos) << row.detail;
+    EXPECT_FALSE(row.method_version.empty());
+    EXPECT_EQ(row.n, 0);
+  }
+  const json report = report::make_report(folder_.path() / "run");
+  EXPECT_EQ(record::validate_report(report), std::vector<std::string>());
+}
 
 TEST_F(RunnerTest, AGoodMethodGetsACompleteRow) {
   const run::RunResult result = measure(plan_of({"polylidar"}));

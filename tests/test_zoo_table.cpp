@@ -76,6 +76,8 @@ TEST(ZooTable, PointsWithoutAnAreaHaveAnEmptyHull) {
 json zoo_report() {
   json report = test::report_on_shapes({{"zoo-one", 5, 1}, {"zoo-flat", 5, 1}});
   report["plan"]["name"] = "zoo";
+  report["datasets"][0]["name"] = "zoo-one";
+  report["datasets"][0]["title"] = "One point";
   for (json& run : report.at("runs")) {
     if (run.at("method") == "cgal_alpha_shape") {
       run["method"] = "convex_hull";
@@ -96,11 +98,12 @@ TEST(ZooTable, HasARowACaseAndAColumnAMethod) {
   const std::vector<std::vector<std::string>> rows = table::shown(document.tables.at(0));
   ASSERT_EQ(rows.size(), 4U);
   EXPECT_EQ(rows.at(1).at(0), "zoo-one");
-  EXPECT_EQ(rows.at(1).at(1), "crash");
+  EXPECT_EQ(rows.at(1).at(1), "One point");
+  EXPECT_EQ(rows.at(1).at(2), "crash");
   EXPECT_EQ(rows.at(2).at(0), "zoo-flat");
-  EXPECT_EQ(rows.at(2).at(1), "ok");
+  EXPECT_EQ(rows.at(2).at(2), "ok");
   EXPECT_EQ(rows.at(3).at(0), "ok, of 2");
-  EXPECT_EQ(rows.at(3).at(1), "1");
+  EXPECT_EQ(rows.at(3).at(2), "1");
   for (const table::Table& table : document.tables) EXPECT_EQ(table.id.find("collection"), std::string::npos);
 }
 

@@ -9,6 +9,7 @@
 
 #include "benchmarks/worker/method_session.hpp"
 #include "datasets/datasets.hpp"
+#include "datasets/real/real_points.hpp"
 #include "datasets/stress.hpp"
 
 namespace hullbench::cli {
@@ -120,9 +121,10 @@ json describe_datasets(const DataFolders& folders, const std::vector<std::string
     if (dataset.has_holes_variant && dataset.members == 0) {
       holes_area = polylidar::area(make_ground_truth(dataset.name, true, folders));
     }
+    const real::Source* real_set = real::find_source(dataset.name);
     result.push_back({{"name", dataset.name},
                       {"title", dataset.title},
-                      {"source", dataset.source},
+                      {"source", real_set ? real::describe(*real_set, folders.system) : dataset.source},
                       {"licence", dataset.licence},
                       {"sha256", dataset.sha256.empty() ? json(nullptr) : json(dataset.sha256)},
                       {"area", dataset.area ? json(*dataset.area) : json(nullptr)},

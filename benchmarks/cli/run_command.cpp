@@ -469,9 +469,10 @@ void add_run(CLI::App& app, Action& action) {
       ->check(timeout_range());
   options.add_option("--mem-limit", command->mem_limit_mib, "MiB of address space for a method")
       ->check(memory_range());
-  options.add_option(
-      "--recordings", command->recordings,
-      "Folder of recorded floors that take the place of the simulated ones (datasets/rgbd/recordings.hpp)");
+  options.add_option("--recordings", command->recordings,
+                     "Folder of recordings that take the place of the simulated floors, or that are added to "
+                     "the real points "
+                     "(datasets/rgbd/recordings.hpp)");
   add_shard(options, command->shard,
             "Only part K of N of the runs, given as K/N; 'hullbench merge' puts the parts together");
   add_adapters(options, command->adapters);

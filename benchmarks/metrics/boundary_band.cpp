@@ -1,5 +1,7 @@
 #include "benchmarks/metrics/boundary_band.hpp"
 
+#include <algorithm>
+
 namespace hullbench::metrics {
 namespace {
 
@@ -22,7 +24,8 @@ std::optional<double> band_iou(const GeosSession& geos, const GeosSession::Geome
   const double common = geos.common_area(a, b);
   const double either = geos.area(a) + geos.area(b) - common;
   if (!(either > 0)) return std::nullopt;
-  return common / either;
+  // Rounding must not make the areas of the parts larger than that of the whole.
+  return std::min(1.0, common / either);
 }
 
 }  // namespace hullbench::metrics

@@ -14,7 +14,7 @@ inline constexpr double kBandWidthInH = 2;
 /// quarter and leaves out bends of 1 % of the width, so the band ends within about 1 % of the width.
 GeosSession::Geometry inner_band(const GeosSession& geos, const GeosSession::Geometry& shape, double width);
 
-/// Intersection over union of two bands. Empty when both bands are.
+/// Intersection over union of two bands, or of any two valid shapes. Empty when both are.
 std::optional<double> band_iou(const GeosSession& geos, const GeosSession::Geometry& a,
                                const GeosSession::Geometry& b);
 

@@ -196,7 +196,8 @@ void add_contract(Table& table) {
                      "InputPoints::score, output_contract.cpp", value});
   };
   add("points_covered", "ratio",
-      "share of the input points that lie in R or on its boundary, exactly, by the even-odd rule",
+      "share of the input points that lie in R by the even-odd rule, or no farther from its boundary than "
+      "2^-47 of R's largest coordinate, as far as text with 15 digits moves it",
       "without points and when a coordinate of R is not finite",
       [](const Metrics& m) { return optional_value(m.contract.points_covered); });
   add("vertices_from_input", "ratio", "share of R's vertices that are input points, to the last bit",
@@ -243,6 +244,34 @@ void add_skill(Table& table) {
                    [](const Metrics& m) -> MetricValue { return m.l2_best_triangles; }});
 }
 
+void add_no_truth(Table& table) {
+  const auto add = [&table](const char* name, Better better, const char* definition, const char* undefined,
+                            const char* citation, const char* function,
+                            MetricValue (*value)(const Metrics&)) {
+    table.push_back({name, "no truth", "ratio", better, definition, undefined, citation, function, value});
+  };
+  constexpr const char* kStability = "stability, agreement.cpp";
+  add("convex_hull_share", Better::kNone, "area of R / area of the convex hull of the points",
+      "where there is a T, of an invalid result, and of points without an area", "", "describe, metrics.cpp",
+      [](const Metrics& m) { return optional_value(m.convex_hull_share); });
+  add("agreement_halves", Better::kHigher,
+      "IoU of what the method makes of a random half of the points and of the other half, the mean of the "
+      "plan's draws; 0 for a draw in which one of them is no valid shape with an area",
+      "of an invalid result, and where the plan asks for no draws", kJaccard, kStability,
+      [](const Metrics& m) { return m.stability ? MetricValue(m.stability->halves) : MetricValue(); });
+  add("agreement_subsamples", Better::kHigher,
+      "IoU of R and what the method makes of a random 90 % of the points, the mean of the plan's draws; 0 "
+      "for "
+      "a draw in which that is no valid shape with an area",
+      "of an invalid result, and where the plan asks for no draws", kJaccard, kStability,
+      [](const Metrics& m) { return m.stability ? MetricValue(m.stability->subsamples) : MetricValue(); });
+  add("window_iou", Better::kNone,
+      "IoU of R and the window in which the points were looked for, which is not their shape",
+      "where no window is known, and of an invalid result", kJaccard,
+      "intersection_over_union, agreement.cpp",
+      [](const Metrics& m) { return optional_value(m.window_iou); });
+}
+
 void add_case(Table& table) {
   table.push_back({"spacing", "case", "length", Better::kNone,
                    "h = sqrt(area of T / n), the nominal spacing of the n points", "", "",
@@ -265,6 +294,7 @@ Table make_table() {
   add_contract(table);
   add_size(table);
   add_skill(table);
+  add_no_truth(table);
   add_case(table);
   return table;
 }

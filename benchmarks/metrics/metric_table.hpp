@@ -26,9 +26,10 @@ using MetricValue = std::variant<std::monostate, bool, std::int64_t, double, std
 
 /// One metric. All texts are one line.
 struct MetricInfo {
-  std::string name;   ///< in records: snake_case
-  std::string group;  ///< "validity", "area", "boundary", "topology", "contract", "size", "skill", "case"
-  std::string unit;   ///< "ratio", "length", "length^2", "count", "bytes", "yes/no", "text"
+  std::string name;  ///< in records: snake_case
+  std::string
+      group;  ///< "validity", "area", "boundary", "topology", "contract", "size", "skill", "no truth", "case"
+  std::string unit;  ///< "ratio", "length", "length^2", "count", "bytes", "yes/no", "text"
   Better better = Better::kNone;
   std::string definition;  ///< R: result, T: ground truth, h: nominal spacing
   std::string undefined;   ///< when it is null; empty: never

@@ -8,6 +8,7 @@
 #include "benchmarks/metrics/checked_shape.hpp"
 #include "benchmarks/metrics/prepared_truth.hpp"
 #include "benchmarks/metrics/shape_measures.hpp"
+#include "polylidar/concave_hull.hpp"
 
 namespace hullbench::metrics {
 
@@ -36,7 +37,18 @@ struct CaseScorer::State {
   GeosSession::Geometry band;  ///< of the truth; see boundary_band.hpp
 };
 
-Metrics describe(std::span<const Point> points, const MultiPolygon& result) {
+namespace {
+
+/// 0 of points without an area.
+double convex_hull_area(std::span<const Point> points) {
+  const auto hull = polylidar::concave_hull(points, {.alpha = polylidar::kNoLimit});
+  return polylidar::area(polylidar::to_coordinates(hull, points));
+}
+
+}  // namespace
+
+Metrics describe(std::span<const Point> points, const MultiPolygon& result, const MultiPolygon& window,
+                 std::span<const PartResults> draws) {
   Metrics metrics;
   metrics.has_truth = false;
   metrics.area.invalid_reason = invalid_reason(result);
@@ -47,6 +59,12 @@ Metrics describe(std::span<const Point> points, const MultiPolygon& result) {
   metrics.polygon_count = result.size();
   metrics.hole_count = count_holes(result);
   metrics.vertex_count = polylidar::vertex_count(result);
+  if (!metrics.area.valid) return metrics;
+
+  const double convex_area = convex_hull_area(points);
+  if (convex_area > 0) metrics.convex_hull_share = metrics.area.area / convex_area;
+  metrics.stability = stability(result, draws);
+  if (!window.empty()) metrics.window_iou = intersection_over_union(result, window);
   return metrics;
 }
 

@@ -7,6 +7,7 @@
 #include <optional>
 #include <span>
 
+#include "benchmarks/metrics/agreement.hpp"
 #include "benchmarks/metrics/area.hpp"
 #include "benchmarks/metrics/boundary.hpp"
 #include "benchmarks/metrics/output_contract.hpp"
@@ -32,6 +33,11 @@ struct Metrics {
   /// of the points.
   double spacing = 0;
   bool has_truth = true;  ///< else only what describe gives is defined
+  /// Area of the result over that of the points' convex hull; none where there is a truth, for an invalid
+  /// result and for points without an area.
+  std::optional<double> convex_hull_share;
+  std::optional<Stability> stability;  ///< where the method was run on parts of the points too
+  std::optional<double> window_iou;    ///< IoU with the window in which the points were looked for
   std::size_t polygon_count = 0;
   std::size_t hole_count = 0;
   std::size_t vertex_count = 0;
@@ -39,10 +45,13 @@ struct Metrics {
   std::optional<std::int64_t> peak_memory_bytes;
 };
 
-/// What can be said of `result` where there is no ground truth, as of degenerate input: validity, area,
-/// counts and contract; the ground truth's area and convexity are 0. Throws std::runtime_error when GEOS
+/// What can be said of `result` where there is no ground truth, as of degenerate input and real points:
+/// validity, area and its share of the convex hull's, counts and contract, and of `draws`, what the method
+/// made of parts of the points, if there are any, the stability; of a `window`, if it is not empty, the IoU
+/// with it. The ground truth's area and convexity are 0. Throws std::runtime_error when GEOS
 /// fails.
-Metrics describe(std::span<const polylidar::Point> points, const polylidar::MultiPolygon& result);
+Metrics describe(std::span<const polylidar::Point> points, const polylidar::MultiPolygon& result,
+                 const polylidar::MultiPolygon& window = {}, std::span<const PartResults> draws = {});
 
 /// Scores results on one case. What all of them share, such as the anchors of skill, is worked out once.
 class CaseScorer {

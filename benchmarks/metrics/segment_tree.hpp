@@ -20,7 +20,8 @@ class SegmentTree {
 
   /// The distance from `point` to the nearest edge, in the unit of the points; infinity when there is no
   /// edge. `bound` is a distance known to be no shorter than that, such as a near point's distance plus the
-  /// step from it; the nearer it is, the faster. Usually O(log m). Rounded; not a predicate.
+  /// step from it; the nearer it is, the faster. Where the nearest edge is farther
+  /// away than `bound`, the answer is `bound`, but for rounding. Usually O(log m). Rounded; not a predicate.
   double distance(const polylidar::Point& point,
                   double bound = std::numeric_limits<double>::infinity()) const;
 

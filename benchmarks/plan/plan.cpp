@@ -245,6 +245,7 @@ Plan parse_plan(const std::string& text, const std::string& source) {
   if (document.contains("seed")) plan.seed = read_seed(document["seed"]);
   plan.filter = document.value("filter", plan.filter);
   plan.accepted = document.value("accepted", plan.accepted);
+  plan.draws = document.value("draws", plan.draws);
   if (document.contains("axis")) plan.axis = read_axis(document["axis"]);
   plan.cases = document["cases"];
   plan.expanded_cases = read_cases(plan.cases, root.member("cases"));
@@ -310,6 +311,7 @@ json plan_to_json(const Plan& plan) {
   if (plan.passes != 1) result["passes"] = plan.passes;
   if (!plan.filter.empty()) result["filter"] = plan.filter;
   if (!plan.accepted.empty()) result["accepted"] = plan.accepted;
+  if (plan.draws != 0) result["draws"] = plan.draws;
   if (plan.axis)
     result["axis"] = {{"of", plan.axis->of}, {"title", plan.axis->title}, {"unit", plan.axis->unit}};
   if (!plan.paper.empty()) result["paper"] = plan.paper;
@@ -325,10 +327,15 @@ void use_recordings(Plan& plan, std::size_t count) {
     group["members"] = count;
     found = true;
   }
+  if (std::any_of(plan.expanded_cases.begin(), plan.expanded_cases.end(),
+                  [](const PlanCase& one) { return is_real(one.dataset); })) {
+    plan.cases.push_back({{"dataset", kRealRecording}, {"members", count}});
+    found = true;
+  }
   if (!found) {
     throw ConfigurationError("the plan '" + plan.name +
-                             "' has no simulated floors that recordings could take the place of; leave out "
-                             "--recordings, or run the plan 'rgbd'");
+                             "' has no simulated floors that recordings could take the place of, and no real "
+                             "points; leave out --recordings, or run the plan 'rgbd' or 'real'");
   }
   plan.expanded_cases = read_cases(plan.cases, {"plan '" + plan.name + "' with recordings", "cases"});
 }

@@ -94,6 +94,9 @@ struct Plan {
   std::optional<PlanAxis> axis;       ///< none: the results make no curves
   /// Statuses that are a good answer here as ok is, such as "error" where there is nothing to make a hull of.
   std::vector<std::string> accepted;
+  /// How often a method is run on random parts of the points of each case without a ground truth, untimed, to
+  /// see whether its result stays; see run/point_parts.hpp.
+  int draws = 0;
   std::string filter;    ///< of the runs' names, for who asks for none; empty: all runs
   nlohmann::json cases;  ///< as written, for records
   std::vector<PlanCase> expanded_cases;
@@ -137,8 +140,9 @@ bool applies(const PlanMethod& method, const PlanCase& plan_case);
 void check_plan(const Plan& plan, const std::vector<std::string>& methods,
                 const std::vector<DatasetInfo>& datasets);
 
-/// Puts `count` recorded floors ("recorded-1", ...) in the place of the plan's simulated ones. Throws
-/// ConfigurationError when it has no simulated floors.
+/// Puts `count` recorded floors ("recorded-1", ...) in the place of the plan's simulated ones; to the cases
+/// of a plan of real points it adds the recordings without their truth ("real-recorded-1", ...). Throws
+/// ConfigurationError when it has neither.
 void use_recordings(Plan& plan, std::size_t count);
 
 /// How often a method is timed on every case, over all passes.

@@ -16,6 +16,7 @@
 #include "benchmarks/report/curve_table.hpp"
 #include "benchmarks/report/labels.hpp"
 #include "benchmarks/report/ratios.hpp"
+#include "benchmarks/report/real_table.hpp"
 #include "benchmarks/report/report_notes.hpp"
 #include "benchmarks/report/table_context.hpp"
 #include "benchmarks/report/zoo_table.hpp"
@@ -340,6 +341,8 @@ table::Document make_document(const json& report) {
     document.tables.push_back(curve_table(context));
   } else if (name == "zoo") {
     document.tables.push_back(zoo_table(context));
+  } else if (name == "real") {
+    add_all(document, real_tables(context));
   } else if (is_collection(all_shapes)) {
     add_all(document, collection_tables(context, all_shapes));
   } else if (context.measurements.cases().size() > 1) {

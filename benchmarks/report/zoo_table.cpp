@@ -56,11 +56,13 @@ std::string zoo_word(const record::RunRecord& run, bool has_area) {
 
 table::Table zoo_table(const TableContext& context) {
   const std::vector<Line> lines = lines_of(context, context.measurements.cases());
-  table::Table table{"cases", "How each method answers what broke somebody", {table::words("Data set")}};
+  table::Table table{"cases",
+                     "How each method answers what broke somebody",
+                     {table::words("Data set"), table::words("Points")}};
   for (const Line& line : lines) table.columns.push_back(table::words(label(context, line)));
   std::vector<std::size_t> right(lines.size());
   for (const Case& which : context.measurements.cases()) {
-    std::vector<table::Cell> cells = {which.dataset};
+    std::vector<table::Cell> cells = {which.dataset, shape_title(context, which)};
     for (std::size_t i = 0; i < lines.size(); ++i) {
       const auto runs = context.measurements.find(lines[i].method, lines[i].protocol, which);
       const std::string word =
@@ -70,15 +72,15 @@ table::Table zoo_table(const TableContext& context) {
     }
     table.add_row(std::move(cells));
   }
-  std::vector<table::Cell> totals = {"ok, of " + std::to_string(context.measurements.cases().size())};
+  std::vector<table::Cell> totals = {"ok, of " + std::to_string(context.measurements.cases().size()), ""};
   for (const std::size_t count : right) totals.emplace_back(std::to_string(count));
   table.add_row(std::move(totals));
   table.remarks = {
-      "Lost points: fewer than nine tenths of the points are in the result or on its edge. Wrong: L2 is more "
-      "than "
-      "50 %, or by 10 points more than that of the points' convex hull; or a polygon of points that have no "
-      "area. Of "
-      "such points an empty result, or an error that says why, is ok. A dash: not installed, or not run.",
+      "Invalid: no valid multipolygon. Empty: no polygon, though the points have an area. Lost points: fewer "
+      "than nine tenths of the points are in the result or on its edge. Wrong: L2 is more than 50 %, or by "
+      "10 "
+      "points more than that of the points' convex hull; or a polygon of points that have no area. Of such "
+      "points an empty result, or an error that says why, is ok. A dash: not installed, or not run.",
       "datasets/zoo/README.md says which issue each case is made after."};
   return table;
 }

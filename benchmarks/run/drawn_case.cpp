@@ -4,18 +4,40 @@
 #include <cmath>
 #include <exception>
 #include <stdexcept>
+#include <utility>
 
 #include "adapters/wkb.hpp"
 #include "benchmarks/metrics/metric_table.hpp"
 #include "benchmarks/worker/protocol.hpp"
+#include "datasets/point_bytes.hpp"
+#include "datasets/real/real_points.hpp"
+#include "datasets/sha256.hpp"
 
 namespace hullbench::run {
+namespace {
+
+PointSet set_of(std::vector<Point> points) {
+  PointSet set;
+  set.sha256 = sha256_hex(point_bytes(points));
+  set.points = std::move(points);
+  return set;
+}
+
+}  // namespace
 
 DrawnCase::DrawnCase(const plan::PlanCase& plan_case, std::uint64_t seed, const DataFolders& folders)
-    : plan_case_(plan_case),
-      seed_(seed),
-      set_(make_point_set(plan_case.dataset, plan_case.holes, static_cast<std::size_t>(plan_case.n), seed,
-                          folders)) {}
+    : plan_case_(plan_case), seed_(seed) {
+  try {
+    set_ = make_point_set(plan_case.dataset, plan_case.holes, static_cast<std::size_t>(plan_case.n), seed,
+                          folders);
+  } catch (const real::NotInstalled& error) {
+    set_ = set_of({});
+    missing_ = error.what();
+  }
+}
+
+DrawnCase::DrawnCase(const DrawnCase& whole, std::vector<Point> part)
+    : plan_case_(whole.plan_case_), seed_(whole.seed_), set_(set_of(std::move(part))) {}
 
 Parameters DrawnCase::choose_parameters(const plan::PlanMethod& method) const {
   return plan::choose_parameters(method, plan_case_,
@@ -71,10 +93,12 @@ void DrawnCase::score_with(record::RunRecord& record, Scores scores_of) const {
 }
 
 void DrawnCase::score(record::RunRecord& record, const MultiPolygon& result,
-                      std::optional<std::int64_t> peak_memory_bytes) const {
+                      std::optional<std::int64_t> peak_memory_bytes,
+                      std::span<const metrics::PartResults> draws) const {
   score_with(record, [&] {
-    metrics::Metrics metrics =
-        set_.ground_truth.empty() ? metrics::describe(set_.points, result) : scorer().score(result);
+    metrics::Metrics metrics = set_.ground_truth.empty()
+                                   ? metrics::describe(set_.points, result, set_.window, draws)
+                                   : scorer().score(result);
     metrics.peak_memory_bytes = peak_memory_bytes;
     record.metrics = metrics::metrics_to_json(metrics);
     return metrics.area;

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <mutex>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -19,10 +20,17 @@ namespace hullbench::run {
 
 class DrawnCase {
  public:
-  /// Throws as make_point_set.
+  /// Throws as make_point_set, but for real points whose package is not installed: these are no points, and
+  /// missing() says why.
   DrawnCase(const plan::PlanCase& plan_case, std::uint64_t seed, const DataFolders& folders);
 
+  /// Some of the points of `whole`, without its truth: what parameters are chosen from for a run on them.
+  DrawnCase(const DrawnCase& whole, std::vector<Point> part);
+
   const PointSet& set() const { return set_; }
+
+  /// Why there are no points; empty when there are.
+  const std::string& missing() const { return missing_; }
 
   /// The parameters that the plan's entry asks for here.
   Parameters choose_parameters(const plan::PlanMethod& method) const;
@@ -34,10 +42,12 @@ class DrawnCase {
   /// otherwise.
   void prepare_scoring() const;
 
-  /// Fills in all metrics of the record whose run gave `result`. When the result is invalid or cannot be
-  /// scored, a record that was ok gets that status and the reason. Safe from several threads at once.
+  /// Fills in all metrics of the record whose run gave `result`, and `draws` from parts of the points. When
+  /// the result is invalid or cannot be scored, a record that was ok gets that status and the reason. Safe
+  /// from several threads at once.
   void score(record::RunRecord& record, const MultiPolygon& result,
-             std::optional<std::int64_t> peak_memory_bytes) const;
+             std::optional<std::int64_t> peak_memory_bytes,
+             std::span<const metrics::PartResults> draws = {}) const;
 
   /// The same with the metric `l2` alone, which is absent where it is not defined. Needs a ground truth.
   void score_l2(record::RunRecord& record, const MultiPolygon& result) const;
@@ -50,6 +60,7 @@ class DrawnCase {
   plan::PlanCase plan_case_;
   std::uint64_t seed_;
   PointSet set_;
+  std::string missing_;
   mutable std::once_flag scoring_is_prepared_;
   mutable std::optional<metrics::CaseScorer> scorer_;  ///< none: there is no ground truth, or it has a fault
   mutable std::string scorer_fault_;

@@ -12,6 +12,7 @@
 #include "benchmarks/base/parallel.hpp"
 #include "benchmarks/record/pictures.hpp"
 #include "benchmarks/run/drawn_case.hpp"
+#include "benchmarks/run/point_parts.hpp"
 #include "benchmarks/worker/method_session.hpp"
 #include "datasets/datasets.hpp"
 #include "datasets/degenerate.hpp"
@@ -35,6 +36,7 @@ struct Entry {
   std::vector<Repetition> repetitions;            ///< of all passes
   std::optional<Repetition> latest;               ///< of the round that is not over
   std::optional<MultiPolygon> result;             ///< of the first run; none while there is none to score
+  std::vector<metrics::PartResults> draws;        ///< what parts of the points gave, where the plan asks
   std::optional<std::int64_t> peak_memory_bytes;  ///< the largest of the untimed runs
   bool measured = false;                          ///< nothing is left to run
   bool settled = false;                           ///< its row is written
@@ -256,7 +258,7 @@ class Runner {
       record.name = runs_[entry.index].name;
       record.protocol = method.protocol;
       record.machine = machine_;
-      record.parameters = one.drawn->choose_parameters(method);
+      if (one.drawn->missing().empty()) record.parameters = one.drawn->choose_parameters(method);
     }
   }
 
@@ -268,7 +270,7 @@ class Runner {
         continue;
       }
       entry.session = find_session(entry.record.method);
-      complete(entry);
+      complete(entry, one.drawn->missing());
     }
     if (std::all_of(one.entries.begin(), one.entries.end(),
                     [](const Entry& entry) { return entry.measured; }))
@@ -282,28 +284,71 @@ class Runner {
     for (int earlier = 1; earlier < pass_; ++earlier) first_round += rounds_of(one.entries, earlier);
     for (int turn = 0; turn < rounds_of(one.entries, pass_); ++turn)
       run_round(one.entries, turn, first_round + turn, points);
+    const bool has_parts = plan_.draws > 0 && one.drawn->set().ground_truth.empty();
     for (Entry& entry : one.entries) {
       // Without a warm-up, one untimed run after the timed ones, which must give the same result.
       if (plan_.warmup == 0 && pass_ == 1 && !entry.measured)
         attempt_run(entry, points, worker::Watch::kMemory);
-      entry.measured = true;
+      entry.measured = entry.measured || !has_parts;
+    }
+    if (!has_parts) return;
+    run_on_parts(one);
+    for (Entry& entry : one.entries) entry.measured = true;
+  }
+
+  /// Runs the methods that gave a result on parts of the points, untimed: who fails there keeps the row, and
+  /// the part has no result.
+  void run_on_parts(CaseWork& one) {
+    const auto is_to_run = [](const Entry& entry) { return !entry.measured && entry.result; };
+    if (std::none_of(one.entries.begin(), one.entries.end(), is_to_run)) return;
+    for (int draw = 0; draw < plan_.draws; ++draw) {
+      PointParts parts = draw_parts(one.drawn->set().points, one.plan_case->dataset, plan_.seed, draw);
+      for (Entry& entry : one.entries) entry.draws.emplace_back();
+      for (const auto& [points, place] : {std::pair{&parts.half, &metrics::PartResults::half},
+                                          std::pair{&parts.other_half, &metrics::PartResults::other_half},
+                                          std::pair{&parts.most, &metrics::PartResults::most}}) {
+        const DrawnCase part(*one.drawn, std::move(*points));
+        const worker::LoadedPoints loaded =
+            worker::write_points(part.set().sha256, part.set().points, directory_.scratch());
+        for (Entry& entry : one.entries) {
+          if (is_to_run(entry)) entry.draws.back().*place = run_on_part(entry, part, loaded);
+        }
+      }
     }
   }
 
+  std::optional<MultiPolygon> run_on_part(const Entry& entry, const DrawnCase& part,
+                                          const worker::LoadedPoints& points) {
+    progress_.begin(entry.index);
+    const plan::PlanMethod& method = method_of(entry);
+    record::RunRecord record = part.record_of(method.method);
+    record.parameters = part.choose_parameters(method);
+    complete_record(record, *entry.session->info());
+    const worker::Attempt attempt =
+        entry.session->run(points, record.parameters, directory_.scratch(),
+                           to_timeout(method.timeout_s.value_or(plan_.timeout_s)));
+    return attempt.status == record::Status::kOk ? read_result(record, attempt.wkb) : std::nullopt;
+  }
+
   /// Fills in what the worker's first answer tells, and looks for an earlier start's row and repetitions.
-  void complete(Entry& entry) {
+  /// `missing`: why there are no points; empty when there are.
+  void complete(Entry& entry, const std::string& missing) {
     record::RunRecord& record = entry.record;
     const auto& info = entry.session->info();
-    if (info) complete_record(record, *info);
+    if (info && missing.empty()) complete_record(record, *info);
+    if (info) record.method_version = info->version;
     record.id = record::run_identity(record);
     const record::RunRecord* earlier = directory_.find_row(record.name);
-    // A row of a method that is not there any more is kept: nothing newer can take its place.
-    const bool lost = earlier && !info && earlier->status != record::Status::kNotInstalled;
+    // A row of a method, or of points, that are not there any more is kept: nothing newer can take its place.
+    const bool lost =
+        earlier && (!info || !missing.empty()) && earlier->status != record::Status::kNotInstalled;
     const bool same = earlier && earlier->id == record.id;
     if (lost || (same && is_done(plan_, runs_[entry.index], directory_, pass_))) {
       leave_as_it_is(entry);
     } else if (!info) {
       fail(entry, entry.session->start_reply().status, entry.session->start_failure());
+    } else if (!missing.empty()) {
+      fail(entry, record::Status::kNotInstalled, missing);
     } else if (record.status != record::Status::kOk) {
       entry.measured = true;
     } else {
@@ -467,7 +512,7 @@ class Runner {
     });
     for_each_in_parallel(finished.size(), options_.cores, [&](std::size_t i) {
       const auto& [entry, drawn] = finished[i];
-      if (entry->result) drawn->score(entry->record, *entry->result, entry->peak_memory_bytes);
+      if (entry->result) drawn->score(entry->record, *entry->result, entry->peak_memory_bytes, entry->draws);
     });
     std::vector<record::RunRecord> rows;
     rows.reserve(finished.size());

@@ -8,6 +8,7 @@
 #include <optional>
 #include <stdexcept>
 #include <string_view>
+#include <utility>
 
 #include "datasets/rgbd/depth_image.hpp"
 #include "datasets/rgbd/floor_points.hpp"
@@ -119,13 +120,18 @@ std::vector<std::string> list_recordings(const std::filesystem::path& folder) {
   return names;
 }
 
-FloorScene load_recording(const std::filesystem::path& scene) {
-  FloorScene recording{.points = points_of(scene), .ground_truth = read_geojson(scene / "gt.geojson")};
-  if (recording.points.size() < 3) {
-    throw std::runtime_error(scene.string() + " has " + std::to_string(recording.points.size()) +
+std::vector<Point> recorded_points(const std::filesystem::path& scene) {
+  std::vector<Point> points = points_of(scene);
+  if (points.size() < 3) {
+    throw std::runtime_error(scene.string() + " has " + std::to_string(points.size()) +
                              " points; a hull needs at least 3: give a longer recording");
   }
-  return recording;
+  return points;
+}
+
+FloorScene load_recording(const std::filesystem::path& scene) {
+  std::vector<Point> points = recorded_points(scene);
+  return {std::move(points), read_geojson(scene / "gt.geojson")};
 }
 
 }  // namespace hullbench

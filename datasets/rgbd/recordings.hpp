@@ -26,4 +26,8 @@ std::vector<std::string> list_recordings(const std::filesystem::path& folder);
 /// read_intrinsics, read_depth_png and floor_points.
 FloorScene load_recording(const std::filesystem::path& scene);
 
+/// The points of the scene alone, which needs no gt.geojson for them. Throws as load_recording for what it
+/// reads.
+std::vector<polylidar::Point> recorded_points(const std::filesystem::path& scene);
+
 }  // namespace hullbench

@@ -106,8 +106,8 @@ Input tiny_numbers() {
   return input;
 }
 
-/// An ellipse in whole numbers, every vertex once and the first one again at the end.
-Input closed_ring() {
+/// An ellipse in whole numbers, vertex after vertex, each once.
+Input ring_of_whole_numbers() {
   Input input;
   for (int i = 0; i < 72; ++i) {
     const Point direction = unit_vector(i / 72.0);
@@ -115,7 +115,6 @@ Input closed_ring() {
     if (input.points.empty() || !(place == input.points.back())) input.points.push_back(place);
   }
   while (input.points.back() == input.points.front()) input.points.pop_back();
-  input.points.push_back(input.points.front());
   return input;
 }
 

@@ -156,20 +156,4 @@ Input single_precision_triangle() {
   return input;
 }
 
-/// A regular polygon of twelve sides, eight points a side: corners that are all but on a circle, sides that
-/// are all but straight.
-Input polygon_with_subdivided_sides() {
-  Input input;
-  for (int side = 0; side < 12; ++side) {
-    const Point from = unit_vector(side / 12.0);
-    const Point to = unit_vector((side + 1) / 12.0);
-    for (int i = 0; i < 8; ++i) {
-      const double along = i / 8.0;
-      input.points.push_back(
-          {1000 * (from.x + along * (to.x - from.x)), 1000 * (from.y + along * (to.y - from.y))});
-    }
-  }
-  return input;
-}
-
 }  // namespace hullbench::zoo

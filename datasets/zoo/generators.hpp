@@ -21,7 +21,7 @@ Input last_bits();
 Input growing_heights();
 Input tiny_squares();
 Input tiny_numbers();
-Input closed_ring();
+Input ring_of_whole_numbers();
 Input one_sided_outline();
 Input two_rows();
 
@@ -39,7 +39,6 @@ Input one_far_along_the_line();
 Input level_line();
 Input slanted_line();
 Input single_precision_triangle();
-Input polygon_with_subdivided_sides();
 
 // close_points.cpp: equal or nearly equal points.
 Input arcs_in_degrees();
@@ -65,6 +64,7 @@ Input isochrone_cells();
 Input pixel_ring();
 Input slanted_rows();
 Input seventeen_gon();
+Input octagon();
 Input curve_in_an_image();
 Input walls();
 

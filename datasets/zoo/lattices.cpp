@@ -98,6 +98,13 @@ Input seventeen_gon() {
   return {ring, {{ring, {}}}};
 }
 
+/// The corners of an octagon in whole numbers, exactly on a circle and nothing in it.
+Input octagon() {
+  const Ring ring = {{213, 266}, {166, 313}, {134, 313}, {87, 266},
+                     {87, 234},  {134, 187}, {166, 187}, {213, 234}};
+  return {ring, {{ring, {}}}};
+}
+
 /// The corners of an image and sixty points of a curve in it, in single precision.
 Input curve_in_an_image() {
   Input input = {rectangle(0, 0, 1022, 1024), {}};

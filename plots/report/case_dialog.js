@@ -301,8 +301,11 @@ function paint() {
 
 function description() {
   const { entry, run } = open;
-  const result = run.status === "ok" ? `L2 ${metric_text("l2", run.l2)}` : status_words(run.status);
-  return `${entry.title}, ${entry.subtitle}: result of ${series_title(run.series)}, ${result}, over points and ground truth`;
+  const truth = open.picture.truth.length > 0;
+  const words = truth ? `L2 ${metric_text("l2", run.l2)}` : "no truth";
+  const result = run.status === "ok" ? words : status_words(run.status);
+  const below = truth ? "points and ground truth" : "points";
+  return `${entry.title}, ${entry.subtitle}: result of ${series_title(run.series)}, ${result}, over ${below}`;
 }
 
 /** Where the boundaries of result and truth are farthest apart, with that distance as the radius; null: not known. */

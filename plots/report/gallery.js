@@ -120,14 +120,11 @@ function experiment_title(name) {
 function legend() {
   const item = (kind, text) =>
     make("span", {}, make("span", { class: `gallery-key gallery-key-${kind}`, "aria-hidden": "true" }), text);
-  return make(
-    "p",
-    { class: "gallery-legend" },
-    item("both", "found"),
-    item("missed", "missed"),
-    item("added", "wrongly added"),
-    item("truth", "ground truth"),
-  );
+  const has_truth = entries.some((entry) => entry.runs.some((run) => run.l2 !== null));
+  const items = has_truth
+    ? [item("both", "found"), item("missed", "missed"), item("added", "wrongly added"), item("truth", "ground truth")]
+    : [item("both", "hull"), item("point", "points")];
+  return make("p", { class: "gallery-legend" }, ...items);
 }
 
 /** How many cases have no picture, and why. */
@@ -206,7 +203,8 @@ function add_cards(grid, items, watcher) {
 function make_card(entry, run) {
   const canvas = make("canvas", { "aria-hidden": "true" });
   canvas.item = { entry, run };
-  const facts = run.status === "ok" ? `L2 ${metric_text("l2", run.l2)}` : status_words(run.status);
+  const words = run.l2 === null ? "no truth" : `L2 ${metric_text("l2", run.l2)}`;
+  const facts = run.status === "ok" ? words : status_words(run.status);
   return make(
     "button",
     {
@@ -255,13 +253,15 @@ let known_colours = null;
 function paint_card(canvas) {
   const { run } = canvas.item;
   known_colours ??= colours_of(canvas.closest(".gallery"));
+  // Without a truth to hold the hull against, its outline and the points are what there is to see.
+  const has_truth = canvas.picture.truth.length > 0;
   paint(canvas, canvas.picture, {
     view: fit(canvas.picture.box, canvas.clientWidth, canvas.clientHeight, 8),
     colours: known_colours,
-    points: run.result === null,
+    points: run.result === null || !has_truth,
     truth: true,
     shaded: run.result,
-    lines: [],
+    lines: has_truth || run.result === null ? [] : [{ result: run.result, colour: known_colours.ink }],
     mark: null,
     fine: true,
   });

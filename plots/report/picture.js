@@ -116,7 +116,7 @@ export function colours_of(element) {
 }
 
 /** Paints over the whole canvas. `drawing`: { view, colours, points, truth (whether to show them), shaded (index of a
-    result, its difference to the truth is shaded; or null), lines ([{ result, colour }], the last on top), mark (a circle
+    result, its difference to the truth is shaded, or all of it where there is no truth; or null), lines ([{ result, colour }], the last on top), mark (a circle
     { x, y, radius } in the grid, or null), fine
     (small picture: thin lines, small points), size ([width, height] in pixels, if not the canvas's on the page) }. */
 export function paint(canvas, picture, drawing) {
@@ -134,10 +134,12 @@ export function paint(canvas, picture, drawing) {
     const result = picture.results[drawing.shaded];
     to_grid(context);
     fill(context, result, drawing.colours.both);
-    for (const [kind, whole, part] of [
+    const differences = [
       ["missed", picture.truth, result],
       ["added", result, picture.truth],
-    ]) {
+    ];
+    // Of points without a truth nothing is missed or added.
+    for (const [kind, whole, part] of picture.truth.length > 0 ? differences : []) {
       const layer = difference(canvas.width, canvas.height, to_grid, whole, part);
       fill_layer(layer, kind, drawing.colours[kind], ratio);
       context.setTransform(1, 0, 0, 1, 0, 0);

@@ -3,7 +3,8 @@
 //   node invented_pictures.mjs FOLDER    writes FOLDER/pictures.jsonl beside the report.json that is there
 //
 // California has its outline and results that are made up from it. Hawaii is a square, and every result the same square
-// moved to the right by an eighth, so that it is known which pixels are missing and which are too many.
+// moved to the right by an eighth, so that it is known which pixels are missing and which are too many. With 64,000 points it
+// has no truth.
 import { readFileSync, writeFileSync } from "node:fs";
 import { join } from "node:path";
 
@@ -97,7 +98,7 @@ function lines_of(report) {
         step: 0.01,
         points_total: runs[0].n,
         points: points_in(truth, Math.min(runs[0].n, 4000)),
-        ground_truth: truth,
+        ground_truth: hawaii && runs[0].n === 64000 ? [] : truth,
       },
       ...runs
         .filter((run) => run.output_sha256)

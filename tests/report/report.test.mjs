@@ -294,6 +294,19 @@ page_test("missed and wrongly added areas are shaded where they are, in two colo
   assert.equal((await colour_at(page, SQUARE.low + SQUARE.moved / 2, middle))[3], 0);
 });
 
+page_test("where there is no truth nothing is missed or wrongly added", {}, async (page) => {
+  const without_truth = "hi/n:64000/holes:0";
+  await open_case(page, without_truth, `polylidar/${without_truth}/protocol:paper`);
+  await page.locator("[name=gallery-layer-points]").uncheck();
+  await page.waitForTimeout(100);
+  const middle = (SQUARE.low + SQUARE.high) / 2;
+  const added = await colour_at(page, SQUARE.high + SQUARE.moved / 4, middle);
+  const missed = await colour_at(page, SQUARE.low + SQUARE.moved / 2, middle);
+  assert.ok(added[3] > 10 && added[3] < 60, `in the hull is ${added}`);
+  assert.equal(missed[3], 0, `beside the hull is ${missed}`);
+  assert.match(await page.locator("dialog canvas").getAttribute("aria-label"), /no truth, over points$/);
+});
+
 page_test("the places that are farthest apart are marked where that is known", {}, async (page) => {
   await open_case(page, HAWAII, `cgal_alpha_shape/${HAWAII}/protocol:paper`);
   const box = page.locator("[name=gallery-layer-farthest]");

@@ -1,0 +1,24 @@
+// Random parts of points, to see whether a method's result stays when some of them are gone.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "polylidar/geometry.hpp"
+
+namespace hullbench::run {
+
+/// One draw. Every part keeps the order of the whole.
+struct PointParts {
+  std::vector<polylidar::Point> half;        ///< half of them, rounded down
+  std::vector<polylidar::Point> other_half;  ///< all others
+  std::vector<polylidar::Point> most;        ///< 90 %, rounded up, drawn by themselves
+};
+
+/// The draw `number` (from 0) of the points of data set `name` with `seed`: the same on every machine.
+PointParts draw_parts(std::span<const polylidar::Point> points, const std::string& name, std::uint64_t seed,
+                      int number);
+
+}  // namespace hullbench::run
