@@ -198,6 +198,22 @@ std::optional<std::pair<const ShapeFamily*, std::size_t>> find_graded(const std:
   return std::nullopt;
 }
 
+/// The data set `name`, and that `n` suits it.
+DatasetInfo require_points(const std::string& name, bool holes, std::size_t n, const DataFolders& folders) {
+  const DatasetInfo info = require_dataset(name, holes, folders);
+  if (info.own_points != (n == 0)) {
+    throw std::invalid_argument("the data set '" + name +
+                                (info.own_points ? "' comes with its points; ask for no number of them"
+                                                 : "' has no points of its own; ask for a number of them"));
+  }
+  return info;
+}
+
+/// `shape`: a name without stress.
+std::uint64_t sample_seed(std::uint64_t seed, const std::string& shape, bool holes, std::size_t n) {
+  return derive_seed(seed, "points/" + shape + "/holes:" + (holes ? "1" : "0") + "/n:" + std::to_string(n));
+}
+
 polylidar::MultiPolygon make_shape(const DatasetInfo& info, const std::string& name, bool holes,
                                    const DataFolders& folders) {
   if (info.own_points) return make_own_points(name, 0, folders).ground_truth;
@@ -263,12 +279,7 @@ polylidar::MultiPolygon make_ground_truth(const std::string& name, bool holes, c
 
 PointSet make_point_set(const std::string& name, bool holes, std::size_t n, std::uint64_t seed,
                         const DataFolders& folders) {
-  const DatasetInfo info = require_dataset(name, holes, folders);
-  if (info.own_points != (n == 0)) {
-    throw std::invalid_argument("the data set '" + name +
-                                (info.own_points ? "' comes with its points; ask for no number of them"
-                                                 : "' has no points of its own; ask for a number of them"));
-  }
+  const DatasetInfo info = require_points(name, holes, n, folders);
   PointSet set;
   if (info.own_points) {
     FloorScene scene = make_own_points(name, seed, folders);
@@ -277,12 +288,26 @@ PointSet make_point_set(const std::string& name, bool holes, std::size_t n, std:
   } else {
     const auto [shape, stresses] = *split_stress(name);
     set.ground_truth = make_shape(info, shape, holes, folders);
-    const std::string label = "points/" + shape + "/holes:" + (holes ? "1" : "0") + "/n:" + std::to_string(n);
-    set.points = sample_stressed(set.ground_truth, n, stresses, derive_seed(seed, label));
+    set.points = sample_stressed(set.ground_truth, n, stresses, sample_seed(seed, shape, holes, n));
   }
   set.ground_truth_area = polylidar::area(set.ground_truth);
   set.sha256 = sha256_hex(point_bytes(set.points));
   return set;
+}
+
+PointStream stream_points(const std::string& name, bool holes, std::size_t n, std::uint64_t seed,
+                          const DataFolders& folders) {
+  const DatasetInfo info = require_points(name, holes, n, folders);
+  if (info.own_points) return PointStream(make_own_points(name, seed, folders).points);
+  const auto [shape, stresses] = *split_stress(name);
+  return PointStream(make_shape(info, shape, holes, folders), n, stresses,
+                     sample_seed(seed, shape, holes, n));
+}
+
+bool is_streamed(const std::string& name) {
+  const auto parts = split_stress(name);
+  const auto draws = [](const Stress& stress) { return stress.kind->role == StressRole::kDraws; };
+  return parts && std::none_of(parts->second.begin(), parts->second.end(), draws);
 }
 
 }  // namespace hullbench

@@ -15,6 +15,7 @@
 #include <utility>
 #include <vector>
 
+#include "datasets/point_stream.hpp"
 #include "datasets/shapes.hpp"
 #include "polylidar/geometry.hpp"
 
@@ -95,5 +96,13 @@ polylidar::MultiPolygon make_ground_truth(const std::string& name, bool holes,
 /// be drawn and for another n where they come with the shape.
 PointSet make_point_set(const std::string& name, bool holes, std::size_t n, std::uint64_t seed,
                         const DataFolders& folders = {});
+
+/// The points of make_point_set one after the other. Throws as make_point_set.
+PointStream stream_points(const std::string& name, bool holes, std::size_t n, std::uint64_t seed,
+                          const DataFolders& folders = {});
+
+/// Whether stream_points takes no memory for points of `name` however many are asked for: they are uniform,
+/// with or without noise, outliers and rounding. Also of data sets that come with their points.
+bool is_streamed(const std::string& name);
 
 }  // namespace hullbench
