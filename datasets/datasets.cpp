@@ -114,7 +114,7 @@ std::string stress_hint(const std::string& name) {
   for (const StressKind& kind : stress_kinds()) {
     text << " ~" << kind.name << ":LEVEL (" << kind.least << " to " << kind.most << ")";
   }
-  text << ", or several: one that draws points, then outliers, noise and quantised";
+  text << ", or several: one that draws points, then water, outliers, noise and quantised";
   return text.str();
 }
 

@@ -26,6 +26,11 @@ double level_of(const std::vector<Stress>& stresses, StressRole role) {
   return found == nullptr ? 0 : found->level;
 }
 
+Lakes lakes_of(const MultiPolygon& shape, const std::vector<Stress>& stresses, std::uint64_t seed) {
+  const double level = level_of(stresses, StressRole::kDries);
+  return level > 0 ? Lakes(shape, level, seed) : Lakes();
+}
+
 Box box_of_outliers(const MultiPolygon& shape) {
   const Box bounds = PointLocator(shape).bounds();
   return grown(bounds, std::max(bounds.max.x - bounds.min.x, bounds.max.y - bounds.min.y) / 10);
@@ -42,6 +47,7 @@ PointStream::PointStream(const MultiPolygon& shape, std::size_t n, const std::ve
                          std::uint64_t seed)
     : size_(n),
       inner_(n - share(n, level_of(stresses, StressRole::kOutliers))),
+      lakes_(lakes_of(shape, stresses, seed)),
       outlier_box_(box_of_outliers(shape)),
       noise_(derive_seed(seed, "noise")),
       outliers_(derive_seed(seed, "outliers")) {
@@ -50,7 +56,8 @@ PointStream::PointStream(const MultiPolygon& shape, std::size_t n, const std::ve
   if (kind == nullptr || inner_ == 0) {
     uniform_.emplace(shape, seed);
   } else {
-    drawn_ = std::make_shared<const std::vector<Point>>(kind->kind->draw(shape, inner_, kind->level, seed));
+    const auto draw = [&](std::size_t count) { return kind->kind->draw(shape, count, kind->level, seed); };
+    drawn_ = std::make_shared<const std::vector<Point>>(draw_beside(lakes_, inner_, seed, draw));
   }
   // The spacing of no points is infinite, and 0 times it is no number.
   if (n == 0) return;
@@ -59,7 +66,11 @@ PointStream::PointStream(const MultiPolygon& shape, std::size_t n, const std::ve
 }
 
 Point PointStream::next_drawn() {
-  return drawn_ ? (*drawn_)[given_] : uniform_->next();
+  if (drawn_) return (*drawn_)[given_];
+  while (true) {
+    const Point point = uniform_->next();
+    if (!lakes_.contain(point)) return point;
+  }
 }
 
 Point PointStream::next_inner() {

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "datasets/random.hpp"
+#include "datasets/samplers/water.hpp"
 #include "datasets/sampling.hpp"
 #include "datasets/stress.hpp"
 #include "polylidar/geometry.hpp"
@@ -39,8 +40,9 @@ class PointStream {
   std::size_t inner_ = 0;  ///< points that are no outliers; they come first
   std::shared_ptr<const std::vector<polylidar::Point>> drawn_;  ///< null: they are uniform
   std::optional<UniformPoints> uniform_;                        ///< none: they are drawn
-  double deviation_ = 0;                                        ///< of the noise, units of the coordinates
-  double step_ = 0;                                             ///< of the rounding; 0: none
+  Lakes lakes_;
+  double deviation_ = 0;  ///< of the noise, units of the coordinates
+  double step_ = 0;       ///< of the rounding; 0: none
   polylidar::Box outlier_box_;
   Random noise_{0};
   Random outliers_{0};
