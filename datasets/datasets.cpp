@@ -41,14 +41,14 @@ DatasetInfo describe_family(const ShapeFamily& family) {
           .members = family.count};
 }
 
-DatasetInfo describe_simulated_floors() {
-  return {.name = kSimulatedFloor,
-          .title = "Simulated floor",
+DatasetInfo describe_simulated_floors(const char* name, const char* title, std::size_t count) {
+  return {.name = name,
+          .title = title,
           .source = "simulated depth images of an Intel RealSense D435i over floors with obstacles",
           .licence = "MIT",
           .sha256 = {},
           .area = std::nullopt,
-          .members = kFloorScenes,
+          .members = count,
           .own_points = true};
 }
 
@@ -97,7 +97,8 @@ std::string names_of(const std::vector<DatasetInfo>& infos, bool only_with_holes
 std::vector<DatasetInfo> families(const DataFolders& folders) {
   std::vector<DatasetInfo> infos;
   for (const ShapeFamily& family : shape_families()) infos.push_back(describe_family(family));
-  infos.push_back(describe_simulated_floors());
+  infos.push_back(describe_simulated_floors(kSimulatedFloor, "Simulated floor", kFloorScenes));
+  infos.push_back(describe_simulated_floors(kLowFloor, "Floor from a low camera", kLowFloorScenes));
   if (!folders.recordings.empty()) {
     infos.push_back(describe_recorded_floors(list_recordings(folders.recordings).size()));
   }
@@ -160,6 +161,9 @@ polylidar::MultiPolygon make_member_shape(const std::string& family_name, std::s
 FloorScene make_floor(const std::string& name, std::uint64_t seed, const DataFolders& folders) {
   const auto [family, number] = *split_member_name(name);
   if (family == kSimulatedFloor) return simulate_floor(number - 1, derive_seed(seed, "points/" + name));
+  if (family == kLowFloor) {
+    return simulate_floor(kFloorScenes + number - 1, derive_seed(seed, "points/" + name));
+  }
   return load_recording(folders.recordings / list_recordings(folders.recordings).at(number - 1));
 }
 

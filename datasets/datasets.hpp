@@ -46,8 +46,10 @@ struct DatasetInfo {
       false;  ///< the points come with the shape: neither a number nor a stress can be asked for
 };
 
-/// The families of floors: simulated, and recorded where there is a folder of recordings.
+/// The families of floors: simulated, from above and from a low camera, and recorded where there is a folder
+/// of recordings.
 inline constexpr const char* kSimulatedFloor = "floor";
+inline constexpr const char* kLowFloor = "lowfloor";
 inline constexpr const char* kRecordedFloor = "recorded";
 
 /// The family and the number (from 1) in a member's name: {"star", 17} of "star-17"; none for other names.

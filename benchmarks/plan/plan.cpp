@@ -319,6 +319,8 @@ void use_recordings(Plan& plan, std::size_t count) {
     group["members"] = count;
     found = true;
   }
+  const auto is_low = [](const json& group) { return group.at("dataset") == kLowFloor; };
+  plan.cases.erase(std::remove_if(plan.cases.begin(), plan.cases.end(), is_low), plan.cases.end());
   if (!found) {
     throw ConfigurationError("the plan '" + plan.name +
                              "' has no simulated floors that recordings could take the place of; leave out "

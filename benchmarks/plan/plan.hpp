@@ -137,8 +137,8 @@ bool applies(const PlanMethod& method, const PlanCase& plan_case);
 void check_plan(const Plan& plan, const std::vector<std::string>& methods,
                 const std::vector<DatasetInfo>& datasets);
 
-/// Puts `count` recorded floors ("recorded-1", ...) in the place of the plan's simulated ones. Throws
-/// ConfigurationError when it has no simulated floors.
+/// Puts `count` recorded floors ("recorded-1", ...) in the place of the plan's simulated ones, the low ones
+/// too. Throws ConfigurationError when it has no simulated floors.
 void use_recordings(Plan& plan, std::size_t count);
 
 /// How often a method is timed on every case, over all passes.
