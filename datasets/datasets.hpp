@@ -104,7 +104,7 @@ PointStream stream_points(const std::string& name, bool holes, std::size_t n, st
                           const DataFolders& folders = {});
 
 /// Whether stream_points takes no memory for points of `name` however many are asked for: they are uniform,
-/// with or without noise, outliers and rounding. Also of data sets that come with their points.
+/// with or without lakes, noise, outliers and rounding. Also of data sets that come with their points.
 bool is_streamed(const std::string& name);
 
 }  // namespace hullbench

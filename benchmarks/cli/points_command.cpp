@@ -167,7 +167,8 @@ void add_points(CLI::App& app, Action& action) {
   options.footer(
       "The points are those that a run draws for the same data set, number and seed, on every machine.\n"
       "'hullbench list' shows the data sets and what can stand behind their names. Uniform points, also\n"
-      "with noise, outliers and quantised, are written as they are drawn: there may be any number of them,\n"
+      "with water, outliers, noise and quantised, are written as they are drawn: there may be any number of "
+      "them,\n"
       "whatever the memory. Others are drawn all at once. LAS is 1.2 with point format 0, which rounds\n"
       "coordinates to a power of ten below a 400,000,000th of the larger side.\n" +
       options.get_footer());
