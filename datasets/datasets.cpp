@@ -42,14 +42,14 @@ DatasetInfo describe_family(const ShapeFamily& family) {
           .members = family.count};
 }
 
-DatasetInfo describe_simulated_floors() {
-  return {.name = kSimulatedFloor,
-          .title = "Simulated floor",
+DatasetInfo describe_simulated_floors(const char* name, const char* title, std::size_t count) {
+  return {.name = name,
+          .title = title,
           .source = "simulated depth images of an Intel RealSense D435i over floors with obstacles",
           .licence = "MIT",
           .sha256 = {},
           .area = std::nullopt,
-          .members = kFloorScenes,
+          .members = count,
           .own_points = true};
 }
 
@@ -115,7 +115,8 @@ std::string names_of(const std::vector<DatasetInfo>& infos, bool only_with_holes
 std::vector<DatasetInfo> families(const DataFolders& folders) {
   std::vector<DatasetInfo> infos;
   for (const ShapeFamily& family : shape_families()) infos.push_back(describe_family(family));
-  infos.push_back(describe_simulated_floors());
+  infos.push_back(describe_simulated_floors(kSimulatedFloor, "Simulated floor", kFloorScenes));
+  infos.push_back(describe_simulated_floors(kLowFloor, "Floor from a low camera", kLowFloorScenes));
   if (!folders.recordings.empty()) {
     const std::size_t count = list_recordings(folders.recordings).size();
     infos.push_back(describe_recorded_floors(count));
@@ -135,7 +136,7 @@ std::string stress_hint(const std::string& name) {
   for (const StressKind& kind : stress_kinds()) {
     text << " ~" << kind.name << ":LEVEL (" << kind.least << " to " << kind.most << ")";
   }
-  text << ", or several: one that draws points, then outliers, noise and quantised";
+  text << ", or several: one that draws points, then water, outliers, noise and quantised";
   return text.str();
 }
 
@@ -181,6 +182,9 @@ polylidar::MultiPolygon make_member_shape(const std::string& family_name, std::s
 FloorScene make_floor(const std::string& name, std::uint64_t seed, const DataFolders& folders) {
   const auto [family, number] = *split_member_name(name);
   if (family == kSimulatedFloor) return simulate_floor(number - 1, derive_seed(seed, "points/" + name));
+  if (family == kLowFloor) {
+    return simulate_floor(kFloorScenes + number - 1, derive_seed(seed, "points/" + name));
+  }
   const auto scene = folders.recordings / list_recordings(folders.recordings).at(number - 1);
   if (family == kRealRecording) return {recorded_points(scene), {}};
   return load_recording(scene);
@@ -226,6 +230,21 @@ real::Sample make_real(const std::string& name, const DataFolders& folders) {
   const real::Source* source = real::find_source(name);
   if (source != nullptr) return real::read_sample(*source, folders.system);
   return {make_floor(name, 0, folders).points, {}};
+
+/// The data set `name`, and that `n` suits it.
+DatasetInfo require_points(const std::string& name, bool holes, std::size_t n, const DataFolders& folders) {
+  const DatasetInfo info = require_dataset(name, holes, folders);
+  if (info.own_points != (n == 0)) {
+    throw std::invalid_argument("the data set '" + name +
+                                (info.own_points ? "' comes with its points; ask for no number of them"
+                                                 : "' has no points of its own; ask for a number of them"));
+  }
+  return info;
+}
+
+/// `shape`: a name without stress.
+std::uint64_t sample_seed(std::uint64_t seed, const std::string& shape, bool holes, std::size_t n) {
+  return derive_seed(seed, "points/" + shape + "/holes:" + (holes ? "1" : "0") + "/n:" + std::to_string(n));
 }
 
 polylidar::MultiPolygon make_shape(const DatasetInfo& info, const std::string& name, bool holes,
@@ -298,12 +317,7 @@ polylidar::MultiPolygon make_ground_truth(const std::string& name, bool holes, c
 
 PointSet make_point_set(const std::string& name, bool holes, std::size_t n, std::uint64_t seed,
                         const DataFolders& folders) {
-  const DatasetInfo info = require_dataset(name, holes, folders);
-  if (info.own_points != (n == 0)) {
-    throw std::invalid_argument("the data set '" + name +
-                                (info.own_points ? "' comes with its points; ask for no number of them"
-                                                 : "' has no points of its own; ask for a number of them"));
-  }
+  const DatasetInfo info = require_points(name, holes, n, folders);
   PointSet set;
   if (is_real(name)) {
     real::Sample sample = make_real(name, folders);
@@ -316,12 +330,26 @@ PointSet make_point_set(const std::string& name, bool holes, std::size_t n, std:
   } else {
     const auto [shape, stresses] = *split_stress(name);
     set.ground_truth = make_shape(info, shape, holes, folders);
-    const std::string label = "points/" + shape + "/holes:" + (holes ? "1" : "0") + "/n:" + std::to_string(n);
-    set.points = sample_stressed(set.ground_truth, n, stresses, derive_seed(seed, label));
+    set.points = sample_stressed(set.ground_truth, n, stresses, sample_seed(seed, shape, holes, n));
   }
   set.ground_truth_area = polylidar::area(set.ground_truth);
   set.sha256 = sha256_hex(point_bytes(set.points));
   return set;
+}
+
+PointStream stream_points(const std::string& name, bool holes, std::size_t n, std::uint64_t seed,
+                          const DataFolders& folders) {
+  const DatasetInfo info = require_points(name, holes, n, folders);
+  if (info.own_points) return PointStream(make_own_points(name, seed, folders).points);
+  const auto [shape, stresses] = *split_stress(name);
+  return PointStream(make_shape(info, shape, holes, folders), n, stresses,
+                     sample_seed(seed, shape, holes, n));
+}
+
+bool is_streamed(const std::string& name) {
+  const auto parts = split_stress(name);
+  const auto draws = [](const Stress& stress) { return stress.kind->role == StressRole::kDraws; };
+  return parts && std::none_of(parts->second.begin(), parts->second.end(), draws);
 }
 
 }  // namespace hullbench

@@ -15,6 +15,7 @@
 #include <utility>
 #include <vector>
 
+#include "datasets/point_stream.hpp"
 #include "datasets/shapes.hpp"
 #include "polylidar/geometry.hpp"
 
@@ -48,8 +49,10 @@ struct DatasetInfo {
       false;  ///< the points come with the shape: neither a number nor a stress can be asked for
 };
 
-/// The families of floors: simulated, and recorded where there is a folder of recordings.
+/// The families of floors: simulated, from above and from a low camera, and recorded where there is a folder
+/// of recordings.
 inline constexpr const char* kSimulatedFloor = "floor";
+inline constexpr const char* kLowFloor = "lowfloor";
 inline constexpr const char* kRecordedFloor = "recorded";
 
 /// The user's recordings again, as points without a truth.
@@ -107,5 +110,13 @@ polylidar::MultiPolygon make_ground_truth(const std::string& name, bool holes,
 /// package is not there.
 PointSet make_point_set(const std::string& name, bool holes, std::size_t n, std::uint64_t seed,
                         const DataFolders& folders = {});
+
+/// The points of make_point_set one after the other. Throws as make_point_set.
+PointStream stream_points(const std::string& name, bool holes, std::size_t n, std::uint64_t seed,
+                          const DataFolders& folders = {});
+
+/// Whether stream_points takes no memory for points of `name` however many are asked for: they are uniform,
+/// with or without lakes, noise, outliers and rounding. Also of data sets that come with their points.
+bool is_streamed(const std::string& name);
 
 }  // namespace hullbench

@@ -5,63 +5,21 @@
 #include <cmath>
 #include <system_error>
 
-#include "datasets/point_locator.hpp"
-#include "datasets/random.hpp"
+#include "datasets/point_stream.hpp"
 #include "datasets/samplers/airborne.hpp"
 #include "datasets/samplers/boundary.hpp"
 #include "datasets/samplers/density.hpp"
 #include "datasets/samplers/depth_camera.hpp"
-#include "datasets/samplers/draw.hpp"
 #include "datasets/samplers/regular.hpp"
 #include "datasets/samplers/rotating.hpp"
 #include "datasets/samplers/tracks.hpp"
-#include "datasets/sampling.hpp"
 
 namespace hullbench {
 
-using polylidar::Box;
 using polylidar::MultiPolygon;
 using polylidar::Point;
 
 namespace {
-
-const Stress* find_role(const std::vector<Stress>& stresses, StressRole role) {
-  const auto found = std::find_if(stresses.begin(), stresses.end(),
-                                  [&](const Stress& stress) { return stress.kind->role == role; });
-  return found == stresses.end() ? nullptr : &*found;
-}
-
-/// 0, which changes nothing, where there is no stress of the role.
-double level_of(const std::vector<Stress>& stresses, StressRole role) {
-  const Stress* found = find_role(stresses, role);
-  return found == nullptr ? 0 : found->level;
-}
-
-std::vector<Point> draw(const MultiPolygon& shape, std::size_t n, const std::vector<Stress>& stresses,
-                        std::uint64_t seed) {
-  const Stress* kind = find_role(stresses, StressRole::kDraws);
-  // Where all points are outliers there is nothing to draw, and no spacing.
-  if (kind == nullptr || n == 0) return sample_uniform(shape, n, seed);
-  return kind->kind->draw(shape, n, kind->level, seed);
-}
-
-void add_noise(std::vector<Point>& points, double deviation, std::uint64_t seed) {
-  Random random(derive_seed(seed, "noise"));
-  for (Point& point : points) point = moved_by_gaussian(point, deviation, random);
-}
-
-void add_outliers(std::vector<Point>& points, std::size_t count, const MultiPolygon& shape,
-                  std::uint64_t seed) {
-  const Box bounds = PointLocator(shape).bounds();
-  const double side = std::max(bounds.max.x - bounds.min.x, bounds.max.y - bounds.min.y);
-  const Box box = grown(bounds, side / 10);
-  Random random(derive_seed(seed, "outliers"));
-  for (std::size_t i = 0; i < count; ++i) points.push_back(uniform_in(box, random));
-}
-
-void round_to_multiples(std::vector<Point>& points, double step) {
-  for (Point& point : points) point = {step * std::round(point.x / step), step * std::round(point.y / step)};
-}
 
 /// A plain decimal, the shortest that gives this number; none for other texts.
 std::optional<double> canonical_number(const std::string& text) {
@@ -96,6 +54,7 @@ const std::vector<StressKind>& stress_kinds() {
       {"noise", "noise", "h", "Gaussian noise of this standard deviation", 0, 10, kNoise},
       {"outliers", "outliers", "%", "so many of the points uniform in a larger box", 0, 90, kOutliers},
       {"quantised", "quantised", "h", "coordinates rounded to multiples of this", 0, 10, kRounds},
+      {"water", "water", "%", "lakes without points, so much of the shape's area", 0, 50, kDries},
       {"gradient", "gradient", "", "density at the left side over density at the right", 1, 1000, kDraws,
        &sample_gradient},
       {"hotspot", "hot spot", "", "density at a Gaussian peak over density round it", 1, 1000, kDraws,
@@ -106,6 +65,8 @@ const std::vector<StressKind>& stress_kinds() {
       {"lattice", "lattice", "", "largest move of a lattice's points, in its sides", 0, 0.5, kDraws,
        &sample_lattice},
       {"boundary", "boundary", "%", "so many of the points on the rings", 0, 100, kDraws, &sample_boundary},
+      {"outline", "outline", "", "deviation of points from the rings, in their mean distance along them", 0,
+       10, kDraws, &sample_outline},
       {"depthcamera", "depth camera", "", "distance of the shape's middle over the camera's height", 1, 20,
        kDraws, &sample_depth_camera},
       {"airborne", "airborne scanner", "", "distance of parallel scan lines over that of a line's points", 1,
@@ -136,13 +97,9 @@ std::optional<std::pair<std::string, std::vector<Stress>>> split_stress(const st
 
 std::vector<Point> sample_stressed(const MultiPolygon& shape, std::size_t n,
                                    const std::vector<Stress>& stresses, std::uint64_t seed) {
-  const std::size_t outliers = share(n, level_of(stresses, StressRole::kOutliers));
-  const double noise = level_of(stresses, StressRole::kNoise);
-  const double step = level_of(stresses, StressRole::kRounds);
-  std::vector<Point> points = draw(shape, n - outliers, stresses, seed);
-  if (noise > 0) add_noise(points, noise * spacing(shape, n), seed);
-  if (outliers > 0) add_outliers(points, outliers, shape, seed);
-  if (step > 0) round_to_multiples(points, step * spacing(shape, n));
+  PointStream stream(shape, n, stresses, seed);
+  std::vector<Point> points(n);
+  for (Point& point : points) point = stream.next();
   return points;
 }
 

@@ -19,9 +19,9 @@
 namespace hullbench {
 
 /// What a kind does. A name has at most one kind of each, in this order, so that a data set has one name.
-/// They are applied in another order: points are drawn, moved by noise, outliers are put behind them, and
-/// all are rounded.
-enum class StressRole { kDraws, kOutliers, kNoise, kRounds };
+/// They are applied in another order: points are drawn, those in lakes are left out, they are moved by noise,
+/// outliers are put behind them, and all are rounded.
+enum class StressRole { kDraws, kDries, kOutliers, kNoise, kRounds };
 
 /// One thing that can be done to points.
 struct StressKind {
@@ -52,6 +52,12 @@ struct StressKind {
 ///            density, and never end where there are more points than places. Points lie outside the shape
 ///            by up to half a step in x and in y.
 ///
+/// water      Four lakes, discs of one size whose centres are uniform in the shape, give no points. Together
+///            they have `level` percent of the shape's area, less what they share or have beyond the shore.
+///            There are as many points as without them; the density is even beside them. The truth is the
+///            shape as it was, lakes and all: what was surveyed, as an airborne scanner gets nothing back
+///            from water. (Where the lakes should be holes of the truth: the variant with holes.)
+///
 /// Those that draw points, instead of the uniform sample. h is that of the points drawn. All points lie in
 /// the shape unless said otherwise.
 ///
@@ -71,6 +77,9 @@ struct StressKind {
 /// boundary   `level` percent of the points (rounded to a whole number) lie on the rings, uniform over their
 ///            length and off them only by rounding; they are the last ones. The others are the first of the
 ///            uniform sample. 0: the uniform sample.
+/// outline    All points on the rings, uniform over their length, and then moved by a Gaussian of standard
+///            deviation `level` times their mean distance along the rings, length / n, in x and in y. Points
+///            lie outside the shape.
 ///
 /// Those that draw points as a sensor does whose shots hit nothing but the shape. It looks or moves in a
 /// direction drawn at random. Its resolution is chosen so that there are n points; up to a twentieth of them
@@ -82,7 +91,8 @@ struct StressKind {
 ///              falls with the cube of the depth, from near to far up to 27 to 1; at the middle rows are
 ///              sqrt(1 + level^2) times as far apart as points of a row. The disparity errs and is rounded as
 ///              SensorNoise says (rgbd/floor_scenes.hpp), the error shared over windows of 3 x 3 pixels; the
-///              baseline is a 40th of the distance of the middle. At the middle the error is of
+///              baseline is a 40th of the distance of the middle. The lens bends rays by a hundredth at 45
+///              degrees off the axis, and nobody knows. At the middle the error is of
 ///              2 / sqrt(1 + level^2) rows: points lie outside the shape. Half of the pixels with a neighbour
 ///              off the floor have no depth, nor has one whose disparity comes out below half.
 /// airborne     A laser scanner with a rotating mirror over three strips, which cover 0.4 of the extent each

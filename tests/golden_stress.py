@@ -3,7 +3,7 @@
 
 Prints the SHA-256 of 1000 points with the seed 1 of each data set named, such as ca~noise:0.5, or of all that
 test_stress.cpp names and this program knows: shapes of the manifest, and every kind of stress but clusters, poisson,
-lattice and boundary. Points are made by the steps that datasets/stress.hpp and datasets/samplers describe; a point in
+lattice, boundary and outline. Points are made by the steps that datasets/stress.hpp and datasets/samplers describe; a point in
 a polygon is decided in whole numbers, as in golden_hashes.py. A difference is a fault here or there, or a data set
 that was meant to change.
 
@@ -165,14 +165,18 @@ def scan_exactly(shape: Shape, n: int, seed: int, scan: Callable[[float, Random]
         random = Random(seed)
         points = scan(pitch, random)
         if len(points) >= n and (len(points) <= n + n // 20 + 8 or tries >= 20):
-            kept: list[Point] = []
-            for i, point in enumerate(points):
-                if len(kept) < n and random.below(len(points) - i) < n - len(kept):
-                    kept.append(point)
-            return kept
+            return lose(points, n, random)
         factor = math.sqrt((len(points) + 2) / (1.02 * n + 4))
         pitch *= min(max(factor, 0.5), 2.0) if tries < 20 else 0.9
         tries += 1
+
+
+def lose(points: list[Point], n: int, random: Random) -> list[Point]:
+    kept: list[Point] = []
+    for i, point in enumerate(points):
+        if len(kept) < n and random.below(len(points) - i) < n - len(kept):
+            kept.append(point)
+    return kept
 
 
 def depth_image(shape: Shape, pitch: float, level: float, random: Random) -> list[Point]:
@@ -192,8 +196,10 @@ def depth_image(shape: Shape, pitch: float, level: float, random: Random) -> lis
     def row_of(forward: float) -> float:
         return focal * (height * (forward - distance) / slant) / depth(forward)
 
-    def seen(row: int, column: int) -> Point:
+    def seen(row: int, column: int, distortion: float = 0.01) -> Point:
         v, u = first_row + row + row_offset, first_column + column + column_offset
+        bent = 1 + distortion * ((v * v + u * u) / (focal * focal))
+        v, u = v * bent, u * bent
         forward = height * (v * height + focal * distance) / (focal * height - v * distance)
         return forward, u * depth(forward) / focal
 
@@ -218,11 +224,11 @@ def depth_image(shape: Shape, pitch: float, level: float, random: Random) -> lis
         noise = 0.0
         for i in (row - 1, row, row + 1):
             noise += white[i, column - 1] + white[i, column] + white[i, column + 1]
-        x, y = seen(row, column)
-        disparity = focal * (1 / 40 * distance) / depth(x)
+        disparity = focal * (1 / 40 * distance) / depth(seen(row, column)[0])
         measured = 1 / 32 * rounded((disparity + 0.05 * (noise / 3)) / (1 / 32))
         if measured >= disparity / 2:
-            stretch = disparity / measured
+            x, y = seen(row, column, 0.0)
+            stretch = focal * (1 / 40 * distance) / depth(x) / measured
             points.append(frame.in_plane(foot_x + stretch * x, foot_y + stretch * y))
     return points
 
@@ -298,7 +304,7 @@ def scanned(kind: str, shape: Shape, n: int, level: float, seed: int) -> list[Po
 
 
 SCANNED = ("depthcamera", "airborne", "zigzag", "rotating", "tracks")
-CHANGES = ("noise", "outliers", "quantised")
+CHANGES = ("water", "noise", "outliers", "quantised")
 
 
 def make_points(name: str, shape: Shape) -> list[Point]:
@@ -306,15 +312,29 @@ def make_points(name: str, shape: Shape) -> list[Point]:
     base, *stresses = name.split("~")
     levels = {kind: float(level) for kind, level in (stress.split(":") for stress in stresses)}
     seed = derived_seed(SEED, f"points/{base}/holes:0/n:{COUNT}")
-    percent, noise, step = (levels.pop(kind, 0.0) for kind in ("outliers", "noise", "quantised"))
+    percent, noise, step, wet = (levels.pop(kind, 0.0) for kind in ("outliers", "noise", "quantised", "water"))
     outliers = int(rounded(COUNT * percent / 100))
     drawn = COUNT - outliers
+    lakes = [point for point, _ in zip(shape.uniform(derived_seed(seed, "water")), range(4))] if wet else []
+    radius = math.sqrt(wet / 100 * shape.area() / (4 * math.pi))
+
+    def is_dry(x: float, y: float) -> bool:
+        return all((x - lake[0]) * (x - lake[0]) + (y - lake[1]) * (y - lake[1]) >= radius * radius for lake in lakes)
+
     if not levels:
-        points = [point for point, _ in zip(shape.uniform(seed), range(drawn))]
+        dry = (point for point in shape.uniform(seed) if is_dry(*point))
+        points = [point for point, _ in zip(dry, range(drawn))]
     else:
         ((kind, level),) = levels.items()
         draw = {"gradient": gradient, "hotspot": hotspot}.get(kind)
-        points = draw(shape, drawn, level, seed) if draw else scanned(kind, shape, drawn, level, seed)
+        asked, points = drawn, []
+        while True:
+            points = draw(shape, asked, level, seed) if draw else scanned(kind, shape, asked, level, seed)
+            points = [point for point in points if is_dry(*point)]
+            if len(points) >= drawn:
+                break
+            asked = int(drawn * 1.02 / ((len(points) + 1) / (asked + 1))) + 2
+        points = lose(points, drawn, Random(derived_seed(seed, "dry")))
     random = Random(derived_seed(seed, "noise"))
     if noise > 0:
         points = [moved(point, noise * shape.spacing(COUNT), random) for point in points]

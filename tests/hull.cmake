@@ -10,3 +10,8 @@ hullbench_test(test_hull_command SOURCES test_hull_command.cpp
   LABELS hull)
 target_compile_definitions(test_hull_command PRIVATE HULLBENCH="$<TARGET_FILE:hullbench>")
 add_dependencies(test_hull_command hullbench)
+
+hullbench_test(test_points_command SOURCES test_points_command.cpp
+  LIBRARIES hullbench::point_files hullbench::datasets hullbench_test_program LABELS hull)
+target_compile_definitions(test_points_command PRIVATE HULLBENCH="$<TARGET_FILE:hullbench>")
+add_dependencies(test_points_command hullbench)

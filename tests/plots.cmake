@@ -19,3 +19,8 @@ foreach(page IN ITEMS report comparison)
             "$<TARGET_FILE:hullbench>" "$<TARGET_FILE:write_invented_report>" "${CMAKE_BINARY_DIR}/tests/${page}_in_browser")
   set_tests_properties(plots.${page}_in_browser PROPERTIES LABELS plots TIMEOUT 1200)
 endforeach()
+# The picture of the samplers; what the points are is tested elsewhere.
+hullbench_tool_test(NAME plots.samplers NEEDS "${SYSTEM_PYTHON}:matplotlib" "${SYSTEM_PYTHON}:numpy"
+  COMMAND "${SYSTEM_PYTHON}" -B "${PROJECT_SOURCE_DIR}/plots/make_samplers.py" --hullbench "$<TARGET_FILE:hullbench>"
+          --out "${CMAKE_BINARY_DIR}/tests/samplers.png")
+set_tests_properties(plots.samplers PROPERTIES LABELS plots TIMEOUT 300)

@@ -212,5 +212,22 @@ TEST(ClassTables, ShapesWithPointsOfTheirOwnHaveThemOnAverage) {
   EXPECT_TRUE(section->caption.starts_with("3 shapes, 86667 points on average: ")) << section->caption;
 }
 
+TEST(ClassTables, FloorsThatThePaperHasNotAreApart) {
+  const table::Document document =
+      report::make_document(test::report_on_shapes({{"floor-1", 80000, 0.5, 1, 0.01},
+                                                    {"floor-2", 90000, 0.5, 2, 0.02},
+                                                    {"lowfloor-1", 20000, 0.5, 9, 0.09}}));
+  const table::Table* papers_own = section_of(document, "invented_summary");
+  const table::Table* others = section_of(document, "invented_summary_others");
+  ASSERT_TRUE(papers_own);
+  ASSERT_TRUE(others);
+  EXPECT_TRUE(papers_own->caption.starts_with("2 shapes, 85000 points on average: ")) << papers_own->caption;
+  EXPECT_TRUE(others->caption.starts_with("1 shapes, n = 20000: ")) << others->caption;
+  EXPECT_TRUE(has_remark(*papers_own, "Table III"));
+  EXPECT_FALSE(has_remark(*others, "The paper's values"));
+  ASSERT_TRUE(section_of(document, "invented_shapes_others"));
+  EXPECT_EQ(section_of(document, "invented_shapes")->rows.size(), 2U);
+}
+
 }  // namespace
 }  // namespace hullbench

@@ -295,7 +295,8 @@ TEST(Plan, AMethodCanKeepToAFamily) {
 
 TEST(Plan, RecordingsTakeThePlaceOfSimulatedFloors) {
   const json source =
-      plan_with_cases(R"([{"dataset": "floor", "members": 11}, {"dataset": "ca", "n": [500]}])");
+      plan_with_cases(R"([{"dataset": "floor", "members": 11}, {"dataset": "lowfloor", "members": 4},
+                          {"dataset": "ca", "n": [500]}])");
   plan::Plan plan = plan::parse_plan(source.dump(), "here");
   plan::use_recordings(plan, 2);
   const std::vector<std::string> names = {"polylidar/recorded-1/n:all/holes:0/protocol:paper",
@@ -702,7 +703,7 @@ TEST(Plan, RandomIsThePapersExperimentAndAThousandOtherShapes) {
 
 TEST(Plan, RgbdIsThePapersExperiment) {
   const plan::Plan plan = plan::load_plan("rgbd", HULLBENCH_PLAN_FOLDER);
-  EXPECT_EQ(plan.expanded_cases.size(), 11U);
+  EXPECT_EQ(plan.expanded_cases.size(), 11U + 4U);
   EXPECT_EQ(plan::planned_runs(plan, "^polylidar/floor-11/n:all/holes:0/protocol:paper$").size(), 1U);
 }
 

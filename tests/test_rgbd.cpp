@@ -167,6 +167,8 @@ TEST(FloorScenes, AreTheSameBitsEverywhere) {
             "01237d65bd0ba97d08cb6c252d2ac284822e20e0099d81be7c5bc02a7f3a31fd");
   EXPECT_EQ(sha256_hex(point_bytes(simulate_floor(10, kSeed).points)),
             "a6d1453b369435acee4e7e56a31582a6534ea177a10829b8361de9e64da9c915");
+  EXPECT_EQ(sha256_hex(point_bytes(simulate_floor(kFloorScenes, kSeed).points)),
+            "224dc6bf0490072313825daefa53caf2f0a48be518d6bd3ac7fe103b5239bb4d");
 }
 
 TEST(FloorScenes, SeedAndIndexDecide) {
@@ -179,14 +181,110 @@ TEST(FloorScenes, SeedAndIndexDecide) {
                           other.counts.end() - other.intrinsics.width));
 }
 
-TEST(FloorScenes, ThereAreElevenOfThem) {
-  try {
-    simulate_depth(kFloorScenes, kSeed);
-    FAIL() << "a twelfth scene was simulated";
-  } catch (const std::invalid_argument& error) {
-    EXPECT_STREQ(error.what(), "there is no floor scene 11; give 0 to 10");
+/// The place of the floor that a pixel's middle sees, were there nothing on it, and its depth.
+struct FloorSight {
+  Point place;
+  double depth = 0;
+};
+
+FloorSight floor_sight(const StereoCamera& camera, const Intrinsics& intrinsics, double column, double row) {
+  const Vector3 direction = camera.direction(intrinsics, column, row);
+  const double depth = -camera.left_eye.z / direction.z;
+  const Vector3 place = camera.left_eye + depth * direction;
+  return {{place.x, place.y}, depth};
+}
+
+class LowFloorOf : public ::testing::TestWithParam<std::size_t> {};
+
+INSTANTIATE_TEST_SUITE_P(All, LowFloorOf,
+                         ::testing::Range<std::size_t>(kFloorScenes, kFloorScenes + kLowFloorScenes));
+
+TEST_P(LowFloorOf, GroundTruthIsWhatBothImagersSee) {
+  const StereoCamera camera = stereo_camera(floor_layout(GetParam()));
+  EXPECT_EQ(camera.lens, kLowLens);
+  const DepthImage image = simulate_depth(GetParam(), kSeed, kNoNoise);
+  const Intrinsics& intrinsics = image.intrinsics;
+  const MultiPolygon truth = floor_ground_truth(GetParam());
+  EXPECT_EQ(testing::boost_fault(truth), "");
+  const PointLocator floor(truth);
+  std::size_t inside = 0;
+  std::size_t beyond = 0;
+  for (int row = 0; row < intrinsics.height; ++row) {
+    for (int column = 0; column < intrinsics.width; ++column) {
+      const FloorSight sight = floor_sight(camera, intrinsics, column, row);
+      // The pieces of the curved border are 0.01 mm off, and of depth whole counts remain.
+      if (distance_to_rings(truth, sight.place) < 1e-4 || std::abs(sight.depth - kLowRange) < 0.001) continue;
+      const bool shows_floor =
+          std::abs(count_at(image, column, row) * intrinsics.depth_unit - sight.depth) < 0.00051;
+      if (floor.contains(sight.place)) {
+        ++inside;
+        EXPECT_TRUE(shows_floor) << column << ", " << row;
+      } else {
+        beyond += shows_floor ? 1U : 0U;
+      }
+    }
   }
-  EXPECT_THROW(floor_ground_truth(kFloorScenes), std::invalid_argument);
+  EXPECT_GT(inside, 12'000U);
+  // The foot of an obstacle's side is as far as the floor.
+  EXPECT_LE(beyond, 8U);
+}
+
+TEST_P(LowFloorOf, PointsLieOnTheFloorButForTheLensAndTheNoise) {
+  const FloorScene scene = simulate_floor(GetParam(), kSeed);
+  const PointLocator floor(scene.ground_truth);
+  std::size_t far = 0;
+  for (const Point& point : scene.points) {
+    if (floor.contains(point)) continue;
+    // A hundredth of the distance for the lens; and 5 deviations of the disparity.
+    const double distance = std::hypot(point.x, point.y);
+    const double deviation =
+        distance * distance * SensorNoise().subpixel_error / (simulated_camera().fx * kStereoBaseline);
+    far += distance_to_rings(scene.ground_truth, point) > 0.015 * distance + 5 * deviation ? 1U : 0U;
+  }
+  std::printf("scene %zu: %zu points, %.2f %% of them in the ground truth of %.4f m^2\n", GetParam(),
+              scene.points.size(), 100 * inside_share(scene), polylidar::area(scene.ground_truth));
+  EXPECT_GT(inside_share(scene), 0.9);
+  EXPECT_LE(far, scene.points.size() / 1000);
+}
+
+TEST(LowFloors, DifferFromTheOthersAsTheyAreSaidTo) {
+  double most_across = 0;
+  double most_density = 0;
+  double most_rows = 0;
+  for (std::size_t index = kFloorScenes; index < kFloorScenes + kLowFloorScenes; ++index) {
+    const StereoCamera camera = stereo_camera(floor_layout(index));
+    const Intrinsics intrinsics = scene_camera(index);
+    std::vector<double> cells;  // m^2 of floor by pixel
+    for (int row = 0; row + 1 < intrinsics.height; ++row) {
+      const FloorSight here = floor_sight(camera, intrinsics, intrinsics.ppx, row);
+      const FloorSight below = floor_sight(camera, intrinsics, intrinsics.ppx, row + 1);
+      const FloorSight beside = floor_sight(camera, intrinsics, intrinsics.ppx + 1, row);
+      if (here.depth > kLowRange) continue;
+      const double across = here.place.y - below.place.y;
+      const double along = beside.place.x - here.place.x;
+      most_across = std::max(most_across, across / along);
+      cells.push_back(across * along);
+      most_rows =
+          std::max(most_rows, simulated_camera().fx * kStereoBaseline * (1 / below.depth - 1 / here.depth));
+    }
+    const auto [least, most] = std::minmax_element(cells.begin(), cells.end());
+    most_density = std::max(most_density, *most / *least);
+    std::printf("scene %zu: rows up to %.2f, density %.1f, disparity %.3f\n", index, most_across,
+                most_density, most_rows);
+  }
+  EXPECT_NEAR(most_across, 5.6, 0.05);
+  EXPECT_NEAR(most_density, 200, 2);
+  EXPECT_LT(most_rows, kLowEdgeStep);
+}
+
+TEST(FloorScenes, ThereAreFifteenOfThem) {
+  try {
+    simulate_depth(kFloorScenes + kLowFloorScenes, kSeed);
+    FAIL() << "a sixteenth scene was simulated";
+  } catch (const std::invalid_argument& error) {
+    EXPECT_STREQ(error.what(), "there is no floor scene 15; give 0 to 14");
+  }
+  EXPECT_THROW(floor_ground_truth(kFloorScenes + kLowFloorScenes), std::invalid_argument);
 }
 
 /// The standard deviation of depth errors in rows `first` to `last`, in metres, and over what Intel's formula

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <numbers>
 #include <set>
 #include <sstream>
 #include <stdexcept>
@@ -18,6 +19,7 @@
 #include "datasets/datasets.hpp"
 #include "datasets/point_locator.hpp"
 #include "datasets/samplers/density.hpp"
+#include "datasets/samplers/water.hpp"
 #include "datasets/sampling.hpp"
 #include "datasets/stress.hpp"
 #include "tests/boost_checks.hpp"
@@ -122,8 +124,8 @@ TEST(Stress, EveryKindIsCompleteAndNamedOnce) {
     }
   }
   EXPECT_EQ(names, (std::set<std::string>{"airborne", "boundary", "clusters", "depthcamera", "gradient",
-                                          "hotspot", "lattice", "noise", "outliers", "poisson", "quantised",
-                                          "rotating", "tracks", "zigzag"}));
+                                          "hotspot", "lattice", "noise", "outliers", "outline", "poisson",
+                                          "quantised", "rotating", "tracks", "water", "zigzag"}));
 }
 
 TEST(Stress, AnyShapeCanBeSampledWithAnyKind) {
@@ -175,19 +177,36 @@ TEST(Stress, BaseShapesAndLevelsAreToldFromTheName) {
 TEST(Stress, NoStressIsTheUniformSample) {
   for (const std::string& shape : kShapes) {
     const std::vector<Point> plain = points_of(shape, 300);
-    for (const char* stress : {"~noise:0", "~outliers:0", "~gradient:1", "~boundary:0", "~hotspot:1",
-                               "~quantised:0", "~gradient:1~outliers:0~noise:0~quantised:0"})
+    for (const char* stress :
+         {"~noise:0", "~outliers:0", "~gradient:1", "~boundary:0", "~hotspot:1", "~quantised:0", "~water:0",
+          "~gradient:1~water:0~outliers:0~noise:0~quantised:0"})
       EXPECT_EQ(points_of(shape + stress, 300), plain) << shape << stress;
   }
 }
 
 TEST(Stress, CountsAreExact) {
   for (const std::string& shape : kShapes) {
-    for (const char* stress :
-         {"noise:2", "outliers:20", "gradient:16", "clusters:16", "poisson:0.7", "lattice:0", "lattice:0.25",
-          "boundary:100", "boundary:33", "hotspot:64", "quantised:1", "depthcamera:10", "airborne:4",
-          "zigzag:4", "rotating:4", "tracks:10", "gradient:16~outliers:3~noise:0.5",
-          "depthcamera:4~outliers:90~quantised:1"}) {
+    for (const char* stress : {"noise:2",
+                               "outliers:20",
+                               "gradient:16",
+                               "clusters:16",
+                               "poisson:0.7",
+                               "lattice:0",
+                               "lattice:0.25",
+                               "boundary:100",
+                               "boundary:33",
+                               "hotspot:64",
+                               "quantised:1",
+                               "depthcamera:10",
+                               "airborne:4",
+                               "zigzag:4",
+                               "rotating:4",
+                               "tracks:10",
+                               "gradient:16~outliers:3~noise:0.5",
+                               "depthcamera:4~outliers:90~quantised:1",
+                               "outline:1",
+                               "water:50",
+                               "airborne:4~water:20~noise:0.5"}) {
       for (const std::size_t n : {7U, 500U, 2000U})
         EXPECT_EQ(points_of(shape + "~" + stress, n).size(), n) << shape << "~" << stress;
     }
@@ -197,8 +216,9 @@ TEST(Stress, CountsAreExact) {
 TEST(Stress, PointsLieInTheShapeWhereTheyMust) {
   for (const std::string& shape : kShapes) {
     const PointLocator locator(make_ground_truth(shape, false));
-    for (const char* stress : {"gradient:16", "hotspot:16", "clusters:16", "poisson:0.7", "lattice:0",
-                               "lattice:0.5", "airborne:10", "zigzag:10", "rotating:10", "tracks:10"}) {
+    for (const char* stress :
+         {"gradient:16", "hotspot:16", "clusters:16", "poisson:0.7", "lattice:0", "lattice:0.5",
+          "airborne:10", "zigzag:10", "rotating:10", "tracks:10", "water:10", "zigzag:4~water:20"}) {
       const std::vector<Point> points = points_of(shape + "~" + stress, 1000);
       EXPECT_TRUE(std::all_of(points.begin(), points.end(),
                               [&](const Point& point) { return locator.contains(point); }))
@@ -429,6 +449,66 @@ TEST(Stress, BoundaryPointsLieOnTheRings) {
   EXPECT_TRUE(std::equal(half.begin(), half.begin() + 1000, plain.begin()));
 }
 
+TEST(Stress, OutlinesHaveTheirDeviationFromTheRings) {
+  constexpr std::size_t kPoints = 2000;
+  // The square's sides are 40 in all.
+  const double deviation = 40.0 / kPoints * 0.5;
+  const auto& kinds = stress_kinds();
+  const auto outline =
+      std::find_if(kinds.begin(), kinds.end(), [](const StressKind& kind) { return kind.name == "outline"; });
+  ASSERT_NE(outline, kinds.end());
+  const std::vector<Point> exact = sample_stressed(square(), kPoints, {{&*outline, 0}}, 3);
+  const std::vector<Point> moved = sample_stressed(square(), kPoints, {{&*outline, 0.5}}, 3);
+  double squares = 0;
+  std::vector<double> sides(4);
+  for (std::size_t i = 0; i < kPoints; ++i) {
+    const Point& on = exact[i];
+    const std::vector<double> away{std::abs(on.x), std::abs(on.x - 10), std::abs(on.y), std::abs(on.y - 10)};
+    const auto nearest = std::min_element(away.begin(), away.end());
+    EXPECT_LT(*nearest, 1e-14);
+    sides[static_cast<std::size_t>(nearest - away.begin())] += 1;
+    const double dx = (moved[i].x - on.x) / deviation;
+    const double dy = (moved[i].y - on.y) / deviation;
+    squares += dx * dx + dy * dy;
+  }
+  EXPECT_NEAR(squares / (2 * kPoints), 1, 5 * std::sqrt(1.0 / kPoints));
+  EXPECT_LT(chi_squared(sides, {1, 1, 1, 1}), 3 + 5 * std::sqrt(6.0));
+}
+
+TEST(Stress, LakesAreEmptyAndTheRestIsEven) {
+  constexpr std::size_t kPoints = 4000;
+  const MultiPolygon shape = square();
+  const Lakes lakes(shape, 20, 5);
+  ASSERT_EQ(lakes.centres().size(), kLakes);
+  EXPECT_NEAR(kLakes * std::numbers::pi * lakes.radius() * lakes.radius(), 0.2 * polylidar::area(shape),
+              1e-9);
+  for (const char* draws : {"", "airborne"}) {
+    std::vector<Stress> stresses;
+    for (const StressKind& kind : stress_kinds()) {
+      if (kind.name == draws) stresses.push_back({&kind, 1});
+    }
+    for (const StressKind& kind : stress_kinds()) {
+      if (kind.name == "water") stresses.push_back({&kind, 20});
+    }
+    const std::vector<Point> points = sample_stressed(shape, kPoints, stresses, 5);
+    ASSERT_EQ(points.size(), kPoints);
+    EXPECT_TRUE(std::none_of(points.begin(), points.end(), [&](const Point& p) { return lakes.contain(p); }));
+    if (!stresses.front().kind->draw) {
+      // The share of dry ground in each quarter of the square, by a fine uniform sample of its own.
+      const auto quarter = [](const Point& p) {
+        return static_cast<std::size_t>((p.x < 5 ? 0 : 1) + (p.y < 5 ? 0 : 2));
+      };
+      std::vector<double> counts(4);
+      std::vector<double> masses(4);
+      for (const Point& p : points) counts[quarter(p)] += 1;
+      for (const Point& p : sample_uniform(shape, 400'000, 99))
+        masses[quarter(p)] += lakes.contain(p) ? 0 : 1;
+      // Three degrees of freedom; the masses' own chance is a hundredth of the counts'.
+      EXPECT_LT(chi_squared(counts, masses), 3 + 5 * std::sqrt(6.0) * 1.01);
+    }
+  }
+}
+
 TEST(Stress, SeedChangesThePoints) {
   for (const StressKind& kind : stress_kinds()) {
     const auto with_seed = [&](std::uint64_t seed) {
@@ -442,8 +522,8 @@ TEST(Stress, SeedChangesThePoints) {
 TEST(Stress, GoldenSamples) {
   // A change of any bit of any point shows here, and makes results incomparable with those recorded before.
   // `tests/golden_stress.py` works out most of the hashes below apart from this library; those of clusters,
-  // poisson, lattice and boundary, and of shapes without a file, are of what this code gave when it was
-  // written.
+  // poisson, lattice, boundary and outline, and of shapes without a file, are of what this code gave when it
+  // was written.
   const std::map<std::string, std::string> expected{
       {"ca~boundary:100", "45409de926de8399e3fe18bc70e64ebb5028230cfaf6c172545e04d91e104b8c"},
       {"ca~clusters:4", "6a528cd51bfc82e0e5878024461d1fec4741d5abcb78f64359e8720b59ba4fb3"},
@@ -463,14 +543,18 @@ TEST(Stress, GoldenSamples) {
       {"ca~quantised:0.5", "2df57a0ba0b050cb6a997b8c2f95412c56e84f646b0bd762635017ceacac571d"},
       {"ca~gradient:16~outliers:3~noise:0.5",
        "0e85c439ed8041881f26900cfa74193d1b4e09cdb6b39f2a66e25164c71981e8"},
-      {"ca~depthcamera:10", "3fd6331652cd648a51afa74c0d655d8b2231fef90e130ec2dd7aaae199a0bba5"},
+      {"ca~depthcamera:10", "6ebf84e4f00066966e199c9eff50dec18ce87ecb7318d1b9cf8836ca47b6d8b2"},
       {"ca~airborne:10", "e307329929df1660789745dc0e4878fd4cdf7c68182739fefdc3d217a51577a4"},
       {"ca~zigzag:4", "53472150c8dc213cd2f9be038c65c4f0035ff61e5f632bf731006d1cfc0ae82b"},
       {"ca~rotating:4", "ce63252ccc9d2d8fc51e8667fb730ffec3049a1e009a731ee2d8e6b12ab76348"},
       {"ca~tracks:10", "8e379ac97e81cb510b1c829067ddc4101a7c5497012cd6a75f42c4308b60c840"},
       {"letter_b~depthcamera:4~outliers:3~noise:0.25~quantised:0.5",
-       "0c710878988939219e27f741915d9513bcd9c28575e64b2ecbf9142671f3ec97"},
+       "f55910ce8172613388154a6b0e746db754560f8e44e216c39d4425faf4b46317"},
       {"hi~rotating:2~outliers:20", "9069e79e640ce2a1d331faea249cc606e8b283347b74532d3b054559263c33f8"},
+      {"ca~water:10", "919c1c1205516b1c45d11cd02490960cd73199ac10100a5dfdf5a149233f26cc"},
+      {"ca~airborne:4~water:20~noise:0.5",
+       "e48385546952f14bff3e7f7e938be01139224c9d8d610244b26e67c214fae6ce"},
+      {"ca~outline:0.5", "204d67f1545511ac9d496f664b13a8a49754db824ed9188821c6bfb4980349c2"},
       {"letter_b~tracks:3", "ea5c065eb9e9f9da78be9b95a05a393edd46f0249181269ed0ad25c7630502f3"},
   };
   for (const auto& [name, sha256] : expected)

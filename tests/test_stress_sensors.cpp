@@ -7,6 +7,7 @@
 #include <map>
 #include <numbers>
 #include <optional>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -63,7 +64,10 @@ std::optional<Reading> read_back(const DepthShot& shot, const Point& point) {
     const double steps = measured / SensorNoise().disparity_step;
     // Coordinates of up to 15 have errors of 1e-15 each, and up to 1000 pixels in them.
     if (std::abs(column - std::round(column)) > 1e-8 || std::abs(steps - std::round(steps)) > 1e-8) continue;
-    return Reading{{row, std::llround(column)}, measured - shot.view.disparity(forward)};
+    const double true_disparity = shot.view.disparity(
+        shot.view.seen(static_cast<double>(row) + shot.row_offset, std::round(column) + shot.column_offset)
+            .x);
+    return Reading{{row, std::llround(column)}, measured - true_disparity};
   }
   return std::nullopt;
 }
@@ -96,8 +100,8 @@ TEST(DepthCamera, EveryPixelOfTheFloorIsThereButHalfOfThoseAtItsEdge) {
   const std::map<Pixel, double> errors = errors_of(shot);
   const PointLocator locator(disk());
   const auto is_floor = [&](const Pixel& pixel) {
-    const Point place = shot.view.place(static_cast<double>(pixel.first) + shot.row_offset,
-                                        static_cast<double>(pixel.second) + shot.column_offset);
+    const Point place = shot.view.seen(static_cast<double>(pixel.first) + shot.row_offset,
+                                       static_cast<double>(pixel.second) + shot.column_offset);
     return locator.contains(shot.frame.in_plane({shot.foot.x + place.x, shot.foot.y + place.y}));
   };
   const auto low_row = static_cast<std::int64_t>(shot.view.row({shot.view.distance / 2, 0})) - 1;
@@ -124,6 +128,17 @@ TEST(DepthCamera, EveryPixelOfTheFloorIsThereButHalfOfThoseAtItsEdge) {
   ASSERT_GT(edge, 200U);
   EXPECT_NEAR(static_cast<double>(edge_kept), static_cast<double>(edge) / 2,
               5 * std::sqrt(static_cast<double>(edge) / 4));
+}
+
+TEST(DepthCamera, TheLensTurnsRaysByAHundredthAt45Degrees) {
+  const DepthView view{.distance = 10, .height = 2, .focal = 500};
+  EXPECT_EQ(view.seen(0, 0), view.place(0, 0));
+  for (const auto& [row, column, bent] :
+       {std::tuple{0.0, 500.0, 1.01}, {-30.0, 40.0, 1.0001}, {60.0, -80.0, 1.0004}}) {
+    const Point seen = view.seen(row, column);
+    EXPECT_NEAR(view.row(seen), bent * row, 1e-9);
+    EXPECT_NEAR(view.column(seen), bent * column, 1e-9);
+  }
 }
 
 TEST(DepthCamera, PointsOfARowAreNearerThanRowsByWhatTheLevelSays) {

@@ -28,6 +28,7 @@ void add_report(CLI::App& app, Action& action);
 void add_compare(CLI::App& app, Action& action);
 void add_adapter(CLI::App& app, Action& action);
 void add_hull(CLI::App& app, Action& action);
+void add_points(CLI::App& app, Action& action);
 void add_readme(CLI::App& app, Action& action);
 void add_validate(CLI::App& app, Action& action);
 void add_worker(CLI::App& app, Action& action);

@@ -11,9 +11,9 @@ using namespace hullbench;
 using namespace hullbench::cli;
 
 /// In the order of the help.
-constexpr auto kCommands = {&add_list,  &add_metrics, &add_run,      &add_tune,    &add_league,
-                            &add_merge, &add_tables,  &add_report,   &add_compare, &add_adapter,
-                            &add_hull,  &add_readme,  &add_validate, &add_worker};
+constexpr auto kCommands = {&add_list,  &add_metrics, &add_run,    &add_tune,     &add_league,
+                            &add_merge, &add_tables,  &add_report, &add_compare,  &add_adapter,
+                            &add_hull,  &add_points,  &add_readme, &add_validate, &add_worker};
 
 constexpr const char* kVariables =
     "HULLBENCH_POSTGIS_DSN names a PostGIS server to use instead of a private one; HULLBENCH_POSTGRES_BIN\n"

@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <stdexcept>
 #include <system_error>
+#include <utility>
 
 #include "benchmarks/base/interrupt.hpp"
 
@@ -19,26 +20,10 @@ namespace fs = std::filesystem;
   throw std::runtime_error("cannot write " + name + ": " + std::generic_category().message(error));
 }
 
-void write_all(int file, std::string_view bytes, const std::string& name) {
-  while (!bytes.empty()) {
-    throw_if_interrupted();
-    const ssize_t count = ::write(file, bytes.data(), bytes.size());
-    if (count < 0 && errno != EINTR) fail(name, errno);
-    if (count > 0) bytes.remove_prefix(static_cast<std::size_t>(count));
-  }
-}
-
-void write_file(const std::string& file, int flags, std::string_view bytes, const std::string& name) {
+int open_file(const std::string& file, int flags, const std::string& name) {
   const int descriptor = ::open(file.c_str(), flags | O_WRONLY | O_CLOEXEC, 0666);
   if (descriptor < 0) fail(name, errno);
-  try {
-    write_all(descriptor, bytes, name);
-  } catch (...) {
-    ::close(descriptor);
-    throw;
-  }
-  // Some file systems say only now that there was no room.
-  if (::close(descriptor) != 0) fail(name, errno);
+  return descriptor;
 }
 
 /// Where `path` leads: a link stays, and the file that it names gets the result.
@@ -59,19 +44,50 @@ void check_output_place(const std::string& path) {
   if (::access(replaces ? folder.c_str() : target.c_str(), W_OK) != 0) fail(path, errno);
 }
 
-void write_result(const std::string& path, std::string_view bytes) {
-  if (path.empty()) return write_all(STDOUT_FILENO, bytes, "standard output");
-  const fs::path target = behind_links(path);
-  if (fs::exists(target) && !fs::is_regular_file(target)) return write_file(target, 0, bytes, path);
-  const std::string unfinished = target.string() + ".unfinished-" + std::to_string(::getpid());
-  try {
-    write_file(unfinished, O_CREAT | O_TRUNC, bytes, path);
-    fs::rename(unfinished, target);
-  } catch (...) {
-    std::error_code ignored;
-    fs::remove(unfinished, ignored);
-    throw;
+ResultOutput::ResultOutput(const std::string& path) : name_(path.empty() ? "standard output" : path) {
+  if (path.empty()) {
+    file_ = STDOUT_FILENO;
+    return;
   }
+  const std::string target = behind_links(path).string();
+  if (fs::exists(target) && !fs::is_regular_file(target)) {
+    file_ = open_file(target, 0, name_);
+    return;
+  }
+  const std::string unfinished = target + ".unfinished-" + std::to_string(::getpid());
+  file_ = open_file(unfinished, O_CREAT | O_TRUNC, name_);
+  target_ = target;
+  unfinished_ = unfinished;
+}
+
+ResultOutput::~ResultOutput() {
+  if (file_ != -1 && file_ != STDOUT_FILENO) ::close(file_);
+  std::error_code ignored;
+  if (!unfinished_.empty()) fs::remove(unfinished_, ignored);
+}
+
+void ResultOutput::write(std::string_view bytes) {
+  while (!bytes.empty()) {
+    throw_if_interrupted();
+    const ssize_t count = ::write(file_, bytes.data(), bytes.size());
+    if (count < 0 && errno != EINTR) fail(name_, errno);
+    if (count > 0) bytes.remove_prefix(static_cast<std::size_t>(count));
+  }
+}
+
+void ResultOutput::finish() {
+  const int file = std::exchange(file_, -1);
+  // Some file systems say only now that there was no room.
+  if (file != STDOUT_FILENO && ::close(file) != 0) fail(name_, errno);
+  if (unfinished_.empty()) return;
+  fs::rename(unfinished_, target_);
+  unfinished_.clear();
+}
+
+void write_result(const std::string& path, std::string_view bytes) {
+  ResultOutput output(path);
+  output.write(bytes);
+  output.finish();
 }
 
 }  // namespace hullbench::cli

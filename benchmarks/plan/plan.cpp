@@ -327,6 +327,8 @@ void use_recordings(Plan& plan, std::size_t count) {
     group["members"] = count;
     found = true;
   }
+  const auto is_low = [](const json& group) { return group.at("dataset") == kLowFloor; };
+  plan.cases.erase(std::remove_if(plan.cases.begin(), plan.cases.end(), is_low), plan.cases.end());
   if (std::any_of(plan.expanded_cases.begin(), plan.expanded_cases.end(),
                   [](const PlanCase& one) { return is_real(one.dataset); })) {
     plan.cases.push_back({{"dataset", kRealRecording}, {"members", count}});

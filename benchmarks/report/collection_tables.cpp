@@ -38,15 +38,22 @@ bool is_about(const json& entry, const Case& which) {
   return has_prefix(entry, which.dataset) && (!entry.contains("n") || entry.at("n") == which.n);
 }
 
-/// What the paper published of shapes like these at this size, or null.
-const json& published_collection(const std::vector<Shape>& shapes) {
-  static const json none;
+/// The shapes of a collection of the paper's at this size, and all others.
+struct SplitShapes {
+  json published;  ///< what the paper published of the first; null when there are none
+  std::vector<Shape> papers_own;
+  std::vector<Shape> others;
+};
+
+SplitShapes split(const std::vector<Shape>& shapes) {
   for (const json& collection : paper().at("collections")) {
-    const bool all = std::all_of(shapes.begin(), shapes.end(),
-                                 [&](const Shape& shape) { return is_about(collection, shape.front()); });
-    if (all) return collection;
+    SplitShapes parts{collection, {}, {}};
+    for (const Shape& shape : shapes) {
+      (is_about(collection, shape.front()) ? parts.papers_own : parts.others).push_back(shape);
+    }
+    if (!parts.papers_own.empty()) return parts;
   }
-  return none;
+  return {{}, {}, shapes};
 }
 
 std::vector<Case> cases_of(const std::vector<Shape>& shapes) {
@@ -185,8 +192,9 @@ Held add_rows(TableContext& context, const CaseGroup& group, bool by_class, tabl
   return held;
 }
 
-table::Table summary_table(TableContext& context, const std::vector<Case>& cases, const json& published) {
-  table::Table table{"summary", "", {table::words("Method"), "Shapes", "Failed"}};
+table::Table summary_table(TableContext& context, const std::string& id, const std::vector<Case>& cases,
+                           const json& published) {
+  table::Table table{id, "", {table::words("Method"), "Shapes", "Failed"}};
   append_value_columns(context, table.columns);
   const std::vector<CaseGroup> kinds = family_groups(context, cases);
   // Shapes that are no family have each a title of its own.
@@ -221,8 +229,9 @@ table::Cell error_cell(const TableContext& context, const Line& line, const Case
   return cell;
 }
 
-table::Table shape_table(const TableContext& context, const std::vector<Case>& cases, const json& published) {
-  table::Table table{"shapes", "Error L2 of every shape, % of the result's area", {table::words("Shape")}};
+table::Table shape_table(const TableContext& context, const std::string& id, const std::vector<Case>& cases,
+                         const json& published) {
+  table::Table table{id, "Error L2 of every shape, % of the result's area", {table::words("Shape")}};
   const std::vector<Line> lines = lines_of(context, cases);
   for (const Line& line : lines) table.columns.emplace_back(label(context, line), "%");
   bool has_brackets = false;
@@ -338,23 +347,31 @@ bool is_collection(const std::vector<Shape>& shapes) {
   const bool one_size =
       std::all_of(shapes.begin(), shapes.end(), [](const Shape& shape) { return shape.size() == 1; });
   if (shapes.empty() || !one_size) return false;
-  return shapes.size() >= kMany || !published_collection(shapes).is_null();
+  return shapes.size() >= kMany || !split(shapes).papers_own.empty();
 }
 
 std::vector<table::Table> collection_tables(TableContext& context, const std::vector<Shape>& shapes) {
   const std::vector<Case> cases = cases_of(shapes);
   if (cases.size() > kTooManyForRows) return class_tables(context, cases);
-  const json& published = published_collection(shapes);
-  return {summary_table(context, cases, published), shape_table(context, cases, published)};
+  std::vector<table::Table> tables;
+  const SplitShapes parts = split(shapes);
+  const auto add = [&](const std::string& suffix, const std::vector<Shape>& part, const json& published) {
+    if (part.empty()) return;
+    tables.push_back(summary_table(context, "summary" + suffix, cases_of(part), published));
+    tables.push_back(shape_table(context, "shapes" + suffix, cases_of(part), published));
+  };
+  add("", parts.papers_own, parts.published);
+  add(parts.papers_own.empty() ? "" : "_others", parts.others, json());
+  return tables;
 }
 
 std::vector<CaseGroup> published_groups(const TableContext& context, const std::vector<Shape>& shapes) {
   if (!is_collection(shapes)) return {};
   const std::vector<Case> cases = cases_of(shapes);
   if (cases.size() <= kTooManyForRows) {
-    const json& published = published_collection(shapes);
-    if (published.is_null()) return {};
-    return {{"mean of the shapes", cases, published}};
+    const SplitShapes parts = split(shapes);
+    if (parts.papers_own.empty()) return {};
+    return {{"mean of the shapes", cases_of(parts.papers_own), parts.published}};
   }
   std::vector<Case> papers_own;
   std::copy_if(cases.begin(), cases.end(), std::back_inserter(papers_own),

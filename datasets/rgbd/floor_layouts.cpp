@@ -35,7 +35,7 @@ constexpr auto kHexagon = Footprint::kHexagon;
 
 /// The floor that both imagers see reaches from -1.37 to 1.42 and from -0.80 to 0.80 in the first ten scenes,
 /// and in the last one from -0.27 (3.4 wide) to 2.29 (5.1 wide).
-const std::array<std::vector<Obstacle>, kFloorScenes> kScenes{{
+const std::array<std::vector<Obstacle>, kFloorScenes + kLowFloorScenes> kScenes{{
     // 0: a box and a bin
     {{kBox, {0.30, 0.10}, 0.60, 0.40, {5, 2}, 0.35}, {kCylinder, {-0.75, -0.25}, 0.40, 0.40, {1, 0}, 0.30}},
     // 1: two boxes and a bin
@@ -92,6 +92,26 @@ const std::array<std::vector<Obstacle>, kFloorScenes> kScenes{{
      {kHexagon, {-0.30, 1.50}, 0.50, 0.50, {1, 0}, 0.30},
      {kTriangle, {1.00, 0.05}, 0.50, 0.50, {1, 1}, 0.15},
      {kBox, {0.40, 1.90}, 0.40, 0.30, {2, 1}, 0.20}},
+    // 11: a robot's view over the floor in front of it, from 0.14 to 1.98
+    {{kBox, {0.25, 0.70}, 0.20, 0.15, {3, 1}, 0.12},
+     {kCylinder, {-0.35, 1.00}, 0.15, 0.15, {1, 0}, 0.20},
+     {kTriangle, {-0.10, 0.45}, 0.12, 0.12, {0, 1}, 0.05}},
+    // 12: the same from higher up, from 0.23 to 3.3
+    {{kBox, {-0.60, 1.40}, 0.40, 0.30, {2, 1}, 0.25},
+     {kCylinder, {0.40, 1.00}, 0.25, 0.25, {1, 0}, 0.30},
+     {kHexagon, {0.90, 2.00}, 0.40, 0.40, {1, 0}, 0.20},
+     {kBox, {-0.10, 0.60}, 0.15, 0.20, {4, 1}, 0.10}},
+    // 13: a room from 0.37 to 4.4, where the camera's range ends
+    {{kBox, {0.80, 1.80}, 0.60, 0.40, {5, 1}, 0.50},
+     {kCylinder, {-0.70, 1.50}, 0.30, 0.30, {1, 0}, 0.60},
+     {kBox, {-1.20, 2.60}, 0.50, 0.50, {1, 1}, 0.40},
+     {kHexagon, {0.20, 2.90}, 0.40, 0.40, {1, 0}, 0.25},
+     {kCylinder, {0.00, 0.90}, 0.20, 0.20, {1, 0}, 0.15}},
+    // 14: from a table's height and steeper, from 0.18 to 2.6
+    {{kBox, {-0.80, 1.00}, 0.50, 0.40, {3, 1}, 0.40},
+     {kCylinder, {0.30, 0.80}, 0.30, 0.30, {1, 0}, 0.70},
+     {kTriangle, {0.90, 1.60}, 0.50, 0.50, {1, 2}, 0.30},
+     {kBox, {-0.20, 1.90}, 0.60, 0.30, {6, -1}, 0.50}},
 }};
 
 constexpr double kStraightDownHeight = 1.5;
@@ -100,6 +120,17 @@ constexpr double kTiltedHeight = 2.0;
 /// and cosine need no rounded function.
 constexpr double kTiltSine = 0.352;
 constexpr double kTiltCosine = 0.936;
+
+/// Where the camera of a low scene is.
+struct LowCamera {
+  double height;  ///< metres
+  double tilt_sine;
+  double tilt_cosine;
+};
+
+/// The angles of the triangle with the sides 3, 4 and 5.
+constexpr std::array<LowCamera, kLowFloorScenes> kLowCameras{
+    {{0.3, 0.8, 0.6}, {0.5, 0.8, 0.6}, {0.8, 0.8, 0.6}, {1.2, 0.6, 0.8}}};
 
 /// The footprint in a square of side 1 round the origin, counter-clockwise.
 Ring unit_footprint(Footprint footprint) {
@@ -136,14 +167,22 @@ ConvexPrism stand(const Obstacle& obstacle) {
 }  // namespace
 
 FloorLayout floor_layout(std::size_t index) {
-  if (index >= kFloorScenes) {
+  if (index >= kScenes.size()) {
     throw std::invalid_argument("there is no floor scene " + std::to_string(index) + "; give 0 to " +
-                                std::to_string(kFloorScenes - 1));
+                                std::to_string(kScenes.size() - 1));
   }
-  FloorLayout layout{.camera_height = kStraightDownHeight, .tilt_sine = 0, .tilt_cosine = 1, .obstacles = {}};
+  FloorLayout layout;
+  layout.camera_height = kStraightDownHeight;
   if (index == kFloorScenes - 1) {
-    layout = {
-        .camera_height = kTiltedHeight, .tilt_sine = kTiltSine, .tilt_cosine = kTiltCosine, .obstacles = {}};
+    layout.camera_height = kTiltedHeight;
+    layout.tilt_sine = kTiltSine;
+    layout.tilt_cosine = kTiltCosine;
+  } else if (index >= kFloorScenes) {
+    const LowCamera& camera = kLowCameras[index - kFloorScenes];
+    layout.camera_height = camera.height;
+    layout.tilt_sine = camera.tilt_sine;
+    layout.tilt_cosine = camera.tilt_cosine;
+    layout.is_low = true;
   }
   std::transform(kScenes[index].begin(), kScenes[index].end(), std::back_inserter(layout.obstacles), stand);
   return layout;

@@ -45,6 +45,22 @@ bool sees(const FloorLayout& layout, const Vector3& eye, const Vector3& place) {
   });
 }
 
+/// Whether the right imager's image has `place`, if nothing hides it.
+bool is_in_right_image(const StereoCamera& camera, const Intrinsics& intrinsics, const Vector3& place) {
+  const Vector3 from_eye = place - camera.right_eye;
+  const double depth = dot(from_eye, camera.forward);
+  const double x = dot(from_eye, camera.right) / depth;
+  const double y = dot(from_eye, camera.down) / depth;
+  // The position whose ray the lens bends there. Each round leaves some thirtieth of the error.
+  double bend = 1;
+  for (int round = 0; round < 12; ++round) {
+    bend = 1 + camera.lens * (x * x + y * y) / (bend * bend);
+  }
+  const double column = intrinsics.ppx + intrinsics.fx * x / bend;
+  const double row = intrinsics.ppy + intrinsics.fy * y / bend;
+  return column >= -0.5 && row >= -0.5 && row <= intrinsics.height - 0.5;
+}
+
 Sight look(const FloorLayout& layout, const Intrinsics& intrinsics) {
   const StereoCamera camera = stereo_camera(layout);
   Sight sight;
@@ -52,9 +68,10 @@ Sight look(const FloorLayout& layout, const Intrinsics& intrinsics) {
     for (int column = 0; column < intrinsics.width; ++column) {
       const Vector3 direction = camera.direction(intrinsics, column, row);
       const double depth = depth_along(layout, camera.left_eye, direction);
-      const double right_column = column - intrinsics.fx * kStereoBaseline / depth;
-      const bool is_shared =
-          right_column >= -0.5 && sees(layout, camera.right_eye, camera.left_eye + depth * direction);
+      const Vector3 place = camera.left_eye + depth * direction;
+      const bool in_right_image = camera.lens == 0 ? column - intrinsics.fx * kStereoBaseline / depth >= -0.5
+                                                   : is_in_right_image(camera, intrinsics, place);
+      const bool is_shared = in_right_image && sees(layout, camera.right_eye, place);
       sight.depth.push_back(depth);
       sight.is_shared.push_back(is_shared ? 1 : 0);
     }
@@ -80,7 +97,57 @@ double normal(Random& random) {
   return sum;
 }
 
-/// The depth, in metres, that a disparity with errors gives. Disparities are above 4 pixels in every scene,
+/// What a pixel's noise is before SensorNoise scales it.
+struct PixelNoise {
+  std::vector<double> error;         ///< of mean 0 and deviation 1, row-major
+  std::vector<unsigned char> drops;  ///< 1: left without depth when it is at an edge
+};
+
+/// Drawn for every pixel, so that a change in one place of a scene leaves the noise elsewhere as it was.
+PixelNoise independent_noise(std::size_t pixels, double dropout, Random& random) {
+  PixelNoise noise;
+  for (std::size_t i = 0; i < pixels; ++i) {
+    noise.error.push_back(normal(random));
+    noise.drops.push_back(random.uniform() < dropout ? 1 : 0);
+  }
+  return noise;
+}
+
+/// A pixel's error is the sum of nine independent ones, of its window, over 3.
+PixelNoise window_noise(std::size_t width, std::size_t height, double dropout, Random& random) {
+  std::vector<double> white((width + 2) * (height + 2));
+  for (double& one : white) one = normal(random);
+  PixelNoise noise;
+  for (std::size_t row = 0; row < height; ++row) {
+    for (std::size_t column = 0; column < width; ++column) {
+      double sum = 0;
+      for (std::size_t line = row; line < row + 3; ++line) {
+        const std::size_t first = line * (width + 2) + column;
+        sum += white[first] + white[first + 1] + white[first + 2];
+      }
+      noise.error.push_back(sum / 3);
+      noise.drops.push_back(random.uniform() < dropout ? 1 : 0);
+    }
+  }
+  return noise;
+}
+
+/// Whether the disparity of one of the eight neighbours of pixel i is another surface's.
+bool is_low_edge(const std::vector<double>& depth, std::size_t width, std::size_t i) {
+  const std::size_t row = i / width;
+  const std::size_t column = i % width;
+  const std::size_t last_row = std::min(row + 1, depth.size() / width - 1);
+  const std::size_t last_column = std::min(column + 1, width - 1);
+  for (std::size_t r = row > 0 ? row - 1 : 0; r <= last_row; ++r) {
+    for (std::size_t c = column > 0 ? column - 1 : 0; c <= last_column; ++c) {
+      const double difference = kFocalLength * kStereoBaseline * (1 / depth[r * width + c] - 1 / depth[i]);
+      if (std::abs(difference) > kLowEdgeStep) return true;
+    }
+  }
+  return false;
+}
+
+/// The depth, in metres, that a disparity with errors gives. Disparities are above 2.7 pixels in every scene,
 /// so none comes near 0.
 double measured_depth(double depth, double focal_length, const SensorNoise& noise, double error) {
   double disparity = focal_length * kStereoBaseline / depth + noise.subpixel_error * error;
@@ -92,7 +159,7 @@ double measured_depth(double depth, double focal_length, const SensorNoise& nois
 
 void check(const SensorNoise& noise) {
   const auto is_below = [](double value, double limit) { return value >= 0 && value <= limit; };
-  // Above these a scene's smallest disparity, 4 pixels, could be lost.
+  // Above these a scene's smallest disparity, 4 pixels, could be lost; of a low scene the one of the range.
   if (!is_below(noise.subpixel_error, 0.5) || !is_below(noise.disparity_step, 1)) {
     throw std::invalid_argument("the error of a disparity must be 0 to 0.5 pixels and its step 0 to 1 pixel");
   }
@@ -113,27 +180,43 @@ Intrinsics simulated_camera() {
           .depth_unit = 0.001};
 }
 
+Intrinsics scene_camera(std::size_t index) {
+  if (index < kFloorScenes) return simulated_camera();
+  return {.width = 212,
+          .height = 120,
+          .fx = kFocalLength / 2,
+          .fy = kFocalLength / 2,
+          .ppx = 105.5,
+          .ppy = 59.5,
+          .depth_unit = 0.001};
+}
+
 StereoCamera stereo_camera(const FloorLayout& layout) {
   return {.right = {1, 0, 0},
           .down = {0, -layout.tilt_cosine, -layout.tilt_sine},
           .forward = {0, layout.tilt_sine, -layout.tilt_cosine},
           .left_eye = {0, 0, layout.camera_height},
-          .right_eye = {kStereoBaseline, 0, layout.camera_height}};
+          .right_eye = {kStereoBaseline, 0, layout.camera_height},
+          .lens = layout.is_low ? kLowLens : 0};
 }
 
 DepthImage simulate_depth(std::size_t index, std::uint64_t seed, const SensorNoise& noise) {
   check(noise);
-  const Intrinsics camera = simulated_camera();
-  const Sight sight = look(floor_layout(index), camera);
+  const Intrinsics camera = scene_camera(index);
+  const FloorLayout layout = floor_layout(index);
+  const Sight sight = look(layout, camera);
   const auto width = static_cast<std::size_t>(camera.width);
   Random random(derive_seed(seed, "rgbd/" + std::to_string(index)));
   DepthImage image{.intrinsics = camera, .counts = std::vector<std::uint16_t>(sight.depth.size(), 0)};
+  const PixelNoise drawn =
+      layout.is_low ? window_noise(width, static_cast<std::size_t>(camera.height), noise.edge_dropout, random)
+                    : independent_noise(sight.depth.size(), noise.edge_dropout, random);
   for (std::size_t i = 0; i < sight.depth.size(); ++i) {
-    // Drawn for every pixel, so that a change in one place of a scene leaves the noise elsewhere as it was.
-    const double error = normal(random);
-    const bool drops = random.uniform() < noise.edge_dropout;
-    if (sight.is_shared[i] == 0 || (drops && is_edge(sight.depth, width, i))) continue;
-    const double depth = measured_depth(sight.depth[i], camera.fx, noise, error);
+    if (sight.is_shared[i] == 0) continue;
+    const bool at_edge = layout.is_low ? is_low_edge(sight.depth, width, i) : is_edge(sight.depth, width, i);
+    if (at_edge && drawn.drops[i] != 0) continue;
+    const double depth = measured_depth(sight.depth[i], kFocalLength, noise, drawn.error[i]);
+    if (layout.is_low && depth > kLowRange) continue;
     image.counts[i] = static_cast<std::uint16_t>(std::lround(depth / camera.depth_unit));
   }
   return image;

@@ -12,4 +12,7 @@ namespace hullbench {
 std::vector<polylidar::Point> sample_boundary(const polylidar::MultiPolygon& shape, std::size_t n,
                                               double level, std::uint64_t seed);
 
+std::vector<polylidar::Point> sample_outline(const polylidar::MultiPolygon& shape, std::size_t n,
+                                             double level, std::uint64_t seed);
+
 }  // namespace hullbench

@@ -30,10 +30,12 @@ class PixelGrid {
   std::size_t width() const { return columns_ + 2; }
   std::size_t at(std::size_t row, std::size_t column) const { return (row + 1) * width() + column + 1; }
 
-  /// What the pixel sees, in the frame of the shot's view.
-  Point place(const DepthShot& shot, std::size_t row, std::size_t column) const {
-    return shot.view.place(first_row_ + static_cast<double>(row) + shot.row_offset,
-                           first_column_ + static_cast<double>(column) + shot.column_offset);
+  /// In the image, from the optical axis.
+  double v(const DepthShot& shot, std::size_t row) const {
+    return first_row_ + static_cast<double>(row) + shot.row_offset;
+  }
+  double u(const DepthShot& shot, std::size_t column) const {
+    return first_column_ + static_cast<double>(column) + shot.column_offset;
   }
 
  private:
@@ -87,7 +89,7 @@ std::vector<unsigned char> find_shape(const MultiPolygon& shape, const DepthShot
   std::vector<unsigned char> is_floor(grid.size());
   for (std::size_t row = 0; row < grid.rows(); ++row) {
     for (std::size_t column = 0; column < grid.columns(); ++column) {
-      const Point point = in_plane(shot, grid.place(shot, row, column));
+      const Point point = in_plane(shot, shot.view.seen(grid.v(shot, row), grid.u(shot, column)));
       is_floor[grid.at(row, column)] = locator.contains(point) ? 1 : 0;
     }
   }
@@ -139,6 +141,11 @@ Point DepthView::place(double row, double column) const {
   return {forward, column * depth(forward) / focal};
 }
 
+Point DepthView::seen(double row, double column) const {
+  const double stretch = 1 + kLensDistortion * ((row * row + column * column) / (focal * focal));
+  return place(row * stretch, column * stretch);
+}
+
 DepthShot take_depth_shot(const MultiPolygon& shape, double turns, double pitch, double level,
                           Random& random) {
   const SensorNoise sensor;
@@ -152,15 +159,15 @@ DepthShot take_depth_shot(const MultiPolygon& shape, double turns, double pitch,
       const std::size_t pixel = grid.at(row, column);
       if (is_floor[pixel] == 0) continue;
       if (is_edge(is_floor, pixel, grid.width()) && random.uniform() < sensor.edge_dropout) continue;
-      const Point seen = grid.place(shot, row, column);
-      const double disparity = shot.view.disparity(seen.x);
+      const double disparity = shot.view.disparity(shot.view.seen(grid.v(shot, row), grid.u(shot, column)).x);
       const double wrong = disparity + sensor.subpixel_error * window_noise(white, pixel, grid.width());
       const double measured = sensor.disparity_step * std::round(wrong / sensor.disparity_step);
       // So few pixels of disparity come with a coarse image only; the depth would be anything.
       if (measured < disparity / 2) continue;
       // A wrong depth moves the point along the pixel's ray; on the floor that is the line through the foot.
-      const double stretch = disparity / measured;
-      shot.points.push_back(in_plane(shot, {stretch * seen.x, stretch * seen.y}));
+      const Point taken_for = shot.view.place(grid.v(shot, row), grid.u(shot, column));
+      const double stretch = shot.view.disparity(taken_for.x) / measured;
+      shot.points.push_back(in_plane(shot, {stretch * taken_for.x, stretch * taken_for.y}));
     }
   }
   return shot;

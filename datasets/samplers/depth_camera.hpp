@@ -21,6 +21,10 @@ struct DepthView {
   double focal = 0;     ///< pixels
 
   polylidar::Point place(double row, double column) const;
+  /// What a pixel sees in truth: the lens turns the ray that it is taken for away from the optical axis, by
+  /// kLensDistortion * r^2 of its r focal lengths (the first term of Brown: Close-Range Camera Calibration,
+  /// Photogrammetric Engineering 37(8), 1971).
+  polylidar::Point seen(double row, double column) const;
   double row(const polylidar::Point& place) const;
   double column(const polylidar::Point& place) const;
   /// Pixels between the two images of a place `forward` of the foot.
@@ -30,6 +34,10 @@ struct DepthView {
   double slant() const;
   double depth(double forward) const;
 };
+
+/// What calibration leaves of the lens, k1 of the Brown-Conrady model: a hundredth at 45 degrees off the
+/// axis. Users of a D415 saw rings of a hundredth of the distance on a plane (librealsense, issue 3210).
+inline constexpr double kLensDistortion = 0.01;
 
 /// The camera's baseline, in distances to the middle: 5 cm at 2 m.
 inline constexpr double kDepthBaseline = 1.0 / 40;

@@ -18,8 +18,8 @@ namespace {
 /// make the count jump.
 constexpr int kMaxScans = 20;
 
-/// Leaves `n` of the points, each as likely to stay as the others, in their order (Knuth: The Art of Computer
-/// Programming 2, algorithm 3.4.2 S).
+}  // namespace
+
 std::vector<Point> lose_points(const std::vector<Point>& points, std::size_t n, Random& random) {
   std::vector<Point> kept;
   kept.reserve(n);
@@ -28,8 +28,6 @@ std::vector<Point> lose_points(const std::vector<Point>& points, std::size_t n, 
   }
   return kept;
 }
-
-}  // namespace
 
 ScanFrame::ScanFrame(const MultiPolygon& shape, double turns) : along_(unit_vector(turns)) {
   std::vector<Point> corners;

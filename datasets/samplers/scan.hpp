@@ -32,6 +32,11 @@ class ScanFrame {
   polylidar::Box bounds_;
 };
 
+/// Leaves `n` of the points, each as likely to stay as the others, in their order (Knuth: The Art of Computer
+/// Programming 2, algorithm 3.4.2 S).
+std::vector<polylidar::Point> lose_points(const std::vector<polylidar::Point>& points, std::size_t n,
+                                          Random& random);
+
 /// The points that a sensor gets from a shape, in the order in which it gets them. `pitch` is its resolution:
 /// about the spacing that the points will have, in units of the coordinates.
 using Scan = std::function<std::vector<polylidar::Point>(double pitch, Random& random)>;

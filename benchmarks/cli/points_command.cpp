@@ -1,0 +1,194 @@
+// `hullbench points DATASET`: the points of any data set, as a file.
+#include <algorithm>
+#include <chrono>
+#include <csignal>
+#include <fstream>
+#include <iostream>
+#include <new>
+#include <stdexcept>
+
+#include "benchmarks/base/configuration_error.hpp"
+#include "benchmarks/base/interrupt.hpp"
+#include "benchmarks/base/status_line.hpp"
+#include "benchmarks/cli/options.hpp"
+#include "benchmarks/cli/result_output.hpp"
+#include "benchmarks/cli/terminal.hpp"
+#include "benchmarks/hull/point_files/point_writer.hpp"
+#include "datasets/datasets.hpp"
+
+namespace hullbench::cli {
+namespace {
+
+using hull::PointOutput;
+using polylidar::Box;
+using polylidar::Point;
+
+struct PointsCommand {
+  std::string dataset;
+  std::size_t count = 0;  ///< 0: the data set's own points
+  std::uint64_t seed = 1;
+  bool holes = false;
+  std::string format = "auto";  ///< or a name that point_output_of() knows
+  std::string out;              ///< a file; empty or "-": standard output
+};
+
+/// What sampling takes at most for a point: a grown vector of them, the ones that are kept, and an image.
+constexpr std::size_t kBytesAPoint = 80;
+
+/// Points between two looks at the clock and at interruptions, and in one write.
+constexpr std::size_t kBlock = std::size_t{1} << 16U;
+
+/// Bytes of memory that are free or can be freed; none when the system does not say.
+std::optional<std::size_t> available_memory() {
+  std::ifstream lines("/proc/meminfo");
+  std::string name;
+  std::size_t kibibytes = 0;
+  std::string unit;
+  while (lines >> name >> kibibytes && std::getline(lines, unit)) {
+    if (name == "MemAvailable:") return kibibytes << 10U;
+  }
+  return std::nullopt;
+}
+
+std::string gibibytes(double bytes) {
+  return std::to_string(static_cast<std::uint64_t>(bytes / (1U << 30U)) + 1) + " GiB";
+}
+
+[[noreturn]] void refuse_for_memory(const PointsCommand& command, const std::string& what) {
+  throw std::runtime_error(
+      what + " for " + std::to_string(command.count) + " points of '" + command.dataset +
+      "', which are drawn all at once; ask for fewer of them, or for uniform ones, which "
+      "take none");
+}
+
+/// Better now than when the system has begun to end programs.
+void check_memory(const PointsCommand& command) {
+  if (is_streamed(command.dataset)) return;
+  const auto available = available_memory();
+  if (!available || command.count <= *available / kBytesAPoint) return;
+  refuse_for_memory(command,
+                    "the free memory, " + gibibytes(static_cast<double>(*available)) + ", may be too small");
+}
+
+/// What the work is at, from its first second on.
+class PointsProgress {
+ public:
+  explicit PointsProgress(std::size_t points) : points_(points) {}
+
+  void show(const char* doing, std::size_t done) {
+    throw_if_interrupted();
+    using namespace std::chrono_literals;
+    if (std::chrono::steady_clock::now() - start_ < 1s) return;
+    status_.show(std::string(doing) + ": " + std::to_string(done) + " of " + std::to_string(points_) +
+                 " points");
+  }
+  /// The samplers do not say how far they are.
+  void show_drawing() {
+    constexpr std::size_t kAboutASecond = 300'000;
+    if (points_ >= kAboutASecond) status_.show("drawing " + std::to_string(points_) + " points");
+  }
+
+ private:
+  std::size_t points_;
+  StatusLine status_{std::cerr, is_terminal()};
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+};
+
+PointOutput output_format(const PointsCommand& command) {
+  if (const auto named = hull::point_output_of(command.format)) return *named;
+  if (command.out.empty()) return PointOutput::kCsv;
+  if (const auto known = hull::point_output_of_ending(command.out)) return *known;
+  throw ConfigurationError("the ending of '" + command.out +
+                           "' names no format; give .csv, .xyz, .txt, .npy or .las, or --format");
+}
+
+/// Takes its own copy of the stream, so that the points can be written after it.
+Box bounds_of(PointStream points, PointsProgress& progress) {
+  if (points.size() == 0) return {{0, 0}, {0, 0}};
+  const Point first = points.next();
+  Box box{first, first};
+  for (std::size_t i = 1; i < points.size(); ++i) {
+    if (i % kBlock == 0) progress.show("measuring", i);
+    const Point point = points.next();
+    box = {{std::min(box.min.x, point.x), std::min(box.min.y, point.y)},
+           {std::max(box.max.x, point.x), std::max(box.max.y, point.y)}};
+  }
+  return box;
+}
+
+ExitCode write_points(const PointsCommand& command) {
+  const PointOutput format = output_format(command);
+  hull::check_point_count(format, command.count);
+  check_output_place(command.out);
+  check_memory(command);
+  PointsProgress progress(command.count);
+  if (!is_streamed(command.dataset)) progress.show_drawing();
+  PointStream points = stream_points(command.dataset, command.holes, command.count, command.seed);
+  hull::PointFileFacts facts{.count = points.size(), .has_labels = false, .bounds = {}};
+  // LAS says in front how far the points reach.
+  if (format == PointOutput::kLas) facts.bounds = bounds_of(points, progress);
+  const hull::PointEncoder encoder(format, facts);
+  ResultOutput output(command.out);
+  std::string bytes = encoder.header();
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    if (i % kBlock == 0) {
+      progress.show("writing", i);
+      output.write(bytes);
+      bytes.clear();
+    }
+    encoder.append(points.next(), 0, bytes);
+  }
+  output.write(bytes);
+  output.finish();
+  return kExitOk;
+}
+
+ExitCode make_points(const PointsCommand& asked) {
+  // A closed pipe is then an error of writing, which is told like others; so is a file beyond the limit.
+  (void)::signal(SIGPIPE, SIG_IGN);
+  (void)::signal(SIGXFSZ, SIG_IGN);
+  PointsCommand command = asked;
+  if (command.out == "-") command.out.clear();
+  try {
+    return write_points(command);
+  } catch (const std::invalid_argument& error) {
+    throw ConfigurationError(error.what());
+  } catch (const std::bad_alloc&) {
+    refuse_for_memory(command, "the memory is too small");
+  }
+}
+
+}  // namespace
+
+void add_points(CLI::App& app, Action& action) {
+  const auto command = std::make_shared<PointsCommand>();
+  CLI::App& options = add_command(app, "points", "Write the points of a data set into a file",
+                                  "hullbench points 'ca~gradient:16~noise:0.5' --n 100000 --out points.npy");
+  options.footer(
+      "The points are those that a run draws for the same data set, number and seed, on every machine.\n"
+      "'hullbench list' shows the data sets and what can stand behind their names. Uniform points, also\n"
+      "with water, outliers, noise and quantised, are written as they are drawn: there may be any number of "
+      "them,\n"
+      "whatever the memory. Others are drawn all at once. LAS is 1.2 with point format 0, which rounds\n"
+      "coordinates to a power of ten below a 400,000,000th of the larger side.\n" +
+      options.get_footer());
+  options.add_option("DATASET", command->dataset, "The data set's name, as 'hullbench list' has it")
+      ->required();
+  options
+      .add_option("--n", command->count,
+                  "How many points; not for data sets that come with their points, such as floor-1")
+      ->check(CLI::Range(std::size_t{1}, std::size_t{1'000'000'000'000'000}));
+  options.add_option("--seed", command->seed, "Of the random numbers")
+      ->check(CLI::NonNegativeNumber)
+      ->capture_default_str();
+  options.add_flag("--holes", command->holes, "Of the variant with holes");
+  options
+      .add_option("--format", command->format,
+                  "The file's format; auto: by its ending, .csv, .xyz, .txt, .npy or .las")
+      ->check(CLI::IsMember({"auto", "csv", "xyz", "npy", "las"}))
+      ->capture_default_str();
+  options.add_option("--out", command->out, "File for the points instead of standard output, which gets csv");
+  set_action(options, action, command, &make_points);
+}
+
+}  // namespace hullbench::cli
