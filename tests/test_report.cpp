@@ -25,6 +25,7 @@
 #include "benchmarks/report/report.hpp"
 #include "invented_run.hpp"
 #include "temporary_folder.hpp"
+#include "tests/complaint.hpp"
 
 namespace hullbench {
 namespace {
@@ -54,12 +55,7 @@ json find_by(const json& list, const char* key, const std::string& value) {
 }
 
 std::string message_of(const std::filesystem::path& directory) {
-  try {
-    report::make_report(directory);
-  } catch (const std::runtime_error& error) {
-    return error.what();
-  }
-  return "";
+  return testing::complaint_of([&] { report::make_report(directory); });
 }
 
 TEST(Report, HoldsTheRunAndItsLines) {
