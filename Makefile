@@ -62,7 +62,7 @@ help: ## list the targets (the default)
 	@awk 'BEGIN { FS = ":.*## " } /^[a-z-]+:.*## / { printf "  make %-23s %s\n", $$1, $$2 }' Makefile
 	@echo "  with NATIVE=1 (compile for this processor), SKIP_DEPS=1 (install nothing), JOBS=N (N processes)"
 
-deps: ## install what is missing of all the packages, development tools included
+deps: ## install every package that is missing, also those for development
 	@cmake/install-packages.sh build bench unit test docs python plots lint gate
 	@echo "==> nothing is missing"
 
@@ -84,7 +84,7 @@ build: ## only build: build/hullbench and build/core_benchmarks
 	@$(call build,release,$(WITHOUT_TESTS),hullbench core_benchmarks)
 	@echo "==> built build/hullbench and build/core_benchmarks"
 
-bench: ## install, build and run the experiments in three passes (TABLE=states: only this one); go on if interrupted
+bench: ## install, build and run the experiments in three passes (TABLE=states: only this one); an interrupted run is continued
 	@$(call install,build bench)
 	@$(MAKE) build
 	@build/hullbench run $(or $(TABLE),rgbd states alphabet random steps) --passes 3
@@ -122,7 +122,7 @@ report: ## write results/latest/report.html, one file with everything about the 
 	@$(call drawn,$(RUN),$(call drawn_folder,$(RUN)))
 	@/usr/bin/python3 plots/make_report.py $(call drawn_folder,$(RUN)) --out $(call drawn_into,$(RUN))/report.html
 
-report-compare: ## write B's comparison.html, two runs side by side (A=FOLDER B=FOLDER)
+report-compare: ## write B/comparison.html, a page with two runs side by side (A=FOLDER B=FOLDER)
 	@test -n "$(A)" -a -n "$(B)" || { echo "error: give two runs: make report-compare A=FOLDER B=FOLDER" >&2; exit 2; }
 	@$(call install,build plots)
 	@$(if $(SKIP_DEPS),,cmake/install-npm.sh plots)
@@ -134,17 +134,17 @@ report-compare: ## write B's comparison.html, two runs side by side (A=FOLDER B=
 	  --compared build/drawn/compared.json --out $(B)/comparison.html
 
 .PHONY: fit-rules
-fit-rules: ## fit the constants of the rules from the points, and of the core's automatic limit, on the training side
+fit-rules: ## fit the constants of the `auto` rules and of the core's automatic limit on the training shapes
 	@$(call install,build)
 	@$(call build,release,$(NATIVE_OPTION),fit_rules)
 	@build/fit_rules
 
-evaluate: ## the parameters' search over the plans of the world and the league, on all cores (OUT=results/evaluation)
+evaluate: ## search every method's parameter on the plans of the world and rank the methods, on all cores (OUT=results/evaluation)
 	@$(call install,build bench)
 	@$(MAKE) build
 	@benchmarks/league/evaluate.sh build/hullbench $(or $(OUT),results/evaluation)
 
-reference: ## keep results/latest, if a build of HEAD measured it, as the reference run; draw it, and write its tables into the README
+reference: ## draw results/latest, keep it as the reference run and write its tables into the README (a build of HEAD must have measured it)
 	@$(call install,build test)
 	@results/check_reference.py results/latest
 	@$(MAKE) build
@@ -172,7 +172,7 @@ bench-gate: ## whether the core is slower than BASE (default: the merge base wit
 	@$(call install,build)
 	@benchmarks/gate/gate.sh $(if $(BASE),--base "$(BASE)")
 
-bench-gate-instructions: ## the same by counted instructions, for machines that are shared
+bench-gate-instructions: ## the same with counted instructions instead of times, for shared machines
 	@$(call install,build gate)
 	@benchmarks/gate/gate.sh --instructions $(if $(BASE),--base "$(BASE)")
 
@@ -204,7 +204,7 @@ test-clang: ## the tests of the clang build
 	@echo "==> all tests, built with clang"
 	@$(call tests,clang,build-clang)
 
-test-fresh: ## prove bench-quick and test from nothing in bare Debian 12 roots (SUITE=trixie: 13; needs root, 10 GB, over an hour)
+test-fresh: ## run bench-quick and test from nothing in a bare Debian 12 (SUITE=trixie: 13; needs root, 10 GB, over an hour)
 	@SUITE=$(or $(SUITE),bookworm) tests/fresh/run.sh
 
 test-slurm: ## try the Slurm scripts on a real Slurm of one node, made for the test (needs root)

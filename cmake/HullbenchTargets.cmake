@@ -32,17 +32,27 @@ if(HULLBENCH_NATIVE)
   target_compile_options(hullbench_compile_options INTERFACE -march=native)
 endif()
 
-# hullbench_test(NAME SOURCES... LIBRARIES...): one GoogleTest program from one or more files; its cases appear
-# in ctest one by one.
+# hullbench_test(NAME SOURCES... LIBRARIES... [LABELS...] [TIMEOUT seconds] [RUNS_HULLBENCH]): one GoogleTest program from one
+# or more files; its cases appear in ctest one by one. All know the folders of the sources and the plans, where the program
+# is and which Python the system has; with RUNS_HULLBENCH the program is built first.
 function(hullbench_test name)
-  cmake_parse_arguments(TEST "" "TIMEOUT" "SOURCES;LIBRARIES;LABELS" ${ARGN})
+  cmake_parse_arguments(TEST "RUNS_HULLBENCH" "TIMEOUT" "SOURCES;LIBRARIES;LABELS" ${ARGN})
   add_executable(${name} ${TEST_SOURCES})
-  # Boost 1.74's Geometry includes headers of its own that announce themselves as deprecated in every compilation.
-  target_compile_definitions(${name} PRIVATE BOOST_ALLOW_DEPRECATED_HEADERS)
+  target_compile_definitions(${name} PRIVATE
+    # Boost 1.74's Geometry includes headers of its own that announce themselves as deprecated in every compilation.
+    BOOST_ALLOW_DEPRECATED_HEADERS
+    HULLBENCH_SOURCE_DIRECTORY="${PROJECT_SOURCE_DIR}"
+    HULLBENCH_PLAN_FOLDER="${PROJECT_SOURCE_DIR}/benchmarks/plans"
+    HULLBENCH="${CMAKE_RUNTIME_OUTPUT_DIRECTORY}/hullbench"
+    SYSTEM_PYTHON="${SYSTEM_PYTHON}")
   # What is tested is optimised as always; the tests themselves are many, and at -O3 they take half as long again to
   # compile.
   target_compile_options(${name} PRIVATE -O1)
   target_link_libraries(${name} PRIVATE ${TEST_LIBRARIES} GTest::gtest_main hullbench::compile_options)
+  if(TEST_RUNS_HULLBENCH)
+    target_link_libraries(${name} PRIVATE hullbench_test_program)
+    add_dependencies(${name} hullbench)
+  endif()
   if(NOT TEST_TIMEOUT)
     set(TEST_TIMEOUT 120)
   endif()

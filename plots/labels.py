@@ -8,7 +8,6 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
-from matplotlib.text import Annotation
 from matplotlib.transforms import Bbox
 
 # Where a text may stand, the best first: offset in points and how it is aligned to it.
@@ -34,25 +33,21 @@ def place_labels(
     axes: Axes,
     places: Sequence[tuple[float, float]],
     texts: Sequence[Mapping[str, object]],
+    markers: Sequence[tuple[float, float]],
     line: Sequence[tuple[float, float]] = (),
-) -> list[Annotation]:
-    """One text a place (in data coordinates), each with the options of Axes.annotate; a text far from its marker gets a
-    thin line to it. Texts keep off a line through the corners `line` too. The layout is fixed first, as it decides on
-    what covers what."""
+) -> None:
+    """One text a place, each with the options of Axes.annotate; a text far from its place gets a thin line to it. Texts and
+    these lines keep off the markers and off a line through the corners `line`, and the first texts choose first. All in
+    data coordinates. The layout is fixed first, as it decides on what covers what."""
     canvas = FigureCanvasAgg(figure)
     canvas.draw()
     renderer = canvas.get_renderer()
     scale = figure.dpi / 72
-    pixels = axes.transData.transform(places)
-    markers = [Bbox.from_extents(*(p - _MARKER * scale), *(p + _MARKER * scale)) for p in pixels]
-    taken = _along(axes.transData.transform(line), scale) if len(line) > 1 else []
-    made = []
-    for k, (place, options) in enumerate(zip(places, texts)):
-        others = [*taken, *(box for j, box in enumerate(markers) if j != k)]
-        note, box = _best(axes, place, options, others, renderer)
-        taken.append(box)
-        made.append(note)
-    return made
+    to_pixels = axes.transData.transform
+    taken = [Bbox.from_extents(*(p - _MARKER * scale), *(p + _MARKER * scale)) for p in to_pixels(markers)]
+    taken += _along(to_pixels(line), scale) if len(line) > 1 else []
+    for place, options in zip(places, texts):
+        taken += _put(axes, place, options, taken, renderer)
 
 
 def _along(corners: np.ndarray, scale: float) -> list[Bbox]:
@@ -65,36 +60,41 @@ def _along(corners: np.ndarray, scale: float) -> list[Bbox]:
     return boxes
 
 
-def _best(axes: Axes, place, options, others: Sequence[Bbox], renderer) -> tuple[Annotation, Bbox]:
-    """The first of the places where nothing is covered; where there is none, the one where least is."""
-    tried = []
-    for rank, (dx, dy, horizontal, vertical) in enumerate(_PLACES):
-        looks = {key: value for key, value in options.items() if key != "text"}
-        note = axes.annotate(
-            options["text"],
-            place,
-            xytext=(dx, dy),
-            textcoords="offset points",
-            ha=horizontal,
-            va=vertical,
-            annotation_clip=False,
-            zorder=6,
-            **looks,
-        )
+def _put(axes: Axes, place, options: Mapping[str, object], taken: Sequence[Bbox], renderer) -> list[Bbox]:
+    """Writes the text at the first of the places where nothing is covered; where there is none, at the one where least
+    is. What it covers itself, in pixels."""
+    scale = axes.figure.dpi / 72
+    anchor = axes.transData.transform(place)
+    note = axes.annotate(xy=place, xytext=(0, 0), textcoords="offset points", annotation_clip=False, zorder=6, **options)
+
+    def boxes_at(offset: tuple[float, float, str, str]) -> list[Bbox]:
+        dx, dy, horizontal, vertical = offset
+        note.set(position=(dx, dy), ha=horizontal, va=vertical)
         box = note.get_window_extent(renderer)
-        covered = sum(_common(box, other) for other in others) + 4 * _outside(box, axes.bbox)
-        tried.append((covered, rank, note, box))
-        if covered == 0:
+        if not _needs_line(offset):
+            return [box]
+        line = _along(np.array([anchor, anchor + scale * np.array([dx, dy])]), scale)
+        return [box, *(part for part in line if np.hypot(*(part.p0 + scale - anchor)) > 2 * _MARKER * scale)]
+
+    def covered(offset: tuple[float, float, str, str]) -> float:
+        boxes = boxes_at(offset)
+        return sum(_common(box, other) for box in boxes for other in taken) + 4 * _outside(boxes[0], axes.bbox)
+
+    tried = []
+    for offset in _PLACES:
+        tried.append((covered(offset), offset))
+        if tried[-1][0] == 0:
             break
-    covered, rank, note, box = min(tried, key=lambda one: one[:2])
-    for *_, other, _box in tried:
-        if other is not note:
-            other.remove()
-    dx, dy, *_ = _PLACES[rank]
-    if abs(dx) + abs(dy) > 12:
-        line = {"arrowstyle": "-", "linewidth": 0.4, "color": options["color"], "shrinkA": 0, "shrinkB": 2}
-        axes.annotate("", place, xytext=(dx, dy), textcoords="offset points", arrowprops=line)
-    return note, box
+    _, best = min(tried, key=lambda one: one[0])
+    boxes = boxes_at(best)
+    if _needs_line(best):
+        look = {"arrowstyle": "-", "linewidth": 0.4, "color": options["color"], "shrinkA": 0, "shrinkB": 2}
+        axes.annotate("", place, xytext=best[:2], textcoords="offset points", arrowprops=look)
+    return boxes
+
+
+def _needs_line(offset: tuple[float, float, str, str]) -> bool:
+    return abs(offset[0]) + abs(offset[1]) > 12
 
 
 def _common(a: Bbox, b: Bbox) -> float:

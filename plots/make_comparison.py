@@ -19,7 +19,7 @@ from typing import Any
 
 from comparison_data import Comparison, both_charts, charted_metrics, columns, compare, read_compared
 from comparison_html import SIGNS, differences_html, only_html, verdict_html
-from page import code, colours, data, entrants, fill, method_styles, write_page
+from page import Section, code, colours, data, entrants, method_styles, page, place, write_page
 from records import NothingToShow, exit_code_of, load
 from report_common import text
 from report_data import pack
@@ -53,23 +53,22 @@ def make_page(a: Path, b: Path, compared: Path) -> str:
     comparison = compare(load(a), load(b), told, (a.resolve().name, b.resolve().name))
     if not comparison.pairs:
         raise NothingToShow(f"{a} and {b} have no run in common, so there is nothing to compare.")
-    return fill("comparison.html", _template_values(comparison))
-
-
-def _template_values(comparison: Comparison) -> dict[str, str]:
     report = _report(comparison)
-    return {
-        **code(STYLES, "comparison.js"),
-        "title": text(report["title"]),
-        "byline": _byline(comparison),
-        "colours": colours(report["methods"]),
-        "verdict": verdict_html(comparison),
-        "differences": differences_html(comparison),
-        "only": only_html(comparison),
-        "report": data("report", report),
-        "charts": data("charts", pack(both_charts(comparison))),
-        "rows": data("rows", pack(columns(comparison))),
-    }
+    blocks = [data("report", report), data("charts", pack(both_charts(comparison))), data("rows", pack(columns(comparison)))]
+    parts = {**code(STYLES, "comparison.js"), "colours": colours(report["methods"])}
+    return page(text(report["title"]), _byline(comparison), _sections(comparison), blocks, parts)
+
+
+def _sections(comparison: Comparison) -> list[Section]:
+    ratios = place("ratios", "The charts and the table of all runs")
+    return [
+        Section("summary", "Verdict", "Verdict", verdict_html(comparison)),
+        Section("differences", "What differs", "What differs between the runs", differences_html(comparison)),
+        Section("ratios", "Ratios", "Ratios of times, B ÷ A", ratios),
+        Section("results", "Time and error", "Time and error of both", place("charts")),
+        Section("runs", "All runs", "All runs in both", place("table")),
+        Section("only", "Only in one", "Only in one, and notes", only_html(comparison)),
+    ]
 
 
 def _report(comparison: Comparison) -> dict[str, Any]:

@@ -16,7 +16,7 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
-from page import PLOTS, code, colours, data, entrants, fill, method_styles, write_page
+from page import PLOTS, Section, code, colours, data, entrants, method_styles, page, place, write_page
 from pictures import pack as pack_pictures
 from records import Experiment, exit_code_of, load
 from report_common import text
@@ -54,32 +54,34 @@ def write(out: Path, folder: Path) -> None:
 
 def make_page(experiments: Sequence[Experiment], folder: Path) -> str:
     """The whole page. Raises RecordError when the charting library or esbuild is missing."""
-    values = _template_values(experiments, folder)
-    others = len(fill("template.html", {**values, "pictures": ""}).encode())
-    room = max(MOST_BYTES - _RESERVE_BYTES - others, MOST_BYTES // 5)
-    return fill("template.html", {**values, "pictures": data("pictures", pack_pictures(experiments, room))})
-
-
-def _template_values(experiments: Sequence[Experiment], folder: Path) -> dict[str, str]:
-    """All but the pictures."""
-    summaries = [summarise(experiment) for experiment in experiments]
     title = "Concave hulls: " + (experiments[0].title if len(experiments) == 1 else "the whole suite")
     report = _report(experiments, folder, title)
-    return {
-        **code(STYLES, "main.js"),
-        "title": text(title),
-        "byline": _byline(experiments),
-        "colours": colours(report["methods"]),
-        "summary": summary_html(experiments, summaries),
-        "paper": paper_html(experiments, folder),
-        "parameters": parameters_html(experiments, folder),
-        "environment": environment_html(experiments),
-        "notes": notes_html(experiments),
-        "tables": tables_html(experiments, folder) or "<p>The run has no tables/tables.json.</p>",
-        "report": data("report", report),
-        "charts": data("charts", pack(charts(experiments))),
-        "rows": data("rows", pack(columns(experiments))),
-    }
+    sections = _sections(experiments, folder)
+    parts = {**code(STYLES, "main.js"), "colours": colours(report["methods"])}
+    blocks = [data("report", report), data("charts", pack(charts(experiments))), data("rows", pack(columns(experiments)))]
+
+    def with_blocks(*more: str) -> str:
+        return page(text(title), _byline(experiments), sections, [*blocks, *more], parts)
+
+    room = max(MOST_BYTES - _RESERVE_BYTES - len(with_blocks().encode()), MOST_BYTES // 5)
+    return with_blocks(data("pictures", pack_pictures(experiments, room)))
+
+
+def _sections(experiments: Sequence[Experiment], folder: Path) -> list[Section]:
+    summaries = [summarise(experiment) for experiment in experiments]
+    tables = tables_html(experiments, folder) or "<p>The run has no tables/tables.json.</p>"
+    by_script = "The charts, the gallery and the table of all runs"
+    parameters = parameters_html(experiments, folder)
+    return [
+        Section("summary", "Summary", "Summary", summary_html(experiments, summaries)),
+        Section("results", "Charts", "Time and error", place("charts", by_script), testid="charts"),
+        Section("gallery", "Gallery", "Gallery", place("gallery"), hidden=True),
+        Section("runs", "All runs", "All runs", place("table")),
+        Section("paper", "Beside the paper", "Beside the paper", paper_html(experiments, folder)),
+        Section("parameters-section", "Parameters", "Parameters", parameters, testid="parameters"),
+        Section("environment", "Environment", "Environment and noise", environment_html(experiments)),
+        Section("notes", "Notes", "Notes and tables", notes_html(experiments) + tables),
+    ]
 
 
 def _report(experiments: Sequence[Experiment], folder: Path, title: str) -> dict[str, Any]:

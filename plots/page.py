@@ -11,6 +11,7 @@ import json
 import re
 import subprocess
 from collections.abc import Sequence
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
@@ -23,9 +24,47 @@ LIBRARY = PLOTS / "node_modules" / "echarts" / "dist" / "echarts.common.min.js"
 BUNDLER = "esbuild"
 
 
-def fill(template: str, values: dict[str, str]) -> str:
-    """The template of that name with {{name}} replaced, once: a value that holds such a mark keeps it."""
-    source = (PAGE / template).read_text(encoding="utf-8")
+@dataclass(frozen=True)
+class Section:
+    """Of a page, whose first one has the id "summary"."""
+
+    identity: str
+    link: str  # its name in the page's list of sections
+    title: str
+    content: str
+    hidden: bool = False  # until a script shows it and its link
+    testid: str = ""  # the identity, unless something else is said
+
+    def link_html(self) -> str:
+        return f"""<a href="#{self.identity}"{f' id="{self.identity}-link" hidden' if self.hidden else ''}>{self.link}</a>"""
+
+    def html(self) -> str:
+        return (
+            f'<section id="{self.identity}" data-testid="{self.testid or self.identity}" '
+            f'aria-labelledby="{self.identity}-title"{" hidden" if self.hidden else ""}>'
+            f'<h2 id="{self.identity}-title">{self.title}</h2>{self.content}</section>'
+        )
+
+
+def place(name: str, without_scripts: str = "") -> str:
+    """What a script fills; `without_scripts` says what is missing where scripts do not run."""
+    said = f"{without_scripts} need JavaScript; everything else is readable without."
+    return (f"<noscript><p>{said}</p></noscript>" if without_scripts else "") + f'<div id="{name}-place"></div>'
+
+
+def page(title: str, byline: str, sections: Sequence[Section], blocks: Sequence[str], parts: dict[str, str]) -> str:
+    """The whole page: `blocks` are its data(), `parts` its code() with its "colours"."""
+    values = {
+        **parts,
+        "title": title,
+        "byline": byline,
+        "first": sections[0].link.lower(),
+        "links": "\n".join(section.link_html() for section in sections),
+        "sections": "\n".join(section.html() for section in sections),
+        "data": "\n".join(blocks),
+    }
+    source = (PAGE / "template.html").read_text(encoding="utf-8")
+    # Once: a value that holds such a mark keeps it.
     return re.sub(r"\{\{(\w+)\}\}", lambda found: values[found.group(1)], source)
 
 

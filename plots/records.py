@@ -92,7 +92,7 @@ class Row:
 
     @property
     def fastest(self) -> bool:
-        """Of all methods on the same points, beyond doubt, as the program judges it."""
+        """Faster beyond doubt than every other method on the same points, as the program judges it."""
         return self.told.get("fastest", False)
 
     @property
@@ -327,7 +327,7 @@ def _validator(name: str) -> jsonschema.Draft202012Validator:
         schema["properties"]["runs"]["items"] = read("run.schema.json")  # where it refers to it: nothing is fetched
     if name == "picture.schema.json":
         # Single coordinates are not looked at, as there are millions.
-        del schema["properties"]["points"]["items"], schema["$defs"]["polygons"]["items"]["items"]["items"]
+        del (schema["properties"]["points"]["items"], schema["$defs"]["polygons"]["items"]["items"]["items"])
     return jsonschema.Draft202012Validator(schema)
 
 

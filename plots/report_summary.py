@@ -48,7 +48,7 @@ class Standing:
     reasons: dict[str, Counter[str]] = field(default_factory=dict)  # by status: the details, most frequent first
     results: dict[str, Row] = field(default_factory=dict)  # the ok rows by case
     failed: set[str] = field(default_factory=set)  # the other cases; none of a method that is not installed
-    fastest_in: int = 0
+    fastest_in: int = 0  # cases in which it is faster beyond doubt than every other method
     most_accurate_in: int = 0
     time: Ratio | None = None  # beside the core; None: it is the core, or no case in common
     error: Ratio | None = None
@@ -62,8 +62,8 @@ class Summary:
     title: str
     standings: list[Standing]
     core: Standing | None  # the core's standing, under the paper's protocol if there are several
-    contested: int  # cases with results of two entrants or more
-    undecided: int  # contested cases in which nobody is the fastest beyond doubt
+    contested: int  # cases with results of two methods or more
+    fastest_in: Counter[str]  # by method: the contested cases in which one of its entrants is the fastest
     without_interval: bool  # of no time there is an interval: one repetition
     compared_errors: int
     headline: dict[str, Any] | None  # as results/report.schema.json; None: no rival, or an older report
@@ -82,9 +82,10 @@ def summarise(experiment: Experiment) -> Summary:
     for one in everyone:
         for case, row in one.results.items():
             by_case[case].append((one, row))
-    contests = [contest for contest in by_case.values() if len(contest) > 1]
-    undecided = sum(not any(row.fastest for _, row in contest) for contest in contests)
-    compared = sum(_award_error(contest) for contest in contests)
+    contests = [contest for contest in by_case.values() if len({row.method for _, row in contest}) > 1]
+    # Two methods cannot both be the fastest, but two protocols of one can.
+    fastest_in = Counter(method for contest in contests for method in {row.method for _, row in contest if row.fastest})
+    compared = sum(_award_error(contest) for contest in by_case.values())
     for one in everyone:
         if core is not None and one is not core:
             one.time = _ratio(one, core, _time_ratio, lambda row, _: row.order)
@@ -96,7 +97,7 @@ def summarise(experiment: Experiment) -> Summary:
         everyone,
         core,
         len(contests),
-        undecided,
+        fastest_in,
         bool(timed) and all(row.interval() is None for row in timed),
         compared,
         experiment.report["summary"].get("headline"),
@@ -200,27 +201,39 @@ def headline_sentences(summary: Summary) -> list[str]:
 
 def fastest_sentence(summary: Summary) -> str:
     """Who is fastest in this experiment, by how much, and at which price in accuracy."""
-    if alone := _alone(summary):
-        return alone
-    winner = max(summary.standings, key=lambda one: one.fastest_in)
-    if winner.fastest_in == 0:
-        return f"nobody is the fastest beyond doubt in {share(summary.contested, summary.contested)}."
-    said = f"{winner.label} is the fastest in {share(winner.fastest_in, summary.contested)}"
-    if summary.undecided:
-        said += f" ({summary.undecided} undecided)"
+    if not summary.contested:
+        return _alone(summary)
+    if not summary.fastest_in:
+        return f"no method is the fastest beyond doubt in {share(summary.contested, summary.contested)}."
+    [(method, cases)] = summary.fastest_in.most_common(1)
+    said = f"{_name(summary, method)} is the fastest in {share(cases, summary.contested)}"
+    if undecided := summary.contested - summary.fastest_in.total():
+        said += f" ({undecided} undecided)"
+    winner = max(_entrants(summary, method), key=lambda one: (one is summary.core, one.fastest_in))
     return said + _margin(summary, winner) + "."
+
+
+def _entrants(summary: Summary, method: str) -> list[Standing]:
+    return [one for one in summary.standings if one.series.method == method]
+
+
+def _name(summary: Summary, method: str) -> str:
+    """With the protocol where there is only one."""
+    entrants = _entrants(summary, method)
+    return entrants[0].label if len(entrants) == 1 else summary.titles[method]
 
 
 def _margin(summary: Summary, winner: Standing) -> str:
     if winner is summary.core:
-        others = [one for one in summary.standings if one.time is not None]
+        others = [one for one in summary.standings if one.time is not None and one.series.method != winner.series.method]
         if not others:
             return ""
         nearest = min(others, key=lambda one: one.time.median)
-        return f"; the next, {nearest.label}, takes {times(nearest.time.median)} its time{_spanned(nearest.time)}"
+        return f"; the next, {nearest.label}, takes {times(nearest.time.median)} the time of {winner.label}{_spanned(nearest.time)}"
     if winner.time is None:
         return ""
-    said = f"; it takes {times(winner.time.median)} the time of {summary.core.label}{_spanned(winner.time)}"
+    subject = "it" if len(_entrants(summary, winner.series.method)) == 1 else winner.label
+    said = f"; {subject} takes {times(winner.time.median)} the time of {summary.core.label}{_spanned(winner.time)}"
     said += f" at {times(winner.error.median)} its error" if winner.error else ""
     return said + _fastest_of_the_accurate(summary)
 
@@ -242,10 +255,8 @@ def _spanned(ratio: Ratio) -> str:
 
 def accurate_sentence(summary: Summary) -> str:
     """Who has the smallest error in this experiment."""
-    if alone := _alone(summary):
-        return alone
     if summary.compared_errors == 0:
-        return "no two entrants have an error in the same case."
+        return "no two entrants have an error in the same case." if summary.contested else _alone(summary)
     most = max(one.most_accurate_in for one in summary.standings)
     winners = [one for one in summary.standings if one.most_accurate_in == most]
     verb = "has" if len(winners) == 1 else "have"
@@ -352,15 +363,13 @@ def noise_sentence(experiments: Sequence[Experiment]) -> str:
 
 
 def _alone(summary: Summary) -> str:
-    """What there is to say when nothing can be compared; empty when something can."""
-    if summary.contested:
-        return ""
-    with_results = [one.label for one in summary.standings if one.results]
+    """What there is to say when no two methods can be compared."""
+    with_results = {one.series.method for one in summary.standings if one.results}
     if not with_results:
         return "nothing has a result."
     if len(with_results) == 1:
-        return f"only {with_results[0]} has results, so there is nothing to compare it with."
-    return "no case has results of two entrants, so nothing can be compared."
+        return f"only {_name(summary, with_results.pop())} has results, so there is nothing to compare it with."
+    return "no case has results of two methods, so nothing can be compared."
 
 
 def share(count: int, of: int) -> str:

@@ -28,3 +28,4 @@ if(TARGET hullbench_adapter_pcl_concave_hull)
 endif()
 
 hullbench_test(test_adapter_module SOURCES test_adapter_module.cpp LIBRARIES hullbench::adapters LABELS adapters)
+hullbench_test(test_method_contracts SOURCES test_method_contracts.cpp LIBRARIES hullbench::adapters LABELS adapters)

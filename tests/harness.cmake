@@ -10,20 +10,15 @@ target_link_libraries(misbehaving_worker PRIVATE hullbench::worker hullbench::co
 
 hullbench_test(test_plan SOURCES test_plan.cpp
   LIBRARIES hullbench::plan hullbench::record hullbench::hash LABELS harness)
-target_compile_definitions(test_plan PRIVATE HULLBENCH_PLAN_FOLDER="${PROJECT_SOURCE_DIR}/benchmarks/plans")
 
 file(GLOB plans CONFIGURE_DEPENDS "${PROJECT_SOURCE_DIR}/benchmarks/plans/*.json")
 list(FILTER plans EXCLUDE REGEX "schema.json$")
 hullbench_tool_test(NAME plans.python_takes_them NEEDS "${SYSTEM_PYTHON}:jsonschema"
   COMMAND "${SYSTEM_PYTHON}" "${CMAKE_CURRENT_LIST_DIR}/validate_report.py" ${plans})
 
-hullbench_test(test_shard SOURCES test_shard.cpp LIBRARIES hullbench::run LABELS harness)
-
-hullbench_test(test_point_parts SOURCES test_point_parts.cpp LIBRARIES hullbench::run LABELS harness)
-
-hullbench_test(test_canary SOURCES test_canary.cpp LIBRARIES hullbench::run LABELS harness)
-
-hullbench_test(test_parallel SOURCES test_parallel.cpp LIBRARIES hullbench::run LABELS harness)
+foreach(part IN ITEMS shard point_parts canary parallel)
+  hullbench_test(test_${part} SOURCES test_${part}.cpp LIBRARIES hullbench::run LABELS harness)
+endforeach()
 
 hullbench_test(test_worker SOURCES test_worker.cpp
   LIBRARIES hullbench::worker hullbench::base hullbench_test_program LABELS harness)
@@ -31,22 +26,21 @@ target_compile_definitions(test_worker PRIVATE MISBEHAVING_WORKER="$<TARGET_FILE
 add_dependencies(test_worker misbehaving_worker)
 
 hullbench_test(test_runner SOURCES test_runner.cpp
-  LIBRARIES hullbench::run hullbench::report hullbench_test_program LABELS harness)
-target_compile_definitions(test_runner PRIVATE
-  MISBEHAVING_WORKER="$<TARGET_FILE:misbehaving_worker>" HULLBENCH="$<TARGET_FILE:hullbench>")
-add_dependencies(test_runner misbehaving_worker hullbench)
+  LIBRARIES hullbench::run hullbench::report LABELS harness RUNS_HULLBENCH)
+target_compile_definitions(test_runner PRIVATE MISBEHAVING_WORKER="$<TARGET_FILE:misbehaving_worker>")
+add_dependencies(test_runner misbehaving_worker)
 
 hullbench_test(test_pictures SOURCES test_pictures.cpp
-  LIBRARIES hullbench::run hullbench::report hullbench_test_program LABELS harness)
+  LIBRARIES hullbench::run hullbench::report LABELS harness RUNS_HULLBENCH)
 hullbench_test(test_league SOURCES test_league.cpp
   LIBRARIES hullbench::league hullbench::tune hullbench::report LABELS harness)
-hullbench_test(test_suite SOURCES test_suite.cpp LIBRARIES hullbench::record hullbench_test_program LABELS harness)
+hullbench_test(test_suite SOURCES test_suite.cpp LIBRARIES hullbench::record LABELS harness RUNS_HULLBENCH)
 hullbench_test(test_readme SOURCES test_readme.cpp
-  LIBRARIES hullbench::run hullbench_invented_run hullbench_test_program LABELS harness)
+  LIBRARIES hullbench::run hullbench_invented_run LABELS harness RUNS_HULLBENCH)
 hullbench_test(test_machines SOURCES test_machines.cpp
   LIBRARIES hullbench::run hullbench_invented_run hullbench::report LABELS harness)
 hullbench_test(test_compare SOURCES test_compare.cpp
-  LIBRARIES hullbench::report hullbench_invented_run hullbench_test_program LABELS harness)
+  LIBRARIES hullbench::report hullbench_invented_run LABELS harness RUNS_HULLBENCH)
 
 # Google Benchmark's own tool, and the Python that its package brings the libraries for.
 find_file(COMPARE_PY compare.py PATHS /usr/share/benchmark PATH_SUFFIXES tools NO_DEFAULT_PATH)
@@ -54,31 +48,17 @@ if(NOT COMPARE_PY)
   set(COMPARE_PY compare.py)
 endif()
 hullbench_test(test_gbench_export SOURCES test_gbench_export.cpp
-  LIBRARIES hullbench::report hullbench_invented_run hullbench_test_program LABELS harness)
-target_compile_definitions(test_gbench_export PRIVATE COMPARE_PY="${COMPARE_PY}" SYSTEM_PYTHON="${SYSTEM_PYTHON}")
-
-foreach(part IN ITEMS pictures suite readme compare gbench_export)
-  target_compile_definitions(test_${part} PRIVATE HULLBENCH="$<TARGET_FILE:hullbench>")
-  add_dependencies(test_${part} hullbench)
-endforeach()
+  LIBRARIES hullbench::report hullbench_invented_run LABELS harness RUNS_HULLBENCH)
+target_compile_definitions(test_gbench_export PRIVATE COMPARE_PY="${COMPARE_PY}")
 
 # The search for parameters.
 hullbench_test(test_tune_search SOURCES test_tune_search.cpp LIBRARIES hullbench::tune LABELS harness)
-target_compile_definitions(test_tune_search PRIVATE HULLBENCH_PLAN_FOLDER="${PROJECT_SOURCE_DIR}/benchmarks/plans")
 hullbench_test(test_rule_fit SOURCES test_rule_fit.cpp
   LIBRARIES hullbench::tune hullbench::adapters hullbench::metrics hullbench::datasets LABELS harness)
-target_compile_definitions(test_rule_fit PRIVATE HULLBENCH_PLAN_FOLDER="${PROJECT_SOURCE_DIR}/benchmarks/plans")
 hullbench_test(test_tune SOURCES test_tune.cpp
-  LIBRARIES hullbench::record hullbench::run hullbench::metrics hullbench_test_program LABELS harness)
-target_compile_definitions(test_tune PRIVATE
-  HULLBENCH="$<TARGET_FILE:hullbench>" HULLBENCH_SOURCE_DIRECTORY="${PROJECT_SOURCE_DIR}"
-  SYSTEM_PYTHON="${SYSTEM_PYTHON}")
-add_dependencies(test_tune hullbench)
+  LIBRARIES hullbench::record hullbench::run hullbench::metrics LABELS harness RUNS_HULLBENCH)
 
-hullbench_test(test_command_line SOURCES test_command_line.cpp
-  LIBRARIES hullbench::record hullbench_test_program LABELS harness)
-target_compile_definitions(test_command_line PRIVATE HULLBENCH="$<TARGET_FILE:hullbench>")
-add_dependencies(test_command_line hullbench)
+hullbench_test(test_command_line SOURCES test_command_line.cpp LIBRARIES hullbench::record LABELS harness RUNS_HULLBENCH)
 
 add_test(NAME evaluate.searches_measures_and_judges
   COMMAND "${CMAKE_CURRENT_LIST_DIR}/check_evaluate.sh" "${PROJECT_SOURCE_DIR}")
@@ -90,7 +70,6 @@ add_test(NAME reference.is_of_this_revision
 set_tests_properties(reference.is_of_this_revision PROPERTIES SKIP_RETURN_CODE 77)
 hullbench_test(test_reference SOURCES test_reference.cpp
   LIBRARIES hullbench::league hullbench::report hullbench_test_program LABELS harness)
-target_compile_definitions(test_reference PRIVATE HULLBENCH_SOURCE_DIRECTORY="${PROJECT_SOURCE_DIR}")
 add_test(NAME readme.has_the_reference_run
   COMMAND hullbench readme --check results/reference README.md
   WORKING_DIRECTORY "${PROJECT_SOURCE_DIR}")
@@ -98,10 +77,7 @@ add_test(NAME readme.has_the_reference_run
 # Methods that are added: manifests, the skeletons of `hullbench adapter new`, and the contract.
 hullbench_test(test_manifest SOURCES test_manifest.cpp
   LIBRARIES hullbench::run hullbench_test_program LABELS harness)
-hullbench_test(test_adapter_command SOURCES test_adapter_command.cpp LIBRARIES hullbench_test_program LABELS harness)
-target_compile_definitions(test_adapter_command PRIVATE
-  HULLBENCH="$<TARGET_FILE:hullbench>" SYSTEM_PYTHON="${SYSTEM_PYTHON}")
-add_dependencies(test_adapter_command hullbench)
+hullbench_test(test_adapter_command SOURCES test_adapter_command.cpp LABELS harness RUNS_HULLBENCH)
 
 # The methods in JavaScript and Python that filter triangles, against the core.
 hullbench_test(test_triangle_methods SOURCES test_triangle_methods.cpp

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "adapters/adapter.hpp"
+#include "polylidar/concave_hull.hpp"
 
 namespace hullbench::test {
 
@@ -59,6 +60,15 @@ inline MultiPolygon hull_of(Adapter& adapter, const std::vector<Point>& points,
   adapter.load(points);
   adapter.run(parameters, steps);
   return adapter.extract(steps);
+}
+
+/// The limits that `options` give, as parameters of a method that has them all.
+inline Parameters parameters_of(const polylidar::Options& options) {
+  Parameters parameters;
+  if (options.alpha) parameters["alpha"] = *options.alpha;
+  if (options.max_edge_length) parameters["max_edge_length"] = *options.max_edge_length;
+  if (options.max_perimeter) parameters["max_perimeter"] = *options.max_perimeter;
+  return parameters;
 }
 
 inline std::size_t hole_count(const MultiPolygon& shape) {

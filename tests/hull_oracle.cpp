@@ -202,6 +202,10 @@ std::vector<Options> clear_options(std::span<const Point> points, const Triangul
   return all;
 }
 
+MultiPolygon core_hull(std::span<const Point> points, const Options& options) {
+  return to_coordinates(concave_hull(points, options), points);
+}
+
 MultiPolygon canonical(MultiPolygon shape) {
   for (Polygon& polygon : shape) {
     start_at_least(polygon.shell);

@@ -36,6 +36,9 @@ ExpectedShape expected_shape(std::span<const Point> points, const Triangulation&
 /// to double could decide about it: implementations that filter in another order of operations still agree.
 std::vector<Options> clear_options(std::span<const Point> points, const Triangulation& triangulation);
 
+/// The core's shape of `points`, in coordinates.
+MultiPolygon core_hull(std::span<const Point> points, const Options& options);
+
 /// `shape` with rings starting at their lexicographically smallest vertex, and holes and polygons sorted:
 /// equal for equal shapes.
 MultiPolygon canonical(MultiPolygon shape);

@@ -25,10 +25,10 @@ class HullbenchTest : public ::testing::Test {
     return arguments;
   }
 
-  /// In the test's folder, with manifests of its own.
+  /// In the test's folder, unless `options` name another, with manifests of its own.
   ProgramOptions in_folder(ProgramOptions options = {}) const {
-    options.folder = folder();
-    options.environment["XDG_CONFIG_HOME"] = folder() / "config";
+    if (options.folder.empty()) options.folder = folder();
+    options.environment.try_emplace("XDG_CONFIG_HOME", folder() / "config");
     return options;
   }
 

@@ -4,7 +4,6 @@ hullbench_test(test_area_scores SOURCES test_area_scores.cpp
 hullbench_test(test_metrics SOURCES test_metrics.cpp boost_checks.cpp
   LIBRARIES hullbench_test_support hullbench::metrics hullbench::datasets Boost::headers LABELS metrics)
 hullbench_test(test_metric_table SOURCES test_metric_table.cpp LIBRARIES hullbench::metrics LABELS metrics)
-target_compile_definitions(test_metric_table PRIVATE HULLBENCH_SOURCE_DIRECTORY="${PROJECT_SOURCE_DIR}")
 
 if(TARGET hullbench_adapter_cgal_alpha_shape)
   hullbench_test(test_cgal_alpha_shape SOURCES test_cgal_alpha_shape.cpp

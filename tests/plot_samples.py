@@ -124,7 +124,7 @@ def judged(rows: list[dict[str, Any]]) -> list[dict[str, Any]]:
     for here in points.values():
         core = next((row for row in here if (row["method"], row["protocol"]) == SERIES[0]), None)
         for row in here:
-            others = [other for other in here if other is not row]
+            others = [other for other in here if other["method"] != row["method"]]
             made[row["id"]]["fastest"] = bool(others) and all(is_faster(row, other) for other in others)
             if core and row is not core:
                 order = "faster" if is_faster(row, core) else "slower" if is_faster(core, row) else "undecided"

@@ -37,6 +37,14 @@ std::vector<Point> lattice(std::size_t columns, std::size_t rows, double step, P
   return points;
 }
 
+std::vector<Point> lattice_with_gaps(std::uint64_t seed) {
+  Random random(seed);
+  const double density = random.between(0.3, 0.97);
+  std::vector<Point> points = lattice(14, 14);
+  std::erase_if(points, [&](const Point&) { return random.unit() >= density; });
+  return points;
+}
+
 std::vector<Point> rotated(std::vector<Point> points, double radians) {
   const double cosine = std::cos(radians);
   const double sine = std::sin(radians);

@@ -49,6 +49,10 @@ std::vector<Point> integer_points(std::size_t count, std::uint64_t seed, std::in
 /// `columns` x `rows` points `step` apart, row by row from `origin`.
 std::vector<Point> lattice(std::size_t columns, std::size_t rows, double step = 1, Point origin = {});
 
+/// A lattice of 14 x 14 points of which some are missing, between a few and most: its gaps touch one another
+/// and the outside at vertices, and its triangulations are many.
+std::vector<Point> lattice_with_gaps(std::uint64_t seed);
+
 /// `points` turned by `radians` round the origin; rounding turns exact degeneracies into near ones.
 std::vector<Point> rotated(std::vector<Point> points, double radians);
 

@@ -8,7 +8,6 @@ foreach(part IN ITEMS record statistics bootstrap rank_test judge noise report t
   hullbench_test(test_${part}
     SOURCES "${CMAKE_CURRENT_LIST_DIR}/test_${part}.cpp"
     LIBRARIES hullbench_invented_run hullbench::report hullbench::hash)
-  target_compile_definitions(test_${part} PRIVATE HULLBENCH_SOURCE_DIRECTORY="${PROJECT_SOURCE_DIR}")
 endforeach()
 
 target_link_libraries(test_record PRIVATE hullbench_test_program)
@@ -41,7 +40,5 @@ set_tests_properties(report.python_takes_it report.python_rejects_broken PROPERT
 
 # Merged reports are tried with both validators, and with records as a reference run keeps them.
 hullbench_test(test_merge SOURCES "${CMAKE_CURRENT_LIST_DIR}/test_merge.cpp"
-  LIBRARIES hullbench::record hullbench_test_program LABELS harness)
-target_compile_definitions(test_merge PRIVATE HULLBENCH="$<TARGET_FILE:hullbench>"
-  SYSTEM_PYTHON="${SYSTEM_PYTHON}" VALIDATE_REPORT="${CMAKE_CURRENT_LIST_DIR}/validate_report.py")
-add_dependencies(test_merge hullbench)
+  LIBRARIES hullbench::record LABELS harness RUNS_HULLBENCH)
+target_compile_definitions(test_merge PRIVATE VALIDATE_REPORT="${CMAKE_CURRENT_LIST_DIR}/validate_report.py")

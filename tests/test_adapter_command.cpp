@@ -7,8 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "tests/program.hpp"
-#include "tests/temporary_folder.hpp"
+#include "tests/hullbench_test.hpp"
 
 namespace hullbench {
 namespace {
@@ -19,18 +18,12 @@ using testing::Outcome;
 using testing::read_text;
 using testing::write_text;
 
-class AdapterCommandTest : public ::testing::Test {
+class AdapterCommandTest : public testing::HullbenchTest {
  protected:
   // What hullbench_worker.py and hullbench_worker.mjs need.
   void SetUp() override {
     const std::string why = testing::missing({SYSTEM_PYTHON ":numpy", "node"});
     if (!why.empty()) GTEST_SKIP() << why;
-  }
-
-  Outcome hullbench(std::vector<std::string> arguments) const {
-    arguments.insert(arguments.begin(), HULLBENCH);
-    return testing::run_program(arguments,
-                                {folder_.path(), {{"XDG_CONFIG_HOME", folder_.path() / "config"}}});
   }
 
   /// A method in Python whose `run(points)` is `body`.
@@ -62,22 +55,21 @@ class AdapterCommandTest : public ::testing::Test {
     EXPECT_NE(tested.out.find("sample keeps part of the contract"), std::string::npos) << tested.out;
   }
 
-  fs::path methods() const { return folder_.path() / "methods"; }
-
-  testing::TemporaryFolder folder_;
+  fs::path methods() const { return folder() / "methods"; }
 };
 
 TEST_F(AdapterCommandTest, TheSkeletonsKeepTheContract) {
   for (const std::string language : {"python", "js"}) {
     const Outcome made = hullbench({"adapter", "new", "my_" + language, "--lang", language});
     ASSERT_EQ(made.code, 0) << made.err;
-    const fs::path folder = folder_.path() / "config" / "hullbench" / "adapters";
-    EXPECT_NE(made.out.find((folder / ("my_" + language + ".json")).string()), std::string::npos) << made.out;
-    json manifest = json::parse(read_text(folder / ("my_" + language + ".json")));
+    const fs::path adapters = folder() / "config" / "hullbench" / "adapters";
+    const fs::path written = adapters / ("my_" + language + ".json");
+    EXPECT_NE(made.out.find(written.string()), std::string::npos) << made.out;
+    json manifest = json::parse(read_text(written));
     EXPECT_EQ(manifest["jit"].get<bool>(), language == "js");
     if (language == "python") {
       manifest["command"][0] = SYSTEM_PYTHON;
-      write_text(folder / "my_python.json", manifest.dump());
+      write_text(written, manifest.dump());
     }
     const Outcome tested = hullbench({"adapter", "test", "my_" + language});
     EXPECT_EQ(tested.code, 0) << tested.out << tested.err;
@@ -99,7 +91,7 @@ TEST_F(AdapterCommandTest, AMethodOfOnesOwnIsMeasuredBesideTheOthers) {
       hullbench({"run", "states", "--filter", "^(convex_hull|sample)/ca/n:2000/holes:0", "--repetitions", "2",
                  "--adapters", methods().string(), "--with", "sample", "--out", "run"});
   ASSERT_EQ(run.code, 0) << run.out << run.err;
-  const json report = json::parse(read_text(folder_.path() / "run" / "report.json"));
+  const json report = json::parse(read_text(folder() / "run" / "report.json"));
   ASSERT_EQ(report["runs"].size(), 2U);
   const json& row = report["runs"][1];
   EXPECT_EQ(row["name"].get<std::string>(), "sample/ca/n:2000/holes:0/protocol:default");
@@ -179,11 +171,11 @@ TEST_F(AdapterCommandTest, AModuleThatIsMissingIsNotInstalled) {
 // packages.
 TEST_F(AdapterCommandTest, APackageThatNodeLacksIsNamedWithNodeAndTheCommandThatInstallsIt) {
   ASSERT_EQ(hullbench({"adapter", "new", "lacking", "--lang", "js"}).code, 0);
-  const fs::path folder = folder_.path() / "config" / "hullbench" / "adapters";
-  write_text(folder / "lacking_worker.mjs", "import \"no-such-package\";\n");
-  json manifest = json::parse(read_text(folder / "lacking.json"));
+  const fs::path adapters = folder() / "config" / "hullbench" / "adapters";
+  write_text(adapters / "lacking_worker.mjs", "import \"no-such-package\";\n");
+  json manifest = json::parse(read_text(adapters / "lacking.json"));
   manifest["install"] = "npm install no-such-package";
-  write_text(folder / "lacking.json", manifest.dump());
+  write_text(adapters / "lacking.json", manifest.dump());
   const Outcome tested = hullbench({"adapter", "test", "lacking"});
   EXPECT_EQ(tested.code, 4) << tested.out;
   EXPECT_NE(tested.out.find("no-such-package"), std::string::npos) << tested.out;

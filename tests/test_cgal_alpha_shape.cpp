@@ -4,7 +4,6 @@
 #include <CGAL/Alpha_shape_vertex_base_2.h>
 #include <CGAL/Delaunay_triangulation_2.h>
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
-#include <CGAL/version_macros.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -16,7 +15,6 @@
 #include <memory>
 #include <stdexcept>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "adapters/adapter.hpp"
@@ -25,6 +23,8 @@
 #include "datasets/point_locator.hpp"
 #include "polylidar/concave_hull.hpp"
 #include "polylidar/delaunay.hpp"
+#include "tests/complaint.hpp"
+#include "tests/hull_input.hpp"
 #include "tests/hull_oracle.hpp"
 #include "tests/point_sets.hpp"
 
@@ -36,29 +36,13 @@ namespace {
 
 using polylidar::Options;
 using polylidar::testing::canonical;
+using polylidar::testing::core_hull;
 using polylidar::testing::PointSet;
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-class StepNames final : public Steps {
- public:
-  void begin(std::string_view name) override { names.emplace_back(name); }
-  std::vector<std::string> names;
-};
-
-MultiPolygon run(Adapter& adapter, const std::vector<Point>& points, double radius) {
-  StepNames steps;
-  adapter.load(points);
-  adapter.run({{"alpha", radius * radius}}, steps);
-  return adapter.extract(steps);
-}
-
 MultiPolygon run(const std::vector<Point>& points, double radius) {
-  return run(*make_cgal_alpha_shape(), points, radius);
-}
-
-MultiPolygon ours(const std::vector<Point>& points, double radius) {
-  return polylidar::to_coordinates(polylidar::concave_hull(points, {.alpha = radius}), points);
+  return test::hull_of(*make_cgal_alpha_shape(), points, {{"alpha", radius * radius}});
 }
 
 // Limits that no triangle is near to, so that both filters must come to the same.
@@ -70,52 +54,11 @@ std::vector<double> clear_radii(const std::vector<Point>& points) {
   return radii;
 }
 
-TEST(CgalAlphaShape, SaysWhatItIs) {
-  const auto adapter = make_cgal_alpha_shape();
-  const MethodInfo& info = adapter->info();
-  EXPECT_EQ(info.name, "cgal_alpha_shape");
-  EXPECT_EQ(info.title, "CGAL alpha shape");
-  EXPECT_EQ(info.licence, "GPL-3.0-or-later");
-  EXPECT_EQ(info.version, CGAL_VERSION_STR);
-  ASSERT_EQ(info.parameters.size(), 1U);
-  EXPECT_EQ(info.parameters[0].name, "alpha");
-  EXPECT_EQ(info.parameters[0].unit, "length^2");
-  EXPECT_EQ(info.parameters[0].default_value, 0) << "find_optimal_alpha(1)";
-  EXPECT_TRUE(info.capabilities.holes);
-  EXPECT_TRUE(info.capabilities.several_polygons);
-}
-
-TEST(CgalAlphaShape, RefusesBadParameters) {
-  const auto adapter = make_cgal_alpha_shape();
-  StepNames steps;
-  adapter->load(polylidar::testing::uniform_points(10, 1));
-  EXPECT_THROW(adapter->run({{"alpha", -1}}, steps), std::invalid_argument);
-  EXPECT_THROW(adapter->run({{"alpha", std::nan("")}}, steps), std::invalid_argument);
-  EXPECT_THROW(adapter->run({{"alpha", 1}, {"beta", 1}}, steps), std::invalid_argument);
-}
-
 TEST(CgalAlphaShape, NamesTheFirstCoordinateThatIsNotFinite) {
   std::vector<Point> points = polylidar::testing::uniform_points(500, 1);
   points[317].y = kInfinity;
   points[400].x = std::nan("");
-  try {
-    make_cgal_alpha_shape()->load(points);
-    FAIL() << "accepted infinity";
-  } catch (const std::invalid_argument& error) {
-    EXPECT_NE(std::string(error.what()).find("317"), std::string::npos) << error.what();
-  }
-}
-
-TEST(CgalAlphaShape, NamesItsSteps) {
-  const auto adapter = make_cgal_alpha_shape();
-  StepNames steps;
-  adapter->load(polylidar::testing::uniform_points(100, 1));
-  EXPECT_THROW(adapter->extract(steps), std::logic_error) << "extract comes after run";
-  adapter->run({{"alpha", 0.01}}, steps);
-  EXPECT_EQ(steps.names, (std::vector<std::string>{"triangulation", "alpha_shape"}));
-  steps.names.clear();
-  adapter->extract(steps);
-  EXPECT_EQ(steps.names, (std::vector<std::string>{"polygon"}));
+  testing::expect_complaint<std::invalid_argument>([&] { make_cgal_alpha_shape()->load(points); }, "317");
 }
 
 TEST(CgalAlphaShape, OfNothingIsEmpty) {
@@ -133,20 +76,6 @@ TEST(CgalAlphaShape, AlphaIsASquaredRadiusAndInclusive) {
   const MultiPolygon triangle = {{{{0, 0}, {4, 0}, {0, 3}}, {}}};
   EXPECT_EQ(canonical(run(points, 2.5)), triangle);
   EXPECT_TRUE(run(points, 2.499).empty());
-}
-
-TEST(CgalAlphaShape, GivesTheSameEachTime) {
-  const auto adapter = make_cgal_alpha_shape();
-  const std::vector<Point> points = polylidar::testing::uniform_points(500, 1);
-  const MultiPolygon first = run(*adapter, points, 0.04);
-  StepNames steps;
-  EXPECT_EQ(adapter->extract(steps), first) << "extracted again";
-  run(*adapter, polylidar::testing::lattice(20, 20), 0.8);
-  EXPECT_EQ(run(*adapter, points, 0.04), first) << "after other points";
-  adapter->reset();
-  EXPECT_THROW(adapter->extract(steps), std::logic_error);
-  adapter->run({{"alpha", 0.04 * 0.04}}, steps);
-  EXPECT_EQ(adapter->extract(steps), first) << "after a reset";
 }
 
 // A shape that CGAL builds straight from the points, as a user of it does.
@@ -172,16 +101,11 @@ TEST(CgalAlphaShape, WithoutAlphaTakesCgalsOptimalOne) {
     std::vector<Point> points = polylidar::testing::uniform_points(20 + 100 * seed, seed);
     std::erase_if(points, [](const Point& p) { return std::hypot(p.x - 0.4, p.y - 0.5) < 0.2; });
     const auto adapter = make_cgal_alpha_shape();
-    StepNames steps;
-    adapter->load(points);
-    adapter->run({}, steps);
-    const MultiPolygon shape = adapter->extract(steps);
+    const MultiPolygon shape = test::hull_of(*adapter, points, {});
 
     const auto converted = CgalsOwn::converted(points);
     CgalsOwn::Shape cgal(converted.begin(), converted.end());
-    const double alpha = *cgal.find_optimal_alpha(1);
-    adapter->run({{"alpha", alpha}}, steps);
-    EXPECT_EQ(adapter->extract(steps), shape);
+    EXPECT_EQ(test::hull_of(*adapter, points, {{"alpha", *cgal.find_optimal_alpha(1)}}), shape);
     EXPECT_EQ(shape.size(), 1U);
     const PointLocator inside(shape);
     EXPECT_TRUE(
@@ -242,7 +166,7 @@ TEST(CgalAlphaShape, ItsRingsAreCgalsRegularEdges) {
 void expect_same_shape(const std::vector<Point>& points, double radius) {
   SCOPED_TRACE("radius " + std::to_string(radius));
   const MultiPolygon cgal = run(points, radius);
-  const MultiPolygon core = ours(points, radius);
+  const MultiPolygon core = core_hull(points, {.alpha = radius});
   EXPECT_EQ(metrics::invalid_reason(cgal), "");
   ASSERT_EQ(core.empty(), cgal.empty());
   if (cgal.empty()) return;
@@ -275,12 +199,7 @@ TEST(CoreAgainstCgal, SameShapeWithThePapersAlpha) {
 TEST(CoreAgainstCgal, SameShapeOnLatticesWithGaps) {
   for (std::uint64_t seed = 0; seed < 150; ++seed) {
     SCOPED_TRACE("seed " + std::to_string(seed));
-    polylidar::testing::Random random(seed);
-    const double density = random.between(0.3, 0.97);
-    std::vector<Point> points;
-    for (const Point& point : polylidar::testing::lattice(14, 14)) {
-      if (random.unit() < density) points.push_back(point);
-    }
+    const std::vector<Point> points = polylidar::testing::lattice_with_gaps(seed);
     expect_same_shape(points, 0.75);
     expect_same_shape(points, 1.05);
   }

@@ -5,7 +5,6 @@
 #include <cstdint>
 #include <limits>
 #include <memory>
-#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -13,7 +12,6 @@
 #include "benchmarks/metrics/validity.hpp"
 #include "polylidar/concave_hull.hpp"
 #include "polylidar/delaunay.hpp"
-#include "tests/adapter_contract.hpp"
 #include "tests/hull_input.hpp"
 #include "tests/hull_oracle.hpp"
 #include "tests/point_sets.hpp"
@@ -26,84 +24,37 @@ namespace {
 
 using polylidar::Options;
 using polylidar::testing::canonical;
+using polylidar::testing::core_hull;
+using polylidar::testing::describe;
 using polylidar::testing::PointSet;
 using polylidar::testing::uniform_points;
 using test::hull_of;
+using test::parameters_of;
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-Parameters parameters_of(const Options& options) {
-  Parameters parameters;
-  if (options.alpha) parameters["alpha"] = *options.alpha;
-  if (options.max_edge_length) parameters["max_edge_length"] = *options.max_edge_length;
-  if (options.max_perimeter) parameters["max_perimeter"] = *options.max_perimeter;
-  return parameters;
-}
-
 MultiPolygon run(const std::vector<Point>& points, const Options& options) {
   return hull_of(*make_cgal_delaunay(), points, parameters_of(options));
-}
-
-MultiPolygon polylidar_hull(const std::vector<Point>& points, const Options& options) {
-  return polylidar::to_coordinates(polylidar::concave_hull(points, options), points);
-}
-
-std::string text_of(const Options& options) {
-  std::string text;
-  for (const auto& [name, value] : parameters_of(options)) text += name + " " + std::to_string(value) + " ";
-  return text;
 }
 
 // How many comparisons were made of shapes that are neither empty nor one ring.
 int expect_the_same(const std::vector<Point>& points) {
   int telling = 0;
   for (const Options& options : polylidar::testing::clear_options(points, polylidar::delaunay(points))) {
-    SCOPED_TRACE(text_of(options));
+    SCOPED_TRACE(describe(options));
     const MultiPolygon theirs = run(points, options);
-    EXPECT_TRUE(canonical(theirs) == canonical(polylidar_hull(points, options)));
+    EXPECT_TRUE(canonical(theirs) == canonical(core_hull(points, options)));
     EXPECT_EQ(metrics::invalid_reason(theirs), "");
     telling += theirs.size() + test::hole_count(theirs) > 1 ? 1 : 0;
   }
   return telling;
 }
 
-TEST(CgalDelaunay, SaysWhatItIs) {
-  const auto adapter = make_cgal_delaunay();
-  const MethodInfo& info = adapter->info();
-  EXPECT_EQ(info.name, "cgal_delaunay");
-  EXPECT_EQ(info.title, "CGAL Delaunay + filter");
-  EXPECT_EQ(info.version.find_first_not_of("0123456789."), std::string::npos) << info.version;
-  ASSERT_EQ(info.parameters.size(), 3U);
-  for (const ParameterInfo& parameter : info.parameters) {
-    EXPECT_EQ(parameter.unit, "length");
-    EXPECT_EQ(parameter.default_value, kInfinity);
-  }
-  EXPECT_TRUE(info.capabilities.holes);
-  EXPECT_TRUE(info.capabilities.several_polygons);
-}
-
-TEST(CgalDelaunay, KeepsTheContract) {
-  test::expect_adapter_contract(&make_cgal_delaunay, {{"alpha", 0.1}}, {{"max_perimeter", 1}});
-}
-
-TEST(CgalDelaunay, NamesItsSteps) {
-  const auto adapter = make_cgal_delaunay();
-  test::StepNames steps;
-  adapter->load(uniform_points(100, 1));
-  EXPECT_THROW(adapter->extract(steps), std::logic_error) << "extract comes after run";
-  adapter->run({{"alpha", 0.1}}, steps);
-  const MultiPolygon first = adapter->extract(steps);
-  EXPECT_EQ(steps.names(), (std::vector<std::string>{"triangulation", "shape", "polygon"}));
-  EXPECT_EQ(adapter->extract(steps), first) << "extracted again";
-  adapter->reset();
-  EXPECT_THROW(adapter->extract(steps), std::logic_error);
-}
-
 TEST(CgalDelaunay, OfNothingIsEmpty) {
   for (const PointSet& set : polylidar::testing::flat_point_sets()) {
     SCOPED_TRACE(set.name);
     for (const Options& options : {Options{}, Options{.alpha = 1}, Options{.max_perimeter = 1}}) {
-      EXPECT_TRUE(run(set.points, options).empty()) << text_of(options);
+      EXPECT_TRUE(run(set.points, options).empty()) << describe(options);
     }
   }
 }
@@ -123,7 +74,7 @@ TEST(CgalDelaunay, LimitsAreInclusiveAndAllMustHold) {
 TEST(CgalDelaunay, WithoutALimitIsTheConvexHull) {
   const std::vector<Point> points = uniform_points(500, 3);
   const MultiPolygon hull = hull_of(*make_cgal_delaunay(), points, {});
-  EXPECT_EQ(canonical(hull), canonical(polylidar_hull(points, {.alpha = kInfinity})));
+  EXPECT_EQ(canonical(hull), canonical(core_hull(points, {.alpha = kInfinity})));
   ASSERT_EQ(hull.size(), 1U);
   EXPECT_TRUE(hull[0].holes.empty());
 }
@@ -148,9 +99,9 @@ TEST(CgalDelaunay, SamePolygonsAsPolylidarsOnASampleWithAHole) {
     for (const Options& options :
          {Options{.alpha = 2 * spacing}, Options{.max_edge_length = 3 * spacing},
           Options{.max_perimeter = 9 * spacing}, Options{.alpha = spacing, .max_edge_length = 3 * spacing}}) {
-      SCOPED_TRACE(text_of(options));
+      SCOPED_TRACE(describe(options));
       const MultiPolygon theirs = run(points, options);
-      EXPECT_TRUE(canonical(theirs) == canonical(polylidar_hull(points, options)));
+      EXPECT_TRUE(canonical(theirs) == canonical(core_hull(points, options)));
       EXPECT_GT(test::hole_count(theirs), 0U);
     }
   }
@@ -161,15 +112,10 @@ TEST(CgalDelaunay, SamePolygonsAsPolylidarsOnASampleWithAHole) {
 TEST(CgalDelaunay, SamePolygonsAsPolylidarsOnLatticesWithGaps) {
   for (std::uint64_t seed = 0; seed < 150; ++seed) {
     SCOPED_TRACE("seed " + std::to_string(seed));
-    polylidar::testing::Random random(seed);
-    const double density = random.between(0.3, 0.97);
-    std::vector<Point> points;
-    for (const Point& point : polylidar::testing::lattice(14, 14)) {
-      if (random.unit() < density) points.push_back(point);
-    }
+    const std::vector<Point> points = polylidar::testing::lattice_with_gaps(seed);
     for (const double radius : {0.75, 1.05}) {
       const MultiPolygon theirs = run(points, {.alpha = radius});
-      const MultiPolygon ours = polylidar_hull(points, {.alpha = radius});
+      const MultiPolygon ours = core_hull(points, {.alpha = radius});
       EXPECT_TRUE(canonical(theirs) == canonical(ours)) << radius;
     }
   }
@@ -184,8 +130,8 @@ TEST(CgalDelaunay, SamePolygonsAsPolylidarsOnNastyPointSets) {
     const std::vector<Point> points = polylidar::testing::near_one(set.points);
     for (const Options& options : polylidar::testing::clear_options(points, polylidar::delaunay(points))) {
       if (!options.alpha || options.max_edge_length || options.max_perimeter) continue;
-      SCOPED_TRACE(text_of(options));
-      EXPECT_TRUE(canonical(run(points, options)) == canonical(polylidar_hull(points, options)));
+      SCOPED_TRACE(describe(options));
+      EXPECT_TRUE(canonical(run(points, options)) == canonical(core_hull(points, options)));
       ++compared;
     }
   }

@@ -1,7 +1,6 @@
 // The chi shape against a slow, plain version of the paper's algorithm.
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
@@ -10,15 +9,12 @@
 #include <map>
 #include <memory>
 #include <set>
-#include <stdexcept>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "adapters/adapter.hpp"
-#include "polylidar/concave_hull.hpp"
 #include "polylidar/delaunay.hpp"
-#include "tests/adapter_contract.hpp"
 #include "tests/hull_input.hpp"
 #include "tests/hull_oracle.hpp"
 #include "tests/point_sets.hpp"
@@ -31,6 +27,7 @@ std::unique_ptr<Adapter> make_chi_shape();
 namespace {
 
 using polylidar::testing::canonical;
+using polylidar::testing::core_hull;
 using test::hull_of;
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
@@ -126,30 +123,6 @@ MultiPolygon plain_chi_shape(const std::vector<Point>& points, double limit) {
   return {{ring, {}}};
 }
 
-TEST(ChiShape, SaysWhoItIs) {
-  const auto adapter = make_chi_shape();
-  const MethodInfo& info = adapter->info();
-  EXPECT_EQ(info.name, "chi_shape");
-  EXPECT_FALSE(info.version.empty());
-  EXPECT_FALSE(info.capabilities.holes);
-  EXPECT_FALSE(info.capabilities.several_polygons);
-  EXPECT_EQ(complete_parameters(info, {}), (Parameters{{"max_edge_length", kInfinity}}));
-}
-
-TEST(ChiShape, KeepsTheContract) {
-  test::expect_adapter_contract(&make_chi_shape, {{"max_edge_length", 0.05}}, {{"max_edge_length", 0.2}});
-}
-
-TEST(ChiShape, NamesItsSteps) {
-  const auto adapter = make_chi_shape();
-  test::StepNames steps;
-  adapter->load(test::square_points(10, 1, false));
-  EXPECT_THROW(adapter->extract(steps), std::logic_error) << "extract comes after run";
-  adapter->run({}, steps);
-  adapter->extract(steps);
-  EXPECT_EQ(steps.names(), (std::vector<std::string>{"triangulation", "shape", "polygon"}));
-}
-
 // By hand: the bottom edge, 6 long, goes first and brings the inner point onto the boundary; then every point
 // is on it, and no triangle can go any more.
 TEST(ChiShape, OfATrapezoidWithOneInnerPoint) {
@@ -182,8 +155,7 @@ TEST(ChiShape, WithoutALimitIsTheConvexHull) {
   for (std::uint64_t seed = 0; seed < 20; ++seed) {
     const std::vector<Point> points = polylidar::testing::integer_points(200, seed, 15);
     EXPECT_EQ(canonical(chi_shape(points, kInfinity)),
-              canonical(polylidar::to_coordinates(
-                  polylidar::concave_hull(points, {.alpha = polylidar::kNoLimit}), points)));
+              canonical(core_hull(points, polylidar::testing::kConvexHull)));
   }
 }
 

@@ -23,9 +23,7 @@
 
 #include "benchmarks/record/json_lines.hpp"
 #include "benchmarks/record/record.hpp"
-#include "tests/program.hpp"
-#include "tests/small_plans.hpp"
-#include "tests/temporary_folder.hpp"
+#include "tests/hullbench_test.hpp"
 
 namespace hullbench {
 namespace {
@@ -39,44 +37,17 @@ using testing::ProgramOptions;
 using testing::read_text;
 using testing::write_text;
 
-class CommandLineTest : public ::testing::Test {
+class CommandLineTest : public testing::HullbenchTest {
  protected:
-  Outcome hullbench(std::vector<std::string> arguments, ProgramOptions options = {}) {
-    return testing::run_program(command(std::move(arguments)), in_folder(std::move(options)));
-  }
-
-  std::vector<std::string> command(std::vector<std::string> arguments) const {
-    arguments.insert(arguments.begin(), HULLBENCH);
-    return arguments;
-  }
-
-  ProgramOptions in_folder(ProgramOptions options = {}) const {
-    if (options.folder.empty()) options.folder = folder();
-    return options;
-  }
-
-  fs::path folder() const { return folder_.path(); }
-
   /// A plan file of polylidar on California; its path.
   std::string plan(const std::vector<int>& sizes, int repetitions) const {
-    json source = {{"name", "small"},
-                   {"repetitions", repetitions},
-                   {"timeout_s", 30},
-                   {"cases", {{{"dataset", "ca"}, {"holes", {false, true}}, {"n", sizes}}}},
-                   {"methods",
-                    {{{"method", "polylidar"},
-                      {"protocol", "paper"},
-                      {"parameters", {{"alpha", {{"rule", "paper_alpha"}}}}}}}}};
-    return write_plan(source.dump());
+    return write(testing::small_plan("small", testing::california(sizes), repetitions));
   }
 
   std::string write_plan(const std::string& text) const {
     write_text(folder() / "small.json", text);
     return (folder() / "small.json").string();
   }
-
- private:
-  testing::TemporaryFolder folder_;
 };
 
 std::vector<json> lines_of(const fs::path& file) {
@@ -103,7 +74,7 @@ void expect_no_repetition_twice(const fs::path& run, int repetitions) {
 TEST_F(CommandLineTest, HelpTellsCommandsAndExitCodes) {
   const Outcome outcome = hullbench({"--help"});
   EXPECT_EQ(outcome.code, 0);
-  for (const char* word : {"list", "run", "tables", "validate", "worker", "Exit codes", "130 interrupted"}) {
+  for (const char* word : {"list", "run", "tables", "validate", "worker", "Exit codes", "130  interrupted"}) {
     EXPECT_NE(outcome.out.find(word), std::string::npos) << word;
   }
   EXPECT_EQ(hullbench({"run", "--help"}).code, 0);

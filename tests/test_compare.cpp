@@ -12,8 +12,7 @@
 #include "benchmarks/report/compare_document.hpp"
 #include "benchmarks/report/report.hpp"
 #include "invented_run.hpp"
-#include "tests/program.hpp"
-#include "tests/temporary_folder.hpp"
+#include "tests/hullbench_test.hpp"
 
 namespace hullbench {
 namespace {
@@ -175,23 +174,20 @@ TEST(CompareDocument, OfManyPairsShowsThoseThatChanged) {
   EXPECT_EQ(rows(true), 300U);
 }
 
-class CompareCommandTest : public ::testing::Test {
+class CompareCommandTest : public testing::HullbenchTest {
  protected:
   CompareCommandTest() {
     for (const char* name : {"a", "b"}) test::write_invented_run(path(name), {2000, 64000});
-    json report = report::make_report(path("a"));
-    write_json_file(path("report.json"), report);
+    write_json_file(path("report.json"), report::make_report(path("a")));
     fs::copy(path("a") / "runs.jsonl", path("lines.jsonl"));
   }
-  fs::path path(const std::string& name) const { return folder_.path() / name; }
-  Outcome compare(const std::string& a, const std::string& b, std::vector<std::string> more = {}) const {
-    std::vector<std::string> command = {HULLBENCH, "compare", a, b};
-    command.insert(command.end(), more.begin(), more.end());
-    return testing::run_program(command, {folder_.path(), {}, false});
+  fs::path path(const std::string& name) const { return folder() / name; }
+  Outcome compare(const std::string& a, const std::string& b,
+                  const std::vector<std::string>& more = {}) const {
+    std::vector<std::string> arguments = {"compare", a, b};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return hullbench(arguments);
   }
-
- private:
-  testing::TemporaryFolder folder_;
 };
 
 TEST_F(CompareCommandTest, TakesFoldersReportsAndLines) {

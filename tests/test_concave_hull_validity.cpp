@@ -56,12 +56,7 @@ TEST(ConcaveHullValidity, OnRandomPoints) {
 TEST(ConcaveHullValidity, OnLatticesWithGaps) {
   for (std::uint64_t seed = 0; seed < 300; ++seed) {
     SCOPED_TRACE("seed " + std::to_string(seed));
-    testing::Random random(seed);
-    const double density = random.between(0.3, 0.97);
-    std::vector<Point> points;
-    for (const Point& point : testing::lattice(14, 14)) {
-      if (random.unit() < density) points.push_back(point);
-    }
+    const std::vector<Point> points = testing::lattice_with_gaps(seed);
     expect_valid(points, {.alpha = 0.75});
     expect_valid(points, {.alpha = 1.01});
   }

@@ -2,13 +2,10 @@
 #include <gtest/gtest.h>
 
 #include <memory>
-#include <stdexcept>
 #include <string>
 #include <vector>
 
 #include "adapters/adapter.hpp"
-#include "polylidar/concave_hull.hpp"
-#include "tests/adapter_contract.hpp"
 #include "tests/hull_input.hpp"
 #include "tests/hull_oracle.hpp"
 #include "tests/point_sets.hpp"
@@ -21,32 +18,13 @@ std::unique_ptr<Adapter> make_convex_hull();
 namespace {
 
 using polylidar::testing::canonical;
+using polylidar::testing::core_hull;
 using test::hull_of;
-
-TEST(ConvexHull, SaysWhoItIs) {
-  const auto adapter = make_convex_hull();
-  EXPECT_EQ(adapter->info().name, "convex_hull");
-  EXPECT_EQ(adapter->info().version.find('_'), std::string::npos) << adapter->info().version;
-  EXPECT_TRUE(adapter->info().parameters.empty());
-  EXPECT_FALSE(adapter->info().capabilities.holes);
-}
 
 TEST(ConvexHull, HasTheCornersOnly) {
   const auto adapter = make_convex_hull();
   const std::vector<Point> points = {{2, 0}, {4, 3}, {1, 1}, {0, 0}, {4, 0}, {0, 3}, {2, 3}};
   EXPECT_EQ(canonical(hull_of(*adapter, points, {})), (MultiPolygon{{{{0, 0}, {4, 0}, {4, 3}, {0, 3}}, {}}}));
-}
-
-// Nothing gives another shape here, so that nothing of an earlier run stays is for the other methods' tests.
-TEST(ConvexHull, KeepsTheContract) {
-  test::expect_adapter_contract(&make_convex_hull, {}, {});
-}
-
-TEST(ConvexHull, ComesAfterRun) {
-  const auto adapter = make_convex_hull();
-  adapter->load(test::square_points(10, 1, false));
-  test::NoSteps steps;
-  EXPECT_THROW(adapter->extract(steps), std::logic_error);
 }
 
 TEST(ConvexHull, IsTheCoreWithoutALimit) {
@@ -57,8 +35,7 @@ TEST(ConvexHull, IsTheCoreWithoutALimit) {
     const MultiPolygon hull = hull_of(*adapter, points, {});
     ASSERT_EQ(hull.size(), 1U);
     EXPECT_EQ(canonical(hull)[0].shell, polylidar::testing::convex_corners(points));
-    const MultiPolygon core =
-        polylidar::to_coordinates(polylidar::concave_hull(points, {.alpha = polylidar::kNoLimit}), points);
+    const MultiPolygon core = core_hull(points, polylidar::testing::kConvexHull);
     // The core keeps points on the hull's edges as vertices; the area is a sum of fewer than 2^11 terms.
     EXPECT_NEAR(polylidar::area(hull), polylidar::area(core), 0x1p-41);
   }

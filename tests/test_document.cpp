@@ -15,6 +15,7 @@
 #include "benchmarks/record/validate.hpp"
 #include "benchmarks/table/writers.hpp"
 #include "temporary_folder.hpp"
+#include "tests/complaint.hpp"
 #include "tests/program.hpp"
 
 namespace hullbench {
@@ -336,12 +337,9 @@ class WrittenTables : public ::testing::Test {
   }
 
   std::string complaint() const {
-    try {
+    return testing::complaint_of([&] {
       table::write_tables(folder(), {{"One", {small_table("a")}, {}, {}}});
-    } catch (const std::runtime_error& error) {
-      return error.what();
-    }
-    return "nothing";
+    });
   }
 
  private:
@@ -376,12 +374,10 @@ TEST_F(WrittenTables, ThatCannotBeWrittenAreASentenceWithTheFile) {
 }
 
 TEST(WrittenTablesElsewhere, AFolderThatIsNotThereIsASentence) {
-  try {
-    table::write_tables("/proc/hullbench", {{"One", {small_table("a")}, {}, {}}});
-    FAIL();
-  } catch (const std::runtime_error& error) {
-    EXPECT_STREQ(error.what(), "cannot write /proc/hullbench/tables: No such file or directory");
-  }
+  EXPECT_EQ(testing::complaint_of([&] {
+              table::write_tables("/proc/hullbench", {{"One", {small_table("a")}, {}, {}}});
+            }),
+            "cannot write /proc/hullbench/tables: No such file or directory");
 }
 
 }  // namespace

@@ -42,7 +42,8 @@ from figures import (  # noqa: E402
     steps,
     summary,
 )
-from records import load  # noqa: E402
+from labels import place_labels  # noqa: E402
+from records import Row, load  # noqa: E402
 from run import Drawn, Run, read_paper  # noqa: E402
 from style import in_order, method_style  # noqa: E402
 
@@ -193,6 +194,28 @@ class Data(WithSuite):
             line = lines[f"_{row['method']}/{row['protocol']}"]
             self.assertEqual(line.get_xdata(), [sorted(row["time_ns"])[1] / 1e6])
             self.assertEqual(line.get_ydata(), [100 * row["metrics"]["l2"]])
+
+    def test_near_results_of_one_method_share_a_label(self) -> None:
+        def row(method: str, protocol: str, time: int, l2: float) -> Row:
+            return Row(plot_samples.run(method, protocol, "ca", 1, True, "ok", l2=l2), {"time": {"median_ns": time}})
+
+        near = [row("geos", "auto", 100, 0.1), row("geos", "paper", 110, 0.1), row("geos", "tuned", 110, 0.14)]
+        far = [row("geos", "default", 100, 0.3), row("pcl", "paper", 100, 0.1)]
+        groups = [{one.series.key for one in group} for group in summary.neighbours([*near, *far])]
+        self.assertEqual(len(groups), 3)
+        self.assertIn({one.series.key for one in near}, groups)
+
+    def test_labels_cover_neither_each_other_nor_a_marker(self) -> None:
+        figure = Figure(figsize=(4, 3), dpi=100)
+        axes = figure.add_subplot()
+        places = [(x, y) for x in (0.4, 0.5, 0.6) for y in (0.4, 0.5, 0.6)]
+        axes.plot(*zip(*places), linestyle="none", marker="o", markersize=4)
+        place_labels(figure, axes, places, [{"text": f"method {k}", "color": "black", "fontsize": 7} for k in range(9)], places)
+        boxes = [note.get_window_extent() for note in axes.texts if note.get_text()]
+        self.assertEqual(len(boxes), len(places))
+        for k, box in enumerate(boxes):
+            self.assertFalse(any(box.overlaps(other) for other in boxes[:k]))
+            self.assertFalse(any(box.contains(*place) for place in axes.transData.transform(places)))
 
     def test_nothing_is_better_than_the_front(self) -> None:
         rows = [row for row in self.run_.experiment("states").rows if row.ok and row.case == "ca/n:8000/holes:1"]

@@ -1,7 +1,6 @@
 // The GEOS adapter: its two parameters, its extremes, and the chi shape, which GEOS's erosion by length is.
 #include <gtest/gtest.h>
 
-#include <cctype>
 #include <cmath>
 #include <cstdint>
 #include <limits>
@@ -11,8 +10,7 @@
 #include <vector>
 
 #include "adapters/adapter.hpp"
-#include "polylidar/concave_hull.hpp"
-#include "tests/adapter_contract.hpp"
+#include "tests/complaint.hpp"
 #include "tests/hull_input.hpp"
 #include "tests/hull_oracle.hpp"
 #include "tests/point_sets.hpp"
@@ -26,6 +24,7 @@ std::unique_ptr<Adapter> make_geos_concave_hull();
 namespace {
 
 using polylidar::testing::canonical;
+using polylidar::testing::core_hull;
 using polylidar::testing::hole_count;
 using test::hull_of;
 using test::kAreaTolerance;
@@ -39,37 +38,11 @@ MultiPolygon geos_hull(const std::vector<Point>& points, const Parameters& param
   return hull_of(*make_geos_concave_hull(), points, parameters);
 }
 
-TEST(GeosConcaveHull, SaysWhoItIs) {
-  const auto adapter = make_geos_concave_hull();
-  const MethodInfo& info = adapter->info();
-  EXPECT_EQ(info.name, "geos_concave_hull");
-  EXPECT_EQ(info.version.find_first_not_of("0123456789."), std::string::npos) << info.version;
-  EXPECT_TRUE(info.capabilities.holes);
-  EXPECT_FALSE(info.capabilities.several_polygons);
-  EXPECT_EQ(complete_parameters(info, {}),
-            (Parameters{{"length_ratio", kInfinity}, {"max_edge_length", kInfinity}, {"allow_holes", 0}}));
-  EXPECT_FALSE(has_defaults(info));
-}
-
-TEST(GeosConcaveHull, KeepsTheContractByRatio) {
-  test::expect_adapter_contract(&make_geos_concave_hull, {{"length_ratio", 0.4}, {"allow_holes", 1}},
-                                {{"length_ratio", 0.2}});
-}
-
-TEST(GeosConcaveHull, KeepsTheContractByLength) {
-  test::expect_adapter_contract(&make_geos_concave_hull, {{"max_edge_length", 0.1}, {"allow_holes", 1}},
-                                {{"max_edge_length", 0.2}});
-}
-
 TEST(GeosConcaveHull, TakesOneOfItsTwoLimits) {
+  EXPECT_FALSE(has_defaults(make_geos_concave_hull()->info()));
   const std::vector<Point> points = square_points(100, 1, false);
-  const auto refusal = [&](const Parameters& parameters) -> std::string {
-    try {
-      geos_hull(points, parameters);
-    } catch (const std::invalid_argument& error) {
-      return error.what();
-    }
-    return "no exception";
+  const auto refusal = [&](const Parameters& parameters) {
+    return testing::complaint_of<std::invalid_argument>([&] { geos_hull(points, parameters); });
   };
   EXPECT_EQ(refusal({{"length_ratio", 0.5}, {"max_edge_length", 0.5}}),
             "geos_concave_hull takes one of 'length_ratio' and 'max_edge_length': give only one of them");
@@ -86,8 +59,7 @@ TEST(GeosConcaveHull, TakesOneOfItsTwoLimits) {
 // this set one, 1.4e-6 of the whole.
 TEST(GeosConcaveHull, AtItsLargestLimitsIsTheConvexHull) {
   const std::vector<Point> points = square_points(kPoints, 7, true);
-  const auto hull = polylidar::concave_hull(points, {.alpha = polylidar::kNoLimit});
-  const double convex = polylidar::area(polylidar::to_coordinates(hull, points));
+  const double convex = polylidar::area(core_hull(points, polylidar::testing::kConvexHull));
   for (const Parameters& parameters : {Parameters{{"length_ratio", 1}}, Parameters{{"max_edge_length", 2}}}) {
     EXPECT_NEAR(polylidar::area(geos_hull(points, parameters)), convex, 2e-6);
   }

@@ -302,11 +302,11 @@ class TheSummary(Folder):
         self.assertEqual((cgal.time.cases, cgal.time.median, cgal.time.low, cgal.time.high), (4, 2.5, 0, 9))
         self.assertAlmostEqual(cgal.error.median, 0.75)
         self.assertEqual((cgal.error.lower_in, cgal.error.higher_in), (2, 1))
-        self.assertEqual((summary.contested, summary.undecided), (3, 0))
+        self.assertEqual((summary.contested, summary.fastest_in), (3, {"polylidar": 3}))
         self.assertEqual((self.standing(summary, "polylidar").fastest_in, cgal.fastest_in), (3, 0))
         self.assertEqual((self.standing(summary, "polylidar").most_accurate_in, cgal.most_accurate_in), (2, 2))
         self.assertIn(
-            "Polylidar (paper) is the fastest in all 3 cases; the next, Cgal (paper), takes 2.50 times its time",
+            "Polylidar (paper) is the fastest in all 3 cases; the next, Cgal (paper), takes 2.50 times the time of Polylidar (paper)",
             fastest_sentence(summary),
         )
 
@@ -370,9 +370,24 @@ class TheSummary(Folder):
             run(n=4000, times=(100, 110, 118)),
             run("cgal", n=4000, times=(119, 130, 140)),
         )
-        self.assertEqual((summary.contested, summary.undecided), (2, 1))
+        self.assertEqual((summary.contested, summary.fastest_in.total()), (2, 1))
         self.assertEqual(self.standing(summary, "polylidar").fastest_in, 1)
         self.assertIn("1 undecided", fastest_sentence(summary))
+
+    def test_a_tie_of_two_protocols_of_one_method_is_no_doubt_about_the_method(self):
+        rows = [run(), run(protocol="auto"), run("cgal", times=(200,) * 3), run(n=4, protocol="auto"), run("cgal", n=4)]
+        summary = self.summary(*rows)
+        self.assertEqual([self.standing(summary, "polylidar", protocol).fastest_in for protocol in ("paper", "auto")], [1, 1])
+        said = "Polylidar is the fastest in 1 of 2 cases (1 undecided); the next, Cgal (paper), takes 1.98 times the time of "
+        self.assertIn(said + "Polylidar (paper)", fastest_sentence(summary))
+        # Another method that ties is a doubt.
+        tied = self.summary(*rows, run("pcl"))
+        self.assertIn("no method is the fastest beyond doubt in all 2 cases", fastest_sentence(tied))
+
+    def test_protocols_of_one_method_alone_are_compared_with_nothing(self):
+        summary = self.summary(run(), run(protocol="auto"))
+        self.assertIn("only Polylidar has results", fastest_sentence(summary))
+        self.assertIn("have the smallest error", accurate_sentence(summary))
 
     def test_it_says_when_the_core_loses(self):
         rows = [

@@ -9,9 +9,7 @@
 #include <vector>
 
 #include "adapters/adapter.hpp"
-#include "polylidar/concave_hull.hpp"
 #include "polylidar/delaunay.hpp"
-#include "tests/adapter_contract.hpp"
 #include "tests/hull_input.hpp"
 #include "tests/hull_oracle.hpp"
 #include "tests/point_sets.hpp"
@@ -24,6 +22,7 @@ std::unique_ptr<Adapter> make_knn_hull();
 namespace {
 
 using polylidar::testing::canonical;
+using polylidar::testing::core_hull;
 using test::hull_of;
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
@@ -32,32 +31,8 @@ MultiPolygon knn_hull(const std::vector<Point>& points, double k) {
   return hull_of(*make_knn_hull(), points, {{"k", k}});
 }
 
-TEST(KnnHull, SaysWhoItIs) {
-  const auto adapter = make_knn_hull();
-  const MethodInfo& info = adapter->info();
-  EXPECT_EQ(info.name, "knn_hull");
-  EXPECT_FALSE(info.version.empty());
-  EXPECT_FALSE(info.capabilities.holes);
-  EXPECT_FALSE(info.capabilities.several_polygons);
-  EXPECT_EQ(complete_parameters(info, {}), (Parameters{{"k", 3}}));
-}
-
-TEST(KnnHull, KeepsTheContract) {
-  test::expect_adapter_contract(&make_knn_hull, {{"k", 5}}, {{"k", 40}});
-}
-
 TEST(KnnHull, TakesWholeNumbersOnly) {
   EXPECT_THROW(knn_hull(test::square_points(10, 1, false), 3.5), std::invalid_argument);
-}
-
-TEST(KnnHull, NamesItsSteps) {
-  const auto adapter = make_knn_hull();
-  test::StepNames steps;
-  adapter->load(test::square_points(10, 1, false));
-  EXPECT_THROW(adapter->extract(steps), std::logic_error) << "extract comes after run";
-  adapter->run({}, steps);
-  adapter->extract(steps);
-  EXPECT_EQ(steps.names(), (std::vector<std::string>{"neighbours", "shape", "polygon"}));
 }
 
 // By hand: a U on the grid, two points wide. In its slot the walk turns right as soon as a point of the floor
@@ -93,8 +68,7 @@ TEST(KnnHull, WithAllNeighboursIsTheConvexHull) {
     SCOPED_TRACE("seed " + std::to_string(seed));
     const std::vector<Point> points = polylidar::testing::integer_points(3 + 10 * seed, seed, 12);
     EXPECT_EQ(canonical(knn_hull(points, kInfinity)),
-              canonical(polylidar::to_coordinates(
-                  polylidar::concave_hull(points, {.alpha = polylidar::kNoLimit}), points)));
+              canonical(core_hull(points, polylidar::testing::kConvexHull)));
   }
 }
 

@@ -12,7 +12,6 @@
 #include "adapters/adapter.hpp"
 #include "benchmarks/metrics/area.hpp"
 #include "benchmarks/metrics/validity.hpp"
-#include "polylidar/concave_hull.hpp"
 #include "tests/adapter_contract.hpp"
 #include "tests/hull_input.hpp"
 #include "tests/hull_oracle.hpp"
@@ -25,6 +24,7 @@ std::unique_ptr<Adapter> make_pcl_concave_hull();
 namespace {
 
 using polylidar::testing::canonical;
+using polylidar::testing::core_hull;
 using polylidar::testing::hole_count;
 using test::hull_of;
 using test::kAreaTolerance;
@@ -84,8 +84,7 @@ TEST(PclConcaveHull, IsNearlyTheCoresAlphaShape) {
     SCOPED_TRACE("seed " + std::to_string(seed));
     const std::vector<Point> points = polylidar::testing::uniform_points(kPoints, seed);
     const double alpha = 2 / std::sqrt(static_cast<double>(kPoints));
-    const MultiPolygon core =
-        polylidar::to_coordinates(polylidar::concave_hull(points, {.alpha = alpha}), points);
+    const MultiPolygon core = core_hull(points, {.alpha = alpha});
     const MultiPolygon hull = pcl_hull(points, alpha);
     ASSERT_EQ(metrics::invalid_reason(hull), "");
     EXPECT_LT(*metrics::area_scores(hull, core).l2, 1e-3);

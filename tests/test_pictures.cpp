@@ -11,9 +11,7 @@
 
 #include "benchmarks/record/pictures.hpp"
 #include "benchmarks/record/validate.hpp"
-#include "tests/program.hpp"
-#include "tests/small_plans.hpp"
-#include "tests/temporary_folder.hpp"
+#include "tests/hullbench_test.hpp"
 
 namespace hullbench {
 namespace {
@@ -53,10 +51,9 @@ record::RunRecord record(const std::string& dataset, double l2) {
 
 const MultiPolygon kTriangle = {{{{100, 200}, {110, 200}, {105, 210}}, {}}};
 
-class PicturesTest : public ::testing::Test {
+class PicturesTest : public testing::HullbenchTest {
  protected:
-  fs::path folder() const { return folder_.path(); }
-  std::vector<json> lines() const { return record::load_json_lines(folder() / record::kPicturesFile).lines; }
+  std::vector<json> lines() const { return read_lines(record::kPicturesFile); }
 
   /// The data sets whose results are kept.
   std::set<std::string> kept() const {
@@ -66,9 +63,6 @@ class PicturesTest : public ::testing::Test {
     }
     return result;
   }
-
- private:
-  testing::TemporaryFolder folder_;
 };
 
 TEST_F(PicturesTest, ACaseIsTheRunsNameWithoutMethodAndProtocol) {
@@ -155,19 +149,12 @@ TEST_F(PicturesTest, AFileOfSomethingElseIsSaid) {
 }
 
 TEST_F(PicturesTest, OfARunAreThereForItsReport) {
-  const std::string plan = testing::write_plan(folder(), small_plan("small", california({300, 400}), 1));
-  testing::ProgramOptions options;
-  options.folder = folder();
-  const auto hullbench = [&](std::vector<std::string> words) {
-    words.insert(words.begin(), HULLBENCH);
-    return testing::run_program(words, options);
-  };
+  const std::string plan = write(small_plan("small", california({300, 400}), 1));
   ASSERT_EQ(hullbench({"run", plan, "--out", "whole"}).code, 0);
   EXPECT_EQ(record::validate_file(folder() / "whole" / record::kPicturesFile), std::vector<std::string>());
-  const std::vector<json> whole = record::load_json_lines(folder() / "whole" / record::kPicturesFile).lines;
+  const std::vector<json> whole = read_lines(fs::path("whole") / record::kPicturesFile);
   std::set<std::string> runs;
-  for (const json& line : record::load_json_lines(folder() / "whole/runs.jsonl").lines)
-    runs.insert(line.at("name").get<std::string>());
+  for (const json& line : read_lines("whole/runs.jsonl")) runs.insert(line.at("name").get<std::string>());
   for (const json& line : whole) {
     if (line.at("kind") == "result") runs.erase(line.at("run").get<std::string>());
   }
@@ -178,17 +165,17 @@ TEST_F(PicturesTest, OfARunAreThereForItsReport) {
     ASSERT_EQ(hullbench({"run", plan, "--out", out, "--shard", shard}).code, 0);
   }
   ASSERT_EQ(hullbench({"merge", "shard1", "shard2", "--out", "merged"}).code, 0);
-  const std::vector<json> merged = record::load_json_lines(folder() / "merged" / record::kPicturesFile).lines;
+  const std::vector<json> merged = read_lines(fs::path("merged") / record::kPicturesFile);
   EXPECT_EQ(std::set<json>(merged.begin(), merged.end()), std::set<json>(whole.begin(), whole.end()));
 
   const Outcome outcome = hullbench({"report", "whole", "--out", "drawn"});
   ASSERT_EQ(outcome.code, 0) << outcome.err;
-  EXPECT_EQ(record::load_json_lines(folder() / "drawn" / record::kPicturesFile).lines, whole);
+  EXPECT_EQ(read_lines(fs::path("drawn") / record::kPicturesFile), whole);
   EXPECT_EQ(record::validate_file(folder() / "drawn/report.json"), std::vector<std::string>());
   EXPECT_EQ(hullbench({"report", "nowhere", "--out", "drawn"}).code, 2);
   // Into itself would be to remove what is to be read.
   EXPECT_EQ(hullbench({"report", "whole", "--out", "whole"}).code, 2);
-  EXPECT_EQ(record::load_json_lines(folder() / "whole" / record::kPicturesFile).lines, whole);
+  EXPECT_EQ(read_lines(fs::path("whole") / record::kPicturesFile), whole);
 }
 
 }  // namespace

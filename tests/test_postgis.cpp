@@ -18,6 +18,7 @@
 #include "adapters/adapter.hpp"
 #include "adapters/private_postgres.hpp"
 #include "tests/adapter_contract.hpp"
+#include "tests/complaint.hpp"
 #include "tests/hull_input.hpp"
 #include "tests/hull_oracle.hpp"
 #include "tests/postgis_server.hpp"
@@ -235,12 +236,10 @@ TEST_F(Postgis, TurnsOffParallelQueriesAndTheCompiler) {
       "RAISE 'jit=% workers=%', current_setting('jit'), current_setting('max_parallel_workers_per_gather');",
       "-cjit=on -cmax_parallel_workers_per_gather=4");
   const auto adapter = make_postgis_legacy();
-  try {
-    hull_of(*adapter, square_points(10, 1, false), {{"target_percent", 0.5}});
-    FAIL() << "no exception";
-  } catch (const std::runtime_error& error) {
-    EXPECT_STREQ(error.what(), "PostGIS: jit=off workers=0");
-  }
+  EXPECT_EQ(testing::complaint_of([&] {
+              hull_of(*adapter, square_points(10, 1, false), {{"target_percent", 0.5}});
+            }),
+            "PostGIS: jit=off workers=0");
 }
 
 TEST_F(Postgis, ReportsAFailureAndGoesOn) {

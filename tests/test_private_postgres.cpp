@@ -25,6 +25,7 @@
 
 #include "adapters/adapter.hpp"
 #include "adapters/private_postgres.hpp"
+#include "tests/complaint.hpp"
 #include "tests/temporary_folder.hpp"
 
 namespace hullbench {
@@ -224,13 +225,7 @@ TEST(PrivatePostgres, StartsForAPlainUser) {
 TEST(PrivatePostgres, SaysWhyItDidNotStart) {
   const TemporaryFolder root;
   const fs::path bin = pretend_install(root.path(), "15.3", true);
-  try {
-    const PrivatePostgres server(bin);
-    FAIL() << "no exception";
-  } catch (const std::runtime_error& error) {
-    EXPECT_NE(std::string(error.what()).find("no space left, says the test"), std::string::npos)
-        << error.what();
-  }
+  testing::expect_complaint([&] { const PrivatePostgres server(bin); }, "no space left, says the test");
 }
 
 TEST(FindPostgres, SaysWhatIsMissing) {

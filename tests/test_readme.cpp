@@ -9,9 +9,8 @@
 
 #include "benchmarks/report/readme.hpp"
 #include "invented_shapes.hpp"
-#include "tests/program.hpp"
-#include "tests/small_plans.hpp"
-#include "tests/temporary_folder.hpp"
+#include "tests/complaint.hpp"
+#include "tests/hullbench_test.hpp"
 
 namespace hullbench {
 namespace {
@@ -25,12 +24,7 @@ const std::string kBegin = "<!-- results: begin -->\n";
 const std::string kEnd = "<!-- results: end -->";
 
 std::string complaint(const std::string& readme) {
-  try {
-    report::with_results(readme, "new\n");
-  } catch (const std::runtime_error& error) {
-    return error.what();
-  }
-  return "nothing";
+  return testing::complaint_of([&] { report::with_results(readme, "new\n"); });
 }
 
 TEST(ReadmeMarks, ResultsTakeThePlaceOfWhatStandsBetweenThem) {
@@ -105,24 +99,14 @@ TEST(ReadmeResults, OfNoRunsAreASentence) {
   }
 }
 
-class ReadmeCommand : public ::testing::Test {
+class ReadmeCommand : public testing::HullbenchTest {
  protected:
-  fs::path file() const { return folder_.path() / "README.md"; }
-
-  Outcome hullbench(std::vector<std::string> arguments) const {
-    arguments.insert(arguments.begin(), HULLBENCH);
-    testing::ProgramOptions options;
-    options.folder = folder_.path();
-    return testing::run_program(arguments, options);
-  }
+  fs::path file() const { return folder() / "README.md"; }
 
   void measure() const {
-    const auto plan = testing::small_plan("states", testing::california({500, 600}));
-    ASSERT_EQ(hullbench({"run", testing::write_plan(folder_.path(), plan), "--out", "run"}).code, 0);
+    const std::string plan = write(testing::small_plan("states", testing::california({500, 600})));
+    ASSERT_EQ(hullbench({"run", plan, "--out", "run"}).code, 0);
   }
-
- private:
-  testing::TemporaryFolder folder_;
 };
 
 TEST_F(ReadmeCommand, WritesTheResultsAndSeesWhenADigitIsAnother) {

@@ -16,6 +16,7 @@
 #include "invented_run.hpp"
 #include "program.hpp"
 #include "temporary_folder.hpp"
+#include "tests/complaint.hpp"
 
 namespace hullbench {
 namespace {
@@ -253,24 +254,13 @@ TEST(JsonLines, BrokenLineInTheMiddleIsAnErrorThatNamesIt) {
   const TemporaryFolder folder;
   const auto path = folder.path() / "lines.jsonl";
   testing::write_text(path, "1\n{]\n3\n");
-  try {
-    record::load_json_lines(path);
-    FAIL() << "no exception";
-  } catch (const std::runtime_error& error) {
-    EXPECT_NE(std::string(error.what()).find("Line 2 of " + path.string()), std::string::npos)
-        << error.what();
-  }
+  testing::expect_complaint([&] { record::load_json_lines(path); }, "Line 2 of " + path.string());
 }
 
 TEST(JsonLines, FileThatCannotBeWrittenIsNamed) {
   const TemporaryFolder folder;
   const auto path = folder.path() / "no" / "such" / "folder.jsonl";
-  try {
-    record::JsonLinesWriter writer(path);
-    FAIL() << "no exception";
-  } catch (const std::runtime_error& error) {
-    EXPECT_NE(std::string(error.what()).find(path.string()), std::string::npos) << error.what();
-  }
+  testing::expect_complaint([&] { record::JsonLinesWriter writer(path); }, path.string());
 }
 
 TEST(JsonLines, NaNIsNeverWritten) {

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cstdint>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
@@ -11,6 +12,7 @@
 #include <sstream>
 #include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "benchmarks/base/files.hpp"
@@ -19,9 +21,11 @@
 #include "benchmarks/record/json_lines.hpp"
 #include "benchmarks/record/validate.hpp"
 #include "benchmarks/report/claims.hpp"
+#include "benchmarks/report/contests.hpp"
 #include "benchmarks/report/report.hpp"
 #include "invented_run.hpp"
 #include "temporary_folder.hpp"
+#include "tests/complaint.hpp"
 
 namespace hullbench {
 namespace {
@@ -51,12 +55,7 @@ json find_by(const json& list, const char* key, const std::string& value) {
 }
 
 std::string message_of(const std::filesystem::path& directory) {
-  try {
-    report::make_report(directory);
-  } catch (const std::runtime_error& error) {
-    return error.what();
-  }
-  return "";
+  return testing::complaint_of([&] { report::make_report(directory); });
 }
 
 TEST(Report, HoldsTheRunAndItsLines) {
@@ -109,6 +108,46 @@ TEST(Report, SummaryHasTheStatisticsOfARun) {
   EXPECT_EQ(row["l2"], report["runs"][0]["metrics"]["l2"]);
   EXPECT_EQ(row["l2_paper"], report["runs"][0]["metrics"]["l2_paper"]);
   EXPECT_EQ(row["iou"], report["runs"][0]["metrics"]["iou"]);
+}
+
+/// A result on the points of invented_record() with these times.
+record::RunRecord timed_record(const std::string& method, const std::string& protocol,
+                               std::vector<std::int64_t> times) {
+  record::RunRecord record = test::invented_record();
+  record.method = method;
+  record.protocol = protocol;
+  record.id = method + "/" + protocol;
+  record.time_ns = std::move(times);
+  return record;
+}
+
+TEST(Contests, ProtocolsOfOneMethodDoNotCompete) {
+  std::vector<record::RunRecord> runs = {timed_record("polylidar", "paper", {100, 101, 102, 103}),
+                                         timed_record("polylidar", "auto", {100, 101, 102, 103})};
+  EXPECT_FALSE(report::judge_contests(runs).at("polylidar/auto").is_fastest) << "there is no other method";
+  runs.push_back(timed_record("geos", "paper", {200, 201, 202, 203}));
+  const auto contests = report::judge_contests(runs);
+  EXPECT_TRUE(contests.at("polylidar/paper").is_fastest);
+  EXPECT_TRUE(contests.at("polylidar/auto").is_fastest);
+  EXPECT_FALSE(contests.at("geos/paper").is_fastest);
+}
+
+TEST(Contests, AnotherMethodThatTiesLeavesNobodyTheFastest) {
+  const std::vector<record::RunRecord> runs = {timed_record("polylidar", "paper", {100, 101, 102, 103}),
+                                               timed_record("geos", "paper", {200, 201, 202, 203}),
+                                               timed_record("cgal", "auto", {101, 100, 103, 102})};
+  for (const auto& [id, contest] : report::judge_contests(runs)) EXPECT_FALSE(contest.is_fastest) << id;
+}
+
+TEST(Contests, OfAMethodWithTooFewRepetitionsOnlyTheMedianIsCompared) {
+  std::vector<record::RunRecord> runs = {timed_record("polylidar", "paper", {100, 101, 102, 103}),
+                                         timed_record("scipy", "default", {9000})};
+  EXPECT_FALSE(report::judge_contests(runs).at("polylidar/paper").is_fastest)
+      << "no comparison has an interval";
+  runs.push_back(timed_record("geos", "paper", {200, 201, 202, 203}));
+  EXPECT_TRUE(report::judge_contests(runs).at("polylidar/paper").is_fastest);
+  runs.push_back(timed_record("turf", "default", {90}));
+  EXPECT_FALSE(report::judge_contests(runs).at("polylidar/paper").is_fastest);
 }
 
 TEST(Report, FailuresAreRowsToo) {

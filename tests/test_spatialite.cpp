@@ -1,7 +1,6 @@
 // The SpatiaLite adapter on the real library.
 #include <gtest/gtest.h>
 
-#include <cctype>
 #include <limits>
 #include <memory>
 #include <stdexcept>
@@ -9,7 +8,7 @@
 #include <vector>
 
 #include "adapters/adapter.hpp"
-#include "tests/adapter_contract.hpp"
+#include "tests/complaint.hpp"
 #include "tests/hull_input.hpp"
 
 namespace hullbench {
@@ -29,18 +28,6 @@ using test::square_points;
 // Five standard deviations: no spurious holes at this density.
 const Parameters kFilled = {{"c", 5}, {"allow_holes", 0}};
 const Parameters kWithHoles = {{"c", 5}, {"allow_holes", 1}};
-
-TEST(Spatialite, SaysWhoItIs) {
-  const auto adapter = make_spatialite();
-  const MethodInfo& info = adapter->info();
-  EXPECT_EQ(info.name, "spatialite");
-  EXPECT_EQ(info.title, "SpatiaLite");
-  EXPECT_NE(info.version.find(" (GEOS "), std::string::npos) << info.version;
-  EXPECT_TRUE(std::isdigit(static_cast<unsigned char>(info.version.at(0)))) << info.version;
-  EXPECT_TRUE(info.capabilities.holes);
-  EXPECT_TRUE(info.capabilities.several_polygons);
-  EXPECT_EQ(complete_parameters(info, {}), (Parameters{{"c", 3}, {"allow_holes", 0}}));
-}
 
 TEST(Spatialite, KeepsOrFillsTheHole) {
   const auto adapter = make_spatialite();
@@ -62,12 +49,11 @@ TEST(Spatialite, GivesSeveralPolygons) {
 
 TEST(Spatialite, SaysWhenNoTriangleIsKept) {
   const auto adapter = make_spatialite();
-  try {
-    hull_of(*adapter, square_points(100, 6, false), {{"c", 0}});
-    FAIL() << "no exception";
-  } catch (const std::runtime_error& error) {
-    EXPECT_NE(std::string(error.what()).find("no triangle"), std::string::npos) << error.what();
-  }
+  testing::expect_complaint(
+      [&] {
+        hull_of(*adapter, square_points(100, 6, false), {{"c", 0}});
+      },
+      "no triangle");
   // The failed run leaves the adapter usable.
   NoSteps steps;
   adapter->run(kFilled, steps);
@@ -79,10 +65,6 @@ TEST(Spatialite, KeepsEveryTriangleWithoutALimit) {
   const double infinity = std::numeric_limits<double>::infinity();
   const std::vector<Point> corners = {{0, 0}, {4, 0}, {4, 3}, {0, 3}, {1, 1}};
   EXPECT_DOUBLE_EQ(polylidar::area(hull_of(*adapter, corners, {{"c", infinity}})), 12);
-}
-
-TEST(Spatialite, KeepsTheContract) {
-  test::expect_adapter_contract(&make_spatialite, kWithHoles, kFilled);
 }
 
 }  // namespace

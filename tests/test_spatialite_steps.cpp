@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "adapters/adapter.hpp"
-#include "tests/adapter_contract.hpp"
+#include "tests/complaint.hpp"
 #include "tests/hull_input.hpp"
 #include "tests/hull_samples.hpp"
 
@@ -37,10 +37,6 @@ TEST(SpatialiteSteps, SaysWhoItIs) {
   EXPECT_EQ(info.title, "SpatiaLite, step by step");
   EXPECT_EQ(info.version, original->info().version);
   EXPECT_EQ(complete_parameters(info, {}), complete_parameters(original->info(), {}));
-}
-
-TEST(SpatialiteSteps, KeepsTheContract) {
-  test::expect_adapter_contract(&make_spatialite_steps, kWithHoles, kFilled);
 }
 
 // Not nearly: ring for ring and bit for bit. Both unite the same triangles in the same order.
@@ -94,26 +90,10 @@ TEST(SpatialiteSteps, KeepsEveryTriangleWhenTheLimitIsNotANumber) {
   EXPECT_EQ(hull_of(*make_spatialite_steps(), equilateral, no_limit), expected);
 }
 
-TEST(SpatialiteSteps, TellsTheStepsOfThePaper) {
-  const auto adapter = make_spatialite_steps();
-  test::StepNames steps;
-  adapter->load(square_points(100, 6, false));
-  adapter->run(kFilled, steps);
-  EXPECT_EQ(steps.names(), (std::vector<std::string>{"triangulation", "shape", "polygon"}));
-  adapter->extract(steps);
-  EXPECT_EQ(steps.names().back(), "polygon");
-  EXPECT_EQ(steps.names().size(), 4U);
-}
-
 TEST(SpatialiteSteps, SaysWhenNoTriangleIsKept) {
   const auto adapter = make_spatialite_steps();
   const std::vector<Point> points = square_points(100, 6, false);
-  try {
-    hull_of(*adapter, points, {{"c", 0}});
-    FAIL() << "no exception";
-  } catch (const std::runtime_error& error) {
-    EXPECT_NE(std::string(error.what()).find("no triangle"), std::string::npos) << error.what();
-  }
+  testing::expect_complaint([&] { hull_of(*adapter, points, {{"c", 0}}); }, "no triangle");
   // The failed run leaves nothing behind.
   EXPECT_EQ(hull_of(*adapter, points, kFilled), hull_of(*make_spatialite_steps(), points, kFilled));
 }

@@ -14,6 +14,7 @@
 #include "benchmarks/metrics/validity.hpp"
 #include "polylidar/concave_hull.hpp"
 #include "polylidar/delaunay.hpp"
+#include "tests/hull_input.hpp"
 #include "tests/hull_oracle.hpp"
 #include "tests/hull_samples.hpp"
 #include "tests/manifest_method.hpp"
@@ -24,19 +25,9 @@ namespace {
 
 using polylidar::Options;
 using polylidar::testing::canonical;
+using polylidar::testing::core_hull;
+using test::parameters_of;
 using testing::ManifestMethod;
-
-MultiPolygon core_hull(const std::vector<Point>& points, const Options& options) {
-  return polylidar::to_coordinates(polylidar::concave_hull(points, options), points);
-}
-
-Parameters parameters_of(const Options& options) {
-  Parameters parameters;
-  if (options.alpha) parameters["alpha"] = *options.alpha;
-  if (options.max_edge_length) parameters["max_edge_length"] = *options.max_edge_length;
-  if (options.max_perimeter) parameters["max_perimeter"] = *options.max_perimeter;
-  return parameters;
-}
 
 /// Whether rounding decides nothing in Delaunator, whose tests of circles and distances are plain arithmetic;
 /// on cocircular points any of several triangulations is right, too.
@@ -111,12 +102,7 @@ class TriangleMethod : public ::testing::Test {
   void expect_same_polygons_on_lattices_with_gaps() {
     for (std::uint64_t seed = 0; seed < 100; ++seed) {
       SCOPED_TRACE("seed " + std::to_string(seed));
-      polylidar::testing::Random random(seed);
-      const double density = random.between(0.3, 0.97);
-      std::vector<Point> points;
-      for (const Point& point : polylidar::testing::lattice(14, 14)) {
-        if (random.unit() < density) points.push_back(point);
-      }
+      const std::vector<Point> points = polylidar::testing::lattice_with_gaps(seed);
       expect_same_polygons(points, {.alpha = 0.75});
       expect_same_polygons(points, {.alpha = 1.05});
     }

@@ -11,6 +11,7 @@
 #include "benchmarks/report/report.hpp"
 #include "invented_run.hpp"
 #include "temporary_folder.hpp"
+#include "tests/complaint.hpp"
 #include "tests/program.hpp"
 
 namespace hullbench {
@@ -53,12 +54,7 @@ class XzFile : public ::testing::Test {
 
   /// What is said of a file with these bytes, or of the file as it is there.
   std::string complaint() const {
-    try {
-      record::read_xz_file(file());
-    } catch (const std::runtime_error& error) {
-      return error.what();
-    }
-    return "nothing";
+    return testing::complaint_of([&] { record::read_xz_file(file()); });
   }
   std::string complaint(const std::string& bytes) const {
     write_text(file(), bytes);

@@ -22,14 +22,15 @@ enum ExitCode : int {
 
 /// What they mean, for help.
 inline constexpr const char* kExitCodesHelp =
-    "Exit codes: 0 everything asked for was done, and no check or gate objects; 1 an error of the harness, "
-    "or a\n"
-    "check found faults; 2 usage or configuration; 3 a regression, a changed result or a missed goal; 4 "
-    "some\n"
-    "methods failed (their rows say how) or break the contract, or runs of a merge are missing; 5 "
-    "inconclusive:\n"
-    "too noisy, or the same program differs from itself; 6 nothing was measured, or nothing to compare;\n"
-    "130 interrupted.";
+    "Exit codes:\n"
+    "    0  everything was done; no check and no gate objects\n"
+    "    1  an error of the program, or a check found faults\n"
+    "    2  wrong usage or configuration\n"
+    "    3  a regression, a changed result or a missed goal\n"
+    "    4  methods failed (their rows say how) or break the contract, or runs of a merge are missing\n"
+    "    5  inconclusive: too noisy, or the same program differs from itself\n"
+    "    6  nothing was measured, or there is nothing to compare\n"
+    "  130  interrupted";
 
 /// What `work` returns. When it throws, one line on `err` after the name of the program: kExitUsage for a
 /// ConfigurationError, kExitInterrupted for Interrupted, kExitError for any other std::exception.

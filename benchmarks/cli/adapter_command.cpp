@@ -186,28 +186,29 @@ ExitCode test_adapter(const TestAdapterCommand& command) {
 
 void add_new(CLI::App& app, Action& action) {
   const auto command = std::make_shared<NewAdapterCommand>();
-  CLI::App& options = add_command(app, "new", "Write a method that works, to be filled in",
+  CLI::App& options = add_command(app, "new", "Write a small working method, to be changed into yours",
                                   "hullbench adapter new my_hull --lang python --out methods");
   options.add_option("NAME", command->name, "The method's name: small letters, digits and _")->required();
-  options.add_option("--lang", command->language, "Its language")
+  options.add_option("--lang", command->language, "The language to write it in")
       ->check(CLI::IsMember({"cpp", "python", "js"}))
       ->required();
   options.add_option(
       "--out", command->out,
-      "Folder for its files instead of this project's adapters (cpp) or the user's configuration folder");
+      "Folder for the new files, instead of adapters/ (cpp) or ~/.config/hullbench/adapters (python, js)");
   set_action(options, action, command, &new_adapter);
 }
 
 void add_test(CLI::App& app, Action& action) {
   const auto command = std::make_shared<TestAdapterCommand>();
-  CLI::App& options = add_command(app, "test", "Say which points of the contract a method keeps",
+  CLI::App& options = add_command(app, "test", "Check a method against each point of the contract",
                                   "hullbench adapter test my_hull --adapters methods");
   options.add_option("NAME", command->name, "The method's name")->required();
   add_adapters(options, command->adapters);
-  options.add_option("--timeout", command->timeout_s, "Seconds that one run may take")
+  options.add_option("--timeout", command->timeout_s, "Time limit of one run in seconds")
       ->check(timeout_range())
       ->capture_default_str();
-  options.add_option("--mem-limit", command->mem_limit_mib, "MiB of address space for the method")
+  options
+      .add_option("--mem-limit", command->mem_limit_mib, "Memory limit of the method (address space) in MiB")
       ->check(memory_range())
       ->capture_default_str();
   set_action(options, action, command, &test_adapter);
@@ -216,7 +217,7 @@ void add_test(CLI::App& app, Action& action) {
 }  // namespace
 
 void add_adapter(CLI::App& app, Action& action) {
-  CLI::App& options = add_command(app, "adapter", "Add a method, or try one",
+  CLI::App& options = add_command(app, "adapter", "Add a method, or check one",
                                   "hullbench adapter new my_hull --lang python --out methods");
   options.require_subcommand(1);
   add_new(options, action);

@@ -100,14 +100,14 @@ ExitCode compare(const CompareCommand& command) {
 
 void add_compare(CLI::App& app, Action& action) {
   const auto command = std::make_shared<CompareCommand>();
-  CLI::App& options = add_command(app, "compare", "Say what differs between two runs",
+  CLI::App& options = add_command(app, "compare", "Show what differs between two runs",
                                   "hullbench compare before/report.json results/latest --format csv");
   options
       .add_option("A", command->a,
                   "A run's or suite's folder, a report.json or a runs.jsonl: the earlier one")
       ->required();
-  options.add_option("B", command->b, "Likewise: the one that is held against it")->required();
-  options.add_option("--format", command->format, "How to print it")
+  options.add_option("B", command->b, "The later one, given in the same way")->required();
+  options.add_option("--format", command->format, "The output's format")
       ->check(CLI::IsMember({"markdown", "csv", "latex", "json"}))
       ->capture_default_str();
   set_action(options, action, command, &compare);

@@ -232,21 +232,25 @@ void add_hull(CLI::App& app, Action& action) {
   options.add_option("--input", command->input_format, "The input's format")
       ->check(CLI::IsMember({"auto", "csv", "xyz", "geojson", "wkt", "npy", "ply"}))
       ->capture_default_str();
-  options.add_option("--columns", command->columns,
-                     "Of text, the columns of x and y: names, as in lon,lat, or numbers from 1, as in 2,3");
+  options.add_option(
+      "--columns", command->columns,
+      "The columns of x and y in a text file: names, such as lon,lat, or numbers from 1, such as 2,3");
   options.add_option("--format", command->format, "The output's format")
       ->check(CLI::IsMember({"geojson", "wkt", "wkb", "svg"}))
       ->capture_default_str();
-  options.add_option("--min-area", command->min_area, "Fill smaller holes, then drop smaller polygons")
+  options
+      .add_option("--min-area", command->min_area,
+                  "Fill holes smaller than this area, then drop polygons smaller than it")
       ->check(zero_or_more());
-  options.add_option("--min-triangles", command->min_triangles, "Drop polygons of fewer Delaunay triangles");
+  options.add_option("--min-triangles", command->min_triangles,
+                     "Drop polygons of fewer Delaunay triangles than this");
   options
       .add_option("--simplify", command->simplify,
-                  "Leave out vertices that are this close to the new outline")
+                  "Simplify: leave out vertices that are no farther than this from the new outline")
       ->check(zero_or_more());
-  options.add_option("--threads", command->threads, "Threads to compute with, instead of one a processor")
+  options.add_option("--threads", command->threads, "Number of threads, instead of one for each processor")
       ->check(CLI::Range(1U, 1024U));
-  options.add_option("--out", command->out, "File for the result instead of standard output");
+  options.add_option("--out", command->out, "Write the result into this file instead of standard output");
   set_action(options, action, command, &make_hull);
 }
 

@@ -49,11 +49,13 @@ ExitCode print_league(const LeagueCommand& command) {
 void add_league(CLI::App& app, Action& action) {
   const auto command = std::make_shared<LeagueCommand>();
   CLI::App& options = add_command(
-      app, "league", "Say who is the most accurate over the cases of some runs, protocol by protocol",
+      app, "league", "Rank the methods by their error over the cases of some runs, protocol by protocol",
       "hullbench league results/latest --out league.json");
   options.add_option("RUN", command->runs, "Folders of runs, or of suites")->required();
-  options.add_option("--out", command->out, "File for it as JSON (results/league.schema.json)");
-  options.add_flag("--all-cases", command->all_cases, "Of training shapes too");
+  options.add_option("--out", command->out,
+                     "Also write the ranking as JSON into this file (results/league.schema.json)");
+  options.add_flag("--all-cases", command->all_cases,
+                   "Count the training shapes too, not the test shapes alone");
   set_action(options, action, command, &print_league);
 }
 

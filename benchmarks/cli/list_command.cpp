@@ -32,7 +32,7 @@ ExitCode list(const ListCommand& command) {
 void add_list(CLI::App& app, Action& action) {
   const auto command = std::make_shared<ListCommand>();
   CLI::App& options = add_command(app, "list", "Show methods and data sets", "hullbench list");
-  options.add_flag("--json", command->json, "As JSON");
+  options.add_flag("--json", command->json, "Print JSON");
   add_adapters(options, command->adapters);
   set_action(options, action, command, &list);
 }

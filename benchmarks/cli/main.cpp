@@ -17,8 +17,8 @@ constexpr auto kCommands = {&add_list,  &add_metrics, &add_run,    &add_tune,   
 
 constexpr const char* kVariables =
     "HULLBENCH_POSTGIS_DSN names a PostGIS server to use instead of a private one; HULLBENCH_POSTGRES_BIN\n"
-    "the folder with the programs that a private server is made of. Of postgis_legacy:\n"
-    "HULLBENCH_POSTGIS_LEGACY_DSN, HULLBENCH_POSTGRES_LEGACY_BIN.";
+    "names the folder of the PostgreSQL programs of a private one. For postgis_legacy they are\n"
+    "HULLBENCH_POSTGIS_LEGACY_DSN and HULLBENCH_POSTGRES_LEGACY_BIN.";
 
 /// What the command line asks for; nothing more when it is help.
 Action parse(int argc, char** argv) {

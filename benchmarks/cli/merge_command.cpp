@@ -146,11 +146,11 @@ ExitCode merge(const MergeCommand& command) {
 
 void add_merge(CLI::App& app, Action& action) {
   const auto command = std::make_shared<MergeCommand>();
-  CLI::App& options = add_command(app, "merge", "Put runs of the same plan, such as its shards, together",
+  CLI::App& options = add_command(app, "merge", "Join runs of the same plan, such as its shards",
                                   "hullbench merge shard-1 shard-2 --out whole");
   options.add_option("RUN", command->sources, "Folders of runs, or of suites")->required();
-  options.add_option("--out", command->out, "Folder for the merged run, new or empty")->required();
-  options.add_flag("--force", command->force, "Write to the folder even when something is in it");
+  options.add_option("--out", command->out, "Folder for the joined run, new or empty")->required();
+  options.add_flag("--force", command->force, "Write into the folder even if it is not empty");
   set_action(options, action, command, &merge);
 }
 

@@ -29,8 +29,8 @@ void add_metrics(CLI::App& app, Action& action) {
   const auto command = std::make_shared<MetricsCommand>();
   CLI::App& options =
       add_command(app, "metrics", "Show what is scored, and how each metric is defined", "hullbench metrics");
-  CLI::Option* json = options.add_flag("--json", command->json, "As JSON");
-  options.add_flag("--markdown", command->markdown, "As benchmarks/metrics/METRICS.md has it")
+  CLI::Option* json = options.add_flag("--json", command->json, "Print JSON");
+  options.add_flag("--markdown", command->markdown, "Print the table of benchmarks/metrics/METRICS.md")
       ->excludes(json);
   set_action(options, action, command, &show_metrics);
 }

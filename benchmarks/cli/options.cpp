@@ -26,8 +26,8 @@ void add_plans(CLI::App& options, std::vector<std::string>& plans, const std::st
 void add_adapters(CLI::App& options, std::vector<fs::path>& folders) {
   options
       .add_option("--adapters", folders,
-                  "A folder with manifests of methods (adapters/process/PROTOCOL.md) besides "
-                  "adapters/manifests and the user's ~/.config/hullbench/adapters")
+                  "Also look for methods in this folder of manifests (adapters/process/PROTOCOL.md), besides "
+                  "adapters/manifests and ~/.config/hullbench/adapters")
       ->allow_extra_args(false);
 }
 

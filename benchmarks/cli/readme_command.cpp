@@ -55,11 +55,12 @@ ExitCode readme(const ReadmeCommand& command) {
 
 void add_readme(CLI::App& app, Action& action) {
   const auto command = std::make_shared<ReadmeCommand>();
-  CLI::App& options = add_command(app, "readme", "Write a run's results into a README, between its marks",
+  CLI::App& options = add_command(app, "readme", "Update the tables of results in a README",
                                   "hullbench readme results/reference README.md --check");
   options.add_option("RUN", command->run, "The run's folder")->required();
   options.add_option("FILE", command->file, "The README")->required();
-  options.add_flag("--check", command->check, "Only say whether it has them; exit code 1 when not");
+  options.add_flag("--check", command->check,
+                   "Change nothing; exit with 1 if the tables are not those of the run");
   set_action(options, action, command, &readme);
 }
 

@@ -42,10 +42,11 @@ ExitCode write_reports(const ReportCommand& command) {
 
 void add_report(CLI::App& app, Action& action) {
   const auto command = std::make_shared<ReportCommand>();
-  CLI::App& options = add_command(app, "report", "Write a run's report.json and pictures, to be drawn from",
-                                  "hullbench report results/latest --out drawn");
+  CLI::App& options = add_command(
+      app, "report", "Write what figures and pages are drawn from: a run's report.json and pictures",
+      "hullbench report results/latest --out drawn");
   options.add_option("RUN", command->run, "The folder of a run, or of a suite")->capture_default_str();
-  options.add_option("--out", command->out, "Folder for them")->required();
+  options.add_option("--out", command->out, "Folder to write into")->required();
   set_action(options, action, command, &write_reports);
 }
 

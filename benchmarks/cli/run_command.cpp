@@ -451,38 +451,38 @@ void add_run(CLI::App& app, Action& action) {
   CLI::App& options = add_command(app, "run", "Measure a plan, or several one after the other",
                                   "hullbench run states --filter '^polylidar/ca/n:2000/' --repetitions 3");
   add_plans(options, command->plans, "");
-  options.add_option("--filter", command->filter,
-                     "Only runs whose name has a match of this regular expression");
+  options.add_option("--filter", command->filter, "Only runs in whose name this regular expression matches");
   options
-      .add_option("--repetitions", command->repetitions, "Timed repetitions of every run, over all passes")
+      .add_option("--repetitions", command->repetitions,
+                  "Timed repetitions of every run, all passes together")
       ->check(CLI::Range(1, 1000000));
   options
-      .add_option(
-          "--passes", command->passes,
-          "How often all plans are gone through, each time with a share of the repetitions, so that a "
-          "slow hour of the machine is not one method's")
+      .add_option("--passes", command->passes,
+                  "Go through all plans this many times, each time with a share of the repetitions: a slow "
+                  "hour of the machine then slows all methods alike")
       ->check(CLI::Range(1, plan::kMaxPasses));
-  options.add_option("--out", command->out, "Folder for the results instead of one in results/runs");
-  options.add_option("--seed", command->seed, "Seed of the point samples and of the order of runs")
+  options.add_option("--out", command->out, "Folder for the results, instead of a new one in results/runs");
+  options.add_option("--seed", command->seed, "Seed of the sampled points and of the order of the runs")
       ->check(CLI::NonNegativeNumber);
-  options.add_option("--timeout", command->timeout_s, "Seconds that one repetition may take")
+  options.add_option("--timeout", command->timeout_s, "Time limit of one repetition in seconds")
       ->check(timeout_range());
-  options.add_option("--mem-limit", command->mem_limit_mib, "MiB of address space for a method")
+  options
+      .add_option("--mem-limit", command->mem_limit_mib, "Memory limit of a method (address space) in MiB")
       ->check(memory_range());
-  options.add_option("--recordings", command->recordings,
-                     "Folder of recordings that take the place of the simulated floors, or that are added to "
-                     "the real points "
-                     "(datasets/rgbd/recordings.hpp)");
+  options.add_option(
+      "--recordings", command->recordings,
+      "Measure the recorded floors in this folder instead of the simulated ones, or besides the "
+      "real points "
+      "(datasets/rgbd/recordings.hpp)");
   add_shard(options, command->shard,
-            "Only part K of N of the runs, given as K/N; 'hullbench merge' puts the parts together");
+            "Only part K of N of the runs, given as K/N, such as 2/8; 'hullbench merge' joins the parts");
   add_adapters(options, command->adapters);
   options
-      .add_option("--with", command->with,
-                  "Also measure this method of a manifest, with the parameters that the manifest gives")
+      .add_option("--with", command->with, "Also measure this method, with the parameters in its manifest")
       ->allow_extra_args(false);
   add_export_gbench(options, command->export_gbench);
-  options.add_flag("--force", command->force, "Start anew instead of going on with an interrupted run");
-  options.add_flag("--dry-run", command->dry_run, "Print the names of the runs and do nothing");
+  options.add_flag("--force", command->force, "Start anew instead of continuing an interrupted run");
+  options.add_flag("--dry-run", command->dry_run, "Only print the names of the runs");
   set_action(options, action, command, &run_plans);
 }
 

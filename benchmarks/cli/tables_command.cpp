@@ -36,7 +36,7 @@ void add_tables(CLI::App& app, Action& action) {
   CLI::App& options =
       add_command(app, "tables", "Print the tables of a run", "hullbench tables results/latest");
   options.add_option("RUN", command->run, "The run's folder")->capture_default_str();
-  options.add_flag("--write", command->write, "Write its tables.md and tables/ anew too");
+  options.add_flag("--write", command->write, "Also write the run's tables.md and tables/ anew");
   add_export_gbench(options, command->export_gbench);
   set_action(options, action, command, &tables);
 }

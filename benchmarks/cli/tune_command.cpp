@@ -210,23 +210,25 @@ void add_tune(CLI::App& app, Action& action) {
   const auto command = std::make_shared<TuneCommand>();
   CLI::App& options = add_command(
       app, "tune",
-      "Search every method's parameter and say what each way of choosing it costs (nothing is timed)",
+      "Find each method's best parameter and compare the errors of all protocols with it (nothing is timed)",
       "hullbench tune world_shapes --methods 'polylidar|geos_concave_hull'");
-  add_plans(options, command->plans, ": its cases");
+  add_plans(options, command->plans, ", whose cases are searched");
   options.add_option(
       "--methods", command->methods,
-      "Methods whose name is a match of this regular expression, instead of all built-in ones");
-  options.add_option("--out", command->out, "Folder for the results instead of one in results/tune");
+      "Only methods whose whole name matches this regular expression, instead of all built-in ones");
+  options.add_option("--out", command->out, "Folder for the results, instead of a new one in results/tune");
   options
       .add_option("--timeout", command->timeout_s,
-                  "Seconds that one evaluation may take, instead of the plan's")
+                  "Time limit of one evaluation in seconds, instead of the plan's")
       ->check(timeout_range());
-  options.add_option("--jobs", command->jobs, "Evaluations at a time, instead of one a processor core")
+  options
+      .add_option("--jobs", command->jobs,
+                  "Evaluations that run at the same time, instead of one for each processor core")
       ->check(CLI::Range(1, 1024));
-  add_shard(options, command->shard,
-            "Only part K of N of the methods, given as K/N; when all are done, the same command without it, "
-            "over the "
-            "folder with their files sweep-K-of-N.jsonl, puts them together");
+  add_shard(
+      options, command->shard,
+      "Only part K of N of the methods, given as K/N. To join the parts, put all files sweep-K-of-N.jsonl "
+      "into one folder and give the same command with it as --out, without --shard");
   add_adapters(options, command->adapters);
   set_action(options, action, command, &tune_plans);
 }

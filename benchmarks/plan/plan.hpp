@@ -140,9 +140,9 @@ bool applies(const PlanMethod& method, const PlanCase& plan_case);
 void check_plan(const Plan& plan, const std::vector<std::string>& methods,
                 const std::vector<DatasetInfo>& datasets);
 
-/// Puts `count` recorded floors ("recorded-1", ...) in the place of the plan's simulated ones, the low
-/// ones too; to the cases of a plan of real points it adds the recordings without their truth ("real-recorded-1", ...). Throws
-/// ConfigurationError when it has neither.
+/// Puts `count` recorded floors ("recorded-1", ...) in the place of the plan's simulated ones, the low ones
+/// too; to the cases of a plan of real points it adds the recordings without their truth ("real-recorded-1",
+/// ...). Throws ConfigurationError when it has neither.
 void use_recordings(Plan& plan, std::size_t count);
 
 /// How often a method is timed on every case, over all passes.

@@ -20,10 +20,16 @@ double median_time(const RunRecord& run) {
   return statistics::median(std::span<const std::int64_t>(run.time_ns));
 }
 
-std::string order_of(const RunRecord& run, const RunRecord& beside) {
+/// Where the ratio of the times of `run` to those of `beside` lies; none with too few repetitions for an
+/// interval.
+std::optional<statistics::Side> side_of_ratio(const RunRecord& run, const RunRecord& beside) {
   const auto ratio = statistics::ratio_of_times(beside.time_ns, run.time_ns);
-  if (!ratio || !ratio->interval) return "undecided";
-  switch (statistics::side_of(*ratio->interval, 1)) {
+  if (!ratio || !ratio->interval) return std::nullopt;
+  return statistics::side_of(*ratio->interval, 1);
+}
+
+std::string order_of(const RunRecord& run, const RunRecord& beside) {
+  switch (side_of_ratio(run, beside).value_or(statistics::Side::kUndecided)) {
     case statistics::Side::kBelow:
       return "faster";
     case statistics::Side::kAbove:
@@ -46,6 +52,17 @@ std::string reference_protocol(const std::vector<RunRecord>& runs) {
   return first;
 }
 
+bool beats_other_methods(const RunRecord& run, const Runs& runs) {
+  bool beats_one = false;
+  for (const RunRecord* other : runs) {
+    if (other->method == run.method) continue;
+    const auto side = side_of_ratio(run, *other);
+    if (side ? *side != statistics::Side::kBelow : median_time(run) >= median_time(*other)) return false;
+    beats_one = beats_one || side;
+  }
+  return beats_one;
+}
+
 void judge_case(const Runs& runs, const std::string& protocol, std::map<std::string, Contest>& contests) {
   const std::string method = reference_line().method;
   const auto reference = std::find_if(runs.begin(), runs.end(), [&](const RunRecord* run) {
@@ -55,13 +72,7 @@ void judge_case(const Runs& runs, const std::string& protocol, std::map<std::str
     Contest& contest = contests[run->id];
     if (reference != runs.end() && run != *reference) contest.order = order_of(*run, **reference);
   }
-  if (runs.size() < 2) return;
-  const auto fastest = *std::min_element(
-      runs.begin(), runs.end(),
-      [](const RunRecord* a, const RunRecord* b) { return median_time(*a) < median_time(*b); });
-  contests[fastest->id].is_fastest = std::all_of(runs.begin(), runs.end(), [&](const RunRecord* run) {
-    return run == fastest || order_of(*fastest, *run) == "faster";
-  });
+  for (const RunRecord* run : runs) contests[run->id].is_fastest = beats_other_methods(*run, runs);
 }
 
 }  // namespace

@@ -16,7 +16,10 @@ struct Contest {
   /// Beside the reference method's run: "faster", "slower", or "undecided" where the interval of the ratio
   /// holds 1 or there are too few repetitions for one. None for that run itself, and where it has no result.
   std::optional<std::string> order;
-  bool is_fastest = false;  ///< beyond doubt: of two runs or more, and undecided against none
+  /// Faster than every run of another method, of which there is one at least. With one that has too few
+  /// repetitions for an interval, as a slow method has, only the medians are compared. Protocols of one
+  /// method do not compete: several of them can be the fastest.
+  bool is_fastest = false;
 };
 
 /// By the run's id, for every run with a result and times. The reference is the method and protocol of

@@ -155,8 +155,8 @@ void explain_hull_sign(table::Table& table) {
                        [](const table::Cell& cell) { return cell.sign == table::kSign; });
   });
   if (any)
-    table.remarks.push_back(std::string(table::kSign) +
-                            ": the error is above that of the points' convex hull.");
+    table.remarks.push_back(
+        std::string(table::kSign).append(": the error is above that of the points' convex hull."));
 }
 
 std::vector<Shape> shapes(const std::vector<Case>& cases) {

@@ -15,9 +15,10 @@ from labels import place_labels
 from maps import area_path, frame, outline, paint, points
 from records import Picture, Row
 from run import Drawn, Run, Skipped, failures
-from style import FULL_WIDTH, footnote, in_order, label, marker_options, method_style, new_figure, number, panel_letter
+from style import FULL_WIDTH, footnote, in_order, marker_options, method_style, new_figure, number, panel_letter
 
 _METHOD = "polylidar"
+_NEAR = 1.5  # times and errors of one method that differ by less than this factor share a label
 _POINTS = 8000  # the most that all methods are measured with in a quick run
 
 
@@ -42,7 +43,7 @@ def draw(run: Run) -> Iterator[Drawn]:
     caption = (
         f"{left}median time and L² error of every method for {rows[0].n:,} points of {title}{holes}; down and to the "
         "left is better, and no method is both faster and more accurate than those on the line. Filled markers: "
-        f"parameters by the paper's rule. {failures(rows)}"
+        f"parameters by the paper's rule. Results of one method that lie together share a label. {failures(rows)}"
     )
     yield Drawn("summary", _figure(rows, scored, picture, own), caption.strip())
 
@@ -65,6 +66,26 @@ def front(rows: Sequence[Row]) -> list[Row]:
     return best
 
 
+def neighbours(rows: Sequence[Row]) -> list[list[Row]]:
+    """The rows in the order of the methods, those of one method together where each is near the next in time and error:
+    one label is enough for them."""
+    groups: list[list[Row]] = []
+    place = {one: k for k, one in enumerate(in_order(row.series for row in rows))}
+    for row in sorted(rows, key=lambda row: (place[row.series], row.metrics["l2"])):
+        near = [group for group in groups if group[0].method == row.method and any(_is_near(row, other) for other in group)]
+        (near[0].append if near else groups.append)(row if near else [row])
+    return groups
+
+
+def _is_near(row: Row, other: Row) -> bool:
+    return all(1 / _NEAR <= one / another <= _NEAR for one, another in zip(_place(row), _place(other)))
+
+
+def _place(row: Row) -> tuple[float, float]:
+    """Milliseconds and percent."""
+    return row.median_ns / 1e6, 100 * row.metrics["l2"]
+
+
 def _own_result(rows: Sequence[Row], picture: Picture | None) -> list | None:
     own = [row for row in rows if picture and row.method == _METHOD and row.case == picture.name and row.ok]
     return picture.polygons(own[0].name) if own else None
@@ -81,11 +102,13 @@ def _figure(rows: list[Row], scored: list[Row], picture: Picture | None, own: li
     _pareto(axes, scored)
     panel_letter(axes, "b" if own is not None else "", f"time and error, {rows[0].n:,} points")
     footnote(figure, failures(rows))
+    groups = neighbours(scored)
     place_labels(
         figure,
         axes,
-        [(row.median_ns / 1e6, 100 * row.metrics["l2"]) for row in scored],
-        [_label_options(row, rows) for row in scored],
+        [max(map(_place, group)) for group in groups],
+        [_label_options(group, groups) for group in groups],
+        [_place(row) for row in scored],
         _corners(front(scored)),
     )
     return figure
@@ -106,32 +129,32 @@ def _pareto(axes: Axes, rows: list[Row]) -> None:
     axes.plot(*zip(*_corners(best)), color="#c4c4c4", linewidth=1.2, zorder=1, label="_front")
     for row in sorted(rows, key=lambda row: -method_style(row.method).order):
         scale = 1.7 if method_style(row.method).paper else 1.35
-        axes.plot(
-            [row.median_ns / 1e6], [100 * row.metrics["l2"]], linestyle="none", zorder=3, **marker_options(row.series, scale)
-        )
+        time, error = _place(row)
+        axes.plot([time], [error], linestyle="none", zorder=3, **marker_options(row.series, scale))
     axes.set_xscale("log")
     axes.set_yscale("log")
     for axis in (axes.xaxis, axes.yaxis):
         axis.set_major_formatter(number)
         axis.set_minor_formatter(NullFormatter())
     axes.yaxis.set_major_locator(LogLocator(subs=(1, 2, 5)))
-    axes.margins(0.12, 0.08)
+    axes.margins(0.12, 0.1)
     axes.set_xlabel("Time (ms)")
     axes.set_ylabel("L² error (%)")
 
 
 def _corners(best: list[Row]) -> list[tuple[float, float]]:
     """Of the line of the best, which goes down where the next one begins."""
-    places = [(row.median_ns / 1e6, 100 * row.metrics["l2"]) for row in best]
+    places = [_place(row) for row in best]
     return [corner for (_, last), (x, y) in zip([places[0], *places], places) for corner in ((x, last), (x, y))]
 
 
-def _label_options(row: Row, rows: list[Row]) -> dict[str, object]:
-    look = method_style(row.method)
-    weight = "bold" if look.paper else "normal"
+def _label_options(group: list[Row], groups: list[list[Row]]) -> dict[str, object]:
+    look = method_style(group[0].method)
+    repeated = sum(other[0].method == group[0].method for other in groups) > 1
+    protocols = ", ".join(row.series.protocol for row in group)
     return {
-        "text": label(row.series, in_order(one.series for one in rows)),
+        "text": f"{look.title} ({protocols})" if repeated else look.title,
         "color": look.color,
-        "fontweight": weight,
+        "fontweight": "bold" if look.paper else "normal",
         "fontsize": 7.5 if look.paper else 6.8,
     }

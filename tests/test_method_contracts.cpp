@@ -1,0 +1,145 @@
+// The methods that run in this process: who each says it is, which steps it names, and the contract of every
+// adapter.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <limits>
+#include <memory>
+#include <regex>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "adapters/adapter.hpp"
+#include "tests/adapter_contract.hpp"
+#include "tests/hull_input.hpp"
+
+namespace hullbench {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+const std::string kNumbers = "[0-9.]+";
+
+/// What a method is to say of itself.
+struct Identity {
+  std::string name;
+  std::string version;  ///< a regular expression
+  Capabilities capabilities;
+  std::string steps;  ///< of run and extract
+};
+
+/// With what it is tried.
+struct Method {
+  Identity identity;
+  Parameters defaults;    ///< of all parameters that have one
+  Parameters parameters;  ///< give a shape with an area for square_points
+  Parameters others;      ///< legal, and give another shape
+  /// What is in a database is not looked for before it is read.
+  bool knows_whether_it_ran = true;
+};
+
+const std::vector<Method>& methods() {
+  constexpr Capabilities kRing = {.holes = false, .several_polygons = false};
+  constexpr Capabilities kPolygon = {.holes = true, .several_polygons = false};
+  constexpr Capabilities kPolygons = {.holes = true, .several_polygons = true};
+  static const Parameters no_limits = {
+      {"alpha", kInfinity}, {"max_edge_length", kInfinity}, {"max_perimeter", kInfinity}};
+  static const Identity geos = {"geos_concave_hull", kNumbers, kPolygon, "shape polygon"};
+  static const Parameters no_ratio = {
+      {"length_ratio", kInfinity}, {"max_edge_length", kInfinity}, {"allow_holes", 0}};
+  static const Parameters three = {{"c", 3}, {"allow_holes", 0}};
+  // Five standard deviations: no spurious holes at this density.
+  static const Parameters filled = {{"c", 5}, {"allow_holes", 0}};
+  static const Parameters open = {{"c", 5}, {"allow_holes", 1}};
+  static const std::vector<Method> all = {
+      {{"cgal_alpha_shape", kNumbers, kPolygons, "triangulation alpha_shape polygon"},
+       {{"alpha", 0}},
+       {{"alpha", 0.01}},
+       {{"alpha", 0.09}}},
+      {{"cgal_delaunay", kNumbers, kPolygons, "triangulation shape polygon"},
+       no_limits,
+       {{"alpha", 0.1}},
+       {{"max_perimeter", 1}}},
+      {{"sfcgal_alpha_shape", kNumbers, kPolygon, ""},
+       {{"alpha", 0}, {"allow_holes", 0}},
+       {},
+       {{"alpha", 0.04}, {"allow_holes", 1}}},
+      {{"spatialite", "[0-9].* \\(GEOS .*", kPolygons, ""}, three, open, filled, false},
+      {{"spatialite_steps", "[0-9].* \\(GEOS .*", kPolygons, "triangulation shape polygon polygon"},
+       three,
+       open,
+       filled,
+       false},
+      {geos, no_ratio, {{"length_ratio", 0.4}, {"allow_holes", 1}}, {{"length_ratio", 0.2}}},
+      {geos, no_ratio, {{"max_edge_length", 0.1}, {"allow_holes", 1}}, {{"max_edge_length", 0.2}}},
+      {{"chi_shape", ".+", kRing, "triangulation shape polygon"},
+       {{"max_edge_length", kInfinity}},
+       {{"max_edge_length", 0.05}},
+       {{"max_edge_length", 0.2}}},
+      {{"knn_hull", ".+", kRing, "neighbours shape polygon"}, {{"k", 3}}, {{"k", 5}}, {{"k", 40}}},
+      {{"convex_hull", kNumbers, kRing, "shape polygon"}, {}, {}, {}},
+  };
+  return all;
+}
+
+class MethodContract : public ::testing::TestWithParam<Method> {
+ protected:
+  void SetUp() override {
+    const auto& registry = adapter_registry();
+    const auto found = std::find_if(registry.begin(), registry.end(),
+                                    [&](const AdapterEntry& entry) { return entry.name == identity_.name; });
+    ASSERT_NE(found, registry.end());
+    make_ = found->make;
+    try {
+      adapter_ = make_();
+    } catch (const NotInstalled& missing) {
+      GTEST_SKIP() << missing.what();
+    }
+  }
+
+  const Identity& identity_ = GetParam().identity;
+  test::MakeAdapter make_;
+  std::unique_ptr<Adapter> adapter_;
+};
+
+TEST_P(MethodContract, SaysWhoItIs) {
+  const MethodInfo& info = adapter_->info();
+  EXPECT_EQ(info.name, identity_.name);
+  EXPECT_TRUE(std::regex_match(info.version, std::regex(identity_.version))) << info.version;
+  EXPECT_EQ(info.capabilities.holes, identity_.capabilities.holes);
+  EXPECT_EQ(info.capabilities.several_polygons, identity_.capabilities.several_polygons);
+  EXPECT_EQ(complete_parameters(info, {}), GetParam().defaults);
+}
+
+TEST_P(MethodContract, NamesItsSteps) {
+  test::StepNames steps;
+  adapter_->load(test::square_points(100, 1, false));
+  adapter_->run(GetParam().parameters, steps);
+  adapter_->extract(steps);
+  std::string names;
+  for (const std::string& name : steps.names()) names += (names.empty() ? "" : " ") + name;
+  EXPECT_EQ(names, identity_.steps);
+}
+
+TEST_P(MethodContract, ExtractComesAfterRun) {
+  if (!GetParam().knows_whether_it_ran) GTEST_SKIP() << "its result is in a database";
+  test::NoSteps steps;
+  adapter_->load(test::square_points(100, 1, false));
+  EXPECT_THROW(adapter_->extract(steps), std::logic_error);
+  adapter_->run(GetParam().parameters, steps);
+  const MultiPolygon first = adapter_->extract(steps);
+  EXPECT_EQ(adapter_->extract(steps), first) << "extracted again";
+  adapter_->reset();
+  EXPECT_THROW(adapter_->extract(steps), std::logic_error);
+}
+
+TEST_P(MethodContract, IsKept) {
+  test::expect_adapter_contract(make_, GetParam().parameters, GetParam().others);
+}
+
+INSTANTIATE_TEST_SUITE_P(Methods, MethodContract, ::testing::ValuesIn(methods()), [](const auto& tested) {
+  return std::to_string(tested.index) + "_" + tested.param.identity.name;
+});
+
+}  // namespace
+}  // namespace hullbench
