@@ -230,30 +230,31 @@ real::Sample make_real(const std::string& name, const DataFolders& folders) {
   const real::Source* source = real::find_source(name);
   if (source != nullptr) return real::read_sample(*source, folders.system);
   return {make_floor(name, 0, folders).points, {}};
+}
 
-  /// The data set `name`, and that `n` suits it.
-  DatasetInfo require_points(const std::string& name, bool holes, std::size_t n, const DataFolders& folders) {
-    const DatasetInfo info = require_dataset(name, holes, folders);
-    if (info.own_points != (n == 0)) {
-      throw std::invalid_argument("the data set '" + name +
-                                  (info.own_points ? "' comes with its points; ask for no number of them"
-                                                   : "' has no points of its own; ask for a number of them"));
-    }
-    return info;
+/// The data set `name`, and that `n` suits it.
+DatasetInfo require_points(const std::string& name, bool holes, std::size_t n, const DataFolders& folders) {
+  const DatasetInfo info = require_dataset(name, holes, folders);
+  if (info.own_points != (n == 0)) {
+    throw std::invalid_argument("the data set '" + name +
+                                (info.own_points ? "' comes with its points; ask for no number of them"
+                                                 : "' has no points of its own; ask for a number of them"));
   }
+  return info;
+}
 
-  /// `shape`: a name without stress.
-  std::uint64_t sample_seed(std::uint64_t seed, const std::string& shape, bool holes, std::size_t n) {
-    return derive_seed(seed, "points/" + shape + "/holes:" + (holes ? "1" : "0") + "/n:" + std::to_string(n));
-  }
+/// `shape`: a name without stress.
+std::uint64_t sample_seed(std::uint64_t seed, const std::string& shape, bool holes, std::size_t n) {
+  return derive_seed(seed, "points/" + shape + "/holes:" + (holes ? "1" : "0") + "/n:" + std::to_string(n));
+}
 
-  polylidar::MultiPolygon make_shape(const DatasetInfo& info, const std::string& name, bool holes,
-                                     const DataFolders& folders) {
-    if (is_real(name)) return {};
-    if (info.own_points) return make_own_points(name, 0, folders).ground_truth;
-    if (info.members == 0) return make_file_shape(name, holes, folders.shapes);
-    return make_member_shape(info.name, split_member_name(name)->second - 1, holes);
-  }
+polylidar::MultiPolygon make_shape(const DatasetInfo& info, const std::string& name, bool holes,
+                                   const DataFolders& folders) {
+  if (is_real(name)) return {};
+  if (info.own_points) return make_own_points(name, 0, folders).ground_truth;
+  if (info.members == 0) return make_file_shape(name, holes, folders.shapes);
+  return make_member_shape(info.name, split_member_name(name)->second - 1, holes);
+}
 
 }  // namespace
 
