@@ -52,6 +52,10 @@ struct Options {
 /// A multipolygon whose vertices are the caller's points, by index: three flat arrays. Every polygon is valid
 /// in the sense of OGC 06-103r4; shells run counter-clockwise, holes clockwise; the first vertex of a ring is
 /// not repeated.
+///
+/// A ring starts at its vertex of the lowest index. Polygons come in the order of their shells' first
+/// vertices, the holes of a polygon in that of theirs; where two start at one vertex, their second vertices
+/// decide. One shape therefore has one way to be listed.
 struct IndexedMultiPolygon {
   /// Indices into the caller's points, ring after ring.
   std::vector<std::uint32_t> vertices;
