@@ -1,0 +1,65 @@
+// Which points are surely not on the outline, from occupied cells alone.
+//
+// The claim. Let a grid's cells have the side 1, and let r = kRadius. A point p is *certified* when every
+// open disk of radius r whose circle passes through p contains a point of the set. Then no Delaunay triangle
+// at p has a circumradius R >= r: its open circumdisk would be empty, and with it the disk of radius r that
+// touches it from inside at p.
+//
+// The test. The disk's centre is c = p + r u, u a unit vector. A point q is in the open disk when
+//   |q - p - r u| < r,  which is  |d|^2 < 2 r (d . u)  with d = q - p.                                  (1)
+// Cut the directions u into sectors of at most 22.5 degrees. p is known to lie in a box, its cell or a
+// quarter of it, and a cell that is occupied has some point q in it. The cell *covers* a sector when (1)
+// holds for every q of the cell, every p of its box and every u of the sector. If every sector is covered by
+// an occupied cell, p is certified. (The q found is not p itself nor a copy of it, as d = 0 fails (1).)
+//
+// Covering is decided at corners. For fixed u, the left side minus the right side of (1) is convex in d, so
+// that it is greatest in a corner of the box of all d. For fixed d it is greatest where d . u is least, and
+// on an arc shorter than 180 degrees that is at an end, unless u = -d / |d| is in between, where it is -|d|:
+// then at both ends d . u < 0, as the arc is below 90 degrees, and (1) fails there too.
+//
+// Rounding. Boxes are widened by kSlack on each side for the grid's rounding (Grid), and the sectors' ends
+// are doubles, which differ from unit vectors by less than 2^-50; tested is |d|^2 + kExtra < 2 r (d . u). The
+// terms are below 2^8, so that all errors together are below 2^-40, far below kExtra = 2^-20.
+//
+// The tables are made once from these inequalities; they do not depend on the points, as r is a fixed number
+// of cells.
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "occupancy.hpp"
+
+namespace polylidar::detail {
+
+/// The disks' radius in cells.
+inline constexpr int kRadius = 5;
+/// A disk through a point of a cell reaches at most into the cells this far away in x and y: one more would
+/// be at a distance of 2 r.
+inline constexpr int kReach = 2 * kRadius;
+static_assert(kReach < static_cast<int>(Grid::kMargin));
+
+/// Puts into `uncertain` the occupied cells of rows [begin, end) that are not certified as a whole: in which
+/// p may be anywhere in the cell. Their words in other rows and in the margin are left as they are.
+void find_uncertain_cells(const Grid& grid, const Bitmap& occupied, Grid::Cell begin, Grid::Cell end,
+                          Bitmap& uncertain);
+
+/// The test for single points, which knows in which quarter (in x and in y) of its cell one lies.
+class PointCertificate {
+ public:
+  /// The tables are made at the first call in a process, in a fraction of a millisecond.
+  static const PointCertificate& instance();
+
+  bool is_certified(const Point& p, Grid::Cell cell, const Grid& grid, const Bitmap& occupied) const;
+
+ private:
+  static constexpr int kSide = 2 * kReach + 1;
+  using Sectors = std::uint64_t;  ///< bit s: sector s of 64
+
+  PointCertificate();
+
+  /// Quarter (row by row), row and column of a cell from the point's own -> the sectors that it covers.
+  std::array<std::array<std::array<Sectors, kSide>, kSide>, 16> covered_;
+};
+
+}  // namespace polylidar::detail

@@ -1,0 +1,180 @@
+#include "interior.hpp"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+
+namespace polylidar::detail {
+
+namespace {
+
+/// The certificate's radius is smaller than r by this share, and two points so much closer than r are too
+/// close: INTERIOR.md derives both from the rounding of the filter's rules.
+constexpr double kSafety = 0x1p-8;
+constexpr double kTooClose = 0x1p-40;
+
+/// A radius well beyond the spacing makes a wider part, not a smaller one: the greatest that is worth taking,
+/// in multiples of the spacing that the points would have if they filled their box.
+constexpr double kWidestInSpacings = 2.5;
+
+/// About so many points are looked at before the others, one in so many at most.
+constexpr std::size_t kSample = 500;
+constexpr std::size_t kSampleStep = 64;
+
+/// Row, from kMargin below a cell on -> how many columns on either side of the cell come within 2 r of it.
+constexpr int kReachRows = static_cast<int>(Grid::kMargin);
+constexpr auto make_half_widths() {
+  constexpr double kWithin = 2 * kRadius + 0x1p-10;
+  std::array<unsigned, 2 * kReachRows + 1> half_widths{};
+  for (int row = -kReachRows; row <= kReachRows; ++row) {
+    const int gap_y = std::max(std::max(row, -row) - 1, 0);
+    int columns = 0;
+    while (columns * columns + gap_y * gap_y < kWithin * kWithin) ++columns;
+    // A column is columns - 1 cells away where it is `columns` further.
+    half_widths[static_cast<std::size_t>(row + kReachRows)] = static_cast<unsigned>(columns);
+  }
+  return half_widths;
+}
+constexpr auto kHalfWidths = make_half_widths();
+static_assert(kHalfWidths[kReachRows] == Grid::kMargin && kHalfWidths[0] > 0);
+
+}  // namespace
+
+double least_dropped_radius(const Limits& limits) {
+  constexpr double kPerimeterOfRadius = 5.196152422706632;  // 3 sqrt(3)
+  return std::min({limits.alpha, limits.max_edge_length / 2, limits.max_perimeter / kPerimeterOfRadius});
+}
+
+std::optional<Way> InteriorPart::choose(std::span<const Point> points, const CoordinateRange& range,
+                                        const Limits& limits, const InteriorGuard& guard) {
+  if (points.size() < guard.least_points) return Way::kFewPoints;
+  if (range.scale_exponent != 0) return Way::kExtremeCoordinates;
+  const double radius = choose_grid(points, range.box, least_dropped_radius(limits), guard);
+  if (radius == 0) return Way::kTooSparse;
+
+  // Lengths are rounded harmlessly, areas of triangles with close corners are not.
+  const bool pairs_matter = limits.alpha != kNoLimit && range.unit == 0;
+  fill_cells(points, pairs_matter);
+  if (too_many_are_uncertain(points, guard.most_uncertain)) return Way::kMuchOutline;
+  if (pairs_matter && close_pairs_.may_exist(points, grid_, cells_.data(), shared_, kTooClose * radius)) {
+    return Way::kClosePoints;
+  }
+  find_uncertain_points(points);
+  mark_reach();
+  gather(points);
+  const double most = guard.most_triangulated * static_cast<double>(points.size());
+  if (static_cast<double>(points_.size()) > most) return Way::kMuchOutline;
+  return std::nullopt;
+}
+
+/// Returns the radius, in the unit of the points, of which the claim is made; 0 where there are too many
+/// cells for it.
+double InteriorPart::choose_grid(std::span<const Point> points, const Box& box, double radius,
+                                 const InteriorGuard& guard) {
+  const double width = box.max.x - box.min.x;
+  const double height = box.max.y - box.min.y;
+  const auto count = static_cast<double>(points.size());
+  radius = std::min(radius, kWidestInSpacings * std::sqrt(width * height / count)) * (1 - kSafety);
+  const double cells_per_length = kRadius / radius;
+  if (!(Grid::cell_count(box, cells_per_length) <= guard.most_cells_a_point * count)) return 0;
+  grid_ = Grid(box, cells_per_length);
+  return radius;
+}
+
+/// Puts the points into their cells.
+void InteriorPart::fill_cells(std::span<const Point> points, bool with_shared) {
+  Grid::Cell* const cells = cells_.reserve(points.size());
+  occupied_.clear(grid_.word_count());
+  if (with_shared) shared_.clear(grid_.word_count());
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    cells[i] = grid_.cell(points[i]);
+    if (with_shared && occupied_.test(cells[i])) shared_.set(cells[i]);
+    occupied_.set(cells[i]);
+  }
+}
+
+bool InteriorPart::too_many_are_uncertain(std::span<const Point> points, double most) const {
+  const PointCertificate& certificate = PointCertificate::instance();
+  const std::size_t step = std::max(kSampleStep, points.size() / kSample) | 1U;
+  std::size_t looked_at = 0;
+  std::size_t uncertain = 0;
+  for (std::size_t i = 0; i < points.size(); i += step, ++looked_at) {
+    uncertain += certificate.is_certified(points[i], cells_.data()[i], grid_, occupied_) ? 0U : 1U;
+  }
+  return static_cast<double>(uncertain) > most * static_cast<double>(looked_at);
+}
+
+void InteriorPart::find_uncertain_points(std::span<const Point> points) {
+  uncertain_cells_.clear(grid_.word_count());
+  find_uncertain_cells(grid_, occupied_, 0, grid_.rows(), uncertain_cells_);
+  const PointCertificate& certificate = PointCertificate::instance();
+  uncertain_.clear();
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const Grid::Cell cell = cells_.data()[i];
+    if (!uncertain_cells_.test(cell) || certificate.is_certified(points[i], cell, grid_, occupied_)) continue;
+    uncertain_.push_back(static_cast<std::uint32_t>(i));
+  }
+}
+
+/// Marks the cells that may hold a point within 2 r of an uncertain one.
+void InteriorPart::mark_reach() {
+  reached_.clear(grid_.word_count());
+  uncertain_cells_.clear(grid_.word_count());  // from now on, of the points that are
+  const Grid::Cell row_bits = grid_.row_words() * Grid::kWordBits;
+  for (const std::uint32_t point : uncertain_) {
+    const Grid::Cell cell = cells_.data()[point];
+    if (uncertain_cells_.test(cell)) continue;
+    uncertain_cells_.set(cell);
+    Grid::Cell centre = cell - kReachRows * row_bits;
+    for (const unsigned half_width : kHalfWidths) {
+      reached_.set_run(centre - half_width, 2 * half_width + 1);
+      centre += row_bits;
+    }
+  }
+}
+
+void InteriorPart::gather(std::span<const Point> points) {
+  points_.clear();
+  caller_index_.clear();
+  is_uncertain_.clear();
+  std::size_t next = 0;  // in uncertain_
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    if (!reached_.test(cells_.data()[i])) continue;
+    const bool uncertain = next < uncertain_.size() && uncertain_[next] == i;
+    points_.push_back(points[i]);
+    caller_index_.push_back(static_cast<std::uint32_t>(i));
+    is_uncertain_.push_back(uncertain);
+    next += uncertain;
+  }
+}
+
+Statistics InteriorPath::extract(std::span<const Point> points, const Limits& limits, bool fill_single,
+                                 const Steps& steps, IndexedMultiPolygon& shape, const InteriorGuard& guard) {
+  Statistics statistics{Way::kFewPoints, points.size(), points.size(), points.size()};
+  if (points.empty() || points.size() < guard.least_points || points.size() > kMaxPoints) return statistics;
+  const CoordinateRange range = measure_coordinates(points, steps.pool);
+  if (const std::optional<Way> whole = part_.choose(points, range, limits, guard)) {
+    statistics.way = *whole;
+    return statistics;
+  }
+  steps.builder.build(part_.points(), steps.pool);
+  const std::size_t count = part_.points().size();
+  is_tested_.resize(count);
+  caller_index_.resize(count);
+  for (std::size_t v = 0; v < count; ++v) {
+    const std::uint32_t point = steps.builder.caller_index()[v];
+    is_tested_[v] = part_.is_uncertain()[point];
+    caller_index_[v] = part_.caller_index()[point];
+  }
+  if (!steps.filter.run_on_part(steps.builder.mesh(), steps.builder.vertices(), is_tested_.data(),
+                                filter_rules(limits), fill_single, steps.pool, steps.boundary)) {
+    statistics.way = Way::kRoundingDecides;
+    return statistics;
+  }
+  steps.tracer.trace(steps.builder.mesh(), steps.builder.vertices(), count, caller_index_.data(),
+                     steps.boundary, shape);
+  return {Way::kInteriorLeftOut, points.size(), part_.uncertain_count(), count};
+}
+
+}  // namespace polylidar::detail
