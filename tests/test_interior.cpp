@@ -18,49 +18,18 @@
 #include <utility>
 #include <vector>
 
-#include "core/src/interior.hpp"
 #include "polylidar/concave_hull.hpp"
+#include "polylidar/delaunay.hpp"
+#include "tests/both_ways.hpp"
 #include "tests/hull_oracle.hpp"
 #include "tests/point_sets.hpp"
 
 namespace polylidar {
 namespace {
 
+using testing::BothWays;
 using testing::Random;
 using Points = std::vector<Point>;
-
-// Takes the way without the interior wherever it can be gone, however little it pays.
-constexpr detail::InteriorGuard kAlways{0, 1e5, 1, 1};
-
-// Both ways, with memory that is kept.
-class BothWays {
- public:
-  const IndexedMultiPolygon& whole(const Points& points, const Options& options) {
-    whole_.triangulate(points, options.threads);
-    whole_.extract_regions(options);
-    return whole_.extract_polygons();
-  }
-
-  // What the way without the interior says; its shape is in part().
-  Statistics go(const Points& points, const Options& options, const detail::InteriorGuard& guard = kAlways) {
-    pool_.use(options.threads);
-    const Limits limits{options.alpha.value_or(kNoLimit), options.max_edge_length.value_or(kNoLimit),
-                        options.max_perimeter.value_or(kNoLimit)};
-    return path_.extract(points, limits, options.fill_single_triangles.value_or(false),
-                         {pool_, builder_, filter_, boundary_, tracer_}, part_, guard);
-  }
-  const IndexedMultiPolygon& part() const { return part_; }
-
- private:
-  Extractor whole_;
-  detail::ThreadPool pool_;
-  detail::DelaunayBuilder builder_;
-  detail::RegionFilter filter_;
-  std::vector<detail::Mesh::Index> boundary_;
-  detail::BoundaryTracer tracer_;
-  detail::InteriorPath path_;
-  IndexedMultiPolygon part_;
-};
 
 struct Sampler {
   const char* name;
@@ -265,6 +234,173 @@ TEST(InteriorLeftOut, GivesTheShapesOfNastyPointSets) {
     for (int i = 0; i < 10; ++i) compare(ways, set.points, random_options(set.points, random), counts);
   }
   EXPECT_GT(counts[Way::kInteriorLeftOut], 100U);
+}
+
+// A dense cloud with a round hole, all of whose points but the outermost lie on the hole's circle: the limit
+// decides whether the hole is there, and the certificate's radius lies just below it.
+TEST(InteriorLeftOut, FindsAHoleWhoseRadiusIsTheLimit) {
+  BothWays ways;
+  std::size_t holes = 0;
+  std::size_t none = 0;
+  for (std::uint64_t seed = 0; seed < 40; ++seed) {
+    Random random(seed);
+    const double radius = random.between(0.04, 0.06);
+    const Point centre{random.between(0.3, 0.7), random.between(0.3, 0.7)};
+    Points points;
+    while (points.size() < 3000) {
+      const Point p{random.unit(), random.unit()};
+      if (std::hypot(p.x - centre.x, p.y - centre.y) > radius * 1.001) points.push_back(p);
+    }
+    const Points rim = testing::circle(64, radius, centre);
+    points.insert(points.end(), rim.begin(), rim.end());
+    for (const double share : {1 - 0x1p-6, 1 - 0x1p-8, 1 - 0x1p-9, 1 - 0x1p-30, 1 - 0x1p-50, 1 - 0x1p-53, 1.0,
+                               1 + 0x1p-52, 1 + 0x1p-50, 1 + 0x1p-30, 1 + 0x1p-9, 1 + 0x1p-8, 1 + 0x1p-6}) {
+      SCOPED_TRACE(::testing::Message() << "seed " << seed << ", limit " << share << " radii");
+      const Options options{.alpha = share * radius};
+      const Statistics statistics = ways.go(points, options);
+      const IndexedMultiPolygon& whole = ways.whole(points, options);
+      (whole.ring_ends.size() > 1 ? holes : none) += 1;
+      if (std::abs(share - 1) > 0x1p-40) {
+        EXPECT_EQ(statistics.way, Way::kInteriorLeftOut);
+      }
+      if (statistics.way == Way::kInteriorLeftOut) {
+        EXPECT_EQ(ways.part(), whole);
+      }
+    }
+  }
+  EXPECT_GT(holes, 100U);
+  EXPECT_GT(none, 100U);
+}
+
+double circumradius(const Point& a, const Point& b, const Point& c) {
+  const double cross = (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
+  return std::hypot(a.x - b.x, a.y - b.y) * std::hypot(b.x - c.x, b.y - c.y) *
+         std::hypot(c.x - a.x, c.y - a.y) / (2 * cross);
+}
+
+// A limit that is some triangle's own size up to rounding: the answer depends on the corner where the
+// arithmetic starts, and then the whole way is gone.
+TEST(InteriorLeftOut, LeavesToTheWholeWayWhatRoundingDecides) {
+  BothWays ways;
+  WayCounts counts;
+  for (std::uint64_t seed = 0; seed < 300; ++seed) {
+    SCOPED_TRACE(seed);
+    Random random(seed);
+    const Points points = sample(samplers()[1], 1000, random);
+    const Triangulation triangulation = delaunay(points);
+    const double spacing = 0.6 / std::sqrt(static_cast<double>(points.size()));
+    for (int i = 0; i < 20; ++i) {
+      const std::size_t t = 3 * random.below(triangulation.triangles.size() / 3);
+      const auto corner = [&](std::size_t k) { return points[triangulation.triangles[t + k]]; };
+      const double radius = circumradius(corner(0), corner(1), corner(2));
+      if (radius < 1.5 * spacing || radius > 20 * spacing) continue;
+      compare(ways, points, {.alpha = radius}, counts);
+    }
+  }
+  EXPECT_GT(counts[Way::kRoundingDecides], 5U);
+  EXPECT_GT(counts[Way::kInteriorLeftOut], 100U);
+}
+
+// Two points of the interior that nearly coincide make slivers whose area is lost in rounding, so that the
+// rule may drop them although their circles are small.
+TEST(InteriorLeftOut, LeavesToTheWholeWaySliversBetweenClosePoints) {
+  BothWays ways;
+  for (std::uint64_t seed = 0; seed < 200; ++seed) {
+    Random random(seed);
+    Points points = testing::uniform_points(3000, seed);
+    for (Point& p : points) p = {p.x - 0.5, p.y - 0.5};
+    std::erase_if(points, [](const Point& p) { return std::hypot(p.x, p.y) < 0.01; });
+    const double distance = std::ldexp(random.between(0.5, 1), -static_cast<int>(40 + random.below(30)));
+    const double angle = random.between(0, 6.3);
+    points.push_back({0, 0});
+    points.push_back({distance * std::cos(angle), distance * std::sin(angle)});
+    for (const double alpha : {0.05, 0.08}) {
+      SCOPED_TRACE(::testing::Message() << "seed " << seed << ", alpha " << alpha);
+      const Statistics statistics = ways.go(points, {.alpha = alpha});
+      const IndexedMultiPolygon& whole = ways.whole(points, {.alpha = alpha});
+      if (distance < 0x1p-47) {
+        EXPECT_EQ(statistics.way, Way::kClosePoints);
+      }
+      if (statistics.way == Way::kInteriorLeftOut) {
+        EXPECT_EQ(ways.part(), whole);
+      }
+      // Lengths are never lost.
+      const Options by_length{.max_edge_length = 2 * alpha, .max_perimeter = 5 * alpha};
+      ASSERT_EQ(ways.go(points, by_length).way, Way::kInteriorLeftOut);
+      EXPECT_EQ(ways.part(), ways.whole(points, by_length));
+    }
+  }
+}
+
+// Why: the same sliver, from one corner and from another.
+TEST(InteriorLeftOut, SliversBetweenClosePointsAreKeptOrNotByTheirFirstCorner) {
+  const Points corners = {{0, 0}, {0x1p-70, 0}, {0.0123, 0.0231}};
+  detail::Mesh mesh;
+  mesh.reset(2);
+  const auto is_kept = [&](detail::Mesh::Index first) {
+    for (detail::Mesh::Index k = 0; k < 3; ++k) mesh.origin(k) = (first + k) % 3;
+    return detail::CircumradiusRule(0.05).keeps(detail::Triangle(mesh, corners.data(), 0));
+  };
+  EXPECT_TRUE(is_kept(0));
+  EXPECT_FALSE(is_kept(2));
+}
+
+TEST(InteriorLeftOut, CanBeAskedAbout) {
+  const Points points = testing::uniform_points(20'000, 1);
+  Extractor extractor;
+  const auto way = [&](const Points& of, const Options& options) {
+    extractor.extract(of, options);
+    return extractor.statistics().way;
+  };
+  EXPECT_EQ(way(points, {.max_perimeter = 0.09}), Way::kInteriorLeftOut);
+  EXPECT_EQ(extractor.statistics().points, points.size());
+  EXPECT_GT(extractor.statistics().uncertain_points, 0U);
+  EXPECT_LT(extractor.statistics().uncertain_points, points.size() / 10);
+  EXPECT_GT(extractor.statistics().triangulated_points, extractor.statistics().uncertain_points);
+  EXPECT_LT(extractor.statistics().triangulated_points, points.size() / 3);
+  EXPECT_EQ(way(points, testing::kConvexHull), Way::kInteriorLeftOut);
+  EXPECT_EQ(way(points, {}), Way::kWhole);
+  EXPECT_EQ(extractor.statistics().triangulated_points, points.size());
+  EXPECT_EQ(way(testing::uniform_points(1000, 1), {.alpha = 0.1}), Way::kFewPoints);
+  EXPECT_EQ(way(points, {.alpha = 0.001}), Way::kTooSparse);
+  EXPECT_EQ(way(points, {.alpha = 0}), Way::kTooSparse);
+  EXPECT_EQ(way(points, {.alpha = 0.0085}), Way::kMuchOutline);
+  EXPECT_EQ(way(testing::circle(20'000, 1), {.alpha = 2}), Way::kMuchOutline);
+  Points other = points;
+  for (Point& p : other) p = {std::ldexp(p.x, 600), std::ldexp(p.y, 600)};
+  EXPECT_EQ(way(other, {.alpha = std::ldexp(0.02, 600)}), Way::kExtremeCoordinates);
+  other = points;
+  other.push_back({other[10'000].x, std::nextafter(other[10'000].y, 2)});
+  EXPECT_EQ(way(other, {.alpha = 0.02}), Way::kClosePoints);
+  EXPECT_EQ(way(other, {.max_edge_length = 0.04}), Way::kInteriorLeftOut);
+  extractor.triangulate(points);
+  EXPECT_EQ(extractor.statistics().way, Way::kWhole);
+}
+
+TEST(InteriorLeftOut, TheRestIsTriangulatedWhenItIsAskedFor) {
+  const Points points = testing::shuffled(testing::uniform_points(20'000, 2), 1);
+  const Options options{.max_perimeter = 0.085};
+  Extractor steps;
+  steps.triangulate(points);
+  steps.extract_regions(options);
+  const IndexedMultiPolygon whole = steps.extract_polygons();
+  Extractor extractor;
+  ASSERT_EQ(extractor.extract(points, options), whole);
+  ASSERT_EQ(extractor.statistics().way, Way::kInteriorLeftOut);
+  EXPECT_TRUE(extractor.has_triangles());
+  EXPECT_EQ(extractor.limits(), steps.limits());
+  EXPECT_EQ(extractor.count_triangles(), steps.count_triangles());
+  EXPECT_EQ(extractor.extract_polygons(), whole);
+  for (const double alpha : {0.01, 0.02}) {
+    extractor.extract(points, options);
+    extractor.extract_regions({.alpha = alpha});
+    steps.extract_regions({.alpha = alpha});
+    EXPECT_EQ(extractor.extract_polygons(), steps.extract_polygons());
+    EXPECT_EQ(extractor.count_triangles(), steps.count_triangles());
+  }
+  const Points flat = testing::lattice(20'000, 1);
+  extractor.extract(flat, options);
+  EXPECT_FALSE(extractor.has_triangles());
 }
 
 }  // namespace
