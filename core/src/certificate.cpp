@@ -5,8 +5,13 @@
 #include <cmath>
 #include <cstddef>
 #include <utility>
+#include <vector>
 
 #include "vector.hpp"
+
+#if defined(__x86_64__) && defined(__GNUC__)
+#define POLYLIDAR_X86_KERNELS
+#endif
 
 namespace polylidar::detail {
 
@@ -24,12 +29,10 @@ struct Differences {
   double max_y;
 };
 
-/// Between a cell `column` and `row` cells away from p's and a part of p's cell: a square of side `side`
-/// whose least corner is at (x, y) in the cell.
-constexpr Differences differences(int column, int row, double x, double y, double side) {
+/// Between a cell and p's, from which it is `column` and `row` cells away.
+constexpr Differences differences(int column, int row) {
   constexpr double kSlack = 2 * Grid::kSlack;
-  return {column - (x + side) - kSlack, column + 1 - x + kSlack, row - (y + side) - kSlack,
-          row + 1 - y + kSlack};
+  return {column - 1 - kSlack, column + 1 + kSlack, row - 1 - kSlack, row + 1 + kSlack};
 }
 
 /// (1) of the header with room to spare, at one corner and one end.
@@ -78,7 +81,7 @@ constexpr auto make_runs() {
     for (int row = -kReach; row <= kReach; ++row) {
       Run run;
       for (int column = -kReach; column <= kReach; ++column) {
-        const Differences d = differences(column, row, 0, 0, 1);
+        const Differences d = differences(column, row);
         if (!is_inside(d, cell_direction(s)) || !is_inside(d, cell_direction(s + 1))) continue;
         if (run.first > run.last) run.first = column;
         run.last = column;
@@ -90,75 +93,144 @@ constexpr auto make_runs() {
 }
 constexpr auto kRuns = make_runs();
 
-// A strip of 32 columns is looked at together with 16 columns on either side: one word a row. Bit b of
-// windows[row][k] says whether one of the 2^k cells from b on is occupied.
-constexpr int kStrip = 32;
+// A row of cells is cut into strips of 32 columns, each looked at together with 16 columns on either side:
+// one word a strip, its window. Bit b of a window of level k says whether one of the 2^k cells from b on is
+// occupied.
+constexpr unsigned kStrip = 32;
 constexpr int kSide = 16;
 static_assert(kReach <= kSide);
-using Windows = std::array<Word, 3>;
+constexpr std::size_t kLevels = 3;
 
-/// Which cells of the strip have an occupied cell where Run kRuns[kSector][kRow] says.
+/// Of one row: strip by strip the windows of level 0, then those of level 1, and so on.
+using WindowRow = const Word*;
+
+/// Which cells of a strip have an occupied one where kRuns[kSector][kRow] says.
 template <std::size_t kSector, std::size_t kRow>
-[[gnu::always_inline]] inline Word any_in_run(const Windows* windows) {
+[[gnu::always_inline]] inline Word any_in_run(WindowRow row, std::size_t strips, std::size_t strip) {
   constexpr Run kRun = kRuns[kSector][kRow];
   if constexpr (kRun.first > kRun.last) {
     return 0;
   } else {
     constexpr unsigned kLength = kRun.last - kRun.first + 1;
     constexpr unsigned kLevel = std::bit_width(kLength) - 1;
-    static_assert(kLevel < std::tuple_size_v<Windows>);
-    const Word runs = windows[kRow][kLevel];
-    const Word any = runs >> static_cast<unsigned>(kSide + kRun.first);
+    static_assert(kLevel < kLevels);
+    const Word window = row[kLevel * strips + strip];
+    const Word any = window >> static_cast<unsigned>(kSide + kRun.first);
     if constexpr (std::has_single_bit(kLength)) return any;
-    return any | runs >> static_cast<unsigned>(kSide + kRun.last + 1 - (1 << kLevel));
+    return any | window >> static_cast<unsigned>(kSide + kRun.last + 1 - (1 << kLevel));
   }
 }
 
+/// Takes from `certified` the cells of strips [begin, end) for which the sector is not covered.
 template <std::size_t kSector, std::size_t... kRow>
-[[gnu::always_inline]] inline Word any_in_sector(const Windows* windows,
-                                                 std::index_sequence<kRow...> /*rows*/) {
-  return (any_in_run<kSector, kRow>(windows) | ...);
+[[gnu::always_inline]] inline void check_sector(const WindowRow* rows, std::size_t strips, std::size_t begin,
+                                                std::size_t end, Word* __restrict__ certified,
+                                                std::index_sequence<kRow...> /*rows*/) {
+  for (std::size_t strip = begin; strip < end; ++strip) {
+    certified[strip] &= (any_in_run<kSector, kRow>(rows[kRow], strips, strip) | ...);
+  }
 }
 
-/// Of `cells` of the strip in the middle of the kRows `windows` those that are not certified.
 template <std::size_t... kSector>
-[[gnu::always_inline]] inline Word uncertain(Word cells, const Windows* windows,
-                                             std::index_sequence<kSector...> /*sectors*/) {
-  Word certified = cells;
-  const bool goes_on =
-      (((certified &= any_in_sector<kSector>(windows, std::make_index_sequence<kRows>())) != 0) && ...);
-  return goes_on ? cells & ~certified : cells;
+[[gnu::always_inline]] inline void check_sectors(const WindowRow* rows, std::size_t strips, std::size_t begin,
+                                                 std::size_t end, Word* certified,
+                                                 std::index_sequence<kSector...> /*sectors*/) {
+  (check_sector<kSector>(rows, strips, begin, end, certified, std::make_index_sequence<kRows>()), ...);
 }
 
-Windows windows_of(const Word* row, Grid::Cell strip) {
-  // Column 0 is bit 64 of the row.
-  const Word* const word = row + 1 + strip / 2;
-  const Word one = strip % 2 == 0 ? word[-1] >> 48U | word[0] << 16U : word[0] >> 16U | word[1] << 48U;
-  const Word two = one | one >> 1U;
-  return {one, two, two | two >> 2U};
+using CheckSectors = void (*)(const WindowRow* rows, std::size_t strips, std::size_t begin, std::size_t end,
+                              Word* certified);
+
+// The same code three times, for what the compiler makes of it with wider registers.
+void check_portably(const WindowRow* rows, std::size_t strips, std::size_t begin, std::size_t end,
+                    Word* certified) {
+  check_sectors(rows, strips, begin, end, certified, std::make_index_sequence<kCellSectors>());
+}
+#ifdef POLYLIDAR_X86_KERNELS
+[[gnu::target("avx2")]] void check_with_avx2(const WindowRow* rows, std::size_t strips, std::size_t begin,
+                                             std::size_t end, Word* certified) {
+  check_sectors(rows, strips, begin, end, certified, std::make_index_sequence<kCellSectors>());
+}
+[[gnu::target("avx512f,prefer-vector-width=512")]] void check_with_avx512(const WindowRow* rows,
+                                                                          std::size_t strips,
+                                                                          std::size_t begin, std::size_t end,
+                                                                          Word* certified) {
+  check_sectors(rows, strips, begin, end, certified, std::make_index_sequence<kCellSectors>());
+}
+#endif
+
+CheckSectors check_with(Kernel kernel) {
+#ifdef POLYLIDAR_X86_KERNELS
+  if (kernel == Kernel::kAvx512) return &check_with_avx512;
+  if (kernel == Kernel::kAvx2) return &check_with_avx2;
+#endif
+  static_cast<void>(kernel);
+  return &check_portably;
+}
+
+/// Fills a WindowRow from a row of the bitmap. Column 0 is bit 64 of that.
+void fill_windows(const Word* row, std::size_t strips, Word* windows) {
+  for (std::size_t strip = 0; strip < strips; ++strip) {
+    const Word* const word = row + 1 + strip / 2;
+    windows[strip] = strip % 2 == 0 ? word[-1] >> 48U | word[0] << 16U : word[0] >> 16U | word[1] << 48U;
+  }
+  for (std::size_t i = 0; i < strips; ++i) {
+    windows[strips + i] = windows[i] | windows[i] >> 1U;
+    windows[2 * strips + i] = windows[strips + i] | windows[strips + i] >> 2U;
+  }
 }
 
 }  // namespace
 
+bool is_supported(Kernel kernel) {
+#ifdef POLYLIDAR_X86_KERNELS
+  if (kernel == Kernel::kAvx512) return __builtin_cpu_supports("avx512f") != 0;
+  if (kernel == Kernel::kAvx2) return __builtin_cpu_supports("avx2") != 0;
+#endif
+  return kernel == Kernel::kPortable;
+}
+
+Kernel best_kernel() {
+  static const Kernel best = is_supported(Kernel::kAvx512) ? Kernel::kAvx512
+                             : is_supported(Kernel::kAvx2) ? Kernel::kAvx2
+                                                           : Kernel::kPortable;
+  return best;
+}
+
 void find_uncertain_cells(const Grid& grid, const Bitmap& occupied, Grid::Cell begin, Grid::Cell end,
-                          Bitmap& uncertain_cells) {
-  constexpr Grid::Cell kTileRows = 128;
-  std::array<Windows, kTileRows + 2 * kReach> windows;
-  const Grid::Cell strips = (grid.columns() + kStrip - 1) / kStrip;
-  for (Grid::Cell first = begin; first < end; first += kTileRows) {
-    const Grid::Cell rows = std::min(kTileRows, end - first);
-    for (Grid::Cell strip = 0; strip < strips; ++strip) {
-      const Word* row = occupied.words() + grid.first_word(first) - std::size_t{grid.row_words()} * kReach;
-      for (Grid::Cell r = 0; r < rows + 2 * kReach; ++r, row += grid.row_words()) {
-        windows[r] = windows_of(row, strip);
-      }
-      Word* target = uncertain_cells.words() + grid.first_word(first) + 1 + strip / 2;
-      for (Grid::Cell r = 0; r < rows; ++r, target += grid.row_words()) {
-        const Word cells = windows[r + kReach][0] >> static_cast<unsigned>(kSide) & 0xFFFFFFFFU;
-        if (cells == 0) continue;
-        *target |= uncertain(cells, &windows[r], std::make_index_sequence<kCellSectors>())
-                   << (strip % 2 * kStrip);
-      }
+                          Bitmap& uncertain, Kernel kernel) {
+  const CheckSectors check = check_with(kernel);
+  const std::size_t strips = (grid.columns() + kStrip - 1) / kStrip;
+  // The windows of the last kRows rows, and those that are certified in the row in the middle.
+  std::vector<Word> memory((kLevels * kRows + 1) * strips);
+  Word* const certified = &memory[kLevels * kRows * strips];
+  std::array<Word*, kRows> rows;
+  for (std::size_t r = 0; r < kRows; ++r) rows[r] = &memory[r * kLevels * strips];
+
+  const Word* next = occupied.words() + grid.first_word(begin) - std::size_t{grid.row_words()} * kReach;
+  for (std::size_t r = 0; r + 1 < kRows; ++r, next += grid.row_words())
+    fill_windows(next, strips, rows[r + 1]);
+  for (Grid::Cell row = begin; row < end; ++row, next += grid.row_words()) {
+    std::rotate(rows.begin(), rows.begin() + 1, rows.end());
+    fill_windows(next, strips, rows.back());
+
+    std::size_t first = strips;
+    std::size_t last = 0;
+    for (std::size_t strip = 0; strip < strips; ++strip) {
+      certified[strip] = rows[kReach][strip] >> static_cast<unsigned>(kSide) & 0xFFFFFFFFU;
+      if (certified[strip] == 0) continue;
+      first = std::min(first, strip);
+      last = strip + 1;
+    }
+    if (first >= last) continue;
+    check(rows.data(), strips, first, last, certified);
+    const std::size_t word = grid.first_word(row) + 1;
+    for (std::size_t strip = first; strip < last; ++strip) {
+      uncertain.words()[word + strip / 2] |= certified[strip] << (strip % 2 * kStrip);
+    }
+    // What is marked so far is certified; what is occupied and not certified is uncertain.
+    for (std::size_t w = word + first / 2; w <= word + (last - 1) / 2; ++w) {
+      uncertain.words()[w] = occupied.words()[w] & ~uncertain.words()[w];
     }
   }
 }
@@ -171,16 +243,36 @@ PointCertificate::PointCertificate() {
     const double angle = s * (6.283185307179586 / kSectors);
     direction[static_cast<std::size_t>(s)] = {std::cos(angle), std::sin(angle)};
   }
+  // Corners of the boxes of all d lie on a lattice of quarters. (kSlack, which moves them, changes (1) by
+  // less than 2^-22, so that kExtra covers it.) Turning a corner by 90 degrees turns its directions.
+  constexpr int kHalf = kQuarters * (kReach + 1);
+  constexpr std::size_t kCorners = 2 * kHalf + 1;
+  std::vector<Sectors> inside(kCorners * kCorners);  // bit s: (1) holds with direction s
+  const auto inside_at = [&](int x, int y) -> Sectors& {
+    return inside[static_cast<std::size_t>(y + kHalf) * kCorners + static_cast<std::size_t>(x + kHalf)];
+  };
+  for (int y = 0; y <= kHalf; ++y) {
+    for (int x = 1; x * x + y * y < kQuarters * kQuarters * kReach * kReach && x <= kHalf; ++x) {
+      Sectors sectors = 0;
+      for (unsigned s = 0; s < kSectors; ++s) {
+        sectors |= Sectors{is_inside(1.0 / kQuarters * x, 1.0 / kQuarters * y, direction[s])} << s;
+      }
+      inside_at(x, y) = sectors;
+      inside_at(-y, x) = std::rotl(sectors, kSectors / 4);
+      inside_at(-x, -y) = std::rotl(sectors, kSectors / 2);
+      inside_at(y, -x) = std::rotr(sectors, kSectors / 4);
+    }
+  }
   for (int quarter = 0; quarter < kQuarters * kQuarters; ++quarter) {
-    const double x = 1.0 / kQuarters * (quarter % kQuarters);
-    const double y = 1.0 / kQuarters * (quarter / kQuarters);
     for (int row = -kReach; row <= kReach; ++row) {
       for (int column = -kReach; column <= kReach; ++column) {
-        const Differences d = differences(column, row, x, y, 1.0 / kQuarters);
-        Sectors inside = 0;  // bit s: with direction s
-        for (unsigned s = 0; s < kSectors; ++s) inside |= Sectors{is_inside(d, direction[s])} << s;
+        const int x = kQuarters * column - quarter % kQuarters;
+        const int y = kQuarters * row - quarter / kQuarters;
+        // From p at the far side of its quarter to q at the near side of its cell, and the other way round.
+        const Sectors all = inside_at(x - 1, y - 1) & inside_at(x - 1, y + kQuarters) &
+                            inside_at(x + kQuarters, y - 1) & inside_at(x + kQuarters, y + kQuarters);
         covered_[static_cast<std::size_t>(quarter)][static_cast<std::size_t>(row + kReach)]
-                [static_cast<std::size_t>(column + kReach)] = inside & std::rotr(inside, 1);
+                [static_cast<std::size_t>(column + kReach)] = all & std::rotr(all, 1);
       }
     }
   }

@@ -39,10 +39,17 @@ inline constexpr int kRadius = 5;
 inline constexpr int kReach = 2 * kRadius;
 static_assert(kReach < static_cast<int>(Grid::kMargin));
 
-/// Puts into `uncertain` the occupied cells of rows [begin, end) that are not certified as a whole: in which
-/// p may be anywhere in the cell. Their words in other rows and in the margin are left as they are.
+/// What the loops over cells are compiled for; all give the same.
+enum class Kernel : std::uint8_t { kPortable, kAvx2, kAvx512 };
+/// Whether this processor, and this build, has it.
+bool is_supported(Kernel kernel);
+/// The fastest that is supported.
+Kernel best_kernel();
+
+/// Puts into `uncertain`, which is empty in rows [begin, end), the occupied cells of these rows that are not
+/// certified as a whole: with p anywhere in the cell. Other rows are left as they are.
 void find_uncertain_cells(const Grid& grid, const Bitmap& occupied, Grid::Cell begin, Grid::Cell end,
-                          Bitmap& uncertain);
+                          Bitmap& uncertain, Kernel kernel = best_kernel());
 
 /// The test for single points, which knows in which quarter (in x and in y) of its cell one lies.
 class PointCertificate {

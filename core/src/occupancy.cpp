@@ -14,10 +14,13 @@ bool are_close(const Point& p, const Point& q, double distance) {
   return std::abs(p.x - q.x) <= distance && std::abs(p.y - q.y) <= distance && p != q;
 }
 
-/// Whether a coordinate in cells is at the border between two columns or rows; 0 is the box's side.
+/// Whether a coordinate in cells is within kSlack of the border between two columns or rows; 0 is the box's
+/// side.
 bool is_on_border(double u) {
-  const double nearest = std::floor(u + 0.5);
-  return nearest > 0 && std::abs(u - nearest) < Grid::kSlack;
+  constexpr std::int64_t kOne = std::int64_t{1} << 28U;
+  static_assert(1.0 / static_cast<double>(kOne) > Grid::kSlack);
+  const auto fixed = static_cast<std::int64_t>(u * static_cast<double>(kOne));
+  return fixed > kOne / 2 && ((fixed + 1) & (kOne - 1)) < 2;
 }
 
 }  // namespace
