@@ -1,6 +1,7 @@
 // What is claimed of certified cells and points (core/src/certificate.hpp), against the definition.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
@@ -137,6 +138,30 @@ TEST(Certificate, OfCellsIsThatOfItsDefinition) {
   }
   EXPECT_GT(certified, 300U);
   EXPECT_GT(uncertain, 300U);
+}
+
+TEST(Certificate, IsTheSameFromEveryKernelAndInBands) {
+  std::size_t kernels = 0;
+  for (const Kernel kernel : {Kernel::kPortable, Kernel::kAvx2, Kernel::kAvx512}) {
+    if (!is_supported(kernel)) continue;
+    ++kernels;
+    for (std::uint64_t seed = 0; seed < 60; ++seed) {
+      SCOPED_TRACE(::testing::Message() << "kernel " << static_cast<int>(kernel) << ", seed " << seed);
+      const std::size_t size = 1 + 13 * seed;
+      Cells cells(size, seed, 0.05 + 0.05 * static_cast<double>(seed % 9));
+      find_uncertain_cells(cells.grid, cells.occupied, 0, cells.grid.rows(), cells.uncertain,
+                           Kernel::kPortable);
+      Bitmap uncertain;
+      uncertain.clear(cells.grid.word_count());
+      const auto middle = static_cast<Grid::Cell>(size / 3);
+      find_uncertain_cells(cells.grid, cells.occupied, middle, cells.grid.rows(), uncertain, kernel);
+      find_uncertain_cells(cells.grid, cells.occupied, 0, middle, uncertain, kernel);
+      EXPECT_TRUE(std::equal(uncertain.words(), uncertain.words() + cells.grid.word_count(),
+                             cells.uncertain.words()));
+    }
+  }
+  EXPECT_GE(kernels, 1U);
+  EXPECT_TRUE(is_supported(best_kernel()));
 }
 
 TEST(Certificate, OfPointsIsThatOfItsDefinition) {

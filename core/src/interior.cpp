@@ -39,6 +39,10 @@ constexpr auto make_half_widths() {
 constexpr auto kHalfWidths = make_half_widths();
 static_assert(kHalfWidths[kReachRows] == Grid::kMargin && kHalfWidths[0] > 0);
 
+void append(std::vector<std::uint32_t>& all, const std::vector<std::uint32_t>& part) {
+  all.insert(all.end(), part.begin(), part.end());
+}
+
 }  // namespace
 
 double least_dropped_radius(const Limits& limits) {
@@ -47,7 +51,7 @@ double least_dropped_radius(const Limits& limits) {
 }
 
 std::optional<Way> InteriorPart::choose(std::span<const Point> points, const CoordinateRange& range,
-                                        const Limits& limits, const InteriorGuard& guard) {
+                                        const Limits& limits, const InteriorGuard& guard, ThreadPool& pool) {
   if (points.size() < guard.least_points) return Way::kFewPoints;
   if (range.scale_exponent != 0) return Way::kExtremeCoordinates;
   const double radius = choose_grid(points, range.box, least_dropped_radius(limits), guard);
@@ -55,14 +59,14 @@ std::optional<Way> InteriorPart::choose(std::span<const Point> points, const Coo
 
   // Lengths are rounded harmlessly, areas of triangles with close corners are not.
   const bool pairs_matter = limits.alpha != kNoLimit && range.unit == 0;
-  fill_cells(points, pairs_matter);
+  fill_cells(points, pairs_matter, pool);
   if (too_many_are_uncertain(points, guard.most_uncertain)) return Way::kMuchOutline;
-  if (pairs_matter && close_pairs_.may_exist(points, grid_, cells_.data(), shared_, kTooClose * radius)) {
+  if (pairs_matter && close_pairs_.may_exist(points, grid_, cells_.data(), shared(), kTooClose * radius)) {
     return Way::kClosePoints;
   }
-  find_uncertain_points(points);
+  find_uncertain_points(points, pool);
   mark_reach();
-  gather(points);
+  gather(points, pool);
   const double most = guard.most_triangulated * static_cast<double>(points.size());
   if (static_cast<double>(points_.size()) > most) return Way::kMuchOutline;
   return std::nullopt;
@@ -82,15 +86,31 @@ double InteriorPart::choose_grid(std::span<const Point> points, const Box& box, 
   return radius;
 }
 
-/// Puts the points into their cells.
-void InteriorPart::fill_cells(std::span<const Point> points, bool with_shared) {
+/// Puts the points into their cells, each thread into a bitmap of its own.
+void InteriorPart::fill_cells(std::span<const Point> points, bool with_shared, ThreadPool& pool) {
   Grid::Cell* const cells = cells_.reserve(points.size());
-  occupied_.clear(grid_.word_count());
-  if (with_shared) shared_.clear(grid_.word_count());
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    cells[i] = grid_.cell(points[i]);
-    if (with_shared && occupied_.test(cells[i])) shared_.set(cells[i]);
-    occupied_.set(cells[i]);
+  const std::size_t words = grid_.word_count();
+  const std::size_t parts = pool.threads();
+  while (fills_.size() < parts) fills_.emplace_back();
+  pool.for_each(parts, [&](std::size_t part) {
+    auto& [occupied, shared] = fills_[part];
+    occupied.clear(words);
+    if (with_shared) shared.clear(words);
+    const std::size_t end = points.size() * (part + 1) / parts;
+    for (std::size_t i = points.size() * part / parts; i < end; ++i) {
+      cells[i] = grid_.cell(points[i]);
+      if (with_shared && occupied.test(cells[i])) shared.set(cells[i]);
+      occupied.set(cells[i]);
+    }
+  });
+  for (std::size_t part = 1; part < parts; ++part) {
+    for (std::size_t w = 0; w < words; ++w) {
+      const Bitmap::Word more = fills_[part].occupied.words()[w];
+      if (with_shared) {
+        shared().words()[w] |= fills_[part].shared.words()[w] | (occupied().words()[w] & more);
+      }
+      occupied().words()[w] |= more;
+    }
   }
 }
 
@@ -100,21 +120,37 @@ bool InteriorPart::too_many_are_uncertain(std::span<const Point> points, double 
   std::size_t looked_at = 0;
   std::size_t uncertain = 0;
   for (std::size_t i = 0; i < points.size(); i += step, ++looked_at) {
-    uncertain += certificate.is_certified(points[i], cells_.data()[i], grid_, occupied_) ? 0U : 1U;
+    uncertain += certificate.is_certified(points[i], cells_.data()[i], grid_, occupied()) ? 0U : 1U;
   }
   return static_cast<double>(uncertain) > most * static_cast<double>(looked_at);
 }
 
-void InteriorPart::find_uncertain_points(std::span<const Point> points) {
+void InteriorPart::find_uncertain_points(std::span<const Point> points, ThreadPool& pool) {
   uncertain_cells_.clear(grid_.word_count());
-  find_uncertain_cells(grid_, occupied_, 0, grid_.rows(), uncertain_cells_);
+  constexpr Grid::Cell kLeastRows = 64;  // beside which the kReach rows below and above do not matter
+  const Grid::Cell rows = grid_.rows();
+  const Grid::Cell bands = pool.threads() == 1 ? 1 : (rows + kLeastRows - 1) / kLeastRows;
+  pool.for_each(bands, [&](std::size_t band) {
+    const auto begin = static_cast<Grid::Cell>(rows * band / bands);
+    const auto end = static_cast<Grid::Cell>(rows * (band + 1) / bands);
+    find_uncertain_cells(grid_, occupied(), begin, end, uncertain_cells_);
+  });
+
   const PointCertificate& certificate = PointCertificate::instance();
+  const Chunks chunks(pool, points.size());
+  chunks_.resize(std::max(chunks_.size(), chunks.size()));
+  pool.for_each(chunks.size(), [&](std::size_t c) {
+    std::vector<std::uint32_t>& uncertain = chunks_[c].uncertain;
+    uncertain.clear();
+    for (std::size_t i = chunks.begin(c); i < chunks.end(c); ++i) {
+      const Grid::Cell cell = cells_.data()[i];
+      if (!uncertain_cells_.test(cell)) continue;
+      if (certificate.is_certified(points[i], cell, grid_, occupied())) continue;
+      uncertain.push_back(static_cast<std::uint32_t>(i));
+    }
+  });
   uncertain_.clear();
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    const Grid::Cell cell = cells_.data()[i];
-    if (!uncertain_cells_.test(cell) || certificate.is_certified(points[i], cell, grid_, occupied_)) continue;
-    uncertain_.push_back(static_cast<std::uint32_t>(i));
-  }
+  for (std::size_t c = 0; c < chunks.size(); ++c) append(uncertain_, chunks_[c].uncertain);
 }
 
 /// Marks the cells that may hold a point within 2 r of an uncertain one.
@@ -134,19 +170,31 @@ void InteriorPart::mark_reach() {
   }
 }
 
-void InteriorPart::gather(std::span<const Point> points) {
-  points_.clear();
+void InteriorPart::gather(std::span<const Point> points, ThreadPool& pool) {
+  const Chunks chunks(pool, points.size());
+  chunks_.resize(std::max(chunks_.size(), chunks.size()));
+  pool.for_each(chunks.size(), [&](std::size_t c) {
+    std::vector<std::uint32_t>& reached = chunks_[c].reached;
+    reached.clear();
+    for (std::size_t i = chunks.begin(c); i < chunks.end(c); ++i) {
+      if (reached_.test(cells_.data()[i])) reached.push_back(static_cast<std::uint32_t>(i));
+    }
+  });
   caller_index_.clear();
-  is_uncertain_.clear();
-  std::size_t next = 0;  // in uncertain_
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    if (!reached_.test(cells_.data()[i])) continue;
-    const bool uncertain = next < uncertain_.size() && uncertain_[next] == i;
-    points_.push_back(points[i]);
-    caller_index_.push_back(static_cast<std::uint32_t>(i));
-    is_uncertain_.push_back(uncertain);
-    next += uncertain;
-  }
+  for (std::size_t c = 0; c < chunks.size(); ++c) append(caller_index_, chunks_[c].reached);
+  points_.resize(caller_index_.size());
+  is_uncertain_.resize(caller_index_.size());
+  const Chunks parts(pool, caller_index_.size());
+  pool.for_each(parts.size(), [&](std::size_t c) {
+    const std::size_t begin = parts.begin(c);
+    if (begin == parts.end(c)) return;
+    auto next = std::lower_bound(uncertain_.begin(), uncertain_.end(), caller_index_[begin]);
+    for (std::size_t i = begin; i < parts.end(c); ++i) {
+      points_[i] = points[caller_index_[i]];
+      is_uncertain_[i] = next != uncertain_.end() && *next == caller_index_[i];
+      next += is_uncertain_[i];
+    }
+  });
 }
 
 Statistics InteriorPath::extract(std::span<const Point> points, const Limits& limits, bool fill_single,
@@ -154,7 +202,7 @@ Statistics InteriorPath::extract(std::span<const Point> points, const Limits& li
   Statistics statistics{Way::kFewPoints, points.size(), points.size(), points.size()};
   if (points.empty() || points.size() < guard.least_points || points.size() > kMaxPoints) return statistics;
   const CoordinateRange range = measure_coordinates(points, steps.pool);
-  if (const std::optional<Way> whole = part_.choose(points, range, limits, guard)) {
+  if (const std::optional<Way> whole = part_.choose(points, range, limits, guard, steps.pool)) {
     statistics.way = *whole;
     return statistics;
   }
@@ -162,11 +210,14 @@ Statistics InteriorPath::extract(std::span<const Point> points, const Limits& li
   const std::size_t count = part_.points().size();
   is_tested_.resize(count);
   caller_index_.resize(count);
-  for (std::size_t v = 0; v < count; ++v) {
-    const std::uint32_t point = steps.builder.caller_index()[v];
-    is_tested_[v] = part_.is_uncertain()[point];
-    caller_index_[v] = part_.caller_index()[point];
-  }
+  const Chunks chunks(steps.pool, count);
+  steps.pool.for_each(chunks.size(), [&](std::size_t c) {
+    for (std::size_t v = chunks.begin(c); v < chunks.end(c); ++v) {
+      const std::uint32_t point = steps.builder.caller_index()[v];
+      is_tested_[v] = part_.is_uncertain()[point];
+      caller_index_[v] = part_.caller_index()[point];
+    }
+  });
   if (!steps.filter.run_on_part(steps.builder.mesh(), steps.builder.vertices(), is_tested_.data(),
                                 filter_rules(limits), fill_single, steps.pool, steps.boundary)) {
     statistics.way = Way::kRoundingDecides;

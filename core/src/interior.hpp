@@ -5,6 +5,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <deque>
 #include <optional>
 #include <span>
 #include <vector>
@@ -49,7 +50,7 @@ class InteriorPart {
   /// Chooses the part; returns why not where it does not pay, or where the claim cannot be made. `range` is
   /// that of `points`.
   std::optional<Way> choose(std::span<const Point> points, const CoordinateRange& range, const Limits& limits,
-                            const InteriorGuard& guard);
+                            const InteriorGuard& guard, ThreadPool& pool);
 
   /// After choose: the part, in the order of the caller's points, all copies of a point among them.
   std::span<const Point> points() const { return points_; }
@@ -62,16 +63,28 @@ class InteriorPart {
  private:
   double choose_grid(std::span<const Point> points, const Box& box, double radius,
                      const InteriorGuard& guard);
-  void fill_cells(std::span<const Point> points, bool with_shared);
+  void fill_cells(std::span<const Point> points, bool with_shared, ThreadPool& pool);
   bool too_many_are_uncertain(std::span<const Point> points, double most) const;
-  void find_uncertain_points(std::span<const Point> points);
+  void find_uncertain_points(std::span<const Point> points, ThreadPool& pool);
   void mark_reach();
-  void gather(std::span<const Point> points);
+  void gather(std::span<const Point> points, ThreadPool& pool);
+  Bitmap& occupied() { return fills_.front().occupied; }
+  const Bitmap& occupied() const { return fills_.front().occupied; }
+  Bitmap& shared() { return fills_.front().shared; }
+
+  struct Fill {
+    Bitmap occupied;
+    Bitmap shared;  ///< cells with more than one point, where that is asked for
+  };
+  struct Chunk {
+    std::vector<std::uint32_t> uncertain;
+    std::vector<std::uint32_t> reached;
+  };
 
   Grid grid_;
   Scratch<Grid::Cell> cells_;  ///< point -> its cell
-  Bitmap occupied_;
-  Bitmap shared_;  ///< cells with more than one point, where that is asked for
+  std::deque<Fill> fills_;     ///< of each thread; at last the first is that of all
+  std::vector<Chunk> chunks_;  ///< what was found in each chunk of the points
   Bitmap uncertain_cells_;
   Bitmap reached_;  ///< cells of the part
   ClosePairs close_pairs_;
