@@ -177,6 +177,11 @@ TEST(Certificate, OfPointsIsThatOfItsDefinition) {
     const Point p{13 + qx + 0.25 * random.unit() * static_cast<double>(random.below(2)),
                   13 + qy + 0.25 * random.unit() * static_cast<double>(random.below(2))};
     const bool is_certified = certificate.is_certified(p, cells.grid.cell(p), cells.grid, cells.occupied);
+    for (const Kernel kernel : {Kernel::kPortable, Kernel::kAvx2, Kernel::kAvx512}) {
+      if (!is_supported(kernel)) continue;
+      EXPECT_EQ(certificate.is_certified(p, cells.grid.cell(p), cells.grid, cells.occupied, kernel),
+                is_certified);
+    }
     const Part part{13 + qx, 13 + qy, 0.25};
     ASSERT_EQ(is_certified, is_covered(cells, part, 64)) << seed;
     (is_certified ? certified : uncertain) += 1;

@@ -138,34 +138,58 @@ template <std::size_t... kSector>
   (check_sector<kSector>(rows, strips, begin, end, certified, std::make_index_sequence<kRows>()), ...);
 }
 
-using CheckSectors = void (*)(const WindowRow* rows, std::size_t strips, std::size_t begin, std::size_t end,
-                              Word* certified);
+/// Whether for every sector a cell that covers it is in `cells`, row by row.
+template <std::size_t... kRow>
+[[gnu::always_inline]] inline bool check_point(const PointCertificate::Row* rows, const std::uint32_t* cells,
+                                               std::index_sequence<kRow...> /*rows*/) {
+  std::uint32_t uncovered = 0;
+  for (std::size_t s = 0; s < PointCertificate::kSectors; ++s) {
+    uncovered += ((cells[kRow] & rows[kRow][s]) | ...) == 0 ? 1U : 0U;
+  }
+  return uncovered == 0;
+}
+
+/// The two loops that the time goes into.
+struct Loops {
+  void (*check_cells)(const WindowRow* rows, std::size_t strips, std::size_t begin, std::size_t end,
+                      Word* certified);
+  bool (*check_point)(const PointCertificate::Row* rows, const std::uint32_t* cells);
+};
 
 // The same code three times, for what the compiler makes of it with wider registers.
-void check_portably(const WindowRow* rows, std::size_t strips, std::size_t begin, std::size_t end,
-                    Word* certified) {
+void check_cells_portably(const WindowRow* rows, std::size_t strips, std::size_t begin, std::size_t end,
+                          Word* certified) {
   check_sectors(rows, strips, begin, end, certified, std::make_index_sequence<kCellSectors>());
+}
+bool check_point_portably(const PointCertificate::Row* rows, const std::uint32_t* cells) {
+  return check_point(rows, cells, std::make_index_sequence<PointCertificate::kRows>());
 }
 #ifdef POLYLIDAR_X86_KERNELS
-[[gnu::target("avx2")]] void check_with_avx2(const WindowRow* rows, std::size_t strips, std::size_t begin,
-                                             std::size_t end, Word* certified) {
+[[gnu::target("avx2")]] void check_cells_with_avx2(const WindowRow* rows, std::size_t strips,
+                                                   std::size_t begin, std::size_t end, Word* certified) {
   check_sectors(rows, strips, begin, end, certified, std::make_index_sequence<kCellSectors>());
 }
-[[gnu::target("avx512f,prefer-vector-width=512")]] void check_with_avx512(const WindowRow* rows,
-                                                                          std::size_t strips,
-                                                                          std::size_t begin, std::size_t end,
-                                                                          Word* certified) {
+[[gnu::target("avx2")]] bool check_point_with_avx2(const PointCertificate::Row* rows,
+                                                   const std::uint32_t* cells) {
+  return check_point(rows, cells, std::make_index_sequence<PointCertificate::kRows>());
+}
+[[gnu::target("avx512f,prefer-vector-width=512")]] void check_cells_with_avx512(
+    const WindowRow* rows, std::size_t strips, std::size_t begin, std::size_t end, Word* certified) {
   check_sectors(rows, strips, begin, end, certified, std::make_index_sequence<kCellSectors>());
+}
+[[gnu::target("avx512f,prefer-vector-width=512")]] bool check_point_with_avx512(
+    const PointCertificate::Row* rows, const std::uint32_t* cells) {
+  return check_point(rows, cells, std::make_index_sequence<PointCertificate::kRows>());
 }
 #endif
 
-CheckSectors check_with(Kernel kernel) {
+Loops loops_of(Kernel kernel) {
 #ifdef POLYLIDAR_X86_KERNELS
-  if (kernel == Kernel::kAvx512) return &check_with_avx512;
-  if (kernel == Kernel::kAvx2) return &check_with_avx2;
+  if (kernel == Kernel::kAvx512) return {&check_cells_with_avx512, &check_point_with_avx512};
+  if (kernel == Kernel::kAvx2) return {&check_cells_with_avx2, &check_point_with_avx2};
 #endif
   static_cast<void>(kernel);
-  return &check_portably;
+  return {&check_cells_portably, &check_point_portably};
 }
 
 /// Fills a WindowRow from a row of the bitmap. Column 0 is bit 64 of that.
@@ -199,7 +223,7 @@ Kernel best_kernel() {
 
 void find_uncertain_cells(const Grid& grid, const Bitmap& occupied, Grid::Cell begin, Grid::Cell end,
                           Bitmap& uncertain, Kernel kernel) {
-  const CheckSectors check = check_with(kernel);
+  const Loops loops = loops_of(kernel);
   const std::size_t strips = (grid.columns() + kStrip - 1) / kStrip;
   // The windows of the last kRows rows, and those that are certified in the row in the middle.
   std::vector<Word> memory((kLevels * kRows + 1) * strips);
@@ -223,7 +247,7 @@ void find_uncertain_cells(const Grid& grid, const Bitmap& occupied, Grid::Cell b
       last = strip + 1;
     }
     if (first >= last) continue;
-    check(rows.data(), strips, first, last, certified);
+    loops.check_cells(rows.data(), strips, first, last, certified);
     const std::size_t word = grid.first_word(row) + 1;
     for (std::size_t strip = first; strip < last; ++strip) {
       uncertain.words()[word + strip / 2] |= certified[strip] << (strip % 2 * kStrip);
@@ -236,26 +260,27 @@ void find_uncertain_cells(const Grid& grid, const Bitmap& occupied, Grid::Cell b
 }
 
 PointCertificate::PointCertificate() {
-  constexpr int kSectors = 64;
-  constexpr int kQuarters = 4;
+  using Sectors = std::uint64_t;  // bit s: sector s, or direction s, where it begins
   std::array<Vector, kSectors> direction;
-  for (int s = 0; s < kSectors; ++s) {
-    const double angle = s * (6.283185307179586 / kSectors);
-    direction[static_cast<std::size_t>(s)] = {std::cos(angle), std::sin(angle)};
+  for (std::size_t s = 0; s < kSectors; ++s) {
+    const double angle = static_cast<double>(s) * (6.283185307179586 / kSectors);
+    direction[s] = {std::cos(angle), std::sin(angle)};
   }
   // Corners of the boxes of all d lie on a lattice of quarters. (kSlack, which moves them, changes (1) by
   // less than 2^-22, so that kExtra covers it.) Turning a corner by 90 degrees turns its directions.
-  constexpr int kHalf = kQuarters * (kReach + 1);
-  constexpr std::size_t kCorners = 2 * kHalf + 1;
-  std::vector<Sectors> inside(kCorners * kCorners);  // bit s: (1) holds with direction s
+  constexpr int kSteps = static_cast<int>(kQuarters);  // of a column
+  constexpr int kFarthest = 2 * kRadius * kSteps;
+  constexpr std::size_t kCorners = 2 * kFarthest + 1;
+  std::vector<Sectors> inside(kCorners * kCorners);  // (1) holds with these directions
   const auto inside_at = [&](int x, int y) -> Sectors& {
-    return inside[static_cast<std::size_t>(y + kHalf) * kCorners + static_cast<std::size_t>(x + kHalf)];
+    return inside[static_cast<std::size_t>(y + kFarthest) * kCorners +
+                  static_cast<std::size_t>(x + kFarthest)];
   };
-  for (int y = 0; y <= kHalf; ++y) {
-    for (int x = 1; x * x + y * y < kQuarters * kQuarters * kReach * kReach && x <= kHalf; ++x) {
+  for (int y = 0; y < kFarthest; ++y) {
+    for (int x = 1; x * x + y * y < kFarthest * kFarthest; ++x) {
       Sectors sectors = 0;
-      for (unsigned s = 0; s < kSectors; ++s) {
-        sectors |= Sectors{is_inside(1.0 / kQuarters * x, 1.0 / kQuarters * y, direction[s])} << s;
+      for (std::size_t s = 0; s < kSectors; ++s) {
+        sectors |= Sectors{is_inside(1.0 / kSteps * x, 1.0 / kSteps * y, direction[s])} << s;
       }
       inside_at(x, y) = sectors;
       inside_at(-y, x) = std::rotl(sectors, kSectors / 4);
@@ -263,16 +288,19 @@ PointCertificate::PointCertificate() {
       inside_at(y, -x) = std::rotr(sectors, kSectors / 4);
     }
   }
-  for (int quarter = 0; quarter < kQuarters * kQuarters; ++quarter) {
+  for (int quarter = 0; quarter < kSteps * kSteps; ++quarter) {
     for (int row = -kReach; row <= kReach; ++row) {
       for (int column = -kReach; column <= kReach; ++column) {
-        const int x = kQuarters * column - quarter % kQuarters;
-        const int y = kQuarters * row - quarter / kQuarters;
+        const int x = kSteps * column - quarter % kSteps;
+        const int y = kSteps * row - quarter / kSteps;
         // From p at the far side of its quarter to q at the near side of its cell, and the other way round.
-        const Sectors all = inside_at(x - 1, y - 1) & inside_at(x - 1, y + kQuarters) &
-                            inside_at(x + kQuarters, y - 1) & inside_at(x + kQuarters, y + kQuarters);
-        covered_[static_cast<std::size_t>(quarter)][static_cast<std::size_t>(row + kReach)]
-                [static_cast<std::size_t>(column + kReach)] = all & std::rotr(all, 1);
+        const Sectors both = inside_at(x - 1, y - 1) & inside_at(x - 1, y + kSteps) &
+                             inside_at(x + kSteps, y - 1) & inside_at(x + kSteps, y + kSteps);
+        auto& sectors = covering_[static_cast<std::size_t>(quarter)][static_cast<std::size_t>(row + kReach)];
+        for (Sectors covered = both & std::rotr(both, 1); covered != 0; covered &= covered - 1) {
+          sectors[static_cast<std::size_t>(std::countr_zero(covered))] |=
+              std::uint32_t{1} << static_cast<unsigned>(column + kReach);
+        }
       }
     }
   }
@@ -283,28 +311,18 @@ const PointCertificate& PointCertificate::instance() {
   return certificate;
 }
 
-bool PointCertificate::is_certified(const Point& p, Grid::Cell cell, const Grid& grid,
-                                    const Bitmap& occupied) const {
-  const auto quarter_x = static_cast<std::size_t>(grid.column(p) * 4) % 4;
-  const auto quarter_y = static_cast<std::size_t>(grid.row(p) * 4) % 4;
-  const auto& covered = covered_[quarter_y * 4 + quarter_x];
+bool PointCertificate::is_certified(const Point& p, Grid::Cell cell, const Grid& grid, const Bitmap& occupied,
+                                    Kernel kernel) const {
+  const auto quarter_x = static_cast<std::size_t>(grid.column(p) * kQuarters) % kQuarters;
+  const auto quarter_y = static_cast<std::size_t>(grid.row(p) * kQuarters) % kQuarters;
   const Grid::Cell row_bits = grid.row_words() * Grid::kWordBits;
-  constexpr Word kRowCells = (Word{1} << static_cast<unsigned>(kSide)) - 1;
-  Sectors all = 0;
-  const auto add_row = [&](int row) {
-    const Grid::Cell first = cell - kReach + static_cast<Grid::Cell>(row) * row_bits;
-    const auto& sectors = covered[static_cast<std::size_t>(row + kReach)];
-    for (Word cells = occupied.window(first) & kRowCells; cells != 0; cells &= cells - 1) {
-      all |= sectors[static_cast<std::size_t>(std::countr_zero(cells))];
-    }
-  };
-  add_row(0);
-  for (int row = 1; row <= kReach; ++row) {
-    add_row(row);
-    add_row(-row);
-    if (all == ~Sectors{0}) return true;
+  std::array<std::uint32_t, kRows> cells;
+  Grid::Cell first = cell - kReach - kReach * row_bits;
+  for (std::uint32_t& row : cells) {
+    row = static_cast<std::uint32_t>(occupied.window(first));  // of which the masks take kRows bits
+    first += row_bits;
   }
-  return false;
+  return loops_of(kernel).check_point(covering_[quarter_y * kQuarters + quarter_x].data(), cells.data());
 }
 
 }  // namespace polylidar::detail

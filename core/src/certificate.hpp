@@ -26,6 +26,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 
 #include "occupancy.hpp"
@@ -34,9 +35,9 @@ namespace polylidar::detail {
 
 /// The disks' radius in cells.
 inline constexpr int kRadius = 5;
-/// A disk through a point of a cell reaches at most into the cells this far away in x and y: one more would
-/// be at a distance of 2 r.
-inline constexpr int kReach = 2 * kRadius;
+/// How far away, in columns or rows, a cell can be that covers a sector: 2 r of them away it has points that
+/// are 2 r or more from p, which is as far as the disks reach.
+inline constexpr int kReach = 2 * kRadius - 1;
 static_assert(kReach < static_cast<int>(Grid::kMargin));
 
 /// What the loops over cells are compiled for; all give the same.
@@ -51,22 +52,28 @@ Kernel best_kernel();
 void find_uncertain_cells(const Grid& grid, const Bitmap& occupied, Grid::Cell begin, Grid::Cell end,
                           Bitmap& uncertain, Kernel kernel = best_kernel());
 
-/// The test for single points, which knows in which quarter (in x and in y) of its cell one lies.
+/// The test for single points, which knows in which quarter (in x and in y) of its cell one lies, and cuts
+/// the directions into 64 sectors.
 class PointCertificate {
  public:
   /// The tables are made at the first call in a process, in a fraction of a millisecond.
   static const PointCertificate& instance();
 
-  bool is_certified(const Point& p, Grid::Cell cell, const Grid& grid, const Bitmap& occupied) const;
+  bool is_certified(const Point& p, Grid::Cell cell, const Grid& grid, const Bitmap& occupied,
+                    Kernel kernel = best_kernel()) const;
+
+  static constexpr std::size_t kSectors = 64;
+  static constexpr std::size_t kRows = 2 * kReach + 1;
+  /// Sector -> bit c: a cell c - kReach columns from the point's own covers it.
+  using Row = std::array<std::uint32_t, kSectors>;
 
  private:
-  static constexpr int kSide = 2 * kReach + 1;
-  using Sectors = std::uint64_t;  ///< bit s: sector s of 64
+  static constexpr std::size_t kQuarters = 4;
 
   PointCertificate();
 
-  /// Quarter (row by row), row and column of a cell from the point's own -> the sectors that it covers.
-  std::array<std::array<std::array<Sectors, kSide>, kSide>, 16> covered_;
+  /// Quarter, row by row -> row, from kReach below on -> the cells that cover each sector.
+  std::array<std::array<Row, kRows>, kQuarters * kQuarters> covering_{};
 };
 
 }  // namespace polylidar::detail

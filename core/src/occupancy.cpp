@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <cstdlib>
 
 #include "polylidar/delaunay.hpp"
 
@@ -14,13 +15,23 @@ bool are_close(const Point& p, const Point& q, double distance) {
   return std::abs(p.x - q.x) <= distance && std::abs(p.y - q.y) <= distance && p != q;
 }
 
-/// Whether a coordinate in cells is within kSlack of the border between two columns or rows; 0 is the box's
-/// side.
-bool is_on_border(double u) {
-  constexpr std::int64_t kOne = std::int64_t{1} << 28U;
-  static_assert(1.0 / static_cast<double>(kOne) > Grid::kSlack);
-  const auto fixed = static_cast<std::int64_t>(u * static_cast<double>(kOne));
-  return fixed > kOne / 2 && ((fixed + 1) & (kOne - 1)) < 2;
+/// A coordinate in cells with so many bits behind the point.
+constexpr unsigned kFineBits = 28;
+constexpr std::int64_t kCell = std::int64_t{1} << kFineBits;
+static_assert(1.0 / static_cast<double>(kCell) > Grid::kSlack);
+
+std::int64_t fine(double u) {
+  return static_cast<std::int64_t>(u * static_cast<double>(kCell));
+}
+
+/// Whether a coordinate is within kSlack of the border between two columns or rows; 0 is the box's side.
+bool is_on_border(std::int64_t fine) {
+  return fine > kCell / 2 && ((fine + 1) & (kCell - 1)) < 2;
+}
+
+/// The place within a cell, roughly: of close points in one cell both differ by at most 1.
+std::uint16_t rough(std::int64_t fine) {
+  return static_cast<std::uint16_t>(fine >> (kFineBits - 16U));
 }
 
 }  // namespace
@@ -46,7 +57,9 @@ bool ClosePairs::may_exist(std::span<const Point> points, const Grid& grid, cons
 
   const auto count = static_cast<std::uint32_t>(points.size());
   for (std::uint32_t p = 0; p < count; ++p) {
-    if (is_on_border(grid.column(points[p])) || is_on_border(grid.row(points[p]))) on_borders_.push_back(p);
+    const std::int64_t x = fine(grid.column(points[p]));
+    const std::int64_t y = fine(grid.row(points[p]));
+    if (is_on_border(x) || is_on_border(y)) on_borders_.push_back(p);
     const Grid::Cell cell = cells[p];
     const Grid::Cell word = cell / Grid::kWordBits;
     const Bitmap::Word bit = Bitmap::Word{1} << (cell % Grid::kWordBits);
@@ -55,13 +68,16 @@ bool ClosePairs::may_exist(std::span<const Point> points, const Grid& grid, cons
         last_[rank_[word] + static_cast<std::uint32_t>(std::popcount(shared.words()[word] & (bit - 1)))];
     std::size_t in_cell = 0;
     bool is_new = true;
-    for (std::uint32_t link = last; link != kNone && is_new; link = links_[link].before) {
-      const Point& other = points[links_[link].point];
-      if (are_close(points[p], other, distance) || ++in_cell == kMostInACell) return true;
-      is_new = points[p] != other;
+    const Link own{p, last, rough(x), rough(y)};
+    for (std::uint32_t l = last; l != kNone && is_new; l = links_[l].before) {
+      const Link& link = links_[l];
+      if (++in_cell == kMostInACell) return true;
+      if (std::abs(link.x - own.x) > 1 || std::abs(link.y - own.y) > 1) continue;
+      if (are_close(points[p], points[link.point], distance)) return true;
+      is_new = points[p] != points[link.point];
     }
     if (!is_new) continue;
-    links_.push_back({p, last});
+    links_.push_back(own);
     last = static_cast<std::uint32_t>(links_.size() - 1);
   }
   if (on_borders_.size() > kMostOnBorders) return true;

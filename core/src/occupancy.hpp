@@ -117,6 +117,8 @@ class ClosePairs {
   struct Link {
     std::uint32_t point;
     std::uint32_t before;  ///< in links_, or kNone
+    std::uint16_t x;       ///< where in the cell, in 2^-16 of its side
+    std::uint16_t y;
   };
 
   std::vector<std::uint32_t> rank_;  ///< word -> how many cells are shared before it
