@@ -20,13 +20,14 @@ class BothWays {
     return whole_.extract_polygons();
   }
 
-  // What the way without the interior says; its shape is in part().
+  // Of at least one point. What the way without the interior says; its shape is in part().
   Statistics go(const std::vector<Point>& points, const Options& options,
                 const detail::InteriorGuard& guard = kAlways) {
     pool_.use(options.threads);
     const Limits limits{options.alpha.value_or(kNoLimit), options.max_edge_length.value_or(kNoLimit),
                         options.max_perimeter.value_or(kNoLimit)};
-    return path_.extract(points, limits, options.fill_single_triangles.value_or(false),
+    return path_.extract(points, detail::measure_coordinates(points, pool_), limits,
+                         options.fill_single_triangles.value_or(false),
                          {pool_, builder_, filter_, boundary_, tracer_}, part_, guard);
   }
   const IndexedMultiPolygon& part() const { return part_; }

@@ -313,8 +313,13 @@ const PointCertificate& PointCertificate::instance() {
 
 bool PointCertificate::is_certified(const Point& p, Grid::Cell cell, const Grid& grid, const Bitmap& occupied,
                                     Kernel kernel) const {
-  const auto quarter_x = static_cast<std::size_t>(grid.column(p) * kQuarters) % kQuarters;
-  const auto quarter_y = static_cast<std::size_t>(grid.row(p) * kQuarters) % kQuarters;
+  const auto x = static_cast<std::size_t>(grid.column(p) * kQuarters) % kQuarters;
+  const auto y = static_cast<std::size_t>(grid.row(p) * kQuarters) % kQuarters;
+  return is_certified_in(y * kQuarters + x, cell, grid, occupied, kernel);
+}
+
+bool PointCertificate::is_certified_in(std::size_t quarter, Grid::Cell cell, const Grid& grid,
+                                       const Bitmap& occupied, Kernel kernel) const {
   const Grid::Cell row_bits = grid.row_words() * Grid::kWordBits;
   std::array<std::uint32_t, kRows> cells;
   Grid::Cell first = cell - kReach - kReach * row_bits;
@@ -322,7 +327,7 @@ bool PointCertificate::is_certified(const Point& p, Grid::Cell cell, const Grid&
     row = static_cast<std::uint32_t>(occupied.window(first));  // of which the masks take kRows bits
     first += row_bits;
   }
-  return loops_of(kernel).check_point(covering_[quarter_y * kQuarters + quarter_x].data(), cells.data());
+  return loops_of(kernel).check_point(covering_[quarter].data(), cells.data());
 }
 
 }  // namespace polylidar::detail

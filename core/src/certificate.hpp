@@ -61,6 +61,10 @@ class PointCertificate {
 
   bool is_certified(const Point& p, Grid::Cell cell, const Grid& grid, const Bitmap& occupied,
                     Kernel kernel = best_kernel()) const;
+  /// Whether a point in the middle of the cell would be.
+  bool is_middle_certified(Grid::Cell cell, const Grid& grid, const Bitmap& occupied) const {
+    return is_certified_in(kQuarters * (kQuarters / 2) + kQuarters / 2, cell, grid, occupied, best_kernel());
+  }
 
   static constexpr std::size_t kSectors = 64;
   static constexpr std::size_t kRows = 2 * kReach + 1;
@@ -71,6 +75,8 @@ class PointCertificate {
   static constexpr std::size_t kQuarters = 4;
 
   PointCertificate();
+  bool is_certified_in(std::size_t quarter, Grid::Cell cell, const Grid& grid, const Bitmap& occupied,
+                       Kernel kernel) const;
 
   /// Quarter, row by row -> row, from kReach below on -> the cells that cover each sector.
   std::array<std::array<Row, kRows>, kQuarters * kQuarters> covering_{};

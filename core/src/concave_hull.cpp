@@ -81,7 +81,9 @@ MultiPolygon to_coordinates(const IndexedMultiPolygon& shape, std::span<const Po
 }
 
 struct Extractor::State {
-  bool extract_part(std::span<const Point> given, const Limits& given_limits, const Options& given_options);
+  bool extract_part(std::span<const Point> given, const detail::CoordinateRange& range,
+                    const Limits& given_limits, const Options& given_options);
+  void mesh_is_whole();
   void triangulate_the_rest();
 
   detail::ThreadPool pool;
@@ -102,12 +104,11 @@ struct Extractor::State {
 };
 
 /// extract() without the interior; false where that cannot be or does not pay.
-bool Extractor::State::extract_part(std::span<const Point> given, const Limits& given_limits,
-                                    const Options& given_options) {
-  pool.use(given_options.threads);
+bool Extractor::State::extract_part(std::span<const Point> given, const detail::CoordinateRange& range,
+                                    const Limits& given_limits, const Options& given_options) {
   const detail::Steps steps{pool, builder, filter, boundary, tracer};
-  statistics = interior.extract(given, given_limits, given_options.fill_single_triangles.value_or(false),
-                                steps, shape);
+  statistics = interior.extract(given, range, given_limits,
+                                given_options.fill_single_triangles.value_or(false), steps, shape);
   if (statistics.way != Way::kInteriorLeftOut) return false;
   limits = given_limits;
   is_part = true;
@@ -116,12 +117,17 @@ bool Extractor::State::extract_part(std::span<const Point> given, const Limits& 
   return true;
 }
 
-/// After extract_part: the mesh of all points.
+/// After the builder triangulated all points.
+void Extractor::State::mesh_is_whole() {
+  is_part = false;
+  boundary.clear();
+}
+
+/// Where the mesh is that of a part: makes it that of all points.
 void Extractor::State::triangulate_the_rest() {
   if (!is_part) return;
-  is_part = false;
   builder.build(points, pool);
-  boundary.clear();
+  mesh_is_whole();
 }
 
 Extractor::Extractor() : state_(std::make_unique<State>()) {}
@@ -131,13 +137,15 @@ Extractor& Extractor::operator=(Extractor&&) noexcept = default;
 
 const IndexedMultiPolygon& Extractor::extract(std::span<const Point> points, const Options& options) {
   const Limits limits = checked_limits(options);  // before the points are triangulated in vain
-  Way way = Way::kWhole;
-  if (is_any_limit_given(options)) {
-    if (state_->extract_part(points, limits, options)) return state_->shape;
-    way = state_->statistics.way;
+  if (!is_any_limit_given(options) || points.empty() || points.size() > kMaxPoints) {
+    triangulate(points, options.threads);
+  } else {
+    state_->pool.use(options.threads);
+    const detail::CoordinateRange range = detail::measure_coordinates(points, state_->pool);
+    if (state_->extract_part(points, range, limits, options)) return state_->shape;
+    state_->builder.build(points, range, state_->pool);
+    state_->mesh_is_whole();
   }
-  triangulate(points, options.threads);
-  state_->statistics.way = way;
   extract_regions(options);
   return extract_polygons();
 }
@@ -146,8 +154,7 @@ void Extractor::triangulate(std::span<const Point> points, unsigned threads) {
   check_threads(threads);
   state_->pool.use(threads);
   state_->builder.build(points, state_->pool);
-  state_->boundary.clear();
-  state_->is_part = false;
+  state_->mesh_is_whole();
   state_->statistics = {Way::kWhole, points.size(), points.size(), points.size()};
 }
 

@@ -18,9 +18,8 @@ constexpr double kTooClose = 0x1p-40;
 /// in multiples of the spacing that the points would have if they filled their box.
 constexpr double kWidestInSpacings = 2.5;
 
-/// About so many points are looked at before the others, one in so many at most.
-constexpr std::size_t kSample = 500;
-constexpr std::size_t kSampleStep = 64;
+/// At most one point in so many is looked at before the others.
+constexpr std::size_t kLeastStep = 32;
 
 /// Row, from kMargin below a cell on -> how many columns on either side of the cell come within 2 r of it.
 constexpr int kReachRows = static_cast<int>(Grid::kMargin);
@@ -60,7 +59,9 @@ std::optional<Way> InteriorPart::choose(std::span<const Point> points, const Coo
   // Lengths are rounded harmlessly, areas of triangles with close corners are not.
   const bool pairs_matter = limits.alpha != kNoLimit && range.unit == 0;
   fill_cells(points, pairs_matter, pool);
-  if (too_many_are_uncertain(points, guard.most_uncertain)) return Way::kMuchOutline;
+  if (share_of_uncertain(points) > guard.most_uncertain) return Way::kMuchOutline;
+  find_uncertain_cells(pool);
+  if (share_of_part(points) > guard.most_triangulated) return Way::kMuchOutline;
   if (pairs_matter && close_pairs_.may_exist(points, grid_, cells_.data(), shared(), kTooClose * radius)) {
     return Way::kClosePoints;
   }
@@ -114,18 +115,46 @@ void InteriorPart::fill_cells(std::span<const Point> points, bool with_shared, T
   }
 }
 
-bool InteriorPart::too_many_are_uncertain(std::span<const Point> points, double most) const {
+/// Of the points, as far as some tell.
+double InteriorPart::share_of_uncertain(std::span<const Point> points) const {
   const PointCertificate& certificate = PointCertificate::instance();
-  const std::size_t step = std::max(kSampleStep, points.size() / kSample) | 1U;
+  const std::size_t step = std::max(kLeastStep, points.size() / 256) | 1U;
   std::size_t looked_at = 0;
   std::size_t uncertain = 0;
   for (std::size_t i = 0; i < points.size(); i += step, ++looked_at) {
     uncertain += certificate.is_certified(points[i], cells_.data()[i], grid_, occupied()) ? 0U : 1U;
   }
-  return static_cast<double>(uncertain) > most * static_cast<double>(looked_at);
+  return static_cast<double>(uncertain) / static_cast<double>(looked_at);
 }
 
-void InteriorPart::find_uncertain_points(std::span<const Point> points, ThreadPool& pool) {
+/// The part's share of the points, as far as a few tell: near how many is an uncertain cell whose middle is
+/// uncertain too?
+double InteriorPart::share_of_part(std::span<const Point> points) const {
+  const PointCertificate& certificate = PointCertificate::instance();
+  const Grid::Cell row_bits = grid_.row_words() * Grid::kWordBits;
+  const auto is_in_part = [&](Grid::Cell cell) {
+    Grid::Cell centre = cell - kReachRows * row_bits;
+    for (const unsigned half_width : kHalfWidths) {
+      Bitmap::Word cells =
+          uncertain_cells_.window(centre - half_width) & ((Bitmap::Word{2} << 2 * half_width) - 1);
+      for (; cells != 0; cells &= cells - 1) {
+        const Grid::Cell near = centre - half_width + static_cast<Grid::Cell>(std::countr_zero(cells));
+        if (!certificate.is_middle_certified(near, grid_, occupied())) return true;
+      }
+      centre += row_bits;
+    }
+    return false;
+  };
+  const std::size_t step = std::max(16 * kLeastStep, points.size() / 40) | 1U;
+  std::size_t looked_at = 0;
+  std::size_t in_part = 0;
+  for (std::size_t i = step / 2; i < points.size(); i += step, ++looked_at) {
+    in_part += is_in_part(cells_.data()[i]) ? 1U : 0U;
+  }
+  return looked_at == 0 ? 0 : static_cast<double>(in_part) / static_cast<double>(looked_at);
+}
+
+void InteriorPart::find_uncertain_cells(ThreadPool& pool) {
   uncertain_cells_.clear(grid_.word_count());
   constexpr Grid::Cell kLeastRows = 64;  // beside which the kReach rows below and above do not matter
   const Grid::Cell rows = grid_.rows();
@@ -133,9 +162,11 @@ void InteriorPart::find_uncertain_points(std::span<const Point> points, ThreadPo
   pool.for_each(bands, [&](std::size_t band) {
     const auto begin = static_cast<Grid::Cell>(rows * band / bands);
     const auto end = static_cast<Grid::Cell>(rows * (band + 1) / bands);
-    find_uncertain_cells(grid_, occupied(), begin, end, uncertain_cells_);
+    detail::find_uncertain_cells(grid_, occupied(), begin, end, uncertain_cells_);
   });
+}
 
+void InteriorPart::find_uncertain_points(std::span<const Point> points, ThreadPool& pool) {
   const PointCertificate& certificate = PointCertificate::instance();
   const Chunks chunks(pool, points.size());
   chunks_.resize(std::max(chunks_.size(), chunks.size()));
@@ -197,16 +228,16 @@ void InteriorPart::gather(std::span<const Point> points, ThreadPool& pool) {
   });
 }
 
-Statistics InteriorPath::extract(std::span<const Point> points, const Limits& limits, bool fill_single,
-                                 const Steps& steps, IndexedMultiPolygon& shape, const InteriorGuard& guard) {
-  Statistics statistics{Way::kFewPoints, points.size(), points.size(), points.size()};
-  if (points.empty() || points.size() < guard.least_points || points.size() > kMaxPoints) return statistics;
-  const CoordinateRange range = measure_coordinates(points, steps.pool);
+Statistics InteriorPath::extract(std::span<const Point> points, const CoordinateRange& range,
+                                 const Limits& limits, bool fill_single, const Steps& steps,
+                                 IndexedMultiPolygon& shape, const InteriorGuard& guard) {
+  Statistics statistics{Way::kWhole, points.size(), points.size(), points.size()};
   if (const std::optional<Way> whole = part_.choose(points, range, limits, guard, steps.pool)) {
     statistics.way = *whole;
     return statistics;
   }
-  steps.builder.build(part_.points(), steps.pool);
+  // The part reaches as far as all points: those at the sides of their box are uncertain.
+  steps.builder.build(part_.points(), range, steps.pool);
   const std::size_t count = part_.points().size();
   is_tested_.resize(count);
   caller_index_.resize(count);

@@ -28,10 +28,11 @@ struct InteriorGuard {
   std::size_t least_points = 4096;
   /// Of the grid, for each point: beyond, most cells near a point are empty, or most of the box is.
   double most_cells_a_point = 32;
-  /// Of some hundred points that are looked at before the others.
+  /// Share of the points that are uncertain, as far as some hundred tell that are looked at before the
+  /// others.
   double most_uncertain = 0.1;
-  /// Of all points, in the part that is triangulated.
-  double most_triangulated = 0.6;
+  /// Share of the points that would have to be triangulated.
+  double most_triangulated = 0.5;
 };
 
 /// The radius r below which every Delaunay triangle passes the filter, in exact arithmetic: of the limits the
@@ -64,7 +65,9 @@ class InteriorPart {
   double choose_grid(std::span<const Point> points, const Box& box, double radius,
                      const InteriorGuard& guard);
   void fill_cells(std::span<const Point> points, bool with_shared, ThreadPool& pool);
-  bool too_many_are_uncertain(std::span<const Point> points, double most) const;
+  double share_of_uncertain(std::span<const Point> points) const;
+  double share_of_part(std::span<const Point> points) const;
+  void find_uncertain_cells(ThreadPool& pool);
   void find_uncertain_points(std::span<const Point> points, ThreadPool& pool);
   void mark_reach();
   void gather(std::span<const Point> points, ThreadPool& pool);
@@ -108,9 +111,10 @@ class InteriorPath {
  public:
   /// Puts into `shape` what the whole way gives for these points and limits, and leaves the part's mesh in
   /// `steps`. Where statistics say another way than kInteriorLeftOut, `shape` is as it was and that way is to
-  /// be gone. Throws as concave_hull does for points that are refused, before anything is changed.
-  Statistics extract(std::span<const Point> points, const Limits& limits, bool fill_single,
-                     const Steps& steps, IndexedMultiPolygon& shape, const InteriorGuard& guard = {});
+  /// be gone. There is at least one point; `range` is that of all.
+  Statistics extract(std::span<const Point> points, const CoordinateRange& range, const Limits& limits,
+                     bool fill_single, const Steps& steps, IndexedMultiPolygon& shape,
+                     const InteriorGuard& guard = {});
 
   /// After it left the interior out: vertex of the mesh -> the caller's point.
   const std::uint32_t* caller_index() const { return caller_index_.data(); }

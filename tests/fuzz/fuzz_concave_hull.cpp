@@ -156,7 +156,7 @@ void check_convex_hull(const Input& input, std::span<const Point> in_range) {
 
 // The interior may be left out for as few points as there are.
 void check_without_interior(const Input& input, std::span<const Point> points, const Options& options) {
-  if (!options.alpha && !options.max_edge_length && !options.max_perimeter) return;
+  if (points.empty() || (!options.alpha && !options.max_edge_length && !options.max_perimeter)) return;
   static testing::BothWays ways;
   const std::vector<Point> copy(points.begin(), points.end());
   if (ways.go(copy, options).way != Way::kInteriorLeftOut) return;
