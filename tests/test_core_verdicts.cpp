@@ -30,7 +30,6 @@ Measurements all_met() {
     double a_point = 100;
     if (benchmark.starts_with("regions/") || benchmark.starts_with("polygons/")) a_point = 5;
     if (benchmark.starts_with("concave_hull_2_threads/")) a_point = 50;
-    if (benchmark.starts_with("concave_hull_perimeter/")) a_point = 40;
     if (benchmark.starts_with("cgal_delaunay/")) a_point = 1000;
     measurements[benchmark] = {{a_point * points_of(benchmark)}, 100.0};
   }
