@@ -214,11 +214,11 @@ void compare_random_inputs(std::size_t cases, std::size_t least, std::size_t mos
 }
 
 TEST(InteriorLeftOut, GivesTheShapesOfSmallInputs) {
-  compare_random_inputs(case_count(4000), 10, 2000);
+  compare_random_inputs(case_count(2500), 10, 2000);
 }
 
 TEST(InteriorLeftOut, GivesTheShapesOfLargeInputs) {
-  compare_random_inputs(std::max<std::size_t>(case_count(2000) / 100, 1), 20'000, 200'000);
+  compare_random_inputs(std::max<std::size_t>(case_count(1200) / 100, 1), 20'000, 200'000);
 }
 
 TEST(InteriorLeftOut, GivesTheShapesOfNastyPointSets) {

@@ -99,7 +99,7 @@ constexpr auto kRuns = make_runs();
 constexpr unsigned kStrip = 32;
 constexpr int kSide = 16;
 static_assert(kReach <= kSide);
-constexpr std::size_t kLevels = 3;
+constexpr std::size_t kLevels = 4;
 
 /// Of one row: strip by strip the windows of level 0, then those of level 1, and so on.
 using WindowRow = const Word*;
@@ -201,6 +201,7 @@ void fill_windows(const Word* row, std::size_t strips, Word* windows) {
   for (std::size_t i = 0; i < strips; ++i) {
     windows[strips + i] = windows[i] | windows[i] >> 1U;
     windows[2 * strips + i] = windows[strips + i] | windows[strips + i] >> 2U;
+    windows[3 * strips + i] = windows[2 * strips + i] | windows[2 * strips + i] >> 4U;
   }
 }
 

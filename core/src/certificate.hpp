@@ -19,7 +19,7 @@
 //
 // Rounding. Boxes are widened by kSlack on each side for the grid's rounding (Grid), and the sectors' ends
 // are doubles, which differ from unit vectors by less than 2^-50; tested is |d|^2 + kExtra < 2 r (d . u). The
-// terms are below 2^8, so that all errors together are below 2^-40, far below kExtra = 2^-20.
+// terms are below 2^9, so that all errors together are below 2^-39, far below kExtra = 2^-20.
 //
 // The tables are made once from these inequalities; they do not depend on the points, as r is a fixed number
 // of cells.
@@ -34,7 +34,7 @@
 namespace polylidar::detail {
 
 /// The disks' radius in cells.
-inline constexpr int kRadius = 5;
+inline constexpr int kRadius = 6;
 /// How far away, in columns or rows, a cell can be that covers a sector: 2 r of them away it has points that
 /// are 2 r or more from p, which is as far as the disks reach.
 inline constexpr int kReach = 2 * kRadius - 1;

@@ -27,7 +27,7 @@ namespace polylidar::detail {
 struct InteriorGuard {
   std::size_t least_points = 4096;
   /// Of the grid, for each point: beyond, most cells near a point are empty, or most of the box is.
-  double most_cells_a_point = 32;
+  double most_cells_a_point = 46;
   /// Share of the points that are uncertain, as far as some hundred tell that are looked at before the
   /// others.
   double most_uncertain = 0.1;
