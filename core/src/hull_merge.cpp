@@ -244,11 +244,11 @@ bool Merge::is_in_circle(const Apex& inner, const Apex& outer, double cross) con
       inner.squared * outer.over_base - outer.squared * inner.over_base - squared_base_ * cross;
   const double sum = squared_base_ + inner.squared + outer.squared;
   const double magnitude = sum * sum;
-  if (std::abs(determinant) > 4 * kEpsilon * magnitude || (determinant != 0 && magnitude < limits_.incircle))
-      [[likely]]
+  if (std::abs(determinant) > 4 * kEpsilon * magnitude) [[likely]]
     return determinant > 0;
-  const bool is_tie = magnitude < limits_.incircle;
-  return is_in_circle_exact(points_[l_], points_[r_], points_[inner.vertex], points_[outer.vertex], is_tie);
+  if (magnitude < limits_.incircle && determinant != 0) return determinant > 0;
+  return is_in_circle_exact(points_[l_], points_[r_], points_[inner.vertex], points_[outer.vertex],
+                            magnitude < limits_.incircle);
 }
 
 /// After the base's end on this side has moved to the next ghost.
