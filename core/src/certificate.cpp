@@ -11,6 +11,12 @@
 
 #if defined(__x86_64__) && defined(__GNUC__)
 #define POLYLIDAR_X86_KERNELS
+// What makes a compiler use all of the 512 bits.
+#ifdef __clang__
+#define POLYLIDAR_AVX512 [[gnu::target("avx512f"), clang::min_vector_width(512)]]
+#else
+#define POLYLIDAR_AVX512 [[gnu::target("avx512f,prefer-vector-width=512")]]
+#endif
 #endif
 
 namespace polylidar::detail {
@@ -173,12 +179,11 @@ bool check_point_portably(const PointCertificate::Row* rows, const std::uint32_t
                                                    const std::uint32_t* cells) {
   return check_point(rows, cells, std::make_index_sequence<PointCertificate::kRows>());
 }
-[[gnu::target("avx512f,prefer-vector-width=512")]] void check_cells_with_avx512(
-    const WindowRow* rows, std::size_t strips, std::size_t begin, std::size_t end, Word* certified) {
+POLYLIDAR_AVX512 void check_cells_with_avx512(const WindowRow* rows, std::size_t strips, std::size_t begin,
+                                              std::size_t end, Word* certified) {
   check_sectors(rows, strips, begin, end, certified, std::make_index_sequence<kCellSectors>());
 }
-[[gnu::target("avx512f,prefer-vector-width=512")]] bool check_point_with_avx512(
-    const PointCertificate::Row* rows, const std::uint32_t* cells) {
+POLYLIDAR_AVX512 bool check_point_with_avx512(const PointCertificate::Row* rows, const std::uint32_t* cells) {
   return check_point(rows, cells, std::make_index_sequence<PointCertificate::kRows>());
 }
 #endif
