@@ -30,7 +30,7 @@ constexpr auto make_half_widths() {
     const int gap_y = std::max(std::max(row, -row) - 1, 0);
     int columns = 0;
     while (columns * columns + gap_y * gap_y < kWithin * kWithin) ++columns;
-    // A column is columns - 1 cells away where it is `columns` further.
+    // Between two columns that are k apart lie k - 1 others: the gap to the next one is the first too wide.
     half_widths[static_cast<std::size_t>(row + kReachRows)] = static_cast<unsigned>(columns);
   }
   return half_widths;
