@@ -269,6 +269,32 @@ TEST(ConcaveHull, HolesThatCutAcrossMakeTwoPolygons) {
   EXPECT_EQ(area(shape), 12);
 }
 
+TEST(ConcaveHull, ListsAShapeInOneWay) {
+  for (std::uint64_t seed = 0; seed < 50; ++seed) {
+    SCOPED_TRACE(seed);
+    const std::vector<Point> points = testing::uniform_points(600, seed);
+    const IndexedMultiPolygon shape = concave_hull(points, {.alpha = 0.035});
+    std::size_t begin = 0;
+    std::vector<std::pair<std::uint32_t, std::uint32_t>> first_edges;
+    for (const std::uint32_t end : shape.ring_ends) {
+      const auto ring = shape.vertices.begin() + static_cast<std::ptrdiff_t>(begin);
+      EXPECT_EQ(std::min_element(ring, shape.vertices.begin() + end), ring);
+      first_edges.emplace_back(ring[0], ring[1]);
+      begin = end;
+    }
+    std::vector<std::pair<std::uint32_t, std::uint32_t>> shells;
+    std::size_t ring = 0;
+    for (const std::uint32_t end : shape.polygon_ends) {
+      shells.push_back(first_edges[ring]);
+      EXPECT_TRUE(std::is_sorted(first_edges.begin() + static_cast<std::ptrdiff_t>(ring) + 1,
+                                 first_edges.begin() + end));
+      ring = end;
+    }
+    EXPECT_GT(shells.size(), 1U);
+    EXPECT_TRUE(std::is_sorted(shells.begin(), shells.end()));
+  }
+}
+
 TEST(ConcaveHull, AnIslandInAHoleIsAPolygon) {
   std::vector<Point> points = without(lattice(9, 9), lattice(5, 5, 1, {2, 2}));
   for (const Point& point : lattice(2, 2, 1, {4, 4})) points.push_back(point);

@@ -144,8 +144,8 @@ TEST(CoreVerdicts, WhatIsHopedForIsARemarkOnly) {
 TEST(CoreVerdicts, StepsAreAdded) {
   const Measurements measurements = {{"regions/ca/64000", {{7}, {}}},
                                      {"polygons/ca/64000", {{14}, {}}},
-                                     {"concave_hull/ca/64000", {{100}, {}}}};
-  const VerdictLine line = line_of(measurements, "(regions + polygons) / concave_hull, ca/64000");
+                                     {"concave_hull_whole/ca/64000", {{100}, {}}}};
+  const VerdictLine line = line_of(measurements, "(regions + polygons) / whole, ca/64000");
   EXPECT_EQ(line.value, 0.21);
   EXPECT_EQ(line.verdict, Verdict::kMissed);
 }

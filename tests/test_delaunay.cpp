@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -103,6 +104,65 @@ TEST(Delaunay, DoesNotDependOnTheRunOrOnWhatRanBefore) {
   const Triangulation second = delaunay(points);
   EXPECT_EQ(first.triangles, second.triangles);
   EXPECT_EQ(first.halfedges, second.halfedges);
+}
+
+bool is_less(const Point& a, const Point& b) {
+  return a.x < b.x || (a.x == b.x && a.y < b.y);
+}
+
+// The triangles by their corners' positions, each from its least corner on, in order.
+std::vector<std::array<Point, 3>> positions(const std::vector<Point>& points) {
+  const Triangulation triangulation = delaunay(points);
+  std::vector<std::array<Point, 3>> result(triangulation.triangles.size() / 3);
+  for (std::size_t t = 0; t < result.size(); ++t) {
+    for (std::size_t k = 0; k < 3; ++k) result[t][k] = points[triangulation.triangles[3 * t + k]];
+    std::rotate(result[t].begin(), std::min_element(result[t].begin(), result[t].end(), is_less),
+                result[t].end());
+  }
+  std::sort(result.begin(), result.end(), [](const auto& a, const auto& b) {
+    return std::lexicographical_compare(a.begin(), a.end(), b.begin(), b.end(), is_less);
+  });
+  return result;
+}
+
+TEST(Delaunay, OfPointsOnAnEmptyCircleTheLeastIsInEveryTriangle) {
+  const std::vector<Point> points = testing::shuffled(testing::integer_circle(5525), 1);
+  const Point least = *std::min_element(points.begin(), points.end(), is_less);
+  const std::vector<std::array<Point, 3>> triangles = positions(points);
+  ASSERT_EQ(triangles.size(), points.size() - 2);
+  for (const std::array<Point, 3>& triangle : triangles) EXPECT_EQ(triangle[0], least);
+}
+
+TEST(Delaunay, OfTiesDependsOnThePointsAlone) {
+  std::vector<PointSet> sets = testing::nasty_point_sets();
+  for (std::uint64_t seed = 0; seed < 200; ++seed) {
+    sets.push_back({"integers, seed " + std::to_string(seed), testing::integer_points(300, seed, 16)});
+  }
+  for (const PointSet& set : sets) {
+    SCOPED_TRACE(set.name);
+    EXPECT_EQ(positions(testing::shuffled(set.points, 17)), positions(set.points));
+  }
+}
+
+// What is not where a point is taken away stays: a part of the points has the same triangles where all
+// corners of a whole neighbourhood are left.
+TEST(Delaunay, OfAPartHasTheTrianglesOfThePointsWhoseNeighboursAreLeft) {
+  for (std::uint64_t seed = 0; seed < 100; ++seed) {
+    SCOPED_TRACE(seed);
+    const std::vector<Point> points = testing::shuffled(lattice(24, 24), seed);
+    std::vector<Point> part;
+    for (const Point& p : points) {
+      if (std::abs(p.x - 12) > 4 || std::abs(p.y - 12) > 4 || (p.x == 10 && p.y == 11)) part.push_back(p);
+    }
+    const auto far_out = [](std::vector<std::array<Point, 3>> triangles) {
+      std::erase_if(triangles, [](const std::array<Point, 3>& t) {
+        return std::any_of(t.begin(), t.end(),
+                           [](const Point& p) { return std::abs(p.x - 12) <= 6 && std::abs(p.y - 12) <= 6; });
+      });
+      return triangles;
+    };
+    EXPECT_EQ(far_out(positions(part)), far_out(positions(points)));
+  }
 }
 
 TEST(Delaunay, UsesTheLowestIndexOfEqualPoints) {

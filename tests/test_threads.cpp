@@ -59,12 +59,14 @@ std::vector<PointSet> large_point_sets() {
        }()}};
 }
 
-// The automatic limit, and limits that keep everything, about the whole, and about half of it.
+// The automatic limit, and limits that keep everything, the whole without its interior, about the whole, and
+// about half of it.
 std::vector<Options> limits_for(const std::vector<Point>& points) {
   const Box box = bounding_box(points);
   const double spacing = (box.max.x - box.min.x) / 150;
   return {{},
           {.alpha = kNoLimit},
+          {.alpha = 2 * spacing, .max_perimeter = 15 * spacing},
           {.alpha = spacing},
           {.alpha = spacing, .fill_single_triangles = true},
           {.alpha = spacing / 2, .max_edge_length = spacing}};

@@ -18,8 +18,9 @@ struct MeasuredFunction {
   std::size_t most_points;
 };
 
-/// `concave_hull` (memory kept between calls), the same with 2 threads, `concave_hull_automatic` (its limit
-/// chosen from the points), `concave_hull_once` (fresh memory at every call) and its three steps
+/// `concave_hull` (memory kept between calls), the same with 2 threads, `concave_hull_whole` (by way of all
+/// triangles), `concave_hull_perimeter` (a wider limit), `concave_hull_automatic` (its limit chosen from the
+/// points), `concave_hull_once` (fresh memory at every call) and the three steps of the whole way,
 /// `triangulation`, `regions` and `polygons`.
 std::span<const MeasuredFunction> own_functions();
 /// `cgal_delaunay` and `cgal_alpha_shape`.

@@ -14,6 +14,23 @@ void concave_hull(benchmark::State& state, const SpeedPointSet& set) {
   });
 }
 
+/// With a perimeter about where the automatic limit lies: 12.4 times the spacing of the points.
+void concave_hull_perimeter(benchmark::State& state, const SpeedPointSet& set) {
+  polylidar::Extractor extractor;
+  measure(state, set, 0, Memory::kCounted,
+          [&] { return extractor.extract(set.points, {.max_perimeter = 6.2 * set.alpha}).polygon_count(); });
+}
+
+/// As concave_hull, but by way of all triangles.
+void concave_hull_whole(benchmark::State& state, const SpeedPointSet& set) {
+  polylidar::Extractor extractor;
+  measure(state, set, set.polygons, Memory::kCounted, [&] {
+    extractor.triangulate(set.points);
+    extractor.extract_regions({.alpha = set.alpha});
+    return extractor.extract_polygons().polygon_count();
+  });
+}
+
 /// With the limit that is chosen from the points; how many polygons that gives is not known beforehand.
 void concave_hull_automatic(benchmark::State& state, const SpeedPointSet& set) {
   polylidar::Extractor extractor;
@@ -57,6 +74,8 @@ constexpr std::size_t kMostPoints = 10'000'000;
 constexpr MeasuredFunction kFunctions[] = {{"concave_hull", &concave_hull<1>, kMostPoints},
                                            {"concave_hull_2_threads", &concave_hull<2>, kMostPoints},
                                            {"concave_hull_automatic", &concave_hull_automatic, 1'000'000},
+                                           {"concave_hull_perimeter", &concave_hull_perimeter, kMostPoints},
+                                           {"concave_hull_whole", &concave_hull_whole, kMostPoints},
                                            {"concave_hull_once", &concave_hull_once, 1'000'000},
                                            {"triangulation", &triangulation, 1'000'000},
                                            {"regions", &regions, 1'000'000},

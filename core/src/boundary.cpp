@@ -162,8 +162,21 @@ std::uint32_t BoundaryTracer::region_of(const TracedRing& ring) {
   return region_count_ == 1 ? 0 : walks_[root(ring.walk)].region;
 }
 
-/// Writes the rings region by region, each shell before its holes.
+/// Writes the rings polygon by polygon, in the order that IndexedMultiPolygon states: it depends on which
+/// rings there are, not on how they were found.
 void BoundaryTracer::emit(const std::uint32_t* caller_index, IndexedMultiPolygon& shape) {
+  for (std::uint32_t& vertex : ring_vertices_) vertex = caller_index[vertex];
+  ring_order_.clear();
+  for (std::uint32_t r = 0; r < rings_.size(); ++r) {
+    const auto begin = ring_vertices_.begin() + rings_[r].begin;
+    const auto end = ring_vertices_.begin() + rings_[r].end;
+    std::rotate(begin, std::min_element(begin, end), end);
+    // Two rings can share their first vertex, but not their first edge.
+    ring_order_.push_back({std::uint64_t{begin[0]} << 32U | begin[1], r});
+  }
+  std::sort(ring_order_.begin(), ring_order_.end());
+  number_polygons();
+
   shape.clear();
   shape.polygon_ends.resize(region_count_);
   for (const TracedRing& ring : rings_) ++shape.polygon_ends[region_of(ring)];
@@ -173,19 +186,30 @@ void BoundaryTracer::emit(const std::uint32_t* caller_index, IndexedMultiPolygon
     next_place_.push_back(total + 1);
     total = end += total;
   }
-
-  ring_order_.resize(rings_.size());
-  for (std::uint32_t r = 0; r < rings_.size(); ++r) {
-    const std::uint32_t region = region_of(rings_[r]);
-    const std::uint32_t shell_place = region == 0 ? 0 : shape.polygon_ends[region - 1];
-    ring_order_[rings_[r].is_shell ? shell_place : next_place_[region]++] = r;
+  written_order_.resize(rings_.size());
+  for (const auto& [edge, r] : ring_order_) {
+    const std::uint32_t polygon = region_of(rings_[r]);
+    const std::uint32_t shell_place = polygon == 0 ? 0 : shape.polygon_ends[polygon - 1];
+    written_order_[rings_[r].is_shell ? shell_place : next_place_[polygon]++] = r;
   }
   shape.vertices.reserve(ring_vertices_.size());
-  for (const std::uint32_t r : ring_order_) {
-    for (std::uint32_t i = rings_[r].begin; i < rings_[r].end; ++i) {
-      shape.vertices.push_back(caller_index[ring_vertices_[i]]);
-    }
+  for (const std::uint32_t r : written_order_) {
+    shape.vertices.insert(shape.vertices.end(), ring_vertices_.begin() + rings_[r].begin,
+                          ring_vertices_.begin() + rings_[r].end);
     shape.ring_ends.push_back(static_cast<std::uint32_t>(shape.vertices.size()));
+  }
+}
+
+/// Numbers the regions anew, in the order of their shells in ring_order_.
+void BoundaryTracer::number_polygons() {
+  if (region_count_ <= 1) return;
+  polygon_of_region_.resize(region_count_);
+  std::uint32_t polygon = 0;
+  for (const auto& [edge, r] : ring_order_) {
+    if (rings_[r].is_shell) polygon_of_region_[region_of(rings_[r])] = polygon++;
+  }
+  for (Walk& walk : walks_) {
+    if (walk.region != kNone) walk.region = polygon_of_region_[walk.region];
   }
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 #include "half_edge.hpp"
@@ -45,16 +46,20 @@ class BoundaryTracer {
   std::uint32_t root(std::uint32_t walk);
   std::uint32_t region_of(const TracedRing& ring);
   void emit(const std::uint32_t* caller_index, IndexedMultiPolygon& shape);
+  void number_polygons();
 
   std::vector<std::uint32_t>
       open_walk_;  ///< vertices of the walk being traced, without the rings already split off
   Scratch<std::uint32_t>
       place_in_walk_;  ///< boundary vertex -> its place in open_walk_, kNone if it is not there
-  std::vector<std::uint32_t> ring_vertices_;  ///< of all rings, in the order of `rings_`
+  std::vector<std::uint32_t>
+      ring_vertices_;  ///< of all rings, in the order of `rings_`; at last the caller's
   std::vector<TracedRing> rings_;
   std::vector<Walk> walks_;
-  std::vector<std::uint32_t> ring_order_;  ///< rings by region, the shell first
-  std::vector<std::uint32_t> next_place_;  ///< region -> where in ring_order_ its next hole goes
+  std::vector<std::pair<std::uint64_t, std::uint32_t>> ring_order_;  ///< first edge, ring; by first edge
+  std::vector<std::uint32_t> polygon_of_region_;                     ///< when the regions are numbered anew
+  std::vector<std::uint32_t> written_order_;                         ///< rings by polygon, the shell first
+  std::vector<std::uint32_t> next_place_;  ///< polygon -> where in written_order_ its next hole goes
   std::uint32_t region_count_ = 0;
 };
 

@@ -11,6 +11,7 @@
 #include "boundary.hpp"
 #include "coordinate_range.hpp"
 #include "delaunay_builder.hpp"
+#include "interior.hpp"
 #include "region.hpp"
 
 namespace polylidar {
@@ -85,6 +86,11 @@ MultiPolygon to_coordinates(const IndexedMultiPolygon& shape, std::span<const Po
 }
 
 struct Extractor::State {
+  bool extract_part(std::span<const Point> given, const detail::CoordinateRange& range,
+                    const Limits& given_limits, const Options& given_options);
+  void mesh_is_whole();
+  void triangulate_the_rest();
+
   detail::ThreadPool pool;
   detail::DelaunayBuilder builder;
   detail::AutomaticLimit automatic_limit;
@@ -94,7 +100,42 @@ struct Extractor::State {
   std::vector<detail::Mesh::Index> boundary;
   detail::BoundaryTracer tracer;
   IndexedMultiPolygon shape;
+
+  detail::InteriorPath interior;
+  Statistics statistics;
+  // Where the mesh is that of a part: what was asked for, should the rest be needed.
+  bool is_part = false;
+  std::span<const Point> points;
+  Options options;
 };
+
+/// extract() without the interior; false where that cannot be or does not pay.
+bool Extractor::State::extract_part(std::span<const Point> given, const detail::CoordinateRange& range,
+                                    const Limits& given_limits, const Options& given_options) {
+  const detail::Steps steps{pool, builder, filter, boundary, tracer};
+  statistics = interior.extract(given, range, given_limits,
+                                given_options.fill_single_triangles.value_or(false), steps, shape);
+  if (statistics.way != Way::kInteriorLeftOut) return false;
+  limits = given_limits;
+  chosen_sizes.reset();
+  is_part = true;
+  points = given;
+  options = given_options;
+  return true;
+}
+
+/// After the builder triangulated all points.
+void Extractor::State::mesh_is_whole() {
+  is_part = false;
+  boundary.clear();
+}
+
+/// Where the mesh is that of a part: makes it that of all points.
+void Extractor::State::triangulate_the_rest() {
+  if (!is_part) return;
+  builder.build(points, pool);
+  mesh_is_whole();
+}
 
 Extractor::Extractor() : state_(std::make_unique<State>()) {}
 Extractor::~Extractor() = default;
@@ -102,8 +143,16 @@ Extractor::Extractor(Extractor&&) noexcept = default;
 Extractor& Extractor::operator=(Extractor&&) noexcept = default;
 
 const IndexedMultiPolygon& Extractor::extract(std::span<const Point> points, const Options& options) {
-  checked_limits(options);  // before the points are triangulated in vain
-  triangulate(points, options.threads);
+  const Limits limits = checked_limits(options);  // before the points are triangulated in vain
+  if (!is_any_limit_given(options) || points.empty() || points.size() > kMaxPoints) {
+    triangulate(points, options.threads);
+  } else {
+    state_->pool.use(options.threads);
+    const detail::CoordinateRange range = detail::measure_coordinates(points, state_->pool);
+    if (state_->extract_part(points, range, limits, options)) return state_->shape;
+    state_->builder.build(points, range, state_->pool);
+    state_->mesh_is_whole();
+  }
   extract_regions(options);
   return extract_polygons();
 }
@@ -112,13 +161,15 @@ void Extractor::triangulate(std::span<const Point> points, unsigned threads) {
   check_threads(threads);
   state_->pool.use(threads);
   state_->builder.build(points, state_->pool);
-  state_->boundary.clear();
+  state_->mesh_is_whole();
+  state_->statistics = {Way::kWhole, points.size(), points.size(), points.size()};
 }
 
 void Extractor::extract_regions(const Options& options) {
   state_->limits = checked_limits(options);
   state_->pool.use(options.threads);
   state_->chosen_sizes.reset();
+  state_->triangulate_the_rest();
   detail::DelaunayBuilder& builder = state_->builder;
   const int exponent = builder.scale_exponent();
   if (is_any_limit_given(options)) {
@@ -147,7 +198,9 @@ Limits Extractor::limits() const {
 
 const IndexedMultiPolygon& Extractor::extract_polygons() {
   detail::DelaunayBuilder& builder = state_->builder;
-  state_->tracer.trace(builder.mesh(), builder.vertices(), builder.vertex_count(), builder.caller_index(),
+  const std::uint32_t* const caller_index =
+      state_->is_part ? state_->interior.caller_index() : builder.caller_index();
+  state_->tracer.trace(builder.mesh(), builder.vertices(), builder.vertex_count(), caller_index,
                        state_->boundary, state_->shape);
   return state_->shape;
 }
@@ -160,7 +213,18 @@ bool Extractor::has_triangles() const {
 }
 
 std::vector<std::size_t> Extractor::count_triangles() const {
+  if (state_->is_part) {
+    Extractor whole;  // the shape that the caller holds stays where it is
+    whole.triangulate(state_->points, state_->options.threads);
+    whole.extract_regions(state_->options);
+    whole.extract_polygons();
+    return whole.count_triangles();
+  }
   return state_->tracer.count_triangles(state_->builder.mesh());
+}
+
+const Statistics& Extractor::statistics() const {
+  return state_->statistics;
 }
 
 IndexedMultiPolygon concave_hull(std::span<const Point> points, const Options& options) {

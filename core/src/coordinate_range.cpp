@@ -36,16 +36,32 @@ struct Magnitudes {
   }
 };
 
+/// x and y of a point, for arithmetic on both at once.
+using Pair [[gnu::vector_size(16)]] = double;
+static_assert(sizeof(Pair) == sizeof(Point));
+
 Magnitudes measure(std::span<const Point> points) {
-  Magnitudes result;
+  const Pair infinity{kInfinity, kInfinity};
+  Pair least = infinity;
+  Pair greatest = -infinity;
+  Pair smallest = infinity;
+  Pair poison{};
   for (const Point& p : points) {
-    result.poison += p.x * 0 + p.y * 0;
-    for (const double c : {std::abs(p.x), std::abs(p.y)}) {
-      result.largest = std::max(result.largest, c);
-      if (c != 0) result.smallest = std::min(result.smallest, c);
-    }
+    const Pair v{p.x, p.y};
+    const Pair magnitude = v < 0 ? -v : v;
+    const Pair not_zero = magnitude == 0 ? infinity : magnitude;
+    poison += v * 0;
+    least = v < least ? v : least;
+    greatest = v > greatest ? v : greatest;
+    smallest = not_zero < smallest ? not_zero : smallest;
   }
-  result.box = bounding_box(points);
+  Magnitudes result;
+  result.box = {{least[0], least[1]}, {greatest[0], greatest[1]}};
+  for (const double c : {least[0], least[1], greatest[0], greatest[1]}) {
+    if (!points.empty()) result.largest = std::max(result.largest, std::abs(c));
+  }
+  result.smallest = std::min(smallest[0], smallest[1]);
+  result.poison = poison[0] + poison[1];
   return result;
 }
 

@@ -30,12 +30,17 @@ void DelaunayBuilder::build(std::span<const Point> points, ThreadPool& pool) {
   if (points.size() > kMaxPoints) {
     throw std::invalid_argument("more than 2^28 points: split the input");
   }
-  // What can be refused is refused before anything is changed.
-  const CoordinateRange range = points.empty() ? CoordinateRange{} : measure_coordinates(points, pool);
+  if (!points.empty()) return build(points, measure_coordinates(points, pool), pool);
+  mesh_.reset(0);
+  vertex_count_ = 0;
+  scale_exponent_ = 0;
+}
+
+// What can be refused is refused by now, before anything is changed.
+void DelaunayBuilder::build(std::span<const Point> points, const CoordinateRange& range, ThreadPool& pool) {
   mesh_.reset(points.size());
   vertex_count_ = points.size();
   scale_exponent_ = range.scale_exponent;
-  if (points.empty()) return;
   sort_along_curve(points, range, pool);
   if (pool.threads() == 1) {
     build_range(0, static_cast<Index>(points.size()));

@@ -25,6 +25,8 @@ class DelaunayBuilder {
   /// Triangulates `points` on the threads of `pool`: the same mesh for any number of them. Throws
   /// std::invalid_argument as concave_hull does, and then leaves the mesh as it was.
   void build(std::span<const Point> points, ThreadPool& pool);
+  /// The same for points whose range is known; there is at least one.
+  void build(std::span<const Point> points, const CoordinateRange& range, ThreadPool& pool);
 
   const Mesh& mesh() const { return mesh_; }
   Mesh& mesh() { return mesh_; }

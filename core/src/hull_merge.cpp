@@ -229,8 +229,9 @@ bool Merge::is_above_base(Apex& apex) const {
   return orient2d_exact(points_[l_], points_[r_], points_[apex.vertex]) > 0;
 }
 
-/// incircle(l, r, inner, outer) > 0, where `inner` lies above the base, both apexes are seen from one end of
-/// the base, and `cross` is the cross product of their offsets, mirrored on the right side.
+/// Whether `outer` is inside the circle of l, r and `inner`, ties decided as is_in_circle_exact does. `inner`
+/// lies above the base, both apexes are seen from one end of the base, and `cross` is the cross product of
+/// their offsets, mirrored on the right side.
 ///
 /// With u the base, v and w the offsets, the determinant with its origin at that end of the base is
 /// |v|^2 (u x w) - |w|^2 (u x v) - |u|^2 (v x w). Its error bound is that of incircle_fast with something
@@ -243,9 +244,11 @@ bool Merge::is_in_circle(const Apex& inner, const Apex& outer, double cross) con
       inner.squared * outer.over_base - outer.squared * inner.over_base - squared_base_ * cross;
   const double sum = squared_base_ + inner.squared + outer.squared;
   const double magnitude = sum * sum;
-  if (std::abs(determinant) > 4 * kEpsilon * magnitude || magnitude < limits_.incircle) [[likely]]
+  if (std::abs(determinant) > 4 * kEpsilon * magnitude) [[likely]]
     return determinant > 0;
-  return incircle_exact(points_[l_], points_[r_], points_[inner.vertex], points_[outer.vertex]) > 0;
+  if (magnitude < limits_.incircle && determinant != 0) return determinant > 0;
+  return is_in_circle_exact(points_[l_], points_[r_], points_[inner.vertex], points_[outer.vertex],
+                            magnitude < limits_.incircle);
 }
 
 /// After the base's end on this side has moved to the next ghost.

@@ -2,6 +2,7 @@
 
 #include "expansion.hpp"
 #include "predicates_inline.hpp"
+#include "vector.hpp"
 
 namespace polylidar {
 
@@ -35,6 +36,22 @@ double incircle_exact(const Point& a, const Point& b, const Point& c, const Poin
   const auto b_part = product(lift(bdx, bdy), minor(cdx, cdy, adx, ady));
   const auto c_part = product(lift(cdx, cdy), minor(adx, ady, bdx, bdy));
   return sum(sum(a_part, b_part), c_part).sign();
+}
+
+// The determinant is h(a) [bcd] - h(b) [acd] + h(c) [abd] - h(d) [abc], with h a point's height and [abc]
+// orient2d(a, b, c): pushing a point down takes its term's factor away. No three points of a circle lie on a
+// line, so that no factor is zero.
+bool is_in_circle_exact(const Point& a, const Point& b, const Point& c, const Point& d, bool is_tie) {
+  if (!is_tie) {
+    const double sign = incircle_exact(a, b, c, d);
+    if (sign != 0) return sign > 0;
+  }
+  const bool a_before_b = less_by_x(a, b);
+  const bool c_before_d = less_by_x(c, d);
+  if (less_by_x(a_before_b ? a : b, c_before_d ? c : d)) {
+    return a_before_b ? orient2d_fast(b, c, d) < 0 : orient2d_fast(a, c, d) > 0;
+  }
+  return c_before_d ? orient2d_fast(a, b, d) < 0 : orient2d_fast(a, b, c) > 0;
 }
 
 }  // namespace detail

@@ -10,6 +10,13 @@ namespace polylidar::detail {
 double orient2d_exact(const Point& a, const Point& b, const Point& c);
 double incircle_exact(const Point& a, const Point& b, const Point& c, const Point& d);
 
+/// incircle(a, b, c, d) > 0 for four different points, where a tie, which is a sign of zero, is decided as if
+/// the paraboloid were pushed down a little at the least of the four by x, then y. Over all points the least
+/// is pushed down most, so that every tie is decided as by one and the same surface: the triangulation
+/// depends on the points alone, and of points on one empty circle the least is a corner of every triangle.
+/// `is_tie`: the sign is known to be zero.
+bool is_in_circle_exact(const Point& a, const Point& b, const Point& c, const Point& d, bool is_tie);
+
 // Half an ulp of 1: the relative rounding error of one operation.
 inline constexpr double kEpsilon = 0x1p-53;
 // Bounds of the rounding error relative to the sum of the magnitudes of the products, from Shewchuk (1997),

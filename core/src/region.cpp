@@ -1,6 +1,7 @@
 #include "region.hpp"
 
 #include <algorithm>
+#include <atomic>
 #include <bit>
 #include <limits>
 
@@ -8,13 +9,10 @@ namespace polylidar::detail {
 
 namespace {
 
-/// Says in words [begin, end) of `kept` which triangles keep to all `rules`.
-template <class... Rules>
-void filter(const Mesh& mesh, const Point* vertices, std::size_t begin, std::size_t end, std::uint64_t* kept,
-            const Rules&... rules) {
-  const auto is_kept = [&](Mesh::Index t) {
-    return !mesh.is_ghost(t) && (rules.keeps(Triangle(mesh, vertices, t)) && ...);
-  };
+/// Says in words [begin, end) of `kept` which triangles `is_kept`.
+template <class IsKept>
+void fill_words(const Mesh& mesh, std::size_t begin, std::size_t end, std::uint64_t* kept,
+                const IsKept& is_kept) {
   for (std::size_t w = begin; w < end; ++w) {
     const auto first = static_cast<Mesh::Index>(Mesh::kWordBits * w);
     const Mesh::Index count = std::min(Mesh::kWordBits, mesh.triangle_count() - first);
@@ -22,6 +20,38 @@ void filter(const Mesh& mesh, const Point* vertices, std::size_t begin, std::siz
     for (Mesh::Index k = 0; k < count; ++k) word |= std::uint64_t{is_kept(first + k)} << k;
     kept[w] = word;
   }
+}
+
+/// The triangles that keep to all `rules`.
+template <class... Rules>
+void filter(const Mesh& mesh, const Point* vertices, std::size_t begin, std::size_t end, std::uint64_t* kept,
+            const Rules&... rules) {
+  fill_words(mesh, begin, end, kept, [&](Mesh::Index t) {
+    return !mesh.is_ghost(t) && (rules.keeps(Triangle(mesh, vertices, t)) && ...);
+  });
+}
+
+/// The triangles none of whose corners `is_tested`, and of the others those that keep to all `rules`. Returns
+/// whether all of those do, or do not, from whichever corner the rules' arithmetic starts.
+template <class... Rules>
+bool filter_part(const Mesh& mesh, const Point* vertices, const std::uint8_t* is_tested, std::size_t begin,
+                 std::size_t end, std::uint64_t* kept, const Rules&... rules) {
+  Mesh turned;  // one triangle
+  turned.reset(2);
+  bool agree = true;
+  fill_words(mesh, begin, end, kept, [&](Mesh::Index t) {
+    if (mesh.is_ghost(t)) return false;
+    const Mesh::Index* corner = &mesh.memory()[Mesh::kStride * t];
+    if ((is_tested[corner[0]] | is_tested[corner[1]] | is_tested[corner[2]]) == 0) return true;
+    unsigned votes = 0;
+    for (Mesh::Index first = 0; first < 3; ++first) {
+      for (Mesh::Index k = 0; k < 3; ++k) turned.origin(k) = corner[(first + k) % 3];
+      votes += (rules.keeps(Triangle(turned, vertices, 0)) && ...) ? 1U : 0U;
+    }
+    agree &= votes == 0 || votes == 3;
+    return votes != 0;
+  });
+  return agree;
 }
 
 /// Appends to `boundary` the half-edges of kept triangles on whose other side is a triangle in words [begin,
@@ -131,6 +161,21 @@ void RegionFilter::run(Mesh& mesh, const Point* vertices, const FilterRules& rul
     std::apply([&](const auto&... choice) { std::visit(filter_by, choice...); }, rules);
   });
   find_boundary(mesh, fill_single, pool, kept, boundary);
+}
+
+bool RegionFilter::run_on_part(Mesh& mesh, const Point* vertices, const std::uint8_t* is_tested,
+                               const FilterRules& rules, bool fill_single, ThreadPool& pool,
+                               std::vector<Index>& boundary) {
+  std::uint64_t* kept = mesh.reserve_kept();
+  std::atomic<bool> agree = true;
+  for_each_chunk(mesh, pool, [&](std::size_t, std::size_t begin, std::size_t end) {
+    const auto filter_by = [&](const auto&... each) {
+      if (!filter_part(mesh, vertices, is_tested, begin, end, kept, each...)) agree = false;
+    };
+    std::apply([&](const auto&... choice) { std::visit(filter_by, choice...); }, rules);
+  });
+  find_boundary(mesh, fill_single, pool, kept, boundary);
+  return agree;
 }
 
 void RegionFilter::run(Mesh& mesh, const Point* vertices, const SizeField& field, bool fill_single,

@@ -22,7 +22,14 @@ class RegionFilter {
   void run(Mesh& mesh, const Point* vertices, const FilterRules& rules, bool fill_single, ThreadPool& pool,
            std::vector<Index>& boundary);
 
-  /// The same with a limit that varies by place. Where a kept triangle stands out of the shape, with two
+  /// The same where only triangles with a tested corner are asked for the rules, and all others are kept.
+  /// `is_tested`: vertex of the mesh -> whether. Returns false where rounding decides: where a rule would
+  /// answer otherwise if a triangle's corners were given in another order; then nothing that came out of it
+  /// is to be used.
+  bool run_on_part(Mesh& mesh, const Point* vertices, const std::uint8_t* is_tested, const FilterRules& rules,
+                   bool fill_single, ThreadPool& pool, std::vector<Index>& boundary);
+
+  /// As run with a limit that varies by place. Where a kept triangle stands out of the shape, with two
   /// edges on its border that meet at an acute angle, and is no smaller than a spike, it is dropped: outliers
   /// and noise make such triangles. One pass; then regions and holes that are too small go, before
   /// `fill_single`.

@@ -17,6 +17,7 @@
 #include "polylidar/concave_hull.hpp"
 #include "polylidar/delaunay.hpp"
 #include "polylidar/predicates.hpp"
+#include "tests/both_ways.hpp"
 #include "tests/fuzz/fuzz_input.hpp"
 #include "tests/hull_oracle.hpp"
 
@@ -153,6 +154,15 @@ void check_convex_hull(const Input& input, std::span<const Point> in_range) {
           "the convex hull has the corners of the monotone chain");
 }
 
+// The interior may be left out for as few points as there are.
+void check_without_interior(const Input& input, std::span<const Point> points, const Options& options) {
+  if (points.empty() || (!options.alpha && !options.max_edge_length && !options.max_perimeter)) return;
+  static testing::BothWays ways;
+  const std::vector<Point> copy(points.begin(), points.end());
+  if (ways.go(copy, options).way != Way::kInteriorLeftOut) return;
+  require(input, ways.part() == ways.whole(copy, options), "the shape without the interior");
+}
+
 // A limit that no triangle is near: the shape is that of the kept triangles.
 void check_clear_limits(const Input& input, std::span<const Point> in_range,
                         const Triangulation& triangulation) {
@@ -161,6 +171,7 @@ void check_clear_limits(const Input& input, std::span<const Point> in_range,
   const testing::ExpectedShape expected = testing::expected_shape(in_range, triangulation, options);
   const IndexedMultiPolygon indexed = concave_hull(in_range, options);
   require_no_fault(input, check_polygon(in_range, indexed), "polygons of clear limits");
+  check_without_interior(input, in_range, options);
   const MultiPolygon shape = to_coordinates(indexed, in_range);
   require(input, shape.size() == expected.polygons, "clear limits: as many polygons as components");
   require(input, hole_count(shape) == expected.holes, "clear limits: as many holes as Euler's formula says");
@@ -204,7 +215,9 @@ void check_everything(const Input& input) {
   require_no_fault(input, check_triangulation(in_range, *triangulation), "triangulation");
   check_convex_hull(input, in_range);
   check_clear_limits(input, in_range, *triangulation);
+  check_without_interior(input, in_range, testing::kConvexHull);
   if (!shape) return;
+  check_without_interior(input, input.points, input.options);
   require_no_fault(input, check_polygon(input.points, *shape), "polygons");
   check_reuse(input, *shape);
   check_scaled(input, *shape, in_range, exponent);

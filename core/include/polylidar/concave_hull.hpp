@@ -69,6 +69,10 @@ struct Options {
 /// A multipolygon whose vertices are the caller's points, by index: three flat arrays. Every polygon is valid
 /// in the sense of OGC 06-103r4; shells run counter-clockwise, holes clockwise; the first vertex of a ring is
 /// not repeated.
+///
+/// A ring starts at its vertex of the lowest index. Polygons come in the order of their shells' first
+/// vertices, the holes of a polygon in that of theirs; where two start at one vertex, their second vertices
+/// decide. One shape therefore has one way to be listed.
 struct IndexedMultiPolygon {
   /// Indices into the caller's points, ring after ring.
   std::vector<std::uint32_t> vertices;
@@ -112,9 +116,35 @@ struct LabelledHull {
 std::vector<LabelledHull> concave_hulls(std::span<const Point> points, std::span<const std::int64_t> labels,
                                         const Options& options = {});
 
+/// How a shape was extracted. The result does not depend on it; the time does.
+enum class Way : std::uint8_t {
+  kInteriorLeftOut,  ///< only what is near the outline was triangulated
+  kWhole,      ///< all points were triangulated: asked for, or the limit is chosen from the triangulation
+  kFewPoints,  ///< all points were: they are too few to gain by less
+  kExtremeCoordinates,  ///< all points were: their coordinates had to be scaled
+  kTooSparse,           ///< all points were: the limit is too small for their distances
+  kMuchOutline,         ///< all points were: most of them are near an outline
+  kClosePoints,         ///< all points were: two may be so close that the rounding of circumradii decides
+  kRoundingDecides,     ///< all points were: the rounding of a triangle's size decides whether it is kept
+};
+
+/// What an extraction did.
+struct Statistics {
+  Way way = Way::kWhole;                ///< how
+  std::size_t points = 0;               ///< that were given
+  std::size_t uncertain_points = 0;     ///< that may be on the outline; `points` where all were triangulated
+  std::size_t triangulated_points = 0;  ///< those and their neighbours; `points` where all were triangulated
+};
+
 /// concave_hull() with memory that is kept between calls, for callers that extract again and again. Not for
-/// use from several threads at once. `extract` is the three steps in order; they can be called one by one to
-/// be timed.
+/// use from several threads at once. `extract` gives what the three steps give in order; they can be called
+/// one by one to be timed.
+///
+/// `extract` leaves the interior out where it can (statistics() says whether): it triangulates the points
+/// near the outline only. `triangulate` always triangulates all points, and what needs all triangles after an
+/// `extract` that left some out triangulates all points then: extract_regions() and count_triangles(). Until
+/// the next `extract` or `triangulate` the points given to `extract` must therefore stay where they are if
+/// one of these two is called.
 ///
 /// Points and options are checked before anything is computed: std::invalid_argument leaves an extractor as
 /// it was before the call. After any other exception (no memory, no thread) the next call must be extract or
@@ -152,8 +182,11 @@ class Extractor {
   /// After triangulate: whether there is a triangle: three distinct points that are not on a line. O(n) when
   /// there is none.
   bool has_triangles() const;
-  /// After extract_polygons: how many triangles each of its polygons is made of, in its order. O(n).
+  /// After extract_polygons: how many triangles each of its polygons is made of, in its order. O(n), but
+  /// O(n log n) after an extract() that left the interior out, as all points are triangulated for it.
   std::vector<std::size_t> count_triangles() const;
+  /// After extract, or triangulate: how it was done.
+  const Statistics& statistics() const;
 
  private:
   struct State;

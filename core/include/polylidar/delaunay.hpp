@@ -27,8 +27,8 @@ struct Triangulation {
 
 /// The Delaunay triangulation of `points` with exact predicates. Of equal points only the lowest index
 /// appears; with fewer than 3 distinct points, or all on a line, there are no triangles. Where more than 3
-/// points lie on an empty circle any triangulation of them is right, and one is chosen deterministically.
-/// Throws as concave_hull does. O(n log n).
+/// points lie on an empty circle, their triangles all meet in the least of them by x, then y: which triangles
+/// there are depends on the points alone. Throws as concave_hull does. O(n log n).
 Triangulation delaunay(std::span<const Point> points);
 
 }  // namespace polylidar

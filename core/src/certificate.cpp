@@ -1,0 +1,339 @@
+#include "certificate.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <cstddef>
+#include <utility>
+#include <vector>
+
+#include "vector.hpp"
+
+#if defined(__x86_64__) && defined(__GNUC__)
+#define POLYLIDAR_X86_KERNELS
+// What makes a compiler use all of the 512 bits.
+#ifdef __clang__
+#define POLYLIDAR_AVX512 [[gnu::target("avx512f"), clang::min_vector_width(512)]]
+#else
+#define POLYLIDAR_AVX512 [[gnu::target("avx512f,prefer-vector-width=512")]]
+#endif
+#endif
+
+namespace polylidar::detail {
+
+namespace {
+
+using Word = Bitmap::Word;
+
+constexpr double kExtra = 0x1p-20;
+
+/// All differences q - p between the points of two boxes.
+struct Differences {
+  double min_x;
+  double max_x;
+  double min_y;
+  double max_y;
+};
+
+/// Between a cell and p's, from which it is `column` and `row` cells away.
+constexpr Differences differences(int column, int row) {
+  constexpr double kSlack = 2 * Grid::kSlack;
+  return {column - 1 - kSlack, column + 1 + kSlack, row - 1 - kSlack, row + 1 + kSlack};
+}
+
+/// (1) of the header with room to spare, at one corner and one end.
+constexpr bool is_inside(double dx, double dy, const Vector& u) {
+  return dx * dx + dy * dy + kExtra < 2 * kRadius * (dx * u.x + dy * u.y);
+}
+
+/// Whether (1) holds for all `d` with the direction u.
+constexpr bool is_inside(const Differences& d, const Vector& u) {
+  return is_inside(d.min_x, d.min_y, u) && is_inside(d.min_x, d.max_y, u) && is_inside(d.max_x, d.min_y, u) &&
+         is_inside(d.max_x, d.max_y, u);
+}
+
+constexpr int kCellSectors = 16;
+
+/// Where sector `k` of 16 begins.
+constexpr Vector cell_direction(int k) {
+  constexpr std::array kCosine{1.0, 0.92387953251128674, 0.70710678118654752, 0.38268343236508977, 0.0};
+  const auto step = static_cast<std::size_t>(k % 4);
+  const double c = kCosine[step];
+  const double s = kCosine[4 - step];
+  switch (k / 4 % 4) {
+    case 0:
+      return {c, s};
+    case 1:
+      return {-s, c};
+    case 2:
+      return {-c, -s};
+    default:
+      return {s, -c};
+  }
+}
+
+/// The cells of one row that cover a sector, by columns from p's cell; empty when first > last.
+struct Run {
+  int first = 1;
+  int last = 0;
+};
+constexpr int kRows = 2 * kReach + 1;
+
+/// Sector -> row, from kReach below p's cell on -> the cells that cover it. They are those in a convex set,
+/// so in each row they follow one another.
+constexpr auto make_runs() {
+  std::array<std::array<Run, kRows>, kCellSectors> runs{};
+  for (int s = 0; s < kCellSectors; ++s) {
+    for (int row = -kReach; row <= kReach; ++row) {
+      Run run;
+      for (int column = -kReach; column <= kReach; ++column) {
+        const Differences d = differences(column, row);
+        if (!is_inside(d, cell_direction(s)) || !is_inside(d, cell_direction(s + 1))) continue;
+        if (run.first > run.last) run.first = column;
+        run.last = column;
+      }
+      runs[static_cast<std::size_t>(s)][static_cast<std::size_t>(row + kReach)] = run;
+    }
+  }
+  return runs;
+}
+constexpr auto kRuns = make_runs();
+
+// A row of cells is cut into strips of 32 columns, each looked at together with 16 columns on either side:
+// one word a strip, its window. Bit b of a window of level k says whether one of the 2^k cells from b on is
+// occupied.
+constexpr unsigned kStrip = 32;
+constexpr int kSide = 16;
+static_assert(kReach <= kSide);
+constexpr std::size_t kLevels = 4;
+
+/// Of one row: strip by strip the windows of level 0, then those of level 1, and so on.
+using WindowRow = const Word*;
+
+/// Which cells of a strip have an occupied one where kRuns[kSector][kRow] says.
+template <std::size_t kSector, std::size_t kRow>
+[[gnu::always_inline]] inline Word any_in_run(WindowRow row, std::size_t strips, std::size_t strip) {
+  constexpr Run kRun = kRuns[kSector][kRow];
+  if constexpr (kRun.first > kRun.last) {
+    return 0;
+  } else {
+    constexpr unsigned kLength = kRun.last - kRun.first + 1;
+    constexpr unsigned kLevel = std::bit_width(kLength) - 1;
+    static_assert(kLevel < kLevels);
+    const Word window = row[kLevel * strips + strip];
+    const Word any = window >> static_cast<unsigned>(kSide + kRun.first);
+    if constexpr (std::has_single_bit(kLength)) return any;
+    return any | window >> static_cast<unsigned>(kSide + kRun.last + 1 - (1 << kLevel));
+  }
+}
+
+/// Takes from `certified` the cells of strips [begin, end) for which the sector is not covered.
+template <std::size_t kSector, std::size_t... kRow>
+[[gnu::always_inline]] inline void check_sector(const WindowRow* rows, std::size_t strips, std::size_t begin,
+                                                std::size_t end, Word* __restrict__ certified,
+                                                std::index_sequence<kRow...> /*rows*/) {
+  for (std::size_t strip = begin; strip < end; ++strip) {
+    certified[strip] &= (any_in_run<kSector, kRow>(rows[kRow], strips, strip) | ...);
+  }
+}
+
+template <std::size_t... kSector>
+[[gnu::always_inline]] inline void check_sectors(const WindowRow* rows, std::size_t strips, std::size_t begin,
+                                                 std::size_t end, Word* certified,
+                                                 std::index_sequence<kSector...> /*sectors*/) {
+  (check_sector<kSector>(rows, strips, begin, end, certified, std::make_index_sequence<kRows>()), ...);
+}
+
+/// Whether for every sector a cell that covers it is in `cells`, row by row.
+template <std::size_t... kRow>
+[[gnu::always_inline]] inline bool check_point(const PointCertificate::Row* rows, const std::uint32_t* cells,
+                                               std::index_sequence<kRow...> /*rows*/) {
+  std::uint32_t uncovered = 0;
+  for (std::size_t s = 0; s < PointCertificate::kSectors; ++s) {
+    uncovered += ((cells[kRow] & rows[kRow][s]) | ...) == 0 ? 1U : 0U;
+  }
+  return uncovered == 0;
+}
+
+/// The two loops that the time goes into.
+struct Loops {
+  void (*check_cells)(const WindowRow* rows, std::size_t strips, std::size_t begin, std::size_t end,
+                      Word* certified);
+  bool (*check_point)(const PointCertificate::Row* rows, const std::uint32_t* cells);
+};
+
+// The same code three times, for what the compiler makes of it with wider registers.
+void check_cells_portably(const WindowRow* rows, std::size_t strips, std::size_t begin, std::size_t end,
+                          Word* certified) {
+  check_sectors(rows, strips, begin, end, certified, std::make_index_sequence<kCellSectors>());
+}
+bool check_point_portably(const PointCertificate::Row* rows, const std::uint32_t* cells) {
+  return check_point(rows, cells, std::make_index_sequence<PointCertificate::kRows>());
+}
+#ifdef POLYLIDAR_X86_KERNELS
+[[gnu::target("avx2")]] void check_cells_with_avx2(const WindowRow* rows, std::size_t strips,
+                                                   std::size_t begin, std::size_t end, Word* certified) {
+  check_sectors(rows, strips, begin, end, certified, std::make_index_sequence<kCellSectors>());
+}
+[[gnu::target("avx2")]] bool check_point_with_avx2(const PointCertificate::Row* rows,
+                                                   const std::uint32_t* cells) {
+  return check_point(rows, cells, std::make_index_sequence<PointCertificate::kRows>());
+}
+POLYLIDAR_AVX512 void check_cells_with_avx512(const WindowRow* rows, std::size_t strips, std::size_t begin,
+                                              std::size_t end, Word* certified) {
+  check_sectors(rows, strips, begin, end, certified, std::make_index_sequence<kCellSectors>());
+}
+POLYLIDAR_AVX512 bool check_point_with_avx512(const PointCertificate::Row* rows, const std::uint32_t* cells) {
+  return check_point(rows, cells, std::make_index_sequence<PointCertificate::kRows>());
+}
+#endif
+
+Loops loops_of(Kernel kernel) {
+#ifdef POLYLIDAR_X86_KERNELS
+  if (kernel == Kernel::kAvx512) return {&check_cells_with_avx512, &check_point_with_avx512};
+  if (kernel == Kernel::kAvx2) return {&check_cells_with_avx2, &check_point_with_avx2};
+#endif
+  static_cast<void>(kernel);
+  return {&check_cells_portably, &check_point_portably};
+}
+
+/// Fills a WindowRow from a row of the bitmap. Column 0 is bit 64 of that.
+void fill_windows(const Word* row, std::size_t strips, Word* windows) {
+  for (std::size_t strip = 0; strip < strips; ++strip) {
+    const Word* const word = row + 1 + strip / 2;
+    windows[strip] = strip % 2 == 0 ? word[-1] >> 48U | word[0] << 16U : word[0] >> 16U | word[1] << 48U;
+  }
+  for (std::size_t i = 0; i < strips; ++i) {
+    windows[strips + i] = windows[i] | windows[i] >> 1U;
+    windows[2 * strips + i] = windows[strips + i] | windows[strips + i] >> 2U;
+    windows[3 * strips + i] = windows[2 * strips + i] | windows[2 * strips + i] >> 4U;
+  }
+}
+
+}  // namespace
+
+bool is_supported(Kernel kernel) {
+#ifdef POLYLIDAR_X86_KERNELS
+  if (kernel == Kernel::kAvx512) return __builtin_cpu_supports("avx512f") != 0;
+  if (kernel == Kernel::kAvx2) return __builtin_cpu_supports("avx2") != 0;
+#endif
+  return kernel == Kernel::kPortable;
+}
+
+Kernel best_kernel() {
+  static const Kernel best = is_supported(Kernel::kAvx512) ? Kernel::kAvx512
+                             : is_supported(Kernel::kAvx2) ? Kernel::kAvx2
+                                                           : Kernel::kPortable;
+  return best;
+}
+
+void find_uncertain_cells(const Grid& grid, const Bitmap& occupied, Grid::Cell begin, Grid::Cell end,
+                          Bitmap& uncertain, Kernel kernel) {
+  const Loops loops = loops_of(kernel);
+  const std::size_t strips = (grid.columns() + kStrip - 1) / kStrip;
+  // The windows of the last kRows rows, and those that are certified in the row in the middle.
+  std::vector<Word> memory((kLevels * kRows + 1) * strips);
+  Word* const certified = &memory[kLevels * kRows * strips];
+  std::array<Word*, kRows> rows;
+  for (std::size_t r = 0; r < kRows; ++r) rows[r] = &memory[r * kLevels * strips];
+
+  const Word* next = occupied.words() + grid.first_word(begin) - std::size_t{grid.row_words()} * kReach;
+  for (std::size_t r = 0; r + 1 < kRows; ++r, next += grid.row_words())
+    fill_windows(next, strips, rows[r + 1]);
+  for (Grid::Cell row = begin; row < end; ++row, next += grid.row_words()) {
+    std::rotate(rows.begin(), rows.begin() + 1, rows.end());
+    fill_windows(next, strips, rows.back());
+
+    std::size_t first = strips;
+    std::size_t last = 0;
+    for (std::size_t strip = 0; strip < strips; ++strip) {
+      certified[strip] = rows[kReach][strip] >> static_cast<unsigned>(kSide) & 0xFFFFFFFFU;
+      if (certified[strip] == 0) continue;
+      first = std::min(first, strip);
+      last = strip + 1;
+    }
+    if (first >= last) continue;
+    loops.check_cells(rows.data(), strips, first, last, certified);
+    const std::size_t word = grid.first_word(row) + 1;
+    for (std::size_t strip = first; strip < last; ++strip) {
+      uncertain.words()[word + strip / 2] |= certified[strip] << (strip % 2 * kStrip);
+    }
+    // What is marked so far is certified; what is occupied and not certified is uncertain.
+    for (std::size_t w = word + first / 2; w <= word + (last - 1) / 2; ++w) {
+      uncertain.words()[w] = occupied.words()[w] & ~uncertain.words()[w];
+    }
+  }
+}
+
+PointCertificate::PointCertificate() {
+  using Sectors = std::uint64_t;  // bit s: sector s, or direction s, where it begins
+  std::array<Vector, kSectors> direction;
+  for (std::size_t s = 0; s < kSectors; ++s) {
+    const double angle = static_cast<double>(s) * (6.283185307179586 / kSectors);
+    direction[s] = {std::cos(angle), std::sin(angle)};
+  }
+  // Corners of the boxes of all d lie on a lattice of quarters. (kSlack, which moves them, changes (1) by
+  // less than 2^-22, so that kExtra covers it.) Turning a corner by 90 degrees turns its directions.
+  constexpr int kSteps = static_cast<int>(kQuarters);  // of a column
+  constexpr int kFarthest = 2 * kRadius * kSteps;
+  constexpr std::size_t kCorners = 2 * kFarthest + 1;
+  std::vector<Sectors> inside(kCorners * kCorners);  // (1) holds with these directions
+  const auto inside_at = [&](int x, int y) -> Sectors& {
+    return inside[static_cast<std::size_t>(y + kFarthest) * kCorners +
+                  static_cast<std::size_t>(x + kFarthest)];
+  };
+  for (int y = 0; y < kFarthest; ++y) {
+    for (int x = 1; x * x + y * y < kFarthest * kFarthest; ++x) {
+      Sectors sectors = 0;
+      for (std::size_t s = 0; s < kSectors; ++s) {
+        sectors |= Sectors{is_inside(1.0 / kSteps * x, 1.0 / kSteps * y, direction[s])} << s;
+      }
+      inside_at(x, y) = sectors;
+      inside_at(-y, x) = std::rotl(sectors, kSectors / 4);
+      inside_at(-x, -y) = std::rotl(sectors, kSectors / 2);
+      inside_at(y, -x) = std::rotr(sectors, kSectors / 4);
+    }
+  }
+  for (int quarter = 0; quarter < kSteps * kSteps; ++quarter) {
+    for (int row = -kReach; row <= kReach; ++row) {
+      for (int column = -kReach; column <= kReach; ++column) {
+        const int x = kSteps * column - quarter % kSteps;
+        const int y = kSteps * row - quarter / kSteps;
+        // From p at the far side of its quarter to q at the near side of its cell, and the other way round.
+        const Sectors both = inside_at(x - 1, y - 1) & inside_at(x - 1, y + kSteps) &
+                             inside_at(x + kSteps, y - 1) & inside_at(x + kSteps, y + kSteps);
+        auto& sectors = covering_[static_cast<std::size_t>(quarter)][static_cast<std::size_t>(row + kReach)];
+        for (Sectors covered = both & std::rotr(both, 1); covered != 0; covered &= covered - 1) {
+          sectors[static_cast<std::size_t>(std::countr_zero(covered))] |=
+              std::uint32_t{1} << static_cast<unsigned>(column + kReach);
+        }
+      }
+    }
+  }
+}
+
+const PointCertificate& PointCertificate::instance() {
+  static const PointCertificate certificate;
+  return certificate;
+}
+
+bool PointCertificate::is_certified(const Point& p, Grid::Cell cell, const Grid& grid, const Bitmap& occupied,
+                                    Kernel kernel) const {
+  const auto x = static_cast<std::size_t>(grid.column(p) * kQuarters) % kQuarters;
+  const auto y = static_cast<std::size_t>(grid.row(p) * kQuarters) % kQuarters;
+  return is_certified_in(y * kQuarters + x, cell, grid, occupied, kernel);
+}
+
+bool PointCertificate::is_certified_in(std::size_t quarter, Grid::Cell cell, const Grid& grid,
+                                       const Bitmap& occupied, Kernel kernel) const {
+  const Grid::Cell row_bits = grid.row_words() * Grid::kWordBits;
+  std::array<std::uint32_t, kRows> cells;
+  Grid::Cell first = cell - kReach - kReach * row_bits;
+  for (std::uint32_t& row : cells) {
+    row = static_cast<std::uint32_t>(occupied.window(first));  // of which the masks take kRows bits
+    first += row_bits;
+  }
+  return loops_of(kernel).check_point(covering_[quarter].data(), cells.data());
+}
+
+}  // namespace polylidar::detail

@@ -1,0 +1,128 @@
+// The concave hull without the triangulation of the interior: which points are enough.
+//
+// core/INTERIOR.md has the idea, the proof and what it costs.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <deque>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "boundary.hpp"
+#include "certificate.hpp"
+#include "coordinate_range.hpp"
+#include "delaunay_builder.hpp"
+#include "occupancy.hpp"
+#include "polylidar/concave_hull.hpp"
+#include "region.hpp"
+#include "scratch.hpp"
+#include "thread_pool.hpp"
+
+namespace polylidar::detail {
+
+/// When leaving the interior out is tried, and when it is given up. The defaults are where it pays; tests set
+/// others, so that every input takes it.
+struct InteriorGuard {
+  std::size_t least_points = 4096;
+  /// Of the grid, for each point: beyond, most cells near a point are empty, or most of the box is.
+  double most_cells_a_point = 46;
+  /// Share of the points that are uncertain, as far as some hundred tell that are looked at before the
+  /// others.
+  double most_uncertain = 0.1;
+  /// Share of the points that would have to be triangulated.
+  double most_triangulated = 0.5;
+};
+
+/// The radius r below which every Delaunay triangle passes the filter, in exact arithmetic: of the limits the
+/// one that allows the least circumradius. A triangle's edges are chords of its circle, and no triangle in a
+/// circle of radius r has a greater perimeter than 3 sqrt(3) r. Infinite without limits.
+double least_dropped_radius(const Limits& limits);
+
+/// The points that decide on the shape, keeping its memory between calls.
+///
+/// With the points P and a radius r as in least_dropped_radius, all points are *uncertain* but those that are
+/// certified (certificate.hpp) for a radius a little below r. The part is every point within 2 r of an
+/// uncertain one. Its Delaunay triangulation has at the uncertain points the triangles of the whole one, and
+/// the filter drops no triangle of the whole one that has a corner that is certain.
+class InteriorPart {
+ public:
+  /// Chooses the part; returns why not where it does not pay, or where the claim cannot be made. `range` is
+  /// that of `points`.
+  std::optional<Way> choose(std::span<const Point> points, const CoordinateRange& range, const Limits& limits,
+                            const InteriorGuard& guard, ThreadPool& pool);
+
+  /// After choose: the part, in the order of the caller's points, all copies of a point among them.
+  std::span<const Point> points() const { return points_; }
+  /// Point of the part -> the caller's.
+  std::span<const std::uint32_t> caller_index() const { return caller_index_; }
+  /// Point of the part -> whether it is uncertain.
+  std::span<const std::uint8_t> is_uncertain() const { return is_uncertain_; }
+  std::size_t uncertain_count() const { return uncertain_.size(); }
+
+ private:
+  double choose_grid(std::span<const Point> points, const Box& box, double radius,
+                     const InteriorGuard& guard);
+  void fill_cells(std::span<const Point> points, bool with_shared, ThreadPool& pool);
+  double share_of_uncertain(std::span<const Point> points) const;
+  double share_of_part(std::span<const Point> points) const;
+  void find_uncertain_cells(ThreadPool& pool);
+  void find_uncertain_points(std::span<const Point> points, ThreadPool& pool);
+  void mark_reach();
+  void gather(std::span<const Point> points, ThreadPool& pool);
+  Bitmap& occupied() { return fills_.front().occupied; }
+  const Bitmap& occupied() const { return fills_.front().occupied; }
+  Bitmap& shared() { return fills_.front().shared; }
+
+  struct Fill {
+    Bitmap occupied;
+    Bitmap shared;  ///< cells with more than one point, where that is asked for
+  };
+  struct Chunk {
+    std::vector<std::uint32_t> uncertain;
+    std::vector<std::uint32_t> reached;
+  };
+
+  Grid grid_;
+  Scratch<Grid::Cell> cells_;  ///< point -> its cell
+  std::deque<Fill> fills_;     ///< of each thread; at last the first is that of all
+  std::vector<Chunk> chunks_;  ///< what was found in each chunk of the points
+  Bitmap uncertain_cells_;
+  Bitmap reached_;  ///< cells of the part
+  ClosePairs close_pairs_;
+  std::vector<std::uint32_t> uncertain_;  ///< ascending
+  std::vector<Point> points_;
+  std::vector<std::uint32_t> caller_index_;
+  std::vector<std::uint8_t> is_uncertain_;
+};
+
+/// The steps after the choice of the part, and what they work with.
+struct Steps {
+  ThreadPool& pool;
+  DelaunayBuilder& builder;
+  RegionFilter& filter;
+  std::vector<Mesh::Index>& boundary;
+  BoundaryTracer& tracer;
+};
+
+/// From points to the shape by way of the part.
+class InteriorPath {
+ public:
+  /// Puts into `shape` what the whole way gives for these points and limits, and leaves the part's mesh in
+  /// `steps`. Where statistics say another way than kInteriorLeftOut, `shape` is as it was and that way is to
+  /// be gone. There is at least one point; `range` is that of all.
+  Statistics extract(std::span<const Point> points, const CoordinateRange& range, const Limits& limits,
+                     bool fill_single, const Steps& steps, IndexedMultiPolygon& shape,
+                     const InteriorGuard& guard = {});
+
+  /// After it left the interior out: vertex of the mesh -> the caller's point.
+  const std::uint32_t* caller_index() const { return caller_index_.data(); }
+
+ private:
+  InteriorPart part_;
+  std::vector<std::uint8_t> is_tested_;  ///< vertex of the mesh -> whether it is uncertain
+  std::vector<std::uint32_t> caller_index_;
+};
+
+}  // namespace polylidar::detail

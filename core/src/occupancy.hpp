@@ -1,0 +1,131 @@
+// Which cells of a square grid hold points: what the certificate looks at instead of the points.
+#pragma once
+
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "polylidar/geometry.hpp"
+#include "scratch.hpp"
+
+namespace polylidar::detail {
+
+/// A square grid over a box, with a margin of empty cells all round. A cell is named by the place of its bit
+/// in a bitmap whose rows are whole words.
+///
+/// The coordinate of a point in cells is u = (x - minimum) * cells_per_length. Its computed value u' is off
+/// by at most u 2^-52, less than kSlack: a point that is put into column c lies, in exact arithmetic with the
+/// very double cells_per_length, between c - kSlack and c + 1 + kSlack. The same holds for the quarters of a
+/// cell and for rows.
+class Grid {
+ public:
+  using Cell = std::uint32_t;
+  static constexpr Cell kWordBits = 64;
+  /// Rows above and below, and at most so many columns on either side, that may be looked at beyond the box.
+  static constexpr Cell kMargin = 13;
+  static constexpr double kSlack = 0x1p-30;
+  static constexpr double kMostColumns = 0x1p20;  ///< and rows
+  static constexpr double kMostCells = 0x1p31;    ///< with the margin
+
+  Grid() = default;
+  /// Over a box of finite extent; for grids that fit() says yes to.
+  Grid(const Box& box, double cells_per_length)
+      : minimum_(box.min),
+        cells_per_length_(cells_per_length),
+        columns_(static_cast<Cell>((box.max.x - box.min.x) * cells_per_length) + 1),
+        rows_(static_cast<Cell>((box.max.y - box.min.y) * cells_per_length) + 1),
+        row_words_((columns_ + kWordBits - 1) / kWordBits + 2) {}
+
+  /// How many cells a grid has, without the margin; infinite where it does not fit into the numbers used
+  /// here.
+  static double cell_count(const Box& box, double cells_per_length) {
+    const double columns = std::floor((box.max.x - box.min.x) * cells_per_length) + 1;
+    const double rows = std::floor((box.max.y - box.min.y) * cells_per_length) + 1;
+    const double with_margin = (columns + 3 * kWordBits) * (rows + 2 * kMargin);
+    const bool fits = columns <= kMostColumns && rows <= kMostColumns && with_margin <= kMostCells;
+    return fits ? columns * rows : HUGE_VAL;
+  }
+
+  Cell columns() const { return columns_; }
+  Cell rows() const { return rows_; }
+  Cell row_words() const { return row_words_; }
+  std::size_t word_count() const { return std::size_t{row_words_} * (rows_ + 2 * kMargin); }
+  /// Where in a bitmap row `row` of the box starts, in words; its first word is margin.
+  std::size_t first_word(Cell row) const { return std::size_t{row_words_} * (row + kMargin); }
+
+  double column(const Point& p) const { return (p.x - minimum_.x) * cells_per_length_; }
+  double row(const Point& p) const { return (p.y - minimum_.y) * cells_per_length_; }
+  Cell cell(const Point& p) const {
+    const auto row = static_cast<Cell>(static_cast<std::int32_t>(this->row(p)));
+    const auto column = static_cast<Cell>(static_cast<std::int32_t>(this->column(p)));
+    return (row + kMargin) * row_words_ * kWordBits + kWordBits + column;
+  }
+
+ private:
+  Point minimum_;
+  double cells_per_length_ = 0;
+  Cell columns_ = 0;
+  Cell rows_ = 0;
+  Cell row_words_ = 0;
+};
+
+/// One bit a cell, memory kept between calls.
+class Bitmap {
+ public:
+  using Word = std::uint64_t;
+
+  void clear(std::size_t words);
+  bool test(Grid::Cell cell) const {
+    return ((words_[cell / Grid::kWordBits] >> (cell % Grid::kWordBits)) & 1U) != 0;
+  }
+  void set(Grid::Cell cell) { words_[cell / Grid::kWordBits] |= Word{1} << (cell % Grid::kWordBits); }
+  /// Sets the `count` < 64 bits from `first` on.
+  void set_run(Grid::Cell first, unsigned count) {
+    const Word bits = (Word{1} << count) - 1;
+    const unsigned shift = first % Grid::kWordBits;
+    words_[first / Grid::kWordBits] |= bits << shift;
+    if (shift + count > Grid::kWordBits)
+      words_[first / Grid::kWordBits + 1] |= bits >> (Grid::kWordBits - shift);
+  }
+  /// The 64 bits from `first` on.
+  Word window(Grid::Cell first) const {
+    const Word* word = words_ + first / Grid::kWordBits;
+    const unsigned shift = first % Grid::kWordBits;
+    return word[0] >> shift | word[1] << 1U << (Grid::kWordBits - 1 - shift);
+  }
+  Word* words() { return words_; }
+  const Word* words() const { return words_; }
+
+ private:
+  Scratch<Word> storage_;
+  Word* words_ = nullptr;
+};
+
+/// Whether two different points may lie within `distance` of each other in x and in y, where `distance` times
+/// cells_per_length is below half of Grid::kSlack. `cells`: point -> cell; `shared`: the cells into which
+/// more than one point fell. May say yes where more than some dozen points share a cell or lie on the borders
+/// of cells.
+class ClosePairs {
+ public:
+  bool may_exist(std::span<const Point> points, const Grid& grid, const Grid::Cell* cells,
+                 const Bitmap& shared, double distance);
+
+ private:
+  /// A point in a shared cell, and the one before it in the same cell.
+  struct Link {
+    std::uint32_t point;
+    std::uint32_t before;  ///< in links_, or kNone
+    std::uint16_t x;       ///< where in the cell, in 2^-16 of its side
+    std::uint16_t y;
+  };
+
+  std::vector<std::uint32_t> rank_;  ///< word -> how many cells are shared before it
+  std::vector<std::uint32_t> last_;  ///< shared cell -> the last of its points so far in links_, or kNone
+  std::vector<Link> links_;          ///< different points in shared cells
+  std::vector<std::uint32_t>
+      on_borders_;  ///< points so near a cell's border that a close one may be beyond it
+};
+
+}  // namespace polylidar::detail

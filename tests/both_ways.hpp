@@ -1,0 +1,46 @@
+// Both ways to a shape: by all triangles, and without those of the interior.
+#pragma once
+
+#include <vector>
+
+#include "core/src/interior.hpp"
+#include "polylidar/concave_hull.hpp"
+
+namespace polylidar::testing {
+
+// Takes the way without the interior wherever it can be gone, however little it pays.
+constexpr detail::InteriorGuard kAlways{0, 1e5, 1, 1};
+
+// Both ways, with memory that is kept.
+class BothWays {
+ public:
+  const IndexedMultiPolygon& whole(const std::vector<Point>& points, const Options& options) {
+    whole_.triangulate(points, options.threads);
+    whole_.extract_regions(options);
+    return whole_.extract_polygons();
+  }
+
+  // Of at least one point. What the way without the interior says; its shape is in part().
+  Statistics go(const std::vector<Point>& points, const Options& options,
+                const detail::InteriorGuard& guard = kAlways) {
+    pool_.use(options.threads);
+    const Limits limits{options.alpha.value_or(kNoLimit), options.max_edge_length.value_or(kNoLimit),
+                        options.max_perimeter.value_or(kNoLimit)};
+    return path_.extract(points, detail::measure_coordinates(points, pool_), limits,
+                         options.fill_single_triangles.value_or(false),
+                         {pool_, builder_, filter_, boundary_, tracer_}, part_, guard);
+  }
+  const IndexedMultiPolygon& part() const { return part_; }
+
+ private:
+  Extractor whole_;
+  detail::ThreadPool pool_;
+  detail::DelaunayBuilder builder_;
+  detail::RegionFilter filter_;
+  std::vector<detail::Mesh::Index> boundary_;
+  detail::BoundaryTracer tracer_;
+  detail::InteriorPath path_;
+  IndexedMultiPolygon part_;
+};
+
+}  // namespace polylidar::testing

@@ -1,0 +1,296 @@
+// What is claimed of certified cells and points (core/src/certificate.hpp), against the definition.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "core/src/certificate.hpp"
+#include "core/src/occupancy.hpp"
+#include "tests/point_sets.hpp"
+
+namespace polylidar::detail {
+namespace {
+
+using testing::Random;
+
+constexpr double kTurn = 6.283185307179586;
+
+// Cells of side 1; `rows` says which are occupied.
+struct Cells {
+  explicit Cells(std::size_t size)
+      : grid({{0, 0}, {static_cast<double>(size) - 0.5, static_cast<double>(size) - 0.5}}, 1),
+        rows(size, std::vector<bool>(size)) {
+    occupied.clear(grid.word_count());
+    uncertain.clear(grid.word_count());
+  }
+
+  // Each occupied by chance.
+  Cells(std::size_t size, std::uint64_t seed, double density) : Cells(size) {
+    Random random(seed);
+    for (std::size_t row = 0; row < size; ++row) {
+      for (std::size_t column = 0; column < size; ++column) {
+        if (random.unit() < density) occupy(column, row);
+      }
+    }
+  }
+
+  void occupy(std::size_t column, std::size_t row) {
+    rows[row][column] = true;
+    occupied.set(cell(column, row));
+  }
+  Grid::Cell cell(std::size_t column, std::size_t row) const {
+    return grid.cell({static_cast<double>(column) + 0.5, static_cast<double>(row) + 0.5});
+  }
+
+  Grid grid;
+  std::vector<std::vector<bool>> rows;
+  Bitmap occupied;
+  Bitmap uncertain;
+};
+
+// The part of a cell in which a point is known to lie, by its least corner.
+struct Part {
+  double x;
+  double y;
+  double side;
+};
+
+template <class Found>
+bool any_occupied(const Cells& cells, const Part& part, const Found& found) {
+  for (std::size_t row = 0; row < cells.rows.size(); ++row) {
+    for (std::size_t column = 0; column < cells.rows.size(); ++column) {
+      const auto x = static_cast<double>(column);
+      const auto y = static_cast<double>(row);
+      if (std::hypot(x - part.x, y - part.y) > 2 * kRadius + 2 || !cells.rows[row][column]) continue;
+      if (found(Point{x, y})) return true;
+    }
+  }
+  return false;
+}
+
+// Whether all of the cell at `q` lies inside the disk that touches p in direction `angle`, for every p of the
+// part: as far as their corners, moved outwards by `slack`, tell.
+bool is_inside(const Point& q, const Part& part, double angle, double slack) {
+  const double u = std::cos(angle);
+  const double v = std::sin(angle);
+  for (const double px : {part.x - slack, part.x + part.side + slack}) {
+    for (const double py : {part.y - slack, part.y + part.side + slack}) {
+      for (const double qx : {q.x - slack, q.x + 1 + slack}) {
+        for (const double qy : {q.y - slack, q.y + 1 + slack}) {
+          if (std::hypot(qx - px - kRadius * u, qy - py - kRadius * v) >= kRadius) return false;
+        }
+      }
+    }
+  }
+  return true;
+}
+
+// In every one of so many directions some occupied cell is inside: what certified means.
+bool holds(const Cells& cells, const Part& part, int directions) {
+  for (int i = 0; i < directions; ++i) {
+    const double angle = kTurn * i / directions;
+    if (!any_occupied(cells, part, [&](const Point& q) { return is_inside(q, part, angle, Grid::kSlack); })) {
+      return false;
+    }
+  }
+  return true;
+}
+
+// As the certificate decides: for every sector one cell, inside at both ends, and not just touching.
+bool is_covered(const Cells& cells, const Part& part, int sectors) {
+  constexpr double kClear = 1e-7;
+  for (int s = 0; s < sectors; ++s) {
+    if (!any_occupied(cells, part, [&](const Point& q) {
+          return is_inside(q, part, kTurn * s / sectors, kClear) &&
+                 is_inside(q, part, kTurn * (s + 1) / sectors, kClear);
+        })) {
+      return false;
+    }
+  }
+  return true;
+}
+
+TEST(Certificate, OfCellsIsThatOfItsDefinition) {
+  std::size_t certified = 0;
+  std::size_t uncertain = 0;
+  for (std::uint64_t seed = 0; seed < 12; ++seed) {
+    Cells cells(75, seed, 0.12 + 0.02 * static_cast<double>(seed % 6));
+    find_uncertain_cells(cells.grid, cells.occupied, 0, cells.grid.rows(), cells.uncertain);
+    for (std::size_t row = 0; row < cells.rows.size(); row += 6) {
+      for (std::size_t column = 0; column < cells.rows.size(); ++column) {
+        const bool is_uncertain = cells.uncertain.test(cells.cell(column, row));
+        if (!cells.rows[row][column]) {
+          EXPECT_FALSE(is_uncertain);
+          continue;
+        }
+        const Part part{static_cast<double>(column), static_cast<double>(row), 1};
+        ASSERT_EQ(is_uncertain, !is_covered(cells, part, 16)) << seed << ", " << column << ", " << row;
+        (is_uncertain ? uncertain : certified) += 1;
+        if (!is_uncertain && column % 8 == 0) {
+          EXPECT_TRUE(holds(cells, part, 16 * 9));
+        }
+      }
+    }
+  }
+  EXPECT_GT(certified, 300U);
+  EXPECT_GT(uncertain, 300U);
+}
+
+TEST(Certificate, IsTheSameFromEveryKernelAndInBands) {
+  std::size_t kernels = 0;
+  for (const Kernel kernel : {Kernel::kPortable, Kernel::kAvx2, Kernel::kAvx512}) {
+    if (!is_supported(kernel)) continue;
+    ++kernels;
+    for (std::uint64_t seed = 0; seed < 60; ++seed) {
+      SCOPED_TRACE(::testing::Message() << "kernel " << static_cast<int>(kernel) << ", seed " << seed);
+      const std::size_t size = 1 + 13 * seed;
+      Cells cells(size, seed, 0.05 + 0.05 * static_cast<double>(seed % 9));
+      find_uncertain_cells(cells.grid, cells.occupied, 0, cells.grid.rows(), cells.uncertain,
+                           Kernel::kPortable);
+      Bitmap uncertain;
+      uncertain.clear(cells.grid.word_count());
+      const auto middle = static_cast<Grid::Cell>(size / 3);
+      find_uncertain_cells(cells.grid, cells.occupied, middle, cells.grid.rows(), uncertain, kernel);
+      find_uncertain_cells(cells.grid, cells.occupied, 0, middle, uncertain, kernel);
+      EXPECT_TRUE(std::equal(uncertain.words(), uncertain.words() + cells.grid.word_count(),
+                             cells.uncertain.words()));
+    }
+  }
+  EXPECT_GE(kernels, 1U);
+  EXPECT_TRUE(is_supported(best_kernel()));
+}
+
+TEST(Certificate, OfPointsIsThatOfItsDefinition) {
+  const PointCertificate& certificate = PointCertificate::instance();
+  std::size_t certified = 0;
+  std::size_t uncertain = 0;
+  for (std::uint64_t seed = 0; seed < 400; ++seed) {
+    const Cells cells(27, seed, 0.03 + 0.02 * static_cast<double>(seed % 5));
+    Random random(seed + 1000);
+    // In a quarter of the cell in the middle, now and then in its very corner.
+    const double qx = 0.25 * static_cast<double>(random.below(4));
+    const double qy = 0.25 * static_cast<double>(random.below(4));
+    const Point p{13 + qx + 0.25 * random.unit() * static_cast<double>(random.below(2)),
+                  13 + qy + 0.25 * random.unit() * static_cast<double>(random.below(2))};
+    const bool is_certified = certificate.is_certified(p, cells.grid.cell(p), cells.grid, cells.occupied);
+    for (const Kernel kernel : {Kernel::kPortable, Kernel::kAvx2, Kernel::kAvx512}) {
+      if (!is_supported(kernel)) continue;
+      EXPECT_EQ(certificate.is_certified(p, cells.grid.cell(p), cells.grid, cells.occupied, kernel),
+                is_certified);
+    }
+    const Part part{13 + qx, 13 + qy, 0.25};
+    ASSERT_EQ(is_certified, is_covered(cells, part, 64)) << seed;
+    (is_certified ? certified : uncertain) += 1;
+    if (is_certified) {
+      EXPECT_TRUE(holds(cells, part, 64 * 7)) << seed;
+    }
+  }
+  EXPECT_GT(certified, 50U);
+  EXPECT_GT(uncertain, 50U);
+}
+
+// Every single cell counts: a certified cell with only just enough about it is uncertain without any of them.
+TEST(Certificate, FailsWithoutTheLastCellOfASector) {
+  const Part part{13, 13, 1};
+  for (int s = 0; s < 16; ++s) {
+    Cells cells(27);
+    for (std::size_t row = 0; row < 27; ++row) {
+      for (std::size_t column = 0; column < 27; ++column) {
+        const Point q{static_cast<double>(column), static_cast<double>(row)};
+        if (!is_inside(q, part, kTurn * s / 16, 1e-7) || !is_inside(q, part, kTurn * (s + 1) / 16, 1e-7)) {
+          cells.occupy(column, row);
+        }
+      }
+    }
+    find_uncertain_cells(cells.grid, cells.occupied, 0, cells.grid.rows(), cells.uncertain);
+    EXPECT_TRUE(cells.uncertain.test(cells.cell(13, 13))) << s;
+  }
+  Cells cells(27, 1, 1);
+  find_uncertain_cells(cells.grid, cells.occupied, 0, cells.grid.rows(), cells.uncertain);
+  EXPECT_FALSE(cells.uncertain.test(cells.cell(13, 13)));
+  // As wide as a disk reaches, nothing is certain at the side.
+  EXPECT_TRUE(cells.uncertain.test(cells.cell(0, 13)));
+}
+
+TEST(Grid, PutsPointsIntoTheirCells) {
+  Random random(1);
+  for (int i = 0; i < 200; ++i) {
+    const double size = std::ldexp(random.between(0.5, 1), static_cast<int>(random.integer(100)));
+    const Point origin{size * random.between(-1e6, 1e6), size * random.between(-1e6, 1e6)};
+    const Box box{origin, {origin.x + size, origin.y + size * random.unit()}};
+    const double cells_per_length = random.between(1, 2000) / size;
+    const Grid grid(box, cells_per_length);
+    EXPECT_EQ(Grid::cell_count(box, cells_per_length), static_cast<double>(grid.columns()) * grid.rows());
+    for (int k = 0; k < 100; ++k) {
+      Point p{box.min.x + (box.max.x - box.min.x) * random.unit(),
+              box.min.y + (box.max.y - box.min.y) * random.unit()};
+      if (k == 0) p = box.max;
+      if (k == 1) p = box.min;
+      const Grid::Cell cell = grid.cell(p);
+      const Grid::Cell row_bits = grid.row_words() * Grid::kWordBits;
+      const double column = cell % row_bits - 64.0;
+      const double row = cell / row_bits - static_cast<double>(Grid::kMargin);
+      const long double u = (static_cast<long double>(p.x) - box.min.x) * cells_per_length;
+      const long double v = (static_cast<long double>(p.y) - box.min.y) * cells_per_length;
+      EXPECT_GE(u, column - Grid::kSlack);
+      EXPECT_LE(u, column + 1 + Grid::kSlack);
+      EXPECT_GE(v, row - Grid::kSlack);
+      EXPECT_LE(v, row + 1 + Grid::kSlack);
+      EXPECT_LT(column, grid.columns());
+      EXPECT_LT(row, grid.rows());
+    }
+  }
+}
+
+TEST(Grid, HasNoCellsWhereItWouldNotFit) {
+  EXPECT_EQ(Grid::cell_count({{0, 0}, {1, 1}}, HUGE_VAL), HUGE_VAL);
+  EXPECT_EQ(Grid::cell_count({{0, 0}, {0, 1}}, HUGE_VAL), HUGE_VAL);
+  EXPECT_EQ(Grid::cell_count({{0, 0}, {1, 1e-9}}, 2e6), HUGE_VAL);
+  EXPECT_EQ(Grid::cell_count({{0, 0}, {1, 1}}, 2e5), HUGE_VAL);
+  EXPECT_EQ(Grid::cell_count({{0, 0}, {1, 0.5}}, 1000), 1001.0 * 501);
+}
+
+bool pairs_may_exist(const std::vector<Point>& points, double distance) {
+  const Grid grid({{0, 0}, {100, 100}}, 1);
+  Bitmap occupied;
+  Bitmap shared;
+  occupied.clear(grid.word_count());
+  shared.clear(grid.word_count());
+  std::vector<Grid::Cell> cells;
+  for (const Point& p : points) {
+    cells.push_back(grid.cell(p));
+    if (occupied.test(cells.back())) shared.set(cells.back());
+    occupied.set(cells.back());
+  }
+  ClosePairs pairs;
+  return pairs.may_exist(points, grid, cells.data(), shared, distance);
+}
+
+TEST(ClosePairs, AreFoundWhereverTheyLie) {
+  constexpr double kDistance = 0x1p-38;
+  for (std::uint64_t seed = 0; seed < 200; ++seed) {
+    SCOPED_TRACE(seed);
+    Random random(seed);
+    std::vector<Point> points = testing::uniform_points(3000, seed, 100);
+    for (int copies = 0; copies < 50; ++copies) points.push_back(points[0]);
+    EXPECT_FALSE(pairs_may_exist(points, kDistance));
+    // Inside a cell, or on both sides of a border, or of a corner.
+    Point p{1 + 98 * random.unit(), 1 + 98 * random.unit()};
+    if (seed % 3 >= 1) p.x = std::floor(p.x) - kDistance * random.unit();
+    if (seed % 3 >= 2) p.y = std::floor(p.y) - kDistance * random.unit();
+    const double angle = kTurn * random.unit();
+    points.push_back(p);
+    points.push_back({p.x + 0.9 * kDistance * std::cos(angle), p.y + 0.9 * kDistance * std::sin(angle)});
+    if (points.back() == p) continue;
+    EXPECT_TRUE(pairs_may_exist(testing::shuffled(points, seed), kDistance));
+    points.back() = {p.x + 4 * kDistance, p.y};
+    EXPECT_FALSE(pairs_may_exist(testing::shuffled(points, seed), kDistance));
+  }
+}
+
+}  // namespace
+}  // namespace polylidar::detail

@@ -1,0 +1,407 @@
+// The shape without the triangulation of the interior is that of the whole triangulation, ring by ring.
+//
+// HULLBENCH_INTERIOR_CASES=N runs N small and N / 100 large random inputs instead of the share that fits into
+// every test run; 100000 is the full battery.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <cstdlib>
+#include <functional>
+#include <iostream>
+#include <limits>
+#include <map>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "polylidar/concave_hull.hpp"
+#include "polylidar/delaunay.hpp"
+#include "tests/both_ways.hpp"
+#include "tests/hull_oracle.hpp"
+#include "tests/point_sets.hpp"
+
+namespace polylidar {
+namespace {
+
+using testing::BothWays;
+using testing::Random;
+using Points = std::vector<Point>;
+
+struct Sampler {
+  const char* name;
+  std::function<Point(Random&, std::size_t i, std::size_t n)> point;
+};
+
+bool is_in_shape_with_holes(const Point& p) {
+  const double angle = std::atan2(p.y - 0.5, p.x - 0.5);
+  const double distance = std::hypot(p.x - 0.5, p.y - 0.5);
+  if (distance > 0.35 + 0.12 * std::cos(5 * angle)) return false;
+  for (const auto& [x, y, r] : {std::array{0.4, 0.45, 0.08}, {0.65, 0.6, 0.05}, {0.5, 0.7, 0.03}}) {
+    if (std::hypot(p.x - x, p.y - y) < r) return false;
+  }
+  return true;
+}
+
+// Points of [0, 1)^2, so dense or so regular in different ways.
+const std::vector<Sampler>& samplers() {
+  const auto cell = [](std::size_t i, std::size_t n) {
+    const auto columns = static_cast<std::size_t>(std::sqrt(static_cast<double>(n)));
+    return Point{static_cast<double>(i % columns) / static_cast<double>(columns),
+                 static_cast<double>(i / columns) / static_cast<double>(columns)};
+  };
+  static const std::vector<Sampler> all = {
+      {"uniform",
+       [](Random& r, std::size_t, std::size_t) {
+         return Point{r.unit(), r.unit()};
+       }},
+      {"shape with holes",
+       [](Random& r, std::size_t, std::size_t) {
+         for (;;) {
+           const Point p{r.unit(), r.unit()};
+           if (is_in_shape_with_holes(p)) return p;
+         }
+       }},
+      {"jittered lattice",
+       [=](Random& r, std::size_t i, std::size_t n) {
+         const double step = 1 / std::sqrt(static_cast<double>(n));
+         const Point p = cell(i, n);
+         return Point{p.x + step * r.unit(), p.y + step * r.unit()};
+       }},
+      {"lattice", [=](Random&, std::size_t i, std::size_t n) { return cell(i, n); }},
+      {"lattice with gaps",
+       [=](Random& r, std::size_t i, std::size_t n) { return r.below(8) == 0 ? cell(0, n) : cell(i, n); }},
+      {"binary lattice",
+       [](Random& r, std::size_t, std::size_t n) {
+         const auto side = std::size_t{1}
+                           << static_cast<unsigned>(std::ilogb(std::sqrt(static_cast<double>(n))));
+         return Point{static_cast<double>(r.below(side)) / static_cast<double>(side),
+                      static_cast<double>(r.below(side)) / static_cast<double>(side)};
+       }},
+      {"hexagonal lattice",
+       [=](Random&, std::size_t i, std::size_t n) {
+         const auto columns = static_cast<std::size_t>(std::sqrt(static_cast<double>(n)));
+         const double step = 1 / static_cast<double>(columns);
+         const Point p = cell(i, n);
+         return Point{p.x + (i / columns % 2 == 0 ? 0 : step / 2), p.y * 0.8660254037844386};
+       }},
+      {"every point four times",
+       [](Random& r, std::size_t i, std::size_t) {
+         Random own(i / 4 + r.below(2));
+         return Point{own.unit(), own.unit()};
+       }},
+      {"rings",
+       [](Random& r, std::size_t i, std::size_t n) {
+         const auto rings = static_cast<std::size_t>(std::sqrt(static_cast<double>(n) / 6)) + 1;
+         const double ring = static_cast<double>(i % rings + 1) / static_cast<double>(rings);
+         const double angle =
+             6.283185307179586 * static_cast<double>(r.below(4 * rings)) / static_cast<double>(4 * rings);
+         return Point{0.5 + 0.5 * ring * std::cos(angle), 0.5 + 0.5 * ring * std::sin(angle)};
+       }},
+      {"gradient",
+       [](Random& r, std::size_t, std::size_t) {
+         return Point{std::pow(r.unit(), 1.5), r.unit()};
+       }},
+      {"clusters",
+       [](Random& r, std::size_t i, std::size_t) {
+         Random centre(i % 5);
+         return Point{0.8 * centre.unit() + 0.3 * r.unit() * r.unit(), 0.8 * centre.unit() + 0.3 * r.unit()};
+       }},
+      {"close pairs",
+       [](Random& r, std::size_t i, std::size_t) {
+         Random own(i / 2);
+         const Point p{own.unit(), own.unit()};
+         if (i % 2 == 0) return p;
+         const double distance = std::ldexp(1.0, -static_cast<int>(4 + own.below(60)));
+         return Point{p.x + distance * r.unit(), p.y + distance * r.unit()};
+       }},
+      {"centred, with fine coordinates",
+       [](Random& r, std::size_t, std::size_t) {
+         return Point{(r.unit() - 0.5) * std::ldexp(1.0, -static_cast<int>(r.below(3) * r.below(60))),
+                      r.unit() - 0.5};
+       }},
+      {"lines", [](Random& r, std::size_t i, std::size_t) {
+         return Point{static_cast<double>(i % 40) / 40, r.unit()};
+       }}};
+  return all;
+}
+
+Points sample(const Sampler& sampler, std::size_t n, Random& random) {
+  Points points(n);
+  for (std::size_t i = 0; i < n; ++i) points[i] = sampler.point(random, i, n);
+  return testing::shuffled(points, random.below(1U << 30U));
+}
+
+// Limits of all kinds, singly and together, most of them where some triangles are dropped and most are not.
+Options random_options(const Points& points, Random& random) {
+  const Box box = bounding_box(points);
+  const double spacing =
+      std::sqrt((box.max.x - box.min.x) * (box.max.y - box.min.y) / static_cast<double>(points.size()));
+  const auto radius = [&] {
+    const double r = spacing * random.between(0.8, 5);
+    // A round number of spacings hits the triangles of lattices exactly.
+    return random.below(4) == 0 ? spacing * std::sqrt(static_cast<double>(random.below(24) + 1)) / 2 : r;
+  };
+  Options options;
+  const std::size_t kinds = 1 + random.below(7);
+  if ((kinds & 1U) != 0) options.alpha = random.below(8) == 0 ? kNoLimit : radius();
+  if ((kinds & 2U) != 0) options.max_edge_length = random.below(8) == 0 ? kNoLimit : 2 * radius();
+  if ((kinds & 4U) != 0) options.max_perimeter = random.below(8) == 0 ? kNoLimit : 5.2 * radius();
+  if (random.below(3) == 0) options.fill_single_triangles = random.below(2) == 0;
+  return options;
+}
+
+// In units of another size and at another place; exact only in its size.
+void move(Points& points, Random& random) {
+  switch (random.below(4)) {
+    case 0: {
+      const int exponent = static_cast<int>(random.integer(60));
+      for (Point& p : points) p = {std::ldexp(p.x, exponent), std::ldexp(p.y, exponent)};
+      break;
+    }
+    case 1: {
+      const double scale = std::exp(random.between(-20, 20));
+      const Point offset{random.between(-100, 100), random.between(-100, 100)};
+      for (Point& p : points) p = {scale * (p.x + offset.x), scale * (p.y + offset.y)};
+      break;
+    }
+    default:
+      break;
+  }
+}
+
+std::size_t case_count(std::size_t usual) {
+  const char* const wanted = std::getenv("HULLBENCH_INTERIOR_CASES");
+  return wanted == nullptr ? usual : std::stoul(wanted);
+}
+
+// How often which way was gone: a test that always goes the whole way tests nothing.
+using WayCounts = std::map<Way, std::size_t>;
+
+void compare(BothWays& ways, const Points& points, const Options& options, WayCounts& counts) {
+  const Statistics statistics = ways.go(points, options);
+  ++counts[statistics.way];
+  if (statistics.way != Way::kInteriorLeftOut) return;
+  EXPECT_LE(statistics.uncertain_points, statistics.triangulated_points);
+  EXPECT_LE(statistics.triangulated_points, points.size());
+  EXPECT_EQ(ways.part(), ways.whole(points, options)) << testing::describe(options);
+}
+
+void compare_random_inputs(std::size_t cases, std::size_t least, std::size_t most) {
+  BothWays ways;
+  WayCounts counts;
+  for (std::uint64_t seed = 0; seed < cases && !::testing::Test::HasFailure(); ++seed) {
+    Random random(seed);
+    const Sampler& sampler = samplers()[seed % samplers().size()];
+    SCOPED_TRACE(std::string(sampler.name) + ", seed " + std::to_string(seed));
+    const double size =
+        std::exp(random.between(std::log(static_cast<double>(least)), std::log(static_cast<double>(most))));
+    Points points = sample(sampler, static_cast<std::size_t>(size), random);
+    move(points, random);
+    Options options = random_options(points, random);
+    options.threads = std::array{1U, 1U, 1U, 2U, 3U, 8U}[random.below(6)];
+    compare(ways, points, options, counts);
+  }
+  std::string report;
+  for (const auto& [way, count] : counts) {
+    report += " " + std::to_string(static_cast<int>(way)) + ":" + std::to_string(count);
+  }
+  std::cout << "ways" << report << '\n';
+  EXPECT_GT(counts[Way::kInteriorLeftOut], cases / 2);
+}
+
+TEST(InteriorLeftOut, GivesTheShapesOfSmallInputs) {
+  compare_random_inputs(case_count(2500), 10, 2000);
+}
+
+TEST(InteriorLeftOut, GivesTheShapesOfLargeInputs) {
+  compare_random_inputs(std::max<std::size_t>(case_count(1200) / 100, 1), 20'000, 200'000);
+}
+
+TEST(InteriorLeftOut, GivesTheShapesOfNastyPointSets) {
+  BothWays ways;
+  WayCounts counts;
+  Random random(1);
+  std::vector<testing::PointSet> sets = testing::nasty_point_sets();
+  for (testing::NamedCase& named : testing::named_cases())
+    sets.push_back({named.name, std::move(named.points)});
+  for (const testing::PointSet& set : sets) {
+    SCOPED_TRACE(set.name);
+    if (set.points.empty()) continue;
+    for (int i = 0; i < 10; ++i) compare(ways, set.points, random_options(set.points, random), counts);
+  }
+  EXPECT_GT(counts[Way::kInteriorLeftOut], 100U);
+}
+
+// A dense cloud with a round hole, all of whose points but the outermost lie on the hole's circle: the limit
+// decides whether the hole is there, and the certificate's radius lies just below it.
+TEST(InteriorLeftOut, FindsAHoleWhoseRadiusIsTheLimit) {
+  BothWays ways;
+  std::size_t holes = 0;
+  std::size_t none = 0;
+  for (std::uint64_t seed = 0; seed < 40; ++seed) {
+    Random random(seed);
+    const double radius = random.between(0.04, 0.06);
+    const Point centre{random.between(0.3, 0.7), random.between(0.3, 0.7)};
+    Points points;
+    while (points.size() < 3000) {
+      const Point p{random.unit(), random.unit()};
+      if (std::hypot(p.x - centre.x, p.y - centre.y) > radius * 1.001) points.push_back(p);
+    }
+    const Points rim = testing::circle(64, radius, centre);
+    points.insert(points.end(), rim.begin(), rim.end());
+    for (const double share : {1 - 0x1p-6, 1 - 0x1p-8, 1 - 0x1p-9, 1 - 0x1p-30, 1 - 0x1p-50, 1 - 0x1p-53, 1.0,
+                               1 + 0x1p-52, 1 + 0x1p-50, 1 + 0x1p-30, 1 + 0x1p-9, 1 + 0x1p-8, 1 + 0x1p-6}) {
+      SCOPED_TRACE(::testing::Message() << "seed " << seed << ", limit " << share << " radii");
+      const Options options{.alpha = share * radius};
+      const Statistics statistics = ways.go(points, options);
+      const IndexedMultiPolygon& whole = ways.whole(points, options);
+      (whole.ring_ends.size() > 1 ? holes : none) += 1;
+      if (std::abs(share - 1) > 0x1p-40) {
+        EXPECT_EQ(statistics.way, Way::kInteriorLeftOut);
+      }
+      if (statistics.way == Way::kInteriorLeftOut) {
+        EXPECT_EQ(ways.part(), whole);
+      }
+    }
+  }
+  EXPECT_GT(holes, 100U);
+  EXPECT_GT(none, 100U);
+}
+
+double circumradius(const Point& a, const Point& b, const Point& c) {
+  const double cross = (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
+  return std::hypot(a.x - b.x, a.y - b.y) * std::hypot(b.x - c.x, b.y - c.y) *
+         std::hypot(c.x - a.x, c.y - a.y) / (2 * cross);
+}
+
+// A limit that is some triangle's own size up to rounding: the answer depends on the corner where the
+// arithmetic starts, and then the whole way is gone.
+TEST(InteriorLeftOut, LeavesToTheWholeWayWhatRoundingDecides) {
+  BothWays ways;
+  WayCounts counts;
+  for (std::uint64_t seed = 0; seed < 300; ++seed) {
+    SCOPED_TRACE(seed);
+    Random random(seed);
+    const Points points = sample(samplers()[1], 1000, random);
+    const Triangulation triangulation = delaunay(points);
+    const double spacing = 0.6 / std::sqrt(static_cast<double>(points.size()));
+    for (int i = 0; i < 20; ++i) {
+      const std::size_t t = 3 * random.below(triangulation.triangles.size() / 3);
+      const auto corner = [&](std::size_t k) { return points[triangulation.triangles[t + k]]; };
+      const double radius = circumradius(corner(0), corner(1), corner(2));
+      if (radius < 1.5 * spacing || radius > 20 * spacing) continue;
+      compare(ways, points, {.alpha = radius}, counts);
+    }
+  }
+  EXPECT_GT(counts[Way::kRoundingDecides], 5U);
+  EXPECT_GT(counts[Way::kInteriorLeftOut], 100U);
+}
+
+// Two points of the interior that nearly coincide make slivers whose area is lost in rounding, so that the
+// rule may drop them although their circles are small.
+TEST(InteriorLeftOut, LeavesToTheWholeWaySliversBetweenClosePoints) {
+  BothWays ways;
+  for (std::uint64_t seed = 0; seed < 200; ++seed) {
+    Random random(seed);
+    Points points = testing::uniform_points(3000, seed);
+    for (Point& p : points) p = {p.x - 0.5, p.y - 0.5};
+    std::erase_if(points, [](const Point& p) { return std::hypot(p.x, p.y) < 0.01; });
+    const double distance = std::ldexp(random.between(0.5, 1), -static_cast<int>(40 + random.below(30)));
+    const double angle = random.between(0, 6.3);
+    points.push_back({0, 0});
+    points.push_back({distance * std::cos(angle), distance * std::sin(angle)});
+    for (const double alpha : {0.05, 0.08}) {
+      SCOPED_TRACE(::testing::Message() << "seed " << seed << ", alpha " << alpha);
+      const Statistics statistics = ways.go(points, {.alpha = alpha});
+      const IndexedMultiPolygon& whole = ways.whole(points, {.alpha = alpha});
+      if (distance < 0x1p-47) {
+        EXPECT_EQ(statistics.way, Way::kClosePoints);
+      }
+      if (statistics.way == Way::kInteriorLeftOut) {
+        EXPECT_EQ(ways.part(), whole);
+      }
+      // Lengths are never lost.
+      const Options by_length{.max_edge_length = 2 * alpha, .max_perimeter = 5 * alpha};
+      ASSERT_EQ(ways.go(points, by_length).way, Way::kInteriorLeftOut);
+      EXPECT_EQ(ways.part(), ways.whole(points, by_length));
+    }
+  }
+}
+
+// Why: the same sliver, from one corner and from another.
+TEST(InteriorLeftOut, SliversBetweenClosePointsAreKeptOrNotByTheirFirstCorner) {
+  const Points corners = {{0, 0}, {0x1p-70, 0}, {0.0123, 0.0231}};
+  detail::Mesh mesh;
+  mesh.reset(2);
+  const auto is_kept = [&](detail::Mesh::Index first) {
+    for (detail::Mesh::Index k = 0; k < 3; ++k) mesh.origin(k) = (first + k) % 3;
+    return detail::CircumradiusRule(0.05).keeps(detail::Triangle(mesh, corners.data(), 0));
+  };
+  EXPECT_TRUE(is_kept(0));
+  EXPECT_FALSE(is_kept(2));
+}
+
+TEST(InteriorLeftOut, CanBeAskedAbout) {
+  const Points points = testing::uniform_points(20'000, 1);
+  Extractor extractor;
+  const auto way = [&](const Points& of, const Options& options) {
+    extractor.extract(of, options);
+    return extractor.statistics().way;
+  };
+  EXPECT_EQ(way(points, {.max_perimeter = 0.09}), Way::kInteriorLeftOut);
+  EXPECT_EQ(extractor.statistics().points, points.size());
+  EXPECT_GT(extractor.statistics().uncertain_points, 0U);
+  EXPECT_LT(extractor.statistics().uncertain_points, points.size() / 10);
+  EXPECT_GT(extractor.statistics().triangulated_points, extractor.statistics().uncertain_points);
+  EXPECT_LT(extractor.statistics().triangulated_points, points.size() / 3);
+  EXPECT_EQ(way(points, testing::kConvexHull), Way::kInteriorLeftOut);
+  EXPECT_EQ(way(points, {}), Way::kWhole);
+  EXPECT_EQ(extractor.statistics().triangulated_points, points.size());
+  EXPECT_EQ(way(testing::uniform_points(1000, 1), {.alpha = 0.1}), Way::kFewPoints);
+  EXPECT_EQ(way(points, {.alpha = 0.001}), Way::kTooSparse);
+  EXPECT_EQ(way(points, {.alpha = 0}), Way::kTooSparse);
+  EXPECT_EQ(way(points, {.alpha = 0.0085}), Way::kMuchOutline);
+  EXPECT_EQ(way(testing::circle(20'000, 1), {.alpha = 2}), Way::kMuchOutline);
+  Points other = points;
+  for (Point& p : other) p = {std::ldexp(p.x, 600), std::ldexp(p.y, 600)};
+  EXPECT_EQ(way(other, {.alpha = std::ldexp(0.02, 600)}), Way::kExtremeCoordinates);
+  other = points;
+  other.push_back({other[10'000].x, std::nextafter(other[10'000].y, 2)});
+  EXPECT_EQ(way(other, {.alpha = 0.02}), Way::kClosePoints);
+  EXPECT_EQ(way(other, {.max_edge_length = 0.04}), Way::kInteriorLeftOut);
+  extractor.triangulate(points);
+  EXPECT_EQ(extractor.statistics().way, Way::kWhole);
+}
+
+TEST(InteriorLeftOut, TheRestIsTriangulatedWhenItIsAskedFor) {
+  const Points points = testing::shuffled(testing::uniform_points(20'000, 2), 1);
+  const Options options{.max_perimeter = 0.085};
+  Extractor steps;
+  steps.triangulate(points);
+  steps.extract_regions(options);
+  const IndexedMultiPolygon whole = steps.extract_polygons();
+  Extractor extractor;
+  ASSERT_EQ(extractor.extract(points, options), whole);
+  ASSERT_EQ(extractor.statistics().way, Way::kInteriorLeftOut);
+  EXPECT_TRUE(extractor.has_triangles());
+  EXPECT_EQ(extractor.limits(), steps.limits());
+  EXPECT_EQ(extractor.count_triangles(), steps.count_triangles());
+  EXPECT_EQ(extractor.extract_polygons(), whole);
+  for (const double alpha : {0.01, 0.02}) {
+    extractor.extract(points, options);
+    extractor.extract_regions({.alpha = alpha});
+    steps.extract_regions({.alpha = alpha});
+    EXPECT_EQ(extractor.extract_polygons(), steps.extract_polygons());
+    EXPECT_EQ(extractor.count_triangles(), steps.count_triangles());
+  }
+  const Points flat = testing::lattice(20'000, 1);
+  extractor.extract(flat, options);
+  EXPECT_FALSE(extractor.has_triangles());
+}
+
+}  // namespace
+}  // namespace polylidar
