@@ -135,7 +135,7 @@ fit-rules: ## fit the constants of the rules from the points, and of the core's 
 	@$(call build,release,$(NATIVE_OPTION),fit_rules)
 	@build/fit_rules
 
-evaluate: ## the parameters' search over all stress suites and the league, on all cores (OUT=results/evaluation)
+evaluate: ## the parameters' search over the plans of the world and the league, on all cores (OUT=results/evaluation)
 	@$(call install,build bench)
 	@$(MAKE) build
 	@benchmarks/league/evaluate.sh build/hullbench $(or $(OUT),results/evaluation)

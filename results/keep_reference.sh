@@ -43,8 +43,10 @@ done
 cp "$run/report.html" "$kept"
 mkdir "$kept/figures"
 cp "$run/figures/summary.png" "$kept/figures"
-# The league and the search belong to no run of the suite; of an evaluation that was finished they are kept beside it.
+# The league, the rows that it is made of, and the search belong to no run of the suite; of an evaluation that was
+# finished they are kept beside it.
 [ ! -f results/evaluation/league.json ] || cp results/evaluation/league.json "$kept"
+[ ! -f results/evaluation/runs/suite.json ] || results/keep_league.py results/evaluation/runs "$kept/league"
 [ ! -f results/evaluation/tune/tune.json ] || xz -9e --stdout results/evaluation/tune/tune.json >"$kept/tune.json.xz"
 [ ! -f "$run/core.json" ] || cp "$run/core.json" "$kept"
 ln -sfn "$(basename "$kept")" results/reference

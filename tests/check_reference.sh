@@ -6,7 +6,7 @@ command -v git >/dev/null || { echo "git is not installed: not tested"; exit 77;
 scratch=$(mktemp -d)
 trap 'rm -rf "$scratch"' EXIT
 mkdir "$scratch/project" "$scratch/project/results"
-cp "$1"/results/{check_reference.py,keep_reference.sh,thin_records.py} "$scratch/project/results"
+cp "$1"/results/{check_reference.py,keep_reference.sh,thin_records.py,keep_league.py} "$scratch/project/results"
 cd "$scratch/project"
 export GIT_CONFIG_GLOBAL=/dev/null GIT_AUTHOR_NAME=a GIT_AUTHOR_EMAIL=a@b GIT_COMMITTER_NAME=a GIT_COMMITTER_EMAIL=a@b
 
@@ -80,7 +80,19 @@ describe run/states/run.json "$head" false
 mkdir run/tables
 touch run/states/runs.jsonl run/random/runs.jsonl
 echo 'see results/2026-01-01-01234567/report.html' >README.md
+echo '{"plans": ["states"]}' >results/evaluation/runs/suite.json
+sed -i 's/^{/{"plan": {"methods": [{"method": "a", "parameters": {"b": 1}}]}, /' results/evaluation/runs/states/run.json
+cat >results/evaluation/runs/states/runs.jsonl <<'ROW'
+{"id": "0", "metrics": {"l2": 0.1234567891234, "perimeter": 3}, "name": "a/b", "parameters": {"b": 1}, "time_ns": [5]}
+ROW
 results/keep_reference.sh run >/dev/null
+league=results/reference/league
+[ "$(xzcat $league/states/runs.jsonl.xz)" = \
+  '{"metrics":{"l2":0.123456789},"name":"a/b","output_sha256":"","parameters":{},"phases_ns":[],"time_ns":[]}' ] &&
+  [ -f $league/suite.json ] && ! grep -q parameters $league/states/run.json || {
+  echo "FAIL: the league's rows were not kept" >&2
+  exit 1
+}
 if [ "$(readlink results/reference)" != 2026-02-02-01234567 ] || [ -d results/2026-01-01-01234567 ] ||
   [ ! -f results/reference/league.json ] || ! grep -q 2026-02-02-01234567 README.md; then
   echo "FAIL: the run was not kept" >&2

@@ -8,7 +8,8 @@ add_executable(misbehaving_worker "${CMAKE_CURRENT_LIST_DIR}/misbehaving_worker.
 set_target_properties(misbehaving_worker PROPERTIES RUNTIME_OUTPUT_DIRECTORY "${CMAKE_BINARY_DIR}/tests")
 target_link_libraries(misbehaving_worker PRIVATE hullbench::worker hullbench::compile_options)
 
-hullbench_test(test_plan SOURCES test_plan.cpp LIBRARIES hullbench::plan hullbench::record LABELS harness)
+hullbench_test(test_plan SOURCES test_plan.cpp
+  LIBRARIES hullbench::plan hullbench::record hullbench::hash LABELS harness)
 target_compile_definitions(test_plan PRIVATE HULLBENCH_PLAN_FOLDER="${PROJECT_SOURCE_DIR}/benchmarks/plans")
 
 file(GLOB plans CONFIGURE_DEPENDS "${PROJECT_SOURCE_DIR}/benchmarks/plans/*.json")
@@ -61,6 +62,7 @@ endforeach()
 
 # The search for parameters.
 hullbench_test(test_tune_search SOURCES test_tune_search.cpp LIBRARIES hullbench::tune LABELS harness)
+target_compile_definitions(test_tune_search PRIVATE HULLBENCH_PLAN_FOLDER="${PROJECT_SOURCE_DIR}/benchmarks/plans")
 hullbench_test(test_rule_fit SOURCES test_rule_fit.cpp
   LIBRARIES hullbench::tune hullbench::adapters hullbench::metrics hullbench::datasets LABELS harness)
 target_compile_definitions(test_rule_fit PRIVATE HULLBENCH_PLAN_FOLDER="${PROJECT_SOURCE_DIR}/benchmarks/plans")

@@ -24,6 +24,7 @@ LETTERS = "abc"
 HASH = "0" * 64
 TITLES = {"ca": "California", "hi": "Hawaii"}
 STATUSES = ("ok", "timeout", "memory", "crash", "error", "invalid_output", "unsupported", "not_installed")
+SPLIT = {"shapes": {"ca": "test"}, "samplers": {"uniform": "training"}}
 TOOL = {"name": "hullbench", "version": "0.1.0", "commit": None, "dirty": None, "binary_sha256": HASH}
 FAILED = {"time_ns": [], "phases_ns": [], "metrics": {}, "output_sha256": ""}
 
@@ -133,7 +134,14 @@ def judged(rows: list[dict[str, Any]]) -> list[dict[str, Any]]:
 
 def environment() -> dict[str, Any]:
     cpu = {"model": "Invented", "architecture": "none", "logical_cores": 1, "allowed_cores": 1}
-    compiler = {"id": "none", "version": "1", "build_type": "Release", "native": False, "flags": "", "statement": "none"}
+    compiler = {
+        "id": "none",
+        "version": "1",
+        "build_type": "Release",
+        "native": False,
+        "flags": "",
+        "statement": "none",
+    }
     return {
         "machine_id": "0123abcd",
         "cpu": {**cpu, "governors": None, "boost": None, "virtualised": None},
@@ -149,7 +157,14 @@ def environment() -> dict[str, Any]:
 
 def report(name: str, datasets: dict[str, int], rows: list[dict[str, Any]], **more: Any) -> dict[str, Any]:
     """As results/report.schema.json says. `datasets`: the members of each, 0 for a single shape."""
-    about = {"version": "1", "licence": "MIT", "citation": "", "native_output": "", "capabilities": {}, "parameters": []}
+    about = {
+        "version": "1",
+        "licence": "MIT",
+        "citation": "",
+        "native_output": "",
+        "capabilities": {},
+        "parameters": [],
+    }
     installed = {"installed": True, "detail": "", "remedy": ""}
     source = {"source": "invented", "licence": "none", "sha256": None, "area": None, "holes_area": None}
     return {
@@ -224,7 +239,9 @@ def core() -> dict[str, Any]:
                         "real_time": factor * repetition * n / 1000,
                     }
                 )
-            entries.append({"run_name": f"{name}/uniform/{n}", "run_type": "aggregate", "time_unit": "us", "real_time": 1e9})
+            entries.append(
+                {"run_name": f"{name}/uniform/{n}", "run_type": "aggregate", "time_unit": "us", "real_time": 1e9}
+            )
     entries.append({"run_name": "concave_hull/uniform/7000", "run_type": "iteration", "error_occurred": True})
     entries.append({"run_name": "concave_hull/rgbd/1000", "run_type": "iteration", "time_unit": "us", "real_time": 1.0})
     return {"context": {}, "benchmarks": entries}
@@ -242,8 +259,17 @@ def league() -> dict[str, Any]:
         profile("blind", 20, "default", polylidar=[0.7, 0.95, 1], spatialite=[0.3, 0.6, 0.8]),
         profile("tuned", 20, "tuned", polylidar=[1, 1, 1]),
     ]
-    numbers = {"schema_version": 1, "shapes": 5, "cases": 30, "taus": [1, 2, 10], "plans": ["p"], "methods": []}
-    origin = {"created": "now", "tool": TOOL, "environment": {}, "split": {"seed": 1, "cases_of": "all"}}
+    numbers = {
+        "schema_version": 1,
+        "shapes": 5,
+        "cases": 30,
+        "kinds": [],
+        "samplers": [],
+        "taus": [1, 2, 10],
+        "plans": ["p"],
+        "methods": [],
+    }
+    origin = {"created": "now", "tool": TOOL, "environment": {}, "split": {**SPLIT, "cases_of": "all"}}
     return {"kind": "league", **origin, **numbers, "profiles": profiles, "not_installed": []}
 
 
@@ -260,7 +286,16 @@ def tune() -> dict[str, Any]:
             {"position": 2.0**k, "cases": 1, "failed": 0, "l2": spread(middle), "relative": spread(middle)}
             for k, middle in enumerate(medians)
         ]
-        about = {"version": "1", "installed": True, "detail": "", "remedy": "", "fixed": {}, "protocols": [], "oracle": []}
+        about = {
+            "version": "1",
+            "installed": True,
+            "detail": "",
+            "remedy": "",
+            "fixed": {},
+            "rounds": [],
+            "protocols": [],
+            "oracle": [],
+        }
         return {
             "method": name,
             "title": name,
@@ -271,13 +306,22 @@ def tune() -> dict[str, Any]:
             "tolerance_octaves": {"q1": 1, "median": 1.25, "q3": 2, "cases": 1} if kind else None,
         }
 
-    about = {"case": "ca/n:1/holes:0", "dataset": "ca", "shape": "ca", "side": "test", "n": 1, "holes": False, "seed": 1}
+    about = {
+        "case": "ca/n:1/holes:0",
+        "dataset": "ca",
+        "shape": "ca",
+        "side": "test",
+        "kind": "simple",
+        "n": 1,
+        "holes": False,
+        "seed": 1,
+    }
     methods = [
         method("polylidar", "spacings", 2, [3, 1.1, 2, 30]),
         method("spatialite", "own", 4, [None, 2, 1.2, 1.5]),
         method("convex_hull", None, 0, []),
     ]
-    budget = {"plans": ["p"], "split": {"seed": 1}, "budget": {"grid": 2, "refinement": 0}}
+    budget = {"plans": ["p"], "split": SPLIT, "budget": {"grid": 2, "sweep": 2, "refinement": 0}}
     cases = [{**about, "dataset_sha256": HASH, "spacing": 1}] * 12
     return {"kind": "tuning", "schema_version": 1, "tool": TOOL, **budget, "cases": cases, "methods": methods}
 
@@ -298,7 +342,9 @@ def suite() -> dict[str, dict[str, Any]]:
     alphabet += [run("postgis_legacy", "paper", f"letter_{letter}", 2000, status="not_installed") for letter in LETTERS]
     random = [run("polylidar", "paper", f"star-{k}", 8000) for k in range(1, 400)]
     random += [run("polylidar", "paper", f"comb-{k}", 8000) for k in range(1, 9)]
-    steps = [run(method, "paper", "ca", 64000, True) for method in ("polylidar", "cgal_alpha_shape", "spatialite_steps")]
+    steps = [
+        run(method, "paper", "ca", 64000, True) for method in ("polylidar", "cgal_alpha_shape", "spatialite_steps")
+    ]
     rgbd = [run(*series, f"floor-{k}", 900 + k) for k in (1, 2) for series in SERIES]
     return copy.deepcopy(
         {

@@ -15,7 +15,6 @@
 #include "benchmarks/league/league.hpp"
 #include "benchmarks/league/league_report.hpp"
 #include "benchmarks/record/validate.hpp"
-#include "benchmarks/tune/split.hpp"
 
 namespace hullbench {
 namespace {
@@ -46,7 +45,7 @@ json report(const std::vector<json>& rows) {
 }
 
 league::League league_of(const std::vector<json>& rows) {
-  return league::make_league({report(rows)}, 1, false);
+  return league::make_league({report(rows)}, false);
 }
 
 const league::LeagueEntry& entry(const league::League& league, std::string_view method,
@@ -132,6 +131,59 @@ TEST(League, TheMeanOfHolesIsOverCasesWithAnIntervalByShape) {
   EXPECT_EQ(entry(wide, "good", "auto").hole_f1_mean->interval->high, 1);
 }
 
+/// A row whose ground truth has so many parts and holes.
+json row_of_truth(const std::string& method, const std::string& dataset, double l2, int parts, int holes) {
+  json one = row(method, "auto", dataset, l2);
+  one["metrics"].update(
+      {{"polygons", 1}, {"polygons_error", 1 - parts}, {"holes", 0}, {"holes_error", -holes}});
+  return one;
+}
+
+TEST(League, EveryStratumCountsTheSameAndInItEveryShape) {
+  // Three strata: uniform simple (two shapes), noise simple (one shape with two cases), uniform holes.
+  const league::League league =
+      league_of({row_of_truth("good", "a", 0.1, 1, 0), row_of_truth("good", "b", 0.2, 1, 0),
+                 row_of_truth("good", "c~noise:1", 0.5, 1, 0), row_of_truth("good", "c~noise:2", 0.5, 1, 0),
+                 row_of_truth("good", "d", 0.9, 1, 2)});
+  const league::LeagueEntry& good = entry(league, "good", "auto");
+  EXPECT_EQ(good.l2->median, 0.5) << "a third lies below, a third above";
+  EXPECT_EQ(good.kinds.at("simple").cases, 4U);
+  EXPECT_NEAR(good.kinds.at("simple").l2_median, 0.35, 1e-12) << "half of it is 0.2 or less";
+  EXPECT_EQ(good.kinds.at("holes").l2_median, 0.9);
+  EXPECT_FALSE(good.kinds.contains("several parts"));
+  EXPECT_EQ(good.samplers.at("noise").cases, 2U);
+  ASSERT_EQ(league.samplers.size(), 2U);
+  EXPECT_EQ(league.samplers[0].name, "uniform");
+  EXPECT_EQ(league.kinds.size(), 2U);
+}
+
+TEST(League, WhoCannotHaveHolesOrPartsIsJudgedWhereItCanAndEverywhere) {
+  json made = report({row_of_truth("good", "a", 0.1, 1, 0), row_of_truth("good", "b", 0.2, 1, 1),
+                      row_of_truth("good", "c", 0.3, 2, 0), row_of_truth("bad", "a", 0.1, 1, 0),
+                      row_of_truth("bad", "b", 0.5, 1, 1), row_of_truth("bad", "c", 0.6, 2, 0)});
+  made["methods"][1]["capabilities"] = {{"holes", false}, {"several_polygons", false}};
+  const league::League league = league::make_league({made}, false);
+  EXPECT_EQ(entry(league, "bad", "auto").l2->median, 0.5);
+  EXPECT_EQ(entry(league, "bad", "auto").l2_where_able->median, 0.1);
+  EXPECT_EQ(entry(league, "bad", "auto").l2_where_able->cases, 1U);
+  EXPECT_EQ(entry(league, "good", "auto").l2_where_able->cases, 3U);
+  made["methods"][1]["capabilities"] = {{"holes", true}, {"several_polygons", false}};
+  EXPECT_EQ(entry(league::make_league({made}, false), "bad", "auto").l2_where_able->cases, 2U);
+}
+
+TEST(League, AWayToSampleThatTrainingDoesNotKnowIsMarked) {
+  const std::vector<json> reports = {
+      report({row("good", "auto", "ca", 0.1), row("good", "auto", "ca~noise:1", 0.123),
+              row("good", "auto", "ca~lattice:0", 0.2), row("good", "auto", "ca~gradient:4~noise:1", 0.3)})};
+  const json league = league::league_to_json(league::make_league(reports, true), reports);
+  EXPECT_EQ(record::validate_by_kind(league), std::vector<std::string>());
+  std::ostringstream text;
+  table::print_markdown(league::league_document(league), text);
+  for (const char* words :
+       {"| noise |", "lattice † |", "several |", "12.3", "†: a way to sample that was not seen"})
+    EXPECT_NE(text.str().find(words), std::string::npos) << words << "\n" << text.str();
+}
+
 TEST(League, DegenerateInputIsCountedApart) {
   const json tiny = row("good", "auto", "degenerate_tiny", 12345.0);
   json unscored = row("good", "auto", "degenerate_one", 0.1);
@@ -142,7 +194,7 @@ TEST(League, DegenerateInputIsCountedApart) {
   json degenerate = report({tiny, unscored, refused, crashed});
   degenerate["plan"]["accepted"] = {"unsupported"};
   const league::League league =
-      league::make_league({degenerate, report({row("good", "auto", "a", 0.1)})}, 1, false);
+      league::make_league({degenerate, report({row("good", "auto", "a", 0.1)})}, false);
   EXPECT_EQ(entry(league, "good", "auto").cases, 1U);
   EXPECT_EQ(entry(league, "good", "auto").l2->median, 0.1);
   EXPECT_EQ(entry(league, "good", "auto").unscored_cases, 2U);
@@ -153,27 +205,20 @@ TEST(League, DegenerateInputIsCountedApart) {
 }
 
 TEST(League, OfTestShapesHasNoOther) {
-  std::string training;
-  std::string test;
-  for (int k = 1; training.empty() || test.empty(); ++k) {
-    const std::string name = "star-" + std::to_string(k);
-    (tune::side_of(name, 7) == tune::Side::kTest ? test : training) = name;
-  }
-  json variant = row("good", "auto", training + "~noise:1", 0.9);
-  variant["base_shape"] = training;
-  const std::vector<json> rows = {row("good", "auto", training, 0.5), variant,
-                                  row("good", "auto", test, 0.1)};
-  const league::League league = league::make_league({report(rows)}, 7, true);
+  const std::vector<json> rows = {
+      row("good", "auto", "star-1", 0.5), row("good", "auto", "star-1~noise:1", 0.9),
+      row("good", "auto", "star-1~lattice:0", 0.9), row("good", "auto", "ca", 0.1)};
+  const league::League league = league::make_league({report(rows)}, true);
   EXPECT_EQ(entry(league, "good", "auto").cases, 1U);
   EXPECT_EQ(entry(league, "good", "auto").l2->median, 0.1);
-  EXPECT_THROW(league::make_league({report({rows[0], rows[1]})}, 7, true), std::runtime_error);
+  EXPECT_THROW(league::make_league({report({rows[0], rows[1], rows[2]})}, true), std::runtime_error);
 }
 
 TEST(League, ARunThatSeveralReportsHaveCountsOnce) {
   const league::League league =
       league::make_league({report({row("good", "auto", "a", 0.1)}),
                            report({row("good", "auto", "a", 0.2), row("good", "auto", "b", 0.2)})},
-                          1, false);
+                          false);
   EXPECT_EQ(entry(league, "good", "auto").cases, 2U);
   EXPECT_NEAR(entry(league, "good", "auto").l2->median, 0.15, 1e-12);
 }
@@ -219,7 +264,7 @@ TEST(League, IsWrittenAsItsSchemaSaysAndPrinted) {
   const std::vector<json> reports = {
       report({row("good", "auto", "a", 0.1), row("good", "auto", "b", 0.3), row("bad", "auto", "a", nullptr),
               row("bad", "auto", "b", nullptr)})};
-  const json league = league::league_to_json(league::make_league(reports, 1, false), reports);
+  const json league = league::league_to_json(league::make_league(reports, false), reports);
   EXPECT_EQ(record::validate_by_kind(league), std::vector<std::string>());
   json wrong = league;
   wrong["methods"][0]["l2_median"] = "good";
@@ -237,7 +282,7 @@ TEST(League, EveryProfileIsShownWhoeverIsAhead) {
               row("good", "oracle", "a", 0.1), row("bad", "oracle", "a", 0.1)})};
   std::ostringstream out;
   table::print_markdown(
-      league::league_document(league::league_to_json(league::make_league(reports, 1, false), reports)), out);
+      league::league_document(league::league_to_json(league::make_league(reports, false), reports)), out);
   const std::string text = out.str();
   for (const char* who : {"that see the points only", "with one value fitted on other shapes",
                           "that know the ground truth's area", "with the best value for each instance"}) {
@@ -250,7 +295,7 @@ TEST(League, TheReadmeHasTheFirstThreeOfEveryProtocol) {
   for (int k = 1; k <= 4; ++k) rows.push_back(row("rival" + std::to_string(k), "auto", "a", 0.1 * k));
   const std::vector<json> reports = {report(rows)};
   const std::string text =
-      league::league_results(league::league_to_json(league::make_league(reports, 1, false), reports), "kept");
+      league::league_results(league::league_to_json(league::make_league(reports, false), reports), "kept");
   EXPECT_NE(text.find("[kept/league.md](kept/league.md)"), std::string::npos) << text;
   EXPECT_NE(text.find("\n### League: 1 cases of 1 shapes, the first three of every protocol\n"),
             std::string::npos)

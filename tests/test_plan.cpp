@@ -18,8 +18,10 @@
 #include "benchmarks/base/json_schema.hpp"
 #include "benchmarks/plan/parameter_rules.hpp"
 #include "benchmarks/plan/plan.hpp"
+#include "benchmarks/plan/release_seed.hpp"
 #include "benchmarks/record/record.hpp"
 #include "datasets/datasets.hpp"
+#include "datasets/sha256.hpp"
 #include "datasets/stress.hpp"
 #include "polylidar/concave_hull.hpp"
 #include "polylidar/delaunay.hpp"
@@ -584,6 +586,23 @@ TEST(Plan, EveryReadyPlanIsGood) {
 }
 
 // What is compared under one protocol got its parameters in one way.
+TEST(Plan, TheSeedOfTheReleaseIsThatOfItsSentence) {
+  const auto seed_of = [](const std::string& seed) {
+    return plan::parse_plan(R"({"name": "p", "cases": [{"dataset": "ca", "n": [5]}], "seed": )" + seed +
+                                R"(, "methods": [{"method": "polylidar", "protocol": "default"}]})",
+                            "here")
+        .seed;
+  };
+  // printf '%s' 'hullbench 1.0, released 2026-12-01' | sha256sum
+  const std::string hash = sha256_hex(std::string(plan::kReleaseSentence));
+  EXPECT_EQ(hash, "4b0aac3a5e4e9d070da0d47aac8679eb7f4c94cd2cf4bd45eb9753dc100056ae");
+  EXPECT_EQ(seed_of("\"release\""), std::stoull(hash.substr(0, 8), nullptr, 16));
+  EXPECT_EQ(seed_of("7"), 7U);
+  EXPECT_THROW(seed_of("\"lucky\""), ConfigurationError);
+  for (const char* name : {"world_shapes", "world_samplers", "world_crossed"})
+    EXPECT_EQ(plan::load_plan(name, HULLBENCH_PLAN_FOLDER).seed, plan::release_seed()) << name;
+}
+
 TEST(Plan, EveryRuleFromThePointsIsUnderAuto) {
   for (const auto& file : ready_plans()) {
     const plan::Plan plan = plan::load_plan(file.string(), "");

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "adapters/adapter.hpp"
@@ -29,14 +30,15 @@ plan::Plan plan_of(const std::string& cases, const std::string& more = "") {
                           "here");
 }
 
-/// Some letters on the training side.
-std::vector<std::string> training_letters(std::size_t count) {
-  std::vector<std::string> letters;
-  for (char c = 'a'; letters.size() < count; ++c) {
-    const std::string name = std::string("letter_") + c;
-    if (tune::side_of(name, 1) == tune::Side::kTraining) letters.push_back(name);
+/// Some training shapes, several of each of some sources: "star-1", "county-1" ...
+std::vector<std::string> training_shapes(std::size_t count) {
+  std::vector<std::string> shapes;
+  for (int k = 1; shapes.size() < count; ++k) {
+    for (const char* source : {"star", "county", "fashion", "han"})
+      shapes.push_back(std::string(source) + "-" + std::to_string(k));
   }
-  return letters;
+  shapes.resize(count);
+  return shapes;
 }
 
 // The score.
@@ -120,53 +122,54 @@ TEST(LimitFit, TheGridOfChoicesIsSearchedWhole) {
 
 TEST(TrainingCases, AreOfTrainingShapesOnlyAndEachIsThereOnce) {
   const auto cases = tune::training_cases({plan::load_plan("alphabet", HULLBENCH_PLAN_FOLDER),
-                                           plan::load_plan("stress_density", HULLBENCH_PLAN_FOLDER),
+                                           plan_of(R"([{"dataset": "star", "members": 5, "n": [2000]}])"),
+                                           plan::load_plan("stress_sampling", HULLBENCH_PLAN_FOLDER),
                                            plan::load_plan("stress_noise", HULLBENCH_PLAN_FOLDER)},
-                                          1, 1, 0);
+                                          1, 0);
   std::set<std::string> keys;
-  std::set<std::string> shapes;
+  std::set<std::pair<std::string, std::uint64_t>> samples;
   for (const tune::FitCase& one : cases) {
-    EXPECT_TRUE(keys.insert(one.plan_case.key()).second) << one.plan_case.key();
-    EXPECT_EQ(tune::side_of(one.shape, 1), tune::Side::kTraining);
-    shapes.insert(one.shape);
+    EXPECT_TRUE(samples.emplace(one.plan_case.key(), one.seed).second) << one.plan_case.key();
+    keys.insert(one.plan_case.key());
+    EXPECT_EQ(tune::side_of(one.plan_case.dataset), tune::Side::kTraining) << one.plan_case.dataset;
   }
-  for (const std::string& letter : training_letters(5)) {
-    EXPECT_TRUE(keys.contains(letter + "/n:2000"));
-    EXPECT_TRUE(keys.contains(letter + "~noise:0.5/n:2000")) << "which no plan has";
-    EXPECT_FALSE(keys.contains(letter + "~noise:0.5/n:4000"));
+  for (int k = 1; k <= 5; ++k) {
+    const std::string star = "star-" + std::to_string(k);
+    EXPECT_TRUE(keys.contains(star + "/n:2000"));
+    EXPECT_TRUE(keys.contains(star + "~noise:0.5/n:2000")) << "which no plan has";
+    EXPECT_FALSE(keys.contains(star + "~noise:0.5/n:4000"));
+    EXPECT_FALSE(keys.contains(star + "~lattice:0/n:2000")) << "which training does not know";
   }
 }
 
 TEST(TrainingCases, CanHaveMoreSamplesAndOtherNumbersOfPoints) {
-  const std::string letter = training_letters(1)[0];
-  const plan::Plan plan = plan_of(R"([{"dataset": ")" + letter + R"(", "n": [500, 600]}])");
-  const auto cases = tune::training_cases({plan}, 1, 3, 0);
+  const plan::Plan plan = plan_of(R"([{"dataset": "star-1", "n": [500, 600]}])");
+  const auto cases = tune::training_cases({plan}, 3, 0);
   ASSERT_EQ(cases.size(), 6U);
   EXPECT_EQ(cases[0].seed, 5U);
   EXPECT_EQ(cases[2].seed, 7U);
-  const auto larger = tune::training_cases({plan}, 1, 1, 8000);
+  const auto larger = tune::training_cases({plan}, 1, 8000);
   ASSERT_EQ(larger.size(), 1U) << "the two are one now";
   EXPECT_EQ(larger[0].plan_case.n, 8000);
 }
 
 TEST(TrainingCases, LeaveOutPointsThatComeWithTheirShapeAndPlansThatAcceptFailures) {
-  EXPECT_TRUE(tune::training_cases({plan_of(R"([{"dataset": "floor", "members": 11}])")}, 1, 1, 0).empty());
-  const std::string letters = R"([{"dataset": ")" + training_letters(1)[0] + R"(", "n": [500]}])";
-  EXPECT_EQ(tune::training_cases({plan_of(letters)}, 1, 1, 0).size(), 1U);
-  EXPECT_TRUE(tune::training_cases({plan_of(letters, R"("accepted": ["error"], )")}, 1, 1, 0).empty());
+  EXPECT_TRUE(tune::training_cases({plan_of(R"([{"dataset": "floor", "members": 11}])")}, 1, 0).empty());
+  const std::string star = R"([{"dataset": "star-1", "n": [500]}])";
+  EXPECT_EQ(tune::training_cases({plan_of(star)}, 1, 0).size(), 1U);
+  EXPECT_TRUE(tune::training_cases({plan_of(star, R"("accepted": ["error"], )")}, 1, 0).empty());
 }
 
 // A small fit.
 
-/// Eight letters, uniform, denser on one side and noisy.
+/// Eight training shapes, uniform, denser on one side and noisy.
 std::vector<tune::FitCase> small_fit_cases() {
   std::string names;
-  for (const std::string& letter : training_letters(8))
-    names += (names.empty() ? "\"" : ", \"") + letter + "\"";
+  for (const std::string& shape : training_shapes(8)) names += (names.empty() ? "\"" : ", \"") + shape + "\"";
   return tune::training_cases({plan_of(R"([{"dataset": [)" + names + R"(], "n": [600]},
                                      {"dataset": [)" +
                                        names + R"(], "n": [600], "stress": ["gradient:4", "noise:0.5"]}])")},
-                              1, 1, 0);
+                              1, 0);
 }
 
 TEST(RuleFit, TheConstantsInTheCodeAreAboutTheBestOfASmallFit) {

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "benchmarks/statistics/statistics.hpp"
+#include "benchmarks/statistics/weighted.hpp"
 
 namespace hullbench {
 namespace {
@@ -32,6 +33,48 @@ TEST(Statistics, MedianOfOddCountIsTheMiddleValue) {
 
 TEST(Statistics, MedianOfEvenCountIsTheMeanOfTheMiddleTwo) {
   EXPECT_EQ(statistics::median(Times{9, 1, 4, 5}), 4.5);
+}
+
+TEST(Weighted, OfEqualWeightsTheMedianIsTheUsualOne) {
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  const auto median_of = [](const std::vector<double>& values) {
+    std::vector<statistics::WeightedValue> weighted;
+    for (const double value : values) weighted.push_back({value, 1.0 / 3});
+    return statistics::weighted_median(weighted);
+  };
+  for (const std::vector<double>& values : {std::vector<double>{3},
+                                            {3, 1},
+                                            {5, 1, 2},
+                                            {4, 1, 3, 2},
+                                            {1, 2, kInfinity},
+                                            {1, kInfinity},
+                                            {1, 2, 3, 4, 5, 6},
+                                            {kInfinity, kInfinity}})
+    EXPECT_EQ(median_of(values), statistics::median(std::span<const double>(values)));
+}
+
+TEST(Weighted, WhatHasMoreThanHalfOfTheWeightIsTheMedian) {
+  EXPECT_EQ(statistics::weighted_median({{1, 1}, {2, 1}, {9, 3}}), 9);
+  EXPECT_EQ(statistics::weighted_median({{9, 3}, {1, 1}, {2, 2}}), 5.5) << "exactly half lies up to 2";
+  EXPECT_DOUBLE_EQ(statistics::weighted_mean({{1, 1}, {3, 3}}), 2.5);
+}
+
+TEST(Weighted, IntervalsResampleWholeClusters) {
+  // Ten clusters of one value each: the exact bootstrap ends at the second, or between it and the third.
+  std::vector<std::vector<statistics::WeightedValue>> clusters;
+  for (int i = 1; i <= 10; ++i) clusters.push_back({{static_cast<double>(i), 0.1}});
+  const auto interval = statistics::weighted_median_interval(clusters);
+  ASSERT_TRUE(interval);
+  EXPECT_NEAR(interval->low, 2.5, 0.5);
+  EXPECT_NEAR(interval->high, 8.5, 0.5);
+  // More values of the same clusters say no more.
+  for (auto& cluster : clusters) cluster = {{cluster[0].value, 0.05}, {cluster[0].value, 0.05}};
+  EXPECT_EQ(statistics::weighted_median_interval(clusters)->low, interval->low);
+  // The standard error of 0.4, 0.6 and 0.5 is 0.1 / sqrt(3).
+  const auto mean = statistics::weighted_mean_interval({{{0.4, 2}}, {{0.6, 2}}, {{0.5, 2}}});
+  EXPECT_NEAR(mean->high - mean->low, 2 * 1.95996 * 0.1 / std::sqrt(3.0), 1e-4);
+  EXPECT_FALSE(statistics::weighted_median_interval({{{1, 1}, {2, 1}}, {}}));
+  EXPECT_FALSE(statistics::weighted_mean_interval({}));
 }
 
 TEST(Statistics, MedianOfDoubles) {

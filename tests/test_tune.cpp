@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <csignal>
+#include <cstdlib>
 #include <filesystem>
 #include <map>
 #include <nlohmann/json.hpp>
@@ -113,8 +114,9 @@ const json& method_of(const json& summary, const std::string& name) {
   throw std::out_of_range("no method " + name);
 }
 
-json stars(int members) {
-  return json::array({{{"dataset", "star"}, {"members", members}, {"n", {200}}}});
+/// Training shapes, and as many test shapes.
+json both_sides(int members) {
+  return json::array({{{"dataset", {"star", "country"}}, {"members", members}, {"n", {200}}}});
 }
 
 TEST_F(TuneTest, FindsTheBestOfAMadeUpMethod) {
@@ -128,16 +130,17 @@ TEST_F(TuneTest, FindsTheBestOfAMadeUpMethod) {
     best = std::min(best, metrics::area_scores(disc(set.points, radius), set.ground_truth).l2.value_or(2));
   }
   const json oracle = method_of(summary("out"), "disc").at("oracle").at(0);
-  // The refinement ends within 0.03 octaves, where the error is a valley with a slope below 1 an octave.
-  EXPECT_NEAR(oracle.at("l2").get<double>(), best, 0.03);
-  EXPECT_EQ(sweep("out").size(), 25U + 8U + 1U) << "the sweep, the refinement and the default";
+  // The refinement ends within 0.18 octaves, its best is the middle of it or nearer, and the slope is
+  // below 1.
+  EXPECT_NEAR(oracle.at("l2").get<double>(), best, 0.09);
+  EXPECT_EQ(sweep("out").size(), 9U + 6U + 1U) << "the sweep, the refinement and the default";
   for (const json& line : sweep("out")) EXPECT_LE(oracle.at("l2"), line.at("l2"));
   expect_valid("out/tune.json");
   expect_valid("out/sweep.jsonl");
 }
 
 TEST_F(TuneTest, TheSchemasRefuseWhatIsWrong) {
-  ASSERT_EQ(tune(plan(stars(2)), "disc", "out").code, 0);
+  ASSERT_EQ(tune(plan(both_sides(1)), "disc", "out").code, 0);
   json broken = summary("out");
   broken["methods"][0]["curve"][0]["relative"]["median"] = "good";
   write_text(folder() / "broken.json", broken.dump());
@@ -149,7 +152,7 @@ TEST_F(TuneTest, TheSchemasRefuseWhatIsWrong) {
 }
 
 TEST_F(TuneTest, ItsPlanMeasuresWhatItFound) {
-  const Outcome tuned = tune(plan(stars(6)), "polylidar|disc", "out");
+  const Outcome tuned = tune(plan(both_sides(3)), "polylidar|disc", "out");
   ASSERT_EQ(tuned.code, 0) << tuned.err;
   const Outcome run = hullbench({"run", folder() / "out" / "small-tuned.json", "--out", folder() / "run",
                                  "--adapters", methods(), "--repetitions", "1"});
@@ -164,7 +167,7 @@ TEST_F(TuneTest, ItsPlanMeasuresWhatItFound) {
     if (line.at("side") == "test") tested.insert(line.at("dataset"));
   }
   ASSERT_FALSE(tested.empty());
-  ASSERT_LT(tested.size(), 6U) << "this seed must have both sides among six stars";
+  ASSERT_LT(tested.size(), 6U);
   const auto rows = read_lines("run/runs.jsonl");
   std::set<std::string> measured;
   for (const json& row : rows) {
@@ -174,14 +177,36 @@ TEST_F(TuneTest, ItsPlanMeasuresWhatItFound) {
     EXPECT_TRUE(row.at("protocol") != "tuned" || tested.contains(row.at("dataset"))) << row.at("name");
   }
   EXPECT_EQ(measured.size(), found.size());
-  EXPECT_TRUE(found.contains("polylidar/star-1/n:200/holes:0/protocol:paper"));
-  EXPECT_TRUE(found.contains("disc/star-1/n:200/holes:0/protocol:default")) << "which the plan does not name";
-  EXPECT_FALSE(found.contains("polylidar/star-1/n:200/holes:0/protocol:default"))
+  EXPECT_TRUE(found.contains("polylidar/country-1/n:200/holes:0/protocol:paper"));
+  EXPECT_TRUE(found.contains("disc/country-1/n:200/holes:0/protocol:default"))
+      << "which the plan does not name";
+  EXPECT_FALSE(found.contains("polylidar/country-1/n:200/holes:0/protocol:default"))
       << "the plan names polylidar, and no default of it";
 }
 
+TEST_F(TuneTest, TheLeagueIsTheSameAgainFromTheRowsThatAreKept) {
+  ASSERT_EQ(tune(plan(json::array({{{"dataset", {"star-1", "country-1", "symbol-1", "country-2~lattice:0"}},
+                                    {"n", {200}}}})),
+                 "polylidar|disc", "out")
+                .code,
+            0)
+      << "star-1 is for training";
+  const Outcome run = hullbench({"run", folder() / "out" / "small-tuned.json",
+                                 write(testing::small_plan("other", both_sides(1))), "--out",
+                                 folder() / "suite", "--adapters", methods(), "--repetitions", "1"});
+  ASSERT_EQ(run.code, 0) << run.err;
+  const Outcome league = hullbench({"league", "suite", "--out", "league.json"});
+  ASSERT_EQ(league.code, 0) << league.err;
+  expect_valid("league.json");
+  EXPECT_NE(league.out.find("lattice †"), std::string::npos) << league.out;
+  const std::string keep = SYSTEM_PYTHON " " HULLBENCH_SOURCE_DIRECTORY "/results/keep_league.py ";
+  ASSERT_EQ(std::system((keep + (folder() / "suite").string() + " " + (folder() / "kept").string()).c_str()),
+            0);
+  EXPECT_EQ(hullbench({"league", "kept"}).out, league.out);
+}
+
 TEST_F(TuneTest, AMethodWithoutANumberHasItsDefaultOnly) {
-  ASSERT_EQ(tune(plan(stars(3)), "convex_hull", "out").code, 0);
+  ASSERT_EQ(tune(plan(both_sides(2)), "convex_hull", "out").code, 0);
   const json method = method_of(summary("out"), "convex_hull");
   EXPECT_TRUE(method.at("axis").is_null());
   EXPECT_TRUE(method.at("tuned").is_null());
@@ -189,7 +214,7 @@ TEST_F(TuneTest, AMethodWithoutANumberHasItsDefaultOnly) {
     EXPECT_EQ(score.at("protocol"), "default");
     EXPECT_TRUE(score.at("regret_median").is_null());
   }
-  EXPECT_EQ(sweep("out").size(), 3U);
+  EXPECT_EQ(sweep("out").size(), 2U) << "of the test cases";
 }
 
 TEST_F(TuneTest, FailuresAreEvaluationsAndInfinitelyBad) {
@@ -225,7 +250,7 @@ TEST_F(TuneTest, FailuresAreEvaluationsAndInfinitelyBad) {
 
 TEST_F(TuneTest, WhatDoesNotStartIsSaidAndNothingElseIsExitCodeSix) {
   method("absent", "[]", "import no_such_module\n\ndef run(points):\n    return []\n");
-  const Outcome tuned = tune(plan(stars(2)), "absent", "out");
+  const Outcome tuned = tune(plan(both_sides(1)), "absent", "out");
   EXPECT_EQ(tuned.code, 6) << tuned.err;
   EXPECT_NE(tuned.err.find("absent does not start"), std::string::npos) << tuned.err;
   EXPECT_FALSE(method_of(summary("out"), "absent").at("installed").get<bool>());
@@ -233,7 +258,7 @@ TEST_F(TuneTest, WhatDoesNotStartIsSaidAndNothingElseIsExitCodeSix) {
 }
 
 TEST_F(TuneTest, GoesOnAfterAnInterruptionToTheSameResult) {
-  const std::string cases = plan(stars(10));
+  const std::string cases = plan(both_sides(5));
   ASSERT_EQ(tune(cases, "disc|polylidar", "whole").code, 0);
   const auto calls_of_whole = fs::file_size(calls());
   const fs::path file = folder() / "parts" / "sweep.jsonl";
@@ -259,7 +284,7 @@ TEST_F(TuneTest, GoesOnAfterAnInterruptionToTheSameResult) {
 }
 
 TEST_F(TuneTest, ShardsInOneFolderComeTogetherToTheSameResult) {
-  const std::string cases = plan(stars(5));
+  const std::string cases = plan(both_sides(3));
   ASSERT_EQ(tune(cases, "disc|polylidar", "whole").code, 0);
   for (const char* shard : {"1/2", "2/2"}) {
     const Outcome part = tune(cases, "disc|polylidar", "parts", {"--shard", shard});
@@ -276,17 +301,21 @@ TEST_F(TuneTest, ShardsInOneFolderComeTogetherToTheSameResult) {
       << all.err;
   for (const char* name : {"sweep.jsonl", "tune.json", "tuning.md", "small-tuned.json"})
     EXPECT_EQ(read_text(folder() / "parts" / name), read_text(folder() / "whole" / name)) << name;
-  EXPECT_EQ(tune(plan(stars(1)), "disc", "none", {"--shard", "2/2"}).code, 6);
+  EXPECT_EQ(
+      tune(plan(json::array({{{"dataset", "ca"}, {"n", {200}}}})), "disc", "none", {"--shard", "2/2"}).code,
+      6);
 }
 
 TEST_F(TuneTest, RefusesWhatItCannotDo) {
-  const std::string cases = plan(stars(2));
+  const std::string cases = plan(both_sides(1));
   expect_refusal(tune(cases, "no_such_method", "out"), 2,
                  "no method has a name that matches 'no_such_method'");
   expect_refusal(tune(cases, "(", "out"), 2, "is not a regular expression");
   expect_refusal(tune("no_such_plan", "disc", "out"), 2, "there is no plan 'no_such_plan'");
   write_text(folder() / "file", "");
   expect_refusal(tune(cases, "disc", "file"), 2, "cannot write to the output folder");
+  const std::string nobodys = plan(json::array({{{"dataset", "star-1~lattice:0"}, {"n", {200}}}}));
+  expect_refusal(tune(nobodys, "disc", "out"), 6, "no case is on a side of the split");
 }
 
 }  // namespace

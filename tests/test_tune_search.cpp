@@ -11,12 +11,15 @@
 #include <vector>
 
 #include "benchmarks/tune/analysis.hpp"
+#include "benchmarks/tune/halving.hpp"
 #include "benchmarks/tune/search.hpp"
 #include "benchmarks/tune/search_axis.hpp"
 #include "benchmarks/tune/split.hpp"
+#include "benchmarks/tune/strata.hpp"
 #include "benchmarks/tune/tuned_plan.hpp"
 #include "benchmarks/tune/tuner.hpp"
 #include "datasets/datasets.hpp"
+#include "datasets/stress.hpp"
 
 namespace hullbench {
 namespace {
@@ -112,11 +115,11 @@ TEST(SearchTest, FindsTheBestOfAUnimodalError) {
     const auto points = tune::search(length_axis(), [&](double position) {
       return tune::Trial{0.1 + std::pow(std::log2(position / best), 2), false};
     });
-    ASSERT_EQ(points.size(), static_cast<std::size_t>(tune::kGridPoints + tune::kRefinements));
+    ASSERT_EQ(points.size(), static_cast<std::size_t>(tune::kSweepPoints + tune::kRefinements));
     const auto found = std::min_element(points.begin(), points.end(),
                                         [](const auto& a, const auto& b) { return a.error < b.error; });
-    // Two thirds of an octave, shortened 7 times by the golden ratio.
-    EXPECT_NEAR(std::log2(found->position / best), 0, 2.0 / 3 * std::pow(0.6181, 7)) << best;
+    // Two octaves, shortened 5 times by the golden ratio.
+    EXPECT_NEAR(std::log2(found->position / best), 0, 2 * std::pow(0.6181, 5)) << best;
     EXPECT_FALSE(found->on_grid);
   }
 }
@@ -134,7 +137,7 @@ TEST(SearchTest, AsksForNoPositionTwice) {
 
 TEST(SearchTest, FailuresAreInfinitelyBadAndTimeoutsEndTheSweep) {
   const auto all_fail = tune::search(length_axis(), [](double) { return tune::Trial{}; });
-  EXPECT_EQ(all_fail.size(), static_cast<std::size_t>(tune::kGridPoints)) << "nothing to refine";
+  EXPECT_EQ(all_fail.size(), static_cast<std::size_t>(tune::kSweepPoints)) << "nothing to refine";
   // Good only where nobody would look after failures.
   const auto one = tune::search(length_axis(), [](double position) {
     return position > 20 ? tune::Trial{0.5, false} : tune::Trial{};
@@ -174,39 +177,71 @@ TEST(ToleranceTest, IsTheWidthOfTheRangeWithinTenPercent) {
   EXPECT_FALSE(tune::tolerance_octaves(std::vector<tune::SearchPoint>()));
 }
 
-TEST(SplitTest, IsFixedBySeedAndName) {
-  // These must not change: recorded results are of these sides.
-  std::string sides;
-  for (const char* shape : {"ca", "hi", "letter_a", "letter_b", "letter_c", "star-1", "star-2", "comb-1"})
-    sides += tune::side_of(shape, 1) == tune::Side::kTest ? 'e' : 'r';
-  EXPECT_EQ(sides, "eeeerrre");
-  int tests = 0;
-  int moved = 0;
-  for (int i = 1; i <= 1000; ++i) {
-    const std::string shape = "star-" + std::to_string(i);
-    if (tune::side_of(shape, 1) == tune::Side::kTest) ++tests;
-    if (tune::side_of(shape, 1) != tune::side_of(shape, 2)) ++moved;
+std::ptrdiff_t count_rows(const std::vector<tune::SplitRow>& rows, const std::string& name) {
+  return std::count_if(rows.begin(), rows.end(), [&](const tune::SplitRow& row) { return row.name == name; });
+}
+
+TEST(SplitTest, EverySourceOfShapesAndEverySamplerHasItsSideAndAReason) {
+  for (const DatasetInfo& info : datasets()) {
+    const std::string name = info.members == 0 ? info.name : info.name + "-1";
+    const std::string source = tune::source_of(name);
+    EXPECT_EQ(count_rows(tune::shape_split(), source), 1)
+        << name << ": give it a row in benchmarks/tune/split.cpp";
   }
-  // Within five standard deviations of a fair coin's 500.
-  EXPECT_NEAR(tests, 500, 80);
-  EXPECT_NEAR(moved, 500, 80);
+  for (const StressKind& kind : stress_kinds()) {
+    EXPECT_EQ(count_rows(tune::sampler_split(), kind.name), 1)
+        << kind.name << ": give it a row in benchmarks/tune/split.cpp";
+  }
+  for (const auto& rows : {tune::shape_split(), tune::sampler_split()}) {
+    for (const tune::SplitRow& row : rows) EXPECT_TRUE(row.reason.ends_with(".")) << row.name;
+  }
+  for (const tune::SplitRow& row : tune::sampler_split())
+    EXPECT_NE(row.side, tune::Side::kNeither) << row.name;
+}
+
+TEST(SplitTest, WhatThePaperReportsIsForTests) {
+  for (const std::string plan_name : {"states", "alphabet", "rgbd"}) {
+    for (const plan::PlanCase& one : plan::load_plan(plan_name, HULLBENCH_PLAN_FOLDER).expanded_cases)
+      EXPECT_EQ(tune::side_of(one.dataset), tune::Side::kTest) << one.dataset;
+  }
+}
+
+TEST(SplitTest, ACaseIsTrainingWhereShapeAndAllSamplersAre) {
+  EXPECT_EQ(tune::side_of("star-17"), tune::Side::kTraining);
+  EXPECT_EQ(tune::side_of("star-17~gradient:4~outliers:1~noise:0.5"), tune::Side::kTraining);
+  EXPECT_EQ(tune::side_of("star-17~gradient:4~quantised:0.5"), tune::Side::kNeither);
+  EXPECT_EQ(tune::side_of("country-17"), tune::Side::kTest);
+  EXPECT_EQ(tune::side_of("country-17~quantised:0.5"), tune::Side::kTest);
+  EXPECT_EQ(tune::side_of("country-17~noise:0.5"), tune::Side::kTest);
+  EXPECT_EQ(tune::side_of("channel-4~noise:0.5"), tune::Side::kTest);
+  EXPECT_EQ(tune::side_of("degenerate_tiny"), tune::Side::kNeither);
+  EXPECT_EQ(tune::side_of("zoo-geos-754"), tune::Side::kNeither);
+  EXPECT_EQ(tune::side_of("somebody's-1"), tune::Side::kNeither) << "which the split does not know";
+  EXPECT_FALSE(tune::has_unseen_sampler("country-17~noise:0.5"));
+  EXPECT_TRUE(tune::has_unseen_sampler("country-17~noise:0.5~quantised:1"));
+  EXPECT_FALSE(tune::has_unseen_sampler("country-17"));
+  EXPECT_TRUE(tune::has_unseen_sampler("floor-1")) << "seen by a depth camera";
+}
+
+/// The name of the i-th invented shape, from 1: odd ones are training shapes, even ones are test shapes.
+std::string invented_shape(int i) {
+  return (i % 2 == 1 ? "star-" : "country-") + std::to_string(i);
 }
 
 /// A search over `count` shapes with an error that `error_of(shape, position)` invents.
 class InventedTuning {
  public:
   explicit InventedTuning(const MethodInfo& info, int count = 40) {
-    tuning.split_seed = 1;
     tune::MethodTuning& method = tuning.methods.emplace_back();
     method.name = method.title = info.name;
     method.info = info;
     method.axis = tune::search_axis(info);
     for (int i = 1; i <= count; ++i) {
       tune::TuningCase& one = tuning.cases.emplace_back();
-      one.plan_case = {"star-" + std::to_string(i), false, 500};
+      one.plan_case = {invented_shape(i), false, 500};
       one.seed = 1;
       one.shape = base_shape(one.plan_case.dataset);
-      one.side = tune::side_of(one.shape, 1);
+      one.side = tune::side_of(one.shape);
       one.spacing = 1;
     }
   }
@@ -214,14 +249,30 @@ class InventedTuning {
   template <typename Error>
   InventedTuning& with(Error error_of) {
     tune::MethodTuning& method = tuning.methods.front();
-    method.cases.clear();
-    for (const tune::TuningCase& one : tuning.cases) {
-      tune::MethodOnCase& found = method.cases.emplace_back();
-      for (const tune::SearchPoint& point : tune::search(*method.axis, [&](double position) {
-             return tune::Trial{error_of(one, position), false};
-           })) {
-        found.sweep.push_back({point.position, point.on_grid, evaluation(one, point.position, point.error)});
+    method.cases.assign(tuning.cases.size(), {});
+    method.rounds.clear();
+    evaluations = 0;
+    const auto add = [&](std::size_t i, double position, bool on_grid) {
+      const tune::TuningCase& one = tuning.cases[i];
+      const double error = error_of(one, position);
+      method.cases[i].sweep.push_back({position, on_grid, evaluation(one, position, error)});
+      ++evaluations;
+      return tune::Trial{error, false};
+    };
+    const auto order = tune::training_order(tuning.cases);
+    for (std::size_t round = 0; round < tune::round_ends(order.size()).size(); ++round) {
+      for (const tune::TrainingItem& item : tune::items_of_round(tuning, round)) {
+        for (const double position : item.positions) add(item.which_case, position, true);
       }
+      tune::end_round(tuning, round);
+    }
+    const auto tuned_value = tuned();
+    for (std::size_t i = 0; i < tuning.cases.size(); ++i) {
+      if (tuning.cases[i].side != tune::Side::kTest) continue;
+      const auto points =
+          tune::search(*method.axis, [&](double position) { return add(i, position, false); });
+      for (std::size_t k = 0; k < points.size(); ++k) method.cases[i].sweep[k].on_grid = points[k].on_grid;
+      if (tuned_value) add(i, tuned_value->position, false);
     }
     return *this;
   }
@@ -240,9 +291,10 @@ class InventedTuning {
   }
 
   const tune::MethodTuning& method() const { return tuning.methods.front(); }
-  std::optional<tune::TunedValue> tuned() const { return tune::choose_tuned(tuning, method()); }
+  std::optional<tune::TunedValue> tuned() const { return tune::choose_tuned(method()); }
 
   tune::Tuning tuning;
+  std::size_t evaluations = 0;  ///< of the last search
 };
 
 MethodInfo usual_method() {
@@ -255,9 +307,9 @@ double valley(double position, double best) {
 }
 
 const tune::ProtocolScore* score_of(const std::vector<tune::ProtocolScore>& scores,
-                                    const std::string& protocol, bool test_only) {
+                                    const std::string& protocol) {
   for (const tune::ProtocolScore& score : scores) {
-    if (score.protocol == protocol && score.test_only == test_only) return &score;
+    if (score.protocol == protocol) return &score;
   }
   return nullptr;
 }
@@ -298,10 +350,10 @@ TEST(TunedTest, FailuresAreInfinitelyBadButAFewDoNotRuleAValueOut) {
   for (const tune::TuningCase& one : invented.tuning.cases)
     count += one.side == tune::Side::kTraining ? 1 : 0;
   ASSERT_GE(count, 8);
-  int fails = 0;
+  int seen = 0;
   std::map<std::string, bool> failing;
   for (const tune::TuningCase& one : invented.tuning.cases)
-    failing[one.shape] = one.side == tune::Side::kTraining && fails++ < count / 4;
+    failing[one.shape] = one.side == tune::Side::kTraining && seen++ % 4 == 0;
   invented.with([&](const tune::TuningCase& one, double position) {
     return failing[one.shape] ? tune::kInfinitelyBad : valley(position, 2);
   });
@@ -310,6 +362,91 @@ TEST(TunedTest, FailuresAreInfinitelyBadButAFewDoNotRuleAValueOut) {
   EXPECT_FALSE(invented.tuned());
   InventedTuning nothing(usual_method(), 0);
   EXPECT_FALSE(nothing.tuned()) << "no training shape";
+}
+
+TEST(HalvingTest, RoundsAreAQuarterAHalfAndAll) {
+  EXPECT_EQ(tune::round_ends(0), std::vector<std::size_t>());
+  EXPECT_EQ(tune::round_ends(1), (std::vector<std::size_t>{1, 1, 1}));
+  EXPECT_EQ(tune::round_ends(172), (std::vector<std::size_t>{43, 86, 172}));
+  EXPECT_EQ(tune::better_half({1, 2, 3, 4, 5}, {0.5, 0.1, 0.3, 0.1, 0.4}), (std::vector<double>{2, 3, 4}));
+  EXPECT_EQ(tune::better_half({1, 2, 3, 4}, {0.1, 0.1, 0.1, 0.1}), (std::vector<double>{1, 2}));
+}
+
+TEST(HalvingTest, EveryRoundHasEverySourceAndSampler) {
+  std::vector<tune::TuningCase> cases;
+  for (const char* name : {"star-1", "star-2", "star-3", "star-4", "star-1~noise:1", "star-2~noise:1", "ca",
+                           "han-1", "han-2", "star-3~gradient:4~noise:1"}) {
+    tune::TuningCase& one = cases.emplace_back();
+    one.plan_case.dataset = name;
+    one.side = tune::side_of(name);
+  }
+  std::vector<std::string> names;
+  for (const std::size_t place : tune::training_order(cases)) names.push_back(cases[place].plan_case.dataset);
+  EXPECT_EQ(names, (std::vector<std::string>{"han-1", "star-1~noise:1", "star-3~gradient:4~noise:1", "star-1",
+                                             "han-2", "star-2~noise:1", "star-2", "star-3", "star-4"}));
+}
+
+TEST(HalvingTest, FindsTheWinnerOfTheWholeSearchForHalfOfItsCost) {
+  // Every shape's best is elsewhere, about 1.7; of their medians the whole grid has a known best.
+  InventedTuning invented(usual_method(), 160);
+  const auto error_of = [](const tune::TuningCase& one, double position) {
+    const double turns = 0.618 * std::stod(one.shape.substr(one.shape.find('-') + 1));
+    return valley(position, 1.7 * std::exp2(turns - std::floor(turns) - 0.5)) *
+           (one.shape.back() == '1' ? 3 : 1);
+  };
+  invented.with(error_of);
+  double best_score = tune::kInfinitelyBad;
+  double best = 0;
+  std::size_t training = 0;
+  for (const double position : tune::grid(length_axis(), tune::kGridPoints)) {
+    std::vector<double> errors;
+    for (const tune::TuningCase& one : invented.tuning.cases) {
+      if (one.side == tune::Side::kTraining) errors.push_back(error_of(one, position));
+    }
+    training = errors.size();
+    std::sort(errors.begin(), errors.end());
+    if (errors[39] + errors[40] >= best_score) continue;
+    best_score = errors[39] + errors[40];
+    best = position;
+  }
+  ASSERT_EQ(training, 80U);
+  EXPECT_EQ(invented.tuned()->position, best);
+  const auto& rounds = invented.method().rounds;
+  ASSERT_EQ(rounds.size(), 3U);
+  EXPECT_EQ(rounds[0].positions.size(), 25U);
+  EXPECT_EQ(rounds[1].positions.size(), 13U);
+  EXPECT_EQ(rounds[2].positions.size(), 7U);
+  const std::size_t of_tests = 80 * (tune::kSweepPoints + tune::kRefinements + 1);
+  EXPECT_EQ(invented.evaluations - of_tests, 20U * 25 + 20 * 13 + 40 * 7);
+  EXPECT_LE(invented.evaluations - of_tests, training * 25 * 55 / 100);
+}
+
+TEST(StrataTest, EveryStratumCountsTheSameAndInItEveryShape) {
+  EXPECT_EQ(tune::kind_of_shape(1, 0), "simple");
+  EXPECT_EQ(tune::kind_of_shape(1, 3), "holes");
+  EXPECT_EQ(tune::kind_of_shape(2, 3), "several parts");
+  EXPECT_EQ(tune::kind_of_shape(2, 0), "several parts");
+  EXPECT_EQ(tune::sampler_of("ca"), "uniform");
+  EXPECT_EQ(tune::sampler_of("ca~noise:1"), "noise");
+  EXPECT_EQ(tune::sampler_of("ca~gradient:4~noise:1"), "several");
+  const auto weights = tune::case_weights({{"a", "x"}, {"a", "x"}, {"a", "y"}, {"b", "x"}});
+  EXPECT_EQ(weights, (std::vector<double>{0.125, 0.125, 0.25, 0.5}));
+}
+
+TEST(StrataTest, AShapeWithManyCasesDoesNotHaveTheSay) {
+  // One training shape of many cases is best at 8, three others at 2.
+  InventedTuning invented(usual_method(), 0);
+  for (int i = 0; i < 12; ++i) {
+    tune::TuningCase& one = invented.tuning.cases.emplace_back();
+    one.plan_case = {"star-" + std::to_string(std::min(i + 1, 4)), false, 500 + i};
+    one.shape = one.plan_case.dataset;
+    one.side = tune::Side::kTraining;
+    one.spacing = 1;
+  }
+  invented.with([](const tune::TuningCase& one, double position) {
+    return valley(position, one.shape == "star-4" ? 8 : 2);
+  });
+  EXPECT_EQ(invented.tuned()->position, 2);
 }
 
 TEST(ProtocolTest, TheOracleIsTheBestAndRegretIsWhatTheOthersAddToIt) {
@@ -322,22 +459,21 @@ TEST(ProtocolTest, TheOracleIsTheBestAndRegretIsWhatTheOthersAddToIt) {
       EXPECT_LE(tune::error_of(*tune::best_evaluation(found)), tune::error_of(one.evaluation));
   }
   const auto scores = tune::protocol_scores(invented.tuning, invented.method(), invented.tuned());
-  const tune::ProtocolScore* oracle = score_of(scores, "oracle", false);
+  const tune::ProtocolScore* oracle = score_of(scores, "oracle");
   ASSERT_NE(oracle, nullptr);
   EXPECT_EQ(oracle->regret_median, 0);
   EXPECT_NEAR(oracle->l2_median, 0.1, 0.03);
-  const tune::ProtocolScore* left_alone = score_of(scores, "default", false);
+  const tune::ProtocolScore* left_alone = score_of(scores, "default");
   ASSERT_NE(left_alone, nullptr);
   EXPECT_DOUBLE_EQ(left_alone->l2_median, 0.75);
   EXPECT_DOUBLE_EQ(*left_alone->regret_median, 0.75 - oracle->l2_median);
-  EXPECT_EQ(left_alone->cases, invented.tuning.cases.size());
-  EXPECT_EQ(score_of(scores, "tuned", false), nullptr) << "on test shapes only";
-  const tune::ProtocolScore* tuned = score_of(scores, "tuned", true);
+  EXPECT_EQ(left_alone->cases, invented.tuning.cases.size() / 2) << "test cases only";
+  const tune::ProtocolScore* tuned = score_of(scores, "tuned");
   ASSERT_NE(tuned, nullptr);
   const auto tests = std::count_if(invented.tuning.cases.begin(), invented.tuning.cases.end(),
                                    [](const tune::TuningCase& one) { return one.side == tune::Side::kTest; });
   EXPECT_EQ(tuned->cases, static_cast<std::size_t>(tests));
-  EXPECT_EQ(score_of(scores, "paper", true), nullptr);
+  EXPECT_EQ(score_of(scores, "paper"), nullptr);
 }
 
 TEST(ProtocolTest, ABetterDefaultIsTheOracle) {
@@ -356,8 +492,8 @@ TEST(ProtocolTest, FailedCasesCountAsInfinitelyBad) {
         "default", invented.evaluation(invented.tuning.cases[i], 32, tune::kInfinitelyBad));
   }
   const auto scores = tune::protocol_scores(invented.tuning, invented.method(), invented.tuned());
-  const tune::ProtocolScore* failing = score_of(scores, "default", false);
-  EXPECT_EQ(failing->failed, invented.tuning.cases.size());
+  const tune::ProtocolScore* failing = score_of(scores, "default");
+  EXPECT_EQ(failing->failed, failing->cases);
   EXPECT_TRUE(tune::is_infinitely_bad(failing->l2_median));
   EXPECT_TRUE(tune::is_infinitely_bad(*failing->regret_median));
 }
@@ -366,7 +502,7 @@ TEST(CurveTest, IsRelativeToEachCasesOwnBest) {
   InventedTuning invented(usual_method());
   // Twice as hard on every second shape, which must not show in the relative curve.
   invented.with([](const tune::TuningCase& one, double position) {
-    const double hardness = one.shape.back() % 2 == 0 ? 2 : 1;
+    const double hardness = one.shape.back() % 4 == 1 ? 2 : 1;
     return position > 20 ? tune::kInfinitelyBad : hardness * valley(position, 2);
   });
   const auto curve = tune::sensitivity_curve(invented.tuning, invented.method());
@@ -386,10 +522,11 @@ TEST(CurveTest, IsRelativeToEachCasesOwnBest) {
 
 /// The plan whose cases the invented search has.
 plan::Plan star_plan(const std::string& methods) {
-  return plan::parse_plan(
-      R"({"name": "stars", "cases": [{"dataset": "star", "members": 40, "n": [500]}], "methods": )" +
-          methods + "}",
-      "test");
+  std::string names;
+  for (int i = 1; i <= 40; ++i) names += (i == 1 ? "\"" : ", \"") + invented_shape(i) + "\"";
+  return plan::parse_plan(R"({"name": "stars", "cases": [{"dataset": [)" + names +
+                              R"(], "n": [500]}], "methods": )" + methods + "}",
+                          "test");
 }
 
 TEST(TunedPlanTest, HasTheChosenParametersOnTheRightCases) {
@@ -403,6 +540,8 @@ TEST(TunedPlanTest, HasTheChosenParametersOnTheRightCases) {
       star_plan(R"([{"method": "made_up", "protocol": "paper", "parameters": {"alpha": 3}},
                                   {"method": "polylidar", "protocol": "default"}])");
   const plan::Plan chosen = tune::tuned_plan(plan, invented.tuning);
+  plan::Plan accepting = plan;
+  accepting.accepted = {"error"};
   EXPECT_EQ(chosen.name, "stars-tuned");
   std::map<std::string, const plan::PlanMethod*> entries;
   for (const plan::PlanMethod& entry : chosen.methods) {
@@ -410,13 +549,16 @@ TEST(TunedPlanTest, HasTheChosenParametersOnTheRightCases) {
     entries[entry.protocol] = &entry;
   }
   EXPECT_EQ(chosen.methods.size(), 3U) << "paper, tuned and oracle; alpha is required, so no default";
+  EXPECT_EQ(chosen.expanded_cases.size(), 20U);
+  for (const plan::PlanCase& one : chosen.expanded_cases)
+    EXPECT_EQ(tune::side_of(one.dataset), tune::Side::kTest) << one.dataset;
+  EXPECT_EQ(tune::tuned_plan(accepting, invented.tuning).expanded_cases.size(), 40U);
   const tune::TunedValue tuned = *invented.tuned();
   std::vector<polylidar::Point> square = {{0, 0}, {2, 0}, {2, 2}, {0, 2}};  // 4 points, spacing 1
   const plan::RuleInput input = {square, 1, false, {}};
   for (std::size_t i = 0; i < invented.tuning.cases.size(); ++i) {
     const tune::TuningCase& one = invented.tuning.cases[i];
-    EXPECT_EQ(plan::applies(*entries.at("tuned"), one.plan_case), one.side == tune::Side::kTest)
-        << one.plan_case.name();
+    if (one.side != tune::Side::kTest) continue;
     ASSERT_TRUE(plan::applies(*entries.at("oracle"), one.plan_case)) << one.plan_case.name();
     EXPECT_EQ(plan::choose_parameters(*entries.at("oracle"), one.plan_case, input),
               tune::best_evaluation(invented.method().cases[i])->parameters);
@@ -430,13 +572,13 @@ TEST(TunedPlanTest, HasTheChosenParametersOnTheRightCases) {
 TEST(TunedPlanTest, AnOracleWithoutALimitStaysWithoutOne) {
   InventedTuning invented(usual_method());
   invented.with([](const tune::TuningCase&, double position) { return valley(position, 2); });
-  tune::Evaluation unlimited = invented.evaluation(invented.tuning.cases[0], 2, 0.001);
+  tune::Evaluation unlimited = invented.evaluation(invented.tuning.cases[1], 2, 0.001);
   unlimited.parameters["reach"] = kInfinity;
-  invented.tuning.methods[0].cases[0].protocols.emplace("default", unlimited);
+  invented.tuning.methods[0].cases[1].protocols.emplace("default", unlimited);
   const plan::Plan chosen =
       tune::tuned_plan(star_plan(R"([{"method": "made_up", "protocol": "default"}])"), invented.tuning);
   const plan::Plan read = plan::parse_plan(plan::plan_to_json(chosen).dump(), "written");
-  EXPECT_EQ(plan::choose_parameters(read.methods.back(), invented.tuning.cases[0].plan_case, {}).at("reach"),
+  EXPECT_EQ(plan::choose_parameters(read.methods.back(), invented.tuning.cases[1].plan_case, {}).at("reach"),
             kInfinity);
 }
 
@@ -450,8 +592,7 @@ TEST(TuningCasesTest, VariantsOfAShapeAreOnOneSideAndACaseOfTwoPlansIsThereOnce)
   };
   const auto cases = tune::tuning_cases(
       {plan_of("a", R"([{"dataset": ["ca", "hi"], "holes": [false, true], "n": [500, 2000]}])"),
-       plan_of("b", R"([{"dataset": "ca", "n": [2000, 4000]}])")},
-      1);
+       plan_of("b", R"([{"dataset": ["ca", "star-1~lattice:0"], "n": [2000, 4000]}])")});
   EXPECT_EQ(cases.size(), 9U);
   std::map<std::string, std::set<tune::Side>> sides;
   for (const tune::TuningCase& one : cases) {

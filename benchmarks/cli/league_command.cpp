@@ -9,7 +9,6 @@
 #include "benchmarks/league/league.hpp"
 #include "benchmarks/league/league_report.hpp"
 #include "benchmarks/record/stored_run.hpp"
-#include "benchmarks/report/report.hpp"
 
 namespace hullbench::cli {
 namespace {
@@ -19,7 +18,6 @@ using nlohmann::json;
 struct LeagueCommand {
   std::vector<std::filesystem::path> runs;
   std::filesystem::path out;  ///< empty: only print
-  std::uint64_t split_seed = 1;
   bool all_cases = false;
 };
 
@@ -29,17 +27,15 @@ ExitCode print_league(const LeagueCommand& command) {
     if (!std::filesystem::is_directory(folder))
       throw ConfigurationError("there is no run in " + folder.string() +
                                "; give the folder of a run or suite");
-    const std::vector<json> some =
-        record::is_suite(folder) ? report::suite_reports(folder) : std::vector{record::load_run(folder)};
-    reports.insert(reports.end(), some.begin(), some.end());
+    const auto runs = record::is_suite(folder) ? record::suite_runs(folder) : std::vector{folder};
+    for (const std::filesystem::path& run : runs) reports.push_back(record::load_run(run));
   }
   if (std::all_of(reports.begin(), reports.end(),
                   [](const json& report) { return report.at("runs").empty(); })) {
     std::cerr << "hullbench: none of the folders has a finished run; there is nothing to judge\n";
     return kExitNothing;
   }
-  const json league =
-      league::league_to_json(league::make_league(reports, command.split_seed, !command.all_cases), reports);
+  const json league = league::league_to_json(league::make_league(reports, !command.all_cases), reports);
   table::print_markdown(league::league_document(league), std::cout);
   if (!command.out.empty()) {
     write_json_file(command.out, league);
@@ -57,11 +53,6 @@ void add_league(CLI::App& app, Action& action) {
       "hullbench league results/latest --out league.json");
   options.add_option("RUN", command->runs, "Folders of runs, or of suites")->required();
   options.add_option("--out", command->out, "File for it as JSON (results/league.schema.json)");
-  options
-      .add_option("--seed", command->split_seed,
-                  "Seed of the split into training and test shapes, as of tune")
-      ->check(CLI::NonNegativeNumber)
-      ->capture_default_str();
   options.add_flag("--all-cases", command->all_cases, "Of training shapes too");
   set_action(options, action, command, &print_league);
 }

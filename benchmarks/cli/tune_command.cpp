@@ -39,10 +39,9 @@ struct TuneCommand {
   std::vector<std::string> plans;  ///< one or more: their cases
   std::string methods;             ///< regular expression; empty: all built-in methods
   std::optional<fs::path> out;
-  std::uint64_t seed = 1;           ///< of the split; points are drawn with the plans' seeds
   std::optional<double> timeout_s;  ///< for one evaluation, instead of the plan's
   std::optional<int> jobs;          ///< none: one a core
-  std::optional<run::Shard> shard;  ///< none: all cases
+  std::optional<run::Shard> shard;  ///< none: all methods
   std::vector<fs::path> adapters;   ///< more folders with manifests
 };
 
@@ -82,18 +81,13 @@ std::vector<std::string> chosen_methods(const std::string& pattern, const run::M
   return chosen;
 }
 
-/// The cases of each plan that are in the shard.
-std::vector<plan::Plan> part_of(std::vector<plan::Plan> plans, const std::optional<run::Shard>& shard) {
-  if (!shard) return plans;
-  for (plan::Plan& plan : plans) {
-    std::vector<plan::PlannedRun> runs;
-    for (std::size_t i = 0; i < plan.expanded_cases.size(); ++i) runs.push_back({i, 0, ""});
-    std::vector<plan::PlanCase> kept;
-    for (const plan::PlannedRun& run : run::runs_of_shard(plan, runs, *shard))
-      kept.push_back(plan.expanded_cases[run.case_index]);
-    plan.expanded_cases = std::move(kept);
-  }
-  return plans;
+/// Those of `methods` that are in the shard: every count-th.
+std::vector<std::string> part_of(const std::vector<std::string>& methods,
+                                 const std::optional<run::Shard>& shard) {
+  if (!shard) return methods;
+  std::vector<std::string> kept;
+  for (std::size_t i = shard->number - 1; i < methods.size(); i += shard->count) kept.push_back(methods[i]);
+  return kept;
 }
 
 fs::path folder_of(const TuneCommand& command, const std::vector<plan::Plan>& plans) {
@@ -113,7 +107,7 @@ tune::TunerOptions tuner_options(const TuneCommand& command, const run::MethodCa
                                  const std::vector<plan::Plan>& plans, const json& tool) {
   tune::TunerOptions options;
   options.find_method = [&catalog](const std::string& name) { return catalog.find(name); };
-  options.methods = chosen_methods(command.methods, catalog);
+  options.methods = part_of(chosen_methods(command.methods, catalog), command.shard);
   for (const std::string& method : options.methods) {
     const auto manifest = catalog.hashes().find(method);
     options.programs[method] =
@@ -157,7 +151,7 @@ void write_results(const fs::path& folder, const tune::Tuning& tuning, const std
   for (const plan::Plan& plan : plans) {
     names.push_back(plan.name);
     const plan::Plan chosen = tune::tuned_plan(plan, tuning);
-    if (!chosen.methods.empty())
+    if (!chosen.methods.empty() && !chosen.expanded_cases.empty())
       write_text_file(folder / (chosen.name + ".json"), plan::plan_to_json(chosen).dump(1) + "\n");
   }
   const json summary = tune::tuning_to_json(tuning, names, tool);
@@ -180,12 +174,13 @@ void write_results(const fs::path& folder, const tune::Tuning& tuning, const std
 ExitCode tune_plans(const TuneCommand& command) {
   const run::MethodCatalog catalog(run::manifest_folders(command.adapters));
   const std::vector<plan::Plan> plans = load_plans(command, catalog);
-  const std::vector<plan::Plan> parts = part_of(plans, command.shard);
   const json tool = describe_tool();
   const tune::TunerOptions options = tuner_options(command, catalog, plans, tool);
-  std::vector<tune::TuningCase> cases = tune::tuning_cases(parts, command.seed);
-  if (cases.empty()) {
-    std::cerr << "hullbench: there are too few cases for shard " << to_string(*command.shard)
+  std::vector<tune::TuningCase> cases = tune::tuning_cases(plans);
+  if (cases.empty() || options.methods.empty()) {
+    std::cerr << "hullbench: "
+              << (cases.empty() ? "no case is on a side of the split (benchmarks/tune/split.cpp)"
+                                : "there are too few methods for shard " + to_string(*command.shard))
               << ": nothing is evaluated here\n";
     return kExitNothing;
   }
@@ -197,7 +192,7 @@ ExitCode tune_plans(const TuneCommand& command) {
   run::Progress progress = make_progress({{"tune", tune::tuning_progress(cases, options.methods)}});
   std::cerr << "hullbench: " << options.methods.size() << " methods on " << cases.size() << " cases, into "
             << folder.string() << "; " << store.found() << " evaluations are there already\n";
-  const tune::Tuning tuning = tune::run_tuning(std::move(cases), command.seed, options, store, progress);
+  const tune::Tuning tuning = tune::run_tuning(std::move(cases), options, store, progress);
   progress.end();
   if (tuning.interrupted) {
     std::cerr << "hullbench: interrupted; evaluations are kept in " << (folder / file).string()
@@ -216,25 +211,22 @@ void add_tune(CLI::App& app, Action& action) {
   CLI::App& options = add_command(
       app, "tune",
       "Search every method's parameter and say what each way of choosing it costs (nothing is timed)",
-      "hullbench tune alphabet --methods 'polylidar|geos_concave_hull'");
+      "hullbench tune world_shapes --methods 'polylidar|geos_concave_hull'");
   add_plans(options, command->plans, ": its cases");
   options.add_option(
       "--methods", command->methods,
       "Methods whose name is a match of this regular expression, instead of all built-in ones");
   options.add_option("--out", command->out, "Folder for the results instead of one in results/tune");
-  options.add_option("--seed", command->seed, "Seed of the split into training and test shapes")
-      ->check(CLI::NonNegativeNumber)
-      ->capture_default_str();
   options
       .add_option("--timeout", command->timeout_s,
                   "Seconds that one evaluation may take, instead of the plan's")
       ->check(timeout_range());
   options.add_option("--jobs", command->jobs, "Evaluations at a time, instead of one a processor core")
       ->check(CLI::Range(1, 1024));
-  add_shard(
-      options, command->shard,
-      "Only part K of N of the cases, given as K/N; when all are done, the same command without it, over the "
-      "folder with their files sweep-K-of-N.jsonl, puts them together");
+  add_shard(options, command->shard,
+            "Only part K of N of the methods, given as K/N; when all are done, the same command without it, "
+            "over the "
+            "folder with their files sweep-K-of-N.jsonl, puts them together");
   add_adapters(options, command->adapters);
   set_action(options, action, command, &tune_plans);
 }

@@ -9,9 +9,10 @@
 #include <utility>
 
 #include "benchmarks/record/pictures.hpp"
-#include "benchmarks/statistics/statistics.hpp"
+#include "benchmarks/statistics/weighted.hpp"
 #include "benchmarks/tune/search.hpp"
 #include "benchmarks/tune/split.hpp"
+#include "benchmarks/tune/strata.hpp"
 #include "benchmarks/worker/protocol.hpp"
 
 namespace hullbench::league {
@@ -43,38 +44,84 @@ std::string shape_of(const json& row) {
 /// What the rows of all methods say of a case.
 struct CaseFacts {
   std::string shape;
-  bool scored = false;     ///< its errors count
-  bool has_holes = false;  ///< the ground truth has
+  std::string dataset;
+  bool scored = false;    ///< its errors count
+  std::size_t parts = 1;  ///< of the ground truth
+  std::size_t holes = 0;  ///< of all its parts
+  double weight = 0;      ///< of a scored case
+
+  std::string kind() const { return tune::kind_of_shape(parts, holes); }
+  std::string sampler() const { return tune::sampler_of(dataset); }
 };
+
+/// How many polygons or holes the ground truth has, of a row that has a result.
+std::optional<std::size_t> count_in_truth(const json& row, const std::string& what) {
+  const auto found = metric(row, what.c_str());
+  const auto error = metric(row, (what + "_error").c_str());
+  if (!found || !error) return std::nullopt;
+  return static_cast<std::size_t>(std::llround(*found - *error));
+}
 
 /// Where a plan accepts failures, how a run ends is all that counts: an error of a million per cent on points
 /// that are 1e8 apart says nothing about shapes.
 void learn(CaseFacts& facts, const json& row, bool accepts_failures) {
   facts.shape = shape_of(row);
+  facts.dataset = row.at("dataset").get<std::string>();
   if (accepts_failures) return;
   if (const auto area = metric(row, "ground_truth_area"); area && *area > 0) facts.scored = true;
-  const auto holes = metric(row, "holes");
-  const auto error = metric(row, "holes_error");
-  if (holes && error && *holes - *error > 0) facts.has_holes = true;
+  facts.parts = count_in_truth(row, "polygons").value_or(facts.parts);
+  facts.holes = count_in_truth(row, "holes").value_or(facts.holes);
+}
+
+/// What a method can answer with.
+struct Capabilities {
+  bool holes = true;
+  bool several_polygons = true;
+
+  bool can_have(const CaseFacts& facts) const {
+    return (holes || facts.holes == 0) && (several_polygons || facts.parts == 1);
+  }
+};
+
+void learn(std::map<std::string, Capabilities>& capabilities, const json& method) {
+  const json said = method.value("capabilities", json::object());
+  capabilities[method.at("name").get<std::string>()] = {said.value("holes", true),
+                                                        said.value("several_polygons", true)};
 }
 
 /// All rows, sorted.
 struct Field {
   std::map<Entrant, RowsByCase> rows;
   std::map<std::string, CaseFacts> cases;
-  std::set<std::string> accepted;  ///< statuses that a plan without ground truth accepts
+  std::map<std::string, Capabilities> capabilities;  ///< by method, of those that say so
+  std::set<std::string> accepted;                    ///< statuses that a plan without ground truth accepts
   std::vector<std::string> not_installed;
 };
 
-Field sort_rows(const std::vector<json>& reports, std::uint64_t split_seed, bool test_only) {
+void weigh(std::map<std::string, CaseFacts>& cases) {
+  std::vector<CaseFacts*> scored;
+  std::vector<tune::Membership> members;
+  for (auto& [name, facts] : cases) {
+    if (!facts.scored) continue;
+    scored.push_back(&facts);
+    members.push_back({facts.sampler() + ", " + facts.kind(), facts.shape});
+  }
+  if (scored.empty()) return;
+  const std::vector<double> weights = tune::case_weights(members);
+  for (std::size_t i = 0; i < scored.size(); ++i) scored[i]->weight = weights[i];
+}
+
+Field sort_rows(const std::vector<json>& reports, bool test_only) {
   Field field;
   std::set<std::string> installed;
   std::set<std::string> missing;
   for (const json& report : reports) {
     const json accepted = report.at("plan").value("accepted", json::array());
     for (const json& status : accepted) field.accepted.insert(status.get<std::string>());
+    for (const json& method : report.at("methods")) learn(field.capabilities, method);
     for (const json& row : report.at("runs")) {
-      if (test_only && tune::side_of(shape_of(row), split_seed) != tune::Side::kTest) continue;
+      const bool is_test = tune::side_of(row.at("dataset").get<std::string>()) == tune::Side::kTest;
+      if (test_only && accepted.empty() && !is_test) continue;
       const std::string method = row.at("method").get<std::string>();
       if (row.at("status") == "not_installed") {
         missing.insert(method);
@@ -89,6 +136,7 @@ Field sort_rows(const std::vector<json>& reports, std::uint64_t split_seed, bool
   }
   std::set_difference(missing.begin(), missing.end(), installed.begin(), installed.end(),
                       std::back_inserter(field.not_installed));
+  weigh(field.cases);
   return field;
 }
 
@@ -106,15 +154,15 @@ double error_of(const json& row) {
 /// Values of an entry by shape, for the medians.
 class Samples {
  public:
-  void add(const std::string& shape, std::optional<double> value) {
-    if (value) values_[shape].push_back(*value);
+  void add(const CaseFacts& facts, std::optional<double> value) {
+    if (value) values_[facts.shape].push_back({*value, facts.weight});
   }
+  bool empty() const { return values_.empty(); }
+  double median() const { return from_finite(statistics::weighted_median(all())); }
   /// None without a value.
   std::optional<MedianScore> median_score() const {
     if (values_.empty()) return std::nullopt;
-    const std::vector<double> values = all();
-    MedianScore score = {values.size(), from_finite(statistics::median(values)),
-                         statistics::clustered_median_interval(by_shape())};
+    MedianScore score = {all().size(), median(), statistics::weighted_median_interval(by_shape())};
     if (score.interval)
       score.interval =
           statistics::Interval{from_finite(score.interval->low), from_finite(score.interval->high)};
@@ -123,7 +171,7 @@ class Samples {
   /// Of values from 0 to 1, beyond which a normal interval can reach.
   std::optional<MeanScore> mean_score() const {
     if (values_.empty()) return std::nullopt;
-    MeanScore score = {statistics::mean(all()), statistics::clustered_mean_interval(by_shape())};
+    MeanScore score = {statistics::weighted_mean(all()), statistics::weighted_mean_interval(by_shape())};
     if (score.interval) {
       score.interval = statistics::Interval{std::clamp(score.interval->low, 0.0, 1.0),
                                             std::clamp(score.interval->high, 0.0, 1.0)};
@@ -132,26 +180,45 @@ class Samples {
   }
 
  private:
-  std::vector<double> all() const {
-    std::vector<double> result;
+  std::vector<statistics::WeightedValue> all() const {
+    std::vector<statistics::WeightedValue> result;
     for (const auto& [shape, values] : values_) result.insert(result.end(), values.begin(), values.end());
     return result;
   }
-  std::vector<std::vector<double>> by_shape() const {
-    std::vector<std::vector<double>> result;
+  std::vector<std::vector<statistics::WeightedValue>> by_shape() const {
+    std::vector<std::vector<statistics::WeightedValue>> result;
     for (const auto& [shape, values] : values_) result.push_back(values);
     return result;
   }
 
-  std::map<std::string, std::vector<double>> values_;
+  std::map<std::string, std::vector<statistics::WeightedValue>> values_;
 };
+
+/// Errors on some of the cases.
+struct PartSamples {
+  Samples l2;
+  std::size_t cases = 0;
+  std::size_t failures = 0;
+
+  void add(const CaseFacts& facts, double error) {
+    l2.add(facts, error);
+    ++cases;
+    if (error >= tune::kInfinitelyBad) ++failures;
+  }
+};
+
+std::map<std::string, PartScore> part_scores(const std::map<std::string, PartSamples>& parts) {
+  std::map<std::string, PartScore> scores;
+  for (const auto& [name, part] : parts) scores[name] = {part.cases, part.failures, part.l2.median()};
+  return scores;
+}
 
 std::optional<double> skill_of(const json& row, bool ok) {
   return ok ? metric(row, "skill") : std::optional(-tune::kInfinitelyBad);
 }
 
 std::optional<double> hole_f1_of(const json& row, bool ok, const CaseFacts& facts) {
-  if (!facts.has_holes) return std::nullopt;
+  if (facts.holes == 0) return std::nullopt;
   return ok ? metric(row, "hole_f1").value_or(0) : 0;
 }
 
@@ -167,7 +234,12 @@ LeagueEntry make_entry(const Field& field, const Entrant& entrant, const RowsByC
   entry.method = entrant.first;
   entry.protocol = entrant.second;
   const auto oracle = field.rows.find({entrant.first, "oracle"});
+  const auto known = field.capabilities.find(entrant.first);
+  const Capabilities able = known == field.capabilities.end() ? Capabilities() : known->second;
   Samples l2;
+  Samples l2_where_able;
+  std::map<std::string, PartSamples> kinds;
+  std::map<std::string, PartSamples> samplers;
   Samples skill;
   Samples hole_f1;
   Samples regret;
@@ -186,12 +258,18 @@ LeagueEntry make_entry(const Field& field, const Entrant& entrant, const RowsByC
       ++entry.failures;
       ++entry.failures_by_status[status];
     }
-    l2.add(facts.shape, error);
-    skill.add(facts.shape, skill_of(*row, ok));
-    hole_f1.add(facts.shape, hole_f1_of(*row, ok, facts));
-    regret.add(facts.shape, regret_of(error, name, oracle == field.rows.end() ? nullptr : &oracle->second));
+    l2.add(facts, error);
+    if (able.can_have(facts)) l2_where_able.add(facts, error);
+    kinds[facts.kind()].add(facts, error);
+    samplers[facts.sampler()].add(facts, error);
+    skill.add(facts, skill_of(*row, ok));
+    hole_f1.add(facts, hole_f1_of(*row, ok, facts));
+    regret.add(facts, regret_of(error, name, oracle == field.rows.end() ? nullptr : &oracle->second));
   }
   entry.l2 = l2.median_score();
+  entry.l2_where_able = l2_where_able.median_score();
+  entry.kinds = part_scores(kinds);
+  entry.samplers = part_scores(samplers);
   entry.skill = skill.median_score();
   entry.hole_f1 = hole_f1.median_score();
   entry.hole_f1_mean = hole_f1.mean_score();
@@ -238,6 +316,7 @@ LeagueProfile make_profile(const Field& field, const std::string& group, const s
     (2 * scored_cases(field, entrant) < most ? profile.left_out : entrants).push_back(entrant);
   for (const auto& [method, protocol] : entrants)
     profile.curves.push_back({method, protocol, std::vector<double>(league_taus().size(), 0.0)});
+  double weight = 0;
   for (const std::string& name : common_cases(field, entrants)) {
     std::vector<double> errors;
     errors.reserve(entrants.size());
@@ -245,15 +324,18 @@ LeagueProfile make_profile(const Field& field, const std::string& group, const s
     const double best = *std::min_element(errors.begin(), errors.end());
     if (best >= tune::kInfinitelyBad) continue;
     ++profile.cases;
+    const double case_weight = field.cases.at(name).weight;
+    weight += case_weight;
     for (std::size_t i = 0; i < errors.size(); ++i) {
       for (std::size_t k = 0; k < league_taus().size(); ++k) {
         if (errors[i] < tune::kInfinitelyBad && errors[i] <= league_taus()[k] * best)
-          profile.curves[i].shares[k] += 1;
+          profile.curves[i].shares[k] += case_weight;
       }
     }
   }
   for (LeagueProfile::Curve& curve : profile.curves) {
-    for (double& share : curve.shares) share /= static_cast<double>(std::max<std::size_t>(1, profile.cases));
+    // A share that is 1 but for rounding is 1.
+    for (double& share : curve.shares) share = weight > 0 ? std::min(1.0, share / weight) : 0;
   }
   return profile;
 }
@@ -269,6 +351,24 @@ std::vector<LeagueProfile> make_profiles(const Field& field) {
   return profiles;
 }
 
+void add_parts(League& league, const Field& field) {
+  std::map<std::string, LeaguePart> kinds;
+  std::map<std::string, LeaguePart> samplers;
+  for (const auto& [name, facts] : field.cases) {
+    if (!facts.scored) continue;
+    for (LeaguePart* part : {&kinds[facts.kind()], &samplers[facts.sampler()]}) ++part->cases;
+    if (tune::has_unseen_sampler(facts.dataset)) samplers[facts.sampler()].seen = false;
+  }
+  const auto add = [](std::vector<LeaguePart>& to, const std::map<std::string, LeaguePart>& from,
+                      const std::string& name) {
+    if (const auto found = from.find(name); found != from.end())
+      to.push_back({name, found->second.cases, found->second.seen});
+  };
+  for (const std::string& kind : tune::shape_kinds()) add(league.kinds, kinds, kind);
+  for (const tune::SplitRow& row : tune::sampler_split()) add(league.samplers, samplers, row.name);
+  add(league.samplers, samplers, "several");
+}
+
 }  // namespace
 
 const std::vector<double>& league_taus() {
@@ -276,13 +376,12 @@ const std::vector<double>& league_taus() {
   return taus;
 }
 
-League make_league(const std::vector<json>& reports, std::uint64_t split_seed, bool test_only) {
-  const Field field = sort_rows(reports, split_seed, test_only);
+League make_league(const std::vector<json>& reports, bool test_only) {
+  const Field field = sort_rows(reports, test_only);
   if (field.rows.empty())
     throw std::runtime_error(test_only ? "no run is of a test shape; measure more shapes, or take all cases"
                                        : "there is no run of an installed method");
   League league;
-  league.split_seed = split_seed;
   league.test_only = test_only;
   league.not_installed = field.not_installed;
   std::set<std::string> shapes;
@@ -292,6 +391,7 @@ League make_league(const std::vector<json>& reports, std::uint64_t split_seed, b
     shapes.insert(facts.shape);
   }
   league.shapes = shapes.size();
+  add_parts(league, field);
   for (const auto& [entrant, rows] : field.rows) league.entries.push_back(make_entry(field, entrant, rows));
   std::map<std::string, std::size_t> most;  // cases of an entry of the protocol
   for (const LeagueEntry& entry : league.entries)

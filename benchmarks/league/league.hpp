@@ -15,17 +15,24 @@
 
 namespace hullbench::league {
 
-/// A median over cases, and how well it is known.
+/// A median over cases, weighted (tune/strata.hpp), and how well it is known.
 struct MedianScore {
   std::size_t cases = 0;  ///< that it is of
   double median = 0;  ///< infinite where the middle is a failure: to +infinity or, of a skill, to -infinity
-  std::optional<statistics::Interval> interval;  ///< by base shape (bootstrap.hpp); an end may be infinite
+  std::optional<statistics::Interval> interval;  ///< by base shape (weighted.hpp); an end may be infinite
 };
 
-/// A mean over cases, and how well it is known.
+/// A mean over cases, weighted likewise, and how well it is known.
 struct MeanScore {
   double mean = 0;
-  std::optional<statistics::Interval> interval;  ///< by base shape (statistics.hpp)
+  std::optional<statistics::Interval> interval;  ///< by base shape (weighted.hpp)
+};
+
+/// An entry's l2 on the cases of one kind, or of one way to sample.
+struct PartScore {
+  std::size_t cases = 0;
+  std::size_t failures = 0;
+  double l2_median = 0;  ///< weighted; infinite where the middle is a failure
 };
 
 /// A method under one protocol.
@@ -40,9 +47,14 @@ struct LeagueEntry {
   /// the plan accepts.
   std::size_t unscored_cases = 0;
   std::size_t unscored_failures = 0;
-  std::optional<MedianScore> l2;       ///< of all cases
-  std::optional<MedianScore> skill;    ///< of the cases on which it is defined
-  std::optional<MedianScore> hole_f1;  ///< of the cases whose ground truth has holes; a failure has 0
+  std::optional<MedianScore> l2;  ///< of all cases
+  /// Of those whose ground truth the method can have: no holes for one without holes, one part for one of
+  /// single polygons.
+  std::optional<MedianScore> l2_where_able;
+  std::map<std::string, PartScore> kinds;     ///< by kind of shape (shape_kinds in tune/strata.hpp)
+  std::map<std::string, PartScore> samplers;  ///< by way to sample (sampler_of in tune/strata.hpp)
+  std::optional<MedianScore> skill;           ///< of the cases on which it is defined
+  std::optional<MedianScore> hole_f1;         ///< of the cases whose ground truth has holes; a failure has 0
   /// The same cases' mean: most cases have 0 or 1, of which a median says little.
   std::optional<MeanScore> hole_f1_mean;
   /// l2 minus the same method's under the protocol `oracle`, of the cases on which that has a result; none
@@ -51,7 +63,8 @@ struct LeagueEntry {
 };
 
 /// A performance profile (Dolan and More, Benchmarking Optimization Software with Performance Profiles,
-/// 2002): on which share of the cases an entry's l2 is at most tau times the smallest one of its group.
+/// 2002): on which share of the cases, weighted, an entry's l2 is at most tau times the smallest one of its
+/// group.
 struct LeagueProfile {
   /// Who knows as much: "blind" (default and auto: the points only), "tuned" (other shapes), "informed"
   /// (paper: the ground truth's area), "oracle" (the ground truth).
@@ -71,11 +84,20 @@ struct LeagueProfile {
 /// The taus of a profile: from 1, where the best one is, to 10.
 const std::vector<double>& league_taus();
 
+/// Some of the league's cases.
+struct LeaguePart {
+  std::string name;
+  std::size_t cases = 0;
+  bool seen = true;  ///< of a way to sample: training has it
+};
+
 struct League {
-  std::uint64_t split_seed = 1;
   bool test_only = true;   ///< on the cases of test shapes only (benchmarks/tune/split.hpp)
   std::size_t shapes = 0;  ///< base shapes that the cases are of
   std::size_t cases = 0;   ///< whose errors count
+  /// That there are, in the order of shape_kinds(), and in that of sampler_split() with "several" last.
+  std::vector<LeaguePart> kinds;
+  std::vector<LeaguePart> samplers;
   /// By protocol in the order of the tables; in each those with less than half of the cases of another one
   /// last, as their medians are of other cases; by l2.
   std::vector<LeagueEntry> entries;
@@ -84,9 +106,9 @@ struct League {
 };
 
 /// The league of the runs in `reports` (as make_report gives them), which may be of several plans. Of a run
-/// that several reports have, the first counts. With `test_only` only cases of shapes on the test side of the
-/// split with that seed: what was fitted or chosen on training shapes is judged on others. Throws
-/// std::runtime_error when no row is left.
-League make_league(const std::vector<nlohmann::json>& reports, std::uint64_t split_seed, bool test_only);
+/// that several reports have, the first counts. With `test_only` only cases on the test side of the split:
+/// what was fitted or chosen on training shapes is judged on others. Cases of plans that accept failures
+/// count in any case. Throws std::runtime_error when no row is left.
+League make_league(const std::vector<nlohmann::json>& reports, bool test_only);
 
 }  // namespace hullbench::league

@@ -11,6 +11,7 @@
 #include "benchmarks/base/files.hpp"
 #include "benchmarks/base/number_format.hpp"
 #include "benchmarks/base/words.hpp"
+#include "benchmarks/tune/split.hpp"
 
 namespace hullbench::league {
 namespace {
@@ -48,6 +49,22 @@ std::map<std::string, std::string> titles_of(const std::vector<json>& reports) {
   return titles;
 }
 
+json part_scores_to_json(const std::map<std::string, PartScore>& parts) {
+  json result = json::object();
+  for (const auto& [name, part] : parts) {
+    result[name] = {
+        {"cases", part.cases}, {"failures", part.failures}, {"l2_median", finite_or_null(part.l2_median)}};
+  }
+  return result;
+}
+
+json parts_to_json(const std::vector<LeaguePart>& parts) {
+  json result = json::array();
+  for (const LeaguePart& part : parts)
+    result.push_back({{"name", part.name}, {"cases", part.cases}, {"seen", part.seen}});
+  return result;
+}
+
 json entry_to_json(const LeagueEntry& entry, const std::map<std::string, std::string>& titles) {
   const auto title = titles.find(entry.method);
   json result = {{"method", entry.method},
@@ -59,6 +76,9 @@ json entry_to_json(const LeagueEntry& entry, const std::map<std::string, std::st
                  {"unscored_cases", entry.unscored_cases},
                  {"unscored_failures", entry.unscored_failures}};
   add_score(result, "l2", entry.l2);
+  add_score(result, "l2_where_able", entry.l2_where_able);
+  result["kinds"] = part_scores_to_json(entry.kinds);
+  result["samplers"] = part_scores_to_json(entry.samplers);
   add_score(result, "hole_f1", entry.hole_f1);
   add_mean(result, "hole_f1", entry.hole_f1_mean);
   add_score(result, "skill", entry.skill);
@@ -121,14 +141,52 @@ table::Table league_table(const json& league, const std::string& protocol) {
   table::Table table{"league_" + protocol,
                      "Protocol " + protocol + ": " + protocol_titles().at(protocol),
                      {table::words("Method"), "Cases", "Failures", table::with_unit("L2 median", "%"),
-                      "Skill median", "Hole F1 mean", table::with_unit("Regret median", "%")}};
+                      table::with_unit("Where it can", "%"), "Skill median", "Hole F1 mean",
+                      table::with_unit("Regret median", "%")}};
   for (const json& entry : league.at("methods")) {
     if (entry.at("protocol") != protocol) continue;
+    const bool everywhere = entry.at("l2_where_able_cases") == entry.at("l2_cases");
     table.add_row({entry.at("title").get<std::string>(), entry.at("cases").get<std::size_t>(),
                    failures_cell(entry), median_cell(entry, "l2", 100),
+                   everywhere ? table::Cell("=") : median_cell(entry, "l2_where_able", 100),
                    median_cell(entry, "skill", 1, -kInfinity), mean_cell(entry, "hole_f1"),
                    median_cell(entry, "regret", 100)});
   }
+  return table;
+}
+
+table::Cell part_cell(const json& parts, const std::string& name) {
+  const auto part = parts.find(name);
+  if (part == parts.end()) return {};
+  const json& median = part->at("l2_median");
+  return table::Number(median.is_null() ? kInfinity : 100 * median.get<double>(), 1);
+}
+
+/// The medians of L2 by kind of shape and by way to sample, a column each.
+table::Table parts_table(const json& league, const std::string& protocol) {
+  table::Table table{"league_" + protocol + "_parts",
+                     "Protocol " + protocol + ": median L2 in % by kind of shape and by way to sample",
+                     {table::words("Method")}};
+  bool all_seen = true;
+  for (const char* of : {"kinds", "samplers"}) {
+    for (const json& part : league.at(of)) {
+      const bool seen = part.at("seen").get<bool>();
+      all_seen = all_seen && seen;
+      table.columns.emplace_back(
+          part.at("name").get<std::string>() + (seen ? "" : " " + std::string(table::kSign)), "%");
+    }
+  }
+  for (const json& entry : league.at("methods")) {
+    if (entry.at("protocol") != protocol) continue;
+    std::vector<table::Cell> cells = {entry.at("title").get<std::string>()};
+    for (const char* of : {"kinds", "samplers"}) {
+      for (const json& part : league.at(of))
+        cells.push_back(part_cell(entry.at(of), part.at("name").get<std::string>()));
+    }
+    table.add_row(std::move(cells));
+  }
+  if (!all_seen)
+    table.remarks.push_back(std::string(table::kSign) + ": a way to sample that was not seen in training.");
   return table;
 }
 
@@ -160,8 +218,8 @@ table::Table profile_table(const json& league, const json& profile) {
   }
   const std::string group = profile.at("group").get<std::string>();
   table::Table table{"profile_" + group,
-                     "Performance profile of the methods " + group_titles().at(group) + ": % of " +
-                         profile.at("cases").dump() + " cases with an L2 that is",
+                     "Performance profile of the methods " + group_titles().at(group) +
+                         ": % of the weight of " + profile.at("cases").dump() + " cases with an L2 that is",
                      {table::words("Method")}};
   for (const std::size_t k : shown)
     table.columns.emplace_back(k == 0 ? "best" : "within " + three_digits(taus[k]) + " x", "%");
@@ -192,14 +250,17 @@ json league_to_json(const League& league, const std::vector<json>& reports) {
                  {"created", reports.front().at("created")},
                  {"tool", reports.front().at("tool")},
                  {"environment", reports.front().at("environment")},
-                 {"split", {{"seed", league.split_seed}, {"cases_of", league.test_only ? "test" : "all"}}},
+                 {"split", tune::split_to_json()},
                  {"shapes", league.shapes},
                  {"cases", league.cases},
+                 {"kinds", parts_to_json(league.kinds)},
+                 {"samplers", parts_to_json(league.samplers)},
                  {"taus", league_taus()},
                  {"plans", json::array()},
                  {"methods", json::array()},
                  {"profiles", json::array()},
                  {"not_installed", league.not_installed}};
+  result["split"]["cases_of"] = league.test_only ? "test" : "all";
   for (const json& report : reports) result["plans"].push_back(report.at("plan").at("name"));
   for (const LeagueEntry& entry : league.entries) result["methods"].push_back(entry_to_json(entry, titles));
   for (const LeagueProfile& profile : league.profiles) result["profiles"].push_back(profile_to_json(profile));
@@ -215,13 +276,22 @@ table::Document league_document(const json& league) {
   std::set<std::string> there;
   for (const json& entry : league.at("methods")) there.insert(entry.at("protocol").get<std::string>());
   for (const char* protocol : {"auto", "default", "tuned", "paper", "oracle"}) {
-    if (there.contains(protocol)) document.tables.push_back(league_table(league, protocol));
+    if (!there.contains(protocol)) continue;
+    document.tables.push_back(league_table(league, protocol));
+    document.tables.push_back(parts_table(league, protocol));
   }
   for (const json& profile : league.at("profiles")) document.tables.push_back(profile_table(league, profile));
   document.notes = {
       "L2 as a part of the ground truth's area; regret: L2 less what the same method has with the best value "
       "for the instance. In brackets a 95 % bootstrap interval of the median that resamples whole shapes. A "
       "failure is infinitely bad and has no holes.",
+      "Every stratum, a way to sample and a kind of shape (simple; one part with holes; several parts), "
+      "counts the "
+      "same; in it every shape, and of a shape every case. \"Where it can\" is of the cases whose ground "
+      "truth the "
+      "method can have: of one part for a method that gives single polygons, without holes for one that has "
+      "none; "
+      "\"=\": of all.",
       "Skill: 0 is the convex hull, 1 are the Delaunay triangles whose centroid lies in the ground truth. "
       "Hole F1 is of the cases whose ground truth has holes, of which most find all or none: hence a mean, "
       "with a 95 % interval by shape. A second number of failures is of degenerate input."};

@@ -12,6 +12,7 @@
 #include "benchmarks/base/configuration_error.hpp"
 #include "benchmarks/base/words.hpp"
 #include "benchmarks/plan/plan_schema.hpp"
+#include "benchmarks/plan/release_seed.hpp"
 #include "datasets/stress.hpp"
 
 namespace hullbench::plan {
@@ -157,6 +158,11 @@ std::vector<PlanMethod> read_methods(const json& entries, const Place& place) {
   return methods;
 }
 
+/// A number, or the word of which the schema says what it stands for.
+std::uint64_t read_seed(const json& seed) {
+  return seed.is_string() ? release_seed() : seed.get<std::uint64_t>();
+}
+
 PlanAxis read_axis(const json& axis) {
   const auto of = axis["of"].get<std::string>();
   return {of, axis.value("title", of), axis.value("unit", "")};
@@ -236,7 +242,7 @@ Plan parse_plan(const std::string& text, const std::string& source) {
   plan.warmup = document.value("warmup", plan.warmup);
   plan.timeout_s = document.value("timeout_s", plan.timeout_s);
   plan.mem_limit_mib = document.value("mem_limit_mib", plan.mem_limit_mib);
-  plan.seed = document.value("seed", plan.seed);
+  if (document.contains("seed")) plan.seed = read_seed(document["seed"]);
   plan.filter = document.value("filter", plan.filter);
   plan.accepted = document.value("accepted", plan.accepted);
   if (document.contains("axis")) plan.axis = read_axis(document["axis"]);

@@ -4,9 +4,12 @@
 #include <array>
 #include <cmath>
 #include <map>
+#include <numeric>
 #include <span>
 
 #include "benchmarks/statistics/statistics.hpp"
+#include "benchmarks/statistics/weighted.hpp"
+#include "benchmarks/tune/halving.hpp"
 
 namespace hullbench::tune {
 namespace {
@@ -44,53 +47,77 @@ std::optional<double> error_with(const MethodTuning& method, const MethodOnCase&
   return place == found.protocols.end() ? std::nullopt : std::optional(error_of(place->second));
 }
 
-/// Values by base shape, for intervals.
-class Clusters {
+/// Values of cases, weighted, and by base shape for intervals.
+class Weighted {
  public:
-  void add(const std::string& shape, double value) {
-    by_shape_[shape].push_back(value);
-    all_.push_back(value);
+  void add(const TuningCase& one, double value) {
+    members_.push_back(one.membership());
+    values_.push_back({value, 1});
   }
-  bool empty() const { return all_.empty(); }
-  double middle() const { return statistics::median(std::span<const double>(all_)); }
+  bool empty() const { return values_.empty(); }
+  void weigh() {
+    const std::vector<double> weights = case_weights(members_);
+    for (std::size_t i = 0; i < values_.size(); ++i) values_[i].weight = weights[i];
+  }
+  double middle() const { return statistics::weighted_median(values_); }
   std::optional<statistics::Interval> interval() const {
-    std::vector<std::vector<double>> clusters;
-    for (const auto& [shape, values] : by_shape_) clusters.push_back(values);
-    return statistics::clustered_median_interval(clusters);
+    std::map<std::string, std::vector<statistics::WeightedValue>> by_shape;
+    for (std::size_t i = 0; i < values_.size(); ++i) by_shape[members_[i].shape].push_back(values_[i]);
+    std::vector<std::vector<statistics::WeightedValue>> clusters;
+    for (const auto& [shape, values] : by_shape) clusters.push_back(values);
+    return statistics::weighted_median_interval(clusters);
   }
 
  private:
-  std::map<std::string, std::vector<double>> by_shape_;
-  std::vector<double> all_;
+  std::vector<Membership> members_;
+  std::vector<statistics::WeightedValue> values_;
 };
 
 std::optional<ProtocolScore> score_of(const Tuning& tuning, const MethodTuning& method,
-                                      const std::string& protocol, bool test_only,
-                                      const std::optional<TunedValue>& tuned) {
+                                      const std::string& protocol, const std::optional<TunedValue>& tuned) {
   ProtocolScore score;
   score.protocol = protocol;
-  score.test_only = test_only;
-  Clusters errors;
-  Clusters regrets;
+  Weighted errors;
+  Weighted regrets;
   for (std::size_t i = 0; i < tuning.cases.size(); ++i) {
     const TuningCase& one = tuning.cases[i];
-    if (test_only && one.side != Side::kTest) continue;
+    if (one.side != Side::kTest) continue;
     const auto error = error_with(method, method.cases[i], protocol, tuned);
     if (!error) continue;
     ++score.cases;
     if (is_infinitely_bad(*error)) ++score.failed;
-    errors.add(one.shape, *error);
+    errors.add(one, *error);
     const double best = best_error(method.cases[i]);
-    if (method.axis && !is_infinitely_bad(best)) regrets.add(one.shape, *error - best);
+    if (method.axis && !is_infinitely_bad(best)) regrets.add(one, *error - best);
   }
   if (errors.empty()) return std::nullopt;
+  errors.weigh();
   score.l2_median = errors.middle();
   score.l2_interval = errors.interval();
   if (!regrets.empty()) {
+    regrets.weigh();
     score.regret_median = regrets.middle();
     score.regret_interval = regrets.interval();
   }
   return score;
+}
+
+/// What a sensitivity curve is of.
+struct CurveCases {
+  std::vector<std::size_t> places;
+  std::vector<double> positions;
+};
+
+CurveCases curve_cases(const Tuning& tuning, const MethodTuning& method) {
+  CurveCases cases = {training_order(tuning.cases), grid(*method.axis, kGridPoints)};
+  if (!cases.places.empty()) {
+    cases.places.resize(round_ends(cases.places.size()).front());
+    return cases;
+  }
+  cases.places.resize(tuning.cases.size());
+  std::iota(cases.places.begin(), cases.places.end(), std::size_t{0});
+  cases.positions = grid(*method.axis, kSweepPoints);
+  return cases;
 }
 
 }  // namespace
@@ -121,28 +148,14 @@ std::optional<double> tolerance_octaves(const MethodOnCase& found) {
   return tolerance_octaves(std::move(points));
 }
 
-std::optional<TunedValue> choose_tuned(const Tuning& tuning, const MethodTuning& method) {
-  if (!method.axis) return std::nullopt;
-  std::vector<const MethodOnCase*> training;
-  for (std::size_t i = 0; i < tuning.cases.size(); ++i) {
-    if (tuning.cases[i].side == Side::kTraining && !method.cases[i].sweep.empty())
-      training.push_back(&method.cases[i]);
-  }
-  if (training.empty()) return std::nullopt;
-  const std::vector<double> positions = grid(*method.axis, kGridPoints);
-  TunedValue best = {0, kInfinitelyBad, training.size(), false};
-  for (const double position : positions) {
-    std::vector<double> errors;
-    errors.reserve(training.size());
-    for (const MethodOnCase* found : training) errors.push_back(error_at(*found, position));
-    const double middle = statistics::median(std::span<const double>(errors));
-    if (middle >= best.training_median) continue;
-    best.training_median = middle;
-    best.position = position;
-  }
-  if (is_infinitely_bad(best.training_median)) return std::nullopt;
-  best.at_end = best.position == positions.front() || best.position == positions.back();
-  return best;
+std::optional<TunedValue> choose_tuned(const MethodTuning& method) {
+  if (method.rounds.empty()) return std::nullopt;
+  const HalvingRound& last = method.rounds.back();
+  const auto best = std::min_element(last.scores.begin(), last.scores.end());
+  if (best == last.scores.end() || is_infinitely_bad(*best)) return std::nullopt;
+  const double position = last.positions[static_cast<std::size_t>(best - last.scores.begin())];
+  const std::vector<double> all = grid(*method.axis, kGridPoints);
+  return TunedValue{position, *best, last.cases, position == all.front() || position == all.back()};
 }
 
 Quartiles quartiles_of(const std::vector<double>& values) {
@@ -153,12 +166,8 @@ Quartiles quartiles_of(const std::vector<double>& values) {
 std::vector<ProtocolScore> protocol_scores(const Tuning& tuning, const MethodTuning& method,
                                            const std::optional<TunedValue>& tuned) {
   std::vector<ProtocolScore> scores;
-  for (const bool test_only : {true, false}) {
-    for (const std::string protocol : kProtocols) {
-      if (protocol == "tuned" && !test_only) continue;
-      if (auto score = score_of(tuning, method, protocol, test_only, tuned))
-        scores.push_back(std::move(*score));
-    }
+  for (const char* protocol : kProtocols) {
+    if (auto score = score_of(tuning, method, protocol, tuned)) scores.push_back(std::move(*score));
   }
   return scores;
 }
@@ -166,15 +175,17 @@ std::vector<ProtocolScore> protocol_scores(const Tuning& tuning, const MethodTun
 std::vector<CurvePoint> sensitivity_curve(const Tuning& tuning, const MethodTuning& method) {
   std::vector<CurvePoint> curve;
   if (!method.axis) return curve;
-  for (const double position : grid(*method.axis, kGridPoints)) {
+  const CurveCases cases = curve_cases(tuning, method);
+  for (const double position : cases.positions) {
     CurvePoint point;
     point.position = position;
     std::vector<double> errors;
     std::vector<double> relative;
-    for (std::size_t i = 0; i < tuning.cases.size(); ++i) {
+    for (const std::size_t i : cases.places) {
       const MethodOnCase& found = method.cases[i];
-      const double best = best_error(found);
-      if (found.sweep.empty() || is_infinitely_bad(best)) continue;
+      double best = kInfinitelyBad;
+      for (const double other : cases.positions) best = std::min(best, error_at(found, other));
+      if (is_infinitely_bad(best)) continue;
       const double error = error_at(found, position);
       if (is_infinitely_bad(error)) ++point.failed;
       errors.push_back(error);

@@ -29,16 +29,16 @@ std::optional<double> tolerance_octaves(const MethodOnCase& found);
 /// One value for many shapes.
 struct TunedValue {
   double position = 0;         ///< of the grid, on the method's axis
-  double training_median = 0;  ///< of l2 there
+  double training_median = 0;  ///< of l2 there, weighted (strata.hpp)
   std::size_t training_cases = 0;
   bool at_end = false;  ///< it is the first or the last of the grid: better ones may lie outside
 };
 
-/// The grid's position with the smallest median of l2 over the training cases that were swept; the smaller
-/// one of two that are equally good. The median, as failures are infinitely bad: by the mean a single one
-/// would rule a value out. Test cases are not looked at. None without an axis or a training case, and when no
-/// position gives a result on half of them.
-std::optional<TunedValue> choose_tuned(const Tuning& tuning, const MethodTuning& method);
+/// The best position of the last round of successive halving (halving.hpp): that with the smallest weighted
+/// median of l2 over all training cases; the smaller one of two that are equally good. The median, as
+/// failures are infinitely bad: by the mean a single one would rule a value out. None without a round, and
+/// when no position gives a result on half of the weight.
+std::optional<TunedValue> choose_tuned(const MethodTuning& method);
 
 /// Of several errors or differences; kInfinitelyBad where the middle is a failure.
 struct Quartiles {
@@ -49,34 +49,35 @@ struct Quartiles {
 /// Needs one value at least.
 Quartiles quartiles_of(const std::vector<double>& values);
 
-/// How one way of choosing the parameter did on some cases.
+/// How one way of choosing the parameter did on the test cases. Medians are weighted (strata.hpp).
 struct ProtocolScore {
   std::string protocol;    ///< "paper", "default", "auto", "tuned", "oracle"
-  bool test_only = false;  ///< on test cases only; else on all
   std::size_t cases = 0;   ///< of which the protocol has an evaluation
   std::size_t failed = 0;  ///< of these, without a result
   double l2_median = 0;
-  std::optional<statistics::Interval> l2_interval;  ///< of the median, by base shape (bootstrap.hpp)
+  std::optional<statistics::Interval> l2_interval;  ///< of the median, by base shape (weighted.hpp)
   /// l2 minus the oracle's on the same case; of cases on which the oracle has a result. None: there is none.
   std::optional<double> regret_median;
   std::optional<statistics::Interval> regret_interval;
 };
 
-/// Every protocol that has an evaluation, in the order of the tables: on test cases, then on all; `tuned` on
-/// test cases only. A method without an axis has no oracle and no regret.
+/// Every protocol that has an evaluation on a test case, in the order of the tables. A method without an axis
+/// has no oracle and no regret.
 std::vector<ProtocolScore> protocol_scores(const Tuning& tuning, const MethodTuning& method,
                                            const std::optional<TunedValue>& tuned);
 
-/// The errors at one position of the grid, over all cases that were swept.
+/// The errors at one position of the grid, over the cases that were swept.
 struct CurvePoint {
   double position = 0;
   std::size_t cases = 0;
   std::size_t failed = 0;
   Quartiles l2;
-  Quartiles relative;  ///< l2 divided by the oracle's on the same case, >= 1; 1 where both are 0
+  Quartiles relative;  ///< l2 divided by the case's best on the grid, >= 1; 1 where both are 0
 };
 
-/// The sensitivity curve: l2 against the axis, ascending. Cases without any result are left out.
+/// The sensitivity curve: l2 against the axis, ascending, over the training cases of the first round, which
+/// have the whole grid; without a training case over the test cases, whose grid is coarser (kSweepPoints).
+/// Cases without any result are left out.
 std::vector<CurvePoint> sensitivity_curve(const Tuning& tuning, const MethodTuning& method);
 
 }  // namespace hullbench::tune

@@ -23,9 +23,7 @@ namespace hullbench::tune {
 namespace {
 
 /// Those that the parameters' search and the league are made of (league/evaluate.sh).
-const std::vector<std::string> kPlans = {
-    "alphabet",        "stress_density",  "stress_noise", "stress_outliers", "stress_gradient",
-    "stress_clusters", "stress_sampling", "stress_holes", "stress_width",    "stress_gaps"};
+const std::vector<std::string> kPlans = {"world_shapes", "world_samplers", "world_crossed"};
 /// So many choices of the limit's constants are printed.
 constexpr std::size_t kShown = 10;
 
@@ -101,11 +99,10 @@ void print_limit(const FitTables& tables) {
       << percent(fit_score(tables.shapes, tables.core_errors)).text() << " %.\n";
 }
 
-ExitCode fit(const std::vector<std::string>& names, std::uint64_t split_seed, int seeds,
-             std::int64_t points) {
+ExitCode fit(const std::vector<std::string>& names, int seeds, std::int64_t points) {
   std::vector<plan::Plan> plans;
   for (const std::string& name : names) plans.push_back(plan::load_plan(name, HULLBENCH_PLAN_FOLDER));
-  const std::vector<FitCase> cases = training_cases(plans, split_seed, seeds, points);
+  const std::vector<FitCase> cases = training_cases(plans, seeds, points);
   if (cases.empty()) throw ConfigurationError("no case of these plans is on the training side of the split");
   const std::vector<RuleUse> uses = rule_uses();
   const FitTables tables = measure_fit(cases, uses, usual_shares(), usual_limit_grid(), allowed_cores());
@@ -130,11 +127,9 @@ ExitCode fit(const std::vector<std::string>& names, std::uint64_t split_seed, in
 int main(int argc, char** argv) {
   CLI::App app("Fits the constants of the rules that choose parameters from the points alone");
   std::vector<std::string> plans = hullbench::tune::kPlans;
-  std::uint64_t split_seed = 1;
   int seeds = 1;
   std::int64_t points = 0;
   app.add_option("PLAN", plans, "Plans whose training cases are fitted on");
-  app.add_option("--seed", split_seed, "Of the split into training and test shapes")->capture_default_str();
   app.add_option("--seeds", seeds, "Samples of each case")->check(CLI::Range(1, 1000))->capture_default_str();
   app.add_option("--points", points, "Points of each case, instead of the plans'")
       ->check(CLI::Range(3, 1000000));
@@ -145,5 +140,5 @@ int main(int argc, char** argv) {
     return app.exit(error) == 0 ? hullbench::kExitOk : hullbench::kExitUsage;
   }
   return hullbench::exit_code_of("fit_rules", std::cerr,
-                                 [&] { return hullbench::tune::fit(plans, split_seed, seeds, points); });
+                                 [&] { return hullbench::tune::fit(plans, seeds, points); });
 }

@@ -89,14 +89,13 @@ void measure_case(FitTables& tables, std::size_t which, const FitCase& wanted,
 
 }  // namespace
 
-std::vector<FitCase> training_cases(const std::vector<plan::Plan>& plans, std::uint64_t split_seed, int seeds,
-                                    std::int64_t points) {
+std::vector<FitCase> training_cases(const std::vector<plan::Plan>& plans, int seeds, std::int64_t points) {
   std::vector<FitCase> cases;
   std::set<std::pair<std::string, std::uint64_t>> seen;
   const auto add = [&](plan::PlanCase plan_case, std::uint64_t first_seed) {
     FitCase one = {std::move(plan_case), "", first_seed};
     one.shape = base_shape(one.plan_case.dataset);
-    if (one.plan_case.n == 0 || side_of(one.shape, split_seed) != Side::kTraining) return;
+    if (one.plan_case.n == 0 || side_of(one.plan_case.dataset) != Side::kTraining) return;
     if (points > 0) one.plan_case.n = points;
     for (int k = 0; k < seeds; ++k, ++one.seed) {
       if (seen.emplace(one.plan_case.key(), one.seed).second) cases.push_back(one);

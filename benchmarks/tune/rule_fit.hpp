@@ -20,14 +20,12 @@ struct FitCase {
   std::uint64_t seed = 1;
 };
 
-/// The cases of `plans` on the training side of the split with `split_seed`, and each of their shapes as well
-/// with every stress that one of the plans has at that number of points: so a shape that is only in the plan
-/// of the letters counts under all kinds of sampling, as the others do. Each once, with the plans' seeds and
-/// the `seeds` - 1 that follow. Not those that come with their points, of which no other sample can be drawn,
-/// nor those of plans that accept failures. With `points` > 0 that many points stand in the place of the
-/// plans' numbers.
-std::vector<FitCase> training_cases(const std::vector<plan::Plan>& plans, std::uint64_t split_seed, int seeds,
-                                    std::int64_t points);
+/// The cases of `plans` on the training side of the split, and each of their shapes as well with every stress
+/// that one of the plans has at that number of points and training knows: so a shape that is in one plan only
+/// counts under all kinds of sampling, as the others do. Each once, with the plans' seeds and the `seeds` - 1
+/// that follow. Not those that come with their points, of which no other sample can be drawn, nor those of
+/// plans that accept failures. With `points` > 0 that many points stand in the place of the plans' numbers.
+std::vector<FitCase> training_cases(const std::vector<plan::Plan>& plans, int seeds, std::int64_t points);
 
 /// A method whose parameter is to be a share of the automatic perimeter.
 struct RuleUse {

@@ -14,7 +14,7 @@ class Search {
       : axis_(axis), evaluate_(evaluate) {}
 
   std::vector<SearchPoint> run() {
-    const std::vector<double> positions = grid(axis_, kGridPoints);
+    const std::vector<double> positions = grid(axis_, kSweepPoints);
     int timeouts = 0;
     for (const double position : positions) {
       const Trial trial = evaluate_(position);

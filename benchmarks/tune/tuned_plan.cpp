@@ -13,15 +13,15 @@
 namespace hullbench::tune {
 namespace {
 
-/// The places in the tuning of the plan's cases that satisfy a condition.
+/// The places in the tuning of the plan's test cases that satisfy a condition.
 template <typename Condition>
 std::vector<std::size_t> cases_of(const plan::Plan& plan, const Tuning& tuning, Condition condition) {
   std::vector<std::size_t> result;
   for (std::size_t i = 0; i < tuning.cases.size(); ++i) {
     const TuningCase& one = tuning.cases[i];
     const auto same = [&](const plan::PlanCase& other) { return other.key() == one.plan_case.key(); };
-    if (one.seed == plan.seed && std::any_of(plan.expanded_cases.begin(), plan.expanded_cases.end(), same) &&
-        condition(i))
+    if (one.side == Side::kTest && one.seed == plan.seed &&
+        std::any_of(plan.expanded_cases.begin(), plan.expanded_cases.end(), same) && condition(i))
       result.push_back(i);
   }
   return result;
@@ -69,11 +69,9 @@ void add_default(plan::Plan& result, const plan::Plan& plan, const MethodTuning&
 }
 
 void add_tuned(plan::Plan& result, const plan::Plan& plan, const Tuning& tuning, const MethodTuning& method) {
-  const auto tuned = choose_tuned(tuning, method);
+  const auto tuned = choose_tuned(method);
   if (!tuned) return;
-  const auto cases = cases_of(plan, tuning, [&](std::size_t i) {
-    return tuning.cases[i].side == Side::kTest && !method.cases[i].sweep.empty();
-  });
+  const auto cases = cases_of(plan, tuning, [&](std::size_t i) { return !method.cases[i].sweep.empty(); });
   if (cases.empty()) return;
   plan::PlanMethod entry = entry_for(plan, method.name, "tuned");
   entry.datasets = datasets_of(plan, tuning, cases);
@@ -82,7 +80,7 @@ void add_tuned(plan::Plan& result, const plan::Plan& plan, const Tuning& tuning,
       method.axis->spacings ? plan::ParameterChoice(plan::ScaledChoice{tuned->position, method.axis->power})
                             : plan::ParameterChoice(tuned->position);
   entry.note = "One value for all shapes, with the smallest median error on " +
-               std::to_string(tuned->training_cases) + " training cases; these are the test shapes.";
+               std::to_string(tuned->training_cases) + " training cases.";
   result.methods.push_back(entry);
 }
 
@@ -117,10 +115,23 @@ void add_oracle(plan::Plan& result, const plan::Plan& plan, const Tuning& tuning
   result.methods.push_back(entry);
 }
 
+void keep_test_cases(plan::Plan& plan) {
+  std::erase_if(plan.expanded_cases,
+                [](const plan::PlanCase& one) { return side_of(one.dataset) != Side::kTest; });
+  plan.cases = nlohmann::json::array();
+  for (const plan::PlanCase& one : plan.expanded_cases) {
+    nlohmann::json group = {{"dataset", one.dataset}, {"holes", {one.holes}}};
+    if (one.n > 0) group["n"] = {one.n};
+    plan.cases.push_back(std::move(group));
+  }
+}
+
 }  // namespace
 
 plan::Plan tuned_plan(const plan::Plan& plan, const Tuning& tuning) {
   plan::Plan result = plan;
+  if (plan.accepted.empty()) keep_test_cases(result);
+  const plan::Plan kept = result;
   result.name += "-tuned";
   result.title += ", parameters chosen by hullbench tune";
   result.paper.clear();
@@ -132,9 +143,9 @@ plan::Plan tuned_plan(const plan::Plan& plan, const Tuning& tuning) {
       if (entry.method == method.name && entry.protocol != "tuned" && entry.protocol != "oracle")
         result.methods.push_back(entry);
     }
-    add_default(result, plan, method);
-    add_tuned(result, plan, tuning, method);
-    add_oracle(result, plan, tuning, method);
+    add_default(result, kept, method);
+    add_tuned(result, kept, tuning, method);
+    add_oracle(result, kept, tuning, method);
   }
   return result;
 }

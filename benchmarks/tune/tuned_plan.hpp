@@ -6,10 +6,11 @@
 
 namespace hullbench::tune {
 
-/// `plan` with the same cases, and for every method of `tuning` that starts here: its own entries in the
-/// plan, or `default` where the plan does not name it and it can do without parameters, and, in the place of
-/// any such there, `tuned` on the test shapes and `oracle`. Its name is the plan's with "-tuned". Other
-/// methods of the plan are left out. A protocol that has nothing to say on any case of the plan is left out.
+/// `plan` with its test cases alone, but with all cases where it accepts failures, and for every method of
+/// `tuning` that starts here: its own entries in the plan, or `default` where the plan does not name it and
+/// it can do without parameters, and, in the place of any such there, `tuned` and `oracle`. Its name is the
+/// plan's with "-tuned". Other methods of the plan are left out. A protocol that has nothing to say on any
+/// case of the plan is left out.
 plan::Plan tuned_plan(const plan::Plan& plan, const Tuning& tuning);
 
 }  // namespace hullbench::tune

@@ -1,8 +1,8 @@
 #include "benchmarks/tune/tuner.hpp"
 
 #include <algorithm>
-#include <atomic>
 #include <chrono>
+#include <condition_variable>
 #include <memory>
 #include <mutex>
 #include <utility>
@@ -12,6 +12,8 @@
 #include "benchmarks/plan/parameter_rules.hpp"
 #include "benchmarks/run/drawn_case.hpp"
 #include "benchmarks/run/runner.hpp"
+#include "benchmarks/tune/analysis.hpp"
+#include "benchmarks/tune/halving.hpp"
 #include "benchmarks/tune/search.hpp"
 #include "benchmarks/worker/method_session.hpp"
 
@@ -48,6 +50,12 @@ class DrawnCases {
   std::vector<Place> places_;
 };
 
+std::string kind_of(const polylidar::MultiPolygon& truth) {
+  std::size_t holes = 0;
+  for (const polylidar::Polygon& polygon : truth) holes += polygon.holes.size();
+  return kind_of_shape(truth.size(), holes);
+}
+
 std::vector<std::unique_ptr<worker::MethodSession>> make_sessions(const TunerOptions& options) {
   std::vector<std::unique_ptr<worker::MethodSession>> sessions;
   for (const std::string& name : options.methods) {
@@ -57,6 +65,85 @@ std::vector<std::unique_ptr<worker::MethodSession>> make_sessions(const TunerOpt
   return sessions;
 }
 
+/// A method on a case.
+struct WorkItem {
+  std::size_t place = 0;  ///< in the order of tuning_progress
+  bool is_test = false;   ///< then everything that is done on a test case, else the positions of a round
+  TrainingItem what;
+};
+
+/// Hands out the work to all threads: the rounds of successive halving, none before the one before is over,
+/// then the test cases.
+class WorkQueue {
+ public:
+  explicit WorkQueue(Tuning& tuning)
+      : tuning_(tuning), rounds_(round_ends(training_order(tuning.cases).size()).size()) {
+    fill();
+  }
+
+  /// Waits until there is something to do; none when all is done or stop() was called.
+  std::optional<WorkItem> take() {
+    std::unique_lock lock(mutex_);
+    while (!stopped_) {
+      if (next_ < items_.size()) {
+        ++working_;
+        const std::size_t place = taken_++;
+        return WorkItem{place, round_ == rounds_, items_[next_++]};
+      }
+      if (working_ > 0) {
+        changed_.wait(lock);
+      } else if (round_ == rounds_) {
+        stopped_ = true;
+      } else {
+        end_round(tuning_, round_++);
+        fill();
+        changed_.notify_all();
+      }
+    }
+    changed_.notify_all();
+    return std::nullopt;
+  }
+
+  /// What take() gave is done.
+  void finish() {
+    const std::scoped_lock lock(mutex_);
+    --working_;
+    changed_.notify_all();
+  }
+
+  /// The others end after what they are at.
+  void stop() {
+    const std::scoped_lock lock(mutex_);
+    stopped_ = true;
+    changed_.notify_all();
+  }
+
+ private:
+  void fill() {
+    next_ = 0;
+    items_.clear();
+    if (round_ < rounds_) {
+      items_ = items_of_round(tuning_, round_);
+      return;
+    }
+    for (std::size_t i = 0; i < tuning_.cases.size(); ++i) {
+      if (tuning_.cases[i].side != Side::kTest) continue;
+      for (std::size_t m = 0; m < tuning_.methods.size(); ++m) items_.push_back({i, m, {}});
+    }
+  }
+
+  Tuning& tuning_;
+  const std::size_t rounds_;
+  std::mutex mutex_{};
+  std::condition_variable changed_{};
+  std::vector<TrainingItem> items_{};  ///< of the round, or the test cases
+  std::size_t round_ = 0;              ///< rounds_: the test cases
+  std::size_t next_ = 0;               ///< of items_
+  std::size_t taken_ = 0;              ///< items of all rounds
+  std::size_t working_ = 0;            ///< items that were taken and are not done
+  bool stopped_ = false;
+};
+
 /// What the threads share.
 struct Shared {
   Tuning& tuning;
@@ -64,8 +151,8 @@ struct Shared {
   EvaluationStore& store;
   run::Progress& progress;
   DrawnCases drawn{tuning.cases, options.folders};
-  std::mutex mutex{};                ///< of tuning.cases and progress
-  std::atomic<std::size_t> next{0};  ///< case by case, the method to evaluate next
+  std::mutex mutex{};  ///< of tuning.cases and progress
+  WorkQueue queue{tuning};
 };
 
 /// Everything of one thread: its workers, which must be started by it as they end with it, and the case that
@@ -77,17 +164,24 @@ class Bench {
     fs::create_directories(scratch_);
   }
 
-  /// Takes the next method on a case, case by case, until there is none.
+  /// Takes the next method on a case until there is none.
   void take_turns() {
-    std::vector<MethodTuning>& methods = shared_.tuning.methods;
-    const std::size_t count = shared_.tuning.cases.size() * methods.size();
-    for (std::size_t item = shared_.next++; item < count; item = shared_.next++) {
-      enter(item / methods.size());
-      which_method_ = item % methods.size();
-      const auto start = std::chrono::steady_clock::now();
-      MethodTuning& method = methods[which_method_];
-      if (method.info) method.cases[which_case_] = evaluate(method);
-      say(item, method, std::chrono::steady_clock::now() - start);
+    while (const std::optional<WorkItem> item = shared_.queue.take()) {
+      place_ = item->place;
+      which_method_ = item->what.which_method;
+      MethodTuning& method = shared_.tuning.methods[which_method_];
+      begin(method);
+      enter(item->what.which_case);
+      if (method.info) {
+        MethodOnCase& found = method.cases[which_case_];
+        if (item->is_test) {
+          evaluate_test_case(method, found);
+        } else {
+          sweep(method, found, item->what.positions);
+        }
+      }
+      end();
+      shared_.queue.finish();
     }
   }
 
@@ -104,32 +198,56 @@ class Bench {
     one.dataset_sha256 = drawn_->set().sha256;
     one.n = static_cast<std::int64_t>(drawn_->set().points.size());
     one.spacing = spacing_;
+    one.kind = kind_of(drawn_->set().ground_truth);
   }
 
   const TuningCase& tuning_case() const { return shared_.tuning.cases[which_case_]; }
 
-  MethodOnCase evaluate(const MethodTuning& method) {
-    MethodOnCase found;
-    if (drawn_->set().ground_truth.empty()) return found;  // nothing is better than anything else
+  bool can_be_searched(const MethodTuning& method) const {
+    // Nothing is better than anything else without a ground truth, and points without an area have one length
+    // only, zero.
+    return method.axis && !drawn_->set().ground_truth.empty() && (!method.axis->spacings || spacing_ > 0);
+  }
+
+  const Evaluation& evaluate_at(const MethodTuning& method, MethodOnCase& found, double position,
+                                bool on_grid) {
+    Parameters parameters = fixed_parameters(*method.info);
+    parameters[method.axis->parameter] = value_at(*method.axis, position, spacing_);
+    found.sweep.push_back({position, on_grid, evaluate(method, parameters)});
+    return found.sweep.back().evaluation;
+  }
+
+  /// The positions of a round, but those after too many time-outs in a row.
+  void sweep(const MethodTuning& method, MethodOnCase& found, const std::vector<double>& positions) {
+    if (!can_be_searched(method)) return;
+    int timeouts = 0;
+    for (const double position : positions) {
+      const Evaluation& evaluation = evaluate_at(method, found, position, true);
+      timeouts = evaluation.status == record::Status::kTimeout ? timeouts + 1 : 0;
+      if (timeouts == kMostTimeouts) return;
+    }
+  }
+
+  /// The protocols, the value for many shapes, and the search for the best one.
+  void evaluate_test_case(const MethodTuning& method, MethodOnCase& found) {
+    if (drawn_->set().ground_truth.empty()) return;
     bool named = false;  // by the plan, which then says too what its default is, if there is one
     for (const plan::PlanMethod& entry : tuning_case().entries) {
       if (entry.method != method.name) continue;
       named = true;
       found.protocols.emplace(entry.protocol, evaluate(method, drawn_->choose_parameters(entry)));
     }
-    const Parameters fixed = fixed_parameters(*method.info);
-    if (!named && has_defaults(*method.info)) found.protocols.emplace("default", evaluate(method, fixed));
-    // Points without an area have one length only, zero.
-    if (!method.axis || (method.axis->spacings && !(spacing_ > 0))) return found;
+    if (!named && has_defaults(*method.info))
+      found.protocols.emplace("default", evaluate(method, fixed_parameters(*method.info)));
+    if (!can_be_searched(method)) return;
     const auto points = search(*method.axis, [&](double position) {
-      Parameters parameters = fixed;
-      parameters[method.axis->parameter] = value_at(*method.axis, position, spacing_);
-      found.sweep.push_back({position, false, evaluate(method, parameters)});
-      const Evaluation& evaluation = found.sweep.back().evaluation;
+      const Evaluation& evaluation = evaluate_at(method, found, position, false);
       return Trial{error_of(evaluation), evaluation.status == record::Status::kTimeout};
     });
     for (std::size_t i = 0; i < points.size(); ++i) found.sweep[i].on_grid = points[i].on_grid;
-    return found;
+    const auto tuned = choose_tuned(method);
+    if (tuned && evaluation_at(found, tuned->position) == nullptr)
+      evaluate_at(method, found, tuned->position, false);
   }
 
   Evaluation evaluate(const MethodTuning& method, const Parameters& parameters) {
@@ -141,8 +259,10 @@ class Bench {
     run::complete_record(evaluation, *method.info);
     evaluation.id = evaluation_identity(evaluation);
     if (const Evaluation* known = shared_.store.find(evaluation.id)) return *known;
+    const auto start = std::chrono::steady_clock::now();
     if (evaluation.status == record::Status::kOk) run(evaluation);
     shared_.store.append(evaluation);
+    say(std::chrono::steady_clock::now() - start);
     return evaluation;
   }
 
@@ -157,17 +277,27 @@ class Bench {
     if (const auto result = run::read_result(evaluation, attempt.wkb)) drawn_->score_l2(evaluation, *result);
   }
 
-  /// The estimate takes units as done one after the other.
-  void say(std::size_t item, const MethodTuning& method, std::chrono::nanoseconds elapsed) {
+  void begin(const MethodTuning& method) {
     const std::scoped_lock guard(shared_.mutex);
-    shared_.progress.begin(item);
-    if (method.info) shared_.progress.advance(item, elapsed / shared_.options.jobs);
-    shared_.progress.finish(item);
+    shared_.progress.begin(place_);
+    if (!method.info) shared_.progress.finish(place_);
+  }
+
+  /// An evaluation that was not known. The estimate takes them as done one after the other.
+  void say(std::chrono::nanoseconds elapsed) {
+    const std::scoped_lock guard(shared_.mutex);
+    shared_.progress.advance(place_, elapsed / shared_.options.jobs);
+  }
+
+  void end() {
+    const std::scoped_lock guard(shared_.mutex);
+    shared_.progress.finish(place_);
   }
 
   Shared& shared_;
   fs::path scratch_;
   std::vector<std::unique_ptr<worker::MethodSession>> sessions_;  ///< by method; each starts at its first run
+  std::size_t place_ = 0;                                         ///< of the item in the progress
   std::size_t which_method_ = 0;
   std::size_t which_case_ = 0;
   std::shared_ptr<const run::DrawnCase> drawn_;  ///< of which_case_; null before the first one
@@ -198,13 +328,13 @@ std::vector<MethodTuning> describe_methods(const TunerOptions& options, std::siz
   return methods;
 }
 
-TuningCase make_case(const plan::Plan& plan, const plan::PlanCase& plan_case, std::uint64_t split_seed) {
+TuningCase make_case(const plan::Plan& plan, const plan::PlanCase& plan_case) {
   TuningCase one;
   one.plan_case = plan_case;
   one.seed = plan.seed;
   one.timeout_s = plan.timeout_s;
   one.shape = base_shape(plan_case.dataset);
-  one.side = side_of(one.shape, split_seed);
+  one.side = side_of(plan_case.dataset);
   return one;
 }
 
@@ -238,25 +368,25 @@ const Evaluation* evaluation_at(const MethodOnCase& found, double position) {
   return place == found.sweep.end() ? nullptr : &place->evaluation;
 }
 
-std::vector<TuningCase> tuning_cases(const std::vector<plan::Plan>& plans, std::uint64_t split_seed) {
+std::vector<TuningCase> tuning_cases(const std::vector<plan::Plan>& plans) {
   std::vector<TuningCase> cases;
   for (const plan::Plan& plan : plans) {
     for (const plan::PlanCase& plan_case : plan.expanded_cases) {
+      if (side_of(plan_case.dataset) == Side::kNeither) continue;
       const auto same = [&](const TuningCase& other) {
         return other.plan_case.key() == plan_case.key() && other.seed == plan.seed;
       };
       auto place = std::find_if(cases.begin(), cases.end(), same);
-      if (place == cases.end()) place = cases.insert(place, make_case(plan, plan_case, split_seed));
+      if (place == cases.end()) place = cases.insert(place, make_case(plan, plan_case));
       add_entries(*place, plan);
     }
   }
   return cases;
 }
 
-Tuning run_tuning(std::vector<TuningCase> cases, std::uint64_t split_seed, const TunerOptions& options,
-                  EvaluationStore& store, run::Progress& progress) {
+Tuning run_tuning(std::vector<TuningCase> cases, const TunerOptions& options, EvaluationStore& store,
+                  run::Progress& progress) {
   Tuning tuning;
-  tuning.split_seed = split_seed;
   tuning.cases = std::move(cases);
   try {
     tuning.methods = describe_methods(options, tuning.cases.size(), progress);
@@ -266,7 +396,7 @@ Tuning run_tuning(std::vector<TuningCase> cases, std::uint64_t split_seed, const
       try {
         Bench(shared, store.scratch() / ("thread-" + std::to_string(thread))).take_turns();
       } catch (...) {
-        shared.next = tuning.cases.size() * tuning.methods.size();  // the others end after what they are at
+        shared.queue.stop();
         throw;
       }
     });
@@ -279,11 +409,22 @@ Tuning run_tuning(std::vector<TuningCase> cases, std::uint64_t split_seed, const
 std::vector<run::ProgressRun> tuning_progress(const std::vector<TuningCase>& cases,
                                               const std::vector<std::string>& methods) {
   std::vector<run::ProgressRun> result;
-  result.reserve(cases.size() * methods.size());
-  for (const TuningCase& one : cases) {
-    for (const std::string& method : methods)
+  const auto add = [&](const TuningCase& one, int evaluations) {
+    for (const std::string& method : methods) {
       result.push_back(
-          {method + "/" + one.plan_case.name(), method, run::estimated_points(one.plan_case), 1});
+          {method + "/" + one.plan_case.name(), method, run::estimated_points(one.plan_case), evaluations});
+    }
+  };
+  const std::vector<std::size_t> order = training_order(cases);
+  std::size_t taken = 0;
+  int positions = kGridPoints;
+  for (const std::size_t end : round_ends(order.size())) {
+    for (; taken < end; ++taken) add(cases[order[taken]], positions);
+    positions = (positions + 1) / 2;
+  }
+  constexpr int kProtocols = 3;  // default, auto and the tuned value
+  for (const TuningCase& one : cases) {
+    if (one.side == Side::kTest) add(one, kProtocols + kSweepPoints + kRefinements);
   }
   return result;
 }

@@ -22,19 +22,20 @@ struct TunerOptions {
   DataFolders folders = {};
 };
 
-/// The cases of `plans`, each once: a case that several have with the same seed has the entries of all, of
-/// two entries for the same method and protocol the first.
-std::vector<TuningCase> tuning_cases(const std::vector<plan::Plan>& plans, std::uint64_t split_seed);
+/// The cases of `plans` on either side of the split, each once: a case that several have with the same seed
+/// has the entries of all, of two entries for the same method and protocol the first.
+std::vector<TuningCase> tuning_cases(const std::vector<plan::Plan>& plans);
 
-/// Per method and case: the protocols that the plans give it, `default` where it can do without parameters,
-/// and the search over its axis (search.hpp), with the holes switched on (fixed_parameters). What `store`
-/// knows is not evaluated again. A failure is an evaluation with its status. A case whose points have no
-/// spacing has no sweep of lengths, and one without a ground truth no evaluation. `tuning.interrupted` after
-/// Ctrl-C. Throws std::runtime_error when something cannot be written or a data set cannot be read.
-Tuning run_tuning(std::vector<TuningCase> cases, std::uint64_t split_seed, const TunerOptions& options,
-                  EvaluationStore& store, run::Progress& progress);
+/// Chooses every method's one value for many shapes on the training cases (halving.hpp). Then, per method and
+/// test case: that value, the protocols that the plans give the method, `default` where it can do without
+/// parameters, and the search over its axis (search.hpp), with the holes switched on (fixed_parameters). What
+/// `store` knows is not evaluated again. A failure is an evaluation with its status. A case whose points have
+/// no spacing has no sweep of lengths, and one without a ground truth no evaluation. `tuning.interrupted`
+/// after Ctrl-C. Throws std::runtime_error when something cannot be written or a data set cannot be read.
+Tuning run_tuning(std::vector<TuningCase> cases, const TunerOptions& options, EvaluationStore& store,
+                  run::Progress& progress);
 
-/// What `progress` needs to know: an element a case and method, in the order of the work.
+/// What `progress` needs to know: an element a case and method and round, in the order of the work.
 std::vector<run::ProgressRun> tuning_progress(const std::vector<TuningCase>& cases,
                                               const std::vector<std::string>& methods);
 

@@ -13,6 +13,7 @@
 #include "benchmarks/tune/evaluation.hpp"
 #include "benchmarks/tune/search_axis.hpp"
 #include "benchmarks/tune/split.hpp"
+#include "benchmarks/tune/strata.hpp"
 
 namespace hullbench::tune {
 
@@ -28,12 +29,16 @@ struct TuningCase {
   std::string dataset_sha256;
   std::int64_t n = 0;
   double spacing = 0;  ///< mean_spacing of its points (parameter_rules.hpp)
+  std::string kind;    ///< of its truth (strata.hpp)
+
+  /// What its weight depends on.
+  Membership membership() const { return {sampler_of(plan_case.dataset) + ", " + kind, shape}; }
 };
 
 /// An evaluation at a position of the axis.
 struct SweepEvaluation {
   double position = 0;
-  bool on_grid = false;  ///< of the sweep, whose positions are the same on all cases; else of the refinement
+  bool on_grid = false;  ///< of the sweep, whose positions are those of a grid; else of the refinement
   Evaluation evaluation;
 };
 
@@ -50,19 +55,26 @@ const Evaluation* best_evaluation(const MethodOnCase& found);
 /// The evaluation of the sweep at that position; null when it was not evaluated.
 const Evaluation* evaluation_at(const MethodOnCase& found, double position);
 
+/// What successive halving (halving.hpp) knew when a round was over.
+struct HalvingRound {
+  std::size_t cases = 0;          ///< training cases that were taken by then
+  std::vector<double> positions;  ///< that were still tried, ascending
+  std::vector<double> scores;     ///< position -> weighted median of l2 over these cases; kInfinitelyBad
+};
+
 /// One method.
 struct MethodTuning {
   std::string name;
   std::string title;
-  std::optional<MethodInfo> info;   ///< none: it does not start here
-  std::string detail;               ///< why it does not start
-  std::string remedy;               ///< the command that helps
-  std::optional<SearchAxis> axis;   ///< none: it has no parameter that could be searched
-  std::vector<MethodOnCase> cases;  ///< by case; empty when it does not start
+  std::optional<MethodInfo> info;    ///< none: it does not start here
+  std::string detail;                ///< why it does not start
+  std::string remedy;                ///< the command that helps
+  std::optional<SearchAxis> axis;    ///< none: it has no parameter that could be searched
+  std::vector<MethodOnCase> cases;   ///< by case; empty when it does not start
+  std::vector<HalvingRound> rounds;  ///< none without an axis or a training case
 };
 
 struct Tuning {
-  std::uint64_t split_seed = 0;
   std::vector<TuningCase> cases;
   std::vector<MethodTuning> methods;
   bool interrupted = false;  ///< then cases and methods are incomplete

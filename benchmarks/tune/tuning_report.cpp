@@ -43,6 +43,7 @@ json case_to_json(const TuningCase& one) {
           {"dataset", one.plan_case.dataset},
           {"shape", one.shape},
           {"side", to_string(one.side)},
+          {"kind", one.kind},
           {"n", one.n},
           {"holes", one.plan_case.holes},
           {"seed", one.seed},
@@ -63,7 +64,6 @@ json axis_to_json(const std::optional<SearchAxis>& axis) {
 
 json score_to_json(const ProtocolScore& score) {
   return {{"protocol", score.protocol},
-          {"cases_of", score.test_only ? "test" : "all"},
           {"cases", score.cases},
           {"failed", score.failed},
           {"l2_median", error_to_json(score.l2_median)},
@@ -80,10 +80,21 @@ json tuned_to_json(const std::optional<TunedValue>& tuned) {
           {"at_end", tuned->at_end}};
 }
 
-json tolerance_to_json(const MethodTuning& method) {
+json rounds_to_json(const MethodTuning& method) {
+  json rounds = json::array();
+  for (const HalvingRound& round : method.rounds) {
+    json scores = json::array();
+    for (const double score : round.scores) scores.push_back(error_to_json(score));
+    rounds.push_back({{"cases", round.cases}, {"positions", round.positions}, {"scores", std::move(scores)}});
+  }
+  return rounds;
+}
+
+json tolerance_to_json(const Tuning& tuning, const MethodTuning& method) {
   std::vector<double> widths;
-  for (const MethodOnCase& found : method.cases) {
-    if (const auto width = tolerance_octaves(found)) widths.push_back(*width);
+  for (std::size_t i = 0; i < method.cases.size(); ++i) {
+    if (tuning.cases[i].side != Side::kTest) continue;
+    if (const auto width = tolerance_octaves(method.cases[i])) widths.push_back(*width);
   }
   if (widths.empty()) return nullptr;
   json result = quartiles_to_json(quartiles_of(widths));
@@ -116,7 +127,7 @@ json oracle_to_json(const Tuning& tuning, const MethodTuning& method) {
   if (!method.axis) return choices;
   for (std::size_t i = 0; i < method.cases.size(); ++i) {
     const Evaluation* best = best_evaluation(method.cases[i]);
-    if (best == nullptr) continue;
+    if (best == nullptr || tuning.cases[i].side != Side::kTest) continue;
     choices.push_back({{"case", tuning.cases[i].plan_case.name()},
                        {"seed", tuning.cases[i].seed},
                        {"position", position_of(method.cases[i], *best)},
@@ -139,14 +150,16 @@ json method_to_json(const Tuning& tuning, const MethodTuning& method) {
       {"axis", axis_to_json(method.axis)},
       {"fixed", method.info ? worker::parameters_to_json(fixed_parameters(*method.info)) : json::object()},
       {"tuned", nullptr},
+      {"rounds", json::array()},
       {"tolerance_octaves", nullptr},
       {"protocols", json::array()},
       {"curve", json::array()},
       {"oracle", json::array()}};
   if (!method.info) return result;
-  const auto tuned = choose_tuned(tuning, method);
+  const auto tuned = choose_tuned(method);
   result["tuned"] = tuned_to_json(tuned);
-  result["tolerance_octaves"] = tolerance_to_json(method);
+  result["rounds"] = rounds_to_json(method);
+  result["tolerance_octaves"] = tolerance_to_json(tuning, method);
   for (const ProtocolScore& score : protocol_scores(tuning, method, tuned))
     result["protocols"].push_back(score_to_json(score));
   result["curve"] = curve_to_json(tuning, method);
@@ -168,16 +181,14 @@ table::Cell interval_cell(const json& interval) {
   return table::Range{percent(interval[0]), percent(interval[1])};
 }
 
-table::Table protocol_table(const json& summary, const std::string& cases_of) {
-  const bool test = cases_of == "test";
-  table::Table table{"protocols_" + cases_of,
-                     test ? "Protocols on the test shapes" : "Protocols on all shapes",
+table::Table protocol_table(const json& summary) {
+  table::Table table{"protocols",
+                     "Protocols on the test cases",
                      {table::words("Method"), table::words("Protocol"), "Cases", "Failed",
                       table::Column("L2 %", "%"), table::Column("L2 % interval", "%"),
                       table::Column("Regret %", "%"), table::Column("Regret % interval", "%")}};
   for (const json& method : summary.at("methods")) {
     for (const json& score : method.at("protocols")) {
-      if (score.at("cases_of") != cases_of) continue;
       const bool regret = !method.at("axis").is_null() && !score.at("regret_interval").is_null();
       table.add_row({method.at("title").get<std::string>(), score.at("protocol").get<std::string>(),
                      score.at("cases").get<std::size_t>(), score.at("failed").get<std::size_t>(),
@@ -246,16 +257,18 @@ std::vector<std::string> document_notes(const json& summary) {
   std::vector<std::string> notes = {
       "Training shapes: " + shapes_text(summary, "training") + ".",
       "Test shapes: " + shapes_text(summary, "test") + ".",
-      "A shape's side is a hash of the seed (" + summary.at("split").at("seed").dump() +
-          ") and its name; all variants of a shape are on one side.",
+      "Whole sources of shapes and whole ways to sample are of one side (benchmarks/tune/split.cpp, with the "
+      "reasons); a training shape that is sampled as only tests are is left out.",
       "h is the points' mean spacing over their convex hull, √(A_hull/n); it is known without the ground "
       "truth.",
       "default: without parameters, but holes switched on; tuned: the one x with the smallest median error "
-      "on the training shapes, scored on the test shapes only; oracle: the best of all evaluations on the "
-      "same instance; paper and auto: as the plan says.",
+      "on the training cases, by successive halving; oracle: the best of all evaluations on the same "
+      "instance; paper and auto: as the plan says.",
       "L2 is the area of the symmetric difference over the ground truth's, regret its excess over the "
       "oracle's on the same instance; medians with 95 % bootstrap intervals that take a shape's cases as "
       "one.",
+      "Every stratum, a way to sample and a kind of shape (simple, with holes, of several parts), counts the "
+      "same in a median; in it every shape, and of a shape every case.",
       "Tolerance: how wide a range of the parameter keeps the error within 10 % of its best, in factors of "
       "two; the median over the cases.",
       "A failure counts as infinitely bad: \"∞\" stands where the median is one."};
@@ -279,7 +292,7 @@ json protocols_of(const MethodTuning& method, const TuningCase& one, const Metho
   const Evaluation* chosen =
       tuned && one.side == Side::kTest ? evaluation_at(found, tuned->position) : nullptr;
   if (chosen != nullptr && chosen->id == id) protocols.push_back("tuned");
-  const Evaluation* best = best_evaluation(found);
+  const Evaluation* best = one.side == Side::kTest ? best_evaluation(found) : nullptr;
   if (method.axis && best != nullptr && best->id == id) protocols.push_back("oracle");
   return protocols;
 }
@@ -291,8 +304,8 @@ json tuning_to_json(const Tuning& tuning, const std::vector<std::string>& plans,
                   {"schema_version", record::kSchemaVersion},
                   {"tool", tool},
                   {"plans", plans},
-                  {"split", {{"seed", tuning.split_seed}}},
-                  {"budget", {{"grid", kGridPoints}, {"refinement", kRefinements}}},
+                  {"split", split_to_json()},
+                  {"budget", {{"grid", kGridPoints}, {"sweep", kSweepPoints}, {"refinement", kRefinements}}},
                   {"cases", json::array()},
                   {"methods", json::array()}};
   for (const TuningCase& one : tuning.cases) summary["cases"].push_back(case_to_json(one));
@@ -304,8 +317,7 @@ json tuning_to_json(const Tuning& tuning, const std::vector<std::string>& plans,
 table::Document tuning_document(const json& summary) {
   table::Document document;
   document.title = "Parameters: " + join_words(summary.at("plans").get<std::vector<std::string>>());
-  for (table::Table table :
-       {protocol_table(summary, "test"), protocol_table(summary, "all"), tuned_table(summary)}) {
+  for (table::Table table : {protocol_table(summary), tuned_table(summary)}) {
     if (!table.rows.empty()) document.tables.push_back(std::move(table));
   }
   document.notes = document_notes(summary);
@@ -317,7 +329,7 @@ std::vector<json> sweep_lines(const Tuning& tuning, const std::map<std::string, 
   std::set<std::string> written;
   for (const MethodTuning& method : tuning.methods) {
     if (!method.info) continue;
-    const auto tuned = choose_tuned(tuning, method);
+    const auto tuned = choose_tuned(method);
     for (std::size_t i = 0; i < method.cases.size(); ++i) {
       const MethodOnCase& found = method.cases[i];
       const auto add = [&](const Evaluation& evaluation, const json& position, bool on_grid) {

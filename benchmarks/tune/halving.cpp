@@ -1,0 +1,104 @@
+#include "benchmarks/tune/halving.hpp"
+
+#include <algorithm>
+#include <map>
+#include <numeric>
+#include <set>
+#include <utility>
+
+#include "benchmarks/statistics/weighted.hpp"
+#include "benchmarks/tune/search.hpp"
+
+namespace hullbench::tune {
+namespace {
+
+/// The error at a position; none where the case was not searched. A position that a search did not come to,
+/// given up after time-outs, is a failure.
+std::optional<double> error_at(const MethodOnCase& found, double position) {
+  if (found.sweep.empty()) return std::nullopt;
+  const Evaluation* evaluation = evaluation_at(found, position);
+  return evaluation == nullptr ? kInfinitelyBad : error_of(*evaluation);
+}
+
+/// The weighted median over these cases; a failure where none was searched.
+double score_of(const Tuning& tuning, const MethodTuning& method, const std::vector<std::size_t>& places,
+                double position) {
+  std::vector<Membership> members;
+  std::vector<statistics::WeightedValue> errors;
+  for (const std::size_t place : places) {
+    const auto error = error_at(method.cases[place], position);
+    if (!error) continue;
+    members.push_back(tuning.cases[place].membership());
+    errors.push_back({*error, 1});
+  }
+  if (errors.empty()) return kInfinitelyBad;
+  const std::vector<double> weights = case_weights(members);
+  for (std::size_t i = 0; i < errors.size(); ++i) errors[i].weight = weights[i];
+  return statistics::weighted_median(std::move(errors));
+}
+
+}  // namespace
+
+std::vector<std::size_t> training_order(const std::vector<TuningCase>& cases) {
+  // By (turn, group): a case's turn is how many of its group came before it.
+  std::map<std::pair<std::string, std::string>, std::size_t> taken;
+  std::set<std::pair<std::pair<std::size_t, std::pair<std::string, std::string>>, std::size_t>> order;
+  for (std::size_t i = 0; i < cases.size(); ++i) {
+    if (cases[i].side != Side::kTraining) continue;
+    const std::string& dataset = cases[i].plan_case.dataset;
+    const std::pair group = {source_of(dataset), sampler_of(dataset)};
+    order.insert({{taken[group]++, group}, i});
+  }
+  std::vector<std::size_t> places;
+  for (const auto& [key, place] : order) places.push_back(place);
+  return places;
+}
+
+std::vector<std::size_t> round_ends(std::size_t cases) {
+  if (cases == 0) return {};
+  return {(cases + 3) / 4, (cases + 1) / 2, cases};
+}
+
+std::vector<double> better_half(const std::vector<double>& positions, const std::vector<double>& scores) {
+  std::vector<std::size_t> order(positions.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::stable_sort(order.begin(), order.end(),
+                   [&](std::size_t a, std::size_t b) { return scores[a] < scores[b]; });
+  order.resize((order.size() + 1) / 2);
+  std::vector<double> kept;
+  for (const std::size_t place : order) kept.push_back(positions[place]);
+  std::sort(kept.begin(), kept.end());
+  return kept;
+}
+
+std::vector<double> positions_of_round(const MethodTuning& method, std::size_t round) {
+  if (round == 0) return grid(*method.axis, kGridPoints);
+  return better_half(method.rounds[round - 1].positions, method.rounds[round - 1].scores);
+}
+
+std::vector<TrainingItem> items_of_round(const Tuning& tuning, std::size_t round) {
+  const std::vector<std::size_t> order = training_order(tuning.cases);
+  const std::vector<std::size_t> ends = round_ends(order.size());
+  std::vector<TrainingItem> items;
+  for (std::size_t k = round == 0 ? 0 : ends[round - 1]; k < ends[round]; ++k) {
+    for (std::size_t m = 0; m < tuning.methods.size(); ++m) {
+      const MethodTuning& method = tuning.methods[m];
+      items.push_back({order[k], m, method.axis ? positions_of_round(method, round) : std::vector<double>()});
+    }
+  }
+  return items;
+}
+
+void end_round(Tuning& tuning, std::size_t round) {
+  std::vector<std::size_t> places = training_order(tuning.cases);
+  places.resize(round_ends(places.size())[round]);
+  for (MethodTuning& method : tuning.methods) {
+    if (!method.axis) continue;
+    HalvingRound added = {places.size(), positions_of_round(method, round), {}};
+    for (const double position : added.positions)
+      added.scores.push_back(score_of(tuning, method, places, position));
+    method.rounds.push_back(std::move(added));
+  }
+}
+
+}  // namespace hullbench::tune
