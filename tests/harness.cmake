@@ -66,6 +66,8 @@ target_compile_definitions(test_tune_search PRIVATE HULLBENCH_PLAN_FOLDER="${PRO
 hullbench_test(test_rule_fit SOURCES test_rule_fit.cpp
   LIBRARIES hullbench::tune hullbench::adapters hullbench::metrics hullbench::datasets LABELS harness)
 target_compile_definitions(test_rule_fit PRIVATE HULLBENCH_PLAN_FOLDER="${PROJECT_SOURCE_DIR}/benchmarks/plans")
+hullbench_test(test_limit_fit SOURCES test_limit_fit.cpp
+  LIBRARIES hullbench::tune hullbench::metrics hullbench::datasets LABELS harness)
 hullbench_test(test_tune SOURCES test_tune.cpp
   LIBRARIES hullbench::record hullbench::run hullbench::metrics hullbench_test_program LABELS harness)
 target_compile_definitions(test_tune PRIVATE
