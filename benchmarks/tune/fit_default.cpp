@@ -17,11 +17,13 @@
 #include "benchmarks/base/exit_code.hpp"
 #include "benchmarks/base/files.hpp"
 #include "benchmarks/base/number_format.hpp"
+#include "benchmarks/base/parallel.hpp"
 #include "benchmarks/statistics/statistics.hpp"
 #include "benchmarks/table/writers.hpp"
 #include "benchmarks/tune/limit_fit.hpp"
 #include "benchmarks/tune/split.hpp"
 #include "datasets/datasets.hpp"
+#include "datasets/random.hpp"
 #include "polylidar/concave_hull.hpp"
 
 namespace hullbench::tune {
@@ -124,6 +126,35 @@ void print_test(std::vector<MadeLimitCase>& cases) {
          "Unseen: no training case is sampled so.\n";
 }
 
+/// Of points without a shape every hole is a void that chance made, and every part but one, too.
+void print_voids() {
+  constexpr std::size_t kSets = 20;
+  table::Table table{
+      "voids", "Chance", {table::words("points"), "number", "holes a set", "sets without", "parts a set"}};
+  for (const bool is_normal : {false, true}) {
+    for (const std::size_t n : {2000U, 8000U, 100000U}) {
+      std::vector<double> holes(kSets);
+      std::vector<double> parts(kSets);
+      for_each_in_parallel(kSets, allowed_cores(), [&](std::size_t k) {
+        Random random(derive_seed(k, "voids"));
+        std::vector<polylidar::Point> points(n);
+        for (polylidar::Point& p : points) {
+          p.x = is_normal ? random.normal() : random.uniform();
+          p.y = is_normal ? random.normal() : random.uniform();
+        }
+        const polylidar::IndexedMultiPolygon hull = polylidar::concave_hull(points);
+        parts[k] = static_cast<double>(hull.polygon_count());
+        holes[k] = static_cast<double>(hull.ring_ends.size()) - parts[k];
+      });
+      table.add_row({is_normal ? "normal" : "uniform in a square", n,
+                     table::Number(statistics::mean(std::span<const double>(holes)), 2),
+                     std::count(holes.begin(), holes.end(), 0),
+                     table::Number(statistics::mean(std::span<const double>(parts)), 2)});
+    }
+  }
+  print("Chance: 20 sets of points without a shape", table);
+}
+
 nlohmann::json to_json(const polylidar::MultiPolygon& shape) {
   nlohmann::json rings = nlohmann::json::array();
   const auto add = [&](const polylidar::Ring& ring) {
@@ -178,6 +209,7 @@ ExitCode fit(int tries, std::uint64_t seed, bool with_ablation) {
   for (const std::size_t n : {2000U, 8000U}) names.push_back({"ca", true, n});
   std::vector<MadeLimitCase> test = make_limit_cases(names, allowed_cores());
   print_test(test);
+  print_voids();
   if (with_ablation) print_variants(training, test);
   return kExitOk;
 }
