@@ -32,14 +32,19 @@ MethodInfo describe() {
                          .maximum = kInfinity,
                          .default_value = default_value};
   };
-  // The perimeter first: it is what the core chooses, and what a search of one parameter is to search.
+  // The perimeter first: it is what a search of one parameter is to search.
   info.parameters = {limit("max_perimeter", "Largest perimeter of a triangle inside the shape.", kInfinity),
                      limit("alpha",
                            "Largest circumradius of a triangle inside the shape; 0: not given. With no limit "
-                           "given, that of the "
-                           "perimeter is chosen from the points.",
+                           "given, one is chosen from the points, place by place.",
                            kNotGiven),
-                     limit("max_edge_length", "Longest edge of a triangle inside the shape.", kInfinity)};
+                     limit("max_edge_length", "Longest edge of a triangle inside the shape.", kInfinity),
+                     {.name = "detail",
+                      .unit = "",
+                      .description = "Divides the size of triangles that is chosen where no limit is given.",
+                      .minimum = 0.01,
+                      .maximum = 100,
+                      .default_value = 1}};
   info.capabilities = {.holes = true, .several_polygons = true};
   return info;
 }
@@ -61,7 +66,8 @@ class PolylidarAdapter final : public Adapter {
     };
     const polylidar::Options options = {.alpha = limit("alpha", kNotGiven),
                                         .max_edge_length = limit("max_edge_length", kInfinity),
-                                        .max_perimeter = limit("max_perimeter", kInfinity)};
+                                        .max_perimeter = limit("max_perimeter", kInfinity),
+                                        .detail = complete.at("detail")};
     steps.begin("triangulation");
     extractor_.triangulate(points_);
     steps.begin("shape");

@@ -5,13 +5,11 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
-#include <set>
+#include <optional>
 #include <string>
 #include <vector>
 
-#include "core/src/delaunay_builder.hpp"
-#include "core/src/filter_rules.hpp"
-#include "core/src/region.hpp"
+#include "core/src/automatic_limit.hpp"
 #include "polylidar/check.hpp"
 #include "polylidar/concave_hull.hpp"
 #include "polylidar/delaunay.hpp"
@@ -24,20 +22,19 @@ namespace {
 using testing::hole_count;
 using testing::PointSet;
 
-Limits chosen(const std::vector<Point>& points, unsigned threads = 1) {
+std::optional<ChosenSizes> chosen(const std::vector<Point>& points, const Options& options = {}) {
   Extractor extractor;
-  extractor.extract(points, {.threads = threads});
-  return extractor.limits();
+  extractor.extract(points, options);
+  return extractor.chosen_sizes();
 }
 
-double chosen_perimeter(const std::vector<Point>& points) {
-  const Limits limits = chosen(points);
-  EXPECT_EQ(limits, (Limits{.max_perimeter = limits.max_perimeter}));
-  return limits.max_perimeter;
+/// Of points that have a triangle.
+double median_size(const std::vector<Point>& points) {
+  return chosen(points).value().median;
 }
 
-MultiPolygon hull(const std::vector<Point>& points) {
-  const IndexedMultiPolygon shape = concave_hull(points);
+MultiPolygon hull(const std::vector<Point>& points, const Options& options = {}) {
+  const IndexedMultiPolygon shape = concave_hull(points, options);
   EXPECT_EQ(check_polygon(points, shape), "");
   return to_coordinates(shape, points);
 }
@@ -61,6 +58,18 @@ std::vector<Point> ring_and_island(std::size_t count, std::uint64_t seed) {
   return points;
 }
 
+/// Points of the unit square, `ratio` times as far apart at its right side as at its left.
+std::vector<Point> sparser_to_the_right(std::size_t count, double ratio, std::uint64_t seed) {
+  testing::Random random(seed);
+  std::vector<Point> points;
+  while (points.size() < count) {
+    const Point p{random.between(0, 1), random.between(0, 1)};
+    const double spacing = 1 + (ratio - 1) * p.x;
+    if (random.between(0, 1) < 1 / (spacing * spacing)) points.push_back(p);
+  }
+  return points;
+}
+
 // when it is chosen, and when not
 
 TEST(AutomaticLimit, IsForThoseWhoGiveNone) {
@@ -71,65 +80,16 @@ TEST(AutomaticLimit, IsForThoseWhoGiveNone) {
     extractor.extract_regions(options);
     return extractor.limits();
   };
-  EXPECT_EQ(limits({.alpha = 0.1}), (Limits{.alpha = 0.1}));
-  EXPECT_EQ(limits({.max_edge_length = 0.1}), (Limits{.max_edge_length = 0.1}));
-  EXPECT_EQ(limits({.alpha = 0.1, .max_edge_length = 0.2, .max_perimeter = 0.3}), (Limits{0.1, 0.2, 0.3}));
-  EXPECT_EQ(limits({.alpha = kNoLimit}), Limits{});
-  EXPECT_EQ(limits({.max_edge_length = kNoLimit}), Limits{});
-  EXPECT_EQ(limits({.max_perimeter = 0.1}), (Limits{.max_perimeter = 0.1}));
-  EXPECT_EQ(limits({.max_perimeter = kNoLimit}), Limits{});
-  EXPECT_LT(limits({}).max_perimeter, 1);
-  EXPECT_GT(limits({}).max_perimeter, 0);
-}
-
-TEST(AutomaticLimit, ExtractsWhatGivingItExtracts) {
-  for (const PointSet& set : testing::nasty_point_sets()) {
-    SCOPED_TRACE(set.name);
-    const IndexedMultiPolygon shape = concave_hull(set.points);
-    EXPECT_EQ(check_polygon(set.points, shape), "");
-    const Options given{.max_perimeter = chosen_perimeter(set.points), .fill_single_triangles = true};
-    EXPECT_EQ(concave_hull(set.points, given), shape);
+  for (const Options& given : {Options{.alpha = 0.1}, Options{.max_edge_length = 0.1},
+                               Options{.max_perimeter = 0.3}, Options{.alpha = kNoLimit}}) {
+    EXPECT_EQ(limits(given).alpha, given.alpha.value_or(kNoLimit));
+    EXPECT_EQ(limits(given).max_edge_length, given.max_edge_length.value_or(kNoLimit));
+    EXPECT_EQ(limits(given).max_perimeter, given.max_perimeter.value_or(kNoLimit));
+    EXPECT_EQ(extractor.chosen_sizes(), std::nullopt);
   }
-  // About multiples of 64 triangles, which the filter takes together, and of all and of a part.
-  for (const std::size_t count : {33U, 34U, 65U, 66U, 1000U, 1899U, 1900U, 1901U, 30000U}) {
-    const std::vector<Point> points = testing::uniform_points(count, count);
-    const Options given{.max_perimeter = chosen_perimeter(points), .fill_single_triangles = true};
-    EXPECT_EQ(concave_hull(points, given), concave_hull(points)) << count;
-  }
-}
-
-// A limit is inclusive, and where perimeters are not known most triangles are told without a root, which
-// rounds otherwise. Perimeters and their neighbours are the limits that would tell the two ways apart, most
-// of all where all edges of a triangle are equal.
-TEST(AutomaticLimit, KnownPerimetersKeepWhatOthersKeep) {
-  std::vector<Point> equilateral;
-  for (const Point& p : testing::lattice(12, 12)) {
-    equilateral.push_back({0.37 * (p.x + p.y / 2), 0.37 * std::sqrt(0.75) * p.y});
-  }
-  for (const std::vector<Point>& points : {testing::uniform_points(300, 36), equilateral}) {
-    detail::ThreadPool pool;
-    detail::DelaunayBuilder builder;
-    builder.build(points, pool);
-    detail::Mesh& mesh = builder.mesh();
-    const Point* const vertices = builder.vertices();
-    std::set<double> limits;
-    std::vector<double> perimeters(mesh.triangle_count(), std::numeric_limits<double>::infinity());
-    for (detail::Mesh::Index t = 0; t < mesh.triangle_count(); ++t) {
-      if (mesh.is_ghost(t)) continue;
-      perimeters[t] = detail::Triangle(mesh, vertices, t).perimeter();
-      limits.insert(
-          {std::nextafter(perimeters[t], 0.0), perimeters[t], std::nextafter(perimeters[t], 100.0)});
-    }
-    detail::RegionFilter filter;
-    for (const double limit : limits) {
-      std::vector<detail::Mesh::Index> expected;
-      filter.run(mesh, vertices, detail::filter_rules({.max_perimeter = limit}), false, pool, expected);
-      std::vector<detail::Mesh::Index> boundary;
-      filter.run(mesh, vertices, detail::filter_rules({.max_perimeter = limit}, perimeters), false, pool,
-                 boundary);
-      ASSERT_EQ(boundary, expected) << limit;
-    }
-  }
+  EXPECT_EQ(limits({}), Limits{});
+  EXPECT_GT(extractor.chosen_sizes().value().least, 0);
+  EXPECT_LT(extractor.chosen_sizes().value().most, 1);
 }
 
 TEST(AutomaticLimit, AlwaysKeepsATriangle) {
@@ -139,13 +99,14 @@ TEST(AutomaticLimit, AlwaysKeepsATriangle) {
     extractor.triangulate(set.points);
     EXPECT_EQ(extractor.has_triangles(), !delaunay(set.points).triangles.empty());
     EXPECT_EQ(extractor.extract(set.points).polygon_count() > 0, extractor.has_triangles());
+    EXPECT_EQ(check_polygon(set.points, concave_hull(set.points)), "");
   }
 }
 
 TEST(AutomaticLimit, OfPointsWithoutATriangleIsNone) {
   for (const PointSet& set : testing::flat_point_sets()) {
     SCOPED_TRACE(set.name);
-    EXPECT_EQ(chosen(set.points), Limits{});
+    EXPECT_EQ(chosen(set.points), std::nullopt);
     EXPECT_TRUE(hull(set.points).empty());
   }
 }
@@ -165,77 +126,76 @@ TEST(AutomaticLimit, OfAnExtractorIsForItsPointsAlone) {
   }
 }
 
-// what it is: the rule in its plainest words
+// what it is: the rule in its plainest words, where there is but one block
 
 double median_of(std::vector<double> values) {
   std::sort(values.begin(), values.end());
   return values[values.size() / 2];
 }
 
-/// The rule's limit of the least cost for all triangles of `points`, which have one.
-double plain_limit(const std::vector<Point>& points) {
+/// The size of the least cost for points that make one block.
+double plain_size(const std::vector<Point>& points, const detail::AutomaticConstants& constants = {}) {
   const Triangulation mesh = delaunay(points);
-  std::vector<double> perimeters;
+  std::vector<double> sizes;
   std::vector<double> areas;
   for (std::size_t e = 0; e < mesh.triangles.size(); e += 3) {
     const Ring triangle{points[mesh.triangles[e]], points[mesh.triangles[e + 1]],
                         points[mesh.triangles[e + 2]]};
-    double perimeter = 0;
+    std::vector<double> edges;
     for (std::size_t k = 0; k < 3; ++k) {
       const Point& to = triangle[(k + 1) % 3];
-      perimeter += std::hypot(to.x - triangle[k].x, to.y - triangle[k].y);
+      edges.push_back(std::hypot(to.x - triangle[k].x, to.y - triangle[k].y));
     }
-    perimeters.push_back(perimeter);
+    const double second_longest = median_of(edges);
     areas.push_back(std::abs(signed_area(triangle)));
+    sizes.push_back(
+        std::max(std::pow(4 / std::sqrt(3) * second_longest * second_longest * areas.back(), 0.25),
+                 second_longest / 2));
   }
-  const double median = median_of(perimeters);
-  const auto limit = [&](int cell) {  // 16 to the octave
-    return 0.93 * std::ldexp(1 + (cell & 15) / 16.0, cell >> 4) * median;
+  const double median = median_of(sizes);
+  // 16 to the octave, 4 to one of their fourth powers; the median lies in a cell.
+  const auto size = [&](int cell) {
+    const double fourth_power = 0.125 * std::ldexp(1 + (cell & 3) / 4.0, cell >> 2) / 1.1;
+    return std::pow(fourth_power, 0.25) * median;
   };
   const auto log_area = [&](double largest) {
     double sum = 0;
-    for (std::size_t t = 0; t < areas.size(); ++t) sum += perimeters[t] < largest ? areas[t] : 0;
+    for (std::size_t t = 0; t < areas.size(); ++t) sum += sizes[t] < largest ? areas[t] : 0;
     return std::log(sum);
   };
   double least_cost = std::numeric_limits<double>::infinity();
-  double best = 1.6 * median;
-  for (int cell = 0; limit(cell) <= 6 * median; ++cell) {
-    if (limit(cell) < 1.1 * median) continue;
-    const double low = limit(cell - 10);
-    const double high = limit(cell + 2);
+  double best = constants.usual * median;
+  const int below = static_cast<int>(constants.below);
+  const int above = static_cast<int>(constants.above);
+  for (int cell = below; cell + above < 64; ++cell) {
+    if (size(cell) < 1.2 * median || size(cell) > 8 * median) continue;
+    const double low = size(cell - below);
+    const double high = size(cell + above);
     const double growth = (log_area(high) - log_area(low)) / std::log(high / low);
-    const double cost = std::log(growth + 0.003) + 2 * std::pow(std::log(limit(cell) / (1.6 * median)), 2);
+    const double distance = std::log(size(cell) / (constants.usual * median));
+    const double cost = std::log(growth + constants.still) + constants.pull * distance * distance;
     if (cost < least_cost) {
       least_cost = cost;
-      best = limit(cell);
+      best = size(cell);
     }
   }
   return best;
 }
 
-TEST(AutomaticLimit, IsWhatTheRuleSays) {
-  std::vector<PointSet> sets{{"circle, half of its triangles ghosts", testing::circle(1500, 1)},
-                             {"lattice", testing::lattice(40, 45)},
+TEST(AutomaticLimit, OfOneBlockIsWhatTheRuleSays) {
+  std::vector<PointSet> sets{{"circle, half of its triangles ghosts", testing::circle(60, 1)},
+                             {"lattice", testing::lattice(8, 8)},
                              {"three points", {{0, 0}, {4, 0}, {0, 3}}}};
-  for (const std::size_t count : {40U, 500U, 520U, 1500U, 1800U}) {
-    const std::string name = std::to_string(count);
-    sets.push_back({name + " uniform", testing::uniform_points(count, count)});
-    sets.push_back({name + " of a ring and an island", ring_and_island(count, count)});
-    const auto denser = [](const Point& p) { return Point{p.x * p.x * p.x * p.x, p.y}; };
-    sets.push_back({name + " denser on the left", mapped(testing::uniform_points(count, count + 1), denser)});
-  }
   for (std::uint64_t seed = 0; seed < 100; ++seed) {
     const std::string name = ", seed " + std::to_string(seed);
-    sets.push_back({"300 points" + name, ring_and_island(300, seed)});
+    sets.push_back({"60 points" + name, ring_and_island(60, seed)});
     const auto heavy_tailed = [](const Point& p) { return Point{std::tan(1.5 * p.x), std::tan(1.5 * p.y)}; };
     sets.push_back({"50 points" + name, mapped(testing::uniform_points(50, seed), heavy_tailed)});
-    const std::vector<Point> split = mapped(testing::lattice(12, 12), [&](const Point& p) {
-      return Point{p.x + (p.x > 5 ? 0.02 * static_cast<double>(seed) : 0), p.y};
-    });
-    sets.push_back({"split lattice" + name, split});
   }
   for (const PointSet& set : sets) {
-    EXPECT_DOUBLE_EQ(chosen_perimeter(set.points), plain_limit(set.points)) << set.name;
+    const ChosenSizes sizes = chosen(set.points).value();
+    EXPECT_NEAR(sizes.median / plain_size(set.points), 1, 1e-12) << set.name;
+    EXPECT_EQ(sizes.least, sizes.most) << set.name;
   }
 }
 
@@ -243,62 +203,100 @@ TEST(AutomaticLimit, IsWhatTheRuleSays) {
 
 class AutomaticLimitRelations : public ::testing::TestWithParam<std::uint64_t> {
  protected:
-  // Integers, so that moving, mirroring and doubling the points changes no rounding.
+  // Integers, so that moving and scaling the points changes no rounding.
   const std::vector<Point> points_ = testing::integer_points(200 + 100 * GetParam(), GetParam(), 1 << 20);
-  const double perimeter_ = chosen_perimeter(points_);
+  const IndexedMultiPolygon shape_ = concave_hull(points_);
 };
 
 TEST_P(AutomaticLimitRelations, PowersOfTwoScaleIt) {
+  const double size = median_size(points_);
   for (const int exponent : {-1000, -30, 1, 30, 1000}) {
-    const auto scaled = [&](const Point& p) {
+    const std::vector<Point> scaled = mapped(points_, [&](const Point& p) {
       return Point{std::ldexp(p.x, exponent), std::ldexp(p.y, exponent)};
-    };
-    EXPECT_EQ(chosen_perimeter(mapped(points_, scaled)), std::ldexp(perimeter_, exponent)) << exponent;
+    });
+    EXPECT_NEAR(std::ldexp(median_size(scaled), -exponent) / size, 1, 1e-12) << exponent;
+    EXPECT_EQ(concave_hull(scaled), shape_) << exponent;
   }
 }
 
-TEST_P(AutomaticLimitRelations, OtherFactorsScaleItButForRounding) {
-  for (const double factor : {3.0, 0.1, 1e-12}) {
-    const auto scaled = [&](const Point& p) { return Point{p.x * factor, p.y * factor}; };
-    // Coordinates are rounded, to 2^-53 of themselves, which may be a thousand times as long as an edge.
-    EXPECT_NEAR(chosen_perimeter(mapped(points_, scaled)) / (perimeter_ * factor), 1, 1e-12) << factor;
-  }
+TEST_P(AutomaticLimitRelations, PlaceAndOrderDoNotMatter) {
+  const std::vector<Point> moved = mapped(points_, [](const Point& p) {
+    return Point{p.x + 12345, p.y - 98765};
+  });
+  EXPECT_EQ(concave_hull(moved), shape_);
+  const std::vector<Point> shuffled = testing::shuffled(points_, GetParam());
+  EXPECT_DOUBLE_EQ(median_size(shuffled), median_size(points_));
+  EXPECT_DOUBLE_EQ(area(hull(shuffled)), area(to_coordinates(shape_, points_)));
 }
 
-// A perimeter's three terms may be added in another order, hence DOUBLE_EQ here and below.
-TEST_P(AutomaticLimitRelations, MovingAndMirroringDoNotMatter) {
-  const auto expect_the_same = [&](const auto& motion) {
-    EXPECT_DOUBLE_EQ(chosen_perimeter(mapped(points_, motion)), perimeter_);
-  };
-  expect_the_same([](const Point& p) { return Point{p.x + 12345, p.y - 98765}; });
-  expect_the_same([](const Point& p) { return Point{-p.y, p.x}; });
-  expect_the_same([](const Point& p) { return Point{p.y, p.x}; });
-}
-
-TEST_P(AutomaticLimitRelations, OrderAndRepeatsDoNotMatter) {
-  EXPECT_DOUBLE_EQ(chosen_perimeter(testing::shuffled(points_, GetParam())), perimeter_);
+// They move the borders of blocks.
+TEST_P(AutomaticLimitRelations, RepeatsMatterNoMoreThanNoise) {
   std::vector<Point> repeated;
-  // So many that of the triangles that there might be only a few are there.
   for (int i = 0; i < 60; ++i) repeated.insert(repeated.end(), points_.begin(), points_.end());
-  EXPECT_DOUBLE_EQ(chosen_perimeter(testing::shuffled(repeated, GetParam())), perimeter_);
+  repeated = testing::shuffled(repeated, GetParam());
+  EXPECT_NEAR(median_size(repeated) / median_size(points_), 1, 0.2);
+  EXPECT_NEAR(area(hull(repeated)) / area(to_coordinates(shape_, points_)), 1, 0.05);
 }
 
 INSTANTIATE_TEST_SUITE_P(Seeds, AutomaticLimitRelations,
                          ::testing::Range(std::uint64_t{0}, std::uint64_t{12}));
 
 TEST(AutomaticLimit, IsTheSameOnAnyNumberOfThreads) {
-  // Of the first it looks at all triangles, as repeats leave most records unused, and spares the filter their
-  // perimeters; of the second at a part.
   std::vector<Point> repeated;
   for (int i = 0; i < 80; ++i) {
     for (const Point& p : testing::uniform_points(200, 2)) repeated.push_back(p);
   }
-  for (const std::vector<Point>& points : {repeated, testing::uniform_points(40000, 2)}) {
+  for (const std::vector<Point>& points :
+       {repeated, testing::uniform_points(40000, 2), sparser_to_the_right(30000, 5, 3)}) {
     for (const unsigned threads : {2U, 3U, 8U}) {
-      EXPECT_EQ(chosen(points, threads), chosen(points)) << threads;
+      EXPECT_EQ(chosen(points, {.threads = threads}), chosen(points)) << threads;
       EXPECT_EQ(concave_hull(points, {.threads = threads}), concave_hull(points)) << threads;
     }
   }
+}
+
+// the field
+
+TEST(AutomaticLimit, IsOneLimitWherePointsAreUniform) {
+  for (std::uint64_t seed = 0; seed < 10; ++seed) {
+    const ChosenSizes sizes = chosen(testing::uniform_points(4000, seed)).value();
+    EXPECT_LT(sizes.most / sizes.least, 1.3) << seed;
+  }
+}
+
+TEST(AutomaticLimit, FollowsTheDensity) {
+  for (std::uint64_t seed = 0; seed < 10; ++seed) {
+    const std::vector<Point> points = sparser_to_the_right(20000, 8, seed);
+    const ChosenSizes sizes = chosen(points).value();
+    EXPECT_GT(sizes.most / sizes.least, 4) << seed;
+    EXPECT_LT(sizes.most / sizes.least, 16) << seed;
+    // With one limit for all the right side falls to pieces or the left one's notches are closed.
+    const MultiPolygon shape = hull(points);
+    EXPECT_EQ(shape.size(), 1U) << seed;
+    EXPECT_EQ(hole_count(shape), 0U) << seed;
+    EXPECT_GT(area(shape), 0.97) << seed;
+  }
+}
+
+TEST(AutomaticLimit, TakesOutliersForNoSparsePart) {
+  for (const std::size_t count : {2000U, 20000U}) {
+    for (std::uint64_t seed = 0; seed < 5; ++seed) {
+      std::vector<Point> points = testing::uniform_points(count, seed);
+      for (const Point& p : testing::uniform_points(count / 50, seed + 100)) {
+        const Point outlier{3 * p.x - 1, 3 * p.y - 1};
+        points.push_back(outlier);
+      }
+      EXPECT_LT(area(hull(points)), 1.15) << count << " points, seed " << seed;
+    }
+  }
+}
+
+TEST(AutomaticLimit, KeepsASparsePartFarAway) {
+  std::vector<Point> points = testing::uniform_points(4000, 5);
+  for (const Point& p : testing::uniform_points(1000, 6)) points.push_back({10 + 10 * p.x, 10 * p.y});
+  const MultiPolygon shape = hull(points);
+  ASSERT_EQ(shape.size(), 2U);
+  EXPECT_NEAR(area(shape), 101, 10);
 }
 
 // what it must find
@@ -310,7 +308,7 @@ TEST(AutomaticLimit, FindsHolesAndPartsAtAnyDensity) {
       SCOPED_TRACE(std::to_string(count) + " points, seed " + std::to_string(seed));
       const MultiPolygon shape = hull(ring_and_island(count, seed));
       EXPECT_EQ(shape.size(), 2U);
-      EXPECT_GE(hole_count(shape), 1U);
+      EXPECT_EQ(hole_count(shape), 1U);
       // The outline is 61 long, and the shape ends within a spacing of it.
       const double spacing = std::sqrt(area_of_shape / static_cast<double>(count));
       EXPECT_NEAR(area(shape), area_of_shape, 61 * spacing / 2);
@@ -331,34 +329,81 @@ TEST(AutomaticLimit, FindsTheHoleOfALattice) {
   EXPECT_LE(area(shape), 39 * 39 - 12 * 12 + 12);
 }
 
+TEST(AutomaticLimit, LeavesNoHoleToChance) {
+  for (std::uint64_t seed = 0; seed < 20; ++seed) {
+    const MultiPolygon shape = hull(testing::uniform_points(100000, seed));
+    EXPECT_EQ(shape.size(), 1U) << seed;
+    EXPECT_EQ(hole_count(shape), 0U) << seed;
+  }
+}
+
 TEST(AutomaticLimit, IsSmallBesideALongGap) {
   std::vector<Point> points = testing::uniform_points(2000, 33);
   for (const Point& p : testing::uniform_points(2000, 34)) points.push_back({p.x + 1e9, p.y + 1e9});
   EXPECT_EQ(hull(points).size(), 2U);
-  EXPECT_LT(chosen_perimeter(points), 0.3);
+  EXPECT_LT(median_size(points), 0.1);
 }
 
 TEST(AutomaticLimit, IsFoundForPointsThatAreTinyBesideADistance) {
   const std::vector<Point> points = testing::uniform_points(1000, 35);
-  const double perimeter = chosen_perimeter(points);
+  const double size = median_size(points);
   for (const int exponent : {-30, -40, -50, -60, -100, -150, -200, -240}) {
     std::vector<Point> tiny = mapped(points, [&](const Point& p) {
       return Point{std::ldexp(p.x, exponent), std::ldexp(p.y, exponent)};
     });
     tiny.push_back({1, 1});
-    EXPECT_NEAR(std::ldexp(chosen_perimeter(tiny), -exponent) / perimeter, 1, 0.1) << exponent;
-    const Options given{.max_perimeter = chosen_perimeter(tiny), .fill_single_triangles = true};
-    EXPECT_EQ(concave_hull(tiny, given), concave_hull(tiny)) << exponent;
+    EXPECT_NEAR(std::ldexp(median_size(tiny), -exponent) / size, 1, 0.2) << exponent;
     EXPECT_EQ(concave_hull(tiny).polygon_count(), 1U) << exponent;
   }
 }
 
 // Only a part of the triangles is looked at.
 TEST(AutomaticLimit, OfManyPointsIsAsOfFew) {
-  const double few = chosen_perimeter(testing::uniform_points(4000, 3)) * std::sqrt(4000.0);
-  const double many = chosen_perimeter(testing::uniform_points(400000, 4)) * std::sqrt(400000.0);
-  // Chance moves it by a cell or two of the rule's grid, each less than 7 %.
+  const double few = median_size(testing::uniform_points(4000, 3)) * std::sqrt(4000.0);
+  const double many = median_size(testing::uniform_points(400000, 4)) * std::sqrt(400000.0);
+  // Chance moves it by a few cells of the rule's grid, each less than 6 %.
   EXPECT_NEAR(many / few, 1, 0.25);
+}
+
+// the caller's knob
+
+TEST(AutomaticLimit, MoreDetailNeverAddsATriangle) {
+  for (const std::vector<Point>& points : {ring_and_island(3000, 1), sparser_to_the_right(3000, 8, 2)}) {
+    const Triangulation mesh = delaunay(points);
+    double before = std::numeric_limits<double>::infinity();
+    for (const double detail : {0.25, 0.5, 0.8, 1.0, 1.1, 1.5, 2.0, 4.0}) {
+      const MultiPolygon shape = hull(points, {.detail = detail});
+      EXPECT_LE(area(shape), before * (1 + 1e-12)) << detail;
+      before = area(shape);
+      EXPECT_DOUBLE_EQ(chosen(points, {.detail = detail}).value().median, median_size(points) / detail);
+    }
+  }
+}
+
+TEST(AutomaticLimit, DetailMustBePositiveAndFinite) {
+  for (const double detail : {0.0, -1.0, std::numeric_limits<double>::infinity(), std::nan("")}) {
+    EXPECT_THROW(concave_hull({}, {.detail = detail}), std::invalid_argument) << detail;
+  }
+}
+
+TEST(LabelledHulls, AreThoseOfEachLabelAlone) {
+  const std::vector<Point> points = ring_and_island(3000, 7);
+  std::vector<std::int64_t> labels;
+  for (const Point& p : points) labels.push_back(p.x > 11 ? -5 : p.y > 5 ? 3 : 1);
+  for (const unsigned threads : {1U, 3U}) {
+    const std::vector<LabelledHull> hulls = concave_hulls(points, labels, {.threads = threads});
+    ASSERT_EQ(hulls.size(), 3U);
+    for (std::size_t h = 0; h < hulls.size(); ++h) {
+      EXPECT_EQ(hulls[h].label, (std::vector<std::int64_t>{-5, 1, 3})[h]);
+      std::vector<Point> own;
+      for (std::size_t i = 0; i < points.size(); ++i) {
+        if (labels[i] == hulls[h].label) own.push_back(points[i]);
+      }
+      EXPECT_EQ(to_coordinates(hulls[h].shape, points), hull(own));
+    }
+  }
+  EXPECT_TRUE(concave_hulls({}, {}).empty());
+  EXPECT_THROW(concave_hulls(points, std::span(labels).first(5)), std::invalid_argument);
 }
 
 }  // namespace

@@ -171,13 +171,27 @@ TEST_F(HullCommandTest, EveryInputFormatGivesTheSameBytes) {
 TEST_F(HullCommandTest, ChoosesALimitAndSaysIt) {
   const Outcome outcome = hull({points_file()});
   const json properties = json::parse(outcome.out)["properties"];
-  const double perimeter = properties["max_perimeter"];
-  EXPECT_FALSE(properties.contains("alpha") || properties.contains("max_edge_length"));
-  EXPECT_NE(outcome.err.find("max perimeter " + testing::number(perimeter) + ", chosen from the points"),
-            std::string::npos);
+  const double least = properties["least_size"];
+  const double most = properties["most_size"];
+  EXPECT_LE(least, properties["median_size"]);
+  EXPECT_LE(properties["median_size"], most);
+  EXPECT_FALSE(properties.contains("alpha") || properties.contains("max_edge_length") ||
+               properties.contains("max_perimeter"));
+  for (const std::string& words :
+       {testing::number(least), testing::number(most), std::string("chosen from the points")}) {
+    EXPECT_NE(outcome.err.find(words), std::string::npos) << words << " in " << outcome.err;
+  }
   EXPECT_EQ(from_geojson(json::parse(outcome.out)["geometry"]["coordinates"]),
             to_coordinates(polylidar::concave_hull(points_), points_));
   EXPECT_EQ(hull({points_file(), "--max-perimeter", "1"}).err, "");
+}
+
+TEST_F(HullCommandTest, DetailScalesTheChosenSize) {
+  const auto median_size = [&](const char* detail) -> double {
+    return json::parse(hull({points_file(), "--detail", detail}).out)["properties"]["median_size"];
+  };
+  EXPECT_DOUBLE_EQ(median_size("2"), median_size("1") / 2);
+  EXPECT_EQ(hull({points_file(), "--detail", "0"}).code, 2);
 }
 
 TEST_F(HullCommandTest, FewPointsGiveTheEmptyGeometry) {

@@ -21,7 +21,7 @@ import numpy as np
 import polylidar_core
 import shapely.geometry
 import shapely.wkb
-from polylidar_core import _core, concave_hull, delaunay
+from polylidar_core import _core, concave_hull, concave_hulls, delaunay
 
 CELL = 0.75  # keeps the halves of a unit lattice's cells (circumradius 0.71), the next triangle has 1
 
@@ -111,10 +111,30 @@ class Shapes(unittest.TestCase):
     def test_without_limits_it_chooses_one_and_tells_it(self):
         points = scattered(500)
         shape = concave_hull(points)
-        self.assertTrue(0 < shape.max_perimeter < 1)
-        self.assertEqual((shape.alpha, shape.max_edge_length), (np.inf, np.inf))
-        given = concave_hull(points, max_perimeter=shape.max_perimeter, fill_single_triangles=True)
-        self.assertEqual(given.__geo_interface__, shape.__geo_interface__)
+        least, median, most = shape.sizes
+        self.assertTrue(0 < least <= median <= most < 1)
+        self.assertIsNone(concave_hull(points, alpha=0.1).sizes)
+        finer = concave_hull(points, detail=2)
+        np.testing.assert_allclose(finer.sizes, np.array(shape.sizes) / 2, rtol=1e-12)
+        self.assertLess(finer.area, shape.area)
+
+    def test_a_hull_for_every_label(self):
+        points = np.concatenate([scattered(500, 1), scattered(400, 2) + [3, 0], [[9, 9]]])
+        labels = np.repeat([7, -2, 5], [500, 400, 1])
+        order = np.random.default_rng(3).permutation(len(points))
+        hulls = concave_hulls(points[order], labels[order], threads=2)
+        self.assertEqual(list(hulls), [-2, 5, 7])
+        self.assertEqual(len(hulls[5]), 0)
+        for label in (-2, 7):
+            own = concave_hull(points[order][labels[order] == label])
+            self.assertEqual(hulls[label].__geo_interface__, own.__geo_interface__)
+            for polygon, rows in zip(hulls[label].polygons, hulls[label].indices, strict=True):
+                np.testing.assert_array_equal(points[order][rows[0]], polygon[0])
+        self.assertEqual(concave_hulls([], []), {})
+        with self.assertRaisesRegex(ValueError, "one label a point"):
+            concave_hulls(points, labels[:-1])
+        with self.assertRaisesRegex(ValueError, "integers"):
+            concave_hulls(points, labels.astype(float))
 
     def test_degenerate_inputs_are_empty(self):
         line = [(i, 2 * i) for i in range(10)]

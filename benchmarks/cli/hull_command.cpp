@@ -36,6 +36,7 @@ struct HullCommand {
   std::optional<double> alpha;            ///< >= 0; the three limits are those of polylidar::Options
   std::optional<double> max_edge_length;  ///< >= 0
   std::optional<double> max_perimeter;    ///< >= 0
+  double detail = 1;                      ///< > 0; of the limit that is chosen
   std::string input_format = "auto";      ///< a name that point_format_of() knows
   std::string columns;                    ///< see PointFileOptions
   std::string format = "geojson";         ///< "geojson", "wkt", "wkb" or "svg"
@@ -73,16 +74,19 @@ unsigned thread_count(const HullCommand& command, std::size_t points) {
   return command.threads > 0 ? command.threads : std::max(1U, std::thread::hardware_concurrency());
 }
 
-/// Notes the limits that the shape was extracted with, and says on standard error which one was chosen.
+/// Notes the limits that the shape was extracted with, and says on standard error what was chosen.
 void note_limits(const HullCommand& command, const Extractor& extractor, HullFacts& facts) {
   facts.alpha = command.alpha;
   facts.max_edge_length = command.max_edge_length;
   facts.max_perimeter = command.max_perimeter;
-  if (facts.alpha || facts.max_edge_length || facts.max_perimeter || !extractor.has_triangles()) return;
-  facts.max_perimeter = extractor.limits().max_perimeter;
-  std::cerr << "hullbench: max perimeter " << hull::shortest(*facts.max_perimeter)
-            << ", chosen from the points; --max-perimeter sets another, --alpha or --max-edge-length limits "
-               "something else\n";
+  facts.sizes = extractor.chosen_sizes();
+  if (!facts.sizes) return;
+  std::cerr << "hullbench: triangles of size " << hull::shortest(facts.sizes->least);
+  if (facts.sizes->most > facts.sizes->least) {
+    std::cerr << " (where points are densest) to " << hull::shortest(facts.sizes->most);
+  }
+  std::cerr << " at most, chosen from the points; --detail scales it, --alpha, --max-edge-length or "
+               "--max-perimeter sets a limit\n";
 }
 
 void explain_emptiness(const Extractor& extractor) {
@@ -123,6 +127,7 @@ MultiPolygon compute(const HullCommand& command, const std::vector<Point>& point
   const polylidar::Options options = {.alpha = command.alpha,
                                       .max_edge_length = command.max_edge_length,
                                       .max_perimeter = command.max_perimeter,
+                                      .detail = command.detail,
                                       .threads = thread_count(command, points.size())};
   // Fewer take less than a blink.
   constexpr std::size_t kMany = 500000;
@@ -200,11 +205,12 @@ void add_hull(CLI::App& app, Action& action) {
   CLI::App& options = add_command(app, "hull", "Turn a file of points into polygons",
                                   "hullbench hull points.csv --columns lon,lat --format svg --out hull.svg");
   options.footer(
-      "Without --alpha, --max-edge-length and --max-perimeter the perimeter's limit is chosen from the "
-      "points: "
-      "where the\n"
-      "area of the triangles within it depends least on it. It is printed to standard error. Holes of one\n"
-      "triangle are filled then, as chance leaves them. The shape may be empty.\n"
+      "Without --alpha, --max-edge-length and --max-perimeter a limit for the size of triangles is chosen "
+      "from "
+      "the\n"
+      "points, place by place, so that it follows their density. Its range is printed to standard error. The "
+      "size of\n"
+      "an equilateral triangle is its edge. The shape may be empty.\n"
       "The input's format is known by the ending of its name (.csv .tsv .txt .xyz .pts .asc .geojson .json "
       ".wkt\n"
       ".npy .ply), else by its content. Lengths are in the unit of the points.\n" +
@@ -218,6 +224,11 @@ void add_hull(CLI::App& app, Action& action) {
   options
       .add_option("--max-perimeter", command->max_perimeter, "Largest perimeter of a triangle of the shape")
       ->check(zero_or_more());
+  options
+      .add_option("--detail", command->detail,
+                  "Detail of the outline where the limit is chosen: twice the detail, half the size")
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str();
   options.add_option("--input", command->input_format, "The input's format")
       ->check(CLI::IsMember({"auto", "csv", "xyz", "geojson", "wkt", "npy", "ply"}))
       ->capture_default_str();

@@ -145,6 +145,11 @@ std::string to_geojson(const MultiPolygon& shape, const HullFacts& facts) {
   if (facts.alpha) append_property(text, "alpha", *facts.alpha);
   if (facts.max_edge_length) append_property(text, "max_edge_length", *facts.max_edge_length);
   if (facts.max_perimeter) append_property(text, "max_perimeter", *facts.max_perimeter);
+  if (facts.sizes) {
+    append_property(text, "least_size", facts.sizes->least);
+    append_property(text, "median_size", facts.sizes->median);
+    append_property(text, "most_size", facts.sizes->most);
+  }
   text += ",\"polygons\":" + std::to_string(shape.size()) + ",\"holes\":" + std::to_string(hole_count(shape));
   append_property(text, "area", polylidar::area(shape));
   return text + R"(},"geometry":{"type":"MultiPolygon","coordinates":)" + coordinates(shape, kGeoJsonMarks) +

@@ -46,10 +46,10 @@ py::array to_array(std::vector<std::uint32_t> values) {
 
 py::tuple concave_hull(const PointArray& array, std::optional<double> alpha,
                        std::optional<double> max_edge_length, std::optional<double> max_perimeter,
-                       std::optional<bool> fill_single_triangles, unsigned threads) {
+                       double detail, std::optional<bool> fill_single_triangles, unsigned threads) {
   const std::span<const Point> points = points_of(array);
   polylidar::IndexedMultiPolygon shape;
-  polylidar::Limits limits;
+  std::optional<polylidar::ChosenSizes> sizes;
   double area = 0;
   {
     const py::gil_scoped_release other_threads_may_run;
@@ -57,14 +57,51 @@ py::tuple concave_hull(const PointArray& array, std::optional<double> alpha,
     shape = extractor.extract(points, {.alpha = alpha,
                                        .max_edge_length = max_edge_length,
                                        .max_perimeter = max_perimeter,
+                                       .detail = detail,
                                        .fill_single_triangles = fill_single_triangles,
                                        .threads = threads});
-    limits = extractor.limits();
+    sizes = extractor.chosen_sizes();
     area = polylidar::area(polylidar::to_coordinates(shape, points));
   }
-  return py::make_tuple(to_array(std::move(shape.vertices)), to_array(std::move(shape.ring_ends)),
-                        to_array(std::move(shape.polygon_ends)), area,
-                        py::make_tuple(limits.alpha, limits.max_edge_length, limits.max_perimeter));
+  return py::make_tuple(
+      to_array(std::move(shape.vertices)), to_array(std::move(shape.ring_ends)),
+      to_array(std::move(shape.polygon_ends)), area,
+      sizes ? py::object(py::make_tuple(sizes->least, sizes->median, sizes->most)) : py::object(py::none()));
+}
+
+/// (label, vertices, ring_ends, polygon_ends, area) of every label.
+py::list concave_hulls(const PointArray& array,
+                       const py::array_t<std::int64_t, py::array::c_style>& label_array,
+                       const std::optional<double>& alpha, const std::optional<double>& max_edge_length,
+                       const std::optional<double>& max_perimeter, double detail,
+                       const std::optional<bool>& fill_single_triangles, unsigned threads) {
+  const std::span<const Point> points = points_of(array);
+  if (label_array.ndim() != 1) throw py::value_error("labels must have the shape (n,)");
+  const std::span<const std::int64_t> labels(label_array.data(),
+                                             static_cast<std::size_t>(label_array.size()));
+  std::vector<polylidar::LabelledHull> hulls;
+  std::vector<double> areas;
+  {
+    const py::gil_scoped_release other_threads_may_run;
+    hulls = polylidar::concave_hulls(points, labels,
+                                     {.alpha = alpha,
+                                      .max_edge_length = max_edge_length,
+                                      .max_perimeter = max_perimeter,
+                                      .detail = detail,
+                                      .fill_single_triangles = fill_single_triangles,
+                                      .threads = threads});
+    for (const polylidar::LabelledHull& hull : hulls) {
+      areas.push_back(polylidar::area(polylidar::to_coordinates(hull.shape, points)));
+    }
+  }
+  py::list result;
+  for (std::size_t h = 0; h < hulls.size(); ++h) {
+    polylidar::IndexedMultiPolygon& shape = hulls[h].shape;
+    result.append(py::make_tuple(hulls[h].label, to_array(std::move(shape.vertices)),
+                                 to_array(std::move(shape.ring_ends)),
+                                 to_array(std::move(shape.polygon_ends)), areas[h]));
+  }
+  return result;
 }
 
 py::array delaunay(const PointArray& array) {
@@ -83,10 +120,15 @@ py::array delaunay(const PointArray& array) {
 PYBIND11_MODULE(_core, module) {
   module.doc() = "The polylidar core over numpy's memory: see polylidar_core.";
   module.attr("__version__") = POLYLIDAR_VERSION;
-  module.def("concave_hull", &concave_hull, py::arg("points").noconvert(), py::arg("alpha"),
-             py::arg("max_edge_length"), py::arg("max_perimeter"), py::arg("fill_single_triangles"),
-             py::arg("threads"),
-             "The arrays vertices, ring_ends and polygon_ends of the shape, its area, and its limits: alpha, "
-             "max_edge_length and max_perimeter.");
+  module.def(
+      "concave_hull", &concave_hull, py::arg("points").noconvert(), py::arg("alpha"),
+      py::arg("max_edge_length"), py::arg("max_perimeter"), py::arg("detail"),
+      py::arg("fill_single_triangles"), py::arg("threads"),
+      "The arrays vertices, ring_ends and polygon_ends of the shape, its area, and the least, the median "
+      "and the largest size that was chosen, or None.");
+  module.def("concave_hulls", &concave_hulls, py::arg("points").noconvert(), py::arg("labels").noconvert(),
+             py::arg("alpha"), py::arg("max_edge_length"), py::arg("max_perimeter"), py::arg("detail"),
+             py::arg("fill_single_triangles"), py::arg("threads"),
+             "Of every label the label, the three arrays of its shape, and its area.");
   module.def("delaunay", &delaunay, py::arg("points").noconvert(), "The triangles, three indices a row.");
 }

@@ -69,9 +69,8 @@ double used_share(const Mesh& mesh) {
 double AutomaticLimit::measure_block(const Mesh& mesh, const Point* vertices, std::uint32_t block,
                                      double quantile, std::vector<double>& sizes,
                                      std::vector<Border>& borders) const {
-  const auto begin = static_cast<Mesh::Index>(std::size_t{block} << field_.shift);
-  const auto end = static_cast<Mesh::Index>(
-      std::min<std::size_t>(mesh.triangle_count(), std::size_t{block + 1} << field_.shift));
+  const auto begin = static_cast<Mesh::Index>(block == 0 ? 0 : 2 * block_ends_[block - 1]);
+  const Mesh::Index end = std::min(mesh.triangle_count(), static_cast<Mesh::Index>(2 * block_ends_[block]));
   const std::size_t first_border = borders.size();
   // Odd, as records come in pairs, of which an even step would only see the first.
   Mesh::Index step = ((end - begin) / kMeasured) | 1U;
@@ -101,6 +100,36 @@ double AutomaticLimit::measure_block(const Mesh& mesh, const Point* vertices, st
   return sizes.empty() ? kInfinity : quantile_of(sizes, quantile);
 }
 
+/// Divides the vertices, of which `points` are no repeats, into blocks.
+void AutomaticLimit::divide(const DelaunayBuilder& builder, double points) {
+  const std::size_t count = builder.vertex_count();
+  const double blocks = std::clamp(points / kBlockPoints, 1.0, static_cast<double>(kMostBlocks));
+  const auto usual = static_cast<std::size_t>(static_cast<double>(count) / blocks);
+  const std::size_t least = std::max<std::size_t>(1, usual / 2);
+  const std::size_t most = usual + least;
+  const std::uint32_t* const keys = builder.keys();
+  block_ends_.clear();
+  for (std::size_t begin = 0; begin < count;) {
+    std::size_t end = count;
+    if (count - begin > most) {
+      // Where the curve leaves the largest cell, the last such place of equals.
+      std::uint32_t highest = 0;
+      for (std::size_t i = begin + least; i <= begin + most; ++i) {
+        const std::uint32_t bit = std::bit_floor(keys[i - 1] ^ keys[i]);
+        if (bit < highest) continue;
+        highest = bit;
+        end = i;
+      }
+    }
+    block_ends_.push_back(end);
+    begin = end;
+  }
+  field_.block_of_vertex.resize(count);
+  for (std::size_t b = 0, v = 0; b < block_ends_.size(); ++b) {
+    for (; v < block_ends_[b]; ++v) field_.block_of_vertex[v] = static_cast<std::uint32_t>(b);
+  }
+}
+
 void AutomaticLimit::measure_blocks(const Mesh& mesh, const Point* vertices, ThreadPool& pool,
                                     const AutomaticConstants& constants) {
   const Chunks chunks(pool, mesh.triangle_count());
@@ -117,34 +146,46 @@ void AutomaticLimit::measure_blocks(const Mesh& mesh, const Point* vertices, Thr
   });
 }
 
-/// No block may be larger than its neighbours allow, nor these than theirs.
+/// No block may be larger than its two smallest neighbours allow, nor these than theirs. Two, as one may hold
+/// a bit of a dense place beside it.
 void AutomaticLimit::bound_growth(const AutomaticConstants& constants) {
   measured4_ = usual4_;
   const double factor4 = fourth_power(1 + constants.growth / std::sqrt(static_cast<double>(usual4_.size())));
   const double reach4 = fourth_power(constants.reach);
   bool is_changed = true;
-  const auto bound = [&](std::uint32_t from, std::uint32_t to, double length4) {
-    if (length4 > reach4 * measured4_[to]) return;  // another part, or nothing is known of it
-    const double most = factor4 * usual4_[from];
-    if (usual4_[to] <= most) return;
-    usual4_[to] = most;
-    is_changed = true;
+  const auto see = [&](std::uint32_t block, std::uint32_t neighbour, double length4) {
+    if (length4 > reach4 * measured4_[block]) return;  // another part, or nothing is known of it
+    Smallest& smallest = smallest_[block];
+    if (neighbour == smallest.neighbour) return;
+    if (usual4_[neighbour] < smallest.first4) {
+      smallest = {neighbour, usual4_[neighbour], smallest.first4};
+    } else {
+      smallest.second4 = std::min(smallest.second4, usual4_[neighbour]);
+    }
   };
   while (is_changed) {
-    is_changed = false;
+    smallest_.assign(usual4_.size(), {});
     for (const std::vector<Border>& borders : borders_of_chunk_) {
       for (const Border& border : borders) {
-        bound(border.block, border.neighbour, border.length4);
-        bound(border.neighbour, border.block, border.length4);
+        see(border.block, border.neighbour, border.length4);
+        see(border.neighbour, border.block, border.length4);
       }
+    }
+    is_changed = false;
+    for (std::size_t b = 0; b < usual4_.size(); ++b) {
+      const Smallest& smallest = smallest_[b];
+      const double most4 = factor4 * (smallest.second4 < kInfinity ? smallest.second4 : smallest.first4);
+      if (usual4_[b] <= most4) continue;
+      usual4_[b] = most4;
+      is_changed = true;
     }
   }
 }
 
 /// Takes from the usual sizes' differences what noise explains.
 void AutomaticLimit::shrink_to_median(double noise) {
-  constexpr double kSpreadQuantile = 0.75;
-  constexpr double kSpreadOfNormal = 1.150;  // its 75 % quantile of |x|, in standard deviations
+  constexpr double kSpreadQuantile = 0.9;
+  constexpr double kSpreadOfNormal = 1.645;  // that quantile of |x|, in standard deviations
   logs_.clear();
   for (const double usual4 : usual4_) {
     if (usual4 != kInfinity) logs_.push_back(std::log(usual4) / 4);
@@ -216,14 +257,13 @@ double AutomaticLimit::steadiest_size4(const AutomaticConstants& constants) cons
   return std::exp(4 * steadiest) * unit4 * kInCell;
 }
 
-void AutomaticLimit::choose(const Mesh& mesh, const Point* vertices, double detail, ThreadPool& pool,
+void AutomaticLimit::choose(const DelaunayBuilder& builder, double detail, ThreadPool& pool,
                             const AutomaticConstants& constants) {
-  const std::size_t records = mesh.triangle_count();
-  const double used = used_share(mesh) * static_cast<double>(records);
-  const double blocks = std::clamp(used / (2 * kBlockPoints), 1.0, static_cast<double>(kMostBlocks));
-  field_.shift = static_cast<unsigned>(std::bit_width(2 * kBlockPoints - 1));
-  while (static_cast<double>(records >> field_.shift) > blocks) ++field_.shift;
-  usual4_.assign((records >> field_.shift) + 1, kInfinity);
+  const Mesh& mesh = builder.mesh();
+  const Point* const vertices = builder.vertices();
+  const double points = used_share(mesh) * static_cast<double>(builder.vertex_count());
+  divide(builder, points);
+  usual4_.assign(block_ends_.size(), kInfinity);
   measure_blocks(mesh, vertices, pool, constants);
   bound_growth(constants);
   shrink_to_median(constants.noise);
@@ -240,7 +280,7 @@ void AutomaticLimit::choose(const Mesh& mesh, const Point* vertices, double deta
   // Voids and clusters that chance makes among n points grow with log n. Where points are spread at random,
   // the square of a usual size has 1.7 points.
   constexpr double kPointsPerSquare = 1.7;
-  const double log_n = std::log(used / 2 + 1);
+  const double log_n = std::log(points);
   field_.least_part = static_cast<std::size_t>(constants.part * log_n);
   field_.least_hole = 2 * (log_n + constants.hole) / (kPointsPerSquare * detail * detail);
   for (double& limit : field_.limit4) limit *= limit4 / fourth_power(detail);

@@ -4,9 +4,11 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <optional>
 #include <vector>
 
+#include "delaunay_builder.hpp"
 #include "half_edge.hpp"
 #include "polylidar/concave_hull.hpp"
 #include "scratch.hpp"
@@ -18,31 +20,33 @@ namespace polylidar::detail {
 /// The rule's numbers, fitted on the training side of this project's shapes (`make fit-default`). Sizes are
 /// Triangle::size(), a length.
 struct AutomaticConstants {
-  double quantile = 0.56;  ///< a block's usual size is this quantile of its triangles' sizes
-  double growth = 11;      ///< bound on the usual sizes: about e^growth over as many blocks as a side has
-  double reach = 5;        ///< usual sizes over which an edge joins two blocks
-  double noise = 0.11;     ///< standard deviation of the logarithm of a usual size where all are equal
+  double quantile = 0.6;  ///< a block's usual size is this quantile of its triangles' sizes
+  double growth = 10;     ///< a block's usual size is at most 1 + growth / sqrt(blocks) times its neighbours'
+  double reach = 5;       ///< usual sizes over which an edge joins two blocks
+  double noise = 0.1;     ///< standard deviation of the logarithm of a usual size where all are equal
 
-  double usual = 2.1;     ///< where the limit usually is, in usual sizes
-  double pull = 2.9;      ///< how much another one costs
-  double still = 0.0058;  ///< a growth of the area that is as good as none
-  std::size_t below = 5;  ///< over so many cells of the grid below a limit the growth is taken
-  std::size_t above = 5;  ///< and above it
-  double spike = 1.45;    ///< the size from which a triangle on two border edges may be a spike
-  double part = 2;        ///< a part has at least so many times log n triangles
-  double hole = 2;        ///< a hole's place would have at least log n and so many points
+  double usual = 2.0;     ///< where the limit usually is, in usual sizes
+  double pull = 1.8;      ///< how much another one costs
+  double still = 0.018;   ///< a growth of the area that is as good as none
+  std::size_t below = 3;  ///< over so many cells of the grid below a limit the growth is taken
+  std::size_t above = 6;  ///< and above it
+  double spike = 1.57;    ///< the size from which a triangle on two border edges may be a spike
+  double part = 2.4;      ///< a part has at least so many times log n triangles
+  double hole = 6;        ///< a hole's place would have at least log n and so many points
 };
 
 /// Chooses the limit from the triangulation, keeping its memory between calls.
 ///
-/// **The field.** Triangles stand in the mesh along the space-filling curve, so a block of consecutive ones
-/// covers a compact place. A block's usual size is a quantile of its triangles' sizes, whatever it is that
-/// makes them: density, scan lines, a lattice. Chance gives blocks of 64 points usual sizes that differ by
-/// `noise`; where they differ by no more, all blocks take the median, as uniform points should; where they
-/// differ by more, they keep what noise does not explain (James and Stein 1961). A block may not be much
-/// larger than one that it touches, since outliers round a shape are no sparser part of it: going from block
-/// to block, the usual size grows at most by the factor 1 + growth / sqrt(number of blocks). A sparse part
-/// of the shape far from the others, in its own scale, is not bounded: no short edge joins it.
+/// **The field.** Vertices and their triangles stand in the mesh along the space-filling curve, so a block of
+/// consecutive ones covers a compact place where it ends as the curve leaves a large cell. A block's usual
+/// size is a quantile of its triangles' sizes, whatever makes them: density, scan lines, a lattice. Chance
+/// alone makes the usual sizes of blocks of 64 points differ by `noise`. Where they differ by no more, as
+/// those of uniform points, all blocks take the median; where they differ by more, noise's part of the
+/// variance is taken from them (James and Stein 1961). And a block may not be much larger than its
+/// neighbours: going from block to block, the usual size grows at most by the factor 1 + growth / sqrt(number
+/// of blocks). So outliers round a shape are no sparse part of it. A sparse part far from the others, in its
+/// own scale, is not bounded: no short edge joins it. It is the second smallest neighbour that counts, since
+/// one may hold a bit of a dense place beside it.
 ///
 /// **The limit.** In usual sizes, let A(s) be the area of the triangles of size s at most. Below the size of
 /// the usual voids A grows quickly, by the triangles that chance made larger than others; beyond the width of
@@ -53,29 +57,29 @@ struct AutomaticConstants {
 ///
 /// on a grid of 16 sizes to the octave, g as a difference over `below` + `above` cells. `detail` divides s.
 ///
-/// Sizes are those of Triangle::size4(): a
-/// a sliver along the outline is small however long it is, a triangle that spans a hole is not.
+/// **What chance leaves.** Spikes, parts and holes that are too small go (SizeField). Parts and holes are
+/// measured against log n, since the largest void and the largest cluster that chance makes grow with it.
 ///
-/// The size field does not depend on the unit of the points or on where they lie but for rounding, nor on
-/// their order or the number of threads. Points that repeat others move the blocks' borders, which moves the
-/// limit within its noise. In every block but those that the bound makes smaller more than half of the
-/// triangles are within the limit, so that some triangle always is.
+/// The field does not depend on the unit of the points or on where they lie but for rounding, nor on their
+/// order or the number of threads. Points that repeat others move the blocks' borders, which moves the limit
+/// within its noise. Some triangle is always within the limit.
 ///
-/// Source: this project; what was tried: core/AUTOMATIC.md.
+/// Source: this project; core/AUTOMATIC.md says what else was tried.
 class AutomaticLimit {
  public:
-  /// Points of a block, in a mesh of few; of many, as many as make kMostBlocks blocks.
+  /// Points of a block on average, in a mesh of few; of many, as many as make kMostBlocks blocks.
   static constexpr std::size_t kBlockPoints = 64;
   static constexpr std::size_t kMostBlocks = 4096;
 
-  /// Chooses the sizes for `detail` > 0. O(n) for few points; of many only a part is looked at.
-  void choose(const Mesh& mesh, const Point* vertices, double detail, ThreadPool& pool,
+  /// Chooses the sizes for the mesh of `builder` and `detail` > 0. O(n); of many triangles only a part is
+  /// looked at.
+  void choose(const DelaunayBuilder& builder, double detail, ThreadPool& pool,
               const AutomaticConstants& constants = {});
 
   /// What was chosen; valid until the next call.
   const SizeField& field() const { return field_; }
-  /// The least, the median and the largest size that a triangle may have, in the unit of `vertices`; none
-  /// where no triangle has a size above zero, and so all are kept.
+  /// The least, the median and the largest size that a triangle may have, in the unit of the builder's
+  /// vertices; none where no triangle has a size above zero, and so all are kept.
   const std::optional<ChosenSizes>& range() const { return range_; }
 
  private:
@@ -85,11 +89,18 @@ class AutomaticLimit {
     std::uint32_t neighbour;
     double length4;
   };
+  /// Of the neighbours of a block.
+  struct Smallest {
+    std::uint32_t neighbour = kNone;
+    double first4 = std::numeric_limits<double>::infinity();
+    double second4 = std::numeric_limits<double>::infinity();
+  };
   struct Sampled {
     double size4;  ///< in usual sizes of its block
     double area;   ///< in squares of them
   };
 
+  void divide(const DelaunayBuilder& builder, double points);
   void measure_blocks(const Mesh& mesh, const Point* vertices, ThreadPool& pool,
                       const AutomaticConstants& constants);
   double measure_block(const Mesh& mesh, const Point* vertices, std::uint32_t block, double quantile,
@@ -100,9 +111,11 @@ class AutomaticLimit {
   double steadiest_size4(const AutomaticConstants& constants) const;
 
   SizeField field_;
+  std::vector<std::size_t> block_ends_;  ///< block -> one past its last vertex
   std::optional<ChosenSizes> range_;
   std::vector<double> usual4_;  ///< block -> fourth power of its usual size; infinity where nothing is known
   std::vector<double> measured4_;  ///< the same before it was bounded
+  std::vector<Smallest> smallest_;
   std::vector<double> logs_;
   std::vector<std::vector<double>> sizes_of_chunk_;
   std::vector<std::vector<Border>> borders_of_chunk_;

@@ -3,11 +3,13 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numeric>
 #include <stdexcept>
 #include <string>
 
 #include "automatic_limit.hpp"
 #include "boundary.hpp"
+#include "coordinate_range.hpp"
 #include "delaunay_builder.hpp"
 #include "region.hpp"
 
@@ -126,7 +128,7 @@ void Extractor::extract_regions(const Options& options) {
     return;
   }
   detail::AutomaticLimit& automatic = state_->automatic_limit;
-  automatic.choose(builder.mesh(), builder.vertices(), options.detail, state_->pool);
+  automatic.choose(builder, options.detail, state_->pool);
   if (const auto& sizes = automatic.range()) {
     state_->chosen_sizes = {std::ldexp(sizes->least, -exponent), std::ldexp(sizes->median, -exponent),
                             std::ldexp(sizes->most, -exponent)};
@@ -163,6 +165,42 @@ std::vector<std::size_t> Extractor::count_triangles() const {
 
 IndexedMultiPolygon concave_hull(std::span<const Point> points, const Options& options) {
   return Extractor().extract(points, options);
+}
+
+std::vector<LabelledHull> concave_hulls(std::span<const Point> points, std::span<const std::int64_t> labels,
+                                        const Options& options) {
+  if (labels.size() != points.size()) throw std::invalid_argument("there must be one label a point");
+  checked_limits(options);
+  if (!points.empty()) {  // by the caller's indices
+    detail::ThreadPool this_thread;
+    detail::measure_coordinates(points, this_thread);
+  }
+  std::vector<std::uint32_t> order(points.size());
+  std::iota(order.begin(), order.end(), 0U);
+  std::stable_sort(order.begin(), order.end(),
+                   [&](std::uint32_t a, std::uint32_t b) { return labels[a] < labels[b]; });
+  std::vector<LabelledHull> hulls;
+  std::vector<std::size_t> begins;
+  for (std::size_t i = 0; i < order.size(); ++i) {
+    if (i > 0 && labels[order[i]] == labels[order[i - 1]]) continue;
+    hulls.push_back({labels[order[i]], {}});
+    begins.push_back(i);
+  }
+  begins.push_back(order.size());
+
+  detail::ThreadPool pool;
+  pool.use(hulls.size() > 1 ? options.threads : 1);
+  Options of_one = options;
+  of_one.threads = hulls.size() > 1 ? 1 : options.threads;
+  pool.for_each(hulls.size(), [&](std::size_t h) {
+    const std::span<const std::uint32_t> members =
+        std::span(order).subspan(begins[h], begins[h + 1] - begins[h]);
+    std::vector<Point> own(members.size());
+    std::transform(members.begin(), members.end(), own.begin(), [&](std::uint32_t i) { return points[i]; });
+    hulls[h].shape = concave_hull(own, of_one);
+    for (std::uint32_t& vertex : hulls[h].shape.vertices) vertex = members[vertex];
+  });
+  return hulls;
 }
 
 }  // namespace polylidar

@@ -34,6 +34,10 @@ class DelaunayBuilder {
   /// Vertex of the mesh -> index of the caller's point.
   const std::uint32_t* caller_index() const { return order_.data(); }
   int scale_exponent() const { return scale_exponent_; }
+  /// Vertex of the mesh -> its key on the curve, or, where many vertices share one, on a finer curve of
+  /// theirs. The higher the first bit in which neighbours differ, the larger the cells between which they
+  /// lie.
+  const std::uint32_t* keys() const { return keys_.data(); }
 
  private:
   using Index = Mesh::Index;

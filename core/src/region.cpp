@@ -92,6 +92,23 @@ void collect_spikes(const Mesh& mesh, const Point* vertices, const SizeField& fi
   }
 }
 
+std::uint64_t bit_of(Mesh::Index t) {
+  return std::uint64_t{1} << (t % Mesh::kWordBits);
+}
+
+/// Calls visit(t) for every triangle in words `kept` whose bits are zero, but unused ones.
+template <class Visit>
+void for_each_dropped(const Mesh& mesh, const std::uint64_t* kept, const Visit& visit) {
+  for (std::size_t w = 0; w < mesh.word_count(); ++w) {
+    for (std::uint64_t dropped = ~kept[w]; dropped != 0; dropped &= dropped - 1) {
+      const auto t =
+          static_cast<Mesh::Index>(Mesh::kWordBits * w) + static_cast<Mesh::Index>(std::countr_zero(dropped));
+      if (t >= mesh.triangle_count()) return;
+      if (!mesh.is_unused(t)) visit(t);
+    }
+  }
+}
+
 }  // namespace
 
 /// task(chunk, begin, end) for chunks of whole words, so that no two threads write to one.
@@ -136,30 +153,9 @@ void RegionFilter::drop_spikes(Mesh& mesh, const Point* vertices, const SizeFiel
   });
   // Not before all threads have read which triangles are kept.
   for (const std::vector<Index>& found : found_of_chunk_) {
-    for (const Index t : found) kept[t / Mesh::kWordBits] &= ~(std::uint64_t{1} << (t % Mesh::kWordBits));
+    for (const Index t : found) kept[t / Mesh::kWordBits] &= ~bit_of(t);
   }
 }
-
-namespace {
-
-std::uint64_t bit_of(Mesh::Index t) {
-  return std::uint64_t{1} << (t % Mesh::kWordBits);
-}
-
-/// Calls visit(t) for every triangle in words `kept` whose bits are zero, but unused ones.
-template <class Visit>
-void for_each_dropped(const Mesh& mesh, const std::uint64_t* kept, const Visit& visit) {
-  for (std::size_t w = 0; w < mesh.word_count(); ++w) {
-    for (std::uint64_t dropped = ~kept[w]; dropped != 0; dropped &= dropped - 1) {
-      const auto t =
-          static_cast<Mesh::Index>(Mesh::kWordBits * w) + static_cast<Mesh::Index>(std::countr_zero(dropped));
-      if (t >= mesh.triangle_count()) return;
-      if (!mesh.is_unused(t)) visit(t);
-    }
-  }
-}
-
-}  // namespace
 
 /// From every triangle on the border the region is walked through until it is large enough, meets triangles
 /// that are known to be of a large one, or ends.
@@ -192,6 +188,11 @@ void RegionFilter::drop_small_parts(const Mesh& mesh, std::size_t least_part, st
       if (!is_large) small.insert(small.end(), group_.begin(), group_.end());
     }
   });
+  // Where all parts are small there is nothing that they are small beside.
+  std::size_t count = 0;
+  for (std::size_t w = 0; w < mesh.word_count(); ++w)
+    count += static_cast<std::size_t>(std::popcount(kept[w]));
+  if (small.size() == count) return;
   for (const Index t : small) kept[t / Mesh::kWordBits] &= ~bit_of(t);
 }
 
@@ -242,7 +243,7 @@ void RegionFilter::find_boundary(Mesh& mesh, bool fill_single, ThreadPool& pool,
   });
   // Not before all threads have read which triangles are kept.
   for (const std::vector<Index>& found : found_of_chunk_) {
-    for (const Index t : found) kept[t / Mesh::kWordBits] |= std::uint64_t{1} << (t % Mesh::kWordBits);
+    for (const Index t : found) kept[t / Mesh::kWordBits] |= bit_of(t);
   }
   for (const std::vector<Index>& part : boundary_of_chunk_) {
     boundary.insert(boundary.end(), part.begin(), part.end());

@@ -2,13 +2,14 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <vector>
 
 #include "half_edge.hpp"
 
 namespace polylidar::detail {
 
-/// Blocks are 2^shift consecutive triangles of the mesh, at least Mesh::kWordBits.
+/// A block is a range of vertices, which follow each other along the curve, with their two records each.
 struct SizeField {
   /// Block -> the fourth power of the largest size of a triangle; inclusive.
   std::vector<double> limit4;
@@ -18,9 +19,10 @@ struct SizeField {
   std::size_t least_part = 0;
   /// Holes whose doubled area is less are of the shape, in mean squared sizes of the triangles round them.
   double least_hole = 0;
-  unsigned shift = 0;
+  /// Vertex -> its block.
+  std::vector<std::uint32_t> block_of_vertex;
 
-  std::size_t block_of(Mesh::Index triangle) const { return triangle >> shift; }
+  std::uint32_t block_of(Mesh::Index triangle) const { return block_of_vertex[triangle / 2]; }
 };
 
 }  // namespace polylidar::detail

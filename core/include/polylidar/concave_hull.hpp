@@ -99,9 +99,22 @@ MultiPolygon to_coordinates(const IndexedMultiPolygon& shape, std::span<const Po
 /// (std::invalid_argument beyond).
 IndexedMultiPolygon concave_hull(std::span<const Point> points, const Options& options = {});
 
-/// The same with memory that is kept between calls, for callers that extract again and again. Not for use
-/// from several threads at once. `extract` is the three steps in order; they can be called one by one to be
-/// timed.
+/// One label's shape.
+struct LabelledHull {
+  std::int64_t label = 0;
+  IndexedMultiPolygon shape;  ///< by indices into all points
+};
+
+/// A concave hull for every label: point i belongs to labels[i]. By ascending label; each is that of its
+/// points alone, as concave_hull() makes it, so shapes of different labels may overlap. Labels are shared
+/// among the threads. O(n log n). Throws as concave_hull, with indices into all points, and
+/// std::invalid_argument where there are not as many labels as points.
+std::vector<LabelledHull> concave_hulls(std::span<const Point> points, std::span<const std::int64_t> labels,
+                                        const Options& options = {});
+
+/// concave_hull() with memory that is kept between calls, for callers that extract again and again. Not for
+/// use from several threads at once. `extract` is the three steps in order; they can be called one by one to
+/// be timed.
 ///
 /// Points and options are checked before anything is computed: std::invalid_argument leaves an extractor as
 /// it was before the call. After any other exception (no memory, no thread) the next call must be extract or

@@ -17,7 +17,7 @@ from . import _core
 from ._core import __version__
 from .multi_polygon import MultiPolygon
 
-__all__ = ["MultiPolygon", "__version__", "concave_hull", "delaunay"]
+__all__ = ["MultiPolygon", "__version__", "concave_hull", "concave_hulls", "delaunay"]
 
 
 def concave_hull(
@@ -26,12 +26,13 @@ def concave_hull(
     alpha: float | None = None,
     max_edge_length: float | None = None,
     max_perimeter: float | None = None,
+    detail: float = 1.0,
     fill_single_triangles: bool | None = None,
     threads: int | None = 1,
 ) -> MultiPolygon:
     """The concave hull of points: their Delaunay triangulation, the triangles that all limits keep, and the outline
-    of each part that is connected by edges. Without any limit given, that of the perimeter is chosen from the points:
-    where the area of the triangles within it depends least on it. With alpha=math.inf it is the convex hull.
+    of each part that is connected by edges. Without any limit given, one is chosen from the points, place by place,
+    so that it follows their density. With alpha=math.inf it is the convex hull.
     O(n log n).
 
     points: numbers of the shape (n, 2), x and y in any unit of length, in any order; they may repeat. A C-contiguous
@@ -41,6 +42,8 @@ def concave_hull(
         For points spread evenly over a shape of known area, 2 * sqrt(area / n) suits.
     max_edge_length: longest edge of a triangle that is kept, likewise.
     max_perimeter: largest perimeter of a triangle that is kept, likewise.
+    detail: how much of the outline is kept where the limit is chosen; above zero. Twice the detail keeps triangles of
+        half the size. A larger one never adds a triangle. Not used where a limit is given.
     fill_single_triangles: whether a triangle beyond a limit is kept all the same when its three neighbours are within;
         None: only where the limit is chosen.
     threads: how many threads compute, one or more; None: as many as this process may use processors. The result does
@@ -50,12 +53,49 @@ def concave_hull(
 
     ValueError: another shape, no real numbers, a coordinate that is not finite (the message names the row, from 0),
     coordinates whose magnitudes span more than a factor of 2^265, more than 2^28 points, a limit that is negative or
-    NaN, threads below 1.
+    NaN, a detail that is not positive and finite, threads below 1.
     """
     array = _as_points(points)
     return MultiPolygon(
-        array, *_core.concave_hull(array, alpha, max_edge_length, max_perimeter, fill_single_triangles, _thread_count(threads))
+        array,
+        *_core.concave_hull(
+            array, alpha, max_edge_length, max_perimeter, detail, fill_single_triangles, _thread_count(threads)
+        ),
     )
+
+
+def concave_hulls(
+    points: npt.ArrayLike,
+    labels: npt.ArrayLike,
+    *,
+    alpha: float | None = None,
+    max_edge_length: float | None = None,
+    max_perimeter: float | None = None,
+    detail: float = 1.0,
+    fill_single_triangles: bool | None = None,
+    threads: int | None = 1,
+) -> dict[int, MultiPolygon]:
+    """A concave hull for every label, as concave_hull makes it of that label's points alone, by ascending label. Shapes
+    of different labels may overlap. The rows in their `indices` are those of all points.
+
+    labels: integers of the shape (n,), one a point.
+    The others, and the errors they raise: as of concave_hull. Labels are shared among the threads.
+    """
+    array = _as_points(points)
+    label_array = np.asarray(labels)
+    if label_array.dtype.kind not in "iu" and label_array.size > 0:
+        raise ValueError(f"labels must be integers, not of the type {label_array.dtype}")
+    hulls = _core.concave_hulls(
+        array,
+        np.require(label_array, np.int64, ["C", "ALIGNED"]),
+        alpha,
+        max_edge_length,
+        max_perimeter,
+        detail,
+        fill_single_triangles,
+        _thread_count(threads),
+    )
+    return {label: MultiPolygon(array, *shape) for label, *shape in hulls}
 
 
 def delaunay(points: npt.ArrayLike) -> npt.NDArray[np.uint32]:

@@ -15,17 +15,17 @@ class MultiPolygon:
         the shape (k, 2), k >= 3, the first vertex *not* repeated. A copy: the points may change afterwards.
     indices: the same with uint32 arrays of the shape (k,): the rows of the points that the vertices are.
     area: shells minus holes, in the squared unit of the points.
-    alpha, max_edge_length, max_perimeter: the limits that its triangles are within, given or chosen; math.inf for none.
+    sizes: where the limit was chosen, the least, the median and the largest size that a triangle may have, place by
+        place, in the unit of the points; the size of an equilateral triangle is its edge. None where a limit was given,
+        where there is no triangle, and of concave_hulls.
     """
 
-    __slots__ = ("polygons", "indices", "area", "alpha", "max_edge_length", "max_perimeter")
+    __slots__ = ("polygons", "indices", "area", "sizes")
 
     polygons: list[list[npt.NDArray[np.float64]]]
     indices: list[list[npt.NDArray[np.uint32]]]
     area: float
-    alpha: float
-    max_edge_length: float
-    max_perimeter: float
+    sizes: tuple[float, float, float] | None
 
     def __init__(
         self,
@@ -34,13 +34,13 @@ class MultiPolygon:
         ring_ends: npt.NDArray[np.uint32],
         polygon_ends: npt.NDArray[np.uint32],
         area: float,
-        limits: tuple[float, float, float],
+        sizes: tuple[float, float, float] | None = None,
     ) -> None:
         """Of the core's flat arrays: ring r is vertices[ring_ends[r - 1]:ring_ends[r]], and polygons likewise of rings."""
         self.indices = _parts(_parts(vertices, ring_ends), polygon_ends)
         self.polygons = _parts(_parts(points[vertices], ring_ends), polygon_ends)
         self.area = area
-        self.alpha, self.max_edge_length, self.max_perimeter = limits
+        self.sizes = sizes
 
     @property
     def __geo_interface__(self) -> dict[str, Any]:
