@@ -41,7 +41,7 @@ LimitCase::LimitCase(std::span<const polylidar::Point> points, const polylidar::
 }
 
 double LimitCase::error(const polylidar::detail::AutomaticConstants& constants) {
-  limit_.choose(builder_.mesh(), builder_.vertices(), 1, pool_, constants);
+  limit_.choose(builder_, 1, pool_, constants);
   filter_.run(builder_.mesh(), builder_.vertices(), limit_.field(), true, pool_, boundary_);
   return error_of_kept();
 }
