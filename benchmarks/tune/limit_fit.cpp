@@ -81,6 +81,11 @@ std::vector<LimitCaseName> training_limit_cases() {
     }
     for (const std::string& sampling : few) names.push_back({source.name + "-1" + sampling, false, 32000});
   }
+  // Else nothing would cost a rule that fills every hole: few shapes have small ones of their own.
+  for (const std::string& sampling : all) {
+    for (const char* star : {"star-3", "star-4", "star-5"}) names.push_back({star + sampling, true, 2000});
+    names.push_back({"star-3" + sampling, true, 8000});
+  }
   return names;
 }
 
@@ -95,6 +100,9 @@ std::vector<LimitCaseName> test_limit_cases(std::size_t n) {
                               "clipart-8", "clipart-14", "symbol-1", "symbol-6", "symbol-11"}) {
       names.push_back({std::string(shape) + sampling, false, n});
     }
+  }
+  for (const char* sampling : {"", "~gradient:16"}) {
+    for (const char* shape : {"ca", "hi"}) names.push_back({std::string(shape) + sampling, true, n});
   }
   return names;
 }

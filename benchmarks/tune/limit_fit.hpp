@@ -25,10 +25,12 @@ struct LimitCaseName {
 std::string sampling_of(const std::string& dataset);
 
 /// The cases of the fit: two shapes of every training source, sampled in the ways that training knows, of
-/// 2,000 points; of the first of both also 8,000 points, and of some ways 32,000.
+/// 2,000 points; of the first of both also 8,000 points, and of some ways 32,000; and
+/// stars with round holes.
 std::vector<LimitCaseName> training_limit_cases();
 
-/// Eighteen test shapes, sampled in every way that there is: `n` points.
+/// Eighteen test shapes, sampled in every way that there is: `n` points. Then those that have a variant with
+/// holes, with them.
 std::vector<LimitCaseName> test_limit_cases(std::size_t n);
 
 /// A case and what it is compared with.
