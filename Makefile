@@ -133,8 +133,20 @@ report-compare: ## write B/comparison.html, a page with two runs side by side (A
 	@/usr/bin/python3 plots/make_comparison.py $(call drawn_folder,$(A),a/) $(call drawn_folder,$(B),b/) \
 	  --compared build/drawn/compared.json --out $(B)/comparison.html
 
-.PHONY: fit-rules
-fit-rules: ## fit the constants of the `auto` rules and of the core's automatic limit on the training shapes
+.PHONY: fit-default fit-rules
+fit-default: ## fit the numbers of the core's automatic limit on the training side, and say what it gives on the test side
+	@$(call install,build)
+	@$(call build,release,$(NATIVE_OPTION),fit_default)
+	@build/fit_default --ablation
+
+.PHONY: figures-default
+figures-default: ## draw the picture of core/AUTOMATIC.md: the core's default and the former one under every way to sample
+	@$(call install,build plots)
+	@$(call build,release,$(WITHOUT_TESTS),fit_default)
+	@build/fit_default --pictures build/default_hulls.json
+	@/usr/bin/python3 plots/make_default_pictures.py build/default_hulls.json --out core/automatic.png
+
+fit-rules: ## fit the shares of the rules from the points on the training side
 	@$(call install,build)
 	@$(call build,release,$(NATIVE_OPTION),fit_rules)
 	@build/fit_rules

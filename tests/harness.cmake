@@ -55,6 +55,8 @@ target_compile_definitions(test_gbench_export PRIVATE COMPARE_PY="${COMPARE_PY}"
 hullbench_test(test_tune_search SOURCES test_tune_search.cpp LIBRARIES hullbench::tune LABELS harness)
 hullbench_test(test_rule_fit SOURCES test_rule_fit.cpp
   LIBRARIES hullbench::tune hullbench::adapters hullbench::metrics hullbench::datasets LABELS harness)
+hullbench_test(test_limit_fit SOURCES test_limit_fit.cpp
+  LIBRARIES hullbench::tune hullbench::metrics hullbench::datasets LABELS harness)
 hullbench_test(test_tune SOURCES test_tune.cpp
   LIBRARIES hullbench::record hullbench::run hullbench::metrics LABELS harness RUNS_HULLBENCH)
 

@@ -765,8 +765,7 @@ TEST(ParameterRule, ByName) {
   EXPECT_TRUE(plan::find_rule("paper_alpha_squared")->reads_ground_truth);
   EXPECT_TRUE(plan::find_rule("paper_target_percent")->reads_ground_truth);
   EXPECT_TRUE(plan::find_rule("paper_edge_length")->reads_ground_truth);
-  for (const char* name :
-       {"auto_perimeter", "auto_edge_length", "auto_circumradius", "auto_circumradius_squared"})
+  for (const char* name : {"auto_size", "auto_edge_length", "auto_circumradius", "auto_circumradius_squared"})
     EXPECT_FALSE(plan::find_rule(name)->reads_ground_truth) << name;
   EXPECT_EQ(plan::find_rule("hull_spacing"), nullptr) << "whose factor was never fitted";
 }
@@ -805,58 +804,41 @@ TEST(ParameterRule, Holes) {
   EXPECT_EQ(plan::holes_switch({{}, 0, false}), 0.0);
 }
 
-/// Of every triangle of the Delaunay triangulation.
-std::vector<double> perimeters_of(const std::vector<polylidar::Point>& points) {
-  const polylidar::Triangulation mesh = polylidar::delaunay(points);
-  std::vector<double> perimeters;
-  for (std::size_t e = 0; e < mesh.triangles.size(); e += 3) {
-    double perimeter = 0;
-    for (std::size_t k = 0; k < 3; ++k) {
-      const polylidar::Point& from = points[mesh.triangles[e + k]];
-      const polylidar::Point& to = points[mesh.triangles[e + (k + 1) % 3]];
-      perimeter += std::hypot(to.x - from.x, to.y - from.y);
-    }
-    perimeters.push_back(perimeter);
-  }
-  return perimeters;
+// What the sizes are, by the rule in plain words, is tested with the core.
+TEST(ParameterRule, AutoSizeIsTheMedianOfTheSizesThatTheCoreKeepsTo) {
+  const PointSet set = make_point_set("ca~gradient:16", false, 2000, 1);
+  polylidar::Extractor core;
+  core.extract(set.points);
+  ASSERT_TRUE(core.chosen_sizes());
+  EXPECT_EQ(plan::auto_size({set.points}), core.chosen_sizes()->median);
+  EXPECT_LT(core.chosen_sizes()->least, plan::auto_size({set.points}));
+  EXPECT_GT(core.chosen_sizes()->most, plan::auto_size({set.points}));
 }
 
-// What the limit is, by the rule in plain words, is tested with the core and with the fit of its constants.
-TEST(ParameterRule, AutoPerimeterIsWhatTheCoreKeepsTo) {
-  const PointSet set = make_point_set("ca", true, 600, 1);
-  const double perimeter = plan::auto_perimeter({set.points});
-  const auto perimeters = perimeters_of(set.points);
-  const auto within =
-      std::count_if(perimeters.begin(), perimeters.end(), [&](double p) { return p <= perimeter; });
-  EXPECT_GT(2 * within, static_cast<std::ptrdiff_t>(perimeters.size()));
-  EXPECT_LT(within, static_cast<std::ptrdiff_t>(perimeters.size()));
-  EXPECT_EQ(polylidar::concave_hull(set.points, {.max_perimeter = perimeter, .fill_single_triangles = true}),
-            polylidar::concave_hull(set.points));
-}
-
-TEST(ParameterRule, AutoRulesAreSharesOfOnePerimeter) {
+TEST(ParameterRule, AutoRulesAreSharesOfOneSize) {
   const PointSet set = make_point_set("hi", false, 600, 1);
-  const double perimeter = plan::auto_perimeter({set.points});
-  EXPECT_DOUBLE_EQ(plan::auto_edge_length({set.points}), plan::kEdgeShare * perimeter);
-  EXPECT_DOUBLE_EQ(plan::auto_circumradius({set.points}), plan::kCircumradiusShare * perimeter);
+  const double size = plan::auto_size({set.points});
+  EXPECT_DOUBLE_EQ(plan::auto_edge_length({set.points}), plan::kEdgeShare * size);
+  EXPECT_DOUBLE_EQ(plan::auto_circumradius({set.points}), plan::kCircumradiusShare * size);
   EXPECT_DOUBLE_EQ(plan::auto_circumradius_squared({set.points}),
-                   std::pow(plan::kCircumradiusShare * perimeter, 2));
-  // A triangle's longest edge is a third of its perimeter at least, and the radius of its circle 1 / (3 √3).
-  EXPECT_GT(plan::kEdgeShare, 1.0 / 3);
-  EXPECT_GT(plan::kCircumradiusShare, 1 / (3 * std::sqrt(3)));
+                   std::pow(plan::kCircumradiusShare * size, 2));
+  // Of an equilateral triangle the size is the edge, and the radius of its circle 1 / √3 of it: all others
+  // have a longer longest edge and a larger circle.
+  EXPECT_GT(plan::kEdgeShare, 1);
+  EXPECT_GT(plan::kCircumradiusShare, 1 / std::sqrt(3));
 }
 
 TEST(ParameterRule, AutoRulesFollowTheScaleOfThePoints) {
   PointSet set = make_point_set("letter_b", false, 500, 1);
-  const double before = plan::auto_perimeter({set.points});
+  const double before = plan::auto_size({set.points});
   for (polylidar::Point& p : set.points) p = {4 * p.x, 4 * p.y};
-  EXPECT_DOUBLE_EQ(plan::auto_perimeter({set.points}), 4 * before);
+  EXPECT_DOUBLE_EQ(plan::auto_size({set.points}), 4 * before);
 }
 
 TEST(ParameterRule, AutoRulesOfPointsWithoutATriangleAreZero) {
   const std::vector<polylidar::Point> line = {{0, 0}, {1, 1}, {2, 2}};
   for (const char* name :
-       {"auto_perimeter", "auto_edge_length", "auto_circumradius", "auto_circumradius_squared"}) {
+       {"auto_size", "auto_edge_length", "auto_circumradius", "auto_circumradius_squared"}) {
     EXPECT_EQ(plan::find_rule(name)->value({line}), 0) << name;
     EXPECT_EQ(plan::find_rule(name)->value({}), 0) << name;
   }

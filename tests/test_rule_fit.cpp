@@ -1,5 +1,5 @@
-// Fitting the constants of rules: the score by hand, the core's rule in its plainest form beside the core,
-// the training cases, and a small fit beside the constants that stand in the code.
+// Fitting the shares of rules: the score by hand, the training cases, and a small fit beside the shares that
+// stand in the code.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -13,7 +13,6 @@
 #include "benchmarks/metrics/area.hpp"
 #include "benchmarks/plan/parameter_rules.hpp"
 #include "benchmarks/tune/fit_score.hpp"
-#include "benchmarks/tune/limit_fit.hpp"
 #include "benchmarks/tune/rule_fit.hpp"
 #include "benchmarks/tune/search.hpp"
 #include "benchmarks/tune/split.hpp"
@@ -77,47 +76,6 @@ TEST(FitScore, OneCandidateForSeveralUsesHasTheLeastProduct) {
   EXPECT_EQ(tune::best_for_all({curve(0.1, 0.12, 0.3), curve(0.9, 0.6, 0.5)}), 1U);
 }
 
-// The core's rule, plainly.
-
-TEST(LimitFit, WithTheConstantsOfTheCoreItIsTheCoresChoice) {
-  for (const char* name :
-       {"ca", "letter_b~gradient:8", "star-1~clusters:4", "ca~lattice:0.25", "hi~noise:1"}) {
-    for (const std::size_t n : {50U, 400U, 900U}) {
-      const PointSet set = make_point_set(name, false, n, 3);
-      const auto sample = tune::look_at(set.points);
-      ASSERT_TRUE(sample) << name;
-      const auto cell = tune::chosen_cell(*sample, {});
-      ASSERT_TRUE(cell) << name;
-      EXPECT_DOUBLE_EQ(plan::auto_perimeter({set.points}), tune::cell_limit(*cell) * sample->median)
-          << name << " " << n;
-    }
-  }
-}
-
-TEST(LimitFit, PointsWithoutATriangleHaveNothingToLookAt) {
-  EXPECT_FALSE(tune::look_at({}));
-  EXPECT_FALSE(tune::look_at(std::vector<polylidar::Point>{{0, 0}, {1, 1}, {2, 2}}));
-}
-
-TEST(LimitFit, TheGridOfChoicesIsSearchedWhole) {
-  tune::LimitCase one;
-  one.shape = "a";
-  const PointSet set = make_point_set("ca", false, 400, 1);
-  one.sample = *tune::look_at(set.points);
-  // The error is the limit itself, so the best choice is one that takes the least limit.
-  for (std::size_t c = 0; c < tune::kLimitCells; ++c) one.errors[c] = tune::cell_limit(c);
-  const tune::LimitGrid grid = {{1.2, 1.6, 3}, {1, 4}, {0.003}, {1.1, 2}, {6}, {10}, {1, 2}};
-  const auto scores = tune::fit_limit({one}, grid);
-  ASSERT_EQ(scores.size(), 3U * 2 * 2 * 2);
-  EXPECT_TRUE(std::is_sorted(scores.begin(), scores.end(),
-                             [](const auto& a, const auto& b) { return a.score < b.score; }));
-  for (const tune::LimitScore& each : scores) {
-    EXPECT_DOUBLE_EQ(tune::score_limit({one}, each.constants).score, each.score);
-    EXPECT_GE(each.score, each.constants.least);
-  }
-  EXPECT_LT(scores.front().score, scores.back().score);
-}
-
 // The cases.
 
 TEST(TrainingCases, AreOfTrainingShapesOnlyAndEachIsThereOnce) {
@@ -175,13 +133,9 @@ std::vector<tune::FitCase> small_fit_cases() {
 TEST(RuleFit, TheConstantsInTheCodeAreAboutTheBestOfASmallFit) {
   const std::vector<tune::FitCase> cases = small_fit_cases();
   ASSERT_EQ(cases.size(), 24U);
-  tune::LimitGrid grid = tune::usual_limit_grid();
-  grid.usual = {1.4, 1.6, 1.8};
-  grid.below = {10};
-  grid.above = {2};
   const std::vector<tune::RuleUse> uses = tune::rule_uses();
-  const tune::FitTables tables = tune::measure_fit(
-      cases, uses, {0.1, plan::kCircumradiusShare, 0.4, plan::kEdgeShare, 0.7, 1}, grid, {});
+  const tune::FitTables tables =
+      tune::measure_fit(cases, uses, {0.3, plan::kCircumradiusShare, 1, plan::kEdgeShare, 2, 3}, {});
   for (std::size_t u = 0; u < uses.size(); ++u) {
     SCOPED_TRACE(uses[u].rule + " of " + uses[u].method);
     const auto curve = tune::score_curve(tables.uses[u]);
@@ -194,9 +148,8 @@ TEST(RuleFit, TheConstantsInTheCodeAreAboutTheBestOfASmallFit) {
     EXPECT_GT(curve.front().score, 1.15 * tune::best_of(curve).score) << "a bad one costs more";
   }
   const double core = tune::fit_score(tables.shapes, tables.core_errors);
-  const double plain = tune::score_limit(tables.limits, {}).score;
-  EXPECT_NEAR(core / plain, 1, 0.02) << "the core looks at a part of the triangles";
-  EXPECT_LT(plain, 1.15 * tune::fit_limit(tables.limits, grid).front().score);
+  for (const tune::ErrorTable& table : tables.uses)
+    EXPECT_LT(core, 1.15 * tune::best_of(tune::score_curve(table)).score);
 }
 
 // What the fitted rules are for.

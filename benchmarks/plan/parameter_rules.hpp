@@ -60,24 +60,24 @@ double holes_switch(const RuleInput& input);
 /// without an area.
 double mean_spacing(std::span<const polylidar::Point> points);
 
-/// The core's own choice for these points (Extractor::limits): the largest perimeter P of a triangle of the
-/// shape. What the other rules from the points take their lengths from, so that every method that filters or
-/// erodes Delaunay triangles gets as much from the points as the core does. The core finds P inside of its
-/// own time; the others are told it.
+/// The core's own choice for these points (Extractor::chosen_sizes), its median S over the set: the largest
+/// size of a triangle of the shape where the points are as dense as usual. What the other rules from the
+/// points take their lengths from. The core finds its sizes inside of its own time; the others are told S,
+/// one length for all places, as that is what they take.
 ///
-/// `auto_perimeter`: P, a length in the unit of the points. 0 for points without a triangle.
-double auto_perimeter(const RuleInput& input);
+/// `auto_size`: S, a length in the unit of the points. 0 for points without a triangle.
+double auto_size(const RuleInput& input);
 
-/// The shares of P that stand for it where a method limits something else than the perimeter. Fitted on the
+/// The shares of S that stand for it where a method limits something else than that size. Fitted on the
 /// training side (tune/split.hpp) of the stress suites and the letters by `make fit-rules`.
 extern const double kEdgeShare;
 extern const double kCircumradiusShare;
 
-/// `auto_edge_length`: kEdgeShare * P, a length in the unit of the points: of the longest edge of a triangle
+/// `auto_edge_length`: kEdgeShare * S, a length in the unit of the points: of the longest edge of a triangle
 /// that stays, or of an edge of the border beyond which the shape is eroded.
 double auto_edge_length(const RuleInput& input);
 
-/// `auto_circumradius`: kCircumradiusShare * P, a length in the unit of the points.
+/// `auto_circumradius`: kCircumradiusShare * S, a length in the unit of the points.
 double auto_circumradius(const RuleInput& input);
 
 /// `auto_circumradius_squared`: its square, for methods that want a squared radius (CGAL).

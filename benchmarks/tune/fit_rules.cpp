@@ -24,8 +24,6 @@ namespace {
 
 /// Those that the parameters' search and the league are made of (league/evaluate.sh).
 const std::vector<std::string> kPlans = {"world_shapes", "world_samplers", "world_crossed"};
-/// So many choices of the limit's constants are printed.
-constexpr std::size_t kShown = 10;
 
 table::Number percent(double share) {
   return {100 * share, 2};
@@ -34,7 +32,7 @@ table::Number percent(double share) {
 void print_curve(const RuleUse& use, const std::vector<CandidateScore>& curve) {
   table::Table table{"curve",
                      use.meaning,
-                     {table::words("share of P"), table::with_unit("score", "%"),
+                     {table::words("share of S"), table::with_unit("score", "%"),
                       table::with_unit("median", "%"), "failures"}};
   for (const CandidateScore& one : curve)
     table.add_row({table::Number(one.candidate, 2), percent(one.score), percent(one.median), one.failures});
@@ -66,58 +64,26 @@ void print_share(const std::string& rule, const std::vector<RuleUse>& uses,
   table::print_markdown(table, std::cout);
 }
 
-std::vector<table::Cell> cells_of(const table::Cell& what, const LimitScore& one) {
-  using table::Number;
-  const LimitConstants& c = one.constants;
-  return {what,
-          Number(c.usual, 1),
-          Number(c.pull, 1),
-          Number(c.still, 3),
-          Number(c.least, 1),
-          Number(c.most, 1),
-          c.below,
-          c.above,
-          percent(one.score)};
-}
-
-/// The automatic limit's constants: the best choices, and the core's.
-void print_limit(const FitTables& tables) {
-  const std::vector<LimitScore> scores = fit_limit(tables.limits, usual_limit_grid());
-  const LimitScore present = score_limit(tables.limits, {});
-  const auto better = std::count_if(scores.begin(), scores.end(),
-                                    [&](const LimitScore& one) { return one.score < present.score; });
-  table::Table table{"limit", "The core's automatic limit", {table::words("choice")}};
-  for (const char* title : {"usual", "pull", "still", "least", "most", "below", "above", "score, %"})
-    table.columns.emplace_back(title);
-  for (std::size_t k = 0; k < std::min(kShown, scores.size()); ++k) table.add_row(cells_of(k + 1, scores[k]));
-  table.add_row(cells_of("in the core", present));
-  std::cout << "\n## The core's automatic limit (core/src/automatic_limit.hpp)\n\n";
-  table::print_markdown(table, std::cout);
-  std::cout
-      << "\nOf " << scores.size() << " choices " << better
-      << " have a smaller score than the core's. The core itself, which looks at a part of many triangles: "
-      << percent(fit_score(tables.shapes, tables.core_errors)).text() << " %.\n";
-}
-
 ExitCode fit(const std::vector<std::string>& names, int seeds, std::int64_t points) {
   std::vector<plan::Plan> plans;
   for (const std::string& name : names) plans.push_back(plan::load_plan(name, HULLBENCH_PLAN_FOLDER));
   const std::vector<FitCase> cases = training_cases(plans, seeds, points);
   if (cases.empty()) throw ConfigurationError("no case of these plans is on the training side of the split");
   const std::vector<RuleUse> uses = rule_uses();
-  const FitTables tables = measure_fit(cases, uses, usual_shares(), usual_limit_grid(), allowed_cores());
+  const FitTables tables = measure_fit(cases, uses, usual_shares(), allowed_cores());
   const std::set<std::string> shapes(tables.shapes.begin(), tables.shapes.end());
   std::cout << "# Constants of the rules from the points, fitted on " << cases.size() << " cases of "
             << shapes.size() << " training shapes\n\n";
   table::print_item(join_words(std::vector<std::string>(shapes.begin(), shapes.end())) + ".", std::cout);
   table::print_item("Score: the geometric mean over shapes of the geometric mean of a shape's errors (L2).",
                     std::cout);
-  table::print_item("P: the perimeter that the core chooses from the points.", std::cout);
+  table::print_item("S: the median of the sizes that the core chooses from the points.", std::cout);
   std::vector<std::vector<CandidateScore>> curves;
   for (const ErrorTable& table : tables.uses) curves.push_back(score_curve(table));
   for (std::size_t u = 0; u < uses.size(); ++u) print_curve(uses[u], curves[u]);
   for (const char* rule : {"auto_circumradius", "auto_edge_length"}) print_share(rule, uses, curves);
-  print_limit(tables);
+  std::cout << "\nThe core by itself: " << percent(fit_score(tables.shapes, tables.core_errors)).text()
+            << " %.\n";
   return kExitOk;
 }
 

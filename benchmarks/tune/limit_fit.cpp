@@ -4,185 +4,213 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <memory>
 
-#include "benchmarks/tune/fit_score.hpp"
-#include "polylidar/delaunay.hpp"
+#include "benchmarks/base/parallel.hpp"
+#include "benchmarks/tune/split.hpp"
+#include "datasets/datasets.hpp"
+#include "datasets/random.hpp"
 
 namespace hullbench::tune {
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
-/// In medians; it moves the cells so that the median itself does not lie where one ends.
-constexpr double kUnit = 0.93;
-constexpr int kCellsOfAnOctave = 16;
-constexpr int kFirstExponent = -1;  ///< cell 0 begins at 2^-1 units
+constexpr std::uint64_t kSampleSeed = 1;
+constexpr double kLargestLoss = 1.5;
+constexpr int kOtherStarts = 2;
 
-using CellValues = std::array<double, kLimitCells>;
+double weight_of(const std::string& sampling) {
+  if (sampling == "uniform") return 1.5;
+  return sampling.starts_with("clusters") ? 0.3 : 1;
+}
 
-struct TriangleSize {
-  double perimeter = 0;
-  double area = 0;
-};
+double rounded_to_three_digits(double value) {
+  const double unit = std::pow(10.0, std::floor(std::log10(value)) - 2);
+  // Divided by a whole number where there is one, which gives the double that the digits are read as.
+  return unit < 1 ? std::round(value / unit) / std::round(1 / unit) : std::round(value / unit) * unit;
+}
 
-std::vector<TriangleSize> triangle_sizes(std::span<const polylidar::Point> points) {
-  const polylidar::Triangulation mesh = polylidar::delaunay(points);
-  std::vector<TriangleSize> sizes;
-  sizes.reserve(mesh.triangles.size() / 3);
-  for (std::size_t e = 0; e < mesh.triangles.size(); e += 3) {
-    const std::array<polylidar::Point, 3> corners = {points[mesh.triangles[e]], points[mesh.triangles[e + 1]],
-                                                     points[mesh.triangles[e + 2]]};
-    TriangleSize size;
-    size.area = std::abs(polylidar::signed_area(corners));
-    for (std::size_t k = 0; k < 3; ++k) {
-      const polylidar::Point& to = corners[(k + 1) % 3];
-      size.perimeter += std::hypot(to.x - corners[k].x, to.y - corners[k].y);
+/// From `least` to `most`, evenly in the logarithm for lengths and shares.
+double draw(const LimitKnob& knob, Random& random) {
+  if (knob.count != nullptr) return random.between(knob.least - 0.5, knob.most + 0.5);
+  return std::exp(random.between(std::log(knob.least), std::log(knob.most)));
+}
+
+/// A step changes the logarithm by an eighth of the range at most.
+double neighbour(const LimitKnob& knob, double value, Random& random) {
+  if (knob.count != nullptr) return draw(knob, random);
+  return value * std::exp(random.between(-0.125, 0.125) * std::log(knob.most / knob.least));
+}
+
+LimitClimb climb(std::vector<MadeLimitCase>& cases, std::string start, const AutomaticConstants& from,
+                 int tries, Random random, const std::vector<int>& cores) {
+  LimitClimb result = {std::move(start), from, from, limit_score(cases, from, cores), 0};
+  result.score_to = result.score_from;
+  for (int k = 0; k < tries; ++k) {
+    AutomaticConstants tried = result.to;
+    for (std::uint64_t changes = 1 + random.below(2); changes > 0; --changes) {
+      const LimitKnob& knob = limit_knobs()[random.below(limit_knobs().size())];
+      knob.set(tried, neighbour(knob, knob.value(tried), random));
     }
-    sizes.push_back(size);
+    const double score = limit_score(cases, tried, cores);
+    if (score >= result.score_to) continue;
+    result.to = tried;
+    result.score_to = score;
   }
-  return sizes;
-}
-
-/// The first cell that ends above `length`, in medians; kLimitCells when none does.
-std::size_t cell_of(double length) {
-  std::size_t c = 0;
-  while (c < kLimitCells && cell_limit(c + 1) <= length) ++c;
-  return c;
-}
-
-/// s of the rule at every cell; NaN or infinity where it is not defined.
-CellValues growth_of(const LimitSample& sample, std::size_t below, std::size_t above) {
-  CellValues log_area = {};  // of all cells below
-  double sum = 0;
-  for (std::size_t c = 0; c < kLimitCells; ++c) {
-    log_area[c] = std::log(sum);
-    sum += sample.area[c];
-  }
-  CellValues growth;
-  growth.fill(kInfinity);
-  for (std::size_t c = below; c + above < kLimitCells; ++c) {
-    growth[c] =
-        (log_area[c + above] - log_area[c - below]) / std::log(cell_limit(c + above) / cell_limit(c - below));
-  }
-  return growth;
-}
-
-/// What a limit's growth is multiplied with; infinite where the limit may not be.
-CellValues weights_of(const LimitConstants& constants) {
-  CellValues weight = {};
-  for (std::size_t c = 0; c < kLimitCells; ++c) {
-    const double limit = cell_limit(c);
-    const double distance = std::log(limit / constants.usual);
-    weight[c] = limit < constants.least || limit > constants.most
-                    ? kInfinity
-                    : std::exp(constants.pull * distance * distance);
-  }
-  return weight;
-}
-
-std::optional<std::size_t> cheapest_cell(const CellValues& growth, const CellValues& weight, double still) {
-  double least_cost = kInfinity;
-  std::optional<std::size_t> cheapest;
-  for (std::size_t c = 0; c < kLimitCells; ++c) {
-    const double cost = (growth[c] + still) * weight[c];
-    if (cost < least_cost) {  // no where it is infinite or NaN
-      least_cost = cost;
-      cheapest = c;
-    }
-  }
-  return cheapest;
-}
-
-double error_with(const LimitCase& one, std::optional<std::size_t> cell, double usual) {
-  return one.errors[std::min(cell.value_or(cell_of(usual)), kLimitCells - 1)];
+  return result;
 }
 
 }  // namespace
 
-double cell_limit(std::size_t c) {
-  const std::size_t octave = c / kCellsOfAnOctave;
-  const double share = 1 + static_cast<double>(c % kCellsOfAnOctave) / kCellsOfAnOctave;
-  return kUnit * std::ldexp(share, static_cast<int>(octave) + kFirstExponent);
+std::string sampling_of(const std::string& dataset) {
+  const std::size_t mark = dataset.find('~');
+  return mark == std::string::npos ? "uniform" : dataset.substr(mark + 1);
 }
 
-std::optional<LimitSample> look_at(std::span<const polylidar::Point> points) {
-  std::vector<TriangleSize> sizes = triangle_sizes(points);
-  if (sizes.empty()) return std::nullopt;
-  const auto middle = sizes.begin() + static_cast<std::ptrdiff_t>(sizes.size() / 2);
-  std::nth_element(sizes.begin(), middle, sizes.end(),
-                   [](const TriangleSize& a, const TriangleSize& b) { return a.perimeter < b.perimeter; });
-  LimitSample sample;
-  sample.median = middle->perimeter;
-  for (const TriangleSize& size : sizes) {
-    const std::size_t cell = cell_of(size.perimeter / sample.median);
-    if (cell < kLimitCells) sample.area[cell] += size.area;
+std::vector<LimitCaseName> training_limit_cases() {
+  const std::vector<std::string> few = {"", "~gradient:16~outliers:3"};
+  const std::vector<std::string> all = {
+      "",           "~gradient:16", "~gradient:64", "~outliers:3", "~gradient:16~outliers:3",
+      "~noise:0.5", "~poisson:0.7", "~airborne:3",  "~clusters:8"};
+  std::vector<LimitCaseName> names;
+  for (const SplitRow& source : shape_split()) {
+    if (source.side != Side::kTraining) continue;
+    for (const std::string& sampling : all) {
+      names.push_back({source.name + "-1" + sampling, false, 2000});
+      names.push_back({source.name + "-2" + sampling, false, 2000});
+      names.push_back({source.name + "-1" + sampling, false, 8000});
+    }
+    for (const std::string& sampling : few) names.push_back({source.name + "-1" + sampling, false, 32000});
   }
-  return sample;
-}
-
-std::optional<std::size_t> chosen_cell(const LimitSample& sample, const LimitConstants& constants) {
-  return cheapest_cell(growth_of(sample, constants.below, constants.above), weights_of(constants),
-                       constants.still);
-}
-
-LimitGrid usual_limit_grid() {
-  return {.usual = {1.3, 1.4, 1.5, 1.6, 1.7, 1.8, 2.0},
-          .pull = {1, 1.5, 2, 2.5, 3, 4},
-          .still = {0.001, 0.002, 0.003, 0.005, 0.01, 0.02},
-          .least = {1.0, 1.1, 1.2},
-          .most = {4, 5, 6},
-          .below = {6, 8, 10, 12, 14},
-          .above = {1, 2, 3, 4}};
-}
-
-std::array<std::size_t, 2> limit_cells(const LimitGrid& grid) {
-  const double least = std::min(*std::min_element(grid.least.begin(), grid.least.end()),
-                                *std::min_element(grid.usual.begin(), grid.usual.end()));
-  const double most = std::max(*std::max_element(grid.most.begin(), grid.most.end()),
-                               *std::max_element(grid.usual.begin(), grid.usual.end()));
-  return {cell_of(least), std::min(cell_of(most) + 1, kLimitCells)};
-}
-
-LimitScore score_limit(const std::vector<LimitCase>& cases, const LimitConstants& constants) {
-  std::vector<std::string> shapes;
-  std::vector<double> errors;
-  for (const LimitCase& one : cases) {
-    shapes.push_back(one.shape);
-    errors.push_back(error_with(one, chosen_cell(one.sample, constants), constants.usual));
+  // Else nothing would cost a rule that fills every hole: few shapes have small ones of their own.
+  for (const std::string& sampling : all) {
+    for (const char* star : {"star-3", "star-4", "star-5"}) names.push_back({star + sampling, true, 2000});
+    names.push_back({"star-3" + sampling, true, 8000});
   }
-  return {constants, fit_score(shapes, errors)};
+  return names;
 }
 
-std::vector<LimitScore> fit_limit(const std::vector<LimitCase>& cases, const LimitGrid& grid) {
-  std::vector<std::string> shapes;
-  for (const LimitCase& one : cases) shapes.push_back(one.shape);
-  std::vector<LimitScore> scores;
-  std::vector<double> errors(cases.size());
-  for (const std::size_t below : grid.below) {
-    for (const std::size_t above : grid.above) {
-      std::vector<CellValues> growths;
-      for (const LimitCase& one : cases) growths.push_back(growth_of(one.sample, below, above));
-      for (const double usual : grid.usual) {
-        for (const double pull : grid.pull) {
-          for (const double least : grid.least) {
-            for (const double most : grid.most) {
-              const LimitConstants about = {usual, pull, 0, least, most, below, above};
-              const CellValues weight = weights_of(about);
-              for (const double still : grid.still) {
-                for (std::size_t i = 0; i < cases.size(); ++i)
-                  errors[i] = error_with(cases[i], cheapest_cell(growths[i], weight, still), usual);
-                LimitConstants constants = about;
-                constants.still = still;
-                scores.push_back({constants, fit_score(shapes, errors)});
-              }
-            }
-          }
-        }
-      }
+std::vector<LimitCaseName> test_limit_cases(std::size_t n) {
+  std::vector<LimitCaseName> names;
+  for (const char* sampling :
+       {"", "~gradient:16", "~gradient:64", "~hotspot:12", "~outliers:3", "~gradient:16~outliers:3",
+        "~noise:0.5", "~poisson:0.7", "~lattice:0.2", "~quantised:0.5", "~airborne:3", "~zigzag:4",
+        "~rotating:5", "~depthcamera:2", "~depthcamera:5", "~tracks:5", "~boundary:20", "~clusters:8"}) {
+    for (const char* shape : {"ca", "hi", "letter_a", "letter_b", "letter_g", "letter_m", "letter_s",
+                              "letter_x", "country-1", "country-7", "country-13", "country-25", "clipart-2",
+                              "clipart-8", "clipart-14", "symbol-1", "symbol-6", "symbol-11"}) {
+      names.push_back({std::string(shape) + sampling, false, n});
     }
   }
-  std::stable_sort(scores.begin(), scores.end(),
-                   [](const LimitScore& a, const LimitScore& b) { return a.score < b.score; });
-  return scores;
+  for (const char* sampling : {"", "~gradient:16"}) {
+    for (const char* shape : {"ca", "hi"}) names.push_back({std::string(shape) + sampling, true, n});
+  }
+  return names;
+}
+
+std::vector<MadeLimitCase> make_limit_cases(const std::vector<LimitCaseName>& names,
+                                            const std::vector<int>& cores) {
+  std::vector<MadeLimitCase> cases(names.size());
+  for_each_in_parallel(names.size(), cores, [&](std::size_t i) {
+    const PointSet set = make_point_set(names[i].dataset, names[i].holes, names[i].n, kSampleSeed);
+    cases[i] = {names[i], std::make_unique<LimitCase>(set.points, set.ground_truth)};
+    cases[i].best_of_one_limit = cases[i].triangles->best_error_of_one_limit();
+  });
+  return cases;
+}
+
+std::vector<double> limit_errors(std::vector<MadeLimitCase>& cases, const AutomaticConstants& constants,
+                                 const std::vector<int>& cores) {
+  std::vector<double> errors(cases.size());
+  for_each_in_parallel(cases.size(), cores,
+                       [&](std::size_t i) { errors[i] = cases[i].triangles->error(constants); });
+  return errors;
+}
+
+double limit_score(std::vector<MadeLimitCase>& cases, const AutomaticConstants& constants,
+                   const std::vector<int>& cores) {
+  struct Sum {
+    double losses = 0;
+    double count = 0;
+  };
+  const std::vector<double> errors = limit_errors(cases, constants, cores);
+  std::map<std::string, Sum> sums;
+  for (std::size_t i = 0; i < cases.size(); ++i) {
+    Sum& sum = sums[sampling_of(cases[i].name.dataset)];
+    sum.losses += std::min(kLargestLoss, std::log(errors[i] / cases[i].best_of_one_limit));
+    ++sum.count;
+  }
+  double score = 0;
+  double weights = 0;
+  for (const auto& [sampling, sum] : sums) {
+    score += weight_of(sampling) * sum.losses / sum.count;
+    weights += weight_of(sampling);
+  }
+  return score / weights;
+}
+
+double LimitKnob::value(const AutomaticConstants& constants) const {
+  return count != nullptr ? static_cast<double>(constants.*count) : constants.*length;
+}
+
+void LimitKnob::set(AutomaticConstants& constants, double value) const {
+  const double kept = std::clamp(value, least, most);
+  if (count != nullptr) {
+    constants.*count = static_cast<std::size_t>(std::lround(kept));
+  } else {
+    constants.*length = rounded_to_three_digits(kept);
+  }
+}
+
+const std::vector<LimitKnob>& limit_knobs() {
+  using C = AutomaticConstants;
+  static const std::vector<LimitKnob> knobs = {
+      {"quantile", &C::quantile, nullptr, 0.3, 0.8}, {"growth", &C::growth, nullptr, 2, 40},
+      {"reach", &C::reach, nullptr, 2, 30},          {"noise", &C::noise, nullptr, 0.03, 0.4},
+      {"usual", &C::usual, nullptr, 1.5, 3.5},       {"pull", &C::pull, nullptr, 0.3, 20},
+      {"still", &C::still, nullptr, 0.0003, 0.1},    {"below", nullptr, &C::below, 3, 10},
+      {"above", nullptr, &C::above, 1, 8},           {"spike", &C::spike, nullptr, 0.8, 3},
+      {"part", &C::part, nullptr, 0.25, 8},          {"hole", &C::hole, nullptr, 0.25, 10}};
+  return knobs;
+}
+
+std::vector<LimitClimb> fit_limit(std::vector<MadeLimitCase>& cases, int tries, std::uint64_t seed,
+                                  const std::vector<int>& cores) {
+  std::vector<LimitClimb> climbs;
+  climbs.push_back(climb(cases, "the code", {}, tries, Random(derive_seed(seed, "code")), cores));
+  for (int k = 1; k <= kOtherStarts; ++k) {
+    Random random(derive_seed(seed, "start " + std::to_string(k)));
+    AutomaticConstants start;
+    for (const LimitKnob& knob : limit_knobs()) knob.set(start, draw(knob, random));
+    climbs.push_back(climb(cases, "random " + std::to_string(k), start, tries, random, cores));
+  }
+  return climbs;
+}
+
+std::vector<LimitVariant> limit_ablations() {
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  std::vector<LimitVariant> variants = {{"whole rule", {}},
+                                        {"growth not bounded", {.growth = kInfinity}},
+                                        {"not shrunk to the median", {.noise = 0}},
+                                        {"one block: one limit for all", {.noise = kInfinity}},
+                                        {"spikes stay", {.spike = kInfinity}},
+                                        {"small parts stay", {.part = 0}},
+                                        {"small holes stay", {.hole = -kInfinity}}};
+  return variants;
+}
+
+std::vector<LimitVariant> limit_sensitivities(double factor) {
+  std::vector<LimitVariant> variants;
+  for (const LimitKnob& knob : limit_knobs()) {
+    LimitVariant one = {knob.name, {}};
+    const double value = factor * knob.value(one.constants);
+    if (knob.count != nullptr) {
+      one.constants.*knob.count = static_cast<std::size_t>(std::lround(value));
+    } else {
+      one.constants.*knob.length = value;
+    }
+    variants.push_back(one);
+  }
+  return variants;
 }
 
 }  // namespace hullbench::tune

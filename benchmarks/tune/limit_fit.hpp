@@ -1,82 +1,103 @@
-// The core's rule for its automatic limit with its constants left open, to fit them.
-//
-// core/src/automatic_limit.hpp states the rule. Here it is in its plainest form: all triangles are looked at,
-// in double precision.
+// Fits the numbers of the core's automatic limit on the training side of the split, by running the core.
 #pragma once
 
-#include <array>
 #include <cstddef>
-#include <optional>
-#include <span>
+#include <cstdint>
+#include <memory>
 #include <string>
 #include <vector>
 
-#include "polylidar/geometry.hpp"
+#include "benchmarks/tune/limit_case.hpp"
+#include "core/src/automatic_limit.hpp"
 
 namespace hullbench::tune {
 
-/// The rule's constants, with the values that stand in core/src/automatic_limit.cpp (a test compares).
-/// Lengths are in medians of the perimeters, differences in cells of the grid, 16 to the octave.
-struct LimitConstants {
-  double usual = 1.6;    ///< where the limit usually is
-  double pull = 2;       ///< how much another one costs
-  double still = 0.003;  ///< a growth that is as good as none
-  double least = 1.1;
-  double most = 6;
-  std::size_t below = 10;  ///< over so many cells below a limit its growth is taken
-  std::size_t above = 2;   ///< and above it
+using polylidar::detail::AutomaticConstants;
 
-  friend bool operator==(const LimitConstants&, const LimitConstants&) = default;
+/// A data set and how many points of it; the sample's seed is 1.
+struct LimitCaseName {
+  std::string dataset;
+  bool holes = false;
+  std::size_t n = 0;
 };
 
-/// The grid of limits.
-inline constexpr std::size_t kLimitCells = 64;
+/// "gradient:16" of "star-1~gradient:16", "uniform" of "star-1".
+std::string sampling_of(const std::string& dataset);
 
-/// Where cell `c` begins, in medians: the limit that stands for it.
-double cell_limit(std::size_t c);
+/// The cases of the fit: two shapes of every training source, sampled in the ways that training knows, of
+/// 2,000 points; of the first of both also 8,000 points, and of some ways 32,000; and
+/// stars with round holes.
+std::vector<LimitCaseName> training_limit_cases();
 
-/// What the rule sees of points.
-struct LimitSample {
-  double median = 0;  ///< of the triangles' perimeters, in the unit of the points
-  std::array<double, kLimitCells> area =
-      {};  ///< cell -> area of the triangles in it; of smaller ones in the first
+/// Eighteen test shapes, sampled in every way that there is: `n` points. Then those that have a variant with
+/// holes, with them.
+std::vector<LimitCaseName> test_limit_cases(std::size_t n);
+
+/// A case and what it is compared with.
+struct MadeLimitCase {
+  LimitCaseName name;
+  std::unique_ptr<LimitCase> triangles;
+  double best_of_one_limit = 0;  ///< LimitCase::best_error_of_one_limit
 };
 
-/// None for points without a triangle.
-std::optional<LimitSample> look_at(std::span<const polylidar::Point> points);
+/// The cases in the order of their names, made on all of `cores` (parallel.hpp). Throws as make_point_set and
+/// LimitCase.
+std::vector<MadeLimitCase> make_limit_cases(const std::vector<LimitCaseName>& names,
+                                            const std::vector<int>& cores);
 
-/// The cell that the rule chooses; none where no cell has a cost, for which it takes `usual`.
-std::optional<std::size_t> chosen_cell(const LimitSample& sample, const LimitConstants& constants);
+/// Case -> error of the core's default with these constants; the same on any number of cores.
+std::vector<double> limit_errors(std::vector<MadeLimitCase>& cases, const AutomaticConstants& constants,
+                                 const std::vector<int>& cores);
 
-/// A shape's points for the fit: what the rule sees, and what each choice would cost.
-struct LimitCase {
-  std::string shape;  ///< base shape
-  LimitSample sample;
-  std::array<double, kLimitCells> errors =
-      {};  ///< cell -> l2 of the shape with that limit, where it was asked for
+/// What the fit makes small. Of a case it is log(error / the error of the best single limit), so that hard
+/// cases do not outweigh easy ones, and at most 1.5, so that one failure does not outweigh them all; then the
+/// mean over the cases of a way to sample, then over these. Uniform points count 1.5, as what most users
+/// have; clusters 0.3, because the truth says that the gaps between them are of the shape and nothing in the
+/// points does.
+double limit_score(std::vector<MadeLimitCase>& cases, const AutomaticConstants& constants,
+                   const std::vector<int>& cores);
+
+/// One of the rule's numbers, to be changed by name.
+struct LimitKnob {
+  const char* name = nullptr;
+  double AutomaticConstants::*length = nullptr;  ///< or
+  std::size_t AutomaticConstants::*count = nullptr;
+  double least = 0;
+  double most = 0;
+
+  double value(const AutomaticConstants& constants) const;
+  /// Sets `value`, kept between `least` and `most` and rounded to what the code has: three digits, or a whole
+  /// number.
+  void set(AutomaticConstants& constants, double value) const;
 };
 
-/// The values of each constant that are tried, all with all.
-struct LimitGrid {
-  std::vector<double> usual, pull, still, least, most;
-  std::vector<std::size_t> below, above;
+/// All of them.
+const std::vector<LimitKnob>& limit_knobs();
+
+/// Where a search began and where it ended.
+struct LimitClimb {
+  std::string start;
+  AutomaticConstants from;
+  AutomaticConstants to;
+  double score_from = 0;
+  double score_to = 0;
 };
 
-/// About the constants of the core.
-LimitGrid usual_limit_grid();
+/// Climbs from the constants in the code and from two starts that are drawn at random: `tries` times each,
+/// one or two constants are changed, and what has the better score stays. The same for the same seed.
+std::vector<LimitClimb> fit_limit(std::vector<MadeLimitCase>& cases, int tries, std::uint64_t seed,
+                                  const std::vector<int>& cores);
 
-/// The cells whose errors a fit over `grid` needs: from the first to behind the last.
-std::array<std::size_t, 2> limit_cells(const LimitGrid& grid);
-
-/// What one choice of constants gives.
-struct LimitScore {
-  LimitConstants constants;
-  double score = 0;  ///< fit_score of the errors
+/// The constants in the code with a part of the rule taken out, or with one of them changed.
+struct LimitVariant {
+  std::string name;
+  AutomaticConstants constants;
 };
 
-LimitScore score_limit(const std::vector<LimitCase>& cases, const LimitConstants& constants);
+/// The whole rule, then without one part after the other.
+std::vector<LimitVariant> limit_ablations();
 
-/// All choices of the grid, by score; of equal ones in the grid's order.
-std::vector<LimitScore> fit_limit(const std::vector<LimitCase>& cases, const LimitGrid& grid);
+/// Each constant by itself times `factor`.
+std::vector<LimitVariant> limit_sensitivities(double factor);
 
 }  // namespace hullbench::tune

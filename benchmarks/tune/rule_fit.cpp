@@ -50,41 +50,24 @@ double error_of(const metrics::CaseScorer& scorer, Adapter& method, const Parame
   }
 }
 
-double error_with_limit(const metrics::CaseScorer& scorer, polylidar::Extractor& extractor,
-                        const std::vector<polylidar::Point>& points, const polylidar::Options& options) {
-  extractor.extract_regions(options);
-  return error_of(scorer, polylidar::to_coordinates(extractor.extract_polygons(), points));
-}
-
 /// One case's part of the tables.
 void measure_case(FitTables& tables, std::size_t which, const FitCase& wanted,
-                  const std::vector<RuleUse>& uses, const LimitGrid& grid) {
+                  const std::vector<RuleUse>& uses) {
   const PointSet set = make_point_set(wanted.plan_case.dataset, wanted.plan_case.holes,
                                       static_cast<std::size_t>(wanted.plan_case.n), wanted.seed);
   const metrics::CaseScorer scorer(set.points, set.ground_truth);
-  const double perimeter = plan::auto_perimeter({set.points});
+  const double size = plan::auto_size({set.points});
   for (std::size_t u = 0; u < uses.size(); ++u) {
     const std::unique_ptr<Adapter> method = make_method(uses[u].method);
     method->load(set.points);
     Parameters parameters = uses[u].fixed;
     for (std::size_t k = 0; k < tables.uses[u].candidates.size(); ++k) {
-      parameters[uses[u].parameter] = tables.uses[u].candidates[k] * perimeter;
+      parameters[uses[u].parameter] = tables.uses[u].candidates[k] * size;
       tables.uses[u].errors[which][k] = error_of(scorer, *method, parameters);
     }
   }
-  polylidar::Extractor extractor;
-  extractor.triangulate(set.points);
-  tables.core_errors[which] = error_with_limit(scorer, extractor, set.points, {});
-  const auto sample = look_at(set.points);
-  if (!sample) throw std::runtime_error("there is no triangle in " + wanted.plan_case.key());
-  LimitCase& limits = tables.limits[which];
-  limits.sample = *sample;
-  const auto [first, last] = limit_cells(grid);
-  for (std::size_t c = first; c < last; ++c) {
-    limits.errors[c] =
-        error_with_limit(scorer, extractor, set.points,
-                         {.max_perimeter = cell_limit(c) * sample->median, .fill_single_triangles = true});
-  }
+  tables.core_errors[which] =
+      error_of(scorer, polylidar::to_coordinates(polylidar::concave_hull(set.points), set.points));
 }
 
 }  // namespace
@@ -148,22 +131,18 @@ std::vector<RuleUse> rule_uses() {
 
 std::vector<double> usual_shares() {
   std::vector<double> shares;
-  for (int percent = 16; percent <= 80; percent += 2) shares.push_back(percent / 100.0);
+  for (int percent = 50; percent <= 180; percent += 5) shares.push_back(percent / 100.0);
   return shares;
 }
 
 FitTables measure_fit(const std::vector<FitCase>& cases, const std::vector<RuleUse>& uses,
-                      const std::vector<double>& shares, const LimitGrid& grid,
-                      const std::vector<int>& cores) {
+                      const std::vector<double>& shares, const std::vector<int>& cores) {
   FitTables tables;
   for (const FitCase& one : cases) tables.shapes.push_back(one.shape);
   const std::vector<std::vector<double>> nothing(cases.size(), std::vector<double>(shares.size()));
   tables.uses.assign(uses.size(), {shares, tables.shapes, nothing});
   tables.core_errors.resize(cases.size());
-  tables.limits.resize(cases.size());
-  for (std::size_t i = 0; i < cases.size(); ++i) tables.limits[i].shape = cases[i].shape;
-  for_each_in_parallel(cases.size(), cores,
-                       [&](std::size_t i) { measure_case(tables, i, cases[i], uses, grid); });
+  for_each_in_parallel(cases.size(), cores, [&](std::size_t i) { measure_case(tables, i, cases[i], uses); });
   return tables;
 }
 

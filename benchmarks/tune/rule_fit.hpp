@@ -1,5 +1,5 @@
 // Fits the constants of the rules from the points (auto_edge_length and its neighbours in
-// parameter_rules.hpp) and of the core's automatic limit, both on the same cases.
+// parameter_rules.hpp).
 #pragma once
 
 #include <cstdint>
@@ -9,7 +9,6 @@
 
 #include "benchmarks/plan/plan.hpp"
 #include "benchmarks/tune/fit_score.hpp"
-#include "benchmarks/tune/limit_fit.hpp"
 
 namespace hullbench::tune {
 
@@ -27,7 +26,7 @@ struct FitCase {
 /// plans that accept failures. With `points` > 0 that many points stand in the place of the plans' numbers.
 std::vector<FitCase> training_cases(const std::vector<plan::Plan>& plans, int seeds, std::int64_t points);
 
-/// A method whose parameter is to be a share of the automatic perimeter.
+/// A method whose parameter is to be a share of the size that the core chooses.
 struct RuleUse {
   std::string rule;
   std::string method;                   ///< that runs in this process
@@ -47,15 +46,13 @@ std::vector<double> usual_shares();
 /// Everything that is measured for a fit.
 struct FitTables {
   std::vector<ErrorTable> uses;     ///< by use; candidates are shares
-  std::vector<LimitCase> limits;    ///< by case
   std::vector<std::string> shapes;  ///< by case
   std::vector<double> core_errors;  ///< by case: of the core's own choice
 };
 
-/// Measures every use with every share, and every limit of the grid's cells, on all cases; on all of `cores`
-/// (parallel.hpp). Throws as make_point_set, and std::runtime_error where a method is not there.
+/// Measures every use with every share on all cases; on all of `cores` (parallel.hpp). Throws as
+/// make_point_set, and std::runtime_error where a method is not there.
 FitTables measure_fit(const std::vector<FitCase>& cases, const std::vector<RuleUse>& uses,
-                      const std::vector<double>& shares, const LimitGrid& grid,
-                      const std::vector<int>& cores);
+                      const std::vector<double>& shares, const std::vector<int>& cores);
 
 }  // namespace hullbench::tune

@@ -23,7 +23,7 @@ struct AutomaticConstants {
   double quantile = 0.6;  ///< a block's usual size is this quantile of its triangles' sizes
   double growth = 10;     ///< a block's usual size is at most 1 + growth / sqrt(blocks) times its neighbours'
   double reach = 5;       ///< usual sizes over which an edge joins two blocks
-  double noise = 0.1;     ///< standard deviation of the logarithm of a usual size where all are equal
+  double noise = 0.12;    ///< standard deviation of the logarithm of a usual size where all are equal
 
   double usual = 2.0;     ///< where the limit usually is, in usual sizes
   double pull = 1.8;      ///< how much another one costs
@@ -32,7 +32,7 @@ struct AutomaticConstants {
   std::size_t above = 6;  ///< and above it
   double spike = 1.57;    ///< the size from which a triangle on two border edges may be a spike
   double part = 2.4;      ///< a part has at least so many times log n triangles
-  double hole = 6;        ///< a hole's place would have at least log n and so many points
+  double hole = 4;        ///< a hole's place would have at least log n and so many points
 };
 
 /// Chooses the limit from the triangulation, keeping its memory between calls.

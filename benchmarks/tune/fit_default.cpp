@@ -1,0 +1,246 @@
+// build/fit_default: fits the numbers of the core's automatic limit on the training side of the split, prints
+// them beside those in the code, and says what the rule gives on the test side. Accuracy only: nothing is
+// timed, and the result does not depend on the machine.
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cstdint>
+#include <filesystem>
+#include <iostream>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <set>
+#include <span>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "benchmarks/base/cores.hpp"
+#include "benchmarks/base/exit_code.hpp"
+#include "benchmarks/base/files.hpp"
+#include "benchmarks/base/number_format.hpp"
+#include "benchmarks/base/parallel.hpp"
+#include "benchmarks/statistics/statistics.hpp"
+#include "benchmarks/table/writers.hpp"
+#include "benchmarks/tune/limit_fit.hpp"
+#include "benchmarks/tune/split.hpp"
+#include "datasets/datasets.hpp"
+#include "datasets/random.hpp"
+#include "polylidar/concave_hull.hpp"
+
+namespace hullbench::tune {
+namespace {
+
+std::string digits(const LimitKnob& knob, const AutomaticConstants& constants) {
+  std::ostringstream text;
+  text << knob.value(constants);
+  return text.str();
+}
+
+void print(const std::string& title, const table::Table& table) {
+  std::cout << "\n## " << title << "\n\n";
+  table::print_markdown(table, std::cout);
+}
+
+void print_fit(std::vector<MadeLimitCase>& cases, int tries, std::uint64_t seed) {
+  const std::vector<LimitClimb> climbs = fit_limit(cases, tries, seed, allowed_cores());
+  table::Table table{"starts", "Searches", {table::words("start"), "its score", "score found"}};
+  for (const LimitKnob& knob : limit_knobs()) table.columns.emplace_back(knob.name);
+  for (const LimitClimb& climb : climbs) {
+    std::vector<table::Cell> row = {climb.start, table::Number(climb.score_from, 4),
+                                    table::Number(climb.score_to, 4)};
+    for (const LimitKnob& knob : limit_knobs()) row.emplace_back(digits(knob, climb.to));
+    table.add_row(row);
+  }
+  print("Searches, with the constants that each found", table);
+  const LimitClimb& best = *std::min_element(
+      climbs.begin(), climbs.end(), [](const auto& a, const auto& b) { return a.score_to < b.score_to; });
+  std::cout << "\nThe best, as the code has them (core/src/automatic_limit.hpp):\n\n";
+  for (const LimitKnob& knob : limit_knobs())
+    std::cout << "    " << knob.name << " = " << digits(knob, best.to) << ";  // in the code "
+              << digits(knob, {}) << "\n";
+}
+
+void print_variants(std::vector<MadeLimitCase>& training, std::vector<MadeLimitCase>& test) {
+  const std::vector<int> cores = allowed_cores();
+  const auto score = [&](std::vector<MadeLimitCase>& cases, const AutomaticConstants& constants) {
+    return table::Number(limit_score(cases, constants, cores), 3);
+  };
+  table::Table parts{"ablation", "Parts", {table::words("rule"), "score, training", "score, test"}};
+  for (const LimitVariant& one : limit_ablations())
+    parts.add_row({one.name, score(training, one.constants), score(test, one.constants)});
+  print("Without parts of the rule", parts);
+  table::Table table{"sensitivity",
+                     "Constants",
+                     {table::words("constant"), "in the code", "x 0.8, training", "x 1.25, training",
+                      "x 0.8, test", "x 1.25, test"}};
+  const std::vector<LimitVariant> smaller = limit_sensitivities(0.8);
+  const std::vector<LimitVariant> larger = limit_sensitivities(1.25);
+  for (std::size_t k = 0; k < smaller.size(); ++k) {
+    table.add_row({smaller[k].name, digits(limit_knobs()[k], {}), score(training, smaller[k].constants),
+                   score(training, larger[k].constants), score(test, smaller[k].constants),
+                   score(test, larger[k].constants)});
+  }
+  print("With one constant changed", table);
+}
+
+/// What one way to sample gave, in percent.
+struct Errors {
+  std::vector<double> rule, one_limit, former;
+};
+
+table::Cell median_and_mean(const std::vector<double>& errors) {
+  table::Cell cell = table::Number(100 * statistics::median(std::span<const double>(errors)), 2);
+  cell.other = table::Number(100 * statistics::mean(std::span<const double>(errors)), 2);
+  return cell;
+}
+
+void print_test(std::vector<MadeLimitCase>& cases) {
+  const std::vector<double> rule = limit_errors(cases, {}, allowed_cores());
+  std::vector<std::string> order;
+  std::set<std::string> unseen;
+  std::map<std::string, std::map<std::size_t, Errors>> errors;  // way to sample -> number of points
+  for (std::size_t i = 0; i < cases.size(); ++i) {
+    const std::string sampling =
+        sampling_of(cases[i].name.dataset) + (cases[i].name.holes ? ", states with holes" : "");
+    if (!errors.contains(sampling)) order.push_back(sampling);
+    if (has_unseen_sampler(cases[i].name.dataset)) unseen.insert(sampling);
+    Errors& into = errors[sampling][cases[i].name.n];
+    into.rule.push_back(rule[i]);
+    into.one_limit.push_back(cases[i].best_of_one_limit);
+    into.former.push_back(cases[i].triangles->error_of_former_default());
+  }
+  table::Table table{"test", "Test side", {table::words("points"), table::words("unseen")}};
+  for (const auto& [n, unused] : errors.at("uniform")) {
+    for (const char* what : {"rule", "one limit", "former"})
+      table.columns.emplace_back(std::string(what) + ", " + std::to_string(n));
+  }
+  for (const std::string& sampling : order) {
+    std::vector<table::Cell> row = {sampling, unseen.contains(sampling) ? "x" : ""};
+    for (const auto& [n, of_n] : errors[sampling]) {
+      for (const auto* values : {&of_n.rule, &of_n.one_limit, &of_n.former})
+        row.push_back(median_and_mean(*values));
+    }
+    table.add_row(row);
+  }
+  print("Test shapes: L2 in %, median and in brackets mean over 18 shapes, 2 with holes", table);
+  std::cout
+      << "\nOne limit: the largest perimeter that is best for the very case, found with the truth in "
+         "hand.\nFormer: the default of earlier versions, one largest perimeter chosen from the points.\n"
+         "Unseen: no training case is sampled so.\n";
+}
+
+/// Of points without a shape every hole is a void that chance made, and every part but one, too.
+void print_voids() {
+  constexpr std::size_t kSets = 20;
+  table::Table table{
+      "voids", "Chance", {table::words("points"), "number", "holes a set", "sets without", "parts a set"}};
+  for (const bool is_normal : {false, true}) {
+    for (const std::size_t n : {2000U, 8000U, 100000U}) {
+      std::vector<double> holes(kSets);
+      std::vector<double> parts(kSets);
+      for_each_in_parallel(kSets, allowed_cores(), [&](std::size_t k) {
+        Random random(derive_seed(k, "voids"));
+        std::vector<polylidar::Point> points(n);
+        for (polylidar::Point& p : points) {
+          p.x = is_normal ? random.normal() : random.uniform();
+          p.y = is_normal ? random.normal() : random.uniform();
+        }
+        const polylidar::IndexedMultiPolygon hull = polylidar::concave_hull(points);
+        parts[k] = static_cast<double>(hull.polygon_count());
+        holes[k] = static_cast<double>(hull.ring_ends.size()) - parts[k];
+      });
+      table.add_row({is_normal ? "normal" : "uniform in a square", n,
+                     table::Number(statistics::mean(std::span<const double>(holes)), 2),
+                     std::count(holes.begin(), holes.end(), 0),
+                     table::Number(statistics::mean(std::span<const double>(parts)), 2)});
+    }
+  }
+  print("Chance: 20 sets of points without a shape", table);
+}
+
+nlohmann::json to_json(const polylidar::MultiPolygon& shape) {
+  nlohmann::json rings = nlohmann::json::array();
+  const auto add = [&](const polylidar::Ring& ring) {
+    nlohmann::json& points = rings.emplace_back(nlohmann::json::array());
+    for (const polylidar::Point& p : ring) points.push_back({p.x, p.y});
+  };
+  for (const polylidar::Polygon& polygon : shape) {
+    add(polygon.shell);
+    for (const polylidar::Ring& hole : polygon.holes) add(hole);
+  }
+  return rings;
+}
+
+/// Points of a shape under each way to sample, with the rule's hull and that of the former default:
+/// plots/make_default_pictures.py draws them.
+void write_pictures(const std::filesystem::path& file) {
+  nlohmann::json pictures = nlohmann::json::array();
+  for (const LimitCaseName& name : test_limit_cases(2000)) {
+    if (!name.dataset.starts_with("letter_b") || name.holes) continue;
+    const PointSet set = make_point_set(name.dataset, false, name.n, 1);
+    LimitCase one(set.points, set.ground_truth);
+    const auto hull = [&](const polylidar::Options& options) {
+      return to_json(polylidar::to_coordinates(polylidar::concave_hull(set.points, options), set.points));
+    };
+    nlohmann::json points = nlohmann::json::array();
+    for (const polylidar::Point& p : set.points) points.push_back({p.x, p.y});
+    pictures.push_back(
+        {{"sampling", sampling_of(name.dataset)},
+         {"points", points},
+         {"former", hull({.max_perimeter = one.former_limit(), .fill_single_triangles = true})},
+         {"former_l2", one.error_of_former_default()},
+         {"rule", hull({})},
+         {"rule_l2", one.error({})}});
+  }
+  write_text_file(file, pictures.dump());
+}
+
+ExitCode fit(int tries, std::uint64_t seed, bool with_ablation) {
+  std::vector<MadeLimitCase> training = make_limit_cases(training_limit_cases(), allowed_cores());
+  std::cout << "# The core's automatic limit, fitted on " << training.size() << " training cases\n\n";
+  table::print_item(
+      "Score: the mean over ways to sample (uniform counts 1.5, clusters 0.3) of the mean of log(error / "
+      "error "
+      "of the best single perimeter limit with the truth in hand), each at most 1.5.",
+      std::cout);
+  table::print_item(
+      "Of the constants in the code: " + fixed(limit_score(training, {}, allowed_cores()), 4) + ".",
+      std::cout);
+  if (tries > 0) print_fit(training, tries, seed);
+  std::vector<LimitCaseName> names = test_limit_cases(2000);
+  for (const LimitCaseName& name : test_limit_cases(8000)) names.push_back(name);
+  std::vector<MadeLimitCase> test = make_limit_cases(names, allowed_cores());
+  print_test(test);
+  print_voids();
+  if (with_ablation) print_variants(training, test);
+  return kExitOk;
+}
+
+}  // namespace
+}  // namespace hullbench::tune
+
+int main(int argc, char** argv) {
+  CLI::App app("Fits the numbers of the core's automatic limit, and says what it gives on the test side");
+  int tries = 400;
+  std::uint64_t seed = 1;
+  bool with_ablation = false;
+  std::filesystem::path pictures;
+  app.add_option("--tries", tries, "Of each of the three searches; 0: none, the tables alone")
+      ->check(CLI::Range(0, 1000000))
+      ->capture_default_str();
+  app.add_option("--seed", seed, "Of the searches")->capture_default_str();
+  app.add_flag("--ablation", with_ablation,
+               "Also the rule without each of its parts, and with each constant changed");
+  app.add_option("--pictures", pictures, "Only write points and hulls into this file (JSON), for a figure");
+  app.footer(hullbench::kExitCodesHelp);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? hullbench::kExitOk : hullbench::kExitUsage;
+  }
+  return hullbench::exit_code_of("fit_default", std::cerr, [&] {
+    if (pictures.empty()) return hullbench::tune::fit(tries, seed, with_ablation);
+    hullbench::tune::write_pictures(pictures);
+    return hullbench::kExitOk;
+  });
+}
