@@ -401,7 +401,7 @@ class Types(unittest.TestCase):
             for name, member in vars(polylidar_core.MultiPolygon).items()
             if inspect.isfunction(member) or isinstance(member, property)
         ]
-        self.assertEqual(len(public), 3)
+        self.assertEqual(len(public), 4)
         self.assertGreaterEqual(len(members), 4)
         for item in public + members:
             with self.subTest(item):

@@ -91,10 +91,26 @@ std::vector<LimitCaseName> training_limit_cases() {
 
 std::vector<LimitCaseName> test_limit_cases(std::size_t n) {
   std::vector<LimitCaseName> names;
-  for (const char* sampling :
-       {"", "~gradient:16", "~gradient:64", "~hotspot:12", "~outliers:3", "~gradient:16~outliers:3",
-        "~noise:0.5", "~poisson:0.7", "~lattice:0.2", "~quantised:0.5", "~airborne:3", "~zigzag:4",
-        "~rotating:5", "~depthcamera:2", "~depthcamera:5", "~tracks:5", "~boundary:20", "~clusters:8"}) {
+  for (const char* sampling : {"",
+                               "~gradient:16",
+                               "~gradient:64",
+                               "~hotspot:12",
+                               "~outliers:3",
+                               "~gradient:16~outliers:3",
+                               "~noise:0.5",
+                               "~poisson:0.7",
+                               "~lattice:0.2",
+                               "~quantised:0.5",
+                               "~airborne:3",
+                               "~zigzag:4",
+                               "~rotating:5",
+                               "~depthcamera:2",
+                               "~depthcamera:5",
+                               "~tracks:5",
+                               "~boundary:20",
+                               "~clusters:8",
+                               "~outline:0.1",
+                               "~water:20"}) {
     for (const char* shape : {"ca", "hi", "letter_a", "letter_b", "letter_g", "letter_m", "letter_s",
                               "letter_x", "country-1", "country-7", "country-13", "country-25", "clipart-2",
                               "clipart-8", "clipart-14", "symbol-1", "symbol-6", "symbol-11"}) {

@@ -63,7 +63,8 @@ const std::vector<SplitRow>& shape_split() {
       {"discs", kTest, "Graded, gaps: shows what a method can see, and is no sample of any world."},
       {"strips", kTest, "Graded, gaps: shows what a method can see, and is no sample of any world."},
       {"degenerate", kNeither, "Asks how a run ends; an error there says nothing about shapes."},
-      {"zoo", kNeither, "Asks how a run ends; an error there says nothing about shapes."}};
+      {"zoo", kNeither, "Asks how a run ends; an error there says nothing about shapes."},
+      {"real", kNeither, "Has no truth, so nothing can be fitted to it and no error measured."}};
   return rows;
 }
 
@@ -98,7 +99,9 @@ std::string source_of(const std::string& dataset) {
   for (const char* source : {"letter", "degenerate"}) {
     if (shape.starts_with(std::string(source) + "_")) return source;
   }
-  if (shape.starts_with("zoo-")) return "zoo";
+  for (const char* source : {"zoo", "real"}) {
+    if (shape.starts_with(std::string(source) + "-")) return source;
+  }
   const auto member = split_member_name(shape);
   return member ? member->first : shape;
 }

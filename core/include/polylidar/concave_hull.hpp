@@ -105,7 +105,7 @@ IndexedMultiPolygon concave_hull(std::span<const Point> points, const Options& o
 
 /// One label's shape.
 struct LabelledHull {
-  std::int64_t label = 0;
+  std::int64_t label = 0;     ///< as the caller gave it
   IndexedMultiPolygon shape;  ///< by indices into all points
 };
 
