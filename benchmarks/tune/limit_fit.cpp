@@ -73,7 +73,7 @@ std::vector<LimitCaseName> training_limit_cases() {
   const std::vector<std::string> few = {"", "~gradient:16~outliers:3"};
   const std::vector<std::string> all = {
       "",           "~gradient:16", "~gradient:64", "~outliers:3", "~gradient:16~outliers:3",
-      "~noise:0.5", "~poisson:0.7", "~airborne:3",  "~clusters:8"};
+      "~noise:0.5", "~poisson:0.7", "~airborne:3",  "~airborne:8", "~clusters:8"};
   std::vector<LimitCaseName> names;
   for (const SplitRow& source : shape_split()) {
     if (source.side != Side::kTraining) continue;
