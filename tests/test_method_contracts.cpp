@@ -7,6 +7,7 @@
 #include <memory>
 #include <regex>
 #include <stdexcept>
+#include <ostream>
 #include <string>
 #include <vector>
 
@@ -37,6 +38,11 @@ struct Method {
   /// What is in a database is not looked for before it is read.
   bool knows_whether_it_ran = true;
 };
+
+/// What GoogleTest says of it.
+void PrintTo(const Method& method, std::ostream* out) {
+  *out << method.identity.name;
+}
 
 const std::vector<Method>& methods() {
   constexpr Capabilities kRing = {.holes = false, .several_polygons = false};
