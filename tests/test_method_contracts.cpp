@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <limits>
 #include <memory>
+#include <ostream>
 #include <regex>
 #include <stdexcept>
-#include <ostream>
 #include <string>
 #include <vector>
 
