@@ -133,13 +133,10 @@ MultiPolygon compute(const HullCommand& command, const std::vector<Point>& point
   constexpr std::size_t kMany = 500000;
   if (is_terminal() && points.size() >= kMany)
     status.show("triangulating " + std::to_string(points.size()) + " points");
-  extractor.triangulate(points, options.threads);
+  const polylidar::IndexedMultiPolygon& indexed = extractor.extract(points, options);
   status.clear();
   throw_if_interrupted();
-  extractor.extract_regions(options);
   note_limits(command, extractor, facts);
-  const polylidar::IndexedMultiPolygon& indexed = extractor.extract_polygons();
-  throw_if_interrupted();
   if (indexed.polygon_count() == 0) explain_emptiness(extractor);
   MultiPolygon shape = to_coordinates(indexed, points);
   if (command.min_triangles > 1) {
