@@ -186,14 +186,14 @@ void AutomaticLimit::bound_growth(const AutomaticConstants& constants) {
 void AutomaticLimit::shrink_to_median(double noise) {
   constexpr double kSpreadQuantile = 0.9;
   constexpr double kSpreadOfNormal = 1.645;  // that quantile of |x|, in standard deviations
-  logs_.clear();
+  scratch_.clear();
   for (const double usual4 : usual4_) {
-    if (usual4 != kInfinity) logs_.push_back(std::log(usual4) / 4);
+    if (usual4 != kInfinity) scratch_.push_back(std::log(usual4) / 4);
   }
-  if (logs_.empty()) return;
-  const double median = quantile_of(logs_, 0.5);
-  for (double& log : logs_) log = std::abs(log - median);
-  const double spread = quantile_of(logs_, kSpreadQuantile) / kSpreadOfNormal;
+  if (scratch_.empty()) return;
+  const double median = quantile_of(scratch_, 0.5);
+  for (double& log : scratch_) log = std::abs(log - median);
+  const double spread = quantile_of(scratch_, kSpreadQuantile) / kSpreadOfNormal;
   const double kept = spread > noise ? std::sqrt(1 - (noise / spread) * (noise / spread)) : 0;
   for (double& usual4 : usual4_) {
     const double log = usual4 == kInfinity ? median : std::log(usual4) / 4;
@@ -220,15 +220,18 @@ void AutomaticLimit::sample(const Mesh& mesh, const Point* vertices) {
 }
 
 /// The fourth power of the size of the least cost, in usual sizes.
-double AutomaticLimit::steadiest_size4(const AutomaticConstants& constants) const {
+double AutomaticLimit::steadiest_size4(const AutomaticConstants& constants) {
   constexpr double kLeast = 1.2;
   constexpr double kMost = 8;
-  std::vector<double> sizes;
-  sizes.reserve(samples_.size());
-  for (const Sampled& one : samples_) sizes.push_back(one.size4);
+  // A median of so many is sure enough, and finding one of all takes longer than all else here.
+  constexpr std::size_t kForMedian = 512;
+  scratch_.clear();
+  for (std::size_t i = 0; i < samples_.size(); i += samples_.size() / kForMedian + 1) {
+    scratch_.push_back(samples_[i].size4);
+  }
   // So that the size which all triangles of a lattice have lies within a cell and not where one ends.
   constexpr double kInCell = 1.1;
-  const double unit4 = quantile_of(sizes, 0.5) / kInCell;
+  const double unit4 = quantile_of(scratch_, 0.5) / kInCell;
   std::array<double, kCells + 1> area{};
   for (const Sampled& one : samples_) area[cell_of(one.size4 / unit4)] += one.area;
 
@@ -284,8 +287,8 @@ void AutomaticLimit::choose(const DelaunayBuilder& builder, double detail, Threa
   field_.least_part = static_cast<std::size_t>(constants.part * log_n);
   field_.least_hole = 2 * (log_n + constants.hole) / (kPointsPerSquare * detail * detail);
   for (double& limit : field_.limit4) limit *= limit4 / fourth_power(detail);
-  logs_ = field_.limit4;
-  const auto size = [&](double quantile) { return std::sqrt(std::sqrt(quantile_of(logs_, quantile))); };
+  scratch_ = field_.limit4;
+  const auto size = [&](double quantile) { return std::sqrt(std::sqrt(quantile_of(scratch_, quantile))); };
   range_ = ChosenSizes{size(0), size(0.5), size(1)};
 }
 

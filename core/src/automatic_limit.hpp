@@ -108,7 +108,7 @@ class AutomaticLimit {
   void bound_growth(const AutomaticConstants& constants);
   void shrink_to_median(double noise);
   void sample(const Mesh& mesh, const Point* vertices);
-  double steadiest_size4(const AutomaticConstants& constants) const;
+  double steadiest_size4(const AutomaticConstants& constants);
 
   SizeField field_;
   std::vector<std::size_t> block_ends_;  ///< block -> one past its last vertex
@@ -116,7 +116,7 @@ class AutomaticLimit {
   std::vector<double> usual4_;  ///< block -> fourth power of its usual size; infinity where nothing is known
   std::vector<double> measured4_;  ///< the same before it was bounded
   std::vector<Smallest> smallest_;
-  std::vector<double> logs_;
+  std::vector<double> scratch_;  ///< of whatever a quantile is taken
   std::vector<std::vector<double>> sizes_of_chunk_;
   std::vector<std::vector<Border>> borders_of_chunk_;
   std::vector<Sampled> samples_;
