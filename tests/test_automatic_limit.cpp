@@ -7,9 +7,12 @@
 #include <limits>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "core/src/automatic_limit.hpp"
+#include "core/src/delaunay_builder.hpp"
+#include "core/src/region.hpp"
 #include "polylidar/check.hpp"
 #include "polylidar/concave_hull.hpp"
 #include "polylidar/delaunay.hpp"
@@ -288,6 +291,53 @@ TEST(AutomaticLimit, TakesOutliersForNoSparsePart) {
       }
       EXPECT_LT(area(hull(points)), 1.15) << count << " points, seed " << seed;
     }
+  }
+}
+
+// Of a field that varies anyway: without a bound the outliers' own blocks would make them a part of the
+// shape.
+TEST(AutomaticLimit, BoundsWhatOutliersMakeOfAField) {
+  for (std::uint64_t seed = 0; seed < 5; ++seed) {
+    std::vector<Point> points = sparser_to_the_right(20000, 5, seed);
+    const double without = area(hull(points));
+    for (const Point& p : testing::uniform_points(600, seed + 100)) {
+      points.push_back({5 * p.x - 2, 5 * p.y - 2});
+    }
+    EXPECT_LT(area(hull(points)), 1.1 * without) << seed;
+  }
+}
+
+/// How many triangles of a ladder, with a point above the middle of its upper end, are kept, where sizes up
+/// to 2 are and spikes begin at `spike`.
+std::size_t kept_with_tip(double height, double spike) {
+  std::vector<Point> points = testing::lattice(2, 6);
+  points.push_back({0.5, 5 + height});
+  detail::ThreadPool pool;
+  detail::DelaunayBuilder builder;
+  builder.build(points, pool);
+  const detail::SizeField field{.limit4 = {16},
+                                .spike_share = std::pow(spike / 2, 4),
+                                .block_of_vertex = std::vector<std::uint32_t>(points.size())};
+  std::vector<detail::Mesh::Index> boundary;
+  detail::RegionFilter().run(builder.mesh(), builder.vertices(), field, false, pool, boundary);
+  std::size_t kept = 0;
+  for (detail::Mesh::Index t = 0; t < builder.mesh().triangle_count(); ++t) kept += builder.mesh().is_kept(t);
+  return kept;
+}
+
+// A tip of height 2.2 has a size of 1.9 and an acute angle, one of 0.4 a size of 0.8 and an obtuse angle.
+TEST(AutomaticLimit, DropsASpike) {
+  EXPECT_EQ(kept_with_tip(2.2, 1.57), 10U);
+  EXPECT_EQ(kept_with_tip(2.2, 1.95), 11U) << "too small for a spike";
+  EXPECT_EQ(kept_with_tip(0.4, 0.7), 11U) << "an obtuse angle";
+}
+
+TEST(AutomaticLimit, DropsPartsOfFewTriangles) {
+  for (const auto& [side, parts] :
+       {std::pair{std::size_t{3}, std::size_t{1}}, {7, 2}}) {  // 8 and 72 triangles
+    std::vector<Point> points = testing::lattice(45, 45);
+    for (const Point& p : testing::lattice(side, side)) points.push_back({p.x + 60, p.y});
+    EXPECT_EQ(hull(points).size(), parts) << side;
   }
 }
 

@@ -64,25 +64,24 @@ double used_share(const Mesh& mesh) {
 
 }  // namespace
 
-/// Looks at `block`: returns the fourth power of its usual size, infinity where it has no triangle with an
-/// area, and appends its borders with other blocks.
+/// Looks at `block`: returns the fourth power of its usual size, infinity where it has no triangle, and
+/// appends its borders with other blocks.
 double AutomaticLimit::measure_block(const Mesh& mesh, const Point* vertices, std::uint32_t block,
                                      double quantile, std::vector<double>& sizes,
                                      std::vector<Border>& borders) const {
   const auto begin = static_cast<Mesh::Index>(block == 0 ? 0 : 2 * block_ends_[block - 1]);
   const Mesh::Index end = std::min(mesh.triangle_count(), static_cast<Mesh::Index>(2 * block_ends_[block]));
   const std::size_t first_border = borders.size();
-  // Odd, as records come in pairs, of which an even step would only see the first.
-  Mesh::Index step = ((end - begin) / kMeasured) | 1U;
-  if (step == 1) step = (end - begin) > kMeasured ? 2 : 1;
+  // Whole pairs of records, since the first of a pair is smaller than the second on average.
+  Mesh::Index step = std::max(Mesh::Index{1}, (end - begin) / static_cast<Mesh::Index>(kMeasured));
   for (;; step = 1) {
     sizes.clear();
     borders.resize(first_border);
-    for (Mesh::Index t = begin; t < end; t += step) {
+    for (Mesh::Index i = 0; begin + 2 * step * (i / 2) + i % 2 < end; ++i) {
+      const Mesh::Index t = begin + 2 * step * (i / 2) + i % 2;
       if (mesh.is_ghost(t)) continue;
       const Triangle triangle(mesh, vertices, t);
-      const double size4 = triangle.size4();
-      if (size4 > 0) sizes.push_back(size4);
+      sizes.push_back(triangle.size4());
       const std::array squared{triangle.squared_ab(), triangle.squared_bc(), triangle.squared_ca()};
       for (Mesh::Index k = 0; k < 3; ++k) {
         const Mesh::Index other = Mesh::triangle_of(mesh.twin(Mesh::kStride * t + k));
@@ -203,17 +202,14 @@ void AutomaticLimit::shrink_to_median(double noise) {
 
 /// Takes triangles evenly from the whole mesh.
 void AutomaticLimit::sample(const Mesh& mesh, const Point* vertices) {
-  samples_.clear();
   for (std::size_t step = (mesh.triangle_count() / kSampled) | 1U;; step = 1) {
     samples_.clear();
     for (std::size_t i = 0; i < mesh.triangle_count(); i += step) {
       const auto t = static_cast<Mesh::Index>(i);
       if (mesh.is_ghost(t)) continue;
       const Triangle triangle(mesh, vertices, t);
-      const double size4 = triangle.size4();
-      if (!(size4 > 0)) continue;
       const double unit4 = usual4_[field_.block_of(t)];
-      samples_.push_back({size4 / unit4, triangle.twice_area() / std::sqrt(unit4)});
+      samples_.push_back({triangle.size4() / unit4, triangle.twice_area() / std::sqrt(unit4)});
     }
     if (step == 1 || samples_.size() >= kSampled / 4) break;
   }

@@ -17,8 +17,8 @@
 
 namespace polylidar::detail {
 
-/// The rule's numbers, fitted on the training side of this project's shapes (`make fit-default`). Sizes are
-/// Triangle::size(), a length.
+/// The rule's numbers, found on the training side of this project's shapes; core/AUTOMATIC.md says how, and
+/// what `make fit-default` finds. Sizes are lengths, the fourth roots of Triangle::size4().
 struct AutomaticConstants {
   double quantile = 0.6;  ///< a block's usual size is this quantile of its triangles' sizes
   double growth = 10;     ///< a block's usual size is at most 1 + growth / sqrt(blocks) times its neighbours'
@@ -62,7 +62,7 @@ struct AutomaticConstants {
 ///
 /// The field does not depend on the unit of the points or on where they lie but for rounding, nor on their
 /// order or the number of threads. Points that repeat others move the blocks' borders, which moves the limit
-/// within its noise. Some triangle is always within the limit.
+/// within its noise. Where `detail` is at most 1 some triangle is always within the limit.
 ///
 /// Source: this project; core/AUTOMATIC.md says what else was tried.
 class AutomaticLimit {

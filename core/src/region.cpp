@@ -54,6 +54,43 @@ bool filter_part(const Mesh& mesh, const Point* vertices, const std::uint8_t* is
   return agree;
 }
 
+std::uint64_t bit_of(Mesh::Index t) {
+  return std::uint64_t{1} << (t % Mesh::kWordBits);
+}
+
+/// Calls visit(t) for every triangle, ghosts included, in words [begin, end) of `kept` that is not kept.
+template <class Visit>
+void for_each_dropped(const Mesh& mesh, std::size_t begin, std::size_t end, const std::uint64_t* kept,
+                      const Visit& visit) {
+  for (std::size_t w = begin; w < end; ++w) {
+    const auto first = static_cast<Mesh::Index>(Mesh::kWordBits * w);
+    for (std::uint64_t dropped = ~kept[w]; dropped != 0; dropped &= dropped - 1) {
+      const Mesh::Index t = first + static_cast<Mesh::Index>(std::countr_zero(dropped));
+      if (t >= mesh.triangle_count()) break;
+      if (!mesh.is_unused(t)) visit(t);
+    }
+  }
+}
+
+/// Triangles that were met on a walk.
+class SeenTriangles {
+ public:
+  SeenTriangles(const Mesh& mesh, Scratch<std::uint64_t>& storage)
+      : words_(storage.reserve(mesh.word_count())) {
+    std::fill_n(words_, mesh.word_count(), 0);
+  }
+  bool contain(Mesh::Index t) const { return (words_[t / Mesh::kWordBits] & bit_of(t)) != 0; }
+  /// Returns whether `t` is new.
+  bool add(Mesh::Index t) {
+    const bool is_new = !contain(t);
+    words_[t / Mesh::kWordBits] |= bit_of(t);
+    return is_new;
+  }
+
+ private:
+  std::uint64_t* words_;
+};
+
 /// Appends to `boundary` the half-edges of kept triangles on whose other side is a triangle in words [begin,
 /// end) of `kept` that is not: every boundary edge has one, and these are few. With `kFillSingle` the
 /// triangles that are dropped while their neighbours are kept go to `filled` instead; no two of them are
@@ -61,24 +98,18 @@ bool filter_part(const Mesh& mesh, const Point* vertices, const std::uint8_t* is
 template <bool kFillSingle>
 void collect_boundary(const Mesh& mesh, std::size_t begin, std::size_t end, const std::uint64_t* kept,
                       std::vector<Mesh::Index>& boundary, std::vector<Mesh::Index>& filled) {
-  for (std::size_t w = begin; w < end; ++w) {
-    const auto first = static_cast<Mesh::Index>(Mesh::kWordBits * w);
-    for (std::uint64_t dropped = ~kept[w]; dropped != 0; dropped &= dropped - 1) {
-      const Mesh::Index t = first + static_cast<Mesh::Index>(std::countr_zero(dropped));
-      if (t >= mesh.triangle_count()) break;
-      if (mesh.is_unused(t)) continue;
-      [[maybe_unused]] const std::size_t before = kFillSingle ? boundary.size() : 0;
-      for (Mesh::Index k = 0; k < 3; ++k) {
-        const Mesh::Index e = mesh.twin(Mesh::kStride * t + k);
-        if (mesh.is_kept(Mesh::triangle_of(e))) boundary.push_back(e);
-      }
-      if constexpr (kFillSingle) {
-        if (boundary.size() != before + 3) continue;
-        boundary.resize(before);
-        filled.push_back(t);
-      }
+  for_each_dropped(mesh, begin, end, kept, [&](Mesh::Index t) {
+    [[maybe_unused]] const std::size_t before = kFillSingle ? boundary.size() : 0;
+    for (Mesh::Index k = 0; k < 3; ++k) {
+      const Mesh::Index e = mesh.twin(Mesh::kStride * t + k);
+      if (mesh.is_kept(Mesh::triangle_of(e))) boundary.push_back(e);
     }
-  }
+    if constexpr (kFillSingle) {
+      if (boundary.size() != before + 3) return;
+      boundary.resize(before);
+      filled.push_back(t);
+    }
+  });
 }
 
 /// Whether kept triangle `t` stands out of the shape at an acute angle: at least two of its neighbours are
@@ -104,39 +135,15 @@ bool is_spike(const Mesh& mesh, const Point* vertices, Mesh::Index t) {
 /// of them more than once.
 void collect_spikes(const Mesh& mesh, const Point* vertices, const SizeField& field, std::size_t begin,
                     std::size_t end, const std::uint64_t* kept, std::vector<Mesh::Index>& spikes) {
-  for (std::size_t w = begin; w < end; ++w) {
-    const auto first = static_cast<Mesh::Index>(Mesh::kWordBits * w);
-    for (std::uint64_t dropped = ~kept[w]; dropped != 0; dropped &= dropped - 1) {
-      const Mesh::Index t = first + static_cast<Mesh::Index>(std::countr_zero(dropped));
-      if (t >= mesh.triangle_count()) break;
-      if (mesh.is_unused(t)) continue;
-      for (Mesh::Index k = 0; k < 3; ++k) {
-        const Mesh::Index other = Mesh::triangle_of(mesh.twin(Mesh::kStride * t + k));
-        if (mesh.is_kept(other) && is_spike(mesh, vertices, other) &&
-            Triangle(mesh, vertices, other).size4() >
-                field.spike_share * field.limit4[field.block_of(other)]) {
-          spikes.push_back(other);
-        }
+  for_each_dropped(mesh, begin, end, kept, [&](Mesh::Index t) {
+    for (Mesh::Index k = 0; k < 3; ++k) {
+      const Mesh::Index other = Mesh::triangle_of(mesh.twin(Mesh::kStride * t + k));
+      if (mesh.is_kept(other) && is_spike(mesh, vertices, other) &&
+          Triangle(mesh, vertices, other).size4() > field.spike_share * field.limit4[field.block_of(other)]) {
+        spikes.push_back(other);
       }
     }
-  }
-}
-
-std::uint64_t bit_of(Mesh::Index t) {
-  return std::uint64_t{1} << (t % Mesh::kWordBits);
-}
-
-/// Calls visit(t) for every triangle in words `kept` whose bits are zero, but unused ones.
-template <class Visit>
-void for_each_dropped(const Mesh& mesh, const std::uint64_t* kept, const Visit& visit) {
-  for (std::size_t w = 0; w < mesh.word_count(); ++w) {
-    for (std::uint64_t dropped = ~kept[w]; dropped != 0; dropped &= dropped - 1) {
-      const auto t =
-          static_cast<Mesh::Index>(Mesh::kWordBits * w) + static_cast<Mesh::Index>(std::countr_zero(dropped));
-      if (t >= mesh.triangle_count()) return;
-      if (!mesh.is_unused(t)) visit(t);
-    }
-  }
+  });
 }
 
 }  // namespace
@@ -205,24 +212,20 @@ void RegionFilter::drop_spikes(Mesh& mesh, const Point* vertices, const SizeFiel
 /// From every triangle on the border the region is walked through until it is large enough, meets triangles
 /// that are known to be of a large one, or ends.
 void RegionFilter::drop_small_parts(const Mesh& mesh, std::size_t least_part, std::uint64_t* kept) {
-  std::uint64_t* const seen = seen_.reserve(mesh.word_count());
-  std::fill_n(seen, mesh.word_count(), 0);
+  SeenTriangles seen(mesh, seen_);
   std::vector<Index>& small = found_of_chunk_[0];
   small.clear();
-  for_each_dropped(mesh, kept, [&](Index dropped) {
+  for_each_dropped(mesh, 0, mesh.word_count(), kept, [&](Index dropped) {
     for (Index k = 0; k < 3; ++k) {
       const Index start = Mesh::triangle_of(mesh.twin(Mesh::kStride * dropped + k));
-      if (!mesh.is_kept(start) || (seen[start / Mesh::kWordBits] & bit_of(start)) != 0) continue;
+      if (!mesh.is_kept(start) || !seen.add(start)) continue;
       group_.assign(1, start);
-      seen[start / Mesh::kWordBits] |= bit_of(start);
       bool is_large = false;
       for (std::size_t next = 0; next < group_.size() && !is_large; ++next) {
         for (Index j = 0; j < 3; ++j) {
-          const Index twin = mesh.twin(Mesh::kStride * group_[next] + j);
-          const Index other = Mesh::triangle_of(twin);
+          const Index other = Mesh::triangle_of(mesh.twin(Mesh::kStride * group_[next] + j));
           if (!mesh.is_kept(other)) continue;
-          if ((seen[other / Mesh::kWordBits] & bit_of(other)) == 0) {
-            seen[other / Mesh::kWordBits] |= bit_of(other);
+          if (seen.add(other)) {
             group_.push_back(other);
           } else if (std::find(group_.begin(), group_.end(), other) == group_.end()) {
             is_large = true;
@@ -243,14 +246,12 @@ void RegionFilter::drop_small_parts(const Mesh& mesh, std::size_t least_part, st
 
 void RegionFilter::fill_small_holes(const Mesh& mesh, const Point* vertices, const SizeField& field,
                                     std::uint64_t* kept) {
-  std::uint64_t* const seen = seen_.reserve(mesh.word_count());
-  std::fill_n(seen, mesh.word_count(), 0);
+  SeenTriangles seen(mesh, seen_);
   std::vector<Index>& small = found_of_chunk_[0];
   small.clear();
-  for_each_dropped(mesh, kept, [&](Index start) {
-    if (mesh.is_ghost(start) || (seen[start / Mesh::kWordBits] & bit_of(start)) != 0) return;
+  for_each_dropped(mesh, 0, mesh.word_count(), kept, [&](Index start) {
+    if (mesh.is_ghost(start) || !seen.add(start)) return;
     group_.assign(1, start);
-    seen[start / Mesh::kWordBits] |= bit_of(start);
     double twice_area = 0;
     double squared_sizes = 0;  // of the kept triangles along its border
     std::size_t border = 0;
@@ -264,8 +265,7 @@ void RegionFilter::fill_small_holes(const Mesh& mesh, const Point* vertices, con
           ++border;
         } else if (mesh.is_ghost(other)) {
           twice_area = std::numeric_limits<double>::infinity();
-        } else if ((seen[other / Mesh::kWordBits] & bit_of(other)) == 0) {
-          seen[other / Mesh::kWordBits] |= bit_of(other);
+        } else if (seen.add(other)) {
           group_.push_back(other);
         }
       }
