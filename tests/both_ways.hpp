@@ -1,6 +1,8 @@
 // Both ways to a shape: by all triangles, and without those of the interior.
 #pragma once
 
+#include <cmath>
+#include <cstdint>
 #include <vector>
 
 #include "core/src/interior.hpp"
@@ -18,6 +20,26 @@ class BothWays {
     whole_.triangulate(points, options.threads);
     whole_.extract_regions(options);
     return whole_.extract_polygons();
+  }
+
+  const IndexedMultiPolygon& whole(const std::vector<Point>& points, const detail::SizeField& field,
+                                   bool fill_single) {
+    pool_.use(1);
+    builder_.build(points, pool_);
+    filter_.run(builder_.mesh(), builder_.vertices(), field, fill_single, pool_, boundary_);
+    tracer_.trace(builder_.mesh(), builder_.vertices(), points.size(), builder_.caller_index(), boundary_,
+                  whole_shape_);
+    return whole_shape_;
+  }
+  // As the other go(), for a field of one limit.
+  Statistics go(const std::vector<Point>& points, const detail::SizeField& field, bool fill_single,
+                unsigned threads, const detail::InteriorGuard& guard = kAlways) {
+    pool_.use(threads);
+    const double radius = field.wide_radius * std::sqrt(std::sqrt(field.limit4.front()));
+    return path_.extract(
+        points, detail::measure_coordinates(points, pool_), radius,
+        [&](const std::uint8_t*) -> const detail::SizeField& { return field; }, fill_single,
+        {pool_, builder_, filter_, boundary_, tracer_}, part_, guard);
   }
 
   // Of at least one point. What the way without the interior says; its shape is in part().
@@ -41,6 +63,7 @@ class BothWays {
   detail::BoundaryTracer tracer_;
   detail::InteriorPath path_;
   IndexedMultiPolygon part_;
+  IndexedMultiPolygon whole_shape_;
 };
 
 }  // namespace polylidar::testing

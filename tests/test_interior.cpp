@@ -190,9 +190,37 @@ void compare(BothWays& ways, const Points& points, const Options& options, WayCo
   EXPECT_EQ(ways.part(), ways.whole(points, options)) << testing::describe(options);
 }
 
+// A limit as the default chooses it, most often one where holes come and go.
+detail::SizeField random_field(const Points& points, Random& random) {
+  const Box box = bounding_box(points);
+  const double spacing =
+      std::sqrt((box.max.x - box.min.x) * (box.max.y - box.min.y) / static_cast<double>(points.size()));
+  const double limit = spacing * random.between(1.2, 4.5);
+  return {.limit4 = {std::pow(limit, 4)},
+          .spike_share = random.below(4) == 0 ? 1 : random.between(0.1, 1),
+          .least_part = random.below(40),
+          .least_hole = random.below(4) == 0 ? 0 : random.between(0, 25),
+          .wide_radius = spacing * random.between(0.8, 3.5) / limit,
+          .block_of_vertex = {}};
+}
+
+void compare_sizes(BothWays& ways, const Points& points, Random& random, WayCounts& counts) {
+  const detail::SizeField field = random_field(points, random);
+  const bool fill_single = random.below(2) == 0;
+  const Statistics statistics =
+      ways.go(points, field, fill_single, 1 + static_cast<unsigned>(random.below(3)));
+  ++counts[statistics.way];
+  if (statistics.way != Way::kInteriorLeftOut) return;
+  const IndexedMultiPolygon part = ways.part();
+  EXPECT_EQ(part, ways.whole(points, field, fill_single))
+      << "limit^4 " << field.limit4[0] << " spikes " << field.spike_share << " parts " << field.least_part
+      << " holes " << field.least_hole << " wide " << field.wide_radius;
+}
+
 void compare_random_inputs(std::size_t cases, std::size_t least, std::size_t most) {
   BothWays ways;
   WayCounts counts;
+  WayCounts counts_of_sizes;
   for (std::uint64_t seed = 0; seed < cases && !::testing::Test::HasFailure(); ++seed) {
     Random random(seed);
     const Sampler& sampler = samplers()[seed % samplers().size()];
@@ -204,7 +232,12 @@ void compare_random_inputs(std::size_t cases, std::size_t least, std::size_t mos
     Options options = random_options(points, random);
     options.threads = std::array{1U, 1U, 1U, 2U, 3U, 8U}[random.below(6)];
     compare(ways, points, options, counts);
+    compare_sizes(ways, points, random, counts_of_sizes);
   }
+  for (const auto& [way, count] : counts_of_sizes) {
+    std::cout << "way of sizes " << static_cast<int>(way) << ": " << count << '\n';
+  }
+  EXPECT_GT(counts_of_sizes[Way::kInteriorLeftOut], cases / 3);
   std::string report;
   for (const auto& [way, count] : counts) {
     report += " " + std::to_string(static_cast<int>(way)) + ":" + std::to_string(count);
@@ -221,9 +254,43 @@ TEST(InteriorLeftOut, GivesTheShapesOfLargeInputs) {
   compare_random_inputs(std::max<std::size_t>(case_count(1200) / 100, 1), 20'000, 200'000);
 }
 
+// Where no limit is given, of so many points that one may be found for all places.
+TEST(InteriorLeftOut, GivesTheShapesOfTheDefault) {
+  Extractor extractor;
+  Extractor steps;
+  WayCounts counts;
+  for (std::uint64_t seed = 0; seed < 3 * samplers().size(); ++seed) {
+    Random random(seed);
+    const Sampler& sampler = samplers()[seed % samplers().size()];
+    Points points = sample(sampler, 33'000 + random.below(60'000), random);
+    move(points, random);
+    Options options{.detail = std::array{0.5, 1.0, 1.0, 1.0, 1.5}[random.below(5)],
+                    .threads = std::array{1U, 1U, 2U, 3U}[random.below(4)]};
+    if (random.below(3) == 0) options.fill_single_triangles = false;
+    SCOPED_TRACE(::testing::Message() << sampler.name << ", seed " << seed << ", detail " << options.detail
+                                      << ", threads " << options.threads);
+    steps.triangulate(points, options.threads);
+    steps.extract_regions(options);
+    const IndexedMultiPolygon whole = steps.extract_polygons();
+    EXPECT_EQ(extractor.extract(points, options), whole);
+    EXPECT_EQ(extractor.chosen_sizes(), steps.chosen_sizes());
+    EXPECT_EQ(extractor.limits(), Limits{});
+    ++counts[extractor.statistics().way];
+    if (extractor.statistics().way != Way::kInteriorLeftOut) continue;
+    EXPECT_EQ(extractor.count_triangles(), steps.count_triangles());
+    EXPECT_LT(extractor.statistics().triangulated_points, points.size() / 2);
+  }
+  for (const auto& [way, count] : counts) {
+    std::cout << "way of the default " << static_cast<int>(way) << ": " << count << '\n';
+  }
+  EXPECT_GT(counts[Way::kInteriorLeftOut], 8U);
+  EXPECT_GT(counts[Way::kWhole], 3U);
+}
+
 TEST(InteriorLeftOut, GivesTheShapesOfNastyPointSets) {
   BothWays ways;
   WayCounts counts;
+  WayCounts counts_of_sizes;
   Random random(1);
   std::vector<testing::PointSet> sets = testing::nasty_point_sets();
   for (testing::NamedCase& named : testing::named_cases())
@@ -231,7 +298,10 @@ TEST(InteriorLeftOut, GivesTheShapesOfNastyPointSets) {
   for (const testing::PointSet& set : sets) {
     SCOPED_TRACE(set.name);
     if (set.points.empty()) continue;
-    for (int i = 0; i < 10; ++i) compare(ways, set.points, random_options(set.points, random), counts);
+    for (int i = 0; i < 10; ++i) {
+      compare(ways, set.points, random_options(set.points, random), counts);
+      compare_sizes(ways, set.points, random, counts_of_sizes);
+    }
   }
   EXPECT_GT(counts[Way::kInteriorLeftOut], 100U);
 }

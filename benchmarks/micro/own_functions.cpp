@@ -73,7 +73,7 @@ void polygons(benchmark::State& state, const SpeedPointSet& set) {
 constexpr std::size_t kMostPoints = 10'000'000;
 constexpr MeasuredFunction kFunctions[] = {{"concave_hull", &concave_hull<1>, kMostPoints},
                                            {"concave_hull_2_threads", &concave_hull<2>, kMostPoints},
-                                           {"concave_hull_automatic", &concave_hull_automatic, 1'000'000},
+                                           {"concave_hull_automatic", &concave_hull_automatic, kMostPoints},
                                            {"concave_hull_perimeter", &concave_hull_perimeter, kMostPoints},
                                            {"concave_hull_whole", &concave_hull_whole, kMostPoints},
                                            {"concave_hull_once", &concave_hull_once, 1'000'000},

@@ -6,6 +6,9 @@
 #include <limits>
 
 #include "filter_rules.hpp"
+#include "kept_words.hpp"
+#include "quantile.hpp"
+#include "vector.hpp"
 
 namespace polylidar::detail {
 
@@ -23,30 +26,49 @@ double fourth_power(double x) {
   return (x * x) * (x * x);
 }
 
-/// The value at `quantile` of `values`, which it reorders; there is one.
-double quantile_of(std::vector<double>& values, double quantile) {
-  const auto place =
-      std::min(values.size() - 1, static_cast<std::size_t>(quantile * static_cast<double>(values.size())));
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(place);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
-
 // The grid of limits: 16 cells to an octave of sizes, so 4 to one of their fourth powers, by the first two
 // bits of these numbers' fractions. The least size is 2^(-3/4).
-constexpr std::size_t kCells = 64;
 constexpr unsigned kFractionBits = 52;
 constexpr std::uint64_t kFirstCell = std::bit_cast<std::uint64_t>(0.125) >> (kFractionBits - 2);
 
-/// The cell of a fourth power; those below the grid count to its first cell, and beyond it is kCells.
-std::size_t cell_of(double size4) {
+/// The cell of a fourth power; those below the grid count to its first cell, and beyond it is `cells`, their
+/// number.
+std::size_t cell_of(double size4, std::size_t cells) {
   const std::uint64_t place = std::bit_cast<std::uint64_t>(size4) >> (kFractionBits - 2);
-  return place < kFirstCell ? 0 : std::min<std::size_t>(kCells, place - kFirstCell);
+  return place < kFirstCell ? 0 : std::min<std::size_t>(cells, place - kFirstCell);
 }
 
 /// The fourth power of the size at which cell `c` begins.
 double cell_begin(std::size_t c) {
   return std::bit_cast<double>((kFirstCell + c) << (kFractionBits - 2));
+}
+
+// So that the size which all triangles of a lattice have lies within a cell and not where one ends.
+constexpr double kInCell = 1.1;
+
+// Where points are spread at random, the square of a usual size has 1.7 points.
+constexpr double kPointsPerSquare = 1.7;
+
+/// How many points a void has to be empty of to be no work of chance: among n points chance makes one that
+/// grows with log n.
+double least_in_void(double points, const AutomaticConstants& constants) {
+  return std::log(points) + constants.hole;
+}
+
+/// The radius of that void, in usual sizes.
+double least_void_radius(double points, const AutomaticConstants& constants) {
+  constexpr double kPi = 3.141592653589793;
+  return std::sqrt(least_in_void(points, constants) / (kPi * kPointsPerSquare));
+}
+
+/// Triangle `t` from the least of its corners on, so that rounding does not depend on how the mesh was built.
+Triangle from_least_corner(const Mesh& mesh, const Point* vertices, Mesh::Index t) {
+  const Mesh::Index* const corner = &mesh.memory()[Mesh::kStride * t];
+  Mesh::Index least = 0;
+  for (Mesh::Index k = 1; k < 3; ++k) {
+    if (less_by_x(vertices[corner[k]], vertices[corner[least]])) least = k;
+  }
+  return {t, vertices[corner[least]], vertices[corner[(least + 1) % 3]], vertices[corner[(least + 2) % 3]]};
 }
 
 /// Records that are used, of all; from a part of them. Those of points that repeat others are not.
@@ -85,7 +107,7 @@ double AutomaticLimit::measure_block(const Mesh& mesh, const Point* vertices, st
       const std::array squared{triangle.squared_ab(), triangle.squared_bc(), triangle.squared_ca()};
       for (Mesh::Index k = 0; k < 3; ++k) {
         const Mesh::Index other = Mesh::triangle_of(mesh.twin(Mesh::kStride * t + k));
-        const auto neighbour = static_cast<std::uint32_t>(field_.block_of(other));
+        const auto neighbour = static_cast<std::uint32_t>(field_.block_of_vertex[other / 2]);
         if (neighbour == block || mesh.is_ghost(other)) continue;
         const double length4 = squared[k] * squared[k];
         std::size_t known = first_border;
@@ -183,16 +205,13 @@ void AutomaticLimit::bound_growth(const AutomaticConstants& constants) {
 
 /// Takes from the usual sizes' differences what noise explains.
 void AutomaticLimit::shrink_to_median(double noise) {
-  constexpr double kSpreadQuantile = 0.9;
-  constexpr double kSpreadOfNormal = 1.645;  // that quantile of |x|, in standard deviations
   scratch_.clear();
   for (const double usual4 : usual4_) {
     if (usual4 != kInfinity) scratch_.push_back(std::log(usual4) / 4);
   }
   if (scratch_.empty()) return;
   const double median = quantile_of(scratch_, 0.5);
-  for (double& log : scratch_) log = std::abs(log - median);
-  const double spread = quantile_of(scratch_, kSpreadQuantile) / kSpreadOfNormal;
+  const double spread = robust_deviation(scratch_, median);
   const double kept = spread > noise ? std::sqrt(1 - (noise / spread) * (noise / spread)) : 0;
   for (double& usual4 : usual4_) {
     const double log = usual4 == kInfinity ? median : std::log(usual4) / 4;
@@ -208,36 +227,37 @@ void AutomaticLimit::sample(const Mesh& mesh, const Point* vertices) {
       const auto t = static_cast<Mesh::Index>(i);
       if (mesh.is_ghost(t)) continue;
       const Triangle triangle(mesh, vertices, t);
-      const double unit4 = usual4_[field_.block_of(t)];
+      const double unit4 = usual4_[field_.block_of_vertex[t / 2]];
       samples_.push_back({triangle.size4() / unit4, triangle.twice_area() / std::sqrt(unit4)});
     }
     if (step == 1 || samples_.size() >= kSampled / 4) break;
   }
 }
 
-/// The fourth power of the size of the least cost, in usual sizes.
-double AutomaticLimit::steadiest_size4(const AutomaticConstants& constants) {
-  constexpr double kLeast = 1.2;
-  constexpr double kMost = 8;
+/// Chooses the grid's unit, and sorts the samples into it.
+void AutomaticLimit::sum_up_areas() {
   // A median of so many is sure enough, and finding one of all takes longer than all else here.
   constexpr std::size_t kForMedian = 512;
   scratch_.clear();
   for (std::size_t i = 0; i < samples_.size(); i += samples_.size() / kForMedian + 1) {
     scratch_.push_back(samples_[i].size4);
   }
-  // So that the size which all triangles of a lattice have lies within a cell and not where one ends.
-  constexpr double kInCell = 1.1;
-  const double unit4 = quantile_of(scratch_, 0.5) / kInCell;
-  std::array<double, kCells + 1> area{};
-  for (const Sampled& one : samples_) area[cell_of(one.size4 / unit4)] += one.area;
+  unit4_ = quantile_of(scratch_, 0.5) / kInCell;
+  area_.fill(0);
+  for (const Sampled& one : samples_) area_[cell_of(one.size4 / unit4_, kCells)] += one.area;
+}
 
+/// The fourth power of the size of the least cost, in usual sizes.
+double AutomaticLimit::steadiest_size4(const AutomaticConstants& constants) const {
+  constexpr double kLeast = 1.2;
+  constexpr double kMost = 8;
   std::array<double, kCells> log_size{};
   std::array<double, kCells> log_area{};  // below the size at which the cell begins
   double below = 0;
   for (std::size_t c = 0; c < kCells; ++c) {
     log_size[c] = std::log(cell_begin(c) / kInCell) / 4;
     log_area[c] = std::log(below);
-    below += std::max(area[c], 0.0);
+    below += std::max(area_[c], 0.0);
   }
   double least_cost = kInfinity;
   double steadiest = std::log(constants.usual);
@@ -253,11 +273,22 @@ double AutomaticLimit::steadiest_size4(const AutomaticConstants& constants) {
       steadiest = log_size[c];
     }
   }
-  return std::exp(4 * steadiest) * unit4 * kInCell;
+  return std::exp(4 * steadiest) * unit4_ * kInCell;
 }
 
 void AutomaticLimit::choose(const DelaunayBuilder& builder, double detail, ThreadPool& pool,
                             const AutomaticConstants& constants) {
+  const std::span<const Point> vertices(builder.vertices(), builder.vertex_count());
+  if (vertices.size() >= WindowSample::kLeastPoints &&
+      find_one(vertices, bounding_box(vertices), constants)) {
+    choose_one(builder.mesh(), builder.vertices(), nullptr, detail, pool, constants);
+  } else {
+    choose_by_blocks(builder, detail, pool, constants);
+  }
+}
+
+void AutomaticLimit::choose_by_blocks(const DelaunayBuilder& builder, double detail, ThreadPool& pool,
+                                      const AutomaticConstants& constants) {
   const Mesh& mesh = builder.mesh();
   const Point* const vertices = builder.vertices();
   const double points = used_share(mesh) * static_cast<double>(builder.vertex_count());
@@ -267,21 +298,99 @@ void AutomaticLimit::choose(const DelaunayBuilder& builder, double detail, Threa
   bound_growth(constants);
   shrink_to_median(constants.noise);
   sample(mesh, vertices);
+  if (!samples_.empty()) sum_up_areas();
+  set_field(points, detail, constants);
+}
 
+bool AutomaticLimit::find_one(std::span<const Point> points, const Box& box,
+                              const AutomaticConstants& constants) {
+  if (!windows_.look(points, box, constants.noise)) return false;
+  std::vector<double> sizes;
+  std::vector<double> logs;
+  std::size_t begin = 0;
+  for (const std::size_t end : windows_.window_ends()) {
+    constexpr std::size_t kFew = 24;
+    if (end - begin >= kFew) {
+      sizes.clear();
+      for (std::size_t i = begin; i < end; ++i) sizes.push_back(windows_.triangles()[i].size4);
+      logs.push_back(std::log(quantile_of(sizes, constants.quantile)) / 4);
+    }
+    begin = end;
+  }
+  if (logs.size() < WindowSample::kWindows / 2) return false;
+  const double median = quantile_of(logs, 0.5);
+  if (!(robust_deviation(logs, median) <= constants.noise)) return false;
+  points_ = windows_.distinct_share() * static_cast<double>(points.size());
+  wide_radius_ = std::exp(median) * least_void_radius(points_, constants);
+  if (!(wide_radius_ <= windows_.margin())) return false;
+  usual4_.assign(1, std::exp(4 * median));
+  samples_.clear();
+  for (const WindowSample::Measured& one : windows_.triangles()) {
+    if (one.squared_radius >= wide_radius_ * wide_radius_) continue;
+    samples_.push_back({one.size4 / usual4_[0], one.twice_area / std::sqrt(usual4_[0])});
+  }
+  return !samples_.empty();
+}
+
+void AutomaticLimit::choose_one(const Mesh& mesh, const Point* vertices, const std::uint8_t* is_tested,
+                                double detail, ThreadPool& pool, const AutomaticConstants& constants) {
+  sum_up_areas();
+  add_wide_areas(mesh, vertices, is_tested, pool);
+  set_field(points_, detail, constants);
+}
+
+/// The samples stand for all triangles that are not wide; those that are wide, few, are all looked at.
+void AutomaticLimit::add_wide_areas(const Mesh& mesh, const Point* vertices, const std::uint8_t* is_tested,
+                                    ThreadPool& pool) {
+  constexpr double kFine = 0x1p20;  // whole numbers, so that the sum does not depend on the order
+  struct Wide {
+    std::array<std::int64_t, kCells + 1> area{};
+    std::int64_t count = 0;
+  };
+  const CircumradiusRule surely_not_wide(wide_radius_ * (1 - 0x1p-10));
+  const CircumradiusRule not_wide(wide_radius_);
+  const Chunks chunks(pool, mesh.triangle_count());
+  std::vector<Wide> wide_of_chunk(chunks.size());
+  pool.for_each(chunks.size(), [&](std::size_t c) {
+    Wide& wide = wide_of_chunk[c];
+    for (auto t = static_cast<Mesh::Index>(chunks.begin(c)); t < chunks.end(c); ++t) {
+      if (mesh.is_ghost(t) || (is_tested != nullptr && !has_marked_corner(mesh, t, is_tested))) continue;
+      if (surely_not_wide.keeps(Triangle(mesh, vertices, t))) continue;
+      const Triangle triangle = from_least_corner(mesh, vertices, t);
+      if (not_wide.keeps(triangle)) continue;
+      const double area = std::max(triangle.twice_area(), 0.0) / std::sqrt(usual4_[0]);
+      constexpr double kMostArea = 0x1p40;
+      const std::int64_t fine_area = std::llround(kFine * std::min(area, kMostArea));
+      wide.area[cell_of(triangle.size4() / usual4_[0] / unit4_, kCells)] += fine_area;
+      wide.count += fine_area > 0 ? 1 : 0;  // slivers that rounding makes wide do not count
+    }
+  });
+  Wide all;
+  for (const Wide& wide : wide_of_chunk) {
+    for (std::size_t c = 0; c <= kCells; ++c) all.area[c] += wide.area[c];
+    all.count += wide.count;
+  }
+  const double others = std::max(2 * points_ - static_cast<double>(all.count), 0.0);
+  const double share = others / static_cast<double>(samples_.size());
+  for (std::size_t c = 0; c <= kCells; ++c) {
+    area_[c] = area_[c] * share + static_cast<double>(all.area[c]) / kFine;
+  }
+}
+
+/// From the usual sizes and the samples. `points`: how many are no repeats.
+void AutomaticLimit::set_field(double points, double detail, const AutomaticConstants& constants) {
   range_.reset();
   field_.limit4 = usual4_;
   field_.spike_share = 1;
   field_.least_part = 0;
   field_.least_hole = 0;
+  field_.wide_radius = 0;
   if (samples_.empty()) return;  // no triangle
   const double limit4 = steadiest_size4(constants);
   field_.spike_share = fourth_power(constants.spike) / limit4;
-  // Voids and clusters that chance makes among n points grow with log n. Where points are spread at random,
-  // the square of a usual size has 1.7 points.
-  constexpr double kPointsPerSquare = 1.7;
-  const double log_n = std::log(points);
-  field_.least_part = static_cast<std::size_t>(constants.part * log_n);
-  field_.least_hole = 2 * (log_n + constants.hole) / (kPointsPerSquare * detail * detail);
+  field_.least_part = static_cast<std::size_t>(constants.part * std::log(points));
+  field_.least_hole = 2 * least_in_void(points, constants) / (kPointsPerSquare * detail * detail);
+  field_.wide_radius = least_void_radius(points, constants) / std::sqrt(std::sqrt(limit4));
   for (double& limit : field_.limit4) limit *= limit4 / fourth_power(detail);
   scratch_ = field_.limit4;
   const auto size = [&](double quantile) { return std::sqrt(std::sqrt(quantile_of(scratch_, quantile))); };

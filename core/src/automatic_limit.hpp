@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <limits>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "delaunay_builder.hpp"
@@ -14,6 +15,7 @@
 #include "scratch.hpp"
 #include "size_field.hpp"
 #include "thread_pool.hpp"
+#include "window_sample.hpp"
 
 namespace polylidar::detail {
 
@@ -71,10 +73,28 @@ class AutomaticLimit {
   static constexpr std::size_t kBlockPoints = 64;
   static constexpr std::size_t kMostBlocks = 4096;
 
-  /// Chooses the sizes for the mesh of `builder` and `detail` > 0. O(n); of many triangles only a part is
-  /// looked at.
+  /// Chooses the sizes for the mesh of `builder` and `detail` > 0: by one limit for all places where
+  /// find_one() finds it, and else by blocks. O(n); of many triangles only a part is looked at.
   void choose(const DelaunayBuilder& builder, double detail, ThreadPool& pool,
               const AutomaticConstants& constants = {});
+
+  // The steps of choose(), for a caller who triangulates a part of the points only.
+
+  /// Looks for one usual size for all places in a few windows. Returns false where the density differs from
+  /// place to place by more than chance explains, or points are too few for windows. `box` is that of
+  /// `points`, whose order does not matter. O(n).
+  bool find_one(std::span<const Point> points, const Box& box, const AutomaticConstants& constants = {});
+  /// After find_one() said yes: the circumradius from which on a triangle is wide. choose_one() and the field
+  /// need no others than these and what a field drops.
+  double wide_radius() const { return wide_radius_; }
+  /// After find_one() said yes: chooses the limit for all places. `is_tested`: vertex -> whether; of the
+  /// mesh of a part, where every wide triangle of the whole mesh has a tested corner, and every triangle with
+  /// one is of the whole mesh. Null: the mesh is the whole one.
+  void choose_one(const Mesh& mesh, const Point* vertices, const std::uint8_t* is_tested, double detail,
+                  ThreadPool& pool, const AutomaticConstants& constants = {});
+  /// Chooses a limit for each block.
+  void choose_by_blocks(const DelaunayBuilder& builder, double detail, ThreadPool& pool,
+                        const AutomaticConstants& constants = {});
 
   /// What was chosen; valid until the next call.
   const SizeField& field() const { return field_; }
@@ -83,6 +103,9 @@ class AutomaticLimit {
   const std::optional<ChosenSizes>& range() const { return range_; }
 
  private:
+  /// Of the grid of limits, of 16 cells to an octave of sizes.
+  static constexpr std::size_t kCells = 64;
+
   /// Blocks that share an edge, and the fourth power of the length of the shortest that was looked at.
   struct Border {
     std::uint32_t block;
@@ -108,8 +131,13 @@ class AutomaticLimit {
   void bound_growth(const AutomaticConstants& constants);
   void shrink_to_median(double noise);
   void sample(const Mesh& mesh, const Point* vertices);
-  double steadiest_size4(const AutomaticConstants& constants);
+  void sum_up_areas();
+  void add_wide_areas(const Mesh& mesh, const Point* vertices, const std::uint8_t* is_tested,
+                      ThreadPool& pool);
+  double steadiest_size4(const AutomaticConstants& constants) const;
+  void set_field(double points, double detail, const AutomaticConstants& constants);
 
+  WindowSample windows_;
   SizeField field_;
   std::vector<std::size_t> block_ends_;  ///< block -> one past its last vertex
   std::optional<ChosenSizes> range_;
@@ -120,6 +148,11 @@ class AutomaticLimit {
   std::vector<std::vector<double>> sizes_of_chunk_;
   std::vector<std::vector<Border>> borders_of_chunk_;
   std::vector<Sampled> samples_;
+  double unit4_ = 0;                       ///< fourth power of the unit of the grid of limits
+  std::array<double, kCells + 1> area_{};  ///< cell of that grid -> area of the triangles of its sizes
+  // Of find_one():
+  double points_ = 0;  ///< that are no repeats
+  double wide_radius_ = 0;
 };
 
 }  // namespace polylidar::detail

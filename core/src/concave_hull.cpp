@@ -51,6 +51,11 @@ bool is_any_limit_given(const Options& options) {
                      [&](const LimitField& field) { return (options.*field.option).has_value(); });
 }
 
+/// Whether fill_single_triangles is asked for, or meant.
+bool is_filled(const Options& options) {
+  return options.fill_single_triangles.value_or(!is_any_limit_given(options));
+}
+
 /// `limits` in the unit of coordinates that are 2^exponent times as large.
 Limits scaled(Limits limits, int exponent) {
   for (const LimitField& field : kLimitFields) {
@@ -88,6 +93,8 @@ MultiPolygon to_coordinates(const IndexedMultiPolygon& shape, std::span<const Po
 struct Extractor::State {
   bool extract_part(std::span<const Point> given, const detail::CoordinateRange& range,
                     const Limits& given_limits, const Options& given_options);
+  void choose_sizes(double detail);
+  void find_regions(const Options& given_options);
   void mesh_is_whole();
   void triangulate_the_rest();
 
@@ -103,6 +110,9 @@ struct Extractor::State {
 
   detail::InteriorPath interior;
   Statistics statistics;
+  /// Whether automatic_limit found one usual size for all of the points; none where they have not been looked
+  /// at.
+  std::optional<bool> has_one_size;
   // Where the mesh is that of a part: what was asked for, should the rest be needed.
   bool is_part = false;
   std::span<const Point> points;
@@ -113,11 +123,26 @@ struct Extractor::State {
 bool Extractor::State::extract_part(std::span<const Point> given, const detail::CoordinateRange& range,
                                     const Limits& given_limits, const Options& given_options) {
   const detail::Steps steps{pool, builder, filter, boundary, tracer};
-  statistics = interior.extract(given, range, given_limits,
-                                given_options.fill_single_triangles.value_or(false), steps, shape);
+  const bool fill_single = is_filled(given_options);
+  if (is_any_limit_given(given_options)) {
+    statistics = interior.extract(given, range, given_limits, fill_single, steps, shape);
+  } else {
+    statistics = {Way::kWhole, given.size(), given.size(), given.size()};
+    if (range.scale_exponent != 0) return false;
+    has_one_size = automatic_limit.find_one(given, range.box);
+    if (!*has_one_size) return false;
+    const double how_fine = given_options.detail;
+    const double radius = automatic_limit.wide_radius() / std::max(how_fine, 1.0);
+    const auto choose_field = [&](const std::uint8_t* is_tested) -> const detail::SizeField& {
+      automatic_limit.choose_one(builder.mesh(), builder.vertices(), is_tested, how_fine, pool);
+      return automatic_limit.field();
+    };
+    statistics = interior.extract(given, range, radius, choose_field, fill_single, steps, shape);
+  }
   if (statistics.way != Way::kInteriorLeftOut) return false;
   limits = given_limits;
   chosen_sizes.reset();
+  if (has_one_size) chosen_sizes = automatic_limit.range();
   is_part = true;
   points = given;
   options = given_options;
@@ -127,6 +152,7 @@ bool Extractor::State::extract_part(std::span<const Point> given, const detail::
 /// After the builder triangulated all points.
 void Extractor::State::mesh_is_whole() {
   is_part = false;
+  has_one_size.reset();
   boundary.clear();
 }
 
@@ -137,6 +163,37 @@ void Extractor::State::triangulate_the_rest() {
   mesh_is_whole();
 }
 
+/// From the triangulation of all points.
+void Extractor::State::choose_sizes(double detail) {
+  if (!has_one_size) {
+    automatic_limit.choose(builder, detail, pool);
+  } else if (*has_one_size) {
+    automatic_limit.choose_one(builder.mesh(), builder.vertices(), nullptr, detail, pool);
+  } else {
+    automatic_limit.choose_by_blocks(builder, detail, pool);
+  }
+  has_one_size.reset();  // another detail may be asked for next
+  const int exponent = builder.scale_exponent();
+  if (const auto& sizes = automatic_limit.range()) {
+    chosen_sizes = {std::ldexp(sizes->least, -exponent), std::ldexp(sizes->median, -exponent),
+                    std::ldexp(sizes->most, -exponent)};
+  }
+}
+
+/// The triangulation is that of all points.
+void Extractor::State::find_regions(const Options& given_options) {
+  chosen_sizes.reset();
+  if (is_any_limit_given(given_options)) {
+    filter.run(builder.mesh(), builder.vertices(),
+               detail::filter_rules(scaled(limits, builder.scale_exponent())), is_filled(given_options), pool,
+               boundary);
+  } else {
+    choose_sizes(given_options.detail);
+    filter.run(builder.mesh(), builder.vertices(), automatic_limit.field(), is_filled(given_options), pool,
+               boundary);
+  }
+}
+
 Extractor::Extractor() : state_(std::make_unique<State>()) {}
 Extractor::~Extractor() = default;
 Extractor::Extractor(Extractor&&) noexcept = default;
@@ -144,16 +201,20 @@ Extractor& Extractor::operator=(Extractor&&) noexcept = default;
 
 const IndexedMultiPolygon& Extractor::extract(std::span<const Point> points, const Options& options) {
   const Limits limits = checked_limits(options);  // before the points are triangulated in vain
-  if (!is_any_limit_given(options) || points.empty() || points.size() > kMaxPoints) {
+  if (points.empty() || points.size() > kMaxPoints) {
     triangulate(points, options.threads);
   } else {
     state_->pool.use(options.threads);
     const detail::CoordinateRange range = detail::measure_coordinates(points, state_->pool);
+    state_->has_one_size.reset();
     if (state_->extract_part(points, range, limits, options)) return state_->shape;
+    const std::optional<bool> has_one_size = state_->has_one_size;
     state_->builder.build(points, range, state_->pool);
     state_->mesh_is_whole();
+    state_->has_one_size = has_one_size;
   }
-  extract_regions(options);
+  state_->limits = limits;
+  state_->find_regions(options);
   return extract_polygons();
 }
 
@@ -168,24 +229,8 @@ void Extractor::triangulate(std::span<const Point> points, unsigned threads) {
 void Extractor::extract_regions(const Options& options) {
   state_->limits = checked_limits(options);
   state_->pool.use(options.threads);
-  state_->chosen_sizes.reset();
   state_->triangulate_the_rest();
-  detail::DelaunayBuilder& builder = state_->builder;
-  const int exponent = builder.scale_exponent();
-  if (is_any_limit_given(options)) {
-    const auto rules = detail::filter_rules(scaled(state_->limits, exponent));
-    state_->filter.run(builder.mesh(), builder.vertices(), rules,
-                       options.fill_single_triangles.value_or(false), state_->pool, state_->boundary);
-    return;
-  }
-  detail::AutomaticLimit& automatic = state_->automatic_limit;
-  automatic.choose(builder, options.detail, state_->pool);
-  if (const auto& sizes = automatic.range()) {
-    state_->chosen_sizes = {std::ldexp(sizes->least, -exponent), std::ldexp(sizes->median, -exponent),
-                            std::ldexp(sizes->most, -exponent)};
-  }
-  state_->filter.run(builder.mesh(), builder.vertices(), automatic.field(),
-                     options.fill_single_triangles.value_or(true), state_->pool, state_->boundary);
+  state_->find_regions(options);
 }
 
 std::optional<ChosenSizes> Extractor::chosen_sizes() const {

@@ -18,10 +18,11 @@ namespace polylidar::detail {
 /// A finite triangle of the mesh as the rules see it. All is inlined: what no rule asks for is not computed.
 struct Triangle {
   Triangle(const Mesh& mesh, const Point* vertices, Mesh::Index t)
-      : index(t),
-        a(vertices[mesh.origin(Mesh::kStride * t)]),
-        b(vertices[mesh.origin(Mesh::kStride * t + 1)]),
-        c(vertices[mesh.origin(Mesh::kStride * t + 2)]) {}
+      : Triangle(t, vertices[mesh.origin(Mesh::kStride * t)], vertices[mesh.origin(Mesh::kStride * t + 1)],
+                 vertices[mesh.origin(Mesh::kStride * t + 2)]) {}
+  /// Triangle `t` with its corners, counter-clockwise.
+  Triangle(Mesh::Index t, const Point& first, const Point& second, const Point& third)
+      : index(t), a(first), b(second), c(third) {}
 
   double squared_ab() const { return squared_length(a - b); }
   double squared_bc() const { return squared_length(b - c); }
@@ -81,13 +82,21 @@ class PerimeterRule {
   double squared_limit_;
 };
 
+/// One limit for all places.
+class OneSizeRule {
+ public:
+  explicit OneSizeRule(double limit4) : limit4_(limit4) {}
+  bool keeps(const Triangle& triangle) const { return triangle.size4() <= limit4_; }
+
+ private:
+  double limit4_;
+};
+
 /// The limit that varies by place.
 class SizeRule {
  public:
   explicit SizeRule(const SizeField& field) : field_(field) {}
-  bool keeps(const Triangle& triangle) const {
-    return triangle.size4() <= field_.limit4[field_.block_of(triangle.index)];
-  }
+  bool keeps(const Triangle& triangle) const { return triangle.size4() <= field_.limit4_at(triangle.index); }
 
  private:
   const SizeField& field_;

@@ -5,6 +5,8 @@
 #include <bit>
 #include <cmath>
 
+#include "vector.hpp"
+
 namespace polylidar::detail {
 
 namespace {
@@ -21,22 +23,28 @@ constexpr double kWidestInSpacings = 2.5;
 /// At most one point in so many is looked at before the others.
 constexpr std::size_t kLeastStep = 32;
 
-/// Row, from kMargin below a cell on -> how many columns on either side of the cell come within 2 r of it.
-constexpr int kReachRows = static_cast<int>(Grid::kMargin);
+/// Of the cells that come within some distance of a cell: row, from the lowest on -> how many columns on
+/// either side of the cell. The distance is in cells, and less than one from a whole number.
+template <int kDistance>
 constexpr auto make_half_widths() {
-  constexpr double kWithin = 2 * kRadius + 0x1p-10;
-  std::array<unsigned, 2 * kReachRows + 1> half_widths{};
-  for (int row = -kReachRows; row <= kReachRows; ++row) {
+  constexpr double kWithin = kDistance + 0x1p-10;
+  std::array<unsigned, std::size_t{2 * kDistance + 3}> half_widths{};
+  for (int row = -kDistance - 1; row <= kDistance + 1; ++row) {
     const int gap_y = std::max(std::max(row, -row) - 1, 0);
     int columns = 0;
     while (columns * columns + gap_y * gap_y < kWithin * kWithin) ++columns;
     // Between two columns that are k apart lie k - 1 others: the gap to the next one is the first too wide.
-    half_widths[static_cast<std::size_t>(row + kReachRows)] = static_cast<unsigned>(columns);
+    half_widths[static_cast<std::size_t>(row + kDistance + 1)] = static_cast<unsigned>(columns);
   }
   return half_widths;
 }
-constexpr auto kHalfWidths = make_half_widths();
-static_assert(kHalfWidths[kReachRows] == Grid::kMargin && kHalfWidths[0] > 0);
+constexpr auto kHalfWidths = make_half_widths<2 * kRadius>();
+/// Where 2 r turn out to be too little.
+constexpr auto kFartherHalfWidths = make_half_widths<2 * kRadius + 4>();
+static_assert(kFartherHalfWidths[2 * kRadius + 5] <= Grid::kMargin);
+constexpr Grid::Cell rows_below(std::span<const unsigned> half_widths) {
+  return static_cast<Grid::Cell>(half_widths.size() / 2);
+}
 
 void append(std::vector<std::uint32_t>& all, const std::vector<std::uint32_t>& part) {
   all.insert(all.end(), part.begin(), part.end());
@@ -50,14 +58,15 @@ double least_dropped_radius(const Limits& limits) {
 }
 
 std::optional<Way> InteriorPart::choose(std::span<const Point> points, const CoordinateRange& range,
-                                        const Limits& limits, const InteriorGuard& guard, ThreadPool& pool) {
+                                        double radius, bool circumradii_matter, const InteriorGuard& guard,
+                                        ThreadPool& pool) {
   if (points.size() < guard.least_points) return Way::kFewPoints;
   if (range.scale_exponent != 0) return Way::kExtremeCoordinates;
-  const double radius = choose_grid(points, range.box, least_dropped_radius(limits), guard);
+  radius = choose_grid(points, range.box, radius, guard);
   if (radius == 0) return Way::kTooSparse;
 
   // Lengths are rounded harmlessly, areas of triangles with close corners are not.
-  const bool pairs_matter = limits.alpha != kNoLimit && range.unit == 0;
+  const bool pairs_matter = circumradii_matter && range.unit == 0;
   fill_cells(points, pairs_matter, pool);
   if (share_of_uncertain(points) > guard.most_uncertain) return Way::kMuchOutline;
   find_uncertain_cells(pool);
@@ -66,7 +75,7 @@ std::optional<Way> InteriorPart::choose(std::span<const Point> points, const Coo
     return Way::kClosePoints;
   }
   find_uncertain_points(points, pool);
-  mark_reach();
+  mark_reach(kHalfWidths);  // 2 r
   gather(points, pool);
   const double most = guard.most_triangulated * static_cast<double>(points.size());
   if (static_cast<double>(points_.size()) > most) return Way::kMuchOutline;
@@ -133,7 +142,7 @@ double InteriorPart::share_of_part(std::span<const Point> points) const {
   const PointCertificate& certificate = PointCertificate::instance();
   const Grid::Cell row_bits = grid_.row_words() * Grid::kWordBits;
   const auto is_in_part = [&](Grid::Cell cell) {
-    Grid::Cell centre = cell - kReachRows * row_bits;
+    Grid::Cell centre = cell - rows_below(kHalfWidths) * row_bits;
     for (const unsigned half_width : kHalfWidths) {
       Bitmap::Word cells =
           uncertain_cells_.window(centre - half_width) & ((Bitmap::Word{2} << 2 * half_width) - 1);
@@ -184,8 +193,13 @@ void InteriorPart::find_uncertain_points(std::span<const Point> points, ThreadPo
   for (std::size_t c = 0; c < chunks.size(); ++c) append(uncertain_, chunks_[c].uncertain);
 }
 
-/// Marks the cells that may hold a point within 2 r of an uncertain one.
-void InteriorPart::mark_reach() {
+void InteriorPart::reach_farther(std::span<const Point> points, ThreadPool& pool) {
+  mark_reach(kFartherHalfWidths);
+  gather(points, pool);
+}
+
+/// Marks the cells that are so near to the cell of an uncertain point.
+void InteriorPart::mark_reach(std::span<const unsigned> half_widths) {
   reached_.clear(grid_.word_count());
   uncertain_cells_.clear(grid_.word_count());  // from now on, of the points that are
   const Grid::Cell row_bits = grid_.row_words() * Grid::kWordBits;
@@ -193,8 +207,8 @@ void InteriorPart::mark_reach() {
     const Grid::Cell cell = cells_.data()[point];
     if (uncertain_cells_.test(cell)) continue;
     uncertain_cells_.set(cell);
-    Grid::Cell centre = cell - kReachRows * row_bits;
-    for (const unsigned half_width : kHalfWidths) {
+    Grid::Cell centre = cell - rows_below(half_widths) * row_bits;
+    for (const unsigned half_width : half_widths) {
       reached_.set_run(centre - half_width, 2 * half_width + 1);
       centre += row_bits;
     }
@@ -228,14 +242,71 @@ void InteriorPart::gather(std::span<const Point> points, ThreadPool& pool) {
   });
 }
 
+bool InteriorPart::is_surely_whole(const Triangle& triangle) const {
+  const Vector b = triangle.b - triangle.a;
+  const Vector c = triangle.c - triangle.a;
+  const double squared_b = squared_length(b);
+  const double squared_c = squared_length(c);
+  const double twice_cross = 2 * cross(b, c);
+  // Of triangles with a short edge the circle is not known well enough. By their edges' lengths in cells:
+  constexpr double kLeastCross = 0x1p-20;
+  const double longest = std::max({squared_b, squared_c, triangle.squared_bc()});
+  if (!(twice_cross >= kLeastCross * longest)) return false;
+  const Vector centre{(c.y * squared_b - b.y * squared_c) / twice_cross,
+                      (b.x * squared_c - c.x * squared_b) / twice_cross};
+  const double radius = std::sqrt(squared_length(centre)) * grid_.cells_per_length();
+  if (!(radius < kRadius)) return false;
+  const Point middle{triangle.a.x + centre.x, triangle.a.y + centre.y};
+  constexpr double kSlack = 0x1p-6;  // of a cell, for all rounding
+  constexpr double kMargin = Grid::kMargin;
+  // From the margin's corner on, so that all is positive.
+  const double x = grid_.column(middle) + kMargin;
+  const double y = grid_.row(middle) + kMargin;
+  const auto left = static_cast<Grid::Cell>(x - radius - kSlack);
+  const auto width = static_cast<Grid::Cell>(x + radius + kSlack) - left + 1;
+  const auto bottom = static_cast<Grid::Cell>(y - radius - kSlack);
+  const auto top = static_cast<Grid::Cell>(y + radius + kSlack);
+  const Bitmap::Word columns = (Bitmap::Word{1} << width) - 1;
+  for (Grid::Cell row = bottom; row <= top; ++row) {
+    const Grid::Cell first =
+        row * grid_.row_words() * Grid::kWordBits + Grid::kWordBits + left - Grid::kMargin;
+    if ((occupied().window(first) & ~reached_.window(first) & columns) != 0) return false;
+  }
+  return true;
+}
+
 Statistics InteriorPath::extract(std::span<const Point> points, const CoordinateRange& range,
                                  const Limits& limits, bool fill_single, const Steps& steps,
                                  IndexedMultiPolygon& shape, const InteriorGuard& guard) {
-  Statistics statistics{Way::kWhole, points.size(), points.size(), points.size()};
-  if (const std::optional<Way> whole = part_.choose(points, range, limits, guard, steps.pool)) {
-    statistics.way = *whole;
-    return statistics;
-  }
+  const auto filter = [&] {
+    return steps.filter.run_on_part(steps.builder.mesh(), steps.builder.vertices(), is_tested_.data(),
+                                    filter_rules(limits), fill_single, steps.pool, steps.boundary);
+  };
+  return extract_part(points, range, least_dropped_radius(limits), limits.alpha != kNoLimit, steps, shape,
+                      guard, filter);
+}
+
+Statistics InteriorPath::extract(std::span<const Point> points, const CoordinateRange& range, double radius,
+                                 const ChooseField& choose_field, bool fill_single, const Steps& steps,
+                                 IndexedMultiPolygon& shape, const InteriorGuard& guard) {
+  const SizeFilter::IsSure is_sure = [&](const Triangle& triangle) {
+    return part_.is_surely_whole(triangle);
+  };
+  const auto filter = [&]() -> std::optional<Way> {
+    const SizeField& field = choose_field(is_tested_.data());
+    // Where corners are as close as rounding matters, a triangle has no larger size than `radius`. It must
+    // not be asked whether it is wide, so it must not be dropped.
+    if (field.limit4.front() < radius * radius * radius * radius * (1 + kSafety)) return Way::kClosePoints;
+    return steps.filter.run_on_part(steps.builder.mesh(), steps.builder.vertices(), is_tested_.data(), field,
+                                    is_sure, fill_single, steps.pool, steps.boundary);
+  };
+  return extract_part(points, range, radius, false, steps, shape, guard, filter);
+}
+
+/// Triangulates the part and filters its mesh by filter(), which says why where that cannot be done.
+template <class Filter>
+std::optional<Way> InteriorPath::filter_part(const CoordinateRange& range, const Steps& steps,
+                                             const Filter& filter) {
   // The part reaches as far as all points: those at the sides of their box are uncertain.
   steps.builder.build(part_.points(), range, steps.pool);
   const std::size_t count = part_.points().size();
@@ -249,11 +320,30 @@ Statistics InteriorPath::extract(std::span<const Point> points, const Coordinate
       caller_index_[v] = part_.caller_index()[point];
     }
   });
-  if (!steps.filter.run_on_part(steps.builder.mesh(), steps.builder.vertices(), is_tested_.data(),
-                                filter_rules(limits), fill_single, steps.pool, steps.boundary)) {
-    statistics.way = Way::kRoundingDecides;
+  return filter();
+}
+
+template <class Filter>
+Statistics InteriorPath::extract_part(std::span<const Point> points, const CoordinateRange& range,
+                                      double radius, bool circumradii_matter, const Steps& steps,
+                                      IndexedMultiPolygon& shape, const InteriorGuard& guard,
+                                      const Filter& filter) {
+  Statistics statistics{Way::kWhole, points.size(), points.size(), points.size()};
+  if (const std::optional<Way> whole =
+          part_.choose(points, range, radius, circumradii_matter, guard, steps.pool)) {
+    statistics.way = *whole;
     return statistics;
   }
+  std::optional<Way> whole = filter_part(range, steps, filter);
+  if (whole == Way::kReachesFar) {
+    part_.reach_farther(points, steps.pool);
+    whole = filter_part(range, steps, filter);
+  }
+  if (whole) {
+    statistics.way = *whole;
+    return statistics;
+  }
+  const std::size_t count = part_.points().size();
   steps.tracer.trace(steps.builder.mesh(), steps.builder.vertices(), count, caller_index_.data(),
                      steps.boundary, shape);
   return {Way::kInteriorLeftOut, points.size(), part_.uncertain_count(), count};

@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <deque>
+#include <functional>
 #include <optional>
 #include <span>
 #include <vector>
@@ -48,10 +49,17 @@ double least_dropped_radius(const Limits& limits);
 /// the filter drops no triangle of the whole one that has a corner that is certain.
 class InteriorPart {
  public:
-  /// Chooses the part; returns why not where it does not pay, or where the claim cannot be made. `range` is
-  /// that of `points`.
-  std::optional<Way> choose(std::span<const Point> points, const CoordinateRange& range, const Limits& limits,
-                            const InteriorGuard& guard, ThreadPool& pool);
+  /// Chooses the part for a radius r > 0; returns why not where it does not pay, or where the claim cannot be
+  /// made. `range` is that of `points`; `circumradii_matter`: whether the filter compares any with r.
+  std::optional<Way> choose(std::span<const Point> points, const CoordinateRange& range, double radius,
+                            bool circumradii_matter, const InteriorGuard& guard, ThreadPool& pool);
+
+  /// After choose: makes the part larger, by points up to 2.7 r from uncertain ones.
+  void reach_farther(std::span<const Point> points, ThreadPool& pool);
+
+  /// After choose: whether a triangle of the part's triangulation is surely one of all points', whatever its
+  /// corners: all points in the box of its circumcircle are in the part.
+  bool is_surely_whole(const Triangle& triangle) const;
 
   /// After choose: the part, in the order of the caller's points, all copies of a point among them.
   std::span<const Point> points() const { return points_; }
@@ -69,7 +77,7 @@ class InteriorPart {
   double share_of_part(std::span<const Point> points) const;
   void find_uncertain_cells(ThreadPool& pool);
   void find_uncertain_points(std::span<const Point> points, ThreadPool& pool);
-  void mark_reach();
+  void mark_reach(std::span<const unsigned> half_widths);
   void gather(std::span<const Point> points, ThreadPool& pool);
   Bitmap& occupied() { return fills_.front().occupied; }
   const Bitmap& occupied() const { return fills_.front().occupied; }
@@ -116,10 +124,26 @@ class InteriorPath {
                      bool fill_single, const Steps& steps, IndexedMultiPolygon& shape,
                      const InteriorGuard& guard = {});
 
+  /// Chooses a field of one limit when the part's mesh is there. `is_tested` as in
+  /// AutomaticLimit::choose_one.
+  using ChooseField = std::function<const SizeField&(const std::uint8_t* is_tested)>;
+  /// The same for the limit that is chosen. No triangle with a circumradius of `radius` or more is to be left
+  /// out; those of the field's wide triangles are no smaller.
+  Statistics extract(std::span<const Point> points, const CoordinateRange& range, double radius,
+                     const ChooseField& choose_field, bool fill_single, const Steps& steps,
+                     IndexedMultiPolygon& shape, const InteriorGuard& guard = {});
+
   /// After it left the interior out: vertex of the mesh -> the caller's point.
   const std::uint32_t* caller_index() const { return caller_index_.data(); }
 
  private:
+  template <class Filter>
+  std::optional<Way> filter_part(const CoordinateRange& range, const Steps& steps, const Filter& filter);
+  template <class Filter>
+  Statistics extract_part(std::span<const Point> points, const CoordinateRange& range, double radius,
+                          bool circumradii_matter, const Steps& steps, IndexedMultiPolygon& shape,
+                          const InteriorGuard& guard, const Filter& filter);
+
   InteriorPart part_;
   std::vector<std::uint8_t> is_tested_;  ///< vertex of the mesh -> whether it is uncertain
   std::vector<std::uint32_t> caller_index_;

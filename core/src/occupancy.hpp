@@ -24,7 +24,7 @@ class Grid {
   using Cell = std::uint32_t;
   static constexpr Cell kWordBits = 64;
   /// Rows above and below, and at most so many columns on either side, that may be looked at beyond the box.
-  static constexpr Cell kMargin = 13;
+  static constexpr Cell kMargin = 17;
   static constexpr double kSlack = 0x1p-30;
   static constexpr double kMostColumns = 0x1p20;  ///< and rows
   static constexpr double kMostCells = 0x1p31;    ///< with the margin
@@ -48,6 +48,7 @@ class Grid {
     return fits ? columns * rows : HUGE_VAL;
   }
 
+  double cells_per_length() const { return cells_per_length_; }
   Cell columns() const { return columns_; }
   Cell rows() const { return rows_; }
   Cell row_words() const { return row_words_; }

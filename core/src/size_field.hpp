@@ -10,6 +10,7 @@
 namespace polylidar::detail {
 
 /// A block is a range of vertices, which follow each other along the curve, with their two records each.
+/// Where there is one block it may be that of any mesh.
 struct SizeField {
   /// Block -> the fourth power of the largest size of a triangle; inclusive.
   std::vector<double> limit4;
@@ -19,10 +20,16 @@ struct SizeField {
   std::size_t least_part = 0;
   /// Holes whose doubled area is less are of the shape, in mean squared sizes of the triangles round them.
   double least_hole = 0;
-  /// Vertex -> its block.
-  std::vector<std::uint32_t> block_of_vertex;
+  /// A hole has a dropped triangle with a circumradius of so many limits at least, however large it is. 0: no
+  /// hole is filled.
+  double wide_radius = 0;
+  /// Vertex -> its block, where there are several.
+  std::vector<std::uint32_t> block_of_vertex = {};
 
-  std::uint32_t block_of(Mesh::Index triangle) const { return block_of_vertex[triangle / 2]; }
+  bool is_one() const { return limit4.size() == 1; }
+  double limit4_at(Mesh::Index triangle) const {
+    return is_one() ? limit4.front() : limit4[block_of_vertex[triangle / 2]];
+  }
 };
 
 }  // namespace polylidar::detail

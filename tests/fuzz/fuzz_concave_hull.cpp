@@ -159,8 +159,22 @@ void check_without_interior(const Input& input, std::span<const Point> points, c
   if (points.empty() || (!options.alpha && !options.max_edge_length && !options.max_perimeter)) return;
   static testing::BothWays ways;
   const std::vector<Point> copy(points.begin(), points.end());
-  if (ways.go(copy, options).way != Way::kInteriorLeftOut) return;
-  require(input, ways.part() == ways.whole(copy, options), "the shape without the interior");
+  if (ways.go(copy, options).way == Way::kInteriorLeftOut) {
+    require(input, ways.part() == ways.whole(copy, options), "the shape without the interior");
+  }
+  const double limit =
+      std::min({options.alpha.value_or(kInfinity), options.max_edge_length.value_or(kInfinity),
+                options.max_perimeter.value_or(kInfinity)});
+  const detail::SizeField field{.limit4 = {limit * limit * limit * limit},
+                                .spike_share = 1.0 / (1 + input.choice % 8),
+                                .least_part = input.choice % 16U,
+                                .least_hole = static_cast<double>(input.choice % 32U),
+                                .wide_radius = 0.9};
+  const bool fill_single = input.choice % 2 == 0;
+  if (ways.go(copy, field, fill_single, options.threads).way == Way::kInteriorLeftOut) {
+    const IndexedMultiPolygon part = ways.part();
+    require(input, part == ways.whole(copy, field, fill_single), "the shape by sizes without the interior");
+  }
 }
 
 // A limit that no triangle is near: the shape is that of the kept triangles.

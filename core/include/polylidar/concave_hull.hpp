@@ -118,14 +118,15 @@ std::vector<LabelledHull> concave_hulls(std::span<const Point> points, std::span
 
 /// How a shape was extracted. The result does not depend on it; the time does.
 enum class Way : std::uint8_t {
-  kInteriorLeftOut,  ///< only what is near the outline was triangulated
-  kWhole,      ///< all points were triangulated: asked for, or the limit is chosen from the triangulation
-  kFewPoints,  ///< all points were: they are too few to gain by less
+  kInteriorLeftOut,     ///< only what is near the outline was triangulated
+  kWhole,               ///< all points were triangulated: asked for, or the limit is chosen place by place
+  kFewPoints,           ///< all points were: they are too few to gain by less
   kExtremeCoordinates,  ///< all points were: their coordinates had to be scaled
   kTooSparse,           ///< all points were: the limit is too small for their distances
   kMuchOutline,         ///< all points were: most of them are near an outline
   kClosePoints,         ///< all points were: two may be so close that the rounding of circumradii decides
   kRoundingDecides,     ///< all points were: the rounding of a triangle's size decides whether it is kept
+  kReachesFar,          ///< all points were: what is dropped reaches beyond what would be triangulated
 };
 
 /// What an extraction did.

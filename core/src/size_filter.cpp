@@ -1,0 +1,309 @@
+#include "size_filter.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <limits>
+
+#include "kept_words.hpp"
+
+namespace polylidar::detail {
+
+namespace {
+
+/// Triangles that were met on a walk.
+class SeenTriangles {
+ public:
+  /// None of `mesh`'s yet.
+  SeenTriangles(const Mesh& mesh, Scratch<std::uint64_t>& storage)
+      : words_(storage.reserve(mesh.word_count())) {
+    std::fill_n(words_, mesh.word_count(), 0);
+  }
+  bool contain(Mesh::Index t) const { return (words_[t / Mesh::kWordBits] & bit_of(t)) != 0; }
+  /// Returns whether `t` is new.
+  bool add(Mesh::Index t) {
+    const bool is_new = !contain(t);
+    words_[t / Mesh::kWordBits] |= bit_of(t);
+    return is_new;
+  }
+  void remove(Mesh::Index t) { words_[t / Mesh::kWordBits] &= ~bit_of(t); }
+
+ private:
+  std::uint64_t* words_;
+};
+
+/// Whether `t`, dropped(k) of whose neighbours says which are not kept, stands out of the shape at an acute
+/// angle: at least two are.
+template <class Dropped>
+bool stands_out(const Mesh& mesh, const Point* vertices, Mesh::Index t, const Dropped& dropped) {
+  Mesh::Index count = 0;
+  Mesh::Index base = 0;  // the half-edge that is not on the border
+  for (Mesh::Index k = 0; k < 3; ++k) {
+    if (dropped(k)) {
+      ++count;
+    } else {
+      base = Mesh::kStride * t + k;
+    }
+  }
+  if (count != 2) return count == 3;
+  const Point& apex = vertices[mesh.origin(Mesh::previous(base))];
+  const Vector to_start = vertices[mesh.origin(base)] - apex;
+  const Vector to_end = vertices[mesh.origin(Mesh::next(base))] - apex;
+  return dot(to_start, to_end) > 0;
+}
+
+/// A triangle that is no spike however it stands.
+class NoSpikeRule {
+ public:
+  NoSpikeRule(const SizeField& field, Mesh::Index t) : most4_(field.spike_share * field.limit4_at(t)) {}
+  bool keeps(const Triangle& triangle) const { return triangle.size4() <= most4_; }
+
+ private:
+  double most4_;
+};
+
+/// A triangle that is not wide.
+CircumradiusRule not_wide(const SizeField& field, Mesh::Index t) {
+  return CircumradiusRule(field.wide_radius * std::sqrt(std::sqrt(field.limit4_at(t))));
+}
+
+/// The mesh of all points: whatever a walk meets can be asked about.
+class WholeMesh {
+ public:
+  WholeMesh(const Mesh& mesh, const Point* vertices) : mesh_(mesh), vertices_(vertices) {}
+  static bool is_open(Mesh::Index /*kept*/) { return true; }
+  static bool is_hidden(Mesh::Index /*t*/) { return false; }
+  /// Whether `t` keeps to `rule`.
+  template <class Rule>
+  Answer ask(const Rule& rule, Mesh::Index t) const {
+    return rule.keeps(Triangle(mesh_, vertices_, t)) ? Answer::kYes : Answer::kNo;
+  }
+
+ private:
+  const Mesh& mesh_;
+  const Point* vertices_;
+};
+
+}  // namespace
+
+/// The mesh of a part.
+struct SizeFilter::Part {
+  const Mesh& mesh;
+  const Point* vertices;
+  const std::uint8_t* is_tested;
+  const SizeField& field;
+  const IsSure& is_sure_of;
+  SeenTriangles& hidden;
+
+  bool is_sure(Index t) const {
+    return has_marked_corner(mesh, t, is_tested) || is_sure_of(Triangle(mesh, vertices, t));
+  }
+  bool is_hidden(Index t) const { return hidden.contain(t); }
+  template <class Rule>
+  Answer ask(const Rule& rule, Index t) const {
+    return ask_from_all_corners(mesh, vertices, t, [&](const Triangle& one) { return rule.keeps(one); });
+  }
+  /// Whether a walk may go on through a kept triangle: it is one of the whole mesh, and no spike of a hole
+  /// that is not looked at.
+  bool is_open(Index t) const {
+    if (!is_sure(t)) return false;
+    if (ask(NoSpikeRule(field, t), t) == Answer::kYes) return true;
+    for (Index k = 0; k < 3; ++k) {
+      const Index other = neighbour(mesh, t, k);
+      if (!mesh.is_ghost(other) && mesh.is_kept(other) && (is_hidden(other) || !is_sure(other))) return false;
+    }
+    return true;
+  }
+};
+
+void SizeFilter::run(const Mesh& mesh, const Point* vertices, const SizeField& field, ThreadPool& pool,
+                     std::uint64_t* kept) {
+  const auto filter = [&](const auto& rule) {
+    for_each_word_chunk(mesh, Chunks(pool, mesh.triangle_count()), pool,
+                        [&](std::size_t, std::size_t begin, std::size_t end) {
+                          fill_words(mesh, begin, end, kept, [&](Index t) {
+                            return !mesh.is_ghost(t) && rule.keeps(Triangle(mesh, vertices, t));
+                          });
+                        });
+  };
+  if (field.is_one()) {
+    filter(OneSizeRule(field.limit4.front()));
+  } else {
+    filter(SizeRule(field));
+  }
+  drop_spikes(mesh, vertices, field, pool, kept);
+  const WholeMesh whole(mesh, vertices);
+  if (field.least_part > 0) drop_small_parts(mesh, whole, field.least_part, kept);
+  if (field.wide_radius > 0) fill_small_holes(mesh, vertices, whole, field, kept);
+}
+
+std::optional<Way> SizeFilter::run_on_part(const Mesh& mesh, const Point* vertices,
+                                           const std::uint8_t* is_tested, const SizeField& field,
+                                           const IsSure& is_sure, std::uint64_t* kept) {
+  SeenTriangles hidden(mesh, hidden_);
+  const Part part{mesh, vertices, is_tested, field, is_sure, hidden};
+  const OneSizeRule rule(field.limit4.front());
+  doubt_.reset();
+  group_.clear();  // ghosts and dropped triangles with a tested corner, and all that hang together with them
+  fill_words(mesh, 0, mesh.word_count(), kept, [&](Index t) {
+    if (mesh.is_ghost(t)) {
+      if (!mesh.is_unused(t)) group_.push_back(t);
+      return false;
+    }
+    const Answer answer = part.ask(rule, t);
+    const bool has_tested = has_marked_corner(mesh, t, is_tested);
+    if (answer != Answer::kYes && !has_tested) {
+      if (is_sure(Triangle(mesh, vertices, t))) hidden.add(t);
+    } else if (answer != Answer::kYes) {
+      group_.push_back(t);
+    }
+    if (answer == Answer::kRoundingDecides && part.is_sure(t)) doubt_ = Way::kRoundingDecides;
+    return answer == Answer::kYes || !has_tested;
+  });
+  // Before spikes are dropped.
+  const auto is_dropped = [&](Index t) { return !mesh.is_kept(t) || hidden.contain(t); };
+  SeenTriangles seen(mesh, seen_);
+  changed_.clear();
+  for (std::size_t next = 0; next < group_.size() && !doubt_; ++next) {
+    for (Index k = 0; k < 3 && !doubt_; ++k) {
+      const Index other = neighbour(mesh, group_[next], k);
+      if (!mesh.is_kept(other) || seen.contain(other)) continue;
+      if (hidden.contain(other)) {
+        hidden.remove(other);
+        drop(kept, other);
+        group_.push_back(other);
+        continue;
+      }
+      seen.add(other);
+      if (!part.is_sure(other)) {
+        doubt_ = Way::kReachesFar;
+        continue;
+      }
+      const Answer no_spike = part.ask(NoSpikeRule(field, other), other);
+      if (no_spike == Answer::kYes) continue;
+      if (no_spike == Answer::kRoundingDecides) doubt_ = Way::kRoundingDecides;
+      for (Index j = 0; j < 3; ++j) {
+        const Index third = neighbour(mesh, other, j);
+        if (!is_dropped(third) && !part.is_sure(third)) doubt_ = Way::kReachesFar;
+      }
+      if (!stands_out(mesh, vertices, other,
+                      [&](Index j) { return is_dropped(neighbour(mesh, other, j)); })) {
+        continue;
+      }
+      changed_.push_back(other);
+      group_.push_back(other);
+    }
+  }
+  if (doubt_) return doubt_;
+  for (const Index t : changed_) drop(kept, t);
+  if (field.least_part > 0) drop_small_parts(mesh, part, field.least_part, kept);
+  if (field.wide_radius > 0) fill_small_holes(mesh, vertices, part, field, kept);
+  return doubt_;
+}
+
+void SizeFilter::drop_spikes(const Mesh& mesh, const Point* vertices, const SizeField& field,
+                             ThreadPool& pool, std::uint64_t* kept) {
+  const Chunks chunks(pool, mesh.triangle_count());
+  spikes_of_chunk_.resize(std::max(spikes_of_chunk_.size(), chunks.size()));
+  for (std::vector<Index>& spikes : spikes_of_chunk_) spikes.clear();
+  for_each_word_chunk(mesh, chunks, pool, [&](std::size_t c, std::size_t begin, std::size_t end) {
+    for_each_dropped(mesh, begin, end, kept, [&](Index t) {
+      for (Index k = 0; k < 3; ++k) {
+        const Index other = neighbour(mesh, t, k);
+        if (mesh.is_kept(other) &&
+            stands_out(mesh, vertices, other,
+                       [&](Index j) { return !mesh.is_kept(neighbour(mesh, other, j)); }) &&
+            !NoSpikeRule(field, other).keeps(Triangle(mesh, vertices, other))) {
+          spikes_of_chunk_[c].push_back(other);
+        }
+      }
+    });
+  });
+  // Not before all threads have read which triangles are kept.
+  for (const std::vector<Index>& spikes : spikes_of_chunk_) {
+    for (const Index t : spikes) drop(kept, t);
+  }
+}
+
+/// From every triangle on the border the region is walked through until it is large enough, meets triangles
+/// that are known to be of a large one, or ends; where that is at triangles that are not open, in doubt.
+template <class Whole>
+void SizeFilter::drop_small_parts(const Mesh& mesh, const Whole& whole, std::size_t least_part,
+                                  std::uint64_t* kept) {
+  SeenTriangles seen(mesh, seen_);
+  changed_.clear();
+  for_each_dropped(mesh, 0, mesh.word_count(), kept, [&](Index dropped) {
+    for (Index k = 0; k < 3; ++k) {
+      const Index start = neighbour(mesh, dropped, k);
+      if (!mesh.is_kept(start) || !seen.add(start)) continue;
+      group_.assign(1, start);
+      bool is_large = false;
+      bool is_whole = true;
+      for (std::size_t next = 0; next < group_.size() && !is_large; ++next) {
+        for (Index j = 0; j < 3; ++j) {
+          const Index other = neighbour(mesh, group_[next], j);
+          if (!mesh.is_kept(other)) continue;
+          if (whole.is_hidden(other) || !whole.is_open(other)) {
+            is_whole = false;
+          } else if (seen.add(other)) {
+            group_.push_back(other);
+          } else if (std::find(group_.begin(), group_.end(), other) == group_.end()) {
+            is_large = true;
+          }
+        }
+        is_large |= group_.size() >= least_part;
+      }
+      if (is_large) continue;
+      if (!is_whole) doubt_ = Way::kReachesFar;
+      changed_.insert(changed_.end(), group_.begin(), group_.end());
+    }
+  });
+  // Where all parts are small there is nothing that they are small beside.
+  std::size_t count = 0;
+  for (std::size_t w = 0; w < mesh.word_count(); ++w)
+    count += static_cast<std::size_t>(std::popcount(kept[w]));
+  if (changed_.size() == count) return;
+  for (const Index t : changed_) drop(kept, t);
+}
+
+template <class Whole>
+void SizeFilter::fill_small_holes(const Mesh& mesh, const Point* vertices, const Whole& whole,
+                                  const SizeField& field, std::uint64_t* kept) {
+  SeenTriangles seen(mesh, seen_);
+  changed_.clear();
+  for_each_dropped(mesh, 0, mesh.word_count(), kept, [&](Index start) {
+    if (mesh.is_ghost(start) || !seen.add(start)) return;
+    group_.assign(1, start);
+    bool is_enclosed = true;
+    bool has_wide = false;
+    double twice_area = 0;
+    double squared_sizes = 0;  // of the kept triangles along its border
+    std::size_t border = 0;
+    for (std::size_t next = 0; next < group_.size(); ++next) {
+      const Index t = group_[next];
+      twice_area += Triangle(mesh, vertices, t).twice_area();
+      if (is_enclosed && !has_wide) {
+        const Answer answer = whole.ask(not_wide(field, t), t);
+        has_wide = answer != Answer::kYes;
+        if (answer == Answer::kRoundingDecides) doubt_ = Way::kRoundingDecides;
+      }
+      for (Index j = 0; j < 3; ++j) {
+        const Index other = neighbour(mesh, t, j);
+        if (mesh.is_kept(other)) {
+          squared_sizes += std::sqrt(Triangle(mesh, vertices, other).size4());
+          ++border;
+        } else if (mesh.is_ghost(other)) {
+          is_enclosed = false;
+        } else if (seen.add(other)) {
+          group_.push_back(other);
+        }
+      }
+    }
+    if (!is_enclosed) return;
+    if (has_wide && twice_area * static_cast<double>(border) >= field.least_hole * squared_sizes) return;
+    changed_.insert(changed_.end(), group_.begin(), group_.end());
+  });
+  for (const Index t : changed_) keep(kept, t);
+}
+
+}  // namespace polylidar::detail

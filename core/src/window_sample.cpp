@@ -1,0 +1,156 @@
+#include "window_sample.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+
+#include "filter_rules.hpp"
+#include "quantile.hpp"
+#include "vector.hpp"
+
+namespace polylidar::detail {
+
+namespace {
+
+/// So many points are in a cell on average, and there are at most so many cells.
+constexpr double kPointsInCell = 16;
+constexpr double kMostCells = 16384;
+/// Half the side of a window, and its margin, in spacings of the points.
+constexpr double kHalfInner = 3;
+constexpr double kMargin = 3;
+/// Beyond so many times what they would have where the density is the same everywhere, windows are not looked
+/// into.
+constexpr double kMostPointsOfUsual = 2;
+
+}  // namespace
+
+bool WindowSample::look(std::span<const Point> points, const Box& box, double most_spread) {
+  if (points.size() < kLeastPoints || !count_cells(points, box)) return false;
+  const double in_cell = usual_count(most_spread);
+  if (in_cell == 0) return false;
+  const double spacing = 1 / (cells_per_length_ * std::sqrt(in_cell));
+  const double half_side = (kHalfInner + kMargin) * spacing;
+  place_windows(points.size(), half_side);
+  gather(points, half_side);
+  std::size_t gathered = 0;
+  for (const Window& window : windows_) gathered += window.points.size();
+  const double usual = 4 * half_side * half_side / (spacing * spacing);
+  if (static_cast<double>(gathered) > kMostPointsOfUsual * static_cast<double>(kWindows) * usual)
+    return false;
+
+  margin_ = kMargin * spacing;
+  window_ends_.clear();
+  triangles_.clear();
+  std::size_t distinct = 0;
+  for (Window& window : windows_) {
+    measure(window, kHalfInner * spacing);
+    window_ends_.push_back(triangles_.size());
+    distinct += window.points.size();
+  }
+  distinct_share_ = static_cast<double>(distinct) / static_cast<double>(gathered);
+  return true;
+}
+
+/// Counts the points in square cells. Returns false where the box is too narrow for them.
+bool WindowSample::count_cells(std::span<const Point> points, const Box& box) {
+  const double width = box.max.x - box.min.x;
+  const double height = box.max.y - box.min.y;
+  const double cells = std::min(kMostCells, static_cast<double>(points.size()) / kPointsInCell);
+  minimum_ = box.min;
+  cells_per_length_ = std::sqrt(cells / (width * height));
+  constexpr double kLeastSide = 4;
+  if (!(std::min(width, height) * cells_per_length_ >= kLeastSide)) return false;
+  columns_ = column(box.max.x) + 1;
+  rows_ = row(box.max.y) + 1;
+  counts_.assign(std::size_t{columns_} * rows_, 0);
+  for (const Point& p : points) ++counts_[row(p.y) * columns_ + column(p.x)];
+  return true;
+}
+
+/// How many points a cell inside the shape usually has; 0 where the numbers differ by too much, or there are
+/// too few such cells to tell.
+double WindowSample::usual_count(double most_spread) {
+  scratch_.clear();
+  for (std::uint32_t r = 1; r + 1 < rows_; ++r) {
+    for (std::uint32_t c = 1; c + 1 < columns_; ++c) {
+      const std::uint32_t* const own = &counts_[r * columns_ + c];
+      if (own[0] == 0 || own[-1] == 0 || own[1] == 0) continue;
+      const std::uint32_t* const above = own + columns_;
+      const std::uint32_t* const below = own - columns_;
+      if (above[-1] == 0 || above[0] == 0 || above[1] == 0) continue;
+      if (below[-1] == 0 || below[0] == 0 || below[1] == 0) continue;
+      scratch_.push_back(std::log(static_cast<double>(own[0])));
+    }
+  }
+  constexpr std::size_t kFew = 256;
+  if (scratch_.size() < kFew) return 0;
+  const double middle = quantile_of(scratch_, 0.5);
+  const double usual = std::exp(middle);
+  // A number of points is the inverse square of the spacing; chance alone makes numbers differ by a root of
+  // them. Twice as much is let pass: it is the windows that decide.
+  const double spread = robust_deviation(scratch_, middle);
+  const double most = 4 * most_spread * most_spread + 1 / usual;
+  return spread * spread <= 2 * most ? usual : 0;
+}
+
+/// At the middles of the cells in which points of evenly spaced ranks lie, counted cell by cell.
+void WindowSample::place_windows(std::size_t points, double half_side) {
+  windows_.resize(kWindows);
+  windows_of_cell_.assign(counts_.size(), 0);
+  std::size_t cell = 0;
+  std::size_t counted = counts_[0];
+  for (std::size_t w = 0; w < kWindows; ++w) {
+    const std::size_t rank = points * (2 * w + 1) / (2 * kWindows);
+    while (counted <= rank) counted += counts_[++cell];
+    Window& window = windows_[w];
+    window.points.clear();
+    window.centre = {minimum_.x + (static_cast<double>(cell % columns_) + 0.5) / cells_per_length_,
+                     minimum_.y + (static_cast<double>(cell / columns_) + 0.5) / cells_per_length_};
+    const std::uint32_t left = column(std::max(window.centre.x - half_side, minimum_.x));
+    const std::uint32_t right = std::min(column(window.centre.x + half_side), columns_ - 1);
+    const std::uint32_t bottom = row(std::max(window.centre.y - half_side, minimum_.y));
+    const std::uint32_t top = std::min(row(window.centre.y + half_side), rows_ - 1);
+    for (std::uint32_t r = bottom; r <= top; ++r) {
+      for (std::uint32_t c = left; c <= right; ++c)
+        windows_of_cell_[r * columns_ + c] |= std::uint64_t{1} << w;
+    }
+  }
+}
+
+void WindowSample::gather(std::span<const Point> points, double half_side) {
+  for (const Point& p : points) {
+    std::uint64_t windows = windows_of_cell_[row(p.y) * columns_ + column(p.x)];
+    for (; windows != 0; windows &= windows - 1) {
+      Window& window = windows_[static_cast<std::size_t>(std::countr_zero(windows))];
+      if (std::abs(p.x - window.centre.x) > half_side || std::abs(p.y - window.centre.y) > half_side)
+        continue;
+      window.points.push_back(p);
+    }
+  }
+}
+
+/// Appends the window's triangles, and leaves in it the points that are no repeats.
+void WindowSample::measure(Window& window, double half_inner) {
+  std::vector<Point>& points = window.points;
+  std::sort(points.begin(), points.end(), less_by_x);  // the order of the caller's points must not matter
+  points.erase(std::unique(points.begin(), points.end()), points.end());
+  if (points.size() < 3) return;
+  builder_.build(points, this_thread_);
+  const Mesh& mesh = builder_.mesh();
+  for (Mesh::Index t = 0; t < mesh.triangle_count(); ++t) {
+    if (mesh.is_ghost(t)) continue;
+    const Triangle triangle(mesh, builder_.vertices(), t);
+    // The circumcentre from corner a.
+    const Vector b = triangle.b - triangle.a;
+    const Vector c = triangle.c - triangle.a;
+    const double twice_cross = 2 * cross(b, c);
+    const Vector centre{(c.y * squared_length(b) - b.y * squared_length(c)) / twice_cross,
+                        (b.x * squared_length(c) - c.x * squared_length(b)) / twice_cross};
+    const double x = std::abs(triangle.a.x + centre.x - window.centre.x);
+    const double y = std::abs(triangle.a.y + centre.y - window.centre.y);
+    if (!(std::max(x, y) <= half_inner)) continue;
+    triangles_.push_back({triangle.size4(), triangle.twice_area(), squared_length(centre)});
+  }
+}
+
+}  // namespace polylidar::detail

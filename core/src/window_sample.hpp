@@ -1,0 +1,81 @@
+// The triangles in a few small windows, without a triangulation of all points.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "delaunay_builder.hpp"
+#include "polylidar/geometry.hpp"
+#include "thread_pool.hpp"
+
+namespace polylidar::detail {
+
+/// Squares at places that are drawn by the number of points there, each with the points in it and in a margin
+/// round it. A triangle counts to the window in which its circumcentre lies, so that no size is counted more
+/// often than another. A triangle whose circle is no wider than the margin, one of all points' triangulation
+/// too, is there for sure; of wider ones some may be missing, and others be there instead.
+class WindowSample {
+ public:
+  static constexpr std::size_t kWindows = 64;
+  /// From how many points on a sample is worth its time.
+  static constexpr std::size_t kLeastPoints = std::size_t{1} << 15U;
+
+  struct Measured {
+    double size4;           ///< fourth power of the triangle's size
+    double twice_area;      ///< its doubled area
+    double squared_radius;  ///< its circumradius, squared
+  };
+
+  /// Looks at `points`, whose box is `box`. Returns false where their density differs from place to place by
+  /// more than `most_spread` (standard deviation of the logarithm of the spacing) and chance: then there is
+  /// nothing to look at. The same for any order of the points, and for other places and units but for
+  /// rounding. O(n), a pass or two.
+  bool look(std::span<const Point> points, const Box& box, double most_spread);
+
+  /// After look() said yes: window -> one past its last triangle in triangles(). Of some windows there may be
+  /// few, or none.
+  const std::vector<std::size_t>& window_ends() const { return window_ends_; }
+  const std::vector<Measured>& triangles() const { return triangles_; }
+  /// The width of the margin.
+  double margin() const { return margin_; }
+  /// The share of the points that do not repeat others.
+  double distinct_share() const { return distinct_share_; }
+
+ private:
+  struct Window {
+    Point centre;
+    std::vector<Point> points;
+  };
+
+  bool count_cells(std::span<const Point> points, const Box& box);
+  double usual_count(double most_spread);
+  void place_windows(std::size_t points, double half_side);
+  void gather(std::span<const Point> points, double half_side);
+  void measure(Window& window, double half_inner);
+
+  std::uint32_t column(double x) const {
+    return static_cast<std::uint32_t>((x - minimum_.x) * cells_per_length_);
+  }
+  std::uint32_t row(double y) const {
+    return static_cast<std::uint32_t>((y - minimum_.y) * cells_per_length_);
+  }
+
+  Point minimum_;
+  double cells_per_length_ = 0;
+  std::uint32_t columns_ = 0;
+  std::uint32_t rows_ = 0;
+  std::vector<std::uint32_t> counts_;           ///< cell, row by row -> how many points
+  std::vector<std::uint64_t> windows_of_cell_;  ///< cell -> bit w: window w reaches it
+  std::vector<Window> windows_;
+  std::vector<double> scratch_;
+  DelaunayBuilder builder_;
+  ThreadPool this_thread_;
+  std::vector<std::size_t> window_ends_;
+  std::vector<Measured> triangles_;
+  double margin_ = 0;
+  double distinct_share_ = 1;
+};
+
+}  // namespace polylidar::detail

@@ -1,0 +1,114 @@
+// The triangles in a few windows are those of the whole triangulation, and where the density is uneven there
+// are none.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "core/src/filter_rules.hpp"
+#include "core/src/window_sample.hpp"
+#include "polylidar/delaunay.hpp"
+#include "tests/point_sets.hpp"
+
+namespace polylidar::detail {
+namespace {
+
+using Points = std::vector<Point>;
+constexpr double kMostSpread = 0.12;
+
+bool looks(WindowSample& sample, const Points& points) {
+  return sample.look(points, bounding_box(points), kMostSpread);
+}
+
+// Doubled areas of all triangles of the whole triangulation, ascending.
+std::vector<double> areas_of_all(const Points& points) {
+  const Triangulation whole = delaunay(points);
+  std::vector<double> areas;
+  for (std::size_t t = 0; t < whole.triangles.size(); t += 3) {
+    const auto corner = [&](std::size_t k) { return points[whole.triangles[t + k]]; };
+    const Point a = corner(0);
+    const Point b = corner(1);
+    const Point c = corner(2);
+    areas.push_back((b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x));
+  }
+  std::sort(areas.begin(), areas.end());
+  return areas;
+}
+
+TEST(WindowSample, HasTrianglesOfTheWholeTriangulation) {
+  WindowSample sample;
+  const Points points = testing::uniform_points(50'000, 1);
+  ASSERT_TRUE(looks(sample, points));
+  ASSERT_EQ(sample.window_ends().size(), WindowSample::kWindows);
+  EXPECT_EQ(sample.window_ends().back(), sample.triangles().size());
+  EXPECT_GT(sample.triangles().size(), 3000U);
+  EXPECT_LT(sample.triangles().size(), 8000U);
+  EXPECT_EQ(sample.distinct_share(), 1);
+  const std::vector<double> areas = areas_of_all(points);
+  std::size_t narrow = 0;
+  for (const WindowSample::Measured& one : sample.triangles()) {
+    if (one.squared_radius > sample.margin() * sample.margin()) continue;
+    ++narrow;
+    const double rounding = 1e-15;
+    const auto next = std::lower_bound(areas.begin(), areas.end(), one.twice_area - rounding);
+    ASSERT_TRUE(next != areas.end() && *next <= one.twice_area + rounding) << one.twice_area;
+  }
+  EXPECT_GT(narrow, 0.99 * static_cast<double>(sample.triangles().size()));
+}
+
+// Counted by their circumcentres, triangles have in the windows the sizes that they have in the whole.
+TEST(WindowSample, HasTheAreasOfTheWhole) {
+  WindowSample sample;
+  double twice_area = 0;
+  std::size_t count = 0;
+  for (std::uint64_t seed = 0; seed < 10; ++seed) {
+    ASSERT_TRUE(looks(sample, testing::uniform_points(40'000, seed)));
+    for (const WindowSample::Measured& one : sample.triangles()) twice_area += one.twice_area;
+    count += sample.triangles().size();
+  }
+  // Two triangles a point; and as windows are where points are, there is one point more in 36.
+  EXPECT_NEAR(twice_area / static_cast<double>(count), 36.0 / 37 / 40'000, 0.015 / 40'000);
+}
+
+TEST(WindowSample, DoesNotDependOnTheOrder) {
+  WindowSample sample;
+  WindowSample other;
+  const Points points = testing::uniform_points(40'000, 3);
+  ASSERT_TRUE(looks(sample, points));
+  ASSERT_TRUE(looks(other, testing::shuffled(points, 7)));
+  ASSERT_EQ(sample.triangles().size(), other.triangles().size());
+  for (std::size_t i = 0; i < sample.triangles().size(); ++i) {
+    EXPECT_EQ(sample.triangles()[i].size4, other.triangles()[i].size4);
+    EXPECT_EQ(sample.triangles()[i].twice_area, other.triangles()[i].twice_area);
+  }
+}
+
+TEST(WindowSample, KnowsWhichPointsRepeatOthers) {
+  WindowSample sample;
+  Points points = testing::uniform_points(20'000, 4);
+  points.insert(points.end(), points.begin(), points.end());
+  ASSERT_TRUE(looks(sample, points));
+  EXPECT_EQ(sample.distinct_share(), 0.5);
+}
+
+TEST(WindowSample, IsNotForFewNorForUnevenPoints) {
+  WindowSample sample;
+  EXPECT_TRUE(looks(sample, testing::lattice(200, 200)));
+  EXPECT_FALSE(looks(sample, testing::uniform_points(WindowSample::kLeastPoints - 1, 1))) << "few";
+  EXPECT_FALSE(looks(sample, testing::lattice(40'000, 1))) << "a line";
+  EXPECT_FALSE(looks(sample, testing::lattice(20'000, 2))) << "a strip";
+  EXPECT_FALSE(looks(sample, Points(40'000, Point{1, 2}))) << "one point";
+  EXPECT_FALSE(looks(sample, testing::circle(40'000, 1))) << "no inside";
+  Points points = testing::uniform_points(60'000, 5);
+  for (Point& p : points) p.x = std::exp2(4 * p.x);  // 16 : 1
+  EXPECT_FALSE(looks(sample, points)) << "a gradient";
+  points = testing::uniform_points(60'000, 6);
+  for (std::size_t i = 0; i < points.size(); i += 2) points[i] = {points[i].x / 10, points[i].y / 10};
+  EXPECT_FALSE(looks(sample, points)) << "a dense corner";
+}
+
+}  // namespace
+}  // namespace polylidar::detail
