@@ -262,13 +262,13 @@ docs: ## the core's reference as HTML in build/docs/core; fails when something p
 	@$(call build,release,$(WITHOUT_TESTS),docs)
 	@echo "==> build/docs/core/html/index.html"
 
-js: ## build the npm package polylidar, the core as WebAssembly, in build-js/polylidar
+js: ## build the npm package polylidar, the core as WebAssembly, and the page that tries it, in build-js
 	@$(call install,js)
+	@$(if $(SKIP_DEPS),,cmake/install-npm.sh adapters/manifests)
 	@$(call build,js)
-	@echo "==> build-js/polylidar"
+	@echo "==> build-js/polylidar and build-js/demo.html"
 
 js-bench: js ## measure the npm package beside concaveman and delaunator, and write the table of core/js/README.md
-	@$(if $(SKIP_DEPS),,cmake/install-npm.sh adapters/manifests)
 	@node core/js/bench.mjs build-js/polylidar --write core/js/README.md
 
 clean: ## remove what was built; results stay

@@ -11,9 +11,10 @@ set_tests_properties(js.build PROPERTIES LABELS js TIMEOUT 900 FIXTURES_SETUP js
   WORKING_DIRECTORY "${PROJECT_SOURCE_DIR}")
 
 set(needs_of_browser "chromium|chromium-browser|google-chrome" "${CMAKE_CURRENT_LIST_DIR}/report/node_modules")
-foreach(place IN ITEMS node browser)
-  hullbench_tool_test(NAME js.${place} NEEDS ${js_needs} ${needs_of_${place}}
-    COMMAND node --test --test-reporter=spec "${CMAKE_CURRENT_LIST_DIR}/js/${place}.test.mjs")
-  set_tests_properties(js.${place} PROPERTIES LABELS js TIMEOUT 600 FIXTURES_REQUIRED js_package
-    ENVIRONMENT "PACKAGE=${js_build}/polylidar;WRITE_NATIVE_HULLS=$<TARGET_FILE:write_native_hulls>;OUTPUT=${CMAKE_BINARY_DIR}/tests/js_in_${place}")
+set(needs_of_demo ${needs_of_browser} "${PROJECT_SOURCE_DIR}/adapters/manifests/node_modules")
+foreach(part IN ITEMS node browser readers demo)
+  hullbench_tool_test(NAME js.${part} NEEDS ${js_needs} ${needs_of_${part}}
+    COMMAND node --test --test-reporter=spec "${CMAKE_CURRENT_LIST_DIR}/js/${part}.test.mjs")
+  set_tests_properties(js.${part} PROPERTIES LABELS js TIMEOUT 600 FIXTURES_REQUIRED js_package ENVIRONMENT
+    "PACKAGE=${js_build}/polylidar;PAGE=${js_build}/demo.html;WRITE_NATIVE_HULLS=$<TARGET_FILE:write_native_hulls>;OUTPUT=${CMAKE_BINARY_DIR}/tests/js_${part}")
 endforeach()
