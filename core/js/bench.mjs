@@ -8,6 +8,7 @@ import { join, resolve } from "node:path";
 import { pathToFileURL } from "node:url";
 
 const ROUNDS = 11;
+const LEAST_POINTS = 100_000; // in a round
 const SIZES = [1_000, 10_000, 100_000, 1_000_000];
 const MARKS = ["<!-- bench -->\n", "<!-- /bench -->\n"];
 
@@ -47,16 +48,20 @@ function median(values) {
   return (sorted[(sorted.length - 1) >> 1] + sorted[sorted.length >> 1]) / 2;
 }
 
-/** Method -> its times in each round. Before these, a round in which code is compiled. */
+/**
+ * Each method's median time in nanoseconds. Before the rounds that count there is one in which code is compiled. A round calls
+ * a method as often as makes 100,000 points.
+ */
 function measure(runs, points) {
+  const calls = Math.ceil(LEAST_POINTS / points.pairs.length);
   const times = runs.map(() => []);
   for (let round = -1; round < ROUNDS; round++) {
     for (let k = 0; k < runs.length; k++) {
       const method = (k + round + 1) % runs.length;
       const begin = process.hrtime.bigint();
-      runs[method](points);
+      for (let call = 0; call < calls; call++) runs[method](points);
       const end = process.hrtime.bigint();
-      if (round >= 0) times[method].push(Number(end - begin));
+      if (round >= 0) times[method].push(Number(end - begin) / calls);
     }
   }
   return times.map(median);
