@@ -162,6 +162,26 @@ test("errors say what the core says, and leave the module in order", () => {
   }
 });
 
+test("any number of errors leaves no trace", () => {
+  for (let i = 0; i < 3000; i++)
+    assert.throws(
+      () =>
+        concaveHull([
+          [0, 0],
+          [NaN, 1],
+        ]),
+      /^RangeError: point 1 is not finite$/,
+    );
+  assert.equal(
+    concaveHull([
+      [0, 0],
+      [1, 0],
+      [0, 1],
+    ]).area,
+    0.5,
+  );
+});
+
 test("memory that does not suffice is an error like any other", () => {
   assert.throws(() => concaveHull(new Float64Array(2 ** 26 + 2)), {
     name: "RangeError",
@@ -221,12 +241,20 @@ test("concaveman's ring is closed, of the points themselves and has all points i
   assert.ok(area_of(concaveman(sets["a letter L"])) < 0.6, "the notch of the L is found");
 });
 
+test("concaveman's ring is the hull's shell where one part has all points, holes or not", () => {
+  const points = square(3000).filter(([x, y]) => Math.hypot(x - 0.4, y - 0.4) > 0.2 && (x < 0.8 || y < 0.6));
+  const hull = concaveHull(points);
+  assert.equal(hull.polygonEnds.length, 1);
+  assert.equal(hull.ringEnds.length, 2);
+  assert.deepEqual(concaveman(points), hull.coordinates[0][0]);
+});
+
 test("concaveman's lengthThreshold and its default arguments", () => {
   const points = square(3000).filter(([x, y]) => x < 0.3 || y < 0.3);
   assert.deepEqual(concaveman(points), concaveman(points, 2, 0));
   const lengths = [0, 0.05, 0.2, 5].map((threshold) => concaveman(points, 1, threshold).length);
   for (let i = 1; i < lengths.length; i++) assert.ok(lengths[i] <= lengths[i - 1], `${lengths}`);
-  assert.deepEqual(concaveman(points, 1, 5), concaveman(points, Infinity));
+  for (const threshold of [5, Infinity]) assert.deepEqual(concaveman(points, 1, threshold), concaveman(points, Infinity));
 });
 
 test("concaveman's ring of points without an area", () => {

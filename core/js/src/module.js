@@ -6,13 +6,17 @@ const RING_ENDS = 1;
 const POLYGON_ENDS = 2;
 const HULL_ENDS = 3;
 
+// Newer C++ libraries say why before they abort: there is nothing to write it to.
+const BAD_FILE = 8; // WASI's "badf"
+const NO_FILES = Object.fromEntries(["fd_write", "fd_seek", "fd_close"].map((name) => [name, () => BAD_FILE]));
+
 let compiled; // on the first call: to import this costs next to nothing
 let instance; // none at first, and after an error, which leaves the C++ objects half made
 
 function exports_of_instance() {
   if (!instance) {
     compiled ??= new WebAssembly.Module(bytes);
-    instance = new WebAssembly.Instance(compiled, { polylidar: { fail } });
+    instance = new WebAssembly.Instance(compiled, { polylidar: { fail }, wasi_snapshot_preview1: NO_FILES });
     instance.exports._initialize();
   }
   return instance.exports;
