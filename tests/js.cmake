@@ -12,9 +12,13 @@ set_tests_properties(js.build PROPERTIES LABELS js TIMEOUT 900 FIXTURES_SETUP js
 
 set(needs_of_browser "chromium|chromium-browser|google-chrome" "${CMAKE_CURRENT_LIST_DIR}/report/node_modules")
 set(needs_of_demo ${needs_of_browser} "${PROJECT_SOURCE_DIR}/adapters/manifests/node_modules")
-foreach(part IN ITEMS node browser readers demo)
+foreach(part IN ITEMS node browser demo)
   hullbench_tool_test(NAME js.${part} NEEDS ${js_needs} ${needs_of_${part}}
     COMMAND node --test --test-reporter=spec "${CMAKE_CURRENT_LIST_DIR}/js/${part}.test.mjs")
   set_tests_properties(js.${part} PROPERTIES LABELS js TIMEOUT 600 FIXTURES_REQUIRED js_package ENVIRONMENT
     "PACKAGE=${js_build}/polylidar;PAGE=${js_build}/demo.html;WRITE_NATIVE_HULLS=$<TARGET_FILE:write_native_hulls>;OUTPUT=${CMAKE_BINARY_DIR}/tests/js_${part}")
 endforeach()
+# The page's readers of files are plain JavaScript.
+hullbench_tool_test(NAME js.readers NEEDS node
+  COMMAND node --test --test-reporter=spec "${CMAKE_CURRENT_LIST_DIR}/js/readers.test.mjs")
+set_tests_properties(js.readers PROPERTIES LABELS js TIMEOUT 120)

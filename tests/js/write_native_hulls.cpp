@@ -117,7 +117,8 @@ class Writer {
     std::ofstream(folder_ + "/" + file, std::ios::binary)
         .write(reinterpret_cast<const char*>(points.data()),
                static_cast<std::streamsize>(points.size() * sizeof(Point)));
-    cases_ << (count_++ == 0 ? "" : ",") << "\n{\"name\":\"" << name << "\",\"points\":\"" << file << '"';
+    cases_ << (count_++ == 0 ? "" : ",") << "\n"
+           << R"({"name":")" << name << R"(","points":")" << file << '"';
   }
 
   std::string folder_;
@@ -134,6 +135,7 @@ void write(const std::string& folder) {
 
   const std::vector<Point> points = uniform_points(5000, 6, 10);
   std::vector<std::int64_t> labels;
+  labels.reserve(points.size());
   for (const Point& p : points) labels.push_back(static_cast<std::int64_t>(p.x) * 3 - 11);
   labels[17] = -4000;  // with one point only
   writer.add_labelled("stripes", points, labels, {});
