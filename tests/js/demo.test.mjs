@@ -156,6 +156,21 @@ page_test("everything can be reached by the keyboard", {}, async (page) => {
   assert.deepEqual(reached.slice(0, expected.length), expected);
 });
 
+page_test("the picture is enlarged, and shows all again", {}, async (page) => {
+  const drawn = async () => {
+    await page.waitForTimeout(200);
+    return page.evaluate(() => document.getElementById("picture").toDataURL());
+  };
+  const whole = await drawn();
+  await page.locator("#larger").click();
+  assert.notEqual(await drawn(), whole);
+  await page.locator("#smaller").click();
+  assert.equal(await drawn(), whole);
+  await page.locator("#larger").click();
+  await page.locator("#fit").click();
+  assert.equal(await drawn(), whole);
+});
+
 page_test("longitudes and latitudes are measured on an equal-area map", {}, async (page) => {
   const degrees = pairs(example(2000)).map(([x, y]) => [x / 100, 55 + y / 100]);
   const geojson = JSON.stringify({ type: "MultiPoint", coordinates: degrees });

@@ -112,6 +112,7 @@ export class Picture {
 
   #draw() {
     const { width, height } = this.#canvas;
+    if (!width || !height) return; // not laid out: it is drawn when it is
     const context = this.#canvas.getContext("2d");
     const colours = getComputedStyle(this.#canvas);
     const colour = (name) => colours.getPropertyValue(name).trim();
@@ -167,14 +168,18 @@ export class Picture {
     const context = this.#points_layer.getContext("2d");
     this.#layer_is_current = true;
     context.clearRect(0, 0, width, height);
-    if (!width || !height) return;
     const { left, top, scale } = this.#transform();
+    const x_of = (i) => Math.floor(left + this.#xy[2 * i] * scale);
+    const y_of = (i) => Math.floor(top - this.#xy[2 * i + 1] * scale);
     const count = this.#xy.length / 2;
-    const side = Math.round(Math.min(3, Math.max(1, Math.sqrt((width * height) / count / 40))) * (devicePixelRatio || 1));
+    let shown = 0;
+    for (let i = 0; i < count; i++) shown += x_of(i) >= 0 && x_of(i) < width && y_of(i) >= 0 && y_of(i) < height;
+    // Few points are drawn larger: as large as leaves room between them.
+    const room = Math.sqrt((width * height) / Math.max(shown, 1) / 40);
+    const side = Math.round(Math.min(3, Math.max(1, room)) * (devicePixelRatio || 1));
     const hits = new Uint16Array(width * height);
     for (let i = 0; i < count; i++) {
-      const x = Math.floor(left + this.#xy[2 * i] * scale - side / 2);
-      const y = Math.floor(top - this.#xy[2 * i + 1] * scale - side / 2);
+      const [x, y] = [x_of(i) - (side >> 1), y_of(i) - (side >> 1)];
       if (x < 0 || y < 0 || x + side > width || y + side > height) continue;
       for (let row = y; row < y + side; row++) {
         for (let column = x; column < x + side; column++) hits[row * width + column]++;
