@@ -56,14 +56,14 @@ WITHOUT_TESTS = $(NATIVE_OPTION) $(shell grep -qs '^HULLBENCH_TESTS:BOOL=ON' bui
   [ -d "$$(sed -n 's/^GTest_DIR:PATH=//p' build/CMakeCache.txt)" ] || echo -DHULLBENCH_TESTS=OFF)
 WITH_TESTS = $(NATIVE_OPTION) -DHULLBENCH_TESTS=ON
 
-.PHONY: help deps deps-extra deps-real deps-legacy build bench bench-quick figures figures-core report report-compare evaluate bench-core bench-gate bench-gate-instructions reference test test-sanitize build-clang test-clang test-fresh test-slurm test-gate fuzz lint format docs clean clean-legacy
+.PHONY: help deps deps-extra deps-real deps-legacy build bench bench-quick figures figures-core report report-compare evaluate bench-core bench-gate bench-gate-instructions reference test test-sanitize build-clang test-clang test-fresh test-slurm test-gate fuzz lint format docs js js-bench clean clean-legacy
 
 help: ## list the targets (the default)
 	@awk 'BEGIN { FS = ":.*## " } /^[a-z-]+:.*## / { printf "  make %-23s %s\n", $$1, $$2 }' Makefile
 	@echo "  with NATIVE=1 (compile for this processor), SKIP_DEPS=1 (install nothing), JOBS=N (N processes)"
 
 deps: ## install every package that is missing, also those for development
-	@cmake/install-packages.sh build bench unit test docs python plots lint gate
+	@cmake/install-packages.sh build bench unit test docs python plots lint gate js
 	@echo "==> nothing is missing"
 
 deps-extra: ## install what the other methods need: those in JavaScript, Python and Java, PCL, the paper's PostGIS
@@ -189,7 +189,7 @@ bench-gate-instructions: ## the same with counted instructions instead of times,
 	@benchmarks/gate/gate.sh --instructions $(if $(BASE),--base "$(BASE)")
 
 test: ## install, build and run all tests, the core's with sanitizers too
-	@$(call install,build bench unit test docs python plots)
+	@$(call install,build bench unit test docs python plots js)
 	@$(MAKE) deps-extra
 	@$(if $(SKIP_DEPS),,cmake/install-npm.sh plots)
 	@$(if $(SKIP_DEPS),,cmake/install-npm.sh tests/report)
@@ -262,8 +262,17 @@ docs: ## the core's reference as HTML in build/docs/core; fails when something p
 	@$(call build,release,$(WITHOUT_TESTS),docs)
 	@echo "==> build/docs/core/html/index.html"
 
+js: ## build the npm package polylidar, the core as WebAssembly, and the page that tries it, in build-js
+	@$(call install,js)
+	@$(if $(SKIP_DEPS),,cmake/install-npm.sh adapters/manifests)
+	@$(call build,js)
+	@echo "==> build-js/polylidar and build-js/demo.html"
+
+js-bench: js ## measure the npm package beside concaveman and delaunator, and write the table of core/js/README.md
+	@node core/js/bench.mjs build-js/polylidar --write core/js/README.md
+
 clean: ## remove what was built; results stay
-	@rm -rf build build-clang build-sanitize build-sanitize-threads build-fuzz build-gate
+	@rm -rf build build-clang build-sanitize build-sanitize-threads build-fuzz build-gate build-js
 	@echo "==> removed build and build-*"
 
 clean-legacy: ## remove the paper's PostGIS

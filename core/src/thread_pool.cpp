@@ -1,5 +1,7 @@
 #include "thread_pool.hpp"
 
+#ifndef POLYLIDAR_ONE_THREAD
+
 namespace polylidar::detail {
 
 void ThreadPool::use(unsigned threads) {
@@ -56,3 +58,5 @@ void ThreadPool::stop() {
 }
 
 }  // namespace polylidar::detail
+
+#endif

@@ -2,16 +2,37 @@
 #pragma once
 
 #include <algorithm>
-#include <atomic>
 #include <cstddef>
+
+#ifdef __wasm__
+#define POLYLIDAR_ONE_THREAD
+#else
+#include <atomic>
 #include <cstdint>
 #include <exception>
 #include <mutex>
 #include <thread>
 #include <utility>
 #include <vector>
+#endif
 
 namespace polylidar::detail {
+
+#ifdef POLYLIDAR_ONE_THREAD
+
+/// WebAssembly's standard library has no threads: the caller's does everything, however many are asked for.
+class ThreadPool {
+ public:
+  void use(unsigned /*threads*/) {}
+  unsigned threads() const { return 1; }
+
+  template <class Task>
+  void for_each(std::size_t count, const Task& task) {
+    for (std::size_t i = 0; i < count; ++i) task(i);
+  }
+};
+
+#else
 
 /// Runs tasks on the caller's thread and, where more than one is wanted, on threads that it starts once and
 /// keeps. With one thread nothing is started, locked or counted. Not for use from several threads at once.
@@ -60,6 +81,8 @@ class ThreadPool {
   alignas(kCacheLine) std::atomic<std::uint32_t> jobs_given_ = 0;
   alignas(kCacheLine) std::atomic<std::uint32_t> still_working_ = 0;
 };
+
+#endif
 
 /// `count` things in consecutive chunks of nearly the same size: one for a single thread, several for each of
 /// many, so that a thread which is held up is waited for by none.

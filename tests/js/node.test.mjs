@@ -1,0 +1,289 @@
+// The npm package in Node: PACKAGE is its folder; native_hulls.mjs says what else the environment names.
+import assert from "node:assert/strict";
+import { readFileSync } from "node:fs";
+import { createRequire } from "node:module";
+import { join } from "node:path";
+import { before, test } from "node:test";
+import { pathToFileURL } from "node:url";
+import { assert_same, native_cases, plain } from "./native_hulls.mjs";
+
+const { PACKAGE } = process.env;
+const polylidar = await import(pathToFileURL(join(PACKAGE, "polylidar.js")));
+const { concaveHull, concaveHulls, concaveman } = polylidar;
+
+let cases;
+before(() => (cases = native_cases()));
+
+/** `count` points in a square, the same ones each time. */
+function square(count, side = 1, x0 = 0) {
+  let state = 1;
+  const next = () => (state = (state * 48271) % 2147483647) / 2147483647;
+  return Array.from({ length: count }, () => [x0 + side * next(), side * next()]);
+}
+
+/** Whether a point is inside a closed ring or on it. */
+function holds(ring, [x, y]) {
+  let inside = false;
+  for (let i = 1; i < ring.length; i++) {
+    const [[ax, ay], [bx, by]] = [ring[i - 1], ring[i]];
+    if ((ax === x && ay === y) || (bx === x && by === y)) return true;
+    if (ay > y !== by > y && x < ax + ((bx - ax) * (y - ay)) / (by - ay)) inside = !inside;
+  }
+  return inside;
+}
+
+test("hulls are those of the native core, index by index", () => {
+  let compared = 0;
+  for (const { name, points, hulls } of cases.filter((each) => each.hulls)) {
+    for (const { options, ...expected } of hulls) {
+      assert_same(plain(concaveHull(points, options)), expected, `${name} ${JSON.stringify(options)}`);
+      compared += expected.vertices.length > 0;
+    }
+  }
+  assert.ok(compared > 200, `only ${compared} hulls are not empty`);
+});
+
+test("hulls by labels are those of the native core", () => {
+  const labelled = cases.filter((each) => each.labelled);
+  assert.equal(labelled.length, 2);
+  for (const { name, points, labels, options, labelled: expected } of labelled) {
+    const hulls = concaveHulls(points, labels, options);
+    assert.deepEqual(
+      hulls.map(({ label }) => label),
+      expected.map(({ label }) => label),
+    );
+    hulls.forEach(({ hull }, i) => assert_same(plain(hull), expected[i], `${name}, label ${expected[i].label}`));
+  }
+});
+
+test("labels may be words, and come in ascending order", () => {
+  const points = [...square(50), ...square(50, 1, 5), ...square(50, 1, 9)];
+  const labels = points.map(([x]) => (x < 2 ? "pear" : x < 7 ? "apple" : "fig"));
+  const hulls = concaveHulls(points, labels);
+  assert.deepEqual(
+    hulls.map(({ label }) => label),
+    ["apple", "fig", "pear"],
+  );
+  assert.ok([...hulls[2].hull.vertices].every((i) => labels[i] === "pear"));
+  assert.deepEqual(concaveHulls([], []), []);
+});
+
+test("a hull is a GeoJSON geometry", () => {
+  const ring = [];
+  for (let x = 0; x < 20; x++) for (let y = 0; y < 20; y++) if (x < 5 || x > 14 || y < 5 || y > 14) ring.push([x, y]);
+  const hull = concaveHull(ring, { maxEdgeLength: 1.5 });
+  const { type, coordinates } = JSON.parse(JSON.stringify(hull));
+  assert.equal(type, "MultiPolygon");
+  assert.equal(coordinates.length, 1);
+  assert.equal(coordinates[0].length, 2, "a shell and a hole");
+  for (const closed of coordinates[0]) assert.deepEqual(closed[0], closed.at(-1));
+  assert.deepEqual(
+    coordinates[0][0].slice(0, -1),
+    [...hull.vertices.subarray(0, hull.ringEnds[0])].map((i) => ring[i]),
+  );
+  assert.equal(hull.area, 19 * 19 - 11 * 11 + 4 * 0.5); // the hole's corners are cut
+});
+
+test("points may be of any numeric type", () => {
+  const points = square(300, 1000).map(([x, y]) => [Math.round(x), Math.round(y), 7]);
+  const flat = points.flatMap(([x, y]) => [x, y]);
+  const expected = plain(concaveHull(points));
+  assert.ok(expected.vertices.length > 3);
+  for (const type of [Float64Array, Float32Array, Int32Array, Uint16Array]) {
+    assert.deepEqual(plain(concaveHull(type.from(flat))), expected, type.name);
+  }
+});
+
+test("no points, too few and those on a line have no hull", () => {
+  for (const points of [
+    [],
+    [[1, 2]],
+    [
+      [0, 0],
+      [3, 4],
+      [3, 4],
+    ],
+    [
+      [0, 0],
+      [1, 1],
+      [2, 2],
+      [3, 3],
+    ],
+  ]) {
+    const hull = concaveHull(points);
+    assert.deepEqual(hull.coordinates, []);
+    assert.equal(hull.area, 0);
+    assert.equal(hull.chosenSizes, null);
+  }
+});
+
+test("errors say what the core says, and leave the module in order", () => {
+  const points = square(100);
+  const expected = plain(concaveHull(points));
+  const errors = [
+    [() => concaveHull([...points, [Infinity, 0]]), RangeError, "point 100 is not finite"],
+    [
+      () =>
+        concaveHull([
+          [0, 0],
+          [1, 0],
+          [undefined, 1],
+        ]),
+      RangeError,
+      "point 2 is not finite",
+    ],
+    [() => concaveHull(points, { detail: 0 }), RangeError, "detail must be positive and finite"],
+    [() => concaveHull(points, { alpha: -1 }), RangeError, "alpha must be zero or more"],
+    [() => concaveHull(points, { maxPerimeter: NaN }), RangeError, "max_perimeter must be zero or more"],
+    [() => concaveHulls(points, [1, 2]), RangeError, "there must be one label a point"],
+    [
+      () =>
+        concaveHull([
+          [0, 0],
+          [1e-300, 1],
+          [1e300, 2],
+        ]),
+      RangeError,
+      /^coordinates span more than a factor of/,
+    ],
+    [() => concaveHull(points, { aplha: 1 }), TypeError, /^there is no option 'aplha': there are detail, alpha/],
+    [() => concaveHull(new Float64Array(5)), TypeError, /length is odd/],
+    [() => concaveHull("points"), TypeError, /^points must be an array/],
+    [() => concaveHull([[0, 0], null]), TypeError, "point 1 is not an array of x and y"],
+    [() => concaveHulls([[0, 0]], [{}]), TypeError, "label 0 is neither a number nor a string"],
+  ];
+  for (const [call, type, message] of errors) {
+    assert.throws(call, (error) => {
+      assert.ok(error instanceof type, `${error.name}: ${error.message}`);
+      assert.match(error.message, message instanceof RegExp ? message : new RegExp(`^${message}$`));
+      return true;
+    });
+    assert.deepEqual(plain(concaveHull(points)), expected);
+  }
+});
+
+test("any number of errors leaves no trace", () => {
+  for (let i = 0; i < 3000; i++)
+    assert.throws(
+      () =>
+        concaveHull([
+          [0, 0],
+          [NaN, 1],
+        ]),
+      /^RangeError: point 1 is not finite$/,
+    );
+  assert.equal(
+    concaveHull([
+      [0, 0],
+      [1, 0],
+      [0, 1],
+    ]).area,
+    0.5,
+  );
+});
+
+test("memory that does not suffice is an error like any other", () => {
+  assert.throws(() => concaveHull(new Float64Array(2 ** 26 + 2)), {
+    name: "RangeError",
+    message: /^there is not enough memory/,
+  });
+  assert.equal(
+    concaveHull([
+      [0, 0],
+      [1, 0],
+      [0, 1],
+    ]).area,
+    0.5,
+  );
+});
+
+test("CommonJS gives the same", () => {
+  const required = createRequire(import.meta.url)(join(PACKAGE, "polylidar.cjs"));
+  assert.deepEqual(Object.keys(required).sort(), Object.keys(polylidar).sort());
+  const points = square(200);
+  assert.deepEqual(plain(required.concaveHull(points)), plain(concaveHull(points)));
+});
+
+test("the types name what there is", () => {
+  const types = readFileSync(join(PACKAGE, "polylidar.d.ts"), "utf8");
+  const functions = [...types.matchAll(/^export function (\w+)/gm)].map(([, name]) => name);
+  assert.deepEqual(functions.sort(), Object.keys(polylidar).sort());
+});
+
+test("concaveman's ring is closed, of the points themselves and has all points inside", () => {
+  const sets = {
+    "one square": square(1000),
+    "two squares far apart": [...square(300), ...square(300, 1, 4)],
+    "a square and an outlier": [...square(300), [3, 3]],
+    "a letter L": square(1500).filter(([x, y]) => x < 0.3 || y < 0.3),
+    "a dense square in a sparse one": [...square(200, 1), ...square(2000, 0.1)],
+  };
+  for (const [name, points] of Object.entries(sets)) {
+    const given = structuredClone(points);
+    const areas = [0.5, 1, 2, 4, Infinity].map((concavity) => {
+      const ring = concaveman(points, concavity);
+      assert.equal(ring[0], ring.at(-1), `${name}: the ring is closed`);
+      assert.ok(
+        ring.every((point) => points.includes(point)),
+        `${name}: members of the array`,
+      );
+      assert.equal(new Set(ring).size, ring.length - 1, `${name}: each point once`);
+      assert.ok(
+        points.every((point) => holds(ring, point)),
+        `${name}, concavity ${concavity}: a point is outside`,
+      );
+      return area_of(ring);
+    });
+    for (let i = 1; i < areas.length; i++) assert.ok(areas[i] >= areas[i - 1], `${name}: ${areas}`);
+    assert.equal(areas.at(-1), concaveHull(points, { alpha: Infinity }).area, `${name}: the convex hull`);
+    assert.deepEqual(points, given, `${name}: the points are left as they were`);
+  }
+  assert.ok(area_of(concaveman(sets["a letter L"])) < 0.6, "the notch of the L is found");
+});
+
+test("concaveman's ring is the hull's shell where one part has all points, holes or not", () => {
+  const points = square(3000).filter(([x, y]) => Math.hypot(x - 0.4, y - 0.4) > 0.2 && (x < 0.8 || y < 0.6));
+  const hull = concaveHull(points);
+  assert.equal(hull.polygonEnds.length, 1);
+  assert.equal(hull.ringEnds.length, 2);
+  assert.deepEqual(concaveman(points), hull.coordinates[0][0]);
+});
+
+test("concaveman's lengthThreshold and its default arguments", () => {
+  const points = square(3000).filter(([x, y]) => x < 0.3 || y < 0.3);
+  assert.deepEqual(concaveman(points), concaveman(points, 2, 0));
+  const lengths = [0, 0.05, 0.2, 5].map((threshold) => concaveman(points, 1, threshold).length);
+  for (let i = 1; i < lengths.length; i++) assert.ok(lengths[i] <= lengths[i - 1], `${lengths}`);
+  for (const threshold of [5, Infinity]) assert.deepEqual(concaveman(points, 1, threshold), concaveman(points, Infinity));
+});
+
+test("concaveman's ring of points without an area", () => {
+  assert.deepEqual(concaveman([]), []);
+  assert.deepEqual(concaveman([[1, 2]]), [
+    [1, 2],
+    [1, 2],
+    [1, 2],
+  ]);
+  assert.deepEqual(
+    concaveman([
+      [2, 2],
+      [0, 0],
+      [1, 1],
+    ]),
+    [
+      [0, 0],
+      [2, 2],
+      [0, 0],
+    ],
+  );
+  assert.throws(() => concaveman(new Float64Array(6)), TypeError);
+});
+
+function area_of(ring) {
+  let sum = 0;
+  for (let i = 1; i < ring.length; i++) {
+    const [[ax, ay], [bx, by]] = [ring[i - 1], ring[i]];
+    sum += (ax - ring[0][0]) * (by - ring[0][1]) - (bx - ring[0][0]) * (ay - ring[0][1]);
+  }
+  return sum / 2;
+}
