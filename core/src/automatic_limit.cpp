@@ -102,14 +102,14 @@ double AutomaticLimit::measure_block(const Mesh& mesh, const Point* vertices, st
     for (Mesh::Index i = 0; begin + 2 * step * (i / 2) + i % 2 < end; ++i) {
       const Mesh::Index t = begin + 2 * step * (i / 2) + i % 2;
       if (mesh.is_ghost(t)) continue;
-      const Triangle triangle(mesh, vertices, t);
-      sizes.push_back(triangle.size4());
-      const std::array squared{triangle.squared_ab(), triangle.squared_bc(), triangle.squared_ca()};
+      sizes.push_back(Triangle(mesh, vertices, t).size4());
       for (Mesh::Index k = 0; k < 3; ++k) {
-        const Mesh::Index other = Mesh::triangle_of(mesh.twin(Mesh::kStride * t + k));
-        const auto neighbour = static_cast<std::uint32_t>(field_.block_of_vertex[other / 2]);
-        if (neighbour == block || mesh.is_ghost(other)) continue;
-        const double length4 = squared[k] * squared[k];
+        const Mesh::Index twin = mesh.twin(Mesh::kStride * t + k);
+        const std::uint32_t neighbour = field_.block_of_vertex[Mesh::triangle_of(twin) / 2];
+        if (neighbour == block || mesh.is_ghost(Mesh::triangle_of(twin))) continue;
+        const double squared =
+            squared_length(vertices[mesh.origin(Mesh::kStride * t + k)] - vertices[mesh.origin(twin)]);
+        const double length4 = squared * squared;
         std::size_t known = first_border;
         while (known < borders.size() && borders[known].neighbour != neighbour) ++known;
         if (known == borders.size()) borders.push_back({block, neighbour, length4});
