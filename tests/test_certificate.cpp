@@ -224,7 +224,7 @@ TEST(Grid, PutsPointsIntoTheirCells) {
     const Box box{origin, {origin.x + size, origin.y + size * random.unit()}};
     const double cells_per_length = random.between(1, 2000) / size;
     const Grid grid(box, cells_per_length);
-    EXPECT_EQ(Grid::cell_count(box, cells_per_length), static_cast<double>(grid.columns()) * grid.rows());
+    EXPECT_EQ(Grid::cell_count(box, cells_per_length), static_cast<double>(grid.columns() * grid.rows()));
     for (int k = 0; k < 100; ++k) {
       Point p{box.min.x + (box.max.x - box.min.x) * random.unit(),
               box.min.y + (box.max.y - box.min.y) * random.unit()};
@@ -232,8 +232,8 @@ TEST(Grid, PutsPointsIntoTheirCells) {
       if (k == 1) p = box.min;
       const Grid::Cell cell = grid.cell(p);
       const Grid::Cell row_bits = grid.row_words() * Grid::kWordBits;
-      const double column = cell % row_bits - 64.0;
-      const double row = cell / row_bits - static_cast<double>(Grid::kMargin);
+      const double column = static_cast<double>(cell % row_bits) - 64.0;
+      const double row = static_cast<double>(cell / row_bits) - static_cast<double>(Grid::kMargin);
       const long double u = (static_cast<long double>(p.x) - box.min.x) * cells_per_length;
       const long double v = (static_cast<long double>(p.y) - box.min.y) * cells_per_length;
       EXPECT_GE(u, column - Grid::kSlack);
@@ -260,9 +260,9 @@ bool pairs_may_exist(const std::vector<Point>& points, double distance) {
   Bitmap shared;
   occupied.clear(grid.word_count());
   shared.clear(grid.word_count());
-  std::vector<Grid::Cell> cells;
+  std::vector<std::uint32_t> cells;
   for (const Point& p : points) {
-    cells.push_back(grid.cell(p));
+    cells.push_back(static_cast<std::uint32_t>(grid.cell(p)));
     if (occupied.test(cells.back())) shared.set(cells.back());
     occupied.set(cells.back());
   }

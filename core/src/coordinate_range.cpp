@@ -109,16 +109,34 @@ double common_unit(std::span<const Point> points, double too_small) {
   return unit;
 }
 
-}  // namespace
-
-CoordinateRange measure_coordinates(std::span<const Point> points, ThreadPool& pool) {
+/// Throws std::invalid_argument when a coordinate is not finite; `first` is the number of the first point.
+Magnitudes measure_all(std::span<const Point> points, ThreadPool& pool, std::uint64_t first) {
   Magnitudes magnitudes;
   for (const Magnitudes& part : of_each_chunk(points, pool, measure)) magnitudes.add(part);
-  if (std::isnan(magnitudes.poison)) {
-    const auto bad = std::find_if(points.begin(), points.end(),
-                                  [](const Point& p) { return !std::isfinite(p.x) || !std::isfinite(p.y); });
-    throw std::invalid_argument("point " + std::to_string(bad - points.begin()) + " is not finite");
-  }
+  if (!std::isnan(magnitudes.poison)) return magnitudes;
+  const auto bad = std::find_if(points.begin(), points.end(),
+                                [](const Point& p) { return !std::isfinite(p.x) || !std::isfinite(p.y); });
+  throw std::invalid_argument(
+      "point " + std::to_string(first + static_cast<std::uint64_t>(bad - points.begin())) + " is not finite");
+}
+
+}  // namespace
+
+void RangeOfBlocks::add(std::span<const Point> block, ThreadPool& pool) {
+  Magnitudes all = measure_all(block, pool, count_);
+  all.add({box_, largest_, smallest_, 0});
+  box_ = all.box;
+  largest_ = all.largest;
+  smallest_ = all.smallest;
+  count_ += block.size();
+}
+
+CoordinateRange RangeOfBlocks::range() const {
+  return {box_, choose_scale({box_, largest_, smallest_, 0}), 0};
+}
+
+CoordinateRange measure_coordinates(std::span<const Point> points, ThreadPool& pool) {
+  const Magnitudes magnitudes = measure_all(points, pool, 0);
   CoordinateRange range;
   range.box = magnitudes.box;
   range.scale_exponent = choose_scale(magnitudes);

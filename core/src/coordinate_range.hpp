@@ -2,6 +2,8 @@
 // lattice.
 #pragma once
 
+#include <cstdint>
+#include <limits>
 #include <span>
 
 #include "polylidar/geometry.hpp"
@@ -22,5 +24,23 @@ struct CoordinateRange {
 /// Of at least one point. Throws std::invalid_argument when a coordinate is not finite or coordinates span
 /// more than the supported range (see Extractor).
 CoordinateRange measure_coordinates(std::span<const Point> points, ThreadPool& pool);
+
+/// The range of points that come block by block; without `unit`.
+class RangeOfBlocks {
+ public:
+  /// Throws std::invalid_argument when a coordinate is not finite; counts the points from the first block on.
+  void add(std::span<const Point> block, ThreadPool& pool);
+  std::uint64_t count() const { return count_; }
+  /// Of at least one point. Throws as measure_coordinates.
+  CoordinateRange range() const;
+
+ private:
+  Box box_{{kNone, kNone}, {-kNone, -kNone}};
+  double largest_ = 0;
+  double smallest_ = kNone;
+  std::uint64_t count_ = 0;
+
+  static constexpr double kNone = std::numeric_limits<double>::infinity();
+};
 
 }  // namespace polylidar::detail

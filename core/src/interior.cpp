@@ -11,15 +11,6 @@ namespace polylidar::detail {
 
 namespace {
 
-/// The certificate's radius is smaller than r by this share, and two points so much closer than r are too
-/// close: INTERIOR.md derives both from the rounding of the filter's rules.
-constexpr double kSafety = 0x1p-8;
-constexpr double kTooClose = 0x1p-40;
-
-/// A radius well beyond the spacing makes a wider part, not a smaller one: the greatest that is worth taking,
-/// in multiples of the spacing that the points would have if they filled their box.
-constexpr double kWidestInSpacings = 2.5;
-
 /// At most one point in so many is looked at before the others.
 constexpr std::size_t kLeastStep = 32;
 
@@ -50,7 +41,20 @@ void append(std::vector<std::uint32_t>& all, const std::vector<std::uint32_t>& p
   all.insert(all.end(), part.begin(), part.end());
 }
 
+void mark(const Grid& grid, Grid::Cell cell, std::span<const unsigned> half_widths, Bitmap& reached) {
+  const Grid::Cell row_bits = grid.row_words() * Grid::kWordBits;
+  Grid::Cell centre = cell - rows_below(half_widths) * row_bits;
+  for (const unsigned half_width : half_widths) {
+    reached.set_run(centre - half_width, 2 * half_width + 1);
+    centre += row_bits;
+  }
+}
+
 }  // namespace
+
+void mark_reach(const Grid& grid, Grid::Cell cell, Bitmap& reached) {
+  mark(grid, cell, kHalfWidths, reached);
+}
 
 double least_dropped_radius(const Limits& limits) {
   constexpr double kPerimeterOfRadius = 5.196152422706632;  // 3 sqrt(3)
@@ -98,7 +102,7 @@ double InteriorPart::choose_grid(std::span<const Point> points, const Box& box, 
 
 /// Puts the points into their cells, each thread into a bitmap of its own.
 void InteriorPart::fill_cells(std::span<const Point> points, bool with_shared, ThreadPool& pool) {
-  Grid::Cell* const cells = cells_.reserve(points.size());
+  std::uint32_t* const cells = cells_.reserve(points.size());
   const std::size_t words = grid_.word_count();
   const std::size_t parts = pool.threads();
   while (fills_.size() < parts) fills_.emplace_back();
@@ -108,7 +112,7 @@ void InteriorPart::fill_cells(std::span<const Point> points, bool with_shared, T
     if (with_shared) shared.clear(words);
     const std::size_t end = points.size() * (part + 1) / parts;
     for (std::size_t i = points.size() * part / parts; i < end; ++i) {
-      cells[i] = grid_.cell(points[i]);
+      cells[i] = static_cast<std::uint32_t>(grid_.cell(points[i]));
       if (with_shared && occupied.test(cells[i])) shared.set(cells[i]);
       occupied.set(cells[i]);
     }
@@ -202,16 +206,11 @@ void InteriorPart::reach_farther(std::span<const Point> points, ThreadPool& pool
 void InteriorPart::mark_reach(std::span<const unsigned> half_widths) {
   reached_.clear(grid_.word_count());
   uncertain_cells_.clear(grid_.word_count());  // from now on, of the points that are
-  const Grid::Cell row_bits = grid_.row_words() * Grid::kWordBits;
   for (const std::uint32_t point : uncertain_) {
     const Grid::Cell cell = cells_.data()[point];
     if (uncertain_cells_.test(cell)) continue;
     uncertain_cells_.set(cell);
-    Grid::Cell centre = cell - rows_below(half_widths) * row_bits;
-    for (const unsigned half_width : half_widths) {
-      reached_.set_run(centre - half_width, 2 * half_width + 1);
-      centre += row_bits;
-    }
+    mark(grid_, cell, half_widths, reached_);
   }
 }
 

@@ -41,6 +41,17 @@ struct InteriorGuard {
 /// circle of radius r has a greater perimeter than 3 sqrt(3) r. Infinite without limits.
 double least_dropped_radius(const Limits& limits);
 
+/// The certificate's radius is smaller than r by this share, and two points so much closer than r are too
+/// close: INTERIOR.md derives both from the rounding of the filter's rules.
+inline constexpr double kSafety = 0x1p-8;
+inline constexpr double kTooClose = 0x1p-40;
+/// A radius well beyond the spacing makes a wider part, not a smaller one: the greatest that is worth taking,
+/// in multiples of the spacing that the points would have if they filled their box.
+inline constexpr double kWidestInSpacings = 2.5;
+
+/// Marks the cells that may hold a point within 2 r of one in `cell`.
+void mark_reach(const Grid& grid, Grid::Cell cell, Bitmap& reached);
+
 /// The points that decide on the shape, keeping its memory between calls.
 ///
 /// With the points P and a radius r as in least_dropped_radius, all points are *uncertain* but those that are
@@ -93,9 +104,9 @@ class InteriorPart {
   };
 
   Grid grid_;
-  Scratch<Grid::Cell> cells_;  ///< point -> its cell
-  std::deque<Fill> fills_;     ///< of each thread; at last the first is that of all
-  std::vector<Chunk> chunks_;  ///< what was found in each chunk of the points
+  Scratch<std::uint32_t> cells_;  ///< point -> its cell
+  std::deque<Fill> fills_;        ///< of each thread; at last the first is that of all
+  std::vector<Chunk> chunks_;     ///< what was found in each chunk of the points
   Bitmap uncertain_cells_;
   Bitmap reached_;  ///< cells of the part
   ClosePairs close_pairs_;

@@ -41,7 +41,7 @@ void Bitmap::clear(std::size_t words) {
   std::fill_n(words_, words, Word{0});
 }
 
-bool ClosePairs::may_exist(std::span<const Point> points, const Grid& grid, const Grid::Cell* cells,
+bool ClosePairs::may_exist(std::span<const Point> points, const Grid& grid, const std::uint32_t* cells,
                            const Bitmap& shared, double distance) {
   constexpr std::size_t kMostInACell = 32;
   constexpr std::size_t kMostOnBorders = 8;

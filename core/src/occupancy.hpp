@@ -21,13 +21,13 @@ namespace polylidar::detail {
 /// cell and for rows.
 class Grid {
  public:
-  using Cell = std::uint32_t;
+  using Cell = std::uint64_t;
   static constexpr Cell kWordBits = 64;
   /// Rows above and below, and at most so many columns on either side, that may be looked at beyond the box.
   static constexpr Cell kMargin = 17;
   static constexpr double kSlack = 0x1p-30;
   static constexpr double kMostColumns = 0x1p20;  ///< and rows
-  static constexpr double kMostCells = 0x1p31;    ///< with the margin
+  static constexpr double kMostCells = 0x1p31;    ///< with the margin, where points keep theirs in 32 bits
 
   Grid() = default;
   /// Over a box of finite extent; for grids that fit() says yes to.
@@ -38,13 +38,12 @@ class Grid {
         rows_(static_cast<Cell>((box.max.y - box.min.y) * cells_per_length) + 1),
         row_words_((columns_ + kWordBits - 1) / kWordBits + 2) {}
 
-  /// How many cells a grid has, without the margin; infinite where it does not fit into the numbers used
-  /// here.
-  static double cell_count(const Box& box, double cells_per_length) {
+  /// How many cells a grid has, without the margin; infinite where there would be too many.
+  static double cell_count(const Box& box, double cells_per_length, double most_cells = kMostCells) {
     const double columns = std::floor((box.max.x - box.min.x) * cells_per_length) + 1;
     const double rows = std::floor((box.max.y - box.min.y) * cells_per_length) + 1;
     const double with_margin = (columns + 3 * kWordBits) * (rows + 2 * kMargin);
-    const bool fits = columns <= kMostColumns && rows <= kMostColumns && with_margin <= kMostCells;
+    const bool fits = columns <= kMostColumns && rows <= kMostColumns && with_margin <= most_cells;
     return fits ? columns * rows : HUGE_VAL;
   }
 
@@ -59,8 +58,9 @@ class Grid {
   double column(const Point& p) const { return (p.x - minimum_.x) * cells_per_length_; }
   double row(const Point& p) const { return (p.y - minimum_.y) * cells_per_length_; }
   Cell cell(const Point& p) const {
-    const auto row = static_cast<Cell>(static_cast<std::int32_t>(this->row(p)));
-    const auto column = static_cast<Cell>(static_cast<std::int32_t>(this->column(p)));
+    const auto row = static_cast<Cell>(static_cast<std::uint32_t>(static_cast<std::int32_t>(this->row(p))));
+    const auto column =
+        static_cast<Cell>(static_cast<std::uint32_t>(static_cast<std::int32_t>(this->column(p))));
     return (row + kMargin) * row_words_ * kWordBits + kWordBits + column;
   }
 
@@ -80,6 +80,12 @@ class Bitmap {
   void clear(std::size_t words);
   bool test(Grid::Cell cell) const {
     return ((words_[cell / Grid::kWordBits] >> (cell % Grid::kWordBits)) & 1U) != 0;
+  }
+  /// As set(), of several threads.
+  void set_shared(Grid::Cell cell) {
+    const Word bit = Word{1} << (cell % Grid::kWordBits);
+    Word* const word = &words_[cell / Grid::kWordBits];
+    if ((__atomic_load_n(word, __ATOMIC_RELAXED) & bit) == 0) __atomic_fetch_or(word, bit, __ATOMIC_RELAXED);
   }
   void set(Grid::Cell cell) { words_[cell / Grid::kWordBits] |= Word{1} << (cell % Grid::kWordBits); }
   /// Sets the `count` < 64 bits from `first` on.
@@ -110,7 +116,7 @@ class Bitmap {
 /// of cells.
 class ClosePairs {
  public:
-  bool may_exist(std::span<const Point> points, const Grid& grid, const Grid::Cell* cells,
+  bool may_exist(std::span<const Point> points, const Grid& grid, const std::uint32_t* cells,
                  const Bitmap& shared, double distance);
 
  private:

@@ -1,0 +1,66 @@
+// The concave hull of points that do not fit into memory.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <span>
+#include <vector>
+
+#include "polylidar/concave_hull.hpp"
+
+namespace polylidar {
+
+/// Points that can be read again from the start, block by block: a file.
+class PointSource {
+ public:
+  virtual ~PointSource() = default;
+  /// Goes back to the first point.
+  virtual void rewind() = 0;
+  /// The next points, some millions at most; none at the end. Valid until the next call.
+  virtual std::span<const Point> next() = 0;
+};
+
+/// How far a stream has come: which pass over the source, from 1 to `passes`, and how many points of it.
+struct StreamProgress {
+  int pass = 0;
+  int passes = 4;
+  std::uint64_t points = 0;
+};
+
+/// What of a stream is not in Options.
+struct StreamOptions {
+  /// The most that one of the two maps of occupied cells may take, in bytes. They make up most of the memory
+  /// where points are many and the outline is short.
+  double most_map_bytes = 0x1p30;
+  /// Called after each block; may throw, which ends the work.
+  std::function<void(const StreamProgress&)> progress = {};
+};
+
+/// The concave hull of a source.
+struct StreamedHull {
+  /// As to_coordinates() gives it.
+  MultiPolygon polygons;
+  /// The numbers of the points that are its vertices, ring after ring in the order of `polygons`; the first
+  /// point of the source has the number 0.
+  std::vector<std::uint64_t> vertices;
+  std::uint64_t points = 0;               ///< of the source
+  std::uint64_t triangulated_points = 0;  ///< near the outline
+};
+
+/// concave_hull() of all points of `source`, read four times: where they are, which cells of a grid they
+/// occupy, which of them may be on the outline, and which are near these (core/INTERIOR.md). Memory: some
+/// bits a cell of a sixth of the limit's radius, and 110 bytes a point near the outline.
+///
+/// The result is that of concave_hull() for the same points in memory, with one exception: where two
+/// different points are closer than 2^-40 of `alpha`, rounding may there drop slivers that are kept here. Up
+/// to 65,536 points are put into memory; of more, `options` must give a limit. At most 2^28 points may be
+/// near the outline.
+///
+/// Throws std::invalid_argument as concave_hull, or where no limit is given; std::runtime_error where the
+/// source gives other points than the time before, where the limit is too small for the distances between the
+/// points, so that the maps would be too large or too much is near the outline, or where the rounding of a
+/// triangle's size decides whether it is kept (a slightly different limit helps); and what the source throws.
+StreamedHull concave_hull(PointSource& source, const Options& options,
+                          const StreamOptions& stream_options = {});
+
+}  // namespace polylidar
