@@ -108,7 +108,7 @@ def concave_hulls(
         fill_single_triangles,
         _thread_count(threads),
     )
-    return {label: MultiPolygon(array, *shape) for label, *shape in hulls}
+    return {label: MultiPolygon(array, vertices, rings, parts, area) for label, vertices, rings, parts, area in hulls}
 
 
 def delaunay(points: npt.ArrayLike) -> npt.NDArray[np.uint32]:
