@@ -32,8 +32,8 @@ def flags_that_matter(command):
     """What changes the code that comes out, of a compiler's command line: of every flag the last one."""
     matter = {}
     for word in shlex.split(command):
-        if re.match(r"-(O|std=|f(?!stack-protector|wrapv|PIC|diagnostics))", word):
-            matter[re.match(r"-(O|std|f(no-)?[a-z-]+)", word)[0]] = word
+        if re.match(r"-(O|std=|f(?!diagnostics))", word):
+            matter[re.match(r"-(O|std|f[A-Za-z-]+)", word)[0]] = word
     return set(matter.values())
 
 
@@ -60,7 +60,9 @@ class Wheel(unittest.TestCase):
         run(cls.python, "-m", "pip", "--disable-pip-version-check", "install", "--no-index", cls.wheel)
 
     def in_environment(self, *words, **more):
-        return run(self.python, "-B", *words, env={**os.environ, "PYTHONPATH": str(ROOT / "tests"), **more}, cwd=self.folder)
+        # Debian 13's pyproj, which GeoPandas needs, does not look for PROJ's data beyond the environment.
+        known = {"PYTHONPATH": str(ROOT / "tests"), "PROJ_DATA": str(pathlib.Path(sys.base_prefix, "share", "proj"))}
+        return run(self.python, "-B", *words, env={**os.environ, **known, **more}, cwd=self.folder)
 
     def test_the_module_is_the_installed_one_and_passes_its_tests(self):
         where = self.in_environment("-c", "import polylidar_core; print(polylidar_core.__file__)")
@@ -87,9 +89,9 @@ for seed in range(5):
         commands = {entry["file"]: entry["command"] for entry in json.loads((BUILD / "compile_commands.json").read_text())}
         for source in sources:
             name = f"core/src/{source.name}"
-            # Only the compiler's own words: a launcher may stand before it.
             (ours,) = (line for line in self.log.splitlines() if f"-c {name} -o" in line)
-            self.assertEqual(flags_that_matter(ours), flags_that_matter(commands[str(source)]), name)
+            # Python's own flags stand before ours, and may be more.
+            self.assertLessEqual(flags_that_matter(commands[str(source)]), flags_that_matter(ours), name)
         self.assertIn("-ffp-contract=off", flags_that_matter(ours))
 
     def test_the_wheel_has_the_package_the_licence_and_nothing_else(self):
