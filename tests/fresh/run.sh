@@ -309,7 +309,7 @@ prove_packages() {
     new_root make-package root || return 0
     step "packages: make package" as_reader "$root" root "make package" || { remove_root; return 0; }
     mkdir "$made"
-    cp "$root"/root/hullbench/build/packages/*.deb "$made"
+    cp "$root/root/hullbench/build/packages"/*.deb "$made"
     remove_root
   fi
   new_root packages root || return 0
