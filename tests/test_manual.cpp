@@ -4,7 +4,7 @@
 #include <CLI/CLI.hpp>
 #include <string>
 
-#include "packaging/manual.hpp"
+#include "packaging/manual/manual.hpp"
 #include "tests/program.hpp"
 #include "tests/temporary_folder.hpp"
 

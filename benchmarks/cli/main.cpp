@@ -4,7 +4,7 @@
 
 #include "benchmarks/base/configuration_error.hpp"
 #include "benchmarks/cli/options.hpp"
-#include "packaging/manual.hpp"
+#include "packaging/manual/manual.hpp"
 
 namespace {
 

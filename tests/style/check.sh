@@ -132,7 +132,7 @@ check_printing() {
   [ -z "$found" ] || { printf 'error: a library prints:\n%s\n' "$found" >&2; return 1; }
 }
 
-# CMake's files and the Python package read it; these cannot.
+# CMake's files and the packages of Python and npm take it from there; these cannot.
 check_version() {
   local version stated status=0
   version=$(sed -n 's/^project(hullbench VERSION \([0-9.]*\) .*/\1/p' CMakeLists.txt)
@@ -142,9 +142,6 @@ check_version() {
   done < <(
     printf 'CITATION.cff\t%s\n' "$(sed -n 's/^version: //p' CITATION.cff)"
     printf 'CHANGELOG.md\t%s\n' "$(sed -n 's/^## \([0-9.]*\), [0-9]*-[0-9]*-[0-9]*$/\1/p' CHANGELOG.md | head -n 1)"
-    # The first version in npm's file is the package's own.
-    [ ! -e core/js/package.json ] ||
-      printf 'core/js/package.json\t%s\n' "$(sed -n 's/^ *"version": "\(.*\)".*/\1/p' core/js/package.json | head -n 1)"
   )
   # Before 1.0 a minor version may change the interface, and is what a program asks for.
   for file in core/README.md tests/package/CMakeLists.txt; do

@@ -1,4 +1,4 @@
-#include "packaging/manual.hpp"
+#include "packaging/manual/manual.hpp"
 
 #include <algorithm>
 #include <filesystem>
