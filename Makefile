@@ -56,7 +56,7 @@ WITHOUT_TESTS = $(NATIVE_OPTION) $(shell grep -qs '^HULLBENCH_TESTS:BOOL=ON' bui
   [ -d "$$(sed -n 's/^GTest_DIR:PATH=//p' build/CMakeCache.txt)" ] || echo -DHULLBENCH_TESTS=OFF)
 WITH_TESTS = $(NATIVE_OPTION) -DHULLBENCH_TESTS=ON
 
-.PHONY: help deps deps-extra deps-real deps-legacy build bench bench-quick figures figures-core report report-compare evaluate bench-core bench-gate bench-gate-instructions reference test test-sanitize build-clang test-clang test-fresh test-slurm test-gate fuzz lint format docs package clean clean-legacy
+.PHONY: help deps deps-extra deps-real deps-legacy build bench bench-quick figures figures-core report report-compare evaluate bench-core bench-gate bench-gate-instructions reference test test-sanitize build-clang test-clang test-fresh test-slurm test-gate fuzz lint format docs clean clean-legacy
 
 help: ## list the targets (the default)
 	@awk 'BEGIN { FS = ":.*## " } /^[a-z-]+:.*## / { printf "  make %-23s %s\n", $$1, $$2 }' Makefile
@@ -83,6 +83,12 @@ deps-legacy: ## get the paper's PostGIS (3.1, from Debian 11) into a folder of c
 build: ## only build: build/hullbench and build/core_benchmarks
 	@$(call build,release,$(WITHOUT_TESTS),hullbench core_benchmarks)
 	@echo "==> built build/hullbench and build/core_benchmarks"
+
+.PHONY: package
+package: ## make Debian packages of the library, the Python module and the programs in build/packages
+	@$(call install,build python)
+	@$(call build,release,$(WITHOUT_TESTS),debs)
+	@ls build/packages/*.deb
 
 bench: ## install, build and run the experiments in three passes (TABLE=states: only this one); an interrupted run is continued
 	@$(call install,build bench)
@@ -261,11 +267,6 @@ docs: ## the core's reference as HTML in build/docs/core; fails when something p
 	@$(call install,build docs)
 	@$(call build,release,$(WITHOUT_TESTS),docs)
 	@echo "==> build/docs/core/html/index.html"
-
-package: ## make Debian packages of the library, the Python module and the programs in build/packages
-	@$(call install,build python)
-	@$(call build,release,$(WITHOUT_TESTS),debs)
-	@ls build/packages/*.deb
 
 clean: ## remove what was built; results stay
 	@rm -rf build build-clang build-sanitize build-sanitize-threads build-fuzz build-gate
