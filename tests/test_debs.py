@@ -73,6 +73,9 @@ class Debs(unittest.TestCase):
                     name = path.relative_to(self.folder / package)
                     self.assertNotIn(name, seen, f"{package} and {seen.get(name)} have the same file")
                     seen[name] = package
+        for package, text in (("hullbench", "University of Cincinnati"), ("python3-polylidar", "Wenzel Jakob")):
+            if package in PACKAGES:
+                self.assertIn(text, (self.folder / package / "usr/share/doc" / package / "copyright").read_text())
         # CGAL's licence is that of the whole program.
         self.assertIn("GPL-3", (self.folder / "hullbench/usr/share/doc/hullbench/copyright").read_text())
 

@@ -18,7 +18,7 @@ import zipfile
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 BUILD = pathlib.Path(os.environ["HULLBENCH_BUILD"])
 # What a clone has that matters here. Builds leave files beside the sources, so they work on a copy.
-NEEDED = ("pyproject.toml", "setup.py", "MANIFEST.in", "LICENSE", "CMakeLists.txt", "cmake", "core")
+NEEDED = ("pyproject.toml", "setup.py", "MANIFEST.in", "LICENSE", "LICENSE-THIRD-PARTY", "CMakeLists.txt", "cmake", "core")
 
 
 def run(*command, **options):
@@ -102,7 +102,8 @@ for seed in range(5):
         kept = {path.name for path in (ROOT / "core/python/polylidar_core").iterdir() if path.is_file()}
         self.assertEqual({name for name in package if not name.endswith(".so")}, kept)
         self.assertEqual(len(package - kept), 1)
-        self.assertTrue(any(name.endswith("LICENSE") for name in names))
+        for licence in ("LICENSE", "LICENSE-THIRD-PARTY"):
+            self.assertTrue(any(name.endswith(licence) for name in names), names)
         self.assertEqual({name.split("/")[0].split("-")[0] for name in names}, {"polylidar_core"})
         self.assertRegex(metadata, r"(?m)^Requires-Dist: numpy$")
         self.assertIsNone(re.search(r"(?m)^Requires-Dist: (?!numpy$)(?!.*extra ==)", metadata))

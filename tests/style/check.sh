@@ -93,7 +93,7 @@ check_paths() {
 }
 
 allowed_at_top="CMakeLists.txt core packaging adapters benchmarks datasets results plots tests docker-compose.yml README.md
-  Makefile CMakePresets.json cmake pyproject.toml setup.py MANIFEST.in LICENSE CHANGELOG.md CITATION.cff CONTRIBUTING.md"
+  Makefile CMakePresets.json cmake pyproject.toml setup.py MANIFEST.in LICENSE LICENSE-THIRD-PARTY CHANGELOG.md CITATION.cff CONTRIBUTING.md"
 
 check_layout() {
   local name status=0
