@@ -71,7 +71,7 @@ void write_options(std::ostream& page, const std::string& title,
 std::string man_page(const CLI::App& app, const std::string& version) {
   std::ostringstream page;
   const std::string name = full_name(app, "-");
-  page << ".TH \"" << in_capitals(name) << "\" 1 \"\" \"" << version << "\"\n"
+  page << R"(.TH ")" << in_capitals(name) << R"(" 1 "" ")" << version << "\"\n"
        << ".SH NAME\n"
        << escaped(name) << " \\- " << escaped(app.get_description()) << '\n'
        << ".SH SYNOPSIS\n\\fB" << escaped(full_name(app, " ")) << "\\fR";
@@ -169,7 +169,7 @@ std::string bash_completion(const CLI::App& program) {
   std::ostringstream paths;
   write_cases(follows, values, program);
   write_paths(paths, program);
-  const std::string name = program.get_name();
+  const std::string& name = program.get_name();
   std::ostringstream script;
   script << "# Completion of " << name << " for bash.\n"
          << '_' << name << "() {\n"
