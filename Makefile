@@ -63,7 +63,7 @@ help: ## list the targets (the default)
 	@echo "  with NATIVE=1 (compile for this processor), SKIP_DEPS=1 (install nothing), JOBS=N (N processes)"
 
 deps: ## install every package that is missing, also those for development
-	@cmake/install-packages.sh build bench unit test docs python plots lint gate
+	@cmake/install-packages.sh build bench unit test docs python package plots lint gate
 	@echo "==> nothing is missing"
 
 deps-extra: ## install what the other methods need: those in JavaScript, Python and Java, PCL, the paper's PostGIS
@@ -86,7 +86,7 @@ build: ## only build: build/hullbench and build/core_benchmarks
 
 .PHONY: package
 package: ## make Debian packages of the library, the Python module and the programs in build/packages
-	@$(call install,build python)
+	@$(call install,build python package)
 	@$(call build,release,$(WITHOUT_TESTS),debs)
 	@ls build/packages/*.deb
 
@@ -195,7 +195,7 @@ bench-gate-instructions: ## the same with counted instructions instead of times,
 	@benchmarks/gate/gate.sh --instructions $(if $(BASE),--base "$(BASE)")
 
 test: ## install, build and run all tests, the core's with sanitizers too
-	@$(call install,build bench unit test docs python plots)
+	@$(call install,build bench unit test docs python package plots)
 	@$(MAKE) deps-extra
 	@$(if $(SKIP_DEPS),,cmake/install-npm.sh plots)
 	@$(if $(SKIP_DEPS),,cmake/install-npm.sh tests/report)
@@ -217,7 +217,7 @@ build-clang: ## build everything with clang, the second compiler, in build-clang
 	@$(call build,clang,$(WITH_TESTS))
 
 test-clang: ## the tests of the clang build
-	@$(call install,build bench unit test docs python lint)
+	@$(call install,build bench unit test docs python package lint)
 	@$(MAKE) build-clang
 	@echo "==> all tests, built with clang"
 	@$(call tests,clang,build-clang)
