@@ -63,7 +63,7 @@ help: ## list the targets (the default)
 	@echo "  with NATIVE=1 (compile for this processor), SKIP_DEPS=1 (install nothing), JOBS=N (N processes)"
 
 deps: ## install every package that is missing, also those for development
-	@cmake/install-packages.sh build bench unit test docs python package plots lint gate
+	@cmake/install-packages.sh build bench unit test docs python plots lint gate
 	@echo "==> nothing is missing"
 
 deps-extra: ## install what the other methods need: those in JavaScript, Python and Java, PCL, the paper's PostGIS
@@ -195,7 +195,7 @@ bench-gate-instructions: ## the same with counted instructions instead of times,
 	@benchmarks/gate/gate.sh --instructions $(if $(BASE),--base "$(BASE)")
 
 test: ## install, build and run all tests, the core's with sanitizers too
-	@$(call install,build bench unit test docs python package plots)
+	@$(call install,build bench unit test docs python plots)
 	@$(MAKE) deps-extra
 	@$(if $(SKIP_DEPS),,cmake/install-npm.sh plots)
 	@$(if $(SKIP_DEPS),,cmake/install-npm.sh tests/report)
@@ -217,7 +217,7 @@ build-clang: ## build everything with clang, the second compiler, in build-clang
 	@$(call build,clang,$(WITH_TESTS))
 
 test-clang: ## the tests of the clang build
-	@$(call install,build bench unit test docs python package lint)
+	@$(call install,build bench unit test docs python lint)
 	@$(MAKE) build-clang
 	@echo "==> all tests, built with clang"
 	@$(call tests,clang,build-clang)
