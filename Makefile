@@ -84,6 +84,12 @@ build: ## only build: build/hullbench and build/core_benchmarks
 	@$(call build,release,$(WITHOUT_TESTS),hullbench core_benchmarks)
 	@echo "==> built build/hullbench and build/core_benchmarks"
 
+.PHONY: package
+package: ## make Debian packages of the library, the Python module and the programs in build/packages
+	@$(call install,build python package)
+	@$(call build,release,$(WITHOUT_TESTS),debs)
+	@ls build/packages/*.deb
+
 bench: ## install, build and run the experiments in three passes (TABLE=states: only this one); an interrupted run is continued
 	@$(call install,build bench)
 	@$(MAKE) build

@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 
+#include "datasets/data_folder.hpp"
 #include "datasets/json_file.hpp"
 #include "datasets/sha256.hpp"
 
@@ -44,7 +45,7 @@ ShapeInfo parse_shape(const json& entry) {
 }  // namespace
 
 std::filesystem::path default_data_directory() {
-  return HULLBENCH_DATA_DIRECTORY;
+  return data_folder() / "datasets" / "shapes";
 }
 
 std::vector<ShapeInfo> read_manifest(const std::filesystem::path& data_directory) {

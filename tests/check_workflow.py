@@ -1,51 +1,93 @@
-"""Checks the workflow of GitHub Actions: it parses, runs what it promises, and calls only targets of the Makefile.
+"""Checks the workflows of GitHub Actions: they parse, run what they promise, and call only targets of the Makefile.
 
-    check_workflow.py WORKFLOW MAKEFILE
+    check_workflow.py FOLDER MAKEFILE
 
-Exit status 0: fine; 1: found something, which is printed.
+The folder has ci.yml and release.yml. Exit status 0: fine; 1: found something, which is printed.
 """
+import pathlib
 import re
 import sys
 
 import yaml
 
-NEEDED = {"bench", "test", "test-sanitize", "bench-gate-instructions", "bench-quick"}
+CI_NEEDS = {"bench", "test", "test-sanitize", "bench-gate-instructions", "bench-quick"}
+RELEASE_NEEDS = {"test", "package"}
 ARTEFACTS = {"results/latest/report.json", "results/latest/tables.md"}
 
 
-def faults(workflow, targets):
+def events(workflow):
     # YAML 1.1, which this parser reads, takes the key "on" for true.
-    events = workflow.get("on", workflow.get(True)) or {}
-    for event in ("push", "pull_request"):
-        if event not in events:
-            yield f"the workflow does not run on {event}"
-    called, kept = set(), set()
+    return workflow.get("on", workflow.get(True)) or {}
+
+
+def steps(workflow):
+    """(job's name, job, step) of every step."""
     for name, job in workflow["jobs"].items():
         for step in job["steps"]:
-            made = set(re.findall(r"\bmake ([a-z-]+)", step.get("run", "")))
-            called |= made
-            for target in sorted(made - targets):
-                yield f"job {name} calls 'make {target}', which the Makefile does not have"
-            if "upload-artifact" in step.get("uses", ""):
-                kept |= set(step["with"]["path"].split())
-        gates = any("bench-gate" in step.get("run", "") for step in job["steps"])
-        whole = any(step.get("with", {}).get("fetch-depth") == 0 for step in job["steps"])
-        if gates and not whole:
-            yield f"job {name} gates against a base, but fetches no history (fetch-depth: 0)"
-    for target in sorted(NEEDED - called):
+            yield name, job, step
+
+
+def called(step):
+    return set(re.findall(r"\bmake ([a-z-]+)", step.get("run", "")))
+
+
+def make_faults(workflow, targets, needed):
+    found = set()
+    for name, _, step in steps(workflow):
+        found |= called(step)
+        for target in sorted(called(step) - targets):
+            yield f"job {name} calls 'make {target}', which the Makefile does not have"
+    for target in sorted(needed - found):
         yield f"no job calls 'make {target}'"
+
+
+def ci_faults(workflow, targets):
+    yield from make_faults(workflow, targets, CI_NEEDS)
+    for event in ("push", "pull_request"):
+        if event not in events(workflow):
+            yield f"the workflow does not run on {event}"
+    kept = set()
+    for name, job, step in steps(workflow):
+        if "upload-artifact" in step.get("uses", ""):
+            kept |= set(step["with"]["path"].split())
+        whole = any(other.get("with", {}).get("fetch-depth") == 0 for other in job["steps"])
+        if "bench-gate" in step.get("run", "") and not whole:
+            yield f"job {name} gates against a base, but fetches no history (fetch-depth: 0)"
     for path in sorted(ARTEFACTS - kept):
         yield f"no job keeps {path}"
 
 
-def main(workflow_path, makefile_path):
-    with open(makefile_path, encoding="utf-8") as file:
-        targets = set(re.findall(r"^([a-z-]+):.*## ", file.read(), re.MULTILINE))
-    with open(workflow_path, encoding="utf-8") as file:
-        found = list(faults(yaml.safe_load(file), targets))
-    for fault in found:
-        print(f"error: {workflow_path}: {fault}", file=sys.stderr)
-    return 1 if found else 0
+def release_faults(workflow, targets):
+    yield from make_faults(workflow, targets, RELEASE_NEEDS)
+    if set(events(workflow)) != {"push"} or set(events(workflow)["push"]) != {"tags"}:
+        yield "the workflow does not run on tags alone"
+    if workflow.get("permissions") != {"contents": "read"}:
+        yield "the workflow may do more than read"
+    runs = [step.get("run", "") for _, _, step in steps(workflow)]
+    if not any("check.sh version" in run for run in runs):
+        yield "no job checks the version"
+    publishers = {name for name, _, step in steps(workflow) if "gh release create" in step.get("run", "")}
+    if len(publishers) != 1:
+        yield f"{len(publishers)} jobs make a release, not one"
+    for name, job in workflow["jobs"].items():
+        if name in publishers and set(job.get("needs", [])) != set(workflow["jobs"]) - publishers:
+            yield f"job {name} does not wait for all others"
+        if name not in publishers and "permissions" in job:
+            yield f"job {name} may do more than read"
+    for name, _, step in steps(workflow):
+        if "upload-artifact" in step.get("uses", "") and step["with"].get("if-no-files-found") != "error":
+            yield f"job {name} may upload nothing"
+
+
+def main(folder, makefile):
+    targets = set(re.findall(r"^([a-z-]+):.*## ", pathlib.Path(makefile).read_text(encoding="utf-8"), re.MULTILINE))
+    status = 0
+    for name, faults in (("ci.yml", ci_faults), ("release.yml", release_faults)):
+        path = pathlib.Path(folder, name)
+        for fault in faults(yaml.safe_load(path.read_text(encoding="utf-8")), targets):
+            print(f"error: {path}: {fault}", file=sys.stderr)
+            status = 1
+    return status
 
 
 if __name__ == "__main__":

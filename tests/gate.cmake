@@ -10,5 +10,5 @@ target_compile_definitions(test_gate_script PRIVATE GATE_SCRIPT="${PROJECT_SOURC
 
 hullbench_tool_test(NAME gate.workflow NEEDS "${SYSTEM_PYTHON}:yaml"
   COMMAND "${SYSTEM_PYTHON}" "${CMAKE_CURRENT_LIST_DIR}/check_workflow.py"
-          "${PROJECT_SOURCE_DIR}/.github/workflows/ci.yml" "${PROJECT_SOURCE_DIR}/Makefile")
+          "${PROJECT_SOURCE_DIR}/.github/workflows" "${PROJECT_SOURCE_DIR}/Makefile")
 set_tests_properties(gate.workflow PROPERTIES LABELS gate TIMEOUT 60)

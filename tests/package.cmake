@@ -10,3 +10,13 @@ add_dependencies(test_package polylidar_core)
 hullbench_tool_test(NAME docs.core NEEDS doxygen "${PROJECT_BINARY_DIR}/core/Doxyfile"
   COMMAND doxygen "${PROJECT_BINARY_DIR}/core/Doxyfile")
 set_tests_properties(docs.core PROPERTIES LABELS package TIMEOUT 120)
+
+hullbench_test(test_manual SOURCES test_manual.cpp LIBRARIES hullbench::manual hullbench_test_program LABELS package)
+
+# The Debian packages, made of what is built, unpacked and used.
+get_property(packages GLOBAL PROPERTY HULLBENCH_DEBS)
+list(JOIN packages " " packages)
+hullbench_tool_test(NAME package.debs NEEDS "${SYSTEM_PYTHON}" dpkg-deb dpkg-shlibdeps file gzip lintian man
+  COMMAND "${SYSTEM_PYTHON}" -B -m unittest test_debs)
+set_tests_properties(package.debs PROPERTIES LABELS package TIMEOUT 300 WORKING_DIRECTORY "${CMAKE_CURRENT_LIST_DIR}"
+  ENVIRONMENT "HULLBENCH_BUILD=${PROJECT_BINARY_DIR};HULLBENCH_VERSION=${PROJECT_VERSION};HULLBENCH_PACKAGES=${packages};CMAKE=${CMAKE_COMMAND};CPACK=${CMAKE_CPACK_COMMAND};CXX=${CMAKE_CXX_COMPILER};POLYLIDAR_PYTHON=${POLYLIDAR_PYTHON}")

@@ -144,9 +144,9 @@ TEST_F(PackageTest, HasTheVersionOfTheHarnessInBothWays) {
 TEST_F(PackageTest, OfAnotherMinorVersionIsRefused) {
   install_and_move();
   const std::string project = testing::read_text(kExample / "CMakeLists.txt");
-  const std::string wanted = "polylidar 0.1 ";
+  const std::string wanted = "polylidar 0.2 ";
   ASSERT_NE(project.find(wanted), std::string::npos);
-  for (const std::string other : {"0.0", "0.2"}) {
+  for (const std::string other : {"0.1", "0.3"}) {
     const fs::path folder = folder_.path() / other;
     fs::create_directory(folder);
     std::string text = project;

@@ -3,7 +3,9 @@
 Run by ctest with the module in PYTHONPATH; HULLBENCH names the harness, without which the comparison with it is skipped.
 """
 import ast
+import doctest
 import gc
+import importlib
 import inspect
 import json
 import os
@@ -16,12 +18,20 @@ import threading
 import time
 import tracemalloc
 import unittest
+import warnings
+import xml.etree.ElementTree
 
 import numpy as np
 import polylidar_core
 import shapely.geometry
 import shapely.wkb
 from polylidar_core import _core, concave_hull, concave_hulls, delaunay
+
+try:
+    import geopandas
+    import polylidar_core.geopandas
+except ImportError:
+    geopandas = None
 
 CELL = 0.75  # keeps the halves of a unit lattice's cells (circumradius 0.71), the next triangle has 1
 
@@ -58,6 +68,24 @@ class Shapes(unittest.TestCase):
                 self.assertTrue(taken.is_valid)
                 # Thousands of terms, each rounded to within 1e-16 of the unit square.
                 self.assertAlmostEqual(taken.area, shape.area, delta=1e-12)
+
+    def test_to_shapely_is_what_the_geo_interface_says(self):
+        for points in (scattered(2000), [], lattice_with_a_hole()):
+            shape = concave_hull(points, alpha=0.02 if len(points) > 1000 else CELL)
+            taken = shape.to_shapely()
+            self.assertEqual(taken.geom_type, "MultiPolygon")
+            self.assertTrue(taken.is_valid)
+            self.assertTrue(taken.equals_exact(shapely.geometry.shape(shape), 0) or len(shape) == 0)
+            self.assertEqual(sum(len(polygon.interiors) for polygon in taken.geoms), sum(len(p) - 1 for p in shape.polygons))
+
+    def test_a_notebook_draws_it(self):
+        namespace = "{http://www.w3.org/2000/svg}"
+        picture = xml.etree.ElementTree.fromstring(concave_hull([(0, 0), (4, 0), (4, 2), (0, 2)])._repr_svg_())
+        self.assertEqual((picture.get("width"), picture.get("height")), ("402", "202"))
+        self.assertEqual(picture.find(namespace + "path").get("d"), "M1.0,201.0 401.0,201.0 401.0,1.0 1.0,1.0Z")
+        holed = xml.etree.ElementTree.fromstring(concave_hull(lattice_with_a_hole(), alpha=CELL)._repr_svg_())
+        self.assertEqual(holed.find(namespace + "path").get("d").count("Z"), 2)
+        self.assertEqual(xml.etree.ElementTree.fromstring(concave_hull([])._repr_svg_())[0].get("d"), "")
 
     def test_rings_are_open_and_oriented_and_closed_in_geojson(self):
         shape = concave_hull(scattered(2000), alpha=0.02)
@@ -248,6 +276,15 @@ class Inputs(unittest.TestCase):
             delaunay(points)
         self.refused(r"more than a factor of 2\^265", [(0, 1e-100), (1e100, 0), (1, 1)])
 
+    def test_a_multipoint_is_its_points(self):
+        points = scattered(500)
+        expected = concave_hull(points).__geo_interface__
+        self.assertEqual(concave_hull(shapely.geometry.MultiPoint(points)).__geo_interface__, expected)
+        high = shapely.geometry.MultiPoint(np.column_stack([points, points[:, 0]]))
+        self.assertEqual(concave_hull(high).__geo_interface__, expected)
+        np.testing.assert_array_equal(delaunay(shapely.geometry.MultiPoint(points)), delaunay(points))
+        self.refused("a MultiPoint, not a Polygon", shapely.geometry.box(0, 0, 1, 1))
+
     def test_options(self):
         points = scattered(10)
         self.refused("alpha must be zero or more", points, alpha=-1)
@@ -273,6 +310,74 @@ class Inputs(unittest.TestCase):
                 _core.delaunay(points)
         with self.assertRaises(ValueError):
             _core.delaunay(np.zeros((4, 3)))
+
+
+@unittest.skipUnless(geopandas, "GeoPandas is missing")
+class GeoPandas(unittest.TestCase):
+    def frame(self, crs="EPSG:32633"):
+        """500 points in a unit square and 400 in another, every third of both without a label."""
+        points = np.concatenate([scattered(500, 1), scattered(400, 2) + [3, 0]])
+        kinds = np.repeat(np.array(["oak", "beech"], object), [500, 400])
+        kinds[::3] = None
+        order = np.random.default_rng(3).permutation(len(points))
+        geometry = geopandas.points_from_xy(*points[order].T)
+        # Rows are not numbered from 0.
+        return geopandas.GeoDataFrame({"kind": kinds[order]}, geometry=geometry, crs=crs, index=order + 7)
+
+    def test_a_row_for_every_group(self):
+        frame = self.frame()
+        hulls = polylidar_core.geopandas.concave_hulls(frame, by="kind", threads=2)
+        self.assertEqual((hulls.index.tolist(), hulls.index.name), (["beech", "oak"], "kind"))
+        self.assertEqual(hulls.columns.tolist(), ["points", "area", "parts", "geometry"])
+        self.assertEqual(hulls.crs, frame.crs)
+        for kind, row in hulls.iterrows():
+            own = frame[frame["kind"] == kind]
+            shape = concave_hull(np.column_stack([own.geometry.x, own.geometry.y]))
+            self.assertEqual((row["points"], row["area"], row["parts"]), (len(own), shape.area, len(shape)))
+            self.assertTrue(row.geometry.equals_exact(shape.to_shapely(), 0))
+        finer = polylidar_core.geopandas.concave_hulls(frame, by="kind", detail=2)
+        self.assertLess(finer["area"].sum(), hulls["area"].sum())
+
+    def test_groups_are_those_of_pandas(self):
+        frame = self.frame()
+        frame["side"] = frame.geometry.x % 1 > 0.5
+        by = ["side", "kind"]
+        hulls = polylidar_core.geopandas.concave_hulls(frame, by=by)
+        self.assertEqual(hulls["points"].to_dict(), frame.groupby(by).size().to_dict())
+        of_series = polylidar_core.geopandas.concave_hulls(frame.geometry, by=frame["kind"].to_numpy())
+        self.assertEqual(of_series["area"].tolist(), polylidar_core.geopandas.concave_hulls(frame, by="kind")["area"].tolist())
+        kinds = frame["kind"].astype("category").cat.add_categories("elm")
+        self.assertEqual(polylidar_core.geopandas.concave_hulls(frame, by=kinds).index.tolist(), ["beech", "oak"])
+
+    def test_without_groups_there_is_one_row_and_without_points_none(self):
+        frame = self.frame()
+        whole = polylidar_core.geopandas.concave_hulls(frame)
+        self.assertEqual((len(whole), whole["points"].iloc[0]), (1, 900))
+        self.assertTrue(whole.geometry.iloc[0].equals_exact(concave_hull(frame).to_shapely(), 0))
+        self.assertEqual(concave_hull(frame.geometry).area, whole["area"].iloc[0])
+        self.assertEqual(len(polylidar_core.geopandas.concave_hulls(frame[:0], by="kind")), 0)
+        flat = polylidar_core.geopandas.concave_hulls(frame[:2])
+        self.assertTrue(flat.geometry.iloc[0].is_empty)
+        self.assertEqual((flat["area"].iloc[0], flat["parts"].iloc[0]), (0, 0))
+
+    def test_degrees_are_noticed(self):
+        with self.assertWarnsRegex(UserWarning, "in degrees.*estimate_utm_crs") as said:
+            concave_hull(self.frame("EPSG:4326"))
+        self.assertEqual(said.filename, __file__)
+        with warnings.catch_warnings():
+            warnings.simplefilter("error")
+            concave_hull(self.frame())
+            concave_hull(self.frame(None))
+
+    def test_what_is_no_point_is_named(self):
+        points = geopandas.points_from_xy([0, 1, 2], [0, 1, 0])
+        for message, other in (
+            ("point 3 is missing", None),
+            ("point 3 is missing or empty", shapely.geometry.Point()),
+            ("row 3 is a MultiPoint", shapely.geometry.MultiPoint([(1, 1), (2, 2)])),
+        ):
+            with self.assertRaisesRegex(ValueError, message):
+                concave_hull(geopandas.GeoSeries([*points, other]))
 
 
 class Memory(unittest.TestCase):
@@ -336,7 +441,8 @@ for call in (polylidar_core.concave_hull, polylidar_core.delaunay):
 class Threads(unittest.TestCase):
     def test_other_threads_run_meanwhile(self):
         points = scattered(300_000)
-        for call in (lambda: concave_hull(points), lambda: delaunay(points)):
+        labels = np.arange(len(points)) % 3
+        for call in (lambda: concave_hull(points), lambda: concave_hulls(points, labels), lambda: delaunay(points)):
             turns, seen, done = 0, [], threading.Event()
 
             def compute():
@@ -374,6 +480,20 @@ class Threads(unittest.TestCase):
         for thread in threads:
             thread.join()
         self.assertEqual(results, expected)
+
+
+class Documentation(unittest.TestCase):
+    def test_the_examples_in_the_docstrings_are_right(self):
+        names = ["polylidar_core", "polylidar_core.multi_polygon"] + ["polylidar_core.geopandas"] * (geopandas is not None)
+        for name in names:
+            with self.subTest(name):
+                failed, tried = doctest.testmod(importlib.import_module(name))
+                self.assertEqual(failed, 0)
+                self.assertGreater(tried, 3)
+
+    def test_every_function_has_an_example(self):
+        for item in (polylidar_core, concave_hull, concave_hulls, delaunay, polylidar_core.MultiPolygon):
+            self.assertIn(">>> ", item.__doc__)
 
 
 class Types(unittest.TestCase):

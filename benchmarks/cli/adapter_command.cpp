@@ -11,15 +11,15 @@
 #include "benchmarks/cli/options.hpp"
 #include "benchmarks/run/contract.hpp"
 #include "benchmarks/run/method_catalog.hpp"
+#include "datasets/data_folder.hpp"
 
 namespace hullbench::cli {
 namespace {
 
 namespace fs = std::filesystem;
 
-const fs::path kSource = HULLBENCH_SOURCE_FOLDER;
-const fs::path kSkeletons = kSource / "benchmarks" / "skeletons";
-const fs::path kHelpers = kSource / "adapters" / "process";
+const fs::path kSkeletons = data_folder() / "benchmarks" / "skeletons";
+const fs::path kHelpers = data_folder() / "adapters" / "process";
 
 struct NewAdapterCommand {
   std::string name;
@@ -57,7 +57,7 @@ struct NewFile {
 };
 
 std::vector<NewFile> cpp_files(const NewAdapterCommand& command) {
-  const fs::path folder = command.out.value_or(kSource / "adapters");
+  const fs::path folder = command.out.value_or(data_folder() / "adapters");
   const std::string line = "add_adapter(NAME " + command.name + " TITLE \"" + command.name + "\")\n";
   return {{folder / (command.name + ".cpp"),
            replace_all(read_text(kSkeletons / "skeleton.cpp.in"), "@NAME@", command.name)},

@@ -4,6 +4,7 @@
 
 #include "benchmarks/base/configuration_error.hpp"
 #include "benchmarks/cli/options.hpp"
+#include "packaging/manual/manual.hpp"
 
 namespace {
 
@@ -29,6 +30,7 @@ Action parse(int argc, char** argv) {
   app.footer(std::string(kExitCodesHelp) + "\n" + kVariables);
   Action action;
   for (const auto add : kCommands) add(app, action);
+  packaging::add_manual(app, "hullbench " HULLBENCH_VERSION);
   try {
     app.parse(argc, argv);
   } catch (const CLI::Success& request) {

@@ -26,6 +26,7 @@
 #include "benchmarks/run/suite.hpp"
 #include "benchmarks/worker/stray_processes.hpp"
 #include "benchmarks/worker/worker_process.hpp"
+#include "datasets/data_folder.hpp"
 #include "datasets/datasets.hpp"
 #include "datasets/rgbd/recordings.hpp"
 
@@ -73,7 +74,7 @@ std::size_t count_recordings(const fs::path& folder) {
 
 Experiment make_experiment(const std::string& name, const RunCommand& command,
                            const run::MethodCatalog& catalog) {
-  plan::Plan plan = plan::load_plan(name, HULLBENCH_PLAN_FOLDER);
+  plan::Plan plan = plan::load_plan(name, data_folder() / "benchmarks" / "plans");
   for (const std::string& method : command.with) plan::add_methods(plan, catalog.runs_of(method));
   if (!command.recordings.empty()) plan::use_recordings(plan, count_recordings(command.recordings));
   plan.repetitions = command.repetitions.value_or(plan.repetitions);

@@ -23,6 +23,7 @@
 #include "benchmarks/tune/tuning_report.hpp"
 #include "benchmarks/worker/stray_processes.hpp"
 #include "benchmarks/worker/worker_process.hpp"
+#include "datasets/data_folder.hpp"
 #include "datasets/datasets.hpp"
 
 namespace hullbench::cli {
@@ -48,7 +49,7 @@ struct TuneCommand {
 std::vector<plan::Plan> load_plans(const TuneCommand& command, const run::MethodCatalog& catalog) {
   std::vector<plan::Plan> plans;
   for (const std::string& name : command.plans) {
-    plan::Plan plan = plan::load_plan(name, HULLBENCH_PLAN_FOLDER);
+    plan::Plan plan = plan::load_plan(name, data_folder() / "benchmarks" / "plans");
     const auto same = [&](const plan::Plan& other) { return other.name == plan.name; };
     if (std::any_of(plans.begin(), plans.end(), same))
       throw ConfigurationError("the plan '" + plan.name + "' is named twice; leave one out");

@@ -5,6 +5,7 @@
 
 #include "adapters/adapter.hpp"
 #include "benchmarks/base/configuration_error.hpp"
+#include "datasets/data_folder.hpp"
 
 namespace hullbench::run {
 namespace {
@@ -89,7 +90,7 @@ fs::path user_manifest_folder() {
 }
 
 std::vector<fs::path> manifest_folders(const std::vector<fs::path>& folders) {
-  std::vector<fs::path> all = {HULLBENCH_MANIFEST_FOLDER};
+  std::vector<fs::path> all = {data_folder() / "adapters" / "manifests"};
   if (has_value("XDG_CONFIG_HOME") || has_value("HOME")) all.push_back(user_manifest_folder());
   for (const fs::path& folder : folders) {
     if (!fs::is_directory(folder)) throw ConfigurationError("there is no folder " + folder.string());

@@ -12,6 +12,7 @@
 #include <string_view>
 #include <utility>
 
+#include "datasets/data_folder.hpp"
 #include "datasets/point_locator.hpp"
 
 namespace hullbench::real {
@@ -69,7 +70,7 @@ std::string quoted_words(const std::string& text) {
 }
 
 std::string reader_command(const Source& source, const fs::path& root) {
-  const fs::path scripts = HULLBENCH_REAL_SCRIPTS;
+  const fs::path scripts = data_folder() / "datasets" / "real";
   if (source.package == kCloudPackage) {
     return "python3 -B " + quoted((scripts / "read_cloud.py").string()) + " " +
            quoted(cloud_archive(root).string()) + quoted_words(source.object);

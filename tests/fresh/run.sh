@@ -2,12 +2,13 @@
 # Proves from nothing that the README's commands work: in bare Debian roots made by debootstrap, with nothing but git and
 # make added, in a clone of HEAD.
 #
-#   run.sh [PROOF...]      odd, root and user when none is named
+#   run.sh [PROOF...]      odd, packages, root and user when none is named
 #
-#   first   the README's first command: "make bench" with its shortest table, as root (what CI proves)
-#   root    "make bench-quick" and "make test" as root; no test is skipped, no database server left running or enabled
-#   user    the same as a plain user with sudo
-#   odd     roots that have a part of what the tests need: nothing missing stops a configuration
+#   first     the README's first command: "make bench" with its shortest table, as root (what CI proves)
+#   root      "make bench-quick" and "make test" as root; no test is skipped, no database server left running or enabled
+#   user      the same as a plain user with sudo
+#   packages  "make package", and the packages installed and used in another root; PACKAGES=FOLDER takes those made already
+#   odd       roots that have a part of what the tests need: nothing missing stops a configuration
 #
 # SUITE=trixie takes Debian 13 instead of 12. Needs root on a Debian host. TMPDIR (default /var/tmp) holds the roots while
 # it runs; FRESH_CACHE, a folder, keeps the bare root for the next time. Logs stay in build/fresh.
@@ -20,7 +21,7 @@ logs="$checkout/build/fresh"
 suite=${SUITE:-bookworm}
 disk_needed_gb=10
 proofs=("$@")
-[ $# -gt 0 ] || proofs=(odd root user)
+[ $# -gt 0 ] || proofs=(odd packages root user)
 
 passed=0
 failed=0
@@ -297,13 +298,55 @@ prove_odd() {
   fi
 }
 
+# ---- the Debian packages ----------------------------------------------------------------------------------
+
+# as_user_of_packages NAME COMMAND: what somebody types who has the packages and no clone.
+as_user_of_packages() { step "packages: $1" in_root "$root" bash -euc "cd /tmp; $2" || true; }
+
+prove_packages() {
+  local made=${PACKAGES:-$work/packages} purged
+  if [ -z "${PACKAGES:-}" ]; then
+    new_root make-package root || return 0
+    step "packages: make package" as_reader "$root" root "make package" || { remove_root; return 0; }
+    mkdir "$made"
+    cp "$root/root/hullbench/build/packages"/*.deb "$made"
+    remove_root
+  fi
+  new_root packages root || return 0
+  mkdir "$root/packages"
+  cp "$made"/*.deb "$root/packages"
+  # The sample is what a user writes.
+  mv "$root/root/hullbench/tests/package" "$root/sample"
+  rm -r "$root/root/hullbench"
+  step "packages: installed by apt" in_root "$root" env DEBIAN_FRONTEND=noninteractive \
+    bash -c 'apt-get -q install -y --no-install-recommends /packages/*.deb' || { remove_root; return 0; }
+  as_user_of_packages "hullbench makes a hull" \
+    "printf '0,0\n2,0\n0,2\n' | hullbench hull - --alpha 9 --format wkt | grep POLYGON"
+  as_user_of_packages "hullbench measures" \
+    "hullbench run alphabet --filter '^polylidar/letter_a/' --repetitions 1 2>&1 | grep ' ok, 0 failed, 0 not installed'"
+  [ ! -e "$root/usr/bin/polylidar" ] || as_user_of_packages "polylidar makes a hull" \
+    "printf '0,0\n2,0\n0,2\n' | polylidar hull - --alpha 9 --format wkt | grep POLYGON"
+  as_user_of_packages "the Python module makes a hull" \
+    "python3 -c 'import polylidar_core as p; assert p.concave_hull([(0, 0), (2, 0), (0, 2)]).area == 2'"
+  step "packages: a compiler and CMake" in_root "$root" env DEBIAN_FRONTEND=noninteractive \
+    apt-get -q install -y --no-install-recommends g++ cmake make pkgconf || true
+  as_user_of_packages "a program with the library, by CMake" \
+    "cmake -S /sample -B build && cmake --build build && build/lattice | grep 'area 86'"
+  as_user_of_packages "a program with the library, by pkg-config" \
+    "g++ -std=c++20 /sample/main.cpp -o lattice \$(pkg-config --cflags --libs --static polylidar) && ./lattice | grep 'area 86'"
+  purged=$(cd "$made" && ls ./*.deb | sed 's|^\./||; s|_.*||' | paste -sd ' ')
+  as_user_of_packages "purged without a trace" \
+    "apt-get -q purge -y $purged; ! find /usr -path '*polylidar*' -o -path '*hullbench*' | grep ."
+  remove_root
+}
+
 # ---- the driver -------------------------------------------------------------------------------------------
 
 [ "$(id -u)" -eq 0 ] || fail "debootstrap and chroot need root: run it as root."
 command -v apt-get >/dev/null || fail "this needs a Debian host: there is no apt-get."
 [[ "$suite" =~ ^(bookworm|trixie)$ ]] || fail "SUITE is bookworm (Debian 12) or trixie (Debian 13), not '$suite'."
 for proof in "${proofs[@]}"; do
-  [[ "$proof" =~ ^(first|root|user|odd)$ ]] || fail "'$proof' is none of first, root, user and odd."
+  [[ "$proof" =~ ^(first|root|user|packages|odd)$ ]] || fail "'$proof' is none of first, root, user, packages and odd."
 done
 # Some containers are root without the right to make namespaces and mounts.
 isolated mount -t tmpfs tmpfs /mnt 2>/dev/null ||
@@ -348,6 +391,7 @@ for proof in "${proofs[@]}"; do
     first) prove_first ;;
     root) prove_all root root ;;
     user) prove_all user visitor ;;
+    packages) prove_packages ;;
     odd) prove_odd ;;
   esac
 done

@@ -9,6 +9,7 @@
 #   check.sh layout               the top level is what the design allows; its folders have a README
 #   check.sh rooms                a room of benchmarks/ includes only rooms before it
 #   check.sh printing             no library prints
+#   check.sh version              every file that states the version states that of CMakeLists.txt
 #   check.sh help                 "make help" and benchmarks/README.md name every target
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/../.."
@@ -91,8 +92,8 @@ check_paths() {
   [ -z "$found" ] || { printf 'error: paths of one machine:\n%s\n' "$found" >&2; return 1; }
 }
 
-allowed_at_top="CMakeLists.txt core adapters benchmarks datasets results plots tests docker-compose.yml README.md
-  Makefile CMakePresets.json cmake LICENSE CHANGELOG.md CITATION.cff CONTRIBUTING.md"
+allowed_at_top="CMakeLists.txt core packaging adapters benchmarks datasets results plots tests docker-compose.yml README.md
+  Makefile CMakePresets.json cmake pyproject.toml setup.py MANIFEST.in LICENSE LICENSE-THIRD-PARTY CHANGELOG.md CITATION.cff CONTRIBUTING.md"
 
 check_layout() {
   local name status=0
@@ -103,7 +104,7 @@ check_layout() {
   for name in $allowed_at_top; do
     [ -e "$name" ] || { echo "error: '$name' is missing at the top level." >&2; status=1; }
   done
-  for name in core adapters datasets benchmarks results plots tests; do
+  for name in core packaging adapters datasets benchmarks results plots tests; do
     [ -e "$name/README.md" ] || { echo "error: $name/README.md is missing: it is the map of the folder." >&2; status=1; }
   done
   [ "$(wc -l <README.md)" -le 250 ] || { echo "error: README.md is longer than 250 lines." >&2; status=1; }
@@ -131,6 +132,25 @@ check_printing() {
   [ -z "$found" ] || { printf 'error: a library prints:\n%s\n' "$found" >&2; return 1; }
 }
 
+# CMake's files and the packages of Python and npm take it from there; these cannot.
+check_version() {
+  local version stated status=0
+  version=$(sed -n 's/^project(hullbench VERSION \([0-9.]*\) .*/\1/p' CMakeLists.txt)
+  [ -n "$version" ] || { echo "error: CMakeLists.txt has no version." >&2; return 1; }
+  while IFS=$'\t' read -r file stated; do
+    [ "$stated" = "$version" ] || { echo "error: $file states version '$stated', CMakeLists.txt $version." >&2; status=1; }
+  done < <(
+    printf 'CITATION.cff\t%s\n' "$(sed -n 's/^version: //p' CITATION.cff)"
+    printf 'CHANGELOG.md\t%s\n' "$(sed -n 's/^## \([0-9.]*\), [0-9]*-[0-9]*-[0-9]*$/\1/p' CHANGELOG.md | head -n 1)"
+  )
+  # Before 1.0 a minor version may change the interface, and is what a program asks for.
+  for file in core/README.md tests/package/CMakeLists.txt; do
+    grep -q "find_package(polylidar ${version%.*} REQUIRED)" "$file" ||
+      { echo "error: $file does not ask for polylidar ${version%.*}." >&2; status=1; }
+  done
+  return $status
+}
+
 check_help() {
   local targets listing target status=0
   targets=$(sed -n 's/^\.PHONY: //p' Makefile)
@@ -145,9 +165,9 @@ check_help() {
 }
 
 case "${1:-}" in
-  format | python | javascript | tidy | paths | layout | rooms | printing | help) "check_$1" "${@:2}" ;;
+  format | python | javascript | tidy | paths | layout | rooms | printing | version | help) "check_$1" "${@:2}" ;;
   *)
-    sed -n '2,13s/^# \{0,1\}//p' "$0" >&2
+    sed -n '2,14s/^# \{0,1\}//p' "$0" >&2
     exit 2
     ;;
 esac

@@ -1,9 +1,12 @@
 """Concave hulls of points in the plane, by the polylidar core: points in, valid multipolygons out.
 
-    import numpy, polylidar_core, shapely.geometry
-    points = numpy.random.default_rng(1).random((1000, 2))
-    shape = polylidar_core.concave_hull(points)
-    print(shape, shapely.geometry.shape(shape).is_valid)
+    >>> import numpy, polylidar_core
+    >>> points = numpy.random.default_rng(1).random((1000, 2))
+    >>> shape = polylidar_core.concave_hull(points)
+    >>> 0.9 < shape.area < 1
+    True
+
+polylidar_core.geopandas does the same for GeoPandas, with a group a row.
 """
 from __future__ import annotations
 
@@ -15,6 +18,7 @@ import numpy.typing as npt
 
 from . import _core
 from ._core import __version__
+from ._points import as_points
 from .multi_polygon import MultiPolygon
 
 __all__ = ["MultiPolygon", "__version__", "concave_hull", "concave_hulls", "delaunay"]
@@ -37,7 +41,8 @@ def concave_hull(
 
     points: numbers of the shape (n, 2), x and y in any unit of length, in any order; they may repeat. A C-contiguous
         float64 array is used without a copy, read-only and memory-mapped ones too; anything else is converted, which
-        copies it once. The GIL is released: other threads must not change the array meanwhile.
+        copies it once. The GIL is released: other threads must not change the array meanwhile. A MultiPoint of
+        Shapely's, and a GeoSeries or GeoDataFrame of points, are taken too; of degrees they give a UserWarning.
     alpha: largest circumradius of a triangle that is kept, in the unit of the points; zero or more; None: not given.
         For points spread evenly over a shape of known area, 2 * sqrt(area / n) suits.
     max_edge_length: longest edge of a triangle that is kept, likewise.
@@ -54,8 +59,12 @@ def concave_hull(
     ValueError: another shape, no real numbers, a coordinate that is not finite (the message names the row, from 0),
     coordinates whose magnitudes span more than a factor of 2^265, more than 2^28 points, a limit that is negative or
     NaN, a detail that is not positive and finite, threads below 1.
+
+        >>> around = [(x, y) for y in range(11) for x in range(11) if abs(x - 5) > 1 or abs(y - 5) > 1]
+        >>> concave_hull(around, alpha=0.75)
+        <MultiPolygon: polygons 1, holes 1, vertices 52, area 86>
     """
-    array = _as_points(points)
+    array = as_points(points)
     return MultiPolygon(
         array,
         *_core.concave_hull(
@@ -80,8 +89,12 @@ def concave_hulls(
 
     labels: integers of the shape (n,), one a point.
     The others, and the errors they raise: as of concave_hull. Labels are shared among the threads.
+
+        >>> points = [(0, 0), (2, 0), (0, 2), (5, 5), (6, 5), (5, 6)]
+        >>> {label: hull.area for label, hull in concave_hulls(points, [7, 7, 7, 3, 3, 3]).items()}
+        {3: 0.5, 7: 2.0}
     """
-    array = _as_points(points)
+    array = as_points(points)
     label_array = np.asarray(labels)
     if label_array.dtype.kind not in "iu" and label_array.size > 0:
         raise ValueError(f"labels must be integers, not of the type {label_array.dtype}")
@@ -95,7 +108,7 @@ def concave_hulls(
         fill_single_triangles,
         _thread_count(threads),
     )
-    return {label: MultiPolygon(array, *shape) for label, *shape in hulls}
+    return {label: MultiPolygon(array, vertices, rings, parts, area) for label, vertices, rings, parts, area in hulls}
 
 
 def delaunay(points: npt.ArrayLike) -> npt.NDArray[np.uint32]:
@@ -104,22 +117,11 @@ def delaunay(points: npt.ArrayLike) -> npt.NDArray[np.uint32]:
     None (m = 0) for fewer than 3 distinct points or points all on a line. O(n log n).
 
     points, and the errors they raise: as of concave_hull.
+
+        >>> delaunay([(0, 0), (2, 0), (2, 1), (0, 1), (1, 9)]).shape
+        (3, 3)
     """
-    return _core.delaunay(_as_points(points))
-
-
-def _as_points(points: npt.ArrayLike) -> npt.NDArray[np.float64]:
-    try:
-        array = np.asarray(points)
-    except ValueError as error:
-        raise ValueError("points must be numbers of the shape (n, 2): some rows differ in length") from error
-    if array.dtype.kind not in "iuf":
-        raise ValueError(f"points must be real numbers, not of the type {array.dtype}")
-    if array.shape == (0,):
-        array = array.reshape(0, 2)
-    if array.ndim != 2 or array.shape[1] != 2:
-        raise ValueError(f"points must have the shape (n, 2), not {array.shape}: give one row of x and y a point")
-    return np.require(array, np.float64, ["C", "ALIGNED"])
+    return _core.delaunay(as_points(points))
 
 
 def _thread_count(threads: int | None) -> int:

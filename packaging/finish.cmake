@@ -1,0 +1,17 @@
+# Called by CPack when the files of all packages are together: makes of them what Debian's rules ask for.
+set(share "${CPACK_TEMPORARY_DIRECTORY}/*/usr/share")
+
+# The licence is in the file copyright of each package, whose folder has the package's name.
+file(GLOB licences "${share}/doc/*/LICENSE")
+foreach(licence IN LISTS licences)
+  file(REMOVE "${licence}")
+  cmake_path(GET licence PARENT_PATH folder)
+  file(GLOB others "${folder}/*")
+  if(NOT others)
+    file(REMOVE_RECURSE "${folder}")
+  endif()
+endforeach()
+
+# Without the time in them.
+file(GLOB long_texts "${share}/doc/*/changelog*" "${share}/man/man1/*.1")
+execute_process(COMMAND gzip -9 -n ${long_texts} COMMAND_ERROR_IS_FATAL ANY)
