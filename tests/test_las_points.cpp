@@ -131,6 +131,15 @@ TEST_F(LasPointsTest, ChoosesByReturnClassWindowAndLeavesOutTheWithheld) {
   }
 }
 
+TEST_F(LasPointsTest, PointsOfAnyLength) {
+  LasFile file = some_points(2, 3);
+  file.points.resize(100);
+  file.extra_bytes = 65535 - 34;
+  EXPECT_EQ(read(file).points, file.places());
+  file.points.clear();
+  EXPECT_TRUE(read(file).points.empty());
+}
+
 TEST_F(LasPointsTest, AnExtendedClassNeedsItsWholeByte) {
   LasFile file;
   file.minor = 4;

@@ -28,7 +28,7 @@ constexpr std::size_t kNewHeader = 375;  // 1.4
 constexpr std::size_t kRecordHeader = 54;
 constexpr std::size_t kExtendedRecordHeader = 60;
 
-constexpr std::size_t kPointsABlock = std::size_t{1} << 14U;
+constexpr std::size_t kBlock = std::size_t{1} << 20U;  // bytes, more than any point has
 
 /// Point format -> the bytes that a point has at least.
 constexpr std::array<std::size_t, 11> kLeastPointSize = {20, 28, 26, 34, 57, 63, 30, 36, 38, 59, 67};
@@ -232,9 +232,10 @@ class LasReader {
     const bool takes_all = options.returns == Returns::kAll && !options.classes && !options.window;
     // Only when the file was seen to hold them all, so that a header alone cannot ask for all memory.
     if (takes_all && reader_.remaining()) file_.points.reserve(static_cast<std::size_t>(header_.count));
-    std::vector<char> block(kPointsABlock * header_.point_size);
+    const std::size_t points_a_block = kBlock / header_.point_size;
+    std::vector<char> block(points_a_block * header_.point_size);
     for (std::uint64_t done = 0; done < header_.count;) {
-      const std::uint64_t part = std::min<std::uint64_t>(kPointsABlock, header_.count - done);
+      const std::uint64_t part = std::min<std::uint64_t>(points_a_block, header_.count - done);
       if (!take(block.data(), static_cast<std::size_t>(part) * header_.point_size)) fail_short();
       for (std::size_t i = 0; i < part; ++i) add(block.data() + i * header_.point_size, options);
       done += part;
