@@ -34,6 +34,10 @@ TEST(CrsText, TheHorizontalSystem) {
   EXPECT_EQ(crs_of_wkt(R"(GEOGCRS["g",CS[ellipsoidal,2],ID["EPSG",4979]])"), (Crs{4979, true}));
   EXPECT_EQ(crs_of_wkt(R"(PROJCS["WGS_1984_UTM_Zone_32N",GEOGCS["GCS_WGS_1984"]])"), (Crs{0, false}))
       << "Esri's";
+  EXPECT_EQ(
+      crs_of_wkt(R"(PROJCS["p",GEOGCS["g",AUTHORITY["EPSG","4258"]],UNIT["m",1,AUTHORITY["EPSG","9001"]]])"),
+      (Crs{0, false}))
+      << "that of what is inside is not its own";
   EXPECT_EQ(crs_of_wkt(R"( GEOGCS [ "a [ , ] b" , AUTHORITY [ "EPSG" , "4269" ] ] )"), (Crs{4269, true}));
   for (const char* none : {"", "LOCAL_CS[\"x\"]", "]]]", "[[[[", "x,y\n1,2\n", "\"", "PROJCS"}) {
     EXPECT_EQ(crs_of_wkt(none), std::nullopt) << none;

@@ -41,9 +41,10 @@ double least_factor(double least, const Holds& holds) {
   if (holds(least)) return least;
   double low = least;
   double high = 2 * least;
-  for (; !holds(high); high *= 2) {
+  while (!holds(high)) {
     if (high > 0x1p60) return std::numeric_limits<double>::infinity();
     low = high;
+    high *= 2;
   }
   while (high > low * 1.001) {
     const double middle = std::sqrt(low) * std::sqrt(high);

@@ -19,6 +19,7 @@ class Labels {
 
  private:
   struct Hash {
+    // NOLINTNEXTLINE(readability-identifier-naming): the name that the standard looks for
     using is_transparent = void;
     std::size_t operator()(std::string_view text) const { return std::hash<std::string_view>()(text); }
   };

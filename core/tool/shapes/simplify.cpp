@@ -48,6 +48,7 @@ class VertexGrid {
  public:
   explicit VertexGrid(const std::vector<Vertex>& vertices) {
     std::vector<Point> places;
+    places.reserve(vertices.size());
     for (const Vertex& vertex : vertices) places.push_back(vertex.place);
     box_ = bounding_box(places);
     side_ = std::max<std::size_t>(1, static_cast<std::size_t>(std::sqrt(static_cast<double>(places.size()))));
