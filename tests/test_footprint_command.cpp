@@ -53,6 +53,7 @@ class FootprintCommandTest : public ::testing::Test {
 
 TEST_F(FootprintCommandTest, AFeatureForEveryFile) {
   std::vector<std::string> files;
+  files.reserve(5);
   for (int column = 0; column < 5; ++column) {
     files.push_back(file("tile_" + std::to_string(column) + ".las", tile(column).text()));
   }
@@ -167,7 +168,7 @@ TEST_F(FootprintCommandTest, LazGoesThroughAProgramInThePath) {
   EXPECT_EQ(good.code, 0) << good.err;
   EXPECT_EQ(json::parse(good.out)["features"][0]["properties"]["points"], 8000);
   for (const char* script :
-       {"exit 1", "head -c 5000 \"$2\"; exit 1", "cat \"$(dirname \"$2\")/unpacked.las\"; exit 3"}) {
+       {"exit 1", R"(head -c 5000 "$2"; exit 1)", R"(cat "$(dirname "$2")/unpacked.las"; exit 3)"}) {
     const Outcome bad = with_program(script);
     EXPECT_EQ(bad.code, 4);
     EXPECT_NE(bad.err.find("laszip could not unpack it"), std::string::npos) << bad.err;

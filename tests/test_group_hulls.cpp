@@ -208,8 +208,8 @@ TEST(PointLocator, AgreesWithAnglesAndKnowsItsBoundary) {
       EXPECT_EQ(locator.covers(p), is_covered(p, shape, points));
     }
     for (const Point& p : points) EXPECT_EQ(locator.covers(p), is_covered(p, shape, points));
-    for (std::size_t k = 0; k < shape.size(); ++k) {
-      for (const std::uint32_t v : shape[k].shell) EXPECT_TRUE(locator.covers(points[v]));
+    for (const IndexPolygon& polygon : shape) {
+      for (const std::uint32_t v : polygon.shell) EXPECT_TRUE(locator.covers(points[v]));
     }
   }
   const std::vector<Point> square = {{0, 0}, {4, 0}, {4, 4}, {0, 4}};

@@ -7,8 +7,8 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
-#include <cstdio>
 #include <cstdlib>
+#include <iostream>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <string_view>
@@ -30,7 +30,7 @@ constexpr std::array<const char*, 4> kColumns = {"", "1,2", "2,1", "b,a"};
 
 void expect(bool holds, const char* what) {
   if (holds) return;
-  std::fprintf(stderr, "FAILED: %s\n", what);
+  std::cerr << "FAILED: " << what << std::endl;
   std::abort();
 }
 

@@ -10,6 +10,7 @@
 #include "tool/program/exit_code.hpp"
 #include "tool/program/surroundings.hpp"
 
+// NOLINTNEXTLINE(readability-identifier-naming): CLI11's name
 namespace CLI {
 class App;
 }
