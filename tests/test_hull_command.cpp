@@ -445,6 +445,9 @@ TEST_F(HullCommandTest, TheCoordinateSystemIsPassedOn) {
       "old.geojson",
       R"({"crs":{"type":"name","properties":{"name":"urn:ogc:def:crs:EPSG::3035"}},"type":"MultiPoint","coordinates":[[4e6,3e6],[4000001,3e6],[4e6,3000001]]})");
   EXPECT_EQ(crs_of({old}), "urn:ogc:def:crs:EPSG::3035");
+  const Outcome nameless =
+      hull({file("null.geojson", R"({"crs":null,"type":"MultiPoint","coordinates":[[4,3],[5,3],[4,4]]})")});
+  EXPECT_EQ(nameless.err.find("metres"), std::string::npos) << nameless.err;
   EXPECT_EQ(crs_of({file("e.wkt", "SRID=25832;MULTIPOINT ((0 0), (1 0), (0 1))")}),
             "urn:ogc:def:crs:EPSG::25832");
   expect_refusal(hull({csv, "--crs", "here"}), 2, "--crs 'here' names no coordinate system");

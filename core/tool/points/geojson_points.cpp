@@ -73,7 +73,8 @@ class PointHandler : public nlohmann::json_sax<json> {
   bool null() override {
     if (skipped_ > 0) return true;
     if (depth_ > 0) reader_.fail_here("a coordinate is null; give the number or remove the point");
-    if (in_member(Member::kGeometry)) {  // RFC 7946, 3.2: a feature that is nowhere
+    if (in_member(Member::kCrs)) crs_ = Crs();  // as GeoJSON had it before RFC 7946: not known
+    if (in_member(Member::kGeometry)) {         // RFC 7946, 3.2: a feature that is nowhere
       objects_.back().has_content = true;
       return true;
     }
