@@ -62,7 +62,7 @@ TEST_F(FootprintCommandTest, AFeatureForEveryFile) {
   arguments.insert(arguments.end(), {"-o", out});
   const Outcome outcome = footprint(arguments);
   EXPECT_EQ(outcome.code, 0);
-  EXPECT_EQ(outcome.err, "polylidar: 5 of 5 files have a footprint\n");
+  EXPECT_EQ(outcome.err, "polylidar: 5 of 5 files are in the index\n");
   EXPECT_EQ(outcome.out, "");
   const json index = json::parse(testing::read_text(out));
   EXPECT_EQ("urn:ogc:def:crs:EPSG::25832", index["crs"]["properties"]["name"].get<std::string>());
@@ -101,7 +101,7 @@ TEST_F(FootprintCommandTest, ABrokenFileIsToldAndTheOthersAreDone) {
   EXPECT_EQ(outcome.code, 4);
   for (const char* words : {"short.las: it ends before the 8000 points", "there is no file /nowhere/tile.las",
                             "bad.csv, line 2: 'x' is not a number",
-                            "polylidar: 1 of 4 files have a footprint, 3 could not be read"}) {
+                            "polylidar: 1 of 4 files are in the index, 3 could not be read"}) {
     EXPECT_NE(outcome.err.find(words), std::string::npos) << words << " in " << outcome.err;
   }
   const json index = json::parse(outcome.out);

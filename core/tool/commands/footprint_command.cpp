@@ -221,7 +221,7 @@ class FootprintRun {
     }
     const std::size_t count = footprints_.size();
     surroundings_.err << surroundings_.program << ": " << count - failed << " of " << count
-                      << (count == 1 ? " file has" : " files have") << " a footprint"
+                      << (count == 1 ? " file is" : " files are") << " in the index"
                       << (failed > 0 ? ", " + std::to_string(failed) + " could not be read" : std::string())
                       << "\n";
     if (differ) {
