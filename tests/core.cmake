@@ -16,19 +16,30 @@ hullbench_test(test_threads SOURCES test_threads.cpp LIBRARIES hullbench_test_su
 hullbench_test(test_core_corpus SOURCES test_core_corpus.cpp LIBRARIES hullbench_test_support LABELS core)
 hullbench_test(test_core_relations SOURCES test_core_relations.cpp LIBRARIES hullbench_test_support LABELS core)
 
-# The fuzz target twice: for libFuzzer, which only clang has, and with a main of its own that runs the kept corpus, which
+# Each fuzz target twice: for libFuzzer, which only clang has, and with a main of its own that runs the kept corpus, which
 # makes it a test with every compiler.
-option(HULLBENCH_FUZZ "Build the fuzz target for libFuzzer; CMAKE_CXX_FLAGS must say -fsanitize=fuzzer-no-link" OFF)
-set(fuzz_sources fuzz/fuzz_concave_hull.cpp fuzz/fuzz_input.cpp)
-add_executable(replay_fuzz_corpus fuzz/replay.cpp ${fuzz_sources})
-target_link_libraries(replay_fuzz_corpus PRIVATE hullbench_test_support hullbench::compile_options)
-set_target_properties(replay_fuzz_corpus PROPERTIES RUNTIME_OUTPUT_DIRECTORY "${CMAKE_BINARY_DIR}/tests")
-add_test(NAME fuzz.corpus_replay COMMAND replay_fuzz_corpus "${CMAKE_CURRENT_SOURCE_DIR}/fuzz/corpus")
-set_tests_properties(fuzz.corpus_replay PROPERTIES LABELS core TIMEOUT 120)
-if(HULLBENCH_FUZZ)
-  add_executable(fuzz_concave_hull ${fuzz_sources})
-  target_link_libraries(fuzz_concave_hull PRIVATE hullbench_test_support hullbench::compile_options)
-  target_link_options(fuzz_concave_hull PRIVATE -fsanitize=fuzzer)
+option(HULLBENCH_FUZZ "Build the fuzz targets for libFuzzer; CMAKE_CXX_FLAGS must say -fsanitize=fuzzer-no-link" OFF)
+
+# hullbench_fuzz(NAME corpus SOURCES file... LIBRARIES target...): fuzz_NAME and replay_NAME, with the corpus in that folder.
+function(hullbench_fuzz name corpus)
+  cmake_parse_arguments(FUZZ "" "" "SOURCES;LIBRARIES" ${ARGN})
+  add_executable(replay_${name} fuzz/replay.cpp ${FUZZ_SOURCES})
+  target_link_libraries(replay_${name} PRIVATE ${FUZZ_LIBRARIES} hullbench::compile_options)
+  set_target_properties(replay_${name} PROPERTIES RUNTIME_OUTPUT_DIRECTORY "${CMAKE_BINARY_DIR}/tests")
+  add_test(NAME fuzz.${corpus}_replay COMMAND replay_${name} "${CMAKE_CURRENT_SOURCE_DIR}/fuzz/${corpus}")
+  set_tests_properties(fuzz.${corpus}_replay PROPERTIES LABELS core TIMEOUT 120)
+  if(HULLBENCH_FUZZ)
+    add_executable(fuzz_${name} ${FUZZ_SOURCES})
+    target_link_libraries(fuzz_${name} PRIVATE ${FUZZ_LIBRARIES} hullbench::compile_options)
+    target_link_options(fuzz_${name} PRIVATE -fsanitize=fuzzer)
+  endif()
+endfunction()
+
+hullbench_fuzz(concave_hull corpus
+  SOURCES fuzz/fuzz_concave_hull.cpp fuzz/fuzz_input.cpp LIBRARIES hullbench_test_support)
+if(TARGET polylidar_tool)
+  hullbench_fuzz(point_files corpus_point_files
+    SOURCES fuzz/fuzz_point_files.cpp LIBRARIES polylidar::tool nlohmann_json::nlohmann_json)
 endif()
 
 if(HULLBENCH_CORE_ONLY)

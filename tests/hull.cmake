@@ -1,17 +1,30 @@
-# Points from files, and `hullbench hull`, which makes polygons of them.
+# Points from files, and `polylidar hull`, which makes polygons of them.
 find_package(GEOS CONFIG REQUIRED)
 
-hullbench_test(test_point_files SOURCES test_point_files.cpp LIBRARIES hullbench::point_files LABELS hull)
-target_include_directories(test_point_files PRIVATE "${PROJECT_SOURCE_DIR}")
+hullbench_test(test_point_files SOURCES test_point_files.cpp LIBRARIES polylidar::tool LABELS hull)
 
 hullbench_test(test_hull_command SOURCES test_hull_command.cpp
-  LIBRARIES hullbench::hull hullbench::metrics hullbench_adapter_interface hullbench_test_program
+  LIBRARIES polylidar::tool hullbench::metrics hullbench_adapter_interface hullbench_test_program
     nlohmann_json::nlohmann_json GEOS::geos_c
   LABELS hull)
-target_compile_definitions(test_hull_command PRIVATE HULLBENCH="$<TARGET_FILE:hullbench>")
-add_dependencies(test_hull_command hullbench)
+target_compile_definitions(test_hull_command PRIVATE
+  HULLBENCH="$<TARGET_FILE:hullbench>" POLYLIDAR="$<TARGET_FILE:polylidar>")
+add_dependencies(test_hull_command hullbench polylidar)
 
 hullbench_test(test_points_command SOURCES test_points_command.cpp
-  LIBRARIES hullbench::point_files hullbench::datasets hullbench_test_program LABELS hull)
+  LIBRARIES polylidar::tool hullbench::datasets hullbench_test_program LABELS hull)
 target_compile_definitions(test_points_command PRIVATE HULLBENCH="$<TARGET_FILE:hullbench>")
 add_dependencies(test_points_command hullbench)
+
+hullbench_test(test_simplify SOURCES test_simplify.cpp LIBRARIES polylidar::tool hullbench::metrics LABELS hull)
+
+hullbench_test(test_las_points SOURCES test_las_points.cpp LIBRARIES polylidar::tool LABELS hull)
+hullbench_test(test_crs SOURCES test_crs.cpp LIBRARIES polylidar::tool LABELS hull)
+hullbench_test(test_group_hulls SOURCES test_group_hulls.cpp LIBRARIES polylidar::tool LABELS hull)
+hullbench_test(test_footprint_command SOURCES test_footprint_command.cpp
+  LIBRARIES polylidar::tool hullbench_test_program nlohmann_json::nlohmann_json LABELS hull)
+target_compile_definitions(test_footprint_command PRIVATE POLYLIDAR="$<TARGET_FILE:polylidar>")
+add_dependencies(test_footprint_command polylidar)
+foreach(test point_files simplify las_points crs group_hulls)
+  target_include_directories(test_${test} PRIVATE "${PROJECT_SOURCE_DIR}")
+endforeach()

@@ -5,7 +5,7 @@ target_compile_definitions(test_package PRIVATE
   BUILD_TYPE="$<LOWER_CASE:$<CONFIG>>" BUILD_FOLDER="${PROJECT_BINARY_DIR}"
   SOURCE_FOLDER="${PROJECT_SOURCE_DIR}" PROJECT_VERSION="${PROJECT_VERSION}"
   CMAKE_PROGRAM="${CMAKE_COMMAND}" CXX_COMPILER="${CMAKE_CXX_COMPILER}" PKG_CONFIG_PROGRAM="${PKG_CONFIG_EXECUTABLE}")
-add_dependencies(test_package polylidar_core)
+add_dependencies(test_package polylidar_core polylidar)
 
 hullbench_tool_test(NAME docs.core NEEDS doxygen "${PROJECT_BINARY_DIR}/core/Doxyfile"
   COMMAND doxygen "${PROJECT_BINARY_DIR}/core/Doxyfile")

@@ -134,7 +134,8 @@ std::string missing(const std::vector<std::string>& needs) {
 
 void expect_refusal(const Outcome& outcome, int code, const std::string& words) {
   EXPECT_EQ(outcome.code, code) << outcome.err;
-  EXPECT_TRUE(outcome.err.starts_with("hullbench: ")) << outcome.err;
+  EXPECT_TRUE(outcome.err.starts_with("hullbench: ") || outcome.err.starts_with("polylidar: "))
+      << outcome.err;
   EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1) << outcome.err;
   EXPECT_NE(outcome.err.find(words), std::string::npos) << outcome.err;
   EXPECT_EQ(outcome.out, "");

@@ -51,8 +51,8 @@ Outcome run_program(const std::vector<std::string>& command, const ProgramOption
 /// test that needs it is then to be skipped.
 std::string missing(const std::vector<std::string>& needs);
 
-/// Expects that hullbench ended with `code` and one sentence on standard error that has these words, and
-/// wrote nothing to standard output.
+/// Expects that hullbench or polylidar ended with `code` and one sentence on standard error that has these
+/// words, and wrote nothing to standard output.
 void expect_refusal(const Outcome& outcome, int code, const std::string& words);
 
 /// Calls `condition` until it is true; false when it is not within `patience`.

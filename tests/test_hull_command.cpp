@@ -1,4 +1,4 @@
-// `hullbench hull` as its users meet it: the same polygons in every format, options, exit codes,
+// `polylidar hull` as its users meet it: the same polygons in every format, options, exit codes,
 // circumstances.
 #include <geos_c.h>
 #include <gtest/gtest.h>
@@ -54,14 +54,14 @@ class HullCommandTest : public ::testing::Test {
   std::string points_file() const { return file("points.npy", testing::npy_of<double>(points_, "<f8")); }
 
   static Outcome hull(std::vector<std::string> arguments) {
-    arguments.insert(arguments.begin(), {HULLBENCH, "hull"});
+    arguments.insert(arguments.begin(), {POLYLIDAR, "hull"});
     return testing::run_program(arguments);
   }
   /// The same through the shell, after `before` and followed by `after`.
   static Outcome in_shell(const std::string& before, const std::string& arguments,
                           const std::string& after = "") {
     return testing::run_program(
-        {"/bin/sh", "-c", before + " '" + HULLBENCH + "' hull " + arguments + " " + after});
+        {"/bin/sh", "-c", before + " '" + POLYLIDAR + "' hull " + arguments + " " + after});
   }
   MultiPolygon shape(std::vector<std::string> options) const {
     options.insert(options.begin(), {points_file(), "--format", "wkb"});
@@ -127,7 +127,7 @@ TEST_F(HullCommandTest, TheCoresPolygonsInEveryFormat) {
   }
   EXPECT_EQ(feature["properties"], (json{{"points", points_.size()},
                                          {"alpha", 0.3},
-                                         {"polygons", 2},
+                                         {"parts", 2},
                                          {"holes", right[0].holes.size() + right[1].holes.size()},
                                          {"area", area(right)}}));
 
@@ -159,12 +159,14 @@ TEST_F(HullCommandTest, SvgHasPathsDotsAndATitle) {
 }
 
 TEST_F(HullCommandTest, EveryInputFormatGivesTheSameBytes) {
-  const std::string first = hull({points_file()}).out;
+  // GeoJSON, and columns of that name, are longitudes and latitudes.
+  const std::string first = hull({points_file(), "--crs", "none"}).out;
   for (const auto& form : testing::all_forms(points_)) {
     const std::string path = file(form.name, form.text);
-    EXPECT_EQ(hull({path}).out, first) << form.name;
-    EXPECT_EQ(in_shell("", "- < '" + path + "'").out, first) << form.name << " from a file as standard input";
-    EXPECT_EQ(in_shell("cat '" + path + "' |", "-").out, first) << form.name << " from a pipe";
+    EXPECT_EQ(hull({path, "--crs", "none"}).out, first) << form.name;
+    EXPECT_EQ(in_shell("", "- --crs none < '" + path + "'").out, first)
+        << form.name << " from a file as standard input";
+    EXPECT_EQ(in_shell("cat '" + path + "' |", "- --crs none").out, first) << form.name << " from a pipe";
   }
 }
 
@@ -272,6 +274,31 @@ TEST_F(HullCommandTest, OutputThatCannotBeWritten) {
       "Broken pipe");
 }
 
+TEST_F(HullCommandTest, HullbenchHullIsTheSameUnderItsOldName) {
+  for (const std::vector<std::string>& options :
+       {std::vector<std::string>{}, {"--alpha", "0.3", "--simplify", "0.1"}, {"--alpha", "0"}, {"--help"}}) {
+    std::vector<std::string> command = {HULLBENCH, "hull", points_file()};
+    command.insert(command.end(), options.begin(), options.end());
+    const Outcome old = testing::run_program(command);
+    command[0] = POLYLIDAR;
+    const Outcome current = testing::run_program(command);
+    EXPECT_EQ(old.code, current.code);
+    if (options == std::vector<std::string>{"--help"}) {
+      EXPECT_NE(old.out.find("\nExample: hullbench hull "), std::string::npos);
+      EXPECT_NE(current.out.find("\nExample: polylidar hull "), std::string::npos);
+      const auto options_of = [](const std::string& help) {
+        const std::size_t begin = help.find("\nPositionals:");
+        return help.substr(begin, help.find("\nExample:") - begin);
+      };
+      EXPECT_EQ(options_of(old.out), options_of(current.out));
+      continue;
+    }
+    EXPECT_EQ(old.out, current.out);
+    if (current.err.empty()) continue;
+    EXPECT_EQ(old.err, "hullbench" + current.err.substr(std::string("polylidar").size()));
+  }
+}
+
 TEST_F(HullCommandTest, UsageErrors) {
   const std::string points = points_file();
   expect_refusal(hull({}), 2, "FILE is required");
@@ -281,7 +308,7 @@ TEST_F(HullCommandTest, UsageErrors) {
   expect_refusal(hull({points, "--min-area", "large"}), 2, "is not a number of 0 or more");
   expect_refusal(hull({points, "--simplify", "-0.5"}), 2, "is not a number of 0 or more");
   expect_refusal(hull({points, "--threads", "0"}), 2, "--threads");
-  expect_refusal(hull({points, "--input", "las"}), 2, "--input");
+  expect_refusal(hull({points, "--input", "shp"}), 2, "--input");
   expect_refusal(hull({points, "--format", "shp"}), 2, "--format");
   expect_refusal(hull({points, "--columns", "1,2"}), 2, "--columns is for columns of text");
 }
@@ -300,12 +327,174 @@ TEST_F(HullCommandTest, InputThatCannotBeRead) {
   EXPECT_EQ(hull({"--columns", "b,c", file("c.csv", "a,b,c\n9,0,0\n9,1,0\n9,0,1\n")}).code, 0);
 }
 
+TEST_F(HullCommandTest, OneFeatureAGroup) {
+  std::string text = "kind;x;y\n";
+  for (std::size_t i = 0; i < points_.size(); ++i) {
+    text += (i % 3 == 0   ? "\"red; \\deep\""
+             : i % 3 == 1 ? "blue"
+                          : "") +
+            std::string(";") + testing::number(points_[i].x) + ";" + testing::number(points_[i].y) + "\n";
+  }
+  const std::string path = file("kinds.csv", text);
+  for (const char* by : {"kind", "KIND", "1"}) {
+    const Outcome outcome =
+        by[0] == '1' ? hull({path, "--by", by, "--columns", "x,y"}) : hull({path, "--by", by});
+    EXPECT_EQ(outcome.err, "");
+    const json collection = json::parse(outcome.out);
+    ASSERT_EQ(collection["features"].size(), 3U);
+    const char* labels[] = {"", "blue", "red; \\deep"};
+    for (std::size_t g = 0; g < 3; ++g) {
+      const json& feature = collection["features"][g];
+      Points members;
+      for (std::size_t i = 0; i < points_.size(); ++i) {
+        if (i % 3 == 2 - g) members.push_back(points_[i]);
+      }
+      EXPECT_EQ(labels[g], feature["properties"]["label"].get<std::string>());
+      EXPECT_EQ(feature["properties"]["points"], members.size());
+      EXPECT_TRUE(feature["properties"].contains("median_size"));
+      EXPECT_EQ(from_geojson(feature["geometry"]["coordinates"]),
+                to_coordinates(polylidar::concave_hull(members), members));
+    }
+  }
+  expect_refusal(hull({path, "--by", "colour"}), 2, "there is no column 'colour'");
+  expect_refusal(hull({path, "--by", "0"}), 2, "--by '0' names no column");
+  expect_refusal(hull({points_file(), "--by", "1"}), 2, "--by is for columns of text and for LAS");
+  expect_refusal(hull({path, "--by", "kind", "--format", "wkt"}), 2, "--by gives a feature a group");
+  EXPECT_EQ(hull({path, "--by", "kind", "--format", "svg"}).code, 0);
+}
+
+TEST_F(HullCommandTest, LabelsThatAreNumbersAreNumbers) {
+  const auto labels = [&](const std::string& text) {
+    json found = json::array();
+    const json collection = json::parse(hull({file("n.csv", text), "--by", "3"}).out);
+    for (const json& feature : collection["features"]) {
+      found.push_back(feature["properties"]["label"]);
+    }
+    return found;
+  };
+  EXPECT_EQ(labels("1,2,10\n1,2,9\n1,2,-0.5\n"), (json{-0.5, 9, 10}));
+  EXPECT_EQ(labels("1,2,10\n1,2,007\n"), (json{"007", "10"}));
+  EXPECT_EQ(labels("1,2,10\n1,2,nan\n1,2,9\n"), (json{"9", "10", "nan"}));
+  EXPECT_EQ(labels("x,y,z\n"), json::array());
+  const std::string odd = hull({file("odd.csv", "1,2,\xFF\n"), "--by", "3"}).out;
+  EXPECT_EQ("\xEF\xBF\xBD", json::parse(odd)["features"][0]["properties"]["label"].get<std::string>());
+}
+
+TEST_F(HullCommandTest, WhatIsLeftOutsideIsKept) {
+  const json collection =
+      json::parse(hull({points_file(), "--alpha", "0.3", "--max-parts", "1", "--keep-outliers"}).out);
+  ASSERT_EQ(collection["features"].size(), 2U);
+  EXPECT_EQ(collection["features"][0]["properties"]["parts"], 1);
+  const json& outside = collection["features"][1];
+  EXPECT_EQ(outside["properties"], (json{{"outside", 4}}));
+  EXPECT_EQ(outside["geometry"],
+            (json{{"type", "MultiPoint"},
+                  {"coordinates", {{20.0, 0.0}, {20.2, 0.0}, {20.0, 0.2}, {20.21, 0.21}}}}));
+  const json covered = json::parse(hull({points_file(), "--cover", "--keep-outliers"}).out);
+  EXPECT_EQ(covered["features"].size(), 1U);
+  expect_refusal(hull({points_file(), "--keep-outliers", "--format", "svg"}), 2, "only --format geojson has");
+}
+
+TEST_F(HullCommandTest, OneAndMaxParts) {
+  EXPECT_EQ(shape({"--alpha", "0.3", "--one"}).size(), 1U);
+  EXPECT_EQ(shape({"--alpha", "0.3", "--max-parts", "1"}), MultiPolygon{expected(0.3)[0]});
+  EXPECT_EQ(json::parse(hull({points_file(), "--alpha", "0.3", "--one"}).out)["properties"]["parts"], 1);
+}
+
+TEST_F(HullCommandTest, DegreesAreTakenAsMetres) {
+  Points degrees;
+  for (const auto& p : points_) degrees.push_back({10 + p.x / 100, 60 + p.y / 200});
+  const std::string geojson = file("degrees.geojson", testing::geojson_multipoint(degrees));
+  const std::string named = file(
+      "degrees.csv", "lat,lon\n" + [&] {
+        std::string text;
+        for (const auto& p : degrees) text += testing::number(p.y) + "," + testing::number(p.x) + "\n";
+        return text;
+      }());
+  const std::string plain = file("plain.csv", testing::rows(degrees, ","));
+  const Outcome outcome = hull({geojson, "--max-edge-length", "300"});
+  EXPECT_NE(outcome.err.find("longitude and latitude: lengths and areas are in metres"), std::string::npos);
+  const json feature = json::parse(outcome.out);
+  EXPECT_FALSE(feature.contains("crs"));
+  // 1 unit of points_ is 556 m in both directions at latitude 60.
+  const double metres = 555.975;
+  const double plane_area = polylidar::area(shape({"--max-edge-length", testing::number(300 / metres)}));
+  EXPECT_NEAR(feature["properties"]["area"].get<double>() / metres / metres, plane_area, 0.005 * plane_area);
+  EXPECT_EQ(hull({named, "--max-edge-length", "300"}).out, outcome.out);
+  EXPECT_EQ(hull({plain, "--max-edge-length", "300", "--crs", "EPSG:4326"}).out, outcome.out);
+  const std::string plane = hull({plain, "--max-edge-length", "0.005"}).out;
+  EXPECT_EQ(hull({geojson, "--max-edge-length", "0.005", "--crs", "none"}).out, plane);
+  EXPECT_EQ(hull({file("far.geojson", testing::geojson_multipoint({{500, 1}, {501, 1}, {500, 2}}))})
+                .err.find("metres"),
+            std::string::npos)
+      << "no longitude is 500";
+}
+
+TEST_F(HullCommandTest, TheCoordinateSystemIsPassedOn) {
+  const auto crs_of = [&](const std::vector<std::string>& arguments) {
+    const json feature = json::parse(hull(arguments).out);
+    return feature.contains("crs") ? feature["crs"]["properties"]["name"].get<std::string>() : std::string();
+  };
+  const std::string csv = file("utm.csv", "500000,5600000\n500001,5600000\n500000,5600001\n");
+  EXPECT_EQ(crs_of({csv}), "");
+  EXPECT_EQ(crs_of({csv, "--crs", "25833"}), "urn:ogc:def:crs:EPSG::25833");
+  file("utm.prj", R"(PROJCS["a",GEOGCS["b"],AUTHORITY["EPSG","25832"]])");
+  EXPECT_EQ(crs_of({csv}), "urn:ogc:def:crs:EPSG::25832");
+  EXPECT_EQ(crs_of({csv, "--crs", "none"}), "");
+  const std::string old = file(
+      "old.geojson",
+      R"({"crs":{"type":"name","properties":{"name":"urn:ogc:def:crs:EPSG::3035"}},"type":"MultiPoint","coordinates":[[4e6,3e6],[4000001,3e6],[4e6,3000001]]})");
+  EXPECT_EQ(crs_of({old}), "urn:ogc:def:crs:EPSG::3035");
+  const Outcome nameless =
+      hull({file("null.geojson", R"({"crs":null,"type":"MultiPoint","coordinates":[[4,3],[5,3],[4,4]]})")});
+  EXPECT_EQ(nameless.err.find("metres"), std::string::npos) << nameless.err;
+  EXPECT_EQ(crs_of({file("e.wkt", "SRID=25832;MULTIPOINT ((0 0), (1 0), (0 1))")}),
+            "urn:ogc:def:crs:EPSG::25832");
+  expect_refusal(hull({csv, "--crs", "here"}), 2, "--crs 'here' names no coordinate system");
+}
+
+TEST_F(HullCommandTest, AWindowChoosesPointsOfEveryFormat) {
+  Points inside;
+  for (const auto& p : points_) {
+    if (p.x >= 1 && p.x <= 7 && p.y >= 0 && p.y <= 5.5) inside.push_back(p);
+  }
+  for (const auto& form : {testing::PointFileText{"w.csv", testing::rows(points_, ",")},
+                           testing::PointFileText{"w.npy", testing::npy_of<double>(points_, "<f8")}}) {
+    const json feature =
+        json::parse(hull({file(form.name, form.text), "--alpha", "0.3", "--window", "1,0,7,5.5"}).out);
+    EXPECT_EQ(feature["properties"]["points"], inside.size());
+    EXPECT_EQ(from_geojson(feature["geometry"]["coordinates"]),
+              to_coordinates(polylidar::concave_hull(inside, {.alpha = 0.3}), inside));
+  }
+  expect_refusal(hull({points_file(), "--classes", "2"}), 2, "--returns and --classes are for LAS");
+}
+
+TEST_F(HullCommandTest, WhatGzipCompressedIsUnpacked) {
+  const std::string path = points_file();
+  const std::string csv = file("points.csv", testing::rows(points_, ","));
+  const std::string expected_text = hull({csv}).out;
+  if (hull({csv + ".gz"}).code == 0) FAIL() << "the test left a file behind";
+  ASSERT_EQ(testing::run_program({"gzip", "-k", csv, path}).code, 0);
+  const Outcome unpacked = hull({csv + ".gz"});
+  if (unpacked.err.find("without zlib") != std::string::npos) GTEST_SKIP() << "zlib is missing";
+  EXPECT_EQ(unpacked.out, expected_text) << unpacked.err;
+  EXPECT_EQ(hull({path + ".gz"}).out, expected_text);
+  EXPECT_EQ(in_shell("", "- < '" + csv + ".gz'").out, expected_text);
+  const std::string packed = read_text(csv + ".gz");
+  EXPECT_EQ(hull({file("twice.csv.gz", packed + packed)}).code, 0);
+  expect_refusal(hull({file("cut.csv.gz", packed.substr(0, packed.size() / 2))}), 2,
+                 "its gzip stream is cut short");
+  std::string damaged = packed;
+  damaged[damaged.size() / 2] = static_cast<char>(~damaged[damaged.size() / 2]);
+  expect_refusal(hull({file("bad.csv.gz", damaged)}), 2, "bad.csv.gz");
+}
+
 TEST_F(HullCommandTest, CtrlCWhileWaitingForInput) {
   // Opened for reading and writing, so that neither side waits for the other and no end comes.
   testing::Program program(
-      {"/bin/sh", "-c", std::string("exec '") + HULLBENCH + "' hull - <> '" + make_pipe() + "'"});
+      {"/bin/sh", "-c", std::string("exec '") + POLYLIDAR + "' hull - <> '" + make_pipe() + "'"});
   ASSERT_TRUE(testing::wait_until([&] {
-    return read_text("/proc/" + std::to_string(program.pid()) + "/stat").find("(hullbench) S") !=
+    return read_text("/proc/" + std::to_string(program.pid()) + "/stat").find("(polylidar) S") !=
            std::string::npos;
   }));
   program.send_signal(SIGINT);

@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <set>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -102,6 +103,24 @@ TEST_F(PackageTest, IsTheCoreAndNothingElse) {
   }
   EXPECT_EQ(installed_files(), expected);
   EXPECT_FALSE(expected.contains("include/polylidar/check.hpp")) << "that is for tests";
+}
+
+TEST_F(PackageTest, TheToolIsAComponentOfItsOwnAndLinksNoOtherLibrary) {
+  install({"--component", "tool"});
+  EXPECT_EQ(installed_files(), (std::set<std::string>{"bin/polylidar", "share/doc/polylidar/LICENSE"}));
+  const std::string program = (prefix_ / "bin/polylidar").string();
+  EXPECT_EQ(succeed({program, "--version"}), "polylidar " PROJECT_VERSION "\n");
+  // What the licence of the program depends on: the C and C++ libraries, and zlib.
+  std::istringstream lines(succeed({"ldd", program}));
+  for (std::string line; std::getline(lines, line);) {
+    const std::string name = line.substr(line.find_first_not_of(" \t"));
+    bool is_known = false;
+    for (const char* known : {"linux-", "/lib", "lib64", "libc.so", "libm.so", "libgcc_s.so", "libstdc++.so",
+                              "libz.so", "libpthread.so", "libdl.so", "ld-linux"}) {
+      is_known |= name.starts_with(known);
+    }
+    EXPECT_TRUE(is_known) << line;
+  }
 }
 
 TEST_F(PackageTest, NamesNothingOfTheBuild) {

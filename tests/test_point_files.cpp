@@ -5,15 +5,14 @@
 #include <fstream>
 #include <limits>
 
-#include "benchmarks/hull/point_files/point_file.hpp"
 #include "tests/point_file_texts.hpp"
 #include "tests/temporary_folder.hpp"
+#include "tool/points/point_file.hpp"
 
-namespace hullbench::hull {
+namespace polylidar::tool {
 namespace {
 
-using polylidar::Point;
-using namespace testing;
+using namespace hullbench::testing;
 
 class PointFilesTest : public ::testing::Test {
  protected:
@@ -148,8 +147,8 @@ TEST_F(PointFilesTest, FaultsInColumns) {
       {"a.csv", std::string("1,2\0\n", 5), "zero byte"},
       {"a.csv", std::string(2000000, '7'), ", line 1: the line is longer than"},
       {"a.xyz", "1,2\n3,4\n", ", line 2: there is no column 2"},
-      {"a.csv", "LASF\1\2", "it is a LAS file"},
-      {"a.csv", "\x1F\x8B\x08", "it is compressed"},
+      {"a.csv", "LASF\1\2", "its LAS header is not whole"},
+      {"a.csv", "\x1F\x8B\x08", "its gzip stream"},
       {"a.csv", "PK\x03\x04", "it is an archive"},
       {"a.csv", "\xFF\xFEx", "UTF-16"},
   };
@@ -373,4 +372,4 @@ TEST_F(PointFilesTest, NoBytesDoMoreThanBeRefused) {
 }
 
 }  // namespace
-}  // namespace hullbench::hull
+}  // namespace polylidar::tool

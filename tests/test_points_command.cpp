@@ -9,11 +9,11 @@
 #include <string>
 #include <vector>
 
-#include "benchmarks/hull/point_files/point_file.hpp"
-#include "benchmarks/hull/point_files/point_writer.hpp"
 #include "datasets/datasets.hpp"
 #include "tests/program.hpp"
 #include "tests/temporary_folder.hpp"
+#include "tool/points/point_file.hpp"
+#include "tool/points/point_writer.hpp"
 
 namespace hullbench {
 namespace {
@@ -108,7 +108,7 @@ TEST_F(PointsCommandTest, FilesHoldThePointsOfARun) {
        {"ca", "star-3~outliers:10~noise:1~quantised:0.5", kDataset, "hi~airborne:4"}) {
     const std::vector<Point> expected = make_point_set(name, false, 500, 7).points;
     for (const char* file : {"a.csv", "a.txt", "a.xyz", "a.npy"}) {
-      EXPECT_EQ(hull::read_points(written(name, "500", file)), expected) << name << " as " << file;
+      EXPECT_EQ(polylidar::tool::read_points(written(name, "500", file)), expected) << name << " as " << file;
     }
   }
 }
@@ -134,10 +134,10 @@ TEST_F(PointsCommandTest, LasHoldsThemUpToItsScale) {
 TEST_F(PointsCommandTest, HolesSeedAndOwnPoints) {
   const Outcome holed = points({"ca", "--n", "300", "--holes", "--out", path("holed.npy")});
   EXPECT_EQ(holed.code, 0) << holed.err;
-  EXPECT_EQ(hull::read_points(path("holed.npy")), make_point_set("ca", true, 300, 1).points);
+  EXPECT_EQ(polylidar::tool::read_points(path("holed.npy")), make_point_set("ca", true, 300, 1).points);
   const Outcome floor = points({"floor-2", "--seed", "5", "--out", path("floor.npy")});
   EXPECT_EQ(floor.code, 0) << floor.err;
-  EXPECT_EQ(hull::read_points(path("floor.npy")), make_point_set("floor-2", false, 0, 5).points);
+  EXPECT_EQ(polylidar::tool::read_points(path("floor.npy")), make_point_set("floor-2", false, 0, 5).points);
 }
 
 TEST_F(PointsCommandTest, StandardOutputGetsCsvOrWhatIsAsked) {
@@ -196,36 +196,39 @@ TEST_F(PointsCommandTest, CtrlCLeavesNothingBehind) {
 
 TEST(PointEncoder, PutsLabelsIntoEveryFormat) {
   const std::vector<Point> points = {{0.5, -1}, {1e-5, 3}};
-  const hull::PointFileFacts facts{.count = 2, .has_labels = true, .bounds = polylidar::bounding_box(points)};
-  const auto text = [&](hull::PointOutput format) {
-    const hull::PointEncoder encoder(format, facts);
+  const polylidar::tool::PointFileFacts facts{
+      .count = 2, .has_labels = true, .bounds = polylidar::bounding_box(points)};
+  const auto text = [&](polylidar::tool::PointOutput format) {
+    const polylidar::tool::PointEncoder encoder(format, facts);
     std::string bytes = encoder.header();
     encoder.append(points[0], 7, bytes);
     encoder.append(points[1], 65535, bytes);
     return bytes;
   };
-  EXPECT_EQ(text(hull::PointOutput::kCsv), "x,y,label\n0.5,-1,7\n1e-05,3,65535\n");
-  EXPECT_EQ(text(hull::PointOutput::kXyz), "0.5 -1 7\n1e-05 3 65535\n");
-  const std::string npy = text(hull::PointOutput::kNpy);
+  EXPECT_EQ(text(polylidar::tool::PointOutput::kCsv), "x,y,label\n0.5,-1,7\n1e-05,3,65535\n");
+  EXPECT_EQ(text(polylidar::tool::PointOutput::kXyz), "0.5 -1 7\n1e-05 3 65535\n");
+  const std::string npy = text(polylidar::tool::PointOutput::kNpy);
   EXPECT_NE(npy.find("'shape': (2, 3)"), std::string::npos);
   EXPECT_EQ(at<double>(npy, npy.size() - 8), 65535);
-  EXPECT_EQ(LasFile(text(hull::PointOutput::kLas)).sources, (std::vector<std::uint16_t>{7, 65535}));
+  EXPECT_EQ(LasFile(text(polylidar::tool::PointOutput::kLas)).sources,
+            (std::vector<std::uint16_t>{7, 65535}));
   std::string unused;
-  EXPECT_THROW(hull::PointEncoder(hull::PointOutput::kLas, facts).append(points[0], 65536, unused),
+  EXPECT_THROW(polylidar::tool::PointEncoder(polylidar::tool::PointOutput::kLas, facts)
+                   .append(points[0], 65536, unused),
                std::invalid_argument);
 }
 
 TEST(LasGrid, ReachesAllCoordinates) {
   for (const Box& box : {Box{{-1, 0}, {1, 5}}, Box{{1e9, 1e9}, {1e9 + 1e-3, 1e9}},
                          Box{{-1e300, 0}, {1e300, 1}}, Box{{1e-200, 0}, {3e-200, 0}}}) {
-    const hull::LasGrid grid(box);
+    const polylidar::tool::LasGrid grid(box);
     for (const Point& corner : {box.min, box.max}) {
       const Point again = grid.place(grid.column(corner.x), grid.row(corner.y));
       EXPECT_NEAR(again.x, corner.x, grid.scale()) << box.max.x;
       EXPECT_NEAR(again.y, corner.y, grid.scale()) << box.max.x;
     }
   }
-  const hull::LasGrid one({{3.7, -2}, {3.7, -2}});
+  const polylidar::tool::LasGrid one({{3.7, -2}, {3.7, -2}});
   EXPECT_EQ(one.place(one.column(3.7), one.row(-2)), (Point{3.7, -2}));
 }
 

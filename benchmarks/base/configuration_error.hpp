@@ -1,14 +1,10 @@
-// What a user can mend.
+// What a user can mend: as in the tool, core/tool/program.
 #pragma once
 
-#include <stdexcept>
+#include "tool/program/configuration_error.hpp"
 
 namespace hullbench {
 
-/// Something the user asked for that cannot be done as it stands; one sentence with the way out. Exit code 2.
-class ConfigurationError : public std::runtime_error {
- public:
-  using std::runtime_error::runtime_error;
-};
+using polylidar::tool::ConfigurationError;
 
 }  // namespace hullbench

@@ -1,24 +1,14 @@
-// How a program ends: one meaning for each number, the same for hullbench, bench_gate, core_benchmarks and
-// fit_rules.
+// How a program ends, the same for hullbench, bench_gate, core_benchmarks and fit_rules: the codes of
+// core/tool/program, and what they mean here.
 #pragma once
 
-#include <functional>
-#include <ostream>
-#include <string>
+#include "tool/program/exit_code.hpp"
 
 namespace hullbench {
 
-/// Not an enum class, as main() returns one as it is; a bare number is no ExitCode all the same.
-enum ExitCode : int {
-  kExitOk = 0,
-  kExitError = 1,
-  kExitUsage = 2,
-  kExitRegression = 3,
-  kExitFailures = 4,
-  kExitInconclusive = 5,
-  kExitNothing = 6,
-  kExitInterrupted = 130
-};
+using polylidar::tool::exit_code_of;
+using polylidar::tool::ExitCode;
+using enum polylidar::tool::ExitCode;
 
 /// What they mean, for help.
 inline constexpr const char* kExitCodesHelp =
@@ -31,9 +21,5 @@ inline constexpr const char* kExitCodesHelp =
     "    5  inconclusive: too noisy, or the same program differs from itself\n"
     "    6  nothing was measured, or there is nothing to compare\n"
     "  130  interrupted";
-
-/// What `work` returns. When it throws, one line on `err` after the name of the program: kExitUsage for a
-/// ConfigurationError, kExitInterrupted for Interrupted, kExitError for any other std::exception.
-ExitCode exit_code_of(const std::string& program, std::ostream& err, const std::function<ExitCode()>& work);
 
 }  // namespace hullbench

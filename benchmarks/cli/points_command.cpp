@@ -11,17 +11,19 @@
 #include "benchmarks/base/interrupt.hpp"
 #include "benchmarks/base/status_line.hpp"
 #include "benchmarks/cli/options.hpp"
-#include "benchmarks/cli/result_output.hpp"
 #include "benchmarks/cli/terminal.hpp"
-#include "benchmarks/hull/point_files/point_writer.hpp"
 #include "datasets/datasets.hpp"
+#include "tool/points/point_writer.hpp"
+#include "tool/program/result_output.hpp"
 
 namespace hullbench::cli {
 namespace {
 
-using hull::PointOutput;
 using polylidar::Box;
 using polylidar::Point;
+using polylidar::tool::check_output_place;
+using polylidar::tool::PointOutput;
+using polylidar::tool::ResultOutput;
 
 struct PointsCommand {
   std::string dataset;
@@ -95,9 +97,9 @@ class PointsProgress {
 };
 
 PointOutput output_format(const PointsCommand& command) {
-  if (const auto named = hull::point_output_of(command.format)) return *named;
+  if (const auto named = polylidar::tool::point_output_of(command.format)) return *named;
   if (command.out.empty()) return PointOutput::kCsv;
-  if (const auto known = hull::point_output_of_ending(command.out)) return *known;
+  if (const auto known = polylidar::tool::point_output_of_ending(command.out)) return *known;
   throw ConfigurationError("the ending of '" + command.out +
                            "' names no format; give .csv, .xyz, .txt, .npy or .las, or --format");
 }
@@ -118,16 +120,16 @@ Box bounds_of(PointStream points, PointsProgress& progress) {
 
 ExitCode write_points(const PointsCommand& command) {
   const PointOutput format = output_format(command);
-  hull::check_point_count(format, command.count);
+  polylidar::tool::check_point_count(format, command.count);
   check_output_place(command.out);
   check_memory(command);
   PointsProgress progress(command.count);
   if (!is_streamed(command.dataset)) progress.show_drawing();
   PointStream points = stream_points(command.dataset, command.holes, command.count, command.seed);
-  hull::PointFileFacts facts{.count = points.size(), .has_labels = false, .bounds = {}};
+  polylidar::tool::PointFileFacts facts{.count = points.size(), .has_labels = false, .bounds = {}};
   // LAS says in front how far the points reach.
   if (format == PointOutput::kLas) facts.bounds = bounds_of(points, progress);
-  const hull::PointEncoder encoder(format, facts);
+  const polylidar::tool::PointEncoder encoder(format, facts);
   ResultOutput output(command.out);
   std::string bytes = encoder.header();
   for (std::size_t i = 0; i < points.size(); ++i) {

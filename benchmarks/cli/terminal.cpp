@@ -9,10 +9,6 @@
 
 namespace hullbench::cli {
 
-bool is_terminal() {
-  return ::isatty(STDERR_FILENO) == 1;
-}
-
 run::Progress make_progress(std::vector<run::ProgressSection> sections) {
   winsize size{};
   const bool known = ::ioctl(STDERR_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 0;

@@ -4,11 +4,11 @@
 #include <vector>
 
 #include "benchmarks/run/progress.hpp"
+#include "tool/program/surroundings.hpp"
 
 namespace hullbench::cli {
 
-/// Whether its last line can be rewritten.
-bool is_terminal();
+using polylidar::tool::is_terminal;
 
 /// The progress of these sections, on standard error.
 run::Progress make_progress(std::vector<run::ProgressSection> sections);

@@ -7,7 +7,7 @@
 #   check.sh tidy [JOBS]          clang-tidy has nothing to say; needs build-clang/compile_commands.json
 #   check.sh paths                no file names a path of one machine
 #   check.sh layout               the top level is what the design allows; its folders have a README
-#   check.sh rooms                a room of benchmarks/ includes only rooms before it
+#   check.sh rooms                a room of benchmarks/ includes only rooms before it, and core/ none
 #   check.sh printing             no library prints
 #   check.sh version              every file that states the version states that of CMakeLists.txt
 #   check.sh help                 "make help" and benchmarks/README.md name every target
@@ -121,6 +121,10 @@ check_rooms() {
     done
   done
   [ "$before" != " " ] || { echo "error: benchmarks/CMakeLists.txt adds no room." >&2; return 1; }
+  if grep -rnE '#include "(adapters|benchmarks|datasets|tests)/' core >&2; then
+    echo "error: core includes what is built upon it." >&2
+    status=1
+  fi
   return $status
 }
 

@@ -1,0 +1,73 @@
+// The tool's commands: for each, what its options say, the options, and the work. A program adds the options
+// to its own command line and says where it runs.
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "tool/program/exit_code.hpp"
+#include "tool/program/surroundings.hpp"
+
+// NOLINTNEXTLINE(readability-identifier-naming): CLI11's name
+namespace CLI {
+class App;
+}
+
+namespace polylidar::tool {
+
+/// How a shape is made of points, and which points: what both commands have. Lengths are in the unit of the
+/// points, of longitudes and latitudes in metres.
+struct ShapeChoice {
+  std::optional<double> alpha;            ///< >= 0; the three limits are those of polylidar::Options
+  std::optional<double> max_edge_length;  ///< >= 0
+  std::optional<double> max_perimeter;    ///< >= 0
+  double detail = 1;                      ///< > 0; of the limit that is chosen
+  bool cover = false;                     ///< widen the limit until no point is left outside
+  bool one = false;                       ///< widen it until there is one polygon
+  std::size_t min_triangles = 0;          ///< polygons of fewer Delaunay triangles are dropped
+  double min_area = 0;                    ///< smaller holes are filled, smaller polygons dropped
+  std::optional<std::size_t> max_parts;   ///< only the largest polygons are kept
+  double simplify = 0;                    ///< how far the outline may move; 0: not at all
+  std::string returns = "all";            ///< "all", "first" or "last"
+  std::string classes;                    ///< such as "2,6"; empty: all
+  std::string window;                     ///< "xmin,ymin,xmax,ymax"; empty: no window
+  std::string crs;                        ///< "none", "EPSG:n" or "n"; empty: what the file says
+  unsigned threads = 0;                   ///< 0: as many as there are processors
+  std::string out;                        ///< a file; empty: standard output
+};
+
+/// From a file of points to polygons.
+struct HullCommand {
+  /// Behind the program's name.
+  static constexpr const char* kExample = "hull points.csv --columns lon,lat --format svg --out hull.svg";
+
+  std::string input;  ///< a path, or "-" for standard input
+  ShapeChoice shape;
+  std::string input_format = "auto";  ///< a name that point_format_of() knows
+  std::string columns;                ///< see PointFileOptions
+  std::string by;                     ///< likewise
+  std::string format = "geojson";     ///< "geojson", "wkt", "wkb" or "svg"
+  bool keep_outliers = false;         ///< the points left outside are written too
+};
+
+/// From files of points to an index of their footprints.
+struct FootprintCommand {
+  static constexpr const char* kExample = "footprint tiles/*.las --returns first --out index.geojson";
+
+  std::vector<std::string> inputs;  ///< paths
+  ShapeChoice shape;
+};
+
+/// Each adds its options, description and notes to `app`. `command` must live as long.
+void add_hull_options(CLI::App& app, HullCommand& command);
+void add_footprint_options(CLI::App& app, FootprintCommand& command);
+
+/// Each writes the result to standard output or the file, whole or not at all; notes and, on a terminal,
+/// progress go to surroundings.err. They throw what exit_code_of() takes.
+ExitCode make_hull(const HullCommand& command, const Surroundings& surroundings);
+/// kExitFailures when a file could not be read; the index has the others.
+ExitCode make_footprints(const FootprintCommand& command, const Surroundings& surroundings);
+
+}  // namespace polylidar::tool

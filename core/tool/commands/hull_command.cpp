@@ -1,0 +1,266 @@
+// `polylidar hull FILE`: from anybody's points to polygons.
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <csignal>
+#include <new>
+#include <stdexcept>
+#include <vector>
+
+#include "tool/commands/commands.hpp"
+#include "tool/commands/shape_choice.hpp"
+#include "tool/program/configuration_error.hpp"
+#include "tool/program/interrupt.hpp"
+#include "tool/program/result_output.hpp"
+#include "tool/program/status_line.hpp"
+#include "tool/shapes/point_locator.hpp"
+
+namespace polylidar::tool {
+namespace {
+
+std::string mebibytes(std::uint64_t bytes) {
+  return std::to_string(bytes >> 20U);
+}
+
+/// One run of the command.
+class HullRun {
+ public:
+  HullRun(const HullCommand& command, const Surroundings& surroundings)
+      : command_(command), surroundings_(surroundings), status_(surroundings.err, surroundings.terminal) {}
+
+  ExitCode run() {
+    check_options();
+    check_output_place(command_.shape.out);
+    read();
+    compute();
+    throw_if_interrupted();
+    if (command_.by.empty()) {
+      explain(hulls_.groups[0]);
+    } else {
+      explain_groups();
+    }
+    write_result(command_.shape.out, result());
+    return kExitOk;
+  }
+
+ private:
+  void check_options() const {
+    chosen_crs(command_.shape, {});
+    if (command_.format == "geojson") return;
+    if (!command_.by.empty() && command_.format != "svg") {
+      throw ConfigurationError("--by gives a feature a group, which " + command_.format +
+                               " cannot tell apart; ask for --format geojson or svg");
+    }
+    if (command_.keep_outliers) {
+      throw ConfigurationError("--keep-outliers gives a feature of its own, which only --format geojson has");
+    }
+  }
+
+  void say(const std::string& text) const {
+    surroundings_.err << surroundings_.program << ": " << text << "\n";
+  }
+
+  /// On a terminal only: elsewhere nobody waits for it.
+  void show(const std::string& doing) {
+    throw_if_interrupted();
+    if (surroundings_.terminal) status_.show(doing);
+  }
+
+  void read() {
+    PointFileOptions options = point_options(command_.shape);
+    options.format = point_format_of(command_.input_format).value_or(PointFormat::kAuto);
+    options.columns = command_.columns;
+    options.by = command_.by;
+    options.on_progress = [&](std::uint64_t bytes, std::optional<std::uint64_t> size) {
+      show("reading: " + mebibytes(bytes) + (size ? " of " + mebibytes(*size) : "") + " MiB");
+    };
+    try {
+      file_ = read_point_file(command_.input, options);
+    } catch (const PointFileError& error) {
+      throw ConfigurationError(error.what());
+    }
+    crs_ = chosen_crs(command_.shape, file_.crs);
+    are_numbers_ = are_numbers(file_.labels);
+  }
+
+  void compute() {
+    // Fewer take less than a blink.
+    constexpr std::size_t kMany = 500000;
+    const std::size_t groups = file_.labels.size();
+    if (file_.points.size() >= kMany)
+      show("triangulating " + std::to_string(file_.points.size()) + " points");
+    hulls_ = locate_hulls(file_, command_.shape, !command_.by.empty(), thread_count(command_.shape),
+                          [&](std::size_t done) {
+                            if (file_.points.size() >= kMany)
+                              show("group " + std::to_string(done) + " of " + std::to_string(groups));
+                            throw_if_interrupted();
+                          });
+    status_.clear();
+    if (!hulls_.latitude) return;
+    say("longitude and latitude: lengths and areas are in metres, true at latitude " +
+        shortest(std::round(*hulls_.latitude * 100) / 100) + "; --crs none takes degrees as they are");
+  }
+
+  /// What was chosen, or why there is nothing.
+  void explain(const GroupHull& hull) const {
+    if (hull.sizes) {
+      std::string sizes = "triangles of size " + shortest(hull.sizes->least);
+      if (hull.sizes->most > hull.sizes->least) {
+        sizes += " (where points are densest) to " + shortest(hull.sizes->most);
+      }
+      say(sizes +
+          " at most, chosen from the points; --detail scales it, --alpha, --max-edge-length or "
+          "--max-perimeter sets a limit");
+    }
+    if (hull.extracted > 0) return;
+    say(hull.has_triangles
+            ? "no triangle of the points is within the limits, so the shape is empty; larger ones "
+              "give more"
+            : "there are no three distinct points off a line, so the shape is empty");
+  }
+
+  void explain_groups() const {
+    const auto empty = std::count_if(hulls_.groups.begin(), hulls_.groups.end(),
+                                     [](const GroupHull& hull) { return hull.shape.empty(); });
+    if (empty > 0) {
+      say(std::to_string(empty) + " of " + std::to_string(hulls_.groups.size()) +
+          " groups have an empty shape");
+    }
+  }
+
+  std::string result() const {
+    if (command_.format == "geojson") return geojson();
+    MultiPolygon shape;
+    for (const GroupHull& hull : hulls_.groups) {
+      for (Polygon& polygon : to_coordinates(hull.shape, file_.points)) shape.push_back(std::move(polygon));
+    }
+    if (command_.format == "wkt") return to_wkt(shape);
+    if (command_.format == "svg") return to_svg(shape, file_.points);
+    return to_wkb(shape);
+  }
+
+  std::string geojson() const {
+    if (command_.by.empty() && !command_.keep_outliers) {
+      return geojson_feature(properties_of(0), to_coordinates(hulls_.groups[0].shape, file_.points),
+                             geojson_crs(crs_)) +
+             "\n";
+    }
+    std::vector<std::string> features;
+    for (std::size_t g = 0; g < hulls_.groups.size(); ++g) {
+      features.push_back(
+          geojson_feature(properties_of(g), to_coordinates(hulls_.groups[g].shape, file_.points)));
+      if (command_.keep_outliers) add_outliers(g, features);
+    }
+    return geojson_collection(features, geojson_crs(crs_));
+  }
+
+  Properties properties_of(std::size_t g) const {
+    Properties properties;
+    add_label(g, properties);
+    properties.add("points", hulls_.groups[g].points);
+    add_shape_properties(hulls_.groups[g], properties);
+    return properties;
+  }
+
+  void add_outliers(std::size_t g, std::vector<std::string>& features) const {
+    const std::vector<Point>& plane = hulls_.latitude ? hulls_.metres : file_.points;
+    const PointLocator locator(hulls_.groups[g].shape, plane);
+    std::vector<Point> outside;
+    const auto look_at = [&](std::size_t i) {
+      if (!locator.covers(plane[i])) outside.push_back(file_.points[i]);
+    };
+    if (command_.by.empty()) {
+      for (std::size_t i = 0; i < plane.size(); ++i) look_at(i);
+    } else {
+      for (const std::uint32_t i : hulls_.groups[g].members) look_at(i);
+    }
+    if (outside.empty()) return;
+    Properties properties;
+    add_label(g, properties);
+    properties.add("outside", outside.size());
+    features.push_back(geojson_feature(properties, outside));
+  }
+
+  void add_label(std::size_t g, Properties& properties) const {
+    if (command_.by.empty()) return;
+    const std::string& label = file_.labels[g];
+    if (are_numbers_) {
+      properties.add_json("label", label);
+    } else {
+      properties.add("label", std::string_view(label));
+    }
+  }
+
+  /// Whether all labels are numbers as JSON writes them: 7 and -0.5, but not 007.
+  static bool are_numbers(const std::vector<std::string>& labels) {
+    return std::all_of(labels.begin(), labels.end(), [](const std::string& label) {
+      double value = 0;
+      const auto [end, error] = std::from_chars(label.data(), label.data() + label.size(), value);
+      return error == std::errc() && std::isfinite(value) && shortest(value) == label;
+    });
+  }
+
+  const HullCommand& command_;
+  const Surroundings& surroundings_;
+  StatusLine status_;
+  PointFile file_;
+  Crs crs_;
+  LocatedHulls hulls_;
+  bool are_numbers_ = false;
+};
+
+std::string name_of(const HullCommand& command) {
+  return command.input == "-" ? "standard input" : command.input;
+}
+
+}  // namespace
+
+ExitCode make_hull(const HullCommand& command, const Surroundings& surroundings) {
+  // A closed pipe is then an error of writing, which is told like others.
+  (void)::signal(SIGPIPE, SIG_IGN);
+  try {
+    return HullRun(command, surroundings).run();
+  } catch (const std::invalid_argument& error) {
+    throw ConfigurationError(name_of(command) + ": " + error.what());
+  } catch (const std::bad_alloc&) {
+    throw std::runtime_error("there is not enough memory for the points of " + name_of(command) +
+                             "; give fewer of them, or use a machine with more");
+  }
+}
+
+void add_hull_options(CLI::App& app, HullCommand& command) {
+  app.description("Turn a file of points into polygons");
+  app.footer(
+      "Without --alpha, --max-edge-length and --max-perimeter a limit for the size of triangles is chosen "
+      "from the\n"
+      "points, place by place, so that it follows their density. Its range is printed to standard error. The "
+      "size "
+      "of\n"
+      "an equilateral triangle is its edge. The shape may be empty.\n"
+      "The input's format is known by the ending of its name (.csv .tsv .txt .xyz .pts .asc .geojson .json "
+      ".wkt\n"
+      ".npy .ply .las .laz, also with .gz), else by its content. LAZ needs laszip or las2las in the PATH. "
+      "Lengths are "
+      "in\n"
+      "the unit of the points; of longitudes and latitudes they are in metres.");
+  app.add_option("FILE", command.input, "The points; - for standard input")->required();
+  app.add_option("--input", command.input_format, "The input's format")
+      ->check(CLI::IsMember({"auto", "csv", "xyz", "geojson", "wkt", "npy", "ply", "las"}))
+      ->capture_default_str();
+  app.add_option(
+      "--columns", command.columns,
+      "The columns of x and y in a text file: names, such as lon,lat, or numbers from 1, such as 2,3");
+  app.add_option(
+      "--by", command.by,
+      "One shape for each value of this column of a text file, by its name or its number from 1; of a LAS "
+      "file: classification, return or point_source");
+  app.add_option("--format", command.format, "The output's format")
+      ->check(CLI::IsMember({"geojson", "wkt", "wkb", "svg"}))
+      ->capture_default_str();
+  app.add_flag("--keep-outliers", command.keep_outliers,
+               "Also write the points that are left outside, as a MultiPoint (geojson only)");
+  add_shape_options(app, command.shape);
+}
+
+}  // namespace polylidar::tool

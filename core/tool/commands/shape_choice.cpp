@@ -1,0 +1,165 @@
+#include "tool/commands/shape_choice.hpp"
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <string_view>
+#include <thread>
+
+#include "tool/hull/degrees.hpp"
+#include "tool/program/configuration_error.hpp"
+
+namespace polylidar::tool {
+namespace {
+
+CLI::Validator zero_or_more() {
+  return {[](const std::string& text) {
+            double value = 0;
+            const bool fits = CLI::detail::lexical_cast(text, value) && std::isfinite(value) && value >= 0;
+            return fits ? std::string() : "'" + text + "' is not a number of 0 or more";
+          },
+          ">=0"};
+}
+
+/// The whole text as numbers between commas; empty when it is none.
+template <class Number>
+std::vector<Number> numbers_of(std::string_view text) {
+  std::vector<Number> numbers;
+  for (;;) {
+    Number number{};
+    const char* const end = text.data() + text.size();
+    const auto [next, error] = std::from_chars(text.data(), end, number);
+    if (error != std::errc() || (next != end && *next != ',')) return {};
+    numbers.push_back(number);
+    if (next == end) return numbers;
+    text.remove_prefix(static_cast<std::size_t>(next - text.data()) + 1);
+  }
+}
+
+}  // namespace
+
+void add_shape_options(CLI::App& app, ShapeChoice& choice) {
+  app.add_option("--alpha", choice.alpha, "Largest circumradius of a triangle of the shape")
+      ->check(zero_or_more());
+  app.add_option("--max-edge-length", choice.max_edge_length, "Longest edge of a triangle of the shape")
+      ->check(zero_or_more());
+  app.add_option("--max-perimeter", choice.max_perimeter, "Largest perimeter of a triangle of the shape")
+      ->check(zero_or_more());
+  app.add_option("--detail", choice.detail,
+                 "Detail of the outline where the limit is chosen: twice the detail, half the size")
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str();
+  app.add_flag(
+      "--one", choice.one,
+      "One polygon: the smallest limit that joins all parts, to a thousandth; parts that only appear with "
+      "it are dropped");
+  app.add_flag("--cover", choice.cover,
+               "Leave no point outside: the smallest limit that covers them all, to a thousandth");
+  app.add_option("--max-parts", choice.max_parts, "Keep only so many polygons, those of the largest areas")
+      ->check(CLI::PositiveNumber);
+  app.add_option("--min-area", choice.min_area,
+                 "Fill holes smaller than this area, then drop polygons smaller than it")
+      ->check(zero_or_more());
+  app.add_option("--min-triangles", choice.min_triangles,
+                 "Drop polygons of fewer Delaunay triangles than this");
+  app.add_option("--simplify", choice.simplify,
+                 "Simplify: leave out vertices that are no farther than this from the new outline")
+      ->check(zero_or_more());
+  app.add_option("--returns", choice.returns, "Of a LAS file: all returns, the first or the last ones")
+      ->check(CLI::IsMember({"all", "first", "last"}))
+      ->capture_default_str();
+  app.add_option("--classes", choice.classes,
+                 "Of a LAS file: only points of these classifications, such as 2,6");
+  app.add_option("--window", choice.window, "Only points in this box: xmin,ymin,xmax,ymax");
+  app.add_option(
+      "--crs", choice.crs,
+      "The coordinate system, such as EPSG:25832, instead of the one that the file names; none: a plane");
+  app.add_option("--threads", choice.threads, "Number of threads, instead of one for each processor")
+      ->check(CLI::Range(1U, 1024U));
+  app.add_option("-o,--out", choice.out, "Write the result into this file instead of standard output");
+}
+
+PointFileOptions point_options(const ShapeChoice& choice) {
+  PointFileOptions options;
+  if (choice.returns == "first") options.returns = Returns::kFirst;
+  if (choice.returns == "last") options.returns = Returns::kLast;
+  if (!choice.classes.empty()) {
+    options.classes.emplace();
+    const std::vector<unsigned> classes = numbers_of<unsigned>(choice.classes);
+    const bool fit = std::all_of(classes.begin(), classes.end(), [](unsigned c) { return c < 256; });
+    if (classes.empty() || !fit) {
+      throw ConfigurationError("--classes '" + choice.classes +
+                               "' is no list of numbers from 0 to 255; give it as in 2,6");
+    }
+    for (const unsigned c : classes) options.classes->set(c);
+  }
+  if (!choice.window.empty()) {
+    const std::vector<double> box = numbers_of<double>(choice.window);
+    const bool fits = box.size() == 4 && box[0] <= box[2] && box[1] <= box[3];
+    if (!fits || !std::all_of(box.begin(), box.end(), [](double value) { return std::isfinite(value); })) {
+      throw ConfigurationError("--window '" + choice.window +
+                               "' is no box; give it as xmin,ymin,xmax,ymax, as in 0,0,1000,500");
+    }
+    options.window = Box{{box[0], box[1]}, {box[2], box[3]}};
+  }
+  return options;
+}
+
+HullOptions hull_options(const ShapeChoice& choice) {
+  HullOptions options;
+  options.core.alpha = choice.alpha;
+  options.core.max_edge_length = choice.max_edge_length;
+  options.core.max_perimeter = choice.max_perimeter;
+  options.core.detail = choice.detail;
+  options.cover = choice.cover;
+  options.one = choice.one;
+  options.min_triangles = choice.min_triangles;
+  options.min_area = choice.min_area;
+  options.max_parts = choice.max_parts;
+  options.simplify = choice.simplify;
+  return options;
+}
+
+unsigned thread_count(const ShapeChoice& choice) {
+  return choice.threads > 0 ? choice.threads : std::max(1U, std::thread::hardware_concurrency());
+}
+
+Crs chosen_crs(const ShapeChoice& choice, const Crs& of_file) {
+  if (choice.crs.empty()) return of_file;
+  if (choice.crs == "none") return {};
+  const std::vector<int> number = numbers_of<int>(choice.crs);
+  const std::optional<Crs> named =
+      number.size() == 1 && number[0] > 0 ? crs_of_epsg(number[0]) : crs_of_name(choice.crs);
+  if (named) return *named;
+  throw ConfigurationError("--crs '" + choice.crs +
+                           "' names no coordinate system; give it as EPSG:25832, or none");
+}
+
+LocatedHulls locate_hulls(const PointFile& file, const ShapeChoice& choice, bool is_grouped, unsigned threads,
+                          const std::function<void(std::size_t)>& on_group) {
+  LocatedHulls hulls;
+  hulls.latitude = middle_latitude(chosen_crs(choice, file.crs), file.points);
+  if (hulls.latitude) hulls.metres = to_metres(file.points, *hulls.latitude);
+  if (is_grouped && file.points.empty()) return hulls;
+  hulls.groups = group_hulls(hulls.latitude ? hulls.metres : file.points, file.groups, file.labels.size(),
+                             hull_options(choice), threads, on_group);
+  return hulls;
+}
+
+void add_shape_properties(const GroupHull& hull, Properties& properties) {
+  if (hull.alpha) properties.add("alpha", *hull.alpha);
+  if (hull.max_edge_length) properties.add("max_edge_length", *hull.max_edge_length);
+  if (hull.max_perimeter) properties.add("max_perimeter", *hull.max_perimeter);
+  if (hull.sizes) {
+    properties.add("least_size", hull.sizes->least);
+    properties.add("median_size", hull.sizes->median);
+    properties.add("most_size", hull.sizes->most);
+  }
+  properties.add("parts", hull.shape.size());
+  properties.add("holes", hole_count(hull.shape));
+  properties.add("area", hull.area);
+}
+
+}  // namespace polylidar::tool

@@ -1,0 +1,44 @@
+// What the commands have in common: options, and what becomes of them.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "tool/commands/commands.hpp"
+#include "tool/hull/group_hulls.hpp"
+#include "tool/points/point_file.hpp"
+#include "tool/shapes/polygon_writers.hpp"
+
+namespace polylidar::tool {
+
+/// Adds the options to `app`.
+void add_shape_options(CLI::App& app, ShapeChoice& choice);
+
+/// Which points are read. Throws ConfigurationError for classes or a window that are none.
+PointFileOptions point_options(const ShapeChoice& choice);
+
+/// Without the threads.
+HullOptions hull_options(const ShapeChoice& choice);
+
+/// --threads, or the number of processors.
+unsigned thread_count(const ShapeChoice& choice);
+
+/// The coordinate system that `choice` gives, else that of the file. Throws ConfigurationError for a name
+/// that is none.
+Crs chosen_crs(const ShapeChoice& choice, const Crs& of_file);
+
+/// A file's points, and the hulls of its groups, in metres where the coordinates are degrees.
+struct LocatedHulls {
+  std::vector<GroupHull> groups;
+  std::vector<Point> metres;       ///< empty where the coordinates are plane
+  std::optional<double> latitude;  ///< of the metres
+};
+
+/// Without groups there is one hull, but none of a file that is grouped by something and has no points.
+LocatedHulls locate_hulls(const PointFile& file, const ShapeChoice& choice, bool is_grouped, unsigned threads,
+                          const std::function<void(std::size_t)>& on_group);
+
+/// Adds the limits that the shape has, its parts, holes and area.
+void add_shape_properties(const GroupHull& hull, Properties& properties);
+
+}  // namespace polylidar::tool

@@ -1,0 +1,25 @@
+// Longitude and latitude as a plane.
+#pragma once
+
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "polylidar/geometry.hpp"
+#include "tool/points/crs.hpp"
+
+namespace polylidar::tool {
+
+/// The middle latitude of points that are longitudes and latitudes in degrees; nothing where `crs` does not
+/// say so or a coordinate cannot be one (beyond 360 or 90), which happens to GeoJSON of projected
+/// coordinates.
+std::optional<double> middle_latitude(const Crs& crs, std::span<const Point> points);
+
+/// Points in degrees as metres east and north: both axes are scaled by the metres of a degree of latitude on
+/// a sphere of Earth's mean radius (6371008.8 m, IUGG), x by the cosine of `latitude` too. At that latitude
+/// lengths and areas are those of the sphere; at others x is too long or too short by the ratio of the
+/// cosines: 1 % across 1 degree at latitude 50. Both axes stay straight, so what is a valid polygon in metres
+/// is one in degrees. Points on both sides of longitude 180 are taken as far apart.
+std::vector<Point> to_metres(std::span<const Point> points, double latitude);
+
+}  // namespace polylidar::tool

@@ -1,0 +1,59 @@
+// A shape for each group of points.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "polylidar/concave_hull.hpp"
+#include "tool/shapes/index_shape.hpp"
+
+namespace polylidar::tool {
+
+/// What is done to the core's shape, in this order.
+struct HullOptions {
+  /// Of the core; `threads` is not used here.
+  Options core = {};
+  /// The limit is widened until the shape leaves no point of its group outside.
+  bool cover = false;
+  /// The limit is widened until what it gave before is in one polygon, and only that one is kept.
+  bool one = false;
+  std::size_t min_triangles = 0;  ///< polygons of fewer Delaunay triangles are dropped
+  double min_area = 0;            ///< squared units; smaller holes are filled, then smaller polygons dropped
+  std::optional<std::size_t> max_parts = {};  ///< only so many polygons are kept, the largest
+  double simplify = 0;                        ///< how far the outline may move; 0: not at all
+};
+
+/// The shape of one group.
+struct GroupHull {
+  std::vector<std::uint32_t> members;  ///< indices into all points, ascending; empty: all of them
+  IndexShape shape;                    ///< indices into all points
+  std::size_t points = 0;
+  std::size_t extracted = 0;   ///< polygons before any was dropped
+  double area = 0;             ///< of the shape, in squared units
+  bool has_triangles = false;  ///< there are three distinct points that are not on a line
+  /// What the limits that were given became, or that of the size that was chosen.
+  std::optional<double> alpha;
+  std::optional<double> max_edge_length;
+  std::optional<double> max_perimeter;
+  std::optional<ChosenSizes> sizes;
+};
+
+/// One hull for each of `group_count` groups; groups[i] is that of point i; no groups at all: all points are
+/// one. Groups with many points have all `threads` >= 1 to themselves, the others share them. `on_group`
+/// is told by any thread how many groups are done; what it throws ends the work. Throws as concave_hull(),
+/// with indices into all points.
+///
+/// `cover` and `one` widen the limit: all that are given by one factor, or `detail` by its inverse. No
+/// triangle is lost by that, so each holds from some factor on, and the least one is found to a thousandth by
+/// doubling and halving; beyond 2^60 there is no limit, and the shape is the convex hull. One polygon: "what
+/// the limit gave before" are its polygons; the rest, which a wider limit adds apart from them, is dropped.
+std::vector<GroupHull> group_hulls(std::span<const Point> points, std::span<const std::uint32_t> groups,
+                                   std::size_t group_count, const HullOptions& options, unsigned threads,
+                                   const std::function<void(std::size_t)>& on_group = {});
+
+}  // namespace polylidar::tool

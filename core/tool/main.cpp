@@ -1,0 +1,65 @@
+// polylidar: from points to polygons, on the command line.
+#include <CLI/CLI.hpp>
+#include <functional>
+#include <iostream>
+#include <memory>
+#include <string>
+
+#include "packaging/manual/manual.hpp"
+#include "tool/commands/commands.hpp"
+#include "tool/program/configuration_error.hpp"
+#include "tool/program/exit_code.hpp"
+#include "tool/program/interrupt.hpp"
+#include "tool/program/surroundings.hpp"
+
+namespace {
+
+using namespace polylidar::tool;
+
+constexpr const char* kProgram = "polylidar";
+
+using Action = std::function<ExitCode()>;
+
+/// What the command line asks for; nothing more when it is help.
+Action parse(int argc, char** argv) {
+  CLI::App app("Polygons round points: concave hulls of files of points.", kProgram);
+  app.require_subcommand(1);
+  app.set_version_flag("--version", "polylidar " POLYLIDAR_VERSION);
+  app.footer(kToolExitCodesHelp);
+  const Surroundings surroundings{kProgram, std::cerr, is_terminal()};
+  Action action;
+  const auto add = [&]<class Command>(const char* name, void (*add_options)(CLI::App&, Command&),
+                                      ExitCode (*work)(const Command&, const Surroundings&)) {
+    const auto command = std::make_shared<Command>();
+    CLI::App& options = *app.add_subcommand(name);
+    add_options(options, *command);
+    options.footer(options.get_footer() + "\nExample: " + kProgram + " " + Command::kExample + "\n" +
+                   kToolExitCodesHelp);
+    options.callback([&action, &surroundings, command, work] {
+      action = [surroundings, command, work] { return work(*command, surroundings); };
+    });
+  };
+  add("hull", &add_hull_options, &make_hull);
+  add("footprint", &add_footprint_options, &make_footprints);
+  packaging::add_manual(app, "polylidar " POLYLIDAR_VERSION);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::Success& request) {
+    app.exit(request);
+    return [] { return kExitOk; };
+  } catch (const CLI::ParseError& error) {
+    throw ConfigurationError(std::string(error.what()) +
+                             "; 'polylidar --help' and 'polylidar COMMAND --help' show what there is");
+  }
+  return action;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  return exit_code_of(kProgram, std::cerr, [&] {
+    const Action action = parse(argc, argv);
+    catch_interruptions();
+    return action();
+  });
+}

@@ -1,0 +1,168 @@
+#include "tool/points/block_reader.hpp"
+
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+#include <system_error>
+#include <utility>
+
+namespace polylidar::tool::point_files {
+namespace {
+
+constexpr std::size_t kBlock = std::size_t{1} << 20U;
+constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
+
+std::string reason(int error) {
+  return std::generic_category().message(error);
+}
+
+}  // namespace
+
+BlockReader::BlockReader(const std::string& path, const PointFileOptions& options)
+    : options_(options), name_(path == "-" ? "standard input" : path), block_(kBlock) {
+  file_ = path == "-" ? ::dup(STDIN_FILENO) : ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
+  if (file_ < 0) {
+    const int error = errno;
+    if (error == ENOENT) throw PointFileError("there is no file " + name_ + " to read points from");
+    fail("it cannot be opened: " + reason(error));
+  }
+  try {
+    struct stat status {};
+    if (::fstat(file_, &status) == 0) {
+      if (S_ISDIR(status.st_mode)) fail("it is a folder; give a file of points");
+      // Standard input may be a file that somebody has read from already.
+      if (S_ISREG(status.st_mode) && path != "-") size_ = static_cast<std::uint64_t>(status.st_size);
+    }
+    start();
+  } catch (...) {
+    ::close(file_);
+    throw;
+  }
+}
+
+BlockReader::BlockReader(int file, std::string name, const PointFileOptions& options)
+    : options_(options), name_(std::move(name)), file_(file), block_(kBlock) {
+  try {
+    start();
+  } catch (...) {
+    ::close(file_);
+    throw;
+  }
+}
+
+void BlockReader::start() {
+  if (ahead().starts_with("\x1F\x8B") && Gunzip::is_available()) {
+    gunzip_ =
+        std::make_unique<Gunzip>(ahead(), [this](char* to, std::size_t size) { return read_raw(to, size); });
+    position_ = end_ = 0;
+  }
+  if (ahead().starts_with(kByteOrderMark)) position_ += kByteOrderMark.size();
+}
+
+BlockReader::~BlockReader() {
+  ::close(file_);
+}
+
+std::size_t BlockReader::read_some(char* to, std::size_t size) {
+  if (!gunzip_) return read_raw(to, size);
+  try {
+    return gunzip_->read(to, size);
+  } catch (const GunzipError& error) {
+    fail(error.what());
+  }
+}
+
+std::size_t BlockReader::read_raw(char* to, std::size_t size) {
+  for (;;) {
+    const ssize_t count = ::read(file_, to, size);
+    if (count < 0 && errno != EINTR) fail("it cannot be read: " + reason(errno));
+    taken_ += static_cast<std::uint64_t>(std::max<ssize_t>(count, 0));
+    // Also after a signal, so that an interruption is seen while a pipe stays silent.
+    if (options_.on_progress) options_.on_progress(taken_, size_);
+    if (count >= 0) return static_cast<std::size_t>(count);
+  }
+}
+
+/// Moves what is left to the front of the block and reads behind it. False when nothing more comes.
+bool BlockReader::refill() {
+  std::memmove(block_.data(), block_.data() + position_, end_ - position_);
+  end_ -= position_;
+  position_ = 0;
+  const std::size_t count = read_some(block_.data() + end_, block_.size() - end_);
+  end_ += count;
+  return count > 0;
+}
+
+std::string_view BlockReader::ahead() {
+  if (position_ == end_) refill();
+  return {block_.data() + position_, end_ - position_};
+}
+
+bool BlockReader::next_line(std::string_view& line) {
+  std::size_t searched = 0;
+  for (;;) {
+    const char* begin = block_.data() + position_;
+    const std::size_t held = end_ - position_;
+    const auto* found = static_cast<const char*>(std::memchr(begin + searched, '\n', held - searched));
+    if (found != nullptr) {
+      line = {begin, static_cast<std::size_t>(found - begin)};
+      position_ += line.size() + 1;
+      break;
+    }
+    searched = held;
+    if (held == block_.size()) {
+      ++line_;
+      fail_here("the line is longer than " + std::to_string(kBlock) +
+                " bytes; write one point a line, or name the right format with --input");
+    }
+    if (refill()) continue;
+    if (held == 0) return false;
+    line = {block_.data() + position_, held};
+    position_ = end_;
+    break;
+  }
+  ++line_;
+  if (line.ends_with('\r')) line.remove_suffix(1);
+  return true;
+}
+
+bool BlockReader::read(char* to, std::size_t size) {
+  const std::size_t held = std::min(size, end_ - position_);
+  std::memcpy(to, block_.data() + position_, held);
+  position_ += held;
+  for (std::size_t done = held; done < size;) {
+    const std::size_t count = read_some(to + done, std::min(size - done, kBlock));
+    if (count == 0) return false;
+    done += count;
+  }
+  return true;
+}
+
+bool BlockReader::skip(std::uint64_t size) {
+  while (size > 0) {
+    const std::uint64_t part = std::min<std::uint64_t>(size, ahead().size());
+    if (part == 0) return false;
+    position_ += part;
+    size -= part;
+  }
+  return true;
+}
+
+std::optional<std::uint64_t> BlockReader::remaining() const {
+  if (!size_ || gunzip_) return {};
+  return std::max(*size_, taken_) - taken_ + (end_ - position_);
+}
+
+void BlockReader::fail(const std::string& what) const {
+  throw PointFileError(name_ + ": " + what);
+}
+
+void BlockReader::fail_here(const std::string& what) const {
+  throw PointFileError(name_ + ", line " + std::to_string(std::max<std::uint64_t>(line_, 1)) + ": " + what);
+}
+
+}  // namespace polylidar::tool::point_files

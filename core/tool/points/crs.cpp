@@ -1,0 +1,116 @@
+#include "tool/points/crs.hpp"
+
+#include <algorithm>
+#include <cctype>
+#include <charconv>
+#include <vector>
+
+namespace polylidar::tool {
+namespace {
+
+constexpr int kWgs84 = 4326;
+
+std::optional<int> number_of(std::string_view text) {
+  int number = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+  if (error != std::errc() || end != text.data() + text.size() || number <= 0) return {};
+  return number;
+}
+
+std::string upper(std::string_view text) {
+  std::string result(text);
+  for (char& c : result) c = static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
+  return result;
+}
+
+bool is_one_of(std::string_view word, std::initializer_list<std::string_view> words) {
+  return std::find(words.begin(), words.end(), word) != words.end();
+}
+
+/// An open bracket of well-known text.
+struct Node {
+  std::string keyword;
+  std::vector<std::string> values;  ///< between the commas, without quotes; nodes inside are none
+};
+
+}  // namespace
+
+std::string Crs::name() const {
+  return epsg > 0 ? "EPSG:" + std::to_string(epsg) : "";
+}
+
+Crs crs_of_epsg(int number) {
+  return {.epsg = number, .is_geographic = number >= 4000 && number < 5000};
+}
+
+std::optional<Crs> crs_of_name(std::string_view name) {
+  const std::string text = upper(name);
+  if (text.ends_with("CRS84")) return crs_of_epsg(kWgs84);
+  const std::size_t authority = text.rfind("EPSG");
+  if (authority == std::string::npos) return {};
+  const std::optional<int> number = number_of(std::string_view(text).substr(text.find_last_of(":/") + 1));
+  if (!number) return {};
+  return crs_of_epsg(*number);
+}
+
+std::optional<Crs> crs_of_wkt(std::string_view text) {
+  std::vector<Node> open;
+  std::optional<Crs> found;
+  std::size_t depth_of_found = 0;
+  std::string word;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const char c = text[i];
+    if (c == '"') {
+      const std::size_t end = std::min(text.find('"', i + 1), text.size());
+      word = text.substr(i + 1, end - i - 1);
+      i = end;
+    } else if (c == '[' || c == '(') {
+      open.push_back({upper(word), {}});
+      word.clear();
+      // The first one is the horizontal one, or what it was projected from is inside it.
+      const std::string& keyword = open.back().keyword;
+      const bool is_geographic =
+          is_one_of(keyword, {"GEOGCS", "GEOGCRS", "GEODCRS", "GEOGRAPHICCRS", "GEODETICCRS"});
+      if (!found && (is_geographic || is_one_of(keyword, {"PROJCS", "PROJCRS", "PROJECTEDCRS"}))) {
+        found = Crs{.epsg = 0, .is_geographic = is_geographic};
+        depth_of_found = open.size();
+      }
+    } else if (c == ',' || c == ']' || c == ')') {
+      if (!open.empty()) open.back().values.push_back(word);
+      word.clear();
+      if (c == ',' || open.empty()) continue;
+      const Node& node = open.back();
+      if (found && open.size() == depth_of_found + 1 && is_one_of(node.keyword, {"AUTHORITY", "ID"}) &&
+          node.values.size() >= 2 && upper(node.values[0]) == "EPSG") {
+        found->epsg = number_of(node.values[1]).value_or(0);
+      }
+      open.pop_back();
+      if (found && open.size() + 1 == depth_of_found) return found;
+    } else if (std::isspace(static_cast<unsigned char>(c)) == 0) {
+      word += c;
+    }
+  }
+  return found;
+}
+
+std::optional<Crs> crs_of_geokeys(std::span<const std::uint16_t> keys) {
+  constexpr std::uint16_t kModelType = 1024;
+  constexpr std::uint16_t kGeodeticSystem = 2048;
+  constexpr std::uint16_t kProjectedSystem = 3072;
+  constexpr std::uint16_t kUserDefined = 32767;
+  std::uint16_t model = 0;
+  std::uint16_t geodetic = 0;
+  std::uint16_t projected = 0;
+  for (std::size_t k = 4; k + 4 <= keys.size(); k += 4) {
+    if (keys[k + 1] != 0) continue;  // the value is not in the directory
+    if (keys[k] == kModelType) model = keys[k + 3];
+    if (keys[k] == kGeodeticSystem) geodetic = keys[k + 3];
+    if (keys[k] == kProjectedSystem) projected = keys[k + 3];
+  }
+  const bool is_geographic = model == 2 || (model == 0 && projected == 0 && geodetic != 0);
+  if (!is_geographic && model != 1 && projected == 0) return {};
+  const std::uint16_t number = is_geographic ? geodetic : projected;
+  return Crs{.epsg = number == kUserDefined ? 0 : number, .is_geographic = is_geographic};
+}
+
+}  // namespace polylidar::tool

@@ -1,0 +1,36 @@
+// Where on Earth coordinates are: what files say of it.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+
+namespace polylidar::tool {
+
+/// A coordinate reference system as far as it matters here. Nothing is known of it by default.
+struct Crs {
+  int epsg = 0;                ///< its number in EPSG's register; 0: not known
+  bool is_geographic = false;  ///< x and y are longitude and latitude in degrees
+
+  /// "EPSG:25832"; empty when the number is not known.
+  std::string name() const;
+
+  friend bool operator==(const Crs&, const Crs&) = default;
+};
+
+/// Of a number in EPSG's register. Geographic ones are, with few exceptions, those from 4000 to 4999.
+Crs crs_of_epsg(int number);
+
+/// Of a name such as "EPSG:25832", "urn:ogc:def:crs:EPSG::25832" or "urn:ogc:def:crs:OGC:1.3:CRS84".
+std::optional<Crs> crs_of_name(std::string_view name);
+
+/// Of well-known text (OGC 01-009 and ISO 19162, also Esri's): the horizontal system in it, its number only
+/// where the text has it. Nothing where the text names no such system.
+std::optional<Crs> crs_of_wkt(std::string_view text);
+
+/// Of a GeoKeyDirectoryTag (OGC 19-008r4, 7.1.2): numbers of 16 bits, four a key.
+std::optional<Crs> crs_of_geokeys(std::span<const std::uint16_t> keys);
+
+}  // namespace polylidar::tool

@@ -1,0 +1,313 @@
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstring>
+
+#include "tool/points/numbers.hpp"
+#include "tool/points/readers.hpp"
+
+namespace polylidar::tool::point_files {
+namespace {
+
+// ASPRS LAS Specification, versions 1.0 (2003) to 1.4 R15 (2019): places in the public header block, bytes.
+constexpr std::size_t kVersionMinor = 25;
+constexpr std::size_t kHeaderSize = 94;
+constexpr std::size_t kPointOffset = 96;
+constexpr std::size_t kRecordCount = 100;
+constexpr std::size_t kPointFormat = 104;
+constexpr std::size_t kPointSize = 105;
+constexpr std::size_t kLegacyCount = 107;
+constexpr std::size_t kScale = 131;
+constexpr std::size_t kOffset = 155;
+constexpr std::size_t kExtendedRecords = 235;  // 1.4 only, as the next two
+constexpr std::size_t kExtendedRecordCount = 243;
+constexpr std::size_t kCount = 247;
+constexpr std::size_t kOldHeader = 227;  // up to 1.2; 1.3 has 8 bytes more, which nobody needs here
+constexpr std::size_t kNewHeader = 375;  // 1.4
+
+constexpr std::size_t kRecordHeader = 54;
+constexpr std::size_t kExtendedRecordHeader = 60;
+
+constexpr std::size_t kBlock = std::size_t{1} << 20U;  // bytes, more than any point has
+
+/// Point format -> the bytes that a point has at least.
+constexpr std::array<std::size_t, 11> kLeastPointSize = {20, 28, 26, 34, 57, 63, 30, 36, 38, 59, 67};
+
+constexpr const char* kCopyAgain = "; it was cut short, so copy or save it again";
+
+std::uint64_t unsigned_at(const char* bytes, std::size_t size) {
+  std::uint64_t bits = 0;
+  for (std::size_t i = 0; i < size; ++i) {
+    bits |= std::uint64_t{static_cast<unsigned char>(bytes[i])} << (8 * i);
+  }
+  return bits;
+}
+
+double double_at(const char* bytes) {
+  return load(bytes, {Scalar::Kind::kFloat, 8, false});
+}
+
+struct Header {
+  int minor_version = 0;
+  std::uint64_t size = 0;
+  std::uint64_t points_at = 0;
+  std::uint64_t records = 0;
+  unsigned format = 0;
+  std::size_t point_size = 0;
+  std::uint64_t count = 0;
+  Point scale;
+  Point offset;
+  std::uint64_t extended_records_at = 0;  ///< 0: there are none
+  std::uint64_t extended_records = 0;
+};
+
+/// What of a point record can be chosen by.
+struct Attributes {
+  unsigned number = 0;   ///< of the return
+  unsigned returns = 0;  ///< of the pulse
+  unsigned classification = 0;
+  unsigned source = 0;
+  bool is_withheld = false;
+};
+
+class LasReader {
+ public:
+  LasReader(BlockReader& reader, PointFile& file) : reader_(reader), file_(file) {}
+
+  void read() {
+    read_header();
+    read_records();
+    skip_to(header_.points_at, "the points");
+    check_size();
+    read_points();
+    read_extended_records();
+    if (!reader_.options().by.empty()) labels_.finish(file_);
+  }
+
+ private:
+  [[noreturn]] void refuse(const std::string& what) const { reader_.fail("its LAS header " + what); }
+
+  bool take(char* to, std::size_t size) {
+    position_ += size;
+    return reader_.read(to, size);
+  }
+
+  /// Goes to that place of the file, which is not behind.
+  void skip_to(std::uint64_t place, const char* what) {
+    if (!reader_.skip(place - position_)) reader_.fail(std::string("it ends before ") + what + kCopyAgain);
+    position_ = place;
+  }
+
+  void read_header() {
+    std::array<char, kNewHeader> bytes{};
+    if (!take(bytes.data(), kOldHeader))
+      reader_.fail(std::string("its LAS header is not whole") + kCopyAgain);
+    if (std::memcmp(bytes.data(), "LASF", 4) != 0) {
+      reader_.fail("it does not begin with LASF as a LAS file does; name the right format with --input");
+    }
+    header_.minor_version = static_cast<int>(unsigned_at(&bytes[kVersionMinor], 1));
+    const auto major_version = static_cast<int>(unsigned_at(&bytes[kVersionMinor - 1], 1));
+    if (major_version != 1 || header_.minor_version > 4) {
+      refuse("says version " + std::to_string(major_version) + "." + std::to_string(header_.minor_version) +
+             ", and 1.0 to 1.4 are known; convert it to one of these");
+    }
+    header_.size = unsigned_at(&bytes[kHeaderSize], 2);
+    header_.points_at = unsigned_at(&bytes[kPointOffset], 4);
+    header_.records = unsigned_at(&bytes[kRecordCount], 4);
+    header_.point_size = static_cast<std::size_t>(unsigned_at(&bytes[kPointSize], 2));
+    header_.count = unsigned_at(&bytes[kLegacyCount], 4);
+    const std::size_t needed = header_.minor_version >= 4 ? kNewHeader : kOldHeader;
+    if (header_.size < needed || header_.points_at < header_.size) {
+      refuse("says that it has " + std::to_string(header_.size) + " bytes and the points begin at byte " +
+             std::to_string(header_.points_at) + ", which cannot be; write the file again");
+    }
+    if (needed == kNewHeader) {
+      if (!take(&bytes[kOldHeader], kNewHeader - kOldHeader)) {
+        reader_.fail(std::string("its LAS header is not whole") + kCopyAgain);
+      }
+      const std::uint64_t count = unsigned_at(&bytes[kCount], 8);
+      if (count != 0) header_.count = count;
+      header_.extended_records_at = unsigned_at(&bytes[kExtendedRecords], 8);
+      header_.extended_records = unsigned_at(&bytes[kExtendedRecordCount], 4);
+    }
+    read_format(static_cast<unsigned>(unsigned_at(&bytes[kPointFormat], 1)));
+    header_.scale = {double_at(&bytes[kScale]), double_at(&bytes[kScale + 8])};
+    header_.offset = {double_at(&bytes[kOffset]), double_at(&bytes[kOffset + 8])};
+    const auto reach = [](double scale, double offset) {
+      return std::abs(offset) + std::abs(scale) * 0x1p31;
+    };
+    const bool is_finite = std::isfinite(reach(header_.scale.x, header_.offset.x)) &&
+                           std::isfinite(reach(header_.scale.y, header_.offset.y));
+    if (!is_finite || header_.scale.x == 0 || header_.scale.y == 0) {
+      refuse("has a scale or an offset of x or y that is zero or not finite; write the file again");
+    }
+  }
+
+  void read_format(unsigned format) {
+    // LASzip sets the top bit.
+    if ((format & 0xC0U) != 0) {
+      reader_.fail(
+          "it is a LAZ file, compressed LAS; give it by its name with a program laszip or las2las in the "
+          "PATH, "
+          "or convert it first, as in 'pdal translate in.laz out.las'");
+    }
+    header_.format = format;
+    if (format >= kLeastPointSize.size() || header_.point_size < kLeastPointSize[format]) {
+      refuse("says point format " + std::to_string(format) + " with " + std::to_string(header_.point_size) +
+             " bytes a point; the formats are 0 to 10, each with no fewer bytes than the specification says");
+    }
+    is_extended_format_ = format >= 6;
+  }
+
+  /// The variable length records, of which only those with the coordinate system matter. A record that does
+  /// not fit ends them: the points are elsewhere.
+  void read_records() {
+    skip_to(header_.size, "its header does");
+    for (std::uint64_t r = 0; r < header_.records; ++r) {
+      if (header_.points_at - position_ < kRecordHeader) return;
+      std::array<char, kRecordHeader> start{};
+      if (!take(start.data(), start.size())) return;
+      const std::uint64_t size = unsigned_at(&start[20], 2);
+      if (header_.points_at - position_ < size) return;
+      if (!read_record(start.data(), size)) return;
+    }
+  }
+
+  /// Behind the points, in 1.4: as the others, with a length of 64 bits.
+  void read_extended_records() {
+    // A pipe need not be read any further; nor has a file to be, for what is known.
+    if (header_.extended_records == 0 || has_wkt_ || !reader_.remaining()) return;
+    if (header_.extended_records_at < position_) return;
+    if (!reader_.skip(header_.extended_records_at - position_)) return;
+    for (std::uint64_t r = 0; r < header_.extended_records; ++r) {
+      std::array<char, kExtendedRecordHeader> start{};
+      if (!reader_.read(start.data(), start.size())) return;
+      const std::uint64_t size = unsigned_at(&start[20], 8);
+      if (size > *reader_.remaining() || !read_record(start.data(), size)) return;
+    }
+  }
+
+  /// Takes the coordinate system out of a record of which `start` has been read. WKT goes before GeoKeys, as
+  /// the specification has it for 1.4.
+  bool read_record(const char* start, std::uint64_t size) {
+    constexpr std::uint64_t kWkt = 2112;
+    constexpr std::uint64_t kGeoKeys = 34735;
+    constexpr std::uint64_t kLongest = std::uint64_t{1} << 20U;
+    const std::uint64_t id = unsigned_at(start + 18, 2);
+    const bool is_projection = std::string_view(start + 2, 16).starts_with("LASF_Projection");
+    if (!is_projection || (id != kWkt && id != kGeoKeys) || size > kLongest) {
+      position_ += size;
+      return reader_.skip(size);
+    }
+    std::string bytes(static_cast<std::size_t>(size), '\0');
+    if (!take(bytes.data(), bytes.size())) return false;
+    if (id == kWkt) {
+      const std::optional<Crs> crs = crs_of_wkt(std::string_view(bytes).substr(0, bytes.find('\0')));
+      if (crs) file_.crs = *crs;
+      has_wkt_ = crs.has_value();
+    } else if (!has_wkt_) {
+      std::vector<std::uint16_t> keys(bytes.size() / 2);
+      for (std::size_t k = 0; k < keys.size(); ++k) {
+        keys[k] = static_cast<std::uint16_t>(unsigned_at(&bytes[2 * k], 2));
+      }
+      file_.crs = crs_of_geokeys(keys).value_or(Crs());
+    }
+    return true;
+  }
+
+  void check_size() const {
+    const std::optional<std::uint64_t> remaining = reader_.remaining();
+    if (remaining && header_.count > *remaining / header_.point_size) fail_short();
+  }
+
+  [[noreturn]] void fail_short() const {
+    reader_.fail("it ends before the " + std::to_string(header_.count) + " points that its header promises" +
+                 kCopyAgain);
+  }
+
+  void read_points() {
+    const PointFileOptions& options = reader_.options();
+    by_ = by_of(options.by);
+    if (by_ != By::kNothing) group_of_value_.assign(std::size_t{1} << 16U, kNoGroup);
+    const bool takes_all = options.returns == Returns::kAll && !options.classes && !options.window;
+    // Only when the file was seen to hold them all, so that a header alone cannot ask for all memory.
+    if (takes_all && reader_.remaining()) file_.points.reserve(static_cast<std::size_t>(header_.count));
+    const std::size_t points_a_block = kBlock / header_.point_size;
+    std::vector<char> block(points_a_block * header_.point_size);
+    for (std::uint64_t done = 0; done < header_.count;) {
+      const std::uint64_t part = std::min<std::uint64_t>(points_a_block, header_.count - done);
+      if (!take(block.data(), static_cast<std::size_t>(part) * header_.point_size)) fail_short();
+      for (std::size_t i = 0; i < part; ++i) add(block.data() + i * header_.point_size, options);
+      done += part;
+    }
+  }
+
+  Attributes attributes_of(const char* record) const {
+    const auto byte = [&](std::size_t place) {
+      return static_cast<unsigned>(unsigned_at(record + place, 1));
+    };
+    if (is_extended_format_) {
+      return {byte(14) & 15U, byte(14) >> 4U, byte(16), static_cast<unsigned>(unsigned_at(record + 20, 2)),
+              (byte(15) & 4U) != 0};
+    }
+    return {byte(14) & 7U, (byte(14) >> 3U) & 7U, byte(15) & 31U,
+            static_cast<unsigned>(unsigned_at(record + 18, 2)), (byte(15) & 128U) != 0};
+  }
+
+  void add(const char* record, const PointFileOptions& options) {
+    const Attributes attributes = attributes_of(record);
+    if (attributes.is_withheld) return;
+    if (options.returns == Returns::kFirst && attributes.number > 1) return;
+    if (options.returns == Returns::kLast && attributes.number < attributes.returns) return;
+    if (options.classes && !options.classes->test(attributes.classification)) return;
+    const auto coordinate = [&](std::size_t place, double scale, double offset) {
+      return static_cast<std::int32_t>(static_cast<std::uint32_t>(unsigned_at(record + place, 4))) * scale +
+             offset;
+    };
+    const Point point = {coordinate(0, header_.scale.x, header_.offset.x),
+                         coordinate(4, header_.scale.y, header_.offset.y)};
+    if (options.window && !is_inside(point, *options.window)) return;
+    file_.points.push_back(point);
+    ++file_.classes[attributes.classification];
+    if (by_ != By::kNothing) file_.groups.push_back(group_of(attributes));
+  }
+
+  std::uint32_t group_of(const Attributes& attributes) {
+    const unsigned value = by_ == By::kClassification ? attributes.classification
+                           : by_ == By::kReturn       ? attributes.number
+                                                      : attributes.source;
+    std::uint32_t& group = group_of_value_[value];
+    if (group == kNoGroup) group = labels_.index_of(std::to_string(value));
+    return group;
+  }
+
+  enum class By { kNothing, kClassification, kReturn, kSource };
+  static constexpr std::uint32_t kNoGroup = 0xFFFFFFFFU;
+
+  By by_of(const std::string& name) const {
+    if (name.empty()) return By::kNothing;
+    if (name == "classification") return By::kClassification;
+    if (name == "return") return By::kReturn;
+    if (name == "point_source") return By::kSource;
+    reader_.fail("a LAS file has no column " + in_quotes(name) +
+                 " to group by; give --by classification, return or point_source");
+  }
+
+  BlockReader& reader_;
+  PointFile& file_;
+  Header header_;
+  bool is_extended_format_ = false;
+  bool has_wkt_ = false;
+  std::uint64_t position_ = 0;  ///< in the file, as far as it matters
+  By by_ = By::kNothing;
+  std::vector<std::uint32_t> group_of_value_;  ///< a value of 16 bits -> the number of its label, or kNoGroup
+  Labels labels_;
+};
+
+}  // namespace
+
+void read_las(BlockReader& reader, PointFile& file) {
+  LasReader(reader, file).read();
+}
+
+}  // namespace polylidar::tool::point_files

@@ -1,0 +1,96 @@
+#include "tool/points/numbers.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <charconv>
+#include <cmath>
+#include <cstdlib>
+
+namespace polylidar::tool::point_files {
+namespace {
+
+constexpr std::string_view kBlanks = " \t\v\f\r";
+constexpr std::size_t kLongestQuote = 40;
+
+/// Reads the whole of `text` into `value`: std::errc() for a number, finite or not.
+std::errc parse(std::string_view text, double& value) {
+  if (text.starts_with('+') && !text.starts_with("+-")) text.remove_prefix(1);
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (end != text.data() + text.size()) return std::errc::invalid_argument;
+  if (error != std::errc::result_out_of_range) return error;
+  // from_chars does not say whether a number is too large or too small, and one too small is as good as 0.
+  value = std::strtod(std::string(text).c_str(), nullptr);
+  return std::isfinite(value) ? std::errc() : error;
+}
+
+}  // namespace
+
+bool is_number(std::string_view text) {
+  double value = 0;
+  return parse(text, value) != std::errc::invalid_argument;
+}
+
+double parse_coordinate(std::string_view text, const BlockReader& reader) {
+  double value = 0;
+  const std::errc error = parse(text, value);
+  if (error == std::errc() && std::isfinite(value)) return value;
+  if (text.empty()) reader.fail_here("a coordinate is missing; give the number or remove the point");
+  if (error == std::errc()) {
+    reader.fail_here("the coordinate " + in_quotes(text) + " is not finite; remove the point");
+  }
+  if (error == std::errc::result_out_of_range) {
+    reader.fail_here("the coordinate " + in_quotes(text) + " is too large for a double; use a larger unit");
+  }
+  reader.fail_here(in_quotes(text) + " is not a number; write coordinates as 12.5 or -1e3" +
+                   (text.find(',') == std::string_view::npos ? "" : ", with a point and no comma"));
+}
+
+std::optional<std::uint64_t> parse_count(std::string_view text) {
+  std::uint64_t value = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error != std::errc() || end != text.data() + text.size()) return {};
+  return value;
+}
+
+std::string_view take_word(std::string_view& text) {
+  text.remove_prefix(std::min(text.find_first_not_of(kBlanks), text.size()));
+  const std::string_view word = text.substr(0, text.find_first_of(kBlanks));
+  text.remove_prefix(word.size());
+  return word;
+}
+
+std::string_view trimmed(std::string_view text) {
+  text.remove_prefix(std::min(text.find_first_not_of(kBlanks), text.size()));
+  return text.substr(0, text.find_last_not_of(kBlanks) + 1);
+}
+
+std::string in_quotes(std::string_view text) {
+  const bool is_long = text.size() > kLongestQuote;
+  std::string shown(text.substr(0, kLongestQuote));
+  std::replace_if(
+      shown.begin(), shown.end(), [](char c) { return c < ' ' || c > '~'; }, '?');
+  return "'" + shown + (is_long ? "...'" : "'");
+}
+
+double load(const char* bytes, const Scalar& type) {
+  std::uint64_t bits = 0;
+  for (std::size_t i = 0; i < type.size; ++i) {
+    const std::size_t place = type.big_endian ? type.size - 1 - i : i;
+    bits |= std::uint64_t{static_cast<unsigned char>(bytes[i])} << (8 * place);
+  }
+  switch (type.kind) {
+    case Scalar::Kind::kFloat:
+      if (type.size == 8) return std::bit_cast<double>(bits);
+      return static_cast<double>(std::bit_cast<float>(static_cast<std::uint32_t>(bits)));
+    case Scalar::Kind::kSigned: {
+      if (type.size == 0) return 0;
+      const auto unused = static_cast<unsigned>(64 - 8 * type.size);
+      return static_cast<double>(static_cast<std::int64_t>(bits << unused) >> unused);
+    }
+    case Scalar::Kind::kUnsigned:
+      break;
+  }
+  return static_cast<double>(bits);
+}
+
+}  // namespace polylidar::tool::point_files

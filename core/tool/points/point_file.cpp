@@ -1,0 +1,226 @@
+#include "tool/points/point_file.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <filesystem>
+#include <fstream>
+#include <string_view>
+
+#include "tool/points/block_reader.hpp"
+#include "tool/points/readers.hpp"
+#include "tool/points/unpacked_laz.hpp"
+
+namespace polylidar::tool {
+namespace {
+
+using point_files::BlockReader;
+
+struct Ending {
+  std::string_view ending;
+  PointFormat format;
+};
+
+constexpr std::array<Ending, 13> kEndings = {{{".csv", PointFormat::kCsv},
+                                              {".tsv", PointFormat::kCsv},
+                                              {".txt", PointFormat::kCsv},
+                                              {".xyz", PointFormat::kXyz},
+                                              {".pts", PointFormat::kXyz},
+                                              {".asc", PointFormat::kXyz},
+                                              {".geojson", PointFormat::kGeoJson},
+                                              {".json", PointFormat::kGeoJson},
+                                              {".wkt", PointFormat::kWkt},
+                                              {".npy", PointFormat::kNpy},
+                                              {".ply", PointFormat::kPly},
+                                              {".las", PointFormat::kLas},
+                                              {".laz", PointFormat::kLas}}};
+
+/// What people may well give that is not read, by its first bytes.
+struct Foreign {
+  std::string_view start;
+  const char* what;
+};
+
+constexpr std::array<Foreign, 7> kForeign = {
+    {{"BZh", "it is compressed; give it unpacked, as in 'bzip2 -dc FILE | polylidar hull -'"},
+     {"\x1F\x8B",
+      "its gzip stream cannot be read, as this was built without zlib; unpack it, as in \'gunzip -c FILE | "
+      "polylidar hull -'"},
+     {"\xFD\x37zXZ", "it is compressed; give it unpacked, as in 'xz -dc FILE | polylidar hull -'"},
+     {"PK\x03\x04", "it is an archive (.zip or .npz); unpack it and give the file inside"},
+     {"\xFF\xFE", "it is text in UTF-16; save it as UTF-8"},
+     {"\xFE\xFF", "it is text in UTF-16; save it as UTF-8"},
+     {"%PDF", "it is a PDF; give a file of points"}}};
+
+std::string lower(std::string text) {
+  for (char& c : text) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  return text;
+}
+
+/// Whether `text` begins with a geometry's name followed by what may follow one, so that a header such as
+/// "point,x,y" does not count.
+bool looks_like_wkt(std::string_view text) {
+  const std::string start = lower(std::string(text.substr(0, 64)));
+  if (start.starts_with("srid=")) return true;
+  for (const std::string_view name : {"point", "multipoint", "geometrycollection", "linestring", "polygon",
+                                      "multilinestring", "multipolygon"}) {
+    if (!start.starts_with(name)) continue;
+    const std::size_t next = start.find_first_not_of(' ', name.size());
+    const std::string_view rest = next == std::string::npos ? "" : std::string_view(start).substr(next);
+    if (rest.starts_with('(') || rest.starts_with("empty") || rest.starts_with("z ") ||
+        rest.starts_with("z(") || rest.starts_with("m ") || rest.starts_with("m(") ||
+        rest.starts_with("zm")) {
+      return true;
+    }
+  }
+  return false;
+}
+
+PointFormat format_of_content(std::string_view start) {
+  if (start.starts_with("\x93NUMPY")) return PointFormat::kNpy;
+  if (start.starts_with("ply\n") || start.starts_with("ply\r")) return PointFormat::kPly;
+  const auto skip_blanks = [&] {
+    start.remove_prefix(std::min(start.find_first_not_of(" \t\r\n"), start.size()));
+  };
+  for (skip_blanks(); start.starts_with('#'); skip_blanks()) {
+    start.remove_prefix(std::min(start.find('\n'), start.size()));
+  }
+  if (start.starts_with('{') || start.starts_with('[')) return PointFormat::kGeoJson;
+  return looks_like_wkt(start) ? PointFormat::kWkt : PointFormat::kCsv;
+}
+
+PointFormat find_format(const std::string& path, BlockReader& reader) {
+  const std::string_view start = reader.ahead();
+  for (const Foreign& foreign : kForeign) {
+    if (start.starts_with(foreign.start)) reader.fail(foreign.what);
+  }
+  if (start.starts_with("LASF")) return PointFormat::kLas;
+  const std::filesystem::path name = path;
+  const std::string last = lower(name.extension().string());
+  const std::string ending = last == ".gz" ? lower(name.stem().extension().string()) : last;
+  const auto known =
+      std::find_if(kEndings.begin(), kEndings.end(), [&](const Ending& e) { return e.ending == ending; });
+  return known == kEndings.end() ? format_of_content(start) : known->format;
+}
+
+void read_as(PointFormat format, BlockReader& reader, PointFile& file) {
+  switch (format) {
+    case PointFormat::kGeoJson:
+      return point_files::read_geojson_points(reader, file);
+    case PointFormat::kWkt:
+      return point_files::read_wkt_points(reader, file);
+    case PointFormat::kNpy:
+      file.points = point_files::read_npy(reader);
+      return;
+    case PointFormat::kPly:
+      file.points = point_files::read_ply(reader);
+      return;
+    case PointFormat::kLas:
+      return point_files::read_las(reader, file);
+    case PointFormat::kXyz:
+      return point_files::read_columns(reader, true, file);
+    case PointFormat::kCsv:
+    case PointFormat::kAuto:
+      return point_files::read_columns(reader, false, file);
+  }
+}
+
+/// Refuses options that the format cannot obey.
+void check_options(PointFormat format, const BlockReader& reader) {
+  const PointFileOptions& options = reader.options();
+  const bool is_text = format == PointFormat::kCsv || format == PointFormat::kXyz;
+  if (!options.columns.empty() && !is_text) {
+    reader.fail("--columns is for columns of text, and this file has none; leave --columns out");
+  }
+  if (!options.by.empty() && !is_text && format != PointFormat::kLas) {
+    reader.fail("--by is for columns of text and for LAS, and this file is neither; leave --by out");
+  }
+  if ((options.returns != Returns::kAll || options.classes) && format != PointFormat::kLas) {
+    reader.fail("--returns and --classes are for LAS, and this file is not; leave them out");
+  }
+}
+
+/// Text has no place for its coordinate system; Esri's programs put it beside, into a file of the same name.
+void read_projection_beside(const std::string& path, PointFile& file) {
+  constexpr std::streamsize kLongest = 1 << 16;
+  std::ifstream stream(std::filesystem::path(path).replace_extension(".prj"), std::ios::binary);
+  std::string text(kLongest, '\0');
+  stream.read(text.data(), kLongest);
+  text.resize(static_cast<std::size_t>(stream.gcount()));
+  if (const std::optional<Crs> crs = crs_of_wkt(text)) file.crs = *crs;
+}
+
+/// LAS and text take points as they come; others have been read whole.
+void keep_window(const Box& window, PointFile& file) {
+  std::erase_if(file.points, [&](const Point& p) { return !point_files::is_inside(p, window); });
+}
+
+PointFile read_from(BlockReader& reader, const std::string& path) {
+  if (reader.peek() == BlockReader::kEnd) reader.fail("it is empty; give a file with at least one point");
+  const PointFormat asked = reader.options().format;
+  const PointFormat format = asked == PointFormat::kAuto ? find_format(path, reader) : asked;
+  check_options(format, reader);
+  PointFile file;
+  read_as(format, reader, file);
+  const bool is_text = format == PointFormat::kCsv || format == PointFormat::kXyz;
+  if (reader.options().window && !is_text && format != PointFormat::kLas) {
+    keep_window(*reader.options().window, file);
+  }
+  if (path != "-" && file.crs == Crs() && format != PointFormat::kLas) read_projection_beside(path, file);
+  return file;
+}
+
+/// Whether the file says of itself that it is LAS as LASzip compressed it.
+bool is_laz(BlockReader& reader) {
+  constexpr std::size_t kPointFormat = 104;
+  const std::string_view start = reader.ahead();
+  return start.starts_with("LASF") && start.size() > kPointFormat &&
+         (static_cast<unsigned char>(start[kPointFormat]) & 0xC0U) != 0;
+}
+
+PointFile read_laz(const std::string& program, const std::string& path, const PointFileOptions& options) {
+  std::optional<point_files::UnpackedLaz> unpacked;
+  try {
+    unpacked.emplace(program, path);
+  } catch (const std::runtime_error& error) {
+    throw PointFileError(path + ": " + error.what());
+  }
+  try {
+    BlockReader reader(unpacked->file(), path, options);
+    PointFile file = read_from(reader, path);
+    // What it has more to say is nothing that matters, but a pipe that nobody reads would be an error to it.
+    while (!reader.ahead().empty()) reader.skip(reader.ahead().size());
+    if (unpacked->succeeded()) return file;
+  } catch (const PointFileError&) {
+    if (unpacked->succeeded()) throw;
+  }
+  throw PointFileError(path + ": it is a LAZ file, and " + program +
+                       " could not unpack it; try it by itself, or copy the file again");
+}
+
+}  // namespace
+
+std::optional<PointFormat> point_format_of(const std::string& name) {
+  if (name == "auto") return PointFormat::kAuto;
+  if (name == "csv") return PointFormat::kCsv;
+  if (name == "xyz") return PointFormat::kXyz;
+  if (name == "geojson") return PointFormat::kGeoJson;
+  if (name == "wkt") return PointFormat::kWkt;
+  if (name == "npy") return PointFormat::kNpy;
+  if (name == "ply") return PointFormat::kPly;
+  if (name == "las") return PointFormat::kLas;
+  return {};
+}
+
+PointFile read_point_file(const std::string& path, const PointFileOptions& options) {
+  BlockReader reader(path, options);
+  const std::optional<std::string> program =
+      path != "-" && is_laz(reader) ? point_files::find_laz_program() : std::nullopt;
+  return program ? read_laz(*program, path, options) : read_from(reader, path);
+}
+
+std::vector<Point> read_points(const std::string& path, const PointFileOptions& options) {
+  return read_point_file(path, options).points;
+}
+
+}  // namespace polylidar::tool

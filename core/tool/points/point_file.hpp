@@ -1,0 +1,85 @@
+// Anybody's points: from a file in one of the usual formats, or from standard input, to a vector.
+#pragma once
+
+#include <array>
+#include <bitset>
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "polylidar/geometry.hpp"
+#include "tool/points/crs.hpp"
+
+namespace polylidar::tool {
+
+/// What is wrong with a file of points, where, and what would be right: one sentence that begins with the
+/// file's name and, for text, the line.
+class PointFileError : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+enum class PointFormat {
+  kAuto,     ///< by the ending of the file's name, else by its first bytes
+  kCsv,      ///< columns between commas, semicolons, tabs or blanks, whichever the first row has
+  kXyz,      ///< columns between blanks
+  kGeoJson,  ///< RFC 7946: Point, MultiPoint, GeometryCollection, Feature, FeatureCollection
+  kWkt,      ///< OGC 06-103r4, 7.2: POINT, MULTIPOINT and GEOMETRYCOLLECTION, one after the other
+  kNpy,      ///< NumPy's .npy, versions 1 to 3: an array of n x 2 or n x 3 numbers
+  kPly,      ///< Stanford polygons, ascii and binary: the element "vertex" with x and y
+  kLas,      ///< ASPRS LAS 1.0 to 1.4, point formats 0 to 10; without withheld points
+};
+
+/// Which returns of a LAS file's pulses.
+enum class Returns {
+  kAll,
+  kFirst,  ///< number 1 of its pulse, or 0, which says nothing
+  kLast,   ///< the number that its pulse has returns
+};
+
+/// The format that a name such as "geojson" stands for; nothing for a name that is none.
+std::optional<PointFormat> point_format_of(const std::string& name);
+
+struct PointFileOptions {
+  PointFormat format = PointFormat::kAuto;
+  /// For columns of text: which two hold x and y, such as "lon,lat" (names in the first row) or "2,3"
+  /// (counted from 1). Empty: by the names x and y, lon and lat, longitude and latitude, lng and lat, or
+  /// easting and northing, in any case; without these the first two.
+  std::string columns = {};
+  /// What to group points by: a column of text, by its name or its number from 1; classification, return or
+  /// point_source of a LAS file. Empty: nothing.
+  std::string by = {};
+  /// Of a LAS file.
+  Returns returns = Returns::kAll;
+  /// Of a LAS file: the classifications that are taken; not given: all.
+  std::optional<std::bitset<256>> classes = {};
+  /// Only points in it, or on its border, are taken; in the coordinates of the file.
+  std::optional<Box> window = {};
+  /// Called after every block, about a MiB, with the bytes read so far and, of a regular file, its size. What
+  /// it throws ends the reading.
+  std::function<void(std::uint64_t, std::optional<std::uint64_t>)> on_progress = {};
+};
+
+/// What a file holds.
+struct PointFile {
+  std::vector<Point> points;  ///< in their order; further coordinates are dropped
+  std::vector<std::uint32_t>
+      groups;  ///< of each point, its index in `labels`; empty where nothing is grouped by
+  std::vector<std::string> labels;           ///< distinct; numbers by value, then other texts by their bytes
+  Crs crs;                                   ///< that the file, or a .prj file beside text, names
+  std::array<std::uint64_t, 256> classes{};  ///< of a LAS file: classification -> points taken
+};
+
+/// The file at `path`, or standard input for "-". A file that gzip compressed is unpacked, where zlib was
+/// there when this was built; a LAZ file that has a name by a program laszip or las2las in the PATH. Throws
+/// PointFileError when it cannot be read, has no byte, is not what its format says, or has a coordinate that
+/// is not finite. A file may hold no points.
+PointFile read_point_file(const std::string& path, const PointFileOptions& options = {});
+
+/// The points of the file alone.
+std::vector<Point> read_points(const std::string& path, const PointFileOptions& options = {});
+
+}  // namespace polylidar::tool

@@ -1,0 +1,38 @@
+// One reader a format; see PointFormat for what each takes.
+#pragma once
+
+#include <vector>
+
+#include "polylidar/geometry.hpp"
+#include "tool/points/block_reader.hpp"
+#include "tool/points/labels.hpp"
+#include "tool/points/point_file.hpp"
+
+namespace polylidar::tool::point_files {
+
+/// Columns of text. `only_blanks`: blanks alone separate them (XYZ). Empty lines and those that begin with #
+/// are passed over. The first row is a header when columns are chosen by name or when no field of it is a
+/// number. A field may stand between double quotes.
+void read_columns(BlockReader& reader, bool only_blanks, PointFile& file);
+
+/// The coordinate system is WGS 84 (RFC 7946, 4), or that of a member "crs" as GeoJSON had before.
+void read_geojson_points(BlockReader& reader, PointFile& file);
+
+/// Also with Z and M, with EMPTY, with PostGIS's "SRID=4326;" in front, and with lines that begin with #.
+void read_wkt_points(BlockReader& reader, PointFile& file);
+
+/// float32, float64 and whole numbers of 1 to 8 bytes, of either byte order, in C or Fortran order.
+std::vector<Point> read_npy(BlockReader& reader);
+
+/// x and y of any type; other properties, lists among them, and other elements are passed over.
+std::vector<Point> read_ply(BlockReader& reader);
+
+/// With the coordinate system of its WKT or GeoKeys. Groups by classification, return or point_source.
+void read_las(BlockReader& reader, PointFile& file);
+
+/// Whether `point` is in the box or on its border.
+inline bool is_inside(const Point& point, const Box& box) {
+  return point.x >= box.min.x && point.x <= box.max.x && point.y >= box.min.y && point.y <= box.max.y;
+}
+
+}  // namespace polylidar::tool::point_files

@@ -1,0 +1,236 @@
+#include <algorithm>
+#include <array>
+#include <cctype>
+
+#include "tool/points/numbers.hpp"
+#include "tool/points/readers.hpp"
+
+namespace polylidar::tool::point_files {
+namespace {
+
+constexpr char kBlank = ' ';
+
+/// Splits rows into fields, which it keeps until the next row.
+class Row {
+ public:
+  explicit Row(const BlockReader& reader) : reader_(reader) {}
+
+  void separate_by(char delimiter) { delimiter_ = delimiter; }
+  /// At most `limit` fields: no more are looked for.
+  void split(std::string_view line, std::size_t limit);
+  const std::vector<std::string_view>& fields() const { return fields_; }
+
+ private:
+  std::string_view take_field(std::string_view& rest) const;
+
+  const BlockReader& reader_;
+  char delimiter_ = kBlank;
+  std::vector<std::string_view> fields_;
+};
+
+void Row::split(std::string_view line, std::size_t limit) {
+  fields_.clear();
+  // One more delimiter than the line has ends its last field, be it an empty one.
+  for (bool more = true; more && fields_.size() < limit;) {
+    if (delimiter_ == kBlank && trimmed(line).empty()) return;
+    const std::size_t before = line.size();
+    fields_.push_back(take_field(line));
+    more = delimiter_ == kBlank ? !line.empty() : before > 0 && !line.empty();
+    if (more && delimiter_ != kBlank) line.remove_prefix(1);
+  }
+}
+
+/// The next field, taken off `rest` up to the delimiter behind it.
+std::string_view Row::take_field(std::string_view& rest) const {
+  // Blanks round a field mean nothing, but a tab that delimits is no blank.
+  const std::size_t first = rest.find_first_not_of(delimiter_ == '\t' ? " " : " \t");
+  if (first != std::string_view::npos && rest[first] == '"') {
+    std::size_t quote = first + 1;
+    while (quote < rest.size() && (rest[quote] != '"' || rest.substr(quote + 1).starts_with('"'))) {
+      quote += rest[quote] == '"' ? 2U : 1U;
+    }
+    if (quote >= rest.size()) reader_.fail_here("a quote is not closed; close it in the same line");
+    const std::string_view field = rest.substr(first + 1, quote - first - 1);
+    rest.remove_prefix(quote + 1);
+    const std::string_view tail = delimiter_ == kBlank ? rest.substr(0, rest.find_first_of(" \t"))
+                                                       : trimmed(rest.substr(0, rest.find(delimiter_)));
+    if (!tail.empty())
+      reader_.fail_here("text follows a closing quote; double a quote inside a quoted field");
+    rest.remove_prefix(delimiter_ == kBlank ? 0 : std::min(rest.find(delimiter_), rest.size()));
+    return trimmed(field);
+  }
+  if (delimiter_ == kBlank) return take_word(rest);
+  const std::string_view field = rest.substr(0, rest.find(delimiter_));
+  rest.remove_prefix(field.size());
+  return trimmed(field);
+}
+
+char delimiter_of(std::string_view row) {
+  // In this order: where semicolons separate, a comma may be a decimal one, and then the number is refused.
+  for (const char delimiter : {';', '\t', ','}) {
+    if (row.find(delimiter) != std::string_view::npos) return delimiter;
+  }
+  return kBlank;
+}
+
+bool equal_in_any_case(std::string_view a, std::string_view b) {
+  return std::equal(a.begin(), a.end(), b.begin(), b.end(),
+                    [](unsigned char c, unsigned char d) { return std::tolower(c) == std::tolower(d); });
+}
+
+constexpr std::array<std::array<std::string_view, 2>, 5> kKnownNames = {
+    {{"x", "y"}, {"lon", "lat"}, {"longitude", "latitude"}, {"lng", "lat"}, {"easting", "northing"}}};
+
+/// Which fields of a row hold x and y.
+struct Columns {
+  std::size_t x = 0;
+  std::size_t y = 1;
+  std::optional<std::size_t> by;  ///< what points are grouped by
+  bool with_header = false;
+  bool is_geographic = false;  ///< their names say longitude and latitude
+
+  std::size_t needed() const { return std::max({x, y, by.value_or(0)}) + 1; }
+};
+
+class ColumnChoice {
+ public:
+  ColumnChoice(const BlockReader& reader, const std::vector<std::string_view>& first_row)
+      : reader_(reader), row_(first_row) {}
+
+  Columns choose(std::string_view wanted, std::string_view by) const {
+    Columns columns;
+    columns.with_header = std::none_of(row_.begin(), row_.end(), is_number);
+    if (!by.empty()) {
+      columns.by = place_of(by, columns);
+      if (!columns.by) refuse_by(by);
+    }
+    if (wanted.empty()) {
+      if (columns.with_header) choose_by_known_names(columns);
+    } else {
+      choose_by(wanted, columns);
+    }
+    if (columns.with_header) columns.is_geographic = are_degrees(columns);
+    return columns;
+  }
+
+ private:
+  void choose_by(std::string_view wanted, Columns& columns) const {
+    const std::size_t comma = wanted.find(',');
+    if (comma == std::string_view::npos) refuse(wanted);
+    const auto x = place_of(trimmed(wanted.substr(0, comma)), columns);
+    const auto y = place_of(trimmed(wanted.substr(comma + 1)), columns);
+    if (!x || !y || *x == *y) refuse(wanted);
+    columns.x = *x;
+    columns.y = *y;
+  }
+
+  [[noreturn]] void refuse(std::string_view wanted) const {
+    reader_.fail("--columns " + in_quotes(wanted) +
+                 " does not name two columns; give two names or two numbers from 1 on, as in x,y or 1,2");
+  }
+
+  [[noreturn]] void refuse_by(std::string_view by) const {
+    reader_.fail("--by " + in_quotes(by) +
+                 " names no column; give a name of the first row or a number from 1 on");
+  }
+
+  /// Whether x and y are called longitude and latitude, in one of the known ways.
+  bool are_degrees(const Columns& columns) const {
+    if (std::max(columns.x, columns.y) >= row_.size()) return false;
+    return std::any_of(kKnownNames.begin(), kKnownNames.end(), [&](const auto& names) {
+      return names[1].starts_with("lat") && equal_in_any_case(row_[columns.x], names[0]) &&
+             equal_in_any_case(row_[columns.y], names[1]);
+    });
+  }
+
+  std::size_t find(std::string_view name) const {
+    const auto exact = std::find(row_.begin(), row_.end(), name);
+    if (exact != row_.end()) return static_cast<std::size_t>(exact - row_.begin());
+    return static_cast<std::size_t>(
+        std::find_if(row_.begin(), row_.end(),
+                     [&](std::string_view field) { return equal_in_any_case(field, name); }) -
+        row_.begin());
+  }
+
+  void choose_by_known_names(Columns& columns) const {
+    for (const auto& [x, y] : kKnownNames) {
+      if (find(x) == row_.size() || find(y) == row_.size()) continue;
+      columns.x = find(x);
+      columns.y = find(y);
+      return;
+    }
+    if (row_.size() <= 2) return;
+    reader_.fail_here("none of the columns " + column_names() +
+                      " is known to be x or y; name two of them with --columns, as in x,y or 1,2");
+  }
+
+  std::string column_names() const {
+    std::string names;
+    for (const std::string_view field : row_) names += (names.empty() ? "" : ", ") + in_quotes(field);
+    return names;
+  }
+
+  /// Of a column by its name or number; nothing for a number that cannot be one.
+  std::optional<std::size_t> place_of(std::string_view name, Columns& columns) const {
+    if (name.empty()) return {};
+    if (const auto number = parse_count(name)) {
+      if (*number == 0 || *number > kMostColumns) return {};
+      return static_cast<std::size_t>(*number - 1);
+    }
+    columns.with_header = true;
+    const std::size_t place = find(name);
+    if (place < row_.size()) return place;
+    reader_.fail_here("there is no column " + in_quotes(name) + "; the columns of this line are " +
+                      column_names());
+  }
+
+  static constexpr std::uint64_t kMostColumns = 1000000;
+
+  const BlockReader& reader_;
+  const std::vector<std::string_view>& row_;
+};
+
+bool is_passed_over(std::string_view line) {
+  const std::size_t first = line.find_first_not_of(" \t");
+  return first == std::string_view::npos || line[first] == '#';
+}
+
+}  // namespace
+
+void read_columns(BlockReader& reader, bool only_blanks, PointFile& file) {
+  Row row(reader);
+  Labels labels;
+  Columns columns;
+  const std::optional<Box>& window = reader.options().window;
+  std::size_t needed = 0;  // fields; 0: the first row has not come yet
+  const auto start = [&](std::string_view line) {
+    if (!only_blanks) row.separate_by(delimiter_of(line));
+    row.split(line, line.size() + 1);
+    columns = ColumnChoice(reader, row.fields()).choose(reader.options().columns, reader.options().by);
+    needed = columns.needed();
+    if (columns.is_geographic) file.crs = crs_of_epsg(4326);
+  };
+  for (std::string_view line; reader.next_line(line);) {
+    if (is_passed_over(line)) continue;
+    if (needed == 0) {
+      if (line.find('\0') != std::string_view::npos) {
+        reader.fail_here("there is a zero byte, so this is no text; name the right format with --input");
+      }
+      start(line);
+      if (columns.with_header) continue;
+    }
+    row.split(line, needed);
+    if (row.fields().size() < needed) {
+      reader.fail_here("there is no column " + std::to_string(row.fields().size() + 1) +
+                       "; give every point its x and y, or choose other columns with --columns");
+    }
+    const Point point = {parse_coordinate(row.fields()[columns.x], reader),
+                         parse_coordinate(row.fields()[columns.y], reader)};
+    if (window && !is_inside(point, *window)) continue;
+    file.points.push_back(point);
+    if (columns.by) file.groups.push_back(labels.index_of(row.fields()[*columns.by]));
+  }
+  if (columns.by) labels.finish(file);
+}
+
+}  // namespace polylidar::tool::point_files

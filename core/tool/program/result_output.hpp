@@ -1,0 +1,38 @@
+// Where a result goes: to standard output or into a file, whole or not at all.
+#pragma once
+
+#include <string>
+#include <string_view>
+
+namespace polylidar::tool {
+
+/// Throws std::runtime_error when no file can be written at `path`, which would otherwise be known only when
+/// the result is there. Nothing to check for an empty path, standard output.
+void check_output_place(const std::string& path);
+
+/// A result that is written piece by piece: to standard output (empty path), or into a file of another name
+/// that finish() renames to `path`, so that nobody ever sees half a result; what is there and is no file (a
+/// device, a named pipe) is written to. All functions throw std::runtime_error when the system refuses (disk
+/// full, pipe closed), and Interrupted when interrupted. Standard output: SIGPIPE must be ignored.
+class ResultOutput {
+ public:
+  explicit ResultOutput(const std::string& path);
+  /// Removes an unfinished file.
+  ~ResultOutput();
+  ResultOutput(const ResultOutput&) = delete;
+  ResultOutput& operator=(const ResultOutput&) = delete;
+
+  void write(std::string_view bytes);
+  void finish();
+
+ private:
+  std::string name_;        ///< for messages
+  std::string target_;      ///< the file that the result becomes; empty: what is written to is there already
+  std::string unfinished_;  ///< its name until then
+  int file_ = -1;           ///< -1: closed
+};
+
+/// Writes `bytes` as ResultOutput does.
+void write_result(const std::string& path, std::string_view bytes);
+
+}  // namespace polylidar::tool

@@ -1,0 +1,19 @@
+// Where a command runs.
+#pragma once
+
+#include <ostream>
+#include <string>
+
+namespace polylidar::tool {
+
+/// What a command says goes to `err`; its result to standard output or a file.
+struct Surroundings {
+  std::string program;    ///< the name in front of what is said
+  std::ostream& err;      ///< notes and progress
+  bool terminal = false;  ///< whether the last line of `err` can be rewritten, as progress is
+};
+
+/// Whether standard error is a terminal.
+bool is_terminal();
+
+}  // namespace polylidar::tool

@@ -1,0 +1,61 @@
+// Coordinate systems as files name them, and degrees as metres.
+#include <gtest/gtest.h>
+
+#include "polylidar/geometry.hpp"
+#include "tool/hull/degrees.hpp"
+#include "tool/points/crs.hpp"
+
+namespace polylidar::tool {
+namespace {
+
+TEST(CrsNames, TheirNumbers) {
+  EXPECT_EQ(crs_of_name("EPSG:25832"), (Crs{25832, false}));
+  EXPECT_EQ(crs_of_name("epsg:4326"), (Crs{4326, true}));
+  EXPECT_EQ(crs_of_name("urn:ogc:def:crs:EPSG::25832"), (Crs{25832, false}));
+  EXPECT_EQ(crs_of_name("urn:ogc:def:crs:EPSG:9.9:4258"), (Crs{4258, true}));
+  EXPECT_EQ(crs_of_name("http://www.opengis.net/def/crs/EPSG/0/3857"), (Crs{3857, false}));
+  EXPECT_EQ(crs_of_name("urn:ogc:def:crs:OGC:1.3:CRS84"), (Crs{4326, true}));
+  for (const char* none :
+       {"", "EPSG", "EPSG:", "EPSG:x", "EPSG:-3", "EPSG:99999999999", "25832", "ESRI:102100"}) {
+    EXPECT_EQ(crs_of_name(none), std::nullopt) << none;
+  }
+}
+
+TEST(CrsText, TheHorizontalSystem) {
+  EXPECT_EQ(crs_of_wkt(R"(GEOGCS["WGS 84",DATUM["d",SPHEROID["s",1,2]],AUTHORITY["EPSG","4326"]])"),
+            (Crs{4326, true}));
+  EXPECT_EQ(
+      crs_of_wkt(R"(COMPD_CS["c",PROJCS["p",GEOGCS["g",AUTHORITY["EPSG","4258"]],AUTHORITY["EPSG","25832"]],)"
+                 R"(VERT_CS["v",AUTHORITY["EPSG","7837"]],AUTHORITY["EPSG","5555"]])"),
+      (Crs{25832, false}));
+  EXPECT_EQ(crs_of_wkt(R"(PROJCRS["p",BASEGEOGCRS["b",ID["EPSG",4258]],CONVERSION["u",ID["EPSG",16032]],)"
+                       R"(CS[Cartesian,2],ID["EPSG",25832]])"),
+            (Crs{25832, false}));
+  EXPECT_EQ(crs_of_wkt(R"(GEOGCRS["g",CS[ellipsoidal,2],ID["EPSG",4979]])"), (Crs{4979, true}));
+  EXPECT_EQ(crs_of_wkt(R"(PROJCS["WGS_1984_UTM_Zone_32N",GEOGCS["GCS_WGS_1984"]])"), (Crs{0, false}))
+      << "Esri's";
+  EXPECT_EQ(
+      crs_of_wkt(R"(PROJCS["p",GEOGCS["g",AUTHORITY["EPSG","4258"]],UNIT["m",1,AUTHORITY["EPSG","9001"]]])"),
+      (Crs{0, false}))
+      << "that of what is inside is not its own";
+  EXPECT_EQ(crs_of_wkt(R"( GEOGCS [ "a [ , ] b" , AUTHORITY [ "EPSG" , "4269" ] ] )"), (Crs{4269, true}));
+  for (const char* none : {"", "LOCAL_CS[\"x\"]", "]]]", "[[[[", "x,y\n1,2\n", "\"", "PROJCS"}) {
+    EXPECT_EQ(crs_of_wkt(none), std::nullopt) << none;
+  }
+}
+
+TEST(Degrees, AreMetresOnASphere) {
+  const Crs degrees = crs_of_epsg(4326);
+  const std::vector<Point> square = {{10, 50}, {11, 50}, {11, 51}, {10, 51}};
+  ASSERT_EQ(middle_latitude(degrees, square), 50.5);
+  // R^2 * dlon * (sin 51 - sin 50)
+  EXPECT_NEAR(signed_area(to_metres(square, 50.5)), 7.8651e9, 1e6);
+  EXPECT_EQ(middle_latitude(crs_of_epsg(25832), square), std::nullopt);
+  EXPECT_EQ(middle_latitude(Crs(), square), std::nullopt);
+  EXPECT_EQ(middle_latitude(degrees, {}), std::nullopt);
+  const std::vector<Point> projected = {{500000, 5600000}, {500100, 5600000}, {500000, 5600100}};
+  EXPECT_EQ(middle_latitude(degrees, projected), std::nullopt) << "GeoJSON that is none";
+}
+
+}  // namespace
+}  // namespace polylidar::tool
