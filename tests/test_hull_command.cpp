@@ -501,5 +501,74 @@ TEST_F(HullCommandTest, CtrlCWhileWaitingForInput) {
   expect_refusal(program.wait(), 130, "interrupted");
 }
 
+/// So many that they are not put into memory.
+Points many_points() {
+  Points points;
+  std::mt19937_64 random(11);
+  std::uniform_real_distribution<double> coordinate(0, 10);
+  while (points.size() < 90000) {
+    const Point p = {coordinate(random), coordinate(random)};
+    if (std::hypot(p.x - 5, p.y - 4) > 2) points.push_back(p);
+  }
+  return points;
+}
+
+TEST_F(HullCommandTest, AStreamGivesTheSameFile) {
+  const Points points = many_points();
+  const std::string text = "# no point\nid,x,y\n" + [&] {
+    std::string rows;
+    for (const Point& p : points) rows += "1," + testing::number(p.x) + "," + testing::number(p.y) + "\n";
+    return rows;
+  }();
+  const std::vector<std::vector<std::string>> inputs = {
+      {file("double.npy", testing::npy_of<double>(points, "<f8"))},
+      {file("double.npy", testing::npy_of<double>(points, "<f8")), "--window", "1,1,9,9.5"},
+      {file("float.npy", testing::npy_of<float>(points, "<f4"))},
+      {file("columns.csv", text), "--columns", "x,y"}};
+  for (const std::vector<std::string>& input : inputs) {
+    for (const std::string format : {"geojson", "wkb", "wkt"}) {
+      std::vector<std::string> arguments = input;
+      arguments.insert(arguments.end(), {"--max-perimeter", "0.5", "--format", format});
+      const Outcome kept = hull(arguments);
+      arguments.emplace_back("--stream");
+      const Outcome streamed = hull(arguments);
+      EXPECT_EQ(streamed.code, 0) << streamed.err;
+      EXPECT_EQ(streamed.out, kept.out) << input[0] << " " << format;
+      EXPECT_NE(streamed.err.find("points are near the outline"), std::string::npos);
+    }
+  }
+}
+
+TEST_F(HullCommandTest, AStreamSaysWhatItCannotDo) {
+  const std::string npy = file("many.npy", testing::npy_of<double>(many_points(), "<f8"));
+  for (const auto& [arguments, sentence] : std::vector<std::pair<std::vector<std::string>, std::string>>{
+           {{npy}, "--stream needs a limit"},
+           {{npy, "--alpha", "1", "--one"}, "--stream does not go with --one and --cover"},
+           {{npy, "--alpha", "1", "--by", "x"}, "--stream does not go with --by"},
+           {{npy, "--alpha", "1", "--format", "svg"}, "--stream does not go with --format svg"},
+           {{npy, "--alpha", "1", "--min-area", "1"}, "--stream does not go with --min-area"},
+           {{"-", "--alpha", "1"}, "can be read once only"},
+           {{npy, "--alpha", "1e-9"}, "the limit is too small for the distances between the points"},
+           {{npy, "--alpha", "1", "--crs", "EPSG:4326"}, "--stream takes a plane"},
+           {{file("p.wkt", "POINT (1 2)"), "--alpha", "1"}, "leave --stream out"}}) {
+    std::vector<std::string> all = arguments;
+    all.emplace_back("--stream");
+    expect_refusal(hull(all), 2, sentence);
+  }
+}
+
+// 320 MB of points in 200 MB of memory, in which they could not be triangulated.
+TEST_F(HullCommandTest, AStreamNeedsLittleMemory) {
+  const std::string npy = (folder() / "large.npy").string();
+  const Outcome made = testing::run_program({HULLBENCH, "points", "ca", "--n", "20000000", "--out", npy});
+  ASSERT_EQ(made.code, 0) << made.err;
+  const std::string arguments = "'" + npy + "' --max-perimeter 0.4 --threads 1";
+  const Outcome streamed = in_shell("ulimit -v 200000;", arguments + " --stream");
+  ASSERT_EQ(streamed.code, 0) << streamed.err;
+  EXPECT_EQ(json::parse(streamed.out)["properties"]["points"], 20000000);
+  EXPECT_EQ(in_shell("", arguments).out, streamed.out);
+  expect_refusal(in_shell("ulimit -v 200000;", arguments), 1, "there is not enough memory for the points");
+}
+
 }  // namespace
 }  // namespace hullbench

@@ -20,20 +20,13 @@ namespace {
 using Points = std::vector<Point>;
 
 // Points in memory, in blocks of one size; what it gives in the second pass may be other points.
-class MemorySource final : public PointSource {
+class MemorySource {
  public:
   explicit MemorySource(Points points, std::size_t block = 10'000)
       : points_(std::move(points)), block_(block) {}
 
-  void rewind() override {
-    next_ = 0;
-    if (++passes_ == changes_in_pass_) points_ = changed_;
-  }
-  std::span<const Point> next() override {
-    const std::span<const Point> block =
-        std::span(points_).subspan(next_, std::min(block_, points_.size() - next_));
-    next_ += block.size();
-    return block;
+  StreamedHull hull(const Options& options, const StreamOptions& stream_options = {}) {
+    return concave_hull_of_stream([this](const TakePoints& take) { read(take); }, options, stream_options);
   }
   void change(int pass, Points to) {
     changes_in_pass_ = pass;
@@ -42,9 +35,15 @@ class MemorySource final : public PointSource {
   int passes() const { return passes_; }
 
  private:
+  void read(const TakePoints& take) {
+    if (++passes_ == changes_in_pass_) points_ = changed_;
+    for (std::size_t next = 0; next < points_.size(); next += block_) {
+      take(std::span(points_).subspan(next, std::min(block_, points_.size() - next)));
+    }
+  }
+
   Points points_;
   std::size_t block_;
-  std::size_t next_ = 0;
   int passes_ = 0;
   int changes_in_pass_ = 0;
   Points changed_;
@@ -53,7 +52,7 @@ class MemorySource final : public PointSource {
 std::string complaint(MemorySource& source, const Options& options,
                       const StreamOptions& stream_options = {}) {
   try {
-    concave_hull(source, options, stream_options);
+    source.hull(options, stream_options);
   } catch (const std::exception& error) {
     return error.what();
   }
@@ -78,7 +77,7 @@ TEST(Stream, GivesTheShapeOfThePointsInMemory) {
     SCOPED_TRACE(seed);
     const IndexedMultiPolygon shape = concave_hull(points, options);
     MemorySource source(points, 1 + random.below(30'000));
-    const StreamedHull hull = concave_hull(source, options);
+    const StreamedHull hull = source.hull(options);
     EXPECT_EQ(hull.polygons, to_coordinates(shape, points));
     EXPECT_TRUE(
         std::equal(hull.vertices.begin(), hull.vertices.end(), shape.vertices.begin(), shape.vertices.end()));
@@ -96,7 +95,7 @@ TEST(Stream, KeepsToTheMemoryThatItMayUse) {
   const Options options{.max_edge_length = 0.1};
   const IndexedMultiPolygon shape = concave_hull(points, options);
   MemorySource source(points);
-  EXPECT_EQ(concave_hull(source, options, {.most_map_bytes = 8000}).polygons, to_coordinates(shape, points));
+  EXPECT_EQ(source.hull(options, {.most_map_bytes = 8000}).polygons, to_coordinates(shape, points));
   EXPECT_EQ(complaint(source, options, {.most_map_bytes = 1000}),
             "the limit is too small for the distances between the points: give a larger one, or more memory");
   EXPECT_EQ(complaint(source, {.alpha = 1e-9}),
@@ -106,21 +105,21 @@ TEST(Stream, KeepsToTheMemoryThatItMayUse) {
 TEST(Stream, PutsFewPointsIntoMemory) {
   const Points points = testing::uniform_points(3000, 2);
   MemorySource source(points);
-  EXPECT_EQ(concave_hull(source, {}).polygons, to_coordinates(concave_hull(points), points));
+  EXPECT_EQ(source.hull({}).polygons, to_coordinates(concave_hull(points), points));
   EXPECT_EQ(source.passes(), 2);
   MemorySource none({});
-  EXPECT_TRUE(concave_hull(none, {}).polygons.empty());
+  EXPECT_TRUE(none.hull({}).polygons.empty());
 }
 
 TEST(Stream, TellsHowFarItHasCome) {
   MemorySource source(testing::uniform_points(70'000, 3), 7000);
   int calls = 0;
   StreamProgress last;
-  concave_hull(source, {.alpha = 0.02}, {.progress = [&](const StreamProgress& progress) {
-                 EXPECT_TRUE(progress.pass > last.pass || progress.points > last.points);
-                 last = progress;
-                 ++calls;
-               }});
+  source.hull({.alpha = 0.02}, {.progress = [&](const StreamProgress& progress) {
+                EXPECT_TRUE(progress.pass > last.pass || progress.points > last.points);
+                last = progress;
+                ++calls;
+              }});
   EXPECT_EQ(calls, 40);
   EXPECT_EQ(last.pass, last.passes);
   EXPECT_EQ(last.points, 70'000U);

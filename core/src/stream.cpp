@@ -35,7 +35,7 @@ struct Part {
 
 class Stream {
  public:
-  Stream(PointSource& source, const Options& options, const StreamOptions& stream_options)
+  Stream(const PointSource& source, const Options& options, const StreamOptions& stream_options)
       : source_(source), stream_options_(stream_options), limits_(detail::checked_limits(options)) {
     pool_.use(options.threads);
   }
@@ -54,7 +54,7 @@ class Stream {
   StreamedHull trace(bool fill_single);
   StreamedHull extract_in_memory(const Options& options);
 
-  PointSource& source_;
+  const PointSource& source_;
   const StreamOptions& stream_options_;
   Limits limits_;
   detail::ThreadPool pool_;
@@ -73,14 +73,11 @@ template <class Visit>
 void Stream::pass(const Visit& visit) {
   ++progress_.pass;
   progress_.points = 0;
-  source_.rewind();
-  for (;;) {
-    const std::span<const Point> block = source_.next();
-    if (block.empty()) return;
+  source_([&](std::span<const Point> block) {
     visit(block, progress_.points);
     progress_.points += block.size();
     if (stream_options_.progress) stream_options_.progress(progress_);
-  }
+  });
 }
 
 /// As pass(), after the first one: visit(point, cell, number, chunk) on all threads, where all points lie in
@@ -130,7 +127,7 @@ void Stream::choose_grid() {
   };
   while (!fits() && radius < widest) radius = std::min(radius * kWider, widest);
   if (!fits()) {
-    throw std::runtime_error(
+    throw std::invalid_argument(
         "the limit is too small for the distances between the points: give a larger one, or more memory");
   }
   grid_ = Grid(box, detail::kRadius / radius);
@@ -197,7 +194,7 @@ void Stream::gather() {
       }
     }
     if (part_.points.size() > kMaxPoints) {
-      throw std::runtime_error("more than 2^28 points are near the outline: give a larger limit");
+      throw std::invalid_argument("more than 2^28 points are near the outline: give a larger limit");
     }
   };
   pass_over_cells(Visit{begin, look, end});
@@ -214,7 +211,7 @@ StreamedHull Stream::trace(bool fill_single) {
   std::vector<detail::Mesh::Index> boundary;
   if (filter.run_on_part(builder.mesh(), builder.vertices(), is_tested.data(), detail::filter_rules(limits_),
                          fill_single, pool_, boundary)) {
-    throw std::runtime_error(
+    throw std::invalid_argument(
         "the rounding of a triangle's size decides whether it is kept: make the limit a little larger or "
         "smaller");
   }
@@ -270,7 +267,8 @@ StreamedHull Stream::extract(const Options& options) {
 
 }  // namespace
 
-StreamedHull concave_hull(PointSource& source, const Options& options, const StreamOptions& stream_options) {
+StreamedHull concave_hull_of_stream(const PointSource& source, const Options& options,
+                                    const StreamOptions& stream_options) {
   return Stream(source, options, stream_options).extract(options);
 }
 

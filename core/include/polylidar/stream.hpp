@@ -10,15 +10,11 @@
 
 namespace polylidar {
 
-/// Points that can be read again from the start, block by block: a file.
-class PointSource {
- public:
-  virtual ~PointSource() = default;
-  /// Goes back to the first point.
-  virtual void rewind() = 0;
-  /// The next points, some millions at most; none at the end. Valid until the next call.
-  virtual std::span<const Point> next() = 0;
-};
+/// What takes a block of points; it does not keep the span.
+using TakePoints = std::function<void(std::span<const Point>)>;
+/// Reads points from the first to the last and hands them to `take`, in blocks of some thousand to some
+/// million: a file. It is called several times and gives the same points each time, in the same order.
+using PointSource = std::function<void(const TakePoints& take)>;
 
 /// How far a stream has come: which pass over the source, from 1 to `passes`, and how many points of it.
 struct StreamProgress {
@@ -47,20 +43,20 @@ struct StreamedHull {
   std::uint64_t triangulated_points = 0;  ///< near the outline
 };
 
-/// concave_hull() of all points of `source`, read four times: where they are, which cells of a grid they
-/// occupy, which of them may be on the outline, and which are near these (core/INTERIOR.md). Memory: some
-/// bits a cell of a sixth of the limit's radius, and 110 bytes a point near the outline.
+/// The concave hull of all points of `source`, which is read four times: where they are, which cells of a
+/// grid they occupy, which of them may be on the outline, and which are near these (core/INTERIOR.md).
+/// Memory: some bits a cell of a sixth of the limit's radius, and 110 bytes a point near the outline.
 ///
 /// The result is that of concave_hull() for the same points in memory, with one exception: where two
 /// different points are closer than 2^-40 of `alpha`, rounding may there drop slivers that are kept here. Up
 /// to 65,536 points are put into memory; of more, `options` must give a limit. At most 2^28 points may be
 /// near the outline.
 ///
-/// Throws std::invalid_argument as concave_hull, or where no limit is given; std::runtime_error where the
-/// source gives other points than the time before, where the limit is too small for the distances between the
-/// points, so that the maps would be too large or too much is near the outline, or where the rounding of a
-/// triangle's size decides whether it is kept (a slightly different limit helps); and what the source throws.
-StreamedHull concave_hull(PointSource& source, const Options& options,
-                          const StreamOptions& stream_options = {});
+/// Throws std::invalid_argument as concave_hull; where no limit is given; where it is too small for the
+/// distances between the points, so that the maps would be too large or too much is near the outline; or
+/// where the rounding of a triangle's size decides whether it is kept (a slightly different limit helps).
+/// std::runtime_error where the source gives other points than the time before; and what the source throws.
+StreamedHull concave_hull_of_stream(const PointSource& source, const Options& options,
+                                    const StreamOptions& stream_options = {});
 
 }  // namespace polylidar

@@ -50,6 +50,7 @@ struct HullCommand {
   std::string by;                     ///< likewise
   std::string format = "geojson";     ///< "geojson", "wkt", "wkb" or "svg"
   bool keep_outliers = false;         ///< the points left outside are written too
+  bool stream = false;                ///< the file is read again and again, its points are not kept
 };
 
 /// From files of points to an index of their footprints.

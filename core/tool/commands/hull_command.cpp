@@ -8,6 +8,7 @@
 #include <stdexcept>
 #include <vector>
 
+#include "polylidar/stream.hpp"
 #include "tool/commands/commands.hpp"
 #include "tool/commands/shape_choice.hpp"
 #include "tool/program/configuration_error.hpp"
@@ -32,6 +33,7 @@ class HullRun {
   ExitCode run() {
     check_options();
     check_output_place(command_.shape.out);
+    if (command_.stream) return stream();
     read();
     compute();
     throw_if_interrupted();
@@ -47,6 +49,7 @@ class HullRun {
  private:
   void check_options() const {
     chosen_crs(command_.shape, {});
+    if (command_.stream) check_stream_options();
     if (command_.format == "geojson") return;
     if (!command_.by.empty() && command_.format != "svg") {
       throw ConfigurationError("--by gives a feature a group, which " + command_.format +
@@ -54,6 +57,25 @@ class HullRun {
     }
     if (command_.keep_outliers) {
       throw ConfigurationError("--keep-outliers gives a feature of its own, which only --format geojson has");
+    }
+  }
+
+  void check_stream_options() const {
+    const ShapeChoice& shape = command_.shape;
+    const auto refuse = [](const std::string& what) {
+      throw ConfigurationError("--stream does not go with " + what + "; leave one of them out");
+    };
+    if (command_.input == "-") refuse("standard input, which can be read once only");
+    if (!command_.by.empty()) refuse("--by");
+    if (command_.keep_outliers) refuse("--keep-outliers");
+    if (command_.format == "svg") refuse("--format svg");
+    if (shape.one || shape.cover) refuse("--one and --cover");
+    if (shape.min_triangles > 0) refuse("--min-triangles");
+    if (shape.min_area > 0 || shape.max_parts || shape.simplify > 0) {
+      refuse("--min-area, --max-parts and --simplify");
+    }
+    if (!shape.alpha && !shape.max_edge_length && !shape.max_perimeter) {
+      throw ConfigurationError("--stream needs a limit; give --alpha, --max-edge-length or --max-perimeter");
     }
   }
 
@@ -82,6 +104,57 @@ class HullRun {
     }
     crs_ = chosen_crs(command_.shape, file_.crs);
     are_numbers_ = are_numbers(file_.labels);
+  }
+
+  /// Reads the file four times.
+  ExitCode stream() {
+    PointFileOptions options = point_options(command_.shape);
+    options.format = point_format_of(command_.input_format).value_or(PointFormat::kAuto);
+    options.columns = command_.columns;
+    const PointSource source = [&](const TakePoints& take) {
+      options.take_points = take;
+      try {
+        file_ = read_point_file(command_.input, options);
+      } catch (const PointFileError& error) {
+        throw ConfigurationError(error.what());
+      }
+      crs_ = chosen_crs(command_.shape, file_.crs);
+      if (crs_.is_geographic) {
+        throw ConfigurationError(
+            command_.input +
+            ": its coordinates are longitudes and latitudes, and --stream takes a plane; "
+            "project them, or give --crs none to take degrees as one");
+      }
+    };
+    const StreamOptions stream_options{.progress = [&](const StreamProgress& progress) {
+      show("pass " + std::to_string(progress.pass) + " of " + std::to_string(progress.passes) + ": " +
+           std::to_string(progress.points) + " points");
+    }};
+    Options core = hull_options(command_.shape).core;
+    core.threads = thread_count(command_.shape);
+    const StreamedHull hull = concave_hull_of_stream(source, core, stream_options);
+    status_.clear();
+    say(std::to_string(hull.triangulated_points) + " of " + std::to_string(hull.points) +
+        " points are near the outline");
+    write_result(command_.shape.out, streamed_result(hull));
+    return kExitOk;
+  }
+
+  std::string streamed_result(const StreamedHull& hull) const {
+    if (command_.format == "wkt") return to_wkt(hull.polygons);
+    if (command_.format == "wkb") return to_wkb(hull.polygons);
+    const ShapeChoice& shape = command_.shape;
+    Properties properties;
+    properties.add("points", static_cast<std::size_t>(hull.points));
+    if (shape.alpha) properties.add("alpha", *shape.alpha);
+    if (shape.max_edge_length) properties.add("max_edge_length", *shape.max_edge_length);
+    if (shape.max_perimeter) properties.add("max_perimeter", *shape.max_perimeter);
+    std::size_t holes = 0;
+    for (const Polygon& polygon : hull.polygons) holes += polygon.holes.size();
+    properties.add("parts", hull.polygons.size());
+    properties.add("holes", holes);
+    properties.add("area", area(hull.polygons));
+    return geojson_feature(properties, hull.polygons, geojson_crs(crs_)) + "\n";
   }
 
   void compute() {
@@ -260,6 +333,10 @@ void add_hull_options(CLI::App& app, HullCommand& command) {
       ->capture_default_str();
   app.add_flag("--keep-outliers", command.keep_outliers,
                "Also write the points that are left outside, as a MultiPoint (geojson only)");
+  app.add_flag(
+      "--stream", command.stream,
+      "Read the file four times instead of keeping its points in memory: for LAS, columns of text and "
+      "NumPy, with a limit");
   add_shape_options(app, command.shape);
 }
 

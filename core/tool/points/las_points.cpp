@@ -231,7 +231,9 @@ class LasReader {
     if (by_ != By::kNothing) group_of_value_.assign(std::size_t{1} << 16U, kNoGroup);
     const bool takes_all = options.returns == Returns::kAll && !options.classes && !options.window;
     // Only when the file was seen to hold them all, so that a header alone cannot ask for all memory.
-    if (takes_all && reader_.remaining()) file_.points.reserve(static_cast<std::size_t>(header_.count));
+    if (takes_all && reader_.remaining() && !options.take_points) {
+      file_.points.reserve(static_cast<std::size_t>(header_.count));
+    }
     const std::size_t points_a_block = kBlock / header_.point_size;
     std::vector<char> block(points_a_block * header_.point_size);
     for (std::uint64_t done = 0; done < header_.count;) {
@@ -240,6 +242,7 @@ class LasReader {
       for (std::size_t i = 0; i < part; ++i) add(block.data() + i * header_.point_size, options);
       done += part;
     }
+    hand_on(file_, options, true);
   }
 
   Attributes attributes_of(const char* record) const {
@@ -268,6 +271,7 @@ class LasReader {
                          coordinate(4, header_.scale.y, header_.offset.y)};
     if (options.window && !is_inside(point, *options.window)) return;
     file_.points.push_back(point);
+    hand_on(file_, options);
     ++file_.classes[attributes.classification];
     if (by_ != By::kNothing) file_.groups.push_back(group_of(attributes));
   }

@@ -112,22 +112,31 @@ void grow(std::vector<Point>& points, std::uint64_t needed, std::uint64_t count,
   points.resize(static_cast<std::size_t>(size));
 }
 
+/// Whether its bytes are those of points in memory.
+bool is_plain(const Array& array) {
+  return array.type.kind == Scalar::Kind::kFloat && array.type.size == 8 && !array.type.big_endian &&
+         std::endian::native == std::endian::little && array.columns == 2 && !array.fortran_order;
+}
+
 void check_finite(const Point& point, std::uint64_t index, const BlockReader& reader) {
   if (std::isfinite(point.x) && std::isfinite(point.y)) return;
   reader.fail("point " + std::to_string(index + 1) +
               " has a coordinate that is not finite; remove such points before saving");
 }
 
-/// x and y one behind the other as doubles: what a vector of points is.
-void read_as_they_are(BlockReader& reader, const Array& array, bool size_known, std::vector<Point>& points) {
+/// The next `size` points that are x and y one behind the other as doubles: what memory has, too.
+void read_plain(BlockReader& reader, const Array& array, Point* points, std::uint64_t size) {
   static_assert(sizeof(Point) == 2 * sizeof(double));
+  if (!reader.read(reinterpret_cast<char*>(points), static_cast<std::size_t>(size) * sizeof(Point))) {
+    fail_short(array, reader);
+  }
+}
+
+void read_as_they_are(BlockReader& reader, const Array& array, bool size_known, std::vector<Point>& points) {
   for (std::uint64_t done = 0; done < array.count;) {
     const std::uint64_t size = std::min<std::uint64_t>(kValuesABlock, array.count - done);
     grow(points, done + size, array.count, size_known);
-    if (!reader.read(reinterpret_cast<char*>(points.data() + done),
-                     static_cast<std::size_t>(size) * sizeof(Point))) {
-      fail_short(array, reader);
-    }
+    read_plain(reader, array, points.data() + done, size);
     for (const std::uint64_t end = done + size; done < end; ++done) check_finite(points[done], done, reader);
   }
 }
@@ -153,6 +162,34 @@ void read_rows(BlockReader& reader, const Array& array, bool size_known, std::ve
   });
 }
 
+void hand_on_rows(BlockReader& reader, const Array& array, PointFile& file) {
+  const PointFileOptions& options = reader.options();
+  if (array.fortran_order) {
+    reader.fail(
+        "its NumPy array is in Fortran order, x and y apart, which cannot be streamed; save "
+        "numpy.ascontiguousarray(points)");
+  }
+  if (is_plain(array) && !options.window) {
+    for (std::uint64_t done = 0; done < array.count; done += kValuesABlock) {
+      file.points.resize(
+          static_cast<std::size_t>(std::min<std::uint64_t>(kValuesABlock, array.count - done)));
+      read_plain(reader, array, file.points.data(), file.points.size());
+      for (std::size_t i = 0; i < file.points.size(); ++i) check_finite(file.points[i], done + i, reader);
+      hand_on(file, options, true);
+    }
+    return;
+  }
+  const std::size_t size = array.type.size;
+  for_each_record(reader, array, array.columns * size, [&](std::uint64_t i, const char* row) {
+    const Point point = {load(row, array.type), load(row + size, array.type)};
+    check_finite(point, i, reader);
+    if (options.window && !is_inside(point, *options.window)) return;
+    file.points.push_back(point);
+    hand_on(file, options);
+  });
+  hand_on(file, options, true);
+}
+
 void read_columns_of_array(BlockReader& reader, const Array& array, bool size_known,
                            std::vector<Point>& points) {
   for_each_record(reader, array, array.type.size, [&](std::uint64_t i, const char* value) {
@@ -168,16 +205,16 @@ void read_columns_of_array(BlockReader& reader, const Array& array, bool size_kn
 
 }  // namespace
 
-std::vector<Point> read_npy(BlockReader& reader) {
+void read_npy(BlockReader& reader, PointFile& file) {
   const Array array = parse_header(read_header(reader), reader);
   const std::optional<std::uint64_t> remaining = reader.remaining();
   if (remaining && *remaining < array.bytes()) fail_short(array, reader);
-  std::vector<Point> points;
-  const bool plain = array.type.kind == Scalar::Kind::kFloat && array.type.size == 8 &&
-                     !array.type.big_endian && std::endian::native == std::endian::little;
-  if (array.fortran_order) {
+  std::vector<Point>& points = file.points;
+  if (reader.options().take_points) {
+    hand_on_rows(reader, array, file);
+  } else if (array.fortran_order) {
     read_columns_of_array(reader, array, remaining.has_value(), points);
-  } else if (plain && array.columns == 2) {
+  } else if (is_plain(array)) {
     read_as_they_are(reader, array, remaining.has_value(), points);
   } else {
     read_rows(reader, array, remaining.has_value(), points);
@@ -185,8 +222,7 @@ std::vector<Point> read_npy(BlockReader& reader) {
   if (reader.peek() != BlockReader::kEnd) {
     reader.fail("more bytes follow the " + std::to_string(array.count) + " points of its header" + kSaveIt);
   }
-  points.resize(static_cast<std::size_t>(array.count));
-  return points;
+  if (!reader.options().take_points) points.resize(static_cast<std::size_t>(array.count));
 }
 
 }  // namespace polylidar::tool::point_files

@@ -110,8 +110,7 @@ void read_as(PointFormat format, BlockReader& reader, PointFile& file) {
     case PointFormat::kWkt:
       return point_files::read_wkt_points(reader, file);
     case PointFormat::kNpy:
-      file.points = point_files::read_npy(reader);
-      return;
+      return point_files::read_npy(reader, file);
     case PointFormat::kPly:
       file.points = point_files::read_ply(reader);
       return;
@@ -134,6 +133,9 @@ void check_options(PointFormat format, const BlockReader& reader) {
   }
   if (!options.by.empty() && !is_text && format != PointFormat::kLas) {
     reader.fail("--by is for columns of text and for LAS, and this file is neither; leave --by out");
+  }
+  if (options.take_points && !is_text && format != PointFormat::kLas && format != PointFormat::kNpy) {
+    reader.fail("--stream is for LAS, columns of text and NumPy's arrays; leave --stream out");
   }
   if ((options.returns != Returns::kAll || options.classes) && format != PointFormat::kLas) {
     reader.fail("--returns and --classes are for LAS, and this file is not; leave them out");

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <functional>
 #include <optional>
+#include <span>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -58,6 +59,10 @@ struct PointFileOptions {
   std::optional<std::bitset<256>> classes = {};
   /// Only points in it, or on its border, are taken; in the coordinates of the file.
   std::optional<Box> window = {};
+  /// Where given, it is called with the points, block by block in their order, and PointFile::points stays
+  /// empty: for files of more points than fit into memory. Of LAS, columns of text and NumPy's rows; other
+  /// files are refused.
+  std::function<void(std::span<const Point>)> take_points = {};
   /// Called after every block, about a MiB, with the bytes read so far and, of a regular file, its size. What
   /// it throws ends the reading.
   std::function<void(std::uint64_t, std::optional<std::uint64_t>)> on_progress = {};

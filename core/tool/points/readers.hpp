@@ -22,13 +22,22 @@ void read_geojson_points(BlockReader& reader, PointFile& file);
 void read_wkt_points(BlockReader& reader, PointFile& file);
 
 /// float32, float64 and whole numbers of 1 to 8 bytes, of either byte order, in C or Fortran order.
-std::vector<Point> read_npy(BlockReader& reader);
+void read_npy(BlockReader& reader, PointFile& file);
 
 /// x and y of any type; other properties, lists among them, and other elements are passed over.
 std::vector<Point> read_ply(BlockReader& reader);
 
 /// With the coordinate system of its WKT or GeoKeys. Groups by classification, return or point_source.
 void read_las(BlockReader& reader, PointFile& file);
+
+/// To be called after each point that was added to `file`, and at the end with `at_end`: hands the points on
+/// where somebody takes them.
+inline void hand_on(PointFile& file, const PointFileOptions& options, bool at_end = false) {
+  constexpr std::size_t kBlock = std::size_t{1} << 18U;
+  if (!options.take_points || (file.points.size() < kBlock && !at_end)) return;
+  if (!file.points.empty()) options.take_points(file.points);
+  file.points.clear();
+}
 
 /// Whether `point` is in the box or on its border.
 inline bool is_inside(const Point& point, const Box& box) {

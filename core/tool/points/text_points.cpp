@@ -228,8 +228,10 @@ void read_columns(BlockReader& reader, bool only_blanks, PointFile& file) {
                          parse_coordinate(row.fields()[columns.y], reader)};
     if (window && !is_inside(point, *window)) continue;
     file.points.push_back(point);
+    hand_on(file, reader.options());
     if (columns.by) file.groups.push_back(labels.index_of(row.fields()[*columns.by]));
   }
+  hand_on(file, reader.options(), true);
   if (columns.by) labels.finish(file);
 }
 
