@@ -9,12 +9,12 @@ namespace polylidar::tool {
 namespace {
 
 TEST(CrsNames, TheirNumbers) {
-  EXPECT_EQ(crs_of_name("EPSG:25832"), (Crs{25832, false}));
-  EXPECT_EQ(crs_of_name("epsg:4326"), (Crs{4326, true}));
-  EXPECT_EQ(crs_of_name("urn:ogc:def:crs:EPSG::25832"), (Crs{25832, false}));
-  EXPECT_EQ(crs_of_name("urn:ogc:def:crs:EPSG:9.9:4258"), (Crs{4258, true}));
-  EXPECT_EQ(crs_of_name("http://www.opengis.net/def/crs/EPSG/0/3857"), (Crs{3857, false}));
-  EXPECT_EQ(crs_of_name("urn:ogc:def:crs:OGC:1.3:CRS84"), (Crs{4326, true}));
+  EXPECT_EQ(crs_of_name("EPSG:25832"), (Crs{25832, false, true}));
+  EXPECT_EQ(crs_of_name("epsg:4326"), (Crs{4326, true, true}));
+  EXPECT_EQ(crs_of_name("urn:ogc:def:crs:EPSG::25832"), (Crs{25832, false, true}));
+  EXPECT_EQ(crs_of_name("urn:ogc:def:crs:EPSG:9.9:4258"), (Crs{4258, true, true}));
+  EXPECT_EQ(crs_of_name("http://www.opengis.net/def/crs/EPSG/0/3857"), (Crs{3857, false, true}));
+  EXPECT_EQ(crs_of_name("urn:ogc:def:crs:OGC:1.3:CRS84"), (Crs{4326, true, true}));
   for (const char* none :
        {"", "EPSG", "EPSG:", "EPSG:x", "EPSG:-3", "EPSG:99999999999", "25832", "ESRI:102100"}) {
     EXPECT_EQ(crs_of_name(none), std::nullopt) << none;
@@ -23,25 +23,44 @@ TEST(CrsNames, TheirNumbers) {
 
 TEST(CrsText, TheHorizontalSystem) {
   EXPECT_EQ(crs_of_wkt(R"(GEOGCS["WGS 84",DATUM["d",SPHEROID["s",1,2]],AUTHORITY["EPSG","4326"]])"),
-            (Crs{4326, true}));
+            (Crs{4326, true, true}));
   EXPECT_EQ(
       crs_of_wkt(R"(COMPD_CS["c",PROJCS["p",GEOGCS["g",AUTHORITY["EPSG","4258"]],AUTHORITY["EPSG","25832"]],)"
                  R"(VERT_CS["v",AUTHORITY["EPSG","7837"]],AUTHORITY["EPSG","5555"]])"),
-      (Crs{25832, false}));
+      (Crs{25832, false, true}));
   EXPECT_EQ(crs_of_wkt(R"(PROJCRS["p",BASEGEOGCRS["b",ID["EPSG",4258]],CONVERSION["u",ID["EPSG",16032]],)"
                        R"(CS[Cartesian,2],ID["EPSG",25832]])"),
-            (Crs{25832, false}));
-  EXPECT_EQ(crs_of_wkt(R"(GEOGCRS["g",CS[ellipsoidal,2],ID["EPSG",4979]])"), (Crs{4979, true}));
-  EXPECT_EQ(crs_of_wkt(R"(PROJCS["WGS_1984_UTM_Zone_32N",GEOGCS["GCS_WGS_1984"]])"), (Crs{0, false}))
+            (Crs{25832, false, true}));
+  EXPECT_EQ(crs_of_wkt(R"(GEOGCRS["g",CS[ellipsoidal,2],ID["EPSG",4979]])"), (Crs{4979, true, true}));
+  EXPECT_EQ(crs_of_wkt(R"(PROJCS["World_Mollweide",GEOGCS["GCS_WGS_1984"]])"), (Crs{0, false, true}))
       << "Esri's";
   EXPECT_EQ(
       crs_of_wkt(R"(PROJCS["p",GEOGCS["g",AUTHORITY["EPSG","4258"]],UNIT["m",1,AUTHORITY["EPSG","9001"]]])"),
-      (Crs{0, false}))
+      (Crs{0, false, true}))
       << "that of what is inside is not its own";
-  EXPECT_EQ(crs_of_wkt(R"( GEOGCS [ "a [ , ] b" , AUTHORITY [ "EPSG" , "4269" ] ] )"), (Crs{4269, true}));
+  EXPECT_EQ(crs_of_wkt(R"( GEOGCS [ "a [ , ] b" , AUTHORITY [ "EPSG" , "4269" ] ] )"),
+            (Crs{4269, true, true}));
   for (const char* none : {"", "LOCAL_CS[\"x\"]", "]]]", "[[[[", "x,y\n1,2\n", "\"", "PROJCS"}) {
     EXPECT_EQ(crs_of_wkt(none), std::nullopt) << none;
   }
+}
+
+TEST(CrsText, KnownNamesHaveNumbers) {
+  const auto projected = [](const std::string& name) {
+    return crs_of_wkt("PROJCS[\"" + name + "\",GEOGCS[\"GCS_WGS_1984\"],UNIT[\"Meter\",1.0]]")->epsg;
+  };
+  EXPECT_EQ(projected("WGS_1984_UTM_Zone_32N"), 32632);
+  EXPECT_EQ(projected("WGS 84 / UTM zone 7S"), 32707);
+  EXPECT_EQ(projected("ETRS_1989_UTM_Zone_33N"), 25833);
+  EXPECT_EQ(projected("NAD83 / UTM zone 10N"), 26910);
+  for (const char* other :
+       {"WGS_1984_UTM_Zone_61N", "WGS_1984_UTM_Zone_0N", "WGS_1984_UTM_Zone_", "WGS_1984_UTM_Zone_N",
+        "ETRS_1989_UTM_Zone_33S", "ETRS_1989_UTM_Zone_3N", "WGS_1984_World_Mercator", ""}) {
+    EXPECT_EQ(projected(other), 0) << other;
+  }
+  EXPECT_EQ(crs_of_wkt(R"(GEOGCS["GCS_WGS_1984",DATUM["D_WGS_1984"]])"), (Crs{4326, true, true}));
+  EXPECT_EQ(crs_of_wkt(R"(GEOGCS["GCS_North_American_1983"])"), (Crs{4269, true, true}));
+  EXPECT_EQ(crs_of_wkt(R"(GEOGCS["GCS_Bessel"])"), (Crs{0, true, true}));
 }
 
 TEST(Degrees, AreMetresOnASphere) {

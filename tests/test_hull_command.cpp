@@ -441,6 +441,10 @@ TEST_F(HullCommandTest, TheCoordinateSystemIsPassedOn) {
   file("utm.prj", R"(PROJCS["a",GEOGCS["b"],AUTHORITY["EPSG","25832"]])");
   EXPECT_EQ(crs_of({csv}), "urn:ogc:def:crs:EPSG::25832");
   EXPECT_EQ(crs_of({csv, "--crs", "none"}), "");
+  file("utm.prj", R"(PROJCS["Gauss_Kruger_somewhere",GEOGCS["GCS_Bessel"]])");
+  EXPECT_EQ(crs_of({csv}), "");
+  EXPECT_NE(hull({csv}).err.find("the coordinate system has no EPSG number"), std::string::npos);
+  EXPECT_EQ(crs_of({csv, "--crs", "EPSG:31467"}), "urn:ogc:def:crs:EPSG::31467");
   const std::string old = file(
       "old.geojson",
       R"({"crs":{"type":"name","properties":{"name":"urn:ogc:def:crs:EPSG::3035"}},"type":"MultiPoint","coordinates":[[4e6,3e6],[4000001,3e6],[4e6,3000001]]})");

@@ -79,7 +79,7 @@ TEST_F(LasPointsTest, EveryVersionAndFormat) {
       file.records = {{"somebody", 3, std::string(1000, 'x')}, projected(25832)};
       const PointFile more = read(file);
       EXPECT_EQ(more.points, file.places()) << "1." << minor << ", format " << format << " with more bytes";
-      EXPECT_EQ(more.crs, (Crs{25832, false}));
+      EXPECT_EQ(more.crs, (Crs{25832, false, true}));
     }
   }
 }
@@ -182,12 +182,12 @@ TEST_F(LasPointsTest, TheCoordinateSystemOfGeoKeysAndText) {
       R"(UNIT["m",1,AUTHORITY["EPSG","9001"]],AUTHORITY["EPSG","32633"]])";
   const LasRecord text = {"LASF_Projection", 2112, utm + std::string(9, '\0')};
   EXPECT_EQ(crs_of({}), Crs());
-  EXPECT_EQ(crs_of({geographic(4258)}), (Crs{4258, true}));
-  EXPECT_EQ(crs_of({projected(32767)}), (Crs{0, false})) << "user-defined";
-  EXPECT_EQ(crs_of({text}), (Crs{32633, false}));
-  EXPECT_EQ(crs_of({projected(25832), text}), (Crs{32633, false})) << "text goes first";
-  EXPECT_EQ(crs_of({text, projected(25832)}), (Crs{32633, false})) << "in either order";
-  EXPECT_EQ(crs_of({}, {{"other", 1, "x"}, text}), (Crs{32633, false})) << "behind the points";
+  EXPECT_EQ(crs_of({geographic(4258)}), (Crs{4258, true, true}));
+  EXPECT_EQ(crs_of({projected(32767)}), (Crs{0, false, true})) << "user-defined";
+  EXPECT_EQ(crs_of({text}), (Crs{32633, false, true}));
+  EXPECT_EQ(crs_of({projected(25832), text}), (Crs{32633, false, true})) << "text goes first";
+  EXPECT_EQ(crs_of({text, projected(25832)}), (Crs{32633, false, true})) << "in either order";
+  EXPECT_EQ(crs_of({}, {{"other", 1, "x"}, text}), (Crs{32633, false, true})) << "behind the points";
   EXPECT_EQ(crs_of({{"other", 2112, utm}}), Crs()) << "somebody else's record";
   EXPECT_EQ(crs_of({{"LASF_Projection", 2112, "\xFF[[[\"("}}), Crs());
   EXPECT_EQ(crs_of({{"LASF_Projection", 34735, "\1"}}), Crs());

@@ -209,6 +209,7 @@ class FootprintRun {
   ExitCode summary() const {
     std::size_t failed = 0;
     bool differ = false;
+    bool nameless = false;
     const Footprint* first = nullptr;
     for (const Footprint& footprint : footprints_) {
       if (!footprint.failure.empty()) {
@@ -217,6 +218,7 @@ class FootprintRun {
         continue;
       }
       differ |= first != nullptr && first->crs != footprint.crs;
+      nameless |= footprint.crs.is_given && footprint.crs.epsg == 0;
       if (first == nullptr) first = &footprint;
     }
     const std::size_t count = footprints_.size();
@@ -224,6 +226,7 @@ class FootprintRun {
                       << (count == 1 ? " file is" : " files are") << " in the index"
                       << (failed > 0 ? ", " + std::to_string(failed) + " could not be read" : std::string())
                       << "\n";
+    if (nameless) surroundings_.err << surroundings_.program << ": " << kNamelessCrs << "\n";
     if (differ) {
       surroundings_.err
           << surroundings_.program

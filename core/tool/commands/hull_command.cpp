@@ -170,6 +170,7 @@ class HullRun {
                             throw_if_interrupted();
                           });
     status_.clear();
+    if (crs_.is_given && crs_.epsg == 0) say(std::string(kNamelessCrs));
     if (!hulls_.latitude) return;
     say("longitude and latitude: lengths and areas are in metres, true at latitude " +
         shortest(std::round(*hulls_.latitude * 100) / 100) + "; --crs none takes degrees as they are");

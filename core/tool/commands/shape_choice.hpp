@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "tool/commands/commands.hpp"
@@ -26,6 +27,11 @@ unsigned thread_count(const ShapeChoice& choice);
 /// The coordinate system that `choice` gives, else that of the file. Throws ConfigurationError for a name
 /// that is none.
 Crs chosen_crs(const ShapeChoice& choice, const Crs& of_file);
+
+/// What is said where the system of a file has no number, as GeoJSON has no other way to name it.
+inline constexpr std::string_view kNamelessCrs =
+    "the coordinate system has no EPSG number that is known here, so that the result names none; --crs gives "
+    "it one";
 
 /// A file's points, and the hulls of its groups, in metres where the coordinates are degrees.
 struct LocatedHulls {

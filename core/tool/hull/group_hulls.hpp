@@ -45,8 +45,8 @@ struct GroupHull {
 
 /// One hull for each of `group_count` groups; groups[i] is that of point i; no groups at all: all points are
 /// one. Groups with many points have all `threads` >= 1 to themselves, the others share them. `on_group`
-/// is told by any thread how many groups are done; what it throws ends the work. Throws as concave_hull(),
-/// with indices into all points.
+/// is told by any thread how many groups are done; what it throws ends the work. Coordinates must be finite;
+/// throws std::invalid_argument where a group's span more than concave_hull() takes.
 ///
 /// `cover` and `one` widen the limit: all that are given by one factor, or `detail` by its inverse. No
 /// triangle is lost by that, so each holds from some factor on, and the least one is found to a thousandth by

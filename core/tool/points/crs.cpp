@@ -1,6 +1,7 @@
 #include "tool/points/crs.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cctype>
 #include <charconv>
 #include <vector>
@@ -33,6 +34,43 @@ struct Node {
   std::vector<std::string> values;  ///< between the commas, without quotes; nodes inside are none
 };
 
+/// Of the systems that most files have: "WGS 84 / UTM zone 32N", in Esri's spelling "WGS_1984_UTM_Zone_32N".
+/// 0 for another name.
+int number_of_known_name(std::string_view name) {
+  struct Datum {
+    std::string_view name;
+    int degrees;  ///< its number with longitude and latitude
+    int north;    ///< of UTM's zones: this plus the zone
+    int south;    ///< likewise; 0: there are none
+    int first_zone;
+    int last_zone;
+  };
+  static constexpr std::array<Datum, 7> kDatums = {{{"WGS84", 4326, 32600, 32700, 1, 60},
+                                                    {"WGS1984", 4326, 32600, 32700, 1, 60},
+                                                    {"ETRS89", 4258, 25800, 0, 28, 37},
+                                                    {"ETRS1989", 4258, 25800, 0, 28, 37},
+                                                    {"NAD83", 4269, 26900, 0, 1, 23},
+                                                    {"NAD1983", 4269, 26900, 0, 1, 23},
+                                                    {"NORTHAMERICAN1983", 4269, 0, 0, 1, 0}}};
+  std::string plain = upper(name);
+  std::erase_if(plain, [](unsigned char c) { return std::isalnum(c) == 0; });
+  std::string_view rest = plain;
+  if (rest.starts_with("GCS")) rest.remove_prefix(3);
+  for (const Datum& datum : kDatums) {
+    if (!rest.starts_with(datum.name)) continue;
+    std::string_view zone = rest.substr(datum.name.size());
+    if (zone.empty()) return datum.degrees;
+    if (!zone.starts_with("UTMZONE")) continue;
+    zone.remove_prefix(7);
+    const int base = zone.ends_with('N') ? datum.north : zone.ends_with('S') ? datum.south : 0;
+    zone.remove_suffix(std::min<std::size_t>(zone.size(), 1));
+    const std::optional<int> number = number_of(zone);
+    if (base > 0 && number && *number >= datum.first_zone && *number <= datum.last_zone)
+      return base + *number;
+  }
+  return 0;
+}
+
 }  // namespace
 
 std::string Crs::name() const {
@@ -40,7 +78,7 @@ std::string Crs::name() const {
 }
 
 Crs crs_of_epsg(int number) {
-  return {.epsg = number, .is_geographic = number >= 4000 && number < 5000};
+  return {.epsg = number, .is_geographic = number >= 4000 && number < 5000, .is_given = true};
 }
 
 std::optional<Crs> crs_of_name(std::string_view name) {
@@ -72,7 +110,7 @@ std::optional<Crs> crs_of_wkt(std::string_view text) {
       const bool is_geographic =
           is_one_of(keyword, {"GEOGCS", "GEOGCRS", "GEODCRS", "GEOGRAPHICCRS", "GEODETICCRS"});
       if (!found && (is_geographic || is_one_of(keyword, {"PROJCS", "PROJCRS", "PROJECTEDCRS"}))) {
-        found = Crs{.epsg = 0, .is_geographic = is_geographic};
+        found = Crs{.epsg = 0, .is_geographic = is_geographic, .is_given = true};
         depth_of_found = open.size();
       }
     } else if (c == ',' || c == ']' || c == ')') {
@@ -83,6 +121,9 @@ std::optional<Crs> crs_of_wkt(std::string_view text) {
       if (found && open.size() == depth_of_found + 1 && is_one_of(node.keyword, {"AUTHORITY", "ID"}) &&
           node.values.size() >= 2 && upper(node.values[0]) == "EPSG") {
         found->epsg = number_of(node.values[1]).value_or(0);
+      }
+      if (found && open.size() == depth_of_found && found->epsg == 0) {
+        found->epsg = number_of_known_name(node.values[0]);
       }
       open.pop_back();
       if (found && open.size() + 1 == depth_of_found) return found;
@@ -110,7 +151,7 @@ std::optional<Crs> crs_of_geokeys(std::span<const std::uint16_t> keys) {
   const bool is_geographic = model == 2 || (model == 0 && projected == 0 && geodetic != 0);
   if (!is_geographic && model != 1 && projected == 0) return {};
   const std::uint16_t number = is_geographic ? geodetic : projected;
-  return Crs{.epsg = number == kUserDefined ? 0 : number, .is_geographic = is_geographic};
+  return Crs{.epsg = number == kUserDefined ? 0 : number, .is_geographic = is_geographic, .is_given = true};
 }
 
 }  // namespace polylidar::tool

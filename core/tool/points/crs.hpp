@@ -13,6 +13,7 @@ namespace polylidar::tool {
 struct Crs {
   int epsg = 0;                ///< its number in EPSG's register; 0: not known
   bool is_geographic = false;  ///< x and y are longitude and latitude in degrees
+  bool is_given = false;       ///< something is said of it, be it not its number
 
   /// "EPSG:25832"; empty when the number is not known.
   std::string name() const;
@@ -26,8 +27,9 @@ Crs crs_of_epsg(int number);
 /// Of a name such as "EPSG:25832", "urn:ogc:def:crs:EPSG::25832" or "urn:ogc:def:crs:OGC:1.3:CRS84".
 std::optional<Crs> crs_of_name(std::string_view name);
 
-/// Of well-known text (OGC 01-009 and ISO 19162, also Esri's): the horizontal system in it, its number only
-/// where the text has it. Nothing where the text names no such system.
+/// Of well-known text (OGC 01-009 and ISO 19162, also Esri's): the horizontal system in it. Its number is
+/// known where the text has it, or by its name where that is one of UTM's (WGS 84, ETRS89, NAD83) or of these
+/// three in degrees: Esri's .prj files have names only. Nothing where the text names no such system.
 std::optional<Crs> crs_of_wkt(std::string_view text);
 
 /// Of a GeoKeyDirectoryTag (OGC 19-008r4, 7.1.2): numbers of 16 bits, four a key.

@@ -87,7 +87,7 @@ class PointHandler : public nlohmann::json_sax<json> {
   bool binary(binary_t&) override { return plain_value(); }
 
   bool string(string_t& value) override {
-    if (skipped_ > 0 && is_crs_name_) crs_ = crs_of_name(value).value_or(Crs());
+    if (skipped_ > 0 && is_crs_name_) crs_ = crs_of_name(value).value_or(Crs{.is_given = true});
     if (skipped_ > 0 || depth_ > 0 || !in_member(Member::kType)) return plain_value();
     if (!is_usable(value)) {
       reader_.fail_here(
