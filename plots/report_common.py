@@ -68,7 +68,8 @@ def milliseconds(ns: float) -> str:
 
 def count_of(count: int, noun: str) -> str:
     """1 case, 2 cases."""
-    return f"{count} {noun}{'' if count == 1 else 's'}"
+    several = noun[:-1] + "ies" if noun.endswith("ry") else noun + "s"
+    return f"{count} {noun if count == 1 else several}"
 
 
 def sentence_list(words: Sequence[str]) -> str:
