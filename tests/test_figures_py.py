@@ -48,7 +48,7 @@ from figures import (  # noqa: E402
 )
 from labels import place_labels  # noqa: E402
 from records import Row, load  # noqa: E402
-from run import Drawn, Run, read_paper  # noqa: E402
+from run import Drawn, Run, Skipped, read_paper  # noqa: E402
 from style import in_order, method_style  # noqa: E402
 
 LOOKS = json.loads((PLOTS / "methods.json").read_text(encoding="utf-8"))
@@ -289,7 +289,11 @@ class Data(WithSuite):
             lines = [json.loads(line) for line in path.read_text(encoding="utf-8").splitlines()]
             lines[0]["ground_truth"] = []
             path.write_text("".join(json.dumps(line) + "\n" for line in lines), encoding="utf-8")
-            drawn = list(real.draw(Run(folder, load(folder), read_paper())))
+            run = Run(folder, load(folder), read_paper())
+            drawn = list(real.draw(run))
+            for module in (hulls, shapes, states):
+                with self.assertRaises(Skipped, msg=module.__name__):
+                    list(module.draw(run))
         self.assertEqual([one.name for one in drawn], ["real_trees"])
         self.assertEqual(len(drawn[0].figure.axes), 1 + len(rows))
         shown = texts(drawn[0].figure)
