@@ -124,6 +124,13 @@ report: ## write results/latest/report.html, one file with everything about the 
 	@$(call drawn,$(RUN),$(call drawn_folder,$(RUN)))
 	@/usr/bin/python3 plots/make_report.py $(call drawn_folder,$(RUN)) --out $(call drawn_into,$(RUN))/report.html
 
+.PHONY: paper
+paper: ## write results/latest/paper.pdf, all figures and tables in a journal's column widths (RUN=FOLDER: any run)
+	@$(call install,build plots paper)
+	@$(MAKE) build
+	@$(call drawn,$(RUN),$(call drawn_folder,$(RUN)))
+	@/usr/bin/python3 plots/make_paper.py $(call drawn_folder,$(RUN)) --out $(call drawn_into,$(RUN))/paper.pdf
+
 report-compare: ## write B/comparison.html, a page with two runs side by side (A=FOLDER B=FOLDER)
 	@test -n "$(A)" -a -n "$(B)" || { echo "error: give two runs: make report-compare A=FOLDER B=FOLDER" >&2; exit 2; }
 	@$(call install,build plots)

@@ -2,12 +2,13 @@
 # is installed, and in its browser.
 set(needs_of_records "${SYSTEM_PYTHON}:matplotlib")
 set(needs_of_figures "${SYSTEM_PYTHON}:matplotlib" "${SYSTEM_PYTHON}:scipy")
+set(needs_of_paper "${SYSTEM_PYTHON}:matplotlib" "${SYSTEM_PYTHON}:scipy")
 set(needs_of_html_report esbuild "${SYSTEM_PYTHON}:scipy")
 set(needs_of_pictures)
 set(needs_of_comparison esbuild "${PROJECT_SOURCE_DIR}/plots/node_modules")
 set(needs_of_ratings "${SYSTEM_PYTHON}:scipy")
 set(needs_of_front "${SYSTEM_PYTHON}:scipy")
-foreach(part IN ITEMS records ratings front figures html_report pictures comparison)
+foreach(part IN ITEMS records ratings front figures paper html_report pictures comparison)
   hullbench_tool_test(NAME plots.${part} NEEDS "${SYSTEM_PYTHON}:jsonschema" ${needs_of_${part}}
     COMMAND "${SYSTEM_PYTHON}" -B -m unittest test_${part}_py)
   set_tests_properties(plots.${part} PROPERTIES LABELS plots TIMEOUT 900
