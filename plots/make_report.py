@@ -57,8 +57,8 @@ def write(out: Path, folder: Path) -> None:
 def make_page(experiments: Sequence[Experiment], folder: Path) -> str:
     """The whole page. Raises RecordError when the charting library or esbuild is missing."""
     title = "Concave hulls: " + (experiments[0].title if len(experiments) == 1 else "the whole suite")
-    report = _report(experiments, folder, title)
     front = make_front(folder)
+    report = {**_report(experiments, folder, title), "leader": _leader(front)}
     sections = _sections(experiments, folder, front)
     parts = {**code(STYLES, "main.js"), "colours": colours(report["methods"])}
     blocks = [
@@ -118,6 +118,10 @@ def _report(experiments: Sequence[Experiment], folder: Path, title: str) -> dict
         "metrics": [metrics.entry(name) for name in metrics.names(rows)],
         "rows": len(rows),
     }
+
+
+def _leader(front: Front) -> str | None:
+    return front.ratings[0].standings[0].series.key if front.ratings else None
 
 
 def _options(experiment: Experiment) -> str:

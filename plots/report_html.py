@@ -78,10 +78,11 @@ def _standings(summaries: Sequence[Summary]) -> str:
         )
     )
     return (
+        "<details><summary>Standing of every method</summary>"
         "<div class='scroll' tabindex='0' role='region' aria-label='Standing of every method'>"
         "<table id='summary-table' data-testid='summary-table'><caption>Every method beside Polylidar, over the "
         f"cases that either solved: median, and from the least to the largest</caption><thead><tr>{head}</tr></thead>{rows}"
-        "</table></div>"
+        "</table></div></details>"
     )
 
 

@@ -30,10 +30,12 @@ export function mountGallery(element, page_report, page_pictures) {
   });
   const watcher = watch_cards();
   const refresh = () => list_cards(grid, count, more, watcher);
-  // One method, rather than each case's worst, which is often the simplest one everywhere: that with the most cases.
+  // One method, rather than each case's worst, which is often the simplest one everywhere: who leads, or else that with the
+  // most cases.
   const shown = (series) => entries.filter((entry) => entry.runs.some((run) => run.series === series)).length;
   const keys = report.entrants.map((entrant) => entrant.key);
-  const first = keys.reduce((most, key) => (shown(key) > shown(most) ? key : most), keys[0]);
+  const most = keys.reduce((one, other) => (shown(other) > shown(one) ? other : one), keys[0]);
+  const first = shown(report.leader) ? report.leader : most;
   filters.method = first;
   element.replaceChildren(
     ...[filter_bar(refresh), failures_button(element, refresh), legend(), count, grid, more, remark()].filter(Boolean),
@@ -167,7 +169,7 @@ function run_for(entry) {
 /** Experiment, family and ways to sample: what the mixed order takes turns of. */
 function stratum(entry) {
   const [shape, ...ways] = entry.case.split("/")[0].split("~");
-  const family = shape.replace(/[-_][^-_]*$/, "");
+  const family = shape.split(/[-_]/)[0];
   return [entry.experiments[0], family, entry.holes, ...ways.map((way) => way.split(":")[0])].join(" ");
 }
 
