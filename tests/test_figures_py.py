@@ -190,7 +190,7 @@ class Data(WithSuite):
 
     def test_ratings_are_those_of_the_results(self) -> None:
         drawn = self.draw(ratings_figure)
-        self.assertEqual(list(drawn), ["ratings_blind", "wins_blind", "ratings_informed", "wins_informed"])
+        self.assertEqual(list(drawn), [f"{one}_{who}" for who in ("blind", "informed") for one in ("ratings", "wins", "parts")])
         (informed,) = [one for one in ratings.divisions(self.run_.results()) if one.name == "informed"]
         rating = ratings.rate(informed)
         ranks, elo = drawn["ratings_informed"].figure.axes
@@ -201,6 +201,8 @@ class Data(WithSuite):
             self.assertLessEqual({getattr(one, f"{values}_interval") for one in rating.standings}, set(bars))
         shown = drawn["wins_informed"].figure.axes[0].get_images()[0].get_array()
         self.assertTrue((shown == 100 * rating.wins).all())
+        parts = drawn["parts_informed"].figure.axes[0].get_images()[0].get_array()
+        self.assertEqual(parts.T.tolist(), [part.ranks for part in [*rating.kinds, *rating.samplers]])
         for words in (f"{len(informed.results.cases)} cases of", "at most 1 % of the smaller one", "Holm"):
             self.assertIn(words, drawn["ratings_informed"].caption)
 
@@ -461,6 +463,8 @@ class Files(WithSuite):
             "core",
             "hulls_ca",
             "hulls_hi",
+            "parts_blind",
+            "parts_informed",
             "profiles",
             "random_polygons",
             "ratings_blind",

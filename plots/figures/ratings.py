@@ -5,6 +5,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
+import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
@@ -37,6 +38,13 @@ def draw(run: Run) -> Iterator[Drawn]:
             f"{who}: on which share of the cases, in %, the method of the row beats that of the column; {TIE_WORDS}, and "
             "the small number is their share. Every stratum and in it every shape counts the same.",
         )
+        if len(rating.kinds) + len(rating.samplers) > 2:
+            yield Drawn(
+                f"parts_{division.name}",
+                _parts_figure(rating),
+                f"{who}: mean rank on L2 by kind of shape and by way to sample the points, in brackets the number of cases. 1 is "
+                "the best on every case; the best of a column is in bold.",
+            )
 
 
 def _labels(rating: Rating) -> list[str]:
@@ -106,3 +114,23 @@ def _cell(axes: Axes, i: int, j: int, won: float, tied: float) -> None:
     axes.text(j, i - 0.1, f"{won:.0f}", ha="center", va="center", fontsize=5.5, color=color)
     if tied >= 0.5:
         axes.text(j, i + 0.28, f"{tied:.0f}", ha="center", va="center", fontsize=3.8, color=color)
+
+
+def _parts_figure(rating: Rating) -> Figure:
+    parts = [*rating.kinds, *rating.samplers]
+    count = len(rating.standings)
+    figure = new_figure(min(FULL_WIDTH, 50 + 8 * len(parts)), 32 + 4.2 * count)
+    axes = figure.subplots()
+    ranks = np.array([part.ranks for part in parts]).T
+    axes.imshow(ranks, cmap="cividis_r", vmin=1, vmax=count, aspect="auto")
+    for i in range(count):
+        for j in range(len(parts)):
+            best = ranks[i, j] <= ranks[:, j].min() + 1e-9
+            color = "white" if ranks[i, j] > 0.55 * count else "black"
+            text = f"{ranks[i, j]:.1f}"
+            axes.text(j, i, text, ha="center", va="center", fontsize=6, color=color, fontweight="bold" if best else "normal")
+    axes.set_xticks(range(len(parts)), [f"{part.name} ({part.cases})" for part in parts], rotation=60, ha="right")
+    axes.set_yticks(range(count), _labels(rating))
+    axes.axvline(len(rating.kinds) - 0.5, color="white", linewidth=3)
+    axes.grid(False)
+    return figure
