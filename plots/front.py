@@ -17,6 +17,7 @@ import numpy as np
 import svg
 from ratings import (
     KNOWS,
+    LEAST_TARGET,
     TARGET_WORDS,
     Division,
     Part,
@@ -185,7 +186,8 @@ def solved_figure(division: Division) -> str:
     every = list(curves)
     times = [one[0] for one in curves.values() if len(one[0])]
     low, high = min(one[0] for one in times) / 1.2, max(one[-1] for one in times) * 1.2
-    named = sorted(every, key=lambda one: -_area(curves[one], low, high))[:MOST_NAMED]
+    timed = [one for one in every if len(curves[one][0])]
+    named = sorted(timed, key=lambda one: -_area(curves[one], low, high))[:MOST_NAMED]
     charts = [
         _solved_chart(curves, named, (low, high), size, css) for size, css in ((WIDE, "wide-only"), (NARROW, "narrow-only"))
     ]
@@ -202,8 +204,6 @@ def solved_figure(division: Division) -> str:
 def _area(curve: tuple[np.ndarray, np.ndarray], low: float, high: float) -> float:
     """Below the curve, over the logarithm of time: who is fast and accurate has much of it."""
     x, y = curve
-    if not len(x):
-        return 0.0
     return float(np.sum(np.diff(np.log([*x, high])) * y) / math.log(high / low))
 
 
@@ -245,12 +245,14 @@ def _thinned(x: np.ndarray, y: np.ndarray, step: float = 0.002) -> list[tuple[fl
 def time_error_figure(division: Division) -> str:
     times, errors = typical_times(division), typical_errors(division)
     every = list(times)
-    shown = [one for one in every if math.isfinite(times[one]) and math.isfinite(errors[one]) and errors[one] > 0]
+    errors = {one: max(error, LEAST_TARGET) for one, error in errors.items()}  # the axis has no 0
+    shown = [one for one in every if math.isfinite(times[one]) and math.isfinite(errors[one])]
     front = pareto([(times[one], errors[one]) for one in shown])
     missing = [name_of(one, every) for one in every if one not in shown]
     note = "Medians over the same cases. The line is the front: nobody is faster and more accurate at once."
+    note += " Errors below 0.01 % are shown as that." if min(errors.values()) <= LEAST_TARGET else ""
     note += f" Not shown, as most cases fail: {sentence_list(missing)}." if missing else ""
-    charts = [
+    charts = shown and [
         _time_error_chart(times, errors, shown, front, size, css)
         for size, css in ((WIDE, "wide-only"), (NARROW, "narrow-only"))
     ]

@@ -104,6 +104,21 @@ class Charts(unittest.TestCase):
         one = ratings.division(results({"a": [0.1] * 3, "b": [0.2, INF, INF]}), "blind")
         self.assertIn("Not shown, as most cases fail: b.", front.time_error_figure(one))
 
+    def test_who_never_succeeds_and_who_is_perfect_are_there(self) -> None:
+        seconds = [[0.001, 0.001], [math.nan, math.nan], [0.002, 0.002]]
+        one = ratings.division(results({"a": [0.0, 0.0], "b": [INF, INF], "c": [0.1, 0.1]}, seconds=seconds), "blind")
+        self.assertIn("b</th><td class='number'>0</td>", front.solved_figure(one))
+        made = front.time_error_figure(one)
+        self.assertIn("Not shown, as most cases fail: b.", made)
+        self.assertIn("Errors below 0.01 % are shown as that.", made)
+
+    def test_a_chart_without_a_mark_is_left_out(self) -> None:
+        one = ratings.division(results({"a": [0.1, INF, INF], "b": [INF, 0.2, INF]}), "blind")
+        half = ratings.division(results({"a": [0.1, INF, INF, INF], "b": [INF, 0.2, 0.2, 0.2]}), "blind")
+        self.assertIn("<svg", front.time_error_figure(half))
+        self.assertEqual(len(one.results.cases), 2)
+        self.assertNotIn("<svg", front.time_error_figure(one))
+
     def test_names_keep_off_each_other(self) -> None:
         places = svg.apart([50.0, 50.0, 51.0, 200.0], 0, 200)
         self.assertTrue(all(b - a >= 13.9 for a, b in zip(sorted(places), sorted(places)[1:])))
