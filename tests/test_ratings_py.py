@@ -3,6 +3,8 @@ the order of cases and methods."""
 
 from __future__ import annotations
 
+import contextlib
+import io
 import math
 import sys
 import tempfile
@@ -14,9 +16,10 @@ import numpy as np
 PROJECT = Path(__file__).resolve().parent.parent
 sys.path.insert(0, str(PROJECT / "plots"))
 
-import ratings  # noqa: E402  the path comes first
+import make_ratings  # noqa: E402  the path comes first
+import ratings  # noqa: E402
 from ratings import Case, Results  # noqa: E402
-from records import RecordError, Series  # noqa: E402
+from records import RecordError, Series, read_json  # noqa: E402
 
 INF = math.inf
 HEAD = ",".join(ratings.COLUMNS) + "\n"
@@ -228,6 +231,27 @@ class SolvedAgainstTime(unittest.TestCase):
     def test_a_perfect_result_leaves_room_for_others(self) -> None:
         found = self.curve({"a": [0.0], "b": [0.0005]}, [[0.001], [0.001]])
         np.testing.assert_allclose(found["b"][1], [16 / 51])
+
+
+class Json(unittest.TestCase):
+    def test_it_is_as_its_schema_says_with_null_for_what_is_infinite(self) -> None:
+        with tempfile.TemporaryDirectory() as folder:
+            path = Path(folder) / "league.csv"
+            lines = [
+                f"{one}/auto,c{k},1,{error},0.1,9,ok,c{k},simple,uniform,1"
+                for k in (1, 2, 3)
+                for one, error in (("a", 0.1), ("b", "inf"))
+            ]
+            path.write_text(HEAD + "\n".join(lines) + "\n", encoding="utf-8")
+            with contextlib.redirect_stdout(io.StringIO()):
+                self.assertEqual(make_ratings.main([str(path)]), 0)
+            (division,) = read_json(path.with_name("ratings.json"), "ratings.schema.json")["divisions"]
+            path.write_text(HEAD, encoding="utf-8")
+            with contextlib.redirect_stderr(io.StringIO()):
+                self.assertEqual((make_ratings.main([str(path)]), make_ratings.main([folder])), (6, 2))
+        self.assertEqual([one["method"] for one in division["standings"]], ["a", "b"])
+        self.assertEqual((division["standings"][1]["l2_median"], division["standings"][1]["failures"]), (None, 3))
+        self.assertEqual(division["wins"], [[0, 1], [0, 0]])
 
 
 if __name__ == "__main__":
