@@ -187,7 +187,8 @@ def solved_figure(division: Division) -> str:
     times = [one[0] for one in curves.values() if len(one[0])]
     low, high = min(one[0] for one in times) / 1.2, max(one[-1] for one in times) * 1.2
     timed = [one for one in every if len(curves[one][0])]
-    named = sorted(timed, key=lambda one: -_area(curves[one], low, high))[:MOST_NAMED]
+    highest = max(timed, key=lambda one: curves[one][1][-1])
+    named = sorted(timed, key=lambda one: (one != highest, -_area(curves[one], low, high)))[:MOST_NAMED]
     charts = [
         _solved_chart(curves, named, (low, high), size, css) for size, css in ((WIDE, "wide-only"), (NARROW, "narrow-only"))
     ]

@@ -112,6 +112,12 @@ class Charts(unittest.TestCase):
         self.assertIn("Not shown, as most cases fail: b.", made)
         self.assertIn("Errors below 0.01 % are shown as that.", made)
 
+    def test_who_solves_the_most_is_named_however_slow(self) -> None:
+        errors = {f"m{k}": [0.2, 0.2] for k in range(front.MOST_NAMED + 2)}
+        seconds = [[0.001 * (k + 1)] * 2 for k in range(len(errors))] + [[100.0, 100.0]]
+        one = ratings.division(results({**errors, "slow": [0.1, 0.1]}, seconds=seconds), "blind")
+        self.assertIn(">slow</text>", front.solved_figure(one))
+
     def test_a_chart_without_a_mark_is_left_out(self) -> None:
         one = ratings.division(results({"a": [0.1, INF, INF], "b": [INF, 0.2, INF]}), "blind")
         half = ratings.division(results({"a": [0.1, INF, INF, INF], "b": [INF, 0.2, 0.2, 0.2]}), "blind")
