@@ -19,6 +19,7 @@ from ratings import (
     KNOWS,
     LEAST_TARGET,
     TARGET_WORDS,
+    TIE_WORDS,
     Division,
     Part,
     Rating,
@@ -387,13 +388,13 @@ MOST_LISTED = 2000
 
 
 def where_html(front: Front) -> str:
-    """A heat map for each division; empty without ratings."""
-    return "".join(
-        _heat_map(rating, front.own)
-        if k == 0
-        else f"<details><summary>Methods that {KNOWS[rating.division.name]}</summary>{_heat_map(rating, front.own)}</details>"
-        for k, rating in enumerate(front.ratings)
-    )
+    """A heat map for each division, and who beats whom; empty without ratings."""
+    parts = []
+    for k, rating in enumerate(front.ratings):
+        shown = _heat_map(rating, front.own) + _wins(rating)
+        summary = f"<summary>Methods that {KNOWS[rating.division.name]}</summary>"
+        parts.append(f"<details>{summary}{shown}</details>" if k else shown)
+    return "".join(parts)
 
 
 def listed_cases(front: Front) -> dict[str, list[str]]:
@@ -454,3 +455,29 @@ def _heat_cell(part: Part, place: int, name: str, key: str, series: Series) -> s
             f"<a href='#runs' data-part='{text(key)}' data-entrant='{text(series.key)}' aria-label='{text(label)}'>{shown}</a>"
         )
     return f"<td class='number' style='--strength:{strength:.0f}%'>{shown}</td>"
+
+
+def _wins(rating: Rating) -> str:
+    """A line and a column for those with the same results."""
+    every = [one.series for one in rating.standings]
+    lines = lines_of(rating)
+    names = [text(name_of(line.members[0].series, every)) for line in lines]
+    head = "".join(f"<th scope='col' class='number'>{name}</th>" for name in names)
+    rows = ""
+    for one, name in zip(lines, names):
+        cells = ""
+        for other in lines:
+            won, tied = (100 * values[one.first, other.first] for values in (rating.wins, rating.ties))
+            small = f"<small>{tied:.0f}</small>" if tied >= 0.5 else ""
+            cells += (
+                f"<td class='number' style='--strength:{40 * rating.wins[other.first, one.first]:.0f}%'>{won:.0f}{small}</td>"
+                if one is not other
+                else "<td></td>"
+            )
+        rows += f"<tr><th scope='row'>{name}</th>{cells}</tr>"
+    return (
+        f"<details><summary>Who beats whom</summary><p class='muted'>On which share of the cases, in %, the method of the row beats that of the "
+        f"column; small: on which they are tied ({TIE_WORDS}). The stronger the colour, the more it loses.</p><div class='scroll' tabindex='0' role='region' aria-label='Who beats whom'>"
+        f"<table class='heat' id='wins-{rating.division.name}'><thead><tr><th scope='col'>Method</th>{head}</tr></thead>"
+        f"<tbody>{rows}</tbody></table></div></details>"
+    )

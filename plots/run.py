@@ -45,8 +45,8 @@ class Run:
 
     def results(self, timed: bool = False) -> Results:
         """Every result with an error, of the league that is kept beside the run (league.csv) or else of the run itself
-        (cases.csv); with `timed` of the run first, as nothing is timed in a league."""
-        names = ("cases.csv", "league.csv") if timed else ("league.csv", "cases.csv")
+        (cases.csv); with `timed` of the run alone, as an evaluation, which keeps all cores busy, times nothing."""
+        names = ("cases.csv",) if timed else ("league.csv", "cases.csv")
         path = next((self.folder / name for name in names if (self.folder / name).is_file()), None)
         if path is None:
             raise Skipped(f"{self.folder / 'cases.csv'} is not there ('hullbench league RUN --all-cases --csv' writes it)")

@@ -162,10 +162,17 @@ class HeatMap(unittest.TestCase):
         cases = [case(0), case(1, kind="holes"), case(2, kind="holes")]
         found = front.Front([rated({"a": [0.1, 0.2, 0.2], "b": [0.4, 0.1, INF]}, cases=cases)], [], True, "")
         made = front.where_html(found)
-        rows = [re.findall(r"<td[^>]*>(.*?)</td>", row) for row in made.split("<tr>")[2:]]
+        rows = [re.findall(r"<td[^>]*>(.*?)</td>", row) for row in made.split("</table>")[0].split("<tr>")[2:]]
         self.assertEqual([[words(cell) for cell in row] for row in rows], [["•10.0", "•20.0", "•15.0"], ["40.0", "∞", "40.0"]])
         self.assertEqual(front.listed_cases(found)["blind/kind/holes"], ["c1", "c2"])
         self.assertIn("data-part='blind/kind/holes'", made)
+
+    def test_who_beats_whom_has_wins_and_ties(self) -> None:
+        found = front.Front(
+            [rated({"a": [0.1, 0.1, 0.2, 0.2], "b": [0.2, 0.2, 0.1, 0.2], "c": [0.1, 0.1, 0.2, 0.2]})], [], True, ""
+        )
+        table = front.where_html(found).split("id='wins-blind'")[1]
+        self.assertEqual(re.findall(r"<td[^>]*>(.*?)</td>", table), ["", "50<small>25</small>", "25<small>25</small>", ""])
 
 
 class Strip(unittest.TestCase):
