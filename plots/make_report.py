@@ -16,7 +16,7 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
-from front import Front, front_html, listed_cases, make_front, where_html
+from front import Front, front_html, make_front
 from page import PLOTS, Section, code, colours, data, entrants, method_styles, page, place, write_page
 from pictures import pack as pack_pictures
 from records import Experiment, exit_code_of, load
@@ -25,6 +25,7 @@ from report_data import MetricTable, charts, columns, pack
 from report_html import environment_html, notes_html, paper_html, parameters_html, summary_html, tables_html
 from report_summary import summarise
 from strip import strip_html
+from where import listed_cases, where_html
 
 # Of a report that can be sent and opened at once. What the rows take of it is not there for pictures, which give way, but
 # not below a fifth of it.

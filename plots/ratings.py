@@ -451,3 +451,25 @@ def solved_against_time(division: Division) -> dict[Series, tuple[np.ndarray, np
         order = np.argsort(times[known], kind="stable")
         curves[series] = (times[known][order], np.cumsum(solved[known][order]))
     return curves
+
+
+def typical_times(division: Division) -> dict[Series, float]:
+    """By entrant: weighted median of its times in microseconds a point; a failure is infinitely slow."""
+    results = division.results
+    points = np.array([max(case.points, 1) for case in results.cases])
+    times = np.where(np.isfinite(results.errors) & np.isfinite(results.seconds), results.seconds * 1e6 / points, np.inf)
+    return {series: weighted_median(times[i], results.weights()) for i, series in enumerate(results.entrants)}
+
+
+def typical_errors(division: Division) -> dict[Series, float]:
+    results = division.results
+    return {series: weighted_median(results.errors[i], results.weights()) for i, series in enumerate(results.entrants)}
+
+
+def pareto(places: Sequence[tuple[float, float]]) -> list[int]:
+    """Those that no other one beats in both, by the first number ascending."""
+    kept: list[int] = []
+    for i in sorted(range(len(places)), key=lambda i: places[i]):
+        if not kept or places[i][1] < places[kept[-1]][1]:
+            kept.append(i)
+    return kept

@@ -7,10 +7,9 @@ import math
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 
-from front import name_of
 from ratings import DIVISIONS, TIE_RELATIVE, Rating
 from records import Experiment, Picture, Row, Series
-from report_common import count_of, number, sentence_list, text
+from report_common import count_of, number, sentence_list, short_name, text
 
 _WIDTH, _HEIGHT, _MARGIN = 200, 150, 6
 _MOST_POINTS = 500
@@ -54,7 +53,7 @@ def strip_html(experiments: Sequence[Experiment], rating: Rating | None) -> str:
     leader = rating.standings[0].series
     every = [one.series for one in rating.standings]
     shown = _pictures(experiments, leader, DIVISIONS[rating.division.name])
-    name = text(name_of(leader, every))
+    name = text(short_name(leader, every))
     if not shown:
         return f"<p class='muted wide'>The run has no pictures of {name}.</p>"
     chosen = _chosen(shown, every)
@@ -112,7 +111,7 @@ def _chosen(shown: Sequence[_Shown], every: Sequence[Series]) -> list[tuple[str,
     said = ""
     if lost:
         other = lost.best_other()
-        said = f"{name_of(other.series, every)} has {number(100 * other.metric('l2'))} %"
+        said = f"{short_name(other.series, every)} has {number(100 * other.metric('l2'))} %"
     broken = f"{len(zoo.failed_others())} of {count_of(len(zoo.others), 'other')} fail" if zoo else ""
     return [
         ("Best", best, ""),

@@ -1,4 +1,4 @@
-"""The first screen of the report (plots/front.py, strip.py, svg.py): what it says beside the numbers that it is made of."""
+"""The first screen of the report (plots/front.py, front_charts.py, where.py, strip.py, svg.py): what it says beside the numbers that it is made of."""
 
 from __future__ import annotations
 
@@ -18,10 +18,12 @@ import plot_samples  # noqa: E402
 from test_ratings_py import INF, case, rated, results  # noqa: E402
 
 import front  # noqa: E402
+import front_charts  # noqa: E402
 import ratings  # noqa: E402
 import strip  # noqa: E402
 import svg  # noqa: E402
-from records import RecordError, Series, load  # noqa: E402
+import where  # noqa: E402
+from records import RecordError, load  # noqa: E402
 
 
 def words(html: str) -> str:
@@ -76,8 +78,8 @@ class Folder(unittest.TestCase):
         made = self.make(cases=self.csv("a/auto", "b/auto"), league=self.csv("b/auto", "a/auto"))
         self.assertEqual(made.ratings[0].standings[0].series.method, "b")
         self.assertEqual([one.results.entrants[0].method for one in made.timed], ["a"])
-        self.assertEqual(front.listed_cases(made), {})
-        self.assertIn("an evaluation beside this run", front.where_html(made))
+        self.assertEqual(where.listed_cases(made), {})
+        self.assertIn("an evaluation beside this run", where.where_html(made))
 
     def test_what_is_no_league_is_told(self) -> None:
         with self.assertRaisesRegex(RecordError, "cases.csv"):
@@ -88,42 +90,42 @@ class Charts(unittest.TestCase):
     def test_typical_times_are_medians_in_which_failures_are_infinite(self) -> None:
         errors = {"a": [1.0, 1, 1], "b": [1.0, INF, INF]}
         seconds = [[0.001, 0.002, 0.009], [0.001, math.nan, math.nan]]
-        found = front.typical_times(ratings.division(results(errors, seconds=seconds), "blind"))
+        found = ratings.typical_times(ratings.division(results(errors, seconds=seconds), "blind"))
         self.assertEqual(list(found.values()), [2.0, INF])  # microseconds a point, of 1000 points
 
     def test_the_front_is_who_nobody_beats_in_both(self) -> None:
-        self.assertEqual(front.pareto([(2, 1), (1, 3), (3, 1), (2, 2), (1, 4)]), [1, 0])
+        self.assertEqual(ratings.pareto([(2, 1), (1, 3), (3, 1), (2, 2), (1, 4)]), [1, 0])
 
     def test_thinned_curves_keep_their_ends(self) -> None:
         x, y = np.arange(1.0, 5001), np.linspace(0.0001, 1, 5000)
-        kept = front._thinned(x, y)
+        kept = front_charts._thinned(x, y)
         self.assertLess(len(kept), 600)
         self.assertEqual((kept[0], kept[-1]), ((1.0, y[0]), (5000.0, 1.0)))
 
     def test_failing_methods_are_named_where_no_mark_can_be(self) -> None:
         one = ratings.division(results({"a": [0.1] * 3, "b": [0.2, INF, INF]}), "blind")
-        self.assertIn("Not shown, as most cases fail: b.", front.time_error_figure(one))
+        self.assertIn("Not shown, as most cases fail: b.", front_charts.time_error_figure(one))
 
     def test_who_never_succeeds_and_who_is_perfect_are_there(self) -> None:
         seconds = [[0.001, 0.001], [math.nan, math.nan], [0.002, 0.002]]
         one = ratings.division(results({"a": [0.0, 0.0], "b": [INF, INF], "c": [0.1, 0.1]}, seconds=seconds), "blind")
-        self.assertIn("b</th><td class='number'>0</td>", front.solved_figure(one))
-        made = front.time_error_figure(one)
+        self.assertIn("b</th><td class='number'>0</td>", front_charts.solved_figure(one))
+        made = front_charts.time_error_figure(one)
         self.assertIn("Not shown, as most cases fail: b.", made)
         self.assertIn("Errors below 0.01 % are shown as that.", made)
 
     def test_who_solves_the_most_is_named_however_slow(self) -> None:
-        errors = {f"m{k}": [0.2, 0.2] for k in range(front.MOST_NAMED + 2)}
+        errors = {f"m{k}": [0.2, 0.2] for k in range(front_charts.MOST_NAMED + 2)}
         seconds = [[0.001 * (k + 1)] * 2 for k in range(len(errors))] + [[100.0, 100.0]]
         one = ratings.division(results({**errors, "slow": [0.1, 0.1]}, seconds=seconds), "blind")
-        self.assertIn(">slow</text>", front.solved_figure(one))
+        self.assertIn(">slow</text>", front_charts.solved_figure(one))
 
     def test_a_chart_without_a_mark_is_left_out(self) -> None:
         one = ratings.division(results({"a": [0.1, INF, INF], "b": [INF, 0.2, INF]}), "blind")
         half = ratings.division(results({"a": [0.1, INF, INF, INF], "b": [INF, 0.2, 0.2, 0.2]}), "blind")
-        self.assertIn("<svg", front.time_error_figure(half))
+        self.assertIn("<svg", front_charts.time_error_figure(half))
         self.assertEqual(len(one.results.cases), 2)
-        self.assertNotIn("<svg", front.time_error_figure(one))
+        self.assertNotIn("<svg", front_charts.time_error_figure(one))
 
     def test_names_keep_off_each_other(self) -> None:
         places = svg.apart([50.0, 50.0, 51.0, 200.0], 0, 200)
@@ -150,7 +152,7 @@ class League(unittest.TestCase):
 
     def test_names_of_records_stay_text(self) -> None:
         found = rated({"<b>": [1.0] * 3, "other": [2.0] * 3})
-        whole = front.front_html(front.Front([found], [found.division], True, ""), "") + front.where_html(
+        whole = front.front_html(front.Front([found], [found.division], True, ""), "") + where.where_html(
             front.Front([found], [], True, "")
         )
         self.assertNotIn("<b>/", whole)
@@ -161,17 +163,17 @@ class HeatMap(unittest.TestCase):
     def test_cells_are_medians_and_the_best_is_marked(self) -> None:
         cases = [case(0), case(1, kind="holes"), case(2, kind="holes")]
         found = front.Front([rated({"a": [0.1, 0.2, 0.2], "b": [0.4, 0.1, INF]}, cases=cases)], [], True, "")
-        made = front.where_html(found)
+        made = where.where_html(found)
         rows = [re.findall(r"<td[^>]*>(.*?)</td>", row) for row in made.split("</table>")[0].split("<tr>")[2:]]
         self.assertEqual([[words(cell) for cell in row] for row in rows], [["•10.0", "•20.0", "•15.0"], ["40.0", "∞", "40.0"]])
-        self.assertEqual(front.listed_cases(found)["blind/kind/holes"], ["c1", "c2"])
+        self.assertEqual(where.listed_cases(found)["blind/kind/holes"], ["c1", "c2"])
         self.assertIn("data-part='blind/kind/holes'", made)
 
     def test_who_beats_whom_has_wins_and_ties(self) -> None:
         found = front.Front(
             [rated({"a": [0.1, 0.1, 0.2, 0.2], "b": [0.2, 0.2, 0.1, 0.2], "c": [0.1, 0.1, 0.2, 0.2]})], [], True, ""
         )
-        table = front.where_html(found).split("id='wins-blind'")[1]
+        table = where.where_html(found).split("id='wins-blind'")[1]
         self.assertEqual(re.findall(r"<td[^>]*>(.*?)</td>", table), ["", "50<small>25</small>", "25<small>25</small>", ""])
 
 
