@@ -361,8 +361,10 @@ def _parts(results: Results, names: Sequence[str], first: Sequence[str]) -> list
 
 def errors_by_shape(results: Results) -> np.ndarray:
     """[entrant, shape]: the median over a shape's cases, which are not independent of each other."""
-    names = np.array([case.shape for case in results.cases])
-    return np.array([[np.median(row[names == name]) for name in sorted(set(names))] for row in results.errors])
+    places: dict[str, list[int]] = {}
+    for place, case in enumerate(results.cases):
+        places.setdefault(case.shape, []).append(place)
+    return np.array([np.median(results.errors[:, places[shape]], axis=1) for shape in sorted(places)]).T
 
 
 def friedman(results: Results) -> float | None:
