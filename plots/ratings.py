@@ -45,6 +45,8 @@ PRIOR_GAMES = 1.0
 ELO_MEAN = 1000.0
 _ELO_UNIT = 400 / math.log(10)
 SIGNIFICANCE = 0.05
+# That five shapes favour the same one is chance in 2 of 32 cases.
+LEAST_SHAPES = 6
 _DRAWS = 1000
 _ELO_DRAWS = 200
 
@@ -169,8 +171,9 @@ class Part:
 
 @dataclass(frozen=True)
 class Lead:
-    """Of the first one over the second: where the interval of `ranks` is not above 0, nobody leads clearly."""
+    """Of the first one over the second."""
 
+    shapes: int
     ranks: float  # difference of the mean ranks
     ranks_interval: Interval | None
     ratio: float  # weighted median of its error over the second one's, case by case
@@ -178,7 +181,8 @@ class Lead:
 
     @property
     def clear(self) -> bool:
-        return self.ranks_interval is not None and self.ranks_interval[0] > 0
+        """The interval of `ranks` is above 0, and there are enough shapes for that not to be chance."""
+        return self.shapes >= LEAST_SHAPES and self.ranks_interval is not None and self.ranks_interval[0] > 0
 
 
 @dataclass(frozen=True)
@@ -338,6 +342,7 @@ def _lead(results: Results, draws: Draws) -> Lead:
     with np.errstate(invalid="ignore", divide="ignore"):
         ratio = np.where(same, 1.0, np.where(np.isinf(first), np.inf, first / second))
     return Lead(
+        draws.shapes,
         float(mean_ranks[1] - mean_ranks[0]),
         draws.interval(drawn[:, 1] - drawn[:, 0]),
         weighted_median(ratio, results.weights()),

@@ -177,6 +177,8 @@ class Lead(unittest.TestCase):
         self.assertAlmostEqual(found.ranks, 1)
         self.assertEqual((found.ratio, found.ratio_interval, found.clear), (0.5, (0.5, 0.5), True))
         self.assertFalse(rated({"a": [1.0, 2.0], "b": [2.0, 1.0]}).lead.clear)
+        for shapes, clear in ((5, False), (6, True)):
+            self.assertEqual(rated({"a": [1.0] * shapes, "b": [2.0] * shapes}).lead.clear, clear)
         self.assertEqual(rated({"a": [0.0, INF, 1], "b": [0.0, 1, INF]}).lead.ratio, 1.0)
 
 
