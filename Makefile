@@ -105,7 +105,9 @@ drawn_into = $(if $(wildcard $(1)/report.json $(1)/*/report.json),$(1),build/dra
 # $(call drawn,run,folder): what is drawn of a run, written anew as a reference run has its records compressed.
 define drawn
 rm -rf $(2) && mkdir -p $(call drawn_into,$(1)) && build/hullbench report $(1) --out $(2) >/dev/null && \
-for extra in tables core.json league.json tune.json tune.json.xz; do [ ! -e $(1)/$$extra ] || cp -r $(1)/$$extra $(2); done
+{ build/hullbench league $(1) --all-cases --csv $(2)/cases.csv >/dev/null || true; } && \
+for extra in tables core.json league.json league.csv tune.json tune.json.xz; do [ ! -e $(1)/$$extra ] || cp -r $(1)/$$extra $(2); done && \
+{ [ ! -e $(1)/league/suite.json ] || build/hullbench league $(1)/league --csv $(2)/league.csv >/dev/null; }
 endef
 
 figures: ## draw the paper's figures from results/latest, into its folder (RUN=FOLDER: from any run)
@@ -127,6 +129,13 @@ report: ## write results/latest/report.html, one file with everything about the 
 	@$(MAKE) build
 	@$(call drawn,$(RUN),$(call drawn_folder,$(RUN)))
 	@/usr/bin/python3 plots/make_report.py $(call drawn_folder,$(RUN)) --out $(call drawn_into,$(RUN))/report.html
+
+.PHONY: paper
+paper: ## write results/latest/paper.pdf, all figures and tables in a journal's column widths (RUN=FOLDER: any run)
+	@$(call install,build plots paper)
+	@$(MAKE) build
+	@$(call drawn,$(RUN),$(call drawn_folder,$(RUN)))
+	@/usr/bin/python3 plots/make_paper.py $(call drawn_folder,$(RUN)) --out $(call drawn_into,$(RUN))/paper.pdf
 
 report-compare: ## write B/comparison.html, a page with two runs side by side (A=FOLDER B=FOLDER)
 	@test -n "$(A)" -a -n "$(B)" || { echo "error: give two runs: make report-compare A=FOLDER B=FOLDER" >&2; exit 2; }

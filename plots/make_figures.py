@@ -26,6 +26,8 @@ from style import RC  # noqa: E402
 # In the order of figures.md.
 NAMES = (
     "summary",
+    "ratings",
+    "solved",
     "states",
     "shapes",
     "hulls",
@@ -38,6 +40,7 @@ NAMES = (
     "examples",
     "profiles",
     "sensitivity",
+    "choosing",
 )
 # Without dates and versions, so that the same run gives the same bytes.
 _METADATA = {

@@ -16,6 +16,7 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
+from front import Front, front_html, make_front
 from page import PLOTS, Section, code, colours, data, entrants, method_styles, page, place, write_page
 from pictures import pack as pack_pictures
 from records import Experiment, exit_code_of, load
@@ -23,6 +24,8 @@ from report_common import text
 from report_data import MetricTable, charts, columns, pack
 from report_html import environment_html, notes_html, paper_html, parameters_html, summary_html, tables_html
 from report_summary import summarise
+from strip import strip_html
+from where import listed_cases, where_html
 
 # Of a report that can be sent and opened at once. What the rows take of it is not there for pictures, which give way, but
 # not below a fifth of it.
@@ -30,7 +33,7 @@ MOST_BYTES = 5 * 2**20
 # Of the page for what the pictures' section is written into, and for what changes with them.
 _RESERVE_BYTES = 2**14
 
-STYLES = ("report.css", "gallery.css")
+STYLES = ("report.css", "gallery.css", "front.css")
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
@@ -55,10 +58,16 @@ def write(out: Path, folder: Path) -> None:
 def make_page(experiments: Sequence[Experiment], folder: Path) -> str:
     """The whole page. Raises RecordError when the charting library or esbuild is missing."""
     title = "Concave hulls: " + (experiments[0].title if len(experiments) == 1 else "the whole suite")
-    report = _report(experiments, folder, title)
-    sections = _sections(experiments, folder)
+    front = make_front(folder)
+    report = {**_report(experiments, folder, title), "leader": _leader(front)}
+    sections = _sections(experiments, folder, front)
     parts = {**code(STYLES, "main.js"), "colours": colours(report["methods"])}
-    blocks = [data("report", report), data("charts", pack(charts(experiments))), data("rows", pack(columns(experiments)))]
+    blocks = [
+        data("report", report),
+        data("parts", pack(listed_cases(front))),
+        data("charts", pack(charts(experiments))),
+        data("rows", pack(columns(experiments))),
+    ]
 
     def with_blocks(*more: str) -> str:
         return page(text(title), _byline(experiments), sections, [*blocks, *more], parts)
@@ -67,16 +76,19 @@ def make_page(experiments: Sequence[Experiment], folder: Path) -> str:
     return with_blocks(data("pictures", pack_pictures(experiments, room)))
 
 
-def _sections(experiments: Sequence[Experiment], folder: Path) -> list[Section]:
+def _sections(experiments: Sequence[Experiment], folder: Path, front: Front) -> list[Section]:
     summaries = [summarise(experiment) for experiment in experiments]
+    strip = strip_html(experiments, front.ratings[0] if front.ratings else None)
     tables = tables_html(experiments, folder) or "<p>The run has no tables/tables.json.</p>"
     by_script = "The charts, the gallery and the table of all runs"
     parameters = parameters_html(experiments, folder)
     return [
-        Section("summary", "Summary", "Summary", summary_html(experiments, summaries)),
+        Section("summary", "Summary", "Summary", front_html(front, strip)),
+        Section("where", "Who is good at what", "Who is good at what", where_html(front) or "<p>There are no ratings.</p>"),
         Section("results", "Charts", "Time and error", place("charts", by_script), testid="charts"),
         Section("gallery", "Gallery", "Gallery", place("gallery"), hidden=True),
         Section("runs", "All runs", "All runs", place("table")),
+        Section("experiments", "By experiment", "Experiment by experiment", summary_html(experiments, summaries)),
         Section("paper", "Beside the paper", "Beside the paper", paper_html(experiments, folder)),
         Section("parameters-section", "Parameters", "Parameters", parameters, testid="parameters"),
         Section("environment", "Environment", "Environment and noise", environment_html(experiments)),
@@ -107,6 +119,10 @@ def _report(experiments: Sequence[Experiment], folder: Path, title: str) -> dict
         "metrics": [metrics.entry(name) for name in metrics.names(rows)],
         "rows": len(rows),
     }
+
+
+def _leader(front: Front) -> str | None:
+    return front.ratings[0].standings[0].series.key if front.ratings else None
 
 
 def _options(experiment: Experiment) -> str:

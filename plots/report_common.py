@@ -3,12 +3,17 @@
 from __future__ import annotations
 
 import html
+import json
 import math
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
+from pathlib import Path
 
 from records import Experiment, Series
 
 CORE = "polylidar"
+
+# By method: short title, place in the order, colours, marker and line, for every page and figure.
+METHOD_LOOKS = json.loads((Path(__file__).resolve().parent / "methods.json").read_text(encoding="utf-8"))["methods"]
 
 STATUS_WORDS = {
     "ok": "ok",
@@ -32,6 +37,12 @@ def method_title(experiments: Sequence[Experiment], method: str) -> str:
 def label(experiments: Sequence[Experiment], series: Series) -> str:
     """As the tables write it: CGAL alpha shape (paper)."""
     return f"{method_title(experiments, series.method)} ({series.protocol})"
+
+
+def short_name(series: Series, among: Iterable[Series]) -> str:
+    """The short title, with the protocol where the method is among the series more than once."""
+    title = METHOD_LOOKS.get(series[0], {}).get("title", series[0])
+    return f"{title} ({series[1]})" if sum(one[0] == series[0] for one in set(among)) > 1 else title
 
 
 def protocol_words(experiments: Sequence[Experiment]) -> dict[str, str]:
@@ -68,7 +79,8 @@ def milliseconds(ns: float) -> str:
 
 def count_of(count: int, noun: str) -> str:
     """1 case, 2 cases."""
-    return f"{count} {noun}{'' if count == 1 else 's'}"
+    several = noun[:-1] + "ies" if noun.endswith("ry") else noun + "s"
+    return f"{count} {noun if count == 1 else several}"
 
 
 def sentence_list(words: Sequence[str]) -> str:

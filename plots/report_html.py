@@ -1,4 +1,4 @@
-"""The parts of the page that need no script: summary, comparison with the paper, parameters, environment and notes."""
+"""The parts of the page that need no script: each experiment, comparison with the paper, parameters, environment and notes."""
 
 from __future__ import annotations
 
@@ -10,18 +10,7 @@ from typing import Any
 from records import Experiment, Series
 from report_common import STATUS_WORDS, count_of, label, number, protocol_words, text
 from report_data import BRIEF_METRICS, is_brief, title_of
-from report_summary import (
-    Ratio,
-    Standing,
-    Summary,
-    accurate_sentence,
-    failure_sentences,
-    fastest_sentence,
-    headline_sentences,
-    losses_sentences,
-    noise_sentence,
-    span,
-)
+from report_summary import Ratio, Standing, Summary, failure_sentences, headline_sentences, noise_sentence, span
 from report_tables import documents, list_html, table_html, tables_beside
 
 EQUAL_WORK = (
@@ -31,14 +20,7 @@ EQUAL_WORK = (
 
 
 def summary_html(experiments: Sequence[Experiment], summaries: Sequence[Summary]) -> str:
-    parts = [
-        _headline(summaries),
-        _finding("fastest", "Fastest", [(one.title, fastest_sentence(one)) for one in summaries]),
-        _finding("accurate", "Most accurate", [(one.title, accurate_sentence(one)) for one in summaries]),
-        _losses(summaries),
-        _failures(summaries),
-        _standings(summaries),
-    ]
+    parts = [_headline(summaries), _failures(summaries), _standings(summaries)]
     notes = [EQUAL_WORK, noise_sentence(experiments), _reading(summaries), _brackets(experiments)]
     return "\n".join(parts) + "<ul class='notes'>" + "".join(f"<li>{text(note)}</li>" for note in notes) + "</ul>"
 
@@ -69,17 +51,6 @@ def _headline(summaries: Sequence[Summary]) -> str:
     return _finding("headline", "Beside the fastest method with the same polygons", findings) if findings else ""
 
 
-def _losses(summaries: Sequence[Summary]) -> str:
-    if all(one.core is None for one in summaries):
-        return ""
-    findings = [(one.title, said) for one in summaries for said in losses_sentences(one)]
-    if findings:
-        return _finding("losses", "Where Polylidar loses", findings)
-    compared = any(one.contested for one in summaries)
-    said = "In no case was another method faster or more accurate." if compared else "It was compared with nothing."
-    return f"<div class='finding' id='summary-losses'><h3>Where Polylidar loses</h3><p>{said}</p></div>"
-
-
 def _failures(summaries: Sequence[Summary]) -> str:
     findings = failure_sentences(summaries)
     if not findings:
@@ -107,10 +78,11 @@ def _standings(summaries: Sequence[Summary]) -> str:
         )
     )
     return (
+        "<details><summary>Standing of every method</summary>"
         "<div class='scroll' tabindex='0' role='region' aria-label='Standing of every method'>"
         "<table id='summary-table' data-testid='summary-table'><caption>Every method beside Polylidar, over the "
         f"cases that either solved: median, and from the least to the largest</caption><thead><tr>{head}</tr></thead>{rows}"
-        "</table></div>"
+        "</table></div></details>"
     )
 
 

@@ -1,4 +1,4 @@
-"""The summary: who is fastest, who is most accurate, where each fails, computed from the records.
+"""Experiment by experiment: who is fastest, who is most accurate, where each fails, computed from the records.
 
 Every comparison is between two entrants from the times of equal work; an entrant is a method under one protocol. A case
 that only one of them solved is infinitely bad for the other: a method that fails where it is slowest must not look
@@ -19,9 +19,6 @@ from report_common import CORE, STATUS_WORDS, count_of, label, number, sentence_
 
 # Two errors closer than this are the same shape, written in another order: their areas differ by rounding only.
 SAME_ERROR = 1e-9
-
-# An error up to so many times the core's is comparable with it.
-COMPARABLE = 2
 
 
 @dataclass(frozen=True)
@@ -199,117 +196,8 @@ def headline_sentences(summary: Summary) -> list[str]:
     return said
 
 
-def fastest_sentence(summary: Summary) -> str:
-    """Who is fastest in this experiment, by how much, and at which price in accuracy."""
-    if not summary.contested:
-        return _alone(summary)
-    if not summary.fastest_in:
-        return f"no method is the fastest beyond doubt in {share(summary.contested, summary.contested)}."
-    [(method, cases)] = summary.fastest_in.most_common(1)
-    said = f"{_name(summary, method)} is the fastest in {share(cases, summary.contested)}"
-    if undecided := summary.contested - summary.fastest_in.total():
-        said += f" ({undecided} undecided)"
-    winner = max(_entrants(summary, method), key=lambda one: (one is summary.core, one.fastest_in))
-    return said + _margin(summary, winner) + "."
-
-
-def _entrants(summary: Summary, method: str) -> list[Standing]:
-    return [one for one in summary.standings if one.series.method == method]
-
-
-def _name(summary: Summary, method: str) -> str:
-    """With the protocol where there is only one."""
-    entrants = _entrants(summary, method)
-    return entrants[0].label if len(entrants) == 1 else summary.titles[method]
-
-
-def _margin(summary: Summary, winner: Standing) -> str:
-    if winner is summary.core:
-        others = [one for one in summary.standings if one.time is not None and one.series.method != winner.series.method]
-        if not others:
-            return ""
-        nearest = min(others, key=lambda one: one.time.median)
-        return f"; the next, {nearest.label}, takes {times(nearest.time.median)} the time of {winner.label}{_spanned(nearest.time)}"
-    if winner.time is None:
-        return ""
-    subject = "it" if len(_entrants(summary, winner.series.method)) == 1 else winner.label
-    said = f"; {subject} takes {times(winner.time.median)} the time of {summary.core.label}{_spanned(winner.time)}"
-    said += f" at {times(winner.error.median)} its error" if winner.error else ""
-    return said + _fastest_of_the_accurate(summary)
-
-
-def _fastest_of_the_accurate(summary: Summary) -> str:
-    """A hull that is far off is made in no time, so the fastest of those near the core's error is told too."""
-    near = [
-        (one.time.median, one.label) for one in summary.standings if one.time and one.error and one.error.median <= COMPARABLE
-    ]
-    ratio, name = min([*near, (1.0, summary.core.label)])
-    if name == summary.core.label:
-        return f". Of those with up to twice its error, {name} is the fastest"
-    return f". Of those with up to twice the error of {summary.core.label}, {name} is the fastest, at {times(ratio)} its time"
-
-
-def _spanned(ratio: Ratio) -> str:
-    return f" (median of {ratio.cases} cases, {span(ratio)})" if ratio.cases > 1 else ""
-
-
-def accurate_sentence(summary: Summary) -> str:
-    """Who has the smallest error in this experiment."""
-    if summary.compared_errors == 0:
-        return "no two entrants have an error in the same case." if summary.contested else _alone(summary)
-    most = max(one.most_accurate_in for one in summary.standings)
-    winners = [one for one in summary.standings if one.most_accurate_in == most]
-    verb = "has" if len(winners) == 1 else "have"
-    each = " each" if len(winners) > 1 and most < summary.compared_errors else ""
-    said = (
-        f"{sentence_list([one.label for one in winners])} {verb} the smallest error in "
-        f"{share(most, summary.compared_errors)}{each}"
-    )
-    if summary.core is None or len(winners) > 1 or summary.core in winners:
-        return said + "."
-    ratio = winners[0].error
-    return said + (f"; it is {times(ratio.median)} that of {summary.core.label}{_spanned(ratio)}." if ratio else ".")
-
-
 # Characters of a reason in a sentence; the table of all runs has the whole.
 MOST_REASON = 300
-
-# So many of those who beat the core are named in the sentence; the table has all.
-MOST_NAMED = 3
-
-
-def losses_sentences(summary: Summary) -> list[str]:
-    """Who beats the core beyond doubt, in time and in error, at which price; empty: nobody."""
-    parts = [
-        _losses(summary, "faster", "time", lambda one: one.time, "error", lambda one: one.error),
-        _losses(summary, "more accurate", "error", lambda one: one.error, "time", lambda one: one.time),
-    ]
-    return [part for part in parts if part]
-
-
-def _losses(
-    summary: Summary,
-    better: str,
-    quantity: str,
-    own: Callable[[Standing], Ratio | None],
-    price: str,
-    other: Callable[[Standing], Ratio | None],
-) -> str:
-    winners = sorted(
-        (one for one in summary.standings if (ratio := own(one)) and ratio.lower_in),
-        key=lambda one: -own(one).lower_in / own(one).cases,
-    )
-    if not winners:
-        return ""
-    said = [
-        f"{one.label} in {share(own(one).lower_in, own(one).cases)} ({number(own(one).median)} times its {quantity}"
-        + (f" at {number(other(one).median)} times its {price}" if other(one) else "")
-        + ")"
-        for one in winners[:MOST_NAMED]
-    ]
-    if len(winners) > MOST_NAMED:
-        said.append(f"{count_of(len(winners) - MOST_NAMED, 'other')}")
-    return f"{better.capitalize()} than {summary.core.label}: {sentence_list(said)}."
 
 
 def failure_sentences(summaries: Sequence[Summary]) -> list[tuple[str, str]]:
@@ -360,23 +248,6 @@ def noise_sentence(experiments: Sequence[Experiment]) -> str:
         if (titles := [title for title, told in noise.items() if (told["noisy"] if told else None) is verdict])
     ]
     return " ".join(f"The times of {sentence_list(titles)} {words}." for titles, words in said)
-
-
-def _alone(summary: Summary) -> str:
-    """What there is to say when no two methods can be compared."""
-    with_results = {one.series.method for one in summary.standings if one.results}
-    if not with_results:
-        return "nothing has a result."
-    if len(with_results) == 1:
-        return f"only {_name(summary, with_results.pop())} has results, so there is nothing to compare it with."
-    return "no case has results of two methods, so nothing can be compared."
-
-
-def share(count: int, of: int) -> str:
-    """3 of 11 cases; all 11 cases; the one case."""
-    if count == of:
-        return "the one case" if of == 1 else f"all {of} cases"
-    return f"{count} of {count_of(of, 'case')}"
 
 
 def times(ratio: float) -> str:

@@ -10,6 +10,7 @@ from typing import Any
 
 from matplotlib.figure import Figure
 
+from ratings import Results, read
 from records import SCHEMAS, Experiment, Picture, Row, Series
 from style import in_order, label
 
@@ -41,6 +42,15 @@ class Run:
             if experiment.name == name:
                 return experiment
         raise Skipped(f"the run has no experiment called {name}")
+
+    def results(self, timed: bool = False) -> Results:
+        """Every result with an error, of the league that is kept beside the run (league.csv) or else of the run itself
+        (cases.csv); with `timed` of the run alone, as an evaluation, which keeps all cores busy, times nothing."""
+        names = ("cases.csv",) if timed else ("league.csv", "cases.csv")
+        path = next((self.folder / name for name in names if (self.folder / name).is_file()), None)
+        if path is None:
+            raise Skipped(f"{self.folder / 'cases.csv'} is not there ('hullbench league RUN --all-cases --csv' writes it)")
+        return read(path)
 
     def picture(self, experiment: Experiment, case: str) -> Picture | None:
         """As Experiment.picture; each is read from its file once."""

@@ -24,6 +24,7 @@ from matplotlib.figure import Figure  # noqa: E402
 from matplotlib.lines import Line2D  # noqa: E402
 
 from records import Series  # noqa: E402
+from report_common import short_name as label  # noqa: E402  what figures call a series
 
 MILLIMETRE = 1 / 25.4  # in inches, matplotlib's unit
 ONE_COLUMN = 85  # widths of a printed column and of a page, in millimetres
@@ -128,14 +129,6 @@ def step_color(step: str) -> str:
 def in_order(series: Iterable[Series]) -> list[Series]:
     """Without repetitions: the paper's methods first, then as methods.json says, then by name."""
     return sorted(set(series), key=lambda one: (method_style(one[0]).order, one[0], one[1] != "paper", one[1]))
-
-
-def label(one: Series, among: Iterable[Series]) -> str:
-    """The short title, with the protocol where the method is among the series more than once."""
-    method, protocol = one
-    title = method_style(method).title
-    repeated = sum(other[0] == method for other in set(among)) > 1
-    return f"{title} ({protocol})" if repeated else title
 
 
 def marker_options(one: Series, scale: float = 1) -> dict[str, object]:

@@ -249,6 +249,20 @@ def league() -> dict[str, Any]:
     return {"kind": "league", **origin, **numbers, **parts, "profiles": profiles, "not_installed": []}
 
 
+def cases_csv(reports: dict[str, dict[str, Any]]) -> str:
+    """As 'hullbench league --all-cases --csv' writes it, of the experiments of all methods; every case counts the same."""
+    lines = ["method,task,fold,error,time,points,status,shape,kind,sampler,weight"]
+    rows = [row for name in sorted(reports.keys() - {"random", "steps"}) for row in reports[name]["runs"]]
+    for row in [one for one in rows if one["status"] != "not_installed"]:
+        ok = row["status"] == "ok"
+        error = row["metrics"]["l2"] if ok else "inf"
+        time = statistics.median(row["time_ns"]) / 1e9 if ok else ""
+        kind = "holes" if row["holes"] else "simple"
+        task = f"{case_of(row)},{row['seed']},{error},{time},{row['n']},{row['status']},{row['dataset']},{kind},uniform,1"
+        lines.append(f"{row['method']}/{row['protocol']},{task}")
+    return "\n".join(lines) + "\n"
+
+
 def tune() -> dict[str, Any]:
     """As results/tune.schema.json says: a method with a length, one with a number, one without a parameter."""
 
@@ -263,12 +277,18 @@ def tune() -> dict[str, Any]:
             for k, middle in enumerate(medians)
         ]
         about = {"version": "1", "installed": True, "detail": "", "remedy": "", "fixed": {}}
-        nothing = {"rounds": [], "protocols": [], "oracle": []}
+        nothing = {"rounds": [], "oracle": []}
+        cost = {"cases": 1, "l2_interval": [0.01, None]}
+        reached = [{"evaluations": k + 1, "l2_median": error, **cost} for k, error in enumerate((None, 0.5, 0.25))]
+        score = {"failed": 0, "l2_interval": None, "regret_median": None, "regret_interval": None}
+        protocols = [{"protocol": one, "cases": 1, "l2_median": 0.75, **score} for one in ("default", "tuned", "oracle")]
         return {
             "method": name,
             "title": name,
             **about,
             **nothing,
+            "protocols": protocols,
+            "search": reached if kind else [],
             "axis": {"kind": kind, **range_} if kind else None,
             "tuned": chosen if kind else None,
             "curve": curve,
@@ -323,6 +343,7 @@ def write_suite(folder: Path, reports: dict[str, dict[str, Any]] | None = None) 
     (folder / "suite.json").write_text(json.dumps({"plans": list(reports)}), encoding="utf-8")
     (folder / "core.json").write_text(json.dumps(core()), encoding="utf-8")
     (folder / "league.json").write_text(json.dumps(league()), encoding="utf-8")
+    (folder / "cases.csv").write_text(cases_csv(reports), encoding="utf-8")
     with lzma.open(folder / "tune.json.xz", "wt", encoding="utf-8") as file:
         json.dump(tune(), file)
     for name, document in reports.items():

@@ -2,6 +2,7 @@
 // ones.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -207,6 +208,10 @@ TEST(AreaScores, OfInvalidShapesKeepTheArea) {
   const metrics::AreaScores scores =
       metrics::area_scores({{box(0, 0, 2, 2), {}}, {box(1, 1, 3, 3), {}}}, kSquare);
   EXPECT_EQ(scores.area, 8);
+  Ring larger = box(0, 0, 2, 2);
+  std::reverse(larger.begin(), larger.end());
+  EXPECT_EQ(metrics::area_scores({{box(0, 0, 1, 1), {larger}}}, kSquare).area, 0)
+      << "of a hole that is larger than its shell";
 }
 
 TEST(AreaScores, RefuseAGroundTruthThatIsNone) {

@@ -27,24 +27,28 @@ from matplotlib.text import Text  # noqa: E402
 
 import make_figures  # noqa: E402
 import maps  # noqa: E402
+import ratings  # noqa: E402
 from figures import (  # noqa: E402
     alphabet,
+    choosing,
     core,
     examples,
     hulls,
     profiles,
     random_polygons,
+    ratings as ratings_figure,
     real,
     rgbd,
     sensitivity,
     shapes,
+    solved,
     states,
     steps,
     summary,
 )
 from labels import place_labels  # noqa: E402
 from records import Row, load  # noqa: E402
-from run import Drawn, Run, read_paper  # noqa: E402
+from run import Drawn, Run, Skipped, read_paper  # noqa: E402
 from style import in_order, method_style  # noqa: E402
 
 LOOKS = json.loads((PLOTS / "methods.json").read_text(encoding="utf-8"))
@@ -184,6 +188,48 @@ class Data(WithSuite):
             [text.get_text() for text in below.get_legend().get_texts()], ["Polylidar, 1.2 octaves", "SpatiaLite, 1.2 octaves"]
         )
 
+    def test_ratings_are_those_of_the_results(self) -> None:
+        drawn = self.draw(ratings_figure)
+        self.assertEqual(list(drawn), [f"{one}_{who}" for who in ("blind", "informed") for one in ("ratings", "wins", "parts")])
+        (informed,) = [one for one in ratings.divisions(self.run_.results()) if one.name == "informed"]
+        rating = ratings.rate(informed)
+        ranks, elo = drawn["ratings_informed"].figure.axes
+        for axes, values in ((ranks, "rank"), (elo, "elo")):
+            marks = [line.get_xdata()[0] for line in axes.get_lines() if line.get_linestyle() == "None"]
+            self.assertEqual(marks, [getattr(one, values) for one in rating.standings])
+            bars = [tuple(line.get_xdata()) for line in axes.get_lines() if line.get_linestyle() != "None"]
+            self.assertLessEqual({getattr(one, f"{values}_interval") for one in rating.standings}, set(bars))
+        shown = drawn["wins_informed"].figure.axes[0].get_images()[0].get_array()
+        self.assertTrue((shown == 100 * rating.wins).all())
+        parts = drawn["parts_informed"].figure.axes[0].get_images()[0].get_array()
+        self.assertEqual(parts.T.tolist(), [part.ranks for part in [*rating.kinds, *rating.samplers]])
+        for words in (f"{len(informed.results.cases)} cases of", "at most 1 % of the smaller one", "Holm"):
+            self.assertIn(words, drawn["ratings_informed"].caption)
+
+    def test_solved_against_time_is_that_of_the_results(self) -> None:
+        one = self.draw(solved)["solved"]
+        found = ratings.divisions(self.run_.results(timed=True))
+        for axes, division in zip(one.figure.axes, found):
+            ends = {
+                line.get_label(): (line.get_xdata()[0], line.get_ydata()[0])
+                for line in axes.get_lines()
+                if len(line.get_xdata()) == 1
+            }
+            curves = ratings.solved_against_time(division)
+            self.assertEqual(ends, {f"_{series.key}": (x[-1], 100 * y[-1]) for series, (x, y) in curves.items()})
+        self.assertIn("51 targets a case", one.caption)
+
+    def test_the_cost_of_choosing_is_that_of_the_search(self) -> None:
+        figure = self.draw(choosing)["choosing"].figure
+        self.assertEqual([axes.get_title() for axes in figure.axes], ["Polylidar", "SpatiaLite", ""])
+        for axes in figure.axes[:2]:
+            curve, *chosen = axes.get_lines()
+            self.assertEqual((list(curve.get_xdata()), list(curve.get_ydata())), ([2, 3], [50, 25]))  # 1: most cases fail
+            self.assertEqual(
+                [(line.get_label(), list(line.get_ydata())) for line in chosen],
+                [("default", [75]), ("tuned on other shapes", [75])],
+            )
+
     def test_summary_shows_every_result_of_one_case(self) -> None:
         figure = self.draw(summary)["summary"].figure
         lines = lines_by_label(figure.axes[1])
@@ -245,7 +291,11 @@ class Data(WithSuite):
             lines = [json.loads(line) for line in path.read_text(encoding="utf-8").splitlines()]
             lines[0]["ground_truth"] = []
             path.write_text("".join(json.dumps(line) + "\n" for line in lines), encoding="utf-8")
-            drawn = list(real.draw(Run(folder, load(folder), read_paper())))
+            run = Run(folder, load(folder), read_paper())
+            drawn = list(real.draw(run))
+            for module in (hulls, shapes, states):
+                with self.assertRaises(Skipped, msg=module.__name__):
+                    list(module.draw(run))
         self.assertEqual([one.name for one in drawn], ["real_trees"])
         self.assertEqual(len(drawn[0].figure.axes), 1 + len(rows))
         shown = texts(drawn[0].figure)
@@ -294,7 +344,7 @@ class Honesty(WithSuite):
         for row in reports["steps"]["summary"]["rows"]:
             row.update(status="crash", time=None)
         folder = plot_samples.write_suite(self.base / "failed", reports)
-        for name in ("core.json", "league.json", "tune.json.xz"):
+        for name in ("core.json", "league.json", "cases.csv", "tune.json.xz"):
             (folder / name).unlink()
         code, _, err = self._run(folder)
         self.assertEqual(code, 6)
@@ -302,7 +352,12 @@ class Honesty(WithSuite):
 
     def test_a_broken_league_or_tuning_is_an_error(self) -> None:
         folder = plot_samples.write_suite(self.base / "broken_league", {"steps": plot_samples.suite()["steps"]})
-        for name, figure in (("league.json", "profiles"), ("tune.json", "sensitivity"), ("tune.json.xz", "sensitivity")):
+        for name, figure in (
+            ("league.json", "profiles"),
+            ("league.csv", "ratings"),
+            ("tune.json", "sensitivity"),
+            ("tune.json.xz", "choosing"),
+        ):
             for text in ("{", "{}", "[]", '{"profiles": [{}], "methods": [{}]}'):
                 (folder / name).write_text(text, encoding="utf-8")
                 code, _, err = self._run(folder, "--only", figure)
@@ -402,20 +457,28 @@ class Files(WithSuite):
         self.assertEqual([name for name in made[0] if made[0][name] != made[1][name]], [])
         names = [
             "alphabet",
+            "choosing",
             "convex_and_concave",
             "convexity",
             "core",
             "hulls_ca",
             "hulls_hi",
+            "parts_blind",
+            "parts_informed",
             "profiles",
             "random_polygons",
+            "ratings_blind",
+            "ratings_informed",
             "rgbd",
             "sensitivity",
             "shapes",
+            "solved",
             "states_ca",
             "states_hi",
             "steps",
             "summary",
+            "wins_blind",
+            "wins_informed",
         ]
         self.assertEqual(set(made[0]), {"figures.md", *(f"{name}.{kind}" for name in names for kind in ("svg", "pdf", "png"))})
         listed = made[0]["figures.md"].decode()

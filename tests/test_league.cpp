@@ -282,6 +282,19 @@ TEST(League, IsWrittenAsItsSchemaSaysAndPrinted) {
   EXPECT_NE(text.str().find("∞"), std::string::npos) << text.str();
 }
 
+TEST(League, WritesEveryResultThatCountsAsALine) {
+  json timed = row("good", "auto", "a~noise:1", 0.125);
+  timed.update({{"time_ns", {3'000'000, 1'000'000, 2'000'000}}, {"n", 100}, {"base_shape", "a"}});
+  json failed = row("bad", "auto", "a~noise:1", nullptr);
+  failed.update({{"time_ns", {5}}, {"n", 100}, {"base_shape", "a"}});
+  json open = row("good", "auto", "points", 0.5);
+  open["metrics"].erase("ground_truth_area");
+  EXPECT_EQ(league::league_csv(league_of({timed, failed, open})),
+            "method,task,fold,error,time,points,status,shape,kind,sampler,weight\n"
+            "bad/auto,a~noise:1/n:100/holes:0,1,inf,,100,crash,a,simple,noise,1\n"
+            "good/auto,a~noise:1/n:100/holes:0,1,0.125,0.002,100,ok,a,simple,noise,1\n");
+}
+
 TEST(League, EveryProfileIsShownWhoeverIsAhead) {
   const std::vector<json> reports = {
       report({row("good", "auto", "a", 0.1), row("bad", "auto", "a", 0.2), row("good", "tuned", "a", 0.3),

@@ -498,6 +498,35 @@ TEST(ProtocolTest, FailedCasesCountAsInfinitelyBad) {
   EXPECT_TRUE(tune::is_infinitely_bad(*failing->regret_median));
 }
 
+TEST(SearchCostTest, IsWhatTheSearchHasFoundByThen) {
+  InventedTuning invented(usual_method(), 1);
+  invented.with([](const tune::TuningCase&, double) { return 1; });
+  tune::MethodTuning& method = invented.tuning.methods[0];
+  for (std::size_t i = 0; i < invented.tuning.cases.size(); ++i) {
+    invented.tuning.cases[i].side = tune::Side::kTest;
+    method.cases[i].sweep.clear();
+    const auto add = [&](double position, double error, bool on_grid) {
+      method.cases[i].sweep.push_back(
+          {position, on_grid, invented.evaluation(invented.tuning.cases[i], position, error)});
+    };
+    const std::vector<double> positions = tune::grid(*method.axis, tune::kSweepPoints);
+    // Four of the nine positions were given up: they are failures.
+    for (int k = 0; k < 5; ++k) add(positions.at(static_cast<std::size_t>(k)), 0.1 * (k + 1), true);
+    add(1.01, 0.3, false);
+    add(1.02, 0.05, false);
+  }
+  const auto costs = tune::search_costs(invented.tuning, method);
+  ASSERT_EQ(costs.size(), static_cast<std::size_t>(tune::kSweepPoints + tune::kRefinements));
+  const auto reached = [&](std::size_t evaluations) { return costs.at(evaluations - 1).l2_median; };
+  EXPECT_DOUBLE_EQ(reached(1), 0.5) << "the fifth of nine";
+  EXPECT_DOUBLE_EQ(reached(2), 0.3) << "of 36 pairs 21 have one of the first three, 15 one of the first two";
+  EXPECT_DOUBLE_EQ(reached(9), 0.1);
+  EXPECT_DOUBLE_EQ(reached(10), 0.1) << "a worse refinement takes nothing away";
+  EXPECT_DOUBLE_EQ(reached(11), 0.05);
+  EXPECT_DOUBLE_EQ(reached(15), 0.05) << "the search ended";
+  EXPECT_EQ(costs.front().cases, invented.tuning.cases.size());
+}
+
 TEST(CurveTest, IsRelativeToEachCasesOwnBest) {
   InventedTuning invented(usual_method());
   // Twice as hard on every second shape, which must not show in the relative curve.

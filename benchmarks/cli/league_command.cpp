@@ -18,6 +18,7 @@ using nlohmann::json;
 struct LeagueCommand {
   std::vector<std::filesystem::path> runs;
   std::filesystem::path out;  ///< empty: only print
+  std::filesystem::path csv;  ///< empty: none
   bool all_cases = false;
 };
 
@@ -35,11 +36,16 @@ ExitCode print_league(const LeagueCommand& command) {
     std::cerr << "hullbench: none of the folders has a finished run; there is nothing to judge\n";
     return kExitNothing;
   }
-  const json league = league::league_to_json(league::make_league(reports, !command.all_cases), reports);
+  const league::League made = league::make_league(reports, !command.all_cases);
+  const json league = league::league_to_json(made, reports);
   table::print_markdown(league::league_document(league), std::cout);
   if (!command.out.empty()) {
     write_json_file(command.out, league);
     std::cerr << "hullbench: wrote " << command.out.string() << "\n";
+  }
+  if (!command.csv.empty()) {
+    write_text_file(command.csv, league::league_csv(made));
+    std::cerr << "hullbench: wrote " << command.csv.string() << "\n";
   }
   return kExitOk;
 }
@@ -54,6 +60,9 @@ void add_league(CLI::App& app, Action& action) {
   options.add_option("RUN", command->runs, "Folders of runs, or of suites")->required();
   options.add_option("--out", command->out,
                      "Also write the ranking as JSON into this file (results/league.schema.json)");
+  options.add_option(
+      "--csv", command->csv,
+      "Also write every result as a line of this CSV file: method, task, fold, error, time, ...");
   options.add_flag("--all-cases", command->all_cases,
                    "Count the training shapes too, not the test shapes alone");
   set_action(options, action, command, &print_league);

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # evaluate.sh HULLBENCH OUT: the whole evaluation: searches the parameters of the methods on the plans of the world,
-# measures what was chosen with every metric, and makes the league of it, OUT/league.json. Nothing is timed, so all cores
+# measures what was chosen with every metric, and makes the league of it, OUT/league.json, with its results as OUT/league.csv. Nothing is timed, so all cores
 # work; an evaluation that was interrupted goes on where it stopped. Either part says how long it will take.
 #
 # METHODS: a regular expression, the only methods that take part. PLANS: other plans than those of the world.
@@ -53,4 +53,4 @@ if [ "$failed" -ne 0 ]; then
   exit "$failed"
 fi
 run "$hullbench" merge "$out"/part-*/ --out "$out/runs" --force >/dev/null
-"$hullbench" league "$out/runs" --out "$out/league.json"
+"$hullbench" league "$out/runs" --out "$out/league.json" --csv "$out/league.csv"

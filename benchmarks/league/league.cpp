@@ -4,11 +4,13 @@
 #include <cmath>
 #include <limits>
 #include <set>
+#include <span>
 #include <stdexcept>
 #include <tuple>
 #include <utility>
 
 #include "benchmarks/record/pictures.hpp"
+#include "benchmarks/statistics/statistics.hpp"
 #include "benchmarks/statistics/weighted.hpp"
 #include "benchmarks/tune/search.hpp"
 #include "benchmarks/tune/split.hpp"
@@ -283,6 +285,29 @@ LeagueEntry make_entry(const Field& field, const Entrant& entrant, const RowsByC
   return entry;
 }
 
+/// From points in memory to valid polygons in memory; kept leagues have no times.
+std::optional<double> seconds_of(const json& row) {
+  const auto times = row.value("time_ns", std::vector<std::int64_t>());
+  if (times.empty() || !is_ok(row)) return std::nullopt;
+  return statistics::median(std::span<const std::int64_t>(times)) / 1e9;
+}
+
+std::vector<LeagueResult> make_results(const Field& field) {
+  std::vector<LeagueResult> results;
+  for (const auto& [entrant, rows] : field.rows) {
+    for (const auto& [name, row] : rows) {
+      const CaseFacts& facts = field.cases.at(name);
+      if (!facts.scored) continue;
+      results.push_back({entrant.first, entrant.second,
+                         record::case_of_run(row->at("name").get<std::string>()), row->at("seed").dump(),
+                         row->value("n", std::size_t{0}), row->at("status").get<std::string>(),
+                         from_finite(error_of(*row)), seconds_of(*row), facts.shape, facts.kind(),
+                         facts.sampler(), facts.weight});
+    }
+  }
+  return results;
+}
+
 std::size_t place_of_protocol(const std::string& protocol) {
   static const std::vector<std::string> order = {"auto", "default", "tuned", "paper", "oracle"};
   return static_cast<std::size_t>(std::find(order.begin(), order.end(), protocol) - order.begin());
@@ -410,6 +435,7 @@ League make_league(const std::vector<json>& reports, bool test_only) {
   std::sort(league.entries.begin(), league.entries.end(),
             [&](const LeagueEntry& a, const LeagueEntry& b) { return key(a) < key(b); });
   league.profiles = make_profiles(field);
+  league.results = make_results(field);
   return league;
 }
 

@@ -84,6 +84,22 @@ struct LeagueProfile {
 /// The taus of a profile: from 1, where the best one is, to 10.
 const std::vector<double>& league_taus();
 
+/// One entry on one case whose errors count: what everything above is made of.
+struct LeagueResult {
+  std::string method;
+  std::string protocol;
+  std::string task;  ///< the case without its seed: "ca~noise:0.5/n:2000/holes:1"
+  std::string seed;
+  std::size_t points = 0;
+  std::string status;
+  double l2 = 0;                  ///< infinite: a failure
+  std::optional<double> seconds;  ///< median of equal work; none of a failure and of rows without times
+  std::string shape;              ///< base shape
+  std::string kind;
+  std::string sampler;
+  double weight = 0;  ///< of the case, as in the medians
+};
+
 /// Some of the league's cases.
 struct LeaguePart {
   std::string name;
@@ -102,6 +118,7 @@ struct League {
   /// last, as their medians are of other cases; by l2.
   std::vector<LeagueEntry> entries;
   std::vector<LeagueProfile> profiles;
+  std::vector<LeagueResult> results;       ///< by method, protocol, case
   std::vector<std::string> not_installed;  ///< methods of which there is no row but that
 };
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <fstream>
+#include <iomanip>
 #include <limits>
 #include <map>
 #include <set>
@@ -307,6 +308,20 @@ table::Document league_document(const json& league) {
     document.notes.push_back("Not installed, and so in no table: " +
                              join_words(league.at("not_installed").get<std::vector<std::string>>()) + ".");
   return document;
+}
+
+std::string league_csv(const League& league) {
+  std::ostringstream out;
+  out << "method,task,fold,error,time,points,status,shape,kind,sampler,weight\n"
+      << std::setprecision(std::numeric_limits<double>::max_digits10);
+  for (const LeagueResult& one : league.results) {
+    out << one.method << '/' << one.protocol << ',' << table::csv_text(one.task) << ',' << one.seed << ','
+        << one.l2 << ',';
+    if (one.seconds) out << *one.seconds;
+    out << ',' << one.points << ',' << one.status << ',' << table::csv_text(one.shape) << ',' << one.kind
+        << ',' << one.sampler << ',' << one.weight << '\n';
+  }
+  return out.str();
 }
 
 json load_league(const std::filesystem::path& folder) {

@@ -23,6 +23,11 @@ nlohmann::json league_to_json(const League& league, const std::vector<nlohmann::
 /// table a group.
 table::Document league_document(const nlohmann::json& league);
 
+/// Every result that counts, a line each, in the long form that programs for ranking read: method (under a
+/// protocol: "polylidar/auto"), task, fold (the seed), error (l2; "inf": a failure) and time (seconds; empty:
+/// none), then points, status, shape, kind, sampler and weight.
+std::string league_csv(const League& league);
+
 /// The league that is kept in `folder`; null when there is none.
 nlohmann::json load_league(const std::filesystem::path& folder);
 

@@ -1,7 +1,6 @@
 #include "benchmarks/metrics/area.hpp"
 
 #include <algorithm>
-#include <cmath>
 
 #include "benchmarks/metrics/prepared_truth.hpp"
 #include "benchmarks/metrics/shape_measures.hpp"
@@ -23,8 +22,7 @@ AreaScores PreparedTruth::score(const GeosSession& geos, const MultiPolygon& res
   AreaScores scores;
   scores.valid = shape.invalid_reason.empty();
   scores.invalid_reason = shape.invalid_reason;
-  const double area = polylidar::area(result);
-  scores.area = std::isfinite(area) ? area : 0;
+  scores.area = area_of_result(result);
   scores.ground_truth_area = area_;
   scores.ground_truth_convexity = convexity_;
   if (!scores.valid) return scores;

@@ -71,8 +71,9 @@ void add_area(Table& table) {
     table.push_back(
         {name, "area", unit, better, definition, undefined, citation, "area_scores, area.cpp", value});
   };
-  add("area", "length^2", Better::kNone, "area of R, shells less holes; 0 when a coordinate is not finite",
-      "", "", [](const Metrics& m) -> MetricValue { return m.area.area; });
+  add("area", "length^2", Better::kNone,
+      "area of R, shells less holes, not below 0; 0 when a coordinate is not finite", "", "",
+      [](const Metrics& m) -> MetricValue { return m.area.area; });
   add("symmetric_difference_area", "length^2", Better::kLower, "area((T - R) + (R - T))", kInvalid, "",
       [](const Metrics& m) { return optional_value(m.area.symmetric_difference_area); });
   add("l2", "ratio", Better::kLower, "symmetric difference / area of T; 1 for an empty R", kInvalid, "",

@@ -53,8 +53,7 @@ Metrics describe(std::span<const Point> points, const MultiPolygon& result, cons
   metrics.has_truth = false;
   metrics.area.invalid_reason = invalid_reason(result);
   metrics.area.valid = metrics.area.invalid_reason.empty();
-  const double area = polylidar::area(result);
-  metrics.area.area = std::isfinite(area) ? area : 0;
+  metrics.area.area = area_of_result(result);
   metrics.contract = InputPoints(points).score(result);
   metrics.polygon_count = result.size();
   metrics.hole_count = count_holes(result);

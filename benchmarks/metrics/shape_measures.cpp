@@ -1,5 +1,6 @@
 #include "benchmarks/metrics/shape_measures.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 namespace hullbench::metrics {
@@ -14,6 +15,11 @@ double perimeter(const MultiPolygon& shape) {
   for_each_edge(
       shape, [&](const Point& from, const Point& to) { length += std::hypot(to.x - from.x, to.y - from.y); });
   return length;
+}
+
+double area_of_result(const MultiPolygon& shape) {
+  const double area = polylidar::area(shape);
+  return std::isfinite(area) ? std::max(0.0, area) : 0;
 }
 
 std::size_t count_holes(const MultiPolygon& shape) {

@@ -10,6 +10,10 @@ namespace hullbench::metrics {
 /// Length of all rings, in the unit of the points.
 double perimeter(const polylidar::MultiPolygon& shape);
 
+/// Shells less holes; 0 when a coordinate is not finite, and where the holes of an invalid shape have more
+/// than its shells.
+double area_of_result(const polylidar::MultiPolygon& shape);
+
 std::size_t count_holes(const polylidar::MultiPolygon& shape);
 
 /// Whether every coordinate is a number below infinity.

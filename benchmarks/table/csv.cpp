@@ -28,14 +28,14 @@ std::array<std::string, kTitles.size()> fields_of(const Cell& cell) {
   return fields;
 }
 
+}  // namespace
+
 std::string csv_text(const std::string& text) {
   if (text.find_first_of(",\"\n\r") == std::string::npos) return text;
   std::string result = "\"";
   for (const char c : text) result += c == '"' ? std::string("\"\"") : std::string(1, c);
   return result + '"';
 }
-
-}  // namespace
 
 std::string to_csv(const Table& table) {
   std::vector<std::string> lines(1 + table.rows.size());

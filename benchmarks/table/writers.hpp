@@ -30,6 +30,9 @@ void print_item(std::string_view text, std::ostream& out);
 /// Number of columns that `text` (UTF-8 without wide or combining characters) takes in a terminal.
 std::size_t display_width(std::string_view text);
 
+/// A field of a CSV file: in quotes where it needs them.
+std::string csv_text(const std::string& text);
+
 /// The table as comma-separated values (RFC 4180, UTF-8, lines end in a line feed). A column in which a value
 /// has something beside it becomes several: its spread (the title ends in " ±"), the value by another
 /// definition (" in brackets"), the ends of the range that it lies in (" from", " to"). Words stand in the

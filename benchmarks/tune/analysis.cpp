@@ -102,6 +102,41 @@ std::optional<ProtocolScore> score_of(const Tuning& tuning, const MethodTuning& 
   return score;
 }
 
+/// The least of `count` of the errors, ascending, taken at random: the median over all choices.
+double median_of_least(const std::vector<double>& errors, std::size_t count) {
+  const auto size = static_cast<double>(errors.size());
+  double none_yet = 1;  // probability that all that were taken lie behind place i
+  for (std::size_t i = 0; i < errors.size(); ++i) {
+    const double left = size - static_cast<double>(i);
+    none_yet *= std::max(0.0, left - static_cast<double>(count)) / left;
+    if (none_yet <= 0.5) return errors[i];
+  }
+  return errors.back();
+}
+
+/// What the search had found on a case after 1, 2, ... evaluations. The tuned value is tried there too, but
+/// not by the search.
+std::vector<double> errors_reached(const MethodTuning& method, const MethodOnCase& found) {
+  const auto tuned = choose_tuned(method);
+  std::vector<double> swept;
+  std::vector<double> refined;
+  for (const SweepEvaluation& one : found.sweep) {
+    if (one.on_grid) {
+      swept.push_back(error_of(one.evaluation));
+    } else if (!tuned || one.position != tuned->position) {
+      refined.push_back(error_of(one.evaluation));
+    }
+  }
+  swept.resize(std::max(swept.size(), grid(*method.axis, kSweepPoints).size()), kInfinitelyBad);
+  std::sort(swept.begin(), swept.end());
+  std::vector<double> reached;
+  for (std::size_t count = 1; count <= swept.size(); ++count)
+    reached.push_back(median_of_least(swept, count));
+  for (const double error : refined) reached.push_back(std::min(reached.back(), error));
+  reached.resize(kSweepPoints + kRefinements, reached.back());
+  return reached;
+}
+
 /// What a sensitivity curve is of.
 struct CurveCases {
   std::vector<std::size_t> places;
@@ -170,6 +205,25 @@ std::vector<ProtocolScore> protocol_scores(const Tuning& tuning, const MethodTun
     if (auto score = score_of(tuning, method, protocol, tuned)) scores.push_back(std::move(*score));
   }
   return scores;
+}
+
+std::vector<SearchCost> search_costs(const Tuning& tuning, const MethodTuning& method) {
+  std::vector<SearchCost> costs;
+  if (!method.axis) return costs;
+  std::vector<Weighted> errors(kSweepPoints + kRefinements);
+  std::size_t cases = 0;
+  for (std::size_t i = 0; i < tuning.cases.size(); ++i) {
+    if (tuning.cases[i].side != Side::kTest || method.cases[i].sweep.empty()) continue;
+    ++cases;
+    const std::vector<double> reached = errors_reached(method, method.cases[i]);
+    for (std::size_t k = 0; k < errors.size(); ++k) errors[k].add(tuning.cases[i], reached[k]);
+  }
+  if (cases == 0) return costs;
+  for (std::size_t k = 0; k < errors.size(); ++k) {
+    errors[k].weigh();
+    costs.push_back({k + 1, cases, errors[k].middle(), errors[k].interval()});
+  }
+  return costs;
 }
 
 std::vector<CurvePoint> sensitivity_curve(const Tuning& tuning, const MethodTuning& method) {

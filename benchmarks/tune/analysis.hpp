@@ -66,6 +66,19 @@ struct ProtocolScore {
 std::vector<ProtocolScore> protocol_scores(const Tuning& tuning, const MethodTuning& method,
                                            const std::optional<TunedValue>& tuned);
 
+/// What a search with so many evaluations reaches on the test cases.
+struct SearchCost {
+  std::size_t evaluations = 0;
+  std::size_t cases = 0;
+  double l2_median = 0;  ///< weighted; kInfinitelyBad where the middle is a failure
+  std::optional<statistics::Interval> l2_interval;  ///< as ProtocolScore's
+};
+
+/// From one evaluation to kSweepPoints + kRefinements. The positions of the sweep are taken in random order:
+/// of a case the median over all orders counts, so 1 is what a blind choice gives. Then come the refinements,
+/// in theirs. Positions that the search gave up are failures. Nothing for a method without an axis.
+std::vector<SearchCost> search_costs(const Tuning& tuning, const MethodTuning& method);
+
 /// The errors at one position of the grid, over the cases that were swept.
 struct CurvePoint {
   double position = 0;

@@ -114,6 +114,17 @@ json curve_to_json(const Tuning& tuning, const MethodTuning& method) {
   return curve;
 }
 
+json search_to_json(const Tuning& tuning, const MethodTuning& method) {
+  json costs = json::array();
+  for (const SearchCost& one : search_costs(tuning, method)) {
+    costs.push_back({{"evaluations", one.evaluations},
+                     {"cases", one.cases},
+                     {"l2_median", error_to_json(one.l2_median)},
+                     {"l2_interval", interval_to_json(one.l2_interval)}});
+  }
+  return costs;
+}
+
 /// Where on the axis an evaluation lies; null when it is not of the sweep.
 json position_of(const MethodOnCase& found, const Evaluation& evaluation) {
   for (const SweepEvaluation& one : found.sweep) {
@@ -154,6 +165,7 @@ json method_to_json(const Tuning& tuning, const MethodTuning& method) {
       {"tolerance_octaves", nullptr},
       {"protocols", json::array()},
       {"curve", json::array()},
+      {"search", json::array()},
       {"oracle", json::array()}};
   if (!method.info) return result;
   const auto tuned = choose_tuned(method);
@@ -163,6 +175,7 @@ json method_to_json(const Tuning& tuning, const MethodTuning& method) {
   for (const ProtocolScore& score : protocol_scores(tuning, method, tuned))
     result["protocols"].push_back(score_to_json(score));
   result["curve"] = curve_to_json(tuning, method);
+  result["search"] = search_to_json(tuning, method);
   result["oracle"] = oracle_to_json(tuning, method);
   return result;
 }

@@ -3,7 +3,6 @@ Figure 10)."""
 
 from __future__ import annotations
 
-import math
 from collections.abc import Iterator
 
 from matplotlib.axes import Axes
@@ -12,13 +11,13 @@ from matplotlib.patches import Patch
 
 from figures.shapes import height_over_width, shape_picture
 from figures.states import growing_shapes
+from hull_grid import hull_grid
 from maps import Polygons, area_path, difference, frame, outline, points
 from records import Picture, Row
 from run import Drawn, Run, Skipped, failures
-from style import FULL_WIDTH, in_order, label, legend_row, method_style, new_figure, role_color
+from style import role_color
 
 _POINTS = 4000  # as in the paper
-_COLUMNS = 6
 
 
 def draw(run: Run) -> Iterator[Drawn]:
@@ -44,20 +43,13 @@ def _caption(picture: Picture, rows: list[Row]) -> str:
 
 
 def _figure(picture: Picture, rows: list[Row]) -> Figure:
-    by_series = {row.series: row for row in rows}
-    every = in_order(by_series)
-    lines = math.ceil((len(every) + 1) / _COLUMNS)
-    columns = min(_COLUMNS, math.ceil((len(every) + 1) / lines))
-    width = FULL_WIDTH if columns > 4 else 40 * columns
-    height = width / columns * 0.95 * min(1.3, height_over_width(picture)) + 9
-    figure = new_figure(width, height * lines + 6)
-    grid = figure.add_gridspec(lines + 1, columns, height_ratios=[height] * lines + [5])
-    _points_panel(figure.add_subplot(grid[0, 0]), picture)
-    for k, one in enumerate(every, 1):
-        axes = figure.add_subplot(grid[k // columns, k % columns])
-        _hull_panel(axes, picture, by_series[one], label(one, every))
-    legend_row(figure.add_subplot(grid[lines, :]), difference_key(), failures(rows))
-    return figure
+    def panel(axes: Axes, row: Row) -> str:
+        draw_result(axes, picture, picture.polygons(row.name))
+        error = row.metric("l2")
+        return f"{100 * error:.1f} %" if error is not None else row.status.replace("_", " ")
+
+    first = ("Points and truth", lambda axes: _points_panel(axes, picture))
+    return hull_grid(picture, rows, min(1.3, height_over_width(picture)), first, panel, difference_key())
 
 
 def difference_key() -> list[Patch]:
@@ -69,17 +61,6 @@ def _points_panel(axes: Axes, picture: Picture) -> None:
     outline(axes, area_path(picture.ground_truth()), role_color("ground_truth"), 0.5, zorder=6)
     points(axes, picture.points(), 0.9)
     frame(axes, picture)
-    axes.set_title("Points and truth", fontsize=7)
-
-
-def _hull_panel(axes: Axes, picture: Picture, row: Row, name: str) -> None:
-    result = picture.polygons(row.name)
-    draw_result(axes, picture, result)
-    error = row.metric("l2")
-    weight = "bold" if method_style(row.method).paper else "normal"
-    axes.set_title(name, fontsize=7, fontweight=weight, pad=11)
-    text = f"{100 * error:.1f} %" if error is not None else row.status.replace("_", " ")
-    axes.text(0.5, 1.01, text, transform=axes.transAxes, ha="center", va="bottom", fontsize=6.5)
 
 
 def draw_result(axes: Axes, picture: Picture, result: Polygons | None) -> None:

@@ -2,19 +2,17 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Iterator
 
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
+from hull_grid import hull_grid
 from maps import area_path, frame, outline, paint, points
 from records import Picture, Row
 from run import Drawn, Run, Skipped, failures
-from style import FULL_WIDTH, in_order, label, new_figure, role_color
-
-_COLUMNS = 6
+from style import role_color
 
 
 def draw(run: Run) -> Iterator[Drawn]:
@@ -43,22 +41,21 @@ def _caption(experiment, picture: Picture, rows: list[Row]) -> str:
 
 
 def _figure(picture: Picture, rows: list[Row]) -> Figure:
-    by_series = {row.series: row for row in rows}
-    every = in_order(by_series)
-    lines = math.ceil((len(every) + 1) / _COLUMNS)
-    columns = min(_COLUMNS, math.ceil((len(every) + 1) / lines))
-    width = FULL_WIDTH if columns > 4 else 40 * columns
-    height = width / columns * 0.95 * _height_over_width(picture) + 9
-    figure = new_figure(width, height * lines)
-    grid = figure.add_gridspec(lines, columns)
-    places = figure.add_subplot(grid[0, 0])
-    points(places, picture.points(), 1.2)
-    frame(places, picture)
-    places.set_title("Points", fontsize=7)
-    for k, one in enumerate(every, 1):
-        axes = figure.add_subplot(grid[k // columns, k % columns])
-        _panel(axes, picture, by_series[one], label(one, every))
-    return figure
+    def first(axes: Axes) -> None:
+        points(axes, picture.points(), 1.2)
+        frame(axes, picture)
+
+    def panel(axes: Axes, row: Row) -> str:
+        result = picture.polygons(row.name)
+        if result:
+            path = area_path(result)
+            paint(axes, path, role_color("both"), zorder=1)
+            outline(axes, path, role_color("ground_truth"), 0.35, zorder=6)
+        points(axes, picture.points(), 0.5)
+        frame(axes, picture)
+        return _words(row)
+
+    return hull_grid(picture, rows, _height_over_width(picture), ("Points", first), panel)
 
 
 def _height_over_width(picture: Picture) -> float:
@@ -66,18 +63,6 @@ def _height_over_width(picture: Picture) -> float:
     low, high = (pick(np.asarray(picture.points()), axis=0) for pick in (np.min, np.max))
     width, height = high - low
     return min(max(height / width if width > 0 else 2.0, 0.4), 2.0)
-
-
-def _panel(axes: Axes, picture: Picture, row: Row, name: str) -> None:
-    result = picture.polygons(row.name)
-    if result:
-        path = area_path(result)
-        paint(axes, path, role_color("both"), zorder=1)
-        outline(axes, path, role_color("ground_truth"), 0.35, zorder=6)
-    points(axes, picture.points(), 0.5)
-    frame(axes, picture)
-    axes.set_title(name, fontsize=7, pad=11)
-    axes.text(0.5, 1.01, _words(row), transform=axes.transAxes, ha="center", va="bottom", fontsize=6.5)
 
 
 def _words(row: Row) -> str:

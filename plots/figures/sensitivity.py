@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from pathlib import Path
 from typing import Any
 
 from matplotlib.axes import Axes
@@ -18,10 +19,7 @@ _WORST = 10.0  # of the error's axis, in errors of the oracle
 
 
 def draw(run: Run) -> Iterator[Drawn]:
-    path = next((run.folder / name for name in FILES if (run.folder / name).is_file()), None)
-    if path is None:
-        raise Skipped(f"{run.folder / FILES[0]} is not there ('make evaluate' writes it)")
-    tuning = read_json(path, "tune.schema.json", "; 'hullbench tune' writes it")
+    path, tuning = read_tuning(run)
     methods = [one for one in tuning["methods"] if one["tuned"] and len(one["curve"]) > 1]
     if not methods:
         raise Skipped(f"{path} has no method with a parameter to search")
@@ -36,6 +34,14 @@ def draw(run: Run) -> Iterator[Drawn]:
         f"stays within 10 % of its best (median). What is above {_WORST:g} or fails is not shown."
     )
     yield Drawn("sensitivity", figure, caption)
+
+
+def read_tuning(run: Run) -> tuple[Path, dict[str, Any]]:
+    """The file of the search and what is in it. Raises Skipped without one."""
+    path = next((run.folder / name for name in FILES if (run.folder / name).is_file()), None)
+    if path is None:
+        raise Skipped(f"{run.folder / FILES[0]} is not there ('make evaluate' writes it)")
+    return path, read_json(path, "tune.schema.json", "; 'hullbench tune' writes it")
 
 
 def _figure(methods: list[dict[str, Any]]) -> Figure:

@@ -30,12 +30,15 @@ def draw(run: Run) -> Iterator[Drawn]:
 
 
 def growing_shapes(run: Run, least: int = 2) -> dict[str, Experiment]:
-    """By single shape, letters aside: the experiment that has most numbers of points of it, at least `least`."""
+    """By single shape with a truth, letters aside: the experiment that has most numbers of points of it, at least `least`."""
     most: dict[str, tuple[int, Experiment]] = {}
     for experiment in run.experiments:
+        if experiment.plan.get("accepted"):  # asks how a run ends, not how near it comes to a shape
+            continue
         for name, dataset in experiment.datasets.items():
-            sizes = len({row.n for row in experiment.rows if row.dataset == name})
-            single = not dataset.get("members") and not name.startswith("letter_")
+            rows = [row for row in experiment.rows if row.dataset == name]
+            sizes = len({row.n for row in rows})
+            single = not dataset.get("members") and not name.startswith("letter_") and any(row.metric("l2") for row in rows)
             if single and sizes >= least and sizes > most.get(name, (0, experiment))[0]:
                 most[name] = (sizes, experiment)
     return {name: experiment for name, (_, experiment) in most.items()}

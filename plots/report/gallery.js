@@ -12,7 +12,7 @@ const PRINTED_CARDS = 12;
 let entries = [];
 let report = null;
 let pictures = null;
-const filters = { method: "", experiment: "", shape: "", status: "", order: "worst" };
+const filters = { method: "", experiment: "", shape: "", status: "", order: "mixed" };
 
 /** Fills `element` with the gallery of `page_pictures`, the object of plots/pictures.py, with at least one case. */
 export function mountGallery(element, page_report, page_pictures) {
@@ -30,11 +30,13 @@ export function mountGallery(element, page_report, page_pictures) {
   });
   const watcher = watch_cards();
   const refresh = () => list_cards(grid, count, more, watcher);
-  // The page's first method, rather than each case's worst: that is often the simplest one everywhere.
-  const first = report.entrants
-    .map((entrant) => entrant.key)
-    .find((series) => entries.some((entry) => entry.runs.some((run) => run.series === series)));
-  filters.method = first ?? "";
+  // One method, rather than each case's worst, which is often the simplest one everywhere: who leads, or else that with the
+  // most cases.
+  const shown = (series) => entries.filter((entry) => entry.runs.some((run) => run.series === series)).length;
+  const keys = report.entrants.map((entrant) => entrant.key);
+  const most = keys.reduce((one, other) => (shown(other) > shown(one) ? other : one), keys[0]);
+  const first = shown(report.leader) ? report.leader : most;
+  filters.method = first;
   element.replaceChildren(
     ...[filter_bar(refresh), failures_button(element, refresh), legend(), count, grid, more, remark()].filter(Boolean),
   );
@@ -86,6 +88,7 @@ function filter_bar(refresh) {
   );
   add("status", "Status", "all", status_options(runs));
   add("order", "Order", null, [
+    ["mixed", "all kinds in turn, worst first"],
     ["worst", "worst first"],
     ["best", "best first"],
     ["name", "by shape and size"],
@@ -163,6 +166,25 @@ function run_for(entry) {
   return runs.length > 0 ? worst_run(runs) : undefined;
 }
 
+/** Experiment, family and ways to sample: what the mixed order takes turns of. */
+function stratum(entry) {
+  const [shape, ...ways] = entry.case.split("/")[0].split("~");
+  const family = shape.split(/[-_]/)[0];
+  return [entry.experiments[0], family, entry.holes, ...ways.map((way) => way.split(":")[0])].join(" ");
+}
+
+/** The worst of every stratum, then the second worst of each, and so on. */
+function in_turn(shown) {
+  const turns = new Map();
+  const turn = new Map();
+  for (const item of shown.sort(ORDERS.worst)) {
+    const key = stratum(item.entry);
+    turn.set(item, turns.get(key) ?? 0);
+    turns.set(key, turn.get(item) + 1);
+  }
+  return shown.sort((a, b) => turn.get(a) - turn.get(b));
+}
+
 const ORDERS = {
   worst: (a, b) => badness(b.run) - badness(a.run) || 0,
   best: (a, b) => badness(a.run) - badness(b.run) || 0,
@@ -174,7 +196,8 @@ const ORDERS = {
 
 function list_cards(grid, count, more, watcher) {
   const shown = entries.map((entry) => ({ entry, run: run_for(entry) })).filter((item) => item.run);
-  shown.sort(ORDERS[filters.order]);
+  if (filters.order === "mixed") in_turn(shown);
+  else shown.sort(ORDERS[filters.order]);
   set_order(shown);
   count.textContent =
     shown.length === 0 ? "No case passes these filters." : `${shown.length} of ${entries.length} cases with a picture`;

@@ -3,6 +3,7 @@ import { openCase } from "./case_dialog.js";
 import { hasPicture } from "./cases.js";
 import { Charts } from "./charts.js";
 import { Rows, once, readJson, unpack, whenNear } from "./data.js";
+import { startFront } from "./front.js";
 import { mountGallery } from "./gallery.js";
 import { fit } from "./picture.js";
 import { RunTable } from "./table.js";
@@ -20,8 +21,10 @@ function startReport() {
   startTheme();
   if (gallery) startGallery(report, pictures);
   hooks.loadTable = once(async () => {
-    hooks.table = new RunTable(document.getElementById("table-place"), report, await rows(), gallery);
+    return (hooks.table = new RunTable(document.getElementById("table-place"), report, await rows(), gallery));
   });
+  const parts = once(() => unpack(readJson("parts")));
+  startFront(gallery, parts, hooks.loadTable);
   hooks.ready = charts().then((decoded) => {
     if (decoded.length) hooks.charts = new Charts(document.getElementById("charts-place"), report, decoded, gallery);
     document.documentElement.dataset.ready = "charts";

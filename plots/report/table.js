@@ -25,6 +25,7 @@ export class RunTable {
       experiment: "",
       entrant: "",
       status: "",
+      only: null, // {words, cases: names}: of some cases only
       sort: null,
       descending: false,
       page: 0,
@@ -153,6 +154,7 @@ export class RunTable {
       input: (event) => this.set({ words: event.target.value }),
     });
     const scroll = { class: "scroll", id: "runs-scroll", tabindex: "0", role: "region", "aria-label": "All runs" };
+    this.only = make("button", { type: "button", id: "table-only", hidden: true, click: () => this.set({ only: null }) });
     place.append(
       make(
         "div",
@@ -164,11 +166,17 @@ export class RunTable {
         size,
       ),
       this.columnChooser(),
+      this.only,
       this.count,
       this.pagers[0],
       make("div", scroll, this.table),
       this.pagers[1],
     );
+    this.controls = { words: search };
+    for (const key of ["experiment", "entrant", "status"]) {
+      const control = place.querySelector(`#filter-${key}`);
+      if (control) this.controls[key] = control;
+    }
   }
 
   columnChooser() {
@@ -217,6 +225,7 @@ export class RunTable {
 
   set(changes) {
     Object.assign(this.state, changes, { page: 0 });
+    for (const [key, control] of Object.entries(this.controls)) control.value = this.state[key];
     this.find();
   }
 
@@ -238,6 +247,7 @@ export class RunTable {
       if (state.experiment !== "" && rows.get("experiment", row) !== Number(state.experiment)) continue;
       if (state.entrant && rows.get("entrant", row) !== state.entrant) continue;
       if (state.status && rows.get("status", row) !== state.status) continue;
+      if (state.only && !state.only.cases.has(rows.caseName(row))) continue;
       if (words.length) {
         const text = `${rows.name(row)} ${rows.shape(row)} ${rows.get("status", row)} ${rows.get("detail", row)}`.toLowerCase();
         if (!words.every((word) => text.includes(word))) continue;
@@ -292,6 +302,8 @@ export class RunTable {
       this.found.length === 0
         ? "No run fits."
         : `${formatCount(this.found.length)} of ${formatCount(this.rows.count)} runs, ${formatCount(from + 1)} to ${formatCount(from + page.length)} shown`;
+    this.only.hidden = !this.state.only;
+    if (this.state.only) this.only.textContent = `Only the cases of ${this.state.only.words}: show all again`;
     for (const pager of this.pagers) this.drawPager(pager);
   }
 

@@ -50,11 +50,25 @@ before(async () => {
   Object.assign(row_named(MARKED).metrics, FARTHEST);
   report.metrics = JSON.parse(run_program(HULLBENCH, "metrics", "--json"));
   writeFileSync(join(folder, "report.json"), JSON.stringify(report));
+  writeFileSync(join(folder, "cases.csv"), cases_csv());
   run_program(PYTHON, make_report, folder, "--out", file);
   browser = await launch();
 });
 
 after(() => browser?.close());
+
+/** As 'hullbench league --all-cases --csv' writes it. */
+function cases_csv() {
+  const lines = ["method,task,fold,error,time,points,status,shape,kind,sampler,weight"];
+  for (const run of report.runs.filter(({ status }) => status !== "not_installed")) {
+    const ok = run.status === "ok";
+    const time = ok ? row_named(run.name).median_ms / 1000 : "";
+    const kind = run.holes ? "holes" : "simple";
+    const facts = [ok ? run.metrics.l2 : "inf", time, run.n, run.status, run.dataset, kind, "uniform", 1];
+    lines.push([`${run.method}/${run.protocol}`, case_of(run.name), run.seed, ...facts].join(","));
+  }
+  return `${lines.join("\n")}\n`;
+}
 
 /** A test with a page of its own, in which nothing may go wrong on the side. */
 function page_test(name, options, body) {
@@ -126,6 +140,75 @@ test("a page that asks for something or complains is noticed", async () => {
     troubles.join("; "),
   );
   assert.ok(troubles.length >= 2, troubles.join("; "));
+});
+
+page_test("the first screen says who leads, and the league and the charts agree", {}, async (page) => {
+  const lead = await page.locator("#summary .lead").first().innerText();
+  // SpatiaLite is first on five of six cases and fails on the sixth, which counts as half of a shape of two of one of two
+  // kinds; two shapes are too few to be sure.
+  assert.match(
+    lead,
+    /^SpatiaLite is ahead, but not clearly, of 3 entries of 3 methods that know something of the truth: mean rank 1\.25/,
+  );
+  assert.match(lead, /6 cases of 2 shapes/);
+  const rows = await page
+    .locator("#league-informed tbody tr")
+    .evaluateAll((all) =>
+      all.map((row) => [
+        row.dataset.entrant,
+        row.querySelector(".ranks .value").innerText.split(" ")[0],
+        row.lastElementChild.innerText,
+      ]),
+    );
+  assert.deepEqual(rows, [
+    ["spatialite/paper", "1.25", "1"],
+    ["cgal_alpha_shape/paper", "2.38", "0"],
+  ]);
+  assert.match(await page.locator("#league-informed tbody th small").first().innerText(), /and Polylidar/);
+  const solved = page.locator("#solved-informed");
+  assert.match(await solved.locator("svg:visible").getAttribute("aria-label"), /has solved the most/);
+  await solved.locator("summary").click();
+  // Of SpatiaLite's cases all but one of weight 1/8 are solved for all targets.
+  assert.match(await solved.locator("tbody").innerText(), /SpatiaLite\s+87\.5/);
+  const nothing_before = await page.evaluate(() => {
+    const before = (one) => document.querySelector(".lead").compareDocumentPosition(one) & Node.DOCUMENT_POSITION_PRECEDING;
+    return [...document.querySelectorAll("main p")].filter(before).length;
+  });
+  assert.equal(nothing_before, 0);
+});
+
+page_test("a number of the heat map lists its cases, by keyboard too, and all come back", {}, async (page) => {
+  const cell = page.locator('#heat-informed a[data-part="informed/kind/holes"][data-entrant="spatialite/paper"]');
+  await cell.focus();
+  await page.keyboard.press("Enter");
+  const rows = page.locator("#runs-table tbody tr");
+  await rows.first().waitFor();
+  const shown = () => rows.evaluateAll((all) => all.map((row) => row.dataset.run));
+  const wanted = report.runs.filter((run) => run.method === "spatialite" && run.holes).map((run) => run.name);
+  assert.deepEqual(await shown(), wanted);
+  assert.equal(await page.locator("#filter-entrant").inputValue(), "spatialite/paper");
+  const again = page.locator("#table-only");
+  assert.match(await again.innerText(), /holes/);
+  assert.equal(await again.evaluate((one) => one === document.activeElement), true);
+  await page.keyboard.press("Enter");
+  assert.deepEqual((await shown()).length, report.runs.filter((run) => run.method === "spatialite").length);
+  assert.equal(await again.isVisible(), false);
+});
+
+page_test("the strip has the leader's telling cases, says what is missing and opens them", {}, async (page) => {
+  const cards = page.locator("#strip li");
+  const said = await cards.evaluateAll((all) =>
+    all.map((card) => [card.querySelector("b").innerText, card.querySelector("a").dataset.run]),
+  );
+  const of = (words) => said.find(([one]) => one === words)?.[1];
+  // Hawaii with 64,000 points, where it fails, has a picture without a truth.
+  const errors = report.runs.filter((run) => run.method === "spatialite" && run.metrics.l2).map((run) => run.metrics.l2);
+  assert.equal(row_named(of("Best")).metrics.l2, Math.min(...errors));
+  assert.equal(row_named(of("Worst")).metrics.l2, Math.max(...errors));
+  assert.match(await page.locator("#strip > .muted").innerText(), /none of these: .*real points/);
+  await cards.first().locator("a").focus();
+  await page.keyboard.press("Enter");
+  await page.locator('dialog[open][data-ready="true"]').waitFor();
 });
 
 page_test("the charts show the report's numbers", {}, async (page) => {
@@ -422,6 +505,8 @@ for (const theme of ["light", "dark"]) {
   page_test(`no serious finding of axe, ${theme}`, { theme }, async (page) => {
     await page.locator("#runs").scrollIntoViewIfNeeded();
     await page.locator("#runs-table tbody tr").first().waitFor();
+    for (const one of await page.locator("#summary details, #where details").all())
+      await one.evaluate((box) => (box.open = true));
     await page.evaluate(axe);
     const findings = async () => {
       const { violations } = await page.evaluate(() => axe.run());

@@ -1,0 +1,185 @@
+"""The first screen of a page: who leads, by how much, how sure that is and where it does not; speed and accuracy in two
+charts; the league; six telling pictures.
+
+A report is made of it, and so can be the front page of a site: everything here is HTML that needs no script.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+
+from front_charts import charts_html, color_of
+from ratings import KNOWS, Division, Rating, Standing, divisions, has_times, rate, read, typical_times
+from records import Series
+from report_common import count_of, number, sentence_list, short_name, text
+
+# Shown at once; the others are behind a click.
+FIRST_ROWS = 8
+# Exceptions that the sentence names.
+_MOST_EXCEPTIONS = 3
+
+
+@dataclass(frozen=True)
+class Front:
+    """What the first screen is of."""
+
+    ratings: list[Rating]  # by division, blind first
+    timed: list[Division]  # the run's own, with times
+    own: bool  # the ratings are of the run itself, not of an evaluation beside it
+    why_empty: str  # a sentence where there is no rating
+
+
+def make_front(folder: Path) -> Front:
+    """Of the run or suite in this folder. Raises RecordError when its results cannot be read."""
+    league, cases = folder / "league.csv", folder / "cases.csv"
+    if not league.is_file() and not cases.is_file():
+        said = f"There are no ratings: {cases} is not there; 'hullbench league {folder} --all-cases --csv {cases}' writes it."
+        return Front([], [], True, said)
+    own = read(cases) if cases.is_file() else None
+    rated = [rate(one) for one in divisions(read(league) if league.is_file() else own)]
+    timed = [one for one in divisions(own) if has_times(one)] if own else []
+    why = "" if rated else "Nobody leads: no two methods that know as much have a case with a truth in common."
+    return Front(rated, timed, not league.is_file(), why)
+
+
+def front_html(front: Front, strip: str) -> str:
+    if not front.ratings:
+        return f"<p class='lead'>{text(front.why_empty)}</p>{strip}"
+    first, *others = front.ratings
+    timed = {one.name: one for one in front.timed}
+    parts = [f"<p class='lead'>{lead_sentence(first, timed.get(first.division.name))}</p>"]
+    parts.append(charts_html(timed.get(first.division.name)))
+    parts += [_league(first, timed.get(first.division.name)), strip]
+    for other in others:
+        said = lead_sentence(other, timed.get(other.division.name))
+        parts.append(
+            f"<details class='wide'><summary>Methods that {KNOWS[other.division.name]}</summary><p class='lead'>{said}</p>"
+            f"{charts_html(timed.get(other.division.name))}{_league(other, timed.get(other.division.name))}</details>"
+        )
+    return "".join(parts)
+
+
+# The sentence.
+
+
+def lead_sentence(rating: Rating, timed: Division | None) -> str:
+    """As HTML, the leader in bold."""
+    first, second = rating.standings[:2]
+    every = [one.series for one in rating.standings]
+    name, lead = text(short_name(first.series, every)), rating.lead
+    others = [text(short_name(one.series, every)) for one in rating.standings if one is not first]
+    same = [one for one, other in zip(others, rating.standings[1:]) if other.rank == first.rank]
+    methods = len({one.method for one in every})
+    field = f"{count_of(len(every), 'entry')} of {count_of(methods, 'method')} that {KNOWS[rating.division.name]}"
+    if same:
+        said = f"<b>{name}</b> and {sentence_list(same)} are the first of {field}, with the same mean rank {number(first.rank)} over {_cases(rating)}"
+    else:
+        verb = "leads" if lead.clear else "is ahead, but not clearly, of"
+        said = f"<b>{name}</b> {verb} {field}: mean rank {number(first.rank)}{_range(first.rank_interval)} over {_cases(rating)}, then {others[0]} with {number(second.rank)}"
+        said += f"; in the median case its error is {number(lead.ratio)} times that one’s{_range(lead.ratio_interval)}"
+    said += _time_words(timed, first.series)
+    return said + f". {_exceptions(rating)}"
+
+
+def _cases(rating: Rating) -> str:
+    return f"{count_of(len(rating.division.results.cases), 'case')} of {count_of(rating.shapes, 'shape')}"
+
+
+def _range(interval: tuple[float, float] | None) -> str:
+    return f" (95 %: {number(interval[0])} to {number(interval[1])})" if interval else ""
+
+
+def _time_words(timed: Division | None, series: Series) -> str:
+    times = typical_times(timed) if timed else {}
+    return f", at {number(times[series])} µs a point" if math.isfinite(times.get(series, math.inf)) else ""
+
+
+def _exceptions(rating: Rating) -> str:
+    """Where the leader is not the first."""
+    every = [one.series for one in rating.standings]
+    parts = [part for part in [*rating.kinds, *rating.samplers] if part.cases < len(rating.division.results.cases)]
+    lost = [part for part in parts if min(part.ranks) < part.ranks[0] - 1e-9]
+    if not parts:
+        return ""
+    if not lost:
+        return "It is the first on every kind of shape and way to sample."
+    lost.sort(key=lambda part: min(part.ranks) - part.ranks[0])
+    said = [
+        f"{text(part.name)} ({text(short_name(every[int(np.argmin(part.ranks))], every))})" for part in lost[:_MOST_EXCEPTIONS]
+    ]
+    if len(lost) > _MOST_EXCEPTIONS:
+        said.append(f"<a href='#where'>{len(lost) - _MOST_EXCEPTIONS} more</a>")
+    return f"It is not the first on {sentence_list(said)}."
+
+
+# The league.
+
+
+@dataclass(frozen=True)
+class _Line:
+    """Entrants whose errors are the same on every case."""
+
+    first: int  # place of the first one
+    members: list[Standing]
+
+
+def lines_of(rating: Rating) -> list[_Line]:
+    lines: list[_Line] = []
+    for place, one in enumerate(rating.standings):
+        before = lines[-1].members[0] if lines else None
+        if before and np.allclose(
+            *(rating.division.results.errors[rating.standings.index(x)] for x in (before, one)), rtol=1e-6
+        ):
+            lines[-1].members.append(one)
+        else:
+            lines.append(_Line(place, [one]))
+    return lines
+
+
+def _league(rating: Rating, timed: Division | None) -> str:
+    every = [one.series for one in rating.standings]
+    times = typical_times(timed) if timed else {}
+    rows = [_league_row(line, every, len(every), times) for line in lines_of(rating)]
+    head = (
+        "<thead><tr><th scope='col'>Method</th><th scope='col'>Mean rank, 95 %</th><th scope='col' class='number'>L2, %</th>"
+        "<th scope='col' class='number more'>Elo</th><th scope='col' class='number more'>µs a point</th>"
+        "<th scope='col' class='number'>Failures</th></tr></thead>"
+    )
+    table = f"<table class='league'><caption>League of {_cases(rating)}; methods with the same results share a line</caption>{head}<tbody>{''.join(rows[:FIRST_ROWS])}</tbody></table>"
+    rest = rows[FIRST_ROWS:]
+    if rest:
+        table += f"<details><summary>{len(rest)} more</summary><table class='league'>{head}<tbody>{''.join(rest)}</tbody></table></details>"
+    if rating.division.left_out:
+        names = sentence_list([short_name(one, rating.division.left_out) for one in rating.division.left_out])
+        table += f"<p class='muted'>With less than half of the cases, and so not rated: {text(names)}.</p>"
+    return f"<div class='league-box' id='league-{rating.division.name}'>{table}</div>"
+
+
+def _league_row(line: _Line, every: Sequence[Series], worst: int, times: dict[Series, float]) -> str:
+    one = line.members[0]
+    names = [short_name(member.series, every) for member in line.members]
+    also = f"<small>and {text(sentence_list(names[1:]))}</small>" if names[1:] else ""
+    known = sorted(times[member.series] for member in line.members if math.isfinite(times.get(member.series, math.inf)))
+    spread = number(known[0]) + (f"–{number(known[-1])}" if known[1:] else "") if known else "–"
+
+    def share(rank: float) -> str:
+        return f"{100 * (rank - 1) / max(1, worst - 1):.1f}%"
+
+    low, high = one.rank_interval or (one.rank, one.rank)
+    bar = (
+        f"<span class='bar' aria-hidden='true' style='--at:{share(one.rank)};--low:{share(low)};--high:{share(high)};"
+        f"--own:{color_of(one.series)}'></span>"
+    )
+    interval = f"<small class='inline'>{number(low)}–{number(high)}</small>" if one.rank_interval else ""
+    return (
+        f"<tr data-entrant='{text(one.series.key)}'><th scope='row'><span class='place'>{line.first + 1}</span>"
+        f"<span class='swatch' data-method='{text(one.series.method)}'></span>{text(names[0])}{also}</th>"
+        f"<td class='ranks'>{bar}<span class='value'>{number(one.rank)} {interval}</span></td>"
+        f"<td class='number'>{number(100 * one.error)}</td><td class='number more'>{one.elo:.0f}</td>"
+        f"<td class='number more'>{spread}</td><td class='number'>{one.failures}</td></tr>"
+    )

@@ -1,0 +1,101 @@
+#!/usr/bin/python3
+"""Writes the ratings of a league as JSON (results/ratings.schema.json), for other pages and programs.
+
+    make_ratings.py CSV [--out FILE]
+
+CSV is what `hullbench league --csv` wrote; FILE is ratings.json beside it. Exit codes: 0 ok; 1 a fault of ours, with its
+traceback; 2 when the file cannot be read or written; 6 when no two methods that know as much have a case in common.
+"""
+
+from __future__ import annotations
+
+import argparse
+import json
+import math
+import sys
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Any
+
+from ratings import DIVISIONS, KNOWS, TIE_ABSOLUTE, TIE_RELATIVE, Part, Rating, Standing, divisions, rate, read
+from records import NothingToShow, exit_code_of
+
+
+def main(arguments: Sequence[str] | None = None) -> int:
+    parser = argparse.ArgumentParser(prog="make_ratings.py", description="Writes the ratings of a league as JSON.")
+    parser.add_argument("csv", type=Path, metavar="CSV", help="what 'hullbench league --csv' wrote")
+    parser.add_argument("--out", type=Path, metavar="FILE", help="the file to write (ratings.json beside CSV)")
+    options = parser.parse_args(arguments)
+    return exit_code_of("make_ratings.py", lambda: write(options.csv, options.out or options.csv.with_name("ratings.json")))
+
+
+def write(source: Path, out: Path) -> None:
+    rated = [rate(one) for one in divisions(read(source))]
+    if not rated:
+        raise NothingToShow(f"{source} has no two methods that know as much and have a case in common.")
+    out.write_text(json.dumps(ratings_json(rated), indent=1, allow_nan=False) + "\n", encoding="utf-8")
+    print(f"wrote {out}")
+
+
+def ratings_json(rated: Sequence[Rating]) -> dict[str, Any]:
+    """As results/ratings.schema.json says; null stands for infinity and for an interval of fewer than two shapes."""
+    ties = {"relative": TIE_RELATIVE, "absolute": TIE_ABSOLUTE}
+    return {"kind": "ratings", "schema_version": 1, "tie": ties, "divisions": [_division(one) for one in rated]}
+
+
+def _division(one: Rating) -> dict[str, Any]:
+    lead = one.lead
+    return {
+        "name": one.division.name,
+        "knows": KNOWS[one.division.name],
+        "protocols": list(DIVISIONS[one.division.name]),
+        "cases": len(one.division.results.cases),
+        "shapes": one.shapes,
+        "left_out": [series._asdict() for series in one.division.left_out],
+        "standings": [_standing(standing) for standing in one.standings],
+        "lead": {
+            "clear": lead.clear,
+            "ranks": _number(lead.ranks),
+            "ranks_interval": _interval(lead.ranks_interval),
+            "ratio": _number(lead.ratio),
+            "ratio_interval": _interval(lead.ratio_interval),
+        },
+        "wins": [[_number(value) for value in row] for row in one.wins.tolist()],
+        "ties": [[_number(value) for value in row] for row in one.ties.tolist()],
+        "friedman_p": one.friedman,
+        "alike_p": one.alike.tolist(),
+        "groups": [list(group) for group in one.groups],
+        "kinds": [_part(part) for part in one.kinds],
+        "samplers": [_part(part) for part in one.samplers],
+    }
+
+
+def _standing(one: Standing) -> dict[str, Any]:
+    return {
+        **one.series._asdict(),
+        "rank": _number(one.rank),
+        "rank_interval": _interval(one.rank_interval),
+        "elo": _number(one.elo),
+        "elo_interval": _interval(one.elo_interval),
+        "l2_median": _number(one.error),
+        "l2_interval": _interval(one.error_interval),
+        "failures": one.failures,
+    }
+
+
+def _part(part: Part) -> dict[str, Any]:
+    ranks, errors = ([_number(value) for value in values] for values in (part.ranks, part.errors))
+    return {"name": part.name, "cases": part.cases, "ranks": ranks, "l2_medians": errors}
+
+
+def _interval(interval: tuple[float, float] | None) -> list[float | None] | None:
+    return None if interval is None else [_number(end) for end in interval]
+
+
+def _number(value: float) -> float | None:
+    """Nine digits, as the league keeps them."""
+    return float(f"{value:.9g}") if math.isfinite(value) else None
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,104 @@
+"""plots/make_paper.py: what stands in the LaTeX, and what is said without LaTeX; the PDF itself where LaTeX is installed."""
+
+from __future__ import annotations
+
+import contextlib
+import io
+import os
+import shutil
+import sys
+import tempfile
+import unittest
+from pathlib import Path
+from unittest import mock
+
+PLOTS = Path(__file__).resolve().parent.parent / "plots"
+sys.path[:0] = [str(PLOTS), str(Path(__file__).parent)]
+
+import plot_samples  # noqa: E402
+
+import make_paper  # noqa: E402
+from records import load  # noqa: E402
+from run import Drawn  # noqa: E402
+from style import FULL_WIDTH, ONE_COLUMN, new_figure  # noqa: E402
+
+TABULAR = r"\begin{tabular}{lr}\toprule Method & ms \\ \midrule Polylidar & 1 \\ \bottomrule\end{tabular}"
+
+
+def table(columns: int) -> dict:
+    cell = {"text": "1"}
+    return {
+        "id": "t",
+        "caption": "Times of 100 %",
+        "columns": [{}] * columns,
+        "rows": [[cell] * columns],
+        "remarks": ["Slow & sure."],
+    }
+
+
+class Paper(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls) -> None:
+        temporary = tempfile.TemporaryDirectory()
+        cls.addClassCleanup(temporary.cleanup)
+        cls.folder = plot_samples.write_suite(Path(temporary.name) / "suite", {"steps": plot_samples.suite()["steps"]})
+        cls.experiments = load(cls.folder)
+
+    def run_it(self, **environment: str) -> tuple[int, str]:
+        err = io.StringIO()
+        with mock.patch.dict(os.environ, environment), contextlib.redirect_stderr(err), contextlib.redirect_stdout(
+            io.StringIO()
+        ):
+            with mock.patch.object(make_paper, "NAMES", ("steps", "alphabet")):
+                code = make_paper.main([str(self.folder), "--out", str(self.folder / "paper.pdf")])
+        return code, err.getvalue()
+
+    def test_captions_say_what_was_measured_where(self) -> None:
+        one = Drawn("steps", new_figure(FULL_WIDTH, 50), "Time of 50 % of <all> steps τ")
+        told = make_paper.document(self.experiments, self.folder, [one], [(table(2), self.tex())], {"alphabet": "no letters"})
+        report = self.experiments[0].report
+        for words in (
+            r"Time of 50\% of \textless{}all\textgreater{} steps $\tau$".replace(r"50\%", r"50 \%"),
+            rf"{len(self.experiments[0].rows)} runs of {report['repetitions']} repetitions",
+            make_paper.escaped(report["environment"]["cpu"]["model"]),
+            "Intervals are of 95",
+            "Not in this run: alphabet.",
+            r"Slow \& sure.",
+            TABULAR,
+        ):
+            self.assertIn(words, told)
+        self.assertEqual(told.count("repetitions, begun"), 3)  # at the beginning, of the figure and of the table
+
+    def tex(self) -> Path:
+        path = self.folder / "t.tex"
+        path.write_text(f"% a comment\n\\begin{{table}}{TABULAR}\\end{{table}}", encoding="utf-8")
+        return path
+
+    def test_a_figure_of_one_column_stays_in_it_and_a_wide_table_lies(self) -> None:
+        narrow = make_paper._figure(Drawn("f", new_figure(ONE_COLUMN, 50), ""), "")
+        self.assertIn(r"\begin{figure}\centering\fitted{\columnwidth}", narrow)
+        self.assertIn(r"\begin{figure*}", make_paper._figure(Drawn("f", new_figure(FULL_WIDTH, 50), ""), ""))
+        self.assertIn(r"\begin{sidewaystable*}", make_paper._table(table(30), TABULAR, ""))
+        self.assertIn(r"\begin{table*}", make_paper._table(table(9), TABULAR, ""))
+        self.assertIn(r"\begin{table}", make_paper._table(table(2), TABULAR, ""))
+
+    def test_every_letter_becomes_plain(self) -> None:
+        self.assertEqual(make_paper.escaped("a_b é ☃ 3 ≤ ∞"), r"a\_b e ? 3 $\leq$ $\infty$")
+
+    def test_without_latex_it_says_what_is_missing(self) -> None:
+        code, said = self.run_it(PATH="/nowhere")
+        self.assertEqual((code, len(said.splitlines())), (2, 1))
+        self.assertIn("texlive-latex-recommended", said)
+
+    @unittest.skipUnless(shutil.which(make_paper.PROGRAM), "LaTeX is not installed")
+    def test_the_pdf_is_made_and_a_fault_in_latex_is_told(self) -> None:
+        self.assertEqual(self.run_it(), (0, ""))
+        self.assertEqual((self.folder / "paper.pdf").read_bytes()[:5], b"%PDF-")
+        with mock.patch.object(make_paper, "_HEAD", r"\documentclass{article}\undefinedcommand"):
+            code, said = self.run_it()
+        self.assertEqual(code, 2)
+        self.assertIn("Undefined control sequence", said)
+
+
+if __name__ == "__main__":
+    unittest.main()
