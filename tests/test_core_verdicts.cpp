@@ -30,8 +30,8 @@ Measurements all_met() {
     double a_point = 100;
     if (benchmark.starts_with("regions/") || benchmark.starts_with("polygons/")) a_point = 5;
     if (benchmark.starts_with("concave_hull_2_threads/")) a_point = 50;
-    if (benchmark.starts_with("cgal_delaunay/")) a_point = 1000;
-    measurements[benchmark] = {{a_point * points_of(benchmark)}, 100.0};
+    if (benchmark.starts_with("cgal_delaunay/")) a_point = 3000;
+    measurements[benchmark] = {{a_point * points_of(benchmark)}, 40.0};
   }
   return measurements;
 }
@@ -104,7 +104,7 @@ TEST(CoreVerdicts, ExactlyTheLimitMeetsAGoal) {
                               {"concave_hull_2_threads/ca/64000", {{10}, {}}}};
   EXPECT_EQ(line_of(lower, "one thread / 2 threads, ca/64000").verdict, Verdict::kMet);
 
-  const Measurements memory = {{"concave_hull/ca/1000000", {{1}, 120.0}}};
+  const Measurements memory = {{"concave_hull/ca/1000000", {{1}, 45.0}}};
   EXPECT_EQ(line_of(memory, "peak bytes a point, ca/1000000").verdict, Verdict::kMet);
 }
 
@@ -115,7 +115,7 @@ TEST(CoreVerdicts, JustBelowALowerLimitMissesIt) {
 }
 
 TEST(CoreVerdicts, MemoryAboveTheLimitMissesIt) {
-  const Measurements measurements = {{"concave_hull/uniform/10000000", {{1}, 120.5}}};
+  const Measurements measurements = {{"concave_hull/uniform/10000000", {{1}, 45.5}}};
   EXPECT_EQ(line_of(measurements, "peak bytes a point, uniform/10000000").verdict, Verdict::kMissed);
 }
 

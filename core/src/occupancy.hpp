@@ -21,7 +21,7 @@ namespace polylidar::detail {
 /// cell and for rows.
 class Grid {
  public:
-  using Cell = std::uint64_t;
+  using Cell = std::size_t;
   static constexpr Cell kWordBits = 64;
   /// Rows above and below, and at most so many columns on either side, that may be looked at beyond the box.
   static constexpr Cell kMargin = 17;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <limits>
 #include <optional>
 #include <stdexcept>
 #include <utility>
@@ -117,7 +118,8 @@ Visit(Begin, OfPoint, End) -> Visit<Begin, OfPoint, End>;
 
 void Stream::choose_grid() {
   const Box& box = range_.box;
-  const double most_cells = 8 * stream_options_.most_map_bytes;
+  const double most_cells = std::min(8 * stream_options_.most_map_bytes,
+                                     static_cast<double>(std::numeric_limits<Grid::Cell>::max()) / 2);
   const double widest = detail::least_dropped_radius(limits_) * (1 - detail::kSafety);
   const double area = (box.max.x - box.min.x) * (box.max.y - box.min.y);
   double radius = std::min(widest, detail::kWidestInSpacings * std::sqrt(area / static_cast<double>(count_)));

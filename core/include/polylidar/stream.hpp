@@ -16,11 +16,11 @@ using TakePoints = std::function<void(std::span<const Point>)>;
 /// million: a file. It is called several times and gives the same points each time, in the same order.
 using PointSource = std::function<void(const TakePoints& take)>;
 
-/// How far a stream has come: which pass over the source, from 1 to `passes`, and how many points of it.
+/// How far a stream has come.
 struct StreamProgress {
-  int pass = 0;
-  int passes = 4;
-  std::uint64_t points = 0;
+  int pass = 0;              ///< which pass over the source, from 1 on
+  int passes = 4;            ///< of how many
+  std::uint64_t points = 0;  ///< of the source, in this pass
 };
 
 /// What of a stream is not in Options.
