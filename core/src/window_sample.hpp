@@ -18,7 +18,7 @@ namespace polylidar::detail {
 /// too, is there for sure; of wider ones some may be missing, and others be there instead.
 class WindowSample {
  public:
-  static constexpr std::size_t kWindows = 64;
+  static constexpr std::size_t kWindows = 48;
   /// From how many points on a sample is worth its time.
   static constexpr std::size_t kLeastPoints = std::size_t{1} << 15U;
 
