@@ -429,7 +429,7 @@ TEST(InteriorLeftOut, CanBeAskedAbout) {
   EXPECT_GT(extractor.statistics().triangulated_points, extractor.statistics().uncertain_points);
   EXPECT_LT(extractor.statistics().triangulated_points, points.size() / 3);
   EXPECT_EQ(way(points, testing::kConvexHull), Way::kInteriorLeftOut);
-  EXPECT_EQ(way(points, {}), Way::kWhole);
+  EXPECT_EQ(way(points, {}), Way::kFewPoints);
   EXPECT_EQ(extractor.statistics().triangulated_points, points.size());
   EXPECT_EQ(way(testing::uniform_points(1000, 1), {.alpha = 0.1}), Way::kFewPoints);
   EXPECT_EQ(way(points, {.alpha = 0.001}), Way::kTooSparse);

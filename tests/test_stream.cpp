@@ -111,6 +111,18 @@ TEST(Stream, PutsFewPointsIntoMemory) {
   EXPECT_TRUE(none.hull({}).polygons.empty());
 }
 
+TEST(Stream, PointsOnALineHaveNoShape) {
+  for (const Point& step : {Point{1, 0}, Point{0, 1}, Point{0, 0}}) {
+    Points points(70'000);
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      points[i] = {static_cast<double>(i) * step.x, static_cast<double>(i) * step.y};
+    }
+    const StreamedHull hull = MemorySource(points).hull({.alpha = 10});
+    EXPECT_TRUE(hull.polygons.empty());
+    EXPECT_EQ(hull.points, points.size());
+  }
+}
+
 TEST(Stream, TellsHowFarItHasCome) {
   MemorySource source(testing::uniform_points(70'000, 3), 7000);
   int calls = 0;

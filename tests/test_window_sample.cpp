@@ -108,6 +108,9 @@ TEST(WindowSample, IsNotForFewNorForUnevenPoints) {
   points = testing::uniform_points(60'000, 6);
   for (std::size_t i = 0; i < points.size(); i += 2) points[i] = {points[i].x / 10, points[i].y / 10};
   EXPECT_FALSE(looks(sample, points)) << "a dense corner";
+  points = testing::uniform_points(60'000, 7);
+  for (std::size_t i = 0; i < points.size(); i += 2) points[i] = {0.5, 0.5};
+  EXPECT_FALSE(looks(sample, points)) << "half of the points at one place";
 }
 
 }  // namespace

@@ -74,7 +74,7 @@ class AutomaticLimit {
   static constexpr std::size_t kMostBlocks = 4096;
 
   /// Chooses the sizes for the mesh of `builder` and `detail` > 0: by one limit for all places where
-  /// find_one() finds it, and else by blocks. O(n); of many triangles only a part is looked at.
+  /// find_one() finds it, and else by blocks. O(n); of many triangles blocks look at a part only.
   void choose(const DelaunayBuilder& builder, double detail, ThreadPool& pool,
               const AutomaticConstants& constants = {});
 

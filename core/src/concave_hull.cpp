@@ -91,7 +91,9 @@ bool Extractor::State::extract_part(std::span<const Point> given, const detail::
     statistics = interior.extract(given, range, given_limits, fill_single, steps, shape);
   } else {
     statistics = {Way::kWhole, given.size(), given.size(), given.size()};
-    if (range.scale_exponent != 0) return false;
+    if (given.size() < detail::WindowSample::kLeastPoints) statistics.way = Way::kFewPoints;
+    if (range.scale_exponent != 0) statistics.way = Way::kExtremeCoordinates;
+    if (statistics.way != Way::kWhole) return false;
     has_one_size = automatic_limit.find_one(given, range.box);
     if (!*has_one_size) return false;
     const double how_fine = given_options.detail;

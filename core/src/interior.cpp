@@ -255,12 +255,11 @@ bool InteriorPart::is_surely_whole(const Triangle& triangle) const {
                       (b.x * squared_c - c.x * squared_b) / twice_cross};
   const double radius = std::sqrt(squared_length(centre)) * grid_.cells_per_length();
   if (!(radius < kRadius)) return false;
-  const Point middle{triangle.a.x + centre.x, triangle.a.y + centre.y};
   constexpr double kSlack = 0x1p-6;  // of a cell, for all rounding
   constexpr double kMargin = Grid::kMargin;
   // From the margin's corner on, so that all is positive.
-  const double x = grid_.column(middle) + kMargin;
-  const double y = grid_.row(middle) + kMargin;
+  const double x = grid_.column(triangle.a) + centre.x * grid_.cells_per_length() + kMargin;
+  const double y = grid_.row(triangle.a) + centre.y * grid_.cells_per_length() + kMargin;
   const auto left = static_cast<Grid::Cell>(x - radius - kSlack);
   const auto width = static_cast<Grid::Cell>(x + radius + kSlack) - left + 1;
   const auto bottom = static_cast<Grid::Cell>(y - radius - kSlack);

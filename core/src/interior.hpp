@@ -57,7 +57,7 @@ void mark_reach(const Grid& grid, Grid::Cell cell, Bitmap& reached);
 /// With the points P and a radius r as in least_dropped_radius, all points are *uncertain* but those that are
 /// certified (certificate.hpp) for a radius a little below r. The part is every point within 2 r of an
 /// uncertain one. Its Delaunay triangulation has at the uncertain points the triangles of the whole one, and
-/// the filter drops no triangle of the whole one that has a corner that is certain.
+/// a filter by given limits drops no triangle of the whole one that has a corner that is certain.
 class InteriorPart {
  public:
   /// Chooses the part for a radius r > 0; returns why not where it does not pay, or where the claim cannot be

@@ -30,7 +30,7 @@ class Grid {
   static constexpr double kMostCells = 0x1p31;    ///< with the margin, where points keep theirs in 32 bits
 
   Grid() = default;
-  /// Over a box of finite extent; for grids that fit() says yes to.
+  /// Over a box of finite extent; for grids of which cell_count() is finite.
   Grid(const Box& box, double cells_per_length)
       : minimum_(box.min),
         cells_per_length_(cells_per_length),

@@ -282,7 +282,9 @@ void SizeFilter::fill_small_holes(const Mesh& mesh, const Point* vertices, const
     for (std::size_t next = 0; next < group_.size(); ++next) {
       const Index t = group_[next];
       twice_area += Triangle(mesh, vertices, t).twice_area();
-      if (is_enclosed && !has_wide) {
+      // Of what was dropped as a spike or a part nobody knows who does not meet it.
+      const Answer is_small = whole.ask(OneSizeRule(field.limit4_at(t)), t);
+      if (is_small != Answer::kYes && is_enclosed && !has_wide) {
         const Answer answer = whole.ask(not_wide(field, t), t);
         has_wide = answer != Answer::kYes;
         if (answer == Answer::kRoundingDecides) doubt_ = Way::kRoundingDecides;
@@ -300,7 +302,11 @@ void SizeFilter::fill_small_holes(const Mesh& mesh, const Point* vertices, const
       }
     }
     if (!is_enclosed) return;
-    if (has_wide && twice_area * static_cast<double>(border) >= field.least_hole * squared_sizes) return;
+    const double own = twice_area * static_cast<double>(border);
+    const double least = field.least_hole * squared_sizes;
+    constexpr double kRounding = 0x1p-30;  // the sums' order depends on how the mesh was built
+    if (has_wide && std::abs(own - least) <= kRounding * least) doubt_ = Way::kRoundingDecides;
+    if (has_wide && own >= least) return;
     changed_.insert(changed_.end(), group_.begin(), group_.end());
   });
   for (const Index t : changed_) keep(kept, t);

@@ -1,6 +1,7 @@
 // Which triangles belong to the shape where the limit is chosen: by size, and what chance makes goes.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <optional>
@@ -23,7 +24,7 @@ namespace polylidar::detail {
 ///   and noise make them.
 /// - A *part*, a region of fewer triangles than the field says, is dropped, unless all regions are.
 /// - A *hole*, dropped triangles that hang together and reach no edge of the convex hull, is filled where it
-///   is small, or has no wide triangle: chance makes such voids.
+///   is small, or has no wide triangle beyond the limit: chance makes such voids.
 class SizeFilter {
  public:
   using Index = Mesh::Index;

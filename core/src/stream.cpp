@@ -27,6 +27,10 @@ std::runtime_error has_changed() {
   return std::runtime_error("the source has other points than when it was read before");
 }
 
+std::invalid_argument too_much_outline() {
+  return std::invalid_argument("more than 2^28 points are near the outline: give a larger limit");
+}
+
 /// The points near the outline, by ascending number.
 struct Part {
   std::vector<Point> points;
@@ -165,6 +169,7 @@ void Stream::find_uncertain_points() {
   const auto end = [&] {
     for (const auto& of_chunk : found) {
       for (const auto& [number, cell] : of_chunk) {
+        if (uncertain_.size() == kMaxPoints) throw too_much_outline();
         uncertain_.push_back(number);
         if (cells.empty() || cells.back() != cell) cells.push_back(cell);
       }
@@ -195,9 +200,7 @@ void Stream::gather() {
         part_.is_uncertain.push_back(is_uncertain ? 1 : 0);
       }
     }
-    if (part_.points.size() > kMaxPoints) {
-      throw std::invalid_argument("more than 2^28 points are near the outline: give a larger limit");
-    }
+    if (part_.points.size() > kMaxPoints) throw too_much_outline();
   };
   pass_over_cells(Visit{begin, look, end});
   if (next != uncertain_.end()) throw has_changed();
@@ -232,15 +235,17 @@ StreamedHull Stream::extract_in_memory(const Options& options) {
   std::vector<Point> points;
   progress_.passes = 2;
   pass([&](std::span<const Point> block, std::uint64_t) {
+    if (points.size() + block.size() > count_) throw has_changed();
     points.insert(points.end(), block.begin(), block.end());
   });
   if (points.size() != count_) throw has_changed();
-  const IndexedMultiPolygon shape = concave_hull(points, options);
+  Extractor extractor;
+  const IndexedMultiPolygon& shape = extractor.extract(points, options);
   StreamedHull hull;
   hull.polygons = to_coordinates(shape, points);
   hull.vertices.assign(shape.vertices.begin(), shape.vertices.end());
   hull.points = count_;
-  hull.triangulated_points = count_;
+  hull.triangulated_points = extractor.statistics().triangulated_points;
   return hull;
 }
 
@@ -257,6 +262,12 @@ StreamedHull Stream::extract(const Options& options) {
   range_ = range.range();
   if (range_.scale_exponent != 0) {
     throw std::invalid_argument("coordinates as large or as small as these cannot be streamed: scale them");
+  }
+  const Box& box = range_.box;
+  if (box.min.x == box.max.x || box.min.y == box.max.y) {  // points on a line
+    StreamedHull none;
+    none.points = count_;
+    return none;
   }
   choose_grid();
   find_uncertain_cells();

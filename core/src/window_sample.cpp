@@ -31,12 +31,10 @@ bool WindowSample::look(std::span<const Point> points, const Box& box, double mo
   const double spacing = 1 / (cells_per_length_ * std::sqrt(in_cell));
   const double half_side = (kHalfInner + kMargin) * spacing;
   place_windows(points.size(), half_side);
-  gather(points, half_side);
-  std::size_t gathered = 0;
-  for (const Window& window : windows_) gathered += window.points.size();
   const double usual = 4 * half_side * half_side / (spacing * spacing);
-  if (static_cast<double>(gathered) > kMostPointsOfUsual * static_cast<double>(kWindows) * usual)
-    return false;
+  const auto most = static_cast<std::size_t>(kMostPointsOfUsual * static_cast<double>(kWindows) * usual);
+  const std::size_t gathered = gather(points, half_side, most);
+  if (gathered > most) return false;
 
   margin_ = kMargin * spacing;
   window_ends_.clear();
@@ -100,7 +98,7 @@ void WindowSample::place_windows(std::size_t points, double half_side) {
   std::size_t cell = 0;
   std::size_t counted = counts_[0];
   for (std::size_t w = 0; w < kWindows; ++w) {
-    const std::size_t rank = points * (2 * w + 1) / (2 * kWindows);
+    const std::uint64_t rank = std::uint64_t{points} * (2 * w + 1) / (2 * kWindows);
     while (counted <= rank) counted += counts_[++cell];
     Window& window = windows_[w];
     window.points.clear();
@@ -117,7 +115,9 @@ void WindowSample::place_windows(std::size_t points, double half_side) {
   }
 }
 
-void WindowSample::gather(std::span<const Point> points, double half_side) {
+/// Returns how many points were put into windows; ends where that is more than `most`.
+std::size_t WindowSample::gather(std::span<const Point> points, double half_side, std::size_t most) {
+  std::size_t gathered = 0;
   for (const Point& p : points) {
     std::uint64_t windows = windows_of_cell_[row(p.y) * columns_ + column(p.x)];
     for (; windows != 0; windows &= windows - 1) {
@@ -125,8 +125,10 @@ void WindowSample::gather(std::span<const Point> points, double half_side) {
       if (std::abs(p.x - window.centre.x) > half_side || std::abs(p.y - window.centre.y) > half_side)
         continue;
       window.points.push_back(p);
+      if (++gathered > most) return gathered;
     }
   }
+  return gathered;
 }
 
 /// Appends the window's triangles, and leaves in it the points that are no repeats.

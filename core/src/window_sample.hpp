@@ -13,8 +13,8 @@
 namespace polylidar::detail {
 
 /// Squares at places that are drawn by the number of points there, each with the points in it and in a margin
-/// round it. A triangle counts to the window in which its circumcentre lies, so that no size is counted more
-/// often than another. A triangle whose circle is no wider than the margin, one of all points' triangulation
+/// round it. A triangle counts to the window in which its circumcentre lies, so that no size has a better
+/// chance than another. A triangle whose circle is no wider than the margin, one of all points' triangulation
 /// too, is there for sure; of wider ones some may be missing, and others be there instead.
 class WindowSample {
  public:
@@ -30,8 +30,8 @@ class WindowSample {
 
   /// Looks at `points`, whose box is `box`. Returns false where their density differs from place to place by
   /// more than `most_spread` (standard deviation of the logarithm of the spacing) and chance: then there is
-  /// nothing to look at. The same for any order of the points, and for other places and units but for
-  /// rounding. O(n), a pass or two.
+  /// nothing to look at; nor is there of fewer than kLeastPoints. The same for any order of the points, and
+  /// for other places and units but for rounding. O(n), a pass or two.
   bool look(std::span<const Point> points, const Box& box, double most_spread);
 
   /// After look() said yes: window -> one past its last triangle in triangles(). Of some windows there may be
@@ -52,7 +52,7 @@ class WindowSample {
   bool count_cells(std::span<const Point> points, const Box& box);
   double usual_count(double most_spread);
   void place_windows(std::size_t points, double half_side);
-  void gather(std::span<const Point> points, double half_side);
+  std::size_t gather(std::span<const Point> points, double half_side, std::size_t most);
   void measure(Window& window, double half_inner);
 
   std::uint32_t column(double x) const {

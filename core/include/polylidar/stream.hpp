@@ -45,14 +45,15 @@ struct StreamedHull {
 
 /// The concave hull of all points of `source`, which is read four times: where they are, which cells of a
 /// grid they occupy, which of them may be on the outline, and which are near these (core/INTERIOR.md).
-/// Memory: some bits a cell of a sixth of the limit's radius, and 110 bytes a point near the outline.
+/// Memory: some bits a cell of a sixth of the limit's radius, and 125 bytes a point near the outline.
 ///
 /// The result is that of concave_hull() for the same points in memory, with one exception: where two
 /// different points are closer than 2^-40 of `alpha`, rounding may there drop slivers that are kept here. Up
 /// to 65,536 points are put into memory; of more, `options` must give a limit. At most 2^28 points may be
 /// near the outline.
 ///
-/// Throws std::invalid_argument as concave_hull; where no limit is given; where it is too small for the
+/// Throws std::invalid_argument as concave_hull; where coordinates would have to be scaled (see Extractor);
+/// where no limit is given; where it is too small for the
 /// distances between the points, so that the maps would be too large or too much is near the outline; or
 /// where the rounding of a triangle's size decides whether it is kept (a slightly different limit helps).
 /// std::runtime_error where the source gives other points than the time before; and what the source throws.

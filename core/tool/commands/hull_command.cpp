@@ -111,6 +111,7 @@ class HullRun {
     PointFileOptions options = point_options(command_.shape);
     options.format = point_format_of(command_.input_format).value_or(PointFormat::kAuto);
     options.columns = command_.columns;
+    options.on_progress = [](std::uint64_t, std::optional<std::uint64_t>) { throw_if_interrupted(); };
     const PointSource source = [&](const TakePoints& take) {
       options.take_points = take;
       try {

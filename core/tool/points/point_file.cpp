@@ -152,7 +152,7 @@ void read_projection_beside(const std::string& path, PointFile& file) {
   if (const std::optional<Crs> crs = crs_of_wkt(text)) file.crs = *crs;
 }
 
-/// LAS and text take points as they come; others have been read whole.
+/// LAS, text and what is streamed take points as they come; others have been read whole.
 void keep_window(const Box& window, PointFile& file) {
   std::erase_if(file.points, [&](const Point& p) { return !point_files::is_inside(p, window); });
 }

@@ -1,6 +1,7 @@
 // One reader a format; see PointFormat for what each takes.
 #pragma once
 
+#include <cstddef>
 #include <vector>
 
 #include "polylidar/geometry.hpp"
