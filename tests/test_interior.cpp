@@ -259,10 +259,13 @@ TEST(InteriorLeftOut, GivesTheShapesOfTheDefault) {
   Extractor extractor;
   Extractor steps;
   WayCounts counts;
-  for (std::uint64_t seed = 0; seed < 3 * samplers().size(); ++seed) {
+  WayCounts counts_of_few;
+  for (std::uint64_t seed = 0; seed < 6 * samplers().size(); ++seed) {
     Random random(seed);
     const Sampler& sampler = samplers()[seed % samplers().size()];
-    Points points = sample(sampler, 33'000 + random.below(60'000), random);
+    const bool are_few = seed / samplers().size() % 2 == 1;
+    const std::size_t count = are_few ? 7'500 + random.below(25'500) : 33'000 + random.below(60'000);
+    Points points = sample(sampler, count, random);
     move(points, random);
     Options options{.detail = std::array{0.5, 1.0, 1.0, 1.0, 1.5}[random.below(5)],
                     .threads = std::array{1U, 1U, 2U, 3U}[random.below(4)]};
@@ -275,14 +278,16 @@ TEST(InteriorLeftOut, GivesTheShapesOfTheDefault) {
     EXPECT_EQ(extractor.extract(points, options), whole);
     EXPECT_EQ(extractor.chosen_sizes(), steps.chosen_sizes());
     EXPECT_EQ(extractor.limits(), Limits{});
-    ++counts[extractor.statistics().way];
+    ++(are_few ? counts_of_few : counts)[extractor.statistics().way];
     if (extractor.statistics().way != Way::kInteriorLeftOut) continue;
     EXPECT_EQ(extractor.count_triangles(), steps.count_triangles());
     EXPECT_LT(extractor.statistics().triangulated_points, points.size() / 2);
   }
   for (const auto& [way, count] : counts) {
-    std::cout << "way of the default " << static_cast<int>(way) << ": " << count << '\n';
+    std::cout << "way of the default " << static_cast<int>(way) << ": " << count << ", of few points "
+              << counts_of_few[way] << '\n';
   }
+  EXPECT_GT(counts_of_few[Way::kInteriorLeftOut], 4U);
   EXPECT_GT(counts[Way::kInteriorLeftOut], 8U);
   EXPECT_GT(counts[Way::kWhole], 3U);
 }
@@ -429,8 +434,9 @@ TEST(InteriorLeftOut, CanBeAskedAbout) {
   EXPECT_GT(extractor.statistics().triangulated_points, extractor.statistics().uncertain_points);
   EXPECT_LT(extractor.statistics().triangulated_points, points.size() / 3);
   EXPECT_EQ(way(points, testing::kConvexHull), Way::kInteriorLeftOut);
-  EXPECT_EQ(way(points, {}), Way::kFewPoints);
-  EXPECT_EQ(extractor.statistics().triangulated_points, points.size());
+  EXPECT_EQ(way(points, {}), Way::kInteriorLeftOut);
+  EXPECT_EQ(way(testing::uniform_points(7'000, 1), {}), Way::kFewPoints);
+  EXPECT_EQ(extractor.statistics().triangulated_points, 7'000U);
   EXPECT_EQ(way(testing::uniform_points(1000, 1), {.alpha = 0.1}), Way::kFewPoints);
   EXPECT_EQ(way(points, {.alpha = 0.001}), Way::kTooSparse);
   EXPECT_EQ(way(points, {.alpha = 0}), Way::kTooSparse);

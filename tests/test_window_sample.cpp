@@ -42,7 +42,7 @@ TEST(WindowSample, HasTrianglesOfTheWholeTriangulation) {
   WindowSample sample;
   const Points points = testing::uniform_points(50'000, 1);
   ASSERT_TRUE(looks(sample, points));
-  ASSERT_EQ(sample.window_ends().size(), WindowSample::kWindows);
+  ASSERT_EQ(sample.window_ends().size(), WindowSample::kMostWindows);
   EXPECT_EQ(sample.window_ends().back(), sample.triangles().size());
   EXPECT_GT(sample.triangles().size(), 3000U);
   EXPECT_LT(sample.triangles().size(), 8000U);
@@ -57,6 +57,19 @@ TEST(WindowSample, HasTrianglesOfTheWholeTriangulation) {
     ASSERT_TRUE(next != areas.end() && *next <= one.twice_area + rounding) << one.twice_area;
   }
   EXPECT_GT(narrow, 0.99 * static_cast<double>(sample.triangles().size()));
+}
+
+TEST(WindowSample, HasFewWindowsOfFewPoints) {
+  WindowSample sample;
+  ASSERT_TRUE(looks(sample, testing::uniform_points(8'000, 1)));
+  EXPECT_EQ(sample.window_ends().size(), 12U);
+  ASSERT_TRUE(looks(sample, testing::uniform_points(20'000, 1)));
+  EXPECT_EQ(sample.window_ends().size(), 31U);
+  // Strips, of which little more than half lies well inside.
+  Points points = testing::uniform_points(20'000, 2);
+  std::erase_if(points, [](const Point& p) { return std::fmod(p.y, 0.3) > 0.15; });
+  ASSERT_GT(points.size(), WindowSample::kLeastPoints);
+  EXPECT_FALSE(looks(sample, points));
 }
 
 // Counted by their circumcentres, triangles have in the windows the sizes that they have in the whole.

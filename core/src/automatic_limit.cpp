@@ -318,11 +318,13 @@ bool AutomaticLimit::find_one(std::span<const Point> points, const Box& box,
     }
     begin = end;
   }
-  if (logs.size() < WindowSample::kWindows / 2) return false;
+  if (logs.size() < windows_.window_ends().size() / 2) return false;
   const double median = quantile_of(logs, 0.5);
-  // Windows are fewer than blocks, and have fewer triangles in each: 1 in 600 uniform sets is beyond.
-  constexpr double kOfWindows = 1.15;
-  if (!(robust_deviation(logs, median) <= kOfWindows * constants.noise)) return false;
+  // Windows are fewer than blocks, and have fewer triangles in each: 1 in 600 uniform sets is beyond. The
+  // fewer there are, the less sure is their deviation.
+  const double of_windows = 1.15 * std::sqrt(std::sqrt(static_cast<double>(WindowSample::kMostWindows) /
+                                                       static_cast<double>(windows_.window_ends().size())));
+  if (!(robust_deviation(logs, median) <= of_windows * constants.noise)) return false;
   points_ = windows_.distinct_share() * static_cast<double>(points.size());
   wide_radius_ = std::exp(median) * least_wide_radius(points_);
   if (!(wide_radius_ <= windows_.margin())) return false;

@@ -79,7 +79,7 @@ std::optional<Way> InteriorPart::choose(std::span<const Point> points, const Coo
     return Way::kClosePoints;
   }
   find_uncertain_points(points, pool);
-  mark_reach(kHalfWidths);  // 2 r
+  mark_reach();
   gather(points, pool);
   const double most = guard.most_triangulated * static_cast<double>(points.size());
   if (static_cast<double>(points_.size()) > most) return Way::kMuchOutline;
@@ -104,7 +104,9 @@ double InteriorPart::choose_grid(std::span<const Point> points, const Box& box, 
 void InteriorPart::fill_cells(std::span<const Point> points, bool with_shared, ThreadPool& pool) {
   std::uint32_t* const cells = cells_.reserve(points.size());
   const std::size_t words = grid_.word_count();
-  const std::size_t parts = pool.threads();
+  // Each has a bitmap of the whole grid: of many threads not all take part.
+  constexpr std::size_t kMostParts = 8;
+  const std::size_t parts = std::min<std::size_t>(pool.threads(), kMostParts);
   while (fills_.size() < parts) fills_.emplace_back();
   pool.for_each(parts, [&](std::size_t part) {
     auto& [occupied, shared] = fills_[part];
@@ -202,6 +204,11 @@ void InteriorPart::reach_farther(std::span<const Point> points, ThreadPool& pool
   gather(points, pool);
 }
 
+/// As far as 2 r.
+void InteriorPart::mark_reach() {
+  mark_reach(kHalfWidths);
+}
+
 /// Marks the cells that are so near to the cell of an uncertain point.
 void InteriorPart::mark_reach(std::span<const unsigned> half_widths) {
   reached_.clear(grid_.word_count());
@@ -294,7 +301,7 @@ Statistics InteriorPath::extract(std::span<const Point> points, const Coordinate
     const SizeField& field = choose_field(is_tested_.data());
     // Where corners are as close as rounding matters, a triangle has no larger size than `radius`. It must
     // not be asked whether it is wide, so it must not be dropped.
-    if (field.limit4.front() < radius * radius * radius * radius * (1 + kSafety)) return Way::kClosePoints;
+    if (field.limit4.front() < radius * radius * radius * radius * (1 + kSafety)) return Way::kSmallLimit;
     return steps.filter.run_on_part(steps.builder.mesh(), steps.builder.vertices(), is_tested_.data(), field,
                                     is_sure, fill_single, steps.pool, steps.boundary);
   };
@@ -334,6 +341,7 @@ Statistics InteriorPath::extract_part(std::span<const Point> points, const Coord
   }
   std::optional<Way> whole = filter_part(range, steps, filter);
   if (whole == Way::kReachesFar) {
+    // However large it is then: it is cheaper than all points.
     part_.reach_farther(points, steps.pool);
     whole = filter_part(range, steps, filter);
   }

@@ -80,16 +80,21 @@ class InteriorPart {
   std::span<const std::uint8_t> is_uncertain() const { return is_uncertain_; }
   std::size_t uncertain_count() const { return uncertain_.size(); }
 
+  // The steps of choose() that look at all points or cells, in their order. After choose(), each may be
+  // repeated, which is how it is measured alone; for find_uncertain_points() the step before it is to be
+  // repeated first.
+  void fill_cells(std::span<const Point> points, bool with_shared, ThreadPool& pool);
+  void find_uncertain_cells(ThreadPool& pool);
+  void find_uncertain_points(std::span<const Point> points, ThreadPool& pool);
+  void mark_reach();
+  void gather(std::span<const Point> points, ThreadPool& pool);
+
  private:
   double choose_grid(std::span<const Point> points, const Box& box, double radius,
                      const InteriorGuard& guard);
-  void fill_cells(std::span<const Point> points, bool with_shared, ThreadPool& pool);
   double share_of_uncertain(std::span<const Point> points) const;
   double share_of_part(std::span<const Point> points) const;
-  void find_uncertain_cells(ThreadPool& pool);
-  void find_uncertain_points(std::span<const Point> points, ThreadPool& pool);
   void mark_reach(std::span<const unsigned> half_widths);
-  void gather(std::span<const Point> points, ThreadPool& pool);
   Bitmap& occupied() { return fills_.front().occupied; }
   const Bitmap& occupied() const { return fills_.front().occupied; }
   Bitmap& shared() { return fills_.front().shared; }
@@ -105,7 +110,7 @@ class InteriorPart {
 
   Grid grid_;
   Scratch<std::uint32_t> cells_;  ///< point -> its cell
-  std::deque<Fill> fills_;        ///< of each thread; at last the first is that of all
+  std::deque<Fill> fills_;        ///< of each part of the points; at last the first is that of all
   std::vector<Chunk> chunks_;     ///< what was found in each chunk of the points
   Bitmap uncertain_cells_;
   Bitmap reached_;  ///< cells of the part

@@ -84,8 +84,8 @@ std::optional<Way> RegionFilter::run_on_part(Mesh& mesh, const Point* vertices, 
                         };
                         std::apply([&](const auto&... choice) { std::visit(filter_by, choice...); }, rules);
                       });
-  find_boundary(mesh, fill_single, pool, kept, boundary);
   if (!agree) return Way::kRoundingDecides;
+  find_boundary(mesh, fill_single, pool, kept, boundary);
   return std::nullopt;
 }
 
@@ -102,7 +102,7 @@ std::optional<Way> RegionFilter::run_on_part(Mesh& mesh, const Point* vertices, 
                                              std::vector<Index>& boundary) {
   std::uint64_t* kept = mesh.reserve_kept();
   const std::optional<Way> doubt = size_filter_.run_on_part(mesh, vertices, is_tested, field, is_sure, kept);
-  find_boundary(mesh, fill_single, pool, kept, boundary);
+  if (!doubt) find_boundary(mesh, fill_single, pool, kept, boundary);
   return doubt;
 }
 

@@ -282,9 +282,9 @@ void SizeFilter::fill_small_holes(const Mesh& mesh, const Point* vertices, const
     for (std::size_t next = 0; next < group_.size(); ++next) {
       const Index t = group_[next];
       twice_area += Triangle(mesh, vertices, t).twice_area();
-      // Of what was dropped as a spike or a part nobody knows who does not meet it.
-      const Answer is_small = whole.ask(OneSizeRule(field.limit4_at(t)), t);
-      if (is_small != Answer::kYes && is_enclosed && !has_wide) {
+      // Only triangles that are too large count: one that was dropped as a spike or with a small part may lie
+      // where a part of the mesh was not built.
+      if (is_enclosed && !has_wide && whole.ask(OneSizeRule(field.limit4_at(t)), t) != Answer::kYes) {
         const Answer answer = whole.ask(not_wide(field, t), t);
         has_wide = answer != Answer::kYes;
         if (answer == Answer::kRoundingDecides) doubt_ = Way::kRoundingDecides;

@@ -15,6 +15,12 @@ namespace {
 /// So many points are in a cell on average, and there are at most so many cells.
 constexpr double kPointsInCell = 16;
 constexpr double kMostCells = 16384;
+/// Of fewer points windows hold a good part: they pay only where at least this share lies well inside.
+constexpr std::size_t kManyPoints = std::size_t{1} << 15U;
+constexpr double kLeastShareInside = 0.7;
+/// Points for one window, and the fewest windows that tell whether they differ.
+constexpr std::size_t kPointsForWindow = 640;
+constexpr std::size_t kFewestWindows = 12;
 /// Half the side of a window, and its margin, in spacings of the points.
 constexpr double kHalfInner = 3;
 constexpr double kMargin = 3;
@@ -26,13 +32,14 @@ constexpr double kMostPointsOfUsual = 2;
 
 bool WindowSample::look(std::span<const Point> points, const Box& box, double most_spread) {
   if (points.size() < kLeastPoints || !count_cells(points, box)) return false;
-  const double in_cell = usual_count(most_spread);
+  const double in_cell = usual_count(points.size(), most_spread);
   if (in_cell == 0) return false;
   const double spacing = 1 / (cells_per_length_ * std::sqrt(in_cell));
   const double half_side = (kHalfInner + kMargin) * spacing;
-  place_windows(points.size(), half_side);
+  const std::size_t windows = std::clamp(points.size() / kPointsForWindow, kFewestWindows, kMostWindows);
+  place_windows(points.size(), windows, half_side);
   const double usual = 4 * half_side * half_side / (spacing * spacing);
-  const auto most = static_cast<std::size_t>(kMostPointsOfUsual * static_cast<double>(kWindows) * usual);
+  const auto most = static_cast<std::size_t>(kMostPointsOfUsual * static_cast<double>(windows) * usual);
   const std::size_t gathered = gather(points, half_side, most);
   if (gathered > most) return false;
 
@@ -67,8 +74,9 @@ bool WindowSample::count_cells(std::span<const Point> points, const Box& box) {
 
 /// How many points a cell inside the shape usually has; 0 where the numbers differ by too much, or there are
 /// too few such cells to tell.
-double WindowSample::usual_count(double most_spread) {
+double WindowSample::usual_count(std::size_t points, double most_spread) {
   scratch_.clear();
+  std::size_t inside = 0;
   for (std::uint32_t r = 1; r + 1 < rows_; ++r) {
     for (std::uint32_t c = 1; c + 1 < columns_; ++c) {
       const std::uint32_t* const own = &counts_[r * columns_ + c];
@@ -78,10 +86,14 @@ double WindowSample::usual_count(double most_spread) {
       if (above[-1] == 0 || above[0] == 0 || above[1] == 0) continue;
       if (below[-1] == 0 || below[0] == 0 || below[1] == 0) continue;
       scratch_.push_back(std::log(static_cast<double>(own[0])));
+      inside += own[0];
     }
   }
   constexpr std::size_t kFew = 256;
-  if (scratch_.size() < kFew) return 0;
+  const bool are_enough = points < kManyPoints
+                              ? static_cast<double>(inside) >= kLeastShareInside * static_cast<double>(points)
+                              : scratch_.size() >= kFew;
+  if (!are_enough) return 0;
   const double middle = quantile_of(scratch_, 0.5);
   const double usual = std::exp(middle);
   // A number of points is the inverse square of the spacing; chance alone makes numbers differ by a root of
@@ -92,13 +104,13 @@ double WindowSample::usual_count(double most_spread) {
 }
 
 /// At the middles of the cells in which points of evenly spaced ranks lie, counted cell by cell.
-void WindowSample::place_windows(std::size_t points, double half_side) {
-  windows_.resize(kWindows);
+void WindowSample::place_windows(std::size_t points, std::size_t windows, double half_side) {
+  windows_.resize(windows);
   windows_of_cell_.assign(counts_.size(), 0);
   std::size_t cell = 0;
   std::size_t counted = counts_[0];
-  for (std::size_t w = 0; w < kWindows; ++w) {
-    const std::uint64_t rank = std::uint64_t{points} * (2 * w + 1) / (2 * kWindows);
+  for (std::size_t w = 0; w < windows; ++w) {
+    const std::uint64_t rank = std::uint64_t{points} * (2 * w + 1) / (2 * windows);
     while (counted <= rank) counted += counts_[++cell];
     Window& window = windows_[w];
     window.points.clear();

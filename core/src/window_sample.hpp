@@ -18,9 +18,10 @@ namespace polylidar::detail {
 /// too, is there for sure; of wider ones some may be missing, and others be there instead.
 class WindowSample {
  public:
-  static constexpr std::size_t kWindows = 48;
+  /// Of few points there are fewer, as each costs as much.
+  static constexpr std::size_t kMostWindows = 48;
   /// From how many points on a sample is worth its time.
-  static constexpr std::size_t kLeastPoints = std::size_t{1} << 15U;
+  static constexpr std::size_t kLeastPoints = 7'500;
 
   struct Measured {
     double size4;           ///< fourth power of the triangle's size
@@ -30,8 +31,8 @@ class WindowSample {
 
   /// Looks at `points`, whose box is `box`. Returns false where their density differs from place to place by
   /// more than `most_spread` (standard deviation of the logarithm of the spacing) and chance: then there is
-  /// nothing to look at; nor is there of fewer than kLeastPoints. The same for any order of the points, and
-  /// for other places and units but for rounding. O(n), a pass or two.
+  /// nothing to look at; nor is there of fewer than kLeastPoints, or of few whose outline is long. The same
+  /// for any order of the points, and for other places and units but for rounding. O(n), a pass or two.
   bool look(std::span<const Point> points, const Box& box, double most_spread);
 
   /// After look() said yes: window -> one past its last triangle in triangles(). Of some windows there may be
@@ -50,8 +51,8 @@ class WindowSample {
   };
 
   bool count_cells(std::span<const Point> points, const Box& box);
-  double usual_count(double most_spread);
-  void place_windows(std::size_t points, double half_side);
+  double usual_count(std::size_t points, double most_spread);
+  void place_windows(std::size_t points, std::size_t windows, double half_side);
   std::size_t gather(std::span<const Point> points, double half_side, std::size_t most);
   void measure(Window& window, double half_inner);
 

@@ -126,6 +126,7 @@ enum class Way : std::uint8_t {
   kMuchOutline,         ///< all points were: most of them are near an outline
   kClosePoints,         ///< all points were: two may be so close that the rounding of circumradii decides
   kRoundingDecides,     ///< all points were: the rounding of a triangle's size decides whether it is kept
+  kSmallLimit,          ///< all points were: the limit that was chosen is too small for what was triangulated
   kReachesFar,          ///< all points were: what is dropped reaches beyond what would be triangulated
 };
 
