@@ -32,12 +32,11 @@ TEST(CrsText, TheHorizontalSystem) {
                        R"(CS[Cartesian,2],ID["EPSG",25832]])"),
             (Crs{25832, false, true}));
   EXPECT_EQ(crs_of_wkt(R"(GEOGCRS["g",CS[ellipsoidal,2],ID["EPSG",4979]])"), (Crs{4979, true, true}));
-  EXPECT_EQ(crs_of_wkt(R"(PROJCS["World_Mollweide",GEOGCS["GCS_WGS_1984"]])"), (Crs{0, false, true}))
-      << "Esri's";
-  EXPECT_EQ(
-      crs_of_wkt(R"(PROJCS["p",GEOGCS["g",AUTHORITY["EPSG","4258"]],UNIT["m",1,AUTHORITY["EPSG","9001"]]])"),
-      (Crs{0, false, true}))
-      << "that of what is inside is not its own";
+  const char* const esris = R"(PROJCS["World_Mollweide",GEOGCS["GCS_WGS_1984"]])";
+  EXPECT_EQ(crs_of_wkt(esris), (Crs{0, false, true, esris})) << "Esri's";
+  const char* const inside =
+      R"(PROJCS["p",GEOGCS["g",AUTHORITY["EPSG","4258"]],UNIT["m",1,AUTHORITY["EPSG","9001"]]])";
+  EXPECT_EQ(crs_of_wkt(inside), (Crs{0, false, true, inside})) << "that of what is inside is not its own";
   EXPECT_EQ(crs_of_wkt(R"( GEOGCS [ "a [ , ] b" , AUTHORITY [ "EPSG" , "4269" ] ] )"),
             (Crs{4269, true, true}));
   for (const char* none : {"", "LOCAL_CS[\"x\"]", "]]]", "[[[[", "x,y\n1,2\n", "\"", "PROJCS"}) {
@@ -60,7 +59,7 @@ TEST(CrsText, KnownNamesHaveNumbers) {
   }
   EXPECT_EQ(crs_of_wkt(R"(GEOGCS["GCS_WGS_1984",DATUM["D_WGS_1984"]])"), (Crs{4326, true, true}));
   EXPECT_EQ(crs_of_wkt(R"(GEOGCS["GCS_North_American_1983"])"), (Crs{4269, true, true}));
-  EXPECT_EQ(crs_of_wkt(R"(GEOGCS["GCS_Bessel"])"), (Crs{0, true, true}));
+  EXPECT_EQ(crs_of_wkt(R"(GEOGCS["GCS_Bessel"])"), (Crs{0, true, true, R"(GEOGCS["GCS_Bessel"])"}));
 }
 
 TEST(Degrees, AreMetresOnASphere) {
@@ -74,6 +73,19 @@ TEST(Degrees, AreMetresOnASphere) {
   EXPECT_EQ(middle_latitude(degrees, {}), std::nullopt);
   const std::vector<Point> projected = {{500000, 5600000}, {500100, 5600000}, {500000, 5600100}};
   EXPECT_EQ(middle_latitude(degrees, projected), std::nullopt) << "GeoJSON that is none";
+}
+
+TEST(Degrees, ComeBackToTheLastBit) {
+  const std::vector<Point> points = {{10.1, 50.3}, {11.7, 50.2}, {11.3, 51.9}, {10.2, 51.1}};
+  const Polygon square = {points, {{points[0], points[1], points[2]}}};
+  const std::vector<Point> metres = to_metres(points, 51);
+  const MultiPolygon in_metres = {{metres, {{metres[0], metres[1], metres[2]}}}};
+  EXPECT_EQ(to_degrees(in_metres, points, 51), MultiPolygon{square});
+  const MultiPolygon of_others = to_degrees(in_metres, {}, 51);
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    EXPECT_NEAR(of_others[0].shell[i].x, points[i].x, 1e-12);
+    EXPECT_NEAR(of_others[0].shell[i].y, points[i].y, 1e-12);
+  }
 }
 
 }  // namespace

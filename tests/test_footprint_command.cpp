@@ -7,6 +7,7 @@
 #include <random>
 
 #include "tests/las_file.hpp"
+#include "tests/point_file_texts.hpp"
 #include "tests/program.hpp"
 #include "tests/temporary_folder.hpp"
 
@@ -15,6 +16,7 @@ namespace {
 
 namespace fs = std::filesystem;
 using nlohmann::json;
+using polylidar::Point;
 using testing::expect_refusal;
 using testing::LasFile;
 using testing::Outcome;
@@ -146,6 +148,185 @@ TEST_F(FootprintCommandTest, UsageErrors) {
   expect_refusal(footprint({whole, "--out", "/nowhere/index.geojson"}), 1,
                  "cannot write /nowhere/index.geojson");
 }
+
+class FootprintUnionTest : public FootprintCommandTest {
+ protected:
+  /// Tiles side by side; all their points in `all_`.
+  std::vector<std::string> tiles(int count) {
+    std::vector<std::string> files;
+    for (int column = 0; column < count; ++column) {
+      const LasFile las = tile(column);
+      for (const Point& p : las.places()) all_.push_back(p);
+      files.push_back(file("tile_" + std::to_string(column) + ".las", las.text()));
+    }
+    return files;
+  }
+  static Outcome unite(std::vector<std::string> files, const std::vector<std::string>& options = {}) {
+    files.emplace_back("--union");
+    files.insert(files.end(), options.begin(), options.end());
+    return footprint(files);
+  }
+  /// The one feature.
+  static json feature_of(const Outcome& outcome) {
+    const json index = json::parse(outcome.out);
+    EXPECT_EQ(index["features"].size(), 1U);
+    return index["features"][0];
+  }
+  /// What `polylidar hull` makes of all points as one file.
+  json hull_of_all(const std::vector<std::string>& options) const {
+    std::vector<std::string> arguments = {POLYLIDAR, "hull", file("all.csv", testing::rows(all_, ","))};
+    arguments.insert(arguments.end(), options.begin(), options.end());
+    return json::parse(testing::run_program(arguments).out);
+  }
+
+  testing::Points all_;
+};
+
+TEST_F(FootprintUnionTest, IsTheHullOfAllPoints) {
+  // Few, which are put into memory, and many, which are not.
+  for (const int count : {3, 10}) {
+    all_.clear();
+    const std::vector<std::string> files = tiles(count);
+    for (const std::vector<std::string>& options :
+         std::vector<std::vector<std::string>>{{"--max-perimeter", "9"},
+                                               {"--alpha", "2", "--max-parts", "1", "--simplify", "1"},
+                                               {"--max-perimeter", "5", "--min-area", "8"}}) {
+      const Outcome outcome = unite(files, options);
+      EXPECT_EQ(outcome.code, 0) << outcome.err;
+      const json feature = feature_of(outcome);
+      const json expected = hull_of_all(options);
+      EXPECT_EQ(feature["geometry"], expected["geometry"]);
+      for (const char* name : {"points", "parts", "holes", "area"}) {
+        EXPECT_EQ(feature["properties"][name], expected["properties"][name]) << name;
+      }
+    }
+  }
+}
+
+TEST_F(FootprintUnionTest, TilesThatTouchAreOnePartWithoutALimitToo) {
+  const Outcome outcome = unite(tiles(10));
+  EXPECT_EQ(outcome.code, 0);
+  EXPECT_NE(outcome.err.find("chosen from the points"), std::string::npos) << outcome.err;
+  EXPECT_NE(outcome.err.find("polylidar: 10 of 10 files are in the union\n"), std::string::npos)
+      << outcome.err;
+  EXPECT_EQ("urn:ogc:def:crs:EPSG::25832",
+            json::parse(outcome.out)["crs"]["properties"]["name"].get<std::string>());
+  const json properties = feature_of(outcome)["properties"];
+  EXPECT_EQ(properties["files"], 10);
+  EXPECT_EQ(properties["points"], 80000);
+  EXPECT_EQ(properties["parts"], 1);
+  EXPECT_EQ(properties["holes"], 10);
+  EXPECT_EQ(properties["classes"], (json{{"2", 60000}, {"6", 20000}}));
+  const double true_area = 10 * (1e4 - 3.14159 * 400);
+  EXPECT_NEAR(properties["area"].get<double>(), true_area, 0.02 * true_area);
+  EXPECT_NEAR(properties["density"].get<double>(), 80000 / true_area, 0.03);
+  EXPECT_NEAR(properties["bounds"][2].get<double>(), 501000, 0.2);
+  EXPECT_EQ("EPSG:25832", properties["crs"].get<std::string>());
+  EXPECT_FALSE(properties.contains("name"));
+}
+
+TEST_F(FootprintUnionTest, ABrokenFileIsToldAndTheOthersAreOne) {
+  std::vector<std::string> files = tiles(3);
+  const std::string broken = tile(1).text();
+  testing::write_text(files[1], broken.substr(0, broken.size() - 100));
+  files.push_back(file("bad.csv", "1,2\n3,x\n"));
+  for (const std::vector<std::string>& options : {std::vector<std::string>{}, {"--max-perimeter", "9"}}) {
+    const Outcome outcome = unite(files, options);
+    EXPECT_EQ(outcome.code, 4);
+    for (const char* words :
+         {"tile_1.las: it ends before the 8000 points", "bad.csv, line 2: 'x' is not a number",
+          "2 of 4 files are in the union, 2 could not be read"}) {
+      EXPECT_NE(outcome.err.find(words), std::string::npos) << words << " in " << outcome.err;
+    }
+    const json properties = feature_of(outcome)["properties"];
+    EXPECT_EQ(properties["files"], 2);
+    EXPECT_EQ(properties["points"], 16000);
+    EXPECT_EQ(properties["parts"], 2) << "the tile between them is missing";
+  }
+}
+
+TEST_F(FootprintUnionTest, AFewPointsFarApartDoNotDecideForAll) {
+  std::vector<std::string> files = tiles(4);
+  files.push_back(file("few.csv", "500000,5600300\n500070,5600310\n500010,5600390\n500090,5600380\n"));
+  const Outcome outcome = unite(files, {"--crs", "25832"});
+  EXPECT_EQ(outcome.code, 0);
+  EXPECT_EQ(feature_of(outcome)["properties"]["holes"], 4);
+  EXPECT_LT(feature_of(outcome)["properties"]["alpha"].get<double>(), 10) << outcome.err;
+}
+
+TEST_F(FootprintUnionTest, DegreesAreMetresAndStayAsTheyAre) {
+  std::vector<std::string> files;
+  std::mt19937 random(3);
+  for (int column = 0; column < 2; ++column) {
+    LasFile degrees;
+    degrees.scale = {1e-7, 1e-7};
+    degrees.offset = {10 + 0.1 * column, 60};
+    degrees.records = {testing::geographic(4326)};
+    for (int i = 0; i < 40000; ++i) {
+      degrees.points.push_back({.x = static_cast<std::int32_t>(random() % 1000000),
+                                .y = static_cast<std::int32_t>(random() % 500000)});
+    }
+    for (const Point& p : degrees.places()) all_.push_back(p);
+    files.push_back(file("degrees_" + std::to_string(column) + ".las", degrees.text()));
+  }
+  const json feature = feature_of(unite(files, {"--max-edge-length", "150"}));
+  const json expected = hull_of_all({"--max-edge-length", "150", "--crs", "EPSG:4326"});
+  EXPECT_EQ(feature["geometry"], expected["geometry"]);
+  EXPECT_EQ(feature["properties"]["area"], expected["properties"]["area"]);
+  EXPECT_NEAR(feature["properties"]["area"].get<double>(), 2 * 5559.75 * 5559.75, 1e6);
+}
+
+TEST_F(FootprintUnionTest, FilesOfAnyFormat) {
+  const std::vector<std::string> files = tiles(4);
+  std::vector<std::string> others;
+  const auto part = [&](std::size_t k) {
+    return testing::Points(all_.begin() + static_cast<std::ptrdiff_t>(k * 8000),
+                           all_.begin() + static_cast<std::ptrdiff_t>((k + 1) * 8000));
+  };
+  others.push_back(file("0.csv", testing::rows(part(0), ",")));
+  others.push_back(file("1.geojson", testing::geojson_multipoint(part(1))));
+  others.push_back(file("2.npy", testing::npy_of<double>(part(2), "<f8")));
+  others.push_back(file("3.wkt", "MULTIPOINT (" + testing::listed(part(3), "", " ", "") + ")"));
+  for (const std::vector<std::string>& options :
+       {std::vector<std::string>{"--crs", "25832"}, {"--crs", "25832", "--max-perimeter", "9"}}) {
+    EXPECT_EQ(feature_of(unite(others, options))["geometry"], feature_of(unite(files, options))["geometry"]);
+  }
+}
+
+TEST_F(FootprintUnionTest, NothingAndWrongUsage) {
+  const std::vector<std::string> files = tiles(2);
+  const Outcome nothing = unite({file("one.csv", "1,2\n"), "/nowhere/tile.las"});
+  EXPECT_EQ(nothing.code, 4);
+  EXPECT_EQ(feature_of(nothing)["properties"]["points"], 1);
+  EXPECT_EQ(feature_of(nothing)["properties"]["parts"], 0);
+  EXPECT_TRUE(feature_of(unite({"/nowhere/tile.las"}))["properties"]["bounds"].is_null());
+  expect_refusal(unite(files, {"--one"}), 2, "--union does not go with --one, --cover and --min-triangles");
+  expect_refusal(unite({files[0], file("degrees.csv", "lon,lat\n1,2\n1,3\n2,2\n")}), 2,
+                 "the files have different coordinate systems");
+  const Outcome too_small = unite(tiles(10), {"--alpha", "1e-9"});
+  EXPECT_EQ(too_small.code, 2);
+  EXPECT_NE(too_small.err.find("the union: the limit is too small"), std::string::npos) << too_small.err;
+  expect_refusal(unite(files, {"-o", "/nowhere/union.geojson"}), 1, "cannot write /nowhere/union.geojson");
+}
+
+#ifndef HAS_GDAL
+TEST_F(FootprintCommandTest, ABuildWithoutGdalSaysHowToGetIt) {
+  const std::string points = file("points.csv", "0,0\n2,0\n0,2\n");
+  const auto hull = [](std::vector<std::string> arguments) {
+    arguments.insert(arguments.begin(), {POLYLIDAR, "hull"});
+    return testing::run_program(arguments);
+  };
+  for (const std::string input : {"points.gpkg", "points.shp", "PG:dbname=gis"}) {
+    expect_refusal(hull({input}), 2, input + ": it is read by GDAL, which this build is without");
+  }
+  expect_refusal(hull({points, "--input", "gdal"}), 2, "-DPOLYLIDAR_WITH_GDAL=ON");
+  expect_refusal(hull({points, "-o", "out.gpkg"}), 2, "out.gpkg: it is written by GDAL");
+  expect_refusal(hull({points, "-o", "out", "--format", "gdal:GPKG"}), 2, "-DPOLYLIDAR_WITH_GDAL=ON");
+  const Outcome outcome = footprint({"points.gpkg", file("tile.las", tile(0).text())});
+  EXPECT_EQ(outcome.code, 4);
+  EXPECT_NE(outcome.err.find("points.gpkg: it is read by GDAL"), std::string::npos) << outcome.err;
+}
+#endif
 
 /// A program that unpacks LAZ as laszip does: here it turns back what the test did to a LAS file.
 TEST_F(FootprintCommandTest, LazGoesThroughAProgramInThePath) {

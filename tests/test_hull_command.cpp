@@ -31,15 +31,21 @@ using testing::Points;
 using testing::read_text;
 using testing::write_text;
 
-/// Uniform in the square of side 10 without a disc, and a few points far off.
-Points ring_and_island() {
+/// Uniform in the square of side 10 without a disc.
+Points square_without_a_disc(std::size_t count, std::uint64_t seed) {
   Points points;
-  std::mt19937_64 random(7);
+  std::mt19937_64 random(seed);
   std::uniform_real_distribution<double> coordinate(0, 10);
-  while (points.size() < 3000) {
+  while (points.size() < count) {
     const Point p = {coordinate(random), coordinate(random)};
     if (std::hypot(p.x - 5, p.y - 4) > 2) points.push_back(p);
   }
+  return points;
+}
+
+/// The same with a few points far off.
+Points ring_and_island() {
+  Points points = square_without_a_disc(3000, 7);
   for (const Point& p : {Point{20, 0}, Point{20.2, 0}, Point{20, 0.2}, Point{20.21, 0.21}})
     points.push_back(p);
   return points;
@@ -507,14 +513,7 @@ TEST_F(HullCommandTest, CtrlCWhileWaitingForInput) {
 
 /// So many that they are not put into memory.
 Points many_points() {
-  Points points;
-  std::mt19937_64 random(11);
-  std::uniform_real_distribution<double> coordinate(0, 10);
-  while (points.size() < 90000) {
-    const Point p = {coordinate(random), coordinate(random)};
-    if (std::hypot(p.x - 5, p.y - 4) > 2) points.push_back(p);
-  }
-  return points;
+  return square_without_a_disc(90000, 11);
 }
 
 TEST_F(HullCommandTest, AStreamGivesTheSameFile) {

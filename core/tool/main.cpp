@@ -7,10 +7,13 @@
 
 #include "packaging/manual/manual.hpp"
 #include "tool/commands/commands.hpp"
-#include "tool/program/configuration_error.hpp"
+#include "tool/program/command_line.hpp"
 #include "tool/program/exit_code.hpp"
 #include "tool/program/interrupt.hpp"
 #include "tool/program/surroundings.hpp"
+#ifdef POLYLIDAR_WITH_GDAL
+#include "tool/gdal/gdal_formats.hpp"
+#endif
 
 namespace {
 
@@ -20,13 +23,21 @@ constexpr const char* kProgram = "polylidar";
 
 using Action = std::function<ExitCode()>;
 
+const VectorFormats* vector_formats() {
+#ifdef POLYLIDAR_WITH_GDAL
+  return &gdal_formats();
+#else
+  return nullptr;
+#endif
+}
+
 /// What the command line asks for; nothing more when it is help.
 Action parse(int argc, char** argv) {
   CLI::App app("Polygons round points: concave hulls of files of points.", kProgram);
   app.require_subcommand(1);
   app.set_version_flag("--version", "polylidar " POLYLIDAR_VERSION);
   app.footer(kToolExitCodesHelp);
-  const Surroundings surroundings{kProgram, std::cerr, is_terminal()};
+  const Surroundings surroundings{kProgram, std::cerr, is_terminal(), vector_formats()};
   Action action;
   const auto add = [&]<class Command>(const char* name, void (*add_options)(CLI::App&, Command&),
                                       ExitCode (*work)(const Command&, const Surroundings&)) {
@@ -42,16 +53,7 @@ Action parse(int argc, char** argv) {
   add("hull", &add_hull_options, &make_hull);
   add("footprint", &add_footprint_options, &make_footprints);
   packaging::add_manual(app, "polylidar " POLYLIDAR_VERSION);
-  try {
-    app.parse(argc, argv);
-  } catch (const CLI::Success& request) {
-    app.exit(request);
-    return [] { return kExitOk; };
-  } catch (const CLI::ParseError& error) {
-    throw ConfigurationError(std::string(error.what()) +
-                             "; 'polylidar --help' and 'polylidar COMMAND --help' show what there is");
-  }
-  return action;
+  return parsed_action(app, action, argc, argv);
 }
 
 }  // namespace

@@ -35,7 +35,10 @@ struct ShapeChoice {
   std::string window;                     ///< "xmin,ymin,xmax,ymax"; empty: no window
   std::string crs;                        ///< "none", "EPSG:n" or "n"; empty: what the file says
   unsigned threads = 0;                   ///< 0: as many as there are processors
-  std::string out;                        ///< a file; empty: standard output
+  std::string out;                        ///< a file, or what GDAL writes to; empty: standard output
+  std::string format = "auto";            ///< "geojson" and so on, or "gdal:" and the name of a driver
+  std::string layer;                      ///< of the input, where GDAL reads it
+  std::string out_layer;                  ///< of the output, where GDAL writes it
 };
 
 /// From a file of points to polygons.
@@ -48,17 +51,17 @@ struct HullCommand {
   std::string input_format = "auto";  ///< a name that point_format_of() knows
   std::string columns;                ///< see PointFileOptions
   std::string by;                     ///< likewise
-  std::string format = "geojson";     ///< "geojson", "wkt", "wkb" or "svg"
   bool keep_outliers = false;         ///< the points left outside are written too
   bool stream = false;                ///< the file is read again and again, its points are not kept
 };
 
-/// From files of points to an index of their footprints.
+/// From files of points to an index of their footprints, or to the footprint of all of them together.
 struct FootprintCommand {
   static constexpr const char* kExample = "footprint tiles/*.las --returns first --out index.geojson";
 
   std::vector<std::string> inputs;  ///< paths
   ShapeChoice shape;
+  bool is_union = false;  ///< one shape of all points
 };
 
 /// Each adds its options, description and notes to `app`. `command` must live as long.

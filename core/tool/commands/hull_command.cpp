@@ -11,9 +11,9 @@
 #include "polylidar/stream.hpp"
 #include "tool/commands/commands.hpp"
 #include "tool/commands/shape_choice.hpp"
+#include "tool/commands/shape_output.hpp"
 #include "tool/program/configuration_error.hpp"
 #include "tool/program/interrupt.hpp"
-#include "tool/program/result_output.hpp"
 #include "tool/program/status_line.hpp"
 #include "tool/shapes/point_locator.hpp"
 
@@ -28,11 +28,13 @@ std::string mebibytes(std::uint64_t bytes) {
 class HullRun {
  public:
   HullRun(const HullCommand& command, const Surroundings& surroundings)
-      : command_(command), surroundings_(surroundings), status_(surroundings.err, surroundings.terminal) {}
+      : command_(command),
+        surroundings_(surroundings),
+        status_(surroundings.err, surroundings.terminal),
+        output_(command.shape, surroundings.vector_formats) {}
 
   ExitCode run() {
     check_options();
-    check_output_place(command_.shape.out);
     if (command_.stream) return stream();
     read();
     compute();
@@ -42,7 +44,7 @@ class HullRun {
     } else {
       explain_groups();
     }
-    write_result(command_.shape.out, result());
+    output_.write(result(), crs_);
     return kExitOk;
   }
 
@@ -50,9 +52,9 @@ class HullRun {
   void check_options() const {
     chosen_crs(command_.shape, {});
     if (command_.stream) check_stream_options();
-    if (command_.format == "geojson") return;
-    if (!command_.by.empty() && command_.format != "svg") {
-      throw ConfigurationError("--by gives a feature a group, which " + command_.format +
+    if (output_.has_features()) return;
+    if (!command_.by.empty() && output_.text_format() != "svg") {
+      throw ConfigurationError("--by gives a feature a group, which " + output_.text_format() +
                                " cannot tell apart; ask for --format geojson or svg");
     }
     if (command_.keep_outliers) {
@@ -68,7 +70,7 @@ class HullRun {
     if (command_.input == "-") refuse("standard input, which can be read once only");
     if (!command_.by.empty()) refuse("--by");
     if (command_.keep_outliers) refuse("--keep-outliers");
-    if (command_.format == "svg") refuse("--format svg");
+    if (output_.text_format() == "svg") refuse("--format svg");
     if (shape.one || shape.cover) refuse("--one and --cover");
     if (shape.min_triangles > 0) refuse("--min-triangles");
     if (shape.min_area > 0 || shape.max_parts || shape.simplify > 0) {
@@ -90,7 +92,7 @@ class HullRun {
   }
 
   void read() {
-    PointFileOptions options = point_options(command_.shape);
+    PointFileOptions options = point_options(command_.shape, surroundings_);
     options.format = point_format_of(command_.input_format).value_or(PointFormat::kAuto);
     options.columns = command_.columns;
     options.by = command_.by;
@@ -108,7 +110,7 @@ class HullRun {
 
   /// Reads the file four times.
   ExitCode stream() {
-    PointFileOptions options = point_options(command_.shape);
+    PointFileOptions options = point_options(command_.shape, surroundings_);
     options.format = point_format_of(command_.input_format).value_or(PointFormat::kAuto);
     options.columns = command_.columns;
     options.on_progress = [](std::uint64_t, std::optional<std::uint64_t>) { throw_if_interrupted(); };
@@ -137,13 +139,13 @@ class HullRun {
     status_.clear();
     say(std::to_string(hull.triangulated_points) + " of " + std::to_string(hull.points) +
         " points are near the outline");
-    write_result(command_.shape.out, streamed_result(hull));
+    output_.write(streamed_result(hull), crs_);
     return kExitOk;
   }
 
   std::string streamed_result(const StreamedHull& hull) const {
-    if (command_.format == "wkt") return to_wkt(hull.polygons);
-    if (command_.format == "wkb") return to_wkb(hull.polygons);
+    if (output_.text_format() == "wkt") return to_wkt(hull.polygons);
+    if (output_.text_format() == "wkb") return to_wkb(hull.polygons);
     const ShapeChoice& shape = command_.shape;
     Properties properties;
     properties.add("points", static_cast<std::size_t>(hull.points));
@@ -171,7 +173,7 @@ class HullRun {
                             throw_if_interrupted();
                           });
     status_.clear();
-    if (crs_.is_given && crs_.epsg == 0) say(std::string(kNamelessCrs));
+    if (!output_.can_tell(crs_)) say(std::string(kNamelessCrs));
     if (!hulls_.latitude) return;
     say("longitude and latitude: lengths and areas are in metres, true at latitude " +
         shortest(std::round(*hulls_.latitude * 100) / 100) + "; --crs none takes degrees as they are");
@@ -205,13 +207,13 @@ class HullRun {
   }
 
   std::string result() const {
-    if (command_.format == "geojson") return geojson();
+    if (output_.has_features()) return geojson();
     MultiPolygon shape;
     for (const GroupHull& hull : hulls_.groups) {
       for (Polygon& polygon : to_coordinates(hull.shape, file_.points)) shape.push_back(std::move(polygon));
     }
-    if (command_.format == "wkt") return to_wkt(shape);
-    if (command_.format == "svg") return to_svg(shape, file_.points);
+    if (output_.text_format() == "wkt") return to_wkt(shape);
+    if (output_.text_format() == "svg") return to_svg(shape, file_.points);
     return to_wkb(shape);
   }
 
@@ -279,6 +281,7 @@ class HullRun {
   const HullCommand& command_;
   const Surroundings& surroundings_;
   StatusLine status_;
+  ShapeOutput output_;
   PointFile file_;
   Crs crs_;
   LocatedHulls hulls_;
@@ -318,21 +321,20 @@ void add_hull_options(CLI::App& app, HullCommand& command) {
       ".npy .ply .las .laz, also with .gz), else by its content. LAZ needs laszip or las2las in the PATH. "
       "Lengths are "
       "in\n"
-      "the unit of the points; of longitudes and latitudes they are in metres.");
+      "the unit of the points; of longitudes and latitudes they are in metres.\n" +
+      std::string(kGdalHelp));
   app.add_option("FILE", command.input, "The points; - for standard input")->required();
   app.add_option("--input", command.input_format, "The input's format")
-      ->check(CLI::IsMember({"auto", "csv", "xyz", "geojson", "wkt", "npy", "ply", "las"}))
+      ->check(CLI::IsMember({"auto", "csv", "xyz", "geojson", "wkt", "npy", "ply", "las", "gdal"}))
       ->capture_default_str();
   app.add_option(
       "--columns", command.columns,
       "The columns of x and y in a text file: names, such as lon,lat, or numbers from 1, such as 2,3");
-  app.add_option(
-      "--by", command.by,
-      "One shape for each value of this column of a text file, by its name or its number from 1; of a LAS "
-      "file: classification, return or point_source");
-  app.add_option("--format", command.format, "The output's format")
-      ->check(CLI::IsMember({"geojson", "wkt", "wkb", "svg"}))
-      ->capture_default_str();
+  app.add_option("--by", command.by,
+                 "One shape for each value of this column of a text file or a layer, by its name or its "
+                 "number from 1; of "
+                 "a LAS file: classification, return or point_source");
+  add_format_option(app, command.shape, {"auto", "geojson", "wkt", "wkb", "svg"});
   app.add_flag("--keep-outliers", command.keep_outliers,
                "Also write the points that are left outside, as a MultiPoint (geojson only)");
   app.add_flag(

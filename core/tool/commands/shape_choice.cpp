@@ -78,11 +78,33 @@ void add_shape_options(CLI::App& app, ShapeChoice& choice) {
       "The coordinate system, such as EPSG:25832, instead of the one that the file names; none: a plane");
   app.add_option("--threads", choice.threads, "Number of threads, instead of one for each processor")
       ->check(CLI::Range(1U, 1024U));
-  app.add_option("-o,--out", choice.out, "Write the result into this file instead of standard output");
+  app.add_option(
+      "-o,--out", choice.out,
+      "Write the result into this file instead of standard output; with GDAL also PG: and the like");
+  app.add_option("--layer", choice.layer, "Of an input that GDAL reads: which of several layers");
+  app.add_option("--out-layer", choice.out_layer,
+                 "Of an output that GDAL writes: the layer's name instead of the file's");
 }
 
-PointFileOptions point_options(const ShapeChoice& choice) {
+void add_format_option(CLI::App& app, ShapeChoice& choice, const std::vector<std::string>& formats) {
+  std::string listed;
+  for (const std::string& format : formats) listed += (listed.empty() ? "" : ",") + format;
+  const auto check = [formats](const std::string& text) {
+    const bool is_known = std::find(formats.begin(), formats.end(), text) != formats.end();
+    return is_known || text.starts_with("gdal:") ? "" : "'" + text + "' is no format; '--help' lists them";
+  };
+  app.add_option(
+         "--format", choice.format,
+         "The output's format; auto: by the ending of --out, else geojson; gdal:DRIVER: of GDAL's, as in "
+         "gdal:GPKG")
+      ->check(CLI::Validator(check, "{" + listed + "} or gdal:DRIVER"))
+      ->capture_default_str();
+}
+
+PointFileOptions point_options(const ShapeChoice& choice, const Surroundings& surroundings) {
   PointFileOptions options;
+  options.vector_formats = surroundings.vector_formats;
+  options.layer = choice.layer;
   if (choice.returns == "first") options.returns = Returns::kFirst;
   if (choice.returns == "last") options.returns = Returns::kLast;
   if (!choice.classes.empty()) {

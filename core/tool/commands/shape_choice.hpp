@@ -15,8 +15,11 @@ namespace polylidar::tool {
 /// Adds the options to `app`.
 void add_shape_options(CLI::App& app, ShapeChoice& choice);
 
-/// Which points are read. Throws ConfigurationError for classes or a window that are none.
-PointFileOptions point_options(const ShapeChoice& choice);
+/// Adds --format, which takes these words and the drivers of GDAL.
+void add_format_option(CLI::App& app, ShapeChoice& choice, const std::vector<std::string>& formats);
+
+/// Which points are read, with what. Throws ConfigurationError for classes or a window that are none.
+PointFileOptions point_options(const ShapeChoice& choice, const Surroundings& surroundings);
 
 /// Without the threads.
 HullOptions hull_options(const ShapeChoice& choice);
@@ -32,6 +35,12 @@ Crs chosen_crs(const ShapeChoice& choice, const Crs& of_file);
 inline constexpr std::string_view kNamelessCrs =
     "the coordinate system has no EPSG number that is known here, so that the result names none; --crs gives "
     "it one";
+
+/// What the help of both commands says of GDAL.
+inline constexpr std::string_view kGdalHelp =
+    "A build with GDAL (-DPOLYLIDAR_WITH_GDAL=ON) also reads points from GeoPackage, Shapefile, FlatGeobuf, "
+    "PostGIS (PG:)\n"
+    "and what else GDAL has, and writes polygons to them, with their properties as fields.";
 
 /// A file's points, and the hulls of its groups, in metres where the coordinates are degrees.
 struct LocatedHulls {

@@ -2,9 +2,25 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <numbers>
+#include <numeric>
 
 namespace polylidar::tool {
+namespace {
+
+/// Metres east and north of a degree.
+Point metres_a_degree(double latitude) {
+  constexpr double kRadians = std::numbers::pi / 180;
+  constexpr double kMetresADegree = 6371008.8 * kRadians;
+  return {kMetresADegree * std::cos(latitude * kRadians), kMetresADegree};
+}
+
+bool is_before(const Point& a, const Point& b) {
+  return a.x < b.x || (a.x == b.x && a.y < b.y);
+}
+
+}  // namespace
 
 std::optional<double> middle_latitude(const Crs& crs, std::span<const Point> points) {
   if (!crs.is_geographic || points.empty()) return {};
@@ -14,14 +30,35 @@ std::optional<double> middle_latitude(const Crs& crs, std::span<const Point> poi
 }
 
 std::vector<Point> to_metres(std::span<const Point> points, double latitude) {
-  constexpr double kRadians = std::numbers::pi / 180;
-  constexpr double kMetresADegree = 6371008.8 * kRadians;
-  const double x_scale = kMetresADegree * std::cos(latitude * kRadians);
+  const Point scale = metres_a_degree(latitude);
   std::vector<Point> metres(points.size());
   std::transform(points.begin(), points.end(), metres.begin(), [&](const Point& p) {
-    return Point{p.x * x_scale, p.y * kMetresADegree};
+    return Point{p.x * scale.x, p.y * scale.y};
   });
   return metres;
+}
+
+MultiPolygon to_degrees(MultiPolygon shape, std::span<const Point> points, double latitude) {
+  const std::vector<Point> metres = to_metres(points, latitude);
+  const Point scale = metres_a_degree(latitude);
+  std::vector<std::size_t> order(points.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::sort(order.begin(), order.end(),
+            [&](std::size_t a, std::size_t b) { return is_before(metres[a], metres[b]); });
+  const auto turn = [&](Ring& ring) {
+    for (Point& vertex : ring) {
+      const auto found =
+          std::lower_bound(order.begin(), order.end(), vertex,
+                           [&](std::size_t i, const Point& point) { return is_before(metres[i], point); });
+      const bool is_point = found != order.end() && metres[*found] == vertex;
+      vertex = is_point ? points[*found] : Point{vertex.x / scale.x, vertex.y / scale.y};
+    }
+  };
+  for (Polygon& polygon : shape) {
+    turn(polygon.shell);
+    for (Ring& hole : polygon.holes) turn(hole);
+  }
+  return shape;
 }
 
 }  // namespace polylidar::tool

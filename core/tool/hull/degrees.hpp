@@ -22,4 +22,8 @@ std::optional<double> middle_latitude(const Crs& crs, std::span<const Point> poi
 /// is one in degrees. Points on both sides of longitude 180 are taken as far apart.
 std::vector<Point> to_metres(std::span<const Point> points, double latitude);
 
+/// The shape in degrees whose vertices are in metres. One that is a point of to_metres(points, latitude)
+/// becomes that point of `points` again, to the last bit.
+MultiPolygon to_degrees(MultiPolygon shape, std::span<const Point> points, double latitude);
+
 }  // namespace polylidar::tool

@@ -192,9 +192,7 @@ GroupHull extracted(Extractor& extractor, std::span<const Point> points, const H
 GroupHull hull_of(Extractor& extractor, std::span<const Point> points, const HullOptions& options) {
   GroupHull hull = extracted(extractor, points, options);
   hull.points = points.size();
-  if (options.min_area > 0) drop_small_areas(hull.shape, points, options.min_area);
-  if (options.max_parts) keep_largest(hull.shape, points, *options.max_parts);
-  if (options.simplify > 0) hull.shape = simplify(hull.shape, points, options.simplify);
+  clean(hull.shape, points, options);
   hull.area = area(hull.shape, points);
   return hull;
 }
@@ -259,6 +257,12 @@ class GroupWork {
 };
 
 }  // namespace
+
+void clean(IndexShape& shape, std::span<const Point> points, const HullOptions& options) {
+  if (options.min_area > 0) drop_small_areas(shape, points, options.min_area);
+  if (options.max_parts) keep_largest(shape, points, *options.max_parts);
+  if (options.simplify > 0) shape = simplify(shape, points, options.simplify);
+}
 
 std::vector<GroupHull> group_hulls(std::span<const Point> points, std::span<const std::uint32_t> groups,
                                    std::size_t group_count, const HullOptions& options, unsigned threads,

@@ -43,6 +43,9 @@ struct GroupHull {
   std::optional<ChosenSizes> sizes;
 };
 
+/// Drops and fills what `options` says by area and number, and simplifies what is left.
+void clean(IndexShape& shape, std::span<const Point> points, const HullOptions& options);
+
 /// One hull for each of `group_count` groups; groups[i] is that of point i; no groups at all: all points are
 /// one. Groups with many points have all `threads` >= 1 to themselves, the others share them. `on_group`
 /// is told by any thread how many groups are done; what it throws ends the work. Coordinates must be finite;

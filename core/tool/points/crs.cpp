@@ -71,27 +71,8 @@ int number_of_known_name(std::string_view name) {
   return 0;
 }
 
-}  // namespace
-
-std::string Crs::name() const {
-  return epsg > 0 ? "EPSG:" + std::to_string(epsg) : "";
-}
-
-Crs crs_of_epsg(int number) {
-  return {.epsg = number, .is_geographic = number >= 4000 && number < 5000, .is_given = true};
-}
-
-std::optional<Crs> crs_of_name(std::string_view name) {
-  const std::string text = upper(name);
-  if (text.ends_with("CRS84")) return crs_of_epsg(kWgs84);
-  const std::size_t authority = text.rfind("EPSG");
-  if (authority == std::string::npos) return {};
-  const std::optional<int> number = number_of(std::string_view(text).substr(text.find_last_of(":/") + 1));
-  if (!number) return {};
-  return crs_of_epsg(*number);
-}
-
-std::optional<Crs> crs_of_wkt(std::string_view text) {
+/// The horizontal system, without the text.
+std::optional<Crs> horizontal_system(std::string_view text) {
   std::vector<Node> open;
   std::optional<Crs> found;
   std::size_t depth_of_found = 0;
@@ -132,6 +113,32 @@ std::optional<Crs> crs_of_wkt(std::string_view text) {
     }
   }
   return found;
+}
+
+}  // namespace
+
+std::string Crs::name() const {
+  return epsg > 0 ? "EPSG:" + std::to_string(epsg) : "";
+}
+
+Crs crs_of_epsg(int number) {
+  return {.epsg = number, .is_geographic = number >= 4000 && number < 5000, .is_given = true};
+}
+
+std::optional<Crs> crs_of_name(std::string_view name) {
+  const std::string text = upper(name);
+  if (text.ends_with("CRS84")) return crs_of_epsg(kWgs84);
+  const std::size_t authority = text.rfind("EPSG");
+  if (authority == std::string::npos) return {};
+  const std::optional<int> number = number_of(std::string_view(text).substr(text.find_last_of(":/") + 1));
+  if (!number) return {};
+  return crs_of_epsg(*number);
+}
+
+std::optional<Crs> crs_of_wkt(std::string_view text) {
+  std::optional<Crs> crs = horizontal_system(text);
+  if (crs && crs->epsg == 0) crs->wkt = text;
+  return crs;
 }
 
 std::optional<Crs> crs_of_geokeys(std::span<const std::uint16_t> keys) {

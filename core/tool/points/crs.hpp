@@ -14,6 +14,7 @@ struct Crs {
   int epsg = 0;                ///< its number in EPSG's register; 0: not known
   bool is_geographic = false;  ///< x and y are longitude and latitude in degrees
   bool is_given = false;       ///< something is said of it, be it not its number
+  std::string wkt = {};        ///< well-known text of one without a number, where there is any
 
   /// "EPSG:25832"; empty when the number is not known.
   std::string name() const;

@@ -210,7 +210,9 @@ void read_npy(BlockReader& reader, PointFile& file) {
   const std::optional<std::uint64_t> remaining = reader.remaining();
   if (remaining && *remaining < array.bytes()) fail_short(array, reader);
   std::vector<Point>& points = file.points;
-  if (reader.options().take_points) {
+  const bool is_streamed =
+      reader.options().take_points && !(array.fortran_order && reader.options().whole_if_needed);
+  if (is_streamed) {
     hand_on_rows(reader, array, file);
   } else if (array.fortran_order) {
     read_columns_of_array(reader, array, remaining.has_value(), points);
@@ -222,7 +224,7 @@ void read_npy(BlockReader& reader, PointFile& file) {
   if (reader.peek() != BlockReader::kEnd) {
     reader.fail("more bytes follow the " + std::to_string(array.count) + " points of its header" + kSaveIt);
   }
-  if (!reader.options().take_points) points.resize(static_cast<std::size_t>(array.count));
+  if (!is_streamed) points.resize(static_cast<std::size_t>(array.count));
 }
 
 }  // namespace polylidar::tool::point_files

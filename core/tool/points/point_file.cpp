@@ -7,6 +7,7 @@
 #include <fstream>
 #include <string_view>
 
+#include "tool/gdal/vector_formats.hpp"
 #include "tool/points/block_reader.hpp"
 #include "tool/points/readers.hpp"
 #include "tool/points/unpacked_laz.hpp"
@@ -41,7 +42,7 @@ struct Foreign {
   const char* what;
 };
 
-constexpr std::array<Foreign, 7> kForeign = {
+constexpr std::array<Foreign, 8> kForeign = {
     {{"BZh", "it is compressed; give it unpacked, as in 'bzip2 -dc FILE | polylidar hull -'"},
      {"\x1F\x8B",
       "its gzip stream cannot be read, as this was built without zlib; unpack it, as in \'gunzip -c FILE | "
@@ -50,6 +51,9 @@ constexpr std::array<Foreign, 7> kForeign = {
      {"PK\x03\x04", "it is an archive (.zip or .npz); unpack it and give the file inside"},
      {"\xFF\xFE", "it is text in UTF-16; save it as UTF-8"},
      {"\xFE\xFF", "it is text in UTF-16; save it as UTF-8"},
+     {"SQLite format 3",
+      "it is a database of SQLite, such as a GeoPackage; name it .gpkg, or read it by 'polylidar hull "
+      "--input gdal', in a build with GDAL"},
      {"%PDF", "it is a PDF; give a file of points"}}};
 
 std::string lower(std::string text) {
@@ -120,6 +124,7 @@ void read_as(PointFormat format, BlockReader& reader, PointFile& file) {
       return point_files::read_columns(reader, true, file);
     case PointFormat::kCsv:
     case PointFormat::kAuto:
+    case PointFormat::kGdal:
       return point_files::read_columns(reader, false, file);
   }
 }
@@ -128,13 +133,17 @@ void read_as(PointFormat format, BlockReader& reader, PointFile& file) {
 void check_options(PointFormat format, const BlockReader& reader) {
   const PointFileOptions& options = reader.options();
   const bool is_text = format == PointFormat::kCsv || format == PointFormat::kXyz;
+  if (!options.layer.empty()) {
+    reader.fail("--layer is for what GDAL reads, and this file is read without it; leave --layer out");
+  }
   if (!options.columns.empty() && !is_text) {
     reader.fail("--columns is for columns of text, and this file has none; leave --columns out");
   }
   if (!options.by.empty() && !is_text && format != PointFormat::kLas) {
     reader.fail("--by is for columns of text and for LAS, and this file is neither; leave --by out");
   }
-  if (options.take_points && !is_text && format != PointFormat::kLas && format != PointFormat::kNpy) {
+  if (options.take_points && !options.whole_if_needed && !is_text && format != PointFormat::kLas &&
+      format != PointFormat::kNpy) {
     reader.fail("--stream is for LAS, columns of text and NumPy's arrays; leave --stream out");
   }
   if ((options.returns != Returns::kAll || options.classes) && format != PointFormat::kLas) {
@@ -168,6 +177,8 @@ PointFile read_from(BlockReader& reader, const std::string& path) {
   if (reader.options().window && !is_text && format != PointFormat::kLas) {
     keep_window(*reader.options().window, file);
   }
+  // What was not while it was read.
+  point_files::hand_on(file, reader.options(), true);
   if (path != "-" && file.crs == Crs() && format != PointFormat::kLas) read_projection_beside(path, file);
   return file;
 }
@@ -211,10 +222,15 @@ std::optional<PointFormat> point_format_of(const std::string& name) {
   if (name == "npy") return PointFormat::kNpy;
   if (name == "ply") return PointFormat::kPly;
   if (name == "las") return PointFormat::kLas;
+  if (name == "gdal") return PointFormat::kGdal;
   return {};
 }
 
 PointFile read_point_file(const std::string& path, const PointFileOptions& options) {
+  if (options.format == PointFormat::kGdal || (options.format == PointFormat::kAuto && is_for_gdal(path))) {
+    if (options.vector_formats == nullptr) throw PointFileError(path + ": " + kNoGdalToRead);
+    return options.vector_formats->read(path, options);
+  }
   BlockReader reader(path, options);
   const std::optional<std::string> program =
       path != "-" && is_laz(reader) ? point_files::find_laz_program() : std::nullopt;

@@ -32,6 +32,7 @@ enum class PointFormat {
   kNpy,      ///< NumPy's .npy, versions 1 to 3: an array of n x 2 or n x 3 numbers
   kPly,      ///< Stanford polygons, ascii and binary: the element "vertex" with x and y
   kLas,      ///< ASPRS LAS 1.0 to 1.4, point formats 0 to 10; without withheld points
+  kGdal,     ///< whatever VectorFormats reads
 };
 
 /// Which returns of a LAS file's pulses.
@@ -44,14 +45,16 @@ enum class Returns {
 /// The format that a name such as "geojson" stands for; nothing for a name that is none.
 std::optional<PointFormat> point_format_of(const std::string& name);
 
+class VectorFormats;
+
 struct PointFileOptions {
   PointFormat format = PointFormat::kAuto;
   /// For columns of text: which two hold x and y, such as "lon,lat" (names in the first row) or "2,3"
   /// (counted from 1). Empty: by the names x and y, lon and lat, longitude and latitude, lng and lat, or
   /// easting and northing, in any case; without these the first two.
   std::string columns = {};
-  /// What to group points by: a column of text, by its name or its number from 1; classification, return or
-  /// point_source of a LAS file. Empty: nothing.
+  /// What to group points by: a column of text or of a layer, by its name or its number from 1;
+  /// classification, return or point_source of a LAS file. Empty: nothing.
   std::string by = {};
   /// Of a LAS file.
   Returns returns = Returns::kAll;
@@ -60,9 +63,16 @@ struct PointFileOptions {
   /// Only points in it, or on its border, are taken; in the coordinates of the file.
   std::optional<Box> window = {};
   /// Where given, it is called with the points, block by block in their order, and PointFile::points stays
-  /// empty: for files of more points than fit into memory. Of LAS, columns of text and NumPy's rows; other
-  /// files are refused.
+  /// empty: for files of more points than fit into memory. Of LAS, columns of text, NumPy's rows and layers;
+  /// other files are refused.
   std::function<void(std::span<const Point>)> take_points = {};
+  /// Files that cannot be taken block by block are read whole, and handed to `take_points` then, instead of
+  /// being refused.
+  bool whole_if_needed = false;
+  /// What reads kGdal; null: such files are refused.
+  const VectorFormats* vector_formats = nullptr;
+  /// Of kGdal, which of several layers; empty: the only one, or the only one of points.
+  std::string layer = {};
   /// Called after every block, about a MiB, with the bytes read so far and, of a regular file, its size. What
   /// it throws ends the reading.
   std::function<void(std::uint64_t, std::optional<std::uint64_t>)> on_progress = {};

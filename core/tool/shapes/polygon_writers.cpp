@@ -84,32 +84,6 @@ void put_wkb_start(std::uint32_t type, std::size_t count, std::string& to) {
   put(wkb_count(count), to);
 }
 
-/// From the unit of the points to pixels, y downwards.
-class Canvas {
- public:
-  explicit Canvas(const Box& box) : box_(box) {
-    // Halves, since the whole of -1e308 to 1e308 is infinite.
-    half_width_ = box.max.x / 2 - box.min.x / 2;
-    half_height_ = box.max.y / 2 - box.min.y / 2;
-    const double scale = kPixels / std::max(half_width_, half_height_);
-    if (std::isfinite(scale)) scale_ = scale;
-  }
-
-  double width() const { return half_width_ * scale_ + 2 * kMargin; }
-  double height() const { return half_height_ * scale_ + 2 * kMargin; }
-  double x(const Point& point) const { return (point.x / 2 - box_.min.x / 2) * scale_ + kMargin; }
-  double y(const Point& point) const { return (box_.max.y / 2 - point.y / 2) * scale_ + kMargin; }
-
- private:
-  static constexpr double kPixels = 1000;
-  static constexpr double kMargin = 20;
-
-  Box box_;
-  double half_width_ = 0;
-  double half_height_ = 0;
-  double scale_ = 0;  ///< pixels to half a unit
-};
-
 void append_pixels(std::string& text, double value) {
   std::array<char, 32> digits{};
   const auto end =
@@ -117,7 +91,7 @@ void append_pixels(std::string& text, double value) {
   text.append(digits.data(), end);
 }
 
-void append_path(std::string& text, const Ring& ring, const Canvas& canvas) {
+void append_path(std::string& text, const Ring& ring, const SvgCanvas& canvas) {
   for (std::size_t i = 0; i < ring.size(); ++i) {
     text += i == 0 ? "M" : "L";
     append_pixels(text, canvas.x(ring[i]));
@@ -127,7 +101,7 @@ void append_path(std::string& text, const Ring& ring, const Canvas& canvas) {
   text += 'Z';
 }
 
-void append_dots(std::string& text, std::span<const Point> points, const Canvas& canvas) {
+void append_dots(std::string& text, std::span<const Point> points, const SvgCanvas& canvas) {
   text += "<g fill=\"#333\" fill-opacity=\"0.35\">\n";
   for (const Point& point : points) {
     text += R"(<circle r="1.5" cx=")";
@@ -224,9 +198,24 @@ std::string to_wkb(const MultiPolygon& shape) {
   return bytes;
 }
 
+SvgCanvas::SvgCanvas(const Box& box) : box_(box) {
+  // Halves, since the whole of -1e308 to 1e308 is infinite.
+  half_width_ = box.max.x / 2 - box.min.x / 2;
+  half_height_ = box.max.y / 2 - box.min.y / 2;
+  const double scale = kPixels / std::max(half_width_, half_height_);
+  if (std::isfinite(scale)) scale_ = scale;
+}
+
+std::string svg_path(const Polygon& polygon, const SvgCanvas& canvas) {
+  std::string text;
+  append_path(text, polygon.shell, canvas);
+  for (const Ring& hole : polygon.holes) append_path(text, hole, canvas);
+  return text;
+}
+
 std::string to_svg(const MultiPolygon& shape, std::span<const Point> points) {
   constexpr std::size_t kMostDots = 5000;
-  const Canvas canvas(points.empty() ? Box{{0, 0}, {0, 0}} : bounding_box(points));
+  const SvgCanvas canvas(points.empty() ? Box{{0, 0}, {0, 0}} : bounding_box(points));
   std::string size;
   append_pixels(size, canvas.width());
   size += ' ';
@@ -238,9 +227,7 @@ std::string to_svg(const MultiPolygon& shape, std::span<const Point> points) {
     text +=
         "<path fill=\"#4c8bbf\" fill-opacity=\"0.35\" fill-rule=\"evenodd\" stroke=\"#1f4e79\" "
         "stroke-linejoin=\"round\" d=\"";
-    append_path(text, polygon.shell, canvas);
-    for (const Ring& hole : polygon.holes) append_path(text, hole, canvas);
-    text += "\"/>\n";
+    text += svg_path(polygon, canvas) + "\"/>\n";
   }
   if (points.size() <= kMostDots) append_dots(text, points, canvas);
   return text + "</svg>\n";

@@ -57,6 +57,31 @@ std::string to_wkt(const MultiPolygon& shape);
 /// does not fit into 32 bits.
 std::string to_wkb(const MultiPolygon& shape);
 
+/// From the unit of the points in a box to the pixels of a picture of at most 1000 x 1000 within a margin, y
+/// downwards.
+class SvgCanvas {
+ public:
+  explicit SvgCanvas(const Box& box);
+
+  double width() const { return half_width_ * scale_ + 2 * kMargin; }
+  double height() const { return half_height_ * scale_ + 2 * kMargin; }
+  double x(const Point& point) const { return (point.x / 2 - box_.min.x / 2) * scale_ + kMargin; }
+  double y(const Point& point) const { return (box_.max.y / 2 - point.y / 2) * scale_ + kMargin; }
+
+ private:
+  static constexpr double kPixels = 1000;
+  static constexpr double kMargin = 20;
+
+  Box box_;
+  double half_width_ = 0;
+  double half_height_ = 0;
+  double scale_ = 0;  ///< pixels to half a unit
+};
+
+/// The data of a path with the shell and the holes, to be filled by the even-odd rule. No vertex may be more
+/// than 1e20 pixels away.
+std::string svg_path(const Polygon& polygon, const SvgCanvas& canvas);
+
 /// A picture of at most 1000 x 1000 pixels without its margin, y upwards; `points` are drawn as faint dots
 /// when they are at most 5000.
 std::string to_svg(const MultiPolygon& shape, std::span<const Point> points);

@@ -1,0 +1,134 @@
+#include "tool/commands/file_work.hpp"
+
+#include <algorithm>
+#include <condition_variable>
+#include <exception>
+#include <filesystem>
+#include <new>
+#include <system_error>
+#include <thread>
+
+#include "tool/points/point_file.hpp"
+#include "tool/program/free_memory.hpp"
+#include "tool/program/interrupt.hpp"
+
+namespace polylidar::tool {
+namespace {
+
+/// What is taken to be free where the system does not say.
+constexpr std::size_t kGuessedMemory = std::size_t{1} << 30U;
+
+/// Lets work begin while what all of it may take is within a budget, and one at a time whatever it takes.
+class MemoryGate {
+ public:
+  explicit MemoryGate(std::uint64_t budget) : budget_(budget) {}
+
+  void enter(std::uint64_t bytes) {
+    std::unique_lock lock(mutex_);
+    changed_.wait(lock, [&] { return taken_ == 0 || taken_ + bytes <= budget_; });
+    taken_ += bytes;
+  }
+  void leave(std::uint64_t bytes) {
+    {
+      const std::lock_guard lock(mutex_);
+      taken_ -= bytes;
+    }
+    changed_.notify_all();
+  }
+
+ private:
+  std::uint64_t budget_;
+  std::uint64_t taken_ = 0;
+  std::mutex mutex_;
+  std::condition_variable changed_;
+};
+
+std::uint64_t size_of(const std::string& path) {
+  std::error_code error;
+  const std::uintmax_t size = std::filesystem::file_size(path, error);
+  return error ? 0 : size;
+}
+
+}  // namespace
+
+FileWork::FileWork(const std::vector<std::string>& paths, const Surroundings& surroundings)
+    : paths_(paths),
+      surroundings_(surroundings),
+      status_(surroundings.err, surroundings.terminal),
+      outcomes_(paths.size()) {}
+
+void FileWork::run(unsigned threads, std::uint64_t memory_share, const Work& work) {
+  const auto count = static_cast<unsigned>(std::min<std::size_t>(threads, paths_.size()));
+  MemoryGate gate(free_memory().value_or(kGuessedMemory) / 2);
+  std::size_t next = 0;
+  const auto take_files = [&] {
+    for (;;) {
+      std::size_t file = 0;
+      {
+        const std::lock_guard lock(mutex_);
+        if (next == paths_.size() || interrupted()) return;
+        file = next++;
+      }
+      const std::uint64_t memory = memory_share * size_of(paths_[file]);
+      gate.enter(memory);
+      // Threads that no other file can use.
+      work_on(file, std::max(1U, threads / count), work);
+      gate.leave(memory);
+      const std::lock_guard lock(mutex_);
+      ++tried_;
+      if (surroundings_.terminal) {
+        status_.show(std::to_string(tried_) + " of " + std::to_string(paths_.size()) + " files");
+      }
+    }
+  };
+  {
+    std::vector<std::jthread> helpers;
+    for (unsigned t = 1; t < count; ++t) helpers.emplace_back(take_files);
+    take_files();
+  }
+  status_.clear();
+  throw_if_interrupted();
+  for (const Outcome& outcome : outcomes_) {
+    if (!outcome.is_done) surroundings_.err << surroundings_.program << ": " << outcome.failure << "\n";
+  }
+}
+
+void FileWork::work_on(std::size_t file, unsigned threads, const Work& work) {
+  Outcome& outcome = outcomes_[file];
+  const std::string& path = paths_[file];
+  try {
+    outcome.crs = work(file, threads);
+    outcome.is_done = true;
+  } catch (const Interrupted&) {
+    // The flag is set, and everybody sees it.
+  } catch (const PointFileError& error) {
+    outcome.failure = error.what();
+  } catch (const std::bad_alloc&) {
+    outcome.failure = path + ": there is not enough memory for its points";
+  } catch (const std::exception& error) {
+    outcome.failure = path + ": " + error.what();
+  }
+}
+
+std::optional<Crs> FileWork::common_crs() const {
+  std::optional<Crs> common;
+  for (const Outcome& outcome : outcomes_) {
+    if (!outcome.is_done) continue;
+    if (common && *common != outcome.crs) return {};
+    common = outcome.crs;
+  }
+  return common.value_or(Crs());
+}
+
+ExitCode FileWork::summary(const std::string& result) const {
+  const std::size_t count = outcomes_.size();
+  const auto failed = static_cast<std::size_t>(
+      std::count_if(outcomes_.begin(), outcomes_.end(), [](const Outcome& o) { return !o.is_done; }));
+  surroundings_.err << surroundings_.program << ": " << count - failed << " of " << count
+                    << (count == 1 ? " file is" : " files are") << " in " << result
+                    << (failed > 0 ? ", " + std::to_string(failed) + " could not be read" : std::string())
+                    << "\n";
+  return failed > 0 ? kExitFailures : kExitOk;
+}
+
+}  // namespace polylidar::tool

@@ -1,0 +1,59 @@
+// Many files: as many at a time as there are threads and as memory holds, and what became of each.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "tool/points/crs.hpp"
+#include "tool/program/exit_code.hpp"
+#include "tool/program/status_line.hpp"
+#include "tool/program/surroundings.hpp"
+
+namespace polylidar::tool {
+
+class FileWork {
+ public:
+  /// Does what is to be done with a file, by its place among all, on so many threads, and says what
+  /// coordinate system it is in. What it throws makes the file one that failed, and the other files are done.
+  using Work = std::function<Crs(std::size_t file, unsigned threads)>;
+
+  /// Both must live as long.
+  FileWork(const std::vector<std::string>& paths, const Surroundings& surroundings);
+
+  /// The files one after the other, each taken by the next of `threads` that is free. One takes
+  /// `memory_share` times its size of memory; together they take no more than half of what is free. Says
+  /// which files failed, a line each. Throws Interrupted.
+  void run(unsigned threads, std::uint64_t memory_share, const Work& work);
+
+  bool is_done(std::size_t file) const { return outcomes_[file].is_done; }
+  /// Of a file that was done.
+  const Crs& crs(std::size_t file) const { return outcomes_[file].crs; }
+  /// The coordinate system of the files that were done: nothing known where there is none of these, no value
+  /// where two differ.
+  std::optional<Crs> common_crs() const;
+  /// Says how many files are in `result`, such as "the index". kExitFailures where one is not.
+  ExitCode summary(const std::string& result) const;
+
+ private:
+  struct Outcome {
+    bool is_done = false;
+    std::string failure;  ///< why not
+    Crs crs;
+  };
+
+  void work_on(std::size_t file, unsigned threads, const Work& work);
+
+  const std::vector<std::string>& paths_;
+  const Surroundings& surroundings_;
+  StatusLine status_;
+  std::mutex mutex_;  ///< of the files that are taken and tried, and of the status line
+  std::size_t tried_ = 0;
+  std::vector<Outcome> outcomes_;  ///< one a file, in their order
+};
+
+}  // namespace polylidar::tool

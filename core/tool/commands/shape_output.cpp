@@ -1,0 +1,55 @@
+#include "tool/commands/shape_output.hpp"
+
+#include <algorithm>
+#include <cctype>
+#include <filesystem>
+#include <string_view>
+#include <utility>
+
+#include "tool/program/configuration_error.hpp"
+#include "tool/program/result_output.hpp"
+
+namespace polylidar::tool {
+namespace {
+
+constexpr std::string_view kGdal = "gdal:";
+
+/// --format, or what the output's name says.
+std::string format_of(const ShapeChoice& choice) {
+  if (choice.format != "auto") return choice.format;
+  if (is_for_gdal(choice.out)) return std::string(kGdal);
+  std::string ending = std::filesystem::path(choice.out).extension().string();
+  for (char& c : ending) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  return ending == ".wkt" || ending == ".wkb" || ending == ".svg" ? ending.substr(1) : "geojson";
+}
+
+}  // namespace
+
+ShapeOutput::ShapeOutput(const ShapeChoice& choice, const VectorFormats* formats)
+    : path_(choice.out), formats_(formats), text_format_(format_of(choice)) {
+  if (!text_format_.starts_with(kGdal)) {
+    if (!choice.out_layer.empty()) {
+      throw ConfigurationError("--out-layer is for what GDAL writes, such as .gpkg; leave it out");
+    }
+    check_output_place(path_);
+    return;
+  }
+  if (path_.empty()) {
+    throw ConfigurationError("--format " + text_format_ + " needs a file or a database; give it by --out");
+  }
+  if (formats_ == nullptr) throw ConfigurationError(path_ + ": " + kNoGdalToWrite);
+  by_gdal_ = VectorOutput{path_, text_format_.substr(kGdal.size()), choice.out_layer};
+  text_format_ = "geojson";
+  formats_->check(*by_gdal_);
+}
+
+bool ShapeOutput::can_tell(const Crs& crs) const {
+  return !crs.is_given || crs.epsg > 0 || (by_gdal_ && !crs.wkt.empty());
+}
+
+void ShapeOutput::write(std::string text, const Crs& crs) const {
+  if (by_gdal_) return formats_->write(*by_gdal_, std::move(text), crs);
+  write_result(path_, text);
+}
+
+}  // namespace polylidar::tool

@@ -1,0 +1,36 @@
+// Where polygons go, and as what.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "tool/commands/commands.hpp"
+#include "tool/gdal/vector_formats.hpp"
+#include "tool/points/crs.hpp"
+
+namespace polylidar::tool {
+
+/// What --format, --out and --out-layer ask for.
+class ShapeOutput {
+ public:
+  /// Throws ConfigurationError where that cannot be, std::runtime_error where no file can be written there.
+  ShapeOutput(const ShapeChoice& choice, const VectorFormats* formats);
+
+  /// What write() takes: "geojson", "wkt", "wkb" or "svg".
+  const std::string& text_format() const { return text_format_; }
+  /// Whether it has features with properties.
+  bool has_features() const { return text_format_ == "geojson"; }
+  /// Whether the result says in which coordinate system it is, or there is nothing to say.
+  bool can_tell(const Crs& crs) const;
+
+  /// The whole result, or nothing of it. Throws std::runtime_error and Interrupted, as ResultOutput.
+  void write(std::string text, const Crs& crs) const;
+
+ private:
+  std::string path_;
+  const VectorFormats* formats_;
+  std::string text_format_;
+  std::optional<VectorOutput> by_gdal_;
+};
+
+}  // namespace polylidar::tool

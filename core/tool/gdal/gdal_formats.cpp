@@ -1,0 +1,468 @@
+#include "tool/gdal/gdal_formats.hpp"
+
+#include <cpl_conv.h>
+#include <cpl_error.h>
+#include <cpl_string.h>
+#include <cpl_vsi.h>
+#include <gdal.h>
+#include <gdal_utils.h>
+#include <ogr_api.h>
+#include <ogr_srs_api.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <stdexcept>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "tool/points/labels.hpp"
+#include "tool/points/numbers.hpp"
+#include "tool/points/readers.hpp"
+#include "tool/program/configuration_error.hpp"
+#include "tool/program/interrupt.hpp"
+#include "tool/program/result_output.hpp"
+#include "tool/shapes/polygon_writers.hpp"
+
+namespace polylidar::tool {
+namespace {
+
+namespace fs = std::filesystem;
+using point_files::in_quotes;
+
+/// Takes what GDAL has to say in this thread, so that it does not print it, and keeps the first error.
+class GdalErrors {
+ public:
+  GdalErrors() { CPLPushErrorHandlerEx(&GdalErrors::take, this); }
+  ~GdalErrors() { CPLPopErrorHandler(); }
+  GdalErrors(const GdalErrors&) = delete;
+  GdalErrors& operator=(const GdalErrors&) = delete;
+
+  bool any() const { return !first_.empty(); }
+  /// ": what was said"; empty when nothing was.
+  std::string said() const { return any() ? ": " + first_ : ""; }
+
+ private:
+  static void CPL_STDCALL take(CPLErr kind, CPLErrorNum /*number*/, const char* text) {
+    auto& errors = *static_cast<GdalErrors*>(CPLGetErrorHandlerUserData());
+    if (kind < CE_Failure || errors.any()) return;
+    errors.first_ = *text == '\0' ? "an error without a text" : text;
+    std::replace(errors.first_.begin(), errors.first_.end(), '\n', ' ');
+  }
+
+  std::string first_;
+};
+
+struct Close {
+  void operator()(GDALDatasetH dataset) const { GDALClose(dataset); }
+};
+using Dataset = std::unique_ptr<void, Close>;
+
+struct DestroyFeature {
+  void operator()(OGRFeatureH feature) const { OGR_F_Destroy(feature); }
+};
+using Feature = std::unique_ptr<void, DestroyFeature>;
+
+Dataset open(const std::string& path, const char* const* drivers = nullptr,
+             const char* const* options = nullptr) {
+  return Dataset(GDALOpenEx(path.c_str(), GDAL_OF_VECTOR | GDAL_OF_READONLY | GDAL_OF_VERBOSE_ERROR, drivers,
+                            options, nullptr));
+}
+
+/// "a, b, c", the first of them.
+std::string listed(const std::vector<std::string>& names) {
+  constexpr std::size_t kMost = 12;
+  std::string text;
+  for (std::size_t i = 0; i < std::min(names.size(), kMost); ++i)
+    text += (i > 0 ? ", " : "") + in_quotes(names[i]);
+  return names.size() > kMost ? text + " and others" : text;
+}
+
+std::vector<OGRLayerH> layers_of(GDALDatasetH dataset) {
+  std::vector<OGRLayerH> layers;
+  for (int i = 0; i < GDALDatasetGetLayerCount(dataset); ++i) {
+    if (OGRLayerH const layer = GDALDatasetGetLayer(dataset, i)) layers.push_back(layer);
+  }
+  return layers;
+}
+
+std::vector<std::string> names_of(const std::vector<OGRLayerH>& layers) {
+  std::vector<std::string> names(layers.size());
+  std::transform(layers.begin(), layers.end(), names.begin(), &OGR_L_GetName);
+  return names;
+}
+
+bool is_of_points(OGRLayerH layer) {
+  const OGRwkbGeometryType type = OGR_GT_Flatten(OGR_L_GetGeomType(layer));
+  return type == wkbPoint || type == wkbMultiPoint;
+}
+
+Crs crs_of(OGRSpatialReferenceH system) {
+  if (system == nullptr) return {};
+  const char* const authority = OSRGetAuthorityName(system, nullptr);
+  const char* const code = OSRGetAuthorityCode(system, nullptr);
+  if (authority != nullptr && code != nullptr) {
+    if (std::optional<Crs> crs = crs_of_name(std::string(authority) + ":" + code)) {
+      crs->is_geographic = OSRIsGeographic(system) != 0;
+      return *crs;
+    }
+  }
+  char* text = nullptr;
+  OSRExportToWkt(system, &text);
+  const std::unique_ptr<char, void (*)(void*)> owned(text, &VSIFree);
+  return text == nullptr ? Crs() : crs_of_wkt(text).value_or(Crs());
+}
+
+/// One layer's points.
+class LayerReader {
+ public:
+  LayerReader(std::string path, const PointFileOptions& options)
+      : path_(std::move(path)), options_(options) {}
+
+  PointFile read() {
+    check_options();
+    GdalErrors errors;
+    VSIStatBufL status{};
+    if (!is_database(path_) && VSIStatL(path_.c_str(), &status) != 0) {
+      throw PointFileError("there is no file " + path_ + " to read points from");
+    }
+    size_ = static_cast<std::uint64_t>(status.st_size);
+    const Dataset dataset = open(path_);
+    if (!dataset) fail("GDAL cannot read it" + errors.said());
+    OGRLayerH const layer = layer_of(dataset.get());
+    file_.crs = crs_of(OGR_L_GetSpatialRef(layer));
+    if (!options_.by.empty()) find_field(layer);
+    if (const auto& window = options_.window) {
+      OGR_L_SetSpatialFilterRect(layer, window->min.x, window->min.y, window->max.x, window->max.y);
+    }
+    count_ = OGR_L_GetFeatureCount(layer, 0);
+    OGR_L_ResetReading(layer);
+    while (const Feature feature{OGR_L_GetNextFeature(layer)}) add(feature.get());
+    if (errors.any()) fail("GDAL cannot read all of it" + errors.said());
+    point_files::hand_on(file_, options_, true);
+    if (field_) labels_.finish(file_);
+    return std::move(file_);
+  }
+
+ private:
+  [[noreturn]] void fail(const std::string& what) const { throw PointFileError(path_ + ": " + what); }
+
+  void check_options() const {
+    if (!options_.columns.empty()) {
+      fail("--columns is for columns of text, and this is a layer of geometries; leave --columns out");
+    }
+    if (options_.returns != Returns::kAll || options_.classes) {
+      fail("--returns and --classes are for LAS, and this file is not; leave them out");
+    }
+  }
+
+  OGRLayerH layer_of(GDALDatasetH dataset) const {
+    std::vector<OGRLayerH> layers = layers_of(dataset);
+    const std::string names = listed(names_of(layers));
+    if (!options_.layer.empty()) {
+      OGRLayerH const layer = GDALDatasetGetLayerByName(dataset, options_.layer.c_str());
+      if (layer == nullptr)
+        fail("it has no layer " + in_quotes(options_.layer) + "; its layers are " + names);
+      return layer;
+    }
+    std::erase_if(layers, [](OGRLayerH layer) { return OGR_L_GetGeomType(layer) == wkbNone; });
+    if (layers.empty()) fail("it has no layer with geometries; give a layer of points");
+    if (layers.size() > 1) std::erase_if(layers, std::not_fn(&is_of_points));
+    if (layers.size() != 1) fail("it has the layers " + names + "; name the one with the points by --layer");
+    return layers.front();
+  }
+
+  void find_field(OGRLayerH layer) {
+    OGRFeatureDefnH const fields = OGR_L_GetLayerDefn(layer);
+    const int count = OGR_FD_GetFieldCount(fields);
+    int field = OGR_FD_GetFieldIndex(fields, options_.by.c_str());
+    const auto number = point_files::parse_count(options_.by);
+    if (field < 0 && number && *number <= static_cast<std::uint64_t>(count))
+      field = static_cast<int>(*number) - 1;
+    if (field < 0) {
+      std::vector<std::string> names(static_cast<std::size_t>(count));
+      for (int f = 0; f < count; ++f) {
+        names[static_cast<std::size_t>(f)] = OGR_Fld_GetNameRef(OGR_FD_GetFieldDefn(fields, f));
+      }
+      fail("--by " + in_quotes(options_.by) + " names no column; " +
+           (names.empty() ? "there is none" : "the columns are " + listed(names)));
+    }
+    field_ = field;
+    is_real_ = OGR_Fld_GetType(OGR_FD_GetFieldDefn(fields, field)) == OFTReal;
+  }
+
+  std::uint32_t group_of(OGRFeatureH feature) {
+    if (OGR_F_IsFieldSetAndNotNull(feature, *field_) == 0) return labels_.index_of("");
+    // With all digits, as text has them.
+    if (is_real_) return labels_.index_of(shortest(OGR_F_GetFieldAsDouble(feature, *field_)));
+    return labels_.index_of(OGR_F_GetFieldAsString(feature, *field_));
+  }
+
+  void add(OGRFeatureH feature) {
+    constexpr std::uint64_t kFeaturesBetweenLooks = 4096;
+    if (++done_ % kFeaturesBetweenLooks == 0) tell();
+    OGRGeometryH const geometry = OGR_F_GetGeometryRef(feature);
+    if (geometry == nullptr) return;
+    const std::size_t before = file_.points.size();
+    add_geometry(geometry);
+    if (field_ && file_.points.size() > before) file_.groups.resize(file_.points.size(), group_of(feature));
+    point_files::hand_on(file_, options_);
+  }
+
+  void add_geometry(OGRGeometryH geometry) {
+    const OGRwkbGeometryType type = OGR_GT_Flatten(OGR_G_GetGeometryType(geometry));
+    if (type == wkbPoint) {
+      if (OGR_G_IsEmpty(geometry) == 0) add_point({OGR_G_GetX(geometry, 0), OGR_G_GetY(geometry, 0)});
+    } else if (type == wkbMultiPoint || type == wkbGeometryCollection) {
+      for (int i = 0; i < OGR_G_GetGeometryCount(geometry); ++i)
+        add_geometry(OGR_G_GetGeometryRef(geometry, i));
+    } else {
+      fail("feature " + std::to_string(done_) + " is a " + OGRGeometryTypeToName(type) +
+           " and no set of points; give a layer of points");
+    }
+  }
+
+  void add_point(const Point& point) {
+    if (!std::isfinite(point.x) || !std::isfinite(point.y)) {
+      fail("feature " + std::to_string(done_) + " has a coordinate that is not finite; remove the point");
+    }
+    if (options_.window && !point_files::is_inside(point, *options_.window)) return;
+    file_.points.push_back(point);
+  }
+
+  /// Of a file the share of its features as a share of its bytes; of a database what its points took on the
+  /// way, in well-known binary.
+  void tell() const {
+    constexpr std::uint64_t kBytesAPoint = 21;
+    if (!options_.on_progress) return;
+    if (size_ == 0 || count_ <= 0) return options_.on_progress(done_ * kBytesAPoint, {});
+    const double share = std::min(1.0, static_cast<double>(done_) / static_cast<double>(count_));
+    options_.on_progress(static_cast<std::uint64_t>(static_cast<double>(size_) * share), size_);
+  }
+
+  std::string path_;
+  const PointFileOptions& options_;
+  PointFile file_;
+  std::uint64_t size_ = 0;    ///< bytes; 0: not known
+  GIntBig count_ = -1;        ///< features; -1: not known
+  std::uint64_t done_ = 0;    ///< features
+  std::optional<int> field_;  ///< what is grouped by
+  bool is_real_ = false;      ///< the field holds floating-point numbers
+  point_files::Labels labels_;
+};
+
+/// Whether `word` is one of those between the blanks of `list`, which may be null, in any case.
+bool is_listed(std::string_view word, const char* list) {
+  const auto equal = [](unsigned char a, unsigned char b) { return std::tolower(a) == std::tolower(b); };
+  for (std::string_view rest = list == nullptr ? "" : list; !rest.empty();) {
+    const std::string_view next = rest.substr(0, rest.find(' '));
+    if (std::equal(word.begin(), word.end(), next.begin(), next.end(), equal)) return true;
+    rest.remove_prefix(std::min(rest.size(), next.size() + 1));
+  }
+  return false;
+}
+
+bool can(GDALDriverH driver, const char* what) {
+  return GDALGetMetadataItem(driver, what, nullptr) != nullptr;
+}
+
+/// The driver that is named, or the first one that writes vectors under this ending or beginning.
+GDALDriverH driver_of(const VectorOutput& output) {
+  const auto writes = [](GDALDriverH driver) {
+    return driver != nullptr && can(driver, GDAL_DCAP_VECTOR) && can(driver, GDAL_DCAP_CREATE);
+  };
+  if (!output.driver.empty()) {
+    GDALDriverH const driver = GDALGetDriverByName(output.driver.c_str());
+    if (writes(driver)) return driver;
+    throw ConfigurationError("this GDAL has no driver " + in_quotes(output.driver) +
+                             " that writes polygons; 'ogrinfo --formats' lists those that can ('w')");
+  }
+  const std::string ending = fs::path(output.path).extension().string();
+  for (int d = 0; d < GDALGetDriverCount(); ++d) {
+    GDALDriverH const driver = GDALGetDriver(d);
+    if (!writes(driver)) continue;
+    const char* const beginning = GDALGetMetadataItem(driver, GDAL_DMD_CONNECTION_PREFIX, nullptr);
+    if (beginning != nullptr && *beginning != '\0' && output.path.starts_with(beginning)) return driver;
+    const char* const endings = GDALGetMetadataItem(driver, GDAL_DMD_EXTENSIONS, nullptr);
+    if (!is_database(output.path) && ending.size() > 1 &&
+        is_listed(std::string_view(ending).substr(1), endings)) {
+      return driver;
+    }
+  }
+  throw ConfigurationError("this GDAL has no driver that writes " + output.path +
+                           "; name one by --format, as in gdal:GPKG ('ogrinfo --formats' lists them)");
+}
+
+std::string layer_name(const VectorOutput& output) {
+  if (!output.layer.empty()) return output.layer;
+  return is_database(output.path) ? "polylidar" : fs::path(output.path).stem().string();
+}
+
+/// Removes a folder with all that is in it.
+class TemporaryFolder {
+ public:
+  explicit TemporaryFolder(fs::path path) : path_(std::move(path)) { fs::create_directory(path_); }
+  ~TemporaryFolder() {
+    std::error_code ignored;
+    fs::remove_all(path_, ignored);
+  }
+  TemporaryFolder(const TemporaryFolder&) = delete;
+  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
+
+  const fs::path& path() const { return path_; }
+
+ private:
+  fs::path path_;
+};
+
+/// Bytes as a file of GDAL's.
+class MemoryFile {
+ public:
+  explicit MemoryFile(std::string bytes)
+      : bytes_(std::move(bytes)), path_("/vsimem/polylidar-" + std::to_string(::getpid()) + ".geojson") {
+    VSILFILE* const file =
+        VSIFileFromMemBuffer(path_.c_str(), reinterpret_cast<GByte*>(bytes_.data()), bytes_.size(), FALSE);
+    if (file == nullptr) throw std::runtime_error("GDAL takes no file in memory");
+    (void)VSIFCloseL(file);
+  }
+  ~MemoryFile() { VSIUnlink(path_.c_str()); }
+  MemoryFile(const MemoryFile&) = delete;
+  MemoryFile& operator=(const MemoryFile&) = delete;
+
+  const std::string& path() const { return path_; }
+
+ private:
+  std::string bytes_;
+  std::string path_;
+};
+
+/// The features of `source` into a new file or table.
+void translate(GDALDatasetH source, const std::string& to, const VectorOutput& output, const Crs& crs) {
+  const std::string system = crs.epsg > 0 ? crs.name() : crs.wkt.empty() ? "NONE" : crs.wkt;
+  std::vector<std::string> words = {
+      "-f", GDALGetDriverShortName(driver_of(output)), "-nln", layer_name(output), "-a_srs", system};
+  std::vector<char*> arguments;
+  for (std::string& word : words) arguments.push_back(word.data());
+  arguments.push_back(nullptr);
+  GdalErrors errors;
+  const std::unique_ptr<GDALVectorTranslateOptions, void (*)(GDALVectorTranslateOptions*)> options(
+      GDALVectorTranslateOptionsNew(arguments.data(), nullptr), &GDALVectorTranslateOptionsFree);
+  const auto fail = [&] {
+    throw std::runtime_error("cannot write " + output.path +
+                             (errors.any() ? errors.said() : ": GDAL refuses"));
+  };
+  if (!options) fail();
+  int is_misused = 0;
+  GDALDatasetH sources[] = {source};
+  Dataset written(GDALVectorTranslate(to.c_str(), nullptr, 1, sources, options.get(), &is_misused));
+  if (!written) fail();
+  // Much is written only now.
+  written.reset();
+  if (errors.any()) fail();
+}
+
+/// When something is to be read or written, as it takes a moment.
+void register_drivers() {
+  static std::once_flag once;
+  std::call_once(once, &GDALAllRegister);
+}
+
+class GdalFormats final : public VectorFormats {
+ public:
+  PointFile read(const std::string& path, const PointFileOptions& options) const override {
+    register_drivers();
+    return LayerReader(path, options).read();
+  }
+
+  void check(const VectorOutput& output) const override {
+    register_drivers();
+    driver_of(output);
+    if (is_database(output.path)) return check_database(output);
+    check_output_place(output.path);
+    if (!fs::exists(output.path)) return;
+    // Else SQLite would play what stands there into the new file.
+    if (fs::exists(output.path + "-wal"))
+      throw ConfigurationError(output.path +
+                               " is open in another program; close it there, or give another file");
+    GdalErrors errors;
+    const Dataset there = open(output.path);
+    if (!there) return;
+    for (const std::string& name : names_of(layers_of(there.get()))) {
+      if (name == layer_name(output)) continue;
+      throw ConfigurationError(output.path + " has a layer " + in_quotes(name) +
+                               ", which would be lost; give another file");
+    }
+  }
+
+  void write(const VectorOutput& output, std::string geojson, const Crs& crs) const override {
+    check(output);
+    const MemoryFile features(std::move(geojson));
+    const char* const drivers[] = {"GeoJSON", nullptr};
+    const char* const options[] = {"ARRAY_AS_STRING=YES", nullptr};
+    // Of outlines of any length.
+    CPLSetThreadLocalConfigOption("OGR_GEOJSON_MAX_OBJ_SIZE", "0");
+    GdalErrors errors;
+    const Dataset source = open(features.path(), drivers, options);
+    if (!source) throw std::runtime_error("cannot write " + output.path + errors.said());
+    if (is_database(output.path)) return translate(source.get(), output.path, output, crs);
+    write_file(source.get(), output, crs);
+  }
+
+ private:
+  /// GDAL would append to a table that is there.
+  static void check_database(const VectorOutput& output) {
+    GdalErrors errors;
+    const Dataset there = open(output.path);
+    if (!there) throw std::runtime_error("cannot write " + output.path + errors.said());
+    if (GDALDatasetGetLayerByName(there.get(), layer_name(output).c_str()) == nullptr) return;
+    throw ConfigurationError(output.path + " has a table " + in_quotes(layer_name(output)) +
+                             " already; name another one by --out-layer");
+  }
+
+  /// Of the file of the same format that `target` was, those beside it that `parts` do not replace, such as a
+  /// .prj or an index: they would be taken for those of the new file.
+  static void remove_side_files(const fs::path& target, const std::vector<fs::path>& parts,
+                                const VectorOutput& output) {
+    if (!fs::exists(target)) return;
+    GdalErrors unreadable;
+    const char* const drivers[] = {GDALGetDriverShortName(driver_of(output)), nullptr};
+    const Dataset old = open(target.string(), drivers);
+    if (!old) return;
+    char** const names = GDALGetFileList(old.get());
+    for (char** name = names; name != nullptr && *name != nullptr; ++name) {
+      const fs::path file = *name;
+      const auto is_replaced = [&](const fs::path& part) { return part.filename() == file.filename(); };
+      if (std::none_of(parts.begin(), parts.end(), is_replaced)) fs::remove(file);
+    }
+    CSLDestroy(names);
+  }
+
+  /// Into a folder beside, as some formats are several files; these are moved when they are whole.
+  static void write_file(GDALDatasetH source, const VectorOutput& output, const Crs& crs) {
+    const fs::path target = fs::weakly_canonical(output.path);
+    const TemporaryFolder unfinished(target.string() + ".unfinished-" + std::to_string(::getpid()));
+    translate(source, (unfinished.path() / target.filename()).string(), output, crs);
+    throw_if_interrupted();
+    std::vector<fs::path> parts;
+    for (const fs::directory_entry& part : fs::directory_iterator(unfinished.path()))
+      parts.push_back(part.path());
+    remove_side_files(target, parts, output);
+    for (const fs::path& part : parts) fs::rename(part, target.parent_path() / part.filename());
+  }
+};
+
+}  // namespace
+
+const VectorFormats& gdal_formats() {
+  static const GdalFormats formats;
+  return formats;
+}
+
+}  // namespace polylidar::tool
