@@ -14,6 +14,7 @@ set(needs_libpq NEEDS LIBPQ_FOUND MISSING "libpq" INSTALL "sudo apt-get install 
 
 add_adapter(NAME polylidar TITLE "Polylidar" LIBRARIES polylidar::core
   DEFINITIONS POLYLIDAR_VERSION="${PROJECT_VERSION}")
+add_adapter(NAME polylidar_steps TITLE "Polylidar, step by step" LIBRARIES hullbench_adapter_polylidar polylidar::core)
 
 add_adapter(NAME cgal_alpha_shape TITLE "CGAL alpha shape" ${needs_cgal} LIBRARIES CGAL::CGAL)
 add_adapter(NAME cgal_delaunay TITLE "CGAL Delaunay + filter" ${needs_cgal} LIBRARIES CGAL::CGAL)

@@ -1,4 +1,6 @@
-// The polylidar core as a method.
+// The polylidar core as a method: concave_hull() as a caller uses it, on memory that is kept between calls.
+// It does not triangulate the interior where it need not; polylidar_steps is the way with a whole
+// triangulation.
 #include <limits>
 #include <memory>
 #include <optional>
@@ -6,7 +8,8 @@
 #include <string>
 #include <vector>
 
-#include "adapters/adapter.hpp"
+#include "adapters/point_checks.hpp"
+#include "adapters/polylidar_adapter.hpp"
 #include "polylidar/concave_hull.hpp"
 
 namespace hullbench {
@@ -16,7 +19,9 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 /// No shape has triangles within an alpha of 0, so that the number is free to mean this.
 constexpr double kNotGiven = 0;
 
-MethodInfo describe() {
+}  // namespace
+
+MethodInfo describe_polylidar() {
   MethodInfo info;
   info.name = "polylidar";
   info.title = "Polylidar";
@@ -49,53 +54,54 @@ MethodInfo describe() {
   return info;
 }
 
-class PolylidarAdapter final : public Adapter {
+namespace {
+
+polylidar::Options options_of(const MethodInfo& info, const Parameters& parameters) {
+  const Parameters complete = complete_parameters(info, parameters);
+  const auto limit = [&](const char* name, double not_given) {
+    const double value = complete.at(name);
+    return value == not_given ? std::nullopt : std::optional(value);
+  };
+  return {.alpha = limit("alpha", kNotGiven),
+          .max_edge_length = limit("max_edge_length", kInfinity),
+          .max_perimeter = limit("max_perimeter", kInfinity),
+          .detail = complete.at("detail")};
+}
+
+class OneCall final : public PolylidarAdapter {
  public:
-  const MethodInfo& info() const override { return info_; }
-
-  void load(std::span<const Point> points) override {
-    shape_ = nullptr;
-    points_.assign(points.begin(), points.end());
-  }
-
-  void run(const Parameters& parameters, Steps& steps) override {
-    const Parameters complete = complete_parameters(info_, parameters);
-    const auto limit = [&](const char* name, double not_given) {
-      const double value = complete.at(name);
-      return value == not_given ? std::nullopt : std::optional(value);
-    };
-    const polylidar::Options options = {.alpha = limit("alpha", kNotGiven),
-                                        .max_edge_length = limit("max_edge_length", kInfinity),
-                                        .max_perimeter = limit("max_perimeter", kInfinity),
-                                        .detail = complete.at("detail")};
-    steps.begin("triangulation");
-    extractor_.triangulate(points_);
-    steps.begin("shape");
-    extractor_.extract_regions(options);
-    steps.begin("polygon");
-    shape_ = &extractor_.extract_polygons();
-  }
-
-  MultiPolygon extract(Steps& steps) override {
-    if (!shape_) throw std::logic_error("extract comes after run");
-    steps.begin("polygon");
-    return polylidar::to_coordinates(*shape_, points_);
-  }
-
-  void reset() override { shape_ = nullptr; }
+  using PolylidarAdapter::PolylidarAdapter;
 
  private:
-  MethodInfo info_ = describe();
-  std::vector<Point> points_;
-  polylidar::Extractor extractor_;
-  /// The extractor's result of the last run; null before the first one.
-  const polylidar::IndexedMultiPolygon* shape_ = nullptr;
+  const polylidar::IndexedMultiPolygon& make_shape(polylidar::Extractor& extractor,
+                                                   std::span<const Point> points,
+                                                   const polylidar::Options& options, Steps& steps) override {
+    steps.begin("hull");
+    return extractor.extract(points, options);
+  }
 };
 
 }  // namespace
 
+void PolylidarAdapter::load(std::span<const Point> points) {
+  require_finite(points);
+  shape_ = nullptr;
+  points_.assign(points.begin(), points.end());
+}
+
+void PolylidarAdapter::run(const Parameters& parameters, Steps& steps) {
+  const polylidar::Options options = options_of(info_, parameters);
+  shape_ = &make_shape(extractor_, points_, options, steps);
+}
+
+MultiPolygon PolylidarAdapter::extract(Steps& steps) {
+  if (!shape_) throw std::logic_error("extract comes after run");
+  steps.begin("polygon");
+  return polylidar::to_coordinates(*shape_, points_);
+}
+
 std::unique_ptr<Adapter> make_polylidar() {
-  return std::make_unique<PolylidarAdapter>();
+  return std::make_unique<OneCall>(describe_polylidar());
 }
 
 }  // namespace hullbench

@@ -57,7 +57,14 @@ const std::vector<Method>& methods() {
   // Five standard deviations: no spurious holes at this density.
   static const Parameters filled = {{"c", 5}, {"allow_holes", 0}};
   static const Parameters open = {{"c", 5}, {"allow_holes", 1}};
+  static const Parameters by_density = {
+      {"alpha", 0}, {"max_edge_length", kInfinity}, {"max_perimeter", kInfinity}, {"detail", 1}};
   static const std::vector<Method> all = {
+      {{"polylidar", ".+", kPolygons, "hull polygon"}, by_density, {{"alpha", 0.1}}, {{"max_perimeter", 1}}},
+      {{"polylidar_steps", ".+", kPolygons, "triangulation shape polygon polygon"},
+       by_density,
+       {{"alpha", 0.1}},
+       {{"max_perimeter", 1}}},
       {{"cgal_alpha_shape", kNumbers, kPolygons, "triangulation alpha_shape polygon"},
        {{"alpha", 0}},
        {{"alpha", 0.01}},
@@ -146,6 +153,21 @@ TEST_P(MethodContract, IsKept) {
 INSTANTIATE_TEST_SUITE_P(Methods, MethodContract, ::testing::ValuesIn(methods()), [](const auto& tested) {
   return std::to_string(tested.index) + "_" + tested.param.identity.name;
 });
+
+// Large enough that the one call leaves the interior out.
+TEST(PolylidarSteps, GiveThePolygonsOfOneCall) {
+  const auto make = [](const char* name) {
+    const auto& registry = adapter_registry();
+    return std::find_if(registry.begin(), registry.end(),
+                        [&](const AdapterEntry& entry) { return entry.name == name; })
+        ->make();
+  };
+  const std::vector<Point> points = test::square_points(40000, 8, true);
+  for (const Parameters& parameters :
+       {Parameters{}, Parameters{{"alpha", 0.02}}, Parameters{{"max_perimeter", 0.1}}})
+    EXPECT_EQ(test::hull_of(*make("polylidar"), points, parameters),
+              test::hull_of(*make("polylidar_steps"), points, parameters));
+}
 
 }  // namespace
 }  // namespace hullbench
