@@ -34,6 +34,9 @@ hullbench_test(test_pictures SOURCES test_pictures.cpp
   LIBRARIES hullbench::run hullbench::report LABELS harness RUNS_HULLBENCH)
 hullbench_test(test_league SOURCES test_league.cpp
   LIBRARIES hullbench::league hullbench::tune hullbench::report LABELS harness)
+hullbench_test(test_submission SOURCES test_submission.cpp
+  LIBRARIES hullbench::record hullbench::hash LABELS harness RUNS_HULLBENCH TIMEOUT 600)
+target_compile_definitions(test_submission PRIVATE SYSTEM_PYTHON="${SYSTEM_PYTHON}")
 hullbench_test(test_suite SOURCES test_suite.cpp LIBRARIES hullbench::record LABELS harness RUNS_HULLBENCH)
 hullbench_test(test_readme SOURCES test_readme.cpp
   LIBRARIES hullbench::run hullbench_invented_run LABELS harness RUNS_HULLBENCH)
@@ -102,7 +105,7 @@ target_link_libraries(hullbench_with_sample PRIVATE
 add_test(NAME sample_method.keeps_the_contract COMMAND hullbench_with_sample adapter test sample_hull)
 
 # Real methods, the harness and all; a method that is not installed ends with 6.
-foreach(method IN ITEMS polylidar cgal_alpha_shape cgal_delaunay sfcgal_alpha_shape spatialite geos_concave_hull chi_shape
+foreach(method IN ITEMS polylidar polylidar_steps cgal_alpha_shape cgal_delaunay sfcgal_alpha_shape spatialite geos_concave_hull chi_shape
     knn_hull convex_hull concaveman delaunator hull_js turf_concave jts_concave_hull scipy_alpha_shape shrink_boundary)
   add_test(NAME contract.${method} COMMAND hullbench adapter test ${method})
   set_tests_properties(contract.${method} PROPERTIES SKIP_RETURN_CODE 6)

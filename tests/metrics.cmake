@@ -20,3 +20,5 @@ if(TARGET hullbench_adapter_sfcgal_alpha_shape)
       hullbench::datasets
     LABELS adapters)
 endif()
+
+hullbench_test(test_hexbin SOURCES test_hexbin.cpp LIBRARIES hullbench::footprint hullbench::metrics LABELS metrics)

@@ -209,6 +209,7 @@ json hello(const std::string& mode) {
   info.capabilities.in_server = mode == "in_server";
   info.parameters = {{"size", "length", "Does nothing.", 0, 10, 1.0}};
   return {{"protocol", mode == "other_protocol" ? 2 : 1},
+          {"version", info.version},
           {"method", hullbench::worker::method_to_json(info)}};
 }
 

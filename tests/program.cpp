@@ -86,7 +86,7 @@ std::pair<char, pid_t> state_and_parent(const fs::path& folder) {
 }  // namespace
 
 Program::Program(const std::vector<std::string>& command, const ProgramOptions& options)
-    : out_(new_file()), err_(new_file()) {
+    : patience_(options.patience), out_(new_file()), err_(new_file()) {
   pid_ = ::fork();
   if (pid_ == 0) become(command, options, out_, err_);
   if (pid_ < 0) throw std::runtime_error("cannot fork");
@@ -108,7 +108,7 @@ void Program::send_signal(int signal) const {
 
 Outcome Program::wait() {
   int status = 0;
-  const bool ended = wait_until([&] { return ::waitpid(pid_, &status, WNOHANG) == pid_; }, 60s);
+  const bool ended = wait_until([&] { return ::waitpid(pid_, &status, WNOHANG) == pid_; }, patience_);
   EXPECT_TRUE(ended) << "the program did not end; it said: " << read_text(err_);
   if (!ended) {
     ::kill(pid_, SIGKILL);

@@ -23,6 +23,7 @@ struct ProgramOptions {
   std::filesystem::path folder;                    ///< working directory; empty: ours
   std::map<std::string, std::string> environment;  ///< added to ours
   bool obey_permissions = false;  ///< even when we are root, who may otherwise write to every folder
+  std::chrono::seconds patience = std::chrono::seconds(60);  ///< how long wait() waits
 };
 
 /// A program that runs beside the test; killed with this object.
@@ -35,11 +36,12 @@ class Program {
 
   pid_t pid() const { return pid_; }
   void send_signal(int signal) const;
-  /// Waits for its end, at most a minute (a test failure, and the program is killed).
+  /// Waits for its end; when it does not come in time, that is a test failure, and the program is killed.
   Outcome wait();
 
  private:
   pid_t pid_ = -1;
+  std::chrono::seconds patience_;
   std::filesystem::path out_;
   std::filesystem::path err_;
 };

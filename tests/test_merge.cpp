@@ -162,6 +162,13 @@ TEST_F(MergeTest, TellsWhereItsRowsCameFrom) {
 
 TEST_F(MergeTest, MayBeMergedAgain) {
   run_shards(3, {plan()});
+  // Begun within the same second, under different loads.
+  for (int number = 1; number <= 3; ++number) {
+    change_header("shard" + std::to_string(number), [&](json& header) {
+      header["created"] = "2020-01-01T00:00:00Z";
+      header["environment"]["load_average"] = {0.5 * number, 0.5, 0.5};
+    });
+  }
   ASSERT_EQ(hullbench({"merge", "shard1", "shard2", "shard3", "--out", "at_once"}).code, 0);
   ASSERT_EQ(hullbench({"merge", "shard3", "shard1", "--out", "two"}).code, 4);
   ASSERT_EQ(hullbench({"merge", "shard2", "two", "--out", "in_turn"}).code, 0);

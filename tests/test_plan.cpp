@@ -682,7 +682,7 @@ TEST(Plan, StepsIsThePapersExperiment) {
     EXPECT_NE(run.name.find("/ca/n:64000/holes:1/"), std::string::npos);
   for (const char* method : {"polylidar", "cgal_alpha_shape", "spatialite", "postgis_steps", "chi_shape"})
     EXPECT_EQ(plan::planned_runs(plan, "^" + std::string(method) + "/.*protocol:paper").size(), 1U) << method;
-  EXPECT_EQ(plan::planned_runs(plan, "^(spatialite|postgis)_steps/.*protocol:paper").size(), 2U);
+  EXPECT_EQ(plan::planned_runs(plan, "^(polylidar|spatialite|postgis)_steps/.*protocol:paper").size(), 3U);
 }
 
 TEST(Plan, RandomIsThePapersExperimentAndAThousandOtherShapes) {

@@ -52,6 +52,17 @@ TEST(PointParts, AreTheSameAgainAndOthersForAnotherDraw) {
   EXPECT_NE(run::draw_parts(points, "other", 1, 0).most, parts.most);
 }
 
+TEST(PointParts, ASampleHasItsSizeAndOrderAndIsTheSameAgain) {
+  const std::vector<Point> points = row_of(200);
+  const std::vector<Point> sample = run::draw_sample(points, 50, 1);
+  EXPECT_EQ(sample.size(), 50U);
+  EXPECT_TRUE(is_in_order(sample));
+  EXPECT_EQ(run::draw_sample(points, 50, 1), sample);
+  EXPECT_NE(run::draw_sample(points, 50, 2), sample);
+  EXPECT_EQ(run::draw_sample(points, 200, 1), points);
+  EXPECT_EQ(run::draw_sample(points, 201, 1), points);
+}
+
 TEST(PointParts, EveryPointIsAsLikelyAsAnother) {
   constexpr int kDraws = 2000;
   std::vector<int> drawn(20);

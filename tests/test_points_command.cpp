@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <cstring>
 #include <filesystem>
+#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
@@ -138,6 +139,37 @@ TEST_F(PointsCommandTest, HolesSeedAndOwnPoints) {
   const Outcome floor = points({"floor-2", "--seed", "5", "--out", path("floor.npy")});
   EXPECT_EQ(floor.code, 0) << floor.err;
   EXPECT_EQ(polylidar::tool::read_points(path("floor.npy")), make_point_set("floor-2", false, 0, 5).points);
+}
+
+TEST_F(PointsCommandTest, AFamilyIsAllItsShapesWithLabels) {
+  constexpr std::size_t kCells = 48;
+  constexpr std::size_t kEach = 120;
+  const std::string family = "cell~transcripts:5";
+  std::vector<Point> expected;
+  for (std::size_t cell = 1; cell <= kCells; ++cell) {
+    const std::string name = "cell-" + std::to_string(cell) + "~transcripts:5";
+    const std::vector<Point> own = make_point_set(name, false, kEach, 7).points;
+    expected.insert(expected.end(), own.begin(), own.end());
+  }
+  const std::string csv = written(family, std::to_string(kEach), "cells.csv");
+  EXPECT_TRUE(read_text(csv).starts_with("x,y,label\n"));
+  EXPECT_EQ(polylidar::tool::read_points(csv), expected);
+  const LasFile las(read_text(written(family, std::to_string(kEach), "cells.las")));
+  ASSERT_EQ(las.sources.size(), expected.size());
+  for (std::size_t i = 0; i < las.sources.size(); ++i) EXPECT_EQ(las.sources[i], 1 + i / kEach);
+  EXPECT_EQ(las.bounds.min, polylidar::bounding_box(las.points).min);
+
+  const Outcome hulls = testing::run_program({HULLBENCH, "hull", csv, "--by", "label"});
+  EXPECT_EQ(hulls.code, 0) << hulls.err;
+  const nlohmann::json features = nlohmann::json::parse(hulls.out)["features"];
+  ASSERT_EQ(features.size(), kCells);
+  EXPECT_EQ(features[47]["properties"]["label"], 48);
+  EXPECT_EQ(features[47]["properties"]["points"], kEach);
+
+  const Outcome floors = points({"lowfloor", "--format", "npy"});
+  EXPECT_EQ(floors.code, 0) << floors.err;
+  expect_refusal(points({"cell", "--n", "100000000", "--format", "las"}), 2, "at most 4294967295 points");
+  expect_refusal(points({"cell~nothing:5", "--n", "10"}), 2, "cell-1~nothing:5");
 }
 
 TEST_F(PointsCommandTest, StandardOutputGetsCsvOrWhatIsAsked) {

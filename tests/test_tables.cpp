@@ -122,6 +122,13 @@ TEST(Headline, IsTheFastestMethodWithTheSamePolygonsAndThenThePapersRival) {
   EXPECT_NE(text.find("whole spectrum of alphas"), std::string::npos) << text;
 }
 
+TEST(Headline, TheSameMethodStepByStepIsNoRival) {
+  json report = invented_report({2000, 64000});
+  add_rival(report, "cgal_alpha_shape", "polylidar_steps", 2);
+  EXPECT_EQ(headline_of(report).find("step by step"), std::string::npos) << headline_of(report);
+  EXPECT_EQ(headline_of(report).find("polylidar_steps"), std::string::npos) << headline_of(report);
+}
+
 TEST(Headline, TheFastestCountsThoughItWasMeasuredOnFewCases) {
   json report = invented_report({2000, 64000});
   add_rival(report, "cgal_alpha_shape", "twin", 2);

@@ -300,15 +300,21 @@ TEST_F(MethodSessionTest, WhatAWorkerLeavesBehindGoesWithIt) {
 }
 
 TEST_F(MethodSessionTest, WhatAKilledHarnessLeftIsCleanedUpByTheNextOne) {
-  const pid_t harness = ::fork();
-  if (harness == 0) {
-    attempt("fork");
-    (void)std::raise(SIGKILL);
-  }
-  ASSERT_GT(harness, 0);
-  ASSERT_EQ(::waitpid(harness, nullptr, 0), harness);
-  // The worker went with the harness; its child is in a session of its own and lives.
-  EXPECT_TRUE(testing::runs_somewhere(misbehaving("fork")));
+  const auto leaves_a_stray = [&] {
+    const pid_t harness = ::fork();
+    if (harness == 0) {
+      attempt("fork");
+      (void)std::raise(SIGKILL);
+    }
+    EXPECT_GT(harness, 0);
+    EXPECT_EQ(::waitpid(harness, nullptr, 0), harness);
+    // The worker went with the harness; its child is in a session of its own and lives.
+    return testing::runs_somewhere(misbehaving("fork"));
+  };
+  // A harness that another test starts just then cleans up as well: what it took is left once more.
+  bool is_left = leaves_a_stray();
+  for (int again = 0; again < 20 && !is_left; ++again) is_left = leaves_a_stray();
+  ASSERT_TRUE(is_left);
   worker::end_strays_of_dead_harnesses();
   EXPECT_TRUE(testing::wait_until([&] { return !testing::runs_somewhere(misbehaving("fork")); }));
 }

@@ -26,4 +26,12 @@ void leave_core(int core) {
   if (CPU_COUNT(&others) > 0) ::sched_setaffinity(0, sizeof others, &others);
 }
 
+Cores reserve_worker_core() {
+  Cores cores = {allowed_cores(), std::nullopt};
+  if (cores.all.empty()) return cores;
+  cores.worker = cores.all.back();
+  leave_core(*cores.worker);
+  return cores;
+}
+
 }  // namespace hullbench

@@ -1,6 +1,5 @@
 // `hullbench adapter new` and `hullbench adapter test`: a method from its first file to a kept contract.
 #include <algorithm>
-#include <cstdlib>
 #include <fstream>
 #include <iomanip>
 #include <iostream>
@@ -8,6 +7,7 @@
 #include <system_error>
 
 #include "benchmarks/base/configuration_error.hpp"
+#include "benchmarks/base/scratch_folder.hpp"
 #include "benchmarks/cli/options.hpp"
 #include "benchmarks/run/contract.hpp"
 #include "benchmarks/run/method_catalog.hpp"
@@ -129,24 +129,6 @@ void write_all(const std::vector<NewFile>& files) {
   }
 }
 
-/// A folder for the files of one test, removed with this object.
-class Scratch {
- public:
-  Scratch() : path_((fs::temp_directory_path() / "hullbench-contract-XXXXXX").string()) {
-    if (!mkdtemp(path_.data())) throw std::runtime_error("cannot make a folder like " + path_);
-  }
-  ~Scratch() {
-    std::error_code ignored;
-    fs::remove_all(path_, ignored);
-  }
-  Scratch(const Scratch&) = delete;
-  Scratch& operator=(const Scratch&) = delete;
-  fs::path path() const { return path_; }
-
- private:
-  std::string path_;
-};
-
 void print(const run::Verdict& verdict) {
   std::cout << (verdict.kept ? "ok    " : "FAIL  ") << std::left << std::setw(30) << verdict.name << " "
             << verdict.words << std::endl;
@@ -171,7 +153,7 @@ ExitCode new_adapter(const NewAdapterCommand& command) {
 ExitCode test_adapter(const TestAdapterCommand& command) {
   const run::MethodCatalog catalog(run::manifest_folders(command.adapters));
   const worker::Method& method = catalog.find(command.name);
-  const Scratch scratch;
+  const ScratchFolder scratch("hullbench-contract");
   const auto timeout = std::chrono::milliseconds(static_cast<std::int64_t>(command.timeout_s * 1000));
   const std::vector<run::Verdict> verdicts =
       run::test_contract(method, {command.mem_limit_mib, std::nullopt}, timeout, scratch.path(), &print);

@@ -2,9 +2,9 @@
 #include <iostream>
 #include <string>
 
-#include "benchmarks/base/configuration_error.hpp"
 #include "benchmarks/cli/options.hpp"
 #include "packaging/manual/manual.hpp"
+#include "tool/program/command_line.hpp"
 
 namespace {
 
@@ -12,9 +12,10 @@ using namespace hullbench;
 using namespace hullbench::cli;
 
 /// In the order of the help.
-constexpr auto kCommands = {&add_list,  &add_metrics, &add_run,    &add_tune,     &add_league,
-                            &add_merge, &add_tables,  &add_report, &add_compare,  &add_adapter,
-                            &add_hull,  &add_points,  &add_readme, &add_validate, &add_worker};
+constexpr auto kCommands = {&add_list,    &add_metrics,  &add_run,    &add_tune,   &add_league,
+                            &add_merge,   &add_rescore,  &add_tables, &add_report, &add_compare,
+                            &add_adapter, &add_submit,   &add_hull,   &add_choose, &add_points,
+                            &add_readme,  &add_validate, &add_worker};
 
 constexpr const char* kVariables =
     "HULLBENCH_POSTGIS_DSN names a PostGIS server to use instead of a private one; HULLBENCH_POSTGRES_BIN\n"
@@ -31,16 +32,7 @@ Action parse(int argc, char** argv) {
   Action action;
   for (const auto add : kCommands) add(app, action);
   packaging::add_manual(app, "hullbench " HULLBENCH_VERSION);
-  try {
-    app.parse(argc, argv);
-  } catch (const CLI::Success& request) {
-    app.exit(request);
-    return [] { return kExitOk; };
-  } catch (const CLI::ParseError& error) {
-    throw ConfigurationError(std::string(error.what()) +
-                             "; 'hullbench --help' and 'hullbench COMMAND --help' show what there is");
-  }
-  return action;
+  return polylidar::tool::parsed_action(app, action, argc, argv);
 }
 
 }  // namespace

@@ -9,14 +9,10 @@
 #include "benchmarks/base/files.hpp"
 #include "benchmarks/cli/options.hpp"
 #include "benchmarks/cli/run_folder.hpp"
-#include "benchmarks/record/pictures.hpp"
 #include "benchmarks/record/stored_run.hpp"
 #include "benchmarks/report/documents.hpp"
-#include "benchmarks/report/report.hpp"
 #include "benchmarks/run/merge.hpp"
-#include "benchmarks/run/run_directory.hpp"
 #include "benchmarks/run/runner.hpp"
-#include "benchmarks/run/suite.hpp"
 
 namespace hullbench::cli {
 namespace {
@@ -82,26 +78,6 @@ void check_out(const MergeCommand& command) {
     throw ConfigurationError("the output folder " + out +
                              " is not empty; choose another one with --out, or write to it with --force");
   }
-}
-
-void write_run(const run::MergedRun& run, const fs::path& folder) {
-  const auto directory = run::open_run_directory(run.header, {folder, true});
-  directory->write_header(run.header);
-  record::merge_pictures(run.folders, folder);
-  directory->append_rows(run.rows);
-  // The rows have their times; single repetitions would only be needed to go on.
-  fs::remove(folder / "repetitions.jsonl");
-  finish_run(folder);
-}
-
-void write_suite(const std::vector<run::MergedRun>& runs, const fs::path& folder) {
-  std::vector<json> headers;
-  headers.reserve(runs.size());
-  for (const run::MergedRun& run : runs) headers.push_back(run.header);
-  run::open_suite(headers, {folder, true});
-  for (const run::MergedRun& run : runs)
-    write_run(run, folder / run.header.at("plan").at("name").get<std::string>());
-  table::write_tables(folder, report::make_documents(report::suite_reports(folder)));
 }
 
 void say_merged(const std::vector<run::MergedRun>& runs, const MergeCommand& command) {

@@ -1,11 +1,13 @@
-// `hullbench points DATASET`: the points of any data set, as a file.
+// `hullbench points DATASET`: the points of any data set, or of all shapes of a family, as a file.
 #include <algorithm>
 #include <chrono>
 #include <csignal>
-#include <fstream>
 #include <iostream>
 #include <new>
 #include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "benchmarks/base/configuration_error.hpp"
 #include "benchmarks/base/interrupt.hpp"
@@ -14,6 +16,7 @@
 #include "benchmarks/cli/terminal.hpp"
 #include "datasets/datasets.hpp"
 #include "tool/points/point_writer.hpp"
+#include "tool/program/free_memory.hpp"
 #include "tool/program/result_output.hpp"
 
 namespace hullbench::cli {
@@ -22,6 +25,7 @@ namespace {
 using polylidar::Box;
 using polylidar::Point;
 using polylidar::tool::check_output_place;
+using polylidar::tool::free_memory;
 using polylidar::tool::PointOutput;
 using polylidar::tool::ResultOutput;
 
@@ -40,18 +44,6 @@ constexpr std::size_t kBytesAPoint = 80;
 /// Points between two looks at the clock and at interruptions, and in one write.
 constexpr std::size_t kBlock = std::size_t{1} << 16U;
 
-/// Bytes of memory that are free or can be freed; none when the system does not say.
-std::optional<std::size_t> available_memory() {
-  std::ifstream lines("/proc/meminfo");
-  std::string name;
-  std::size_t kibibytes = 0;
-  std::string unit;
-  while (lines >> name >> kibibytes && std::getline(lines, unit)) {
-    if (name == "MemAvailable:") return kibibytes << 10U;
-  }
-  return std::nullopt;
-}
-
 std::string gibibytes(double bytes) {
   return std::to_string(static_cast<std::uint64_t>(bytes / (1U << 30U)) + 1) + " GiB";
 }
@@ -63,11 +55,30 @@ std::string gibibytes(double bytes) {
       "take none");
 }
 
+/// What is written one after the other: a data set, or each member of a family, whose label is its number.
+struct Part {
+  std::string dataset;
+  std::uint32_t label = 0;
+};
+
+std::vector<Part> parts_of(const std::string& name) {
+  const std::size_t end = std::min(name.find('~'), name.size());
+  const std::string stresses = name.substr(end);
+  for (const DatasetInfo& info : datasets()) {
+    if (info.members == 0 || info.name != name.substr(0, end)) continue;
+    std::vector<Part> parts;
+    for (std::uint32_t member = 1; member <= info.members; ++member)
+      parts.push_back({info.name + "-" + std::to_string(member) + stresses, member});
+    return parts;
+  }
+  return {{name, 0}};
+}
+
 /// Better now than when the system has begun to end programs.
-void check_memory(const PointsCommand& command) {
+void check_memory(const PointsCommand& command, std::size_t parts) {
   if (is_streamed(command.dataset)) return;
-  const auto available = available_memory();
-  if (!available || command.count <= *available / kBytesAPoint) return;
+  const auto available = free_memory();
+  if (!available || command.count <= *available / kBytesAPoint / parts) return;
   refuse_for_memory(command,
                     "the free memory, " + gibibytes(static_cast<double>(*available)) + ", may be too small");
 }
@@ -104,14 +115,45 @@ PointOutput output_format(const PointsCommand& command) {
                            "' names no format; give .csv, .xyz, .txt, .npy or .las, or --format");
 }
 
+/// All points of the parts, each with its label. A copy goes on from where its original is.
+class LabelledStream {
+ public:
+  LabelledStream(const std::vector<Part>& parts, const PointsCommand& command) {
+    for (const Part& part : parts) {
+      streams_.push_back(stream_points(part.dataset, command.holes, command.count, command.seed));
+      labels_.push_back(part.label);
+      size_ += streams_.back().size();
+    }
+  }
+
+  std::size_t size() const { return size_; }
+
+  /// There are size() of them.
+  std::pair<Point, std::uint32_t> next() {
+    while (given_ == streams_[part_].size()) {
+      ++part_;
+      given_ = 0;
+    }
+    ++given_;
+    return {streams_[part_].next(), labels_[part_]};
+  }
+
+ private:
+  std::vector<PointStream> streams_;
+  std::vector<std::uint32_t> labels_;
+  std::size_t size_ = 0;
+  std::size_t part_ = 0;
+  std::size_t given_ = 0;  ///< of this part
+};
+
 /// Takes its own copy of the stream, so that the points can be written after it.
-Box bounds_of(PointStream points, PointsProgress& progress) {
+Box bounds_of(LabelledStream points, PointsProgress& progress) {
   if (points.size() == 0) return {{0, 0}, {0, 0}};
-  const Point first = points.next();
+  const Point first = points.next().first;
   Box box{first, first};
   for (std::size_t i = 1; i < points.size(); ++i) {
     if (i % kBlock == 0) progress.show("measuring", i);
-    const Point point = points.next();
+    const Point point = points.next().first;
     box = {{std::min(box.min.x, point.x), std::min(box.min.y, point.y)},
            {std::max(box.max.x, point.x), std::max(box.max.y, point.y)}};
   }
@@ -120,13 +162,15 @@ Box bounds_of(PointStream points, PointsProgress& progress) {
 
 ExitCode write_points(const PointsCommand& command) {
   const PointOutput format = output_format(command);
-  polylidar::tool::check_point_count(format, command.count);
+  const std::vector<Part> parts = parts_of(command.dataset);
+  polylidar::tool::check_point_count(format, command.count * parts.size());
   check_output_place(command.out);
-  check_memory(command);
-  PointsProgress progress(command.count);
+  check_memory(command, parts.size());
+  PointsProgress progress(command.count * parts.size());
   if (!is_streamed(command.dataset)) progress.show_drawing();
-  PointStream points = stream_points(command.dataset, command.holes, command.count, command.seed);
-  polylidar::tool::PointFileFacts facts{.count = points.size(), .has_labels = false, .bounds = {}};
+  LabelledStream points(parts, command);
+  polylidar::tool::PointFileFacts facts{
+      .count = points.size(), .has_labels = parts.front().label > 0, .bounds = {}};
   // LAS says in front how far the points reach.
   if (format == PointOutput::kLas) facts.bounds = bounds_of(points, progress);
   const polylidar::tool::PointEncoder encoder(format, facts);
@@ -138,7 +182,8 @@ ExitCode write_points(const PointsCommand& command) {
       output.write(bytes);
       bytes.clear();
     }
-    encoder.append(points.next(), 0, bytes);
+    const auto [point, label] = points.next();
+    encoder.append(point, label, bytes);
   }
   output.write(bytes);
   output.finish();
@@ -171,14 +216,20 @@ void add_points(CLI::App& app, Action& action) {
       "'hullbench list' shows the data sets and what can stand behind their names. Uniform points, also\n"
       "with water, outliers, noise and quantised, are written as they are drawn: there may be any number of "
       "them,\n"
-      "whatever the memory. Others are drawn all at once. LAS is 1.2 with point format 0, which rounds\n"
+      "whatever the memory. Others are drawn all at once. A family's name, such as 'cell~transcripts:5', "
+      "stands\n"
+      "for all its shapes: N points of each, and the shape's number as a column label, by which\n"
+      "'polylidar hull --by label' makes one hull a shape. LAS is 1.2 with point format 0, which rounds\n"
       "coordinates to a power of ten below a 400,000,000th of the larger side.\n" +
       options.get_footer());
-  options.add_option("DATASET", command->dataset, "The data set's name, as 'hullbench list' has it")
+  options
+      .add_option("DATASET", command->dataset,
+                  "The name of a data set or of a family, as 'hullbench list' has it")
       ->required();
   options
-      .add_option("--n", command->count,
-                  "How many points; not for data sets that come with their points, such as floor-1")
+      .add_option(
+          "--n", command->count,
+          "How many points of each shape; not for data sets that come with their points, such as floor-1")
       ->check(CLI::Range(std::size_t{1}, std::size_t{1'000'000'000'000'000}));
   options.add_option("--seed", command->seed, "Of the random numbers")
       ->check(CLI::NonNegativeNumber)

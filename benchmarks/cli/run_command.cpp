@@ -1,4 +1,6 @@
 // `hullbench run`: from the command line's words to rows, report and tables.
+#include "benchmarks/cli/run_command.hpp"
+
 #include <algorithm>
 #include <iostream>
 #include <memory>
@@ -37,25 +39,6 @@ namespace fs = std::filesystem;
 using nlohmann::json;
 
 const fs::path kResults = "results";
-
-/// What is not given is as the plan says.
-struct RunCommand {
-  std::vector<std::string> plans;  ///< one or more; several make a suite (suite.hpp)
-  std::string filter;
-  std::optional<int> repetitions;
-  std::optional<int> passes;
-  std::optional<std::uint64_t> seed;
-  std::optional<double> timeout_s;
-  std::optional<std::int64_t> mem_limit_mib;
-  std::optional<fs::path> out;
-  fs::path recordings;  ///< folder of real floors to take the place of the simulated ones; empty: none
-  std::optional<run::Shard> shard;  ///< none: all runs
-  fs::path export_gbench;           ///< file for the times as Google Benchmark's JSON; empty: none
-  std::vector<fs::path> adapters;   ///< more folders with manifests
-  std::vector<std::string> with;    ///< methods to measure that the plans do not name
-  bool force = false;
-  bool dry_run = false;
-};
 
 /// A plan and those of its runs that were asked for.
 struct Experiment {
@@ -136,20 +119,6 @@ json describe_run(const Experiment& experiment, const RunCommand& command,
           {"repetitions", plan.repetitions},
           {"passes", plan.passes},
           {"datasets", describe_datasets({default_data_directory(), command.recordings}, used)}};
-}
-
-/// Which cores do what: the last allowed one is the workers', and the harness keeps off it while they work.
-struct Cores {
-  std::vector<int> all;
-  std::optional<int> worker;
-};
-
-Cores reserve_worker_core() {
-  Cores cores = {allowed_cores(), std::nullopt};
-  if (cores.all.empty()) return cores;
-  cores.worker = cores.all.back();
-  leave_core(*cores.worker);
-  return cores;
 }
 
 /// The header of the run in `directory`: the earlier start's, with this start added, or the new one.
@@ -296,7 +265,8 @@ class Measuring {
                                           cores_.worker,
                                           cores_.all,
                                           {default_data_directory(), command_.recordings},
-                                          &machine_};
+                                          &machine_,
+                                          command_.keep_polygons};
       task.result =
           run::run_plan(experiment.plan, experiment.runs, header_to_write(*task.directory, task.header),
                         options, *task.directory, progress_, step.pass);
@@ -407,6 +377,8 @@ void keep_shard(Experiment& experiment, const RunCommand& command) {
   }
 }
 
+}  // namespace
+
 ExitCode run_plans(const RunCommand& command) {
   const run::MethodCatalog catalog(run::manifest_folders(command.adapters));
   std::vector<Experiment> experiments;
@@ -445,8 +417,6 @@ ExitCode run_plans(const RunCommand& command) {
                                    : measure_suite(command, experiments, catalog);
 }
 
-}  // namespace
-
 void add_run(CLI::App& app, Action& action) {
   const auto command = std::make_shared<RunCommand>();
   CLI::App& options = add_command(app, "run", "Measure a plan, or several one after the other",
@@ -482,6 +452,8 @@ void add_run(CLI::App& app, Action& action) {
       .add_option("--with", command->with, "Also measure this method, with the parameters in its manifest")
       ->allow_extra_args(false);
   add_export_gbench(options, command->export_gbench);
+  options.add_flag("--keep-polygons", command->keep_polygons,
+                   "Keep the results in the run's folder, so that 'hullbench rescore' can score them again");
   options.add_flag("--force", command->force, "Start anew instead of continuing an interrupted run");
   options.add_flag("--dry-run", command->dry_run, "Only print the names of the runs");
   set_action(options, action, command, &run_plans);

@@ -5,6 +5,8 @@
 #include <nlohmann/json.hpp>
 #include <vector>
 
+#include "benchmarks/run/merge.hpp"
+
 namespace hullbench::cli {
 
 /// Throws ConfigurationError unless `folder` is one.
@@ -19,5 +21,11 @@ nlohmann::json report_to_share(const std::filesystem::path& folder);
 
 /// Writes tables and report of the run in `folder`; the report is the mark of a finished run.
 void finish_run(const std::filesystem::path& folder);
+
+/// Writes a run that was made of stored ones: rows, pictures, kept polygons, tables and report.
+void write_run(const run::MergedRun& run, const std::filesystem::path& folder);
+
+/// The same of several plans, as a suite.
+void write_suite(const std::vector<run::MergedRun>& runs, const std::filesystem::path& folder);
 
 }  // namespace hullbench::cli

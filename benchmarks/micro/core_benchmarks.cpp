@@ -56,9 +56,10 @@ std::vector<Benchmark> all_benchmarks() {
 
   std::vector<Benchmark> benchmarks;
   for (const auto& [set, n] : inputs) {
-    for (const auto& functions : {own_functions(), cgal_functions(), geos_functions()}) {
+    for (const auto& functions : {own_functions(), own_phases(), cgal_functions(), geos_functions()}) {
       for (const MeasuredFunction& function : functions) {
-        if (n > function.most_points) continue;
+        if (n > function.most_points || n < function.least_points) continue;
+        if (function.needs_interior && (set == "islands" || set == "sieve")) continue;
         const std::string name = std::string(function.name) + "/" + set + "/" + std::to_string(n);
         benchmarks.push_back({name, function, set, n});
       }

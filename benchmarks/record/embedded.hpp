@@ -6,14 +6,15 @@
 
 namespace hullbench::record {
 
-extern const std::string_view kRunSchemaJson;       ///< results/run.schema.json
-extern const std::string_view kReportSchemaJson;    ///< results/report.schema.json
-extern const std::string_view kPictureSchemaJson;   ///< results/picture.schema.json
-extern const std::string_view kTuneSchemaJson;      ///< results/tune.schema.json
-extern const std::string_view kSweepSchemaJson;     ///< results/sweep.schema.json
-extern const std::string_view kLeagueSchemaJson;    ///< results/league.schema.json
-extern const std::string_view kTablesSchemaJson;    ///< results/tables.schema.json
-extern const std::string_view kPaperJson;           ///< results/paper.json
-extern const std::string_view kManifestSchemaJson;  ///< adapters/process/manifest.schema.json
+extern const std::string_view kRunSchemaJson;         ///< results/run.schema.json
+extern const std::string_view kReportSchemaJson;      ///< results/report.schema.json
+extern const std::string_view kPictureSchemaJson;     ///< results/picture.schema.json
+extern const std::string_view kTuneSchemaJson;        ///< results/tune.schema.json
+extern const std::string_view kSweepSchemaJson;       ///< results/sweep.schema.json
+extern const std::string_view kLeagueSchemaJson;      ///< results/league.schema.json
+extern const std::string_view kTablesSchemaJson;      ///< results/tables.schema.json
+extern const std::string_view kSubmissionSchemaJson;  ///< results/submission.schema.json
+extern const std::string_view kPaperJson;             ///< results/paper.json
+extern const std::string_view kManifestSchemaJson;    ///< adapters/process/manifest.schema.json
 
 }  // namespace hullbench::record

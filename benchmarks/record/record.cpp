@@ -126,6 +126,15 @@ void from_json(const json& source, RunRecord& record) {
   record.id = source.contains("id") ? source["id"].get<std::string>() : run_identity(record);
 }
 
+bool is_worse_than_convex_hull(const json& metrics) {
+  constexpr double kRounding = 1e-9;
+  const auto error = metrics.find("l2");
+  const auto of_hull = metrics.find("l2_convex_hull");
+  if (error == metrics.end() || of_hull == metrics.end() || !error->is_number() || !of_hull->is_number())
+    return false;
+  return error->get<double>() > of_hull->get<double>() * (1 + kRounding);
+}
+
 std::string run_identity(const RunRecord& record) {
   const json identity = {{"method", record.method},
                          {"method_version", record.method_version},

@@ -88,6 +88,9 @@ inline constexpr const char* kRemeasuredRound = "remeasured_round";
 inline constexpr const char* kUnsteadyMachine = "unsteady_machine";
 /// A row's flag: the result's l2 is above that of the points' convex hull.
 inline constexpr const char* kWorseThanConvexHull = "worse_than_convex_hull";
+/// Whether the error in a row's metrics is above that of the points' convex hull. The same polygon from
+/// another vertex on differs in the last digits of its areas, of which there are 15.
+bool is_worse_than_convex_hull(const nlohmann::json& metrics);
 /// A row's flag: a repetition took less than kFloorNsPerPoint a point.
 inline constexpr const char* kFasterThanFloor = "faster_than_floor";
 /// No method can be this fast: in a nanosecond a core reads a point or two from memory, and every method has

@@ -4,6 +4,7 @@
 //   runs.jsonl     a line a finished run; of reference runs compressed, runs.jsonl.xz
 //   report.json    written last: the mark of a finished run
 //   suite.json     of a suite: its plans in their order; each has its run in the folder of its name
+//   polygons/      the results, where they were kept (kept_polygons.hpp)
 //   tables.md, tables/ (each as CSV and LaTeX, and all of them in tables.json)
 #pragma once
 

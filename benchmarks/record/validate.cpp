@@ -33,17 +33,18 @@ std::vector<std::string> faults(const JsonSchema& schema, const json& document) 
   return sentences;
 }
 
-/// The schema of what says its `kind`: lines of pictures.jsonl and sweep.jsonl, tune.json, league.json and
-/// tables.json. /// Null for any other.
+/// The schema of what says its `kind`: lines of pictures.jsonl and sweep.jsonl, tune.json, league.json,
+/// tables.json and submission.json. Null for any other.
 const JsonSchema* schema_of_kind(const json& document) {
   static const JsonSchema picture = parse_schema(kPictureSchemaJson);
   static const JsonSchema evaluation = parse_schema(kSweepSchemaJson);
   static const JsonSchema tuning = parse_schema(kTuneSchemaJson);
   static const JsonSchema league = parse_schema(kLeagueSchemaJson);
   static const JsonSchema tables = parse_schema(kTablesSchemaJson);
+  static const JsonSchema submission = parse_schema(kSubmissionSchemaJson);
   static const std::map<std::string, const JsonSchema*> schemas = {
-      {"case", &picture},  {"result", &picture}, {"evaluation", &evaluation},
-      {"tuning", &tuning}, {"league", &league},  {"tables", &tables}};
+      {"case", &picture},  {"result", &picture}, {"evaluation", &evaluation}, {"tuning", &tuning},
+      {"league", &league}, {"tables", &tables},  {"submission", &submission}};
   if (!document.is_object() || !document.contains("kind") || !document["kind"].is_string()) return nullptr;
   const auto found = schemas.find(document["kind"].get<std::string>());
   return found == schemas.end() ? nullptr : found->second;

@@ -22,7 +22,7 @@ std::vector<std::string> validate_report(const nlohmann::json& report);
 std::vector<std::string> validate_manifest(const nlohmann::json& manifest);
 
 /// The same of what says its `kind`: a line of pictures.jsonl or sweep.jsonl, tune.json, league.json,
-/// tables.json. Throws std::invalid_argument for any other document.
+/// tables.json, submission.json. Throws std::invalid_argument for any other document.
 std::vector<std::string> validate_by_kind(const nlohmann::json& document);
 
 }  // namespace hullbench::record

@@ -310,6 +310,10 @@ Line reference_line() {
   return {paper().at("reference_method").get<std::string>(), paper().at("protocol").get<std::string>()};
 }
 
+std::string teller_of(const std::string& method) {
+  return paper().at("steps").at("told_by").value(method, method);
+}
+
 const std::vector<PaperStep>& paper_steps() {
   static const std::vector<PaperStep> steps = read_steps();
   return steps;

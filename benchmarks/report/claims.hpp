@@ -23,6 +23,10 @@ struct PaperStep {
 };
 const std::vector<PaperStep>& paper_steps();
 
+/// Which method tells the steps of `method`, "polylidar_steps" of "polylidar"; `method` itself where none
+/// does. Both are one method: neither is the other's rival.
+std::string teller_of(const std::string& method);
+
 /// Whether a claim of paper() compares times, be it of a step.
 bool is_about_time(const nlohmann::json& claim);
 

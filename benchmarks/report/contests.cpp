@@ -55,7 +55,7 @@ std::string reference_protocol(const std::vector<RunRecord>& runs) {
 bool beats_other_methods(const RunRecord& run, const Runs& runs) {
   bool beats_one = false;
   for (const RunRecord* other : runs) {
-    if (other->method == run.method) continue;
+    if (teller_of(other->method) == teller_of(run.method)) continue;
     const auto side = side_of_ratio(run, *other);
     if (side ? *side != statistics::Side::kBelow : median_time(run) >= median_time(*other)) return false;
     beats_one = beats_one || side;

@@ -88,7 +88,7 @@ json make_headline(const Measurements& measurements) {
   json fastest;
   json papers;
   for (const Line& line : lines) {
-    if (line.method == reference.method) continue;
+    if (teller_of(line.method) == teller_of(reference.method)) continue;
     const bool is_papers =
         paper().at("rival").at("method") == line.method && line.protocol == reference.protocol;
     const bool same = same_polygons(measurements, line, reference);

@@ -29,10 +29,7 @@ const record::RunRecord* first_failure(const Runs& runs) {
 }
 
 bool is_worse_than_convex_hull(const record::RunRecord& run) {
-  constexpr double kRounding = 1e-9;
-  const auto error = metric(run, "l2");
-  const auto hull = metric(run, "l2_convex_hull");
-  return is_measured(run) && error && hull && *error > *hull * (1 + kRounding);
+  return is_measured(run) && record::is_worse_than_convex_hull(run.metrics);
 }
 
 std::vector<std::int64_t> times(const record::RunRecord& run, Boundary boundary) {

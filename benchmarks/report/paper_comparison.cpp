@@ -67,7 +67,7 @@ void compare_steps(const TableContext& context, std::vector<Comparison>& compari
   // alone.
   if (cases.size() != 1 || cases.front() != which) return;
   for (const auto& [method, published] : steps.at("milliseconds").items()) {
-    const std::string teller = steps.at("told_by").value(method, method);
+    const std::string teller = teller_of(method);
     const auto compare = [&](const std::string& quantity, const std::string& measured_method,
                              const PaperStep* step, const json& theirs) {
       const std::string protocol = paper().at("protocol").get<std::string>();

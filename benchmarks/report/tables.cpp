@@ -227,7 +227,16 @@ std::vector<table::Cell> measured_steps(const TableContext& context, const Line&
   return result;
 }
 
-std::vector<table::Cell> published_steps(const std::string& method) {
+/// The paper's values of the method whose steps `line` tells: under the method itself only where no other one
+/// of `lines` tells them.
+std::vector<table::Cell> published_steps(const Line& line, const std::vector<Line>& lines) {
+  std::string method = line.method;
+  const std::string teller = teller_of(method);
+  const auto tells = [&](const Line& other) { return other.method == teller; };
+  if (teller != method && std::any_of(lines.begin(), lines.end(), tells)) return {};
+  for (const auto& [told, by] : paper().at("steps").at("told_by").items()) {
+    if (by == json(line.method)) method = told;
+  }
   const json& published = paper().at("steps").at("milliseconds");
   if (!published.contains(method)) return {};
   std::vector<table::Cell> result = {paper().at("methods").value(method, method) + ", in the paper"};
@@ -258,12 +267,13 @@ std::optional<table::Table> steps_table(const TableContext& context) {
   for (const PaperStep& step : paper_steps()) table.columns.emplace_back(step.name, "ms");
   for (const char* title : {"as the paper took it", "equal work"}) table.columns.emplace_back(title, "ms");
   std::set<std::string> compared;
-  for (const Line& line : lines_of(context, {*chosen})) {
+  const std::vector<Line> lines = lines_of(context, {*chosen});
+  for (const Line& line : lines) {
     std::vector<table::Cell> ours = measured_steps(context, line, *chosen);
     if (!ours.empty()) table.add_row(std::move(ours));
     if (!comparable || paper().at("protocol") != line.protocol || !compared.insert(line.method).second)
       continue;
-    if (auto theirs = published_steps(line.method); !theirs.empty()) table.add_row(std::move(theirs));
+    if (auto theirs = published_steps(line, lines); !theirs.empty()) table.add_row(std::move(theirs));
   }
   const std::string where = steps.at("where").get<std::string>();
   table.remarks.push_back(

@@ -81,10 +81,10 @@ void DrawnCase::score_with(record::RunRecord& record, Scores scores_of) const {
   try {
     const metrics::AreaScores scores = scores_of();
     if (scores.valid) return;
-    fault = "the result is an invalid polygon: " + scores.invalid_reason;
+    fault = kInvalidPolygon + scores.invalid_reason;
   } catch (const std::runtime_error& error) {
     status = record::Status::kError;
-    fault = std::string("the result cannot be scored: ") + error.what();
+    fault = kNoScore + std::string(error.what());
   }
   // A run that failed later keeps its own reason.
   if (record.status != record::Status::kOk) return;

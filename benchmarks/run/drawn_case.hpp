@@ -18,6 +18,10 @@
 
 namespace hullbench::run {
 
+/// How the reason begins of a row whose result is no valid polygon, or cannot be scored.
+inline constexpr const char* kInvalidPolygon = "the result is an invalid polygon: ";
+inline constexpr const char* kNoScore = "the result cannot be scored: ";
+
 class DrawnCase {
  public:
   /// Throws as make_point_set, but for real points whose package is not installed: these are no points, and

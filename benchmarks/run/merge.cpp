@@ -44,17 +44,25 @@ Source load_source(const fs::path& folder) {
   }
 }
 
-/// By the time at which they began, whatever their order on the command line was.
+/// What orders runs and parts of merged ones, whatever their order on the command line is: the time at which
+/// they began, which has whole seconds only, then their shard and machine.
+auto begin_of(const json& run) {
+  return std::make_tuple(run.at("created"), run.value("shard", json()), run.at("environment"));
+}
+
+/// A merged run stands where its first part does, so that merging in turn gives what merging at once gives.
+auto begin_of(const Source& source) {
+  return begin_of(source.run.contains("merged") ? source.run["merged"].front() : source.run);
+}
+
 std::vector<Source> load_sources(const std::vector<fs::path>& folders) {
   std::vector<Source> sources;
   sources.reserve(folders.size());
   for (const fs::path& folder : folders) sources.push_back(load_source(folder));
-  const auto key = [](const Source& source) {
-    return std::make_tuple(source.run.at("created").get<std::string>(),
-                           source.run.value("shard", json()).dump(), source.run.at("environment").dump());
-  };
-  std::sort(sources.begin(), sources.end(), [&](const Source& a, const Source& b) {
-    return key(a) != key(b) ? key(a) < key(b) : a.run.at("runs") < b.run.at("runs");
+  std::sort(sources.begin(), sources.end(), [](const Source& a, const Source& b) {
+    const auto begin_a = begin_of(a);
+    const auto begin_b = begin_of(b);
+    return begin_a != begin_b ? begin_a < begin_b : a.run.at("runs") < b.run.at("runs");
   });
   return sources;
 }
@@ -86,6 +94,8 @@ void require_agreement(const Source& one, const Source& other) {
   }
   require("seed", one.run.at("seed"), other.run.at("seed"));
   require("filter", filter_of(one.run), filter_of(other.run));
+  require("scores, of which some were worked out anew", one.run.value("rescored", json()).is_null(),
+          other.run.value("rescored", json()).is_null());
 }
 
 /// Throws when a name stands for different things in `sources`: a data set or a rule of parameters.
@@ -247,10 +257,8 @@ json merged_from(const std::vector<Source>& sources) {
                       {"tool", run.at("tool")},
                       {"environment", run.at("environment")}});
   }
-  std::sort(result.begin(), result.end(), [](const json& a, const json& b) {
-    return std::tie(a.at("created"), a.at("shard"), a.at("environment")) <
-           std::tie(b.at("created"), b.at("shard"), b.at("environment"));
-  });
+  std::sort(result.begin(), result.end(),
+            [](const json& a, const json& b) { return begin_of(a) < begin_of(b); });
   result.erase(std::unique(result.begin(), result.end()), result.end());
   return result;
 }

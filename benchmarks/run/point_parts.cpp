@@ -1,5 +1,6 @@
 #include "benchmarks/run/point_parts.hpp"
 
+#include <algorithm>
 #include <cstddef>
 #include <string>
 #include <utility>
@@ -38,6 +39,16 @@ PointParts draw_parts(std::span<const Point> points, const std::string& name, st
     if (in_most[i]) parts.most.push_back(points[i]);
   }
   return parts;
+}
+
+std::vector<Point> draw_sample(std::span<const Point> points, std::size_t count, std::uint64_t seed) {
+  const std::vector<bool> drawn =
+      draw(points.size(), std::min(count, points.size()), derive_seed(seed, "sample"));
+  std::vector<Point> sample;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    if (drawn[i]) sample.push_back(points[i]);
+  }
+  return sample;
 }
 
 }  // namespace hullbench::run

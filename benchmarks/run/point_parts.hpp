@@ -1,6 +1,7 @@
 // Random parts of points, to see whether a method's result stays when some of them are gone.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <span>
 #include <string>
@@ -20,5 +21,10 @@ struct PointParts {
 /// The draw `number` (from 0) of the points of data set `name` with `seed`: the same on every machine.
 PointParts draw_parts(std::span<const polylidar::Point> points, const std::string& name, std::uint64_t seed,
                       int number);
+
+/// `count` of the points in their order, drawn with `seed`: the same on every machine. All of them where
+/// there are no more.
+std::vector<polylidar::Point> draw_sample(std::span<const polylidar::Point> points, std::size_t count,
+                                          std::uint64_t seed);
 
 }  // namespace hullbench::run

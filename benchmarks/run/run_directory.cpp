@@ -14,6 +14,7 @@
 
 #include "benchmarks/base/configuration_error.hpp"
 #include "benchmarks/base/files.hpp"
+#include "benchmarks/record/kept_polygons.hpp"
 #include "benchmarks/record/pictures.hpp"
 #include "benchmarks/record/stored_run.hpp"
 
@@ -65,6 +66,7 @@ void remove_run_files(const fs::path& folder) {
     fs::remove(folder / file);
   }
   fs::remove_all(folder / record::kTablesFolder);
+  fs::remove_all(folder / record::kPolygonsFolder);
 }
 
 /// Whether nothing is in the folder but what a start leaves that was killed before it wrote run.json.

@@ -10,6 +10,7 @@
 #include "benchmarks/base/configuration_error.hpp"
 #include "benchmarks/base/interrupt.hpp"
 #include "benchmarks/base/parallel.hpp"
+#include "benchmarks/record/kept_polygons.hpp"
 #include "benchmarks/record/pictures.hpp"
 #include "benchmarks/run/drawn_case.hpp"
 #include "benchmarks/run/point_parts.hpp"
@@ -17,16 +18,11 @@
 #include "datasets/datasets.hpp"
 #include "datasets/degenerate.hpp"
 #include "datasets/random.hpp"
-#include "datasets/sha256.hpp"
 
 namespace hullbench::run {
 namespace {
 
 using nlohmann::json;
-
-std::string hash_of(const std::vector<std::uint8_t>& bytes) {
-  return sha256_hex({reinterpret_cast<const char*>(bytes.data()), bytes.size()});
-}
 
 /// One run on its way to its row.
 struct Entry {
@@ -79,19 +75,6 @@ bool is_done(const plan::Plan& plan, const plan::PlannedRun& run, const RunDirec
          directory.repetitions(row->id).size() >= there;
 }
 
-/// Whether the result's error is above that of the points' convex hull. The same polygon from another vertex
-/// on differs in the last digits of its areas, of which there are 15.
-bool is_worse_than_convex_hull(const json& metrics) {
-  constexpr double kRounding = 1e-9;
-  const auto value = [&](const char* name) {
-    const auto found = metrics.find(name);
-    return found != metrics.end() && found->is_number() ? std::optional(found->get<double>()) : std::nullopt;
-  };
-  const auto error = value("l2");
-  const auto of_hull = value("l2_convex_hull");
-  return error && of_hull && *error > *of_hull * (1 + kRounding);
-}
-
 /// The reasons to doubt a row.
 std::vector<std::string> flags_of(const record::RunRecord& record,
                                   const std::vector<Repetition>& repetitions) {
@@ -102,7 +85,7 @@ std::vector<std::string> flags_of(const record::RunRecord& record,
     flags.emplace_back(record::kFasterThanFloor);
   if (any([](const Repetition& one) { return one.remeasured; })) flags.emplace_back(record::kRemeasuredRound);
   if (any([](const Repetition& one) { return one.unsteady; })) flags.emplace_back(record::kUnsteadyMachine);
-  if (is_worse_than_convex_hull(record.metrics)) flags.emplace_back(record::kWorseThanConvexHull);
+  if (record::is_worse_than_convex_hull(record.metrics)) flags.emplace_back(record::kWorseThanConvexHull);
   return flags;
 }
 
@@ -475,11 +458,12 @@ class Runner {
       fail(entry, attempt.status, attempt.detail);
       return std::nullopt;
     }
-    const std::string hash = hash_of(attempt.wkb);
+    const std::string hash = record::hash_of(attempt.wkb);
     if (entry.record.output_sha256.empty()) {
       entry.record.output_sha256 = hash;
       entry.result = read_result(entry.record, attempt.wkb);
       entry.measured = !entry.result;
+      if (options_.keep_polygons) record::keep_polygons(directory_.path(), attempt.wkb);
     }
     if (!entry.measured && entry.record.output_sha256 != hash) {
       fail(entry, record::Status::kInvalidOutput, "two runs on the same points gave different results");
@@ -522,6 +506,8 @@ class Runner {
       if (entry->result) pictures_.add(entry->record, drawn->set(), *entry->result);
     }
     directory_.append_rows(rows);
+    for (std::size_t i = 0; i < rows.size() && options_.on_row; ++i)
+      options_.on_row(rows[i], finished[i].first->result);
     for (const auto& [entry, drawn] : finished) {
       entry->settled = true;
       const record::RunRecord& record = entry->record;

@@ -30,6 +30,9 @@ struct RunnerOptions {
   std::vector<int> cores = {};
   DataFolders folders = {};
   MachineWatch* machine = nullptr;  ///< asked after every round; none: rows have no canaries
+  bool keep_polygons = false;       ///< whether results stay in the run's folder (record/kept_polygons.hpp)
+  /// Told of every row that is written, with the result where the method gave one, be it invalid.
+  std::function<void(const record::RunRecord&, const std::optional<MultiPolygon>&)> on_row = {};
 };
 
 struct RunResult {

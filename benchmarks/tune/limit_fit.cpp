@@ -110,6 +110,7 @@ std::vector<LimitCaseName> test_limit_cases(std::size_t n) {
                                "~depthcamera:2",
                                "~depthcamera:5",
                                "~tracks:5",
+                               "~transcripts:3",
                                "~boundary:20",
                                "~clusters:8",
                                "~outline:0.1",

@@ -39,6 +39,7 @@ const std::vector<SplitRow>& shape_split() {
       {"walk", kTraining, "Made here in any number: rough outlines."},
       {"nested", kTraining, "Made here in any number: holes, and parts in them."},
       {"parts", kTraining, "Made here in any number: several parts, some with holes."},
+      {"cell", kTest, "Simple shapes that touch others; nothing was fitted to their sampler."},
       {"county", kTraining,
        "Real borders, so that training has more than what was made here; countries test them."},
       {"fashion", kTraining, "Silhouettes with and without holes; clip art, drawn by others, tests them."},
@@ -89,7 +90,8 @@ const std::vector<SplitRow>& sampler_split() {
       {"depthcamera", kTest, "A sensor's own pattern, and that of the paper's floors."},
       {"zigzag", kTest, "Another pattern of scan lines than parallel ones."},
       {"rotating", kTest, "Another pattern of scan lines than parallel ones: rings."},
-      {"tracks", kTest, "Another pattern of lines than a scanner's: roads that cross."}};
+      {"tracks", kTest, "Another pattern of lines than a scanner's: roads that cross."},
+      {"transcripts", kTest, "A dense middle, and points of neighbours beyond the border."}};
   return rows;
 }
 

@@ -1,0 +1,379 @@
+// `hullbench choose FILE`: a card for every method, commands that give what the card shows, failures as
+// cards.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <csignal>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <random>
+#include <regex>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "benchmarks/run/point_parts.hpp"
+#include "polylidar/concave_hull.hpp"
+#include "tests/hullbench_test.hpp"
+#include "tests/point_file_texts.hpp"
+#include "tool/shapes/polygon_writers.hpp"
+
+namespace hullbench {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+using polylidar::MultiPolygon;
+using polylidar::Point;
+using polylidar::Ring;
+using polylidar::tool::SvgCanvas;
+using testing::expect_refusal;
+using testing::Outcome;
+using testing::Points;
+using testing::Program;
+using testing::ProgramOptions;
+using testing::read_text;
+using testing::write_text;
+
+const std::vector<std::string> kMethods = {"--only", "polylidar",     "--only", "cgal_alpha_shape",
+                                           "--only", "cgal_delaunay", "--only", "convex_hull"};
+constexpr std::size_t kRows = 6;
+
+/// Uniform in a square with its lower left corner at `corner`, without a disc.
+Points ring(std::size_t count, Point corner = {0, 0}) {
+  Points points;
+  std::mt19937_64 random(5);
+  std::uniform_real_distribution<double> coordinate(0, 10);
+  while (points.size() < count) {
+    const Point p = {coordinate(random), coordinate(random)};
+    if (std::hypot(p.x - 5, p.y - 4) > 2) points.push_back({corner.x + p.x, corner.y + p.y});
+  }
+  return points;
+}
+
+std::string csv(const Points& points, const std::string& header = "x,y\n") {
+  return header + testing::rows(points, ",");
+}
+
+bool has(const std::string& text, const std::string& part) {
+  return text.find(part) != std::string::npos;
+}
+
+/// What the first group of `pattern` is, at each place of `text`.
+std::vector<std::string> all_of(const std::string& text, const std::string& pattern) {
+  std::vector<std::string> found;
+  const std::regex expression(pattern);
+  for (std::sregex_iterator match(text.begin(), text.end(), expression), end; match != end; ++match)
+    found.push_back((*match)[1]);
+  return found;
+}
+
+std::string unescaped(std::string text) {
+  for (const auto& [from, to] :
+       {std::pair{"&lt;", "<"}, std::pair{"&gt;", ">"}, std::pair{"&quot;", "\""}, std::pair{"&amp;", "&"}})
+    text = std::regex_replace(text, std::regex(from), to);
+  return text;
+}
+
+/// A card of a page.
+struct Card {
+  std::string text;
+  std::string title;
+  std::vector<std::string> commands;
+  std::string path;  ///< of the hull; empty: there is no picture
+};
+
+std::vector<Card> cards_of(const std::string& page) {
+  std::vector<Card> cards;
+  for (std::size_t at = page.find("<article"); at != std::string::npos; at = page.find("<article", at + 1)) {
+    Card& card = cards.emplace_back();
+    card.text = page.substr(at, page.find("</article>", at) - at);
+    card.title = unescaped(all_of(card.text, "<h2>[0-9]+\\. ([^<]*)</h2>").at(0));
+    for (const std::string& command : all_of(card.text, "<pre>([^<]*)</pre>"))
+      card.commands.push_back(unescaped(command));
+    const std::size_t path = card.text.find("class=\"hull\" d=\"");
+    if (path == std::string::npos) continue;
+    const std::size_t begin = path + std::string("class=\"hull\" d=\"").size();
+    card.path = card.text.substr(begin, card.text.find('"', begin) - begin);
+  }
+  return cards;
+}
+
+MultiPolygon shape_in(const fs::path& geojson) {
+  MultiPolygon shape;
+  const json coordinates = json::parse(read_text(geojson))["geometry"]["coordinates"];
+  for (const json& polygon : coordinates) {
+    std::vector<Ring> rings;
+    for (const json& positions : polygon) {
+      rings.emplace_back();
+      for (std::size_t i = 0; i + 1 < positions.size(); ++i)
+        rings.back().push_back({positions[i][0].get<double>(), positions[i][1].get<double>()});
+    }
+    shape.push_back({rings.front(), {rings.begin() + 1, rings.end()}});
+  }
+  return shape;
+}
+
+std::string path_of(const MultiPolygon& shape, const Points& frame) {
+  const SvgCanvas canvas(polylidar::bounding_box(frame));
+  std::string path;
+  for (const polylidar::Polygon& polygon : shape) path += svg_path(polygon, canvas);
+  return path;
+}
+
+class ChooseCommandTest : public testing::HullbenchTest {
+ protected:
+  Outcome choose(std::vector<std::string> arguments, const std::vector<std::string>& more = {}) const {
+    arguments.insert(arguments.begin(), "choose");
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return hullbench(arguments);
+  }
+  std::string page(const std::string& name = "points.csv.choice.html") const {
+    return read_text(folder() / name);
+  }
+  void write_points(const Points& points, const std::string& name = "points.csv") const {
+    write_text(folder() / name, csv(points));
+  }
+  /// The shape that the line writes, in a shell that knows the programs.
+  MultiPolygon shape_by(const std::string& line) const {
+    const std::string path = "PATH='" + fs::path(HULLBENCH).parent_path().string() + "':$PATH; ";
+    const Outcome outcome =
+        testing::run_program({"/bin/sh", "-c", path + "rm -f *.geojson; " + line}, in_folder());
+    EXPECT_EQ(outcome.code, 0) << line << "\n" << outcome.err;
+    for (const auto& entry : fs::directory_iterator(folder())) {
+      if (entry.path().extension() == ".geojson") return shape_in(entry.path());
+    }
+    ADD_FAILURE() << line << " writes nothing";
+    return {};
+  }
+  /// A method that behaves as misbehaving_worker does in this mode.
+  void add_method(const std::string& mode, const json& changes = json::object()) const {
+    const fs::path manifests = folder() / "config" / "hullbench" / "adapters";
+    fs::create_directories(manifests);
+    json manifest = {{"manifest_version", 1},
+                     {"name", mode},
+                     {"title", mode + " <method>"},
+                     {"licence", "MIT"},
+                     {"citation", "none"},
+                     {"native_output", "a ring"},
+                     {"parameters", json::array({{{"name", "size"},
+                                                  {"unit", "length"},
+                                                  {"description", "Does nothing."},
+                                                  {"minimum", 0},
+                                                  {"maximum", 10},
+                                                  {"default", 1}}})},
+                     {"capabilities", {{"holes", false}, {"several_polygons", false}}},
+                     {"command", {MISBEHAVING_WORKER, mode}}};
+    manifest.update(changes);
+    write_text(manifests / (mode + ".json"), manifest.dump());
+  }
+};
+
+TEST_F(ChooseCommandTest, ThePageHasACardForEveryMethodSortedByAgreement) {
+  write_points(ring(600));
+  const Outcome outcome = choose({"points.csv"}, kMethods);
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  EXPECT_TRUE(has(outcome.err, "hullbench: wrote points.csv.choice.html\n")) << outcome.err;
+  const std::vector<Card> cards = cards_of(page());
+  ASSERT_EQ(cards.size(), kRows);
+  double last = 100;
+  for (const Card& card : cards) {
+    EXPECT_TRUE(has(outcome.out, "| " + card.title)) << card.title;
+    EXPECT_FALSE(card.path.empty()) << card.title;
+    for (const char* measure :
+         {"Time", "Parts", "Holes", "Vertices", "Area", "Covered", "Agreement", "Stability"}) {
+      const auto values =
+          all_of(card.text, std::string("<dt>") + measure + "</dt>\\s*<dd>([0-9.]+)( [m%][^<]*)?</dd>");
+      ASSERT_EQ(values.size(), 1U) << card.title << ": " << measure;
+      if (std::string(measure) == "Agreement") {
+        EXPECT_LE(std::stod(values[0]), last) << card.title;
+        last = std::stod(values[0]);
+      }
+    }
+  }
+  const auto convex = std::find_if(cards.begin(), cards.end(),
+                                   [](const Card& card) { return card.title == "Convex hull (default)"; });
+  ASSERT_NE(convex, cards.end());
+  EXPECT_EQ(all_of(convex->text, "<dt>Covered</dt>\\s*<dd>([0-9.]+) %</dd>").at(0), "100");
+  // One frame, and nothing that has to be fetched or run.
+  EXPECT_EQ(all_of(page(), "<svg role=\"img\" (viewBox=\"[^\"]*\")").size(), kRows);
+  for (const std::string& frame : all_of(page(), "<svg role=\"img\" (viewBox=\"[^\"]*\")"))
+    EXPECT_EQ(frame, all_of(page(), "<svg role=\"img\" (viewBox=\"[^\"]*\")")[0]);
+  EXPECT_FALSE(has(page(), "<script"));
+  EXPECT_FALSE(has(page(), "://"));
+}
+
+TEST_F(ChooseCommandTest, TheSamePolygonsCountOnceAndAreSaid) {
+  write_points(ring(600));
+  const auto agreement = [&](const std::vector<std::string>& methods, const std::string& title) {
+    EXPECT_EQ(choose({"points.csv", "--draws", "0"}, methods).code, 0);
+    for (const Card& card : cards_of(page())) {
+      if (card.title != title) continue;
+      return all_of(card.text, "<dt>Agreement</dt>\\s*<dd>([^<]*)</dd>").at(0);
+    }
+    return std::string("no card");
+  };
+  const std::vector<std::string> two = {"--only", "convex_hull", "--only", "cgal_alpha_shape/auto"};
+  const std::string with_one = agreement(two, "Convex hull (default)");
+  EXPECT_FALSE(has(page(), "The same polygons as"));
+  std::vector<std::string> four = two;
+  four.insert(four.end(), {"--only", "polylidar/auto", "--only", "cgal_delaunay"});
+  EXPECT_EQ(agreement(four, "Convex hull (default)"), with_one);
+  EXPECT_EQ(all_of(page(), "The same polygons as ([0-9] and [0-9])").size(), 3U);
+  EXPECT_TRUE(has(with_one, " %")) << with_one;
+  EXPECT_EQ(agreement({"--only", "convex_hull"}, "Convex hull (default)"), "–")
+      << "there is nobody to agree with";
+}
+
+TEST_F(ChooseCommandTest, TheCommandOnACardGivesItsPolygons) {
+  const Points points = ring(600);
+  write_points(points, "my 'own' points.csv");
+  ASSERT_EQ(choose({"my 'own' points.csv", "--columns", "1,2"}, kMethods).code, 0);
+  int by_polylidar = 0;
+  for (const Card& card : cards_of(page("my 'own' points.csv.choice.html"))) {
+    ASSERT_EQ(card.commands.size(), 1U) << card.title;
+    const std::string& line = card.commands[0];
+    by_polylidar += line.starts_with("polylidar hull ") ? 1 : 0;
+    EXPECT_EQ(path_of(shape_by(line), points), card.path) << line;
+  }
+  EXPECT_EQ(by_polylidar, 2);
+}
+
+TEST_F(ChooseCommandTest, ASampleIsTheSameAgainAndIsSaid) {
+  const Points points = ring(600);
+  write_points(points);
+  const std::vector<std::string> two = {"--only", "polylidar", "--only", "convex_hull", "--draws", "0"};
+  const auto paths = [&](const std::string& seed) {
+    const Outcome outcome = choose({"points.csv", "--n", "300", "--seed", seed}, two);
+    EXPECT_EQ(outcome.code, 0) << outcome.err;
+    EXPECT_TRUE(has(outcome.err, "points.csv has 600 points; 300 of them, drawn with seed " + seed))
+        << outcome.err;
+    EXPECT_TRUE(has(page(), "300 of them, drawn with seed " + seed));
+    return all_of(page(), "<path [^>]*d=\"([^\"]*)\"");
+  };
+  const std::vector<std::string> first = paths("3");
+  EXPECT_EQ(first.size(), 4U) << "the points and three hulls";
+  EXPECT_NE(paths("4"), first);
+  EXPECT_EQ(paths("3"), first);
+
+  for (const Card& card : cards_of(page())) {
+    ASSERT_EQ(card.commands.size(), 2U);
+    const MultiPolygon of_sample = shape_by(card.commands[0]);
+    const MultiPolygon of_all = shape_by(card.commands[1]);
+    EXPECT_EQ(path_of(of_sample, run::draw_sample(points, 300, 3)), card.path) << card.title;
+    EXPECT_NE(of_all, of_sample) << card.title;
+    if (card.title != "Polylidar (default)") continue;
+    EXPECT_EQ(of_all, to_coordinates(polylidar::concave_hull(points), points));
+  }
+}
+
+TEST_F(ChooseCommandTest, DegreesAreMetresAndDegreesAgain) {
+  const Points points = ring(600, {8, 47});
+  write_text(folder() / "places.csv", csv(points, "lon,lat\n"));
+  ASSERT_EQ(
+      choose({"places.csv", "--only", "polylidar/default", "--only", "convex_hull", "--draws", "0"}).code, 0);
+  const std::string text = page("places.csv.choice.html");
+  EXPECT_TRUE(has(text, "their longitudes and latitudes were taken as metres"));
+  EXPECT_EQ(all_of(text, "<dt>Area</dt>\\s*<dd>[0-9]+ (m²)</dd>").size(), 2U);
+  const MultiPolygon by_polylidar = shape_by("polylidar hull places.csv --out hull.geojson");
+  ASSERT_EQ(choose({"places.csv", "--only", "polylidar/default", "--write", "own.geojson"}).code, 0);
+  EXPECT_EQ(shape_in(folder() / "own.geojson"), by_polylidar);
+  const auto area_in = [&](const char* file) { return read_json(file)["properties"]["area"].get<double>(); };
+  EXPECT_NEAR(area_in("own.geojson") / area_in("hull.geojson"), 1, 1e-9);
+  EXPECT_EQ(read_json("own.geojson")["properties"]["method"], "polylidar");
+}
+
+TEST_F(ChooseCommandTest, FailuresAreCards) {
+  write_points(ring(100));
+  for (const char* mode : {"hang", "crash", "says_error", "invalid_polygon", "garbage_result"})
+    add_method(mode);
+  add_method("absent", {{"needs", {"/nowhere/library"}}, {"install", "make it"}});
+  add_method("asks", {{"parameters", json::array({{{"name", "size"},
+                                                   {"unit", "length"},
+                                                   {"description", "Does nothing."},
+                                                   {"minimum", 0},
+                                                   {"maximum", 10}}})}});
+  std::vector<std::string> arguments = {"points.csv", "--timeout", "1"};
+  for (const char* mode :
+       {"hang", "crash", "says_error", "invalid_polygon", "garbage_result", "absent", "convex_hull"})
+    arguments.insert(arguments.end(), {"--only", mode});
+  const Outcome outcome = choose(arguments);
+  EXPECT_EQ(outcome.code, 4) << outcome.err;
+  const std::vector<Card> cards = cards_of(page());
+  ASSERT_EQ(cards.size(), 6U);
+  EXPECT_EQ(cards[0].title, "Convex hull (default)");
+  const std::vector<std::pair<std::string, std::string>> expected = {{"hang", "timeout: "},
+                                                                     {"crash", "crash: "},
+                                                                     {"says_error", "error: no luck."},
+                                                                     {"invalid_polygon", "invalid output: "},
+                                                                     {"garbage_result", "invalid output: "}};
+  for (const auto& [mode, words] : expected) {
+    const auto card = std::find_if(cards.begin(), cards.end(), [&, &mode = mode](const Card& one) {
+      return one.title == mode + " <method> (default)";
+    });
+    ASSERT_NE(card, cards.end()) << mode;
+    EXPECT_TRUE(has(card->text, "<p class=\"bad\">" + words)) << card->text;
+    EXPECT_TRUE(card->commands.empty()) << mode;
+    EXPECT_EQ(card->path.empty(), mode != "invalid_polygon") << mode;
+    EXPECT_TRUE(has(outcome.out, "| " + mode + " <method> (default)")) << outcome.out;
+  }
+  EXPECT_TRUE(has(page(), "<h2>Not asked</h2>\n<ul>\n<li>absent &lt;method&gt;: ")) << page();
+
+  const Outcome written = choose({"points.csv", "--only", "crash", "--write", "out.geojson"});
+  EXPECT_EQ(written.code, 4);
+  EXPECT_FALSE(fs::exists(folder() / "out.geojson"));
+  EXPECT_EQ(choose({"points.csv", "--only", "absent"}).code, 6);
+  expect_refusal(choose({"points.csv", "--only", "asks"}), 2, "there is no method 'asks' that chooses");
+}
+
+TEST_F(ChooseCommandTest, BadInputIsOneSentence) {
+  write_points(ring(50));
+  expect_refusal(choose({"nowhere.csv"}), 2, "nowhere.csv");
+  expect_refusal(choose({"-"}), 2, "standard input cannot be read again");
+  write_text(folder() / "header.csv", "x,y\n");
+  expect_refusal(choose({"header.csv"}), 2, "header.csv has 0 points; a hull needs at least 3");
+  write_text(folder() / "two.csv", "1,2\n3,4\n");
+  expect_refusal(choose({"two.csv"}), 2, "two.csv has 2 points; a hull needs at least 3");
+  write_text(folder() / "nan.csv", "1,2\n3,nan\n5,6\n");
+  expect_refusal(choose({"nan.csv"}), 2, "nan.csv, line 2: ");
+  expect_refusal(choose({"points.csv", "--only", "magic"}), 2,
+                 "--only: there is no method 'magic' that chooses its parameters without the user; known are "
+                 "polylidar/default");
+  expect_refusal(choose({"points.csv", "--only", "polylidar/paper"}), 2,
+                 "there is no method 'polylidar/paper'");
+  expect_refusal(
+      choose({"points.csv", "--only", "polylidar", "--write", "out.geojson"}), 2,
+      "--write takes the polygons of one method; add --only and one of polylidar/default and polylidar/auto");
+  expect_refusal(choose({"points.csv", "--out", "a.html", "--write", "out.geojson"}), 2, "excludes");
+  expect_refusal(choose({"points.csv", "--columns", "9,10"}), 2, "points.csv");
+  expect_refusal(choose({"points.csv", "--n", "2"}), 2, "--n");
+  expect_refusal(choose({"points.csv", "--only", "convex_hull", "--out", "nowhere/page.html"}), 1,
+                 "cannot write nowhere/page.html");
+  EXPECT_EQ(std::distance(fs::directory_iterator(folder()), fs::directory_iterator()), 4)
+      << "nothing is written";
+}
+
+TEST_F(ChooseCommandTest, AnInterruptionLeavesNothing) {
+  write_points(ring(100));
+  add_method("hang");
+  fs::create_directory(folder() / "temporary");
+  ProgramOptions options = in_folder();
+  options.environment["TMPDIR"] = (folder() / "temporary").string();
+  Program program(
+      command({"choose", "points.csv", "--only", "hang", "--only", "convex_hull", "--timeout", "60"}),
+      options);
+  ASSERT_TRUE(testing::wait_until([&] { return !fs::is_empty(folder() / "temporary"); }));
+  ASSERT_TRUE(testing::wait_until([&] { return testing::children_of(program.pid()).size() == 2; }));
+  program.send_signal(SIGINT);
+  const Outcome outcome = program.wait();
+  EXPECT_EQ(outcome.code, 130) << outcome.err;
+  EXPECT_TRUE(outcome.err.ends_with("hullbench: interrupted\n")) << outcome.err;
+  EXPECT_EQ(outcome.out, "");
+  EXPECT_TRUE(fs::is_empty(folder() / "temporary"));
+  for (const auto& entry : fs::directory_iterator(folder()))
+    EXPECT_FALSE(has(entry.path().filename(), "choice")) << entry.path();
+}
+
+}  // namespace
+}  // namespace hullbench
