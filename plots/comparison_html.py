@@ -9,7 +9,7 @@ from collections.abc import Callable, Sequence
 from comparison_data import Comparison, MethodChange, Pair
 from records import Experiment, Series
 from report_common import STATUS_WORDS, count_of, label, number, sentence_list, text
-from report_html import environment_facts, methods_of, parameter_value
+from report_html import entry_parameters, environment_facts, methods_of
 
 SIGNS = {
     "faster": "▼",
@@ -358,11 +358,9 @@ def _parameters(experiments: Sequence[Experiment]) -> dict[str, str]:
     found: dict[Series, list[str]] = {}
     for experiment in experiments:
         for entry in experiment.plan.get("methods", []):
-            said = ", ".join(
-                f"{name} = {parameter_value(value, experiment.report.get('rules', {}))}"
-                for name, value in entry.get("parameters", {}).items()
+            found.setdefault(Series(entry.get("method", ""), entry.get("protocol", "")), []).append(
+                entry_parameters(entry, experiment)
             )
-            found.setdefault(Series(entry.get("method", ""), entry.get("protocol", "")), []).append(said or "none given")
     return {f"Parameters of {label(experiments, series)}": _joined(values) for series, values in found.items()}
 
 

@@ -7,8 +7,8 @@ A report is made of it, and so can be the front page of a site: everything here 
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
-from dataclasses import dataclass
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
 from pathlib import Path
 
 import numpy as np
@@ -16,7 +16,7 @@ import numpy as np
 from front_charts import charts_html, color_of
 from ratings import KNOWS, Division, Rating, Standing, divisions, has_times, rate, read, typical_times
 from records import Series
-from report_common import count_of, number, sentence_list, short_name, text
+from report_common import count_of, link_html, number, sentence_list, short_name, text
 
 # Shown at once; the others are behind a click.
 FIRST_ROWS = 8
@@ -32,6 +32,9 @@ class Front:
     timed: list[Division]  # the run's own, with times
     own: bool  # the ratings are of the run itself, not of an evaluation beside it
     why_empty: str  # a sentence where there is no rating
+    # Of pages that stand elsewhere: those of methods, by name, and the report; empty: there is none.
+    pages: Mapping[str, str] = field(default_factory=dict)
+    report: str = ""
 
 
 def make_front(folder: Path) -> Front:
@@ -54,12 +57,12 @@ def front_html(front: Front, strip: str) -> str:
     timed = {one.name: one for one in front.timed}
     parts = [f"<p class='lead'>{lead_sentence(first, timed.get(first.division.name))}</p>"]
     parts.append(charts_html(timed.get(first.division.name)))
-    parts += [_league(first, timed.get(first.division.name)), strip]
+    parts += [_league(first, timed.get(first.division.name), front.pages), strip]
     for other in others:
         said = lead_sentence(other, timed.get(other.division.name))
         parts.append(
             f"<details class='wide'><summary>Methods that {KNOWS[other.division.name]}</summary><p class='lead'>{said}</p>"
-            f"{charts_html(timed.get(other.division.name))}{_league(other, timed.get(other.division.name))}</details>"
+            f"{charts_html(timed.get(other.division.name))}{_league(other, timed.get(other.division.name), front.pages)}</details>"
         )
     return "".join(parts)
 
@@ -80,9 +83,9 @@ def lead_sentence(rating: Rating, timed: Division | None) -> str:
         said = f"<b>{name}</b> and {sentence_list(same)} are the first of {field}, with the same mean rank {number(first.rank)} over {_cases(rating)}"
     else:
         verb = "leads" if lead.clear else "is ahead, but not clearly, of"
-        said = f"<b>{name}</b> {verb} {field}: mean rank {number(first.rank)}{_range(first.rank_interval)} over {_cases(rating)}, then {others[0]} with {number(second.rank)}"
-        said += f"; in the median case its error is {number(lead.ratio)} times that one’s{_range(lead.ratio_interval)}"
-    said += _time_words(timed, first.series)
+        said = f"<b>{name}</b> {verb} {field}: mean rank {number(first.rank)}{interval_words(first.rank_interval)} over {_cases(rating)}, then {others[0]} with {number(second.rank)}"
+        said += f"; in the median case its error is {number(lead.ratio)} times that one’s{interval_words(lead.ratio_interval)}"
+    said += time_words(timed, first.series)
     return said + f". {_exceptions(rating)}"
 
 
@@ -90,11 +93,11 @@ def _cases(rating: Rating) -> str:
     return f"{count_of(len(rating.division.results.cases), 'case')} of {count_of(rating.shapes, 'shape')}"
 
 
-def _range(interval: tuple[float, float] | None) -> str:
+def interval_words(interval: tuple[float, float] | None) -> str:
     return f" (95 %: {number(interval[0])} to {number(interval[1])})" if interval else ""
 
 
-def _time_words(timed: Division | None, series: Series) -> str:
+def time_words(timed: Division | None, series: Series) -> str:
     times = typical_times(timed) if timed else {}
     return f", at {number(times[series])} µs a point" if math.isfinite(times.get(series, math.inf)) else ""
 
@@ -141,10 +144,10 @@ def lines_of(rating: Rating) -> list[_Line]:
     return lines
 
 
-def _league(rating: Rating, timed: Division | None) -> str:
+def _league(rating: Rating, timed: Division | None, pages: Mapping[str, str]) -> str:
     every = [one.series for one in rating.standings]
     times = typical_times(timed) if timed else {}
-    rows = [_league_row(line, every, len(every), times) for line in lines_of(rating)]
+    rows = [_league_row(line, every, times, pages) for line in lines_of(rating)]
     head = (
         "<thead><tr><th scope='col'>Method</th><th scope='col'>Mean rank, 95 %</th><th scope='col' class='number'>L2, %</th>"
         "<th scope='col' class='number more'>Elo</th><th scope='col' class='number more'>µs a point</th>"
@@ -160,7 +163,7 @@ def _league(rating: Rating, timed: Division | None) -> str:
     return f"<div class='league-box' id='league-{rating.division.name}'>{table}</div>"
 
 
-def _league_row(line: _Line, every: Sequence[Series], worst: int, times: dict[Series, float]) -> str:
+def _league_row(line: _Line, every: Sequence[Series], times: dict[Series, float], pages: Mapping[str, str]) -> str:
     one = line.members[0]
     names = [short_name(member.series, every) for member in line.members]
     also = f"<small>and {text(sentence_list(names[1:]))}</small>" if names[1:] else ""
@@ -168,7 +171,7 @@ def _league_row(line: _Line, every: Sequence[Series], worst: int, times: dict[Se
     spread = number(known[0]) + (f"–{number(known[-1])}" if known[1:] else "") if known else "–"
 
     def share(rank: float) -> str:
-        return f"{100 * (rank - 1) / max(1, worst - 1):.1f}%"
+        return f"{100 * (rank - 1) / max(1, len(every) - 1):.1f}%"
 
     low, high = one.rank_interval or (one.rank, one.rank)
     bar = (
@@ -178,7 +181,7 @@ def _league_row(line: _Line, every: Sequence[Series], worst: int, times: dict[Se
     interval = f"<small class='inline'>{number(low)}–{number(high)}</small>" if one.rank_interval else ""
     return (
         f"<tr data-entrant='{text(one.series.key)}'><th scope='row'><span class='place'>{line.first + 1}</span>"
-        f"<span class='swatch' data-method='{text(one.series.method)}'></span>{text(names[0])}{also}</th>"
+        f"<span class='swatch' data-method='{text(one.series.method)}'></span>{link_html(names[0], one.series.method, pages)}{also}</th>"
         f"<td class='ranks'>{bar}<span class='value'>{number(one.rank)} {interval}</span></td>"
         f"<td class='number'>{number(100 * one.error)}</td><td class='number more'>{one.elo:.0f}</td>"
         f"<td class='number more'>{spread}</td><td class='number'>{one.failures}</td></tr>"

@@ -68,7 +68,7 @@ def _area(curve: tuple[np.ndarray, np.ndarray], low: float, high: float) -> floa
 
 def _solved_chart(curves, named: Sequence[Series], ends: tuple[float, float], size: tuple[int, int], css: str) -> str:
     every = list(curves)
-    right = 12 + svg.LETTER * max(len(short_name(one, every)) for one in named)
+    right = 12 + 1.12 * svg.LETTER * max(len(short_name(one, every)) for one in named)  # bold
     chart = svg.Chart.of(size, right, ends, (0, 100), False)
     body = []
     for one in [*(other for other in every if other not in named), *reversed(named)]:

@@ -17,7 +17,7 @@ from pathlib import Path
 from typing import Any
 
 from front import Front, front_html, make_front
-from page import PLOTS, Section, code, colours, data, entrants, method_styles, page, place, write_page
+from page import PLOTS, Section, byline, code, colours, data, entrants, method_styles, page, place, write_page
 from pictures import pack as pack_pictures
 from records import Experiment, exit_code_of, load
 from report_common import text
@@ -70,7 +70,7 @@ def make_page(experiments: Sequence[Experiment], folder: Path) -> str:
     ]
 
     def with_blocks(*more: str) -> str:
-        return page(text(title), _byline(experiments), sections, [*blocks, *more], parts)
+        return page(text(title), byline(experiments), sections, [*blocks, *more], parts)
 
     room = max(MOST_BYTES - _RESERVE_BYTES - len(with_blocks().encode()), MOST_BYTES // 5)
     return with_blocks(data("pictures", pack_pictures(experiments, room)))
@@ -129,19 +129,6 @@ def _options(experiment: Experiment) -> str:
     """What 'hullbench run' needs beside the plan's name for the same points: the seed, where it is not the usual 1."""
     seed = experiment.report["seed"]
     return "" if seed == 1 else f" --seed {seed}"
-
-
-def _byline(experiments: Sequence[Experiment]) -> str:
-    report = experiments[0].report
-    runs = f"{sum(len(experiment.rows) for experiment in experiments):,}".replace(",", "\u202f")
-    parts = (
-        f"{report['tool']['name']} {report['tool']['version']}",
-        report["created"][:10],
-        f"{runs} runs",
-        report["environment"]["cpu"]["model"],
-        report["environment"]["os"] or "unknown system",
-    )
-    return " · ".join(text(part) for part in parts)
 
 
 if __name__ == "__main__":

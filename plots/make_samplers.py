@@ -38,6 +38,7 @@ SAMPLERS = (
     "tracks:20",
     "quantised:1",
     "outline:3",
+    "transcripts:3",
     "gradient:16~outliers:3~noise:0.5",
 )
 
@@ -53,7 +54,7 @@ def draw(program: Path, out: Path) -> None:
     outline = json.loads((ROOT / "datasets" / "shapes" / "ca.geojson").read_text())
     polygons = outline["geometry"]["coordinates"]
     rings = [polygons[0]] if outline["geometry"]["type"] == "Polygon" else [polygon[0] for polygon in polygons]
-    figure, panels = plt.subplots(3, 5, figsize=(12, 8.4), constrained_layout=True)
+    figure, panels = plt.subplots(4, 4, figsize=(11, 12.4), constrained_layout=True)
     for sampler, panel in zip(SAMPLERS, panels.flat):
         points = points_of(program, sampler)
         for ring in rings:

@@ -16,7 +16,7 @@ from pathlib import Path
 from typing import Any
 
 from records import Experiment, RecordError
-from report_common import label
+from report_common import label, text
 
 PLOTS = Path(__file__).resolve().parent
 PAGE = PLOTS / "report"
@@ -53,13 +53,19 @@ def place(name: str, without_scripts: str = "") -> str:
 
 
 def page(title: str, byline: str, sections: Sequence[Section], blocks: Sequence[str], parts: dict[str, str]) -> str:
-    """The whole page: `blocks` are its data(), `parts` its code() with its "colours"."""
+    """The whole page: `blocks` are its data(), `parts` its code() with its "colours". The parts may also say what the browser
+    calls the page ("head"), what stands below the heading ("search") and what leads elsewhere ("links", which are called
+    "contents"): the sections of the page, where nothing is said."""
     values = {
+        "head": title,
+        "search": "",
+        "contents": "Sections",
+        "links": "\n".join(section.link_html() for section in sections),
         **parts,
         "title": title,
         "byline": byline,
-        "first": sections[0].link.lower(),
-        "links": "\n".join(section.link_html() for section in sections),
+        "first": sections[0].link[:1].lower() + sections[0].link[1:],
+        "first_id": sections[0].identity,
         "sections": "\n".join(section.html() for section in sections),
         "data": "\n".join(blocks),
     }
@@ -68,15 +74,28 @@ def page(title: str, byline: str, sections: Sequence[Section], blocks: Sequence[
     return re.sub(r"\{\{(\w+)\}\}", lambda found: values[found.group(1)], source)
 
 
-def code(styles: Sequence[str], script: str) -> dict[str, str]:
-    """The template's values "style", "library", "script" (the module of that name with all that it imports) and "policy".
-    Raises RecordError without the library or esbuild."""
-    library, script = _library(), _bundle(script)
+def byline(experiments: Sequence[Experiment]) -> str:
+    """Program, date, number of runs and machine."""
+    report = experiments[0].report
+    runs = f"{sum(len(experiment.rows) for experiment in experiments):,}".replace(",", "\u202f")
+    parts = (
+        f"{report['tool']['name']} {report['tool']['version']}",
+        report["created"][:10],
+        f"{runs} runs",
+        report["environment"]["cpu"]["model"],
+        report["environment"]["os"] or "unknown system",
+    )
+    return " · ".join(text(part) for part in parts)
+
+
+def code(styles: Sequence[str], script: str, charts: bool = True) -> dict[str, str]:
+    """The template's values "style", "scripts" (the module of that name with all that it imports, and before it the charting
+    library, unless the page has no `charts`) and "policy". Raises RecordError without the library or esbuild."""
+    scripts = ([_library()] if charts else []) + [_bundle(script)]
     return {
         "style": "\n".join((PAGE / name).read_text(encoding="utf-8") for name in styles),
-        "library": library,
-        "script": script,
-        "policy": _policy((library, script)),
+        "scripts": "\n".join(f"<script>{source}</script>" for source in scripts),
+        "policy": _policy(scripts),
     }
 
 

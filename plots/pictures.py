@@ -18,15 +18,20 @@ section starts a new Huffman table: that is worth a quarter of the size.
 from __future__ import annotations
 
 import base64
+import gzip
+import io
+import itertools
 import json
+import re
 import struct
 import zlib
 from collections import Counter
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field
+from pathlib import Path
 from typing import Any
 
-from records import Experiment, Row
+from records import Experiment, Picture, Row
 
 GRID = 4096
 # The grid of pictures.jsonl has 16 times as many steps.
@@ -371,3 +376,47 @@ def _block(header: dict[str, Any], sections: Sequence[bytes]) -> str:
             packed += compressor.flush(zlib.Z_FULL_FLUSH)
         packed += compressor.compress(section)
     return base64.b64encode(packed + compressor.flush()).decode()
+
+
+# Back again.
+
+_PACKED = re.compile(r'<script type="application/json" id="pictures">(.*?)</script>', re.DOTALL)
+
+
+def kept_pictures(page: Path, experiments: Sequence[Experiment]) -> list[dict[str, Picture]]:
+    """By experiment and case: what a report shows, in its coarser grid. A kept reference run has no other pictures. Nothing
+    where the page is not there or has none."""
+    found: list[dict[str, Picture]] = [{} for _ in experiments]
+    packed = _PACKED.search(page.read_text(encoding="utf-8")) if page.is_file() else None
+    for entry in json.loads(packed.group(1))["cases"] if packed else []:
+        picture = _unpacked(entry)
+        for place, experiment in enumerate(experiments):
+            if experiment.name in entry["experiments"]:
+                found[place][picture.name] = picture
+    return found
+
+
+def _unpacked(entry: dict[str, Any]) -> Picture:
+    block = gzip.decompress(base64.b64decode(entry["block"]))
+    start = 4 + struct.unpack_from("<I", block)[0]
+    header, sections = json.loads(block[4:start]), io.BytesIO(block[start:])
+
+    def numbers(count: int) -> list[int]:
+        low, high = sections.read(count), sections.read(count)
+        return [one | other << 8 for one, other in zip(low, high)]
+
+    def polygons(counts: Sequence[Sequence[int]]) -> list[list[list[int]]]:
+        coded = numbers(2 * sum(map(sum, counts)))
+        steps = [-(one >> 1) - 1 if one & 1 else one >> 1 for one in coded]
+        corners = zip(itertools.accumulate(steps[::2]), itertools.accumulate(steps[1::2]))
+        return [[[value for _ in range(count) for value in next(corners)] for count in rings] for rings in counts]
+
+    xs = itertools.accumulate(numbers(header["points"]))
+    points = [value for both in zip(xs, numbers(header["points"])) for value in both]
+    truth, *results = [polygons(counts) for counts in (header["truth"], *header["results"])]
+    case = {"case": entry["case"], "origin": header["origin"], "step": header["step"]}
+    shown = {}
+    for method, protocol, _, _, _, place in entry["runs"]:
+        if place is not None:
+            shown[f"{method}/{entry['case']}/protocol:{protocol}"] = {"polygons": results[place]}
+    return Picture({**case, "points_total": entry["n"], "points": points, "ground_truth": truth}, shown)

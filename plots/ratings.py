@@ -132,7 +132,11 @@ def divisions(results: Results) -> list[Division]:
 
 def division(results: Results, name: str) -> Division | None:
     members = [i for i, one in enumerate(results.entrants) if one.protocol in DIVISIONS[name]]
-    weights = np.array([case.weight for case in results.cases])
+    # What one method alone was asked says nothing of the others, however many cases it is.
+    methods = sorted({results.entrants[i].method for i in members})
+    known = ~np.isnan(results.errors)
+    had = [np.any([known[i] for i in members if results.entrants[i].method == one], axis=0) for one in methods]
+    weights = np.array([case.weight for case in results.cases]) * (np.sum(had, axis=0) > 1)
     share = {i: float(np.sum(weights[~np.isnan(results.errors[i])])) for i in members}
     chosen = [i for i in members if 2 * share[i] >= max(share.values())]
     if len(chosen) < 2:
@@ -201,7 +205,7 @@ class Rating:
 
 
 def rate(division: Division) -> Rating:
-    order = np.argsort(_mean(ranks(division.results.errors), division.results.weights()), kind="stable")
+    order = np.argsort(mean_ranks(division.results), kind="stable")
     results = division.results.of(list(order), range(len(division.results.cases)))
     draws = Draws(results)
     won, tied = outcomes(results.errors)
@@ -281,8 +285,9 @@ class Draws:
         return float(low), float(high)
 
 
-def _mean(values: np.ndarray, weights: np.ndarray) -> np.ndarray:
-    return values @ weights
+def mean_ranks(results: Results) -> np.ndarray:
+    """By entrant, over the cases by their weights."""
+    return ranks(results.errors) @ results.weights()
 
 
 def weighted_median(values: np.ndarray, weights: np.ndarray) -> float:
@@ -311,7 +316,7 @@ def _drawn_ranks(results: Results, draws: Draws) -> np.ndarray:
 
 def _standings(results: Results, draws: Draws, points: np.ndarray) -> list[Standing]:
     weights = results.weights()
-    mean_ranks, drawn_ranks = _mean(ranks(results.errors), weights), _drawn_ranks(results, draws)
+    means, drawn_ranks = mean_ranks(results), _drawn_ranks(results, draws)
     count = len(results.entrants)
     games = draws.by_shape((points * weights * draws.shapes).reshape(count * count, -1))
     strength = elo(games.sum(axis=0).reshape(count, count))
@@ -323,7 +328,7 @@ def _standings(results: Results, draws: Draws, points: np.ndarray) -> list[Stand
         standings.append(
             Standing(
                 series,
-                float(mean_ranks[i]),
+                float(means[i]),
                 draws.interval(drawn_ranks[:, i]),
                 float(strength[i]),
                 draws.interval(drawn_strength[:, i]),
@@ -336,14 +341,14 @@ def _standings(results: Results, draws: Draws, points: np.ndarray) -> list[Stand
 
 
 def _lead(results: Results, draws: Draws) -> Lead:
-    mean_ranks, drawn = _mean(ranks(results.errors), results.weights()), _drawn_ranks(results, draws)
+    means, drawn = mean_ranks(results), _drawn_ranks(results, draws)
     first, second = results.errors[:2]
     same = (first == second) | ((first == 0) & (second == 0))
     with np.errstate(invalid="ignore", divide="ignore"):
         ratio = np.where(same, 1.0, np.where(np.isinf(first), np.inf, first / second))
     return Lead(
         draws.shapes,
-        float(mean_ranks[1] - mean_ranks[0]),
+        float(means[1] - means[0]),
         draws.interval(drawn[:, 1] - drawn[:, 0]),
         weighted_median(ratio, results.weights()),
         draws.interval(_drawn_medians(ratio, results.weights(), draws)) if draws.shapes > 1 else None,
@@ -356,8 +361,8 @@ def _parts(results: Results, names: Sequence[str], first: Sequence[str]) -> list
     for name in sorted(set(names), key=lambda one: (first.index(one) if one in first else len(first), one)):
         some = results.of(range(len(results.entrants)), [i for i, one in enumerate(names) if one == name])
         weights = some.weights()
-        mean_ranks = [float(rank) for rank in _mean(ranks(some.errors), weights)]
-        found.append(Part(name, len(some.cases), mean_ranks, [weighted_median(errors, weights) for errors in some.errors]))
+        means = [float(rank) for rank in mean_ranks(some)]
+        found.append(Part(name, len(some.cases), means, [weighted_median(errors, weights) for errors in some.errors]))
     return found
 
 

@@ -5,8 +5,9 @@ from __future__ import annotations
 import html
 import json
 import math
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
+from urllib.parse import urlencode
 
 from records import Experiment, Series
 
@@ -43,6 +44,17 @@ def short_name(series: Series, among: Iterable[Series]) -> str:
     """The short title, with the protocol where the method is among the series more than once."""
     title = METHOD_LOOKS.get(series[0], {}).get("title", series[0])
     return f"{title} ({series[1]})" if sum(one[0] == series[0] for one in set(among)) > 1 else title
+
+
+def link_html(name: str, method: str, pages: Mapping[str, str]) -> str:
+    """The name; where the method has a page, a link to it."""
+    return f"<a href='{text(pages[method])}'>{text(name)}</a>" if method in pages else text(name)
+
+
+def asked(section: str, report: str, **what: str) -> str:
+    """Where a link leads: in the report to its section, whose script does the rest; from another page to `report`, which is
+    asked for it behind the # (report/front.js)."""
+    return f"{report}#{text(urlencode(what))}" if report else f"#{section}"
 
 
 def protocol_words(experiments: Sequence[Experiment]) -> dict[str, str]:

@@ -20,7 +20,8 @@ EQUAL_WORK = (
 
 
 def summary_html(experiments: Sequence[Experiment], summaries: Sequence[Summary]) -> str:
-    parts = [_headline(summaries), _failures(summaries), _standings(summaries)]
+    standings = f"<details><summary>Standing of every method</summary>{standings_table(summaries)}</details>"
+    parts = [_headline(summaries), _failures(summaries), standings]
     notes = [EQUAL_WORK, noise_sentence(experiments), _reading(summaries), _brackets(experiments)]
     return "\n".join(parts) + "<ul class='notes'>" + "".join(f"<li>{text(note)}</li>" for note in notes) + "</ul>"
 
@@ -58,13 +59,15 @@ def _failures(summaries: Sequence[Summary]) -> str:
     return _finding("failures", "Failures", findings)
 
 
-def _standings(summaries: Sequence[Summary]) -> str:
+def standings_table(summaries: Sequence[Summary], method: str | None = None) -> str:
+    """Of every method in every experiment, or of one; empty where there is none."""
     rows = "".join(
-        f"<tbody><tr class='group'><th colspan='7' scope='rowgroup'>{text(one.title)}</th></tr>"
-        + "".join(_standing(one, standing) for standing in one.standings)
-        + "</tbody>"
+        f"<tbody><tr class='group'><th colspan='7' scope='rowgroup'>{text(one.title)}</th></tr>{told}</tbody>"
         for one in summaries
+        if (told := "".join(_standing(one, each) for each in one.standings if method in (None, each.series.method)))
     )
+    if not rows:
+        return ""
     head = "".join(
         f"<th scope='col'{side}>{title}</th>"
         for title, side in (
@@ -78,11 +81,9 @@ def _standings(summaries: Sequence[Summary]) -> str:
         )
     )
     return (
-        "<details><summary>Standing of every method</summary>"
-        "<div class='scroll' tabindex='0' role='region' aria-label='Standing of every method'>"
-        "<table id='summary-table' data-testid='summary-table'><caption>Every method beside Polylidar, over the "
-        f"cases that either solved: median, and from the least to the largest</caption><thead><tr>{head}</tr></thead>{rows}"
-        "</table></div></details>"
+        "<div class='scroll' tabindex='0' role='region' aria-label='Standing'>"
+        "<table id='summary-table' data-testid='summary-table'><caption>Beside Polylidar, over the cases that either solved: "
+        f"median, and from the least to the largest</caption><thead><tr>{head}</tr></thead>{rows}</table></div>"
     )
 
 
@@ -186,11 +187,16 @@ def _notes(notes: Sequence[str]) -> str:
 
 def parameters_html(experiments: Sequence[Experiment], folder: Path) -> str:
     """Who chose them, the program's table of them, what they mean and how the experiments were run."""
-    said = "".join(
-        f"<div><dt>{text(name)}</dt><dd>{text(words)}</dd></div>" for name, words in protocol_words(experiments).items()
-    )
+    said = facts_html({name: text(words) for name, words in protocol_words(experiments).items()})
     tables = "".join(map(table_html, tables_beside(documents(experiments, folder), _PARAMETERS)))
-    return f"<h3>Who chose them</h3><dl>{said}</dl>" + tables + _described(experiments) + _plans(experiments)
+    return f"<h3>Who chose them</h3>{said}" + tables + _described(experiments) + _plans(experiments)
+
+
+def facts_html(facts: dict[str, str], identity: str = "") -> str:
+    """Names, and what is to be said of them as HTML."""
+    rows = "".join(f"<div><dt>{text(name)}</dt><dd>{told}</dd></div>" for name, told in facts.items())
+    named = f" id='{identity}'" if identity else ""
+    return f"<dl{named}>{rows}</dl>"
 
 
 def parameter_value(value: Any, rules: dict[str, str]) -> str:
@@ -198,6 +204,13 @@ def parameter_value(value: Any, rules: dict[str, str]) -> str:
     if isinstance(value, dict):
         return rules.get(value.get("rule", ""), json.dumps(value, ensure_ascii=False))
     return "no limit" if value is None else f"{value:g}"
+
+
+def entry_parameters(entry: dict[str, Any], experiment: Experiment) -> str:
+    """What the plan gives a method."""
+    rules = experiment.report.get("rules", {})
+    given = entry.get("parameters", {})
+    return ", ".join(f"{name} = {parameter_value(value, rules)}" for name, value in given.items()) or "none given"
 
 
 def methods_of(experiments: Sequence[Experiment]) -> dict[str, dict[str, Any]]:
@@ -210,19 +223,27 @@ def methods_of(experiments: Sequence[Experiment]) -> dict[str, dict[str, Any]]:
     return found
 
 
+PARAMETER_HEAD = ("Unit", "Range", "Default", "Meaning")
+
+
+def parameter_cells(one: dict[str, Any]) -> str:
+    """What PARAMETER_HEAD names."""
+    low, high = one["minimum"], one["maximum"]
+    limits = f"{'' if low is None else number(low)} to {'no limit' if high is None else number(high)}"
+    default = parameter_value(one["default"], {}) if "default" in one else "required"
+    return (
+        f"<td>{text(one['unit'])}</td><td>{text(limits)}</td><td>{text(default)}</td>"
+        f"<td class='prose'>{text(one['description'])}</td>"
+    )
+
+
 def _described(experiments: Sequence[Experiment]) -> str:
-    rows = ""
-    for method in methods_of(experiments).values():
-        for one in method["parameters"]:
-            low, high = one["minimum"], one["maximum"]
-            limits = f"{'' if low is None else number(low)} to {'no limit' if high is None else number(high)}"
-            default = parameter_value(one["default"], {}) if "default" in one else "required"
-            rows += (
-                f"<tr><th scope='row'>{text(method['title'])}</th><td>{text(one['name'])}</td>"
-                f"<td>{text(one['unit'])}</td><td>{text(limits)}</td><td>{text(default)}</td>"
-                f"<td class='prose'>{text(one['description'])}</td></tr>"
-            )
-    return _details("What the parameters mean", ("Method", "Parameter", "Unit", "Range", "Default", "Meaning"), rows)
+    rows = "".join(
+        f"<tr><th scope='row'>{text(method['title'])}</th><td>{text(one['name'])}</td>{parameter_cells(one)}</tr>"
+        for method in methods_of(experiments).values()
+        for one in method["parameters"]
+    )
+    return _details("What the parameters mean", ("Method", "Parameter", *PARAMETER_HEAD), rows)
 
 
 def _plans(experiments: Sequence[Experiment]) -> str:
@@ -245,10 +266,18 @@ def _plans(experiments: Sequence[Experiment]) -> str:
 
 
 def _details(title: str, head: Sequence[str], rows: str) -> str:
-    top = "".join(f"<th scope='col'>{text(one)}</th>" for one in head)
+    return f"<details><summary>{text(title)}</summary>{table_of(title, head, rows)}</details>"
+
+
+def table_of(title: str, head: Sequence[str], rows: str, numbers: int = 0) -> str:
+    """A table that can be scrolled; the last columns, so many, are numbers."""
+    words = len(head) - numbers
+    top = "".join(
+        f"<th scope='col'{' class=number' if place >= words else ''}>{text(one)}</th>" for place, one in enumerate(head)
+    )
     return (
-        f"<details><summary>{text(title)}</summary><div class='scroll' tabindex='0' role='region' "
-        f"aria-label='{text(title)}'><table><thead><tr>{top}</tr></thead><tbody>{rows}</tbody></table></div></details>"
+        f"<div class='scroll' tabindex='0' role='region' aria-label='{text(title)}'><table><thead><tr>{top}</tr></thead>"
+        f"<tbody>{rows}</tbody></table></div>"
     )
 
 
@@ -261,16 +290,15 @@ def environment_html(experiments: Sequence[Experiment]) -> str:
     for experiment in experiments:
         for name, value in environment_facts(experiment.report).items():
             facts.setdefault(name, {})[experiment.title] = value
-    said = ""
+    said = {}
     for name, values in facts.items():
         several = set(values.values())
-        told = (
+        said[name] = (
             text(next(iter(several)))
             if len(several) == 1
             else "<br>".join(f"{text(value)} <small>{text(where)}</small>" for where, value in values.items())
         )
-        said += f"<div><dt>{text(name)}</dt><dd>{told}</dd></div>"
-    return f"<dl id='environment-facts'>{said}</dl>" + _noise(experiments) + _versions(experiments)
+    return facts_html(said, "environment-facts") + _noise(experiments) + _versions(experiments)
 
 
 def _noise(experiments: Sequence[Experiment]) -> str:
@@ -327,20 +355,26 @@ def environment_facts(report: dict[str, Any]) -> dict[str, str]:
     return facts
 
 
+def abilities(method: dict[str, Any]) -> str:
+    return ", ".join(name.replace("_", " ") for name, has in method["capabilities"].items() if has) or "–"
+
+
+def version_html(method: dict[str, Any]) -> str:
+    """Or why it is not installed, and what to do about it."""
+    if method["installed"]:
+        return text(method["version"])
+    missing = f"<small>{text(method['detail'])}; {text(method['remedy'])}</small>"
+    return f"<span class='verdict fails'>not installed</span>{missing}"
+
+
 def _versions(experiments: Sequence[Experiment]) -> str:
-    rows = ""
-    for method in methods_of(experiments).values():
-        able = ", ".join(name.replace("_", " ") for name, has in method["capabilities"].items() if has)
-        missing = f"<small>{text(method['detail'])}; {text(method['remedy'])}</small>"
-        version = (
-            text(method["version"]) if method["installed"] else f"<span class='verdict fails'>not installed</span>{missing}"
-        )
-        rows += (
-            f"<tr><th scope='row'><span class='swatch' data-method='{text(method['name'])}'></span>"
-            f"{text(method['title'])}</th><td>{version}</td><td>{text(method['native_output'])}</td>"
-            f"<td>{text(able) or '–'}</td><td>{text(method['licence'])}</td>"
-            f"<td class='prose'>{text(method['citation'])}</td></tr>"
-        )
+    rows = "".join(
+        f"<tr><th scope='row'><span class='swatch' data-method='{text(method['name'])}'></span>"
+        f"{text(method['title'])}</th><td>{version_html(method)}</td><td>{text(method['native_output'])}</td>"
+        f"<td>{text(abilities(method))}</td><td>{text(method['licence'])}</td>"
+        f"<td class='prose'>{text(method['citation'])}</td></tr>"
+        for method in methods_of(experiments).values()
+    )
     return (
         "<h3>Methods and versions</h3><div class='scroll' tabindex='0' role='region' aria-label='Methods'>"
         "<table id='methods'><thead><tr><th scope='col'>Method</th><th scope='col'>Version</th>"

@@ -4,12 +4,12 @@ broke somebody. What the run does not have is left out, and said."""
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Container, Sequence
 from dataclasses import dataclass, field
 
 from ratings import DIVISIONS, TIE_RELATIVE, Rating
 from records import Experiment, Picture, Row, Series
-from report_common import count_of, number, sentence_list, short_name, text
+from report_common import asked, count_of, number, sentence_list, short_name, text
 
 _WIDTH, _HEIGHT, _MARGIN = 200, 150, 6
 _MOST_POINTS = 500
@@ -20,8 +20,8 @@ _HAS_NO_TRUTH = ("real", "zoo")  # experiments
 
 
 @dataclass
-class _Shown:
-    """A case that has a picture, with the leader's run of it."""
+class Shown:
+    """A case that has a picture, with one run of it."""
 
     experiment: Experiment
     row: Row
@@ -46,44 +46,64 @@ class _Shown:
         return [row for row in self.others if not row.ok and row.status not in _NOT_TRIED]
 
 
-def strip_html(experiments: Sequence[Experiment], rating: Rating | None) -> str:
-    """Empty without a leader."""
+def strip_html(
+    experiments: Sequence[Experiment],
+    rating: Rating | None,
+    pictures: Sequence[dict[str, Picture]] | None = None,
+    report: str = "",
+) -> str:
+    """Empty without a leader. `pictures`: by experiment, read_pictures() of at least the leader's runs; None: they are read.
+    `report`: the address of the report that the pictures lead to, where that is not this page."""
     if rating is None:
         return ""
     leader = rating.standings[0].series
     every = [one.series for one in rating.standings]
-    shown = _pictures(experiments, leader, DIVISIONS[rating.division.name])
+    read = pictures or [read_pictures(one, {row.name for row in one.rows if row.series == leader}) for one in experiments]
+    shown = _cases(experiments, read, leader, DIVISIONS[rating.division.name])
     name = text(short_name(leader, every))
     if not shown:
         return f"<p class='muted wide'>The run has no pictures of {name}.</p>"
     chosen = _chosen(shown, every)
     missing = [what for what, one, _ in chosen if one is None]
-    cards = "".join(_card(k, what, one, said) for k, (what, one, said) in enumerate(chosen) if one is not None)
+    cards = "".join(card(k, what, one, said, report) for k, (what, one, said) in enumerate(chosen) if one is not None)
     note = f" This run has none of these: {sentence_list([one[:1].lower() + one[1:] for one in missing])}." if missing else ""
+    return (
+        f"<div class='strip' id='strip'><h3>{name} in {count_of(len(chosen) - len(missing), 'picture')}</h3>{cards_html(cards)}"
+        + (f"<p class='muted'>{text(note.strip())}</p>" if note else "")
+        + "</div>"
+    )
+
+
+def cards_html(cards: str) -> str:
+    """With what the colours mean."""
     legend = "".join(
         f"<span><span class='gallery-key gallery-key-{kind}' aria-hidden='true'></span>{words}</span>"
         for kind, words in (("both", "found"), ("missed", "missed"), ("added", "wrongly added"), ("truth", "ground truth"))
     )
-    return (
-        f"<div class='strip' id='strip'><h3>{name} in {count_of(len(chosen) - len(missing), 'picture')}</h3><ul>{cards}</ul>"
-        f"<p class='gallery-legend'>{legend}</p>" + (f"<p class='muted'>{text(note.strip())}</p>" if note else "") + "</div>"
-    )
+    return f"<ul>{cards}</ul><p class='gallery-legend'>{legend}</p>"
 
 
-def _pictures(experiments: Sequence[Experiment], leader: Series, protocols: Sequence[str]) -> list[_Shown]:
+def read_pictures(experiment: Experiment, runs: Container[str] | None = None) -> dict[str, Picture]:
+    """By case, with the results of these runs, or of all."""
+    found: dict[str, Picture] = {}
+    for line in experiment.picture_lines():
+        if line["kind"] == "case":
+            found[line["case"]] = Picture(line)
+        elif line["case"] in found and (runs is None or line["run"] in runs):
+            found[line["case"]].results[line["run"]] = line
+    return found
+
+
+def _cases(
+    experiments: Sequence[Experiment], pictures: Sequence[dict[str, Picture]], leader: Series, protocols: Sequence[str]
+) -> list[Shown]:
     found = []
-    for experiment in experiments:
-        own = {row.case: row for row in experiment.rows if row.series == leader and row.status not in _NOT_TRIED}
-        pictures: dict[str, Picture] = {}
-        for line in experiment.picture_lines():
-            if line["kind"] == "case" and line["case"] in own:
-                pictures[line["case"]] = Picture(line)
-            elif line["kind"] != "case" and line["case"] in pictures and line["run"] == own[line["case"]].name:
-                pictures[line["case"]].results[line["run"]] = line
+    for experiment, read in zip(experiments, pictures):
         shown = {
-            case: _Shown(experiment, own[case], picture)
-            for case, picture in pictures.items()
-            if own[case].name in picture.results or not own[case].ok
+            row.case: Shown(experiment, row, read[row.case])
+            for row in experiment.rows
+            if row.series == leader and row.case in read and row.status not in _NOT_TRIED
+            if row.name in read[row.case].results or not row.ok
         }
         for row in experiment.rows:
             if row.case in shown and row.series != leader and row.series.protocol in protocols:
@@ -92,7 +112,7 @@ def _pictures(experiments: Sequence[Experiment], leader: Series, protocols: Sequ
     return found
 
 
-def _chosen(shown: Sequence[_Shown], every: Sequence[Series]) -> list[tuple[str, _Shown | None, str]]:
+def _chosen(shown: Sequence[Shown], every: Sequence[Series]) -> list[tuple[str, Shown | None, str]]:
     """(what it is, the case, a sentence) for each of the six."""
     judged = [one for one in shown if one.experiment.name not in _HAS_NO_TRUTH and one.picture.case["ground_truth"]]
     judged = sorted((one for one in judged if one.error is not None), key=lambda one: (one.error, one.row.name))
@@ -101,7 +121,7 @@ def _chosen(shown: Sequence[_Shown], every: Sequence[Series]) -> list[tuple[str,
     )
     taken = {id(one) for one in (best, middle, worst)}
     losses = [one for one in judged if id(one) not in taken and math.isfinite(one.error) and one.behind() > 1 + TIE_RELATIVE]
-    lost = max(losses, key=_Shown.behind, default=None)
+    lost = max(losses, key=Shown.behind, default=None)
     real = max((one for one in shown if one.experiment.name == "real" and one.row.ok), key=lambda one: one.row.n, default=None)
     zoo = max(
         (one for one in shown if one.experiment.name == "zoo" and one.row.ok),
@@ -123,7 +143,14 @@ def _chosen(shown: Sequence[_Shown], every: Sequence[Series]) -> list[tuple[str,
     ]
 
 
-def _card(place: int, what: str, one: _Shown, said: str) -> str:
+def title_of_case(one: Shown) -> str:
+    """The shape, and how its points were drawn."""
+    base, *ways = one.row.dataset.split("~")
+    return ", ".join([one.experiment.dataset_title(base), *(way.split(":")[0] for way in ways)])
+
+
+def card(place: int, what: str, one: Shown, said: str, report: str = "") -> str:
+    """One of a page's pictures, the `place`-th, which leads to the gallery of the `report`."""
     row = one.row
     error = row.metric("l2")
     result = (
@@ -134,16 +161,16 @@ def _card(place: int, what: str, one: _Shown, said: str) -> str:
         else ""
     )
     words = "; ".join(part for part in (result, said) if part)
-    base, *ways = row.dataset.split("~")
-    title = ", ".join([one.experiment.dataset_title(base), *(way.split(":")[0] for way in ways)])
     n = f"{one.picture.case['points_total']:,}".replace(",", "\u202f")
+    about = ", ".join([part for part in [title_of_case(one)] if part != what] + [f"{n} points"])
+    address = asked("gallery", report, case=row.case, run=row.name)
     return (
-        f"<li><a href='#gallery' data-case='{text(row.case)}' data-run='{text(row.name)}'>{_svg(place, one)}"
-        f"<b>{text(what)}</b> <span>{text(words)}</span><small>{text(title)}, {n} points</small></a></li>"
+        f"<li><a href='{address}' data-case='{text(row.case)}' data-run='{text(row.name)}'>{_svg(place, one)}"
+        f"<b>{text(what)}</b> <span>{text(words)}</span><small>{text(about)}</small></a></li>"
     )
 
 
-def _svg(place: int, one: _Shown) -> str:
+def _svg(place: int, one: Shown) -> str:
     case = one.picture.case
     result = one.picture.results.get(one.row.name, {}).get("polygons", [])
     grid = _Grid(case["points"], case["ground_truth"])

@@ -7,7 +7,7 @@ import math
 from front import Front, lines_of
 from ratings import KNOWS, TIE_WORDS, Part, Rating
 from records import Series
-from report_common import count_of, number, short_name, text
+from report_common import asked, count_of, link_html, number, short_name, text
 
 # Of a cell's colour, in percent: at so many times the smallest error of its column, and above, it is the strongest.
 _STRONGEST, _WORST_RATIO = 46, 10.0
@@ -19,7 +19,7 @@ def where_html(front: Front) -> str:
     """A heat map for each division, and who beats whom; empty without ratings."""
     parts = []
     for k, rating in enumerate(front.ratings):
-        shown = _heat_map(rating, front.own) + _wins(rating)
+        shown = _heat_map(rating, front) + _wins(rating)
         summary = f"<summary>Methods that {KNOWS[rating.division.name]}</summary>"
         parts.append(f"<details>{summary}{shown}</details>" if k else shown)
     return "".join(parts)
@@ -38,7 +38,7 @@ def listed_cases(front: Front) -> dict[str, list[str]]:
     return {key: cases for key, cases in found.items() if len(cases) <= MOST_LISTED}
 
 
-def _heat_map(rating: Rating, linked: bool) -> str:
+def _heat_map(rating: Rating, front: Front) -> str:
     every = [one.series for one in rating.standings]
     columns = [(f"kind/{part.name}", part) for part in rating.kinds] + [
         (f"sampler/{part.name}", part) for part in rating.samplers
@@ -56,13 +56,16 @@ def _heat_map(rating: Rating, linked: bool) -> str:
                 part,
                 line.first,
                 name,
-                f"{rating.division.name}/{key}" if linked and part.cases <= MOST_LISTED else "",
+                f"{rating.division.name}/{key}" if front.own and part.cases <= MOST_LISTED else "",
                 every[line.first],
+                front.report,
             )
             for key, part in columns
         )
-        rows += f"<tr><th scope='row'><span class='swatch' data-method='{text(every[line.first].method)}'></span>{text(name)}{also}</th>{cells}</tr>"
-    links = " A number leads to its cases." if linked else " The cases are of an evaluation beside this run, in its league.csv."
+        rows += f"<tr><th scope='row'><span class='swatch' data-method='{text(every[line.first].method)}'></span>{link_html(name, every[line.first].method, front.pages)}{also}</th>{cells}</tr>"
+    links = (
+        " A number leads to its cases." if front.own else " The cases are of an evaluation beside this run, in its league.csv."
+    )
     return (
         "<p class='muted'>Median L2 error in %, by kind of shape and by way to sample the points; below each its number of cases. The stronger the "
         f"colour, the further behind the best of the column, which is marked with •.{links}</p>"
@@ -71,7 +74,7 @@ def _heat_map(rating: Rating, linked: bool) -> str:
     )
 
 
-def _heat_cell(part: Part, place: int, name: str, key: str, series: Series) -> str:
+def _heat_cell(part: Part, place: int, name: str, key: str, series: Series, report: str) -> str:
     best, error = min(part.errors), part.errors[place]
     ratio = 1.0 if error <= best else error / best if best > 0 else math.inf
     strength = _STRONGEST * min(1.0, math.log(ratio) / math.log(_WORST_RATIO)) if math.isfinite(ratio) else _STRONGEST
@@ -79,9 +82,8 @@ def _heat_cell(part: Part, place: int, name: str, key: str, series: Series) -> s
     shown = mark + number(100 * error)
     if key:
         label = f"{name}, {part.name}: {number(100 * error)} %, {count_of(part.cases, 'case')}"
-        shown = (
-            f"<a href='#runs' data-part='{text(key)}' data-entrant='{text(series.key)}' aria-label='{text(label)}'>{shown}</a>"
-        )
+        address = asked("runs", report, part=key, entrant=series.key)
+        shown = f"<a href='{address}' data-part='{text(key)}' data-entrant='{text(series.key)}' aria-label='{text(label)}'>{shown}</a>"
     return f"<td class='number' style='--strength:{strength:.0f}%'>{shown}</td>"
 
 

@@ -8,13 +8,14 @@ set(needs_of_pictures)
 set(needs_of_comparison esbuild "${PROJECT_SOURCE_DIR}/plots/node_modules")
 set(needs_of_ratings "${SYSTEM_PYTHON}:scipy")
 set(needs_of_front "${SYSTEM_PYTHON}:scipy")
-foreach(part IN ITEMS records ratings front figures paper html_report pictures comparison)
+set(needs_of_site esbuild "${SYSTEM_PYTHON}:scipy")
+foreach(part IN ITEMS records ratings front figures paper html_report pictures comparison site)
   hullbench_tool_test(NAME plots.${part} NEEDS "${SYSTEM_PYTHON}:jsonschema" ${needs_of_${part}}
     COMMAND "${SYSTEM_PYTHON}" -B -m unittest test_${part}_py)
   set_tests_properties(plots.${part} PROPERTIES LABELS plots TIMEOUT 900
     WORKING_DIRECTORY "${CMAKE_CURRENT_LIST_DIR}" ENVIRONMENT "HULLBENCH=$<TARGET_FILE:hullbench>")
 endforeach()
-foreach(page IN ITEMS report comparison)
+foreach(page IN ITEMS report comparison site)
   hullbench_tool_test(NAME plots.${page}_in_browser
     NEEDS "${SYSTEM_PYTHON}:jsonschema" esbuild node "chromium|chromium-browser|google-chrome"
       "${PROJECT_SOURCE_DIR}/plots/node_modules" "${CMAKE_CURRENT_LIST_DIR}/report/node_modules"
@@ -22,6 +23,11 @@ foreach(page IN ITEMS report comparison)
             "$<TARGET_FILE:hullbench>" "$<TARGET_FILE:write_invented_report>" "${CMAKE_BINARY_DIR}/tests/${page}_in_browser")
   set_tests_properties(plots.${page}_in_browser PROPERTIES LABELS plots TIMEOUT 1200)
 endforeach()
+hullbench_tool_test(NAME plots.choice_in_browser
+  NEEDS node "chromium|chromium-browser|google-chrome" "${CMAKE_CURRENT_LIST_DIR}/report/node_modules"
+  COMMAND ${CMAKE_COMMAND} -E env "HULLBENCH=$<TARGET_FILE:hullbench>" "OUTPUT=${CMAKE_BINARY_DIR}/tests/choice_in_browser"
+          node --test --test-reporter=spec "${CMAKE_CURRENT_LIST_DIR}/report/choice.test.mjs")
+set_tests_properties(plots.choice_in_browser PROPERTIES LABELS plots TIMEOUT 600)
 # The picture of the samplers; what the points are is tested elsewhere.
 hullbench_tool_test(NAME plots.samplers NEEDS "${SYSTEM_PYTHON}:matplotlib" "${SYSTEM_PYTHON}:numpy"
   COMMAND "${SYSTEM_PYTHON}" -B "${PROJECT_SOURCE_DIR}/plots/make_samplers.py" --hullbench "$<TARGET_FILE:hullbench>"

@@ -143,8 +143,8 @@ class Data(WithSuite):
 
     def test_steps_are_means_of_the_repetitions(self) -> None:
         measured = steps.measured_steps(self.run_.experiment("steps"), self.run_.paper["steps"])
-        row = plot_samples.run("polylidar", "paper", "ca", 64000, True)
-        found, _ = measured["polylidar"]
+        row = plot_samples.run("polylidar_steps", "paper", "ca", 64000, True)
+        found, _ = measured["polylidar_steps"]
         self.assertAlmostEqual(found["triangulation"], statistics.mean(p["run.triangulation"] for p in row["phases_ns"]) / 1e6)
         self.assertAlmostEqual(sum(found.values()), statistics.mean(p["run"] + p["extract"] for p in row["phases_ns"]) / 1e6)
         axes = self.draw(steps)["steps"].figure.axes[0]

@@ -28,7 +28,7 @@ from report_data import MetricTable, charts, columns, pack, title_of
 from report_html import environment_facts, notes_html, parameters_html, summary_html
 from report_summary import failure_sentences, headline_sentences, noise_sentence, summarise
 
-EVIL = "</script><script>window.broken=1</script><img src=x onerror='window.broken=1'> {{library}} <!-- & \"quoted\""
+EVIL = "</script><script>window.broken=1</script><img src=x onerror='window.broken=1'> {{scripts}} <!-- & \"quoted\""
 
 
 def run(method="polylidar", dataset="ca", n=2000, holes=False, protocol="paper", status="ok", times=(100, 101, 102), **more):

@@ -14,7 +14,8 @@ from pathlib import Path
 sys.path[:0] = [str(Path(__file__).parent.parent / "plots"), str(Path(__file__).parent)]
 
 import plot_samples  # noqa: E402
-from pictures import BUDGET_BYTES, GRID, MOST_VERTICES, pack  # noqa: E402
+from page import data  # noqa: E402
+from pictures import BUDGET_BYTES, GRID, MOST_VERTICES, kept_pictures, pack  # noqa: E402
 from records import RecordError, load  # noqa: E402
 
 STEP = 16  # of the recorded grid in the packed one
@@ -105,6 +106,21 @@ class Pictures(unittest.TestCase):
         self.assertEqual([-2 * GRID, 0, GRID, 0, GRID, 3 * GRID], results[0][0][0], "far vertices are cut off")
         self.assertEqual(([10.0, 20.0], 0.5 * STEP), (header["origin"], header["step"]))
         self.assertEqual(("California", 2000, True), (entry["title"], entry["n"], entry["holes"]))
+
+    def test_what_a_report_shows_can_be_read_back(self) -> None:
+        case = "ca/n:2000/holes:1"
+        lines = [case_line(case, [16000, 16000, 48000, 16007], [[SQUARE, HOLE]]), result_line(case, [[FAR], [SQUARE]])]
+        self.write("states", [row(case), row(case, "slow", None, "timeout")], lines)
+        entry = self.packed()["cases"][0]
+        _, points, truth, (result,) = block_of(entry)
+        page = self.folder / "report.html"
+        page.write_text(f"<p>{data('report', {})}{data('pictures', {'cases': [entry]})}<script>1</script>", encoding="utf-8")
+        (found,) = kept_pictures(page, load(self.folder))
+        self.assertEqual(list(found), [case])
+        self.assertEqual(found[case].case["points"], [value for point in points for value in point])
+        self.assertEqual(found[case].case["ground_truth"], truth)
+        self.assertEqual({name: one["polygons"] for name, one in found[case].results.items()}, {row(case)["name"]: result})
+        self.assertEqual(kept_pictures(self.folder / "none.html", load(self.folder)), [{}])
 
     def test_needless_vertices_and_vanishing_rings_are_left_out(self) -> None:
         case = "ca/n:2000/holes:0"

@@ -84,6 +84,12 @@ class Divisions(unittest.TestCase):
         self.assertEqual([one.task for one in found.results.cases], ["c0", "c1"])
         self.assertEqual(found.left_out, [Series("c", "auto")])
 
+    def test_cases_that_only_one_method_had_take_nobody_out(self) -> None:
+        errors = {"alone": [1.0] * 10, "alone/default": [1.0] * 10, "other": [math.nan] * 8 + [2.0, 2.0]}
+        found = ratings.division(results(errors), "blind")
+        self.assertEqual([entrant.method for entrant in found.results.entrants], ["alone", "alone", "other"])
+        self.assertEqual(len(found.results.cases), 2)
+
     def test_one_method_is_no_division(self) -> None:
         self.assertEqual(ratings.divisions(results({"a": [1, 2]})), [])
 

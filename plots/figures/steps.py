@@ -26,8 +26,8 @@ def draw(run: Run) -> Iterator[Drawn]:
     caption = (
         f"Mean time of the steps in milliseconds for {case.n:,} points of {case.dataset.upper()}"
         f"{' with holes' if case.holes else ''}, measured here and as the paper gives it (mean of 30 runs on another machine). "
-        "Every method has a time axis of its own. CGAL's edges were made into no polygon in the paper. SpatiaLite's steps "
-        f"are told by calling them one by one, which takes longer than one call. {failures(rows)}"
+        "Every method has a time axis of its own. CGAL's edges were made into no polygon in the paper. Polylidar's and SpatiaLite's "
+        f"steps are told by calling them one by one, which takes longer than one call. {failures(rows)}"
     )
     yield Drawn("steps", _figure(measured, published, failures(rows)), caption.strip())
 

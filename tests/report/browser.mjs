@@ -22,7 +22,7 @@ export function launch() {
   });
 }
 
-/** Opens a file without network. Gives the page, and `troubles`: what it said on the console and every request but for
+/** Opens a file, behind whose name a # may stand, without network. Gives the page, and `troubles`: what it said on the console and every request but for
     the file itself, as texts. */
 export async function open_page(browser, file, { width = 1280, height = 900, theme = "light", ready, ...more } = {}) {
   const context = await browser.newContext({
@@ -43,7 +43,7 @@ export async function open_page(browser, file, { width = 1280, height = 900, the
   page.on("pageerror", (error) => troubles.push(`exception: ${error.message}`));
   page.on(
     "request",
-    (request) => request.url().split("#")[0] !== url && troubles.push(`request: ${request.url().slice(0, 100)}`),
+    (request) => request.url().split("#")[0] !== url.split("#")[0] && troubles.push(`request: ${request.url().slice(0, 100)}`),
   );
   await page.goto(url);
   if (ready) await page.waitForFunction(ready);

@@ -10,6 +10,7 @@ import { join } from "node:path";
 import { after, before, test } from "node:test";
 import { fileURLToPath } from "node:url";
 import { launch, open_page } from "./browser.mjs";
+import { cases_csv } from "./invented_cases.mjs";
 import { SQUARE, write_invented_pictures } from "./invented_pictures.mjs";
 
 const { WRITE_INVENTED_REPORT, HULLBENCH, PYTHON = "python3", OUTPUT } = process.env;
@@ -50,30 +51,17 @@ before(async () => {
   Object.assign(row_named(MARKED).metrics, FARTHEST);
   report.metrics = JSON.parse(run_program(HULLBENCH, "metrics", "--json"));
   writeFileSync(join(folder, "report.json"), JSON.stringify(report));
-  writeFileSync(join(folder, "cases.csv"), cases_csv());
+  writeFileSync(join(folder, "cases.csv"), cases_csv(report));
   run_program(PYTHON, make_report, folder, "--out", file);
   browser = await launch();
 });
 
 after(() => browser?.close());
 
-/** As 'hullbench league --all-cases --csv' writes it. */
-function cases_csv() {
-  const lines = ["method,task,fold,error,time,points,status,shape,kind,sampler,weight"];
-  for (const run of report.runs.filter(({ status }) => status !== "not_installed")) {
-    const ok = run.status === "ok";
-    const time = ok ? row_named(run.name).median_ms / 1000 : "";
-    const kind = run.holes ? "holes" : "simple";
-    const facts = [ok ? run.metrics.l2 : "inf", time, run.n, run.status, run.dataset, kind, "uniform", 1];
-    lines.push([`${run.method}/${run.protocol}`, case_of(run.name), run.seed, ...facts].join(","));
-  }
-  return `${lines.join("\n")}\n`;
-}
-
 /** A test with a page of its own, in which nothing may go wrong on the side. */
-function page_test(name, options, body) {
+function page_test(name, { hash = "", ...options }, body) {
   test(name, async () => {
-    const { page, troubles } = await open_page(browser, file, { ready: READY, ...options });
+    const { page, troubles } = await open_page(browser, file + hash, { ready: READY, ...options });
     await body(page);
     assert.deepEqual(troubles, []);
     await page.context().close();
@@ -209,6 +197,38 @@ page_test("the strip has the leader's telling cases, says what is missing and op
   await cards.first().locator("a").focus();
   await page.keyboard.press("Enter");
   await page.locator('dialog[open][data-ready="true"]').waitFor();
+});
+
+const ASKED_RUN = `spatialite/${CALIFORNIA}/protocol:paper`;
+page_test(
+  "a picture can be asked for behind the #",
+  { hash: `#${new URLSearchParams({ run: ASKED_RUN, case: CALIFORNIA })}` },
+  async (page) => {
+    await page.locator('dialog[open][data-ready="true"]').waitFor();
+    assert.equal(await page.locator("dialog tr.chosen").getAttribute("data-run"), ASKED_RUN);
+  },
+);
+
+page_test(
+  "and so can the cases of a number",
+  { hash: "#part=informed%2Fkind%2Fholes&entrant=spatialite%2Fpaper" },
+  async (page) => {
+    await page.locator("#table-only").waitFor();
+    const shown = await page.locator("#runs-table tbody tr").evaluateAll((all) => all.map((row) => row.dataset.run));
+    const wanted = report.runs.filter((run) => run.method === "spatialite" && run.holes).map((run) => run.name);
+    assert.deepEqual(shown, wanted);
+  },
+);
+
+const said = (page) => page.locator("#announcer").innerText();
+page_test("what the report does not have is said", { hash: "#case=nowhere&run=nothing" }, async (page) => {
+  assert.equal(await said(page), "The gallery has no picture of nowhere.");
+  assert.equal(await page.locator("dialog[open]").count(), 0);
+});
+
+page_test("a word that every object knows is no part", { hash: "#part=constructor&entrant=polylidar" }, async (page) => {
+  await page.waitForFunction(() => document.getElementById("announcer").textContent !== "");
+  assert.equal(await said(page), "The report has no cases of constructor.");
 });
 
 page_test("the charts show the report's numbers", {}, async (page) => {

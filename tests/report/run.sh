@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Tests what plots/ makes for a browser in one; ctest runs it.
 #
-#   run.sh PART HULLBENCH WRITE_INVENTED_REPORT OUTPUT   report or comparison; these programs of the build; the folder for
+#   run.sh PART HULLBENCH WRITE_INVENTED_REPORT OUTPUT   report, comparison or site; these programs of the build; the folder for
 #                                                        the page and its screenshots
 set -euo pipefail
 

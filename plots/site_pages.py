@@ -1,0 +1,454 @@
+"""The pages of a run, as HTML without scripts. A link within the site begins with a mark; make_site.py writes there where that
+is, seen from the page."""
+
+from __future__ import annotations
+
+import math
+import re
+from collections import Counter
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass, replace
+from typing import Any
+from urllib.parse import quote
+
+import numpy as np
+
+from front import front_html, interval_words, time_words
+from page import Section, byline
+from ratings import KNOWS, Division, Rating, mean_ranks, typical_errors, typical_times
+from records import RecordError
+from report_common import count_of, link_html, number, protocol_words, sentence_list, short_name, text
+from report_html import (
+    PARAMETER_HEAD,
+    abilities,
+    entry_parameters,
+    facts_html,
+    parameter_cells,
+    standings_table,
+    table_of,
+    version_html,
+)
+from site_run import SiteRun, method_words, protocol_order, zoo_cases
+from site_text import blocks, inline, linked, part_of
+from strip import Shown, card, cards_html, strip_html, title_of_case
+from where import where_html
+
+# Where a link leads from: the pages of the run, its files (its report among them), the site's first folder.
+PAGE, FILE, TOP = "\ue000", "\ue001", "\ue002"
+REPORT = f"{FILE}report.html"
+MOST_PICTURES = 10
+
+
+@dataclass(frozen=True)
+class SitePage:
+    address: str  # among the run's pages
+    title: str
+    kind: str  # what the search calls it
+    words: str  # what else the search finds it by
+    sections: list[Section]
+
+
+@dataclass(frozen=True)
+class Download:
+    address: str  # among the run's files
+    kind: str  # the heading that it stands under
+    what: str
+    size: int  # in bytes
+
+
+def pages_of(run: SiteRun, runs: Sequence[SiteRun], files: Sequence[Download]) -> list[SitePage]:
+    """`runs`: all of the site, the newest first. The first page of each kind leads to the others. Raises RecordError where two
+    would be one file."""
+    pages = _pages(run, runs, files)
+    taken: dict[str, SitePage] = {}
+    for page in pages:
+        # A file system may not tell capitals from small letters.
+        other = taken.setdefault(page.address.lower(), page)
+        if other is not page:
+            raise RecordError(
+                f"the pages of '{other.title}' and '{page.title}' would be one file, {page.address}; give one another name"
+            )
+    return pages
+
+
+def _pages(run: SiteRun, runs: Sequence[SiteRun], files: Sequence[Download]) -> list[SitePage]:
+    datasets = {name: one for name, one in run.datasets.items() if name not in zoo_cases()}
+    return [
+        SitePage(
+            "index.html", "Concave hulls: who is good at what", "Page", "hullbench league home", _front(run, runs, datasets)
+        ),
+        SitePage("methods/index.html", "Methods", "Page", "", [Section("list", "Methods", "All methods", _methods(run))]),
+        *(
+            SitePage(address_of("methods", name), one["title"], "Method", name, _method(run, name, one))
+            for name, one in run.methods.items()
+        ),
+        SitePage(
+            "datasets/index.html",
+            "Data sets",
+            "Page",
+            "",
+            [Section("list", "Data sets", "All data sets", _datasets(run, datasets))],
+        ),
+        *(
+            SitePage(address_of("datasets", name), one["title"], "Data set", name, _dataset(run, name, one))
+            for name, one in datasets.items()
+        ),
+        SitePage("zoo/index.html", "The zoo", "Page", "inputs that broke somebody", _zoo(run)),
+        *(
+            SitePage(address_of("zoo", name), one.points, "Zoo", f"{name} {one.fault}", _zoo_case(run, name))
+            for name, one in zoo_cases().items()
+        ),
+        SitePage(
+            "add.html", "Add your method", "Page", "adapter manifest", [Section("steps", "Steps", "In four steps", _add())]
+        ),
+        SitePage("downloads.html", "Downloads", "Page", "CSV JSON schema tables records", _downloads(files)),
+    ]
+
+
+def address_of(folder: str, name: str) -> str:
+    return f"{folder}/{re.sub(r'[^A-Za-z0-9_-]', '-', name)}.html"
+
+
+def _link(address: str, words: str) -> str:
+    """`address` with its mark, `words` as they are."""
+    return f"<a href='{text(address)}'>{text(words)}</a>"
+
+
+def _method_pages(run: SiteRun) -> dict[str, str]:
+    return {name: PAGE + address_of("methods", name) for name in run.methods}
+
+
+def _swatch(method: str) -> str:
+    return f"<span class='swatch' data-method='{text(method)}'></span>"
+
+
+# The front page.
+
+
+def _front(run: SiteRun, runs: Sequence[SiteRun], datasets: dict[str, Any]) -> list[Section]:
+    front = replace(run.front, pages=_method_pages(run), report=REPORT)
+    strip = strip_html(run.experiments, front.ratings[0] if front.ratings else None, run.pictures, REPORT)
+    where = where_html(front) or "<p>There are no ratings.</p>"
+    return [
+        Section("summary", "Summary", "Summary", front_html(front, strip)),
+        Section("where", "Who is good at what", "Who is good at what", where),
+        Section("here", "What is here", "What is here", _doors(run, datasets)),
+        Section("releases", "Runs", "Runs", _releases(runs)),
+    ]
+
+
+def _doors(run: SiteRun, datasets: dict[str, Any]) -> str:
+    doors = [
+        ("methods/index.html", count_of(len(run.methods), "method"), "what each is, its parameters, where it is good"),
+        ("datasets/index.html", count_of(len(datasets), "data set"), "where each is from, and who does best on it"),
+        ("zoo/index.html", count_of(len(zoo_cases()), "input") + " that broke somebody", "what went wrong, and what is right"),
+        ("add.html", "Add your method", "in any language, in four steps"),
+        ("downloads.html", "Downloads", "every result and table, as CSV and JSON"),
+    ]
+    items = "".join(f"<li>{_link(PAGE + address, words)}<small>{text(more)}</small></li>" for address, words, more in doors)
+    whole = _link(REPORT, "The whole report")
+    return f"<ul class='doors'>{items}<li>{whole}<small>every run of this suite, with charts and pictures</small></li></ul>"
+
+
+def _releases(runs: Sequence[SiteRun]) -> str:
+    rows = "".join(
+        f"<tr><th scope='row'>{_link(f'{TOP}runs/{quote(one.name)}/index.html', one.name)}</th><td>{byline(one.experiments)}</td>"
+        f"<td>{_link(f'{TOP}runs/{quote(one.name)}/report.html', 'report')}</td></tr>"
+        for one in runs
+    )
+    return "<p class='muted'>The newest first. These addresses stay.</p>" + table_of("Runs", ("Run", "Of", "Report"), rows)
+
+
+# Methods.
+
+
+def _entries(run: SiteRun, method: str) -> list[tuple[Rating, int]]:
+    """Where it stands: divisions, with its places among the standings."""
+    return [
+        (rating, place)
+        for rating in run.front.ratings
+        for place, one in enumerate(rating.standings)
+        if one.series.method == method
+    ]
+
+
+def _place_in(values: Iterable[float], own: float) -> int:
+    """1: nobody has a smaller one."""
+    return 1 + sum(value < own - 1e-9 for value in values)
+
+
+def _rank(rating: Rating, place: int) -> int:
+    return _place_in((one.rank for one in rating.standings), rating.standings[place].rank)
+
+
+def _methods(run: SiteRun) -> str:
+    rows = ""
+    for name, method in run.methods.items():
+        cells = ""
+        for division in KNOWS:
+            ranks = [(_rank(rating, k), rating) for rating, k in _entries(run, name) if rating.division.name == division]
+            best = min(ranks, key=lambda one: one[0], default=None)
+            cells += f"<td>{f'{best[0]} of {len(best[1].standings)}' if best else '–'}</td>"
+        what = inline(method_words().get(name, ""))
+        can = method["capabilities"]
+        able = "".join(f"<td>{'yes' if can.get(one) else 'no' if can else '–'}</td>" for one in ("holes", "several_polygons"))
+        title = link_html(method["title"], name, _method_pages(run))
+        rows += (
+            f"<tr><th scope='row'>{_swatch(name)}{title}<small>{what}</small></th>{cells}{able}"
+            f"<td>{text(method['licence'])}</td></tr>"
+        )
+    head = ("Method", "Place, points only", "Place, informed", "Holes", "Several polygons", "Licence")
+    said = "; ".join(
+        f"{words}: methods that {KNOWS[name]}" for name, words in (("blind", "Points only"), ("informed", "informed"))
+    )
+    return f"<p class='muted'>Places are by mean rank, of a method’s best entry. {text(said)}.</p>" + table_of(
+        "Methods", head, rows
+    )
+
+
+def _method(run: SiteRun, name: str, method: dict[str, Any]) -> list[Section]:
+    facts = {
+        "Name in plans and records": f"<code>{text(name)}</code>",
+        "Citation": linked(method["citation"]),
+        "Licence": text(method["licence"]) or "–",
+        "Version": version_html(method) or "–",
+        "The library returns": text(method["native_output"]) or "–",
+        "Can do": text(abilities(method)),
+    }
+    what = method_words().get(name)
+    about = (f"<p>{inline(what)}.</p>" if what else "") + facts_html(facts)
+    meaning = "".join(
+        f"<tr><th scope='row'>{text(one['name'])}</th>{parameter_cells(one)}</tr>" for one in method["parameters"]
+    )
+    parameters = table_of("Parameters", ("Parameter", *PARAMETER_HEAD), meaning) if meaning else "<p>It has none.</p>"
+    good = "".join(_rated(run, rating, place) for rating, place in _entries(run, name))
+    standing = standings_table(run.summaries, name)
+    pictures = _pictures(_method_pictures(run, name))
+    return [
+        Section("about", "Description", "What it is", about),
+        Section("good", "Where it is good", "Where it is good", good or f"<p>{_unrated(run, name)}</p>"),
+        *([Section("pictures", "Pictures", "Pictures", pictures)] if pictures else []),
+        Section("parameters", "Parameters", "Parameters", parameters + _chosen(run, name)),
+        *([Section("standing", "By experiment", "Experiment by experiment", standing)] if standing else []),
+    ]
+
+
+def _unrated(run: SiteRun, name: str) -> str:
+    left_out = [series for rating in run.front.ratings for series in rating.division.left_out]
+    if any(series.method == name for series in left_out):
+        return "It has less than half of the cases, and so is not rated."
+    return "This run has no results of it that can be rated."
+
+
+def _rated(run: SiteRun, rating: Rating, place: int) -> str:
+    """An entry's standing in its division, and on each part of the cases."""
+    every = [one.series for one in rating.standings]
+    one, count = rating.standings[place], len(every)
+    timed = {division.name: division for division in run.front.timed}.get(rating.division.name)
+    said = (
+        f"<b>{text(short_name(one.series, every))}</b> has place {_rank(rating, place)} of {count} among the entries that "
+        f"{KNOWS[rating.division.name]}: mean rank {number(one.rank)}{interval_words(one.rank_interval)}, median error "
+        f"{number(100 * one.error)} %{time_words(timed, one.series)}, {count_of(one.failures, 'failure')}."
+    )
+    rows, firsts = "", []
+    for part in [*rating.kinds, *rating.samplers]:
+        first, own = int(np.argmin(part.ranks)), _place_in(part.ranks, part.ranks[place])
+        firsts += [part.name] if own == 1 else []
+        rows += (
+            f"<tr><th scope='row'>{text(part.name)}</th><td>{text(short_name(every[first], every))}</td>"
+            f"<td class='number'>{number(100 * part.errors[first])}</td><td class='number'>{number(100 * part.errors[place])}</td>"
+            f"<td class='number'>{own}</td><td class='number'>{part.cases}</td></tr>"
+        )
+    said += f" It is the first on {text(sentence_list(firsts))}." if firsts else ""
+    head = ("Kind of shape, or way to sample", "First by mean rank", "Its error, %", "Here, %", "Place", "Cases")
+    return f"<p>{said}</p>{table_of(f'Places of {short_name(one.series, every)}', head, rows, 4)}"
+
+
+def _chosen(run: SiteRun, name: str) -> str:
+    """What each protocol gave it."""
+    found: dict[tuple[str, str, str], list[str]] = {}
+    for experiment in run.experiments:
+        for entry in experiment.plan.get("methods", []):
+            if entry.get("method") == name:
+                key = (entry.get("protocol", ""), entry_parameters(entry, experiment), entry.get("note", ""))
+                found.setdefault(key, []).append(experiment.title)
+    words = protocol_words(run.experiments)
+    rows = "".join(
+        f"<tr><th scope='row'>{text(protocol)}<small>{text(words.get(protocol, ''))}</small></th>"
+        f"<td class='prose'>{text(values)}<small>{linked(note) if note else ''}</small></td>"
+        f"<td>{text(', '.join(dict.fromkeys(titles)))}</td></tr>"
+        for (protocol, values, note), titles in found.items()
+    )
+    return f"<h3>In this run</h3>{table_of('Chosen', ('Protocol', 'Parameters', 'Experiments'), rows)}" if rows else ""
+
+
+# Pictures.
+
+
+def _pictures(chosen: Sequence[tuple[str, Shown]]) -> str:
+    """Each with what it is called; empty without any."""
+    cards = "".join(card(place, what, one, one.row.series.protocol, REPORT) for place, (what, one) in enumerate(chosen))
+    return f"<div class='strip many'>{cards_html(cards)}</div>" if cards else ""
+
+
+def _badness(one: Shown) -> tuple[float, str]:
+    return (math.inf if one.error is None else one.error, one.row.name)
+
+
+def _method_pictures(run: SiteRun, method: str) -> list[tuple[str, Shown]]:
+    """Under the protocol that most are of, evenly from the best case to the worst."""
+    own = [one for one in run.drawn if one.row.method == method]
+    counts = Counter(protocol_order(one.row) for one in own)
+    most = max(counts, key=lambda order: (counts[order], -order), default=0)
+    ordered = sorted((one for one in own if protocol_order(one.row) == most), key=_badness)
+    last = min(len(ordered), MOST_PICTURES) - 1
+    chosen = [ordered[round(k * (len(ordered) - 1) / max(last, 1))] for k in range(last + 1)]
+    return [(title_of_case(one), one) for one in chosen]
+
+
+def _dataset_pictures(run: SiteRun, dataset: str) -> list[tuple[str, Shown]]:
+    """The case that most methods have a picture of, the smallest of them, and what each made of it, the best first."""
+    cases: dict[str, dict[str, Shown]] = {}
+    for one in run.drawn:
+        if run.family(one.row.dataset) == dataset:
+            methods = cases.setdefault(one.row.case, {})
+            before = methods.get(one.row.method)
+            if before is None or protocol_order(one.row) < protocol_order(before.row):
+                methods[one.row.method] = one
+    best = min(cases.items(), key=lambda one: (-len(one[1]), next(iter(one[1].values())).row.n, one[0]), default=("", {}))[1]
+    ordered = sorted(best.values(), key=_badness)[:MOST_PICTURES]
+    return [(short_name(one.row.series, [one.row.series]), one) for one in ordered]
+
+
+# Data sets.
+
+
+def _members(name: str, one: dict[str, Any]) -> str:
+    count = one.get("members", 0)
+    return f"{name}-1 to {name}-{count}" if count else name
+
+
+def _datasets(run: SiteRun, datasets: dict[str, dict[str, Any]]) -> str:
+    rows = "".join(
+        f"<tr><th scope='row'>{_link(PAGE + address_of('datasets', name), one['title'])}<small>{text(_members(name, one))}</small></th>"
+        f"<td class='prose'>{linked(one['source'])}</td><td>{linked(one['licence'])}</td>"
+        f"<td class='number'>{sum(run.cases.get(name, {}).values())}</td></tr>"
+        for name, one in datasets.items()
+    )
+    return table_of("Data sets", ("Data set", "Source", "Licence", "Cases in this run"), rows, 1)
+
+
+def _dataset(run: SiteRun, name: str, one: dict[str, Any]) -> list[Section]:
+    member = f"{name}-1" if one.get("members") else name
+    area = "–" if one["area"] is None else f"{number(one['area'])} in the square of the points’ unit"
+    if one["holes_area"] is not None:
+        area += f", {number(one['holes_area'])} with holes"
+    measured = ", ".join(f"{text(title)}: {count_of(count, 'case')}" for title, count in run.cases.get(name, {}).items())
+    facts = {
+        "Name": f"<code>{text(_members(name, one))}</code>",
+        "Source": linked(one["source"]),
+        "Licence": linked(one["licence"]),
+        "Area": text(area),
+        "SHA-256 of its file": f"<code>{text(one['sha256'])}</code>" if one["sha256"] else "–",
+        "In this run": measured or "not measured",
+    }
+    points = (
+        f"<p><code>build/hullbench points {text(member)} --n 2000 --out points.csv</code> writes points of it into a file, "
+        "without <code>--n</code> where they come with the shape.</p>"
+    )
+    tables = "".join(_division_table(run, division) for division in run.divisions(name))
+    pictures = _pictures(_dataset_pictures(run, name))
+    return [
+        Section("about", "Description", "What it is", facts_html(facts) + points),
+        Section("results", "Who does best", "Who does best", tables or "<p>This run has no results that can be compared.</p>"),
+        *([Section("pictures", "Pictures", "The same points", pictures)] if pictures else []),
+    ]
+
+
+def _division_table(run: SiteRun, division: Division) -> str:
+    results = division.results
+    every, ranks = results.entrants, mean_ranks(results)
+    errors, times = typical_errors(division), typical_times(division)
+    rows = "".join(
+        f"<tr><th scope='row'>{_swatch(every[i].method)}"
+        f"{link_html(short_name(every[i], every), every[i].method, _method_pages(run))}</th>"
+        f"<td class='number'>{number(float(ranks[i]))}</td><td class='number'>{number(100 * errors[every[i]])}</td>"
+        f"<td class='number'>{number(times[every[i]]) if math.isfinite(times[every[i]]) else '–'}</td>"
+        f"<td class='number'>{int(np.sum(np.isinf(results.errors[i])))}</td></tr>"
+        for i in np.argsort(ranks, kind="stable")
+    )
+    head = ("Method", "Mean rank", "L2, %", "µs a point", "Failures")
+    title = f"Methods that {KNOWS[division.name]}"
+    return f"<h3>{title}, {count_of(len(results.cases), 'case')}</h3>{table_of(title, head, rows, 4)}"
+
+
+# The zoo.
+
+
+def _right(run: SiteRun, name: str) -> str:
+    """How many methods are right."""
+    answers = [word for _, word in run.zoo_answers.get(name, []) if word != "–"]
+    return f"{sum(word == 'ok' for word in answers)} of {len(answers)}" if answers else "–"
+
+
+def _zoo(run: SiteRun) -> list[Section]:
+    rows = "".join(
+        f"<tr><th scope='row'>{_link(PAGE + address_of('zoo', name), one.points)}<small>{text(name)}</small></th>"
+        f"<td class='prose'>{inline(one.fault)}</td><td class='number'>{_right(run, name)}</td></tr>"
+        for name, one in zoo_cases().items()
+    )
+    said = (
+        "Inputs that made some public tool crash, hang, or give a result that is wrong, empty, not valid or short of points, each "
+        "made anew after the description in its issue."
+    )
+    table = table_of("The zoo", ("Points", "What went wrong", "Right answers in this run"), rows, 1)
+    return [Section("list", "Cases", "Inputs that broke somebody", f"<p>{said}</p>{table}")]
+
+
+def _zoo_case(run: SiteRun, name: str) -> list[Section]:
+    one, names = zoo_cases()[name], list(zoo_cases())
+    facts = {
+        "Name": f"<code>{text(name)}</code>",
+        "What went wrong": inline(one.fault),
+        "Issue": inline(one.issue),
+        "A right answer": inline(one.answer),
+        "Its points": f"<code>build/hullbench points {text(name)} --out points.csv</code>",
+        "Every method": f"<code>build/hullbench run zoo --filter '/{text(name)}/'</code>",
+    }
+    rows = "".join(
+        f"<tr><th scope='row'>{text(method)}</th><td>{text(word)}</td></tr>" for method, word in run.zoo_answers.get(name, [])
+    )
+    answers = table_of("Answers", ("Method", "Answer"), rows) if rows else "<p>This run did not ask the methods.</p>"
+    pictures = _pictures(_dataset_pictures(run, name))
+    place = names.index(name)
+    others = [(place - 1, "Before"), (place + 1, "Next")]
+    beside = " · ".join(
+        f"{words}: {_link(PAGE + address_of('zoo', names[k]), zoo_cases()[names[k]].points)}"
+        for k, words in others
+        if 0 <= k < len(names)
+    )
+    return [
+        Section("about", "Description", "What it is", facts_html(facts)),
+        Section("answers", "Answers", "How the methods answer", answers + ("" if pictures else f"<p>{beside}</p>")),
+        *([Section("pictures", "Pictures", "Pictures", f"{pictures}<p>{beside}</p>")] if pictures else []),
+    ]
+
+
+# Adding a method, and downloads.
+
+
+def _add() -> str:
+    return blocks(part_of("README.md", "### A method"))
+
+
+def _downloads(files: Sequence[Download]) -> list[Section]:
+    sections = []
+    for place, kind in enumerate(dict.fromkeys(one.kind for one in files)):
+        rows = "".join(
+            f"<tr><th scope='row'>{_link(FILE + one.address, one.address.rpartition('/')[2])}</th>"
+            f"<td class='prose'>{text(one.what)}</td><td class='number'>{number(one.size / 1024)}</td></tr>"
+            for one in files
+            if one.kind == kind
+        )
+        sections.append(Section(f"files-{place}", kind, kind, table_of(kind, ("File", "What is in it", "KiB"), rows, 1)))
+    return sections

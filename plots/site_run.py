@@ -1,0 +1,166 @@
+"""A run as the pages of the site need it."""
+
+from __future__ import annotations
+
+import dataclasses
+import functools
+from collections import Counter
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from pathlib import Path
+from typing import Any
+
+from front import Front, make_front
+from pictures import kept_pictures
+from ratings import DIVISIONS, Division, Results, divisions, read
+from records import Experiment, Picture, RecordError, Row, load, member_of
+from report_common import METHOD_LOOKS
+from report_html import methods_of
+from report_summary import Summary, summarise
+from report_tables import documents
+from site_text import names_in, table_rows
+from strip import Shown, read_pictures
+
+# Who chose the parameters: those that see the points only first.
+_PROTOCOLS = [protocol for protocols in DIVISIONS.values() for protocol in protocols]
+
+
+@dataclass(frozen=True)
+class ZooCase:
+    """In Markdown, as datasets/zoo/README.md has it."""
+
+    name: str
+    points: str
+    fault: str
+    issue: str
+    answer: str
+
+
+@functools.cache
+def zoo_cases() -> dict[str, ZooCase]:
+    """By name."""
+    rows = table_rows("datasets/zoo/README.md", "Data set")
+    columns = len(dataclasses.fields(ZooCase))
+    for row in rows:
+        if len(row) != columns or not names_in(row[0]):
+            raise RecordError(f"datasets/zoo/README.md has a row that is no case of {columns} columns: {' | '.join(row)}")
+    found = [ZooCase(names_in(first)[0], *rest) for first, *rest in rows]
+    return {one.name: one for one in found}
+
+
+@functools.cache
+def method_words() -> dict[str, str]:
+    """By name: what it is, in Markdown."""
+    rows = table_rows("adapters/README.md", "name")
+    return {name: what[:1].upper() + what[1:] for names, what, *_ in rows for name in names_in(names)}
+
+
+@dataclass(frozen=True)
+class SiteRun:
+    """`methods` and `datasets` are by name, as results/report.schema.json has them; the zoo's data sets are among them."""
+
+    folder: Path
+    experiments: list[Experiment]
+    front: Front
+    summaries: list[Summary]
+    results: list[Results]  # of the run, then of an evaluation beside it
+    pictures: list[dict[str, Picture]]  # by experiment
+    methods: dict[str, dict[str, Any]]
+    datasets: dict[str, dict[str, Any]]
+
+    @property
+    def name(self) -> str:
+        """Of its folder, which is its address in the site."""
+        return self.folder.resolve().name
+
+    @property
+    def created(self) -> str:
+        return self.experiments[0].report["created"]
+
+    def family(self, dataset: str) -> str:
+        """The data set that has a page: star of star-17~noise:0.5."""
+        base = dataset.split("~")[0]
+        return base if base in self.datasets or base in zoo_cases() else member_of(base)[0]
+
+    @functools.cached_property
+    def cases(self) -> dict[str, Counter[str]]:
+        """By data set: how many cases each experiment, by its title, has of it."""
+        seen = {(self.family(row.dataset), one.title, row.case) for one in self.experiments for row in one.rows}
+        found: dict[str, Counter[str]] = {}
+        for family, title, _ in sorted(seen):
+            found.setdefault(family, Counter())[title] += 1
+        return found
+
+    def divisions(self, dataset: str) -> list[Division]:
+        """On the cases of this data set: of the run, or else of the evaluation beside it."""
+        for results, places in zip(self.results, self._places):
+            if dataset in places:
+                return divisions(results.of(range(len(results.entrants)), places[dataset]))
+        return []
+
+    @functools.cached_property
+    def _places(self) -> list[dict[str, list[int]]]:
+        """By results and data set: the places of its cases."""
+        found = []
+        for results in self.results:
+            places: dict[str, list[int]] = {}
+            for place, case in enumerate(results.cases):
+                places.setdefault(self.family(case.task.split("/")[0]), []).append(place)
+            found.append(places)
+        return found
+
+    @functools.cached_property
+    def drawn(self) -> list[Shown]:
+        """Every result that has a picture, once."""
+        found: dict[str, Shown] = {}
+        for experiment, pictures in zip(self.experiments, self.pictures):
+            for row in experiment.rows:
+                if row.case in pictures and row.name in pictures[row.case].results:
+                    found.setdefault(row.name, Shown(experiment, row, pictures[row.case]))
+        return list(found.values())
+
+    @functools.cached_property
+    def zoo_answers(self) -> dict[str, list[tuple[str, str]]]:
+        """By case of the zoo: method and word, as the program's table of the zoo has them; empty without that table."""
+        tables = [table for document in documents(self.experiments, self.folder) for table in document["tables"]]
+        found: dict[str, list[tuple[str, str]]] = {}
+        for table in tables:
+            titles = [column["title"] for column in table["columns"]]
+            for first, _, *cells in table["rows"] if titles[:2] == ["Data set", "Points"] else []:
+                if first["text"] in zoo_cases():
+                    found[first["text"]] = list(zip(titles[2:], (cell["text"] for cell in cells)))
+        return found
+
+
+def protocol_order(row: Row) -> int:
+    protocol = row.series.protocol
+    return _PROTOCOLS.index(protocol) if protocol in _PROTOCOLS else len(_PROTOCOLS)
+
+
+def load_run(folder: Path) -> SiteRun:
+    """Raises RecordError when it is no run, or something in it is malformed."""
+    experiments = load(folder)
+    pictures = [read_pictures(one) for one in experiments]
+    if not any(pictures):
+        pictures = kept_pictures(folder / "report.html", experiments)
+    files = [folder / name for name in ("cases.csv", "league.csv")]
+    return SiteRun(
+        folder,
+        experiments,
+        make_front(folder),
+        [summarise(one) for one in experiments],
+        [read(file) for file in files if file.is_file()],
+        pictures,
+        _in_order(methods_of(experiments)),
+        {name: one for experiment in experiments for name, one in experiment.datasets.items()},
+    )
+
+
+def _in_order(methods: dict[str, dict[str, Any]]) -> dict[str, dict[str, Any]]:
+    return dict(sorted(methods.items(), key=lambda one: (METHOD_LOOKS.get(one[0], {}).get("order", 1000), one[0])))
+
+
+def with_listing(run: SiteRun, listing: dict[str, Sequence[dict[str, Any]]]) -> SiteRun:
+    """With what `hullbench list --json` names beside: methods and data sets that the run did not measure."""
+    methods, datasets = ({one["name"]: one for one in listing[kind]} for kind in ("methods", "datasets"))
+    return replace(run, methods=_in_order({**methods, **run.methods}), datasets={**datasets, **run.datasets})
