@@ -33,7 +33,8 @@ for description in "$run"/*/run.json; do
   mkdir "$kept/$experiment"
   cp "$description" "$kept/$experiment"
   records=$run/$experiment/runs.jsonl
-  if [ "$(wc -l <"$records")" -gt 1000 ]; then
+  # Tables of smaller experiments are made of all that a row has.
+  if [ "$(wc -l <"$records")" -gt 10000 ]; then
     /usr/bin/python3 results/thin_records.py <"$records"
   else
     cat "$records"

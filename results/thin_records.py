@@ -1,10 +1,10 @@
 #!/usr/bin/env python3
 """thin_records.py <runs.jsonl >thinned.jsonl: what is kept of the records of a reference run with very many rows.
 
-Tables are made of what stays: every run with its status, time and errors, and the hashes of its points and of its result,
-by which a new run can be compared with it. Left out are the metrics that no table of such an experiment has, the digits of the
-others behind the ninth (tables show three), the times of the steps, the canaries' times (their verdict stands in the flags),
-and the identity, which is a hash of what stays.
+Tables are made of what stays: every run with its status, time and errors, and the first twelve digits of the hashes of its
+points and of its result, by which a new run can be compared with it. Left out are the metrics that no table of such an
+experiment has, the digits of the others behind the sixth (tables show three), the times of the steps, the canaries' times
+(their verdict stands in the flags), and the identity, which is a hash of what stays.
 """
 
 import json
@@ -12,10 +12,12 @@ import sys
 
 PHASES = ("run", "extract")  # whose sum is the time
 METRICS = ("l2", "l2_paper", "ground_truth_area", "ground_truth_convexity", "valid", "invalid_reason")
+HASHES = ("dataset_sha256", "output_sha256")
+HASH_DIGITS = 12
 
 
 def shortened(value: object) -> object:
-    return float(f"{value:.9g}") if isinstance(value, float) else value
+    return float(f"{value:.6g}") if isinstance(value, float) else value
 
 
 for line in sys.stdin:
@@ -23,6 +25,7 @@ for line in sys.stdin:
     if "name" in row:
         row["metrics"] = {name: shortened(value) for name, value in row["metrics"].items() if name in METRICS}
         row["phases_ns"] = [{name: times[name] for name in PHASES if name in times} for times in row["phases_ns"]]
+        row.update({name: row[name][:HASH_DIGITS] for name in HASHES if name in row})
         row.pop("canary_ns", None)
         row.pop("id", None)
     print(json.dumps(row, separators=(",", ":"), sort_keys=True, ensure_ascii=False))

@@ -6,7 +6,7 @@ command -v git >/dev/null || { echo "git is not installed: not tested"; exit 77;
 scratch=$(mktemp -d)
 trap 'rm -rf "$scratch"' EXIT
 mkdir "$scratch/project" "$scratch/project/results"
-cp "$1"/results/{check_reference.py,keep_reference.sh,thin_records.py,keep_league.py} "$scratch/project/results"
+cp "$1"/results/{check_reference.py,keep_reference.sh,thin_records.py,keep_league.py,add_experiment.py} "$scratch/project/results"
 cd "$scratch/project"
 export GIT_CONFIG_GLOBAL=/dev/null GIT_AUTHOR_NAME=a GIT_AUTHOR_EMAIL=a@b GIT_COMMITTER_NAME=a GIT_COMMITTER_EMAIL=a@b
 
@@ -98,4 +98,24 @@ if [ "$(readlink results/reference)" != 2026-02-02-01234567 ] || [ -d results/20
   echo "FAIL: the run was not kept" >&2
   exit 1
 fi
+
+# A run of one plan joins a suite of the same build, once.
+# run_of FOLDER PLAN BUILD
+run_of() {
+  mkdir -p "$1"
+  echo "{\"plan\": {\"name\": \"$2\"}, \"environment\": {\"machine_id\": \"0\"}, \"tool\": {\"binary_sha256\": \"$3\"}}" >"$1/run.json"
+}
+run_of suite/states states a
+echo '{"plans": ["states"]}' >suite/suite.json
+run_of zoo zoo b
+refuses "zoo/report.json cannot be read" results/add_experiment.py suite zoo
+echo '{}' >zoo/report.json
+refuses "zoo is of another build or machine than the experiment states" results/add_experiment.py suite zoo
+run_of zoo zoo a
+results/add_experiment.py suite zoo
+[ -f suite/zoo/report.json ] && [ "$(tr -d ' \n' <suite/suite.json)" = '{"plans":["states","zoo"]}' ] || {
+  echo "FAIL: the run is no experiment of the suite" >&2
+  exit 1
+}
+refuses "has an experiment zoo already" results/add_experiment.py suite zoo
 echo "only records of HEAD's build become the reference run"
