@@ -6,6 +6,7 @@
 #   TABLE=NAME   only this experiment in "make bench": rgbd, states, alphabet, random or steps
 #   SECONDS=N    how long "make fuzz" searches
 #   SUITE=NAME   the Debian of "make test-fresh": bookworm (12) or trixie (13)
+#   RUNS="A B"   the runs of "make site", instead of results/reference
 #   BASE=REV     what "make bench-gate" compares with, instead of the merge base with the main branch
 
 SHELL := /bin/bash
@@ -56,7 +57,7 @@ WITHOUT_TESTS = $(NATIVE_OPTION) $(shell grep -qs '^HULLBENCH_TESTS:BOOL=ON' bui
   [ -d "$$(sed -n 's/^GTest_DIR:PATH=//p' build/CMakeCache.txt)" ] || echo -DHULLBENCH_TESTS=OFF)
 WITH_TESTS = $(NATIVE_OPTION) -DHULLBENCH_TESTS=ON
 
-.PHONY: help deps deps-extra deps-real deps-legacy build bench bench-quick figures figures-core report report-compare evaluate bench-core bench-gate bench-gate-instructions reference test test-sanitize build-clang test-clang test-fresh test-slurm test-gate fuzz lint format docs js js-bench clean clean-legacy
+.PHONY: help deps deps-extra deps-real deps-legacy build bench bench-quick figures figures-core report report-compare evaluate bench-core bench-footprint bench-gate bench-gate-instructions reference test test-sanitize build-clang test-clang test-fresh test-slurm test-gate fuzz lint format docs js js-bench clean clean-legacy
 
 help: ## list the targets (the default)
 	@awk 'BEGIN { FS = ":.*## " } /^[a-z-]+:.*## / { printf "  make %-23s %s\n", $$1, $$2 }' Makefile
@@ -137,6 +138,22 @@ paper: ## write results/latest/paper.pdf, all figures and tables in a journal's 
 	@$(call drawn,$(RUN),$(call drawn_folder,$(RUN)))
 	@/usr/bin/python3 plots/make_paper.py $(call drawn_folder,$(RUN)) --out $(call drawn_into,$(RUN))/paper.pdf
 
+RUNS ?= results/reference
+# Whether "make js" can be made here.
+HAS_WASM = $(shell command -v clang++ >/dev/null && command -v wasm-ld >/dev/null && [ -d /usr/include/wasm32-wasi/c++ ] && echo yes)
+
+.PHONY: site
+site: ## write build/site, static pages of the reference run for any web server (RUNS="FOLDER...": of these runs)
+	@$(call install,build plots)
+	@$(if $(SKIP_DEPS),,cmake/install-npm.sh plots)
+	@$(MAKE) build
+	@$(if $(HAS_WASM),$(MAKE) js)
+	@$(foreach run,$(RUNS),$(call drawn,$(run),$(call drawn_folder,$(run),site/)) && \
+	  { [ ! -e $(run)/report.html ] || cp $(run)/report.html $(call drawn_folder,$(run),site/); } &&) true
+	@build/hullbench list --json >build/drawn/listing.json
+	@/usr/bin/python3 plots/make_site.py $(foreach run,$(RUNS),$(call drawn_folder,$(run),site/)) --out build/site \
+	  --listing build/drawn/listing.json $$([ ! -e build-js/demo.html ] || echo --demo build-js/demo.html)
+
 report-compare: ## write B/comparison.html, a page with two runs side by side (A=FOLDER B=FOLDER)
 	@test -n "$(A)" -a -n "$(B)" || { echo "error: give two runs: make report-compare A=FOLDER B=FOLDER" >&2; exit 2; }
 	@$(call install,build plots)
@@ -175,6 +192,8 @@ reference: ## draw results/latest, keep it as the reference run and write its ta
 	@$(call install,build test)
 	@results/check_reference.py results/latest
 	@$(MAKE) build
+	@for part in league.json league.csv tune/tune.json; do \
+	  [ ! -e results/evaluation/$$part ] || cp results/evaluation/$$part results/latest; done
 	@$(MAKE) figures report RUN=results/latest
 	@results/keep_reference.sh results/latest
 	@build/hullbench tables results/reference --write >/dev/null
@@ -194,6 +213,11 @@ bench-core: ## the core's speed beside CGAL and GEOS: ratios with goal and verdi
 	@build/core_benchmarks --verdicts
 
 export JOBS
+
+bench-footprint: ## footprints of an airborne tile beside a hexbin, GEOS and the convex hull: area error and time
+	@$(call install,build)
+	@$(call build,release,$(WITHOUT_TESTS),hullbench polylidar bench_footprint)
+	@build/bench_footprint
 
 bench-gate: ## whether the core is slower than BASE (default: the merge base with main) or gives other results
 	@$(call install,build)

@@ -8,6 +8,7 @@
 #include "datasets/star_polygons.hpp"
 #include "datasets/stress_shapes.hpp"
 #include "datasets/tangled_shapes.hpp"
+#include "datasets/tissue.hpp"
 #include "datasets/world_shapes.hpp"
 
 namespace hullbench {
@@ -77,6 +78,15 @@ std::vector<ShapeFamily> make_families() {
       tangled_family<TangledKind::kParts>("Separate parts",
                                           "Drawn for this project: blobs, combs and boxes with gaps between"),
   };
+  families.push_back(
+      {.name = "cell",
+       .title = "Cell of a tissue",
+       .source = "Drawn for this project: Voronoi cells with bent sides, which touch each other",
+       .licence = "MIT",
+       .count = kTissueCells,
+       .holes = std::nullopt,
+       .feature = {},
+       .make = tissue_cell});
   for (ShapeFamily& family : world_families()) families.push_back(std::move(family));
   for (const GradedShape& shape : graded_shapes()) families.push_back(graded_family(shape));
   return families;

@@ -13,6 +13,7 @@
 #include "datasets/samplers/regular.hpp"
 #include "datasets/samplers/rotating.hpp"
 #include "datasets/samplers/tracks.hpp"
+#include "datasets/samplers/transcripts.hpp"
 
 namespace hullbench {
 
@@ -77,6 +78,8 @@ const std::vector<StressKind>& stress_kinds() {
        1, 20, kDraws, &sample_rotating},
       {"tracks", "tracks", "", "distance of roads over that of a road's points", 1, 50, kDraws,
        &sample_tracks},
+      {"transcripts", "transcripts", "%", "so many of a cell's molecules are its neighbours'", 0, 50, kDraws,
+       &sample_transcripts},
   };
   return kinds;
 }

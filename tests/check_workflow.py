@@ -2,7 +2,7 @@
 
     check_workflow.py FOLDER MAKEFILE
 
-The folder has ci.yml and release.yml. Exit status 0: fine; 1: found something, which is printed.
+The folder has ci.yml, release.yml and site.yml. Exit status 0: fine; 1: found something, which is printed.
 """
 import pathlib
 import re
@@ -79,10 +79,26 @@ def release_faults(workflow, targets):
             yield f"job {name} may upload nothing"
 
 
+def site_faults(workflow, targets):
+    yield from make_faults(workflow, targets, {"site"})
+    if "pull_request" in events(workflow):
+        yield "a pull request would publish"
+    if workflow.get("permissions") != {"contents": "read"}:
+        yield "the workflow may do more than read"
+    publishers = {name for name, _, step in steps(workflow) if "deploy-pages" in step.get("uses", "")}
+    if len(publishers) != 1:
+        yield f"{len(publishers)} jobs publish pages, not one"
+    for name, job in workflow["jobs"].items():
+        if name not in publishers and "permissions" in job:
+            yield f"job {name} may do more than read"
+    if not any(step.get("with", {}).get("path") == "build/site" for _, _, step in steps(workflow)):
+        yield "no job hands build/site on"
+
+
 def main(folder, makefile):
     targets = set(re.findall(r"^([a-z-]+):.*## ", pathlib.Path(makefile).read_text(encoding="utf-8"), re.MULTILINE))
     status = 0
-    for name, faults in (("ci.yml", ci_faults), ("release.yml", release_faults)):
+    for name, faults in (("ci.yml", ci_faults), ("release.yml", release_faults), ("site.yml", site_faults)):
         path = pathlib.Path(folder, name)
         for fault in faults(yaml.safe_load(path.read_text(encoding="utf-8")), targets):
             print(f"error: {path}: {fault}", file=sys.stderr)

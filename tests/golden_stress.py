@@ -159,6 +159,25 @@ def hotspot(shape: Shape, n: int, level: float, seed: int) -> list[Point]:
     return points
 
 
+def transcripts(shape: Shape, n: int, level: float, seed: int) -> list[Point]:
+    uniform, random, points = shape.uniform(seed), Random(derived_seed(seed, "transcripts")), []
+    nucleus = next(shape.uniform(derived_seed(seed, "place")))
+    strays = int(rounded(n * level / 100))
+    while len(points) < n - strays:
+        if random.uniform() >= 0.5:
+            points.append(next(uniform))
+            continue
+        point = moved(nucleus, 0.2 * math.sqrt(shape.area()), random)
+        while not shape.contains(point):
+            point = moved(nucleus, 0.2 * math.sqrt(shape.area()), random)
+        points.append(point)
+    while len(points) < n:
+        point = moved(next(uniform), 2 * shape.spacing(n), random)
+        if not shape.contains(point):
+            points.append(point)
+    return points
+
+
 def scan_exactly(shape: Shape, n: int, seed: int, scan: Callable[[float, Random], list[Point]]) -> list[Point]:
     pitch, tries = shape.spacing(n), 1
     while True:
@@ -326,7 +345,7 @@ def make_points(name: str, shape: Shape) -> list[Point]:
         points = [point for point, _ in zip(dry, range(drawn))]
     else:
         ((kind, level),) = levels.items()
-        draw = {"gradient": gradient, "hotspot": hotspot}.get(kind)
+        draw = {"gradient": gradient, "hotspot": hotspot, "transcripts": transcripts}.get(kind)
         asked, points = drawn, []
         while True:
             points = draw(shape, asked, level, seed) if draw else scanned(kind, shape, asked, level, seed)
@@ -354,7 +373,7 @@ def main(arguments: list[str]) -> int:
     entries = {entry["name"]: entry for entry in json.loads((SHAPES / "manifest.json").read_text())["shapes"]}
     golden = dict(re.findall(r'\{"([^"]+)",\s*"([0-9a-f]{64})"\}', EXPECTATIONS.read_text()))
     check = arguments[:1] == ["--check"]
-    known = {"gradient", "hotspot", *SCANNED, *CHANGES}
+    known = {"gradient", "hotspot", "transcripts", *SCANNED, *CHANGES}
 
     def is_known(name: str) -> bool:
         base, *stresses = name.split("~")

@@ -2,7 +2,7 @@
 find_package(PkgConfig REQUIRED)
 hullbench_test(test_package SOURCES test_package.cpp LIBRARIES hullbench_test_program LABELS package)
 target_compile_definitions(test_package PRIVATE
-  BUILD_TYPE="$<LOWER_CASE:$<CONFIG>>" BUILD_FOLDER="${PROJECT_BINARY_DIR}"
+  HAS_GDAL=$<BOOL:${POLYLIDAR_WITH_GDAL}> BUILD_TYPE="$<LOWER_CASE:$<CONFIG>>" BUILD_FOLDER="${PROJECT_BINARY_DIR}"
   SOURCE_FOLDER="${PROJECT_SOURCE_DIR}" PROJECT_VERSION="${PROJECT_VERSION}"
   CMAKE_PROGRAM="${CMAKE_COMMAND}" CXX_COMPILER="${CMAKE_CXX_COMPILER}" PKG_CONFIG_PROGRAM="${PKG_CONFIG_EXECUTABLE}")
 add_dependencies(test_package polylidar_core polylidar)

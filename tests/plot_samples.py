@@ -323,7 +323,7 @@ def suite() -> dict[str, dict[str, Any]]:
     alphabet += [run("postgis_legacy", "paper", f"letter_{letter}", 2000, status="not_installed") for letter in LETTERS]
     random = [run("polylidar", "paper", f"star-{k}", 8000) for k in range(1, 400)]
     random += [run("polylidar", "paper", f"comb-{k}", 8000) for k in range(1, 9)]
-    steps = [run(method, "paper", "ca", 64000, True) for method in ("polylidar", "cgal_alpha_shape", "spatialite_steps")]
+    steps = [run(method, "paper", "ca", 64000, True) for method in ("polylidar_steps", "cgal_alpha_shape", "spatialite_steps")]
     rgbd = [run(*series, f"floor-{k}", 900 + k) for k in (1, 2) for series in SERIES]
     return copy.deepcopy(
         {

@@ -61,8 +61,8 @@ TEST(ShapeFamilies, AreCompleteAndNamedOnce) {
   EXPECT_EQ(names, (std::set<std::string>{"star",   "comb",    "spiral",  "partition", "walk",    "nested",
                                           "parts",  "country", "county",  "clipart",   "fashion", "han",
                                           "symbol", "pierced", "annulus", "windows",   "channel", "peninsula",
-                                          "teeth",  "squares", "discs",   "strips"}));
-  EXPECT_EQ(shapes, 11'180U);
+                                          "teeth",  "squares", "discs",   "strips",    "cell"}));
+  EXPECT_EQ(shapes, 11'228U);
 }
 
 TEST(ShapeFamilies, AreTheSameEverywhere) {
@@ -90,6 +90,7 @@ TEST(ShapeFamilies, AreTheSameEverywhere) {
       {"teeth", "27337e473c5e6aeba2f7f51847635ebba4a1ae288ae01ee5d95b459b0ac46de3"},
       {"squares", "92d041e3135e0eb6b02b9e9c98160dc201ab6731bb6864902420e3c4c81d7eb6"},
       {"discs", "aca8d633e5bb0216b7fbd87b2f655922109895dd3b49d1e71ab3231888ed1150"},
+      {"cell", "734caee59441cc702e901fb1aab7cfe04a3f71a02ffa30903d31562a39c61482"},
       {"strips", "0548d95cfacf74049b2a02b6254bc696bc46ac84f0edcdd6b3f62c1d188ac724"},
   };
   for (const ShapeFamily& family : shape_families()) {

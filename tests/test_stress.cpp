@@ -123,9 +123,10 @@ TEST(Stress, EveryKindIsCompleteAndNamedOnce) {
       EXPECT_EQ(kind.least, 0) << kind.name;
     }
   }
-  EXPECT_EQ(names, (std::set<std::string>{"airborne", "boundary", "clusters", "depthcamera", "gradient",
-                                          "hotspot", "lattice", "noise", "outliers", "outline", "poisson",
-                                          "quantised", "rotating", "tracks", "water", "zigzag"}));
+  EXPECT_EQ(names,
+            (std::set<std::string>{"airborne", "boundary", "clusters", "depthcamera", "gradient", "hotspot",
+                                   "lattice", "noise", "outliers", "outline", "poisson", "quantised",
+                                   "rotating", "tracks", "transcripts", "water", "zigzag"}));
 }
 
 TEST(Stress, AnyShapeCanBeSampledWithAnyKind) {
@@ -202,6 +203,7 @@ TEST(Stress, CountsAreExact) {
                                "zigzag:4",
                                "rotating:4",
                                "tracks:10",
+                               "transcripts:5",
                                "gradient:16~outliers:3~noise:0.5",
                                "depthcamera:4~outliers:90~quantised:1",
                                "outline:1",
@@ -216,9 +218,9 @@ TEST(Stress, CountsAreExact) {
 TEST(Stress, PointsLieInTheShapeWhereTheyMust) {
   for (const std::string& shape : kShapes) {
     const PointLocator locator(make_ground_truth(shape, false));
-    for (const char* stress :
-         {"gradient:16", "hotspot:16", "clusters:16", "poisson:0.7", "lattice:0", "lattice:0.5",
-          "airborne:10", "zigzag:10", "rotating:10", "tracks:10", "water:10", "zigzag:4~water:20"}) {
+    for (const char* stress : {"gradient:16", "hotspot:16", "clusters:16", "poisson:0.7", "lattice:0",
+                               "lattice:0.5", "airborne:10", "zigzag:10", "rotating:10", "tracks:10",
+                               "transcripts:0", "water:10", "zigzag:4~water:20"}) {
       const std::vector<Point> points = points_of(shape + "~" + stress, 1000);
       EXPECT_TRUE(std::all_of(points.begin(), points.end(),
                               [&](const Point& point) { return locator.contains(point); }))
@@ -321,6 +323,42 @@ TEST(Stress, HotSpotIsAGaussianOverItsBackground) {
       const auto x = static_cast<double>(2 * (i % 5));
       const auto y = static_cast<double>(2 * (i / 5));
       masses[i] = 4 + 2 * std::acos(-1.0) * (level - 1) * part(x, x + 2, middle.x) * part(y, y + 2, middle.y);
+    }
+    EXPECT_LT(chi_squared(counts, masses), 24 + 5 * std::sqrt(48)) << level;
+  }
+}
+
+TEST(Stress, TranscriptsLieRoundANucleusAndSomeBeyondTheBorder) {
+  constexpr std::size_t kPoints = 10'000;
+  const PointLocator locator(square());
+  for (const double level : {0.0, 3.0, 20.0}) {
+    const std::vector<Point> points = sample("transcripts", square(), kPoints, level);
+    const auto own = static_cast<std::ptrdiff_t>(kPoints) -
+                     static_cast<std::ptrdiff_t>(std::lround(kPoints * level / 100));
+    const auto is_inside = [&](const Point& point) { return locator.contains(point); };
+    EXPECT_TRUE(std::all_of(points.begin(), points.begin() + own, is_inside)) << level;
+    EXPECT_TRUE(std::none_of(points.begin() + own, points.end(), is_inside)) << level;
+    // h = 0.1: a Gaussian of 0.2 round points that are uniform hardly leads out by 1.
+    for (auto point = points.begin() + own; point != points.end(); ++point)
+      EXPECT_TRUE(point->x > -1 && point->x < 11 && point->y > -1 && point->y < 11) << level;
+    // In the cells of 2 by 2 half of the cell's own are uniform, the other half a Gaussian of 2, cut off at
+    // the sides.
+    const Point nucleus = drawn_place(square(), 7);
+    const auto part = [](double low, double high, double mean) {
+      return (std::erf((high - mean) / 2 / std::sqrt(2)) - std::erf((low - mean) / 2 / std::sqrt(2))) / 2;
+    };
+    const double inside = part(0, 10, nucleus.x) * part(0, 10, nucleus.y);
+    std::vector<double> counts(25);
+    std::vector<double> masses(25);
+    for (auto point = points.begin(); point != points.begin() + own; ++point) {
+      const auto column = std::min<std::size_t>(static_cast<std::size_t>(point->x / 2), 4);
+      const auto row = std::min<std::size_t>(static_cast<std::size_t>(point->y / 2), 4);
+      counts[5 * row + column] += 1;
+    }
+    for (std::size_t i = 0; i < 25; ++i) {
+      const auto x = static_cast<double>(2 * (i % 5));
+      const auto y = static_cast<double>(2 * (i / 5));
+      masses[i] = 0.5 / 25 + 0.5 * part(x, x + 2, nucleus.x) * part(y, y + 2, nucleus.y) / inside;
     }
     EXPECT_LT(chi_squared(counts, masses), 24 + 5 * std::sqrt(48)) << level;
   }
@@ -555,6 +593,7 @@ TEST(Stress, GoldenSamples) {
       {"ca~airborne:4~water:20~noise:0.5",
        "e48385546952f14bff3e7f7e938be01139224c9d8d610244b26e67c214fae6ce"},
       {"ca~outline:0.5", "204d67f1545511ac9d496f664b13a8a49754db824ed9188821c6bfb4980349c2"},
+      {"ca~transcripts:5", "f0ac8dd21c6692fbcc7ed1f226b8947444a0e5a72165351a70cd45cef5efa13c"},
       {"letter_b~tracks:3", "ea5c065eb9e9f9da78be9b95a05a393edd46f0249181269ed0ad25c7630502f3"},
   };
   for (const auto& [name, sha256] : expected)

@@ -162,6 +162,15 @@ test("errors say what the core says, and leave the module in order", () => {
   }
 });
 
+function assertItStillWorks() {
+  const triangle = [
+    [0, 0],
+    [1, 0],
+    [0, 1],
+  ];
+  assert.equal(concaveHull(triangle).area, 0.5);
+}
+
 test("any number of errors leaves no trace", () => {
   for (let i = 0; i < 3000; i++)
     assert.throws(
@@ -172,14 +181,7 @@ test("any number of errors leaves no trace", () => {
         ]),
       /^RangeError: point 1 is not finite$/,
     );
-  assert.equal(
-    concaveHull([
-      [0, 0],
-      [1, 0],
-      [0, 1],
-    ]).area,
-    0.5,
-  );
+  assertItStillWorks();
 });
 
 test("memory that does not suffice is an error like any other", () => {
@@ -187,14 +189,7 @@ test("memory that does not suffice is an error like any other", () => {
     name: "RangeError",
     message: /^there is not enough memory/,
   });
-  assert.equal(
-    concaveHull([
-      [0, 0],
-      [1, 0],
-      [0, 1],
-    ]).area,
-    0.5,
-  );
+  assertItStillWorks();
 });
 
 test("CommonJS gives the same", () => {
