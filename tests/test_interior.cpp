@@ -420,6 +420,20 @@ TEST(InteriorLeftOut, SliversBetweenClosePointsAreKeptOrNotByTheirFirstCorner) {
   EXPECT_FALSE(is_kept(2));
 }
 
+// A LAS file has whole numbers and a scale, of which no double is a power of two; limits have few decimals.
+TEST(InteriorLeftOut, AlsoOfCoordinatesWithFewDecimals) {
+  BothWays ways;
+  for (const double scale : {0.01, 0.001, 1e-7}) {
+    Points points = testing::uniform_points(200'000, 1, 400);
+    for (Point& p : points) p = {std::floor(p.x / scale) * scale, std::floor(p.y / scale) * scale};
+    for (const double alpha : {2.0, 2.5, 3.0, 1.12 * 2}) {
+      SCOPED_TRACE(::testing::Message() << "scale " << scale << ", alpha " << alpha);
+      EXPECT_EQ(ways.go(points, {.alpha = alpha}).way, Way::kInteriorLeftOut);
+      EXPECT_EQ(ways.part(), ways.whole(points, {.alpha = alpha}));
+    }
+  }
+}
+
 TEST(InteriorLeftOut, CanBeAskedAbout) {
   const Points points = testing::uniform_points(20'000, 1);
   Extractor extractor;

@@ -93,7 +93,8 @@ double InteriorPart::choose_grid(std::span<const Point> points, const Box& box, 
   const double width = box.max.x - box.min.x;
   const double height = box.max.y - box.min.y;
   const auto count = static_cast<double>(points.size());
-  radius = std::min(radius, kWidestInSpacings * std::sqrt(width * height / count)) * (1 - kSafety);
+  radius = std::min(radius, kWidestInSpacings * std::sqrt(width * height / count));
+  radius *= (1 - kSafety) * (1 - kUneven);
   const double cells_per_length = kRadius / radius;
   if (!(Grid::cell_count(box, cells_per_length) <= guard.most_cells_a_point * count)) return 0;
   grid_ = Grid(box, cells_per_length);

@@ -45,6 +45,10 @@ double least_dropped_radius(const Limits& limits);
 /// close: INTERIOR.md derives both from the rounding of the filter's rules.
 inline constexpr double kSafety = 0x1p-8;
 inline constexpr double kTooClose = 0x1p-40;
+/// The certificate's radius is smaller by this share, too. It is irrational: were the side of some cells a
+/// multiple of the points' decimal unit, as limits and coordinates with few decimals make it, many points
+/// would lie on the borders of cells.
+inline constexpr double kUneven = 0.0006180339887498949;
 /// A radius well beyond the spacing makes a wider part, not a smaller one: the greatest that is worth taking,
 /// in multiples of the spacing that the points would have if they filled their box.
 inline constexpr double kWidestInSpacings = 2.5;
