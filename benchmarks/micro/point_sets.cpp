@@ -68,8 +68,8 @@ SpeedPointSet make_sieve(std::size_t n, Random& random) {
 
 SpeedPointSet make_speed_point_set(const std::string& name, std::size_t n) {
   Random random(derive_seed(kSeed, name));
-  if (name == "ca") {
-    PointSet set = make_point_set("ca", false, n, kSeed);
+  if (name == "ca" || name == "gradient") {
+    PointSet set = make_point_set(name == "ca" ? "ca" : "ca~gradient:16", false, n, kSeed);
     return {std::move(set.points), 2 * std::sqrt(set.ground_truth_area / static_cast<double>(n)), 0};
   }
   if (name == "uniform") {
@@ -85,7 +85,7 @@ SpeedPointSet make_speed_point_set(const std::string& name, std::size_t n) {
   if (name == "islands") return make_islands(n, random);
   if (name == "sieve") return make_sieve(n, random);
   throw std::invalid_argument("no point set is called '" + name +
-                              "': ca, uniform, lattice, rgbd, islands, sieve");
+                              "': ca, gradient, uniform, lattice, rgbd, islands, sieve");
 }
 
 }  // namespace hullbench::micro

@@ -17,7 +17,8 @@ struct SpeedPointSet {
   std::size_t polygons = 0;
 };
 
-/// About `n` points of one of the sets "ca" (uniform in California), "uniform" (in the unit square),
+/// About `n` points of one of the sets "ca" (uniform in California), "gradient" (the same, 16 times as
+/// dense at one side as at the other), "uniform" (in the unit square),
 /// "lattice" (a square integer lattice), "rgbd" (424 columns, jittered by a tenth of their spacing, as a
 /// depth image of a floor gives), "islands" (uniform in 4000 squares so far apart that each is a polygon of
 /// its own) and "sieve" (uniform in one region of the same area with 4000 square holes of the same size: as

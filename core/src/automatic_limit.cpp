@@ -21,6 +21,9 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr std::size_t kMeasured = 64;
 /// So many triangles, at most, are looked at for the growth of the area.
 constexpr std::size_t kSampled = 4096;
+/// Of so many triangles all are measured at once: their sizes stay in the cache until they are asked for
+/// again.
+constexpr std::size_t kMeasuredAtOnce = std::size_t{1} << 19U;
 
 double fourth_power(double x) {
   return (x * x) * (x * x);
@@ -87,37 +90,66 @@ double used_share(const Mesh& mesh) {
 
 }  // namespace
 
+void AutomaticLimit::measure_triangles(const Mesh& mesh, const Point* vertices, ThreadPool& pool) {
+  field_.size4 = nullptr;
+  if (mesh.triangle_count() > kMeasuredAtOnce) return;
+  double* const size4 = size4_.reserve(mesh.triangle_count());
+  const Chunks chunks(pool, mesh.triangle_count());
+  pool.for_each(chunks.size(), [&](std::size_t c) {
+    for (auto t = static_cast<Mesh::Index>(chunks.begin(c)); t < chunks.end(c); ++t) {
+      size4[t] =
+          mesh.is_ghost(t) ? std::numeric_limits<double>::quiet_NaN() : Triangle(mesh, vertices, t).size4();
+    }
+  });
+  field_.size4 = size4;
+}
+
+/// Of a finite triangle.
+double AutomaticLimit::size4_of(const Mesh& mesh, const Point* vertices, Mesh::Index t) const {
+  return field_.size4 != nullptr ? field_.size4[t] : Triangle(mesh, vertices, t).size4();
+}
+
 /// Looks at `block`: returns the fourth power of its usual size, infinity where it has no triangle, and
 /// appends its borders with other blocks.
 double AutomaticLimit::measure_block(const Mesh& mesh, const Point* vertices, std::uint32_t block,
-                                     double quantile, std::vector<double>& sizes,
+                                     double quantile, BlockScratch& scratch,
                                      std::vector<Border>& borders) const {
   const auto begin = static_cast<Mesh::Index>(block == 0 ? 0 : 2 * block_ends_[block - 1]);
   const Mesh::Index end = std::min(mesh.triangle_count(), static_cast<Mesh::Index>(2 * block_ends_[block]));
-  const std::size_t first_border = borders.size();
+  auto& [sizes, crossing] = scratch;
   // Whole pairs of records, since the first of a pair is smaller than the second on average.
   Mesh::Index step = std::max(Mesh::Index{1}, (end - begin) / static_cast<Mesh::Index>(kMeasured));
+  std::size_t crossings = 0;
   for (;; step = 1) {
     sizes.clear();
-    borders.resize(first_border);
+    crossings = 0;
     for (Mesh::Index i = 0; begin + 2 * step * (i / 2) + i % 2 < end; ++i) {
       const Mesh::Index t = begin + 2 * step * (i / 2) + i % 2;
       if (mesh.is_ghost(t)) continue;
-      sizes.push_back(Triangle(mesh, vertices, t).size4());
-      for (Mesh::Index k = 0; k < 3; ++k) {
-        const Mesh::Index twin = mesh.twin(Mesh::kStride * t + k);
-        const std::uint32_t neighbour = field_.block_of_vertex[Mesh::triangle_of(twin) / 2];
-        if (neighbour == block || mesh.is_ghost(Mesh::triangle_of(twin))) continue;
-        const double squared =
-            squared_length(vertices[mesh.origin(Mesh::kStride * t + k)] - vertices[mesh.origin(twin)]);
-        const double length4 = squared * squared;
-        std::size_t known = first_border;
-        while (known < borders.size() && borders[known].neighbour != neighbour) ++known;
-        if (known == borders.size()) borders.push_back({block, neighbour, length4});
-        borders[known].length4 = std::min(borders[known].length4, length4);
+      sizes.push_back(size4_of(mesh, vertices, t));
+      if (crossing.size() < crossings + 3) crossing.resize(2 * crossings + 3);
+      for (Mesh::Index k = 0; k < 3; ++k) {  // without a branch, which nobody could predict
+        const Mesh::Index other = Mesh::triangle_of(mesh.twin(Mesh::kStride * t + k));
+        crossing[crossings] = Mesh::kStride * t + k;
+        crossings += other - begin >= end - begin ? 1U : 0U;
       }
     }
     if (step == 1 || sizes.size() >= kMeasured / 4) break;
+  }
+  const std::size_t first_border = borders.size();
+  std::size_t known = first_border;
+  for (std::size_t c = 0; c < crossings; ++c) {
+    const Mesh::Index twin = mesh.twin(crossing[c]);
+    if (mesh.is_ghost(Mesh::triangle_of(twin))) continue;
+    const std::uint32_t neighbour = field_.block_of_vertex[Mesh::triangle_of(twin) / 2];
+    const double squared = squared_length(vertices[mesh.origin(crossing[c])] - vertices[mesh.origin(twin)]);
+    const double length4 = squared * squared;
+    if (known == borders.size() || borders[known].neighbour != neighbour) {  // often that of the edge before
+      known = first_border;
+      while (known < borders.size() && borders[known].neighbour != neighbour) ++known;
+      if (known == borders.size()) borders.push_back({block, neighbour, length4});
+    }
+    borders[known].length4 = std::min(borders[known].length4, length4);
   }
   return sizes.empty() ? kInfinity : quantile_of(sizes, quantile);
 }
@@ -157,13 +189,13 @@ void AutomaticLimit::measure_blocks(const Mesh& mesh, const Point* vertices, Thr
   const Chunks chunks(pool, mesh.triangle_count());
   const std::size_t blocks = usual4_.size();
   const auto begin_of = [&](std::size_t chunk) { return blocks * chunk / chunks.size(); };
-  sizes_of_chunk_.resize(std::max(sizes_of_chunk_.size(), chunks.size()));
+  scratch_of_chunk_.resize(std::max(scratch_of_chunk_.size(), chunks.size()));
   borders_of_chunk_.resize(chunks.size());
   pool.for_each(chunks.size(), [&](std::size_t c) {
     borders_of_chunk_[c].clear();
     for (std::size_t b = begin_of(c); b < begin_of(c + 1); ++b) {
       usual4_[b] = measure_block(mesh, vertices, static_cast<std::uint32_t>(b), constants.quantile,
-                                 sizes_of_chunk_[c], borders_of_chunk_[c]);
+                                 scratch_of_chunk_[c], borders_of_chunk_[c]);
     }
   });
 }
@@ -222,14 +254,18 @@ void AutomaticLimit::shrink_to_median(double noise) {
 
 /// Takes triangles evenly from the whole mesh.
 void AutomaticLimit::sample(const Mesh& mesh, const Point* vertices) {
+  std::vector<double>& unit2 = scratch_;  // block -> the square of its usual size
+  unit2.resize(usual4_.size());
+  std::transform(usual4_.begin(), usual4_.end(), unit2.begin(),
+                 [](double unit4) { return std::sqrt(unit4); });
   for (std::size_t step = (mesh.triangle_count() / kSampled) | 1U;; step = 1) {
     samples_.clear();
     for (std::size_t i = 0; i < mesh.triangle_count(); i += step) {
       const auto t = static_cast<Mesh::Index>(i);
       if (mesh.is_ghost(t)) continue;
-      const Triangle triangle(mesh, vertices, t);
-      const double unit4 = usual4_[field_.block_of_vertex[t / 2]];
-      samples_.push_back({triangle.size4() / unit4, triangle.twice_area() / std::sqrt(unit4)});
+      const std::uint32_t block = field_.block_of_vertex[t / 2];
+      samples_.push_back({size4_of(mesh, vertices, t) / usual4_[block],
+                          Triangle(mesh, vertices, t).twice_area() / unit2[block]});
     }
     if (step == 1 || samples_.size() >= kSampled / 4) break;
   }
@@ -295,6 +331,7 @@ void AutomaticLimit::choose_by_blocks(const DelaunayBuilder& builder, double det
   const double points = used_share(mesh) * static_cast<double>(builder.vertex_count());
   divide(builder, points);
   usual4_.assign(block_ends_.size(), kInfinity);
+  measure_triangles(mesh, vertices, pool);
   measure_blocks(mesh, vertices, pool, constants);
   bound_growth(constants);
   shrink_to_median(constants.noise);
@@ -339,6 +376,7 @@ bool AutomaticLimit::find_one(std::span<const Point> points, const Box& box,
 
 void AutomaticLimit::choose_one(const Mesh& mesh, const Point* vertices, const std::uint8_t* is_tested,
                                 double detail, ThreadPool& pool, const AutomaticConstants& constants) {
+  field_.size4 = nullptr;
   sum_up_areas();
   add_wide_areas(mesh, vertices, is_tested, pool);
   set_field(points_, detail, constants);

@@ -118,16 +118,23 @@ class AutomaticLimit {
     double first4 = std::numeric_limits<double>::infinity();
     double second4 = std::numeric_limits<double>::infinity();
   };
+  /// What is looked at of a block.
+  struct BlockScratch {
+    std::vector<double> sizes;          ///< of its triangles
+    std::vector<Mesh::Index> crossing;  ///< half-edges whose twins are in other blocks
+  };
   struct Sampled {
     double size4;  ///< in usual sizes of its block
     double area;   ///< in squares of them
   };
 
   void divide(const DelaunayBuilder& builder, double points);
+  void measure_triangles(const Mesh& mesh, const Point* vertices, ThreadPool& pool);
+  double size4_of(const Mesh& mesh, const Point* vertices, Mesh::Index t) const;
   void measure_blocks(const Mesh& mesh, const Point* vertices, ThreadPool& pool,
                       const AutomaticConstants& constants);
   double measure_block(const Mesh& mesh, const Point* vertices, std::uint32_t block, double quantile,
-                       std::vector<double>& sizes, std::vector<Border>& borders) const;
+                       BlockScratch& scratch, std::vector<Border>& borders) const;
   void bound_growth(const AutomaticConstants& constants);
   void shrink_to_median(double noise);
   void sample(const Mesh& mesh, const Point* vertices);
@@ -139,13 +146,14 @@ class AutomaticLimit {
 
   WindowSample windows_;
   SizeField field_;
+  Scratch<double> size4_;                ///< what the field says of triangles
   std::vector<std::size_t> block_ends_;  ///< block -> one past its last vertex
   std::optional<ChosenSizes> range_;
   std::vector<double> usual4_;  ///< block -> fourth power of its usual size; infinity where nothing is known
   std::vector<double> measured4_;  ///< the same before it was bounded
   std::vector<Smallest> smallest_;
   std::vector<double> scratch_;  ///< of whatever a quantile is taken
-  std::vector<std::vector<double>> sizes_of_chunk_;
+  std::vector<BlockScratch> scratch_of_chunk_;
   std::vector<std::vector<Border>> borders_of_chunk_;
   std::vector<Sampled> samples_;
   double unit4_ = 0;                       ///< fourth power of the unit of the grid of limits

@@ -25,6 +25,9 @@ struct SizeField {
   double wide_radius = 0;
   /// Vertex -> its block, where there are several.
   std::vector<std::uint32_t> block_of_vertex = {};
+  /// Triangle of the mesh -> Triangle::size4(), NaN of a ghost; null where not all were measured. It lives as
+  /// long as what chose the field.
+  const double* size4 = nullptr;
 
   bool is_one() const { return limit4.size() == 1; }
   double limit4_at(Mesh::Index triangle) const {

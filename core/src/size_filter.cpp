@@ -118,18 +118,21 @@ struct SizeFilter::Part {
 
 void SizeFilter::run(const Mesh& mesh, const Point* vertices, const SizeField& field, ThreadPool& pool,
                      std::uint64_t* kept) {
-  const auto filter = [&](const auto& rule) {
+  const auto filter = [&](const auto& is_kept) {
     for_each_word_chunk(mesh, Chunks(pool, mesh.triangle_count()), pool,
                         [&](std::size_t, std::size_t begin, std::size_t end) {
-                          fill_words(mesh, begin, end, kept, [&](Index t) {
-                            return !mesh.is_ghost(t) && rule.keeps(Triangle(mesh, vertices, t));
-                          });
+                          fill_words(mesh, begin, end, kept, is_kept);
                         });
   };
-  if (field.is_one()) {
-    filter(OneSizeRule(field.limit4.front()));
+  const auto filter_by = [&](const auto& rule) {
+    filter([&](Index t) { return !mesh.is_ghost(t) && rule.keeps(Triangle(mesh, vertices, t)); });
+  };
+  if (field.size4 != nullptr) {
+    filter([&](Index t) { return field.size4[t] <= field.limit4_at(t); });  // no: of a ghost, which has NaN
+  } else if (field.is_one()) {
+    filter_by(OneSizeRule(field.limit4.front()));
   } else {
-    filter(SizeRule(field));
+    filter_by(SizeRule(field));
   }
   drop_spikes(mesh, vertices, field, pool, kept);
   const WholeMesh whole(mesh, vertices);
