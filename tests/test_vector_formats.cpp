@@ -1,4 +1,5 @@
 // `polylidar` with GDAL, and what it says without: layers of points in, layers of polygons out.
+#include <cpl_string.h>
 #include <gdal.h>
 #include <gtest/gtest.h>
 #include <ogr_api.h>
@@ -66,7 +67,11 @@ class NewData {
     OGRSpatialReferenceH const srs = OSRNewSpatialReference(nullptr);
     OSRSetFromUserInput(srs, system.c_str());
     OSRSetAxisMappingStrategy(srs, OAMS_TRADITIONAL_GIS_ORDER);
-    OGRLayerH const layer = GDALDatasetCreateLayer(data_, name, srs, type, nullptr);
+    // With its index, a newer FlatGeobuf takes no feature without a geometry.
+    const bool is_flat = std::string(GDALGetDriverShortName(GDALGetDatasetDriver(data_))) == "FlatGeobuf";
+    char** const options = is_flat ? CSLSetNameValue(nullptr, "SPATIAL_INDEX", "NO") : nullptr;
+    OGRLayerH const layer = GDALDatasetCreateLayer(data_, name, srs, type, options);
+    CSLDestroy(options);
     OSRRelease(srs);
     for (const auto& [field, field_type] :
          {std::pair{"kind", OFTString}, std::pair{"number", OFTInteger}, std::pair{"value", OFTReal}}) {
