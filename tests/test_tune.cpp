@@ -217,6 +217,24 @@ TEST_F(TuneTest, AMethodWithoutANumberHasItsDefaultOnly) {
   EXPECT_EQ(sweep("out").size(), 2U) << "of the test cases";
 }
 
+TEST_F(TuneTest, AMethodThatAPlanDoesNotWantSearchedKeepsWhatThePlanHas) {
+  json plan = testing::small_plan("small", both_sides(2));
+  plan["methods"] = {{{"method", "disc"},
+                      {"protocol", "default"},
+                      {"parameters", {{"radius", 0.3}}},
+                      {"note", "its own"},
+                      {"search", false}}};
+  ASSERT_EQ(tune(write(plan), "disc", "out").code, 0);
+  const json method = method_of(summary("out"), "disc");
+  EXPECT_TRUE(method.at("axis").is_null());
+  EXPECT_TRUE(method.at("tuned").is_null());
+  EXPECT_EQ(sweep("out").size(), 2U) << "of the test cases";
+  const json tuned = read_json("out/small-tuned.json");
+  ASSERT_EQ(tuned.at("methods").size(), 1U);
+  for (const char* key : {"protocol", "parameters", "search"})
+    EXPECT_EQ(tuned.at("methods")[0].at(key), plan.at("methods")[0].at(key)) << key;
+}
+
 TEST_F(TuneTest, FailuresAreEvaluationsAndInfinitelyBad) {
   method("moody", R"([{"name": "radius", "unit": "length", "description": "Of the disc.", "minimum": 0,
                        "maximum": null}])",

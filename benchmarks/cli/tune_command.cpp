@@ -117,8 +117,12 @@ tune::TunerOptions tuner_options(const TuneCommand& command, const run::MethodCa
   const auto cores = static_cast<int>(allowed_cores().size());
   options.jobs = command.jobs.value_or(std::max(cores, 1));
   options.mem_limit_mib = 0;
-  for (const plan::Plan& plan : plans)
+  for (const plan::Plan& plan : plans) {
     options.mem_limit_mib = std::max(options.mem_limit_mib, plan.mem_limit_mib);
+    for (const plan::PlanMethod& entry : plan.methods) {
+      if (!entry.search) options.not_searched.insert(entry.method);
+    }
+  }
   return options;
 }
 

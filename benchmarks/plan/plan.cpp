@@ -128,6 +128,7 @@ PlanMethod read_method(const json& entry, const Place& place) {
   method.repetitions = read_optional<int>(entry, "repetitions");
   method.timeout_s = read_optional<double>(entry, "timeout_s");
   method.mem_limit_mib = read_optional<std::int64_t>(entry, "mem_limit_mib");
+  method.search = entry.value("search", true);
   method.note = entry.value("note", "");
   if (method.protocol == "default" && !method.parameters.empty() && method.note.empty())
     place.fail("gives parameters under the protocol default; say in its 'note' whose default they are");
@@ -222,6 +223,7 @@ json method_to_json(const PlanMethod& method) {
   if (method.repetitions) result["repetitions"] = *method.repetitions;
   if (method.timeout_s) result["timeout_s"] = *method.timeout_s;
   if (method.mem_limit_mib) result["mem_limit_mib"] = *method.mem_limit_mib;
+  if (!method.search) result["search"] = false;
   if (!method.note.empty()) result["note"] = method.note;
   return result;
 }

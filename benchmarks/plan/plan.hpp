@@ -73,6 +73,7 @@ struct PlanMethod {
   std::optional<int> repetitions;             ///< its own instead of the plan's, for slow methods
   std::optional<double> timeout_s;            ///< its own instead of the plan's
   std::optional<std::int64_t> mem_limit_mib;  ///< its own instead of the plan's
+  bool search = true;                         ///< whether `hullbench tune` searches its parameter
   std::string note;                           ///< for readers of the tables
 };
 

@@ -318,7 +318,7 @@ std::vector<MethodTuning> describe_methods(const TunerOptions& options, std::siz
     method.info = session->info();
     if (method.info) {
       method.title = method.info->title;
-      method.axis = search_axis(*method.info);
+      if (!options.not_searched.contains(method.name)) method.axis = search_axis(*method.info);
       method.cases.resize(cases);
     } else {
       method.detail = session->start_reply().detail;

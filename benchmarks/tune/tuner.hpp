@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <map>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -20,6 +21,7 @@ struct TunerOptions {
   int jobs = 1;                                 ///< threads, each with a worker of its own a method; >= 1
   std::int64_t mem_limit_mib = 4096;            ///< address space of a worker
   DataFolders folders = {};
+  std::set<std::string> not_searched = {};  ///< methods that keep the parameters that the plans have for them
 };
 
 /// The cases of `plans` on either side of the split, each once: a case that several have with the same seed
@@ -28,10 +30,11 @@ std::vector<TuningCase> tuning_cases(const std::vector<plan::Plan>& plans);
 
 /// Chooses every method's one value for many shapes on the training cases (halving.hpp). Then, per method and
 /// test case: that value, the protocols that the plans give the method, `default` where it can do without
-/// parameters, and the search over its axis (search.hpp), with the holes switched on (fixed_parameters). What
-/// `store` knows is not evaluated again. A failure is an evaluation with its status. A case whose points have
-/// no spacing has no sweep of lengths, and one without a ground truth no evaluation. `tuning.interrupted`
-/// after Ctrl-C. Throws std::runtime_error when something cannot be written or a data set cannot be read.
+/// parameters, and the search over its axis (search.hpp), with the holes switched on (fixed_parameters); of
+/// one that is not searched only the protocols. What `store` knows is not evaluated again. A failure is an
+/// evaluation with its status. A case whose points have no spacing has no sweep of lengths, and one without a
+/// ground truth no evaluation. `tuning.interrupted` after Ctrl-C. Throws std::runtime_error when something
+/// cannot be written or a data set cannot be read.
 Tuning run_tuning(std::vector<TuningCase> cases, const TunerOptions& options, EvaluationStore& store,
                   run::Progress& progress);
 

@@ -69,7 +69,7 @@ struct MethodTuning {
   std::optional<MethodInfo> info;    ///< none: it does not start here
   std::string detail;                ///< why it does not start
   std::string remedy;                ///< the command that helps
-  std::optional<SearchAxis> axis;    ///< none: it has no parameter that could be searched
+  std::optional<SearchAxis> axis;    ///< none: it has no parameter to search, or the plan wants none searched
   std::vector<MethodOnCase> cases;   ///< by case; empty when it does not start
   std::vector<HalvingRound> rounds;  ///< none without an axis or a training case
 };

@@ -214,7 +214,7 @@ table::Table protocol_table(const json& summary) {
 }
 
 std::string axis_text(const json& axis) {
-  if (axis.is_null()) return "no parameter to search";
+  if (axis.is_null()) return "nothing is searched";
   const std::string name = axis.at("parameter");
   if (axis.at("kind") == "own") return name;
   return name + (axis.at("power") == 2 ? " = (x h)²" : " = x h");
