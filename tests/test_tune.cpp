@@ -219,11 +219,12 @@ TEST_F(TuneTest, AMethodWithoutANumberHasItsDefaultOnly) {
 
 TEST_F(TuneTest, AMethodThatAPlanDoesNotWantSearchedKeepsWhatThePlanHas) {
   json plan = testing::small_plan("small", both_sides(2));
-  plan["methods"] = {{{"method", "disc"},
-                      {"protocol", "default"},
-                      {"parameters", {{"radius", 0.3}}},
-                      {"note", "its own"},
-                      {"search", false}}};
+  plan["methods"] = json::array();
+  plan["methods"].push_back({{"method", "disc"},
+                             {"protocol", "default"},
+                             {"parameters", {{"radius", 0.3}}},
+                             {"note", "its own"},
+                             {"search", false}});
   ASSERT_EQ(tune(write(plan), "disc", "out").code, 0);
   const json method = method_of(summary("out"), "disc");
   EXPECT_TRUE(method.at("axis").is_null());
