@@ -170,10 +170,20 @@ TEST_F(MergeTest, MayBeMergedAgain) {
     });
   }
   ASSERT_EQ(hullbench({"merge", "shard1", "shard2", "shard3", "--out", "at_once"}).code, 0);
-  ASSERT_EQ(hullbench({"merge", "shard3", "shard1", "--out", "two"}).code, 4);
-  ASSERT_EQ(hullbench({"merge", "shard2", "two", "--out", "in_turn"}).code, 0);
-  for (const char* file : {"runs.jsonl", "run.json"})
-    EXPECT_EQ(read_text(folder() / "in_turn" / file), read_text(folder() / "at_once" / file)) << file;
+  for (int last = 1; last <= 3; ++last) {
+    SCOPED_TRACE(last);
+    std::vector<std::string> others = {"merge"};
+    for (int number = 3; number >= 1; --number) {
+      if (number != last) others.push_back("shard" + std::to_string(number));
+    }
+    const std::string two = "without" + std::to_string(last);
+    const std::string in_turn = "in_turn" + std::to_string(last);
+    others.insert(others.end(), {"--out", two});
+    ASSERT_EQ(hullbench(others).code, 4);
+    ASSERT_EQ(hullbench({"merge", "shard" + std::to_string(last), two, "--out", in_turn}).code, 0);
+    for (const char* file : {"runs.jsonl", "run.json"})
+      EXPECT_EQ(read_text(folder() / in_turn / file), read_text(folder() / "at_once" / file)) << file;
+  }
 }
 
 TEST_F(MergeTest, WithoutAShardSaysHowManyRunsAreMissing) {
