@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <limits>
 #include <optional>
+#include <random>
 #include <string>
 #include <utility>
 #include <vector>
@@ -292,6 +293,31 @@ TEST(AutomaticLimit, TakesOutliersForNoSparsePart) {
       EXPECT_LT(area(hull(points)), 1.15) << count << " points, seed " << seed;
     }
   }
+}
+
+/// Points of a scanner whose lines zigzag across the unit square, six times as far from each other on average
+/// as points along a line.
+std::vector<Point> zigzag(int lines, std::uint64_t seed) {
+  std::mt19937_64 random(seed);
+  std::uniform_real_distribution<double> uniform(0, 1);
+  const int shots = 6 * lines;
+  std::vector<Point> points;
+  for (int line = 0; line < lines; ++line) {
+    const double phase = uniform(random);
+    for (int shot = 0; shot < shots; ++shot) {
+      const double across = (shot + phase) / shots;
+      points.push_back({across, (line + (line % 2 == 0 ? across : 1 - across)) / lines});
+    }
+  }
+  return points;
+}
+
+// Near the turns two lines meet, and the next two are twice as far apart as on average: blocks that lie in a
+// narrow end must not cut comb teeth into the wide one beside it.
+TEST(AutomaticLimit, TakesLinesThatMeetForNoDensity) {
+  double sum = 0;
+  for (std::uint64_t seed = 0; seed < 10; ++seed) sum += area(hull(zigzag(36, seed)));
+  EXPECT_GT(sum / 10, 0.96);
 }
 
 // Of a field that varies anyway: without a bound the outliers' own blocks would make them a part of the

@@ -18,7 +18,8 @@ constexpr std::uint64_t kSampleSeed = 1;
 constexpr double kLargestLoss = 1.5;
 constexpr int kOtherStarts = 2;
 /// The first of limit_knobs(). `part` and `hole` hardly change an error: they are chosen so that chance
-/// leaves no parts and holes, which fit_default counts.
+/// leaves no parts and holes, which fit_default counts. `smoothed_from` is of sets of few points, which the
+/// fit has none of.
 constexpr std::size_t kFittedKnobs = 10;
 
 double weight_of(const std::string& sampling) {
@@ -183,13 +184,19 @@ void LimitKnob::set(AutomaticConstants& constants, double value) const {
 
 const std::vector<LimitKnob>& limit_knobs() {
   using C = AutomaticConstants;
-  static const std::vector<LimitKnob> knobs = {
-      {"quantile", &C::quantile, nullptr, 0.3, 0.8}, {"growth", &C::growth, nullptr, 2, 40},
-      {"reach", &C::reach, nullptr, 2, 30},          {"noise", &C::noise, nullptr, 0.03, 0.4},
-      {"usual", &C::usual, nullptr, 1.5, 3.5},       {"pull", &C::pull, nullptr, 0.3, 20},
-      {"still", &C::still, nullptr, 0.0003, 0.1},    {"below", nullptr, &C::below, 3, 10},
-      {"above", nullptr, &C::above, 1, 8},           {"spike", &C::spike, nullptr, 0.8, 3},
-      {"part", &C::part, nullptr, 0.25, 8},          {"hole", &C::hole, nullptr, 0.25, 10}};
+  static const std::vector<LimitKnob> knobs = {{"quantile", &C::quantile, nullptr, 0.3, 0.8},
+                                               {"growth", &C::growth, nullptr, 2, 40},
+                                               {"reach", &C::reach, nullptr, 2, 30},
+                                               {"noise", &C::noise, nullptr, 0.03, 0.4},
+                                               {"usual", &C::usual, nullptr, 1.5, 3.5},
+                                               {"pull", &C::pull, nullptr, 0.3, 20},
+                                               {"still", &C::still, nullptr, 0.0003, 0.1},
+                                               {"below", nullptr, &C::below, 3, 10},
+                                               {"above", nullptr, &C::above, 1, 8},
+                                               {"spike", &C::spike, nullptr, 0.8, 3},
+                                               {"part", &C::part, nullptr, 0.25, 8},
+                                               {"hole", &C::hole, nullptr, 0.25, 10},
+                                               {"smoothed_from", nullptr, &C::smoothed_from, 4, 64}};
   return knobs;
 }
 
@@ -210,9 +217,11 @@ std::vector<LimitClimb> fit_limit(std::vector<MadeLimitCase>& cases, int tries, 
 
 std::vector<LimitVariant> limit_ablations() {
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  constexpr std::size_t kNever = std::numeric_limits<std::size_t>::max();
   std::vector<LimitVariant> variants = {{"whole rule", {}},
                                         {"growth not bounded", {.growth = kInfinity}},
-                                        {"not shrunk to the median", {.noise = 0}},
+                                        {"not smoothed", {.smoothed_from = kNever}},
+                                        {"not shrunk to the median", {.noise = 0, .smoothed_from = kNever}},
                                         {"one block: one limit for all", {.noise = kInfinity}},
                                         {"spikes stay", {.spike = kInfinity}},
                                         {"small parts stay", {.part = 0}},

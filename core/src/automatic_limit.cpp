@@ -200,31 +200,69 @@ void AutomaticLimit::measure_blocks(const Mesh& mesh, const Point* vertices, Thr
   });
 }
 
+/// Calls visit(block, neighbour) for each side of each border that is short in the block's own scale, by
+/// measured4_: beyond lies another part, or nothing is known of the block.
+template <class Visit>
+void AutomaticLimit::for_each_neighbour(double reach, const Visit& visit) const {
+  const double reach4 = fourth_power(reach);
+  for (const std::vector<Border>& borders : borders_of_chunk_) {
+    for (const Border& border : borders) {
+      if (border.length4 <= reach4 * measured4_[border.block]) visit(border.block, border.neighbour);
+      if (border.length4 <= reach4 * measured4_[border.neighbour]) visit(border.neighbour, border.block);
+    }
+  }
+}
+
+/// Where blocks differ from those round them by more than noise explains, moves each towards the mean of
+/// itself and its neighbours, by the share of the difference's variance that is not noise's.
+void AutomaticLimit::smooth(const AutomaticConstants& constants) {
+  if (usual4_.size() < constants.smoothed_from) return;
+  constexpr double kFine = 0x1p32;  // whole numbers, so that a sum does not depend on the order
+  measured4_ = usual4_;
+  logs_.resize(usual4_.size());
+  std::transform(usual4_.begin(), usual4_.end(), logs_.begin(),
+                 [](double usual4) { return std::log(usual4) / 4; });
+  around_.assign(usual4_.size(), {});
+  for_each_neighbour(constants.reach, [&](std::uint32_t block, std::uint32_t neighbour) {
+    if (!std::isfinite(logs_[neighbour])) return;
+    around_[block].sum += std::llround(kFine * logs_[neighbour]);
+    ++around_[block].count;
+  });
+  scratch_.clear();
+  for (std::size_t b = 0; b < usual4_.size(); ++b) {
+    const auto [sum, count] = around_[b];
+    const bool is_alone = !std::isfinite(logs_[b]) || count == 0;
+    constexpr double kSides = 2;  // of a border
+    const double share = static_cast<double>(count) / (static_cast<double>(count) + kSides);
+    const double difference =
+        is_alone ? 0 : static_cast<double>(sum) / (kFine * static_cast<double>(count)) - logs_[b];
+    logs_[b] = share * difference;  // to the mean of the block and its neighbours
+    if (!is_alone) scratch_.push_back(std::sqrt(share) * difference);  // as a block's own deviation
+  }
+  if (scratch_.empty()) return;
+  const double rough = robust_deviation(scratch_, 0);
+  if (rough <= constants.noise) return;
+  const double kept = (constants.noise / rough) * (constants.noise / rough);
+  for (std::size_t b = 0; b < usual4_.size(); ++b) usual4_[b] *= std::exp(4 * (1 - kept) * logs_[b]);
+}
+
 /// No block may be larger than its two smallest neighbours allow, nor these than theirs. Two, as one may hold
 /// a bit of a dense place beside it.
 void AutomaticLimit::bound_growth(const AutomaticConstants& constants) {
   measured4_ = usual4_;
   const double factor4 = fourth_power(1 + constants.growth / std::sqrt(static_cast<double>(usual4_.size())));
-  const double reach4 = fourth_power(constants.reach);
   bool is_changed = true;
-  const auto see = [&](std::uint32_t block, std::uint32_t neighbour, double length4) {
-    if (length4 > reach4 * measured4_[block]) return;  // another part, or nothing is known of it
-    Smallest& smallest = smallest_[block];
-    if (neighbour == smallest.neighbour) return;
-    if (usual4_[neighbour] < smallest.first4) {
-      smallest = {neighbour, usual4_[neighbour], smallest.first4};
-    } else {
-      smallest.second4 = std::min(smallest.second4, usual4_[neighbour]);
-    }
-  };
   while (is_changed) {
     smallest_.assign(usual4_.size(), {});
-    for (const std::vector<Border>& borders : borders_of_chunk_) {
-      for (const Border& border : borders) {
-        see(border.block, border.neighbour, border.length4);
-        see(border.neighbour, border.block, border.length4);
+    for_each_neighbour(constants.reach, [&](std::uint32_t block, std::uint32_t neighbour) {
+      Smallest& smallest = smallest_[block];
+      if (neighbour == smallest.neighbour) return;
+      if (usual4_[neighbour] < smallest.first4) {
+        smallest = {neighbour, usual4_[neighbour], smallest.first4};
+      } else {
+        smallest.second4 = std::min(smallest.second4, usual4_[neighbour]);
       }
-    }
+    });
     is_changed = false;
     for (std::size_t b = 0; b < usual4_.size(); ++b) {
       const Smallest& smallest = smallest_[b];
@@ -333,6 +371,7 @@ void AutomaticLimit::choose_by_blocks(const DelaunayBuilder& builder, double det
   usual4_.assign(block_ends_.size(), kInfinity);
   measure_triangles(mesh, vertices, pool);
   measure_blocks(mesh, vertices, pool, constants);
+  smooth(constants);
   bound_growth(constants);
   shrink_to_median(constants.noise);
   sample(mesh, vertices);

@@ -26,6 +26,7 @@ struct AutomaticConstants {
   double growth = 10;     ///< a block's usual size is at most 1 + growth / sqrt(blocks) times its neighbours'
   double reach = 5;       ///< usual sizes over which an edge joins two blocks
   double noise = 0.12;    ///< standard deviation of the logarithm of a usual size where all are equal
+  std::size_t smoothed_from = 16;  ///< of fewer blocks none is moved towards those round it
 
   double usual = 2.0;     ///< where the limit usually is, in usual sizes
   double pull = 1.8;      ///< how much another one costs
@@ -44,11 +45,13 @@ struct AutomaticConstants {
 /// size is a quantile of its triangles' sizes, whatever makes them: density, scan lines, a lattice. Chance
 /// alone makes the usual sizes of blocks of 64 points differ by `noise`. Where they differ by no more, as
 /// those of uniform points, all blocks take the median; where they differ by more, noise's part of the
-/// variance is taken from them (James and Stein 1961). And a block may not be much larger than its
-/// neighbours: going from block to block, the usual size grows at most by the factor 1 + growth / sqrt(number
-/// of blocks). So outliers round a shape are no sparse part of it. A sparse part far from the others, in its
-/// own scale, is not bounded: no short edge joins it. It is the second smallest neighbour that counts, since
-/// one may hold a bit of a dense place beside it.
+/// variance is taken from them (James and Stein 1961). Where a block differs by more than that even from
+/// those round it, its size is no density: scan lines that meet and part, or a hot spot smaller than a block,
+/// make it. Then blocks are moved towards the mean of their place. And a block may not be much larger than
+/// its neighbours: going from block to block, the usual size grows at most by the factor 1 + growth /
+/// sqrt(number of blocks). So outliers round a shape are no sparse part of it. A sparse part far from the
+/// others, in its own scale, is not bounded: no short edge joins it. It is the second smallest neighbour that
+/// counts, since one may hold a bit of a dense place beside it.
 ///
 /// **The limit.** In usual sizes, let A(s) be the area of the triangles of size s at most. Below the size of
 /// the usual voids A grows quickly, by the triangles that chance made larger than others; beyond the width of
@@ -118,6 +121,12 @@ class AutomaticLimit {
     double first4 = std::numeric_limits<double>::infinity();
     double second4 = std::numeric_limits<double>::infinity();
   };
+  /// The logarithms of the usual sizes of a block's neighbours: their sum, in fine units, and how many
+  /// there are. A border counts once for each of its sides that was looked at.
+  struct Around {
+    std::int64_t sum = 0;
+    std::int64_t count = 0;
+  };
   /// What is looked at of a block.
   struct BlockScratch {
     std::vector<double> sizes;          ///< of its triangles
@@ -135,6 +144,9 @@ class AutomaticLimit {
                       const AutomaticConstants& constants);
   double measure_block(const Mesh& mesh, const Point* vertices, std::uint32_t block, double quantile,
                        BlockScratch& scratch, std::vector<Border>& borders) const;
+  template <class Visit>
+  void for_each_neighbour(double reach, const Visit& visit) const;
+  void smooth(const AutomaticConstants& constants);
   void bound_growth(const AutomaticConstants& constants);
   void shrink_to_median(double noise);
   void sample(const Mesh& mesh, const Point* vertices);
@@ -150,8 +162,10 @@ class AutomaticLimit {
   std::vector<std::size_t> block_ends_;  ///< block -> one past its last vertex
   std::optional<ChosenSizes> range_;
   std::vector<double> usual4_;  ///< block -> fourth power of its usual size; infinity where nothing is known
-  std::vector<double> measured4_;  ///< the same before it was bounded
+  std::vector<double> measured4_;  ///< the same before the step that works on it
   std::vector<Smallest> smallest_;
+  std::vector<Around> around_;
+  std::vector<double> logs_;     ///< block -> logarithm of its usual size, then how smoothing changes it
   std::vector<double> scratch_;  ///< of whatever a quantile is taken
   std::vector<BlockScratch> scratch_of_chunk_;
   std::vector<std::vector<Border>> borders_of_chunk_;
