@@ -304,7 +304,7 @@ prove_odd() {
 as_user_of_packages() { step "packages: $1" in_root "$root" bash -euc "cd /tmp; $2" || true; }
 
 prove_packages() {
-  local made=${PACKAGES:-$work/packages} purged
+  local made=${PACKAGES:-$work/made} purged
   if [ -z "${PACKAGES:-}" ]; then
     new_root make-package root || return 0
     step "packages: make package" as_reader "$root" root "make package" || { remove_root; return 0; }
