@@ -149,7 +149,8 @@ site: ## write build/site, static pages of the reference run for any web server 
 	@$(MAKE) build
 	@$(if $(HAS_WASM),$(MAKE) js)
 	@$(foreach run,$(RUNS),$(call drawn,$(run),$(call drawn_folder,$(run),site/)) && \
-	  { [ ! -e $(run)/report.html ] || cp $(run)/report.html $(call drawn_folder,$(run),site/); } &&) true
+	  { [ ! -e $(run)/report.html ] || cp $(run)/report.html $(call drawn_folder,$(run),site/); } && \
+	  { [ ! -e $(run)/report.html.gz ] || zcat $(run)/report.html.gz >$(call drawn_folder,$(run),site/)/report.html; } &&) true
 	@build/hullbench list --json >build/drawn/listing.json
 	@/usr/bin/python3 plots/make_site.py $(foreach run,$(RUNS),$(call drawn_folder,$(run),site/)) --out build/site \
 	  --listing build/drawn/listing.json $$([ ! -e build-js/demo.html ] || echo --demo build-js/demo.html)

@@ -41,7 +41,7 @@ for description in "$run"/*/run.json; do
   fi | xz -9e >"$kept/$experiment/runs.jsonl.xz"
 done
 # What was drawn of the whole run; pictures.jsonl, from which some of it is drawn, is too large to be kept.
-cp "$run/report.html" "$kept"
+gzip -9 --no-name <"$run/report.html" >"$kept/report.html.gz"
 mkdir "$kept/figures"
 cp "$run/figures/summary.png" "$kept/figures"
 # The league, the rows that it is made of, and the search belong to no run of the suite; of an evaluation that was

@@ -3,8 +3,8 @@
 
 Tables are made of what stays: every run with its status, time and errors, and the first twelve digits of the hashes of its
 points and of its result, by which a new run can be compared with it. Left out are the metrics that no table of such an
-experiment has, the digits of the others behind the sixth (tables show three), the times of the steps, the canaries' times
-(their verdict stands in the flags), and the identity, which is a hash of what stays.
+experiment has, the digits of times and of the others behind the fifth (tables show three), the times of the steps, the
+canaries' times (their verdict stands in the flags), and the identity, which is a hash of what stays.
 """
 
 import json
@@ -17,14 +17,16 @@ HASH_DIGITS = 12
 
 
 def shortened(value: object) -> object:
-    return float(f"{value:.6g}") if isinstance(value, float) else value
+    """With five digits, of the same type; words and truth values as they are."""
+    return type(value)(float(f"{value:.5g}")) if type(value) in (int, float) else value
 
 
 for line in sys.stdin:
     row = json.loads(line)
     if "name" in row:
         row["metrics"] = {name: shortened(value) for name, value in row["metrics"].items() if name in METRICS}
-        row["phases_ns"] = [{name: times[name] for name in PHASES if name in times} for times in row["phases_ns"]]
+        row["phases_ns"] = [{name: shortened(times[name]) for name in PHASES if name in times} for times in row["phases_ns"]]
+        row["time_ns"] = [shortened(time) for time in row["time_ns"]]
         row.update({name: row[name][:HASH_DIGITS] for name in HASHES if name in row})
         row.pop("canary_ns", None)
         row.pop("id", None)
