@@ -259,6 +259,42 @@ TEST(AutomaticLimit, IsTheSameOnAnyNumberOfThreads) {
   }
 }
 
+/// Points of a scanner whose lines zigzag across the unit square, six times as far from each other on average
+/// as points along a line.
+std::vector<Point> zigzag(int lines, std::uint64_t seed) {
+  std::mt19937_64 random(seed);
+  std::uniform_real_distribution<double> uniform(0, 1);
+  const int shots = 6 * lines;
+  std::vector<Point> points;
+  for (int line = 0; line < lines; ++line) {
+    const double phase = uniform(random);
+    for (int shot = 0; shot < shots; ++shot) {
+      const double across = (shot + phase) / shots;
+      points.push_back({across, (line + (line % 2 == 0 ? across : 1 - across)) / lines});
+    }
+  }
+  return points;
+}
+
+// The points above are smooth, or make too few blocks to be smoothed.
+TEST(AutomaticLimit, OfRoughPlacesDependsOnNothingElseEither) {
+  const std::vector<Point> points = zigzag(40, 1);
+  const IndexedMultiPolygon shape = concave_hull(points);
+  for (const int exponent : {-1000, -30, 30, 1000}) {
+    const std::vector<Point> scaled = mapped(points, [&](const Point& p) {
+      return Point{std::ldexp(p.x, exponent), std::ldexp(p.y, exponent)};
+    });
+    EXPECT_EQ(concave_hull(scaled), shape) << exponent;
+  }
+  const std::vector<Point> shuffled = testing::shuffled(points, 1);
+  EXPECT_DOUBLE_EQ(median_size(shuffled), median_size(points));
+  EXPECT_DOUBLE_EQ(area(hull(shuffled)), area(to_coordinates(shape, points)));
+  for (const unsigned threads : {2U, 3U, 8U}) {
+    EXPECT_EQ(chosen(points, {.threads = threads}), chosen(points)) << threads;
+    EXPECT_EQ(concave_hull(points, {.threads = threads}), shape) << threads;
+  }
+}
+
 // the field
 
 TEST(AutomaticLimit, IsOneLimitWherePointsAreUniform) {
@@ -293,23 +329,6 @@ TEST(AutomaticLimit, TakesOutliersForNoSparsePart) {
       EXPECT_LT(area(hull(points)), 1.15) << count << " points, seed " << seed;
     }
   }
-}
-
-/// Points of a scanner whose lines zigzag across the unit square, six times as far from each other on average
-/// as points along a line.
-std::vector<Point> zigzag(int lines, std::uint64_t seed) {
-  std::mt19937_64 random(seed);
-  std::uniform_real_distribution<double> uniform(0, 1);
-  const int shots = 6 * lines;
-  std::vector<Point> points;
-  for (int line = 0; line < lines; ++line) {
-    const double phase = uniform(random);
-    for (int shot = 0; shot < shots; ++shot) {
-      const double across = (shot + phase) / shots;
-      points.push_back({across, (line + (line % 2 == 0 ? across : 1 - across)) / lines});
-    }
-  }
-  return points;
 }
 
 // Near the turns two lines meet, and the next two are twice as far apart as on average: blocks that lie in a
