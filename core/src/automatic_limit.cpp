@@ -67,7 +67,7 @@ double least_wide_radius(double points) {
 
 /// Triangle `t` from the least of its corners on, so that rounding does not depend on how the mesh was built.
 Triangle from_least_corner(const Mesh& mesh, const Point* vertices, Mesh::Index t) {
-  const Mesh::Index* const corner = &mesh.memory()[Mesh::kStride * t];
+  const Mesh::Index* const corner = mesh.corners(t);
   Mesh::Index least = 0;
   for (Mesh::Index k = 1; k < 3; ++k) {
     if (less_by_x(vertices[corner[k]], vertices[corner[least]])) least = k;

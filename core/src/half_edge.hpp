@@ -56,6 +56,8 @@ class Mesh {
   Index& origin(Index e) { return memory_[e]; }
   Index origin(Index e) const { return memory_[e]; }
   Index twin(Index e) const { return memory_[e + 4]; }
+  /// The three vertices of triangle `t`.
+  const Index* corners(Index t) const { return &memory_[std::size_t{kStride} * t]; }
   static Index taken_bit(Index e) { return 1U << (e & 3U); }
   Index& taken(Index t) { return memory_[kStride * t + 3]; }
   Index& walk(Index t) { return memory_[kStride * t + 7]; }

@@ -67,7 +67,7 @@ void for_each_dropped(const Mesh& mesh, std::size_t begin, std::size_t end, cons
 
 /// Whether any corner of finite triangle `t` is marked.
 inline bool has_marked_corner(const Mesh& mesh, Mesh::Index t, const std::uint8_t* is_marked) {
-  const Mesh::Index* const corner = &mesh.memory()[Mesh::kStride * t];
+  const Mesh::Index* const corner = mesh.corners(t);
   return (is_marked[corner[0]] | is_marked[corner[1]] | is_marked[corner[2]]) != 0;
 }
 
@@ -78,7 +78,7 @@ enum class Answer : std::uint8_t { kNo, kYes, kRoundingDecides };
 /// starts: which one it is in a mesh depends on how that was built.
 template <class Asked>
 Answer ask_from_all_corners(const Mesh& mesh, const Point* vertices, Mesh::Index t, const Asked& asked) {
-  const Mesh::Index* const corner = &mesh.memory()[Mesh::kStride * t];
+  const Mesh::Index* const corner = mesh.corners(t);
   unsigned votes = 0;
   for (std::size_t first = 0; first < 3; ++first) {
     votes += asked(Triangle(t, vertices[corner[first]], vertices[corner[(first + 1) % 3]],
