@@ -40,7 +40,6 @@ class Mesh {
 
   Index triangle_count() const { return triangle_count_; }
   Index* memory() { return memory_; }
-  const Index* memory() const { return memory_; }
 
   /// The memory of the records from `first_record` (a half-edge) on, for other use until triangles are
   /// written there: it needs none of its own.
