@@ -254,7 +254,7 @@ TEST(Grid, HasNoCellsWhereItWouldNotFit) {
   EXPECT_EQ(Grid::cell_count({{0, 0}, {1, 0.5}}, 1000), 1001.0 * 501);
 }
 
-bool pairs_may_exist(const std::vector<Point>& points, double distance) {
+bool pairs_may_exist(const std::vector<Point>& points, double distance, unsigned threads = 1) {
   const Grid grid({{0, 0}, {100, 100}}, 1);
   Bitmap occupied;
   Bitmap shared;
@@ -266,8 +266,10 @@ bool pairs_may_exist(const std::vector<Point>& points, double distance) {
     if (occupied.test(cells.back())) shared.set(cells.back());
     occupied.set(cells.back());
   }
+  ThreadPool pool;
+  pool.use(threads);
   ClosePairs pairs;
-  return pairs.may_exist(points, grid, cells.data(), shared, distance);
+  return pairs.may_exist(points, grid, cells.data(), shared, distance, pool);
 }
 
 TEST(ClosePairs, AreFoundWhereverTheyLie) {
@@ -275,9 +277,10 @@ TEST(ClosePairs, AreFoundWhereverTheyLie) {
   for (std::uint64_t seed = 0; seed < 200; ++seed) {
     SCOPED_TRACE(seed);
     Random random(seed);
-    std::vector<Point> points = testing::uniform_points(3000, seed, 100);
+    const auto threads = static_cast<unsigned>(1 + seed % 3);
+    std::vector<Point> points = testing::uniform_points(6000, seed, 100);  // of more threads, more chunks
     for (int copies = 0; copies < 50; ++copies) points.push_back(points[0]);
-    EXPECT_FALSE(pairs_may_exist(points, kDistance));
+    EXPECT_FALSE(pairs_may_exist(points, kDistance, threads));
     // Inside a cell, or on both sides of a border, or of a corner.
     Point p{1 + 98 * random.unit(), 1 + 98 * random.unit()};
     if (seed % 3 >= 1) p.x = std::floor(p.x) - kDistance * random.unit();
@@ -286,9 +289,9 @@ TEST(ClosePairs, AreFoundWhereverTheyLie) {
     points.push_back(p);
     points.push_back({p.x + 0.9 * kDistance * std::cos(angle), p.y + 0.9 * kDistance * std::sin(angle)});
     if (points.back() == p) continue;
-    EXPECT_TRUE(pairs_may_exist(testing::shuffled(points, seed), kDistance));
+    EXPECT_TRUE(pairs_may_exist(testing::shuffled(points, seed), kDistance, threads));
     points.back() = {p.x + 4 * kDistance, p.y};
-    EXPECT_FALSE(pairs_may_exist(testing::shuffled(points, seed), kDistance));
+    EXPECT_FALSE(pairs_may_exist(testing::shuffled(points, seed), kDistance, threads));
   }
 }
 

@@ -19,8 +19,10 @@ namespace {
 using Points = std::vector<Point>;
 constexpr double kMostSpread = 0.12;
 
-bool looks(WindowSample& sample, const Points& points) {
-  return sample.look(points, bounding_box(points), kMostSpread);
+bool looks(WindowSample& sample, const Points& points, unsigned threads = 1) {
+  ThreadPool pool;
+  pool.use(threads);
+  return sample.look(points, bounding_box(points), kMostSpread, pool);
 }
 
 // Doubled areas of all triangles of the whole triangulation, ascending.
@@ -86,16 +88,19 @@ TEST(WindowSample, HasTheAreasOfTheWhole) {
   EXPECT_NEAR(twice_area / static_cast<double>(count), 36.0 / 37 / 40'000, 0.015 / 40'000);
 }
 
-TEST(WindowSample, DoesNotDependOnTheOrder) {
+TEST(WindowSample, DependsNeitherOnTheOrderNorOnTheThreads) {
   WindowSample sample;
-  WindowSample other;
   const Points points = testing::uniform_points(40'000, 3);
   ASSERT_TRUE(looks(sample, points));
-  ASSERT_TRUE(looks(other, testing::shuffled(points, 7)));
-  ASSERT_EQ(sample.triangles().size(), other.triangles().size());
-  for (std::size_t i = 0; i < sample.triangles().size(); ++i) {
-    EXPECT_EQ(sample.triangles()[i].size4, other.triangles()[i].size4);
-    EXPECT_EQ(sample.triangles()[i].twice_area, other.triangles()[i].twice_area);
+  for (const unsigned threads : {1U, 2U, 3U, 20U}) {
+    SCOPED_TRACE(threads);
+    WindowSample other;
+    ASSERT_TRUE(looks(other, testing::shuffled(points, 7), threads));
+    ASSERT_EQ(sample.window_ends(), other.window_ends());
+    for (std::size_t i = 0; i < sample.triangles().size(); ++i) {
+      EXPECT_EQ(sample.triangles()[i].size4, other.triangles()[i].size4);
+      EXPECT_EQ(sample.triangles()[i].twice_area, other.triangles()[i].twice_area);
+    }
   }
 }
 

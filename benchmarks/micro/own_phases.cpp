@@ -93,7 +93,7 @@ void coordinates(benchmark::State& state, const SpeedPointSet& set) {
 void windows(benchmark::State& state, const SpeedPointSet& set) {
   AutomaticLimit limit;
   measure_phase(state, set,
-                [&](Phases& p) { benchmark::DoNotOptimize(limit.find_one(p.set.points, p.range.box)); });
+                [&](Phases& p) { benchmark::DoNotOptimize(limit.find_one(p.set.points, p.range.box, p.pool)); });
 }
 
 void cells(benchmark::State& state, const SpeedPointSet& set) {

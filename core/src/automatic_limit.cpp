@@ -355,7 +355,7 @@ void AutomaticLimit::choose(const DelaunayBuilder& builder, double detail, Threa
                             const AutomaticConstants& constants) {
   const std::span<const Point> vertices(builder.vertices(), builder.vertex_count());
   if (vertices.size() >= WindowSample::kLeastPoints &&
-      find_one(vertices, bounding_box(vertices), constants)) {
+      find_one(vertices, bounding_box(vertices), pool, constants)) {
     choose_one(builder.mesh(), builder.vertices(), nullptr, detail, pool, constants);
   } else {
     choose_by_blocks(builder, detail, pool, constants);
@@ -379,9 +379,9 @@ void AutomaticLimit::choose_by_blocks(const DelaunayBuilder& builder, double det
   set_field(points, detail, constants);
 }
 
-bool AutomaticLimit::find_one(std::span<const Point> points, const Box& box,
+bool AutomaticLimit::find_one(std::span<const Point> points, const Box& box, ThreadPool& pool,
                               const AutomaticConstants& constants) {
-  if (!windows_.look(points, box, constants.noise)) return false;
+  if (!windows_.look(points, box, constants.noise, pool)) return false;
   std::vector<double> sizes;
   std::vector<double> logs;
   std::size_t begin = 0;

@@ -86,7 +86,8 @@ class AutomaticLimit {
   /// Looks for one usual size for all places in a few windows. Returns false where the density differs from
   /// place to place by more than chance explains, or points are too few for windows. `box` is that of
   /// `points`, whose order does not matter. O(n).
-  bool find_one(std::span<const Point> points, const Box& box, const AutomaticConstants& constants = {});
+  bool find_one(std::span<const Point> points, const Box& box, ThreadPool& pool,
+                const AutomaticConstants& constants = {});
   /// After find_one() said yes: the circumradius from which on a triangle is wide. choose_one() and the field
   /// need no others than these and what a field drops.
   double wide_radius() const { return wide_radius_; }

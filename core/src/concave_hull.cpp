@@ -94,7 +94,7 @@ bool Extractor::State::extract_part(std::span<const Point> given, const detail::
     if (given.size() < detail::WindowSample::kLeastPoints) statistics.way = Way::kFewPoints;
     if (range.scale_exponent != 0) statistics.way = Way::kExtremeCoordinates;
     if (statistics.way != Way::kWhole) return false;
-    has_one_size = automatic_limit.find_one(given, range.box);
+    has_one_size = automatic_limit.find_one(given, range.box, pool);
     if (!*has_one_size) return false;
     const double how_fine = given_options.detail;
     const double radius = automatic_limit.wide_radius() / std::max(how_fine, 1.0);

@@ -75,7 +75,8 @@ std::optional<Way> InteriorPart::choose(std::span<const Point> points, const Coo
   if (share_of_uncertain(points) > guard.most_uncertain) return Way::kMuchOutline;
   find_uncertain_cells(pool);
   if (share_of_part(points) > guard.most_triangulated) return Way::kMuchOutline;
-  if (pairs_matter && close_pairs_.may_exist(points, grid_, cells_.data(), shared(), kTooClose * radius)) {
+  if (pairs_matter &&
+      close_pairs_.may_exist(points, grid_, cells_.data(), shared(), kTooClose * radius, pool)) {
     return Way::kClosePoints;
   }
   find_uncertain_points(points, pool);
@@ -120,15 +121,19 @@ void InteriorPart::fill_cells(std::span<const Point> points, bool with_shared, T
       occupied.set(cells[i]);
     }
   });
-  for (std::size_t part = 1; part < parts; ++part) {
-    for (std::size_t w = 0; w < words; ++w) {
-      const Bitmap::Word more = fills_[part].occupied.words()[w];
-      if (with_shared) {
-        shared().words()[w] |= fills_[part].shared.words()[w] | (occupied().words()[w] & more);
+  if (parts == 1) return;
+  const Chunks chunks(pool, words);
+  pool.for_each(chunks.size(), [&](std::size_t c) {
+    for (std::size_t part = 1; part < parts; ++part) {
+      for (std::size_t w = chunks.begin(c); w < chunks.end(c); ++w) {
+        const Bitmap::Word more = fills_[part].occupied.words()[w];
+        if (with_shared) {
+          shared().words()[w] |= fills_[part].shared.words()[w] | (occupied().words()[w] & more);
+        }
+        occupied().words()[w] |= more;
       }
-      occupied().words()[w] |= more;
     }
-  }
+  });
 }
 
 /// Of the points, as far as some tell.

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <bit>
 #include <cstdlib>
+#include <utility>
 
 #include "polylidar/delaunay.hpp"
 
@@ -41,10 +42,34 @@ void Bitmap::clear(std::size_t words) {
   std::fill_n(words_, words, Word{0});
 }
 
+/// Of points [begin, end).
+void ClosePairs::look_at(std::span<const Point> points, std::size_t begin, std::size_t end, const Grid& grid,
+                         const std::uint32_t* cells, const Bitmap& shared, Chunk& chunk) const {
+  chunk.in_shared.clear();
+  chunk.on_borders.clear();
+  for (std::size_t i = begin; i < end; ++i) {
+    const auto p = static_cast<std::uint32_t>(i);
+    const std::int64_t x = fine(grid.column(points[p]));
+    const std::int64_t y = fine(grid.row(points[p]));
+    if (is_on_border(x) || is_on_border(y)) chunk.on_borders.push_back(p);
+    if (shared.test(cells[p])) chunk.in_shared.push_back({p, kNone, rough(x), rough(y)});
+  }
+}
+
 bool ClosePairs::may_exist(std::span<const Point> points, const Grid& grid, const std::uint32_t* cells,
-                           const Bitmap& shared, double distance) {
+                           const Bitmap& shared, double distance, ThreadPool& pool) {
   constexpr std::size_t kMostInACell = 32;
   constexpr std::size_t kMostOnBorders = 8;
+  const Chunks chunks(pool, points.size());
+  chunks_.resize(std::max(chunks_.size(), chunks.size()));
+  pool.for_each(chunks.size(), [&](std::size_t c) {
+    look_at(points, chunks.begin(c), chunks.end(c), grid, cells, shared, chunks_[c]);
+  });
+  const std::span<const Chunk> looked_at(chunks_.data(), chunks.size());
+  std::size_t on_borders = 0;
+  for (const Chunk& chunk : looked_at) on_borders += chunk.on_borders.size();
+  if (on_borders > kMostOnBorders) return true;
+
   rank_.resize(grid.word_count());
   std::uint32_t cell_count = 0;
   for (std::size_t w = 0; w < rank_.size(); ++w) {
@@ -53,37 +78,31 @@ bool ClosePairs::may_exist(std::span<const Point> points, const Grid& grid, cons
   }
   last_.assign(cell_count, kNone);
   links_.clear();
-  on_borders_.clear();
-
-  const auto count = static_cast<std::uint32_t>(points.size());
-  for (std::uint32_t p = 0; p < count; ++p) {
-    const std::int64_t x = fine(grid.column(points[p]));
-    const std::int64_t y = fine(grid.row(points[p]));
-    if (is_on_border(x) || is_on_border(y)) on_borders_.push_back(p);
-    const Grid::Cell cell = cells[p];
-    const Grid::Cell word = cell / Grid::kWordBits;
-    const Bitmap::Word bit = Bitmap::Word{1} << (cell % Grid::kWordBits);
-    if ((shared.words()[word] & bit) == 0) continue;
-    std::uint32_t& last =
-        last_[rank_[word] + static_cast<std::uint32_t>(std::popcount(shared.words()[word] & (bit - 1)))];
-    std::size_t in_cell = 0;
-    bool is_new = true;
-    const Link own{p, last, rough(x), rough(y)};
-    for (std::uint32_t l = last; l != kNone && is_new; l = links_[l].before) {
-      const Link& link = links_[l];
-      if (++in_cell == kMostInACell) return true;
-      if (std::abs(link.x - own.x) > 1 || std::abs(link.y - own.y) > 1) continue;
-      if (are_close(points[p], points[link.point], distance)) return true;
-      is_new = points[p] != points[link.point];
+  for (const Chunk& chunk : looked_at) {
+    for (Link own : chunk.in_shared) {
+      const Grid::Cell word = cells[own.point] / Grid::kWordBits;
+      const Bitmap::Word below = (Bitmap::Word{1} << (cells[own.point] % Grid::kWordBits)) - 1;
+      std::uint32_t& last =
+          last_[rank_[word] + static_cast<std::uint32_t>(std::popcount(shared.words()[word] & below))];
+      std::size_t in_cell = 0;
+      bool is_new = true;
+      for (std::uint32_t l = last; l != kNone && is_new; l = links_[l].before) {
+        const Link& link = links_[l];
+        if (++in_cell == kMostInACell) return true;
+        if (std::abs(link.x - own.x) > 1 || std::abs(link.y - own.y) > 1) continue;
+        if (are_close(points[own.point], points[link.point], distance)) return true;
+        is_new = points[own.point] != points[link.point];
+      }
+      if (!is_new) continue;
+      own.before = std::exchange(last, static_cast<std::uint32_t>(links_.size()));
+      links_.push_back(own);
     }
-    if (!is_new) continue;
-    links_.push_back(own);
-    last = static_cast<std::uint32_t>(links_.size() - 1);
   }
-  if (on_borders_.size() > kMostOnBorders) return true;
-  return std::any_of(on_borders_.begin(), on_borders_.end(), [&](std::uint32_t p) {
-    return std::any_of(points.begin(), points.end(),
-                       [&](const Point& other) { return are_close(points[p], other, distance); });
+  return std::any_of(looked_at.begin(), looked_at.end(), [&](const Chunk& chunk) {
+    return std::any_of(chunk.on_borders.begin(), chunk.on_borders.end(), [&](std::uint32_t p) {
+      return std::any_of(points.begin(), points.end(),
+                         [&](const Point& other) { return are_close(points[p], other, distance); });
+    });
   });
 }
 

@@ -9,6 +9,7 @@
 
 #include "polylidar/geometry.hpp"
 #include "scratch.hpp"
+#include "thread_pool.hpp"
 
 namespace polylidar::detail {
 
@@ -117,7 +118,7 @@ class Bitmap {
 class ClosePairs {
  public:
   bool may_exist(std::span<const Point> points, const Grid& grid, const std::uint32_t* cells,
-                 const Bitmap& shared, double distance);
+                 const Bitmap& shared, double distance, ThreadPool& pool);
 
  private:
   /// A point in a shared cell, and the one before it in the same cell.
@@ -127,12 +128,20 @@ class ClosePairs {
     std::uint16_t x;       ///< where in the cell, in 2^-16 of its side
     std::uint16_t y;
   };
+  /// What has to be looked at of a chunk of the points.
+  struct Chunk {
+    std::vector<Link> in_shared;  ///< points in shared cells, not linked yet
+    std::vector<std::uint32_t>
+        on_borders;  ///< points so near a cell's border that a close one may be beyond it
+  };
 
+  void look_at(std::span<const Point> points, std::size_t begin, std::size_t end, const Grid& grid,
+               const std::uint32_t* cells, const Bitmap& shared, Chunk& chunk) const;
+
+  std::vector<Chunk> chunks_;
   std::vector<std::uint32_t> rank_;  ///< word -> how many cells are shared before it
   std::vector<std::uint32_t> last_;  ///< shared cell -> the last of its points so far in links_, or kNone
   std::vector<Link> links_;          ///< different points in shared cells
-  std::vector<std::uint32_t>
-      on_borders_;  ///< points so near a cell's border that a close one may be beyond it
 };
 
 }  // namespace polylidar::detail

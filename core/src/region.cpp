@@ -101,7 +101,8 @@ std::optional<Way> RegionFilter::run_on_part(Mesh& mesh, const Point* vertices, 
                                              bool fill_single, ThreadPool& pool,
                                              std::vector<Index>& boundary) {
   std::uint64_t* kept = mesh.reserve_kept();
-  const std::optional<Way> doubt = size_filter_.run_on_part(mesh, vertices, is_tested, field, is_sure, kept);
+  const std::optional<Way> doubt =
+      size_filter_.run_on_part(mesh, vertices, is_tested, field, is_sure, pool, kept);
   if (!doubt) find_boundary(mesh, fill_single, pool, kept, boundary);
   return doubt;
 }

@@ -1,6 +1,7 @@
 #include "size_filter.hpp"
 
 #include <algorithm>
+#include <atomic>
 #include <bit>
 #include <cmath>
 #include <limits>
@@ -142,27 +143,37 @@ void SizeFilter::run(const Mesh& mesh, const Point* vertices, const SizeField& f
 
 std::optional<Way> SizeFilter::run_on_part(const Mesh& mesh, const Point* vertices,
                                            const std::uint8_t* is_tested, const SizeField& field,
-                                           const IsSure& is_sure, std::uint64_t* kept) {
+                                           const IsSure& is_sure, ThreadPool& pool, std::uint64_t* kept) {
   SeenTriangles hidden(mesh, hidden_);
   const Part part{mesh, vertices, is_tested, field, is_sure, hidden};
   const OneSizeRule rule(field.limit4.front());
   doubt_.reset();
-  group_.clear();  // ghosts and dropped triangles with a tested corner, and all that hang together with them
-  fill_words(mesh, 0, mesh.word_count(), kept, [&](Index t) {
-    if (mesh.is_ghost(t)) {
-      if (!mesh.is_unused(t)) group_.push_back(t);
-      return false;
-    }
-    const Answer answer = part.ask(rule, t);
-    const bool has_tested = has_marked_corner(mesh, t, is_tested);
-    if (answer != Answer::kYes && !has_tested) {
-      if (is_sure(Triangle(mesh, vertices, t))) hidden.add(t);
-    } else if (answer != Answer::kYes) {
-      group_.push_back(t);
-    }
-    if (answer == Answer::kRoundingDecides && part.is_sure(t)) doubt_ = Way::kRoundingDecides;
-    return answer == Answer::kYes || !has_tested;
+  const Chunks chunks(pool, mesh.triangle_count());
+  clear_found(chunks);
+  std::atomic<bool> agree = true;
+  for_each_word_chunk(mesh, chunks, pool, [&](std::size_t c, std::size_t begin, std::size_t end) {
+    std::vector<Index>& dropped = found_of_chunk_[c];
+    fill_words(mesh, begin, end, kept, [&](Index t) {
+      if (mesh.is_ghost(t)) {
+        if (!mesh.is_unused(t)) dropped.push_back(t);
+        return false;
+      }
+      const Answer answer = part.ask(rule, t);
+      const bool has_tested = has_marked_corner(mesh, t, is_tested);
+      if (answer != Answer::kYes && !has_tested) {
+        if (is_sure(Triangle(mesh, vertices, t))) hidden.add(t);
+      } else if (answer != Answer::kYes) {
+        dropped.push_back(t);
+      }
+      if (answer == Answer::kRoundingDecides && part.is_sure(t)) agree = false;
+      return answer == Answer::kYes || !has_tested;
+    });
   });
+  if (!agree) return Way::kRoundingDecides;
+  group_.clear();  // ghosts and dropped triangles with a tested corner, and all that hang together with them
+  for (const std::vector<Index>& dropped : found_of_chunk_) {
+    group_.insert(group_.end(), dropped.begin(), dropped.end());
+  }
   // Before spikes are dropped.
   const auto is_dropped = [&](Index t) { return !mesh.is_kept(t) || hidden.contain(t); };
   SeenTriangles seen(mesh, seen_);
@@ -204,11 +215,15 @@ std::optional<Way> SizeFilter::run_on_part(const Mesh& mesh, const Point* vertic
   return doubt_;
 }
 
+void SizeFilter::clear_found(const Chunks& chunks) {
+  found_of_chunk_.resize(std::max(found_of_chunk_.size(), chunks.size()));
+  for (std::vector<Index>& found : found_of_chunk_) found.clear();
+}
+
 void SizeFilter::drop_spikes(const Mesh& mesh, const Point* vertices, const SizeField& field,
                              ThreadPool& pool, std::uint64_t* kept) {
   const Chunks chunks(pool, mesh.triangle_count());
-  spikes_of_chunk_.resize(std::max(spikes_of_chunk_.size(), chunks.size()));
-  for (std::vector<Index>& spikes : spikes_of_chunk_) spikes.clear();
+  clear_found(chunks);
   for_each_word_chunk(mesh, chunks, pool, [&](std::size_t c, std::size_t begin, std::size_t end) {
     for_each_dropped(mesh, begin, end, kept, [&](Index t) {
       for (Index k = 0; k < 3; ++k) {
@@ -217,13 +232,13 @@ void SizeFilter::drop_spikes(const Mesh& mesh, const Point* vertices, const Size
             stands_out(mesh, vertices, other,
                        [&](Index j) { return !mesh.is_kept(neighbour(mesh, other, j)); }) &&
             !NoSpikeRule(field, other).keeps(Triangle(mesh, vertices, other))) {
-          spikes_of_chunk_[c].push_back(other);
+          found_of_chunk_[c].push_back(other);
         }
       }
     });
   });
   // Not before all threads have read which triangles are kept.
-  for (const std::vector<Index>& spikes : spikes_of_chunk_) {
+  for (const std::vector<Index>& spikes : found_of_chunk_) {
     for (const Index t : spikes) drop(kept, t);
   }
 }

@@ -42,11 +42,13 @@ class SizeFilter {
   /// that have one. Returns why not where that cannot be told from the triangles that `is_sure` of, or
   /// rounding decides; then nothing that came out of it is to be used.
   std::optional<Way> run_on_part(const Mesh& mesh, const Point* vertices, const std::uint8_t* is_tested,
-                                 const SizeField& field, const IsSure& is_sure, std::uint64_t* kept);
+                                 const SizeField& field, const IsSure& is_sure, ThreadPool& pool,
+                                 std::uint64_t* kept);
 
  private:
   struct Part;
 
+  void clear_found(const Chunks& chunks);
   void drop_spikes(const Mesh& mesh, const Point* vertices, const SizeField& field, ThreadPool& pool,
                    std::uint64_t* kept);
   template <class Whole>
@@ -55,9 +57,9 @@ class SizeFilter {
   void fill_small_holes(const Mesh& mesh, const Point* vertices, const Whole& whole, const SizeField& field,
                         std::uint64_t* kept);
 
-  std::vector<std::vector<Index>> spikes_of_chunk_;
-  std::vector<Index> changed_;     ///< triangles to be kept or dropped
-  Scratch<std::uint64_t> seen_;    ///< as Mesh's words of kept triangles
+  std::vector<std::vector<Index>> found_of_chunk_;  ///< triangles, by the chunk of the mesh that they are in
+  std::vector<Index> changed_;                      ///< triangles to be kept or dropped
+  Scratch<std::uint64_t> seen_;                     ///< as Mesh's words of kept triangles
   Scratch<std::uint64_t> hidden_;  ///< the same: dropped by size, but counted as kept unless they are reached
   std::optional<Way> doubt_;       ///< why a part is not enough
   std::vector<Index> group_;       ///< triangles that hang together

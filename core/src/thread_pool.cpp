@@ -4,6 +4,23 @@
 
 namespace polylidar::detail {
 
+namespace {
+
+/// Waits until `value` is no longer `old`. The steps of a pipeline follow one another within microseconds,
+/// and waking a thread that sleeps takes tens of them: so for as long as that the processor is only offered
+/// to others.
+template <class T>
+void wait_while(const std::atomic<T>& value, T old) {
+  constexpr int kOffers = 128;
+  for (int i = 0; i < kOffers; ++i) {
+    if (value.load(std::memory_order_acquire) != old) return;
+    std::this_thread::yield();
+  }
+  value.wait(old, std::memory_order_acquire);
+}
+
+}  // namespace
+
 void ThreadPool::use(unsigned threads) {
   if (threads > 1 && started_.size() + 1 != threads) {
     stop();
@@ -21,7 +38,7 @@ void ThreadPool::run(const Job& job) {
   jobs_given_.notify_all();
   work();
   for (std::uint32_t left = 0; (left = still_working_.load(std::memory_order_acquire)) != 0;) {
-    still_working_.wait(left, std::memory_order_acquire);
+    wait_while(still_working_, left);
   }
   if (error_) std::rethrow_exception(std::exchange(error_, nullptr));
 }
@@ -41,7 +58,7 @@ void ThreadPool::work() {
 /// The life of a started thread.
 void ThreadPool::serve() {
   for (std::uint32_t seen = 0;; ++seen) {
-    jobs_given_.wait(seen, std::memory_order_acquire);
+    wait_while(jobs_given_, seen);
     if (job_.call == nullptr) return;
     work();
     if (still_working_.fetch_sub(1, std::memory_order_acq_rel) == 1) still_working_.notify_one();

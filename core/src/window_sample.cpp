@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <functional>
 
 #include "filter_rules.hpp"
 #include "quantile.hpp"
@@ -30,8 +31,11 @@ constexpr double kMostPointsOfUsual = 2;
 
 }  // namespace
 
-bool WindowSample::look(std::span<const Point> points, const Box& box, double most_spread) {
-  if (points.size() < kLeastPoints || !count_cells(points, box)) return false;
+bool WindowSample::look(std::span<const Point> points, const Box& box, double most_spread, ThreadPool& pool) {
+  // Each share counts in cells of its own: of many threads not all take part.
+  constexpr std::size_t kMostShares = 8;
+  shares_.resize(std::min<std::size_t>(pool.threads(), kMostShares));
+  if (points.size() < kLeastPoints || !count_cells(points, box, pool)) return false;
   const double in_cell = usual_count(points.size(), most_spread);
   if (in_cell == 0) return false;
   const double spacing = 1 / (cells_per_length_ * std::sqrt(in_cell));
@@ -40,15 +44,20 @@ bool WindowSample::look(std::span<const Point> points, const Box& box, double mo
   place_windows(points.size(), windows, half_side);
   const double usual = 4 * half_side * half_side / (spacing * spacing);
   const auto most = static_cast<std::size_t>(kMostPointsOfUsual * static_cast<double>(windows) * usual);
-  const std::size_t gathered = gather(points, half_side, most);
+  const std::size_t gathered = gather(points, half_side, most, pool);
   if (gathered > most) return false;
 
   margin_ = kMargin * spacing;
+  pool.for_each(shares_.size(), [&](std::size_t s) {
+    for (std::size_t w = s; w < windows; w += shares_.size()) {
+      measure(windows_[w], kHalfInner * spacing, shares_[s]);
+    }
+  });
   window_ends_.clear();
   triangles_.clear();
   std::size_t distinct = 0;
-  for (Window& window : windows_) {
-    measure(window, kHalfInner * spacing);
+  for (const Window& window : windows_) {
+    triangles_.insert(triangles_.end(), window.triangles.begin(), window.triangles.end());
     window_ends_.push_back(triangles_.size());
     distinct += window.points.size();
   }
@@ -57,7 +66,7 @@ bool WindowSample::look(std::span<const Point> points, const Box& box, double mo
 }
 
 /// Counts the points in square cells. Returns false where the box is too narrow for them.
-bool WindowSample::count_cells(std::span<const Point> points, const Box& box) {
+bool WindowSample::count_cells(std::span<const Point> points, const Box& box, ThreadPool& pool) {
   const double width = box.max.x - box.min.x;
   const double height = box.max.y - box.min.y;
   const double cells = std::min(kMostCells, static_cast<double>(points.size()) / kPointsInCell);
@@ -68,7 +77,14 @@ bool WindowSample::count_cells(std::span<const Point> points, const Box& box) {
   columns_ = column(box.max.x) + 1;
   rows_ = row(box.max.y) + 1;
   counts_.assign(std::size_t{columns_} * rows_, 0);
-  for (const Point& p : points) ++counts_[row(p.y) * columns_ + column(p.x)];
+  pool.for_each(shares_.size(), [&](std::size_t s) {
+    std::vector<std::uint32_t>& counts = s == 0 ? counts_ : shares_[s].counts;
+    if (s > 0) counts.assign(counts_.size(), 0);
+    for (const Point& p : share_of(points, s)) ++counts[row(p.y) * columns_ + column(p.x)];
+  });
+  for (std::size_t s = 1; s < shares_.size(); ++s) {
+    std::transform(counts_.begin(), counts_.end(), shares_[s].counts.begin(), counts_.begin(), std::plus<>());
+  }
   return true;
 }
 
@@ -128,32 +144,43 @@ void WindowSample::place_windows(std::size_t points, std::size_t windows, double
 }
 
 /// Returns how many points were put into windows; ends where that is more than `most`.
-std::size_t WindowSample::gather(std::span<const Point> points, double half_side, std::size_t most) {
-  std::size_t gathered = 0;
-  for (const Point& p : points) {
-    std::uint64_t windows = windows_of_cell_[row(p.y) * columns_ + column(p.x)];
-    for (; windows != 0; windows &= windows - 1) {
-      Window& window = windows_[static_cast<std::size_t>(std::countr_zero(windows))];
-      if (std::abs(p.x - window.centre.x) > half_side || std::abs(p.y - window.centre.y) > half_side)
-        continue;
-      window.points.push_back(p);
-      if (++gathered > most) return gathered;
+std::size_t WindowSample::gather(std::span<const Point> points, double half_side, std::size_t most,
+                                 ThreadPool& pool) {
+  pool.for_each(shares_.size(), [&](std::size_t s) {
+    auto& gathered = shares_[s].gathered;
+    gathered.clear();
+    for (const Point& p : share_of(points, s)) {
+      std::uint64_t windows = windows_of_cell_[row(p.y) * columns_ + column(p.x)];
+      for (; windows != 0; windows &= windows - 1) {
+        const auto w = static_cast<std::uint32_t>(std::countr_zero(windows));
+        const Point& centre = windows_[w].centre;
+        if (std::abs(p.x - centre.x) > half_side || std::abs(p.y - centre.y) > half_side) continue;
+        gathered.emplace_back(w, p);
+        if (gathered.size() > most) return;
+      }
     }
+  });
+  std::size_t count = 0;
+  for (const Share& share : shares_) {
+    count += share.gathered.size();
+    if (count > most) break;
+    for (const auto& [window, point] : share.gathered) windows_[window].points.push_back(point);
   }
-  return gathered;
+  return count;
 }
 
-/// Appends the window's triangles, and leaves in it the points that are no repeats.
-void WindowSample::measure(Window& window, double half_inner) {
+/// Finds the window's triangles, and leaves in it the points that are no repeats.
+void WindowSample::measure(Window& window, double half_inner, Share& share) {
   std::vector<Point>& points = window.points;
   std::sort(points.begin(), points.end(), less_by_x);  // the order of the caller's points must not matter
   points.erase(std::unique(points.begin(), points.end()), points.end());
+  window.triangles.clear();
   if (points.size() < 3) return;
-  builder_.build(points, this_thread_);
-  const Mesh& mesh = builder_.mesh();
+  share.builder.build(points, share.this_thread);
+  const Mesh& mesh = share.builder.mesh();
   for (Mesh::Index t = 0; t < mesh.triangle_count(); ++t) {
     if (mesh.is_ghost(t)) continue;
-    const Triangle triangle(mesh, builder_.vertices(), t);
+    const Triangle triangle(mesh, share.builder.vertices(), t);
     // The circumcentre from corner a.
     const Vector b = triangle.b - triangle.a;
     const Vector c = triangle.c - triangle.a;
@@ -163,7 +190,7 @@ void WindowSample::measure(Window& window, double half_inner) {
     const double x = std::abs(triangle.a.x + centre.x - window.centre.x);
     const double y = std::abs(triangle.a.y + centre.y - window.centre.y);
     if (!(std::max(x, y) <= half_inner)) continue;
-    triangles_.push_back({triangle.size4(), triangle.twice_area(), squared_length(centre)});
+    window.triangles.push_back({triangle.size4(), triangle.twice_area(), squared_length(centre)});
   }
 }
 

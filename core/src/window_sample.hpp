@@ -3,7 +3,9 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <deque>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "delaunay_builder.hpp"
@@ -32,8 +34,9 @@ class WindowSample {
   /// Looks at `points`, whose box is `box`. Returns false where their density differs from place to place by
   /// more than `most_spread` (standard deviation of the logarithm of the spacing) and chance: then there is
   /// nothing to look at; nor is there of fewer than kLeastPoints, or of few whose outline is long. The same
-  /// for any order of the points, and for other places and units but for rounding. O(n), a pass or two.
-  bool look(std::span<const Point> points, const Box& box, double most_spread);
+  /// for any order of the points, any number of threads, and for other places and units but for rounding.
+  /// O(n), a pass or two.
+  bool look(std::span<const Point> points, const Box& box, double most_spread, ThreadPool& pool);
 
   /// After look() said yes: window -> one past its last triangle in triangles(). Of some windows there may be
   /// few, or none.
@@ -48,13 +51,25 @@ class WindowSample {
   struct Window {
     Point centre;
     std::vector<Point> points;
+    std::vector<Measured> triangles;
+  };
+  /// What one thread needs.
+  struct Share {
+    std::vector<std::uint32_t> counts;                      ///< as counts_, of a part of the points
+    std::vector<std::pair<std::uint32_t, Point>> gathered;  ///< window and point
+    DelaunayBuilder builder;
+    ThreadPool this_thread;
   };
 
-  bool count_cells(std::span<const Point> points, const Box& box);
+  bool count_cells(std::span<const Point> points, const Box& box, ThreadPool& pool);
   double usual_count(std::size_t points, double most_spread);
   void place_windows(std::size_t points, std::size_t windows, double half_side);
-  std::size_t gather(std::span<const Point> points, double half_side, std::size_t most);
-  void measure(Window& window, double half_inner);
+  std::size_t gather(std::span<const Point> points, double half_side, std::size_t most, ThreadPool& pool);
+  static void measure(Window& window, double half_inner, Share& share);
+  std::span<const Point> share_of(std::span<const Point> points, std::size_t share) const {
+    const std::size_t begin = points.size() * share / shares_.size();
+    return points.subspan(begin, points.size() * (share + 1) / shares_.size() - begin);
+  }
 
   std::uint32_t column(double x) const {
     return static_cast<std::uint32_t>((x - minimum_.x) * cells_per_length_);
@@ -71,8 +86,7 @@ class WindowSample {
   std::vector<std::uint64_t> windows_of_cell_;  ///< cell -> bit w: window w reaches it
   std::vector<Window> windows_;
   std::vector<double> scratch_;
-  DelaunayBuilder builder_;
-  ThreadPool this_thread_;
+  std::deque<Share> shares_;
   std::vector<std::size_t> window_ends_;
   std::vector<Measured> triangles_;
   double margin_ = 0;
