@@ -9,6 +9,7 @@ hullbench_test(test_concave_hull SOURCES test_concave_hull.cpp LIBRARIES hullben
 hullbench_test(test_automatic_limit SOURCES test_automatic_limit.cpp LIBRARIES hullbench_test_support LABELS core)
 hullbench_test(test_interior SOURCES test_interior.cpp LIBRARIES hullbench_test_support LABELS core)
 hullbench_test(test_certificate SOURCES test_certificate.cpp LIBRARIES hullbench_test_support LABELS core)
+hullbench_test(test_outline_fill SOURCES test_outline_fill.cpp LIBRARIES hullbench_test_support LABELS core)
 hullbench_test(test_window_sample SOURCES test_window_sample.cpp LIBRARIES hullbench_test_support LABELS core)
 hullbench_test(test_quantile SOURCES test_quantile.cpp LIBRARIES hullbench_test_support LABELS core)
 hullbench_test(test_stream SOURCES test_stream.cpp LIBRARIES hullbench_test_support LABELS core)

@@ -112,6 +112,21 @@ MultiPolygon from_geojson(const json& coordinates) {
   return shape;
 }
 
+TEST_F(HullCommandTest, OfOutlinesSaysThatTheyAreFilled) {
+  points_.clear();
+  constexpr int kCount = 500;
+  for (int i = 0; i < kCount; ++i) {
+    const double angle = 2 * 3.14159265 * i / kCount;
+    points_.push_back({std::cos(angle) + 0.001 * (i % 3), std::sin(angle)});
+  }
+  const Outcome outcome = hull({points_file()});
+  EXPECT_EQ(outcome.code, 0);
+  EXPECT_NE(outcome.err.find("the points lie on outlines only"), std::string::npos) << outcome.err;
+  const json properties = json::parse(outcome.out)["properties"];
+  EXPECT_FALSE(properties.contains("least_size"));
+  EXPECT_NEAR(properties["area"].get<double>(), 3.14, 0.05);
+}
+
 TEST_F(HullCommandTest, TheCoresPolygonsInEveryFormat) {
   const MultiPolygon right = expected(0.3);
   ASSERT_EQ(right.size(), 2U);

@@ -170,9 +170,10 @@ TEST(LimitFit, EveryPartOfTheRuleCanBeTakenOut) {
     for (const char* sampling : {"~gradient:16~outliers:3", "~noise:0.5", "~clusters:8"})
       names.push_back({std::string(shape) + sampling, false, 2000});
   }
+  names.push_back({"county-1~outline:0.1", false, 2000});
   auto cases = tune::make_limit_cases(names, {});
   const auto ablations = tune::limit_ablations();
-  ASSERT_EQ(ablations.size(), 8U);
+  ASSERT_EQ(ablations.size(), 9U);
   const std::vector<double> whole = tune::limit_errors(cases, {}, {});
   EXPECT_EQ(tune::limit_errors(cases, ablations[0].constants, {}), whole);
   for (std::size_t k = 1; k < ablations.size(); ++k)

@@ -377,6 +377,53 @@ void AutomaticLimit::choose_by_blocks(const DelaunayBuilder& builder, double det
   sample(mesh, vertices);
   if (!samples_.empty()) sum_up_areas();
   set_field(points, detail, constants);
+  look_for_outlines(mesh, vertices, points, detail, constants);
+}
+
+/// Whether points may lie on outlines only, as far as some triangles tell.
+void AutomaticLimit::look_for_outlines(const Mesh& mesh, const Point* vertices, double points, double detail,
+                                       const AutomaticConstants& constants) {
+  constexpr double kFewest = 256;                    // of fewer points, those of a thin shape lie as these do
+  constexpr double kFlat = 0.17;                     // height over base; of points at random half have 0.4
+  constexpr double kLeastShare = 0.06;               // of triangles that span from one outline to another
+  constexpr double kMedianGap = 0.6931471805599453;  // log 2, of the mean
+  if (points < kFewest) return;
+  const auto for_some = [&](std::size_t number, const auto& visit) {
+    for (std::size_t i = 0; i < mesh.triangle_count(); i += (mesh.triangle_count() / number) | 1U) {
+      const auto t = static_cast<Mesh::Index>(i);
+      if (!mesh.is_ghost(t)) visit(Triangle(mesh, vertices, t));
+    }
+  };
+  std::size_t looked_at = 0;
+  std::size_t flat = 0;
+  for_some(256, [&](const Triangle& triangle) {
+    ++looked_at;
+    flat += triangle.twice_area() <= kFlat * triangle.squared_longest_edge() ? 1U : 0U;
+  });
+  if (looked_at == 0 || 2 * flat < looked_at) return;
+
+  std::vector<double>& shortest = scratch_;  // squares of edges
+  std::vector<double> second;
+  shortest.clear();
+  for_some(2048, [&](const Triangle& triangle) {
+    std::array<double, 3> edges{triangle.squared_ab(), triangle.squared_bc(), triangle.squared_ca()};
+    std::sort(edges.begin(), edges.end());
+    shortest.push_back(edges[0]);
+    second.push_back(edges[1]);
+  });
+  const double steps = (std::log(points) + constants.step) / kMedianGap;
+  const double squared_step = quantile_of(shortest, 0.5) * steps * steps;
+  const auto longer =
+      std::count_if(second.begin(), second.end(), [&](double edge) { return edge > squared_step; });
+  if (static_cast<double>(longer) < kLeastShare * static_cast<double>(second.size())) return;
+  double twice_area = 0;
+  for (Mesh::Index t = 0; t < mesh.triangle_count(); ++t) {
+    if (mesh.is_ghost(t)) continue;
+    const double size4 = size4_of(mesh, vertices, t) / usual4_[field_.block_of_vertex[t / 2]];
+    if (size4 <= steadiest4_) twice_area += Triangle(mesh, vertices, t).twice_area();
+  }
+  field_.outlines =
+      OutlineSteps{squared_step, squared_step * std::max(1.0, 1 / (detail * detail)), twice_area};
 }
 
 bool AutomaticLimit::find_one(std::span<const Point> points, const Box& box, ThreadPool& pool,
@@ -467,8 +514,9 @@ void AutomaticLimit::set_field(double points, double detail, const AutomaticCons
   field_.least_part = 0;
   field_.least_hole = 0;
   field_.wide_radius = 0;
+  field_.outlines.reset();
   if (samples_.empty()) return;  // no triangle
-  const double limit4 = steadiest_size4(constants);
+  const double limit4 = steadiest4_ = steadiest_size4(constants);
   field_.spike_share = fourth_power(constants.spike) / limit4;
   field_.least_part = static_cast<std::size_t>(constants.part * std::log(points));
   field_.least_hole = 2 * least_in_hole(points, constants) / (kPointsPerSquare * detail * detail);

@@ -36,6 +36,7 @@ struct AutomaticConstants {
   double spike = 1.57;    ///< the size from which a triangle on two border edges may be a spike
   double part = 2.4;      ///< a part has at least so many times log n triangles
   double hole = 4;        ///< a hole's place would have at least log n and so many points
+  double step = 3;        ///< neighbours on an outline are at most log n and so many mean distances apart
 };
 
 /// Chooses the limit from the triangulation, keeping its memory between calls.
@@ -61,6 +62,12 @@ struct AutomaticConstants {
 ///   s = argmin  log(g(s) + still) + pull log^2(s / usual),   g = d log A / d log s,
 ///
 /// on a grid of 16 sizes to the octave, g as a difference over `below` + `above` cells. `detail` divides s.
+///
+/// **Outlines.** Where points lie on curves only, most triangles have an edge that is far longer than the
+/// distance of neighbours on a curve. Gaps between n points at random on a line are exponential: half of them
+/// are longer than log 2 of their mean, and the largest is about log n of them, and in one set of 20 more
+/// than log n + 3. Where many triangles have two edges longer than log n + `step`, OutlineFill is asked what
+/// the curves enclose.
 ///
 /// **What chance leaves.** Spikes, parts and holes that are too small go (SizeField). Parts and holes are
 /// measured against log n, since the largest void and the largest cluster that chance makes grow with it.
@@ -155,6 +162,8 @@ class AutomaticLimit {
   void add_wide_areas(const Mesh& mesh, const Point* vertices, const std::uint8_t* is_tested,
                       ThreadPool& pool);
   double steadiest_size4(const AutomaticConstants& constants) const;
+  void look_for_outlines(const Mesh& mesh, const Point* vertices, double points, double detail,
+                         const AutomaticConstants& constants);
   void set_field(double points, double detail, const AutomaticConstants& constants);
 
   WindowSample windows_;
@@ -171,6 +180,7 @@ class AutomaticLimit {
   std::vector<BlockScratch> scratch_of_chunk_;
   std::vector<std::vector<Border>> borders_of_chunk_;
   std::vector<Sampled> samples_;
+  double steadiest4_ = 0;                  ///< the limit at a detail of 1, in usual sizes
   double unit4_ = 0;                       ///< fourth power of the unit of the grid of limits
   std::array<double, kCells + 1> area_{};  ///< cell of that grid -> area of the triangles of its sizes
   // Of find_one():

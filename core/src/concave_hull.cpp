@@ -148,14 +148,15 @@ void Extractor::State::choose_sizes(double detail) {
 /// The triangulation is that of all points.
 void Extractor::State::find_regions(const Options& given_options) {
   chosen_sizes.reset();
+  statistics.by_outlines = false;
   if (is_any_limit_given(given_options)) {
     filter.run(builder.mesh(), builder.vertices(),
                detail::filter_rules(scaled(limits, builder.scale_exponent())), is_filled(given_options), pool,
                boundary);
   } else {
     choose_sizes(given_options.detail);
-    filter.run(builder.mesh(), builder.vertices(), automatic_limit.field(), is_filled(given_options), pool,
-               boundary);
+    statistics.by_outlines = filter.run(builder.mesh(), builder.vertices(), automatic_limit.field(),
+                                        is_filled(given_options), pool, boundary);
   }
 }
 

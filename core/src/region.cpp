@@ -89,11 +89,13 @@ std::optional<Way> RegionFilter::run_on_part(Mesh& mesh, const Point* vertices, 
   return std::nullopt;
 }
 
-void RegionFilter::run(Mesh& mesh, const Point* vertices, const SizeField& field, bool fill_single,
+bool RegionFilter::run(Mesh& mesh, const Point* vertices, const SizeField& field, bool fill_single,
                        ThreadPool& pool, std::vector<Index>& boundary) {
   std::uint64_t* kept = mesh.reserve_kept();
-  size_filter_.run(mesh, vertices, field, pool, kept);
+  const bool by_outlines = field.outlines && outline_fill_.run(mesh, vertices, *field.outlines, kept);
+  if (!by_outlines) size_filter_.run(mesh, vertices, field, pool, kept);
   find_boundary(mesh, fill_single, pool, kept, boundary);
+  return by_outlines;
 }
 
 std::optional<Way> RegionFilter::run_on_part(Mesh& mesh, const Point* vertices, const std::uint8_t* is_tested,

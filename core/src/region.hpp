@@ -7,6 +7,7 @@
 
 #include "filter_rules.hpp"
 #include "half_edge.hpp"
+#include "outline_fill.hpp"
 #include "size_field.hpp"
 #include "size_filter.hpp"
 #include "thread_pool.hpp"
@@ -32,8 +33,9 @@ class RegionFilter {
                                  const FilterRules& rules, bool fill_single, ThreadPool& pool,
                                  std::vector<Index>& boundary);
 
-  /// As run with the limit that is chosen (SizeFilter), before `fill_single`.
-  void run(Mesh& mesh, const Point* vertices, const SizeField& field, bool fill_single, ThreadPool& pool,
+  /// As run with the limit that is chosen (SizeFilter), before `fill_single`. Returns whether the shape is
+  /// what outlines enclose instead (OutlineFill).
+  bool run(Mesh& mesh, const Point* vertices, const SizeField& field, bool fill_single, ThreadPool& pool,
            std::vector<Index>& boundary);
 
   /// The same with the mesh of a part (SizeFilter::run_on_part). Returns what that does.
@@ -46,6 +48,7 @@ class RegionFilter {
                      std::vector<Index>& boundary);
 
   SizeFilter size_filter_;
+  OutlineFill outline_fill_;
   std::vector<std::vector<Index>> boundary_of_chunk_;  ///< of all chunks but the first
   std::vector<std::vector<Index>> filled_of_chunk_;
 };

@@ -3,11 +3,19 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "half_edge.hpp"
 
 namespace polylidar::detail {
+
+/// What to look for where points may lie on outlines only.
+struct OutlineSteps {
+  double squared_step = 0;   ///< the square of the greatest distance of neighbours on an outline
+  double squared_reach = 0;  ///< of edges between points that belong together; larger for a detail below 1
+  double twice_area = 0;     ///< of the triangles within the limit at a detail of 1
+};
 
 /// A block is a range of vertices, which follow each other along the curve, with their two records each.
 /// Where there is one block it may be that of any mesh.
@@ -23,6 +31,8 @@ struct SizeField {
   /// A hole has a dropped triangle with a circumradius of so many limits at least, however large it is. 0: no
   /// hole is filled.
   double wide_radius = 0;
+  /// Where points may lie on outlines only; none where they do not.
+  std::optional<OutlineSteps> outlines = {};
   /// Vertex -> its block, where there are several.
   std::vector<std::uint32_t> block_of_vertex = {};
   /// Triangle of the mesh -> Triangle::size4(), NaN of a ghost; null where not all were measured. It lives as

@@ -136,6 +136,9 @@ struct Statistics {
   std::size_t points = 0;               ///< that were given
   std::size_t uncertain_points = 0;     ///< that may be on the outline; `points` where all were triangulated
   std::size_t triangulated_points = 0;  ///< those and their neighbours; `points` where all were triangulated
+  /// Whether no limit was given and the points lie on outlines only, so that the shape is what these enclose.
+  /// Sizes did not decide then.
+  bool by_outlines = false;
 };
 
 /// concave_hull() with memory that is kept between calls, for callers that extract again and again. Not for
@@ -187,7 +190,7 @@ class Extractor {
   /// After extract_polygons: how many triangles each of its polygons is made of, in its order. O(n), but
   /// O(n log n) after an extract() that left the interior out, as all points are triangulated for it.
   std::vector<std::size_t> count_triangles() const;
-  /// After extract, or triangulate: how it was done.
+  /// After extract, triangulate or extract_regions: how it was done.
   const Statistics& statistics() const;
 
  private:

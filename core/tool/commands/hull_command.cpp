@@ -181,6 +181,11 @@ class HullRun {
 
   /// What was chosen, or why there is nothing.
   void explain(const GroupHull& hull) const {
+    if (hull.by_outlines) {
+      say("the points lie on outlines only, and the shape is what these enclose; --detail below 1 closes "
+          "wider "
+          "gaps, --alpha, --max-edge-length or --max-perimeter sets a limit");
+    }
     if (hull.sizes) {
       std::string sizes = "triangles of size " + shortest(hull.sizes->least);
       if (hull.sizes->most > hull.sizes->least) {

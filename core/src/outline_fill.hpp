@@ -1,0 +1,65 @@
+// What outlines enclose, where the points lie on outlines only and no triangle of a usual size is inside.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "half_edge.hpp"
+#include "size_field.hpp"
+
+namespace polylidar::detail {
+
+/// Selects triangles by the outlines that points lie on, keeping its memory between calls.
+///
+/// Edges no longer than the field's step join points to *walls*, each of which hangs together. The other
+/// edges join triangles to *places*, one of which is the outside. From the outside inwards: a place that
+/// touches the walls round the outside is inside, a place beyond a wall that stands inside is a hole, and so
+/// on. Triangles without an edge longer than a step are of the wall itself, which belongs to the shape. A
+/// detail below 1 adds those without an edge longer than a step over it; one above 1 changes nothing.
+class OutlineFill {
+ public:
+  /// Says in `kept`, the words of `mesh`, what the outlines enclose, where the triangles within the limit
+  /// have less than 0.4 of its area, or half of the points stand between inside and outside;
+  /// else returns false and says nothing. O(n log n).
+  bool run(const Mesh& mesh, const Point* vertices, const OutlineSteps& outlines, std::uint64_t* kept);
+
+ private:
+  using Index = Mesh::Index;
+
+  /// Of things that were joined, directly or by others, one stands for all.
+  class JoinedThings {
+   public:
+    void reset(std::size_t count);
+    Index standing_for(Index thing);
+    void join(Index a, Index b) { first_[standing_for(a)] = standing_for(b); }
+
+   private:
+    std::vector<Index> first_;  ///< thing -> one that it was joined to, or itself
+  };
+  struct Touch {
+    Index place;
+    Index wall;
+  };
+  /// How many points of a wall touch a place of either kind.
+  struct WallPoints {
+    Index outside = 0;
+    Index inside = 0;
+  };
+
+  void find_walls_and_places(const Mesh& mesh, const Point* vertices, double squared_step);
+  void find_depths();
+  double share_between(const Mesh& mesh);
+
+  JoinedThings walls_;                   ///< of vertices
+  JoinedThings places_;                  ///< of triangles; one more, the outside, stands for all ghosts
+  std::vector<std::uint8_t> is_wall_;    ///< triangle -> whether it has no edge longer than a step
+  std::vector<Touch> walls_of_place_;    ///< sorted by place
+  std::vector<Touch> places_of_wall_;    ///< the same, by wall
+  std::vector<Index> depth_;             ///< place -> how many walls lie between it and the outside
+  std::vector<std::uint8_t> is_passed_;  ///< wall -> whether depth_ is known of what touches it
+  std::vector<std::uint8_t> sides_;      ///< vertex -> what kinds of places it touches
+  std::vector<WallPoints> points_of_wall_;
+  std::vector<Index> queue_;  ///< places whose depth is known
+};
+
+}  // namespace polylidar::detail

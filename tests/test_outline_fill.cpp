@@ -1,0 +1,169 @@
+// Points that lie on outlines only: what these enclose is the shape. Points with an inside are not taken for
+// that.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <numbers>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "polylidar/check.hpp"
+#include "polylidar/concave_hull.hpp"
+#include "tests/hull_oracle.hpp"
+#include "tests/point_sets.hpp"
+
+namespace polylidar {
+namespace {
+
+using testing::hole_count;
+using testing::Random;
+
+/// Points along a circle, one at random in each of as many arcs of length 1 as fit, and moved off it by
+/// chance.
+void add_circle(std::vector<Point>& points, const Point& centre, double radius, Random& random) {
+  const int count = static_cast<int>(2 * std::numbers::pi * radius);
+  for (int i = 0; i < count; ++i) {
+    const double angle = 2 * std::numbers::pi * (i + random.unit()) / count;
+    const double distance = radius + random.between(-0.2, 0.2);
+    points.push_back({centre.x + distance * std::cos(angle), centre.y + distance * std::sin(angle)});
+  }
+}
+
+double disc(double radius) {
+  return std::numbers::pi * radius * radius;
+}
+
+/// A disc with a round hole in which an island lies, and another disc beside it.
+std::vector<Point> ring_island_and_disc(std::uint64_t seed) {
+  Random random(seed);
+  std::vector<Point> points;
+  add_circle(points, {0, 0}, 200, random);
+  add_circle(points, {20, 0}, 120, random);
+  add_circle(points, {20, 10}, 50, random);
+  add_circle(points, {350, 0}, 90, random);
+  return points;
+}
+
+bool is_by_outlines(const std::vector<Point>& points, const Options& options = {}) {
+  Extractor extractor;
+  extractor.extract(points, options);
+  return extractor.statistics().by_outlines;
+}
+
+TEST(OutlineFill, FillsWhatOutlinesEnclose) {
+  for (std::uint64_t seed = 0; seed < 20; ++seed) {
+    SCOPED_TRACE(seed);
+    const std::vector<Point> points = ring_island_and_disc(seed);
+    Extractor extractor;
+    const IndexedMultiPolygon& shape = extractor.extract(points);
+    EXPECT_TRUE(extractor.statistics().by_outlines);
+    ASSERT_EQ(check_polygon(points, shape), "");
+    const MultiPolygon polygons = to_coordinates(shape, points);
+    EXPECT_EQ(polygons.size(), 3U);
+    EXPECT_EQ(hole_count(polygons), 1U);
+    const double truth = disc(200) - disc(120) + disc(50) + disc(90);
+    EXPECT_NEAR(area(polygons) / truth, 1, 0.02);
+  }
+}
+
+TEST(OutlineFill, KeepsAFilledPartInside) {
+  Random random(1);
+  std::vector<Point> points;
+  add_circle(points, {0, 0}, 200, random);
+  for (int i = 0; i < 400; ++i) points.push_back({random.between(-10, 10), random.between(-10, 10)});
+  const MultiPolygon polygons = to_coordinates(concave_hull(points), points);
+  EXPECT_TRUE(is_by_outlines(points));
+  EXPECT_EQ(polygons.size(), 1U);
+  EXPECT_EQ(hole_count(polygons), 0U);
+  EXPECT_NEAR(area(polygons) / disc(200), 1, 0.02);
+}
+
+TEST(OutlineFill, LessDetailJoinsWhatIsApartAndMoreChangesNothing) {
+  const std::vector<Point> points = ring_island_and_disc(1);
+  double before = std::numeric_limits<double>::infinity();
+  for (const double detail : {1e-200, 0.05, 0.2, 0.5, 0.8, 1.0, 1.1, 3.0, 1e200}) {
+    SCOPED_TRACE(detail);
+    Extractor extractor;
+    const IndexedMultiPolygon& shape = extractor.extract(points, {.detail = detail});
+    ASSERT_EQ(check_polygon(points, shape), "");
+    EXPECT_TRUE(extractor.statistics().by_outlines);
+    EXPECT_LE(area(to_coordinates(shape, points)), before * (1 + 1e-12));
+    before = area(to_coordinates(shape, points));
+    if (detail < 0.1) {
+      EXPECT_EQ(shape.polygon_count(), 1U);
+    } else if (detail > 1) {
+      EXPECT_EQ(shape, concave_hull(points));
+    }
+  }
+}
+
+TEST(OutlineFill, DependsNeitherOnOrderNorUnitNorThreads) {
+  const std::vector<Point> points = ring_island_and_disc(2);
+  const IndexedMultiPolygon shape = concave_hull(points);
+  for (const unsigned threads : {2U, 3U, 8U}) EXPECT_EQ(concave_hull(points, {.threads = threads}), shape);
+  for (const int exponent : {-1000, 1000}) {
+    std::vector<Point> scaled = points;
+    for (Point& p : scaled) p = {std::ldexp(p.x, exponent), std::ldexp(p.y, exponent)};
+    EXPECT_EQ(concave_hull(scaled), shape) << exponent;
+  }
+  const std::vector<Point> shuffled = testing::shuffled(points, 1);
+  EXPECT_DOUBLE_EQ(area(to_coordinates(concave_hull(shuffled), shuffled)),
+                   area(to_coordinates(shape, points)));
+}
+
+TEST(OutlineFill, IsForTheLimitThatIsChosen) {
+  const std::vector<Point> points = ring_island_and_disc(3);
+  Extractor extractor;
+  extractor.extract(points);
+  ASSERT_TRUE(extractor.statistics().by_outlines);
+  extractor.extract(points, {.alpha = 2});
+  EXPECT_FALSE(extractor.statistics().by_outlines);
+  // Step by step, as with all at once.
+  extractor.triangulate(points);
+  EXPECT_FALSE(extractor.statistics().by_outlines);
+  extractor.extract_regions({});
+  EXPECT_TRUE(extractor.statistics().by_outlines);
+  EXPECT_EQ(extractor.extract_polygons(), concave_hull(points));
+}
+
+TEST(OutlineFill, IsNotForAnOpenLine) {
+  std::vector<Point> points;
+  Random random(1);
+  add_circle(points, {0, 0}, 200, random);
+  std::erase_if(points, [](const Point& p) { return p.x > 0; });
+  EXPECT_FALSE(is_by_outlines(points));
+}
+
+// Everything that has an inside, and scan lines, which are no outlines.
+TEST(OutlineFill, IsNotForPointsWithAnInside) {
+  std::vector<testing::PointSet> sets;
+  for (const std::size_t count : {100U, 500U, 3000U}) {
+    sets.push_back({"uniform", testing::uniform_points(count, count)});
+    testing::PointSet ring{"a thin ring", {}};
+    Random random(count);
+    while (ring.points.size() < count) {
+      const Point p{random.between(-1, 1), random.between(-1, 1)};
+      const double distance = std::hypot(p.x, p.y);
+      if (distance > 0.8 && distance < 1) ring.points.push_back(p);
+    }
+    sets.push_back(std::move(ring));
+    testing::PointSet far{"an island far away", testing::uniform_points(count, 1)};
+    for (std::size_t i = 0; i < count / 2; ++i) far.points[i].x += 30;
+    sets.push_back(std::move(far));
+    testing::PointSet lines{"lines", {}};
+    const auto across = static_cast<int>(std::sqrt(static_cast<double>(count) / 10));
+    for (int line = 0; line < across; ++line) {
+      for (int k = 0; k < 10 * across; ++k) {
+        lines.points.push_back({(k + random.unit()) / 10.0, line + 0.01 * random.unit()});
+      }
+    }
+    sets.push_back(std::move(lines));
+  }
+  for (const auto& [name, points] : sets) EXPECT_FALSE(is_by_outlines(points)) << name << points.size();
+}
+
+}  // namespace
+}  // namespace polylidar
