@@ -432,6 +432,23 @@ TEST(AutomaticLimit, LeavesNoHoleToChance) {
   }
 }
 
+// Where points get sparser without end, the triangles round a void tell the density better than its block
+// does.
+TEST(AutomaticLimit, LeavesFewHolesInTails) {
+  std::size_t holes = 0;
+  for (std::uint64_t seed = 0; seed < 5; ++seed) {
+    testing::Random random(seed);
+    std::vector<Point> points(100000);
+    for (Point& p : points) {
+      const double distance = std::sqrt(-2 * std::log(1 - random.unit()));
+      const double angle = 6.283185307179586 * random.unit();
+      p = {distance * std::cos(angle), distance * std::sin(angle)};
+    }
+    holes += hole_count(hull(points));
+  }
+  EXPECT_LE(holes, 5U);
+}
+
 TEST(AutomaticLimit, IsSmallBesideALongGap) {
   std::vector<Point> points = testing::uniform_points(2000, 33);
   for (const Point& p : testing::uniform_points(2000, 34)) points.push_back({p.x + 1e9, p.y + 1e9});

@@ -199,7 +199,7 @@ detail::SizeField random_field(const Points& points, Random& random) {
   return {.limit4 = {std::pow(limit, 4)},
           .spike_share = random.below(4) == 0 ? 1 : random.between(0.1, 1),
           .least_part = random.below(40),
-          .least_hole = random.below(4) == 0 ? 0 : random.between(0, 25),
+          .wide_square = random.below(4) == 0 ? 0x1p-20 : random.between(0, 8),
           .wide_radius = spacing * random.between(0.8, 3.5) / limit,
           .block_of_vertex = {}};
 }
@@ -214,7 +214,7 @@ void compare_sizes(BothWays& ways, const Points& points, Random& random, WayCoun
   const IndexedMultiPolygon part = ways.part();
   EXPECT_EQ(part, ways.whole(points, field, fill_single))
       << "limit^4 " << field.limit4[0] << " spikes " << field.spike_share << " parts " << field.least_part
-      << " holes " << field.least_hole << " wide " << field.wide_radius;
+      << " wide " << field.wide_square << ' ' << field.wide_radius;
 }
 
 void compare_random_inputs(std::size_t cases, std::size_t least, std::size_t most) {

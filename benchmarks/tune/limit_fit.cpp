@@ -17,7 +17,7 @@ namespace {
 constexpr std::uint64_t kSampleSeed = 1;
 constexpr double kLargestLoss = 1.5;
 constexpr int kOtherStarts = 2;
-/// The first of limit_knobs(). `part` and `hole` hardly change an error: they are chosen so that chance
+/// The first of limit_knobs(). `part` and `wide` hardly change an error: they are chosen so that chance
 /// leaves no parts and holes, which fit_default counts. `smoothed_from` is of sets of few points, and `step`
 /// of points on outlines, which the fit has none of.
 constexpr std::size_t kFittedKnobs = 10;
@@ -195,7 +195,7 @@ const std::vector<LimitKnob>& limit_knobs() {
                                                {"above", nullptr, &C::above, 1, 8},
                                                {"spike", &C::spike, nullptr, 0.8, 3},
                                                {"part", &C::part, nullptr, 0.25, 8},
-                                               {"hole", &C::hole, nullptr, 0.25, 10},
+                                               {"wide", &C::wide, nullptr, 2, 16},
                                                {"smoothed_from", nullptr, &C::smoothed_from, 4, 64},
                                                {"step", &C::step, nullptr, 0.5, 8}};
   return knobs;
@@ -226,7 +226,7 @@ std::vector<LimitVariant> limit_ablations() {
                                         {"one block: one limit for all", {.noise = kInfinity}},
                                         {"spikes stay", {.spike = kInfinity}},
                                         {"small parts stay", {.part = 0}},
-                                        {"small holes stay", {.hole = -kInfinity}},
+                                        {"small holes stay", {.wide = -kInfinity}},
                                         {"outlines not filled", {.step = kInfinity}}};
   return variants;
 }

@@ -52,17 +52,15 @@ constexpr double kInCell = 1.1;
 // Where points are spread at random, the square of a usual size has 1.7 points.
 constexpr double kPointsPerSquare = 1.7;
 
-/// How many points the place of a hole would have at least.
-double least_in_hole(double points, const AutomaticConstants& constants) {
-  return std::log(points) + constants.hole;
-}
+// A triangle beside a void is larger than others.
+constexpr double kPointsPerBorderSquare = 2.4;
 
-/// The circumradius from which on a triangle is wide, in usual sizes: its circle would have so many points
-/// that chance leaves one as large empty in one of a hundred sets. Of n points that is log n + 8 or so: 2 n
-/// (1 + x) / e^x triangles have a circle of x points or more.
-double least_wide_radius(double points) {
+/// The circle of a wide triangle would have so many points that chance leaves one as large empty in one of a
+/// hundred sets. Of n points that is log n + 8 or so: 2 n (1 + x) / e^x triangles have a circle of x points
+/// or more. Returns the square of its radius where a unit square has `density` points.
+double least_wide_square(double points, double wide, double density) {
   constexpr double kPi = 3.141592653589793;
-  return std::sqrt((std::log(points) + 8) / (kPi * kPointsPerSquare));
+  return std::max(std::log(points) + wide, 0.0) / (kPi * density);
 }
 
 /// Triangle `t` from the least of its corners on, so that rounding does not depend on how the mesh was built.
@@ -376,7 +374,7 @@ void AutomaticLimit::choose_by_blocks(const DelaunayBuilder& builder, double det
   shrink_to_median(constants.noise);
   sample(mesh, vertices);
   if (!samples_.empty()) sum_up_areas();
-  set_field(points, detail, constants);
+  set_field(points, detail, false, constants);
   look_for_outlines(mesh, vertices, points, detail, constants);
 }
 
@@ -449,7 +447,8 @@ bool AutomaticLimit::find_one(std::span<const Point> points, const Box& box, Thr
                                                        static_cast<double>(windows_.window_ends().size())));
   if (!(robust_deviation(logs, median) <= of_windows * constants.noise)) return false;
   points_ = windows_.distinct_share() * static_cast<double>(points.size());
-  wide_radius_ = std::exp(median) * least_wide_radius(points_);
+  wide_radius_ =
+      std::exp(median) * std::sqrt(least_wide_square(points_, AutomaticConstants::kWide, kPointsPerSquare));
   if (!(wide_radius_ <= windows_.margin())) return false;
   usual4_.assign(1, std::exp(4 * median));
   samples_.clear();
@@ -465,7 +464,7 @@ void AutomaticLimit::choose_one(const Mesh& mesh, const Point* vertices, const s
   field_.size4 = nullptr;
   sum_up_areas();
   add_wide_areas(mesh, vertices, is_tested, pool);
-  set_field(points_, detail, constants);
+  set_field(points_, detail, true, constants);
 }
 
 /// The samples stand for all triangles that are not wide; those that are wide, few, are all looked at.
@@ -507,20 +506,24 @@ void AutomaticLimit::add_wide_areas(const Mesh& mesh, const Point* vertices, con
 }
 
 /// From the usual sizes and the samples. `points`: how many are no repeats.
-void AutomaticLimit::set_field(double points, double detail, const AutomaticConstants& constants) {
+void AutomaticLimit::set_field(double points, double detail, bool is_one,
+                               const AutomaticConstants& constants) {
   range_.reset();
   field_.limit4 = usual4_;
   field_.spike_share = 1;
   field_.least_part = 0;
-  field_.least_hole = 0;
+  field_.wide_square = 0;
   field_.wide_radius = 0;
   field_.outlines.reset();
   if (samples_.empty()) return;  // no triangle
   const double limit4 = steadiest4_ = steadiest_size4(constants);
   field_.spike_share = fourth_power(constants.spike) / limit4;
   field_.least_part = static_cast<std::size_t>(constants.part * std::log(points));
-  field_.least_hole = 2 * least_in_hole(points, constants) / (kPointsPerSquare * detail * detail);
-  if (field_.least_hole > 0) field_.wide_radius = least_wide_radius(points) / std::sqrt(std::sqrt(limit4));
+  field_.wide_square = least_wide_square(points, constants.wide, kPointsPerBorderSquare) / (detail * detail);
+  if (is_one) {
+    const double square = least_wide_square(points, AutomaticConstants::kWide, kPointsPerSquare);
+    field_.wide_radius = std::sqrt(square / std::sqrt(limit4));
+  }
   for (double& limit : field_.limit4) limit *= limit4 / fourth_power(detail);
   scratch_ = field_.limit4;
   const auto size = [&](double quantile) { return std::sqrt(std::sqrt(quantile_of(scratch_, quantile))); };

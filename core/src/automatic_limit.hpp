@@ -22,6 +22,9 @@ namespace polylidar::detail {
 /// The rule's numbers, found on the training side of this project's shapes; core/AUTOMATIC.md says how, and
 /// what `make fit-default` finds. Sizes are lengths, the fourth roots of Triangle::size4().
 struct AutomaticConstants {
+  /// With so many, chance makes a hole in one of a hundred sets.
+  static constexpr double kWide = 8;
+
   double quantile = 0.6;  ///< a block's usual size is this quantile of its triangles' sizes
   double growth = 10;     ///< a block's usual size is at most 1 + growth / sqrt(blocks) times its neighbours'
   double reach = 5;       ///< usual sizes over which an edge joins two blocks
@@ -35,7 +38,7 @@ struct AutomaticConstants {
   std::size_t above = 6;  ///< and above it
   double spike = 1.57;    ///< the size from which a triangle on two border edges may be a spike
   double part = 2.4;      ///< a part has at least so many times log n triangles
-  double hole = 4;        ///< a hole's place would have at least log n and so many points
+  double wide = kWide;    ///< a hole has a triangle whose circle would have log n and so many points or more
   double step = 3;        ///< neighbours on an outline are at most log n and so many mean distances apart
 };
 
@@ -69,8 +72,9 @@ struct AutomaticConstants {
 /// than log n + 3. Where many triangles have two edges longer than log n + `step`, OutlineFill is asked what
 /// the curves enclose.
 ///
-/// **What chance leaves.** Spikes, parts and holes that are too small go (SizeField). Parts and holes are
-/// measured against log n, since the largest void and the largest cluster that chance makes grow with it.
+/// **What chance leaves.** Spikes, small parts and holes without a wide triangle go (SizeField). Parts and
+/// circles are measured against log n, since the largest void and the largest cluster that chance makes grow
+/// with it.
 ///
 /// The field does not depend on the unit of the points or on where they lie but for rounding, nor on their
 /// order or the number of threads. Points that repeat others move the blocks' borders, which moves the limit
@@ -164,7 +168,7 @@ class AutomaticLimit {
   double steadiest_size4(const AutomaticConstants& constants) const;
   void look_for_outlines(const Mesh& mesh, const Point* vertices, double points, double detail,
                          const AutomaticConstants& constants);
-  void set_field(double points, double detail, const AutomaticConstants& constants);
+  void set_field(double points, double detail, bool is_one, const AutomaticConstants& constants);
 
   WindowSample windows_;
   SizeField field_;

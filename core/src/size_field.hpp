@@ -26,10 +26,10 @@ struct SizeField {
   double spike_share = 0;
   /// Regions of fewer triangles are not of the shape.
   std::size_t least_part = 0;
-  /// Holes whose doubled area is less are of the shape, in mean squared sizes of the triangles round them.
-  double least_hole = 0;
-  /// A hole has a dropped triangle with a circumradius of so many limits at least, however large it is. 0: no
-  /// hole is filled.
+  /// A hole has a dropped triangle with a squared circumradius of so many mean squared sizes of the kept
+  /// triangles round it at least, however large it is. 0: no hole is filled.
+  double wide_square = 0;
+  /// Where there is one limit: and one with a circumradius of so many limits.
   double wide_radius = 0;
   /// Where points may lie on outlines only; none where they do not.
   std::optional<OutlineSteps> outlines = {};

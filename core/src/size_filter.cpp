@@ -63,9 +63,16 @@ class NoSpikeRule {
   double most4_;
 };
 
-/// A triangle that is not wide.
+/// A triangle that is not wide, where there is one limit.
 CircumradiusRule not_wide(const SizeField& field, Mesh::Index t) {
   return CircumradiusRule(field.wide_radius * std::sqrt(std::sqrt(field.limit4_at(t))));
+}
+
+/// Infinite where the triangle is flat.
+double squared_circumradius(const Triangle& triangle) {
+  const double twice_area = triangle.twice_area();
+  return triangle.squared_ab() * triangle.squared_bc() * triangle.squared_ca() /
+         (4 * twice_area * twice_area);
 }
 
 /// The mesh of all points: whatever a walk meets can be asked about.
@@ -138,7 +145,7 @@ void SizeFilter::run(const Mesh& mesh, const Point* vertices, const SizeField& f
   drop_spikes(mesh, vertices, field, pool, kept);
   const WholeMesh whole(mesh, vertices);
   if (field.least_part > 0) drop_small_parts(mesh, whole, field.least_part, kept);
-  if (field.wide_radius > 0) fill_small_holes(mesh, vertices, whole, field, kept);
+  if (field.wide_square > 0) fill_small_holes(mesh, vertices, whole, field, kept);
 }
 
 std::optional<Way> SizeFilter::run_on_part(const Mesh& mesh, const Point* vertices,
@@ -211,7 +218,7 @@ std::optional<Way> SizeFilter::run_on_part(const Mesh& mesh, const Point* vertic
   if (doubt_) return doubt_;
   for (const Index t : changed_) drop(kept, t);
   if (field.least_part > 0) drop_small_parts(mesh, part, field.least_part, kept);
-  if (field.wide_radius > 0) fill_small_holes(mesh, vertices, part, field, kept);
+  if (field.wide_square > 0) fill_small_holes(mesh, vertices, part, field, kept);
   return doubt_;
 }
 
@@ -293,19 +300,21 @@ void SizeFilter::fill_small_holes(const Mesh& mesh, const Point* vertices, const
     if (mesh.is_ghost(start) || !seen.add(start)) return;
     group_.assign(1, start);
     bool is_enclosed = true;
-    bool has_wide = false;
-    double twice_area = 0;
-    double squared_sizes = 0;  // of the kept triangles along its border
+    bool has_wide = field.wide_radius == 0;
+    double squared_radius = 0;  // the greatest
+    double squared_sizes = 0;   // of the kept triangles along its border
     std::size_t border = 0;
     for (std::size_t next = 0; next < group_.size(); ++next) {
       const Index t = group_[next];
-      twice_area += Triangle(mesh, vertices, t).twice_area();
       // Only triangles that are too large count: one that was dropped as a spike or with a small part may lie
       // where a part of the mesh was not built.
-      if (is_enclosed && !has_wide && whole.ask(OneSizeRule(field.limit4_at(t)), t) != Answer::kYes) {
-        const Answer answer = whole.ask(not_wide(field, t), t);
-        has_wide = answer != Answer::kYes;
-        if (answer == Answer::kRoundingDecides) doubt_ = Way::kRoundingDecides;
+      if (is_enclosed && whole.ask(OneSizeRule(field.limit4_at(t)), t) != Answer::kYes) {
+        squared_radius = std::max(squared_radius, squared_circumradius(Triangle(mesh, vertices, t)));
+        if (!has_wide) {
+          const Answer answer = whole.ask(not_wide(field, t), t);
+          has_wide = answer != Answer::kYes;
+          if (answer == Answer::kRoundingDecides) doubt_ = Way::kRoundingDecides;
+        }
       }
       for (Index j = 0; j < 3; ++j) {
         const Index other = neighbour(mesh, t, j);
@@ -320,11 +329,11 @@ void SizeFilter::fill_small_holes(const Mesh& mesh, const Point* vertices, const
       }
     }
     if (!is_enclosed) return;
-    const double own = twice_area * static_cast<double>(border);
-    const double least = field.least_hole * squared_sizes;
-    constexpr double kRounding = 0x1p-30;  // the sums' order depends on how the mesh was built
-    if (has_wide && std::abs(own - least) <= kRounding * least) doubt_ = Way::kRoundingDecides;
-    if (has_wide && own >= least) return;
+    const double widest = squared_radius * static_cast<double>(border);
+    const double least = field.wide_square * squared_sizes;
+    constexpr double kRounding = 0x1p-30;  // the sum's order depends on how the mesh was built
+    if (has_wide && std::abs(widest - least) <= kRounding * least) doubt_ = Way::kRoundingDecides;
+    if (has_wide && widest >= least) return;
     changed_.insert(changed_.end(), group_.begin(), group_.end());
   });
   for (const Index t : changed_) keep(kept, t);

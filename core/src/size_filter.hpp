@@ -24,7 +24,7 @@ namespace polylidar::detail {
 ///   and noise make them.
 /// - A *part*, a region of fewer triangles than the field says, is dropped, unless all regions are.
 /// - A *hole*, dropped triangles that hang together and reach no edge of the convex hull, is filled where it
-///   is small, or has no wide triangle beyond the limit: chance makes such voids.
+///   has no wide triangle beyond the limit: chance makes such voids.
 class SizeFilter {
  public:
   using Index = Mesh::Index;
