@@ -69,6 +69,45 @@ TEST(OutlineFill, FillsWhatOutlinesEnclose) {
   }
 }
 
+/// The border of the square [0, side]^2 in steps of 1.
+std::vector<Point> border_of_square(int side) {
+  std::vector<Point> points;
+  for (int i = 0; i < side; ++i) {
+    const double along = i;
+    const double end = side;
+    points.insert(points.end(), {{along, 0}, {end, along}, {end - along, end}, {0, end - along}});
+  }
+  return points;
+}
+
+// Points on one line or one circle to the last bit, and repeats.
+TEST(OutlineFill, TakesDegenerateOutlines) {
+  struct Outline {
+    std::string name;
+    std::vector<Point> points;
+    double area;
+  };
+  std::vector<Outline> outlines = {{"circle", testing::circle(1000, 10), disc(10)},
+                                   {"square", border_of_square(100), 100 * 100}};
+  outlines.push_back({"turned square", testing::rotated(border_of_square(100), 0.3), 100 * 100});
+  outlines.push_back(outlines[1]);
+  outlines.back().name = "square with repeats";
+  for (int i = 0; i < 3; ++i) {
+    const std::vector<Point> square = border_of_square(100);
+    outlines.back().points.insert(outlines.back().points.end(), square.begin(), square.end());
+  }
+  for (const auto& [name, points, area_of_shape] : outlines) {
+    SCOPED_TRACE(name);
+    for (const std::uint64_t seed : {1U, 2U, 3U}) {
+      const std::vector<Point> shuffled = testing::shuffled(points, seed);
+      const IndexedMultiPolygon shape = concave_hull(shuffled);
+      ASSERT_EQ(check_polygon(shuffled, shape), "");
+      EXPECT_TRUE(is_by_outlines(shuffled));
+      EXPECT_NEAR(area(to_coordinates(shape, shuffled)) / area_of_shape, 1, 0.01);
+    }
+  }
+}
+
 TEST(OutlineFill, KeepsAFilledPartInside) {
   Random random(1);
   std::vector<Point> points;
