@@ -52,7 +52,7 @@ constexpr double kInCell = 1.1;
 // Where points are spread at random, the square of a usual size has 1.7 points.
 constexpr double kPointsPerSquare = 1.7;
 
-// A triangle beside a void is larger than others.
+// So many has the squared size of a triangle beside a void, which is larger than others.
 constexpr double kPointsPerBorderSquare = 2.4;
 
 /// The circle of a wide triangle would have so many points that chance leaves one as large empty in one of a

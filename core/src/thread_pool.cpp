@@ -7,8 +7,8 @@ namespace polylidar::detail {
 namespace {
 
 /// Waits until `value` is no longer `old`. The steps of a pipeline follow one another within microseconds,
-/// and waking a thread that sleeps takes tens of them: so for as long as that the processor is only offered
-/// to others.
+/// and waking a sleeping thread takes longer than that: so a thread only yields at first, and sleeps when
+/// that was in vain.
 template <class T>
 void wait_while(const std::atomic<T>& value, T old) {
   constexpr int kOffers = 128;

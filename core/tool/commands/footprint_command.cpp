@@ -282,7 +282,7 @@ class UnionRun {
     const double spacing = chosen->first / 2.2;
     const double log_n = std::log(static_cast<double>(all_.points));
     core_.alpha = spacing * std::sqrt((log_n + 2) / std::numbers::pi);
-    // What that handful leaves goes, as it does from the limit of one file (core/AUTOMATIC.md).
+    // What that handful leaves goes: holes and parts with room for fewer than log n + 4 points.
     core_.fill_single_triangles = true;
     least_area_ = (log_n + 4) * spacing * spacing;
     say("a largest circumradius of " + shortest(*core_.alpha) +

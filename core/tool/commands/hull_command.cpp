@@ -181,19 +181,17 @@ class HullRun {
 
   /// What was chosen, or why there is nothing.
   void explain(const GroupHull& hull) const {
+    const std::string by_hand = "--alpha, --max-edge-length or --max-perimeter sets a limit";
     if (hull.by_outlines) {
       say("the points lie on outlines only, and the shape is what these enclose; --detail below 1 closes "
-          "wider "
-          "gaps, --alpha, --max-edge-length or --max-perimeter sets a limit");
-    }
-    if (hull.sizes) {
+          "wider gaps, " +
+          by_hand);
+    } else if (hull.sizes) {
       std::string sizes = "triangles of size " + shortest(hull.sizes->least);
       if (hull.sizes->most > hull.sizes->least) {
         sizes += " (where points are densest) to " + shortest(hull.sizes->most);
       }
-      say(sizes +
-          " at most, chosen from the points; --detail scales it, --alpha, --max-edge-length or "
-          "--max-perimeter sets a limit");
+      say(sizes + " at most, chosen from the points; --detail scales it, " + by_hand);
     }
     if (hull.extracted > 0) return;
     say(hull.has_triangles

@@ -174,7 +174,7 @@ void add_shape_properties(const GroupHull& hull, Properties& properties) {
   if (hull.alpha) properties.add("alpha", *hull.alpha);
   if (hull.max_edge_length) properties.add("max_edge_length", *hull.max_edge_length);
   if (hull.max_perimeter) properties.add("max_perimeter", *hull.max_perimeter);
-  if (hull.sizes) {
+  if (hull.sizes && !hull.by_outlines) {
     properties.add("least_size", hull.sizes->least);
     properties.add("median_size", hull.sizes->median);
     properties.add("most_size", hull.sizes->most);

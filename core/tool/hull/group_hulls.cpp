@@ -177,7 +177,7 @@ GroupHull extracted(Extractor& extractor, std::span<const Point> points, const H
   hull.extracted = hull.shape.size();
   hull.has_triangles = extractor.has_triangles();
   hull.by_outlines = extractor.statistics().by_outlines;
-  if (!hull.by_outlines) hull.sizes = extractor.chosen_sizes();
+  hull.sizes = extractor.chosen_sizes();
   hull.alpha = used.alpha;
   hull.max_edge_length = used.max_edge_length;
   hull.max_perimeter = used.max_perimeter;

@@ -41,7 +41,7 @@ struct GroupHull {
   std::optional<double> max_edge_length;
   std::optional<double> max_perimeter;
   std::optional<ChosenSizes> sizes;
-  bool by_outlines = false;  ///< Statistics::by_outlines; no size decided then, and there is none here
+  bool by_outlines = false;  ///< Statistics::by_outlines: no size decided
 };
 
 /// Drops and fills what `options` says by area and number, and simplifies what is left.
