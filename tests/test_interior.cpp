@@ -376,6 +376,35 @@ TEST(InteriorLeftOut, LeavesToTheWholeWayWhatRoundingDecides) {
   EXPECT_GT(counts[Way::kInteriorLeftOut], 100U);
 }
 
+TEST(InteriorLeftOut, LeavesToTheWholeWayASizeThatRoundingDecides) {
+  BothWays ways;
+  WayCounts counts;
+  for (std::uint64_t seed = 0; seed < 100; ++seed) {
+    SCOPED_TRACE(seed);
+    Random random(seed);
+    const Points points = sample(samplers()[1], 1000, random);
+    const Triangulation triangulation = delaunay(points);
+    const double spacing = 0.6 / std::sqrt(static_cast<double>(points.size()));
+    for (std::size_t t = 0; t < triangulation.triangles.size(); t += 3) {
+      const auto corner = [&](std::size_t k) -> const Point& {
+        return points[triangulation.triangles[t + k]];
+      };
+      const double limit4 = detail::Triangle(0, corner(0), corner(1), corner(2)).size4();
+      const double limit = std::sqrt(std::sqrt(limit4));
+      if (limit < 1.5 * spacing || limit > 5 * spacing) continue;
+      const detail::SizeField field{
+          .limit4 = {limit4}, .spike_share = 1, .wide_square = 2, .wide_radius = 0.9};
+      const Statistics statistics = ways.go(points, field, true, 1 + static_cast<unsigned>(seed % 3));
+      ++counts[statistics.way];
+      if (statistics.way != Way::kInteriorLeftOut) continue;
+      const IndexedMultiPolygon part = ways.part();
+      EXPECT_EQ(part, ways.whole(points, field, true)) << limit4;
+    }
+  }
+  EXPECT_GT(counts[Way::kRoundingDecides], 5U);
+  EXPECT_GT(counts[Way::kInteriorLeftOut], 100U);
+}
+
 // Two points of the interior that nearly coincide make slivers whose area is lost in rounding, so that the
 // rule may drop them although their circles are small.
 TEST(InteriorLeftOut, LeavesToTheWholeWaySliversBetweenClosePoints) {

@@ -2,6 +2,7 @@
 // that.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <limits>
@@ -10,6 +11,9 @@
 #include <utility>
 #include <vector>
 
+#include "core/src/automatic_limit.hpp"
+#include "core/src/delaunay_builder.hpp"
+#include "core/src/thread_pool.hpp"
 #include "polylidar/check.hpp"
 #include "polylidar/concave_hull.hpp"
 #include "tests/hull_oracle.hpp"
@@ -176,30 +180,58 @@ TEST(OutlineFill, IsNotForAnOpenLine) {
   EXPECT_FALSE(is_by_outlines(points));
 }
 
+/// Whether the points are asked for what outlines enclose, which then may say that they are none.
+bool is_asked(const std::vector<Point>& points) {
+  detail::ThreadPool pool;
+  detail::DelaunayBuilder builder;
+  builder.build(points, pool);
+  detail::AutomaticLimit limit;
+  limit.choose_by_blocks(builder, 1, pool);
+  return limit.field().outlines.has_value();
+}
+
+/// Uniform in the strip of this width along the border of a rectangle of 10 x 1.
+std::vector<Point> frame(std::size_t count, double width, std::uint64_t seed) {
+  Random random(seed);
+  std::vector<Point> points;
+  while (points.size() < count) {
+    const Point p{random.between(0, 10), random.between(0, 1)};
+    if (std::min({p.x, 10 - p.x, p.y, 1 - p.y}) < width) points.push_back(p);
+  }
+  return points;
+}
+
+/// Lines at a distance of 1, along which points are a tenth of that apart.
+std::vector<Point> lines(std::size_t count, std::uint64_t seed) {
+  Random random(seed);
+  std::vector<Point> points;
+  const auto across = static_cast<int>(std::sqrt(static_cast<double>(count) / 10));
+  for (int line = 0; line < across; ++line) {
+    for (int k = 0; k < 10 * across; ++k) {
+      points.push_back({(k + random.unit()) / 10.0, line + 0.01 * random.unit()});
+    }
+  }
+  return points;
+}
+
+TEST(OutlineFill, IsAskedOfFlatTrianglesAcrossWideGaps) {
+  EXPECT_TRUE(is_asked(ring_island_and_disc(1)));
+  EXPECT_TRUE(is_asked(testing::circle(400, 1)));
+  EXPECT_FALSE(is_asked(testing::circle(200, 1))) << "few";
+  EXPECT_FALSE(is_asked(frame(3000, 0.03, 1))) << "across wide gaps, but not flat";
+  EXPECT_FALSE(is_asked(lines(3000, 1))) << "flat, but not across wide gaps";
+}
+
 // Everything that has an inside, and scan lines, which are no outlines.
 TEST(OutlineFill, IsNotForPointsWithAnInside) {
   std::vector<testing::PointSet> sets;
   for (const std::size_t count : {100U, 500U, 3000U}) {
     sets.push_back({"uniform", testing::uniform_points(count, count)});
-    testing::PointSet ring{"a thin ring", {}};
-    Random random(count);
-    while (ring.points.size() < count) {
-      const Point p{random.between(-1, 1), random.between(-1, 1)};
-      const double distance = std::hypot(p.x, p.y);
-      if (distance > 0.8 && distance < 1) ring.points.push_back(p);
-    }
-    sets.push_back(std::move(ring));
+    sets.push_back({"a frame", frame(count, 100.0 / static_cast<double>(count), count)});
     testing::PointSet far{"an island far away", testing::uniform_points(count, 1)};
     for (std::size_t i = 0; i < count / 2; ++i) far.points[i].x += 30;
     sets.push_back(std::move(far));
-    testing::PointSet lines{"lines", {}};
-    const auto across = static_cast<int>(std::sqrt(static_cast<double>(count) / 10));
-    for (int line = 0; line < across; ++line) {
-      for (int k = 0; k < 10 * across; ++k) {
-        lines.points.push_back({(k + random.unit()) / 10.0, line + 0.01 * random.unit()});
-      }
-    }
-    sets.push_back(std::move(lines));
+    sets.push_back({"lines", lines(count, count)});
   }
   for (const auto& [name, points] : sets) EXPECT_FALSE(is_by_outlines(points)) << name << points.size();
 }
