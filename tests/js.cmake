@@ -4,7 +4,7 @@ target_link_libraries(write_native_hulls PRIVATE hullbench_test_support hullbenc
 set_target_properties(write_native_hulls PROPERTIES RUNTIME_OUTPUT_DIRECTORY "${CMAKE_BINARY_DIR}/tests")
 
 set(js_build "${CMAKE_BINARY_DIR}/js")
-set(js_needs clang++ wasm-ld /usr/include/wasm32-wasi/c++ esbuild node)
+set(js_needs clang++ wasm-ld llvm-ar /usr/include/wasm32-wasi/c++ esbuild node)
 hullbench_tool_test(NAME js.build NEEDS ${js_needs}
   COMMAND bash -c "'${CMAKE_COMMAND}' --preset js -B '${js_build}' && '${CMAKE_COMMAND}' --build '${js_build}'")
 set_tests_properties(js.build PROPERTIES LABELS js TIMEOUT 900 FIXTURES_SETUP js_package
