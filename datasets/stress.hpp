@@ -107,9 +107,9 @@ struct StressKind {
 /// tracks       Points along straight roads in two directions at right angles; roads are `level` times as far
 ///              apart as points of a road and up to a quarter of that off an even grid, points up to a tenth
 ///              of their mean distance off the middle of the road.
-/// transcripts  Molecules that a microscope finds in a cell: each of the cell's own is with a probability of a
-///              half of a Gaussian round a nucleus, of standard deviation 0.2 sqrt(A) round a point uniform in the
-///              shape, and else uniform. `level` percent of all points (rounded to a whole number) are
+/// transcripts  Molecules that a microscope finds in a cell: each of the cell's own is with a probability of
+///              a half of a Gaussian round a nucleus, of standard deviation 0.2 sqrt(A) round a point uniform
+///              in the shape, and else uniform. `level` percent of all points (rounded to a whole number) are
 ///              neighbours' that were taken for this cell's: uniform points moved by a Gaussian of standard
 ///              deviation 2 h until they lie outside the shape; they are the last ones.
 const std::vector<StressKind>& stress_kinds();
