@@ -376,6 +376,7 @@ TEST(InteriorLeftOut, LeavesToTheWholeWayWhatRoundingDecides) {
   EXPECT_GT(counts[Way::kInteriorLeftOut], 100U);
 }
 
+// The same of a limit on sizes, as the core chooses it where none is given.
 TEST(InteriorLeftOut, LeavesToTheWholeWayASizeThatRoundingDecides) {
   BothWays ways;
   WayCounts counts;
