@@ -276,9 +276,31 @@ std::vector<Point> zigzag(int lines, std::uint64_t seed) {
   return points;
 }
 
+/// `count` points of the unit square in clusters of sixteen, each Gaussian and as wide as points would be
+/// apart that are spread evenly.
+std::vector<Point> clustered(std::size_t count, std::uint64_t seed) {
+  std::mt19937_64 random(seed);
+  std::uniform_real_distribution<double> uniform(0, 1);
+  std::vector<Point> centres(count / 16);
+  for (Point& centre : centres) centre = {uniform(random), uniform(random)};
+  std::normal_distribution<double> off(0, 1 / std::sqrt(static_cast<double>(count)));
+  std::vector<Point> points;
+  while (points.size() < count) {
+    const Point& centre = centres[random() % centres.size()];
+    const Point p{centre.x + off(random), centre.y + off(random)};
+    if (std::clamp(p.x, 0.0, 1.0) == p.x && std::clamp(p.y, 0.0, 1.0) == p.y) points.push_back(p);
+  }
+  return points;
+}
+
 // The points above are smooth, or make too few blocks to be smoothed.
-TEST(AutomaticLimit, OfRoughPlacesDependsOnNothingElseEither) {
-  const std::vector<Point> points = zigzag(40, 1);
+class AutomaticLimitOfRoughPlaces : public ::testing::TestWithParam<bool> {};
+
+INSTANTIATE_TEST_SUITE_P(Points, AutomaticLimitOfRoughPlaces, ::testing::Bool(),
+                         [](const auto& instance) { return instance.param ? "Clusters" : "Zigzag"; });
+
+TEST_P(AutomaticLimitOfRoughPlaces, DependsOnNothingElseEither) {
+  const std::vector<Point> points = GetParam() ? clustered(5000, 1) : zigzag(40, 1);
   const IndexedMultiPolygon shape = concave_hull(points);
   for (const int exponent : {-1000, -30, 30, 1000}) {
     const std::vector<Point> scaled = mapped(points, [&](const Point& p) {
@@ -337,6 +359,38 @@ TEST(AutomaticLimit, TakesLinesThatMeetForNoDensity) {
   double sum = 0;
   for (std::uint64_t seed = 0; seed < 10; ++seed) sum += area(hull(zigzag(36, seed)));
   EXPECT_GT(sum / 10, 0.96);
+}
+
+// The gaps between clusters are voids that are usual there, however large they are beside those in a cluster.
+TEST(AutomaticLimit, JoinsClusters) {
+  double sum = 0;
+  for (std::uint64_t seed = 0; seed < 10; ++seed) sum += area(hull(clustered(4000, seed)));
+  EXPECT_GT(sum / 10, 0.7);  // 0.47 where gaps between clusters count as any others
+}
+
+// Roads are far apart, but the points along them are even, as receivers write them down at a fixed interval.
+TEST(AutomaticLimit, TakesRoadsForNoClusters) {
+  std::mt19937_64 random(1);
+  std::uniform_real_distribution<double> uniform(0, 1);
+  std::vector<Point> points;
+  constexpr int kRoads = 12;
+  constexpr int kFixes = 160;
+  for (int road = 0; road < kRoads; ++road) {
+    for (int fix = 0; fix < kFixes; ++fix) {
+      const double across = (road + 0.5 + 0.02 * uniform(random)) / kRoads;
+      const double along = (fix + 0.5 * uniform(random)) / kFixes;
+      points.push_back({along, across});
+      points.push_back({across, along});
+    }
+  }
+  detail::DelaunayBuilder builder;
+  detail::ThreadPool pool;
+  builder.build(points, pool);
+  detail::AutomaticLimit limit;
+  limit.choose_by_blocks(builder, 1, pool);
+  const ChosenSizes sizes = limit.range().value();
+  limit.choose_by_blocks(builder, 1, pool, {.doubt = 0});
+  EXPECT_EQ(sizes, limit.range().value());
 }
 
 // Of a field that varies anyway: without a bound the outliers' own blocks would make them a part of the

@@ -136,7 +136,7 @@ TEST(LimitFit, TheScoreIsTheMeanOverWaysToSampleOfLogarithms) {
 TEST(LimitFit, ASmallFitGivesTheSameEveryTimeAndFindsLittleToImprove) {
   std::vector<tune::LimitCaseName> names;
   for (const char* name : {"star-1", "county-1", "fashion-2", "parts-1", "walk-1", "han-1"}) {
-    for (const char* sampling : {"", "~gradient:16", "~outliers:3", "~noise:0.5"})
+    for (const char* sampling : {"", "~gradient:16", "~outliers:3", "~noise:0.5", "~clusters:8"})
       names.push_back({std::string(name) + sampling, false, 1500});
   }
   auto cases = tune::make_limit_cases(names, {});
@@ -173,7 +173,7 @@ TEST(LimitFit, EveryPartOfTheRuleCanBeTakenOut) {
   names.push_back({"county-1~outline:0.1", false, 2000});
   auto cases = tune::make_limit_cases(names, {});
   const auto ablations = tune::limit_ablations();
-  ASSERT_EQ(ablations.size(), 9U);
+  ASSERT_EQ(ablations.size(), 10U);
   const std::vector<double> whole = tune::limit_errors(cases, {}, {});
   EXPECT_EQ(tune::limit_errors(cases, ablations[0].constants, {}), whole);
   for (std::size_t k = 1; k < ablations.size(); ++k)

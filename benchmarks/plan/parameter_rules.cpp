@@ -11,7 +11,7 @@ namespace hullbench::plan {
 
 // What build/fit_rules prints for a shape of each training source in seven ways to sample, of 2000 points.
 // The best shares of the edge are 1.50 for the longest edge of a triangle that stays, 1.50 for an erosion
-// with holes and 1.35 for one of the border alone: with 1.45 for all three they have at most 0.5 % more error
+// with holes and 1.35 for one of the border alone: with 1.45 for all three they have at most 0.6 % more error
 // than with their own.
 const double kEdgeShare = 1.45;
 const double kCircumradiusShare = 0.75;

@@ -20,11 +20,10 @@ constexpr int kOtherStarts = 2;
 /// The first of limit_knobs(). `part` and `wide` hardly change an error: they are chosen so that chance
 /// leaves no parts and holes, which fit_default counts. `smoothed_from` is of sets of few points, and `step`
 /// of points on outlines, which the fit has none of.
-constexpr std::size_t kFittedKnobs = 10;
+constexpr std::size_t kFittedKnobs = 13;
 
 double weight_of(const std::string& sampling) {
-  if (sampling == "uniform") return 1.5;
-  return sampling.starts_with("clusters") ? 0.3 : 1;
+  return sampling == "uniform" ? 1.5 : 1;
 }
 
 double rounded_to_three_digits(double value) {
@@ -190,6 +189,9 @@ const std::vector<LimitKnob>& limit_knobs() {
                                                {"noise", &C::noise, nullptr, 0.03, 0.4},
                                                {"usual", &C::usual, nullptr, 1.5, 3.5},
                                                {"pull", &C::pull, nullptr, 0.3, 20},
+                                               {"even_sizes", &C::even_sizes, nullptr, 0.4, 0.8},
+                                               {"even_edges", &C::even_edges, nullptr, 0.5, 0.9},
+                                               {"doubt", &C::doubt, nullptr, 2, 200},
                                                {"still", &C::still, nullptr, 0.0003, 0.1},
                                                {"below", nullptr, &C::below, 3, 10},
                                                {"above", nullptr, &C::above, 1, 8},
@@ -222,6 +224,7 @@ std::vector<LimitVariant> limit_ablations() {
   std::vector<LimitVariant> variants = {{"whole rule", {}},
                                         {"growth not bounded", {.growth = kInfinity}},
                                         {"not smoothed", {.smoothed_from = kNever}},
+                                        {"clusters not told", {.doubt = 0}},
                                         {"not shrunk to the median", {.noise = 0, .smoothed_from = kNever}},
                                         {"one block: one limit for all", {.noise = kInfinity}},
                                         {"spikes stay", {.spike = kInfinity}},

@@ -73,6 +73,17 @@ Triangle from_least_corner(const Mesh& mesh, const Point* vertices, Mesh::Index 
   return {t, vertices[corner[least]], vertices[corner[(least + 1) % 3]], vertices[corner[(least + 2) % 3]]};
 }
 
+/// Calls visit(t) for the finite triangles in every `step`-th pair of the records from `begin` to `end`.
+/// Whole pairs, since the first of a pair is smaller than the second on average.
+template <class Visit>
+void for_some_triangles(const Mesh& mesh, Mesh::Index begin, Mesh::Index end, Mesh::Index step,
+                        const Visit& visit) {
+  for (Mesh::Index i = 0; begin + 2 * step * (i / 2) + i % 2 < end; ++i) {
+    const Mesh::Index t = begin + 2 * step * (i / 2) + i % 2;
+    if (!mesh.is_ghost(t)) visit(t);
+  }
+}
+
 /// Records that are used, of all; from a part of them. Those of points that repeat others are not.
 double used_share(const Mesh& mesh) {
   constexpr std::size_t kLookedAt = 512;
@@ -107,23 +118,27 @@ double AutomaticLimit::size4_of(const Mesh& mesh, const Point* vertices, Mesh::I
   return field_.size4 != nullptr ? field_.size4[t] : Triangle(mesh, vertices, t).size4();
 }
 
+/// The records of `block`: the first one, and one past the last.
+AutomaticLimit::Records AutomaticLimit::records_of(const Mesh& mesh, std::size_t block) const {
+  return {static_cast<Mesh::Index>(block == 0 ? 0 : 2 * block_ends_[block - 1]),
+          std::min(mesh.triangle_count(), static_cast<Mesh::Index>(2 * block_ends_[block]))};
+}
+
 /// Looks at `block`: returns the fourth power of its usual size, infinity where it has no triangle, and
 /// appends its borders with other blocks.
 double AutomaticLimit::measure_block(const Mesh& mesh, const Point* vertices, std::uint32_t block,
                                      double quantile, BlockScratch& scratch,
                                      std::vector<Border>& borders) const {
-  const auto begin = static_cast<Mesh::Index>(block == 0 ? 0 : 2 * block_ends_[block - 1]);
-  const Mesh::Index end = std::min(mesh.triangle_count(), static_cast<Mesh::Index>(2 * block_ends_[block]));
-  auto& [sizes, crossing] = scratch;
-  // Whole pairs of records, since the first of a pair is smaller than the second on average.
+  const Mesh::Index begin = records_of(mesh, block).begin;
+  const Mesh::Index end = records_of(mesh, block).end;
+  std::vector<double>& sizes = scratch.sizes;
+  std::vector<Mesh::Index>& crossing = scratch.crossing;
   Mesh::Index step = std::max(Mesh::Index{1}, (end - begin) / static_cast<Mesh::Index>(kMeasured));
   std::size_t crossings = 0;
   for (;; step = 1) {
     sizes.clear();
     crossings = 0;
-    for (Mesh::Index i = 0; begin + 2 * step * (i / 2) + i % 2 < end; ++i) {
-      const Mesh::Index t = begin + 2 * step * (i / 2) + i % 2;
-      if (mesh.is_ghost(t)) continue;
+    for_some_triangles(mesh, begin, end, step, [&](Mesh::Index t) {
       sizes.push_back(size4_of(mesh, vertices, t));
       if (crossing.size() < crossings + 3) crossing.resize(2 * crossings + 3);
       for (Mesh::Index k = 0; k < 3; ++k) {  // without a branch, which nobody could predict
@@ -131,7 +146,7 @@ double AutomaticLimit::measure_block(const Mesh& mesh, const Point* vertices, st
         crossing[crossings] = Mesh::kStride * t + k;
         crossings += other - begin >= end - begin ? 1U : 0U;
       }
-    }
+    });
     if (step == 1 || sizes.size() >= kMeasured / 4) break;
   }
   const std::size_t first_border = borders.size();
@@ -209,6 +224,51 @@ void AutomaticLimit::for_each_neighbour(double reach, const Visit& visit) const 
       if (border.length4 <= reach4 * measured4_[border.neighbour]) visit(border.neighbour, border.block);
     }
   }
+}
+
+/// How much `length4` of the triangles in a block scatter, fourth powers of lengths: the logarithm of their
+/// 0.8 quantile over their 0.4 quantile. Of some blocks, whose 0.4 quantile it is: those along a thin part of
+/// the shape scatter by its outside. 0 where hardly a block has triangles.
+template <class Length4>
+double AutomaticLimit::scatter_in_blocks(const Mesh& mesh, const Length4& length4) {
+  constexpr std::size_t kMostBlocksLookedAt = 32;
+  constexpr Mesh::Index kRecords = 128;   // of a block
+  constexpr std::ptrdiff_t kFewest = 16;  // triangles
+  constexpr double kQuantile = 0.4;
+  std::vector<double> scatters;
+  for (std::size_t b = 0; b < block_ends_.size(); b += (block_ends_.size() - 1) / kMostBlocksLookedAt + 1) {
+    const Records records = records_of(mesh, b);
+    const Mesh::Index step = std::max(Mesh::Index{1}, (records.end - records.begin) / kRecords);
+    scratch_.clear();
+    for_some_triangles(mesh, records.begin, records.end, step,
+                       [&](Mesh::Index t) { scratch_.push_back(length4(t)); });
+    const auto count = static_cast<std::ptrdiff_t>(scratch_.size());
+    if (count < kFewest) continue;
+    const auto small = scratch_.begin() + 2 * count / 5;
+    const auto large = scratch_.begin() + 4 * count / 5;
+    std::nth_element(scratch_.begin(), small, scratch_.end());
+    std::nth_element(small + 1, large, scratch_.end());
+    scatters.push_back(*small > 0 ? std::log(*large / *small) / 4 : 0);
+  }
+  return scatters.empty() ? 0 : quantile_of(scatters, kQuantile);
+}
+
+/// By how much sizes and shortest edges both scatter more than those of points that do not cluster; 0 at
+/// least, and of few blocks.
+double AutomaticLimit::excess_scatter(const Mesh& mesh, const Point* vertices,
+                                      const AutomaticConstants& constants) {
+  constexpr std::size_t kFewestBlocks = 16;
+  if (block_ends_.size() < kFewestBlocks) return 0;
+  const double of_sizes =
+      scatter_in_blocks(mesh, [&](Mesh::Index t) { return size4_of(mesh, vertices, t); }) -
+      constants.even_sizes;
+  if (of_sizes <= 0) return 0;
+  const double of_edges = scatter_in_blocks(mesh, [&](Mesh::Index t) {
+    const Triangle triangle(mesh, vertices, t);
+    const double squared = std::min({triangle.squared_ab(), triangle.squared_bc(), triangle.squared_ca()});
+    return squared * squared;
+  });
+  return std::clamp(of_edges - constants.even_edges, 0.0, of_sizes);
 }
 
 /// Where blocks differ from those round them by more than noise explains, moves each towards the mean of
@@ -340,7 +400,8 @@ double AutomaticLimit::steadiest_size4(const AutomaticConstants& constants) cons
     if (log_size[c] < std::log(kLeast) || log_size[c] > std::log(kMost)) continue;
     const double growth = (log_area[high] - log_area[low]) / (log_size[high] - log_size[low]);
     const double distance = log_size[c] - std::log(constants.usual);
-    const double cost = std::log(growth + constants.still) + constants.pull * distance * distance;
+    const double pull = distance > 0 ? constants.pull / doubt_ : constants.pull;
+    const double cost = std::log(growth + constants.still) + pull * distance * distance;
     if (cost < least_cost) {  // no: without an area below, where it is infinite or NaN
       least_cost = cost;
       steadiest = log_size[c];
@@ -369,6 +430,7 @@ void AutomaticLimit::choose_by_blocks(const DelaunayBuilder& builder, double det
   usual4_.assign(block_ends_.size(), kInfinity);
   measure_triangles(mesh, vertices, pool);
   measure_blocks(mesh, vertices, pool, constants);
+  doubt_ = 1 + constants.doubt * excess_scatter(mesh, vertices, constants);
   smooth(constants);
   bound_growth(constants);
   shrink_to_median(constants.noise);
@@ -462,6 +524,7 @@ bool AutomaticLimit::find_one(std::span<const Point> points, const Box& box, Thr
 void AutomaticLimit::choose_one(const Mesh& mesh, const Point* vertices, const std::uint8_t* is_tested,
                                 double detail, ThreadPool& pool, const AutomaticConstants& constants) {
   field_.size4 = nullptr;
+  doubt_ = 1;
   sum_up_areas();
   add_wide_areas(mesh, vertices, is_tested, pool);
   set_field(points_, detail, true, constants);

@@ -31,15 +31,18 @@ struct AutomaticConstants {
   double noise = 0.12;    ///< standard deviation of the logarithm of a usual size where all are equal
   std::size_t smoothed_from = 16;  ///< of fewer blocks none is moved towards those round it
 
-  double usual = 2.0;     ///< where the limit usually is, in usual sizes
-  double pull = 1.8;      ///< how much another one costs
-  double still = 0.018;   ///< a growth of the area that is as good as none
-  std::size_t below = 3;  ///< over so many cells of the grid below a limit the growth is taken
-  std::size_t above = 6;  ///< and above it
-  double spike = 1.57;    ///< the size from which a triangle on two border edges may be a spike
-  double part = 2.4;      ///< a part has at least so many times log n triangles
-  double wide = kWide;    ///< a hole has a triangle whose circle would have log n and so many points or more
-  double step = 3;        ///< neighbours on an outline are at most log n and so many mean distances apart
+  double usual = 2.0;        ///< where the limit usually is, in usual sizes
+  double pull = 1.8;         ///< how much another one costs
+  double even_sizes = 0.52;  ///< sizes in a block scatter by so much where points do not cluster
+  double even_edges = 0.62;  ///< and triangles' shortest edges
+  double doubt = 25;         ///< by how much what both scatter more weakens the pull on larger limits
+  double still = 0.018;      ///< a growth of the area that is as good as none
+  std::size_t below = 3;     ///< over so many cells of the grid below a limit the growth is taken
+  std::size_t above = 6;     ///< and above it
+  double spike = 1.57;       ///< the size from which a triangle on two border edges may be a spike
+  double part = 2.4;         ///< a part has at least so many times log n triangles
+  double wide = kWide;  ///< a hole has a triangle whose circle would have log n and so many points or more
+  double step = 3;      ///< neighbours on an outline are at most log n and so many mean distances apart
 };
 
 /// Chooses the limit from the triangulation, keeping its memory between calls.
@@ -65,6 +68,12 @@ struct AutomaticConstants {
 ///   s = argmin  log(g(s) + still) + pull log^2(s / usual),   g = d log A / d log s,
 ///
 /// on a grid of 16 sizes to the octave, g as a difference over `below` + `above` cells. `detail` divides s.
+///
+/// **Clusters.** Where points cluster, the usual voids lie between the clusters, and are larger than where
+/// points do not. So less is known of where the limit usually is: where both the sizes of a block's triangles
+/// and their shortest edges scatter by more than those of points that do not cluster, the pull on larger
+/// limits is divided by 1 + doubt times what is more. Between scan lines and roads sizes scatter, but
+/// shortest edges do not.
 ///
 /// **Outlines.** Where points lie on curves only, most triangles have an edge that is far longer than the
 /// distance of neighbours on a curve. Gaps between n points at random on a line are exponential: half of them
@@ -121,6 +130,11 @@ class AutomaticLimit {
   /// Of the grid of limits, of 16 cells to an octave of sizes.
   static constexpr std::size_t kCells = 64;
 
+  /// From `begin` to one before `end`.
+  struct Records {
+    Mesh::Index begin;
+    Mesh::Index end;
+  };
   /// Blocks that share an edge, and the fourth power of the length of the shortest that was looked at.
   struct Border {
     std::uint32_t block;
@@ -154,6 +168,10 @@ class AutomaticLimit {
   double size4_of(const Mesh& mesh, const Point* vertices, Mesh::Index t) const;
   void measure_blocks(const Mesh& mesh, const Point* vertices, ThreadPool& pool,
                       const AutomaticConstants& constants);
+  Records records_of(const Mesh& mesh, std::size_t block) const;
+  template <class Length4>
+  double scatter_in_blocks(const Mesh& mesh, const Length4& length4);
+  double excess_scatter(const Mesh& mesh, const Point* vertices, const AutomaticConstants& constants);
   double measure_block(const Mesh& mesh, const Point* vertices, std::uint32_t block, double quantile,
                        BlockScratch& scratch, std::vector<Border>& borders) const;
   template <class Visit>
@@ -184,6 +202,7 @@ class AutomaticLimit {
   std::vector<BlockScratch> scratch_of_chunk_;
   std::vector<std::vector<Border>> borders_of_chunk_;
   std::vector<Sampled> samples_;
+  double doubt_ = 1;                       ///< what the pull on larger limits is divided by
   double steadiest4_ = 0;                  ///< the limit at a detail of 1, in usual sizes
   double unit4_ = 0;                       ///< fourth power of the unit of the grid of limits
   std::array<double, kCells + 1> area_{};  ///< cell of that grid -> area of the triangles of its sizes
