@@ -205,7 +205,7 @@ QUICK = ^(polylidar|cgal_alpha_shape|cgal_delaunay|delaunator|spatialite|postgis
 
 bench-quick: ## the state shapes' tables for n <= 8000 and 3 repetitions, in under 2 minutes
 	@$(call install,build bench)
-	@$(MAKE) build
+	@$(call build,release,$(WITHOUT_TESTS),hullbench)
 	@build/hullbench run states --filter '$(QUICK)' --repetitions 3
 
 bench-core: ## the core's speed beside CGAL and GEOS: ratios with goal and verdict

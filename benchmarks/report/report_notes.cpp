@@ -127,7 +127,7 @@ void add_environment(const json& environment, const std::string& machine, Senten
   if (environment.contains("huge_pages")) notes.push_back(huge_pages_text(environment.at("huge_pages")));
 }
 
-std::string percent(double part) {
+std::string percent_words(double part) {
   return three_digits(100 * part) + " %";
 }
 
@@ -137,8 +137,8 @@ void add_noise(const json& report, const std::vector<record::RunRecord>& runs, S
   const json& load = report.at("environment").at("load_average");
   notes.push_back((noise->is_noisy() ? "This machine was noisy: differences of some per cent say nothing. "
                                      : std::string()) +
-                  "The median absolute deviation is " + percent(noise->median_spread) +
-                  " of the median in the middle row and at most " + percent(noise->ninth_decile) +
+                  "The median absolute deviation is " + percent_words(noise->median_spread) +
+                  " of the median in the middle row and at most " + percent_words(noise->ninth_decile) +
                   " in nine of ten" +
                   (load.is_array() && !report.contains("merged")
                        ? "; before the run the load average was " + fixed(load.at(0), 2)

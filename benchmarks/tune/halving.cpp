@@ -14,7 +14,7 @@ namespace {
 
 /// The error at a position; none where the case was not searched. A position that a search did not come to,
 /// given up after time-outs, is a failure.
-std::optional<double> error_at(const MethodOnCase& found, double position) {
+std::optional<double> error_at_position(const MethodOnCase& found, double position) {
   if (found.sweep.empty()) return std::nullopt;
   const Evaluation* evaluation = evaluation_at(found, position);
   return evaluation == nullptr ? kInfinitelyBad : error_of(*evaluation);
@@ -26,7 +26,7 @@ double score_of(const Tuning& tuning, const MethodTuning& method, const std::vec
   std::vector<Membership> members;
   std::vector<statistics::WeightedValue> errors;
   for (const std::size_t place : places) {
-    const auto error = error_at(method.cases[place], position);
+    const auto error = error_at_position(method.cases[place], position);
     if (!error) continue;
     members.push_back(tuning.cases[place].membership());
     errors.push_back({*error, 1});

@@ -13,7 +13,7 @@ using polylidar::Ring;
 namespace {
 
 constexpr std::size_t kRays = 64;
-constexpr double kOuterRadius = 100;
+constexpr double kSpiralRadius = 100;
 
 /// Lengths of a band of given turns: along a ray, inner edge to outer edge to the inner edge of the next
 /// winding.
@@ -28,7 +28,7 @@ Band draw_band(double turns, Random& random) {
   // Nearer to the origin the band would run so steeply along the ray that it is much thinner than wide.
   band.start = random.between(16, 24);
   const double share = random.between(0.4, 0.6);
-  band.pitch = (kOuterRadius - band.start) / (turns + share);
+  band.pitch = (kSpiralRadius - band.start) / (turns + share);
   band.width = share * band.pitch;
   return band;
 }
