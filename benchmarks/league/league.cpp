@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <set>
 #include <span>
 #include <stdexcept>
@@ -22,7 +21,6 @@ namespace {
 
 using nlohmann::json;
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 /// Errors of the same polygons differ by rounding, and those of rows that were kept have nine digits. This
 /// part of an error is neither.
 constexpr double kSameError = 1e-7;

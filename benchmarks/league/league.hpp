@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -14,6 +15,9 @@
 #include "benchmarks/statistics/bootstrap.hpp"
 
 namespace hullbench::league {
+
+/// What a failure counts as: an error of so much, or a skill of so much below zero.
+inline constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 /// A median over cases, weighted (tune/strata.hpp), and how well it is known.
 struct MedianScore {

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <fstream>
 #include <iomanip>
-#include <limits>
 #include <map>
 #include <set>
 #include <sstream>
@@ -18,8 +17,6 @@ namespace hullbench::league {
 namespace {
 
 using nlohmann::json;
-
-constexpr double kFailed = std::numeric_limits<double>::infinity();  // where less is better
 
 json finite_or_null(double value) {
   return std::isfinite(value) ? json(value) : json(nullptr);
@@ -101,7 +98,8 @@ json profile_to_json(const LeagueProfile& profile) {
 }
 
 /// A value with its interval in units of `scale`; null is `worst`.
-table::Cell interval_cell(const json& value, const json& interval, double scale = 1, double worst = kFailed) {
+table::Cell interval_cell(const json& value, const json& interval, double scale = 1,
+                          double worst = kInfinity) {
   const auto number = [&](const json& one) {
     return table::Number(one.is_null() ? worst : one.get<double>() * scale, 2);
   };
@@ -110,7 +108,7 @@ table::Cell interval_cell(const json& value, const json& interval, double scale 
   return cell;
 }
 
-table::Cell median_cell(const json& entry, const std::string& name, double scale, double worst = kFailed) {
+table::Cell median_cell(const json& entry, const std::string& name, double scale, double worst = kInfinity) {
   if (entry.at(name + "_cases") == 0) return {};
   return interval_cell(entry.at(name + "_median"), entry.at(name + "_interval"), scale, worst);
 }
@@ -149,7 +147,7 @@ table::Table league_table(const json& league, const std::string& protocol) {
     table.add_row({entry.at("title").get<std::string>(), entry.at("cases").get<std::size_t>(),
                    failures_cell(entry), median_cell(entry, "l2", 100),
                    everywhere ? table::Cell("=") : median_cell(entry, "l2_where_able", 100),
-                   median_cell(entry, "skill", 1, -kFailed), mean_cell(entry, "hole_f1"),
+                   median_cell(entry, "skill", 1, -kInfinity), mean_cell(entry, "hole_f1"),
                    median_cell(entry, "regret", 100)});
   }
   return table;
@@ -159,7 +157,7 @@ table::Cell part_cell(const json& parts, const std::string& name) {
   const auto part = parts.find(name);
   if (part == parts.end()) return {};
   const json& median = part->at("l2_median");
-  return table::Number(median.is_null() ? kFailed : 100 * median.get<double>(), 1);
+  return table::Number(median.is_null() ? kInfinity : 100 * median.get<double>(), 1);
 }
 
 /// The medians of L2 by kind of shape and by way to sample, a column each.

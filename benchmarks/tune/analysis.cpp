@@ -24,12 +24,6 @@ double crossing(const SearchPoint& below, const SearchPoint& above, double limit
   return from + share * (std::log2(above.position) - from);
 }
 
-/// The error at a grid position, that of a failure where it was not evaluated.
-double error_at(const MethodOnCase& found, double position) {
-  const Evaluation* evaluation = evaluation_at(found, position);
-  return evaluation == nullptr ? kInfinitelyBad : error_of(*evaluation);
-}
-
 double best_error(const MethodOnCase& found) {
   const Evaluation* best = best_evaluation(found);
   return best == nullptr ? kInfinitelyBad : error_of(*best);

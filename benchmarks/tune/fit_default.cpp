@@ -199,8 +199,7 @@ ExitCode fit(int tries, std::uint64_t seed, bool with_ablation) {
   std::vector<MadeLimitCase> training = make_limit_cases(training_limit_cases(), allowed_cores());
   std::cout << "# The core's automatic limit, fitted on " << training.size() << " training cases\n\n";
   table::print_item(
-      "Score: the mean over ways to sample (uniform counts 1.5) of the mean of log(error / "
-      "error "
+      "Score: the mean over ways to sample (uniform counts 1.5) of the mean of log(error / error "
       "of the best single perimeter limit with the truth in hand), each at most 1.5.",
       std::cout);
   table::print_item(

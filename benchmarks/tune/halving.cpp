@@ -12,24 +12,16 @@
 namespace hullbench::tune {
 namespace {
 
-/// The error at a position; none where the case was not searched. A position that a search did not come to,
-/// given up after time-outs, is a failure.
-std::optional<double> error_at_position(const MethodOnCase& found, double position) {
-  if (found.sweep.empty()) return std::nullopt;
-  const Evaluation* evaluation = evaluation_at(found, position);
-  return evaluation == nullptr ? kInfinitelyBad : error_of(*evaluation);
-}
-
-/// The weighted median over these cases; a failure where none was searched.
+/// The weighted median over those of these cases that were searched; a failure where none was.
 double score_of(const Tuning& tuning, const MethodTuning& method, const std::vector<std::size_t>& places,
                 double position) {
   std::vector<Membership> members;
   std::vector<statistics::WeightedValue> errors;
   for (const std::size_t place : places) {
-    const auto error = error_at_position(method.cases[place], position);
-    if (!error) continue;
+    const MethodOnCase& found = method.cases[place];
+    if (found.sweep.empty()) continue;
     members.push_back(tuning.cases[place].membership());
-    errors.push_back({*error, 1});
+    errors.push_back({error_at(found, position), 1});
   }
   if (errors.empty()) return kInfinitelyBad;
   const std::vector<double> weights = case_weights(members);

@@ -368,6 +368,11 @@ const Evaluation* evaluation_at(const MethodOnCase& found, double position) {
   return place == found.sweep.end() ? nullptr : &place->evaluation;
 }
 
+double error_at(const MethodOnCase& found, double position) {
+  const Evaluation* evaluation = evaluation_at(found, position);
+  return evaluation == nullptr ? kInfinitelyBad : error_of(*evaluation);
+}
+
 std::vector<TuningCase> tuning_cases(const std::vector<plan::Plan>& plans) {
   std::vector<TuningCase> cases;
   for (const plan::Plan& plan : plans) {

@@ -55,6 +55,9 @@ const Evaluation* best_evaluation(const MethodOnCase& found);
 /// The evaluation of the sweep at that position; null when it was not evaluated.
 const Evaluation* evaluation_at(const MethodOnCase& found, double position);
 
+/// The error there. A position that a search did not come to, given up after time-outs, is a failure.
+double error_at(const MethodOnCase& found, double position);
+
 /// What successive halving (halving.hpp) knew when a round was over.
 struct HalvingRound {
   std::size_t cases = 0;          ///< training cases that were taken by then

@@ -129,8 +129,9 @@ AutomaticLimit::Records AutomaticLimit::records_of(const Mesh& mesh, std::size_t
 double AutomaticLimit::measure_block(const Mesh& mesh, const Point* vertices, std::uint32_t block,
                                      double quantile, BlockScratch& scratch,
                                      std::vector<Border>& borders) const {
-  const Mesh::Index begin = records_of(mesh, block).begin;
-  const Mesh::Index end = records_of(mesh, block).end;
+  const Records records = records_of(mesh, block);
+  const Mesh::Index begin = records.begin;
+  const Mesh::Index end = records.end;
   std::vector<double>& sizes = scratch.sizes;
   std::vector<Mesh::Index>& crossing = scratch.crossing;
   Mesh::Index step = std::max(Mesh::Index{1}, (end - begin) / static_cast<Mesh::Index>(kMeasured));
@@ -226,9 +227,10 @@ void AutomaticLimit::for_each_neighbour(double reach, const Visit& visit) const 
   }
 }
 
-/// How much `length4` of the triangles in a block scatter, fourth powers of lengths: the logarithm of their
-/// 0.8 quantile over their 0.4 quantile. Of some blocks, whose 0.4 quantile it is: those along a thin part of
-/// the shape scatter by its outside. 0 where hardly a block has triangles.
+/// How much a length scatters among the triangles of a block: the logarithm of its 0.8 quantile over its 0.4
+/// quantile. `length4` gives a triangle's length to the fourth power. Returns the 0.4 quantile of this over
+/// up to 32 blocks, as a block along a thin part of the shape also has triangles outside it, which scatter
+/// more; 0 where no block has enough triangles.
 template <class Length4>
 double AutomaticLimit::scatter_in_blocks(const Mesh& mesh, const Length4& length4) {
   constexpr std::size_t kMostBlocksLookedAt = 32;
@@ -253,8 +255,8 @@ double AutomaticLimit::scatter_in_blocks(const Mesh& mesh, const Length4& length
   return scatters.empty() ? 0 : quantile_of(scatters, kQuantile);
 }
 
-/// By how much sizes and shortest edges both scatter more than those of points that do not cluster; 0 at
-/// least, and of few blocks.
+/// By how much sizes and shortest edges both scatter more than those of points that do not cluster; 0 where
+/// one of them does not, and where there are fewer than 16 blocks.
 double AutomaticLimit::excess_scatter(const Mesh& mesh, const Point* vertices,
                                       const AutomaticConstants& constants) {
   constexpr std::size_t kFewestBlocks = 16;

@@ -33,9 +33,9 @@ struct AutomaticConstants {
 
   double usual = 2.0;        ///< where the limit usually is, in usual sizes
   double pull = 1.8;         ///< how much another one costs
-  double even_sizes = 0.52;  ///< sizes in a block scatter by so much where points do not cluster
-  double even_edges = 0.62;  ///< and triangles' shortest edges
-  double doubt = 25;         ///< by how much what both scatter more weakens the pull on larger limits
+  double even_sizes = 0.52;  ///< sizes in a block scatter by at most so much where points do not cluster
+  double even_edges = 0.62;  ///< and triangles' shortest edges by at most so much
+  double doubt = 25;         ///< how strongly more scatter than that weakens the pull on larger limits
   double still = 0.018;      ///< a growth of the area that is as good as none
   std::size_t below = 3;     ///< over so many cells of the grid below a limit the growth is taken
   std::size_t above = 6;     ///< and above it

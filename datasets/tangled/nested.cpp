@@ -23,11 +23,6 @@ constexpr double kClear = 0.85;
 /// hole, and 0.85 times that less a gap of at most 8 + 2.9 is 8.3 for the island.
 constexpr double kLeastRingRadius = 36;
 
-struct Disc {
-  Point centre;
-  double radius = 0;
-};
-
 Ring draw_outline(const Disc& disc, Random& random) {
   return round_outline(
       {.centre = disc.centre, .radius = disc.radius, .depth = kDepth, .lobes = 2 + random.below(4)}, random);

@@ -21,12 +21,7 @@ constexpr double kHalfSide = 110;
 /// The least in which two teeth fit beside each other: see draw_small_comb.
 constexpr double kLeastRadius = 25;
 
-struct PlacedDisc {
-  Point centre;
-  double radius = 0;
-};
-
-bool are_apart(const PlacedDisc& a, const PlacedDisc& b) {
+bool are_apart(const Disc& a, const Disc& b) {
   const double dx = a.centre.x - b.centre.x;
   const double dy = a.centre.y - b.centre.y;
   const double least = a.radius + b.radius + kLeastFeature;
@@ -34,17 +29,17 @@ bool are_apart(const PlacedDisc& a, const PlacedDisc& b) {
 }
 
 /// Puts disc after disc where there is room; fewer than `count` when one finds no place in 100 tries.
-std::vector<PlacedDisc> try_discs(std::size_t count, Random& random) {
+std::vector<Disc> try_discs(std::size_t count, Random& random) {
   const double most = kLeastRadius + 60 / static_cast<double>(count);
-  std::vector<PlacedDisc> discs;
+  std::vector<Disc> discs;
   for (int attempt = 0; attempt < 100 && discs.size() < count; ++attempt) {
     const double radius = random.between(kLeastRadius, most);
     const double reach = kHalfSide - radius;
     const double x = random.between(-reach, reach);
     const double y = random.between(-reach, reach);
-    const PlacedDisc disc{{x, y}, radius};
-    const bool fits = std::all_of(discs.begin(), discs.end(),
-                                  [&](const PlacedDisc& other) { return are_apart(disc, other); });
+    const Disc disc{{x, y}, radius};
+    const bool fits =
+        std::all_of(discs.begin(), discs.end(), [&](const Disc& other) { return are_apart(disc, other); });
     if (fits) discs.push_back(disc);
   }
   return discs;
@@ -86,7 +81,7 @@ Ring draw_part(std::size_t kind, double radius, Random& random) {
 
 MultiPolygon draw_parts(Random& random) {
   const std::size_t count = 3 + random.below(5);
-  std::vector<PlacedDisc> discs;
+  std::vector<Disc> discs;
   while (discs.size() < count) discs = try_discs(count, random);
   const std::size_t first_kind = random.below(3);
   MultiPolygon shape;

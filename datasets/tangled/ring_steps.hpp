@@ -27,6 +27,12 @@ polylidar::Ring without_straight_corners(polylidar::Ring ring);
 /// `count` * `least`.
 std::vector<double> random_cuts(std::size_t count, double least, double total, Random& random);
 
+/// Where there is room.
+struct Disc {
+  polylidar::Point centre;
+  double radius = 0;  ///< length unit, > 0
+};
+
 /// A round outline with lobes; see round_outline.
 struct RoundOutline {
   polylidar::Point centre;
