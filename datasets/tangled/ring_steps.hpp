@@ -27,7 +27,7 @@ polylidar::Ring without_straight_corners(polylidar::Ring ring);
 /// `count` * `least`.
 std::vector<double> random_cuts(std::size_t count, double least, double total, Random& random);
 
-/// Where there is room.
+/// The room in which an outline is drawn.
 struct Disc {
   polylidar::Point centre;
   double radius = 0;  ///< length unit, > 0
