@@ -74,14 +74,14 @@ bool any_occupied(const Cells& cells, const Part& part, const Found& found) {
 
 // Whether all of the cell at `q` lies inside the disk that touches p in direction `angle`, for every p of the
 // part: as far as their corners, moved outwards by `slack`, tell.
-bool is_inside(const Point& q, const Part& part, double angle, double slack) {
+bool is_inside(const Point& q, const Part& part, double angle, double slack, double radius = kRadius) {
   const double u = std::cos(angle);
   const double v = std::sin(angle);
   for (const double px : {part.x - slack, part.x + part.side + slack}) {
     for (const double py : {part.y - slack, part.y + part.side + slack}) {
       for (const double qx : {q.x - slack, q.x + 1 + slack}) {
         for (const double qy : {q.y - slack, q.y + 1 + slack}) {
-          if (std::hypot(qx - px - kRadius * u, qy - py - kRadius * v) >= kRadius) return false;
+          if (std::hypot(qx - px - radius * u, qy - py - radius * v) >= radius) return false;
         }
       }
     }
@@ -89,27 +89,32 @@ bool is_inside(const Point& q, const Part& part, double angle, double slack) {
   return true;
 }
 
-// In every one of so many directions some occupied cell is inside: what certified means.
+// In this direction some occupied cell is inside the disk.
+bool holds_at(const Cells& cells, const Part& part, double angle, double radius) {
+  return any_occupied(cells, part,
+                      [&](const Point& q) { return is_inside(q, part, angle, Grid::kSlack, radius); });
+}
+
+// In every one of so many directions: what certified means.
 bool holds(const Cells& cells, const Part& part, int directions) {
   for (int i = 0; i < directions; ++i) {
-    const double angle = kTurn * i / directions;
-    if (!any_occupied(cells, part, [&](const Point& q) { return is_inside(q, part, angle, Grid::kSlack); })) {
-      return false;
-    }
+    if (!holds_at(cells, part, kTurn * i / directions, kRadius)) return false;
   }
   return true;
 }
 
-// As the certificate decides: for every sector one cell, inside at both ends, and not just touching.
-bool is_covered(const Cells& cells, const Part& part, int sectors) {
+// As the certificate decides: for the sector from `angle` on one cell, inside at both ends, and not just
+// touching.
+bool is_sector_covered(const Cells& cells, const Part& part, double angle, double width, double radius) {
   constexpr double kClear = 1e-7;
+  return any_occupied(cells, part, [&](const Point& q) {
+    return is_inside(q, part, angle, kClear, radius) && is_inside(q, part, angle + width, kClear, radius);
+  });
+}
+
+bool is_covered(const Cells& cells, const Part& part, int sectors) {
   for (int s = 0; s < sectors; ++s) {
-    if (!any_occupied(cells, part, [&](const Point& q) {
-          return is_inside(q, part, kTurn * s / sectors, kClear) &&
-                 is_inside(q, part, kTurn * (s + 1) / sectors, kClear);
-        })) {
-      return false;
-    }
+    if (!is_sector_covered(cells, part, kTurn * s / sectors, kTurn / sectors, kRadius)) return false;
   }
   return true;
 }
@@ -191,6 +196,43 @@ TEST(Certificate, OfPointsIsThatOfItsDefinition) {
   }
   EXPECT_GT(certified, 50U);
   EXPECT_GT(uncertain, 50U);
+}
+
+// The directions in which a disk of kNearRadius may be empty are those that have an uncovered sector.
+TEST(Certificate, FindsTheDirectionsOfLargeTriangles) {
+  constexpr int kSectorsOfPart = static_cast<int>(SectorCover<kNearRadius>::kSectors / kPartsOfTurn);
+  const PointCertificate& certificate = PointCertificate::instance();
+  std::size_t open = 0;
+  std::size_t closed = 0;
+  for (std::uint64_t seed = 0; seed < 300; ++seed) {
+    SCOPED_TRACE(seed);
+    const Cells cells(27, seed, 0.06 + 0.05 * static_cast<double>(seed % 5));
+    Random random(seed + 2000);
+    const double qx = 0.25 * static_cast<double>(random.below(4));
+    const double qy = 0.25 * static_cast<double>(random.below(4));
+    const Point p{13 + qx + 0.2 * random.unit(), 13 + qy + 0.2 * random.unit()};
+    const Part part{13 + qx, 13 + qy, 0.25};
+    for (const Kernel kernel : {Kernel::kPortable, Kernel::kAvx2, Kernel::kAvx512}) {
+      if (!is_supported(kernel)) continue;
+      const Directions found =
+          certificate.open_directions(p, cells.grid.cell(p), cells.grid, cells.occupied, kernel);
+      for (unsigned k = 0; k < kPartsOfTurn; ++k) {
+        bool is_open = false;
+        for (int s = 0; s < kSectorsOfPart; ++s) {
+          const double width = kTurn / kPartsOfTurn / kSectorsOfPart;
+          const double angle = kTurn * k / kPartsOfTurn + width * s;
+          is_open |= !is_sector_covered(cells, part, angle, width, kNearRadius);
+        }
+        ASSERT_EQ((found >> k & 1U) != 0, is_open) << k;
+        (is_open ? open : closed) += 1;
+        for (int i = 0; i <= 8 && !is_open; ++i) {
+          EXPECT_TRUE(holds_at(cells, part, kTurn * (k + i / 8.0) / kPartsOfTurn, kNearRadius));
+        }
+      }
+    }
+  }
+  EXPECT_GT(open, 500U);
+  EXPECT_GT(closed, 1000U);
 }
 
 // Every single cell counts: a certified cell with only just enough about it is uncertain without any of them.

@@ -464,6 +464,44 @@ TEST(InteriorLeftOut, AlsoOfCoordinatesWithFewDecimals) {
   }
 }
 
+// What the proof needs of the part: it has every uncertain point's neighbours in the triangulation of all
+// points.
+TEST(InteriorPart, HasAllNeighboursOfUncertainPoints) {
+  detail::InteriorPart part;
+  detail::ThreadPool pool;
+  pool.use(1);
+  std::size_t neighbours = 0;
+  std::size_t left_out = 0;
+  for (std::uint64_t seed = 0; seed < 20 * samplers().size(); ++seed) {
+    Random random(seed);
+    const Sampler& sampler = samplers()[seed % samplers().size()];
+    SCOPED_TRACE(::testing::Message() << sampler.name << ", seed " << seed);
+    const Points points = sample(sampler, 200 + random.below(4000), random);
+    const double radius = random.between(0.9, 2.4) / std::sqrt(static_cast<double>(points.size()));
+    if (part.choose(points, detail::measure_coordinates(points, pool), radius, false, testing::kAlways,
+                    pool)) {
+      continue;
+    }
+    std::vector<bool> is_in_part(points.size());
+    std::vector<bool> is_uncertain(points.size());
+    for (std::size_t i = 0; i < part.points().size(); ++i) {
+      is_in_part[part.caller_index()[i]] = true;
+      is_uncertain[part.caller_index()[i]] = part.is_uncertain()[i] != 0;
+    }
+    left_out += points.size() - part.points().size();
+    const Triangulation whole = delaunay(points);
+    for (std::size_t e = 0; e < whole.triangles.size(); ++e) {
+      const std::uint32_t from = whole.triangles[e];
+      const std::uint32_t to = whole.triangles[e % 3 == 2 ? e - 2 : e + 1];
+      neighbours += is_uncertain[from] || is_uncertain[to] ? 1U : 0U;
+      ASSERT_TRUE(!is_uncertain[from] || is_in_part[to]) << from << ", " << to;
+      ASSERT_TRUE(!is_uncertain[to] || is_in_part[from]) << from << ", " << to;
+    }
+  }
+  EXPECT_GT(neighbours, 100'000U);
+  EXPECT_GT(left_out, 100'000U);
+}
+
 TEST(InteriorLeftOut, CanBeAskedAbout) {
   const Points points = testing::uniform_points(20'000, 1);
   Extractor extractor;

@@ -113,7 +113,7 @@ void certified_points(benchmark::State& state, const SpeedPointSet& set) {
 
 void gather(benchmark::State& state, const SpeedPointSet& set) {
   measure_phase(state, set, [](Phases& p) {
-    p.part.mark_reach();
+    p.part.mark_reach(p.pool);
     p.part.gather(p.set.points, p.pool);
   });
 }

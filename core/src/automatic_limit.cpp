@@ -490,25 +490,19 @@ void AutomaticLimit::look_for_outlines(const Mesh& mesh, const Point* vertices, 
 
 bool AutomaticLimit::find_one(std::span<const Point> points, const Box& box, ThreadPool& pool,
                               const AutomaticConstants& constants) {
-  if (!windows_.look(points, box, constants.noise, pool)) return false;
-  std::vector<double> sizes;
+  // The margin takes in the circles of wide triangles, if the windows' usual sizes are those of uniform
+  // points or smaller, and a little more, as chance alone makes them differ.
+  constexpr double kRoom = 1.1;
+  const double margin =
+      kRoom * std::sqrt(least_wide_square(static_cast<double>(points.size()), AutomaticConstants::kWide, 1));
+  if (!windows_.look(points, box, {constants.noise, margin, constants.quantile}, pool)) return false;
+  if (windows_.usual4().size() < windows_.window_ends().size() / 2) return false;
   std::vector<double> logs;
-  std::size_t begin = 0;
-  for (const std::size_t end : windows_.window_ends()) {
-    constexpr std::size_t kFew = 24;
-    if (end - begin >= kFew) {
-      sizes.clear();
-      for (std::size_t i = begin; i < end; ++i) sizes.push_back(windows_.triangles()[i].size4);
-      logs.push_back(std::log(quantile_of(sizes, constants.quantile)) / 4);
-    }
-    begin = end;
-  }
-  if (logs.size() < windows_.window_ends().size() / 2) return false;
+  for (const double usual4 : windows_.usual4()) logs.push_back(std::log(usual4) / 4);
   const double median = quantile_of(logs, 0.5);
-  // Windows are fewer than blocks, and have fewer triangles in each: 1 in 600 uniform sets is beyond. The
-  // fewer there are, the less sure is their deviation.
-  const double of_windows = 1.15 * std::sqrt(std::sqrt(static_cast<double>(WindowSample::kMostWindows) /
-                                                       static_cast<double>(windows_.window_ends().size())));
+  // One in some 600 uniform sets is beyond. The fewer windows there are, the less sure is their deviation.
+  const double of_windows = 0.97 * std::cbrt(static_cast<double>(WindowSample::kMostWindows) /
+                                             static_cast<double>(windows_.window_ends().size()));
   if (!(robust_deviation(logs, median) <= of_windows * constants.noise)) return false;
   points_ = windows_.distinct_share() * static_cast<double>(points.size());
   wide_radius_ =

@@ -41,15 +41,16 @@ constexpr Differences differences(int column, int row) {
   return {column - 1 - kSlack, column + 1 + kSlack, row - 1 - kSlack, row + 1 + kSlack};
 }
 
-/// (1) of the header with room to spare, at one corner and one end.
+/// (1) of the header for disks of radius `kDisk` with room to spare, at one corner and one end.
+template <int kDisk>
 constexpr bool is_inside(double dx, double dy, const Vector& u) {
-  return dx * dx + dy * dy + kExtra < 2 * kRadius * (dx * u.x + dy * u.y);
+  return dx * dx + dy * dy + kExtra < 2 * kDisk * (dx * u.x + dy * u.y);
 }
 
 /// Whether (1) holds for all `d` with the direction u.
 constexpr bool is_inside(const Differences& d, const Vector& u) {
-  return is_inside(d.min_x, d.min_y, u) && is_inside(d.min_x, d.max_y, u) && is_inside(d.max_x, d.min_y, u) &&
-         is_inside(d.max_x, d.max_y, u);
+  return is_inside<kRadius>(d.min_x, d.min_y, u) && is_inside<kRadius>(d.min_x, d.max_y, u) &&
+         is_inside<kRadius>(d.max_x, d.min_y, u) && is_inside<kRadius>(d.max_x, d.max_y, u);
 }
 
 constexpr int kCellSectors = 16;
@@ -110,6 +111,9 @@ constexpr std::size_t kLevels = 4;
 /// Of one row: strip by strip the windows of level 0, then those of level 1, and so on.
 using WindowRow = const Word*;
 
+/// Of one row: sector by sector which cells cover it.
+using SectorRow = SectorCover<kRadius>::Row;
+
 /// Which cells of a strip have an occupied one where kRuns[kSector][kRow] says.
 template <std::size_t kSector, std::size_t kRow>
 [[gnu::always_inline]] inline Word any_in_run(WindowRow row, std::size_t strips, std::size_t strip) {
@@ -144,22 +148,42 @@ template <std::size_t... kSector>
   (check_sector<kSector>(rows, strips, begin, end, certified, std::make_index_sequence<kRows>()), ...);
 }
 
-/// Whether for every sector a cell that covers it is in `cells`, row by row.
+/// Of those in `cells`, row by row, the cells that cover sector `s`, columns of all rows together.
 template <std::size_t... kRow>
-[[gnu::always_inline]] inline bool check_point(const PointCertificate::Row* rows, const std::uint32_t* cells,
-                                               std::index_sequence<kRow...> /*rows*/) {
-  std::uint32_t uncovered = 0;
-  for (std::size_t s = 0; s < PointCertificate::kSectors; ++s) {
-    uncovered += ((cells[kRow] & rows[kRow][s]) | ...) == 0 ? 1U : 0U;
+[[gnu::always_inline]] inline std::uint32_t covering(const SectorRow* rows, const std::uint32_t* cells,
+                                                     std::size_t s, std::index_sequence<kRow...> /*rows*/) {
+  return ((cells[kRow] & rows[kRow][s]) | ...);
+}
+
+[[gnu::always_inline]] inline bool check_point(const SectorRow* rows, const std::uint32_t* cells) {
+  using Cover = SectorCover<kRadius>;
+  unsigned uncovered = 0;
+  for (std::size_t s = 0; s < Cover::kSectors; ++s) {
+    uncovered += covering(rows, cells, s, std::make_index_sequence<Cover::kRows>()) == 0 ? 1U : 0U;
   }
   return uncovered == 0;
 }
 
-/// The two loops that the time goes into.
+[[gnu::always_inline]] inline Directions find_open(const SectorRow* rows, const std::uint32_t* cells) {
+  using Cover = SectorCover<kNearRadius>;
+  std::array<std::uint32_t, Cover::kSectors> covered;
+  for (std::size_t s = 0; s < Cover::kSectors; ++s) {
+    covered[s] = covering(rows, cells, s, std::make_index_sequence<Cover::kRows>());
+  }
+  constexpr std::size_t kSectorsOfPart = Cover::kSectors / kPartsOfTurn;
+  unsigned open = 0;
+  for (std::size_t s = 0; s < Cover::kSectors; ++s) {
+    open |= (covered[s] == 0 ? 1U : 0U) << (s / kSectorsOfPart);
+  }
+  return static_cast<Directions>(open);
+}
+
+/// The loops that the time goes into.
 struct Loops {
   void (*check_cells)(const WindowRow* rows, std::size_t strips, std::size_t begin, std::size_t end,
                       Word* certified);
-  bool (*check_point)(const PointCertificate::Row* rows, const std::uint32_t* cells);
+  bool (*check_point)(const SectorRow* rows, const std::uint32_t* cells);
+  Directions (*find_open)(const SectorRow* rows, const std::uint32_t* cells);
 };
 
 // The same code three times, for what the compiler makes of it with wider registers.
@@ -167,34 +191,43 @@ void check_cells_portably(const WindowRow* rows, std::size_t strips, std::size_t
                           Word* certified) {
   check_sectors(rows, strips, begin, end, certified, std::make_index_sequence<kCellSectors>());
 }
-bool check_point_portably(const PointCertificate::Row* rows, const std::uint32_t* cells) {
-  return check_point(rows, cells, std::make_index_sequence<PointCertificate::kRows>());
+bool check_point_portably(const SectorRow* rows, const std::uint32_t* cells) {
+  return check_point(rows, cells);
+}
+Directions find_open_portably(const SectorRow* rows, const std::uint32_t* cells) {
+  return find_open(rows, cells);
 }
 #ifdef POLYLIDAR_X86_KERNELS
 [[gnu::target("avx2")]] void check_cells_with_avx2(const WindowRow* rows, std::size_t strips,
                                                    std::size_t begin, std::size_t end, Word* certified) {
   check_sectors(rows, strips, begin, end, certified, std::make_index_sequence<kCellSectors>());
 }
-[[gnu::target("avx2")]] bool check_point_with_avx2(const PointCertificate::Row* rows,
-                                                   const std::uint32_t* cells) {
-  return check_point(rows, cells, std::make_index_sequence<PointCertificate::kRows>());
+[[gnu::target("avx2")]] bool check_point_with_avx2(const SectorRow* rows, const std::uint32_t* cells) {
+  return check_point(rows, cells);
+}
+[[gnu::target("avx2")]] Directions find_open_with_avx2(const SectorRow* rows, const std::uint32_t* cells) {
+  return find_open(rows, cells);
 }
 POLYLIDAR_AVX512 void check_cells_with_avx512(const WindowRow* rows, std::size_t strips, std::size_t begin,
                                               std::size_t end, Word* certified) {
   check_sectors(rows, strips, begin, end, certified, std::make_index_sequence<kCellSectors>());
 }
-POLYLIDAR_AVX512 bool check_point_with_avx512(const PointCertificate::Row* rows, const std::uint32_t* cells) {
-  return check_point(rows, cells, std::make_index_sequence<PointCertificate::kRows>());
+POLYLIDAR_AVX512 bool check_point_with_avx512(const SectorRow* rows, const std::uint32_t* cells) {
+  return check_point(rows, cells);
+}
+POLYLIDAR_AVX512 Directions find_open_with_avx512(const SectorRow* rows, const std::uint32_t* cells) {
+  return find_open(rows, cells);
 }
 #endif
 
 Loops loops_of(Kernel kernel) {
 #ifdef POLYLIDAR_X86_KERNELS
-  if (kernel == Kernel::kAvx512) return {&check_cells_with_avx512, &check_point_with_avx512};
-  if (kernel == Kernel::kAvx2) return {&check_cells_with_avx2, &check_point_with_avx2};
+  if (kernel == Kernel::kAvx512)
+    return {&check_cells_with_avx512, &check_point_with_avx512, &find_open_with_avx512};
+  if (kernel == Kernel::kAvx2) return {&check_cells_with_avx2, &check_point_with_avx2, &find_open_with_avx2};
 #endif
   static_cast<void>(kernel);
-  return {&check_cells_portably, &check_point_portably};
+  return {&check_cells_portably, &check_point_portably, &find_open_portably};
 }
 
 /// Fills a WindowRow from a row of the bitmap. Column 0 is bit 64 of that.
@@ -208,6 +241,31 @@ void fill_windows(const Word* row, std::size_t strips, Word* windows) {
     windows[2 * strips + i] = windows[strips + i] | windows[strips + i] >> 2U;
     windows[3 * strips + i] = windows[2 * strips + i] | windows[2 * strips + i] >> 4U;
   }
+}
+
+/// Of a point: in which quarter (in x and in y) of its cell it lies, row by row.
+std::size_t quarter_of(const Point& p, const Grid& grid) {
+  constexpr std::size_t kQuarters = SectorCover<kRadius>::kQuarters;
+  const auto x = static_cast<std::size_t>(grid.column(p) * kQuarters) % kQuarters;
+  const auto y = static_cast<std::size_t>(grid.row(p) * kQuarters) % kQuarters;
+  return y * kQuarters + x;
+}
+
+/// The occupied cells round `cell`, row by row, as SectorCover<kDisk>::Row names columns; behind them, bits
+/// that it does not name.
+template <int kDisk>
+std::array<std::uint32_t, SectorCover<kDisk>::kRows> cells_round(Grid::Cell cell, const Grid& grid,
+                                                                 const Bitmap& occupied) {
+  constexpr Grid::Cell kFarthest = SectorCover<kDisk>::kFarthest;
+  const Grid::Cell first = cell - kFarthest;
+  const Word* word = occupied.words() + first / Grid::kWordBits - kFarthest * grid.row_words();
+  const unsigned shift = first % Grid::kWordBits;
+  std::array<std::uint32_t, SectorCover<kDisk>::kRows> cells;
+  for (std::uint32_t& row : cells) {
+    row = static_cast<std::uint32_t>(word[0] >> shift | word[1] << 1U << (Grid::kWordBits - 1 - shift));
+    word += grid.row_words();
+  }
+  return cells;
 }
 
 }  // namespace
@@ -265,7 +323,8 @@ void find_uncertain_cells(const Grid& grid, const Bitmap& occupied, Grid::Cell b
   }
 }
 
-PointCertificate::PointCertificate() {
+template <int kDisk>
+SectorCover<kDisk>::SectorCover() {
   using Sectors = std::uint64_t;  // bit s: sector s, or direction s, where it begins
   std::array<Vector, kSectors> direction;
   for (std::size_t s = 0; s < kSectors; ++s) {
@@ -275,18 +334,18 @@ PointCertificate::PointCertificate() {
   // Corners of the boxes of all d lie on a lattice of quarters. (kSlack, which moves them, changes (1) by
   // less than 2^-22, so that kExtra covers it.) Turning a corner by 90 degrees turns its directions.
   constexpr int kSteps = static_cast<int>(kQuarters);  // of a column
-  constexpr int kFarthest = 2 * kRadius * kSteps;
-  constexpr std::size_t kCorners = 2 * kFarthest + 1;
+  constexpr int kFarthestCorner = 2 * kDisk * kSteps;
+  constexpr std::size_t kCorners = 2 * kFarthestCorner + 1;
   std::vector<Sectors> inside(kCorners * kCorners);  // (1) holds with these directions
   const auto inside_at = [&](int x, int y) -> Sectors& {
-    return inside[static_cast<std::size_t>(y + kFarthest) * kCorners +
-                  static_cast<std::size_t>(x + kFarthest)];
+    return inside[static_cast<std::size_t>(y + kFarthestCorner) * kCorners +
+                  static_cast<std::size_t>(x + kFarthestCorner)];
   };
-  for (int y = 0; y < kFarthest; ++y) {
-    for (int x = 1; x * x + y * y < kFarthest * kFarthest; ++x) {
+  for (int y = 0; y < kFarthestCorner; ++y) {
+    for (int x = 1; x * x + y * y < kFarthestCorner * kFarthestCorner; ++x) {
       Sectors sectors = 0;
       for (std::size_t s = 0; s < kSectors; ++s) {
-        sectors |= Sectors{is_inside(1.0 / kSteps * x, 1.0 / kSteps * y, direction[s])} << s;
+        sectors |= Sectors{is_inside<kDisk>(1.0 / kSteps * x, 1.0 / kSteps * y, direction[s])} << s;
       }
       inside_at(x, y) = sectors;
       inside_at(-y, x) = std::rotl(sectors, kSectors / 4);
@@ -295,22 +354,26 @@ PointCertificate::PointCertificate() {
     }
   }
   for (int quarter = 0; quarter < kSteps * kSteps; ++quarter) {
-    for (int row = -kReach; row <= kReach; ++row) {
-      for (int column = -kReach; column <= kReach; ++column) {
+    for (int row = -kFarthest; row <= kFarthest; ++row) {
+      for (int column = -kFarthest; column <= kFarthest; ++column) {
         const int x = kSteps * column - quarter % kSteps;
         const int y = kSteps * row - quarter / kSteps;
         // From p at the far side of its quarter to q at the near side of its cell, and the other way round.
         const Sectors both = inside_at(x - 1, y - 1) & inside_at(x - 1, y + kSteps) &
                              inside_at(x + kSteps, y - 1) & inside_at(x + kSteps, y + kSteps);
-        auto& sectors = covering_[static_cast<std::size_t>(quarter)][static_cast<std::size_t>(row + kReach)];
+        auto& sectors =
+            covering_[static_cast<std::size_t>(quarter)][static_cast<std::size_t>(row + kFarthest)];
         for (Sectors covered = both & std::rotr(both, 1); covered != 0; covered &= covered - 1) {
           sectors[static_cast<std::size_t>(std::countr_zero(covered))] |=
-              std::uint32_t{1} << static_cast<unsigned>(column + kReach);
+              std::uint32_t{1} << static_cast<unsigned>(column + kFarthest);
         }
       }
     }
   }
 }
+
+template class SectorCover<kRadius>;
+template class SectorCover<kNearRadius>;
 
 const PointCertificate& PointCertificate::instance() {
   static const PointCertificate certificate;
@@ -319,21 +382,21 @@ const PointCertificate& PointCertificate::instance() {
 
 bool PointCertificate::is_certified(const Point& p, Grid::Cell cell, const Grid& grid, const Bitmap& occupied,
                                     Kernel kernel) const {
-  const auto x = static_cast<std::size_t>(grid.column(p) * kQuarters) % kQuarters;
-  const auto y = static_cast<std::size_t>(grid.row(p) * kQuarters) % kQuarters;
-  return is_certified_in(y * kQuarters + x, cell, grid, occupied, kernel);
+  const auto cells = cells_round<kRadius>(cell, grid, occupied);
+  return loops_of(kernel).check_point(cover_.rows(quarter_of(p, grid)), cells.data());
 }
 
-bool PointCertificate::is_certified_in(std::size_t quarter, Grid::Cell cell, const Grid& grid,
-                                       const Bitmap& occupied, Kernel kernel) const {
-  const Grid::Cell row_bits = grid.row_words() * Grid::kWordBits;
-  std::array<std::uint32_t, kRows> cells;
-  Grid::Cell first = cell - kReach - kReach * row_bits;
-  for (std::uint32_t& row : cells) {
-    row = static_cast<std::uint32_t>(occupied.window(first));  // of which the masks take kRows bits
-    first += row_bits;
-  }
-  return loops_of(kernel).check_point(covering_[quarter].data(), cells.data());
+bool PointCertificate::is_middle_certified(Grid::Cell cell, const Grid& grid, const Bitmap& occupied) const {
+  constexpr std::size_t kQuarters = SectorCover<kRadius>::kQuarters;
+  const auto cells = cells_round<kRadius>(cell, grid, occupied);
+  return loops_of(best_kernel())
+      .check_point(cover_.rows(kQuarters * (kQuarters / 2) + kQuarters / 2), cells.data());
+}
+
+Directions PointCertificate::open_directions(const Point& p, Grid::Cell cell, const Grid& grid,
+                                             const Bitmap& occupied, Kernel kernel) const {
+  const auto cells = cells_round<kNearRadius>(cell, grid, occupied);
+  return loops_of(kernel).find_open(near_cover_.rows(quarter_of(p, grid)), cells.data());
 }
 
 }  // namespace polylidar::detail

@@ -52,8 +52,39 @@ Kernel best_kernel();
 void find_uncertain_cells(const Grid& grid, const Bitmap& occupied, Grid::Cell begin, Grid::Cell end,
                           Bitmap& uncertain, Kernel kernel = best_kernel());
 
-/// The test for single points, which knows in which quarter (in x and in y) of its cell one lies, and cuts
-/// the directions into 64 sectors.
+/// Of a point the disks of this radius are looked at as well, which most points near the outline have filled
+/// on the side of the shape: a radius of two thirds.
+inline constexpr int kNearRadius = 4;
+static_assert(kNearRadius < kRadius);
+
+/// The table of the test for single points, which knows in which quarter (in x and in y) of its cell one
+/// lies, and cuts the directions into 64 sectors: the cells that cover each, for disks of a radius of `kDisk`
+/// cells.
+template <int kDisk>
+class SectorCover {
+ public:
+  SectorCover();
+
+  /// How far away a cell can be that covers a sector, as kReach.
+  static constexpr int kFarthest = 2 * kDisk - 1;
+  static constexpr std::size_t kRows = 2 * kFarthest + 1;
+  static constexpr std::size_t kSectors = 64;
+  static constexpr std::size_t kQuarters = 4;
+  /// Sector -> bit c: a cell c - kFarthest columns from the point's own covers it.
+  using Row = std::array<std::uint32_t, kSectors>;
+
+  /// The rows of a point, from kFarthest below its own on. `quarter`: row by row.
+  const Row* rows(std::size_t quarter) const { return covering_[quarter].data(); }
+
+ private:
+  std::array<std::array<Row, kRows>, kQuarters * kQuarters> covering_{};
+};
+
+/// Directions: bit k stands for those from k to k + 1 parts of a turn.
+using Directions = std::uint16_t;
+inline constexpr unsigned kPartsOfTurn = 16;
+
+/// The test for single points.
 class PointCertificate {
  public:
   /// The tables are made at the first call in a process, in a fraction of a millisecond.
@@ -62,24 +93,17 @@ class PointCertificate {
   bool is_certified(const Point& p, Grid::Cell cell, const Grid& grid, const Bitmap& occupied,
                     Kernel kernel = best_kernel()) const;
   /// Whether a point in the middle of the cell would be.
-  bool is_middle_certified(Grid::Cell cell, const Grid& grid, const Bitmap& occupied) const {
-    return is_certified_in(kQuarters * (kQuarters / 2) + kQuarters / 2, cell, grid, occupied, best_kernel());
-  }
-
-  static constexpr std::size_t kSectors = 64;
-  static constexpr std::size_t kRows = 2 * kReach + 1;
-  /// Sector -> bit c: a cell c - kReach columns from the point's own covers it.
-  using Row = std::array<std::uint32_t, kSectors>;
+  bool is_middle_certified(Grid::Cell cell, const Grid& grid, const Bitmap& occupied) const;
+  /// The directions that have a sector in which a disk of kNearRadius at `p` may be empty. In all others a
+  /// Delaunay triangle at p has a circumradius below kNearRadius, if its circumcentre lies there.
+  Directions open_directions(const Point& p, Grid::Cell cell, const Grid& grid, const Bitmap& occupied,
+                             Kernel kernel = best_kernel()) const;
 
  private:
-  static constexpr std::size_t kQuarters = 4;
+  PointCertificate() = default;
 
-  PointCertificate();
-  bool is_certified_in(std::size_t quarter, Grid::Cell cell, const Grid& grid, const Bitmap& occupied,
-                       Kernel kernel) const;
-
-  /// Quarter, row by row -> row, from kReach below on -> the cells that cover each sector.
-  std::array<std::array<Row, kRows>, kQuarters * kQuarters> covering_{};
+  SectorCover<kRadius> cover_;
+  SectorCover<kNearRadius> near_cover_;
 };
 
 }  // namespace polylidar::detail

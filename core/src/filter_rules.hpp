@@ -37,12 +37,14 @@ struct Triangle {
   /// second-longest edge e, and e / 2 where that is more, as in triangles that are all but flat. Of an
   /// equilateral triangle it is the edge. A triangle with a long edge has a size like its circumradius where
   /// it spans a hole, and a small one where it is a sliver along the outline.
-  double size4() const {
+  double size4() const { return size4(twice_area()); }
+  /// The same, were that its area.
+  double size4(double twice_area) const {
     constexpr double kEquilateral = 1.1547005383792515;  // 2 / sqrt 3
     const double ab = squared_ab();
     const double bc = squared_bc();
     const double middle = std::max(std::min(ab, bc), std::min(std::max(ab, bc), squared_ca()));
-    return middle * std::max(kEquilateral * twice_area(), middle / 16);
+    return middle * std::max(kEquilateral * twice_area, middle / 16);
   }
 
   Mesh::Index index;
@@ -87,6 +89,7 @@ class OneSizeRule {
  public:
   explicit OneSizeRule(double limit4) : limit4_(limit4) {}
   bool keeps(const Triangle& triangle) const { return triangle.size4() <= limit4_; }
+  double most4() const { return limit4_; }
 
  private:
   double limit4_;

@@ -5,6 +5,7 @@
 #include <bit>
 #include <cmath>
 
+#include "selected.hpp"
 #include "vector.hpp"
 
 namespace polylidar::detail {
@@ -37,7 +38,74 @@ constexpr Grid::Cell rows_below(std::span<const unsigned> half_widths) {
   return static_cast<Grid::Cell>(half_widths.size() / 2);
 }
 
-void append(std::vector<std::uint32_t>& all, const std::vector<std::uint32_t>& part) {
+/// Cells round one: row, from the lowest on -> bit c: the cell c - kFarthest columns away.
+struct Neighbourhood {
+  static constexpr int kFarthest = 2 * kRadius + 1;
+  std::array<std::uint32_t, 2 * kFarthest + 1> rows{};
+};
+
+/// How far the interval from `low` to `high` is from `at`.
+double gap(double low, double high, double at) {
+  return std::max({low - at, at - high, 0.0});
+}
+
+/// The cells that may hold a corner of a triangle at a point of the cell in the middle.
+struct Reach {
+  Reach();
+
+  /// Where all circumradii are below kNearRadius.
+  Neighbourhood near;
+  /// Part k of a turn -> where they are below kRadius and the circumcentres lie in these directions.
+  std::array<Neighbourhood, kPartsOfTurn> in_part;
+};
+
+/// Of a triangle at p with a circumradius below R and the circumcentre in direction u the corners lie in the
+/// disk of radius R with the centre p + R u. Over all u of a part of a turn, these disks are: those of the
+/// first and the last u, and, in the directions between, all that is within 2 R of p.
+Reach::Reach() {
+  constexpr double kWithin = 0x1p-10;  // for all rounding
+  constexpr int kFarthest = Neighbourhood::kFarthest;
+  std::array<Vector, kPartsOfTurn + 1> directions;
+  for (std::size_t k = 0; k < directions.size(); ++k) {
+    const double angle = static_cast<double>(k) * (6.283185307179586 / kPartsOfTurn);
+    directions[k] = {std::cos(angle), std::sin(angle)};
+  }
+  for (int row = -kFarthest; row <= kFarthest; ++row) {
+    for (int column = -kFarthest; column <= kFarthest; ++column) {
+      // From anywhere in the cell in the middle to anywhere in this one.
+      const Box d{{column - 1.0, row - 1.0}, {column + 1.0, row + 1.0}};
+      const auto is_within = [&](double radius, const Vector& of) {
+        const Vector nearest{gap(d.min.x, d.max.x, of.x), gap(d.min.y, d.max.y, of.y)};
+        return squared_length(nearest) < (radius + kWithin) * (radius + kWithin);
+      };
+      const auto row_index = static_cast<std::size_t>(row + kFarthest);
+      const std::uint32_t bit = std::uint32_t{1} << static_cast<unsigned>(column + kFarthest);
+      if (is_within(2 * kNearRadius, {0, 0})) near.rows[row_index] |= bit;
+      if (!is_within(2 * kRadius, {0, 0})) continue;
+      std::array<bool, kPartsOfTurn + 1> in_disk{};
+      std::array<double, kPartsOfTurn + 1> most_left{};  // how far some of it lies to the left of a direction
+      std::array<double, kPartsOfTurn + 1> most_right{};
+      for (std::size_t k = 0; k < directions.size(); ++k) {
+        const Vector& u = directions[k];
+        in_disk[k] = is_within(kRadius, {kRadius * u.x, kRadius * u.y});
+        most_left[k] = u.x * row - u.y * column + std::abs(u.x) + std::abs(u.y);
+        most_right[k] = u.y * column - u.x * row + std::abs(u.x) + std::abs(u.y);
+      }
+      for (std::size_t k = 0; k < kPartsOfTurn; ++k) {
+        const bool is_between = most_left[k] > -kWithin && most_right[k + 1] > -kWithin;
+        if (in_disk[k] || in_disk[k + 1] || is_between) in_part[k].rows[row_index] |= bit;
+      }
+    }
+  }
+}
+
+const Reach& reach_table() {
+  static const Reach reach;
+  return reach;
+}
+
+template <class T>
+void append(std::vector<T>& all, const std::vector<T>& part) {
   all.insert(all.end(), part.begin(), part.end());
 }
 
@@ -48,6 +116,30 @@ void mark(const Grid& grid, Grid::Cell cell, std::span<const unsigned> half_widt
     reached.set_run(centre - half_width, 2 * half_width + 1);
     centre += row_bits;
   }
+}
+
+/// Of a point in `cell` with large triangles in the directions `open`.
+void mark(const Grid& grid, Grid::Cell cell, Directions open, const Reach& reach, Bitmap& reached) {
+  Neighbourhood cells = reach.near;
+  for (unsigned parts = open; parts != 0; parts &= parts - 1) {
+    const Neighbourhood& more = reach.in_part[static_cast<std::size_t>(std::countr_zero(parts))];
+    for (std::size_t r = 0; r < cells.rows.size(); ++r) cells.rows[r] |= more.rows[r];
+  }
+  const Grid::Cell first = cell - Neighbourhood::kFarthest;
+  const unsigned shift = first % Grid::kWordBits;
+  Bitmap::Word* word =
+      reached.words() + first / Grid::kWordBits - Neighbourhood::kFarthest * grid.row_words();
+  for (const Bitmap::Word row : cells.rows) {
+    word[0] |= row << shift;
+    word[1] |= row >> 1U >> (Grid::kWordBits - 1 - shift);
+    word += grid.row_words();
+  }
+}
+
+/// How many parts of the work have a bitmap of the whole grid each: of many threads not all take part.
+std::size_t parts_of(const ThreadPool& pool) {
+  constexpr std::size_t kMostParts = 8;
+  return std::min<std::size_t>(pool.threads(), kMostParts);
 }
 
 }  // namespace
@@ -80,7 +172,7 @@ std::optional<Way> InteriorPart::choose(std::span<const Point> points, const Coo
     return Way::kClosePoints;
   }
   find_uncertain_points(points, pool);
-  mark_reach();
+  mark_reach(pool);
   gather(points, pool);
   const double most = guard.most_triangulated * static_cast<double>(points.size());
   if (static_cast<double>(points_.size()) > most) return Way::kMuchOutline;
@@ -106,12 +198,11 @@ double InteriorPart::choose_grid(std::span<const Point> points, const Box& box, 
 void InteriorPart::fill_cells(std::span<const Point> points, bool with_shared, ThreadPool& pool) {
   std::uint32_t* const cells = cells_.reserve(points.size());
   const std::size_t words = grid_.word_count();
-  // Each has a bitmap of the whole grid: of many threads not all take part.
-  constexpr std::size_t kMostParts = 8;
-  const std::size_t parts = std::min<std::size_t>(pool.threads(), kMostParts);
+  const std::size_t parts = parts_of(pool);
   while (fills_.size() < parts) fills_.emplace_back();
   pool.for_each(parts, [&](std::size_t part) {
-    auto& [occupied, shared] = fills_[part];
+    Bitmap& occupied = fills_[part].occupied;
+    Bitmap& shared = fills_[part].shared;
     occupied.clear(words);
     if (with_shared) shared.clear(words);
     const std::size_t end = points.size() * (part + 1) / parts;
@@ -193,52 +284,70 @@ void InteriorPart::find_uncertain_points(std::span<const Point> points, ThreadPo
   chunks_.resize(std::max(chunks_.size(), chunks.size()));
   pool.for_each(chunks.size(), [&](std::size_t c) {
     std::vector<std::uint32_t>& uncertain = chunks_[c].uncertain;
+    std::vector<Directions>& open = chunks_[c].open;
     uncertain.clear();
-    for (std::size_t i = chunks.begin(c); i < chunks.end(c); ++i) {
-      const Grid::Cell cell = cells_.data()[i];
-      if (!uncertain_cells_.test(cell)) continue;
-      if (certificate.is_certified(points[i], cell, grid_, occupied())) continue;
-      uncertain.push_back(static_cast<std::uint32_t>(i));
-    }
+    open.clear();
+    for_each_selected(
+        chunks.begin(c), chunks.end(c),
+        [&](std::size_t i) { return uncertain_cells_.test(cells_.data()[i]); },
+        [&](std::uint32_t i) {
+          const Grid::Cell cell = cells_.data()[i];
+          if (certificate.is_certified(points[i], cell, grid_, occupied())) return;
+          uncertain.push_back(i);
+          open.push_back(certificate.open_directions(points[i], cell, grid_, occupied()));
+        });
   });
   uncertain_.clear();
-  for (std::size_t c = 0; c < chunks.size(); ++c) append(uncertain_, chunks_[c].uncertain);
+  open_.clear();
+  for (std::size_t c = 0; c < chunks.size(); ++c) {
+    append(uncertain_, chunks_[c].uncertain);
+    append(open_, chunks_[c].open);
+  }
 }
 
 void InteriorPart::reach_farther(std::span<const Point> points, ThreadPool& pool) {
-  mark_reach(kFartherHalfWidths);
+  for (const std::uint32_t point : uncertain_)
+    mark(grid_, cells_.data()[point], kFartherHalfWidths, reached());
   gather(points, pool);
 }
 
-/// As far as 2 r.
-void InteriorPart::mark_reach() {
-  mark_reach(kHalfWidths);
-}
-
-/// Marks the cells that are so near to the cell of an uncertain point.
-void InteriorPart::mark_reach(std::span<const unsigned> half_widths) {
-  reached_.clear(grid_.word_count());
-  uncertain_cells_.clear(grid_.word_count());  // from now on, of the points that are
-  for (const std::uint32_t point : uncertain_) {
-    const Grid::Cell cell = cells_.data()[point];
-    if (uncertain_cells_.test(cell)) continue;
-    uncertain_cells_.set(cell);
-    mark(grid_, cell, half_widths, reached_);
-  }
+/// Marks the cells that may hold a corner of a triangle at an uncertain point, each thread in a bitmap of its
+/// own.
+void InteriorPart::mark_reach(ThreadPool& pool) {
+  const std::size_t words = grid_.word_count();
+  const Reach& reach = reach_table();
+  const std::size_t parts = parts_of(pool);
+  pool.for_each(parts, [&](std::size_t part) {
+    Bitmap& reached = fills_[part].reached;
+    reached.clear(words);
+    const std::size_t end = uncertain_.size() * (part + 1) / parts;
+    for (std::size_t i = uncertain_.size() * part / parts; i < end; ++i) {
+      mark(grid_, cells_.data()[uncertain_[i]], open_[i], reach, reached);
+    }
+  });
+  if (parts == 1) return;
+  const Chunks chunks(pool, words);
+  pool.for_each(chunks.size(), [&](std::size_t c) {
+    for (std::size_t part = 1; part < parts; ++part) {
+      for (std::size_t w = chunks.begin(c); w < chunks.end(c); ++w) {
+        reached().words()[w] |= fills_[part].reached.words()[w];
+      }
+    }
+  });
 }
 
 void InteriorPart::gather(std::span<const Point> points, ThreadPool& pool) {
   const Chunks chunks(pool, points.size());
   chunks_.resize(std::max(chunks_.size(), chunks.size()));
   pool.for_each(chunks.size(), [&](std::size_t c) {
-    std::vector<std::uint32_t>& reached = chunks_[c].reached;
-    reached.clear();
-    for (std::size_t i = chunks.begin(c); i < chunks.end(c); ++i) {
-      if (reached_.test(cells_.data()[i])) reached.push_back(static_cast<std::uint32_t>(i));
-    }
+    std::vector<std::uint32_t>& gathered = chunks_[c].gathered;
+    gathered.clear();
+    for_each_selected(
+        chunks.begin(c), chunks.end(c), [&](std::size_t i) { return reached().test(cells_.data()[i]); },
+        [&](std::uint32_t i) { gathered.push_back(i); });
   });
   caller_index_.clear();
-  for (std::size_t c = 0; c < chunks.size(); ++c) append(caller_index_, chunks_[c].reached);
+  for (std::size_t c = 0; c < chunks.size(); ++c) append(caller_index_, chunks_[c].gathered);
   points_.resize(caller_index_.size());
   is_uncertain_.resize(caller_index_.size());
   const Chunks parts(pool, caller_index_.size());
@@ -281,7 +390,7 @@ bool InteriorPart::is_surely_whole(const Triangle& triangle) const {
   for (Grid::Cell row = bottom; row <= top; ++row) {
     const Grid::Cell first =
         row * grid_.row_words() * Grid::kWordBits + Grid::kWordBits + left - Grid::kMargin;
-    if ((occupied().window(first) & ~reached_.window(first) & columns) != 0) return false;
+    if ((occupied().window(first) & ~reached().window(first) & columns) != 0) return false;
   }
   return true;
 }

@@ -90,7 +90,7 @@ class InteriorPart {
   void fill_cells(std::span<const Point> points, bool with_shared, ThreadPool& pool);
   void find_uncertain_cells(ThreadPool& pool);
   void find_uncertain_points(std::span<const Point> points, ThreadPool& pool);
-  void mark_reach();
+  void mark_reach(ThreadPool& pool);
   void gather(std::span<const Point> points, ThreadPool& pool);
 
  private:
@@ -98,28 +98,31 @@ class InteriorPart {
                      const InteriorGuard& guard);
   double share_of_uncertain(std::span<const Point> points) const;
   double share_of_part(std::span<const Point> points) const;
-  void mark_reach(std::span<const unsigned> half_widths);
   Bitmap& occupied() { return fills_.front().occupied; }
   const Bitmap& occupied() const { return fills_.front().occupied; }
   Bitmap& shared() { return fills_.front().shared; }
+  Bitmap& reached() { return fills_.front().reached; }
+  const Bitmap& reached() const { return fills_.front().reached; }
 
   struct Fill {
     Bitmap occupied;
-    Bitmap shared;  ///< cells with more than one point, where that is asked for
+    Bitmap shared;   ///< cells with more than one point, where that is asked for
+    Bitmap reached;  ///< cells of the part
   };
   struct Chunk {
     std::vector<std::uint32_t> uncertain;
-    std::vector<std::uint32_t> reached;
+    std::vector<Directions> open;
+    std::vector<std::uint32_t> gathered;
   };
 
   Grid grid_;
   Scratch<std::uint32_t> cells_;  ///< point -> its cell
-  std::deque<Fill> fills_;        ///< of each part of the points; at last the first is that of all
+  std::deque<Fill> fills_;        ///< of each part of the points; after a step the first is that of all
   std::vector<Chunk> chunks_;     ///< what was found in each chunk of the points
   Bitmap uncertain_cells_;
-  Bitmap reached_;  ///< cells of the part
   ClosePairs close_pairs_;
   std::vector<std::uint32_t> uncertain_;  ///< ascending
+  std::vector<Directions> open_;  ///< uncertain point -> the directions in which it has large triangles
   std::vector<Point> points_;
   std::vector<std::uint32_t> caller_index_;
   std::vector<std::uint8_t> is_uncertain_;

@@ -58,6 +58,7 @@ class NoSpikeRule {
  public:
   NoSpikeRule(const SizeField& field, Mesh::Index t) : most4_(field.spike_share * field.limit4_at(t)) {}
   bool keeps(const Triangle& triangle) const { return triangle.size4() <= most4_; }
+  double most4() const { return most4_; }
 
  private:
   double most4_;
@@ -73,6 +74,18 @@ double squared_circumradius(const Triangle& triangle) {
   const double twice_area = triangle.twice_area();
   return triangle.squared_ab() * triangle.squared_bc() * triangle.squared_ca() /
          (4 * twice_area * twice_area);
+}
+
+/// Whether a triangle's size is at most the limit, by whichever of its corners it is computed;
+/// kRoundingDecides where that may matter. The squares of its edges are the same from everywhere. The doubled
+/// area is a difference of two products of edges' components, which together are at most the square of the
+/// longest edge, each off by 3 2^-53 of itself, and rounded once more: from two corners it differs by less
+/// than 2^-49 of that square. And the size grows with the area, in floating-point numbers too.
+Answer ask_size(const Triangle& triangle, double most4) {
+  const double twice_area = triangle.twice_area();
+  const double rounding = 0x1p-49 * triangle.squared_longest_edge();
+  if (triangle.size4(twice_area + rounding) <= most4) return Answer::kYes;
+  return triangle.size4(twice_area - rounding) > most4 ? Answer::kNo : Answer::kRoundingDecides;
 }
 
 /// The mesh of all points: whatever a walk meets can be asked about.
@@ -109,6 +122,10 @@ struct SizeFilter::Part {
   bool is_hidden(Index t) const { return hidden.contain(t); }
   template <class Rule>
   Answer ask(const Rule& rule, Index t) const {
+    if constexpr (requires { rule.most4(); }) {
+      const Answer answer = ask_size(Triangle(mesh, vertices, t), rule.most4());
+      if (answer != Answer::kRoundingDecides) return answer;
+    }
     return ask_from_all_corners(mesh, vertices, t, [&](const Triangle& one) { return rule.keeps(one); });
   }
   /// Whether a walk may go on through a kept triangle: it is one of the whole mesh, and no spike of a hole
@@ -250,37 +267,72 @@ void SizeFilter::drop_spikes(const Mesh& mesh, const Point* vertices, const Size
   }
 }
 
-/// From every triangle on the border the region is walked through until it is large enough, meets triangles
-/// that are known to be of a large one, or ends; where that is at triangles that are not open, in doubt.
+/// The half-edge of the border that follows `e`, one of a kept triangle whose twin's is not: turning at its
+/// end through kept triangles.
+Mesh::Index next_on_border(const Mesh& mesh, Mesh::Index e) {
+  do {
+    e = Mesh::next(e);
+    const Mesh::Index twin = mesh.twin(e);
+    if (!mesh.is_kept(Mesh::triangle_of(twin))) return e;
+    e = twin;
+  } while (true);
+}
+
+/// A region of t triangles has at most t + 2 half-edges on its border. So where the border is longer, the
+/// region is large; where it is short, a hole's or a small part's, the region is walked through from it until
+/// it is large enough, meets triangles that are known to be of a large one, or ends; where that is at
+/// triangles that are not open, in doubt.
 template <class Whole>
 void SizeFilter::drop_small_parts(const Mesh& mesh, const Whole& whole, std::size_t least_part,
                                   std::uint64_t* kept) {
   SeenTriangles seen(mesh, seen_);
   changed_.clear();
+  const auto walk_border = [&](Index first, std::size_t most, const auto& visit) {
+    Index e = first;
+    for (std::size_t length = 0; length < most; ++length) {
+      visit(Mesh::triangle_of(e));
+      e = next_on_border(mesh, e);
+      if (e == first) return length + 1;
+    }
+    return most;
+  };
+  const auto walk_region = [&](Index start) {
+    seen.add(start);
+    group_.assign(1, start);
+    bool is_large = false;
+    bool is_whole = true;
+    for (std::size_t next = 0; next < group_.size() && !is_large; ++next) {
+      for (Index j = 0; j < 3; ++j) {
+        const Index other = neighbour(mesh, group_[next], j);
+        if (!mesh.is_kept(other)) continue;
+        const bool is_seen = seen.contain(other);
+        if (is_seen && std::find(group_.begin(), group_.end(), other) != group_.end()) continue;
+        if (whole.is_hidden(other) || !whole.is_open(other)) {
+          is_whole = false;
+        } else if (is_seen) {
+          is_large = true;
+        } else {
+          seen.add(other);
+          group_.push_back(other);
+        }
+      }
+      is_large |= group_.size() >= least_part;
+    }
+    if (is_large) return;
+    if (!is_whole) doubt_ = Way::kReachesFar;
+    changed_.insert(changed_.end(), group_.begin(), group_.end());
+  };
   for_each_dropped(mesh, 0, mesh.word_count(), kept, [&](Index dropped) {
     for (Index k = 0; k < 3; ++k) {
-      const Index start = neighbour(mesh, dropped, k);
-      if (!mesh.is_kept(start) || !seen.add(start)) continue;
-      group_.assign(1, start);
-      bool is_large = false;
-      bool is_whole = true;
-      for (std::size_t next = 0; next < group_.size() && !is_large; ++next) {
-        for (Index j = 0; j < 3; ++j) {
-          const Index other = neighbour(mesh, group_[next], j);
-          if (!mesh.is_kept(other)) continue;
-          if (whole.is_hidden(other) || !whole.is_open(other)) {
-            is_whole = false;
-          } else if (seen.add(other)) {
-            group_.push_back(other);
-          } else if (std::find(group_.begin(), group_.end(), other) == group_.end()) {
-            is_large = true;
-          }
-        }
-        is_large |= group_.size() >= least_part;
+      const Index e = mesh.twin(Mesh::kStride * dropped + k);
+      const Index start = Mesh::triangle_of(e);
+      if (!mesh.is_kept(start) || seen.contain(start)) continue;
+      const std::size_t long_border = least_part + 2;
+      if (walk_border(e, long_border, [](Index) {}) < long_border) {
+        walk_region(start);
+      } else {
+        walk_border(e, std::numeric_limits<std::size_t>::max(), [&](Index t) { seen.add(t); });
       }
-      if (is_large) continue;
-      if (!is_whole) doubt_ = Way::kReachesFar;
-      changed_.insert(changed_.end(), group_.begin(), group_.end());
     }
   });
   // Where all parts are small there is nothing that they are small beside.

@@ -7,6 +7,7 @@
 
 #include "filter_rules.hpp"
 #include "quantile.hpp"
+#include "selected.hpp"
 #include "vector.hpp"
 
 namespace polylidar::detail {
@@ -20,26 +21,26 @@ constexpr double kMostCells = 16384;
 constexpr std::size_t kManyPoints = std::size_t{1} << 15U;
 constexpr double kLeastShareInside = 0.7;
 /// Points for one window, and the fewest windows that tell whether they differ.
-constexpr std::size_t kPointsForWindow = 640;
-constexpr std::size_t kFewestWindows = 12;
-/// Half the side of a window, and its margin, in spacings of the points.
-constexpr double kHalfInner = 3;
-constexpr double kMargin = 3;
+constexpr std::size_t kPointsForWindow = 1120;
+constexpr std::size_t kFewestWindows = 7;
+/// Half the side of a window in spacings of the points.
+constexpr double kHalfInner = 4;
 /// Beyond so many times what they would have where the density is the same everywhere, windows are not looked
 /// into.
 constexpr double kMostPointsOfUsual = 2;
 
 }  // namespace
 
-bool WindowSample::look(std::span<const Point> points, const Box& box, double most_spread, ThreadPool& pool) {
+bool WindowSample::look(std::span<const Point> points, const Box& box, const Wanted& wanted,
+                        ThreadPool& pool) {
   // Each share counts in cells of its own: of many threads not all take part.
   constexpr std::size_t kMostShares = 8;
   shares_.resize(std::min<std::size_t>(pool.threads(), kMostShares));
   if (points.size() < kLeastPoints || !count_cells(points, box, pool)) return false;
-  const double in_cell = usual_count(points.size(), most_spread);
+  const double in_cell = usual_count(points.size(), wanted.most_spread);
   if (in_cell == 0) return false;
   const double spacing = 1 / (cells_per_length_ * std::sqrt(in_cell));
-  const double half_side = (kHalfInner + kMargin) * spacing;
+  const double half_side = (kHalfInner + wanted.margin) * spacing;
   const std::size_t windows = std::clamp(points.size() / kPointsForWindow, kFewestWindows, kMostWindows);
   place_windows(points.size(), windows, half_side);
   const double usual = 4 * half_side * half_side / (spacing * spacing);
@@ -47,19 +48,21 @@ bool WindowSample::look(std::span<const Point> points, const Box& box, double mo
   const std::size_t gathered = gather(points, half_side, most, pool);
   if (gathered > most) return false;
 
-  margin_ = kMargin * spacing;
+  margin_ = wanted.margin * spacing;
   pool.for_each(shares_.size(), [&](std::size_t s) {
     for (std::size_t w = s; w < windows; w += shares_.size()) {
-      measure(windows_[w], kHalfInner * spacing, shares_[s]);
+      measure(windows_[w], kHalfInner * spacing, wanted.quantile, shares_[s]);
     }
   });
   window_ends_.clear();
   triangles_.clear();
+  usual4_.clear();
   std::size_t distinct = 0;
   for (const Window& window : windows_) {
     triangles_.insert(triangles_.end(), window.triangles.begin(), window.triangles.end());
     window_ends_.push_back(triangles_.size());
-    distinct += window.points.size();
+    if (window.usual4) usual4_.push_back(*window.usual4);
+    distinct += window.distinct;
   }
   distinct_share_ = static_cast<double>(distinct) / static_cast<double>(gathered);
   return true;
@@ -113,10 +116,11 @@ double WindowSample::usual_count(std::size_t points, double most_spread) {
   const double middle = quantile_of(scratch_, 0.5);
   const double usual = std::exp(middle);
   // A number of points is the inverse square of the spacing; chance alone makes numbers differ by a root of
-  // them. Twice as much is let pass: it is the windows that decide.
+  // them. Half as much again is let pass, as points may repeat others: it is the windows that decide.
   const double spread = robust_deviation(scratch_, middle);
   const double most = 4 * most_spread * most_spread + 1 / usual;
-  return spread * spread <= 2 * most ? usual : 0;
+  constexpr double kRoom = 1.5;
+  return spread * spread <= kRoom * most ? usual : 0;
 }
 
 /// At the middles of the cells in which points of evenly spaced ranks lie, counted cell by cell.
@@ -149,16 +153,21 @@ std::size_t WindowSample::gather(std::span<const Point> points, double half_side
   pool.for_each(shares_.size(), [&](std::size_t s) {
     auto& gathered = shares_[s].gathered;
     gathered.clear();
-    for (const Point& p : share_of(points, s)) {
-      std::uint64_t windows = windows_of_cell_[row(p.y) * columns_ + column(p.x)];
-      for (; windows != 0; windows &= windows - 1) {
-        const auto w = static_cast<std::uint32_t>(std::countr_zero(windows));
-        const Point& centre = windows_[w].centre;
-        if (std::abs(p.x - centre.x) > half_side || std::abs(p.y - centre.y) > half_side) continue;
-        gathered.emplace_back(w, p);
-        if (gathered.size() > most) return;
-      }
-    }
+    const std::span<const Point> own = share_of(points, s);
+    const auto windows_at = [&](const Point& p) {
+      return windows_of_cell_[row(p.y) * columns_ + column(p.x)];
+    };
+    for_each_selected(
+        0, own.size(), [&](std::size_t i) { return windows_at(own[i]) != 0; },
+        [&](std::size_t i) {
+          const Point& p = own[i];
+          for (std::uint64_t windows = windows_at(p); windows != 0; windows &= windows - 1) {
+            const auto w = static_cast<std::uint32_t>(std::countr_zero(windows));
+            const Point& centre = windows_[w].centre;
+            if (std::max(std::abs(p.x - centre.x), std::abs(p.y - centre.y)) > half_side) continue;
+            if (gathered.size() <= most) gathered.emplace_back(w, p);
+          }
+        });
   });
   std::size_t count = 0;
   for (const Share& share : shares_) {
@@ -169,16 +178,18 @@ std::size_t WindowSample::gather(std::span<const Point> points, double half_side
   return count;
 }
 
-/// Finds the window's triangles, and leaves in it the points that are no repeats.
-void WindowSample::measure(Window& window, double half_inner, Share& share) {
-  std::vector<Point>& points = window.points;
-  std::sort(points.begin(), points.end(), less_by_x);  // the order of the caller's points must not matter
-  points.erase(std::unique(points.begin(), points.end()), points.end());
+/// Finds the window's triangles and their usual size, in an order that depends on the points alone, not on
+/// theirs.
+void WindowSample::measure(Window& window, double half_inner, double quantile, Share& share) {
   window.triangles.clear();
-  if (points.size() < 3) return;
-  share.builder.build(points, share.this_thread);
+  window.usual4.reset();
+  window.distinct = window.points.size();
+  if (window.points.size() < 3) return;
+  share.builder.build(window.points, share.this_thread);
   const Mesh& mesh = share.builder.mesh();
+  std::size_t used = 0;  // two records for each point but one that repeats no other
   for (Mesh::Index t = 0; t < mesh.triangle_count(); ++t) {
+    used += mesh.is_unused(t) ? 0U : 1U;
     if (mesh.is_ghost(t)) continue;
     const Triangle triangle(mesh, share.builder.vertices(), t);
     // The circumcentre from corner a.
@@ -192,6 +203,12 @@ void WindowSample::measure(Window& window, double half_inner, Share& share) {
     if (!(std::max(x, y) <= half_inner)) continue;
     window.triangles.push_back({triangle.size4(), triangle.twice_area(), squared_length(centre)});
   }
+  window.distinct = used / 2 + 1;
+  constexpr std::size_t kFewTriangles = 24;
+  if (window.triangles.size() < kFewTriangles) return;
+  share.sizes4.clear();
+  for (const Measured& one : window.triangles) share.sizes4.push_back(one.size4);
+  window.usual4 = quantile_of(share.sizes4, quantile);
 }
 
 }  // namespace polylidar::detail

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <deque>
+#include <optional>
 #include <span>
 #include <utility>
 #include <vector>
@@ -21,7 +22,7 @@ namespace polylidar::detail {
 class WindowSample {
  public:
   /// Of few points there are fewer, as each costs as much.
-  static constexpr std::size_t kMostWindows = 48;
+  static constexpr std::size_t kMostWindows = 27;
   /// From how many points on a sample is worth its time.
   static constexpr std::size_t kLeastPoints = 7'500;
 
@@ -31,17 +32,25 @@ class WindowSample {
     double squared_radius;  ///< its circumradius, squared
   };
 
+  /// What look() goes by.
+  struct Wanted {
+    double most_spread;  ///< standard deviation of the logarithm of the spacing, beside what chance makes
+    double margin;       ///< of a window, in spacings of the points
+    double quantile;     ///< of a window's sizes, which is its usual one
+  };
+
   /// Looks at `points`, whose box is `box`. Returns false where their density differs from place to place by
-  /// more than `most_spread` (standard deviation of the logarithm of the spacing) and chance: then there is
-  /// nothing to look at; nor is there of fewer than kLeastPoints, or of few whose outline is long. The same
-  /// for any order of the points, any number of threads, and for other places and units but for rounding.
-  /// O(n), a pass or two.
-  bool look(std::span<const Point> points, const Box& box, double most_spread, ThreadPool& pool);
+  /// more than `wanted` allows: then there is nothing to look at; nor is there of fewer than kLeastPoints, or
+  /// of few whose outline is long. The same for any order of the points, any number of threads, and for other
+  /// places and units but for rounding. O(n), a pass or two.
+  bool look(std::span<const Point> points, const Box& box, const Wanted& wanted, ThreadPool& pool);
 
   /// After look() said yes: window -> one past its last triangle in triangles(). Of some windows there may be
   /// few, or none.
   const std::vector<std::size_t>& window_ends() const { return window_ends_; }
   const std::vector<Measured>& triangles() const { return triangles_; }
+  /// The fourth powers of the windows' usual sizes, of those with enough triangles to tell.
+  const std::vector<double>& usual4() const { return usual4_; }
   /// The width of the margin.
   double margin() const { return margin_; }
   /// The share of the points that do not repeat others.
@@ -51,13 +60,16 @@ class WindowSample {
   struct Window {
     Point centre;
     std::vector<Point> points;
+    std::size_t distinct = 0;  ///< of the points
     std::vector<Measured> triangles;
+    std::optional<double> usual4;
   };
   /// What one thread needs.
   struct Share {
     std::vector<std::uint32_t> counts;                      ///< as counts_, of a part of the points
     std::vector<std::pair<std::uint32_t, Point>> gathered;  ///< window and point
     DelaunayBuilder builder;
+    std::vector<double> sizes4;
     ThreadPool this_thread;
   };
 
@@ -65,7 +77,7 @@ class WindowSample {
   double usual_count(std::size_t points, double most_spread);
   void place_windows(std::size_t points, std::size_t windows, double half_side);
   std::size_t gather(std::span<const Point> points, double half_side, std::size_t most, ThreadPool& pool);
-  static void measure(Window& window, double half_inner, Share& share);
+  static void measure(Window& window, double half_inner, double quantile, Share& share);
   std::span<const Point> share_of(std::span<const Point> points, std::size_t share) const {
     const std::size_t begin = points.size() * share / shares_.size();
     return points.subspan(begin, points.size() * (share + 1) / shares_.size() - begin);
@@ -89,6 +101,7 @@ class WindowSample {
   std::deque<Share> shares_;
   std::vector<std::size_t> window_ends_;
   std::vector<Measured> triangles_;
+  std::vector<double> usual4_;
   double margin_ = 0;
   double distinct_share_ = 1;
 };
