@@ -12,6 +12,7 @@ hullbench_test(test_certificate SOURCES test_certificate.cpp LIBRARIES hullbench
 hullbench_test(test_outline_fill SOURCES test_outline_fill.cpp LIBRARIES hullbench_test_support LABELS core)
 hullbench_test(test_window_sample SOURCES test_window_sample.cpp LIBRARIES hullbench_test_support LABELS core)
 hullbench_test(test_quantile SOURCES test_quantile.cpp LIBRARIES hullbench_test_support LABELS core)
+hullbench_test(test_size_filter SOURCES test_size_filter.cpp LIBRARIES hullbench_test_support LABELS core)
 hullbench_test(test_stream SOURCES test_stream.cpp LIBRARIES hullbench_test_support LABELS core)
 hullbench_test(test_count_triangles SOURCES test_count_triangles.cpp LIBRARIES hullbench_test_support LABELS core)
 hullbench_test(test_threads SOURCES test_threads.cpp LIBRARIES hullbench_test_support LABELS core)
