@@ -134,20 +134,22 @@ double AutomaticLimit::measure_block(const Mesh& mesh, const Point* vertices, st
   const Mesh::Index end = records.end;
   std::vector<double>& sizes = scratch.sizes;
   std::vector<Mesh::Index>& crossing = scratch.crossing;
+  if (crossing.size() < 3 * std::size_t{end - begin}) crossing.resize(3 * std::size_t{end - begin});
+  const Mesh::Index first_edge = Mesh::kStride * begin;
+  const Mesh::Index edges = Mesh::kStride * (end - begin);
   Mesh::Index step = std::max(Mesh::Index{1}, (end - begin) / static_cast<Mesh::Index>(kMeasured));
   std::size_t crossings = 0;
   for (;; step = 1) {
     sizes.clear();
-    crossings = 0;
+    Mesh::Index* next = crossing.data();
     for_some_triangles(mesh, begin, end, step, [&](Mesh::Index t) {
       sizes.push_back(size4_of(mesh, vertices, t));
-      if (crossing.size() < crossings + 3) crossing.resize(2 * crossings + 3);
-      for (Mesh::Index k = 0; k < 3; ++k) {  // without a branch, which nobody could predict
-        const Mesh::Index other = Mesh::triangle_of(mesh.twin(Mesh::kStride * t + k));
-        crossing[crossings] = Mesh::kStride * t + k;
-        crossings += other - begin >= end - begin ? 1U : 0U;
+      for (Mesh::Index e = Mesh::kStride * t; e < Mesh::kStride * t + 3; ++e) {
+        *next = e;  // without a branch, which nobody could predict
+        next += mesh.twin(e) - first_edge >= edges ? 1 : 0;
       }
     });
+    crossings = static_cast<std::size_t>(next - crossing.data());
     if (step == 1 || sizes.size() >= kMeasured / 4) break;
   }
   const std::size_t first_border = borders.size();
@@ -183,9 +185,9 @@ void AutomaticLimit::divide(const DelaunayBuilder& builder, double points) {
       // Where the curve leaves the largest cell, the last such place of equals.
       std::uint32_t highest = 0;
       for (std::size_t i = begin + least; i <= begin + most; ++i) {
-        const std::uint32_t bit = std::bit_floor(keys[i - 1] ^ keys[i]);
-        if (bit < highest) continue;
-        highest = bit;
+        const std::uint32_t differing = keys[i - 1] ^ keys[i];
+        if (differing < highest) continue;
+        highest = std::bit_floor(differing);
         end = i;
       }
     }
@@ -234,8 +236,8 @@ void AutomaticLimit::for_each_neighbour(double reach, const Visit& visit) const 
 template <class Length4>
 double AutomaticLimit::scatter_in_blocks(const Mesh& mesh, const Length4& length4) {
   constexpr std::size_t kMostBlocksLookedAt = 32;
-  constexpr Mesh::Index kRecords = 128;   // of a block
-  constexpr std::ptrdiff_t kFewest = 16;  // triangles
+  constexpr Mesh::Index kRecords = 128;  // of a block
+  constexpr std::size_t kFewest = 16;    // triangles
   constexpr double kQuantile = 0.4;
   std::vector<double> scatters;
   for (std::size_t b = 0; b < block_ends_.size(); b += (block_ends_.size() - 1) / kMostBlocksLookedAt + 1) {
@@ -244,13 +246,16 @@ double AutomaticLimit::scatter_in_blocks(const Mesh& mesh, const Length4& length
     scratch_.clear();
     for_some_triangles(mesh, records.begin, records.end, step,
                        [&](Mesh::Index t) { scratch_.push_back(length4(t)); });
-    const auto count = static_cast<std::ptrdiff_t>(scratch_.size());
+    const std::size_t count = scratch_.size();
     if (count < kFewest) continue;
-    const auto small = scratch_.begin() + 2 * count / 5;
-    const auto large = scratch_.begin() + 4 * count / 5;
-    std::nth_element(scratch_.begin(), small, scratch_.end());
-    std::nth_element(small + 1, large, scratch_.end());
-    scatters.push_back(*small > 0 ? std::log(*large / *small) / 4 : 0);
+    const Ranking ranking(scratch_);
+    const std::size_t small_place = 2 * count / 5;
+    const std::size_t large_place = 4 * count / 5;
+    const auto small = ranking.at(small_place);
+    const auto large = ranking.at(large_place);
+    const double small4 = small ? *small : value_at(scratch_, small_place);
+    const double large4 = large ? *large : value_at(scratch_, large_place);
+    scatters.push_back(small4 > 0 ? std::log(large4 / small4) / 4 : 0);
   }
   return scatters.empty() ? 0 : quantile_of(scatters, kQuantile);
 }

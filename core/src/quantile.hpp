@@ -21,34 +21,70 @@ inline std::uint64_t order_of(double value) {
   return bits ^ ((bits & kSign) != 0 ? ~std::uint64_t{0} : kSign);
 }
 
-/// The value that stands at `place` among `values` in ascending order, by counting them in cells: no branch
-/// depends on a value, as those of a sort do. None where too many fall into one cell.
-inline std::optional<double> value_at(std::span<const double> values, std::size_t place) {
-  constexpr unsigned kCellBits = 7;
-  constexpr std::size_t kMostInACell = 64;
-  std::uint64_t least = std::numeric_limits<std::uint64_t>::max();
-  std::uint64_t most = 0;
-  for (const double value : values) {
-    least = std::min(least, order_of(value));
-    most = std::max(most, order_of(value));
+/// The number of which `order` is order_of().
+inline double value_of(std::uint64_t order) {
+  constexpr std::uint64_t kSign = std::uint64_t{1} << 63U;
+  return std::bit_cast<double>(order ^ ((order & kSign) == 0 ? ~std::uint64_t{0} : kSign));
+}
+
+/// Values in cells by their order, which finds single ones of that order: no branch depends on a value, as
+/// those of a sort do.
+class Ranking {
+ public:
+  /// Of at least one value; none is to be NaN.
+  explicit Ranking(std::span<const double> values) : of_many_(values.size() <= kFew ? 0 : values.size()) {
+    std::uint64_t* const orders = of_many_.empty() ? of_few_.data() : of_many_.data();
+    std::uint64_t most = 0;
+    for (std::size_t i = 0; i < values.size(); ++i) {
+      orders[i] = order_of(values[i]);
+      least_ = std::min(least_, orders[i]);
+      most = std::max(most, orders[i]);
+    }
+    orders_ = {orders, values.size()};
+    const auto width = static_cast<unsigned>(std::bit_width(most - least_));
+    shift_ = width > kCellBits ? width - kCellBits : 0;
+    for (const std::uint64_t order : orders_) ++counts_[cell_of(order)];
   }
-  const auto width = static_cast<unsigned>(std::bit_width(most - least));
-  const unsigned shift = width > kCellBits ? width - kCellBits : 0;
-  const auto cell_of = [&](double value) { return (order_of(value) - least) >> shift; };
-  std::array<std::uint32_t, std::size_t{1} << kCellBits> counts{};
-  for (const double value : values) ++counts[cell_of(value)];
-  std::size_t cell = 0;
-  std::size_t below = 0;  // in the cells before
-  while (below + counts[cell] <= place) below += counts[cell++];
-  if (counts[cell] > kMostInACell) return std::nullopt;
-  std::array<double, kMostInACell + 1> found{};  // one more, which is written in vain
-  std::size_t count = 0;
-  for (const double value : values) {
-    found[count] = value;
-    count += cell_of(value) == cell ? 1U : 0U;
+  Ranking(const Ranking&) = delete;
+  Ranking& operator=(const Ranking&) = delete;
+  ~Ranking() = default;
+
+  /// The value at `place` in ascending order; none where too many fall into its cell.
+  std::optional<double> at(std::size_t place) const {
+    constexpr std::size_t kMostInACell = 64;
+    std::size_t cell = 0;
+    std::size_t below = 0;  // in the cells before
+    while (below + counts_[cell] <= place) below += counts_[cell++];
+    if (counts_[cell] > kMostInACell) return std::nullopt;
+    std::array<std::uint64_t, kMostInACell + 1> found{};  // one more, which is written in vain
+    std::size_t count = 0;
+    for (const std::uint64_t order : orders_) {
+      found[count] = order;
+      count += cell_of(order) == cell ? 1U : 0U;
+    }
+    const auto middle = found.begin() + static_cast<std::ptrdiff_t>(place - below);
+    std::nth_element(found.begin(), middle, found.begin() + static_cast<std::ptrdiff_t>(count));
+    return value_of(*middle);
   }
-  const auto middle = found.begin() + static_cast<std::ptrdiff_t>(place - below);
-  std::nth_element(found.begin(), middle, found.begin() + static_cast<std::ptrdiff_t>(count));
+
+ private:
+  static constexpr unsigned kCellBits = 7;
+  static constexpr std::size_t kFew = 512;
+
+  std::size_t cell_of(std::uint64_t order) const { return (order - least_) >> shift_; }
+
+  std::array<std::uint64_t, kFew> of_few_;
+  std::vector<std::uint64_t> of_many_;
+  std::span<const std::uint64_t> orders_;  ///< of the values, in one of these
+  std::uint64_t least_ = std::numeric_limits<std::uint64_t>::max();
+  unsigned shift_ = 0;
+  std::array<std::uint32_t, std::size_t{1} << kCellBits> counts_{};
+};
+
+/// The value at `place` of `values` in ascending order; it may reorder them.
+inline double value_at(std::vector<double>& values, std::size_t place) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(place);
+  std::nth_element(values.begin(), middle, values.end());
   return *middle;
 }
 
@@ -58,11 +94,9 @@ inline double quantile_of(std::vector<double>& values, double quantile) {
       std::min(values.size() - 1, static_cast<std::size_t>(quantile * static_cast<double>(values.size())));
   constexpr std::size_t kFew = 24;  // below, cells cost more than they save
   if (values.size() >= kFew) {
-    if (const std::optional<double> value = value_at(values, place)) return *value;
+    if (const std::optional<double> value = Ranking(values).at(place)) return *value;
   }
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(place);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
+  return value_at(values, place);
 }
 
 /// What would be the standard deviation of normal `values`, from the 0.9 quantile of their distances to
