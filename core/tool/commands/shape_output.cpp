@@ -43,6 +43,17 @@ ShapeOutput::ShapeOutput(const ShapeChoice& choice, const VectorFormats* formats
   formats_->check(*by_gdal_);
 }
 
+void ShapeOutput::check_is_none_of(std::span<const std::string> inputs) const {
+  std::error_code error;
+  if (!std::filesystem::is_regular_file(path_, error)) return;
+  for (const std::string& input : inputs) {
+    if (std::filesystem::equivalent(path_, input, error)) {
+      throw ConfigurationError("--out " + path_ +
+                               " would replace the points that are read; give another file");
+    }
+  }
+}
+
 bool ShapeOutput::can_tell(const Crs& crs) const {
   return !crs.is_given || crs.epsg > 0 || (by_gdal_ && !crs.wkt.empty());
 }
