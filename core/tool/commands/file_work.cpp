@@ -7,6 +7,7 @@
 #include <new>
 #include <system_error>
 #include <thread>
+#include <utility>
 
 #include "tool/points/point_file.hpp"
 #include "tool/program/configuration_error.hpp"

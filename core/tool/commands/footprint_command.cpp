@@ -158,7 +158,7 @@ class IndexRun {
     const std::string& path = command_.inputs[place];
     check_is_file(path);
     const PointFile file = read_point_file(path, options_);
-    const Crs crs = chosen_crs(command_.shape, file.crs);
+    Crs crs = chosen_crs(command_.shape, file.crs);
     const LocatedHulls hulls = locate_hulls(file, command_.shape, false, threads, {});
     Facts facts;
     facts.add(file.points);

@@ -4,6 +4,7 @@
 #include <cctype>
 #include <filesystem>
 #include <string_view>
+#include <system_error>
 #include <utility>
 
 #include "tool/program/configuration_error.hpp"
