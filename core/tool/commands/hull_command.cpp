@@ -201,7 +201,7 @@ class HullRun {
     say(hull.has_triangles
             ? "no triangle of the points is within the limits, so the shape is empty; larger ones "
               "give more"
-            : "there are no three distinct points off a line, so the shape is empty");
+            : "there are no three distinct points that are not on one line, so the shape is empty");
   }
 
   void explain_groups() const {

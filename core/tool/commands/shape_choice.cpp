@@ -61,12 +61,10 @@ void add_shape_options(CLI::App& app, ShapeChoice& choice) {
                  "the width")
       ->check(above_zero())
       ->capture_default_str();
-  app.add_flag(
-      "--one", choice.one,
-      "One polygon: the smallest limit that joins all parts, to a thousandth; parts that only appear with "
-      "it are dropped");
+  app.add_flag("--one", choice.one,
+               "One polygon: the limit is widened, no more than needed, until it joins all parts");
   app.add_flag("--cover", choice.cover,
-               "Leave no point outside: the smallest limit that covers them all, to a thousandth");
+               "Leave no point outside: the limit is widened, no more than needed, until it covers them all");
   app.add_option("--max-parts", choice.max_parts, "Keep only so many polygons, those of the largest areas")
       ->check(above_zero());
   app.add_option("--min-area", choice.min_area,
