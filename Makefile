@@ -31,7 +31,7 @@ define configure
 mkdir -p $(BUILD_LOG); \
 if ! cmake --preset $(1) $(2) >$(BUILD_LOG)/configure-$(1).txt 2>&1; then \
   cat $(BUILD_LOG)/configure-$(1).txt >&2; \
-  cmake/install-packages.sh --check build $(if $(findstring _TESTS=OFF,$(2)),,unit) || true; \
+  cmake/install-packages.sh --check $(if $(filter tool,$(1)),tool,build) $(if $(findstring _TESTS=OFF,$(2))$(filter tool,$(1)),,unit) || true; \
   echo "error: the build could not be configured: if something is missing, 'make deps' installs it." >&2; exit 1; \
 fi
 endef
@@ -81,9 +81,15 @@ deps-legacy: ## get the paper's PostGIS (3.1, from Debian 11) into a folder of c
 	@cmake/install-legacy.sh
 	@echo "==> nothing is missing for postgis_legacy"
 
-build: ## only build: build/hullbench and build/core_benchmarks
-	@$(call build,release,$(WITHOUT_TESTS),hullbench core_benchmarks)
-	@echo "==> built build/hullbench and build/core_benchmarks"
+build: ## only build: build/hullbench, build/polylidar and build/core_benchmarks
+	@$(call build,release,$(WITHOUT_TESTS),hullbench polylidar core_benchmarks)
+	@echo "==> built build/hullbench, build/polylidar and build/core_benchmarks"
+
+.PHONY: tool
+tool: ## build only polylidar, the program for your own points, as build-tool/polylidar (GDAL=1: with GeoPackage and what else GDAL has)
+	@$(call install,tool $(if $(filter-out 0,$(GDAL)),gdal))
+	@$(call build,tool,$(NATIVE_OPTION) -DPOLYLIDAR_WITH_GDAL=$(if $(filter-out 0,$(GDAL)),ON,OFF))
+	@echo "==> built build-tool/polylidar"
 
 .PHONY: package
 package: ## make Debian packages of the library, the Python module and the programs in build/packages
@@ -318,7 +324,7 @@ js-bench: js ## measure the npm package beside concaveman and delaunator, and wr
 	@node core/js/bench.mjs build-js/polylidar --write core/js/README.md
 
 clean: ## remove what was built; results stay
-	@rm -rf build build-clang build-sanitize build-sanitize-threads build-fuzz build-gate build-js
+	@rm -rf build build-clang build-sanitize build-sanitize-threads build-fuzz build-gate build-js build-tool
 	@echo "==> removed build and build-*"
 
 clean-legacy: ## remove the paper's PostGIS

@@ -7,8 +7,10 @@
 #include <cmath>
 #include <csignal>
 #include <filesystem>
+#include <iomanip>
 #include <limits>
 #include <nlohmann/json.hpp>
+#include <sstream>
 
 #include "adapters/wkb.hpp"
 #include "benchmarks/metrics/validity.hpp"
@@ -95,6 +97,12 @@ class HullCommandTest : public ::testing::Test {
  private:
   testing::TemporaryFolder folder_;
 };
+
+std::string four_digits(double value) {
+  std::ostringstream text;
+  text << std::setprecision(4) << value;
+  return text.str();
+}
 
 MultiPolygon from_geojson(const json& coordinates) {
   MultiPolygon shape;
@@ -201,7 +209,7 @@ TEST_F(HullCommandTest, ChoosesALimitAndSaysIt) {
   EXPECT_FALSE(properties.contains("alpha") || properties.contains("max_edge_length") ||
                properties.contains("max_perimeter"));
   for (const std::string& words :
-       {testing::number(least), testing::number(most), std::string("chosen from the points")}) {
+       {four_digits(least), four_digits(most), std::string("chosen from the points")}) {
     EXPECT_NE(outcome.err.find(words), std::string::npos) << words << " in " << outcome.err;
   }
   EXPECT_EQ(from_geojson(json::parse(outcome.out)["geometry"]["coordinates"]),
@@ -323,6 +331,17 @@ TEST_F(HullCommandTest, HullbenchHullIsTheSameUnderItsOldName) {
 TEST_F(HullCommandTest, UsageErrors) {
   const std::string points = points_file();
   expect_refusal(hull({}), 2, "FILE is required");
+  expect_refusal(hull({}), 2, "'polylidar hull --help' shows what there is");
+  expect_refusal(hull({points, "--specie", "kind"}), 2, "there is no option --specie;");
+  expect_refusal(hull({points, "--max-edge=3"}), 2,
+                 "there is no option --max-edge (did you mean --max-edge-length?)");
+  expect_refusal(hull({points, "--detial", "2"}), 2, "there is no option --detial (did you mean --detail?)");
+  expect_refusal(hull({points, points}), 2, "points.npy' is one argument too many");
+  expect_refusal(testing::run_program({POLYLIDAR, "hul"}), 2,
+                 "there is no command 'hul' (did you mean hull?)");
+  expect_refusal(testing::run_program({POLYLIDAR, "points.csv"}), 2, "there is no command 'points.csv';");
+  expect_refusal(hull({points, "--detail", "0"}), 2, "--detail: '0' is not a number above 0;");
+  expect_refusal(hull({points, "--max-parts", "0"}), 2, "--max-parts: '0' is not a number above 0;");
   expect_refusal(hull({points, "--alpha", "-1"}), 2, "--alpha: '-1' is not a number of 0 or more");
   expect_refusal(hull({points, "--alpha", "nan"}), 2, "is not a number of 0 or more");
   expect_refusal(hull({points, "--max-edge-length", "inf"}), 2, "is not a number of 0 or more");
@@ -330,8 +349,34 @@ TEST_F(HullCommandTest, UsageErrors) {
   expect_refusal(hull({points, "--simplify", "-0.5"}), 2, "is not a number of 0 or more");
   expect_refusal(hull({points, "--threads", "0"}), 2, "--threads");
   expect_refusal(hull({points, "--input", "shp"}), 2, "--input");
-  expect_refusal(hull({points, "--format", "shp"}), 2, "--format");
+  expect_refusal(hull({points, "--format", "shp"}), 2, "--format: 'shp' is none of auto,geojson,wkt,wkb,svg");
   expect_refusal(hull({points, "--columns", "1,2"}), 2, "--columns is for columns of text");
+}
+
+TEST_F(HullCommandTest, TheResultNeverReplacesThePoints) {
+  const std::string points = points_file();
+  const std::string link = (folder() / "link.geojson").string();
+  fs::create_symlink(points, link);
+  for (const std::string& out : {points, (folder() / "." / "points.npy").string(), link}) {
+    expect_refusal(hull({points, "-o", out}), 2, "would replace the points that are read; give another file");
+  }
+  EXPECT_EQ(read_text(points), testing::npy_of<double>(points_, "<f8"));
+  EXPECT_EQ(hull({points, "-o", "/dev/null"}).code, 0);
+}
+
+TEST_F(HullCommandTest, PlaneCoordinatesWithoutASystemAreTold) {
+  const std::string words = "the points name no coordinate system";
+  const auto said = [&](const std::string& text, std::vector<std::string> options) {
+    options.insert(options.begin(), file("place.csv", text));
+    return hull(options).err.find(words) != std::string::npos;
+  };
+  const std::string plane = "x,y\n500000,5600000\n500010,5600000\n500000,5600010\n";
+  EXPECT_TRUE(said(plane, {}));
+  EXPECT_FALSE(said(plane, {"--crs", "25832"}));
+  EXPECT_FALSE(said(plane, {"--crs", "none"}));
+  EXPECT_FALSE(said(plane, {"--format", "wkt"})) << "it has no place for a system";
+  EXPECT_FALSE(said("x,y\n1,2\n3,2\n1,4\n", {})) << "these may be degrees";
+  EXPECT_FALSE(said("x,y\n", {}));
 }
 
 TEST_F(HullCommandTest, InputThatCannotBeRead) {

@@ -200,6 +200,7 @@ TEST_F(LasPointsTest, FilesThatLieAreRefused) {
     const std::string words = size < 227 ? "its LAS header is not whole" : "it ends before the 40000 points";
     expect_refusal(text.substr(0, size), words);
   }
+  expect_refusal("<html>404</html>", "it does not begin with LASF");
   const auto changed = [&](std::size_t place, const std::string& bytes) {
     std::string bad = text;
     return bad.replace(place, bytes.size(), bytes);

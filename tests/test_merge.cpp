@@ -422,7 +422,7 @@ TEST_F(MergeTest, WritesToAFolderWithSomethingInItByForceOnly) {
 }
 
 TEST_F(MergeTest, WithoutOutIsRefusedWithAHintForEveryCommand) {
-  expect_refusal(hullbench({"merge", "shard1"}), 2, "'hullbench COMMAND --help' show what there is");
+  expect_refusal(hullbench({"merge", "shard1"}), 2, "'hullbench merge --help' shows what there is");
 }
 
 TEST_F(MergeTest, ReadsCompressedRecords) {

@@ -231,10 +231,10 @@ void add_points(CLI::App& app, Action& action) {
           "--n", command->count,
           "How many points of each shape; not for data sets that come with their points, such as floor-1")
       ->check(CLI::Range(std::size_t{1}, std::size_t{1'000'000'000'000'000}));
-  options.add_option("--seed", command->seed, "Of the random numbers")
+  options.add_option("--seed", command->seed, "Seed of the random numbers")
       ->check(CLI::NonNegativeNumber)
       ->capture_default_str();
-  options.add_flag("--holes", command->holes, "Of the variant with holes");
+  options.add_flag("--holes", command->holes, "Take the variant with holes");
   options
       .add_option("--format", command->format,
                   "The file's format; auto: by its ending, .csv, .xyz, .txt, .npy or .las")

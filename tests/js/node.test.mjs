@@ -271,7 +271,7 @@ test("concaveman's ring of points without an area", () => {
       [0, 0],
     ],
   );
-  assert.throws(() => concaveman(new Float64Array(6)), TypeError);
+  assert.throws(() => concaveman(new Float64Array(6)), /^TypeError: points must be an array of \[x, y\], whose members/);
 });
 
 function area_of(ring) {

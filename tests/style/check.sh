@@ -165,6 +165,12 @@ check_help() {
     grep -qF "make $target\`" benchmarks/README.md ||
       { echo "error: benchmarks/README.md does not name \`make $target\`." >&2; status=1; }
   done
+  # Whoever follows the README has only what "make build" built.
+  listing=$(make --no-print-directory -n build)
+  for target in $(grep -oE '(^|[ `"])build/(hullbench|polylidar)' README.md core/*/README.md | sed 's|.*/||' | sort -u); do
+    grep -qE -- "--target .*\b$target\b" <<<"$listing" ||
+      { echo "error: 'make build' does not build build/$target." >&2; status=1; }
+  done
   return $status
 }
 

@@ -117,6 +117,9 @@ function numbered(labels) {
 }
 
 export function concaveman(points, concavity = USUAL_CONCAVITY, lengthThreshold = 0) {
+  if (ArrayBuffer.isView(points)) {
+    throw new TypeError("points must be an array of [x, y], whose members the ring has; concaveHull() takes typed arrays");
+  }
   const detail = USUAL_CONCAVITY / Math.max(concavity, LEAST_CONCAVITY);
   const xy = flattened(points);
   const ring = detail > 0 ? module.one_ring(xy, detail, lengthThreshold || 0) : module.hull(xy, { alpha: Infinity }).vertices;

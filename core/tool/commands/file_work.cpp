@@ -7,8 +7,10 @@
 #include <new>
 #include <system_error>
 #include <thread>
+#include <utility>
 
 #include "tool/points/point_file.hpp"
+#include "tool/program/configuration_error.hpp"
 #include "tool/program/free_memory.hpp"
 #include "tool/program/interrupt.hpp"
 
@@ -91,6 +93,9 @@ void FileWork::run(unsigned threads, std::uint64_t memory_share, const Work& wor
   for (const Outcome& outcome : outcomes_) {
     if (!outcome.is_done) surroundings_.err << surroundings_.program << ": " << outcome.failure << "\n";
   }
+  if (std::none_of(outcomes_.begin(), outcomes_.end(), [](const Outcome& o) { return o.is_done; })) {
+    throw ConfigurationError("none of the files could be read, so that nothing is written");
+  }
 }
 
 void FileWork::work_on(std::size_t file, unsigned threads, const Work& work) {
@@ -118,6 +123,27 @@ std::optional<Crs> FileWork::common_crs() const {
     common = outcome.crs;
   }
   return common.value_or(Crs());
+}
+
+std::string FileWork::systems() const {
+  std::vector<std::pair<const Crs*, std::vector<std::string>>> systems;  // in the order of their first files
+  for (std::size_t file = 0; file < outcomes_.size(); ++file) {
+    if (!outcomes_[file].is_done) continue;
+    const auto same = std::find_if(systems.begin(), systems.end(),
+                                   [&](const auto& system) { return *system.first == outcomes_[file].crs; });
+    (same == systems.end() ? systems.emplace_back(&outcomes_[file].crs, std::vector<std::string>()) : *same)
+        .second.push_back(paths_[file]);
+  }
+  std::string text;
+  for (const auto& [crs, files] : systems) {
+    const std::string name = !crs->name().empty() ? crs->name()
+                             : crs->is_given      ? "one without a number"
+                                                  : "none";
+    text += (text.empty() ? "" : ", ") + name + " (" + files[0];
+    if (files.size() > 1) text += " and " + std::to_string(files.size() - 1) + " more";
+    text += ")";
+  }
+  return text;
 }
 
 ExitCode FileWork::summary(const std::string& result) const {

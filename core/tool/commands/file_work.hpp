@@ -27,7 +27,7 @@ class FileWork {
 
   /// The files one after the other, each taken by the next of `threads` that is free. One takes
   /// `memory_share` times its size of memory; together they take no more than half of what is free. Says
-  /// which files failed, a line each. Throws Interrupted.
+  /// which files failed, a line each. Throws ConfigurationError where all did, and Interrupted.
   void run(unsigned threads, std::uint64_t memory_share, const Work& work);
 
   bool is_done(std::size_t file) const { return outcomes_[file].is_done; }
@@ -36,6 +36,8 @@ class FileWork {
   /// The coordinate system of the files that were done: nothing known where there is none of these, no value
   /// where two differ.
   std::optional<Crs> common_crs() const;
+  /// The systems of the files that were done, as in "EPSG:25832 (a.las and 12 more), none (b.las)".
+  std::string systems() const;
   /// Says how many files are in `result`, such as "the index". kExitFailures where one is not.
   ExitCode summary(const std::string& result) const;
 

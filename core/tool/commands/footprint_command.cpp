@@ -6,6 +6,7 @@
 #include <csignal>
 #include <filesystem>
 #include <functional>
+#include <mutex>
 #include <numbers>
 #include <stdexcept>
 #include <utility>
@@ -114,10 +115,12 @@ class IndexRun {
         output_(command.shape, surroundings.vector_formats),
         options_(interruptible(point_options(command.shape, surroundings))),
         files_(command.inputs, surroundings),
-        features_(command.inputs.size()) {}
+        features_(command.inputs.size()),
+        is_empty_(command.inputs.size()) {}
 
   ExitCode run() {
     chosen_crs(command_.shape, {});
+    output_.check_is_none_of(command_.inputs);
     files_.run(thread_count(command_.shape), kMemoryToTriangulate,
                [&](std::size_t file, unsigned threads) { return make(file, threads); });
     std::vector<std::string> features;
@@ -127,6 +130,13 @@ class IndexRun {
     const std::optional<Crs> crs = files_.common_crs();
     output_.write(geojson_collection(features, geojson_crs(crs.value_or(Crs()))), crs.value_or(Crs()));
     const ExitCode code = files_.summary("the index");
+    if (const auto empty = std::count(is_empty_.begin(), is_empty_.end(), true); empty > 0) {
+      const auto first =
+          static_cast<std::size_t>(std::find(is_empty_.begin(), is_empty_.end(), true) - is_empty_.begin());
+      surroundings_.err << surroundings_.program << ": " << empty << " of these "
+                        << (empty == 1 ? "has" : "have") << " an empty shape, such as "
+                        << command_.inputs[first] << "\n";
+    }
     bool nameless = false;
     for (std::size_t file = 0; file < features_.size(); ++file) {
       nameless |= files_.is_done(file) && !output_.can_tell(files_.crs(file));
@@ -134,9 +144,11 @@ class IndexRun {
     if (nameless) surroundings_.err << surroundings_.program << ": " << kNamelessCrs << "\n";
     if (!crs) {
       surroundings_.err
-          << surroundings_.program
-          << ": the files have different coordinate systems, which each footprint names; programs "
-             "that read the index take them as one\n";
+          << surroundings_.program << ": the files have different coordinate systems: " << files_.systems()
+          << "; programs that read the index take them for one, so make an index for each, or choose by the "
+             "property crs\n";
+    } else if (lacks_crs(command_.shape, *crs, box_)) {
+      surroundings_.err << surroundings_.program << ": " << kNoCrs << "\n";
     }
     return code;
   }
@@ -146,7 +158,7 @@ class IndexRun {
     const std::string& path = command_.inputs[place];
     check_is_file(path);
     const PointFile file = read_point_file(path, options_);
-    const Crs crs = chosen_crs(command_.shape, file.crs);
+    Crs crs = chosen_crs(command_.shape, file.crs);
     const LocatedHulls hulls = locate_hulls(file, command_.shape, false, threads, {});
     Facts facts;
     facts.add(file.points);
@@ -156,6 +168,9 @@ class IndexRun {
     properties.add("path", std::string_view(path));
     add_properties(facts, hulls.groups[0], crs, properties);
     features_[place] = geojson_feature(properties, to_coordinates(hulls.groups[0].shape, file.points));
+    const std::lock_guard lock(mutex_);
+    is_empty_[place] = hulls.groups[0].shape.empty();
+    box_ = joined(box_, facts.bounds);
     return crs;
   }
 
@@ -165,6 +180,9 @@ class IndexRun {
   PointFileOptions options_;
   FileWork files_;
   std::vector<std::string> features_;  ///< one a file, GeoJSON; empty where it could not be read
+  std::mutex mutex_;                   ///< of the next two
+  std::vector<bool> is_empty_;         ///< one a file: whether its shape is
+  Box box_ = bounding_box({});         ///< of all points that were read
 };
 
 /// One run for the shape of all points: the hull of the files as one stream, so that there is no seam where
@@ -200,6 +218,7 @@ class UnionRun {
     output_.write(geojson_collection(std::vector{feature(hull)}, geojson_crs(crs_)), crs_);
     const ExitCode code = files_.summary("the union");
     if (!output_.can_tell(crs_)) say(std::string(kNamelessCrs));
+    if (lacks_crs(command_.shape, crs_, all_.bounds)) say(std::string(kNoCrs));
     return code;
   }
 
@@ -207,6 +226,7 @@ class UnionRun {
   void check_options() const {
     const ShapeChoice& shape = command_.shape;
     chosen_crs(shape, {});
+    output_.check_is_none_of(command_.inputs);
     if (shape.one || shape.cover || shape.min_triangles > 0) {
       throw ConfigurationError(
           "--union does not go with --one, --cover and --min-triangles, which need all triangles; leave one "
@@ -248,8 +268,8 @@ class UnionRun {
     const std::optional<Crs> crs = files_.common_crs();
     if (!crs) {
       throw ConfigurationError(
-          "the files have different coordinate systems, and there is no plane that all of them are in; "
-          "transform them into one, or say by --crs which it is");
+          "the files have different coordinate systems: " + files_.systems() +
+          "; transform them into one, leave some out, or give the one that all are in by --crs");
     }
     crs_ = *crs;
     if (all_.points == 0) return;
@@ -285,10 +305,10 @@ class UnionRun {
     // What that handful leaves goes: holes and parts with room for fewer than log n + 4 points.
     core_.fill_single_triangles = true;
     least_area_ = (log_n + 4) * spacing * spacing;
-    say("a largest circumradius of " + shortest(*core_.alpha) +
-        ", chosen from the points: from the largest size of the files with 99 % of them; the sizes are " +
-        shortest(sizes.front().first) + " to " + shortest(sizes.back().first) +
-        "; --detail scales them, --alpha, --max-edge-length or --max-perimeter sets a limit");
+    say("triangles with a circumradius of " + four_digits(*core_.alpha) +
+        " at most, chosen from the points (each file alone would get triangles of size " +
+        four_digits(sizes.front().first) + " to " + four_digits(sizes.back().first) +
+        "); --detail scales it, --alpha, --max-edge-length or --max-perimeter sets a limit");
   }
 
   /// All files that could be read, in metres where asked for and they are in degrees.

@@ -51,6 +51,7 @@ class HullRun {
  private:
   void check_options() const {
     chosen_crs(command_.shape, {});
+    output_.check_is_none_of({&command_.input, 1});
     if (command_.stream) check_stream_options();
     if (output_.has_features()) return;
     if (!command_.by.empty() && output_.text_format() != "svg") {
@@ -174,6 +175,9 @@ class HullRun {
                           });
     status_.clear();
     if (!output_.can_tell(crs_)) say(std::string(kNamelessCrs));
+    if (output_.has_features() && lacks_crs(command_.shape, crs_, bounding_box(file_.points))) {
+      say(std::string(kNoCrs));
+    }
     if (!hulls_.latitude) return;
     say("longitude and latitude: lengths and areas are in metres, true at latitude " +
         shortest(std::round(*hulls_.latitude * 100) / 100) + "; --crs none takes degrees as they are");
@@ -187,9 +191,9 @@ class HullRun {
           "wider gaps, " +
           by_hand);
     } else if (hull.sizes) {
-      std::string sizes = "triangles of size " + shortest(hull.sizes->least);
+      std::string sizes = "triangles of size " + four_digits(hull.sizes->least);
       if (hull.sizes->most > hull.sizes->least) {
-        sizes += " (where points are densest) to " + shortest(hull.sizes->most);
+        sizes += " (where points are densest) to " + four_digits(hull.sizes->most);
       }
       say(sizes + " at most, chosen from the points; --detail scales it, " + by_hand);
     }
@@ -197,7 +201,7 @@ class HullRun {
     say(hull.has_triangles
             ? "no triangle of the points is within the limits, so the shape is empty; larger ones "
               "give more"
-            : "there are no three distinct points off a line, so the shape is empty");
+            : "there are no three distinct points that are not on one line, so the shape is empty");
   }
 
   void explain_groups() const {
@@ -315,10 +319,9 @@ void add_hull_options(CLI::App& app, HullCommand& command) {
   app.footer(
       "Without --alpha, --max-edge-length and --max-perimeter a limit for the size of triangles is chosen "
       "from the\n"
-      "points, place by place, so that it follows their density. Its range is printed to standard error. The "
-      "size "
-      "of\n"
-      "an equilateral triangle is its edge. The shape may be empty.\n"
+      "points, place by place, so that it follows their density; standard error says how large. Of an "
+      "equilateral\n"
+      "triangle the size is its edge. The shape may be empty.\n"
       "The input's format is known by the ending of its name (.csv .tsv .txt .xyz .pts .asc .geojson .json "
       ".wkt\n"
       ".npy .ply .las .laz, also with .gz), else by its content. LAZ needs laszip or las2las in the PATH. "

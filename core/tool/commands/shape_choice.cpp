@@ -14,13 +14,22 @@
 namespace polylidar::tool {
 namespace {
 
-CLI::Validator zero_or_more() {
-  return {[](const std::string& text) {
+/// A finite number that `fits`; `words` say which are, `shown` says it in help.
+CLI::Validator number_that(bool (*fits)(double), const std::string& words, const std::string& shown) {
+  return {[fits, words](const std::string& text) {
             double value = 0;
-            const bool fits = CLI::detail::lexical_cast(text, value) && std::isfinite(value) && value >= 0;
-            return fits ? std::string() : "'" + text + "' is not a number of 0 or more";
+            const bool is_one = CLI::detail::lexical_cast(text, value) && std::isfinite(value) && fits(value);
+            return is_one ? std::string() : "'" + text + "' is not a number " + words;
           },
-          ">=0"};
+          shown};
+}
+
+CLI::Validator zero_or_more() {
+  return number_that([](double value) { return value >= 0; }, "of 0 or more", ">=0");
+}
+
+CLI::Validator above_zero() {
+  return number_that([](double value) { return value > 0; }, "above 0", ">0");
 }
 
 /// The whole text as numbers between commas; empty when it is none.
@@ -48,17 +57,16 @@ void add_shape_options(CLI::App& app, ShapeChoice& choice) {
   app.add_option("--max-perimeter", choice.max_perimeter, "Largest perimeter of a triangle of the shape")
       ->check(zero_or_more());
   app.add_option("--detail", choice.detail,
-                 "Detail of the outline where the limit is chosen: twice the detail, half the size")
-      ->check(CLI::PositiveNumber)
+                 "How much of the outline is kept where no limit is given: 2 keeps notches and holes of half "
+                 "the width")
+      ->check(above_zero())
       ->capture_default_str();
-  app.add_flag(
-      "--one", choice.one,
-      "One polygon: the smallest limit that joins all parts, to a thousandth; parts that only appear with "
-      "it are dropped");
+  app.add_flag("--one", choice.one,
+               "One polygon: the limit is widened, no more than needed, until it joins all parts");
   app.add_flag("--cover", choice.cover,
-               "Leave no point outside: the smallest limit that covers them all, to a thousandth");
+               "Leave no point outside: the limit is widened, no more than needed, until it covers them all");
   app.add_option("--max-parts", choice.max_parts, "Keep only so many polygons, those of the largest areas")
-      ->check(CLI::PositiveNumber);
+      ->check(above_zero());
   app.add_option("--min-area", choice.min_area,
                  "Fill holes smaller than this area, then drop polygons smaller than it")
       ->check(zero_or_more());
@@ -73,9 +81,10 @@ void add_shape_options(CLI::App& app, ShapeChoice& choice) {
   app.add_option("--classes", choice.classes,
                  "Of a LAS file: only points of these classifications, such as 2,6");
   app.add_option("--window", choice.window, "Only points in this box: xmin,ymin,xmax,ymax");
-  app.add_option(
-      "--crs", choice.crs,
-      "The coordinate system, such as EPSG:25832, instead of the one that the file names; none: a plane");
+  app.add_option("--crs", choice.crs,
+                 "The coordinate system, such as EPSG:25832, in place of the file's; none: there is none, "
+                 "and degrees too are "
+                 "taken as they are");
   app.add_option("--threads", choice.threads, "Number of threads, instead of one for each processor")
       ->check(CLI::Range(1U, 1024U));
   app.add_option(
@@ -89,9 +98,10 @@ void add_shape_options(CLI::App& app, ShapeChoice& choice) {
 void add_format_option(CLI::App& app, ShapeChoice& choice, const std::vector<std::string>& formats) {
   std::string listed;
   for (const std::string& format : formats) listed += (listed.empty() ? "" : ",") + format;
-  const auto check = [formats](const std::string& text) {
+  const auto check = [formats, listed](const std::string& text) {
     const bool is_known = std::find(formats.begin(), formats.end(), text) != formats.end();
-    return is_known || text.starts_with("gdal:") ? "" : "'" + text + "' is no format; '--help' lists them";
+    return is_known || text.starts_with("gdal:") ? ""
+                                                 : "'" + text + "' is none of " + listed + " and gdal:DRIVER";
   };
   app.add_option(
          "--format", choice.format,
@@ -157,6 +167,11 @@ Crs chosen_crs(const ShapeChoice& choice, const Crs& of_file) {
   if (named) return *named;
   throw ConfigurationError("--crs '" + choice.crs +
                            "' names no coordinate system; give it as EPSG:25832, or none");
+}
+
+bool lacks_crs(const ShapeChoice& choice, const Crs& crs, const Box& box) {
+  const bool is_empty = box.min.x > box.max.x;
+  return choice.crs.empty() && !crs.is_given && !is_empty && !could_be_degrees(box);
 }
 
 LocatedHulls locate_hulls(const PointFile& file, const ShapeChoice& choice, bool is_grouped, unsigned threads,

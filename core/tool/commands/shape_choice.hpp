@@ -36,6 +36,15 @@ inline constexpr std::string_view kNamelessCrs =
     "the coordinate system has no EPSG number that is known here, so that the result names none; --crs gives "
     "it one";
 
+/// What is said where no system is known of coordinates that are no longitudes and latitudes.
+inline constexpr std::string_view kNoCrs =
+    "the points name no coordinate system, and most programs take GeoJSON without one for longitude and "
+    "latitude; "
+    "--crs gives it, as in --crs EPSG:25832, and --crs none says that there is none";
+
+/// Whether kNoCrs is to be said of points in `box`.
+bool lacks_crs(const ShapeChoice& choice, const Crs& crs, const Box& box);
+
 /// What the help of both commands says of GDAL.
 inline constexpr std::string_view kGdalHelp =
     "A build with GDAL (-DPOLYLIDAR_WITH_GDAL=ON) also reads points from GeoPackage, Shapefile, FlatGeobuf, "

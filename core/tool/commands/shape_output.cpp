@@ -4,6 +4,7 @@
 #include <cctype>
 #include <filesystem>
 #include <string_view>
+#include <system_error>
 #include <utility>
 
 #include "tool/program/configuration_error.hpp"
@@ -41,6 +42,17 @@ ShapeOutput::ShapeOutput(const ShapeChoice& choice, const VectorFormats* formats
   by_gdal_ = VectorOutput{path_, text_format_.substr(kGdal.size()), choice.out_layer};
   text_format_ = "geojson";
   formats_->check(*by_gdal_);
+}
+
+void ShapeOutput::check_is_none_of(std::span<const std::string> inputs) const {
+  std::error_code error;
+  if (!std::filesystem::is_regular_file(path_, error)) return;
+  for (const std::string& input : inputs) {
+    if (std::filesystem::equivalent(path_, input, error)) {
+      throw ConfigurationError("--out " + path_ +
+                               " would replace the points that are read; give another file");
+    }
+  }
 }
 
 bool ShapeOutput::can_tell(const Crs& crs) const {

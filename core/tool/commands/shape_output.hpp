@@ -2,6 +2,7 @@
 #pragma once
 
 #include <optional>
+#include <span>
 #include <string>
 
 #include "tool/commands/commands.hpp"
@@ -15,6 +16,9 @@ class ShapeOutput {
  public:
   /// Throws ConfigurationError where that cannot be, std::runtime_error where no file can be written there.
   ShapeOutput(const ShapeChoice& choice, const VectorFormats* formats);
+
+  /// Throws ConfigurationError where the result would replace one of the files that are read.
+  void check_is_none_of(std::span<const std::string> inputs) const;
 
   /// What write() takes: "geojson", "wkt", "wkb" or "svg".
   const std::string& text_format() const { return text_format_; }

@@ -48,13 +48,14 @@ bool is_database(const std::string& path);
 
 /// What is said of an input where a program does without GDAL, behind its name.
 inline constexpr const char* kNoGdalToRead =
-    "it is read by GDAL, which this build is without; build polylidar with -DPOLYLIDAR_WITH_GDAL=ON and "
-    "libgdal-dev, or convert it, as in 'ogr2ogr -f CSV -lco GEOMETRY=AS_XY /vsistdout/ FILE | polylidar hull "
-    "- --columns X,Y'";
+    "it is read by GDAL, which this build is without; convert it, as in 'ogr2ogr -f CSV -lco GEOMETRY=AS_XY "
+    "/vsistdout/ FILE | polylidar hull - --columns X,Y', or build polylidar with -DPOLYLIDAR_WITH_GDAL=ON "
+    "('make tool GDAL=1')";
 
 /// The same of an output.
 inline constexpr const char* kNoGdalToWrite =
-    "it is written by GDAL, which this build is without; build polylidar with -DPOLYLIDAR_WITH_GDAL=ON and "
-    "libgdal-dev, or convert what it writes, as in 'ogr2ogr out.gpkg out.geojson'";
+    "it is written by GDAL, which this build is without; write GeoJSON and convert it, as in 'ogr2ogr "
+    "out.gpkg "
+    "out.geojson', or build polylidar with -DPOLYLIDAR_WITH_GDAL=ON ('make tool GDAL=1')";
 
 }  // namespace polylidar::tool

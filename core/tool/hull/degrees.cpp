@@ -22,10 +22,14 @@ bool is_before(const Point& a, const Point& b) {
 
 }  // namespace
 
+bool could_be_degrees(const Box& box) {
+  return box.min.x >= -360 && box.max.x <= 360 && box.min.y >= -90 && box.max.y <= 90;
+}
+
 std::optional<double> middle_latitude(const Crs& crs, std::span<const Point> points) {
   if (!crs.is_geographic || points.empty()) return {};
   const Box box = bounding_box(points);
-  if (box.min.x < -360 || box.max.x > 360 || box.min.y < -90 || box.max.y > 90) return {};
+  if (!could_be_degrees(box)) return {};
   return (box.min.y + box.max.y) / 2;
 }
 

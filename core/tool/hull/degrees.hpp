@@ -10,6 +10,9 @@
 
 namespace polylidar::tool {
 
+/// Whether no coordinate is beyond 360 of longitude or 90 of latitude.
+bool could_be_degrees(const Box& box);
+
 /// The middle latitude of points that are longitudes and latitudes in degrees; nothing where `crs` does not
 /// say so or a coordinate cannot be one (beyond 360 or 90), which happens to GeoJSON of projected
 /// coordinates.

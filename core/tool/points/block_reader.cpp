@@ -33,7 +33,7 @@ BlockReader::BlockReader(const std::string& path, const PointFileOptions& option
   try {
     struct stat status {};
     if (::fstat(file_, &status) == 0) {
-      if (S_ISDIR(status.st_mode)) fail("it is a folder; give a file of points");
+      if (S_ISDIR(status.st_mode)) fail("it is a folder; give files, as in FOLDER/*.las");
       // Standard input may be a file that somebody has read from already.
       if (S_ISREG(status.st_mode) && path != "-") size_ = static_cast<std::uint64_t>(status.st_size);
     }

@@ -100,11 +100,11 @@ class LasReader {
 
   void read_header() {
     std::array<char, kNewHeader> bytes{};
-    if (!take(bytes.data(), kOldHeader))
-      reader_.fail(std::string("its LAS header is not whole") + kCopyAgain);
+    const bool is_whole = take(bytes.data(), kOldHeader);
     if (std::memcmp(bytes.data(), "LASF", 4) != 0) {
       reader_.fail("it does not begin with LASF as a LAS file does; name the right format with --input");
     }
+    if (!is_whole) reader_.fail(std::string("its LAS header is not whole") + kCopyAgain);
     header_.minor_version = static_cast<int>(unsigned_at(&bytes[kVersionMinor], 1));
     const auto major_version = static_cast<int>(unsigned_at(&bytes[kVersionMinor - 1], 1));
     if (major_version != 1 || header_.minor_version > 4) {

@@ -23,6 +23,18 @@ std::errc parse(std::string_view text, double& value) {
   return std::isfinite(value) ? std::errc() : error;
 }
 
+/// How many bytes the character at the beginning of `text` has; 0 for one that cannot be shown.
+std::size_t shown_bytes(std::string_view text) {
+  const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(text[i]); };
+  if (byte(0) < 0x80) return byte(0) >= ' ' && byte(0) <= '~' ? 1 : 0;
+  const std::size_t bytes = byte(0) >= 0xF0 ? 4 : byte(0) >= 0xE0 ? 3 : 2;
+  if (byte(0) < 0xC2 || byte(0) > 0xF4 || text.size() < bytes) return 0;
+  for (std::size_t i = 1; i < bytes; ++i) {
+    if ((byte(i) & 0xC0U) != 0x80) return 0;
+  }
+  return byte(0) == 0xC2 && byte(1) < 0xA0 ? 0 : bytes;  // U+0080 to U+009F are controls
+}
+
 }  // namespace
 
 bool is_number(std::string_view text) {
@@ -65,11 +77,13 @@ std::string_view trimmed(std::string_view text) {
 }
 
 std::string in_quotes(std::string_view text) {
-  const bool is_long = text.size() > kLongestQuote;
-  std::string shown(text.substr(0, kLongestQuote));
-  std::replace_if(
-      shown.begin(), shown.end(), [](char c) { return c < ' ' || c > '~'; }, '?');
-  return "'" + shown + (is_long ? "...'" : "'");
+  std::string shown;
+  while (!text.empty() && shown.size() < kLongestQuote) {
+    const std::size_t bytes = shown_bytes(text);
+    shown += bytes > 0 ? text.substr(0, bytes) : "?";
+    text.remove_prefix(std::max<std::size_t>(bytes, 1));
+  }
+  return "'" + shown + (text.empty() ? "'" : "...'");
 }
 
 double load(const char* bytes, const Scalar& type) {

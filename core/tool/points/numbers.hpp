@@ -24,7 +24,8 @@ std::optional<std::uint64_t> parse_count(std::string_view text);
 std::string_view take_word(std::string_view& text);
 std::string_view trimmed(std::string_view text);
 
-/// `text` between quotes for a message: cut when it is long, and without bytes that are not printable ASCII.
+/// `text` between quotes for a message: cut when it is long, with '?' for what cannot be shown: controls
+/// and what is no UTF-8.
 std::string in_quotes(std::string_view text);
 
 /// A number's type in a binary file.

@@ -222,6 +222,9 @@ void read_columns(BlockReader& reader, bool only_blanks, PointFile& file) {
     row.split(line, needed);
     if (row.fields().size() < needed) {
       reader.fail_here("there is no column " + std::to_string(row.fields().size() + 1) +
+                       (columns.with_header && file.points.empty()
+                            ? " below the first row, which has no number and was taken for names"
+                            : "") +
                        "; give every point its x and y, or choose other columns with --columns");
     }
     const Point point = {parse_coordinate(row.fields()[columns.x], reader),

@@ -121,6 +121,15 @@ std::string shortest(double value) {
   return text;
 }
 
+std::string four_digits(double value) {
+  std::array<char, 32> digits{};
+  const auto [end, error] =
+      std::to_chars(digits.data(), digits.data() + digits.size(), value, std::chars_format::general, 4);
+  // Read again, as to_chars would write 123456 as 1.235e+05.
+  std::from_chars(digits.data(), end, value);
+  return shortest(value);
+}
+
 void Properties::add(std::string_view name, double value) {
   // JSON has no infinity.
   add_json(name, std::isfinite(value) ? shortest(value) : "null");

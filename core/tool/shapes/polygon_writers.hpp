@@ -13,6 +13,8 @@ namespace polylidar::tool {
 
 /// The shortest text that is read as `value` again.
 std::string shortest(double value);
+/// `value` to four digits, for people.
+std::string four_digits(double value);
 
 /// The properties of a GeoJSON feature, in the order they are added.
 class Properties {
