@@ -336,6 +336,17 @@ def suite() -> dict[str, dict[str, Any]]:
     )
 
 
+def write_report(folder: Path, document: dict[str, Any]) -> Path:
+    """As report.json into the folder, which is made."""
+    folder.mkdir(parents=True, exist_ok=True)
+    (folder / "report.json").write_text(json.dumps(document), encoding="utf-8")
+    return folder
+
+
+def json_lines(lines: list[dict[str, Any]]) -> str:
+    return "".join(json.dumps(line) + "\n" for line in lines)
+
+
 def write_suite(folder: Path, reports: dict[str, dict[str, Any]] | None = None) -> Path:
     """The suite with pictures; those of the alphabet are compressed."""
     reports = suite() if reports is None else reports
@@ -347,13 +358,11 @@ def write_suite(folder: Path, reports: dict[str, dict[str, Any]] | None = None) 
     with lzma.open(folder / "tune.json.xz", "wt", encoding="utf-8") as file:
         json.dump(tune(), file)
     for name, document in reports.items():
-        (folder / name).mkdir()
-        (folder / name / "report.json").write_text(json.dumps(document), encoding="utf-8")
+        place = write_report(folder / name, document)
         ok = [row for row in document["runs"] if row["status"] == "ok" and row["n"] != 2000 or name == "alphabet"]
-        lines = pictures([row for row in ok if row["status"] == "ok"][: 40 if name == "random" else None])
-        text = "".join(json.dumps(line) + "\n" for line in lines)
+        text = json_lines(pictures([row for row in ok if row["status"] == "ok"][: 40 if name == "random" else None]))
         if name == "alphabet":
-            (folder / name / "pictures.jsonl.xz").write_bytes(lzma.compress(text.encode()))
+            (place / "pictures.jsonl.xz").write_bytes(lzma.compress(text.encode()))
         else:
-            (folder / name / "pictures.jsonl").write_text(text, encoding="utf-8")
+            (place / "pictures.jsonl").write_text(text, encoding="utf-8")
     return folder

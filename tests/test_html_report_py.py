@@ -1,26 +1,21 @@
 """The HTML report: what is packed, the summary's numbers beside the records, escaping, and input that is no run."""
 
 import base64
-import contextlib
 import gzip
 import hashlib
-import html.parser
-import io
 import json
 import os
 import re
 import subprocess
-import sys
-import tempfile
 import unittest
 import unittest.mock
 from pathlib import Path
 
-sys.path[:0] = [str(Path(__file__).parent.parent / "plots"), str(Path(__file__).parent)]
+import plot_samples
+from plot_tests import Elements, WithFolder, call  # first, for what is in plots/
 
 import make_report
 import page
-import plot_samples
 import report_data
 from records import load
 from report_common import number
@@ -53,21 +48,17 @@ def document(title, identity, notes=()):
     return {"title": title, "tables": [table], "notes": list(notes)}
 
 
-class Folder(unittest.TestCase):
+class Folder(WithFolder):
     """A test with a folder for a run."""
 
     def setUp(self):
-        holder = tempfile.TemporaryDirectory()
-        self.addCleanup(holder.cleanup)
-        self.folder = Path(holder.name)
+        super().setUp()
         library = self.folder / "library.js"
         library.write_text("/* licence */ window.echarts = {};", encoding="utf-8")
-        before = page.LIBRARY
-        page.LIBRARY = library
-        self.addCleanup(setattr, page, "LIBRARY", before)
+        self.enterContext(unittest.mock.patch.object(page, "LIBRARY", library))
 
     def load(self, *rows, **more):
-        (self.folder / "report.json").write_text(json.dumps(report(list(rows), **more)), encoding="utf-8")
+        plot_samples.write_report(self.folder, report(list(rows), **more))
         return load(self.folder)
 
     def write_tables(self, *documents):
@@ -80,13 +71,6 @@ class Folder(unittest.TestCase):
 
     def standing(self, summary, method, protocol="paper"):
         return next(one for one in summary.standings if one.series == (method, protocol))
-
-    def make(self, *arguments):
-        """(exit code, standard output, standard error) of the program."""
-        out, err = io.StringIO(), io.StringIO()
-        with contextlib.redirect_stdout(out), contextlib.redirect_stderr(err):
-            code = make_report.main([str(argument) for argument in arguments])
-        return code, out.getvalue(), err.getvalue()
 
 
 class Packing(Folder):
@@ -446,32 +430,6 @@ class TheSummary(Folder):
         )
 
 
-class Elements(html.parser.HTMLParser):
-    """The elements of a page as a browser sees them, with the texts of its scripts."""
-
-    def __init__(self, page):
-        super().__init__()
-        self.tags, self.scripts, self.policy, self.inside = [], [], "", False
-        self.feed(page)
-
-    def handle_starttag(self, tag, attributes):
-        told = dict(attributes)
-        self.tags.append(tag)
-        self.inside = tag == "script"
-        if self.inside:
-            self.scripts.append((told.get("id"), ""))
-        if tag == "meta" and told.get("http-equiv") == "Content-Security-Policy":
-            self.policy = told["content"]
-
-    def handle_endtag(self, tag):
-        self.inside = self.inside and tag != "script"
-
-    def handle_data(self, data):
-        if self.inside:
-            identity, before = self.scripts[-1]
-            self.scripts[-1] = identity, before + data
-
-
 class Page(Folder):
     def page(self, *rows, **more):
         return make_report.make_page(self.load(*rows, **more), self.folder)
@@ -506,7 +464,7 @@ class Page(Folder):
                 "detail": EVIL,
             }
         ]
-        (self.folder / "report.json").write_text(json.dumps(evil), encoding="utf-8")
+        plot_samples.write_report(self.folder, evil)
         tables = document(EVIL, EVIL, [EVIL])
         tables["tables"][0].update(columns=[{"title": EVIL, "kind": "words"}], rows=[[{"text": EVIL}]], remarks=[EVIL])
         self.write_tables(tables)
@@ -573,14 +531,14 @@ class Page(Folder):
 class TheProgram(Folder):
     def test_it_writes_the_page_beside_the_records(self):
         self.load(run())
-        code, out, err = self.make(self.folder)
+        code, out, err = call(make_report.main, self.folder)
         self.assertEqual((code, err), (0, ""))
         self.assertIn("report.html", out)
         self.assertTrue((self.folder / "report.html").read_text(encoding="utf-8").startswith("<!doctype html>"))
 
     def refused(self, *arguments):
         """What it says, one sentence, when it ends with 2."""
-        code, out, err = self.make(*arguments)
+        code, out, err = call(make_report.main, *arguments)
         self.assertEqual((code, out), (2, ""))
         self.assertEqual(err.count("\n"), 1)
         self.assertTrue(err.startswith("make_report.py: "), err)
@@ -601,7 +559,7 @@ class TheProgram(Folder):
             broken = report([run()], **{part: value})
             if part == "seed":
                 del broken["runs"]
-            (self.folder / "report.json").write_text(json.dumps(broken), encoding="utf-8")
+            plot_samples.write_report(self.folder, broken)
             self.refused(self.folder)
 
     def test_a_missing_library_or_bundler_is_told_with_its_remedy(self):
@@ -614,7 +572,7 @@ class TheProgram(Folder):
     def test_a_fault_of_ours_is_not_the_users(self):
         self.load(run())
         with unittest.mock.patch.object(make_report, "charts", side_effect=KeyError("l2")), self.assertRaises(KeyError):
-            self.make(self.folder)
+            call(make_report.main, self.folder)
 
     def test_a_file_that_cannot_be_written_is_told(self):
         self.load(run())
