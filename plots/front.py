@@ -14,9 +14,10 @@ from pathlib import Path
 import numpy as np
 
 from front_charts import charts_html, color_of
+from markup import details, link_to_method, named
 from ratings import KNOWS, Division, Rating, Standing, divisions, has_times, rate, read, typical_times
 from records import Series
-from report_common import count_of, link_html, number, sentence_list, short_name, text
+from report_common import count_of, number, sentence_list, short_name, text
 
 # Shown at once; the others are behind a click.
 FIRST_ROWS = 8
@@ -156,7 +157,7 @@ def _league(rating: Rating, timed: Division | None, pages: Mapping[str, str]) ->
     table = f"<table class='league'><caption>League of {_cases(rating)}; methods with the same results share a line</caption>{head}<tbody>{''.join(rows[:FIRST_ROWS])}</tbody></table>"
     rest = rows[FIRST_ROWS:]
     if rest:
-        table += f"<details><summary>{len(rest)} more</summary><table class='league'>{head}<tbody>{''.join(rest)}</tbody></table></details>"
+        table += details(f"{len(rest)} more", f"<table class='league'>{head}<tbody>{''.join(rest)}</tbody></table>")
     if rating.division.left_out:
         names = sentence_list([short_name(one, rating.division.left_out) for one in rating.division.left_out])
         table += f"<p class='muted'>With less than half of the cases, and so not rated: {text(names)}.</p>"
@@ -181,7 +182,7 @@ def _league_row(line: _Line, every: Sequence[Series], times: dict[Series, float]
     interval = f"<small class='inline'>{number(low)}–{number(high)}</small>" if one.rank_interval else ""
     return (
         f"<tr data-entrant='{text(one.series.key)}'><th scope='row'><span class='place'>{line.first + 1}</span>"
-        f"<span class='swatch' data-method='{text(one.series.method)}'></span>{link_html(names[0], one.series.method, pages)}{also}</th>"
+        f"{named(one.series.method, link_to_method(names[0], one.series.method, pages))}{also}</th>"
         f"<td class='ranks'>{bar}<span class='value'>{number(one.rank)} {interval}</span></td>"
         f"<td class='number'>{number(100 * one.error)}</td><td class='number more'>{one.elo:.0f}</td>"
         f"<td class='number more'>{spread}</td><td class='number'>{one.failures}</td></tr>"

@@ -46,11 +46,6 @@ def short_name(series: Series, among: Iterable[Series]) -> str:
     return f"{title} ({series[1]})" if sum(one[0] == series[0] for one in set(among)) > 1 else title
 
 
-def link_html(name: str, method: str, pages: Mapping[str, str]) -> str:
-    """The name; where the method has a page, a link to it."""
-    return f"<a href='{text(pages[method])}'>{text(name)}</a>" if method in pages else text(name)
-
-
 def asked(section: str, report: str, **what: str) -> str:
     """Where a link leads: in the report to its section, whose script does the rest; from another page to `report`, which is
     asked for it behind the # (report/front.js)."""

@@ -58,19 +58,9 @@ def block_of(entry: dict) -> tuple[dict, list[tuple[int, int]], list, list]:
         return [a | b << 8 for a, b in zip(low, high)]
 
     def polygons(counts: list) -> list:
-        coded = iter(numbers(2 * sum(sum(rings) for rings in counts)))
-        place = [0, 0]
-        made = []
-        for rings in counts:
-            made.append([])
-            for count in rings:
-                made[-1].append([])
-                for _ in range(count):
-                    for axis in (0, 1):
-                        code = next(coded)
-                        place[axis] += -(code + 1) // 2 if code & 1 else code // 2
-                    made[-1][-1] += place
-        return made
+        steps = [-(code + 1) // 2 if code & 1 else code // 2 for code in numbers(2 * sum(map(sum, counts)))]
+        places = zip(itertools.accumulate(steps[::2]), itertools.accumulate(steps[1::2]))
+        return [[[value for _ in range(count) for value in next(places)] for count in rings] for rings in counts]
 
     steps, heights = numbers(header["points"]), numbers(header["points"])
     points = list(zip(itertools.accumulate(steps), heights))

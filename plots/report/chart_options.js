@@ -40,17 +40,20 @@ export function logTicks(low, high) {
   return ticks.filter((tick) => tick >= low && tick <= high);
 }
 
-/** A numeric axis over these values. Logarithmic only when all of them are above zero. */
-export function numericAxis(name, values, logarithmic, ink, share = 0.06) {
-  const axis = {
+function plainAxis(name, ink) {
+  return {
     name,
     nameTextStyle: { color: ink.muted },
     axisLabel: { color: ink.muted, hideOverlap: true },
     axisLine: { lineStyle: { color: ink.line } },
     axisTick: { lineStyle: { color: ink.line } },
     splitLine: { lineStyle: { color: ink.grid } },
-    minorSplitLine: { show: false },
   };
+}
+
+/** A numeric axis over these values. Logarithmic only when all of them are above zero. */
+export function numericAxis(name, values, logarithmic, ink, share = 0.06) {
+  const axis = { ...plainAxis(name, ink), minorSplitLine: { show: false } };
   const finite = values.filter((value) => Number.isFinite(value));
   const low = Math.min(...finite);
   const high = Math.max(...finite);
@@ -84,17 +87,16 @@ function caseAxis(chart, logarithmic, ink, width) {
   if (chart.kind !== "n") {
     // Labels that would not fit side by side are turned.
     const turned = 8 * chart.x.length * Math.max(...chart.x.map((one) => one.length)) > width - 70;
+    const axis = plainAxis(chart.kind === "shape" ? "" : chart.axis, ink);
     return {
+      ...axis,
       type: "category",
       data: chart.x,
-      name: chart.kind === "shape" ? "" : chart.axis,
       nameLocation: "middle",
       nameGap: turned ? 54 : 34,
-      nameTextStyle: { color: ink.muted },
-      axisTick: { alignWithLabel: true, lineStyle: { color: ink.line } },
-      axisLine: { lineStyle: { color: ink.line } },
-      axisLabel: { color: ink.muted, hideOverlap: true, rotate: turned ? 40 : 0 },
-      splitLine: { show: true, lineStyle: { color: ink.grid } },
+      axisTick: { ...axis.axisTick, alignWithLabel: true },
+      axisLabel: { ...axis.axisLabel, rotate: turned ? 40 : 0 },
+      splitLine: { ...axis.splitLine, show: true },
     };
   }
   const axis = numericAxis(chart.axis, chart.x, logarithmic, ink);
