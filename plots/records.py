@@ -15,6 +15,7 @@ of ours: it is not caught, so the program ends with its traceback and exit code 
 
 from __future__ import annotations
 
+import argparse
 import contextlib
 import functools
 import json
@@ -55,6 +56,15 @@ def exit_code_of(program: str, work: Callable[[], None]) -> int:
         print(f"{program}: {error}", file=sys.stderr)
         return getattr(error, "exit_code", RecordError.exit_code)
     return 0
+
+
+def options_of_run(program: str, says: str, out: str) -> argparse.ArgumentParser:
+    """Of a program that draws RUN into `out`, if --out does not say otherwise."""
+    parser = argparse.ArgumentParser(prog=program, description=says)
+    latest = SCHEMAS / "latest"
+    parser.add_argument("run", nargs="?", default=latest, type=Path, help="folder of a run or of a suite (results/latest)")
+    parser.add_argument("--out", type=Path, help=f"where to write (RUN/{out})")
+    return parser
 
 
 class Series(NamedTuple):

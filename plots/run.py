@@ -43,6 +43,9 @@ class Run:
                 return experiment
         raise Skipped(f"the run has no experiment called {name}")
 
+    def has(self, name: str) -> bool:
+        return any(experiment.name == name for experiment in self.experiments)
+
     def results(self, timed: bool = False) -> Results:
         """Every result with an error, of the league that is kept beside the run (league.csv) or else of the run itself
         (cases.csv); with `timed` of the run alone, as an evaluation, which keeps all cores busy, times nothing."""

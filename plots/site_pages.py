@@ -65,22 +65,18 @@ def pages_of(run: SiteRun, runs: Sequence[SiteRun], files: Sequence[Download]) -
 
 def _pages(run: SiteRun, runs: Sequence[SiteRun], files: Sequence[Download]) -> list[SitePage]:
     datasets = {name: one for name, one in run.datasets.items() if name not in zoo_cases()}
+    adding = [Section("steps", "Steps", "In four steps", _add())]
+    methods = [Section("list", "Methods", "All methods", _methods(run))]
+    lists = [Section("list", "Data sets", "All data sets", _datasets(run, datasets))]
+    front = _front(run, runs, datasets)
     return [
-        SitePage(
-            "index.html", "Concave hulls: who is good at what", "Page", "hullbench league home", _front(run, runs, datasets)
-        ),
-        SitePage("methods/index.html", "Methods", "Page", "", [Section("list", "Methods", "All methods", _methods(run))]),
+        SitePage("index.html", "Concave hulls: who is good at what", "Page", "hullbench league home", front),
+        SitePage("methods/index.html", "Methods", "Page", "", methods),
         *(
             SitePage(address_of("methods", name), one["title"], "Method", name, _method(run, name, one))
             for name, one in run.methods.items()
         ),
-        SitePage(
-            "datasets/index.html",
-            "Data sets",
-            "Page",
-            "",
-            [Section("list", "Data sets", "All data sets", _datasets(run, datasets))],
-        ),
+        SitePage("datasets/index.html", "Data sets", "Page", "", lists),
         *(
             SitePage(address_of("datasets", name), one["title"], "Data set", name, _dataset(run, name, one))
             for name, one in datasets.items()
@@ -90,9 +86,7 @@ def _pages(run: SiteRun, runs: Sequence[SiteRun], files: Sequence[Download]) -> 
             SitePage(address_of("zoo", name), one.points, "Zoo", f"{name} {one.fault}", _zoo_case(run, name))
             for name, one in zoo_cases().items()
         ),
-        SitePage(
-            "add.html", "Add your method", "Page", "adapter manifest", [Section("steps", "Steps", "In four steps", _add())]
-        ),
+        SitePage("add.html", "Add your method", "Page", "adapter manifest", adding),
         SitePage("downloads.html", "Downloads", "Page", "CSV JSON schema tables records", _downloads(files)),
     ]
 

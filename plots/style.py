@@ -159,6 +159,18 @@ def line_options(one: Series) -> dict[str, object]:
     }
 
 
+def curve_options(one: Series, among: Iterable[Series], least: float) -> dict[str, object]:
+    """Of one of many curves, `least` points wide, as keywords of plot."""
+    look = method_style(one[0])
+    return {
+        "color": look.color,
+        "linestyle": look.line,
+        "linewidth": max(look.width, least),
+        "zorder": 4 + 1 / look.order,
+        "label": label(one, among),
+    }
+
+
 def legend_entry(one: Series, among: Iterable[Series], missing: bool = False) -> Line2D:
     """`missing`: it has nothing in the figure, which the label says."""
     text = label(one, among) + (" (none)" if missing else "")

@@ -9,7 +9,6 @@ import re
 import subprocess
 import unittest
 import unittest.mock
-from pathlib import Path
 
 import plot_samples
 from plot_tests import Elements, WithFolder, call  # first, for what is in plots/

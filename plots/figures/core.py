@@ -116,16 +116,6 @@ def _curve(axes: Axes, name: str, times: list[Times]) -> None:
     middle = [one.a_point for one in times]
     below = [one.a_point - min(one.calls) / one.n for one in times]
     above = [max(one.calls) / one.n - one.a_point for one in times]
-    axes.errorbar(
-        [one.n for one in times],
-        middle,
-        yerr=[below, above],
-        label=title,
-        color=look.color,
-        marker=look.marker,
-        markersize=3.6,
-        linewidth=1.3,
-        linestyle=(0, dashes) if dashes else "-",
-        elinewidth=0.7,
-        capsize=1.5,
-    )
+    line = {"linewidth": 1.3, "linestyle": (0, dashes) if dashes else "-", "marker": look.marker, "markersize": 3.6}
+    numbers = [one.n for one in times]
+    axes.errorbar(numbers, middle, yerr=[below, above], label=title, color=look.color, elinewidth=0.7, capsize=1.5, **line)

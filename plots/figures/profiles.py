@@ -12,7 +12,7 @@ from matplotlib.ticker import NullLocator
 
 from records import read_json
 from run import Drawn, Run, Skipped
-from style import FULL_WIDTH, in_order, label, method_style, new_figure, number, panel_letter
+from style import FULL_WIDTH, curve_options, in_order, method_style, new_figure, number, panel_letter
 
 FILE = "league.json"
 # By group: what those of it know.
@@ -68,16 +68,12 @@ def _panel(axes: Axes, taus: list[float], profile: dict[str, Any]) -> None:
         axes.plot(
             taus,
             [100 * share for share in curves[one]],
-            color=look.color,
-            linestyle=look.line,
-            linewidth=max(look.width, 1.1),
             marker=look.marker,
             markersize=3.2,
             markevery=0.12,
             markerfacecolor=look.color if one[1] == "paper" else "white",
             markeredgewidth=0.8,
-            zorder=4 + 1 / look.order,
-            label=label(one, curves),
+            **curve_options(one, curves, 1.1),
         )
     axes.set_xscale("log")
     axes.set_xlim(min(taus), max(taus))

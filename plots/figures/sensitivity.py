@@ -12,7 +12,7 @@ from matplotlib.ticker import NullFormatter
 
 from records import read_json
 from run import Drawn, Run, Skipped
-from style import FULL_WIDTH, in_order, label, method_style, new_figure, number, panel_letter
+from style import FULL_WIDTH, curve_options, in_order, label, method_style, new_figure, number, panel_letter
 
 FILES = ("tune.json", "tune.json.xz")
 _WORST = 10.0  # of the error's axis, in errors of the oracle
@@ -73,19 +73,9 @@ def _panel(axes: Axes, methods: list[dict[str, Any]], octaves: bool) -> None:
         x = [point["position"] / unit for point in curve]
         tolerance = one["tolerance_octaves"]
         title = label(series, by_series) + (f", {tolerance['median']:.1f} octaves" if tolerance else "")
-        axes.plot(
-            x,
-            [point["relative"]["median"] for point in curve],
-            color=look.color,
-            linestyle=look.line,
-            linewidth=max(look.width, 1.1),
-            marker=look.marker,
-            markersize=3,
-            markerfacecolor="white",
-            markeredgewidth=0.8,
-            zorder=4 + 1 / look.order,
-            label=title,
-        )
+        middle = [point["relative"]["median"] for point in curve]
+        marker = {"marker": look.marker, "markersize": 3, "markerfacecolor": "white", "markeredgewidth": 0.8}
+        axes.plot(x, middle, **{**curve_options(series, by_series, 1.1), **marker, "label": title})
         low = [point["relative"]["q1"] for point in curve]
         high = [min(point["relative"]["q3"] or _WORST, _WORST) for point in curve]
         if not octaves:

@@ -7,6 +7,7 @@ import assert from "node:assert/strict";
 import { mkdirSync, statSync, writeFileSync } from "node:fs";
 import { before, test } from "node:test";
 import {
+  CHARTS_READY,
   assert_ascending,
   assert_readable,
   assert_shows,
@@ -21,7 +22,7 @@ import {
   write_invented_report,
 } from "./page_tests.mjs";
 
-const { page_test: test_of_file } = page_tests({ ready: () => document.documentElement.dataset.ready === "charts" });
+const { page_test: test_of_file } = page_tests({ ready: CHARTS_READY });
 const REPETITIONS = 20;
 const SLOWER = 1.5;
 const FASTER = 0.5;
@@ -98,15 +99,13 @@ before(() => {
   invented = write_invented_report("invented");
   invented.metrics = JSON.parse(hullbench("metrics", "--json"));
   const factor = (run) => ({ polylidar: FASTER, cgal_alpha_shape: SLOWER })[run.method] ?? 1;
-  write_run(
-    "a",
-    report_with(() => 1),
-  );
-  write_run("b", report_with(factor, change_b));
-  write_run(
-    "other",
-    report_with(factor, (made) => Object.assign(made.environment, { machine_id: "feedbeef" })),
-  );
+  const elsewhere = (made) => Object.assign(made.environment, { machine_id: "feedbeef" });
+  for (const [name, ...how] of [
+    ["a", () => 1],
+    ["b", factor, change_b],
+    ["other", factor, elsewhere],
+  ])
+    write_run(name, report_with(...how));
   compare("before_after", "a", "b");
   compare("machines", "a", "other");
   compare("itself", "a", "a");
@@ -122,6 +121,9 @@ async function table_rows(page) {
   await open_table(page);
   return rows_of(page);
 }
+
+/** A ratio with its interval as they are written. */
+const digits_of = ({ ratio, ratio_low, ratio_high }) => [ratio, ratio_low, ratio_high].map((one) => one.toPrecision(3));
 
 /** The points that the chart of ratios draws, by the run's name: what it draws, and the change's sign. */
 function drawn_ratios(page) {
@@ -161,12 +163,8 @@ page_test("opens from disk without network or messages, and the verdict is the p
   for (const [method, place] of Object.entries(changed)) {
     const told = methods.find((one) => one.method === method);
     const words = await page.locator(place).innerText();
-    assert.ok(
-      words.includes(
-        `${told.ratio.toPrecision(3)} times the time of A (95 %: ${told.ratio_low.toPrecision(3)} to ${told.ratio_high.toPrecision(3)})`,
-      ),
-      words,
-    );
+    const [ratio, low, high] = digits_of(told);
+    assert.ok(words.includes(`${ratio} times the time of A (95 %: ${low} to ${high})`), words);
   }
   assert.match(await page.locator("#verdict-statuses").innerText(), new RegExp(`✕\\s${FAILS}: now timed out \\(after 60 s\\)`));
   assert.match(await page.locator("#verdict-errors").innerText(), new RegExp(`▲\\s${LARGER_ERROR}: L2 larger`));
@@ -184,15 +182,9 @@ page_test("the chart of ratios draws the program's ratios and intervals, coloure
   assert.equal(new Set([faster, slower, muted]).size, 3);
   for (const one of drawn) {
     const told = wanted.find(({ name }) => name === one.run);
-    for (const [key, value] of [
-      ["ratio", told.ratio],
-      ["low", told.ratio_low],
-      ["high", told.ratio_high],
-    ]) {
-      assert.ok(
-        value === null ? one[key] === null : Math.abs(one[key] / value - 1) < 1e-4,
-        `${key} of ${one.run}: ${one[key]}, not ${value}`,
-      );
+    for (const [key, value] of Object.entries({ ratio: told.ratio, low: told.ratio_low, high: told.ratio_high })) {
+      const same = value === null ? one[key] === null : Math.abs(one[key] / value - 1) < 1e-4;
+      assert.ok(same, `${key} of ${one.run}: ${one[key]}, not ${value}`);
     }
     assert.equal(one.change, told.change);
     const significant = ["faster", "slower"].includes(told.change);
@@ -223,10 +215,7 @@ page_test("the table has every pair with the program's numbers, status changes f
   const rows = await table_rows(page);
   const { pairs } = compared.before_after;
   assert.deepEqual(rows.map((row) => row.run).sort(), pairs.map((pair) => pair.name).sort());
-  assert.deepEqual(
-    rows.slice(0, 2).map((row) => row.run),
-    [FAILS, WORKS],
-  );
+  assert.deepEqual([rows[0].run, rows[1].run], [FAILS, WORKS]);
   for (const row of rows) {
     const told = pairs.find((pair) => pair.name === row.run);
     assert.ok(row.status.endsWith(told.change), `${row.run}: ${row.status}`);
@@ -249,10 +238,8 @@ page_test("the table filters by what became of a run, finds words and sorts", {}
   const names = () => runs_of(page.locator("#runs-table tbody tr"));
   const { pairs } = compared.before_after;
   await page.locator("#filter-status").selectOption("slower");
-  assert.deepEqual(
-    await names(),
-    pairs.filter((pair) => pair.change === "slower").map((pair) => pair.name),
-  );
+  const slower = pairs.filter((pair) => pair.change === "slower").map((pair) => pair.name);
+  assert.deepEqual(await names(), slower);
   await page.locator("#filter-status").selectOption("");
   await page.locator("#filter-words").fill("hi/n:64000 polylidar");
   assert.deepEqual(await names(), ["polylidar/hi/n:64000/holes:0/protocol:paper"]);
@@ -267,32 +254,31 @@ page_test("the table filters by what became of a run, finds words and sorts", {}
 page_test("the chart of ratios filters, orders and hides methods; the other charts follow", {}, async (page) => {
   const labels = () =>
     page.evaluate(() => hullbenchComparison.forests.drawn.runs.filter((line) => !line.heading).map((line) => line.ratio));
-  const all = (await labels()).length;
+  const count = async () => (await labels()).length;
+  const pairs = (keep) => compared.before_after.pairs.filter((pair) => pair.ratio !== null && keep(pair)).length;
+  const all = await count();
   await page.locator("#forest-words").fill("hi/n:2000");
   assert.equal(
-    (await labels()).length,
-    compared.before_after.pairs.filter((pair) => pair.ratio !== null && pair.name.includes("/hi/n:2000/")).length,
+    await count(),
+    pairs(({ name }) => name.includes("/hi/n:2000/")),
   );
   await page.locator("#forest-words").fill("");
   await page.locator("#forest-order").selectOption("high");
   assert_ascending((await labels()).reverse());
   await page.locator("#forest-changed").selectOption("differ");
   assert.equal(
-    (await labels()).length,
-    compared.before_after.pairs.filter((pair) => ["faster", "slower"].includes(pair.change)).length,
+    await count(),
+    pairs(({ change }) => ["faster", "slower"].includes(change)),
   );
   await page.locator("#forest-changed").selectOption("");
   const toggle = page.locator('#ratios [data-entrant="polylidar/paper"]');
   await toggle.focus();
   await page.keyboard.press("Space");
   assert.equal(await toggle.getAttribute("aria-pressed"), "false");
-  assert.equal(
-    (await labels()).length,
-    all - compared.before_after.pairs.filter((pair) => pair.ratio !== null && pair.name.startsWith("polylidar/")).length,
-  );
+  assert.equal(await count(), all - pairs(({ name }) => name.startsWith("polylidar/")));
   assert.ok(!(await page.evaluate(() => hullbenchComparison.charts.drawn.shown)).includes("polylidar/paper"));
   await toggle.click();
-  assert.equal((await labels()).length, all);
+  assert.equal(await count(), all);
 });
 
 page_test("a line of the chart tells its numbers under the pointer", {}, async (page) => {
@@ -309,10 +295,8 @@ page_test("a line of the chart tells its numbers under the pointer", {}, async (
   const words = await page.locator("#forest-runs .tip").innerText();
   const told = compared.before_after.pairs.find((pair) => pair.name === name);
   assert.match(words, /▲ slower/);
-  assert.ok(
-    words.includes(`${told.ratio.toPrecision(3)} [${told.ratio_low.toPrecision(3)}, ${told.ratio_high.toPrecision(3)}]`),
-    words,
-  );
+  const [ratio, low, high] = digits_of(told);
+  assert.ok(words.includes(`${ratio} [${low}, ${high}]`), words);
 });
 
 page_test("time and error of both runs are drawn with the reports' numbers", {}, async (page) => {

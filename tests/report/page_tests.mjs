@@ -13,6 +13,9 @@ const OUTPUT = resolve(process.env.OUTPUT);
 const axe = readFileSync(createRequire(import.meta.url).resolve("axe-core/axe.min.js"), "utf8");
 const WCAG = { runOnly: ["wcag2a", "wcag2aa", "wcag21a", "wcag21aa"] };
 
+/** That of a page with charts. */
+export const CHARTS_READY = () => document.documentElement.dataset.ready === "charts";
+
 /** A file or folder of OUTPUT. */
 export const output = (...names) => join(OUTPUT, ...names);
 
