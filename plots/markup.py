@@ -6,18 +6,23 @@ from collections.abc import Iterable, Mapping, Sequence
 
 from report_common import text
 
-Columns = Mapping[str, str]  # of a table, by their titles in words: the class of their cells, "number", "prose" or none
+Columns = Mapping[str, str]  # of a table, by their titles in words: the classes of their cells, such as "number", or none
+
+
+def table(columns: Columns, rows: Iterable[Sequence[object]] | str, attributes: str = "", caption: str = "") -> str:
+    """`caption` is words; the rows are their cells, or lines by row_of()."""
+    heads = "".join(f"<th scope='col'{_class(css, 'number')}>{text(title)}</th>" for title, css in columns.items())
+    body = rows if isinstance(rows, str) else "".join(row_of(columns, row) for row in rows)
+    body = body if body.startswith("<tbody") else f"<tbody>{body}</tbody>"
+    above = f"<caption>{text(caption)}</caption>" if caption else ""
+    return f"<table{attributes}>{above}<thead><tr>{heads}</tr></thead>{body}</table>"
 
 
 def table_of(
     label: str, columns: Columns, rows: Iterable[Sequence[object]] | str, attributes: str = "", caption: str = ""
 ) -> str:
-    """A table that can be scrolled; `label` and `caption` are words. The rows are their cells, or lines by row_of()."""
-    heads = "".join(f"<th scope='col'{_class(css, 'number')}>{text(title)}</th>" for title, css in columns.items())
-    body = rows if isinstance(rows, str) else "".join(row_of(columns, row) for row in rows)
-    body = body if body.startswith("<tbody") else f"<tbody>{body}</tbody>"
-    above = f"<caption>{text(caption)}</caption>" if caption else ""
-    return scroll(label, f"<table{attributes}>{above}<thead><tr>{heads}</tr></thead>{body}</table>")
+    """As table(), in a place of that name where it can be scrolled."""
+    return scroll(label, table(columns, rows, attributes, caption))
 
 
 def row_of(columns: Columns, cells: Sequence[object], attributes: str = "") -> str:
@@ -28,8 +33,8 @@ def row_of(columns: Columns, cells: Sequence[object], attributes: str = "") -> s
     return f"<tr{attributes}><th scope='row'>{first}</th>{''.join(made)}</tr>"
 
 
-def _class(css: str, only: str = "") -> str:
-    return f" class='{css}'" if css and only in ("", css) else ""
+def _class(css: str, begins: str = "") -> str:
+    return f" class='{css}'" if css and css.startswith(begins) else ""
 
 
 def scroll(label: str, wide: str, attributes: str = "") -> str:

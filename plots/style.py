@@ -21,6 +21,7 @@ matplotlib.use("Agg")
 from matplotlib.artist import Artist  # noqa: E402  the backend comes first
 from matplotlib.axes import Axes  # noqa: E402
 from matplotlib.figure import Figure  # noqa: E402
+from matplotlib.legend import Legend  # noqa: E402
 from matplotlib.lines import Line2D  # noqa: E402
 
 from records import Series  # noqa: E402
@@ -182,13 +183,19 @@ def series_legend(axes: Axes, series: Iterable[Series], missing: Iterable[Series
     absent = set(missing)
     every = in_order([*series, *absent])
     handles = [legend_entry(one, every, one in absent) for one in every]
-    axes.axis("off")
-    legend = axes.legend(handles=handles, handlelength=3, ncol=columns, loc="center", borderaxespad=0, columnspacing=1.4)
+    titles = [one.get_label() for one in handles]
+    legend = legend_below(axes, handles, titles, handlelength=3, ncol=columns, columnspacing=1.4)
     for one, text in zip(every, legend.get_texts()):
         if method_style(one[0]).paper:
             text.set_fontweight("bold")
         if one in absent:
             text.set_color("#888888")
+
+
+def legend_below(axes: Axes, handles: Iterable[Artist], titles: Iterable[str], **look: object) -> Legend:
+    """In axes of its own."""
+    axes.axis("off")
+    return axes.legend(handles, titles, loc="center", borderaxespad=0, **look)
 
 
 def new_figure(width_mm: float, height_mm: float) -> Figure:

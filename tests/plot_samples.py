@@ -211,6 +211,7 @@ def pictures(rows: list[dict[str, Any]]) -> list[dict[str, Any]]:
 
 def core() -> dict[str, Any]:
     """As Google Benchmark writes it, with an aggregate and a failed benchmark among the entries."""
+
     def entry(name: str, kind: str, **more: Any) -> dict[str, Any]:
         return {"run_name": name, "run_type": kind, "time_unit": "us", **more}
 

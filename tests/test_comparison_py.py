@@ -58,19 +58,8 @@ def line(a: dict[str, Any], b: dict[str, Any], change: str = "not told apart") -
 
 
 def told(pairs: list[dict[str, Any]], **more: Any) -> dict[str, Any]:
-    methods = [
-        {
-            "method": method,
-            "protocol": "paper",
-            "pairs": 2,
-            "ratio": 1.3,
-            "ratio_low": 1.2,
-            "ratio_high": 1.4,
-            "faster": 0,
-            "slower": 1,
-        }
-        for method in dict.fromkeys(pair["name"].split("/")[0] for pair in pairs)
-    ]
+    about = {"protocol": "paper", "pairs": 2, "ratio": 1.3, "ratio_low": 1.2, "ratio_high": 1.4, "faster": 0, "slower": 1}
+    methods = [{"method": name, **about} for name in dict.fromkeys(pair["name"].split("/")[0] for pair in pairs)]
     return {"a": "A", "b": "B", "methods": methods, "pairs": pairs, "only_a": [], "only_b": [], "notes": ["a note"], **more}
 
 

@@ -153,13 +153,13 @@ class Data(WithSuite):
 
     def test_sensitivity_is_that_of_the_search(self) -> None:
         lengths, octaves, below = self.draw(sensitivity)["sensitivity"].figure.axes
-        self.assertEqual(
-            [(list(line.get_xdata()), list(line.get_ydata())) for line in lengths.get_lines()], [([1, 2, 4], [3, 1.1, 2])]
-        )  # an error above the axis is left out, and so is a failure
-        self.assertEqual(
-            [(list(line.get_xdata()), list(line.get_ydata())) for line in octaves.get_lines()],
-            [([0.5, 1, 2], [3, 1.1, 2]), ([0.5, 1, 2], [2, 1.2, 1.5])],
-        )
+
+        def curves(axes: Axes) -> list[tuple[list[float], list[float]]]:
+            return [(list(line.get_xdata()), list(line.get_ydata())) for line in axes.get_lines()]
+
+        # An error above the axis is left out, and so is a failure.
+        self.assertEqual(curves(lengths), [([1, 2, 4], [3, 1.1, 2])])
+        self.assertEqual(curves(octaves), [([0.5, 1, 2], [3, 1.1, 2]), ([0.5, 1, 2], [2, 1.2, 1.5])])
         self.assertEqual(
             [text.get_text() for text in below.get_legend().get_texts()], ["Polylidar, 1.2 octaves", "SpatiaLite, 1.2 octaves"]
         )
@@ -186,11 +186,8 @@ class Data(WithSuite):
         one = self.draw(solved)["solved"]
         found = ratings.divisions(self.run_.results(timed=True))
         for axes, division in zip(one.figure.axes, found):
-            ends = {
-                line.get_label(): (line.get_xdata()[0], line.get_ydata()[0])
-                for line in axes.get_lines()
-                if len(line.get_xdata()) == 1
-            }
+            marks = [line for line in axes.get_lines() if len(line.get_xdata()) == 1]
+            ends = {line.get_label(): (line.get_xdata()[0], line.get_ydata()[0]) for line in marks}
             curves = ratings.solved_against_time(division)
             self.assertEqual(ends, {f"_{series.key}": (x[-1], 100 * y[-1]) for series, (x, y) in curves.items()})
         self.assertIn("51 targets a case", one.caption)
@@ -381,15 +378,8 @@ class Style(WithSuite):
                 self.assertIn(entry["method"], LOOKS["methods"], plan.name)
 
     def test_the_papers_methods_come_first(self) -> None:
-        series = in_order(
-            [
-                ("zebra", "paper"),
-                ("geos_concave_hull", "auto"),
-                ("geos_concave_hull", "paper"),
-                ("polylidar", "paper"),
-                ("polylidar", "paper"),
-            ]
-        )
+        geos = [("geos_concave_hull", "auto"), ("geos_concave_hull", "paper")]
+        series = in_order([("zebra", "paper"), *geos, *[("polylidar", "paper")] * 2])
         self.assertEqual([one[0] for one in series], ["polylidar", "geos_concave_hull", "geos_concave_hull", "zebra"])
         self.assertEqual(series[1][1], "paper")
 

@@ -14,7 +14,6 @@ from records import read_json
 from run import Drawn, Run, Skipped
 from style import FULL_WIDTH, curve_options, in_order, method_style, new_figure, number, panel_letter
 
-FILE = "league.json"
 # By group: what those of it know.
 _GROUPS = {
     "blind": "know the points only",
@@ -25,9 +24,7 @@ _GROUPS = {
 
 
 def draw(run: Run) -> Iterator[Drawn]:
-    path = run.folder / FILE
-    if not path.is_file():
-        raise Skipped(f"{path} is not there ('make evaluate' writes it)")
+    path = run.file("league.json", maker="'make evaluate' writes it")
     league = read_json(path, "league.schema.json", "; 'hullbench league' writes it")
     profiles = {one["group"]: one for one in league["profiles"] if len(one["curves"]) > 1}
     groups = [group for group in _GROUPS if group in profiles]

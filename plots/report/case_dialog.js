@@ -194,40 +194,24 @@ function run_row(run) {
     else outlined.delete(run.series);
     repaint();
   };
-  const radio = make("input", {
-    type: "radio",
-    name: "gallery-shaded",
-    checked: run === open.run,
-    "aria-label": `Shade ${title}`,
-    change: () => choose(run),
-  });
-  const box = make("input", {
-    type: "checkbox",
-    checked: outlined.has(run.series),
-    disabled: run.result === null,
-    "aria-label": `Outline of ${title}`,
-    change: outline,
-  });
+  const shaded = { type: "radio", name: "gallery-shaded", checked: run === open.run, change: () => choose(run) };
+  const drawn = { type: "checkbox", checked: outlined.has(run.series), disabled: run.result === null, change: outline };
+  const radio = make("input", { ...shaded, "aria-label": `Shade ${title}` });
+  const box = make("input", { ...drawn, "aria-label": `Outline of ${title}` });
+  const name = makeNamed(run.method, title, { class: "gallery-run-name" });
   return make(
     "tr",
     { "data-run": run.name, class: run === open.run ? "chosen" : "" },
     make("td", {}, radio),
     make("td", {}, box),
-    make(
-      "th",
-      { scope: "row", click: () => choose(run) },
-      makeNamed(run.method, title, { class: "gallery-run-name" }),
-      run_note(run),
-    ),
+    make("th", { scope: "row", click: () => choose(run) }, name, run_note(run)),
     make("td", { class: "number", "data-column": "l2" }, metric_text("l2", run.status === "ok" ? run.l2 : null)),
     make("td", { class: "number", "data-column": "time" }, time_text(run.median_ns)),
   );
 }
 
 function run_note(run) {
-  if (run.status !== "ok") {
-    return make("span", { class: `status ${run.status}` }, statusWords(run.status));
-  }
+  if (run.status !== "ok") return make("span", { class: `status ${run.status}` }, statusWords(run.status));
   return run.result === null ? make("span", { class: "status not_installed" }, "no picture") : null;
 }
 

@@ -25,14 +25,9 @@ export function logTicks(low, high) {
   const from = Math.floor(Math.log10(low));
   const to = Math.ceil(Math.log10(high));
   const decades = Math.log10(high / low);
-  const steps =
-    decades > 2.7
-      ? [1]
-      : decades > 1.3
-        ? [1, 2, 5]
-        : decades > 0.5
-          ? [1, 2, 3, 4, 5, 7]
-          : [1, 1.2, 1.4, 1.6, 1.8, 2, 2.5, 3, 3.5, 4, 5, 6, 7, 8, 9];
+  const fine = [1, 1.2, 1.4, 1.6, 1.8, 2, 2.5, 3, 3.5, 4, 5, 6, 7, 8, 9];
+  const coarser = { 2.7: [1], 1.3: [1, 2, 5], 0.5: [1, 2, 3, 4, 5, 7] };
+  const steps = coarser[[2.7, 1.3, 0.5].find((least) => decades > least)] ?? fine;
   const ticks = [];
   for (let decade = from; decade <= to; decade++) {
     for (const step of steps) ticks.push(Number(`${step}e${decade}`));
@@ -157,21 +152,10 @@ function bandSeries(entrant, points, place, quantity) {
     animation: false,
     z: 1,
   };
-  return {
-    values: inside.flatMap(([, value]) => [value[1], value[2]]),
-    series:
-      inside.length === 0
-        ? []
-        : [
-            { ...base, id: `low ${entrant.key}`, data: inside.map(([x, value]) => [x, value[1]]) },
-            {
-              ...base,
-              id: `band ${entrant.key}`,
-              areaStyle: { color: entrant.colour, opacity: 0.2 },
-              data: inside.map(([x, value]) => [x, value[2] - value[1]]),
-            },
-          ],
-  };
+  const low = { ...base, id: `low ${entrant.key}`, data: inside.map(([x, value]) => [x, value[1]]) };
+  const data = inside.map(([x, value]) => [x, value[2] - value[1]]);
+  const band = { ...base, id: `band ${entrant.key}`, areaStyle: { color: entrant.colour, opacity: 0.2 }, data };
+  return { values: inside.flatMap(([, value]) => [value[1], value[2]]), series: inside.length ? [low, band] : [] };
 }
 
 function lineStyle(entrant, kind) {

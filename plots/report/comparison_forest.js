@@ -162,22 +162,15 @@ export class Forests extends Plots {
     let group = null;
     for (const row of page) {
       const method = this.labels.get(rows.get("entrant", row)).label;
-      const [heading, label] =
-        state.order === "method"
-          ? [method, this.caseLabel(row)]
-          : state.order === "case"
-            ? [this.caseLabel(row), method]
-            : [null, `${this.caseLabel(row)} · ${method}`];
+      const shape = this.caseLabel(row);
+      const [heading, label] = { method: [method, shape], case: [shape, method] }[state.order] ?? [
+        null,
+        `${shape} · ${method}`,
+      ];
       if (heading !== null && heading !== group) lines.push({ heading, ratio: null, low: null, high: null });
       group = heading;
-      lines.push({
-        row,
-        label,
-        ratio: rows.get("ratio", row),
-        low: rows.get("ratio_low", row),
-        high: rows.get("ratio_high", row),
-        change: rows.get("status", row),
-      });
+      const [ratio, low, high, change] = ["ratio", "ratio_low", "ratio_high", "status"].map((name) => rows.get(name, row));
+      lines.push({ row, label, ratio, low, high, change });
     }
     return lines;
   }

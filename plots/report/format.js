@@ -69,6 +69,12 @@ export function makeSearch(words, id, typed) {
   return make("label", {}, words, box);
 }
 
+/** A box with words, which hands on whether it is checked; `attributes` are the box's. */
+export function makeCheck(words, attributes, changed) {
+  const change = (event) => changed(event.target.checked);
+  return make("label", { class: "check" }, make("input", { type: "checkbox", ...attributes, change }), words);
+}
+
 /** The words of a text that was typed, in small letters. */
 export function wordsOf(text) {
   return text.toLowerCase().split(/\s+/).filter(Boolean);

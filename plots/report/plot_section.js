@@ -1,6 +1,6 @@
 // What every section of charts does alike: what can be chosen, the charts themselves and their values as tables.
 import { pointValue } from "./chart_options.js";
-import { formatCount, formatNumber, formatScore, make, smallButton } from "./format.js";
+import { formatCount, formatNumber, formatScore, make, makeCheck, smallButton } from "./format.js";
 import { Plots } from "./plots.js";
 import { currentTheme } from "./theme.js";
 
@@ -16,11 +16,8 @@ export class PlotSection extends Plots {
     this.metrics = new Map(report.metrics.map((metric) => [metric.name, metric]));
     this.meaning = make("p", { class: "muted", id: "metric-meaning" });
     // The first chart over numbers of points, else the first.
-    const first = Math.max(
-      0,
-      charts.findIndex((chart) => chart.kind === "n"),
-    );
-    this.state = { chart: first, time: "time", metric: "l2", logX: true, logTime: true, logError: true, bands };
+    const growing = charts.findIndex((chart) => chart.kind === "n");
+    this.state = { chart: Math.max(0, growing), time: "time", metric: "l2", logX: true, logTime: true, logError: true, bands };
   }
 
   /** Makes the charts in the figures of these names, and draws. */
@@ -85,12 +82,8 @@ export class PlotSection extends Plots {
     this.chartSelect.value = this.state.chart;
     const change = (event) => this.chooseMetric(event.target.value);
     this.metricSelect = make("select", { id: "metric-select", change });
-    const checks = [
-      this.check("logX", "log n"),
-      this.check("logTime", "log time"),
-      this.check("logError", "log error"),
-      this.check("bands", "intervals"),
-    ];
+    const words = { logX: "log n", logTime: "log time", logError: "log error", bands: "intervals" };
+    const checks = Object.entries(words).map((one) => this.check(...one));
     return make(
       "div",
       { class: "controls" },
@@ -102,9 +95,7 @@ export class PlotSection extends Plots {
   }
 
   check(key, words) {
-    const change = (event) => this.set({ [key]: event.target.checked });
-    const box = make("input", { type: "checkbox", id: `check-${key}`, checked: this.state[key], change });
-    return make("label", { class: "check" }, box, words);
+    return makeCheck(words, { id: `check-${key}`, checked: this.state[key] }, (checked) => this.set({ [key]: checked }));
   }
 
   /** A chart's place with its title, its buttons and its values as a table; `extra` stands before the buttons. */

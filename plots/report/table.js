@@ -6,6 +6,7 @@ import {
   formatNumber,
   formatScore,
   make,
+  makeCheck,
   makeChoice,
   makeNamed,
   makeSearch,
@@ -186,18 +187,13 @@ export class RunTable {
   }
 
   columnChooser() {
-    const groups = groupBy(
-      this.columns.filter((column) => !column.fixed),
-      (column) => column.group,
-    );
-    const box = (column) => {
-      const change = (event) => {
-        this.state.shown[event.target.checked ? "add" : "delete"](column.id);
+    const choosable = this.columns.filter((column) => !column.fixed);
+    const groups = groupBy(choosable, (column) => column.group);
+    const box = ({ id, title, usual }) =>
+      makeCheck(title, { checked: usual, "data-column": id }, (checked) => {
+        this.state.shown[checked ? "add" : "delete"](id);
         this.draw();
-      };
-      const input = make("input", { type: "checkbox", checked: column.usual, "data-column": column.id, change });
-      return make("label", { class: "check" }, input, column.title);
-    };
+      });
     return make(
       "details",
       { class: "columns", id: "column-chooser" },

@@ -5,7 +5,7 @@
 import assert from "node:assert/strict";
 import { statSync } from "node:fs";
 import { before, test } from "node:test";
-import { assert_readable, empty_output, hullbench, output, page_tests } from "./page_tests.mjs";
+import { assert_readable, empty_output, hullbench, output, page_tests, screen_options } from "./page_tests.mjs";
 
 const FILE = "points.csv.choice.html";
 const METHODS = ["polylidar", "cgal_alpha_shape", "cgal_delaunay", "geos_concave_hull", "chi_shape", "knn_hull", "convex_hull"];
@@ -17,14 +17,8 @@ before(() => {
   hullbench("choose", "points.csv", "--draws", "1", ...METHODS.flatMap((method) => ["--only", method]));
 });
 
-for (const [width, theme] of [
-  [1400, "light"],
-  [1400, "dark"],
-  [800, "light"],
-  [390, "light"],
-  [390, "dark"],
-]) {
-  page_test(`is readable and accessible at ${width} pixels, ${theme}`, FILE, { width, theme }, async (page) => {
+for (const screen of ["1400 light", "1400 dark", "800 light", "390 light", "390 dark"]) {
+  page_test(`is readable and accessible at ${screen}`, FILE, screen_options(screen), async (page) => {
     const cards = page.locator(".card");
     assert.ok((await cards.count()) > METHODS.length);
     // What getBBox() gives has no properties of its own, so nothing of it would arrive here.
@@ -34,10 +28,13 @@ for (const [width, theme] of [
     });
     assert.equal(pictures.length, await cards.count());
     for (const [box, hull] of pictures) {
-      assert.ok(box.width >= Math.min(width - 80, 250) && box.height >= 250, `${box.width} x ${box.height}`);
+      assert.ok(
+        box.width >= Math.min(page.viewportSize().width - 80, 250) && box.height >= 250,
+        `${box.width} x ${box.height}`,
+      );
       assert.ok(hull.width > 500 && hull.height > 500, "the hull fills its frame");
     }
-    await assert_readable(page, `choice-${width}-${theme}`);
+    await assert_readable(page, `choice-${screen.replace(" ", "-")}`);
   });
 }
 

@@ -19,6 +19,7 @@ import {
   read_json,
   rows_of,
   runs_of,
+  screen_options,
   write_invented_report,
 } from "./page_tests.mjs";
 
@@ -331,17 +332,12 @@ page_test("what differs between the runs is marked", {}, async (page) => {
   assert.match(rows[0], /^≠ differs Program hullbench .* commit 0123456789.* commit fedcba98/);
 });
 
-for (const [width, theme] of [
-  [1280, "light"],
-  [1280, "dark"],
-  [390, "light"],
-  [390, "dark"],
-  [360, "light"],
-]) {
+for (const screen of ["1280 light", "1280 dark", "390 light", "390 dark", "360 light"]) {
   for (const name of ["before_after", "machines"]) {
-    page_test(`${name} is readable and accessible at ${width} pixels, ${theme}`, { page: name, width, theme }, async (page) => {
+    const options = { page: name, ...screen_options(screen) };
+    page_test(`${name} is readable and accessible at ${screen}`, options, async (page) => {
       await open_table(page);
-      await assert_readable(page, `${name}-${width}-${theme}`);
+      await assert_readable(page, `${name}-${screen.replace(" ", "-")}`);
     });
   }
 }

@@ -65,6 +65,12 @@ export function page_tests(defaults = {}) {
   return { open_file, page_test };
 }
 
+/** The options of a screen such as "390 dark". */
+export function screen_options(screen) {
+  const [width, theme] = screen.split(" ");
+  return { width: Number(width), theme };
+}
+
 /** What axe finds, as texts. It runs outside of the page's policy, which forbids scripts of others. */
 export async function axe_findings(page, rules = WCAG, keep = () => true) {
   await page.evaluate(axe);

@@ -8,7 +8,15 @@ import { join } from "node:path";
 import { before, test } from "node:test";
 import { cases_csv } from "./invented_cases.mjs";
 import { write_invented_pictures } from "./invented_pictures.mjs";
-import { assert_readable, empty_output, output, page_tests, plot, write_invented_report } from "./page_tests.mjs";
+import {
+  assert_readable,
+  empty_output,
+  output,
+  page_tests,
+  plot,
+  screen_options,
+  write_invented_report,
+} from "./page_tests.mjs";
 
 const NAME = "2026-01-02-0123abcd";
 const KINDS = [
@@ -35,17 +43,12 @@ before(() => {
 const page_of = (kind) => join("site", `${kind}.html`);
 
 for (const kind of KINDS) {
-  for (const [width, theme] of [
-    [1400, "light"],
-    [800, "dark"],
-    [390, "light"],
-    [390, "dark"],
-  ]) {
-    const name = `${kind} is readable and accessible at ${width} pixels, ${theme}`;
-    page_test(name, page_of(kind), { width, theme }, async (page) => {
-      assert.equal(await page.evaluate(() => document.documentElement.dataset.theme), theme);
+  for (const screen of ["1400 light", "800 dark", "390 light", "390 dark"]) {
+    const options = screen_options(screen);
+    page_test(`${kind} is readable and accessible at ${screen}`, page_of(kind), options, async (page) => {
+      assert.equal(await page.evaluate(() => document.documentElement.dataset.theme), options.theme);
       for (const one of await page.locator("details").all()) await one.evaluate((box) => (box.open = true));
-      await assert_readable(page, `${kind.replace("/", "-")}-${width}-${theme}`);
+      await assert_readable(page, `${kind} ${screen}`.replace(/[/ ]/g, "-"));
     });
   }
 }
