@@ -256,18 +256,14 @@ def differences_html(comparison: Comparison) -> str:
     facts = _all_facts(comparison)
     differing = [fact for fact in facts if fact[1] != fact[2]]
     same = [fact for fact in facts if fact[1] == fact[2]]
-    told = (
-        _facts_table("differences-table", "What differs", differing)
-        if differing
-        else "<p>Nothing that is recorded differs.</p>"
-    )
-    return (
-        told + f"<details id='same-facts'><summary>The same in both ({len(same)})</summary>"
-        f"{_facts_table('same-table', 'The same in both', same) if same else '<p>Nothing.</p>'}</details>"
-    )
+    told = _facts_table("differences-table", "What differs", differing, "Nothing that is recorded differs.")
+    both = _facts_table("same-table", "The same in both", same, "Nothing.")
+    return told + details(f"The same in both ({len(same)})", both, " id='same-facts'")
 
 
-def _facts_table(identity: str, title: str, facts: Sequence[tuple[str, str, str]]) -> str:
+def _facts_table(identity: str, title: str, facts: Sequence[tuple[str, str, str]], without: str) -> str:
+    if not facts:
+        return f"<p>{without}</p>"
     rows = ""
     for name, a, b in facts:
         differs = a != b
@@ -347,18 +343,10 @@ def _plans(experiments: Sequence[Experiment]) -> dict[str, str]:
 
 def _points(comparison: Comparison) -> list[tuple[str, str, str]]:
     """The points of every data set that both have, by their hashes."""
-    other = sum(
-        not same
-        for same in {
-            pair.a.raw.get("dataset_sha256", "") + pair.b.raw.get("dataset_sha256", ""): pair.told["same_points"]
-            for pair in comparison.pairs
-        }.values()
-    )
-    said = (
-        [("Points of the shared cases", "as in B", f"other in {count_of(other, 'case')}")]
-        if other
-        else [("Points of the shared cases", "the same", "the same")]
-    )
+    others = [pair for pair in comparison.pairs if not pair.told["same_points"]]
+    count = len({tuple(row.raw.get("dataset_sha256", "") for row in (pair.a, pair.b)) for pair in others})
+    values = ("as in B", f"other in {count_of(count, 'case')}") if count else ("the same", "the same")
+    said = [("Points of the shared cases", *values)]
     shapes = [
         {dataset["title"]: str(dataset.get("sha256", "")) for experiment in side for dataset in experiment.datasets.values()}
         for side in (comparison.a, comparison.b)
@@ -378,9 +366,6 @@ def only_html(comparison: Comparison) -> str:
     for side, names in (("A", comparison.only_a), ("B", comparison.only_b)):
         if names:
             items = "".join(f"<li><code>{text(name)}</code></li>" for name in names)
-            made += (
-                f"<details class='only'><summary>Only in {side}: {count_of(len(names), 'run')}</summary>"
-                f"<ul>{items}</ul></details>"
-            )
+            made += details(f"Only in {side}: {count_of(len(names), 'run')}", f"<ul>{items}</ul>", " class='only'")
     made = made or "<p>Both have the same runs.</p>"
     return made + details("What hullbench compare says", notes_of(comparison.notes))

@@ -60,11 +60,10 @@ def front_html(front: Front, strip: str) -> str:
     parts.append(charts_html(timed.get(first.division.name)))
     parts += [_league(first, timed.get(first.division.name), front.pages), strip]
     for other in others:
-        said = lead_sentence(other, timed.get(other.division.name))
-        parts.append(
-            f"<details class='wide'><summary>Methods that {KNOWS[other.division.name]}</summary><p class='lead'>{said}</p>"
-            f"{charts_html(timed.get(other.division.name))}{_league(other, timed.get(other.division.name), front.pages)}</details>"
-        )
+        own = timed.get(other.division.name)
+        said = lead_sentence(other, own)
+        shown = f"<p class='lead'>{said}</p>{charts_html(own)}{_league(other, own, front.pages)}"
+        parts.append(details(f"Methods that {KNOWS[other.division.name]}", shown, " class='wide'"))
     return "".join(parts)
 
 

@@ -41,9 +41,9 @@ def scroll(label: str, wide: str, attributes: str = "") -> str:
     return f"<div class='scroll' tabindex='0' role='region' aria-label='{text(label)}'{attributes}>{wide}</div>"
 
 
-def details(words: str, inner: str) -> str:
+def details(words: str, inner: str, attributes: str = "") -> str:
     """Behind a click."""
-    return f"<details><summary>{text(words)}</summary>{inner}</details>"
+    return f"<details{attributes}><summary>{text(words)}</summary>{inner}</details>"
 
 
 def list_of(words: Iterable[object], attributes: str = "") -> str:

@@ -13,8 +13,9 @@ from records import Experiment, Series
 
 CORE = "polylidar"
 
-# By method: short title, place in the order, colours, marker and line, for every page and figure.
-METHOD_LOOKS = json.loads((Path(__file__).resolve().parent / "methods.json").read_text(encoding="utf-8"))["methods"]
+# How methods, steps and parts of pictures look on every page and figure.
+LOOKS = json.loads((Path(__file__).resolve().parent / "methods.json").read_text(encoding="utf-8"))
+METHOD_LOOKS = LOOKS["methods"]  # short title, place in the order, colours, marker and line
 
 STATUS_WORDS = {
     "ok": "ok",

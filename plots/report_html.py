@@ -226,13 +226,8 @@ def _described(experiments: Sequence[Experiment]) -> str:
 
 
 _PLAN = {
-    "Experiment": "",
-    "In the paper": "",
-    "Repetitions": "number",
-    "Warm-up": "number",
-    "Time limit, s": "number",
-    "Memory limit, MiB": "number",
-    "Seed": "number",
+    **dict.fromkeys(("Experiment", "In the paper"), ""),
+    **dict.fromkeys(("Repetitions", "Warm-up", "Time limit, s", "Memory limit, MiB", "Seed"), "number"),
     "Filter": "",
 }
 
@@ -268,13 +263,8 @@ def environment_html(experiments: Sequence[Experiment]) -> str:
     return facts_of(said, "environment-facts") + _noise(experiments) + _versions(experiments)
 
 
-_NOISE = {
-    "Experiment": "",
-    "Runs with 3 repetitions or more": "number",
-    "Spread of the median run": "number",
-    "Of nine in ten, at most": "number",
-    "Verdict": "",
-}
+_SPREADS = ("Runs with 3 repetitions or more", "Spread of the median run", "Of nine in ten, at most")
+_NOISE = {"Experiment": "", **dict.fromkeys(_SPREADS, "number"), "Verdict": ""}
 
 
 def _noise(experiments: Sequence[Experiment]) -> str:

@@ -8,12 +8,10 @@ told apart by anybody. A filled marker says that the parameters follow the paper
 
 from __future__ import annotations
 
-import json
 import textwrap
 import zlib
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
-from pathlib import Path
 
 import matplotlib
 
@@ -25,13 +23,13 @@ from matplotlib.legend import Legend  # noqa: E402
 from matplotlib.lines import Line2D  # noqa: E402
 
 from records import Series  # noqa: E402
+from report_common import LOOKS  # noqa: E402
 from report_common import short_name as label  # noqa: E402  what figures call a series
 
 MILLIMETRE = 1 / 25.4  # in inches, matplotlib's unit
 ONE_COLUMN = 85  # widths of a printed column and of a page, in millimetres
 FULL_WIDTH = 180
 
-_LOOKS = json.loads((Path(__file__).parent / "methods.json").read_text(encoding="utf-8"))
 _MARKERS = {
     "circle": "o",
     "square": "s",
@@ -104,8 +102,8 @@ class MethodStyle:
 
 def method_style(method: str) -> MethodStyle:
     """One that is not in methods.json gets one of its spare looks, by its name: the same in every figure."""
-    known = _LOOKS["methods"].get(method)
-    spare = _LOOKS["others"][zlib.crc32(method.encode()) % len(_LOOKS["others"])]
+    known = LOOKS["methods"].get(method)
+    spare = LOOKS["others"][zlib.crc32(method.encode()) % len(LOOKS["others"])]
     look = known or {"title": method, "order": 1000, "paper": False, **spare}
     return MethodStyle(
         look["title"],
@@ -120,11 +118,11 @@ def method_style(method: str) -> MethodStyle:
 
 def role_color(role: str) -> str:
     """Of what is no method: ground_truth, points, both, omission, commission, hole, paper_value."""
-    return _LOOKS["roles"][role]["light"]
+    return LOOKS["roles"][role]["light"]
 
 
 def step_color(step: str) -> str:
-    return _LOOKS["steps"].get(step, _LOOKS["steps"]["other"])["light"]
+    return LOOKS["steps"].get(step, LOOKS["steps"]["other"])["light"]
 
 
 def in_order(series: Iterable[Series]) -> list[Series]:

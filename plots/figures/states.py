@@ -125,10 +125,9 @@ def _curve(rows: Sequence[Row], one: Series, quantity: str) -> list[Point]:
     """A series' values by number of points: "time" in milliseconds with its interval, or "l2" in percent."""
     points: list[Point] = []
     for row in sorted((row for row in rows if row.series == one and row.ok), key=lambda row: row.n):
-        if quantity == "time" and row.time:
-            ends = (row.time.get("median_low_ns"), row.time.get("median_high_ns"))
-            low, high = (None if end is None else end / 1e6 for end in ends)
-            points.append((row.n, row.time["median_ns"] / 1e6, low, high))
+        if quantity == "time" and row.median_ns is not None:
+            low, high = (end / 1e6 for end in row.interval()) if row.interval() else (None, None)
+            points.append((row.n, row.median_ns / 1e6, low, high))
         elif quantity == "l2" and (error := row.metric("l2")) is not None:
             points.append((row.n, 100 * error, None, None))
     return points
