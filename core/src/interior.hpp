@@ -96,7 +96,7 @@ class InteriorPart {
  private:
   double choose_grid(std::span<const Point> points, const Box& box, double radius,
                      const InteriorGuard& guard);
-  double share_of_uncertain(std::span<const Point> points) const;
+  bool are_many_uncertain(std::span<const Point> points, double most) const;
   double share_of_part(std::span<const Point> points) const;
   Bitmap& occupied() { return fills_.front().occupied; }
   const Bitmap& occupied() const { return fills_.front().occupied; }
