@@ -31,6 +31,8 @@ class RangeOfBlocks {
   /// Throws std::invalid_argument when a coordinate is not finite; counts the points from the first block on.
   void add(std::span<const Point> block, ThreadPool& pool);
   std::uint64_t count() const { return count_; }
+  /// As bounding_box().
+  const Box& box() const { return box_; }
   /// Of at least one point. Throws as measure_coordinates.
   CoordinateRange range() const;
 

@@ -36,6 +36,7 @@ static_assert(kFartherHalfWidths[2 * kRadius + 5] <= Grid::kMargin);
 constexpr Grid::Cell rows_below(std::span<const unsigned> half_widths) {
   return static_cast<Grid::Cell>(half_widths.size() / 2);
 }
+static_assert(rows_below(kHalfWidths) == kReachedRows);
 
 void append(std::vector<std::uint32_t>& all, const std::vector<std::uint32_t>& part) {
   all.insert(all.end(), part.begin(), part.end());
