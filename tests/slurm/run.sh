@@ -171,7 +171,7 @@ check "it has times, since all nodes are the same" grep -q 'time of equal work, 
 # ---- a hull in shards -------------------------------------------------------------------------------------
 
 "$HULLBENCH" points ca --n 200000 --out hull.npy >/dev/null 2>&1
-limit=(--max-perimeter 2)
+limit=(--max-perimeter 4)
 "$POLYLIDAR" hull hull.npy "${limit[@]}" --stream --out whole.geojson 2>/dev/null
 # As core/tool/README.md has it.
 submit_hull() {
