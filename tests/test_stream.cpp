@@ -30,7 +30,8 @@ class MemorySource {
     return concave_hull_of_stream([this](const TakePoints& take) { read(take); }, options, stream_options);
   }
   StreamShard part(const Options& options, const Shard& shard, const StreamOptions& stream_options = {}) {
-    return part_of_stream([this](const TakePoints& take) { read(take); }, options, shard, stream_options);
+    const PointSource source = [this](const TakePoints& take) { read(take); };
+    return part_of_stream({&source, 1}, options, shard, stream_options);
   }
   void change(int pass, Points to) {
     changes_in_pass_ = pass;
@@ -173,6 +174,38 @@ TEST(StreamShards, GiveWhatOneRunGives) {
     for (const Polygon& polygon : expected.polygons) rings += 1 + polygon.holes.size();
   }
   EXPECT_GT(rings, 100U);
+}
+
+// Tiles in any order, an empty one among them: those that do not reach into a shard's band are read once
+// only.
+TEST(StreamShards, ReadTilesThatTheyNeed) {
+  Points points;
+  std::vector<Points> tiles(12);
+  for (std::size_t t = 0; t < tiles.size(); ++t) {
+    if (t == 7) continue;
+    tiles[t] = testing::uniform_points(12'000, t);
+    for (Point& p : tiles[t]) p.y += static_cast<double>(t * 5 % tiles.size());
+    points.insert(points.end(), tiles[t].begin(), tiles[t].end());
+  }
+  const Options options{.max_perimeter = 0.06};
+  std::vector<StreamShard> shards;
+  std::size_t times = 0;
+  std::vector<PointSource> sources;
+  for (const Points& tile : tiles) {
+    sources.emplace_back([&](const TakePoints& take) {
+      ++times;
+      if (!tile.empty()) take(tile);
+    });
+  }
+  StreamProgress last;
+  for (std::uint32_t number = 1; number <= 4; ++number) {
+    shards.push_back(part_of_stream(sources, options, {number, 4},
+                                    {.progress = [&](const StreamProgress& progress) { last = progress; }}));
+  }
+  EXPECT_LE(last.points, points.size());
+  // Each shard all once, and then three times the three or four that are in its band, and neighbours.
+  EXPECT_LT(times, 4 * (12 + 3 * 6));
+  expect_same(concave_hull_of_shards(shards), MemorySource(points).hull(options));
 }
 
 TEST(StreamShards, MayHaveNothing) {

@@ -44,6 +44,9 @@ struct Rows {
   Grid::Cell begin = 0;
   Grid::Cell end = 0;
 
+  bool empty() const { return begin == end; }
+  bool has(Grid::Cell row) const { return row >= begin && row < end; }
+  bool meets(const Rows& other) const { return begin < other.end && other.begin < end; }
   /// With so many more on either side, as far as there are any.
   Rows with_halo(Grid::Cell halo, Grid::Cell rows) const {
     return {begin - std::min(begin, halo), std::min(end + halo, rows)};
@@ -95,12 +98,12 @@ std::uint64_t checksum(std::span<const Point> block, std::uint64_t first, detail
   return std::accumulate(sums.begin(), sums.end(), std::uint64_t{0});
 }
 
-/// The passes over the source.
+/// The passes over the sources.
 class Stream {
  public:
-  Stream(const PointSource& source, const Options& options, const Shard& shard,
+  Stream(std::span<const PointSource> sources, const Options& options, const Shard& shard,
          const StreamOptions& stream_options)
-      : source_(source), stream_options_(stream_options), limits_(detail::checked_limits(options)) {
+      : sources_(sources), stream_options_(stream_options), limits_(detail::checked_limits(options)) {
     if (shard.number < 1 || shard.number > shard.count) {
       throw std::invalid_argument("there is no " + name_of(shard));
     }
@@ -112,51 +115,80 @@ class Stream {
   StreamShard find_part();
 
  private:
+  /// What the first pass finds of a source.
+  struct Extent {
+    std::uint64_t points = 0;
+    Box box;
+  };
+
+  void begin_pass();
   template <class Visit>
-  void pass(const Visit& visit);
+  void read(const PointSource& source, const Visit& visit);
   template <class Visit>
-  void pass_over_cells(const Visit& visit);
+  void pass_over_cells(const Rows& rows, const Visit& visit);
+  detail::RangeOfBlocks find_extents();
   void choose_grid();
   void find_uncertain_cells();
   void find_uncertain_points();
   void gather();
   void take_all();
-  bool is_in_band(Grid::Cell cell) const { return cell >= first_cell_ && cell < end_cell_; }
 
-  const PointSource& source_;
+  std::span<const PointSource> sources_;
   const StreamOptions& stream_options_;
   Limits limits_;
   detail::ThreadPool pool_;
   StreamProgress progress_;
-  Rows seen_;                  ///< the rows of grid_ among those of the box: the band and what it must know
-  Rows tested_;                ///< the rows, among them, in which uncertain points are looked for
-  Grid grid_;                  ///< the band of a grid over the box that has the rows seen_
-  Grid::Cell first_cell_ = 0;  ///< of the shard's own band
-  Grid::Cell end_cell_ = 0;    ///< behind it
+  std::vector<Extent> extents_;  ///< one a source
+  Rows own_;                     ///< the shard's band
+  Rows tested_;                  ///< in which uncertain points are looked for
+  Rows seen_;                    ///< in which cells are marked as occupied
+  Grid grid_;                    ///< the rows seen_ of the grid over the box
   std::optional<Bitmap> occupied_;
   std::optional<Bitmap> marked_;          ///< uncertain cells, then those within reach of uncertain points
   std::vector<std::uint64_t> uncertain_;  ///< of the shard's own band, ascending
   StreamShard part_;
 };
 
-/// visit(block, number of its first point) for each block.
-template <class Visit>
-void Stream::pass(const Visit& visit) {
+void Stream::begin_pass() {
   ++progress_.pass;
   progress_.points = 0;
-  source_([&](std::span<const Point> block) {
+}
+
+/// visit(block, number of its first point) for each block.
+template <class Visit>
+void Stream::read(const PointSource& source, const Visit& visit) {
+  source([&](std::span<const Point> block) {
     visit(block, progress_.points);
     progress_.points += block.size();
     if (stream_options_.progress) stream_options_.progress(progress_);
   });
 }
 
-/// As pass(), after the first one: visit(point, cell, number, chunk) on all threads for the points that have
-/// a cell in the grid; chunks are those of the block, in its order.
+/// The first pass.
+detail::RangeOfBlocks Stream::find_extents() {
+  begin_pass();
+  detail::RangeOfBlocks range;
+  for (const PointSource& source : sources_) {
+    Extent& extent = extents_.emplace_back(Extent{0, bounding_box({})});
+    read(source, [&](std::span<const Point> block, std::uint64_t first) {
+      const Box box = range.add(block, pool_);
+      extent.points += block.size();
+      extent.box = {{std::min(extent.box.min.x, box.min.x), std::min(extent.box.min.y, box.min.y)},
+                    {std::max(extent.box.max.x, box.max.x), std::max(extent.box.max.y, box.max.y)}};
+      part_.source_checksum += checksum(block, first, pool_);
+    });
+  }
+  part_.source_points = range.count();
+  part_.box = range.box();
+  return range;
+}
+
+/// A later pass: visit(point, cell, number, chunk) on all threads for the points in these rows, which are
+/// among seen_; chunks are those of the block, in its order. Sources without such points are not read.
 template <class Visit>
-void Stream::pass_over_cells(const Visit& visit) {
-  const Box& box = part_.box;
-  pass([&](std::span<const Point> block, std::uint64_t first) {
+void Stream::pass_over_cells(const Rows& rows, const Visit& visit) {
+  begin_pass();
+  const auto look_at = [&](std::span<const Point> block, std::uint64_t first, const Box& box) {
     std::atomic<bool> is_same = true;
     const detail::Chunks chunks(pool_, block.size());
     visit.begin(chunks.size());
@@ -167,14 +199,22 @@ void Stream::pass_over_cells(const Visit& visit) {
           is_same = false;
           return;
         }
-        const Grid::Cell row = grid_.row_number(p);
-        if (row >= seen_.begin && row < seen_.end) visit.point(p, grid_.cell(p), first + i, c);
+        if (rows.has(grid_.row_number(p))) visit.point(p, grid_.cell(p), first + i, c);
       }
     });
     if (!is_same) throw has_changed();
     visit.end();
-  });
-  if (progress_.points != part_.source_points) throw has_changed();
+  };
+  for (std::size_t s = 0; s < sources_.size(); ++s) {
+    const auto& [points, box] = extents_[s];
+    const std::uint64_t end = progress_.points + points;
+    if (points > 0 && rows.meets({grid_.row_number(box.min), grid_.row_number(box.max) + 1})) {
+      read(sources_[s],
+           [&](std::span<const Point> block, std::uint64_t first) { look_at(block, first, box); });
+      if (progress_.points != end) throw has_changed();
+    }
+    progress_.points = end;
+  }
 }
 
 /// What is done with the points of a block, and before and after it.
@@ -208,15 +248,10 @@ void Stream::choose_grid() {
   }
   const Grid grid(box, detail::kRadius / radius);
   part_.cells_per_length = grid.cells_per_length();
-  const Rows own = band(part_.shard, grid.rows());
-  seen_ = own.with_halo(kHaloOfOccupied, grid.rows());
-  tested_ = own.with_halo(kHaloOfUncertain, grid.rows());
+  own_ = band(part_.shard, grid.rows());
+  tested_ = own_.with_halo(kHaloOfUncertain, grid.rows());
+  seen_ = own_.with_halo(kHaloOfOccupied, grid.rows());
   grid_ = grid.band(seen_.begin, seen_.end);
-  const auto first_cell = [&](Grid::Cell row) {
-    return grid_.first_word(row - seen_.begin) * Grid::kWordBits;
-  };
-  first_cell_ = first_cell(own.begin);
-  end_cell_ = first_cell(own.end);
 }
 
 void Stream::find_uncertain_cells() {
@@ -224,7 +259,7 @@ void Stream::find_uncertain_cells() {
   const auto mark = [&](const Point&, Grid::Cell cell, std::uint64_t, std::size_t) {
     occupied_->set_shared(cell);
   };
-  pass_over_cells(Visit{[](std::size_t) {}, mark, [] {}});
+  pass_over_cells(seen_, Visit{[](std::size_t) {}, mark, [] {}});
   marked_.emplace().clear(grid_.word_count());
   constexpr Grid::Cell kRowsATime = 64;
   const Rows tested{tested_.begin - seen_.begin, tested_.end - seen_.begin};
@@ -237,7 +272,12 @@ void Stream::find_uncertain_cells() {
 
 void Stream::find_uncertain_points() {
   const detail::PointCertificate& certificate = detail::PointCertificate::instance();
-  std::vector<std::vector<std::pair<std::uint64_t, Grid::Cell>>> found;
+  struct Uncertain {
+    std::uint64_t number;
+    Grid::Cell cell;
+    bool is_own;
+  };
+  std::vector<std::vector<Uncertain>> found;
   std::vector<Grid::Cell> cells;
   const auto begin = [&](std::size_t chunks) {
     found.resize(std::max(found.size(), chunks));
@@ -245,12 +285,12 @@ void Stream::find_uncertain_points() {
   };
   const auto look = [&](const Point& p, Grid::Cell cell, std::uint64_t number, std::size_t chunk) {
     if (!marked_->test(cell) || certificate.is_certified(p, cell, grid_, *occupied_)) return;
-    found[chunk].emplace_back(number, cell);
+    found[chunk].push_back({number, cell, own_.has(grid_.row_number(p))});
   };
   const auto end = [&] {
     for (const auto& of_chunk : found) {
-      for (const auto& [number, cell] : of_chunk) {
-        if (is_in_band(cell)) {
+      for (const auto& [number, cell, is_own] : of_chunk) {
+        if (is_own) {
           if (uncertain_.size() == kMaxPoints) throw too_much_outline();
           uncertain_.push_back(number);
         }
@@ -258,7 +298,7 @@ void Stream::find_uncertain_points() {
       }
     }
   };
-  pass_over_cells(Visit{begin, look, end});
+  pass_over_cells(tested_, Visit{begin, look, end});
   marked_->clear(grid_.word_count());
   for (const Grid::Cell cell : cells) detail::mark_reach(grid_, cell, *marked_);
 }
@@ -271,7 +311,7 @@ void Stream::gather() {
     for (auto& of_chunk : found) of_chunk.clear();
   };
   const auto look = [&](const Point& p, Grid::Cell cell, std::uint64_t number, std::size_t chunk) {
-    if (marked_->test(cell) && is_in_band(cell)) found[chunk].emplace_back(number, p);
+    if (marked_->test(cell)) found[chunk].emplace_back(number, p);
   };
   const auto end = [&] {
     for (const auto& of_chunk : found) {
@@ -285,7 +325,7 @@ void Stream::gather() {
     }
     if (part_.points.size() > kMaxPoints) throw too_much_outline();
   };
-  pass_over_cells(Visit{begin, look, end});
+  pass_over_cells(own_, Visit{begin, look, end});
   if (next != uncertain_.end()) throw has_changed();
 }
 
@@ -293,11 +333,14 @@ void Stream::gather() {
 void Stream::take_all() {
   if (part_.shard.number > 1) return;
   progress_.passes = 2;
+  begin_pass();
   std::vector<Point>& points = part_.points;
-  pass([&](std::span<const Point> block, std::uint64_t) {
-    if (points.size() + block.size() > part_.source_points) throw has_changed();
-    points.insert(points.end(), block.begin(), block.end());
-  });
+  for (const PointSource& source : sources_) {
+    read(source, [&](std::span<const Point> block, std::uint64_t) {
+      if (points.size() + block.size() > part_.source_points) throw has_changed();
+      points.insert(points.end(), block.begin(), block.end());
+    });
+  }
   if (points.size() != part_.source_points) throw has_changed();
   part_.numbers.resize(points.size());
   std::iota(part_.numbers.begin(), part_.numbers.end(), std::uint64_t{0});
@@ -305,13 +348,7 @@ void Stream::take_all() {
 }
 
 StreamShard Stream::find_part() {
-  detail::RangeOfBlocks range;
-  pass([&](std::span<const Point> block, std::uint64_t first) {
-    range.add(block, pool_);
-    part_.source_checksum += checksum(block, first, pool_);
-  });
-  part_.source_points = range.count();
-  part_.box = range.box();
+  const detail::RangeOfBlocks range = find_extents();
   if (part_.source_points <= kFewPoints) {
     take_all();
     return std::move(part_);
@@ -326,7 +363,7 @@ StreamShard Stream::find_part() {
   }
   if (is_flat(part_.box)) return std::move(part_);
   choose_grid();
-  if (first_cell_ == end_cell_) return std::move(part_);  // more shards than rows
+  if (own_.empty()) return std::move(part_);  // more shards than rows
   find_uncertain_cells();
   find_uncertain_points();
   occupied_.reset();
@@ -487,9 +524,9 @@ StreamedHull hull_of_part(const StreamShard& all, unsigned threads) {
 
 }  // namespace
 
-StreamShard part_of_stream(const PointSource& source, const Options& options, const Shard& shard,
+StreamShard part_of_stream(std::span<const PointSource> sources, const Options& options, const Shard& shard,
                            const StreamOptions& stream_options) {
-  return Stream(source, options, shard, stream_options).find_part();
+  return Stream(sources, options, shard, stream_options).find_part();
 }
 
 StreamedHull concave_hull_of_shards(std::span<const StreamShard> shards, unsigned threads) {
@@ -505,7 +542,7 @@ StreamedHull concave_hull_of_shards(std::span<const StreamShard> shards, unsigne
 
 StreamedHull concave_hull_of_stream(const PointSource& source, const Options& options,
                                     const StreamOptions& stream_options) {
-  const StreamShard all = part_of_stream(source, options, Shard(), stream_options);
+  const StreamShard all = part_of_stream({&source, 1}, options, Shard(), stream_options);
   return concave_hull_of_shards({&all, 1}, options.threads);
 }
 

@@ -84,13 +84,14 @@ struct StreamShard {
   std::vector<std::uint8_t> uncertain;  ///< for each of `points`, whether it may be on the outline: 1 or 0
 };
 
-/// Reads `source` as concave_hull_of_stream does, and finds a shard's part of what that would triangulate
-/// (core/INTERIOR.md, "Many machines"). Each shard reads all points; its maps have the cells of its band and
-/// 4 radii on either side. Up to 65,536 points are all in the first shard.
+/// Reads `sources`, which are one after the other as one source, as concave_hull_of_stream does, and finds a
+/// shard's part of what that would triangulate (core/INTERIOR.md, "Many machines"). Each shard reads all
+/// points once, and three more times those sources, such as the tiles of a cloud, that reach into its band or
+/// 4 radii beyond it; its maps have the cells of these rows. Up to 65,536 points are all in the first shard.
 ///
 /// Throws as concave_hull_of_stream, and std::invalid_argument where there is no such shard. Whether the
 /// rounding of a triangle's size decides is not known yet.
-StreamShard part_of_stream(const PointSource& source, const Options& options, const Shard& shard,
+StreamShard part_of_stream(std::span<const PointSource> sources, const Options& options, const Shard& shard,
                            const StreamOptions& stream_options = {});
 
 /// What concave_hull_of_stream gives for the source and the options of these shards, bit by bit; `points` are

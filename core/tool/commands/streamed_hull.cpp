@@ -74,9 +74,13 @@ class StreamRun {
   ExitCode make_hull() {
     const ShapeOutput output(command_.shape, surroundings_.vector_formats);
     if (output.text_format() == "svg") refuse("--stream", "--format svg");
-    const StreamedHull hull = concave_hull_of_stream(source(), core_, stream_options());
+    const std::vector<PointSource> files = sources();
+    const PointSource all = [&](const TakePoints& take) {
+      for (const PointSource& file : files) file(take);
+    };
+    const StreamedHull hull = concave_hull_of_stream(all, core_, stream_options());
     status_.clear();
-    write_streamed_hull(hull, core_, crs_, output, surroundings_);
+    write_streamed_hull(hull, core_, crs_.value_or(Crs()), output, surroundings_);
     return kExitOk;
   }
 
@@ -94,36 +98,35 @@ class StreamRun {
           "'polylidar merge'; give them there");
     }
     check_output_place(shape.out);
-    const StreamShard part = part_of_stream(source(), core_, *shard, stream_options());
+    const StreamShard part = part_of_stream(sources(), core_, *shard, stream_options());
     status_.clear();
     surroundings_.err << surroundings_.program << ": shard " << shard->number << " of " << shard->count
                       << ": " << part.points.size() << " of " << part.source_points
                       << " points are near the outline and in its band\n";
-    write_shard_file(shape.out, {part, crs_});
+    write_shard_file(shape.out, {part, crs_.value_or(Crs())});
     return kExitOk;
   }
 
-  /// All files, one after the other.
-  PointSource source() {
-    return [this](const TakePoints& take) {
-      PointFileOptions options = point_options(command_.shape, surroundings_);
-      options.format = point_format_of(command_.input_format).value_or(PointFormat::kAuto);
-      options.columns = command_.columns;
-      options.on_progress = [](std::uint64_t, std::optional<std::uint64_t>) { throw_if_interrupted(); };
-      options.take_points = take;
-      std::optional<Crs> common;
-      for (const std::string& input : command_.inputs) {
+  std::vector<PointSource> sources() {
+    std::vector<PointSource> sources;
+    for (const std::string& input : command_.inputs) {
+      sources.emplace_back([this, &input](const TakePoints& take) {
+        PointFileOptions options = point_options(command_.shape, surroundings_);
+        options.format = point_format_of(command_.input_format).value_or(PointFormat::kAuto);
+        options.columns = command_.columns;
+        options.on_progress = [](std::uint64_t, std::optional<std::uint64_t>) { throw_if_interrupted(); };
+        options.take_points = take;
         const Crs crs = read(input, options);
-        if (common && *common != crs) {
+        if (crs_ && *crs_ != crs) {
           throw ConfigurationError(
               "the files have different coordinate systems; transform them into one, or say by --crs which "
               "it "
               "is");
         }
-        common = crs;
-      }
-      crs_ = common.value_or(Crs());
-    };
+        crs_ = crs;
+      });
+    }
+    return sources;
   }
 
   Crs read(const std::string& input, const PointFileOptions& options) const {
@@ -151,7 +154,7 @@ class StreamRun {
   const Surroundings& surroundings_;
   StatusLine status_;
   Options core_;
-  Crs crs_;  ///< of the files, once they were read
+  std::optional<Crs> crs_;  ///< of the files, once one was read
 };
 
 std::string geojson(const StreamedHull& hull, const Options& options, const Crs& crs) {
