@@ -4,10 +4,8 @@
 #include <atomic>
 #include <bit>
 #include <cmath>
-#include <functional>
 #include <numeric>
 #include <optional>
-#include <queue>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -17,26 +15,17 @@
 #include "coordinate_range.hpp"
 #include "interior.hpp"
 #include "options_check.hpp"
+#include "shards.hpp"
 
 namespace polylidar {
 namespace {
 
 using detail::Bitmap;
 using detail::Grid;
-
-/// From so few points on they are put into memory.
-constexpr std::uint64_t kFewPoints = std::uint64_t{1} << 16U;
+using detail::kFewPoints;
 
 std::runtime_error has_changed() {
   return std::runtime_error("the source has other points than when it was read before");
-}
-
-std::invalid_argument too_much_outline() {
-  return std::invalid_argument("more than 2^28 points are near the outline: give a larger limit");
-}
-
-std::string name_of(const Shard& shard) {
-  return "shard " + std::to_string(shard.number) + " of " + std::to_string(shard.count);
 }
 
 /// Rows from `begin` on, before `end`.
@@ -56,7 +45,7 @@ struct Rows {
 // What a shard must know beyond its band. A point of the band is in the part where an uncertain one lies at
 // most kReachedRows away, so these are looked for there. Whether one is uncertain is decided by the cells
 // at most kReach rows away from its own, so cells are marked as occupied there, too: 24 rows, which are 4
-// radii. On less, points would be taken for uncertain that are not, or the other way round.
+// radii. On less, points of the part would be missing, and points be taken for uncertain that are not.
 constexpr Grid::Cell kHaloOfUncertain = detail::kReachedRows;
 constexpr Grid::Cell kHaloOfOccupied = kHaloOfUncertain + detail::kReach;
 // What is marked beyond them falls into the margin.
@@ -72,11 +61,6 @@ Rows band(const Shard& shard, Grid::Cell rows) {
 /// How many rows the map of a shard can have.
 Grid::Cell most_rows(const Shard& shard, Grid::Cell rows) {
   return std::min(rows, (rows + shard.count - 1) / shard.count + 2 * kHaloOfOccupied);
-}
-
-/// Whether all points are on a line parallel to an axis, where a grid has no cells.
-bool is_flat(const Box& box) {
-  return box.min.x == box.max.x || box.min.y == box.max.y;
 }
 
 /// The same whatever blocks the points come in.
@@ -105,7 +89,7 @@ class Stream {
          const StreamOptions& stream_options)
       : sources_(sources), stream_options_(stream_options), limits_(detail::checked_limits(options)) {
     if (shard.number < 1 || shard.number > shard.count) {
-      throw std::invalid_argument("there is no " + name_of(shard));
+      throw std::invalid_argument("there is no " + detail::name_of(shard));
     }
     pool_.use(options.threads);
     part_.shard = shard;
@@ -291,7 +275,7 @@ void Stream::find_uncertain_points() {
     for (const auto& of_chunk : found) {
       for (const auto& [number, cell, is_own] : of_chunk) {
         if (is_own) {
-          if (uncertain_.size() == kMaxPoints) throw too_much_outline();
+          if (uncertain_.size() == kMaxPoints) throw detail::too_much_outline();
           uncertain_.push_back(number);
         }
         if (cells.empty() || cells.back() != cell) cells.push_back(cell);
@@ -323,7 +307,7 @@ void Stream::gather() {
         part_.uncertain.push_back(is_uncertain ? 1 : 0);
       }
     }
-    if (part_.points.size() > kMaxPoints) throw too_much_outline();
+    if (part_.points.size() > kMaxPoints) throw detail::too_much_outline();
   };
   pass_over_cells(own_, Visit{begin, look, end});
   if (next != uncertain_.end()) throw has_changed();
@@ -361,7 +345,7 @@ StreamShard Stream::find_part() {
   if (range.range().scale_exponent != 0) {
     throw std::invalid_argument("coordinates as large or as small as these cannot be streamed: scale them");
   }
-  if (is_flat(part_.box)) return std::move(part_);
+  if (detail::is_flat(part_.box)) return std::move(part_);
   choose_grid();
   if (own_.empty()) return std::move(part_);  // more shards than rows
   find_uncertain_cells();
@@ -371,173 +355,11 @@ StreamShard Stream::find_part() {
   return std::move(part_);
 }
 
-// ---- from the shards to the hull
-// ---------------------------------------------------------------------------
-
-std::invalid_argument do_not_fit() {
-  return std::invalid_argument(
-      "the shards do not fit together: their points are not those of one source; make them again");
-}
-
-/// Throws unless all shards are there, once each, and are of one source and asked for the same.
-void check_together(std::span<const StreamShard> shards) {
-  if (shards.empty()) throw std::invalid_argument("there is no shard");
-  const StreamShard& first = shards.front();
-  std::vector<std::uint32_t> numbers;
-  for (const StreamShard& other : shards) {
-    const std::string both = name_of(first.shard) + " and " + name_of(other.shard);
-    if (other.shard.number < 1 || other.shard.number > other.shard.count) {
-      throw std::invalid_argument("there is no " + name_of(other.shard));
-    }
-    if (other.shard.count != first.shard.count) {
-      throw std::invalid_argument(both +
-                                  " do not belong together: cut the source into as many shards for each");
-    }
-    Options options = other.options;
-    options.threads = first.options.threads;
-    if (options != first.options) {
-      throw std::invalid_argument(both +
-                                  " were made with different limits or options: make them with the same");
-    }
-    if (other.source_points != first.source_points || other.source_checksum != first.source_checksum ||
-        other.box != first.box) {
-      throw std::invalid_argument(both +
-                                  " are of different points, or of a source that changed in between: "
-                                  "make them of the same");
-    }
-    if (other.cells_per_length != first.cells_per_length) {
-      throw std::invalid_argument(both + " have different grids: let all use as much memory for their maps");
-    }
-    numbers.push_back(other.shard.number);
-  }
-  std::sort(numbers.begin(), numbers.end());
-  const auto twice = std::adjacent_find(numbers.begin(), numbers.end());
-  if (twice != numbers.end()) {
-    throw std::invalid_argument(name_of({*twice, first.shard.count}) + " is there twice");
-  }
-  std::uint32_t missing = 1;
-  while (missing <= numbers.size() && numbers[missing - 1] == missing) ++missing;
-  if (missing <= first.shard.count) {
-    throw std::invalid_argument(name_of({missing, first.shard.count}) + " is missing");
-  }
-}
-
-/// All points of the shards by their numbers, as if one had found them.
-StreamShard joined(std::span<const StreamShard> shards) {
-  StreamShard all = shards.front();
-  all.points.clear();
-  all.numbers.clear();
-  all.uncertain.clear();
-  std::size_t count = 0;
-  for (const StreamShard& shard : shards) count += shard.points.size();
-  all.points.reserve(count);
-  all.numbers.reserve(count);
-  all.uncertain.reserve(count);
-  struct Next {
-    std::uint64_t number;
-    const StreamShard* shard;
-    std::size_t place;
-    bool operator<(const Next& other) const { return number > other.number; }  // the least on top
-  };
-  std::priority_queue<Next> queue;
-  const auto push = [&](const StreamShard& shard, std::size_t place) {
-    if (place < shard.numbers.size()) queue.push({shard.numbers[place], &shard, place});
-  };
-  for (const StreamShard& shard : shards) push(shard, 0);
-  while (!queue.empty()) {
-    const Next next = queue.top();
-    queue.pop();
-    all.points.push_back(next.shard->points[next.place]);
-    all.numbers.push_back(next.number);
-    all.uncertain.push_back(next.shard->uncertain[next.place]);
-    push(*next.shard, next.place + 1);
-  }
-  return all;
-}
-
-StreamedHull extract_in_memory(const StreamShard& all, unsigned threads) {
-  if (all.points.size() != all.source_points) throw do_not_fit();
-  Options options = all.options;
-  options.threads = threads;
-  Extractor extractor;
-  const IndexedMultiPolygon& shape = extractor.extract(all.points, options);
-  StreamedHull hull;
-  hull.polygons = to_coordinates(shape, all.points);
-  hull.vertices.assign(shape.vertices.begin(), shape.vertices.end());
-  hull.triangulated_points = extractor.statistics().triangulated_points;
-  return hull;
-}
-
-StreamedHull extract_from_part(const StreamShard& all, unsigned threads) {
-  const std::size_t count = all.points.size();
-  if (count > kMaxPoints) throw too_much_outline();
-  const Limits limits = detail::checked_limits(all.options);
-  detail::ThreadPool pool;
-  pool.use(threads);
-  detail::RangeOfBlocks range_of_blocks;
-  range_of_blocks.add(all.points, pool);
-  // The corners of the convex hull are uncertain, so that the part reaches as far as all points.
-  if (range_of_blocks.box() != all.box) throw do_not_fit();
-  const detail::CoordinateRange range = range_of_blocks.range();
-  if (range.scale_exponent != 0) throw do_not_fit();
-  detail::DelaunayBuilder builder;
-  builder.build(all.points, range, pool);
-  std::vector<std::uint8_t> is_tested(count);
-  for (std::size_t v = 0; v < count; ++v) is_tested[v] = all.uncertain[builder.caller_index()[v]];
-  detail::RegionFilter filter;
-  std::vector<detail::Mesh::Index> boundary;
-  if (filter.run_on_part(builder.mesh(), builder.vertices(), is_tested.data(), detail::filter_rules(limits),
-                         all.options.fill_single_triangles.value_or(false), pool, boundary)) {
-    throw std::invalid_argument(
-        "the rounding of a triangle's size decides whether it is kept: make the limit a little larger or "
-        "smaller");
-  }
-  detail::BoundaryTracer tracer;
-  IndexedMultiPolygon shape;
-  tracer.trace(builder.mesh(), builder.vertices(), count, builder.caller_index(), boundary, shape);
-  StreamedHull hull;
-  hull.polygons = to_coordinates(shape, all.points);
-  for (const std::uint32_t vertex : shape.vertices) hull.vertices.push_back(all.numbers[vertex]);
-  hull.triangulated_points = count;
-  return hull;
-}
-
-/// Throws unless the numbers are those of points of the source, ascending.
-void check_numbers(const StreamShard& all) {
-  const std::vector<std::uint64_t>& numbers = all.numbers;
-  const bool ascend =
-      std::adjacent_find(numbers.begin(), numbers.end(), std::greater_equal<>()) == numbers.end();
-  if (!ascend || (!numbers.empty() && numbers.back() >= all.source_points)) throw do_not_fit();
-}
-
-StreamedHull hull_of_part(const StreamShard& all, unsigned threads) {
-  check_numbers(all);
-  StreamedHull hull;
-  if (all.source_points <= kFewPoints) {
-    hull = extract_in_memory(all, threads);
-  } else if (!is_flat(all.box)) {
-    hull = extract_from_part(all, threads);
-  }
-  hull.points = all.source_points;
-  return hull;
-}
-
 }  // namespace
 
 StreamShard part_of_stream(std::span<const PointSource> sources, const Options& options, const Shard& shard,
                            const StreamOptions& stream_options) {
   return Stream(sources, options, shard, stream_options).find_part();
-}
-
-StreamedHull concave_hull_of_shards(std::span<const StreamShard> shards, unsigned threads) {
-  detail::check_threads(threads);
-  for (const StreamShard& shard : shards) {
-    if (shard.numbers.size() != shard.points.size() || shard.uncertain.size() != shard.points.size()) {
-      throw do_not_fit();
-    }
-  }
-  check_together(shards);
-  return shards.size() == 1 ? hull_of_part(shards.front(), threads) : hull_of_part(joined(shards), threads);
 }
 
 StreamedHull concave_hull_of_stream(const PointSource& source, const Options& options,
