@@ -191,6 +191,7 @@ TEST(StreamShards, ReadTilesThatTheyNeed) {
   std::vector<StreamShard> shards;
   std::size_t times = 0;
   std::vector<PointSource> sources;
+  sources.reserve(tiles.size());
   for (const Points& tile : tiles) {
     sources.emplace_back([&](const TakePoints& take) {
       ++times;

@@ -190,9 +190,9 @@ void Stream::pass_over_cells(const Rows& rows, const Visit& visit) {
     visit.end();
   };
   for (std::size_t s = 0; s < sources_.size(); ++s) {
-    const auto& [points, box] = extents_[s];
-    const std::uint64_t end = progress_.points + points;
-    if (points > 0 && rows.meets({grid_.row_number(box.min), grid_.row_number(box.max) + 1})) {
+    const Box& box = extents_[s].box;
+    const std::uint64_t end = progress_.points + extents_[s].points;
+    if (extents_[s].points > 0 && rows.meets({grid_.row_number(box.min), grid_.row_number(box.max) + 1})) {
       read(sources_[s],
            [&](std::span<const Point> block, std::uint64_t first) { look_at(block, first, box); });
       if (progress_.points != end) throw has_changed();

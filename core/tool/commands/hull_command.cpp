@@ -257,11 +257,13 @@ void add_hull_options(CLI::App& app, HullCommand& command) {
       "an equilateral triangle is its edge. The shape may be empty.\n"
       "The input's format is known by the ending of its name (.csv .tsv .txt .xyz .pts .asc .geojson .json "
       ".wkt\n"
-      ".npy .ply .las .laz, .f64 and .raw for doubles x, y without a header, also with .gz), else by its "
-      "content. LAZ needs laszip or las2las in the PATH. "
-      "Lengths are "
-      "in\n"
-      "the unit of the points; of longitudes and latitudes they are in metres.\n" +
+      ".npy .ply .las .laz, .f64 or .raw for little-endian doubles x, y and nothing else; also with .gz), "
+      "else by "
+      "its\n"
+      "content. LAZ needs laszip or las2las in the PATH. Lengths are in the unit of the points; of "
+      "longitudes "
+      "and\n"
+      "latitudes they are in metres.\n" +
       std::string(kGdalHelp));
   app.add_option("FILE", command.inputs, "The points; - for standard input; several with --stream")
       ->required();
