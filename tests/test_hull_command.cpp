@@ -740,6 +740,11 @@ TEST_F(ShardTest, ShardsSayWhatTheyCannotDo) {
       hull({npy, "--alpha", "1", "--stream", "--shard", "1/2", "--out", (folder() / "a.gpkg").string()}), 2,
       "are for 'polylidar merge'");
   EXPECT_EQ(names_in_folder(), before);
+  file("west.prj", R"(PROJCS["a",GEOGCS["b"],AUTHORITY["EPSG","25832"]])");
+  file("east.prj", R"(PROJCS["a",GEOGCS["b"],AUTHORITY["EPSG","25833"]])");
+  const std::vector<std::string> tiles = {file("west.csv", "0,0\n"), file("east.csv", "1,1\n"), "--alpha",
+                                          "1", "--stream"};
+  expect_refusal(hull(tiles), 2, "the files have different coordinate systems");
 }
 
 TEST_F(ShardTest, MergeSaysWhatDoesNotFitTogether) {

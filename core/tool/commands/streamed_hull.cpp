@@ -119,9 +119,7 @@ class StreamRun {
         const Crs crs = read(input, options);
         if (crs_ && *crs_ != crs) {
           throw ConfigurationError(
-              "the files have different coordinate systems; transform them into one, or say by --crs which "
-              "it "
-              "is");
+              "the files have different coordinate systems; transform them into one, or give one by --crs");
         }
         crs_ = crs;
       });
