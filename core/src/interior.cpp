@@ -37,6 +37,7 @@ static_assert(kFartherHalfWidths[2 * kRadius + 5] <= Grid::kMargin);
 constexpr Grid::Cell rows_below(std::span<const unsigned> half_widths) {
   return static_cast<Grid::Cell>(half_widths.size() / 2);
 }
+static_assert(rows_below(kHalfWidths) == kReachedRows);
 
 /// Cells round one: row, from the lowest on -> bit c: the cell c - kFarthest columns away.
 struct Neighbourhood {

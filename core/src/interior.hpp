@@ -53,6 +53,9 @@ inline constexpr double kUneven = 0.0006180339887498949;
 /// in multiples of the spacing that the points would have if they filled their box.
 inline constexpr double kWidestInSpacings = 2.5;
 
+/// How far away, in rows, a cell can be that mark_reach() marks: beyond it lie 2 r of rows in between, and as
+/// much as rounding may move a point.
+inline constexpr Grid::Cell kReachedRows = 2 * kRadius + 1;
 /// Marks the cells that may hold a point within 2 r of one in `cell`.
 void mark_reach(const Grid& grid, Grid::Cell cell, Bitmap& reached);
 

@@ -64,6 +64,9 @@ struct Options {
   /// Extractor keeps the threads it has started, waiting, until another number above 1 is asked for. Threads
   /// are worth their start from some 10,000 points on. std::system_error when the system refuses one.
   unsigned threads = 1;
+
+  /// Field by field.
+  friend bool operator==(const Options&, const Options&) = default;
 };
 
 /// A multipolygon whose vertices are the caller's points, by index: three flat arrays. Every polygon is valid

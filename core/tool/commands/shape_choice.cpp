@@ -85,12 +85,16 @@ void add_shape_options(CLI::App& app, ShapeChoice& choice) {
                  "The coordinate system, such as EPSG:25832, in place of the file's; none: there is none, "
                  "and degrees too are "
                  "taken as they are");
+  app.add_option("--layer", choice.layer, "Of an input that GDAL reads: which of several layers");
+  add_output_options(app, choice);
+}
+
+void add_output_options(CLI::App& app, ShapeChoice& choice) {
   app.add_option("--threads", choice.threads, "Number of threads, instead of one for each processor")
       ->check(CLI::Range(1U, 1024U));
   app.add_option(
       "-o,--out", choice.out,
       "Write the result into this file instead of standard output; with GDAL also PG: and the like");
-  app.add_option("--layer", choice.layer, "Of an input that GDAL reads: which of several layers");
   app.add_option("--out-layer", choice.out_layer,
                  "Of an output that GDAL writes: the layer's name instead of the file's");
 }
