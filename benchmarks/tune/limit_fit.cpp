@@ -2,9 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <map>
 #include <memory>
+#include <set>
+#include <string>
+#include <utility>
 
 #include "benchmarks/base/parallel.hpp"
 #include "benchmarks/tune/split.hpp"
@@ -216,6 +220,25 @@ std::vector<LimitClimb> fit_limit(std::vector<MadeLimitCase>& cases, int tries, 
     climbs.push_back(climb(cases, "random " + std::to_string(k), start, tries, random, cores));
   }
   return climbs;
+}
+
+std::vector<HeldOutWay> cross_validate_limit(std::vector<MadeLimitCase>& cases, int tries, std::uint64_t seed,
+                                             const std::vector<int>& cores) {
+  std::set<std::string> samplings;
+  for (const MadeLimitCase& one : cases) samplings.insert(sampling_of(one.name.dataset));
+  std::vector<HeldOutWay> ways;
+  for (const std::string& sampling : samplings) {
+    const auto held = std::stable_partition(cases.begin(), cases.end(), [&](const MadeLimitCase& one) {
+      return sampling_of(one.name.dataset) != sampling;
+    });
+    std::vector<MadeLimitCase> held_out(std::make_move_iterator(held), std::make_move_iterator(cases.end()));
+    cases.erase(held, cases.end());
+    const LimitClimb found =
+        climb(cases, "the code", {}, tries, Random(derive_seed(seed, "without " + sampling)), cores);
+    ways.push_back({sampling, limit_score(held_out, {}, cores), limit_score(held_out, found.to, cores)});
+    std::move(held_out.begin(), held_out.end(), std::back_inserter(cases));
+  }
+  return ways;
 }
 
 std::vector<LimitVariant> limit_ablations() {

@@ -52,8 +52,7 @@ std::vector<double> limit_errors(std::vector<MadeLimitCase>& cases, const Automa
 /// What the fit makes small. Of a case it is log(error / the error of the best single limit), so that hard
 /// cases do not outweigh easy ones, and at most 1.5, so that one failure does not outweigh them all; then the
 /// mean over the cases of a way to sample, then over these. Uniform points count 1.5, as what most users
-/// have; clusters 0.3, because the truth says that the gaps between them are of the shape and nothing in the
-/// points does.
+/// have.
 double limit_score(std::vector<MadeLimitCase>& cases, const AutomaticConstants& constants,
                    const std::vector<int>& cores);
 
@@ -87,6 +86,18 @@ struct LimitClimb {
 /// one or two constants are changed, and what has the better score stays. The same for the same seed.
 std::vector<LimitClimb> fit_limit(std::vector<MadeLimitCase>& cases, int tries, std::uint64_t seed,
                                   const std::vector<int>& cores);
+
+/// What a search gives for a way to sample that it did not see.
+struct HeldOutWay {
+  std::string sampling;
+  double score_of_code = 0;   ///< of its cases, with the constants in the code
+  double score_of_found = 0;  ///< with those that a climb from there found on all other ways
+};
+
+/// Leaves each way to sample out in turn. A search that fits what is special to the ways it sees does worse
+/// than the code on the others.
+std::vector<HeldOutWay> cross_validate_limit(std::vector<MadeLimitCase>& cases, int tries, std::uint64_t seed,
+                                             const std::vector<int>& cores);
 
 /// The constants in the code with a part of the rule taken out, or with one of them changed.
 struct LimitVariant {
