@@ -10,8 +10,8 @@ namespace polylidar::detail {
 void* allocate(std::size_t bytes);
 void release(void* memory, std::size_t bytes) noexcept;
 
-/// An array that keeps its memory when it shrinks and never initialises it: fresh memory costs more than
-/// sorting a point. T is of a kind that needs no construction.
+/// An array that keeps its memory when it shrinks, since fresh memory costs more than sorting a point. It
+/// never initialises its elements, so T must not need construction.
 template <class T>
 class Scratch {
  public:
