@@ -192,10 +192,10 @@ class AutomaticLimit {
 
   WindowSample windows_;
   SizeField field_;
-  Scratch<double> size4_;                ///< what the field says of triangles
+  Scratch<double> size4_;                ///< the sizes of all triangles, for the field
   std::vector<std::size_t> block_ends_;  ///< block -> one past its last vertex
   std::optional<ChosenSizes> range_;
-  std::vector<double> usual4_;  ///< block -> fourth power of its usual size; infinity where nothing is known
+  std::vector<double> usual4_;     ///< block -> fourth power of its usual size; infinity if unknown
   std::vector<double> measured4_;  ///< the same before the step that works on it
   std::vector<Smallest> smallest_;
   std::vector<Around> around_;

@@ -5,7 +5,7 @@
 
 namespace polylidar::detail {
 
-/// Throws std::invalid_argument where there is none.
+/// Throws std::invalid_argument if `threads` is 0.
 void check_threads(unsigned threads);
 
 /// The limits that were given. Throws std::invalid_argument if an option is invalid.

@@ -5,8 +5,8 @@
 
 namespace polylidar::detail {
 
-/// Uninitialised memory of at least `bytes`, aligned for any of our types; in huge pages where it is large
-/// and the system has them. Throws std::bad_alloc.
+/// Uninitialised memory of at least `bytes`, aligned for any of our types; in huge pages if it is large and
+/// the system has them. Throws std::bad_alloc.
 void* allocate(std::size_t bytes);
 void release(void* memory, std::size_t bytes) noexcept;
 

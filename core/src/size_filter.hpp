@@ -64,7 +64,7 @@ class SizeFilter {
   Scratch<std::uint64_t> seen_;                     ///< as Mesh's words of kept triangles
   Scratch<std::uint64_t> hidden_;  ///< the same: dropped by size, but counted as kept unless they are reached
   std::optional<Way> doubt_;       ///< why a part is not enough
-  std::vector<Index> group_;       ///< triangles that hang together
+  std::vector<Index> group_;       ///< connected triangles
 };
 
 }  // namespace polylidar::detail

@@ -35,7 +35,7 @@ class ThreadPool {
 
 #else
 
-/// Runs tasks on the caller's thread and, where more than one is wanted, on threads that it starts once and
+/// Runs tasks on the caller's thread and, if more than one is wanted, on threads that it starts once and
 /// keeps. With one thread nothing is started, locked or counted. Not for use from several threads at once.
 class ThreadPool {
  public:

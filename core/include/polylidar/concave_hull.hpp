@@ -32,7 +32,7 @@ struct Limits {
 /// second-longest edge e, or e / 2 if that is more. The size of an equilateral triangle is its edge.
 struct ChosenSizes {
   double least = 0;   ///< where the points are densest
-  double median = 0;  ///< in half of the places, each of which has about the same number of points
+  double median = 0;  ///< not exceeded in half of the places, which all have about as many points
   double most = 0;    ///< where they are sparsest
 
   /// Value by value.
