@@ -267,8 +267,8 @@ test-fresh: ## run bench-quick and test from nothing in a bare Debian 12 (SUITE=
 
 test-slurm: ## try the Slurm scripts on a real Slurm of one node, made for the test (needs root)
 	@$(call install,build bench slurm)
-	@$(MAKE) build
-	@tests/slurm/run.sh build/hullbench
+	@$(call build,release,$(WITHOUT_TESTS),hullbench polylidar)
+	@tests/slurm/run.sh build/hullbench build/polylidar
 
 test-gate: ## prove that the gate finds what it must and nothing else, in 30 minutes (GATES=N, SLOW_GATES=N)
 	@$(call install,build gate)

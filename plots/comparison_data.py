@@ -55,6 +55,11 @@ class Pair:
         return 0.0 if abs(b - a) <= SAME_ERROR * max(abs(a), abs(b)) else b - a
 
     @property
+    def other_inputs(self) -> list[str]:
+        """What of the method's input and version is not the same, in words."""
+        return [word for word in ("points", "parameters", "version") if not self.told[f"same_{word}"]]
+
+    @property
     def other_result(self) -> bool:
         """Both have a result, of the same points, and it is not the same to the byte."""
         a, b = self.a.raw.get("output_sha256"), self.b.raw.get("output_sha256")
@@ -67,20 +72,26 @@ class MethodChange:
 
     series: Series
     label: str
-    pairs: int  # with a ratio of times
-    judged: int  # of which a difference could have been shown
-    ratio: float | None
-    low: float | None  # of the 95 % interval of the ratio; None: of one shape there is none
-    high: float | None
-    faster: int  # pairs
-    slower: int
+    judged: int  # pairs of which a difference could have been shown
+    told: dict[str, Any]  # the program's line: "pairs" with a "ratio", its interval, "faster" and "slower" pairs
+
+    @property
+    def ratio(self) -> float | None:
+        return self.told["ratio"]
+
+    @property
+    def interval(self) -> tuple[float, float] | None:
+        """Of 95 %; None: of one shape there is none."""
+        low, high = self.told["ratio_low"], self.told["ratio_high"]
+        return None if low is None or high is None else (low, high)
 
     @property
     def change(self) -> str:
         """ "faster" or "slower" only when the interval leaves out 1."""
-        if self.ratio is None or self.low is None or self.high is None:
+        if self.ratio is None or self.interval is None:
             return "not judged"
-        return "faster" if self.high < 1 else "slower" if self.low > 1 else "not told apart"
+        low, high = self.interval
+        return "faster" if high < 1 else "slower" if low > 1 else "not told apart"
 
 
 @dataclass
@@ -122,19 +133,7 @@ def compare(a: list[Experiment], b: list[Experiment], told: dict[str, Any], name
     methods = []
     for one in told["methods"]:
         series = Series(one["method"], one["protocol"])
-        methods.append(
-            MethodChange(
-                series,
-                label([*a, *b], series),
-                one["pairs"],
-                judged[series],
-                one["ratio"],
-                one["ratio_low"],
-                one["ratio_high"],
-                one["faster"],
-                one["slower"],
-            )
-        )
+        methods.append(MethodChange(series, label([*a, *b], series), judged[series], one))
     # Stable: the rest stays in the order of A.
     pairs.sort(key=lambda pair: FIRST.index(pair.change) if pair.change in FIRST else len(FIRST))
     return Comparison(a, b, names, pairs, methods, told["only_a"], told["only_b"], told["notes"], (_machines(a), _machines(b)))
@@ -247,12 +246,7 @@ def _detail(pair: Pair) -> str:
 
 def _differs(pair: Pair) -> str:
     """What differs beside the times."""
-    told = [
-        word
-        for word, same in (("points", "same_points"), ("parameters", "same_parameters"), ("version", "same_version"))
-        if not pair.told[same]
-    ]
-    return ", ".join(told + (["result"] if pair.other_result else []))
+    return ", ".join(pair.other_inputs + (["result"] if pair.other_result else []))
 
 
 def _rounded(value: float | None, factor: float = 1) -> float | int | None:

@@ -7,6 +7,7 @@ from collections import Counter
 from collections.abc import Callable, Sequence
 
 from comparison_data import Comparison, MethodChange, Pair
+from markup import details, finding, list_of, named, notes_of, row_of, table_of
 from records import Experiment, Series
 from report_common import STATUS_WORDS, count_of, label, number, sentence_list, text
 from report_html import entry_parameters, environment_facts, methods_of
@@ -59,28 +60,15 @@ def mark(word: str) -> str:
 def verdict_html(comparison: Comparison) -> str:
     parts = [f"<p class='lead' id='verdict'>{text(headline(comparison))}</p>", _warnings(comparison)]
     if comparison.same_machine:
-        for change, title in (("slower", "Slower in B"), ("faster", "Faster in B")):
-            parts.append(
-                _finding(
-                    change,
-                    f"{SIGNS[change]} {title}",
-                    _method_sentences(comparison, change),
-                    f"No method is {change} in B as a whole.",
-                )
-            )
-        parts.append(
-            _finding(
-                "apart",
-                f"{SIGNS['not told apart']} Not told apart",
-                _method_sentences(comparison, "not told apart") + _method_sentences(comparison, "not judged"),
-                "Every method with times differs.",
-            )
-        )
+        for change in ("slower", "faster"):
+            title, none = f"{SIGNS[change]} {change.capitalize()} in B", f"No method is {change} in B as a whole."
+            parts.append(_finding(change, title, _method_sentences(comparison, change), none))
+        title, none = f"{SIGNS['not told apart']} Not told apart", "Every method with times differs."
+        parts.append(_finding("apart", title, _method_sentences(comparison, "not told apart", "not judged"), none))
     parts += [_status_finding(comparison), _error_finding(comparison)]
     notes = [NOT_EQUAL, HOW_JUDGED] if comparison.same_machine else [NOT_EQUAL]
     parts.append(_method_table(comparison))
-    parts.append(f"<ul class='notes'>{''.join(f'<li>{text(note)}</li>' for note in notes)}</ul>")
-    return "\n".join(part for part in parts if part)
+    return "\n".join(part for part in [*parts, notes_of(notes)] if part)
 
 
 def headline(comparison: Comparison) -> str:
@@ -152,30 +140,34 @@ def _warnings(comparison: Comparison) -> str:
             )
     if comparison.same_machine and not comparison.same_run:
         said.append(SAME_PROGRAM)
-    return "<ul class='warnings' id='warnings'>" + "".join(f"<li>{text(one)}</li>" for one in said) + "</ul>" if said else ""
+    return list_of(said, " class='warnings' id='warnings'")
 
 
-def _method_sentences(comparison: Comparison, change: str) -> list[tuple[str, str]]:
-    return [(one.label, _method_sentence(one)) for one in comparison.methods if one.ratio is not None and one.change == change]
+def _method_sentences(comparison: Comparison, *changes: str) -> list[tuple[str, str]]:
+    methods = [one for change in changes for one in comparison.methods if one.ratio is not None and one.change == change]
+    return [(one.label, _method_sentence(one)) for one in methods]
 
 
 def _method_sentence(one: MethodChange) -> str:
     said = f"{number(one.ratio)} times the time of A"
-    if one.low is not None and one.high is not None:
-        said += f" (95 %: {number(one.low)} to {number(one.high)})"
+    if one.interval:
+        said += f" (95 %: {_interval(one)})"
     else:
         said += " (a single shape, so no interval and no verdict on the method)"
-    said += f", median of {count_of(one.pairs, 'run')}; "
+    said += f", median of {count_of(one.told['pairs'], 'run')}; "
     if one.judged == 0:
         return said + "no single run could be judged, for want of repetitions."
-    return said + f"{one.slower} slower and {one.faster} faster of {one.judged} judged."
+    return said + f"{one.told['slower']} slower and {one.told['faster']} faster of {one.judged} judged."
+
+
+def _interval(one: MethodChange) -> str:
+    return f"{number(one.interval[0])} to {number(one.interval[1])}" if one.interval else "–"
 
 
 def _finding(identity: str, title: str, findings: Sequence[tuple[str, str]], empty: str, more: str = "") -> str:
     items = "".join(f"<li><b>{text(where).replace('/', '/<wbr>')}:</b> {text(said)}</li>" for where, said in findings)
     body = f"<ul>{items}</ul>{more}" if findings else f"<p>{text(empty)}</p>"
-    kind = "finding" if findings else "finding empty"
-    return f"<div class='{kind}' id='verdict-{identity}'><h3>{text(title)}</h3>{body}</div>"
+    return finding(f"verdict-{identity}", title, body, "finding" if findings else "finding empty")
 
 
 def _status_finding(comparison: Comparison) -> str:
@@ -223,11 +215,7 @@ def _error_finding(comparison: Comparison) -> str:
 def error_sentence(pair: Pair) -> str:
     a, b = pair.told["l2_a"], pair.told["l2_b"]
     word = "larger" if pair.error_change > 0 else "smaller"
-    why = [
-        what
-        for what, same in (("points", "same_points"), ("parameters", "same_parameters"), ("version", "same_version"))
-        if not pair.told[same]
-    ]
+    why = pair.other_inputs
     return (
         f"L2 {word}, {number(100 * a)} % in A, {number(100 * b)} % in B ("
         f"{'+' if b > a else '−'}{number(100 * abs(b - a))} "
@@ -241,41 +229,23 @@ def _rest(count: int) -> str:
 
 
 def _method_table(comparison: Comparison) -> str:
-    head = "".join(
-        f"<th scope='col'{side}>{text(title)}</th>"
-        for title, side in (
-            ("Method (who chose the parameters)", ""),
-            ("Time B ÷ A", " class='number'"),
-            ("95 % interval", " class='number'"),
-            ("Verdict", ""),
-            ("Runs", " class='number'"),
-            ("Judged", " class='number'"),
-            *(
-                (f"{SIGNS[word]} {word.capitalize()}", " class='number'")
-                for word in (comparison.word("slower"), comparison.word("faster"))
-            ),
-        )
+    columns = {"Method (who chose the parameters)": "", "Time B ÷ A": "number", "95 % interval": "number", "Verdict": ""}
+    counts = [f"{SIGNS[word]} {word.capitalize()}" for word in map(comparison.word, ("slower", "faster"))]
+    columns |= dict.fromkeys(["Runs", "Judged", *counts], "number")
+    rows = "".join(
+        row_of(columns, _method_cells(one, comparison), f" data-entrant='{text(one.series.key)}'") for one in comparison.methods
     )
-    rows = "".join(_method_row(one, comparison) for one in comparison.methods)
-    return (
-        "<div class='scroll' tabindex='0' role='region' aria-label='Change of every method'>"
-        "<table id='method-table' data-testid='method-table'><caption>Time of equal work by method: the median of the "
-        "ratios of all its runs; below 1, B takes less</caption>"
-        f"<thead><tr>{head}</tr></thead><tbody>{rows}</tbody></table></div>"
-    )
+    caption = "Time of equal work by method: the median of the ratios of all its runs; below 1, B takes less"
+    attributes = " id='method-table' data-testid='method-table'"
+    return table_of("Change of every method", columns, rows, attributes, caption)
 
 
-def _method_row(one: MethodChange, comparison: Comparison) -> str:
+def _method_cells(one: MethodChange, comparison: Comparison) -> list[object]:
     ratio = "–" if one.ratio is None else number(one.ratio)
-    interval = "–" if one.low is None or one.high is None else f"{number(one.low)} to {number(one.high)}"
-    verdict = "no times in both" if one.ratio is None else "not judged: a single shape" if one.low is None else None
-    return (
-        f"<tr data-entrant='{text(one.series.key)}'><th scope='row'><span class='swatch' "
-        f"data-method='{text(one.series.method)}'></span>{text(one.label)}</th><td class='number'>{ratio}</td>"
-        f"<td class='number'>{interval}</td><td>{verdict or mark(comparison.word(one.change))}</td>"
-        f"<td class='number'>{one.pairs}</td><td class='number'>{one.judged}</td>"
-        f"<td class='number'>{one.slower}</td><td class='number'>{one.faster}</td></tr>"
-    )
+    verdict = "no times in both" if one.ratio is None else "not judged: a single shape" if not one.interval else None
+    counts = [one.told["pairs"], one.judged, one.told["slower"], one.told["faster"]]
+    name = named(one.series.method, text(one.label))
+    return [name, ratio, _interval(one), verdict or mark(comparison.word(one.change)), *counts]
 
 
 # What differs between the runs.
@@ -286,18 +256,14 @@ def differences_html(comparison: Comparison) -> str:
     facts = _all_facts(comparison)
     differing = [fact for fact in facts if fact[1] != fact[2]]
     same = [fact for fact in facts if fact[1] == fact[2]]
-    told = (
-        _facts_table("differences-table", "What differs", differing)
-        if differing
-        else "<p>Nothing that is recorded differs.</p>"
-    )
-    return (
-        told + f"<details id='same-facts'><summary>The same in both ({len(same)})</summary>"
-        f"{_facts_table('same-table', 'The same in both', same) if same else '<p>Nothing.</p>'}</details>"
-    )
+    told = _facts_table("differences-table", "What differs", differing, "Nothing that is recorded differs.")
+    both = _facts_table("same-table", "The same in both", same, "Nothing.")
+    return told + details(f"The same in both ({len(same)})", both, " id='same-facts'")
 
 
-def _facts_table(identity: str, title: str, facts: Sequence[tuple[str, str, str]]) -> str:
+def _facts_table(identity: str, title: str, facts: Sequence[tuple[str, str, str]], without: str) -> str:
+    if not facts:
+        return f"<p>{without}</p>"
     rows = ""
     for name, a, b in facts:
         differs = a != b
@@ -377,18 +343,10 @@ def _plans(experiments: Sequence[Experiment]) -> dict[str, str]:
 
 def _points(comparison: Comparison) -> list[tuple[str, str, str]]:
     """The points of every data set that both have, by their hashes."""
-    other = sum(
-        not same
-        for same in {
-            pair.a.raw.get("dataset_sha256", "") + pair.b.raw.get("dataset_sha256", ""): pair.told["same_points"]
-            for pair in comparison.pairs
-        }.values()
-    )
-    said = (
-        [("Points of the shared cases", "as in B", f"other in {count_of(other, 'case')}")]
-        if other
-        else [("Points of the shared cases", "the same", "the same")]
-    )
+    others = [pair for pair in comparison.pairs if not pair.told["same_points"]]
+    count = len({tuple(row.raw.get("dataset_sha256", "") for row in (pair.a, pair.b)) for pair in others})
+    values = ("as in B", f"other in {count_of(count, 'case')}") if count else ("the same", "the same")
+    said = [("Points of the shared cases", *values)]
     shapes = [
         {dataset["title"]: str(dataset.get("sha256", "")) for experiment in side for dataset in experiment.datasets.values()}
         for side in (comparison.a, comparison.b)
@@ -408,10 +366,6 @@ def only_html(comparison: Comparison) -> str:
     for side, names in (("A", comparison.only_a), ("B", comparison.only_b)):
         if names:
             items = "".join(f"<li><code>{text(name)}</code></li>" for name in names)
-            made += (
-                f"<details class='only'><summary>Only in {side}: {count_of(len(names), 'run')}</summary>"
-                f"<ul>{items}</ul></details>"
-            )
+            made += details(f"Only in {side}: {count_of(len(names), 'run')}", f"<ul>{items}</ul>", " class='only'")
     made = made or "<p>Both have the same runs.</p>"
-    notes = "".join(f"<li>{text(note)}</li>" for note in comparison.notes)
-    return made + f"<details><summary>What hullbench compare says</summary><ul class='notes'>{notes}</ul></details>"
+    return made + details("What hullbench compare says", notes_of(comparison.notes))

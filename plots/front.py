@@ -14,9 +14,10 @@ from pathlib import Path
 import numpy as np
 
 from front_charts import charts_html, color_of
+from markup import details, link_to_method, named, row_of, table
 from ratings import KNOWS, Division, Rating, Standing, divisions, has_times, rate, read, typical_times
 from records import Series
-from report_common import count_of, link_html, number, sentence_list, short_name, text
+from report_common import count_of, number, sentence_list, short_name, text
 
 # Shown at once; the others are behind a click.
 FIRST_ROWS = 8
@@ -59,11 +60,10 @@ def front_html(front: Front, strip: str) -> str:
     parts.append(charts_html(timed.get(first.division.name)))
     parts += [_league(first, timed.get(first.division.name), front.pages), strip]
     for other in others:
-        said = lead_sentence(other, timed.get(other.division.name))
-        parts.append(
-            f"<details class='wide'><summary>Methods that {KNOWS[other.division.name]}</summary><p class='lead'>{said}</p>"
-            f"{charts_html(timed.get(other.division.name))}{_league(other, timed.get(other.division.name), front.pages)}</details>"
-        )
+        own = timed.get(other.division.name)
+        said = lead_sentence(other, own)
+        shown = f"<p class='lead'>{said}</p>{charts_html(own)}{_league(other, own, front.pages)}"
+        parts.append(details(f"Methods that {KNOWS[other.division.name]}", shown, " class='wide'"))
     return "".join(parts)
 
 
@@ -144,23 +144,29 @@ def lines_of(rating: Rating) -> list[_Line]:
     return lines
 
 
+_LEAGUE = {
+    "Method": "",
+    "Mean rank, 95 %": "ranks",
+    "L2, %": "number",
+    "Elo": "number more",
+    "µs a point": "number more",
+    "Failures": "number",
+}
+
+
 def _league(rating: Rating, timed: Division | None, pages: Mapping[str, str]) -> str:
     every = [one.series for one in rating.standings]
     times = typical_times(timed) if timed else {}
     rows = [_league_row(line, every, times, pages) for line in lines_of(rating)]
-    head = (
-        "<thead><tr><th scope='col'>Method</th><th scope='col'>Mean rank, 95 %</th><th scope='col' class='number'>L2, %</th>"
-        "<th scope='col' class='number more'>Elo</th><th scope='col' class='number more'>µs a point</th>"
-        "<th scope='col' class='number'>Failures</th></tr></thead>"
-    )
-    table = f"<table class='league'><caption>League of {_cases(rating)}; methods with the same results share a line</caption>{head}<tbody>{''.join(rows[:FIRST_ROWS])}</tbody></table>"
+    caption = f"League of {_cases(rating)}; methods with the same results share a line"
+    shown = table(_LEAGUE, "".join(rows[:FIRST_ROWS]), " class='league'", caption)
     rest = rows[FIRST_ROWS:]
     if rest:
-        table += f"<details><summary>{len(rest)} more</summary><table class='league'>{head}<tbody>{''.join(rest)}</tbody></table></details>"
+        shown += details(f"{len(rest)} more", table(_LEAGUE, "".join(rest), " class='league'"))
     if rating.division.left_out:
         names = sentence_list([short_name(one, rating.division.left_out) for one in rating.division.left_out])
-        table += f"<p class='muted'>With less than half of the cases, and so not rated: {text(names)}.</p>"
-    return f"<div class='league-box' id='league-{rating.division.name}'>{table}</div>"
+        shown += f"<p class='muted'>With less than half of the cases, and so not rated: {text(names)}.</p>"
+    return f"<div class='league-box' id='league-{rating.division.name}'>{shown}</div>"
 
 
 def _league_row(line: _Line, every: Sequence[Series], times: dict[Series, float], pages: Mapping[str, str]) -> str:
@@ -179,10 +185,13 @@ def _league_row(line: _Line, every: Sequence[Series], times: dict[Series, float]
         f"--own:{color_of(one.series)}'></span>"
     )
     interval = f"<small class='inline'>{number(low)}–{number(high)}</small>" if one.rank_interval else ""
-    return (
-        f"<tr data-entrant='{text(one.series.key)}'><th scope='row'><span class='place'>{line.first + 1}</span>"
-        f"<span class='swatch' data-method='{text(one.series.method)}'></span>{link_html(names[0], one.series.method, pages)}{also}</th>"
-        f"<td class='ranks'>{bar}<span class='value'>{number(one.rank)} {interval}</span></td>"
-        f"<td class='number'>{number(100 * one.error)}</td><td class='number more'>{one.elo:.0f}</td>"
-        f"<td class='number more'>{spread}</td><td class='number'>{one.failures}</td></tr>"
-    )
+    name = named(one.series.method, link_to_method(names[0], one.series.method, pages))
+    cells = [
+        f"<span class='place'>{line.first + 1}</span>{name}{also}",
+        f"{bar}<span class='value'>{number(one.rank)} {interval}</span>",
+        number(100 * one.error),
+        f"{one.elo:.0f}",
+        spread,
+        one.failures,
+    ]
+    return row_of(_LEAGUE, cells, f" data-entrant='{text(one.series.key)}'")

@@ -8,6 +8,7 @@ from collections.abc import Sequence
 import numpy as np
 
 import svg
+from markup import table
 from ratings import LEAST_TARGET, TARGET_WORDS, Division, pareto, solved_against_time, typical_errors, typical_times
 from records import Series
 from report_common import METHOD_LOOKS, count_of, number, sentence_list, short_name, text
@@ -23,10 +24,10 @@ def charts_html(timed: Division | None) -> str:
     return f"<div class='charts wide'>{solved_figure(timed)}{time_error_figure(timed)}</div>"
 
 
-def _figure(identity: str, title: str, note: str, charts: Sequence[str], table: str) -> str:
+def _figure(identity: str, title: str, note: str, charts: Sequence[str], values: str) -> str:
     return (
         f"<figure class='plot' id='{identity}'><figcaption>{text(title)}</figcaption>{''.join(charts)}"
-        f"<p class='muted'>{text(note)}</p><details class='values'><summary>Values</summary>{table}</details></figure>"
+        f"<p class='muted'>{text(note)}</p><details class='values'><summary>Values</summary>{values}</details></figure>"
     )
 
 
@@ -52,12 +53,10 @@ def solved_figure(division: Division) -> str:
     ]
     count = len(division.results.cases)
     note = f"{TARGET_WORDS[:1].upper()}{TARGET_WORDS[1:]}; {count_of(count, 'case')}. Left is faster, higher more accurate. A failure solves nothing."
-    rows = "".join(
-        f"<tr><th scope='row'>{text(short_name(one, every))}</th><td class='number'>{number(100 * (curves[one][1][-1] if len(curves[one][1]) else 0))}</td></tr>"
-        for one in sorted(every, key=lambda one: -(curves[one][1][-1] if len(curves[one][1]) else 0))
-    )
-    table = f"<table><thead><tr><th scope='col'>Method</th><th scope='col' class='number'>Solved in the end, %</th></tr></thead><tbody>{rows}</tbody></table>"
-    return _figure(f"solved-{division.name}", "Cases and error targets solved in time", note, charts, table)
+    reached = {one: y[-1] if len(y) else 0 for one, (_, y) in curves.items()}
+    rows = [[text(short_name(one, every)), number(100 * reached[one])] for one in sorted(every, key=lambda one: -reached[one])]
+    values = table({"Method": "", "Solved in the end, %": "number"}, rows)
+    return _figure(f"solved-{division.name}", "Cases and error targets solved in time", note, charts, values)
 
 
 def _area(curve: tuple[np.ndarray, np.ndarray], low: float, high: float) -> float:
@@ -115,16 +114,12 @@ def time_error_figure(division: Division) -> str:
         _time_error_chart(times, errors, shown, front, size, css)
         for size, css in ((WIDE, "wide-only"), (NARROW, "narrow-only"))
     ]
-    rows = "".join(
-        f"<tr><th scope='row'>{text(short_name(one, every))}</th><td class='number'>{number(times[one])}</td>"
-        f"<td class='number'>{number(100 * errors[one])}</td></tr>"
+    rows = [
+        [text(short_name(one, every)), number(times[one]), number(100 * errors[one])]
         for one in sorted(every, key=lambda one: errors[one])
-    )
-    table = (
-        "<table><thead><tr><th scope='col'>Method</th><th scope='col' class='number'>µs a point</th>"
-        f"<th scope='col' class='number'>L2 error, %</th></tr></thead><tbody>{rows}</tbody></table>"
-    )
-    return _figure(f"time-error-{division.name}", "Time and error", note, charts, table)
+    ]
+    values = table({"Method": "", "µs a point": "number", "L2 error, %": "number"}, rows)
+    return _figure(f"time-error-{division.name}", "Time and error", note, charts, values)
 
 
 def _time_error_chart(times, errors, shown: Sequence[Series], front: Sequence[int], size: tuple[int, int], css: str) -> str:

@@ -86,14 +86,10 @@ def _report(comparison: Comparison) -> dict[str, Any]:
         "entrants": [one for one in listed if one["key"] in {method.series.key for method in comparison.methods}],
         "changes": [
             {
+                **{name: one.told[name] for name in ("ratio", "pairs", "faster", "slower")},
+                **dict(zip(("low", "high"), one.interval or (None, None))),
                 "key": one.series.key,
-                "ratio": one.ratio,
-                "low": one.low,
-                "high": one.high,
-                "pairs": one.pairs,
                 "judged": one.judged,
-                "faster": one.faster,
-                "slower": one.slower,
                 "change": comparison.word(one.change),
             }
             for one in comparison.methods

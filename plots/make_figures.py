@@ -9,19 +9,16 @@ data of none.
 
 from __future__ import annotations
 
-import argparse
 import importlib
 import re
 import sys
 from pathlib import Path
 
-sys.path.insert(0, str(Path(__file__).parent))
+import matplotlib
 
-import matplotlib  # noqa: E402  the path comes first
-
-from records import NothingToShow, exit_code_of, load  # noqa: E402
-from run import Drawn, Run, Skipped, read_paper  # noqa: E402
-from style import RC  # noqa: E402
+from records import NothingToShow, exit_code_of, load, options_of_run
+from run import Drawn, Run, Skipped, read_paper
+from style import RC
 
 # In the order of figures.md.
 NAMES = (
@@ -51,13 +48,14 @@ _METADATA = {
 
 
 def main(arguments: list[str] | None = None) -> int:
-    options = _options(arguments)
-    return exit_code_of("make_figures.py", lambda: write(Path(options.run), options.out, options.only))
+    parser = options_of_run("make_figures.py", "Draws a run's figures.", "figures")
+    parser.add_argument("--only", choices=NAMES, metavar="NAME", help=f"only this one: {', '.join(NAMES)}")
+    options = parser.parse_args(arguments)
+    return exit_code_of("make_figures.py", lambda: write(options.run, options.out or options.run / "figures", options.only))
 
 
-def write(folder: Path, out: str | None, only: str | None) -> None:
+def write(folder: Path, place: Path, only: str | None) -> None:
     """Draws the figures, all or one, and the list of all. Raises NothingToShow when there is none."""
-    place = Path(out) if out else folder / "figures"
     run = Run(folder, load(folder), read_paper())
     drawn, skipped = draw_all(run, [only] if only else list(NAMES), place)
     if not drawn:
@@ -112,14 +110,6 @@ def index(drawn: list[Drawn], skipped: dict[str, str]) -> str:
         lines = "\n".join(f"- {name}: {reason}" for name, reason in skipped.items())
         parts.append(f"## Not drawn\n\n{lines}\n")
     return "\n".join(parts)
-
-
-def _options(arguments: list[str] | None) -> argparse.Namespace:
-    parser = argparse.ArgumentParser(prog="make_figures", description="Draws a run's figures.")
-    parser.add_argument("run", nargs="?", default="results/latest", help="folder of a run or suite (results/latest)")
-    parser.add_argument("--out", help="folder for the figures (RUN/figures)")
-    parser.add_argument("--only", choices=NAMES, metavar="NAME", help=f"only this one: {', '.join(NAMES)}")
-    return parser.parse_args(arguments)
 
 
 if __name__ == "__main__":

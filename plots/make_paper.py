@@ -11,7 +11,6 @@ read, pdflatex is missing or complains, or the file cannot be written; 6 when th
 
 from __future__ import annotations
 
-import argparse
 import re
 import shutil
 import subprocess
@@ -21,14 +20,12 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
-sys.path.insert(0, str(Path(__file__).parent))
-
-from make_figures import NAMES, draw_all  # noqa: E402  the path comes first
-from records import Experiment, NothingToShow, RecordError, exit_code_of, load  # noqa: E402
-from report_common import protocol_words, sentence_list  # noqa: E402
-from report_tables import documents  # noqa: E402
-from run import Drawn, Run, read_paper  # noqa: E402
-from style import MILLIMETRE, ONE_COLUMN  # noqa: E402
+from make_figures import NAMES, draw_all
+from records import Experiment, NothingToShow, RecordError, exit_code_of, load, options_of_run
+from report_common import protocol_words, sentence_list
+from report_tables import documents
+from run import Drawn, Run, read_paper
+from style import MILLIMETRE, ONE_COLUMN
 
 PROGRAM = "pdflatex"
 # A table with more columns stands on its side.
@@ -76,14 +73,9 @@ _HEAD = r"""\documentclass[10pt,twocolumn]{article}
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
-    parser = argparse.ArgumentParser(prog="make_paper.py", description="Puts a run's figures and tables into one PDF.")
-    parser.add_argument(
-        "run", nargs="?", default="results/latest", metavar="RUN", help="folder of a run or of a suite (results/latest)"
-    )
-    parser.add_argument("--out", metavar="FILE", help="the file to write (RUN/paper.pdf)")
+    parser = options_of_run("make_paper.py", "Puts a run's figures and tables into one PDF.", "paper.pdf")
     options = parser.parse_args(arguments)
-    folder = Path(options.run)
-    return exit_code_of("make_paper.py", lambda: write(folder, Path(options.out) if options.out else folder / "paper.pdf"))
+    return exit_code_of("make_paper.py", lambda: write(options.run, options.out or options.run / "paper.pdf"))
 
 
 def write(folder: Path, out: Path) -> None:
@@ -197,15 +189,8 @@ def _compile(place: Path) -> None:
     """Twice, for the labels."""
     command = [PROGRAM, "-interaction=nonstopmode", "-halt-on-error", "-no-shell-escape", "paper.tex"]
     for _ in range(2):
-        made = subprocess.run(
-            command,
-            cwd=place,
-            stdout=subprocess.PIPE,
-            stderr=subprocess.STDOUT,
-            encoding="utf-8",
-            errors="replace",
-            check=False,
-        )
+        output = {"stdout": subprocess.PIPE, "stderr": subprocess.STDOUT, "encoding": "utf-8", "errors": "replace"}
+        made = subprocess.run(command, cwd=place, check=False, **output)
         if made.returncode != 0:
             said = next((line for line in made.stdout.splitlines() if line.startswith("!")), "no reason given")
             raise RecordError(f"{PROGRAM} could not make {place / 'paper.tex'} ({said}); {place / 'paper.log'} has more.")

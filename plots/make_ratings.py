@@ -17,7 +17,7 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
-from ratings import DIVISIONS, KNOWS, TIE_ABSOLUTE, TIE_RELATIVE, Part, Rating, Standing, divisions, rate, read
+from ratings import DIVISIONS, KNOWS, TIE_ABSOLUTE, TIE_RELATIVE, Lead, Part, Rating, Standing, divisions, rate, read
 from records import NothingToShow, exit_code_of
 
 
@@ -53,18 +53,12 @@ def _division(one: Rating) -> dict[str, Any]:
         "shapes": one.shapes,
         "left_out": [series._asdict() for series in one.division.left_out],
         "standings": [_standing(standing) for standing in one.standings],
-        "lead": {
-            "clear": lead.clear,
-            "ranks": _number(lead.ranks),
-            "ranks_interval": _interval(lead.ranks_interval),
-            "ratio": _number(lead.ratio),
-            "ratio_interval": _interval(lead.ratio_interval),
-        },
-        "wins": [[_number(value) for value in row] for row in one.wins.tolist()],
-        "ties": [[_number(value) for value in row] for row in one.ties.tolist()],
+        "lead": {"clear": lead.clear, **_numbers(lead, "ranks", "ranks_interval", "ratio", "ratio_interval")},
+        "wins": _number(one.wins.tolist()),
+        "ties": _number(one.ties.tolist()),
         "friedman_p": one.friedman,
         "alike_p": one.alike.tolist(),
-        "groups": [list(group) for group in one.groups],
+        "groups": one.groups,
         "kinds": [_part(part) for part in one.kinds],
         "samplers": [_part(part) for part in one.samplers],
     }
@@ -73,28 +67,26 @@ def _division(one: Rating) -> dict[str, Any]:
 def _standing(one: Standing) -> dict[str, Any]:
     return {
         **one.series._asdict(),
-        "rank": _number(one.rank),
-        "rank_interval": _interval(one.rank_interval),
-        "elo": _number(one.elo),
-        "elo_interval": _interval(one.elo_interval),
+        **_numbers(one, "rank", "rank_interval", "elo", "elo_interval"),
         "l2_median": _number(one.error),
-        "l2_interval": _interval(one.error_interval),
+        "l2_interval": _number(one.error_interval),
         "failures": one.failures,
     }
 
 
 def _part(part: Part) -> dict[str, Any]:
-    ranks, errors = ([_number(value) for value in values] for values in (part.ranks, part.errors))
-    return {"name": part.name, "cases": part.cases, "ranks": ranks, "l2_medians": errors}
+    return {"name": part.name, "cases": part.cases, "ranks": _number(part.ranks), "l2_medians": _number(part.errors)}
 
 
-def _interval(interval: tuple[float, float] | None) -> list[float | None] | None:
-    return None if interval is None else [_number(end) for end in interval]
+def _numbers(one: Standing | Lead, *names: str) -> dict[str, Any]:
+    return {name: _number(getattr(one, name)) for name in names}
 
 
-def _number(value: float) -> float | None:
-    """Nine digits, as the league keeps them."""
-    return float(f"{value:.9g}") if math.isfinite(value) else None
+def _number(value: Any) -> Any:
+    """Or several, or none: nine digits, as the league keeps them."""
+    if isinstance(value, (list, tuple)):
+        return [_number(one) for one in value]
+    return float(f"{value:.9g}") if value is not None and math.isfinite(value) else None
 
 
 if __name__ == "__main__":

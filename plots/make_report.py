@@ -10,16 +10,15 @@ file cannot be written.
 
 from __future__ import annotations
 
-import argparse
 import sys
 from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
 from front import Front, front_html, make_front
-from page import PLOTS, Section, byline, code, colours, data, entrants, method_styles, page, place, write_page
+from page import Section, byline, code, colours, data, entrants, method_styles, page, place, write_page
 from pictures import pack as pack_pictures
-from records import Experiment, exit_code_of, load
+from records import Experiment, exit_code_of, load, options_of_run
 from report_common import text
 from report_data import MetricTable, charts, columns, pack
 from report_html import environment_html, notes_html, paper_html, parameters_html, summary_html, tables_html
@@ -37,16 +36,7 @@ STYLES = ("report.css", "gallery.css", "front.css")
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
-    parser = argparse.ArgumentParser(prog="make_report.py", description="Writes the report of a run as one HTML file.")
-    parser.add_argument(
-        "run",
-        nargs="?",
-        default=PLOTS.parent / "results" / "latest",
-        type=Path,
-        metavar="RUN",
-        help="folder of a run or of a suite (results/latest)",
-    )
-    parser.add_argument("--out", type=Path, metavar="FILE", help="the file to write (RUN/report.html)")
+    parser = options_of_run("make_report.py", "Writes the report of a run as one HTML file.", "report.html")
     options = parser.parse_args(arguments)
     return exit_code_of("make_report.py", lambda: write(options.out or options.run / "report.html", options.run))
 

@@ -80,6 +80,13 @@ def points(axes: Axes, places: Sequence[Place], size: float, color: str | None =
     )
 
 
+def truth_and_points(axes: Axes, picture: Picture, width: float, size: float) -> None:
+    """The outline of the ground truth, so wide, over points of that size."""
+    outline(axes, area_path(picture.ground_truth()), role_color("ground_truth"), width, zorder=6)
+    points(axes, picture.points(), size)
+    frame(axes, picture)
+
+
 def frame(axes: Axes, picture: Picture, margin: float = 0.03) -> None:
     """The box of the points and the ground truth, with a margin in parts of its larger side; no ticks."""
     places = np.asarray(picture.points() + [place for polygon in picture.ground_truth() for place in polygon[0]])

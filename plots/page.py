@@ -16,7 +16,7 @@ from pathlib import Path
 from typing import Any
 
 from records import Experiment, RecordError
-from report_common import label, text
+from report_common import LOOKS, METHOD_LOOKS, label, method_title, text
 
 PLOTS = Path(__file__).resolve().parent
 PAGE = PLOTS / "report"
@@ -102,24 +102,17 @@ def code(styles: Sequence[str], script: str, charts: bool = True) -> dict[str, s
 def method_styles(experiments: Sequence[Experiment]) -> dict[str, Any]:
     """Of every method in the run: title, order, colours, marker and dashes as methods.json gives them; a method that it
     does not know takes one of its spare styles, in the order of the names."""
-    known = json.loads((PLOTS / "methods.json").read_text(encoding="utf-8"))
     names = sorted(
         {row.method for experiment in experiments for row in experiment.rows}
         | {name for experiment in experiments for name in experiment.methods}
     )
-    strangers = [name for name in names if name not in known["methods"]]
+    strangers = [name for name in names if name not in METHOD_LOOKS]
     styles = {}
     for name in names:
         index = strangers.index(name) if name in strangers else 0
-        style = known["methods"].get(name) or {**known["others"][index % len(known["others"])], "order": 1000 + index}
-        titles = [one.methods[name]["title"] for one in experiments if name in one.methods]
-        styles[name] = {
-            "title": titles[0] if titles else name,
-            "order": style["order"],
-            "marker": style["marker"],
-            "light": style["color"]["light"],
-            "dark": style["color"]["dark"],
-        }
+        style = METHOD_LOOKS.get(name) or {**LOOKS["others"][index % len(LOOKS["others"])], "order": 1000 + index}
+        look = {"order": style["order"], "marker": style["marker"], **style["color"]}
+        styles[name] = {"title": method_title(experiments, name), **look}
     return styles
 
 

@@ -59,17 +59,16 @@ RULE = (
 
 @dataclass
 class _Case:
-    name: str
-    dataset_sha256: str
-    experiments: list[str]
+    line: dict[str, Any]  # of pictures.jsonl
     title: str
-    origin: list[float]
-    step: float
-    points: list[int]
-    ground_truth: list[list[list[int]]]
+    experiments: list[str] = field(default_factory=list)
     rows: dict[str, Row] = field(default_factory=dict)  # by the run's name
     polygons: dict[str, list[list[list[int]]]] = field(default_factory=dict)  # likewise
     _drawing: _Drawing | None = None
+
+    @property
+    def name(self) -> str:
+        return self.line["case"]
 
     def drawing(self) -> _Drawing:
         """What is coded of it, once."""
@@ -114,43 +113,20 @@ def _collect(experiments: Sequence[Experiment]) -> list[_Case]:
     both have, the first experiment's is shown."""
     cases: dict[tuple[str, str], _Case] = {}
     for experiment in experiments:
-        here, polygons = _read(experiment)
+        pictures = experiment.pictures()
         for row in experiment.rows:
-            line = here.get(row.case)
-            if line is None:
+            if row.case not in pictures:
                 continue
-            key = (line["case"], line.get("dataset_sha256", ""))
-            case = cases.setdefault(
-                key,
-                _Case(
-                    *key,
-                    [],
-                    experiment.dataset_title(row.dataset),
-                    line["origin"],
-                    line["step"],
-                    line["points"],
-                    line["ground_truth"],
-                ),
-            )
+            picture = pictures[row.case]
+            key = (picture.name, picture.case.get("dataset_sha256", ""))
+            case = cases.setdefault(key, _Case(picture.case, experiment.dataset_title(row.dataset)))
             if experiment.name not in case.experiments:
                 case.experiments.append(experiment.name)
             if row.name not in case.rows:
                 case.rows[row.name] = row
-                if row.name in polygons:
-                    case.polygons[row.name] = polygons[row.name]
+                if row.name in picture.results:
+                    case.polygons[row.name] = picture.results[row.name]["polygons"]
     return list(cases.values())
-
-
-def _read(experiment: Experiment) -> tuple[dict[str, dict[str, Any]], dict[str, list[list[list[int]]]]]:
-    """The lines of the cases by their names and the results by their runs' names."""
-    cases: dict[str, dict[str, Any]] = {}
-    polygons: dict[str, list[list[list[int]]]] = {}
-    for line in experiment.picture_lines():
-        if line["kind"] == "case":
-            cases[line["case"]] = line
-        else:
-            polygons[line["run"]] = line["polygons"]
-    return cases, polygons
 
 
 def _error(row: Row) -> float:
@@ -222,7 +198,7 @@ class _Drawing:
 
     def __init__(self, case: _Case) -> None:
         self._case = case
-        self._truth, truth_section = _polygons_section(case.ground_truth)
+        self._truth, truth_section = _polygons_section(case.line["ground_truth"])
         self._results: list[list[list[int]]] = []
         self._sections = [truth_section]
         self._index: dict[str, int] = {}
@@ -242,10 +218,10 @@ class _Drawing:
         """What the page gets of the case."""
         case = self._case
         rows = list(case.rows.values())
-        count, points = _points_section(case.points, points_limit)
+        count, points = _points_section(case.line["points"], points_limit)
         header = {
-            "origin": case.origin,
-            "step": case.step * (1 << _SHIFT),
+            "origin": case.line["origin"],
+            "step": case.line["step"] * (1 << _SHIFT),
             "points": count,
             "truth": self._truth,
             "results": self._results,

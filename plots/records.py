@@ -15,12 +15,13 @@ of ours: it is not caught, so the program ends with its traceback and exit code 
 
 from __future__ import annotations
 
+import argparse
 import contextlib
 import functools
 import json
 import lzma
 import sys
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Container, Iterator, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any, NamedTuple, TextIO
@@ -57,6 +58,15 @@ def exit_code_of(program: str, work: Callable[[], None]) -> int:
     return 0
 
 
+def options_of_run(program: str, says: str, out: str) -> argparse.ArgumentParser:
+    """Of a program that draws RUN into `out`, if --out does not say otherwise."""
+    parser = argparse.ArgumentParser(prog=program, description=says)
+    latest = SCHEMAS / "latest"
+    parser.add_argument("run", nargs="?", default=latest, type=Path, help="folder of a run or of a suite (results/latest)")
+    parser.add_argument("--out", type=Path, help=f"where to write (RUN/{out})")
+    return parser
+
+
 class Series(NamedTuple):
     """A method under one protocol: what is compared. Results of two protocols are never put together."""
 
@@ -68,6 +78,14 @@ class Series(NamedTuple):
         return "/".join(self)
 
 
+def _raw(name: str) -> property:
+    return property(lambda row: row.raw[name])
+
+
+def _told(name: str, otherwise: Any = None) -> property:
+    return property(lambda row: row.told.get(name, otherwise))
+
+
 @dataclass(frozen=True)
 class Row:
     """One run: a method with one parameter set on one point set. Times in nanoseconds."""
@@ -75,15 +93,18 @@ class Row:
     raw: dict[str, Any]  # as results/run.schema.json
     told: dict[str, Any]  # what the summary says of it, as the schema's "row"
 
-    @property
-    def time(self) -> dict[str, float | None] | None:
-        """Statistics of run + extract, as the schema's "statistics"; None: no time."""
-        return self.told.get("time")
-
-    @property
-    def paper_time(self) -> dict[str, float | None] | None:
-        """The same up to where the paper's clock stopped."""
-        return self.told.get("paper_time")
+    name = _raw("name")  # such as polylidar/ca/n:2000/holes:0/protocol:paper
+    method = _raw("method")
+    dataset = _raw("dataset")
+    n = _raw("n")
+    holes = _raw("holes")
+    status = _raw("status")
+    detail = _raw("detail")  # why the status is not ok
+    metrics = _raw("metrics")  # scores by name; None where one is not defined, empty when nothing was scored
+    phases_ns = _raw("phases_ns")  # an object a repetition: run, extract and the steps that the method names
+    time = _told("time")  # of run + extract, as the schema's "statistics"; None: no time
+    paper_time = _told("paper_time")  # the same up to where the paper's clock stopped
+    fastest = _told("fastest", False)  # beyond doubt, of all methods on the same points, as the program judges it
 
     @property
     def order(self) -> int:
@@ -91,34 +112,8 @@ class Row:
         return {"faster": -1, "slower": 1}.get(self.told.get("order"), 0)
 
     @property
-    def fastest(self) -> bool:
-        """Faster beyond doubt than every other method on the same points, as the program judges it."""
-        return self.told.get("fastest", False)
-
-    @property
-    def name(self) -> str:
-        """For example polylidar/ca/n:2000/holes:0/protocol:paper."""
-        return self.raw["name"]
-
-    @property
-    def method(self) -> str:
-        return self.raw["method"]
-
-    @property
     def series(self) -> Series:
         return Series(self.method, self.raw["protocol"])
-
-    @property
-    def dataset(self) -> str:
-        return self.raw["dataset"]
-
-    @property
-    def n(self) -> int:
-        return self.raw["n"]
-
-    @property
-    def holes(self) -> bool:
-        return self.raw["holes"]
 
     @property
     def case(self) -> str:
@@ -127,27 +122,8 @@ class Row:
         return self.name.removeprefix(self.method + "/").rsplit("/protocol:", 1)[0]
 
     @property
-    def status(self) -> str:
-        return self.raw["status"]
-
-    @property
     def ok(self) -> bool:
         return self.status == "ok"
-
-    @property
-    def detail(self) -> str:
-        """Why the status is not ok."""
-        return self.raw["detail"]
-
-    @property
-    def metrics(self) -> dict[str, Any]:
-        """Scores by name; None where one is not defined, empty when nothing was scored."""
-        return self.raw["metrics"]
-
-    @property
-    def phases_ns(self) -> list[dict[str, int]]:
-        """One object a repetition: run, extract and the steps that the method names."""
-        return self.raw["phases_ns"]
 
     @property
     def median_ns(self) -> float | None:
@@ -252,15 +228,20 @@ class Experiment:
                 if case is None or line["case"] == case:
                     yield line
 
-    def picture(self, case: str) -> Picture | None:
-        """The pictures of one case, such as ca/n:2000/holes:1; None: there are none. Reads the file once."""
-        found: Picture | None = None
+    def pictures(self, case: str | None = None, runs: Container[str] | None = None) -> dict[str, Picture]:
+        """By case, of all or of one such as ca/n:2000/holes:1, with the results of these runs, or of all."""
+        found: dict[str, Picture] = {}
         for line in self.picture_lines(case):
+            name = line["case"]
             if line["kind"] == "case":
-                found = Picture(line, found.results if found else {})
-            elif found is not None:
-                found.results[line["run"]] = line
+                found[name] = Picture(line, found[name].results if name in found else {})
+            elif name in found and (runs is None or line["run"] in runs):
+                found[name].results[line["run"]] = line
         return found
+
+    def picture(self, case: str) -> Picture | None:
+        """None: there is none. Reads the file once."""
+        return self.pictures(case).get(case)
 
     def picture_cases(self) -> list[str]:
         """The names of the cases that have pictures, in the file's order."""

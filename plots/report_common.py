@@ -5,7 +5,7 @@ from __future__ import annotations
 import html
 import json
 import math
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Sequence
 from pathlib import Path
 from urllib.parse import urlencode
 
@@ -13,8 +13,9 @@ from records import Experiment, Series
 
 CORE = "polylidar"
 
-# By method: short title, place in the order, colours, marker and line, for every page and figure.
-METHOD_LOOKS = json.loads((Path(__file__).resolve().parent / "methods.json").read_text(encoding="utf-8"))["methods"]
+# How methods, steps and parts of pictures look on every page and figure.
+LOOKS = json.loads((Path(__file__).resolve().parent / "methods.json").read_text(encoding="utf-8"))
+METHOD_LOOKS = LOOKS["methods"]  # short title, place in the order, colours, marker and line
 
 STATUS_WORDS = {
     "ok": "ok",
@@ -44,11 +45,6 @@ def short_name(series: Series, among: Iterable[Series]) -> str:
     """The short title, with the protocol where the method is among the series more than once."""
     title = METHOD_LOOKS.get(series[0], {}).get("title", series[0])
     return f"{title} ({series[1]})" if sum(one[0] == series[0] for one in set(among)) > 1 else title
-
-
-def link_html(name: str, method: str, pages: Mapping[str, str]) -> str:
-    """The name; where the method has a page, a link to it."""
-    return f"<a href='{text(pages[method])}'>{text(name)}</a>" if method in pages else text(name)
 
 
 def asked(section: str, report: str, **what: str) -> str:

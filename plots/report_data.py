@@ -213,13 +213,8 @@ def _by_n(experiment: Experiment, dataset: str, holes: bool) -> dict[str, Any]:
     rows = [row for row in experiment.rows if (row.dataset, row.holes) == (dataset, holes)]
     sizes = sorted({row.n for row in rows})
     title = experiment.dataset_title(dataset) + (" with holes" if holes else "")
-    return {
-        "title": title,
-        "kind": "n",
-        "axis": "Number of points",
-        "x": sizes,
-        **_series(experiment, rows, lambda row: sizes.index(row.n)),
-    }
+    series = _series(experiment, rows, lambda row: sizes.index(row.n))
+    return {"title": title, "kind": "n", "axis": "Number of points", "x": sizes, **series}
 
 
 def _shape(experiment: Experiment, row: Row) -> str:
@@ -234,13 +229,8 @@ def _by_shape(experiment: Experiment, rows: Sequence[Row], shapes: list[str]) ->
     title = "Every shape" if len(shapes) > 1 else shapes[0]
     if len(sizes) == 1:
         title += f", n = {next(iter(sizes))}"
-    return {
-        "title": title,
-        "kind": "shape",
-        "axis": "Shape",
-        "x": shapes,
-        **_series(experiment, rows, lambda row: shapes.index(_shape(experiment, row))),
-    }
+    series = _series(experiment, rows, lambda row: shapes.index(_shape(experiment, row)))
+    return {"title": title, "kind": "shape", "axis": "Shape", "x": shapes, **series}
 
 
 def _series(experiment: Experiment, rows: Sequence[Row], place: Callable[[Row], int]) -> dict[str, Any]:

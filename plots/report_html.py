@@ -7,11 +7,12 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
+from markup import Columns, details, facts_of, finding, named, notes_of, row_of, table_of
 from records import Experiment, Series
 from report_common import STATUS_WORDS, count_of, label, number, protocol_words, text
 from report_data import BRIEF_METRICS, is_brief, title_of
 from report_summary import Ratio, Standing, Summary, failure_sentences, headline_sentences, noise_sentence, span
-from report_tables import documents, list_html, table_html, tables_beside
+from report_tables import documents, table_html, tables_beside
 
 EQUAL_WORK = (
     "Times are of equal work: from the points in memory to a valid multipolygon in memory, the same for every "
@@ -20,10 +21,9 @@ EQUAL_WORK = (
 
 
 def summary_html(experiments: Sequence[Experiment], summaries: Sequence[Summary]) -> str:
-    standings = f"<details><summary>Standing of every method</summary>{standings_table(summaries)}</details>"
-    parts = [_headline(summaries), _failures(summaries), standings]
+    standings = details("Standing of every method", standings_table(summaries))
     notes = [EQUAL_WORK, noise_sentence(experiments), _reading(summaries), _brackets(experiments)]
-    return "\n".join(parts) + "<ul class='notes'>" + "".join(f"<li>{text(note)}</li>" for note in notes) + "</ul>"
+    return "\n".join([_headline(summaries), _failures(summaries), standings]) + notes_of(notes)
 
 
 def _reading(summaries: Sequence[Summary]) -> str:
@@ -42,21 +42,31 @@ def _brackets(experiments: Sequence[Experiment]) -> str:
     return f"In brackets: who chose a method's parameters. {told[:1].upper()}{told[1:]}."
 
 
-def _finding(identity: str, title: str, findings: Sequence[tuple[str, str]]) -> str:
-    items = "".join(f"<li><b>{text(where)}:</b> {text(said)}</li>" for where, said in findings)
-    return f"<div class='finding' id='summary-{identity}'><h3>{text(title)}</h3><ul>{items}</ul></div>"
-
-
 def _headline(summaries: Sequence[Summary]) -> str:
     findings = [(one.title, said) for one in summaries for said in headline_sentences(one)]
-    return _finding("headline", "Beside the fastest method with the same polygons", findings) if findings else ""
+    title = "Beside the fastest method with the same polygons"
+    return finding("summary-headline", title, _sentences(findings)) if findings else ""
 
 
 def _failures(summaries: Sequence[Summary]) -> str:
     findings = failure_sentences(summaries)
-    if not findings:
-        return "<div class='finding' id='summary-failures'><h3>Failures</h3><p>Every run has a valid result.</p></div>"
-    return _finding("failures", "Failures", findings)
+    said = _sentences(findings) if findings else "<p>Every run has a valid result.</p>"
+    return finding("summary-failures", "Failures", said)
+
+
+def _sentences(findings: Sequence[tuple[str, str]]) -> str:
+    return f"<ul>{''.join(f'<li><b>{text(where)}:</b> {text(said)}</li>' for where, said in findings)}</ul>"
+
+
+_STANDING = {
+    "Method (who chose the parameters)": "",
+    "Results": "number",
+    "Failures": "",
+    "Fastest in": "number",
+    "Time ÷ Polylidar’s": "number",
+    "Most accurate in": "number",
+    "Error ÷ Polylidar’s": "number",
+}
 
 
 def standings_table(summaries: Sequence[Summary], method: str | None = None) -> str:
@@ -66,25 +76,9 @@ def standings_table(summaries: Sequence[Summary], method: str | None = None) -> 
         for one in summaries
         if (told := "".join(_standing(one, each) for each in one.standings if method in (None, each.series.method)))
     )
-    if not rows:
-        return ""
-    head = "".join(
-        f"<th scope='col'{side}>{title}</th>"
-        for title, side in (
-            ("Method (who chose the parameters)", ""),
-            ("Results", " class='number'"),
-            ("Failures", ""),
-            ("Fastest in", " class='number'"),
-            ("Time ÷ Polylidar’s", " class='number'"),
-            ("Most accurate in", " class='number'"),
-            ("Error ÷ Polylidar’s", " class='number'"),
-        )
-    )
-    return (
-        "<div class='scroll' tabindex='0' role='region' aria-label='Standing'>"
-        "<table id='summary-table' data-testid='summary-table'><caption>Beside Polylidar, over the cases that either solved: "
-        f"median, and from the least to the largest</caption><thead><tr>{head}</tr></thead>{rows}</table></div>"
-    )
+    caption = "Beside Polylidar, over the cases that either solved: median, and from the least to the largest"
+    attributes = " id='summary-table' data-testid='summary-table'"
+    return table_of("Standing", _STANDING, rows, attributes, caption) if rows else ""
 
 
 def _standing(summary: Summary, one: Standing) -> str:
@@ -92,25 +86,26 @@ def _standing(summary: Summary, one: Standing) -> str:
     is_core = one is summary.core
 
     def ratio(value: Ratio | None) -> str:
-        if is_core:
-            return "<td class='number'>1</td>"
-        if value is None:
-            return "<td class='number'>–</td>"
+        if is_core or value is None:
+            return "1" if is_core else "–"
         mark = " better" if value.median < 1 and value.lower_in else ""
         said = f"{span(value)}, {count_of(value.cases, 'case')}" if value.cases > 1 else "1 case"
         return f"<td class='number{mark}'>{text(number(value.median))}<small>{text(said)}</small></td>"
 
     def share(count: int, of: int) -> str:
-        return f"<td class='number'>{f'{count} of {of}' if of and one.results else '–'}</td>"
+        return f"{count} of {of}" if of and one.results else "–"
 
-    return (
-        f"<tr data-entrant='{text(one.series.key)}' data-experiment='{text(summary.name)}'"
-        f"{' class=core' if is_core else ''}>"
-        f"<th scope='row'><span class='swatch' data-method='{text(one.series.method)}'></span>{text(one.label)}</th>"
-        f"<td class='number'>{len(one.results)} of {one.planned}</td><td>{text(failures) or '–'}</td>"
-        f"{share(one.fastest_in, summary.contested)}{ratio(one.time)}"
-        f"{share(one.most_accurate_in, summary.compared_errors)}{ratio(one.error)}</tr>"
-    )
+    attributes = f" data-entrant='{text(one.series.key)}' data-experiment='{text(summary.name)}'"
+    cells = [
+        named(one.series.method, text(one.label)),
+        f"{len(one.results)} of {one.planned}",
+        text(failures) or "–",
+        share(one.fastest_in, summary.contested),
+        ratio(one.time),
+        share(one.most_accurate_in, summary.compared_errors),
+        ratio(one.error),
+    ]
+    return row_of(_STANDING, cells, attributes + (" class='core'" if is_core else ""))
 
 
 # Beside the paper.
@@ -141,13 +136,11 @@ def _claims(claims: Sequence[tuple[Experiment, dict[str, Any]]]) -> str:
         if not measured:
             unmeasured.append(entries[0][1]["claim"])
     said = f"<p class='muted'>Not measured in this run: {text('; '.join(unmeasured))}.</p>" if unmeasured else ""
-    table = (
-        "<div class='scroll' tabindex='0' role='region' aria-label='Claims of the paper'><table id='claims'><thead>"
-        "<tr><th scope='col'>Claim</th><th scope='col'>Experiment</th><th scope='col' class='number'>Paper</th>"
-        "<th scope='col' class='number'>Here</th><th scope='col' class='number'>Equal work</th>"
-        f"<th scope='col'>Verdict</th></tr></thead><tbody>{rows}</tbody></table></div>"
-    )
-    return f"<h3>The paper’s claims beside this run</h3>{table if rows else ''}{said}"
+    table = table_of("Claims of the paper", _CLAIM, rows, " id='claims'") if rows else ""
+    return f"<h3>The paper’s claims beside this run</h3>{table}{said}"
+
+
+_CLAIM = {"Claim": "", "Experiment": "", "Paper": "number", "Here": "number", "Equal work": "number", "Verdict": ""}
 
 
 def _verdict(claim: dict[str, Any]) -> str | None:
@@ -159,27 +152,23 @@ def _verdict(claim: dict[str, Any]) -> str | None:
 def _claim(experiment: Experiment, claim: dict[str, Any]) -> str:
     word = _verdict(claim)
     kind = "holds" if word == "confirmed" else "fails"
-    return (
-        f"<tr data-claim='{text(claim['id'])}'><th scope='row'>{text(claim['claim'])}"
-        f"<small>{text(claim['where'])}: {text(claim['detail'])}</small></th><td>{text(experiment.title)}</td>"
-        f"<td class='number'>{text(claim['paper'])}</td><td class='number'>{text(claim['ours'])}</td>"
-        f"<td class='number'>{text(claim['equal_work'] or '–')}</td>"
-        f"<td><span class='verdict {kind}'>{word}</span></td></tr>"
-    )
+    paper, ours, equal_work = (text(claim[key] or "–") for key in ("paper", "ours", "equal_work"))
+    what = f"{text(claim['claim'])}<small>{text(claim['where'])}: {text(claim['detail'])}</small>"
+    cells = [what, text(experiment.title), paper, ours, equal_work, f"<span class='verdict {kind}'>{word}</span>"]
+    return row_of(_CLAIM, cells, f" data-claim='{text(claim['id'])}'")
 
 
 def tables_html(experiments: Sequence[Experiment], folder: Path) -> str:
     """Every table that no other section has, an experiment behind its own heading; empty without any."""
     return "".join(
-        f"<details><summary>{text(document['title'])}</summary>"
-        f"{''.join(map(table_html, document['tables']))}{_notes(document['notes'])}</details>"
+        details(document["title"], "".join(map(table_html, document["tables"])) + _notes(document["notes"]))
         for document in documents(experiments, folder)
         if not {_DIFFERENCES, _PARAMETERS} & {table["id"] for table in document["tables"]}
     )
 
 
 def _notes(notes: Sequence[str]) -> str:
-    return f"<h3>Notes</h3>{list_html(notes)}" if notes else ""
+    return f"<h3>Notes</h3>{notes_of(notes)}" if notes else ""
 
 
 # Parameters.
@@ -187,16 +176,9 @@ def _notes(notes: Sequence[str]) -> str:
 
 def parameters_html(experiments: Sequence[Experiment], folder: Path) -> str:
     """Who chose them, the program's table of them, what they mean and how the experiments were run."""
-    said = facts_html({name: text(words) for name, words in protocol_words(experiments).items()})
+    said = facts_of({name: text(words) for name, words in protocol_words(experiments).items()})
     tables = "".join(map(table_html, tables_beside(documents(experiments, folder), _PARAMETERS)))
     return f"<h3>Who chose them</h3>{said}" + tables + _described(experiments) + _plans(experiments)
-
-
-def facts_html(facts: dict[str, str], identity: str = "") -> str:
-    """Names, and what is to be said of them as HTML."""
-    rows = "".join(f"<div><dt>{text(name)}</dt><dd>{told}</dd></div>" for name, told in facts.items())
-    named = f" id='{identity}'" if identity else ""
-    return f"<dl{named}>{rows}</dl>"
 
 
 def parameter_value(value: Any, rules: dict[str, str]) -> str:
@@ -223,62 +205,45 @@ def methods_of(experiments: Sequence[Experiment]) -> dict[str, dict[str, Any]]:
     return found
 
 
-PARAMETER_HEAD = ("Unit", "Range", "Default", "Meaning")
+PARAMETER: Columns = {"Unit": "", "Range": "", "Default": "", "Meaning": "prose"}
 
 
-def parameter_cells(one: dict[str, Any]) -> str:
-    """What PARAMETER_HEAD names."""
+def parameter_cells(one: dict[str, Any]) -> list[str]:
+    """In the columns PARAMETER."""
     low, high = one["minimum"], one["maximum"]
     limits = f"{'' if low is None else number(low)} to {'no limit' if high is None else number(high)}"
     default = parameter_value(one["default"], {}) if "default" in one else "required"
-    return (
-        f"<td>{text(one['unit'])}</td><td>{text(limits)}</td><td>{text(default)}</td>"
-        f"<td class='prose'>{text(one['description'])}</td>"
-    )
+    return [text(value) for value in (one["unit"], limits, default, one["description"])]
 
 
 def _described(experiments: Sequence[Experiment]) -> str:
-    rows = "".join(
-        f"<tr><th scope='row'>{text(method['title'])}</th><td>{text(one['name'])}</td>{parameter_cells(one)}</tr>"
+    rows = [
+        [text(method["title"]), text(one["name"]), *parameter_cells(one)]
         for method in methods_of(experiments).values()
         for one in method["parameters"]
-    )
-    return _details("What the parameters mean", ("Method", "Parameter", *PARAMETER_HEAD), rows)
+    ]
+    return _details("What the parameters mean", {"Method": "", "Parameter": "", **PARAMETER}, rows)
+
+
+_PLAN = {
+    **dict.fromkeys(("Experiment", "In the paper"), ""),
+    **dict.fromkeys(("Repetitions", "Warm-up", "Time limit, s", "Memory limit, MiB", "Seed"), "number"),
+    "Filter": "",
+}
 
 
 def _plans(experiments: Sequence[Experiment]) -> str:
-    rows = ""
+    rows = []
     for one in experiments:
-        plan = one.plan
-        rows += (
-            f"<tr><th scope='row'>{text(one.title)}</th><td>{text(plan.get('paper', '–'))}</td>"
-            f"<td class='number'>{text(one.report['repetitions'])}</td>"
-            f"<td class='number'>{text(plan.get('warmup', ''))}</td><td class='number'>{text(plan.get('timeout_s', ''))}"
-            f"</td><td class='number'>{text(plan.get('mem_limit_mib', ''))}</td>"
-            f"<td class='number'>{text(one.report['seed'])}</td>"
-            f"<td>{text(one.report['filter'] or 'none')}</td></tr>"
-        )
-    return _details(
-        "How the experiments were run",
-        ("Experiment", "In the paper", "Repetitions", "Warm-up", "Time limit, s", "Memory limit, MiB", "Seed", "Filter"),
-        rows,
-    )
+        plan, report = one.plan, one.report
+        limits = [plan.get(name, "") for name in ("warmup", "timeout_s", "mem_limit_mib")]
+        how = [report["repetitions"], *limits, report["seed"], report["filter"] or "none"]
+        rows.append(list(map(text, [one.title, plan.get("paper", "–"), *how])))
+    return _details("How the experiments were run", _PLAN, rows)
 
 
-def _details(title: str, head: Sequence[str], rows: str) -> str:
-    return f"<details><summary>{text(title)}</summary>{table_of(title, head, rows)}</details>"
-
-
-def table_of(title: str, head: Sequence[str], rows: str, numbers: int = 0) -> str:
-    """A table that can be scrolled; the last columns, so many, are numbers."""
-    words = len(head) - numbers
-    top = "".join(
-        f"<th scope='col'{' class=number' if place >= words else ''}>{text(one)}</th>" for place, one in enumerate(head)
-    )
-    return (
-        f"<div class='scroll' tabindex='0' role='region' aria-label='{text(title)}'><table><thead><tr>{top}</tr></thead>"
-        f"<tbody>{rows}</tbody></table></div>"
-    )
+def _details(title: str, columns: Columns, rows: Sequence[Sequence[str]]) -> str:
+    return details(title, table_of(title, columns, rows))
 
 
 # Environment and versions.
@@ -292,34 +257,28 @@ def environment_html(experiments: Sequence[Experiment]) -> str:
             facts.setdefault(name, {})[experiment.title] = value
     said = {}
     for name, values in facts.items():
-        several = set(values.values())
-        said[name] = (
-            text(next(iter(several)))
-            if len(several) == 1
-            else "<br>".join(f"{text(value)} <small>{text(where)}</small>" for where, value in values.items())
-        )
-    return facts_html(said, "environment-facts") + _noise(experiments) + _versions(experiments)
+        told = [f"{text(value)} <small>{text(where)}</small>" for where, value in values.items()]
+        first, *others = set(values.values())
+        said[name] = "<br>".join(told) if others else text(first)
+    return facts_of(said, "environment-facts") + _noise(experiments) + _versions(experiments)
+
+
+_SPREADS = ("Runs with 3 repetitions or more", "Spread of the median run", "Of nine in ten, at most")
+_NOISE = {"Experiment": "", **dict.fromkeys(_SPREADS, "number"), "Verdict": ""}
 
 
 def _noise(experiments: Sequence[Experiment]) -> str:
-    rows = ""
+    rows = []
     for experiment in experiments:
         told = experiment.report["summary"].get("noise")
-        count, middle, most, verdict = 0, "–", "–", "nothing can be said"
+        cells = [0, "–", "–", "nothing can be said"]
         if told:
-            count, middle, most = told["rows"], *(f"{100 * told[key]:.1f} %" for key in ("median_spread", "ninth_decile"))
             kind, word = ("fails", "noisy") if told["noisy"] else ("holds", "steady")
-            verdict = f"<span class='verdict {kind}'>{word}</span>"
-        cells = "".join(f"<td class='number'>{cell}</td>" for cell in (count, middle, most))
-        rows += f"<tr><th scope='row'>{text(experiment.title)}</th>{cells}<td>{verdict}</td></tr>"
-    return (
-        "<h3>Noise</h3><p class='muted'>The spread of a run is the median absolute deviation of its times over their "
-        "median.</p><div class='scroll' tabindex='0' role='region' "
-        "aria-label='Noise'><table id='noise'><thead><tr><th scope='col'>Experiment</th><th scope='col' "
-        "class='number'>Runs with 3 repetitions or more</th><th scope='col' class='number'>Spread of the median run</th>"
-        "<th scope='col' class='number'>Of nine in ten, at most</th><th scope='col'>Verdict</th></tr></thead>"
-        f"<tbody>{rows}</tbody></table></div>"
-    )
+            spreads = (f"{100 * told[key]:.1f} %" for key in ("median_spread", "ninth_decile"))
+            cells = [told["rows"], *spreads, f"<span class='verdict {kind}'>{word}</span>"]
+        rows.append([text(experiment.title), *cells])
+    said = "The spread of a run is the median absolute deviation of its times over their median."
+    return f"<h3>Noise</h3><p class='muted'>{said}</p>" + table_of("Noise", _NOISE, rows, " id='noise'")
 
 
 def environment_facts(report: dict[str, Any]) -> dict[str, str]:
@@ -367,20 +326,15 @@ def version_html(method: dict[str, Any]) -> str:
     return f"<span class='verdict fails'>not installed</span>{missing}"
 
 
+_VERSION = {"Method": "", "Version": "", "The library returns": "", "Can do": "", "Licence": "", "Source": "prose"}
+
+
 def _versions(experiments: Sequence[Experiment]) -> str:
-    rows = "".join(
-        f"<tr><th scope='row'><span class='swatch' data-method='{text(method['name'])}'></span>"
-        f"{text(method['title'])}</th><td>{version_html(method)}</td><td>{text(method['native_output'])}</td>"
-        f"<td>{text(abilities(method))}</td><td>{text(method['licence'])}</td>"
-        f"<td class='prose'>{text(method['citation'])}</td></tr>"
-        for method in methods_of(experiments).values()
-    )
-    return (
-        "<h3>Methods and versions</h3><div class='scroll' tabindex='0' role='region' aria-label='Methods'>"
-        "<table id='methods'><thead><tr><th scope='col'>Method</th><th scope='col'>Version</th>"
-        "<th scope='col'>The library returns</th><th scope='col'>Can do</th><th scope='col'>Licence</th>"
-        f"<th scope='col'>Source</th></tr></thead><tbody>{rows}</tbody></table></div>"
-    )
+    rows = []
+    for method in methods_of(experiments).values():
+        facts = (method["native_output"], abilities(method), method["licence"], method["citation"])
+        rows.append([named(method["name"], text(method["title"])), version_html(method), *map(text, facts)])
+    return "<h3>Methods and versions</h3>" + table_of("Methods", _VERSION, rows, " id='methods'")
 
 
 # Notes and data sets.
@@ -400,12 +354,7 @@ def notes_html(experiments: Sequence[Experiment]) -> str:
         said[
             f"{experiment.title}: of its {len(experiment.rows)} runs this page has these metrics: {titles}. All are in its records."
         ] = None
-    items = "".join(f"<li>{text(note)}</li>" for note in said)
-    notes = f"<ul class='notes'>{items}</ul>" if items else "<p>The records have no notes.</p>"
+    notes = notes_of(said) or "<p>The records have no notes.</p>"
     datasets = {name: dataset for experiment in experiments for name, dataset in experiment.datasets.items()}
-    rows = "".join(
-        f"<tr><th scope='row'>{text(one['title'])}</th><td class='prose'>{text(one['source'])}</td>"
-        f"<td class='prose'>{text(one['licence'])}</td></tr>"
-        for one in datasets.values()
-    )
-    return notes + _details("Sources and licences of the shapes", ("Shape", "Source", "Licence"), rows)
+    rows = [[text(one[key]) for key in ("title", "source", "licence")] for one in datasets.values()]
+    return notes + _details("Sources and licences of the shapes", {"Shape": "", "Source": "prose", "Licence": "prose"}, rows)

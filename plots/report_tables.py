@@ -6,6 +6,7 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
+from markup import notes_of, scroll
 from records import Experiment, read_json
 from report_common import text
 
@@ -28,20 +29,15 @@ def tables_beside(found: Sequence[dict[str, Any]], identity: str) -> list[dict[s
     ]
 
 
-def list_html(sentences: Sequence[str]) -> str:
-    return "<ul class='notes'>" + "".join(f"<li>{text(one)}</li>" for one in sentences) + "</ul>" if sentences else ""
-
-
 def table_html(table: dict[str, Any]) -> str:
     """With its caption above it and its remarks below it."""
     sides = [" class='number'" if column["kind"] == "number" else "" for column in table["columns"]]
     head = "".join(f"<th{side} scope='col'>{text(column['title'])}</th>" for side, column in zip(sides, table["columns"]))
     body = "".join(f"<tr>{_row(sides, row)}</tr>" for row in table["rows"])
-    return (
-        f"<h3>{text(table['caption'])}</h3>"
-        f"<div class='scroll' tabindex='0' role='region' aria-label='Table' id='table-{text(table['id'])}'>"
-        f"<table><thead><tr>{head}</tr></thead><tbody>{body}</tbody></table></div>{list_html(table['remarks'])}"
-    )
+    shown = f"<table><thead><tr>{head}</tr></thead><tbody>{body}</tbody></table>"
+    remarks = notes_of(table["remarks"])
+    identity = f" id='table-{text(table['id'])}'"
+    return f"<h3>{text(table['caption'])}</h3>{scroll('Table', shown, identity)}{remarks}"
 
 
 def _row(sides: Sequence[str], cells: Sequence[dict[str, Any]]) -> str:

@@ -43,14 +43,21 @@ class Run:
                 return experiment
         raise Skipped(f"the run has no experiment called {name}")
 
+    def has(self, name: str) -> bool:
+        return any(experiment.name == name for experiment in self.experiments)
+
     def results(self, timed: bool = False) -> Results:
         """Every result with an error, of the league that is kept beside the run (league.csv) or else of the run itself
         (cases.csv); with `timed` of the run alone, as an evaluation, which keeps all cores busy, times nothing."""
         names = ("cases.csv",) if timed else ("league.csv", "cases.csv")
-        path = next((self.folder / name for name in names if (self.folder / name).is_file()), None)
-        if path is None:
-            raise Skipped(f"{self.folder / 'cases.csv'} is not there ('hullbench league RUN --all-cases --csv' writes it)")
-        return read(path)
+        return read(self.file(*names, maker="'hullbench league RUN --all-cases --csv' writes it"))
+
+    def file(self, *names: str, maker: str) -> Path:
+        """The first of these that the run has. Raises Skipped without any, saying what makes the last one."""
+        for path in (self.folder / name for name in names):
+            if path.is_file():
+                return path
+        raise Skipped(f"{path} is not there ({maker})")
 
     def picture(self, experiment: Experiment, case: str) -> Picture | None:
         """As Experiment.picture; each is read from its file once."""

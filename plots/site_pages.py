@@ -14,20 +14,12 @@ from urllib.parse import quote
 import numpy as np
 
 from front import front_html, interval_words, time_words
+from markup import facts_of, link_to_method, named, table_of
 from page import Section, byline
 from ratings import KNOWS, Division, Rating, mean_ranks, typical_errors, typical_times
 from records import RecordError
-from report_common import count_of, link_html, number, protocol_words, sentence_list, short_name, text
-from report_html import (
-    PARAMETER_HEAD,
-    abilities,
-    entry_parameters,
-    facts_html,
-    parameter_cells,
-    standings_table,
-    table_of,
-    version_html,
-)
+from report_common import count_of, number, protocol_words, sentence_list, short_name, text
+from report_html import PARAMETER, abilities, entry_parameters, parameter_cells, standings_table, version_html
 from site_run import SiteRun, method_words, protocol_order, zoo_cases
 from site_text import blocks, inline, linked, part_of
 from strip import Shown, card, cards_html, strip_html, title_of_case
@@ -73,22 +65,18 @@ def pages_of(run: SiteRun, runs: Sequence[SiteRun], files: Sequence[Download]) -
 
 def _pages(run: SiteRun, runs: Sequence[SiteRun], files: Sequence[Download]) -> list[SitePage]:
     datasets = {name: one for name, one in run.datasets.items() if name not in zoo_cases()}
+    adding = [Section("steps", "Steps", "In four steps", _add())]
+    methods = [Section("list", "Methods", "All methods", _methods(run))]
+    lists = [Section("list", "Data sets", "All data sets", _datasets(run, datasets))]
+    front = _front(run, runs, datasets)
     return [
-        SitePage(
-            "index.html", "Concave hulls: who is good at what", "Page", "hullbench league home", _front(run, runs, datasets)
-        ),
-        SitePage("methods/index.html", "Methods", "Page", "", [Section("list", "Methods", "All methods", _methods(run))]),
+        SitePage("index.html", "Concave hulls: who is good at what", "Page", "hullbench league home", front),
+        SitePage("methods/index.html", "Methods", "Page", "", methods),
         *(
             SitePage(address_of("methods", name), one["title"], "Method", name, _method(run, name, one))
             for name, one in run.methods.items()
         ),
-        SitePage(
-            "datasets/index.html",
-            "Data sets",
-            "Page",
-            "",
-            [Section("list", "Data sets", "All data sets", _datasets(run, datasets))],
-        ),
+        SitePage("datasets/index.html", "Data sets", "Page", "", lists),
         *(
             SitePage(address_of("datasets", name), one["title"], "Data set", name, _dataset(run, name, one))
             for name, one in datasets.items()
@@ -98,9 +86,7 @@ def _pages(run: SiteRun, runs: Sequence[SiteRun], files: Sequence[Download]) -> 
             SitePage(address_of("zoo", name), one.points, "Zoo", f"{name} {one.fault}", _zoo_case(run, name))
             for name, one in zoo_cases().items()
         ),
-        SitePage(
-            "add.html", "Add your method", "Page", "adapter manifest", [Section("steps", "Steps", "In four steps", _add())]
-        ),
+        SitePage("add.html", "Add your method", "Page", "adapter manifest", adding),
         SitePage("downloads.html", "Downloads", "Page", "CSV JSON schema tables records", _downloads(files)),
     ]
 
@@ -116,10 +102,6 @@ def _link(address: str, words: str) -> str:
 
 def _method_pages(run: SiteRun) -> dict[str, str]:
     return {name: PAGE + address_of("methods", name) for name in run.methods}
-
-
-def _swatch(method: str) -> str:
-    return f"<span class='swatch' data-method='{text(method)}'></span>"
 
 
 # The front page.
@@ -151,12 +133,14 @@ def _doors(run: SiteRun, datasets: dict[str, Any]) -> str:
 
 
 def _releases(runs: Sequence[SiteRun]) -> str:
-    rows = "".join(
-        f"<tr><th scope='row'>{_link(f'{TOP}runs/{quote(one.name)}/index.html', one.name)}</th><td>{byline(one.experiments)}</td>"
-        f"<td>{_link(f'{TOP}runs/{quote(one.name)}/report.html', 'report')}</td></tr>"
-        for one in runs
-    )
-    return "<p class='muted'>The newest first. These addresses stay.</p>" + table_of("Runs", ("Run", "Of", "Report"), rows)
+    rows = []
+    for one in runs:
+        folder = f"{TOP}runs/{quote(one.name)}"
+        rows.append(
+            [_link(f"{folder}/index.html", one.name), byline(one.experiments), _link(f"{folder}/report.html", "report")]
+        )
+    table = table_of("Runs", {"Run": "", "Of": "", "Report": ""}, rows)
+    return f"<p class='muted'>The newest first. These addresses stay.</p>{table}"
 
 
 # Methods.
@@ -181,29 +165,27 @@ def _rank(rating: Rating, place: int) -> int:
     return _place_in((one.rank for one in rating.standings), rating.standings[place].rank)
 
 
+_METHOD = {"Method": "", "Place, points only": "", "Place, informed": "", "Holes": "", "Several polygons": "", "Licence": ""}
+
+
 def _methods(run: SiteRun) -> str:
-    rows = ""
+    rows = []
     for name, method in run.methods.items():
-        cells = ""
+        places = []
         for division in KNOWS:
             ranks = [(_rank(rating, k), rating) for rating, k in _entries(run, name) if rating.division.name == division]
             best = min(ranks, key=lambda one: one[0], default=None)
-            cells += f"<td>{f'{best[0]} of {len(best[1].standings)}' if best else '–'}</td>"
-        what = inline(method_words().get(name, ""))
+            places.append(f"{best[0]} of {len(best[1].standings)}" if best else "–")
+        title = link_to_method(method["title"], name, _method_pages(run))
+        what = f"<small>{inline(method_words().get(name, ''))}</small>"
         can = method["capabilities"]
-        able = "".join(f"<td>{'yes' if can.get(one) else 'no' if can else '–'}</td>" for one in ("holes", "several_polygons"))
-        title = link_html(method["title"], name, _method_pages(run))
-        rows += (
-            f"<tr><th scope='row'>{_swatch(name)}{title}<small>{what}</small></th>{cells}{able}"
-            f"<td>{text(method['licence'])}</td></tr>"
-        )
-    head = ("Method", "Place, points only", "Place, informed", "Holes", "Several polygons", "Licence")
+        able = ["yes" if can.get(one) else "no" if can else "–" for one in ("holes", "several_polygons")]
+        rows.append([named(name, title + what), *places, *able, text(method["licence"])])
     said = "; ".join(
         f"{words}: methods that {KNOWS[name]}" for name, words in (("blind", "Points only"), ("informed", "informed"))
     )
-    return f"<p class='muted'>Places are by mean rank, of a method’s best entry. {text(said)}.</p>" + table_of(
-        "Methods", head, rows
-    )
+    table = table_of("Methods", _METHOD, rows)
+    return f"<p class='muted'>Places are by mean rank, of a method’s best entry. {text(said)}.</p>{table}"
 
 
 def _method(run: SiteRun, name: str, method: dict[str, Any]) -> list[Section]:
@@ -216,11 +198,9 @@ def _method(run: SiteRun, name: str, method: dict[str, Any]) -> list[Section]:
         "Can do": text(abilities(method)),
     }
     what = method_words().get(name)
-    about = (f"<p>{inline(what)}.</p>" if what else "") + facts_html(facts)
-    meaning = "".join(
-        f"<tr><th scope='row'>{text(one['name'])}</th>{parameter_cells(one)}</tr>" for one in method["parameters"]
-    )
-    parameters = table_of("Parameters", ("Parameter", *PARAMETER_HEAD), meaning) if meaning else "<p>It has none.</p>"
+    about = (f"<p>{inline(what)}.</p>" if what else "") + facts_of(facts)
+    meaning = [[text(one["name"]), *parameter_cells(one)] for one in method["parameters"]]
+    parameters = table_of("Parameters", {"Parameter": "", **PARAMETER}, meaning) if meaning else "<p>It has none.</p>"
     good = "".join(_rated(run, rating, place) for rating, place in _entries(run, name))
     standing = standings_table(run.summaries, name)
     pictures = _pictures(_method_pictures(run, name))
@@ -250,18 +230,16 @@ def _rated(run: SiteRun, rating: Rating, place: int) -> str:
         f"{KNOWS[rating.division.name]}: mean rank {number(one.rank)}{interval_words(one.rank_interval)}, median error "
         f"{number(100 * one.error)} %{time_words(timed, one.series)}, {count_of(one.failures, 'failure')}."
     )
-    rows, firsts = "", []
+    rows, firsts = [], []
     for part in [*rating.kinds, *rating.samplers]:
         first, own = int(np.argmin(part.ranks)), _place_in(part.ranks, part.ranks[place])
         firsts += [part.name] if own == 1 else []
-        rows += (
-            f"<tr><th scope='row'>{text(part.name)}</th><td>{text(short_name(every[first], every))}</td>"
-            f"<td class='number'>{number(100 * part.errors[first])}</td><td class='number'>{number(100 * part.errors[place])}</td>"
-            f"<td class='number'>{own}</td><td class='number'>{part.cases}</td></tr>"
-        )
+        errors = (number(100 * part.errors[k]) for k in (first, place))
+        rows.append([text(part.name), text(short_name(every[first], every)), *errors, own, part.cases])
     said += f" It is the first on {text(sentence_list(firsts))}." if firsts else ""
-    head = ("Kind of shape, or way to sample", "First by mean rank", "Its error, %", "Here, %", "Place", "Cases")
-    return f"<p>{said}</p>{table_of(f'Places of {short_name(one.series, every)}', head, rows, 4)}"
+    columns = {"Kind of shape, or way to sample": "", "First by mean rank": ""}
+    columns |= dict.fromkeys(("Its error, %", "Here, %", "Place", "Cases"), "number")
+    return f"<p>{said}</p>{table_of(f'Places of {short_name(one.series, every)}', columns, rows)}"
 
 
 def _chosen(run: SiteRun, name: str) -> str:
@@ -273,13 +251,16 @@ def _chosen(run: SiteRun, name: str) -> str:
                 key = (entry.get("protocol", ""), entry_parameters(entry, experiment), entry.get("note", ""))
                 found.setdefault(key, []).append(experiment.title)
     words = protocol_words(run.experiments)
-    rows = "".join(
-        f"<tr><th scope='row'>{text(protocol)}<small>{text(words.get(protocol, ''))}</small></th>"
-        f"<td class='prose'>{text(values)}<small>{linked(note) if note else ''}</small></td>"
-        f"<td>{text(', '.join(dict.fromkeys(titles)))}</td></tr>"
+    rows = [
+        [
+            f"{text(protocol)}<small>{text(words.get(protocol, ''))}</small>",
+            f"{text(values)}<small>{linked(note) if note else ''}</small>",
+            text(", ".join(dict.fromkeys(titles))),
+        ]
         for (protocol, values, note), titles in found.items()
-    )
-    return f"<h3>In this run</h3>{table_of('Chosen', ('Protocol', 'Parameters', 'Experiments'), rows)}" if rows else ""
+    ]
+    table = table_of("Chosen", {"Protocol": "", "Parameters": "prose", "Experiments": ""}, rows)
+    return f"<h3>In this run</h3>{table}" if rows else ""
 
 
 # Pictures.
@@ -329,13 +310,17 @@ def _members(name: str, one: dict[str, Any]) -> str:
 
 
 def _datasets(run: SiteRun, datasets: dict[str, dict[str, Any]]) -> str:
-    rows = "".join(
-        f"<tr><th scope='row'>{_link(PAGE + address_of('datasets', name), one['title'])}<small>{text(_members(name, one))}</small></th>"
-        f"<td class='prose'>{linked(one['source'])}</td><td>{linked(one['licence'])}</td>"
-        f"<td class='number'>{sum(run.cases.get(name, {}).values())}</td></tr>"
+    rows = [
+        [
+            f"{_link(PAGE + address_of('datasets', name), one['title'])}<small>{text(_members(name, one))}</small>",
+            linked(one["source"]),
+            linked(one["licence"]),
+            sum(run.cases.get(name, {}).values()),
+        ]
         for name, one in datasets.items()
-    )
-    return table_of("Data sets", ("Data set", "Source", "Licence", "Cases in this run"), rows, 1)
+    ]
+    columns = {"Data set": "", "Source": "prose", "Licence": "", "Cases in this run": "number"}
+    return table_of("Data sets", columns, rows)
 
 
 def _dataset(run: SiteRun, name: str, one: dict[str, Any]) -> list[Section]:
@@ -359,7 +344,7 @@ def _dataset(run: SiteRun, name: str, one: dict[str, Any]) -> list[Section]:
     tables = "".join(_division_table(run, division) for division in run.divisions(name))
     pictures = _pictures(_dataset_pictures(run, name))
     return [
-        Section("about", "Description", "What it is", facts_html(facts) + points),
+        Section("about", "Description", "What it is", facts_of(facts) + points),
         Section("results", "Who does best", "Who does best", tables or "<p>This run has no results that can be compared.</p>"),
         *([Section("pictures", "Pictures", "The same points", pictures)] if pictures else []),
     ]
@@ -369,17 +354,16 @@ def _division_table(run: SiteRun, division: Division) -> str:
     results = division.results
     every, ranks = results.entrants, mean_ranks(results)
     errors, times = typical_errors(division), typical_times(division)
-    rows = "".join(
-        f"<tr><th scope='row'>{_swatch(every[i].method)}"
-        f"{link_html(short_name(every[i], every), every[i].method, _method_pages(run))}</th>"
-        f"<td class='number'>{number(float(ranks[i]))}</td><td class='number'>{number(100 * errors[every[i]])}</td>"
-        f"<td class='number'>{number(times[every[i]]) if math.isfinite(times[every[i]]) else '–'}</td>"
-        f"<td class='number'>{int(np.sum(np.isinf(results.errors[i])))}</td></tr>"
-        for i in np.argsort(ranks, kind="stable")
-    )
-    head = ("Method", "Mean rank", "L2, %", "µs a point", "Failures")
+    rows = []
+    for i in np.argsort(ranks, kind="stable"):
+        one = every[i]
+        name = named(one.method, link_to_method(short_name(one, every), one.method, _method_pages(run)))
+        time = number(times[one]) if math.isfinite(times[one]) else "–"
+        failures = int(np.sum(np.isinf(results.errors[i])))
+        rows.append([name, number(float(ranks[i])), number(100 * errors[one]), time, failures])
+    columns = {"Method": "", **dict.fromkeys(("Mean rank", "L2, %", "µs a point", "Failures"), "number")}
     title = f"Methods that {KNOWS[division.name]}"
-    return f"<h3>{title}, {count_of(len(results.cases), 'case')}</h3>{table_of(title, head, rows, 4)}"
+    return f"<h3>{title}, {count_of(len(results.cases), 'case')}</h3>{table_of(title, columns, rows)}"
 
 
 # The zoo.
@@ -392,16 +376,20 @@ def _right(run: SiteRun, name: str) -> str:
 
 
 def _zoo(run: SiteRun) -> list[Section]:
-    rows = "".join(
-        f"<tr><th scope='row'>{_link(PAGE + address_of('zoo', name), one.points)}<small>{text(name)}</small></th>"
-        f"<td class='prose'>{inline(one.fault)}</td><td class='number'>{_right(run, name)}</td></tr>"
+    rows = [
+        [
+            f"{_link(PAGE + address_of('zoo', name), one.points)}<small>{text(name)}</small>",
+            inline(one.fault),
+            _right(run, name),
+        ]
         for name, one in zoo_cases().items()
-    )
+    ]
     said = (
         "Inputs that made some public tool crash, hang, or give a result that is wrong, empty, not valid or short of points, each "
         "made anew after the description in its issue."
     )
-    table = table_of("The zoo", ("Points", "What went wrong", "Right answers in this run"), rows, 1)
+    columns = {"Points": "", "What went wrong": "prose", "Right answers in this run": "number"}
+    table = table_of("The zoo", columns, rows)
     return [Section("list", "Cases", "Inputs that broke somebody", f"<p>{said}</p>{table}")]
 
 
@@ -415,10 +403,8 @@ def _zoo_case(run: SiteRun, name: str) -> list[Section]:
         "Its points": f"<code>build/hullbench points {text(name)} --out points.csv</code>",
         "Every method": f"<code>build/hullbench run zoo --filter '/{text(name)}/'</code>",
     }
-    rows = "".join(
-        f"<tr><th scope='row'>{text(method)}</th><td>{text(word)}</td></tr>" for method, word in run.zoo_answers.get(name, [])
-    )
-    answers = table_of("Answers", ("Method", "Answer"), rows) if rows else "<p>This run did not ask the methods.</p>"
+    rows = [[text(method), text(word)] for method, word in run.zoo_answers.get(name, [])]
+    answers = table_of("Answers", {"Method": "", "Answer": ""}, rows) if rows else "<p>This run did not ask the methods.</p>"
     pictures = _pictures(_dataset_pictures(run, name))
     place = names.index(name)
     others = [(place - 1, "Before"), (place + 1, "Next")]
@@ -428,7 +414,7 @@ def _zoo_case(run: SiteRun, name: str) -> list[Section]:
         if 0 <= k < len(names)
     )
     return [
-        Section("about", "Description", "What it is", facts_html(facts)),
+        Section("about", "Description", "What it is", facts_of(facts)),
         Section("answers", "Answers", "How the methods answer", answers + ("" if pictures else f"<p>{beside}</p>")),
         *([Section("pictures", "Pictures", "Pictures", f"{pictures}<p>{beside}</p>")] if pictures else []),
     ]
@@ -443,12 +429,12 @@ def _add() -> str:
 
 def _downloads(files: Sequence[Download]) -> list[Section]:
     sections = []
+    columns = {"File": "", "What is in it": "prose", "KiB": "number"}
     for place, kind in enumerate(dict.fromkeys(one.kind for one in files)):
-        rows = "".join(
-            f"<tr><th scope='row'>{_link(FILE + one.address, one.address.rpartition('/')[2])}</th>"
-            f"<td class='prose'>{text(one.what)}</td><td class='number'>{number(one.size / 1024)}</td></tr>"
+        rows = [
+            [_link(FILE + one.address, one.address.rpartition("/")[2]), text(one.what), number(one.size / 1024)]
             for one in files
             if one.kind == kind
-        )
-        sections.append(Section(f"files-{place}", kind, kind, table_of(kind, ("File", "What is in it", "KiB"), rows, 1)))
+        ]
+        sections.append(Section(f"files-{place}", kind, kind, table_of(kind, columns, rows)))
     return sections

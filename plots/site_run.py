@@ -19,7 +19,7 @@ from report_html import methods_of
 from report_summary import Summary, summarise
 from report_tables import documents
 from site_text import names_in, table_rows
-from strip import Shown, read_pictures
+from strip import Shown
 
 # Who chose the parameters: those that see the points only first.
 _PROTOCOLS = [protocol for protocols in DIVISIONS.values() for protocol in protocols]
@@ -140,7 +140,7 @@ def protocol_order(row: Row) -> int:
 def load_run(folder: Path) -> SiteRun:
     """Raises RecordError when it is no run, or something in it is malformed."""
     experiments = load(folder)
-    pictures = [read_pictures(one) for one in experiments]
+    pictures = [one.pictures() for one in experiments]
     if not any(pictures):
         pictures = kept_pictures(folder / "report.html", experiments)
     files = [folder / name for name in ("cases.csv", "league.csv")]

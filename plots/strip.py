@@ -4,7 +4,7 @@ broke somebody. What the run does not have is left out, and said."""
 from __future__ import annotations
 
 import math
-from collections.abc import Container, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, field
 
 from ratings import DIVISIONS, TIE_RELATIVE, Rating
@@ -52,13 +52,13 @@ def strip_html(
     pictures: Sequence[dict[str, Picture]] | None = None,
     report: str = "",
 ) -> str:
-    """Empty without a leader. `pictures`: by experiment, read_pictures() of at least the leader's runs; None: they are read.
+    """Empty without a leader. `pictures`: by experiment, with at least the leader's runs; None: they are read.
     `report`: the address of the report that the pictures lead to, where that is not this page."""
     if rating is None:
         return ""
     leader = rating.standings[0].series
     every = [one.series for one in rating.standings]
-    read = pictures or [read_pictures(one, {row.name for row in one.rows if row.series == leader}) for one in experiments]
+    read = pictures or [one.pictures(runs={row.name for row in one.rows if row.series == leader}) for one in experiments]
     shown = _cases(experiments, read, leader, DIVISIONS[rating.division.name])
     name = text(short_name(leader, every))
     if not shown:
@@ -81,17 +81,6 @@ def cards_html(cards: str) -> str:
         for kind, words in (("both", "found"), ("missed", "missed"), ("added", "wrongly added"), ("truth", "ground truth"))
     )
     return f"<ul>{cards}</ul><p class='gallery-legend'>{legend}</p>"
-
-
-def read_pictures(experiment: Experiment, runs: Container[str] | None = None) -> dict[str, Picture]:
-    """By case, with the results of these runs, or of all."""
-    found: dict[str, Picture] = {}
-    for line in experiment.picture_lines():
-        if line["kind"] == "case":
-            found[line["case"]] = Picture(line)
-        elif line["case"] in found and (runs is None or line["run"] in runs):
-            found[line["case"]].results[line["run"]] = line
-    return found
 
 
 def _cases(

@@ -8,12 +8,10 @@ told apart by anybody. A filled marker says that the parameters follow the paper
 
 from __future__ import annotations
 
-import json
 import textwrap
 import zlib
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
-from pathlib import Path
 
 import matplotlib
 
@@ -21,16 +19,17 @@ matplotlib.use("Agg")
 from matplotlib.artist import Artist  # noqa: E402  the backend comes first
 from matplotlib.axes import Axes  # noqa: E402
 from matplotlib.figure import Figure  # noqa: E402
+from matplotlib.legend import Legend  # noqa: E402
 from matplotlib.lines import Line2D  # noqa: E402
 
 from records import Series  # noqa: E402
+from report_common import LOOKS  # noqa: E402
 from report_common import short_name as label  # noqa: E402  what figures call a series
 
 MILLIMETRE = 1 / 25.4  # in inches, matplotlib's unit
 ONE_COLUMN = 85  # widths of a printed column and of a page, in millimetres
 FULL_WIDTH = 180
 
-_LOOKS = json.loads((Path(__file__).parent / "methods.json").read_text(encoding="utf-8"))
 _MARKERS = {
     "circle": "o",
     "square": "s",
@@ -103,8 +102,8 @@ class MethodStyle:
 
 def method_style(method: str) -> MethodStyle:
     """One that is not in methods.json gets one of its spare looks, by its name: the same in every figure."""
-    known = _LOOKS["methods"].get(method)
-    spare = _LOOKS["others"][zlib.crc32(method.encode()) % len(_LOOKS["others"])]
+    known = LOOKS["methods"].get(method)
+    spare = LOOKS["others"][zlib.crc32(method.encode()) % len(LOOKS["others"])]
     look = known or {"title": method, "order": 1000, "paper": False, **spare}
     return MethodStyle(
         look["title"],
@@ -119,11 +118,11 @@ def method_style(method: str) -> MethodStyle:
 
 def role_color(role: str) -> str:
     """Of what is no method: ground_truth, points, both, omission, commission, hole, paper_value."""
-    return _LOOKS["roles"][role]["light"]
+    return LOOKS["roles"][role]["light"]
 
 
 def step_color(step: str) -> str:
-    return _LOOKS["steps"].get(step, _LOOKS["steps"]["other"])["light"]
+    return LOOKS["steps"].get(step, LOOKS["steps"]["other"])["light"]
 
 
 def in_order(series: Iterable[Series]) -> list[Series]:
@@ -159,6 +158,18 @@ def line_options(one: Series) -> dict[str, object]:
     }
 
 
+def curve_options(one: Series, among: Iterable[Series], least: float) -> dict[str, object]:
+    """Of one of many curves, `least` points wide, as keywords of plot."""
+    look = method_style(one[0])
+    return {
+        "color": look.color,
+        "linestyle": look.line,
+        "linewidth": max(look.width, least),
+        "zorder": 4 + 1 / look.order,
+        "label": label(one, among),
+    }
+
+
 def legend_entry(one: Series, among: Iterable[Series], missing: bool = False) -> Line2D:
     """`missing`: it has nothing in the figure, which the label says."""
     text = label(one, among) + (" (none)" if missing else "")
@@ -170,13 +181,19 @@ def series_legend(axes: Axes, series: Iterable[Series], missing: Iterable[Series
     absent = set(missing)
     every = in_order([*series, *absent])
     handles = [legend_entry(one, every, one in absent) for one in every]
-    axes.axis("off")
-    legend = axes.legend(handles=handles, handlelength=3, ncol=columns, loc="center", borderaxespad=0, columnspacing=1.4)
+    titles = [one.get_label() for one in handles]
+    legend = legend_below(axes, handles, titles, handlelength=3, ncol=columns, columnspacing=1.4)
     for one, text in zip(every, legend.get_texts()):
         if method_style(one[0]).paper:
             text.set_fontweight("bold")
         if one in absent:
             text.set_color("#888888")
+
+
+def legend_below(axes: Axes, handles: Iterable[Artist], titles: Iterable[str], **look: object) -> Legend:
+    """In axes of its own."""
+    axes.axis("off")
+    return axes.legend(handles, titles, loc="center", borderaxespad=0, **look)
 
 
 def new_figure(width_mm: float, height_mm: float) -> Figure:

@@ -5,9 +5,10 @@ from __future__ import annotations
 import math
 
 from front import Front, lines_of
+from markup import details, link_to_method, named, scroll
 from ratings import KNOWS, TIE_WORDS, Part, Rating
 from records import Series
-from report_common import asked, count_of, link_html, number, short_name, text
+from report_common import asked, count_of, number, short_name, text
 
 # Of a cell's colour, in percent: at so many times the smallest error of its column, and above, it is the strongest.
 _STRONGEST, _WORST_RATIO = 46, 10.0
@@ -20,8 +21,7 @@ def where_html(front: Front) -> str:
     parts = []
     for k, rating in enumerate(front.ratings):
         shown = _heat_map(rating, front) + _wins(rating)
-        summary = f"<summary>Methods that {KNOWS[rating.division.name]}</summary>"
-        parts.append(f"<details>{summary}{shown}</details>" if k else shown)
+        parts.append(details(f"Methods that {KNOWS[rating.division.name]}", shown) if k else shown)
     return "".join(parts)
 
 
@@ -62,16 +62,22 @@ def _heat_map(rating: Rating, front: Front) -> str:
             )
             for key, part in columns
         )
-        rows += f"<tr><th scope='row'><span class='swatch' data-method='{text(every[line.first].method)}'></span>{link_html(name, every[line.first].method, front.pages)}{also}</th>{cells}</tr>"
+        method = every[line.first].method
+        rows += f"<tr><th scope='row'>{named(method, link_to_method(name, method, front.pages))}{also}</th>{cells}</tr>"
     links = (
         " A number leads to its cases." if front.own else " The cases are of an evaluation beside this run, in its league.csv."
     )
-    return (
-        "<p class='muted'>Median L2 error in %, by kind of shape and by way to sample the points; below each its number of cases. The stronger the "
-        f"colour, the further behind the best of the column, which is marked with •.{links}</p>"
-        "<div class='scroll' tabindex='0' role='region' aria-label='Errors by kind of shape and way to sample'>"
-        f"<table class='heat' id='heat-{rating.division.name}'><thead><tr><th scope='col'>Method</th>{head}</tr></thead><tbody>{rows}</tbody></table></div>"
+    said = (
+        "Median L2 error in %, by kind of shape and by way to sample the points; below each its number of cases. The stronger the "
+        f"colour, the further behind the best of the column, which is marked with •.{links}"
     )
+    table = _heat_table(f"heat-{rating.division.name}", head, rows)
+    return f"<p class='muted'>{said}</p>{scroll('Errors by kind of shape and way to sample', table)}"
+
+
+def _heat_table(identity: str, heads: str, rows: str) -> str:
+    head = f"<thead><tr><th scope='col'>Method</th>{heads}</tr></thead>"
+    return f"<table class='heat' id='{identity}'>{head}<tbody>{rows}</tbody></table>"
 
 
 def _heat_cell(part: Part, place: int, name: str, key: str, series: Series, report: str) -> str:
@@ -105,9 +111,9 @@ def _wins(rating: Rating) -> str:
                 else "<td></td>"
             )
         rows += f"<tr><th scope='row'>{name}</th>{cells}</tr>"
-    return (
-        f"<details><summary>Who beats whom</summary><p class='muted'>On which share of the cases, in %, the method of the row beats that of the "
-        f"column; small: on which they are tied ({TIE_WORDS}). The stronger the colour, the more it loses.</p><div class='scroll' tabindex='0' role='region' aria-label='Who beats whom'>"
-        f"<table class='heat' id='wins-{rating.division.name}'><thead><tr><th scope='col'>Method</th>{head}</tr></thead>"
-        f"<tbody>{rows}</tbody></table></div></details>"
+    said = (
+        "On which share of the cases, in %, the method of the row beats that of the column; small: on which they are tied "
+        f"({TIE_WORDS}). The stronger the colour, the more it loses."
     )
+    table = scroll("Who beats whom", _heat_table(f"wins-{rating.division.name}", head, rows))
+    return details("Who beats whom", f"<p class='muted'>{said}</p>{table}")

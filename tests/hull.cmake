@@ -21,6 +21,7 @@ hullbench_test(test_points_command SOURCES test_points_command.cpp
 target_compile_definitions(test_points_command PRIVATE HULLBENCH="$<TARGET_FILE:hullbench>")
 add_dependencies(test_points_command hullbench)
 
+hullbench_test(test_shard_file SOURCES test_shard_file.cpp LIBRARIES polylidar::tool LABELS hull)
 hullbench_test(test_simplify SOURCES test_simplify.cpp LIBRARIES polylidar::tool hullbench::metrics LABELS hull)
 
 hullbench_test(test_las_points SOURCES test_las_points.cpp LIBRARIES polylidar::tool LABELS hull)
@@ -53,6 +54,6 @@ if(POLYLIDAR_WITH_GDAL)
   target_compile_definitions(test_footprint_command PRIVATE HAS_GDAL)
 endif()
 
-foreach(test point_files simplify las_points crs group_hulls)
+foreach(test point_files shard_file simplify las_points crs group_hulls)
   target_include_directories(test_${test} PRIVATE "${PROJECT_SOURCE_DIR}")
 endforeach()

@@ -98,11 +98,9 @@ def summary_row(row: dict[str, Any]) -> dict[str, Any]:
         told = {
             "repetitions": len(times),
             "median_ns": middle,
-            "median_low_ns": min(times),
-            "median_high_ns": max(times),
+            **dict.fromkeys(("median_low_ns", "min_ns"), min(times)),
+            **dict.fromkeys(("median_high_ns", "max_ns"), max(times)),
             "mad_ns": statistics.median(abs(time - middle) for time in times),
-            "min_ns": min(times),
-            "max_ns": max(times),
             "mean_ns": statistics.mean(times),
             "std_ns": None,
         }
@@ -213,21 +211,18 @@ def pictures(rows: list[dict[str, Any]]) -> list[dict[str, Any]]:
 
 def core() -> dict[str, Any]:
     """As Google Benchmark writes it, with an aggregate and a failed benchmark among the entries."""
+
+    def entry(name: str, kind: str, **more: Any) -> dict[str, Any]:
+        return {"run_name": name, "run_type": kind, "time_unit": "us", **more}
+
     entries = []
     for name, factor in (("concave_hull", 100), ("triangulation", 80), ("cgal_alpha_shape", 1500)):
         for n in (1000, 100_000):
-            for repetition in (0.9, 1.0, 1.3):
-                entries.append(
-                    {
-                        "run_name": f"{name}/uniform/{n}",
-                        "run_type": "iteration",
-                        "time_unit": "us",
-                        "real_time": factor * repetition * n / 1000,
-                    }
-                )
-            entries.append({"run_name": f"{name}/uniform/{n}", "run_type": "aggregate", "time_unit": "us", "real_time": 1e9})
+            times = [factor * repetition * n / 1000 for repetition in (0.9, 1.0, 1.3)]
+            entries += [entry(f"{name}/uniform/{n}", "iteration", real_time=time) for time in times]
+            entries.append(entry(f"{name}/uniform/{n}", "aggregate", real_time=1e9))
     entries.append({"run_name": "concave_hull/uniform/7000", "run_type": "iteration", "error_occurred": True})
-    entries.append({"run_name": "concave_hull/rgbd/1000", "run_type": "iteration", "time_unit": "us", "real_time": 1.0})
+    entries.append(entry("concave_hull/rgbd/1000", "iteration", real_time=1.0))
     return {"context": {}, "benchmarks": entries}
 
 
@@ -336,6 +331,17 @@ def suite() -> dict[str, dict[str, Any]]:
     )
 
 
+def write_report(folder: Path, document: dict[str, Any]) -> Path:
+    """As report.json into the folder, which is made."""
+    folder.mkdir(parents=True, exist_ok=True)
+    (folder / "report.json").write_text(json.dumps(document), encoding="utf-8")
+    return folder
+
+
+def json_lines(lines: list[dict[str, Any]]) -> str:
+    return "".join(json.dumps(line) + "\n" for line in lines)
+
+
 def write_suite(folder: Path, reports: dict[str, dict[str, Any]] | None = None) -> Path:
     """The suite with pictures; those of the alphabet are compressed."""
     reports = suite() if reports is None else reports
@@ -347,13 +353,11 @@ def write_suite(folder: Path, reports: dict[str, dict[str, Any]] | None = None) 
     with lzma.open(folder / "tune.json.xz", "wt", encoding="utf-8") as file:
         json.dump(tune(), file)
     for name, document in reports.items():
-        (folder / name).mkdir()
-        (folder / name / "report.json").write_text(json.dumps(document), encoding="utf-8")
+        place = write_report(folder / name, document)
         ok = [row for row in document["runs"] if row["status"] == "ok" and row["n"] != 2000 or name == "alphabet"]
-        lines = pictures([row for row in ok if row["status"] == "ok"][: 40 if name == "random" else None])
-        text = "".join(json.dumps(line) + "\n" for line in lines)
+        text = json_lines(pictures([row for row in ok if row["status"] == "ok"][: 40 if name == "random" else None]))
         if name == "alphabet":
-            (folder / name / "pictures.jsonl.xz").write_bytes(lzma.compress(text.encode()))
+            (place / "pictures.jsonl.xz").write_bytes(lzma.compress(text.encode()))
         else:
-            (folder / name / "pictures.jsonl").write_text(text, encoding="utf-8")
+            (place / "pictures.jsonl").write_text(text, encoding="utf-8")
     return folder

@@ -82,6 +82,13 @@ std::string npy_of(const Points& points, const std::string& type, bool fortran_o
              version);
 }
 
+/// Nothing but the coordinates.
+inline std::string raw_of(const Points& points) {
+  std::string text;
+  for (const auto& p : points) text += bytes_of(p.x) + bytes_of(p.y);
+  return text;
+}
+
 /// PLY with an element and a list before the vertices, a property between x and y, and faces behind them.
 inline std::string ply(const Points& points, const std::string& format, bool list_in_vertex) {
   std::string text =

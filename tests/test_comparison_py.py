@@ -2,27 +2,22 @@
 
 from __future__ import annotations
 
-import contextlib
 import copy
-import io
 import json
 import re
 import statistics
-import sys
-import tempfile
 import unittest
 from pathlib import Path
 from typing import Any
 from unittest import mock
 
-PLOTS = Path(__file__).parent.parent / "plots"
-sys.path[:0] = [str(PLOTS), str(Path(__file__).parent)]
+import plot_samples
+from plot_tests import WithFolder, call  # first, for what is in plots/
 
-import make_comparison  # noqa: E402
-import plot_samples  # noqa: E402
-from comparison_data import both_charts, columns, compare, read_compared  # noqa: E402
-from comparison_html import differences_html, headline, verdict_html  # noqa: E402
-from records import load  # noqa: E402
+import make_comparison
+from comparison_data import both_charts, columns, compare, read_compared
+from comparison_html import differences_html, headline, verdict_html
+from records import load
 
 METHODS = ("polylidar", "cgal_alpha_shape")
 SIZES = (2000, 4000)
@@ -63,36 +58,22 @@ def line(a: dict[str, Any], b: dict[str, Any], change: str = "not told apart") -
 
 
 def told(pairs: list[dict[str, Any]], **more: Any) -> dict[str, Any]:
-    methods = [
-        {
-            "method": method,
-            "protocol": "paper",
-            "pairs": 2,
-            "ratio": 1.3,
-            "ratio_low": 1.2,
-            "ratio_high": 1.4,
-            "faster": 0,
-            "slower": 1,
-        }
-        for method in dict.fromkeys(pair["name"].split("/")[0] for pair in pairs)
-    ]
+    about = {"protocol": "paper", "pairs": 2, "ratio": 1.3, "ratio_low": 1.2, "ratio_high": 1.4, "faster": 0, "slower": 1}
+    methods = [{"method": name, **about} for name in dict.fromkeys(pair["name"].split("/")[0] for pair in pairs)]
     return {"a": "A", "b": "B", "methods": methods, "pairs": pairs, "only_a": [], "only_b": [], "notes": ["a note"], **more}
 
 
-class Comparisons(unittest.TestCase):
+class Comparisons(WithFolder):
     def setUp(self) -> None:
-        self._temporary = tempfile.TemporaryDirectory()
-        self.addCleanup(self._temporary.cleanup)
-        self.folder = Path(self._temporary.name)
+        super().setUp()
         self.a, self.b = report(), report(scale=1.3)
 
     def write(self, name: str, *reports: dict[str, Any]) -> Path:
         """A run's folder, or a suite's with several reports."""
         for one in reports:
             folder = self.folder / name / (one["plan"]["name"] if len(reports) > 1 else "")
-            folder.mkdir(parents=True, exist_ok=True)
             one["summary"]["rows"] = plot_samples.judged(one["runs"])
-            (folder / "report.json").write_text(json.dumps(one), encoding="utf-8")
+            plot_samples.write_report(folder, one)
         return self.folder / name
 
     def write_told(self, value: Any) -> Path:
@@ -109,19 +90,10 @@ class Comparisons(unittest.TestCase):
 
     def program(self, value: Any) -> tuple[int, str, str]:
         """Exit code, page and what was said."""
-        out, said = self.folder / "page.html", io.StringIO()
-        with contextlib.redirect_stderr(said), contextlib.redirect_stdout(said):
-            code = make_comparison.main(
-                [
-                    str(self.write("a", self.a)),
-                    str(self.write("b", self.b)),
-                    "--compared",
-                    str(self.write_told(value)),
-                    "--out",
-                    str(out),
-                ]
-            )
-        return code, out.read_text(encoding="utf-8") if out.is_file() else "", said.getvalue()
+        out = self.folder / "page.html"
+        a, b = self.write("a", self.a), self.write("b", self.b)
+        code, *said = call(make_comparison.main, a, b, "--compared", self.write_told(value), "--out", out)
+        return code, out.read_text(encoding="utf-8") if out.is_file() else "", "".join(said)
 
     # The pairs and their numbers.
 
@@ -309,10 +281,9 @@ class Comparisons(unittest.TestCase):
             ([a, self.folder / "none", "--compared", compared], "is not a folder"),
             ([a, a, "--compared", self.folder / "none.json"], "hullbench compare A B --format json"),
         ):
-            said = io.StringIO()
-            with contextlib.redirect_stderr(said):
-                self.assertEqual(make_comparison.main([str(one) for one in arguments]), 2)
-            self.assertIn(reason, said.getvalue())
+            code, _, said = call(make_comparison.main, *arguments)
+            self.assertEqual(code, 2)
+            self.assertIn(reason, said)
 
     def test_malformed_records_are_refused(self) -> None:
         self.a["environment"]["load_average"] = 3

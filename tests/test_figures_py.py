@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import contextlib
-import io
 import json
 import os
 import statistics
@@ -15,41 +13,24 @@ from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
-PLOTS = Path(__file__).parent.parent / "plots"
-sys.path[:0] = [str(PLOTS), str(Path(__file__).parent)]
+import matplotlib.colors
+import plot_samples
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from matplotlib.lines import Line2D
+from matplotlib.text import Text
+from plot_tests import PLOTS, call  # first, for what is in plots/
 
-import matplotlib.colors  # noqa: E402
-import plot_samples  # noqa: E402
-from matplotlib.axes import Axes  # noqa: E402
-from matplotlib.figure import Figure  # noqa: E402
-from matplotlib.lines import Line2D  # noqa: E402
-from matplotlib.text import Text  # noqa: E402
-
-import make_figures  # noqa: E402
-import maps  # noqa: E402
-import ratings  # noqa: E402
-from figures import (  # noqa: E402
-    alphabet,
-    choosing,
-    core,
-    examples,
-    hulls,
-    profiles,
-    random_polygons,
-    ratings as ratings_figure,
-    real,
-    rgbd,
-    sensitivity,
-    shapes,
-    solved,
-    states,
-    steps,
-    summary,
-)
-from labels import place_labels  # noqa: E402
-from records import Row, load  # noqa: E402
-from run import Drawn, Run, Skipped, read_paper  # noqa: E402
-from style import in_order, method_style  # noqa: E402
+import make_figures
+import maps
+import ratings
+from figures import alphabet, choosing, core, examples, hulls, profiles, random_polygons
+from figures import ratings as ratings_figure
+from figures import real, rgbd, sensitivity, shapes, solved, states, steps, summary
+from labels import place_labels
+from records import Row, load
+from run import Drawn, Run, Skipped, read_paper
+from style import in_order, method_style
 
 LOOKS = json.loads((PLOTS / "methods.json").read_text(encoding="utf-8"))
 
@@ -59,18 +40,13 @@ def lines_by_label(axes: Axes) -> dict[str, Line2D]:
 
 
 def texts(figure: Figure) -> str:
-    found = []
-    for artist in figure.findobj(Text):
-        found.append(artist.get_text())
-    return "\n".join(found)
+    return "\n".join(artist.get_text() for artist in figure.findobj(Text))
 
 
 class WithSuite(unittest.TestCase):
     @classmethod
     def setUpClass(cls) -> None:
-        cls.temporary = tempfile.TemporaryDirectory()
-        cls.addClassCleanup(cls.temporary.cleanup)
-        cls.base = Path(cls.temporary.name)
+        cls.base = Path(cls.enterClassContext(tempfile.TemporaryDirectory()))
         cls.folder = plot_samples.write_suite(cls.base / "suite")
         cls.run_ = Run(cls.folder, load(cls.folder), read_paper())
 
@@ -177,13 +153,13 @@ class Data(WithSuite):
 
     def test_sensitivity_is_that_of_the_search(self) -> None:
         lengths, octaves, below = self.draw(sensitivity)["sensitivity"].figure.axes
-        self.assertEqual(
-            [(list(line.get_xdata()), list(line.get_ydata())) for line in lengths.get_lines()], [([1, 2, 4], [3, 1.1, 2])]
-        )  # an error above the axis is left out, and so is a failure
-        self.assertEqual(
-            [(list(line.get_xdata()), list(line.get_ydata())) for line in octaves.get_lines()],
-            [([0.5, 1, 2], [3, 1.1, 2]), ([0.5, 1, 2], [2, 1.2, 1.5])],
-        )
+
+        def curves(axes: Axes) -> list[tuple[list[float], list[float]]]:
+            return [(list(line.get_xdata()), list(line.get_ydata())) for line in axes.get_lines()]
+
+        # An error above the axis is left out, and so is a failure.
+        self.assertEqual(curves(lengths), [([1, 2, 4], [3, 1.1, 2])])
+        self.assertEqual(curves(octaves), [([0.5, 1, 2], [3, 1.1, 2]), ([0.5, 1, 2], [2, 1.2, 1.5])])
         self.assertEqual(
             [text.get_text() for text in below.get_legend().get_texts()], ["Polylidar, 1.2 octaves", "SpatiaLite, 1.2 octaves"]
         )
@@ -210,11 +186,8 @@ class Data(WithSuite):
         one = self.draw(solved)["solved"]
         found = ratings.divisions(self.run_.results(timed=True))
         for axes, division in zip(one.figure.axes, found):
-            ends = {
-                line.get_label(): (line.get_xdata()[0], line.get_ydata()[0])
-                for line in axes.get_lines()
-                if len(line.get_xdata()) == 1
-            }
+            marks = [line for line in axes.get_lines() if len(line.get_xdata()) == 1]
+            ends = {line.get_label(): (line.get_xdata()[0], line.get_ydata()[0]) for line in marks}
             curves = ratings.solved_against_time(division)
             self.assertEqual(ends, {f"_{series.key}": (x[-1], 100 * y[-1]) for series, (x, y) in curves.items()})
         self.assertIn("51 targets a case", one.caption)
@@ -330,7 +303,7 @@ class Honesty(WithSuite):
             self.assertIn(words, legend)
 
     def test_a_figure_without_data_is_skipped_with_a_reason(self) -> None:
-        code, out, _ = self._run(self.folder / "steps", "--out", self.base / "only_steps")
+        code, out, _ = call(make_figures.main, self.folder / "steps", "--out", self.base / "only_steps")
         self.assertEqual(code, 0)
         for name in ("alphabet", "random_polygons", "rgbd", "core"):
             self.assertRegex(out, rf"(?m)^{name}: skipped, .+$")
@@ -346,7 +319,7 @@ class Honesty(WithSuite):
         folder = plot_samples.write_suite(self.base / "failed", reports)
         for name in ("core.json", "league.json", "cases.csv", "tune.json.xz"):
             (folder / name).unlink()
-        code, _, err = self._run(folder)
+        code, _, err = call(make_figures.main, folder)
         self.assertEqual(code, 6)
         self.assertEqual(len(err.splitlines()), 1)
 
@@ -360,10 +333,10 @@ class Honesty(WithSuite):
         ):
             for text in ("{", "{}", "[]", '{"profiles": [{}], "methods": [{}]}'):
                 (folder / name).write_text(text, encoding="utf-8")
-                code, _, err = self._run(folder, "--only", figure)
+                code, _, err = call(make_figures.main, folder, "--only", figure)
                 self.assertEqual((code, len(err.splitlines())), (2, 1), err)
             (folder / name).unlink()
-        code, out, _ = self._run(folder, "--only", "profiles")
+        code, out, _ = call(make_figures.main, folder, "--only", "profiles")
         self.assertEqual(code, 6)
         self.assertIn("profiles: skipped", out)
 
@@ -371,14 +344,8 @@ class Honesty(WithSuite):
         folder = plot_samples.write_suite(self.base / "broken", {"steps": plot_samples.suite()["steps"]})
         for text in ("{", "{}", '{"benchmarks": [{"run_name": "concave_hull/uniform/x"}]}', "[]"):
             (folder / "core.json").write_text(text, encoding="utf-8")
-            code, _, err = self._run(folder, "--only", "core")
+            code, _, err = call(make_figures.main, folder, "--only", "core")
             self.assertEqual((code, len(err.splitlines())), (2, 1), err)
-
-    def _run(self, *arguments: object) -> tuple[int, str, str]:
-        out, err = io.StringIO(), io.StringIO()
-        with contextlib.redirect_stdout(out), contextlib.redirect_stderr(err):
-            code = make_figures.main([str(one) for one in arguments])
-        return code, out.getvalue(), err.getvalue()
 
 
 class Style(WithSuite):
@@ -407,19 +374,12 @@ class Style(WithSuite):
         plans = [plan for plan in sorted((PLOTS.parent / "benchmarks" / "plans").glob("*.json")) if ".schema." not in plan.name]
         self.assertTrue(plans)
         for plan in plans:
-            for entry in json.loads(plan.read_text(encoding="utf-8"))["methods"]:
+            for entry in json.loads(plan.read_text(encoding="utf-8")).get("methods", []):
                 self.assertIn(entry["method"], LOOKS["methods"], plan.name)
 
     def test_the_papers_methods_come_first(self) -> None:
-        series = in_order(
-            [
-                ("zebra", "paper"),
-                ("geos_concave_hull", "auto"),
-                ("geos_concave_hull", "paper"),
-                ("polylidar", "paper"),
-                ("polylidar", "paper"),
-            ]
-        )
+        geos = [("geos_concave_hull", "auto"), ("geos_concave_hull", "paper")]
+        series = in_order([("zebra", "paper"), *geos, *[("polylidar", "paper")] * 2])
         self.assertEqual([one[0] for one in series], ["polylidar", "geos_concave_hull", "geos_concave_hull", "zebra"])
         self.assertEqual(series[1][1], "paper")
 
@@ -435,51 +395,18 @@ class Files(WithSuite):
         made = []
         for seed in ("1", "2"):
             out = self.base / f"figures{seed}"
-            result = subprocess.run(
-                [
-                    sys.executable,
-                    "-B",
-                    "-W",
-                    "error::UserWarning",
-                    str(PLOTS / "make_figures.py"),
-                    str(self.folder),
-                    "--out",
-                    str(out),
-                ],
-                capture_output=True,
-                text=True,
-                check=False,
-                env={**os.environ, "PYTHONHASHSEED": seed},
-            )
+            command = [sys.executable, "-B", "-W", "error::UserWarning", PLOTS / "make_figures.py", self.folder, "--out", out]
+            environment = {**os.environ, "PYTHONHASHSEED": seed}
+            result = subprocess.run(command, capture_output=True, text=True, check=False, env=environment)
             self.assertEqual((result.returncode, result.stderr), (0, ""))
             made.append({path.name: path.read_bytes() for path in sorted(out.iterdir())})
         self.assertEqual(list(made[0]), list(made[1]))
         self.assertEqual([name for name in made[0] if made[0][name] != made[1][name]], [])
-        names = [
-            "alphabet",
-            "choosing",
-            "convex_and_concave",
-            "convexity",
-            "core",
-            "hulls_ca",
-            "hulls_hi",
-            "parts_blind",
-            "parts_informed",
-            "profiles",
-            "random_polygons",
-            "ratings_blind",
-            "ratings_informed",
-            "rgbd",
-            "sensitivity",
-            "shapes",
-            "solved",
-            "states_ca",
-            "states_hi",
-            "steps",
-            "summary",
-            "wins_blind",
-            "wins_informed",
-        ]
+        names = (
+            "alphabet choosing convex_and_concave convexity core hulls_ca hulls_hi parts_blind parts_informed "
+            "profiles random_polygons ratings_blind ratings_informed rgbd sensitivity shapes solved states_ca "
+            "states_hi steps summary wins_blind wins_informed"
+        ).split()
         self.assertEqual(set(made[0]), {"figures.md", *(f"{name}.{kind}" for name in names for kind in ("svg", "pdf", "png"))})
         listed = made[0]["figures.md"].decode()
         for name in names:

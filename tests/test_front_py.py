@@ -4,26 +4,21 @@ from __future__ import annotations
 
 import math
 import re
-import sys
-import tempfile
 import unittest
-from pathlib import Path
 
 import numpy as np
 
-PLOTS = Path(__file__).resolve().parent.parent / "plots"
-sys.path[:0] = [str(PLOTS), str(Path(__file__).parent)]
+import plot_samples
+from plot_tests import WithFolder  # first, for what is in plots/
+from test_ratings_py import INF, case, rated, results
 
-import plot_samples  # noqa: E402
-from test_ratings_py import INF, case, rated, results  # noqa: E402
-
-import front  # noqa: E402
-import front_charts  # noqa: E402
-import ratings  # noqa: E402
-import strip  # noqa: E402
-import svg  # noqa: E402
-import where  # noqa: E402
-from records import RecordError, load  # noqa: E402
+import front
+import front_charts
+import ratings
+import strip
+import svg
+import where
+from records import RecordError, load
 
 
 def words(html: str) -> str:
@@ -57,12 +52,11 @@ class Sentence(unittest.TestCase):
         self.assertNotIn("first on", self.said({"a": [1.0] * 3, "b": [2.0] * 3}))
 
 
-class Folder(unittest.TestCase):
+class Folder(WithFolder):
     def make(self, **files: str) -> front.Front:
-        with tempfile.TemporaryDirectory() as folder:
-            for name, content in files.items():
-                (Path(folder) / f"{name}.csv").write_text(content, encoding="utf-8")
-            return front.make_front(Path(folder))
+        for name, content in files.items():
+            (self.folder / f"{name}.csv").write_text(content, encoding="utf-8")
+        return front.make_front(self.folder)
 
     def csv(self, *methods: str) -> str:
         head = ",".join(ratings.COLUMNS) + "\n"
@@ -177,15 +171,13 @@ class HeatMap(unittest.TestCase):
         self.assertEqual(re.findall(r"<td[^>]*>(.*?)</td>", table), ["", "50<small>25</small>", "25<small>25</small>", ""])
 
 
-class Strip(unittest.TestCase):
+class Strip(WithFolder):
     def test_six_cases_or_what_is_missing(self) -> None:
-        with tempfile.TemporaryDirectory() as name:
-            folder = plot_samples.write_suite(Path(name) / "suite")
-            made = front.make_front(folder)
-            informed = next(one for one in made.ratings if one.division.name == "informed")
-            html = strip.strip_html(load(folder), informed)
-            leader = informed.standings[0].series
-            experiments = load(folder)
+        plot_samples.write_suite(self.folder)
+        informed = next(one for one in front.make_front(self.folder).ratings if one.division.name == "informed")
+        experiments = load(self.folder)
+        html = strip.strip_html(experiments, informed)
+        leader = informed.standings[0].series
         rows = {row.name: row for experiment in experiments for row in experiment.rows if row.series == leader}
         cards = dict((what, run) for run, what in re.findall(r"data-run='([^']+)'.*?<b>([^<]+)</b>", html))
         self.assertLess(rows[cards["Best"]].metric("l2"), rows[cards["Median"]].metric("l2"))

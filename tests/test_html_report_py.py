@@ -1,26 +1,20 @@
 """The HTML report: what is packed, the summary's numbers beside the records, escaping, and input that is no run."""
 
 import base64
-import contextlib
 import gzip
 import hashlib
-import html.parser
-import io
 import json
 import os
 import re
 import subprocess
-import sys
-import tempfile
 import unittest
 import unittest.mock
-from pathlib import Path
 
-sys.path[:0] = [str(Path(__file__).parent.parent / "plots"), str(Path(__file__).parent)]
+import plot_samples
+from plot_tests import Elements, WithFolder, call  # first, for what is in plots/
 
 import make_report
 import page
-import plot_samples
 import report_data
 from records import load
 from report_common import number
@@ -53,21 +47,17 @@ def document(title, identity, notes=()):
     return {"title": title, "tables": [table], "notes": list(notes)}
 
 
-class Folder(unittest.TestCase):
+class Folder(WithFolder):
     """A test with a folder for a run."""
 
     def setUp(self):
-        holder = tempfile.TemporaryDirectory()
-        self.addCleanup(holder.cleanup)
-        self.folder = Path(holder.name)
+        super().setUp()
         library = self.folder / "library.js"
         library.write_text("/* licence */ window.echarts = {};", encoding="utf-8")
-        before = page.LIBRARY
-        page.LIBRARY = library
-        self.addCleanup(setattr, page, "LIBRARY", before)
+        self.enterContext(unittest.mock.patch.object(page, "LIBRARY", library))
 
     def load(self, *rows, **more):
-        (self.folder / "report.json").write_text(json.dumps(report(list(rows), **more)), encoding="utf-8")
+        plot_samples.write_report(self.folder, report(list(rows), **more))
         return load(self.folder)
 
     def write_tables(self, *documents):
@@ -80,13 +70,6 @@ class Folder(unittest.TestCase):
 
     def standing(self, summary, method, protocol="paper"):
         return next(one for one in summary.standings if one.series == (method, protocol))
-
-    def make(self, *arguments):
-        """(exit code, standard output, standard error) of the program."""
-        out, err = io.StringIO(), io.StringIO()
-        with contextlib.redirect_stdout(out), contextlib.redirect_stderr(err):
-            code = make_report.main([str(argument) for argument in arguments])
-        return code, out.getvalue(), err.getvalue()
 
 
 class Packing(Folder):
@@ -205,22 +188,11 @@ class Charts(Folder):
 
     def test_a_failure_is_infinitely_bad_in_a_class_of_convexity(self):
         def chart_with(failures):
-            rows = [
-                run(dataset=f"star-{k}", times=(k,), l2=k / 1000, hole_f1=0.9, ground_truth_convexity=0.7)
-                for k in range(1, 101)
-            ]
-            failed = [
-                run(
-                    method="cgal",
-                    dataset=f"star-{k}",
-                    status="timeout" if k <= failures else "ok",
-                    times=(k,),
-                    l2=k / 1000,
-                    hole_f1=0.9,
-                    ground_truth_convexity=0.7,
-                )
-                for k in range(1, 101)
-            ]
+            def star(k, **more):
+                return run(dataset=f"star-{k}", times=(k,), l2=k / 1000, hole_f1=0.9, ground_truth_convexity=0.7, **more)
+
+            rows = [star(k) for k in range(1, 101)]
+            failed = [star(k, method="cgal", status="timeout" if k <= failures else "ok") for k in range(1, 101)]
             [experiment] = self.load(*rows, *failed)
             experiment.report["metrics"] = [
                 {"name": "l2", "better": "lower", "group": "area", "unit": "ratio"},
@@ -322,31 +294,16 @@ class TheSummary(Folder):
         self.assertEqual(self.standing(self.summary(core, cgal), "cgal").time.median, 3)
 
     def test_the_headline_is_read_from_the_report(self):
-        rival = {
-            "method": "cgal",
-            "protocol": "paper",
-            "same_polygons": True,
-            "cases": 4,
-            "failures": 1,
-            "median": 3.25,
-            "low": 3.0,
-            "high": None,
-            "least": 3.0,
-            "most": None,
-            "does_more": "It also sings.",
-        }
+        rival = {"method": "cgal", "protocol": "paper", "same_polygons": True, "does_more": "It also sings."}
+        rival |= {"cases": 4, "failures": 1, "median": 3.25, "low": 3.0, "high": None, "least": 3.0, "most": None}
         [experiment] = self.load(run(), run("cgal"))
         self.assertEqual(headline_sentences(summarise(experiment)), [])
-        experiment.report["summary"]["headline"] = {
-            "reference": {"method": "polylidar", "protocol": "paper"},
-            "rivals": [rival],
-        }
+        core = {"method": "polylidar", "protocol": "paper"}
+        experiment.report["summary"]["headline"] = {"reference": core, "rivals": [rival]}
         self.assertEqual(
-            headline_sentences(summarise(experiment)),
-            [
-                "Cgal (paper), the same polygons: 3.25 times the time of Polylidar (paper) (95 %: 3.00 to ∞), 4 cases, of which "
-                "it failed 1. It also sings."
-            ],
+            " ".join(headline_sentences(summarise(experiment))),
+            "Cgal (paper), the same polygons: 3.25 times the time of Polylidar (paper) (95 %: 3.00 to ∞), 4 cases, of which "
+            "it failed 1. It also sings.",
         )
         rival["same_polygons"] = False
         self.assertIn("no other method gives the same polygons", headline_sentences(summarise(experiment))[0])
@@ -446,32 +403,6 @@ class TheSummary(Folder):
         )
 
 
-class Elements(html.parser.HTMLParser):
-    """The elements of a page as a browser sees them, with the texts of its scripts."""
-
-    def __init__(self, page):
-        super().__init__()
-        self.tags, self.scripts, self.policy, self.inside = [], [], "", False
-        self.feed(page)
-
-    def handle_starttag(self, tag, attributes):
-        told = dict(attributes)
-        self.tags.append(tag)
-        self.inside = tag == "script"
-        if self.inside:
-            self.scripts.append((told.get("id"), ""))
-        if tag == "meta" and told.get("http-equiv") == "Content-Security-Policy":
-            self.policy = told["content"]
-
-    def handle_endtag(self, tag):
-        self.inside = self.inside and tag != "script"
-
-    def handle_data(self, data):
-        if self.inside:
-            identity, before = self.scripts[-1]
-            self.scripts[-1] = identity, before + data
-
-
 class Page(Folder):
     def page(self, *rows, **more):
         return make_report.make_page(self.load(*rows, **more), self.folder)
@@ -484,29 +415,14 @@ class Page(Folder):
 
     def test_text_of_records_stays_text(self):
         evil = report([run(status="error", detail=EVIL, dataset="star-1"), run("cgal")], notes=[EVIL])
-        evil["plan"].update(
-            name=EVIL,
-            title=EVIL,
-            notes=[EVIL],
-            methods=[{"method": "cgal", "protocol": "paper", "note": EVIL, "parameters": {EVIL: {"rule": EVIL}}}],
-        )
+        chosen = {"method": "cgal", "protocol": "paper", "note": EVIL, "parameters": {EVIL: {"rule": EVIL}}}
+        evil["plan"].update(name=EVIL, title=EVIL, notes=[EVIL], methods=[chosen])
         evil["environment"].update(os=EVIL, libraries={EVIL: EVIL})
         for part in evil["methods"] + evil["datasets"]:
             part.update(title=EVIL, licence=EVIL)
-        evil["summary"]["claims"] = [
-            {
-                "id": EVIL,
-                "claim": EVIL,
-                "where": EVIL,
-                "paper": EVIL,
-                "ours": EVIL,
-                "value": 1,
-                "equal_work": EVIL,
-                "verdict": "larger",
-                "detail": EVIL,
-            }
-        ]
-        (self.folder / "report.json").write_text(json.dumps(evil), encoding="utf-8")
+        claim = dict.fromkeys(("id", "claim", "where", "paper", "ours", "equal_work", "detail"), EVIL)
+        evil["summary"]["claims"] = [{**claim, "value": 1, "verdict": "larger"}]
+        plot_samples.write_report(self.folder, evil)
         tables = document(EVIL, EVIL, [EVIL])
         tables["tables"][0].update(columns=[{"title": EVIL, "kind": "words"}], rows=[[{"text": EVIL}]], remarks=[EVIL])
         self.write_tables(tables)
@@ -573,14 +489,14 @@ class Page(Folder):
 class TheProgram(Folder):
     def test_it_writes_the_page_beside_the_records(self):
         self.load(run())
-        code, out, err = self.make(self.folder)
+        code, out, err = call(make_report.main, self.folder)
         self.assertEqual((code, err), (0, ""))
         self.assertIn("report.html", out)
         self.assertTrue((self.folder / "report.html").read_text(encoding="utf-8").startswith("<!doctype html>"))
 
     def refused(self, *arguments):
         """What it says, one sentence, when it ends with 2."""
-        code, out, err = self.make(*arguments)
+        code, out, err = call(make_report.main, *arguments)
         self.assertEqual((code, out), (2, ""))
         self.assertEqual(err.count("\n"), 1)
         self.assertTrue(err.startswith("make_report.py: "), err)
@@ -601,7 +517,7 @@ class TheProgram(Folder):
             broken = report([run()], **{part: value})
             if part == "seed":
                 del broken["runs"]
-            (self.folder / "report.json").write_text(json.dumps(broken), encoding="utf-8")
+            plot_samples.write_report(self.folder, broken)
             self.refused(self.folder)
 
     def test_a_missing_library_or_bundler_is_told_with_its_remedy(self):
@@ -614,7 +530,7 @@ class TheProgram(Folder):
     def test_a_fault_of_ours_is_not_the_users(self):
         self.load(run())
         with unittest.mock.patch.object(make_report, "charts", side_effect=KeyError("l2")), self.assertRaises(KeyError):
-            self.make(self.folder)
+            call(make_report.main, self.folder)
 
     def test_a_file_that_cannot_be_written_is_told(self):
         self.load(run())

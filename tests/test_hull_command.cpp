@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 #include <sys/stat.h>
 
+#include <algorithm>
 #include <cmath>
 #include <csignal>
 #include <filesystem>
@@ -15,6 +16,7 @@
 #include "adapters/wkb.hpp"
 #include "benchmarks/metrics/validity.hpp"
 #include "polylidar/concave_hull.hpp"
+#include "tests/las_file.hpp"
 #include "tests/point_file_texts.hpp"
 #include "tests/program.hpp"
 #include "tests/temporary_folder.hpp"
@@ -586,6 +588,8 @@ TEST_F(HullCommandTest, AStreamGivesTheSameFile) {
   const std::vector<std::vector<std::string>> inputs = {
       {file("double.npy", testing::npy_of<double>(points, "<f8"))},
       {file("double.npy", testing::npy_of<double>(points, "<f8")), "--window", "1,1,9,9.5"},
+      {file("double.f64", testing::raw_of(points))},
+      {file("double.bin", testing::raw_of(points)), "--input", "raw", "--window", "1,1,9,9.5"},
       {file("float.npy", testing::npy_of<float>(points, "<f4"))},
       {file("columns.csv", text), "--columns", "x,y"}};
   for (const std::vector<std::string>& input : inputs) {
@@ -618,6 +622,218 @@ TEST_F(HullCommandTest, AStreamSaysWhatItCannotDo) {
     all.emplace_back("--stream");
     expect_refusal(hull(all), 2, sentence);
   }
+}
+
+TEST_F(HullCommandTest, RawDoublesAreRead) {
+  const std::string first = hull({points_file(), "--alpha", "0.3"}).out;
+  for (const char* name : {"points.f64", "points.raw", "POINTS.F64"}) {
+    EXPECT_EQ(hull({file(name, testing::raw_of(points_)), "--alpha", "0.3"}).out, first) << name;
+  }
+  const std::string path = file("points.bin", testing::raw_of(points_));
+  EXPECT_EQ(hull({path, "--input", "raw", "--alpha", "0.3"}).out, first);
+  EXPECT_EQ(in_shell("cat '" + path + "' |", "- --input raw --alpha 0.3").out, first);
+  const std::string boxed = hull({points_file(), "--alpha", "0.3", "--window", "1,0,7,5.5"}).out;
+  EXPECT_EQ(hull({path, "--input", "raw", "--alpha", "0.3", "--window", "1,0,7,5.5"}).out, boxed);
+  ASSERT_EQ(testing::run_program({"gzip", "-k", file("packed.f64", testing::raw_of(points_))}).code, 0);
+  const Outcome unpacked = hull({(folder() / "packed.f64.gz").string(), "--alpha", "0.3"});
+  if (unpacked.err.find("without zlib") == std::string::npos) {
+    EXPECT_EQ(unpacked.out, first) << unpacked.err;
+  }
+
+  // Coordinates that begin as gzip, zip, LAS, UTF-8 and a comment do.
+  for (const std::string start : {"\x1F\x8B", "PK\x03\x04", "LASF", "\xEF\xBB\xBF", "# point"}) {
+    std::string bytes = testing::raw_of({{1, 2}, {3, 4}, {1, 5}});
+    bytes.replace(0, std::min<std::size_t>(start.size(), 6), start.substr(0, 6));
+    const Outcome outcome = hull({file("odd.raw", bytes), "--alpha", "9"});
+    EXPECT_EQ(outcome.code, 0) << outcome.err;
+    EXPECT_EQ(json::parse(outcome.out)["properties"]["points"], 3);
+  }
+  expect_refusal(hull({file("cut.f64", testing::raw_of(points_) + "abc")}), 2,
+                 "cut.f64: its size is no multiple of 16 bytes");
+  expect_refusal(in_shell("head -c 1000 '" + path + "' |", "- --input raw"), 2,
+                 "standard input: its size is no multiple of 16 bytes");
+  expect_refusal(hull({file("nan.f64", testing::raw_of({{1, 2}, {0.0 / 0.0, 1}}))}), 2,
+                 "point 2 has a coordinate that is not finite");
+}
+
+/// A square lattice with holes, and copies of a tenth of it behind: ties everywhere.
+Points lattice_with_copies() {
+  Points points;
+  for (int y = 0; y < 300; ++y) {
+    for (int x = 0; x < 290; ++x) {
+      if (std::hypot(x % 100 - 50, y % 90 - 40) > 17) points.push_back({x * 0.25 - 7, y * 0.25});
+    }
+  }
+  points.insert(points.end(), points.begin(), points.begin() + 8000);
+  return points;
+}
+
+class ShardTest : public HullCommandTest {
+ protected:
+  std::string part(std::size_t number, const std::string& of = "") const {
+    return (folder() / ("part" + of + "-" + std::to_string(number))).string();
+  }
+  /// `hull` with these arguments in so many shards, whose parts are named.
+  std::vector<std::string> parts(const std::vector<std::string>& arguments, std::size_t count,
+                                 const std::string& name = "", const char* program = POLYLIDAR) const {
+    std::vector<std::string> made;
+    for (std::size_t number = 1; number <= count; ++number) {
+      made.push_back(part(number, name));
+      std::vector<std::string> command = {program, "hull"};
+      command.insert(command.end(), arguments.begin(), arguments.end());
+      command.insert(command.end(),
+                     {"--stream", "--shard", std::to_string(number) + "/" + std::to_string(count), "--out",
+                      made.back()});
+      const Outcome outcome = testing::run_program(command);
+      EXPECT_EQ(outcome.code, 0) << outcome.err;
+      EXPECT_EQ(outcome.out, "");
+      EXPECT_NE(outcome.err.find(": shard " + std::to_string(number) + " of "), std::string::npos);
+    }
+    return made;
+  }
+  static Outcome merge(std::vector<std::string> arguments) {
+    arguments.insert(arguments.begin(), {POLYLIDAR, "merge"});
+    return testing::run_program(arguments);
+  }
+  std::vector<std::string> names_in_folder() const {
+    std::vector<std::string> names;
+    for (const auto& entry : fs::directory_iterator(folder()))
+      names.push_back(entry.path().filename().string());
+    std::sort(names.begin(), names.end());
+    return names;
+  }
+};
+
+TEST_F(ShardTest, ShardsGiveTheBytesOfOneRun) {
+  const Points uniform = many_points();
+  const Points lattice = lattice_with_copies();
+  testing::LasFile las;
+  for (const Point& p : uniform) {
+    las.points.push_back(
+        {.x = static_cast<std::int32_t>(p.x * 100), .y = static_cast<std::int32_t>(p.y * 100)});
+  }
+  const std::size_t half = lattice.size() / 2;
+  const Points head(lattice.begin(), lattice.begin() + static_cast<std::ptrdiff_t>(half));
+  const Points tail(lattice.begin() + static_cast<std::ptrdiff_t>(half), lattice.end());
+  const std::vector<std::vector<std::string>> inputs = {
+      {file("one.npy", testing::npy_of<double>(uniform, "<f8")), "--max-perimeter", "0.3"},
+      {file("one.f64", testing::raw_of(uniform)), "--alpha", "0.09", "--window", "1,1,9,9.5"},
+      {file("one.csv", testing::rows(uniform, ",")), "--max-edge-length", "0.2", "--crs", "EPSG:25832"},
+      {file("one.las", las.text()), "--max-perimeter", "0.3"},
+      {file("head.csv", testing::rows(head, " ")), file("tail.npy", testing::npy_of<double>(tail, "<f8")),
+       "--max-perimeter", "0.9"}};
+  for (std::size_t i = 0; i < inputs.size(); ++i) {
+    std::vector<std::string> arguments = inputs[i];
+    arguments.emplace_back("--stream");
+    const Outcome whole = hull(arguments);
+    ASSERT_EQ(whole.code, 0) << whole.err;
+    for (const std::size_t count : {1U, 2U, 3U, 7U}) {
+      std::vector<std::string> made = parts(inputs[i], count, "", count == 2 ? HULLBENCH : POLYLIDAR);
+      std::reverse(made.begin(), made.end());
+      const Outcome merged = merge(made);
+      EXPECT_EQ(merged.code, 0) << merged.err;
+      EXPECT_EQ(merged.out, whole.out) << inputs[i][0] << " in " << count << " shards";
+      EXPECT_EQ(merged.err, whole.err);
+    }
+  }
+  const std::vector<std::string> made = parts(inputs[0], 3);
+  for (const std::string format : {"wkt", "wkb"}) {
+    std::vector<std::string> arguments = inputs[0];
+    arguments.insert(arguments.end(), {"--stream", "--format", format});
+    std::vector<std::string> of_parts = made;
+    const std::string out = (folder() / ("merged." + format)).string();
+    of_parts.insert(of_parts.end(), {"--out", out, "--threads", "2"});
+    EXPECT_EQ(merge(of_parts).out, "");
+    EXPECT_EQ(read_text(out), hull(arguments).out);
+  }
+}
+
+TEST_F(ShardTest, SomeShardsAreEmpty) {
+  Points flat = many_points();
+  for (Point& p : flat) p.y *= 0.001;
+  const std::vector<std::string> arguments = {file("flat.npy", testing::npy_of<double>(flat, "<f8")),
+                                              "--alpha", "0.006"};
+  const std::vector<std::string> few = {file("few.csv", "0,0\n1,0\n0,1\n"), "--alpha", "9"};
+  for (const auto& input : {arguments, few}) {
+    std::vector<std::string> whole = input;
+    whole.emplace_back("--stream");
+    EXPECT_EQ(merge(parts(input, 25)).out, hull(whole).out);
+  }
+}
+
+TEST_F(ShardTest, ShardsSayWhatTheyCannotDo) {
+  const std::string npy = file("many.npy", testing::npy_of<double>(many_points(), "<f8"));
+  const std::vector<std::string> before = names_in_folder();
+  const std::string out = part(1);
+  for (const auto& [arguments, sentence] : std::vector<std::pair<std::vector<std::string>, std::string>>{
+           {{"--alpha", "1", "--shard", "1/2"}, "--shard is for what --stream reads"},
+           {{"--stream", "--shard", "1/2"}, "--stream needs a limit"},
+           {{"--alpha", "1", "--stream", "--shard", "3/2"}, "--shard '3/2' is no shard"},
+           {{"--alpha", "1", "--stream", "--shard", "0/2"}, "--shard '0/2' is no shard"},
+           {{"--alpha", "1", "--stream", "--shard", "1"}, "--shard '1' is no shard"},
+           {{"--alpha", "1", "--stream", "--shard", "1/99999999999"}, "is no shard"},
+           {{"--alpha", "1", "--stream", "--shard", "1/2", "--format", "wkt"}, "are for 'polylidar merge'"},
+           {{"--alpha", "1", "--stream", "--shard", "1/2", "--out-layer", "a"}, "are for 'polylidar merge'"},
+           {{"--alpha", "1", "--stream", "--shard", "1/2", "--simplify", "1"}, "--stream does not go with"},
+           {{"--alpha", "1e-9", "--stream", "--shard", "1/2"}, "the limit is too small for the distances"},
+           {{npy, "--alpha", "1"}, "several files are one set of points with --stream only"}}) {
+    std::vector<std::string> all = {npy, "--out", out};
+    all.insert(all.end(), arguments.begin(), arguments.end());
+    expect_refusal(hull(all), 2, sentence);
+  }
+  expect_refusal(
+      hull({npy, "--alpha", "1", "--stream", "--shard", "1/2", "--out", (folder() / "a.gpkg").string()}), 2,
+      "are for 'polylidar merge'");
+  EXPECT_EQ(names_in_folder(), before);
+  file("west.prj", R"(PROJCS["a",GEOGCS["b"],AUTHORITY["EPSG","25832"]])");
+  file("east.prj", R"(PROJCS["a",GEOGCS["b"],AUTHORITY["EPSG","25833"]])");
+  const std::vector<std::string> tiles = {file("west.csv", "0,0\n"), file("east.csv", "1,1\n"), "--alpha",
+                                          "1", "--stream"};
+  expect_refusal(hull(tiles), 2, "the files have different coordinate systems");
+}
+
+TEST_F(ShardTest, MergeSaysWhatDoesNotFitTogether) {
+  Points points = many_points();
+  const std::string npy = file("many.npy", testing::npy_of<double>(points, "<f8"));
+  const std::vector<std::string> made = parts({npy, "--alpha", "0.09"}, 3);
+  const std::vector<std::string> wider = parts({npy, "--alpha", "0.1"}, 3, "-wider");
+  const std::vector<std::string> halves = parts({npy, "--alpha", "0.09"}, 2, "-half");
+  const std::vector<std::string> elsewhere =
+      parts({npy, "--alpha", "0.09", "--crs", "EPSG:25832"}, 3, "-crs");
+  points[500].x += 0.001;
+  file("many.npy", testing::npy_of<double>(points, "<f8"));
+  const std::vector<std::string> changed = parts({npy, "--alpha", "0.09"}, 3, "-changed");
+  const std::string bytes = read_text(made[2]);
+  const std::string cut = file("cut", bytes.substr(0, bytes.size() / 2));
+  std::string flipped = bytes;
+  flipped[bytes.size() / 2] = static_cast<char>(~flipped[bytes.size() / 2]);
+  std::string newer = bytes;
+  newer[8] = 2;
+  const std::vector<std::string> before = names_in_folder();
+  const std::string out = (folder() / "merged.geojson").string();
+  for (const auto& [arguments, sentence] : std::vector<std::pair<std::vector<std::string>, std::string>>{
+           {{made[0], made[2]}, "shard 2 of 3 is missing"},
+           {{made[0], made[1], made[1]}, "shard 2 of 3 is there twice"},
+           {{made[0], made[1], made[2], made[2]}, "shard 3 of 3 is there twice"},
+           {{made[0], wider[1], made[2]}, "were made with different limits or options"},
+           {{made[0], halves[1], made[2]}, "shard 1 of 3 and shard 2 of 2 do not belong together"},
+           {{made[0], made[1], changed[2]},
+            "are of different points, or of a source that changed in between"},
+           {{made[0], made[1], elsewhere[2]}, "its coordinate system is not that of"},
+           {{made[0], made[1], cut}, "cut: it is cut short"},
+           {{made[0], made[1], file("flipped", flipped)}, "flipped: it is damaged"},
+           {{made[0], made[1], file("newer", newer)}, "newer: it is a part of version 2"},
+           {{made[0], made[1], npy}, "many.npy: it is no part of a hull"},
+           {{made[0], made[1], (folder() / "nowhere").string()}, "nowhere"}}) {
+    std::vector<std::string> all = arguments;
+    all.insert(all.end(), {"--out", out});
+    expect_refusal(merge(all), 2, sentence);
+  }
+  expect_refusal(merge({made[0], "--format", "svg"}), 2, "'svg' is no format");
+  expect_refusal(merge({made[0], "--out", (folder() / "a.svg").string()}), 2, "svg shows all points");
+  expect_refusal(merge({}), 2, "PART is required");
+  EXPECT_FALSE(fs::exists(out));
+  EXPECT_EQ(names_in_folder().size(), before.size() + 2) << "the files of this table, and no other";
 }
 
 // 320 MB of points in 200 MB of memory, in which they could not be triangulated.

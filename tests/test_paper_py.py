@@ -2,56 +2,41 @@
 
 from __future__ import annotations
 
-import contextlib
-import io
 import os
 import shutil
-import sys
 import tempfile
 import unittest
 from pathlib import Path
 from unittest import mock
 
-PLOTS = Path(__file__).resolve().parent.parent / "plots"
-sys.path[:0] = [str(PLOTS), str(Path(__file__).parent)]
+import plot_samples
+from plot_tests import call  # first, for what is in plots/
 
-import plot_samples  # noqa: E402
-
-import make_paper  # noqa: E402
-from records import load  # noqa: E402
-from run import Drawn  # noqa: E402
-from style import FULL_WIDTH, ONE_COLUMN, new_figure  # noqa: E402
+import make_paper
+from records import load
+from run import Drawn
+from style import FULL_WIDTH, ONE_COLUMN, new_figure
 
 TABULAR = r"\begin{tabular}{lr}\toprule Method & ms \\ \midrule Polylidar & 1 \\ \bottomrule\end{tabular}"
 
 
 def table(columns: int) -> dict:
-    cell = {"text": "1"}
-    return {
-        "id": "t",
-        "caption": "Times of 100 %",
-        "columns": [{}] * columns,
-        "rows": [[cell] * columns],
-        "remarks": ["Slow & sure."],
-    }
+    cells = {"columns": [{}] * columns, "rows": [[{"text": "1"}] * columns]}
+    return {"id": "t", "caption": "Times of 100 %", "remarks": ["Slow & sure."], **cells}
 
 
 class Paper(unittest.TestCase):
     @classmethod
     def setUpClass(cls) -> None:
-        temporary = tempfile.TemporaryDirectory()
-        cls.addClassCleanup(temporary.cleanup)
-        cls.folder = plot_samples.write_suite(Path(temporary.name) / "suite", {"steps": plot_samples.suite()["steps"]})
+        cls.folder = Path(cls.enterClassContext(tempfile.TemporaryDirectory()))
+        plot_samples.write_suite(cls.folder, {"steps": plot_samples.suite()["steps"]})
         cls.experiments = load(cls.folder)
 
     def run_it(self, **environment: str) -> tuple[int, str]:
-        err = io.StringIO()
-        with mock.patch.dict(os.environ, environment), contextlib.redirect_stderr(err), contextlib.redirect_stdout(
-            io.StringIO()
-        ):
-            with mock.patch.object(make_paper, "NAMES", ("steps", "alphabet")):
-                code = make_paper.main([str(self.folder), "--out", str(self.folder / "paper.pdf")])
-        return code, err.getvalue()
+        names = mock.patch.object(make_paper, "NAMES", ("steps", "alphabet"))
+        with mock.patch.dict(os.environ, environment), names:
+            code, _, err = call(make_paper.main, self.folder, "--out", self.folder / "paper.pdf")
+        return code, err
 
     def test_captions_say_what_was_measured_where(self) -> None:
         one = Drawn("steps", new_figure(FULL_WIDTH, 50), "Time of 50 % of <all> steps τ")

@@ -6,17 +6,14 @@ import itertools
 import json
 import random
 import struct
-import sys
-import tempfile
 import unittest
-from pathlib import Path
 
-sys.path[:0] = [str(Path(__file__).parent.parent / "plots"), str(Path(__file__).parent)]
+import plot_samples
+from plot_tests import WithFolder  # first, for what is in plots/
 
-import plot_samples  # noqa: E402
-from page import data  # noqa: E402
-from pictures import BUDGET_BYTES, GRID, MOST_VERTICES, kept_pictures, pack  # noqa: E402
-from records import RecordError, load  # noqa: E402
+from page import data
+from pictures import BUDGET_BYTES, GRID, MOST_VERTICES, kept_pictures, pack
+from records import RecordError, load
 
 STEP = 16  # of the recorded grid in the packed one
 # From the leftmost vertex on, towards the lower neighbour.
@@ -61,35 +58,19 @@ def block_of(entry: dict) -> tuple[dict, list[tuple[int, int]], list, list]:
         return [a | b << 8 for a, b in zip(low, high)]
 
     def polygons(counts: list) -> list:
-        coded = iter(numbers(2 * sum(sum(rings) for rings in counts)))
-        place = [0, 0]
-        made = []
-        for rings in counts:
-            made.append([])
-            for count in rings:
-                made[-1].append([])
-                for _ in range(count):
-                    for axis in (0, 1):
-                        code = next(coded)
-                        place[axis] += -(code + 1) // 2 if code & 1 else code // 2
-                    made[-1][-1] += place
-        return made
+        steps = [-(code + 1) // 2 if code & 1 else code // 2 for code in numbers(2 * sum(map(sum, counts)))]
+        places = zip(itertools.accumulate(steps[::2]), itertools.accumulate(steps[1::2]))
+        return [[[value for _ in range(count) for value in next(places)] for count in rings] for rings in counts]
 
     steps, heights = numbers(header["points"]), numbers(header["points"])
     points = list(zip(itertools.accumulate(steps), heights))
     return header, points, polygons(header["truth"]), [polygons(counts) for counts in header["results"]]
 
 
-class Pictures(unittest.TestCase):
-    def setUp(self) -> None:
-        self.folder = Path(self.enterContext(tempfile.TemporaryDirectory()))
-
+class Pictures(WithFolder):
     def write(self, name: str, rows: list[dict], lines: list[dict]) -> None:
-        folder = self.folder / name
-        folder.mkdir()
-        report = plot_samples.report(name, {"ca": 0, "star": 40}, rows)
-        (folder / "report.json").write_text(json.dumps(report))
-        (folder / "pictures.jsonl").write_text("".join(json.dumps(line) + "\n" for line in lines))
+        folder = plot_samples.write_report(self.folder / name, plot_samples.report(name, {"ca": 0, "star": 40}, rows))
+        (folder / "pictures.jsonl").write_text(plot_samples.json_lines(lines))
 
     def packed(self, budget: int = BUDGET_BYTES) -> dict:
         return pack(load(self.folder), budget)

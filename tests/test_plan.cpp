@@ -407,6 +407,14 @@ TEST(Plan, WrongPlansAreRefusedWithTheirPlace) {
       {"/methods/0/parameters/alpha/cases", json::object(), {"'rule'", "'scaled'", "'cases'"}},
       {"/methods/1/parameters/c/cases", {{"ca", 2}}, {"spatialite", "'c'", "ca/holes"}},
       {"/methods/1/parameters/c/cases/ca", "2", {"methods[1].parameters.c.cases.ca", "number"}},
+      {"/field", json::array(), {"field", "at least one"}},
+      {"/field", {"Paper"}, {"field[0]", "METHOD/PROTOCOL", "Paper"}},
+      {"/field", {"auto", "papper"}, {"field[1]", "'papper'", "auto, default and paper", "convex_hull"}},
+      {"/field", {"convex_hull/paper"}, {"field[0]", "'convex_hull/paper'", "METHOD/PROTOCOL"}},
+      {"/field", {"auto", "auto"}, {"field[1]", "twice"}},
+      {"/field", {"default", "convex_hull/default"}, {"field[1]", "'convex_hull/default'", "taken already"}},
+      {"/without", {"concaveman"}, {"without[0]", "'concaveman'", "not taken"}},
+      {"/without", {"concave"}, {"without[0]", "'concave'", "concaveman"}},
   };
   for (const Case& one : cases) {
     EXPECT_TRUE(names_all(complaint(one.pointer, one.value), one.parts)) << one.pointer;
@@ -451,6 +459,66 @@ TEST(PlanSchema, SaysOfEveryFieldWhatItIsWithExamplesThatAreValid) {
 TEST(PlanSchema, ItsExampleIsAPlan) {
   for (const json& example : plan_schema()["examples"])
     EXPECT_NO_THROW(plan::parse_plan(example.dump(), "example"));
+}
+
+/// A plan of the entries that `choice` takes from the field.
+plan::Plan plan_of_field(const json& choice) {
+  json plan = small_plan();
+  plan.erase("methods");
+  plan.update(choice);
+  return plan::parse_plan(plan.dump(), "plan 'small'");
+}
+
+std::vector<std::string> ways_of(const plan::Plan& plan) {
+  std::vector<std::string> ways;
+  for (const plan::PlanMethod& method : plan.methods) ways.push_back(method.method + "/" + method.protocol);
+  return ways;
+}
+
+using Ways = std::vector<std::string>;
+
+TEST(Field, IsTakenByProtocolByMethodOrByBoth) {
+  const Ways all = ways_of(plan::load_plan("field", HULLBENCH_PLAN_FOLDER));
+  EXPECT_GE(all.size(), 30U);
+  EXPECT_EQ(ways_of(plan_of_field({{"field", {"default", "auto", "paper"}}})), all) << "in the field's order";
+  const Ways defaults = ways_of(plan_of_field({{"field", {"default"}}}));
+  EXPECT_GE(defaults.size(), 10U);
+  for (const std::string& way : defaults) EXPECT_TRUE(way.ends_with("/default")) << way;
+  EXPECT_EQ(ways_of(plan_of_field({{"field", {"convex_hull/default", "chi_shape"}}})),
+            (Ways{"chi_shape/paper", "chi_shape/auto", "convex_hull/default"}));
+  EXPECT_EQ(ways_of(plan_of_field(
+                {{"field", {"chi_shape", "polylidar"}}, {"without", {"polylidar/auto", "chi_shape"}}})),
+            (Ways{"polylidar/paper", "polylidar/default"}));
+  EXPECT_TRUE(names_all(refusal_of([] {
+                          plan_of_field({{"field", {"chi_shape"}}, {"without", {"auto", "paper"}}});
+                        }),
+                        {"without", "no method"}));
+}
+
+TEST(Field, AnEntryOfThePlanChangesWhatItSaysOfOneThatIsTaken) {
+  const json entries = {{{"method", "mine"}, {"protocol", "default"}},
+                        {{"method", "spatialite"}, {"protocol", "default"}, {"repetitions", 3}},
+                        {{"method", "spatialite"}, {"protocol", "paper"}, {"parameters", {{"c", 2}}}}};
+  const plan::Plan plan =
+      plan_of_field({{"field", {"spatialite/default", "concaveman"}}, {"methods", entries}});
+  EXPECT_EQ(ways_of(plan),
+            (Ways{"spatialite/default", "concaveman/default", "mine/default", "spatialite/paper"}));
+  json expected = plan::plan_to_json(plan_of_field({{"field", {"spatialite/default"}}})).at("methods").at(0);
+  EXPECT_TRUE(expected.contains("note") && expected.contains("parameters"));
+  expected["repetitions"] = 3;
+  EXPECT_EQ(plan::plan_to_json(plan).at("methods").at(0), expected);
+  EXPECT_EQ(plan.methods[3].parameters.size(), 1U) << "nothing comes from what is not taken";
+  const json once = plan::plan_to_json(plan);
+  EXPECT_FALSE(once.contains("field")) << "records are complete";
+  EXPECT_EQ(plan::plan_to_json(plan::parse_plan(once.dump(), "there")), once);
+
+  json source = {{"field", {"spatialite"}}, {"methods", {entries[1], entries[1]}}};
+  EXPECT_TRUE(
+      names_all(refusal_of([&] { plan_of_field(source); }), {"methods[1]", "repeats", "'spatialite'"}));
+  source["methods"] = {entries[1]};
+  source["methods"][0]["parameters"] = {{"c", 2}};
+  EXPECT_TRUE(
+      names_all(refusal_of([&] { plan_of_field(source); }), {"methods[0]", "'note'", "whose default"}));
 }
 
 TEST(Plan, TwoEntriesWithTheSameRunNamesAreRefused) {

@@ -3,23 +3,17 @@ the order of cases and methods."""
 
 from __future__ import annotations
 
-import contextlib
-import io
 import math
-import sys
-import tempfile
 import unittest
-from pathlib import Path
 
 import numpy as np
 
-PROJECT = Path(__file__).resolve().parent.parent
-sys.path.insert(0, str(PROJECT / "plots"))
+from plot_tests import WithFolder, call  # first, for what is in plots/
 
-import make_ratings  # noqa: E402  the path comes first
-import ratings  # noqa: E402
-from ratings import Case, Results  # noqa: E402
-from records import RecordError, Series, read_json  # noqa: E402
+import make_ratings
+import ratings
+from ratings import Case, Results
+from records import RecordError, Series, read_json
 
 INF = math.inf
 HEAD = ",".join(ratings.COLUMNS) + "\n"
@@ -46,12 +40,11 @@ def some_errors(methods: int = 5, cases: int = 40) -> dict[str, list[float]]:
     return {f"m{i}": list(generator.lognormal(0.3 * i, 0.5, cases)) for i in range(methods)}
 
 
-class Reading(unittest.TestCase):
+class Reading(WithFolder):
     def read(self, text: str) -> Results:
-        with tempfile.TemporaryDirectory() as folder:
-            path = Path(folder) / "league.csv"
-            path.write_text(text, encoding="utf-8")
-            return ratings.read(path)
+        path = self.folder / "league.csv"
+        path.write_text(text, encoding="utf-8")
+        return ratings.read(path)
 
     def test_takes_results_failures_and_runs_that_are_not_there(self) -> None:
         found = self.read(
@@ -241,22 +234,19 @@ class SolvedAgainstTime(unittest.TestCase):
         np.testing.assert_allclose(found["b"][1], [16 / 51])
 
 
-class Json(unittest.TestCase):
+class Json(WithFolder):
     def test_it_is_as_its_schema_says_with_null_for_what_is_infinite(self) -> None:
-        with tempfile.TemporaryDirectory() as folder:
-            path = Path(folder) / "league.csv"
-            lines = [
-                f"{one}/auto,c{k},1,{error},0.1,9,ok,c{k},simple,uniform,1"
-                for k in (1, 2, 3)
-                for one, error in (("a", 0.1), ("b", "inf"))
-            ]
-            path.write_text(HEAD + "\n".join(lines) + "\n", encoding="utf-8")
-            with contextlib.redirect_stdout(io.StringIO()):
-                self.assertEqual(make_ratings.main([str(path)]), 0)
-            (division,) = read_json(path.with_name("ratings.json"), "ratings.schema.json")["divisions"]
-            path.write_text(HEAD, encoding="utf-8")
-            with contextlib.redirect_stderr(io.StringIO()):
-                self.assertEqual((make_ratings.main([str(path)]), make_ratings.main([folder])), (6, 2))
+        path = self.folder / "league.csv"
+        lines = [
+            f"{one}/auto,c{k},1,{error},0.1,9,ok,c{k},simple,uniform,1"
+            for k in (1, 2, 3)
+            for one, error in (("a", 0.1), ("b", "inf"))
+        ]
+        path.write_text(HEAD + "\n".join(lines) + "\n", encoding="utf-8")
+        self.assertEqual(call(make_ratings.main, path)[0], 0)
+        (division,) = read_json(path.with_name("ratings.json"), "ratings.schema.json")["divisions"]
+        path.write_text(HEAD, encoding="utf-8")
+        self.assertEqual((call(make_ratings.main, path)[0], call(make_ratings.main, self.folder)[0]), (6, 2))
         self.assertEqual([one["method"] for one in division["standings"]], ["a", "b"])
         self.assertEqual((division["standings"][1]["l2_median"], division["standings"][1]["failures"]), (None, 3))
         self.assertEqual(division["wins"], [[0, 1], [0, 0]])

@@ -2,32 +2,27 @@
 
 from __future__ import annotations
 
-import contextlib
-import io
 import json
 import lzma
 import os
 import shutil
 import subprocess
 import sys
-import tempfile
 import unittest
 from pathlib import Path
 from unittest import mock
 
-PLOTS = Path(__file__).parent.parent / "plots"
-sys.path[:0] = [str(PLOTS), str(Path(__file__).parent)]
+import plot_samples
+from plot_tests import PLOTS, WithFolder, call  # first, for what is in plots/
 
-import make_figures  # noqa: E402
-import plot_samples  # noqa: E402
-from records import RecordError, exit_code_of, load  # noqa: E402
+import make_figures
+from records import RecordError, exit_code_of, load
 
 
-class Records(unittest.TestCase):
+class Records(WithFolder):
     def setUp(self) -> None:
-        self._temporary = tempfile.TemporaryDirectory()
-        self.addCleanup(self._temporary.cleanup)
-        self.folder = plot_samples.write_suite(Path(self._temporary.name) / "suite")
+        super().setUp()
+        plot_samples.write_suite(self.folder)
 
     def test_a_suite_is_read_in_its_order(self) -> None:
         self.assertEqual([one.name for one in load(self.folder)], ["rgbd", "states", "alphabet", "random", "steps"])
@@ -114,7 +109,7 @@ class Records(unittest.TestCase):
             load(self.folder / "alphabet")[0].picture_cases()
 
     def test_a_folder_without_records_is_an_error(self) -> None:
-        empty = Path(self._temporary.name) / "empty"
+        empty = self.folder / "empty"
         empty.mkdir()
         for folder in (empty, empty / "missing"):
             with self.assertRaises(RecordError):
@@ -134,8 +129,7 @@ class Records(unittest.TestCase):
         subprocess.run([os.environ["HULLBENCH"], "report", run, "--out", drawn], check=True, stdout=subprocess.DEVNULL)
         (experiment,) = load(drawn)
         self.assertTrue(all(row.median_ns for row in experiment.rows if row.ok))
-        with contextlib.redirect_stdout(io.StringIO()):
-            self.assertEqual(make_figures.main([str(drawn), "--only", "random_polygons"]), 0)
+        self.assertEqual(call(make_figures.main, drawn, "--only", "random_polygons")[0], 0)
         self.assertTrue((drawn / "figures" / "random_polygons.png").is_file())
 
     def test_a_fault_of_ours_is_not_the_users(self) -> None:
@@ -145,12 +139,8 @@ class Records(unittest.TestCase):
 
     def test_the_program_says_so_in_one_sentence(self) -> None:
         self._write("states/report.json", "{")
-        result = subprocess.run(
-            [sys.executable, "-B", str(PLOTS / "make_figures.py"), str(self.folder)],
-            capture_output=True,
-            text=True,
-            check=False,
-        )
+        command = [sys.executable, "-B", PLOTS / "make_figures.py", self.folder]
+        result = subprocess.run(command, capture_output=True, text=True, check=False)
         self.assertEqual(result.returncode, 2)
         self.assertEqual(result.stdout, "")
         self.assertEqual(len(result.stderr.splitlines()), 1, result.stderr)

@@ -3,14 +3,11 @@ and that nothing is asked of a network."""
 
 from __future__ import annotations
 
-import contextlib
 import gzip
-import html.parser
-import io
+import html
 import json
 import posixpath
 import re
-import sys
 import tempfile
 import unittest
 from pathlib import Path
@@ -18,44 +15,18 @@ from urllib.parse import parse_qs, unquote
 
 import numpy as np
 
-PLOTS = Path(__file__).resolve().parent.parent / "plots"
-sys.path[:0] = [str(PLOTS), str(Path(__file__).parent)]
+import plot_samples
+from plot_tests import PLOTS, Elements, call  # first, for what is in plots/
 
-import plot_samples  # noqa: E402
-
-import make_site  # noqa: E402
-import site_text  # noqa: E402
-from records import RecordError, load  # noqa: E402
-from report_common import short_name  # noqa: E402
-from site_run import load_run, method_words, zoo_cases  # noqa: E402
+import make_site
+import site_text
+from records import RecordError, load
+from report_common import short_name
+from site_run import load_run, method_words, zoo_cases
 
 NEWER, OLDER = "2026-01-02-0123abcd", "2025-01-02-0123abcd"
 ANIMAL = "zoo-geos-754"
 EVIL = "<script>window.broken=1</script>"
-
-
-class Elements(html.parser.HTMLParser):
-    """Of a page: (tag, attribute, value), ids and the texts of the scripts that are data, by id."""
-
-    def __init__(self, path: Path) -> None:
-        super().__init__()
-        self.source = path.read_text(encoding="utf-8")
-        self.attributes: list[tuple[str, str, str]] = []
-        self.data: dict[str, str] = {}
-        self.inside = ""
-        self.feed(self.source)
-        self.ids = [value for _, name, value in self.attributes if name == "id"]
-
-    def handle_starttag(self, tag: str, attributes: list[tuple[str, str | None]]) -> None:
-        self.attributes += [(tag, name, value or "") for name, value in attributes]
-        self.inside = dict(attributes).get("id") or "" if tag == "script" else ""
-
-    def handle_endtag(self, tag: str) -> None:
-        self.inside = ""
-
-    def handle_data(self, data: str) -> None:
-        if self.inside:
-            self.data[self.inside] = self.data.get(self.inside, "") + data
 
 
 def words(path: Path) -> str:
@@ -110,27 +81,22 @@ class Folder(unittest.TestCase):
 
     @classmethod
     def setUpClass(cls) -> None:
-        temporary = tempfile.TemporaryDirectory()
-        cls.addClassCleanup(temporary.cleanup)
-        cls.root = Path(temporary.name)
+        cls.root = Path(cls.enterClassContext(tempfile.TemporaryDirectory()))
         cls.runs = [write_run(cls.root / OLDER, "2025-01-02T03:04:05Z"), write_run(cls.root / NEWER, "2026-01-02T03:04:05Z")]
         cls.demo = cls.root / "demo.html"
         cls.demo.write_text("<!doctype html><title>demo</title>", encoding="utf-8")
         cls.site = cls.root / "site"
-        with contextlib.redirect_stdout(io.StringIO()):
-            make_site.write(cls.site, cls.runs, demo=cls.demo)
+        assert call(make_site.main, *cls.runs, "--out", cls.site, "--demo", cls.demo)[0] == 0
         cls.pages = {
-            path.relative_to(cls.site).as_posix(): Elements(path)
+            path.relative_to(cls.site).as_posix(): Elements(path.read_text(encoding="utf-8"))
             for path in sorted(cls.site.rglob("*.html"))
             if path.name not in ("report.html", "demo.html")
         }
 
     def call(self, *arguments: object) -> tuple[int, str]:
         """Exit code and standard error of the program."""
-        err = io.StringIO()
-        with contextlib.redirect_stderr(err), contextlib.redirect_stdout(io.StringIO()):
-            code = make_site.main([str(argument) for argument in arguments])
-        return code, err.getvalue()
+        code, _, err = call(make_site.main, *arguments)
+        return code, err
 
 
 class Pages(Folder):
@@ -179,24 +145,20 @@ class Pages(Folder):
             mine = {one for one in self.pages if one.startswith(base) and (base or not one.startswith("runs/"))}
             for address in mine:
                 folder = posixpath.dirname(address)
-                index = json.loads(self.pages[address].data["pages"])
+                index = json.loads(dict(self.pages[address].scripts)["pages"])
                 self.assertEqual({posixpath.normpath(posixpath.join(folder, one[2])) for one in index}, mine, address)
         animal = next(one for one in index if ANIMAL in one[3])
         self.assertEqual(animal[:2], [zoo_cases()[ANIMAL].points, "Zoo"])
 
     def test_nothing_is_asked_of_a_network(self) -> None:
         for address, seen in self.pages.items():
-            tags = {tag for tag, _, _ in seen.attributes}
-            self.assertFalse(tags & {"link", "img", "iframe", "form", "object", "embed", "base"}, address)
+            self.assertFalse(set(seen.tags) & {"link", "img", "iframe", "form", "object", "embed", "base"}, address)
             self.assertNotIn(("script", "src"), {(tag, name) for tag, name, _ in seen.attributes})
             for tag, name, value in seen.attributes:
                 if re.search("https?:", value) and not (tag, name) == ("a", "href"):
                     self.fail(f"{address}: {tag} {name}={value}")
             self.assertNotRegex(seen.source, r"url\(['\"]?https?:|@import")
-            policy = next(
-                value for tag, name, value in seen.attributes if (tag, name) == ("meta", "content") and "src" in value
-            )
-            self.assertTrue(policy.startswith("default-src 'none'; script-src 'sha256-"), policy)
+            self.assertTrue(seen.policy.startswith("default-src 'none'; script-src 'sha256-"), seen.policy)
 
     def test_no_mark_is_left(self) -> None:
         for address, seen in self.pages.items():
@@ -204,8 +166,7 @@ class Pages(Folder):
 
     def test_the_same_runs_make_the_same_bytes(self) -> None:
         again = self.root / "again"
-        with contextlib.redirect_stdout(io.StringIO()):
-            make_site.write(again, list(reversed(self.runs)), demo=self.demo)
+        self.assertEqual(self.call(*reversed(self.runs), "--out", again, "--demo", self.demo), (0, ""))
         files = [path.relative_to(self.site) for path in sorted(self.site.rglob("*")) if path.is_file()]
         self.assertEqual(files, [path.relative_to(again) for path in sorted(again.rglob("*")) if path.is_file()])
         for path in files:
@@ -214,8 +175,7 @@ class Pages(Folder):
     def test_the_demo_is_linked_where_it_is(self) -> None:
         self.assertTrue((self.site / "demo.html").is_file())
         self.assertIn("<a href='../../../demo.html'>Try it</a>", self.pages[f"runs/{OLDER}/methods/polylidar.html"].source)
-        with contextlib.redirect_stdout(io.StringIO()):
-            make_site.write(self.root / "bare", self.runs[:1])
+        self.assertEqual(self.call(*self.runs[:1], "--out", self.root / "bare"), (0, ""))
         self.assertNotIn("demo.html", (self.root / "bare" / "index.html").read_text(encoding="utf-8"))
 
 
@@ -308,10 +268,8 @@ class What(Folder):
         self.assertFalse((self.root / "listed" / "runs" / OLDER / "methods" / "brand_new.html").exists())
 
     def test_a_run_without_results_pictures_or_tables_has_a_site(self) -> None:
-        folder = self.root / "bare-run"
-        folder.mkdir()
         report = plot_samples.report("states", {"ca": 0}, [plot_samples.run("polylidar", "paper", "ca", 2000)])
-        (folder / "report.json").write_text(json.dumps(report), encoding="utf-8")
+        folder = plot_samples.write_report(self.root / "bare-run", report)
         (folder / "report.html").write_text("kept", encoding="utf-8")
         self.assertEqual(self.call(folder, "--out", self.root / "small"), (0, ""))
         self.assertIn("no results that can be compared", words(self.root / "small" / "datasets" / "ca.html"))

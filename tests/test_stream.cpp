@@ -9,6 +9,7 @@
 #include <span>
 #include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "polylidar/stream.hpp"
@@ -27,6 +28,10 @@ class MemorySource {
 
   StreamedHull hull(const Options& options, const StreamOptions& stream_options = {}) {
     return concave_hull_of_stream([this](const TakePoints& take) { read(take); }, options, stream_options);
+  }
+  StreamShard part(const Options& options, const Shard& shard, const StreamOptions& stream_options = {}) {
+    const PointSource source = [this](const TakePoints& take) { read(take); };
+    return part_of_stream({&source, 1}, options, shard, stream_options);
   }
   void change(int pass, Points to) {
     changes_in_pass_ = pass;
@@ -59,6 +64,40 @@ std::string complaint(MemorySource& source, const Options& options,
   return "";
 }
 
+/// The shards' parts, the last one first, each read in blocks of another size and by more threads.
+std::vector<StreamShard> parts(const Points& points, Options options, std::uint32_t count,
+                               const StreamOptions& stream_options = {}) {
+  std::vector<StreamShard> shards;
+  for (std::uint32_t number = count; number >= 1; --number) {
+    options.threads = 1 + number % 2;
+    shards.push_back(
+        MemorySource(points, 5000 + 3777 * (number % 8)).part(options, {number, count}, stream_options));
+  }
+  return shards;
+}
+
+std::string complaint(std::span<const StreamShard> shards) {
+  try {
+    concave_hull_of_shards(shards);
+  } catch (const std::invalid_argument& error) {
+    return error.what();
+  }
+  return "";
+}
+
+/// A square lattice with holes: four points on a circle everywhere, which the limits can tell apart.
+Points lattice_with_holes(int side) {
+  Points points;
+  for (int y = 0; y < side; ++y) {
+    for (int x = 0; x < side; ++x) {
+      const bool in_hole = std::hypot(x % 100 - 50, y % 90 - 40) < 17;
+      if (!in_hole && (x * 7 + y * 13) % 31 != 0)
+        points.push_back({static_cast<double>(x), static_cast<double>(y)});
+    }
+  }
+  return points;
+}
+
 TEST(Stream, GivesTheShapeOfThePointsInMemory) {
   std::size_t rings = 0;
   for (std::uint64_t seed = 0; seed < 12; ++seed) {
@@ -87,6 +126,191 @@ TEST(Stream, GivesTheShapeOfThePointsInMemory) {
     rings += shape.ring_ends.size();
   }
   EXPECT_GT(rings, 36U) << "the shapes have holes";
+}
+
+void expect_same(const StreamedHull& hull, const StreamedHull& expected) {
+  EXPECT_EQ(hull.polygons, expected.polygons);
+  EXPECT_EQ(hull.vertices, expected.vertices);
+  EXPECT_EQ(hull.points, expected.points);
+  EXPECT_EQ(hull.triangulated_points, expected.triangulated_points);
+}
+
+// That the shards' points are those of one run, too, says that no halo is too small.
+TEST(StreamShards, GiveWhatOneRunGives) {
+  std::size_t rings = 0;
+  for (std::uint64_t seed = 0; seed < 6; ++seed) {
+    testing::Random random(seed + 100);
+    Points points = seed % 3 == 2 ? lattice_with_holes(300)
+                                  : testing::uniform_points(70'000 + random.below(20'000), seed);
+    if (seed % 3 != 2) {
+      std::erase_if(points, [](const Point& p) { return std::hypot(p.x - 0.4, p.y - 0.5) < 0.1; });
+    }
+    if (seed % 2 == 0) points.insert(points.end(), points.begin(), points.begin() + 5000);
+    const double spacing = seed % 3 == 2 ? 1 : 1 / std::sqrt(static_cast<double>(points.size()));
+    Options options{.max_perimeter = random.between(6, 15) * spacing};
+    if (seed % 3 == 1) options = {.alpha = random.between(1.2, 2.5) * spacing};
+    if (seed % 3 == 2) options.max_edge_length = (1.4 + 0.2 * static_cast<double>(seed)) * spacing;
+    options.fill_single_triangles = seed % 4 == 0;
+    const StreamShard all = MemorySource(points).part(options, {});
+    const StreamedHull expected = MemorySource(points).hull(options);
+    EXPECT_EQ(expected.polygons, to_coordinates(concave_hull(points, options), points));
+    for (const std::uint32_t count : {1U, 2U, 3U, 7U, 23U}) {
+      SCOPED_TRACE(std::to_string(count) + " shards, seed " + std::to_string(seed));
+      const std::vector<StreamShard> shards = parts(points, options, count);
+      std::vector<std::pair<std::uint64_t, std::uint8_t>> found;
+      for (const StreamShard& shard : shards) {
+        EXPECT_EQ(shard.cells_per_length, all.cells_per_length);
+        for (std::size_t i = 0; i < shard.points.size(); ++i) {
+          found.emplace_back(shard.numbers[i], shard.uncertain[i]);
+        }
+      }
+      std::sort(found.begin(), found.end());
+      ASSERT_EQ(found.size(), all.points.size());
+      for (std::size_t i = 0; i < found.size(); ++i) {
+        EXPECT_EQ(found[i], std::pair(all.numbers[i], all.uncertain[i]));
+      }
+      expect_same(concave_hull_of_shards(shards, 1 + count % 2), expected);
+    }
+    for (const Polygon& polygon : expected.polygons) rings += 1 + polygon.holes.size();
+  }
+  EXPECT_GT(rings, 100U);
+}
+
+// Tiles in any order, an empty one among them: those that do not reach into a shard's band are read once
+// only.
+TEST(StreamShards, ReadTilesThatTheyNeed) {
+  Points points;
+  std::vector<Points> tiles(12);
+  for (std::size_t t = 0; t < tiles.size(); ++t) {
+    if (t == 7) continue;
+    tiles[t] = testing::uniform_points(12'000, t);
+    for (Point& p : tiles[t]) p.y += static_cast<double>(t * 5 % tiles.size());
+    points.insert(points.end(), tiles[t].begin(), tiles[t].end());
+  }
+  const Options options{.max_perimeter = 0.06};
+  std::vector<StreamShard> shards;
+  std::size_t times = 0;
+  std::vector<PointSource> sources;
+  sources.reserve(tiles.size());
+  for (const Points& tile : tiles) {
+    sources.emplace_back([&](const TakePoints& take) {
+      ++times;
+      if (!tile.empty()) take(tile);
+    });
+  }
+  StreamProgress last;
+  for (std::uint32_t number = 1; number <= 4; ++number) {
+    shards.push_back(part_of_stream(sources, options, {number, 4},
+                                    {.progress = [&](const StreamProgress& progress) { last = progress; }}));
+  }
+  EXPECT_LE(last.points, points.size());
+  // Each shard all once, and then three times the three or four that are in its band, and neighbours.
+  EXPECT_LT(times, 4 * (12 + 3 * 6));
+  expect_same(concave_hull_of_shards(shards), MemorySource(points).hull(options));
+}
+
+TEST(StreamShards, MayHaveNothing) {
+  // Fewer rows of cells than shards.
+  Points flat = testing::uniform_points(80'000, 21);
+  for (Point& p : flat) p.y *= 0.001;
+  const Options options{.alpha = 0.0006};
+  const std::vector<StreamShard> shards = parts(flat, options, 60);
+  EXPECT_GT(
+      std::count_if(shards.begin(), shards.end(), [](const StreamShard& s) { return s.points.empty(); }), 20);
+  expect_same(concave_hull_of_shards(shards), MemorySource(flat).hull(options));
+  // A band without a point between two with some.
+  Points apart = testing::uniform_points(80'000, 22);
+  for (std::size_t i = 0; i < apart.size(); i += 2) apart[i].y += 20;
+  expect_same(concave_hull_of_shards(parts(apart, {.alpha = 0.02}, 5)),
+              MemorySource(apart).hull({.alpha = 0.02}));
+
+  for (const Points& few : {Points(), Points{{1, 2}}, testing::uniform_points(3000, 23)}) {
+    expect_same(concave_hull_of_shards(parts(few, {}, 3)), MemorySource(few).hull({}));
+  }
+  Points line(70'000);
+  for (std::size_t i = 0; i < line.size(); ++i) line[i] = {static_cast<double>(i), 1};
+  expect_same(concave_hull_of_shards(parts(line, {.alpha = 10}, 3)), MemorySource(line).hull({.alpha = 10}));
+}
+
+// The maps of a shard have the rows of its band and 24 on either side.
+TEST(StreamShards, NeedLessMemoryThanOneRun) {
+  const Points points = testing::uniform_points(400'000, 24);
+  const Options options{.alpha = 0.003};
+  const StreamOptions little{.most_map_bytes = 120'000};
+  MemorySource source(points);
+  EXPECT_EQ(complaint(source, options, little),
+            "the limit is too small for the distances between the points: give a larger one, or more memory");
+  expect_same(concave_hull_of_shards(parts(points, options, 8, little)), MemorySource(points).hull(options));
+}
+
+TEST(StreamShards, SayWhyTheyDoNotFitTogether) {
+  const Points points = testing::uniform_points(70'000, 25);
+  const Options options{.max_perimeter = 0.1};
+  const std::vector<StreamShard> right = parts(points, options, 3);
+  EXPECT_EQ(complaint(right), "");
+  EXPECT_EQ(complaint(std::span<const StreamShard>()), "there is no shard");
+  EXPECT_EQ(complaint(std::span(right).first(2)), "shard 1 of 3 is missing");
+  EXPECT_EQ(complaint(std::span(right).last(2)), "shard 3 of 3 is missing");
+  const auto with = [&](StreamShard last) {
+    std::vector<StreamShard> shards = right;
+    shards.back() = std::move(last);
+    return complaint(shards);
+  };
+  EXPECT_EQ(with(right[1]), "shard 2 of 3 is there twice");
+  EXPECT_EQ(
+      with(MemorySource(points).part(options, {1, 4})),
+      "shard 3 of 3 and shard 1 of 4 do not belong together: cut the source into as many shards for each");
+  EXPECT_EQ(
+      with(MemorySource(points).part({.max_perimeter = 0.11}, {1, 3})),
+      "shard 3 of 3 and shard 1 of 3 were made with different limits or options: make them with the same");
+  Points moved = points;
+  std::swap(moved[7], moved[8]);
+  EXPECT_EQ(
+      with(MemorySource(moved).part(options, {1, 3})),
+      "shard 3 of 3 and shard 1 of 3 are of different points, or of a source that changed in between: make "
+      "them of the same");
+  EXPECT_EQ(with(MemorySource(points).part(options, {1, 3}, {.most_map_bytes = 15'000})),
+            "shard 3 of 3 and shard 1 of 3 have different grids: let all use as much memory for their maps");
+
+  const std::string not_one_source =
+      "the shards do not fit together: their points are not those of one source; make them again";
+  const auto damaged = [&](const auto& damage) {
+    StreamShard shard = right.back();
+    damage(shard);
+    return with(shard);
+  };
+  EXPECT_EQ(damaged([](StreamShard& s) { s.numbers.pop_back(); }), not_one_source);
+  EXPECT_EQ(damaged([](StreamShard& s) { s.uncertain.pop_back(); }), not_one_source);
+  EXPECT_EQ(damaged([](StreamShard& s) { std::swap(s.numbers[0], s.numbers[1]); }), not_one_source);
+  EXPECT_EQ(damaged([](StreamShard& s) { s.numbers.back() = 70'000; }), not_one_source);
+  EXPECT_EQ(damaged([&](StreamShard& s) { s.numbers[0] = right[0].numbers[0]; }), not_one_source);
+  EXPECT_EQ(damaged([](StreamShard& s) { s.points[5] = {3, 3}; }), not_one_source);
+  EXPECT_EQ(damaged([](StreamShard& s) { s.points[5] = {1e300, 3}; }), not_one_source);
+  EXPECT_EQ(damaged([](StreamShard& s) { s.shard.number = 0; }), "there is no shard 0 of 3");
+  const Points few = testing::uniform_points(100, 26);
+  StreamShard whole = MemorySource(few).part({}, {});
+  whole.points.pop_back();
+  whole.numbers.pop_back();
+  whole.uncertain.pop_back();
+  EXPECT_EQ(complaint(std::span(&whole, 1)), not_one_source);
+}
+
+TEST(StreamShards, AreThoseThatThereAre) {
+  MemorySource source(testing::uniform_points(70'000, 27));
+  for (const Shard& shard : {Shard{0, 3}, Shard{4, 3}, Shard{1, 0}}) {
+    EXPECT_THROW(source.part({.alpha = 0.02}, shard), std::invalid_argument);
+  }
+}
+
+TEST(StreamShards, NoticeASourceThatChanges) {
+  const Points points = testing::uniform_points(70'000, 28);
+  for (int pass = 2; pass <= 4; ++pass) {
+    Points shorter = points;
+    shorter.pop_back();
+    MemorySource source(points);
+    source.change(pass, shorter);
+    EXPECT_THROW(source.part({.alpha = 0.02}, {2, 3}), std::runtime_error);
+  }
 }
 
 // A wider radius than usual, up to the limit's, keeps the maps small.

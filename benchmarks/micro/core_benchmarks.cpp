@@ -54,13 +54,18 @@ std::vector<Benchmark> all_benchmarks() {
   inputs.emplace_back("rgbd", 424 * 240);  // a depth image as the sensor gives it
   inputs.emplace_back("islands", 1'000'000);
   inputs.emplace_back("sieve", 1'000'000);
+  const std::set<std::string> whole_sets{"gradient64", "clusters", "circle", "parabola", "repeats"};
+  for (const std::string& set : whole_sets) {
+    for (const std::size_t n : {8'000U, 64'000U}) inputs.emplace_back(set, n);
+  }
 
   std::vector<Benchmark> benchmarks;
   for (const auto& [set, n] : inputs) {
     for (const auto& functions : {own_functions(), own_phases(), cgal_functions(), geos_functions()}) {
       for (const MeasuredFunction& function : functions) {
         if (n > function.most_points || n < function.least_points) continue;
-        const bool has_interior = set != "islands" && set != "sieve" && set != "gradient";
+        const bool has_interior =
+            set != "islands" && set != "sieve" && set != "gradient" && !whole_sets.contains(set);
         if (function.needs_interior && !has_interior) continue;
         const std::string name = std::string(function.name) + "/" + set + "/" + std::to_string(n);
         benchmarks.push_back({name, function, set, n});

@@ -175,7 +175,8 @@ VerdictLine evaluate(const Goal& goal, const Measurements& measurements) {
   line.verdict = verdict_of(goal, line);
   if (goal.hoped_for) {
     const std::string hoped_for = limit_text(*goal.hoped_for);
-    line.remark = *line.value <= *goal.hoped_for ? hoped_for + " too" : "not " + hoped_for;
+    const bool is_met = goal.at_least ? *line.value >= *goal.hoped_for : *line.value <= *goal.hoped_for;
+    line.remark = is_met ? hoped_for + " too" : "not " + hoped_for;
   }
   return line;
 }

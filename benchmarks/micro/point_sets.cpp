@@ -64,12 +64,39 @@ SpeedPointSet make_sieve(std::size_t n, Random& random) {
   return {std::move(points), alpha, 1};
 }
 
+/// Points of which most are near an outline, or there more than once: leaving the interior out does not pay.
+std::vector<polylidar::Point> make_outline_points(const std::string& name, std::size_t n, Random& random) {
+  std::vector<polylidar::Point> points(n);
+  constexpr std::size_t kClusters = 50;
+  constexpr double kDeviation = 0.01;
+  constexpr std::size_t kCopies = 4;
+  std::vector<polylidar::Point> centres(kClusters);
+  for (polylidar::Point& p : centres) p = {random.uniform(), random.uniform()};
+  for (std::size_t i = 0; i < n; ++i) {
+    const double x = random.uniform();
+    if (name == "clusters") {
+      const polylidar::Point& centre = centres[i % kClusters];
+      points[i] = {centre.x + kDeviation * random.normal(), centre.y + kDeviation * random.normal()};
+    } else if (name == "circle") {
+      points[i] = {std::cos(6.283185307179586 * x), std::sin(6.283185307179586 * x)};
+    } else if (name == "parabola") {
+      points[i] = {x, x * x};
+    } else {
+      points[i] = i % kCopies == 0 ? polylidar::Point{x, random.uniform()} : points[i - 1];
+    }
+  }
+  return points;
+}
+
 }  // namespace
 
 SpeedPointSet make_speed_point_set(const std::string& name, std::size_t n) {
   Random random(derive_seed(kSeed, name));
-  if (name == "ca" || name == "gradient") {
-    PointSet set = make_point_set(name == "ca" ? "ca" : "ca~gradient:16", false, n, kSeed);
+  if (name == "ca" || name == "gradient" || name == "gradient64") {
+    const std::string dataset = name == "ca"         ? "ca"
+                                : name == "gradient" ? "ca~gradient:16"
+                                                     : "ca~gradient:64";
+    PointSet set = make_point_set(dataset, false, n, kSeed);
     return {std::move(set.points), 2 * std::sqrt(set.ground_truth_area / static_cast<double>(n)), 0};
   }
   if (name == "uniform") {
@@ -84,8 +111,13 @@ SpeedPointSet make_speed_point_set(const std::string& name, std::size_t n) {
   if (name == "rgbd") return {make_lattice(424, n, 0.1, random), 2, 0};
   if (name == "islands") return make_islands(n, random);
   if (name == "sieve") return make_sieve(n, random);
-  throw std::invalid_argument("no point set is called '" + name +
-                              "': ca, gradient, uniform, lattice, rgbd, islands, sieve");
+  if (name == "clusters" || name == "circle" || name == "parabola" || name == "repeats") {
+    return {make_outline_points(name, n, random), 2 / std::sqrt(static_cast<double>(n)), 0};
+  }
+  throw std::invalid_argument(
+      "no point set is called '" + name +
+      "': ca, gradient, gradient64, uniform, lattice, rgbd, islands, sieve, clusters, "
+      "circle, parabola, repeats");
 }
 
 }  // namespace hullbench::micro

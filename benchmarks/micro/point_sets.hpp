@@ -23,7 +23,9 @@ struct SpeedPointSet {
 /// depth image of a floor gives), "islands" (uniform in 4000 squares so far apart that each is a polygon of
 /// its own) and "sieve" (uniform in one region of the same area with 4000 square holes of the same size: as
 /// long an outline in one polygon). The last two are for about 1,000,000 points, of which every square has
-/// the 250 it needs to hold together, and have a wider alpha than the rule's. The same bytes at every call.
+/// the 250 it needs to hold together, and have a wider alpha than the rule's. Where leaving the interior out
+/// does not pay: "gradient64" (64 times as dense), "clusters" (50 normal ones in a square), "circle",
+/// "parabola" (points on them) and "repeats" (uniform, each point four times). The same bytes at every call.
 /// Throws std::invalid_argument for another name.
 SpeedPointSet make_speed_point_set(const std::string& name, std::size_t n);
 

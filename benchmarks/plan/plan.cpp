@@ -11,6 +11,7 @@
 
 #include "benchmarks/base/configuration_error.hpp"
 #include "benchmarks/base/words.hpp"
+#include "benchmarks/plan/field.hpp"
 #include "benchmarks/plan/plan_schema.hpp"
 #include "benchmarks/plan/release_seed.hpp"
 #include "datasets/stress.hpp"
@@ -139,17 +140,17 @@ bool is_same_entry(const PlanMethod& a, const PlanMethod& b) {
   return a.method == b.method && a.protocol == b.protocol;
 }
 
-std::vector<PlanMethod> read_methods(const json& entries, const Place& place) {
+std::vector<PlanMethod> read_methods(const std::vector<PlanEntry>& entries) {
   std::vector<PlanMethod> methods;
-  for (std::size_t i = 0; i < entries.size(); ++i) {
-    const PlanMethod added = read_method(entries[i], place.element(i));
+  for (const auto& [entry, place] : entries) {
+    const PlanMethod added = read_method(entry, place);
     for (const PlanMethod& other : methods) {
       if (is_same_entry(other, added)) {
-        place.element(i).fail("repeats the method '" + added.method + "' with the protocol '" +
-                              added.protocol + "'; their runs would have the same names, so leave one out");
+        place.fail("repeats the method '" + added.method + "' with the protocol '" + added.protocol +
+                   "'; their runs would have the same names, so leave one out");
       }
       if (other.method == added.method && other.mem_limit_mib != added.mem_limit_mib) {
-        place.element(i).fail(
+        place.fail(
             "gives '" + added.method +
             "' another mem_limit_mib than its other entry; they share a worker, so give both the same");
       }
@@ -251,7 +252,7 @@ Plan parse_plan(const std::string& text, const std::string& source) {
   if (document.contains("axis")) plan.axis = read_axis(document["axis"]);
   plan.cases = document["cases"];
   plan.expanded_cases = read_cases(plan.cases, root.member("cases"));
-  plan.methods = read_methods(document["methods"], root.member("methods"));
+  plan.methods = read_methods(entries_of(document, root));
   return plan;
 }
 
@@ -282,7 +283,9 @@ std::vector<PlanMethod> parse_plan_methods(const json& entries, const std::strin
   }
   const Place place(source, path);
   check_methods_schema(complete, place);
-  return read_methods(complete, place);
+  std::vector<PlanEntry> own;
+  for (std::size_t i = 0; i < complete.size(); ++i) own.push_back({complete[i], place.element(i)});
+  return read_methods(own);
 }
 
 void add_methods(Plan& plan, const std::vector<PlanMethod>& methods) {

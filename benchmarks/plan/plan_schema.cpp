@@ -62,6 +62,12 @@ void refuse_keys(const json& part, const json& object, const Place& place) {
     if (!object.contains(key))
       place.fail("lacks the key '" + key + "': " + members[key]["description"].get<std::string>());
   }
+  std::vector<std::string> choice;
+  for (const json& one : part.value("anyOf", json::array())) {
+    if (one.size() == 1 && one.contains("required"))
+      choice.push_back("'" + one["required"][0].get<std::string>() + "'");
+  }
+  if (!choice.empty()) place.fail("needs at least one of the keys " + join_words(choice));
 }
 
 void refuse_repetition(const json& list, const Place& place) {

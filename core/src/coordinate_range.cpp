@@ -122,13 +122,15 @@ Magnitudes measure_all(std::span<const Point> points, ThreadPool& pool, std::uin
 
 }  // namespace
 
-void RangeOfBlocks::add(std::span<const Point> block, ThreadPool& pool) {
+Box RangeOfBlocks::add(std::span<const Point> block, ThreadPool& pool) {
   Magnitudes all = measure_all(block, pool, count_);
+  const Box of_block = all.box;
   all.add({box_, largest_, smallest_, 0});
   box_ = all.box;
   largest_ = all.largest;
   smallest_ = all.smallest;
   count_ += block.size();
+  return of_block;
 }
 
 CoordinateRange RangeOfBlocks::range() const {

@@ -27,9 +27,12 @@ CoordinateRange measure_coordinates(std::span<const Point> points, ThreadPool& p
 /// Measures points that come block by block; `unit` is not set.
 class RangeOfBlocks {
  public:
-  /// Throws std::invalid_argument when a coordinate is not finite; counts the points from the first block on.
-  void add(std::span<const Point> block, ThreadPool& pool);
+  /// Returns the box of the block. Throws std::invalid_argument when a coordinate is not finite; counts the
+  /// points from the first block on.
+  Box add(std::span<const Point> block, ThreadPool& pool);
   std::uint64_t count() const { return count_; }
+  /// As bounding_box().
+  const Box& box() const { return box_; }
   /// Needs at least one point. Throws as measure_coordinates.
   CoordinateRange range() const;
 

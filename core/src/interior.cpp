@@ -37,6 +37,7 @@ static_assert(kFartherHalfWidths[2 * kRadius + 5] <= Grid::kMargin);
 constexpr Grid::Cell rows_below(std::span<const unsigned> half_widths) {
   return static_cast<Grid::Cell>(half_widths.size() / 2);
 }
+static_assert(rows_below(kHalfWidths) == kReachedRows);
 
 /// Cells round one: row, from the lowest on -> bit c: the cell c - kFarthest columns away.
 struct Neighbourhood {
@@ -164,7 +165,7 @@ std::optional<Way> InteriorPart::choose(std::span<const Point> points, const Coo
   // Lengths are rounded harmlessly, areas of triangles with close corners are not.
   const bool pairs_matter = circumradii_matter && range.unit == 0;
   fill_cells(points, pairs_matter, pool);
-  if (share_of_uncertain(points) > guard.most_uncertain) return Way::kMuchOutline;
+  if (are_many_uncertain(points, guard.most_uncertain)) return Way::kMuchOutline;
   find_uncertain_cells(pool);
   if (share_of_part(points) > guard.most_triangulated) return Way::kMuchOutline;
   if (pairs_matter &&
@@ -227,16 +228,16 @@ void InteriorPart::fill_cells(std::span<const Point> points, bool with_shared, T
   });
 }
 
-/// Of the points, as far as some tell.
-double InteriorPart::share_of_uncertain(std::span<const Point> points) const {
+/// Whether more than a share of `most` of the points are uncertain, as far as some tell.
+bool InteriorPart::are_many_uncertain(std::span<const Point> points, double most) const {
   const PointCertificate& certificate = PointCertificate::instance();
   const std::size_t step = std::max(kLeastStep, points.size() / 256) | 1U;
-  std::size_t looked_at = 0;
-  std::size_t uncertain = 0;
-  for (std::size_t i = 0; i < points.size(); i += step, ++looked_at) {
-    uncertain += certificate.is_certified(points[i], cells_.data()[i], grid_, occupied()) ? 0U : 1U;
+  const auto looked_at = static_cast<double>((points.size() + step - 1) / step);
+  double uncertain = 0;
+  for (std::size_t i = 0; i < points.size() && uncertain <= most * looked_at; i += step) {
+    uncertain += certificate.is_certified(points[i], cells_.data()[i], grid_, occupied()) ? 0 : 1;
   }
-  return static_cast<double>(uncertain) / static_cast<double>(looked_at);
+  return uncertain > most * looked_at;
 }
 
 /// The part's share of the points, as far as a few tell: near how many is an uncertain cell whose middle is

@@ -53,6 +53,9 @@ inline constexpr double kUneven = 0.0006180339887498949;
 /// their box. A radius well beyond the spacing makes the part larger, not smaller.
 inline constexpr double kWidestInSpacings = 2.5;
 
+/// How far away, in rows, a cell can be that mark_reach() marks: beyond it lie 2 r of rows in between, and as
+/// much as rounding may move a point.
+inline constexpr Grid::Cell kReachedRows = 2 * kRadius + 1;
 /// Marks the cells that may hold a point within 2 r of one in `cell`.
 void mark_reach(const Grid& grid, Grid::Cell cell, Bitmap& reached);
 
@@ -96,7 +99,7 @@ class InteriorPart {
  private:
   double choose_grid(std::span<const Point> points, const Box& box, double radius,
                      const InteriorGuard& guard);
-  double share_of_uncertain(std::span<const Point> points) const;
+  bool are_many_uncertain(std::span<const Point> points, double most) const;
   double share_of_part(std::span<const Point> points) const;
   Bitmap& occupied() { return fills_.front().occupied; }
   const Bitmap& occupied() const { return fills_.front().occupied; }

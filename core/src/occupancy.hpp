@@ -38,7 +38,17 @@ class Grid {
         cells_per_length_(cells_per_length),
         columns_(static_cast<Cell>((box.max.x - box.min.x) * cells_per_length) + 1),
         rows_(static_cast<Cell>((box.max.y - box.min.y) * cells_per_length) + 1),
-        row_words_((columns_ + kWordBits - 1) / kWordBits + 2) {}
+        row_words_((columns_ + kWordBits - 1) / kWordBits + 2),
+        origin_(first_word(0) * kWordBits + kWordBits) {}
+
+  /// Its rows [begin, end) as a grid of their own, the first of them row 0, with a margin of its own. A point
+  /// has a cell there where its row_number() is in [begin, end).
+  Grid band(Cell begin, Cell end) const {
+    Grid grid = *this;
+    grid.rows_ = end - begin;
+    grid.origin_ -= begin * row_words_ * kWordBits;
+    return grid;
+  }
 
   /// How many cells a grid has, without the margin; infinite if there are too many.
   static double cell_count(const Box& box, double cells_per_length, double most_cells = kMostCells) {
@@ -59,19 +69,23 @@ class Grid {
 
   double column(const Point& p) const { return (p.x - minimum_.x) * cells_per_length_; }
   double row(const Point& p) const { return (p.y - minimum_.y) * cells_per_length_; }
+  /// The row of a point of the box, counted from the box's side, also in a band.
+  Cell row_number(const Point& p) const { return whole(row(p)); }
   Cell cell(const Point& p) const {
-    const auto row = static_cast<Cell>(static_cast<std::uint32_t>(static_cast<std::int32_t>(this->row(p))));
-    const auto column =
-        static_cast<Cell>(static_cast<std::uint32_t>(static_cast<std::int32_t>(this->column(p))));
-    return (row + kMargin) * row_words_ * kWordBits + kWordBits + column;
+    return row_number(p) * row_words_ * kWordBits + origin_ + whole(column(p));
   }
 
  private:
+  static Cell whole(double u) {
+    return static_cast<Cell>(static_cast<std::uint32_t>(static_cast<std::int32_t>(u)));
+  }
+
   Point minimum_;
   double cells_per_length_ = 0;
   Cell columns_ = 0;
   Cell rows_ = 0;
   Cell row_words_ = 0;
+  Cell origin_ = 0;  ///< the cell in column 0 of the box's first row; wraps round where a band is above it
 };
 
 /// One bit a cell, memory kept between calls.

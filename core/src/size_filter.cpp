@@ -94,6 +94,7 @@ class WholeMesh {
   WholeMesh(const Mesh& mesh, const Point* vertices) : mesh_(mesh), vertices_(vertices) {}
   static bool is_open(Mesh::Index /*kept*/) { return true; }
   static bool is_hidden(Mesh::Index /*t*/) { return false; }
+  static bool is_known_at(Mesh::Index /*vertex*/) { return true; }
   /// Whether `t` keeps to `rule`.
   template <class Rule>
   Answer ask(const Rule& rule, Mesh::Index t) const {
@@ -120,6 +121,8 @@ struct SizeFilter::Part {
     return has_marked_corner(mesh, t, is_tested) || is_sure_of(Triangle(mesh, vertices, t));
   }
   bool is_hidden(Index t) const { return hidden.contain(t); }
+  /// Whether all triangles at a vertex are those of the whole mesh.
+  bool is_known_at(Index vertex) const { return is_tested[vertex] != 0; }
   template <class Rule>
   Answer ask(const Rule& rule, Index t) const {
     if constexpr (requires { rule.most4(); }) {
@@ -268,33 +271,44 @@ void SizeFilter::drop_spikes(const Mesh& mesh, const Point* vertices, const Size
 }
 
 /// The half-edge of the border that follows `e`, one of a kept triangle whose twin's is not: turning at its
-/// end through kept triangles.
-Mesh::Index next_on_border(const Mesh& mesh, Mesh::Index e) {
-  do {
-    e = Mesh::next(e);
+/// end through kept triangles. kNone where one of these may not be kept in the mesh of all points.
+template <class Whole>
+Mesh::Index next_on_border(const Mesh& mesh, const Whole& whole, Mesh::Index e) {
+  e = Mesh::next(e);
+  if (!whole.is_known_at(mesh.origin(e))) return kNone;
+  while (true) {
     const Mesh::Index twin = mesh.twin(e);
-    if (!mesh.is_kept(Mesh::triangle_of(twin))) return e;
-    e = twin;
-  } while (true);
+    const Mesh::Index other = Mesh::triangle_of(twin);
+    if (!mesh.is_kept(other)) return e;
+    if (whole.is_hidden(other)) return kNone;
+    e = Mesh::next(twin);
+  }
 }
 
-/// A region of t triangles has at most t + 2 half-edges on its border. So where the border is longer, the
-/// region is large; where it is short, a hole's or a small part's, the region is walked through from it until
-/// it is large enough, meets triangles that are known to be of a large one, or ends; where that is at
-/// triangles that are not open, in doubt.
+/// A region of t triangles has at most t + 2 half-edges on its border. So where so many follow one another
+/// along the border that the region must be large, it is; elsewhere it is walked through from there until it
+/// is large enough, meets triangles that are known to be of a large one, or ends; where that is at triangles
+/// that are not open, in doubt.
+///
+/// In the mesh of a part, half-edges follow one another in the mesh of all points, too: at a tested vertex
+/// all triangles are those of that mesh, and those that are passed are kept in it. A spike of it is on two
+/// dropped triangles. Where one of these was met, the spike was dropped here, too; otherwise both are hidden,
+/// and one of them has a corner at the vertex and is passed as well.
 template <class Whole>
 void SizeFilter::drop_small_parts(const Mesh& mesh, const Whole& whole, std::size_t least_part,
                                   std::uint64_t* kept) {
   SeenTriangles seen(mesh, seen_);
   changed_.clear();
+  // Returns how many half-edges follow one another from `first` on, at most `most`.
   const auto walk_border = [&](Index first, std::size_t most, const auto& visit) {
+    std::size_t length = 0;
     Index e = first;
-    for (std::size_t length = 0; length < most; ++length) {
+    do {
       visit(Mesh::triangle_of(e));
-      e = next_on_border(mesh, e);
-      if (e == first) return length + 1;
-    }
-    return most;
+      ++length;
+      e = next_on_border(mesh, whole, e);
+    } while (e != first && e != kNone && length < most);
+    return length;
   };
   const auto walk_region = [&](Index start) {
     seen.add(start);

@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <atomic>
+#include <bit>
 #include <cmath>
-#include <limits>
+#include <numeric>
 #include <optional>
 #include <stdexcept>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -13,84 +15,164 @@
 #include "coordinate_range.hpp"
 #include "interior.hpp"
 #include "options_check.hpp"
+#include "shards.hpp"
 
 namespace polylidar {
 namespace {
 
 using detail::Bitmap;
 using detail::Grid;
-
-/// From so few points on they are put into memory.
-constexpr std::uint64_t kFewPoints = std::uint64_t{1} << 16U;
+using detail::kFewPoints;
 
 std::runtime_error has_changed() {
   return std::runtime_error("the source has other points than when it was read before");
 }
 
-std::invalid_argument too_much_outline() {
-  return std::invalid_argument("more than 2^28 points are near the outline: give a larger limit");
-}
+/// Rows from `begin` on, before `end`.
+struct Rows {
+  Grid::Cell begin = 0;
+  Grid::Cell end = 0;
 
-/// The points near the outline, by ascending number.
-struct Part {
-  std::vector<Point> points;
-  std::vector<std::uint64_t> numbers;
-  std::vector<std::uint8_t> is_uncertain;
+  bool empty() const { return begin == end; }
+  bool has(Grid::Cell row) const { return row >= begin && row < end; }
+  bool meets(const Rows& other) const { return begin < other.end && other.begin < end; }
+  /// With so many more on either side, as far as there are any.
+  Rows with_halo(Grid::Cell halo, Grid::Cell rows) const {
+    return {begin - std::min(begin, halo), std::min(end + halo, rows)};
+  }
 };
 
+// What a shard must know beyond its band. A point of the band is in the part where an uncertain one lies at
+// most kReachedRows away, so these are looked for there. Whether one is uncertain is decided by the cells
+// at most kReach rows away from its own, so cells are marked as occupied there, too: 24 rows, which are 4
+// radii. On less, points of the part would be missing, and points be taken for uncertain that are not.
+constexpr Grid::Cell kHaloOfUncertain = detail::kReachedRows;
+constexpr Grid::Cell kHaloOfOccupied = kHaloOfUncertain + detail::kReach;
+// What is marked beyond them falls into the margin.
+static_assert(kHaloOfUncertain + detail::kReachedRows <= kHaloOfOccupied + Grid::kMargin);
+
+Rows band(const Shard& shard, Grid::Cell rows) {
+  const auto begin = [&](std::uint64_t number) {
+    return static_cast<Grid::Cell>(std::uint64_t{rows} * number / shard.count);
+  };
+  return {begin(shard.number - 1), begin(shard.number)};
+}
+
+/// How many rows the map of a shard can have.
+Grid::Cell most_rows(const Shard& shard, Grid::Cell rows) {
+  return std::min(rows, (rows + shard.count - 1) / shard.count + 2 * kHaloOfOccupied);
+}
+
+/// The same whatever blocks the points come in.
+std::uint64_t checksum(std::span<const Point> block, std::uint64_t first, detail::ThreadPool& pool) {
+  const detail::Chunks chunks(pool, block.size());
+  std::vector<std::uint64_t> sums(chunks.size());
+  pool.for_each(chunks.size(), [&](std::size_t c) {
+    std::uint64_t sum = 0;
+    for (std::size_t i = chunks.begin(c); i < chunks.end(c); ++i) {
+      // Odd numbers with many bits, and shifts between the products, as in splitmix64.
+      std::uint64_t mixed = std::bit_cast<std::uint64_t>(block[i].x) + (first + i) * 0x9E3779B97F4A7C15U;
+      mixed = (mixed ^ mixed >> 30U) * 0xBF58476D1CE4E5B9U;
+      mixed += std::bit_cast<std::uint64_t>(block[i].y);
+      mixed = (mixed ^ mixed >> 27U) * 0x94D049BB133111EBU;
+      sum += mixed ^ mixed >> 31U;
+    }
+    sums[c] = sum;
+  });
+  return std::accumulate(sums.begin(), sums.end(), std::uint64_t{0});
+}
+
+/// The passes over the sources.
 class Stream {
  public:
-  Stream(const PointSource& source, const Options& options, const StreamOptions& stream_options)
-      : source_(source), stream_options_(stream_options), limits_(detail::checked_limits(options)) {
+  Stream(std::span<const PointSource> sources, const Options& options, const Shard& shard,
+         const StreamOptions& stream_options)
+      : sources_(sources), stream_options_(stream_options), limits_(detail::checked_limits(options)) {
+    if (shard.number < 1 || shard.number > shard.count) {
+      throw std::invalid_argument("there is no " + detail::name_of(shard));
+    }
     pool_.use(options.threads);
+    part_.shard = shard;
+    part_.options = options;
   }
 
-  StreamedHull extract(const Options& options);
+  StreamShard find_part();
 
  private:
+  /// What the first pass finds of a source.
+  struct Extent {
+    std::uint64_t points = 0;
+    Box box;
+  };
+
+  void begin_pass();
   template <class Visit>
-  void pass(const Visit& visit);
+  void read(const PointSource& source, const Visit& visit);
   template <class Visit>
-  void pass_over_cells(const Visit& visit);
+  void pass_over_cells(const Rows& rows, const Visit& visit);
+  detail::RangeOfBlocks find_extents();
   void choose_grid();
   void find_uncertain_cells();
   void find_uncertain_points();
   void gather();
-  StreamedHull trace(bool fill_single);
-  StreamedHull extract_in_memory(const Options& options);
+  void take_all();
 
-  const PointSource& source_;
+  std::span<const PointSource> sources_;
   const StreamOptions& stream_options_;
   Limits limits_;
   detail::ThreadPool pool_;
   StreamProgress progress_;
-  std::uint64_t count_ = 0;
-  detail::CoordinateRange range_;
-  Grid grid_;
+  std::vector<Extent> extents_;  ///< one a source
+  Rows own_;                     ///< the shard's band
+  Rows tested_;                  ///< in which uncertain points are looked for
+  Rows seen_;                    ///< in which cells are marked as occupied
+  Grid grid_;                    ///< the rows seen_ of the grid over the box
   std::optional<Bitmap> occupied_;
-  std::optional<Bitmap> marked_;  ///< uncertain cells, then those within reach of uncertain points
-  std::vector<std::uint64_t> uncertain_;
-  Part part_;
+  std::optional<Bitmap> marked_;          ///< uncertain cells, then those within reach of uncertain points
+  std::vector<std::uint64_t> uncertain_;  ///< of the shard's own band, ascending
+  StreamShard part_;
 };
+
+void Stream::begin_pass() {
+  ++progress_.pass;
+  progress_.points = 0;
+}
 
 /// visit(block, number of its first point) for each block.
 template <class Visit>
-void Stream::pass(const Visit& visit) {
-  ++progress_.pass;
-  progress_.points = 0;
-  source_([&](std::span<const Point> block) {
+void Stream::read(const PointSource& source, const Visit& visit) {
+  source([&](std::span<const Point> block) {
     visit(block, progress_.points);
     progress_.points += block.size();
     if (stream_options_.progress) stream_options_.progress(progress_);
   });
 }
 
-/// As pass(), after the first one: visit(point, cell, number, chunk) on all threads, where all points lie in
-/// the grid; chunks are those of the block, in its order.
+/// The first pass.
+detail::RangeOfBlocks Stream::find_extents() {
+  begin_pass();
+  detail::RangeOfBlocks range;
+  for (const PointSource& source : sources_) {
+    Extent& extent = extents_.emplace_back(Extent{0, bounding_box({})});
+    read(source, [&](std::span<const Point> block, std::uint64_t first) {
+      const Box box = range.add(block, pool_);
+      extent.points += block.size();
+      extent.box = {{std::min(extent.box.min.x, box.min.x), std::min(extent.box.min.y, box.min.y)},
+                    {std::max(extent.box.max.x, box.max.x), std::max(extent.box.max.y, box.max.y)}};
+      part_.source_checksum += checksum(block, first, pool_);
+    });
+  }
+  part_.source_points = range.count();
+  part_.box = range.box();
+  return range;
+}
+
+/// A later pass: visit(point, cell, number, chunk) on all threads for the points in these rows, which are
+/// among seen_; chunks are those of the block, in its order. Sources without such points are not read.
 template <class Visit>
-void Stream::pass_over_cells(const Visit& visit) {
-  const Box& box = range_.box;
-  pass([&](std::span<const Point> block, std::uint64_t first) {
+void Stream::pass_over_cells(const Rows& rows, const Visit& visit) {
+  begin_pass();
+  const auto look_at = [&](std::span<const Point> block, std::uint64_t first, const Box& box) {
     std::atomic<bool> is_same = true;
     const detail::Chunks chunks(pool_, block.size());
     visit.begin(chunks.size());
@@ -101,13 +183,22 @@ void Stream::pass_over_cells(const Visit& visit) {
           is_same = false;
           return;
         }
-        visit.point(p, grid_.cell(p), first + i, c);
+        if (rows.has(grid_.row_number(p))) visit.point(p, grid_.cell(p), first + i, c);
       }
     });
     if (!is_same) throw has_changed();
     visit.end();
-  });
-  if (progress_.points != count_) throw has_changed();
+  };
+  for (std::size_t s = 0; s < sources_.size(); ++s) {
+    const Box& box = extents_[s].box;
+    const std::uint64_t end = progress_.points + extents_[s].points;
+    if (extents_[s].points > 0 && rows.meets({grid_.row_number(box.min), grid_.row_number(box.max) + 1})) {
+      read(sources_[s],
+           [&](std::span<const Point> block, std::uint64_t first) { look_at(block, first, box); });
+      if (progress_.points != end) throw has_changed();
+    }
+    progress_.points = end;
+  }
 }
 
 /// What is done with the points of a block, and before and after it.
@@ -120,23 +211,31 @@ struct Visit {
 template <class Begin, class OfPoint, class End>
 Visit(Begin, OfPoint, End) -> Visit<Begin, OfPoint, End>;
 
+/// The same for all shards, and where the shard has its band in it.
 void Stream::choose_grid() {
-  const Box& box = range_.box;
-  const double most_cells = std::min(8 * stream_options_.most_map_bytes,
-                                     static_cast<double>(std::numeric_limits<Grid::Cell>::max()) / 2);
+  const Box& box = part_.box;
   const double widest = detail::least_dropped_radius(limits_) * (1 - detail::kSafety);
   const double area = (box.max.x - box.min.x) * (box.max.y - box.min.y);
-  double radius = std::min(widest, detail::kWidestInSpacings * std::sqrt(area / static_cast<double>(count_)));
+  double radius = std::min(
+      widest, detail::kWidestInSpacings * std::sqrt(area / static_cast<double>(part_.source_points)));
   constexpr double kWider = 1.1;
   const auto fits = [&] {
-    return std::isfinite(Grid::cell_count(box, detail::kRadius / radius, most_cells));
+    if (!std::isfinite(Grid::cell_count(box, detail::kRadius / radius, HUGE_VAL))) return false;
+    const Grid grid(box, detail::kRadius / radius);
+    const std::size_t words = grid.band(0, most_rows(part_.shard, grid.rows())).word_count();
+    return sizeof(Bitmap::Word) * static_cast<double>(words) <= stream_options_.most_map_bytes;
   };
   while (!fits() && radius < widest) radius = std::min(radius * kWider, widest);
   if (!fits()) {
     throw std::invalid_argument(
         "the limit is too small for the distances between the points: give a larger one, or more memory");
   }
-  grid_ = Grid(box, detail::kRadius / radius);
+  const Grid grid(box, detail::kRadius / radius);
+  part_.cells_per_length = grid.cells_per_length();
+  own_ = band(part_.shard, grid.rows());
+  tested_ = own_.with_halo(kHaloOfUncertain, grid.rows());
+  seen_ = own_.with_halo(kHaloOfOccupied, grid.rows());
+  grid_ = grid.band(seen_.begin, seen_.end);
 }
 
 void Stream::find_uncertain_cells() {
@@ -144,19 +243,25 @@ void Stream::find_uncertain_cells() {
   const auto mark = [&](const Point&, Grid::Cell cell, std::uint64_t, std::size_t) {
     occupied_->set_shared(cell);
   };
-  pass_over_cells(Visit{[](std::size_t) {}, mark, [] {}});
+  pass_over_cells(seen_, Visit{[](std::size_t) {}, mark, [] {}});
   marked_.emplace().clear(grid_.word_count());
-  constexpr Grid::Cell kRowsOfBand = 64;
-  const Grid::Cell bands = (grid_.rows() + kRowsOfBand - 1) / kRowsOfBand;
-  pool_.for_each(bands, [&](std::size_t band) {
-    detail::find_uncertain_cells(grid_, *occupied_, band * kRowsOfBand,
-                                 std::min(grid_.rows(), (band + 1) * kRowsOfBand), *marked_);
+  constexpr Grid::Cell kRowsATime = 64;
+  const Rows tested{tested_.begin - seen_.begin, tested_.end - seen_.begin};
+  pool_.for_each((tested.end - tested.begin + kRowsATime - 1) / kRowsATime, [&](std::size_t i) {
+    const Grid::Cell begin = tested.begin + i * kRowsATime;
+    detail::find_uncertain_cells(grid_, *occupied_, begin, std::min(tested.end, begin + kRowsATime),
+                                 *marked_);
   });
 }
 
 void Stream::find_uncertain_points() {
   const detail::PointCertificate& certificate = detail::PointCertificate::instance();
-  std::vector<std::vector<std::pair<std::uint64_t, Grid::Cell>>> found;
+  struct Uncertain {
+    std::uint64_t number;
+    Grid::Cell cell;
+    bool is_own;
+  };
+  std::vector<std::vector<Uncertain>> found;
   std::vector<Grid::Cell> cells;
   const auto begin = [&](std::size_t chunks) {
     found.resize(std::max(found.size(), chunks));
@@ -164,18 +269,20 @@ void Stream::find_uncertain_points() {
   };
   const auto look = [&](const Point& p, Grid::Cell cell, std::uint64_t number, std::size_t chunk) {
     if (!marked_->test(cell) || certificate.is_certified(p, cell, grid_, *occupied_)) return;
-    found[chunk].emplace_back(number, cell);
+    found[chunk].push_back({number, cell, own_.has(grid_.row_number(p))});
   };
   const auto end = [&] {
     for (const auto& of_chunk : found) {
-      for (const auto& [number, cell] : of_chunk) {
-        if (uncertain_.size() == kMaxPoints) throw too_much_outline();
-        uncertain_.push_back(number);
+      for (const auto& [number, cell, is_own] : of_chunk) {
+        if (is_own) {
+          if (uncertain_.size() == kMaxPoints) throw detail::too_much_outline();
+          uncertain_.push_back(number);
+        }
         if (cells.empty() || cells.back() != cell) cells.push_back(cell);
       }
     }
   };
-  pass_over_cells(Visit{begin, look, end});
+  pass_over_cells(tested_, Visit{begin, look, end});
   marked_->clear(grid_.word_count());
   for (const Grid::Cell cell : cells) detail::mark_reach(grid_, cell, *marked_);
 }
@@ -197,92 +304,68 @@ void Stream::gather() {
         if (is_uncertain) ++next;
         part_.points.push_back(point);
         part_.numbers.push_back(number);
-        part_.is_uncertain.push_back(is_uncertain ? 1 : 0);
+        part_.uncertain.push_back(is_uncertain ? 1 : 0);
       }
     }
-    if (part_.points.size() > kMaxPoints) throw too_much_outline();
+    if (part_.points.size() > kMaxPoints) throw detail::too_much_outline();
   };
-  pass_over_cells(Visit{begin, look, end});
+  pass_over_cells(own_, Visit{begin, look, end});
   if (next != uncertain_.end()) throw has_changed();
 }
 
-StreamedHull Stream::trace(bool fill_single) {
-  detail::DelaunayBuilder builder;
-  builder.build(part_.points, range_, pool_);
-  const std::size_t count = part_.points.size();
-  std::vector<std::uint8_t> is_tested(count);
-  for (std::size_t v = 0; v < count; ++v) is_tested[v] = part_.is_uncertain[builder.caller_index()[v]];
-  detail::RegionFilter filter;
-  std::vector<detail::Mesh::Index> boundary;
-  if (filter.run_on_part(builder.mesh(), builder.vertices(), is_tested.data(), detail::filter_rules(limits_),
-                         fill_single, pool_, boundary)) {
-    throw std::invalid_argument(
-        "the rounding of a triangle's size decides whether it is kept: make the limit a little larger or "
-        "smaller");
-  }
-  detail::BoundaryTracer tracer;
-  IndexedMultiPolygon shape;
-  tracer.trace(builder.mesh(), builder.vertices(), count, builder.caller_index(), boundary, shape);
-  StreamedHull hull;
-  hull.polygons = to_coordinates(shape, part_.points);
-  for (const std::uint32_t vertex : shape.vertices) hull.vertices.push_back(part_.numbers[vertex]);
-  hull.points = count_;
-  hull.triangulated_points = count;
-  return hull;
-}
-
-StreamedHull Stream::extract_in_memory(const Options& options) {
-  std::vector<Point> points;
+/// Of so few points that the part is the whole of them: the first shard has it.
+void Stream::take_all() {
+  if (part_.shard.number > 1) return;
   progress_.passes = 2;
-  pass([&](std::span<const Point> block, std::uint64_t) {
-    if (points.size() + block.size() > count_) throw has_changed();
-    points.insert(points.end(), block.begin(), block.end());
-  });
-  if (points.size() != count_) throw has_changed();
-  Extractor extractor;
-  const IndexedMultiPolygon& shape = extractor.extract(points, options);
-  StreamedHull hull;
-  hull.polygons = to_coordinates(shape, points);
-  hull.vertices.assign(shape.vertices.begin(), shape.vertices.end());
-  hull.points = count_;
-  hull.triangulated_points = extractor.statistics().triangulated_points;
-  return hull;
+  begin_pass();
+  std::vector<Point>& points = part_.points;
+  for (const PointSource& source : sources_) {
+    read(source, [&](std::span<const Point> block, std::uint64_t) {
+      if (points.size() + block.size() > part_.source_points) throw has_changed();
+      points.insert(points.end(), block.begin(), block.end());
+    });
+  }
+  if (points.size() != part_.source_points) throw has_changed();
+  part_.numbers.resize(points.size());
+  std::iota(part_.numbers.begin(), part_.numbers.end(), std::uint64_t{0});
+  part_.uncertain.assign(points.size(), 1);
 }
 
-StreamedHull Stream::extract(const Options& options) {
-  detail::RangeOfBlocks range;
-  pass([&](std::span<const Point> block, std::uint64_t) { range.add(block, pool_); });
-  count_ = range.count();
-  if (count_ <= kFewPoints) return extract_in_memory(options);
-  if (!detail::is_any_limit_given(options)) {
+StreamShard Stream::find_part() {
+  const detail::RangeOfBlocks range = find_extents();
+  if (part_.source_points <= kFewPoints) {
+    take_all();
+    return std::move(part_);
+  }
+  if (!detail::is_any_limit_given(part_.options)) {
     throw std::invalid_argument(
         "a stream of more than 65536 points needs a limit: give alpha, max_edge_length or "
         "max_perimeter");
   }
-  range_ = range.range();
-  if (range_.scale_exponent != 0) {
+  if (range.range().scale_exponent != 0) {
     throw std::invalid_argument("coordinates as large or as small as these cannot be streamed: scale them");
   }
-  const Box& box = range_.box;
-  if (box.min.x == box.max.x || box.min.y == box.max.y) {  // points on a line
-    StreamedHull none;
-    none.points = count_;
-    return none;
-  }
+  if (detail::is_flat(part_.box)) return std::move(part_);
   choose_grid();
+  if (own_.empty()) return std::move(part_);  // more shards than rows
   find_uncertain_cells();
   find_uncertain_points();
   occupied_.reset();
   gather();
-  marked_.reset();
-  return trace(options.fill_single_triangles.value_or(false));
+  return std::move(part_);
 }
 
 }  // namespace
 
+StreamShard part_of_stream(std::span<const PointSource> sources, const Options& options, const Shard& shard,
+                           const StreamOptions& stream_options) {
+  return Stream(sources, options, shard, stream_options).find_part();
+}
+
 StreamedHull concave_hull_of_stream(const PointSource& source, const Options& options,
                                     const StreamOptions& stream_options) {
-  return Stream(source, options, stream_options).extract(options);
+  const StreamShard all = part_of_stream({&source, 1}, options, Shard(), stream_options);
+  return concave_hull_of_shards({&all, 1}, options.threads);
 }
 
 }  // namespace polylidar

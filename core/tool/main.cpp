@@ -51,6 +51,7 @@ Action parse(int argc, char** argv) {
     });
   };
   add("hull", &add_hull_options, &make_hull);
+  add("merge", &add_merge_options, &merge_hulls);
   add("footprint", &add_footprint_options, &make_footprints);
   packaging::add_manual(app, "polylidar " POLYLIDAR_VERSION);
   return parsed_action(app, action, argc, argv);

@@ -17,6 +17,7 @@ from style import FULL_WIDTH, in_order, label, legend_row, method_style, new_fig
 
 _PREFIX = "letter_"
 _LETTERS = 26  # of which the paper's means are
+_PAPER_MARKER = {"marker": "D", "markersize": 2.6, "markerfacecolor": "white", "markeredgewidth": 0.7}
 
 
 def draw(run: Run) -> Iterator[Drawn]:
@@ -76,16 +77,12 @@ def _figure(rows: list[Row], published: dict[str, dict[str, float]]) -> Figure:
     legend_row(
         figure.add_subplot(grid[lines, :]),
         [
-            Line2D([], [], linestyle="none", color=black, label="the paper's value", **_paper_marker()),
+            Line2D([], [], linestyle="none", color=black, label="the paper's value", **_PAPER_MARKER),
             Line2D([], [], linestyle=(0, (3, 2)), linewidth=0.8, color=black, label="the paper's mean"),
         ],
         failures(rows),
     )
     return figure
-
-
-def _paper_marker() -> dict[str, object]:
-    return {"marker": "D", "markersize": 2.6, "markerfacecolor": "white", "markeredgewidth": 0.7}
 
 
 def _panel(axes: Axes, one: Series, rows: list[Row], letters: list[str], paper: dict[str, float], name: str) -> None:
@@ -101,29 +98,14 @@ def _panel(axes: Axes, one: Series, rows: list[Row], letters: list[str], paper: 
         axes.axhline(mean, color=look.color, linewidth=0.9, zorder=3)
         title += f"   {mean:.1f} %"
     else:
-        axes.text(
-            0.5,
-            0.14,
-            rows[0].status.replace("_", " "),
-            transform=axes.transAxes,
-            ha="center",
-            va="center",
-            fontsize=7,
-            color="#888888",
-        )
+        words = {"ha": "center", "va": "center", "fontsize": 7, "color": "#888888"}
+        axes.text(0.5, 0.14, rows[0].status.replace("_", " "), transform=axes.transAxes, **words)
     if (mean := paper.get("")) is not None:
         axes.axhline(mean, color=role_color("paper_value"), linewidth=0.8, linestyle=(0, (3, 2)), zorder=4)
         title += f"   (paper {mean:.1f} %)"
     places = [(letters.index(letter), value) for letter, value in paper.items() if letter in letters]
     if places:
-        axes.plot(
-            [x for x, _ in places],
-            [y for _, y in places],
-            linestyle="none",
-            color=role_color("paper_value"),
-            zorder=5,
-            **_paper_marker(),
-        )
+        axes.plot(*zip(*places), linestyle="none", color=role_color("paper_value"), zorder=5, **_PAPER_MARKER)
     axes.set_title(title, fontsize=7, loc="left", pad=2, fontweight="bold" if look.paper else "normal")
     axes.set_xlim(-0.7, len(letters) - 0.3)
     axes.grid(axis="x", visible=False)

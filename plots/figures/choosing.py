@@ -13,7 +13,7 @@ from matplotlib.ticker import NullFormatter
 
 from figures.sensitivity import read_tuning
 from run import Drawn, Run, Skipped
-from style import FULL_WIDTH, in_order, label, method_style, new_figure, number
+from style import FULL_WIDTH, in_order, label, legend_below, method_style, new_figure, number
 
 _COLUMNS = 4
 _NO_SEARCH = -1.5  # its place on the axis
@@ -64,9 +64,7 @@ def _figure(methods: dict[tuple[str, str], dict[str, Any]]) -> Figure:
         if k + columns >= len(every):
             axes.set_xlabel("Evaluations")
     handles = {text: handle for axes in panels for handle, text in zip(*axes.get_legend_handles_labels())}
-    below = figure.add_subplot(grid[lines, :])
-    below.axis("off")
-    below.legend(handles.values(), handles.keys(), loc="center", ncol=max(1, len(handles)), borderaxespad=0)
+    legend_below(figure.add_subplot(grid[lines, :]), handles.values(), handles.keys(), ncol=max(1, len(handles)))
     return figure
 
 

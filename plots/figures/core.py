@@ -15,7 +15,6 @@ from records import read_json
 from run import Drawn, Run, Skipped
 from style import FULL_WIDTH, method_style, new_figure, number, panel_letter
 
-FILE = "core.json"
 _UNITS = {"ns": 1.0, "us": 1e3, "ms": 1e6, "s": 1e9}
 # By benchmark: whose colour and marker, whole hull or triangulation only, dashes, and what it is called.
 _WHOLE, _TRIANGULATION = "concave hull", "triangulation"
@@ -59,9 +58,7 @@ class Times:
 
 
 def draw(run: Run) -> Iterator[Drawn]:
-    path = run.folder / FILE
-    if not path.is_file():
-        raise Skipped(f"{path} is not there (plots/README.md says what writes it)")
+    path = run.file("core.json", maker="plots/README.md says what writes it")
     curves = read(read_json(path, _SCHEMA, "; 'make figures-core' writes it"))
     if not curves:
         raise Skipped(f"{path} has none of the functions that are shown")
@@ -116,16 +113,6 @@ def _curve(axes: Axes, name: str, times: list[Times]) -> None:
     middle = [one.a_point for one in times]
     below = [one.a_point - min(one.calls) / one.n for one in times]
     above = [max(one.calls) / one.n - one.a_point for one in times]
-    axes.errorbar(
-        [one.n for one in times],
-        middle,
-        yerr=[below, above],
-        label=title,
-        color=look.color,
-        marker=look.marker,
-        markersize=3.6,
-        linewidth=1.3,
-        linestyle=(0, dashes) if dashes else "-",
-        elinewidth=0.7,
-        capsize=1.5,
-    )
+    line = {"linewidth": 1.3, "linestyle": (0, dashes) if dashes else "-", "marker": look.marker, "markersize": 3.6}
+    numbers = [one.n for one in times]
+    axes.errorbar(numbers, middle, yerr=[below, above], label=title, color=look.color, elinewidth=0.7, capsize=1.5, **line)

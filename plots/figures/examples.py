@@ -28,27 +28,22 @@ def _result(run: Run, experiment: Experiment, row: Row) -> tuple[Picture, list] 
 
 
 def _convex_and_concave(run: Run) -> Drawn | None:
-    try:
-        experiment = run.experiment("alphabet")
-    except Skipped:
+    if not run.has("alphabet"):
         return None
+    experiment = run.experiment("alphabet")
     rows = {row.method: row for row in experiment.rows if row.dataset == _LETTER and row.ok}
     found = {method: _result(run, experiment, rows[method]) for method in ("convex_hull", "polylidar") if method in rows}
     if len(found) < 2 or None in found.values():
         return None
     panels = [(method_style(method).title, method, *result) for method, result in found.items()]
-    return Drawn(
-        "convex_and_concave",
-        _figure(panels),
-        "The convex hull of the points of a letter A, and Polylidar's concave " "hull with its hole.",
-    )
+    caption = "The convex hull of the points of a letter A, and Polylidar's concave hull with its hole."
+    return Drawn("convex_and_concave", _figure(panels), caption)
 
 
 def _convexity(run: Run) -> Drawn | None:
-    try:
-        experiment = run.experiment("random")
-    except Skipped:
+    if not run.has("random"):
         return None
+    experiment = run.experiment("random")
     rows = {row.name: row for row in experiment.rows if row.method == "polylidar" and row.ok}
     kept = [rows[line["run"]] for line in experiment.picture_lines() if line["kind"] == "result" and line["run"] in rows]
     if len(kept) < 2:

@@ -12,7 +12,7 @@ from matplotlib.patches import Patch
 from figures.shapes import height_over_width, shape_picture
 from figures.states import growing_shapes
 from hull_grid import hull_grid
-from maps import Polygons, area_path, difference, frame, outline, points
+from maps import Polygons, area_path, difference, frame, outline, truth_and_points
 from records import Picture, Row
 from run import Drawn, Run, Skipped, failures
 from style import role_color
@@ -48,19 +48,13 @@ def _figure(picture: Picture, rows: list[Row]) -> Figure:
         error = row.metric("l2")
         return f"{100 * error:.1f} %" if error is not None else row.status.replace("_", " ")
 
-    first = ("Points and truth", lambda axes: _points_panel(axes, picture))
+    first = ("Points and truth", lambda axes: truth_and_points(axes, picture, 0.5, 0.9))
     return hull_grid(picture, rows, min(1.3, height_over_width(picture)), first, panel, difference_key())
 
 
 def difference_key() -> list[Patch]:
     words = {"both": "right", "omission": "missing", "commission": "too much"}
     return [Patch(facecolor=role_color(role), label=text) for role, text in words.items()]
-
-
-def _points_panel(axes: Axes, picture: Picture) -> None:
-    outline(axes, area_path(picture.ground_truth()), role_color("ground_truth"), 0.5, zorder=6)
-    points(axes, picture.points(), 0.9)
-    frame(axes, picture)
 
 
 def draw_result(axes: Axes, picture: Picture, result: Polygons | None) -> None:

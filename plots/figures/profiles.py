@@ -12,9 +12,8 @@ from matplotlib.ticker import NullLocator
 
 from records import read_json
 from run import Drawn, Run, Skipped
-from style import FULL_WIDTH, in_order, label, method_style, new_figure, number, panel_letter
+from style import FULL_WIDTH, curve_options, in_order, method_style, new_figure, number, panel_letter
 
-FILE = "league.json"
 # By group: what those of it know.
 _GROUPS = {
     "blind": "know the points only",
@@ -25,9 +24,7 @@ _GROUPS = {
 
 
 def draw(run: Run) -> Iterator[Drawn]:
-    path = run.folder / FILE
-    if not path.is_file():
-        raise Skipped(f"{path} is not there ('make evaluate' writes it)")
+    path = run.file("league.json", maker="'make evaluate' writes it")
     league = read_json(path, "league.schema.json", "; 'hullbench league' writes it")
     profiles = {one["group"]: one for one in league["profiles"] if len(one["curves"]) > 1}
     groups = [group for group in _GROUPS if group in profiles]
@@ -68,16 +65,12 @@ def _panel(axes: Axes, taus: list[float], profile: dict[str, Any]) -> None:
         axes.plot(
             taus,
             [100 * share for share in curves[one]],
-            color=look.color,
-            linestyle=look.line,
-            linewidth=max(look.width, 1.1),
             marker=look.marker,
             markersize=3.2,
             markevery=0.12,
             markerfacecolor=look.color if one[1] == "paper" else "white",
             markeredgewidth=0.8,
-            zorder=4 + 1 / look.order,
-            label=label(one, curves),
+            **curve_options(one, curves, 1.1),
         )
     axes.set_xscale("log")
     axes.set_xlim(min(taus), max(taus))

@@ -17,6 +17,7 @@ from run import Drawn, Run, Skipped, failures
 from style import FULL_WIDTH, footnote, in_order, label, method_style, new_figure, panel_letter, role_color
 
 _STARS = "star-"
+_PAPER_MARKER = {"marker": "D", "markersize": 3.6, "markerfacecolor": "white"}
 _BIN = 0.025  # of convexity
 _LEAST = 20  # runs in a bin, for its 5 and 95 % to mean anything
 
@@ -68,19 +69,8 @@ def _figure(chosen: list[Row], stars: list[Row], classes: list[dict[str, Any]], 
 def _convexity_panel(axes: Axes, rows: list[Row], classes: list[dict[str, Any]]) -> None:
     color = method_style(rows[0].method).color
     convexity, error = _values(rows)
-    axes.plot(
-        convexity,
-        error,
-        linestyle="none",
-        marker=".",
-        markersize=0.9,
-        markeredgewidth=0,
-        color=color,
-        alpha=0.35,
-        rasterized=True,
-        zorder=2,
-        label="_runs",
-    )
+    dots = {"linestyle": "none", "marker": ".", "markersize": 0.9, "markeredgewidth": 0, "rasterized": True}
+    axes.plot(convexity, error, color=color, alpha=0.35, zorder=2, label="_runs", **dots)
     middle, quantiles = binned(convexity, error)
     if len(middle):
         axes.fill_between(middle, quantiles[0], quantiles[2], color=color, alpha=0.25, linewidth=0, zorder=3)
@@ -98,16 +88,7 @@ def _key(color: str) -> list[Artist]:
     return [
         Line2D([], [], color=color, linewidth=1.6, label="median"),
         Patch(facecolor=color, alpha=0.3, label="5 to 95 %"),
-        Line2D(
-            [],
-            [],
-            color=paper,
-            linewidth=0.9,
-            marker="D",
-            markersize=3.6,
-            markerfacecolor="white",
-            label="the paper: mean ± std",
-        ),
+        Line2D([], [], color=paper, linewidth=0.9, label="the paper: mean ± std", **_PAPER_MARKER),
         Line2D([], [], color=paper, linestyle="none", marker="_", markersize=6, label="the paper: maximum"),
     ]
 
@@ -132,18 +113,7 @@ def _classes(axes: Axes, convexity: np.ndarray, classes: list[dict[str, Any]]) -
         x = float(np.median(inside))
         mean, deviation, most = one["l2_percent"]
         color = role_color("paper_value")
-        axes.errorbar(
-            [x],
-            [mean],
-            yerr=[deviation],
-            marker="D",
-            markersize=3.6,
-            markerfacecolor="white",
-            color=color,
-            elinewidth=0.9,
-            capsize=2,
-            zorder=6,
-        )
+        axes.errorbar([x], [mean], yerr=[deviation], color=color, elinewidth=0.9, capsize=2, zorder=6, **_PAPER_MARKER)
         axes.plot([x], [most], marker="_", markersize=6, color=color, zorder=6)
         axes.text(x, 0.985, one["title"].split()[0], transform=axes.get_xaxis_transform(), ha="center", va="top", fontsize=6.5)
 

@@ -97,10 +97,8 @@ def _wins_figure(rating: Rating) -> Figure:
     figure = new_figure(size, size - 8)
     axes = figure.subplots()
     image = axes.imshow(100 * rating.wins, cmap="cividis", vmin=0, vmax=100)
-    for i in range(count):
-        for j in range(count):
-            if i != j:
-                _cell(axes, i, j, 100 * rating.wins[i, j], 100 * rating.ties[i, j])
+    for i, j in np.argwhere(~np.eye(count, dtype=bool)):
+        _cell(axes, i, j, 100 * rating.wins[i, j], 100 * rating.ties[i, j])
     names = _labels(rating)
     axes.set_xticks(range(count), names, rotation=90)
     axes.set_yticks(range(count), names)
@@ -123,12 +121,10 @@ def _parts_figure(rating: Rating) -> Figure:
     axes = figure.subplots()
     ranks = np.array([part.ranks for part in parts]).T
     axes.imshow(ranks, cmap="cividis_r", vmin=1, vmax=count, aspect="auto")
-    for i in range(count):
-        for j in range(len(parts)):
-            best = ranks[i, j] <= ranks[:, j].min() + 1e-9
-            color = "white" if ranks[i, j] > 0.55 * count else "black"
-            text = f"{ranks[i, j]:.1f}"
-            axes.text(j, i, text, ha="center", va="center", fontsize=6, color=color, fontweight="bold" if best else "normal")
+    for (i, j), rank in np.ndenumerate(ranks):
+        weight = "bold" if rank <= ranks[:, j].min() + 1e-9 else "normal"
+        color = "white" if rank > 0.55 * count else "black"
+        axes.text(j, i, f"{rank:.1f}", ha="center", va="center", fontsize=6, color=color, fontweight=weight)
     axes.set_xticks(range(len(parts)), [f"{part.name} ({part.cases})" for part in parts], rotation=60, ha="right")
     axes.set_yticks(range(count), _labels(rating))
     axes.axvline(len(rating.kinds) - 0.5, color="white", linewidth=3)

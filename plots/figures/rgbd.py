@@ -7,10 +7,10 @@ from collections.abc import Iterator
 from matplotlib.figure import Figure
 
 from figures.hulls import difference_key, draw_result
-from maps import area_path, frame, outline, points
+from maps import truth_and_points
 from records import Experiment, Picture, Row
 from run import Drawn, Run, Skipped
-from style import FULL_WIDTH, legend_row, new_figure, panel_letter, role_color
+from style import FULL_WIDTH, legend_row, new_figure, panel_letter
 
 _METHOD = "polylidar"
 
@@ -43,9 +43,7 @@ def _figure(scenes: list[tuple[Row, Picture]]) -> Figure:
     grid = figure.add_gridspec(len(scenes) + 1, 2, height_ratios=[62] * len(scenes) + [5])
     for k, (row, picture) in enumerate(scenes):
         left, right = (figure.add_subplot(grid[k, column]) for column in range(2))
-        outline(left, area_path(picture.ground_truth()), role_color("ground_truth"), 0.7, zorder=6)
-        points(left, picture.points(), 1.3)
-        frame(left, picture)
+        truth_and_points(left, picture, 0.7, 1.3)
         panel_letter(left, "ac"[k], f"{row.dataset}, {row.n:,} points")
         draw_result(right, picture, picture.polygons(row.name))
         panel_letter(right, "bd"[k], f"Polylidar, L² error {100 * row.metrics['l2']:.1f} %")

@@ -12,9 +12,8 @@ from matplotlib.ticker import NullFormatter
 
 from records import read_json
 from run import Drawn, Run, Skipped
-from style import FULL_WIDTH, in_order, label, method_style, new_figure, number, panel_letter
+from style import FULL_WIDTH, curve_options, in_order, label, legend_below, method_style, new_figure, number, panel_letter
 
-FILES = ("tune.json", "tune.json.xz")
 _WORST = 10.0  # of the error's axis, in errors of the oracle
 
 
@@ -38,9 +37,7 @@ def draw(run: Run) -> Iterator[Drawn]:
 
 def read_tuning(run: Run) -> tuple[Path, dict[str, Any]]:
     """The file of the search and what is in it. Raises Skipped without one."""
-    path = next((run.folder / name for name in FILES if (run.folder / name).is_file()), None)
-    if path is None:
-        raise Skipped(f"{run.folder / FILES[0]} is not there ('make evaluate' writes it)")
+    path = run.file("tune.json", "tune.json.xz", maker="'make evaluate' writes it")
     return path, read_json(path, "tune.schema.json", "; 'hullbench tune' writes it")
 
 
@@ -57,9 +54,7 @@ def _figure(methods: list[dict[str, Any]]) -> Figure:
         axes.set_xlabel("Parameter over the tuned one" if octaves else "Parameter (spacings h)")
     figure.axes[0].set_ylabel("L2 error over the method's best")
     handles, titles = figure.axes[-1].get_legend_handles_labels()
-    below = figure.add_subplot(grid[1, :])
-    below.axis("off")
-    below.legend(handles, titles, loc="center", ncol=4, handlelength=2.8, columnspacing=1.6, borderaxespad=0)
+    legend_below(figure.add_subplot(grid[1, :]), handles, titles, ncol=4, handlelength=2.8, columnspacing=1.6)
     return figure
 
 
@@ -73,19 +68,9 @@ def _panel(axes: Axes, methods: list[dict[str, Any]], octaves: bool) -> None:
         x = [point["position"] / unit for point in curve]
         tolerance = one["tolerance_octaves"]
         title = label(series, by_series) + (f", {tolerance['median']:.1f} octaves" if tolerance else "")
-        axes.plot(
-            x,
-            [point["relative"]["median"] for point in curve],
-            color=look.color,
-            linestyle=look.line,
-            linewidth=max(look.width, 1.1),
-            marker=look.marker,
-            markersize=3,
-            markerfacecolor="white",
-            markeredgewidth=0.8,
-            zorder=4 + 1 / look.order,
-            label=title,
-        )
+        middle = [point["relative"]["median"] for point in curve]
+        marker = {"marker": look.marker, "markersize": 3, "markerfacecolor": "white", "markeredgewidth": 0.8}
+        axes.plot(x, middle, **{**curve_options(series, by_series, 1.1), **marker, "label": title})
         low = [point["relative"]["q1"] for point in curve]
         high = [min(point["relative"]["q3"] or _WORST, _WORST) for point in curve]
         if not octaves:

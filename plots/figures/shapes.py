@@ -7,7 +7,7 @@ from collections.abc import Iterator
 from matplotlib.axes import Axes
 
 from figures.states import growing_shapes
-from maps import area_path, frame, outline, paint, points
+from maps import area_path, paint, truth_and_points
 from records import Picture
 from run import Drawn, Run, Skipped
 from style import FULL_WIDTH, new_figure, panel_letter, role_color
@@ -59,6 +59,4 @@ def _shape(axes: Axes, picture: Picture) -> None:
     truth = picture.ground_truth()
     paint(axes, area_path([[polygon[0]] for polygon in truth]), role_color("hole"), zorder=1)
     paint(axes, area_path(truth), role_color("both"), zorder=2)
-    outline(axes, area_path(truth), role_color("ground_truth"), 0.6, zorder=6)
-    points(axes, picture.points(), 1.6)
-    frame(axes, picture)
+    truth_and_points(axes, picture, 0.6, 1.6)

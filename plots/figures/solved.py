@@ -10,7 +10,7 @@ from matplotlib.figure import Figure
 
 from ratings import KNOWS, TARGET_WORDS, Division, divisions, has_times, solved_against_time
 from run import Drawn, Run, Skipped
-from style import FULL_WIDTH, in_order, marker_options, method_style, new_figure, number, panel_letter, series_legend
+from style import FULL_WIDTH, curve_options, in_order, marker_options, new_figure, number, panel_letter, series_legend
 
 
 _COLUMNS = 4
@@ -43,16 +43,8 @@ def _figure(found: list[Division]) -> Figure:
     for k, division in enumerate(found):
         axes = figure.add_subplot(grid[0, k])
         for series, (x, y) in solved_against_time(division).items():
-            look = method_style(series[0])
-            axes.step(
-                np.concatenate([[low], x, [high]]),
-                100 * np.concatenate([[0], y, y[-1:] if len(y) else [0]]),
-                where="post",
-                color=look.color,
-                linestyle=look.line,
-                linewidth=max(look.width, 1.0),
-                zorder=4 + 1 / look.order,
-            )
+            steps = np.concatenate([[low], x, [high]]), 100 * np.concatenate([[0], y, y[-1:] if len(y) else [0]])
+            axes.step(*steps, where="post", **curve_options(series, every, 1.0))
             if len(x):
                 axes.plot(x[-1], 100 * y[-1], linestyle="none", zorder=6, **marker_options(series, 1.1))
         axes.set_xscale("log")

@@ -85,11 +85,7 @@ def _time_panel(axes: Axes, rows: Sequence[Row], letter: str, words: str) -> Non
     if len(fast) > 1:
         _make_room(axes, times)
         inset = axes.inset_axes(_INSET)
-        _plot(
-            inset,
-            {one: [tuple(v and v / scale for v, scale in zip(point, (1000, 1, 1, 1))) for point in times[one]] for one in fast},
-            bands=True,
-        )
+        _plot(inset, {one: [(n / 1000, *values) for n, *values in times[one]] for one in fast}, bands=True)
         inset.text(0.04, 0.97, "ms", transform=inset.transAxes, va="top", fontsize=6)
         inset.set_xlim(left=0)
         inset.set_ylim(bottom=0)
@@ -129,10 +125,9 @@ def _curve(rows: Sequence[Row], one: Series, quantity: str) -> list[Point]:
     """A series' values by number of points: "time" in milliseconds with its interval, or "l2" in percent."""
     points: list[Point] = []
     for row in sorted((row for row in rows if row.series == one and row.ok), key=lambda row: row.n):
-        if quantity == "time" and row.time:
-            ends = (row.time.get("median_low_ns"), row.time.get("median_high_ns"))
-            low, high = (None if end is None else end / 1e6 for end in ends)
-            points.append((row.n, row.time["median_ns"] / 1e6, low, high))
+        if quantity == "time" and row.median_ns is not None:
+            low, high = (end / 1e6 for end in row.interval()) if row.interval() else (None, None)
+            points.append((row.n, row.median_ns / 1e6, low, high))
         elif quantity == "l2" and (error := row.metric("l2")) is not None:
             points.append((row.n, 100 * error, None, None))
     return points
@@ -145,15 +140,9 @@ def _plot(axes: Axes, curves: dict[Series, list[Point]], bands: bool) -> None:
         axes.plot([p[0] for p in points], [p[1] for p in points], **line_options(one))
         known = [p for p in points if p[2] is not None and p[3] is not None]
         if bands and len(known) > 1:
-            axes.fill_between(
-                [p[0] for p in known],
-                [p[2] for p in known],
-                [p[3] for p in known],
-                color=method_style(one[0]).color,
-                alpha=0.22 if method_style(one[0]).paper else 0.12,
-                linewidth=0,
-                zorder=2,
-            )
+            look = method_style(one[0])
+            n, _, low, high = zip(*known)
+            axes.fill_between(n, low, high, color=look.color, alpha=0.22 if look.paper else 0.12, linewidth=0, zorder=2)
 
 
 def _log_axes(axes: Axes, rows: Sequence[Row]) -> None:

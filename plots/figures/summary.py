@@ -13,6 +13,7 @@ from figures.shapes import shape_picture
 from figures.states import growing_shapes
 from labels import place_labels
 from maps import area_path, frame, outline, paint, points
+from ratings import pareto
 from records import Picture, Row
 from run import Drawn, Run, Skipped, failures
 from style import FULL_WIDTH, footnote, in_order, marker_options, method_style, new_figure, number, panel_letter
@@ -59,11 +60,7 @@ def compared_rows(rows: Sequence[Row]) -> list[Row]:
 
 def front(rows: Sequence[Row]) -> list[Row]:
     """By rising time: the rows to which none is both at least as fast and as accurate."""
-    best: list[Row] = []
-    for row in sorted(rows, key=lambda row: (row.median_ns, row.metrics["l2"])):
-        if not best or row.metrics["l2"] < best[-1].metrics["l2"]:
-            best.append(row)
-    return best
+    return [rows[i] for i in pareto([(row.median_ns, row.metrics["l2"]) for row in rows])]
 
 
 def neighbours(rows: Sequence[Row]) -> list[list[Row]]:

@@ -6,11 +6,10 @@ import {
   metric_list,
   metric_text,
   series_title,
-  status_words,
   time_text,
   worst_run,
 } from "./cases.js";
-import { formatCount, make } from "./format.js";
+import { formatCount, make, makeNamed, statusWords } from "./format.js";
 import { colours_of, fit, paint as paint_picture, unpack } from "./picture.js";
 import { onTheme, printing } from "./theme.js";
 
@@ -195,40 +194,24 @@ function run_row(run) {
     else outlined.delete(run.series);
     repaint();
   };
-  const radio = make("input", {
-    type: "radio",
-    name: "gallery-shaded",
-    checked: run === open.run,
-    "aria-label": `Shade ${title}`,
-    change: () => choose(run),
-  });
-  const box = make("input", {
-    type: "checkbox",
-    checked: outlined.has(run.series),
-    disabled: run.result === null,
-    "aria-label": `Outline of ${title}`,
-    change: outline,
-  });
+  const shaded = { type: "radio", name: "gallery-shaded", checked: run === open.run, change: () => choose(run) };
+  const drawn = { type: "checkbox", checked: outlined.has(run.series), disabled: run.result === null, change: outline };
+  const radio = make("input", { ...shaded, "aria-label": `Shade ${title}` });
+  const box = make("input", { ...drawn, "aria-label": `Outline of ${title}` });
+  const name = makeNamed(run.method, title, { class: "gallery-run-name" });
   return make(
     "tr",
     { "data-run": run.name, class: run === open.run ? "chosen" : "" },
     make("td", {}, radio),
     make("td", {}, box),
-    make(
-      "th",
-      { scope: "row", click: () => choose(run) },
-      make("span", { class: "gallery-run-name" }, make("span", { class: "swatch", "data-method": run.method }), title),
-      run_note(run),
-    ),
+    make("th", { scope: "row", click: () => choose(run) }, name, run_note(run)),
     make("td", { class: "number", "data-column": "l2" }, metric_text("l2", run.status === "ok" ? run.l2 : null)),
     make("td", { class: "number", "data-column": "time" }, time_text(run.median_ns)),
   );
 }
 
 function run_note(run) {
-  if (run.status !== "ok") {
-    return make("span", { class: `status ${run.status}` }, status_words(run.status));
-  }
+  if (run.status !== "ok") return make("span", { class: `status ${run.status}` }, statusWords(run.status));
   return run.result === null ? make("span", { class: "status not_installed" }, "no picture") : null;
 }
 
@@ -255,7 +238,7 @@ function list_facts() {
   parts.facts.replaceChildren(
     ...[
       make("h3", {}, series_title(open.run.series)),
-      reason ? make("p", { class: "gallery-reason" }, `${status_words(open.run.status)}: ${reason}`) : null,
+      reason ? make("p", { class: "gallery-reason" }, `${statusWords(open.run.status)}: ${reason}`) : null,
       open.run.result === null ? make("p", {}, "There is no picture of this result.") : null,
       same.length > 0 ? make("p", {}, `The same polygons as ${same.map((run) => series_title(run.series)).join(", ")}.`) : null,
       list,
@@ -303,7 +286,7 @@ function description() {
   const { entry, run } = open;
   const truth = open.picture.truth.length > 0;
   const words = truth ? `L2 ${metric_text("l2", run.l2)}` : "no truth";
-  const result = run.status === "ok" ? words : status_words(run.status);
+  const result = run.status === "ok" ? words : statusWords(run.status);
   const below = truth ? "points and ground truth" : "points";
   return `${entry.title}, ${entry.subtitle}: result of ${series_title(run.series)}, ${result}, over ${below}`;
 }

@@ -63,10 +63,6 @@ export function series_title(series) {
   return report.entrants.find((entrant) => entrant.key === series).label;
 }
 
-export function status_words(status) {
-  return status.replaceAll("_", " ");
-}
-
 /** A metric's value as the table shows it, with its unit. */
 export function metric_text(name, value) {
   const metric = report.metrics.find((one) => one.name === name);

@@ -25,14 +25,9 @@ export function logTicks(low, high) {
   const from = Math.floor(Math.log10(low));
   const to = Math.ceil(Math.log10(high));
   const decades = Math.log10(high / low);
-  const steps =
-    decades > 2.7
-      ? [1]
-      : decades > 1.3
-        ? [1, 2, 5]
-        : decades > 0.5
-          ? [1, 2, 3, 4, 5, 7]
-          : [1, 1.2, 1.4, 1.6, 1.8, 2, 2.5, 3, 3.5, 4, 5, 6, 7, 8, 9];
+  const fine = [1, 1.2, 1.4, 1.6, 1.8, 2, 2.5, 3, 3.5, 4, 5, 6, 7, 8, 9];
+  const coarser = { 2.7: [1], 1.3: [1, 2, 5], 0.5: [1, 2, 3, 4, 5, 7] };
+  const steps = coarser[[2.7, 1.3, 0.5].find((least) => decades > least)] ?? fine;
   const ticks = [];
   for (let decade = from; decade <= to; decade++) {
     for (const step of steps) ticks.push(Number(`${step}e${decade}`));
@@ -40,17 +35,20 @@ export function logTicks(low, high) {
   return ticks.filter((tick) => tick >= low && tick <= high);
 }
 
-/** A numeric axis over these values. Logarithmic only when all of them are above zero. */
-export function numericAxis(name, values, logarithmic, ink, share = 0.06) {
-  const axis = {
+function plainAxis(name, ink) {
+  return {
     name,
     nameTextStyle: { color: ink.muted },
     axisLabel: { color: ink.muted, hideOverlap: true },
     axisLine: { lineStyle: { color: ink.line } },
     axisTick: { lineStyle: { color: ink.line } },
     splitLine: { lineStyle: { color: ink.grid } },
-    minorSplitLine: { show: false },
   };
+}
+
+/** A numeric axis over these values. Logarithmic only when all of them are above zero. */
+export function numericAxis(name, values, logarithmic, ink, share = 0.06) {
+  const axis = { ...plainAxis(name, ink), minorSplitLine: { show: false } };
   const finite = values.filter((value) => Number.isFinite(value));
   const low = Math.min(...finite);
   const high = Math.max(...finite);
@@ -84,17 +82,16 @@ function caseAxis(chart, logarithmic, ink, width) {
   if (chart.kind !== "n") {
     // Labels that would not fit side by side are turned.
     const turned = 8 * chart.x.length * Math.max(...chart.x.map((one) => one.length)) > width - 70;
+    const axis = plainAxis(chart.kind === "shape" ? "" : chart.axis, ink);
     return {
+      ...axis,
       type: "category",
       data: chart.x,
-      name: chart.kind === "shape" ? "" : chart.axis,
       nameLocation: "middle",
       nameGap: turned ? 54 : 34,
-      nameTextStyle: { color: ink.muted },
-      axisTick: { alignWithLabel: true, lineStyle: { color: ink.line } },
-      axisLine: { lineStyle: { color: ink.line } },
-      axisLabel: { color: ink.muted, hideOverlap: true, rotate: turned ? 40 : 0 },
-      splitLine: { show: true, lineStyle: { color: ink.grid } },
+      axisTick: { ...axis.axisTick, alignWithLabel: true },
+      axisLabel: { ...axis.axisLabel, rotate: turned ? 40 : 0 },
+      splitLine: { ...axis.splitLine, show: true },
     };
   }
   const axis = numericAxis(chart.axis, chart.x, logarithmic, ink);
@@ -155,21 +152,10 @@ function bandSeries(entrant, points, place, quantity) {
     animation: false,
     z: 1,
   };
-  return {
-    values: inside.flatMap(([, value]) => [value[1], value[2]]),
-    series:
-      inside.length === 0
-        ? []
-        : [
-            { ...base, id: `low ${entrant.key}`, data: inside.map(([x, value]) => [x, value[1]]) },
-            {
-              ...base,
-              id: `band ${entrant.key}`,
-              areaStyle: { color: entrant.colour, opacity: 0.2 },
-              data: inside.map(([x, value]) => [x, value[2] - value[1]]),
-            },
-          ],
-  };
+  const low = { ...base, id: `low ${entrant.key}`, data: inside.map(([x, value]) => [x, value[1]]) };
+  const data = inside.map(([x, value]) => [x, value[2] - value[1]]);
+  const band = { ...base, id: `band ${entrant.key}`, areaStyle: { color: entrant.colour, opacity: 0.2 }, data };
+  return { values: inside.flatMap(([, value]) => [value[1], value[2]]), series: inside.length ? [low, band] : [] };
 }
 
 function lineStyle(entrant, kind) {

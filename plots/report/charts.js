@@ -1,7 +1,7 @@
 // The section "Time and error": three charts, and what can be chosen of them.
 import { DASHES, caseChartOptions, pointValue } from "./chart_options.js";
 import { groupBy } from "./data.js";
-import { formatCount, formatNumber, formatScore, formatTime, make, makeChoice, makeTip } from "./format.js";
+import { formatCount, formatNumber, formatScore, formatTime, make, makeChoice, makeTip, statusWords } from "./format.js";
 import { placeLabels } from "./label_places.js";
 import { MethodToggles } from "./method_toggles.js";
 import { paretoEntries, paretoOptions } from "./pareto.js";
@@ -129,7 +129,7 @@ export class Charts extends PlotSection {
       const byStatus = groupBy(gone, (one) => one.status);
       return [...byStatus].map(
         ([status, rows]) =>
-          `${entrant.label} ${status.replace("_", " ")} in ${formatCount(rows.length)} of ${formatCount(rows.length + this.countOf(entrant))}`,
+          `${entrant.label} ${statusWords(status)} in ${formatCount(rows.length)} of ${formatCount(rows.length + this.countOf(entrant))}`,
       );
     });
     const said = words.length ? `Not drawn: ${words.join("; ")}.` : "";

@@ -22,24 +22,18 @@ function startComparison() {
     async () => (hooks.table = new PairTable(document.getElementById("table-place"), report, await rows())),
   );
   hooks.ready = Promise.all([rows(), unpack(readJson("charts"))]).then(([pairs, charts]) => {
-    startForests(hooks, pairs, hidden, changed);
-    startCharts(hooks, charts, hidden, changed);
+    const build = (id, Class, data, given, without) => {
+      const place = document.getElementById(id);
+      if (given.length) return new Class(place, report, data, hidden, changed);
+      place.append(make("p", {}, without));
+      return null;
+    };
+    hooks.forests = build("ratios-place", Forests, pairs, report.changes, "No run has a time in both.");
+    hooks.charts = build("charts-place", BothCharts, charts, charts, "No shape has a chart in both.");
     whenNear(document.getElementById("runs"), hooks.loadTable);
     document.documentElement.dataset.ready = "charts";
   });
   addEventListener("beforeprint", hooks.loadTable);
-}
-
-function startForests(hooks, pairs, hidden, changed) {
-  const place = document.getElementById("ratios-place");
-  if (hooks.report.changes.length) hooks.forests = new Forests(place, hooks.report, pairs, hidden, changed);
-  else place.append(make("p", {}, "No run has a time in both."));
-}
-
-function startCharts(hooks, charts, hidden, changed) {
-  const place = document.getElementById("charts-place");
-  if (charts.length) hooks.charts = new BothCharts(place, hooks.report, charts, hidden, changed);
-  else place.append(make("p", {}, "No shape has a chart in both."));
 }
 
 startComparison();

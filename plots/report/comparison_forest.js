@@ -1,23 +1,33 @@
 // The forest plots of ratios: a line a method, then a line a run.
 import { CHANGE_MARKS, forestHeight, forestOptions, formatRatioInterval } from "./comparison_options.js";
-import { formatCount, formatNumber, formatTime, make, makeChoice, makeTip, smallButton } from "./format.js";
+import {
+  formatCount,
+  formatNumber,
+  formatTime,
+  make,
+  makeChoice,
+  makeSearch,
+  makeTip,
+  smallButton,
+  wordsOf,
+} from "./format.js";
 import { markerPicture } from "./markers.js";
 import { MethodToggles } from "./method_toggles.js";
-import { onTheme, printing, themeInk } from "./theme.js";
+import { Plots } from "./plots.js";
+import { themeInk } from "./theme.js";
 
 const FOREST_PAGE = 40;
 
-export class Forests {
+export class Forests extends Plots {
   constructor(place, report, rows, hidden, changed) {
+    super();
     Object.assign(this, { report, rows, hidden });
     this.labels = new Map(report.entrants.map((entrant) => [entrant.key, entrant]));
     this.withRatio = [...Array(rows.count).keys()].filter((row) => rows.get("ratio", row) !== null);
     this.index();
     this.state = { words: "", changed: "", order: "method", page: 0 };
     this.build(place, changed);
-    onTheme(() => this.draw());
-    addEventListener("beforeprint", () => this.resizeAll({ width: 660 }));
-    addEventListener("afterprint", () => this.resizeAll({ width: "auto" }));
+    this.follow({ width: 660 });
     this.draw();
   }
 
@@ -38,13 +48,7 @@ export class Forests {
   build(place, changed) {
     const choice = (words, key, options) =>
       makeChoice(words, { id: `forest-${key}` }, options, (value) => this.set({ [key]: value, page: 0 }));
-    const words = make("input", {
-      type: "search",
-      id: "forest-words",
-      placeholder: "ca holes:1 n:64000",
-      autocomplete: "off",
-      input: (event) => this.set({ words: event.target.value, page: 0 }),
-    });
+    const words = makeSearch("Words in the run’s name", "forest-words", (typed) => this.set({ words: typed, page: 0 }));
     this.count = make("p", { class: "muted", id: "forest-count", "aria-live": "polite" });
     place.append(this.legend());
     this.toggles = new MethodToggles(place, this.report, this.hidden, changed);
@@ -55,7 +59,7 @@ export class Forests {
       make(
         "div",
         { class: "controls", role: "search", "aria-label": "Filter the runs of the chart" },
-        make("label", {}, "Words in the run’s name", words),
+        words,
         choice("Runs", "changed", [
           ["", "all"],
           ["differ", "only those that differ"],
@@ -71,12 +75,7 @@ export class Forests {
       this.figure("runs", "Every run"),
       this.pager(),
     );
-    this.plots = ["methods", "runs"].map((id) => {
-      const element = document.getElementById(`forest-${id}`);
-      const chart = echarts.init(element, null, { renderer: "svg", height: 100 });
-      new ResizeObserver(() => this.resized(chart, element)).observe(element);
-      return { id, element, chart };
-    });
+    this.plots = ["methods", "runs"].map((id) => this.plot(id, `forest-${id}`, 100));
   }
 
   legend() {
@@ -118,17 +117,6 @@ export class Forests {
     return this.pages;
   }
 
-  resizeAll(size) {
-    for (const { chart } of this.plots) chart.resize(size);
-    this.draw();
-  }
-
-  resized(chart, element) {
-    if (printing || chart.getWidth() === element.clientWidth) return;
-    chart.resize({ width: element.clientWidth });
-    this.draw();
-  }
-
   set(changes) {
     Object.assign(this.state, changes);
     this.draw();
@@ -144,7 +132,7 @@ export class Forests {
   /** The rows that the choices leave, in their order. */
   find() {
     const { rows, state } = this;
-    const words = state.words.toLowerCase().split(/\s+/).filter(Boolean);
+    const words = wordsOf(state.words);
     const found = this.withRatio.filter(
       (row) =>
         !this.hidden.has(rows.get("entrant", row)) &&
@@ -174,22 +162,15 @@ export class Forests {
     let group = null;
     for (const row of page) {
       const method = this.labels.get(rows.get("entrant", row)).label;
-      const [heading, label] =
-        state.order === "method"
-          ? [method, this.caseLabel(row)]
-          : state.order === "case"
-            ? [this.caseLabel(row), method]
-            : [null, `${this.caseLabel(row)} · ${method}`];
+      const shape = this.caseLabel(row);
+      const [heading, label] = { method: [method, shape], case: [shape, method] }[state.order] ?? [
+        null,
+        `${shape} · ${method}`,
+      ];
       if (heading !== null && heading !== group) lines.push({ heading, ratio: null, low: null, high: null });
       group = heading;
-      lines.push({
-        row,
-        label,
-        ratio: rows.get("ratio", row),
-        low: rows.get("ratio_low", row),
-        high: rows.get("ratio_high", row),
-        change: rows.get("status", row),
-      });
+      const [ratio, low, high, change] = ["ratio", "ratio_low", "ratio_high", "status"].map((name) => rows.get(name, row));
+      lines.push({ row, label, ratio, low, high, change });
     }
     return lines;
   }

@@ -6,11 +6,15 @@ export function readJson(id) {
   return element ? JSON.parse(element.textContent) : null;
 }
 
-/** A value packed by report_data.pack: gzip in base64. */
+/** What is packed as gzip in base64, as a Response. */
+export function gunzip(base64) {
+  const packed = Uint8Array.from(atob(base64), (letter) => letter.charCodeAt(0));
+  return new Response(new Blob([packed]).stream().pipeThrough(new DecompressionStream("gzip")));
+}
+
+/** A value packed by report_data.pack. */
 export async function unpack(packed) {
-  const bytes = Uint8Array.from(atob(packed.data), (character) => character.charCodeAt(0));
-  const stream = new Blob([bytes]).stream().pipeThrough(new DecompressionStream("gzip"));
-  return new Response(stream).json();
+  return gunzip(packed.data).json();
 }
 
 /** A function that calls `make` once, when it is first called, and always returns that result. */

@@ -62,6 +62,33 @@ export function makeChoice(words, attributes, options, chosen) {
   return make("label", {}, words, select);
 }
 
+/** A search box under words, which hands on what is in it after every letter. */
+export function makeSearch(words, id, typed) {
+  const input = (event) => typed(event.target.value);
+  const box = make("input", { type: "search", id, placeholder: "ca holes:1 n:64000", autocomplete: "off", input });
+  return make("label", {}, words, box);
+}
+
+/** A box with words, which hands on whether it is checked; `attributes` are the box's. */
+export function makeCheck(words, attributes, changed) {
+  const change = (event) => changed(event.target.checked);
+  return make("label", { class: "check" }, make("input", { type: "checkbox", ...attributes, change }), words);
+}
+
+/** The words of a text that was typed, in small letters. */
+export function wordsOf(text) {
+  return text.toLowerCase().split(/\s+/).filter(Boolean);
+}
+
+export function statusWords(status) {
+  return status.replaceAll("_", " ");
+}
+
+/** A name behind the method's colour. */
+export function makeNamed(method, name, attributes = {}) {
+  return make("span", attributes, make("span", { class: "swatch", "data-method": method }), name);
+}
+
 /** The box at the pointer: a title, a line on where it is, names with values ([name, value]), and a hint. */
 export function makeTip(title, where, lines, hint = "") {
   const line = ([name, value]) => make("div", { class: "tip-line" }, make("span", {}, name), make("b", {}, value));

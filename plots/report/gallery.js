@@ -1,8 +1,8 @@
 /* The gallery: a small picture of every case that has one, the worst first, to be filtered; a click opens it large
    (case_dialog.js). */
 import { openCase } from "./case_dialog.js";
-import { badness, cases_in_order, metric_text, read_cases, series_title, set_order, status_words, worst_run } from "./cases.js";
-import { formatCount, make } from "./format.js";
+import { badness, cases_in_order, metric_text, read_cases, series_title, set_order, worst_run } from "./cases.js";
+import { formatCount, make, makeChoice, statusWords } from "./format.js";
 import { colours_of, fit, paint, unpack } from "./picture.js";
 import { onTheme } from "./theme.js";
 
@@ -54,38 +54,22 @@ function filter_bar(refresh) {
   const bar = make("div", { class: "controls gallery-filters", role: "group", "aria-label": "Filter the pictures" });
   const add = (key, title, all, options) => {
     if (options.length < 2) return;
-    const chosen = () => {
-      filters[key] = select.value;
+    const chosen = (value) => {
+      filters[key] = value;
       refresh();
     };
-    const select = make("select", { name: `gallery-${key}`, change: chosen });
-    if (all) select.append(make("option", { value: "" }, all));
-    for (const [value, text] of options) select.append(make("option", { value }, text));
-    select.value = filters[key];
-    bar.append(make("label", {}, title, select));
+    const choice = makeChoice(title, { name: `gallery-${key}` }, all ? [["", all], ...options] : options, chosen);
+    choice.lastChild.value = filters[key];
+    bar.append(choice);
   };
-  const distinct = (values) => [...new Set(values)];
+  const options = (values, title) => [...new Set(values)].map((value) => [value, title(value)]);
   const runs = entries.flatMap((entry) => entry.runs);
-  add(
-    "method",
-    "Method",
-    "each case’s worst",
-    distinct(runs.map((run) => run.series)).map((series) => [series, series_title(series)]),
-  );
-  add(
-    "experiment",
-    "Experiment",
-    "all",
-    distinct(entries.flatMap((entry) => entry.experiments)).map((name) => [name, experiment_title(name)]),
-  );
-  add(
-    "shape",
-    "Shape",
-    "all",
-    distinct(entries.map((entry) => entry.family))
-      .sort()
-      .map((name) => [name, name]),
-  );
+  const series = runs.map((run) => run.series);
+  const experiments = entries.flatMap((entry) => entry.experiments);
+  const families = entries.map((entry) => entry.family).sort();
+  add("method", "Method", "each case’s worst", options(series, series_title));
+  add("experiment", "Experiment", "all", options(experiments, experiment_title));
+  add("shape", "Shape", "all", options(families, String));
   add("status", "Status", "all", status_options(runs));
   add("order", "Order", null, [
     ["mixed", "all kinds in turn, worst first"],
@@ -99,7 +83,7 @@ function filter_bar(refresh) {
 function status_options(runs) {
   const there = [...new Set(runs.map((run) => run.status))].sort();
   const failed = runs.some((run) => run.failed) ? [["failed", "any failure"]] : [];
-  return [...failed, ...there.map((status) => [status, status_words(status)])];
+  return [...failed, ...there.map((status) => [status, statusWords(status)])];
 }
 
 /** Shows the failures of all methods; null when there are none. */
@@ -227,7 +211,7 @@ function make_card(entry, run) {
   const canvas = make("canvas", { "aria-hidden": "true" });
   canvas.item = { entry, run };
   const words = run.l2 === null ? "no truth" : `L2 ${metric_text("l2", run.l2)}`;
-  const facts = run.status === "ok" ? words : status_words(run.status);
+  const facts = run.status === "ok" ? words : statusWords(run.status);
   return make(
     "button",
     {

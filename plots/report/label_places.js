@@ -8,25 +8,15 @@ const DOT = 9;
  * is "right", "left", "top", "bottom" or null.
  */
 export function placeLabels(dots, box) {
-  const taken = dots.map((dot) => ({ left: dot.x - DOT, right: dot.x + DOT, top: dot.y - DOT, bottom: dot.y + DOT }));
+  const around = ({ x, y }, wide, high) => ({ left: x - wide, right: x + wide, top: y - high, bottom: y + high });
+  const taken = dots.map((dot) => around(dot, DOT, DOT));
   return dots.map((dot, own) => {
-    const width = 6.8 * dot.words.length;
-    const rects = {
-      right: { left: dot.x + DOT, right: dot.x + DOT + width, top: dot.y - LABEL_HEIGHT / 2, bottom: dot.y + LABEL_HEIGHT / 2 },
-      left: { left: dot.x - DOT - width, right: dot.x - DOT, top: dot.y - LABEL_HEIGHT / 2, bottom: dot.y + LABEL_HEIGHT / 2 },
-      top: { left: dot.x - width / 2, right: dot.x + width / 2, top: dot.y - DOT - LABEL_HEIGHT, bottom: dot.y - DOT },
-      bottom: { left: dot.x - width / 2, right: dot.x + width / 2, top: dot.y + DOT, bottom: dot.y + DOT + LABEL_HEIGHT },
-    };
+    const [wide, high] = [3.4 * dot.words.length, LABEL_HEIGHT / 2];
+    const moved = (right, down) => around({ x: dot.x + right * (DOT + wide), y: dot.y + down * (DOT + high) }, wide, high);
+    const rects = { right: moved(1, 0), left: moved(-1, 0), top: moved(0, -1), bottom: moved(0, 1) };
     const inside = (rect) => rect.left >= 0 && rect.right <= box.width && rect.top >= 0 && rect.bottom <= box.height;
-    const free = (rect) =>
-      taken.every(
-        (other, index) =>
-          index === own ||
-          rect.right <= other.left ||
-          rect.left >= other.right ||
-          rect.bottom <= other.top ||
-          rect.top >= other.bottom,
-      );
+    const apart = (a, b) => a.right <= b.left || a.left >= b.right || a.bottom <= b.top || a.top >= b.bottom;
+    const free = (rect) => taken.every((other, index) => index === own || apart(rect, other));
     const place = Object.keys(rects).find((name) => inside(rects[name]) && free(rects[name]));
     if (place) taken.push(rects[place]);
     return place ?? null;

@@ -9,23 +9,17 @@ import { markerPath } from "./markers.js";
 export function paretoEntries(chart, chosen, time, error, shown) {
   const usable = (entrant) =>
     (chart.series[entrant.key] ?? []).filter((point) => pointValue(point, time) && pointValue(point, error));
-  if (chosen === "common")
-    return commonEntries(
-      chart,
-      time,
-      error,
-      shown.map((entrant) => ({ entrant, points: usable(entrant) })),
-    );
+  if (chosen === "common") {
+    const candidates = shown.map((entrant) => ({ entrant, points: usable(entrant) }));
+    return commonEntries(chart, time, error, candidates);
+  }
   const list = shown.flatMap((entrant) =>
     usable(entrant)
       .filter((point) => point.x === Number(chosen))
-      .map((point) => ({
-        entrant,
-        time: pointValue(point, time),
-        error: pointValue(point, error),
-        cases: point.count ?? 1,
-        point,
-      })),
+      .map((point) => {
+        const [its_time, its_error] = [time, error].map((quantity) => pointValue(point, quantity));
+        return { entrant, time: its_time, error: its_error, cases: point.count ?? 1, point };
+      }),
   );
   return { list, leftOut: [] };
 }
@@ -64,48 +58,30 @@ function median(values) {
  */
 export function paretoOptions(entries, time, error, settings, ink) {
   const front = paretoFront(entries, error.metric.better);
+  const values = (key) => entries.map((one) => one[key][0]);
+  const axis = (quantity, key, logarithmic, room) => numericAxis(quantity.axis, values(key), logarithmic, ink, room);
   return {
     ...commonOptions(ink),
     grid: { left: 8, right: 48, top: 40, bottom: 40, containLabel: true },
-    xAxis: {
-      ...numericAxis(
-        time.axis,
-        entries.map((one) => one.time[0]),
-        settings.logTime,
-        ink,
-        0.12,
-      ),
-      nameLocation: "middle",
-      nameGap: 32,
-    },
+    xAxis: { ...axis(time, "time", settings.logTime, 0.12), nameLocation: "middle", nameGap: 32 },
     yAxis: {
-      ...numericAxis(
-        error.axis,
-        entries.map((one) => one.error[0]),
-        settings.logError,
-        ink,
-        0.1,
-      ),
+      ...axis(error, "error", settings.logError, 0.1),
       nameLocation: "end",
       nameTextStyle: { color: ink.muted, align: "left" },
     },
     series: [
-      ...(front.length > 1
-        ? [
-            {
-              id: "front",
-              name: "Front",
-              type: "line",
-              step: "end",
-              symbol: "none",
-              silent: true,
-              tooltip: { show: false },
-              lineStyle: { color: ink.muted, width: 1.2, type: [4, 4] },
-              data: front.map((one) => [one.time[0], one.error[0]]),
-              z: 1,
-            },
-          ]
-        : []),
+      {
+        id: "front",
+        name: "Front",
+        type: "line",
+        step: "end",
+        symbol: "none",
+        silent: true,
+        tooltip: { show: false },
+        lineStyle: { color: ink.muted, width: 1.2, type: [4, 4] },
+        data: front.map((one) => [one.time[0], one.error[0]]),
+        z: 1,
+      },
       ...entries.map((one) => ({
         id: one.entrant.key,
         name: one.entrant.label,

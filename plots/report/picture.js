@@ -4,6 +4,8 @@
    data set's unit; points are x, y, x, y, ... in steps of the grid (y upwards); truth and each of results an array of
    polygons, each a Path2D of all its rings; dense says of each result whether it has very many vertices; runs is as it was
    packed; box the smallest that holds points, truth and what of the results is not far away. */
+import { gunzip } from "./data.js";
+
 // Vertices from which on an outline as wide as usual would cover what it encloses.
 const DENSE = 10000;
 const unpacked = new WeakMap();
@@ -15,9 +17,7 @@ export function unpack(entry) {
 }
 
 async function read_block(base64) {
-  const packed = Uint8Array.from(atob(base64), (letter) => letter.charCodeAt(0));
-  const stream = new Blob([packed]).stream().pipeThrough(new DecompressionStream("gzip"));
-  const bytes = new Uint8Array(await new Response(stream).arrayBuffer());
+  const bytes = new Uint8Array(await gunzip(base64).arrayBuffer());
   const header_end = 4 + new DataView(bytes.buffer).getUint32(0, true);
   const header = JSON.parse(new TextDecoder().decode(bytes.subarray(4, header_end)));
   let position = header_end;

@@ -1,33 +1,33 @@
 // What every section of charts does alike: what can be chosen, the charts themselves and their values as tables.
 import { pointValue } from "./chart_options.js";
-import { formatCount, formatNumber, formatScore, make, smallButton } from "./format.js";
-import { currentTheme, onTheme, printing } from "./theme.js";
+import { formatCount, formatNumber, formatScore, make, makeCheck, smallButton } from "./format.js";
+import { Plots } from "./plots.js";
+import { currentTheme } from "./theme.js";
 
 /**
  * A section of charts. Whoever extends it has has(chart, entrant), whether there is anything to draw of the entrant;
  * choose(), called after every choice; draw(); tooltip(event, id) and open(point), called after a click.
  */
-export class PlotSection {
+export class PlotSection extends Plots {
   /** `report` and `charts` are the page's data, `hidden` the keys of the entrants that are not shown. */
   constructor(report, charts, hidden, bands) {
+    super();
     Object.assign(this, { report, charts, hidden });
     this.metrics = new Map(report.metrics.map((metric) => [metric.name, metric]));
     this.meaning = make("p", { class: "muted", id: "metric-meaning" });
     // The first chart over numbers of points, else the first.
-    const first = Math.max(
-      0,
-      charts.findIndex((chart) => chart.kind === "n"),
-    );
-    this.state = { chart: first, time: "time", metric: "l2", logX: true, logTime: true, logError: true, bands };
+    const growing = charts.findIndex((chart) => chart.kind === "n");
+    this.state = { chart: Math.max(0, growing), time: "time", metric: "l2", logX: true, logTime: true, logError: true, bands };
   }
 
   /** Makes the charts in the figures of these names, and draws. */
   start(...ids) {
-    this.plots = ids.map((id) => this.plot(id));
-    onTheme(() => this.draw());
-    // As wide as a sheet, and drawn anew, for labels and dots are placed by the width.
-    addEventListener("beforeprint", () => this.resizeAll({ width: 660, height: 360 }));
-    addEventListener("afterprint", () => this.resizeAll({ width: "auto", height: "auto" }));
+    this.plots = ids.map((id) => this.plot(id, `chart-${id}`));
+    for (const { id, element, chart } of this.plots) {
+      chart.on("click", (event) => this.open(event.data?.point));
+      element.addEventListener("dblclick", () => this.zoom(id, Infinity));
+    }
+    this.follow({ width: 660, height: 360 });
     this.choose();
   }
 
@@ -82,12 +82,8 @@ export class PlotSection {
     this.chartSelect.value = this.state.chart;
     const change = (event) => this.chooseMetric(event.target.value);
     this.metricSelect = make("select", { id: "metric-select", change });
-    const checks = [
-      this.check("logX", "log n"),
-      this.check("logTime", "log time"),
-      this.check("logError", "log error"),
-      this.check("bands", "intervals"),
-    ];
+    const words = { logX: "log n", logTime: "log time", logError: "log error", bands: "intervals" };
+    const checks = Object.entries(words).map((one) => this.check(...one));
     return make(
       "div",
       { class: "controls" },
@@ -99,9 +95,7 @@ export class PlotSection {
   }
 
   check(key, words) {
-    const change = (event) => this.set({ [key]: event.target.checked });
-    const box = make("input", { type: "checkbox", id: `check-${key}`, checked: this.state[key], change });
-    return make("label", { class: "check" }, box, words);
+    return makeCheck(words, { id: `check-${key}`, checked: this.state[key] }, (checked) => this.set({ [key]: checked }));
   }
 
   /** A chart's place with its title, its buttons and its values as a table; `extra` stands before the buttons. */
@@ -121,27 +115,6 @@ export class PlotSection {
         make("div", { class: "scroll", tabindex: "0", role: "region", "aria-label": `Values of the ${id} chart` }),
       ),
     );
-  }
-
-  plot(id) {
-    const element = document.getElementById(`chart-${id}`);
-    const chart = echarts.init(element, null, { renderer: "svg" });
-    chart.on("click", (event) => this.open(event.data?.point));
-    element.addEventListener("dblclick", () => this.zoom(id, Infinity));
-    new ResizeObserver(() => this.resized(chart, element)).observe(element);
-    return { id, element, chart };
-  }
-
-  resizeAll(size) {
-    for (const { chart } of this.plots) chart.resize(size);
-    this.draw();
-  }
-
-  /** An observer also calls once at the beginning, when nothing has changed. */
-  resized(chart, element) {
-    if (printing || (chart.getWidth() === element.clientWidth && chart.getHeight() === element.clientHeight)) return;
-    chart.resize();
-    this.draw();
   }
 
   // Choices.

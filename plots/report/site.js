@@ -1,13 +1,13 @@
 // The pages of the site: light and dark, and the search, whose index is in every page.
 import { readJson } from "./data.js";
-import { make } from "./format.js";
+import { make, wordsOf } from "./format.js";
 import { startTheme } from "./theme.js";
 
 const MOST_FOUND = 12;
 
 /** The pages that have every word, those first whose title begins with the first one. */
 function find(pages, words) {
-  const wanted = words.toLowerCase().split(/\s+/).filter(Boolean);
+  const wanted = wordsOf(words);
   if (!wanted.length) return [];
   const late = (page) => !page.title.toLowerCase().startsWith(wanted[0]);
   return pages.filter((page) => wanted.every((word) => page.text.includes(word))).sort((a, b) => late(a) - late(b));

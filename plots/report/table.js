@@ -1,6 +1,19 @@
 // The table of all runs: filters, sorting, pages, a choice of columns and the command that repeats each run.
 import { reproduceCommand, groupBy } from "./data.js";
-import { announce, formatCount, formatNumber, formatScore, make, makeChoice, smallButton } from "./format.js";
+import {
+  announce,
+  formatCount,
+  formatNumber,
+  formatScore,
+  make,
+  makeCheck,
+  makeChoice,
+  makeNamed,
+  makeSearch,
+  smallButton,
+  statusWords,
+  wordsOf,
+} from "./format.js";
 
 const PAGE_SIZES = [25, 50, 100, 250];
 
@@ -101,7 +114,7 @@ export class RunTable {
 
   status(row) {
     const status = this.rows.get("status", row);
-    return make("span", { class: `status ${status}` }, status.replace("_", " "));
+    return make("span", { class: `status ${status}` }, statusWords(status));
   }
 
   metricColumn(metric) {
@@ -117,7 +130,7 @@ export class RunTable {
 
   method(row) {
     const entrant = this.labels.get(this.rows.get("entrant", row));
-    return make("span", {}, make("span", { class: "swatch", "data-method": entrant.method }), entrant.label);
+    return makeNamed(entrant.method, entrant.label);
   }
 
   reproduce(row) {
@@ -139,27 +152,21 @@ export class RunTable {
       makeChoice(words, { id: `filter-${key}` }, [["", "all"], ...options], (value) => this.set({ [key]: value }));
     const titles = experiments.map((one, index) => [index, one.title]);
     const labels = entrants.map((entrant) => [entrant.key, entrant.label]);
-    const statuses = this.rows.columns.status.words.map((status) => [status, status.replace("_", " ")]);
+    const statuses = this.rows.columns.status.words.map((status) => [status, statusWords(status)]);
     const sizes = PAGE_SIZES.map((size) => [size, String(size)]);
     const size = makeChoice("Rows a page", { id: "page-size" }, sizes, (value) => this.set({ size: Number(value) }));
     size.lastChild.value = this.state.size;
     this.count = make("p", { class: "muted", id: "table-count", "aria-live": "polite" });
     this.table = make("table", { id: "runs-table", "data-testid": "runs-table" });
     this.pagers = ["top", "bottom"].map((where) => this.pager(where));
-    const search = make("input", {
-      type: "search",
-      id: "filter-words",
-      placeholder: "ca holes:1 n:64000",
-      autocomplete: "off",
-      input: (event) => this.set({ words: event.target.value }),
-    });
+    const search = makeSearch("Words in the name or reason", "filter-words", (words) => this.set({ words }));
     const scroll = { class: "scroll", id: "runs-scroll", tabindex: "0", role: "region", "aria-label": "All runs" };
     this.only = make("button", { type: "button", id: "table-only", hidden: true, click: () => this.set({ only: null }) });
     place.append(
       make(
         "div",
         { class: "controls", role: "search", "aria-label": "Filter the runs" },
-        make("label", {}, "Words in the name or reason", search),
+        search,
         experiments.length > 1 ? filter("Experiment", "experiment", titles) : null,
         filter("Method", "entrant", labels),
         filter(this.statusTitle(), "status", statuses),
@@ -172,26 +179,21 @@ export class RunTable {
       make("div", scroll, this.table),
       this.pagers[1],
     );
-    this.controls = { words: search };
-    for (const key of ["experiment", "entrant", "status"]) {
+    this.controls = {};
+    for (const key of ["words", "experiment", "entrant", "status"]) {
       const control = place.querySelector(`#filter-${key}`);
       if (control) this.controls[key] = control;
     }
   }
 
   columnChooser() {
-    const groups = groupBy(
-      this.columns.filter((column) => !column.fixed),
-      (column) => column.group,
-    );
-    const box = (column) => {
-      const change = (event) => {
-        this.state.shown[event.target.checked ? "add" : "delete"](column.id);
+    const choosable = this.columns.filter((column) => !column.fixed);
+    const groups = groupBy(choosable, (column) => column.group);
+    const box = ({ id, title, usual }) =>
+      makeCheck(title, { checked: usual, "data-column": id }, (checked) => {
+        this.state.shown[checked ? "add" : "delete"](id);
         this.draw();
-      };
-      const input = make("input", { type: "checkbox", checked: column.usual, "data-column": column.id, change });
-      return make("label", { class: "check" }, input, column.title);
-    };
+      });
     return make(
       "details",
       { class: "columns", id: "column-chooser" },
@@ -241,7 +243,7 @@ export class RunTable {
   /** The rows that the filters leave, in order. Every word must be in the name or the reason. */
   find() {
     const { rows, state } = this;
-    const words = state.words.toLowerCase().split(/\s+/).filter(Boolean);
+    const words = wordsOf(state.words);
     this.found = [];
     for (let row = 0; row < rows.count; row++) {
       if (state.experiment !== "" && rows.get("experiment", row) !== Number(state.experiment)) continue;

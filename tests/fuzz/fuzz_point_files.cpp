@@ -122,6 +122,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   if ((data[1] & 8U) != 0) options.returns = Returns::kFirst;
   if ((data[1] & 16U) != 0) options.returns = Returns::kLast;
   if ((data[1] & 32U) != 0) options.classes.emplace(0x44U);
+  if ((data[1] & 128U) != 0) options.format = PointFormat::kRaw;
   const Input input({reinterpret_cast<const char*>(data) + kChoices, size - kChoices}, (data[1] & 64U) != 0);
   try {
     const PointFile file = read_point_file(input.path(), options);

@@ -4,18 +4,26 @@
 // The environment says where things are: WRITE_INVENTED_REPORT and HULLBENCH are those programs, PYTHON the Python for
 // plots/, OUTPUT the folder for the runs, the pages and their screenshots.
 import assert from "node:assert/strict";
-import { spawnSync } from "node:child_process";
-import { mkdirSync, readFileSync, rmSync, statSync, writeFileSync } from "node:fs";
-import { createRequire } from "node:module";
-import { join } from "node:path";
-import { after, before, test } from "node:test";
-import { fileURLToPath } from "node:url";
-import { launch, open_page } from "./browser.mjs";
+import { mkdirSync, statSync, writeFileSync } from "node:fs";
+import { before, test } from "node:test";
+import {
+  CHARTS_READY,
+  assert_ascending,
+  assert_readable,
+  assert_shows,
+  empty_output,
+  hullbench,
+  output,
+  page_tests,
+  plot,
+  read_json,
+  rows_of,
+  runs_of,
+  screen_options,
+  write_invented_report,
+} from "./page_tests.mjs";
 
-const { WRITE_INVENTED_REPORT, HULLBENCH, PYTHON = "python3", OUTPUT } = process.env;
-const make_comparison = fileURLToPath(new URL("../../plots/make_comparison.py", import.meta.url));
-const axe = readFileSync(createRequire(import.meta.url).resolve("axe-core/axe.min.js"), "utf8");
-const READY = () => document.documentElement.dataset.ready === "charts";
+const { page_test: test_of_file } = page_tests({ ready: CHARTS_READY });
 const REPETITIONS = 20;
 const SLOWER = 1.5;
 const FASTER = 0.5;
@@ -23,15 +31,8 @@ const FAILS = "spatialite/ca/n:2000/holes:1/protocol:paper";
 const WORKS = "spatialite/hi/n:64000/holes:0/protocol:paper";
 const LARGER_ERROR = "polylidar/ca/n:64000/holes:0/protocol:paper";
 
-let browser;
 let invented;
 const compared = {}; // by page: what the program said
-
-function run_program(program, ...words) {
-  const { status, stdout, stderr } = spawnSync(program, words, { encoding: "utf8", maxBuffer: 1e8 });
-  assert.equal(status, 0, `${program} ${words.join(" ")}: ${stdout}${stderr}`);
-  return stdout;
-}
 
 function median(values) {
   const order = [...values].sort((a, b) => a - b);
@@ -81,93 +82,49 @@ function change_b(made) {
 }
 
 function write_run(name, report) {
-  mkdirSync(join(OUTPUT, name), { recursive: true });
-  writeFileSync(join(OUTPUT, name, "report.json"), JSON.stringify(report));
+  mkdirSync(output(name));
+  writeFileSync(output(name, "report.json"), JSON.stringify(report));
 }
 
 function compare(page, a, b) {
-  const told = run_program(
-    HULLBENCH,
-    "compare",
-    join(OUTPUT, a, "report.json"),
-    join(OUTPUT, b, "report.json"),
-    "--format",
-    "json",
-  );
-  writeFileSync(join(OUTPUT, `${page}.json`), told);
-  run_program(
-    PYTHON,
-    make_comparison,
-    join(OUTPUT, a),
-    join(OUTPUT, b),
-    "--compared",
-    join(OUTPUT, `${page}.json`),
-    "--out",
-    file_of(page),
-  );
+  const told = hullbench("compare", output(a, "report.json"), output(b, "report.json"), "--format", "json");
+  writeFileSync(output(`${page}.json`), told);
+  plot("make_comparison.py", output(a), output(b), "--compared", output(`${page}.json`), "--out", output(file_of(page)));
   compared[page] = JSON.parse(told);
 }
 
-const file_of = (page) => join(OUTPUT, `${page}.html`);
+const file_of = (page) => `${page}.html`;
 
-before(async () => {
-  rmSync(OUTPUT, { recursive: true, force: true });
-  mkdirSync(join(OUTPUT, "invented"), { recursive: true });
-  run_program(WRITE_INVENTED_REPORT, join(OUTPUT, "invented", "report.json"));
-  invented = JSON.parse(readFileSync(join(OUTPUT, "invented", "report.json")));
-  invented.metrics = JSON.parse(run_program(HULLBENCH, "metrics", "--json"));
+before(() => {
+  empty_output();
+  invented = write_invented_report("invented");
+  invented.metrics = JSON.parse(hullbench("metrics", "--json"));
   const factor = (run) => ({ polylidar: FASTER, cgal_alpha_shape: SLOWER })[run.method] ?? 1;
-  write_run(
-    "a",
-    report_with(() => 1),
-  );
-  write_run("b", report_with(factor, change_b));
-  write_run(
-    "other",
-    report_with(factor, (made) => Object.assign(made.environment, { machine_id: "feedbeef" })),
-  );
+  const elsewhere = (made) => Object.assign(made.environment, { machine_id: "feedbeef" });
+  for (const [name, ...how] of [
+    ["a", () => 1],
+    ["b", factor, change_b],
+    ["other", factor, elsewhere],
+  ])
+    write_run(name, report_with(...how));
   compare("before_after", "a", "b");
   compare("machines", "a", "other");
   compare("itself", "a", "a");
-  browser = await launch();
 });
 
-after(() => browser?.close());
-
-/** A test with a page of its own, in which nothing may go wrong on the side. */
-function page_test(name, options, body) {
-  test(name, async () => {
-    const { page, troubles } = await open_page(browser, file_of(options.page ?? "before_after"), { ready: READY, ...options });
-    await body(page);
-    assert.deepEqual(troubles, []);
-    await page.context().close();
-  });
+function page_test(name, { page = "before_after", ...options }, body) {
+  test_of_file(name, file_of(page), options, body);
 }
 
-async function open_table(page) {
-  await page.evaluate(() => hullbenchComparison.loadTable());
-  return page.locator("#runs-table tbody tr");
+const open_table = (page) => page.evaluate(() => hullbenchComparison.loadTable());
+
+async function table_rows(page) {
+  await open_table(page);
+  return rows_of(page);
 }
 
-/** The rows of the table as objects by column, with the run's name. */
-async function rows_of(page) {
-  const rows = await open_table(page);
-  const heads = await page
-    .locator("#runs-table thead th")
-    .evaluateAll((cells) => cells.map((cell) => cell.dataset.column ?? ""));
-  const shown = await rows.evaluateAll((all) =>
-    all.map((row) => ({ run: row.dataset.run, cells: [...row.cells].map((cell) => cell.innerText.trim()) })),
-  );
-  return shown.map(({ run, cells }) => ({ run, ...Object.fromEntries(heads.map((head, index) => [head, cells[index]])) }));
-}
-
-/** Whether a text such as "0.935" is the value with as many digits as it has. */
-function assert_shows(text, value, what) {
-  const digits = /^[0-9]+(?:\.([0-9]+))?/.exec(text);
-  assert.ok(digits, `${what}: "${text}" is no number`);
-  assert.equal(digits[0], value.toFixed(digits[1]?.length ?? 0), what);
-  assert.ok(digits[0].replace(".", "").replace(/^0+/, "").length >= 3, `${what}: "${text}" has too few digits`);
-}
+/** A ratio with its interval as they are written. */
+const digits_of = ({ ratio, ratio_low, ratio_high }) => [ratio, ratio_low, ratio_high].map((one) => one.toPrecision(3));
 
 /** The points that the chart of ratios draws, by the run's name: what it draws, and the change's sign. */
 function drawn_ratios(page) {
@@ -207,12 +164,8 @@ page_test("opens from disk without network or messages, and the verdict is the p
   for (const [method, place] of Object.entries(changed)) {
     const told = methods.find((one) => one.method === method);
     const words = await page.locator(place).innerText();
-    assert.ok(
-      words.includes(
-        `${told.ratio.toPrecision(3)} times the time of A (95 %: ${told.ratio_low.toPrecision(3)} to ${told.ratio_high.toPrecision(3)})`,
-      ),
-      words,
-    );
+    const [ratio, low, high] = digits_of(told);
+    assert.ok(words.includes(`${ratio} times the time of A (95 %: ${low} to ${high})`), words);
   }
   assert.match(await page.locator("#verdict-statuses").innerText(), new RegExp(`✕\\s${FAILS}: now timed out \\(after 60 s\\)`));
   assert.match(await page.locator("#verdict-errors").innerText(), new RegExp(`▲\\s${LARGER_ERROR}: L2 larger`));
@@ -230,15 +183,9 @@ page_test("the chart of ratios draws the program's ratios and intervals, coloure
   assert.equal(new Set([faster, slower, muted]).size, 3);
   for (const one of drawn) {
     const told = wanted.find(({ name }) => name === one.run);
-    for (const [key, value] of [
-      ["ratio", told.ratio],
-      ["low", told.ratio_low],
-      ["high", told.ratio_high],
-    ]) {
-      assert.ok(
-        value === null ? one[key] === null : Math.abs(one[key] / value - 1) < 1e-4,
-        `${key} of ${one.run}: ${one[key]}, not ${value}`,
-      );
+    for (const [key, value] of Object.entries({ ratio: told.ratio, low: told.ratio_low, high: told.ratio_high })) {
+      const same = value === null ? one[key] === null : Math.abs(one[key] / value - 1) < 1e-4;
+      assert.ok(same, `${key} of ${one.run}: ${one[key]}, not ${value}`);
     }
     assert.equal(one.change, told.change);
     const significant = ["faster", "slower"].includes(told.change);
@@ -259,20 +206,17 @@ page_test("times of two machines are said to be that and are not coloured", { pa
 
 page_test("a run beside itself has no change", { page: "itself" }, async (page) => {
   assert.match(await page.locator("#verdict").innerText(), /^A and B are the same measurements/);
-  const rows = await rows_of(page);
+  const rows = await table_rows(page);
   assert.equal(rows.length, compared.itself.pairs.length);
   assert.deepEqual([...new Set(rows.map((row) => row.status))].sort(), ["– fails in both", "○ not told apart"]);
   assert.match(await page.locator("#differences").innerText(), /Nothing that is recorded differs/);
 });
 
 page_test("the table has every pair with the program's numbers, status changes first", {}, async (page) => {
-  const rows = await rows_of(page);
+  const rows = await table_rows(page);
   const { pairs } = compared.before_after;
   assert.deepEqual(rows.map((row) => row.run).sort(), pairs.map((pair) => pair.name).sort());
-  assert.deepEqual(
-    rows.slice(0, 2).map((row) => row.run),
-    [FAILS, WORKS],
-  );
+  assert.deepEqual([rows[0].run, rows[1].run], [FAILS, WORKS]);
   for (const row of rows) {
     const told = pairs.find((pair) => pair.name === row.run);
     assert.ok(row.status.endsWith(told.change), `${row.run}: ${row.status}`);
@@ -292,13 +236,11 @@ page_test("the table has every pair with the program's numbers, status changes f
 
 page_test("the table filters by what became of a run, finds words and sorts", {}, async (page) => {
   await open_table(page);
-  const names = () => page.locator("#runs-table tbody tr").evaluateAll((all) => all.map((row) => row.dataset.run));
+  const names = () => runs_of(page.locator("#runs-table tbody tr"));
   const { pairs } = compared.before_after;
   await page.locator("#filter-status").selectOption("slower");
-  assert.deepEqual(
-    await names(),
-    pairs.filter((pair) => pair.change === "slower").map((pair) => pair.name),
-  );
+  const slower = pairs.filter((pair) => pair.change === "slower").map((pair) => pair.name);
+  assert.deepEqual(await names(), slower);
   await page.locator("#filter-status").selectOption("");
   await page.locator("#filter-words").fill("hi/n:64000 polylidar");
   assert.deepEqual(await names(), ["polylidar/hi/n:64000/holes:0/protocol:paper"]);
@@ -307,44 +249,37 @@ page_test("the table filters by what became of a run, finds words and sorts", {}
   const ratios = (await names())
     .map((name) => pairs.find((pair) => pair.name === name).ratio)
     .filter((ratio) => ratio !== null);
-  assert.deepEqual(
-    ratios,
-    [...ratios].sort((a, b) => a - b),
-  );
+  assert_ascending(ratios);
 });
 
 page_test("the chart of ratios filters, orders and hides methods; the other charts follow", {}, async (page) => {
   const labels = () =>
     page.evaluate(() => hullbenchComparison.forests.drawn.runs.filter((line) => !line.heading).map((line) => line.ratio));
-  const all = (await labels()).length;
+  const count = async () => (await labels()).length;
+  const pairs = (keep) => compared.before_after.pairs.filter((pair) => pair.ratio !== null && keep(pair)).length;
+  const all = await count();
   await page.locator("#forest-words").fill("hi/n:2000");
   assert.equal(
-    (await labels()).length,
-    compared.before_after.pairs.filter((pair) => pair.ratio !== null && pair.name.includes("/hi/n:2000/")).length,
+    await count(),
+    pairs(({ name }) => name.includes("/hi/n:2000/")),
   );
   await page.locator("#forest-words").fill("");
   await page.locator("#forest-order").selectOption("high");
-  assert.deepEqual(
-    await labels(),
-    [...(await labels())].sort((a, b) => b - a),
-  );
+  assert_ascending((await labels()).reverse());
   await page.locator("#forest-changed").selectOption("differ");
   assert.equal(
-    (await labels()).length,
-    compared.before_after.pairs.filter((pair) => ["faster", "slower"].includes(pair.change)).length,
+    await count(),
+    pairs(({ change }) => ["faster", "slower"].includes(change)),
   );
   await page.locator("#forest-changed").selectOption("");
   const toggle = page.locator('#ratios [data-entrant="polylidar/paper"]');
   await toggle.focus();
   await page.keyboard.press("Space");
   assert.equal(await toggle.getAttribute("aria-pressed"), "false");
-  assert.equal(
-    (await labels()).length,
-    all - compared.before_after.pairs.filter((pair) => pair.ratio !== null && pair.name.startsWith("polylidar/")).length,
-  );
+  assert.equal(await count(), all - pairs(({ name }) => name.startsWith("polylidar/")));
   assert.ok(!(await page.evaluate(() => hullbenchComparison.charts.drawn.shown)).includes("polylidar/paper"));
   await toggle.click();
-  assert.equal((await labels()).length, all);
+  assert.equal(await count(), all);
 });
 
 page_test("a line of the chart tells its numbers under the pointer", {}, async (page) => {
@@ -361,17 +296,12 @@ page_test("a line of the chart tells its numbers under the pointer", {}, async (
   const words = await page.locator("#forest-runs .tip").innerText();
   const told = compared.before_after.pairs.find((pair) => pair.name === name);
   assert.match(words, /▲ slower/);
-  assert.ok(
-    words.includes(`${told.ratio.toPrecision(3)} [${told.ratio_low.toPrecision(3)}, ${told.ratio_high.toPrecision(3)}]`),
-    words,
-  );
+  const [ratio, low, high] = digits_of(told);
+  assert.ok(words.includes(`${ratio} [${low}, ${high}]`), words);
 });
 
 page_test("time and error of both runs are drawn with the reports' numbers", {}, async (page) => {
-  const reports = {
-    A: JSON.parse(readFileSync(join(OUTPUT, "a", "report.json"))),
-    B: JSON.parse(readFileSync(join(OUTPUT, "b", "report.json"))),
-  };
+  const reports = { A: read_json("a", "report.json"), B: read_json("b", "report.json") };
   const drawn = await page.evaluate(() =>
     hullbenchComparison.charts.plots.map(({ chart }) =>
       chart
@@ -402,33 +332,12 @@ page_test("what differs between the runs is marked", {}, async (page) => {
   assert.match(rows[0], /^≠ differs Program hullbench .* commit 0123456789.* commit fedcba98/);
 });
 
-for (const [width, theme] of [
-  [1280, "light"],
-  [1280, "dark"],
-  [390, "light"],
-  [390, "dark"],
-  [360, "light"],
-]) {
+for (const screen of ["1280 light", "1280 dark", "390 light", "390 dark", "360 light"]) {
   for (const name of ["before_after", "machines"]) {
-    page_test(`${name} is readable and accessible at ${width} pixels, ${theme}`, { page: name, width, theme }, async (page) => {
+    const options = { page: name, ...screen_options(screen) };
+    page_test(`${name} is readable and accessible at ${screen}`, options, async (page) => {
       await open_table(page);
-      assert.equal(await page.evaluate(() => document.documentElement.scrollWidth), width);
-      await page.screenshot({ path: join(OUTPUT, `${name}-${width}-${theme}.png`), fullPage: true });
-      // Run outside of the page's policy, which forbids scripts of others.
-      await page.evaluate(axe);
-      const { violations } = await page.evaluate(() =>
-        window.axe.run(document, { runOnly: ["wcag2a", "wcag2aa", "wcag21a", "wcag21aa"] }),
-      );
-      assert.deepEqual(
-        violations.map(
-          ({ id, nodes }) =>
-            `${id}: ${nodes
-              .slice(0, 3)
-              .map((node) => node.html.slice(0, 120))
-              .join(" | ")}`,
-        ),
-        [],
-      );
+      await assert_readable(page, `${name}-${screen.replace(" ", "-")}`);
     });
   }
 }
@@ -446,5 +355,5 @@ page_test("paper is light and without controls", { theme: "dark" }, async (page)
 });
 
 test("the pages are small", () => {
-  for (const page of Object.keys(compared)) assert.ok(statSync(file_of(page)).size < 5 * 2 ** 20, page);
+  for (const page of Object.keys(compared)) assert.ok(statSync(output(file_of(page))).size < 5 * 2 ** 20, page);
 });

@@ -1,7 +1,5 @@
 // Pictures for the invented run of tests/invented_run.cpp, in the format of pictures.jsonl.
 //
-//   node invented_pictures.mjs FOLDER    writes FOLDER/pictures.jsonl beside the report.json that is there
-//
 // California has its outline and results that are made up from it. Hawaii is a square, and every result the same square
 // moved to the right by an eighth, so that it is known which pixels are missing and which are too many. With 64,000 points it
 // has no truth.
@@ -125,5 +123,3 @@ export function write_invented_pictures(folder) {
       .join(""),
   );
 }
-
-if (process.argv[1] === new URL(import.meta.url).pathname) write_invented_pictures(process.argv[2]);

@@ -3,22 +3,22 @@
 // The environment says where things are: WRITE_INVENTED_REPORT is that program, PYTHON the Python for plots/, OUTPUT the folder
 // for the run, the site and its screenshots.
 import assert from "node:assert/strict";
-import { spawnSync } from "node:child_process";
-import { mkdirSync, readFileSync, rmSync, writeFileSync } from "node:fs";
-import { createRequire } from "node:module";
+import { readFileSync, writeFileSync } from "node:fs";
 import { join } from "node:path";
-import { after, before, test } from "node:test";
-import { fileURLToPath } from "node:url";
-import { launch, open_page } from "./browser.mjs";
+import { before, test } from "node:test";
 import { cases_csv } from "./invented_cases.mjs";
 import { write_invented_pictures } from "./invented_pictures.mjs";
+import {
+  assert_readable,
+  empty_output,
+  output,
+  page_tests,
+  plot,
+  screen_options,
+  write_invented_report,
+} from "./page_tests.mjs";
 
-const { WRITE_INVENTED_REPORT, PYTHON = "python3", OUTPUT } = process.env;
 const NAME = "2026-01-02-0123abcd";
-const folder = join(OUTPUT, NAME);
-const site = join(OUTPUT, "site");
-const make_site = fileURLToPath(new URL("../../plots/make_site.py", import.meta.url));
-const axe = readFileSync(createRequire(import.meta.url).resolve("axe-core/axe.min.js"), "utf8");
 const KINDS = [
   "index",
   "methods/index",
@@ -30,62 +30,31 @@ const KINDS = [
   "add",
   "downloads",
 ];
-const READY = () => document.getElementById("search").hidden === false;
+const { open_file, page_test } = page_tests({ ready: () => document.getElementById("search").hidden === false });
 
-let browser;
-
-function run_program(program, ...words) {
-  const { status, stdout, stderr } = spawnSync(program, words, { encoding: "utf8" });
-  assert.equal(status, 0, `${program} ${words.join(" ")}: ${stdout}${stderr}`);
-}
-
-before(async () => {
-  rmSync(OUTPUT, { recursive: true, force: true });
-  mkdirSync(folder, { recursive: true });
-  run_program(WRITE_INVENTED_REPORT, join(folder, "report.json"));
-  write_invented_pictures(folder);
-  writeFileSync(join(folder, "cases.csv"), cases_csv(JSON.parse(readFileSync(join(folder, "report.json")))));
-  run_program(PYTHON, make_site, folder, "--out", site);
-  browser = await launch();
+before(() => {
+  empty_output();
+  const report = write_invented_report(NAME);
+  write_invented_pictures(output(NAME));
+  writeFileSync(output(NAME, "cases.csv"), cases_csv(report));
+  plot("make_site.py", output(NAME), "--out", output("site"));
 });
 
-after(() => browser?.close());
-
-const file_of = (kind) => join(site, `${kind}.html`);
-
-function page_test(name, kind, options, body) {
-  test(name, async () => {
-    const { page, troubles } = await open_page(browser, file_of(kind), { ready: READY, ...options });
-    await body(page);
-    assert.deepEqual(troubles, []);
-    await page.context().close();
-  });
-}
+const page_of = (kind) => join("site", `${kind}.html`);
 
 for (const kind of KINDS) {
-  for (const [width, theme] of [
-    [1400, "light"],
-    [800, "dark"],
-    [390, "light"],
-    [390, "dark"],
-  ]) {
-    page_test(`${kind} is readable and accessible at ${width} pixels, ${theme}`, kind, { width, theme }, async (page) => {
-      assert.equal(await page.evaluate(() => document.documentElement.dataset.theme), theme);
+  for (const screen of ["1400 light", "800 dark", "390 light", "390 dark"]) {
+    const options = screen_options(screen);
+    page_test(`${kind} is readable and accessible at ${screen}`, page_of(kind), options, async (page) => {
+      assert.equal(await page.evaluate(() => document.documentElement.dataset.theme), options.theme);
       for (const one of await page.locator("details").all()) await one.evaluate((box) => (box.open = true));
-      assert.equal(await page.evaluate(() => document.documentElement.scrollWidth), width);
-      await page.screenshot({ path: join(OUTPUT, `${kind.replace("/", "-")}-${width}-${theme}.png`), fullPage: true });
-      await page.evaluate(axe);
-      const { violations } = await page.evaluate(() =>
-        window.axe.run(document, { runOnly: ["wcag2a", "wcag2aa", "wcag21a", "wcag21aa"] }),
-      );
-      const told = violations.map(({ id, nodes }) => `${id}: ${nodes.slice(0, 3).map((node) => node.html.slice(0, 120))}`);
-      assert.deepEqual(told, []);
+      await assert_readable(page, `${kind} ${screen}`.replace(/[/ ]/g, "-"));
     });
   }
 }
 
 test("the search finds a page and leads there, by keyboard alone", async () => {
-  const { page } = await open_page(browser, file_of("methods/polylidar"), { ready: READY });
+  const { page } = await open_file(page_of("methods/polylidar"));
   const active = () => page.evaluate(() => document.activeElement.id || document.activeElement.innerText);
   for (let k = 0; k < 6 && (await active()) !== "search-words"; ++k) await page.keyboard.press("Tab");
   assert.equal(await active(), "search-words");
@@ -112,11 +81,11 @@ test("the search finds a page and leads there, by keyboard alone", async () => {
 
 page_test(
   "without scripts all is there but the search",
-  "methods/polylidar",
+  page_of("methods/polylidar"),
   { javaScriptEnabled: false, ready: null },
   async (page) => {
     assert.equal(await page.locator("#search").isVisible(), false);
-    const pictures = readFileSync(file_of("methods/polylidar"), "utf8").match(/data-run=/g).length;
+    const pictures = readFileSync(output(page_of("methods/polylidar")), "utf8").match(/data-run=/g).length;
     assert.ok(pictures > 0 && pictures <= 10, `${pictures} pictures`);
     assert.equal(await page.locator(".strip.many li:visible").count(), pictures);
     assert.ok((await page.locator(".contents a:visible").count()) >= 7);
@@ -124,7 +93,7 @@ page_test(
 );
 
 test("a picture leads to its case in the report", async () => {
-  const { page } = await open_page(browser, file_of("index"), { ready: READY });
+  const { page } = await open_file(page_of("index"));
   const card = page.locator("#strip a").first();
   const run = await card.getAttribute("data-run");
   await card.focus();
@@ -136,5 +105,5 @@ test("a picture leads to its case in the report", async () => {
 });
 
 test("its pages are small", () => {
-  for (const kind of KINDS) assert.ok(readFileSync(file_of(kind)).length < 2 ** 20, kind);
+  for (const kind of KINDS) assert.ok(readFileSync(output(page_of(kind))).length < 2 ** 20, kind);
 });

@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
-# Tries the Slurm scripts (benchmarks/slurm) on a real Slurm of one node: its own munged, slurmctld and slurmd, from
-# Debian's packages, in a temporary folder and on 127.0.0.1 only; nothing of them is left when this ends.
+# Tries the Slurm scripts (benchmarks/slurm, core/tool/slurm) on a real Slurm of one node: its own munged, slurmctld and
+# slurmd, from Debian's packages, in a temporary folder and on 127.0.0.1 only; nothing of them is left when this ends.
 #
-#   run.sh HULLBENCH     the program; needs root, since slurmd does
+#   run.sh HULLBENCH POLYLIDAR     the programs; needs root, since slurmd does
 #
 # Exit status: 0 all passed; 1 something failed; 2 it cannot be tried here.
 set -euo pipefail
@@ -10,20 +10,22 @@ export LC_ALL=C
 
 here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
 submit=$here/../../benchmarks/slurm/submit.sh
+hull=$here/../../core/tool/slurm/hull.sbatch
 
 fail() {
   printf 'error: %s\n' "$*" >&2
   exit 2
 }
 
-[ $# -eq 1 ] || fail "name the program: run.sh build/hullbench"
-[ -x "$1" ] || fail "there is no program $1."
+[ $# -eq 2 ] || fail "name the programs: run.sh build/hullbench build/polylidar"
+for program in "$1" "$2"; do [ -x "$program" ] || fail "there is no program $program."; done
 [ "$(id -u)" -eq 0 ] || fail "slurmd needs root: run 'make test-slurm' as root."
 for program in munged slurmctld slurmd sbatch ss python3; do
   command -v "$program" >/dev/null || fail "there is no $program: 'cmake/install-packages.sh slurm' installs Slurm."
 done
 HULLBENCH=$(realpath "$1")
-export HULLBENCH
+POLYLIDAR=$(realpath "$2")
+export HULLBENCH POLYLIDAR
 
 work=$(mktemp -d)
 daemons=()
@@ -165,6 +167,26 @@ check "each task of the array measured its shard" test "$(find sweep/shards -nam
 check "the merged run has the accuracy of a whole one" same_accuracy whole sweep/merged || show_logs sweep
 check "the merged run is valid" "$HULLBENCH" validate sweep/merged/report.json
 check "it has times, since all nodes are the same" grep -q 'time of equal work, ms' sweep/merged/tables.md
+
+# ---- a hull in shards -------------------------------------------------------------------------------------
+
+"$HULLBENCH" points ca --n 200000 --out hull.npy >/dev/null 2>&1
+limit=(--max-perimeter 4)
+"$POLYLIDAR" hull hull.npy "${limit[@]}" --stream --out whole.geojson 2>/dev/null
+# As core/tool/README.md has it.
+submit_hull() {
+  array=$(sbatch --parsable --array=1-4 --output="$work/hull-%a.txt" "$hull" hull.npy "${limit[@]}") &&
+    sbatch --dependency=afterok:"$array" --output="$work/hull-merge.txt" \
+      --wrap="'$POLYLIDAR' merge part-? --out merged.geojson" >/dev/null
+}
+check "submits a hull of four shards" submit_hull
+check "the hull ends" wait_for 120 has_ended
+check "each task of the array made its part" test "$(find . -maxdepth 1 -name 'part-*' | wc -l)" -eq 4
+check "the merged hull has the bytes of one run" cmp whole.geojson merged.geojson || cat "$work"/hull-*.txt
+rm part-3
+SHARDS=4 sbatch --parsable --array=3 --output="$work/hull-again.txt" "$hull" hull.npy "${limit[@]}" >/dev/null
+check "a shard made again ends" wait_for 120 has_ended
+check "and fits to the others" cmp whole.geojson <("$POLYLIDAR" merge part-? 2>/dev/null)
 
 # ---- a task that is requeued ------------------------------------------------------------------------------
 

@@ -63,6 +63,9 @@ struct Options {
   /// keeps its threads waiting until another number above 1 is asked for. Threads save time from about 10,000
   /// points on. Throws std::system_error if the system refuses a thread.
   unsigned threads = 1;
+
+  /// Field by field.
+  friend bool operator==(const Options&, const Options&) = default;
 };
 
 /// A multipolygon as three flat arrays. Its vertices are indices into the caller's points. Every polygon is

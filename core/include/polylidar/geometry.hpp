@@ -37,6 +37,9 @@ using MultiPolygon = std::vector<Polygon>;
 struct Box {
   Point min;  ///< least x and least y
   Point max;  ///< greatest x and greatest y
+
+  /// Coordinate by coordinate.
+  friend bool operator==(const Box&, const Box&) = default;
 };
 
 /// The smallest box round `points`; for no points, min = +infinity and max = -infinity.

@@ -1,4 +1,4 @@
-// The concave hull of points that do not fit into memory.
+// The concave hull of points that do not fit into memory, by one machine or by many.
 #pragma once
 
 #include <cstdint>
@@ -25,8 +25,8 @@ struct StreamProgress {
 
 /// What of a stream is not in Options.
 struct StreamOptions {
-  /// The most that one of the two maps of occupied cells may take, in bytes. They make up most of the memory
-  /// where points are many and the outline is short.
+  /// The most that one of the two maps of occupied cells may take, in bytes; of a shard, those of its band.
+  /// They make up most of the memory where points are many and the outline is short.
   double most_map_bytes = 0x1p30;
   /// Called after each block; may throw, which ends the work.
   std::function<void(const StreamProgress&)> progress = {};
@@ -59,5 +59,48 @@ struct StreamedHull {
 /// std::runtime_error where the source gives other points than the time before; and what the source throws.
 StreamedHull concave_hull_of_stream(const PointSource& source, const Options& options,
                                     const StreamOptions& stream_options = {});
+
+/// One of several runs over the same source, which may be on different machines.
+struct Shard {
+  std::uint32_t number = 1;  ///< from 1 to `count`
+  std::uint32_t count = 1;   ///< how many there are
+
+  /// Both.
+  friend bool operator==(const Shard&, const Shard&) = default;
+};
+
+/// What a shard found: the points near the outline that lie in its band. The box of all points is cut into as
+/// many bands of rows as there are shards, all of the same height to within a row of cells, a sixth of the
+/// limit's radius; what each keeps in memory while it reads is then the same, too.
+struct StreamShard {
+  Shard shard;
+  Options options;                      ///< that it was asked for; `threads` may differ between shards
+  std::uint64_t source_points = 0;      ///< how many points the source has
+  std::uint64_t source_checksum = 0;    ///< of their numbers and coordinates; finds changes by accident only
+  Box box;                              ///< of all points; of none, as bounding_box()
+  double cells_per_length = 0;          ///< of the grid; 0 where none was needed
+  std::vector<Point> points;            ///< by ascending number
+  std::vector<std::uint64_t> numbers;   ///< of each of `points`, among all points of the source
+  std::vector<std::uint8_t> uncertain;  ///< for each of `points`, whether it may be on the outline: 1 or 0
+};
+
+/// Reads `sources`, which are one after the other as one source, as concave_hull_of_stream does, and finds a
+/// shard's part of what that would triangulate (core/INTERIOR.md, "Many machines"). Each shard reads all
+/// points once, and three more times those sources, such as the tiles of a cloud, that reach into its band or
+/// 4 radii beyond it; its maps have the cells of these rows. Up to 65,536 points are all in the first shard.
+///
+/// Throws as concave_hull_of_stream, and std::invalid_argument where there is no such shard. Whether the
+/// rounding of a triangle's size decides is not known yet.
+StreamShard part_of_stream(std::span<const PointSource> sources, const Options& options, const Shard& shard,
+                           const StreamOptions& stream_options = {});
+
+/// What concave_hull_of_stream gives for the source and the options of these shards, bit by bit; `points` are
+/// the source's. They may come in any order. Memory: 25 bytes a point of theirs and 125 bytes for the
+/// triangulation; `threads` as in Options.
+///
+/// Throws std::invalid_argument where a shard is missing or there twice, where they differ in their options,
+/// source or grid, where their points cannot be those of one source, and where the rounding of a triangle's
+/// size decides.
+StreamedHull concave_hull_of_shards(std::span<const StreamShard> shards, unsigned threads = 1);
 
 }  // namespace polylidar

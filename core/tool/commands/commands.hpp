@@ -46,13 +46,22 @@ struct HullCommand {
   /// Behind the program's name.
   static constexpr const char* kExample = "hull points.csv --columns lon,lat --format svg --out hull.svg";
 
-  std::string input;  ///< a path, or "-" for standard input
+  std::vector<std::string> inputs;  ///< paths, or "-" for standard input; several for `stream` only
   ShapeChoice shape;
   std::string input_format = "auto";  ///< a name that point_format_of() knows
   std::string columns;                ///< see PointFileOptions
   std::string by;                     ///< likewise
   bool keep_outliers = false;         ///< the points left outside are written too
-  bool stream = false;                ///< the file is read again and again, its points are not kept
+  bool stream = false;                ///< the files are read again and again, their points are not kept
+  std::string shard;                  ///< such as "2/7": only what that shard finds, for MergeCommand
+};
+
+/// From what all shards of `hull --stream --shard` found to polygons.
+struct MergeCommand {
+  static constexpr const char* kExample = "merge part-1 part-2 part-3 --out hull.geojson";
+
+  std::vector<std::string> inputs;  ///< paths
+  ShapeChoice shape;                ///< of which only what add_output_options() adds matters
 };
 
 /// From files of points to an index of their footprints, or to the footprint of all of them together.
@@ -66,11 +75,13 @@ struct FootprintCommand {
 
 /// Each adds its options, description and notes to `app`. `command` must live as long.
 void add_hull_options(CLI::App& app, HullCommand& command);
+void add_merge_options(CLI::App& app, MergeCommand& command);
 void add_footprint_options(CLI::App& app, FootprintCommand& command);
 
 /// Each writes the result to standard output or the file, whole or not at all; notes and, on a terminal,
 /// progress go to surroundings.err. They throw what exit_code_of() takes.
 ExitCode make_hull(const HullCommand& command, const Surroundings& surroundings);
+ExitCode merge_hulls(const MergeCommand& command, const Surroundings& surroundings);
 /// kExitFailures when a file could not be read; the index has the others.
 ExitCode make_footprints(const FootprintCommand& command, const Surroundings& surroundings);
 

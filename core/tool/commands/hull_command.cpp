@@ -8,10 +8,10 @@
 #include <stdexcept>
 #include <vector>
 
-#include "polylidar/stream.hpp"
 #include "tool/commands/commands.hpp"
 #include "tool/commands/shape_choice.hpp"
 #include "tool/commands/shape_output.hpp"
+#include "tool/commands/streamed_hull.hpp"
 #include "tool/program/configuration_error.hpp"
 #include "tool/program/interrupt.hpp"
 #include "tool/program/status_line.hpp"
@@ -35,7 +35,6 @@ class HullRun {
 
   ExitCode run() {
     check_options();
-    if (command_.stream) return stream();
     read();
     compute();
     throw_if_interrupted();
@@ -51,8 +50,15 @@ class HullRun {
  private:
   void check_options() const {
     chosen_crs(command_.shape, {});
-    output_.check_is_none_of({&command_.input, 1});
-    if (command_.stream) check_stream_options();
+    output_.check_is_none_of(command_.inputs);
+    if (command_.inputs.size() > 1) {
+      throw ConfigurationError(
+          "several files are one set of points with --stream only; give that and a limit, or ask 'polylidar "
+          "footprint --union'");
+    }
+    if (!command_.shard.empty()) {
+      throw ConfigurationError("--shard is for what --stream reads; add --stream, or leave --shard out");
+    }
     if (output_.has_features()) return;
     if (!command_.by.empty() && output_.text_format() != "svg") {
       throw ConfigurationError("--by gives a feature a group, which " + output_.text_format() +
@@ -60,25 +66,6 @@ class HullRun {
     }
     if (command_.keep_outliers) {
       throw ConfigurationError("--keep-outliers gives a feature of its own, which only --format geojson has");
-    }
-  }
-
-  void check_stream_options() const {
-    const ShapeChoice& shape = command_.shape;
-    const auto refuse = [](const std::string& what) {
-      throw ConfigurationError("--stream does not go with " + what + "; leave one of them out");
-    };
-    if (command_.input == "-") refuse("standard input, which can be read once only");
-    if (!command_.by.empty()) refuse("--by");
-    if (command_.keep_outliers) refuse("--keep-outliers");
-    if (output_.text_format() == "svg") refuse("--format svg");
-    if (shape.one || shape.cover) refuse("--one and --cover");
-    if (shape.min_triangles > 0) refuse("--min-triangles");
-    if (shape.min_area > 0 || shape.max_parts || shape.simplify > 0) {
-      refuse("--min-area, --max-parts and --simplify");
-    }
-    if (!shape.alpha && !shape.max_edge_length && !shape.max_perimeter) {
-      throw ConfigurationError("--stream needs a limit; give --alpha, --max-edge-length or --max-perimeter");
     }
   }
 
@@ -101,64 +88,12 @@ class HullRun {
       show("reading: " + mebibytes(bytes) + (size ? " of " + mebibytes(*size) : "") + " MiB");
     };
     try {
-      file_ = read_point_file(command_.input, options);
+      file_ = read_point_file(command_.inputs.front(), options);
     } catch (const PointFileError& error) {
       throw ConfigurationError(error.what());
     }
     crs_ = chosen_crs(command_.shape, file_.crs);
     are_numbers_ = are_numbers(file_.labels);
-  }
-
-  /// Reads the file four times.
-  ExitCode stream() {
-    PointFileOptions options = point_options(command_.shape, surroundings_);
-    options.format = point_format_of(command_.input_format).value_or(PointFormat::kAuto);
-    options.columns = command_.columns;
-    options.on_progress = [](std::uint64_t, std::optional<std::uint64_t>) { throw_if_interrupted(); };
-    const PointSource source = [&](const TakePoints& take) {
-      options.take_points = take;
-      try {
-        file_ = read_point_file(command_.input, options);
-      } catch (const PointFileError& error) {
-        throw ConfigurationError(error.what());
-      }
-      crs_ = chosen_crs(command_.shape, file_.crs);
-      if (crs_.is_geographic) {
-        throw ConfigurationError(
-            command_.input +
-            ": its coordinates are longitudes and latitudes, and --stream takes a plane; "
-            "project them, or give --crs none to take degrees as one");
-      }
-    };
-    const StreamOptions stream_options{.progress = [&](const StreamProgress& progress) {
-      show("pass " + std::to_string(progress.pass) + " of " + std::to_string(progress.passes) + ": " +
-           std::to_string(progress.points) + " points");
-    }};
-    Options core = hull_options(command_.shape).core;
-    core.threads = thread_count(command_.shape);
-    const StreamedHull hull = concave_hull_of_stream(source, core, stream_options);
-    status_.clear();
-    say(std::to_string(hull.triangulated_points) + " of " + std::to_string(hull.points) +
-        " points are near the outline");
-    output_.write(streamed_result(hull), crs_);
-    return kExitOk;
-  }
-
-  std::string streamed_result(const StreamedHull& hull) const {
-    if (output_.text_format() == "wkt") return to_wkt(hull.polygons);
-    if (output_.text_format() == "wkb") return to_wkb(hull.polygons);
-    const ShapeChoice& shape = command_.shape;
-    Properties properties;
-    properties.add("points", static_cast<std::size_t>(hull.points));
-    if (shape.alpha) properties.add("alpha", *shape.alpha);
-    if (shape.max_edge_length) properties.add("max_edge_length", *shape.max_edge_length);
-    if (shape.max_perimeter) properties.add("max_perimeter", *shape.max_perimeter);
-    std::size_t holes = 0;
-    for (const Polygon& polygon : hull.polygons) holes += polygon.holes.size();
-    properties.add("parts", hull.polygons.size());
-    properties.add("holes", holes);
-    properties.add("area", area(hull.polygons));
-    return geojson_feature(properties, hull.polygons, geojson_crs(crs_)) + "\n";
   }
 
   void compute() {
@@ -296,7 +231,8 @@ class HullRun {
 };
 
 std::string name_of(const HullCommand& command) {
-  return command.input == "-" ? "standard input" : command.input;
+  if (command.inputs.size() > 1) return "the " + std::to_string(command.inputs.size()) + " files";
+  return command.inputs.front() == "-" ? "standard input" : command.inputs.front();
 }
 
 }  // namespace
@@ -305,7 +241,7 @@ ExitCode make_hull(const HullCommand& command, const Surroundings& surroundings)
   // A closed pipe is then an error of writing, which is told like others.
   (void)::signal(SIGPIPE, SIG_IGN);
   try {
-    return HullRun(command, surroundings).run();
+    return command.stream ? stream_hull(command, surroundings) : HullRun(command, surroundings).run();
   } catch (const std::invalid_argument& error) {
     throw ConfigurationError(name_of(command) + ": " + error.what());
   } catch (const std::bad_alloc&) {
@@ -324,13 +260,15 @@ void add_hull_options(CLI::App& app, HullCommand& command) {
       "error. The size of an equilateral triangle is the length of its edge. The shape may be empty.\n"
       "The program tells the input's format by the ending of its name (.csv .tsv .txt .xyz .pts .asc "
       ".geojson\n"
-      ".json .wkt .npy .ply .las .laz, also with .gz), else by its content. LAZ needs laszip or las2las in "
-      "the PATH.\n"
+      ".json .wkt .npy .ply .las .laz, also with .gz; .f64 and .raw are little-endian doubles x, y and "
+      "nothing\n"
+      "else), else by its content. LAZ needs laszip or las2las in the PATH.\n"
       "Lengths are in the unit of the points, or in metres if these are longitudes and latitudes.\n" +
       std::string(kGdalHelp));
-  app.add_option("FILE", command.input, "The points; - for standard input")->required();
+  app.add_option("FILE", command.inputs, "The points; - for standard input; several with --stream")
+      ->required();
   app.add_option("--input", command.input_format, "The input's format")
-      ->check(CLI::IsMember({"auto", "csv", "xyz", "geojson", "wkt", "npy", "ply", "las", "gdal"}))
+      ->check(CLI::IsMember({"auto", "csv", "xyz", "geojson", "wkt", "npy", "raw", "ply", "las", "gdal"}))
       ->capture_default_str();
   app.add_option(
       "--columns", command.columns,
@@ -343,8 +281,11 @@ void add_hull_options(CLI::App& app, HullCommand& command) {
                "Also write the points outside the shape, as a MultiPoint (geojson only)");
   app.add_flag(
       "--stream", command.stream,
-      "Read the file four times instead of keeping its points in memory; only for LAS, text and NumPy, "
-      "and only with a limit");
+      "Read the files four times instead of keeping their points in memory; only for LAS, text, NumPy and "
+      "raw doubles, and only with a limit");
+  app.add_option("--shard", command.shard,
+                 "With --stream, write only what shard K of N finds, such as 2/7, for 'polylidar merge': N "
+                 "machines each need an Nth of the memory");
   add_shape_options(app, command.shape);
 }
 

@@ -85,12 +85,16 @@ void add_shape_options(CLI::App& app, ShapeChoice& choice) {
       "--crs", choice.crs,
       "The coordinate system, such as EPSG:25832, in place of the file's; none: ignore the file's, "
       "and treat degrees as plane coordinates");
+  app.add_option("--layer", choice.layer, "Which layer to read, of an input with several that GDAL reads");
+  add_output_options(app, choice);
+}
+
+void add_output_options(CLI::App& app, ShapeChoice& choice) {
   app.add_option("--threads", choice.threads, "Number of threads, instead of one for each processor")
       ->check(CLI::Range(1U, 1024U));
   app.add_option(
       "-o,--out", choice.out,
       "Write the result into this file instead of standard output; with GDAL also into a database (PG:)");
-  app.add_option("--layer", choice.layer, "Which layer to read, of an input with several that GDAL reads");
   app.add_option("--out-layer", choice.out_layer,
                  "Name of the layer that GDAL writes, instead of the file's name");
 }

@@ -14,6 +14,8 @@ namespace polylidar::tool {
 
 /// Adds the options to `app`.
 void add_shape_options(CLI::App& app, ShapeChoice& choice);
+/// Of these, those that are about the result alone, and the threads.
+void add_output_options(CLI::App& app, ShapeChoice& choice);
 
 /// Adds --format, which takes these words and the drivers of GDAL.
 void add_format_option(CLI::App& app, ShapeChoice& choice, const std::vector<std::string>& formats);

@@ -55,12 +55,17 @@ BlockReader::BlockReader(int file, std::string name, const PointFileOptions& opt
 }
 
 void BlockReader::start() {
+  // A coordinate may have any bytes.
+  const bool is_raw = options_.format == PointFormat::kRaw;
+  if (is_raw && !name_.ends_with(".gz")) return;
+  if (is_raw && !Gunzip::is_available())
+    fail("this was built without zlib and cannot unpack it; give it unpacked");
   if (ahead().starts_with("\x1F\x8B") && Gunzip::is_available()) {
     gunzip_ =
         std::make_unique<Gunzip>(ahead(), [this](char* to, std::size_t size) { return read_raw(to, size); });
     position_ = end_ = 0;
   }
-  if (ahead().starts_with(kByteOrderMark)) position_ += kByteOrderMark.size();
+  if (!is_raw && ahead().starts_with(kByteOrderMark)) position_ += kByteOrderMark.size();
 }
 
 BlockReader::~BlockReader() {

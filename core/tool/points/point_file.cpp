@@ -22,7 +22,7 @@ struct Ending {
   PointFormat format;
 };
 
-constexpr std::array<Ending, 13> kEndings = {{{".csv", PointFormat::kCsv},
+constexpr std::array<Ending, 15> kEndings = {{{".csv", PointFormat::kCsv},
                                               {".tsv", PointFormat::kCsv},
                                               {".txt", PointFormat::kCsv},
                                               {".xyz", PointFormat::kXyz},
@@ -32,6 +32,8 @@ constexpr std::array<Ending, 13> kEndings = {{{".csv", PointFormat::kCsv},
                                               {".json", PointFormat::kGeoJson},
                                               {".wkt", PointFormat::kWkt},
                                               {".npy", PointFormat::kNpy},
+                                              {".f64", PointFormat::kRaw},
+                                              {".raw", PointFormat::kRaw},
                                               {".ply", PointFormat::kPly},
                                               {".las", PointFormat::kLas},
                                               {".laz", PointFormat::kLas}}};
@@ -93,18 +95,23 @@ PointFormat format_of_content(std::string_view start) {
   return looks_like_wkt(start) ? PointFormat::kWkt : PointFormat::kCsv;
 }
 
+/// The format that the file's name says, if any, be it compressed or not.
+PointFormat format_of_name(const std::filesystem::path& name) {
+  const std::string last = lower(name.extension().string());
+  const std::string ending = last == ".gz" ? lower(name.stem().extension().string()) : last;
+  const auto known =
+      std::find_if(kEndings.begin(), kEndings.end(), [&](const Ending& e) { return e.ending == ending; });
+  return known == kEndings.end() ? PointFormat::kAuto : known->format;
+}
+
 PointFormat find_format(const std::string& path, BlockReader& reader) {
   const std::string_view start = reader.ahead();
   for (const Foreign& foreign : kForeign) {
     if (start.starts_with(foreign.start)) reader.fail(foreign.what);
   }
   if (start.starts_with("LASF")) return PointFormat::kLas;
-  const std::filesystem::path name = path;
-  const std::string last = lower(name.extension().string());
-  const std::string ending = last == ".gz" ? lower(name.stem().extension().string()) : last;
-  const auto known =
-      std::find_if(kEndings.begin(), kEndings.end(), [&](const Ending& e) { return e.ending == ending; });
-  return known == kEndings.end() ? format_of_content(start) : known->format;
+  const PointFormat named = format_of_name(path);
+  return named == PointFormat::kAuto ? format_of_content(start) : named;
 }
 
 void read_as(PointFormat format, BlockReader& reader, PointFile& file) {
@@ -115,6 +122,8 @@ void read_as(PointFormat format, BlockReader& reader, PointFile& file) {
       return point_files::read_wkt_points(reader, file);
     case PointFormat::kNpy:
       return point_files::read_npy(reader, file);
+    case PointFormat::kRaw:
+      return point_files::read_raw(reader, file);
     case PointFormat::kPly:
       file.points = point_files::read_ply(reader);
       return;
@@ -143,8 +152,8 @@ void check_options(PointFormat format, const BlockReader& reader) {
     reader.fail("--by is for columns of text and for LAS, and this file is neither; leave --by out");
   }
   if (options.take_points && !options.whole_if_needed && !is_text && format != PointFormat::kLas &&
-      format != PointFormat::kNpy) {
-    reader.fail("--stream is for LAS, columns of text and NumPy's arrays; leave --stream out");
+      format != PointFormat::kNpy && format != PointFormat::kRaw) {
+    reader.fail("--stream is for LAS, columns of text, NumPy's arrays and raw doubles; leave --stream out");
   }
   if ((options.returns != Returns::kAll || options.classes) && format != PointFormat::kLas) {
     reader.fail("--returns and --classes are for LAS, and this file is not; leave them out");
@@ -220,6 +229,7 @@ std::optional<PointFormat> point_format_of(const std::string& name) {
   if (name == "geojson") return PointFormat::kGeoJson;
   if (name == "wkt") return PointFormat::kWkt;
   if (name == "npy") return PointFormat::kNpy;
+  if (name == "raw") return PointFormat::kRaw;
   if (name == "ply") return PointFormat::kPly;
   if (name == "las") return PointFormat::kLas;
   if (name == "gdal") return PointFormat::kGdal;
@@ -227,13 +237,20 @@ std::optional<PointFormat> point_format_of(const std::string& name) {
 }
 
 PointFile read_point_file(const std::string& path, const PointFileOptions& options) {
+  if (options.format == PointFormat::kAuto && format_of_name(path) == PointFormat::kRaw) {
+    // Known before the first byte is looked at: any bytes may be a coordinate.
+    PointFileOptions raw = options;
+    raw.format = PointFormat::kRaw;
+    return read_point_file(path, raw);
+  }
   if (options.format == PointFormat::kGdal || (options.format == PointFormat::kAuto && is_for_gdal(path))) {
     if (options.vector_formats == nullptr) throw PointFileError(path + ": " + kNoGdalToRead);
     return options.vector_formats->read(path, options);
   }
   BlockReader reader(path, options);
   const std::optional<std::string> program =
-      path != "-" && is_laz(reader) ? point_files::find_laz_program() : std::nullopt;
+      path != "-" && options.format != PointFormat::kRaw && is_laz(reader) ? point_files::find_laz_program()
+                                                                           : std::nullopt;
   return program ? read_laz(*program, path, options) : read_from(reader, path);
 }
 

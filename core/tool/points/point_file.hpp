@@ -30,6 +30,7 @@ enum class PointFormat {
   kGeoJson,  ///< RFC 7946: Point, MultiPoint, GeometryCollection, Feature, FeatureCollection
   kWkt,      ///< OGC 06-103r4, 7.2: POINT, MULTIPOINT and GEOMETRYCOLLECTION, one after the other
   kNpy,      ///< NumPy's .npy, versions 1 to 3: an array of n x 2 or n x 3 numbers
+  kRaw,      ///< little-endian doubles x, y, one point behind the other, and nothing else
   kPly,      ///< Stanford polygons, ascii and binary: the element "vertex" with x and y
   kLas,      ///< ASPRS LAS 1.0 to 1.4, point formats 0 to 10; without withheld points
   kGdal,     ///< whatever VectorFormats reads
@@ -63,8 +64,8 @@ struct PointFileOptions {
   /// Only points in it, or on its border, are taken; in the coordinates of the file.
   std::optional<Box> window = {};
   /// Where given, it is called with the points, block by block in their order, and PointFile::points stays
-  /// empty: for files of more points than fit into memory. Of LAS, columns of text, NumPy's rows and layers;
-  /// other files are refused.
+  /// empty: for files of more points than fit into memory. Of LAS, columns of text, NumPy's rows, raw doubles
+  /// and layers; other files are refused.
   std::function<void(std::span<const Point>)> take_points = {};
   /// Files that cannot be taken block by block are read whole, and handed to `take_points` then, instead of
   /// being refused.

@@ -25,6 +25,9 @@ void read_wkt_points(BlockReader& reader, PointFile& file);
 /// float32, float64 and whole numbers of 1 to 8 bytes, of either byte order, in C or Fortran order.
 void read_npy(BlockReader& reader, PointFile& file);
 
+/// Little-endian doubles: x and y of the first point, of the second, and so on to the end.
+void read_raw(BlockReader& reader, PointFile& file);
+
 /// x and y of any type; other properties, lists among them, and other elements are passed over.
 std::vector<Point> read_ply(BlockReader& reader);
 

@@ -1,0 +1,78 @@
+// `polylidar merge PART...`: from what the shards of a hull found to polygons.
+#include <CLI/CLI.hpp>
+#include <csignal>
+#include <new>
+#include <stdexcept>
+#include <vector>
+
+#include "polylidar/stream.hpp"
+#include "tool/commands/commands.hpp"
+#include "tool/commands/shape_choice.hpp"
+#include "tool/commands/shape_output.hpp"
+#include "tool/commands/streamed_hull.hpp"
+#include "tool/hull/shard_file.hpp"
+#include "tool/program/configuration_error.hpp"
+#include "tool/program/interrupt.hpp"
+
+namespace polylidar::tool {
+namespace {
+
+/// The parts and what all of them say of the points' coordinate system.
+Crs read_parts(const std::vector<std::string>& paths, std::vector<StreamShard>& shards) {
+  Crs crs;
+  for (const std::string& path : paths) {
+    throw_if_interrupted();
+    ShardFile file = read_shard_file(path);
+    if (!shards.empty() && file.crs != crs) {
+      throw ConfigurationError(path + ": its coordinate system is not that of " + paths.front() +
+                               "; make all parts with the same --crs");
+    }
+    crs = std::move(file.crs);
+    shards.push_back(std::move(file.shard));
+  }
+  return crs;
+}
+
+ExitCode merge(const MergeCommand& command, const Surroundings& surroundings) {
+  const ShapeOutput output(command.shape, surroundings.vector_formats);
+  if (output.text_format() == "svg") {
+    throw ConfigurationError(
+        "svg shows all points, which parts do not have; write the polygons as geojson, wkt or wkb");
+  }
+  output.check_is_none_of(command.inputs);
+  std::vector<StreamShard> shards;
+  const Crs crs = read_parts(command.inputs, shards);
+  const StreamedHull hull = concave_hull_of_shards(shards, thread_count(command.shape));
+  throw_if_interrupted();
+  write_streamed_hull(hull, shards.front().options, crs, output, surroundings);
+  return kExitOk;
+}
+
+}  // namespace
+
+ExitCode merge_hulls(const MergeCommand& command, const Surroundings& surroundings) {
+  // A closed pipe is then an error of writing, which is told like others.
+  (void)::signal(SIGPIPE, SIG_IGN);
+  try {
+    return merge(command, surroundings);
+  } catch (const std::invalid_argument& error) {
+    throw ConfigurationError(error.what());
+  } catch (const PointFileError& error) {
+    throw ConfigurationError(error.what());
+  } catch (const std::bad_alloc&) {
+    throw std::runtime_error(
+        "there is not enough memory for the points of these parts; use a machine with more");
+  }
+}
+
+void add_merge_options(CLI::App& app, MergeCommand& command) {
+  app.description("Put the parts of a hull together, as 'polylidar hull --stream --shard' made them");
+  app.footer(
+      "All parts must be there, in any order. The result is that of 'polylidar hull --stream' with the same\n"
+      "files and options on one machine, byte by byte.");
+  app.add_option("PART", command.inputs, "The parts")->required();
+  add_format_option(app, command.shape, {"auto", "geojson", "wkt", "wkb"});
+  add_output_options(app, command.shape);
+}
+
+}  // namespace polylidar::tool

@@ -1,0 +1,191 @@
+#include "tool/commands/streamed_hull.hpp"
+
+#include <algorithm>
+#include <charconv>
+#include <optional>
+#include <string_view>
+
+#include "tool/commands/shape_choice.hpp"
+#include "tool/hull/shard_file.hpp"
+#include "tool/program/configuration_error.hpp"
+#include "tool/program/interrupt.hpp"
+#include "tool/program/result_output.hpp"
+#include "tool/program/status_line.hpp"
+
+namespace polylidar::tool {
+namespace {
+
+constexpr std::uint32_t kMostShards = 9999;
+
+/// The whole of "K/N" with 1 <= K <= N.
+std::optional<Shard> shard_of(std::string_view text) {
+  const std::size_t slash = text.find('/');
+  if (slash == std::string_view::npos) return {};
+  Shard shard;
+  const auto parse = [&](std::string_view digits, std::uint32_t& value) {
+    const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
+    return error == std::errc() && end == digits.data() + digits.size();
+  };
+  const bool fits = parse(text.substr(0, slash), shard.number) &&
+                    parse(text.substr(slash + 1), shard.count) && shard.number >= 1 &&
+                    shard.number <= shard.count && shard.count <= kMostShards;
+  return fits ? std::optional(shard) : std::nullopt;
+}
+
+[[noreturn]] void refuse(const std::string& option, const std::string& what) {
+  throw ConfigurationError(option + " does not go with " + what + "; leave one of them out");
+}
+
+class StreamRun {
+ public:
+  StreamRun(const HullCommand& command, const Surroundings& surroundings)
+      : command_(command),
+        surroundings_(surroundings),
+        status_(surroundings.err, surroundings.terminal),
+        core_(hull_options(command.shape).core) {
+    core_.threads = thread_count(command.shape);
+  }
+
+  ExitCode run() {
+    chosen_crs(command_.shape, {});
+    check_options();
+    return command_.shard.empty() ? make_hull() : make_part();
+  }
+
+ private:
+  void check_options() const {
+    const ShapeChoice& shape = command_.shape;
+    const std::vector<std::string>& inputs = command_.inputs;
+    if (std::find(inputs.begin(), inputs.end(), "-") != inputs.end()) {
+      refuse("--stream", "standard input, which can be read once only");
+    }
+    if (!command_.by.empty()) refuse("--stream", "--by");
+    if (command_.keep_outliers) refuse("--stream", "--keep-outliers");
+    if (shape.one || shape.cover) refuse("--stream", "--one and --cover");
+    if (shape.min_triangles > 0) refuse("--stream", "--min-triangles");
+    if (shape.min_area > 0 || shape.max_parts || shape.simplify > 0) {
+      refuse("--stream", "--min-area, --max-parts and --simplify");
+    }
+    if (!shape.alpha && !shape.max_edge_length && !shape.max_perimeter) {
+      throw ConfigurationError("--stream needs a limit; give --alpha, --max-edge-length or --max-perimeter");
+    }
+  }
+
+  ExitCode make_hull() {
+    const ShapeOutput output(command_.shape, surroundings_.vector_formats);
+    if (output.text_format() == "svg") refuse("--stream", "--format svg");
+    output.check_is_none_of(command_.inputs);
+    const std::vector<PointSource> files = sources();
+    const PointSource all = [&](const TakePoints& take) {
+      for (const PointSource& file : files) file(take);
+    };
+    const StreamedHull hull = concave_hull_of_stream(all, core_, stream_options());
+    status_.clear();
+    write_streamed_hull(hull, core_, crs_.value_or(Crs()), output, surroundings_);
+    return kExitOk;
+  }
+
+  ExitCode make_part() {
+    const ShapeChoice& shape = command_.shape;
+    const std::optional<Shard> shard = shard_of(command_.shard);
+    if (!shard) {
+      throw ConfigurationError("--shard '" + command_.shard +
+                               "' is no shard; give its number and how many there are (at most " +
+                               std::to_string(kMostShards) + "), as in --shard 1/3");
+    }
+    if (shape.format != "auto" || !shape.out_layer.empty() || is_for_gdal(shape.out)) {
+      throw ConfigurationError(
+          "--shard writes a part and no polygons, so --format, --out-layer and outputs of GDAL are for "
+          "'polylidar merge'; give them there");
+    }
+    ShapeOutput(shape, surroundings_.vector_formats).check_is_none_of(command_.inputs);
+    check_output_place(shape.out);
+    const StreamShard part = part_of_stream(sources(), core_, *shard, stream_options());
+    status_.clear();
+    surroundings_.err << surroundings_.program << ": shard " << shard->number << " of " << shard->count
+                      << ": " << part.points.size() << " of " << part.source_points
+                      << " points are near the outline and in its band\n";
+    write_shard_file(shape.out, {part, crs_.value_or(Crs())});
+    return kExitOk;
+  }
+
+  std::vector<PointSource> sources() {
+    std::vector<PointSource> sources;
+    for (const std::string& input : command_.inputs) {
+      sources.emplace_back([this, &input](const TakePoints& take) {
+        PointFileOptions options = point_options(command_.shape, surroundings_);
+        options.format = point_format_of(command_.input_format).value_or(PointFormat::kAuto);
+        options.columns = command_.columns;
+        options.on_progress = [](std::uint64_t, std::optional<std::uint64_t>) { throw_if_interrupted(); };
+        options.take_points = take;
+        const Crs crs = read(input, options);
+        if (crs_ && *crs_ != crs) {
+          throw ConfigurationError(
+              "the files have different coordinate systems; transform them into one, or give one by --crs");
+        }
+        crs_ = crs;
+      });
+    }
+    return sources;
+  }
+
+  Crs read(const std::string& input, const PointFileOptions& options) const {
+    try {
+      Crs crs = chosen_crs(command_.shape, read_point_file(input, options).crs);
+      if (!crs.is_geographic) return crs;
+    } catch (const PointFileError& error) {
+      throw ConfigurationError(error.what());
+    }
+    throw ConfigurationError(input +
+                             ": its coordinates are longitudes and latitudes, and --stream takes a plane; "
+                             "project them, or give --crs none to take degrees as one");
+  }
+
+  StreamOptions stream_options() {
+    return {.progress = [this](const StreamProgress& progress) {
+      throw_if_interrupted();
+      if (!surroundings_.terminal) return;
+      status_.show("pass " + std::to_string(progress.pass) + " of " + std::to_string(progress.passes) + ": " +
+                   std::to_string(progress.points) + " points");
+    }};
+  }
+
+  const HullCommand& command_;
+  const Surroundings& surroundings_;
+  StatusLine status_;
+  Options core_;
+  std::optional<Crs> crs_;  ///< of the files, once one was read
+};
+
+std::string geojson(const StreamedHull& hull, const Options& options, const Crs& crs) {
+  Properties properties;
+  properties.add("points", static_cast<std::size_t>(hull.points));
+  if (options.alpha) properties.add("alpha", *options.alpha);
+  if (options.max_edge_length) properties.add("max_edge_length", *options.max_edge_length);
+  if (options.max_perimeter) properties.add("max_perimeter", *options.max_perimeter);
+  std::size_t holes = 0;
+  for (const Polygon& polygon : hull.polygons) holes += polygon.holes.size();
+  properties.add("parts", hull.polygons.size());
+  properties.add("holes", holes);
+  properties.add("area", area(hull.polygons));
+  return geojson_feature(properties, hull.polygons, geojson_crs(crs)) + "\n";
+}
+
+}  // namespace
+
+ExitCode stream_hull(const HullCommand& command, const Surroundings& surroundings) {
+  return StreamRun(command, surroundings).run();
+}
+
+void write_streamed_hull(const StreamedHull& hull, const Options& options, const Crs& crs,
+                         const ShapeOutput& output, const Surroundings& surroundings) {
+  surroundings.err << surroundings.program << ": " << hull.triangulated_points << " of " << hull.points
+                   << " points are near the outline\n";
+  const std::string& format = output.text_format();
+  output.write(format == "wkt"   ? to_wkt(hull.polygons)
+               : format == "wkb" ? to_wkb(hull.polygons)
+                                 : geojson(hull, options, crs),
+               crs);
+}
+
+}  // namespace polylidar::tool
