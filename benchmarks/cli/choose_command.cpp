@@ -237,12 +237,12 @@ void add_choose(CLI::App& app, Action& action) {
       add_command(app, "choose", "Show what all methods make of your points, to choose one by eye",
                   "hullbench choose points.csv --columns lon,lat --only polylidar --only convex_hull");
   options.footer(
-      "Every installed method runs with what it chooses without you, as in the plan 'real'. The page has a "
-      "picture\n"
-      "of each result, its numbers and the command that makes it again. It needs no network. A method that "
-      "fails or\n"
-      "runs out of time has a card that says how. There is no truth here: agreement and stability are hints "
-      "only.\n" +
+      "Every installed method chooses its parameters by itself, as in the plan 'real'. The page shows for "
+      "each result\n"
+      "a picture, its numbers and the command that makes it again. It needs no network. If a method fails or "
+      "runs out\n"
+      "of time, its card says how. The true shape is not known, so agreement and stability are only "
+      "hints.\n" +
       options.get_footer());
   options.add_option("FILE", command->file, "The points, in any format that 'hullbench hull' reads")
       ->required();
@@ -255,10 +255,10 @@ void add_choose(CLI::App& app, Action& action) {
       ->allow_extra_args(false);
   options
       .add_option("--n", command->n,
-                  "Of a file with more points, take so many at random, instead of " +
-                      std::to_string(kMostPoints) + ", or of all with --write")
+                  "Take this many points at random if the file has more; the default is " +
+                      std::to_string(kMostPoints) + ", with --write all")
       ->check(CLI::Range(std::size_t{3}, std::size_t{1} << 32U));
-  options.add_option("--seed", command->seed, "Of the points that are taken, and of the halves")
+  options.add_option("--seed", command->seed, "Seed of the random choice of points and of halves")
       ->check(CLI::NonNegativeNumber)
       ->capture_default_str();
   options.add_option("--timeout", command->timeout_s, "Time limit of one run in seconds")
@@ -266,7 +266,7 @@ void add_choose(CLI::App& app, Action& action) {
       ->capture_default_str();
   options
       .add_option("--draws", command->draws,
-                  "Draw random halves for the stability so often, instead of as the plan says; 0: never")
+                  "How often to draw random halves for the stability, instead of as the plan says; 0: never")
       ->check(CLI::Range(0, 100));
   CLI::Option* const out = options.add_option(
       "-o,--out", command->out, "The page, instead of the file's name with .choice.html in this folder");

@@ -213,23 +213,25 @@ void add_points(CLI::App& app, Action& action) {
                                   "hullbench points 'ca~gradient:16~noise:0.5' --n 100000 --out points.npy");
   options.footer(
       "The points are those that a run draws for the same data set, number and seed, on every machine.\n"
-      "'hullbench list' shows the data sets and what can stand behind their names. Uniform points, also\n"
-      "with water, outliers, noise and quantised, are written as they are drawn: there may be any number of "
-      "them,\n"
-      "whatever the memory. Others are drawn all at once. A family's name, such as 'cell~transcripts:5', "
-      "stands\n"
-      "for all its shapes: N points of each, and the shape's number as a column label, by which\n"
-      "'polylidar hull --by label' makes one hull a shape. LAS is 1.2 with point format 0, which rounds\n"
-      "coordinates to a power of ten below a 400,000,000th of the larger side.\n" +
+      "'hullbench list' shows the data sets and what can follow their names. Uniform points, also with "
+      "water,\n"
+      "outliers, noise and quantised, are written as they are drawn, so there may be more than memory "
+      "holds.\n"
+      "Others are drawn all at once. The name of a family, such as 'cell~transcripts:5', gives N points of "
+      "each\n"
+      "of its shapes and the shape's number in a column label; 'polylidar hull --by label' then makes one "
+      "hull\n"
+      "for each shape. LAS is 1.2 with point format 0, which rounds coordinates to a power of ten below a\n"
+      "400,000,000th of the larger side.\n" +
       options.get_footer());
   options
       .add_option("DATASET", command->dataset,
-                  "The name of a data set or of a family, as 'hullbench list' has it")
+                  "The name of a data set or of a family, as 'hullbench list' shows it")
       ->required();
   options
       .add_option(
           "--n", command->count,
-          "How many points of each shape; not for data sets that come with their points, such as floor-1")
+          "Number of points of each shape; not for data sets that come with their points, such as floor-1")
       ->check(CLI::Range(std::size_t{1}, std::size_t{1'000'000'000'000'000}));
   options.add_option("--seed", command->seed, "Seed of the random numbers")
       ->check(CLI::NonNegativeNumber)
@@ -240,7 +242,8 @@ void add_points(CLI::App& app, Action& action) {
                   "The file's format; auto: by its ending, .csv, .xyz, .txt, .npy or .las")
       ->check(CLI::IsMember({"auto", "csv", "xyz", "npy", "las"}))
       ->capture_default_str();
-  options.add_option("--out", command->out, "File for the points instead of standard output, which gets csv");
+  options.add_option("--out", command->out,
+                     "File for the points; without it they go to standard output, as csv");
   set_action(options, action, command, &make_points);
 }
 

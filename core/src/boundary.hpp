@@ -13,11 +13,11 @@ namespace polylidar::detail {
 /// Traces polygons, keeping its memory between calls.
 class BoundaryTracer {
  public:
-  /// One polygon a region of edge-connected kept triangles of `mesh`, whose boundary half-edges are
-  /// `boundary`, by the caller's indices (`caller_index`: vertex of the mesh -> caller's point). `vertices`
-  /// are the mesh's positions. Linear in the number of boundary half-edges and of the triangles round their
-  /// vertices; where there are several regions, each hole adds the triangles on the way from it to the next
-  /// boundary on its left.
+  /// One polygon for each edge-connected region of kept triangles of `mesh`. Vertices are given by the
+  /// caller's indices (`caller_index`: vertex of the mesh -> caller's point). `boundary` are the boundary
+  /// half-edges of the regions, `vertices` the positions in the mesh. Linear in the number of boundary
+  /// half-edges and of the triangles round their vertices. If there are several regions, each hole adds the
+  /// triangles on the way from it to the next boundary on its left.
   void trace(Mesh& mesh, const Point* vertices, std::size_t vertex_count, const std::uint32_t* caller_index,
              const std::vector<Mesh::Index>& boundary, IndexedMultiPolygon& shape);
 
@@ -27,7 +27,7 @@ class BoundaryTracer {
  private:
   using Index = Mesh::Index;
 
-  /// A closed walk along the boundary of one region, which falls into rings where it comes back to a vertex.
+  /// A closed walk along the boundary of one region. It is split into rings wherever it returns to a vertex.
   struct Walk {
     Index first;           ///< one of its half-edges
     std::uint32_t parent;  ///< a walk of the same region, or itself

@@ -1,5 +1,4 @@
-// What coordinates a point set has: how far they reach, how they are scaled, and whether they lie on a
-// lattice.
+// The coordinates of a point set: their range, their scaling, and whether they lie on a lattice.
 #pragma once
 
 #include <cstdint>
@@ -13,19 +12,19 @@ namespace polylidar::detail {
 
 struct CoordinateRange {
   Box box;
-  /// The power of two by which coordinates are multiplied so that the predicates hold them; 0 unless they are
+  /// Coordinates are multiplied by 2 to this power, so that the predicates can handle them; 0 unless they are
   /// extremely large or small.
   int scale_exponent = 0;
-  /// The largest power of two of which all coordinates are multiples; 0 where it would be too small to matter
-  /// or coordinates are scaled.
+  /// The largest power of two of which all coordinates are multiples; 0 if it is too small to matter or if
+  /// coordinates are scaled.
   double unit = 0;
 };
 
-/// Of at least one point. Throws std::invalid_argument when a coordinate is not finite or coordinates span
+/// Needs at least one point. Throws std::invalid_argument if a coordinate is not finite or coordinates span
 /// more than the supported range (see Extractor).
 CoordinateRange measure_coordinates(std::span<const Point> points, ThreadPool& pool);
 
-/// The range of points that come block by block; without `unit`.
+/// Measures points that come block by block; `unit` is not set.
 class RangeOfBlocks {
  public:
   /// Returns the box of the block. Throws std::invalid_argument when a coordinate is not finite; counts the
@@ -34,7 +33,7 @@ class RangeOfBlocks {
   std::uint64_t count() const { return count_; }
   /// As bounding_box().
   const Box& box() const { return box_; }
-  /// Of at least one point. Throws as measure_coordinates.
+  /// Needs at least one point. Throws as measure_coordinates.
   CoordinateRange range() const;
 
  private:

@@ -10,11 +10,11 @@
 namespace polylidar::detail {
 
 /// Morton keys of the cells of a square grid over a box: x in the odd bits, y in the even ones. Subtraction
-/// and multiplication round monotonically, so that of two points in different columns (or rows) the order of
-/// the cells is the order of the coordinates.
+/// and multiplication round monotonically, so if two points lie in different columns (or rows), the cells
+/// have the order of the coordinates.
 class Curve {
  public:
-  /// A few cells for each of `points` points: enough to tell most of them apart, few enough to sort by few
+  /// A few cells for each of `points` points: enough to separate most of them, few enough to sort by few
   /// digits.
   Curve(const Box& box, std::size_t points);
 
@@ -43,8 +43,8 @@ class Curve {
 /// A point's key in the upper 32 bits, its index in the lower ones.
 using CurveEntry = std::uint64_t;
 
-/// The entries of `points` by ascending key and, for equal keys, index: at `entries` or at `spare`, as the
-/// returned pointer says. Both have room for one entry a point.
+/// Writes the entries of `points` by ascending key, then by index, to `entries` or to `spare`, and returns a
+/// pointer to them. Both have room for one entry for each point.
 CurveEntry* sort_along(const Curve& curve, std::span<const Point> points, CurveEntry* entries,
                        CurveEntry* spare, ThreadPool& pool);
 

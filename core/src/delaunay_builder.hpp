@@ -18,14 +18,14 @@ namespace polylidar::detail {
 /// Points are sorted along a Morton curve, whose cells are halved again and again by vertical and horizontal
 /// lines; the triangulations of two halves are merged as Guibas and Stolfi (1985) do, on triangles with
 /// ghosts instead of edges (Shewchuk 1996). A merge turns the ghosts between the halves into the triangles
-/// that fill the gap, so that a range of points always owns the same range of triangle records, and nothing
+/// that fill the gap. A range of points therefore always owns the same range of triangle records, and nothing
 /// is allocated, freed or moved.
 class DelaunayBuilder {
  public:
   /// Triangulates `points` on the threads of `pool`: the same mesh for any number of them. Throws
   /// std::invalid_argument as concave_hull does, and then leaves the mesh as it was.
   void build(std::span<const Point> points, ThreadPool& pool);
-  /// The same for points whose range is known; there is at least one.
+  /// The same for points whose range is known. There must be at least one point.
   void build(std::span<const Point> points, const CoordinateRange& range, ThreadPool& pool);
 
   const Mesh& mesh() const { return mesh_; }
@@ -36,16 +36,16 @@ class DelaunayBuilder {
   /// Vertex of the mesh -> index of the caller's point.
   const std::uint32_t* caller_index() const { return order_.data(); }
   int scale_exponent() const { return scale_exponent_; }
-  /// Vertex of the mesh -> its key on the curve, or, where many vertices share one, on a finer curve of
-  /// theirs. The higher the first bit in which neighbours differ, the larger the cells between which they
-  /// lie.
+  /// Vertex of the mesh -> its key on the curve. Vertices that share a key with many others have keys on a
+  /// finer curve of their own. The higher the first bit in which neighbours differ, the larger the cells that
+  /// separate them.
   const std::uint32_t* keys() const { return keys_.data(); }
 
  private:
   using Index = Mesh::Index;
 
-  /// A subtree of the curve: a range of points whose triangulations are built by themselves, or the two
-  /// parts into which a line cuts it.
+  /// A subtree of the curve: a range of points that is triangulated by itself, or the two parts into which a
+  /// line cuts it.
   struct Part {
     Part(Index part_begin, Index part_end, Part* part_parent)
         : begin(part_begin), end(part_end), parent(part_parent) {}
@@ -72,8 +72,7 @@ class DelaunayBuilder {
   Hull build_sorted(Index begin, Index end);
   Hull collapse(Index begin, Index end);
 
-  /// Merges neighbouring ranges that meet at point `middle`. Every place where ranges can meet owns two
-  /// records.
+  /// Merges the two ranges that meet at point `middle`. Every place where ranges can meet owns two records.
   Hull merge(const Hull& left, const Hull& right, Index middle, Axis axis) {
     return merge_hulls(mesh_, points_.data(), exact_limits_, left, right, Mesh::kStride * (2 * middle - 2),
                        axis);

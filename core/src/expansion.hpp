@@ -11,7 +11,7 @@
 
 namespace polylidar::detail {
 
-/// A value and what rounding took from it: `high + low` is exact.
+/// A rounded value `high` and its rounding error `low`: `high + low` is exact.
 struct DoublePair {
   double high;
   double low;
@@ -122,7 +122,7 @@ Expansion<2 * N> scale(const Expansion<N>& e, double factor) {
   return result;
 }
 
-/// The exact product. Sizes grow with what the numbers need, so that small integers stay short.
+/// The exact product. Its size is what the number needs, so small integers stay short.
 template <std::size_t M, std::size_t N>
 Expansion<2 * M * N> product(const Expansion<M>& e, const Expansion<N>& f) {
   Expansion<2 * M * N> result;

@@ -15,7 +15,8 @@
 
 namespace polylidar::detail {
 
-/// A finite triangle of the mesh as the rules see it. All is inlined: what no rule asks for is not computed.
+/// A finite triangle of the mesh, as the rules use it. All is inlined, so only what a rule asks for is
+/// computed.
 struct Triangle {
   Triangle(const Mesh& mesh, const Point* vertices, Mesh::Index t)
       : Triangle(t, vertices[mesh.origin(Mesh::kStride * t)], vertices[mesh.origin(Mesh::kStride * t + 1)],
@@ -31,14 +32,14 @@ struct Triangle {
   double perimeter() const {
     return std::sqrt(squared_ab()) + std::sqrt(squared_bc()) + std::sqrt(squared_ca());
   }
-  /// Rounded: negative by rounding at most.
+  /// Rounded; only rounding can make it negative.
   double twice_area() const { return cross(c - a, a - b); }
-  /// The fourth power of the triangle's size, a length: (4 / sqrt 3 e^2 A)^(1/4) with its area A and its
-  /// second-longest edge e, and e / 2 where that is more, as in triangles that are all but flat. Of an
-  /// equilateral triangle it is the edge. A triangle with a long edge has a size like its circumradius where
-  /// it spans a hole, and a small one where it is a sliver along the outline.
+  /// The fourth power of the triangle's size. The size is a length: (4 / sqrt 3 e^2 A)^(1/4) with area A and
+  /// second-longest edge e, or e / 2 if that is more, as in almost flat triangles. The size of an equilateral
+  /// triangle is its edge. A triangle that spans a hole has a size like its circumradius; a sliver along the
+  /// outline has a small size, even with a long edge.
   double size4() const { return size4(twice_area()); }
-  /// The same, were that its area.
+  /// The same for a triangle with this area.
   double size4(double twice_area) const {
     constexpr double kEquilateral = 1.1547005383792515;  // 2 / sqrt 3
     const double ab = squared_ab();
@@ -53,7 +54,7 @@ struct Triangle {
   const Point& c;
 };
 
-/// The rule that is always kept to.
+/// The rule that every triangle obeys.
 struct NoRule {
   bool keeps(const Triangle& /*triangle*/) const { return true; }
 };
@@ -67,8 +68,8 @@ class LongestEdgeRule {
   double squared_limit_;
 };
 
-/// A perimeter is more than two and at most three longest edges, which decides for nearly all triangles
-/// without a root.
+/// A perimeter is more than twice and at most three times the longest edge. This decides nearly all triangles
+/// without a square root.
 class PerimeterRule {
  public:
   explicit PerimeterRule(double limit) : limit_(limit), squared_limit_(limit * limit) {}
@@ -120,15 +121,15 @@ class CircumradiusRule {
   double four_squared_limit_;
 };
 
-/// Rule(limit), where there is a limit.
+/// Rule(limit), if there is a limit.
 template <class Rule>
 std::variant<NoRule, Rule> rule_of(double limit) {
   if (limit == kNoLimit) return NoRule{};
   return Rule(limit);
 }
 
-/// The rules of one shape, in the order in which they are best asked; a triangle must keep to all of them.
-/// The filter is compiled for every combination, so that a rule that is not asked for costs nothing.
+/// The rules of one shape, in the best order to ask them; a triangle must obey all of them. The filter is
+/// compiled for every combination, so an unused rule costs nothing.
 inline auto filter_rules(const Limits& limits) {
   return std::tuple{rule_of<LongestEdgeRule>(limits.max_edge_length),
                     rule_of<PerimeterRule>(limits.max_perimeter), rule_of<CircumradiusRule>(limits.alpha)};

@@ -10,9 +10,9 @@
 
 namespace polylidar::detail {
 
-/// A triangulation of the sphere: the finite triangles and, outside the convex hull, one ghost triangle a
-/// hull edge, whose third vertex is the vertex at infinity, kNone. Turning round a vertex therefore never
-/// meets a border.
+/// A triangulation of the sphere: the finite triangles and, outside the convex hull, one ghost triangle for
+/// each hull edge. Its third vertex is the vertex at infinity, kNone. So a walk round a vertex never meets a
+/// border.
 ///
 /// A triangle is one 32-byte record, half a cache line: half-edge 8t + k (k = 0, 1, 2) belongs to triangle t,
 /// and with `m` the mesh's memory
@@ -20,12 +20,12 @@ namespace polylidar::detail {
 ///   m[8t + 4 + k]  its twin, the same edge seen from the neighbouring triangle
 ///   m[8t + 3]      which of a boundary triangle's half-edges are in a ring already
 ///   m[8t + 7]      which walk along the boundary a boundary triangle is on
-/// Whether a triangle belongs to the shape is a bit in an array of its own, small enough to stay in the cache
-/// when records do not.
+/// Whether a triangle belongs to the shape is a bit in a separate array, which is small enough to stay in the
+/// cache when the records do not fit.
 ///
-/// A ghost's third vertex is always infinity, so that over the hull edge u -> v its half-edges are v -> u, u
-/// -> infinity and infinity -> v. n distinct points make 2n - 2 triangles, ghosts included (Euler's formula
-/// on the sphere). Records of triangles that repeated points left unused have kNone for all vertices.
+/// A ghost's third vertex is always infinity: over the hull edge u -> v its half-edges are v -> u, u ->
+/// infinity and infinity -> v. n distinct points make 2n - 2 triangles, ghosts included (Euler's formula on
+/// the sphere). Repeated points leave records unused; these have kNone for all vertices.
 class Mesh {
  public:
   using Index = std::uint32_t;
@@ -41,8 +41,8 @@ class Mesh {
   Index triangle_count() const { return triangle_count_; }
   Index* memory() { return memory_; }
 
-  /// The memory of the records from `first_record` (a half-edge) on, for other use until triangles are
-  /// written there: it needs none of its own.
+  /// The memory of the records from `first_record` (a half-edge) on. It can be used for other things until
+  /// triangles are written there.
   template <class T>
   T* borrow(Index first_record) {
     return reinterpret_cast<T*>(memory_ + first_record);
@@ -71,7 +71,7 @@ class Mesh {
   /// Ghosts and unused records.
   bool is_ghost(Index t) const { return origin(kStride * t + 2) == kNone; }
 
-  /// Word w says of the triangles 64 w ... 64 w + 63, from the lowest bit on, which belong to the shape.
+  /// Word w says which of the triangles 64 w ... 64 w + 63 belong to the shape, lowest bit first.
   static constexpr Index kWordBits = 64;
   std::size_t word_count() const { return (std::size_t{triangle_count_} + kWordBits - 1) / kWordBits; }
   std::uint64_t* reserve_kept() { return kept_ = kept_storage_.reserve(word_count()); }

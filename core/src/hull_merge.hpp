@@ -6,13 +6,13 @@
 namespace polylidar::detail {
 
 /// A vertex of a convex hull, and the record of the ghost over the hull edge that leaves it
-/// counter-clockwise. Of a hull that is a single point: that point and kNone.
+/// counter-clockwise. For a hull of a single point: that point and kNone.
 struct HullVertex {
   Mesh::Index vertex;
   Mesh::Index ghost;
 };
 
-/// A triangulated set of points, by the extreme vertices of its convex hull, from which merges start.
+/// A triangulated set of points, given by the extreme vertices of its convex hull, where merges start.
 struct Hull {
   HullVertex left;    ///< least by x, then y
   HullVertex right;   ///< greatest by x, then y
@@ -25,26 +25,25 @@ struct Hull {
   }
 };
 
-/// Which coordinate tells two halves apart; ties are broken by the other one.
+/// The coordinate that separates two halves; the other one breaks ties.
 enum class Axis : std::uint8_t { kX, kY };
 
-/// Up to which size results of plain floating-point arithmetic are exact because all coordinates are
-/// multiples of one power of two: sums of magnitudes below these limits lose nothing, so that a result of
-/// zero is a zero. This spares lattices the exact arithmetic. Both are 0 where coordinates have no such unit
-/// worth having.
+/// If all coordinates are multiples of one power of two, plain floating-point arithmetic is exact up to these
+/// limits: sums of magnitudes below them lose nothing, so a result of zero is truly zero. Lattices then need
+/// no exact arithmetic. Both are 0 if the coordinates have no such unit that helps.
 struct ExactLimits {
   double orient2d = 0;  ///< 2^53 squared units
   double incircle = 0;  ///< 2^53 units to the fourth
 };
 
-/// The Delaunay triangulation of the points of `before` and `after` together, in `mesh`, where all of
-/// `before` lie before all of `after` along `axis`. The two triangles that a merge adds get the records
+/// Makes the Delaunay triangulation of the points of `before` and `after` together, in `mesh`. All of
+/// `before` must lie before all of `after` along `axis`. The two triangles that a merge adds get the records
 /// `first_record` and the next one; all others stay where they are.
 Hull merge_hulls(Mesh& mesh, const Point* points, const ExactLimits& limits, const Hull& before,
                  const Hull& after, Mesh::Index first_record, Axis axis);
 
-/// The triangle (a, b, c), which runs counter-clockwise, and the ghosts over its edges, in four records from
-/// `first_record` on.
+/// Writes the counter-clockwise triangle (a, b, c) and the ghosts over its edges into four records, beginning
+/// with `first_record`.
 Hull join_triangle(Mesh& mesh, const Point* points, Mesh::Index a, Mesh::Index b, Mesh::Index c,
                    Mesh::Index first_record);
 

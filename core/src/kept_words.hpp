@@ -1,4 +1,4 @@
-// What the filters share: the words of Mesh that say which triangles are kept.
+// Code that the filters share, for the words of Mesh that say which triangles are kept.
 #pragma once
 
 #include <algorithm>
@@ -28,8 +28,8 @@ inline Mesh::Index neighbour(const Mesh& mesh, Mesh::Index t, Mesh::Index k) {
   return Mesh::triangle_of(mesh.twin(Mesh::kStride * t + k));
 }
 
-/// task(chunk, begin, end) for chunks of whole words, so that no two threads write to one; `chunks` are those
-/// of the triangles.
+/// Calls task(chunk, begin, end) for chunks of whole words, so that no two threads write to the same word.
+/// `chunks` are those of the triangles.
 template <class Task>
 void for_each_word_chunk(const Mesh& mesh, const Chunks& chunks, ThreadPool& pool, const Task& task) {
   pool.for_each(chunks.size(), [&](std::size_t c) {
@@ -38,7 +38,7 @@ void for_each_word_chunk(const Mesh& mesh, const Chunks& chunks, ThreadPool& poo
   });
 }
 
-/// Says in words [begin, end) of `kept` which triangles `is_kept`.
+/// Writes into words [begin, end) of `kept` for which triangles `is_kept` is true.
 template <class IsKept>
 void fill_words(const Mesh& mesh, std::size_t begin, std::size_t end, std::uint64_t* kept,
                 const IsKept& is_kept) {
@@ -71,11 +71,11 @@ inline bool has_marked_corner(const Mesh& mesh, Mesh::Index t, const std::uint8_
   return (is_marked[corner[0]] | is_marked[corner[1]] | is_marked[corner[2]]) != 0;
 }
 
-/// What rounding makes of a question about a triangle.
+/// The answer to a question about a triangle, or that rounding decides it.
 enum class Answer : std::uint8_t { kNo, kYes, kRoundingDecides };
 
-/// Asks asked(triangle) of finite triangle `t`, for each of its corners as the one where the arithmetic
-/// starts: which one it is in a mesh depends on how that was built.
+/// Calls asked(triangle) for finite triangle `t` three times, with each corner as the one where the
+/// arithmetic starts. Which corner comes first in a mesh depends on how the mesh was built.
 template <class Asked>
 Answer ask_from_all_corners(const Mesh& mesh, const Point* vertices, Mesh::Index t, const Asked& asked) {
   const Mesh::Index* const corner = mesh.corners(t);

@@ -1,4 +1,4 @@
-// Which cells of a square grid hold points: what the certificate looks at instead of the points.
+// Which cells of a square grid hold points. The certificate uses these cells instead of the points.
 #pragma once
 
 #include <cmath>
@@ -13,25 +13,26 @@
 
 namespace polylidar::detail {
 
-/// A square grid over a box, with a margin of empty cells all round. A cell is named by the place of its bit
-/// in a bitmap whose rows are whole words.
+/// A square grid over a box, with a margin of empty cells all round. A cell is identified by the place of its
+/// bit in a bitmap whose rows are whole words.
 ///
 /// The coordinate of a point in cells is u = (x - minimum) * cells_per_length. Its computed value u' is off
-/// by at most u 2^-52, less than kSlack: a point that is put into column c lies, in exact arithmetic with the
-/// very double cells_per_length, between c - kSlack and c + 1 + kSlack. The same holds for the quarters of a
-/// cell and for rows.
+/// by at most u 2^-52, less than kSlack. So for a point in column c the exact u, with the double
+/// cells_per_length taken as exact, lies between c - kSlack and c + 1 + kSlack. The same holds for the
+/// quarters of a cell and for rows.
 class Grid {
  public:
   using Cell = std::size_t;
   static constexpr Cell kWordBits = 64;
-  /// Rows above and below, and at most so many columns on either side, that may be looked at beyond the box.
+  /// How many rows above and below, and at most how many columns on either side, may be looked at beyond the
+  /// box.
   static constexpr Cell kMargin = 17;
   static constexpr double kSlack = 0x1p-30;
   static constexpr double kMostColumns = 0x1p20;  ///< and rows
   static constexpr double kMostCells = 0x1p31;    ///< with the margin, where points keep theirs in 32 bits
 
   Grid() = default;
-  /// Over a box of finite extent; for grids of which cell_count() is finite.
+  /// The box must have a finite extent, and cell_count() must be finite.
   Grid(const Box& box, double cells_per_length)
       : minimum_(box.min),
         cells_per_length_(cells_per_length),
@@ -49,7 +50,7 @@ class Grid {
     return grid;
   }
 
-  /// How many cells a grid has, without the margin; infinite where there would be too many.
+  /// How many cells a grid has, without the margin; infinite if there are too many.
   static double cell_count(const Box& box, double cells_per_length, double most_cells = kMostCells) {
     const double columns = std::floor((box.max.x - box.min.x) * cells_per_length) + 1;
     const double rows = std::floor((box.max.y - box.min.y) * cells_per_length) + 1;
@@ -63,7 +64,7 @@ class Grid {
   Cell rows() const { return rows_; }
   Cell row_words() const { return row_words_; }
   std::size_t word_count() const { return std::size_t{row_words_} * (rows_ + 2 * kMargin); }
-  /// Where in a bitmap row `row` of the box starts, in words; its first word is margin.
+  /// The word of a bitmap where row `row` of the box starts; its first word is margin.
   std::size_t first_word(Cell row) const { return std::size_t{row_words_} * (row + kMargin); }
 
   double column(const Point& p) const { return (p.x - minimum_.x) * cells_per_length_; }
@@ -96,7 +97,7 @@ class Bitmap {
   bool test(Grid::Cell cell) const {
     return ((words_[cell / Grid::kWordBits] >> (cell % Grid::kWordBits)) & 1U) != 0;
   }
-  /// As set(), of several threads.
+  /// As set(), but several threads may call it at once.
   void set_shared(Grid::Cell cell) {
     const Word bit = Word{1} << (cell % Grid::kWordBits);
     Word* const word = &words_[cell / Grid::kWordBits];
@@ -125,10 +126,10 @@ class Bitmap {
   Word* words_ = nullptr;
 };
 
-/// Whether two different points may lie within `distance` of each other in x and in y, where `distance` times
-/// cells_per_length is below half of Grid::kSlack. `cells`: point -> cell; `shared`: the cells into which
-/// more than one point fell. May say yes where more than some dozen points share a cell or lie on the borders
-/// of cells.
+/// Whether two different points may lie within `distance` of each other in x and in y. `distance` times
+/// cells_per_length must be below half of Grid::kSlack. `cells`: point -> cell; `shared`: the cells with more
+/// than one point. May also say yes if more than a few dozen points share a cell or lie on the borders of
+/// cells.
 class ClosePairs {
  public:
   bool may_exist(std::span<const Point> points, const Grid& grid, const std::uint32_t* cells,
@@ -142,7 +143,7 @@ class ClosePairs {
     std::uint16_t x;       ///< where in the cell, in 2^-16 of its side
     std::uint16_t y;
   };
-  /// What has to be looked at of a chunk of the points.
+  /// The points of a chunk that have to be looked at.
   struct Chunk {
     std::vector<Link> in_shared;  ///< points in shared cells, not linked yet
     std::vector<std::uint32_t>

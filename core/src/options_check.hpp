@@ -1,14 +1,14 @@
-// What the callers of a hull may ask for.
+// Checks the options that a caller gives.
 #pragma once
 
 #include "polylidar/concave_hull.hpp"
 
 namespace polylidar::detail {
 
-/// Throws std::invalid_argument where there is none.
+/// Throws std::invalid_argument if `threads` is 0.
 void check_threads(unsigned threads);
 
-/// The limits that were given. Throws std::invalid_argument where an option has no meaning.
+/// The limits that were given. Throws std::invalid_argument if an option is invalid.
 Limits checked_limits(const Options& options);
 
 bool is_any_limit_given(const Options& options);

@@ -1,4 +1,4 @@
-// What outlines enclose, where the points lie on outlines only and no triangle of a usual size is inside.
+// Finds what outlines enclose when all points lie on outlines and no triangle of usual size is inside.
 #pragma once
 
 #include <cstdint>
@@ -11,22 +11,23 @@ namespace polylidar::detail {
 
 /// Selects triangles by the outlines that points lie on, keeping its memory between calls.
 ///
-/// Edges no longer than the field's step join points to *walls*, each of which hangs together. The other
-/// edges join triangles to *places*, one of which is the outside. From the outside inwards: a place that
-/// touches the walls round the outside is inside, a place beyond a wall that stands inside is a hole, and so
-/// on. Triangles without an edge longer than a step are of the wall itself, which belongs to the shape. A
-/// detail below 1 adds those without an edge longer than a step over it; one above 1 changes nothing.
+/// Points that are joined by edges no longer than the field's step form a *wall*. Triangles that share longer
+/// edges form a *place*; one place is the outside. Going inwards from the outside, places are inside and
+/// outside by turns: a place that touches the walls round the outside is inside, a place beyond a wall that
+/// stands inside is a hole, and so on. Triangles without an edge longer than a step are part of the wall, and
+/// walls belong to the shape. A detail below 1 also adds triangles without an edge longer than step / detail;
+/// a detail above 1 changes nothing.
 class OutlineFill {
  public:
-  /// Says in `kept`, the words of `mesh`, what the outlines enclose, where the triangles within the limit
-  /// have less than 0.4 of its area, or half of the points stand between inside and outside;
-  /// else returns false and says nothing. O(n log n).
+  /// Writes into `kept`, the words of `mesh`, what the outlines enclose, and returns true. It does so only if
+  /// the triangles within the limit cover less than 0.4 of that area, or if half of the points lie between
+  /// inside and outside. Otherwise it returns false and leaves `kept` as it is. O(n log n).
   bool run(const Mesh& mesh, const Point* vertices, const OutlineSteps& outlines, std::uint64_t* kept);
 
  private:
   using Index = Mesh::Index;
 
-  /// Of things that were joined, directly or by others, one stands for all.
+  /// Things that are joined, directly or through others. One of them stands for all (union-find).
   class JoinedThings {
    public:
     void reset(std::size_t count);
@@ -40,7 +41,7 @@ class OutlineFill {
     Index place;
     Index wall;
   };
-  /// How many points of a wall touch a place of either kind.
+  /// How many points of a wall touch places of each kind.
   struct WallPoints {
     Index outside = 0;
     Index inside = 0;

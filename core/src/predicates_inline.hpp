@@ -1,4 +1,5 @@
-// The predicates' fast path, for inlining into kernels; the exact path is a call that is rarely taken.
+// The fast path of the predicates, to be inlined into kernels. The exact path is a function call, which is
+// rarely needed.
 #pragma once
 
 #include <cmath>
@@ -10,11 +11,11 @@ namespace polylidar::detail {
 double orient2d_exact(const Point& a, const Point& b, const Point& c);
 double incircle_exact(const Point& a, const Point& b, const Point& c, const Point& d);
 
-/// incircle(a, b, c, d) > 0 for four different points, where a tie, which is a sign of zero, is decided as if
-/// the paraboloid were pushed down a little at the least of the four by x, then y. Over all points the least
-/// is pushed down most, so that every tie is decided as by one and the same surface: the triangulation
-/// depends on the points alone, and of points on one empty circle the least is a corner of every triangle.
-/// `is_tie`: the sign is known to be zero.
+/// incircle(a, b, c, d) > 0 for four different points. A tie (a sign of zero) is decided as if the paraboloid
+/// were pushed down a little at the least of the four by x, then y. Lower points in this order are pushed
+/// down more, so one surface decides all ties. The triangulation therefore depends on the points only, and
+/// the least of several points on an empty circle is a corner of all their triangles. `is_tie`: the sign is
+/// known to be zero.
 bool is_in_circle_exact(const Point& a, const Point& b, const Point& c, const Point& d, bool is_tie);
 
 // Half an ulp of 1: the relative rounding error of one operation.

@@ -14,24 +14,23 @@
 
 namespace polylidar::detail {
 
-/// A whole number for each number, in the order of these; none is to be NaN.
+/// Maps a number to a whole number, keeping the order. It must not be NaN.
 inline std::uint64_t order_of(double value) {
   constexpr std::uint64_t kSign = std::uint64_t{1} << 63U;
   const auto bits = std::bit_cast<std::uint64_t>(value);
   return bits ^ ((bits & kSign) != 0 ? ~std::uint64_t{0} : kSign);
 }
 
-/// The number of which `order` is order_of().
+/// The number whose order_of() is `order`.
 inline double value_of(std::uint64_t order) {
   constexpr std::uint64_t kSign = std::uint64_t{1} << 63U;
   return std::bit_cast<double>(order ^ ((order & kSign) == 0 ? ~std::uint64_t{0} : kSign));
 }
 
-/// Values in cells by their order, which finds single ones of that order: no branch depends on a value, as
-/// those of a sort do.
+/// Sorts values into cells to find single ones by rank. Unlike in a sort, no branch depends on a value.
 class Ranking {
  public:
-  /// Of at least one value; none is to be NaN.
+  /// Needs at least one value, none of them NaN.
   explicit Ranking(std::span<const double> values) : of_many_(values.size() <= kFew ? 0 : values.size()) {
     std::uint64_t* const orders = of_many_.empty() ? of_few_.data() : of_many_.data();
     std::uint64_t most = 0;
@@ -49,7 +48,7 @@ class Ranking {
   Ranking& operator=(const Ranking&) = delete;
   ~Ranking() = default;
 
-  /// The value at `place` in ascending order; none where too many fall into its cell.
+  /// The value at `place` in ascending order; none if its cell holds too many values.
   std::optional<double> at(std::size_t place) const {
     constexpr std::size_t kMostInACell = 64;
     std::size_t cell = 0;
@@ -88,7 +87,7 @@ inline double value_at(std::vector<double>& values, std::size_t place) {
   return *middle;
 }
 
-/// The value at `quantile` of `values`, which it may reorder; there is one, and none is NaN.
+/// The value at `quantile` of `values`, which it may reorder. Needs at least one value, none of them NaN.
 inline double quantile_of(std::vector<double>& values, double quantile) {
   const auto place =
       std::min(values.size() - 1, static_cast<std::size_t>(quantile * static_cast<double>(values.size())));
@@ -99,8 +98,8 @@ inline double quantile_of(std::vector<double>& values, double quantile) {
   return value_at(values, place);
 }
 
-/// What would be the standard deviation of normal `values`, from the 0.9 quantile of their distances to
-/// `middle`; it changes them. There is one.
+/// An estimate of the standard deviation of `values`, as if they were normal, from the 0.9 quantile of their
+/// distances to `middle`. Changes `values`. Needs at least one.
 inline double robust_deviation(std::vector<double>& values, double middle) {
   constexpr double kQuantile = 0.9;
   constexpr double kOfNormal = 1.645;  // that quantile of |x|

@@ -19,26 +19,25 @@ class RegionFilter {
  public:
   using Index = Mesh::Index;
 
-  /// Keeps the finite triangles of `mesh` that keep to `rules` and, if `fill_single` says so, those whose
-  /// three neighbours do. Puts into `boundary` the half-edges of kept triangles whose twin is not kept, in
-  /// the same order whatever the number of threads. Can be called again with other rules.
+  /// Keeps the finite triangles of `mesh` that obey `rules` and, if `fill_single` is set, those whose three
+  /// neighbours do. Puts into `boundary` the half-edges of kept triangles whose twin is not kept, in the same
+  /// order whatever the number of threads. Can be called again with other rules.
   void run(Mesh& mesh, const Point* vertices, const FilterRules& rules, bool fill_single, ThreadPool& pool,
            std::vector<Index>& boundary);
 
-  /// The same where only triangles with a tested corner are asked for the rules, and all others are kept.
-  /// `is_tested`: vertex of the mesh -> whether. Returns why not where rounding decides: where a rule
-  /// would answer otherwise if a triangle's corners were given in another order; then nothing that came out
-  /// of it is to be used.
+  /// The same, but only triangles with a tested corner must obey the rules; all others are kept. `is_tested`:
+  /// vertex of the mesh -> whether it is tested. If rounding decides, that is, if a rule's answer depends on
+  /// the order of a triangle's corners, returns that reason, and the output must not be used.
   std::optional<Way> run_on_part(Mesh& mesh, const Point* vertices, const std::uint8_t* is_tested,
                                  const FilterRules& rules, bool fill_single, ThreadPool& pool,
                                  std::vector<Index>& boundary);
 
-  /// As run with the limit that is chosen (SizeFilter), before `fill_single`. Returns whether the shape is
-  /// what outlines enclose instead (OutlineFill).
+  /// As run, but by the chosen limit (SizeFilter), before `fill_single`. Returns whether the shape is what
+  /// outlines enclose (OutlineFill).
   bool run(Mesh& mesh, const Point* vertices, const SizeField& field, bool fill_single, ThreadPool& pool,
            std::vector<Index>& boundary);
 
-  /// The same with the mesh of a part (SizeFilter::run_on_part). Returns what that does.
+  /// The same with the mesh of a part. Returns what SizeFilter::run_on_part returns.
   std::optional<Way> run_on_part(Mesh& mesh, const Point* vertices, const std::uint8_t* is_tested,
                                  const SizeField& field, const SizeFilter::IsSure& is_sure, bool fill_single,
                                  ThreadPool& pool, std::vector<Index>& boundary);

@@ -5,13 +5,13 @@
 
 namespace polylidar::detail {
 
-/// Uninitialised memory of at least `bytes`, aligned for any of our types; in huge pages where it is large
-/// and the system has them. Throws std::bad_alloc.
+/// Uninitialised memory of at least `bytes`, aligned for any of our types; in huge pages if it is large and
+/// the system has them. Throws std::bad_alloc.
 void* allocate(std::size_t bytes);
 void release(void* memory, std::size_t bytes) noexcept;
 
-/// An array that keeps its memory when it shrinks and never initialises it: fresh memory costs more than
-/// sorting a point. T is of a kind that needs no construction.
+/// An array that keeps its memory when it shrinks, since fresh memory costs more than sorting a point. It
+/// never initialises its elements, so T must not need construction.
 template <class T>
 class Scratch {
  public:

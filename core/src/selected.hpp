@@ -1,4 +1,4 @@
-// Numbers that pass a test, found without a branch that a processor could not predict.
+// Finds numbers that pass a test, without branches that the processor cannot predict.
 #pragma once
 
 #include <algorithm>
@@ -9,7 +9,7 @@
 namespace polylidar::detail {
 
 /// Calls visit(i) for the numbers i from `begin` to one before `end`, all below 2^32, for which test(i) is
-/// true, in ascending order. For tests that many numbers pass and many do not, in no order.
+/// true, in ascending order. For tests that many numbers pass and many fail, in no regular order.
 template <class Test, class Visit>
 void for_each_selected(std::size_t begin, std::size_t end, const Test& test, const Visit& visit) {
   constexpr std::size_t kAtOnce = 512;

@@ -1,4 +1,4 @@
-// A limit for the size of triangles that varies by place: one value a block of the mesh.
+// A limit for the size of triangles that varies by place: one value for each block of the mesh.
 #pragma once
 
 #include <cstddef>
@@ -10,33 +10,33 @@
 
 namespace polylidar::detail {
 
-/// What to look for where points may lie on outlines only.
+/// What to look for if all points may lie on outlines.
 struct OutlineSteps {
   double squared_step = 0;   ///< the square of the greatest distance of neighbours on an outline
   double squared_reach = 0;  ///< of edges between points that belong together; larger for a detail below 1
   double twice_area = 0;     ///< of the triangles within the limit at a detail of 1
 };
 
-/// A block is a range of vertices, which follow each other along the curve, with their two records each.
-/// Where there is one block it may be that of any mesh.
+/// A block is a range of consecutive vertices along the curve, with two records each. A field of one block
+/// fits any mesh.
 struct SizeField {
   /// Block -> the fourth power of the largest size of a triangle; inclusive.
   std::vector<double> limit4;
-  /// Of limit4: the fourth power of the size from which a spike is not of the shape.
+  /// As a factor of limit4: the fourth power of the size from which a spike is dropped.
   double spike_share = 0;
-  /// Regions of fewer triangles are not of the shape.
+  /// Regions with fewer triangles are dropped.
   std::size_t least_part = 0;
-  /// A hole has a dropped triangle with a squared circumradius of so many mean squared sizes of the kept
-  /// triangles round it at least, however large it is. 0: no hole is filled.
+  /// A hole stays only if it has a dropped triangle whose squared circumradius is at least this many times
+  /// the mean squared size of the kept triangles round the hole, whatever its area. 0: no hole is filled.
   double wide_square = 0;
-  /// Where there is one limit: and one with a circumradius of so many limits.
+  /// If there is one limit: the circumradius must also be at least this many limits.
   double wide_radius = 0;
-  /// Where points may lie on outlines only; none where they do not.
+  /// Set if all points may lie on outlines.
   std::optional<OutlineSteps> outlines = {};
-  /// Vertex -> its block, where there are several.
+  /// Vertex -> its block, if there are several.
   std::vector<std::uint32_t> block_of_vertex = {};
-  /// Triangle of the mesh -> Triangle::size4(), NaN of a ghost; null where not all were measured. It lives as
-  /// long as what chose the field.
+  /// Triangle of the mesh -> Triangle::size4(), NaN for a ghost; null if not all were measured. It lives as
+  /// long as the object that chose the field.
   const double* size4 = nullptr;
 
   bool is_one() const { return limit4.size() == 1; }

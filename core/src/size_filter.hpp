@@ -1,4 +1,5 @@
-// Which triangles belong to the shape where the limit is chosen: by size, and what chance makes goes.
+// Which triangles belong to the shape if the limit is chosen: a filter by size, which also removes what
+// chance makes.
 #pragma once
 
 #include <cstddef>
@@ -19,28 +20,29 @@ namespace polylidar::detail {
 /// Selects triangles, keeping its memory between calls. In this order:
 ///
 /// - A triangle beyond the field's limit is dropped.
-/// - A *spike* is dropped: it stands out of the shape, with two edges on its border that meet at an acute
-///   angle, and is no smaller than the field says. One pass: all are found before one is dropped. Outliers
-///   and noise make them.
-/// - A *part*, a region of fewer triangles than the field says, is dropped, unless all regions are.
-/// - A *hole*, dropped triangles that hang together and reach no edge of the convex hull, is filled where it
-///   has no wide triangle beyond the limit: chance makes such voids.
+/// - A *spike* is dropped: a triangle that sticks out of the shape, with two border edges that meet at an
+///   acute angle, and is at least as large as the field says. Outliers and noise make spikes. There is one
+///   pass: all are found before any is dropped.
+/// - A *part*, a region with fewer triangles than the field says, is dropped, unless all regions are that
+///   small.
+/// - A *hole*, connected dropped triangles that do not reach the convex hull, is filled if it has no wide
+///   triangle beyond the limit, because chance makes such voids.
 class SizeFilter {
  public:
   using Index = Mesh::Index;
-  /// Whether a finite triangle of the mesh of a part is surely one of the mesh of all points.
+  /// Whether a finite triangle of the mesh of a part certainly belongs to the mesh of all points.
   using IsSure = std::function<bool(const Triangle&)>;
 
-  /// Says in `kept`, the words of `mesh`, which triangles belong to the shape; the same whatever the number
-  /// of threads.
+  /// Writes into `kept`, the words of `mesh`, which triangles belong to the shape. The number of threads does
+  /// not change the result.
   void run(const Mesh& mesh, const Point* vertices, const SizeField& field, ThreadPool& pool,
            std::uint64_t* kept);
 
-  /// The same with the mesh of a part (interior.hpp) and a field of one limit. All triangles with a corner
-  /// that `is_tested` (vertex -> whether) are those of the whole mesh, and the whole mesh has no other wide
-  /// ones. Triangles without such a corner count as kept, but for those that hang together with dropped ones
-  /// that have one. Returns why not where that cannot be told from the triangles that `is_sure` of, or
-  /// rounding decides; then nothing that came out of it is to be used.
+  /// The same with the mesh of a part (interior.hpp) and a field of one limit. `is_tested`: vertex -> whether
+  /// it is tested. All triangles with a tested corner must belong to the whole mesh, and all wide triangles
+  /// of the whole mesh must have one. Triangles without a tested corner count as kept, unless they are
+  /// connected to dropped ones that have one. If the triangles for which `is_sure` is true are not enough to
+  /// tell, or if rounding decides, returns that reason, and the output must not be used.
   std::optional<Way> run_on_part(const Mesh& mesh, const Point* vertices, const std::uint8_t* is_tested,
                                  const SizeField& field, const IsSure& is_sure, ThreadPool& pool,
                                  std::uint64_t* kept);
@@ -62,7 +64,7 @@ class SizeFilter {
   Scratch<std::uint64_t> seen_;                     ///< as Mesh's words of kept triangles
   Scratch<std::uint64_t> hidden_;  ///< the same: dropped by size, but counted as kept unless they are reached
   std::optional<Way> doubt_;       ///< why a part is not enough
-  std::vector<Index> group_;       ///< triangles that hang together
+  std::vector<Index> group_;       ///< connected triangles
 };
 
 }  // namespace polylidar::detail

@@ -20,7 +20,8 @@ namespace polylidar::detail {
 
 #ifdef POLYLIDAR_ONE_THREAD
 
-/// WebAssembly's standard library has no threads: the caller's does everything, however many are asked for.
+/// WebAssembly's standard library has no threads: the caller's thread does everything, whatever number is
+/// asked for.
 class ThreadPool {
  public:
   void use(unsigned /*threads*/) {}
@@ -34,7 +35,7 @@ class ThreadPool {
 
 #else
 
-/// Runs tasks on the caller's thread and, where more than one is wanted, on threads that it starts once and
+/// Runs tasks on the caller's thread and, if more than one is wanted, on threads that it starts once and
 /// keeps. With one thread nothing is started, locked or counted. Not for use from several threads at once.
 class ThreadPool {
  public:
@@ -47,8 +48,8 @@ class ThreadPool {
   void use(unsigned threads);
   unsigned threads() const { return used_; }
 
-  /// task(i) for every i below `count`, in any order and on any of the threads. Returns when all are done;
-  /// then throws the first exception that one threw.
+  /// task(i) for every i below `count`, in any order and on any of the threads. Returns when all are done; if
+  /// any threw, throws the first of these exceptions.
   template <class Task>
   void for_each(std::size_t count, const Task& task) {
     if (used_ == 1 || count < 2) {
@@ -70,7 +71,7 @@ class ThreadPool {
   void serve();
   void stop();
 
-  // What every thread reads, what all of them write, and what they wait for, on cache lines of their own.
+  // What every thread reads, what all of them write, and what they wait for: each on its own cache lines.
   static constexpr std::size_t kCacheLine = 64;
   Job job_;
   unsigned used_ = 1;
@@ -84,8 +85,8 @@ class ThreadPool {
 
 #endif
 
-/// `count` things in consecutive chunks of nearly the same size: one for a single thread, several for each of
-/// many, so that a thread which is held up is waited for by none.
+/// Splits `count` things into consecutive chunks of nearly equal size: one chunk for a single thread, else
+/// several for each thread, so that the others do not wait for a thread that is held up.
 class Chunks {
  public:
   Chunks(const ThreadPool& pool, std::size_t count) : count_(count) {

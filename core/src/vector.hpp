@@ -21,7 +21,7 @@ static inline double squared_length(const Vector& v) {
 static inline double dot(const Vector& a, const Vector& b) {
   return a.x * b.x + a.y * b.y;
 }
-/// Positive when `b` points to the left of `a`, but for rounding.
+/// Positive if `b` points to the left of `a`, apart from rounding.
 static inline double cross(const Vector& a, const Vector& b) {
   return a.x * b.y - a.y * b.x;
 }

@@ -1,4 +1,4 @@
-// The triangles in a few small windows, without a triangulation of all points.
+// Samples the triangles in a few small windows, without triangulating all points.
 #pragma once
 
 #include <cstddef>
@@ -15,15 +15,15 @@
 
 namespace polylidar::detail {
 
-/// Squares at places that are drawn by the number of points there, each with the points in it and in a margin
-/// round it. A triangle counts to the window in which its circumcentre lies, so that no size has a better
-/// chance than another. A triangle whose circle is no wider than the margin, one of all points' triangulation
-/// too, is there for sure; of wider ones some may be missing, and others be there instead.
+/// Windows are squares, drawn with a probability in proportion to the number of points there. Each has the
+/// points in it and in a margin round it. A triangle belongs to the window that has its circumcentre, so all
+/// sizes have the same chance. Triangles whose circle is no wider than the margin are exactly those of the
+/// triangulation of all points. Some wider ones may be missing or wrong.
 class WindowSample {
  public:
-  /// Of few points there are fewer, as each costs as much.
+  /// Few points get fewer windows, as each window costs the same.
   static constexpr std::size_t kMostWindows = 27;
-  /// From how many points on a sample is worth its time.
+  /// With fewer points a sample is not worth its time.
   static constexpr std::size_t kLeastPoints = 7'500;
 
   struct Measured {
@@ -32,24 +32,24 @@ class WindowSample {
     double squared_radius;  ///< its circumradius, squared
   };
 
-  /// What look() goes by.
+  /// The settings of look().
   struct Wanted {
     double most_spread;  ///< standard deviation of the logarithm of the spacing, beside what chance makes
     double margin;       ///< of a window, in spacings of the points
     double quantile;     ///< of a window's sizes, which is its usual one
   };
 
-  /// Looks at `points`, whose box is `box`. Returns false where their density differs from place to place by
-  /// more than `wanted` allows: then there is nothing to look at; nor is there of fewer than kLeastPoints, or
-  /// of few whose outline is long. The same for any order of the points, any number of threads, and for other
-  /// places and units but for rounding. O(n), a pass or two.
+  /// Looks at `points`, whose box is `box`. Returns false if their density varies by more than `wanted`
+  /// allows, if there are fewer than kLeastPoints, or if they are few and their outline is long. There is no
+  /// sample then. The result does not depend on the order of the points or the number of threads, nor, apart
+  /// from rounding, on their position and unit. O(n), a pass or two.
   bool look(std::span<const Point> points, const Box& box, const Wanted& wanted, ThreadPool& pool);
 
-  /// After look() said yes: window -> one past its last triangle in triangles(). Of some windows there may be
-  /// few, or none.
+  /// After look() returned true: window -> one past its last triangle in triangles(). Some windows may have
+  /// few triangles, or none.
   const std::vector<std::size_t>& window_ends() const { return window_ends_; }
   const std::vector<Measured>& triangles() const { return triangles_; }
-  /// The fourth powers of the windows' usual sizes, of those with enough triangles to tell.
+  /// The fourth powers of the usual sizes of the windows that have enough triangles.
   const std::vector<double>& usual4() const { return usual4_; }
   /// The width of the margin.
   double margin() const { return margin_; }
@@ -64,7 +64,7 @@ class WindowSample {
     std::vector<Measured> triangles;
     std::optional<double> usual4;
   };
-  /// What one thread needs.
+  /// The memory of one thread.
   struct Share {
     std::vector<std::uint32_t> counts;                      ///< as counts_, of a part of the points
     std::vector<std::pair<std::uint32_t, Point>> gathered;  ///< window and point

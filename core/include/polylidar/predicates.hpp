@@ -5,8 +5,8 @@
 
 namespace polylidar {
 
-/// The side of the directed line a -> b on which c lies: > 0 left (a, b, c counter-clockwise), < 0 right,
-/// exactly 0 when the three are collinear. The sign is exact for finite coordinates whose magnitudes are zero
+/// On which side of the directed line a -> b point c lies: > 0 left (a, b, c counter-clockwise), < 0 right,
+/// exactly 0 if the three are collinear. The sign is exact for finite coordinates whose magnitudes are zero
 /// or between 2^-116 and 2^150; the magnitude means nothing. Antisymmetric: swapping two arguments negates
 /// the sign.
 double orient2d(const Point& a, const Point& b, const Point& c);

@@ -406,28 +406,24 @@ ExitCode make_footprints(const FootprintCommand& command, const Surroundings& su
 void add_footprint_options(CLI::App& app, FootprintCommand& command) {
   app.description("Make an index of files, each with the shape of its points, or the shape of all of them");
   app.footer(
-      "The index has a feature for each file: name, path, points, density, parts, holes, area, bounds, the "
-      "points "
-      "of\n"
-      "each classification, crs. Files are read by several threads, as many at a time as fit into half of "
-      "the free\n"
-      "memory. A file that cannot be read is told on standard error and left out. The formats are those of "
-      "'polylidar\n"
-      "hull'.\n"
-      "With --union there is one feature instead, the shape of the points of all files as if they were one, "
-      "with "
-      "files,\n"
-      "their number: tiles that touch become one part, without a seam. The files are read five times or so "
-      "and "
-      "need not "
-      "fit\n"
-      "into memory. Where no limit is given, one is chosen for each file, which must fit, and the largest is "
-      "taken "
-      "for\n"
-      "all, but for those of files with the last 1 % of the points.\n" +
+      "The index has one feature for each file, with name, path, points, density, parts, holes, area, "
+      "bounds, the\n"
+      "number of points of each classification, and crs. Files are read in parallel, as many at a time as "
+      "fit into half\n"
+      "of the free memory. A file that cannot be read is named on standard error and left out. The formats "
+      "are those\n"
+      "of 'polylidar hull'.\n"
+      "With --union the result is a single feature: the shape of the points of all files together. Tiles "
+      "that touch\n"
+      "become one part, without a seam. Its property files is the number of files. They are read about five "
+      "times and\n"
+      "need not fit into memory. If no limit is given, one is chosen for each file, which must fit. The "
+      "largest is used\n"
+      "for all, but the files with the largest limits that together hold 1 % of the points do not count.\n" +
       std::string(kGdalHelp));
   app.add_option("FILE", command.inputs, "The files of points")->required();
-  app.add_flag("--union", command.is_union, "One shape of all files together, instead of one a file");
+  app.add_flag("--union", command.is_union,
+               "Make one shape of all files together, instead of one for each file");
   add_format_option(app, command.shape, {"auto", "geojson"});
   add_shape_options(app, command.shape);
 }

@@ -253,20 +253,17 @@ ExitCode make_hull(const HullCommand& command, const Surroundings& surroundings)
 void add_hull_options(CLI::App& app, HullCommand& command) {
   app.description("Turn a file of points into polygons");
   app.footer(
-      "Without --alpha, --max-edge-length and --max-perimeter a limit for the size of triangles is chosen "
-      "from the\n"
-      "points, place by place, so that it follows their density; standard error says how large. Of an "
-      "equilateral\n"
-      "triangle the size is its edge. The shape may be empty.\n"
-      "The input's format is known by the ending of its name (.csv .tsv .txt .xyz .pts .asc .geojson .json "
-      ".wkt\n"
-      ".npy .ply .las .laz, .f64 or .raw for little-endian doubles x, y and nothing else; also with .gz), "
-      "else by "
-      "its\n"
-      "content. LAZ needs laszip or las2las in the PATH. Lengths are in the unit of the points; of "
-      "longitudes "
-      "and\n"
-      "latitudes they are in metres.\n" +
+      "Without --alpha, --max-edge-length and --max-perimeter the program chooses the largest size of a "
+      "triangle\n"
+      "from the points. It varies from place to place with their density, and its range is printed to "
+      "standard\n"
+      "error. The size of an equilateral triangle is the length of its edge. The shape may be empty.\n"
+      "The program tells the input's format by the ending of its name (.csv .tsv .txt .xyz .pts .asc "
+      ".geojson\n"
+      ".json .wkt .npy .ply .las .laz, also with .gz; .f64 and .raw are little-endian doubles x, y and "
+      "nothing\n"
+      "else), else by its content. LAZ needs laszip or las2las in the PATH.\n"
+      "Lengths are in the unit of the points, or in metres if these are longitudes and latitudes.\n" +
       std::string(kGdalHelp));
   app.add_option("FILE", command.inputs, "The points; - for standard input; several with --stream")
       ->required();
@@ -277,19 +274,18 @@ void add_hull_options(CLI::App& app, HullCommand& command) {
       "--columns", command.columns,
       "The columns of x and y in a text file: names, such as lon,lat, or numbers from 1, such as 2,3");
   app.add_option("--by", command.by,
-                 "One shape for each value of this column of a text file or a layer, by its name or its "
-                 "number from 1; of "
-                 "a LAS file: classification, return or point_source");
+                 "Make one shape for each value of this column of a text file or a layer, by its name or its "
+                 "number from 1; for a LAS file: classification, return or point_source");
   add_format_option(app, command.shape, {"auto", "geojson", "wkt", "wkb", "svg"});
   app.add_flag("--keep-outliers", command.keep_outliers,
-               "Also write the points that are left outside, as a MultiPoint (geojson only)");
+               "Also write the points outside the shape, as a MultiPoint (geojson only)");
   app.add_flag(
       "--stream", command.stream,
-      "Read the files four times instead of keeping their points in memory: for LAS, columns of text, NumPy "
-      "and raw doubles, with a limit");
+      "Read the files four times instead of keeping their points in memory; only for LAS, text, NumPy and "
+      "raw doubles, and only with a limit");
   app.add_option("--shard", command.shard,
                  "With --stream, write only what shard K of N finds, such as 2/7, for 'polylidar merge': N "
-                 "machines with an Nth of the memory each");
+                 "machines each need an Nth of the memory");
   add_shape_options(app, command.shape);
 }
 

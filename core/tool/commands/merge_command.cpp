@@ -66,10 +66,11 @@ ExitCode merge_hulls(const MergeCommand& command, const Surroundings& surroundin
 }
 
 void add_merge_options(CLI::App& app, MergeCommand& command) {
-  app.description("Put the parts of a hull together, as 'polylidar hull --stream --shard' made them");
+  app.description("Join the parts of a hull that 'polylidar hull --stream --shard' made");
   app.footer(
-      "All parts must be there, in any order. The result is that of 'polylidar hull --stream' with the same\n"
-      "files and options on one machine, byte by byte.");
+      "Give all parts, in any order. The result has the same bytes as that of 'polylidar hull --stream' with "
+      "the same\n"
+      "files and options on one machine.");
   app.add_option("PART", command.inputs, "The parts")->required();
   add_format_option(app, command.shape, {"auto", "geojson", "wkt", "wkb"});
   add_output_options(app, command.shape);

@@ -57,35 +57,35 @@ void add_shape_options(CLI::App& app, ShapeChoice& choice) {
   app.add_option("--max-perimeter", choice.max_perimeter, "Largest perimeter of a triangle of the shape")
       ->check(zero_or_more());
   app.add_option("--detail", choice.detail,
-                 "How much of the outline is kept where no limit is given: 2 keeps notches and holes of half "
-                 "the width")
+                 "How much detail the outline has when no limit is given: 2 keeps holes and notches half as "
+                 "wide, 0.5 smooths")
       ->check(above_zero())
       ->capture_default_str();
-  app.add_flag("--one", choice.one,
-               "One polygon: the limit is widened, no more than needed, until it joins all parts");
+  app.add_flag("--one", choice.one, "Make one polygon: widen the limit just enough to join all parts");
   app.add_flag("--cover", choice.cover,
-               "Leave no point outside: the limit is widened, no more than needed, until it covers them all");
-  app.add_option("--max-parts", choice.max_parts, "Keep only so many polygons, those of the largest areas")
+               "Leave no point outside: widen the limit just enough to cover them all");
+  app.add_option("--max-parts", choice.max_parts, "Keep only this many polygons, the largest by area")
       ->check(above_zero());
   app.add_option("--min-area", choice.min_area,
                  "Fill holes smaller than this area, then drop polygons smaller than it")
       ->check(zero_or_more());
   app.add_option("--min-triangles", choice.min_triangles,
-                 "Drop polygons of fewer Delaunay triangles than this");
+                 "Drop polygons made of fewer Delaunay triangles than this");
   app.add_option("--simplify", choice.simplify,
-                 "Simplify: leave out vertices that are no farther than this from the new outline")
+                 "Simplify the outline: leave out vertices that are at most this far from the new one")
       ->check(zero_or_more());
-  app.add_option("--returns", choice.returns, "Of a LAS file: all returns, the first or the last ones")
+  app.add_option("--returns", choice.returns,
+                 "Use all returns of a LAS file, or only the first or the last ones")
       ->check(CLI::IsMember({"all", "first", "last"}))
       ->capture_default_str();
   app.add_option("--classes", choice.classes,
-                 "Of a LAS file: only points of these classifications, such as 2,6");
+                 "Use only the points of a LAS file with these classifications, such as 2,6");
   app.add_option("--window", choice.window, "Only points in this box: xmin,ymin,xmax,ymax");
-  app.add_option("--crs", choice.crs,
-                 "The coordinate system, such as EPSG:25832, in place of the file's; none: there is none, "
-                 "and degrees too are "
-                 "taken as they are");
-  app.add_option("--layer", choice.layer, "Of an input that GDAL reads: which of several layers");
+  app.add_option(
+      "--crs", choice.crs,
+      "The coordinate system, such as EPSG:25832, in place of the file's; none: ignore the file's, "
+      "and treat degrees as plane coordinates");
+  app.add_option("--layer", choice.layer, "Which layer to read, of an input with several that GDAL reads");
   add_output_options(app, choice);
 }
 
@@ -94,9 +94,9 @@ void add_output_options(CLI::App& app, ShapeChoice& choice) {
       ->check(CLI::Range(1U, 1024U));
   app.add_option(
       "-o,--out", choice.out,
-      "Write the result into this file instead of standard output; with GDAL also PG: and the like");
+      "Write the result into this file instead of standard output; with GDAL also into a database (PG:)");
   app.add_option("--out-layer", choice.out_layer,
-                 "Of an output that GDAL writes: the layer's name instead of the file's");
+                 "Name of the layer that GDAL writes, instead of the file's name");
 }
 
 void add_format_option(CLI::App& app, ShapeChoice& choice, const std::vector<std::string>& formats) {
@@ -109,8 +109,8 @@ void add_format_option(CLI::App& app, ShapeChoice& choice, const std::vector<std
   };
   app.add_option(
          "--format", choice.format,
-         "The output's format; auto: by the ending of --out, else geojson; gdal:DRIVER: of GDAL's, as in "
-         "gdal:GPKG")
+         "The output's format; auto: by the ending of --out, else geojson; gdal:DRIVER: a format of GDAL, "
+         "such as gdal:GPKG")
       ->check(CLI::Validator(check, "{" + listed + "} or gdal:DRIVER"))
       ->capture_default_str();
 }

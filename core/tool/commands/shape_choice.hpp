@@ -51,7 +51,7 @@ bool lacks_crs(const ShapeChoice& choice, const Crs& crs, const Box& box);
 inline constexpr std::string_view kGdalHelp =
     "A build with GDAL (-DPOLYLIDAR_WITH_GDAL=ON) also reads points from GeoPackage, Shapefile, FlatGeobuf, "
     "PostGIS (PG:)\n"
-    "and what else GDAL has, and writes polygons to them, with their properties as fields.";
+    "and GDAL's other formats, and writes polygons to them, with their properties as fields.";
 
 /// A file's points, and the hulls of its groups, in metres where the coordinates are degrees.
 struct LocatedHulls {
