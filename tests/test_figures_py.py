@@ -225,9 +225,11 @@ class Data(WithSuite):
 
         near = [row("geos", "auto", 100, 0.1), row("geos", "paper", 110, 0.1), row("geos", "tuned", 110, 0.14)]
         far = [row("geos", "default", 100, 0.3), row("pcl", "paper", 100, 0.1)]
-        groups = [{one.series.key for one in group} for group in summary.neighbours([*near, *far])]
+        groups = summary.neighbours([*near, *far])
         self.assertEqual(len(groups), 3)
-        self.assertIn({one.series.key for one in near}, groups)
+        self.assertIn({one.series.key for one in near}, [{one.series.key for one in group} for group in groups])
+        labels = [summary._label_options(group, groups)["text"] for group in groups]
+        self.assertEqual(sorted(labels), ["geos", "geos (default)", "pcl"])
 
     def test_labels_cover_neither_each_other_nor_a_marker(self) -> None:
         figure = Figure(figsize=(4, 3), dpi=100)
@@ -414,7 +416,7 @@ class Fit(unittest.TestCase):
         (folder / "tune.json").write_text(json.dumps(tuning), encoding="utf-8")
         run = Run(folder, load(folder), read_paper())
         with matplotlib.rc_context(make_figures.RC), warnings.catch_warnings():
-            warnings.simplefilter("error")  # of matplotlib: that panels collapse
+            warnings.simplefilter("error", UserWarning)  # of matplotlib: that panels collapse
             for module in (alphabet, choosing, hulls, profiles, ratings_figure, sensitivity, solved, states, summary):
                 for one in module.draw(run):
                     self.assert_fits(one)

@@ -150,9 +150,9 @@ def _label_options(group: list[Row], groups: list[list[Row]]) -> dict[str, objec
     look = method_style(group[0].method)
     protocols = [", ".join(row.series.protocol for row in other) for other in groups if other[0].method == group[0].method]
     own = ", ".join(row.series.protocol for row in group)
-    alone = not {*protocols} - {own, "default"}  # only a default that lies apart is told
+    alone = {*protocols} <= {own, "default"}  # but for its default, which is told
     return {
-        "text": look.title if len(protocols) == 1 or alone and own != "default" else f"{look.title} ({own})",
+        "text": look.title if alone else f"{look.title} ({own})",
         "color": look.color,
         "fontweight": "bold" if look.paper else "normal",
         "fontsize": 7.5 if look.paper else 6.8,
