@@ -38,12 +38,12 @@ def hull_grid(
     places = figure.add_subplot(grid[0, 0])
     title, draw_first = first
     draw_first(places)
-    places.set_title(title, fontsize=7)
+    places.set_title(title, fontsize=6.5, pad=11)
     for k, one in enumerate(every, 1):
         axes = figure.add_subplot(grid[k // columns, k % columns])
         words = panel(axes, by_series[one])
-        axes.set_title(label(one, every), fontsize=7, fontweight="bold" if method_style(one.method).paper else "normal", pad=11)
-        axes.text(0.5, 1.01, words, transform=axes.transAxes, ha="center", va="bottom", fontsize=6.5)
+        axes.set_title(label(one, every), size=6.5, weight="bold" if method_style(one.method).paper else "normal", pad=11)
+        axes.text(0.5, 1.01, words, transform=axes.transAxes, ha="center", va="bottom", fontsize=6.2)
     if key:
         legend_row(figure.add_subplot(grid[lines, :]), key, failures(rows))
     return figure

@@ -15,6 +15,10 @@ from records import SCHEMAS, Experiment, Picture, Row, Series
 from style import in_order, label
 
 
+# Of captions.
+FILLED = "Filled markers: parameters by the paper's rule; pale: the method's default; open: by another rule."
+
+
 class Skipped(Exception):
     """The run has not what the figure shows; the text says what is missing."""
 

@@ -3,7 +3,8 @@
 Colours, markers, lines, short titles and the order of the methods are in methods.json, which the HTML report reads too:
 a method looks the same everywhere. The colours of the paper's methods are those of Okabe and Ito, which people with any
 kind of colour blindness can tell apart; the others have markers and dashes of their own, as that many colours cannot be
-told apart by anybody. A filled marker says that the parameters follow the paper, an open one that they do not.
+told apart by anybody. A filled marker says that the parameters follow the paper, a pale one that they are the method's
+default, an open one neither.
 """
 
 from __future__ import annotations
@@ -18,6 +19,7 @@ import matplotlib
 matplotlib.use("Agg")
 from matplotlib.artist import Artist  # noqa: E402  the backend comes first
 from matplotlib.axes import Axes  # noqa: E402
+from matplotlib.colors import to_rgb  # noqa: E402
 from matplotlib.figure import Figure  # noqa: E402
 from matplotlib.legend import Legend  # noqa: E402
 from matplotlib.lines import Line2D  # noqa: E402
@@ -139,10 +141,14 @@ def marker_options(one: Series, scale: float = 1) -> dict[str, object]:
         "label": "_" + "/".join(one),
         "marker": look.marker,
         "markersize": size,
-        "markerfacecolor": look.color if one[1] == "paper" else "white",
+        "markerfacecolor": {"paper": look.color, "default": _pale(look.color)}.get(one[1], "white"),
         "markeredgecolor": look.color,
         "markeredgewidth": 0.8,
     }
+
+
+def _pale(color: str) -> list[float]:
+    return [1 - 0.45 * (1 - part) for part in to_rgb(color)]
 
 
 def line_options(one: Series) -> dict[str, object]:
@@ -191,9 +197,11 @@ def series_legend(axes: Axes, series: Iterable[Series], missing: Iterable[Series
 
 
 def legend_below(axes: Axes, handles: Iterable[Artist], titles: Iterable[str], **look: object) -> Legend:
-    """In axes of its own."""
+    """In axes of its own. It may be wider than they are, and does not make the panels narrower."""
     axes.axis("off")
-    return axes.legend(handles, titles, loc="center", borderaxespad=0, **look)
+    legend = axes.legend(handles, titles, loc="center", borderaxespad=0, **look)
+    legend.set_in_layout(False)
+    return legend
 
 
 def new_figure(width_mm: float, height_mm: float) -> Figure:

@@ -227,7 +227,7 @@ def core() -> dict[str, Any]:
 
 
 def league() -> dict[str, Any]:
-    """As results/league.schema.json says; `tuned` has one curve only, which is no comparison."""
+    """As results/league.schema.json says; `tuned` has one curve only, which is no comparison, and `oracle` no case."""
 
     def profile(group: str, cases: int, protocol: str, **shares: list[float]) -> dict[str, Any]:
         curves = [{"method": method, "protocol": protocol, "shares": values} for method, values in shares.items()]
@@ -237,6 +237,7 @@ def league() -> dict[str, Any]:
         profile("informed", 30, "paper", polylidar=[0.5, 0.9, 1], geos_concave_hull=[0.5, 0.7, 0.95]),
         profile("blind", 20, "default", polylidar=[0.7, 0.95, 1], spatialite=[0.3, 0.6, 0.8]),
         profile("tuned", 20, "tuned", polylidar=[1, 1, 1]),
+        profile("oracle", 0, "oracle", polylidar=[0, 0, 0], spatialite=[0, 0, 0]),
     ]
     numbers = {"schema_version": 1, "shapes": 5, "cases": 30, "taus": [1, 2, 10], "plans": ["p"], "methods": []}
     parts = {"kinds": [], "samplers": []}

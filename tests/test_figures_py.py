@@ -9,6 +9,7 @@ import subprocess
 import sys
 import tempfile
 import unittest
+import warnings
 from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
@@ -17,6 +18,7 @@ import matplotlib.colors
 import plot_samples
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
+from matplotlib.legend import Legend
 from matplotlib.lines import Line2D
 from matplotlib.text import Text
 from plot_tests import PLOTS, call  # first, for what is in plots/
@@ -143,13 +145,16 @@ class Data(WithSuite):
         self.assertEqual(list(first.get_ydata()), [one.a_point for one in curves["concave_hull"]])
 
     def test_profiles_are_those_of_the_league(self) -> None:
-        figure = self.draw(profiles)["profiles"].figure
+        drawn = self.draw(profiles)["profiles"]
+        *panels, below = drawn.figure.axes
         groups = [one for group in ("blind", "informed") for one in plot_samples.league()["profiles"] if one["group"] == group]
-        self.assertEqual([axes.get_title(loc="left")[4:].split(":")[0] for axes in figure.axes], ["blind", "informed"])
-        for axes, group in zip(figure.axes, groups):
+        self.assertEqual([axes.get_title(loc="left")[4:].split(":")[0] for axes in panels], ["blind", "informed"])
+        for axes, group in zip(panels, groups):
             shares = {tuple(line.get_ydata()) for line in axes.get_lines()}
             self.assertEqual(shares, {tuple(100 * share for share in one["shares"]) for one in group["curves"]})
             self.assertEqual({tuple(line.get_xdata()) for line in axes.get_lines()}, {(1, 2, 10)})
+        self.assertEqual([text.get_text() for text in below.get_legend().get_texts()], ["Polylidar", "SpatiaLite", "GEOS"])
+        self.assertIn("Without a case, and so not shown: oracle (know the true shape).", drawn.caption)
 
     def test_sensitivity_is_that_of_the_search(self) -> None:
         lengths, octaves, below = self.draw(sensitivity)["sensitivity"].figure.axes
@@ -220,9 +225,11 @@ class Data(WithSuite):
 
         near = [row("geos", "auto", 100, 0.1), row("geos", "paper", 110, 0.1), row("geos", "tuned", 110, 0.14)]
         far = [row("geos", "default", 100, 0.3), row("pcl", "paper", 100, 0.1)]
-        groups = [{one.series.key for one in group} for group in summary.neighbours([*near, *far])]
+        groups = summary.neighbours([*near, *far])
         self.assertEqual(len(groups), 3)
-        self.assertIn({one.series.key for one in near}, groups)
+        self.assertIn({one.series.key for one in near}, [{one.series.key for one in group} for group in groups])
+        labels = [summary._label_options(group, groups)["text"] for group in groups]
+        self.assertEqual(sorted(labels), ["geos", "geos (default)", "pcl"])
 
     def test_labels_cover_neither_each_other_nor_a_marker(self) -> None:
         figure = Figure(figsize=(4, 3), dpi=100)
@@ -388,6 +395,40 @@ class Style(WithSuite):
             label = line.get_label()
             if label.startswith("_") and label.count("/") == 1:
                 yield label[1:].split("/")[0], line
+
+
+class Fit(unittest.TestCase):
+    def test_with_every_method_nothing_is_cut_off_or_collapses(self) -> None:
+        methods = [method for method in LOOKS["methods"] if not method.endswith("_steps")]
+        series = [(method, protocol) for method in methods for protocol in ("paper", "auto", "default")]
+        shape = [plot_samples.run(*one, "ca", n, True) for one in series for n in (2000, 4000)]
+        letters = [plot_samples.run(*one, f"letter_{letter}", 2000) for one in series for letter in "ab"]
+        reports = {
+            "states": plot_samples.report("states", {"ca": 0}, shape),
+            "alphabet": plot_samples.report("alphabet", {"letter_a": 0, "letter_b": 0}, letters),
+        }
+        folder = plot_samples.write_suite(Path(self.enterContext(tempfile.TemporaryDirectory())) / "suite", reports)
+        league, tuning = plot_samples.league(), plot_samples.tune()
+        for profile in league["profiles"]:
+            profile["curves"] = [{"method": one, "protocol": two, "shares": [0.1, 0.5, 0.9]} for one, two in series]
+        tuning["methods"] = [{**tuning["methods"][0], "method": method} for method in methods]
+        (folder / "league.json").write_text(json.dumps(league), encoding="utf-8")
+        (folder / "tune.json").write_text(json.dumps(tuning), encoding="utf-8")
+        run = Run(folder, load(folder), read_paper())
+        with matplotlib.rc_context(make_figures.RC), warnings.catch_warnings():
+            warnings.simplefilter("error", UserWarning)  # of matplotlib: that panels collapse
+            for module in (alphabet, choosing, hulls, profiles, ratings_figure, sensitivity, solved, states, summary):
+                for one in module.draw(run):
+                    self.assert_fits(one)
+
+    def assert_fits(self, one: Drawn) -> None:
+        figure = one.figure
+        figure.draw_without_rendering()
+        boxes = [figure.get_tightbbox().transformed(figure.dpi_scale_trans)]
+        boxes += [legend.get_window_extent() for legend in figure.findobj(Legend)]
+        for box in boxes:
+            outside = (-box.x0, -box.y0, box.x1 - figure.bbox.x1, box.y1 - figure.bbox.y1)
+            self.assertLess(max(outside), 1, f"{one.name}: {outside} pixels")
 
 
 class Files(WithSuite):

@@ -7,16 +7,17 @@ import math
 from collections.abc import Iterator
 from typing import Any
 
+import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
-from matplotlib.ticker import NullFormatter
+from matplotlib.ticker import LogLocator, NullFormatter
 
 from figures.sensitivity import read_tuning
 from run import Drawn, Run, Skipped
 from style import FULL_WIDTH, in_order, label, legend_below, method_style, new_figure, number
 
-_COLUMNS = 4
-_NO_SEARCH = -1.5  # its place on the axis
+_COLUMNS = 5
+_NO_SEARCH = -2.5  # its place on the axis
 # Without a search, left of its first evaluation.
 _CHOSEN = {"auto": ("o", "auto"), "default": ("s", "default"), "tuned": ("D", "tuned on other shapes")}
 
@@ -54,6 +55,8 @@ def _figure(methods: dict[tuple[str, str], dict[str, Any]]) -> Figure:
         axes.set_title(label(series, every), fontsize=7.5, pad=3)
     first = panels[0]
     first.set_yscale("log")
+    first.set_ylim(*_limits(panels))
+    first.yaxis.set_major_locator(LogLocator(subs=(1, 2, 5)))
     first.yaxis.set_major_formatter(number)
     first.yaxis.set_minor_formatter(NullFormatter())
     first.set_xticks([_NO_SEARCH, 1, 5, 9, 15], ["none", "1", "5", "9", "15"])
@@ -66,6 +69,12 @@ def _figure(methods: dict[tuple[str, str], dict[str, Any]]) -> Figure:
     handles = {text: handle for axes in panels for handle, text in zip(*axes.get_legend_handles_labels())}
     legend_below(figure.add_subplot(grid[lines, :]), handles.values(), handles.keys(), ncol=max(1, len(handles)))
     return figure
+
+
+def _limits(panels: list[Axes]) -> tuple[float, float]:
+    """Of all curves and marks; a band may go further."""
+    values = np.concatenate([line.get_ydata() for axes in panels for line in axes.get_lines()])
+    return values.min() / 1.2, values.max() * 1.2
 
 
 def _panel(axes: Axes, method: dict[str, Any], color: str) -> None:

@@ -102,7 +102,7 @@ def _figure(curves: dict[str, list[Times]]) -> Figure:
         panel_letter(axes, letter, what)
         axes.legend(loc="upper left", handlelength=2.6)
     low, high = panels[0].get_ylim()
-    panels[0].set_ylim(low, high * (high / low) ** 0.3)  # room for the legends
+    panels[0].set_ylim(low, high * (high / low) ** 0.4)  # room for the legends
     panels[0].set_ylabel("Time a point (ns)")
     return figure
 

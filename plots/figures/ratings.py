@@ -11,7 +11,7 @@ from matplotlib.figure import Figure
 
 from ratings import ELO_MEAN, KNOWS, TIE_WORDS, Rating, rate, divisions
 from run import Drawn, Run, Skipped
-from style import FULL_WIDTH, label, method_style, new_figure, panel_letter
+from style import FULL_WIDTH, label, marker_options, method_style, new_figure, panel_letter
 
 
 def draw(run: Run) -> Iterator[Drawn]:
@@ -23,7 +23,8 @@ def draw(run: Run) -> Iterator[Drawn]:
         rating = rate(division)
         cases = f"{len(division.results.cases)} cases of {rating.shapes} shapes"
         who = f"Methods that {KNOWS[division.name]}, {cases}"
-        all_alike = "" if rating.friedman is None else f" Friedman's test of all being alike: p = {rating.friedman:.2g}."
+        p = "" if rating.friedman is None else f"p = {rating.friedman:.2g}" if rating.friedman else "p < 1e-300"
+        all_alike = p and f" Friedman's test of all being alike: {p}."
         yield Drawn(
             f"ratings_{division.name}",
             _ratings_figure(rating),
@@ -70,13 +71,9 @@ def _ratings_figure(rating: Rating) -> Figure:
 
 
 def _mark(axes: Axes, place: int, series, value: float, interval: tuple[float, float] | None) -> None:
-    look = method_style(series[0])
     if interval:
-        axes.plot(interval, [place, place], color=look.color, linewidth=1.4, solid_capstyle="butt", zorder=3)
-    filled = look.color if series[1] == "paper" else "white"
-    axes.plot(
-        [value], [place], linestyle="none", marker=look.marker, color=look.color, markerfacecolor=filled, markersize=4, zorder=4
-    )
+        axes.plot(interval, [place, place], color=method_style(series[0]).color, linewidth=1.4, solid_capstyle="butt", zorder=3)
+    axes.plot([value], [place], linestyle="none", zorder=4, **marker_options(series, 1.1))
 
 
 def _groups(axes: Axes, rating: Rating) -> None:
@@ -93,25 +90,24 @@ def _groups(axes: Axes, rating: Rating) -> None:
 
 def _wins_figure(rating: Rating) -> Figure:
     count = len(rating.standings)
-    size = min(FULL_WIDTH, 45 + 7.5 * count)
-    figure = new_figure(size, size - 8)
+    size = min(FULL_WIDTH, 38 + 7.5 * count)
+    figure = new_figure(size, size)
     axes = figure.subplots()
-    image = axes.imshow(100 * rating.wins, cmap="cividis", vmin=0, vmax=100)
+    axes.imshow(np.ma.masked_array(100 * rating.wins, np.eye(count)), cmap="cividis", vmin=0, vmax=100)
     for i, j in np.argwhere(~np.eye(count, dtype=bool)):
         _cell(axes, i, j, 100 * rating.wins[i, j], 100 * rating.ties[i, j])
     names = _labels(rating)
     axes.set_xticks(range(count), names, rotation=90)
     axes.set_yticks(range(count), names)
     axes.grid(False)
-    figure.colorbar(image, ax=axes, label="Beats, % of the cases", shrink=0.7)
     return figure
 
 
 def _cell(axes: Axes, i: int, j: int, won: float, tied: float) -> None:
     color = "black" if won > 55 else "white"
-    axes.text(j, i - 0.1, f"{won:.0f}", ha="center", va="center", fontsize=5.5, color=color)
+    axes.text(j, i - 0.15, f"{won:.0f}", ha="center", va="center", fontsize=6.5, color=color)
     if tied >= 0.5:
-        axes.text(j, i + 0.28, f"{tied:.0f}", ha="center", va="center", fontsize=3.8, color=color)
+        axes.text(j, i + 0.28, f"{tied:.0f}", ha="center", va="center", fontsize=4.8, color=color)
 
 
 def _parts_figure(rating: Rating) -> Figure:

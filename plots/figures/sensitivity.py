@@ -14,6 +14,7 @@ from records import read_json
 from run import Drawn, Run, Skipped
 from style import FULL_WIDTH, curve_options, in_order, label, legend_below, method_style, new_figure, number, panel_letter
 
+_LEGEND_COLUMNS = 3
 _WORST = 10.0  # of the error's axis, in errors of the oracle
 
 
@@ -26,7 +27,7 @@ def draw(run: Run) -> Iterator[Drawn]:
     cases = len(tuning["cases"])
     caption = (
         "Sensitivity: L2 error against the method's parameter, as a multiple of the error that the method has with the "
-        f"best parameter of each case; medians over {cases} cases, the bands hold the middle half. (a) parameters that "
+        f"best parameter of each case; medians over {cases} cases, the bands of the paper's methods hold the middle half. (a) parameters that "
         "are lengths, in spacings h (the square root of the area of the points' convex hull over their number), one axis "
         "for all of them; (b) any parameter, in octaves from the one that is best on the training shapes. The wider the "
         "valley, the less the choice matters; the octaves beside the names are the tolerance, the width in which the error "
@@ -44,8 +45,9 @@ def read_tuning(run: Run) -> tuple[Path, dict[str, Any]]:
 def _figure(methods: list[dict[str, Any]]) -> Figure:
     lengths = [one for one in methods if one["axis"]["kind"] == "spacings"]
     panels = ([(lengths, False)] if lengths else []) + [(methods, True)]
-    figure = new_figure(FULL_WIDTH, 90)
-    grid = figure.add_gridspec(2, len(panels), height_ratios=[78, 12])
+    below = 4.5 * -(-len(methods) // _LEGEND_COLUMNS)
+    figure = new_figure(FULL_WIDTH, 74 + below)
+    grid = figure.add_gridspec(2, len(panels), height_ratios=[74, below])
     for k, (shown, octaves) in enumerate(panels):
         axes = figure.add_subplot(grid[0, k])
         _panel(axes, shown, octaves)
@@ -54,7 +56,7 @@ def _figure(methods: list[dict[str, Any]]) -> Figure:
         axes.set_xlabel("Parameter over the tuned one" if octaves else "Parameter (spacings h)")
     figure.axes[0].set_ylabel("L2 error over the method's best")
     handles, titles = figure.axes[-1].get_legend_handles_labels()
-    legend_below(figure.add_subplot(grid[1, :]), handles, titles, ncol=4, handlelength=2.8, columnspacing=1.6)
+    legend_below(figure.add_subplot(grid[1, :]), handles, titles, ncol=_LEGEND_COLUMNS, handlelength=2.8, columnspacing=1.6)
     return figure
 
 
@@ -73,7 +75,7 @@ def _panel(axes: Axes, methods: list[dict[str, Any]], octaves: bool) -> None:
         axes.plot(x, middle, **{**curve_options(series, by_series, 1.1), **marker, "label": title})
         low = [point["relative"]["q1"] for point in curve]
         high = [min(point["relative"]["q3"] or _WORST, _WORST) for point in curve]
-        if not octaves:
+        if not octaves and look.paper:
             axes.fill_between(x, low, high, color=look.color, alpha=0.1, linewidth=0)
     axes.set_xscale("log", base=2)
     axes.set_yscale("log")

@@ -12,11 +12,11 @@ from matplotlib.figure import Figure
 from matplotlib.ticker import FixedLocator, FuncFormatter, LogLocator, MaxNLocator, NullFormatter, NullLocator
 
 from records import Experiment, Row, Series
-from run import Drawn, Run, Skipped, failures, missing_series
+from run import FILLED, Drawn, Run, Skipped, failures, missing_series
 from style import FULL_WIDTH, footnote, in_order, line_options, method_style, new_figure, number, panel_letter, series_legend
 
 _INSET = (0.08, 0.62, 0.40, 0.34)  # left, bottom, width and height in parts of the panel
-_LEGEND_COLUMNS = 5
+_LEGEND_COLUMNS = 4
 _FAST = 10  # times the fastest method's time: what the inset shows, CGAL besides as in the paper
 
 
@@ -51,7 +51,7 @@ def _caption(experiment: Experiment, dataset: str, rows: Sequence[Row]) -> str:
         "truth. Lines join medians of the repetitions (run and extract, points in memory to polygons in memory); bands "
         "are 95 % bootstrap intervals of the median. The error is the area of the symmetric difference over the area "
         "of the ground truth. The insets show the fastest methods on linear axes (ms against thousands of points). "
-        f"Filled markers: parameters by the paper's rule; open ones: by another. {failures(rows)}"
+        f"{FILLED} {failures(rows)}"
     ).strip()
 
 

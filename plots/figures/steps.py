@@ -11,7 +11,7 @@ from matplotlib.patches import Patch
 
 from records import Experiment, Row
 from run import Drawn, Run, Skipped, failures
-from style import FULL_WIDTH, legend_row, method_style, new_figure, step_color
+from style import FULL_WIDTH, legend_row, method_style, new_figure, number, step_color
 
 _REST = "not told apart"
 
@@ -69,7 +69,8 @@ def _figure(measured: dict[str, tuple[dict[str, float], Row]], published: dict[s
         paper = published.get("milliseconds", {}).get(teller.get(method, method))
         _panel(axes, method, steps, paper)
     axes.set_xlabel("Time (ms)")
-    names = list(dict.fromkeys(step for steps, _ in measured.values() for step in steps))
+    told = {step for steps, _ in measured.values() for step in steps}
+    names = [step for step in [*(one["step"] for one in published.get("names", [])), _REST] if step in told]
     handles = [Patch(facecolor=step_color(name), edgecolor="#777777", linewidth=0.4, label=name) for name in names]
     legend_row(figure.add_subplot(grid[-1]), handles, notes)
     return figure
@@ -86,7 +87,8 @@ def _panel(axes: Axes, method: str, steps: dict[str, float], paper: dict[str, fl
     axes.set_xlim(0, 1.12 * axes.dataLim.x1)
     axes.grid(axis="y", visible=False)
     axes.tick_params(axis="y", length=0)
-    axes.set_title(look.title, fontsize=7.5, loc="left", pad=2, color=look.color, fontweight="bold" if look.paper else "normal")
+    axes.xaxis.set_major_formatter(number)
+    axes.set_title(look.title, fontsize=7.5, loc="left", pad=3, color=look.color, fontweight="bold" if look.paper else "normal")
 
 
 def _bar(axes: Axes, y: int, steps: dict[str, float], total: float) -> None:

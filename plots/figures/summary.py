@@ -15,7 +15,7 @@ from labels import place_labels
 from maps import area_path, frame, outline, paint, points
 from ratings import pareto
 from records import Picture, Row
-from run import Drawn, Run, Skipped, failures
+from run import FILLED, Drawn, Run, Skipped, failures
 from style import FULL_WIDTH, footnote, in_order, marker_options, method_style, new_figure, number, panel_letter
 
 _METHOD = "polylidar"
@@ -37,14 +37,14 @@ def draw(run: Run) -> Iterator[Drawn]:
     title = shapes[dataset].datasets[dataset]["title"]
     holes = " with holes" if rows[0].holes else ""
     left = (
-        f"Left: {title}{holes}, {picture.case['points_total']:,} points (at most 4,000 of them drawn) and Polylidar's result. Right: "
+        f"Left: {title}{holes}, {picture.case['points_total']:,} points (at most 4,000 of them drawn) and Polylidar's result. "
         if own
         else ""
     )
     caption = (
-        f"{left}median time and L² error of every method for {rows[0].n:,} points of {title}{holes}; down and to the "
-        "left is better, and no method is both faster and more accurate than those on the line. Filled markers: "
-        f"parameters by the paper's rule. Results of one method that lie together share a label. {failures(rows)}"
+        f"{left}{'Right: m' if own else 'M'}edian time and L² error of every method for {rows[0].n:,} points of {title}{holes}; "
+        f"down and to the left is better, and no method is both faster and more accurate than those on the line. {FILLED} "
+        f"Results of one method that lie together share a label. {failures(rows)}"
     )
     yield Drawn("summary", _figure(rows, scored, picture, own), caption.strip())
 
@@ -89,17 +89,17 @@ def _own_result(rows: Sequence[Row], picture: Picture | None) -> list | None:
 
 
 def _figure(rows: list[Row], scored: list[Row], picture: Picture | None, own: list | None) -> Figure:
-    figure = new_figure(FULL_WIDTH, 84)
+    figure = new_figure(FULL_WIDTH, 86)
     axes = figure.add_subplot()
     if own is not None:
         figure.clear()
-        grid = figure.add_gridspec(1, 2, width_ratios=(1, 1.6))
+        grid = figure.add_gridspec(1, 2, width_ratios=(1, 1.75))
         _hull(figure.add_subplot(grid[0, 0]), picture, own)
         axes = figure.add_subplot(grid[0, 1])
     _pareto(axes, scored)
     panel_letter(axes, "b" if own is not None else "", f"time and error, {rows[0].n:,} points")
     footnote(figure, failures(rows))
-    groups = neighbours(scored)
+    groups = sorted(neighbours(scored), key=lambda group: -max(map(_place, group))[1])  # from above: fewest lines to labels
     place_labels(
         figure,
         axes,
@@ -118,6 +118,7 @@ def _hull(axes: Axes, picture: Picture, own: list) -> None:
     points(axes, picture.points(), 1.3)
     outline(axes, path, color, 1.1, zorder=6)
     frame(axes, picture)
+    axes.set_anchor("N")  # its title beside the other one
     panel_letter(axes, "a", f"Polylidar's hull of {picture.case['points_total']:,} points")
 
 
@@ -134,7 +135,7 @@ def _pareto(axes: Axes, rows: list[Row]) -> None:
         axis.set_major_formatter(number)
         axis.set_minor_formatter(NullFormatter())
     axes.yaxis.set_major_locator(LogLocator(subs=(1, 2, 5)))
-    axes.margins(0.12, 0.1)
+    axes.margins(0.1, 0.13)
     axes.set_xlabel("Time (ms)")
     axes.set_ylabel("L² error (%)")
 
@@ -147,10 +148,11 @@ def _corners(best: list[Row]) -> list[tuple[float, float]]:
 
 def _label_options(group: list[Row], groups: list[list[Row]]) -> dict[str, object]:
     look = method_style(group[0].method)
-    repeated = sum(other[0].method == group[0].method for other in groups) > 1
-    protocols = ", ".join(row.series.protocol for row in group)
+    protocols = [", ".join(row.series.protocol for row in other) for other in groups if other[0].method == group[0].method]
+    own = ", ".join(row.series.protocol for row in group)
+    alone = {*protocols} <= {own, "default"}  # but for its default, which is told
     return {
-        "text": f"{look.title} ({protocols})" if repeated else look.title,
+        "text": look.title if alone else f"{look.title} ({own})",
         "color": look.color,
         "fontweight": "bold" if look.paper else "normal",
         "fontsize": 7.5 if look.paper else 6.8,
