@@ -73,7 +73,7 @@ struct Shard {
 /// many bands of rows as there are shards, all of the same height to within a row of cells, a sixth of the
 /// limit's radius; what each keeps in memory while it reads is then the same, too.
 struct StreamShard {
-  Shard shard;
+  Shard shard;                          ///< which of how many
   Options options;                      ///< that it was asked for; `threads` may differ between shards
   std::uint64_t source_points = 0;      ///< how many points the source has
   std::uint64_t source_checksum = 0;    ///< of their numbers and coordinates; finds changes by accident only
