@@ -176,7 +176,7 @@ report-compare: ## write B/comparison.html, a page with two runs side by side (A
 fit-default: ## fit the numbers of the core's automatic limit on the training side, and say what it gives on the test side
 	@$(call install,build)
 	@$(call build,release,$(NATIVE_OPTION),fit_default)
-	@build/fit_default --ablation
+	@build/fit_default --tries 100 --ablation
 
 .PHONY: figures-default
 figures-default: ## draw the picture of core/AUTOMATIC.md: the core's default and the former one under every way to sample

@@ -162,6 +162,26 @@ TEST(LimitFit, ASmallFitGivesTheSameEveryTimeAndFindsLittleToImprove) {
   EXPECT_LT(climbs[0].score_from, climbs[2].score_from);
 }
 
+TEST(LimitFit, EachWayToSampleIsLeftOutOnce) {
+  const std::vector<tune::LimitCaseName> names = {{"star-1~gradient:16", false, 1000},
+                                                  {"star-1", false, 1000},
+                                                  {"county-1", false, 1000},
+                                                  {"star-1~noise:0.5", false, 1000}};
+  auto cases = tune::make_limit_cases(names, {});
+  const auto ways = tune::cross_validate_limit(cases, 30, 1, {});
+  ASSERT_EQ(ways.size(), 3U);
+  const std::vector<std::string> samplings = {"gradient:16", "noise:0.5", "uniform"};
+  bool is_other = false;
+  for (std::size_t i = 0; i < ways.size(); ++i) {
+    EXPECT_EQ(ways[i].sampling, samplings[i]);
+    is_other |= ways[i].score_of_found != ways[i].score_of_code;
+  }
+  EXPECT_TRUE(is_other) << "what a search found on the others was taken";
+  EXPECT_EQ(cases.size(), names.size()) << "and all are put back";
+  auto uniform = tune::make_limit_cases({names[1], names[2]}, {});
+  EXPECT_EQ(ways[2].score_of_code, tune::limit_score(uniform, {}, {}));
+}
+
 TEST(LimitFit, EveryPartOfTheRuleCanBeTakenOut) {
   // Growth is bounded where many outliers make blocks of their own.
   std::vector<tune::LimitCaseName> names = {
