@@ -1,7 +1,6 @@
 #include "adapters/adapter.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <sstream>
 
 namespace hullbench {

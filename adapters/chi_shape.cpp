@@ -4,7 +4,6 @@
 //
 // Degenerate input: fewer than 3 distinct points, or points all on a line, give an empty multipolygon.
 #include <algorithm>
-#include <cstddef>
 #include <cstdint>
 #include <limits>
 #include <memory>

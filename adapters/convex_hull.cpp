@@ -9,8 +9,6 @@
 #include <optional>
 #include <span>
 #include <stdexcept>
-#include <string>
-#include <vector>
 
 #include "adapters/adapter.hpp"
 #include "adapters/point_checks.hpp"

@@ -5,8 +5,6 @@
 #include <memory>
 #include <optional>
 #include <stdexcept>
-#include <string>
-#include <vector>
 
 #include "adapters/point_checks.hpp"
 #include "adapters/polylidar_adapter.hpp"

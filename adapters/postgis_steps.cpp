@@ -23,7 +23,6 @@
 #include <optional>
 #include <span>
 #include <stdexcept>
-#include <string>
 #include <string_view>
 
 #include "adapters/adapter.hpp"

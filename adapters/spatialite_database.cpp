@@ -1,5 +1,4 @@
 // clang-format off
-#include <sqlite3.h>  // spatialite.h does not include what it uses
 #include <spatialite.h>
 // clang-format on
 

@@ -6,7 +6,6 @@
 #include <numbers>
 #include <stdexcept>
 #include <utility>
-#include <vector>
 
 #include "datasets/datasets.hpp"
 #include "datasets/holes.hpp"

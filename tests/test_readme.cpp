@@ -5,7 +5,6 @@
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 #include <string>
-#include <vector>
 
 #include "benchmarks/report/readme.hpp"
 #include "invented_shapes.hpp"

@@ -1,10 +1,8 @@
 // WKB both ways: known bytes, every accepted form, every refusal, and mutated bytes by the ten thousand.
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <atomic>
 #include <bit>
-#include <cmath>
 #include <cstdlib>
 #include <limits>
 #include <new>

@@ -4,9 +4,7 @@
 #include <algorithm>
 #include <iostream>
 #include <memory>
-#include <sstream>
 #include <stdexcept>
-#include <vector>
 
 #include "benchmarks/base/configuration_error.hpp"
 #include "benchmarks/base/cores.hpp"

@@ -5,7 +5,6 @@
 #include <vector>
 
 #include "benchmarks/base/exit_code.hpp"
-#include "benchmarks/statistics/sign_test.hpp"
 
 namespace hullbench::gate {
 

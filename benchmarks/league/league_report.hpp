@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "benchmarks/league/league.hpp"
-#include "benchmarks/table/writers.hpp"
 
 namespace hullbench::league {
 

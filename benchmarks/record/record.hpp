@@ -10,8 +10,6 @@
 #include <string>
 #include <vector>
 
-#include "datasets/sha256.hpp"
-
 namespace hullbench::record {
 
 inline constexpr int kSchemaVersion = 1;

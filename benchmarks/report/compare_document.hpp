@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "benchmarks/report/compare.hpp"
-#include "benchmarks/table/writers.hpp"
 
 namespace hullbench::report {
 

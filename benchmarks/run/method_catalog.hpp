@@ -6,7 +6,6 @@
 #include <string>
 #include <vector>
 
-#include "benchmarks/run/manifest.hpp"
 #include "benchmarks/worker/method.hpp"
 
 namespace hullbench::run {

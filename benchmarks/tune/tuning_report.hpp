@@ -7,7 +7,6 @@
 #include <string>
 #include <vector>
 
-#include "benchmarks/table/writers.hpp"
 #include "benchmarks/tune/evaluation.hpp"
 #include "benchmarks/tune/tuning.hpp"
 
