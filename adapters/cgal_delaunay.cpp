@@ -14,9 +14,7 @@
 #include <cmath>
 #include <limits>
 #include <memory>
-#include <optional>
 #include <span>
-#include <stdexcept>
 #include <vector>
 
 #include "adapters/adapter.hpp"
@@ -107,41 +105,34 @@ class Limits {
 
 class CgalDelaunay final : public Adapter {
  public:
-  const MethodInfo& info() const override { return info_; }
+  CgalDelaunay() { info_ = describe(); }
 
-  void load(std::span<const Point> points) override {
-    reset();
-    points_ = cgal::kernel_points(points);
-  }
+ private:
+  void do_load(std::span<const Point> points) override { points_ = cgal::kernel_points(points); }
 
-  void run(const Parameters& parameters, Steps& steps) override {
-    const Limits limits(complete_parameters(info_, parameters));
-    reset();
+  void do_run(const Parameters& parameters, Steps& steps) override {
     steps.begin("triangulation");
     triangulation_.insert(points_.begin(), points_.end());
     steps.begin("shape");
-    regions_.emplace();
     if (triangulation_.dimension() < 2) return;
+    const Limits limits(parameters);
     regions_ =
         cgal::label_regions(triangulation_, [&](Delaunay::Face_handle face) { return limits.keep(*face); });
   }
 
-  MultiPolygon extract(Steps& steps) override {
-    if (!regions_) throw std::logic_error("extract comes after run");
+  MultiPolygon do_extract(Steps& steps) override {
     steps.begin("polygon");
-    return cgal::trace_polygons(*regions_);
+    return cgal::trace_polygons(regions_);
   }
 
-  void reset() override {
-    regions_.reset();
+  void do_reset() override {
+    regions_ = {};
     triangulation_.clear();
   }
 
- private:
-  MethodInfo info_ = describe();
   std::vector<Kernel::Point_2> points_;
   Delaunay triangulation_;
-  std::optional<cgal::Regions<Delaunay>> regions_;  // of the last run, with faces of triangulation_
+  cgal::Regions<Delaunay> regions_;  // with faces of triangulation_
 };
 
 }  // namespace

@@ -4,9 +4,7 @@
 #include <limits>
 #include <memory>
 #include <optional>
-#include <stdexcept>
 
-#include "adapters/point_checks.hpp"
 #include "adapters/polylidar_adapter.hpp"
 #include "polylidar/concave_hull.hpp"
 
@@ -54,8 +52,7 @@ MethodInfo describe_polylidar() {
 
 namespace {
 
-polylidar::Options options_of(const MethodInfo& info, const Parameters& parameters) {
-  const Parameters complete = complete_parameters(info, parameters);
+polylidar::Options options_of(const Parameters& complete) {
   const auto limit = [&](const char* name, double not_given) {
     const double value = complete.at(name);
     return value == not_given ? std::nullopt : std::optional(value);
@@ -81,19 +78,11 @@ class OneCall final : public PolylidarAdapter {
 
 }  // namespace
 
-void PolylidarAdapter::load(std::span<const Point> points) {
-  require_finite(points);
-  shape_ = nullptr;
-  points_.assign(points.begin(), points.end());
+void PolylidarAdapter::do_run(const Parameters& parameters, Steps& steps) {
+  shape_ = &make_shape(extractor_, points_, options_of(parameters), steps);
 }
 
-void PolylidarAdapter::run(const Parameters& parameters, Steps& steps) {
-  const polylidar::Options options = options_of(info_, parameters);
-  shape_ = &make_shape(extractor_, points_, options, steps);
-}
-
-MultiPolygon PolylidarAdapter::extract(Steps& steps) {
-  if (!shape_) throw std::logic_error("extract comes after run");
+MultiPolygon PolylidarAdapter::do_extract(Steps& steps) {
   steps.begin("polygon");
   return polylidar::to_coordinates(*shape_, points_);
 }

@@ -8,7 +8,6 @@
 #include <new>
 #include <stdexcept>
 
-#include "adapters/point_checks.hpp"
 #include "adapters/wkb.hpp"
 
 namespace hullbench {
@@ -104,15 +103,12 @@ SpatialiteDatabase::SpatialiteDatabase() : cache_(spatialite_alloc_connection())
 }
 
 void SpatialiteDatabase::load(std::span<const Point> points) {
-  require_finite(points);
-  has_area_ = false;
   Statement(get(), "DELETE FROM point_set").execute();
   if (points.empty()) return;
   const std::vector<std::uint8_t> wkb = to_wkb_multipoint(points);
   Statement insert(get(), "INSERT INTO point_set SELECT ST_GeomFromWKB(?)");
   insert.bind(1, std::span<const std::uint8_t>(wkb));
   insert.execute();
-  has_area_ = span_an_area(points);
 }
 
 std::string SpatialiteDatabase::last_failure() {

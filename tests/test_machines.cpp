@@ -25,8 +25,7 @@ using nlohmann::json;
 
 constexpr const char* kSentence =
     "Times are not shown: they were taken on 2 machines (0123abcd, ba5eba11), and times of different "
-    "machines do "
-    "not go into one table.";
+    "machines do not go into one table.";
 
 /// `report` as if merged of two runs, the second of which measured every other row on another machine.
 json on_two_machines(json report) {

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "benchmarks/base/exit_code.hpp"
+#include "benchmarks/statistics/sign_test.hpp"
 
 namespace hullbench::gate {
 

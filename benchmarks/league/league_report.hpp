@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "benchmarks/league/league.hpp"
+#include "benchmarks/table/writers.hpp"
 
 namespace hullbench::league {
 

@@ -175,8 +175,7 @@ std::string flags_statement(const BuildInfo& info) {
   }
   const bool asked_by_cgal = differences.find("-frounding-math") != std::string::npos;
   return "The core, every adapter and the header-only libraries compiled into them (CGAL) are built with the "
-         "same "
-         "compiler and flags" +
+         "same compiler and flags" +
          (differences.empty() ? std::string(", without exception.")
                               : ", except: " + differences.substr(2) + ".") +
          (asked_by_cgal ? " CGAL's own package adds -frounding-math to whatever uses it." : "");

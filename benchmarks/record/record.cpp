@@ -5,6 +5,7 @@
 #include <stdexcept>
 
 #include "benchmarks/base/files.hpp"
+#include "datasets/sha256.hpp"
 
 namespace hullbench::record {
 namespace {

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "benchmarks/report/compare.hpp"
+#include "benchmarks/table/writers.hpp"
 
 namespace hullbench::report {
 

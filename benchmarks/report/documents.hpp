@@ -4,6 +4,8 @@
 #include <nlohmann/json.hpp>
 #include <vector>
 
+#include "benchmarks/table/writers.hpp"
+
 namespace hullbench::report {
 
 /// All tables of some reports: methods and parameters, the reports' own tables, what differs from the paper,

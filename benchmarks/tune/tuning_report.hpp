@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "benchmarks/table/writers.hpp"
 #include "benchmarks/tune/evaluation.hpp"
 #include "benchmarks/tune/tuning.hpp"
 
