@@ -1,4 +1,5 @@
 // clang-format off
+#include <sqlite3.h>  // spatialite.h does not include what it uses
 #include <spatialite.h>
 // clang-format on
 

@@ -17,7 +17,6 @@
 #include "benchmarks/metrics/metrics.hpp"
 #include "benchmarks/metrics/segment_tree.hpp"
 #include "benchmarks/metrics/triangle_outline.hpp"
-#include "benchmarks/metrics/validity.hpp"
 #include "datasets/datasets.hpp"
 #include "polylidar/concave_hull.hpp"
 #include "tests/boost_checks.hpp"

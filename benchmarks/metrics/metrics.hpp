@@ -12,6 +12,7 @@
 #include "benchmarks/metrics/boundary.hpp"
 #include "benchmarks/metrics/output_contract.hpp"
 #include "benchmarks/metrics/topology.hpp"
+#include "benchmarks/metrics/validity.hpp"
 #include "polylidar/geometry.hpp"
 
 namespace hullbench::metrics {

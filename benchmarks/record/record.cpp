@@ -5,7 +5,6 @@
 #include <stdexcept>
 
 #include "benchmarks/base/files.hpp"
-#include "datasets/sha256.hpp"
 
 namespace hullbench::record {
 namespace {

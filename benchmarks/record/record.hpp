@@ -10,6 +10,8 @@
 #include <string>
 #include <vector>
 
+#include "datasets/sha256.hpp"
+
 namespace hullbench::record {
 
 inline constexpr int kSchemaVersion = 1;
