@@ -8,7 +8,9 @@
 
 namespace hullbench::testing {
 
-/// What the Error says that `work()` throws; "nothing" when it throws none.
+inline constexpr const char* kNoComplaint = "nothing";
+
+/// What the Error says that `work()` throws; kNoComplaint when it throws none.
 template <typename Error = std::runtime_error, typename Work>
 std::string complaint_of(const Work& work) {
   try {
@@ -16,7 +18,7 @@ std::string complaint_of(const Work& work) {
   } catch (const Error& error) {
     return error.what();
   }
-  return "nothing";
+  return kNoComplaint;
 }
 
 /// Expects that `work()` throws an Error that has these words.

@@ -3,11 +3,14 @@
 
 #include <cstdint>
 #include <nlohmann/json.hpp>
+#include <sstream>
 #include <stdexcept>
 #include <string>
 #include <vector>
 
 #include "benchmarks/report/report.hpp"
+#include "benchmarks/report/tables.hpp"
+#include "benchmarks/table/writers.hpp"
 #include "invented_run.hpp"
 #include "temporary_folder.hpp"
 
@@ -19,6 +22,13 @@ inline nlohmann::json invented_report(const std::vector<std::int64_t>& sizes) {
   const testing::TemporaryFolder folder;
   write_invented_run(folder.path(), sizes);
   return report::make_report(folder.path());
+}
+
+/// The report's tables as Markdown.
+inline std::string markdown_of(const nlohmann::json& report) {
+  std::ostringstream out;
+  table::print_markdown(report::make_document(report), out);
+  return out.str();
 }
 
 /// A shape on which every method takes `milliseconds` as the paper took it and half as long again in all, and

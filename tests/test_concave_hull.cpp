@@ -17,6 +17,7 @@
 #include "polylidar/concave_hull.hpp"
 #include "polylidar/delaunay.hpp"
 #include "polylidar/predicates.hpp"
+#include "tests/complaint.hpp"
 #include "tests/hull_oracle.hpp"
 #include "tests/point_sets.hpp"
 
@@ -201,12 +202,8 @@ TEST(ConcaveHull, NamesTheFirstCoordinateThatIsNotFinite) {
   std::vector<Point> points = testing::uniform_points(500, 2);
   points[499].x = kInfinity;
   points[317].y = std::numeric_limits<double>::quiet_NaN();
-  try {
-    concave_hull(points, kUnitCells);
-    FAIL() << "accepted NaN";
-  } catch (const std::invalid_argument& error) {
-    EXPECT_NE(std::string(error.what()).find("317"), std::string::npos) << error.what();
-  }
+  hullbench::testing::expect_complaint<std::invalid_argument>([&] { concave_hull(points, kUnitCells); },
+                                                              "317");
 }
 
 // rings that touch

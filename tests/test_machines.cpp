@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 #include <set>
-#include <sstream>
 #include <string>
 #include <vector>
 
@@ -56,12 +55,6 @@ TableRows rows_of(const table::Document& document, const std::string& id) {
   return {{}};
 }
 
-std::string text_of(const json& report) {
-  std::ostringstream out;
-  table::print_markdown(report::make_document(report), out);
-  return out.str();
-}
-
 /// Everything of a document that could hold a time: no word of one may stand there.
 void expect_no_times(const table::Document& document) {
   for (const table::Table& table : document.tables) {
@@ -99,7 +92,7 @@ TEST(Machines, SeveralHaveNoTableOfTimesAndASentenceWhy) {
   const json report = on_two_machines(test::invented_report({2000, 64000}));
   const table::Document document = report::make_document(report);
   expect_no_times(document);
-  const std::string text = text_of(report);
+  const std::string text = test::markdown_of(report);
   std::string unbroken = text;
   for (std::size_t at = 0; (at = unbroken.find("\n  ", at)) != std::string::npos;)
     unbroken.replace(at, 3, " ");
@@ -218,7 +211,7 @@ TEST(Machines, OneOfAMergedRunHasItsTimes) {
   report["merged"][1]["environment"] = report["environment"];
   for (json& run : report["runs"]) run["machine"] = "0123abcd";
   report["summary"] = report::make_summary(report);
-  const std::string text = text_of(report);
+  const std::string text = test::markdown_of(report);
   EXPECT_NE(text.find("time of equal work, ms"), std::string::npos);
   EXPECT_NE(text.find("Merged of 2 runs, all timed on machine 0123abcd."), std::string::npos) << text;
   EXPECT_EQ(text.find("Times are not shown"), std::string::npos);

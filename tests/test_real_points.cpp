@@ -12,6 +12,7 @@
 
 #include "datasets/datasets.hpp"
 #include "datasets/real/real_points.hpp"
+#include "tests/complaint.hpp"
 #include "tests/program.hpp"
 #include "tests/temporary_folder.hpp"
 
@@ -26,18 +27,10 @@ void write(const fs::path& path, const std::string& text) {
   std::ofstream(path, std::ios::binary) << text;
 }
 
-template <typename Do>
-std::string complaint_of(const Do& act) {
-  try {
-    act();
-  } catch (const std::exception& error) {
-    return error.what();
-  }
-  return "";
-}
+using testing::complaint_of;
 
 std::string complaint_about(const std::string& text) {
-  return complaint_of([&] { real::parse_sample(text); });
+  return complaint_of<std::exception>([&] { real::parse_sample(text); });
 }
 
 /// A system in a folder in which dpkg knows some packages, and whose cloud package has an archive.
@@ -99,7 +92,8 @@ TEST_F(FakeSystem, APackageIsInstalledOrNot) {
 TEST_F(FakeSystem, AMissingPackageSaysWhatInstallsIt) {
   const DataFolders folders(default_data_directory(), {}, root());
   EXPECT_THROW(make_point_set("real-house", false, 0, 1, folders), real::NotInstalled);
-  const std::string words = complaint_of([&] { make_point_set("real-house", false, 0, 1, folders); });
+  const std::string words =
+      complaint_of<std::exception>([&] { make_point_set("real-house", false, 0, 1, folders); });
   EXPECT_NE(words.find("r-cran-spdata"), std::string::npos) << words;
   EXPECT_NE(words.find("'make deps-real'"), std::string::npos) << words;
 }
@@ -122,10 +116,10 @@ TEST_F(FakeSystem, CloudsAreReadFromAbove) {
 }
 
 TEST_F(FakeSystem, AReaderThatFailsSaysWhy) {
-  const std::string words = complaint_of([&] { read("a.xyz", "1 2 3\n", "b.xyz"); });
+  const std::string words = complaint_of<std::exception>([&] { read("a.xyz", "1 2 3\n", "b.xyz"); });
   EXPECT_NE(words.find("real-x"), std::string::npos) << words;
   EXPECT_NE(words.find("b.xyz"), std::string::npos) << words;
-  const std::string none = complaint_of([&] { read("a.xyz", "# nothing\n", "a.xyz"); });
+  const std::string none = complaint_of<std::exception>([&] { read("a.xyz", "# nothing\n", "a.xyz"); });
   EXPECT_NE(none.find("no points of a.xyz"), std::string::npos) << none;
 }
 

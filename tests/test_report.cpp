@@ -23,7 +23,7 @@
 #include "benchmarks/report/claims.hpp"
 #include "benchmarks/report/contests.hpp"
 #include "benchmarks/report/report.hpp"
-#include "invented_run.hpp"
+#include "invented_shapes.hpp"
 #include "temporary_folder.hpp"
 #include "tests/complaint.hpp"
 
@@ -36,9 +36,7 @@ using testing::TemporaryFolder;
 const std::filesystem::path kSource = HULLBENCH_SOURCE_DIRECTORY;
 
 json invented_report() {
-  const TemporaryFolder folder;
-  test::write_invented_run(folder.path(), {2000, 64000});
-  return report::make_report(folder.path());
+  return test::invented_report({2000, 64000});
 }
 
 json read_json(const std::filesystem::path& path) {
