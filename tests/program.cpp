@@ -123,6 +123,11 @@ Outcome run_program(const std::vector<std::string>& command, const ProgramOption
   return Program(command, options).wait();
 }
 
+Outcome succeeded(Outcome outcome) {
+  if (outcome.code == 0) return outcome;
+  throw std::runtime_error("exit code " + std::to_string(outcome.code) + ": " + outcome.err);
+}
+
 std::string missing(const std::vector<std::string>& needs) {
   std::vector<std::string> command = {NEEDS_SCRIPT};
   command.insert(command.end(), needs.begin(), needs.end());

@@ -49,6 +49,9 @@ class Program {
 /// Runs a program, which is looked for in PATH, to its end.
 Outcome run_program(const std::vector<std::string>& command, const ProgramOptions& options = {});
 
+/// `outcome`, when the program ended with 0; throws what it wrote to standard error when not.
+Outcome succeeded(Outcome outcome);
+
 /// What tests/needs.sh says is missing of `needs`, which are as it takes them; empty when all is there. A
 /// test that needs it is then to be skipped.
 std::string missing(const std::vector<std::string>& needs);

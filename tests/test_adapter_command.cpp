@@ -29,9 +29,7 @@ class AdapterCommandTest : public testing::HullbenchTest {
   /// A method in Python whose `run(points)` is `body`.
   void python_method(const std::string& body) {
     if (!fs::exists(methods())) {
-      const Outcome made =
-          hullbench({"adapter", "new", "sample", "--lang", "python", "--out", methods().string()});
-      ASSERT_EQ(made.code, 0) << made.err;
+      succeeded(hullbench({"adapter", "new", "sample", "--lang", "python", "--out", methods().string()}));
     }
     write_text(methods() / "sample_worker.py", "import hullbench_worker\n\ndef run(points):\n" + body +
                                                    "\n\nhullbench_worker.serve(version='1', run=run)\n");
@@ -60,8 +58,7 @@ class AdapterCommandTest : public testing::HullbenchTest {
 
 TEST_F(AdapterCommandTest, TheSkeletonsKeepTheContract) {
   for (const std::string language : {"python", "js"}) {
-    const Outcome made = hullbench({"adapter", "new", "my_" + language, "--lang", language});
-    ASSERT_EQ(made.code, 0) << made.err;
+    const Outcome made = succeeded(hullbench({"adapter", "new", "my_" + language, "--lang", language}));
     const fs::path adapters = folder() / "config" / "hullbench" / "adapters";
     const fs::path written = adapters / ("my_" + language + ".json");
     EXPECT_NE(made.out.find(written.string()), std::string::npos) << made.out;
@@ -103,8 +100,7 @@ TEST_F(AdapterCommandTest, AMethodOfOnesOwnIsMeasuredBesideTheOthers) {
   }
   EXPECT_TRUE(report["manifests"].contains("sample"));
   EXPECT_NE(run.out.find("| sample"), std::string::npos) << run.out;
-  const Outcome valid = hullbench({"validate", "run/report.json"});
-  EXPECT_EQ(valid.code, 0) << valid.err;
+  succeeded(hullbench({"validate", "run/report.json"}));
 }
 
 TEST_F(AdapterCommandTest, AnotherProgramIsAnotherRun) {
@@ -218,9 +214,7 @@ TEST_F(AdapterCommandTest, NamesAndFilesThatAreTaken) {
 }
 
 TEST_F(AdapterCommandTest, ACppMethodIsAFileAndALine) {
-  const Outcome made =
-      hullbench({"adapter", "new", "sample_hull", "--lang", "cpp", "--out", methods().string()});
-  ASSERT_EQ(made.code, 0) << made.err;
+  succeeded(hullbench({"adapter", "new", "sample_hull", "--lang", "cpp", "--out", methods().string()}));
   EXPECT_EQ(read_text(methods() / "adapters.cmake"), "add_adapter(NAME sample_hull TITLE \"sample_hull\")\n");
   EXPECT_EQ(read_text(methods() / "sample_hull.cpp").find('@'), std::string::npos);
 }

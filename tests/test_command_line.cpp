@@ -72,8 +72,7 @@ void expect_no_repetition_twice(const fs::path& run, int repetitions) {
 }
 
 TEST_F(CommandLineTest, HelpTellsCommandsAndExitCodes) {
-  const Outcome outcome = hullbench({"--help"});
-  EXPECT_EQ(outcome.code, 0);
+  const Outcome outcome = succeeded(hullbench({"--help"}));
   for (const char* word : {"list", "run", "tables", "validate", "worker", "Exit codes", "130  interrupted"}) {
     EXPECT_NE(outcome.out.find(word), std::string::npos) << word;
   }
@@ -223,8 +222,8 @@ TEST_F(CommandLineTest, NothingMatches) {
 }
 
 TEST_F(CommandLineTest, DryRunPrintsNamesAndDoesNothing) {
-  const Outcome outcome = hullbench({"run", plan({500, 600}, 1), "--filter", "holes:1", "--dry-run"});
-  EXPECT_EQ(outcome.code, 0);
+  const Outcome outcome =
+      succeeded(hullbench({"run", plan({500, 600}, 1), "--filter", "holes:1", "--dry-run"}));
   EXPECT_EQ(outcome.out,
             "polylidar/ca/n:500/holes:1/protocol:paper\npolylidar/ca/n:600/holes:1/protocol:paper\n");
   EXPECT_EQ(outcome.err, "");
@@ -232,8 +231,7 @@ TEST_F(CommandLineTest, DryRunPrintsNamesAndDoesNothing) {
 }
 
 TEST_F(CommandLineTest, ARunLeavesItsFilesAndSaysWhich) {
-  const Outcome outcome = hullbench({"run", plan({500}, 2)});
-  EXPECT_EQ(outcome.code, 0) << outcome.err;
+  const Outcome outcome = succeeded(hullbench({"run", plan({500}, 2)}));
   EXPECT_NE(outcome.err.find("2 ok, 0 failed, 0 not installed"), std::string::npos) << outcome.err;
   EXPECT_NE(outcome.err.find("results/latest/report.json"), std::string::npos) << outcome.err;
   const fs::path latest = folder() / "results" / "latest";
@@ -241,8 +239,7 @@ TEST_F(CommandLineTest, ARunLeavesItsFilesAndSaysWhich) {
   for (const char* file : {"report.json", "runs.jsonl", "run.json"}) {
     EXPECT_EQ(hullbench({"validate", (latest / file).string()}).code, 0) << file;
   }
-  const Outcome tables = hullbench({"tables"});
-  EXPECT_EQ(tables.code, 0) << tables.err;
+  const Outcome tables = succeeded(hullbench({"tables"}));
   EXPECT_EQ(tables.out, outcome.out);
   EXPECT_EQ(hullbench({"tables", latest.string()}).out, outcome.out);
 }
@@ -260,8 +257,7 @@ TEST_F(CommandLineTest, OptionsReplaceThePlansValues) {
 
 TEST_F(CommandLineTest, SeveralPassesAreSaidAndRecorded) {
   const Outcome outcome =
-      hullbench({"run", plan({500}, 3), "--passes", "2", "--filter", "holes:0", "--out", "run"});
-  ASSERT_EQ(outcome.code, 0) << outcome.err;
+      succeeded(hullbench({"run", plan({500}, 3), "--passes", "2", "--filter", "holes:0", "--out", "run"}));
   EXPECT_NE(outcome.err.find("hullbench: pass 1 of 2: "), std::string::npos) << outcome.err;
   EXPECT_NE(outcome.err.find("pass 1 of 2 is done; 'hullbench tables run' prints"), std::string::npos)
       << outcome.err;
@@ -304,8 +300,7 @@ TEST_F(CommandLineTest, AFilterOfThePlanIsForWhoAsksForNone) {
 TEST_F(CommandLineTest, MembersOfAFamilyHaveARowEach) {
   const json cases = json::array({{{"dataset", "comb"}, {"members", 3}, {"n", {500}}}});
   const std::string combs = testing::write_plan(folder(), testing::small_plan("combs", cases));
-  const Outcome outcome = hullbench({"run", combs, "--out", "run"});
-  EXPECT_EQ(outcome.code, 0) << outcome.err;
+  const Outcome outcome = succeeded(hullbench({"run", combs, "--out", "run"}));
   std::set<std::string> names;
   std::set<std::string> points;
   for (const json& row : lines_of(folder() / "run" / "runs.jsonl")) {
@@ -336,9 +331,8 @@ void write_scene(const fs::path& scene, double shift) {
 TEST_F(CommandLineTest, RecordedFloorsTakeThePlaceOfTheSimulatedOnes) {
   write_scene(folder() / "floors" / "kitchen", 0);
   write_scene(folder() / "floors" / "hall", 5);
-  const Outcome outcome = hullbench({"run", "rgbd", "--recordings", "floors", "--filter", "^polylidar/",
-                                     "--repetitions", "1", "--out", "run"});
-  EXPECT_EQ(outcome.code, 0) << outcome.err;
+  const Outcome outcome = succeeded(hullbench({"run", "rgbd", "--recordings", "floors", "--filter",
+                                               "^polylidar/", "--repetitions", "1", "--out", "run"}));
   std::set<std::string> names;
   for (const json& row : lines_of(folder() / "run" / "runs.jsonl")) {
     EXPECT_EQ(row["status"], "ok") << row;
@@ -356,9 +350,8 @@ TEST_F(CommandLineTest, RecordedFloorsTakeThePlaceOfTheSimulatedOnes) {
 TEST_F(CommandLineTest, RecordingsAreAddedToTheRealPointsWithoutATruth) {
   write_scene(folder() / "floors" / "hall", 5);
   fs::remove(folder() / "floors" / "hall" / "gt.geojson");
-  const Outcome outcome = hullbench(
-      {"run", "real", "--recordings", "floors", "--filter", "^convex_hull/real-recorded", "--out", "run"});
-  EXPECT_EQ(outcome.code, 0) << outcome.err;
+  const Outcome outcome = succeeded(hullbench(
+      {"run", "real", "--recordings", "floors", "--filter", "^convex_hull/real-recorded", "--out", "run"}));
   const std::vector<json> rows = lines_of(folder() / "run" / "runs.jsonl");
   ASSERT_EQ(rows.size(), 1U);
   EXPECT_EQ(rows[0]["dataset"], "real-recorded-1");
@@ -403,11 +396,9 @@ TEST_F(CommandLineTest, TablesAndValidateOfWhatIsNotThere) {
 }
 
 TEST_F(CommandLineTest, MetricsAreListed) {
-  const Outcome text = hullbench({"metrics"});
-  EXPECT_EQ(text.code, 0) << text.err;
+  const Outcome text = succeeded(hullbench({"metrics"}));
   EXPECT_NE(text.out.find("  l2  ratio, lower is better\n"), std::string::npos) << text.out;
-  const Outcome as_json = hullbench({"metrics", "--json"});
-  EXPECT_EQ(as_json.code, 0) << as_json.err;
+  const Outcome as_json = succeeded(hullbench({"metrics", "--json"}));
   const json table = json::parse(as_json.out);
   ASSERT_FALSE(table.empty());
   EXPECT_EQ(table[0]["name"], "valid");
@@ -417,9 +408,8 @@ TEST_F(CommandLineTest, MetricsAreListed) {
 }
 
 TEST_F(CommandLineTest, ListKnowsEveryMethodAndDataSet) {
-  const Outcome outcome =
-      hullbench({"list", "--json"}, {{}, {{"HULLBENCH_POSTGIS_DSN", "host=127.0.0.1 port=1"}}, false});
-  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  const Outcome outcome = succeeded(
+      hullbench({"list", "--json"}, {{}, {{"HULLBENCH_POSTGIS_DSN", "host=127.0.0.1 port=1"}}, false}));
   const json listing = json::parse(outcome.out);
   std::map<std::string, json> methods;
   for (const json& method : listing["methods"]) methods[method["name"]] = method;
@@ -444,8 +434,8 @@ TEST_F(CommandLineTest, ListKnowsEveryMethodAndDataSet) {
   EXPECT_FALSE(methods["postgis"]["remedy"].get<std::string>().empty());
   EXPECT_GE(listing["datasets"].size(), 2U);
 
-  const Outcome text = hullbench({"list"}, {{}, {{"HULLBENCH_POSTGIS_DSN", "host=127.0.0.1 port=1"}}, false});
-  EXPECT_EQ(text.code, 0);
+  const Outcome text =
+      succeeded(hullbench({"list"}, {{}, {{"HULLBENCH_POSTGIS_DSN", "host=127.0.0.1 port=1"}}, false}));
   for (const auto& [name, method] : methods)
     EXPECT_NE(text.out.find("  " + name + "  "), std::string::npos) << name;
   EXPECT_NE(text.out.find("remedy: "), std::string::npos);
@@ -496,10 +486,10 @@ TEST_F(CommandLineTest, ADatabaseThatAnswersNothingIsAVisibleRow) {
 TEST_F(CommandLineTest, PostgisThatIsNotInstalledIsARowWithItsRemedy) {
   const fs::path nothing = folder() / "no-programs";
   fs::create_directory(nothing);
-  const Outcome outcome = hullbench({"run", "states", "--filter", "(convex_hull|postgis)/hi/n:2000/holes:0",
-                                     "--repetitions", "1", "--out", "run"},
-                                    {{}, {{"HULLBENCH_POSTGRES_BIN", nothing.string()}}, false});
-  EXPECT_EQ(outcome.code, 0) << outcome.err;
+  const Outcome outcome =
+      succeeded(hullbench({"run", "states", "--filter", "(convex_hull|postgis)/hi/n:2000/holes:0",
+                           "--repetitions", "1", "--out", "run"},
+                          {{}, {{"HULLBENCH_POSTGRES_BIN", nothing.string()}}, false}));
   EXPECT_NE(outcome.err.find("postgis does not start (not_installed): PostgreSQL is not installed"),
             std::string::npos)
       << outcome.err;
@@ -618,8 +608,7 @@ TEST_F(InterruptionTest, CtrlCKeepsFinishedRowsAndASecondStartGoesOn) {
   }
   const std::string kept = read_text(folder() / "run" / "runs.jsonl");
   EXPECT_FALSE(kept.empty());
-  const Outcome second = hullbench({"run", the_plan(), "--out", "run"});
-  EXPECT_EQ(second.code, 0) << second.err;
+  const Outcome second = succeeded(hullbench({"run", the_plan(), "--out", "run"}));
   EXPECT_NE(second.err.find("going on with the run in run"), std::string::npos) << second.err;
   EXPECT_EQ(read_text(folder() / "run" / "runs.jsonl").substr(0, kept.size()), kept);
   expect_no_repetition_twice(folder() / "run", kRepetitions);
@@ -677,8 +666,7 @@ TEST_F(InterruptionTest, WithoutOutTheUnfinishedRunIsFoundAndAFinishedOneIsNotTo
   const auto run_folders = [&] {
     return std::distance(fs::directory_iterator(folder() / "results" / "runs"), fs::directory_iterator());
   };
-  const Outcome second = hullbench(words);
-  EXPECT_EQ(second.code, 0) << second.err;
+  const Outcome second = succeeded(hullbench(words));
   EXPECT_NE(second.err.find("of 6 runs are finished and not measured again"), std::string::npos)
       << second.err;
   EXPECT_EQ(run_folders(), 1);

@@ -50,11 +50,9 @@ class FakeSystem : public ::testing::Test {
   real::Sample read(const std::string& name, const std::string& content, const std::string& object) {
     write(root() / "cloud" / name, content);
     fs::create_directories(root() / "usr/share/doc/cgal");
-    const testing::Outcome packed =
-        testing::run_program({"tar", "-czf", (root() / "usr/share/doc/cgal/data.tar.gz").string(), "-C",
-                              (root() / "cloud").string(), name},
-                             {});
-    EXPECT_EQ(packed.code, 0) << packed.err;
+    succeeded(testing::run_program({"tar", "-czf", (root() / "usr/share/doc/cgal/data.tar.gz").string(), "-C",
+                                    (root() / "cloud").string(), name},
+                                   {}));
     return real::read_sample({"real-x", "X", "libcgal-demo", object, "MIT"}, root());
   }
 

@@ -45,14 +45,12 @@ class RescoreTest : public testing::HullbenchTest {
   /// A run of two cases in `kept`.
   void SetUp() override {
     const std::string plan = write(testing::small_plan("small", testing::california({500})));
-    const Outcome outcome = hullbench({"run", plan, "--keep-polygons", "--out", "kept"});
-    ASSERT_EQ(outcome.code, 0) << outcome.err;
+    succeeded(hullbench({"run", plan, "--keep-polygons", "--out", "kept"}));
   }
 };
 
 TEST_F(RescoreTest, GivesTheSameScores) {
-  const Outcome outcome = hullbench({"rescore", "kept", "--out", "again"});
-  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  const Outcome outcome = succeeded(hullbench({"rescore", "kept", "--out", "again"}));
   EXPECT_NE(outcome.err.find("2 of 2 rows have new scores"), std::string::npos) << outcome.err;
   EXPECT_EQ(read_lines("again/runs.jsonl"), read_lines("kept/runs.jsonl"));
   EXPECT_TRUE(read_json("again/run.json").contains("rescored"));
@@ -69,8 +67,7 @@ TEST_F(RescoreTest, ScoresThatAreMissingOrWrongAreMended) {
     row["metrics"].erase("hausdorff");
     row["flags"].push_back("worse_than_convex_hull");
   });
-  const Outcome outcome = hullbench({"rescore", "kept", "--out", "again"});
-  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  succeeded(hullbench({"rescore", "kept", "--out", "again"}));
   EXPECT_EQ(json(read_lines("again/runs.jsonl")), before);
 }
 
@@ -95,8 +92,7 @@ TEST_F(RescoreTest, OfASuiteIsASuite) {
   const std::string one = write(testing::small_plan("one", testing::california({300})));
   const std::string two = write(testing::small_plan("two", testing::california({400})));
   ASSERT_EQ(hullbench({"run", one, two, "--keep-polygons", "--out", "both"}).code, 0);
-  const Outcome outcome = hullbench({"rescore", "both", "--out", "again"});
-  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  succeeded(hullbench({"rescore", "both", "--out", "again"}));
   for (const char* name : {"one", "two"}) {
     EXPECT_EQ(untimed(read_lines(fs::path("again") / name / "runs.jsonl")),
               untimed(read_lines(fs::path("both") / name / "runs.jsonl")));
@@ -162,9 +158,9 @@ class SubmissionTest : public testing::HullbenchTest {
 
 // In one, as making a pack takes its time.
 TEST_F(SubmissionTest, APackIsTakenAndWhatIsWrongWithItIsFound) {
-  const Outcome packed = hullbench({"submit", "pack", "my_hull", "--adapters", "methods", "--out", "pack"},
-                                   {{}, {}, false, std::chrono::minutes(5)});
-  ASSERT_EQ(packed.code, 0) << packed.err;
+  const Outcome packed =
+      succeeded(hullbench({"submit", "pack", "my_hull", "--adapters", "methods", "--out", "pack"},
+                          {{}, {}, false, std::chrono::minutes(5)}));
   const Outcome outcome = hullbench({"submit", "check", "pack"});
   EXPECT_EQ(outcome.code, 0) << outcome.out << outcome.err;
   EXPECT_EQ(outcome.out.find("FAIL"), std::string::npos);

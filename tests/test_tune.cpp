@@ -120,8 +120,8 @@ json both_sides(int members) {
 }
 
 TEST_F(TuneTest, FindsTheBestOfAMadeUpMethod) {
-  const Outcome tuned = tune(plan(json::array({{{"dataset", "ca"}, {"n", {300}}}})), "disc", "out");
-  ASSERT_EQ(tuned.code, 0) << tuned.err;
+  const Outcome tuned =
+      succeeded(tune(plan(json::array({{{"dataset", "ca"}, {"n", {300}}}})), "disc", "out"));
   EXPECT_EQ(tuned.out, read_text(folder() / "out" / "tuning.md"));
   const PointSet set = make_point_set("ca", false, 300, 1);
   double best = 2;
@@ -152,11 +152,9 @@ TEST_F(TuneTest, TheSchemasRefuseWhatIsWrong) {
 }
 
 TEST_F(TuneTest, ItsPlanMeasuresWhatItFound) {
-  const Outcome tuned = tune(plan(both_sides(3)), "polylidar|disc", "out");
-  ASSERT_EQ(tuned.code, 0) << tuned.err;
-  const Outcome run = hullbench({"run", folder() / "out" / "small-tuned.json", "--out", folder() / "run",
-                                 "--adapters", methods(), "--repetitions", "1"});
-  ASSERT_EQ(run.code, 0) << run.err;
+  const Outcome tuned = succeeded(tune(plan(both_sides(3)), "polylidar|disc", "out"));
+  const Outcome run = succeeded(hullbench({"run", folder() / "out" / "small-tuned.json", "--out",
+                                           folder() / "run", "--adapters", methods(), "--repetitions", "1"}));
   std::map<std::string, double> found;
   std::set<std::string> tested;
   for (const json& line : sweep("out")) {
@@ -191,12 +189,10 @@ TEST_F(TuneTest, TheLeagueIsTheSameAgainFromTheRowsThatAreKept) {
                 .code,
             0)
       << "star-1 is for training";
-  const Outcome run = hullbench({"run", folder() / "out" / "small-tuned.json",
-                                 write(testing::small_plan("other", both_sides(1))), "--out",
-                                 folder() / "suite", "--adapters", methods(), "--repetitions", "1"});
-  ASSERT_EQ(run.code, 0) << run.err;
-  const Outcome league = hullbench({"league", "suite", "--out", "league.json"});
-  ASSERT_EQ(league.code, 0) << league.err;
+  succeeded(hullbench({"run", folder() / "out" / "small-tuned.json",
+                       write(testing::small_plan("other", both_sides(1))), "--out", folder() / "suite",
+                       "--adapters", methods(), "--repetitions", "1"}));
+  const Outcome league = succeeded(hullbench({"league", "suite", "--out", "league.json"}));
   expect_valid("league.json");
   EXPECT_NE(league.out.find("lattice †"), std::string::npos) << league.out;
   const std::string keep = SYSTEM_PYTHON " " HULLBENCH_SOURCE_DIRECTORY "/results/keep_league.py ";
@@ -292,8 +288,7 @@ TEST_F(TuneTest, GoesOnAfterAnInterruptionToTheSameResult) {
   ASSERT_LT(kept, sweep("whole").size()) << "it was over before the interruption";
   // As a kill leaves it.
   write_text(file, read_text(file) + "{\"kind\": \"eval");
-  const Outcome rest = tune(cases, "disc|polylidar", "parts");
-  ASSERT_EQ(rest.code, 0) << rest.err;
+  const Outcome rest = succeeded(tune(cases, "disc|polylidar", "parts"));
   EXPECT_NE(rest.err.find(std::to_string(kept) + " evaluations are there already"), std::string::npos)
       << rest.err;
   for (const char* name : {"sweep.jsonl", "tune.json", "tuning.md", "small-tuned.json"})
@@ -306,8 +301,7 @@ TEST_F(TuneTest, ShardsInOneFolderComeTogetherToTheSameResult) {
   const std::string cases = plan(both_sides(3));
   ASSERT_EQ(tune(cases, "disc|polylidar", "whole").code, 0);
   for (const char* shard : {"1/2", "2/2"}) {
-    const Outcome part = tune(cases, "disc|polylidar", "parts", {"--shard", shard});
-    EXPECT_EQ(part.code, 0) << part.err;
+    succeeded(tune(cases, "disc|polylidar", "parts", {"--shard", shard}));
   }
   EXPECT_FALSE(fs::exists(folder() / "parts" / "tune.json"));
   expect_valid("parts/sweep-1-of-2.jsonl");

@@ -182,8 +182,7 @@ class VectorFormatsTest : public ::testing::Test {
     return testing::run_program(arguments);
   }
   static std::string result(const std::vector<std::string>& arguments) {
-    const Outcome outcome = run(arguments);
-    EXPECT_EQ(outcome.code, 0) << outcome.err;
+    const Outcome outcome = succeeded(run(arguments));
     return outcome.out;
   }
   /// The only layer of a file.
