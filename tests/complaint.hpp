@@ -1,4 +1,4 @@
-// What an error says.
+// What an error or another text says.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -7,6 +7,11 @@
 #include <string>
 
 namespace hullbench::testing {
+
+/// Expects that these words are in `text`.
+inline void expect_says(const std::string& text, const std::string& words) {
+  EXPECT_NE(text.find(words), std::string::npos) << "\"" << words << "\" is not in: " << text;
+}
 
 inline constexpr const char* kNoComplaint = "nothing";
 
@@ -24,8 +29,7 @@ std::string complaint_of(const Work& work) {
 /// Expects that `work()` throws an Error that has these words.
 template <typename Error = std::runtime_error, typename Work>
 void expect_complaint(const Work& work, const std::string& words) {
-  const std::string said = complaint_of<Error>(work);
-  EXPECT_NE(said.find(words), std::string::npos) << said;
+  expect_says(complaint_of<Error>(work), words);
 }
 
 }  // namespace hullbench::testing

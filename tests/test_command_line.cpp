@@ -23,6 +23,7 @@
 
 #include "benchmarks/record/json_lines.hpp"
 #include "benchmarks/record/record.hpp"
+#include "tests/complaint.hpp"
 #include "tests/hullbench_test.hpp"
 
 namespace hullbench {
@@ -111,7 +112,7 @@ TEST_F(CommandLineTest, EverySubcommandsHelpHasAnExample) {
     const std::string help = hullbench(words).out;
     std::smatch found;
     ASSERT_TRUE(std::regex_search(help, found, std::regex("Example: (.*hullbench .+)\n"))) << help;
-    EXPECT_NE(help.find("Exit codes:"), std::string::npos) << help;
+    testing::expect_says(help, "Exit codes:");
     examples.emplace_back(name, found[1]);
   }
 
@@ -172,8 +173,7 @@ TEST_F(CommandLineTest, AParameterThatTheMethodDoesNotHave) {
   text.replace(text.find("\"alpha\""), 7, "\"beta\"");
   const Outcome outcome = hullbench({"run", write_plan(text)});
   EXPECT_EQ(outcome.code, 2);
-  EXPECT_NE(outcome.err.find("gives polylidar the parameter 'beta', which it does not have"),
-            std::string::npos);
+  testing::expect_says(outcome.err, "gives polylidar the parameter 'beta', which it does not have");
 }
 
 TEST_F(CommandLineTest, OutputFolderThatCannotBeWritten) {
@@ -210,7 +210,7 @@ TEST_F(CommandLineTest, FullDisk) {
       {"/bin/sh", "-c", "trap '' XFSZ; ulimit -f 40; exec \"$0\" run \"$1\" --out run", HULLBENCH, small},
       in_folder());
   EXPECT_EQ(outcome.code, 1);
-  EXPECT_NE(outcome.err.find("repetitions.jsonl: is the disk full?"), std::string::npos) << outcome.err;
+  testing::expect_says(outcome.err, "repetitions.jsonl: is the disk full?");
   EXPECT_EQ(hullbench({"run", small, "--out", "run"}).code, 0);
   expect_no_repetition_twice(folder() / "run", 1000);
 }
@@ -232,8 +232,8 @@ TEST_F(CommandLineTest, DryRunPrintsNamesAndDoesNothing) {
 
 TEST_F(CommandLineTest, ARunLeavesItsFilesAndSaysWhich) {
   const Outcome outcome = succeeded(hullbench({"run", plan({500}, 2)}));
-  EXPECT_NE(outcome.err.find("2 ok, 0 failed, 0 not installed"), std::string::npos) << outcome.err;
-  EXPECT_NE(outcome.err.find("results/latest/report.json"), std::string::npos) << outcome.err;
+  testing::expect_says(outcome.err, "2 ok, 0 failed, 0 not installed");
+  testing::expect_says(outcome.err, "results/latest/report.json");
   const fs::path latest = folder() / "results" / "latest";
   EXPECT_EQ(read_text(latest / "tables.md"), outcome.out);
   for (const char* file : {"report.json", "runs.jsonl", "run.json"}) {
@@ -258,10 +258,9 @@ TEST_F(CommandLineTest, OptionsReplaceThePlansValues) {
 TEST_F(CommandLineTest, SeveralPassesAreSaidAndRecorded) {
   const Outcome outcome =
       succeeded(hullbench({"run", plan({500}, 3), "--passes", "2", "--filter", "holes:0", "--out", "run"}));
-  EXPECT_NE(outcome.err.find("hullbench: pass 1 of 2: "), std::string::npos) << outcome.err;
-  EXPECT_NE(outcome.err.find("pass 1 of 2 is done; 'hullbench tables run' prints"), std::string::npos)
-      << outcome.err;
-  EXPECT_NE(outcome.err.find("hullbench: pass 2 of 2: "), std::string::npos) << outcome.err;
+  testing::expect_says(outcome.err, "hullbench: pass 1 of 2: ");
+  testing::expect_says(outcome.err, "pass 1 of 2 is done; 'hullbench tables run' prints");
+  testing::expect_says(outcome.err, "hullbench: pass 2 of 2: ");
   const auto rows = lines_of(folder() / "run" / "runs.jsonl");
   ASSERT_EQ(rows.size(), 1U);
   EXPECT_EQ(rows[0]["passes"], (json{1, 1, 2}));
@@ -310,7 +309,7 @@ TEST_F(CommandLineTest, MembersOfAFamilyHaveARowEach) {
   }
   EXPECT_EQ(names, (std::set<std::string>{"comb-1", "comb-2", "comb-3"}));
   EXPECT_EQ(points.size(), 3U) << "the members are different shapes";
-  EXPECT_NE(outcome.out.find("Comb 3"), std::string::npos) << outcome.out;
+  testing::expect_says(outcome.out, "Comb 3");
 }
 
 /// A scene in a folder of recordings: a floor of 4 m by 3 m with a point every 0.1 m, moved by `shift`
@@ -342,8 +341,8 @@ TEST_F(CommandLineTest, RecordedFloorsTakeThePlaceOfTheSimulatedOnes) {
     names.insert(row["dataset"]);
   }
   EXPECT_EQ(names, (std::set<std::string>{"recorded-1", "recorded-2"}));
-  EXPECT_NE(outcome.out.find("Recorded floor 1"), std::string::npos) << outcome.out;
-  EXPECT_NE(outcome.out.find("Recorded floor 2"), std::string::npos) << outcome.out;
+  testing::expect_says(outcome.out, "Recorded floor 1");
+  testing::expect_says(outcome.out, "Recorded floor 2");
   EXPECT_EQ(outcome.out.find("Simulated floor"), std::string::npos) << outcome.out;
 }
 
@@ -359,7 +358,7 @@ TEST_F(CommandLineTest, RecordingsAreAddedToTheRealPointsWithoutATruth) {
   EXPECT_EQ(rows[0]["metrics"]["l2"], nullptr);
   EXPECT_EQ(rows[0]["metrics"]["points_covered"], 1);
   EXPECT_GT(rows[0]["metrics"]["agreement_subsamples"].get<double>(), 0.9);
-  EXPECT_NE(outcome.out.find("Recorded points 1, 1271"), std::string::npos) << outcome.out;
+  testing::expect_says(outcome.out, "Recorded points 1, 1271");
 }
 
 TEST_F(CommandLineTest, RecordingsThatAreNotThere) {
@@ -397,7 +396,7 @@ TEST_F(CommandLineTest, TablesAndValidateOfWhatIsNotThere) {
 
 TEST_F(CommandLineTest, MetricsAreListed) {
   const Outcome text = succeeded(hullbench({"metrics"}));
-  EXPECT_NE(text.out.find("  l2  ratio, lower is better\n"), std::string::npos) << text.out;
+  testing::expect_says(text.out, "  l2  ratio, lower is better\n");
   const Outcome as_json = succeeded(hullbench({"metrics", "--json"}));
   const json table = json::parse(as_json.out);
   ASSERT_FALSE(table.empty());
@@ -438,7 +437,7 @@ TEST_F(CommandLineTest, ListKnowsEveryMethodAndDataSet) {
       succeeded(hullbench({"list"}, {{}, {{"HULLBENCH_POSTGIS_DSN", "host=127.0.0.1 port=1"}}, false}));
   for (const auto& [name, method] : methods)
     EXPECT_NE(text.out.find("  " + name + "  "), std::string::npos) << name;
-  EXPECT_NE(text.out.find("remedy: "), std::string::npos);
+  testing::expect_says(text.out, "remedy: ");
 }
 
 /// A server that takes connections and says nothing, as behind a wrong port.
@@ -478,8 +477,8 @@ TEST_F(CommandLineTest, ADatabaseThatAnswersNothingIsAVisibleRow) {
     const auto rows = lines_of(folder() / out / "runs.jsonl");
     ASSERT_EQ(rows.size(), 1U);
     EXPECT_EQ(rows[0]["status"], "not_installed");
-    EXPECT_NE(outcome.err.find("postgis does not start (not_installed): "), std::string::npos) << outcome.err;
-    EXPECT_NE(outcome.err.find("0 ok, 0 failed, 1 not installed"), std::string::npos) << outcome.err;
+    testing::expect_says(outcome.err, "postgis does not start (not_installed): ");
+    testing::expect_says(outcome.err, "0 ok, 0 failed, 1 not installed");
   }
 }
 
@@ -490,11 +489,9 @@ TEST_F(CommandLineTest, PostgisThatIsNotInstalledIsARowWithItsRemedy) {
       succeeded(hullbench({"run", "states", "--filter", "(convex_hull|postgis)/hi/n:2000/holes:0",
                            "--repetitions", "1", "--out", "run"},
                           {{}, {{"HULLBENCH_POSTGRES_BIN", nothing.string()}}, false}));
-  EXPECT_NE(outcome.err.find("postgis does not start (not_installed): PostgreSQL is not installed"),
-            std::string::npos)
-      << outcome.err;
-  EXPECT_NE(outcome.err.find("apt-get install postgresql-postgis"), std::string::npos) << outcome.err;
-  EXPECT_NE(outcome.err.find("1 ok, 0 failed, 1 not installed"), std::string::npos) << outcome.err;
+  testing::expect_says(outcome.err, "postgis does not start (not_installed): PostgreSQL is not installed");
+  testing::expect_says(outcome.err, "apt-get install postgresql-postgis");
+  testing::expect_says(outcome.err, "1 ok, 0 failed, 1 not installed");
 }
 
 TEST_F(CommandLineTest, WhatWasNotInstalledIsMeasuredWhenItIsThere) {
@@ -520,25 +517,21 @@ TEST_F(CommandLineTest, WhatWasNotInstalledIsMeasuredWhenItIsThere) {
   ASSERT_EQ(run({"states"}, missing).code, 0);
   EXPECT_EQ(statuses("run/runs.jsonl"), (std::map<std::string, int>{{"not_installed", 1}, {"ok", 1}}));
   const Outcome second = run({"states"}, {});
-  EXPECT_NE(
-      second.err.find(
-          "1 of 2 runs are finished and not measured again (--force starts anew); tried again because the "
-          "method was not installed: 1\n"),
-      std::string::npos)
-      << second.err;
+  testing::expect_says(second.err,
+                       "1 of 2 runs are finished and not measured again (--force starts anew); tried again "
+                       "because the method was not installed: 1\n");
   EXPECT_EQ(statuses("run/runs.jsonl"), both);
-  EXPECT_NE(
-      run({"states"}, {}).err.find("2 of 2 runs are finished and not measured again (--force starts anew)\n"),
-      std::string::npos);
+  testing::expect_says(run({"states"}, {}).err,
+                       "2 of 2 runs are finished and not measured again (--force starts anew)\n");
 
   ASSERT_EQ(run({"states", "alphabet"}, missing).code, 0);
   const Outcome suite = run({"states", "alphabet"}, {});
   EXPECT_EQ(suite.err.find("is finished already"), std::string::npos) << suite.err;
-  EXPECT_NE(suite.err.find("4 ok, 0 failed, 0 not installed"), std::string::npos) << suite.err;
+  testing::expect_says(suite.err, "4 ok, 0 failed, 0 not installed");
   for (const char* plan : {"states", "alphabet"}) {
     EXPECT_EQ(statuses(fs::path("suite") / plan / "runs.jsonl"), both) << plan;
   }
-  EXPECT_NE(run({"states", "alphabet"}, {}).err.find("State shapes is finished already"), std::string::npos);
+  testing::expect_says(run({"states", "alphabet"}, {}).err, "State shapes is finished already");
 }
 
 TEST_F(CommandLineTest, AWorkerThatIsKilledIsARowAndTheRestIsMeasured) {
@@ -555,7 +548,7 @@ TEST_F(CommandLineTest, AWorkerThatIsKilledIsARowAndTheRestIsMeasured) {
   for (const json& row : lines_of(folder() / "run" / "runs.jsonl")) {
     ++counts[row["status"]];
     if (row["status"] != "crash") continue;
-    EXPECT_NE(row["detail"].get<std::string>().find("SIGKILL"), std::string::npos);
+    testing::expect_says(row["detail"].get<std::string>(), "SIGKILL");
   }
   EXPECT_EQ(counts, (std::map<std::string, int>{{"crash", 1}, {"ok", 3}}));
 }
@@ -601,7 +594,7 @@ TEST_F(InterruptionTest, CtrlCKeepsFinishedRowsAndASecondStartGoesOn) {
   for (const int signal : {SIGINT, SIGTERM}) {
     const Outcome stopped = stop_after(signal == SIGINT ? kRepetitions + 5 : 3 * kRepetitions + 5, signal);
     ASSERT_EQ(stopped.code, 130) << stopped.err;
-    EXPECT_NE(stopped.err.find("the same command goes on from there"), std::string::npos) << stopped.err;
+    testing::expect_says(stopped.err, "the same command goes on from there");
     EXPECT_EQ(stopped.out, "");
     EXPECT_FALSE(fs::exists(folder() / "run" / "report.json"));
     EXPECT_FALSE(fs::exists(folder() / "run" / "scratch"));
@@ -609,7 +602,7 @@ TEST_F(InterruptionTest, CtrlCKeepsFinishedRowsAndASecondStartGoesOn) {
   const std::string kept = read_text(folder() / "run" / "runs.jsonl");
   EXPECT_FALSE(kept.empty());
   const Outcome second = succeeded(hullbench({"run", the_plan(), "--out", "run"}));
-  EXPECT_NE(second.err.find("going on with the run in run"), std::string::npos) << second.err;
+  testing::expect_says(second.err, "going on with the run in run");
   EXPECT_EQ(read_text(folder() / "run" / "runs.jsonl").substr(0, kept.size()), kept);
   expect_no_repetition_twice(folder() / "run", kRepetitions);
 }
@@ -667,8 +660,7 @@ TEST_F(InterruptionTest, WithoutOutTheUnfinishedRunIsFoundAndAFinishedOneIsNotTo
     return std::distance(fs::directory_iterator(folder() / "results" / "runs"), fs::directory_iterator());
   };
   const Outcome second = succeeded(hullbench(words));
-  EXPECT_NE(second.err.find("of 6 runs are finished and not measured again"), std::string::npos)
-      << second.err;
+  testing::expect_says(second.err, "of 6 runs are finished and not measured again");
   EXPECT_EQ(run_folders(), 1);
   EXPECT_EQ(hullbench(words).code, 0);
   EXPECT_EQ(run_folders(), 2);

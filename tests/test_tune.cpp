@@ -17,6 +17,7 @@
 #include "benchmarks/metrics/area.hpp"
 #include "benchmarks/plan/parameter_rules.hpp"
 #include "datasets/datasets.hpp"
+#include "tests/complaint.hpp"
 #include "tests/hullbench_test.hpp"
 
 namespace hullbench {
@@ -194,7 +195,7 @@ TEST_F(TuneTest, TheLeagueIsTheSameAgainFromTheRowsThatAreKept) {
                        "--adapters", methods(), "--repetitions", "1"}));
   const Outcome league = succeeded(hullbench({"league", "suite", "--out", "league.json"}));
   expect_valid("league.json");
-  EXPECT_NE(league.out.find("lattice †"), std::string::npos) << league.out;
+  testing::expect_says(league.out, "lattice †");
   const std::string keep = SYSTEM_PYTHON " " HULLBENCH_SOURCE_DIRECTORY "/results/keep_league.py ";
   ASSERT_EQ(std::system((keep + (folder() / "suite").string() + " " + (folder() / "kept").string()).c_str()),
             0);
@@ -267,7 +268,7 @@ TEST_F(TuneTest, WhatDoesNotStartIsSaidAndNothingElseIsExitCodeSix) {
   method("absent", "[]", "import no_such_module\n\ndef run(points):\n    return []\n");
   const Outcome tuned = tune(plan(both_sides(1)), "absent", "out");
   EXPECT_EQ(tuned.code, 6) << tuned.err;
-  EXPECT_NE(tuned.err.find("absent does not start"), std::string::npos) << tuned.err;
+  testing::expect_says(tuned.err, "absent does not start");
   EXPECT_FALSE(method_of(summary("out"), "absent").at("installed").get<bool>());
   expect_valid("out/tune.json");
 }
@@ -289,8 +290,7 @@ TEST_F(TuneTest, GoesOnAfterAnInterruptionToTheSameResult) {
   // As a kill leaves it.
   write_text(file, read_text(file) + "{\"kind\": \"eval");
   const Outcome rest = succeeded(tune(cases, "disc|polylidar", "parts"));
-  EXPECT_NE(rest.err.find(std::to_string(kept) + " evaluations are there already"), std::string::npos)
-      << rest.err;
+  testing::expect_says(rest.err, std::to_string(kept) + " evaluations are there already");
   for (const char* name : {"sweep.jsonl", "tune.json", "tuning.md", "small-tuned.json"})
     EXPECT_EQ(read_text(folder() / "parts" / name), read_text(folder() / "whole" / name)) << name;
   // What was known was not evaluated again, but for the one that was interrupted.
@@ -309,9 +309,7 @@ TEST_F(TuneTest, ShardsInOneFolderComeTogetherToTheSameResult) {
   const Outcome all = tune(cases, "disc|polylidar", "parts");
   EXPECT_EQ(fs::file_size(calls()), calls_before) << "nothing is evaluated twice";
   ASSERT_EQ(all.code, 0) << all.err;
-  EXPECT_NE(all.err.find(std::to_string(sweep("whole").size()) + " evaluations are there already"),
-            std::string::npos)
-      << all.err;
+  testing::expect_says(all.err, std::to_string(sweep("whole").size()) + " evaluations are there already");
   for (const char* name : {"sweep.jsonl", "tune.json", "tuning.md", "small-tuned.json"})
     EXPECT_EQ(read_text(folder() / "parts" / name), read_text(folder() / "whole" / name)) << name;
   EXPECT_EQ(

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "benchmarks/run/manifest.hpp"
 #include "benchmarks/worker/method.hpp"
 
 namespace hullbench::run {
