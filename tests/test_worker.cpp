@@ -70,14 +70,6 @@ class MethodSessionTest : public ::testing::Test {
                          timeout, watch);
   }
 
-  void expect(const std::string& mode, record::Status status, const std::string& detail,
-              std::chrono::milliseconds timeout = 30s) {
-    const worker::Attempt result = attempt(mode, timeout);
-    EXPECT_EQ(to_string(result.status), to_string(status)) << mode << ": " << result.detail;
-    EXPECT_NE(result.detail.find(detail), std::string::npos) << mode << ": " << result.detail;
-    EXPECT_TRUE(result.wkb.empty());
-  }
-
   /// A session with a method that compiles while it runs, and its warm-up.
   worker::Attempt warm_up(const std::string& mode) {
     worker::Method method = method_of(mode, misbehaving(mode));
@@ -132,24 +124,58 @@ TEST_F(MethodSessionTest, PeakMemoryOfAMethodInAServerIsNotKnown) {
   EXPECT_TRUE(session_->info()->capabilities.in_server);
 }
 
-TEST_F(MethodSessionTest, Crash) {
-  expect("crash", record::Status::kCrash, "SIGSEGV");
+/// A way to fail, and what becomes of it.
+struct Failure {
+  const char* name;
+  const char* mode;
+  record::Status status;
+  const char* words;
+  std::chrono::milliseconds timeout = 30s;
+};
+
+class FailingWorker : public MethodSessionTest, public ::testing::WithParamInterface<Failure> {};
+
+TEST_P(FailingWorker, HasAStatusAndSaysWhy) {
+  const Failure& failure = GetParam();
+  const worker::Attempt result = attempt(failure.mode, failure.timeout);
+  EXPECT_EQ(to_string(result.status), to_string(failure.status)) << result.detail;
+  EXPECT_NE(result.detail.find(failure.words), std::string::npos) << result.detail;
+  EXPECT_TRUE(result.wkb.empty());
 }
-TEST_F(MethodSessionTest, CrashAtStart) {
-  expect("crash_at_start", record::Status::kCrash, "SIGSEGV");
-}
-TEST_F(MethodSessionTest, CrashOnLoad) {
-  expect("crash_on_load", record::Status::kCrash, "SIGBUS");
-}
-TEST_F(MethodSessionTest, Hang) {
-  expect("hang", record::Status::kTimeout, "no answer within 0.2 s", 200ms);
-}
-TEST_F(MethodSessionTest, HangThatIgnoresTermination) {
-  expect("hang_hard", record::Status::kTimeout, "0.2 s", 200ms);
-}
-TEST_F(MethodSessionTest, MemoryUsedUp) {
-  expect("memory", record::Status::kMemory, "256 MiB");
-}
+
+using enum record::Status;
+constexpr Failure kFailures[] = {
+    {"Crash", "crash", kCrash, "SIGSEGV"},
+    {"CrashAtStart", "crash_at_start", kCrash, "SIGSEGV"},
+    {"CrashOnLoad", "crash_on_load", kCrash, "SIGBUS"},
+    {"Hang", "hang", kTimeout, "no answer within 0.2 s", 200ms},
+    {"HangThatIgnoresTermination", "hang_hard", kTimeout, "0.2 s", 200ms},
+    {"MemoryUsedUp", "memory", kMemory, "256 MiB"},
+    {"MemoryAsTheWorkerSays", "says_memory", kMemory, "no room"},
+    {"Unsupported", "says_unsupported", kUnsupported, "this many points"},
+    {"Error", "says_error", kError, "no luck"},
+    {"EarlyExit", "early_exit", kCrash, "exit code 7 without an answer; it said: I have seen enough"},
+    {"ClosedOutput", "close_output", kError, "closed its output"},
+    {"GarbageOnTheProtocol", "garbage", kError, "answered 'lorem ipsum'"},
+    {"EndlessLine", "long_line", kError, "more than 1 MiB"},
+    {"ErrorWithoutKind", "error_without_kind", kError, "has no kind"},
+    {"OtherName", "other_name", kError, "calls itself 'somebody'"},
+    {"OtherProtocol", "other_protocol", kError, "another version"},
+    {"WrongNonce", "wrong_nonce", kInvalidOutput, "another run"},
+    {"NoPhases", "no_phases", kInvalidOutput, "no phases_ns"},
+    {"NegativeTime", "negative_time", kInvalidOutput, "'run' is not a time"},
+    {"MoreTimeThanPassed", "too_much_time", kInvalidOutput, "more time than"},
+    {"NoResult", "no_result", kInvalidOutput, "there is no file"},
+    // The first of them is taken for the answer.
+    {"FloodOfLines", "flood_output", kInvalidOutput, "the reply is to another run"},
+    {"FloodWithoutALineFeed", "flood_line", kError, "sent a line of more than 1 MiB"},
+    {"FloodOfErrorOutputWithoutEnd", "flood_errors_for_ever", kTimeout, "no answer within 0.5 s", 500ms},
+    {"FloodOfItsResult", "flood_result", kCrash, "SIGXFSZ"},
+    {"ForkingWithoutRest", "fork_and_fork", kTimeout, "no answer within 0.5 s", 500ms},
+};
+INSTANTIATE_TEST_SUITE_P(Worker, FailingWorker, ::testing::ValuesIn(kFailures),
+                         [](const auto& failure) { return std::string(failure.param.name); });
+
 TEST_F(MethodSessionTest, ALimitInWhichNoWorkerCanStartIsALackOfMemory) {
   // Less than the C++ library takes that every worker of ours is linked with.
   session_ = std::make_unique<worker::MethodSession>(method_of("good", misbehaving("good")),
@@ -157,52 +183,6 @@ TEST_F(MethodSessionTest, ALimitInWhichNoWorkerCanStartIsALackOfMemory) {
   const worker::Attempt result = run();
   EXPECT_EQ(to_string(result.status), "memory") << result.detail;
 }
-TEST_F(MethodSessionTest, MemoryAsTheWorkerSays) {
-  expect("says_memory", record::Status::kMemory, "no room");
-}
-TEST_F(MethodSessionTest, Unsupported) {
-  expect("says_unsupported", record::Status::kUnsupported, "this many points");
-}
-TEST_F(MethodSessionTest, Error) {
-  expect("says_error", record::Status::kError, "no luck");
-}
-TEST_F(MethodSessionTest, EarlyExit) {
-  expect("early_exit", record::Status::kCrash, "exit code 7 without an answer; it said: I have seen enough");
-}
-TEST_F(MethodSessionTest, ClosedOutput) {
-  expect("close_output", record::Status::kError, "closed its output");
-}
-TEST_F(MethodSessionTest, GarbageOnTheProtocol) {
-  expect("garbage", record::Status::kError, "answered 'lorem ipsum'");
-}
-TEST_F(MethodSessionTest, EndlessLine) {
-  expect("long_line", record::Status::kError, "more than 1 MiB");
-}
-TEST_F(MethodSessionTest, ErrorWithoutKind) {
-  expect("error_without_kind", record::Status::kError, "has no kind");
-}
-TEST_F(MethodSessionTest, OtherName) {
-  expect("other_name", record::Status::kError, "calls itself 'somebody'");
-}
-TEST_F(MethodSessionTest, OtherProtocol) {
-  expect("other_protocol", record::Status::kError, "another version");
-}
-TEST_F(MethodSessionTest, WrongNonce) {
-  expect("wrong_nonce", record::Status::kInvalidOutput, "another run");
-}
-TEST_F(MethodSessionTest, NoPhases) {
-  expect("no_phases", record::Status::kInvalidOutput, "no phases_ns");
-}
-TEST_F(MethodSessionTest, NegativeTime) {
-  expect("negative_time", record::Status::kInvalidOutput, "'run' is not a time");
-}
-TEST_F(MethodSessionTest, MoreTimeThanPassed) {
-  expect("too_much_time", record::Status::kInvalidOutput, "more time than");
-}
-TEST_F(MethodSessionTest, NoResult) {
-  expect("no_result", record::Status::kInvalidOutput, "there is no file");
-}
-
 TEST_F(MethodSessionTest, FloodOfErrorOutputDoesNotBlockTheWorker) {
   EXPECT_EQ(attempt("flood_errors").status, record::Status::kOk);
   EXPECT_EQ(run().status, record::Status::kOk);
@@ -262,27 +242,6 @@ TEST_F(MethodSessionTest, AWorkerThatIsKilledFromOutsideIsACrash) {
   const worker::Attempt result = run();
   EXPECT_EQ(to_string(result.status), "crash");
   EXPECT_NE(result.detail.find("SIGKILL"), std::string::npos) << result.detail;
-}
-
-TEST_F(MethodSessionTest, FloodOfLines) {
-  // The first of them is taken for the answer.
-  expect("flood_output", record::Status::kInvalidOutput, "the reply is to another run");
-}
-
-TEST_F(MethodSessionTest, FloodWithoutALineFeed) {
-  expect("flood_line", record::Status::kError, "sent a line of more than 1 MiB");
-}
-
-TEST_F(MethodSessionTest, FloodOfErrorOutputWithoutEnd) {
-  expect("flood_errors_for_ever", record::Status::kTimeout, "no answer within 0.5 s", 500ms);
-}
-
-TEST_F(MethodSessionTest, FloodOfItsResult) {
-  expect("flood_result", record::Status::kCrash, "SIGXFSZ");
-}
-
-TEST_F(MethodSessionTest, ForkingWithoutRest) {
-  expect("fork_and_fork", record::Status::kTimeout, "no answer within 0.5 s", 500ms);
 }
 
 /// Each way to end, with what it leaves: a child in the worker's own group, in a session of its own, one that
