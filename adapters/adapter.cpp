@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <sstream>
 
 #include "polylidar/predicates.hpp"
@@ -28,6 +29,15 @@ bool span_an_area(std::span<const Point> points) {
 }
 
 }  // namespace
+
+ParameterInfo length_limit(std::string name, std::string description, std::optional<double> default_value) {
+  return {std::move(name), "length", std::move(description), 0, std::numeric_limits<double>::infinity(),
+          default_value};
+}
+
+ParameterInfo off_switch(std::string name, std::string description) {
+  return {std::move(name), "switch", std::move(description), 0, 1, 0};
+}
 
 void Adapter::load(std::span<const Point> points) {
   require_finite(points);

@@ -35,6 +35,11 @@ struct ParameterInfo {
   std::optional<double> default_value;
 };
 
+/// A limit on a length, of 0 or more. Without a default it is required; infinity: no limit.
+ParameterInfo length_limit(std::string name, std::string description, std::optional<double> default_value);
+/// 0 or 1, and 0 when absent.
+ParameterInfo off_switch(std::string name, std::string description);
+
 /// What a method's result can be; a table of methods is made from these.
 struct Capabilities {
   bool holes = false;             ///< a polygon may have holes

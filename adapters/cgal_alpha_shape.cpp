@@ -41,8 +41,8 @@ MethodInfo describe() {
   info.licence = "GPL-3.0-or-later";
   info.citation =
       "H. Edelsbrunner, D. Kirkpatrick, R. Seidel, On the Shape of a Set of Points in the Plane, IEEE "
-      "Transactions on "
-      "Information Theory 29(4), 1983; T. K. F. Da, 2D Alpha Shapes, CGAL User and Reference Manual";
+      "Transactions on Information Theory 29(4), 1983; T. K. F. Da, 2D Alpha Shapes, CGAL User and Reference "
+      "Manual";
   info.native_output = "unordered set of edges";
   info.parameters = {{.name = "alpha",
                       .unit = "length^2",

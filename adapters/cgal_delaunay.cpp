@@ -41,18 +41,11 @@ MethodInfo describe() {
       "M. Yvinec, 2D Triangulations, CGAL User and Reference Manual; the rule: J. Castagno, E. Atkins, "
       "Polylidar - Polygons from Triangular Meshes";
   info.native_output = "triangulation; its faces are filtered and their regions traced here";
-  const auto limit = [](const char* name, const char* description) {
-    return ParameterInfo{.name = name,
-                         .unit = "length",
-                         .description = description,
-                         .minimum = 0,
-                         .maximum = kNoLimit,
-                         .default_value = kNoLimit};
-  };
   // In Polylidar's order: the first is what a search of one parameter is to search.
-  info.parameters = {limit("max_perimeter", "Largest perimeter of a triangle inside the shape."),
-                     limit("alpha", "Largest circumradius of a triangle inside the shape."),
-                     limit("max_edge_length", "Longest edge of a triangle inside the shape.")};
+  info.parameters = {
+      length_limit("max_perimeter", "Largest perimeter of a triangle inside the shape.", kNoLimit),
+      length_limit("alpha", "Largest circumradius of a triangle inside the shape.", kNoLimit),
+      length_limit("max_edge_length", "Longest edge of a triangle inside the shape.", kNoLimit)};
   info.capabilities = {.holes = true, .several_polygons = true};
   return info;
 }

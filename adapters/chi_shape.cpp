@@ -112,12 +112,8 @@ MethodInfo describe() {
       "M. Duckham, L. Kulik, M. Worboys, A. Galton, Efficient generation of simple polygons for "
       "characterizing the shape of a set of points in the plane, Pattern Recognition 41(10), 2008";
   info.native_output = "ring";
-  info.parameters = {{.name = "max_edge_length",
-                      .unit = "length",
-                      .description = "Longest boundary edge that stays although it could be taken away.",
-                      .minimum = 0,
-                      .maximum = kInfinity,
-                      .default_value = kInfinity}};
+  info.parameters = {length_limit(
+      "max_edge_length", "Longest boundary edge that stays although it could be taken away.", kInfinity)};
   info.capabilities = {.holes = false, .several_polygons = false};
   return info;
 }

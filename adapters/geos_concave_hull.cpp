@@ -46,18 +46,9 @@ MethodInfo describe() {
        .minimum = 0,
        .maximum = 1,
        .default_value = kInfinity},
-      {.name = "max_edge_length",
-       .unit = "length",
-       .description = "Longest edge of the hull; infinity: not given, and length_ratio must be.",
-       .minimum = 0,
-       .maximum = kInfinity,
-       .default_value = kInfinity},
-      {.name = "allow_holes",
-       .unit = "switch",
-       .description = "Whether the hull may have holes.",
-       .minimum = 0,
-       .maximum = 1,
-       .default_value = 0}};
+      length_limit("max_edge_length",
+                   "Longest edge of the hull; infinity: not given, and length_ratio must be.", kInfinity),
+      off_switch("allow_holes", "Whether the hull may have holes.")};
   info.capabilities = {.holes = true, .several_polygons = false};
   return info;
 }

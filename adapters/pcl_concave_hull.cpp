@@ -13,7 +13,6 @@
 #include <pcl/surface/concave_hull.h>
 
 #include <cstddef>
-#include <limits>
 #include <memory>
 #include <span>
 #include <utility>
@@ -37,12 +36,8 @@ MethodInfo describe() {
   info.citation =
       "R. B. Rusu, S. Cousins, 3D is here: Point Cloud Library (PCL), ICRA 2011; class pcl::ConcaveHull";
   info.native_output = "rings in no order, vertices in single precision, mapped to the nearest input points";
-  info.parameters = {{.name = "alpha",
-                      .unit = "length",
-                      .description = "Largest circumradius of a triangle inside the shape.",
-                      .minimum = 0,
-                      .maximum = std::numeric_limits<double>::infinity(),
-                      .default_value = std::nullopt}};
+  info.parameters = {
+      length_limit("alpha", "Largest circumradius of a triangle inside the shape.", std::nullopt)};
   info.capabilities = {.holes = true, .several_polygons = true};
   return info;
 }

@@ -25,27 +25,20 @@ MethodInfo describe_polylidar() {
   info.licence = "MIT";
   info.citation = "J. Castagno, E. Atkins, Polylidar - Polygons from Triangular Meshes";
   info.native_output = "multipolygon as indices of the points";
-  const auto limit = [](const char* name, const char* description, double default_value) {
-    return ParameterInfo{.name = name,
-                         .unit = "length",
-                         .description = description,
-                         .minimum = 0,
-                         .maximum = kInfinity,
-                         .default_value = default_value};
-  };
   // The perimeter first: it is what a search of one parameter is to search.
-  info.parameters = {limit("max_perimeter", "Largest perimeter of a triangle inside the shape.", kInfinity),
-                     limit("alpha",
-                           "Largest circumradius of a triangle inside the shape; 0: not given. With no limit "
-                           "given, one is chosen from the points, place by place.",
-                           kNotGiven),
-                     limit("max_edge_length", "Longest edge of a triangle inside the shape.", kInfinity),
-                     {.name = "detail",
-                      .unit = "",
-                      .description = "Divides the size of triangles that is chosen where no limit is given.",
-                      .minimum = 0.01,
-                      .maximum = 100,
-                      .default_value = 1}};
+  info.parameters = {
+      length_limit("max_perimeter", "Largest perimeter of a triangle inside the shape.", kInfinity),
+      length_limit("alpha",
+                   "Largest circumradius of a triangle inside the shape; 0: not given. With no limit "
+                   "given, one is chosen from the points, place by place.",
+                   kNotGiven),
+      length_limit("max_edge_length", "Longest edge of a triangle inside the shape.", kInfinity),
+      {.name = "detail",
+       .unit = "",
+       .description = "Divides the size of triangles that is chosen where no limit is given.",
+       .minimum = 0.01,
+       .maximum = 100,
+       .default_value = 1}};
   info.capabilities = {.holes = true, .several_polygons = true};
   return info;
 }

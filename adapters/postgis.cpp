@@ -104,13 +104,13 @@ MethodInfo describe_method(const Server& server) {
          "Longest edge allowed, between the shortest (0) and the longest (1) edge of the Delaunay "
          "triangulation.",
          0, 1, kConvexRatio});
-    info.parameters.push_back(
-        {"max_edge_length", "length",
-         "Longest edge allowed, as a length, which is turned into its ratio; when it is finite, length_ratio "
-         "is left at 1.",
-         0, kInfinity, kInfinity});
+    info.parameters.push_back(length_limit(
+        "max_edge_length",
+        "Longest edge allowed, as a length, which is turned into its ratio; when it is finite, length_ratio "
+        "is left at 1.",
+        kInfinity));
   }
-  info.parameters.push_back({"allow_holes", "switch", "Whether holes are kept (1) or filled (0).", 0, 1, 0});
+  info.parameters.push_back(off_switch("allow_holes", "Whether holes are kept (1) or filled (0)."));
   info.capabilities = {.holes = true, .several_polygons = false, .in_server = true};
   return info;
 }

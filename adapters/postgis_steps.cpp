@@ -18,7 +18,6 @@
 // does an alpha that keeps no triangle.
 #include <libpq-fe.h>
 
-#include <limits>
 #include <memory>
 #include <optional>
 #include <span>
@@ -60,8 +59,8 @@ MethodInfo describe(Session& session) {
       "PostGIS manual, ST_DelaunayTriangles and ST_Union, https://postgis.net/docs/reference.html; the rule "
       "is that of J. Castagno, E. Atkins, Polylidar - Polygons from Triangular Meshes";
   info.native_output = "WKB of a polygon or multipolygon";
-  info.parameters = {{"alpha", "length", "Largest circumradius of a triangle inside the shape.", 0,
-                      std::numeric_limits<double>::infinity(), std::nullopt}};
+  info.parameters = {
+      length_limit("alpha", "Largest circumradius of a triangle inside the shape.", std::nullopt)};
   info.capabilities = {.holes = true, .several_polygons = true, .in_server = true};
   return info;
 }

@@ -130,12 +130,7 @@ MethodInfo describe(const Sfcgal& sfcgal) {
        .minimum = 0,
        .maximum = std::numeric_limits<double>::infinity(),
        .default_value = kNotGiven},
-      {.name = "allow_holes",
-       .unit = "switch",
-       .description = "Whether the polygon may have holes.",
-       .minimum = 0,
-       .maximum = 1,
-       .default_value = 0}};
+      off_switch("allow_holes", "Whether the polygon may have holes.")};
   info.capabilities = {.holes = true, .several_polygons = false};
   return info;
 }

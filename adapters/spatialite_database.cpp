@@ -129,7 +129,7 @@ MethodInfo spatialite_method(SpatialiteDatabase& database) {
        "The paper's C: a Delaunay triangle is kept when each of its edges is shorter than c standard "
        "deviations of the triangles' edge lengths.",
        0, std::numeric_limits<double>::infinity(), 3},
-      {"allow_holes", "switch", "Whether holes are kept (1) or filled (0).", 0, 1, 0},
+      off_switch("allow_holes", "Whether holes are kept (1) or filled (0)."),
   };
   info.capabilities = {true, true};
   return info;
