@@ -1,6 +1,8 @@
 // Reports of invented runs, as if they had been on other shapes.
 #pragma once
 
+#include <gtest/gtest.h>
+
 #include <cstdint>
 #include <nlohmann/json.hpp>
 #include <sstream>
@@ -29,6 +31,21 @@ inline std::string markdown_of(const nlohmann::json& report) {
   std::ostringstream out;
   table::print_markdown(report::make_document(report), out);
   return out.str();
+}
+
+/// The table `id` of `document`; null when there is none.
+inline const table::Table* table_in(const table::Document& document, const std::string& id) {
+  for (const table::Table& table : document.tables) {
+    if (table.id == id) return &table;
+  }
+  return nullptr;
+}
+
+/// The rows of the table `id` as they are shown, the header first; a failure when there is none.
+inline std::vector<std::vector<std::string>> rows_of(const table::Document& document, const std::string& id) {
+  const table::Table* table = table_in(document, id);
+  EXPECT_TRUE(table) << "there is no table " << id;
+  return table ? table::shown(*table) : std::vector<std::vector<std::string>>(1);
 }
 
 /// A shape on which every method takes `milliseconds` as the paper took it and half as long again in all, and

@@ -48,11 +48,7 @@ using TableRows = std::vector<std::vector<std::string>>;
 
 /// The rows of a table of the invented plan, the header first.
 TableRows rows_of(const table::Document& document, const std::string& id) {
-  for (const table::Table& table : document.tables) {
-    if (table.id == "invented_" + id) return table::shown(table);
-  }
-  ADD_FAILURE() << "no table " << id;
-  return {{}};
+  return test::rows_of(document, "invented_" + id);
 }
 
 /// Everything of a document that could hold a time: no word of one may stand there.

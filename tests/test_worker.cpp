@@ -57,9 +57,12 @@ class MethodSessionTest : public ::testing::Test {
   /// A run of the worker that misbehaves in this way, with what ctest's machine allows as a limit where it
   /// does not matter.
   worker::Attempt attempt(const std::string& mode, std::chrono::milliseconds timeout = 30s) {
-    session_ = std::make_unique<worker::MethodSession>(method_of(mode, misbehaving(mode)),
-                                                       worker::WorkerLimits{256, std::nullopt, 8});
+    start(method_of(mode, misbehaving(mode)));
     return run(timeout);
+  }
+
+  void start(const worker::Method& method, const worker::WorkerLimits& limits = {256, std::nullopt, 8}) {
+    session_ = std::make_unique<worker::MethodSession>(method, limits);
   }
 
   worker::Attempt run(std::chrono::milliseconds timeout = 30s,
@@ -74,7 +77,7 @@ class MethodSessionTest : public ::testing::Test {
   worker::Attempt warm_up(const std::string& mode) {
     worker::Method method = method_of(mode, misbehaving(mode));
     method.jit = true;
-    session_ = std::make_unique<worker::MethodSession>(method, worker::WorkerLimits{256, std::nullopt, 8});
+    start(method);
     EXPECT_TRUE(session_->is_cold());
     const std::vector<Point> points = {{0, 0}, {1, 0}, {1, 1}, {0, 1}};
     worker::write_points_file(folder_.path() / "points", points);
@@ -101,9 +104,7 @@ TEST_F(MethodSessionTest, AGoodWorkerGivesResultAndTimes) {
 }
 
 TEST_F(MethodSessionTest, PeakMemoryIsThatOfTheRunThatIsWatched) {
-  session_ = std::make_unique<worker::MethodSession>(
-      method_of("borrows_memory_once", misbehaving("borrows_memory_once")),
-      worker::WorkerLimits{256, std::nullopt, 8});
+  start(method_of("borrows_memory_once", misbehaving("borrows_memory_once")));
   const worker::Attempt large = run(30s, worker::Watch::kMemory);
   ASSERT_EQ(large.status, record::Status::kOk) << large.detail;
   if (!large.peak_memory_bytes) GTEST_SKIP() << "this system does not tell the peak of a process's memory";
@@ -116,8 +117,7 @@ TEST_F(MethodSessionTest, PeakMemoryIsThatOfTheRunThatIsWatched) {
 }
 
 TEST_F(MethodSessionTest, PeakMemoryOfAMethodInAServerIsNotKnown) {
-  session_ = std::make_unique<worker::MethodSession>(method_of("in_server", misbehaving("in_server")),
-                                                     worker::WorkerLimits{256, std::nullopt, 8});
+  start(method_of("in_server", misbehaving("in_server")));
   const worker::Attempt result = run(30s, worker::Watch::kMemory);
   EXPECT_EQ(result.status, record::Status::kOk) << result.detail;
   EXPECT_EQ(result.peak_memory_bytes, std::nullopt);
@@ -178,8 +178,7 @@ INSTANTIATE_TEST_SUITE_P(Worker, FailingWorker, ::testing::ValuesIn(kFailures),
 
 TEST_F(MethodSessionTest, ALimitInWhichNoWorkerCanStartIsALackOfMemory) {
   // Less than the C++ library takes that every worker of ours is linked with.
-  session_ = std::make_unique<worker::MethodSession>(method_of("good", misbehaving("good")),
-                                                     worker::WorkerLimits{2, std::nullopt, 8});
+  start(method_of("good", misbehaving("good")), {2, std::nullopt, 8});
   const worker::Attempt result = run();
   EXPECT_EQ(to_string(result.status), "memory") << result.detail;
 }
@@ -285,16 +284,14 @@ TEST_F(MethodSessionTest, WhatALiveHarnessStartedIsNotCleanedUp) {
 }
 
 TEST_F(MethodSessionTest, AProgramThatIsNotThereIsAnError) {
-  session_ =
-      std::make_unique<worker::MethodSession>(method_of("good", {"/nowhere/worker"}), worker::WorkerLimits{});
+  start(method_of("good", {"/nowhere/worker"}), {});
   const worker::Attempt result = run();
   EXPECT_EQ(to_string(result.status), "error");
   EXPECT_EQ(result.detail, "cannot start the worker /nowhere/worker: No such file or directory");
 }
 
 TEST_F(MethodSessionTest, AManifestsProgramThatIsNotThereIsNotInstalled) {
-  session_ = std::make_unique<worker::MethodSession>(described_method("good", {"/nowhere/worker"}),
-                                                     worker::WorkerLimits{});
+  start(described_method("good", {"/nowhere/worker"}), {});
   const worker::Attempt result = run();
   EXPECT_EQ(to_string(result.status), "not_installed");
   EXPECT_EQ(result.detail, "there is no program /nowhere/worker");
@@ -304,7 +301,7 @@ TEST_F(MethodSessionTest, AManifestsProgramThatIsNotThereIsNotInstalled) {
 TEST_F(MethodSessionTest, AFileThatAManifestNeedsIsNotInstalled) {
   worker::Method method = described_method("good", misbehaving("good"));
   method.needs = {"/", "/nowhere/library"};
-  session_ = std::make_unique<worker::MethodSession>(method, worker::WorkerLimits{});
+  start(method, {});
   const worker::Attempt result = run();
   EXPECT_EQ(to_string(result.status), "not_installed");
   EXPECT_EQ(result.detail, "there is no /nowhere/library");
@@ -314,8 +311,7 @@ TEST_F(MethodSessionTest, AWorkerThatTellsItsVersionIsDescribedByItsManifest) {
   const std::string script =
       "read line; echo '{\"protocol\": 1, \"version\": \"1.2\"}'; read line; echo "
       "'{\"error\": {\"kind\": \"unsupported\", \"message\": \"no\"}}'; read line";
-  session_ = std::make_unique<worker::MethodSession>(described_method("good", {"/bin/sh", "-c", script}),
-                                                     worker::WorkerLimits{});
+  start(described_method("good", {"/bin/sh", "-c", script}), {});
   EXPECT_EQ(to_string(run().status), "unsupported");
   ASSERT_TRUE(session_->info());
   EXPECT_EQ(session_->info()->version, "1.2");
@@ -324,7 +320,7 @@ TEST_F(MethodSessionTest, AWorkerThatTellsItsVersionIsDescribedByItsManifest) {
 TEST_F(MethodSessionTest, TheVersionEndsWithTheHashOfTheSources) {
   worker::Method method = method_of("good", misbehaving("good"));
   method.sources = "0123abcd";
-  session_ = std::make_unique<worker::MethodSession>(method, worker::WorkerLimits{256, std::nullopt, 8});
+  start(method);
   ASSERT_EQ(run().status, record::Status::kOk);
   EXPECT_EQ(session_->info()->version, "1+0123abcd");
   EXPECT_EQ(worker::describe_method(*session_)["version"].get<std::string>(), "1+0123abcd");
