@@ -23,6 +23,7 @@
 namespace polylidar {
 namespace {
 
+using testing::area_tolerance;
 using testing::canonical;
 using testing::convex_corners;
 using testing::hole_count;
@@ -46,13 +47,6 @@ bool has_representable_area(const std::vector<Point>& points) {
   const Box box = bounding_box(points);
   const double extent = std::max(box.max.x - box.min.x, box.max.y - box.min.y);
   return points.empty() || (extent < 1e150 && extent > 1e-150);
-}
-
-// The rounding of areas: some thousand terms, each off by at most an ulp of the squared extent.
-double area_tolerance(const std::vector<Point>& points) {
-  const Box box = bounding_box(points);
-  const double extent = std::max(box.max.x - box.min.x, box.max.y - box.min.y);
-  return points.empty() ? 0 : 1e-12 * extent * extent;
 }
 
 std::vector<Point> without(std::vector<Point> points, const std::vector<Point>& removed) {
