@@ -16,6 +16,8 @@
 #include <stdexcept>
 #include <thread>
 
+#include "tests/complaint.hpp"
+
 namespace hullbench::testing {
 namespace {
 
@@ -144,6 +146,13 @@ void expect_refusal(const Outcome& outcome, int code, const std::string& words) 
   EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1) << outcome.err;
   EXPECT_NE(outcome.err.find(words), std::string::npos) << outcome.err;
   EXPECT_EQ(outcome.out, "");
+}
+
+Outcome expect_end(Outcome outcome, int code, const std::string& in_err, const std::string& in_out) {
+  EXPECT_EQ(outcome.code, code) << outcome.err;
+  expect_says(outcome.err, in_err);
+  expect_says(outcome.out, in_out);
+  return outcome;
 }
 
 bool wait_until(const std::function<bool()>& condition, std::chrono::milliseconds patience) {

@@ -60,6 +60,10 @@ std::string missing(const std::vector<std::string>& needs);
 /// words, and wrote nothing to standard output.
 void expect_refusal(const Outcome& outcome, int code, const std::string& words);
 
+/// Expects that a program ended with `code` and said these words on standard error and on standard output, at
+/// least; `outcome` itself.
+Outcome expect_end(Outcome outcome, int code, const std::string& in_err, const std::string& in_out = "");
+
 /// Calls `condition` until it is true; false when it is not within `patience`.
 bool wait_until(const std::function<bool()>& condition,
                 std::chrono::milliseconds patience = std::chrono::seconds(30));

@@ -171,9 +171,8 @@ TEST_F(CommandLineTest, UnknownMethodAndDataSetInAPlan) {
 TEST_F(CommandLineTest, AParameterThatTheMethodDoesNotHave) {
   std::string text = read_text(plan({500}, 1));
   text.replace(text.find("\"alpha\""), 7, "\"beta\"");
-  const Outcome outcome = hullbench({"run", write_plan(text)});
-  EXPECT_EQ(outcome.code, 2);
-  testing::expect_says(outcome.err, "gives polylidar the parameter 'beta', which it does not have");
+  expect_end(hullbench({"run", write_plan(text)}), 2,
+             "gives polylidar the parameter 'beta', which it does not have");
 }
 
 TEST_F(CommandLineTest, OutputFolderThatCannotBeWritten) {
@@ -206,11 +205,11 @@ TEST_F(CommandLineTest, FullDisk) {
   const std::string small = plan({500}, 1000);
   // A limit on the size of files stands for a full disk; its signal is ignored, so that writing fails
   // instead.
-  const Outcome outcome = testing::run_program(
-      {"/bin/sh", "-c", "trap '' XFSZ; ulimit -f 40; exec \"$0\" run \"$1\" --out run", HULLBENCH, small},
-      in_folder());
-  EXPECT_EQ(outcome.code, 1);
-  testing::expect_says(outcome.err, "repetitions.jsonl: is the disk full?");
+  expect_end(
+      testing::run_program(
+          {"/bin/sh", "-c", "trap '' XFSZ; ulimit -f 40; exec \"$0\" run \"$1\" --out run", HULLBENCH, small},
+          in_folder()),
+      1, "repetitions.jsonl: is the disk full?");
   EXPECT_EQ(hullbench({"run", small, "--out", "run"}).code, 0);
   expect_no_repetition_twice(folder() / "run", 1000);
 }
@@ -395,8 +394,7 @@ TEST_F(CommandLineTest, TablesAndValidateOfWhatIsNotThere) {
 }
 
 TEST_F(CommandLineTest, MetricsAreListed) {
-  const Outcome text = succeeded(hullbench({"metrics"}));
-  testing::expect_says(text.out, "  l2  ratio, lower is better\n");
+  expect_end(hullbench({"metrics"}), 0, "", "  l2  ratio, lower is better\n");
   const Outcome as_json = succeeded(hullbench({"metrics", "--json"}));
   const json table = json::parse(as_json.out);
   ASSERT_FALSE(table.empty());
@@ -592,17 +590,16 @@ std::vector<json> untimed_rows(const fs::path& run) {
 
 TEST_F(InterruptionTest, CtrlCKeepsFinishedRowsAndASecondStartGoesOn) {
   for (const int signal : {SIGINT, SIGTERM}) {
-    const Outcome stopped = stop_after(signal == SIGINT ? kRepetitions + 5 : 3 * kRepetitions + 5, signal);
-    ASSERT_EQ(stopped.code, 130) << stopped.err;
-    testing::expect_says(stopped.err, "the same command goes on from there");
+    const Outcome stopped =
+        expect_end(stop_after(signal == SIGINT ? kRepetitions + 5 : 3 * kRepetitions + 5, signal), 130,
+                   "the same command goes on from there");
     EXPECT_EQ(stopped.out, "");
     EXPECT_FALSE(fs::exists(folder() / "run" / "report.json"));
     EXPECT_FALSE(fs::exists(folder() / "run" / "scratch"));
   }
   const std::string kept = read_text(folder() / "run" / "runs.jsonl");
   EXPECT_FALSE(kept.empty());
-  const Outcome second = succeeded(hullbench({"run", the_plan(), "--out", "run"}));
-  testing::expect_says(second.err, "going on with the run in run");
+  expect_end(hullbench({"run", the_plan(), "--out", "run"}), 0, "going on with the run in run");
   EXPECT_EQ(read_text(folder() / "run" / "runs.jsonl").substr(0, kept.size()), kept);
   expect_no_repetition_twice(folder() / "run", kRepetitions);
 }
@@ -659,8 +656,7 @@ TEST_F(InterruptionTest, WithoutOutTheUnfinishedRunIsFoundAndAFinishedOneIsNotTo
   const auto run_folders = [&] {
     return std::distance(fs::directory_iterator(folder() / "results" / "runs"), fs::directory_iterator());
   };
-  const Outcome second = succeeded(hullbench(words));
-  testing::expect_says(second.err, "of 6 runs are finished and not measured again");
+  expect_end(hullbench(words), 0, "of 6 runs are finished and not measured again");
   EXPECT_EQ(run_folders(), 1);
   EXPECT_EQ(hullbench(words).code, 0);
   EXPECT_EQ(run_folders(), 2);

@@ -215,8 +215,7 @@ TEST_F(CompareCommandTest, PrintsEveryFormat) {
 
 TEST_F(CompareCommandTest, NamesRunsThatOnlyOneHas) {
   test::write_invented_run(path("c"), {2000});
-  const Outcome outcome = succeeded(compare("a", "c"));
-  testing::expect_says(outcome.out, "Only in A, 14: polylidar/ca/n:64000/holes:0/protocol:paper");
+  expect_end(compare("a", "c"), 0, "", "Only in A, 14: polylidar/ca/n:64000/holes:0/protocol:paper");
 }
 
 TEST_F(CompareCommandTest, RefusesWhatCannotBeCompared) {

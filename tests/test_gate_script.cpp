@@ -79,16 +79,12 @@ TEST_F(GateScript, AFolderThatCannotBeMadeIsAUsageError) {
 
 TEST_F(GateScript, ACompilerThatBuildsNothingIsNoFaultOfTheBase) {
   make_cmake("exit 1\n");
-  const Outcome outcome = gate(out());
-  EXPECT_EQ(outcome.code, 1);
-  EXPECT_NE(outcome.err.find("error: the work tree of "), std::string::npos) << outcome.err;
+  expect_end(gate(out()), 1, "error: the work tree of ");
 }
 
 TEST_F(GateScript, ABaseThatDoesNotBuildIsNoBase) {
   make_cmake("[[ \"$*\" != */gate-work/base/* ]]\n");
-  const Outcome outcome = gate(out());
-  EXPECT_EQ(outcome.code, 6);
-  EXPECT_NE(outcome.err.find("error: the base "), std::string::npos) << outcome.err;
+  expect_end(gate(out()), 6, "error: the base ");
 }
 
 }  // namespace

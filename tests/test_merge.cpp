@@ -184,9 +184,8 @@ TEST_F(MergeTest, MayBeMergedAgain) {
 
 TEST_F(MergeTest, WithoutAShardSaysHowManyRunsAreMissing) {
   run_shards(3, {plan()});
-  const Outcome merged = hullbench({"merge", "shard1", "shard3", "--out", "merged"});
-  EXPECT_EQ(merged.code, 4);
-  EXPECT_NE(merged.err.find("4 of 12 planned runs are missing"), std::string::npos) << merged.err;
+  const Outcome merged = expect_end(hullbench({"merge", "shard1", "shard3", "--out", "merged"}), 4,
+                                    "4 of 12 planned runs are missing");
   EXPECT_NE(merged.out.find("4 of 12 planned runs are missing"), std::string::npos) << merged.out;
   EXPECT_EQ(accuracy_lines(folder() / "merged").size(), 8U);
   expect_valid_run("merged");

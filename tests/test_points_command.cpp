@@ -211,9 +211,7 @@ TEST_F(PointsCommandTest, CtrlCLeavesNothingBehind) {
   testing::Program program({HULLBENCH, "points", "ca", "--n", "4000000000", "--out", path("a.npy")});
   ASSERT_TRUE(testing::wait_until([&] { return !leftovers().empty(); }));
   program.send_signal(SIGINT);
-  const Outcome outcome = program.wait();
-  EXPECT_EQ(outcome.code, 130);
-  EXPECT_NE(outcome.err.find("interrupted"), std::string::npos) << outcome.err;
+  expect_end(program.wait(), 130, "interrupted");
   EXPECT_EQ(leftovers(), "");
   EXPECT_FALSE(fs::exists(path("a.npy")));
 }

@@ -50,8 +50,7 @@ class RescoreTest : public testing::HullbenchTest {
 };
 
 TEST_F(RescoreTest, GivesTheSameScores) {
-  const Outcome outcome = succeeded(hullbench({"rescore", "kept", "--out", "again"}));
-  EXPECT_NE(outcome.err.find("2 of 2 rows have new scores"), std::string::npos) << outcome.err;
+  expect_end(hullbench({"rescore", "kept", "--out", "again"}), 0, "2 of 2 rows have new scores");
   EXPECT_EQ(read_lines("again/runs.jsonl"), read_lines("kept/runs.jsonl"));
   EXPECT_TRUE(read_json("again/run.json").contains("rescored"));
   expect_valid("again/run.json");
@@ -77,13 +76,9 @@ TEST_F(RescoreTest, NeedsPolygonsAndPointsOfTheRow) {
   EXPECT_FALSE(fs::exists(folder() / "again"));
   for (const auto& entry : fs::directory_iterator(folder() / "kept" / "polygons"))
     write_text(entry.path(), "x");
-  const Outcome changed = hullbench({"rescore", "kept", "--out", "again"});
-  EXPECT_EQ(changed.code, 1);
-  EXPECT_NE(changed.err.find("its hash is not its name"), std::string::npos) << changed.err;
+  expect_end(hullbench({"rescore", "kept", "--out", "again"}), 1, "its hash is not its name");
   fs::remove_all(folder() / "kept" / "polygons");
-  const Outcome none = hullbench({"rescore", "kept", "--out", "again"});
-  EXPECT_EQ(none.code, 6);
-  EXPECT_NE(none.err.find("no polygons were kept in kept"), std::string::npos) << none.err;
+  expect_end(hullbench({"rescore", "kept", "--out", "again"}), 6, "no polygons were kept in kept");
   expect_refusal(hullbench({"rescore", "nowhere", "--out", "again"}), 2, "there is no run in nowhere");
   expect_refusal(hullbench({"rescore", "kept", "--out", "kept"}), 2, "--out");
 }
@@ -122,9 +117,7 @@ class SubmissionTest : public testing::HullbenchTest {
     fs::copy(pack(), folder() / "kept", fs::copy_options::recursive);
     change();
     if (is_packed_again) pack_again();
-    const Outcome outcome = hullbench({"submit", "check", "pack"});
-    EXPECT_EQ(outcome.code, 1) << outcome.err;
-    EXPECT_NE(outcome.out.find("FAIL: "), std::string::npos) << outcome.out;
+    const Outcome outcome = expect_end(hullbench({"submit", "check", "pack"}), 1, "", "FAIL: ");
     EXPECT_NE(outcome.out.find(sentence), std::string::npos) << outcome.out;
     EXPECT_EQ(outcome.out.find("| Method"), std::string::npos) << "no table of what was not checked";
     fs::remove_all(pack());

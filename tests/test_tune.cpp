@@ -266,9 +266,7 @@ TEST_F(TuneTest, FailuresAreEvaluationsAndInfinitelyBad) {
 
 TEST_F(TuneTest, WhatDoesNotStartIsSaidAndNothingElseIsExitCodeSix) {
   method("absent", "[]", "import no_such_module\n\ndef run(points):\n    return []\n");
-  const Outcome tuned = tune(plan(both_sides(1)), "absent", "out");
-  EXPECT_EQ(tuned.code, 6) << tuned.err;
-  testing::expect_says(tuned.err, "absent does not start");
+  expect_end(tune(plan(both_sides(1)), "absent", "out"), 6, "absent does not start");
   EXPECT_FALSE(method_of(summary("out"), "absent").at("installed").get<bool>());
   expect_valid("out/tune.json");
 }
@@ -289,8 +287,8 @@ TEST_F(TuneTest, GoesOnAfterAnInterruptionToTheSameResult) {
   ASSERT_LT(kept, sweep("whole").size()) << "it was over before the interruption";
   // As a kill leaves it.
   write_text(file, read_text(file) + "{\"kind\": \"eval");
-  const Outcome rest = succeeded(tune(cases, "disc|polylidar", "parts"));
-  testing::expect_says(rest.err, std::to_string(kept) + " evaluations are there already");
+  expect_end(tune(cases, "disc|polylidar", "parts"), 0,
+             std::to_string(kept) + " evaluations are there already");
   for (const char* name : {"sweep.jsonl", "tune.json", "tuning.md", "small-tuned.json"})
     EXPECT_EQ(read_text(folder() / "parts" / name), read_text(folder() / "whole" / name)) << name;
   // What was known was not evaluated again, but for the one that was interrupted.
