@@ -32,7 +32,7 @@ class Shapes : public ::testing::Test {
   /// The whole message of the error that reading `text` gives, without the file's name.
   std::string error_of(const std::string& text) const {
     const std::string path = write("shape.geojson", text).string();
-    const std::string message = testing::complaint_of([&] { read_geojson(path); });
+    std::string message = testing::complaint_of([&] { read_geojson(path); });
     if (message == testing::kNoComplaint) return message;
     EXPECT_EQ(message.substr(0, path.size()), path);
     return message.substr(path.size());
