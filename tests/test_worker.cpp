@@ -133,6 +133,11 @@ struct Failure {
   std::chrono::milliseconds timeout = 30s;
 };
 
+/// What GoogleTest says of it.
+void PrintTo(const Failure& failure, std::ostream* out) {
+  *out << failure.mode;
+}
+
 class FailingWorker : public MethodSessionTest, public ::testing::WithParamInterface<Failure> {};
 
 TEST_P(FailingWorker, HasAStatusAndSaysWhy) {
