@@ -35,6 +35,11 @@ struct ParameterInfo {
   std::optional<double> default_value;
 };
 
+/// A limit on a length, of 0 or more. Without a default it is required; infinity: no limit.
+ParameterInfo length_limit(std::string name, std::string description, std::optional<double> default_value);
+/// 0 or 1, and 0 when absent.
+ParameterInfo off_switch(std::string name, std::string description);
+
 /// What a method's result can be; a table of methods is made from these.
 struct Capabilities {
   bool holes = false;             ///< a polygon may have holes
@@ -85,8 +90,9 @@ class Unsupported : public std::runtime_error {
 };
 
 /// A concave-hull method. Calls come in the order info, then any number of (load, then any number of
-/// (run, extract)); from one thread. A parameter that is unknown or out of range is std::invalid_argument;
-/// any other exception means that the method failed.
+/// (run, extract)); from one thread. A parameter that is unknown or out of range, or a point that is not
+/// finite, is std::invalid_argument; any other exception means that the method failed. What every method does
+/// alike is done here; a method fills in `info_` and the functions that begin with `do_`.
 class Adapter {
  public:
   virtual ~Adapter() = default;
@@ -94,22 +100,40 @@ class Adapter {
   Adapter(const Adapter&) = delete;
   Adapter& operator=(const Adapter&) = delete;
 
-  virtual const MethodInfo& info() const = 0;
+  const MethodInfo& info() const { return info_; }
 
   /// Puts `points` into the method's own types (or its database). Not part of the headline time.
-  virtual void load(std::span<const Point> points) = 0;
+  void load(std::span<const Point> points);
 
   /// Runs the method from scratch on the loaded points. This is what the paper timed. Nothing may be kept
   /// from an earlier run except memory.
-  virtual void run(const Parameters& parameters, Steps& steps) = 0;
+  void run(const Parameters& parameters, Steps& steps);
 
   /// Turns the result of the last run into rings: shells counter-clockwise, holes clockwise, first vertex not
-  /// repeated. Together with `run` this is the headline time.
-  virtual MultiPolygon extract(Steps& steps) = 0;
+  /// repeated. Together with `run` this is the headline time. Throws std::logic_error when there is no
+  /// result.
+  MultiPolygon extract(Steps& steps);
 
   /// Drops the result of the last run. The caller does this between repetitions, off the clock, so that no
   /// run pays for freeing what its predecessor left. The loaded points stay.
-  virtual void reset() {}
+  void reset();
+
+ protected:
+  /// Whether some three of the loaded points are not on one line, so that a hull with an area exists.
+  bool has_area() const { return has_area_; }
+
+  MethodInfo info_;
+
+ private:
+  /// All of `points` are finite.
+  virtual void do_load(std::span<const Point> points) = 0;
+  /// `parameters` are complete and in their ranges; no result is there.
+  virtual void do_run(const Parameters& parameters, Steps& steps) = 0;
+  virtual MultiPolygon do_extract(Steps& steps) = 0;
+  virtual void do_reset() {}
+
+  bool has_area_ = false;
+  bool has_run_ = false;
 };
 
 /// `parameters` with defaults filled in. Throws std::invalid_argument naming the first parameter that is

@@ -14,7 +14,6 @@
 #include <memory>
 #include <optional>
 #include <span>
-#include <stdexcept>
 #include <vector>
 
 #include "adapters/adapter.hpp"
@@ -42,8 +41,8 @@ MethodInfo describe() {
   info.licence = "GPL-3.0-or-later";
   info.citation =
       "H. Edelsbrunner, D. Kirkpatrick, R. Seidel, On the Shape of a Set of Points in the Plane, IEEE "
-      "Transactions on "
-      "Information Theory 29(4), 1983; T. K. F. Da, 2D Alpha Shapes, CGAL User and Reference Manual";
+      "Transactions on Information Theory 29(4), 1983; T. K. F. Da, 2D Alpha Shapes, CGAL User and Reference "
+      "Manual";
   info.native_output = "unordered set of edges";
   info.parameters = {{.name = "alpha",
                       .unit = "length^2",
@@ -59,16 +58,13 @@ MethodInfo describe() {
 
 class CgalAlphaShape final : public Adapter {
  public:
-  const MethodInfo& info() const override { return info_; }
+  CgalAlphaShape() { info_ = describe(); }
 
-  void load(std::span<const Point> points) override {
-    reset();
-    points_ = cgal::kernel_points(points);
-  }
+ private:
+  void do_load(std::span<const Point> points) override { points_ = cgal::kernel_points(points); }
 
-  void run(const Parameters& parameters, Steps& steps) override {
-    const double alpha = complete_parameters(info_, parameters).at("alpha");
-    reset();
+  void do_run(const Parameters& parameters, Steps& steps) override {
+    const double alpha = parameters.at("alpha");
 
     // What the constructor of Alpha_shape_2 from points does, in its two halves: the triangulation is swapped
     // in. GENERAL is its default and the paper's mode; it differs from REGULARIZED in edges without a face
@@ -83,8 +79,7 @@ class CgalAlphaShape final : public Adapter {
     if (alpha == kNotGiven && shape_->dimension() == 2) shape_->set_alpha(*shape_->find_optimal_alpha(1));
   }
 
-  MultiPolygon extract(Steps& steps) override {
-    if (!shape_) throw std::logic_error("extract comes after run");
+  MultiPolygon do_extract(Steps& steps) override {
     steps.begin("polygon");
     if (shape_->dimension() < 2) return {};
     return cgal::trace_polygons(cgal::label_regions(*shape_, [&](AlphaShape::Face_handle face) {
@@ -92,10 +87,8 @@ class CgalAlphaShape final : public Adapter {
     }));
   }
 
-  void reset() override { shape_.reset(); }
+  void do_reset() override { shape_.reset(); }
 
- private:
-  MethodInfo info_ = describe();
   std::vector<Kernel::Point_2> points_;
   std::optional<AlphaShape> shape_;
 };

@@ -14,9 +14,7 @@
 #include <cmath>
 #include <limits>
 #include <memory>
-#include <optional>
 #include <span>
-#include <stdexcept>
 #include <vector>
 
 #include "adapters/adapter.hpp"
@@ -43,18 +41,11 @@ MethodInfo describe() {
       "M. Yvinec, 2D Triangulations, CGAL User and Reference Manual; the rule: J. Castagno, E. Atkins, "
       "Polylidar - Polygons from Triangular Meshes";
   info.native_output = "triangulation; its faces are filtered and their regions traced here";
-  const auto limit = [](const char* name, const char* description) {
-    return ParameterInfo{.name = name,
-                         .unit = "length",
-                         .description = description,
-                         .minimum = 0,
-                         .maximum = kNoLimit,
-                         .default_value = kNoLimit};
-  };
   // In Polylidar's order: the first is what a search of one parameter is to search.
-  info.parameters = {limit("max_perimeter", "Largest perimeter of a triangle inside the shape."),
-                     limit("alpha", "Largest circumradius of a triangle inside the shape."),
-                     limit("max_edge_length", "Longest edge of a triangle inside the shape.")};
+  info.parameters = {
+      length_limit("max_perimeter", "Largest perimeter of a triangle inside the shape.", kNoLimit),
+      length_limit("alpha", "Largest circumradius of a triangle inside the shape.", kNoLimit),
+      length_limit("max_edge_length", "Longest edge of a triangle inside the shape.", kNoLimit)};
   info.capabilities = {.holes = true, .several_polygons = true};
   return info;
 }
@@ -107,41 +98,34 @@ class Limits {
 
 class CgalDelaunay final : public Adapter {
  public:
-  const MethodInfo& info() const override { return info_; }
+  CgalDelaunay() { info_ = describe(); }
 
-  void load(std::span<const Point> points) override {
-    reset();
-    points_ = cgal::kernel_points(points);
-  }
+ private:
+  void do_load(std::span<const Point> points) override { points_ = cgal::kernel_points(points); }
 
-  void run(const Parameters& parameters, Steps& steps) override {
-    const Limits limits(complete_parameters(info_, parameters));
-    reset();
+  void do_run(const Parameters& parameters, Steps& steps) override {
     steps.begin("triangulation");
     triangulation_.insert(points_.begin(), points_.end());
     steps.begin("shape");
-    regions_.emplace();
     if (triangulation_.dimension() < 2) return;
+    const Limits limits(parameters);
     regions_ =
         cgal::label_regions(triangulation_, [&](Delaunay::Face_handle face) { return limits.keep(*face); });
   }
 
-  MultiPolygon extract(Steps& steps) override {
-    if (!regions_) throw std::logic_error("extract comes after run");
+  MultiPolygon do_extract(Steps& steps) override {
     steps.begin("polygon");
-    return cgal::trace_polygons(*regions_);
+    return cgal::trace_polygons(regions_);
   }
 
-  void reset() override {
-    regions_.reset();
+  void do_reset() override {
+    regions_ = {};
     triangulation_.clear();
   }
 
- private:
-  MethodInfo info_ = describe();
   std::vector<Kernel::Point_2> points_;
   Delaunay triangulation_;
-  std::optional<cgal::Regions<Delaunay>> regions_;  // of the last run, with faces of triangulation_
+  cgal::Regions<Delaunay> regions_;  // with faces of triangulation_
 };
 
 }  // namespace

@@ -3,12 +3,9 @@
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 
-#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <span>
-#include <stdexcept>
-#include <string>
 #include <utility>
 #include <vector>
 
@@ -38,17 +35,11 @@ struct Regions {
   std::vector<typename Triangulation::Edge> boundary;
 };
 
-/// `points` as CGAL's. Throws std::invalid_argument naming the first coordinate that is not finite: CGAL's
-/// predicates have no meaning for it, and insertion may not end.
+/// `points` as CGAL's.
 inline std::vector<Kernel::Point_2> kernel_points(std::span<const polylidar::Point> points) {
   std::vector<Kernel::Point_2> result;
   result.reserve(points.size());
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    if (!std::isfinite(points[i].x) || !std::isfinite(points[i].y)) {
-      throw std::invalid_argument("point " + std::to_string(i) + " has a coordinate that is not finite");
-    }
-    result.emplace_back(points[i].x, points[i].y);
-  }
+  for (const polylidar::Point& point : points) result.emplace_back(point.x, point.y);
   return result;
 }
 

@@ -4,17 +4,14 @@
 //
 // Degenerate input: fewer than 3 distinct points, or points all on a line, give an empty multipolygon.
 #include <algorithm>
-#include <cstddef>
 #include <cstdint>
 #include <limits>
 #include <memory>
 #include <queue>
 #include <span>
-#include <stdexcept>
 #include <vector>
 
 #include "adapters/adapter.hpp"
-#include "adapters/point_checks.hpp"
 #include "polylidar/delaunay.hpp"
 
 namespace hullbench {
@@ -113,57 +110,44 @@ MethodInfo describe() {
   info.licence = "MIT";
   info.citation =
       "M. Duckham, L. Kulik, M. Worboys, A. Galton, Efficient generation of simple polygons for "
-      "characterizing "
-      "the shape of a set of points in the plane, Pattern Recognition 41(10), 2008";
+      "characterizing the shape of a set of points in the plane, Pattern Recognition 41(10), 2008";
   info.native_output = "ring";
-  info.parameters = {{.name = "max_edge_length",
-                      .unit = "length",
-                      .description = "Longest boundary edge that stays although it could be taken away.",
-                      .minimum = 0,
-                      .maximum = kInfinity,
-                      .default_value = kInfinity}};
+  info.parameters = {length_limit(
+      "max_edge_length", "Longest boundary edge that stays although it could be taken away.", kInfinity)};
   info.capabilities = {.holes = false, .several_polygons = false};
   return info;
 }
 
 class ChiShape final : public Adapter {
  public:
-  const MethodInfo& info() const override { return info_; }
+  ChiShape() { info_ = describe(); }
 
-  void load(std::span<const Point> points) override {
-    reset();
-    require_finite(points);
-    points_.assign(points.begin(), points.end());
-  }
+ private:
+  void do_load(std::span<const Point> points) override { points_.assign(points.begin(), points.end()); }
 
-  void run(const Parameters& parameters, Steps& steps) override {
-    const double max_edge_length = complete_parameters(info_, parameters).at("max_edge_length");
-    reset();
+  void do_run(const Parameters& parameters, Steps& steps) override {
     steps.begin("triangulation");
     triangulation_ = polylidar::delaunay(points_);
     steps.begin("shape");
-    polygon_ = std::make_unique<ShrinkingPolygon>(points_, triangulation_, max_edge_length);
+    polygon_ = std::make_unique<ShrinkingPolygon>(points_, triangulation_, parameters.at("max_edge_length"));
     polygon_->shrink();
   }
 
-  MultiPolygon extract(Steps& steps) override {
-    if (!polygon_) throw std::logic_error("extract comes after run");
+  MultiPolygon do_extract(Steps& steps) override {
     steps.begin("polygon");
     Ring shell = polygon_->ring();
     if (shell.empty()) return {};
     return {Polygon{std::move(shell), {}}};
   }
 
-  void reset() override {
+  void do_reset() override {
     polygon_.reset();
     triangulation_ = {};
   }
 
- private:
-  MethodInfo info_ = describe();
   std::vector<Point> points_;
   Triangulation triangulation_;
-  std::unique_ptr<ShrinkingPolygon> polygon_;  // of triangulation_; null: nothing has run
+  std::unique_ptr<ShrinkingPolygon> polygon_;  // of triangulation_
 };
 
 }  // namespace

@@ -6,14 +6,9 @@
 #include <boost/geometry/geometries/ring.hpp>
 #include <boost/version.hpp>
 #include <memory>
-#include <optional>
 #include <span>
-#include <stdexcept>
-#include <string>
-#include <vector>
 
 #include "adapters/adapter.hpp"
-#include "adapters/point_checks.hpp"
 
 namespace hullbench {
 namespace {
@@ -41,42 +36,34 @@ MethodInfo describe() {
 
 class ConvexHull final : public Adapter {
  public:
-  const MethodInfo& info() const override { return info_; }
+  ConvexHull() { info_ = describe(); }
 
-  void load(std::span<const Point> points) override {
-    reset();
-    require_finite(points);
-    has_area_ = span_an_area(points);
+ private:
+  void do_load(std::span<const Point> points) override {
     points_.clear();
     points_.reserve(points.size());
     for (const Point& point : points) points_.emplace_back(point.x, point.y);
   }
 
-  void run(const Parameters& parameters, Steps& steps) override {
-    complete_parameters(info_, parameters);
+  void do_run(const Parameters& /*parameters*/, Steps& steps) override {
     steps.begin("shape");
-    hull_.emplace();
-    if (has_area_) bg::convex_hull(points_, *hull_);
+    if (has_area()) bg::convex_hull(points_, hull_);
   }
 
-  MultiPolygon extract(Steps& steps) override {
-    if (!hull_) throw std::logic_error("extract comes after run");
+  MultiPolygon do_extract(Steps& steps) override {
     steps.begin("polygon");
     // Points that are nearly on a line are on it for Boost, which then answers with a line there and back.
-    if (hull_->size() < 3) return {};
+    if (hull_.size() < 3) return {};
     Polygon polygon;
-    polygon.shell.reserve(hull_->size());
-    for (const BoostPoint& point : *hull_) polygon.shell.push_back({point.x(), point.y()});
+    polygon.shell.reserve(hull_.size());
+    for (const BoostPoint& point : hull_) polygon.shell.push_back({point.x(), point.y()});
     return {std::move(polygon)};
   }
 
-  void reset() override { hull_.reset(); }
+  void do_reset() override { hull_ = BoostRing(); }
 
- private:
-  MethodInfo info_ = describe();
   bg::model::multi_point<BoostPoint> points_;
-  bool has_area_ = false;
-  std::optional<BoostRing> hull_;  // none: nothing has run
+  BoostRing hull_;
 };
 
 }  // namespace

@@ -15,7 +15,6 @@
 
 #include "adapters/adapter.hpp"
 #include "adapters/geos_hull_by_length.hpp"
-#include "adapters/point_checks.hpp"
 #include "adapters/wkb.hpp"
 
 namespace hullbench {
@@ -43,23 +42,13 @@ MethodInfo describe() {
       {.name = "length_ratio",
        .unit = "ratio",
        .description = "Longest edge of the hull, from the triangulation's shortest edge (0) to its longest "
-                      "(1, the convex "
-                      "hull); infinity: not given, and max_edge_length must be.",
+                      "(1, the convex hull); infinity: not given, and max_edge_length must be.",
        .minimum = 0,
        .maximum = 1,
        .default_value = kInfinity},
-      {.name = "max_edge_length",
-       .unit = "length",
-       .description = "Longest edge of the hull; infinity: not given, and length_ratio must be.",
-       .minimum = 0,
-       .maximum = kInfinity,
-       .default_value = kInfinity},
-      {.name = "allow_holes",
-       .unit = "switch",
-       .description = "Whether the hull may have holes.",
-       .minimum = 0,
-       .maximum = 1,
-       .default_value = 0}};
+      length_limit("max_edge_length",
+                   "Longest edge of the hull; infinity: not given, and length_ratio must be.", kInfinity),
+      off_switch("allow_holes", "Whether the hull may have holes.")};
   info.capabilities = {.holes = true, .several_polygons = false};
   return info;
 }
@@ -105,33 +94,31 @@ class GeosSession {
 
 class GeosConcaveHull final : public Adapter {
  public:
-  const MethodInfo& info() const override { return info_; }
+  GeosConcaveHull() { info_ = describe(); }
 
-  void load(std::span<const Point> points) override {
-    reset();
+ private:
+  template <class T>
+  using Owned = GeosSession::Owned<T>;
+
+  void do_load(std::span<const Point> points) override {
     points_.reset();
-    require_finite(points);
-    has_area_ = span_an_area(points);
     const std::vector<std::uint8_t> wkb = to_wkb_multipoint(points);
     const auto reader = session_.own(GEOSWKBReader_create_r(session_.get()), "making a reader");
     points_ = session_.own(GEOSWKBReader_read_r(session_.get(), reader.get(), wkb.data(), wkb.size()),
                            "reading the points");
   }
 
-  void run(const Parameters& parameters, Steps& steps) override {
-    const Parameters values = complete_parameters(info_, parameters);
-    const double ratio = values.at("length_ratio");
-    const double length = values.at("max_edge_length");
-    const bool allow_holes = values.at("allow_holes") != 0;
+  void do_run(const Parameters& parameters, Steps& steps) override {
+    const double ratio = parameters.at("length_ratio");
+    const double length = parameters.at("max_edge_length");
+    const bool allow_holes = parameters.at("allow_holes") != 0;
     const bool by_length = std::isfinite(length);
     if (by_length == std::isfinite(ratio)) {
       throw std::invalid_argument(
           "geos_concave_hull takes one of 'length_ratio' and 'max_edge_length': give " +
           std::string(by_length ? "only one of them" : "one, as GEOS has no default"));
     }
-    reset();
-    has_run_ = true;
-    if (!has_area_) return;
+    if (!has_area()) return;
     steps.begin("shape");
     hull_ =
         session_.own(by_length ? geos_hull_by_length(session_.get(), points_.get(), length, allow_holes)
@@ -139,8 +126,7 @@ class GeosConcaveHull final : public Adapter {
                      "the concave hull");
   }
 
-  MultiPolygon extract(Steps& steps) override {
-    if (!has_run_) throw std::logic_error("extract comes after run");
+  MultiPolygon do_extract(Steps& steps) override {
     steps.begin("polygon");
     if (!hull_) return {};
     const auto writer = session_.own(GEOSWKBWriter_create_r(session_.get()), "making a writer");
@@ -150,21 +136,11 @@ class GeosConcaveHull final : public Adapter {
     return from_wkb({wkb.get(), size});
   }
 
-  void reset() override {
-    hull_.reset();
-    has_run_ = false;
-  }
+  void do_reset() override { hull_.reset(); }
 
- private:
-  template <class T>
-  using Owned = GeosSession::Owned<T>;
-
-  MethodInfo info_ = describe();
   GeosSession session_;
   Owned<GEOSGeometry> points_{nullptr, {}};  // a multipoint
-  bool has_area_ = false;
-  bool has_run_ = false;
-  Owned<GEOSGeometry> hull_{nullptr, {}};  // null: nothing has run, or the points have no area
+  Owned<GEOSGeometry> hull_{nullptr, {}};    // null: nothing has run, or the points have no area
 };
 
 }  // namespace

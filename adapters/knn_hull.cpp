@@ -26,7 +26,6 @@
 #include <vector>
 
 #include "adapters/adapter.hpp"
-#include "adapters/point_checks.hpp"
 #include "polylidar/predicates.hpp"
 
 namespace hullbench {
@@ -238,8 +237,7 @@ MethodInfo describe() {
   info.licence = "MIT";
   info.citation =
       "A. Moreira, M. Y. Santos, Concave hull: a k-nearest neighbours approach for the computation of the "
-      "region "
-      "occupied by a set of points, GRAPP 2007";
+      "region occupied by a set of points, GRAPP 2007";
   info.native_output = "ring";
   info.parameters = {
       {.name = "k",
@@ -254,21 +252,15 @@ MethodInfo describe() {
 
 class KnnHull final : public Adapter {
  public:
-  const MethodInfo& info() const override { return info_; }
+  KnnHull() { info_ = describe(); }
 
-  void load(std::span<const Point> points) override {
-    reset();
-    require_finite(points);
-    has_area_ = span_an_area(points);
-    points_.assign(points.begin(), points.end());
-  }
+ private:
+  void do_load(std::span<const Point> points) override { points_.assign(points.begin(), points.end()); }
 
-  void run(const Parameters& parameters, Steps& steps) override {
-    const double k = complete_parameters(info_, parameters).at("k");
+  void do_run(const Parameters& parameters, Steps& steps) override {
+    const double k = parameters.at("k");
     if (k != std::floor(k)) throw std::invalid_argument("knn_hull takes 'k' as a whole number");
-    reset();
-    ring_.emplace();
-    if (!has_area_) return;
+    if (!has_area()) return;
 
     steps.begin("neighbours");
     std::vector<Point> points = points_;
@@ -286,22 +278,18 @@ class KnnHull final : public Adapter {
     ring_ = nearest_neighbours_hull(points, tree, static_cast<std::size_t>(std::min(k, all_others)));
   }
 
-  MultiPolygon extract(Steps& steps) override {
-    if (!ring_) throw std::logic_error("extract comes after run");
+  MultiPolygon do_extract(Steps& steps) override {
     steps.begin("polygon");
-    if (ring_->empty()) return {};
-    Ring shell = *ring_;
+    if (ring_.empty()) return {};
+    Ring shell = ring_;
     turn_counter_clockwise(shell);
     return {Polygon{std::move(shell), {}}};
   }
 
-  void reset() override { ring_.reset(); }
+  void do_reset() override { ring_ = Ring(); }
 
- private:
-  MethodInfo info_ = describe();
   std::vector<Point> points_;
-  bool has_area_ = false;
-  std::optional<Ring> ring_;  // none: nothing has run
+  Ring ring_;
 };
 
 }  // namespace

@@ -13,15 +13,12 @@
 #include <pcl/surface/concave_hull.h>
 
 #include <cstddef>
-#include <limits>
 #include <memory>
 #include <span>
-#include <stdexcept>
 #include <utility>
 #include <vector>
 
 #include "adapters/adapter.hpp"
-#include "adapters/point_checks.hpp"
 #include "adapters/ring_nesting.hpp"
 
 namespace hullbench {
@@ -39,24 +36,18 @@ MethodInfo describe() {
   info.citation =
       "R. B. Rusu, S. Cousins, 3D is here: Point Cloud Library (PCL), ICRA 2011; class pcl::ConcaveHull";
   info.native_output = "rings in no order, vertices in single precision, mapped to the nearest input points";
-  info.parameters = {{.name = "alpha",
-                      .unit = "length",
-                      .description = "Largest circumradius of a triangle inside the shape.",
-                      .minimum = 0,
-                      .maximum = std::numeric_limits<double>::infinity(),
-                      .default_value = std::nullopt}};
+  info.parameters = {
+      length_limit("alpha", "Largest circumradius of a triangle inside the shape.", std::nullopt)};
   info.capabilities = {.holes = true, .several_polygons = true};
   return info;
 }
 
 class PclConcaveHull final : public Adapter {
  public:
-  const MethodInfo& info() const override { return info_; }
+  PclConcaveHull() { info_ = describe(); }
 
-  void load(std::span<const Point> points) override {
-    reset();
-    require_finite(points);
-    has_area_ = span_an_area(points);
+ private:
+  void do_load(std::span<const Point> points) override {
     points_.assign(points.begin(), points.end());
     cloud_ = std::make_shared<Cloud>();
     cloud_->reserve(points.size());
@@ -65,12 +56,10 @@ class PclConcaveHull final : public Adapter {
     }
   }
 
-  void run(const Parameters& parameters, Steps& steps) override {
-    const double alpha = complete_parameters(info_, parameters).at("alpha");
-    reset();
-    has_run_ = true;
+  void do_run(const Parameters& parameters, Steps& steps) override {
+    const double alpha = parameters.at("alpha");
     // PCL refuses alpha = 0, where no triangle is small enough.
-    if (!has_area_ || alpha == 0) return;
+    if (!has_area() || alpha == 0) return;
     if (points_.size() < 4) throw Unsupported("PCL's ConcaveHull needs at least 4 points");
     steps.begin("shape");
     pcl::ConcaveHull<pcl::PointXYZ> hull;
@@ -84,8 +73,7 @@ class PclConcaveHull final : public Adapter {
     hull.getHullPointIndices(point_of_);
   }
 
-  MultiPolygon extract(Steps& steps) override {
-    if (!has_run_) throw std::logic_error("extract comes after run");
+  MultiPolygon do_extract(Steps& steps) override {
     steps.begin("polygon");
     std::vector<Ring> rings;
     rings.reserve(polygons_.size());
@@ -100,18 +88,13 @@ class PclConcaveHull final : public Adapter {
     return nest_rings(std::move(rings));
   }
 
-  void reset() override {
-    has_run_ = false;
+  void do_reset() override {
     polygons_.clear();
     point_of_.indices.clear();
   }
 
- private:
-  MethodInfo info_ = describe();
   std::vector<Point> points_;
   Cloud::Ptr cloud_;
-  bool has_area_ = false;
-  bool has_run_ = false;
   std::vector<pcl::Vertices> polygons_;  // rings of vertices of the hull
   pcl::PointIndices point_of_;           // vertex of the hull -> the nearest input point
 };

@@ -4,11 +4,7 @@
 #include <limits>
 #include <memory>
 #include <optional>
-#include <stdexcept>
-#include <string>
-#include <vector>
 
-#include "adapters/point_checks.hpp"
 #include "adapters/polylidar_adapter.hpp"
 #include "polylidar/concave_hull.hpp"
 
@@ -29,35 +25,27 @@ MethodInfo describe_polylidar() {
   info.licence = "MIT";
   info.citation = "J. Castagno, E. Atkins, Polylidar - Polygons from Triangular Meshes";
   info.native_output = "multipolygon as indices of the points";
-  const auto limit = [](const char* name, const char* description, double default_value) {
-    return ParameterInfo{.name = name,
-                         .unit = "length",
-                         .description = description,
-                         .minimum = 0,
-                         .maximum = kInfinity,
-                         .default_value = default_value};
-  };
   // The perimeter first: it is what a search of one parameter is to search.
-  info.parameters = {limit("max_perimeter", "Largest perimeter of a triangle inside the shape.", kInfinity),
-                     limit("alpha",
-                           "Largest circumradius of a triangle inside the shape; 0: not given. With no limit "
-                           "given, one is chosen from the points, place by place.",
-                           kNotGiven),
-                     limit("max_edge_length", "Longest edge of a triangle inside the shape.", kInfinity),
-                     {.name = "detail",
-                      .unit = "",
-                      .description = "Divides the size of triangles that is chosen where no limit is given.",
-                      .minimum = 0.01,
-                      .maximum = 100,
-                      .default_value = 1}};
+  info.parameters = {
+      length_limit("max_perimeter", "Largest perimeter of a triangle inside the shape.", kInfinity),
+      length_limit("alpha",
+                   "Largest circumradius of a triangle inside the shape; 0: not given. With no limit "
+                   "given, one is chosen from the points, place by place.",
+                   kNotGiven),
+      length_limit("max_edge_length", "Longest edge of a triangle inside the shape.", kInfinity),
+      {.name = "detail",
+       .unit = "",
+       .description = "Divides the size of triangles that is chosen where no limit is given.",
+       .minimum = 0.01,
+       .maximum = 100,
+       .default_value = 1}};
   info.capabilities = {.holes = true, .several_polygons = true};
   return info;
 }
 
 namespace {
 
-polylidar::Options options_of(const MethodInfo& info, const Parameters& parameters) {
-  const Parameters complete = complete_parameters(info, parameters);
+polylidar::Options options_of(const Parameters& complete) {
   const auto limit = [&](const char* name, double not_given) {
     const double value = complete.at(name);
     return value == not_given ? std::nullopt : std::optional(value);
@@ -83,19 +71,11 @@ class OneCall final : public PolylidarAdapter {
 
 }  // namespace
 
-void PolylidarAdapter::load(std::span<const Point> points) {
-  require_finite(points);
-  shape_ = nullptr;
-  points_.assign(points.begin(), points.end());
+void PolylidarAdapter::do_run(const Parameters& parameters, Steps& steps) {
+  shape_ = &make_shape(extractor_, points_, options_of(parameters), steps);
 }
 
-void PolylidarAdapter::run(const Parameters& parameters, Steps& steps) {
-  const polylidar::Options options = options_of(info_, parameters);
-  shape_ = &make_shape(extractor_, points_, options, steps);
-}
-
-MultiPolygon PolylidarAdapter::extract(Steps& steps) {
-  if (!shape_) throw std::logic_error("extract comes after run");
+MultiPolygon PolylidarAdapter::do_extract(Steps& steps) {
   steps.begin("polygon");
   return polylidar::to_coordinates(*shape_, points_);
 }

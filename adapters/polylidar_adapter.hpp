@@ -16,29 +16,22 @@ MethodInfo describe_polylidar();
 /// The core as a method, but for how it goes from points to a shape.
 class PolylidarAdapter : public Adapter {
  public:
-  explicit PolylidarAdapter(MethodInfo info) : info_(std::move(info)) {}
+  explicit PolylidarAdapter(MethodInfo info) { info_ = std::move(info); }
 
-  const MethodInfo& info() const override { return info_; }
+ private:
+  void do_load(std::span<const Point> points) override { points_.assign(points.begin(), points.end()); }
+  void do_run(const Parameters& parameters, Steps& steps) override;
+  MultiPolygon do_extract(Steps& steps) override;
 
-  /// Throws std::invalid_argument for points that are not finite.
-  void load(std::span<const Point> points) override;
-  /// Throws std::invalid_argument for a parameter that the method does not take.
-  void run(const Parameters& parameters, Steps& steps) override;
-  MultiPolygon extract(Steps& steps) override;
-  void reset() override { shape_ = nullptr; }
-
- protected:
   /// Points to a shape, which lives until the next call.
   virtual const polylidar::IndexedMultiPolygon& make_shape(polylidar::Extractor& extractor,
                                                            std::span<const Point> points,
                                                            const polylidar::Options& options,
                                                            Steps& steps) = 0;
 
- private:
-  MethodInfo info_;
   std::vector<Point> points_;
   polylidar::Extractor extractor_;
-  /// The extractor's result of the last run; null before the first one.
+  /// The extractor's result of the last run.
   const polylidar::IndexedMultiPolygon* shape_ = nullptr;
 };
 

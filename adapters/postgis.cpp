@@ -16,14 +16,12 @@
 #include <fstream>
 #include <iterator>
 #include <limits>
-#include <memory>
 #include <optional>
 #include <span>
 #include <stdexcept>
 #include <string>
 #include <string_view>
 
-#include "adapters/point_checks.hpp"
 #include "adapters/postgis_session.hpp"
 #include "adapters/private_postgres.hpp"
 #include "adapters/wkb.hpp"
@@ -106,13 +104,13 @@ MethodInfo describe_method(const Server& server) {
          "Longest edge allowed, between the shortest (0) and the longest (1) edge of the Delaunay "
          "triangulation.",
          0, 1, kConvexRatio});
-    info.parameters.push_back(
-        {"max_edge_length", "length",
-         "Longest edge allowed, as a length, which is turned into its ratio; when it is finite, length_ratio "
-         "is left at 1.",
-         0, kInfinity, kInfinity});
+    info.parameters.push_back(length_limit(
+        "max_edge_length",
+        "Longest edge allowed, as a length, which is turned into its ratio; when it is finite, length_ratio "
+        "is left at 1.",
+        kInfinity));
   }
-  info.parameters.push_back({"allow_holes", "switch", "Whether holes are kept (1) or filled (0).", 0, 1, 0});
+  info.parameters.push_back(off_switch("allow_holes", "Whether holes are kept (1) or filled (0)."));
   info.capabilities = {.holes = true, .several_polygons = false, .in_server = true};
   return info;
 }
@@ -164,36 +162,31 @@ class Postgis final : public Adapter {
     prepare();
   }
 
-  const MethodInfo& info() const override { return info_; }
-
-  void load(std::span<const Point> points) override {
-    require_finite(points);
-    hull_.reset();
+ private:
+  void do_load(std::span<const Point> points) override {
     if (connection_.reopen_if_lost()) prepare();
     fill_point_table(connection_.session(), points);
-    has_area_ = span_an_area(points);
     edges_.reset();
-    if (is_by_length_ratio() && has_area_) edges_ = measure_edges();
+    if (is_by_length_ratio() && has_area()) edges_ = measure_edges();
   }
 
-  void run(const Parameters& parameters, Steps& /*steps*/) override {
-    hull_.reset();
-    const Parameters values = complete_parameters(info_, parameters);
-    const double share = is_by_length_ratio() ? length_ratio(values) : values.at("target_percent");
-    hull_ =
-        connection_.session().execute_prepared(kHull, {binary(share), binary(values.at("allow_holes") != 0)});
+  void do_run(const Parameters& parameters, Steps& /*steps*/) override {
+    const double share = is_by_length_ratio() ? length_ratio(parameters) : parameters.at("target_percent");
+    hull_ = connection_.session().execute_prepared(
+        kHull, {binary(share), binary(parameters.at("allow_holes") != 0)});
     if (PQntuples(hull_.get()) != 1) throw std::logic_error(info_.name + ": run before load");
-    if (PQgetisnull(hull_.get(), 0, 0) != 0 && has_area_) {
+    if (PQgetisnull(hull_.get(), 0, 0) != 0 && has_area()) {
       throw std::runtime_error("PostGIS's ST_ConcaveHull answered NULL and gave no reason");
     }
   }
 
-  MultiPolygon extract(Steps& /*steps*/) override {
-    if (!hull_ || PQgetisnull(hull_.get(), 0, 0) != 0) return {};
+  MultiPolygon do_extract(Steps& /*steps*/) override {
+    if (PQgetisnull(hull_.get(), 0, 0) != 0) return {};
     return from_wkb(bytes(hull_, 0));
   }
 
- private:
+  void do_reset() override { hull_.reset(); }
+
   static constexpr const char* kHull = "hull";
   static constexpr const char* kEdges = "edges";
 
@@ -215,7 +208,7 @@ class Postgis final : public Adapter {
           "postgis takes 'length_ratio' or 'max_edge_length', not both: leave 'length_ratio' out when "
           "'max_edge_length' is finite");
     }
-    if (!has_area_) return ratio;
+    if (!has_area()) return ratio;
     if (!edges_) throw std::runtime_error("PostGIS's ST_DelaunayTriangles gave no triangle and no reason");
     return edges_->ratio_of(length);
   }
@@ -230,8 +223,6 @@ class Postgis final : public Adapter {
 
   PostgisMethod method_;
   PostgisConnection connection_;
-  MethodInfo info_;
-  bool has_area_ = false;
   std::optional<EdgeRange> edges_;  ///< of the loaded points; none without an area
   Result hull_{nullptr, &PQclear};
 };

@@ -18,16 +18,13 @@
 // does an alpha that keeps no triangle.
 #include <libpq-fe.h>
 
-#include <limits>
 #include <memory>
 #include <optional>
 #include <span>
 #include <stdexcept>
-#include <string>
 #include <string_view>
 
 #include "adapters/adapter.hpp"
-#include "adapters/point_checks.hpp"
 #include "adapters/postgis_session.hpp"
 #include "adapters/wkb.hpp"
 
@@ -60,37 +57,34 @@ MethodInfo describe(Session& session) {
   info.licence = "GPL-2.0-or-later";
   info.citation =
       "PostGIS manual, ST_DelaunayTriangles and ST_Union, https://postgis.net/docs/reference.html; the rule "
-      "is "
-      "that of J. Castagno, E. Atkins, Polylidar - Polygons from Triangular Meshes";
+      "is that of J. Castagno, E. Atkins, Polylidar - Polygons from Triangular Meshes";
   info.native_output = "WKB of a polygon or multipolygon";
-  info.parameters = {{"alpha", "length", "Largest circumradius of a triangle inside the shape.", 0,
-                      std::numeric_limits<double>::infinity(), std::nullopt}};
+  info.parameters = {
+      length_limit("alpha", "Largest circumradius of a triangle inside the shape.", std::nullopt)};
   info.capabilities = {.holes = true, .several_polygons = true, .in_server = true};
   return info;
 }
 
 class PostgisSteps final : public Adapter {
  public:
-  PostgisSteps() { prepare(); }
-
-  const MethodInfo& info() const override { return info_; }
-
-  void load(std::span<const Point> points) override {
-    require_finite(points);
-    hull_.reset();
-    if (connection_.reopen_if_lost()) prepare();
-    fill_point_table(connection_.session(), points);
-    has_area_ = span_an_area(points);
+  PostgisSteps() {
+    info_ = describe(connection_.session());
+    prepare();
   }
 
-  void run(const Parameters& parameters, Steps& steps) override {
-    const double alpha = complete_parameters(info_, parameters).at("alpha");
-    reset();
+ private:
+  void do_load(std::span<const Point> points) override {
+    if (connection_.reopen_if_lost()) prepare();
+    fill_point_table(connection_.session(), points);
+  }
+
+  void do_run(const Parameters& parameters, Steps& steps) override {
+    const double alpha = parameters.at("alpha");
     Session& session = connection_.session();
     is_empty_ = false;
     steps.begin("triangulation");
     const Result triangles = session.execute_prepared("triangulate");
-    if (has_area_ && std::string_view(PQcmdTuples(triangles.get())) == "0") {
+    if (has_area() && std::string_view(PQcmdTuples(triangles.get())) == "0") {
       throw std::runtime_error("PostGIS's ST_DelaunayTriangles gave no triangle and no reason");
     }
     steps.begin("shape");
@@ -99,20 +93,19 @@ class PostgisSteps final : public Adapter {
     hull_ = session.execute_prepared("unite");
   }
 
-  MultiPolygon extract(Steps& steps) override {
+  MultiPolygon do_extract(Steps& steps) override {
     steps.begin("polygon");
-    if (!hull_ || PQgetisnull(hull_.get(), 0, 0) != 0) return {};
+    if (PQgetisnull(hull_.get(), 0, 0) != 0) return {};
     return from_wkb(bytes(hull_, 0));
   }
 
-  void reset() override {
+  void do_reset() override {
     hull_.reset();
     if (is_empty_ || !connection_.session().is_open()) return;
     connection_.session().execute("TRUNCATE pg_temp.hullbench_triangles, pg_temp.hullbench_kept");
     is_empty_ = true;
   }
 
- private:
   void prepare() {
     Session& session = connection_.session();
     create_point_table(session);
@@ -125,8 +118,6 @@ class PostgisSteps final : public Adapter {
   }
 
   PostgisConnection connection_{kCurrentServer};
-  MethodInfo info_ = describe(connection_.session());
-  bool has_area_ = false;
   bool is_empty_ = true;  ///< whether the tables between the steps are
   Result hull_{nullptr, &PQclear};
 };

@@ -15,7 +15,6 @@
 #include <fstream>
 #include <optional>
 #include <stdexcept>
-#include <string>
 #include <string_view>
 #include <system_error>
 #include <thread>

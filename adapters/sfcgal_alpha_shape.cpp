@@ -26,7 +26,6 @@
 #include <utility>
 
 #include "adapters/adapter.hpp"
-#include "adapters/point_checks.hpp"
 
 namespace hullbench {
 namespace {
@@ -131,37 +130,30 @@ MethodInfo describe(const Sfcgal& sfcgal) {
        .minimum = 0,
        .maximum = std::numeric_limits<double>::infinity(),
        .default_value = kNotGiven},
-      {.name = "allow_holes",
-       .unit = "switch",
-       .description = "Whether the polygon may have holes.",
-       .minimum = 0,
-       .maximum = 1,
-       .default_value = 0}};
+      off_switch("allow_holes", "Whether the polygon may have holes.")};
   info.capabilities = {.holes = true, .several_polygons = false};
   return info;
 }
 
 class SfcgalAlphaShape final : public Adapter {
  public:
-  const MethodInfo& info() const override { return info_; }
+  SfcgalAlphaShape() { info_ = describe(sfcgal_); }
 
-  void load(std::span<const Point> points) override {
-    reset();
-    require_finite(points);
+ private:
+  using Geometry = std::unique_ptr<sfcgal_geometry_t, decltype(&::sfcgal_geometry_delete)>;
+
+  void do_load(std::span<const Point> points) override {
     points_.reset();
-    if (!span_an_area(points)) return;
+    if (!has_area()) return;
     points_ = own(sfcgal_.create_multi_point());
     for (const Point& point : points) {
       sfcgal_.add_geometry(points_.get(), sfcgal_.create_point(point.x, point.y));
     }
   }
 
-  void run(const Parameters& parameters, Steps& /*steps*/) override {
-    const Parameters complete = complete_parameters(info_, parameters);
-    const double alpha = complete.at("alpha");
-    const bool allow_holes = complete.at("allow_holes") == 1;
-    reset();
-    has_run_ = true;
+  void do_run(const Parameters& parameters, Steps& /*steps*/) override {
+    const double alpha = parameters.at("alpha");
+    const bool allow_holes = parameters.at("allow_holes") == 1;
     if (!points_) return;
     last_error().clear();
     shape_ =
@@ -170,8 +162,7 @@ class SfcgalAlphaShape final : public Adapter {
     if (!shape_) throw std::runtime_error("SFCGAL gave no shape: " + last_error());
   }
 
-  MultiPolygon extract(Steps& /*steps*/) override {
-    if (!has_run_) throw std::logic_error("extract comes after run");
+  MultiPolygon do_extract(Steps& /*steps*/) override {
     // A collection is SFCGAL's word for nothing, as is a polygon without a shell.
     if (!shape_ || sfcgal_.type_id(shape_.get()) != SFCGAL_TYPE_POLYGON) return {};
     Polygon polygon = {.shell = ring_of(sfcgal_.exterior_ring(shape_.get()), true), .holes = {}};
@@ -183,13 +174,7 @@ class SfcgalAlphaShape final : public Adapter {
     return {std::move(polygon)};
   }
 
-  void reset() override {
-    shape_.reset();
-    has_run_ = false;
-  }
-
- private:
-  using Geometry = std::unique_ptr<sfcgal_geometry_t, decltype(&::sfcgal_geometry_delete)>;
+  void do_reset() override { shape_.reset(); }
 
   Geometry own(sfcgal_geometry_t* geometry) const { return {geometry, sfcgal_.destroy}; }
 
@@ -207,10 +192,8 @@ class SfcgalAlphaShape final : public Adapter {
   }
 
   Sfcgal sfcgal_;
-  MethodInfo info_ = describe(sfcgal_);
   Geometry points_ = own(nullptr);  // none: points without an area
   Geometry shape_ = own(nullptr);   // of the last run; none: points without an area
-  bool has_run_ = false;
 };
 
 }  // namespace

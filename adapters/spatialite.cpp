@@ -29,28 +29,25 @@ MethodInfo describe(SpatialiteDatabase& database) {
 
 class Spatialite final : public Adapter {
  public:
-  const MethodInfo& info() const override { return info_; }
+  Spatialite() { info_ = describe(database_); }
 
-  void load(std::span<const Point> points) override {
-    hull_wkb_.reset();
-    database_.load(points);
-  }
+ private:
+  void do_load(std::span<const Point> points) override { database_.load(points); }
 
-  void run(const Parameters& parameters, Steps& /*steps*/) override {
-    hull_wkb_.reset();
-    const Parameters values = complete_parameters(info_, parameters);
-    hull_.bind(1, values.at("c"));
-    hull_.bind(2, values.at("allow_holes") != 0 ? 1 : 0);
+  void do_run(const Parameters& parameters, Steps& /*steps*/) override {
+    hull_.bind(1, parameters.at("c"));
+    hull_.bind(2, parameters.at("allow_holes") != 0 ? 1 : 0);
     if (hull_.step() && !hull_.is_null(0)) hull_wkb_ = hull_.blob(0);
     hull_.reset();
-    if (!hull_wkb_ && database_.has_area()) throw_null_hull();
+    if (!hull_wkb_ && has_area()) throw_null_hull();
   }
 
-  MultiPolygon extract(Steps& /*steps*/) override {
+  MultiPolygon do_extract(Steps& /*steps*/) override {
     return hull_wkb_ ? from_wkb(*hull_wkb_) : MultiPolygon();
   }
 
- private:
+  void do_reset() override { hull_wkb_.reset(); }
+
   [[noreturn]] void throw_null_hull() {
     const std::string reason = database_.last_failure();
     throw std::runtime_error(
@@ -61,9 +58,8 @@ class Spatialite final : public Adapter {
   }
 
   SpatialiteDatabase database_;
-  MethodInfo info_ = describe(database_);
   Statement hull_{database_.get(), "SELECT ST_AsBinary(ST_ConcaveHull(geom, ?, ?)) FROM point_set"};
-  std::optional<std::vector<std::uint8_t>> hull_wkb_;  ///< none: SpatiaLite answered NULL, or nothing has run
+  std::optional<std::vector<std::uint8_t>> hull_wkb_;  ///< none: SpatiaLite answered NULL
 };
 
 }  // namespace

@@ -9,7 +9,6 @@
 #include <new>
 #include <stdexcept>
 
-#include "adapters/point_checks.hpp"
 #include "adapters/wkb.hpp"
 
 namespace hullbench {
@@ -105,15 +104,12 @@ SpatialiteDatabase::SpatialiteDatabase() : cache_(spatialite_alloc_connection())
 }
 
 void SpatialiteDatabase::load(std::span<const Point> points) {
-  require_finite(points);
-  has_area_ = false;
   Statement(get(), "DELETE FROM point_set").execute();
   if (points.empty()) return;
   const std::vector<std::uint8_t> wkb = to_wkb_multipoint(points);
   Statement insert(get(), "INSERT INTO point_set SELECT ST_GeomFromWKB(?)");
   insert.bind(1, std::span<const std::uint8_t>(wkb));
   insert.execute();
-  has_area_ = span_an_area(points);
 }
 
 std::string SpatialiteDatabase::last_failure() {
@@ -133,7 +129,7 @@ MethodInfo spatialite_method(SpatialiteDatabase& database) {
        "The paper's C: a Delaunay triangle is kept when each of its edges is shorter than c standard "
        "deviations of the triangles' edge lengths.",
        0, std::numeric_limits<double>::infinity(), 3},
-      {"allow_holes", "switch", "Whether holes are kept (1) or filled (0).", 0, 1, 0},
+      off_switch("allow_holes", "Whether holes are kept (1) or filled (0)."),
   };
   info.capabilities = {true, true};
   return info;

@@ -58,11 +58,8 @@ class SpatialiteDatabase {
   sqlite3* get() { return database_.get(); }
 
   /// Puts `points` in place of the ones loaded before. SpatiaLite has no geometry without points: for none,
-  /// the table is empty. Throws std::invalid_argument when one is not finite.
+  /// the table is empty.
   void load(std::span<const Point> points);
-
-  /// Whether the loaded points have a hull with an area.
-  bool has_area() const { return has_area_; }
 
   /// Why SpatiaLite's last function failed; empty when it does not say. std::bad_alloc when it lacked memory.
   std::string last_failure();
@@ -78,7 +75,6 @@ class SpatialiteDatabase {
   // SpatiaLite keeps its state beside the connection and wants it freed after the connection is closed.
   std::unique_ptr<void, FreeCache> cache_;
   std::unique_ptr<sqlite3, Close> database_;
-  bool has_area_ = false;
 };
 
 /// What is true of every method that is SpatiaLite's concave hull: version, licence, parameters `c` and

@@ -72,8 +72,7 @@ MethodInfo describe(SpatialiteDatabase& database) {
   info.title = "SpatiaLite, step by step";
   info.citation =
       "SpatiaLite, SQL functions ST_DelaunayTriangulation, ST_Distance, ST_Collect and ST_UnaryUnion in "
-      "place "
-      "of ST_ConcaveHull, https://www.gaia-gis.it/fossil/libspatialite";
+      "place of ST_ConcaveHull, https://www.gaia-gis.it/fossil/libspatialite";
   info.native_output = "WKB of a polygon or multipolygon";
   return info;
 }
@@ -109,39 +108,34 @@ class StepsDatabase : public SpatialiteDatabase {
 
 class SpatialiteSteps final : public Adapter {
  public:
-  const MethodInfo& info() const override { return info_; }
+  SpatialiteSteps() { info_ = describe(database_); }
 
-  void load(std::span<const Point> points) override {
-    reset();
-    database_.load(points);
-  }
+ private:
+  void do_load(std::span<const Point> points) override { database_.load(points); }
 
-  void run(const Parameters& parameters, Steps& steps) override {
-    const Parameters values = complete_parameters(info_, parameters);
-    reset();
+  void do_run(const Parameters& parameters, Steps& steps) override {
     steps.begin("triangulation");
     triangulate_.execute();
     steps.begin("shape");
     measure_.execute();
-    filter_.bind(1, values.at("c"));
+    filter_.bind(1, parameters.at("c"));
     filter_.execute();
     steps.begin("polygon");
     unite_.execute();
-    hull_wkb_ = fetch(values.at("allow_holes") != 0 ? with_holes_ : filled_);
-    if (!hull_wkb_ && database_.has_area()) throw_null_hull();
+    hull_wkb_ = fetch(parameters.at("allow_holes") != 0 ? with_holes_ : filled_);
+    if (!hull_wkb_ && has_area()) throw_null_hull();
   }
 
-  MultiPolygon extract(Steps& steps) override {
+  MultiPolygon do_extract(Steps& steps) override {
     steps.begin("polygon");
     return hull_wkb_ ? from_wkb(*hull_wkb_) : MultiPolygon();
   }
 
-  void reset() override {
+  void do_reset() override {
     database_.clear();
     hull_wkb_.reset();
   }
 
- private:
   static std::optional<std::vector<std::uint8_t>> fetch(Statement& query) {
     std::optional<std::vector<std::uint8_t>> wkb;
     if (query.step() && !query.is_null(0)) wkb = query.blob(0);
@@ -159,14 +153,13 @@ class SpatialiteSteps final : public Adapter {
   }
 
   StepsDatabase database_;
-  MethodInfo info_ = describe(database_);
   Statement triangulate_{database_.get(), kTriangulate};
   Statement measure_{database_.get(), kMeasure};
   Statement filter_{database_.get(), kFilter};
   Statement unite_{database_.get(), kUnite};
   Statement with_holes_{database_.get(), kWithHoles};
   Statement filled_{database_.get(), kFilled};
-  std::optional<std::vector<std::uint8_t>> hull_wkb_;  ///< none: nothing was kept, or nothing has run
+  std::optional<std::vector<std::uint8_t>> hull_wkb_;  ///< none: nothing was kept
 };
 
 }  // namespace

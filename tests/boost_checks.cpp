@@ -7,6 +7,7 @@
 #include <boost/geometry/geometries/point_xy.hpp>
 #include <boost/geometry/geometries/polygon.hpp>
 #include <iterator>
+#include <limits>
 
 namespace hullbench::testing {
 
@@ -38,6 +39,15 @@ BoostMultiPolygon to_boost(const polylidar::MultiPolygon& shape) {
 
 }  // namespace
 
+std::vector<polylidar::Ring> rings_of(const polylidar::MultiPolygon& shape) {
+  std::vector<polylidar::Ring> rings;
+  for (const polylidar::Polygon& polygon : shape) {
+    rings.push_back(polygon.shell);
+    rings.insert(rings.end(), polygon.holes.begin(), polygon.holes.end());
+  }
+  return rings;
+}
+
 std::string boost_fault(const polylidar::MultiPolygon& shape) {
   std::string reason;
   return bg::is_valid(to_boost(shape), reason) ? "" : reason;
@@ -57,6 +67,13 @@ double boost_distance(const polylidar::Point& point, const polylidar::Ring& ring
   for (const polylidar::Point& vertex : ring) line.push_back(to_boost(vertex));
   line.push_back(to_boost(ring.front()));
   return bg::distance(to_boost(point), line);
+}
+
+double boost_distance(const polylidar::Point& point, const polylidar::MultiPolygon& shape) {
+  double nearest = std::numeric_limits<double>::infinity();
+  for (const polylidar::Ring& ring : rings_of(shape))
+    nearest = std::min(nearest, boost_distance(point, ring));
+  return nearest;
 }
 
 double boost_common_area(const polylidar::MultiPolygon& a, const polylidar::MultiPolygon& b) {

@@ -8,6 +8,9 @@
 
 namespace hullbench::testing {
 
+/// The shell and then the holes of every polygon.
+std::vector<polylidar::Ring> rings_of(const polylidar::MultiPolygon& shape);
+
 /// Empty when `shape` is valid, else Boost.Geometry's reason.
 std::string boost_fault(const polylidar::MultiPolygon& shape);
 
@@ -17,6 +20,8 @@ std::vector<polylidar::Point> boost_outside(const polylidar::MultiPolygon& shape
 
 /// The distance from `point` to the nearest point of `ring` (a line, not the area it encloses).
 double boost_distance(const polylidar::Point& point, const polylidar::Ring& ring);
+/// To that of all rings of `shape`; infinity when there is none.
+double boost_distance(const polylidar::Point& point, const polylidar::MultiPolygon& shape);
 
 /// The area that both shapes cover.
 double boost_common_area(const polylidar::MultiPolygon& a, const polylidar::MultiPolygon& b);

@@ -1,4 +1,4 @@
-// What an error says.
+// What an error or another text says.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -8,7 +8,14 @@
 
 namespace hullbench::testing {
 
-/// What the Error says that `work()` throws; "nothing" when it throws none.
+/// Expects that these words are in `text`.
+inline void expect_says(const std::string& text, const std::string& words) {
+  EXPECT_NE(text.find(words), std::string::npos) << "\"" << words << "\" is not in: " << text;
+}
+
+inline constexpr const char* kNoComplaint = "nothing";
+
+/// What the Error says that `work()` throws; kNoComplaint when it throws none.
 template <typename Error = std::runtime_error, typename Work>
 std::string complaint_of(const Work& work) {
   try {
@@ -16,14 +23,13 @@ std::string complaint_of(const Work& work) {
   } catch (const Error& error) {
     return error.what();
   }
-  return "nothing";
+  return kNoComplaint;
 }
 
 /// Expects that `work()` throws an Error that has these words.
 template <typename Error = std::runtime_error, typename Work>
 void expect_complaint(const Work& work, const std::string& words) {
-  const std::string said = complaint_of<Error>(work);
-  EXPECT_NE(said.find(words), std::string::npos) << said;
+  expect_says(complaint_of<Error>(work), words);
 }
 
 }  // namespace hullbench::testing

@@ -217,6 +217,12 @@ MultiPolygon canonical(MultiPolygon shape) {
   return shape;
 }
 
+double area_tolerance(const std::vector<Point>& points) {
+  const Box box = bounding_box(points);
+  const double extent = std::max(box.max.x - box.min.x, box.max.y - box.min.y);
+  return points.empty() ? 0 : 1e-12 * extent * extent;
+}
+
 std::size_t hole_count(const MultiPolygon& shape) {
   std::size_t count = 0;
   for (const Polygon& polygon : shape) count += polygon.holes.size();

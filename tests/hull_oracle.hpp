@@ -43,6 +43,10 @@ MultiPolygon core_hull(std::span<const Point> points, const Options& options);
 /// equal for equal shapes.
 MultiPolygon canonical(MultiPolygon shape);
 
+/// How far areas of shapes of `points` may be off by rounding: some thousand terms, each off by at most an
+/// ulp of the squared extent.
+double area_tolerance(const std::vector<Point>& points);
+
 /// The number of holes of all polygons.
 std::size_t hole_count(const MultiPolygon& shape);
 

@@ -1,9 +1,7 @@
 #include "invented_run.hpp"
 
 #include <cmath>
-#include <fstream>
 #include <limits>
-#include <string>
 
 #include "benchmarks/base/files.hpp"
 #include "benchmarks/record/json_lines.hpp"

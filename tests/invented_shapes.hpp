@@ -1,13 +1,18 @@
 // Reports of invented runs, as if they had been on other shapes.
 #pragma once
 
+#include <gtest/gtest.h>
+
 #include <cstdint>
 #include <nlohmann/json.hpp>
+#include <sstream>
 #include <stdexcept>
 #include <string>
 #include <vector>
 
 #include "benchmarks/report/report.hpp"
+#include "benchmarks/report/tables.hpp"
+#include "benchmarks/table/writers.hpp"
 #include "invented_run.hpp"
 #include "temporary_folder.hpp"
 
@@ -19,6 +24,28 @@ inline nlohmann::json invented_report(const std::vector<std::int64_t>& sizes) {
   const testing::TemporaryFolder folder;
   write_invented_run(folder.path(), sizes);
   return report::make_report(folder.path());
+}
+
+/// The report's tables as Markdown.
+inline std::string markdown_of(const nlohmann::json& report) {
+  std::ostringstream out;
+  table::print_markdown(report::make_document(report), out);
+  return out.str();
+}
+
+/// The table `id` of `document`; null when there is none.
+inline const table::Table* table_in(const table::Document& document, const std::string& id) {
+  for (const table::Table& table : document.tables) {
+    if (table.id == id) return &table;
+  }
+  return nullptr;
+}
+
+/// The rows of the table `id` as they are shown, the header first; a failure when there is none.
+inline std::vector<std::vector<std::string>> rows_of(const table::Document& document, const std::string& id) {
+  const table::Table* table = table_in(document, id);
+  EXPECT_TRUE(table) << "there is no table " << id;
+  return table ? table::shown(*table) : std::vector<std::vector<std::string>>(1);
 }
 
 /// A shape on which every method takes `milliseconds` as the paper took it and half as long again in all, and

@@ -61,6 +61,24 @@ std::vector<Point> near_one(std::vector<Point> points) {
   return points;
 }
 
+std::vector<Point> scaled(std::vector<Point> points, int exponent_x, int exponent_y) {
+  for (Point& point : points) point = {std::ldexp(point.x, exponent_x), std::ldexp(point.y, exponent_y)};
+  return points;
+}
+
+std::optional<Exponents> exponents(std::span<const Point> points) {
+  std::optional<Exponents> range;
+  for (const Point& point : points) {
+    for (const double coordinate : {point.x, point.y}) {
+      if (coordinate == 0) continue;
+      const int exponent = std::ilogb(coordinate);
+      if (!range) range = {exponent, exponent};
+      range = {std::min(range->least, exponent), std::max(range->greatest, exponent)};
+    }
+  }
+  return range;
+}
+
 std::vector<Point> circle(std::size_t count, double radius, Point centre) {
   std::vector<Point> points(count);
   for (std::size_t i = 0; i < count; ++i) {

@@ -4,7 +4,9 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <random>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -59,6 +61,21 @@ std::vector<Point> rotated(std::vector<Point> points, double radians);
 /// `points` with an extent near 1, for libraries that are not made for coordinates whose squares overflow: a
 /// power of two changes no shape.
 std::vector<Point> near_one(std::vector<Point> points);
+
+/// `points` with coordinates that are 2^exponent_x and 2^exponent_y times as large.
+std::vector<Point> scaled(std::vector<Point> points, int exponent_x, int exponent_y);
+
+/// The least and the greatest exponent of a coordinate that is not zero.
+struct Exponents {
+  int least = 0;
+  int greatest = 0;
+};
+
+/// None when all coordinates are zero; they are finite.
+std::optional<Exponents> exponents(std::span<const Point> points);
+
+/// Binary orders of magnitude that the core takes at a time: from 2^-116 to below 2^150.
+inline constexpr int kLargestSpan = 265;
 
 /// `count` points on a circle, as near to it as doubles come.
 std::vector<Point> circle(std::size_t count, double radius, Point centre = {});

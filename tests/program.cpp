@@ -16,6 +16,8 @@
 #include <stdexcept>
 #include <thread>
 
+#include "tests/complaint.hpp"
+
 namespace hullbench::testing {
 namespace {
 
@@ -123,6 +125,11 @@ Outcome run_program(const std::vector<std::string>& command, const ProgramOption
   return Program(command, options).wait();
 }
 
+Outcome succeeded(Outcome outcome) {
+  if (outcome.code == 0) return outcome;
+  throw std::runtime_error("exit code " + std::to_string(outcome.code) + ": " + outcome.err);
+}
+
 std::string missing(const std::vector<std::string>& needs) {
   std::vector<std::string> command = {NEEDS_SCRIPT};
   command.insert(command.end(), needs.begin(), needs.end());
@@ -139,6 +146,13 @@ void expect_refusal(const Outcome& outcome, int code, const std::string& words) 
   EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1) << outcome.err;
   EXPECT_NE(outcome.err.find(words), std::string::npos) << outcome.err;
   EXPECT_EQ(outcome.out, "");
+}
+
+Outcome expect_end(Outcome outcome, int code, const std::string& in_err, const std::string& in_out) {
+  EXPECT_EQ(outcome.code, code) << outcome.err;
+  expect_says(outcome.err, in_err);
+  expect_says(outcome.out, in_out);
+  return outcome;
 }
 
 bool wait_until(const std::function<bool()>& condition, std::chrono::milliseconds patience) {

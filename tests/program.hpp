@@ -49,6 +49,9 @@ class Program {
 /// Runs a program, which is looked for in PATH, to its end.
 Outcome run_program(const std::vector<std::string>& command, const ProgramOptions& options = {});
 
+/// `outcome`, when the program ended with 0; throws what it wrote to standard error when not.
+Outcome succeeded(Outcome outcome);
+
 /// What tests/needs.sh says is missing of `needs`, which are as it takes them; empty when all is there. A
 /// test that needs it is then to be skipped.
 std::string missing(const std::vector<std::string>& needs);
@@ -56,6 +59,10 @@ std::string missing(const std::vector<std::string>& needs);
 /// Expects that hullbench or polylidar ended with `code` and one sentence on standard error that has these
 /// words, and wrote nothing to standard output.
 void expect_refusal(const Outcome& outcome, int code, const std::string& words);
+
+/// Expects that a program ended with `code` and said these words on standard error and on standard output, at
+/// least; `outcome` itself.
+Outcome expect_end(Outcome outcome, int code, const std::string& in_err, const std::string& in_out = "");
 
 /// Calls `condition` until it is true; false when it is not within `patience`.
 bool wait_until(const std::function<bool()>& condition,

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "tests/complaint.hpp"
 #include "tests/hullbench_test.hpp"
 
 namespace hullbench {
@@ -29,9 +30,7 @@ class AdapterCommandTest : public testing::HullbenchTest {
   /// A method in Python whose `run(points)` is `body`.
   void python_method(const std::string& body) {
     if (!fs::exists(methods())) {
-      const Outcome made =
-          hullbench({"adapter", "new", "sample", "--lang", "python", "--out", methods().string()});
-      ASSERT_EQ(made.code, 0) << made.err;
+      succeeded(hullbench({"adapter", "new", "sample", "--lang", "python", "--out", methods().string()}));
     }
     write_text(methods() / "sample_worker.py", "import hullbench_worker\n\ndef run(points):\n" + body +
                                                    "\n\nhullbench_worker.serve(version='1', run=run)\n");
@@ -51,8 +50,8 @@ class AdapterCommandTest : public testing::HullbenchTest {
     const std::size_t line = tested.out.find("FAIL  " + point);
     ASSERT_NE(line, std::string::npos) << tested.out;
     const std::string said = tested.out.substr(line, tested.out.find('\n', line) - line);
-    EXPECT_NE(said.find(words), std::string::npos) << said;
-    EXPECT_NE(tested.out.find("sample keeps part of the contract"), std::string::npos) << tested.out;
+    testing::expect_says(said, words);
+    testing::expect_says(tested.out, "sample keeps part of the contract");
   }
 
   fs::path methods() const { return folder() / "methods"; }
@@ -60,11 +59,10 @@ class AdapterCommandTest : public testing::HullbenchTest {
 
 TEST_F(AdapterCommandTest, TheSkeletonsKeepTheContract) {
   for (const std::string language : {"python", "js"}) {
-    const Outcome made = hullbench({"adapter", "new", "my_" + language, "--lang", language});
-    ASSERT_EQ(made.code, 0) << made.err;
+    const Outcome made = succeeded(hullbench({"adapter", "new", "my_" + language, "--lang", language}));
     const fs::path adapters = folder() / "config" / "hullbench" / "adapters";
     const fs::path written = adapters / ("my_" + language + ".json");
-    EXPECT_NE(made.out.find(written.string()), std::string::npos) << made.out;
+    testing::expect_says(made.out, written.string());
     json manifest = json::parse(read_text(written));
     EXPECT_EQ(manifest["jit"].get<bool>(), language == "js");
     if (language == "python") {
@@ -73,7 +71,7 @@ TEST_F(AdapterCommandTest, TheSkeletonsKeepTheContract) {
     }
     const Outcome tested = hullbench({"adapter", "test", "my_" + language});
     EXPECT_EQ(tested.code, 0) << tested.out << tested.err;
-    EXPECT_NE(tested.out.find("my_" + language + " keeps the contract: "), std::string::npos) << tested.out;
+    testing::expect_says(tested.out, "my_" + language + " keeps the contract: ");
     EXPECT_EQ(tested.out.find("FAIL"), std::string::npos) << tested.out;
   }
 }
@@ -102,9 +100,8 @@ TEST_F(AdapterCommandTest, AMethodOfOnesOwnIsMeasuredBesideTheOthers) {
               phases["run"].get<std::int64_t>() + phases["extract"].get<std::int64_t>());
   }
   EXPECT_TRUE(report["manifests"].contains("sample"));
-  EXPECT_NE(run.out.find("| sample"), std::string::npos) << run.out;
-  const Outcome valid = hullbench({"validate", "run/report.json"});
-  EXPECT_EQ(valid.code, 0) << valid.err;
+  testing::expect_says(run.out, "| sample");
+  succeeded(hullbench({"validate", "run/report.json"}));
 }
 
 TEST_F(AdapterCommandTest, AnotherProgramIsAnotherRun) {
@@ -143,10 +140,8 @@ TEST_F(AdapterCommandTest, TheContractSaysWhatToMend) {
   python_method("    import os; os.abort()");
   expect_broken("one point", "SIGABRT");
   python_method("    import time; time.sleep(60)");
-  const Outcome hanging =
-      hullbench({"adapter", "test", "sample", "--adapters", methods().string(), "--timeout", "0.2"});
-  EXPECT_EQ(hanging.code, 4);
-  EXPECT_NE(hanging.out.find("keeps part of the contract: 1 of 3 points"), std::string::npos) << hanging.out;
+  expect_end(hullbench({"adapter", "test", "sample", "--adapters", methods().string(), "--timeout", "0.2"}),
+             4, "", "keeps part of the contract: 1 of 3 points");
 }
 
 TEST_F(AdapterCommandTest, WhatIsPrintedDoesNotBreakTheProtocol) {
@@ -160,11 +155,9 @@ TEST_F(AdapterCommandTest, AModuleThatIsMissingIsNotInstalled) {
   write_text(methods() / "sample_worker.py", "import hullbench_worker\nimport no_such_module\n");
   const Outcome tested = test_sample();
   EXPECT_EQ(tested.code, 6) << tested.out;
-  EXPECT_NE(tested.out.find(
-                "not_installed: No module named 'no_such_module', looked for by /usr/bin/python3; remedy: "
-                "sudo apt-get install python3-numpy"),
-            std::string::npos)
-      << tested.out;
+  testing::expect_says(tested.out,
+                       "not_installed: No module named 'no_such_module', looked for by /usr/bin/python3; "
+                       "remedy: sudo apt-get install python3-numpy");
 }
 
 // Node ends before the worker's first word, so what is printed names it and the command that installs
@@ -178,11 +171,9 @@ TEST_F(AdapterCommandTest, APackageThatNodeLacksIsNamedWithNodeAndTheCommandThat
   write_text(adapters / "lacking.json", manifest.dump());
   const Outcome tested = hullbench({"adapter", "test", "lacking"});
   EXPECT_EQ(tested.code, 4) << tested.out;
-  EXPECT_NE(tested.out.find("no-such-package"), std::string::npos) << tested.out;
-  EXPECT_NE(
-      tested.out.find("started by 'node', and what it needs is installed by 'npm install no-such-package'"),
-      std::string::npos)
-      << tested.out;
+  testing::expect_says(tested.out, "no-such-package");
+  testing::expect_says(tested.out,
+                       "started by 'node', and what it needs is installed by 'npm install no-such-package'");
 }
 
 TEST_F(AdapterCommandTest, AWorkerThatBreaksAtItsStartIsNotMissing) {
@@ -218,9 +209,7 @@ TEST_F(AdapterCommandTest, NamesAndFilesThatAreTaken) {
 }
 
 TEST_F(AdapterCommandTest, ACppMethodIsAFileAndALine) {
-  const Outcome made =
-      hullbench({"adapter", "new", "sample_hull", "--lang", "cpp", "--out", methods().string()});
-  ASSERT_EQ(made.code, 0) << made.err;
+  succeeded(hullbench({"adapter", "new", "sample_hull", "--lang", "cpp", "--out", methods().string()}));
   EXPECT_EQ(read_text(methods() / "adapters.cmake"), "add_adapter(NAME sample_hull TITLE \"sample_hull\")\n");
   EXPECT_EQ(read_text(methods() / "sample_hull.cpp").find('@'), std::string::npos);
 }

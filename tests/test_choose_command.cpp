@@ -172,8 +172,7 @@ class ChooseCommandTest : public testing::HullbenchTest {
 
 TEST_F(ChooseCommandTest, ThePageHasACardForEveryMethodSortedByAgreement) {
   write_points(ring(600));
-  const Outcome outcome = choose({"points.csv"}, kMethods);
-  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  const Outcome outcome = succeeded(choose({"points.csv"}, kMethods));
   EXPECT_TRUE(has(outcome.err, "hullbench: wrote points.csv.choice.html\n")) << outcome.err;
   const std::vector<Card> cards = cards_of(page());
   ASSERT_EQ(cards.size(), kRows);
@@ -245,8 +244,7 @@ TEST_F(ChooseCommandTest, ASampleIsTheSameAgainAndIsSaid) {
   write_points(points);
   const std::vector<std::string> two = {"--only", "polylidar", "--only", "convex_hull", "--draws", "0"};
   const auto paths = [&](const std::string& seed) {
-    const Outcome outcome = choose({"points.csv", "--n", "300", "--seed", seed}, two);
-    EXPECT_EQ(outcome.code, 0) << outcome.err;
+    const Outcome outcome = succeeded(choose({"points.csv", "--n", "300", "--seed", seed}, two));
     EXPECT_TRUE(has(outcome.err, "points.csv has 600 points; 300 of them, drawn with seed " + seed))
         << outcome.err;
     EXPECT_TRUE(has(page(), "300 of them, drawn with seed " + seed));

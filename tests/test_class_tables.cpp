@@ -31,13 +31,6 @@ std::vector<InventedShape> members_of(const std::string& family, std::int64_t co
   return shapes;
 }
 
-const table::Table* section_of(const table::Document& document, const std::string& id) {
-  for (const table::Table& table : document.tables) {
-    if (table.id == id) return &table;
-  }
-  return nullptr;
-}
-
 /// What the rows of a group and a method show.
 std::vector<Row> rows_of(const table::Table& section, const std::string& group, const std::string& method) {
   std::vector<Row> found;
@@ -76,11 +69,11 @@ TEST(ClassTables, AreForMoreThanSixtyShapes) {
   const auto with = [](std::int64_t count) {
     return report::make_document(test::report_on_shapes(members_of("star", count, 8000, {0.8})));
   };
-  EXPECT_TRUE(section_of(with(60), "invented_shapes"));
-  EXPECT_FALSE(section_of(with(60), kByConvexity));
+  EXPECT_TRUE(test::table_in(with(60), "invented_shapes"));
+  EXPECT_FALSE(test::table_in(with(60), kByConvexity));
   const table::Document document = with(61);
-  EXPECT_FALSE(section_of(document, "invented_shapes"));
-  const table::Table* section = section_of(document, kByConvexity);
+  EXPECT_FALSE(test::table_in(document, "invented_shapes"));
+  const table::Table* section = test::table_in(document, kByConvexity);
   ASSERT_TRUE(section);
   EXPECT_EQ(table::shown(*section).front(),
             (Row{"Convexity", "Method", "Shapes", "Failed", "Invalid", "L2 mean, %", "std", "max",
@@ -96,7 +89,7 @@ TEST(ClassTables, AreForMoreThanSixtyShapes) {
 TEST(ClassTables, HaveThePapersRowsBeneathOursOfStarPolygonsAtItsSize) {
   const table::Document document =
       report::make_document(test::report_on_shapes(members_of("star", 61, 8000, {0.8, 0.6, 0.5})));
-  const table::Table* section = section_of(document, kByConvexity);
+  const table::Table* section = test::table_in(document, kByConvexity);
   ASSERT_TRUE(section);
   EXPECT_EQ(rows_of(*section, kHigh, "Polylidar, in the paper"),
             (std::vector<Row>{{kHigh, "Polylidar, in the paper", "–", "–", "–", "4.4", "0.5", "6.1", "4.6",
@@ -111,8 +104,8 @@ TEST(ClassTables, HaveNoRowsOfThePaperAtOtherSizesAndOfOtherShapes) {
   for (const auto& [family, n] : {std::pair("star", 4000), std::pair("comb", 8000)}) {
     const table::Document document =
         report::make_document(test::report_on_shapes(members_of(family, 61, n, {0.8, 0.5})));
-    EXPECT_FALSE(section_of(document, kByConvexity));
-    const table::Table* section = section_of(document, kByConvexityOthers);
+    EXPECT_FALSE(test::table_in(document, kByConvexity));
+    const table::Table* section = test::table_in(document, kByConvexityOthers);
     ASSERT_TRUE(section) << family;
     EXPECT_FALSE(has_row_of_the_paper(*section));
     EXPECT_FALSE(has_remark(*section, "The paper's values"));
@@ -125,7 +118,7 @@ TEST(ClassTables, AShapeOnABorderIsInTheHigherClass) {
   shapes.push_back({"star-63", 8000, std::nextafter(0.75, 0), 1, 0.01});
   shapes.push_back({"star-64", 8000, std::nextafter(0.55, 0), 1, 0.01});
   const table::Document document = report::make_document(test::report_on_shapes(shapes));
-  const table::Table* section = section_of(document, kByConvexity);
+  const table::Table* section = test::table_in(document, kByConvexity);
   ASSERT_TRUE(section);
   EXPECT_EQ(row_of(*section, kHigh, "Polylidar (paper)")[2], "31");
   EXPECT_EQ(row_of(*section, kMid, "Polylidar (paper)")[2], "32");
@@ -139,7 +132,7 @@ TEST(ClassTables, AnInvalidResultIsCountedAndNotInTheStatistics) {
   run["detail"] = "the result is an invalid polygon: Self-intersection";
   run["metrics"]["valid"] = false;
   const table::Document document = report::make_document(report);
-  const table::Table* section = section_of(document, kByConvexity);
+  const table::Table* section = test::table_in(document, kByConvexity);
   ASSERT_TRUE(section);
   const Row row = row_of(*section, kHigh, "Polylidar (paper)");
   EXPECT_EQ(Row(row.begin() + 1, row.begin() + 8),
@@ -155,7 +148,7 @@ TEST(ClassTables, AFailureIsMarkedAndNotInTheStatistics) {
   run["status"] = "timeout";
   run["detail"] = "no answer within 120 s";
   const table::Document document = report::make_document(report);
-  const table::Table* section = section_of(document, kByConvexity);
+  const table::Table* section = test::table_in(document, kByConvexity);
   ASSERT_TRUE(section);
   const Row row = row_of(*section, kHigh, "SpatiaLite (paper)");
   EXPECT_EQ(Row(row.begin() + 1, row.begin() + 6), (Row{"SpatiaLite (paper) [1]", "60", "1", "0", "30.5"}));
@@ -179,13 +172,13 @@ TEST(ClassTables, OtherFamiliesStandApartAndByKind) {
     report["datasets"].push_back({{"name", name}, {"title", title}, {"members", 100}});
   }
   const table::Document document = report::make_document(report);
-  EXPECT_EQ(row_of(*section_of(document, kByConvexity), kHigh, "Polylidar (paper)")[2], "61");
-  const table::Table* others = section_of(document, kByConvexityOthers);
+  EXPECT_EQ(row_of(*test::table_in(document, kByConvexity), kHigh, "Polylidar (paper)")[2], "61");
+  const table::Table* others = test::table_in(document, kByConvexityOthers);
   ASSERT_TRUE(others);
   EXPECT_TRUE(others->caption.starts_with("6 shapes (comb and spiral), n = 8000, by convexity"))
       << others->caption;
   EXPECT_EQ(row_of(*others, kLow, "Polylidar (paper)")[2], "6");
-  const table::Table* kinds = section_of(document, "invented_kinds");
+  const table::Table* kinds = test::table_in(document, "invented_kinds");
   ASSERT_TRUE(kinds);
   EXPECT_EQ(row_of(*kinds, "Comb", "Polylidar (paper)")[2], "3");
   EXPECT_EQ(row_of(*kinds, "Spiral", "Polylidar (paper)")[2], "3");
@@ -200,14 +193,14 @@ TEST(ClassTables, AShapeThatNothingWasScoredOnHasNoClass) {
     run["metrics"] = json::object();
   }
   const table::Document document = report::make_document(report);
-  EXPECT_EQ(row_of(*section_of(document, kByConvexity), "not known", "Polylidar (paper)")[2], "0");
+  EXPECT_EQ(row_of(*test::table_in(document, kByConvexity), "not known", "Polylidar (paper)")[2], "0");
 }
 
 TEST(ClassTables, ShapesWithPointsOfTheirOwnHaveThemOnAverage) {
   const json report = test::report_on_shapes(
       {{"floor-1", 80000, 0.5, 1, 0.01}, {"floor-2", 90000, 0.5, 2, 0.02}, {"floor-3", 90001, 0.5, 3, 0.03}});
   const table::Document document = report::make_document(report);
-  const table::Table* section = section_of(document, "invented_summary");
+  const table::Table* section = test::table_in(document, "invented_summary");
   ASSERT_TRUE(section);
   EXPECT_TRUE(section->caption.starts_with("3 shapes, 86667 points on average: ")) << section->caption;
 }
@@ -217,16 +210,16 @@ TEST(ClassTables, FloorsThatThePaperHasNotAreApart) {
       report::make_document(test::report_on_shapes({{"floor-1", 80000, 0.5, 1, 0.01},
                                                     {"floor-2", 90000, 0.5, 2, 0.02},
                                                     {"lowfloor-1", 20000, 0.5, 9, 0.09}}));
-  const table::Table* papers_own = section_of(document, "invented_summary");
-  const table::Table* others = section_of(document, "invented_summary_others");
+  const table::Table* papers_own = test::table_in(document, "invented_summary");
+  const table::Table* others = test::table_in(document, "invented_summary_others");
   ASSERT_TRUE(papers_own);
   ASSERT_TRUE(others);
   EXPECT_TRUE(papers_own->caption.starts_with("2 shapes, 85000 points on average: ")) << papers_own->caption;
   EXPECT_TRUE(others->caption.starts_with("1 shapes, n = 20000: ")) << others->caption;
   EXPECT_TRUE(has_remark(*papers_own, "Table III"));
   EXPECT_FALSE(has_remark(*others, "The paper's values"));
-  ASSERT_TRUE(section_of(document, "invented_shapes_others"));
-  EXPECT_EQ(section_of(document, "invented_shapes")->rows.size(), 2U);
+  ASSERT_TRUE(test::table_in(document, "invented_shapes_others"));
+  EXPECT_EQ(test::table_in(document, "invented_shapes")->rows.size(), 2U);
 }
 
 }  // namespace

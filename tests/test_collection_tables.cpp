@@ -4,61 +4,29 @@
 #include <cstdint>
 #include <nlohmann/json.hpp>
 #include <regex>
-#include <sstream>
 #include <string>
 #include <vector>
 
-#include "benchmarks/report/report.hpp"
-#include "benchmarks/report/tables.hpp"
-#include "benchmarks/table/writers.hpp"
-#include "invented_run.hpp"
-#include "temporary_folder.hpp"
+#include "invented_shapes.hpp"
 
 namespace hullbench {
 namespace {
 
 using nlohmann::json;
 
-json invented_report() {
-  const testing::TemporaryFolder folder;
-  test::write_invented_run(folder.path(), {2000});
-  return report::make_report(folder.path());
-}
-
-// The invented runs on California as if on letters: on the k-th every method takes k ms and errs by 10 k %.
+// On the k-th letter every method takes k ms and errs by 10 k %.
 json letters_report(const std::vector<std::string>& letters) {
-  json report = invented_report();
-  const json on_states = report.at("runs");
-  report.at("runs") = json::array();
-  std::int64_t k = 0;
+  std::vector<test::InventedShape> shapes;
   for (const std::string& letter : letters) {
-    ++k;
-    for (json run : on_states) {
-      if (run.at("dataset") != "ca" || run.at("holes") == true) continue;
-      run["dataset"] = letter;
-      if (run.at("status") == "ok") {
-        run["metrics"]["l2_paper"] = 0.1 * static_cast<double>(k);
-        for (json& phases : run["phases_ns"]) phases["run"] = k * 1'000'000;
-        for (json& time : run["time_ns"]) time = k * 1'500'000;
-      }
-      report["runs"].push_back(run);
-    }
+    const auto k = static_cast<std::int64_t>(shapes.size() + 1);
+    shapes.push_back({letter, 2000, 0.5, k, 0.1 * static_cast<double>(k)});
   }
-  return report;
-}
-
-json* run_of(json& report, const std::string& method, const std::string& dataset) {
-  for (json& run : report.at("runs")) {
-    if (run.at("method") == method && run.at("dataset") == dataset) return &run;
-  }
-  return nullptr;
+  return test::report_on_shapes(shapes);
 }
 
 // With single spaces, whatever the columns' widths.
 std::string tables(const json& report) {
-  std::ostringstream out;
-  table::print_markdown(report::make_document(report), out);
-  return std::regex_replace(out.str(), std::regex(" +"), " ");
+  return std::regex_replace(test::markdown_of(report), std::regex(" +"), " ");
 }
 
 bool contains(const std::string& text, const std::string& part) {
@@ -96,7 +64,7 @@ TEST(CollectionTables, OfOtherShapesHaveNoPublishedValues) {
 
 TEST(CollectionTables, MeansAreOfTheCasesThatAllSolvedAndAFailureIsNamed) {
   json report = letters_report(kLetters);
-  json& run = *run_of(report, "spatialite", "letter_j");
+  json& run = test::run_on(report, "spatialite", "letter_j");
   run["status"] = "timeout";
   run["detail"] = "no answer within 120 s";
   const std::string text = tables(report);
@@ -113,7 +81,7 @@ TEST(CollectionTables, MeansAreOfTheCasesThatAllSolvedAndAFailureIsNamed) {
 TEST(CollectionTables, AMethodThatSolvedLessThanHalfNarrowsNobodysStatistics) {
   json report = letters_report(kLetters);
   for (const char* letter : {"letter_j", "letter_z"}) {
-    json& run = *run_of(report, "spatialite", letter);
+    json& run = test::run_on(report, "spatialite", letter);
     run["status"] = "timeout";
     run["detail"] = "no answer within 120 s";
   }
@@ -142,7 +110,7 @@ TEST(CollectionTables, AMethodThatIsNotInstalledHasNoValues) {
 }
 
 TEST(CollectionTables, AreNotForAFewShapesThatThePaperHasNoTableOf) {
-  const std::string text = tables(invented_report());
+  const std::string text = tables(test::invented_report({2000}));
   EXPECT_FALSE(contains(text, "shapes, n =")) << text;
 }
 

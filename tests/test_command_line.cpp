@@ -23,6 +23,7 @@
 
 #include "benchmarks/record/json_lines.hpp"
 #include "benchmarks/record/record.hpp"
+#include "tests/complaint.hpp"
 #include "tests/hullbench_test.hpp"
 
 namespace hullbench {
@@ -72,8 +73,7 @@ void expect_no_repetition_twice(const fs::path& run, int repetitions) {
 }
 
 TEST_F(CommandLineTest, HelpTellsCommandsAndExitCodes) {
-  const Outcome outcome = hullbench({"--help"});
-  EXPECT_EQ(outcome.code, 0);
+  const Outcome outcome = succeeded(hullbench({"--help"}));
   for (const char* word : {"list", "run", "tables", "validate", "worker", "Exit codes", "130  interrupted"}) {
     EXPECT_NE(outcome.out.find(word), std::string::npos) << word;
   }
@@ -112,7 +112,7 @@ TEST_F(CommandLineTest, EverySubcommandsHelpHasAnExample) {
     const std::string help = hullbench(words).out;
     std::smatch found;
     ASSERT_TRUE(std::regex_search(help, found, std::regex("Example: (.*hullbench .+)\n"))) << help;
-    EXPECT_NE(help.find("Exit codes:"), std::string::npos) << help;
+    testing::expect_says(help, "Exit codes:");
     examples.emplace_back(name, found[1]);
   }
 
@@ -171,10 +171,8 @@ TEST_F(CommandLineTest, UnknownMethodAndDataSetInAPlan) {
 TEST_F(CommandLineTest, AParameterThatTheMethodDoesNotHave) {
   std::string text = read_text(plan({500}, 1));
   text.replace(text.find("\"alpha\""), 7, "\"beta\"");
-  const Outcome outcome = hullbench({"run", write_plan(text)});
-  EXPECT_EQ(outcome.code, 2);
-  EXPECT_NE(outcome.err.find("gives polylidar the parameter 'beta', which it does not have"),
-            std::string::npos);
+  expect_end(hullbench({"run", write_plan(text)}), 2,
+             "gives polylidar the parameter 'beta', which it does not have");
 }
 
 TEST_F(CommandLineTest, OutputFolderThatCannotBeWritten) {
@@ -207,11 +205,11 @@ TEST_F(CommandLineTest, FullDisk) {
   const std::string small = plan({500}, 1000);
   // A limit on the size of files stands for a full disk; its signal is ignored, so that writing fails
   // instead.
-  const Outcome outcome = testing::run_program(
-      {"/bin/sh", "-c", "trap '' XFSZ; ulimit -f 40; exec \"$0\" run \"$1\" --out run", HULLBENCH, small},
-      in_folder());
-  EXPECT_EQ(outcome.code, 1);
-  EXPECT_NE(outcome.err.find("repetitions.jsonl: is the disk full?"), std::string::npos) << outcome.err;
+  expect_end(
+      testing::run_program(
+          {"/bin/sh", "-c", "trap '' XFSZ; ulimit -f 40; exec \"$0\" run \"$1\" --out run", HULLBENCH, small},
+          in_folder()),
+      1, "repetitions.jsonl: is the disk full?");
   EXPECT_EQ(hullbench({"run", small, "--out", "run"}).code, 0);
   expect_no_repetition_twice(folder() / "run", 1000);
 }
@@ -223,8 +221,8 @@ TEST_F(CommandLineTest, NothingMatches) {
 }
 
 TEST_F(CommandLineTest, DryRunPrintsNamesAndDoesNothing) {
-  const Outcome outcome = hullbench({"run", plan({500, 600}, 1), "--filter", "holes:1", "--dry-run"});
-  EXPECT_EQ(outcome.code, 0);
+  const Outcome outcome =
+      succeeded(hullbench({"run", plan({500, 600}, 1), "--filter", "holes:1", "--dry-run"}));
   EXPECT_EQ(outcome.out,
             "polylidar/ca/n:500/holes:1/protocol:paper\npolylidar/ca/n:600/holes:1/protocol:paper\n");
   EXPECT_EQ(outcome.err, "");
@@ -232,17 +230,15 @@ TEST_F(CommandLineTest, DryRunPrintsNamesAndDoesNothing) {
 }
 
 TEST_F(CommandLineTest, ARunLeavesItsFilesAndSaysWhich) {
-  const Outcome outcome = hullbench({"run", plan({500}, 2)});
-  EXPECT_EQ(outcome.code, 0) << outcome.err;
-  EXPECT_NE(outcome.err.find("2 ok, 0 failed, 0 not installed"), std::string::npos) << outcome.err;
-  EXPECT_NE(outcome.err.find("results/latest/report.json"), std::string::npos) << outcome.err;
+  const Outcome outcome = succeeded(hullbench({"run", plan({500}, 2)}));
+  testing::expect_says(outcome.err, "2 ok, 0 failed, 0 not installed");
+  testing::expect_says(outcome.err, "results/latest/report.json");
   const fs::path latest = folder() / "results" / "latest";
   EXPECT_EQ(read_text(latest / "tables.md"), outcome.out);
   for (const char* file : {"report.json", "runs.jsonl", "run.json"}) {
     EXPECT_EQ(hullbench({"validate", (latest / file).string()}).code, 0) << file;
   }
-  const Outcome tables = hullbench({"tables"});
-  EXPECT_EQ(tables.code, 0) << tables.err;
+  const Outcome tables = succeeded(hullbench({"tables"}));
   EXPECT_EQ(tables.out, outcome.out);
   EXPECT_EQ(hullbench({"tables", latest.string()}).out, outcome.out);
 }
@@ -260,12 +256,10 @@ TEST_F(CommandLineTest, OptionsReplaceThePlansValues) {
 
 TEST_F(CommandLineTest, SeveralPassesAreSaidAndRecorded) {
   const Outcome outcome =
-      hullbench({"run", plan({500}, 3), "--passes", "2", "--filter", "holes:0", "--out", "run"});
-  ASSERT_EQ(outcome.code, 0) << outcome.err;
-  EXPECT_NE(outcome.err.find("hullbench: pass 1 of 2: "), std::string::npos) << outcome.err;
-  EXPECT_NE(outcome.err.find("pass 1 of 2 is done; 'hullbench tables run' prints"), std::string::npos)
-      << outcome.err;
-  EXPECT_NE(outcome.err.find("hullbench: pass 2 of 2: "), std::string::npos) << outcome.err;
+      succeeded(hullbench({"run", plan({500}, 3), "--passes", "2", "--filter", "holes:0", "--out", "run"}));
+  testing::expect_says(outcome.err, "hullbench: pass 1 of 2: ");
+  testing::expect_says(outcome.err, "pass 1 of 2 is done; 'hullbench tables run' prints");
+  testing::expect_says(outcome.err, "hullbench: pass 2 of 2: ");
   const auto rows = lines_of(folder() / "run" / "runs.jsonl");
   ASSERT_EQ(rows.size(), 1U);
   EXPECT_EQ(rows[0]["passes"], (json{1, 1, 2}));
@@ -304,8 +298,7 @@ TEST_F(CommandLineTest, AFilterOfThePlanIsForWhoAsksForNone) {
 TEST_F(CommandLineTest, MembersOfAFamilyHaveARowEach) {
   const json cases = json::array({{{"dataset", "comb"}, {"members", 3}, {"n", {500}}}});
   const std::string combs = testing::write_plan(folder(), testing::small_plan("combs", cases));
-  const Outcome outcome = hullbench({"run", combs, "--out", "run"});
-  EXPECT_EQ(outcome.code, 0) << outcome.err;
+  const Outcome outcome = succeeded(hullbench({"run", combs, "--out", "run"}));
   std::set<std::string> names;
   std::set<std::string> points;
   for (const json& row : lines_of(folder() / "run" / "runs.jsonl")) {
@@ -315,7 +308,7 @@ TEST_F(CommandLineTest, MembersOfAFamilyHaveARowEach) {
   }
   EXPECT_EQ(names, (std::set<std::string>{"comb-1", "comb-2", "comb-3"}));
   EXPECT_EQ(points.size(), 3U) << "the members are different shapes";
-  EXPECT_NE(outcome.out.find("Comb 3"), std::string::npos) << outcome.out;
+  testing::expect_says(outcome.out, "Comb 3");
 }
 
 /// A scene in a folder of recordings: a floor of 4 m by 3 m with a point every 0.1 m, moved by `shift`
@@ -336,9 +329,8 @@ void write_scene(const fs::path& scene, double shift) {
 TEST_F(CommandLineTest, RecordedFloorsTakeThePlaceOfTheSimulatedOnes) {
   write_scene(folder() / "floors" / "kitchen", 0);
   write_scene(folder() / "floors" / "hall", 5);
-  const Outcome outcome = hullbench({"run", "rgbd", "--recordings", "floors", "--filter", "^polylidar/",
-                                     "--repetitions", "1", "--out", "run"});
-  EXPECT_EQ(outcome.code, 0) << outcome.err;
+  const Outcome outcome = succeeded(hullbench({"run", "rgbd", "--recordings", "floors", "--filter",
+                                               "^polylidar/", "--repetitions", "1", "--out", "run"}));
   std::set<std::string> names;
   for (const json& row : lines_of(folder() / "run" / "runs.jsonl")) {
     EXPECT_EQ(row["status"], "ok") << row;
@@ -348,17 +340,16 @@ TEST_F(CommandLineTest, RecordedFloorsTakeThePlaceOfTheSimulatedOnes) {
     names.insert(row["dataset"]);
   }
   EXPECT_EQ(names, (std::set<std::string>{"recorded-1", "recorded-2"}));
-  EXPECT_NE(outcome.out.find("Recorded floor 1"), std::string::npos) << outcome.out;
-  EXPECT_NE(outcome.out.find("Recorded floor 2"), std::string::npos) << outcome.out;
+  testing::expect_says(outcome.out, "Recorded floor 1");
+  testing::expect_says(outcome.out, "Recorded floor 2");
   EXPECT_EQ(outcome.out.find("Simulated floor"), std::string::npos) << outcome.out;
 }
 
 TEST_F(CommandLineTest, RecordingsAreAddedToTheRealPointsWithoutATruth) {
   write_scene(folder() / "floors" / "hall", 5);
   fs::remove(folder() / "floors" / "hall" / "gt.geojson");
-  const Outcome outcome = hullbench(
-      {"run", "real", "--recordings", "floors", "--filter", "^convex_hull/real-recorded", "--out", "run"});
-  EXPECT_EQ(outcome.code, 0) << outcome.err;
+  const Outcome outcome = succeeded(hullbench(
+      {"run", "real", "--recordings", "floors", "--filter", "^convex_hull/real-recorded", "--out", "run"}));
   const std::vector<json> rows = lines_of(folder() / "run" / "runs.jsonl");
   ASSERT_EQ(rows.size(), 1U);
   EXPECT_EQ(rows[0]["dataset"], "real-recorded-1");
@@ -366,7 +357,7 @@ TEST_F(CommandLineTest, RecordingsAreAddedToTheRealPointsWithoutATruth) {
   EXPECT_EQ(rows[0]["metrics"]["l2"], nullptr);
   EXPECT_EQ(rows[0]["metrics"]["points_covered"], 1);
   EXPECT_GT(rows[0]["metrics"]["agreement_subsamples"].get<double>(), 0.9);
-  EXPECT_NE(outcome.out.find("Recorded points 1, 1271"), std::string::npos) << outcome.out;
+  testing::expect_says(outcome.out, "Recorded points 1, 1271");
 }
 
 TEST_F(CommandLineTest, RecordingsThatAreNotThere) {
@@ -403,11 +394,8 @@ TEST_F(CommandLineTest, TablesAndValidateOfWhatIsNotThere) {
 }
 
 TEST_F(CommandLineTest, MetricsAreListed) {
-  const Outcome text = hullbench({"metrics"});
-  EXPECT_EQ(text.code, 0) << text.err;
-  EXPECT_NE(text.out.find("  l2  ratio, lower is better\n"), std::string::npos) << text.out;
-  const Outcome as_json = hullbench({"metrics", "--json"});
-  EXPECT_EQ(as_json.code, 0) << as_json.err;
+  expect_end(hullbench({"metrics"}), 0, "", "  l2  ratio, lower is better\n");
+  const Outcome as_json = succeeded(hullbench({"metrics", "--json"}));
   const json table = json::parse(as_json.out);
   ASSERT_FALSE(table.empty());
   EXPECT_EQ(table[0]["name"], "valid");
@@ -417,9 +405,8 @@ TEST_F(CommandLineTest, MetricsAreListed) {
 }
 
 TEST_F(CommandLineTest, ListKnowsEveryMethodAndDataSet) {
-  const Outcome outcome =
-      hullbench({"list", "--json"}, {{}, {{"HULLBENCH_POSTGIS_DSN", "host=127.0.0.1 port=1"}}, false});
-  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  const Outcome outcome = succeeded(
+      hullbench({"list", "--json"}, {{}, {{"HULLBENCH_POSTGIS_DSN", "host=127.0.0.1 port=1"}}, false}));
   const json listing = json::parse(outcome.out);
   std::map<std::string, json> methods;
   for (const json& method : listing["methods"]) methods[method["name"]] = method;
@@ -444,11 +431,11 @@ TEST_F(CommandLineTest, ListKnowsEveryMethodAndDataSet) {
   EXPECT_FALSE(methods["postgis"]["remedy"].get<std::string>().empty());
   EXPECT_GE(listing["datasets"].size(), 2U);
 
-  const Outcome text = hullbench({"list"}, {{}, {{"HULLBENCH_POSTGIS_DSN", "host=127.0.0.1 port=1"}}, false});
-  EXPECT_EQ(text.code, 0);
+  const Outcome text =
+      succeeded(hullbench({"list"}, {{}, {{"HULLBENCH_POSTGIS_DSN", "host=127.0.0.1 port=1"}}, false}));
   for (const auto& [name, method] : methods)
     EXPECT_NE(text.out.find("  " + name + "  "), std::string::npos) << name;
-  EXPECT_NE(text.out.find("remedy: "), std::string::npos);
+  testing::expect_says(text.out, "remedy: ");
 }
 
 /// A server that takes connections and says nothing, as behind a wrong port.
@@ -488,23 +475,21 @@ TEST_F(CommandLineTest, ADatabaseThatAnswersNothingIsAVisibleRow) {
     const auto rows = lines_of(folder() / out / "runs.jsonl");
     ASSERT_EQ(rows.size(), 1U);
     EXPECT_EQ(rows[0]["status"], "not_installed");
-    EXPECT_NE(outcome.err.find("postgis does not start (not_installed): "), std::string::npos) << outcome.err;
-    EXPECT_NE(outcome.err.find("0 ok, 0 failed, 1 not installed"), std::string::npos) << outcome.err;
+    testing::expect_says(outcome.err, "postgis does not start (not_installed): ");
+    testing::expect_says(outcome.err, "0 ok, 0 failed, 1 not installed");
   }
 }
 
 TEST_F(CommandLineTest, PostgisThatIsNotInstalledIsARowWithItsRemedy) {
   const fs::path nothing = folder() / "no-programs";
   fs::create_directory(nothing);
-  const Outcome outcome = hullbench({"run", "states", "--filter", "(convex_hull|postgis)/hi/n:2000/holes:0",
-                                     "--repetitions", "1", "--out", "run"},
-                                    {{}, {{"HULLBENCH_POSTGRES_BIN", nothing.string()}}, false});
-  EXPECT_EQ(outcome.code, 0) << outcome.err;
-  EXPECT_NE(outcome.err.find("postgis does not start (not_installed): PostgreSQL is not installed"),
-            std::string::npos)
-      << outcome.err;
-  EXPECT_NE(outcome.err.find("apt-get install postgresql-postgis"), std::string::npos) << outcome.err;
-  EXPECT_NE(outcome.err.find("1 ok, 0 failed, 1 not installed"), std::string::npos) << outcome.err;
+  const Outcome outcome =
+      succeeded(hullbench({"run", "states", "--filter", "(convex_hull|postgis)/hi/n:2000/holes:0",
+                           "--repetitions", "1", "--out", "run"},
+                          {{}, {{"HULLBENCH_POSTGRES_BIN", nothing.string()}}, false}));
+  testing::expect_says(outcome.err, "postgis does not start (not_installed): PostgreSQL is not installed");
+  testing::expect_says(outcome.err, "apt-get install postgresql-postgis");
+  testing::expect_says(outcome.err, "1 ok, 0 failed, 1 not installed");
 }
 
 TEST_F(CommandLineTest, WhatWasNotInstalledIsMeasuredWhenItIsThere) {
@@ -530,25 +515,21 @@ TEST_F(CommandLineTest, WhatWasNotInstalledIsMeasuredWhenItIsThere) {
   ASSERT_EQ(run({"states"}, missing).code, 0);
   EXPECT_EQ(statuses("run/runs.jsonl"), (std::map<std::string, int>{{"not_installed", 1}, {"ok", 1}}));
   const Outcome second = run({"states"}, {});
-  EXPECT_NE(
-      second.err.find(
-          "1 of 2 runs are finished and not measured again (--force starts anew); tried again because the "
-          "method was not installed: 1\n"),
-      std::string::npos)
-      << second.err;
+  testing::expect_says(second.err,
+                       "1 of 2 runs are finished and not measured again (--force starts anew); tried again "
+                       "because the method was not installed: 1\n");
   EXPECT_EQ(statuses("run/runs.jsonl"), both);
-  EXPECT_NE(
-      run({"states"}, {}).err.find("2 of 2 runs are finished and not measured again (--force starts anew)\n"),
-      std::string::npos);
+  testing::expect_says(run({"states"}, {}).err,
+                       "2 of 2 runs are finished and not measured again (--force starts anew)\n");
 
   ASSERT_EQ(run({"states", "alphabet"}, missing).code, 0);
   const Outcome suite = run({"states", "alphabet"}, {});
   EXPECT_EQ(suite.err.find("is finished already"), std::string::npos) << suite.err;
-  EXPECT_NE(suite.err.find("4 ok, 0 failed, 0 not installed"), std::string::npos) << suite.err;
+  testing::expect_says(suite.err, "4 ok, 0 failed, 0 not installed");
   for (const char* plan : {"states", "alphabet"}) {
     EXPECT_EQ(statuses(fs::path("suite") / plan / "runs.jsonl"), both) << plan;
   }
-  EXPECT_NE(run({"states", "alphabet"}, {}).err.find("State shapes is finished already"), std::string::npos);
+  testing::expect_says(run({"states", "alphabet"}, {}).err, "State shapes is finished already");
 }
 
 TEST_F(CommandLineTest, AWorkerThatIsKilledIsARowAndTheRestIsMeasured) {
@@ -565,7 +546,7 @@ TEST_F(CommandLineTest, AWorkerThatIsKilledIsARowAndTheRestIsMeasured) {
   for (const json& row : lines_of(folder() / "run" / "runs.jsonl")) {
     ++counts[row["status"]];
     if (row["status"] != "crash") continue;
-    EXPECT_NE(row["detail"].get<std::string>().find("SIGKILL"), std::string::npos);
+    testing::expect_says(row["detail"].get<std::string>(), "SIGKILL");
   }
   EXPECT_EQ(counts, (std::map<std::string, int>{{"crash", 1}, {"ok", 3}}));
 }
@@ -609,18 +590,16 @@ std::vector<json> untimed_rows(const fs::path& run) {
 
 TEST_F(InterruptionTest, CtrlCKeepsFinishedRowsAndASecondStartGoesOn) {
   for (const int signal : {SIGINT, SIGTERM}) {
-    const Outcome stopped = stop_after(signal == SIGINT ? kRepetitions + 5 : 3 * kRepetitions + 5, signal);
-    ASSERT_EQ(stopped.code, 130) << stopped.err;
-    EXPECT_NE(stopped.err.find("the same command goes on from there"), std::string::npos) << stopped.err;
+    const Outcome stopped =
+        expect_end(stop_after(signal == SIGINT ? kRepetitions + 5 : 3 * kRepetitions + 5, signal), 130,
+                   "the same command goes on from there");
     EXPECT_EQ(stopped.out, "");
     EXPECT_FALSE(fs::exists(folder() / "run" / "report.json"));
     EXPECT_FALSE(fs::exists(folder() / "run" / "scratch"));
   }
   const std::string kept = read_text(folder() / "run" / "runs.jsonl");
   EXPECT_FALSE(kept.empty());
-  const Outcome second = hullbench({"run", the_plan(), "--out", "run"});
-  EXPECT_EQ(second.code, 0) << second.err;
-  EXPECT_NE(second.err.find("going on with the run in run"), std::string::npos) << second.err;
+  expect_end(hullbench({"run", the_plan(), "--out", "run"}), 0, "going on with the run in run");
   EXPECT_EQ(read_text(folder() / "run" / "runs.jsonl").substr(0, kept.size()), kept);
   expect_no_repetition_twice(folder() / "run", kRepetitions);
 }
@@ -677,10 +656,7 @@ TEST_F(InterruptionTest, WithoutOutTheUnfinishedRunIsFoundAndAFinishedOneIsNotTo
   const auto run_folders = [&] {
     return std::distance(fs::directory_iterator(folder() / "results" / "runs"), fs::directory_iterator());
   };
-  const Outcome second = hullbench(words);
-  EXPECT_EQ(second.code, 0) << second.err;
-  EXPECT_NE(second.err.find("of 6 runs are finished and not measured again"), std::string::npos)
-      << second.err;
+  expect_end(hullbench(words), 0, "of 6 runs are finished and not measured again");
   EXPECT_EQ(run_folders(), 1);
   EXPECT_EQ(hullbench(words).code, 0);
   EXPECT_EQ(run_folders(), 2);

@@ -5,7 +5,6 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <functional>
 #include <limits>
 #include <set>
 #include <stdexcept>
@@ -17,12 +16,14 @@
 #include "polylidar/concave_hull.hpp"
 #include "polylidar/delaunay.hpp"
 #include "polylidar/predicates.hpp"
+#include "tests/complaint.hpp"
 #include "tests/hull_oracle.hpp"
 #include "tests/point_sets.hpp"
 
 namespace polylidar {
 namespace {
 
+using testing::area_tolerance;
 using testing::canonical;
 using testing::convex_corners;
 using testing::hole_count;
@@ -46,13 +47,6 @@ bool has_representable_area(const std::vector<Point>& points) {
   const Box box = bounding_box(points);
   const double extent = std::max(box.max.x - box.min.x, box.max.y - box.min.y);
   return points.empty() || (extent < 1e150 && extent > 1e-150);
-}
-
-// The rounding of areas: some thousand terms, each off by at most an ulp of the squared extent.
-double area_tolerance(const std::vector<Point>& points) {
-  const Box box = bounding_box(points);
-  const double extent = std::max(box.max.x - box.min.x, box.max.y - box.min.y);
-  return points.empty() ? 0 : 1e-12 * extent * extent;
 }
 
 std::vector<Point> without(std::vector<Point> points, const std::vector<Point>& removed) {
@@ -201,12 +195,8 @@ TEST(ConcaveHull, NamesTheFirstCoordinateThatIsNotFinite) {
   std::vector<Point> points = testing::uniform_points(500, 2);
   points[499].x = kInfinity;
   points[317].y = std::numeric_limits<double>::quiet_NaN();
-  try {
-    concave_hull(points, kUnitCells);
-    FAIL() << "accepted NaN";
-  } catch (const std::invalid_argument& error) {
-    EXPECT_NE(std::string(error.what()).find("317"), std::string::npos) << error.what();
-  }
+  hullbench::testing::expect_complaint<std::invalid_argument>([&] { concave_hull(points, kUnitCells); },
+                                                              "317");
 }
 
 // rings that touch
@@ -410,72 +400,38 @@ TEST(ConcaveHull, OfALatticeWithGapsFollowsFromItsCells) {
 
 // relations between inputs
 
-// A motion of the plane that is exact on the integer points used here, and its effect on lengths.
+// (x, y) -> (xx x + xy y + dx, yx x + yy y + dy): motions of the plane that are exact on the integer points
+// used here.
 struct Motion {
   std::string name;
-  std::function<Point(Point)> move;
-  double scale = 1;
-  bool mirrors = false;
+  double xx, xy, yx, yy;
+  double dx = 0;
+  double dy = 0;
+
+  double scale() const { return std::abs(xx + xy); }  // one of the two is 0
+  bool mirrors() const { return xx * yy - xy * yx < 0; }
 };
 
-std::vector<Motion> motions() {
-  return {{.name = "mirrored in x",
-           .move =
-               [](Point p) {
-                 return Point{-p.x, p.y};
-               },
-           .mirrors = true},
-          {.name = "mirrored in y",
-           .move =
-               [](Point p) {
-                 return Point{p.x, -p.y};
-               },
-           .mirrors = true},
-          {.name = "axes swapped",
-           .move =
-               [](Point p) {
-                 return Point{p.y, p.x};
-               },
-           .mirrors = true},
-          {.name = "turned by 90 degrees",
-           .move =
-               [](Point p) {
-                 return Point{-p.y, p.x};
-               }},
-          {.name = "moved",
-           .move =
-               [](Point p) {
-                 return Point{p.x + 0x1p30, p.y - 0x1p27};
-               }},
-          {.name = "8 times larger",
-           .move =
-               [](Point p) {
-                 return Point{8 * p.x, 8 * p.y};
-               },
-           .scale = 8},
-          {.name = "2^300 times larger",
-           .move =
-               [](Point p) {
-                 return Point{0x1p300 * p.x, 0x1p300 * p.y};
-               },
-           .scale = 0x1p300},
-          {.name = "2^300 times smaller",
-           .move =
-               [](Point p) {
-                 return Point{0x1p-300 * p.x, 0x1p-300 * p.y};
-               },
-           .scale = 0x1p-300}};
-}
+const std::vector<Motion> kMotions = {{"mirrored in x", -1, 0, 0, 1},
+                                      {"mirrored in y", 1, 0, 0, -1},
+                                      {"axes swapped", 0, 1, 1, 0},
+                                      {"turned by 90 degrees", 0, -1, 1, 0},
+                                      {"moved", 1, 0, 0, 1, 0x1p30, -0x1p27},
+                                      {"8 times larger", 8, 0, 0, 8},
+                                      {"2^300 times larger", 0x1p300, 0, 0, 0x1p300},
+                                      {"2^300 times smaller", 0x1p-300, 0, 0, 0x1p-300}};
 
 std::vector<Point> moved(std::vector<Point> points, const Motion& motion) {
-  for (Point& point : points) point = motion.move(point);
+  for (Point& p : points) {
+    p = {motion.xx * p.x + motion.xy * p.y + motion.dx, motion.yx * p.x + motion.yy * p.y + motion.dy};
+  }
   return points;
 }
 
 MultiPolygon moved(MultiPolygon shape, const Motion& motion) {
   const auto move_ring = [&](Ring& ring) {
     ring = moved(ring, motion);
-    if (motion.mirrors) std::reverse(ring.begin(), ring.end());
+    if (motion.mirrors()) std::reverse(ring.begin(), ring.end());
   };
   for (Polygon& polygon : shape) {
     move_ring(polygon.shell);
@@ -509,9 +465,9 @@ TEST_P(ConcaveHullRelations, MotionsMoveTheShapeAlong) {
   for (const Options& options : options_) {
     SCOPED_TRACE(testing::describe(options));
     const MultiPolygon shape = hull(points_, options);
-    for (const Motion& motion : motions()) {
+    for (const Motion& motion : kMotions) {
       SCOPED_TRACE(motion.name);
-      EXPECT_EQ(canonical(hull(moved(points_, motion), scaled(options, motion.scale))),
+      EXPECT_EQ(canonical(hull(moved(points_, motion), scaled(options, motion.scale()))),
                 canonical(moved(shape, motion)));
     }
   }

@@ -1,8 +1,6 @@
 // Every concave hull is a valid multipolygon in the eyes of GEOS and of Boost.Geometry.
 #include <gtest/gtest.h>
 
-#include <algorithm>
-#include <cmath>
 #include <cstdint>
 #include <string>
 #include <vector>

@@ -18,15 +18,9 @@
 namespace polylidar {
 namespace {
 
+using testing::area_tolerance;
 using testing::hole_count;
 using testing::NamedCase;
-
-// The rounding of areas: some thousand terms, each off by at most an ulp of the squared extent.
-double area_tolerance(const std::vector<Point>& points) {
-  const Box box = bounding_box(points);
-  const double extent = std::max(box.max.x - box.min.x, box.max.y - box.min.y);
-  return 1e-12 * extent * extent;
-}
 
 NamedCase named_case(const std::string& name) {
   for (NamedCase& named : testing::named_cases()) {

@@ -7,7 +7,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
-#include <optional>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -15,6 +14,7 @@
 #include "polylidar/check.hpp"
 #include "polylidar/concave_hull.hpp"
 #include "polylidar/delaunay.hpp"
+#include "tests/complaint.hpp"
 #include "tests/hull_oracle.hpp"
 #include "tests/point_sets.hpp"
 
@@ -22,9 +22,12 @@ namespace polylidar {
 namespace {
 
 using testing::canonical;
+using testing::Exponents;
+using testing::kLargestSpan;
 using testing::lattice;
 using testing::PointSet;
 using testing::Random;
+using testing::scaled;
 
 // Keeps the triangles of a unit lattice's cells (circumradius 0.707) and no others (the next is 1). Whichever
 // diagonal a cell got, both of its triangles are kept: the shape is unique although the triangulation is not.
@@ -90,11 +93,6 @@ MultiPolygon moved(MultiPolygon shape, const Motion& motion) {
   return shape;
 }
 
-std::vector<Point> scaled(std::vector<Point> points, int exponent_x, int exponent_y) {
-  for (Point& point : points) point = {std::ldexp(point.x, exponent_x), std::ldexp(point.y, exponent_y)};
-  return points;
-}
-
 // The same points, some of them repeated, in another order.
 std::vector<Point> disarranged(std::vector<Point> points, Random& random) {
   if (points.empty()) return points;
@@ -119,7 +117,7 @@ TEST_P(CoreRelations, LatticesWithGapsKeepTheirShape) {
     const Motion motion = Motion::random(random);
     SCOPED_TRACE(::testing::PrintToString(motion));
     const std::vector<Point> other = moved(disarranged(points, random), motion);
-    EXPECT_EQ(canonical(hull(other, testing::scaled(kUnitCells, std::ldexp(1.0, motion.exponent)))),
+    EXPECT_EQ(canonical(hull(other, scaled(kUnitCells, std::ldexp(1.0, motion.exponent)))),
               canonical(moved(shape, motion)));
   }
 }
@@ -140,30 +138,11 @@ TEST_P(CoreRelations, SmallIntegersKeepTheirConvexHull) {
 
 INSTANTIATE_TEST_SUITE_P(Seeds, CoreRelations, ::testing::Range(std::uint64_t{0}, std::uint64_t{60}));
 
-// The least and the greatest exponent of a coordinate that is not zero; empty when all are zero.
-struct Exponents {
-  int least;
-  int greatest;
-};
-
-std::optional<Exponents> exponents(const std::vector<Point>& points) {
-  std::optional<Exponents> range;
-  for (const Point& point : points) {
-    for (const double coordinate : {point.x, point.y}) {
-      if (coordinate == 0) continue;
-      const int exponent = std::ilogb(coordinate);
-      if (!range) range = {exponent, exponent};
-      range = {std::min(range->least, exponent), std::max(range->greatest, exponent)};
-    }
-  }
-  return range;
-}
-
 // A power of two changes no bit of any coordinate, so the same triangles come out in the same order.
 TEST(PowersOfTwo, ChangeNoIndexOfAnyShape) {
   for (const PointSet& set : testing::nasty_point_sets()) {
     SCOPED_TRACE(set.name);
-    const auto range = exponents(set.points);
+    const auto range = testing::exponents(set.points);
     if (!range || range->least < -200 || range->greatest > 200) continue;
     const std::vector<Options> all = testing::clear_options(set.points, delaunay(set.points));
     std::vector<IndexedMultiPolygon> shapes(all.size());
@@ -172,13 +151,11 @@ TEST(PowersOfTwo, ChangeNoIndexOfAnyShape) {
       SCOPED_TRACE("exponent " + std::to_string(exponent));
       const std::vector<Point> points = scaled(set.points, exponent, exponent);
       for (std::size_t i = 0; i < all.size(); ++i)
-        EXPECT_EQ(concave_hull(points, testing::scaled(all[i], std::ldexp(1.0, exponent))), shapes[i])
+        EXPECT_EQ(concave_hull(points, scaled(all[i], std::ldexp(1.0, exponent))), shapes[i])
             << testing::describe(all[i]);
     }
   }
 }
-
-constexpr int kLargestSpan = 265;  // binary orders of magnitude: from 2^-116 to below 2^150
 
 // Each axis with a magnitude of its own, from 1e-150 to 1e150: what is not refused is right, and the same as
 // at a size that needs no scaling inside.
@@ -193,15 +170,11 @@ TEST(Magnitudes, MixedAreEitherRightOrRefused) {
       for (int exponent_y = -498; exponent_y <= 498; exponent_y += 83) {
         SCOPED_TRACE("exponents " + std::to_string(exponent_x) + " and " + std::to_string(exponent_y));
         const std::vector<Point> points = scaled(set, exponent_x, exponent_y);
-        const Exponents range = exponents(points).value();
+        const Exponents range = testing::exponents(points).value();
         if (range.greatest - range.least > kLargestSpan) {
           ++refused;
-          try {
-            concave_hull(points);
-            ADD_FAILURE() << "accepted";
-          } catch (const std::invalid_argument& error) {
-            EXPECT_NE(std::string(error.what()).find("magnitude"), std::string::npos) << error.what();
-          }
+          hullbench::testing::expect_complaint<std::invalid_argument>([&] { concave_hull(points); },
+                                                                      "magnitude");
           continue;
         }
         ++right;
@@ -211,9 +184,9 @@ TEST(Magnitudes, MixedAreEitherRightOrRefused) {
           SCOPED_TRACE(testing::describe(options));
           const IndexedMultiPolygon shape = concave_hull(points, options);
           EXPECT_EQ(check_polygon(points, shape), "");
-          EXPECT_EQ(concave_hull(scaled(points, to_middle, to_middle),
-                                 testing::scaled(options, std::ldexp(1.0, to_middle))),
-                    shape);
+          EXPECT_EQ(
+              concave_hull(scaled(points, to_middle, to_middle), scaled(options, std::ldexp(1.0, to_middle))),
+              shape);
         }
       }
     }

@@ -14,6 +14,7 @@
 #include "polylidar/check.hpp"
 #include "polylidar/delaunay.hpp"
 #include "polylidar/predicates.hpp"
+#include "tests/complaint.hpp"
 #include "tests/point_sets.hpp"
 
 namespace polylidar {
@@ -180,12 +181,9 @@ TEST(Delaunay, NamesTheFirstCoordinateThatIsNotFinite) {
       std::vector<Point> points = testing::uniform_points(50, 4, 1e-3);
       (index % 2 == 0 ? points[index].x : points[index].y) = bad;
       points[49].y = bad;
-      try {
-        delaunay(points);
-        FAIL() << "accepted " << bad << " at " << index;
-      } catch (const std::invalid_argument& error) {
-        EXPECT_NE(std::string(error.what()).find(std::to_string(index)), std::string::npos) << error.what();
-      }
+      SCOPED_TRACE(bad);
+      hullbench::testing::expect_complaint<std::invalid_argument>([&] { delaunay(points); },
+                                                                  std::to_string(index));
     }
   }
 }

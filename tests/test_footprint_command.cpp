@@ -62,8 +62,7 @@ TEST_F(FootprintCommandTest, AFeatureForEveryFile) {
   const std::string out = (folder_.path() / "index.geojson").string();
   std::vector<std::string> arguments = files;
   arguments.insert(arguments.end(), {"-o", out});
-  const Outcome outcome = footprint(arguments);
-  EXPECT_EQ(outcome.code, 0);
+  const Outcome outcome = succeeded(footprint(arguments));
   EXPECT_EQ(outcome.err, "polylidar: 5 of 5 files are in the index\n");
   EXPECT_EQ(outcome.out, "");
   const json index = json::parse(testing::read_text(out));
@@ -153,9 +152,8 @@ TEST_F(FootprintCommandTest, OtherFormatsAndSystemsAndNothing) {
     degrees.points.push_back({.x = static_cast<std::int32_t>(100000000 + random() % 1000000),
                               .y = static_cast<std::int32_t>(600000000 + random() % 500000)});
   }
-  const Outcome outcome = footprint(
-      {file("degrees.las", degrees.text()), file("plane.las", tile(1).text()), file("one.csv", "1,2\n")});
-  EXPECT_EQ(outcome.code, 0);
+  const Outcome outcome = succeeded(footprint(
+      {file("degrees.las", degrees.text()), file("plane.las", tile(1).text()), file("one.csv", "1,2\n")}));
   for (const std::string& words :
        {"different coordinate systems: EPSG:4326 (" + file("degrees.las", degrees.text()) +
             "), EPSG:25832 (" + (folder_.path() / "plane.las").string() + "), none (" +
@@ -230,8 +228,7 @@ TEST_F(FootprintUnionTest, IsTheHullOfAllPoints) {
          std::vector<std::vector<std::string>>{{"--max-perimeter", "9"},
                                                {"--alpha", "2", "--max-parts", "1", "--simplify", "1"},
                                                {"--max-perimeter", "5", "--min-area", "8"}}) {
-      const Outcome outcome = unite(files, options);
-      EXPECT_EQ(outcome.code, 0) << outcome.err;
+      const Outcome outcome = succeeded(unite(files, options));
       const json feature = feature_of(outcome);
       const json expected = hull_of_all(options);
       EXPECT_EQ(feature["geometry"], expected["geometry"]);
@@ -243,8 +240,7 @@ TEST_F(FootprintUnionTest, IsTheHullOfAllPoints) {
 }
 
 TEST_F(FootprintUnionTest, TilesThatTouchAreOnePartWithoutALimitToo) {
-  const Outcome outcome = unite(tiles(10));
-  EXPECT_EQ(outcome.code, 0);
+  const Outcome outcome = succeeded(unite(tiles(10)));
   EXPECT_NE(outcome.err.find("chosen from the points"), std::string::npos) << outcome.err;
   EXPECT_NE(outcome.err.find("polylidar: 10 of 10 files are in the union\n"), std::string::npos)
       << outcome.err;
@@ -287,8 +283,7 @@ TEST_F(FootprintUnionTest, ABrokenFileIsToldAndTheOthersAreOne) {
 TEST_F(FootprintUnionTest, AFewPointsFarApartDoNotDecideForAll) {
   std::vector<std::string> files = tiles(4);
   files.push_back(file("few.csv", "500000,5600300\n500070,5600310\n500010,5600390\n500090,5600380\n"));
-  const Outcome outcome = unite(files, {"--crs", "25832"});
-  EXPECT_EQ(outcome.code, 0);
+  const Outcome outcome = succeeded(unite(files, {"--crs", "25832"}));
   EXPECT_EQ(feature_of(outcome)["properties"]["holes"], 4);
   EXPECT_LT(feature_of(outcome)["properties"]["alpha"].get<double>(), 10) << outcome.err;
 }
@@ -342,9 +337,7 @@ TEST_F(FootprintUnionTest, NothingAndWrongUsage) {
   expect_refusal(unite(files, {"--one"}), 2, "--union does not go with --one, --cover and --min-triangles");
   expect_refusal(unite({files[0], file("degrees.csv", "lon,lat\n1,2\n1,3\n2,2\n")}), 2,
                  "the files have different coordinate systems");
-  const Outcome too_small = unite(tiles(10), {"--alpha", "1e-9"});
-  EXPECT_EQ(too_small.code, 2);
-  EXPECT_NE(too_small.err.find("the union: the limit is too small"), std::string::npos) << too_small.err;
+  expect_end(unite(tiles(10), {"--alpha", "1e-9"}), 2, "the union: the limit is too small");
   expect_refusal(unite(files, {"-o", "/nowhere/union.geojson"}), 1, "cannot write /nowhere/union.geojson");
 }
 
@@ -361,9 +354,8 @@ TEST_F(FootprintCommandTest, ABuildWithoutGdalSaysHowToGetIt) {
   expect_refusal(hull({points, "--input", "gdal"}), 2, "-DPOLYLIDAR_WITH_GDAL=ON");
   expect_refusal(hull({points, "-o", "out.gpkg"}), 2, "out.gpkg: it is written by GDAL");
   expect_refusal(hull({points, "-o", "out", "--format", "gdal:GPKG"}), 2, "-DPOLYLIDAR_WITH_GDAL=ON");
-  const Outcome outcome = footprint({"points.gpkg", file("tile.las", tile(0).text())});
-  EXPECT_EQ(outcome.code, 4);
-  EXPECT_NE(outcome.err.find("points.gpkg: it is read by GDAL"), std::string::npos) << outcome.err;
+  expect_end(footprint({"points.gpkg", file("tile.las", tile(0).text())}), 4,
+             "points.gpkg: it is read by GDAL");
 }
 #endif
 
@@ -383,15 +375,12 @@ TEST_F(FootprintCommandTest, LazGoesThroughAProgramInThePath) {
     options.environment["PATH"] = tools.string() + ":/usr/bin:/bin";
     return footprint({laz}, options);
   };
-  const Outcome good = with_program(
-      R"([ "$1" = -i ] && [ "$3" = -stdout ] && [ "$4" = -olas ] && cat "$(dirname "$2")/unpacked.las")");
-  EXPECT_EQ(good.code, 0) << good.err;
+  const Outcome good = succeeded(with_program(
+      R"([ "$1" = -i ] && [ "$3" = -stdout ] && [ "$4" = -olas ] && cat "$(dirname "$2")/unpacked.las")"));
   EXPECT_EQ(json::parse(good.out)["features"][0]["properties"]["points"], 8000);
   for (const char* script :
        {"exit 1", R"(head -c 5000 "$2"; exit 1)", R"(cat "$(dirname "$2")/unpacked.las"; exit 3)"}) {
-    const Outcome bad = with_program(script);
-    EXPECT_EQ(bad.code, 2);
-    EXPECT_NE(bad.err.find("laszip could not unpack it"), std::string::npos) << bad.err;
+    expect_end(with_program(script), 2, "laszip could not unpack it");
   }
 }
 

@@ -73,9 +73,7 @@ class GateProgram : public ::testing::Test {
 };
 
 TEST_F(GateProgram, EqualProbesPass) {
-  const Outcome outcome = run_gate(probe("base", 1000), probe("head", 1000), out());
-  EXPECT_EQ(outcome.code, 0) << outcome.err;
-  EXPECT_NE(outcome.out.find("no regression"), std::string::npos) << outcome.out;
+  expect_end(run_gate(probe("base", 1000), probe("head", 1000), out()), 0, "", "no regression");
   const nlohmann::json report = report_of(out());
   EXPECT_EQ(report.at("exit_code"), 0);
   EXPECT_EQ(report.at("samples").at("first").at("change").at("outline ca-8000").size(), 12U);
@@ -115,9 +113,7 @@ TEST_F(GateProgram, ANoisyRoundGoesOnUnlessItFoundSomethingSlower) {
 }
 
 TEST_F(GateProgram, TooFewBlocksForItsStatisticsAreAUsageError) {
-  const Outcome outcome = run_gate(probe("base", 1000), probe("head", 1000), out(), {"--blocks", "9"});
-  EXPECT_EQ(outcome.code, 2);
-  EXPECT_NE(outcome.err.find("--blocks"), std::string::npos) << outcome.err;
+  expect_end(run_gate(probe("base", 1000), probe("head", 1000), out(), {"--blocks", "9"}), 2, "--blocks");
   EXPECT_FALSE(fs::exists(out()));
 }
 
@@ -126,9 +122,8 @@ TEST_F(GateProgram, TheFewestBlocksFindASlowerHead) {
 }
 
 TEST_F(GateProgram, WithoutTimeForAFirstRoundItIsInconclusive) {
-  const Outcome outcome = run_gate(probe("base", 1000), probe("head", 1100), out(), {"--time-limit", "0"});
-  EXPECT_EQ(outcome.code, 5) << outcome.err;
-  EXPECT_NE(outcome.out.find("inconclusive: the time limit"), std::string::npos) << outcome.out;
+  expect_end(run_gate(probe("base", 1000), probe("head", 1100), out(), {"--time-limit", "0"}), 5, "",
+             "inconclusive: the time limit");
   EXPECT_EQ(report_of(out()).at("exit_code"), 5);
 }
 
@@ -137,16 +132,14 @@ TEST_F(GateProgram, WithoutTimeToConfirmItIsInconclusive) {
   // limit is over after the second round's first block, whatever the machine does besides.
   const fs::path head =
       make_probe(folder_.path() / "head", 1100, "same", "[[ $0 != */1/gate_probe ]] || sleep 1");
-  const Outcome outcome = run_gate(probe("base", 1000), head, out(), {"--blocks", "10", "--time-limit", "2"});
-  EXPECT_EQ(outcome.code, 5) << outcome.err;
-  EXPECT_NE(outcome.out.find("inconclusive: the time limit"), std::string::npos) << outcome.out;
+  expect_end(run_gate(probe("base", 1000), head, out(), {"--blocks", "10", "--time-limit", "2"}), 5, "",
+             "inconclusive: the time limit");
   EXPECT_TRUE(report_of(out()).at("second").empty());
 }
 
 TEST_F(GateProgram, ASlowerHeadFailsAndIsConfirmed) {
-  const Outcome outcome = run_gate(probe("base", 1000), probe("head", 1100), out());
-  EXPECT_EQ(outcome.code, 3) << outcome.err;
-  EXPECT_NE(outcome.out.find("regression: concave_hull ca-64000"), std::string::npos) << outcome.out;
+  expect_end(run_gate(probe("base", 1000), probe("head", 1100), out()), 3, "",
+             "regression: concave_hull ca-64000");
   const nlohmann::json report = report_of(out());
   ASSERT_FALSE(report.at("second").empty());
   // Measured with the roles reversed, said the right way round.
@@ -154,24 +147,20 @@ TEST_F(GateProgram, ASlowerHeadFailsAndIsConfirmed) {
 }
 
 TEST_F(GateProgram, AFasterHeadIsAnImprovement) {
-  const Outcome outcome = run_gate(probe("base", 1100), probe("head", 1000), out());
-  EXPECT_EQ(outcome.code, 0) << outcome.err;
-  EXPECT_NE(outcome.out.find("improvement: outline ca-8000\n"), std::string::npos) << outcome.out;
+  expect_end(run_gate(probe("base", 1100), probe("head", 1000), out()), 0, "",
+             "improvement: outline ca-8000\n");
 }
 
 TEST_F(GateProgram, AChangedResultFails) {
-  const Outcome outcome = run_gate(probe("base", 1000), probe("head", 1000, "other"), out());
-  EXPECT_EQ(outcome.code, 3) << outcome.err;
-  EXPECT_NE(outcome.out.find("result changed: ca-8000"), std::string::npos) << outcome.out;
+  expect_end(run_gate(probe("base", 1000), probe("head", 1000, "other"), out()), 3, "",
+             "result changed: ca-8000");
 }
 
 TEST_F(GateProgram, AProbeThatFailsIsAnErrorWithItsWords) {
   const fs::path broken = folder_.path() / "broken";
   write_text(broken, "#!/bin/bash\necho 'out of order' >&2\nexit 2\n");
   fs::permissions(broken, fs::perms::owner_all);
-  const Outcome outcome = run_gate(probe("base", 1000), broken, out());
-  EXPECT_EQ(outcome.code, 1);
-  EXPECT_NE(outcome.err.find("out of order"), std::string::npos) << outcome.err;
+  expect_end(run_gate(probe("base", 1000), broken, out()), 1, "out of order");
 }
 
 TEST_F(GateProgram, AMissingProbeIsAUsageError) {
@@ -183,12 +172,10 @@ TEST_F(GateProgram, AMissingProbeIsAUsageError) {
 TEST_F(GateProgram, InstructionsWithoutValgrindAreAConfigurationError) {
   ProgramOptions no_valgrind;
   no_valgrind.environment["PATH"] = folder_.path().string();
-  const Outcome outcome =
-      run_program({BENCH_GATE, "--instructions", "--base-probe", probe("base", 1000).string(), "--head-probe",
-                   probe("head", 1000).string(), "--out", out().string()},
-                  no_valgrind);
-  EXPECT_EQ(outcome.code, 2) << outcome.err;
-  EXPECT_NE(outcome.err.find("apt-get install valgrind"), std::string::npos) << outcome.err;
+  expect_end(run_program({BENCH_GATE, "--instructions", "--base-probe", probe("base", 1000).string(),
+                          "--head-probe", probe("head", 1000).string(), "--out", out().string()},
+                         no_valgrind),
+             2, "apt-get install valgrind");
 }
 
 }  // namespace

@@ -31,12 +31,11 @@ class GateScript : public ::testing::Test {
     }
     ProgramOptions options;
     options.folder = tree();
-    const Outcome made = run_program(
+    succeeded(run_program(
         {"/bin/bash", "-c",
          "git init --quiet && git add --all && git -c user.name=gate -c user.email=gate@example.org "
          "-c core.hooksPath=/dev/null commit --quiet --message only"},
-        options);
-    ASSERT_EQ(made.code, 0) << made.err;
+        options));
     make_cmake("exit 0\n");
     make_script(folder_.path() / "driver", "printf '%s\\n' \"$@\"\n");
   }
@@ -64,8 +63,7 @@ TEST_F(GateScript, LeavesWhatElseIsInItsFolder) {
     fs::create_directories(path.parent_path());
     write_text(path, "");
   }
-  const Outcome outcome = gate(out());
-  EXPECT_EQ(outcome.code, 0) << outcome.err;
+  const Outcome outcome = succeeded(gate(out()));
   for (const fs::path& path : kept) EXPECT_TRUE(fs::exists(path)) << path;
   EXPECT_TRUE(fs::exists(out() / "gate-work" / "base" / "tree" / "core" / "file"));
   EXPECT_TRUE(fs::exists(out() / "log" / "build-head.txt"));
@@ -81,16 +79,12 @@ TEST_F(GateScript, AFolderThatCannotBeMadeIsAUsageError) {
 
 TEST_F(GateScript, ACompilerThatBuildsNothingIsNoFaultOfTheBase) {
   make_cmake("exit 1\n");
-  const Outcome outcome = gate(out());
-  EXPECT_EQ(outcome.code, 1);
-  EXPECT_NE(outcome.err.find("error: the work tree of "), std::string::npos) << outcome.err;
+  expect_end(gate(out()), 1, "error: the work tree of ");
 }
 
 TEST_F(GateScript, ABaseThatDoesNotBuildIsNoBase) {
   make_cmake("[[ \"$*\" != */gate-work/base/* ]]\n");
-  const Outcome outcome = gate(out());
-  EXPECT_EQ(outcome.code, 6);
-  EXPECT_NE(outcome.err.find("error: the base "), std::string::npos) << outcome.err;
+  expect_end(gate(out()), 6, "error: the base ");
 }
 
 }  // namespace

@@ -2,7 +2,6 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
-#include <fstream>
 #include <nlohmann/json.hpp>
 #include <set>
 #include <string>
@@ -125,14 +124,12 @@ TEST(GbenchExport, GoogleBenchmarksOwnToolComparesTwo) {
     lines.append(record);
   }
   for (const std::string run : {"a", "b"}) {
-    const Outcome outcome = testing::run_program({HULLBENCH, "tables", run, "--export-gbench", run + ".json"},
-                                                 {folder.path(), {}, false});
-    ASSERT_EQ(outcome.code, 0) << outcome.err;
+    succeeded(testing::run_program({HULLBENCH, "tables", run, "--export-gbench", run + ".json"},
+                                   {folder.path(), {}, false}));
   }
-  const Outcome compared =
+  const Outcome compared = succeeded(
       testing::run_program({SYSTEM_PYTHON, COMPARE_PY, "--no-color", "benchmarks", "a.json", "b.json"},
-                           {folder.path(), {}, false});
-  ASSERT_EQ(compared.code, 0) << compared.err;
+                           {folder.path(), {}, false}));
   // 525 us and 787.5 us: +0.5 in its "Time" column; and its test of the three repetitions.
   const std::string name = "polylidar/ca/n:2000/holes:0/protocol:paper";
   const std::size_t line = compared.out.find(name + "_median ");

@@ -8,7 +8,6 @@
 #include <random>
 
 #include "polylidar/concave_hull.hpp"
-#include "polylidar/predicates.hpp"
 #include "tool/hull/group_hulls.hpp"
 #include "tool/shapes/point_locator.hpp"
 

@@ -129,8 +129,7 @@ TEST_F(HullCommandTest, OfOutlinesSaysThatTheyAreFilled) {
     const double angle = 2 * 3.14159265 * i / kCount;
     points_.push_back({std::cos(angle) + 0.001 * (i % 3), std::sin(angle)});
   }
-  const Outcome outcome = hull({points_file()});
-  EXPECT_EQ(outcome.code, 0);
+  const Outcome outcome = succeeded(hull({points_file()}));
   EXPECT_NE(outcome.err.find("the points lie on outlines only"), std::string::npos) << outcome.err;
   const json properties = json::parse(outcome.out)["properties"];
   EXPECT_FALSE(properties.contains("least_size"));
@@ -238,9 +237,7 @@ TEST_F(HullCommandTest, FewPointsGiveTheEmptyGeometry) {
     EXPECT_TRUE(shape_of(hull({path, "--format", "wkb", "--simplify", "1"})).empty());
     EXPECT_EQ(hull({path, "--format", "svg"}).code, 0);
   }
-  const Outcome strict = hull({points_file(), "--alpha", "0"});
-  EXPECT_EQ(strict.code, 0);
-  EXPECT_NE(strict.err.find("no triangle of the points is within the limits"), std::string::npos);
+  expect_end(hull({points_file(), "--alpha", "0"}), 0, "no triangle of the points is within the limits");
 }
 
 TEST_F(HullCommandTest, SmallPartsAreDropped) {
@@ -274,8 +271,7 @@ TEST_F(HullCommandTest, SimplifyLeavesOutVerticesAndKeepsTheTopology) {
 TEST_F(HullCommandTest, OutIsWrittenWholeOrNotAtAll) {
   const std::string out = (folder() / "hull.geojson").string();
   const std::string printed = hull({points_file()}).out;
-  const Outcome written = hull({points_file(), "--out", out});
-  EXPECT_EQ(written.code, 0) << written.err;
+  const Outcome written = succeeded(hull({points_file(), "--out", out}));
   EXPECT_EQ(written.out, "");
   EXPECT_EQ(read_text(out), printed);
   expect_refusal(hull({file("bad.csv", "1,2\n3,x\n"), "--out", out}), 2, "line 2");
@@ -598,8 +594,7 @@ TEST_F(HullCommandTest, AStreamGivesTheSameFile) {
       arguments.insert(arguments.end(), {"--max-perimeter", "0.5", "--format", format});
       const Outcome kept = hull(arguments);
       arguments.emplace_back("--stream");
-      const Outcome streamed = hull(arguments);
-      EXPECT_EQ(streamed.code, 0) << streamed.err;
+      const Outcome streamed = succeeded(hull(arguments));
       EXPECT_EQ(streamed.out, kept.out) << input[0] << " " << format;
       EXPECT_NE(streamed.err.find("points are near the outline"), std::string::npos);
     }
@@ -839,11 +834,9 @@ TEST_F(ShardTest, MergeSaysWhatDoesNotFitTogether) {
 // 320 MB of points in 200 MB of memory, in which they could not be triangulated.
 TEST_F(HullCommandTest, AStreamNeedsLittleMemory) {
   const std::string npy = (folder() / "large.npy").string();
-  const Outcome made = testing::run_program({HULLBENCH, "points", "ca", "--n", "20000000", "--out", npy});
-  ASSERT_EQ(made.code, 0) << made.err;
+  succeeded(testing::run_program({HULLBENCH, "points", "ca", "--n", "20000000", "--out", npy}));
   const std::string arguments = "'" + npy + "' --max-perimeter 0.4 --threads 1";
-  const Outcome streamed = in_shell("ulimit -v 200000;", arguments + " --stream");
-  ASSERT_EQ(streamed.code, 0) << streamed.err;
+  const Outcome streamed = succeeded(in_shell("ulimit -v 200000;", arguments + " --stream"));
   EXPECT_EQ(json::parse(streamed.out)["properties"]["points"], 20000000);
   EXPECT_EQ(in_shell("", arguments).out, streamed.out);
   expect_refusal(in_shell("ulimit -v 200000;", arguments), 1, "there is not enough memory for the points");

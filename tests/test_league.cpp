@@ -5,16 +5,15 @@
 #include <cmath>
 #include <map>
 #include <nlohmann/json.hpp>
-#include <set>
 #include <stdexcept>
 #include <string>
 #include <string_view>
-#include <utility>
 #include <vector>
 
 #include "benchmarks/league/league.hpp"
 #include "benchmarks/league/league_report.hpp"
 #include "benchmarks/record/validate.hpp"
+#include "tests/complaint.hpp"
 
 namespace hullbench {
 namespace {
@@ -278,8 +277,8 @@ TEST(League, IsWrittenAsItsSchemaSaysAndPrinted) {
   EXPECT_NE(record::validate_by_kind(wrong), std::vector<std::string>());
   std::ostringstream text;
   table::print_markdown(league::league_document(league), text);
-  EXPECT_NE(text.str().find("20.00 (10.00 to 30.00)"), std::string::npos) << text.str();
-  EXPECT_NE(text.str().find("∞"), std::string::npos) << text.str();
+  testing::expect_says(text.str(), "20.00 (10.00 to 30.00)");
+  testing::expect_says(text.str(), "∞");
 }
 
 TEST(League, WritesEveryResultThatCountsAsALine) {
@@ -306,7 +305,7 @@ TEST(League, EveryProfileIsShownWhoeverIsAhead) {
   const std::string text = out.str();
   for (const char* who : {"that see the points only", "with one value fitted on other shapes",
                           "that know the ground truth's area", "with the best value for each instance"}) {
-    EXPECT_NE(text.find(std::string("Performance profile of the methods ") + who), std::string::npos) << text;
+    testing::expect_says(text, std::string("Performance profile of the methods ") + who);
   }
 }
 
@@ -318,14 +317,12 @@ TEST(League, TheReadmeHasTheFirstThreeOfEveryProtocol) {
   const std::vector<json> reports = {report(rows), degenerate};
   const std::string text =
       league::league_results(league::league_to_json(league::make_league(reports, false), reports), "kept");
-  EXPECT_NE(text.find("[kept/league.md](kept/league.md)"), std::string::npos) << text;
-  EXPECT_NE(text.find("\n### League: 1 cases of 1 shapes, the first three of every protocol\n"),
-            std::string::npos)
-      << text;
-  EXPECT_NE(text.find("| auto     | rival3 |     1 |        0 |        30.00 |"), std::string::npos) << text;
+  testing::expect_says(text, "[kept/league.md](kept/league.md)");
+  testing::expect_says(text, "\n### League: 1 cases of 1 shapes, the first three of every protocol\n");
+  testing::expect_says(text, "| auto     | rival3 |     1 |        0 |        30.00 |");
   EXPECT_EQ(text.find("rival4"), std::string::npos) << text;
   EXPECT_EQ(text.find("paper"), std::string::npos) << text;
-  EXPECT_NE(text.find("| tuned    | ours   |"), std::string::npos) << text;
+  testing::expect_says(text, "| tuned    | ours   |");
 }
 
 }  // namespace

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 #include <set>
-#include <sstream>
 #include <string>
 #include <vector>
 
@@ -25,8 +24,7 @@ using nlohmann::json;
 
 constexpr const char* kSentence =
     "Times are not shown: they were taken on 2 machines (0123abcd, ba5eba11), and times of different "
-    "machines do "
-    "not go into one table.";
+    "machines do not go into one table.";
 
 /// `report` as if merged of two runs, the second of which measured every other row on another machine.
 json on_two_machines(json report) {
@@ -50,17 +48,7 @@ using TableRows = std::vector<std::vector<std::string>>;
 
 /// The rows of a table of the invented plan, the header first.
 TableRows rows_of(const table::Document& document, const std::string& id) {
-  for (const table::Table& table : document.tables) {
-    if (table.id == "invented_" + id) return table::shown(table);
-  }
-  ADD_FAILURE() << "no table " << id;
-  return {{}};
-}
-
-std::string text_of(const json& report) {
-  std::ostringstream out;
-  table::print_markdown(report::make_document(report), out);
-  return out.str();
+  return test::rows_of(document, "invented_" + id);
 }
 
 /// Everything of a document that could hold a time: no word of one may stand there.
@@ -100,7 +88,7 @@ TEST(Machines, SeveralHaveNoTableOfTimesAndASentenceWhy) {
   const json report = on_two_machines(test::invented_report({2000, 64000}));
   const table::Document document = report::make_document(report);
   expect_no_times(document);
-  const std::string text = text_of(report);
+  const std::string text = test::markdown_of(report);
   std::string unbroken = text;
   for (std::size_t at = 0; (at = unbroken.find("\n  ", at)) != std::string::npos;)
     unbroken.replace(at, 3, " ");
@@ -219,7 +207,7 @@ TEST(Machines, OneOfAMergedRunHasItsTimes) {
   report["merged"][1]["environment"] = report["environment"];
   for (json& run : report["runs"]) run["machine"] = "0123abcd";
   report["summary"] = report::make_summary(report);
-  const std::string text = text_of(report);
+  const std::string text = test::markdown_of(report);
   EXPECT_NE(text.find("time of equal work, ms"), std::string::npos);
   EXPECT_NE(text.find("Merged of 2 runs, all timed on machine 0123abcd."), std::string::npos) << text;
   EXPECT_EQ(text.find("Times are not shown"), std::string::npos);

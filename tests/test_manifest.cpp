@@ -11,6 +11,7 @@
 #include "benchmarks/base/configuration_error.hpp"
 #include "benchmarks/run/manifest.hpp"
 #include "benchmarks/run/method_catalog.hpp"
+#include "tests/complaint.hpp"
 #include "tests/program.hpp"
 #include "tests/temporary_folder.hpp"
 
@@ -54,13 +55,9 @@ class ManifestTest : public ::testing::Test {
 
   void expect_fault(const json& manifest, const std::string& words) {
     const fs::path file = write(manifest);
-    try {
-      run::load_manifest(file);
-      ADD_FAILURE() << "no fault was found; expected: " << words;
-    } catch (const ConfigurationError& error) {
-      EXPECT_NE(std::string(error.what()).find(words), std::string::npos) << error.what();
-      EXPECT_NE(std::string(error.what()).find(file.string()), std::string::npos) << error.what();
-    }
+    const std::string said = testing::complaint_of<ConfigurationError>([&] { run::load_manifest(file); });
+    EXPECT_NE(said.find(words), std::string::npos) << said;
+    EXPECT_NE(said.find(file.string()), std::string::npos) << said;
   }
 
   testing::TemporaryFolder folder_;

@@ -57,8 +57,7 @@ class MergeTest : public testing::HullbenchTest {
   void run(const std::string& out, std::vector<std::string> words) const {
     words.insert(words.begin(), "run");
     words.insert(words.end(), {"--out", out});
-    const Outcome outcome = hullbench(words);
-    ASSERT_EQ(outcome.code, 0) << outcome.err;
+    succeeded(hullbench(words));
   }
 
   void run_shards(int count, const std::vector<std::string>& plans) const {
@@ -99,18 +98,16 @@ class MergeTest : public testing::HullbenchTest {
     if (const std::string why = testing::missing({SYSTEM_PYTHON ":jsonschema"}); !why.empty()) {
       GTEST_SKIP() << why;
     }
-    const Outcome python =
+    succeeded(
         testing::run_program({SYSTEM_PYTHON, VALIDATE_REPORT, (folder() / name / "report.json").string(),
-                              (folder() / name / "runs.jsonl").string()});
-    EXPECT_EQ(python.code, 0) << python.err;
+                              (folder() / name / "runs.jsonl").string()}));
   }
 };
 
 TEST_F(MergeTest, OfAllShardsIsTheWholeRunInItsAccuracy) {
   run("whole", {plan()});
   run_shards(3, {plan()});
-  const Outcome merged = hullbench({"merge", "shard3", "shard1", "shard2", "--out", "merged"});
-  ASSERT_EQ(merged.code, 0) << merged.err;
+  const Outcome merged = succeeded(hullbench({"merge", "shard3", "shard1", "shard2", "--out", "merged"}));
   ASSERT_EQ(accuracy_lines(folder() / "whole").size(), 12U);
   EXPECT_EQ(accuracy_lines(folder() / "merged"), accuracy_lines(folder() / "whole"));
   EXPECT_EQ(accuracy_tables(folder() / "whole").size(), 4U);
@@ -125,8 +122,7 @@ TEST_F(MergeTest, OfAllShardsIsTheWholeRunInItsAccuracy) {
 
 TEST_F(MergeTest, KeepsThePassesOfItsShards) {
   run_shards(2, {plan(), "--repetitions", "3", "--passes", "2"});
-  const Outcome merged = hullbench({"merge", "shard1", "shard2", "--out", "merged"});
-  ASSERT_EQ(merged.code, 0) << merged.err;
+  const Outcome merged = succeeded(hullbench({"merge", "shard1", "shard2", "--out", "merged"}));
   EXPECT_EQ(read_json("merged/run.json").at("passes"), 2);
   const std::vector<json> rows = read_lines("merged/runs.jsonl");
   EXPECT_EQ(rows.size(), 12U);
@@ -188,9 +184,8 @@ TEST_F(MergeTest, MayBeMergedAgain) {
 
 TEST_F(MergeTest, WithoutAShardSaysHowManyRunsAreMissing) {
   run_shards(3, {plan()});
-  const Outcome merged = hullbench({"merge", "shard1", "shard3", "--out", "merged"});
-  EXPECT_EQ(merged.code, 4);
-  EXPECT_NE(merged.err.find("4 of 12 planned runs are missing"), std::string::npos) << merged.err;
+  const Outcome merged = expect_end(hullbench({"merge", "shard1", "shard3", "--out", "merged"}), 4,
+                                    "4 of 12 planned runs are missing");
   EXPECT_NE(merged.out.find("4 of 12 planned runs are missing"), std::string::npos) << merged.out;
   EXPECT_EQ(accuracy_lines(folder() / "merged").size(), 8U);
   expect_valid_run("merged");
@@ -207,8 +202,7 @@ TEST_F(MergeTest, OfSeveralMachinesHasNoTimesInItsTables) {
   run("whole", {plan()});
   run_shards(2, {plan()});
   move_to_machine("shard2", "ba5eba11");
-  const Outcome merged = hullbench({"merge", "shard1", "shard2", "--out", "merged"});
-  ASSERT_EQ(merged.code, 0) << merged.err;
+  const Outcome merged = succeeded(hullbench({"merge", "shard1", "shard2", "--out", "merged"}));
   EXPECT_EQ(merged.out.find(", ms"), std::string::npos) << merged.out;
   EXPECT_EQ(merged.out.find("±"), std::string::npos) << merged.out;
   EXPECT_NE(merged.out.find("Times are not shown: they were taken on 2 machines ("), std::string::npos);
@@ -227,8 +221,7 @@ TEST_F(MergeTest, OfSeveralMachinesHasNoTimesInItsTables) {
 TEST_F(MergeTest, OfSeveralBuildsHasNoTimesInItsTables) {
   run_shards(2, {plan()});
   change_header("shard2", [](json& run) { run["tool"]["binary_sha256"] = std::string(64, 'a'); });
-  const Outcome merged = hullbench({"merge", "shard1", "shard2", "--out", "merged"});
-  ASSERT_EQ(merged.code, 0) << merged.err;
+  const Outcome merged = succeeded(hullbench({"merge", "shard1", "shard2", "--out", "merged"}));
   EXPECT_EQ(merged.out.find(", ms"), std::string::npos) << merged.out;
   EXPECT_NE(merged.out.find("they were taken with 2 builds of the program ("), std::string::npos);
   expect_valid_run("merged");
@@ -260,8 +253,7 @@ TEST_F(MergeTest, OfTheSameRunTwiceTakesTheFirstThatSucceeded) {
     row["output_sha256"] = "";
   });
   change_header("one", [](json& header) { header["created"] = "2020-01-01T00:00:00Z"; });
-  const Outcome merged = hullbench({"merge", "other", "one", "--out", "merged"});
-  ASSERT_EQ(merged.code, 0) << merged.err;
+  const Outcome merged = succeeded(hullbench({"merge", "other", "one", "--out", "merged"}));
   EXPECT_NE(merged.err.find("12 were measured more than once"), std::string::npos) << merged.err;
   const auto one = read_lines("one/runs.jsonl");
   const auto other = read_lines("other/runs.jsonl");
@@ -442,8 +434,7 @@ TEST_F(MergeTest, OfSuitesIsASuite) {
   run_shards(2, {plan("first"), one_case});
   EXPECT_TRUE(fs::exists(folder() / "shard1" / "second"));
   EXPECT_FALSE(fs::exists(folder() / "shard2" / "second"));
-  const Outcome merged = hullbench({"merge", "shard2", "shard1", "--out", "merged"});
-  ASSERT_EQ(merged.code, 0) << merged.err;
+  const Outcome merged = succeeded(hullbench({"merge", "shard2", "shard1", "--out", "merged"}));
   for (const char* name : {"first", "second"}) {
     EXPECT_EQ(accuracy_lines(folder() / "merged" / name), accuracy_lines(folder() / "whole" / name));
     expect_valid_run(std::string("merged/") + name);
@@ -464,8 +455,7 @@ class ShardTest : public MergeTest {};
 TEST_F(ShardTest, ADryRunNamesItsRuns) {
   std::multiset<std::string> names;
   for (const char* shard : {"1/2", "2/2"}) {
-    const Outcome outcome = hullbench({"run", plan(), "--dry-run", "--shard", shard});
-    EXPECT_EQ(outcome.code, 0);
+    const Outcome outcome = succeeded(hullbench({"run", plan(), "--dry-run", "--shard", shard}));
     EXPECT_EQ(std::count(outcome.out.begin(), outcome.out.end(), '\n'), 6) << outcome.out;
     names.insert(outcome.out);
   }

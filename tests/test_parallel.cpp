@@ -15,6 +15,7 @@
 #include "benchmarks/base/cores.hpp"
 #include "benchmarks/base/parallel.hpp"
 #include "benchmarks/worker/worker_process.hpp"
+#include "tests/complaint.hpp"
 
 namespace hullbench {
 namespace {
@@ -39,17 +40,13 @@ TEST(ForEachInParallel, CallsEveryIndexOnce) {
 TEST(ForEachInParallel, ThrowsTheExceptionOfTheSmallestIndexAfterAllOthersRan) {
   for (const std::vector<int>& cores : kCoreLists) {
     std::vector<std::atomic<int>> calls(100);
-    try {
-      for_each_in_parallel(calls.size(), cores, [&](std::size_t i) {
-        ++calls[i];
-        // The smaller index throws later than the larger ones do.
-        if (i == 3) std::this_thread::sleep_for(20ms);
-        if (i == 3 || i == 4 || i == 99) throw std::runtime_error(std::to_string(i));
-      });
-      ADD_FAILURE() << "nothing was thrown on " << cores.size() << " cores";
-    } catch (const std::runtime_error& error) {
-      EXPECT_STREQ(error.what(), "3");
-    }
+    const auto count_calls = [&](std::size_t i) {
+      ++calls[i];
+      // The smaller index throws later than the larger ones do.
+      if (i == 3) std::this_thread::sleep_for(20ms);
+      if (i == 3 || i == 4 || i == 99) throw std::runtime_error(std::to_string(i));
+    };
+    EXPECT_EQ(testing::complaint_of([&] { for_each_in_parallel(calls.size(), cores, count_calls); }), "3");
     EXPECT_TRUE(std::all_of(calls.begin(), calls.end(), [](const auto& call) { return call == 1; }));
   }
 }

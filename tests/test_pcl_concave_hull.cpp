@@ -3,9 +3,7 @@
 
 #include <cmath>
 #include <cstdint>
-#include <limits>
 #include <memory>
-#include <stdexcept>
 #include <string>
 #include <vector>
 

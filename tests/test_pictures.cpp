@@ -168,8 +168,7 @@ TEST_F(PicturesTest, OfARunAreThereForItsReport) {
   const std::vector<json> merged = read_lines(fs::path("merged") / record::kPicturesFile);
   EXPECT_EQ(std::set<json>(merged.begin(), merged.end()), std::set<json>(whole.begin(), whole.end()));
 
-  const Outcome outcome = hullbench({"report", "whole", "--out", "drawn"});
-  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  succeeded(hullbench({"report", "whole", "--out", "drawn"}));
   EXPECT_EQ(read_lines(fs::path("drawn") / record::kPicturesFile), whole);
   EXPECT_EQ(record::validate_file(folder() / "drawn/report.json"), std::vector<std::string>());
   EXPECT_EQ(hullbench({"report", "nowhere", "--out", "drawn"}).code, 2);

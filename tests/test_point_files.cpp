@@ -5,6 +5,7 @@
 #include <fstream>
 #include <limits>
 
+#include "tests/complaint.hpp"
 #include "tests/point_file_texts.hpp"
 #include "tests/temporary_folder.hpp"
 #include "tool/points/point_file.hpp"
@@ -35,13 +36,10 @@ class PointFilesTest : public ::testing::Test {
   /// What the refusal says; a failure of the test when there is none.
   std::string refusal(const std::string& name, const std::string& text,
                       const PointFileOptions& options = {}) const {
-    try {
-      const Points points = read(name, text, options);
-      ADD_FAILURE() << name << " was read: " << points.size() << " points\n" << text.substr(0, 200);
-    } catch (const PointFileError& error) {
-      return error.what();
-    }
-    return {};
+    const std::string said =
+        hullbench::testing::complaint_of<PointFileError>([&] { read(name, text, options); });
+    EXPECT_NE(said, hullbench::testing::kNoComplaint) << name << " was read\n" << text.substr(0, 200);
+    return said;
   }
 
  private:
@@ -301,12 +299,8 @@ TEST_F(PointFilesTest, FaultsInBinaryFiles) {
 
 TEST_F(PointFilesTest, NoFileAndAFolder) {
   EXPECT_THROW(read_points("/nowhere/points.csv"), PointFileError);
-  try {
-    read_points(::testing::TempDir());
-    ADD_FAILURE();
-  } catch (const PointFileError& error) {
-    EXPECT_NE(std::string(error.what()).find("it is a folder"), std::string::npos) << error.what();
-  }
+  hullbench::testing::expect_complaint<PointFileError>([] { read_points(::testing::TempDir()); },
+                                                       "it is a folder");
 }
 
 TEST_F(PointFilesTest, ProgressTellsBytesAndCanEndTheReading) {

@@ -2,7 +2,6 @@
 #include <gtest/gtest.h>
 
 #include <bit>
-#include <cmath>
 #include <cstdint>
 #include <cstring>
 #include <filesystem>
@@ -40,8 +39,7 @@ class PointsCommandTest : public ::testing::Test {
   }
   std::string path(const std::string& name) const { return (folder_.path() / name).string(); }
   std::string written(const std::string& dataset, const std::string& n, const std::string& name) const {
-    const Outcome outcome = points({dataset, "--n", n, "--seed", "7", "--out", path(name)});
-    EXPECT_EQ(outcome.code, 0) << outcome.err;
+    const Outcome outcome = succeeded(points({dataset, "--n", n, "--seed", "7", "--out", path(name)}));
     EXPECT_EQ(outcome.out, "");
     EXPECT_EQ(outcome.err, "");
     return path(name);
@@ -133,11 +131,9 @@ TEST_F(PointsCommandTest, LasHoldsThemUpToItsScale) {
 }
 
 TEST_F(PointsCommandTest, HolesSeedAndOwnPoints) {
-  const Outcome holed = points({"ca", "--n", "300", "--holes", "--out", path("holed.npy")});
-  EXPECT_EQ(holed.code, 0) << holed.err;
+  const Outcome holed = succeeded(points({"ca", "--n", "300", "--holes", "--out", path("holed.npy")}));
   EXPECT_EQ(polylidar::tool::read_points(path("holed.npy")), make_point_set("ca", true, 300, 1).points);
-  const Outcome floor = points({"floor-2", "--seed", "5", "--out", path("floor.npy")});
-  EXPECT_EQ(floor.code, 0) << floor.err;
+  const Outcome floor = succeeded(points({"floor-2", "--seed", "5", "--out", path("floor.npy")}));
   EXPECT_EQ(polylidar::tool::read_points(path("floor.npy")), make_point_set("floor-2", false, 0, 5).points);
 }
 
@@ -159,15 +155,13 @@ TEST_F(PointsCommandTest, AFamilyIsAllItsShapesWithLabels) {
   for (std::size_t i = 0; i < las.sources.size(); ++i) EXPECT_EQ(las.sources[i], 1 + i / kEach);
   EXPECT_EQ(las.bounds.min, polylidar::bounding_box(las.points).min);
 
-  const Outcome hulls = testing::run_program({HULLBENCH, "hull", csv, "--by", "label"});
-  EXPECT_EQ(hulls.code, 0) << hulls.err;
+  const Outcome hulls = succeeded(testing::run_program({HULLBENCH, "hull", csv, "--by", "label"}));
   const nlohmann::json features = nlohmann::json::parse(hulls.out)["features"];
   ASSERT_EQ(features.size(), kCells);
   EXPECT_EQ(features[47]["properties"]["label"], 48);
   EXPECT_EQ(features[47]["properties"]["points"], kEach);
 
-  const Outcome floors = points({"lowfloor", "--format", "npy"});
-  EXPECT_EQ(floors.code, 0) << floors.err;
+  succeeded(points({"lowfloor", "--format", "npy"}));
   expect_refusal(points({"cell", "--n", "100000000", "--format", "las"}), 2, "at most 4294967295 points");
   expect_refusal(points({"cell~nothing:5", "--n", "10"}), 2, "cell-1~nothing:5");
 }
@@ -185,9 +179,7 @@ TEST_F(PointsCommandTest, StandardOutputGetsCsvOrWhatIsAsked) {
 
 TEST_F(PointsCommandTest, UniformPointsTakeNoMemory) {
   // Four million doubles are 32 MB, the program and its libraries are below that limit without them.
-  const Outcome outcome =
-      in_shell("ulimit -v 100000;", "'ca~outliers:5~noise:0.5' --n 3000000 --format npy > /dev/null");
-  EXPECT_EQ(outcome.code, 0) << outcome.err;
+  succeeded(in_shell("ulimit -v 100000;", "'ca~outliers:5~noise:0.5' --n 3000000 --format npy > /dev/null"));
   EXPECT_NE(in_shell("ulimit -v 100000;", "ca~gradient:16 --n 3000000 --format npy > /dev/null").code, 0);
 }
 
@@ -219,9 +211,7 @@ TEST_F(PointsCommandTest, CtrlCLeavesNothingBehind) {
   testing::Program program({HULLBENCH, "points", "ca", "--n", "4000000000", "--out", path("a.npy")});
   ASSERT_TRUE(testing::wait_until([&] { return !leftovers().empty(); }));
   program.send_signal(SIGINT);
-  const Outcome outcome = program.wait();
-  EXPECT_EQ(outcome.code, 130);
-  EXPECT_NE(outcome.err.find("interrupted"), std::string::npos) << outcome.err;
+  expect_end(program.wait(), 130, "interrupted");
   EXPECT_EQ(leftovers(), "");
   EXPECT_FALSE(fs::exists(path("a.npy")));
 }

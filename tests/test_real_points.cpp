@@ -3,17 +3,16 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <cstdlib>
 #include <fstream>
 #include <iterator>
 #include <nlohmann/json.hpp>
 #include <set>
-#include <stdexcept>
 #include <string>
 #include <vector>
 
 #include "datasets/datasets.hpp"
 #include "datasets/real/real_points.hpp"
+#include "tests/complaint.hpp"
 #include "tests/program.hpp"
 #include "tests/temporary_folder.hpp"
 
@@ -28,18 +27,10 @@ void write(const fs::path& path, const std::string& text) {
   std::ofstream(path, std::ios::binary) << text;
 }
 
-template <typename Do>
-std::string complaint_of(const Do& act) {
-  try {
-    act();
-  } catch (const std::exception& error) {
-    return error.what();
-  }
-  return "";
-}
+using testing::complaint_of;
 
 std::string complaint_about(const std::string& text) {
-  return complaint_of([&] { real::parse_sample(text); });
+  return complaint_of<std::exception>([&] { real::parse_sample(text); });
 }
 
 /// A system in a folder in which dpkg knows some packages, and whose cloud package has an archive.
@@ -59,11 +50,9 @@ class FakeSystem : public ::testing::Test {
   real::Sample read(const std::string& name, const std::string& content, const std::string& object) {
     write(root() / "cloud" / name, content);
     fs::create_directories(root() / "usr/share/doc/cgal");
-    const testing::Outcome packed =
-        testing::run_program({"tar", "-czf", (root() / "usr/share/doc/cgal/data.tar.gz").string(), "-C",
-                              (root() / "cloud").string(), name},
-                             {});
-    EXPECT_EQ(packed.code, 0) << packed.err;
+    succeeded(testing::run_program({"tar", "-czf", (root() / "usr/share/doc/cgal/data.tar.gz").string(), "-C",
+                                    (root() / "cloud").string(), name},
+                                   {}));
     return real::read_sample({"real-x", "X", "libcgal-demo", object, "MIT"}, root());
   }
 
@@ -101,7 +90,8 @@ TEST_F(FakeSystem, APackageIsInstalledOrNot) {
 TEST_F(FakeSystem, AMissingPackageSaysWhatInstallsIt) {
   const DataFolders folders(default_data_directory(), {}, root());
   EXPECT_THROW(make_point_set("real-house", false, 0, 1, folders), real::NotInstalled);
-  const std::string words = complaint_of([&] { make_point_set("real-house", false, 0, 1, folders); });
+  const std::string words =
+      complaint_of<std::exception>([&] { make_point_set("real-house", false, 0, 1, folders); });
   EXPECT_NE(words.find("r-cran-spdata"), std::string::npos) << words;
   EXPECT_NE(words.find("'make deps-real'"), std::string::npos) << words;
 }
@@ -124,10 +114,10 @@ TEST_F(FakeSystem, CloudsAreReadFromAbove) {
 }
 
 TEST_F(FakeSystem, AReaderThatFailsSaysWhy) {
-  const std::string words = complaint_of([&] { read("a.xyz", "1 2 3\n", "b.xyz"); });
+  const std::string words = complaint_of<std::exception>([&] { read("a.xyz", "1 2 3\n", "b.xyz"); });
   EXPECT_NE(words.find("real-x"), std::string::npos) << words;
   EXPECT_NE(words.find("b.xyz"), std::string::npos) << words;
-  const std::string none = complaint_of([&] { read("a.xyz", "# nothing\n", "a.xyz"); });
+  const std::string none = complaint_of<std::exception>([&] { read("a.xyz", "# nothing\n", "a.xyz"); });
   EXPECT_NE(none.find("no points of a.xyz"), std::string::npos) << none;
 }
 

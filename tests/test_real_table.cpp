@@ -56,11 +56,7 @@ json real_report() {
 using Rows = std::vector<std::vector<std::string>>;
 
 Rows rows_of(const json& report, const std::string& id) {
-  for (const table::Table& table : report::make_document(report).tables) {
-    if (table.id == id) return table::shown(table);
-  }
-  ADD_FAILURE() << "there is no table " << id;
-  return {};
+  return test::rows_of(report::make_document(report), id);
 }
 
 std::size_t column_of(const Rows& rows, const std::string& title) {

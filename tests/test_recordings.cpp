@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "datasets/rgbd/recordings.hpp"
+#include "tests/complaint.hpp"
 #include "tests/temporary_folder.hpp"
 
 namespace hullbench {
@@ -62,15 +63,11 @@ class Recordings : public ::testing::Test {
 
   /// What loading says, with the scene's folder left out.
   std::string load_error() const {
-    try {
-      load_recording(scene_);
-    } catch (const std::runtime_error& error) {
-      const std::string message = error.what();
-      const std::size_t at = message.find(scene_.string());
-      EXPECT_NE(at, std::string::npos) << message;
-      return at == std::string::npos ? message : std::string(message).erase(at, scene_.string().size());
-    }
-    return "no error";
+    std::string message = testing::complaint_of([&] { load_recording(scene_); });
+    if (message == testing::kNoComplaint) return message;
+    const std::size_t at = message.find(scene_.string());
+    EXPECT_NE(at, std::string::npos) << message;
+    return at == std::string::npos ? message : message.erase(at, scene_.string().size());
   }
 
   std::string points_error(const std::string& text) const {
@@ -159,7 +156,7 @@ TEST_F(Recordings, FewerThanThreePointsAreRefused) {
   const std::string advice = " points; a hull needs at least 3: give a longer recording";
   EXPECT_EQ(points_error(""), " has 0" + advice);
   EXPECT_EQ(points_error("# nothing\n1 2\n3 4\n"), " has 2" + advice);
-  EXPECT_EQ(points_error("1 2\n3 4\n5 7\n"), "no error");
+  EXPECT_EQ(points_error("1 2\n3 4\n5 7\n"), testing::kNoComplaint);
 }
 
 TEST_F(Recordings, MissingFilesAreNamed) {
@@ -172,12 +169,8 @@ TEST_F(Recordings, MissingFilesAreNamed) {
   EXPECT_EQ(load_error(), "cannot read /intrinsics.json" + advice);
   std::filesystem::create_directory(scene_ / "points.txt");
   EXPECT_EQ(load_error(), "cannot read /points.txt" + advice);
-  try {
-    read_depth_png(folder_ / "absent.png", small_image().intrinsics);
-    FAIL() << "an absent file was read";
-  } catch (const std::runtime_error& error) {
-    EXPECT_EQ(error.what(), "cannot read " + (folder_ / "absent.png").string() + advice);
-  }
+  EXPECT_EQ(testing::complaint_of([&] { read_depth_png(folder_ / "absent.png", small_image().intrinsics); }),
+            "cannot read " + (folder_ / "absent.png").string() + advice);
 }
 
 TEST_F(Recordings, FaultyGroundTruthIsRefused) {
@@ -241,7 +234,7 @@ TEST_F(Recordings, FaultyPngsAreRefused) {
   EXPECT_EQ(
       png_error(bytes_of(scene_ / "wide.png")),
       file + "it has 4 x 1 pixels and the intrinsics say 2 x 2 pixels; give the two of one camera mode");
-  EXPECT_EQ(png_error(whole), "no error");
+  EXPECT_EQ(png_error(whole), testing::kNoComplaint);
 }
 
 TEST_F(Recordings, NoDamagedByteOfAPngChangesACount) {
@@ -293,14 +286,7 @@ TEST_F(Recordings, PngsOfOtherKindsAreRefused) {
 
 TEST_F(Recordings, FilesThatCannotBeWrittenAreNamed) {
   const std::filesystem::path absent = folder_ / "absent" / "depth.png";
-  const auto error_of = [](const auto& action) -> std::string {
-    try {
-      action();
-    } catch (const std::exception& error) {
-      return error.what();
-    }
-    return "no error";
-  };
+  const auto error_of = [](const auto& action) { return testing::complaint_of<std::exception>(action); };
   EXPECT_EQ(error_of([&] { write_depth_png(absent, small_image()); }),
             "cannot write " + absent.string() +
                 " (No such file or directory); check that its folder exists and has room");
@@ -313,13 +299,8 @@ TEST_F(Recordings, FilesThatCannotBeWrittenAreNamed) {
 }
 
 TEST_F(Recordings, AreListedByName) {
-  const auto error_of = [](const std::filesystem::path& folder) -> std::string {
-    try {
-      list_recordings(folder);
-    } catch (const std::runtime_error& error) {
-      return error.what();
-    }
-    return "no error";
+  const auto error_of = [](const std::filesystem::path& folder) {
+    return testing::complaint_of([&] { list_recordings(folder); });
   };
   EXPECT_EQ(error_of(folder_), folder_.string() +
                                    " has no recording; put each into a sub-folder with gt.geojson and "

@@ -23,7 +23,7 @@
 #include "benchmarks/report/claims.hpp"
 #include "benchmarks/report/contests.hpp"
 #include "benchmarks/report/report.hpp"
-#include "invented_run.hpp"
+#include "invented_shapes.hpp"
 #include "temporary_folder.hpp"
 #include "tests/complaint.hpp"
 
@@ -36,9 +36,7 @@ using testing::TemporaryFolder;
 const std::filesystem::path kSource = HULLBENCH_SOURCE_DIRECTORY;
 
 json invented_report() {
-  const TemporaryFolder folder;
-  test::write_invented_run(folder.path(), {2000, 64000});
-  return report::make_report(folder.path());
+  return test::invented_report({2000, 64000});
 }
 
 json read_json(const std::filesystem::path& path) {
@@ -179,21 +177,21 @@ TEST(Report, TornLastLineIsLeftOutAndSaid) {
   const json report = report::make_report(folder.path());
   EXPECT_EQ(report["runs"].size(), test::invented_records({2000}).size());
   ASSERT_EQ(report["notes"].size(), 1U);
-  EXPECT_NE(report["notes"][0].get<std::string>().find("cut short"), std::string::npos);
+  testing::expect_says(report["notes"][0].get<std::string>(), "cut short");
   EXPECT_TRUE(record::validate_report(report).empty());
 }
 
 TEST(Report, WhatIsMissingOrMalformedIsNamed) {
   const TemporaryFolder folder;
   const std::string run_file = (folder.path() / "run.json").string();
-  EXPECT_NE(message_of(folder.path()).find(run_file), std::string::npos);
+  testing::expect_says(message_of(folder.path()), run_file);
   std::ofstream(run_file) << "{";
-  EXPECT_NE(message_of(folder.path()).find(run_file), std::string::npos);
+  testing::expect_says(message_of(folder.path()), run_file);
   std::ofstream(run_file) << "{\"schema_version\": 99}";
-  EXPECT_NE(message_of(folder.path()).find("schema version"), std::string::npos);
+  testing::expect_says(message_of(folder.path()), "schema version");
   write_json_file(run_file, test::invented_run());
   std::ofstream(folder.path() / "runs.jsonl") << "{}\n";
-  EXPECT_NE(message_of(folder.path()).find("runs.jsonl"), std::string::npos);
+  testing::expect_says(message_of(folder.path()), "runs.jsonl");
 }
 
 TEST(Claims, AreComputedFromThePapersProtocol) {
@@ -235,22 +233,21 @@ TEST(Claims, SayWhyTheyWereNotMeasured) {
   const json postgis = find_by(claims, "id", "error_postgis");
   EXPECT_TRUE(postgis["verdict"].is_null());
   EXPECT_EQ(postgis["ours"], "not measured");
-  EXPECT_NE(postgis["detail"].get<std::string>().find("not installed"), std::string::npos);
+  testing::expect_says(postgis["detail"].get<std::string>(), "not installed");
   json report = invented_report();
   for (json& run : report["runs"]) {
     if (run["method"] == "spatialite") run["method"] = "spatialite_steps";
   }
   const json step = find_by(report::check_claims(report), "id", "shape_spatialite");
-  EXPECT_NE(step["detail"].get<std::string>().find("does not tell its step"), std::string::npos);
+  testing::expect_says(step["detail"].get<std::string>(), "does not tell its step");
 }
 
 TEST(Claims, CountAFailureAsInfinitelyBadAndSaySo) {
   const json claims = invented_report()["summary"]["claims"];
   const json slowest = find_by(claims, "id", "spatialite_slowest");
   EXPECT_EQ(slowest["ours"], "6 of 6") << "the time-out is slower than every time";
-  EXPECT_NE(slowest["detail"].get<std::string>().find(
-                "failed, which counts as infinitely bad: SpatiaLite in 1 case"),
-            std::string::npos);
+  testing::expect_says(slowest["detail"].get<std::string>(),
+                       "failed, which counts as infinitely bad: SpatiaLite in 1 case");
   const json error = find_by(claims, "id", "error_spatialite");
   EXPECT_EQ(error["ours"], "5 of 6") << "without a result there is no smaller error";
   EXPECT_EQ(error["verdict"], "refuted");
@@ -266,7 +263,7 @@ TEST(Claims, OfAMethodWithoutAnyResultAreNotMeasured) {
   }
   const json slowest = find_by(report::check_claims(report), "id", "spatialite_slowest");
   EXPECT_TRUE(slowest["verdict"].is_null());
-  EXPECT_NE(slowest["detail"].get<std::string>().find("no successful run"), std::string::npos);
+  testing::expect_says(slowest["detail"].get<std::string>(), "no successful run");
 }
 
 TEST(Claims, AtASizeThatWasNotMeasured) {
@@ -274,7 +271,7 @@ TEST(Claims, AtASizeThatWasNotMeasured) {
   test::write_invented_run(folder.path(), {2000});
   const json claim = find_by(report::make_report(folder.path())["summary"]["claims"], "id", "total_cgal");
   EXPECT_TRUE(claim["verdict"].is_null());
-  EXPECT_NE(claim["detail"].get<std::string>().find("n = 64000"), std::string::npos);
+  testing::expect_says(claim["detail"].get<std::string>(), "n = 64000");
 }
 
 TEST(Claims, OneCaseAgainstAClaimAboutEveryCaseRefutesIt) {
@@ -356,7 +353,7 @@ TEST(Validate, LinesOfARunsFile) {
   const std::vector<std::string> faults = record::validate_file(path);
   ASSERT_EQ(faults.size(), 2U);
   EXPECT_EQ(faults[0].rfind("Record 15: At /n: ", 0), 0U) << faults[0];
-  EXPECT_NE(faults[1].find("cut short"), std::string::npos);
+  testing::expect_says(faults[1], "cut short");
 }
 
 TEST(Validate, FileThatIsNoReport) {
@@ -405,10 +402,9 @@ TEST(Environment, TellsNothingPersonal) {
 
 TEST(Environment, FlagsAreThoseOfTheBuild) {
   const json compiler = record::collect_environment()["compiler"];
-  EXPECT_NE(compiler["flags_by_target"]["polylidar_core"].get<std::string>().find("-ffp-contract=off"),
-            std::string::npos);
+  testing::expect_says(compiler["flags_by_target"]["polylidar_core"].get<std::string>(), "-ffp-contract=off");
   const std::string statement = compiler["statement"];
-  EXPECT_NE(statement.find("are built with the same compiler and flags"), std::string::npos) << statement;
+  testing::expect_says(statement, "are built with the same compiler and flags");
 }
 
 // Nobody is handicapped: only the flag that CGAL's own package asks for may differ.
@@ -423,7 +419,7 @@ TEST(Environment, FlagsAreTheSameForAll) {
   for (const auto& [target, flags] : by_target.items()) {
     std::set<std::string> theirs = words_of(target);
     if (theirs.erase("-frounding-math") > 0) {
-      EXPECT_NE(target.find("cgal"), std::string::npos) << target;
+      testing::expect_says(target, "cgal");
     }
     EXPECT_EQ(theirs, ours) << target;
   }
@@ -431,7 +427,7 @@ TEST(Environment, FlagsAreTheSameForAll) {
 
 TEST(Environment, SaysWhoGotHugePages) {
   const json huge_pages = record::collect_environment()["huge_pages"];
-  EXPECT_NE(huge_pages.at("malloc").get<std::string>().find("glibc.malloc.hugetlb="), std::string::npos);
+  testing::expect_says(huge_pages.at("malloc").get<std::string>(), "glibc.malloc.hugetlb=");
   const json& kernel = huge_pages.at("kernel");
   EXPECT_TRUE(kernel.is_null() || kernel == "always" || kernel == "madvise" || kernel == "never") << kernel;
 }

@@ -19,6 +19,7 @@
 #include "datasets/sampling.hpp"
 #include "datasets/sha256.hpp"
 #include "tests/boost_checks.hpp"
+#include "tests/complaint.hpp"
 
 namespace hullbench {
 namespace {
@@ -30,15 +31,6 @@ using polylidar::Ring;
 
 constexpr SensorNoise kNoNoise{.subpixel_error = 0, .disparity_step = 0, .edge_dropout = 0};
 constexpr std::uint64_t kSeed = 1;
-
-double distance_to_rings(const MultiPolygon& shape, const Point& point) {
-  double nearest = std::numeric_limits<double>::infinity();
-  for (const Polygon& polygon : shape) {
-    nearest = std::min(nearest, testing::boost_distance(point, polygon.shell));
-    for (const Ring& hole : polygon.holes) nearest = std::min(nearest, testing::boost_distance(point, hole));
-  }
-  return nearest;
-}
 
 std::uint16_t count_at(const DepthImage& image, int column, int row) {
   return image.counts[static_cast<std::size_t>(row) * static_cast<std::size_t>(image.intrinsics.width) +
@@ -80,7 +72,7 @@ TEST_P(FloorSceneOf, WithoutNoiseLiesInItsGroundTruth) {
   const MultiPolygon truth = floor_ground_truth(GetParam());
   const PointLocator floor(truth);
   const auto beyond = std::count_if(points.begin(), points.end(), [&](const Point& point) {
-    return !floor.contains(point) && distance_to_rings(truth, point) > kBound;
+    return !floor.contains(point) && testing::boost_distance(point, truth) > kBound;
   });
   // Where two obstacles meet, the foot of one's side, below the band, can show over the other's shadow: one
   // pixel in scenes 2 and 9.
@@ -96,7 +88,7 @@ TEST_P(FloorSceneOf, GroundTruthIsWhatBothImagersSee) {
   std::size_t looked_at = 0;
   for (const Point& point : sample_uniform(truth, 3000, kSeed)) {
     // A pixel covers up to 12 by 16 mm of floor; its centre must be clear of the boundary.
-    if (distance_to_rings(truth, point) < 0.012) continue;
+    if (testing::boost_distance(point, truth) < 0.012) continue;
     ++looked_at;
     const Vector3 place = Vector3{point.x, point.y, 0} - camera.left_eye;
     const double depth = dot(place, camera.forward);
@@ -213,7 +205,8 @@ TEST_P(LowFloorOf, GroundTruthIsWhatBothImagersSee) {
     for (int column = 0; column < intrinsics.width; ++column) {
       const FloorSight sight = floor_sight(camera, intrinsics, column, row);
       // The pieces of the curved border are 0.01 mm off, and of depth whole counts remain.
-      if (distance_to_rings(truth, sight.place) < 1e-4 || std::abs(sight.depth - kLowRange) < 0.001) continue;
+      if (testing::boost_distance(sight.place, truth) < 1e-4 || std::abs(sight.depth - kLowRange) < 0.001)
+        continue;
       const bool shows_floor =
           std::abs(count_at(image, column, row) * intrinsics.depth_unit - sight.depth) < 0.00051;
       if (floor.contains(sight.place)) {
@@ -239,7 +232,7 @@ TEST_P(LowFloorOf, PointsLieOnTheFloorButForTheLensAndTheNoise) {
     const double distance = std::hypot(point.x, point.y);
     const double deviation =
         distance * distance * SensorNoise().subpixel_error / (simulated_camera().fx * kStereoBaseline);
-    far += distance_to_rings(scene.ground_truth, point) > 0.015 * distance + 5 * deviation ? 1U : 0U;
+    far += testing::boost_distance(point, scene.ground_truth) > 0.015 * distance + 5 * deviation ? 1U : 0U;
   }
   std::printf("scene %zu: %zu points, %.2f %% of them in the ground truth of %.4f m^2\n", GetParam(),
               scene.points.size(), 100 * inside_share(scene), polylidar::area(scene.ground_truth));
@@ -278,12 +271,9 @@ TEST(LowFloors, DifferFromTheOthersAsTheyAreSaidTo) {
 }
 
 TEST(FloorScenes, ThereAreFifteenOfThem) {
-  try {
-    simulate_depth(kFloorScenes + kLowFloorScenes, kSeed);
-    FAIL() << "a sixteenth scene was simulated";
-  } catch (const std::invalid_argument& error) {
-    EXPECT_STREQ(error.what(), "there is no floor scene 15; give 0 to 14");
-  }
+  EXPECT_EQ(testing::complaint_of<std::invalid_argument>(
+                [] { simulate_depth(kFloorScenes + kLowFloorScenes, kSeed); }),
+            "there is no floor scene 15; give 0 to 14");
   EXPECT_THROW(floor_ground_truth(kFloorScenes + kLowFloorScenes), std::invalid_argument);
 }
 
@@ -440,12 +430,7 @@ TEST(FloorPoints, EndAtTheMedianHeightPlusTheBand) {
 }
 
 std::string floor_error(const DepthImage& image) {
-  try {
-    floor_points(image);
-  } catch (const std::exception& error) {
-    return error.what();
-  }
-  return "no error";
+  return testing::complaint_of<std::exception>([&] { floor_points(image); });
 }
 
 TEST(FloorPoints, ImagesWithoutAFloorAreErrors) {
@@ -460,7 +445,7 @@ TEST(FloorPoints, ImagesWithoutAFloorAreErrors) {
   EXPECT_EQ(floor_error(image),
             "the depth image has depth hardly anywhere but along one line; take one that shows a floor");
   image.counts[1] = 1500;
-  EXPECT_EQ(floor_error(image), "no error");
+  EXPECT_EQ(floor_error(image), testing::kNoComplaint);
   image.counts.pop_back();
   EXPECT_EQ(floor_error(image), "a depth image must have a count for each of its width * height pixels");
 }

@@ -96,13 +96,13 @@ class RunnerTest : public ::testing::Test {
  protected:
   void TearDown() override { set_interrupted(false); }
 
-  /// All passes, or those up to `passes_`; `machine_` is asked.
+  /// All passes, or those up to `most_passes`; `machine_` is asked.
   run::RunResult measure(const plan::Plan& plan, const worker::MethodFinder& find_method = &worker_of,
-                         const std::vector<int>& cores = {}) {
+                         const std::vector<int>& cores = {}, std::optional<int> most_passes = {}) {
     const json header = header_of(plan);
     const auto directory = run::open_run_directory(header, {folder_.path() / "run", false, folder_.path()});
     const auto runs = plan::planned_runs(plan, "");
-    const int passes = passes_.value_or(plan.passes);
+    const int passes = most_passes.value_or(plan.passes);
     std::vector<run::ProgressSection> sections;
     for (int pass = 1; pass <= passes; ++pass)
       sections.push_back({"test", run::progress_runs(plan, runs, pass), "test"});
@@ -119,6 +119,8 @@ class RunnerTest : public ::testing::Test {
     return result;
   }
 
+  run::RunResult measure_first_pass(const plan::Plan& plan) { return measure(plan, &worker_of, {}, 1); }
+
   std::vector<json> lines(const std::string& file) const {
     return record::load_json_lines(folder_.path() / "run" / file).lines;
   }
@@ -134,8 +136,7 @@ class RunnerTest : public ::testing::Test {
 
   testing::TemporaryFolder folder_;
   std::string said_;
-  double seconds_left_ = 0;    ///< in the end
-  std::optional<int> passes_;  ///< no more than these; none: all
+  double seconds_left_ = 0;  ///< in the end
   run::MachineWatch* machine_ = nullptr;
   DataFolders folders_;
 };
@@ -485,14 +486,18 @@ TEST_F(RunnerTest, AParameterOutOfItsRangeIsAnErrorRow) {
 }
 
 TEST_F(RunnerTest, AFinishedRunIsNotMeasuredAgain) {
-  const plan::Plan plan = plan_of({"polylidar", "good", "crash"});
-  measure(plan);
-  const std::string before = testing::read_text(folder_.path() / "run" / "runs.jsonl");
-  const std::string repetitions = testing::read_text(folder_.path() / "run" / "repetitions.jsonl");
-  const run::RunResult again = measure(plan);
-  EXPECT_EQ(exit_code(again), 4);
-  EXPECT_EQ(testing::read_text(folder_.path() / "run" / "runs.jsonl"), before);
-  EXPECT_EQ(testing::read_text(folder_.path() / "run" / "repetitions.jsonl"), repetitions);
+  const fs::path run = folder_.path() / "run";
+  plan::Plan plan = plan_of({"polylidar", "good", "crash"}, 4);
+  for (plan.passes = 1; plan.passes <= 3; plan.passes += 2) {
+    SCOPED_TRACE(plan.passes);
+    measure(plan);
+    const std::string before = testing::read_text(run / "runs.jsonl");
+    const std::string repetitions = testing::read_text(run / "repetitions.jsonl");
+    EXPECT_EQ(exit_code(measure(plan)), 4);
+    EXPECT_EQ(testing::read_text(run / "runs.jsonl"), before);
+    EXPECT_EQ(testing::read_text(run / "repetitions.jsonl"), repetitions);
+    fs::remove_all(run);
+  }
 }
 
 TEST_F(RunnerTest, RepetitionsOfAnEarlierStartAreKept) {
@@ -665,13 +670,11 @@ TEST_F(RunnerTest, OnePassIsAsItWasButSaysItsRounds) {
 TEST_F(RunnerTest, AResultIsScoredInTheFirstPassOnly) {
   plan::Plan plan = plan_of({"polylidar", "good"}, 4);
   plan.passes = 2;
-  passes_ = 1;
-  EXPECT_EQ(exit_code(measure(plan)), 0);
+  EXPECT_EQ(exit_code(measure_first_pass(plan)), 0);
   const auto first = rows();
   const std::string pictures = testing::read_text(folder_.path() / "run" / "pictures.jsonl");
   EXPECT_EQ(first.at("polylidar").time_ns.size(), 2U);
   EXPECT_EQ(lines("runs.jsonl").size(), 2U);
-  passes_.reset();
   EXPECT_EQ(exit_code(measure(plan)), 0);
   for (const auto& [method, row] : rows()) {
     EXPECT_EQ(row.metrics, first.at(method).metrics) << method;
@@ -721,27 +724,13 @@ TEST_F(RunnerTest, ALaterPassStartsOnlyWhatHasSomethingLeftToDo) {
   EXPECT_EQ(seconds_left_, 0.0);
 }
 
-TEST_F(RunnerTest, AFinishedRunOfSeveralPassesIsNotMeasuredAgain) {
-  plan::Plan plan = plan_of({"polylidar", "good", "crash"}, 4);
-  plan.passes = 3;
-  measure(plan);
-  const fs::path run = folder_.path() / "run";
-  const std::string before = testing::read_text(run / "runs.jsonl");
-  const std::string repetitions = testing::read_text(run / "repetitions.jsonl");
-  EXPECT_EQ(exit_code(measure(plan)), 4);
-  EXPECT_EQ(testing::read_text(run / "runs.jsonl"), before);
-  EXPECT_EQ(testing::read_text(run / "repetitions.jsonl"), repetitions);
-}
-
 TEST_F(RunnerTest, ARunThatStoppedInTheSecondPassGoesOnThere) {
   plan::Plan plan = plan_of({"polylidar", "good"}, 6);
   plan.passes = 2;
-  passes_ = 1;
-  measure(plan);
+  measure_first_pass(plan);
   const fs::path run = folder_.path() / "run";
   const std::string rows_of_first = testing::read_text(run / "runs.jsonl");
   const auto first = rows();
-  passes_.reset();
   measure(plan);
   // As if it had been killed in the second pass, after its first round.
   std::string kept;
@@ -767,10 +756,8 @@ TEST_F(RunnerTest, ARunThatStoppedInTheSecondPassGoesOnThere) {
 TEST_F(RunnerTest, ARowWithoutItsRepetitionsIsMeasuredAnew) {
   plan::Plan plan = plan_of({"polylidar"}, 4);
   plan.passes = 2;
-  passes_ = 1;
-  measure(plan);
+  measure_first_pass(plan);
   fs::remove(folder_.path() / "run" / "repetitions.jsonl");
-  passes_.reset();
   EXPECT_EQ(exit_code(measure(plan)), 0);
   EXPECT_EQ(rows().at("polylidar").passes, (std::vector<std::int64_t>{1, 1, 2, 2}));
 }
@@ -778,15 +765,13 @@ TEST_F(RunnerTest, ARowWithoutItsRepetitionsIsMeasuredAnew) {
 TEST_F(RunnerTest, RowsOfALaterPassTakeThePlacesOfTheEarlierOnes) {
   plan::Plan plan = plan_of_small_cases({"polylidar", "good"}, 3);
   plan.passes = 2;
-  passes_ = 1;
-  measure(plan);
+  measure_first_pass(plan);
   const auto names = [&] {
     std::vector<std::string> result;
     for (const json& line : lines("runs.jsonl")) result.push_back(line["name"].get<std::string>());
     return result;
   };
   const std::vector<std::string> first = names();
-  passes_.reset();
   measure(plan);
   EXPECT_EQ(first.size(), 6U);
   EXPECT_EQ(names(), first);
@@ -908,6 +893,12 @@ class PlaceTest : public ::testing::Test {
   std::unique_ptr<run::RunDirectory> open(bool force = false) {
     return run::open_run_directory(header_, {std::nullopt, force, folder_.path()});
   }
+  /// The folder of a run that was begun and left.
+  fs::path begun_run() {
+    const auto directory = open();
+    directory->write_header(header_);
+    return directory->path();
+  }
   std::unique_ptr<run::RunDirectory> open_out(const fs::path& out, bool force = false) {
     return run::open_run_directory(header_, {out, force, folder_.path()});
   }
@@ -922,20 +913,14 @@ TEST_F(PlaceTest, TheFolderSaysWhenWhereAndWhat) {
 }
 
 TEST_F(PlaceTest, AnUnfinishedRunGoesOn) {
-  auto first = open();
-  const fs::path path = first->path();
-  first->write_header(header_);
-  first.reset();
+  const fs::path path = begun_run();
   header_["created"] = "2030-01-01T00:00:00Z";
   EXPECT_EQ(open()->path(), path);
   EXPECT_NE(open(true)->path(), path);
 }
 
 TEST_F(PlaceTest, AnotherRunDoesNot) {
-  auto first = open();
-  const fs::path path = first->path();
-  first->write_header(header_);
-  first.reset();
+  const fs::path path = begun_run();
   const json original = header_;
   const std::vector<std::pair<const char*, json>> changes = {
       {"/filter", "polylidar"}, {"/plan/repetitions", 99},        {"/plan/seed", 99},
@@ -950,11 +935,8 @@ TEST_F(PlaceTest, AnotherRunDoesNot) {
 }
 
 TEST_F(PlaceTest, AFinishedRunDoesNotGoOnByItself) {
-  auto first = open();
-  const fs::path path = first->path();
-  first->write_header(header_);
+  const fs::path path = begun_run();
   write_json_file(path / "report.json", {});
-  first.reset();
   EXPECT_NE(open()->path(), path);
   EXPECT_EQ(open_out(path)->path(), path);
 }

@@ -24,17 +24,13 @@ using polylidar::Point;
 /// it only within about 1e-13 of an edge, where no sample of these tests lies.
 bool is_inside(const MultiPolygon& shape, const Point& point) {
   bool inside = false;
-  const auto cross = [&](const polylidar::Ring& ring) {
+  for (const polylidar::Ring& ring : testing::rings_of(shape)) {
     for (std::size_t i = 0, j = ring.size() - 1; i < ring.size(); j = i++) {
       const Point& a = ring[i];
       const Point& b = ring[j];
       const bool straddles = (a.y > point.y) != (b.y > point.y);
       if (straddles && point.x < a.x + (b.x - a.x) * (point.y - a.y) / (b.y - a.y)) inside = !inside;
     }
-  };
-  for (const polylidar::Polygon& polygon : shape) {
-    cross(polygon.shell);
-    for (const polylidar::Ring& hole : polygon.holes) cross(hole);
   }
   return inside;
 }

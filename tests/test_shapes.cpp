@@ -5,13 +5,13 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <set>
-#include <stdexcept>
 #include <string>
 
 #include "datasets/sha256.hpp"
 #include "datasets/shapes.hpp"
 #include "polylidar/concave_hull.hpp"
 #include "tests/boost_checks.hpp"
+#include "tests/complaint.hpp"
 #include "tests/temporary_folder.hpp"
 
 namespace hullbench {
@@ -32,24 +32,15 @@ class Shapes : public ::testing::Test {
   /// The whole message of the error that reading `text` gives, without the file's name.
   std::string error_of(const std::string& text) const {
     const std::string path = write("shape.geojson", text).string();
-    try {
-      read_geojson(path);
-    } catch (const std::runtime_error& error) {
-      const std::string message = error.what();
-      EXPECT_EQ(message.substr(0, path.size()), path);
-      return message.substr(path.size());
-    }
-    return "no error";
+    std::string message = testing::complaint_of([&] { read_geojson(path); });
+    if (message == testing::kNoComplaint) return message;
+    EXPECT_EQ(message.substr(0, path.size()), path);
+    return message.substr(path.size());
   }
 
   std::string manifest_error(const std::string& text) const {
     write("manifest.json", text);
-    try {
-      read_manifest(folder_);
-    } catch (const std::runtime_error& error) {
-      return error.what();
-    }
-    return "no error";
+    return testing::complaint_of([&] { read_manifest(folder_); });
   }
 
   testing::TemporaryFolder temporary_;
@@ -90,13 +81,8 @@ TEST_F(Shapes, RingsAreTurnedAndAltitudesDropped) {
 
 TEST_F(Shapes, MissingFileAndFolderAreNamed) {
   for (const std::filesystem::path& path : {folder_ / "absent.geojson", folder_}) {
-    try {
-      read_geojson(path);
-      FAIL() << path << " was read";
-    } catch (const std::runtime_error& error) {
-      EXPECT_EQ(error.what(),
-                "cannot read " + path.string() + "; check that the file exists and may be read");
-    }
+    EXPECT_EQ(testing::complaint_of([&] { read_geojson(path); }),
+              "cannot read " + path.string() + "; check that the file exists and may be read");
   }
 }
 
@@ -109,7 +95,7 @@ TEST_F(Shapes, NumbersThatAreNotFiniteAreRefused) {
   const auto with_coordinate = [](const std::string& number) {
     return R"({"type": "Polygon", "coordinates": [[[0, 0], [)" + number + R"(, 0], [0, 3], [0, 0]]]})";
   };
-  EXPECT_EQ(error_of(with_coordinate("4")), "no error");
+  EXPECT_EQ(error_of(with_coordinate("4")), testing::kNoComplaint);
   EXPECT_NE(error_of(with_coordinate("1e999")).find("number overflow"), std::string::npos);
   EXPECT_NE(error_of(with_coordinate("NaN")).find(" is not valid JSON ("), std::string::npos);
   EXPECT_EQ(error_of(with_coordinate("null")),
@@ -161,14 +147,10 @@ TEST_F(Shapes, FileThatDiffersFromTheManifestIsRefused) {
   EXPECT_EQ(load_shape(folder_, info).size(), 1U);
   const std::string changed = std::string(kTriangle) + "\n";
   write("tri.geojson", changed);
-  try {
-    load_shape(folder_, info);
-    FAIL() << "a changed file was read";
-  } catch (const std::runtime_error& error) {
-    EXPECT_EQ(error.what(), path.string() + " has SHA-256 " + sha256_hex(changed) +
-                                " but the manifest says " + sha256_hex(kTriangle) +
-                                "; restore the file, or correct the manifest if the change was meant");
-  }
+  EXPECT_EQ(testing::complaint_of([&] { load_shape(folder_, info); }),
+            path.string() + " has SHA-256 " + sha256_hex(changed) + " but the manifest says " +
+                sha256_hex(kTriangle) +
+                "; restore the file, or correct the manifest if the change was meant");
 }
 
 TEST_F(Shapes, ManifestEntryIsRead) {
@@ -212,13 +194,9 @@ TEST_F(Shapes, FaultyManifestsAreRefused) {
 }
 
 TEST_F(Shapes, MissingManifestIsNamed) {
-  try {
-    read_manifest(folder_);
-    FAIL();
-  } catch (const std::runtime_error& error) {
-    EXPECT_EQ(error.what(), "cannot read " + (folder_ / "manifest.json").string() +
-                                "; check that the file exists and may be read");
-  }
+  EXPECT_EQ(
+      testing::complaint_of([&] { read_manifest(folder_); }),
+      "cannot read " + (folder_ / "manifest.json").string() + "; check that the file exists and may be read");
 }
 
 TEST(CommittedShapes, AreWhatTheManifestSays) {

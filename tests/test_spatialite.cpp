@@ -3,8 +3,6 @@
 
 #include <limits>
 #include <memory>
-#include <stdexcept>
-#include <string>
 #include <vector>
 
 #include "adapters/adapter.hpp"

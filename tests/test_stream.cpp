@@ -7,12 +7,12 @@
 #include <cstdint>
 #include <limits>
 #include <span>
-#include <stdexcept>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "polylidar/stream.hpp"
+#include "tests/complaint.hpp"
 #include "tests/point_sets.hpp"
 
 namespace polylidar {
@@ -56,12 +56,7 @@ class MemorySource {
 
 std::string complaint(MemorySource& source, const Options& options,
                       const StreamOptions& stream_options = {}) {
-  try {
-    source.hull(options, stream_options);
-  } catch (const std::exception& error) {
-    return error.what();
-  }
-  return "";
+  return hullbench::testing::complaint_of<std::exception>([&] { source.hull(options, stream_options); });
 }
 
 /// The shards' parts, the last one first, each read in blocks of another size and by more threads.
@@ -374,7 +369,7 @@ TEST(Stream, SaysWhatIsWrong) {
   Points huge = points;
   for (Point& p : huge) p.x *= 1e300;
   MemorySource extreme(huge);
-  EXPECT_NE(complaint(extreme, {.alpha = 0.02}), "");
+  EXPECT_NE(complaint(extreme, {.alpha = 0.02}), hullbench::testing::kNoComplaint);
 }
 
 TEST(Stream, NoticesASourceThatChanges) {

@@ -23,6 +23,7 @@
 #include "datasets/sampling.hpp"
 #include "datasets/stress.hpp"
 #include "tests/boost_checks.hpp"
+#include "tests/complaint.hpp"
 
 namespace hullbench {
 namespace {
@@ -142,15 +143,10 @@ TEST(Stress, AnyShapeCanBeSampledWithAnyKind) {
 }
 
 TEST(Stress, UnknownStressIsRefusedWithTheKnownOnes) {
-  try {
-    make_point_set("ca~noise:99", false, 10, 1);
-    FAIL();
-  } catch (const std::invalid_argument& error) {
-    const std::string text = error.what();
-    EXPECT_TRUE(text.starts_with("there is no data set 'ca~noise:99'; choose one of: ca, hi, ")) << text;
-    EXPECT_NE(text.find("one of: ~noise:LEVEL (0 to 10) ~outliers:LEVEL (0 to 90)"), std::string::npos)
-        << text;
-  }
+  const std::string text =
+      testing::complaint_of<std::invalid_argument>([] { make_point_set("ca~noise:99", false, 10, 1); });
+  EXPECT_TRUE(text.starts_with("there is no data set 'ca~noise:99'; choose one of: ca, hi, ")) << text;
+  EXPECT_NE(text.find("one of: ~noise:LEVEL (0 to 10) ~outliers:LEVEL (0 to 90)"), std::string::npos) << text;
 }
 
 TEST(Stress, BaseShapesAndLevelsAreToldFromTheName) {

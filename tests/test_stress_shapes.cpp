@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdint>
 #include <limits>
 #include <map>
 #include <set>
@@ -13,7 +12,6 @@
 #include "datasets/datasets.hpp"
 #include "datasets/degenerate.hpp"
 #include "datasets/point_bytes.hpp"
-#include "datasets/point_locator.hpp"
 #include "datasets/sha256.hpp"
 #include "datasets/stress_shapes.hpp"
 #include "polylidar/concave_hull.hpp"

@@ -45,15 +45,12 @@ class RescoreTest : public testing::HullbenchTest {
   /// A run of two cases in `kept`.
   void SetUp() override {
     const std::string plan = write(testing::small_plan("small", testing::california({500})));
-    const Outcome outcome = hullbench({"run", plan, "--keep-polygons", "--out", "kept"});
-    ASSERT_EQ(outcome.code, 0) << outcome.err;
+    succeeded(hullbench({"run", plan, "--keep-polygons", "--out", "kept"}));
   }
 };
 
 TEST_F(RescoreTest, GivesTheSameScores) {
-  const Outcome outcome = hullbench({"rescore", "kept", "--out", "again"});
-  ASSERT_EQ(outcome.code, 0) << outcome.err;
-  EXPECT_NE(outcome.err.find("2 of 2 rows have new scores"), std::string::npos) << outcome.err;
+  expect_end(hullbench({"rescore", "kept", "--out", "again"}), 0, "2 of 2 rows have new scores");
   EXPECT_EQ(read_lines("again/runs.jsonl"), read_lines("kept/runs.jsonl"));
   EXPECT_TRUE(read_json("again/run.json").contains("rescored"));
   expect_valid("again/run.json");
@@ -69,8 +66,7 @@ TEST_F(RescoreTest, ScoresThatAreMissingOrWrongAreMended) {
     row["metrics"].erase("hausdorff");
     row["flags"].push_back("worse_than_convex_hull");
   });
-  const Outcome outcome = hullbench({"rescore", "kept", "--out", "again"});
-  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  succeeded(hullbench({"rescore", "kept", "--out", "again"}));
   EXPECT_EQ(json(read_lines("again/runs.jsonl")), before);
 }
 
@@ -80,13 +76,9 @@ TEST_F(RescoreTest, NeedsPolygonsAndPointsOfTheRow) {
   EXPECT_FALSE(fs::exists(folder() / "again"));
   for (const auto& entry : fs::directory_iterator(folder() / "kept" / "polygons"))
     write_text(entry.path(), "x");
-  const Outcome changed = hullbench({"rescore", "kept", "--out", "again"});
-  EXPECT_EQ(changed.code, 1);
-  EXPECT_NE(changed.err.find("its hash is not its name"), std::string::npos) << changed.err;
+  expect_end(hullbench({"rescore", "kept", "--out", "again"}), 1, "its hash is not its name");
   fs::remove_all(folder() / "kept" / "polygons");
-  const Outcome none = hullbench({"rescore", "kept", "--out", "again"});
-  EXPECT_EQ(none.code, 6);
-  EXPECT_NE(none.err.find("no polygons were kept in kept"), std::string::npos) << none.err;
+  expect_end(hullbench({"rescore", "kept", "--out", "again"}), 6, "no polygons were kept in kept");
   expect_refusal(hullbench({"rescore", "nowhere", "--out", "again"}), 2, "there is no run in nowhere");
   expect_refusal(hullbench({"rescore", "kept", "--out", "kept"}), 2, "--out");
 }
@@ -95,8 +87,7 @@ TEST_F(RescoreTest, OfASuiteIsASuite) {
   const std::string one = write(testing::small_plan("one", testing::california({300})));
   const std::string two = write(testing::small_plan("two", testing::california({400})));
   ASSERT_EQ(hullbench({"run", one, two, "--keep-polygons", "--out", "both"}).code, 0);
-  const Outcome outcome = hullbench({"rescore", "both", "--out", "again"});
-  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  succeeded(hullbench({"rescore", "both", "--out", "again"}));
   for (const char* name : {"one", "two"}) {
     EXPECT_EQ(untimed(read_lines(fs::path("again") / name / "runs.jsonl")),
               untimed(read_lines(fs::path("both") / name / "runs.jsonl")));
@@ -126,9 +117,7 @@ class SubmissionTest : public testing::HullbenchTest {
     fs::copy(pack(), folder() / "kept", fs::copy_options::recursive);
     change();
     if (is_packed_again) pack_again();
-    const Outcome outcome = hullbench({"submit", "check", "pack"});
-    EXPECT_EQ(outcome.code, 1) << outcome.err;
-    EXPECT_NE(outcome.out.find("FAIL: "), std::string::npos) << outcome.out;
+    const Outcome outcome = expect_end(hullbench({"submit", "check", "pack"}), 1, "", "FAIL: ");
     EXPECT_NE(outcome.out.find(sentence), std::string::npos) << outcome.out;
     EXPECT_EQ(outcome.out.find("| Method"), std::string::npos) << "no table of what was not checked";
     fs::remove_all(pack());
@@ -162,9 +151,9 @@ class SubmissionTest : public testing::HullbenchTest {
 
 // In one, as making a pack takes its time.
 TEST_F(SubmissionTest, APackIsTakenAndWhatIsWrongWithItIsFound) {
-  const Outcome packed = hullbench({"submit", "pack", "my_hull", "--adapters", "methods", "--out", "pack"},
-                                   {{}, {}, false, std::chrono::minutes(5)});
-  ASSERT_EQ(packed.code, 0) << packed.err;
+  const Outcome packed =
+      succeeded(hullbench({"submit", "pack", "my_hull", "--adapters", "methods", "--out", "pack"},
+                          {{}, {}, false, std::chrono::minutes(5)}));
   const Outcome outcome = hullbench({"submit", "check", "pack"});
   EXPECT_EQ(outcome.code, 0) << outcome.out << outcome.err;
   EXPECT_EQ(outcome.out.find("FAIL"), std::string::npos);

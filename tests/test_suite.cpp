@@ -63,8 +63,7 @@ std::vector<std::string> records_of(const fs::path& suite) {
 }
 
 TEST_F(SuiteTest, IsARunOfEveryPlanAndTheTablesOfAll) {
-  const Outcome outcome = hullbench(run_both());
-  EXPECT_EQ(outcome.code, 0) << outcome.err;
+  const Outcome outcome = succeeded(hullbench(run_both()));
   EXPECT_NE(outcome.err.find("table 1 of 2: Plan first"), std::string::npos) << outcome.err;
   EXPECT_NE(outcome.err.find("table 2 of 2: Plan second"), std::string::npos) << outcome.err;
   EXPECT_NE(outcome.err.find("4 ok, 0 failed, 0 not installed"), std::string::npos) << outcome.err;
@@ -83,8 +82,7 @@ TEST_F(SuiteTest, IsARunOfEveryPlanAndTheTablesOfAll) {
     EXPECT_TRUE(tables.contains(std::string(table) + ".csv")) << table;
     EXPECT_TRUE(tables.contains(std::string(table) + ".tex")) << table;
   }
-  const Outcome printed = hullbench({"tables", "suite"});
-  EXPECT_EQ(printed.code, 0) << printed.err;
+  const Outcome printed = succeeded(hullbench({"tables", "suite"}));
   EXPECT_EQ(printed.out, outcome.out);
   // Who draws a report learns from it, and from nowhere else, which values of a metric are better.
   EXPECT_EQ(json::parse(read_text(suite() / "first" / "report.json")).at("metrics"),
@@ -92,8 +90,7 @@ TEST_F(SuiteTest, IsARunOfEveryPlanAndTheTablesOfAll) {
 }
 
 TEST_F(SuiteTest, HasItsTablesWrittenAnewOnlyWhenThatIsAskedFor) {
-  const Outcome outcome = hullbench(run_both());
-  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  const Outcome outcome = succeeded(hullbench(run_both()));
   const std::set<std::string> tables = names_in(suite() / "tables");
   fs::remove_all(suite() / "tables");
   fs::remove(suite() / "tables.md");
@@ -105,12 +102,10 @@ TEST_F(SuiteTest, HasItsTablesWrittenAnewOnlyWhenThatIsAskedFor) {
 }
 
 TEST_F(SuiteTest, ThatIsFinishedIsNotMeasuredAgain) {
-  const Outcome first = hullbench(run_both());
-  ASSERT_EQ(first.code, 0) << first.err;
+  const Outcome first = succeeded(hullbench(run_both()));
   const auto records = records_of(suite());
   fs::remove_all(suite() / "tables");
-  const Outcome second = hullbench(run_both());
-  EXPECT_EQ(second.code, 0) << second.err;
+  const Outcome second = succeeded(hullbench(run_both()));
   EXPECT_EQ(second.out, first.out);
   EXPECT_NE(second.err.find("Plan first is finished already"), std::string::npos) << second.err;
   EXPECT_NE(second.err.find("Plan second is finished already"), std::string::npos) << second.err;
@@ -125,8 +120,7 @@ TEST_F(SuiteTest, GoesThroughAllPlansPassByPass) {
                                           write(once), write(small_plan("second", california({600}), 2)),
                                           "--passes",  "2",
                                           "--out",     "suite"};
-  const Outcome outcome = hullbench(words);
-  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  const Outcome outcome = succeeded(hullbench(words));
   std::size_t place = 0;
   for (const char* words_said :
        {"table 1 of 3, pass 1 of 2: Plan first\n", "table 2 of 3, pass 1 of 2: Plan once\n",
@@ -207,8 +201,7 @@ TEST_F(SuiteTest, InAFolderThatCannotBeWrittenIsRefused) {
 }
 
 TEST_F(SuiteTest, LeavesOutAPlanWithoutRuns) {
-  const Outcome outcome = hullbench(run_both({"--out", "suite", "--filter", "n:600/holes:1"}));
-  EXPECT_EQ(outcome.code, 0) << outcome.err;
+  const Outcome outcome = succeeded(hullbench(run_both({"--out", "suite", "--filter", "n:600/holes:1"})));
   EXPECT_FALSE(fs::exists(suite() / "first"));
   EXPECT_EQ(rows_of(suite() / "second"),
             (std::set<std::string>{"polylidar/ca/n:600/holes:1/protocol:paper"}));
@@ -223,8 +216,7 @@ TEST_F(SuiteTest, WithoutAnyRunIsNotBegun) {
 }
 
 TEST_F(SuiteTest, WithoutOutIsTheLatestRun) {
-  const Outcome outcome = hullbench(run_both({}));
-  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  const Outcome outcome = succeeded(hullbench(run_both({})));
   EXPECT_EQ(read_text(folder() / "results" / "latest" / "tables.md"), outcome.out);
   EXPECT_EQ(hullbench({"tables"}).out, outcome.out);
 }
@@ -287,8 +279,7 @@ TEST_F(InterruptedSuiteTest, GoesOnFromWhereItStopped) {
     firsts.push_back(read_text(suite() / "first" / "runs.jsonl"));
   }
   const std::string repetitions = read_text(suite() / "second" / "repetitions.jsonl");
-  const Outcome whole = hullbench(words());
-  EXPECT_EQ(whole.code, 0) << whole.err;
+  const Outcome whole = succeeded(hullbench(words()));
   EXPECT_NE(whole.err.find("Plan first is finished already"), std::string::npos) << whole.err;
   firsts.push_back(read_text(suite() / "first" / "runs.jsonl"));
   EXPECT_FALSE(firsts.front().empty());
@@ -308,13 +299,10 @@ TEST_F(InterruptedSuiteTest, GoesOnInThePassInWhichItStopped) {
     EXPECT_TRUE(fs::exists(suite() / "first" / "report.json"));
     EXPECT_FALSE(fs::exists(suite() / "second" / "report.json"));
     // Those of the first pass are there, whole and readable.
-    const Outcome tables = hullbench({"tables", "suite"});
-    EXPECT_EQ(tables.code, 0) << tables.err;
-    EXPECT_NE(tables.out.find("## Plan second\n"), std::string::npos);
+    expect_end(hullbench({"tables", "suite"}), 0, "", "## Plan second\n");
   }
   const std::string repetitions = read_text(suite() / "second" / "repetitions.jsonl");
-  const Outcome whole = hullbench(in_two_passes);
-  EXPECT_EQ(whole.code, 0) << whole.err;
+  succeeded(hullbench(in_two_passes));
   EXPECT_TRUE(read_text(suite() / "second" / "repetitions.jsonl").starts_with(repetitions));
   expect_whole(suite());
   EXPECT_EQ(lines_by_pass(suite()), (std::map<int, int>{{1, 80}, {2, 80}}));
@@ -334,8 +322,7 @@ TEST_F(InterruptedSuiteTest, IsFoundWithoutOutUntilItIsFinished) {
 
 TEST_F(InterruptedSuiteTest, HasTheTablesOfWhatIsThere) {
   ASSERT_EQ(stop_in_second(words(), SIGINT, 1, suite()).code, 130);
-  const Outcome tables = hullbench({"tables", "suite"});
-  EXPECT_EQ(tables.code, 0) << tables.err;
+  const Outcome tables = succeeded(hullbench({"tables", "suite"}));
   EXPECT_NE(tables.out.find("## Plan first\n"), std::string::npos);
   fs::remove_all(suite() / "first");
   fs::remove_all(suite() / "second");

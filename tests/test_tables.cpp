@@ -10,28 +10,16 @@
 
 #include "benchmarks/base/number_format.hpp"
 #include "benchmarks/report/report.hpp"
-#include "benchmarks/report/tables.hpp"
 #include "benchmarks/table/writers.hpp"
-#include "invented_run.hpp"
-#include "temporary_folder.hpp"
+#include "invented_shapes.hpp"
+#include "tests/complaint.hpp"
 
 namespace hullbench {
 namespace {
 
 using nlohmann::json;
-using testing::TemporaryFolder;
-
-json invented_report(const std::vector<std::int64_t>& sizes) {
-  const TemporaryFolder folder;
-  test::write_invented_run(folder.path(), sizes);
-  return report::make_report(folder.path());
-}
-
-std::string tables(const json& report) {
-  std::ostringstream out;
-  table::print_markdown(report::make_document(report), out);
-  return out.str();
-}
+using test::invented_report;
+using test::markdown_of;
 
 std::string line_with(const std::string& text, const std::string& part, std::size_t from = 0) {
   const std::size_t place = text.find(part, from);
@@ -46,11 +34,11 @@ TEST(Tables, AreAsInTheGoldenFile) {
   std::ifstream in(std::filesystem::path(HULLBENCH_SOURCE_DIRECTORY) / "tests/data/tables.md");
   std::ostringstream golden;
   golden << in.rdbuf();
-  EXPECT_EQ(tables(invented_report({2000, 64000})), golden.str());
+  EXPECT_EQ(markdown_of(invented_report({2000, 64000})), golden.str());
 }
 
 TEST(Tables, FitATerminalOf120Columns) {
-  std::istringstream lines(tables(invented_report({2000, 4000, 8000, 16000, 32000, 64000})));
+  std::istringstream lines(markdown_of(invented_report({2000, 4000, 8000, 16000, 32000, 64000})));
   for (std::string line; std::getline(lines, line);) {
     const bool is_heading = line.rfind("###", 0) == 0;
     EXPECT_TRUE(is_heading || table::display_width(line) <= 120) << line;
@@ -64,11 +52,11 @@ TEST(Tables, HaveTheMethodsDataSetsAndSizesOfTheReport) {
   for (json& run : report["runs"]) {
     if (run["method"] == "cgal_alpha_shape") run["method"] = "unheard_of";
   }
-  const std::string text = tables(report);
-  EXPECT_NE(text.find("### Elsewhere with holes: time of equal work"), std::string::npos);
-  EXPECT_NE(line_with(text, "Number of points").find(" 123 |"), std::string::npos);
-  EXPECT_NE(text.find("| Renamed (paper)"), std::string::npos);
-  EXPECT_NE(text.find("| unheard_of (paper)"), std::string::npos);
+  const std::string text = markdown_of(report);
+  testing::expect_says(text, "### Elsewhere with holes: time of equal work");
+  testing::expect_says(line_with(text, "Number of points"), " 123 |");
+  testing::expect_says(text, "| Renamed (paper)");
+  testing::expect_says(text, "| unheard_of (paper)");
 }
 
 TEST(Tables, TheIntervalOfARatioIsClusteredByShape) {
@@ -82,9 +70,9 @@ TEST(Tables, TheIntervalOfARatioIsClusteredByShape) {
   }
   // As three values, whose interval is their range: 5.95 times 1, 2 and 3. Of 60 independent values it would
   // be 11.9-11.9.
-  const std::string text = tables(report);
+  const std::string text = markdown_of(report);
   const std::string line = line_with(text, "| CGAL", text.find("ratios to Polylidar"));
-  EXPECT_NE(line.find("| 11.9 | 5.95–17.9 |"), std::string::npos) << line;
+  testing::expect_says(line, "| 11.9 | 5.95–17.9 |");
 }
 
 /// Adds the runs of `method` once more, as those of another one with times divided by `faster`.
@@ -101,7 +89,7 @@ void add_rival(json& report, const std::string& method, const std::string& name,
 
 std::string headline_of(json report) {
   report["summary"] = report::make_summary(report);
-  const std::string text = tables(report);
+  const std::string text = markdown_of(report);
   const std::size_t words = text.find(": the fastest rival");
   if (words == std::string::npos) return "";
   const std::size_t begin = text.rfind("###", words);
@@ -119,7 +107,7 @@ TEST(Headline, IsTheFastestMethodWithTheSamePolygonsAndThenThePapersRival) {
       << text;
   EXPECT_LT(text.find("| twin"), text.find("| CGAL alpha shape (paper) | yes")) << text;
   EXPECT_EQ(text.find("sloppy"), std::string::npos) << "other polygons: " << text;
-  EXPECT_NE(text.find("whole spectrum of alphas"), std::string::npos) << text;
+  testing::expect_says(text, "whole spectrum of alphas");
 }
 
 TEST(Headline, TheSameMethodStepByStepIsNoRival) {
@@ -179,8 +167,8 @@ TEST(Headline, WithoutATwinItSaysSo) {
     if (run["method"] == "cgal_alpha_shape") run["metrics"]["vertices"] = 500;
   }
   const std::string text = headline_of(report);
-  EXPECT_NE(text.find("| CGAL alpha shape (paper) | no "), std::string::npos) << text;
-  EXPECT_NE(text.find("but there is none in this run"), std::string::npos) << text;
+  testing::expect_says(text, "| CGAL alpha shape (paper) | no ");
+  testing::expect_says(text, "but there is none in this run");
 }
 
 // In the machine's slow round everything takes ten times as long.
@@ -197,27 +185,27 @@ TEST(Ratios, AreTakenRoundByRound) {
     }
   }
   const auto ratio = [&] {
-    return line_with(tables(report), "| CGAL", tables(report).find("ratios to Polylidar"));
+    return line_with(markdown_of(report), "| CGAL", markdown_of(report).find("ratios to Polylidar"));
   };
-  EXPECT_NE(ratio().find("| 3 of 3 | 3.00 | 3.00–3.00 |"), std::string::npos) << ratio();
+  testing::expect_says(ratio(), "| 3 of 3 | 3.00 | 3.00–3.00 |");
   for (json& run : report["runs"]) run.erase("rounds");  // then by position: 3, 3 and 30
-  EXPECT_NE(ratio().find(" 3.00 | 3.00–30.0 |"), std::string::npos) << ratio();
+  testing::expect_says(ratio(), " 3.00 | 3.00–30.0 |");
 }
 
 TEST(Ratios, AFailureIsInfinitelyBadOnEitherSide) {
   json report = invented_report({2000, 64000});
-  const std::string text = tables(report);
+  const std::string text = markdown_of(report);
   const std::string failing = line_with(text, "| PostGIS (auto)", text.find("ratios to Polylidar"));
-  EXPECT_NE(failing.find("| 4 of 6 | 10.4 |    > 10.4 |  10.4 |    ∞ |"), std::string::npos) << failing;
+  testing::expect_says(failing, "| 4 of 6 | 10.4 |    > 10.4 |  10.4 |    ∞ |");
   for (json& run : report["runs"]) {
     if (run["name"] != "polylidar/ca/n:2000/holes:0/protocol:paper") continue;
     run["status"] = "crash";
     run["detail"] = "SIGSEGV";
   }
-  const std::string crashed = tables(report);
+  const std::string crashed = markdown_of(report);
   const std::string line = line_with(crashed, "| CGAL", crashed.find("ratios to Polylidar"));
-  EXPECT_NE(line.find("| 6 of 6 | 5.95 |"), std::string::npos) << line;
-  EXPECT_NE(line.find("|     0 | 5.95 |"), std::string::npos) << line;
+  testing::expect_says(line, "| 6 of 6 | 5.95 |");
+  testing::expect_says(line, "|     0 | 5.95 |");
 }
 
 TEST(Tables, ARowSaysItsNumberOfRepetitionsWhereItIsNotTheUsualOne) {
@@ -227,45 +215,43 @@ TEST(Tables, ARowSaysItsNumberOfRepetitionsWhereItIsNotTheUsualOne) {
     run["time_ns"] = json::array({1000000});
     run["phases_ns"] = json::array({{{"load", 1}, {"run", 900000}, {"extract", 100000}}});
   }
-  const std::string text = tables(report);
-  EXPECT_NE(text.find("| SpatiaLite (paper), 1 repetition "), std::string::npos) << text;
-  EXPECT_NE(text.find("| Polylidar (paper) "), std::string::npos);
-  EXPECT_NE(text.find("over 3 repetitions"), std::string::npos);
+  const std::string text = markdown_of(report);
+  testing::expect_says(text, "| SpatiaLite (paper), 1 repetition ");
+  testing::expect_says(text, "| Polylidar (paper) ");
+  testing::expect_says(text, "over 3 repetitions");
   json& run = report["runs"][2];
   ASSERT_EQ(run["method"], "spatialite");
   run["time_ns"] = {1000000, 1000000};
-  EXPECT_NE(tables(report).find("| SpatiaLite (paper), 1 to 2 repetitions "), std::string::npos);
+  testing::expect_says(markdown_of(report), "| SpatiaLite (paper), 1 to 2 repetitions ");
 }
 
 TEST(Tables, RowsOfAnUnsteadyMachineAreCounted) {
   json report = invented_report({2000});
   report["runs"][0]["flags"] = {"remeasured_round"};
   report["runs"][1]["flags"] = {"remeasured_round", "unsteady_machine"};
-  const std::string text = tables(report);
-  EXPECT_NE(text.find("in a round of 2 of 11 rows, which was measured again"), std::string::npos) << text;
-  EXPECT_NE(text.find("after the last try in 1 of 11 rows"), std::string::npos) << text;
+  const std::string text = markdown_of(report);
+  testing::expect_says(text, "in a round of 2 of 11 rows, which was measured again");
+  testing::expect_says(text, "after the last try in 1 of 11 rows");
 }
 
 TEST(Tables, FirstCallsInAFreshProcessHaveATable) {
   json report = invented_report({2000});
-  EXPECT_EQ(tables(report).find("First call"), std::string::npos);
+  EXPECT_EQ(markdown_of(report).find("First call"), std::string::npos);
   report["runs"][0]["cold_time_ns"] = 5250000;  // ten times its median of 0.525 ms
-  const std::string text = tables(report);
+  const std::string text = markdown_of(report);
   const std::size_t table = text.find("### First call in a fresh process");
   ASSERT_NE(table, std::string::npos);
-  EXPECT_NE(line_with(text, "| Polylidar (paper)", table)
-                .find("|     1 |       5.25 |     0.525 |              10.0 |"),
-            std::string::npos)
-      << line_with(text, "| Polylidar (paper)", table);
+  testing::expect_says(line_with(text, "| Polylidar (paper)", table),
+                       "|     1 |       5.25 |     0.525 |              10.0 |");
 }
 
 TEST(Tables, AnErrorAboveThatOfTheConvexHullIsMarked) {
   json report = invented_report({2000});
   report["runs"][0]["metrics"]["l2_convex_hull"] = 0.01;
-  const std::string text = tables(report);
+  const std::string text = markdown_of(report);
   EXPECT_NE(line_with(text, "| Polylidar (paper)", text.find("error L2")).find("7.83 (7.98) †"),
             std::string::npos);
-  EXPECT_NE(text.find("†: the error is above"), std::string::npos);
+  testing::expect_says(text, "†: the error is above");
 }
 
 TEST(Tables, ProtocolsNeverShareALine) {
@@ -274,9 +260,9 @@ TEST(Tables, ProtocolsNeverShareALine) {
   other["protocol"] = "tuned";
   other["time_ns"] = {9000000, 9000000, 9000000};
   report["runs"].push_back(other);
-  const std::string text = tables(report);
-  EXPECT_NE(line_with(text, "Polylidar (paper)").find("0.525 ±0.005"), std::string::npos);
-  EXPECT_NE(line_with(text, "Polylidar (tuned)").find("9.00 ±0.00"), std::string::npos);
+  const std::string text = markdown_of(report);
+  testing::expect_says(line_with(text, "Polylidar (paper)"), "0.525 ±0.005");
+  testing::expect_says(line_with(text, "Polylidar (tuned)"), "9.00 ±0.00");
 }
 
 TEST(Tables, RunsOfOneCellArePutTogether) {
@@ -286,24 +272,24 @@ TEST(Tables, RunsOfOneCellArePutTogether) {
   other_seed["time_ns"] = {1000000, 1000000, 1000000};
   report["runs"].push_back(other_seed);
   // Of 0.520 0.525 0.530 1 1 1 the median is 0.765, the deviations 0.245 0.240 0.235 and three times 0.235.
-  EXPECT_NE(line_with(tables(report), "Polylidar (paper)").find("0.765 ±0.235"), std::string::npos);
+  testing::expect_says(line_with(markdown_of(report), "Polylidar (paper)"), "0.765 ±0.235");
 }
 
 TEST(Tables, AFailureIsShownByItsNameWithTheReason) {
-  const std::string text = tables(invented_report({2000, 64000}));
+  const std::string text = markdown_of(invented_report({2000, 64000}));
   const std::size_t hawaii = text.find("### Hawaii: time");
-  EXPECT_NE(line_with(text, "SpatiaLite (paper)", hawaii).find("timeout"), std::string::npos);
-  EXPECT_NE(text.find("no answer within 120 s"), std::string::npos);
-  EXPECT_NE(line_with(text, "PostGIS (auto)", hawaii).find("invalid"), std::string::npos);
-  EXPECT_NE(line_with(text, "PostGIS 2.5 (paper)").find("not installed"), std::string::npos);
-  EXPECT_NE(text.find("docker-compose up -d postgis25"), std::string::npos);
+  testing::expect_says(line_with(text, "SpatiaLite (paper)", hawaii), "timeout");
+  testing::expect_says(text, "no answer within 120 s");
+  testing::expect_says(line_with(text, "PostGIS (auto)", hawaii), "invalid");
+  testing::expect_says(line_with(text, "PostGIS 2.5 (paper)"), "not installed");
+  testing::expect_says(text, "docker-compose up -d postgis25");
 }
 
 TEST(Tables, AResultThatIsNotValidHasNoTimeThoughItsStatusIsOk) {
   json report = invented_report({2000});
   report["runs"][0]["metrics"]["valid"] = false;
-  const std::string line = line_with(tables(report), "Polylidar (paper)");
-  EXPECT_NE(line.find("invalid"), std::string::npos) << line;
+  const std::string line = line_with(markdown_of(report), "Polylidar (paper)");
+  testing::expect_says(line, "invalid");
   EXPECT_EQ(line.find("0.525"), std::string::npos) << line;
 }
 
@@ -314,29 +300,29 @@ TEST(Tables, AMissingMethodWithoutARowIsNamedAllTheSame) {
     if (run["method"] != "postgis_legacy") runs.push_back(run);
   }
   report["runs"] = runs;
-  EXPECT_NE(tables(report).find("PostGIS 2.5 is not installed"), std::string::npos);
+  testing::expect_says(markdown_of(report), "PostGIS 2.5 is not installed");
 }
 
 TEST(Tables, PapersValuesStandBesideOursOnlyAtThePapersSize) {
-  EXPECT_NE(tables(invented_report({64000})).find("CGAL, in the paper"), std::string::npos);
-  const std::string small = tables(invented_report({2000}));
+  testing::expect_says(markdown_of(invented_report({64000})), "CGAL, in the paper");
+  const std::string small = markdown_of(invented_report({2000}));
   EXPECT_EQ(small.find("CGAL, in the paper"), std::string::npos);
-  EXPECT_NE(small.find("which was not measured here"), std::string::npos);
+  testing::expect_says(small, "which was not measured here");
 }
 
 TEST(Tables, OfOtherDataSetsHaveNoClaimsOfThePaper) {
   json report = invented_report({2000});
   for (json& run : report["runs"]) run["dataset"] = "letters";
-  const std::string text = tables(report);
+  const std::string text = markdown_of(report);
   EXPECT_EQ(text.find("claims"), std::string::npos);
-  EXPECT_NE(text.find("### letters: time"), std::string::npos);
+  testing::expect_says(text, "### letters: time");
 }
 
 TEST(Tables, OfNoRunsSaySo) {
   json report = invented_report({2000});
   report["runs"] = json::array();
   report["summary"] = report::make_summary(report);
-  EXPECT_NE(tables(report).find("Rows by status: none."), std::string::npos);
+  testing::expect_says(markdown_of(report), "Rows by status: none.");
 }
 
 TEST(Tables, NeverShowNaN) {
@@ -344,7 +330,7 @@ TEST(Tables, NeverShowNaN) {
   for (json& run : report["runs"]) {
     if (run["metrics"].contains("l2")) run["metrics"]["l2"] = nullptr;
   }
-  const std::string text = tables(report);
+  const std::string text = markdown_of(report);
   EXPECT_EQ(text.find("nan"), std::string::npos);
   EXPECT_NE(text.find("– ("), std::string::npos);
 }

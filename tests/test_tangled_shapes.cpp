@@ -4,7 +4,6 @@
 #include <cmath>
 #include <limits>
 #include <map>
-#include <numeric>
 #include <set>
 #include <stdexcept>
 #include <string>
@@ -13,6 +12,7 @@
 #include "datasets/star_polygons.hpp"
 #include "datasets/tangled_shapes.hpp"
 #include "tests/boost_checks.hpp"
+#include "tests/complaint.hpp"
 #include "tests/hull_oracle.hpp"
 
 namespace hullbench {
@@ -25,15 +25,6 @@ using polylidar::Ring;
 
 // Coordinates up to 200 are rounded to 2.8e-14, a few times over while a shape is laid out, moved and turned.
 constexpr double kRounding = 1e-12;
-
-std::vector<Ring> rings_of(const MultiPolygon& shape) {
-  std::vector<Ring> rings;
-  for (const Polygon& polygon : shape) {
-    rings.push_back(polygon.shell);
-    rings.insert(rings.end(), polygon.holes.begin(), polygon.holes.end());
-  }
-  return rings;
-}
 
 double distance(const Point& a, const Point& b) {
   return std::hypot(a.x - b.x, a.y - b.y);
@@ -73,7 +64,7 @@ double clearance(const Ring& from, const Ring& ring, double detour) {
 }
 
 double least_feature(const MultiPolygon& shape, double detour) {
-  const std::vector<Ring> rings = rings_of(shape);
+  const std::vector<Ring> rings = testing::rings_of(shape);
   double least = std::numeric_limits<double>::infinity();
   for (const Ring& from : rings) {
     for (const Ring& ring : rings) least = std::min(least, clearance(from, ring, detour));
@@ -153,12 +144,8 @@ TEST(TangledKinds, HaveTheirNamesAndAThousandShapes) {
 
 TEST(TangledKinds, AnIndexBeyondTheLastIsAnError) {
   EXPECT_NO_THROW(tangled_shape(TangledKind::kComb, 166));
-  try {
-    tangled_shape(TangledKind::kNested, 166);
-    FAIL() << "there are only 166 nested shapes";
-  } catch (const std::invalid_argument& error) {
-    EXPECT_STREQ(error.what(), "there is no shape 166 of kind 'nested'; the last one is 165");
-  }
+  EXPECT_EQ(testing::complaint_of<std::invalid_argument>([] { tangled_shape(TangledKind::kNested, 166); }),
+            "there is no shape 166 of kind 'nested'; the last one is 165");
 }
 
 class Tangled : public ::testing::TestWithParam<TangledKind> {

@@ -17,6 +17,7 @@
 #include "benchmarks/metrics/area.hpp"
 #include "benchmarks/plan/parameter_rules.hpp"
 #include "datasets/datasets.hpp"
+#include "tests/complaint.hpp"
 #include "tests/hullbench_test.hpp"
 
 namespace hullbench {
@@ -120,8 +121,8 @@ json both_sides(int members) {
 }
 
 TEST_F(TuneTest, FindsTheBestOfAMadeUpMethod) {
-  const Outcome tuned = tune(plan(json::array({{{"dataset", "ca"}, {"n", {300}}}})), "disc", "out");
-  ASSERT_EQ(tuned.code, 0) << tuned.err;
+  const Outcome tuned =
+      succeeded(tune(plan(json::array({{{"dataset", "ca"}, {"n", {300}}}})), "disc", "out"));
   EXPECT_EQ(tuned.out, read_text(folder() / "out" / "tuning.md"));
   const PointSet set = make_point_set("ca", false, 300, 1);
   double best = 2;
@@ -152,11 +153,9 @@ TEST_F(TuneTest, TheSchemasRefuseWhatIsWrong) {
 }
 
 TEST_F(TuneTest, ItsPlanMeasuresWhatItFound) {
-  const Outcome tuned = tune(plan(both_sides(3)), "polylidar|disc", "out");
-  ASSERT_EQ(tuned.code, 0) << tuned.err;
-  const Outcome run = hullbench({"run", folder() / "out" / "small-tuned.json", "--out", folder() / "run",
-                                 "--adapters", methods(), "--repetitions", "1"});
-  ASSERT_EQ(run.code, 0) << run.err;
+  const Outcome tuned = succeeded(tune(plan(both_sides(3)), "polylidar|disc", "out"));
+  const Outcome run = succeeded(hullbench({"run", folder() / "out" / "small-tuned.json", "--out",
+                                           folder() / "run", "--adapters", methods(), "--repetitions", "1"}));
   std::map<std::string, double> found;
   std::set<std::string> tested;
   for (const json& line : sweep("out")) {
@@ -191,14 +190,12 @@ TEST_F(TuneTest, TheLeagueIsTheSameAgainFromTheRowsThatAreKept) {
                 .code,
             0)
       << "star-1 is for training";
-  const Outcome run = hullbench({"run", folder() / "out" / "small-tuned.json",
-                                 write(testing::small_plan("other", both_sides(1))), "--out",
-                                 folder() / "suite", "--adapters", methods(), "--repetitions", "1"});
-  ASSERT_EQ(run.code, 0) << run.err;
-  const Outcome league = hullbench({"league", "suite", "--out", "league.json"});
-  ASSERT_EQ(league.code, 0) << league.err;
+  succeeded(hullbench({"run", folder() / "out" / "small-tuned.json",
+                       write(testing::small_plan("other", both_sides(1))), "--out", folder() / "suite",
+                       "--adapters", methods(), "--repetitions", "1"}));
+  const Outcome league = succeeded(hullbench({"league", "suite", "--out", "league.json"}));
   expect_valid("league.json");
-  EXPECT_NE(league.out.find("lattice †"), std::string::npos) << league.out;
+  testing::expect_says(league.out, "lattice †");
   const std::string keep = SYSTEM_PYTHON " " HULLBENCH_SOURCE_DIRECTORY "/results/keep_league.py ";
   ASSERT_EQ(std::system((keep + (folder() / "suite").string() + " " + (folder() / "kept").string()).c_str()),
             0);
@@ -269,9 +266,7 @@ TEST_F(TuneTest, FailuresAreEvaluationsAndInfinitelyBad) {
 
 TEST_F(TuneTest, WhatDoesNotStartIsSaidAndNothingElseIsExitCodeSix) {
   method("absent", "[]", "import no_such_module\n\ndef run(points):\n    return []\n");
-  const Outcome tuned = tune(plan(both_sides(1)), "absent", "out");
-  EXPECT_EQ(tuned.code, 6) << tuned.err;
-  EXPECT_NE(tuned.err.find("absent does not start"), std::string::npos) << tuned.err;
+  expect_end(tune(plan(both_sides(1)), "absent", "out"), 6, "absent does not start");
   EXPECT_FALSE(method_of(summary("out"), "absent").at("installed").get<bool>());
   expect_valid("out/tune.json");
 }
@@ -292,10 +287,8 @@ TEST_F(TuneTest, GoesOnAfterAnInterruptionToTheSameResult) {
   ASSERT_LT(kept, sweep("whole").size()) << "it was over before the interruption";
   // As a kill leaves it.
   write_text(file, read_text(file) + "{\"kind\": \"eval");
-  const Outcome rest = tune(cases, "disc|polylidar", "parts");
-  ASSERT_EQ(rest.code, 0) << rest.err;
-  EXPECT_NE(rest.err.find(std::to_string(kept) + " evaluations are there already"), std::string::npos)
-      << rest.err;
+  expect_end(tune(cases, "disc|polylidar", "parts"), 0,
+             std::to_string(kept) + " evaluations are there already");
   for (const char* name : {"sweep.jsonl", "tune.json", "tuning.md", "small-tuned.json"})
     EXPECT_EQ(read_text(folder() / "parts" / name), read_text(folder() / "whole" / name)) << name;
   // What was known was not evaluated again, but for the one that was interrupted.
@@ -306,8 +299,7 @@ TEST_F(TuneTest, ShardsInOneFolderComeTogetherToTheSameResult) {
   const std::string cases = plan(both_sides(3));
   ASSERT_EQ(tune(cases, "disc|polylidar", "whole").code, 0);
   for (const char* shard : {"1/2", "2/2"}) {
-    const Outcome part = tune(cases, "disc|polylidar", "parts", {"--shard", shard});
-    EXPECT_EQ(part.code, 0) << part.err;
+    succeeded(tune(cases, "disc|polylidar", "parts", {"--shard", shard}));
   }
   EXPECT_FALSE(fs::exists(folder() / "parts" / "tune.json"));
   expect_valid("parts/sweep-1-of-2.jsonl");
@@ -315,9 +307,7 @@ TEST_F(TuneTest, ShardsInOneFolderComeTogetherToTheSameResult) {
   const Outcome all = tune(cases, "disc|polylidar", "parts");
   EXPECT_EQ(fs::file_size(calls()), calls_before) << "nothing is evaluated twice";
   ASSERT_EQ(all.code, 0) << all.err;
-  EXPECT_NE(all.err.find(std::to_string(sweep("whole").size()) + " evaluations are there already"),
-            std::string::npos)
-      << all.err;
+  testing::expect_says(all.err, std::to_string(sweep("whole").size()) + " evaluations are there already");
   for (const char* name : {"sweep.jsonl", "tune.json", "tuning.md", "small-tuned.json"})
     EXPECT_EQ(read_text(folder() / "parts" / name), read_text(folder() / "whole" / name)) << name;
   EXPECT_EQ(

@@ -182,8 +182,7 @@ class VectorFormatsTest : public ::testing::Test {
     return testing::run_program(arguments);
   }
   static std::string result(const std::vector<std::string>& arguments) {
-    const Outcome outcome = run(arguments);
-    EXPECT_EQ(outcome.code, 0) << outcome.err;
+    const Outcome outcome = succeeded(run(arguments));
     return outcome.out;
   }
   /// The only layer of a file.
@@ -380,9 +379,8 @@ TEST_F(VectorFormatsTest, WhatCannotBeRead) {
   expect_refusal(run({"hull", path("two.gpkg")}), 2,
                  "it has the layers 'trees', 'shrubs', 'areas'; name the one with the points by --layer");
   EXPECT_EQ(json::parse(result({"hull", path("two.gpkg"), "--layer", "shrubs"}))["properties"]["points"], 3);
-  const Outcome index = run({"footprint", gpkg, path("areas.gpkg"), "PG:dbname=x"});
-  EXPECT_EQ(index.code, 4);
-  EXPECT_NE(index.err.find("footprints are of files"), std::string::npos) << index.err;
+  const Outcome index =
+      expect_end(run({"footprint", gpkg, path("areas.gpkg"), "PG:dbname=x"}), 4, "footprints are of files");
   EXPECT_NE(index.err.find("1 of 3 files are in the index"), std::string::npos) << index.err;
 }
 

@@ -57,9 +57,12 @@ class MethodSessionTest : public ::testing::Test {
   /// A run of the worker that misbehaves in this way, with what ctest's machine allows as a limit where it
   /// does not matter.
   worker::Attempt attempt(const std::string& mode, std::chrono::milliseconds timeout = 30s) {
-    session_ = std::make_unique<worker::MethodSession>(method_of(mode, misbehaving(mode)),
-                                                       worker::WorkerLimits{256, std::nullopt, 8});
+    start(method_of(mode, misbehaving(mode)));
     return run(timeout);
+  }
+
+  void start(const worker::Method& method, const worker::WorkerLimits& limits = {256, std::nullopt, 8}) {
+    session_ = std::make_unique<worker::MethodSession>(method, limits);
   }
 
   worker::Attempt run(std::chrono::milliseconds timeout = 30s,
@@ -70,19 +73,11 @@ class MethodSessionTest : public ::testing::Test {
                          timeout, watch);
   }
 
-  void expect(const std::string& mode, record::Status status, const std::string& detail,
-              std::chrono::milliseconds timeout = 30s) {
-    const worker::Attempt result = attempt(mode, timeout);
-    EXPECT_EQ(to_string(result.status), to_string(status)) << mode << ": " << result.detail;
-    EXPECT_NE(result.detail.find(detail), std::string::npos) << mode << ": " << result.detail;
-    EXPECT_TRUE(result.wkb.empty());
-  }
-
   /// A session with a method that compiles while it runs, and its warm-up.
   worker::Attempt warm_up(const std::string& mode) {
     worker::Method method = method_of(mode, misbehaving(mode));
     method.jit = true;
-    session_ = std::make_unique<worker::MethodSession>(method, worker::WorkerLimits{256, std::nullopt, 8});
+    start(method);
     EXPECT_TRUE(session_->is_cold());
     const std::vector<Point> points = {{0, 0}, {1, 0}, {1, 1}, {0, 1}};
     worker::write_points_file(folder_.path() / "points", points);
@@ -109,9 +104,7 @@ TEST_F(MethodSessionTest, AGoodWorkerGivesResultAndTimes) {
 }
 
 TEST_F(MethodSessionTest, PeakMemoryIsThatOfTheRunThatIsWatched) {
-  session_ = std::make_unique<worker::MethodSession>(
-      method_of("borrows_memory_once", misbehaving("borrows_memory_once")),
-      worker::WorkerLimits{256, std::nullopt, 8});
+  start(method_of("borrows_memory_once", misbehaving("borrows_memory_once")));
   const worker::Attempt large = run(30s, worker::Watch::kMemory);
   ASSERT_EQ(large.status, record::Status::kOk) << large.detail;
   if (!large.peak_memory_bytes) GTEST_SKIP() << "this system does not tell the peak of a process's memory";
@@ -124,85 +117,76 @@ TEST_F(MethodSessionTest, PeakMemoryIsThatOfTheRunThatIsWatched) {
 }
 
 TEST_F(MethodSessionTest, PeakMemoryOfAMethodInAServerIsNotKnown) {
-  session_ = std::make_unique<worker::MethodSession>(method_of("in_server", misbehaving("in_server")),
-                                                     worker::WorkerLimits{256, std::nullopt, 8});
+  start(method_of("in_server", misbehaving("in_server")));
   const worker::Attempt result = run(30s, worker::Watch::kMemory);
   EXPECT_EQ(result.status, record::Status::kOk) << result.detail;
   EXPECT_EQ(result.peak_memory_bytes, std::nullopt);
   EXPECT_TRUE(session_->info()->capabilities.in_server);
 }
 
-TEST_F(MethodSessionTest, Crash) {
-  expect("crash", record::Status::kCrash, "SIGSEGV");
+/// A way to fail, and what becomes of it.
+struct Failure {
+  const char* name;
+  const char* mode;
+  record::Status status;
+  const char* words;
+  std::chrono::milliseconds timeout = 30s;
+};
+
+/// What GoogleTest says of it.
+void PrintTo(const Failure& failure, std::ostream* out) {
+  *out << failure.mode;
 }
-TEST_F(MethodSessionTest, CrashAtStart) {
-  expect("crash_at_start", record::Status::kCrash, "SIGSEGV");
+
+class FailingWorker : public MethodSessionTest, public ::testing::WithParamInterface<Failure> {};
+
+TEST_P(FailingWorker, HasAStatusAndSaysWhy) {
+  const Failure& failure = GetParam();
+  const worker::Attempt result = attempt(failure.mode, failure.timeout);
+  EXPECT_EQ(to_string(result.status), to_string(failure.status)) << result.detail;
+  EXPECT_NE(result.detail.find(failure.words), std::string::npos) << result.detail;
+  EXPECT_TRUE(result.wkb.empty());
 }
-TEST_F(MethodSessionTest, CrashOnLoad) {
-  expect("crash_on_load", record::Status::kCrash, "SIGBUS");
-}
-TEST_F(MethodSessionTest, Hang) {
-  expect("hang", record::Status::kTimeout, "no answer within 0.2 s", 200ms);
-}
-TEST_F(MethodSessionTest, HangThatIgnoresTermination) {
-  expect("hang_hard", record::Status::kTimeout, "0.2 s", 200ms);
-}
-TEST_F(MethodSessionTest, MemoryUsedUp) {
-  expect("memory", record::Status::kMemory, "256 MiB");
-}
+
+using enum record::Status;
+constexpr Failure kFailures[] = {
+    {"Crash", "crash", kCrash, "SIGSEGV"},
+    {"CrashAtStart", "crash_at_start", kCrash, "SIGSEGV"},
+    {"CrashOnLoad", "crash_on_load", kCrash, "SIGBUS"},
+    {"Hang", "hang", kTimeout, "no answer within 0.2 s", 200ms},
+    {"HangThatIgnoresTermination", "hang_hard", kTimeout, "0.2 s", 200ms},
+    {"MemoryUsedUp", "memory", kMemory, "256 MiB"},
+    {"MemoryAsTheWorkerSays", "says_memory", kMemory, "no room"},
+    {"Unsupported", "says_unsupported", kUnsupported, "this many points"},
+    {"Error", "says_error", kError, "no luck"},
+    {"EarlyExit", "early_exit", kCrash, "exit code 7 without an answer; it said: I have seen enough"},
+    {"ClosedOutput", "close_output", kError, "closed its output"},
+    {"GarbageOnTheProtocol", "garbage", kError, "answered 'lorem ipsum'"},
+    {"EndlessLine", "long_line", kError, "more than 1 MiB"},
+    {"ErrorWithoutKind", "error_without_kind", kError, "has no kind"},
+    {"OtherName", "other_name", kError, "calls itself 'somebody'"},
+    {"OtherProtocol", "other_protocol", kError, "another version"},
+    {"WrongNonce", "wrong_nonce", kInvalidOutput, "another run"},
+    {"NoPhases", "no_phases", kInvalidOutput, "no phases_ns"},
+    {"NegativeTime", "negative_time", kInvalidOutput, "'run' is not a time"},
+    {"MoreTimeThanPassed", "too_much_time", kInvalidOutput, "more time than"},
+    {"NoResult", "no_result", kInvalidOutput, "there is no file"},
+    // The first of them is taken for the answer.
+    {"FloodOfLines", "flood_output", kInvalidOutput, "the reply is to another run"},
+    {"FloodWithoutALineFeed", "flood_line", kError, "sent a line of more than 1 MiB"},
+    {"FloodOfErrorOutputWithoutEnd", "flood_errors_for_ever", kTimeout, "no answer within 0.5 s", 500ms},
+    {"FloodOfItsResult", "flood_result", kCrash, "SIGXFSZ"},
+    {"ForkingWithoutRest", "fork_and_fork", kTimeout, "no answer within 0.5 s", 500ms},
+};
+INSTANTIATE_TEST_SUITE_P(Worker, FailingWorker, ::testing::ValuesIn(kFailures),
+                         [](const auto& failure) { return std::string(failure.param.name); });
+
 TEST_F(MethodSessionTest, ALimitInWhichNoWorkerCanStartIsALackOfMemory) {
   // Less than the C++ library takes that every worker of ours is linked with.
-  session_ = std::make_unique<worker::MethodSession>(method_of("good", misbehaving("good")),
-                                                     worker::WorkerLimits{2, std::nullopt, 8});
+  start(method_of("good", misbehaving("good")), {2, std::nullopt, 8});
   const worker::Attempt result = run();
   EXPECT_EQ(to_string(result.status), "memory") << result.detail;
 }
-TEST_F(MethodSessionTest, MemoryAsTheWorkerSays) {
-  expect("says_memory", record::Status::kMemory, "no room");
-}
-TEST_F(MethodSessionTest, Unsupported) {
-  expect("says_unsupported", record::Status::kUnsupported, "this many points");
-}
-TEST_F(MethodSessionTest, Error) {
-  expect("says_error", record::Status::kError, "no luck");
-}
-TEST_F(MethodSessionTest, EarlyExit) {
-  expect("early_exit", record::Status::kCrash, "exit code 7 without an answer; it said: I have seen enough");
-}
-TEST_F(MethodSessionTest, ClosedOutput) {
-  expect("close_output", record::Status::kError, "closed its output");
-}
-TEST_F(MethodSessionTest, GarbageOnTheProtocol) {
-  expect("garbage", record::Status::kError, "answered 'lorem ipsum'");
-}
-TEST_F(MethodSessionTest, EndlessLine) {
-  expect("long_line", record::Status::kError, "more than 1 MiB");
-}
-TEST_F(MethodSessionTest, ErrorWithoutKind) {
-  expect("error_without_kind", record::Status::kError, "has no kind");
-}
-TEST_F(MethodSessionTest, OtherName) {
-  expect("other_name", record::Status::kError, "calls itself 'somebody'");
-}
-TEST_F(MethodSessionTest, OtherProtocol) {
-  expect("other_protocol", record::Status::kError, "another version");
-}
-TEST_F(MethodSessionTest, WrongNonce) {
-  expect("wrong_nonce", record::Status::kInvalidOutput, "another run");
-}
-TEST_F(MethodSessionTest, NoPhases) {
-  expect("no_phases", record::Status::kInvalidOutput, "no phases_ns");
-}
-TEST_F(MethodSessionTest, NegativeTime) {
-  expect("negative_time", record::Status::kInvalidOutput, "'run' is not a time");
-}
-TEST_F(MethodSessionTest, MoreTimeThanPassed) {
-  expect("too_much_time", record::Status::kInvalidOutput, "more time than");
-}
-TEST_F(MethodSessionTest, NoResult) {
-  expect("no_result", record::Status::kInvalidOutput, "there is no file");
-}
-
 TEST_F(MethodSessionTest, FloodOfErrorOutputDoesNotBlockTheWorker) {
   EXPECT_EQ(attempt("flood_errors").status, record::Status::kOk);
   EXPECT_EQ(run().status, record::Status::kOk);
@@ -264,27 +248,6 @@ TEST_F(MethodSessionTest, AWorkerThatIsKilledFromOutsideIsACrash) {
   EXPECT_NE(result.detail.find("SIGKILL"), std::string::npos) << result.detail;
 }
 
-TEST_F(MethodSessionTest, FloodOfLines) {
-  // The first of them is taken for the answer.
-  expect("flood_output", record::Status::kInvalidOutput, "the reply is to another run");
-}
-
-TEST_F(MethodSessionTest, FloodWithoutALineFeed) {
-  expect("flood_line", record::Status::kError, "sent a line of more than 1 MiB");
-}
-
-TEST_F(MethodSessionTest, FloodOfErrorOutputWithoutEnd) {
-  expect("flood_errors_for_ever", record::Status::kTimeout, "no answer within 0.5 s", 500ms);
-}
-
-TEST_F(MethodSessionTest, FloodOfItsResult) {
-  expect("flood_result", record::Status::kCrash, "SIGXFSZ");
-}
-
-TEST_F(MethodSessionTest, ForkingWithoutRest) {
-  expect("fork_and_fork", record::Status::kTimeout, "no answer within 0.5 s", 500ms);
-}
-
 /// Each way to end, with what it leaves: a child in the worker's own group, in a session of its own, one that
 /// does not hear SIGTERM either, and a hundred of them.
 TEST_F(MethodSessionTest, WhatAWorkerLeavesBehindGoesWithIt) {
@@ -326,16 +289,14 @@ TEST_F(MethodSessionTest, WhatALiveHarnessStartedIsNotCleanedUp) {
 }
 
 TEST_F(MethodSessionTest, AProgramThatIsNotThereIsAnError) {
-  session_ =
-      std::make_unique<worker::MethodSession>(method_of("good", {"/nowhere/worker"}), worker::WorkerLimits{});
+  start(method_of("good", {"/nowhere/worker"}), {});
   const worker::Attempt result = run();
   EXPECT_EQ(to_string(result.status), "error");
   EXPECT_EQ(result.detail, "cannot start the worker /nowhere/worker: No such file or directory");
 }
 
 TEST_F(MethodSessionTest, AManifestsProgramThatIsNotThereIsNotInstalled) {
-  session_ = std::make_unique<worker::MethodSession>(described_method("good", {"/nowhere/worker"}),
-                                                     worker::WorkerLimits{});
+  start(described_method("good", {"/nowhere/worker"}), {});
   const worker::Attempt result = run();
   EXPECT_EQ(to_string(result.status), "not_installed");
   EXPECT_EQ(result.detail, "there is no program /nowhere/worker");
@@ -345,7 +306,7 @@ TEST_F(MethodSessionTest, AManifestsProgramThatIsNotThereIsNotInstalled) {
 TEST_F(MethodSessionTest, AFileThatAManifestNeedsIsNotInstalled) {
   worker::Method method = described_method("good", misbehaving("good"));
   method.needs = {"/", "/nowhere/library"};
-  session_ = std::make_unique<worker::MethodSession>(method, worker::WorkerLimits{});
+  start(method, {});
   const worker::Attempt result = run();
   EXPECT_EQ(to_string(result.status), "not_installed");
   EXPECT_EQ(result.detail, "there is no /nowhere/library");
@@ -355,8 +316,7 @@ TEST_F(MethodSessionTest, AWorkerThatTellsItsVersionIsDescribedByItsManifest) {
   const std::string script =
       "read line; echo '{\"protocol\": 1, \"version\": \"1.2\"}'; read line; echo "
       "'{\"error\": {\"kind\": \"unsupported\", \"message\": \"no\"}}'; read line";
-  session_ = std::make_unique<worker::MethodSession>(described_method("good", {"/bin/sh", "-c", script}),
-                                                     worker::WorkerLimits{});
+  start(described_method("good", {"/bin/sh", "-c", script}), {});
   EXPECT_EQ(to_string(run().status), "unsupported");
   ASSERT_TRUE(session_->info());
   EXPECT_EQ(session_->info()->version, "1.2");
@@ -365,7 +325,7 @@ TEST_F(MethodSessionTest, AWorkerThatTellsItsVersionIsDescribedByItsManifest) {
 TEST_F(MethodSessionTest, TheVersionEndsWithTheHashOfTheSources) {
   worker::Method method = method_of("good", misbehaving("good"));
   method.sources = "0123abcd";
-  session_ = std::make_unique<worker::MethodSession>(method, worker::WorkerLimits{256, std::nullopt, 8});
+  start(method);
   ASSERT_EQ(run().status, record::Status::kOk);
   EXPECT_EQ(session_->info()->version, "1+0123abcd");
   EXPECT_EQ(worker::describe_method(*session_)["version"].get<std::string>(), "1+0123abcd");

@@ -28,15 +28,6 @@ using polylidar::Ring;
 constexpr double kRounding = 1e-4;
 constexpr double kSide = 200;
 
-std::vector<Ring> rings_of(const MultiPolygon& shape) {
-  std::vector<Ring> rings;
-  for (const Polygon& polygon : shape) {
-    rings.push_back(polygon.shell);
-    rings.insert(rings.end(), polygon.holes.begin(), polygon.holes.end());
-  }
-  return rings;
-}
-
 const char* stratum_of(const MultiPolygon& shape) {
   if (shape.size() > 1) return "parts";
   return shape.front().holes.empty() ? "simple" : "holes";
@@ -52,7 +43,7 @@ TEST(WorldShapes, EveryOneIsAValidOutlineOfTheSizePromised) {
       Point least{kSide, kSide};
       std::size_t vertices = 0;
       const double area = polylidar::area(shape);
-      for (const Ring& ring : rings_of(shape)) {
+      for (const Ring& ring : testing::rings_of(shape)) {
         vertices += ring.size();
         EXPECT_GE(std::abs(polylidar::signed_area(ring)), 0.99e-3 * area);
         for (const Point& p : ring) {

@@ -1,7 +1,6 @@
 #include "benchmarks/base/words.hpp"
 
 #include <cstddef>
-#include <utility>
 
 namespace hullbench {
 

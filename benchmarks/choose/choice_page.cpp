@@ -21,13 +21,11 @@ constexpr std::size_t kMostDots = record::PictureBook::kMostPoints;
 
 constexpr const char* kNoTruth =
     "Nobody knows the true shape of these points, so nothing here says which method is right: choose by the "
-    "pictures. "
-    "Agreement and stability are hints only; the convex hull is very stable and seldom the shape.";
+    "pictures. Agreement and stability are hints only; the convex hull is very stable and seldom the shape.";
 
 constexpr const char* kProtocols =
     "Nothing was chosen by hand: \"default\" is the method's own choice of its parameters, \"auto\" one rule "
-    "from the points "
-    "for every method that keeps small triangles or erodes large ones.";
+    "from the points for every method that keeps small triangles or erodes large ones.";
 
 constexpr const char* kStyle = R"css(
 :root{color-scheme:light dark;--ground:#fff;--text:#1b1f24;--quiet:#57606a;--line:#d0d7de;--code:#f3f5f7;
@@ -123,8 +121,7 @@ std::vector<std::string> definitions(const PointSource& source) {
       "Agreement: mean IoU (area in both over area in either) with the other results that "
       "differ; the same polygons count once.",
       "Commands: polylidar and hullbench are in the folder build of the project; a shell finds them there or "
-      "where they "
-      "are installed."};
+      "where they are installed."};
   if (source.draws > 0) {
     told.push_back("Stability: IoU of the hulls of two random halves of the points, the mean of " +
                    std::to_string(source.draws) + (source.draws == 1 ? " draw." : " draws."));
@@ -207,8 +204,7 @@ class Page {
       path += "M" + fixed(canvas_.x(point), 1) + " " + fixed(canvas_.y(point), 1) + "h0";
     }
     return "<svg width=\"0\" height=\"0\" style=\"position:absolute\" aria-hidden=\"true\"><defs><path "
-           "id=\"dots\" "
-           "class=\"dots\" d=\"" +
+           "id=\"dots\" class=\"dots\" d=\"" +
            path + "\"/></defs></svg>\n";
   }
 

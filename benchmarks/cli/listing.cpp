@@ -1,14 +1,11 @@
 #include "benchmarks/cli/listing.hpp"
 
-#include <algorithm>
 #include <memory>
 #include <set>
-#include <sstream>
 #include <string>
 #include <vector>
 
 #include "benchmarks/worker/method_session.hpp"
-#include "datasets/datasets.hpp"
 #include "datasets/real/real_points.hpp"
 #include "datasets/stress.hpp"
 

@@ -13,7 +13,6 @@
 #include "benchmarks/record/stored_run.hpp"
 #include "benchmarks/report/documents.hpp"
 #include "benchmarks/run/rescore.hpp"
-#include "datasets/data_folder.hpp"
 
 namespace hullbench::cli {
 namespace {

@@ -4,9 +4,7 @@
 #include <algorithm>
 #include <iostream>
 #include <memory>
-#include <sstream>
 #include <stdexcept>
-#include <vector>
 
 #include "benchmarks/base/configuration_error.hpp"
 #include "benchmarks/base/cores.hpp"
@@ -442,8 +440,7 @@ void add_run(CLI::App& app, Action& action) {
       ->check(memory_range());
   options.add_option(
       "--recordings", command->recordings,
-      "Measure the recorded floors in this folder instead of the simulated ones, or besides the "
-      "real points "
+      "Measure the recorded floors in this folder instead of the simulated ones, or besides the real points "
       "(datasets/rgbd/recordings.hpp)");
   add_shard(options, command->shard,
             "Only part K of N of the runs, given as K/N, such as 2/8; 'hullbench merge' joins the parts");

@@ -1,6 +1,5 @@
 #include "benchmarks/gate/gate_blocks.hpp"
 
-#include <algorithm>
 #include <array>
 #include <cmath>
 #include <stdexcept>

@@ -1,8 +1,6 @@
 // The two programs that a gate compares, and one process of either.
 #pragma once
 
-#include <chrono>
-#include <cstddef>
 #include <filesystem>
 #include <map>
 #include <optional>

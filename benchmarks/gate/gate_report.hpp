@@ -1,11 +1,9 @@
 // What a gate tells: a table and a verdict for people, JSON for programs.
 #pragma once
 
-#include <map>
 #include <nlohmann/json.hpp>
 #include <ostream>
 #include <string>
-#include <vector>
 
 #include "benchmarks/gate/gate_verdict.hpp"
 

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <span>
 
+#include "benchmarks/base/words.hpp"
 #include "benchmarks/statistics/judge.hpp"
 #include "benchmarks/statistics/statistics.hpp"
 
@@ -25,12 +26,6 @@ statistics::Evidence evidence_of(const LogRatios& quantity, const GateRules& rul
   const double p = above ? statistics::sign_test_above(quantity.values, std::log(limit))
                          : statistics::sign_test_above(negated(quantity.values), -std::log(limit));
   return {{std::exp(interval.low), std::exp(interval.high)}, p};
-}
-
-std::string joined(const Names& names) {
-  std::string text;
-  for (const std::string& name : names) text += (text.empty() ? "" : ", ") + name;
-  return text;
 }
 
 bool is_change(SpeedChange change) {
@@ -123,15 +118,16 @@ GateVerdict decide(const GateFindings& findings, const GateRules& rules) {
 
   if (!verdict.changed_results.empty()) {
     verdict.exit_code = kExitRegression;
-    verdict.sentence = "result changed: " + joined(verdict.changed_results);
-    if (!verdict.regressions.empty()) verdict.sentence += "; regression: " + joined(verdict.regressions);
+    verdict.sentence = "result changed: " + joined(verdict.changed_results, ", ");
+    if (!verdict.regressions.empty())
+      verdict.sentence += "; regression: " + joined(verdict.regressions, ", ");
   } else if (!verdict.failed_controls.empty()) {
     verdict.exit_code = kExitInconclusive;
     verdict.sentence = "inconclusive: the same program differs from itself in " +
-                       joined(verdict.failed_controls) + "; run it again when the machine is quieter";
+                       joined(verdict.failed_controls, ", ") + "; run it again when the machine is quieter";
   } else if (!verdict.regressions.empty()) {
     verdict.exit_code = kExitRegression;
-    verdict.sentence = "regression: " + joined(verdict.regressions);
+    verdict.sentence = "regression: " + joined(verdict.regressions, ", ");
   } else if (findings.out_of_time) {
     verdict.exit_code = kExitInconclusive;
     verdict.sentence =
@@ -140,7 +136,7 @@ GateVerdict decide(const GateFindings& findings, const GateRules& rules) {
   } else if (!verdict.undecided.empty()) {
     verdict.exit_code = kExitInconclusive;
     verdict.sentence = "inconclusive: too noisy to tell no change from a regression in " +
-                       joined(verdict.undecided) + "; run it again when the machine is quieter";
+                       joined(verdict.undecided, ", ") + "; run it again when the machine is quieter";
   } else {
     verdict.sentence = "no regression";
   }

@@ -6,7 +6,6 @@
 #include <span>
 #include <stdexcept>
 #include <tuple>
-#include <utility>
 
 #include "benchmarks/record/pictures.hpp"
 #include "benchmarks/statistics/statistics.hpp"

@@ -185,8 +185,7 @@ table::Table parts_table(const json& league, const std::string& protocol) {
   }
   table.remarks.push_back(
       "Points that are not uniform are of few shapes in every column: others would move its median. "
-      "league.json "
-      "has the number of cases.");
+      "league.json has the number of cases.");
   if (!all_seen)
     table.remarks.push_back(std::string(table::kSign) + ": a way to sample that was not seen in training.");
   return table;
@@ -292,12 +291,9 @@ table::Document league_document(const json& league) {
       "for the instance. In brackets a 95 % bootstrap interval of the median that resamples whole shapes. A "
       "failure is infinitely bad and has no holes.",
       "Every stratum, a way to sample and a kind of shape (simple; one part with holes; several parts), "
-      "counts the "
-      "same; in it every shape, and of a shape every case. \"Where it can\" is of the cases whose ground "
-      "truth the "
-      "method can have: of one part for a method that gives single polygons, without holes for one that has "
-      "none; "
-      "\"=\": of all.",
+      "counts the same; in it every shape, and of a shape every case. \"Where it can\" is of the cases whose "
+      "ground truth the method can have: of one part for a method that gives single polygons, without holes "
+      "for one that has none; \"=\": of all.",
       "Skill: 0 is the convex hull, 1 are the Delaunay triangles whose centroid lies in the ground truth. "
       "Hole F1 is of the cases whose ground truth has holes, of which most find all or none: hence a mean, "
       "with a 95 % interval by shape. A second number of failures is of degenerate input."};

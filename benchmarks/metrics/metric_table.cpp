@@ -185,8 +185,7 @@ void add_topology(Table& table) {
       kKirillov, kMatches, [](const Metrics& m) { return optional_value(m.holes.f1); });
   add("slivers", "count", Better::kLower,
       "polygons (their whole shells) and holes of R of less than 4 h^2: an area that n points spread at "
-      "random "
-      "leave empty by chance with probability e^-4 = 1.8 %",
+      "random leave empty by chance with probability e^-4 = 1.8 %",
       "", "", kCounts, [](const Metrics& m) -> MetricValue { return m.counts.slivers; });
 }
 
@@ -262,8 +261,7 @@ void add_no_truth(Table& table) {
       [](const Metrics& m) { return m.stability ? MetricValue(m.stability->halves) : MetricValue(); });
   add("agreement_subsamples", Better::kHigher,
       "IoU of R and what the method makes of a random 90 % of the points, the mean of the plan's draws; 0 "
-      "for "
-      "a draw in which that is no valid shape with an area",
+      "for a draw in which that is no valid shape with an area",
       "of an invalid result, and where the plan asks for no draws", kJaccard, kStability,
       [](const Metrics& m) { return m.stability ? MetricValue(m.stability->subsamples) : MetricValue(); });
   add("window_iou", Better::kNone,

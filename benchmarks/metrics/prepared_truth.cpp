@@ -3,7 +3,6 @@
 #include <stdexcept>
 #include <utility>
 
-#include "benchmarks/metrics/checked_shape.hpp"
 #include "benchmarks/metrics/shape_measures.hpp"
 
 namespace hullbench::metrics {

@@ -1,7 +1,6 @@
 #include "benchmarks/record/environment.hpp"
 
 #include <gnu/libc-version.h>
-#include <sched.h>
 #include <sys/utsname.h>
 #include <unistd.h>
 
@@ -19,6 +18,7 @@
 
 #include "benchmarks/base/cores.hpp"
 #include "benchmarks/base/huge_pages.hpp"
+#include "benchmarks/base/words.hpp"
 #include "benchmarks/record/build_info.hpp"
 #include "benchmarks/record/record.hpp"
 
@@ -99,11 +99,9 @@ json governors() {
   return found.empty() ? json(nullptr) : json(found);
 }
 
-json allowed_cores() {
-  cpu_set_t allowed;
-  CPU_ZERO(&allowed);
-  if (sched_getaffinity(0, sizeof allowed, &allowed) != 0) return nullptr;
-  return CPU_COUNT(&allowed);
+json core_count() {
+  const std::size_t count = allowed_cores().size();
+  return count == 0 ? json(nullptr) : json(count);
 }
 
 json load_average() {
@@ -145,12 +143,6 @@ std::vector<std::string> code_flags(const std::string& flags) {
   return result;
 }
 
-std::string joined(const std::vector<std::string>& words) {
-  std::string result;
-  for (const std::string& word : words) result += (result.empty() ? "" : " ") + word;
-  return result;
-}
-
 std::vector<std::string> missing_in(const std::vector<std::string>& words,
                                     const std::vector<std::string>& other) {
   std::vector<std::string> result;
@@ -170,13 +162,12 @@ std::string flags_statement(const BuildInfo& info) {
     const std::vector<std::string> theirs = code_flags(options);
     const std::vector<std::string> added = missing_in(theirs, ours);
     const std::vector<std::string> lacking = missing_in(ours, theirs);
-    if (!added.empty()) differences += "; " + target + " adds " + joined(added);
-    if (!lacking.empty()) differences += "; " + target + " lacks " + joined(lacking);
+    if (!added.empty()) differences += "; " + target + " adds " + joined(added, " ");
+    if (!lacking.empty()) differences += "; " + target + " lacks " + joined(lacking, " ");
   }
   const bool asked_by_cgal = differences.find("-frounding-math") != std::string::npos;
   return "The core, every adapter and the header-only libraries compiled into them (CGAL) are built with the "
-         "same "
-         "compiler and flags" +
+         "same compiler and flags" +
          (differences.empty() ? std::string(", without exception.")
                               : ", except: " + differences.substr(2) + ".") +
          (asked_by_cgal ? " CGAL's own package adds -frounding-math to whatever uses it." : "");
@@ -185,12 +176,13 @@ std::string flags_statement(const BuildInfo& info) {
 json compiler() {
   const BuildInfo& info = build_info();
   json by_target = json::object();
-  for (const auto& [target, options] : info.target_options) by_target[target] = joined(code_flags(options));
+  for (const auto& [target, options] : info.target_options)
+    by_target[target] = joined(code_flags(options), " ");
   return {{"id", info.compiler_id},
           {"version", info.compiler_version},
           {"build_type", info.build_type},
           {"native", info.native},
-          {"flags", joined(code_flags(info.flags))},
+          {"flags", joined(code_flags(info.flags), " ")},
           {"flags_by_target", by_target},
           {"statement", flags_statement(info)}};
 }
@@ -223,7 +215,7 @@ json collect_environment() {
            {{"model", cpu_model()},
             {"architecture", architecture()},
             {"logical_cores", sysconf(_SC_NPROCESSORS_ONLN)},
-            {"allowed_cores", allowed_cores()},
+            {"allowed_cores", core_count()},
             {"governors", governors()},
             {"boost", or_null(boost())},
             {"virtualised", or_null(virtualised())}}},

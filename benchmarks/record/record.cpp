@@ -1,6 +1,5 @@
 #include "benchmarks/record/record.hpp"
 
-#include <array>
 #include <cmath>
 #include <limits>
 #include <stdexcept>

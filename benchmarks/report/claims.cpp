@@ -6,11 +6,8 @@
 #include <map>
 #include <optional>
 #include <stdexcept>
-#include <string>
-#include <vector>
 
 #include "benchmarks/record/embedded.hpp"
-#include "benchmarks/report/measurements.hpp"
 #include "benchmarks/report/ratios.hpp"
 #include "benchmarks/statistics/statistics.hpp"
 

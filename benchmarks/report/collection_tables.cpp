@@ -2,9 +2,6 @@
 
 #include <algorithm>
 #include <map>
-#include <optional>
-#include <set>
-#include <string>
 #include <utility>
 
 #include "benchmarks/base/number_format.hpp"

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "benchmarks/base/number_format.hpp"
+#include "benchmarks/base/words.hpp"
 #include "benchmarks/report/labels.hpp"
 #include "benchmarks/report/measurements.hpp"
 #include "benchmarks/report/table_context.hpp"
@@ -132,10 +133,8 @@ table::Table pairs_table(const RunsCompared& compared, bool every_pair) {
   return table;
 }
 
-std::string joined(const Words& words) {
-  std::string text;
-  for (const std::string& word : words) text += (text.empty() ? "" : ", ") + word;
-  return text.empty() ? "not recorded" : text;
+std::string recorded(const Words& words) {
+  return words.empty() ? "not recorded" : joined(words, ", ");
 }
 
 /// Where the times of a side were taken: by its rows, or by its run where a row does not say.
@@ -164,7 +163,7 @@ Words values_at(const ComparedSide& side, const char* place) {
 
 void add_difference(const std::string& what, const Words& a, const Words& b,
                     std::vector<std::string>& notes) {
-  if (a != b) notes.push_back(what + ": A " + joined(a) + "; B " + joined(b) + ".");
+  if (a != b) notes.push_back(what + ": A " + recorded(a) + "; B " + recorded(b) + ".");
 }
 
 void add_machines(const ComparedSide& a, const ComparedSide& b, std::vector<std::string>& notes) {
@@ -174,7 +173,7 @@ void add_machines(const ComparedSide& a, const ComparedSide& b, std::vector<std:
   notes.push_back(
       (of_a.empty() || of_b.empty() ? "WHERE THE TIMES WERE TAKEN IS NOT KNOWN (A: "
                                     : "THE MACHINES DIFFER (A: ") +
-      joined(of_a) + "; B: " + joined(of_b) +
+      recorded(of_a) + "; B: " + recorded(of_b) +
       "): a ratio of times across machines compares the machines, not the methods. Errors can be compared.");
 }
 
@@ -191,7 +190,7 @@ void add_pairs_that_differ(const RunsCompared& compared, const std::string& what
   }
   if (count > 0) {
     notes.push_back(what + " in " + std::to_string(count) + " of " + std::to_string(compared.pairs.size()) +
-                    " pairs (" + joined(methods) + ").");
+                    " pairs (" + recorded(methods) + ").");
   }
 }
 
@@ -222,8 +221,8 @@ std::vector<std::string> comparison_notes(const RunsCompared& compared, const Co
                                           const ComparedSide& b) {
   std::vector<std::string> notes;
   add_machines(a, b, notes);
-  notes.push_back("A: " + a.name + ", begun " + joined(values_at(a, "/created")) + ". B: " + b.name +
-                  ", begun " + joined(values_at(b, "/created")) + ".");
+  notes.push_back("A: " + a.name + ", begun " + recorded(values_at(a, "/created")) + ". B: " + b.name +
+                  ", begun " + recorded(values_at(b, "/created")) + ".");
   add_pairs_that_differ(
       compared, "OTHER POINTS", [](const RunPair& pair) { return pair.same_points(); }, notes);
   add_pairs_that_differ(

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <nlohmann/json.hpp>
-#include <string>
 
 #include "benchmarks/record/record.hpp"
 #include "benchmarks/report/table_context.hpp"

@@ -4,8 +4,6 @@
 #include <array>
 #include <cmath>
 #include <optional>
-#include <set>
-#include <string>
 #include <utility>
 #include <vector>
 

@@ -1,14 +1,10 @@
 #include "benchmarks/report/report.hpp"
 
-#include <fstream>
 #include <map>
 #include <optional>
-#include <stdexcept>
 #include <string>
 #include <string_view>
-#include <system_error>
 #include <utility>
-#include <vector>
 
 #include "benchmarks/base/files.hpp"
 #include "benchmarks/record/json_lines.hpp"

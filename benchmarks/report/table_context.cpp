@@ -8,7 +8,6 @@
 
 #include "benchmarks/base/words.hpp"
 #include "benchmarks/report/labels.hpp"
-#include "benchmarks/report/report_notes.hpp"
 #include "benchmarks/statistics/statistics.hpp"
 
 namespace hullbench::report {

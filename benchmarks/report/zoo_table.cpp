@@ -78,9 +78,8 @@ table::Table zoo_table(const TableContext& context) {
   table.remarks = {
       "Invalid: no valid multipolygon. Empty: no polygon, though the points have an area. Lost points: fewer "
       "than nine tenths of the points are in the result or on its edge. Wrong: L2 is more than 50 %, or by "
-      "10 "
-      "points more than that of the points' convex hull; or a polygon of points that have no area. Of such "
-      "points an empty result, or an error that says why, is ok. A dash: not installed, or not run.",
+      "10 points more than that of the points' convex hull; or a polygon of points that have no area. Of "
+      "such points an empty result, or an error that says why, is ok. A dash: not installed, or not run.",
       "datasets/zoo/README.md says which issue each case is made after."};
   return table;
 }

@@ -1,16 +1,13 @@
 #include "benchmarks/run/merge.hpp"
 
 #include <algorithm>
-#include <iostream>
 #include <map>
 #include <set>
 #include <stdexcept>
-#include <string>
 #include <tuple>
 #include <utility>
 
 #include "benchmarks/base/configuration_error.hpp"
-#include "benchmarks/base/files.hpp"
 #include "benchmarks/plan/plan.hpp"
 #include "benchmarks/record/pictures.hpp"
 #include "benchmarks/record/stored_run.hpp"

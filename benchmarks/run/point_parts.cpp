@@ -1,9 +1,6 @@
 #include "benchmarks/run/point_parts.hpp"
 
 #include <algorithm>
-#include <cstddef>
-#include <string>
-#include <utility>
 
 #include "datasets/random.hpp"
 

@@ -1,6 +1,5 @@
 #include "benchmarks/run/rescore.hpp"
 
-#include <algorithm>
 #include <map>
 #include <mutex>
 #include <optional>

@@ -2,9 +2,6 @@
 
 #include <algorithm>
 #include <chrono>
-#include <cmath>
-#include <memory>
-#include <optional>
 #include <utility>
 
 #include "benchmarks/base/configuration_error.hpp"
@@ -14,8 +11,6 @@
 #include "benchmarks/record/pictures.hpp"
 #include "benchmarks/run/drawn_case.hpp"
 #include "benchmarks/run/point_parts.hpp"
-#include "benchmarks/worker/method_session.hpp"
-#include "datasets/datasets.hpp"
 #include "datasets/degenerate.hpp"
 #include "datasets/random.hpp"
 

@@ -4,7 +4,6 @@
 #include <boost/math/special_functions/beta.hpp>
 #include <cmath>
 #include <cstddef>
-#include <functional>
 #include <iterator>
 #include <numeric>
 #include <utility>

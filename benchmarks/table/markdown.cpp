@@ -1,6 +1,5 @@
 #include <algorithm>
 #include <sstream>
-#include <utility>
 
 #include "benchmarks/table/writers.hpp"
 

@@ -2,7 +2,6 @@
 // and prints it beside what stands in the code. Accuracy only: nothing is timed, and the result does not
 // depend on the machine.
 #include <CLI/CLI.hpp>
-#include <algorithm>
 #include <cstdint>
 #include <iostream>
 #include <set>

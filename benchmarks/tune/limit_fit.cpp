@@ -5,9 +5,7 @@
 #include <iterator>
 #include <limits>
 #include <map>
-#include <memory>
 #include <set>
-#include <string>
 #include <utility>
 
 #include "benchmarks/base/parallel.hpp"

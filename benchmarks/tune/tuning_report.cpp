@@ -4,7 +4,6 @@
 #include <limits>
 #include <optional>
 #include <set>
-#include <span>
 
 #include "benchmarks/base/words.hpp"
 #include "benchmarks/record/record.hpp"

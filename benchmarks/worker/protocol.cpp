@@ -1,6 +1,5 @@
 #include "benchmarks/worker/protocol.hpp"
 
-#include <algorithm>
 #include <bit>
 #include <cerrno>
 #include <cmath>

@@ -9,7 +9,6 @@
 #include <fstream>
 #include <functional>
 #include <optional>
-#include <string_view>
 #include <system_error>
 #include <thread>
 #include <vector>

@@ -1,8 +1,6 @@
 // The child's side of the worker protocol: one method, answering requests.
 #pragma once
 
-#include <memory>
-
 #include "adapters/adapter.hpp"
 #include "benchmarks/base/exit_code.hpp"
 

@@ -20,6 +20,7 @@
 #include "tests/both_ways.hpp"
 #include "tests/fuzz/fuzz_input.hpp"
 #include "tests/hull_oracle.hpp"
+#include "tests/point_sets.hpp"
 
 namespace polylidar::fuzz {
 namespace {
@@ -30,7 +31,6 @@ using testing::hole_count;
 using testing::strict_corners;
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-constexpr int kLargestSpan = 265;  // binary orders of magnitude: from 2^-116 to below 2^150
 
 [[noreturn]] void fail(const Input& input, const std::string& what) {
   const Options& options = input.options;
@@ -50,30 +50,12 @@ void require_no_fault(const Input& input, const std::string& fault, const char* 
   if (!fault.empty()) fail(input, std::string(of) + ": " + fault);
 }
 
-struct Exponents {
-  int least = std::numeric_limits<int>::max();
-  int greatest = std::numeric_limits<int>::min();
-};
-
-// Of the coordinates that are not zero; they are finite.
-Exponents exponents(std::span<const Point> points) {
-  Exponents range;
-  for (const Point& point : points) {
-    for (const double coordinate : {point.x, point.y}) {
-      if (coordinate == 0) continue;
-      range.least = std::min(range.least, std::ilogb(coordinate));
-      range.greatest = std::max(range.greatest, std::ilogb(coordinate));
-    }
-  }
-  return range;
-}
-
 bool points_are_supported(std::span<const Point> points) {
   for (const Point& point : points) {
     if (!std::isfinite(point.x) || !std::isfinite(point.y)) return false;
   }
-  const Exponents range = exponents(points);
-  return range.least > range.greatest || range.greatest - range.least <= kLargestSpan;
+  const auto range = testing::exponents(points);
+  return !range || range->greatest - range->least <= testing::kLargestSpan;
 }
 
 bool options_are_supported(const Options& options) {
@@ -93,11 +75,6 @@ auto refused_or(const Input& input, bool supported, const char* what, Call call)
     if (supported) fail(input, std::string(what) + ": refused: " + error.what());
     return std::nullopt;
   }
-}
-
-std::vector<Point> scaled(std::vector<Point> points, int exponent) {
-  for (Point& point : points) point = {std::ldexp(point.x, exponent), std::ldexp(point.y, exponent)};
-  return points;
 }
 
 // No four points of two neighbouring triangles lie on a circle. `points` are in the predicates' range.
@@ -223,9 +200,9 @@ void check_everything(const Input& input) {
                                 [&] { return concave_hull(input.points, input.options); });
   if (!triangulation) return;
 
-  const Exponents range = exponents(input.points);
-  const int exponent = range.least > range.greatest ? 0 : 149 - range.greatest;
-  const std::vector<Point> in_range = scaled(input.points, exponent);
+  const auto range = testing::exponents(input.points);
+  const int exponent = range ? 149 - range->greatest : 0;
+  const std::vector<Point> in_range = testing::scaled(input.points, exponent, exponent);
   require_no_fault(input, check_triangulation(in_range, *triangulation), "triangulation");
   check_convex_hull(input, in_range);
   check_clear_limits(input, in_range, *triangulation);

@@ -2,7 +2,6 @@
 // wrong are a few bytes away from one another.
 #pragma once
 
-#include <cstddef>
 #include <cstdint>
 #include <span>
 #include <vector>

@@ -34,6 +34,15 @@ void expect(bool holds, const char* what) {
   std::abort();
 }
 
+bool is_utf8(std::string_view text) {
+  try {
+    static_cast<void>(nlohmann::json(text).dump());
+    return true;
+  } catch (const nlohmann::json::type_error&) {
+    return false;
+  }
+}
+
 /// The bytes as a file, or as a pipe, whose length nobody knows, while they fit into one.
 class Input {
  public:
@@ -131,7 +140,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   } catch (const PointFileError& error) {
     const std::string_view what = error.what();
     expect(what.find(input.path()) != std::string_view::npos, "a refusal does not name the file");
-    expect(std::all_of(what.begin(), what.end(), [](char c) { return c >= ' ' && c <= '~'; }),
+    const auto is_shown = [](char c) { return static_cast<unsigned char>(c) >= ' ' && c != '\x7F'; };
+    expect(std::all_of(what.begin(), what.end(), is_shown) && is_utf8(what),
            "a refusal is not one line of plain text");
   }
   return 0;
