@@ -111,7 +111,8 @@ TEST_F(PackageTest, TheToolIsAComponentOfItsOwnAndLinksNoOtherLibrary) {
   EXPECT_EQ(installed_files(),
             (std::set<std::string>{"bin/polylidar", "share/bash-completion/completions/polylidar",
                                    "share/doc/polylidar/LICENSE", "share/man/man1/polylidar-footprint.1",
-                                   "share/man/man1/polylidar-hull.1", "share/man/man1/polylidar.1"}));
+                                   "share/man/man1/polylidar-hull.1", "share/man/man1/polylidar-merge.1",
+                                   "share/man/man1/polylidar.1"}));
   const std::string program = (prefix_ / "bin/polylidar").string();
   EXPECT_EQ(succeed({program, "--version"}), "polylidar " PROJECT_VERSION "\n");
   // What the licence of the program depends on: the C and C++ libraries, and zlib.

@@ -440,7 +440,7 @@ for call in (polylidar_core.concave_hull, polylidar_core.delaunay):
 
 class Threads(unittest.TestCase):
     def test_other_threads_run_meanwhile(self):
-        points = scattered(300_000)
+        points = scattered(2_000_000)
         labels = np.arange(len(points)) % 3
         for call in (lambda: concave_hull(points), lambda: concave_hulls(points, labels), lambda: delaunay(points)):
             turns, seen, done = 0, [], threading.Event()
