@@ -98,7 +98,7 @@ void windows(benchmark::State& state, const SpeedPointSet& set) {
 }
 
 void cells(benchmark::State& state, const SpeedPointSet& set) {
-  measure_phase(state, set, [](Phases& p) { p.part.fill_cells(p.set.points, false, p.pool); });
+  measure_phase(state, set, [](Phases& p) { p.part.fill_cells(p.set.points, p.pool); });
 }
 
 void certified_cells(benchmark::State& state, const SpeedPointSet& set) {

@@ -112,7 +112,8 @@ SpeedPointSet make_speed_point_set(const std::string& name, std::size_t n) {
   if (name == "islands") return make_islands(n, random);
   if (name == "sieve") return make_sieve(n, random);
   if (name == "clusters" || name == "circle" || name == "parabola" || name == "repeats") {
-    return {make_outline_points(name, n, random), 2 / std::sqrt(static_cast<double>(n)), 0};
+    const bool is_curve = name == "circle" || name == "parabola";  // of which small triangles have no part
+    return {make_outline_points(name, n, random), is_curve ? 2 : 2 / std::sqrt(static_cast<double>(n)), 0};
   }
   throw std::invalid_argument(
       "no point set is called '" + name +

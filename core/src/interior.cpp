@@ -31,6 +31,8 @@ constexpr auto make_half_widths() {
   return half_widths;
 }
 constexpr auto kHalfWidths = make_half_widths<2 * kRadius>();
+/// As most uncertain points reach, with a little of what those in open directions do: for an estimate.
+constexpr auto kUsualHalfWidths = make_half_widths<2 * kNearRadius + 1>();
 /// Where 2 r turn out to be too little.
 constexpr auto kFartherHalfWidths = make_half_widths<2 * kRadius + 4>();
 static_assert(kFartherHalfWidths[2 * kRadius + 5] <= Grid::kMargin);
@@ -164,13 +166,15 @@ std::optional<Way> InteriorPart::choose(std::span<const Point> points, const Coo
 
   // Lengths are rounded harmlessly, areas of triangles with close corners are not.
   const bool pairs_matter = circumradii_matter && range.unit == 0;
-  fill_cells(points, pairs_matter, pool);
+  fill_cells(points, pool);
   if (are_many_uncertain(points, guard.most_uncertain)) return Way::kMuchOutline;
   find_uncertain_cells(pool);
   if (share_of_part(points) > guard.most_triangulated) return Way::kMuchOutline;
-  if (pairs_matter &&
-      close_pairs_.may_exist(points, grid_, cells_.data(), shared(), kTooClose * radius, pool)) {
-    return Way::kClosePoints;
+  if (pairs_matter) {
+    find_shared_cells(points.size(), pool);
+    if (close_pairs_.may_exist(points, grid_, cells_.data(), shared(), kTooClose * radius, pool)) {
+      return Way::kClosePoints;
+    }
   }
   find_uncertain_points(points, pool);
   mark_reach(pool);
@@ -195,36 +199,56 @@ double InteriorPart::choose_grid(std::span<const Point> points, const Box& box, 
   return radius;
 }
 
+/// Calls join(word, part) for every word of a bitmap and every part but the first.
+template <class Join>
+void InteriorPart::join_parts(ThreadPool& pool, const Join& join) {
+  const Chunks chunks(pool, grid_.word_count());
+  pool.for_each(chunks.size(), [&](std::size_t c) {
+    for (std::size_t part = 1; part < parts_of(pool); ++part) {
+      for (std::size_t w = chunks.begin(c); w < chunks.end(c); ++w) join(w, part);
+    }
+  });
+}
+
 /// Puts the points into their cells, each thread into a bitmap of its own.
-void InteriorPart::fill_cells(std::span<const Point> points, bool with_shared, ThreadPool& pool) {
+void InteriorPart::fill_cells(std::span<const Point> points, ThreadPool& pool) {
   std::uint32_t* const cells = cells_.reserve(points.size());
-  const std::size_t words = grid_.word_count();
   const std::size_t parts = parts_of(pool);
   while (fills_.size() < parts) fills_.emplace_back();
   pool.for_each(parts, [&](std::size_t part) {
     Bitmap& occupied = fills_[part].occupied;
-    Bitmap& shared = fills_[part].shared;
-    occupied.clear(words);
-    if (with_shared) shared.clear(words);
+    occupied.clear(grid_.word_count());
     const std::size_t end = points.size() * (part + 1) / parts;
     for (std::size_t i = points.size() * part / parts; i < end; ++i) {
       cells[i] = static_cast<std::uint32_t>(grid_.cell(points[i]));
-      if (with_shared && occupied.test(cells[i])) shared.set(cells[i]);
       occupied.set(cells[i]);
     }
   });
-  if (parts == 1) return;
-  const Chunks chunks(pool, words);
-  pool.for_each(chunks.size(), [&](std::size_t c) {
-    for (std::size_t part = 1; part < parts; ++part) {
-      for (std::size_t w = chunks.begin(c); w < chunks.end(c); ++w) {
-        const Bitmap::Word more = fills_[part].occupied.words()[w];
-        if (with_shared) {
-          shared().words()[w] |= fills_[part].shared.words()[w] | (occupied().words()[w] & more);
-        }
-        occupied().words()[w] |= more;
-      }
+  join_parts(pool, [&](std::size_t w, std::size_t part) {
+    occupied().words()[w] |= fills_[part].occupied.words()[w];
+  });
+}
+
+/// Finds the cells with more than one point.
+void InteriorPart::find_shared_cells(std::size_t points, ThreadPool& pool) {
+  const std::uint32_t* const cells = cells_.data();
+  const std::size_t parts = parts_of(pool);
+  pool.for_each(parts, [&](std::size_t part) {
+    Bitmap& seen = fills_[part].reached;  // not needed yet
+    Bitmap& shared = fills_[part].shared;
+    seen.clear(grid_.word_count());
+    shared.clear(grid_.word_count());
+    const std::size_t end = points * (part + 1) / parts;
+    for (std::size_t i = points * part / parts; i < end; ++i) {
+      if (seen.test(cells[i])) shared.set(cells[i]);
+      seen.set(cells[i]);
     }
+  });
+  join_parts(pool, [&](std::size_t w, std::size_t part) {
+    Bitmap::Word& seen = fills_.front().reached.words()[w];
+    const Bitmap::Word more = fills_[part].reached.words()[w];
+    shared().words()[w] |= fills_[part].shared.words()[w] | (seen & more);
+    seen |= more;
   });
 }
 
@@ -246,8 +270,8 @@ double InteriorPart::share_of_part(std::span<const Point> points) const {
   const PointCertificate& certificate = PointCertificate::instance();
   const Grid::Cell row_bits = grid_.row_words() * Grid::kWordBits;
   const auto is_in_part = [&](Grid::Cell cell) {
-    Grid::Cell centre = cell - rows_below(kHalfWidths) * row_bits;
-    for (const unsigned half_width : kHalfWidths) {
+    Grid::Cell centre = cell - rows_below(kUsualHalfWidths) * row_bits;
+    for (const unsigned half_width : kUsualHalfWidths) {
       Bitmap::Word cells =
           uncertain_cells_.window(centre - half_width) & ((Bitmap::Word{2} << 2 * half_width) - 1);
       for (; cells != 0; cells &= cells - 1) {
@@ -326,14 +350,8 @@ void InteriorPart::mark_reach(ThreadPool& pool) {
       mark(grid_, cells_.data()[uncertain_[i]], open_[i], reach, reached);
     }
   });
-  if (parts == 1) return;
-  const Chunks chunks(pool, words);
-  pool.for_each(chunks.size(), [&](std::size_t c) {
-    for (std::size_t part = 1; part < parts; ++part) {
-      for (std::size_t w = chunks.begin(c); w < chunks.end(c); ++w) {
-        reached().words()[w] |= fills_[part].reached.words()[w];
-      }
-    }
+  join_parts(pool, [&](std::size_t w, std::size_t part) {
+    reached().words()[w] |= fills_[part].reached.words()[w];
   });
 }
 

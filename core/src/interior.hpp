@@ -31,7 +31,7 @@ struct InteriorGuard {
   /// empty.
   double most_cells_a_point = 46;
   /// Largest share of uncertain points, estimated from a few hundred points that are looked at first.
-  double most_uncertain = 0.1;
+  double most_uncertain = 0.13;
   /// Largest share of the points that would have to be triangulated.
   double most_triangulated = 0.5;
 };
@@ -90,7 +90,7 @@ class InteriorPart {
 
   // The steps of choose() that look at all points or cells, in order. After choose() each may be repeated, to
   // measure it alone; find_uncertain_points() needs the step before it to be repeated first.
-  void fill_cells(std::span<const Point> points, bool with_shared, ThreadPool& pool);
+  void fill_cells(std::span<const Point> points, ThreadPool& pool);
   void find_uncertain_cells(ThreadPool& pool);
   void find_uncertain_points(std::span<const Point> points, ThreadPool& pool);
   void mark_reach(ThreadPool& pool);
@@ -99,6 +99,9 @@ class InteriorPart {
  private:
   double choose_grid(std::span<const Point> points, const Box& box, double radius,
                      const InteriorGuard& guard);
+  template <class Join>
+  void join_parts(ThreadPool& pool, const Join& join);
+  void find_shared_cells(std::size_t points, ThreadPool& pool);
   bool are_many_uncertain(std::span<const Point> points, double most) const;
   double share_of_part(std::span<const Point> points) const;
   Bitmap& occupied() { return fills_.front().occupied; }
