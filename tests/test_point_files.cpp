@@ -145,6 +145,11 @@ TEST_F(PointFilesTest, FaultsInColumns) {
       {"a.csv", "1,\"2\"3\n", "text follows a closing quote"},
       {"a.csv", "1,0x10\n", "'0x10' is not a number"},
       {"a.csv", "+-1,2\n", "'+-1' is not a number"},
+      {"a.csv", "1,\xF4\x8F\xBF\xBF\xED\x9F\xBF\n", "'\xF4\x8F\xBF\xBF\xED\x9F\xBF' is not a number"},
+      {"a.csv", "1,\xE0\x9F\xBF\n", "'?\?\?' is not a number"},        // longer than needed
+      {"a.csv", "1,\xF0\x8F\xBF\xBF\n", "'?\?\?\?' is not a number"},  // longer than needed
+      {"a.csv", "1,\xED\xA0\x80\n", "'?\?\?' is not a number"},        // half of a pair
+      {"a.csv", "1,\xF4\x90\x80\x80\n", "'?\?\?\?' is not a number"},  // beyond U+10FFFF
       {"a.csv", std::string("1,2\0\n", 5), "zero byte"},
       {"a.csv", std::string(2000000, '7'), ", line 1: the line is longer than"},
       {"a.xyz", "1,2\n3,4\n", ", line 2: there is no column 2"},

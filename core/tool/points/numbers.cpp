@@ -23,16 +23,23 @@ std::errc parse(std::string_view text, double& value) {
   return std::isfinite(value) ? std::errc() : error;
 }
 
-/// How many bytes the character at the beginning of `text` has; 0 for one that cannot be shown.
+/// How many bytes the character at the beginning of `text` has; 0 for one that cannot be shown: a control, or
+/// bytes that are no UTF-8 (RFC 3629, section 4).
 std::size_t shown_bytes(std::string_view text) {
   const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(text[i]); };
-  if (byte(0) < 0x80) return byte(0) >= ' ' && byte(0) <= '~' ? 1 : 0;
-  const std::size_t bytes = byte(0) >= 0xF0 ? 4 : byte(0) >= 0xE0 ? 3 : 2;
-  if (byte(0) < 0xC2 || byte(0) > 0xF4 || text.size() < bytes) return 0;
-  for (std::size_t i = 1; i < bytes; ++i) {
+  const unsigned char first = byte(0);
+  if (first < 0x80) return first >= ' ' && first <= '~' ? 1 : 0;
+  const std::size_t bytes = first >= 0xF0 ? 4 : first >= 0xE0 ? 3 : 2;
+  if (first < 0xC2 || first > 0xF4 || text.size() < bytes) return 0;
+  // Neither U+0080 to U+009F, which are controls, nor a longer form than needed, nor a half of a pair of
+  // UTF-16, nor what is beyond U+10FFFF.
+  const unsigned char lowest = first == 0xC2 || first == 0xE0 ? 0xA0 : first == 0xF0 ? 0x90 : 0x80;
+  const unsigned char highest = first == 0xED ? 0x9F : first == 0xF4 ? 0x8F : 0xBF;
+  if (byte(1) < lowest || byte(1) > highest) return 0;
+  for (std::size_t i = 2; i < bytes; ++i) {
     if ((byte(i) & 0xC0U) != 0x80) return 0;
   }
-  return byte(0) == 0xC2 && byte(1) < 0xA0 ? 0 : bytes;  // U+0080 to U+009F are controls
+  return bytes;
 }
 
 }  // namespace
