@@ -11,6 +11,7 @@ hullbench_test(test_interior SOURCES test_interior.cpp LIBRARIES hullbench_test_
 hullbench_test(test_certificate SOURCES test_certificate.cpp LIBRARIES hullbench_test_support LABELS core)
 hullbench_test(test_outline_fill SOURCES test_outline_fill.cpp LIBRARIES hullbench_test_support LABELS core)
 hullbench_test(test_window_sample SOURCES test_window_sample.cpp LIBRARIES hullbench_test_support LABELS core)
+hullbench_test(test_kernels SOURCES test_kernels.cpp LIBRARIES hullbench_test_support LABELS core)
 hullbench_test(test_quantile SOURCES test_quantile.cpp LIBRARIES hullbench_test_support LABELS core)
 hullbench_test(test_size_filter SOURCES test_size_filter.cpp LIBRARIES hullbench_test_support LABELS core)
 hullbench_test(test_stream SOURCES test_stream.cpp LIBRARIES hullbench_test_support LABELS core)

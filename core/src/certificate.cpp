@@ -9,16 +9,6 @@
 
 #include "vector.hpp"
 
-#if defined(__x86_64__) && defined(__GNUC__)
-#define POLYLIDAR_X86_KERNELS
-// What makes a compiler use all of the 512 bits.
-#ifdef __clang__
-#define POLYLIDAR_AVX512 [[gnu::target("avx512f"), clang::min_vector_width(512)]]
-#else
-#define POLYLIDAR_AVX512 [[gnu::target("avx512f,prefer-vector-width=512")]]
-#endif
-#endif
-
 namespace polylidar::detail {
 
 namespace {
@@ -198,14 +188,14 @@ Directions find_open_portably(const SectorRow* rows, const std::uint32_t* cells)
   return find_open(rows, cells);
 }
 #ifdef POLYLIDAR_X86_KERNELS
-[[gnu::target("avx2")]] void check_cells_with_avx2(const WindowRow* rows, std::size_t strips,
-                                                   std::size_t begin, std::size_t end, Word* certified) {
+POLYLIDAR_AVX2 void check_cells_with_avx2(const WindowRow* rows, std::size_t strips, std::size_t begin,
+                                          std::size_t end, Word* certified) {
   check_sectors(rows, strips, begin, end, certified, std::make_index_sequence<kCellSectors>());
 }
-[[gnu::target("avx2")]] bool check_point_with_avx2(const SectorRow* rows, const std::uint32_t* cells) {
+POLYLIDAR_AVX2 bool check_point_with_avx2(const SectorRow* rows, const std::uint32_t* cells) {
   return check_point(rows, cells);
 }
-[[gnu::target("avx2")]] Directions find_open_with_avx2(const SectorRow* rows, const std::uint32_t* cells) {
+POLYLIDAR_AVX2 Directions find_open_with_avx2(const SectorRow* rows, const std::uint32_t* cells) {
   return find_open(rows, cells);
 }
 POLYLIDAR_AVX512 void check_cells_with_avx512(const WindowRow* rows, std::size_t strips, std::size_t begin,
@@ -269,21 +259,6 @@ std::array<std::uint32_t, SectorCover<kDisk>::kRows> cells_round(Grid::Cell cell
 }
 
 }  // namespace
-
-bool is_supported(Kernel kernel) {
-#ifdef POLYLIDAR_X86_KERNELS
-  if (kernel == Kernel::kAvx512) return __builtin_cpu_supports("avx512f") != 0;
-  if (kernel == Kernel::kAvx2) return __builtin_cpu_supports("avx2") != 0;
-#endif
-  return kernel == Kernel::kPortable;
-}
-
-Kernel best_kernel() {
-  static const Kernel best = is_supported(Kernel::kAvx512) ? Kernel::kAvx512
-                             : is_supported(Kernel::kAvx2) ? Kernel::kAvx2
-                                                           : Kernel::kPortable;
-  return best;
-}
 
 void find_uncertain_cells(const Grid& grid, const Bitmap& occupied, Grid::Cell begin, Grid::Cell end,
                           Bitmap& uncertain, Kernel kernel) {

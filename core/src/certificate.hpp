@@ -29,6 +29,7 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "kernels.hpp"
 #include "occupancy.hpp"
 
 namespace polylidar::detail {
@@ -39,13 +40,6 @@ inline constexpr int kRadius = 6;
 /// 2 r or more from p, and the disks reach no farther than that.
 inline constexpr int kReach = 2 * kRadius - 1;
 static_assert(kReach < static_cast<int>(Grid::kMargin));
-
-/// What the loops over cells are compiled for; all give the same result.
-enum class Kernel : std::uint8_t { kPortable, kAvx2, kAvx512 };
-/// Whether this processor and this build support it.
-bool is_supported(Kernel kernel);
-/// The fastest one that is supported.
-Kernel best_kernel();
 
 /// Adds to `uncertain` the occupied cells of rows [begin, end) that are not certified as a whole, that is,
 /// for every p in the cell. `uncertain` must be empty in these rows; other rows do not change.

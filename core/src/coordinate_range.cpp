@@ -4,10 +4,13 @@
 #include <bit>
 #include <cmath>
 #include <cstdint>
+#include <cstring>
 #include <limits>
 #include <stdexcept>
 #include <string>
 #include <vector>
+
+#include "kernels.hpp"
 
 namespace polylidar::detail {
 
@@ -36,32 +39,67 @@ struct Magnitudes {
   }
 };
 
-/// x and y of a point, for arithmetic on both at once.
-using Pair [[gnu::vector_size(16)]] = double;
-static_assert(sizeof(Pair) == sizeof(Point));
+/// Coordinates of points that follow one another, for arithmetic on all at once.
+template <std::size_t kCount>
+struct Coordinates {
+  using Vector [[gnu::vector_size(kCount * sizeof(double))]] = double;
+};
 
-Magnitudes measure(std::span<const Point> points) {
-  const Pair infinity{kInfinity, kInfinity};
-  Pair least = infinity;
-  Pair greatest = -infinity;
-  Pair smallest = infinity;
-  Pair poison{};
-  for (const Point& p : points) {
-    const Pair v{p.x, p.y};
-    const Pair magnitude = v < 0 ? -v : v;
-    const Pair not_zero = magnitude == 0 ? infinity : magnitude;
+/// As many points as fill whole vectors of kCount coordinates.
+template <std::size_t kCount>
+[[gnu::always_inline]] inline void measure_vectors(std::span<const Point> points, Magnitudes& result) {
+  using Vector = typename Coordinates<kCount>::Vector;
+  static_assert(sizeof(Point) == 2 * sizeof(double) && kCount % 2 == 0);
+  const Vector infinity = Vector{} + kInfinity;
+  Vector least = infinity;
+  Vector greatest = -infinity;
+  Vector smallest = infinity;
+  Vector poison{};
+  for (std::size_t i = 0; i < points.size(); i += kCount / 2) {
+    Vector v;
+    std::memcpy(&v, &points[i], sizeof v);
+    const Vector magnitude = v < 0 ? -v : v;
+    const Vector not_zero = magnitude == 0 ? infinity : magnitude;
     poison += v * 0;
     least = v < least ? v : least;
     greatest = v > greatest ? v : greatest;
     smallest = not_zero < smallest ? not_zero : smallest;
   }
-  Magnitudes result;
-  result.box = {{least[0], least[1]}, {greatest[0], greatest[1]}};
-  for (const double c : {least[0], least[1], greatest[0], greatest[1]}) {
-    if (!points.empty()) result.largest = std::max(result.largest, std::abs(c));
+  for (std::size_t k = 0; k < kCount; k += 2) {
+    Magnitudes lane;
+    lane.box = {{least[k], least[k + 1]}, {greatest[k], greatest[k + 1]}};
+    lane.smallest = std::min(smallest[k], smallest[k + 1]);
+    lane.poison = poison[k] + poison[k + 1];
+    result.add(lane);
   }
-  result.smallest = std::min(smallest[0], smallest[1]);
-  result.poison = poison[0] + poison[1];
+}
+
+// The same code three times, for registers of different widths.
+constexpr std::size_t kMostCoordinates = 8;
+void measure_portably(std::span<const Point> points, Magnitudes& result) {
+  measure_vectors<2>(points, result);
+}
+#ifdef POLYLIDAR_X86_KERNELS
+POLYLIDAR_AVX2 void measure_with_avx2(std::span<const Point> points, Magnitudes& result) {
+  measure_vectors<4>(points, result);
+}
+POLYLIDAR_AVX512 void measure_with_avx512(std::span<const Point> points, Magnitudes& result) {
+  measure_vectors<kMostCoordinates>(points, result);
+}
+#endif
+
+Magnitudes measure(std::span<const Point> points, Kernel kernel) {
+  Magnitudes result;
+  const std::size_t in_vectors = points.size() - points.size() % (kMostCoordinates / 2);
+#ifdef POLYLIDAR_X86_KERNELS
+  if (kernel == Kernel::kAvx512) measure_with_avx512(points.first(in_vectors), result);
+  if (kernel == Kernel::kAvx2) measure_with_avx2(points.first(in_vectors), result);
+#endif
+  measure_portably(kernel == Kernel::kPortable ? points : points.subspan(in_vectors), result);
+  if (points.empty()) return result;
+  for (const double c : {result.box.min.x, result.box.min.y, result.box.max.x, result.box.max.y}) {
+    result.largest = std::max(result.largest, std::abs(c));
+  }
   return result;
 }
 
@@ -110,9 +148,10 @@ double common_unit(std::span<const Point> points, double too_small) {
 }
 
 /// Throws std::invalid_argument when a coordinate is not finite; `first` is the number of the first point.
-Magnitudes measure_all(std::span<const Point> points, ThreadPool& pool, std::uint64_t first) {
+Magnitudes measure_all(std::span<const Point> points, ThreadPool& pool, std::uint64_t first, Kernel kernel) {
   Magnitudes magnitudes;
-  for (const Magnitudes& part : of_each_chunk(points, pool, measure)) magnitudes.add(part);
+  const auto measure_part = [kernel](std::span<const Point> part) { return measure(part, kernel); };
+  for (const Magnitudes& part : of_each_chunk(points, pool, measure_part)) magnitudes.add(part);
   if (!std::isnan(magnitudes.poison)) return magnitudes;
   const auto bad = std::find_if(points.begin(), points.end(),
                                 [](const Point& p) { return !std::isfinite(p.x) || !std::isfinite(p.y); });
@@ -123,7 +162,7 @@ Magnitudes measure_all(std::span<const Point> points, ThreadPool& pool, std::uin
 }  // namespace
 
 Box RangeOfBlocks::add(std::span<const Point> block, ThreadPool& pool) {
-  Magnitudes all = measure_all(block, pool, count_);
+  Magnitudes all = measure_all(block, pool, count_, best_kernel());
   const Box of_block = all.box;
   all.add({box_, largest_, smallest_, 0});
   box_ = all.box;
@@ -137,8 +176,8 @@ CoordinateRange RangeOfBlocks::range() const {
   return {box_, choose_scale({box_, largest_, smallest_, 0}), 0};
 }
 
-CoordinateRange measure_coordinates(std::span<const Point> points, ThreadPool& pool) {
-  const Magnitudes magnitudes = measure_all(points, pool, 0);
+CoordinateRange measure_coordinates(std::span<const Point> points, ThreadPool& pool, Kernel kernel) {
+  const Magnitudes magnitudes = measure_all(points, pool, 0, kernel);
   CoordinateRange range;
   range.box = magnitudes.box;
   range.scale_exponent = choose_scale(magnitudes);

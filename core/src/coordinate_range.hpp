@@ -5,6 +5,7 @@
 #include <limits>
 #include <span>
 
+#include "kernels.hpp"
 #include "polylidar/geometry.hpp"
 #include "thread_pool.hpp"
 
@@ -22,7 +23,8 @@ struct CoordinateRange {
 
 /// Needs at least one point. Throws std::invalid_argument if a coordinate is not finite or coordinates span
 /// more than the supported range (see Extractor).
-CoordinateRange measure_coordinates(std::span<const Point> points, ThreadPool& pool);
+CoordinateRange measure_coordinates(std::span<const Point> points, ThreadPool& pool,
+                                    Kernel kernel = best_kernel());
 
 /// Measures points that come block by block; `unit` is not set.
 class RangeOfBlocks {

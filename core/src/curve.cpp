@@ -39,7 +39,8 @@ Curve::Curve(const Box& box, std::size_t points) : minimum_(box.min) {
 
 CurveEntry* sort_along(const Curve& curve, std::span<const Point> points, CurveEntry* entries,
                        CurveEntry* spare, ThreadPool& pool) {
-  const Chunks chunks(pool, points.size());
+  constexpr std::size_t kSmallestChunk = 8192;  // a step does little to a point
+  const Chunks chunks(pool, points.size(), kSmallestChunk);
   const auto for_each_chunk = [&](const auto& task) {
     pool.for_each(chunks.size(), [&](std::size_t c) { task(c, chunks.begin(c), chunks.end(c)); });
   };

@@ -98,11 +98,7 @@ void DelaunayBuilder::build_parts(ThreadPool& pool) {
   for (Part& part : parts) {
     if (part.first == nullptr) uncut.push_back(&part);
   }
-  // The largest first, so that no thread is left alone with one at the end.
-  std::sort(uncut.begin(), uncut.end(), [](const Part* a, const Part* b) {
-    return a->end - a->begin > b->end - b->begin ||
-           (a->end - a->begin == b->end - b->begin && a->begin < b->begin);
-  });
+  std::sort(uncut.begin(), uncut.end(), [](const Part* a, const Part* b) { return a->begin < b->begin; });
   pool.for_each(uncut.size(), [&](std::size_t i) {
     uncut[i]->hull = build_range(uncut[i]->begin, uncut[i]->end);
     finish(*uncut[i]);

@@ -218,11 +218,15 @@ void InteriorPart::fill_cells(std::span<const Point> points, ThreadPool& pool) {
   pool.for_each(parts, [&](std::size_t part) {
     Bitmap& occupied = fills_[part].occupied;
     occupied.clear(grid_.word_count());
-    const std::size_t end = points.size() * (part + 1) / parts;
-    for (std::size_t i = points.size() * part / parts; i < end; ++i) {
-      cells[i] = static_cast<std::uint32_t>(grid_.cell(points[i]));
-      occupied.set(cells[i]);
-    }
+    const std::size_t first = points.size() * part / parts;
+    const std::span<const Point> own = points.subspan(first, points.size() * (part + 1) / parts - first);
+    visit_numbered(own, grid_.numbering(),
+                   [&](std::size_t begin, std::span<const Point> block, const std::uint32_t* numbers) {
+                     for (std::size_t i = 0; i < block.size(); ++i) {
+                       cells[first + begin + i] = numbers[i];
+                       occupied.set(numbers[i]);
+                     }
+                   });
   });
   join_parts(pool, [&](std::size_t w, std::size_t part) {
     occupied().words()[w] |= fills_[part].occupied.words()[w];

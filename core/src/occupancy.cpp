@@ -1,6 +1,7 @@
 #include "occupancy.hpp"
 
 #include <algorithm>
+#include <atomic>
 #include <bit>
 #include <cstdlib>
 #include <utility>
@@ -45,21 +46,67 @@ void Bitmap::clear(std::size_t words) {
 /// Of points [begin, end).
 void ClosePairs::look_at(std::span<const Point> points, std::size_t begin, std::size_t end, const Grid& grid,
                          const std::uint32_t* cells, const Bitmap& shared, Chunk& chunk) const {
-  chunk.in_shared.clear();
+  chunk.in_shared.resize(bands_.size());
+  for (std::vector<Link>& of_band : chunk.in_shared) of_band.clear();
   chunk.on_borders.clear();
+  const std::size_t words_in_band = words_of_band(grid, 1).begin;
   for (std::size_t i = begin; i < end; ++i) {
     const auto p = static_cast<std::uint32_t>(i);
     const std::int64_t x = fine(grid.column(points[p]));
     const std::int64_t y = fine(grid.row(points[p]));
     if (is_on_border(x) || is_on_border(y)) chunk.on_borders.push_back(p);
-    if (shared.test(cells[p])) chunk.in_shared.push_back({p, kNone, rough(x), rough(y)});
+    if (!shared.test(cells[p])) continue;
+    const std::size_t band = cells[p] / Grid::kWordBits / words_in_band;
+    chunk.in_shared[band].push_back({p, kNone, rough(x), rough(y)});
   }
+}
+
+ClosePairs::Words ClosePairs::words_of_band(const Grid& grid, std::size_t band) const {
+  const std::size_t words = (grid.word_count() + bands_.size() - 1) / bands_.size();
+  return {std::min(words * band, grid.word_count()), std::min(words * (band + 1), grid.word_count())};
+}
+
+/// Whether two different points may lie within `distance` of each other in a shared cell of a band.
+bool ClosePairs::are_in_band(std::size_t number, std::span<const Point> points, const Grid& grid,
+                             const std::uint32_t* cells, const Bitmap& shared, double distance,
+                             std::span<const Chunk> looked_at) {
+  constexpr std::size_t kMostInACell = 32;
+  Band& band = bands_[number];
+  const Words words = words_of_band(grid, number);
+  std::uint32_t cell_count = 0;
+  for (std::size_t w = words.begin; w < words.end; ++w) {
+    rank_[w] = cell_count;
+    cell_count += static_cast<std::uint32_t>(std::popcount(shared.words()[w]));
+  }
+  band.last.assign(cell_count, kNone);
+  band.links.clear();
+  for (const Chunk& chunk : looked_at) {
+    for (Link own : chunk.in_shared[number]) {
+      const Grid::Cell word = cells[own.point] / Grid::kWordBits;
+      const Bitmap::Word below = (Bitmap::Word{1} << (cells[own.point] % Grid::kWordBits)) - 1;
+      std::uint32_t& last =
+          band.last[rank_[word] + static_cast<std::uint32_t>(std::popcount(shared.words()[word] & below))];
+      std::size_t in_cell = 0;
+      bool is_new = true;
+      for (std::uint32_t l = last; l != kNone && is_new; l = band.links[l].before) {
+        const Link& link = band.links[l];
+        if (++in_cell == kMostInACell) return true;
+        if (std::abs(link.x - own.x) > 1 || std::abs(link.y - own.y) > 1) continue;
+        if (are_close(points[own.point], points[link.point], distance)) return true;
+        is_new = points[own.point] != points[link.point];
+      }
+      if (!is_new) continue;
+      own.before = std::exchange(last, static_cast<std::uint32_t>(band.links.size()));
+      band.links.push_back(own);
+    }
+  }
+  return false;
 }
 
 bool ClosePairs::may_exist(std::span<const Point> points, const Grid& grid, const std::uint32_t* cells,
                            const Bitmap& shared, double distance, ThreadPool& pool) {
-  constexpr std::size_t kMostInACell = 32;
   constexpr std::size_t kMostOnBorders = 8;
+  bands_.resize(pool.threads());
   const Chunks chunks(pool, points.size());
   chunks_.resize(std::max(chunks_.size(), chunks.size()));
   pool.for_each(chunks.size(), [&](std::size_t c) {
@@ -71,33 +118,11 @@ bool ClosePairs::may_exist(std::span<const Point> points, const Grid& grid, cons
   if (on_borders > kMostOnBorders) return true;
 
   rank_.resize(grid.word_count());
-  std::uint32_t cell_count = 0;
-  for (std::size_t w = 0; w < rank_.size(); ++w) {
-    rank_[w] = cell_count;
-    cell_count += static_cast<std::uint32_t>(std::popcount(shared.words()[w]));
-  }
-  last_.assign(cell_count, kNone);
-  links_.clear();
-  for (const Chunk& chunk : looked_at) {
-    for (Link own : chunk.in_shared) {
-      const Grid::Cell word = cells[own.point] / Grid::kWordBits;
-      const Bitmap::Word below = (Bitmap::Word{1} << (cells[own.point] % Grid::kWordBits)) - 1;
-      std::uint32_t& last =
-          last_[rank_[word] + static_cast<std::uint32_t>(std::popcount(shared.words()[word] & below))];
-      std::size_t in_cell = 0;
-      bool is_new = true;
-      for (std::uint32_t l = last; l != kNone && is_new; l = links_[l].before) {
-        const Link& link = links_[l];
-        if (++in_cell == kMostInACell) return true;
-        if (std::abs(link.x - own.x) > 1 || std::abs(link.y - own.y) > 1) continue;
-        if (are_close(points[own.point], points[link.point], distance)) return true;
-        is_new = points[own.point] != points[link.point];
-      }
-      if (!is_new) continue;
-      own.before = std::exchange(last, static_cast<std::uint32_t>(links_.size()));
-      links_.push_back(own);
-    }
-  }
+  std::atomic<bool> may_exist = false;
+  pool.for_each(bands_.size(), [&](std::size_t b) {
+    if (are_in_band(b, points, grid, cells, shared, distance, looked_at)) may_exist = true;
+  });
+  if (may_exist) return true;
   return std::any_of(looked_at.begin(), looked_at.end(), [&](const Chunk& chunk) {
     return std::any_of(chunk.on_borders.begin(), chunk.on_borders.end(), [&](std::uint32_t p) {
       return std::any_of(points.begin(), points.end(),

@@ -7,6 +7,7 @@
 #include <span>
 #include <vector>
 
+#include "cell_numbers.hpp"
 #include "polylidar/geometry.hpp"
 #include "scratch.hpp"
 #include "thread_pool.hpp"
@@ -71,6 +72,11 @@ class Grid {
   double row(const Point& p) const { return (p.y - minimum_.y) * cells_per_length_; }
   /// The row of a point of the box, counted from the box's side, also in a band.
   Cell row_number(const Point& p) const { return whole(row(p)); }
+  /// As cell() numbers them; of a grid whose cell_count() is finite.
+  CellNumbering numbering() const {
+    return {minimum_, cells_per_length_, static_cast<std::uint32_t>(row_words_ * kWordBits),
+            static_cast<std::uint32_t>(origin_)};
+  }
   Cell cell(const Point& p) const {
     return row_number(p) * row_words_ * kWordBits + origin_ + whole(column(p));
   }
@@ -139,24 +145,38 @@ class ClosePairs {
   /// A point in a shared cell, and the one before it in the same cell.
   struct Link {
     std::uint32_t point;
-    std::uint32_t before;  ///< in links_, or kNone
+    std::uint32_t before;  ///< in Band::links, or kNone
     std::uint16_t x;       ///< where in the cell, in 2^-16 of its side
     std::uint16_t y;
   };
   /// The points of a chunk that have to be looked at.
   struct Chunk {
-    std::vector<Link> in_shared;  ///< points in shared cells, not linked yet
-    std::vector<std::uint32_t>
-        on_borders;  ///< points so near a cell's border that a close one may be beyond it
+    std::vector<std::vector<Link>> in_shared;  ///< band -> points in shared cells, not linked yet
+    /// Points so near a cell's border that a close one may be beyond it.
+    std::vector<std::uint32_t> on_borders;
+  };
+
+  /// Consecutive words of the bitmap of cells.
+  struct Band {
+    std::vector<std::uint32_t> last;  ///< shared cell -> the last of its points so far in `links`, or kNone
+    std::vector<Link> links;          ///< different points in shared cells
+  };
+
+  struct Words {
+    std::size_t begin;
+    std::size_t end;
   };
 
   void look_at(std::span<const Point> points, std::size_t begin, std::size_t end, const Grid& grid,
                const std::uint32_t* cells, const Bitmap& shared, Chunk& chunk) const;
+  Words words_of_band(const Grid& grid, std::size_t band) const;
+  bool are_in_band(std::size_t number, std::span<const Point> points, const Grid& grid,
+                   const std::uint32_t* cells, const Bitmap& shared, double distance,
+                   std::span<const Chunk> looked_at);
 
   std::vector<Chunk> chunks_;
-  std::vector<std::uint32_t> rank_;  ///< word -> how many cells are shared before it
-  std::vector<std::uint32_t> last_;  ///< shared cell -> the last of its points so far in links_, or kNone
-  std::vector<Link> links_;          ///< different points in shared cells
+  std::vector<Band> bands_;
+  std::vector<std::uint32_t> rank_;  ///< word -> how many cells are shared before it in its band
 };
 
 }  // namespace polylidar::detail

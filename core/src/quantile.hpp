@@ -87,10 +87,14 @@ inline double value_at(std::vector<double>& values, std::size_t place) {
   return *middle;
 }
 
+/// The place of a quantile of so many values, at least one, in ascending order.
+inline std::size_t place_of(double quantile, std::size_t values) {
+  return std::min(values - 1, static_cast<std::size_t>(quantile * static_cast<double>(values)));
+}
+
 /// The value at `quantile` of `values`, which it may reorder. Needs at least one value, none of them NaN.
 inline double quantile_of(std::vector<double>& values, double quantile) {
-  const auto place =
-      std::min(values.size() - 1, static_cast<std::size_t>(quantile * static_cast<double>(values.size())));
+  const std::size_t place = place_of(quantile, values.size());
   constexpr std::size_t kFew = 24;  // below, cells cost more than they save
   if (values.size() >= kFew) {
     if (const std::optional<double> value = Ranking(values).at(place)) return *value;
@@ -98,13 +102,17 @@ inline double quantile_of(std::vector<double>& values, double quantile) {
   return value_at(values, place);
 }
 
-/// An estimate of the standard deviation of `values`, as if they were normal, from the 0.9 quantile of their
-/// distances to `middle`. Changes `values`. Needs at least one.
+/// An estimate of a standard deviation from the 0.9 quantile of the distances to the middle, as if the values
+/// were normal.
+struct RobustDeviation {
+  static constexpr double kQuantile = 0.9;
+  static constexpr double kOfNormal = 1.645;  ///< that quantile of |x|
+};
+
+/// The robust deviation of `values` from `middle`. Changes `values`. Needs at least one.
 inline double robust_deviation(std::vector<double>& values, double middle) {
-  constexpr double kQuantile = 0.9;
-  constexpr double kOfNormal = 1.645;  // that quantile of |x|
   for (double& value : values) value = std::abs(value - middle);
-  return quantile_of(values, kQuantile) / kOfNormal;
+  return quantile_of(values, RobustDeviation::kQuantile) / RobustDeviation::kOfNormal;
 }
 
 }  // namespace polylidar::detail

@@ -11,7 +11,7 @@ namespace {
 /// that was in vain.
 template <class T>
 void wait_while(const std::atomic<T>& value, T old) {
-  constexpr int kOffers = 128;
+  constexpr int kOffers = 1024;
   for (int i = 0; i < kOffers; ++i) {
     if (value.load(std::memory_order_acquire) != old) return;
     std::this_thread::yield();
@@ -24,43 +24,53 @@ void wait_while(const std::atomic<T>& value, T old) {
 void ThreadPool::use(unsigned threads) {
   if (threads > 1 && started_.size() + 1 != threads) {
     stop();
+    shares_ = std::vector<Share>(threads);
     started_.reserve(threads - 1);
-    while (started_.size() + 1 < threads) started_.emplace_back(&ThreadPool::serve, this);
+    while (started_.size() + 1 < threads)
+      started_.emplace_back(&ThreadPool::serve, this, started_.size() + 1);
   }
   used_ = threads;
 }
 
 void ThreadPool::run(const Job& job) {
   job_ = job;
-  next_.store(0, std::memory_order_relaxed);
+  for (std::size_t t = 0; t < shares_.size(); ++t) {
+    shares_[t].next.store(job.count * t / shares_.size(), std::memory_order_relaxed);
+    shares_[t].end = job.count * (t + 1) / shares_.size();
+  }
   still_working_.store(static_cast<std::uint32_t>(started_.size()), std::memory_order_relaxed);
   jobs_given_.fetch_add(1, std::memory_order_release);
   jobs_given_.notify_all();
-  work();
+  work(0);
   for (std::uint32_t left = 0; (left = still_working_.load(std::memory_order_acquire)) != 0;) {
     wait_while(still_working_, left);
   }
   if (error_) std::rethrow_exception(std::exchange(error_, nullptr));
 }
 
-/// Takes tasks until none is left.
-void ThreadPool::work() {
-  for (std::size_t i = 0; (i = next_.fetch_add(1, std::memory_order_relaxed)) < job_.count;) {
-    try {
-      job_.call(job_.task, i);
-    } catch (...) {
-      const std::lock_guard lock(error_mutex_);
-      if (!error_) error_ = std::current_exception();
+/// Takes the thread's own tasks, then those that the others have left.
+void ThreadPool::work(std::size_t thread) {
+  for (std::size_t t = 0; t < shares_.size(); ++t) {
+    Share& share = shares_[(thread + t) % shares_.size()];
+    while (share.next.load(std::memory_order_relaxed) < share.end) {
+      const std::size_t i = share.next.fetch_add(1, std::memory_order_relaxed);
+      if (i >= share.end) break;
+      try {
+        job_.call(job_.task, i);
+      } catch (...) {
+        const std::lock_guard lock(error_mutex_);
+        if (!error_) error_ = std::current_exception();
+      }
     }
   }
 }
 
 /// The life of a started thread.
-void ThreadPool::serve() {
+void ThreadPool::serve(std::size_t thread) {
   for (std::uint32_t seen = 0;; ++seen) {
     wait_while(jobs_given_, seen);
     if (job_.call == nullptr) return;
-    work();
+    work(thread);
     if (still_working_.fetch_sub(1, std::memory_order_acq_rel) == 1) still_working_.notify_one();
   }
 }

@@ -37,6 +37,10 @@ class ThreadPool {
 
 /// Runs tasks on the caller's thread and, if more than one is wanted, on threads that it starts once and
 /// keeps. With one thread nothing is started, locked or counted. Not for use from several threads at once.
+///
+/// Of every step a thread takes the same share of consecutive tasks first, then what others left of theirs.
+/// So most of what a step reads is in the cache of the core that wrote it: fetching it from another takes
+/// about 40 ns a cache line, and 200 where the two cores share no cache.
 class ThreadPool {
  public:
   ThreadPool() = default;
@@ -67,18 +71,22 @@ class ThreadPool {
   };
 
   void run(const Job& job);
-  void work();
-  void serve();
+  void work(std::size_t thread);
+  void serve(std::size_t thread);
   void stop();
 
   // What every thread reads, what all of them write, and what they wait for: each on its own cache lines.
   static constexpr std::size_t kCacheLine = 64;
+  struct alignas(kCacheLine) Share {
+    std::atomic<std::size_t> next = 0;
+    std::size_t end = 0;
+  };
   Job job_;
   unsigned used_ = 1;
   std::vector<std::thread> started_;
+  std::vector<Share> shares_;  ///< of the tasks: the caller's, then one of each started thread
   std::exception_ptr error_;
   std::mutex error_mutex_;
-  alignas(kCacheLine) std::atomic<std::size_t> next_ = 0;
   alignas(kCacheLine) std::atomic<std::uint32_t> jobs_given_ = 0;
   alignas(kCacheLine) std::atomic<std::uint32_t> still_working_ = 0;
 };
@@ -89,11 +97,11 @@ class ThreadPool {
 /// several for each thread, so that the others do not wait for a thread that is held up.
 class Chunks {
  public:
-  Chunks(const ThreadPool& pool, std::size_t count) : count_(count) {
+  /// Fewer than `smallest` things are not worth handing out.
+  Chunks(const ThreadPool& pool, std::size_t count, std::size_t smallest = 2048) : count_(count) {
     constexpr std::size_t kChunksPerThread = 4;
-    constexpr std::size_t kSmallestChunk = 2048;  // below, handing it out costs more than it takes
     const std::size_t wanted = pool.threads() == 1 ? 1 : kChunksPerThread * pool.threads();
-    chunks_ = std::clamp(count / kSmallestChunk, std::size_t{1}, wanted);
+    chunks_ = std::clamp(count / smallest, std::size_t{1}, wanted);
   }
   std::size_t size() const { return chunks_; }
   std::size_t begin(std::size_t chunk) const { return count_ * chunk / chunks_; }

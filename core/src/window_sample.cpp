@@ -31,6 +31,37 @@ constexpr double kMostPointsOfUsual = 2;
 
 }  // namespace
 
+void NumberCounts::clear() {
+  counts_.clear();
+  total_ = 0;
+}
+
+double NumberCounts::middle_of(std::size_t own) {
+  constexpr std::size_t kHalf = std::size_t{1} << (kBits - 1);
+  if (own < 2 * kHalf) return static_cast<double>(own);
+  const auto shift = static_cast<int>(own / kHalf) - 1;
+  const std::size_t first_bits = own - static_cast<std::size_t>(shift) * kHalf;
+  return std::ldexp(static_cast<double>(first_bits) + 0.5, shift);
+}
+
+double NumberCounts::median() const {
+  std::size_t own = 0;
+  for (std::size_t below = counts_[0]; below <= place_of(0.5, total_);) below += counts_[++own];
+  return middle_of(own);
+}
+
+double NumberCounts::robust_deviation_of_logarithms(double middle) {
+  distances_.clear();
+  for (std::size_t own = 0; own < counts_.size(); ++own) {
+    if (counts_[own] != 0) distances_.emplace_back(std::abs(std::log(middle_of(own) / middle)), counts_[own]);
+  }
+  std::sort(distances_.begin(), distances_.end());
+  const std::size_t place = place_of(RobustDeviation::kQuantile, total_);
+  auto at = distances_.begin();
+  for (std::size_t below = at->second; below <= place;) below += (++at)->second;
+  return at->first / RobustDeviation::kOfNormal;
+}
+
 bool WindowSample::look(std::span<const Point> points, const Box& box, const Wanted& wanted,
                         ThreadPool& pool) {
   // Each share counts in cells of its own: of many threads not all take part.
@@ -83,7 +114,10 @@ bool WindowSample::count_cells(std::span<const Point> points, const Box& box, Th
   pool.for_each(shares_.size(), [&](std::size_t s) {
     std::vector<std::uint32_t>& counts = s == 0 ? counts_ : shares_[s].counts;
     if (s > 0) counts.assign(counts_.size(), 0);
-    for (const Point& p : share_of(points, s)) ++counts[row(p.y) * columns_ + column(p.x)];
+    visit_numbered(share_of(points, s), numbering(),
+                   [&](std::size_t, std::span<const Point> block, const std::uint32_t* numbers) {
+                     for (std::size_t i = 0; i < block.size(); ++i) ++counts[numbers[i]];
+                   });
   });
   for (std::size_t s = 1; s < shares_.size(); ++s) {
     std::transform(counts_.begin(), counts_.end(), shares_[s].counts.begin(), counts_.begin(), std::plus<>());
@@ -94,7 +128,7 @@ bool WindowSample::count_cells(std::span<const Point> points, const Box& box, Th
 /// How many points a cell inside the shape usually has; 0 where the numbers differ by too much, or there are
 /// too few such cells to tell.
 double WindowSample::usual_count(std::size_t points, double most_spread) {
-  scratch_.clear();
+  numbers_.clear();
   std::size_t inside = 0;
   for (std::uint32_t r = 1; r + 1 < rows_; ++r) {
     for (std::uint32_t c = 1; c + 1 < columns_; ++c) {
@@ -104,20 +138,19 @@ double WindowSample::usual_count(std::size_t points, double most_spread) {
       const std::uint32_t* const below = own - columns_;
       if (above[-1] == 0 || above[0] == 0 || above[1] == 0) continue;
       if (below[-1] == 0 || below[0] == 0 || below[1] == 0) continue;
-      scratch_.push_back(std::log(static_cast<double>(own[0])));
+      numbers_.add(own[0]);
       inside += own[0];
     }
   }
   constexpr std::size_t kFew = 256;
   const bool are_enough = points < kManyPoints
                               ? static_cast<double>(inside) >= kLeastShareInside * static_cast<double>(points)
-                              : scratch_.size() >= kFew;
+                              : numbers_.total() >= kFew;
   if (!are_enough) return 0;
-  const double middle = quantile_of(scratch_, 0.5);
-  const double usual = std::exp(middle);
+  const double usual = numbers_.median();
   // A number of points is the inverse square of the spacing; chance alone makes numbers differ by a root of
   // them. Half as much again is let pass, as points may repeat others: it is the windows that decide.
-  const double spread = robust_deviation(scratch_, middle);
+  const double spread = numbers_.robust_deviation_of_logarithms(usual);
   const double most = 4 * most_spread * most_spread + 1 / usual;
   constexpr double kRoom = 1.5;
   return spread * spread <= kRoom * most ? usual : 0;
@@ -153,21 +186,20 @@ std::size_t WindowSample::gather(std::span<const Point> points, double half_side
   pool.for_each(shares_.size(), [&](std::size_t s) {
     auto& gathered = shares_[s].gathered;
     gathered.clear();
-    const std::span<const Point> own = share_of(points, s);
-    const auto windows_at = [&](const Point& p) {
-      return windows_of_cell_[row(p.y) * columns_ + column(p.x)];
+    const auto gather_block = [&](std::size_t, std::span<const Point> block, const std::uint32_t* cells) {
+      for_each_selected(
+          0, block.size(), [&](std::size_t i) { return windows_of_cell_[cells[i]] != 0; },
+          [&](std::size_t i) {
+            const Point& p = block[i];
+            for (std::uint64_t windows = windows_of_cell_[cells[i]]; windows != 0; windows &= windows - 1) {
+              const auto w = static_cast<std::uint32_t>(std::countr_zero(windows));
+              const Point& centre = windows_[w].centre;
+              if (std::max(std::abs(p.x - centre.x), std::abs(p.y - centre.y)) > half_side) continue;
+              if (gathered.size() <= most) gathered.emplace_back(w, p);
+            }
+          });
     };
-    for_each_selected(
-        0, own.size(), [&](std::size_t i) { return windows_at(own[i]) != 0; },
-        [&](std::size_t i) {
-          const Point& p = own[i];
-          for (std::uint64_t windows = windows_at(p); windows != 0; windows &= windows - 1) {
-            const auto w = static_cast<std::uint32_t>(std::countr_zero(windows));
-            const Point& centre = windows_[w].centre;
-            if (std::max(std::abs(p.x - centre.x), std::abs(p.y - centre.y)) > half_side) continue;
-            if (gathered.size() <= most) gathered.emplace_back(w, p);
-          }
-        });
+    visit_numbered(share_of(points, s), numbering(), gather_block);
   });
   std::size_t count = 0;
   for (const Share& share : shares_) {

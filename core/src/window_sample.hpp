@@ -1,6 +1,7 @@
 // Samples the triangles in a few small windows, without triangulating all points.
 #pragma once
 
+#include <bit>
 #include <cstddef>
 #include <cstdint>
 #include <deque>
@@ -9,11 +10,43 @@
 #include <utility>
 #include <vector>
 
+#include "cell_numbers.hpp"
 #include "delaunay_builder.hpp"
 #include "polylidar/geometry.hpp"
 #include "thread_pool.hpp"
 
 namespace polylidar::detail {
+
+/// How often each number occurs, of numbers above 0. Numbers of 256 and more that differ by less than 0.8 %
+/// may count as one.
+class NumberCounts {
+ public:
+  void clear();
+  void add(std::uint32_t number) {
+    const std::size_t own = class_of(number);
+    if (own >= counts_.size()) counts_.resize(own + 1, 0);
+    ++counts_[own];
+    ++total_;
+  }
+  std::size_t total() const { return total_; }
+  /// Needs at least one number, as the next does.
+  double median() const;
+  /// Of the logarithms from that of `middle`.
+  double robust_deviation_of_logarithms(double middle);
+
+ private:
+  static constexpr unsigned kBits = 8;  ///< of a number, from its first on, that decide its class
+  static std::size_t class_of(std::uint32_t number) {
+    const auto width = static_cast<unsigned>(std::bit_width(number));
+    const unsigned shift = width > kBits ? width - kBits : 0;
+    return (std::size_t{shift} << (kBits - 1)) + (number >> shift);
+  }
+  static double middle_of(std::size_t own);
+
+  std::vector<std::uint32_t> counts_;  ///< class -> how many numbers
+  std::size_t total_ = 0;
+  std::vector<std::pair<double, std::uint32_t>> distances_;  ///< of classes, with their counts
+};
 
 /// Windows are squares, drawn with a probability in proportion to the number of points there. Each has the
 /// points in it and in a margin round it. A triangle belongs to the window that has its circumcentre, so all
@@ -89,6 +122,7 @@ class WindowSample {
   std::uint32_t row(double y) const {
     return static_cast<std::uint32_t>((y - minimum_.y) * cells_per_length_);
   }
+  CellNumbering numbering() const { return {minimum_, cells_per_length_, columns_, 0}; }
 
   Point minimum_;
   double cells_per_length_ = 0;
@@ -97,7 +131,7 @@ class WindowSample {
   std::vector<std::uint32_t> counts_;           ///< cell, row by row -> how many points
   std::vector<std::uint64_t> windows_of_cell_;  ///< cell -> bit w: window w reaches it
   std::vector<Window> windows_;
-  std::vector<double> scratch_;
+  NumberCounts numbers_;  ///< of points in the cells inside the shape
   std::deque<Share> shares_;
   std::vector<std::size_t> window_ends_;
   std::vector<Measured> triangles_;

@@ -1,0 +1,54 @@
+// The numbers of the cells in which points lie.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+#include "kernels.hpp"
+#include "polylidar/geometry.hpp"
+
+namespace polylidar::detail {
+
+/// Numbers the cells of a square grid row by row. Points must not lie below or to the left of its beginning,
+/// and their columns, rows and numbers must be below 2^31.
+struct CellNumbering {
+  Point minimum;  ///< where the grid begins
+  double cells_per_length;
+  std::uint32_t cells_in_row;  ///< from a cell to the one above it
+  std::uint32_t first;         ///< the number of the cell at the beginning
+
+  std::uint32_t of(const Point& p) const {
+    const auto whole = [](double u) { return static_cast<std::uint32_t>(static_cast<std::int32_t>(u)); };
+    return whole((p.y - minimum.y) * cells_per_length) * cells_in_row + first +
+           whole((p.x - minimum.x) * cells_per_length);
+  }
+};
+
+/// Puts the number of each point's cell into `numbers`, which has room for them.
+void number_cells(std::span<const Point> points, const CellNumbering& numbering, std::uint32_t* numbers,
+                  Kernel kernel = best_kernel());
+
+/// Has the processor fetch the points while it does something else.
+inline void prefetch(std::span<const Point> points) {
+  constexpr std::size_t kInCacheLine = 64 / sizeof(Point);
+  for (std::size_t i = 0; i < points.size(); i += kInCacheLine) __builtin_prefetch(&points[i]);
+}
+
+/// Calls visit(begin, block, numbers) for blocks of consecutive points in their order: the first of them is
+/// points[begin], and block[i] lies in the cell numbers[i].
+template <class Visit>
+void visit_numbered(std::span<const Point> points, const CellNumbering& numbering, const Visit& visit) {
+  constexpr std::size_t kBlock = 128;
+  std::array<std::uint32_t, kBlock> numbers;
+  for (std::size_t begin = 0; begin < points.size(); begin += kBlock) {
+    const std::span<const Point> block = points.subspan(begin, std::min(kBlock, points.size() - begin));
+    number_cells(block, numbering, numbers.data());
+    prefetch(points.subspan(begin + block.size(), std::min(kBlock, points.size() - begin - block.size())));
+    visit(begin, block, numbers.data());
+  }
+}
+
+}  // namespace polylidar::detail

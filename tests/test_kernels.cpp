@@ -1,0 +1,123 @@
+// The loops over all points give the same whatever registers they are compiled for, and what simple code
+// gives.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <stdexcept>
+#include <vector>
+
+#include "core/src/cell_numbers.hpp"
+#include "core/src/coordinate_range.hpp"
+#include "core/src/window_sample.hpp"
+#include "tests/point_sets.hpp"
+
+namespace polylidar::detail {
+namespace {
+
+using testing::Random;
+
+std::vector<Kernel> kernels() {
+  std::vector<Kernel> supported;
+  for (const Kernel kernel : {Kernel::kPortable, Kernel::kAvx2, Kernel::kAvx512}) {
+    if (is_supported(kernel)) supported.push_back(kernel);
+  }
+  return supported;
+}
+
+TEST(Kernels, ThePortableOneIsSupportedAndTheBestIs) {
+  EXPECT_TRUE(is_supported(Kernel::kPortable));
+  EXPECT_TRUE(is_supported(best_kernel()));
+}
+
+TEST(Kernels, NumberCells) {
+  Random random(1);
+  for (std::size_t count = 0; count < 300; ++count) {
+    const double side = random.between(1, 1000);
+    const CellNumbering numbering{{-3, 7}, random.between(0.1, 50) / side, 51, 9};
+    std::vector<Point> points(count);
+    for (Point& p : points) p = {-3 + side * random.unit(), 7 + side * random.unit()};
+    std::vector<std::uint32_t> expected;
+    for (const Point& p : points) {
+      const double row = std::floor((p.y - 7) * numbering.cells_per_length);
+      const double column = std::floor((p.x + 3) * numbering.cells_per_length);
+      expected.push_back(static_cast<std::uint32_t>(9 + 51 * row + column));
+    }
+    for (const Kernel kernel : kernels()) {
+      std::vector<std::uint32_t> numbers(count + 1, 77);
+      number_cells(points, numbering, numbers.data(), kernel);
+      EXPECT_EQ(numbers.back(), 77U) << "written beyond the end";
+      numbers.pop_back();
+      EXPECT_EQ(numbers, expected) << count << " points, kernel " << static_cast<int>(kernel);
+    }
+    std::vector<std::uint32_t> in_blocks;
+    visit_numbered(points, numbering,
+                   [&](std::size_t begin, std::span<const Point> block, const std::uint32_t* numbers) {
+                     EXPECT_EQ(begin, in_blocks.size());
+                     EXPECT_EQ(block.data(), points.data() + begin);
+                     in_blocks.insert(in_blocks.end(), numbers, numbers + block.size());
+                   });
+    EXPECT_EQ(in_blocks, expected);
+  }
+}
+
+TEST(Kernels, MeasureCoordinates) {
+  Random random(2);
+  ThreadPool pool;
+  for (std::size_t count = 1; count < 40; ++count) {
+    std::vector<Point> points(count);
+    for (Point& p : points) p = {random.between(-5, 3), random.between(100, 900)};
+    for (std::size_t last = 0; last < 2; ++last) {
+      // What counts is in one point alone, once in each place of a vector and behind the last whole one.
+      const std::size_t special = last == 0 ? random.below(count) : count - 1;
+      std::vector<Point> extreme = points;
+      extreme[special] = {-0x1p40, 0x1p41};
+      std::vector<Point> tiny = points;
+      tiny[special].x = 0x1p-130;
+      std::vector<Point> bad = points;
+      bad[special].y = std::numeric_limits<double>::quiet_NaN();
+      std::vector<Point> infinite = points;
+      infinite[special].x = -std::numeric_limits<double>::infinity();
+      for (const Kernel kernel : kernels()) {
+        SCOPED_TRACE(::testing::Message() << count << " points, kernel " << static_cast<int>(kernel));
+        EXPECT_EQ(measure_coordinates(points, pool, kernel).box, bounding_box(points));
+        EXPECT_EQ(measure_coordinates(extreme, pool, kernel).box, bounding_box(extreme));
+        EXPECT_EQ(measure_coordinates(points, pool, kernel).scale_exponent, 0);
+        EXPECT_NE(measure_coordinates(tiny, pool, kernel).scale_exponent, 0);
+        EXPECT_THROW(measure_coordinates(bad, pool, kernel), std::invalid_argument);
+        EXPECT_THROW(measure_coordinates(infinite, pool, kernel), std::invalid_argument);
+      }
+    }
+  }
+}
+
+TEST(NumberCounts, HasTheMedianAndTheDeviationOfAllNumbers) {
+  Random random(3);
+  for (std::size_t count = 1; count < 200; ++count) {
+    // Some below 256, each of which counts as itself, and some far above.
+    const std::size_t most = count % 3 == 0 ? 200'000 : 255;
+    NumberCounts counts;
+    counts.clear();
+    std::vector<double> numbers;
+    for (std::size_t i = 0; i < count; ++i) {
+      const auto number = static_cast<std::uint32_t>(1 + random.below(most));
+      counts.add(number);
+      numbers.push_back(number);
+    }
+    ASSERT_EQ(counts.total(), count);
+    std::sort(numbers.begin(), numbers.end());
+    const double median = numbers[count / 2];
+    const double accuracy = most < 256 ? 0 : 0.004;
+    EXPECT_NEAR(counts.median(), median, accuracy * median);
+    std::vector<double> distances;
+    for (const double number : numbers) distances.push_back(std::abs(std::log(number / median)));
+    std::sort(distances.begin(), distances.end());
+    const double expected = distances[std::min(count - 1, count * 9 / 10)] / 1.645;
+    EXPECT_NEAR(counts.robust_deviation_of_logarithms(median), expected, accuracy + 1e-12);
+  }
+}
+
+}  // namespace
+}  // namespace polylidar::detail
