@@ -153,19 +153,19 @@ double AutomaticLimit::measure_block(const Mesh& mesh, const Point* vertices, st
     if (step == 1 || sizes.size() >= kMeasured / 4) break;
   }
   const std::size_t first_border = borders.size();
-  std::size_t known = first_border;
+  scratch.border_with.resize(usual4_.size(), 0);
   for (std::size_t c = 0; c < crossings; ++c) {
     const Mesh::Index twin = mesh.twin(crossing[c]);
     if (mesh.is_ghost(Mesh::triangle_of(twin))) continue;
     const std::uint32_t neighbour = field_.block_of_vertex[Mesh::triangle_of(twin) / 2];
     const double squared = squared_length(vertices[mesh.origin(crossing[c])] - vertices[mesh.origin(twin)]);
     const double length4 = squared * squared;
-    if (known == borders.size() || borders[known].neighbour != neighbour) {  // often that of the edge before
-      known = first_border;
-      while (known < borders.size() && borders[known].neighbour != neighbour) ++known;
-      if (known == borders.size()) borders.push_back({block, neighbour, length4});
+    std::uint32_t& place = scratch.border_with[neighbour];
+    if (place < first_border || place >= borders.size() || borders[place].neighbour != neighbour) {
+      place = static_cast<std::uint32_t>(borders.size());
+      borders.push_back({block, neighbour, length4});
     }
-    borders[known].length4 = std::min(borders[known].length4, length4);
+    borders[place].length4 = std::min(borders[place].length4, length4);
   }
   return sizes.empty() ? kInfinity : quantile_of(sizes, quantile);
 }

@@ -159,6 +159,8 @@ class AutomaticLimit {
   struct BlockScratch {
     std::vector<double> sizes;          ///< of its triangles
     std::vector<Mesh::Index> crossing;  ///< half-edges with twins in other blocks
+    /// Block -> its place among the borders, where it is a neighbour of the block that is looked at.
+    std::vector<std::uint32_t> border_with;
   };
   struct Sampled {
     double size4;  ///< in usual sizes of its block

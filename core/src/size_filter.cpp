@@ -361,11 +361,22 @@ template <class Whole>
 void SizeFilter::fill_small_holes(const Mesh& mesh, const Point* vertices, const Whole& whole,
                                   const SizeField& field, std::uint64_t* kept) {
   SeenTriangles seen(mesh, seen_);
+  const auto enter = [&](Index t) {
+    if (!mesh.is_kept(t) && !mesh.is_ghost(t) && seen.add(t)) group_.push_back(t);
+  };
+  group_.clear();  // first what is connected to the outside
+  for_each_dropped(mesh, 0, mesh.word_count(), kept, [&](Index t) {
+    if (!mesh.is_ghost(t)) return;
+    for (Index k = 0; k < 3; ++k) enter(neighbour(mesh, t, k));
+  });
+  for (std::size_t next = 0; next < group_.size(); ++next) {
+    for (Index k = 0; k < 3; ++k) enter(neighbour(mesh, group_[next], k));
+  }
   changed_.clear();
   for_each_dropped(mesh, 0, mesh.word_count(), kept, [&](Index start) {
-    if (mesh.is_ghost(start) || !seen.add(start)) return;
-    group_.assign(1, start);
-    bool is_enclosed = true;
+    group_.clear();
+    enter(start);
+    if (group_.empty()) return;
     bool has_wide = field.wide_radius == 0;
     double squared_radius = 0;  // the greatest
     double squared_sizes = 0;   // of the kept triangles along its border
@@ -374,7 +385,7 @@ void SizeFilter::fill_small_holes(const Mesh& mesh, const Point* vertices, const
       const Index t = group_[next];
       // Only triangles that are too large count: one that was dropped as a spike or with a small part may lie
       // where a part of the mesh was not built.
-      if (is_enclosed && whole.ask(OneSizeRule(field.limit4_at(t)), t) != Answer::kYes) {
+      if (whole.ask(OneSizeRule(field.limit4_at(t)), t) != Answer::kYes) {
         squared_radius = std::max(squared_radius, squared_circumradius(Triangle(mesh, vertices, t)));
         if (!has_wide) {
           const Answer answer = whole.ask(not_wide(field, t), t);
@@ -384,17 +395,14 @@ void SizeFilter::fill_small_holes(const Mesh& mesh, const Point* vertices, const
       }
       for (Index j = 0; j < 3; ++j) {
         const Index other = neighbour(mesh, t, j);
-        if (mesh.is_kept(other)) {
-          squared_sizes += std::sqrt(Triangle(mesh, vertices, other).size4());
-          ++border;
-        } else if (mesh.is_ghost(other)) {
-          is_enclosed = false;
-        } else if (seen.add(other)) {
-          group_.push_back(other);
-        }
+        enter(other);
+        if (!mesh.is_kept(other)) continue;
+        const double size4 =
+            field.size4 != nullptr ? field.size4[other] : Triangle(mesh, vertices, other).size4();
+        squared_sizes += std::sqrt(size4);
+        ++border;
       }
     }
-    if (!is_enclosed) return;
     const double widest = squared_radius * static_cast<double>(border);
     const double least = field.wide_square * squared_sizes;
     constexpr double kRounding = 0x1p-30;  // the sum's order depends on how the mesh was built
