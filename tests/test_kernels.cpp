@@ -63,6 +63,33 @@ TEST(Kernels, NumberCells) {
   }
 }
 
+TEST(Kernels, FindCoordinatesNearBorders) {
+  EXPECT_FALSE(is_near_border(0));
+  EXPECT_FALSE(is_near_border(0x1p-40));
+  EXPECT_FALSE(is_near_border(0.5));
+  for (const double border : {1.0, 2.0, 777.0, 1048575.0}) {
+    for (const double distance : {0.0, -0x1p-29, 0x1p-29, -0x1p-28, 0x1p-28 - 0x1p-31}) {
+      EXPECT_TRUE(is_near_border(border + distance)) << border << " + " << distance;
+    }
+    for (const double distance : {-0x1p-27, 0x1p-27, -0x1p-28 - 0x1p-31, 0x1p-28, -0.25, 0.25}) {
+      EXPECT_FALSE(is_near_border(border + distance)) << border << " + " << distance;
+    }
+  }
+  Random random(4);
+  const CellNumbering numbering{{-2, 5}, 8, 10, 0};
+  for (std::size_t count = 0; count < 60; ++count) {
+    std::vector<Point> points(count);
+    for (Point& p : points)
+      p = {-2 + (static_cast<double>(random.below(9)) + 0.25) / 8,
+           5 + (static_cast<double>(random.below(9)) + 0.75) / 8};
+    for (const Kernel kernel : kernels()) EXPECT_FALSE(any_near_border(points, numbering, kernel));
+    if (count == 0) continue;
+    Point& p = points[random.below(count)];
+    (count % 2 == 0 ? p.x : p.y) += count % 2 == 0 ? 0.75 / 8 : 0.25 / 8;
+    for (const Kernel kernel : kernels()) EXPECT_TRUE(any_near_border(points, numbering, kernel)) << count;
+  }
+}
+
 TEST(Kernels, MeasureCoordinates) {
   Random random(2);
   ThreadPool pool;

@@ -1,4 +1,8 @@
 // The core by itself, whole and step by step.
+#include <atomic>
+#include <barrier>
+#include <thread>
+
 #include "benchmarks/micro/measure.hpp"
 #include "benchmarks/micro/measured_functions.hpp"
 #include "polylidar/concave_hull.hpp"
@@ -12,6 +16,31 @@ void concave_hull(benchmark::State& state, const SpeedPointSet& set) {
   measure(state, set, set.polygons, Memory::kCounted, [&] {
     return extractor.extract(set.points, {.alpha = set.alpha, .threads = threads}).polygon_count();
   });
+}
+
+/// Two hulls of one thread each at the same time: how much longer than one of them it takes is what two cores
+/// of this machine share, whatever the code does.
+void two_hulls_at_once(benchmark::State& state, const SpeedPointSet& set) {
+  std::barrier<> begin(2);
+  std::barrier<> end(2);
+  std::atomic<bool> is_over = false;
+  std::thread other([&] {
+    polylidar::Extractor extractor;
+    for (begin.arrive_and_wait(); !is_over; begin.arrive_and_wait()) {
+      extractor.extract(set.points, {.alpha = set.alpha});
+      end.arrive_and_wait();
+    }
+  });
+  polylidar::Extractor extractor;
+  measure(state, set, set.polygons, Memory::kNotCounted, [&] {
+    begin.arrive_and_wait();
+    const std::size_t polygons = extractor.extract(set.points, {.alpha = set.alpha}).polygon_count();
+    end.arrive_and_wait();
+    return polygons;
+  });
+  is_over = true;
+  begin.arrive_and_wait();
+  other.join();
 }
 
 /// With a perimeter about where the automatic limit lies: 12.4 times the spacing of the points.
@@ -73,6 +102,7 @@ void polygons(benchmark::State& state, const SpeedPointSet& set) {
 constexpr std::size_t kMostPoints = 10'000'000;
 constexpr MeasuredFunction kFunctions[] = {{"concave_hull", &concave_hull<1>, kMostPoints},
                                            {"concave_hull_2_threads", &concave_hull<2>, kMostPoints},
+                                           {"two_hulls_at_once", &two_hulls_at_once, 1'000'000},
                                            {"concave_hull_automatic", &concave_hull_automatic, kMostPoints},
                                            {"concave_hull_perimeter", &concave_hull_perimeter, kMostPoints},
                                            {"concave_hull_whole", &concave_hull_whole, kMostPoints},

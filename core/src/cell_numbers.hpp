@@ -20,16 +20,30 @@ struct CellNumbering {
   std::uint32_t cells_in_row;  ///< from a cell to the one above it
   std::uint32_t first;         ///< the number of the cell at the beginning
 
+  /// A point's coordinates in cells.
+  double column(const Point& p) const { return (p.x - minimum.x) * cells_per_length; }
+  double row(const Point& p) const { return (p.y - minimum.y) * cells_per_length; }
   std::uint32_t of(const Point& p) const {
     const auto whole = [](double u) { return static_cast<std::uint32_t>(static_cast<std::int32_t>(u)); };
-    return whole((p.y - minimum.y) * cells_per_length) * cells_in_row + first +
-           whole((p.x - minimum.x) * cells_per_length);
+    return whole(row(p)) * cells_in_row + first + whole(column(p));
   }
 };
 
 /// Puts the number of each point's cell into `numbers`, which has room for them.
 void number_cells(std::span<const Point> points, const CellNumbering& numbering, std::uint32_t* numbers,
                   Kernel kernel = best_kernel());
+
+/// Whether a coordinate in cells is so near the border between two columns or rows that rounding might put it
+/// beyond. The side where the grid begins is no border.
+inline bool is_near_border(double u) {
+  constexpr double kNear = 0x1p-28;  // beyond Grid::kSlack
+  const double part = u - static_cast<double>(static_cast<std::int32_t>(u));
+  return ((u > 0.5) & ((part < kNear) | (part >= 1 - kNear))) != 0;  // without branches
+}
+
+/// Whether a coordinate of any of the points is.
+bool any_near_border(std::span<const Point> points, const CellNumbering& numbering,
+                     Kernel kernel = best_kernel());
 
 /// Has the processor fetch the points while it does something else.
 inline void prefetch(std::span<const Point> points) {

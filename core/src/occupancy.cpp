@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "polylidar/delaunay.hpp"
+#include "selected.hpp"
 
 namespace polylidar::detail {
 
@@ -17,23 +18,10 @@ bool are_close(const Point& p, const Point& q, double distance) {
   return std::abs(p.x - q.x) <= distance && std::abs(p.y - q.y) <= distance && p != q;
 }
 
-/// A coordinate in cells with so many bits behind the point.
-constexpr unsigned kFineBits = 28;
-constexpr std::int64_t kCell = std::int64_t{1} << kFineBits;
-static_assert(1.0 / static_cast<double>(kCell) > Grid::kSlack);
-
-std::int64_t fine(double u) {
-  return static_cast<std::int64_t>(u * static_cast<double>(kCell));
-}
-
-/// Whether a coordinate is within kSlack of the border between two columns or rows; 0 is the box's side.
-bool is_on_border(std::int64_t fine) {
-  return fine > kCell / 2 && ((fine + 1) & (kCell - 1)) < 2;
-}
-
 /// The place within a cell, roughly: of close points in one cell both differ by at most 1.
-std::uint16_t rough(std::int64_t fine) {
-  return static_cast<std::uint16_t>(fine >> (kFineBits - 16U));
+std::uint16_t rough(double u) {
+  constexpr double kSteps = 0x1p16;  // to a cell
+  return static_cast<std::uint16_t>(static_cast<std::int64_t>(u * kSteps));
 }
 
 }  // namespace
@@ -50,14 +38,22 @@ void ClosePairs::look_at(std::span<const Point> points, std::size_t begin, std::
   for (std::vector<Link>& of_band : chunk.in_shared) of_band.clear();
   chunk.on_borders.clear();
   const std::size_t words_in_band = words_of_band(grid, 1).begin;
-  for (std::size_t i = begin; i < end; ++i) {
-    const auto p = static_cast<std::uint32_t>(i);
-    const std::int64_t x = fine(grid.column(points[p]));
-    const std::int64_t y = fine(grid.row(points[p]));
-    if (is_on_border(x) || is_on_border(y)) chunk.on_borders.push_back(p);
-    if (!shared.test(cells[p])) continue;
-    const std::size_t band = cells[p] / Grid::kWordBits / words_in_band;
-    chunk.in_shared[band].push_back({p, kNone, rough(x), rough(y)});
+  constexpr std::size_t kBlock = 512;
+  for (; begin < end; begin += kBlock) {
+    const std::size_t stop = std::min(begin + kBlock, end);
+    if (any_near_border(points.subspan(begin, stop - begin), grid.numbering())) {
+      for (std::size_t i = begin; i < stop; ++i) {
+        if (is_near_border(grid.column(points[i])) || is_near_border(grid.row(points[i]))) {
+          chunk.on_borders.push_back(static_cast<std::uint32_t>(i));
+        }
+      }
+    }
+    for_each_selected(
+        begin, stop, [&](std::size_t i) { return shared.test(cells[i]); },
+        [&](std::uint32_t i) {
+          chunk.in_shared[cells[i] / Grid::kWordBits / words_in_band].push_back(
+              {i, kNone, rough(grid.column(points[i])), rough(grid.row(points[i]))});
+        });
   }
 }
 

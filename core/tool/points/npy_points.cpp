@@ -109,6 +109,7 @@ void grow(std::vector<Point>& points, std::uint64_t needed, std::uint64_t count,
   if (points.size() >= needed) return;
   const std::uint64_t size =
       size_known ? count : std::min(count, std::max(needed, 2 * std::uint64_t{points.size()}));
+  if (size_known) reserve_points(points, static_cast<std::size_t>(size));
   points.resize(static_cast<std::size_t>(size));
 }
 

@@ -17,7 +17,7 @@ void read_raw(BlockReader& reader, PointFile& file) {
   const PointFileOptions& options = reader.options();
   if (const std::optional<std::uint64_t> size = reader.remaining()) {
     if (*size % kSize != 0) fail_size();
-    if (!options.take_points) file.points.reserve(static_cast<std::size_t>(*size / kSize));
+    if (!options.take_points) reserve_points(file.points, static_cast<std::size_t>(*size / kSize));
   }
   std::uint64_t number = 0;
   std::vector<char> bytes;

@@ -34,7 +34,10 @@ std::vector<Point> read_ply(BlockReader& reader);
 /// With the coordinate system of its WKT or GeoKeys. Groups by classification, return or point_source.
 void read_las(BlockReader& reader, PointFile& file);
 
-/// To be called after each point that was added to `file`, and at the end with `at_end`: hands the points on
+/// Reserves memory for `count` points, in huge pages where the system has them.
+void reserve_points(std::vector<Point>& points, std::size_t count);
+
+/// To be called after points were added to `file`, and at the end with `at_end`: hands the points on
 /// where somebody takes them.
 inline void hand_on(PointFile& file, const PointFileOptions& options, bool at_end = false) {
   constexpr std::size_t kBlock = std::size_t{1} << 18U;
