@@ -12,15 +12,13 @@
 #include "benchmarks/plan/parameter_rules.hpp"
 #include "benchmarks/run/drawn_case.hpp"
 #include "benchmarks/run/runner.hpp"
+#include "benchmarks/run/workbench.hpp"
 #include "benchmarks/tune/analysis.hpp"
 #include "benchmarks/tune/halving.hpp"
 #include "benchmarks/tune/search.hpp"
-#include "benchmarks/worker/method_session.hpp"
 
 namespace hullbench::tune {
 namespace {
-
-namespace fs = std::filesystem;
 
 /// The cases that are being worked on: drawn by the first thread that wants them, and forgotten when the last
 /// one has moved on.
@@ -56,13 +54,9 @@ std::string kind_of(const polylidar::MultiPolygon& truth) {
   return kind_of_shape(truth.size(), holes);
 }
 
-std::vector<std::unique_ptr<worker::MethodSession>> make_sessions(const TunerOptions& options) {
-  std::vector<std::unique_ptr<worker::MethodSession>> sessions;
-  for (const std::string& name : options.methods) {
-    sessions.push_back(std::make_unique<worker::MethodSession>(
-        options.find_method(name), worker::WorkerLimits{options.mem_limit_mib, std::nullopt}));
-  }
-  return sessions;
+void add_methods(run::Workbench& bench, const TunerOptions& options) {
+  for (const std::string& name : options.methods)
+    bench.add(options.find_method(name), {options.mem_limit_mib, std::nullopt});
 }
 
 /// A method on a case.
@@ -155,21 +149,18 @@ struct Shared {
   WorkQueue queue{tuning};
 };
 
-/// Everything of one thread: its workers, which must be started by it as they end with it, and the case that
-/// they have.
-class Bench {
+/// One thread: its workers and the case that it is at.
+class TuningThread {
  public:
-  Bench(Shared& shared, const fs::path& scratch)
-      : shared_(shared), scratch_(scratch), sessions_(make_sessions(shared.options)) {
-    fs::create_directories(scratch_);
+  TuningThread(Shared& shared, const std::filesystem::path& scratch) : shared_(shared), bench_(scratch) {
+    add_methods(bench_, shared.options);
   }
 
   /// Takes the next method on a case until there is none.
   void take_turns() {
     while (const std::optional<WorkItem> item = shared_.queue.take()) {
       place_ = item->place;
-      which_method_ = item->what.which_method;
-      MethodTuning& method = shared_.tuning.methods[which_method_];
+      MethodTuning& method = shared_.tuning.methods[item->what.which_method];
       begin(method);
       enter(item->what.which_case);
       if (method.info) {
@@ -192,7 +183,6 @@ class Bench {
     which_case_ = which;
     drawn_ = shared_.drawn.get(which);
     spacing_ = plan::mean_spacing(drawn_->set().points);
-    points_.reset();
     const std::scoped_lock guard(shared_.mutex);
     TuningCase& one = shared_.tuning.cases[which];
     one.dataset_sha256 = drawn_->set().sha256;
@@ -252,29 +242,18 @@ class Bench {
 
   Evaluation evaluate(const MethodTuning& method, const Parameters& parameters) {
     throw_if_interrupted();
-    Evaluation evaluation = drawn_->record_of(method.name);
-    evaluation.name = tuning_case().plan_case.name();
-    evaluation.program = shared_.options.programs.at(method.name);
-    evaluation.parameters = parameters;
-    run::complete_record(evaluation, *method.info);
-    evaluation.id = evaluation_identity(evaluation);
-    if (const Evaluation* known = shared_.store.find(evaluation.id)) return *known;
+    run::MethodRun run(drawn_, method.name, parameters);
+    run.record.name = tuning_case().plan_case.name();
+    run.record.program = shared_.options.programs.at(method.name);
+    run.begin(*bench_.find(method.name), method.info, tuning_case().timeout_s);
+    run.record.id = evaluation_identity(run.record);
+    if (const Evaluation* known = shared_.store.find(run.record.id)) return *known;
     const auto start = std::chrono::steady_clock::now();
-    if (evaluation.status == record::Status::kOk) run(evaluation);
-    shared_.store.append(evaluation);
+    if (!run.over) bench_.attempt(run);
+    run.score_l2();
+    shared_.store.append(run.record);
     say(std::chrono::steady_clock::now() - start);
-    return evaluation;
-  }
-
-  void run(Evaluation& evaluation) {
-    const PointSet& set = drawn_->set();
-    if (!points_) points_ = worker::write_points(set.sha256, set.points, scratch_);
-    const worker::Attempt attempt = sessions_[which_method_]->run(*points_, evaluation.parameters, scratch_,
-                                                                  run::to_timeout(tuning_case().timeout_s));
-    evaluation.status = attempt.status;
-    evaluation.detail = attempt.detail;
-    if (attempt.status != record::Status::kOk) return;
-    if (const auto result = run::read_result(evaluation, attempt.wkb)) drawn_->score_l2(evaluation, *result);
+    return run.record;
   }
 
   void begin(const MethodTuning& method) {
@@ -295,23 +274,21 @@ class Bench {
   }
 
   Shared& shared_;
-  fs::path scratch_;
-  std::vector<std::unique_ptr<worker::MethodSession>> sessions_;  ///< by method; each starts at its first run
-  std::size_t place_ = 0;                                         ///< of the item in the progress
-  std::size_t which_method_ = 0;
+  run::Workbench bench_;
+  std::size_t place_ = 0;  ///< of the item in the progress
   std::size_t which_case_ = 0;
   std::shared_ptr<const run::DrawnCase> drawn_;  ///< of which_case_; null before the first one
   double spacing_ = 0;
-  std::optional<worker::LoadedPoints> points_;  ///< none: nothing was run on the case
 };
 
 /// Asks every method who it is.
 std::vector<MethodTuning> describe_methods(const TunerOptions& options, std::size_t cases,
-                                           run::Progress& progress) {
-  const auto sessions = make_sessions(options);
-  run::start_workers(sessions, progress);
+                                           const std::filesystem::path& scratch, run::Progress& progress) {
+  run::Workbench bench(scratch);
+  add_methods(bench, options);
+  bench.start(progress);
   std::vector<MethodTuning> methods;
-  for (const auto& session : sessions) {
+  for (const auto& session : bench.sessions()) {
     MethodTuning& method = methods.emplace_back();
     method.name = session->method().name;
     method.title = session->method().title;
@@ -394,12 +371,12 @@ Tuning run_tuning(std::vector<TuningCase> cases, const TunerOptions& options, Ev
   Tuning tuning;
   tuning.cases = std::move(cases);
   try {
-    tuning.methods = describe_methods(options, tuning.cases.size(), progress);
+    tuning.methods = describe_methods(options, tuning.cases.size(), store.scratch(), progress);
     Shared shared{tuning, options, store, progress};
     const std::vector<int> threads(static_cast<std::size_t>(options.jobs), kAnyCore);
     for_each_in_parallel(threads.size(), threads, [&](std::size_t thread) {
       try {
-        Bench(shared, store.scratch() / ("thread-" + std::to_string(thread))).take_turns();
+        TuningThread(shared, store.scratch() / ("thread-" + std::to_string(thread))).take_turns();
       } catch (...) {
         shared.queue.stop();
         throw;
