@@ -135,7 +135,7 @@ TEST_F(TuneTest, FindsTheBestOfAMadeUpMethod) {
   // below 1.
   EXPECT_NEAR(oracle.at("l2").get<double>(), best, 0.09);
   EXPECT_EQ(sweep("out").size(), 9U + 6U + 1U) << "the sweep, the refinement and the default";
-  for (const json& line : sweep("out")) EXPECT_LE(oracle.at("l2"), line.at("l2"));
+  for (const json& line : sweep("out")) EXPECT_LE(oracle.at("l2"), line.at("metrics").at("l2"));
   expect_valid("out/tune.json");
   expect_valid("out/sweep.jsonl");
 }
@@ -160,8 +160,8 @@ TEST_F(TuneTest, ItsPlanMeasuresWhatItFound) {
   std::set<std::string> tested;
   for (const json& line : sweep("out")) {
     for (const json& protocol : line.at("protocols")) {
-      found[line.at("method").get<std::string>() + "/" + line.at("case").get<std::string>() +
-            "/protocol:" + protocol.get<std::string>()] = line.at("l2");
+      found[line.at("method").get<std::string>() + "/" + line.at("name").get<std::string>() +
+            "/protocol:" + protocol.get<std::string>()] = line.at("metrics").at("l2");
     }
     if (line.at("side") == "test") tested.insert(line.at("dataset"));
   }
@@ -251,14 +251,14 @@ TEST_F(TuneTest, FailuresAreEvaluationsAndInfinitelyBad) {
   for (const json& line : sweep("failing")) {
     EXPECT_EQ(line.at("status"), "crash");
     EXPECT_EQ(line.at("detail"), "SIGABRT");
-    EXPECT_TRUE(line.at("l2").is_null());
+    EXPECT_TRUE(line.at("metrics").empty());
   }
   EXPECT_EQ(sweep("failing").size(), 25U);
   EXPECT_EQ(tune(plan(json::array({{{"dataset", "star-1"}, {"n", {202}}}})), "moody", "crossing").code, 4);
   const json crossing = sweep("crossing").front();
   EXPECT_EQ(crossing.at("status"), "invalid_output");
   EXPECT_TRUE(crossing.at("detail").get<std::string>().starts_with("the result is an invalid polygon: "));
-  EXPECT_TRUE(crossing.at("l2").is_null());
+  EXPECT_TRUE(crossing.at("metrics").empty());
   EXPECT_TRUE(method_of(summary("failing"), "moody").at("tuned").is_null());
   expect_valid("failing/tune.json");
   expect_valid("failing/sweep.jsonl");
@@ -286,7 +286,7 @@ TEST_F(TuneTest, GoesOnAfterAnInterruptionToTheSameResult) {
   const std::size_t kept = sweep("parts").size();
   ASSERT_LT(kept, sweep("whole").size()) << "it was over before the interruption";
   // As a kill leaves it.
-  write_text(file, read_text(file) + "{\"kind\": \"eval");
+  write_text(file, read_text(file) + "{\"dataset\": \"star");
   expect_end(tune(cases, "disc|polylidar", "parts"), 0,
              std::to_string(kept) + " evaluations are there already");
   for (const char* name : {"sweep.jsonl", "tune.json", "tuning.md", "small-tuned.json"})

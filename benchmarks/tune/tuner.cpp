@@ -121,7 +121,7 @@ class WorkQueue {
       return;
     }
     for (std::size_t i = 0; i < tuning_.cases.size(); ++i) {
-      if (tuning_.cases[i].side != Side::kTest) continue;
+      if (tuning_.cases[i].side() != Side::kTest) continue;
       for (std::size_t m = 0; m < tuning_.methods.size(); ++m) items_.push_back({i, m, {}});
     }
   }
@@ -142,7 +142,7 @@ class WorkQueue {
 struct Shared {
   Tuning& tuning;
   const TunerOptions& options;
-  EvaluationStore& store;
+  run::RowStore& store;
   run::Progress& progress;
   DrawnCases drawn{tuning.cases, options.folders};
   std::mutex mutex{};  ///< of tuning.cases and progress
@@ -199,8 +199,8 @@ class TuningThread {
     return method.axis && !drawn_->set().ground_truth.empty() && (!method.axis->spacings || spacing_ > 0);
   }
 
-  const Evaluation& evaluate_at(const MethodTuning& method, MethodOnCase& found, double position,
-                                bool on_grid) {
+  const record::RunRecord& evaluate_at(const MethodTuning& method, MethodOnCase& found, double position,
+                                       bool on_grid) {
     Parameters parameters = fixed_parameters(*method.info);
     parameters[method.axis->parameter] = value_at(*method.axis, position, spacing_);
     found.sweep.push_back({position, on_grid, evaluate(method, parameters)});
@@ -212,7 +212,7 @@ class TuningThread {
     if (!can_be_searched(method)) return;
     int timeouts = 0;
     for (const double position : positions) {
-      const Evaluation& evaluation = evaluate_at(method, found, position, true);
+      const record::RunRecord& evaluation = evaluate_at(method, found, position, true);
       timeouts = evaluation.status == record::Status::kTimeout ? timeouts + 1 : 0;
       if (timeouts == kMostTimeouts) return;
     }
@@ -231,7 +231,7 @@ class TuningThread {
       found.protocols.emplace("default", evaluate(method, fixed_parameters(*method.info)));
     if (!can_be_searched(method)) return;
     const auto points = search(*method.axis, [&](double position) {
-      const Evaluation& evaluation = evaluate_at(method, found, position, false);
+      const record::RunRecord& evaluation = evaluate_at(method, found, position, false);
       return Trial{error_of(evaluation), evaluation.status == record::Status::kTimeout};
     });
     for (std::size_t i = 0; i < points.size(); ++i) found.sweep[i].on_grid = points[i].on_grid;
@@ -240,18 +240,17 @@ class TuningThread {
       evaluate_at(method, found, tuned->position, false);
   }
 
-  Evaluation evaluate(const MethodTuning& method, const Parameters& parameters) {
+  record::RunRecord evaluate(const MethodTuning& method, const Parameters& parameters) {
     throw_if_interrupted();
     run::MethodRun run(drawn_, method.name, parameters);
     run.record.name = tuning_case().plan_case.name();
     run.record.program = shared_.options.programs.at(method.name);
     run.begin(*bench_.find(method.name), method.info, tuning_case().timeout_s);
-    run.record.id = evaluation_identity(run.record);
-    if (const Evaluation* known = shared_.store.find(run.record.id)) return *known;
+    if (const record::RunRecord* known = shared_.store.find_row(run.record.id)) return *known;
     const auto start = std::chrono::steady_clock::now();
     if (!run.over) bench_.attempt(run);
     run.score_l2();
-    shared_.store.append(run.record);
+    shared_.store.append_row(run.record);
     say(std::chrono::steady_clock::now() - start);
     return run.record;
   }
@@ -310,8 +309,6 @@ TuningCase make_case(const plan::Plan& plan, const plan::PlanCase& plan_case) {
   one.plan_case = plan_case;
   one.seed = plan.seed;
   one.timeout_s = plan.timeout_s;
-  one.shape = base_shape(plan_case.dataset);
-  one.side = side_of(plan_case.dataset);
   return one;
 }
 
@@ -329,9 +326,13 @@ void add_entries(TuningCase& one, const plan::Plan& plan) {
 
 }  // namespace
 
-const Evaluation* best_evaluation(const MethodOnCase& found) {
-  const Evaluation* best = nullptr;
-  const auto consider = [&](const Evaluation& one) {
+double error_of(const record::RunRecord& evaluation) {
+  return evaluation.metrics.value("l2", kInfinitelyBad);
+}
+
+const record::RunRecord* best_evaluation(const MethodOnCase& found) {
+  const record::RunRecord* best = nullptr;
+  const auto consider = [&](const record::RunRecord& one) {
     if (best == nullptr || error_of(one) < error_of(*best)) best = &one;
   };
   for (const SweepEvaluation& one : found.sweep) consider(one.evaluation);
@@ -339,14 +340,14 @@ const Evaluation* best_evaluation(const MethodOnCase& found) {
   return best;
 }
 
-const Evaluation* evaluation_at(const MethodOnCase& found, double position) {
+const record::RunRecord* evaluation_at(const MethodOnCase& found, double position) {
   const auto same = [&](const SweepEvaluation& one) { return one.position == position; };
   const auto place = std::find_if(found.sweep.begin(), found.sweep.end(), same);
   return place == found.sweep.end() ? nullptr : &place->evaluation;
 }
 
 double error_at(const MethodOnCase& found, double position) {
-  const Evaluation* evaluation = evaluation_at(found, position);
+  const record::RunRecord* evaluation = evaluation_at(found, position);
   return evaluation == nullptr ? kInfinitelyBad : error_of(*evaluation);
 }
 
@@ -366,7 +367,7 @@ std::vector<TuningCase> tuning_cases(const std::vector<plan::Plan>& plans) {
   return cases;
 }
 
-Tuning run_tuning(std::vector<TuningCase> cases, const TunerOptions& options, EvaluationStore& store,
+Tuning run_tuning(std::vector<TuningCase> cases, const TunerOptions& options, run::RowStore& store,
                   run::Progress& progress) {
   Tuning tuning;
   tuning.cases = std::move(cases);
@@ -406,7 +407,7 @@ std::vector<run::ProgressRun> tuning_progress(const std::vector<TuningCase>& cas
   }
   constexpr int kProtocols = 3;  // default, auto and the tuned value
   for (const TuningCase& one : cases) {
-    if (one.side == Side::kTest) add(one, kProtocols + kSweepPoints + kRefinements);
+    if (one.side() == Side::kTest) add(one, kProtocols + kSweepPoints + kRefinements);
   }
   return result;
 }
