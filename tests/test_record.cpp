@@ -173,6 +173,7 @@ TEST(Identity, ChangesWithEveryFieldThatSaysWhatIsRun) {
       {"holes", [](record::RunRecord& record) { record.holes = !record.holes; }},
       {"seed", [](record::RunRecord& record) { ++record.seed; }},
       {"protocol", [](record::RunRecord& record) { record.protocol = "auto"; }},
+      {"program", [](record::RunRecord& record) { record.program = "ab"; }},
       {"parameter's value",
        [](record::RunRecord& record) {
          record.parameters["alpha"] = std::nextafter(record.parameters["alpha"], kInfinity);

@@ -12,6 +12,7 @@
 #include <numbers>
 #include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "benchmarks/metrics/area.hpp"
@@ -156,12 +157,12 @@ TEST_F(TuneTest, ItsPlanMeasuresWhatItFound) {
   const Outcome tuned = succeeded(tune(plan(both_sides(3)), "polylidar|disc", "out"));
   const Outcome run = succeeded(hullbench({"run", folder() / "out" / "small-tuned.json", "--out",
                                            folder() / "run", "--adapters", methods(), "--repetitions", "1"}));
-  std::map<std::string, double> found;
+  std::map<std::string, std::pair<double, std::string>> found;  // l2 and hash of the polygon
   std::set<std::string> tested;
   for (const json& line : sweep("out")) {
     for (const json& protocol : line.at("protocols")) {
-      found[line.at("method").get<std::string>() + "/" + line.at("name").get<std::string>() +
-            "/protocol:" + protocol.get<std::string>()] = line.at("metrics").at("l2");
+      found[line.at("method").get<std::string>() + "/" + line.at("name").get<std::string>() + "/protocol:" +
+            protocol.get<std::string>()] = {line.at("metrics").at("l2"), line.at("output_sha256")};
     }
     if (line.at("side") == "test") tested.insert(line.at("dataset"));
   }
@@ -172,7 +173,8 @@ TEST_F(TuneTest, ItsPlanMeasuresWhatItFound) {
   for (const json& row : rows) {
     ASSERT_TRUE(found.contains(row.at("name"))) << row.at("name");
     measured.insert(row.at("name"));
-    EXPECT_EQ(row.at("metrics").at("l2"), found.at(row.at("name"))) << row.at("name");
+    EXPECT_EQ(row.at("metrics").at("l2"), found.at(row.at("name")).first) << row.at("name");
+    EXPECT_EQ(row.at("output_sha256"), found.at(row.at("name")).second) << row.at("name");
     EXPECT_TRUE(row.at("protocol") != "tuned" || tested.contains(row.at("dataset"))) << row.at("name");
   }
   EXPECT_EQ(measured.size(), found.size());
@@ -321,6 +323,10 @@ TEST_F(TuneTest, RefusesWhatItCannotDo) {
                  "no method has a name that matches 'no_such_method'");
   expect_refusal(tune(cases, "(", "out"), 2, "is not a regular expression");
   expect_refusal(tune("no_such_plan", "disc", "out"), 2, "there is no plan 'no_such_plan'");
+  fs::create_directory(folder() / "old");
+  write_text(folder() / "old" / "sweep-1-of-2.jsonl", R"({"kind": "evaluation", "case": "ca/n:200/holes:0"})"
+                                                      "\n");
+  expect_refusal(tune(cases, "disc", "old"), 1, "sweep-1-of-2.jsonl is not a run's record");
   write_text(folder() / "file", "");
   expect_refusal(tune(cases, "disc", "file"), 2, "cannot write to the output folder");
   const std::string nobodys = plan(json::array({{{"dataset", "star-1~lattice:0"}, {"n", {200}}}}));

@@ -158,11 +158,8 @@ ExitCode exit_code(const tune::Tuning& tuning) {
 void write_results(const fs::path& folder, const tune::Tuning& tuning, const std::vector<plan::Plan>& plans,
                    const json& tool, const run::RowStore& store) {
   std::string sweep;
-  for (const json& line : tune::sweep_lines(tuning, store.rows()))
-    sweep += line.dump(-1, ' ', false, json::error_handler_t::replace) + "\n";
-  // Whole or not at all: the evaluations are what took the time.
-  write_text_file(folder / "sweep.new", sweep);
-  fs::rename(folder / "sweep.new", folder / kSweepFile);
+  for (const json& line : tune::sweep_lines(tuning, store.rows())) sweep += dump_text(line, -1) + "\n";
+  write_text_file(folder / kSweepFile, sweep);
   std::vector<std::string> names;
   for (const plan::Plan& plan : plans) {
     names.push_back(plan.name);
@@ -171,7 +168,7 @@ void write_results(const fs::path& folder, const tune::Tuning& tuning, const std
       write_text_file(folder / (chosen.name + ".json"), plan::plan_to_json(chosen).dump(1) + "\n");
   }
   const json summary = tune::tuning_to_json(tuning, names, tool);
-  write_text_file(folder / kSummaryFile, summary.dump(1, ' ', false, json::error_handler_t::replace) + "\n");
+  write_text_file(folder / kSummaryFile, dump_text(summary, 1) + "\n");
   std::ostringstream tables;
   table::print_markdown(tune::tuning_document(summary), tables);
   write_text_file(folder / kTuningTablesFile, tables.str());

@@ -59,10 +59,10 @@ int lock_or_throw(const fs::path& path) {
   return lock;
 }
 
-RowStore::RowStore(RowPlace place, int lock)
-    : place_(std::move(place)), scratch_(fs::absolute(place_.folder) / place_.scratch), lock_(lock) {
-  writer_.emplace(place_.folder / place_.file);
-  read_rows(place_.folder / place_.file);
+RowStore::RowStore(RowFile where, int lock)
+    : where_(std::move(where)), scratch_(fs::absolute(where_.folder) / where_.scratch), lock_(lock) {
+  writer_.emplace(where_.folder / where_.name);
+  read_rows(where_.folder / where_.name);
   fs::remove_all(scratch_);
   fs::create_directory(scratch_);
 }
@@ -74,6 +74,7 @@ RowStore::~RowStore() {
 }
 
 void RowStore::read_rows(const fs::path& file) {
+  const std::scoped_lock guard(mutex_);
   for (const nlohmann::json& line : record::load_json_lines(file).lines) {
     try {
       remember(line.get<record::RunRecord>());
@@ -91,7 +92,7 @@ const record::RunRecord* RowStore::find_row(const std::string& key) const {
 }
 
 void RowStore::remember(const record::RunRecord& row) {
-  const auto [place, is_new] = places_.emplace(row.*place_.key, rows_.size());
+  const auto [place, is_new] = places_.emplace(row.*where_.key, rows_.size());
   if (is_new) {
     rows_.push_back(row);
   } else {
@@ -102,14 +103,14 @@ void RowStore::remember(const record::RunRecord& row) {
 
 void RowStore::append_row(const record::RunRecord& row) {
   const std::scoped_lock guard(mutex_);
-  remember(row);
   writer_->append(row);
+  remember(row);
 }
 
 void RowStore::append_rows(const std::vector<record::RunRecord>& rows) {
   const std::scoped_lock guard(mutex_);
   const bool replaces_another_id = std::any_of(rows.begin(), rows.end(), [&](const record::RunRecord& row) {
-    const auto earlier = places_.find(row.*place_.key);
+    const auto earlier = places_.find(row.*where_.key);
     return earlier != places_.end() && rows_[earlier->second].id != row.id;
   });
   for (const record::RunRecord& row : rows) remember(row);
@@ -118,7 +119,7 @@ void RowStore::append_rows(const std::vector<record::RunRecord>& rows) {
     return;
   }
   for (const record::RunRecord& row : rows) writer_->append(row);
-  synchronise(place_.folder / place_.file);
+  synchronise(where_.folder / where_.name);
 }
 
 void RowStore::compact_rows() {
@@ -127,7 +128,7 @@ void RowStore::compact_rows() {
 }
 
 void RowStore::rewrite() {
-  const fs::path file = place_.folder / place_.file;
+  const fs::path file = where_.folder / where_.name;
   const fs::path temporary = file.string() + ".new";
   fs::remove(temporary);
   record::JsonLinesWriter writer(temporary);

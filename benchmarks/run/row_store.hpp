@@ -23,9 +23,9 @@ int try_lock(const std::filesystem::path& path);
 int lock_or_throw(const std::filesystem::path& path);
 
 /// Where rows are kept.
-struct RowPlace {
+struct RowFile {
   std::filesystem::path folder;         ///< must be there
-  std::string file;                     ///< in the folder
+  std::string name;                     ///< in the folder
   std::string scratch;                  ///< likewise: a folder for files that live no longer than the store
   std::string record::RunRecord::*key;  ///< what a row is found by, and replaced when there is a newer one
 };
@@ -35,12 +35,12 @@ class RowStore {
  public:
   /// `lock` is a descriptor of lock_or_throw, closed with this object. Reads what an earlier start left, and
   /// cuts off a torn last line. Throws std::runtime_error naming the file when it is damaged otherwise.
-  RowStore(RowPlace place, int lock);
+  RowStore(RowFile where, int lock);
   ~RowStore();
   RowStore(const RowStore&) = delete;
   RowStore& operator=(const RowStore&) = delete;
 
-  const std::filesystem::path& path() const { return place_.folder; }
+  const std::filesystem::path& path() const { return where_.folder; }
   /// Made anew, and removed with this object.
   const std::filesystem::path& scratch() const { return scratch_; }
 
@@ -64,7 +64,7 @@ class RowStore {
   void remember(const record::RunRecord& row);
   void rewrite();
 
-  RowPlace place_;
+  RowFile where_;
   std::filesystem::path scratch_;
   int lock_;
   mutable std::mutex mutex_;  ///< of all below

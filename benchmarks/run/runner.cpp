@@ -26,7 +26,7 @@ struct Entry {
   MethodRun run;
   std::vector<Repetition> repetitions = {};  ///< of all passes
   std::optional<Repetition> latest = {};     ///< of the round that is not over
-  bool settled = false;                      ///< its row is written
+  bool is_left = false;                      ///< its row is there, and nothing is to be done
 };
 
 /// The runs of one case: indices into the planned runs, the last one not included.
@@ -306,7 +306,7 @@ class Runner {
   /// Nothing is to be done, and the row is there.
   void leave_as_it_is(Entry& entry) {
     entry.run.over = true;
-    entry.settled = true;
+    entry.is_left = true;
     progress_.finish(entry.index);
   }
 
@@ -421,7 +421,7 @@ class Runner {
     std::vector<Entry*> finished;
     for (CaseWork& one : batch) {
       for (Entry& entry : one.entries) {
-        if (entry.run.over && !entry.settled) finished.push_back(&entry);
+        if (entry.run.over && !entry.is_left) finished.push_back(&entry);
       }
     }
     // Case by case first: the results of one case would wait for each other.
@@ -443,8 +443,7 @@ class Runner {
     directory_.append_rows(rows);
     for (std::size_t i = 0; i < rows.size() && options_.on_row; ++i)
       options_.on_row(rows[i], finished[i]->run.result);
-    for (Entry* entry : finished) {
-      entry->settled = true;
+    for (const Entry* entry : finished) {
       const record::RunRecord& record = entry->run.record;
       // Of a method that does not start this was said once already.
       if (record.status != record::Status::kOk && entry->run.session->info()) {

@@ -15,8 +15,9 @@ MethodRun::MethodRun(std::shared_ptr<const DrawnCase> drawn_case, const std::str
   record.parameters = std::move(parameters);
 }
 
-void MethodRun::begin(worker::MethodSession& with, const std::optional<MethodInfo>& info, double timeout_s) {
-  session = &with;
+void MethodRun::begin(worker::MethodSession& its_session, const std::optional<MethodInfo>& info,
+                      double timeout_s) {
+  session = &its_session;
   timeout = std::chrono::milliseconds(std::max<std::int64_t>(1, std::llround(timeout_s * 1000)));
   if (info) record.method_version = info->version;
   if (!info) {

@@ -23,12 +23,12 @@ namespace hullbench::run {
 /// A method with one parameter set on one case, on its way to its row: begin(), then Workbench::attempt()
 /// once or more often, then a score.
 struct MethodRun {
-  MethodRun(std::shared_ptr<const DrawnCase> drawn, const std::string& method, Parameters parameters);
+  MethodRun(std::shared_ptr<const DrawnCase> drawn_case, const std::string& method, Parameters parameters);
 
   /// Fills in the version, the defaults of `info`'s parameters that are not given, and the id. Without info
   /// (the method does not start), without points, and with a parameter that the method does not take, the run
   /// is over, and its status says why.
-  void begin(worker::MethodSession& session, const std::optional<MethodInfo>& info, double timeout_s);
+  void begin(worker::MethodSession& its_session, const std::optional<MethodInfo>& info, double timeout_s);
 
   /// Nothing more is run, for this reason.
   void fail(record::Status status, const std::string& detail);

@@ -161,7 +161,7 @@ class TuningThread {
     while (const std::optional<WorkItem> item = shared_.queue.take()) {
       place_ = item->place;
       MethodTuning& method = shared_.tuning.methods[item->what.which_method];
-      begin(method);
+      tell([&](run::Progress& progress) { progress.begin(place_); });
       enter(item->what.which_case);
       if (method.info) {
         MethodOnCase& found = method.cases[which_case_];
@@ -171,7 +171,7 @@ class TuningThread {
           sweep(method, found, item->what.positions);
         }
       }
-      end();
+      tell([&](run::Progress& progress) { progress.finish(place_); });
       shared_.queue.finish();
     }
   }
@@ -251,25 +251,17 @@ class TuningThread {
     if (!run.over) bench_.attempt(run);
     run.score_l2();
     shared_.store.append_row(run.record);
-    say(std::chrono::steady_clock::now() - start);
+    // The estimate takes evaluations as done one after the other.
+    const auto elapsed = (std::chrono::steady_clock::now() - start) / shared_.options.jobs;
+    tell([&](run::Progress& progress) { progress.advance(place_, elapsed); });
     return run.record;
   }
 
-  void begin(const MethodTuning& method) {
+  /// The progress is one for all threads.
+  template <typename Tell>
+  void tell(const Tell& tell_it) {
     const std::scoped_lock guard(shared_.mutex);
-    shared_.progress.begin(place_);
-    if (!method.info) shared_.progress.finish(place_);
-  }
-
-  /// An evaluation that was not known. The estimate takes them as done one after the other.
-  void say(std::chrono::nanoseconds elapsed) {
-    const std::scoped_lock guard(shared_.mutex);
-    shared_.progress.advance(place_, elapsed / shared_.options.jobs);
-  }
-
-  void end() {
-    const std::scoped_lock guard(shared_.mutex);
-    shared_.progress.finish(place_);
+    tell_it(shared_.progress);
   }
 
   Shared& shared_;
@@ -302,14 +294,6 @@ std::vector<MethodTuning> describe_methods(const TunerOptions& options, std::siz
     }
   }
   return methods;
-}
-
-TuningCase make_case(const plan::Plan& plan, const plan::PlanCase& plan_case) {
-  TuningCase one;
-  one.plan_case = plan_case;
-  one.seed = plan.seed;
-  one.timeout_s = plan.timeout_s;
-  return one;
 }
 
 /// The plan's entries for the case, but those whose parameters are to be chosen here.
@@ -360,7 +344,7 @@ std::vector<TuningCase> tuning_cases(const std::vector<plan::Plan>& plans) {
         return other.plan_case.key() == plan_case.key() && other.seed == plan.seed;
       };
       auto place = std::find_if(cases.begin(), cases.end(), same);
-      if (place == cases.end()) place = cases.insert(place, make_case(plan, plan_case));
+      if (place == cases.end()) place = cases.insert(place, {plan_case, plan.seed, plan.timeout_s});
       add_entries(*place, plan);
     }
   }

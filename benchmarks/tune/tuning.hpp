@@ -20,14 +20,14 @@ namespace hullbench::tune {
 /// One case of the plans.
 struct TuningCase {
   plan::PlanCase plan_case;
-  std::uint64_t seed = 0;                 ///< of the points
-  double timeout_s = 0;                   ///< for one evaluation
-  std::vector<plan::PlanMethod> entries;  ///< of the plans that have the case, those that apply to it
+  std::uint64_t seed = 0;                      ///< of the points
+  double timeout_s = 0;                        ///< for one evaluation
+  std::vector<plan::PlanMethod> entries = {};  ///< of the plans that have the case, those that apply to it
   // Known once its points were drawn:
-  std::string dataset_sha256;
-  std::int64_t n = 0;  ///< number of points
-  double spacing = 0;  ///< mean_spacing of its points (parameter_rules.hpp)
-  std::string kind;    ///< of its truth (strata.hpp)
+  std::string dataset_sha256 = {};
+  std::int64_t n = 0;     ///< number of points
+  double spacing = 0;     ///< mean_spacing of its points (parameter_rules.hpp)
+  std::string kind = {};  ///< of its truth (strata.hpp)
 
   std::string shape() const { return base_shape(plan_case.dataset); }
   Side side() const { return side_of(plan_case.dataset); }
