@@ -20,6 +20,9 @@ foreach(part IN ITEMS shard point_parts canary parallel)
   hullbench_test(test_${part} SOURCES test_${part}.cpp LIBRARIES hullbench::run LABELS harness)
 endforeach()
 
+hullbench_test(test_row_store SOURCES test_row_store.cpp
+  LIBRARIES hullbench::run hullbench_test_program LABELS harness)
+
 hullbench_test(test_worker SOURCES test_worker.cpp
   LIBRARIES hullbench::worker hullbench::base hullbench_test_program LABELS harness)
 target_compile_definitions(test_worker PRIVATE MISBEHAVING_WORKER="$<TARGET_FILE:misbehaving_worker>")

@@ -37,6 +37,7 @@ TEST(Record, RoundTripThroughTextKeepsEveryField) {
   record.passes = {1, 2, 3};
   record.canary_ns = {{5'000'000, 4'000'000}, {5'100'000, 4'100'000}, {5'200'000, 4'200'000}};
   record.cold_time_ns = 36'000'000;
+  record.program = std::string(64, 'a');
   const record::RunRecord back = json::parse(json(record).dump()).get<record::RunRecord>();
   EXPECT_EQ(back, record);
   EXPECT_EQ(json(back), json(record));
@@ -172,6 +173,7 @@ TEST(Identity, ChangesWithEveryFieldThatSaysWhatIsRun) {
       {"holes", [](record::RunRecord& record) { record.holes = !record.holes; }},
       {"seed", [](record::RunRecord& record) { ++record.seed; }},
       {"protocol", [](record::RunRecord& record) { record.protocol = "auto"; }},
+      {"program", [](record::RunRecord& record) { record.program = "ab"; }},
       {"parameter's value",
        [](record::RunRecord& record) {
          record.parameters["alpha"] = std::nextafter(record.parameters["alpha"], kInfinity);

@@ -12,6 +12,7 @@
 #include <numbers>
 #include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "benchmarks/metrics/area.hpp"
@@ -135,7 +136,7 @@ TEST_F(TuneTest, FindsTheBestOfAMadeUpMethod) {
   // below 1.
   EXPECT_NEAR(oracle.at("l2").get<double>(), best, 0.09);
   EXPECT_EQ(sweep("out").size(), 9U + 6U + 1U) << "the sweep, the refinement and the default";
-  for (const json& line : sweep("out")) EXPECT_LE(oracle.at("l2"), line.at("l2"));
+  for (const json& line : sweep("out")) EXPECT_LE(oracle.at("l2"), line.at("metrics").at("l2"));
   expect_valid("out/tune.json");
   expect_valid("out/sweep.jsonl");
 }
@@ -156,12 +157,12 @@ TEST_F(TuneTest, ItsPlanMeasuresWhatItFound) {
   const Outcome tuned = succeeded(tune(plan(both_sides(3)), "polylidar|disc", "out"));
   const Outcome run = succeeded(hullbench({"run", folder() / "out" / "small-tuned.json", "--out",
                                            folder() / "run", "--adapters", methods(), "--repetitions", "1"}));
-  std::map<std::string, double> found;
+  std::map<std::string, std::pair<double, std::string>> found;  // l2 and hash of the polygon
   std::set<std::string> tested;
   for (const json& line : sweep("out")) {
     for (const json& protocol : line.at("protocols")) {
-      found[line.at("method").get<std::string>() + "/" + line.at("case").get<std::string>() +
-            "/protocol:" + protocol.get<std::string>()] = line.at("l2");
+      found[line.at("method").get<std::string>() + "/" + line.at("name").get<std::string>() + "/protocol:" +
+            protocol.get<std::string>()] = {line.at("metrics").at("l2"), line.at("output_sha256")};
     }
     if (line.at("side") == "test") tested.insert(line.at("dataset"));
   }
@@ -172,7 +173,8 @@ TEST_F(TuneTest, ItsPlanMeasuresWhatItFound) {
   for (const json& row : rows) {
     ASSERT_TRUE(found.contains(row.at("name"))) << row.at("name");
     measured.insert(row.at("name"));
-    EXPECT_EQ(row.at("metrics").at("l2"), found.at(row.at("name"))) << row.at("name");
+    EXPECT_EQ(row.at("metrics").at("l2"), found.at(row.at("name")).first) << row.at("name");
+    EXPECT_EQ(row.at("output_sha256"), found.at(row.at("name")).second) << row.at("name");
     EXPECT_TRUE(row.at("protocol") != "tuned" || tested.contains(row.at("dataset"))) << row.at("name");
   }
   EXPECT_EQ(measured.size(), found.size());
@@ -251,14 +253,14 @@ TEST_F(TuneTest, FailuresAreEvaluationsAndInfinitelyBad) {
   for (const json& line : sweep("failing")) {
     EXPECT_EQ(line.at("status"), "crash");
     EXPECT_EQ(line.at("detail"), "SIGABRT");
-    EXPECT_TRUE(line.at("l2").is_null());
+    EXPECT_TRUE(line.at("metrics").empty());
   }
   EXPECT_EQ(sweep("failing").size(), 25U);
   EXPECT_EQ(tune(plan(json::array({{{"dataset", "star-1"}, {"n", {202}}}})), "moody", "crossing").code, 4);
   const json crossing = sweep("crossing").front();
   EXPECT_EQ(crossing.at("status"), "invalid_output");
   EXPECT_TRUE(crossing.at("detail").get<std::string>().starts_with("the result is an invalid polygon: "));
-  EXPECT_TRUE(crossing.at("l2").is_null());
+  EXPECT_TRUE(crossing.at("metrics").empty());
   EXPECT_TRUE(method_of(summary("failing"), "moody").at("tuned").is_null());
   expect_valid("failing/tune.json");
   expect_valid("failing/sweep.jsonl");
@@ -286,7 +288,7 @@ TEST_F(TuneTest, GoesOnAfterAnInterruptionToTheSameResult) {
   const std::size_t kept = sweep("parts").size();
   ASSERT_LT(kept, sweep("whole").size()) << "it was over before the interruption";
   // As a kill leaves it.
-  write_text(file, read_text(file) + "{\"kind\": \"eval");
+  write_text(file, read_text(file) + "{\"dataset\": \"star");
   expect_end(tune(cases, "disc|polylidar", "parts"), 0,
              std::to_string(kept) + " evaluations are there already");
   for (const char* name : {"sweep.jsonl", "tune.json", "tuning.md", "small-tuned.json"})
@@ -321,6 +323,10 @@ TEST_F(TuneTest, RefusesWhatItCannotDo) {
                  "no method has a name that matches 'no_such_method'");
   expect_refusal(tune(cases, "(", "out"), 2, "is not a regular expression");
   expect_refusal(tune("no_such_plan", "disc", "out"), 2, "there is no plan 'no_such_plan'");
+  fs::create_directory(folder() / "old");
+  write_text(folder() / "old" / "sweep-1-of-2.jsonl", R"({"kind": "evaluation", "case": "ca/n:200/holes:0"})"
+                                                      "\n");
+  expect_refusal(tune(cases, "disc", "old"), 1, "sweep-1-of-2.jsonl is not a run's record");
   write_text(folder() / "file", "");
   expect_refusal(tune(cases, "disc", "file"), 2, "cannot write to the output folder");
   const std::string nobodys = plan(json::array({{{"dataset", "star-1~lattice:0"}, {"n", {200}}}}));

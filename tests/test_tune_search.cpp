@@ -240,8 +240,6 @@ class InventedTuning {
       tune::TuningCase& one = tuning.cases.emplace_back();
       one.plan_case = {invented_shape(i), false, 500};
       one.seed = 1;
-      one.shape = base_shape(one.plan_case.dataset);
-      one.side = tune::side_of(one.shape);
       one.spacing = 1;
     }
   }
@@ -268,7 +266,7 @@ class InventedTuning {
     }
     const auto tuned_value = tuned();
     for (std::size_t i = 0; i < tuning.cases.size(); ++i) {
-      if (tuning.cases[i].side != tune::Side::kTest) continue;
+      if (tuning.cases[i].side() != tune::Side::kTest) continue;
       const auto points =
           tune::search(*method.axis, [&](double position) { return add(i, position, false); });
       for (std::size_t k = 0; k < points.size(); ++k) method.cases[i].sweep[k].on_grid = points[k].on_grid;
@@ -277,9 +275,9 @@ class InventedTuning {
     return *this;
   }
 
-  tune::Evaluation evaluation(const tune::TuningCase& one, double position, double error) const {
+  record::RunRecord evaluation(const tune::TuningCase& one, double position, double error) const {
     const tune::MethodTuning& method = tuning.methods.front();
-    tune::Evaluation result;
+    record::RunRecord result;
     result.parameters = tune::fixed_parameters(*method.info);
     result.parameters[method.axis->parameter] = tune::value_at(*method.axis, position, one.spacing);
     if (tune::is_infinitely_bad(error)) {
@@ -319,12 +317,12 @@ TEST(TunedTest, IsTheTrainingShapesBestAndNeverSeesATestShape) {
   InventedTuning invented(usual_method());
   int training = 0;
   std::erase_if(invented.tuning.cases, [&](const tune::TuningCase& one) {
-    return one.side == tune::Side::kTraining && ++training > 3;
+    return one.side() == tune::Side::kTraining && ++training > 3;
   });
   const auto tuned_with = [&](double best_of_tests) {
     return *invented
                 .with([&](const tune::TuningCase& one, double position) {
-                  return valley(position, one.side == tune::Side::kTraining ? 2 : best_of_tests);
+                  return valley(position, one.side() == tune::Side::kTraining ? 2 : best_of_tests);
                 })
                 .tuned();
   };
@@ -348,14 +346,14 @@ TEST(TunedTest, FailuresAreInfinitelyBadButAFewDoNotRuleAValueOut) {
   int count = 0;
   InventedTuning invented(usual_method());
   for (const tune::TuningCase& one : invented.tuning.cases)
-    count += one.side == tune::Side::kTraining ? 1 : 0;
+    count += one.side() == tune::Side::kTraining ? 1 : 0;
   ASSERT_GE(count, 8);
   int seen = 0;
   std::map<std::string, bool> failing;
   for (const tune::TuningCase& one : invented.tuning.cases)
-    failing[one.shape] = one.side == tune::Side::kTraining && seen++ % 4 == 0;
+    failing[one.shape()] = one.side() == tune::Side::kTraining && seen++ % 4 == 0;
   invented.with([&](const tune::TuningCase& one, double position) {
-    return failing[one.shape] ? tune::kInfinitelyBad : valley(position, 2);
+    return failing[one.shape()] ? tune::kInfinitelyBad : valley(position, 2);
   });
   EXPECT_NEAR(std::log2(invented.tuned()->position / 2), 0, 1.0 / 6);
   invented.with([](const tune::TuningCase&, double) { return tune::kInfinitelyBad; });
@@ -378,7 +376,6 @@ TEST(HalvingTest, EveryRoundHasEverySourceAndSampler) {
                            "han-1", "han-2", "star-3~gradient:4~noise:1"}) {
     tune::TuningCase& one = cases.emplace_back();
     one.plan_case.dataset = name;
-    one.side = tune::side_of(name);
   }
   std::vector<std::string> names;
   for (const std::size_t place : tune::training_order(cases)) names.push_back(cases[place].plan_case.dataset);
@@ -390,9 +387,9 @@ TEST(HalvingTest, FindsTheWinnerOfTheWholeSearchForHalfOfItsCost) {
   // Every shape's best is elsewhere, about 1.7; of their medians the whole grid has a known best.
   InventedTuning invented(usual_method(), 160);
   const auto error_of = [](const tune::TuningCase& one, double position) {
-    const double turns = 0.618 * std::stod(one.shape.substr(one.shape.find('-') + 1));
+    const double turns = 0.618 * std::stod(one.shape().substr(one.shape().find('-') + 1));
     return valley(position, 1.7 * std::exp2(turns - std::floor(turns) - 0.5)) *
-           (one.shape.back() == '1' ? 3 : 1);
+           (one.shape().back() == '1' ? 3 : 1);
   };
   invented.with(error_of);
   double best_score = tune::kInfinitelyBad;
@@ -401,7 +398,7 @@ TEST(HalvingTest, FindsTheWinnerOfTheWholeSearchForHalfOfItsCost) {
   for (const double position : tune::grid(length_axis(), tune::kGridPoints)) {
     std::vector<double> errors;
     for (const tune::TuningCase& one : invented.tuning.cases) {
-      if (one.side == tune::Side::kTraining) errors.push_back(error_of(one, position));
+      if (one.side() == tune::Side::kTraining) errors.push_back(error_of(one, position));
     }
     training = errors.size();
     std::sort(errors.begin(), errors.end());
@@ -439,12 +436,10 @@ TEST(StrataTest, AShapeWithManyCasesDoesNotHaveTheSay) {
   for (int i = 0; i < 12; ++i) {
     tune::TuningCase& one = invented.tuning.cases.emplace_back();
     one.plan_case = {"star-" + std::to_string(std::min(i + 1, 4)), false, 500 + i};
-    one.shape = one.plan_case.dataset;
-    one.side = tune::Side::kTraining;
     one.spacing = 1;
   }
   invented.with([](const tune::TuningCase& one, double position) {
-    return valley(position, one.shape == "star-4" ? 8 : 2);
+    return valley(position, one.shape() == "star-4" ? 8 : 2);
   });
   EXPECT_EQ(invented.tuned()->position, 2);
 }
@@ -470,8 +465,9 @@ TEST(ProtocolTest, TheOracleIsTheBestAndRegretIsWhatTheOthersAddToIt) {
   EXPECT_EQ(left_alone->cases, invented.tuning.cases.size() / 2) << "test cases only";
   const tune::ProtocolScore* tuned = score_of(scores, "tuned");
   ASSERT_NE(tuned, nullptr);
-  const auto tests = std::count_if(invented.tuning.cases.begin(), invented.tuning.cases.end(),
-                                   [](const tune::TuningCase& one) { return one.side == tune::Side::kTest; });
+  const auto tests =
+      std::count_if(invented.tuning.cases.begin(), invented.tuning.cases.end(),
+                    [](const tune::TuningCase& one) { return one.side() == tune::Side::kTest; });
   EXPECT_EQ(tuned->cases, static_cast<std::size_t>(tests));
   EXPECT_EQ(score_of(scores, "paper"), nullptr);
 }
@@ -503,7 +499,7 @@ TEST(SearchCostTest, IsWhatTheSearchHasFoundByThen) {
   invented.with([](const tune::TuningCase&, double) { return 1; });
   tune::MethodTuning& method = invented.tuning.methods[0];
   for (std::size_t i = 0; i < invented.tuning.cases.size(); ++i) {
-    invented.tuning.cases[i].side = tune::Side::kTest;
+    invented.tuning.cases[i].plan_case.dataset = invented_shape(2);
     method.cases[i].sweep.clear();
     const auto add = [&](double position, double error, bool on_grid) {
       method.cases[i].sweep.push_back(
@@ -531,7 +527,7 @@ TEST(CurveTest, IsRelativeToEachCasesOwnBest) {
   InventedTuning invented(usual_method());
   // Twice as hard on every second shape, which must not show in the relative curve.
   invented.with([](const tune::TuningCase& one, double position) {
-    const double hardness = one.shape.back() % 4 == 1 ? 2 : 1;
+    const double hardness = one.shape().back() % 4 == 1 ? 2 : 1;
     return position > 20 ? tune::kInfinitelyBad : hardness * valley(position, 2);
   });
   const auto curve = tune::sensitivity_curve(invented.tuning, invented.method());
@@ -563,7 +559,7 @@ TEST(TunedPlanTest, HasTheChosenParametersOnTheRightCases) {
       {parameter("alpha", "length^2", 0, kInfinity), parameter("allow_holes", "switch", 0, 1, 0)});
   InventedTuning invented(info);
   invented.with([](const tune::TuningCase& one, double position) {
-    return valley(position, one.shape == "star-7" ? 5 : 2);
+    return valley(position, one.shape() == "star-7" ? 5 : 2);
   });
   const plan::Plan plan =
       star_plan(R"([{"method": "made_up", "protocol": "paper", "parameters": {"alpha": 3}},
@@ -587,7 +583,7 @@ TEST(TunedPlanTest, HasTheChosenParametersOnTheRightCases) {
   const plan::RuleInput input = {square, 1, false, {}};
   for (std::size_t i = 0; i < invented.tuning.cases.size(); ++i) {
     const tune::TuningCase& one = invented.tuning.cases[i];
-    if (one.side != tune::Side::kTest) continue;
+    if (one.side() != tune::Side::kTest) continue;
     ASSERT_TRUE(plan::applies(*entries.at("oracle"), one.plan_case)) << one.plan_case.name();
     EXPECT_EQ(plan::choose_parameters(*entries.at("oracle"), one.plan_case, input),
               tune::best_evaluation(invented.method().cases[i])->parameters);
@@ -601,7 +597,7 @@ TEST(TunedPlanTest, HasTheChosenParametersOnTheRightCases) {
 TEST(TunedPlanTest, AnOracleWithoutALimitStaysWithoutOne) {
   InventedTuning invented(usual_method());
   invented.with([](const tune::TuningCase&, double position) { return valley(position, 2); });
-  tune::Evaluation unlimited = invented.evaluation(invented.tuning.cases[1], 2, 0.001);
+  record::RunRecord unlimited = invented.evaluation(invented.tuning.cases[1], 2, 0.001);
   unlimited.parameters["reach"] = kInfinity;
   invented.tuning.methods[0].cases[1].protocols.emplace("default", unlimited);
   const plan::Plan chosen =
@@ -625,7 +621,7 @@ TEST(TuningCasesTest, VariantsOfAShapeAreOnOneSideAndACaseOfTwoPlansIsThereOnce)
   EXPECT_EQ(cases.size(), 9U);
   std::map<std::string, std::set<tune::Side>> sides;
   for (const tune::TuningCase& one : cases) {
-    sides[one.plan_case.dataset].insert(one.side);
+    sides[one.plan_case.dataset].insert(one.side());
     ASSERT_EQ(one.entries.size(), 1U) << "the oracle is chosen here, and the other is there once";
     EXPECT_EQ(one.entries[0].protocol, "paper");
   }

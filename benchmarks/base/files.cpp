@@ -8,8 +8,6 @@
 #include <stdexcept>
 #include <system_error>
 
-#include "benchmarks/base/configuration_error.hpp"
-
 namespace hullbench {
 
 void write_text_file(const std::filesystem::path& path, const std::string& text) {
@@ -36,16 +34,19 @@ void write_json_file(const std::filesystem::path& path, const nlohmann::json& co
   write_text_file(path, dump_text(content, 2) + "\n");
 }
 
+ConfigurationError not_writable(const std::filesystem::path& folder, const std::string& why) {
+  // NOLINTNEXTLINE(modernize-return-braced-init-list): the inherited constructor is explicit
+  return ConfigurationError("cannot write to the output folder " + folder.string() + " (" + why +
+                            "); choose another one with --out");
+}
+
 void make_writable_folder(const std::filesystem::path& folder) {
   std::error_code error;
   std::filesystem::create_directories(folder, error);
   if (!error && ::faccessat(AT_FDCWD, folder.c_str(), W_OK | X_OK, AT_EACCESS) != 0) {
     error.assign(errno, std::generic_category());
   }
-  if (error) {
-    throw ConfigurationError("cannot write to the output folder " + folder.string() + " (" + error.message() +
-                             "); choose another one with --out");
-  }
+  if (error) throw not_writable(folder, error.message());
 }
 
 }  // namespace hullbench

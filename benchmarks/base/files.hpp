@@ -5,6 +5,8 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
+#include "benchmarks/base/configuration_error.hpp"
+
 namespace hullbench {
 
 /// Writes a file whole or not at all: a temporary file beside it is renamed. Throws std::runtime_error naming
@@ -17,6 +19,9 @@ void write_json_file(const std::filesystem::path& path, const nlohmann::json& co
 /// `content` as text, with U+FFFD for bytes that are no UTF-8; indented by `indent`, or on one line when it
 /// is -1.
 std::string dump_text(const nlohmann::json& content, int indent);
+
+/// Says that an output folder cannot be written to, and why.
+ConfigurationError not_writable(const std::filesystem::path& folder, const std::string& why);
 
 /// Makes `folder` where it is not there. Throws ConfigurationError when it cannot be made or written to.
 void make_writable_folder(const std::filesystem::path& folder);

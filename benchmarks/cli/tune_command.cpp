@@ -3,6 +3,7 @@
 #include <iostream>
 #include <iterator>
 #include <regex>
+#include <set>
 #include <sstream>
 #include <string>
 #include <utility>
@@ -16,7 +17,7 @@
 #include "benchmarks/plan/plan.hpp"
 #include "benchmarks/run/method_catalog.hpp"
 #include "benchmarks/run/progress.hpp"
-#include "benchmarks/run/run_directory.hpp"
+#include "benchmarks/run/row_store.hpp"
 #include "benchmarks/tune/tuned_plan.hpp"
 #include "benchmarks/tune/tuner.hpp"
 #include "benchmarks/tune/tuning_report.hpp"
@@ -103,6 +104,17 @@ std::string sweep_file(const std::optional<run::Shard>& shard) {
   return "sweep-" + std::to_string(shard->number) + "-of-" + std::to_string(shard->count) + ".jsonl";
 }
 
+/// Reads the evaluations of other shards, or of the whole, in the folder.
+void read_other_sweeps(const fs::path& folder, const std::string& own, run::RowStore& store) {
+  std::set<fs::path> others;
+  for (const auto& entry : fs::directory_iterator(folder)) {
+    const std::string name = entry.path().filename().string();
+    if (name != own && name.starts_with("sweep") && entry.path().extension() == ".jsonl")
+      others.insert(entry.path());
+  }
+  for (const fs::path& file : others) store.read_rows(file);
+}
+
 tune::TunerOptions tuner_options(const TuneCommand& command, const run::MethodCatalog& catalog,
                                  const std::vector<plan::Plan>& plans, const json& tool) {
   tune::TunerOptions options;
@@ -131,7 +143,7 @@ ExitCode exit_code(const tune::Tuning& tuning) {
   bool any_failure = false;
   for (const tune::MethodTuning& method : tuning.methods) {
     for (const tune::MethodOnCase& found : method.cases) {
-      const tune::Evaluation* best = tune::best_evaluation(found);
+      const record::RunRecord* best = tune::best_evaluation(found);
       if (best == nullptr) continue;
       any_result = any_result || best->metrics.contains("l2");
       any_failure =
@@ -144,13 +156,10 @@ ExitCode exit_code(const tune::Tuning& tuning) {
 }
 
 void write_results(const fs::path& folder, const tune::Tuning& tuning, const std::vector<plan::Plan>& plans,
-                   const json& tool, const tune::EvaluationStore& store) {
+                   const json& tool, const run::RowStore& store) {
   std::string sweep;
-  for (const json& line : tune::sweep_lines(tuning, store.all()))
-    sweep += line.dump(-1, ' ', false, json::error_handler_t::replace) + "\n";
-  // Whole or not at all: the evaluations are what took the time.
-  write_text_file(folder / "sweep.new", sweep);
-  fs::rename(folder / "sweep.new", folder / kSweepFile);
+  for (const json& line : tune::sweep_lines(tuning, store.rows())) sweep += dump_text(line, -1) + "\n";
+  write_text_file(folder / kSweepFile, sweep);
   std::vector<std::string> names;
   for (const plan::Plan& plan : plans) {
     names.push_back(plan.name);
@@ -159,7 +168,7 @@ void write_results(const fs::path& folder, const tune::Tuning& tuning, const std
       write_text_file(folder / (chosen.name + ".json"), plan::plan_to_json(chosen).dump(1) + "\n");
   }
   const json summary = tune::tuning_to_json(tuning, names, tool);
-  write_text_file(folder / kSummaryFile, summary.dump(1, ' ', false, json::error_handler_t::replace) + "\n");
+  write_text_file(folder / kSummaryFile, dump_text(summary, 1) + "\n");
   std::ostringstream tables;
   table::print_markdown(tune::tuning_document(summary), tables);
   write_text_file(folder / kTuningTablesFile, tables.str());
@@ -191,11 +200,13 @@ ExitCode tune_plans(const TuneCommand& command) {
   const fs::path folder = folder_of(command, plans);
   make_writable_folder(folder);
   const std::string file = sweep_file(command.shard);
-  tune::EvaluationStore store(folder, file);
+  run::RowStore store({folder, file, "scratch-" + file, &record::RunRecord::id},
+                      run::lock_or_throw(folder / file));
+  read_other_sweeps(folder, file, store);
   worker::end_strays_of_dead_harnesses();
   run::Progress progress = make_progress({{"tune", tune::tuning_progress(cases, options.methods)}});
   std::cerr << "hullbench: " << options.methods.size() << " methods on " << cases.size() << " cases, into "
-            << folder.string() << "; " << store.found() << " evaluations are there already\n";
+            << folder.string() << "; " << store.rows().size() << " evaluations are there already\n";
   const tune::Tuning tuning = tune::run_tuning(std::move(cases), options, store, progress);
   progress.end();
   if (tuning.interrupted) {

@@ -63,6 +63,7 @@ void for_each_optional(Record& record, const Visit& visit) {
   visit("rounds", record.rounds);
   visit("passes", record.passes);
   visit("canary_ns", record.canary_ns);
+  visit("program", record.program);
 }
 
 /// `value` with every number that is not finite replaced by null, so that a comparison in memory sees what a
@@ -135,15 +136,16 @@ bool is_worse_than_convex_hull(const json& metrics) {
 }
 
 std::string run_identity(const RunRecord& record) {
-  const json identity = {{"method", record.method},
-                         {"method_version", record.method_version},
-                         {"parameters", parameters_to_json(record.parameters)},
-                         {"dataset", record.dataset},
-                         {"dataset_sha256", record.dataset_sha256},
-                         {"n", record.n},
-                         {"holes", record.holes},
-                         {"seed", record.seed},
-                         {"protocol", record.protocol}};
+  json identity = {{"method", record.method},
+                   {"method_version", record.method_version},
+                   {"parameters", parameters_to_json(record.parameters)},
+                   {"dataset", record.dataset},
+                   {"dataset_sha256", record.dataset_sha256},
+                   {"n", record.n},
+                   {"holes", record.holes},
+                   {"seed", record.seed},
+                   {"protocol", record.protocol}};
+  if (!record.program.empty()) identity["program"] = record.program;
   return sha256_hex(dump_text(identity, -1));
 }
 

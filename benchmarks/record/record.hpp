@@ -74,8 +74,9 @@ struct RunRecord {
   nlohmann::json metrics = nlohmann::json::object();  ///< see metrics.hpp; null for what is undefined
   std::string output_sha256;                          ///< of the WKB of the result; empty when there is none
   std::string machine;  ///< on which the times were taken (machine_id); empty: run.json's machine
-  /// SHA-256 of what ran it, a program or a manifest and its files, where rows of several are kept in one
-  /// file (sweep.jsonl); no member of a line of runs.jsonl.
+  /// SHA-256 of what ran it, a program or a manifest and its files: of rows of a search (sweep.jsonl), where
+  /// several programs may have added to one file and nobody is timed. Their protocol is empty, as several may
+  /// have chosen the same parameters, and `l2` is their only metric. Empty in rows of a run.
   std::string program;
   std::vector<std::string> flags;  ///< reasons to doubt the row, such as kFasterThanFloor; mostly empty
 
@@ -105,7 +106,8 @@ void to_json(nlohmann::json& result, const RunRecord& record);
 void from_json(const nlohmann::json& source, RunRecord& record);
 
 /// The id: SHA-256 of the canonical JSON (keys sorted, no white space, shortest round-trip numbers) of
-/// method, method version, parameters, dataset and its hash, n, holes, seed and protocol.
+/// method, method version, parameters, dataset and its hash, n, holes, seed and protocol, and of the program
+/// where the record names it.
 std::string run_identity(const RunRecord& record);
 
 }  // namespace hullbench::record

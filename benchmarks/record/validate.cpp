@@ -33,27 +33,27 @@ std::vector<std::string> faults(const JsonSchema& schema, const json& document) 
   return sentences;
 }
 
-/// The schema of what says its `kind`: lines of pictures.jsonl and sweep.jsonl, tune.json, league.json,
-/// tables.json and submission.json. Null for any other.
+/// The schema of what says its `kind`: lines of pictures.jsonl, tune.json, league.json, tables.json and
+/// submission.json. Null for any other.
 const JsonSchema* schema_of_kind(const json& document) {
   static const JsonSchema picture = parse_schema(kPictureSchemaJson);
-  static const JsonSchema evaluation = parse_schema(kSweepSchemaJson);
   static const JsonSchema tuning = parse_schema(kTuneSchemaJson);
   static const JsonSchema league = parse_schema(kLeagueSchemaJson);
   static const JsonSchema tables = parse_schema(kTablesSchemaJson);
   static const JsonSchema submission = parse_schema(kSubmissionSchemaJson);
   static const std::map<std::string, const JsonSchema*> schemas = {
-      {"case", &picture},  {"result", &picture}, {"evaluation", &evaluation}, {"tuning", &tuning},
+      {"case", &picture},  {"result", &picture}, {"tuning", &tuning},
       {"league", &league}, {"tables", &tables},  {"submission", &submission}};
   if (!document.is_object() || !document.contains("kind") || !document["kind"].is_string()) return nullptr;
   const auto found = schemas.find(document["kind"].get<std::string>());
   return found == schemas.end() ? nullptr : found->second;
 }
 
-/// Of one line of runs.jsonl.
-std::vector<std::string> validate_run(const json& run) {
-  static const JsonSchema schema = parse_schema(kRunSchemaJson);
-  return faults(schema, run);
+/// Of one line of runs.jsonl, or of sweep.jsonl, whose rows say their program.
+std::vector<std::string> validate_row(const json& row) {
+  static const JsonSchema of_run = parse_schema(kRunSchemaJson);
+  static const JsonSchema of_search = parse_schema(kSweepSchemaJson);
+  return faults(row.is_object() && row.contains("program") ? of_search : of_run, row);
 }
 
 std::vector<std::string> validate_lines(const std::filesystem::path& path) {
@@ -63,7 +63,7 @@ std::vector<std::string> validate_lines(const std::filesystem::path& path) {
   for (std::size_t index = 0; index < lines.lines.size(); ++index) {
     const json& line = lines.lines[index];
     const JsonSchema* schema = schema_of_kind(line);
-    for (const std::string& fault : schema != nullptr ? faults(*schema, line) : validate_run(line)) {
+    for (const std::string& fault : schema != nullptr ? faults(*schema, line) : validate_row(line)) {
       result.push_back("Record " + std::to_string(index + 1) + ": " + fault);
     }
   }

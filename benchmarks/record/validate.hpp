@@ -21,8 +21,8 @@ std::vector<std::string> validate_report(const nlohmann::json& report);
 /// The same of a manifest (manifest.hpp) in memory.
 std::vector<std::string> validate_manifest(const nlohmann::json& manifest);
 
-/// The same of what says its `kind`: a line of pictures.jsonl or sweep.jsonl, tune.json, league.json,
-/// tables.json, submission.json. Throws std::invalid_argument for any other document.
+/// The same of what says its `kind`: a line of pictures.jsonl, tune.json, league.json, tables.json,
+/// submission.json. Throws std::invalid_argument for any other document.
 std::vector<std::string> validate_by_kind(const nlohmann::json& document);
 
 }  // namespace hullbench::record

@@ -1,7 +1,5 @@
 #include "benchmarks/run/drawn_case.hpp"
 
-#include <algorithm>
-#include <cmath>
 #include <exception>
 #include <stdexcept>
 #include <utility>
@@ -40,6 +38,7 @@ DrawnCase::DrawnCase(const DrawnCase& whole, std::vector<Point> part)
     : plan_case_(whole.plan_case_), seed_(whole.seed_), set_(set_of(std::move(part))) {}
 
 Parameters DrawnCase::choose_parameters(const plan::PlanMethod& method) const {
+  if (!missing_.empty()) return {};
   return plan::choose_parameters(method, plan_case_,
                                  {set_.points, set_.ground_truth_area, plan_case_.holes, set_.ground_truth});
 }
@@ -113,16 +112,6 @@ void DrawnCase::score_l2(record::RunRecord& record, const MultiPolygon& result) 
   });
 }
 
-void complete_record(record::RunRecord& record, const MethodInfo& info) {
-  record.method_version = info.version;
-  try {
-    record.parameters = complete_parameters(info, record.parameters);
-  } catch (const std::invalid_argument& error) {
-    record.status = record::Status::kError;
-    record.detail = error.what();
-  }
-}
-
 std::optional<MultiPolygon> read_result(record::RunRecord& record, const std::vector<std::uint8_t>& wkb) {
   try {
     return from_wkb(wkb);
@@ -131,10 +120,6 @@ std::optional<MultiPolygon> read_result(record::RunRecord& record, const std::ve
     record.detail = "the result is no polygon: " + worker::printable(error.what(), 200);
     return std::nullopt;
   }
-}
-
-std::chrono::milliseconds to_timeout(double seconds) {
-  return std::chrono::milliseconds(std::max<std::int64_t>(1, std::llround(seconds * 1000)));
 }
 
 }  // namespace hullbench::run

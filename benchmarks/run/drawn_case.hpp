@@ -1,8 +1,7 @@
-// A case with its points drawn, and the way from a method's answer to a scored record. Timed runs
-// (runner.hpp) and searches without a clock (tune/tuner.hpp) share it.
+// A case with its points drawn and its ground truth prepared, once for all results that are scored against
+// it.
 #pragma once
 
-#include <chrono>
 #include <cstdint>
 #include <mutex>
 #include <optional>
@@ -36,7 +35,7 @@ class DrawnCase {
   /// Why there are no points; empty when there are.
   const std::string& missing() const { return missing_; }
 
-  /// The parameters that the plan's entry asks for here.
+  /// The parameters that the plan's entry asks for here; none where there are no points.
   Parameters choose_parameters(const plan::PlanMethod& method) const;
 
   /// The record of a run of `method` here, with what is known before it: the points, and no parameters.
@@ -70,14 +69,7 @@ class DrawnCase {
   mutable std::string scorer_fault_;
 };
 
-/// Fills in the version and, for those of the method's parameters that the record does not name, the
-/// defaults. When the method does not take a parameter, the record is an error.
-void complete_record(record::RunRecord& record, const MethodInfo& info);
-
 /// The result in `wkb`. None when it is no polygon: the record is an invalid output then.
 std::optional<MultiPolygon> read_result(record::RunRecord& record, const std::vector<std::uint8_t>& wkb);
-
-/// `seconds` as a worker's requests have them: at least 1 ms.
-std::chrono::milliseconds to_timeout(double seconds);
 
 }  // namespace hullbench::run

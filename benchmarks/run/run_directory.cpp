@@ -5,7 +5,6 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <cerrno>
 #include <fstream>
 #include <stdexcept>
 #include <system_error>
@@ -25,37 +24,11 @@ using nlohmann::json;
 constexpr const char* kRepetitionsFile = "repetitions.jsonl";
 constexpr const char* kScratchFolder = "scratch";
 
-std::string reason(int error) {
-  return std::generic_category().message(error);
-}
-
 /// run.json of a folder; null when it has none that can be read.
 json read_header(const fs::path& folder) {
   std::ifstream in(folder / record::kHeaderFile, std::ios::binary);
   json header = in ? json::parse(in, nullptr, false) : json();
   return header.is_object() ? header : json();
-}
-
-ConfigurationError not_writable(const fs::path& path, const std::string& why) {
-  // NOLINTNEXTLINE(modernize-return-braced-init-list): the inherited constructor is explicit
-  return ConfigurationError("cannot write to the output folder " + path.string() + " (" + why +
-                            "); choose another one with --out");
-}
-
-/// The descriptor of a folder or file with the lock on it, or -1 when another process has it. The lock goes
-/// with the descriptor, however its owner ends.
-int try_lock(const fs::path& path) {
-  const bool is_folder = fs::is_directory(path);
-  const int lock = ::open(path.c_str(), (is_folder ? O_RDONLY : O_RDWR | O_CREAT) | O_CLOEXEC, 0666);
-  if (lock < 0 || (is_folder && ::faccessat(AT_FDCWD, path.c_str(), W_OK | X_OK, AT_EACCESS) != 0)) {
-    const int error = errno;
-    if (lock >= 0) ::close(lock);
-    throw not_writable(path, reason(error));
-  }
-  // A file system without locks is no reason to refuse: the lock only guards against a second harness.
-  if (::flock(lock, LOCK_EX | LOCK_NB) == 0 || errno != EWOULDBLOCK) return lock;
-  ::close(lock);
-  return -1;
 }
 
 void remove_run_files(const fs::path& folder) {
@@ -135,111 +108,32 @@ Repetition repetition_from_json(const json& line) {
   return repetition;
 }
 
-void synchronise(const fs::path& file) {
-  const int fd = ::open(file.c_str(), O_RDONLY | O_CLOEXEC);
-  const int failed = fd < 0 ? -1 : ::fsync(fd);
-  const int error = errno;
-  if (fd >= 0) ::close(fd);
-  // Some file systems know no fsync; that is no reason to stop.
-  if (failed != 0 && error != EINVAL && error != EROFS) {
-    throw std::runtime_error("cannot write " + file.string() + ": " + reason(error));
-  }
-}
-
 }  // namespace
 
-RunDirectory::RunDirectory(fs::path path, int lock)
-    : path_(std::move(path)),
-      scratch_(fs::absolute(path_) / kScratchFolder),
-      lock_(lock),
-      header_(read_header(path_)) {
-  row_writer_.emplace(path_ / record::kRowsFile);
-  repetition_writer_.emplace(path_ / kRepetitionsFile);
-  read_rows();
+RunDirectory::RunDirectory(const fs::path& path, int lock)
+    : RowStore({path, record::kRowsFile, kScratchFolder, &record::RunRecord::name}, lock),
+      header_(read_header(path)) {
+  repetition_writer_.emplace(path / kRepetitionsFile);
   read_repetitions();
-  fs::remove_all(scratch_);
-  fs::create_directory(scratch_);
-}
-
-RunDirectory::~RunDirectory() {
-  std::error_code ignored;
-  fs::remove_all(scratch_, ignored);
-  ::close(lock_);
 }
 
 void RunDirectory::write_header(const json& header) {
-  write_json_file(path_ / record::kHeaderFile, header);
+  write_json_file(path() / record::kHeaderFile, header);
   header_ = header;
 }
 
-void RunDirectory::read_rows() {
-  for (const json& line : record::load_json_lines(path_ / record::kRowsFile).lines) {
-    try {
-      remember_row(line.get<record::RunRecord>());
-    } catch (const std::exception&) {
-      throw std::runtime_error("a line of " + (path_ / record::kRowsFile).string() +
-                               " is not a run's record; start anew with --force or another --out");
-    }
-  }
-}
-
 void RunDirectory::read_repetitions() {
-  for (const json& line : record::load_json_lines(path_ / kRepetitionsFile).lines) {
+  for (const json& line : record::load_json_lines(path() / kRepetitionsFile).lines) {
     try {
       auto& known = repetitions_[line.at("id").get<std::string>()];
       // Out of order can only be what two harnesses wrote; the lock excludes that.
       if (line.at("repetition").get<std::size_t>() == known.size())
         known.push_back(repetition_from_json(line));
     } catch (const json::exception&) {
-      throw std::runtime_error("a line of " + (path_ / kRepetitionsFile).string() +
+      throw std::runtime_error("a line of " + (path() / kRepetitionsFile).string() +
                                " is not a repetition; start anew with --force or another --out");
     }
   }
-}
-
-const record::RunRecord* RunDirectory::find_row(const std::string& name) const {
-  const auto found = row_places_.find(name);
-  return found == row_places_.end() ? nullptr : &rows_[found->second];
-}
-
-void RunDirectory::remember_row(const record::RunRecord& row) {
-  const auto [place, is_new] = row_places_.emplace(row.name, rows_.size());
-  if (is_new) {
-    rows_.push_back(row);
-  } else {
-    rows_[place->second] = row;
-    has_old_rows_ = true;
-  }
-}
-
-void RunDirectory::append_rows(const std::vector<record::RunRecord>& rows) {
-  const bool replaces_another_id = std::any_of(rows.begin(), rows.end(), [&](const record::RunRecord& row) {
-    const record::RunRecord* earlier = find_row(row.name);
-    return earlier && earlier->id != row.id;
-  });
-  for (const record::RunRecord& row : rows) remember_row(row);
-  if (replaces_another_id) {
-    rewrite_rows();
-    return;
-  }
-  for (const record::RunRecord& row : rows) row_writer_->append(row);
-  synchronise(path_ / record::kRowsFile);
-}
-
-void RunDirectory::compact_rows() {
-  if (has_old_rows_) rewrite_rows();
-}
-
-void RunDirectory::rewrite_rows() {
-  const fs::path file = path_ / record::kRowsFile;
-  const fs::path temporary = path_ / "runs.jsonl.new";
-  fs::remove(temporary);
-  record::JsonLinesWriter writer(temporary);
-  for (const record::RunRecord& row : rows_) writer.append(row);
-  synchronise(temporary);
-  fs::rename(temporary, file);
-  row_writer_.emplace(file);
-  has_old_rows_ = false;
 }
 
 const std::vector<Repetition>& RunDirectory::repetitions(const std::string& id) const {
@@ -261,15 +155,6 @@ void RunDirectory::append_repetition(const std::string& id, std::size_t index, c
   if (repetition.unsteady) line["unsteady"] = true;
   repetition_writer_->append(line);
   repetitions_[id].push_back(repetition);
-}
-
-int lock_or_throw(const fs::path& path) {
-  const int lock = try_lock(path);
-  if (lock < 0) {
-    throw ConfigurationError("another hullbench is writing to " + path.string() +
-                             "; wait for it or choose another folder with --out");
-  }
-  return lock;
 }
 
 json run_continuity(const json& header) {

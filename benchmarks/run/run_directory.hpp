@@ -15,6 +15,7 @@
 
 #include "benchmarks/record/json_lines.hpp"
 #include "benchmarks/record/record.hpp"
+#include "benchmarks/run/row_store.hpp"
 
 namespace hullbench::run {
 
@@ -30,23 +31,15 @@ struct Repetition {
   bool unsteady = false;    ///< its round's canary was off
 };
 
-/// Locks a folder, or a file, which is made where it is not there, against a second harness: a descriptor
-/// that has the lock until it is closed, however its owner ends. Throws ConfigurationError when it cannot be
-/// written to or another process has it.
-int lock_or_throw(const std::filesystem::path& path);
-
-/// The folder of one run, locked against a second harness for the life of the object.
-class RunDirectory {
+/// The folder of one run, locked against a second harness for the life of the object: its rows, found by
+/// name, and beside them its header and its repetitions.
+class RunDirectory : public RowStore {
  public:
   /// `path` must be there; `lock` is its descriptor with the lock, closed with this object. Reads what an
   /// earlier start left, and cuts off torn last lines. Throws std::runtime_error naming the file when one is
   /// damaged otherwise.
-  RunDirectory(std::filesystem::path path, int lock);
-  ~RunDirectory();
-  RunDirectory(const RunDirectory&) = delete;
-  RunDirectory& operator=(const RunDirectory&) = delete;
+  RunDirectory(const std::filesystem::path& path, int lock);
 
-  const std::filesystem::path& path() const { return path_; }
   /// run.json of the earlier start; null when there was none.
   const nlohmann::json& header() const { return header_; }
   bool resumed() const { return header_.is_object(); }
@@ -54,38 +47,15 @@ class RunDirectory {
   /// Writes run.json, whole or not at all.
   void write_header(const nlohmann::json& header);
 
-  /// The finished runs so far, in the order of the file.
-  const std::vector<record::RunRecord>& rows() const { return rows_; }
-  /// The row with that name; null when there is none.
-  const record::RunRecord* find_row(const std::string& name) const;
-  /// Adds rows to runs.jsonl; they are on the disk when this returns. A row of the same name is replaced. One
-  /// that has its id too stays in the file until compact_rows, as every reader takes the last one of an id.
-  void append_rows(const std::vector<record::RunRecord>& rows);
-  /// Leaves each row once in the file.
-  void compact_rows();
-
   /// The repetitions of a run that are already measured, in order.
   const std::vector<Repetition>& repetitions(const std::string& id) const;
   void append_repetition(const std::string& id, std::size_t index, const Repetition& repetition);
 
-  /// A folder for files that live no longer than the run. Made anew, and removed with this object.
-  const std::filesystem::path& scratch() const { return scratch_; }
-
  private:
-  void read_rows();
   void read_repetitions();
-  void remember_row(const record::RunRecord& row);
-  void rewrite_rows();
 
-  std::filesystem::path path_;
-  std::filesystem::path scratch_;
-  int lock_;
   nlohmann::json header_;
-  std::vector<record::RunRecord> rows_;
-  std::map<std::string, std::size_t> row_places_;               ///< in rows_, by name
-  bool has_old_rows_ = false;                                   ///< the file has rows that were replaced
   std::map<std::string, std::vector<Repetition>> repetitions_;  ///< by id
-  std::optional<record::JsonLinesWriter> row_writer_;
   std::optional<record::JsonLinesWriter> repetition_writer_;
 };
 

@@ -5,7 +5,6 @@
 #include <cstdint>
 #include <functional>
 #include <map>
-#include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
@@ -18,7 +17,6 @@
 #include "benchmarks/run/progress.hpp"
 #include "benchmarks/run/run_directory.hpp"
 #include "benchmarks/worker/method.hpp"
-#include "benchmarks/worker/method_session.hpp"
 #include "datasets/datasets.hpp"
 
 namespace hullbench::run {
@@ -67,9 +65,6 @@ struct RunResult {
 RunResult run_plan(const plan::Plan& plan, const std::vector<plan::PlannedRun>& runs,
                    const nlohmann::json& header, const RunnerOptions& options, RunDirectory& directory,
                    Progress& progress, int pass = 1);
-
-/// Starts the workers of `sessions`, all at the same time, and says of those that do not start why.
-void start_workers(const std::vector<std::unique_ptr<worker::MethodSession>>& sessions, Progress& progress);
 
 /// Whether `pass` has repetitions of one of `runs`.
 bool has_repetitions(const plan::Plan& plan, const std::vector<plan::PlannedRun>& runs, int pass);

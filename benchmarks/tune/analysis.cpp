@@ -25,7 +25,7 @@ double crossing(const SearchPoint& below, const SearchPoint& above, double limit
 }
 
 double best_error(const MethodOnCase& found) {
-  const Evaluation* best = best_evaluation(found);
+  const record::RunRecord* best = best_evaluation(found);
   return best == nullptr ? kInfinitelyBad : error_of(*best);
 }
 
@@ -75,7 +75,7 @@ std::optional<ProtocolScore> score_of(const Tuning& tuning, const MethodTuning& 
   Weighted regrets;
   for (std::size_t i = 0; i < tuning.cases.size(); ++i) {
     const TuningCase& one = tuning.cases[i];
-    if (one.side != Side::kTest) continue;
+    if (one.side() != Side::kTest) continue;
     const auto error = error_with(method, method.cases[i], protocol, tuned);
     if (!error) continue;
     ++score.cases;
@@ -207,7 +207,7 @@ std::vector<SearchCost> search_costs(const Tuning& tuning, const MethodTuning& m
   std::vector<Weighted> errors(kSweepPoints + kRefinements);
   std::size_t cases = 0;
   for (std::size_t i = 0; i < tuning.cases.size(); ++i) {
-    if (tuning.cases[i].side != Side::kTest || method.cases[i].sweep.empty()) continue;
+    if (tuning.cases[i].side() != Side::kTest || method.cases[i].sweep.empty()) continue;
     ++cases;
     const std::vector<double> reached = errors_reached(method, method.cases[i]);
     for (std::size_t k = 0; k < errors.size(); ++k) errors[k].add(tuning.cases[i], reached[k]);

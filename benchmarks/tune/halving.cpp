@@ -36,7 +36,7 @@ std::vector<std::size_t> training_order(const std::vector<TuningCase>& cases) {
   std::map<std::pair<std::string, std::string>, std::size_t> taken;
   std::set<std::pair<std::pair<std::size_t, std::pair<std::string, std::string>>, std::size_t>> order;
   for (std::size_t i = 0; i < cases.size(); ++i) {
-    if (cases[i].side != Side::kTraining) continue;
+    if (cases[i].side() != Side::kTraining) continue;
     const std::string& dataset = cases[i].plan_case.dataset;
     const std::pair group = {source_of(dataset), sampler_of(dataset)};
     order.insert({{taken[group]++, group}, i});

@@ -76,8 +76,7 @@ std::vector<FitCase> training_cases(const std::vector<plan::Plan>& plans, int se
   std::vector<FitCase> cases;
   std::set<std::pair<std::string, std::uint64_t>> seen;
   const auto add = [&](plan::PlanCase plan_case, std::uint64_t first_seed) {
-    FitCase one = {std::move(plan_case), "", first_seed};
-    one.shape = base_shape(one.plan_case.dataset);
+    FitCase one = {std::move(plan_case), first_seed};
     if (one.plan_case.n == 0 || side_of(one.plan_case.dataset) != Side::kTraining) return;
     if (points > 0) one.plan_case.n = points;
     for (int k = 0; k < seeds; ++k, ++one.seed) {
@@ -138,7 +137,7 @@ std::vector<double> usual_shares() {
 FitTables measure_fit(const std::vector<FitCase>& cases, const std::vector<RuleUse>& uses,
                       const std::vector<double>& shares, const std::vector<int>& cores) {
   FitTables tables;
-  for (const FitCase& one : cases) tables.shapes.push_back(one.shape);
+  for (const FitCase& one : cases) tables.shapes.push_back(base_shape(one.plan_case.dataset));
   const std::vector<std::vector<double>> nothing(cases.size(), std::vector<double>(shares.size()));
   tables.uses.assign(uses.size(), {shares, tables.shapes, nothing});
   tables.core_errors.resize(cases.size());

@@ -15,7 +15,6 @@ namespace hullbench::tune {
 /// Points to fit on: a plan's case with the seed of its sample.
 struct FitCase {
   plan::PlanCase plan_case;
-  std::string shape;  ///< base shape
   std::uint64_t seed = 1;
 };
 

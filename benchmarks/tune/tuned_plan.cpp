@@ -20,7 +20,7 @@ std::vector<std::size_t> cases_of(const plan::Plan& plan, const Tuning& tuning, 
   for (std::size_t i = 0; i < tuning.cases.size(); ++i) {
     const TuningCase& one = tuning.cases[i];
     const auto same = [&](const plan::PlanCase& other) { return other.key() == one.plan_case.key(); };
-    if (one.side == Side::kTest && one.seed == plan.seed &&
+    if (one.side() == Side::kTest && one.seed == plan.seed &&
         std::any_of(plan.expanded_cases.begin(), plan.expanded_cases.end(), same) && condition(i))
       result.push_back(i);
   }
@@ -89,7 +89,7 @@ void add_oracle(plan::Plan& result, const plan::Plan& plan, const Tuning& tuning
   if (!method.axis) return;
   // A choice that the method itself refused is none.
   const auto has_choice = [&](std::size_t i) {
-    const Evaluation* best = best_evaluation(method.cases[i]);
+    const record::RunRecord* best = best_evaluation(method.cases[i]);
     return best != nullptr && best->parameters.size() == method.info->parameters.size();
   };
   std::set<std::string> without;

@@ -12,15 +12,13 @@
 #include "benchmarks/plan/parameter_rules.hpp"
 #include "benchmarks/run/drawn_case.hpp"
 #include "benchmarks/run/runner.hpp"
+#include "benchmarks/run/workbench.hpp"
 #include "benchmarks/tune/analysis.hpp"
 #include "benchmarks/tune/halving.hpp"
 #include "benchmarks/tune/search.hpp"
-#include "benchmarks/worker/method_session.hpp"
 
 namespace hullbench::tune {
 namespace {
-
-namespace fs = std::filesystem;
 
 /// The cases that are being worked on: drawn by the first thread that wants them, and forgotten when the last
 /// one has moved on.
@@ -56,13 +54,9 @@ std::string kind_of(const polylidar::MultiPolygon& truth) {
   return kind_of_shape(truth.size(), holes);
 }
 
-std::vector<std::unique_ptr<worker::MethodSession>> make_sessions(const TunerOptions& options) {
-  std::vector<std::unique_ptr<worker::MethodSession>> sessions;
-  for (const std::string& name : options.methods) {
-    sessions.push_back(std::make_unique<worker::MethodSession>(
-        options.find_method(name), worker::WorkerLimits{options.mem_limit_mib, std::nullopt}));
-  }
-  return sessions;
+void add_methods(run::Workbench& bench, const TunerOptions& options) {
+  for (const std::string& name : options.methods)
+    bench.add(options.find_method(name), {options.mem_limit_mib, std::nullopt});
 }
 
 /// A method on a case.
@@ -127,7 +121,7 @@ class WorkQueue {
       return;
     }
     for (std::size_t i = 0; i < tuning_.cases.size(); ++i) {
-      if (tuning_.cases[i].side != Side::kTest) continue;
+      if (tuning_.cases[i].side() != Side::kTest) continue;
       for (std::size_t m = 0; m < tuning_.methods.size(); ++m) items_.push_back({i, m, {}});
     }
   }
@@ -148,29 +142,26 @@ class WorkQueue {
 struct Shared {
   Tuning& tuning;
   const TunerOptions& options;
-  EvaluationStore& store;
+  run::RowStore& store;
   run::Progress& progress;
   DrawnCases drawn{tuning.cases, options.folders};
   std::mutex mutex{};  ///< of tuning.cases and progress
   WorkQueue queue{tuning};
 };
 
-/// Everything of one thread: its workers, which must be started by it as they end with it, and the case that
-/// they have.
-class Bench {
+/// One thread: its workers and the case that it is at.
+class TuningThread {
  public:
-  Bench(Shared& shared, const fs::path& scratch)
-      : shared_(shared), scratch_(scratch), sessions_(make_sessions(shared.options)) {
-    fs::create_directories(scratch_);
+  TuningThread(Shared& shared, const std::filesystem::path& scratch) : shared_(shared), bench_(scratch) {
+    add_methods(bench_, shared.options);
   }
 
   /// Takes the next method on a case until there is none.
   void take_turns() {
     while (const std::optional<WorkItem> item = shared_.queue.take()) {
       place_ = item->place;
-      which_method_ = item->what.which_method;
-      MethodTuning& method = shared_.tuning.methods[which_method_];
-      begin(method);
+      MethodTuning& method = shared_.tuning.methods[item->what.which_method];
+      tell([&](run::Progress& progress) { progress.begin(place_); });
       enter(item->what.which_case);
       if (method.info) {
         MethodOnCase& found = method.cases[which_case_];
@@ -180,7 +171,7 @@ class Bench {
           sweep(method, found, item->what.positions);
         }
       }
-      end();
+      tell([&](run::Progress& progress) { progress.finish(place_); });
       shared_.queue.finish();
     }
   }
@@ -192,7 +183,6 @@ class Bench {
     which_case_ = which;
     drawn_ = shared_.drawn.get(which);
     spacing_ = plan::mean_spacing(drawn_->set().points);
-    points_.reset();
     const std::scoped_lock guard(shared_.mutex);
     TuningCase& one = shared_.tuning.cases[which];
     one.dataset_sha256 = drawn_->set().sha256;
@@ -209,8 +199,8 @@ class Bench {
     return method.axis && !drawn_->set().ground_truth.empty() && (!method.axis->spacings || spacing_ > 0);
   }
 
-  const Evaluation& evaluate_at(const MethodTuning& method, MethodOnCase& found, double position,
-                                bool on_grid) {
+  const record::RunRecord& evaluate_at(const MethodTuning& method, MethodOnCase& found, double position,
+                                       bool on_grid) {
     Parameters parameters = fixed_parameters(*method.info);
     parameters[method.axis->parameter] = value_at(*method.axis, position, spacing_);
     found.sweep.push_back({position, on_grid, evaluate(method, parameters)});
@@ -222,7 +212,7 @@ class Bench {
     if (!can_be_searched(method)) return;
     int timeouts = 0;
     for (const double position : positions) {
-      const Evaluation& evaluation = evaluate_at(method, found, position, true);
+      const record::RunRecord& evaluation = evaluate_at(method, found, position, true);
       timeouts = evaluation.status == record::Status::kTimeout ? timeouts + 1 : 0;
       if (timeouts == kMostTimeouts) return;
     }
@@ -241,7 +231,7 @@ class Bench {
       found.protocols.emplace("default", evaluate(method, fixed_parameters(*method.info)));
     if (!can_be_searched(method)) return;
     const auto points = search(*method.axis, [&](double position) {
-      const Evaluation& evaluation = evaluate_at(method, found, position, false);
+      const record::RunRecord& evaluation = evaluate_at(method, found, position, false);
       return Trial{error_of(evaluation), evaluation.status == record::Status::kTimeout};
     });
     for (std::size_t i = 0; i < points.size(); ++i) found.sweep[i].on_grid = points[i].on_grid;
@@ -250,68 +240,46 @@ class Bench {
       evaluate_at(method, found, tuned->position, false);
   }
 
-  Evaluation evaluate(const MethodTuning& method, const Parameters& parameters) {
+  record::RunRecord evaluate(const MethodTuning& method, const Parameters& parameters) {
     throw_if_interrupted();
-    Evaluation evaluation = drawn_->record_of(method.name);
-    evaluation.name = tuning_case().plan_case.name();
-    evaluation.program = shared_.options.programs.at(method.name);
-    evaluation.parameters = parameters;
-    run::complete_record(evaluation, *method.info);
-    evaluation.id = evaluation_identity(evaluation);
-    if (const Evaluation* known = shared_.store.find(evaluation.id)) return *known;
+    run::MethodRun run(drawn_, method.name, parameters);
+    run.record.name = tuning_case().plan_case.name();
+    run.record.program = shared_.options.programs.at(method.name);
+    run.begin(*bench_.find(method.name), method.info, tuning_case().timeout_s);
+    if (const record::RunRecord* known = shared_.store.find_row(run.record.id)) return *known;
     const auto start = std::chrono::steady_clock::now();
-    if (evaluation.status == record::Status::kOk) run(evaluation);
-    shared_.store.append(evaluation);
-    say(std::chrono::steady_clock::now() - start);
-    return evaluation;
+    if (!run.over) bench_.attempt(run);
+    run.score_l2();
+    shared_.store.append_row(run.record);
+    // The estimate takes evaluations as done one after the other.
+    const auto elapsed = (std::chrono::steady_clock::now() - start) / shared_.options.jobs;
+    tell([&](run::Progress& progress) { progress.advance(place_, elapsed); });
+    return run.record;
   }
 
-  void run(Evaluation& evaluation) {
-    const PointSet& set = drawn_->set();
-    if (!points_) points_ = worker::write_points(set.sha256, set.points, scratch_);
-    const worker::Attempt attempt = sessions_[which_method_]->run(*points_, evaluation.parameters, scratch_,
-                                                                  run::to_timeout(tuning_case().timeout_s));
-    evaluation.status = attempt.status;
-    evaluation.detail = attempt.detail;
-    if (attempt.status != record::Status::kOk) return;
-    if (const auto result = run::read_result(evaluation, attempt.wkb)) drawn_->score_l2(evaluation, *result);
-  }
-
-  void begin(const MethodTuning& method) {
+  /// The progress is one for all threads.
+  template <typename Tell>
+  void tell(const Tell& tell_it) {
     const std::scoped_lock guard(shared_.mutex);
-    shared_.progress.begin(place_);
-    if (!method.info) shared_.progress.finish(place_);
-  }
-
-  /// An evaluation that was not known. The estimate takes them as done one after the other.
-  void say(std::chrono::nanoseconds elapsed) {
-    const std::scoped_lock guard(shared_.mutex);
-    shared_.progress.advance(place_, elapsed / shared_.options.jobs);
-  }
-
-  void end() {
-    const std::scoped_lock guard(shared_.mutex);
-    shared_.progress.finish(place_);
+    tell_it(shared_.progress);
   }
 
   Shared& shared_;
-  fs::path scratch_;
-  std::vector<std::unique_ptr<worker::MethodSession>> sessions_;  ///< by method; each starts at its first run
-  std::size_t place_ = 0;                                         ///< of the item in the progress
-  std::size_t which_method_ = 0;
+  run::Workbench bench_;
+  std::size_t place_ = 0;  ///< of the item in the progress
   std::size_t which_case_ = 0;
   std::shared_ptr<const run::DrawnCase> drawn_;  ///< of which_case_; null before the first one
   double spacing_ = 0;
-  std::optional<worker::LoadedPoints> points_;  ///< none: nothing was run on the case
 };
 
 /// Asks every method who it is.
 std::vector<MethodTuning> describe_methods(const TunerOptions& options, std::size_t cases,
-                                           run::Progress& progress) {
-  const auto sessions = make_sessions(options);
-  run::start_workers(sessions, progress);
+                                           const std::filesystem::path& scratch, run::Progress& progress) {
+  run::Workbench bench(scratch);
+  add_methods(bench, options);
+  bench.start(progress);
   std::vector<MethodTuning> methods;
-  for (const auto& session : sessions) {
+  for (const auto& session : bench.sessions()) {
     MethodTuning& method = methods.emplace_back();
     method.name = session->method().name;
     method.title = session->method().title;
@@ -328,16 +296,6 @@ std::vector<MethodTuning> describe_methods(const TunerOptions& options, std::siz
   return methods;
 }
 
-TuningCase make_case(const plan::Plan& plan, const plan::PlanCase& plan_case) {
-  TuningCase one;
-  one.plan_case = plan_case;
-  one.seed = plan.seed;
-  one.timeout_s = plan.timeout_s;
-  one.shape = base_shape(plan_case.dataset);
-  one.side = side_of(plan_case.dataset);
-  return one;
-}
-
 /// The plan's entries for the case, but those whose parameters are to be chosen here.
 void add_entries(TuningCase& one, const plan::Plan& plan) {
   for (const plan::PlanMethod& entry : plan.methods) {
@@ -352,9 +310,13 @@ void add_entries(TuningCase& one, const plan::Plan& plan) {
 
 }  // namespace
 
-const Evaluation* best_evaluation(const MethodOnCase& found) {
-  const Evaluation* best = nullptr;
-  const auto consider = [&](const Evaluation& one) {
+double error_of(const record::RunRecord& evaluation) {
+  return evaluation.metrics.value("l2", kInfinitelyBad);
+}
+
+const record::RunRecord* best_evaluation(const MethodOnCase& found) {
+  const record::RunRecord* best = nullptr;
+  const auto consider = [&](const record::RunRecord& one) {
     if (best == nullptr || error_of(one) < error_of(*best)) best = &one;
   };
   for (const SweepEvaluation& one : found.sweep) consider(one.evaluation);
@@ -362,14 +324,14 @@ const Evaluation* best_evaluation(const MethodOnCase& found) {
   return best;
 }
 
-const Evaluation* evaluation_at(const MethodOnCase& found, double position) {
+const record::RunRecord* evaluation_at(const MethodOnCase& found, double position) {
   const auto same = [&](const SweepEvaluation& one) { return one.position == position; };
   const auto place = std::find_if(found.sweep.begin(), found.sweep.end(), same);
   return place == found.sweep.end() ? nullptr : &place->evaluation;
 }
 
 double error_at(const MethodOnCase& found, double position) {
-  const Evaluation* evaluation = evaluation_at(found, position);
+  const record::RunRecord* evaluation = evaluation_at(found, position);
   return evaluation == nullptr ? kInfinitelyBad : error_of(*evaluation);
 }
 
@@ -382,24 +344,24 @@ std::vector<TuningCase> tuning_cases(const std::vector<plan::Plan>& plans) {
         return other.plan_case.key() == plan_case.key() && other.seed == plan.seed;
       };
       auto place = std::find_if(cases.begin(), cases.end(), same);
-      if (place == cases.end()) place = cases.insert(place, make_case(plan, plan_case));
+      if (place == cases.end()) place = cases.insert(place, {plan_case, plan.seed, plan.timeout_s});
       add_entries(*place, plan);
     }
   }
   return cases;
 }
 
-Tuning run_tuning(std::vector<TuningCase> cases, const TunerOptions& options, EvaluationStore& store,
+Tuning run_tuning(std::vector<TuningCase> cases, const TunerOptions& options, run::RowStore& store,
                   run::Progress& progress) {
   Tuning tuning;
   tuning.cases = std::move(cases);
   try {
-    tuning.methods = describe_methods(options, tuning.cases.size(), progress);
+    tuning.methods = describe_methods(options, tuning.cases.size(), store.scratch(), progress);
     Shared shared{tuning, options, store, progress};
     const std::vector<int> threads(static_cast<std::size_t>(options.jobs), kAnyCore);
     for_each_in_parallel(threads.size(), threads, [&](std::size_t thread) {
       try {
-        Bench(shared, store.scratch() / ("thread-" + std::to_string(thread))).take_turns();
+        TuningThread(shared, store.scratch() / ("thread-" + std::to_string(thread))).take_turns();
       } catch (...) {
         shared.queue.stop();
         throw;
@@ -429,7 +391,7 @@ std::vector<run::ProgressRun> tuning_progress(const std::vector<TuningCase>& cas
   }
   constexpr int kProtocols = 3;  // default, auto and the tuned value
   for (const TuningCase& one : cases) {
-    if (one.side == Side::kTest) add(one, kProtocols + kSweepPoints + kRefinements);
+    if (one.side() == Side::kTest) add(one, kProtocols + kSweepPoints + kRefinements);
   }
   return result;
 }

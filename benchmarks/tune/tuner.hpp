@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "benchmarks/run/progress.hpp"
+#include "benchmarks/run/row_store.hpp"
 #include "benchmarks/tune/tuning.hpp"
 #include "benchmarks/worker/method.hpp"
 #include "datasets/datasets.hpp"
@@ -17,7 +18,7 @@ namespace hullbench::tune {
 struct TunerOptions {
   worker::MethodFinder find_method;
   std::vector<std::string> methods;             ///< to evaluate, by name
-  std::map<std::string, std::string> programs;  ///< by method: SHA-256 of what runs it (Evaluation::program)
+  std::map<std::string, std::string> programs;  ///< by method: SHA-256 of what runs it (RunRecord::program)
   int jobs = 1;                                 ///< threads, each with a worker of its own a method; >= 1
   std::int64_t mem_limit_mib = 4096;            ///< address space of a worker
   DataFolders folders = {};
@@ -31,11 +32,11 @@ std::vector<TuningCase> tuning_cases(const std::vector<plan::Plan>& plans);
 /// Chooses every method's one value for many shapes on the training cases (halving.hpp). Then, per method and
 /// test case: that value, the protocols that the plans give the method, `default` where it can do without
 /// parameters, and the search over its axis (search.hpp), with the holes switched on (fixed_parameters); of
-/// one that is not searched only the protocols. What `store` knows is not evaluated again. A failure is an
-/// evaluation with its status. A case whose points have no spacing has no sweep of lengths, and one without a
-/// ground truth no evaluation. `tuning.interrupted` after Ctrl-C. Throws std::runtime_error when something
-/// cannot be written or a data set cannot be read.
-Tuning run_tuning(std::vector<TuningCase> cases, const TunerOptions& options, EvaluationStore& store,
+/// one that is not searched only the protocols. What `store` knows by its id is not evaluated again. A
+/// failure is an evaluation with its status. A case whose points have no spacing has no sweep of lengths, and
+/// one without a ground truth no evaluation. `tuning.interrupted` after Ctrl-C. Throws std::runtime_error
+/// when something cannot be written or a data set cannot be read.
+Tuning run_tuning(std::vector<TuningCase> cases, const TunerOptions& options, run::RowStore& store,
                   run::Progress& progress);
 
 /// What `progress` needs to know: an element a case and method and round, in the order of the work.

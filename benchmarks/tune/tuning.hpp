@@ -10,50 +10,53 @@
 
 #include "adapters/adapter.hpp"
 #include "benchmarks/plan/plan.hpp"
-#include "benchmarks/tune/evaluation.hpp"
+#include "benchmarks/record/record.hpp"
 #include "benchmarks/tune/search_axis.hpp"
 #include "benchmarks/tune/split.hpp"
 #include "benchmarks/tune/strata.hpp"
 
 namespace hullbench::tune {
 
-/// One case of the plans: points of a shape.
+/// One case of the plans.
 struct TuningCase {
   plan::PlanCase plan_case;
-  std::uint64_t seed = 0;  ///< of the points
-  double timeout_s = 0;    ///< for one evaluation
-  std::string shape;       ///< its base shape (split.hpp)
-  Side side = Side::kTraining;
-  std::vector<plan::PlanMethod> entries;  ///< of the plans that have the case, those that apply to it
-  // Known once it was evaluated:
-  std::string dataset_sha256;
-  std::int64_t n = 0;
-  double spacing = 0;  ///< mean_spacing of its points (parameter_rules.hpp)
-  std::string kind;    ///< of its truth (strata.hpp)
+  std::uint64_t seed = 0;                      ///< of the points
+  double timeout_s = 0;                        ///< for one evaluation
+  std::vector<plan::PlanMethod> entries = {};  ///< of the plans that have the case, those that apply to it
+  // Known once its points were drawn:
+  std::string dataset_sha256 = {};
+  std::int64_t n = 0;     ///< number of points
+  double spacing = 0;     ///< mean_spacing of its points (parameter_rules.hpp)
+  std::string kind = {};  ///< of its truth (strata.hpp)
 
+  std::string shape() const { return base_shape(plan_case.dataset); }
+  Side side() const { return side_of(plan_case.dataset); }
   /// What its weight depends on.
-  Membership membership() const { return {sampler_of(plan_case.dataset) + ", " + kind, shape}; }
+  Membership membership() const { return {sampler_of(plan_case.dataset) + ", " + kind, shape()}; }
 };
 
 /// An evaluation at a position of the axis.
 struct SweepEvaluation {
   double position = 0;
   bool on_grid = false;  ///< of the sweep, whose positions are those of a grid; else of the refinement
-  Evaluation evaluation;
+  record::RunRecord evaluation;
 };
 
-/// All evaluations of one method on one case.
+/// All evaluations of one method on one case: rows of runs that nobody timed (RunRecord::program).
 struct MethodOnCase {
-  std::vector<SweepEvaluation> sweep;           ///< in the order of the search
-  std::map<std::string, Evaluation> protocols;  ///< "paper", "default", "auto", where there is one
+  std::vector<SweepEvaluation> sweep;                  ///< in the order of the search
+  std::map<std::string, record::RunRecord> protocols;  ///< "paper", "default", "auto", where there is one
 };
+
+/// l2, or kInfinitelyBad (search.hpp) without one.
+double error_of(const record::RunRecord& evaluation);
 
 /// The best of all evaluations, whoever asked for it: of equal errors the first one of the sweep, then of the
 /// protocols. Of failures alone the first; null when there is no evaluation at all.
-const Evaluation* best_evaluation(const MethodOnCase& found);
+const record::RunRecord* best_evaluation(const MethodOnCase& found);
 
 /// The evaluation of the sweep at that position; null when it was not evaluated.
-const Evaluation* evaluation_at(const MethodOnCase& found, double position);
+const record::RunRecord* evaluation_at(const MethodOnCase& found, double position);
 
 /// The error there. A position that a search did not come to, given up after time-outs, is a failure.
 double error_at(const MethodOnCase& found, double position);

@@ -40,8 +40,8 @@ json quartiles_to_json(const Quartiles& quartiles) {
 json case_to_json(const TuningCase& one) {
   return {{"case", one.plan_case.name()},
           {"dataset", one.plan_case.dataset},
-          {"shape", one.shape},
-          {"side", to_string(one.side)},
+          {"shape", one.shape()},
+          {"side", to_string(one.side())},
           {"kind", one.kind},
           {"n", one.n},
           {"holes", one.plan_case.holes},
@@ -92,7 +92,7 @@ json rounds_to_json(const MethodTuning& method) {
 json tolerance_to_json(const Tuning& tuning, const MethodTuning& method) {
   std::vector<double> widths;
   for (std::size_t i = 0; i < method.cases.size(); ++i) {
-    if (tuning.cases[i].side != Side::kTest) continue;
+    if (tuning.cases[i].side() != Side::kTest) continue;
     if (const auto width = tolerance_octaves(method.cases[i])) widths.push_back(*width);
   }
   if (widths.empty()) return nullptr;
@@ -125,7 +125,7 @@ json search_to_json(const Tuning& tuning, const MethodTuning& method) {
 }
 
 /// Where on the axis an evaluation lies; null when it is not of the sweep.
-json position_of(const MethodOnCase& found, const Evaluation& evaluation) {
+json position_of(const MethodOnCase& found, const record::RunRecord& evaluation) {
   for (const SweepEvaluation& one : found.sweep) {
     if (one.evaluation.id == evaluation.id) return one.position;
   }
@@ -136,8 +136,8 @@ json oracle_to_json(const Tuning& tuning, const MethodTuning& method) {
   json choices = json::array();
   if (!method.axis) return choices;
   for (std::size_t i = 0; i < method.cases.size(); ++i) {
-    const Evaluation* best = best_evaluation(method.cases[i]);
-    if (best == nullptr || tuning.cases[i].side != Side::kTest) continue;
+    const record::RunRecord* best = best_evaluation(method.cases[i]);
+    if (best == nullptr || tuning.cases[i].side() != Side::kTest) continue;
     choices.push_back({{"case", tuning.cases[i].plan_case.name()},
                        {"seed", tuning.cases[i].seed},
                        {"position", position_of(method.cases[i], *best)},
@@ -301,10 +301,10 @@ json protocols_of(const MethodTuning& method, const TuningCase& one, const Metho
   for (const auto& [protocol, evaluation] : found.protocols) {
     if (evaluation.id == id) protocols.push_back(protocol);
   }
-  const Evaluation* chosen =
-      tuned && one.side == Side::kTest ? evaluation_at(found, tuned->position) : nullptr;
+  const record::RunRecord* chosen =
+      tuned && one.side() == Side::kTest ? evaluation_at(found, tuned->position) : nullptr;
   if (chosen != nullptr && chosen->id == id) protocols.push_back("tuned");
-  const Evaluation* best = one.side == Side::kTest ? best_evaluation(found) : nullptr;
+  const record::RunRecord* best = one.side() == Side::kTest ? best_evaluation(found) : nullptr;
   if (method.axis && best != nullptr && best->id == id) protocols.push_back("oracle");
   return protocols;
 }
@@ -336,7 +336,7 @@ table::Document tuning_document(const json& summary) {
   return document;
 }
 
-std::vector<json> sweep_lines(const Tuning& tuning, const std::map<std::string, Evaluation>& known) {
+std::vector<json> sweep_lines(const Tuning& tuning, const std::deque<record::RunRecord>& known) {
   std::vector<json> lines;
   std::set<std::string> written;
   for (const MethodTuning& method : tuning.methods) {
@@ -344,10 +344,10 @@ std::vector<json> sweep_lines(const Tuning& tuning, const std::map<std::string, 
     const auto tuned = choose_tuned(method);
     for (std::size_t i = 0; i < method.cases.size(); ++i) {
       const MethodOnCase& found = method.cases[i];
-      const auto add = [&](const Evaluation& evaluation, const json& position, bool on_grid) {
+      const auto add = [&](const record::RunRecord& evaluation, const json& position, bool on_grid) {
         if (!written.insert(evaluation.id).second) return;
-        json& line = lines.emplace_back(evaluation_to_json(evaluation));
-        line["side"] = to_string(tuning.cases[i].side);
+        json& line = lines.emplace_back(evaluation);
+        line["side"] = to_string(tuning.cases[i].side());
         line["position"] = position;
         line["on_grid"] = on_grid;
         line["protocols"] = protocols_of(method, tuning.cases[i], found, tuned, evaluation.id);
@@ -356,8 +356,8 @@ std::vector<json> sweep_lines(const Tuning& tuning, const std::map<std::string, 
       for (const auto& [protocol, evaluation] : found.protocols) add(evaluation, nullptr, false);
     }
   }
-  for (const auto& [id, evaluation] : known) {
-    if (written.insert(id).second) lines.push_back(evaluation_to_json(evaluation));
+  for (const record::RunRecord& evaluation : known) {
+    if (written.insert(evaluation.id).second) lines.emplace_back(evaluation);
   }
   return lines;
 }

@@ -2,13 +2,13 @@
 // and the tables.
 #pragma once
 
-#include <map>
+#include <deque>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
+#include "benchmarks/record/record.hpp"
 #include "benchmarks/table/writers.hpp"
-#include "benchmarks/tune/evaluation.hpp"
 #include "benchmarks/tune/tuning.hpp"
 
 namespace hullbench::tune {
@@ -24,6 +24,6 @@ table::Document tuning_document(const nlohmann::json& summary);
 /// Every evaluation, each once, method by method on each case in the order of the search, with what it was
 /// for: `side`, `position` (null: not of the sweep), `on_grid` and `protocols` ("oracle" and "tuned" among
 /// them). Then those that `known` has besides, which an earlier search of this folder asked for.
-std::vector<nlohmann::json> sweep_lines(const Tuning& tuning, const std::map<std::string, Evaluation>& known);
+std::vector<nlohmann::json> sweep_lines(const Tuning& tuning, const std::deque<record::RunRecord>& known);
 
 }  // namespace hullbench::tune
