@@ -138,8 +138,9 @@ TEST(NumberCounts, HasTheMedianAndTheDeviationOfAllNumbers) {
     const double median = numbers[count / 2];
     const double accuracy = most < 256 ? 0 : 0.004;
     EXPECT_NEAR(counts.median(), median, accuracy * median);
-    std::vector<double> distances;
-    for (const double number : numbers) distances.push_back(std::abs(std::log(number / median)));
+    std::vector<double> distances(numbers.size());
+    std::transform(numbers.begin(), numbers.end(), distances.begin(),
+                   [&](double number) { return std::abs(std::log(number / median)); });
     std::sort(distances.begin(), distances.end());
     const double expected = distances[std::min(count - 1, count * 9 / 10)] / 1.645;
     EXPECT_NEAR(counts.robust_deviation_of_logarithms(median), expected, accuracy + 1e-12);

@@ -344,8 +344,8 @@ class Runner {
 
   /// The entries that take part in the round of the pass's number `turn`, in random order.
   std::vector<Entry*> draw_turns(std::vector<Entry>& entries, int turn, int round) const {
-    std::vector<Entry*> turns;
-    for (Entry& entry : entries) turns.push_back(&entry);
+    std::vector<Entry*> turns(entries.size());
+    std::transform(entries.begin(), entries.end(), turns.begin(), [](Entry& entry) { return &entry; });
     // Drawn from the case and the round, so that a run that goes on after an interruption keeps its order.
     const std::string& points = entries.front().run.drawn->set().sha256;
     Random random(derive_seed(plan_.seed, "order/" + points + "/" + std::to_string(round)));

@@ -214,7 +214,7 @@ table::Table protocol_table(const json& summary) {
 
 std::string axis_text(const json& axis) {
   if (axis.is_null()) return "nothing is searched";
-  const std::string name = axis.at("parameter");
+  auto name = axis.at("parameter").get<std::string>();
   if (axis.at("kind") == "own") return name;
   return name + (axis.at("power") == 2 ? " = (x h)²" : " = x h");
 }
@@ -269,8 +269,9 @@ std::vector<std::string> document_notes(const json& summary) {
   std::vector<std::string> notes = {
       "Training shapes: " + shapes_text(summary, "training") + ".",
       "Test shapes: " + shapes_text(summary, "test") + ".",
-      "Whole sources of shapes and whole ways to sample are of one side (benchmarks/tune/split.cpp, with the "
-      "reasons); a training shape that is sampled as only tests are is left out.",
+      ("Whole sources of shapes and whole ways to sample are of one side (benchmarks/tune/split.cpp, with "
+       "the "
+       "reasons); a training shape that is sampled as only tests are is left out."),
       "h is the points' mean spacing over their convex hull, √(A_hull/n); it is known without the ground "
       "truth.",
       "default: without parameters, but holes switched on; tuned: the one x with the smallest median error "

@@ -83,7 +83,8 @@ constexpr auto make_runs() {
         if (run.first > run.last) run.first = column;
         run.last = column;
       }
-      runs[static_cast<std::size_t>(s)][static_cast<std::size_t>(row + kReach)] = run;
+      const int from_lowest = row + kReach;
+      runs[static_cast<std::size_t>(s)][static_cast<std::size_t>(from_lowest)] = run;
     }
   }
   return runs;
@@ -336,8 +337,8 @@ SectorCover<kDisk>::SectorCover() {
         // From p at the far side of its quarter to q at the near side of its cell, and the other way round.
         const Sectors both = inside_at(x - 1, y - 1) & inside_at(x - 1, y + kSteps) &
                              inside_at(x + kSteps, y - 1) & inside_at(x + kSteps, y + kSteps);
-        auto& sectors =
-            covering_[static_cast<std::size_t>(quarter)][static_cast<std::size_t>(row + kFarthest)];
+        const int from_lowest = row + kFarthest;
+        auto& sectors = covering_[static_cast<std::size_t>(quarter)][static_cast<std::size_t>(from_lowest)];
         for (Sectors covered = both & std::rotr(both, 1); covered != 0; covered &= covered - 1) {
           sectors[static_cast<std::size_t>(std::countr_zero(covered))] |=
               std::uint32_t{1} << static_cast<unsigned>(column + kFarthest);

@@ -26,7 +26,8 @@ constexpr auto make_half_widths() {
     int columns = 0;
     while (columns * columns + gap_y * gap_y < kWithin * kWithin) ++columns;
     // Between two columns that are k apart lie k - 1 others: the gap to the next one is the first too wide.
-    half_widths[static_cast<std::size_t>(row + kDistance + 1)] = static_cast<unsigned>(columns);
+    const int from_lowest = row + kDistance + 1;
+    half_widths[static_cast<std::size_t>(from_lowest)] = static_cast<unsigned>(columns);
   }
   return half_widths;
 }
@@ -81,7 +82,8 @@ Reach::Reach() {
         const Vector nearest{gap(d.min.x, d.max.x, of.x), gap(d.min.y, d.max.y, of.y)};
         return squared_length(nearest) < (radius + kWithin) * (radius + kWithin);
       };
-      const auto row_index = static_cast<std::size_t>(row + kFarthest);
+      const int from_lowest = row + kFarthest;
+      const auto row_index = static_cast<std::size_t>(from_lowest);
       const std::uint32_t bit = std::uint32_t{1} << static_cast<unsigned>(column + kFarthest);
       if (is_within(2 * kNearRadius, {0, 0})) near.rows[row_index] |= bit;
       if (!is_within(2 * kRadius, {0, 0})) continue;
@@ -260,7 +262,8 @@ void InteriorPart::find_shared_cells(std::size_t points, ThreadPool& pool) {
 bool InteriorPart::are_many_uncertain(std::span<const Point> points, double most) const {
   const PointCertificate& certificate = PointCertificate::instance();
   const std::size_t step = std::max(kLeastStep, points.size() / 256) | 1U;
-  const auto looked_at = static_cast<double>((points.size() + step - 1) / step);
+  const std::size_t number = (points.size() + step - 1) / step;
+  const auto looked_at = static_cast<double>(number);
   double uncertain = 0;
   for (std::size_t i = 0; i < points.size() && uncertain <= most * looked_at; i += step) {
     uncertain += certificate.is_certified(points[i], cells_.data()[i], grid_, occupied()) ? 0 : 1;

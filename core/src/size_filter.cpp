@@ -364,14 +364,14 @@ void SizeFilter::fill_small_holes(const Mesh& mesh, const Point* vertices, const
   const auto enter = [&](Index t) {
     if (!mesh.is_kept(t) && !mesh.is_ghost(t) && seen.add(t)) group_.push_back(t);
   };
+  const auto enter_neighbours = [&](Index t) {
+    for (Index k = 0; k < 3; ++k) enter(neighbour(mesh, t, k));
+  };
   group_.clear();  // first what is connected to the outside
   for_each_dropped(mesh, 0, mesh.word_count(), kept, [&](Index t) {
-    if (!mesh.is_ghost(t)) return;
-    for (Index k = 0; k < 3; ++k) enter(neighbour(mesh, t, k));
+    if (mesh.is_ghost(t)) enter_neighbours(t);
   });
-  for (std::size_t next = 0; next < group_.size(); ++next) {
-    for (Index k = 0; k < 3; ++k) enter(neighbour(mesh, group_[next], k));
-  }
+  for (std::size_t next = 0; next < group_.size();) enter_neighbours(group_[next++]);
   changed_.clear();
   for_each_dropped(mesh, 0, mesh.word_count(), kept, [&](Index start) {
     group_.clear();
@@ -381,8 +381,8 @@ void SizeFilter::fill_small_holes(const Mesh& mesh, const Point* vertices, const
     double squared_radius = 0;  // the greatest
     double squared_sizes = 0;   // of the kept triangles along its border
     std::size_t border = 0;
-    for (std::size_t next = 0; next < group_.size(); ++next) {
-      const Index t = group_[next];
+    for (std::size_t next = 0; next < group_.size();) {
+      const Index t = group_[next++];
       // Only triangles that are too large count: one that was dropped as a spike or with a small part may lie
       // where a part of the mesh was not built.
       if (whole.ask(OneSizeRule(field.limit4_at(t)), t) != Answer::kYes) {

@@ -167,8 +167,9 @@ void WindowSample::place_windows(std::size_t points, std::size_t windows, double
     while (counted <= rank) counted += counts_[++cell];
     Window& window = windows_[w];
     window.points.clear();
+    const std::size_t cell_row = cell / columns_;
     window.centre = {minimum_.x + (static_cast<double>(cell % columns_) + 0.5) / cells_per_length_,
-                     minimum_.y + (static_cast<double>(cell / columns_) + 0.5) / cells_per_length_};
+                     minimum_.y + (static_cast<double>(cell_row) + 0.5) / cells_per_length_};
     const std::uint32_t left = column(std::max(window.centre.x - half_side, minimum_.x));
     const std::uint32_t right = std::min(column(window.centre.x + half_side), columns_ - 1);
     const std::uint32_t bottom = row(std::max(window.centre.y - half_side, minimum_.y));
