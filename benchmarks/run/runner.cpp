@@ -30,14 +30,14 @@ struct Entry {
 };
 
 /// The runs of one case: indices into the planned runs, the last one not included.
-struct CaseRuns {
+struct RunsOfCase {
   std::size_t begin = 0;
   std::size_t end = 0;
 };
 
 /// The same with what they are run on.
 struct CaseWork {
-  CaseRuns runs;
+  RunsOfCase runs;
   std::shared_ptr<const DrawnCase> drawn = nullptr;
   std::vector<Entry> entries = {};
 };
@@ -137,7 +137,7 @@ class Runner {
 
   /// The cases with something to do; of the others no points are drawn.
   void find_cases() {
-    for (CaseRuns one; one.begin < runs_.size(); one.begin = one.end) {
+    for (RunsOfCase one; one.begin < runs_.size(); one.begin = one.end) {
       one.end = one.begin;
       bool done = true;
       while (one.end < runs_.size() && runs_[one.end].case_index == runs_[one.begin].case_index)
@@ -181,7 +181,7 @@ class Runner {
     }
   }
 
-  const plan::PlanCase& case_of(const CaseRuns& runs) const {
+  const plan::PlanCase& case_of(const RunsOfCase& runs) const {
     return plan_.expanded_cases[runs_[runs.begin].case_index];
   }
 
@@ -191,7 +191,7 @@ class Runner {
     std::vector<CaseWork> batch;
     std::int64_t work = 0;
     for (; next < cases_.size(); ++next) {
-      const CaseRuns& runs = cases_[next];
+      const RunsOfCase& runs = cases_[next];
       work += estimated_points(case_of(runs)) * static_cast<std::int64_t>(runs.end - runs.begin) * runs_each;
       if (!batch.empty() && work > kBatchWork) break;
       batch.push_back({runs});
@@ -478,9 +478,9 @@ class Runner {
   Progress& progress_;
   int pass_;
   record::PictureBook pictures_;
-  std::vector<CaseRuns> cases_;  ///< those with something to do
-  std::string machine_;          ///< this one's id, for the rows
-  Workbench bench_;              ///< of the methods that are needed, as in the plan
+  std::vector<RunsOfCase> cases_;  ///< those with something to do
+  std::string machine_;            ///< this one's id, for the rows
+  Workbench bench_;                ///< of the methods that are needed, as in the plan
 };
 
 }  // namespace
