@@ -1,5 +1,5 @@
-// What is left of the triangles within the limit when small parts are dropped, against a walk through all of
-// them.
+// What is left of the triangles within the limit when small parts are dropped and holes are filled, against a
+// walk through all triangles.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -93,6 +93,49 @@ TEST(SizeFilter, DropsRegionsOfFewTriangles) {
   }
   EXPECT_GT(kept, 100'000U);
   EXPECT_GT(dropped, 10'000U);
+}
+
+// Triangle -> whether it is beyond the limit and connected by such triangles to the outside.
+std::vector<bool> reached_from_outside(const Filtered& filtered) {
+  const Mesh& mesh = filtered.builder.mesh();
+  std::vector<bool> is_reached(mesh.triangle_count());
+  std::vector<Mesh::Index> reached;
+  for (Mesh::Index t = 0; t < mesh.triangle_count(); ++t) {
+    if (mesh.is_ghost(t) && !mesh.is_unused(t)) reached.push_back(t);
+  }
+  for (std::size_t next = 0; next < reached.size(); ++next) {
+    for (Mesh::Index k = 0; k < 3; ++k) {
+      const Mesh::Index other = Mesh::triangle_of(mesh.twin(Mesh::kStride * reached[next] + k));
+      if (mesh.is_ghost(other) || is_reached[other] || filtered.is_within_limit(other)) continue;
+      is_reached[other] = true;
+      reached.push_back(other);
+    }
+  }
+  return is_reached;
+}
+
+TEST(SizeFilter, FillsHolesButNothingThatTheOutsideReaches) {
+  constexpr double kFillsAll = 1e9;
+  std::size_t outside = 0;
+  std::size_t filled = 0;
+  for (std::uint64_t seed = 0; seed < 300; ++seed) {
+    SCOPED_TRACE(seed);
+    Random random(seed);
+    const Points points = testing::uniform_points(20 + random.below(1000), seed);
+    const double size = random.between(0.8, 2.2) / std::sqrt(static_cast<double>(points.size()));
+    const Filtered filtered(
+        points, {.limit4 = {std::pow(size, 4)}, .spike_share = kNoSpike, .wide_square = kFillsAll});
+    const std::vector<bool> is_outside = reached_from_outside(filtered);
+    const Mesh& mesh = filtered.builder.mesh();
+    for (Mesh::Index t = 0; t < mesh.triangle_count(); ++t) {
+      if (mesh.is_ghost(t)) continue;
+      ASSERT_EQ(mesh.is_kept(t), !is_outside[t]) << t;
+      outside += is_outside[t] ? 1U : 0U;
+      filled += mesh.is_kept(t) && !filtered.is_within_limit(t) ? 1U : 0U;
+    }
+  }
+  EXPECT_GT(outside, 10'000U);
+  EXPECT_GT(filled, 10'000U);
 }
 
 }  // namespace
