@@ -11,7 +11,6 @@
 
 #include "core/src/cell_numbers.hpp"
 #include "core/src/coordinate_range.hpp"
-#include "core/src/window_sample.hpp"
 #include "tests/point_sets.hpp"
 
 namespace polylidar::detail {
@@ -117,33 +116,6 @@ TEST(Kernels, MeasureCoordinates) {
         EXPECT_THROW(measure_coordinates(infinite, pool, kernel), std::invalid_argument);
       }
     }
-  }
-}
-
-TEST(NumberCounts, HasTheMedianAndTheDeviationOfAllNumbers) {
-  Random random(3);
-  for (std::size_t count = 1; count < 200; ++count) {
-    // Some below 256, each of which counts as itself, and some far above.
-    const std::size_t most = count % 3 == 0 ? 200'000 : 255;
-    NumberCounts counts;
-    counts.clear();
-    std::vector<double> numbers;
-    for (std::size_t i = 0; i < count; ++i) {
-      const auto number = static_cast<std::uint32_t>(1 + random.below(most));
-      counts.add(number);
-      numbers.push_back(number);
-    }
-    ASSERT_EQ(counts.total(), count);
-    std::sort(numbers.begin(), numbers.end());
-    const double median = numbers[count / 2];
-    const double accuracy = most < 256 ? 0 : 0.004;
-    EXPECT_NEAR(counts.median(), median, accuracy * median);
-    std::vector<double> distances(numbers.size());
-    std::transform(numbers.begin(), numbers.end(), distances.begin(),
-                   [&](double number) { return std::abs(std::log(number / median)); });
-    std::sort(distances.begin(), distances.end());
-    const double expected = distances[std::min(count - 1, count * 9 / 10)] / 1.645;
-    EXPECT_NEAR(counts.robust_deviation_of_logarithms(median), expected, accuracy + 1e-12);
   }
 }
 

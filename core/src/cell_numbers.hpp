@@ -41,7 +41,7 @@ inline bool is_near_border(double u) {
   return ((u > 0.5) & ((part < kNear) | (part >= 1 - kNear))) != 0;  // without branches
 }
 
-/// Whether a coordinate of any of the points is.
+/// Whether any of the points has such a coordinate.
 bool any_near_border(std::span<const Point> points, const CellNumbering& numbering,
                      Kernel kernel = best_kernel());
 

@@ -260,13 +260,23 @@ void InteriorPart::find_shared_cells(std::size_t points, ThreadPool& pool) {
 
 /// Whether more than a share of `most` of the points are uncertain, as far as some tell.
 bool InteriorPart::are_many_uncertain(std::span<const Point> points, double most) const {
+  if (most >= 1) return false;
   const PointCertificate& certificate = PointCertificate::instance();
+  const auto is_uncertain = [&](std::size_t i) {
+    return !certificate.is_certified(points[i], cells_.data()[i], grid_, occupied());
+  };
+  // All of a few, from everywhere, are never uncertain where only a share is: most inputs that must be given
+  // up end here.
+  constexpr std::size_t kFew = 16;
+  std::size_t few = 0;
+  while (few < kFew && is_uncertain(points.size() * few / kFew)) ++few;
+  if (few == kFew) return true;
   const std::size_t step = std::max(kLeastStep, points.size() / 256) | 1U;
   const std::size_t number = (points.size() + step - 1) / step;
   const auto looked_at = static_cast<double>(number);
   double uncertain = 0;
   for (std::size_t i = 0; i < points.size() && uncertain <= most * looked_at; i += step) {
-    uncertain += certificate.is_certified(points[i], cells_.data()[i], grid_, occupied()) ? 0 : 1;
+    uncertain += is_uncertain(i) ? 1 : 0;
   }
   return uncertain > most * looked_at;
 }
