@@ -475,6 +475,18 @@ TEST(InteriorLeftOut, AlsoOfCoordinatesWithFewDecimals) {
 
 // What the proof needs of the part: it has every uncertain point's neighbours in the triangulation of all
 // points.
+TEST(InteriorLeftOut, AlsoOfPointsThatComeRowByRow) {
+  // Looked at from row to row, their first column alone says nothing of the others.
+  for (const std::size_t columns : {100U, 160U, 424U}) {
+    for (std::size_t rows = 64; rows <= 256; rows += 16) {
+      const Points points = testing::lattice(columns, rows);
+      Extractor extractor;
+      extractor.extract(points, {.alpha = 2});
+      EXPECT_EQ(extractor.statistics().way, Way::kInteriorLeftOut) << columns << " x " << rows;
+    }
+  }
+}
+
 TEST(InteriorPart, HasAllNeighboursOfUncertainPoints) {
   detail::InteriorPart part;
   detail::ThreadPool pool;

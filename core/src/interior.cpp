@@ -14,6 +14,9 @@ namespace {
 
 /// At most one point in so many is looked at before the others.
 constexpr std::size_t kLeastStep = 32;
+/// And at most so many, for the share of uncertain points and for that of the part.
+constexpr std::size_t kMostLookedAt = 256;
+constexpr std::size_t kMostOfPart = 40;
 
 /// Of the cells that come within some distance of a cell: row, from the lowest on -> how many columns on
 /// either side of the cell. The distance is in cells, and less than one from a whole number.
@@ -147,6 +150,14 @@ std::size_t parts_of(const ThreadPool& pool) {
   return std::min<std::size_t>(pool.threads(), kMostParts);
 }
 
+/// Number k of a sequence of places among `points` points, of which any first ones are spread evenly, and at
+/// no regular distance: points that come row by row might all begin one.
+std::size_t spread(std::size_t k, std::size_t points) {
+  constexpr double kGoldenRatio = 0.6180339887498949;
+  const double turns = kGoldenRatio * static_cast<double>(k + 1);
+  return static_cast<std::size_t>((turns - std::floor(turns)) * static_cast<double>(points));
+}
+
 }  // namespace
 
 void mark_reach(const Grid& grid, Grid::Cell cell, Bitmap& reached) {
@@ -262,23 +273,16 @@ void InteriorPart::find_shared_cells(std::size_t points, ThreadPool& pool) {
 bool InteriorPart::are_many_uncertain(std::span<const Point> points, double most) const {
   if (most >= 1) return false;
   const PointCertificate& certificate = PointCertificate::instance();
-  const auto is_uncertain = [&](std::size_t i) {
-    return !certificate.is_certified(points[i], cells_.data()[i], grid_, occupied());
-  };
-  // All of a few, from everywhere, are never uncertain where only a share is: most inputs that must be given
-  // up end here.
-  constexpr std::size_t kFew = 16;
-  std::size_t few = 0;
-  while (few < kFew && is_uncertain(points.size() * few / kFew)) ++few;
-  if (few == kFew) return true;
-  const std::size_t step = std::max(kLeastStep, points.size() / 256) | 1U;
-  const std::size_t number = (points.size() + step - 1) / step;
-  const auto looked_at = static_cast<double>(number);
-  double uncertain = 0;
-  for (std::size_t i = 0; i < points.size() && uncertain <= most * looked_at; i += step) {
-    uncertain += is_uncertain(i) ? 1 : 0;
+  const std::size_t looked_at = std::min(kMostLookedAt, points.size() / kLeastStep + 1);
+  constexpr std::size_t kFew = 16;  // of which all are uncertain only where most are
+  std::size_t uncertain = 0;
+  for (std::size_t k = 0; k < looked_at; ++k) {
+    const std::size_t i = spread(k, points.size());
+    uncertain += certificate.is_certified(points[i], cells_.data()[i], grid_, occupied()) ? 0U : 1U;
+    if (uncertain == kFew && k + 1 == kFew) return true;
+    if (static_cast<double>(uncertain) > most * static_cast<double>(looked_at)) return true;
   }
-  return uncertain > most * looked_at;
+  return false;
 }
 
 /// The part's share of the points, as far as a few tell: near how many is an uncertain cell whose middle is
@@ -299,13 +303,12 @@ double InteriorPart::share_of_part(std::span<const Point> points) const {
     }
     return false;
   };
-  const std::size_t step = std::max(16 * kLeastStep, points.size() / 40) | 1U;
-  std::size_t looked_at = 0;
+  const std::size_t looked_at = std::min(kMostOfPart, points.size() / (16 * kLeastStep) + 1);
   std::size_t in_part = 0;
-  for (std::size_t i = step / 2; i < points.size(); i += step, ++looked_at) {
-    in_part += is_in_part(cells_.data()[i]) ? 1U : 0U;
+  for (std::size_t k = 0; k < looked_at; ++k) {
+    in_part += is_in_part(cells_.data()[spread(k, points.size())]) ? 1U : 0U;
   }
-  return looked_at == 0 ? 0 : static_cast<double>(in_part) / static_cast<double>(looked_at);
+  return static_cast<double>(in_part) / static_cast<double>(looked_at);
 }
 
 void InteriorPart::find_uncertain_cells(ThreadPool& pool) {
