@@ -49,8 +49,9 @@ bool is_in_shape_with_holes(const Point& p) {
 const std::vector<Sampler>& samplers() {
   const auto cell = [](std::size_t i, std::size_t n) {
     const auto columns = static_cast<std::size_t>(std::sqrt(static_cast<double>(n)));
+    const std::size_t row = i / columns;
     return Point{static_cast<double>(i % columns) / static_cast<double>(columns),
-                 static_cast<double>(i / columns) / static_cast<double>(columns)};
+                 static_cast<double>(row) / static_cast<double>(columns)};
   };
   static const std::vector<Sampler> all = {
       {"uniform",

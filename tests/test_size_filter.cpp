@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 #include "core/src/delaunay_builder.hpp"
@@ -22,7 +23,7 @@ using Points = std::vector<Point>;
 constexpr double kNoSpike = 1e300;
 
 struct Filtered {
-  Filtered(const Points& points, const SizeField& given) : field(given) {
+  Filtered(const Points& points, SizeField given) : field(std::move(given)) {
     ThreadPool pool;
     pool.use(1);
     builder.build(points, pool);
