@@ -19,6 +19,8 @@ MAKEFLAGS += --no-print-directory
 JOBS ?= $(shell awk -v cores="$$(nproc 2>/dev/null || echo 2)" \
   '/^MemAvailable/ { fit = int($$2 / 1500000) } END { print fit < 1 ? 1 : (fit < cores ? fit : cores) }' \
   /proc/meminfo 2>/dev/null || echo 2)
+# Some tests wait for a browser, a server or a clock, so two more of them run than there are processes to compile with.
+TEST_JOBS = $(shell expr $(JOBS) + 2)
 BUILD_LOG := build/log
 export NINJA_STATUS := [%f/%t] 
 
@@ -45,7 +47,7 @@ endef
 
 # $(call tests,preset,folder): all tests of a build folder, then why any was skipped.
 define tests
-ctest --preset $(1) --parallel $(JOBS) && status=0 || status=$$?; \
+ctest --preset $(1) --parallel $(TEST_JOBS) && status=0 || status=$$?; \
 sed -n '/^skipped: /p' $(2)/Testing/Temporary/LastTest.log | sort | uniq -c >&2; \
 exit $$status
 endef

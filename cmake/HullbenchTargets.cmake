@@ -41,11 +41,15 @@ function(hullbench_compile_together target)
   endif()
 endfunction()
 
-# hullbench_test(NAME SOURCES... LIBRARIES... [LABELS...] [TIMEOUT seconds] [RUNS_HULLBENCH]): one GoogleTest program from one
-# or more files; its cases appear in ctest one by one. All know the folders of the sources and the plans, where the program
-# is and which Python the system has; with RUNS_HULLBENCH the program is built first.
+# Tests that take ten seconds or more have this COST, so that ctest starts them first and none of them is left for the end.
+set(HULLBENCH_COST_OF_LONG_TESTS 100)
+
+# hullbench_test(NAME SOURCES... LIBRARIES... [LABELS...] [TIMEOUT seconds] [RUNS_HULLBENCH] [STARTS_EARLY] [IN_ONE]): one
+# GoogleTest program from one or more files; its cases appear in ctest one by one. All know the folders of the sources and the
+# plans, where the program is and which Python the system has; with RUNS_HULLBENCH the program is built first. STARTS_EARLY is
+# for tests that take long. IN_ONE is for tests that share what takes long to prepare: one entry in ctest for all.
 function(hullbench_test name)
-  cmake_parse_arguments(TEST "RUNS_HULLBENCH" "TIMEOUT" "SOURCES;LIBRARIES;LABELS" ${ARGN})
+  cmake_parse_arguments(TEST "RUNS_HULLBENCH;STARTS_EARLY;IN_ONE" "TIMEOUT" "SOURCES;LIBRARIES;LABELS" ${ARGN})
   add_executable(${name} ${TEST_SOURCES})
   target_compile_definitions(${name} PRIVATE
     # Boost 1.74's Geometry includes headers of its own that announce themselves as deprecated in every compilation.
@@ -66,6 +70,15 @@ function(hullbench_test name)
     set(TEST_TIMEOUT 120)
   endif()
   set_target_properties(${name} PROPERTIES RUNTIME_OUTPUT_DIRECTORY "${CMAKE_BINARY_DIR}/tests")
-  gtest_discover_tests(${name} DISCOVERY_TIMEOUT 60
-    PROPERTIES TIMEOUT ${TEST_TIMEOUT} LABELS "${TEST_LABELS}")
+  set(cost 0)
+  if(TEST_STARTS_EARLY)
+    set(cost ${HULLBENCH_COST_OF_LONG_TESTS})
+  endif()
+  if(TEST_IN_ONE)
+    add_test(NAME ${name} COMMAND ${name})
+    set_tests_properties(${name} PROPERTIES TIMEOUT ${TEST_TIMEOUT} COST ${cost} LABELS "${TEST_LABELS}")
+  else()
+    gtest_discover_tests(${name} DISCOVERY_TIMEOUT 60
+      PROPERTIES TIMEOUT ${TEST_TIMEOUT} COST ${cost} LABELS "${TEST_LABELS}")
+  endif()
 endfunction()

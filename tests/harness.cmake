@@ -77,7 +77,7 @@ add_test(NAME reference.is_of_this_revision
   COMMAND "${CMAKE_CURRENT_LIST_DIR}/check_reference.sh" "${PROJECT_SOURCE_DIR}")
 set_tests_properties(reference.is_of_this_revision PROPERTIES SKIP_RETURN_CODE 77)
 hullbench_test(test_reference SOURCES test_reference.cpp
-  LIBRARIES hullbench::league hullbench::report hullbench_test_program LABELS harness)
+  LIBRARIES hullbench::league hullbench::report hullbench_test_program LABELS harness TIMEOUT 300 IN_ONE)
 add_test(NAME readme.has_the_reference_run
   COMMAND hullbench readme --check results/reference README.md
   WORKING_DIRECTORY "${PROJECT_SOURCE_DIR}")
@@ -85,7 +85,7 @@ add_test(NAME readme.has_the_reference_run
 # Methods that are added: manifests, the skeletons of `hullbench adapter new`, and the contract.
 hullbench_test(test_manifest SOURCES test_manifest.cpp
   LIBRARIES hullbench::run hullbench_test_program LABELS harness)
-hullbench_test(test_adapter_command SOURCES test_adapter_command.cpp LABELS harness RUNS_HULLBENCH)
+hullbench_test(test_adapter_command SOURCES test_adapter_command.cpp LABELS harness RUNS_HULLBENCH STARTS_EARLY)
 
 # The methods in JavaScript and Python that filter triangles, against the core.
 hullbench_test(test_triangle_methods SOURCES test_triangle_methods.cpp

@@ -12,7 +12,7 @@ set(needs_of_site esbuild "${SYSTEM_PYTHON}:scipy")
 foreach(part IN ITEMS records ratings front figures paper html_report pictures comparison site)
   hullbench_tool_test(NAME plots.${part} NEEDS "${SYSTEM_PYTHON}:jsonschema" ${needs_of_${part}}
     COMMAND "${SYSTEM_PYTHON}" -B -m unittest test_${part}_py)
-  set_tests_properties(plots.${part} PROPERTIES LABELS plots TIMEOUT 900
+  set_tests_properties(plots.${part} PROPERTIES LABELS plots TIMEOUT 900 COST ${HULLBENCH_COST_OF_LONG_TESTS}
     WORKING_DIRECTORY "${CMAKE_CURRENT_LIST_DIR}" ENVIRONMENT "HULLBENCH=$<TARGET_FILE:hullbench>")
 endforeach()
 foreach(page IN ITEMS report comparison site)
@@ -21,13 +21,13 @@ foreach(page IN ITEMS report comparison site)
       "${PROJECT_SOURCE_DIR}/plots/node_modules" "${CMAKE_CURRENT_LIST_DIR}/report/node_modules"
     COMMAND "${CMAKE_CURRENT_LIST_DIR}/report/run.sh" ${page}
             "$<TARGET_FILE:hullbench>" "$<TARGET_FILE:write_invented_report>" "${CMAKE_BINARY_DIR}/tests/${page}_in_browser")
-  set_tests_properties(plots.${page}_in_browser PROPERTIES LABELS plots TIMEOUT 1200)
+  set_tests_properties(plots.${page}_in_browser PROPERTIES LABELS plots TIMEOUT 1200 COST ${HULLBENCH_COST_OF_LONG_TESTS})
 endforeach()
 hullbench_tool_test(NAME plots.choice_in_browser
   NEEDS node "chromium|chromium-browser|google-chrome" "${CMAKE_CURRENT_LIST_DIR}/report/node_modules"
   COMMAND ${CMAKE_COMMAND} -E env "HULLBENCH=$<TARGET_FILE:hullbench>" "OUTPUT=${CMAKE_BINARY_DIR}/tests/choice_in_browser"
           node --test --test-reporter=spec "${CMAKE_CURRENT_LIST_DIR}/report/choice.test.mjs")
-set_tests_properties(plots.choice_in_browser PROPERTIES LABELS plots TIMEOUT 600)
+set_tests_properties(plots.choice_in_browser PROPERTIES LABELS plots TIMEOUT 600 COST ${HULLBENCH_COST_OF_LONG_TESTS})
 # The picture of the samplers; what the points are is tested elsewhere.
 hullbench_tool_test(NAME plots.samplers NEEDS "${SYSTEM_PYTHON}:matplotlib" "${SYSTEM_PYTHON}:numpy"
   COMMAND "${SYSTEM_PYTHON}" -B "${PROJECT_SOURCE_DIR}/plots/make_samplers.py" --hullbench "$<TARGET_FILE:hullbench>"

@@ -29,3 +29,4 @@ hullbench_python_test(examples TIMEOUT 120 NEEDS :numpy :shapely :matplotlib :ge
 hullbench_python_test(wheel TIMEOUT 900 NEEDS :numpy :shapely :pip :setuptools :wheel :pybind11
   ENVIRONMENT "HULLBENCH_BUILD=${PROJECT_BINARY_DIR}" "CC=${CMAKE_CXX_COMPILER_LAUNCHER} ${CMAKE_CXX_COMPILER}"
     "CXX=${CMAKE_CXX_COMPILER_LAUNCHER} ${CMAKE_CXX_COMPILER}" "POLYLIDAR_JOBS=2")
+set_tests_properties(python.wheel PROPERTIES COST ${HULLBENCH_COST_OF_LONG_TESTS})
