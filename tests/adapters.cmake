@@ -5,11 +5,7 @@ foreach(part IN ITEMS geos_concave_hull chi_shape knn_hull convex_hull)
     continue()
   endif()
   hullbench_test(test_${part} SOURCES test_${part}.cpp
-    LIBRARIES hullbench_adapter_${part} hullbench_adapter_interface hullbench_test_support hullbench::metrics Boost::headers
-    LABELS adapters)
-  # g++ 12 finds uninitialised values in Boost.Geometry 1.74 where there are none.
-  set_source_files_properties(test_${part}.cpp PROPERTIES
-    COMPILE_OPTIONS "$<$<CXX_COMPILER_ID:GNU>:-Wno-maybe-uninitialized>")
+    LIBRARIES hullbench_adapter_${part} hullbench_adapter_interface hullbench_boost_checks hullbench_test_support LABELS adapters)
 endforeach()
 if(TARGET test_geos_concave_hull)
   target_link_libraries(test_geos_concave_hull PRIVATE hullbench_adapter_chi_shape)

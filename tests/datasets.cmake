@@ -4,7 +4,6 @@ find_package(PNG REQUIRED)
 
 hullbench_test(test_datasets
   SOURCES
-    boost_checks.cpp
     test_datasets.cpp
     test_families.cpp
     test_holes.cpp
@@ -23,16 +22,13 @@ hullbench_test(test_datasets
     test_tangled_shapes.cpp
     test_tissue.cpp
     test_world_shapes.cpp
-  LIBRARIES hullbench_test_support hullbench::datasets hullbench::hash nlohmann_json::nlohmann_json Boost::headers PNG::PNG
+  LIBRARIES hullbench_boost_checks hullbench_test_support hullbench::datasets hullbench::hash nlohmann_json::nlohmann_json Boost::headers PNG::PNG
   LABELS datasets)
 foreach(golden IN ITEMS golden_hashes golden_stress)
   add_test(NAME datasets.${golden}
     COMMAND /usr/bin/python3 -B "${CMAKE_CURRENT_LIST_DIR}/${golden}.py" --check)
   set_tests_properties(datasets.${golden} PROPERTIES LABELS datasets TIMEOUT 600)
 endforeach()
-# g++ 12 finds uninitialised values in Boost.Geometry 1.74 where there are none.
-set_source_files_properties(boost_checks.cpp PROPERTIES
-  COMPILE_OPTIONS "$<$<CXX_COMPILER_ID:GNU>:-Wno-maybe-uninitialized>")
 hullbench_test(test_real_points
   SOURCES test_real_points.cpp
   LIBRARIES hullbench_test_program hullbench::datasets nlohmann_json::nlohmann_json
