@@ -56,7 +56,7 @@ function(hullbench_test_header)
   target_precompile_headers(hullbench_test_header PRIVATE ${headers})
 endfunction()
 
-# Tests that take ten seconds or more have this COST, so that ctest starts them first and none of them is left for the end.
+# Groups with tests that take ten seconds or more have this COST: ctest starts them first, and none is left for the end.
 set(HULLBENCH_COST_OF_LONG_TESTS 100)
 
 # hullbench_test(NAME SOURCES... LIBRARIES... [LABELS...] [TIMEOUT seconds] [RUNS_HULLBENCH] [STARTS_EARLY] [IN_ONE]): one
