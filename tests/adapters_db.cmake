@@ -1,10 +1,6 @@
-# The database adapters, the bytes they exchange and the servers they use.
-hullbench_test(test_wkb SOURCES test_wkb.cpp LIBRARIES hullbench_adapter_interface)
-
+# The database adapters and the servers they use.
 if(TARGET hullbench_adapter_spatialite)
-  hullbench_test(test_spatialite SOURCES test_spatialite.cpp
-    LIBRARIES hullbench_adapter_spatialite hullbench_adapter_interface)
-  hullbench_test(test_spatialite_steps SOURCES test_spatialite_steps.cpp
+  hullbench_test(test_spatialite SOURCES test_spatialite.cpp test_spatialite_steps.cpp
     LIBRARIES hullbench_adapter_spatialite_steps hullbench_adapter_spatialite hullbench_adapter_interface
       hullbench::datasets)
 else()

@@ -6,6 +6,7 @@
 #include <boost/geometry/geometries/multi_polygon.hpp>
 #include <boost/geometry/geometries/point_xy.hpp>
 #include <boost/geometry/geometries/polygon.hpp>
+#include <boost/multiprecision/cpp_int.hpp>
 #include <iterator>
 #include <limits>
 
@@ -15,24 +16,29 @@ namespace {
 
 namespace bg = boost::geometry;
 using BoostPoint = bg::model::d2::point_xy<double>;
+/// Coordinates without rounding.
+using Rational =
+    boost::multiprecision::number<boost::multiprecision::cpp_rational_backend, boost::multiprecision::et_off>;
 /// Counter-clockwise shells, first vertex not repeated: as polylidar::Polygon.
-using BoostPolygon = bg::model::polygon<BoostPoint, false, false>;
-using BoostMultiPolygon = bg::model::multi_polygon<BoostPolygon>;
+template <typename Number>
+using BoostMultiPolygon =
+    bg::model::multi_polygon<bg::model::polygon<bg::model::d2::point_xy<Number>, false, false>>;
 
 BoostPoint to_boost(const polylidar::Point& point) {
   return {point.x, point.y};
 }
 
-BoostMultiPolygon to_boost(const polylidar::MultiPolygon& shape) {
-  BoostMultiPolygon result;
-  for (const polylidar::Polygon& polygon : shape) {
-    BoostPolygon converted;
-    for (const polylidar::Point& vertex : polygon.shell) converted.outer().push_back(to_boost(vertex));
-    for (const polylidar::Ring& hole : polygon.holes) {
-      auto& inner = converted.inners().emplace_back();
-      for (const polylidar::Point& vertex : hole) inner.push_back(to_boost(vertex));
-    }
-    result.push_back(converted);
+template <typename Number = double>
+BoostMultiPolygon<Number> to_boost(const polylidar::MultiPolygon& shape) {
+  const auto copy = [](const polylidar::Ring& from, auto& to) {
+    for (const polylidar::Point& point : from) to.emplace_back(Number(point.x), Number(point.y));
+  };
+  BoostMultiPolygon<Number> result;
+  result.resize(shape.size());
+  for (std::size_t p = 0; p < shape.size(); ++p) {
+    copy(shape[p].shell, result[p].outer());
+    result[p].inners().resize(shape[p].holes.size());
+    for (std::size_t h = 0; h < shape[p].holes.size(); ++h) copy(shape[p].holes[h], result[p].inners()[h]);
   }
   return result;
 }
@@ -50,12 +56,13 @@ std::vector<polylidar::Ring> rings_of(const polylidar::MultiPolygon& shape) {
 
 std::string boost_fault(const polylidar::MultiPolygon& shape) {
   std::string reason;
-  return bg::is_valid(to_boost(shape), reason) ? "" : reason;
+  if (bg::is_valid(to_boost(shape), reason) || bg::is_valid(to_boost<Rational>(shape), reason)) return {};
+  return reason;
 }
 
 std::vector<polylidar::Point> boost_outside(const polylidar::MultiPolygon& shape,
                                             const std::vector<polylidar::Point>& points) {
-  const BoostMultiPolygon converted = to_boost(shape);
+  const BoostMultiPolygon<double> converted = to_boost(shape);
   std::vector<polylidar::Point> outside;
   std::copy_if(points.begin(), points.end(), std::back_inserter(outside),
                [&](const polylidar::Point& point) { return !bg::within(to_boost(point), converted); });
@@ -76,10 +83,30 @@ double boost_distance(const polylidar::Point& point, const polylidar::MultiPolyg
   return nearest;
 }
 
+double boost_area(const polylidar::MultiPolygon& shape) {
+  return bg::area(to_boost(shape));
+}
+
+double boost_perimeter(const polylidar::MultiPolygon& shape) {
+  return static_cast<double>(bg::perimeter(to_boost(shape)));
+}
+
 double boost_common_area(const polylidar::MultiPolygon& a, const polylidar::MultiPolygon& b) {
-  BoostMultiPolygon common;
+  BoostMultiPolygon<double> common;
   bg::intersection(to_boost(a), to_boost(b), common);
   return bg::area(common);
+}
+
+double boost_difference_area(const polylidar::MultiPolygon& a, const polylidar::MultiPolygon& b) {
+  BoostMultiPolygon<Rational> difference;
+  bg::difference(to_boost<Rational>(a), to_boost<Rational>(b), difference);
+  return static_cast<double>(bg::area(difference));
+}
+
+double boost_symmetric_difference_area(const polylidar::MultiPolygon& a, const polylidar::MultiPolygon& b) {
+  BoostMultiPolygon<Rational> difference;
+  bg::sym_difference(to_boost<Rational>(a), to_boost<Rational>(b), difference);
+  return static_cast<double>(bg::area(difference));
 }
 
 }  // namespace hullbench::testing

@@ -8,6 +8,10 @@
 
 namespace hullbench::testing {
 
+inline bool contains(const std::string& text, const std::string& part) {
+  return text.find(part) != std::string::npos;
+}
+
 /// Expects that these words are in `text`.
 inline void expect_says(const std::string& text, const std::string& words) {
   EXPECT_NE(text.find(words), std::string::npos) << "\"" << words << "\" is not in: " << text;

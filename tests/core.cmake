@@ -4,21 +4,24 @@ add_library(hullbench_test_support STATIC point_sets.cpp hull_oracle.cpp)
 target_include_directories(hullbench_test_support PUBLIC "${PROJECT_SOURCE_DIR}")
 target_link_libraries(hullbench_test_support PUBLIC polylidar::core polylidar::check PRIVATE hullbench::compile_options)
 
-hullbench_test(test_delaunay SOURCES test_delaunay.cpp LIBRARIES hullbench_test_support LABELS core)
-hullbench_test(test_concave_hull SOURCES test_concave_hull.cpp LIBRARIES hullbench_test_support LABELS core)
-hullbench_test(test_automatic_limit SOURCES test_automatic_limit.cpp LIBRARIES hullbench_test_support LABELS core)
+hullbench_test(test_core
+  SOURCES
+    test_automatic_limit.cpp
+    test_certificate.cpp
+    test_concave_hull.cpp
+    test_core_corpus.cpp
+    test_core_relations.cpp
+    test_count_triangles.cpp
+    test_delaunay.cpp
+    test_kernels.cpp
+    test_outline_fill.cpp
+    test_quantile.cpp
+    test_size_filter.cpp
+    test_stream.cpp
+    test_window_sample.cpp
+  LIBRARIES hullbench_test_support LABELS core)
 hullbench_test(test_interior SOURCES test_interior.cpp LIBRARIES hullbench_test_support LABELS core)
-hullbench_test(test_certificate SOURCES test_certificate.cpp LIBRARIES hullbench_test_support LABELS core)
-hullbench_test(test_outline_fill SOURCES test_outline_fill.cpp LIBRARIES hullbench_test_support LABELS core)
-hullbench_test(test_window_sample SOURCES test_window_sample.cpp LIBRARIES hullbench_test_support LABELS core)
-hullbench_test(test_kernels SOURCES test_kernels.cpp LIBRARIES hullbench_test_support LABELS core)
-hullbench_test(test_quantile SOURCES test_quantile.cpp LIBRARIES hullbench_test_support LABELS core)
-hullbench_test(test_size_filter SOURCES test_size_filter.cpp LIBRARIES hullbench_test_support LABELS core)
-hullbench_test(test_stream SOURCES test_stream.cpp LIBRARIES hullbench_test_support LABELS core)
-hullbench_test(test_count_triangles SOURCES test_count_triangles.cpp LIBRARIES hullbench_test_support LABELS core)
 hullbench_test(test_threads SOURCES test_threads.cpp LIBRARIES hullbench_test_support LABELS core)
-hullbench_test(test_core_corpus SOURCES test_core_corpus.cpp LIBRARIES hullbench_test_support LABELS core)
-hullbench_test(test_core_relations SOURCES test_core_relations.cpp LIBRARIES hullbench_test_support LABELS core)
 
 # Each fuzz target twice: for libFuzzer, which only clang has, and with a main of its own that runs the kept corpus, which
 # makes it a test with every compiler.
@@ -64,5 +67,5 @@ if(NOT HULLBENCH_CORE_ONLY)
   hullbench_test(test_delaunay_against_cgal SOURCES test_delaunay_against_cgal.cpp
     LIBRARIES hullbench_test_support CGAL::CGAL LABELS core)
   hullbench_test(test_concave_hull_validity SOURCES test_concave_hull_validity.cpp
-    LIBRARIES hullbench_test_support hullbench::metrics Boost::headers LABELS core)
+    LIBRARIES hullbench_boost_checks hullbench_test_support hullbench::metrics LABELS core)
 endif()

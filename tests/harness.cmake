@@ -8,65 +8,58 @@ add_executable(misbehaving_worker "${CMAKE_CURRENT_LIST_DIR}/misbehaving_worker.
 set_target_properties(misbehaving_worker PROPERTIES RUNTIME_OUTPUT_DIRECTORY "${CMAKE_BINARY_DIR}/tests")
 target_link_libraries(misbehaving_worker PRIVATE hullbench::worker hullbench::compile_options)
 
-hullbench_test(test_plan SOURCES test_plan.cpp
-  LIBRARIES hullbench::plan hullbench::record hullbench::hash LABELS harness)
+# What needs no program: plans, the pieces of a run, the search for parameters, the league.
+hullbench_test(test_harness
+  SOURCES
+    test_canary.cpp
+    test_league.cpp
+    test_limit_fit.cpp
+    test_machines.cpp
+    test_manifest.cpp
+    test_parallel.cpp
+    test_plan.cpp
+    test_point_parts.cpp
+    test_row_store.cpp
+    test_rule_fit.cpp
+    test_shard.cpp
+    test_triangle_methods.cpp
+    test_tune_search.cpp
+    test_worker.cpp
+  LIBRARIES hullbench::league hullbench::tune hullbench::run hullbench::report hullbench::worker hullbench::adapters
+    hullbench::metrics hullbench::datasets hullbench::hash hullbench_invented_run hullbench_test_program hullbench_test_support
+  LABELS harness)
+target_compile_definitions(test_harness PRIVATE MISBEHAVING_WORKER="$<TARGET_FILE:misbehaving_worker>")
+add_dependencies(test_harness misbehaving_worker)
 
 file(GLOB plans CONFIGURE_DEPENDS "${PROJECT_SOURCE_DIR}/benchmarks/plans/*.json")
 list(FILTER plans EXCLUDE REGEX "schema.json$")
 hullbench_tool_test(NAME plans.python_takes_them NEEDS "${SYSTEM_PYTHON}:jsonschema"
   COMMAND "${SYSTEM_PYTHON}" "${CMAKE_CURRENT_LIST_DIR}/validate_report.py" ${plans})
 
-foreach(part IN ITEMS shard point_parts canary parallel)
-  hullbench_test(test_${part} SOURCES test_${part}.cpp LIBRARIES hullbench::run LABELS harness)
-endforeach()
-
-hullbench_test(test_row_store SOURCES test_row_store.cpp
-  LIBRARIES hullbench::run hullbench_test_program LABELS harness)
-
-hullbench_test(test_worker SOURCES test_worker.cpp
-  LIBRARIES hullbench::worker hullbench::base hullbench_test_program LABELS harness)
-target_compile_definitions(test_worker PRIVATE MISBEHAVING_WORKER="$<TARGET_FILE:misbehaving_worker>")
-add_dependencies(test_worker misbehaving_worker)
-
-hullbench_test(test_runner SOURCES test_runner.cpp
-  LIBRARIES hullbench::run hullbench::report LABELS harness RUNS_HULLBENCH)
-target_compile_definitions(test_runner PRIVATE MISBEHAVING_WORKER="$<TARGET_FILE:misbehaving_worker>")
-add_dependencies(test_runner misbehaving_worker)
-
-hullbench_test(test_pictures SOURCES test_pictures.cpp
-  LIBRARIES hullbench::run hullbench::report LABELS harness RUNS_HULLBENCH)
-hullbench_test(test_league SOURCES test_league.cpp
-  LIBRARIES hullbench::league hullbench::tune hullbench::report LABELS harness)
-hullbench_test(test_submission SOURCES test_submission.cpp
-  LIBRARIES hullbench::record hullbench::hash LABELS harness RUNS_HULLBENCH TIMEOUT 600)
-target_compile_definitions(test_submission PRIVATE SYSTEM_PYTHON="${SYSTEM_PYTHON}")
-hullbench_test(test_suite SOURCES test_suite.cpp LIBRARIES hullbench::record LABELS harness RUNS_HULLBENCH)
-hullbench_test(test_readme SOURCES test_readme.cpp
-  LIBRARIES hullbench::run hullbench_invented_run LABELS harness RUNS_HULLBENCH)
-hullbench_test(test_machines SOURCES test_machines.cpp
-  LIBRARIES hullbench::run hullbench_invented_run hullbench::report LABELS harness)
-hullbench_test(test_compare SOURCES test_compare.cpp
-  LIBRARIES hullbench::report hullbench_invented_run LABELS harness RUNS_HULLBENCH)
-
 # Google Benchmark's own tool, and the Python that its package brings the libraries for.
 find_file(COMPARE_PY compare.py PATHS /usr/share/benchmark PATH_SUFFIXES tools NO_DEFAULT_PATH)
 if(NOT COMPARE_PY)
   set(COMPARE_PY compare.py)
 endif()
-hullbench_test(test_gbench_export SOURCES test_gbench_export.cpp
-  LIBRARIES hullbench::report hullbench_invented_run LABELS harness RUNS_HULLBENCH)
-target_compile_definitions(test_gbench_export PRIVATE COMPARE_PY="${COMPARE_PY}")
-
-# The search for parameters.
-hullbench_test(test_tune_search SOURCES test_tune_search.cpp LIBRARIES hullbench::tune LABELS harness)
-hullbench_test(test_rule_fit SOURCES test_rule_fit.cpp
-  LIBRARIES hullbench::tune hullbench::adapters hullbench::metrics hullbench::datasets LABELS harness)
-hullbench_test(test_limit_fit SOURCES test_limit_fit.cpp
-  LIBRARIES hullbench::tune hullbench::metrics hullbench::datasets LABELS harness)
-hullbench_test(test_tune SOURCES test_tune.cpp
-  LIBRARIES hullbench::record hullbench::run hullbench::metrics LABELS harness RUNS_HULLBENCH)
-
-hullbench_test(test_command_line SOURCES test_command_line.cpp LIBRARIES hullbench::record LABELS harness RUNS_HULLBENCH)
+# What starts the program.
+hullbench_test(test_program
+  SOURCES
+    test_command_line.cpp
+    test_compare.cpp
+    test_gbench_export.cpp
+    test_merge.cpp
+    test_pictures.cpp
+    test_readme.cpp
+    test_runner.cpp
+    test_submission.cpp
+    test_suite.cpp
+    test_tune.cpp
+  LIBRARIES hullbench::record hullbench::run hullbench::report hullbench::metrics hullbench::hash hullbench_invented_run
+  LABELS harness RUNS_HULLBENCH TIMEOUT 600)
+target_compile_definitions(test_program PRIVATE
+  COMPARE_PY="${COMPARE_PY}" MISBEHAVING_WORKER="$<TARGET_FILE:misbehaving_worker>"
+  VALIDATE_REPORT="${CMAKE_CURRENT_LIST_DIR}/validate_report.py")
+add_dependencies(test_program misbehaving_worker)
 
 add_test(NAME evaluate.searches_measures_and_judges
   COMMAND "${CMAKE_CURRENT_LIST_DIR}/check_evaluate.sh" "${PROJECT_SOURCE_DIR}")
@@ -82,14 +75,8 @@ add_test(NAME readme.has_the_reference_run
   COMMAND hullbench readme --check results/reference README.md
   WORKING_DIRECTORY "${PROJECT_SOURCE_DIR}")
 
-# Methods that are added: manifests, the skeletons of `hullbench adapter new`, and the contract.
-hullbench_test(test_manifest SOURCES test_manifest.cpp
-  LIBRARIES hullbench::run hullbench_test_program LABELS harness)
+# Methods that are added: the skeletons of `hullbench adapter new`, and the contract.
 hullbench_test(test_adapter_command SOURCES test_adapter_command.cpp LABELS harness RUNS_HULLBENCH STARTS_EARLY)
-
-# The methods in JavaScript and Python that filter triangles, against the core.
-hullbench_test(test_triangle_methods SOURCES test_triangle_methods.cpp
-  LIBRARIES hullbench::run hullbench::metrics hullbench_test_support LABELS harness)
 
 # The README's checklist for a method in C++, walked with a sample: hullbench writes it, add_adapter() takes it, and the
 # program that has it keeps the contract with it.

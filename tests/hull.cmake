@@ -1,36 +1,25 @@
 # Points from files, and `polylidar hull`, which makes polygons of them.
 find_package(GEOS CONFIG REQUIRED)
 
-hullbench_test(test_point_files SOURCES test_point_files.cpp LIBRARIES polylidar::tool LABELS hull)
+hullbench_test(test_tool
+  SOURCES
+    test_crs.cpp
+    test_group_hulls.cpp
+    test_las_points.cpp
+    test_point_files.cpp
+    test_shard_file.cpp
+    test_simplify.cpp
+  LIBRARIES polylidar::tool hullbench::metrics LABELS hull)
+target_include_directories(test_tool PRIVATE "${PROJECT_SOURCE_DIR}")
 
-hullbench_test(test_hull_command SOURCES test_hull_command.cpp
-  LIBRARIES polylidar::tool hullbench::metrics hullbench_adapter_interface hullbench_test_program
+hullbench_test(test_tool_commands
+  SOURCES test_choose_command.cpp test_footprint_command.cpp test_hull_command.cpp test_points_command.cpp
+  LIBRARIES polylidar::tool hullbench::run hullbench::metrics hullbench::datasets hullbench_adapter_interface
     nlohmann_json::nlohmann_json GEOS::geos_c
-  LABELS hull)
-target_compile_definitions(test_hull_command PRIVATE
-  HULLBENCH="$<TARGET_FILE:hullbench>" POLYLIDAR="$<TARGET_FILE:polylidar>")
-add_dependencies(test_hull_command hullbench polylidar)
-
-hullbench_test(test_choose_command SOURCES test_choose_command.cpp
-  LIBRARIES polylidar::tool hullbench::run LABELS hull RUNS_HULLBENCH)
-target_compile_definitions(test_choose_command PRIVATE MISBEHAVING_WORKER="$<TARGET_FILE:misbehaving_worker>")
-add_dependencies(test_choose_command misbehaving_worker polylidar)
-
-hullbench_test(test_points_command SOURCES test_points_command.cpp
-  LIBRARIES polylidar::tool hullbench::datasets hullbench_test_program LABELS hull)
-target_compile_definitions(test_points_command PRIVATE HULLBENCH="$<TARGET_FILE:hullbench>")
-add_dependencies(test_points_command hullbench)
-
-hullbench_test(test_shard_file SOURCES test_shard_file.cpp LIBRARIES polylidar::tool LABELS hull)
-hullbench_test(test_simplify SOURCES test_simplify.cpp LIBRARIES polylidar::tool hullbench::metrics LABELS hull)
-
-hullbench_test(test_las_points SOURCES test_las_points.cpp LIBRARIES polylidar::tool LABELS hull)
-hullbench_test(test_crs SOURCES test_crs.cpp LIBRARIES polylidar::tool LABELS hull)
-hullbench_test(test_group_hulls SOURCES test_group_hulls.cpp LIBRARIES polylidar::tool LABELS hull)
-hullbench_test(test_footprint_command SOURCES test_footprint_command.cpp
-  LIBRARIES polylidar::tool hullbench_test_program nlohmann_json::nlohmann_json LABELS hull)
-target_compile_definitions(test_footprint_command PRIVATE POLYLIDAR="$<TARGET_FILE:polylidar>")
-add_dependencies(test_footprint_command polylidar)
+  LABELS hull RUNS_HULLBENCH)
+target_compile_definitions(test_tool_commands PRIVATE
+  POLYLIDAR="$<TARGET_FILE:polylidar>" MISBEHAVING_WORKER="$<TARGET_FILE:misbehaving_worker>")
+add_dependencies(test_tool_commands misbehaving_worker polylidar)
 # With GDAL, where it is found: the program as a build with POLYLIDAR_WITH_GDAL has it.
 if(TARGET polylidar_gdal)
   set(with_gdal polylidar)
@@ -51,9 +40,5 @@ else()
   hullbench_skipped_test(vector_formats "GDAL is missing (apt-get install libgdal-dev)")
 endif()
 if(POLYLIDAR_WITH_GDAL)
-  target_compile_definitions(test_footprint_command PRIVATE HAS_GDAL)
+  target_compile_definitions(test_tool_commands PRIVATE HAS_GDAL)
 endif()
-
-foreach(test point_files shard_file simplify las_points crs group_hulls)
-  target_include_directories(test_${test} PRIVATE "${PROJECT_SOURCE_DIR}")
-endforeach()

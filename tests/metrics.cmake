@@ -1,6 +1,6 @@
 # Scores, and the adapter that the core is compared with.
 
-# Boost.Geometry's opinion, compiled once for all tests that ask for it, as its headers take long.
+# Boost.Geometry's opinion, compiled once for all tests that ask for it.
 add_library(hullbench_boost_checks STATIC
   "${CMAKE_CURRENT_LIST_DIR}/boost_checks.cpp" "${CMAKE_CURRENT_LIST_DIR}/simple_hull.cpp")
 target_link_libraries(hullbench_boost_checks PRIVATE
@@ -8,21 +8,16 @@ target_link_libraries(hullbench_boost_checks PRIVATE
 target_compile_definitions(hullbench_boost_checks PRIVATE BOOST_ALLOW_DEPRECATED_HEADERS)
 # g++ 12 finds uninitialised values in Boost.Geometry 1.74 where there are none.
 target_compile_options(hullbench_boost_checks PRIVATE -O1 "$<$<CXX_COMPILER_ID:GNU>:-Wno-maybe-uninitialized>")
-hullbench_compile_together(hullbench_boost_checks)
 
-hullbench_test(test_area_scores SOURCES test_area_scores.cpp
-  LIBRARIES hullbench_test_support hullbench::metrics hullbench::datasets Boost::headers LABELS metrics)
-hullbench_test(test_metrics SOURCES test_metrics.cpp
-  LIBRARIES hullbench_boost_checks hullbench_test_support hullbench::metrics hullbench::datasets Boost::headers LABELS metrics)
-hullbench_test(test_metric_table SOURCES test_metric_table.cpp LIBRARIES hullbench::metrics LABELS metrics)
+hullbench_test(test_metrics
+  SOURCES test_area_scores.cpp test_hexbin.cpp test_metric_table.cpp test_metrics.cpp
+  LIBRARIES hullbench_boost_checks hullbench_test_support hullbench::footprint hullbench::metrics hullbench::datasets
+  LABELS metrics)
 
 if(TARGET hullbench_adapter_cgal_alpha_shape)
-  hullbench_test(test_cgal_alpha_shape SOURCES test_cgal_alpha_shape.cpp
-    LIBRARIES hullbench_test_support hullbench_adapter_cgal_alpha_shape hullbench_adapter_interface
-      hullbench::metrics hullbench::datasets CGAL::CGAL
-    LABELS adapters)
-  hullbench_test(test_cgal_delaunay SOURCES test_cgal_delaunay.cpp
-    LIBRARIES hullbench_test_support hullbench_adapter_cgal_delaunay hullbench_adapter_interface hullbench::metrics
+  hullbench_test(test_cgal_methods SOURCES test_cgal_alpha_shape.cpp test_cgal_delaunay.cpp
+    LIBRARIES hullbench_test_support hullbench_adapter_cgal_alpha_shape hullbench_adapter_cgal_delaunay
+      hullbench_adapter_interface hullbench::metrics hullbench::datasets CGAL::CGAL
     LABELS adapters)
 endif()
 if(TARGET hullbench_adapter_sfcgal_alpha_shape)
@@ -31,5 +26,3 @@ if(TARGET hullbench_adapter_sfcgal_alpha_shape)
       hullbench::datasets
     LABELS adapters)
 endif()
-
-hullbench_test(test_hexbin SOURCES test_hexbin.cpp LIBRARIES hullbench::footprint hullbench::metrics LABELS metrics)

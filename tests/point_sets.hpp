@@ -2,6 +2,7 @@
 // everywhere.
 #pragma once
 
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -41,6 +42,10 @@ struct PointSet {
   std::string name;
   std::vector<Point> points;
 };
+
+inline double distance(const Point& a, const Point& b) {
+  return std::hypot(b.x - a.x, b.y - a.y);
+}
 
 /// `count` points, uniform in the square [0, side)^2.
 std::vector<Point> uniform_points(std::size_t count, std::uint64_t seed, double side = 1);

@@ -7,7 +7,7 @@
 
 #include "benchmarks/metrics/validity.hpp"
 #include "polylidar/predicates.hpp"
-#include "tests/boost_shapes.hpp"
+#include "tests/boost_checks.hpp"
 #include "tests/point_sets.hpp"
 
 namespace hullbench::test {
@@ -56,7 +56,7 @@ void expect_one_simple_polygon_round(const std::vector<polylidar::Point>& points
   }
   const polylidar::MultiPolygon scaled = {{polylidar::testing::near_one(shell), {}}};
   EXPECT_EQ(metrics::invalid_reason(scaled), "");
-  EXPECT_EQ(polylidar::testing::boost_invalid_reason(scaled), "");
+  EXPECT_EQ(testing::boost_fault(scaled), "");
   EXPECT_TRUE(runs_counter_clockwise(shell));
 }
 

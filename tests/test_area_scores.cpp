@@ -15,8 +15,10 @@
 #include "benchmarks/metrics/area.hpp"
 #include "benchmarks/metrics/validity.hpp"
 #include "datasets/datasets.hpp"
-#include "tests/boost_shapes.hpp"
+#include "tests/boost_checks.hpp"
+#include "tests/boxes.hpp"
 #include "tests/complaint.hpp"
+#include "tests/infinity.hpp"
 #include "tests/point_sets.hpp"
 
 namespace hullbench {
@@ -27,19 +29,12 @@ using polylidar::Point;
 using polylidar::Polygon;
 using polylidar::Ring;
 using polylidar::testing::Random;
-
-Ring box(double left, double bottom, double right, double top) {
-  return {{left, bottom}, {right, bottom}, {right, top}, {left, top}};
-}
-
-Ring reversed(const Ring& ring) {
-  return {ring.rbegin(), ring.rend()};
-}
-
-const MultiPolygon kSquare = {{box(0, 0, 1, 1), {}}};
+using testing::box;
+using testing::kUnitSquare;
+using testing::reversed;
 
 TEST(AreaScores, OfTheGroundTruthItselfArePerfect) {
-  const metrics::AreaScores scores = metrics::area_scores(kSquare, kSquare);
+  const metrics::AreaScores scores = metrics::area_scores(kUnitSquare, kUnitSquare);
   EXPECT_TRUE(scores.valid);
   EXPECT_EQ(scores.invalid_reason, "");
   EXPECT_EQ(scores.area, 1);
@@ -73,7 +68,7 @@ TEST(AreaScores, EveryDataSetIsValidAndPerfectAgainstItself) {
 // Which area divides is what tells l2 from the paper's.
 TEST(AreaScores, DivideByTheRightArea) {
   const MultiPolygon wide = {{box(0, 0, 4, 1), {}}};
-  const metrics::AreaScores too_small = metrics::area_scores(kSquare, wide);
+  const metrics::AreaScores too_small = metrics::area_scores(kUnitSquare, wide);
   EXPECT_EQ(too_small.symmetric_difference_area, 3);
   EXPECT_EQ(too_small.l2, 0.75);
   EXPECT_EQ(too_small.l2_paper, 3);
@@ -82,7 +77,7 @@ TEST(AreaScores, DivideByTheRightArea) {
   EXPECT_EQ(too_small.commission, 0);
   EXPECT_EQ(too_small.area_bias, -0.75);
   EXPECT_EQ(too_small.perimeter_ratio, 0.4);
-  const metrics::AreaScores too_large = metrics::area_scores(wide, kSquare);
+  const metrics::AreaScores too_large = metrics::area_scores(wide, kUnitSquare);
   EXPECT_EQ(too_large.l2, 3);
   EXPECT_EQ(too_large.l2_paper, 0.75);
   EXPECT_EQ(too_large.iou, 0.25);
@@ -93,7 +88,7 @@ TEST(AreaScores, DivideByTheRightArea) {
 }
 
 TEST(AreaScores, CountWhatIsMissingAndWhatIsTooMuch) {
-  const metrics::AreaScores scores = metrics::area_scores({{box(0.5, 0, 1.5, 1), {}}}, kSquare);
+  const metrics::AreaScores scores = metrics::area_scores({{box(0.5, 0, 1.5, 1), {}}}, kUnitSquare);
   EXPECT_EQ(scores.symmetric_difference_area, 1);
   EXPECT_EQ(scores.l2, 1);
   EXPECT_EQ(scores.iou, 0.5 / 1.5);
@@ -104,7 +99,7 @@ TEST(AreaScores, CountWhatIsMissingAndWhatIsTooMuch) {
 }
 
 TEST(AreaScores, OfDisjointShapes) {
-  const metrics::AreaScores scores = metrics::area_scores({{box(5, 5, 7, 7), {}}}, kSquare);
+  const metrics::AreaScores scores = metrics::area_scores({{box(5, 5, 7, 7), {}}}, kUnitSquare);
   EXPECT_EQ(scores.symmetric_difference_area, 5);
   EXPECT_EQ(scores.l2, 5);
   EXPECT_EQ(scores.l2_paper, 1.25);
@@ -141,7 +136,7 @@ TEST(AreaScores, AllowPolygonsAndRingsThatTouchInAPoint) {
 }
 
 TEST(AreaScores, OfNothingAreAllMissing) {
-  const metrics::AreaScores scores = metrics::area_scores({}, kSquare);
+  const metrics::AreaScores scores = metrics::area_scores({}, kUnitSquare);
   EXPECT_TRUE(scores.valid);
   EXPECT_EQ(scores.area, 0);
   EXPECT_EQ(scores.symmetric_difference_area, 1);
@@ -162,7 +157,7 @@ struct InvalidCase {
 
 std::vector<InvalidCase> invalid_cases() {
   constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
-  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  using testing::kInfinity;
   return {
       {"bow-tie", {{{{0, 0}, {2, 2}, {2, 0}, {0, 2}}, {}}}},
       {"hole outside its shell", {{box(0, 0, 1, 1), {box(3, 3, 4, 4)}}}},
@@ -170,7 +165,7 @@ std::vector<InvalidCase> invalid_cases() {
       {"nested holes", {{box(0, 0, 9, 9), {box(1, 1, 8, 8), box(3, 3, 4, 4)}}}},
       {"overlapping polygons", {{box(0, 0, 2, 2), {}}, {box(1, 1, 3, 3), {}}}},
       {"polygon within another", {{box(0, 0, 9, 9), {}}, {box(1, 1, 2, 2), {}}}},
-      {"the same polygon twice", {kSquare[0], kSquare[0]}},
+      {"the same polygon twice", {kUnitSquare[0], kUnitSquare[0]}},
       {"polygons that share an edge", {{box(0, 0, 1, 1), {}}, {box(1, 0, 2, 1), {}}}},
       {"interior cut apart", {{box(0, 0, 4, 4), {{{0, 2}, {2, 3}, {4, 2}, {2, 1}}}}}},
       {"ring that passes a point twice", {{{{0, 0}, {2, 0}, {1, 1}, {2, 2}, {0, 2}, {1, 1}}, {}}}},
@@ -187,7 +182,7 @@ std::vector<InvalidCase> invalid_cases() {
 TEST(AreaScores, OfInvalidShapesSayWhyAndLeaveRatiosOpen) {
   for (const InvalidCase& invalid : invalid_cases()) {
     SCOPED_TRACE(invalid.name);
-    const metrics::AreaScores scores = metrics::area_scores(invalid.shape, kSquare);
+    const metrics::AreaScores scores = metrics::area_scores(invalid.shape, kUnitSquare);
     EXPECT_FALSE(scores.valid);
     EXPECT_TRUE(scores.invalid_reason.starts_with(invalid.reason)) << scores.invalid_reason;
     EXPECT_FALSE(scores.invalid_reason.empty());
@@ -207,19 +202,19 @@ TEST(AreaScores, OfInvalidShapesSayWhyAndLeaveRatiosOpen) {
 
 TEST(AreaScores, OfInvalidShapesKeepTheArea) {
   const metrics::AreaScores scores =
-      metrics::area_scores({{box(0, 0, 2, 2), {}}, {box(1, 1, 3, 3), {}}}, kSquare);
+      metrics::area_scores({{box(0, 0, 2, 2), {}}, {box(1, 1, 3, 3), {}}}, kUnitSquare);
   EXPECT_EQ(scores.area, 8);
   Ring larger = box(0, 0, 2, 2);
   std::reverse(larger.begin(), larger.end());
-  EXPECT_EQ(metrics::area_scores({{box(0, 0, 1, 1), {larger}}}, kSquare).area, 0)
+  EXPECT_EQ(metrics::area_scores({{box(0, 0, 1, 1), {larger}}}, kUnitSquare).area, 0)
       << "of a hole that is larger than its shell";
 }
 
 TEST(AreaScores, RefuseAGroundTruthThatIsNone) {
-  EXPECT_THROW(metrics::area_scores(kSquare, {}), std::runtime_error);
+  EXPECT_THROW(metrics::area_scores(kUnitSquare, {}), std::runtime_error);
   for (const InvalidCase& invalid : invalid_cases()) {
     SCOPED_TRACE(invalid.name);
-    testing::expect_complaint([&] { metrics::area_scores(kSquare, invalid.shape); }, invalid.reason);
+    testing::expect_complaint([&] { metrics::area_scores(kUnitSquare, invalid.shape); }, invalid.reason);
   }
 }
 
@@ -252,28 +247,6 @@ Polygon star_with_holes(Random& random, Point centre, double spread, std::size_t
   return polygon;
 }
 
-// Exact: with doubles Boost.Geometry rounds crossings to a grid and is off by some 1e-7 of the area.
-double boost_symmetric_difference(const MultiPolygon& a, const MultiPolygon& b) {
-  using polylidar::testing::Rational;
-  using polylidar::testing::to_boost;
-  polylidar::testing::BoostMultiPolygon<Rational> difference;
-  boost::geometry::sym_difference(to_boost<Rational>(a), to_boost<Rational>(b), difference);
-  return static_cast<double>(boost::geometry::area(difference));
-}
-
-/// The area of what is in `a` and not in `b`; exact as above.
-double boost_difference(const MultiPolygon& a, const MultiPolygon& b) {
-  using polylidar::testing::Rational;
-  using polylidar::testing::to_boost;
-  polylidar::testing::BoostMultiPolygon<Rational> difference;
-  boost::geometry::difference(to_boost<Rational>(a), to_boost<Rational>(b), difference);
-  return static_cast<double>(boost::geometry::area(difference));
-}
-
-double boost_perimeter(const MultiPolygon& shape) {
-  return static_cast<double>(boost::geometry::perimeter(polylidar::testing::to_boost(shape)));
-}
-
 TEST(AreaScoresAgainstBoost, AgreeOnRandomPolygons) {
   for (std::uint64_t seed = 0; seed < 60; ++seed) {
     SCOPED_TRACE("seed " + std::to_string(seed));
@@ -288,26 +261,27 @@ TEST(AreaScoresAgainstBoost, AgreeOnRandomPolygons) {
       truth.push_back(star_with_holes(random, {40, 0}, spread, corners, holes));
       result.push_back(star_with_holes(random, {41, 1}, spread, corners, holes));
     }
-    ASSERT_EQ(polylidar::testing::boost_invalid_reason(truth), "");
+    ASSERT_EQ(testing::boost_fault(truth), "");
     const metrics::AreaScores scores = metrics::area_scores(result, truth);
     ASSERT_TRUE(scores.valid) << scores.invalid_reason;
     // GEOS places crossings in double arithmetic, each within some ulps of a coordinate; a few hundred of
     // them move an area by far less than 1e-9 of it.
     const double tolerance = 1e-9 * scores.ground_truth_area;
-    EXPECT_NEAR(*scores.symmetric_difference_area, boost_symmetric_difference(truth, result), tolerance);
-    EXPECT_NEAR(scores.area, boost::geometry::area(polylidar::testing::to_boost(result)), tolerance);
+    EXPECT_NEAR(*scores.symmetric_difference_area, testing::boost_symmetric_difference_area(truth, result),
+                tolerance);
+    EXPECT_NEAR(scores.area, testing::boost_area(result), tolerance);
     EXPECT_NEAR(*scores.iou,
                 (scores.area + scores.ground_truth_area - *scores.symmetric_difference_area) /
                     (scores.area + scores.ground_truth_area + *scores.symmetric_difference_area),
                 1e-9);
     // What is not missing of the difference is too much; exact overlays are slow.
     if (seed % 6 == 0) {
-      const double missing = boost_difference(truth, result);
+      const double missing = testing::boost_difference_area(truth, result);
       EXPECT_NEAR(*scores.omission * scores.ground_truth_area, missing, tolerance);
       EXPECT_NEAR(*scores.commission * scores.ground_truth_area, *scores.symmetric_difference_area - missing,
                   tolerance);
     }
-    EXPECT_NEAR(*scores.perimeter_ratio, boost_perimeter(result) / boost_perimeter(truth),
+    EXPECT_NEAR(*scores.perimeter_ratio, testing::boost_perimeter(result) / testing::boost_perimeter(truth),
                 1e-12);  // sums of a few hundred lengths
   }
 }

@@ -17,12 +17,14 @@
 #include "polylidar/check.hpp"
 #include "polylidar/concave_hull.hpp"
 #include "polylidar/delaunay.hpp"
+#include "tests/checked_hull.hpp"
 #include "tests/hull_oracle.hpp"
 #include "tests/point_sets.hpp"
 
 namespace polylidar {
 namespace {
 
+using testing::checked_hull;
 using testing::hole_count;
 using testing::PointSet;
 
@@ -35,12 +37,6 @@ std::optional<ChosenSizes> chosen(const std::vector<Point>& points, const Option
 /// Of points that have a triangle.
 double median_size(const std::vector<Point>& points) {
   return chosen(points).value().median;
-}
-
-MultiPolygon hull(const std::vector<Point>& points, const Options& options = {}) {
-  const IndexedMultiPolygon shape = concave_hull(points, options);
-  EXPECT_EQ(check_polygon(points, shape), "");
-  return to_coordinates(shape, points);
 }
 
 template <class Map>
@@ -111,13 +107,13 @@ TEST(AutomaticLimit, OfPointsWithoutATriangleIsNone) {
   for (const PointSet& set : testing::flat_point_sets()) {
     SCOPED_TRACE(set.name);
     EXPECT_EQ(chosen(set.points), std::nullopt);
-    EXPECT_TRUE(hull(set.points).empty());
+    EXPECT_TRUE(checked_hull(set.points).empty());
   }
 }
 
 TEST(AutomaticLimit, OfThreePointsKeepsTheirTriangle) {
-  EXPECT_EQ(hull({{0, 0}, {4, 0}, {0, 3}}).size(), 1U);
-  EXPECT_EQ(hull({{0, 0}, {1e6, 0}, {5e5, 1e-3}}).size(), 1U) << "a flat one";
+  EXPECT_EQ(checked_hull({{0, 0}, {4, 0}, {0, 3}}).size(), 1U);
+  EXPECT_EQ(checked_hull({{0, 0}, {1e6, 0}, {5e5, 1e-3}}).size(), 1U) << "a flat one";
 }
 
 TEST(AutomaticLimit, OfAnExtractorIsForItsPointsAlone) {
@@ -230,7 +226,7 @@ TEST_P(AutomaticLimitRelations, PlaceAndOrderDoNotMatter) {
   EXPECT_EQ(concave_hull(moved), shape_);
   const std::vector<Point> shuffled = testing::shuffled(points_, GetParam());
   EXPECT_DOUBLE_EQ(median_size(shuffled), median_size(points_));
-  EXPECT_DOUBLE_EQ(area(hull(shuffled)), area(to_coordinates(shape_, points_)));
+  EXPECT_DOUBLE_EQ(area(checked_hull(shuffled)), area(to_coordinates(shape_, points_)));
 }
 
 // They move the borders of blocks.
@@ -239,7 +235,7 @@ TEST_P(AutomaticLimitRelations, RepeatsMatterNoMoreThanNoise) {
   for (int i = 0; i < 60; ++i) repeated.insert(repeated.end(), points_.begin(), points_.end());
   repeated = testing::shuffled(repeated, GetParam());
   EXPECT_NEAR(median_size(repeated) / median_size(points_), 1, 0.2);
-  EXPECT_NEAR(area(hull(repeated)) / area(to_coordinates(shape_, points_)), 1, 0.05);
+  EXPECT_NEAR(area(checked_hull(repeated)) / area(to_coordinates(shape_, points_)), 1, 0.05);
 }
 
 INSTANTIATE_TEST_SUITE_P(Seeds, AutomaticLimitRelations,
@@ -310,7 +306,7 @@ TEST_P(AutomaticLimitOfRoughPlaces, DependsOnNothingElseEither) {
   }
   const std::vector<Point> shuffled = testing::shuffled(points, 1);
   EXPECT_DOUBLE_EQ(median_size(shuffled), median_size(points));
-  EXPECT_DOUBLE_EQ(area(hull(shuffled)), area(to_coordinates(shape, points)));
+  EXPECT_DOUBLE_EQ(area(checked_hull(shuffled)), area(to_coordinates(shape, points)));
   for (const unsigned threads : {2U, 3U, 8U}) {
     EXPECT_EQ(chosen(points, {.threads = threads}), chosen(points)) << threads;
     EXPECT_EQ(concave_hull(points, {.threads = threads}), shape) << threads;
@@ -333,7 +329,7 @@ TEST(AutomaticLimit, FollowsTheDensity) {
     EXPECT_GT(sizes.most / sizes.least, 4) << seed;
     EXPECT_LT(sizes.most / sizes.least, 16) << seed;
     // With one limit for all the right side falls to pieces or the left one's notches are closed.
-    const MultiPolygon shape = hull(points);
+    const MultiPolygon shape = checked_hull(points);
     EXPECT_EQ(shape.size(), 1U) << seed;
     EXPECT_EQ(hole_count(shape), 0U) << seed;
     EXPECT_GT(area(shape), 0.97) << seed;
@@ -348,7 +344,7 @@ TEST(AutomaticLimit, TakesOutliersForNoSparsePart) {
         const Point outlier{3 * p.x - 1, 3 * p.y - 1};
         points.push_back(outlier);
       }
-      EXPECT_LT(area(hull(points)), 1.15) << count << " points, seed " << seed;
+      EXPECT_LT(area(checked_hull(points)), 1.15) << count << " points, seed " << seed;
     }
   }
 }
@@ -357,14 +353,14 @@ TEST(AutomaticLimit, TakesOutliersForNoSparsePart) {
 // narrow end must not cut comb teeth into the wide one beside it.
 TEST(AutomaticLimit, TakesLinesThatMeetForNoDensity) {
   double sum = 0;
-  for (std::uint64_t seed = 0; seed < 10; ++seed) sum += area(hull(zigzag(36, seed)));
+  for (std::uint64_t seed = 0; seed < 10; ++seed) sum += area(checked_hull(zigzag(36, seed)));
   EXPECT_GT(sum / 10, 0.96);
 }
 
 // The gaps between clusters are voids that are usual there, however large they are beside those in a cluster.
 TEST(AutomaticLimit, JoinsClusters) {
   double sum = 0;
-  for (std::uint64_t seed = 0; seed < 10; ++seed) sum += area(hull(clustered(4000, seed)));
+  for (std::uint64_t seed = 0; seed < 10; ++seed) sum += area(checked_hull(clustered(4000, seed)));
   EXPECT_GT(sum / 10, 0.7);  // 0.47 where gaps between clusters count as any others
 }
 
@@ -398,11 +394,11 @@ TEST(AutomaticLimit, TakesRoadsForNoClusters) {
 TEST(AutomaticLimit, BoundsWhatOutliersMakeOfAField) {
   for (std::uint64_t seed = 0; seed < 5; ++seed) {
     std::vector<Point> points = sparser_to_the_right(20000, 5, seed);
-    const double without = area(hull(points));
+    const double without = area(checked_hull(points));
     for (const Point& p : testing::uniform_points(600, seed + 100)) {
       points.push_back({5 * p.x - 2, 5 * p.y - 2});
     }
-    EXPECT_LT(area(hull(points)), 1.1 * without) << seed;
+    EXPECT_LT(area(checked_hull(points)), 1.1 * without) << seed;
   }
 }
 
@@ -436,14 +432,14 @@ TEST(AutomaticLimit, DropsPartsOfFewTriangles) {
        {std::pair{std::size_t{3}, std::size_t{1}}, {7, 2}}) {  // 8 and 72 triangles
     std::vector<Point> points = testing::lattice(45, 45);
     for (const Point& p : testing::lattice(side, side)) points.push_back({p.x + 60, p.y});
-    EXPECT_EQ(hull(points).size(), parts) << side;
+    EXPECT_EQ(checked_hull(points).size(), parts) << side;
   }
 }
 
 TEST(AutomaticLimit, KeepsASparsePartFarAway) {
   std::vector<Point> points = testing::uniform_points(4000, 5);
   for (const Point& p : testing::uniform_points(1000, 6)) points.push_back({10 + 10 * p.x, 10 * p.y});
-  const MultiPolygon shape = hull(points);
+  const MultiPolygon shape = checked_hull(points);
   ASSERT_EQ(shape.size(), 2U);
   EXPECT_NEAR(area(shape), 101, 10);
 }
@@ -455,7 +451,7 @@ TEST(AutomaticLimit, FindsHolesAndPartsAtAnyDensity) {
   for (const std::size_t count : {600U, 2000U, 8000U, 20000U}) {
     for (std::uint64_t seed = 0; seed < 5; ++seed) {
       SCOPED_TRACE(std::to_string(count) + " points, seed " + std::to_string(seed));
-      const MultiPolygon shape = hull(ring_and_island(count, seed));
+      const MultiPolygon shape = checked_hull(ring_and_island(count, seed));
       EXPECT_EQ(shape.size(), 2U);
       EXPECT_EQ(hole_count(shape), 1U);
       // The outline is 61 long, and the shape ends within a spacing of it.
@@ -470,7 +466,7 @@ TEST(AutomaticLimit, FindsTheHoleOfALattice) {
   for (const Point& p : testing::lattice(40, 40)) {
     if (std::max(std::abs(p.x - 20), std::abs(p.y - 20)) > 5) points.push_back(p);
   }
-  const MultiPolygon shape = hull(points);
+  const MultiPolygon shape = checked_hull(points);
   ASSERT_EQ(shape.size(), 1U);
   EXPECT_EQ(shape[0].holes.size(), 1U);
   // Half a cell, or a little more, in each of the hole's corners.
@@ -480,7 +476,7 @@ TEST(AutomaticLimit, FindsTheHoleOfALattice) {
 
 TEST(AutomaticLimit, LeavesNoHoleToChance) {
   for (std::uint64_t seed = 0; seed < 20; ++seed) {
-    const MultiPolygon shape = hull(testing::uniform_points(100000, seed));
+    const MultiPolygon shape = checked_hull(testing::uniform_points(100000, seed));
     EXPECT_EQ(shape.size(), 1U) << seed;
     EXPECT_EQ(hole_count(shape), 0U) << seed;
   }
@@ -498,7 +494,7 @@ TEST(AutomaticLimit, LeavesFewHolesInTails) {
       const double angle = 6.283185307179586 * random.unit();
       p = {distance * std::cos(angle), distance * std::sin(angle)};
     }
-    holes += hole_count(hull(points));
+    holes += hole_count(checked_hull(points));
   }
   EXPECT_LE(holes, 5U);
 }
@@ -506,7 +502,7 @@ TEST(AutomaticLimit, LeavesFewHolesInTails) {
 TEST(AutomaticLimit, IsSmallBesideALongGap) {
   std::vector<Point> points = testing::uniform_points(2000, 33);
   for (const Point& p : testing::uniform_points(2000, 34)) points.push_back({p.x + 1e9, p.y + 1e9});
-  EXPECT_EQ(hull(points).size(), 2U);
+  EXPECT_EQ(checked_hull(points).size(), 2U);
   EXPECT_LT(median_size(points), 0.1);
 }
 
@@ -538,7 +534,7 @@ TEST(AutomaticLimit, MoreDetailNeverAddsATriangle) {
     const Triangulation mesh = delaunay(points);
     double before = std::numeric_limits<double>::infinity();
     for (const double detail : {0.25, 0.5, 0.8, 1.0, 1.1, 1.5, 2.0, 4.0}) {
-      const MultiPolygon shape = hull(points, {.detail = detail});
+      const MultiPolygon shape = checked_hull(points, {.detail = detail});
       EXPECT_LE(area(shape), before * (1 + 1e-12)) << detail;
       before = area(shape);
       EXPECT_DOUBLE_EQ(chosen(points, {.detail = detail}).value().median, median_size(points) / detail);
@@ -565,7 +561,7 @@ TEST(LabelledHulls, AreThoseOfEachLabelAlone) {
       for (std::size_t i = 0; i < points.size(); ++i) {
         if (labels[i] == hulls[h].label) own.push_back(points[i]);
       }
-      EXPECT_EQ(to_coordinates(hulls[h].shape, points), hull(own));
+      EXPECT_EQ(to_coordinates(hulls[h].shape, points), checked_hull(own));
     }
   }
   EXPECT_TRUE(concave_hulls({}, {}).empty());

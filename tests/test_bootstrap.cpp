@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "benchmarks/statistics/bootstrap.hpp"
+#include "tests/infinity.hpp"
 
 namespace hullbench {
 namespace {
@@ -17,7 +18,7 @@ using Times = std::vector<std::int64_t>;
 using Clusters = std::vector<std::vector<double>>;
 using Nested = std::vector<std::vector<statistics::Passes>>;
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
+using testing::kInfinity;
 
 void expect_interval(const std::optional<statistics::Interval>& interval, double low, double high) {
   ASSERT_TRUE(interval.has_value());

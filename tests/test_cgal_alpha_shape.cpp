@@ -26,6 +26,7 @@
 #include "tests/complaint.hpp"
 #include "tests/hull_input.hpp"
 #include "tests/hull_oracle.hpp"
+#include "tests/infinity.hpp"
 #include "tests/point_sets.hpp"
 
 namespace hullbench {
@@ -39,7 +40,7 @@ using polylidar::testing::canonical;
 using polylidar::testing::core_hull;
 using polylidar::testing::PointSet;
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
+using testing::kInfinity;
 
 MultiPolygon run(const std::vector<Point>& points, double radius) {
   return test::hull_of(*make_cgal_alpha_shape(), points, {{"alpha", radius * radius}});

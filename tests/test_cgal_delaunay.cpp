@@ -14,6 +14,7 @@
 #include "polylidar/delaunay.hpp"
 #include "tests/hull_input.hpp"
 #include "tests/hull_oracle.hpp"
+#include "tests/infinity.hpp"
 #include "tests/point_sets.hpp"
 
 namespace hullbench {
@@ -31,7 +32,7 @@ using polylidar::testing::uniform_points;
 using test::hull_of;
 using test::parameters_of;
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
+using testing::kInfinity;
 
 MultiPolygon run(const std::vector<Point>& points, const Options& options) {
   return hull_of(*make_cgal_delaunay(), points, parameters_of(options));

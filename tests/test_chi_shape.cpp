@@ -17,6 +17,7 @@
 #include "polylidar/delaunay.hpp"
 #include "tests/hull_input.hpp"
 #include "tests/hull_oracle.hpp"
+#include "tests/infinity.hpp"
 #include "tests/point_sets.hpp"
 #include "tests/simple_hull.hpp"
 
@@ -30,7 +31,7 @@ using polylidar::testing::canonical;
 using polylidar::testing::core_hull;
 using test::hull_of;
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
+using testing::kInfinity;
 
 MultiPolygon chi_shape(const std::vector<Point>& points, double max_edge_length) {
   return hull_of(*make_chi_shape(), points, {{"max_edge_length", max_edge_length}});

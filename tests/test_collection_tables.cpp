@@ -8,11 +8,13 @@
 #include <vector>
 
 #include "invented_shapes.hpp"
+#include "tests/complaint.hpp"
 
 namespace hullbench {
 namespace {
 
 using nlohmann::json;
+using testing::contains;
 
 // On the k-th letter every method takes k ms and errs by 10 k %.
 json letters_report(const std::vector<std::string>& letters) {
@@ -27,10 +29,6 @@ json letters_report(const std::vector<std::string>& letters) {
 // With single spaces, whatever the columns' widths.
 std::string tables(const json& report) {
   return std::regex_replace(test::markdown_of(report), std::regex(" +"), " ");
-}
-
-bool contains(const std::string& text, const std::string& part) {
-  return text.find(part) != std::string::npos;
 }
 
 const std::vector<std::string> kLetters = {"letter_a", "letter_j", "letter_z"};

@@ -16,8 +16,10 @@
 #include "polylidar/concave_hull.hpp"
 #include "polylidar/delaunay.hpp"
 #include "polylidar/predicates.hpp"
+#include "tests/checked_hull.hpp"
 #include "tests/complaint.hpp"
 #include "tests/hull_oracle.hpp"
+#include "tests/infinity.hpp"
 #include "tests/point_sets.hpp"
 
 namespace polylidar {
@@ -27,19 +29,16 @@ using testing::area_tolerance;
 using testing::canonical;
 using testing::convex_corners;
 using testing::hole_count;
+using testing::kUnitCells;
 using testing::lattice;
 using testing::PointSet;
 using testing::scaled;
 using testing::strict_corners;
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
-// Keeps the triangles of a unit lattice's cells (circumradius 0.707) and no others (the next is 1).
-constexpr Options kUnitCells{.alpha = 0.75};
+using hullbench::testing::kInfinity;
 
 MultiPolygon hull(const std::vector<Point>& points, const Options& options = testing::kConvexHull) {
-  const IndexedMultiPolygon shape = concave_hull(points, options);
-  EXPECT_EQ(check_polygon(points, shape), "");
-  return to_coordinates(shape, points);
+  return testing::checked_hull(points, options);
 }
 
 // Squares of coordinates, and so areas, are doubles within this extent.

@@ -14,6 +14,7 @@
 #include "polylidar/check.hpp"
 #include "polylidar/concave_hull.hpp"
 #include "polylidar/delaunay.hpp"
+#include "tests/checked_hull.hpp"
 #include "tests/complaint.hpp"
 #include "tests/hull_oracle.hpp"
 #include "tests/point_sets.hpp"
@@ -22,26 +23,18 @@ namespace polylidar {
 namespace {
 
 using testing::canonical;
+using testing::checked_hull;
 using testing::Exponents;
 using testing::kLargestSpan;
+using testing::kUnitCells;
 using testing::lattice;
 using testing::PointSet;
 using testing::Random;
 using testing::scaled;
 
-// Keeps the triangles of a unit lattice's cells (circumradius 0.707) and no others (the next is 1). Whichever
-// diagonal a cell got, both of its triangles are kept: the shape is unique although the triangulation is not.
-constexpr Options kUnitCells{.alpha = 0.75};
-
-MultiPolygon hull(const std::vector<Point>& points, const Options& options) {
-  const IndexedMultiPolygon shape = concave_hull(points, options);
-  EXPECT_EQ(check_polygon(points, shape), "");
-  return to_coordinates(shape, points);
-}
-
 // x -> sign * 2^exponent * x + offset for each axis, after which the axes may change places. Exact for the
 // integers used here: there `exponent` is not 0 only where `offset` is.
-struct Motion {
+struct LatticeMotion {
   double sign_x = 1;
   double sign_y = 1;
   int exponent = 0;
@@ -55,8 +48,8 @@ struct Motion {
   }
   bool mirrors() const { return (sign_x * sign_y < 0) != swaps_axes; }
 
-  static Motion random(Random& random) {
-    Motion motion;
+  static LatticeMotion random(Random& random) {
+    LatticeMotion motion;
     if (random.below(2) == 0) motion.sign_x = -1;
     if (random.below(2) == 0) motion.sign_y = -1;
     motion.swaps_axes = random.below(2) == 0;
@@ -70,18 +63,18 @@ struct Motion {
   }
 };
 
-std::ostream& operator<<(std::ostream& out, const Motion& motion) {
+std::ostream& operator<<(std::ostream& out, const LatticeMotion& motion) {
   return out << "signs " << motion.sign_x << ' ' << motion.sign_y << ", exponent " << motion.exponent
              << ", offset " << motion.offset.x << ' ' << motion.offset.y
              << (motion.swaps_axes ? ", axes swapped" : "");
 }
 
-std::vector<Point> moved(std::vector<Point> points, const Motion& motion) {
+std::vector<Point> moved(std::vector<Point> points, const LatticeMotion& motion) {
   for (Point& point : points) point = motion(point);
   return points;
 }
 
-MultiPolygon moved(MultiPolygon shape, const Motion& motion) {
+MultiPolygon moved(MultiPolygon shape, const LatticeMotion& motion) {
   const auto move_ring = [&](Ring& ring) {
     ring = moved(ring, motion);
     if (motion.mirrors()) std::reverse(ring.begin(), ring.end());
@@ -112,12 +105,12 @@ TEST_P(CoreRelations, LatticesWithGapsKeepTheirShape) {
   for (const Point& point : lattice(20, 20, 1, {-7, -9})) {
     if (random.unit() < density) points.push_back(point);
   }
-  const MultiPolygon shape = hull(points, kUnitCells);
+  const MultiPolygon shape = checked_hull(points, kUnitCells);
   for (int i = 0; i < 10; ++i) {
-    const Motion motion = Motion::random(random);
+    const LatticeMotion motion = LatticeMotion::random(random);
     SCOPED_TRACE(::testing::PrintToString(motion));
     const std::vector<Point> other = moved(disarranged(points, random), motion);
-    EXPECT_EQ(canonical(hull(other, scaled(kUnitCells, std::ldexp(1.0, motion.exponent)))),
+    EXPECT_EQ(canonical(checked_hull(other, scaled(kUnitCells, std::ldexp(1.0, motion.exponent)))),
               canonical(moved(shape, motion)));
   }
 }
@@ -127,11 +120,11 @@ TEST_P(CoreRelations, SmallIntegersKeepTheirConvexHull) {
   Random random(GetParam());
   const auto side = static_cast<std::int64_t>(2 + random.below(12));
   const std::vector<Point> points = testing::integer_points(3 + random.below(60), GetParam(), side);
-  const MultiPolygon shape = hull(points, {});
+  const MultiPolygon shape = checked_hull(points, {});
   for (int i = 0; i < 10; ++i) {
-    const Motion motion = Motion::random(random);
+    const LatticeMotion motion = LatticeMotion::random(random);
     SCOPED_TRACE(::testing::PrintToString(motion));
-    EXPECT_EQ(canonical(hull(moved(disarranged(points, random), motion), {})),
+    EXPECT_EQ(canonical(checked_hull(moved(disarranged(points, random), motion), {})),
               canonical(moved(shape, motion)));
   }
 }
@@ -215,7 +208,7 @@ TEST(Magnitudes, MixedWithinAnAxisAreEitherRightOrRefused) {
       EXPECT_THROW(delaunay(points), std::invalid_argument);
     } else {
       EXPECT_EQ(check_triangulation(points, delaunay(points)), "");
-      hull(points, {.alpha = std::ldexp(1.0, least + span / 2)});
+      checked_hull(points, {.alpha = std::ldexp(1.0, least + span / 2)});
     }
   }
 }
@@ -227,7 +220,7 @@ TEST(Magnitudes, TheWidestSpanIsRightAndTheNextIsRefused) {
     const double large = std::ldexp(1.999, least + kLargestSpan);
     std::vector<Point> points = {{small, small}, {large, small}, {small, large}, {-large, -3 * small}};
     EXPECT_EQ(check_triangulation(points, delaunay(points)), "");
-    EXPECT_EQ(hull(points, testing::kConvexHull).size(), 1U);
+    EXPECT_EQ(checked_hull(points, testing::kConvexHull).size(), 1U);
     points[1].x = std::ldexp(1.0, least + kLargestSpan + 1);
     EXPECT_THROW(delaunay(points), std::invalid_argument);
     EXPECT_THROW(concave_hull(points), std::invalid_argument);
@@ -242,13 +235,13 @@ TEST(Magnitudes, TheExtremesOfDoublesAreRight) {
     SCOPED_TRACE(unit);
     const std::vector<Point> points = lattice(9, 9, unit, {-4 * unit, -4 * unit});
     EXPECT_EQ(check_triangulation(points, delaunay(points)), "");
-    EXPECT_EQ(hull(points, testing::kConvexHull).size(), 1U);
+    EXPECT_EQ(checked_hull(points, testing::kConvexHull).size(), 1U);
   }
   const std::vector<Point> corners = {
       {-kLargest, -kLargest}, {kLargest, -kLargest}, {kLargest, kLargest}, {-kLargest, kLargest}, {0, 0},
       {kLargest / 2, 1e300}};
   EXPECT_EQ(check_triangulation(corners, delaunay(corners)), "");
-  EXPECT_EQ(hull(corners, {}).size(), 1U);
+  EXPECT_EQ(checked_hull(corners, {}).size(), 1U);
 }
 
 }  // namespace

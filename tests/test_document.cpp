@@ -16,6 +16,7 @@
 #include "benchmarks/table/writers.hpp"
 #include "temporary_folder.hpp"
 #include "tests/complaint.hpp"
+#include "tests/infinity.hpp"
 #include "tests/program.hpp"
 
 namespace hullbench {
@@ -23,6 +24,7 @@ namespace {
 
 namespace fs = std::filesystem;
 using nlohmann::json;
+using testing::contains;
 using testing::read_text;
 
 table::Cell with_spread(double value, double spread) {
@@ -65,11 +67,7 @@ std::string markdown(const std::vector<table::Document>& documents) {
   return out.str();
 }
 
-bool contains(const std::string& text, const std::string& part) {
-  return text.find(part) != std::string::npos;
-}
-
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
+using testing::kInfinity;
 
 TEST(Cell, ShowsItsValueAndWhatBelongsToIt) {
   EXPECT_EQ(table::Cell().text(), "–");

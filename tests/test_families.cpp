@@ -23,7 +23,7 @@ using polylidar::Polygon;
 using polylidar::Ring;
 
 // Of a centre and a distance worked out from coordinates up to 200, rounded to 2.8e-14.
-constexpr double kRounding = 1e-12;
+constexpr double kFamilyRounding = 1e-12;
 
 /// SHA-256 of the points of all rings of shapes 0 .. count - 1 of `family`, one after another.
 std::string digest(const ShapeFamily& family, std::size_t count, bool holes) {
@@ -125,11 +125,11 @@ TEST(FamilyShape, HolesKeepClearOfEveryBoundary) {
     for (const Ring& hole : shape.front().holes) {
       const Point centre{(hole[0].x + hole[kHoleCorners / 2].x) / 2,
                          (hole[0].y + hole[kHoleCorners / 2].y) / 2};
-      EXPECT_NEAR(std::hypot(hole[0].x - centre.x, hole[0].y - centre.y), 7.5, kRounding) << index;
-      EXPECT_GE(testing::boost_distance(centre, shape.front().shell), 15 - kRounding) << index;
+      EXPECT_NEAR(std::hypot(hole[0].x - centre.x, hole[0].y - centre.y), 7.5, kFamilyRounding) << index;
+      EXPECT_GE(testing::boost_distance(centre, shape.front().shell), 15 - kFamilyRounding) << index;
       for (const Ring& other : shape.front().holes) {
         if (other == hole) continue;
-        EXPECT_GE(testing::boost_distance(centre, other), 15 - kRounding) << index;
+        EXPECT_GE(testing::boost_distance(centre, other), 15 - kFamilyRounding) << index;
       }
     }
   }

@@ -13,6 +13,7 @@
 #include "tests/complaint.hpp"
 #include "tests/hull_input.hpp"
 #include "tests/hull_oracle.hpp"
+#include "tests/infinity.hpp"
 #include "tests/point_sets.hpp"
 #include "tests/simple_hull.hpp"
 
@@ -32,7 +33,7 @@ using test::kHoleArea;
 using test::kPoints;
 using test::square_points;
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
+using testing::kInfinity;
 
 MultiPolygon geos_hull(const std::vector<Point>& points, const Parameters& parameters) {
   return hull_of(*make_geos_concave_hull(), points, parameters);

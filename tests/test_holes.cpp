@@ -22,7 +22,7 @@ using polylidar::Ring;
 
 // Coordinates up to 200 are rounded to 2.8e-14; a centre or a distance recovered from them is off by a few of
 // these.
-constexpr double kRounding = 1e-12;
+constexpr double kHoleRounding = 1e-12;
 
 Point centre_of(const Ring& hole) {
   return {(hole.front().x + hole[kHoleCorners / 2].x) / 2, (hole.front().y + hole[kHoleCorners / 2].y) / 2};
@@ -62,7 +62,7 @@ TEST_P(HolesIn, AreTenClockwiseCirclesOfTheRadius) {
       EXPECT_LT(polylidar::signed_area(hole), 0);
       const Point centre = centre_of(hole);
       for (const Point& corner : hole) {
-        EXPECT_NEAR(std::hypot(corner.x - centre.x, corner.y - centre.y), radius, kRounding);
+        EXPECT_NEAR(std::hypot(corner.x - centre.x, corner.y - centre.y), radius, kHoleRounding);
       }
     }
   }
@@ -74,7 +74,7 @@ TEST_P(HolesIn, KeepTwiceTheRadiusFromEveryBoundary) {
   const MultiPolygon shape = make_ground_truth(name, true);
   for (const Polygon& polygon : shape) {
     for (const Ring& hole : polygon.holes) {
-      EXPECT_GE(distance_to_rings(shape, centre_of(hole), hole), 2 * radius - kRounding);
+      EXPECT_GE(distance_to_rings(shape, centre_of(hole), hole), 2 * radius - kHoleRounding);
     }
   }
 }
@@ -101,7 +101,7 @@ TEST(WithCircularHoles, KeepClearOfHolesThatAreThereAlready) {
   EXPECT_EQ(result.front().holes.front(), middle);
   for (std::size_t i = 1; i < 13; ++i) {
     const Ring& hole = result.front().holes[i];
-    EXPECT_GE(distance_to_rings(result, centre_of(hole), hole), 2 - kRounding);
+    EXPECT_GE(distance_to_rings(result, centre_of(hole), hole), 2 - kHoleRounding);
   }
   EXPECT_EQ(testing::boost_fault(result), "");
 }

@@ -12,6 +12,7 @@
 #include "polylidar/delaunay.hpp"
 #include "tests/hull_input.hpp"
 #include "tests/hull_oracle.hpp"
+#include "tests/infinity.hpp"
 #include "tests/point_sets.hpp"
 #include "tests/simple_hull.hpp"
 
@@ -25,7 +26,7 @@ using polylidar::testing::canonical;
 using polylidar::testing::core_hull;
 using test::hull_of;
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
+using testing::kInfinity;
 
 MultiPolygon knn_hull(const std::vector<Point>& points, double k) {
   return hull_of(*make_knn_hull(), points, {{"k", k}});

@@ -14,11 +14,12 @@
 #include "adapters/adapter.hpp"
 #include "tests/adapter_contract.hpp"
 #include "tests/hull_input.hpp"
+#include "tests/infinity.hpp"
 
 namespace hullbench {
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
+using testing::kInfinity;
 const std::string kNumbers = "[0-9.]+";
 
 /// What a method is to say of itself.

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "benchmarks/metrics/metric_table.hpp"
+#include "tests/boxes.hpp"
 
 namespace hullbench {
 namespace {
@@ -17,6 +18,7 @@ namespace {
 using nlohmann::json;
 using polylidar::MultiPolygon;
 using polylidar::Point;
+using testing::kUnitSquare;
 
 std::string read_file(const std::string& path) {
   std::ifstream in(std::string(HULLBENCH_SOURCE_DIRECTORY) + "/" + path, std::ios::binary);
@@ -36,8 +38,7 @@ std::set<std::string> keys_of(const json& object) {
   return keys;
 }
 
-const MultiPolygon kSquare = {{{{0, 0}, {1, 0}, {1, 1}, {0, 1}}, {}}};
-const MultiPolygon kBowTie = {{{{0, 0}, {1, 1}, {1, 0}, {0, 1}}, {}}};
+const MultiPolygon kUnitBowTie = {{{{0, 0}, {1, 1}, {1, 0}, {0, 1}}, {}}};
 
 TEST(MetricTable, NamesAreUniqueAndEveryEntryIsComplete) {
   EXPECT_EQ(table_names().size(), metrics::metric_table().size());
@@ -80,12 +81,12 @@ TEST(MetricTable, IsThatOfThePage) {
 }
 
 TEST(MetricTable, MakesTheRow) {
-  const metrics::CaseScorer scorer(std::vector<Point>{{0, 0}, {1, 0}, {1, 1}, {0, 1}}, kSquare);
-  for (const MultiPolygon& result : {kSquare, kBowTie, MultiPolygon{}}) {
+  const metrics::CaseScorer scorer(std::vector<Point>{{0, 0}, {1, 0}, {1, 1}, {0, 1}}, kUnitSquare);
+  for (const MultiPolygon& result : {kUnitSquare, kUnitBowTie, MultiPolygon{}}) {
     const json row = metrics::metrics_to_json(scorer.score(result));
     EXPECT_EQ(keys_of(row), table_names());
   }
-  const json row = metrics::metrics_to_json(scorer.score(kSquare));
+  const json row = metrics::metrics_to_json(scorer.score(kUnitSquare));
   EXPECT_EQ(row["valid"], true);
   EXPECT_EQ(row["invalid_reason"], "");
   EXPECT_EQ(row["l2"], 0.0);
@@ -97,10 +98,10 @@ TEST(MetricTable, MakesTheRow) {
 
 /// What is null is what the table says can be.
 TEST(MetricTable, SaysWhatCanBeNull) {
-  const metrics::CaseScorer scorer(std::vector<Point>{{0, 0}, {1, 0}, {1, 1}, {0, 1}}, kSquare);
+  const metrics::CaseScorer scorer(std::vector<Point>{{0, 0}, {1, 0}, {1, 1}, {0, 1}}, kUnitSquare);
   const json empty = metrics::metrics_to_json(scorer.score({}));
-  const json invalid = metrics::metrics_to_json(scorer.score(kBowTie));
-  const json perfect = metrics::metrics_to_json(scorer.score(kSquare));
+  const json invalid = metrics::metrics_to_json(scorer.score(kUnitBowTie));
+  const json perfect = metrics::metrics_to_json(scorer.score(kUnitSquare));
   for (const metrics::MetricInfo& metric : metrics::metric_table()) {
     SCOPED_TRACE(metric.name);
     if (metric.undefined.empty()) {

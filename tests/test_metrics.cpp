@@ -20,6 +20,7 @@
 #include "datasets/datasets.hpp"
 #include "polylidar/concave_hull.hpp"
 #include "tests/boost_checks.hpp"
+#include "tests/boxes.hpp"
 #include "tests/point_sets.hpp"
 
 namespace hullbench {
@@ -31,15 +32,8 @@ using polylidar::Point;
 using polylidar::Polygon;
 using polylidar::Ring;
 using polylidar::testing::Random;
-
-Ring box(double left, double bottom, double right, double top) {
-  return {{left, bottom}, {right, bottom}, {right, top}, {left, top}};
-}
-
-Ring hole_box(double left, double bottom, double right, double top) {
-  const Ring ring = box(left, bottom, right, top);
-  return {ring.rbegin(), ring.rend()};
-}
+using testing::box;
+using testing::reversed;
 
 const MultiPolygon kSquare = {{box(0, 0, 10, 10), {}}};
 const MultiPolygon kBowTie = {{{{0, 0}, {2, 2}, {2, 0}, {0, 2}}, {}}};
@@ -84,7 +78,7 @@ TEST(BoundaryScores, OfAShiftedSquare) {
 }
 
 TEST(BoundaryScores, OfAMissedHole) {
-  const MultiPolygon truth = {{box(0, 0, 10, 10), {hole_box(4, 4, 6, 6)}}};
+  const MultiPolygon truth = {{box(0, 0, 10, 10), {reversed(box(4, 4, 6, 6))}}};
   const metrics::Metrics metrics = metrics::CaseScorer(cell_centres(96), truth).score(kSquare);
   const metrics::BoundaryScores& scores = *metrics.boundary;
   EXPECT_EQ(scores.hausdorff_to_truth->distance, 0);
@@ -149,10 +143,10 @@ TEST(BoundaryScores, SpacingIsBounded) {
 }
 
 TEST(TopologyScores, MatchHolesOneToOne) {
-  const MultiPolygon truth = {{box(0, 0, 10, 10), {hole_box(1, 1, 3, 3), hole_box(5, 1, 9, 3)}}};
+  const MultiPolygon truth = {{box(0, 0, 10, 10), {reversed(box(1, 1, 3, 3)), reversed(box(5, 1, 9, 3))}}};
   // The first one matches, the second one shares a half only, the third one is too much.
   const MultiPolygon result = {
-      {box(0, 0, 10, 10), {hole_box(1, 6, 2, 7), hole_box(5, 1, 7, 3), hole_box(1, 1, 3, 3)}}};
+      {box(0, 0, 10, 10), {reversed(box(1, 6, 2, 7)), reversed(box(5, 1, 7, 3)), reversed(box(1, 1, 3, 3))}}};
   const metrics::Metrics metrics = metrics::CaseScorer(cell_centres(88), truth).score(result);
   EXPECT_EQ(metrics.spacing, 1);
   EXPECT_DOUBLE_EQ(*metrics.holes.precision, 1.0 / 3);
@@ -165,9 +159,9 @@ TEST(TopologyScores, MatchHolesOneToOne) {
 }
 
 TEST(TopologyScores, AHoleHasOnePartnerOnlyEvenWhereHolesNest) {
-  const MultiPolygon truth = {{box(0, 0, 10, 10), {hole_box(1.3, 1.3, 8.7, 8.7)}}};
-  const MultiPolygon result = {{box(0, 0, 10, 10), {hole_box(1, 1, 9, 9)}},
-                               {box(1.2, 1.2, 8.8, 8.8), {hole_box(1.4, 1.4, 8.6, 8.6)}}};
+  const MultiPolygon truth = {{box(0, 0, 10, 10), {reversed(box(1.3, 1.3, 8.7, 8.7))}}};
+  const MultiPolygon result = {{box(0, 0, 10, 10), {reversed(box(1, 1, 9, 9))}},
+                               {box(1.2, 1.2, 8.8, 8.8), {reversed(box(1.4, 1.4, 8.6, 8.6))}}};
   ASSERT_EQ(metrics::invalid_reason(result), "");
   const metrics::Metrics metrics = metrics::CaseScorer(cell_centres(), truth).score(result);
   EXPECT_EQ(metrics.holes.precision, 0.5);
@@ -178,10 +172,11 @@ TEST(TopologyScores, AHoleHasOnePartnerOnlyEvenWhereHolesNest) {
 }
 
 TEST(TopologyScores, AHalfIsNotEnough) {
-  const MultiPolygon truth = {{box(0, 0, 10, 10), {hole_box(5, 1, 8, 3)}}};
-  const MultiPolygon shifted = {{box(0, 0, 10, 10), {hole_box(6, 1, 9, 3)}}};  // 4 of 6 shared: IoU 4 / 8
+  const MultiPolygon truth = {{box(0, 0, 10, 10), {reversed(box(5, 1, 8, 3))}}};
+  const MultiPolygon shifted = {
+      {box(0, 0, 10, 10), {reversed(box(6, 1, 9, 3))}}};  // 4 of 6 shared: IoU 4 / 8
   EXPECT_EQ(metrics::CaseScorer(cell_centres(), truth).score(shifted).holes.f1, 0);
-  const MultiPolygon nearer = {{box(0, 0, 10, 10), {hole_box(5.875, 1, 8.875, 3)}}};
+  const MultiPolygon nearer = {{box(0, 0, 10, 10), {reversed(box(5.875, 1, 8.875, 3))}}};
   EXPECT_EQ(metrics::CaseScorer(cell_centres(), truth).score(nearer).holes.f1, 1);
 }
 
@@ -190,7 +185,7 @@ TEST(TopologyScores, WithoutHolesAreNone) {
   EXPECT_EQ(metrics.holes.precision, std::nullopt);
   EXPECT_EQ(metrics.holes.recall, std::nullopt);
   EXPECT_EQ(metrics.holes.f1, std::nullopt);
-  const metrics::Metrics spurious = score_on_square({{box(0, 0, 10, 10), {hole_box(4, 4, 6, 6)}}});
+  const metrics::Metrics spurious = score_on_square({{box(0, 0, 10, 10), {reversed(box(4, 4, 6, 6))}}});
   EXPECT_EQ(spurious.holes.precision, 0);
   EXPECT_EQ(spurious.holes.recall, 0);
   EXPECT_EQ(spurious.holes.f1, 0);
@@ -210,9 +205,11 @@ TEST(ContractScores, OfCoverage) {
   EXPECT_EQ(score_on_square({{box(0, 0, 5, 10), {}}}).contract.points_covered, 0.5);
   // The outermost points lie on the boundary, which counts.
   EXPECT_EQ(score_on_square({{box(0.5, 0.5, 9.5, 9.5), {}}}).contract.points_covered, 1);
-  EXPECT_EQ(score_on_square({{box(0, 0, 10, 10), {hole_box(1, 1, 3, 3)}}}).contract.points_covered, 0.96);
-  EXPECT_EQ(score_on_square({{box(0, 0, 10, 10), {hole_box(0.5, 0.5, 2.5, 2.5)}}}).contract.points_covered,
-            0.99);
+  EXPECT_EQ(score_on_square({{box(0, 0, 10, 10), {reversed(box(1, 1, 3, 3))}}}).contract.points_covered,
+            0.96);
+  EXPECT_EQ(
+      score_on_square({{box(0, 0, 10, 10), {reversed(box(0.5, 0.5, 2.5, 2.5))}}}).contract.points_covered,
+      0.99);
 }
 
 /// Of the square from (0, 0) to (10, 10), by the largest coordinate of which the rounding goes, the coverage
@@ -278,8 +275,8 @@ TEST(ContractScores, OfVertices) {
 
 TEST(ContractScores, OfOrientation) {
   EXPECT_EQ(score_on_square(kSquare).contract.oriented, true);
-  EXPECT_EQ(score_on_square({{hole_box(0, 0, 10, 10), {}}}).contract.oriented, false);
-  EXPECT_EQ(score_on_square({{box(0, 0, 10, 10), {hole_box(1, 1, 3, 3)}}}).contract.oriented, true);
+  EXPECT_EQ(score_on_square({{reversed(box(0, 0, 10, 10)), {}}}).contract.oriented, false);
+  EXPECT_EQ(score_on_square({{box(0, 0, 10, 10), {reversed(box(1, 1, 3, 3))}}}).contract.oriented, true);
   EXPECT_EQ(score_on_square({{box(0, 0, 10, 10), {box(1, 1, 3, 3)}}}).contract.oriented, false);
 }
 
@@ -442,7 +439,7 @@ TEST(TriangleOutline, OfAllTrianglesIsTheConvexHull) {
 }
 
 TEST(Metrics, OfNothing) {
-  const MultiPolygon truth = {{box(0, 0, 10, 10), {hole_box(4, 4, 6, 6)}}};
+  const MultiPolygon truth = {{box(0, 0, 10, 10), {reversed(box(4, 4, 6, 6))}}};
   const metrics::Metrics metrics = metrics::CaseScorer(cell_centres(), truth).score({});
   EXPECT_TRUE(metrics.area.valid);
   EXPECT_EQ(metrics.area.l2, 1);

@@ -67,8 +67,8 @@ Number at(const std::string& bytes, std::size_t place) {
 }
 
 /// Read by the tables of the LAS 1.2 specification, not by anything of ours.
-struct LasFile {
-  explicit LasFile(const std::string& bytes) {
+struct ReadLas {
+  explicit ReadLas(const std::string& bytes) {
     EXPECT_EQ(bytes.substr(0, 4), "LASF");
     EXPECT_EQ(at<std::uint8_t>(bytes, 24), 1);
     EXPECT_EQ(at<std::uint8_t>(bytes, 25), 2);
@@ -114,7 +114,7 @@ TEST_F(PointsCommandTest, FilesHoldThePointsOfARun) {
 
 TEST_F(PointsCommandTest, LasHoldsThemUpToItsScale) {
   const std::vector<Point> expected = make_point_set(kDataset, false, 500, 7).points;
-  const LasFile las(read_text(written(kDataset, "500", "a.LAS")));
+  const ReadLas las(read_text(written(kDataset, "500", "a.LAS")));
   ASSERT_EQ(las.points.size(), expected.size());
   const Box box = polylidar::bounding_box(expected);
   const double side = std::max(box.max.x - box.min.x, box.max.y - box.min.y);
@@ -150,7 +150,7 @@ TEST_F(PointsCommandTest, AFamilyIsAllItsShapesWithLabels) {
   const std::string csv = written(family, std::to_string(kEach), "cells.csv");
   EXPECT_TRUE(read_text(csv).starts_with("x,y,label\n"));
   EXPECT_EQ(polylidar::tool::read_points(csv), expected);
-  const LasFile las(read_text(written(family, std::to_string(kEach), "cells.las")));
+  const ReadLas las(read_text(written(family, std::to_string(kEach), "cells.las")));
   ASSERT_EQ(las.sources.size(), expected.size());
   for (std::size_t i = 0; i < las.sources.size(); ++i) EXPECT_EQ(las.sources[i], 1 + i / kEach);
   EXPECT_EQ(las.bounds.min, polylidar::bounding_box(las.points).min);
@@ -232,7 +232,7 @@ TEST(PointEncoder, PutsLabelsIntoEveryFormat) {
   const std::string npy = text(polylidar::tool::PointOutput::kNpy);
   EXPECT_NE(npy.find("'shape': (2, 3)"), std::string::npos);
   EXPECT_EQ(at<double>(npy, npy.size() - 8), 65535);
-  EXPECT_EQ(LasFile(text(polylidar::tool::PointOutput::kLas)).sources,
+  EXPECT_EQ(ReadLas(text(polylidar::tool::PointOutput::kLas)).sources,
             (std::vector<std::uint16_t>{7, 65535}));
   std::string unused;
   EXPECT_THROW(polylidar::tool::PointEncoder(polylidar::tool::PointOutput::kLas, facts)

@@ -15,6 +15,7 @@
 #include "tests/hull_input.hpp"
 #include "tests/hull_oracle.hpp"
 #include "tests/hull_samples.hpp"
+#include "tests/infinity.hpp"
 #include "tests/postgis_server.hpp"
 
 namespace hullbench {
@@ -29,7 +30,7 @@ using test::hole_count;
 using test::hull_of;
 using test::square_points;
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
+using testing::kInfinity;
 
 class PostgisSteps : public test::PostgisTest {
  protected:

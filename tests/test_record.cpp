@@ -17,6 +17,7 @@
 #include "program.hpp"
 #include "temporary_folder.hpp"
 #include "tests/complaint.hpp"
+#include "tests/infinity.hpp"
 
 namespace hullbench {
 namespace {
@@ -24,7 +25,7 @@ namespace {
 using nlohmann::json;
 using testing::TemporaryFolder;
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
+using testing::kInfinity;
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
 TEST(Record, RoundTripThroughTextKeepsEveryField) {

@@ -57,11 +57,12 @@ std::string manifest_with(const json& entry) {
   return json{{"shapes", {entry}}}.dump();
 }
 
-constexpr const char* kTriangle = R"({"type": "Polygon", "coordinates": [[[0, 0], [4, 0], [0, 3], [0, 0]]]})";
+constexpr const char* kTriangleText =
+    R"({"type": "Polygon", "coordinates": [[[0, 0], [4, 0], [0, 3], [0, 0]]]})";
 
 TEST_F(Shapes, GeometryFeatureAndCollectionAreRead) {
   const MultiPolygon triangle{{.shell = {{0, 0}, {4, 0}, {0, 3}}, .holes = {}}};
-  const std::string polygon = kTriangle;
+  const std::string polygon = kTriangleText;
   EXPECT_EQ(read(polygon), triangle);
   const std::string feature = R"({"type": "Feature", "properties": null, "geometry": )" + polygon + "}";
   EXPECT_EQ(read(feature), triangle);
@@ -139,17 +140,17 @@ TEST_F(Shapes, OtherDocumentsAreRefused) {
 }
 
 TEST_F(Shapes, FileThatDiffersFromTheManifestIsRefused) {
-  const std::filesystem::path path = write("tri.geojson", kTriangle);
+  const std::filesystem::path path = write("tri.geojson", kTriangleText);
   json entry = manifest_entry();
-  entry["sha256"] = sha256_hex(kTriangle);
+  entry["sha256"] = sha256_hex(kTriangleText);
   write("manifest.json", manifest_with(entry));
   const ShapeInfo info = read_manifest(folder_).front();
   EXPECT_EQ(load_shape(folder_, info).size(), 1U);
-  const std::string changed = std::string(kTriangle) + "\n";
+  const std::string changed = std::string(kTriangleText) + "\n";
   write("tri.geojson", changed);
   EXPECT_EQ(testing::complaint_of([&] { load_shape(folder_, info); }),
             path.string() + " has SHA-256 " + sha256_hex(changed) + " but the manifest says " +
-                sha256_hex(kTriangle) +
+                sha256_hex(kTriangleText) +
                 "; restore the file, or correct the manifest if the change was meant");
 }
 

@@ -12,6 +12,7 @@
 #include "tests/complaint.hpp"
 #include "tests/hull_input.hpp"
 #include "tests/hull_samples.hpp"
+#include "tests/infinity.hpp"
 
 namespace hullbench {
 
@@ -24,10 +25,10 @@ using test::hole_count;
 using test::hull_of;
 using test::square_points;
 
-const Parameters kFilled = {{"c", 5}, {"allow_holes", 0}};
-const Parameters kWithHoles = {{"c", 5}, {"allow_holes", 1}};
+const Parameters kStepsFilled = {{"c", 5}, {"allow_holes", 0}};
+const Parameters kStepsWithHoles = {{"c", 5}, {"allow_holes", 1}};
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
+using testing::kInfinity;
 
 TEST(SpatialiteSteps, SaysWhoItIs) {
   const auto adapter = make_spatialite_steps();
@@ -95,7 +96,7 @@ TEST(SpatialiteSteps, SaysWhenNoTriangleIsKept) {
   const std::vector<Point> points = square_points(100, 6, false);
   testing::expect_complaint([&] { hull_of(*adapter, points, {{"c", 0}}); }, "no triangle");
   // The failed run leaves nothing behind.
-  EXPECT_EQ(hull_of(*adapter, points, kFilled), hull_of(*make_spatialite_steps(), points, kFilled));
+  EXPECT_EQ(hull_of(*adapter, points, kStepsFilled), hull_of(*make_spatialite_steps(), points, kStepsFilled));
 }
 
 }  // namespace

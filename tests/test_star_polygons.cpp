@@ -22,7 +22,7 @@ constexpr std::size_t kStride = 5;
 
 // A coordinate is the product of two doubles that are off by 1e-15 of themselves at most; what is worked out
 // from two of them is off by a few of these, for radii up to 200.
-constexpr double kRounding = 2e-12;
+constexpr double kStarRounding = 2e-12;
 
 Ring ring_of(std::size_t index) {
   return star_polygon(index).front().shell;
@@ -103,14 +103,14 @@ TEST(StarPolygon, RadiiAreClippedAndStepsMakeAFullTurn) {
       const double step = turns_between(ring[i], ring[(i + 1) % ring.size()]);
       turns += step;
       // Before they are scaled to a full turn, steps differ by no more than this factor.
-      EXPECT_GE(step * kStarVertices, (1 - irregularity) / (1 + irregularity) - kRounding) << index;
-      EXPECT_LE(step * kStarVertices, (1 + irregularity) / (1 - irregularity) + kRounding) << index;
+      EXPECT_GE(step * kStarVertices, (1 - irregularity) / (1 + irregularity) - kStarRounding) << index;
+      EXPECT_LE(step * kStarVertices, (1 + irregularity) / (1 - irregularity) + kStarRounding) << index;
     }
-    EXPECT_NEAR(turns, 1, kRounding) << index;
+    EXPECT_NEAR(turns, 1, kStarRounding) << index;
   }
   // Some of so many are clipped at either end.
-  EXPECT_NEAR(least, 50, kRounding);
-  EXPECT_NEAR(most, 200, kRounding);
+  EXPECT_NEAR(least, 50, kStarRounding);
+  EXPECT_NEAR(most, 200, kStarRounding);
 }
 
 TEST(StarPolygon, IrregularityIsTheSpreadOfTheSteps) {

@@ -10,6 +10,7 @@
 
 #include "benchmarks/statistics/statistics.hpp"
 #include "benchmarks/statistics/weighted.hpp"
+#include "tests/infinity.hpp"
 
 namespace hullbench {
 namespace {
@@ -17,7 +18,7 @@ namespace {
 using Times = std::vector<std::int64_t>;
 
 TEST(Median, OfInfiniteValuesIsInfiniteAndNeverNaN) {
-  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  using testing::kInfinity;
   const auto median_of = [](const std::vector<double>& values) {
     return statistics::median(std::span<const double>(values));
   };
@@ -36,7 +37,7 @@ TEST(Statistics, MedianOfEvenCountIsTheMeanOfTheMiddleTwo) {
 }
 
 TEST(Weighted, OfEqualWeightsTheMedianIsTheUsualOne) {
-  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  using testing::kInfinity;
   const auto median_of = [](const std::vector<double>& values) {
     std::vector<statistics::WeightedValue> weighted;
     for (const double value : values) weighted.push_back({value, 1.0 / 3});

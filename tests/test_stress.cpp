@@ -24,6 +24,7 @@
 #include "datasets/stress.hpp"
 #include "tests/boost_checks.hpp"
 #include "tests/complaint.hpp"
+#include "tests/point_sets.hpp"
 
 namespace hullbench {
 namespace {
@@ -32,6 +33,7 @@ using polylidar::MultiPolygon;
 using polylidar::Point;
 using polylidar::Polygon;
 using polylidar::Ring;
+using polylidar::testing::distance;
 
 const std::vector<std::string> kShapes = {"ca", "letter_b", "star-1", "nested-1", "parts-1"};
 
@@ -55,10 +57,6 @@ MultiPolygon square() {
 
 double spacing_in(const std::string& shape, std::size_t n) {
   return std::sqrt(polylidar::area(make_ground_truth(shape, false)) / static_cast<double>(n));
-}
-
-double distance(const Point& a, const Point& b) {
-  return std::hypot(b.x - a.x, b.y - a.y);
 }
 
 std::vector<double> nearest_distances(const std::vector<Point>& points) {

@@ -28,7 +28,7 @@ using polylidar::MultiPolygon;
 using polylidar::Point;
 
 /// Of 100 squared units.
-MultiPolygon square() {
+MultiPolygon small_square() {
   return {{{{0, 0}, {10, 0}, {10, 10}, {0, 10}}, {}}};
 }
 
@@ -144,7 +144,7 @@ TEST(DepthCamera, TheLensTurnsRaysByAHundredthAt45Degrees) {
 TEST(DepthCamera, PointsOfARowAreNearerThanRowsByWhatTheLevelSays) {
   for (const double level : {1.0, 4.0, 20.0}) {
     Random random(3);
-    const DepthShot shot = take_depth_shot(square(), 0, 0.05, level, random);
+    const DepthShot shot = take_depth_shot(small_square(), 0, 0.05, level, random);
     const DepthView& view = shot.view;
     EXPECT_NEAR(view.distance, 10, 1e-12);
     EXPECT_NEAR(view.distance / view.height, level, 1e-12);
@@ -224,7 +224,7 @@ constexpr double kAcross = 0.125;  ///< from line to line
 /// Over the square along x: strips from y = 0 to 4, 3 to 7 and 6 to 10.
 std::vector<Point> flight(Mirror mirror) {
   Random random(3);
-  return fly_over(square(), 0, std::sqrt(kAlong * kAcross), kAcross / kAlong, mirror, random);
+  return fly_over(small_square(), 0, std::sqrt(kAlong * kAcross), kAcross / kAlong, mirror, random);
 }
 
 TEST(Airborne, StripsOverlapTwoToOne) {
@@ -292,11 +292,11 @@ TEST(Airborne, LinesOfASwingingMirrorMeetAtTheSidesOfTheStrip) {
 TEST(Rotating, RingsStandAtEvenAnglesAndTheirPointsToo) {
   const Point foot{5, 5};
   constexpr double kLevel = 10;
-  const LidarRings rings = lidar_rings(square(), foot, 0.05, kLevel);
+  const LidarRings rings = lidar_rings(small_square(), foot, 0.05, kLevel);
   EXPECT_NEAR(rings.range, std::sqrt(50), 1e-12);
   Random random(3);
   std::map<std::int64_t, std::vector<double>> azimuths;  // by radius, in units of 1e-9
-  for (const Point& point : rotate_lidar(square(), foot, rings, random)) {
+  for (const Point& point : rotate_lidar(small_square(), foot, rings, random)) {
     const double radius = std::hypot(point.x - foot.x, point.y - foot.y);
     azimuths[std::llround(radius * 1e9)].push_back(std::atan2(point.y - foot.y, point.x - foot.x));
   }
@@ -342,7 +342,7 @@ TEST(Tracks, RoadsAreStraightAndTheirPointsEvenlySpread) {
   constexpr double kDistance = 0.2;
   Random random(3);
   const std::vector<Point> points =
-      drive_roads(square(), 0, std::sqrt(kStep * kDistance / 2), kDistance / kStep, random);
+      drive_roads(small_square(), 0, std::sqrt(kStep * kDistance / 2), kDistance / kStep, random);
   // A road goes on while the next point is at most two steps further, and on the road. Where it starts the
   // point five further shows its direction.
   std::vector<Road> roads;
@@ -386,7 +386,7 @@ TEST(Tracks, RoadsAreStraightAndTheirPointsEvenlySpread) {
 TEST(ScanExactly, LosesAFewOfAFinerScansPoints) {
   for (const std::size_t n : {1U, 7U, 1000U}) {
     std::size_t last = 0;
-    const std::vector<Point> points = scan_exactly(square(), n, 5, [&](double pitch, Random&) {
+    const std::vector<Point> points = scan_exactly(small_square(), n, 5, [&](double pitch, Random&) {
       // Three times as many as the pitch says.
       last = static_cast<std::size_t>(300 / (pitch * pitch));
       std::vector<Point> scanned(last);
@@ -401,7 +401,7 @@ TEST(ScanExactly, LosesAFewOfAFinerScansPoints) {
 }
 
 TEST(ScanExactly, TakesTooManyPointsWhereTheirNumberJumps) {
-  const std::vector<Point> points = scan_exactly(square(), 150, 5, [](double pitch, Random&) {
+  const std::vector<Point> points = scan_exactly(small_square(), 150, 5, [](double pitch, Random&) {
     return std::vector<Point>(100 * static_cast<std::size_t>(1 / pitch));
   });
   EXPECT_EQ(points.size(), 150U);
@@ -411,7 +411,7 @@ TEST(ScanExactly, LosesEveryPointWithTheSameChance) {
   // 4000 of 4080 stay: of the first half of them and of the second as many, but for chance, which has a
   // standard deviation of sqrt(80 / 4) = 4.5 points.
   std::size_t scanned = 0;
-  const std::vector<Point> points = scan_exactly(square(), 4000, 5, [&](double pitch, Random&) {
+  const std::vector<Point> points = scan_exactly(small_square(), 4000, 5, [&](double pitch, Random&) {
     scanned = static_cast<std::size_t>(102 / (pitch * pitch));
     std::vector<Point> result(scanned);
     for (std::size_t i = 0; i < scanned; ++i) result[i] = {static_cast<double>(i), 0};

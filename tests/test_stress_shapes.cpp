@@ -26,7 +26,7 @@ using polylidar::Polygon;
 using polylidar::Ring;
 
 // Of lengths up to 100, rounded to 1.4e-14, after a few operations.
-constexpr double kRounding = 1e-12;
+constexpr double kStressRounding = 1e-12;
 
 MultiPolygon member(const std::string& family, int number) {
   return make_ground_truth(family + "-" + std::to_string(number), false);
@@ -52,8 +52,8 @@ TEST(GradedShapes, HolesHaveTheirRadius) {
       ASSERT_EQ(polygon.holes.size(), count) << name;
       for (const Ring& hole : polygon.holes) {
         const polylidar::Box box = polylidar::bounding_box(hole);
-        EXPECT_NEAR(box.max.x - box.min.x, 2 * size, kRounding) << name;
-        EXPECT_NEAR(box.max.y - box.min.y, 2 * size, kRounding) << name;
+        EXPECT_NEAR(box.max.x - box.min.x, 2 * size, kStressRounding) << name;
+        EXPECT_NEAR(box.max.y - box.min.y, 2 * size, kStressRounding) << name;
         EXPECT_LT(polylidar::signed_area(hole), 0) << name;
         // So wide that what is between two holes, or a hole and the shell, is no feature itself.
         for (const Point& corner : hole)
@@ -83,18 +83,18 @@ TEST(GradedShapes, FeaturesHaveTheirWidth) {
     const Ring channel = member("channel", size).at(0).shell;
     const double side = polylidar::bounding_box(channel).max.y;
     EXPECT_EQ(stretches(channel, 0.39 * side).size(), 1U);
-    EXPECT_NEAR(stretches(channel, 0.41 * side).at(1), size, kRounding);
+    EXPECT_NEAR(stretches(channel, 0.41 * side).at(1), size, kStressRounding);
 
     const Ring peninsula = member("peninsula", size).at(0).shell;
     const double top = polylidar::bounding_box(peninsula).max.y;
-    EXPECT_NEAR(stretches(peninsula, 0.99 * top).at(0), size, kRounding);
+    EXPECT_NEAR(stretches(peninsula, 0.99 * top).at(0), size, kStressRounding);
     EXPECT_GT(stretches(peninsula, top / 1.6 * 0.99).at(0), 30);
 
     const Ring teeth = member("teeth", size).at(0).shell;
     const double tips = polylidar::bounding_box(teeth).max.y;
     const std::vector<double> along = stretches(teeth, tips - 24);
     EXPECT_GE(along.size(), 3U);
-    for (const double length : along) EXPECT_NEAR(length, size, kRounding);
+    for (const double length : along) EXPECT_NEAR(length, size, kStressRounding);
     EXPECT_EQ(stretches(teeth, tips - 26).size(), 1U);
   }
 }
@@ -112,7 +112,7 @@ TEST(GradedShapes, PartsHaveTheirGap) {
           for (const Point& corner : other.shell)
             nearest = std::min(nearest, testing::boost_distance(corner, polygon.shell));
         }
-        EXPECT_NEAR(nearest, size, kRounding) << name;
+        EXPECT_NEAR(nearest, size, kStressRounding) << name;
       }
     }
   }

@@ -14,6 +14,7 @@
 #include "tests/boost_checks.hpp"
 #include "tests/complaint.hpp"
 #include "tests/hull_oracle.hpp"
+#include "tests/point_sets.hpp"
 
 namespace hullbench {
 namespace {
@@ -22,13 +23,10 @@ using polylidar::MultiPolygon;
 using polylidar::Point;
 using polylidar::Polygon;
 using polylidar::Ring;
+using polylidar::testing::distance;
 
 // Coordinates up to 200 are rounded to 2.8e-14, a few times over while a shape is laid out, moved and turned.
-constexpr double kRounding = 1e-12;
-
-double distance(const Point& a, const Point& b) {
-  return std::hypot(a.x - b.x, a.y - b.y);
-}
+constexpr double kTangledRounding = 1e-12;
 
 double distance_to_segment(const Point& point, const Point& start, const Point& end) {
   const Point along{end.x - start.x, end.y - start.y};
@@ -188,7 +186,7 @@ TEST_P(Tangled, NothingIsThinAndNoGapIsNarrow) {
   double least = std::numeric_limits<double>::infinity();
   for_all([&](const MultiPolygon& shape, std::size_t index) {
     const double found = least_feature(shape, detour);
-    EXPECT_GE(found, kLeastFeature - kRounding) << index;
+    EXPECT_GE(found, kLeastFeature - kTangledRounding) << index;
     least = std::min(least, found);
   });
   RecordProperty("least_feature", std::to_string(least));
@@ -261,7 +259,7 @@ TEST(Walks, HaveOnlyCorners) {
       const double dot =
           (ring[i].x - before.x) * (after.x - ring[i].x) + (ring[i].y - before.y) * (after.y - ring[i].y);
       // A right angle between edges up to 200 long, whose ends are rounded.
-      EXPECT_NEAR(dot, 0, 400 * kRounding) << index;
+      EXPECT_NEAR(dot, 0, 400 * kTangledRounding) << index;
     }
   }
 }

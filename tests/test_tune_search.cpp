@@ -20,11 +20,12 @@
 #include "benchmarks/tune/tuner.hpp"
 #include "datasets/datasets.hpp"
 #include "datasets/stress.hpp"
+#include "tests/infinity.hpp"
 
 namespace hullbench {
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
+using testing::kInfinity;
 
 ParameterInfo parameter(const std::string& name, const std::string& unit, double minimum, double maximum,
                         std::optional<double> default_value = std::nullopt) {

@@ -25,7 +25,7 @@ using polylidar::Polygon;
 using polylidar::Ring;
 
 // Coordinates are written with four decimals.
-constexpr double kRounding = 1e-4;
+constexpr double kWorldRounding = 1e-4;
 constexpr double kSide = 200;
 
 const char* stratum_of(const MultiPolygon& shape) {
@@ -54,8 +54,8 @@ TEST(WorldShapes, EveryOneIsAValidOutlineOfTheSizePromised) {
       EXPECT_LE(vertices, 900U);
       // Simplifying may take a little from the box, whose corners it does not know.
       EXPECT_NEAR(std::max(most.x, most.y), kSide, 0.05 * kSide);
-      EXPECT_LE(std::max(most.x, most.y), kSide + kRounding);
-      EXPECT_GE(std::min(least.x, least.y), -kRounding);
+      EXPECT_LE(std::max(most.x, most.y), kSide + kWorldRounding);
+      EXPECT_GE(std::min(least.x, least.y), -kWorldRounding);
     }
   }
 }
@@ -83,7 +83,8 @@ TEST(WorldShapes, AreWhatTheManifestSays) {
     ASSERT_EQ(set.at("areas").size(), families[f].count) << families[f].name;
     for (std::size_t index = 0; index < families[f].count; ++index) {
       const MultiPolygon shape = families[f].make(index);
-      EXPECT_NEAR(polylidar::area(shape), set["areas"][index].get<double>(), kRounding) << families[f].name;
+      EXPECT_NEAR(polylidar::area(shape), set["areas"][index].get<double>(), kWorldRounding)
+          << families[f].name;
       ++strata[stratum_of(shape)];
     }
     const auto said = set.at("strata").get<std::map<std::string, int>>();

@@ -23,6 +23,7 @@
 #include "polylidar/check.hpp"
 #include "polylidar/concave_hull.hpp"
 #include "polylidar/predicates.hpp"
+#include "tests/point_sets.hpp"
 
 namespace hullbench {
 namespace {
@@ -30,6 +31,7 @@ namespace {
 using nlohmann::json;
 using polylidar::MultiPolygon;
 using polylidar::Point;
+using polylidar::testing::distance;
 
 std::vector<Point> points_of(const std::string& name) {
   const zoo::Case* one = zoo::find_case("zoo-" + name);
@@ -47,10 +49,6 @@ Places places(const std::vector<Point>& points) {
   Places result;
   for (const Point& point : points) result.insert({point.x, point.y});
   return result;
-}
-
-double distance(const Point& a, const Point& b) {
-  return std::hypot(b.x - a.x, b.y - a.y);
 }
 
 /// Pairs of points at most `limit` apart that are not equal.
