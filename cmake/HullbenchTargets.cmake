@@ -34,12 +34,12 @@ if(HULLBENCH_NATIVE)
   target_compile_options(hullbench_compile_options INTERFACE -march=native)
 endif()
 
-# hullbench_compile_together(target): compiles six files of the target in one go, since most of the time goes into the headers
+# hullbench_compile_together(target): compiles twelve files of the target in one go, since most of the time goes into the headers
 # that they share. So two of its files may not use one name for two things, not even in unnamed namespaces. The clang build
 # compiles each file alone, which shows that it includes what it needs. Not for code that is timed.
 function(hullbench_compile_together target)
   if(NOT CMAKE_DISABLE_PRECOMPILE_HEADERS)
-    set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 6)
+    set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 12)
   endif()
 endfunction()
 

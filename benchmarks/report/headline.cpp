@@ -43,7 +43,7 @@ std::vector<Line> lines_with_results(const Measurements& measurements) {
   return lines;
 }
 
-json number_or_null(const std::optional<double>& value) {
+json finite_or_null(const std::optional<double>& value) {
   return value && std::isfinite(*value) ? json(*value) : json(nullptr);
 }
 
@@ -54,11 +54,11 @@ json rival_to_json(const Line& line, bool same, const Ratios& ratios) {
           {"same_polygons", same},
           {"cases", ratios.cases},
           {"failures", ratios.failures},
-          {"median", number_or_null(ratios.median)},
-          {"low", interval ? number_or_null(interval->low) : json(nullptr)},
-          {"high", interval ? number_or_null(interval->high) : json(nullptr)},
-          {"least", number_or_null(ratios.least)},
-          {"most", number_or_null(ratios.most)}};
+          {"median", finite_or_null(ratios.median)},
+          {"low", interval ? finite_or_null(interval->low) : json(nullptr)},
+          {"high", interval ? finite_or_null(interval->high) : json(nullptr)},
+          {"least", finite_or_null(ratios.least)},
+          {"most", finite_or_null(ratios.most)}};
 }
 
 }  // namespace

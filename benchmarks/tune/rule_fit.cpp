@@ -35,16 +35,16 @@ std::unique_ptr<Adapter> make_method(const std::string& name) {
 }
 
 /// l2; kInfinitelyBad for an invalid result.
-double error_of(const metrics::CaseScorer& scorer, const MultiPolygon& result) {
+double error_of_result(const metrics::CaseScorer& scorer, const MultiPolygon& result) {
   const metrics::AreaScores scores = scorer.area_scores(result);
   return scores.valid ? scores.l2.value_or(kInfinitelyBad) : kInfinitelyBad;
 }
 
-double error_of(const metrics::CaseScorer& scorer, Adapter& method, const Parameters& parameters) {
+double error_of_result(const metrics::CaseScorer& scorer, Adapter& method, const Parameters& parameters) {
   NoSteps steps;
   try {
     method.run(parameters, steps);
-    return error_of(scorer, method.extract(steps));
+    return error_of_result(scorer, method.extract(steps));
   } catch (const std::exception&) {
     return kInfinitelyBad;
   }
@@ -63,11 +63,11 @@ void measure_case(FitTables& tables, std::size_t which, const FitCase& wanted,
     Parameters parameters = uses[u].fixed;
     for (std::size_t k = 0; k < tables.uses[u].candidates.size(); ++k) {
       parameters[uses[u].parameter] = tables.uses[u].candidates[k] * size;
-      tables.uses[u].errors[which][k] = error_of(scorer, *method, parameters);
+      tables.uses[u].errors[which][k] = error_of_result(scorer, *method, parameters);
     }
   }
   tables.core_errors[which] =
-      error_of(scorer, polylidar::to_coordinates(polylidar::concave_hull(set.points), set.points));
+      error_of_result(scorer, polylidar::to_coordinates(polylidar::concave_hull(set.points), set.points));
 }
 
 }  // namespace

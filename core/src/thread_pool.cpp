@@ -21,18 +21,17 @@ void wait_while(const std::atomic<T>& value, T old) {
 
 }  // namespace
 
-void ThreadPool::use(unsigned threads) {
-  if (threads > 1 && started_.size() + 1 != threads) {
-    stop();
-    shares_ = std::vector<Share>(threads);
-    started_.reserve(threads - 1);
-    while (started_.size() + 1 < threads)
-      started_.emplace_back(&ThreadPool::serve, this, started_.size() + 1);
-  }
-  used_ = threads;
+/// As many as are wanted, where there are others.
+void ThreadPool::start() {
+  if (started_.size() + 1 == used_) return;
+  stop();
+  shares_ = std::vector<Share>(used_);
+  started_.reserve(used_ - 1);
+  while (started_.size() + 1 < used_) started_.emplace_back(&ThreadPool::serve, this, started_.size() + 1);
 }
 
 void ThreadPool::run(const Job& job) {
+  start();
   job_ = job;
   for (std::size_t t = 0; t < shares_.size(); ++t) {
     shares_[t].next.store(job.count * t / shares_.size(), std::memory_order_relaxed);

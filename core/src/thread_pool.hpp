@@ -35,8 +35,9 @@ class ThreadPool {
 
 #else
 
-/// Runs tasks on the caller's thread and, if more than one is wanted, on threads that it starts once and
-/// keeps. With one thread nothing is started, locked or counted. Not for use from several threads at once.
+/// Runs tasks on the caller's thread and, if more than one is wanted, on threads that it starts when there
+/// are tasks for them, and keeps. With one thread nothing is started, locked or counted. Not for use from
+/// several threads at once.
 ///
 /// Of every step a thread takes the same share of consecutive tasks first, then what others left of theirs.
 /// So most of what a step reads is in the cache of the core that wrote it: fetching it from another takes
@@ -49,7 +50,7 @@ class ThreadPool {
   ~ThreadPool() { stop(); }
 
   /// How many threads to use from now on, the caller's among them; >= 1.
-  void use(unsigned threads);
+  void use(unsigned threads) { used_ = threads; }
   unsigned threads() const { return used_; }
 
   /// task(i) for every i below `count`, in any order and on any of the threads. Returns when all are done; if
@@ -70,6 +71,7 @@ class ThreadPool {
     std::size_t count = 0;
   };
 
+  void start();
   void run(const Job& job);
   void work(std::size_t thread);
   void serve(std::size_t thread);
