@@ -56,8 +56,12 @@ std::vector<polylidar::Ring> rings_of(const polylidar::MultiPolygon& shape) {
 
 std::string boost_fault(const polylidar::MultiPolygon& shape) {
   std::string reason;
-  if (bg::is_valid(to_boost(shape), reason) || bg::is_valid(to_boost<Rational>(shape), reason)) return {};
-  return reason;
+  return bg::is_valid(to_boost(shape), reason) ? "" : reason;
+}
+
+std::string boost_fault_in_detail(const polylidar::MultiPolygon& shape) {
+  const std::string fault = boost_fault(shape);
+  return fault.empty() || bg::is_valid(to_boost<Rational>(shape)) ? "" : fault;
 }
 
 std::vector<polylidar::Point> boost_outside(const polylidar::MultiPolygon& shape,

@@ -12,10 +12,13 @@ namespace hullbench::testing {
 /// The shell and then the holes of every polygon.
 std::vector<polylidar::Ring> rings_of(const polylidar::MultiPolygon& shape);
 
-/// Empty when `shape` is valid, else Boost.Geometry's reason. With doubles Boost.Geometry first rounds
-/// coordinates to a grid over the whole shape and so sees crossings in fine detail that has none; a fault
-/// found that way counts only when exact coordinates, which are far slower, show one too.
+/// Empty when `shape` is valid, else Boost.Geometry's reason.
 std::string boost_fault(const polylidar::MultiPolygon& shape);
+
+/// The same for shapes with fine detail. With doubles Boost.Geometry first rounds coordinates to a grid over
+/// the whole shape and so sees crossings where there are none; a fault found that way counts only when exact
+/// coordinates, which are far slower, show one too.
+std::string boost_fault_in_detail(const polylidar::MultiPolygon& shape);
 
 /// Those of `points` that do not lie strictly inside `shape`.
 std::vector<polylidar::Point> boost_outside(const polylidar::MultiPolygon& shape,

@@ -56,7 +56,7 @@ void expect_one_simple_polygon_round(const std::vector<polylidar::Point>& points
   }
   const polylidar::MultiPolygon scaled = {{polylidar::testing::near_one(shell), {}}};
   EXPECT_EQ(metrics::invalid_reason(scaled), "");
-  EXPECT_EQ(testing::boost_fault(scaled), "");
+  EXPECT_EQ(testing::boost_fault_in_detail(scaled), "");
   EXPECT_TRUE(runs_counter_clockwise(shell));
 }
 

@@ -261,7 +261,7 @@ TEST(AreaScoresAgainstBoost, AgreeOnRandomPolygons) {
       truth.push_back(star_with_holes(random, {40, 0}, spread, corners, holes));
       result.push_back(star_with_holes(random, {41, 1}, spread, corners, holes));
     }
-    ASSERT_EQ(testing::boost_fault(truth), "");
+    ASSERT_EQ(testing::boost_fault_in_detail(truth), "");
     const metrics::AreaScores scores = metrics::area_scores(result, truth);
     ASSERT_TRUE(scores.valid) << scores.invalid_reason;
     // GEOS places crossings in double arithmetic, each within some ulps of a coordinate; a few hundred of

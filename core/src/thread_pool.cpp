@@ -21,7 +21,7 @@ void wait_while(const std::atomic<T>& value, T old) {
 
 }  // namespace
 
-/// As many as are wanted, where there are others.
+/// Starts as many threads as are wanted, in place of those that run.
 void ThreadPool::start() {
   if (started_.size() + 1 == used_) return;
   stop();
