@@ -47,7 +47,8 @@ endef
 
 # $(call tests,preset,folder): all tests of a build folder, then why any was skipped.
 define tests
-ctest --preset $(1) --parallel $(TEST_JOBS) && status=0 || status=$$?; \
+folder=$$(tests/temporary_folder.sh); \
+TMPDIR=$$folder ctest --preset $(1) --parallel $(TEST_JOBS) && status=0 || status=$$?; rm -rf "$$folder"; \
 sed -n '/^skipped: /p' $(2)/Testing/Temporary/LastTest.log | sort | uniq -c >&2; \
 exit $$status
 endef

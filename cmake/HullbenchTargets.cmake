@@ -34,40 +34,46 @@ if(HULLBENCH_NATIVE)
   target_compile_options(hullbench_compile_options INTERFACE -march=native)
 endif()
 
-# hullbench_compile_together(target): compiles twelve files of the target in one go, since most of the time goes into the headers
-# that they share. So two of its files may not use one name for two things, not even in unnamed namespaces. The clang build
-# compiles each file alone, which shows that it includes what it needs. Not for code that is timed.
+# hullbench_compile_together(target [count]): compiles twelve, or so many, files of the target in one go, since most of the time
+# goes into the headers that they share. So two of its files may not use one name for two things, not even in unnamed
+# namespaces. The clang build compiles each file alone, which shows that it includes what it needs. Not for code that is timed.
 function(hullbench_compile_together target)
+  set(count 12)
+  if(ARGC GREATER 1)
+    set(count ${ARGV1})
+  endif()
   if(NOT CMAKE_DISABLE_PRECOMPILE_HEADERS)
-    set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 12)
+    set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE ${count})
   endif()
 endfunction()
 
-# hullbench_test_header(): GoogleTest's header and those that most tests include beside it, parsed once for all tests of
-# hullbench_test. Every file still includes what it needs: the clang build has no such header.
-function(hullbench_test_header)
-  file(CONFIGURE OUTPUT "${CMAKE_CURRENT_BINARY_DIR}/test_header.cpp" CONTENT "")
-  add_library(hullbench_test_header STATIC "${CMAKE_CURRENT_BINARY_DIR}/test_header.cpp")
-  target_link_libraries(hullbench_test_header PRIVATE GTest::gtest hullbench::compile_options)
-  target_compile_options(hullbench_test_header PRIVATE -O1)
+# hullbench_test_header(name level): GoogleTest's header and those that most tests include beside it, parsed once for all tests of
+# hullbench_test that are compiled at that level of optimisation. Every file still includes what it needs: the clang build has no
+# such header.
+function(hullbench_test_header name level)
+  file(CONFIGURE OUTPUT "${CMAKE_CURRENT_BINARY_DIR}/${name}.cpp" CONTENT "")
+  add_library(${name} STATIC EXCLUDE_FROM_ALL "${CMAKE_CURRENT_BINARY_DIR}/${name}.cpp")
+  target_link_libraries(${name} PRIVATE GTest::gtest hullbench::compile_options)
+  target_compile_options(${name} PRIVATE ${level})
   set(headers <gtest/gtest.h> <algorithm> <cmath> <filesystem> <functional> <limits> <map> <optional> <set> <sstream> <string> <vector>)
   if(TARGET nlohmann_json::nlohmann_json)
-    target_link_libraries(hullbench_test_header PRIVATE nlohmann_json::nlohmann_json)
+    target_link_libraries(${name} PRIVATE nlohmann_json::nlohmann_json)
     list(APPEND headers <nlohmann/json.hpp>)
   endif()
-  target_precompile_headers(hullbench_test_header PRIVATE ${headers})
+  target_precompile_headers(${name} PRIVATE ${headers})
 endfunction()
 
 # Groups with tests that take ten seconds or more have this COST: ctest starts them first, and none is left for the end.
 set(HULLBENCH_COST_OF_LONG_TESTS 100)
 
-# hullbench_test(NAME SOURCES... LIBRARIES... [LABELS...] [TIMEOUT seconds] [RUNS_HULLBENCH] [STARTS_EARLY] [IN_ONE]): one
+# hullbench_test(NAME SOURCES... LIBRARIES... [LABELS...] [TIMEOUT seconds] [RUNS_HULLBENCH] [STARTS_EARLY] [IN_ONE] [LIGHT]): one
 # GoogleTest program from one or more files, which are compiled together; its cases appear in ctest one by one. All know the
 # folders of the sources and the plans, where the program is and which Python the system has; with RUNS_HULLBENCH the program is
 # built first. STARTS_EARLY is for tests that take long. IN_ONE is for tests that share what takes long to prepare: one entry in
-# ctest for all.
+# ctest for all. LIGHT is for tests that compute little by themselves, as they start programs or compare texts: they are not
+# optimised, which compiles them in half the time.
 function(hullbench_test name)
-  cmake_parse_arguments(TEST "RUNS_HULLBENCH;STARTS_EARLY;IN_ONE" "TIMEOUT" "SOURCES;LIBRARIES;LABELS" ${ARGN})
+  cmake_parse_arguments(TEST "RUNS_HULLBENCH;STARTS_EARLY;IN_ONE;LIGHT" "TIMEOUT" "SOURCES;LIBRARIES;LABELS" ${ARGN})
   add_executable(${name} ${TEST_SOURCES})
   target_compile_definitions(${name} PRIVATE
     # Boost 1.74's Geometry includes headers of its own that announce themselves as deprecated in every compilation.
@@ -78,10 +84,16 @@ function(hullbench_test name)
     SYSTEM_PYTHON="${SYSTEM_PYTHON}")
   # What is tested is optimised as always; the tests themselves are many. GCC 12 sees std::string copied out of bounds, where it
   # is not, in some of the files that are compiled together.
-  target_compile_options(${name} PRIVATE -O1
+  set(level -O1)
+  set(header hullbench_test_header)
+  if(TEST_LIGHT)
+    set(level -O0)
+    set(header hullbench_light_test_header)
+  endif()
+  target_compile_options(${name} PRIVATE ${level}
     $<$<AND:$<CXX_COMPILER_ID:GNU>,$<VERSION_LESS:$<CXX_COMPILER_VERSION>,13>>:-Wno-array-bounds>)
-  target_precompile_headers(${name} REUSE_FROM hullbench_test_header)
-  hullbench_compile_together(${name})
+  target_precompile_headers(${name} REUSE_FROM ${header})
+  hullbench_compile_together(${name} 7)  # more would be one long compilation at a build's end
   target_link_libraries(${name} PRIVATE ${TEST_LIBRARIES} GTest::gtest_main hullbench::compile_options)
   if(TEST_RUNS_HULLBENCH)
     target_link_libraries(${name} PRIVATE hullbench_test_program)

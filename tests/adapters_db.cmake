@@ -9,7 +9,7 @@ endif()
 
 if(TARGET hullbench_adapter_postgis)
   hullbench_test(test_private_postgres SOURCES test_private_postgres.cpp
-    LIBRARIES hullbench_adapter_postgis hullbench_adapter_interface)
+    LIBRARIES hullbench_adapter_postgis hullbench_adapter_interface LIGHT)
 
   # One entry for all its cases: they share a server, which takes seconds to start.
   add_executable(test_postgis test_postgis.cpp test_postgis_steps.cpp)

@@ -43,6 +43,13 @@ BoostMultiPolygon<Number> to_boost(const polylidar::MultiPolygon& shape) {
   return result;
 }
 
+/// The area of what `a` has and `b` has not.
+Rational difference_area(const polylidar::MultiPolygon& a, const polylidar::MultiPolygon& b) {
+  BoostMultiPolygon<Rational> difference;
+  bg::difference(to_boost<Rational>(a), to_boost<Rational>(b), difference);
+  return bg::area(difference);
+}
+
 }  // namespace
 
 std::vector<polylidar::Ring> rings_of(const polylidar::MultiPolygon& shape) {
@@ -102,15 +109,11 @@ double boost_common_area(const polylidar::MultiPolygon& a, const polylidar::Mult
 }
 
 double boost_difference_area(const polylidar::MultiPolygon& a, const polylidar::MultiPolygon& b) {
-  BoostMultiPolygon<Rational> difference;
-  bg::difference(to_boost<Rational>(a), to_boost<Rational>(b), difference);
-  return static_cast<double>(bg::area(difference));
+  return static_cast<double>(difference_area(a, b));
 }
 
 double boost_symmetric_difference_area(const polylidar::MultiPolygon& a, const polylidar::MultiPolygon& b) {
-  BoostMultiPolygon<Rational> difference;
-  bg::sym_difference(to_boost<Rational>(a), to_boost<Rational>(b), difference);
-  return static_cast<double>(bg::area(difference));
+  return static_cast<double>(difference_area(a, b) + difference_area(b, a));
 }
 
 }  // namespace hullbench::testing

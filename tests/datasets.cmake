@@ -32,7 +32,7 @@ endforeach()
 hullbench_test(test_real_points
   SOURCES test_real_points.cpp
   LIBRARIES hullbench_test_program hullbench::datasets nlohmann_json::nlohmann_json
-  LABELS datasets)
+  LABELS datasets LIGHT)
 target_compile_definitions(test_real_points PRIVATE
   HULLBENCH_REAL_PAGE="${PROJECT_SOURCE_DIR}/datasets/real/README.md"
   HULLBENCH_REAL_PLAN="${PROJECT_SOURCE_DIR}/benchmarks/plans/real.json")

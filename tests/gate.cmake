@@ -1,7 +1,7 @@
 # The gate on speed: its statistics, its rules, its program with scripted probes, its script, and the workflow that calls it.
 hullbench_test(test_gate
   SOURCES test_gate_program.cpp test_gate_script.cpp test_gate_statistics.cpp test_gate_verdict.cpp
-  LIBRARIES hullbench::gate hullbench_test_program nlohmann_json::nlohmann_json LABELS gate)
+  LIBRARIES hullbench::gate hullbench_test_program nlohmann_json::nlohmann_json LABELS gate LIGHT)
 target_compile_definitions(test_gate PRIVATE
   BENCH_GATE="$<TARGET_FILE:bench_gate>" GATE_SCRIPT="${PROJECT_SOURCE_DIR}/benchmarks/gate/gate.sh")
 add_dependencies(test_gate bench_gate)

@@ -27,7 +27,7 @@ hullbench_test(test_harness
     test_worker.cpp
   LIBRARIES hullbench::league hullbench::tune hullbench::run hullbench::report hullbench::worker hullbench::adapters
     hullbench::metrics hullbench::datasets hullbench::hash hullbench_invented_run hullbench_test_program hullbench_test_support
-  LABELS harness)
+  LABELS harness LIGHT)
 target_compile_definitions(test_harness PRIVATE MISBEHAVING_WORKER="$<TARGET_FILE:misbehaving_worker>")
 add_dependencies(test_harness misbehaving_worker)
 
@@ -55,7 +55,7 @@ hullbench_test(test_program
     test_suite.cpp
     test_tune.cpp
   LIBRARIES hullbench::record hullbench::run hullbench::report hullbench::metrics hullbench::hash hullbench_invented_run
-  LABELS harness RUNS_HULLBENCH TIMEOUT 600)
+  LABELS harness RUNS_HULLBENCH TIMEOUT 600 LIGHT)
 target_compile_definitions(test_program PRIVATE
   COMPARE_PY="${COMPARE_PY}" MISBEHAVING_WORKER="$<TARGET_FILE:misbehaving_worker>"
   VALIDATE_REPORT="${CMAKE_CURRENT_LIST_DIR}/validate_report.py")
@@ -70,13 +70,13 @@ add_test(NAME reference.is_of_this_revision
   COMMAND "${CMAKE_CURRENT_LIST_DIR}/check_reference.sh" "${PROJECT_SOURCE_DIR}")
 set_tests_properties(reference.is_of_this_revision PROPERTIES SKIP_RETURN_CODE 77)
 hullbench_test(test_reference SOURCES test_reference.cpp
-  LIBRARIES hullbench::league hullbench::report hullbench_test_program LABELS harness TIMEOUT 300 IN_ONE)
+  LIBRARIES hullbench::league hullbench::report hullbench_test_program LABELS harness TIMEOUT 300 IN_ONE LIGHT)
 add_test(NAME readme.has_the_reference_run
   COMMAND hullbench readme --check results/reference README.md
   WORKING_DIRECTORY "${PROJECT_SOURCE_DIR}")
 
 # Methods that are added: the skeletons of `hullbench adapter new`, and the contract.
-hullbench_test(test_adapter_command SOURCES test_adapter_command.cpp LABELS harness RUNS_HULLBENCH STARTS_EARLY)
+hullbench_test(test_adapter_command SOURCES test_adapter_command.cpp LABELS harness RUNS_HULLBENCH STARTS_EARLY LIGHT)
 
 # The README's checklist for a method in C++, walked with a sample: hullbench writes it, add_adapter() takes it, and the
 # program that has it keeps the contract with it.

@@ -16,7 +16,7 @@ hullbench_test(test_tool_commands
   SOURCES test_choose_command.cpp test_footprint_command.cpp test_hull_command.cpp test_points_command.cpp
   LIBRARIES polylidar::tool hullbench::run hullbench::metrics hullbench::datasets hullbench_adapter_interface
     nlohmann_json::nlohmann_json GEOS::geos_c
-  LABELS hull RUNS_HULLBENCH)
+  LABELS hull RUNS_HULLBENCH LIGHT)
 target_compile_definitions(test_tool_commands PRIVATE
   POLYLIDAR="$<TARGET_FILE:polylidar>" MISBEHAVING_WORKER="$<TARGET_FILE:misbehaving_worker>")
 add_dependencies(test_tool_commands misbehaving_worker polylidar)
@@ -32,7 +32,7 @@ if(TARGET polylidar_gdal)
   endif()
   hullbench_test(test_vector_formats SOURCES test_vector_formats.cpp
     LIBRARIES ${postgres} hullbench_adapter_interface polylidar::core hullbench_test_program GDAL::GDAL nlohmann_json::nlohmann_json
-    LABELS hull)
+    LABELS hull LIGHT)
   target_compile_definitions(test_vector_formats PRIVATE
     POLYLIDAR_WITH_GDAL="$<TARGET_FILE:${with_gdal}>" $<$<BOOL:${postgres}>:HULLBENCH_HAS_POSTGRES>)
   add_dependencies(test_vector_formats ${with_gdal})

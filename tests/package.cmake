@@ -1,6 +1,6 @@
 # The core as others get it: the installed package, used by the small project in package/, and the reference.
 find_package(PkgConfig REQUIRED)
-hullbench_test(test_package SOURCES test_package.cpp LIBRARIES hullbench_test_program LABELS package)
+hullbench_test(test_package SOURCES test_package.cpp LIBRARIES hullbench_test_program LABELS package LIGHT)
 target_compile_definitions(test_package PRIVATE
   HAS_GDAL=$<BOOL:${POLYLIDAR_WITH_GDAL}> BUILD_TYPE="$<LOWER_CASE:$<CONFIG>>" BUILD_FOLDER="${PROJECT_BINARY_DIR}"
   SOURCE_FOLDER="${PROJECT_SOURCE_DIR}" PROJECT_VERSION="${PROJECT_VERSION}"
@@ -11,7 +11,7 @@ hullbench_tool_test(NAME docs.core NEEDS doxygen "${PROJECT_BINARY_DIR}/core/Dox
   COMMAND doxygen "${PROJECT_BINARY_DIR}/core/Doxyfile")
 set_tests_properties(docs.core PROPERTIES LABELS package TIMEOUT 120)
 
-hullbench_test(test_manual SOURCES test_manual.cpp LIBRARIES hullbench::manual hullbench_test_program LABELS package)
+hullbench_test(test_manual SOURCES test_manual.cpp LIBRARIES hullbench::manual hullbench_test_program LABELS package LIGHT)
 
 # The Debian packages, made of what is built, unpacked and used.
 get_property(packages GLOBAL PROPERTY HULLBENCH_DEBS)

@@ -23,7 +23,8 @@ hullbench_test(test_report
     test_tables.cpp
     test_xz_file.cpp
     test_zoo_table.cpp
-  LIBRARIES hullbench_invented_run hullbench::report hullbench::core_verdicts hullbench::hash hullbench_test_program)
+  LIBRARIES hullbench_invented_run hullbench::report hullbench::core_verdicts hullbench::hash hullbench_test_program
+  LIGHT)
 
 # The same reports through an independent validator.
 add_executable(write_invented_report "${CMAKE_CURRENT_LIST_DIR}/write_invented_report.cpp")
