@@ -2,7 +2,9 @@
 
 #include <dlfcn.h>
 
+#include <filesystem>
 #include <string>
+#include <system_error>
 
 namespace hullbench {
 namespace {
@@ -13,10 +15,21 @@ std::string complaint() {
   return message == nullptr ? "no reason given" : message;
 }
 
+// Of an installed program PREFIX/bin/NAME the library of that name in PREFIX/lib/hullbench; else `file`
+// itself.
+std::string installed_or(const char* file) {
+  namespace fs = std::filesystem;
+  std::error_code error;
+  const fs::path program = fs::read_symlink("/proc/self/exe", error);
+  const fs::path installed =
+      program.parent_path().parent_path() / "lib" / "hullbench" / fs::path(file).filename();
+  return fs::is_regular_file(installed, error) ? installed.string() : file;
+}
+
 }  // namespace
 
 std::unique_ptr<Adapter> load_adapter_module(const char* file, const char* install) {
-  void* module = dlopen(file, RTLD_NOW | RTLD_LOCAL);
+  void* module = dlopen(installed_or(file).c_str(), RTLD_NOW | RTLD_LOCAL);
   if (module == nullptr) throw NotInstalled("the method's library cannot be loaded: " + complaint(), install);
   void* maker = dlsym(module, "hullbench_make_adapter");
   if (maker == nullptr)

@@ -34,16 +34,18 @@ add_adapter(NAME sfcgal_alpha_shape TITLE "SFCGAL alpha shape"
   LIBRARIES ${CMAKE_DL_LIBS} INCLUDES "${SFCGAL_INCLUDE}"
   DEFINITIONS SFCGAL_LIBRARY="${SFCGAL_LIBRARY}" SFCGAL_REMEDY="${sfcgal_remedy}")
 
-add_adapter(NAME spatialite TITLE "SpatiaLite" ${needs_spatialite} LIBRARIES PkgConfig::SPATIALITE
+# Modules, as SpatiaLite's library and PostgreSQL's bring along some forty others (PROJ, curl, LDAP): every other method's
+# process would load them too.
+add_adapter(NAME spatialite TITLE "SpatiaLite" MODULE ${needs_spatialite} LIBRARIES PkgConfig::SPATIALITE
   SOURCES spatialite.cpp spatialite_database.cpp)
-add_adapter(NAME spatialite_steps TITLE "SpatiaLite, step by step" ${needs_spatialite}
+add_adapter(NAME spatialite_steps TITLE "SpatiaLite, step by step" MODULE ${needs_spatialite}
   LIBRARIES hullbench_adapter_spatialite PkgConfig::SPATIALITE)
 
 # Three methods from one client; which of them can run is for the server to say.
-add_adapter(NAME postgis TITLE "PostGIS" ${needs_libpq} LIBRARIES PkgConfig::LIBPQ hullbench::process_identity
+add_adapter(NAME postgis TITLE "PostGIS" MODULE ${needs_libpq} LIBRARIES PkgConfig::LIBPQ hullbench::process_identity
   SOURCES postgis.cpp postgis_session.cpp private_postgres.cpp postgres_supervisor.cpp server_folder.cpp)
-add_adapter(NAME postgis_legacy TITLE "PostGIS <= 3.2" ${needs_libpq} LIBRARIES hullbench_adapter_postgis)
-add_adapter(NAME postgis_steps TITLE "PostGIS, step by step" ${needs_libpq}
+add_adapter(NAME postgis_legacy TITLE "PostGIS <= 3.2" MODULE ${needs_libpq} LIBRARIES hullbench_adapter_postgis)
+add_adapter(NAME postgis_steps TITLE "PostGIS, step by step" MODULE ${needs_libpq}
   LIBRARIES hullbench_adapter_postgis PkgConfig::LIBPQ)
 
 # Before 3.12 GEOS's C API has the hull by ratio only; the C++ headers and library then give the hull by length.

@@ -36,7 +36,7 @@ endif()
 
 # hullbench_compile_together(target [count]): compiles twelve, or so many, files of the target in one go, since most of the time
 # goes into the headers that they share. So two of its files may not use one name for two things, not even in unnamed
-# namespaces. The clang build compiles each file alone, which shows that it includes what it needs. Not for code that is timed.
+# namespaces. The clang build compiles each file alone, which shows that it includes what it needs. Not for a method that is timed.
 function(hullbench_compile_together target)
   set(count 12)
   if(ARGC GREATER 1)

@@ -13,11 +13,15 @@ namespace polylidar::testing {
 // Takes the way without the interior wherever it can be gone, however little it pays.
 constexpr detail::InteriorGuard kAlways{0, 1e5, 1, 1};
 
-// Both ways, with memory that is kept.
+// Both ways, with memory that is kept. Points that come again are not triangulated again for the whole way.
 class BothWays {
  public:
   const IndexedMultiPolygon& whole(const std::vector<Point>& points, const Options& options) {
-    whole_.triangulate(points, options.threads);
+    if (points != points_of_whole_ || options.threads != threads_of_whole_) {
+      whole_.triangulate(points, options.threads);
+      points_of_whole_ = points;
+      threads_of_whole_ = options.threads;
+    }
     whole_.extract_regions(options);
     return whole_.extract_polygons();
   }
@@ -25,10 +29,13 @@ class BothWays {
   const IndexedMultiPolygon& whole(const std::vector<Point>& points, const detail::SizeField& field,
                                    bool fill_single) {
     pool_.use(1);
-    builder_.build(points, pool_);
-    filter_.run(builder_.mesh(), builder_.vertices(), field, fill_single, pool_, boundary_);
-    tracer_.trace(builder_.mesh(), builder_.vertices(), points.size(), builder_.caller_index(), boundary_,
-                  whole_shape_);
+    if (points != points_of_builder_) {
+      whole_builder_.build(points, pool_);
+      points_of_builder_ = points;
+    }
+    filter_.run(whole_builder_.mesh(), whole_builder_.vertices(), field, fill_single, pool_, boundary_);
+    tracer_.trace(whole_builder_.mesh(), whole_builder_.vertices(), points.size(),
+                  whole_builder_.caller_index(), boundary_, whole_shape_);
     return whole_shape_;
   }
   // As the other go(), for a field of one limit.
@@ -56,6 +63,10 @@ class BothWays {
 
  private:
   Extractor whole_;
+  std::vector<Point> points_of_whole_;
+  unsigned threads_of_whole_ = 0;
+  detail::DelaunayBuilder whole_builder_;
+  std::vector<Point> points_of_builder_;
   detail::ThreadPool pool_;
   detail::DelaunayBuilder builder_;
   detail::RegionFilter filter_;

@@ -27,7 +27,7 @@ hullbench_test(test_datasets
 foreach(golden IN ITEMS golden_hashes golden_stress)
   add_test(NAME datasets.${golden}
     COMMAND /usr/bin/python3 -B "${CMAKE_CURRENT_LIST_DIR}/${golden}.py" --check)
-  set_tests_properties(datasets.${golden} PROPERTIES LABELS datasets TIMEOUT 600)
+  set_tests_properties(datasets.${golden} PROPERTIES LABELS datasets TIMEOUT 600 COST ${HULLBENCH_COST_OF_LONG_TESTS})
 endforeach()
 hullbench_test(test_real_points
   SOURCES test_real_points.cpp

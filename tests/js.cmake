@@ -10,7 +10,7 @@ hullbench_tool_test(NAME js.build NEEDS ${js_needs}
 set_tests_properties(js.build PROPERTIES LABELS js TIMEOUT 900 FIXTURES_SETUP js_package COST ${HULLBENCH_COST_OF_LONG_TESTS}
   WORKING_DIRECTORY "${PROJECT_SOURCE_DIR}")
 
-set(needs_of_browser "chromium|chromium-browser|google-chrome" "${CMAKE_CURRENT_LIST_DIR}/report/node_modules")
+set(needs_of_browser "${BROWSERS}" "${CMAKE_CURRENT_LIST_DIR}/report/node_modules")
 set(needs_of_demo ${needs_of_browser} "${PROJECT_SOURCE_DIR}/adapters/manifests/node_modules")
 foreach(part IN ITEMS node browser demo)
   hullbench_tool_test(NAME js.${part} NEEDS ${js_needs} ${needs_of_${part}}

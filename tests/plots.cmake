@@ -17,14 +17,14 @@ foreach(part IN ITEMS records ratings front figures paper html_report pictures c
 endforeach()
 foreach(page IN ITEMS report comparison site)
   hullbench_tool_test(NAME plots.${page}_in_browser
-    NEEDS "${SYSTEM_PYTHON}:jsonschema" esbuild node "chromium|chromium-browser|google-chrome"
+    NEEDS "${SYSTEM_PYTHON}:jsonschema" esbuild node "${BROWSERS}"
       "${PROJECT_SOURCE_DIR}/plots/node_modules" "${CMAKE_CURRENT_LIST_DIR}/report/node_modules"
     COMMAND "${CMAKE_CURRENT_LIST_DIR}/report/run.sh" ${page}
             "$<TARGET_FILE:hullbench>" "$<TARGET_FILE:write_invented_report>" "${CMAKE_BINARY_DIR}/tests/${page}_in_browser")
   set_tests_properties(plots.${page}_in_browser PROPERTIES LABELS plots TIMEOUT 1200 COST ${HULLBENCH_COST_OF_LONG_TESTS})
 endforeach()
 hullbench_tool_test(NAME plots.choice_in_browser
-  NEEDS node "chromium|chromium-browser|google-chrome" "${CMAKE_CURRENT_LIST_DIR}/report/node_modules"
+  NEEDS node "${BROWSERS}" "${CMAKE_CURRENT_LIST_DIR}/report/node_modules"
   COMMAND ${CMAKE_COMMAND} -E env "HULLBENCH=$<TARGET_FILE:hullbench>" "OUTPUT=${CMAKE_BINARY_DIR}/tests/choice_in_browser"
           node --test --test-reporter=spec "${CMAKE_CURRENT_LIST_DIR}/report/choice.test.mjs")
 set_tests_properties(plots.choice_in_browser PROPERTIES LABELS plots TIMEOUT 600 COST ${HULLBENCH_COST_OF_LONG_TESTS})

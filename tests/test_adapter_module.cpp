@@ -34,20 +34,27 @@ TEST(AdapterModule, SaysWhyItCannotBeLoaded) {
   EXPECT_NE(refusal("libc.so.6").find("hullbench_make_adapter"), std::string::npos) << "no method is in it";
 }
 
-TEST(AdapterModule, BringsItsLibrariesWhenItIsAskedFor) {
+void expect_library_comes_with(const std::string& method, const std::string& library) {
   const auto& registry = adapter_registry();
-  const auto pcl = std::find_if(registry.begin(), registry.end(), [](const AdapterEntry& entry) {
-    return std::string(entry.name) == "pcl_concave_hull";
-  });
-  ASSERT_NE(pcl, registry.end());
-  EXPECT_FALSE(is_in_this_process("libpcl_surface"));
+  const auto found = std::find_if(registry.begin(), registry.end(),
+                                  [&](const AdapterEntry& entry) { return entry.name == method; });
+  ASSERT_NE(found, registry.end());
+  EXPECT_FALSE(is_in_this_process(library));
   try {
-    const auto adapter = pcl->make();
-    EXPECT_EQ(adapter->info().name, "pcl_concave_hull");
+    const auto adapter = found->make();
+    EXPECT_EQ(adapter->info().name, method);
   } catch (const NotInstalled& error) {
     GTEST_SKIP() << error.what() << "; " << error.remedy();
   }
-  EXPECT_TRUE(is_in_this_process("libpcl_surface"));
+  EXPECT_TRUE(is_in_this_process(library));
+}
+
+TEST(AdapterModule, BringsPclWhenItIsAskedFor) {
+  expect_library_comes_with("pcl_concave_hull", "libpcl_surface");
+}
+
+TEST(AdapterModule, BringsSpatialiteWhenItIsAskedFor) {
+  expect_library_comes_with("spatialite", "libspatialite");
 }
 
 }  // namespace

@@ -106,6 +106,14 @@ class Debs(unittest.TestCase):
             hull = run(self.program(package), "hull", points, "--alpha", "9", "--format", "wkt")
             self.assertRegex(hull, r"POLYGON ?\(\(")
 
+    def test_hullbench_loads_the_methods_installed_beside_it(self):
+        modules = sorted((self.folder / "hullbench/usr/lib/hullbench").iterdir())
+        self.assertIn("libhullbench_module_spatialite.so", [path.name for path in modules])
+        said = self.folder / "loaded"
+        run(self.program("hullbench"), "list", env={**os.environ, "LD_DEBUG": "files", "LD_DEBUG_OUTPUT": str(said)})
+        loaded = re.findall(r"calling init: (.*)", "".join(path.read_text() for path in self.folder.glob("loaded.*")))
+        self.assertEqual([path for path in modules if str(path) not in loaded], [])
+
     def test_hullbench_reads_what_is_installed_beside_it(self):
         data = self.folder / "hullbench/usr/share/hullbench"
         # A plan that is in no clone.

@@ -8,7 +8,6 @@
 #include <utility>
 
 #include "benchmarks/statistics/statistics.hpp"
-#include "datasets/random.hpp"
 
 namespace hullbench::run {
 namespace {
@@ -70,12 +69,9 @@ Canary::Canary(std::optional<int> core) : core_(core) {
   // On that core, so that the memory is the one that is nearest to it.
   const OnCore here(core_);
   lines_ = reserve_lines();
-  for (std::uint32_t i = 0; i < kLines; ++i) lines_[i].next = i;
-  // Sattolo, S. 1986. An algorithm to generate a random cyclic permutation. Inf. Process. Lett. 22(6).
-  Random random(1);
-  for (std::uint32_t i = kLines - 1; i > 0; --i) {
-    std::swap(lines_[i].next, lines_[static_cast<std::uint32_t>(random.below(i))].next);
-  }
+  // One cycle through all lines, without an order that a processor could foresee: Hull, T. E. and Dobell, A.
+  // R. 1962. Random number generators. SIAM Rev. 4(3), theorem 1. The factor is Numerical Recipes' one.
+  for (std::uint32_t i = 0; i < kLines; ++i) lines_[i].next = (1664525U * i + 1013904223U) % kLines;
 }
 
 record::CanaryTimes Canary::look() {

@@ -1,8 +1,8 @@
-// A page of the report in Debian's Chromium, watched: whatever it writes to the console and asks the network for is kept.
+// A page of the report in Debian's Chromium without windows, or in another Chromium, watched: whatever it writes to the console and asks the network for is kept.
 import { spawnSync } from "node:child_process";
 import { chromium } from "playwright-core";
 
-const NAMES = ["chromium", "chromium-browser", "google-chrome"];
+const NAMES = ["chromium-headless-shell", "chromium", "chromium-browser", "google-chrome"];
 
 /** The path of the system's browser. Throws when there is none. */
 function browser_path() {

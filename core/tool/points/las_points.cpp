@@ -29,7 +29,7 @@ constexpr std::size_t kNewHeader = 375;  // 1.4
 constexpr std::size_t kRecordHeader = 54;
 constexpr std::size_t kExtendedRecordHeader = 60;
 
-constexpr std::size_t kBlock = std::size_t{1} << 20U;  // bytes, more than any point has
+constexpr std::size_t kBytesAtOnce = std::size_t{1} << 20U;  // bytes, more than any point has
 
 /// Point format -> the bytes that a point has at least.
 constexpr std::array<std::size_t, 11> kLeastPointSize = {20, 28, 26, 34, 57, 63, 30, 36, 38, 59, 67};
@@ -245,7 +245,7 @@ class LasReader {
     if (takes_all && reader_.remaining() && !options.take_points) {
       reserve_points(file_.points, static_cast<std::size_t>(header_.count));
     }
-    const std::size_t points_a_block = kBlock / header_.point_size;
+    const std::size_t points_a_block = kBytesAtOnce / header_.point_size;
     std::vector<char> block(points_a_block * header_.point_size);
     for (std::uint64_t done = 0; done < header_.count;) {
       const std::uint64_t part = std::min<std::uint64_t>(points_a_block, header_.count - done);

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <cctype>
 #include <charconv>
 #include <cmath>
@@ -12,26 +11,17 @@
 #include <string_view>
 #include <utility>
 
+#include "tool/program/little_endian.hpp"
+
 namespace polylidar::tool {
 namespace {
 
-constexpr std::array<std::pair<std::string_view, PointOutput>, 5> kEndings = {{{"csv", PointOutput::kCsv},
-                                                                               {"xyz", PointOutput::kXyz},
-                                                                               {"npy", PointOutput::kNpy},
-                                                                               {"las", PointOutput::kLas},
-                                                                               {"txt", PointOutput::kXyz}}};
-
-/// Little-endian, on machines of either byte order.
-template <class Whole>
-void put(Whole value, std::string& to) {
-  const auto bits = static_cast<std::make_unsigned_t<Whole>>(value);
-  for (std::size_t byte = 0; byte < sizeof value; ++byte)
-    to += static_cast<char>((bits >> (8 * byte)) & 0xFFU);
-}
-
-void put(double value, std::string& to) {
-  put(std::bit_cast<std::uint64_t>(value), to);
-}
+constexpr std::array<std::pair<std::string_view, PointOutput>, 5> kOutputEndings = {
+    {{"csv", PointOutput::kCsv},
+     {"xyz", PointOutput::kXyz},
+     {"npy", PointOutput::kNpy},
+     {"las", PointOutput::kLas},
+     {"txt", PointOutput::kXyz}}};
 
 /// `text`, and zeros up to `size` bytes.
 void put_text(std::string_view text, std::size_t size, std::string& to) {
@@ -111,19 +101,19 @@ void put_las_point(const Point& point, std::uint16_t label, const LasGrid& grid,
 }  // namespace
 
 std::optional<PointOutput> point_output_of(const std::string& name) {
-  const auto* const found = std::find_if(kEndings.begin(), kEndings.end(), [&](const auto& known) {
-    return known.first == name && known.first != "txt";
-  });
-  return found == kEndings.end() ? std::nullopt : std::optional(found->second);
+  const auto* const found =
+      std::find_if(kOutputEndings.begin(), kOutputEndings.end(),
+                   [&](const auto& known) { return known.first == name && known.first != "txt"; });
+  return found == kOutputEndings.end() ? std::nullopt : std::optional(found->second);
 }
 
 std::optional<PointOutput> point_output_of_ending(const std::string& path) {
   std::string ending = std::filesystem::path(path).extension().string();
   for (char& c : ending) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  const auto* const found = std::find_if(kEndings.begin(), kEndings.end(), [&](const auto& known) {
-    return !ending.empty() && ending.substr(1) == known.first;
-  });
-  return found == kEndings.end() ? std::nullopt : std::optional(found->second);
+  const auto* const found =
+      std::find_if(kOutputEndings.begin(), kOutputEndings.end(),
+                   [&](const auto& known) { return !ending.empty() && ending.substr(1) == known.first; });
+  return found == kOutputEndings.end() ? std::nullopt : std::optional(found->second);
 }
 
 void check_point_count(PointOutput format, std::uint64_t count) {

@@ -2,13 +2,14 @@
 
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <charconv>
 #include <cmath>
 #include <cstdint>
 #include <limits>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
+
+#include "tool/program/little_endian.hpp"
 
 namespace polylidar::tool {
 namespace {
@@ -69,12 +70,6 @@ std::uint32_t wkb_count(std::size_t count) {
     throw std::length_error("WKB counts with 32 bits and cannot hold " + std::to_string(count) + " elements");
   }
   return static_cast<std::uint32_t>(count);
-}
-
-template <class Unsigned>
-void put(Unsigned value, std::string& to) {
-  for (std::size_t byte = 0; byte < sizeof value; ++byte)
-    to += static_cast<char>((value >> (8 * byte)) & 0xFFU);
 }
 
 /// What a geometry of OGC 06-103r4, table 7, begins with: byte order, type, and how many parts follow.
@@ -195,8 +190,8 @@ std::string to_wkb(const MultiPolygon& shape) {
     put(wkb_count(ring.size() + 1), bytes);
     for (std::size_t i = 0; i <= ring.size(); ++i) {
       const Point& vertex = ring[i % ring.size()];
-      put(std::bit_cast<std::uint64_t>(vertex.x), bytes);
-      put(std::bit_cast<std::uint64_t>(vertex.y), bytes);
+      put(vertex.x, bytes);
+      put(vertex.y, bytes);
     }
   };
   for (const Polygon& polygon : shape) {
