@@ -5,6 +5,7 @@
 #include <map>
 #include <stdexcept>
 #include <string>
+#include <utility>
 
 #include "benchmarks/record/json_lines.hpp"
 #include "benchmarks/record/record.hpp"
@@ -32,10 +33,10 @@ json read_run_file(const std::filesystem::path& path) {
 
 }  // namespace
 
-json last_of_each_id(const std::vector<json>& lines, const std::filesystem::path& path) {
+json last_of_each_id(std::vector<json> lines, const std::filesystem::path& path) {
   json result = json::array();
   std::map<std::string, std::size_t> places;  // by id, in result
-  for (const json& line : lines) {
+  for (json& line : lines) {
     RunRecord record;
     try {
       record = line.get<RunRecord>();
@@ -44,9 +45,9 @@ json last_of_each_id(const std::vector<json>& lines, const std::filesystem::path
     }
     const auto [place, is_new] = places.emplace(record.id, result.size());
     if (is_new) {
-      result.push_back(line);
+      result.push_back(std::move(line));
     } else {
-      result[place->second] = line;
+      result[place->second] = std::move(line);
     }
   }
   return result;
@@ -56,8 +57,8 @@ json load_run(const std::filesystem::path& run_directory) {
   json report = read_run_file(run_directory / kHeaderFile);
   std::filesystem::path lines_file = run_directory / kRowsFile;
   if (!std::filesystem::exists(lines_file)) lines_file += ".xz";
-  const JsonLines lines = load_json_lines(lines_file);
-  report["runs"] = last_of_each_id(lines.lines, lines_file);
+  JsonLines lines = load_json_lines(lines_file);
+  report["runs"] = last_of_each_id(std::move(lines.lines), lines_file);
   // Only a merged run has notes of its own.
   if (!report.contains("notes")) report["notes"] = json::array();
   if (!lines.torn.empty()) {

@@ -27,7 +27,7 @@ nlohmann::json load_run(const std::filesystem::path& run_directory);
 
 /// The lines of the runs file `path` with each id once: its last line, at the place of its first. Throws
 /// std::runtime_error naming the file when one is not a run's record.
-nlohmann::json last_of_each_id(const std::vector<nlohmann::json>& lines, const std::filesystem::path& path);
+nlohmann::json last_of_each_id(std::vector<nlohmann::json> lines, const std::filesystem::path& path);
 
 /// Whether there is a suite in `folder`.
 bool is_suite(const std::filesystem::path& folder);
