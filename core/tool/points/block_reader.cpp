@@ -13,7 +13,7 @@
 namespace polylidar::tool::point_files {
 namespace {
 
-constexpr std::size_t kBlock = std::size_t{1} << 20U;
+constexpr std::size_t kBlockBytes = std::size_t{1} << 20U;
 constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
 
 std::string reason(int error) {
@@ -23,7 +23,7 @@ std::string reason(int error) {
 }  // namespace
 
 BlockReader::BlockReader(const std::string& path, const PointFileOptions& options)
-    : options_(options), name_(path == "-" ? "standard input" : path), block_(kBlock) {
+    : options_(options), name_(path == "-" ? "standard input" : path), block_(kBlockBytes) {
   file_ = path == "-" ? ::dup(STDIN_FILENO) : ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
   if (file_ < 0) {
     const int error = errno;
@@ -45,7 +45,7 @@ BlockReader::BlockReader(const std::string& path, const PointFileOptions& option
 }
 
 BlockReader::BlockReader(int file, std::string name, const PointFileOptions& options)
-    : options_(options), name_(std::move(name)), file_(file), block_(kBlock) {
+    : options_(options), name_(std::move(name)), file_(file), block_(kBlockBytes) {
   try {
     start();
   } catch (...) {
@@ -121,7 +121,7 @@ bool BlockReader::next_line(std::string_view& line) {
     searched = held;
     if (held == block_.size()) {
       ++line_;
-      fail_here("the line is longer than " + std::to_string(kBlock) +
+      fail_here("the line is longer than " + std::to_string(kBlockBytes) +
                 " bytes; write one point a line, or name the right format with --input");
     }
     if (refill()) continue;
@@ -140,7 +140,7 @@ bool BlockReader::read(char* to, std::size_t size) {
   std::memcpy(to, block_.data() + position_, held);
   position_ += held;
   for (std::size_t done = held; done < size;) {
-    const std::size_t count = read_some(to + done, std::min(size - done, kBlock));
+    const std::size_t count = read_some(to + done, std::min(size - done, kBlockBytes));
     if (count == 0) return false;
     done += count;
   }

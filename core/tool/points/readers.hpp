@@ -40,8 +40,8 @@ void reserve_points(std::vector<Point>& points, std::size_t count);
 /// To be called after points were added to `file`, and at the end with `at_end`: hands the points on
 /// where somebody takes them.
 inline void hand_on(PointFile& file, const PointFileOptions& options, bool at_end = false) {
-  constexpr std::size_t kBlock = std::size_t{1} << 18U;
-  if (!options.take_points || (file.points.size() < kBlock && !at_end)) return;
+  constexpr std::size_t kBlockPoints = std::size_t{1} << 18U;
+  if (!options.take_points || (file.points.size() < kBlockPoints && !at_end)) return;
   if (!file.points.empty()) options.take_points(file.points);
   file.points.clear();
 }
