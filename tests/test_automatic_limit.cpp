@@ -336,6 +336,46 @@ TEST(AutomaticLimit, FollowsTheDensity) {
   }
 }
 
+// Of many points whose density varies by a few times, the sizes are found place by place before anything is
+// triangulated, so the interior need not be.
+TEST(AutomaticLimit, FollowsTheDensityOfManyPointsWithoutTheirInterior) {
+  const std::vector<Point> points = sparser_to_the_right(300'000, 1.8, 1);
+  Extractor extractor;
+  const IndexedMultiPolygon shape = extractor.extract(points);
+  const ChosenSizes sizes = extractor.chosen_sizes().value();
+  EXPECT_EQ(extractor.statistics().way, Way::kInteriorLeftOut);
+  EXPECT_GT(sizes.most / sizes.least, 1.4);
+  EXPECT_LT(sizes.most / sizes.least, 2.4);
+  const MultiPolygon polygons = to_coordinates(shape, points);
+  EXPECT_EQ(polygons.size(), 1U);
+  EXPECT_EQ(hole_count(polygons), 0U);
+  EXPECT_GT(area(polygons), 0.995);
+
+  Extractor steps;
+  steps.triangulate(points);
+  steps.extract_regions({});
+  EXPECT_EQ(steps.extract_polygons(), shape);
+  EXPECT_EQ(steps.chosen_sizes(), sizes);
+  for (const unsigned threads : {2U, 3U}) {
+    EXPECT_EQ(extractor.extract(points, {.threads = threads}), shape) << threads;
+    EXPECT_EQ(extractor.chosen_sizes(), sizes) << threads;
+  }
+  const std::vector<Point> shuffled = testing::shuffled(points, 1);
+  EXPECT_DOUBLE_EQ(median_size(shuffled), sizes.median);
+  EXPECT_DOUBLE_EQ(area(to_coordinates(concave_hull(shuffled), shuffled)), area(polygons));
+}
+
+TEST(AutomaticLimit, TakesOutliersOfManyPointsForNoSparsePart) {
+  std::vector<Point> points = sparser_to_the_right(300'000, 1.8, 2);
+  for (const Point& p : testing::uniform_points(6'000, 3))
+    points.push_back({1.4 * p.x - 0.2, 1.4 * p.y - 0.2});
+  Extractor extractor;
+  const double whole = area(to_coordinates(extractor.extract(points), points));
+  EXPECT_EQ(extractor.statistics().way, Way::kInteriorLeftOut);
+  EXPECT_GT(whole, 0.99);
+  EXPECT_LT(whole, 1.02);
+}
+
 TEST(AutomaticLimit, TakesOutliersForNoSparsePart) {
   for (const std::size_t count : {2000U, 20000U}) {
     for (std::uint64_t seed = 0; seed < 5; ++seed) {

@@ -131,6 +131,92 @@ TEST(WindowSample, IsNotForFewNorForUnevenPoints) {
   EXPECT_FALSE(looks(sample, points)) << "half of the points at one place";
 }
 
+constexpr WindowSample::WantedPlaces kWantedPlaces{.margin = 2.8, .quantile = 0.6, .points_in_circle = 21};
+
+bool looks_by_places(WindowSample& sample, const Points& points, unsigned threads = 1) {
+  ThreadPool pool;
+  pool.use(threads);
+  constexpr WindowSample::Wanted kEven{.most_spread = 0.03, .margin = 2.8, .quantile = 0.6};
+  return !sample.look(points, bounding_box(points), kEven, pool) &&
+         sample.look_by_places(points, kWantedPlaces, pool);
+}
+
+/// Points of the unit square, three times as dense at its right side as at its left.
+Points denser_to_the_right(std::size_t count, std::uint64_t seed) {
+  testing::Random random(seed);
+  Points points;
+  while (points.size() < count) {
+    const Point p{random.between(0, 1), random.between(0, 1)};
+    if (random.between(0, 1) < (1 + 2 * p.x) / 3) points.push_back(p);
+  }
+  return points;
+}
+
+TEST(WindowSample, HasAPlaceForEveryPoint) {
+  WindowSample sample;
+  const Points points = denser_to_the_right(300'000, 1);
+  ASSERT_TRUE(looks_by_places(sample, points, 2));
+  std::vector<std::uint32_t> place_of(points.size());
+  sample.find_places(points, place_of.data());
+  std::vector<double> count(sample.places().size());
+  for (const std::uint32_t place : place_of) {
+    ASSERT_LT(place, count.size());
+    ++count[place];
+  }
+  ASSERT_EQ(sample.window_ends().size(), count.size());
+  for (std::size_t p = 0; p < count.size(); ++p) {
+    EXPECT_EQ(sample.places()[p].points, count[p]);
+    EXPECT_LE(count[p], 4096);
+  }
+  // Of points at random a usual size is 1.17 spacings, wherever they are denser.
+  double squares = 0;
+  double known = 0;
+  for (const WindowSample::Place& place : sample.places()) {
+    if (!std::isfinite(place.usual4)) continue;
+    squares += place.points * std::sqrt(place.usual4);
+    known += place.points;
+  }
+  EXPECT_GT(known, 0.95 * 300'000);
+  EXPECT_NEAR(squares, 1.36, 0.08);
+  for (const auto& [place, neighbour] : sample.borders()) {
+    EXPECT_LT(place, neighbour);
+    EXPECT_LT(neighbour, count.size());
+  }
+  EXPECT_GT(sample.borders().size(), 2 * count.size());
+}
+
+TEST(WindowSample, OfPlacesDependsNeitherOnTheOrderNorOnTheThreads) {
+  WindowSample sample;
+  const Points points = denser_to_the_right(300'000, 2);
+  ASSERT_TRUE(looks_by_places(sample, points));
+  for (const unsigned threads : {2U, 3U, 20U}) {
+    SCOPED_TRACE(threads);
+    WindowSample other;
+    ASSERT_TRUE(looks_by_places(other, testing::shuffled(points, 7), threads));
+    ASSERT_EQ(sample.window_ends(), other.window_ends());
+    for (std::size_t p = 0; p < sample.places().size(); ++p) {
+      EXPECT_EQ(sample.places()[p].usual4, other.places()[p].usual4);
+    }
+    EXPECT_EQ(sample.borders(), other.borders());
+  }
+}
+
+TEST(WindowSample, OfPlacesIsNotForFewNorForVeryUnevenPoints) {
+  WindowSample sample;
+  EXPECT_FALSE(looks_by_places(sample, denser_to_the_right(200'000, 3))) << "few";
+  Points points = testing::uniform_points(300'000, 4);
+  for (Point& p : points) p.x = std::exp2(6 * p.x);  // 64 : 1
+  EXPECT_FALSE(looks_by_places(sample, points)) << "a gradient";
+  points = testing::uniform_points(20'000, 5);
+  testing::Random random(6);
+  while (points.size() < 300'000) {
+    const Point& centre = points[random.below(20'000)];
+    points.push_back({centre.x + random.between(0, 0.001), centre.y + random.between(0, 0.001)});
+  }
+  EXPECT_FALSE(looks_by_places(sample, points)) << "clusters";
+  EXPECT_FALSE(looks_by_places(sample, testing::circle(300'000, 1))) << "no inside";
+}
+
 TEST(NumberCounts, HasTheMedianAndTheDeviationOfAllNumbers) {
   testing::Random random(3);
   for (std::size_t count = 1; count < 200; ++count) {

@@ -50,6 +50,7 @@ std::vector<Benchmark> all_benchmarks() {
   }
   for (const std::size_t n : {1'000U, 10'000U, 100'000U, 10'000'000U}) inputs.emplace_back("uniform", n);
   inputs.emplace_back("ca", 10'000'000);
+  inputs.emplace_back("airborne", 1'000'000);
   for (const std::size_t n : {8'000U, 64'000U, 1'000'000U}) inputs.emplace_back("gradient", n);
   inputs.emplace_back("rgbd", 424 * 240);  // a depth image as the sensor gives it
   inputs.emplace_back("islands", 1'000'000);

@@ -92,8 +92,9 @@ std::vector<polylidar::Point> make_outline_points(const std::string& name, std::
 
 SpeedPointSet make_speed_point_set(const std::string& name, std::size_t n) {
   Random random(derive_seed(kSeed, name));
-  if (name == "ca" || name == "gradient" || name == "gradient64") {
+  if (name == "ca" || name == "airborne" || name == "gradient" || name == "gradient64") {
     const std::string dataset = name == "ca"         ? "ca"
+                                : name == "airborne" ? "ca~airborne:2"
                                 : name == "gradient" ? "ca~gradient:16"
                                                      : "ca~gradient:64";
     PointSet set = make_point_set(dataset, false, n, kSeed);
@@ -117,7 +118,7 @@ SpeedPointSet make_speed_point_set(const std::string& name, std::size_t n) {
   }
   throw std::invalid_argument(
       "no point set is called '" + name +
-      "': ca, gradient, gradient64, uniform, lattice, rgbd, islands, sieve, clusters, "
+      "': ca, airborne, gradient, gradient64, uniform, lattice, rgbd, islands, sieve, clusters, "
       "circle, parabola, repeats");
 }
 

@@ -9,10 +9,12 @@
 #include <iostream>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <set>
 #include <span>
 #include <sstream>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "benchmarks/base/cores.hpp"
@@ -158,6 +160,43 @@ void print_test(std::vector<MadeLimitCase>& cases) {
          "Unseen: no training case is sampled so.\n";
 }
 
+/// Of so many points that places have sizes of their own, what these give beside blocks.
+void print_places(std::size_t n) {
+  struct Both {
+    std::vector<double> places, blocks;
+  };
+  const std::vector<LimitCaseName> names = large_limit_cases(n);
+  std::vector<std::optional<std::pair<double, double>>> errors(names.size());
+  for_each_in_parallel(names.size(), allowed_cores(), [&](std::size_t i) {
+    const PointSet set = make_point_set(names[i].dataset, names[i].holes, names[i].n, 1);
+    LimitCase one(set.points, set.ground_truth);
+    const double error = one.error({});
+    if (one.sizes_by() == polylidar::detail::SizesBy::kPlaces) errors[i] = {error, one.error_by_blocks({})};
+  });
+  table::Table table{
+      "places", "Places", {table::words("points"), "shapes with places", "by places", "by blocks"}};
+  for (auto begin = names.begin(); begin != names.end();) {
+    const std::string sampling = sampling_of(begin->dataset);
+    Both both;
+    auto end = begin;
+    for (; end != names.end() && sampling_of(end->dataset) == sampling; ++end) {
+      const auto& error = errors[static_cast<std::size_t>(end - names.begin())];
+      if (!error) continue;
+      both.places.push_back(error->first);
+      both.blocks.push_back(error->second);
+    }
+    std::vector<table::Cell> row = {sampling, both.places.size()};
+    for (const auto* values : {&both.places, &both.blocks}) {
+      row.push_back(values->empty() ? table::Cell() : median_and_mean(*values));
+    }
+    table.add_row(std::move(row));
+    begin = end;
+  }
+  print("Places and blocks, " + std::to_string(n) +
+            " points: L2 in %, median and in brackets mean over the shapes where places are used",
+        table);
+}
+
 /// Of points without a shape every hole is a void that chance made, and every part but one, too.
 void print_voids() {
   constexpr std::size_t kSets = 20;
@@ -239,6 +278,7 @@ ExitCode fit(int tries, std::uint64_t seed, bool with_ablation) {
   for (const LimitCaseName& name : test_limit_cases(8000)) names.push_back(name);
   std::vector<MadeLimitCase> test = make_limit_cases(names, allowed_cores());
   print_test(test);
+  print_places(300'000);
   print_voids();
   if (with_ablation) print_variants(training, test);
   return kExitOk;

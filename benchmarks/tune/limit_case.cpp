@@ -42,6 +42,15 @@ LimitCase::LimitCase(std::span<const polylidar::Point> points, const polylidar::
 
 double LimitCase::error(const polylidar::detail::AutomaticConstants& constants) {
   limit_.choose(builder_, 1, pool_, constants);
+  return error_of_chosen();
+}
+
+double LimitCase::error_by_blocks(const polylidar::detail::AutomaticConstants& constants) {
+  limit_.choose_by_blocks(builder_, 1, pool_, constants);
+  return error_of_chosen();
+}
+
+double LimitCase::error_of_chosen() {
   filter_.run(builder_.mesh(), builder_.vertices(), limit_.field(), true, pool_, boundary_);
   return error_of_kept();
 }

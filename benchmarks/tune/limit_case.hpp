@@ -24,6 +24,10 @@ class LimitCase {
 
   /// Of the core's default with these constants.
   double error(const polylidar::detail::AutomaticConstants& constants);
+  /// The same with the usual sizes of blocks, however many points there are.
+  double error_by_blocks(const polylidar::detail::AutomaticConstants& constants);
+  /// What the last error() found the usual sizes by.
+  polylidar::detail::SizesBy sizes_by() const { return limit_.sizes_by(); }
   /// Of the largest perimeter that is best for this very case, found with the truth in hand.
   double best_error_of_one_limit() const;
   /// The default of earlier versions: the largest perimeter of a triangle, one for all places, in the unit of
@@ -38,6 +42,7 @@ class LimitCase {
     double change = 0;
   };
 
+  double error_of_chosen();
   double error_of_kept() const;
 
   polylidar::detail::ThreadPool pool_;  // of one thread

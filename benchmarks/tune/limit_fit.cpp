@@ -64,6 +64,18 @@ LimitClimb climb(std::vector<MadeLimitCase>& cases, std::string start, const Aut
   return result;
 }
 
+std::vector<LimitCaseName> cases_of_test_shapes(const std::vector<std::string>& samplings, std::size_t n) {
+  std::vector<LimitCaseName> names;
+  for (const std::string& sampling : samplings) {
+    for (const char* shape : {"ca", "hi", "letter_a", "letter_b", "letter_g", "letter_m", "letter_s",
+                              "letter_x", "country-1", "country-7", "country-13", "country-25", "clipart-2",
+                              "clipart-8", "clipart-14", "symbol-1", "symbol-6", "symbol-11"}) {
+      names.push_back({shape + sampling, false, n});
+    }
+  }
+  return names;
+}
+
 }  // namespace
 
 std::string sampling_of(const std::string& dataset) {
@@ -95,38 +107,39 @@ std::vector<LimitCaseName> training_limit_cases() {
 }
 
 std::vector<LimitCaseName> test_limit_cases(std::size_t n) {
-  std::vector<LimitCaseName> names;
-  for (const char* sampling : {"",
-                               "~gradient:16",
-                               "~gradient:64",
-                               "~hotspot:12",
-                               "~outliers:3",
-                               "~gradient:16~outliers:3",
-                               "~noise:0.5",
-                               "~poisson:0.7",
-                               "~lattice:0.2",
-                               "~quantised:0.5",
-                               "~airborne:3",
-                               "~zigzag:4",
-                               "~rotating:5",
-                               "~depthcamera:2",
-                               "~depthcamera:5",
-                               "~tracks:5",
-                               "~transcripts:3",
-                               "~boundary:20",
-                               "~clusters:8",
-                               "~outline:0.1",
-                               "~water:20"}) {
-    for (const char* shape : {"ca", "hi", "letter_a", "letter_b", "letter_g", "letter_m", "letter_s",
-                              "letter_x", "country-1", "country-7", "country-13", "country-25", "clipart-2",
-                              "clipart-8", "clipart-14", "symbol-1", "symbol-6", "symbol-11"}) {
-      names.push_back({std::string(shape) + sampling, false, n});
-    }
-  }
+  std::vector<LimitCaseName> names = cases_of_test_shapes({"",
+                                                           "~gradient:16",
+                                                           "~gradient:64",
+                                                           "~hotspot:12",
+                                                           "~outliers:3",
+                                                           "~gradient:16~outliers:3",
+                                                           "~noise:0.5",
+                                                           "~poisson:0.7",
+                                                           "~lattice:0.2",
+                                                           "~quantised:0.5",
+                                                           "~airborne:3",
+                                                           "~zigzag:4",
+                                                           "~rotating:5",
+                                                           "~depthcamera:2",
+                                                           "~depthcamera:5",
+                                                           "~tracks:5",
+                                                           "~transcripts:3",
+                                                           "~boundary:20",
+                                                           "~clusters:8",
+                                                           "~outline:0.1",
+                                                           "~water:20"},
+                                                          n);
   for (const char* sampling : {"", "~gradient:16"}) {
     for (const char* shape : {"ca", "hi"}) names.push_back({std::string(shape) + sampling, true, n});
   }
   return names;
+}
+
+std::vector<LimitCaseName> large_limit_cases(std::size_t n) {
+  return cases_of_test_shapes(
+      {"~gradient:4", "~gradient:16", "~gradient:64", "~gradient:16~outliers:3", "~airborne:2", "~airborne:3",
+       "~airborne:5", "~airborne:3~outliers:3", "~zigzag:4", "~clusters:8"},
+      n);
 }
 
 std::vector<MadeLimitCase> make_limit_cases(const std::vector<LimitCaseName>& names,

@@ -33,6 +33,10 @@ std::vector<LimitCaseName> training_limit_cases();
 /// holes, with them.
 std::vector<LimitCaseName> test_limit_cases(std::size_t n);
 
+/// The same shapes, sampled in ways whose density varies: `n` points, so many that places can have sizes of
+/// their own.
+std::vector<LimitCaseName> large_limit_cases(std::size_t n);
+
 /// A case and what it is compared with.
 struct MadeLimitCase {
   LimitCaseName name;

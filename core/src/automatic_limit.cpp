@@ -55,12 +55,22 @@ constexpr double kPointsPerSquare = 1.7;
 // So many has the squared size of a triangle beside a void, which is larger than others.
 constexpr double kPointsPerBorderSquare = 2.4;
 
+// Height over base of a flat triangle; of points at random half have 0.4.
+constexpr double kFlat = 0.17;
+
 /// The circle of a wide triangle would have so many points that chance leaves one as large empty in one of a
 /// hundred sets. Of n points that is log n + 8 or so: 2 n (1 + x) / e^x triangles have a circle of x points
 /// or more. Returns the square of its radius where a unit square has `density` points.
 double least_wide_square(double points, double wide, double density) {
   constexpr double kPi = 3.141592653589793;
   return std::max(std::log(points) + wide, 0.0) / (kPi * density);
+}
+
+/// A window's margin, in spacings. It takes in the circles of wide triangles, if the window's usual size is
+/// that of uniform points or smaller, and a little more, as chance alone makes them differ.
+double margin_of(std::size_t points) {
+  constexpr double kRoom = 1.1;
+  return kRoom * std::sqrt(least_wide_square(static_cast<double>(points), AutomaticConstants::kWide, 1));
 }
 
 /// Triangle `t` from the least of its corners on, so that rounding does not depend on how the mesh was built.
@@ -230,22 +240,18 @@ void AutomaticLimit::for_each_neighbour(double reach, const Visit& visit) const 
 }
 
 /// How much a length scatters among the triangles of a block: the logarithm of its 0.8 quantile over its 0.4
-/// quantile. `length4` gives a triangle's length to the fourth power. Returns the 0.4 quantile of this over
-/// up to 32 blocks, as a block along a thin part of the shape also has triangles outside it, which scatter
-/// more; 0 where no block has enough triangles.
-template <class Length4>
-double AutomaticLimit::scatter_in_blocks(const Mesh& mesh, const Length4& length4) {
+/// quantile. for_each_length4(block, visit) calls visit() for the fourth powers of the lengths of some
+/// triangles. Returns the 0.4 quantile of this over up to 32 blocks, as a block along a thin part of the
+/// shape also has triangles outside it, which scatter more; 0 where no block has enough triangles.
+template <class ForEach>
+double AutomaticLimit::scatter_in_blocks(const ForEach& for_each_length4) {
   constexpr std::size_t kMostBlocksLookedAt = 32;
-  constexpr Mesh::Index kRecords = 128;  // of a block
-  constexpr std::size_t kFewest = 16;    // triangles
+  constexpr std::size_t kFewest = 16;  // triangles
   constexpr double kQuantile = 0.4;
   std::vector<double> scatters;
-  for (std::size_t b = 0; b < block_ends_.size(); b += (block_ends_.size() - 1) / kMostBlocksLookedAt + 1) {
-    const Records records = records_of(mesh, b);
-    const Mesh::Index step = std::max(Mesh::Index{1}, (records.end - records.begin) / kRecords);
+  for (std::size_t b = 0; b < usual4_.size(); b += (usual4_.size() - 1) / kMostBlocksLookedAt + 1) {
     scratch_.clear();
-    for_some_triangles(mesh, records.begin, records.end, step,
-                       [&](Mesh::Index t) { scratch_.push_back(length4(t)); });
+    for_each_length4(b, [&](double length4) { scratch_.push_back(length4); });
     const std::size_t count = scratch_.size();
     if (count < kFewest) continue;
     const Ranking ranking(scratch_);
@@ -265,16 +271,44 @@ double AutomaticLimit::scatter_in_blocks(const Mesh& mesh, const Length4& length
 double AutomaticLimit::excess_scatter(const Mesh& mesh, const Point* vertices,
                                       const AutomaticConstants& constants) {
   constexpr std::size_t kFewestBlocks = 16;
+  constexpr Mesh::Index kRecords = 128;  // of a block
   if (block_ends_.size() < kFewestBlocks) return 0;
+  const auto for_some_of_block = [&](std::size_t block, const auto& visit) {
+    const Records records = records_of(mesh, block);
+    const Mesh::Index step = std::max(Mesh::Index{1}, (records.end - records.begin) / kRecords);
+    for_some_triangles(mesh, records.begin, records.end, step, visit);
+  };
   const double of_sizes =
-      scatter_in_blocks(mesh, [&](Mesh::Index t) { return size4_of(mesh, vertices, t); }) -
+      scatter_in_blocks([&](std::size_t block, const auto& visit) {
+        for_some_of_block(block, [&](Mesh::Index t) { visit(size4_of(mesh, vertices, t)); });
+      }) -
       constants.even_sizes;
   if (of_sizes <= 0) return 0;
-  const double of_edges = scatter_in_blocks(mesh, [&](Mesh::Index t) {
-    const Triangle triangle(mesh, vertices, t);
-    const double squared = std::min({triangle.squared_ab(), triangle.squared_bc(), triangle.squared_ca()});
-    return squared * squared;
+  const double of_edges = scatter_in_blocks([&](std::size_t block, const auto& visit) {
+    for_some_of_block(block, [&](Mesh::Index t) {
+      const Triangle triangle(mesh, vertices, t);
+      const double squared = triangle.squared_shortest_edge();
+      visit(squared * squared);
+    });
   });
+  return std::clamp(of_edges - constants.even_edges, 0.0, of_sizes);
+}
+
+/// The same of the windows of places.
+double AutomaticLimit::excess_scatter_of_places(const AutomaticConstants& constants) {
+  const auto scatter = [&](const auto& length4_of) {
+    return scatter_in_blocks([&](std::size_t place, const auto& visit) {
+      const std::size_t begin = place == 0 ? 0 : windows_.window_ends()[place - 1];
+      for (std::size_t i = begin; i < windows_.window_ends()[place]; ++i) {
+        visit(length4_of(windows_.triangles()[i]));
+      }
+    });
+  };
+  const double of_sizes =
+      scatter([](const WindowSample::Measured& one) { return one.size4; }) - constants.even_sizes;
+  if (of_sizes <= 0) return 0;
+  const double of_edges =
+      scatter([](const WindowSample::Measured& one) { return one.squared_shortest * one.squared_shortest; });
   return std::clamp(of_edges - constants.even_edges, 0.0, of_sizes);
 }
 
@@ -315,7 +349,9 @@ void AutomaticLimit::smooth(const AutomaticConstants& constants) {
 /// a bit of a dense place beside it.
 void AutomaticLimit::bound_growth(const AutomaticConstants& constants) {
   measured4_ = usual4_;
-  const double factor4 = fourth_power(1 + constants.growth / std::sqrt(static_cast<double>(usual4_.size())));
+  // Of places the density varies by little.
+  const std::size_t blocks = found_ == SizesBy::kPlaces ? kMostBlocks : usual4_.size();
+  const double factor4 = fourth_power(1 + constants.growth / std::sqrt(static_cast<double>(blocks)));
   bool is_changed = true;
   while (is_changed) {
     smallest_.assign(usual4_.size(), {});
@@ -336,6 +372,24 @@ void AutomaticLimit::bound_growth(const AutomaticConstants& constants) {
       usual4_[b] = most4;
       is_changed = true;
     }
+  }
+}
+
+/// Gives each place the median of its own usual size and those of its neighbours, as far as they are known.
+/// Among scan lines a window may lie where two lines nearly meet.
+void AutomaticLimit::take_medians_of_neighbours() {
+  measured4_ = usual4_;
+  std::vector<std::vector<double>> round(usual4_.size());
+  const auto add = [&](std::uint32_t block, std::uint32_t neighbour) {
+    if (measured4_[neighbour] != kInfinity) round[block].push_back(measured4_[neighbour]);
+  };
+  for (std::uint32_t b = 0; b < usual4_.size(); ++b) add(b, b);
+  for (const Border& border : borders_of_chunk_[0]) {
+    add(border.block, border.neighbour);
+    add(border.neighbour, border.block);
+  }
+  for (std::size_t b = 0; b < usual4_.size(); ++b) {
+    if (!round[b].empty()) usual4_[b] = quantile_of(round[b], 0.5);
   }
 }
 
@@ -420,11 +474,11 @@ double AutomaticLimit::steadiest_size4(const AutomaticConstants& constants) cons
 void AutomaticLimit::choose(const DelaunayBuilder& builder, double detail, ThreadPool& pool,
                             const AutomaticConstants& constants) {
   const std::span<const Point> vertices(builder.vertices(), builder.vertex_count());
-  if (vertices.size() >= WindowSample::kLeastPoints &&
-      find_one(vertices, bounding_box(vertices), pool, constants)) {
-    choose_one(builder.mesh(), builder.vertices(), nullptr, detail, pool, constants);
-  } else {
+  if (vertices.size() < WindowSample::kLeastPoints ||
+      look(vertices, bounding_box(vertices), pool, constants) == SizesBy::kBlocks) {
     choose_by_blocks(builder, detail, pool, constants);
+  } else {
+    choose_found(builder, nullptr, detail, pool, constants);
   }
 }
 
@@ -433,6 +487,8 @@ void AutomaticLimit::choose_by_blocks(const DelaunayBuilder& builder, double det
   const Mesh& mesh = builder.mesh();
   const Point* const vertices = builder.vertices();
   const double points = used_share(mesh) * static_cast<double>(builder.vertex_count());
+  found_ = SizesBy::kBlocks;
+  field_.is_by_corners = false;
   divide(builder, points);
   usual4_.assign(block_ends_.size(), kInfinity);
   measure_triangles(mesh, vertices, pool);
@@ -443,7 +499,7 @@ void AutomaticLimit::choose_by_blocks(const DelaunayBuilder& builder, double det
   shrink_to_median(constants.noise);
   sample(mesh, vertices);
   if (!samples_.empty()) sum_up_areas();
-  set_field(points, detail, false, constants);
+  set_field(points, detail, constants);
   look_for_outlines(mesh, vertices, points, detail, constants);
 }
 
@@ -451,7 +507,6 @@ void AutomaticLimit::choose_by_blocks(const DelaunayBuilder& builder, double det
 void AutomaticLimit::look_for_outlines(const Mesh& mesh, const Point* vertices, double points, double detail,
                                        const AutomaticConstants& constants) {
   constexpr double kFewest = 256;                    // of fewer points, those of a thin shape lie as these do
-  constexpr double kFlat = 0.17;                     // height over base; of points at random half have 0.4
   constexpr double kLeastShare = 0.06;               // of triangles that span from one outline to another
   constexpr double kMedianGap = 0.6931471805599453;  // log 2, of the mean
   if (points < kFewest) return;
@@ -493,14 +548,20 @@ void AutomaticLimit::look_for_outlines(const Mesh& mesh, const Point* vertices, 
       OutlineSteps{squared_step, squared_step * std::max(1.0, 1 / (detail * detail)), twice_area};
 }
 
+SizesBy AutomaticLimit::look(std::span<const Point> points, const Box& box, ThreadPool& pool,
+                             const AutomaticConstants& constants) {
+  found_ = SizesBy::kOne;
+  if (find_one(points, box, pool, constants)) return found_;
+  found_ = SizesBy::kPlaces;
+  if (find_places(points, pool, constants)) return found_;
+  return found_ = SizesBy::kBlocks;
+}
+
 bool AutomaticLimit::find_one(std::span<const Point> points, const Box& box, ThreadPool& pool,
                               const AutomaticConstants& constants) {
-  // The margin takes in the circles of wide triangles, if the windows' usual sizes are those of uniform
-  // points or smaller, and a little more, as chance alone makes them differ.
-  constexpr double kRoom = 1.1;
-  const double margin =
-      kRoom * std::sqrt(least_wide_square(static_cast<double>(points.size()), AutomaticConstants::kWide, 1));
-  if (!windows_.look(points, box, {constants.noise, margin, constants.quantile}, pool)) return false;
+  if (!windows_.look(points, box, {constants.noise, margin_of(points.size()), constants.quantile}, pool)) {
+    return false;
+  }
   if (windows_.usual4().size() < windows_.window_ends().size() / 2) return false;
   std::vector<double> logs;
   for (const double usual4 : windows_.usual4()) logs.push_back(std::log(usual4) / 4);
@@ -519,16 +580,80 @@ bool AutomaticLimit::find_one(std::span<const Point> points, const Box& box, Thr
     if (one.squared_radius >= wide_radius_ * wide_radius_) continue;
     samples_.push_back({one.size4 / usual4_[0], one.twice_area / std::sqrt(usual4_[0])});
   }
+  sampled_ = static_cast<double>(samples_.size());
+  doubt_ = 1;
   return !samples_.empty();
 }
 
-void AutomaticLimit::choose_one(const Mesh& mesh, const Point* vertices, const std::uint8_t* is_tested,
-                                double detail, ThreadPool& pool, const AutomaticConstants& constants) {
-  field_.size4 = nullptr;
+bool AutomaticLimit::find_places(std::span<const Point> points, ThreadPool& pool,
+                                 const AutomaticConstants& constants) {
+  const double in_circle = std::log(static_cast<double>(points.size())) + AutomaticConstants::kWide;
+  if (!windows_.look_by_places(points, {margin_of(points.size()), constants.quantile, in_circle}, pool)) {
+    return false;
+  }
+  const std::vector<WindowSample::Place>& places = windows_.places();
+  if (windows_.usual4().size() < places.size() / 2) return false;
+  const auto flat =
+      std::count_if(windows_.triangles().begin(), windows_.triangles().end(),
+                    [](const auto& one) { return one.twice_area <= kFlat * one.squared_longest; });
+  if (2 * static_cast<std::size_t>(flat) >= windows_.triangles().size()) return false;  // maybe outlines
+
+  usual4_.clear();
+  points_ = 0;
+  for (const WindowSample::Place& place : places) {
+    usual4_.push_back(place.usual4);
+    points_ += place.points;
+  }
+  borders_of_chunk_.resize(1);
+  borders_of_chunk_[0].clear();
+  for (const auto& [place, neighbour] : windows_.borders()) {
+    borders_of_chunk_[0].push_back({place, neighbour, 0});
+  }
+  if (excess_scatter_of_places(constants) > 0) return false;  // clusters
   doubt_ = 1;
+  take_medians_of_neighbours();
+  bound_growth(constants);
+  constexpr double kNoiseOfMedian = 0.5;  // of half a dozen places, beside that of one
+  shrink_to_median(kNoiseOfMedian * constants.noise);
+  scratch_ = usual4_;
+  constexpr double kByChance = 0.01;  // of the places have a size that is too small
+  const double least4 = quantile_of(scratch_, kByChance);
+  for (double& usual4 : usual4_) usual4 = std::max(usual4, least4);
+  wide_radius_ =
+      std::sqrt(std::sqrt(least4) * least_wide_square(points_, AutomaticConstants::kWide, kPointsPerSquare));
+
+  samples_.clear();
+  sampled_ = 0;
+  std::size_t i = 0;
+  for (std::size_t p = 0; p < places.size(); ++p) {
+    const std::size_t end = windows_.window_ends()[p];
+    const double stands_for = 2 * places[p].points / static_cast<double>(end - i);
+    for (; i < end; ++i) {
+      const WindowSample::Measured& one = windows_.triangles()[i];
+      if (one.squared_radius >= wide_radius_ * wide_radius_) continue;
+      samples_.push_back({one.size4 / usual4_[p], stands_for * one.twice_area / std::sqrt(usual4_[p])});
+      sampled_ += stands_for;
+    }
+  }
+  return !samples_.empty();
+}
+
+void AutomaticLimit::choose_found(const DelaunayBuilder& builder, const std::uint8_t* is_tested,
+                                  double detail, ThreadPool& pool, const AutomaticConstants& constants) {
+  field_.size4 = nullptr;
+  field_.is_by_corners = found_ == SizesBy::kPlaces;
+  if (field_.is_by_corners) {
+    field_.block_of_vertex.resize(builder.vertex_count());
+    const std::span<const Point> vertices(builder.vertices(), builder.vertex_count());
+    const Chunks chunks(pool, vertices.size());
+    pool.for_each(chunks.size(), [&](std::size_t c) {
+      const std::size_t begin = chunks.begin(c);
+      windows_.find_places(vertices.subspan(begin, chunks.end(c) - begin), &field_.block_of_vertex[begin]);
+    });
+  }
   sum_up_areas();
-  add_wide_areas(mesh, vertices, is_tested, pool);
-  set_field(points_, detail, true, constants);
+  add_wide_areas(builder.mesh(), builder.vertices(), is_tested, pool);
+  set_field(points_, detail, constants);
 }
 
 /// The samples stand for all triangles that are not wide; those that are wide, few, are all looked at.
@@ -550,10 +675,11 @@ void AutomaticLimit::add_wide_areas(const Mesh& mesh, const Point* vertices, con
       if (surely_not_wide.keeps(Triangle(mesh, vertices, t))) continue;
       const Triangle triangle = from_least_corner(mesh, vertices, t);
       if (not_wide.keeps(triangle)) continue;
-      const double area = std::max(triangle.twice_area(), 0.0) / std::sqrt(usual4_[0]);
+      const double usual4 = field_.value_at(usual4_, mesh, t);
+      const double area = std::max(triangle.twice_area(), 0.0) / std::sqrt(usual4);
       constexpr double kMostArea = 0x1p40;
       const std::int64_t fine_area = std::llround(kFine * std::min(area, kMostArea));
-      wide.area[cell_of(triangle.size4() / usual4_[0] / unit4_, kCells)] += fine_area;
+      wide.area[cell_of(triangle.size4() / usual4 / unit4_, kCells)] += fine_area;
       wide.count += fine_area > 0 ? 1 : 0;  // slivers that rounding makes wide do not count
     }
   });
@@ -563,15 +689,14 @@ void AutomaticLimit::add_wide_areas(const Mesh& mesh, const Point* vertices, con
     all.count += wide.count;
   }
   const double others = std::max(2 * points_ - static_cast<double>(all.count), 0.0);
-  const double share = others / static_cast<double>(samples_.size());
+  const double share = others / sampled_;
   for (std::size_t c = 0; c <= kCells; ++c) {
     area_[c] = area_[c] * share + static_cast<double>(all.area[c]) / kFine;
   }
 }
 
 /// From the usual sizes and the samples. `points`: how many are no repeats.
-void AutomaticLimit::set_field(double points, double detail, bool is_one,
-                               const AutomaticConstants& constants) {
+void AutomaticLimit::set_field(double points, double detail, const AutomaticConstants& constants) {
   range_.reset();
   field_.limit4 = usual4_;
   field_.spike_share = 1;
@@ -584,10 +709,7 @@ void AutomaticLimit::set_field(double points, double detail, bool is_one,
   field_.spike_share = fourth_power(constants.spike) / limit4;
   field_.least_part = static_cast<std::size_t>(constants.part * std::log(points));
   field_.wide_square = least_wide_square(points, constants.wide, kPointsPerBorderSquare) / (detail * detail);
-  if (is_one) {
-    const double square = least_wide_square(points, AutomaticConstants::kWide, kPointsPerSquare);
-    field_.wide_radius = std::sqrt(square / std::sqrt(limit4));
-  }
+  if (found_ != SizesBy::kBlocks) field_.wide_radius = wide_radius_ / detail;
   for (double& limit : field_.limit4) limit *= limit4 / fourth_power(detail);
   scratch_ = field_.limit4;
   const auto size = [&](double quantile) { return std::sqrt(std::sqrt(quantile_of(scratch_, quantile))); };

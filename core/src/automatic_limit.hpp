@@ -45,6 +45,13 @@ struct AutomaticConstants {
   double step = 3;           ///< neighbours on an outline are at most log n + step mean distances apart
 };
 
+/// What the usual sizes are found by.
+enum class SizesBy : std::uint8_t {
+  kOne,     ///< a few windows: one size for all places
+  kPlaces,  ///< a window of each of many places, before anything else is triangulated
+  kBlocks,  ///< the triangulation of all points
+};
+
 /// Chooses the limit from the triangulation, keeping its memory between calls.
 ///
 /// **The field.** The mesh stores vertices and triangles in the order of the space-filling curve. A block is
@@ -76,6 +83,10 @@ struct AutomaticConstants {
 /// limits is divided by 1 + doubt * (the excess scatter). On scan lines and roads the sizes scatter, but the
 /// shortest edges do not.
 ///
+/// **Places.** Of many points whose density varies by a few times, the usual sizes come from small windows,
+/// as one size for all places does: one window for each of up to 4096 squares instead of blocks. All else is
+/// as with blocks. So the points in the interior need not be triangulated.
+///
 /// **Outlines.** If all points lie on curves, most triangles have an edge that is far longer than the
 /// distance between neighbours on a curve. The gaps between n random points on a line are exponential: half
 /// of them are longer than log 2 times their mean, the largest is about log n times their mean, and in one
@@ -97,30 +108,33 @@ class AutomaticLimit {
   static constexpr std::size_t kBlockPoints = 64;
   static constexpr std::size_t kMostBlocks = 4096;
 
-  /// Chooses the sizes for the mesh of `builder` and `detail` > 0: one limit for all places if find_one()
-  /// finds one, else a limit for each block. O(n); in blocks with many triangles only some are looked at.
+  /// Chooses the sizes for the mesh of `builder` and `detail` > 0, by what look() says. O(n); in blocks with
+  /// many triangles only some are looked at.
   void choose(const DelaunayBuilder& builder, double detail, ThreadPool& pool,
               const AutomaticConstants& constants = {});
 
   // The steps of choose(), for a caller who triangulates only some of the points.
 
-  /// Looks in a few windows for one usual size for all places. Returns false if the density varies by more
-  /// than chance explains, or if there are too few points for windows. `box` is that of `points`, whose order
-  /// does not matter. O(n).
-  bool find_one(std::span<const Point> points, const Box& box, ThreadPool& pool,
-                const AutomaticConstants& constants = {});
-  /// After find_one() returned true: the circumradius from which a triangle is wide. choose_one() and the
-  /// field need only wide triangles and those that a field drops.
+  /// Looks in windows for the usual sizes. One is enough if the density varies by no more than chance
+  /// explains. If it varies by a few times and there are many points, places have their own. Blocks remain
+  /// for all else. `box` is that of `points`, whose order does not matter. O(n).
+  SizesBy look(std::span<const Point> points, const Box& box, ThreadPool& pool,
+               const AutomaticConstants& constants = {});
+  /// After look() found sizes without the triangulation, as the next: the circumradius from which a triangle
+  /// is wide. choose_found() and the field need only wide triangles and those that a field drops.
   double wide_radius() const { return wide_radius_; }
-  /// After find_one() returned true: chooses the limit for all places. `is_tested`: vertex -> whether it is
-  /// tested, for the mesh of a part. Every wide triangle of the whole mesh must then have a tested corner,
-  /// and every triangle with a tested corner must belong to the whole mesh. Null: the mesh is the whole one.
-  void choose_one(const Mesh& mesh, const Point* vertices, const std::uint8_t* is_tested, double detail,
-                  ThreadPool& pool, const AutomaticConstants& constants = {});
+  /// Chooses the limits. The builder's points are those that were looked at, or some of these. `is_tested`:
+  /// vertex -> whether it is tested, for the mesh of a part. Every wide triangle of the whole mesh must then
+  /// have a tested corner, and every triangle with a tested corner must belong to the whole mesh. Null: the
+  /// mesh is the whole one.
+  void choose_found(const DelaunayBuilder& builder, const std::uint8_t* is_tested, double detail,
+                    ThreadPool& pool, const AutomaticConstants& constants = {});
   /// Chooses a limit for each block.
   void choose_by_blocks(const DelaunayBuilder& builder, double detail, ThreadPool& pool,
                         const AutomaticConstants& constants = {});
 
+  /// What the usual sizes of the last choice were found by.
+  SizesBy sizes_by() const { return found_; }
   /// What was chosen; valid until the next call.
   const SizeField& field() const { return field_; }
   /// The least, the median and the largest size that a triangle may have, in the unit of the builder's
@@ -164,7 +178,7 @@ class AutomaticLimit {
   };
   struct Sampled {
     double size4;  ///< in usual sizes of its block
-    double area;   ///< in squares of them
+    double area;   ///< in squares of them, times the number of triangles that it stands for
   };
 
   void divide(const DelaunayBuilder& builder, double points);
@@ -173,14 +187,19 @@ class AutomaticLimit {
   void measure_blocks(const Mesh& mesh, const Point* vertices, ThreadPool& pool,
                       const AutomaticConstants& constants);
   Records records_of(const Mesh& mesh, std::size_t block) const;
-  template <class Length4>
-  double scatter_in_blocks(const Mesh& mesh, const Length4& length4);
+  bool find_one(std::span<const Point> points, const Box& box, ThreadPool& pool,
+                const AutomaticConstants& constants);
+  bool find_places(std::span<const Point> points, ThreadPool& pool, const AutomaticConstants& constants);
+  template <class ForEach>
+  double scatter_in_blocks(const ForEach& for_each_length4);
   double excess_scatter(const Mesh& mesh, const Point* vertices, const AutomaticConstants& constants);
+  double excess_scatter_of_places(const AutomaticConstants& constants);
   double measure_block(const Mesh& mesh, const Point* vertices, std::uint32_t block, double quantile,
                        BlockScratch& scratch, std::vector<Border>& borders) const;
   template <class Visit>
   void for_each_neighbour(double reach, const Visit& visit) const;
   void smooth(const AutomaticConstants& constants);
+  void take_medians_of_neighbours();
   void bound_growth(const AutomaticConstants& constants);
   void shrink_to_median(double noise);
   void sample(const Mesh& mesh, const Point* vertices);
@@ -190,7 +209,7 @@ class AutomaticLimit {
   double steadiest_size4(const AutomaticConstants& constants) const;
   void look_for_outlines(const Mesh& mesh, const Point* vertices, double points, double detail,
                          const AutomaticConstants& constants);
-  void set_field(double points, double detail, bool is_one, const AutomaticConstants& constants);
+  void set_field(double points, double detail, const AutomaticConstants& constants);
 
   WindowSample windows_;
   SizeField field_;
@@ -210,9 +229,11 @@ class AutomaticLimit {
   double steadiest4_ = 0;                  ///< the limit at a detail of 1, in usual sizes
   double unit4_ = 0;                       ///< fourth power of the unit of the grid of limits
   std::array<double, kCells + 1> area_{};  ///< cell of that grid -> area of the triangles of its sizes
-  // For find_one():
+  // What look() found:
+  SizesBy found_ = SizesBy::kBlocks;
   double points_ = 0;  ///< number of points without repeats
   double wide_radius_ = 0;
+  double sampled_ = 0;  ///< number of triangles that samples_ stand for
 };
 
 }  // namespace polylidar::detail

@@ -73,9 +73,8 @@ struct Extractor::State {
 
   detail::InteriorPath interior;
   Statistics statistics;
-  /// Whether automatic_limit found one usual size for all of the points; none where they have not been looked
-  /// at.
-  std::optional<bool> has_one_size;
+  /// What automatic_limit found when it looked at the points; none where it has not.
+  std::optional<detail::SizesBy> sizes_by;
   // Where the mesh is that of a part: what was asked for, should the rest be needed.
   bool is_part = false;
   std::span<const Point> points;
@@ -94,12 +93,12 @@ bool Extractor::State::extract_part(std::span<const Point> given, const detail::
     if (given.size() < detail::WindowSample::kLeastPoints) statistics.way = Way::kFewPoints;
     if (range.scale_exponent != 0) statistics.way = Way::kExtremeCoordinates;
     if (statistics.way != Way::kWhole) return false;
-    has_one_size = automatic_limit.find_one(given, range.box, pool);
-    if (!*has_one_size) return false;
+    sizes_by = automatic_limit.look(given, range.box, pool);
+    if (sizes_by == detail::SizesBy::kBlocks) return false;
     const double how_fine = given_options.detail;
     const double radius = automatic_limit.wide_radius() / std::max(how_fine, 1.0);
     const auto choose_field = [&](const std::uint8_t* is_tested) -> const detail::SizeField& {
-      automatic_limit.choose_one(builder.mesh(), builder.vertices(), is_tested, how_fine, pool);
+      automatic_limit.choose_found(builder, is_tested, how_fine, pool);
       return automatic_limit.field();
     };
     statistics = interior.extract(given, range, radius, choose_field, fill_single, steps, shape);
@@ -107,7 +106,7 @@ bool Extractor::State::extract_part(std::span<const Point> given, const detail::
   if (statistics.way != Way::kInteriorLeftOut) return false;
   limits = given_limits;
   chosen_sizes.reset();
-  if (has_one_size) chosen_sizes = automatic_limit.range();
+  if (sizes_by) chosen_sizes = automatic_limit.range();
   is_part = true;
   points = given;
   options = given_options;
@@ -117,7 +116,7 @@ bool Extractor::State::extract_part(std::span<const Point> given, const detail::
 /// After the builder triangulated all points.
 void Extractor::State::mesh_is_whole() {
   is_part = false;
-  has_one_size.reset();
+  sizes_by.reset();
   boundary.clear();
 }
 
@@ -130,14 +129,14 @@ void Extractor::State::triangulate_the_rest() {
 
 /// From the triangulation of all points.
 void Extractor::State::choose_sizes(double detail) {
-  if (!has_one_size) {
+  if (!sizes_by) {
     automatic_limit.choose(builder, detail, pool);
-  } else if (*has_one_size) {
-    automatic_limit.choose_one(builder.mesh(), builder.vertices(), nullptr, detail, pool);
-  } else {
+  } else if (*sizes_by == detail::SizesBy::kBlocks) {
     automatic_limit.choose_by_blocks(builder, detail, pool);
+  } else {
+    automatic_limit.choose_found(builder, nullptr, detail, pool);
   }
-  has_one_size.reset();  // another detail may be asked for next
+  sizes_by.reset();  // another detail may be asked for next
   const int exponent = builder.scale_exponent();
   if (const auto& sizes = automatic_limit.range()) {
     chosen_sizes = {std::ldexp(sizes->least, -exponent), std::ldexp(sizes->median, -exponent),
@@ -172,12 +171,12 @@ const IndexedMultiPolygon& Extractor::extract(std::span<const Point> points, con
   } else {
     state_->pool.use(options.threads);
     const detail::CoordinateRange range = detail::measure_coordinates(points, state_->pool);
-    state_->has_one_size.reset();
+    state_->sizes_by.reset();
     if (state_->extract_part(points, range, limits, options)) return state_->shape;
-    const std::optional<bool> has_one_size = state_->has_one_size;
+    const std::optional<detail::SizesBy> sizes_by = state_->sizes_by;
     state_->builder.build(points, range, state_->pool);
     state_->mesh_is_whole();
-    state_->has_one_size = has_one_size;
+    state_->sizes_by = sizes_by;
   }
   state_->limits = limits;
   state_->find_regions(options);

@@ -15,6 +15,10 @@
 
 namespace polylidar::detail {
 
+/// Points closer than this share of a radius are too close: rounding may lose the whole area of a triangle
+/// with two of them, and with it the circumradius.
+inline constexpr double kTooClose = 0x1p-40;
+
 /// A finite triangle of the mesh, as the rules use it. All is inlined, so only what a rule asks for is
 /// computed.
 struct Triangle {
@@ -28,6 +32,7 @@ struct Triangle {
   double squared_ab() const { return squared_length(a - b); }
   double squared_bc() const { return squared_length(b - c); }
   double squared_ca() const { return squared_length(c - a); }
+  double squared_shortest_edge() const { return std::min({squared_ab(), squared_bc(), squared_ca()}); }
   double squared_longest_edge() const { return std::max({squared_ab(), squared_bc(), squared_ca()}); }
   double perimeter() const {
     return std::sqrt(squared_ab()) + std::sqrt(squared_bc()) + std::sqrt(squared_ca());
@@ -99,11 +104,14 @@ class OneSizeRule {
 /// The limit that varies by place.
 class SizeRule {
  public:
-  explicit SizeRule(const SizeField& field) : field_(field) {}
-  bool keeps(const Triangle& triangle) const { return triangle.size4() <= field_.limit4_at(triangle.index); }
+  SizeRule(const SizeField& field, const Mesh& mesh) : field_(field), mesh_(mesh) {}
+  bool keeps(const Triangle& triangle) const {
+    return triangle.size4() <= field_.limit4_at(mesh_, triangle.index);
+  }
 
  private:
   const SizeField& field_;
+  const Mesh& mesh_;
 };
 
 /// circumradius = |ab| |bc| |ca| / (2 cross), with cross twice the area: compared squared and without

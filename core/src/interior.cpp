@@ -451,13 +451,10 @@ Statistics InteriorPath::extract(std::span<const Point> points, const Coordinate
   const SizeFilter::IsSure is_sure = [&](const Triangle& triangle) {
     return part_.is_surely_whole(triangle);
   };
-  const auto filter = [&]() -> std::optional<Way> {
-    const SizeField& field = choose_field(is_tested_.data());
-    // Where corners are as close as rounding matters, a triangle has no larger size than `radius`. It must
-    // not be asked whether it is wide, so it must not be dropped.
-    if (field.limit4.front() < radius * radius * radius * radius * (1 + kSafety)) return Way::kSmallLimit;
-    return steps.filter.run_on_part(steps.builder.mesh(), steps.builder.vertices(), is_tested_.data(), field,
-                                    is_sure, fill_single, steps.pool, steps.boundary);
+  const auto filter = [&] {
+    return steps.filter.run_on_part(steps.builder.mesh(), steps.builder.vertices(), is_tested_.data(),
+                                    choose_field(is_tested_.data()), is_sure, fill_single, steps.pool,
+                                    steps.boundary);
   };
   return extract_part(points, range, radius, false, steps, shape, guard, filter);
 }

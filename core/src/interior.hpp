@@ -41,10 +41,9 @@ struct InteriorGuard {
 /// circle of radius r has a greater perimeter than 3 sqrt(3) r. Infinite without limits.
 double least_dropped_radius(const Limits& limits);
 
-/// The certificate's radius is (1 - kSafety) r, and two points closer than kTooClose * r are too close.
-/// INTERIOR.md derives both constants from the rounding of the filter's rules.
+/// The certificate's radius is (1 - kSafety) r, and two points closer than kTooClose * r (filter_rules.hpp)
+/// are too close. INTERIOR.md derives both constants from the rounding of the filter's rules.
 inline constexpr double kSafety = 0x1p-8;
-inline constexpr double kTooClose = 0x1p-40;
 /// The certificate's radius is smaller by this share, too. The share is irrational: limits and coordinates
 /// often have few decimals, so otherwise the side of some cells could be a multiple of the points' decimal
 /// unit, and many points would lie on the borders of cells.
@@ -153,8 +152,8 @@ class InteriorPath {
                      bool fill_single, const Steps& steps, IndexedMultiPolygon& shape,
                      const InteriorGuard& guard = {});
 
-  /// Called when the part's mesh is ready; chooses a field with one limit. `is_tested` as in
-  /// AutomaticLimit::choose_one.
+  /// Called when the part's mesh is ready; chooses a field with one limit, or one by corners. `is_tested` as
+  /// in AutomaticLimit::choose_found.
   using ChooseField = std::function<const SizeField&(const std::uint8_t* is_tested)>;
   /// The same for a limit that is chosen. No triangle with a circumradius of `radius` or more may be left
   /// out; the field's wide triangles all have at least that circumradius.

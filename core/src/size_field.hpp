@@ -1,6 +1,7 @@
 // A limit for the size of triangles that varies by place: one value for each block of the mesh.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -17,7 +18,7 @@ struct OutlineSteps {
   double twice_area = 0;     ///< of the triangles within the limit at a detail of 1
 };
 
-/// A block is a range of consecutive vertices along the curve, with two records each. A field of one block
+/// A block is a place: a range of consecutive vertices along the curve, or a square. A field of one block
 /// fits any mesh.
 struct SizeField {
   /// Block -> the fourth power of the largest size of a triangle; inclusive.
@@ -29,19 +30,30 @@ struct SizeField {
   /// A hole stays only if it has a dropped triangle whose squared circumradius is at least this many times
   /// the mean squared size of the kept triangles round the hole, whatever its area. 0: no hole is filled.
   double wide_square = 0;
-  /// If there is one limit: the circumradius must also be at least this many limits.
+  /// The circumradius of such a triangle must also be at least this.
   double wide_radius = 0;
   /// Set if all points may lie on outlines.
   std::optional<OutlineSteps> outlines = {};
   /// Vertex -> its block, if there are several.
   std::vector<std::uint32_t> block_of_vertex = {};
+  /// What block a triangle belongs to: if false, that of the vertex with its record, which another mesh with
+  /// the triangle may store elsewhere. If true, that of the corner whose limit is the middle one.
+  bool is_by_corners = false;
   /// Triangle of the mesh -> Triangle::size4(), NaN for a ghost; null if not all were measured. It lives as
   /// long as the object that chose the field.
   const double* size4 = nullptr;
 
   bool is_one() const { return limit4.size() == 1; }
-  double limit4_at(Mesh::Index triangle) const {
-    return is_one() ? limit4.front() : limit4[block_of_vertex[triangle / 2]];
+  double limit4_at(const Mesh& mesh, Mesh::Index triangle) const { return value_at(limit4, mesh, triangle); }
+  /// Of a value that every block has, and that grows with the limit.
+  double value_at(const std::vector<double>& of_block, const Mesh& mesh, Mesh::Index triangle) const {
+    if (of_block.size() == 1) return of_block.front();
+    if (!is_by_corners) return of_block[block_of_vertex[triangle / 2]];
+    const Mesh::Index* const corners = mesh.corners(triangle);
+    const double a = of_block[block_of_vertex[corners[0]]];
+    const double b = of_block[block_of_vertex[corners[1]]];
+    const double c = of_block[block_of_vertex[corners[2]]];
+    return std::max(std::min(a, b), std::min(std::max(a, b), c));
   }
 };
 

@@ -56,18 +56,14 @@ bool stands_out(const Mesh& mesh, const Point* vertices, Mesh::Index t, const Dr
 /// A triangle that is no spike however it stands.
 class NoSpikeRule {
  public:
-  NoSpikeRule(const SizeField& field, Mesh::Index t) : most4_(field.spike_share * field.limit4_at(t)) {}
+  NoSpikeRule(const SizeField& field, const Mesh& mesh, Mesh::Index t)
+      : most4_(field.spike_share * field.limit4_at(mesh, t)) {}
   bool keeps(const Triangle& triangle) const { return triangle.size4() <= most4_; }
   double most4() const { return most4_; }
 
  private:
   double most4_;
 };
-
-/// A triangle that is not wide, where there is one limit.
-CircumradiusRule not_wide(const SizeField& field, Mesh::Index t) {
-  return CircumradiusRule(field.wide_radius * std::sqrt(std::sqrt(field.limit4_at(t))));
-}
 
 /// Infinite where the triangle is flat.
 double squared_circumradius(const Triangle& triangle) {
@@ -135,7 +131,7 @@ struct SizeFilter::Part {
   /// that is not looked at.
   bool is_open(Index t) const {
     if (!is_sure(t)) return false;
-    if (ask(NoSpikeRule(field, t), t) == Answer::kYes) return true;
+    if (ask(NoSpikeRule(field, mesh, t), t) == Answer::kYes) return true;
     for (Index k = 0; k < 3; ++k) {
       const Index other = neighbour(mesh, t, k);
       if (!mesh.is_ghost(other) && mesh.is_kept(other) && (is_hidden(other) || !is_sure(other))) return false;
@@ -156,11 +152,13 @@ void SizeFilter::run(const Mesh& mesh, const Point* vertices, const SizeField& f
     filter([&](Index t) { return !mesh.is_ghost(t) && rule.keeps(Triangle(mesh, vertices, t)); });
   };
   if (field.size4 != nullptr) {
-    filter([&](Index t) { return field.size4[t] <= field.limit4_at(t); });  // no: of a ghost, which has NaN
+    filter([&](Index t) {
+      return field.size4[t] <= field.limit4_at(mesh, t);
+    });  // no: of a ghost, which has NaN
   } else if (field.is_one()) {
     filter_by(OneSizeRule(field.limit4.front()));
   } else {
-    filter_by(SizeRule(field));
+    filter_by(SizeRule(field, mesh));
   }
   drop_spikes(mesh, vertices, field, pool, kept);
   const WholeMesh whole(mesh, vertices);
@@ -173,7 +171,6 @@ std::optional<Way> SizeFilter::run_on_part(const Mesh& mesh, const Point* vertic
                                            const IsSure& is_sure, ThreadPool& pool, std::uint64_t* kept) {
   SeenTriangles hidden(mesh, hidden_);
   const Part part{mesh, vertices, is_tested, field, is_sure, hidden};
-  const OneSizeRule rule(field.limit4.front());
   doubt_.reset();
   const Chunks chunks(pool, mesh.triangle_count());
   clear_found(chunks);
@@ -185,7 +182,7 @@ std::optional<Way> SizeFilter::run_on_part(const Mesh& mesh, const Point* vertic
         if (!mesh.is_unused(t)) dropped.push_back(t);
         return false;
       }
-      const Answer answer = part.ask(rule, t);
+      const Answer answer = part.ask(OneSizeRule(field.limit4_at(mesh, t)), t);
       const bool has_tested = has_marked_corner(mesh, t, is_tested);
       if (answer != Answer::kYes && !has_tested) {
         if (is_sure(Triangle(mesh, vertices, t))) hidden.add(t);
@@ -220,7 +217,7 @@ std::optional<Way> SizeFilter::run_on_part(const Mesh& mesh, const Point* vertic
         doubt_ = Way::kReachesFar;
         continue;
       }
-      const Answer no_spike = part.ask(NoSpikeRule(field, other), other);
+      const Answer no_spike = part.ask(NoSpikeRule(field, mesh, other), other);
       if (no_spike == Answer::kYes) continue;
       if (no_spike == Answer::kRoundingDecides) doubt_ = Way::kRoundingDecides;
       for (Index j = 0; j < 3; ++j) {
@@ -258,7 +255,7 @@ void SizeFilter::drop_spikes(const Mesh& mesh, const Point* vertices, const Size
         if (mesh.is_kept(other) &&
             stands_out(mesh, vertices, other,
                        [&](Index j) { return !mesh.is_kept(neighbour(mesh, other, j)); }) &&
-            !NoSpikeRule(field, other).keeps(Triangle(mesh, vertices, other))) {
+            !NoSpikeRule(field, mesh, other).keeps(Triangle(mesh, vertices, other))) {
           found_of_chunk_[c].push_back(other);
         }
       }
@@ -373,6 +370,7 @@ void SizeFilter::fill_small_holes(const Mesh& mesh, const Point* vertices, const
   });
   for (std::size_t next = 0; next < group_.size();) enter_neighbours(group_[next++]);
   changed_.clear();
+  const CircumradiusRule not_wide(field.wide_radius);
   for_each_dropped(mesh, 0, mesh.word_count(), kept, [&](Index start) {
     group_.clear();
     enter(start);
@@ -384,11 +382,13 @@ void SizeFilter::fill_small_holes(const Mesh& mesh, const Point* vertices, const
     for (std::size_t next = 0; next < group_.size();) {
       const Index t = group_[next++];
       // Only triangles that are too large count: one that was dropped as a spike or with a small part may lie
-      // where a part of the mesh was not built.
-      if (whole.ask(OneSizeRule(field.limit4_at(t)), t) != Answer::kYes) {
+      // where a part of the mesh was not built. Nor do those count whose circumradius rounding may have made.
+      const double too_close = kTooClose * field.wide_radius;
+      if (Triangle(mesh, vertices, t).squared_shortest_edge() >= too_close * too_close &&
+          whole.ask(OneSizeRule(field.limit4_at(mesh, t)), t) != Answer::kYes) {
         squared_radius = std::max(squared_radius, squared_circumradius(Triangle(mesh, vertices, t)));
         if (!has_wide) {
-          const Answer answer = whole.ask(not_wide(field, t), t);
+          const Answer answer = whole.ask(not_wide, t);
           has_wide = answer != Answer::kYes;
           if (answer == Answer::kRoundingDecides) doubt_ = Way::kRoundingDecides;
         }

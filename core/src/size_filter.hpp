@@ -38,11 +38,12 @@ class SizeFilter {
   void run(const Mesh& mesh, const Point* vertices, const SizeField& field, ThreadPool& pool,
            std::uint64_t* kept);
 
-  /// The same with the mesh of a part (interior.hpp) and a field of one limit. `is_tested`: vertex -> whether
-  /// it is tested. All triangles with a tested corner must belong to the whole mesh, and all wide triangles
-  /// of the whole mesh must have one. Triangles without a tested corner count as kept, unless they are
-  /// connected to dropped ones that have one. If the triangles for which `is_sure` is true are not enough to
-  /// tell, or if rounding decides, returns that reason, and the output must not be used.
+  /// The same with the mesh of a part (interior.hpp) and a field of one limit, or one by corners.
+  /// `is_tested`: vertex -> whether it is tested. All triangles with a tested corner must belong to the whole
+  /// mesh, and all wide triangles of the whole mesh must have one. Triangles without a tested corner count as
+  /// kept, unless they are connected to dropped ones that have one. If the triangles for which `is_sure` is
+  /// true are not enough to tell, or if rounding decides, returns that reason, and the output must not be
+  /// used.
   std::optional<Way> run_on_part(const Mesh& mesh, const Point* vertices, const std::uint8_t* is_tested,
                                  const SizeField& field, const IsSure& is_sure, ThreadPool& pool,
                                  std::uint64_t* kept);

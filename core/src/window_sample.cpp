@@ -4,6 +4,8 @@
 #include <bit>
 #include <cmath>
 #include <functional>
+#include <limits>
+#include <utility>
 
 #include "filter_rules.hpp"
 #include "quantile.hpp"
@@ -28,6 +30,13 @@ constexpr double kHalfInner = 4;
 /// Beyond so many times what they would have where the density is the same everywhere, windows are not looked
 /// into.
 constexpr double kMostPointsOfUsual = 2;
+
+/// A place with more is divided, if it has more than one cell.
+constexpr std::size_t kMostPointsInPlace = 4096;
+/// With fewer triangles a window says little of its place. Half of those of points at random.
+constexpr std::size_t kFewTrianglesOfPlace = 64;
+/// Fewer cells inside the shape do not tell how much the density varies.
+constexpr std::size_t kFewCells = 256;
 
 }  // namespace
 
@@ -67,7 +76,8 @@ bool WindowSample::look(std::span<const Point> points, const Box& box, const Wan
   // Each share counts in cells of its own: of many threads not all take part.
   constexpr std::size_t kMostShares = 8;
   shares_.resize(std::min<std::size_t>(pool.threads(), kMostShares));
-  if (points.size() < kLeastPoints || !count_cells(points, box, pool)) return false;
+  are_counted_ = points.size() >= kLeastPoints && count_cells(points, box, pool);
+  if (!are_counted_) return false;
   const double in_cell = usual_count(points.size(), wanted.most_spread);
   if (in_cell == 0) return false;
   const double spacing = 1 / (cells_per_length_ * std::sqrt(in_cell));
@@ -76,27 +86,210 @@ bool WindowSample::look(std::span<const Point> points, const Box& box, const Wan
   place_windows(points.size(), windows, half_side);
   const double usual = 4 * half_side * half_side / (spacing * spacing);
   const auto most = static_cast<std::size_t>(kMostPointsOfUsual * static_cast<double>(windows) * usual);
-  const std::size_t gathered = gather(points, half_side, most, pool);
+  const std::size_t gathered = gather(
+      points, most, pool, [&](std::uint32_t cell) { return windows_of_cell_[cell] != 0; },
+      [&](std::uint32_t cell, const auto& visit) {
+        for (std::uint64_t left = windows_of_cell_[cell]; left != 0; left &= left - 1) {
+          visit(static_cast<std::uint32_t>(std::countr_zero(left)));
+        }
+      });
   if (gathered > most) return false;
-
   margin_ = wanted.margin * spacing;
+  for (Window& window : windows_) window.half_inner = kHalfInner * spacing;
+  measure_windows(wanted.quantile, pool);
+  return true;
+}
+
+void WindowSample::measure_windows(double quantile, ThreadPool& pool) {
   pool.for_each(shares_.size(), [&](std::size_t s) {
-    for (std::size_t w = s; w < windows; w += shares_.size()) {
-      measure(windows_[w], kHalfInner * spacing, wanted.quantile, shares_[s]);
+    for (std::size_t w = s; w < windows_.size(); w += shares_.size()) {
+      measure(windows_[w], quantile, shares_[s]);
     }
   });
   window_ends_.clear();
   triangles_.clear();
   usual4_.clear();
+  std::size_t gathered = 0;
   std::size_t distinct = 0;
   for (const Window& window : windows_) {
     triangles_.insert(triangles_.end(), window.triangles.begin(), window.triangles.end());
     window_ends_.push_back(triangles_.size());
     if (window.usual4) usual4_.push_back(*window.usual4);
+    gathered += window.points.size();
     distinct += window.distinct;
   }
   distinct_share_ = static_cast<double>(distinct) / static_cast<double>(gathered);
+}
+
+bool WindowSample::look_by_places(std::span<const Point> points, const WantedPlaces& wanted,
+                                  ThreadPool& pool) {
+  if (!are_counted_ || points.size() < kLeastPointsForPlaces) return false;
+  if (!is_wide_rare(points.size(), wanted.points_in_circle) || !is_smooth()) return false;
+  divide();
+  const auto most = static_cast<std::size_t>(kMostPointsOfUsual * place_window_of_each(wanted));
+  const std::size_t gathered = gather(
+      points, most, pool, [&](std::uint32_t cell) { return window_of_cell_[cell] != kNone; },
+      [&](std::uint32_t cell, const auto& visit) { visit(window_of_cell_[cell]); });
+  if (gathered > most) return false;
+  measure_windows(wanted.quantile, pool);
+  places_.clear();
+  for (std::size_t w = 0; w < windows_.size(); ++w) {
+    const Window& window = windows_[w];
+    const double distinct_share = window.points.empty() ? 1
+                                                        : static_cast<double>(window.distinct) /
+                                                              static_cast<double>(window.points.size());
+    const bool is_known = window.usual4 && window.triangles.size() >= kFewTrianglesOfPlace;
+    places_.push_back({is_known ? *window.usual4 : std::numeric_limits<double>::infinity(),
+                       distinct_share * static_cast<double>(cells_of_place_[w].points)});
+  }
+  find_borders();
   return true;
+}
+
+/// Whether most points lie well inside, and few triangles there have a circle as wide as one that would hold
+/// `points_in_circle` points in the densest hundredth: among points at random, (1 + x) / e^x of the triangles
+/// have a wider circle than one that would hold x points.
+bool WindowSample::is_wide_rare(std::size_t points, double points_in_circle) const {
+  constexpr double kMostWide = 0.02;  // then about a tenth of the points are near such a triangle
+  constexpr double kDensest = 0.01;
+  std::vector<std::uint32_t> inside;
+  double total = 0;
+  for_each_inside_cell([&](const std::uint32_t* own) {
+    inside.push_back(*own);
+    total += *own;
+  });
+  if (inside.size() < kFewCells || total < kLeastShareInside * static_cast<double>(points)) return false;
+  std::sort(inside.begin(), inside.end(), std::greater<>());
+  auto dense = inside.begin();
+  for (double above = *dense; above < kDensest * total;) above += *++dense;
+  double wide = 0;
+  for (const std::uint32_t count : inside) {
+    const double x = points_in_circle * std::min(1.0, static_cast<double>(count) / *dense);
+    wide += count * (1 + x) * std::exp(-x);
+  }
+  return wide <= kMostWide * total;
+}
+
+/// Whether the number of points in a cell differs from the mean of the eight round it by no more than twice
+/// what chance explains. Of clusters about as wide as a cell it differs by more.
+bool WindowSample::is_smooth() const {
+  constexpr double kMostRough = 2;
+  std::vector<double> differences;  // in standard deviations
+  for_each_inside_cell([&](const std::uint32_t* own) {
+    const std::uint32_t* const above = own + columns_;
+    const std::uint32_t* const below = own - columns_;
+    const double round =
+        0.0 + own[-1] + own[1] + above[-1] + above[0] + above[1] + below[-1] + below[0] + below[1];
+    differences.push_back((*own - round / 8) / std::sqrt(round / 8 * 9 / 8));
+  });
+  return robust_deviation(differences, 0) <= kMostRough;
+}
+
+/// Divides the cells with points into places: squares are quartered as long as they have many points.
+void WindowSample::divide() {
+  place_of_cell_.assign(counts_.size(), kNone);
+  cells_of_place_.clear();
+  std::vector<PlaceCells> squares;  // whose points are not known yet
+  squares.push_back({0, 0, std::bit_ceil(std::max(columns_, rows_)), 0, 0});
+  std::vector<std::uint32_t> cells;
+  while (!squares.empty()) {
+    PlaceCells square = squares.back();
+    squares.pop_back();
+    cells.clear();
+    for (std::uint32_t r = square.row; r < std::min(square.row + square.side, rows_); ++r) {
+      for (std::uint32_t c = square.column; c < std::min(square.column + square.side, columns_); ++c) {
+        const std::uint32_t cell = r * columns_ + c;
+        square.points += counts_[cell];
+        if (counts_[cell] > 0) cells.push_back(cell);
+      }
+    }
+    if (square.points > kMostPointsInPlace && square.side > 1) {
+      const std::uint32_t half = square.side / 2;
+      for (const std::uint32_t up : {half, 0U}) {
+        for (const std::uint32_t right : {half, 0U}) {
+          squares.push_back({square.row + up, square.column + right, half, 0, 0});
+        }
+      }
+    } else if (!cells.empty()) {
+      for (const std::uint32_t cell : cells)
+        place_of_cell_[cell] = static_cast<std::uint32_t>(cells_of_place_.size());
+      // The upper quartile, as cells across the outline have fewer points.
+      const auto quartile = cells.begin() + static_cast<std::ptrdiff_t>(cells.size() / 4);
+      std::nth_element(cells.begin(), quartile, cells.end(), [&](std::uint32_t a, std::uint32_t b) {
+        return std::pair(counts_[b], a) < std::pair(counts_[a], b);
+      });
+      square.typical = *quartile;
+      cells_of_place_.push_back(square);
+    }
+  }
+}
+
+void WindowSample::find_borders() {
+  borders_.clear();
+  for (std::uint32_t r = 0; r < rows_; ++r) {
+    for (std::uint32_t c = 0; c < columns_; ++c) {
+      const std::uint32_t place = place_of_cell_[r * columns_ + c];
+      if (place == kNone) continue;
+      const auto add = [&](std::uint32_t row, std::uint32_t column) {
+        if (row >= rows_ || column >= columns_) return;  // also to the left of column 0
+        const std::uint32_t other = place_of_cell_[row * columns_ + column];
+        if (other != kNone && other != place) borders_.push_back(std::minmax(place, other));
+      };
+      add(r, c + 1);
+      add(r + 1, c - 1);
+      add(r + 1, c);
+      add(r + 1, c + 1);
+    }
+  }
+  std::sort(borders_.begin(), borders_.end());
+  borders_.erase(std::unique(borders_.begin(), borders_.end()), borders_.end());
+}
+
+/// Puts the window of each place about the middle of its typical cell, but not beyond the place. Returns how
+/// many points there should be in all windows.
+double WindowSample::place_window_of_each(const WantedPlaces& wanted) {
+  windows_.resize(cells_of_place_.size());
+  window_of_cell_.assign(counts_.size(), kNone);
+  double expected = 0;
+  for (std::uint32_t w = 0; w < windows_.size(); ++w) {
+    const PlaceCells& cells = cells_of_place_[w];
+    Window& window = windows_[w];
+    window.points.clear();
+    // In cells, from the place's corner on.
+    const std::uint32_t side = cells.side;
+    const double spacing = 1 / std::sqrt(counts_[cells.typical]);
+    const double half_side = std::min((kHalfInner + wanted.margin) * spacing, side / 2.0);
+    const auto middle_of = [&](std::uint32_t cell, std::uint32_t first) {
+      return std::clamp(cell - first + 0.5, half_side, side - half_side);
+    };
+    const double x = middle_of(cells.typical % columns_, cells.column);
+    const double y = middle_of(cells.typical / columns_, cells.row);
+    expected += 4 * half_side * half_side / (spacing * spacing);
+    window.centre = {minimum_.x + (cells.column + x) / cells_per_length_,
+                     minimum_.y + (cells.row + y) / cells_per_length_};
+    window.half_side = half_side / cells_per_length_;
+    window.half_inner = window.half_side * kHalfInner / (kHalfInner + wanted.margin);
+    const auto first_of = [&](double at) { return static_cast<std::uint32_t>(at - half_side); };
+    const auto last_of = [&](double at) {
+      return std::min(static_cast<std::uint32_t>(at + half_side), side - 1);
+    };
+    const std::uint32_t right = std::min(cells.column + last_of(x), columns_ - 1);
+    const std::uint32_t top = std::min(cells.row + last_of(y), rows_ - 1);
+    for (std::uint32_t r = cells.row + first_of(y); r <= top; ++r) {
+      for (std::uint32_t c = cells.column + first_of(x); c <= right; ++c)
+        window_of_cell_[r * columns_ + c] = w;
+    }
+  }
+  return expected;
+}
+
+void WindowSample::find_places(std::span<const Point> some, std::uint32_t* places) const {
+  visit_numbered(some, numbering(),
+                 [&](std::size_t begin, std::span<const Point> block, const std::uint32_t* cells) {
+                   for (std::size_t i = 0; i < block.size(); ++i) {
+                     places[begin + i] = place_of_cell_[cells[i]];
+                   }
+                 });
 }
 
 /// Counts the points in square cells. Returns false where the box is too narrow for them.
@@ -125,11 +318,9 @@ bool WindowSample::count_cells(std::span<const Point> points, const Box& box, Th
   return true;
 }
 
-/// How many points a cell inside the shape usually has; 0 where the numbers differ by too much, or there are
-/// too few such cells to tell.
-double WindowSample::usual_count(std::size_t points, double most_spread) {
-  numbers_.clear();
-  std::size_t inside = 0;
+/// Calls visit(place among counts_) for the cells that have points, as have all cells round them.
+template <class Visit>
+void WindowSample::for_each_inside_cell(const Visit& visit) const {
   for (std::uint32_t r = 1; r + 1 < rows_; ++r) {
     for (std::uint32_t c = 1; c + 1 < columns_; ++c) {
       const std::uint32_t* const own = &counts_[r * columns_ + c];
@@ -138,14 +329,23 @@ double WindowSample::usual_count(std::size_t points, double most_spread) {
       const std::uint32_t* const below = own - columns_;
       if (above[-1] == 0 || above[0] == 0 || above[1] == 0) continue;
       if (below[-1] == 0 || below[0] == 0 || below[1] == 0) continue;
-      numbers_.add(own[0]);
-      inside += own[0];
+      visit(own);
     }
   }
-  constexpr std::size_t kFew = 256;
+}
+
+/// How many points a cell inside the shape usually has; 0 where the numbers differ by too much, or there are
+/// too few such cells to tell.
+double WindowSample::usual_count(std::size_t points, double most_spread) {
+  numbers_.clear();
+  std::size_t inside = 0;
+  for_each_inside_cell([&](const std::uint32_t* own) {
+    numbers_.add(*own);
+    inside += *own;
+  });
   const bool are_enough = points < kManyPoints
                               ? static_cast<double>(inside) >= kLeastShareInside * static_cast<double>(points)
-                              : numbers_.total() >= kFew;
+                              : numbers_.total() >= kFewCells;
   if (!are_enough) return 0;
   const double usual = numbers_.median();
   // A number of points is the inverse square of the spacing; chance alone makes numbers differ by a root of
@@ -167,6 +367,7 @@ void WindowSample::place_windows(std::size_t points, std::size_t windows, double
     while (counted <= rank) counted += counts_[++cell];
     Window& window = windows_[w];
     window.points.clear();
+    window.half_side = half_side;
     const std::size_t cell_row = cell / columns_;
     window.centre = {minimum_.x + (static_cast<double>(cell % columns_) + 0.5) / cells_per_length_,
                      minimum_.y + (static_cast<double>(cell_row) + 0.5) / cells_per_length_};
@@ -181,23 +382,24 @@ void WindowSample::place_windows(std::size_t points, std::size_t windows, double
   }
 }
 
-/// Returns how many points were put into windows; ends where that is more than `most`.
-std::size_t WindowSample::gather(std::span<const Point> points, double half_side, std::size_t most,
-                                 ThreadPool& pool) {
+/// Returns how many points were put into windows; ends where that is more than `most`. is_reached(cell):
+/// whether a window reaches it. for_each_window(cell, visit) calls visit(window) for those.
+template <class IsReached, class ForEachWindow>
+std::size_t WindowSample::gather(std::span<const Point> points, std::size_t most, ThreadPool& pool,
+                                 const IsReached& is_reached, const ForEachWindow& for_each_window) {
   pool.for_each(shares_.size(), [&](std::size_t s) {
     auto& gathered = shares_[s].gathered;
     gathered.clear();
     const auto gather_block = [&](std::size_t, std::span<const Point> block, const std::uint32_t* cells) {
       for_each_selected(
-          0, block.size(), [&](std::size_t i) { return windows_of_cell_[cells[i]] != 0; },
+          0, block.size(), [&](std::size_t i) { return is_reached(cells[i]); },
           [&](std::size_t i) {
             const Point& p = block[i];
-            for (std::uint64_t windows = windows_of_cell_[cells[i]]; windows != 0; windows &= windows - 1) {
-              const auto w = static_cast<std::uint32_t>(std::countr_zero(windows));
-              const Point& centre = windows_[w].centre;
-              if (std::max(std::abs(p.x - centre.x), std::abs(p.y - centre.y)) > half_side) continue;
-              if (gathered.size() <= most) gathered.emplace_back(w, p);
-            }
+            for_each_window(cells[i], [&](std::uint32_t w) {
+              const Window& window = windows_[w];
+              const double away = std::max(std::abs(p.x - window.centre.x), std::abs(p.y - window.centre.y));
+              if (away <= window.half_side && gathered.size() <= most) gathered.emplace_back(w, p);
+            });
           });
     };
     visit_numbered(share_of(points, s), numbering(), gather_block);
@@ -213,7 +415,7 @@ std::size_t WindowSample::gather(std::span<const Point> points, double half_side
 
 /// Finds the window's triangles and their usual size, in an order that depends on the points alone, not on
 /// theirs.
-void WindowSample::measure(Window& window, double half_inner, double quantile, Share& share) {
+void WindowSample::measure(Window& window, double quantile, Share& share) {
   window.triangles.clear();
   window.usual4.reset();
   window.distinct = window.points.size();
@@ -233,8 +435,10 @@ void WindowSample::measure(Window& window, double half_inner, double quantile, S
                         (b.x * squared_length(c) - c.x * squared_length(b)) / twice_cross};
     const double x = std::abs(triangle.a.x + centre.x - window.centre.x);
     const double y = std::abs(triangle.a.y + centre.y - window.centre.y);
-    if (!(std::max(x, y) <= half_inner)) continue;
-    window.triangles.push_back({triangle.size4(), triangle.twice_area(), squared_length(centre)});
+    if (!(std::max(x, y) <= window.half_inner)) continue;
+    const double shortest = triangle.squared_shortest_edge();
+    window.triangles.push_back({triangle.size4(), triangle.twice_area(), squared_length(centre), shortest,
+                                triangle.squared_longest_edge()});
   }
   window.distinct = used / 2 + 1;
   constexpr std::size_t kFewTriangles = 24;

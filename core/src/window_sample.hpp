@@ -48,21 +48,32 @@ class NumberCounts {
   std::vector<std::pair<double, std::uint32_t>> distances_;  ///< of classes, with their counts
 };
 
-/// Windows are squares, drawn with a probability in proportion to the number of points there. Each has the
-/// points in it and in a margin round it. A triangle belongs to the window that has its circumcentre, so all
-/// sizes have the same chance. Triangles whose circle is no wider than the margin are exactly those of the
-/// triangulation of all points. Some wider ones may be missing or wrong.
+/// Windows are squares. Each has the points in it and in a margin round it. A triangle belongs to the window
+/// that has its circumcentre, so all sizes have the same chance. Triangles whose circle is no wider than the
+/// margin are exactly those of the triangulation of all points. Some wider ones may be missing or wrong.
+///
+/// look() takes a few windows, drawn with a probability in proportion to the number of points there: enough
+/// if the density is the same everywhere. look_by_places() divides the box into squares, the places, and
+/// takes one window of each.
 class WindowSample {
  public:
   /// Few points get fewer windows, as each window costs the same.
   static constexpr std::size_t kMostWindows = 27;
   /// With fewer points a sample is not worth its time.
   static constexpr std::size_t kLeastPoints = 7'500;
+  /// With fewer there are too few places to follow a density.
+  static constexpr std::size_t kLeastPointsForPlaces = std::size_t{1} << 18U;
 
   struct Measured {
-    double size4;           ///< fourth power of the triangle's size
-    double twice_area;      ///< its doubled area
-    double squared_radius;  ///< its circumradius, squared
+    double size4;             ///< fourth power of the triangle's size
+    double twice_area;        ///< its doubled area
+    double squared_radius;    ///< its circumradius, squared
+    double squared_shortest;  ///< its shortest edge, squared
+    double squared_longest;   ///< its longest edge, squared
+  };
+  struct Place {
+    double usual4;  ///< the fourth power of the usual size in its window; infinity if that has few triangles
+    double points;  ///< how many do not repeat others, as far as the window tells
   };
 
   /// The settings of look().
@@ -72,19 +83,39 @@ class WindowSample {
     double quantile;     ///< of a window's sizes, which is its usual one
   };
 
+  /// The settings of look_by_places().
+  struct WantedPlaces {
+    double margin;            ///< of a window, in spacings of the points of its place
+    double quantile;          ///< of a window's sizes, which is its usual one
+    double points_in_circle;  ///< of a triangle that counts as wide, where the points are densest
+  };
+
   /// Looks at `points`, whose box is `box`. Returns false if their density varies by more than `wanted`
   /// allows, if there are fewer than kLeastPoints, or if they are few and their outline is long. There is no
   /// sample then. The result does not depend on the order of the points or the number of threads, nor, apart
   /// from rounding, on their position and unit. O(n), a pass or two.
   bool look(std::span<const Point> points, const Box& box, const Wanted& wanted, ThreadPool& pool);
 
-  /// After look() returned true: window -> one past its last triangle in triangles(). Some windows may have
-  /// few triangles, or none.
+  /// After look() returned false for the same points: looks at a window of each place. Returns false if there
+  /// are fewer than kLeastPointsForPlaces, or if the density varies by so much that triangles are often as
+  /// large where the points are sparse as wide ones are where they are densest. The result depends on the
+  /// same as that of look(). O(n), a pass.
+  bool look_by_places(std::span<const Point> points, const WantedPlaces& wanted, ThreadPool& pool);
+  /// After look_by_places() returned true, as the next two: place -> what was found in its window, which has
+  /// the same number.
+  const std::vector<Place>& places() const { return places_; }
+  /// The pairs of places with points in cells that touch.
+  const std::vector<std::pair<std::uint32_t, std::uint32_t>>& borders() const { return borders_; }
+  /// Puts the place of each of `some` of the points into `places`, which has room for them.
+  void find_places(std::span<const Point> some, std::uint32_t* places) const;
+
+  /// After a look: window -> one past its last triangle in triangles(). Some windows may have few triangles,
+  /// or none.
   const std::vector<std::size_t>& window_ends() const { return window_ends_; }
   const std::vector<Measured>& triangles() const { return triangles_; }
   /// The fourth powers of the usual sizes of the windows that have enough triangles.
   const std::vector<double>& usual4() const { return usual4_; }
-  /// The width of the margin.
+  /// After look(): the width of the margin.
   double margin() const { return margin_; }
   /// The share of the points that do not repeat others.
   double distinct_share() const { return distinct_share_; }
@@ -92,6 +123,8 @@ class WindowSample {
  private:
   struct Window {
     Point centre;
+    double half_side = 0;   ///< with the margin
+    double half_inner = 0;  ///< without
     std::vector<Point> points;
     std::size_t distinct = 0;  ///< of the points
     std::vector<Measured> triangles;
@@ -106,11 +139,30 @@ class WindowSample {
     ThreadPool this_thread;
   };
 
+  /// Where a place lies, and what is in it.
+  struct PlaceCells {
+    std::uint32_t row;  ///< its lowest
+    std::uint32_t column;
+    std::uint32_t side;     ///< so many cells in a row
+    std::uint32_t typical;  ///< a cell with as many points as are usual inside the shape
+    std::size_t points;
+  };
+
   bool count_cells(std::span<const Point> points, const Box& box, ThreadPool& pool);
+  template <class Visit>
+  void for_each_inside_cell(const Visit& visit) const;
   double usual_count(std::size_t points, double most_spread);
   void place_windows(std::size_t points, std::size_t windows, double half_side);
-  std::size_t gather(std::span<const Point> points, double half_side, std::size_t most, ThreadPool& pool);
-  static void measure(Window& window, double half_inner, double quantile, Share& share);
+  bool is_wide_rare(std::size_t points, double points_in_circle) const;
+  bool is_smooth() const;
+  void divide();
+  void find_borders();
+  double place_window_of_each(const WantedPlaces& wanted);
+  template <class IsReached, class ForEachWindow>
+  std::size_t gather(std::span<const Point> points, std::size_t most, ThreadPool& pool,
+                     const IsReached& is_reached, const ForEachWindow& for_each_window);
+  void measure_windows(double quantile, ThreadPool& pool);
+  static void measure(Window& window, double quantile, Share& share);
   std::span<const Point> share_of(std::span<const Point> points, std::size_t share) const {
     const std::size_t begin = points.size() * share / shares_.size();
     return points.subspan(begin, points.size() * (share + 1) / shares_.size() - begin);
@@ -129,13 +181,19 @@ class WindowSample {
   std::uint32_t columns_ = 0;
   std::uint32_t rows_ = 0;
   std::vector<std::uint32_t> counts_;           ///< cell, row by row -> how many points
+  bool are_counted_ = false;                    ///< whether counts_ is of the last points
   std::vector<std::uint64_t> windows_of_cell_;  ///< cell -> bit w: window w reaches it
+  std::vector<std::uint32_t> window_of_cell_;   ///< cell -> the window that reaches it, or kNone
+  std::vector<std::uint32_t> place_of_cell_;    ///< cell -> its place, or kNone if it has no points
+  std::vector<PlaceCells> cells_of_place_;
   std::vector<Window> windows_;
   NumberCounts numbers_;  ///< of points in the cells inside the shape
   std::deque<Share> shares_;
   std::vector<std::size_t> window_ends_;
   std::vector<Measured> triangles_;
   std::vector<double> usual4_;
+  std::vector<Place> places_;
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> borders_;
   double margin_ = 0;
   double distinct_share_ = 1;
 };

@@ -146,7 +146,7 @@ void check_without_interior(const Input& input, std::span<const Point> points, c
                                 .spike_share = 1.0 / (1 + input.choice % 8),
                                 .least_part = input.choice % 16U,
                                 .wide_square = 0.25 * (1 + input.choice % 32),
-                                .wide_radius = 0.9};
+                                .wide_radius = 0.9 * limit};
   const bool fill_single = input.choice % 2 == 0;
   if (ways.go(copy, field, fill_single, options.threads).way == Way::kInteriorLeftOut) {
     const IndexedMultiPolygon part = ways.part();

@@ -121,14 +121,13 @@ std::vector<LabelledHull> concave_hulls(std::span<const Point> points, std::span
 /// How a shape was extracted. It changes the time, not the result.
 enum class Way : std::uint8_t {
   kInteriorLeftOut,     ///< only what is near the outline was triangulated
-  kWhole,               ///< all points were triangulated: asked for, or the limit varies by place
+  kWhole,               ///< all points were triangulated: asked for, or their density varies too much
   kFewPoints,           ///< all points were: there are too few for a part to save time
   kExtremeCoordinates,  ///< all points were: their coordinates had to be scaled
   kTooSparse,           ///< all points were: the limit is too small for their spacing
   kMuchOutline,         ///< all points were: most of them are near an outline
   kClosePoints,         ///< all points were: two may be so close that rounding of circumradii decides
   kRoundingDecides,     ///< all points were: rounding decides whether some triangle is kept
-  kSmallLimit,          ///< all points were: the chosen limit is too small for the part
   kReachesFar,          ///< all points were: dropped triangles reach beyond the part
 };
 
