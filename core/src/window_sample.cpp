@@ -31,8 +31,9 @@ constexpr double kHalfInner = 4;
 /// into.
 constexpr double kMostPointsOfUsual = 2;
 
-/// A place with more is divided, if it has more than one cell.
+/// A place with more points than this, or than this share of all, is divided if it has more than one cell.
 constexpr std::size_t kMostPointsInPlace = 4096;
+constexpr std::size_t kMostShareInPlace = 1024;  // one in so many
 /// With fewer triangles a window says little of its place. Half of those of points at random.
 constexpr std::size_t kFewTrianglesOfPlace = 64;
 /// Fewer cells inside the shape do not tell how much the density varies.
@@ -125,7 +126,7 @@ bool WindowSample::look_by_places(std::span<const Point> points, const WantedPla
                                   ThreadPool& pool) {
   if (!are_counted_ || points.size() < kLeastPointsForPlaces) return false;
   if (!is_wide_rare(points.size(), wanted.points_in_circle) || !is_smooth()) return false;
-  divide();
+  divide(points.size());
   const auto most = static_cast<std::size_t>(kMostPointsOfUsual * place_window_of_each(wanted));
   const std::size_t gathered = gather(
       points, most, pool, [&](std::uint32_t cell) { return window_of_cell_[cell] != kNone; },
@@ -170,23 +171,27 @@ bool WindowSample::is_wide_rare(std::size_t points, double points_in_circle) con
   return wide <= kMostWide * total;
 }
 
-/// Whether the number of points in a cell differs from the mean of the eight round it by no more than twice
-/// what chance explains. Of clusters about as wide as a cell it differs by more.
+/// Whether the number of points in a cell differs from the mean of the eight round it by hardly more than
+/// chance and a usual unevenness explain. Of clusters that are not small beside a cell it differs by more.
 bool WindowSample::is_smooth() const {
-  constexpr double kMostRough = 2;
-  std::vector<double> differences;  // in standard deviations
+  constexpr double kUneven = 0.12;   // standard deviation of a number as a share of it, as of scan lines
+  constexpr double kMostRough = 1.3;  // what both explain is 1
+  std::vector<double> differences;
   for_each_inside_cell([&](const std::uint32_t* own) {
     const std::uint32_t* const above = own + columns_;
     const std::uint32_t* const below = own - columns_;
     const double round =
         0.0 + own[-1] + own[1] + above[-1] + above[0] + above[1] + below[-1] + below[0] + below[1];
-    differences.push_back((*own - round / 8) / std::sqrt(round / 8 * 9 / 8));
+    const double mean = round / 8;
+    const double variance = (mean + kUneven * kUneven * mean * mean) * 9 / 8;
+    differences.push_back((*own - mean) / std::sqrt(variance));
   });
   return robust_deviation(differences, 0) <= kMostRough;
 }
 
 /// Divides the cells with points into places: squares are quartered as long as they have many points.
-void WindowSample::divide() {
+void WindowSample::divide(std::size_t points) {
+  const std::size_t most = std::max(kMostPointsInPlace, points / kMostShareInPlace);
   place_of_cell_.assign(counts_.size(), kNone);
   cells_of_place_.clear();
   std::vector<PlaceCells> squares;  // whose points are not known yet
@@ -203,7 +208,7 @@ void WindowSample::divide() {
         if (counts_[cell] > 0) cells.push_back(cell);
       }
     }
-    if (square.points > kMostPointsInPlace && square.side > 1) {
+    if (square.points > most && square.side > 1) {
       const std::uint32_t half = square.side / 2;
       for (const std::uint32_t up : {half, 0U}) {
         for (const std::uint32_t right : {half, 0U}) {

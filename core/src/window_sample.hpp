@@ -155,7 +155,7 @@ class WindowSample {
   void place_windows(std::size_t points, std::size_t windows, double half_side);
   bool is_wide_rare(std::size_t points, double points_in_circle) const;
   bool is_smooth() const;
-  void divide();
+  void divide(std::size_t points);
   void find_borders();
   double place_window_of_each(const WantedPlaces& wanted);
   template <class IsReached, class ForEachWindow>
