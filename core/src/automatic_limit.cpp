@@ -244,12 +244,12 @@ void AutomaticLimit::for_each_neighbour(double reach, const Visit& visit) const 
 /// triangles. Returns the 0.4 quantile of this over up to 32 blocks, as a block along a thin part of the
 /// shape also has triangles outside it, which scatter more; 0 where no block has enough triangles.
 template <class ForEach>
-double AutomaticLimit::scatter_in_blocks(const ForEach& for_each_length4) {
+double AutomaticLimit::scatter_in_blocks(std::size_t blocks, const ForEach& for_each_length4) {
   constexpr std::size_t kMostBlocksLookedAt = 32;
   constexpr std::size_t kFewest = 16;  // triangles
   constexpr double kQuantile = 0.4;
   std::vector<double> scatters;
-  for (std::size_t b = 0; b < usual4_.size(); b += (usual4_.size() - 1) / kMostBlocksLookedAt + 1) {
+  for (std::size_t b = 0; b < blocks; b += (blocks - 1) / kMostBlocksLookedAt + 1) {
     scratch_.clear();
     for_each_length4(b, [&](double length4) { scratch_.push_back(length4); });
     const std::size_t count = scratch_.size();
@@ -278,26 +278,27 @@ double AutomaticLimit::excess_scatter(const Mesh& mesh, const Point* vertices,
     const Mesh::Index step = std::max(Mesh::Index{1}, (records.end - records.begin) / kRecords);
     for_some_triangles(mesh, records.begin, records.end, step, visit);
   };
-  const double of_sizes =
-      scatter_in_blocks([&](std::size_t block, const auto& visit) {
-        for_some_of_block(block, [&](Mesh::Index t) { visit(size4_of(mesh, vertices, t)); });
-      }) -
-      constants.even_sizes;
-  if (of_sizes <= 0) return 0;
-  const double of_edges = scatter_in_blocks([&](std::size_t block, const auto& visit) {
-    for_some_of_block(block, [&](Mesh::Index t) {
-      const Triangle triangle(mesh, vertices, t);
-      const double squared = triangle.squared_shortest_edge();
-      visit(squared * squared);
+  const auto scatter = [&](const auto& length4_of) {
+    return scatter_in_blocks(block_ends_.size(), [&](std::size_t block, const auto& visit) {
+      for_some_of_block(block, [&](Mesh::Index t) { visit(length4_of(t)); });
     });
+  };
+  const double of_sizes =
+      scatter([&](Mesh::Index t) { return size4_of(mesh, vertices, t); }) - constants.even_sizes;
+  if (of_sizes <= 0) return 0;
+  const double of_edges = scatter([&](Mesh::Index t) {
+    const double squared = Triangle(mesh, vertices, t).squared_shortest_edge();
+    return squared * squared;
   });
   return std::clamp(of_edges - constants.even_edges, 0.0, of_sizes);
 }
 
 /// The same of the windows of places.
 double AutomaticLimit::excess_scatter_of_places(const AutomaticConstants& constants) {
+  const std::size_t step = windows_.kept_step();
   const auto scatter = [&](const auto& length4_of) {
-    return scatter_in_blocks([&](std::size_t place, const auto& visit) {
+    return scatter_in_blocks((usual4_.size() - 1) / step + 1, [&](std::size_t kept, const auto& visit) {
+      const std::size_t place = kept * step;
       const std::size_t begin = place == 0 ? 0 : windows_.window_ends()[place - 1];
       for (std::size_t i = begin; i < windows_.window_ends()[place]; ++i) {
         visit(length4_of(windows_.triangles()[i]));

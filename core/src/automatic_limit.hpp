@@ -191,7 +191,7 @@ class AutomaticLimit {
                 const AutomaticConstants& constants);
   bool find_places(std::span<const Point> points, ThreadPool& pool, const AutomaticConstants& constants);
   template <class ForEach>
-  double scatter_in_blocks(const ForEach& for_each_length4);
+  double scatter_in_blocks(std::size_t blocks, const ForEach& for_each_length4);
   double excess_scatter(const Mesh& mesh, const Point* vertices, const AutomaticConstants& constants);
   double excess_scatter_of_places(const AutomaticConstants& constants);
   double measure_block(const Mesh& mesh, const Point* vertices, std::uint32_t block, double quantile,

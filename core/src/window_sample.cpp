@@ -5,6 +5,7 @@
 #include <cmath>
 #include <functional>
 #include <limits>
+#include <numeric>
 #include <utility>
 
 #include "filter_rules.hpp"
@@ -102,9 +103,13 @@ bool WindowSample::look(std::span<const Point> points, const Box& box, const Wan
 }
 
 void WindowSample::measure_windows(double quantile, ThreadPool& pool) {
+  const auto begin_of = [&](std::size_t share) { return windows_.size() * share / shares_.size(); };
   pool.for_each(shares_.size(), [&](std::size_t s) {
-    for (std::size_t w = s; w < windows_.size(); w += shares_.size()) {
+    shares_[s].triangles.clear();
+    for (std::size_t w = begin_of(s); w < begin_of(s + 1); ++w) {
+      const std::size_t before = shares_[s].triangles.size();
       measure(windows_[w], quantile, shares_[s]);
+      if (w % kept_step() != 0) shares_[s].triangles.resize(before);
     }
   });
   window_ends_.clear();
@@ -112,9 +117,14 @@ void WindowSample::measure_windows(double quantile, ThreadPool& pool) {
   usual4_.clear();
   std::size_t gathered = 0;
   std::size_t distinct = 0;
-  for (const Window& window : windows_) {
-    triangles_.insert(triangles_.end(), window.triangles.begin(), window.triangles.end());
-    window_ends_.push_back(triangles_.size());
+  for (const Share& share : shares_) {
+    triangles_.insert(triangles_.end(), share.triangles.begin(), share.triangles.end());
+  }
+  std::size_t end = 0;
+  for (std::size_t w = 0; w < windows_.size(); ++w) {
+    const Window& window = windows_[w];
+    if (w % kept_step() == 0) end += window.triangles;
+    window_ends_.push_back(end);
     if (window.usual4) usual4_.push_back(*window.usual4);
     gathered += window.points.size();
     distinct += window.distinct;
@@ -139,7 +149,7 @@ bool WindowSample::look_by_places(std::span<const Point> points, const WantedPla
     const double distinct_share = window.points.empty() ? 1
                                                         : static_cast<double>(window.distinct) /
                                                               static_cast<double>(window.points.size());
-    const bool is_known = window.usual4 && window.triangles.size() >= kFewTrianglesOfPlace;
+    const bool is_known = window.usual4 && window.triangles >= kFewTrianglesOfPlace;
     places_.push_back({is_known ? *window.usual4 : std::numeric_limits<double>::infinity(),
                        distinct_share * static_cast<double>(cells_of_place_[w].points)});
   }
@@ -174,7 +184,7 @@ bool WindowSample::is_wide_rare(std::size_t points, double points_in_circle) con
 /// Whether the number of points in a cell differs from the mean of the eight round it by hardly more than
 /// chance and a usual unevenness explain. Of clusters that are not small beside a cell it differs by more.
 bool WindowSample::is_smooth() const {
-  constexpr double kUneven = 0.12;   // standard deviation of a number as a share of it, as of scan lines
+  constexpr double kUneven = 0.12;    // standard deviation of a number as a share of it, as of scan lines
   constexpr double kMostRough = 1.3;  // what both explain is 1
   std::vector<double> differences;
   for_each_inside_cell([&](const std::uint32_t* own) {
@@ -259,7 +269,6 @@ double WindowSample::place_window_of_each(const WantedPlaces& wanted) {
   for (std::uint32_t w = 0; w < windows_.size(); ++w) {
     const PlaceCells& cells = cells_of_place_[w];
     Window& window = windows_[w];
-    window.points.clear();
     // In cells, from the place's corner on.
     const std::uint32_t side = cells.side;
     const double spacing = 1 / std::sqrt(counts_[cells.typical]);
@@ -371,7 +380,6 @@ void WindowSample::place_windows(std::size_t points, std::size_t windows, double
     const std::uint64_t rank = std::uint64_t{points} * (2 * w + 1) / (2 * windows);
     while (counted <= rank) counted += counts_[++cell];
     Window& window = windows_[w];
-    window.points.clear();
     window.half_side = half_side;
     const std::size_t cell_row = cell / columns_;
     window.centre = {minimum_.x + (static_cast<double>(cell % columns_) + 0.5) / cells_per_length_,
@@ -395,6 +403,7 @@ std::size_t WindowSample::gather(std::span<const Point> points, std::size_t most
   pool.for_each(shares_.size(), [&](std::size_t s) {
     auto& gathered = shares_[s].gathered;
     gathered.clear();
+    gathered.reserve(most / shares_.size());
     const auto gather_block = [&](std::size_t, std::span<const Point> block, const std::uint32_t* cells) {
       for_each_selected(
           0, block.size(), [&](std::size_t i) { return is_reached(cells[i]); },
@@ -410,10 +419,19 @@ std::size_t WindowSample::gather(std::span<const Point> points, std::size_t most
     visit_numbered(share_of(points, s), numbering(), gather_block);
   });
   std::size_t count = 0;
+  for (const Share& share : shares_) count += share.gathered.size();
+  if (count > most) return count;
+  std::vector<std::size_t> ends(windows_.size() + 1);  // of the window before
   for (const Share& share : shares_) {
-    count += share.gathered.size();
-    if (count > most) break;
-    for (const auto& [window, point] : share.gathered) windows_[window].points.push_back(point);
+    for (const auto& [window, point] : share.gathered) ++ends[window + 1];
+  }
+  std::partial_sum(ends.begin(), ends.end(), ends.begin());
+  points_of_windows_.resize(count);
+  for (std::size_t w = 0; w < windows_.size(); ++w) {
+    windows_[w].points = std::span(points_of_windows_).subspan(ends[w], ends[w + 1] - ends[w]);
+  }
+  for (const Share& share : shares_) {
+    for (const auto& [window, point] : share.gathered) points_of_windows_[ends[window]++] = point;
   }
   return count;
 }
@@ -421,12 +439,13 @@ std::size_t WindowSample::gather(std::span<const Point> points, std::size_t most
 /// Finds the window's triangles and their usual size, in an order that depends on the points alone, not on
 /// theirs.
 void WindowSample::measure(Window& window, double quantile, Share& share) {
-  window.triangles.clear();
+  window.triangles = 0;
   window.usual4.reset();
   window.distinct = window.points.size();
   if (window.points.size() < 3) return;
   share.builder.build(window.points, share.this_thread);
   const Mesh& mesh = share.builder.mesh();
+  const std::size_t first = share.triangles.size();
   std::size_t used = 0;  // two records for each point but one that repeats no other
   for (Mesh::Index t = 0; t < mesh.triangle_count(); ++t) {
     used += mesh.is_unused(t) ? 0U : 1U;
@@ -442,14 +461,16 @@ void WindowSample::measure(Window& window, double quantile, Share& share) {
     const double y = std::abs(triangle.a.y + centre.y - window.centre.y);
     if (!(std::max(x, y) <= window.half_inner)) continue;
     const double shortest = triangle.squared_shortest_edge();
-    window.triangles.push_back({triangle.size4(), triangle.twice_area(), squared_length(centre), shortest,
-                                triangle.squared_longest_edge()});
+    share.triangles.push_back({triangle.size4(), triangle.twice_area(), squared_length(centre), shortest,
+                               triangle.squared_longest_edge()});
   }
   window.distinct = used / 2 + 1;
   constexpr std::size_t kFewTriangles = 24;
-  if (window.triangles.size() < kFewTriangles) return;
+  window.triangles = share.triangles.size() - first;
+  if (window.triangles < kFewTriangles) return;
   share.sizes4.clear();
-  for (const Measured& one : window.triangles) share.sizes4.push_back(one.size4);
+  for (std::size_t t = first; t < share.triangles.size(); ++t)
+    share.sizes4.push_back(share.triangles[t].size4);
   window.usual4 = quantile_of(share.sizes4, quantile);
 }
 

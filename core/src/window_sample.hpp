@@ -64,6 +64,9 @@ class WindowSample {
   /// With fewer there are too few places to follow a density.
   static constexpr std::size_t kLeastPointsForPlaces = std::size_t{1} << 18U;
 
+  /// The triangles of about so many windows are kept.
+  static constexpr std::size_t kMostKept = 256;
+
   struct Measured {
     double size4;             ///< fourth power of the triangle's size
     double twice_area;        ///< its doubled area
@@ -110,9 +113,10 @@ class WindowSample {
   void find_places(std::span<const Point> some, std::uint32_t* places) const;
 
   /// After a look: window -> one past its last triangle in triangles(). Some windows may have few triangles,
-  /// or none.
+  /// or none. Of many windows only every kept_step()-th has its triangles there.
   const std::vector<std::size_t>& window_ends() const { return window_ends_; }
   const std::vector<Measured>& triangles() const { return triangles_; }
+  std::size_t kept_step() const { return windows_.size() / kMostKept + 1; }
   /// The fourth powers of the usual sizes of the windows that have enough triangles.
   const std::vector<double>& usual4() const { return usual4_; }
   /// After look(): the width of the margin.
@@ -125,15 +129,16 @@ class WindowSample {
     Point centre;
     double half_side = 0;   ///< with the margin
     double half_inner = 0;  ///< without
-    std::vector<Point> points;
-    std::size_t distinct = 0;  ///< of the points
-    std::vector<Measured> triangles;
+    std::span<const Point> points;
+    std::size_t distinct = 0;   ///< of the points
+    std::size_t triangles = 0;  ///< their number
     std::optional<double> usual4;
   };
   /// The memory of one thread.
   struct Share {
     std::vector<std::uint32_t> counts;                      ///< as counts_, of a part of the points
     std::vector<std::pair<std::uint32_t, Point>> gathered;  ///< window and point
+    std::vector<Measured> triangles;                        ///< of its windows, in order
     DelaunayBuilder builder;
     std::vector<double> sizes4;
     ThreadPool this_thread;
@@ -187,7 +192,8 @@ class WindowSample {
   std::vector<std::uint32_t> place_of_cell_;    ///< cell -> its place, or kNone if it has no points
   std::vector<PlaceCells> cells_of_place_;
   std::vector<Window> windows_;
-  NumberCounts numbers_;  ///< of points in the cells inside the shape
+  std::vector<Point> points_of_windows_;  ///< window by window
+  NumberCounts numbers_;                  ///< of points in the cells inside the shape
   std::deque<Share> shares_;
   std::vector<std::size_t> window_ends_;
   std::vector<Measured> triangles_;
