@@ -593,7 +593,9 @@ bool AutomaticLimit::find_places(std::span<const Point> points, ThreadPool& pool
     return false;
   }
   const std::vector<WindowSample::Place>& places = windows_.places();
-  if (windows_.usual4().size() < places.size() / 2) return false;
+  const auto unknown = std::count_if(places.begin(), places.end(),
+                                     [](const auto& place) { return place.usual4 == kInfinity; });
+  if (2 * static_cast<std::size_t>(unknown) > places.size()) return false;
   const auto flat =
       std::count_if(windows_.triangles().begin(), windows_.triangles().end(),
                     [](const auto& one) { return one.twice_area <= kFlat * one.squared_longest; });
