@@ -248,7 +248,8 @@ void WindowSample::find_borders() {
       const auto add = [&](std::uint32_t row, std::uint32_t column) {
         if (row >= rows_ || column >= columns_) return;  // also to the left of column 0
         const std::uint32_t other = place_of_cell_[row * columns_ + column];
-        if (other != kNone && other != place) borders_.push_back(std::minmax(place, other));
+        if (other != kNone && other != place)
+          borders_.emplace_back(std::min(place, other), std::max(place, other));
       };
       add(r, c + 1);
       add(r + 1, c - 1);
