@@ -591,6 +591,7 @@ TEST(AutomaticLimit, DetailMustBePositiveAndFinite) {
 TEST(LabelledHulls, AreThoseOfEachLabelAlone) {
   const std::vector<Point> points = ring_and_island(3000, 7);
   std::vector<std::int64_t> labels;
+  labels.reserve(points.size());
   for (const Point& p : points) labels.push_back(p.x > 11 ? -5 : p.y > 5 ? 3 : 1);
   for (const unsigned threads : {1U, 3U}) {
     const std::vector<LabelledHull> hulls = concave_hulls(points, labels, {.threads = threads});
