@@ -157,7 +157,7 @@ TEST(WindowSample, HasAPlaceForEveryPoint) {
   const Points points = denser_to_the_right(300'000, 1);
   ASSERT_TRUE(looks_by_places(sample, points, 2));
   std::vector<std::uint32_t> place_of(points.size());
-  sample.find_places(points, place_of.data());
+  sample.places_of(points, place_of.data());
   std::vector<double> count(sample.places().size());
   for (const std::uint32_t place : place_of) {
     ASSERT_LT(place, count.size());

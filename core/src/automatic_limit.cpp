@@ -651,7 +651,7 @@ void AutomaticLimit::choose_found(const DelaunayBuilder& builder, const std::uin
     const Chunks chunks(pool, vertices.size());
     pool.for_each(chunks.size(), [&](std::size_t c) {
       const std::size_t begin = chunks.begin(c);
-      windows_.find_places(vertices.subspan(begin, chunks.end(c) - begin), &field_.block_of_vertex[begin]);
+      windows_.places_of(vertices.subspan(begin, chunks.end(c) - begin), &field_.block_of_vertex[begin]);
     });
   }
   sum_up_areas();

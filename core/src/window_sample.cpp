@@ -298,7 +298,7 @@ double WindowSample::place_window_of_each(const WantedPlaces& wanted) {
   return expected;
 }
 
-void WindowSample::find_places(std::span<const Point> some, std::uint32_t* places) const {
+void WindowSample::places_of(std::span<const Point> some, std::uint32_t* places) const {
   visit_numbered(some, numbering(),
                  [&](std::size_t begin, std::span<const Point> block, const std::uint32_t* cells) {
                    for (std::size_t i = 0; i < block.size(); ++i) {

@@ -110,7 +110,7 @@ class WindowSample {
   /// The pairs of places with points in cells that touch.
   const std::vector<std::pair<std::uint32_t, std::uint32_t>>& borders() const { return borders_; }
   /// Puts the place of each of `some` of the points into `places`, which has room for them.
-  void find_places(std::span<const Point> some, std::uint32_t* places) const;
+  void places_of(std::span<const Point> some, std::uint32_t* places) const;
 
   /// After a look: window -> one past its last triangle in triangles(). Some windows may have few triangles,
   /// or none. Of many windows only every kept_step()-th has its triangles there.
