@@ -207,11 +207,14 @@ TEST(WindowSample, OfPlacesIsNotForFewNorForVeryUnevenPoints) {
   Points points = testing::uniform_points(300'000, 4);
   for (Point& p : points) p.x = std::exp2(6 * p.x);  // 64 : 1
   EXPECT_FALSE(looks_by_places(sample, points)) << "a gradient";
-  points = testing::uniform_points(20'000, 5);
+  const Points centres = testing::uniform_points(60'000, 5);
   testing::Random random(6);
-  while (points.size() < 300'000) {
-    const Point& centre = points[random.below(20'000)];
-    points.push_back({centre.x + random.between(0, 0.001), centre.y + random.between(0, 0.001)});
+  points.clear();
+  for (std::size_t i = 0; i < 1'000'000; ++i) {  // about as far from their centre as points are apart
+    const Point& centre = centres[random.below(centres.size())];
+    const double angle = random.between(0, 6.3);
+    const double away = random.between(0, 0.003);
+    points.push_back({centre.x + away * std::cos(angle), centre.y + away * std::sin(angle)});
   }
   EXPECT_FALSE(looks_by_places(sample, points)) << "clusters";
   EXPECT_FALSE(looks_by_places(sample, testing::circle(300'000, 1))) << "no inside";
