@@ -123,6 +123,116 @@ TEST(Stream, GivesTheShapeOfThePointsInMemory) {
   EXPECT_GT(rings, 36U) << "the shapes have holes";
 }
 
+/// Points in memory as `count` sources, the second of which has no points.
+std::vector<PointSource> sources_of(const Points& points, std::size_t count, std::size_t block) {
+  std::vector<PointSource> sources;
+  const std::size_t with_points = std::max<std::size_t>(count, 2) - 1;
+  for (std::size_t s = 0; s < count; ++s) {
+    const std::size_t begin = s == 0 ? 0 : points.size() * std::max<std::size_t>(s - 1, 1) / with_points;
+    const std::size_t end = points.size() * std::max<std::size_t>(s, 1) / with_points;
+    sources.emplace_back([&points, begin, end, block](const TakePoints& take) {
+      for (std::size_t next = begin; next < end; next += block) {
+        take(std::span(points).subspan(next, std::min(block, end - next)));
+      }
+    });
+  }
+  return sources;
+}
+
+/// `count` points in a square with round holes, `ratio` times as dense at its right side as at its left.
+Points square_with_holes(std::size_t count, double ratio, std::uint64_t seed) {
+  testing::Random random(seed);
+  Points points;
+  while (points.size() < count) {
+    const Point p{random.between(0, 1), random.between(0, 1)};
+    const bool is_in_hole = std::hypot(p.x - 0.4, p.y - 0.5) < 0.1 || std::hypot(p.x - 0.8, p.y - 0.2) < 0.05;
+    if (!is_in_hole && random.between(0, 1) * ratio < 1 + (ratio - 1) * p.x) points.push_back(p);
+  }
+  return points;
+}
+
+void expect_as_in_memory(const StreamedHull& hull, const Points& points, const Options& options) {
+  Extractor extractor;
+  const IndexedMultiPolygon& shape = extractor.extract(points, options);
+  EXPECT_EQ(hull.polygons, to_coordinates(shape, points));
+  EXPECT_TRUE(
+      std::equal(hull.vertices.begin(), hull.vertices.end(), shape.vertices.begin(), shape.vertices.end()));
+  EXPECT_EQ(hull.points, points.size());
+  EXPECT_EQ(hull.chosen_sizes, extractor.chosen_sizes());
+}
+
+TEST(Stream, ChoosesTheSizesThatAreChosenInMemory) {
+  for (std::uint64_t seed = 0; seed < 9; ++seed) {
+    SCOPED_TRACE(seed);
+    const bool by_places = seed % 3 == 2;
+    Points points = square_with_holes(by_places ? 300'000 : 90'000, by_places ? 3 : 1, seed);
+    // Outliers, some triangles of which reach far.
+    if (seed % 3 == 1) points.insert(points.end(), {{0.4, 0.52}, {1.2, 1.1}, {-0.1, 0.3}});
+    if (seed % 4 == 3) points.insert(points.end(), points.begin(), points.begin() + 5000);
+    const Options options{.detail = 0.7 + 0.1 * static_cast<double>(seed % 5),
+                          .threads = 1 + static_cast<unsigned>(seed % 3)};
+    MemorySource source(points, 20'000 + 3'000 * seed);
+    const StreamedHull hull = source.hull(options);
+    expect_as_in_memory(hull, points, options);
+    EXPECT_LT(hull.triangulated_points, points.size() / 2);
+    EXPECT_GE(source.passes(), 6);
+  }
+}
+
+TEST(Stream, ReadsSourcesAtTheSameTime) {
+  const Points points = square_with_holes(300'000, 3, 1);
+  for (const unsigned threads : {1U, 3U}) {
+    for (const std::size_t count : {1U, 2U, 5U}) {
+      SCOPED_TRACE(std::to_string(threads) + " threads, " + std::to_string(count) + " sources");
+      const std::vector<PointSource> sources = sources_of(points, count, 7'777);
+      for (Options options : {Options{}, Options{.alpha = 0.01}}) {
+        options.threads = threads;
+        std::uint64_t told = 0;
+        const StreamedHull hull = concave_hull_of_stream(
+            sources, options,
+            {.progress = [&](const StreamProgress& progress) { told = progress.points; },
+             .reads_at_once = true});
+        expect_as_in_memory(hull, points, options);
+        EXPECT_EQ(told, points.size());
+      }
+    }
+  }
+}
+
+TEST(Stream, SaysWhatIsWrongOfSourcesAtTheSameTime) {
+  Points points = testing::uniform_points(200'000, 4);
+  const std::vector<PointSource> sources = sources_of(points, 5, 7'777);
+  const auto complaint_of = [&](const StreamOptions& stream_options) {
+    return hullbench::testing::complaint_of<std::exception>(
+        [&] { concave_hull_of_stream(sources, {.threads = 2}, stream_options); });
+  };
+  points[154'321].y = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_EQ(complaint_of({.reads_at_once = true}), "point 154321 is not finite");
+  points[154'321].y = 0.5;
+  int pass = 0;
+  const auto change = [&](const StreamProgress& progress) {
+    if (progress.pass != 3 || std::exchange(pass, progress.pass) == 3) return;
+    points[199'999].x = 2;
+  };
+  EXPECT_EQ(complaint_of({.progress = change, .reads_at_once = true}),
+            "the source has other points than when it was read before");
+}
+
+TEST(Stream, NeedsALimitWhereAllTrianglesChooseIt) {
+  // Points in clusters.
+  testing::Random random(1);
+  Points points;
+  while (points.size() < 300'000) {
+    const Point middle{random.between(0, 1), random.between(0, 1)};
+    for (int k = 0; k < 30; ++k) {
+      points.push_back({middle.x + random.between(0, 2e-3), middle.y + random.between(0, 2e-3)});
+    }
+  }
+  MemorySource source(points);
+  EXPECT_THROW(source.hull({}), NeedsAllPoints);
+  EXPECT_NO_THROW(source.hull({.alpha = 0.02}));
+}
+
 void expect_same(const StreamedHull& hull, const StreamedHull& expected) {
   EXPECT_EQ(hull.polygons, expected.polygons);
   EXPECT_EQ(hull.vertices, expected.vertices);
@@ -359,8 +469,8 @@ TEST(Stream, TellsHowFarItHasCome) {
 TEST(Stream, SaysWhatIsWrong) {
   const Points points = testing::uniform_points(70'000, 4);
   MemorySource many(points);
-  EXPECT_EQ(complaint(many, {}),
-            "a stream of more than 65536 points needs a limit: give alpha, max_edge_length or max_perimeter");
+  EXPECT_EQ(hullbench::testing::complaint_of<std::invalid_argument>([&] { many.part({}, {1, 2}); }),
+            "a shard of more than 65536 points needs a limit: give alpha, max_edge_length or max_perimeter");
   EXPECT_EQ(complaint(many, {.alpha = -1}), "alpha must be zero or more");
   Points bad = points;
   bad[54'321].y = std::numeric_limits<double>::quiet_NaN();

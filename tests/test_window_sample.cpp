@@ -22,7 +22,7 @@ constexpr WindowSample::Wanted kWanted{.most_spread = 0.12, .margin = 2.8, .quan
 bool looks(WindowSample& sample, const Points& points, unsigned threads = 1) {
   ThreadPool pool;
   pool.use(threads);
-  return sample.look(points, bounding_box(points), kWanted, pool);
+  return sample.look(passes_over(points, pool), bounding_box(points), kWanted, pool);
 }
 
 // Doubled areas of all triangles of the whole triangulation, ascending.
@@ -137,8 +137,9 @@ bool looks_by_places(WindowSample& sample, const Points& points, unsigned thread
   ThreadPool pool;
   pool.use(threads);
   constexpr WindowSample::Wanted kEven{.most_spread = 0.03, .margin = 2.8, .quantile = 0.6};
-  return !sample.look(points, bounding_box(points), kEven, pool) &&
-         sample.look_by_places(points, kWantedPlaces, pool);
+  const PointPasses passes = passes_over(points, pool);
+  return !sample.look(passes, bounding_box(points), kEven, pool) &&
+         sample.look_by_places(passes, kWantedPlaces, pool);
 }
 
 /// Points of the unit square, three times as dense at its right side as at its left.

@@ -68,7 +68,7 @@ double least_wide_square(double points, double wide, double density) {
 
 /// A window's margin, in spacings. It takes in the circles of wide triangles, if the window's usual size is
 /// that of uniform points or smaller, and a little more, as chance alone makes them differ.
-double margin_of(std::size_t points) {
+double margin_of(std::uint64_t points) {
   constexpr double kRoom = 1.1;
   return kRoom * std::sqrt(least_wide_square(static_cast<double>(points), AutomaticConstants::kWide, 1));
 }
@@ -476,7 +476,7 @@ void AutomaticLimit::choose(const DelaunayBuilder& builder, double detail, Threa
                             const AutomaticConstants& constants) {
   const std::span<const Point> vertices(builder.vertices(), builder.vertex_count());
   if (vertices.size() < WindowSample::kLeastPoints ||
-      look(vertices, bounding_box(vertices), pool, constants) == SizesBy::kBlocks) {
+      look(passes_over(vertices, pool), bounding_box(vertices), pool, constants) == SizesBy::kBlocks) {
     choose_by_blocks(builder, detail, pool, constants);
   } else {
     choose_found(builder, nullptr, detail, pool, constants);
@@ -549,7 +549,7 @@ void AutomaticLimit::look_for_outlines(const Mesh& mesh, const Point* vertices, 
       OutlineSteps{squared_step, squared_step * std::max(1.0, 1 / (detail * detail)), twice_area};
 }
 
-SizesBy AutomaticLimit::look(std::span<const Point> points, const Box& box, ThreadPool& pool,
+SizesBy AutomaticLimit::look(const PointPasses& points, const Box& box, ThreadPool& pool,
                              const AutomaticConstants& constants) {
   found_ = SizesBy::kOne;
   if (find_one(points, box, pool, constants)) return found_;
@@ -558,9 +558,9 @@ SizesBy AutomaticLimit::look(std::span<const Point> points, const Box& box, Thre
   return found_ = SizesBy::kBlocks;
 }
 
-bool AutomaticLimit::find_one(std::span<const Point> points, const Box& box, ThreadPool& pool,
+bool AutomaticLimit::find_one(const PointPasses& points, const Box& box, ThreadPool& pool,
                               const AutomaticConstants& constants) {
-  if (!windows_.look(points, box, {constants.noise, margin_of(points.size()), constants.quantile}, pool)) {
+  if (!windows_.look(points, box, {constants.noise, margin_of(points.points), constants.quantile}, pool)) {
     return false;
   }
   if (windows_.usual4().size() < windows_.window_ends().size() / 2) return false;
@@ -571,7 +571,7 @@ bool AutomaticLimit::find_one(std::span<const Point> points, const Box& box, Thr
   const double of_windows = 0.97 * std::cbrt(static_cast<double>(WindowSample::kMostWindows) /
                                              static_cast<double>(windows_.window_ends().size()));
   if (!(robust_deviation(logs, median) <= of_windows * constants.noise)) return false;
-  points_ = windows_.distinct_share() * static_cast<double>(points.size());
+  points_ = windows_.distinct_share() * static_cast<double>(points.points);
   wide_radius_ =
       std::exp(median) * std::sqrt(least_wide_square(points_, AutomaticConstants::kWide, kPointsPerSquare));
   if (!(wide_radius_ <= windows_.margin())) return false;
@@ -586,10 +586,10 @@ bool AutomaticLimit::find_one(std::span<const Point> points, const Box& box, Thr
   return !samples_.empty();
 }
 
-bool AutomaticLimit::find_places(std::span<const Point> points, ThreadPool& pool,
+bool AutomaticLimit::find_places(const PointPasses& points, ThreadPool& pool,
                                  const AutomaticConstants& constants) {
-  const double in_circle = std::log(static_cast<double>(points.size())) + AutomaticConstants::kWide;
-  if (!windows_.look_by_places(points, {margin_of(points.size()), constants.quantile, in_circle}, pool)) {
+  const double in_circle = std::log(static_cast<double>(points.points)) + AutomaticConstants::kWide;
+  if (!windows_.look_by_places(points, {margin_of(points.points), constants.quantile, in_circle}, pool)) {
     return false;
   }
   const std::vector<WindowSample::Place>& places = windows_.places();

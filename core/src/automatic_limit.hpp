@@ -11,6 +11,7 @@
 
 #include "delaunay_builder.hpp"
 #include "half_edge.hpp"
+#include "point_passes.hpp"
 #include "polylidar/concave_hull.hpp"
 #include "scratch.hpp"
 #include "size_field.hpp"
@@ -117,8 +118,8 @@ class AutomaticLimit {
 
   /// Looks in windows for the usual sizes. One is enough if the density varies by no more than chance
   /// explains. If it varies by a few times and there are many points, places have their own. Blocks remain
-  /// for all else. `box` is that of `points`, whose order does not matter. O(n).
-  SizesBy look(std::span<const Point> points, const Box& box, ThreadPool& pool,
+  /// for all else. `box` is that of the points, whose order does not matter. O(n), up to three passes.
+  SizesBy look(const PointPasses& points, const Box& box, ThreadPool& pool,
                const AutomaticConstants& constants = {});
   /// After look() found sizes without the triangulation, as the next: the circumradius from which a triangle
   /// is wide. choose_found() and the field need only wide triangles and those that a field drops.
@@ -187,9 +188,9 @@ class AutomaticLimit {
   void measure_blocks(const Mesh& mesh, const Point* vertices, ThreadPool& pool,
                       const AutomaticConstants& constants);
   Records records_of(const Mesh& mesh, std::size_t block) const;
-  bool find_one(std::span<const Point> points, const Box& box, ThreadPool& pool,
+  bool find_one(const PointPasses& points, const Box& box, ThreadPool& pool,
                 const AutomaticConstants& constants);
-  bool find_places(std::span<const Point> points, ThreadPool& pool, const AutomaticConstants& constants);
+  bool find_places(const PointPasses& points, ThreadPool& pool, const AutomaticConstants& constants);
   template <class ForEach>
   double scatter_in_blocks(std::size_t blocks, const ForEach& for_each_length4);
   double excess_scatter(const Mesh& mesh, const Point* vertices, const AutomaticConstants& constants);

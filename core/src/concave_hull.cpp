@@ -93,7 +93,7 @@ bool Extractor::State::extract_part(std::span<const Point> given, const detail::
     if (given.size() < detail::WindowSample::kLeastPoints) statistics.way = Way::kFewPoints;
     if (range.scale_exponent != 0) statistics.way = Way::kExtremeCoordinates;
     if (statistics.way != Way::kWhole) return false;
-    sizes_by = automatic_limit.look(given, range.box, pool);
+    sizes_by = automatic_limit.look(detail::passes_over(given, pool), range.box, pool);
     if (sizes_by == detail::SizesBy::kBlocks) return false;
     const double how_fine = given_options.detail;
     const double radius = automatic_limit.wide_radius() / std::max(how_fine, 1.0);

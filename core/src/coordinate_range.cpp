@@ -147,29 +147,49 @@ double common_unit(std::span<const Point> points, double too_small) {
   return unit;
 }
 
-/// Throws std::invalid_argument when a coordinate is not finite; `first` is the number of the first point.
-Magnitudes measure_all(std::span<const Point> points, ThreadPool& pool, std::uint64_t first, Kernel kernel) {
+/// The place of the first one.
+std::size_t find_not_finite(std::span<const Point> points) {
+  const auto bad = std::find_if(points.begin(), points.end(),
+                                [](const Point& p) { return !std::isfinite(p.x) || !std::isfinite(p.y); });
+  return static_cast<std::size_t>(bad - points.begin());
+}
+
+/// Throws std::invalid_argument when a coordinate is not finite.
+Magnitudes measure_all(std::span<const Point> points, ThreadPool& pool, Kernel kernel) {
   Magnitudes magnitudes;
   const auto measure_part = [kernel](std::span<const Point> part) { return measure(part, kernel); };
   for (const Magnitudes& part : of_each_chunk(points, pool, measure_part)) magnitudes.add(part);
   if (!std::isnan(magnitudes.poison)) return magnitudes;
-  const auto bad = std::find_if(points.begin(), points.end(),
-                                [](const Point& p) { return !std::isfinite(p.x) || !std::isfinite(p.y); });
-  throw std::invalid_argument(
-      "point " + std::to_string(first + static_cast<std::uint64_t>(bad - points.begin())) + " is not finite");
+  throw std::invalid_argument("point " + std::to_string(find_not_finite(points)) + " is not finite");
 }
 
 }  // namespace
 
-Box RangeOfBlocks::add(std::span<const Point> block, ThreadPool& pool) {
-  Magnitudes all = measure_all(block, pool, count_, best_kernel());
-  const Box of_block = all.box;
-  all.add({box_, largest_, smallest_, 0});
-  box_ = all.box;
-  largest_ = all.largest;
-  smallest_ = all.smallest;
-  count_ += block.size();
-  return of_block;
+void RangeOfBlocks::add(std::span<const Point> block) {
+  const Magnitudes magnitudes = measure(block, best_kernel());
+  RangeOfBlocks own;
+  own.box_ = magnitudes.box;
+  own.largest_ = magnitudes.largest;
+  own.smallest_ = magnitudes.smallest;
+  own.count_ = block.size();
+  if (std::isnan(magnitudes.poison)) own.not_finite_ = find_not_finite(block);
+  add(own);
+}
+
+void RangeOfBlocks::add(const RangeOfBlocks& more) {
+  box_ = {{std::min(box_.min.x, more.box_.min.x), std::min(box_.min.y, more.box_.min.y)},
+          {std::max(box_.max.x, more.box_.max.x), std::max(box_.max.y, more.box_.max.y)}};
+  largest_ = std::max(largest_, more.largest_);
+  smallest_ = std::min(smallest_, more.smallest_);
+  if (!not_finite_ && more.not_finite_) not_finite_ = count_ + *more.not_finite_;
+  count_ += more.count_;
+}
+
+bool are_within(std::span<const Point> points, const Box& box, Kernel kernel) {
+  const Magnitudes magnitudes = measure(points, kernel);
+  const Box& own = magnitudes.box;
+  return !std::isnan(magnitudes.poison) && own.min.x >= box.min.x && own.min.y >= box.min.y &&
+         own.max.x <= box.max.x && own.max.y <= box.max.y;
 }
 
 CoordinateRange RangeOfBlocks::range() const {
@@ -177,7 +197,7 @@ CoordinateRange RangeOfBlocks::range() const {
 }
 
 CoordinateRange measure_coordinates(std::span<const Point> points, ThreadPool& pool, Kernel kernel) {
-  const Magnitudes magnitudes = measure_all(points, pool, 0, kernel);
+  const Magnitudes magnitudes = measure_all(points, pool, kernel);
   CoordinateRange range;
   range.box = magnitudes.box;
   range.scale_exponent = choose_scale(magnitudes);

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <limits>
+#include <optional>
 #include <span>
 
 #include "kernels.hpp"
@@ -29,13 +30,15 @@ CoordinateRange measure_coordinates(std::span<const Point> points, ThreadPool& p
 /// Measures points that come block by block; `unit` is not set.
 class RangeOfBlocks {
  public:
-  /// Returns the box of the block. Throws std::invalid_argument when a coordinate is not finite; counts the
-  /// points from the first block on.
-  Box add(std::span<const Point> block, ThreadPool& pool);
+  void add(std::span<const Point> block);
+  /// The points of `more` follow.
+  void add(const RangeOfBlocks& more);
   std::uint64_t count() const { return count_; }
-  /// As bounding_box().
+  /// As bounding_box(), of the finite points.
   const Box& box() const { return box_; }
-  /// Needs at least one point. Throws as measure_coordinates.
+  /// The number of the first point that is not finite, from 0.
+  const std::optional<std::uint64_t>& not_finite() const { return not_finite_; }
+  /// Needs at least one point, and only finite ones. Throws as measure_coordinates.
   CoordinateRange range() const;
 
  private:
@@ -43,8 +46,12 @@ class RangeOfBlocks {
   double largest_ = 0;
   double smallest_ = kNone;
   std::uint64_t count_ = 0;
+  std::optional<std::uint64_t> not_finite_;
 
   static constexpr double kNone = std::numeric_limits<double>::infinity();
 };
+
+/// Whether all points are finite and in the box.
+bool are_within(std::span<const Point> points, const Box& box, Kernel kernel = best_kernel());
 
 }  // namespace polylidar::detail

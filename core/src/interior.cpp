@@ -164,6 +164,10 @@ void mark_reach(const Grid& grid, Grid::Cell cell, Bitmap& reached) {
   mark(grid, cell, kHalfWidths, reached);
 }
 
+void mark_farther_reach(const Grid& grid, Grid::Cell cell, Bitmap& reached) {
+  mark(grid, cell, kFartherHalfWidths, reached);
+}
+
 double least_dropped_radius(const Limits& limits) {
   constexpr double kPerimeterOfRadius = 5.196152422706632;  // 3 sqrt(3)
   return std::min({limits.alpha, limits.max_edge_length / 2, limits.max_perimeter / kPerimeterOfRadius});
@@ -351,8 +355,7 @@ void InteriorPart::find_uncertain_points(std::span<const Point> points, ThreadPo
 }
 
 void InteriorPart::reach_farther(std::span<const Point> points, ThreadPool& pool) {
-  for (const std::uint32_t point : uncertain_)
-    mark(grid_, cells_.data()[point], kFartherHalfWidths, reached());
+  for (const std::uint32_t point : uncertain_) mark_farther_reach(grid_, cells_.data()[point], reached());
   gather(points, pool);
 }
 
@@ -402,7 +405,8 @@ void InteriorPart::gather(std::span<const Point> points, ThreadPool& pool) {
   });
 }
 
-bool InteriorPart::is_surely_whole(const Triangle& triangle) const {
+bool is_surely_whole(const Triangle& triangle, const Grid& grid, const Bitmap& occupied,
+                     const Bitmap& reached) {
   const Vector b = triangle.b - triangle.a;
   const Vector c = triangle.c - triangle.a;
   const double squared_b = squared_length(b);
@@ -414,13 +418,13 @@ bool InteriorPart::is_surely_whole(const Triangle& triangle) const {
   if (!(twice_cross >= kLeastCross * longest)) return false;
   const Vector centre{(c.y * squared_b - b.y * squared_c) / twice_cross,
                       (b.x * squared_c - c.x * squared_b) / twice_cross};
-  const double radius = std::sqrt(squared_length(centre)) * grid_.cells_per_length();
+  const double radius = std::sqrt(squared_length(centre)) * grid.cells_per_length();
   if (!(radius < kRadius)) return false;
   constexpr double kSlack = 0x1p-6;  // of a cell, for all rounding
   constexpr double kMargin = Grid::kMargin;
   // From the margin's corner on, so that all is positive.
-  const double x = grid_.column(triangle.a) + centre.x * grid_.cells_per_length() + kMargin;
-  const double y = grid_.row(triangle.a) + centre.y * grid_.cells_per_length() + kMargin;
+  const double x = grid.column(triangle.a) + centre.x * grid.cells_per_length() + kMargin;
+  const double y = grid.row(triangle.a) + centre.y * grid.cells_per_length() + kMargin;
   const auto left = static_cast<Grid::Cell>(x - radius - kSlack);
   const auto width = static_cast<Grid::Cell>(x + radius + kSlack) - left + 1;
   const auto bottom = static_cast<Grid::Cell>(y - radius - kSlack);
@@ -428,8 +432,8 @@ bool InteriorPart::is_surely_whole(const Triangle& triangle) const {
   const Bitmap::Word columns = (Bitmap::Word{1} << width) - 1;
   for (Grid::Cell row = bottom; row <= top; ++row) {
     const Grid::Cell first =
-        row * grid_.row_words() * Grid::kWordBits + Grid::kWordBits + left - Grid::kMargin;
-    if ((occupied().window(first) & ~reached().window(first) & columns) != 0) return false;
+        row * grid.row_words() * Grid::kWordBits + Grid::kWordBits + left - Grid::kMargin;
+    if ((occupied.window(first) & ~reached.window(first) & columns) != 0) return false;
   }
   return true;
 }

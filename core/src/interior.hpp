@@ -57,6 +57,13 @@ inline constexpr double kWidestInSpacings = 2.5;
 inline constexpr Grid::Cell kReachedRows = 2 * kRadius + 1;
 /// Marks the cells that may hold a point within 2 r of one in `cell`.
 void mark_reach(const Grid& grid, Grid::Cell cell, Bitmap& reached);
+/// The same for 2.7 r.
+void mark_farther_reach(const Grid& grid, Grid::Cell cell, Bitmap& reached);
+
+/// Whether a triangle of a part certainly belongs to the triangulation of all points, whatever its corners:
+/// all occupied cells of the box of its circumcircle are among those whose points are in the part.
+bool is_surely_whole(const Triangle& triangle, const Grid& grid, const Bitmap& occupied,
+                     const Bitmap& reached);
 
 /// Finds the points that decide the shape, and keeps its memory between calls.
 ///
@@ -75,9 +82,10 @@ class InteriorPart {
   /// After choose: enlarges the part to points up to 2.7 r from uncertain ones.
   void reach_farther(std::span<const Point> points, ThreadPool& pool);
 
-  /// After choose: whether a triangle of the part certainly belongs to the triangulation of all points,
-  /// whatever its corners. It does if all points in the box of its circumcircle are in the part.
-  bool is_surely_whole(const Triangle& triangle) const;
+  /// After choose: detail::is_surely_whole() of this part.
+  bool is_surely_whole(const Triangle& triangle) const {
+    return detail::is_surely_whole(triangle, grid_, occupied(), reached());
+  }
 
   /// After choose: the part, in the order of the caller's points, with all copies of a point.
   std::span<const Point> points() const { return points_; }

@@ -107,40 +107,8 @@ StreamedHull extract_in_memory(const StreamShard& all, unsigned threads) {
   hull.polygons = to_coordinates(shape, all.points);
   hull.vertices.assign(shape.vertices.begin(), shape.vertices.end());
   hull.triangulated_points = extractor.statistics().triangulated_points;
-  return hull;
-}
-
-StreamedHull extract_from_part(const StreamShard& all, unsigned threads) {
-  const std::size_t count = all.points.size();
-  if (count > kMaxPoints) throw detail::too_much_outline();
-  const Limits limits = detail::checked_limits(all.options);
-  detail::ThreadPool pool;
-  pool.use(threads);
-  detail::RangeOfBlocks range_of_blocks;
-  range_of_blocks.add(all.points, pool);
-  // The corners of the convex hull are uncertain, so that the part reaches as far as all points.
-  if (range_of_blocks.box() != all.box) throw do_not_fit();
-  const detail::CoordinateRange range = range_of_blocks.range();
-  if (range.scale_exponent != 0) throw do_not_fit();
-  detail::DelaunayBuilder builder;
-  builder.build(all.points, range, pool);
-  std::vector<std::uint8_t> is_tested(count);
-  for (std::size_t v = 0; v < count; ++v) is_tested[v] = all.uncertain[builder.caller_index()[v]];
-  detail::RegionFilter filter;
-  std::vector<detail::Mesh::Index> boundary;
-  if (filter.run_on_part(builder.mesh(), builder.vertices(), is_tested.data(), detail::filter_rules(limits),
-                         all.options.fill_single_triangles.value_or(false), pool, boundary)) {
-    throw std::invalid_argument(
-        "the rounding of a triangle's size decides whether it is kept: make the limit a little larger or "
-        "smaller");
-  }
-  detail::BoundaryTracer tracer;
-  IndexedMultiPolygon shape;
-  tracer.trace(builder.mesh(), builder.vertices(), count, builder.caller_index(), boundary, shape);
-  StreamedHull hull;
-  hull.polygons = to_coordinates(shape, all.points);
-  for (const std::uint32_t vertex : shape.vertices) hull.vertices.push_back(all.numbers[vertex]);
-  hull.triangulated_points = count;
+  hull.chosen_sizes = extractor.chosen_sizes();
+  hull.by_outlines = extractor.statistics().by_outlines;
   return hull;
 }
 
@@ -154,17 +122,71 @@ void check_numbers(const StreamShard& all) {
 
 StreamedHull hull_of_part(const StreamShard& all, unsigned threads) {
   check_numbers(all);
+  if (std::optional<StreamedHull> hull = detail::hull_without_part(all, threads)) return std::move(*hull);
+  const Limits limits = detail::checked_limits(all.options);
+  detail::ThreadPool pool;
+  pool.use(threads);
+  detail::PartHull part(all, pool);
+  if (part.filter(detail::filter_rules(limits), all.options.fill_single_triangles.value_or(false))) {
+    throw detail::rounding_decides();
+  }
+  return part.trace();
+}
+
+}  // namespace
+
+namespace detail {
+
+PartHull::PartHull(const StreamShard& part, ThreadPool& pool) : part_(part), pool_(pool) {
+  const std::size_t count = part.points.size();
+  if (count > kMaxPoints) throw too_much_outline();
+  RangeOfBlocks blocks;
+  blocks.add(part.points);
+  // The corners of the convex hull are uncertain, so that the part reaches as far as all points.
+  if (blocks.not_finite() || blocks.box() != part.box) throw do_not_fit();
+  const CoordinateRange range = blocks.range();
+  if (range.scale_exponent != 0) throw do_not_fit();
+  builder_.build(part.points, range, pool);
+  is_tested_.resize(count);
+  for (std::size_t v = 0; v < count; ++v) is_tested_[v] = part.uncertain[builder_.caller_index()[v]];
+}
+
+std::optional<Way> PartHull::filter(const FilterRules& rules, bool fill_single) {
+  return filter_.run_on_part(builder_.mesh(), builder_.vertices(), is_tested(), rules, fill_single, pool_,
+                             boundary_);
+}
+
+std::optional<Way> PartHull::filter(const SizeField& field, const SizeFilter::IsSure& is_sure,
+                                    bool fill_single) {
+  return filter_.run_on_part(builder_.mesh(), builder_.vertices(), is_tested(), field, is_sure, fill_single,
+                             pool_, boundary_);
+}
+
+StreamedHull PartHull::trace() {
+  BoundaryTracer tracer;
+  IndexedMultiPolygon shape;
+  tracer.trace(builder_.mesh(), builder_.vertices(), part_.points.size(), builder_.caller_index(), boundary_,
+               shape);
   StreamedHull hull;
-  if (all.source_points <= detail::kFewPoints) {
+  hull.polygons = to_coordinates(shape, part_.points);
+  for (const std::uint32_t vertex : shape.vertices) hull.vertices.push_back(part_.numbers[vertex]);
+  hull.points = part_.source_points;
+  hull.triangulated_points = part_.points.size();
+  return hull;
+}
+
+std::optional<StreamedHull> hull_without_part(const StreamShard& all, unsigned threads) {
+  StreamedHull hull;
+  if (all.source_points <= kFewPoints) {
     hull = extract_in_memory(all, threads);
-  } else if (!detail::is_flat(all.box)) {
-    hull = extract_from_part(all, threads);
+  } else if (!is_flat(all.box)) {
+    return {};
   }
   hull.points = all.source_points;
   return hull;
 }
 
-}  // namespace
+}  // namespace detail
 
 StreamedHull concave_hull_of_shards(std::span<const StreamShard> shards, unsigned threads) {
   detail::check_threads(threads);

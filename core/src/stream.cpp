@@ -4,6 +4,8 @@
 #include <atomic>
 #include <bit>
 #include <cmath>
+#include <deque>
+#include <mutex>
 #include <numeric>
 #include <optional>
 #include <stdexcept>
@@ -11,10 +13,12 @@
 #include <utility>
 #include <vector>
 
+#include "automatic_limit.hpp"
 #include "certificate.hpp"
 #include "coordinate_range.hpp"
 #include "interior.hpp"
 #include "options_check.hpp"
+#include "point_passes.hpp"
 #include "shards.hpp"
 
 namespace polylidar {
@@ -26,6 +30,10 @@ using detail::kFewPoints;
 
 std::runtime_error has_changed() {
   return std::runtime_error("the source has other points than when it was read before");
+}
+
+std::invalid_argument not_finite(std::uint64_t number) {
+  return std::invalid_argument("point " + std::to_string(number) + " is not finite");
 }
 
 /// Rows from `begin` on, before `end`.
@@ -64,25 +72,31 @@ Grid::Cell most_rows(const Shard& shard, Grid::Cell rows) {
 }
 
 /// The same whatever blocks the points come in.
-std::uint64_t checksum(std::span<const Point> block, std::uint64_t first, detail::ThreadPool& pool) {
-  const detail::Chunks chunks(pool, block.size());
-  std::vector<std::uint64_t> sums(chunks.size());
-  pool.for_each(chunks.size(), [&](std::size_t c) {
-    std::uint64_t sum = 0;
-    for (std::size_t i = chunks.begin(c); i < chunks.end(c); ++i) {
-      // Odd numbers with many bits, and shifts between the products, as in splitmix64.
-      std::uint64_t mixed = std::bit_cast<std::uint64_t>(block[i].x) + (first + i) * 0x9E3779B97F4A7C15U;
-      mixed = (mixed ^ mixed >> 30U) * 0xBF58476D1CE4E5B9U;
-      mixed += std::bit_cast<std::uint64_t>(block[i].y);
-      mixed = (mixed ^ mixed >> 27U) * 0x94D049BB133111EBU;
-      sum += mixed ^ mixed >> 31U;
-    }
-    sums[c] = sum;
-  });
-  return std::accumulate(sums.begin(), sums.end(), std::uint64_t{0});
+std::uint64_t checksum(std::span<const Point> block, std::uint64_t first) {
+  std::uint64_t sum = 0;
+  for (std::size_t i = 0; i < block.size(); ++i) {
+    // Odd numbers with many bits, and shifts between the products, as in splitmix64.
+    std::uint64_t mixed = std::bit_cast<std::uint64_t>(block[i].x) + (first + i) * 0x9E3779B97F4A7C15U;
+    mixed = (mixed ^ mixed >> 30U) * 0xBF58476D1CE4E5B9U;
+    mixed += std::bit_cast<std::uint64_t>(block[i].y);
+    mixed = (mixed ^ mixed >> 27U) * 0x94D049BB133111EBU;
+    sum += mixed ^ mixed >> 31U;
+  }
+  return sum;
 }
 
+/// A block, or a part of one, on its way through a pass.
+struct Block {
+  std::size_t source;
+  std::uint64_t first;  ///< number of its first point among all; among those of its source in the first pass
+  std::span<const Point> points;
+};
+
 /// The passes over the sources.
+///
+/// Points come in *slots*. If sources are read one after the other, the threads share each block, and its
+/// parts are the slots. If they are read at the same time, each source is a slot. What is found in a slot is
+/// kept apart, and put behind that of the slots before.
 class Stream {
  public:
   Stream(std::span<const PointSource> sources, const Options& options, const Shard& shard,
@@ -97,124 +111,207 @@ class Stream {
   }
 
   StreamShard find_part();
+  StreamedHull find_hull();
 
  private:
-  /// What the first pass finds of a source.
-  struct Extent {
-    std::uint64_t points = 0;
-    Box box;
+  /// An uncertain point of the slot that it is found in.
+  struct Uncertain {
+    std::uint64_t number;
+    Grid::Cell cell;
+    bool is_own;
+  };
+  struct Slot {
+    std::size_t number = 0;
+    detail::RangeOfBlocks range;
+    std::uint64_t checksum = 0;
+    std::size_t source = 0;
+    Bitmap occupied;
+    std::vector<Uncertain> uncertain;
+    std::vector<std::pair<std::uint64_t, Point>> gathered;
+  };
+  /// What is done with the blocks of a pass: which sources are read, what is done with a block, by any
+  /// thread, and with the first `slots` slots after that.
+  struct Pass {
+    std::function<bool(std::size_t source)> is_read;
+    std::function<void(Slot& slot, const Block& block)> take;
+    std::function<void(std::size_t slots)> end;
   };
 
-  void begin_pass();
+  bool are_read_at_once() const {
+    return stream_options_.reads_at_once && pool_.threads() > 1 && sources_.size() > 1;
+  }
+  std::size_t most_slots() const;
+  void run(const Pass& pass);
+  void read_at_once(const Pass& pass);
+  void read_in_order(const Pass& pass);
+  void tell(std::size_t points);
   template <class Visit>
-  void read(const PointSource& source, const Visit& visit);
-  template <class Visit>
-  void pass_over_cells(const Rows& rows, const Visit& visit);
-  detail::RangeOfBlocks find_extents();
-  void choose_grid();
+  void run_over_cells(const Rows& rows, const Visit& visit, const std::function<void(std::size_t)>& end);
+
+  void find_extents(bool is_for_others);
+  bool is_small_or_flat();
+  double choose_sizes();
+  void choose_grid(double widest);
+  void find_occupied_cells();
   void find_uncertain_cells();
   void find_uncertain_points();
   void gather();
+  void find_points();
   void take_all();
+  std::optional<StreamedHull> hull_by_sizes();
 
   std::span<const PointSource> sources_;
   const StreamOptions& stream_options_;
   Limits limits_;
   detail::ThreadPool pool_;
+  std::mutex mutex_;  ///< of the next
   StreamProgress progress_;
-  std::vector<Extent> extents_;  ///< one a source
-  Rows own_;                     ///< the shard's band
-  Rows tested_;                  ///< in which uncertain points are looked for
-  Rows seen_;                    ///< in which cells are marked as occupied
-  Grid grid_;                    ///< the rows seen_ of the grid over the box
-  std::optional<Bitmap> occupied_;
-  std::optional<Bitmap> marked_;          ///< uncertain cells, then those within reach of uncertain points
+  std::vector<detail::RangeOfBlocks> extents_;  ///< one a source
+  std::vector<std::uint64_t> firsts_;           ///< source -> the number of its first point
+  detail::CoordinateRange range_;               ///< of all
+  Rows own_;                                    ///< the shard's band
+  Rows tested_;                                 ///< in which uncertain points are looked for
+  Rows seen_;                                   ///< in which cells are marked as occupied
+  Grid grid_;                                   ///< the rows seen_ of the grid over the box
+  std::deque<Slot> slots_;
+  Bitmap occupied_;
+  Bitmap marked_;                         ///< uncertain cells, then those within reach of uncertain points
+  std::vector<Grid::Cell> reaching_;      ///< cells with uncertain points
   std::vector<std::uint64_t> uncertain_;  ///< of the shard's own band, ascending
   StreamShard part_;
+  detail::AutomaticLimit automatic_limit_;
 };
 
-void Stream::begin_pass() {
+std::size_t Stream::most_slots() const {
+  if (are_read_at_once()) return sources_.size();
+  return detail::Chunks(pool_, kMaxPoints).size();
+}
+
+void Stream::tell(std::size_t points) {
+  const std::lock_guard lock(mutex_);
+  progress_.points += points;
+  if (stream_options_.progress) stream_options_.progress(progress_);
+}
+
+void Stream::run(const Pass& pass) {
   ++progress_.pass;
   progress_.points = 0;
+  while (slots_.size() < most_slots()) {
+    const std::size_t number = slots_.size();
+    slots_.emplace_back().number = number;
+  }
+  if (are_read_at_once()) {
+    read_at_once(pass);
+  } else {
+    read_in_order(pass);
+  }
 }
 
-/// visit(block, number of its first point) for each block.
-template <class Visit>
-void Stream::read(const PointSource& source, const Visit& visit) {
-  source([&](std::span<const Point> block) {
-    visit(block, progress_.points);
-    progress_.points += block.size();
-    if (stream_options_.progress) stream_options_.progress(progress_);
+void Stream::read_at_once(const Pass& pass) {
+  pool_.for_each(sources_.size(), [&](std::size_t s) {
+    if (!pass.is_read(s)) return;
+    std::uint64_t number = firsts_[s];
+    sources_[s]([&](std::span<const Point> block) {
+      pass.take(slots_[s], {s, number, block});
+      number += block.size();
+      tell(block.size());
+    });
+    if (!extents_.empty() && number != firsts_[s] + extents_[s].count()) throw has_changed();
   });
+  pass.end(sources_.size());
 }
 
-/// The first pass.
-detail::RangeOfBlocks Stream::find_extents() {
-  begin_pass();
-  detail::RangeOfBlocks range;
-  for (const PointSource& source : sources_) {
-    Extent& extent = extents_.emplace_back(Extent{0, bounding_box({})});
-    read(source, [&](std::span<const Point> block, std::uint64_t first) {
-      const Box box = range.add(block, pool_);
-      extent.points += block.size();
-      extent.box = {{std::min(extent.box.min.x, box.min.x), std::min(extent.box.min.y, box.min.y)},
-                    {std::max(extent.box.max.x, box.max.x), std::max(extent.box.max.y, box.max.y)}};
-      part_.source_checksum += checksum(block, first, pool_);
-    });
-  }
-  part_.source_points = range.count();
-  part_.box = range.box();
-  return range;
-}
-
-/// A later pass: visit(point, cell, number, chunk) on all threads for the points in these rows, which are
-/// among seen_; chunks are those of the block, in its order. Sources without such points are not read.
-template <class Visit>
-void Stream::pass_over_cells(const Rows& rows, const Visit& visit) {
-  begin_pass();
-  const auto look_at = [&](std::span<const Point> block, std::uint64_t first, const Box& box) {
-    std::atomic<bool> is_same = true;
-    const detail::Chunks chunks(pool_, block.size());
-    visit.begin(chunks.size());
-    pool_.for_each(chunks.size(), [&](std::size_t c) {
-      for (std::size_t i = chunks.begin(c); i < chunks.end(c); ++i) {
-        const Point& p = block[i];
-        if (!(p.x >= box.min.x && p.x <= box.max.x && p.y >= box.min.y && p.y <= box.max.y)) {
-          is_same = false;
-          return;
-        }
-        if (rows.has(grid_.row_number(p))) visit.point(p, grid_.cell(p), first + i, c);
-      }
-    });
-    if (!is_same) throw has_changed();
-    visit.end();
-  };
+void Stream::read_in_order(const Pass& pass) {
   for (std::size_t s = 0; s < sources_.size(); ++s) {
-    const Box& box = extents_[s].box;
-    const std::uint64_t end = progress_.points + extents_[s].points;
-    if (extents_[s].points > 0 && rows.meets({grid_.row_number(box.min), grid_.row_number(box.max) + 1})) {
-      read(sources_[s],
-           [&](std::span<const Point> block, std::uint64_t first) { look_at(block, first, box); });
-      if (progress_.points != end) throw has_changed();
+    if (!pass.is_read(s)) {
+      progress_.points += extents_[s].count();
+      continue;
     }
-    progress_.points = end;
+    std::uint64_t number = firsts_[s];
+    sources_[s]([&](std::span<const Point> block) {
+      const detail::Chunks chunks(pool_, block.size());
+      pool_.for_each(chunks.size(), [&](std::size_t c) {
+        const std::size_t begin = chunks.begin(c);
+        pass.take(slots_[c], {s, number + begin, block.subspan(begin, chunks.end(c) - begin)});
+      });
+      pass.end(chunks.size());
+      number += block.size();
+      tell(block.size());
+    });
+    if (s + 1 < sources_.size()) firsts_[s + 1] = number;
+    if (!extents_.empty() && number != firsts_[s] + extents_[s].count()) throw has_changed();
   }
 }
 
-/// What is done with the points of a block, and before and after it.
-template <class Begin, class OfPoint, class End>
-struct Visit {
-  Begin begin;
-  OfPoint point;
-  End end;
-};
-template <class Begin, class OfPoint, class End>
-Visit(Begin, OfPoint, End) -> Visit<Begin, OfPoint, End>;
+/// The first pass. `is_for_others`: whether those who look for other shards must see the same source.
+void Stream::find_extents(bool is_for_others) {
+  std::vector<detail::RangeOfBlocks> found(sources_.size());
+  firsts_.assign(sources_.size(), 0);
+  const auto take = [&](Slot& slot, const Block& block) {
+    slot.source = block.source;
+    slot.range.add(block.points);
+    if (is_for_others) slot.checksum += checksum(block.points, block.first);
+  };
+  const auto end = [&](std::size_t slots) {
+    for (std::size_t s = 0; s < slots; ++s) {
+      detail::RangeOfBlocks& of_source = found[slots_[s].source];
+      of_source.add(std::exchange(slots_[s].range, {}));
+      part_.source_checksum += std::exchange(slots_[s].checksum, 0);
+      if (of_source.not_finite() && !are_read_at_once()) {
+        throw not_finite(firsts_[slots_[s].source] + *of_source.not_finite());
+      }
+    }
+  };
+  run({[](std::size_t) { return true; }, take, end});
+  detail::RangeOfBlocks all;
+  for (std::size_t s = 0; s < found.size(); ++s) {
+    firsts_[s] = all.count();
+    all.add(found[s]);
+  }
+  if (all.not_finite()) throw not_finite(*all.not_finite());
+  extents_ = std::move(found);
+  part_.source_points = all.count();
+  part_.box = all.box();
+  if (all.count() > 0) range_ = all.range();
+}
 
-/// The same for all shards, and where the shard has its band in it.
-void Stream::choose_grid() {
+/// A later pass: visit(slot, point, cell, number) for the points in these rows, which are among seen_. Sources
+/// without such points are not read.
+template <class Visit>
+void Stream::run_over_cells(const Rows& rows, const Visit& visit,
+                            const std::function<void(std::size_t)>& end) {
+  const auto is_read = [&](std::size_t s) {
+    if (extents_[s].count() == 0) return false;
+    const Box& box = extents_[s].box();
+    return rows.meets({grid_.row_number(box.min), grid_.row_number(box.max) + 1});
+  };
+  const bool are_all = part_.shard.count == 1 &&
+                       static_cast<double>(grid_.word_count() * Grid::kWordBits) <= Grid::kMostCells;
+  const auto take = [&](Slot& slot, const Block& block) {
+    if (!detail::are_within(block.points, extents_[block.source].box())) throw has_changed();
+    if (are_all) {
+      detail::visit_numbered(
+          block.points, grid_.numbering(),
+          [&](std::size_t begin, std::span<const Point> points, const std::uint32_t* cells) {
+            for (std::size_t i = 0; i < points.size(); ++i) {
+              visit(slot, points[i], Grid::Cell{cells[i]}, block.first + begin + i);
+            }
+          });
+      return;
+    }
+    for (std::size_t i = 0; i < block.points.size(); ++i) {
+      const Point& p = block.points[i];
+      if (rows.has(grid_.row_number(p))) visit(slot, p, grid_.cell(p), block.first + i);
+    }
+  };
+  run({is_read, take, end});
+}
+
+/// The same for all shards, and where the shard has its band in it. `widest`: no dropped triangle has a
+/// smaller circumradius.
+void Stream::choose_grid(double widest) {
   const Box& box = part_.box;
-  const double widest = detail::least_dropped_radius(limits_) * (1 - detail::kSafety);
+  widest *= 1 - detail::kSafety;
   const double area = (box.max.x - box.min.x) * (box.max.y - box.min.y);
   double radius = std::min(
       widest, detail::kWidestInSpacings * std::sqrt(area / static_cast<double>(part_.source_points)));
@@ -238,78 +335,91 @@ void Stream::choose_grid() {
   grid_ = grid.band(seen_.begin, seen_.end);
 }
 
+void Stream::find_occupied_cells() {
+  const std::size_t words = grid_.word_count();
+  occupied_.clear(words);
+  const auto nothing = [](std::size_t) {};
+  if (pool_.threads() == 1) {
+    const auto set = [&](Slot&, const Point&, Grid::Cell cell, std::uint64_t) { occupied_.set(cell); };
+    run_over_cells(seen_, set, nothing);
+    return;
+  }
+  // A map for each slot is faster than one that all threads write to, but needs more memory.
+  constexpr std::size_t kMostBytes = std::size_t{1} << 25U;
+  if (!are_read_at_once() || most_slots() * words * sizeof(Bitmap::Word) > kMostBytes) {
+    const auto set = [&](Slot&, const Point&, Grid::Cell cell, std::uint64_t) { occupied_.set_shared(cell); };
+    run_over_cells(seen_, set, nothing);
+    return;
+  }
+  for (Slot& slot : slots_) slot.occupied.clear(words);
+  run_over_cells(
+      seen_, [](Slot& slot, const Point&, Grid::Cell cell, std::uint64_t) { slot.occupied.set(cell); },
+      nothing);
+  const detail::Chunks chunks(pool_, words);
+  pool_.for_each(chunks.size(), [&](std::size_t c) {
+    for (Slot& slot : slots_) {
+      for (std::size_t w = chunks.begin(c); w < chunks.end(c); ++w) {
+        occupied_.words()[w] |= slot.occupied.words()[w];
+      }
+    }
+  });
+}
+
 void Stream::find_uncertain_cells() {
-  occupied_.emplace().clear(grid_.word_count());
-  const auto mark = [&](const Point&, Grid::Cell cell, std::uint64_t, std::size_t) {
-    occupied_->set_shared(cell);
-  };
-  pass_over_cells(seen_, Visit{[](std::size_t) {}, mark, [] {}});
-  marked_.emplace().clear(grid_.word_count());
+  marked_.clear(grid_.word_count());
   constexpr Grid::Cell kRowsATime = 64;
   const Rows tested{tested_.begin - seen_.begin, tested_.end - seen_.begin};
   pool_.for_each((tested.end - tested.begin + kRowsATime - 1) / kRowsATime, [&](std::size_t i) {
     const Grid::Cell begin = tested.begin + i * kRowsATime;
-    detail::find_uncertain_cells(grid_, *occupied_, begin, std::min(tested.end, begin + kRowsATime),
-                                 *marked_);
+    detail::find_uncertain_cells(grid_, occupied_, begin, std::min(tested.end, begin + kRowsATime), marked_);
   });
 }
 
 void Stream::find_uncertain_points() {
   const detail::PointCertificate& certificate = detail::PointCertificate::instance();
-  struct Uncertain {
-    std::uint64_t number;
-    Grid::Cell cell;
-    bool is_own;
+  const auto look = [&](Slot& slot, const Point& p, Grid::Cell cell, std::uint64_t number) {
+    if (!marked_.test(cell) || certificate.is_certified(p, cell, grid_, occupied_)) return;
+    slot.uncertain.push_back({number, cell, own_.has(grid_.row_number(p))});
   };
-  std::vector<std::vector<Uncertain>> found;
-  std::vector<Grid::Cell> cells;
-  const auto begin = [&](std::size_t chunks) {
-    found.resize(std::max(found.size(), chunks));
-    for (auto& of_chunk : found) of_chunk.clear();
-  };
-  const auto look = [&](const Point& p, Grid::Cell cell, std::uint64_t number, std::size_t chunk) {
-    if (!marked_->test(cell) || certificate.is_certified(p, cell, grid_, *occupied_)) return;
-    found[chunk].push_back({number, cell, own_.has(grid_.row_number(p))});
-  };
-  const auto end = [&] {
-    for (const auto& of_chunk : found) {
-      for (const auto& [number, cell, is_own] : of_chunk) {
+  const auto end = [&](std::size_t slots) {
+    for (std::size_t s = 0; s < slots; ++s) {
+      for (const auto& [number, cell, is_own] : slots_[s].uncertain) {
         if (is_own) {
           if (uncertain_.size() == kMaxPoints) throw detail::too_much_outline();
           uncertain_.push_back(number);
         }
-        if (cells.empty() || cells.back() != cell) cells.push_back(cell);
+        if (reaching_.empty() || reaching_.back() != cell) reaching_.push_back(cell);
       }
+      slots_[s].uncertain.clear();
     }
   };
-  pass_over_cells(tested_, Visit{begin, look, end});
-  marked_->clear(grid_.word_count());
-  for (const Grid::Cell cell : cells) detail::mark_reach(grid_, cell, *marked_);
+  run_over_cells(tested_, look, end);
+  marked_.clear(grid_.word_count());
+  for (const Grid::Cell cell : reaching_) detail::mark_reach(grid_, cell, marked_);
 }
 
 void Stream::gather() {
-  std::vector<std::vector<std::pair<std::uint64_t, Point>>> found;
+  part_.points.clear();
+  part_.numbers.clear();
+  part_.uncertain.clear();
   auto next = uncertain_.begin();
-  const auto begin = [&](std::size_t chunks) {
-    found.resize(std::max(found.size(), chunks));
-    for (auto& of_chunk : found) of_chunk.clear();
+  const auto look = [&](Slot& slot, const Point& p, Grid::Cell cell, std::uint64_t number) {
+    if (marked_.test(cell)) slot.gathered.emplace_back(number, p);
   };
-  const auto look = [&](const Point& p, Grid::Cell cell, std::uint64_t number, std::size_t chunk) {
-    if (marked_->test(cell)) found[chunk].emplace_back(number, p);
-  };
-  const auto end = [&] {
-    for (const auto& of_chunk : found) {
-      for (const auto& [number, point] : of_chunk) {
+  const auto end = [&](std::size_t slots) {
+    for (std::size_t s = 0; s < slots; ++s) {
+      for (const auto& [number, point] : slots_[s].gathered) {
         const bool is_uncertain = next != uncertain_.end() && *next == number;
         if (is_uncertain) ++next;
         part_.points.push_back(point);
         part_.numbers.push_back(number);
         part_.uncertain.push_back(is_uncertain ? 1 : 0);
       }
+      slots_[s].gathered.clear();
     }
     if (part_.points.size() > kMaxPoints) throw detail::too_much_outline();
   };
-  pass_over_cells(own_, Visit{begin, look, end});
+  run_over_cells(own_, look, end);
   if (next != uncertain_.end()) throw has_changed();
 }
 
@@ -317,55 +427,134 @@ void Stream::gather() {
 void Stream::take_all() {
   if (part_.shard.number > 1) return;
   progress_.passes = 2;
-  begin_pass();
-  std::vector<Point>& points = part_.points;
-  for (const PointSource& source : sources_) {
-    read(source, [&](std::span<const Point> block, std::uint64_t) {
-      if (points.size() + block.size() > part_.source_points) throw has_changed();
-      points.insert(points.end(), block.begin(), block.end());
-    });
-  }
-  if (points.size() != part_.source_points) throw has_changed();
-  part_.numbers.resize(points.size());
+  const auto take = [](Slot& slot, const Block& block) {
+    for (const Point& p : block.points) slot.gathered.emplace_back(0, p);
+  };
+  const auto end = [&](std::size_t slots) {
+    for (std::size_t s = 0; s < slots; ++s) {
+      for (const auto& [number, point] : slots_[s].gathered) part_.points.push_back(point);
+      slots_[s].gathered.clear();
+    }
+    if (part_.points.size() > part_.source_points) throw has_changed();
+  };
+  run({[](std::size_t) { return true; }, take, end});
+  part_.numbers.resize(part_.points.size());
   std::iota(part_.numbers.begin(), part_.numbers.end(), std::uint64_t{0});
-  part_.uncertain.assign(points.size(), 1);
+  part_.uncertain.assign(part_.points.size(), 1);
+}
+
+/// Of points that are few the part is then complete, and of those on a line parallel to an axis it is empty.
+bool Stream::is_small_or_flat() {
+  if (part_.source_points <= kFewPoints) {
+    take_all();
+    return true;
+  }
+  if (range_.scale_exponent != 0) {
+    throw std::invalid_argument("coordinates as large or as small as these cannot be streamed: scale them");
+  }
+  return detail::is_flat(part_.box);
+}
+
+/// What is near the outline, where the grid is chosen.
+void Stream::find_points() {
+  if (own_.empty()) return;  // more shards than rows
+  find_occupied_cells();
+  find_uncertain_cells();
+  find_uncertain_points();
+  gather();
 }
 
 StreamShard Stream::find_part() {
-  const detail::RangeOfBlocks range = find_extents();
-  if (part_.source_points <= kFewPoints) {
-    take_all();
-    return std::move(part_);
-  }
-  if (!detail::is_any_limit_given(part_.options)) {
+  find_extents(true);
+  if (part_.source_points > kFewPoints && !detail::is_any_limit_given(part_.options)) {
     throw std::invalid_argument(
-        "a stream of more than 65536 points needs a limit: give alpha, max_edge_length or "
-        "max_perimeter");
+        "a shard of more than 65536 points needs a limit: give alpha, max_edge_length or max_perimeter");
   }
-  if (range.range().scale_exponent != 0) {
-    throw std::invalid_argument("coordinates as large or as small as these cannot be streamed: scale them");
-  }
-  if (detail::is_flat(part_.box)) return std::move(part_);
-  choose_grid();
-  if (own_.empty()) return std::move(part_);  // more shards than rows
-  find_uncertain_cells();
-  find_uncertain_points();
-  occupied_.reset();
-  gather();
+  if (is_small_or_flat()) return std::move(part_);
+  choose_grid(detail::least_dropped_radius(limits_));
+  find_points();
   return std::move(part_);
+}
+
+/// Looks for the sizes of triangles where no limit is given. Returns the circumradius from which one is wide.
+double Stream::choose_sizes() {
+  const auto pass = [&](const detail::TakeOfShare& take) {
+    const auto take_block = [&](Slot& slot, const Block& block) {
+      if (!detail::are_within(block.points, extents_[block.source].box())) throw has_changed();
+      take(slot.number, block.points);
+    };
+    run({[](std::size_t) { return true; }, take_block, [](std::size_t) {}});
+  };
+  const detail::PointPasses passes{part_.source_points, most_slots(), pass};
+  constexpr int kPassesAfter = 3;
+  progress_.passes = 2 + 1 + kPassesAfter;
+  if (automatic_limit_.look(passes, part_.box, pool_) == detail::SizesBy::kBlocks) {
+    throw NeedsAllPoints(
+        "the density of the points varies too much to choose a limit without a triangulation of them all: "
+        "give alpha, max_edge_length or max_perimeter, or put the points into memory");
+  }
+  progress_.passes = progress_.pass + kPassesAfter;
+  return automatic_limit_.wide_radius() / std::max(part_.options.detail, 1.0);
+}
+
+/// The hull of the part where no limit is given; nothing where triangles reach beyond it.
+std::optional<StreamedHull> Stream::hull_by_sizes() {
+  detail::PartHull hull(part_, pool_);
+  automatic_limit_.choose_found(hull.builder(), hull.is_tested(), part_.options.detail, pool_);
+  const auto is_sure = [&](const detail::Triangle& triangle) {
+    return detail::is_surely_whole(triangle, grid_, occupied_, marked_);
+  };
+  const auto why =
+      hull.filter(automatic_limit_.field(), is_sure, part_.options.fill_single_triangles.value_or(true));
+  if (why == Way::kReachesFar) return {};
+  if (why) throw detail::rounding_decides();
+  StreamedHull found = hull.trace();
+  found.chosen_sizes = automatic_limit_.range();
+  return found;
+}
+
+StreamedHull Stream::find_hull() {
+  find_extents(false);
+  const unsigned threads = part_.options.threads;
+  if (is_small_or_flat()) return std::move(*detail::hull_without_part(part_, threads));
+  if (detail::is_any_limit_given(part_.options)) {
+    choose_grid(detail::least_dropped_radius(limits_));
+    find_points();
+    detail::PartHull hull(part_, pool_);
+    if (hull.filter(detail::filter_rules(limits_), part_.options.fill_single_triangles.value_or(false))) {
+      throw detail::rounding_decides();
+    }
+    return hull.trace();
+  }
+  choose_grid(choose_sizes());
+  find_points();
+  if (std::optional<StreamedHull> hull = hull_by_sizes()) return std::move(*hull);
+  ++progress_.passes;
+  for (const Grid::Cell cell : reaching_) detail::mark_farther_reach(grid_, cell, marked_);
+  gather();
+  if (std::optional<StreamedHull> hull = hull_by_sizes()) return std::move(*hull);
+  throw NeedsAllPoints(
+      "dropped triangles reach too far into the shape to choose a limit without a triangulation of all points: "
+      "give alpha, max_edge_length or max_perimeter, or put the points into memory");
 }
 
 }  // namespace
 
 StreamShard part_of_stream(std::span<const PointSource> sources, const Options& options, const Shard& shard,
                            const StreamOptions& stream_options) {
-  return Stream(sources, options, shard, stream_options).find_part();
+  StreamOptions in_order = stream_options;
+  in_order.reads_at_once = false;  // the numbers of points are part of the checksum
+  return Stream(sources, options, shard, in_order).find_part();
+}
+
+StreamedHull concave_hull_of_stream(std::span<const PointSource> sources, const Options& options,
+                                    const StreamOptions& stream_options) {
+  return Stream(sources, options, Shard(), stream_options).find_hull();
 }
 
 StreamedHull concave_hull_of_stream(const PointSource& source, const Options& options,
                                     const StreamOptions& stream_options) {
-  const StreamShard all = part_of_stream({&source, 1}, options, Shard(), stream_options);
-  return concave_hull_of_shards({&all, 1}, options.threads);
+  return concave_hull_of_stream({&source, 1}, options, stream_options);
 }
 
 }  // namespace polylidar

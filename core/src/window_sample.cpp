@@ -34,7 +34,7 @@ constexpr double kMostPointsOfUsual = 2;
 
 /// A place with more points than this, or than this share of all, is divided if it has more than one cell.
 constexpr std::size_t kMostPointsInPlace = 4096;
-constexpr std::size_t kMostShareInPlace = 1024;  // one in so many
+constexpr std::uint64_t kMostShareInPlace = 1024;  // one in so many
 /// With fewer triangles a window says little of its place. Half of those of points at random.
 constexpr std::size_t kFewTrianglesOfPlace = 64;
 /// Fewer cells inside the shape do not tell how much the density varies.
@@ -73,23 +73,21 @@ double NumberCounts::robust_deviation_of_logarithms(double middle) {
   return at->first / RobustDeviation::kOfNormal;
 }
 
-bool WindowSample::look(std::span<const Point> points, const Box& box, const Wanted& wanted,
-                        ThreadPool& pool) {
-  // Each share counts in cells of its own: of many threads not all take part.
-  constexpr std::size_t kMostShares = 8;
-  shares_.resize(std::min<std::size_t>(pool.threads(), kMostShares));
-  are_counted_ = points.size() >= kLeastPoints && count_cells(points, box, pool);
+bool WindowSample::look(const PointPasses& points, const Box& box, const Wanted& wanted, ThreadPool& pool) {
+  shares_.resize(points.shares);
+  are_counted_ = points.points >= kLeastPoints && count_cells(points, box);
   if (!are_counted_) return false;
-  const double in_cell = usual_count(points.size(), wanted.most_spread);
+  const double in_cell = usual_count(points.points, wanted.most_spread);
   if (in_cell == 0) return false;
   const double spacing = 1 / (cells_per_length_ * std::sqrt(in_cell));
   const double half_side = (kHalfInner + wanted.margin) * spacing;
-  const std::size_t windows = std::clamp(points.size() / kPointsForWindow, kFewestWindows, kMostWindows);
-  place_windows(points.size(), windows, half_side);
+  const auto windows = static_cast<std::size_t>(
+      std::clamp<std::uint64_t>(points.points / kPointsForWindow, kFewestWindows, kMostWindows));
+  place_windows(points.points, windows, half_side);
   const double usual = 4 * half_side * half_side / (spacing * spacing);
   const auto most = static_cast<std::size_t>(kMostPointsOfUsual * static_cast<double>(windows) * usual);
   const std::size_t gathered = gather(
-      points, most, pool, [&](std::uint32_t cell) { return windows_of_cell_[cell] != 0; },
+      points, most, [&](std::uint32_t cell) { return windows_of_cell_[cell] != 0; },
       [&](std::uint32_t cell, const auto& visit) {
         for (std::uint64_t left = windows_of_cell_[cell]; left != 0; left &= left - 1) {
           visit(static_cast<std::uint32_t>(std::countr_zero(left)));
@@ -132,14 +130,13 @@ void WindowSample::measure_windows(double quantile, ThreadPool& pool) {
   distinct_share_ = static_cast<double>(distinct) / static_cast<double>(gathered);
 }
 
-bool WindowSample::look_by_places(std::span<const Point> points, const WantedPlaces& wanted,
-                                  ThreadPool& pool) {
-  if (!are_counted_ || points.size() < kLeastPointsForPlaces) return false;
-  if (!is_wide_rare(points.size(), wanted.points_in_circle) || !is_smooth()) return false;
-  divide(points.size());
+bool WindowSample::look_by_places(const PointPasses& points, const WantedPlaces& wanted, ThreadPool& pool) {
+  if (!are_counted_ || points.points < kLeastPointsForPlaces) return false;
+  if (!is_wide_rare(points.points, wanted.points_in_circle) || !is_smooth()) return false;
+  divide(points.points);
   const auto most = static_cast<std::size_t>(kMostPointsOfUsual * place_window_of_each(wanted));
   const std::size_t gathered = gather(
-      points, most, pool, [&](std::uint32_t cell) { return window_of_cell_[cell] != kNone; },
+      points, most, [&](std::uint32_t cell) { return window_of_cell_[cell] != kNone; },
       [&](std::uint32_t cell, const auto& visit) { visit(window_of_cell_[cell]); });
   if (gathered > most) return false;
   measure_windows(wanted.quantile, pool);
@@ -160,7 +157,7 @@ bool WindowSample::look_by_places(std::span<const Point> points, const WantedPla
 /// Whether most points lie well inside, and few triangles there have a circle as wide as one that would hold
 /// `points_in_circle` points in the densest hundredth: among points at random, (1 + x) / e^x of the triangles
 /// have a wider circle than one that would hold x points.
-bool WindowSample::is_wide_rare(std::size_t points, double points_in_circle) const {
+bool WindowSample::is_wide_rare(std::uint64_t points, double points_in_circle) const {
   constexpr double kMostWide = 0.02;  // then about a tenth of the points are near such a triangle
   constexpr double kDensest = 0.01;
   std::vector<std::uint32_t> inside;
@@ -200,8 +197,8 @@ bool WindowSample::is_smooth() const {
 }
 
 /// Divides the cells with points into places: squares are quartered as long as they have many points.
-void WindowSample::divide(std::size_t points) {
-  const std::size_t most = std::max(kMostPointsInPlace, points / kMostShareInPlace);
+void WindowSample::divide(std::uint64_t points) {
+  const std::uint64_t most = std::max<std::uint64_t>(kMostPointsInPlace, points / kMostShareInPlace);
   place_of_cell_.assign(counts_.size(), kNone);
   cells_of_place_.clear();
   std::vector<PlaceCells> squares;  // whose points are not known yet
@@ -308,10 +305,10 @@ void WindowSample::places_of(std::span<const Point> some, std::uint32_t* places)
 }
 
 /// Counts the points in square cells. Returns false where the box is too narrow for them.
-bool WindowSample::count_cells(std::span<const Point> points, const Box& box, ThreadPool& pool) {
+bool WindowSample::count_cells(const PointPasses& points, const Box& box) {
   const double width = box.max.x - box.min.x;
   const double height = box.max.y - box.min.y;
-  const double cells = std::min(kMostCells, static_cast<double>(points.size()) / kPointsInCell);
+  const double cells = std::min(kMostCells, static_cast<double>(points.points) / kPointsInCell);
   minimum_ = box.min;
   cells_per_length_ = std::sqrt(cells / (width * height));
   constexpr double kLeastSide = 4;
@@ -319,10 +316,10 @@ bool WindowSample::count_cells(std::span<const Point> points, const Box& box, Th
   columns_ = column(box.max.x) + 1;
   rows_ = row(box.max.y) + 1;
   counts_.assign(std::size_t{columns_} * rows_, 0);
-  pool.for_each(shares_.size(), [&](std::size_t s) {
+  for (std::size_t s = 1; s < shares_.size(); ++s) shares_[s].counts.assign(counts_.size(), 0);
+  points.pass([&](std::size_t s, std::span<const Point> own) {
     std::vector<std::uint32_t>& counts = s == 0 ? counts_ : shares_[s].counts;
-    if (s > 0) counts.assign(counts_.size(), 0);
-    visit_numbered(share_of(points, s), numbering(),
+    visit_numbered(own, numbering(),
                    [&](std::size_t, std::span<const Point> block, const std::uint32_t* numbers) {
                      for (std::size_t i = 0; i < block.size(); ++i) ++counts[numbers[i]];
                    });
@@ -351,7 +348,7 @@ void WindowSample::for_each_inside_cell(const Visit& visit) const {
 
 /// How many points a cell inside the shape usually has; 0 where the numbers differ by too much, or there are
 /// too few such cells to tell.
-double WindowSample::usual_count(std::size_t points, double most_spread) {
+double WindowSample::usual_count(std::uint64_t points, double most_spread) {
   numbers_.clear();
   std::size_t inside = 0;
   for_each_inside_cell([&](const std::uint32_t* own) {
@@ -372,13 +369,13 @@ double WindowSample::usual_count(std::size_t points, double most_spread) {
 }
 
 /// At the middles of the cells in which points of evenly spaced ranks lie, counted cell by cell.
-void WindowSample::place_windows(std::size_t points, std::size_t windows, double half_side) {
+void WindowSample::place_windows(std::uint64_t points, std::size_t windows, double half_side) {
   windows_.resize(windows);
   windows_of_cell_.assign(counts_.size(), 0);
   std::size_t cell = 0;
-  std::size_t counted = counts_[0];
+  std::uint64_t counted = counts_[0];
   for (std::size_t w = 0; w < windows; ++w) {
-    const std::uint64_t rank = std::uint64_t{points} * (2 * w + 1) / (2 * windows);
+    const std::uint64_t rank = points * (2 * w + 1) / (2 * windows);
     while (counted <= rank) counted += counts_[++cell];
     Window& window = windows_[w];
     window.half_side = half_side;
@@ -399,12 +396,14 @@ void WindowSample::place_windows(std::size_t points, std::size_t windows, double
 /// Returns how many points were put into windows; ends where that is more than `most`. is_reached(cell):
 /// whether a window reaches it. for_each_window(cell, visit) calls visit(window) for those.
 template <class IsReached, class ForEachWindow>
-std::size_t WindowSample::gather(std::span<const Point> points, std::size_t most, ThreadPool& pool,
-                                 const IsReached& is_reached, const ForEachWindow& for_each_window) {
-  pool.for_each(shares_.size(), [&](std::size_t s) {
+std::size_t WindowSample::gather(const PointPasses& points, std::size_t most, const IsReached& is_reached,
+                                 const ForEachWindow& for_each_window) {
+  for (Share& share : shares_) {
+    share.gathered.clear();
+    share.gathered.reserve(most / shares_.size());
+  }
+  points.pass([&](std::size_t s, std::span<const Point> own) {
     auto& gathered = shares_[s].gathered;
-    gathered.clear();
-    gathered.reserve(most / shares_.size());
     const auto gather_block = [&](std::size_t, std::span<const Point> block, const std::uint32_t* cells) {
       for_each_selected(
           0, block.size(), [&](std::size_t i) { return is_reached(cells[i]); },
@@ -417,7 +416,7 @@ std::size_t WindowSample::gather(std::span<const Point> points, std::size_t most
             });
           });
     };
-    visit_numbered(share_of(points, s), numbering(), gather_block);
+    visit_numbered(own, numbering(), gather_block);
   });
   std::size_t count = 0;
   for (const Share& share : shares_) count += share.gathered.size();

@@ -12,6 +12,7 @@
 
 #include "cell_numbers.hpp"
 #include "delaunay_builder.hpp"
+#include "point_passes.hpp"
 #include "polylidar/geometry.hpp"
 #include "thread_pool.hpp"
 
@@ -93,17 +94,17 @@ class WindowSample {
     double points_in_circle;  ///< of a triangle that counts as wide, where the points are densest
   };
 
-  /// Looks at `points`, whose box is `box`. Returns false if their density varies by more than `wanted`
+  /// Looks at points whose box is `box`. Returns false if their density varies by more than `wanted`
   /// allows, if there are fewer than kLeastPoints, or if they are few and their outline is long. There is no
   /// sample then. The result does not depend on the order of the points or the number of threads, nor, apart
   /// from rounding, on their position and unit. O(n), a pass or two.
-  bool look(std::span<const Point> points, const Box& box, const Wanted& wanted, ThreadPool& pool);
+  bool look(const PointPasses& points, const Box& box, const Wanted& wanted, ThreadPool& pool);
 
   /// After look() returned false for the same points: looks at a window of each place. Returns false if there
   /// are fewer than kLeastPointsForPlaces, or if the density varies by so much that triangles are often as
   /// large where the points are sparse as wide ones are where they are densest. The result depends on the
   /// same as that of look(). O(n), a pass.
-  bool look_by_places(std::span<const Point> points, const WantedPlaces& wanted, ThreadPool& pool);
+  bool look_by_places(const PointPasses& points, const WantedPlaces& wanted, ThreadPool& pool);
   /// After look_by_places() returned true, as the next two: place -> what was found in its window, which has
   /// the same number.
   const std::vector<Place>& places() const { return places_; }
@@ -134,7 +135,7 @@ class WindowSample {
     std::size_t triangles = 0;  ///< their number
     std::optional<double> usual4;
   };
-  /// The memory of one thread.
+  /// The memory of one share of the points.
   struct Share {
     std::vector<std::uint32_t> counts;                      ///< as counts_, of a part of the points
     std::vector<std::pair<std::uint32_t, Point>> gathered;  ///< window and point
@@ -150,28 +151,24 @@ class WindowSample {
     std::uint32_t column;
     std::uint32_t side;     ///< so many cells in a row
     std::uint32_t typical;  ///< a cell with as many points as are usual inside the shape
-    std::size_t points;
+    std::uint64_t points;
   };
 
-  bool count_cells(std::span<const Point> points, const Box& box, ThreadPool& pool);
+  bool count_cells(const PointPasses& points, const Box& box);
   template <class Visit>
   void for_each_inside_cell(const Visit& visit) const;
-  double usual_count(std::size_t points, double most_spread);
-  void place_windows(std::size_t points, std::size_t windows, double half_side);
-  bool is_wide_rare(std::size_t points, double points_in_circle) const;
+  double usual_count(std::uint64_t points, double most_spread);
+  void place_windows(std::uint64_t points, std::size_t windows, double half_side);
+  bool is_wide_rare(std::uint64_t points, double points_in_circle) const;
   bool is_smooth() const;
-  void divide(std::size_t points);
+  void divide(std::uint64_t points);
   void find_borders();
   double place_window_of_each(const WantedPlaces& wanted);
   template <class IsReached, class ForEachWindow>
-  std::size_t gather(std::span<const Point> points, std::size_t most, ThreadPool& pool,
-                     const IsReached& is_reached, const ForEachWindow& for_each_window);
+  std::size_t gather(const PointPasses& points, std::size_t most, const IsReached& is_reached,
+                     const ForEachWindow& for_each_window);
   void measure_windows(double quantile, ThreadPool& pool);
   static void measure(Window& window, double quantile, Share& share);
-  std::span<const Point> share_of(std::span<const Point> points, std::size_t share) const {
-    const std::size_t begin = points.size() * share / shares_.size();
-    return points.subspan(begin, points.size() * (share + 1) / shares_.size() - begin);
-  }
 
   std::uint32_t column(double x) const {
     return static_cast<std::uint32_t>((x - minimum_.x) * cells_per_length_);

@@ -3,7 +3,9 @@
 
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <span>
+#include <stdexcept>
 #include <vector>
 
 #include "polylidar/concave_hull.hpp"
@@ -19,7 +21,7 @@ using PointSource = std::function<void(const TakePoints& take)>;
 /// How far a stream has come.
 struct StreamProgress {
   int pass = 0;              ///< which pass over the source, from 1 on
-  int passes = 4;            ///< of how many
+  int passes = 4;            ///< of how many, as far as is known yet; more where no limit is given
   std::uint64_t points = 0;  ///< of the source, in this pass
 };
 
@@ -28,8 +30,11 @@ struct StreamOptions {
   /// The most that one of the two maps of occupied cells may take, in bytes; of a shard, those of its band.
   /// They make up most of the memory where points are many and the outline is short.
   double most_map_bytes = 0x1p30;
-  /// Called after each block; may throw, which ends the work.
+  /// Called after each block, by one thread at a time; may throw, which ends the work.
   std::function<void(const StreamProgress&)> progress = {};
+  /// Whether different sources may be read at the same time, each by one of Options::threads threads. It is
+  /// fastest with as many sources as threads, such as parts of a file. Not for shards.
+  bool reads_at_once = false;
 };
 
 /// The concave hull of a source.
@@ -41,22 +46,37 @@ struct StreamedHull {
   std::vector<std::uint64_t> vertices;
   std::uint64_t points = 0;               ///< of the source
   std::uint64_t triangulated_points = 0;  ///< near the outline
+  /// If no limit was given: the sizes that a triangle of the shape may have, as Extractor::chosen_sizes().
+  std::optional<ChosenSizes> chosen_sizes;
+  bool by_outlines = false;  ///< Statistics::by_outlines
 };
 
-/// The concave hull of all points of `source`, which is read four times: where they are, which cells of a
-/// grid they occupy, which of them may be on the outline, and which are near these (core/INTERIOR.md).
-/// Memory: some bits a cell of a sixth of the limit's radius, and 125 bytes a point near the outline.
+/// Thrown where no limit is given and one cannot be chosen without the triangulation of all points.
+class NeedsAllPoints : public std::invalid_argument {
+ public:
+  using std::invalid_argument::invalid_argument;
+};
+
+/// The concave hull of all points of `sources`, which are one after the other as one source. They are read
+/// four times: where the points are, which cells of a grid they occupy, which of them may be on the outline,
+/// and which are near these (core/INTERIOR.md). If no limit is given, they are read two or three times more
+/// before that: how many points are where, and which lie in small windows (core/AUTOMATIC.md). Memory: some
+/// bits a cell of a sixth of the limit's radius, and 125 bytes a point near the outline.
 ///
 /// The result is that of concave_hull() for the same points in memory, with one exception: where two
 /// different points are closer than 2^-40 of `alpha`, rounding may there drop slivers that are kept here. Up
-/// to 65,536 points are put into memory; of more, `options` must give a limit. At most 2^28 points may be
-/// near the outline.
+/// to 65,536 points are put into memory. At most 2^28 points may be near the outline.
 ///
-/// Throws std::invalid_argument as concave_hull; where coordinates would have to be scaled (see Extractor);
-/// where no limit is given; where it is too small for the
-/// distances between the points, so that the maps would be too large or too much is near the outline; or
-/// where the rounding of a triangle's size decides whether it is kept (a slightly different limit helps).
-/// std::runtime_error where the source gives other points than the time before; and what the source throws.
+/// Throws NeedsAllPoints where no limit is given, and the density varies so much, or the points are so
+/// clustered or so few, that the limit is chosen by the triangulation of all of them: put them into memory,
+/// or give a limit. Throws std::invalid_argument as concave_hull; where coordinates would have to be scaled
+/// (see Extractor); where the limit is too small for the distances between the points, so that the maps would
+/// be too large or too much is near the outline; or where the rounding of a triangle's size decides whether
+/// it is kept (a slightly different limit helps). std::runtime_error where a source gives other points than
+/// the time before; and what a source throws.
+StreamedHull concave_hull_of_stream(std::span<const PointSource> sources, const Options& options,
+                                    const StreamOptions& stream_options = {});
+/// The same of one source.
 StreamedHull concave_hull_of_stream(const PointSource& source, const Options& options,
                                     const StreamOptions& stream_options = {});
 
@@ -87,7 +107,8 @@ struct StreamShard {
 /// Reads `sources`, which are one after the other as one source, as concave_hull_of_stream does, and finds a
 /// shard's part of what that would triangulate (core/INTERIOR.md, "Many machines"). Each shard reads all
 /// points once, and three more times those sources, such as the tiles of a cloud, that reach into its band or
-/// 4 radii beyond it; its maps have the cells of these rows. Up to 65,536 points are all in the first shard.
+/// 4 radii beyond it; its maps have the cells of these rows. Up to 65,536 points are all in the first shard; of
+/// more, `options` must give a limit.
 ///
 /// Throws as concave_hull_of_stream, and std::invalid_argument where there is no such shard. Whether the
 /// rounding of a triangle's size decides is not known yet.
