@@ -19,6 +19,7 @@ using nlohmann::json;
 using polylidar::Point;
 using testing::expect_refusal;
 using testing::LasFile;
+using testing::LasPoint;
 using testing::Outcome;
 using testing::write_text;
 
@@ -91,6 +92,51 @@ TEST_F(FootprintCommandTest, AFeatureForEveryFile) {
   const std::string first = testing::read_text(out);
   EXPECT_EQ(footprint(arguments).code, 0);
   EXPECT_EQ(testing::read_text(out), first);
+}
+
+TEST_F(FootprintCommandTest, AStreamGivesWhatThePointsInMemoryGive) {
+  // Above 8 MiB a LAS file is a stream, but where all triangles are asked for.
+  LasFile las = tile(0);
+  std::mt19937 random(5);
+  while (las.points.size() < 300'000) {
+    const auto x = static_cast<std::int32_t>(random() % 10000);
+    const auto y = static_cast<std::int32_t>(random() % 10000);
+    if (std::hypot(x - 5000, y - 5000) < 2000) continue;
+    las.points.push_back({.x = x, .y = y, .classification = static_cast<unsigned>(random() % 5), .withheld = random() % 50 == 0});
+  }
+  const std::string large = file("large.las", las.text());
+  ASSERT_GT(fs::file_size(large), std::size_t{1} << 23U);
+  las.records = {testing::geographic(4326)};
+  las.scale = {1e-7, 1e-7};
+  las.offset = {10, 60};
+  const std::string degrees = file("degrees.las", las.text());
+  for (LasPoint& p : las.points) p.x = static_cast<std::int32_t>(1e-4 * p.x * p.x);
+  for (std::size_t i = 0; i < las.points.size(); ++i) las.points[i].y = las.points[i / 10 * 10].y;
+  las.records = {testing::projected(25832)};
+  const std::string uneven = file("uneven.las", las.text());
+  for (const std::string& path : {large, degrees, uneven}) {
+    for (const std::vector<std::string>& options :
+         std::vector<std::vector<std::string>>{{},
+                                               {"--alpha", "1.5", "--max-parts", "1"},
+                                               {"--detail", "0.8", "--simplify", "0.5", "--classes", "1,2,6"},
+                                               {"--window", "500010,5600010,500090,5600070"}}) {
+      std::vector<std::string> arguments = options;
+      arguments.push_back(path);
+      for (const char* threads : {"1", "3"}) {
+        std::vector<std::string> streamed = arguments;
+        streamed.insert(streamed.end(), {"--threads", threads});
+        std::vector<std::string> in_memory = arguments;
+        in_memory.insert(in_memory.end(), {"--min-triangles", "1"});
+        EXPECT_EQ(succeeded(footprint(streamed)).out, succeeded(footprint(in_memory)).out) << path;
+      }
+    }
+  }
+  const std::string cut = file("cut.las", las.text().substr(0, (std::size_t{1} << 23U) + 1000));
+  const Outcome outcome = footprint({cut, "--threads", "2"});
+  EXPECT_EQ(outcome.code, 2);
+  EXPECT_NE(outcome.err.find("cut.las: it ends before the 300000 points that its header promises"),
+            std::string::npos)
+      << outcome.err;
 }
 
 TEST_F(FootprintCommandTest, ABrokenFileIsToldAndTheOthersAreDone) {
@@ -285,7 +331,29 @@ TEST_F(FootprintUnionTest, AFewPointsFarApartDoNotDecideForAll) {
   files.push_back(file("few.csv", "500000,5600300\n500070,5600310\n500010,5600390\n500090,5600380\n"));
   const Outcome outcome = succeeded(unite(files, {"--crs", "25832"}));
   EXPECT_EQ(feature_of(outcome)["properties"]["holes"], 4);
-  EXPECT_LT(feature_of(outcome)["properties"]["alpha"].get<double>(), 10) << outcome.err;
+  EXPECT_LT(feature_of(outcome)["properties"]["most_size"].get<double>(), 10) << outcome.err;
+}
+
+TEST_F(FootprintUnionTest, OneLimitForAllWhereAllPointsDoNotFitIntoMemory) {
+  // Clusters, whose sizes only the triangulation of all points tells.
+  std::vector<std::string> files;
+  for (int column = 0; column < 10; ++column) {
+    LasFile las = tile(column);
+    for (std::size_t i = 0; i < las.points.size(); ++i) {
+      las.points[i].x = las.points[i / 10 * 10].x + las.points[i].x / 300;
+      las.points[i].y = las.points[i / 10 * 10].y + las.points[i].y / 300;
+    }
+    files.push_back(file("clusters_" + std::to_string(column) + ".las", las.text()));
+  }
+  const std::string few = file("few.csv", "500000,5600300\n500070,5600310\n500010,5600390\n500090,5600380\n");
+  files.push_back(few);
+  const json whole = feature_of(succeeded(unite(files, {"--crs", "25832"})))["properties"];
+  EXPECT_TRUE(whole.contains("most_size"));
+  const Outcome outcome = succeeded(unite(files, {"--crs", "25832", "--memory", "1"}));
+  EXPECT_NE(outcome.err.find("each file alone would get"), std::string::npos) << outcome.err;
+  const json properties = feature_of(outcome)["properties"];
+  EXPECT_LT(properties["alpha"].get<double>(), 60) << "the few points do not decide";
+  EXPECT_GT(properties["area"].get<double>(), 0);
 }
 
 TEST_F(FootprintUnionTest, DegreesAreMetresAndStayAsTheyAre) {

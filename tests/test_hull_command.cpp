@@ -590,21 +590,30 @@ TEST_F(HullCommandTest, AStreamGivesTheSameFile) {
       {file("columns.csv", text), "--columns", "x,y"}};
   for (const std::vector<std::string>& input : inputs) {
     for (const std::string format : {"geojson", "wkb", "wkt"}) {
-      std::vector<std::string> arguments = input;
-      arguments.insert(arguments.end(), {"--max-perimeter", "0.5", "--format", format});
-      const Outcome kept = hull(arguments);
-      arguments.emplace_back("--stream");
-      const Outcome streamed = succeeded(hull(arguments));
-      EXPECT_EQ(streamed.out, kept.out) << input[0] << " " << format;
-      EXPECT_NE(streamed.err.find("points are near the outline"), std::string::npos);
+      for (const std::string limit : {"--max-perimeter=0.5", "--detail=1.2"}) {
+        std::vector<std::string> arguments = input;
+        arguments.insert(arguments.end(), {limit, "--format", format});
+        const Outcome kept = hull(arguments);
+        arguments.emplace_back("--stream");
+        const Outcome streamed = succeeded(hull(arguments));
+        EXPECT_EQ(streamed.out, kept.out) << input[0] << " " << format << " " << limit;
+        EXPECT_NE(streamed.err.find("points are near the outline"), std::string::npos);
+      }
     }
   }
 }
 
 TEST_F(HullCommandTest, AStreamSaysWhatItCannotDo) {
-  const std::string npy = file("many.npy", testing::npy_of<double>(many_points(), "<f8"));
+  Points points = many_points();
+  const std::string npy = file("many.npy", testing::npy_of<double>(points, "<f8"));
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const Point& middle = points[i / 30 * 30];
+    points[i] = {middle.x + 0.002 * points[i].x, middle.y + 0.002 * points[i].y};
+  }
+  const std::string clustered = file("clustered.npy", testing::npy_of<double>(points, "<f8"));
+  EXPECT_EQ(succeeded(hull({clustered, "--stream"})).out, hull({clustered}).out) << "put into memory";
   for (const auto& [arguments, sentence] : std::vector<std::pair<std::vector<std::string>, std::string>>{
-           {{npy}, "--stream needs a limit"},
+           {{clustered, "--memory", "1"}, "is chosen by a triangulation of them all, which needs more memory"},
            {{npy, "--alpha", "1", "--one"}, "--stream does not go with --one and --cover"},
            {{npy, "--alpha", "1", "--by", "x"}, "--stream does not go with --by"},
            {{npy, "--alpha", "1", "--format", "svg"}, "--stream does not go with --format svg"},
@@ -762,7 +771,7 @@ TEST_F(ShardTest, ShardsSayWhatTheyCannotDo) {
   const std::string out = part(1);
   for (const auto& [arguments, sentence] : std::vector<std::pair<std::vector<std::string>, std::string>>{
            {{"--alpha", "1", "--shard", "1/2"}, "--shard is for what --stream reads"},
-           {{"--stream", "--shard", "1/2"}, "--stream needs a limit"},
+           {{"--stream", "--shard", "1/2"}, "--shard needs a limit"},
            {{"--alpha", "1", "--stream", "--shard", "3/2"}, "--shard '3/2' is no shard"},
            {{"--alpha", "1", "--stream", "--shard", "0/2"}, "--shard '0/2' is no shard"},
            {{"--alpha", "1", "--stream", "--shard", "1"}, "--shard '1' is no shard"},
@@ -835,11 +844,13 @@ TEST_F(ShardTest, MergeSaysWhatDoesNotFitTogether) {
 TEST_F(HullCommandTest, AStreamNeedsLittleMemory) {
   const std::string npy = (folder() / "large.npy").string();
   succeeded(testing::run_program({HULLBENCH, "points", "ca", "--n", "20000000", "--out", npy}));
-  const std::string arguments = "'" + npy + "' --max-perimeter 0.4 --threads 1";
-  const Outcome streamed = succeeded(in_shell("ulimit -v 200000;", arguments + " --stream"));
-  EXPECT_EQ(json::parse(streamed.out)["properties"]["points"], 20000000);
-  EXPECT_EQ(in_shell("", arguments).out, streamed.out);
-  expect_refusal(in_shell("ulimit -v 200000;", arguments), 1, "there is not enough memory for the points");
+  for (const std::string limit : {" --max-perimeter 0.4", ""}) {
+    const std::string arguments = "'" + npy + "' --threads 1" + limit;
+    const Outcome streamed = succeeded(in_shell("ulimit -v 200000;", arguments + " --stream"));
+    EXPECT_EQ(json::parse(streamed.out)["properties"]["points"], 20000000);
+    EXPECT_EQ(in_shell("", arguments).out, streamed.out);
+    expect_refusal(in_shell("ulimit -v 200000;", arguments), 1, "there is not enough memory for the points");
+  }
 }
 
 }  // namespace

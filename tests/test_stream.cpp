@@ -158,7 +158,9 @@ void expect_as_in_memory(const StreamedHull& hull, const Points& points, const O
   EXPECT_TRUE(
       std::equal(hull.vertices.begin(), hull.vertices.end(), shape.vertices.begin(), shape.vertices.end()));
   EXPECT_EQ(hull.points, points.size());
+  EXPECT_EQ(hull.box, bounding_box(points));
   EXPECT_EQ(hull.chosen_sizes, extractor.chosen_sizes());
+  EXPECT_EQ(hull.by_outlines, extractor.statistics().by_outlines);
 }
 
 TEST(Stream, ChoosesTheSizesThatAreChosenInMemory) {
@@ -230,7 +232,15 @@ TEST(Stream, NeedsALimitWhereAllTrianglesChooseIt) {
   }
   MemorySource source(points);
   EXPECT_THROW(source.hull({}), NeedsAllPoints);
+  EXPECT_THROW(source.hull({}, {.most_points_in_memory = points.size() - 1}), NeedsAllPoints);
   EXPECT_NO_THROW(source.hull({.alpha = 0.02}));
+  expect_as_in_memory(source.hull({}, {.most_points_in_memory = points.size()}), points, {});
+  const std::vector<PointSource> sources = sources_of(points, 3, 50'000);
+  const Options two_threads{.threads = 2};
+  expect_as_in_memory(
+      concave_hull_of_stream(sources, two_threads,
+                             {.most_points_in_memory = points.size(), .reads_at_once = true}),
+      points, two_threads);
 }
 
 void expect_same(const StreamedHull& hull, const StreamedHull& expected) {

@@ -9,11 +9,13 @@
 #include <algorithm>
 #include <cerrno>
 #include <chrono>
+#include <cmath>
 #include <fstream>
 #include <functional>
 #include <iostream>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <numbers>
 #include <span>
 #include <stdexcept>
 #include <string>
@@ -63,6 +65,13 @@ struct Choice {
 /// The numbers of points in a hexagon that are looked at: any, and what PDAL takes by default.
 constexpr std::uint32_t kOne = 1;
 constexpr std::uint32_t kOfPdal = 15;
+
+/// The circumradius that goes with a chosen size of triangles, which is about 2.2 spacings of uniform points: of n of
+/// these a handful of triangles, 2 n (1 + x) / e^x with x = log n + 2, have a circle with room for x points.
+double circumradius_of(double size, std::size_t points) {
+  const double in_circle = std::log(static_cast<double>(points)) + 2;
+  return size / 2.2 * std::sqrt(in_circle / std::numbers::pi);
+}
 
 /// A way to an outline.
 struct Way {
@@ -181,9 +190,8 @@ class Comparison {
     // What the others are given is what these choose.
     footprint({});
     const double size = properties_["most_size"].get<double>();
-    footprint({"--union"});
-    const double alpha = properties_["alpha"].get<double>();
     const std::size_t all = choice_.points;
+    const double alpha = circumradius_of(size, all);
     add(
         "polylidar footprint", [this] { return footprint({}); }, all);
     add(
@@ -193,11 +201,7 @@ class Comparison {
         },
         all);
     add(
-        "polylidar footprint --union --alpha " + three_digits(alpha),
-        [this, alpha] {
-          return footprint({"--union", "--alpha", polylidar::tool::shortest(alpha)});
-        },
-        all);
+        "polylidar footprint --union", [this] { return footprint({"--union"}); }, all);
     add(
         "hexagons " + three_digits(size) + " high with a point",
         [this, size] { return hexbin(read(), size, kOne); }, all);

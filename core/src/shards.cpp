@@ -97,21 +97,6 @@ StreamShard joined(std::span<const StreamShard> shards) {
   return all;
 }
 
-StreamedHull extract_in_memory(const StreamShard& all, unsigned threads) {
-  if (all.points.size() != all.source_points) throw do_not_fit();
-  Options options = all.options;
-  options.threads = threads;
-  Extractor extractor;
-  const IndexedMultiPolygon& shape = extractor.extract(all.points, options);
-  StreamedHull hull;
-  hull.polygons = to_coordinates(shape, all.points);
-  hull.vertices.assign(shape.vertices.begin(), shape.vertices.end());
-  hull.triangulated_points = extractor.statistics().triangulated_points;
-  hull.chosen_sizes = extractor.chosen_sizes();
-  hull.by_outlines = extractor.statistics().by_outlines;
-  return hull;
-}
-
 /// Throws unless the numbers are those of points of the source, ascending.
 void check_numbers(const StreamShard& all) {
   const std::vector<std::uint64_t>& numbers = all.numbers;
@@ -122,7 +107,8 @@ void check_numbers(const StreamShard& all) {
 
 StreamedHull hull_of_part(const StreamShard& all, unsigned threads) {
   check_numbers(all);
-  if (std::optional<StreamedHull> hull = detail::hull_without_part(all, threads)) return std::move(*hull);
+  if (all.source_points <= detail::kFewPoints) return detail::hull_in_memory(all, threads);
+  if (detail::is_flat(all.box)) return detail::hull_without_area(all);
   const Limits limits = detail::checked_limits(all.options);
   detail::ThreadPool pool;
   pool.use(threads);
@@ -167,22 +153,32 @@ StreamedHull PartHull::trace() {
   IndexedMultiPolygon shape;
   tracer.trace(builder_.mesh(), builder_.vertices(), part_.points.size(), builder_.caller_index(), boundary_,
                shape);
-  StreamedHull hull;
+  StreamedHull hull = hull_without_area(part_);
   hull.polygons = to_coordinates(shape, part_.points);
   for (const std::uint32_t vertex : shape.vertices) hull.vertices.push_back(part_.numbers[vertex]);
-  hull.points = part_.source_points;
   hull.triangulated_points = part_.points.size();
   return hull;
 }
 
-std::optional<StreamedHull> hull_without_part(const StreamShard& all, unsigned threads) {
+StreamedHull hull_without_area(const StreamShard& all) {
   StreamedHull hull;
-  if (all.source_points <= kFewPoints) {
-    hull = extract_in_memory(all, threads);
-  } else if (!is_flat(all.box)) {
-    return {};
-  }
   hull.points = all.source_points;
+  hull.box = all.box;
+  return hull;
+}
+
+StreamedHull hull_in_memory(const StreamShard& all, unsigned threads) {
+  if (all.points.size() != all.source_points) throw do_not_fit();
+  Options options = all.options;
+  options.threads = threads;
+  Extractor extractor;
+  const IndexedMultiPolygon& shape = extractor.extract(all.points, options);
+  StreamedHull hull = hull_without_area(all);
+  hull.polygons = to_coordinates(shape, all.points);
+  hull.vertices.assign(shape.vertices.begin(), shape.vertices.end());
+  hull.triangulated_points = extractor.statistics().triangulated_points;
+  hull.chosen_sizes = extractor.chosen_sizes();
+  hull.by_outlines = extractor.statistics().by_outlines;
   return hull;
 }
 

@@ -59,8 +59,11 @@ class PartHull {
   std::vector<Mesh::Index> boundary_;
 };
 
-/// The hull of points that are few, or whose box is flat; nothing where they are neither.
-std::optional<StreamedHull> hull_without_part(const StreamShard& all, unsigned threads);
+/// The hull where `all` has all points of the source.
+StreamedHull hull_in_memory(const StreamShard& all, unsigned threads);
+
+/// The hull of points on a line.
+StreamedHull hull_without_area(const StreamShard& all);
 
 /// What to do about Way::kRoundingDecides.
 inline std::invalid_argument rounding_decides() {

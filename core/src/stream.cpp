@@ -128,6 +128,7 @@ class Stream {
     Bitmap occupied;
     std::vector<Uncertain> uncertain;
     std::vector<std::pair<std::uint64_t, Point>> gathered;
+    std::vector<Point> points;
   };
   /// What is done with the blocks of a pass: which sources are read, what is done with a block, by any
   /// thread, and with the first `slots` slots after that.
@@ -149,8 +150,8 @@ class Stream {
   void run_over_cells(const Rows& rows, const Visit& visit, const std::function<void(std::size_t)>& end);
 
   void find_extents(bool is_for_others);
-  bool is_small_or_flat();
-  double choose_sizes();
+  void check_scale() const;
+  std::optional<double> choose_sizes();
   void choose_grid(double widest);
   void find_occupied_cells();
   void find_uncertain_cells();
@@ -158,6 +159,9 @@ class Stream {
   void gather();
   void find_points();
   void take_all();
+  StreamedHull hull_in_memory();
+  StreamedHull hull_by_limits();
+  std::optional<StreamedHull> hull_by_chosen_sizes();
   std::optional<StreamedHull> hull_by_sizes();
 
   std::span<const PointSource> sources_;
@@ -351,15 +355,15 @@ void Stream::find_occupied_cells() {
     run_over_cells(seen_, set, nothing);
     return;
   }
-  for (Slot& slot : slots_) slot.occupied.clear(words);
-  run_over_cells(
-      seen_, [](Slot& slot, const Point&, Grid::Cell cell, std::uint64_t) { slot.occupied.set(cell); },
-      nothing);
+  const auto map_of = [&](Slot& slot) -> Bitmap& { return slot.number == 0 ? occupied_ : slot.occupied; };
+  for (Slot& slot : slots_) map_of(slot).clear(words);
+  const auto set = [&](Slot& slot, const Point&, Grid::Cell cell, std::uint64_t) { map_of(slot).set(cell); };
+  run_over_cells(seen_, set, nothing);
   const detail::Chunks chunks(pool_, words);
   pool_.for_each(chunks.size(), [&](std::size_t c) {
-    for (Slot& slot : slots_) {
+    for (std::size_t s = 1; s < slots_.size(); ++s) {
       for (std::size_t w = chunks.begin(c); w < chunks.end(c); ++w) {
-        occupied_.words()[w] |= slot.occupied.words()[w];
+        occupied_.words()[w] |= slots_[s].occupied.words()[w];
       }
     }
   });
@@ -423,36 +427,33 @@ void Stream::gather() {
   if (next != uncertain_.end()) throw has_changed();
 }
 
-/// Of so few points that the part is the whole of them: the first shard has it.
+/// Puts all points into the part.
 void Stream::take_all() {
-  if (part_.shard.number > 1) return;
-  progress_.passes = 2;
+  progress_.passes = progress_.pass + 1;
+  part_.points.clear();
+  part_.points.reserve(part_.source_points);
   const auto take = [](Slot& slot, const Block& block) {
-    for (const Point& p : block.points) slot.gathered.emplace_back(0, p);
+    slot.points.insert(slot.points.end(), block.points.begin(), block.points.end());
   };
   const auto end = [&](std::size_t slots) {
     for (std::size_t s = 0; s < slots; ++s) {
-      for (const auto& [number, point] : slots_[s].gathered) part_.points.push_back(point);
-      slots_[s].gathered.clear();
+      std::vector<Point>& points = slots_[s].points;
+      part_.points.insert(part_.points.end(), points.begin(), points.end());
+      points.clear();
     }
     if (part_.points.size() > part_.source_points) throw has_changed();
   };
   run({[](std::size_t) { return true; }, take, end});
-  part_.numbers.resize(part_.points.size());
-  std::iota(part_.numbers.begin(), part_.numbers.end(), std::uint64_t{0});
-  part_.uncertain.assign(part_.points.size(), 1);
 }
 
-/// Of points that are few the part is then complete, and of those on a line parallel to an axis it is empty.
-bool Stream::is_small_or_flat() {
-  if (part_.source_points <= kFewPoints) {
-    take_all();
-    return true;
-  }
-  if (range_.scale_exponent != 0) {
-    throw std::invalid_argument("coordinates as large or as small as these cannot be streamed: scale them");
-  }
-  return detail::is_flat(part_.box);
+StreamedHull Stream::hull_in_memory() {
+  take_all();
+  return detail::hull_in_memory(part_, part_.options.threads);
+}
+
+void Stream::check_scale() const {
+  if (range_.scale_exponent == 0) return;
+  throw std::invalid_argument("coordinates as large or as small as these cannot be streamed: scale them");
 }
 
 /// What is near the outline, where the grid is chosen.
@@ -466,18 +467,28 @@ void Stream::find_points() {
 
 StreamShard Stream::find_part() {
   find_extents(true);
-  if (part_.source_points > kFewPoints && !detail::is_any_limit_given(part_.options)) {
+  if (part_.source_points <= kFewPoints) {
+    if (part_.shard.number > 1) return std::move(part_);  // the first has all of them
+    take_all();
+    part_.numbers.resize(part_.points.size());
+    std::iota(part_.numbers.begin(), part_.numbers.end(), std::uint64_t{0});
+    part_.uncertain.assign(part_.points.size(), 1);
+    return std::move(part_);
+  }
+  if (!detail::is_any_limit_given(part_.options)) {
     throw std::invalid_argument(
         "a shard of more than 65536 points needs a limit: give alpha, max_edge_length or max_perimeter");
   }
-  if (is_small_or_flat()) return std::move(part_);
+  check_scale();
+  if (detail::is_flat(part_.box)) return std::move(part_);
   choose_grid(detail::least_dropped_radius(limits_));
   find_points();
   return std::move(part_);
 }
 
-/// Looks for the sizes of triangles where no limit is given. Returns the circumradius from which one is wide.
-double Stream::choose_sizes() {
+/// Looks for the sizes of triangles where no limit is given. Returns the circumradius from which one is wide;
+/// nothing where the triangulation of all points must tell.
+std::optional<double> Stream::choose_sizes() {
   const auto pass = [&](const detail::TakeOfShare& take) {
     const auto take_block = [&](Slot& slot, const Block& block) {
       if (!detail::are_within(block.points, extents_[block.source].box())) throw has_changed();
@@ -488,11 +499,7 @@ double Stream::choose_sizes() {
   const detail::PointPasses passes{part_.source_points, most_slots(), pass};
   constexpr int kPassesAfter = 3;
   progress_.passes = 2 + 1 + kPassesAfter;
-  if (automatic_limit_.look(passes, part_.box, pool_) == detail::SizesBy::kBlocks) {
-    throw NeedsAllPoints(
-        "the density of the points varies too much to choose a limit without a triangulation of them all: "
-        "give alpha, max_edge_length or max_perimeter, or put the points into memory");
-  }
+  if (automatic_limit_.look(passes, part_.box, pool_) == detail::SizesBy::kBlocks) return {};
   progress_.passes = progress_.pass + kPassesAfter;
   return automatic_limit_.wide_radius() / std::max(part_.options.detail, 1.0);
 }
@@ -513,29 +520,42 @@ std::optional<StreamedHull> Stream::hull_by_sizes() {
   return found;
 }
 
-StreamedHull Stream::find_hull() {
-  find_extents(false);
-  const unsigned threads = part_.options.threads;
-  if (is_small_or_flat()) return std::move(*detail::hull_without_part(part_, threads));
-  if (detail::is_any_limit_given(part_.options)) {
-    choose_grid(detail::least_dropped_radius(limits_));
-    find_points();
-    detail::PartHull hull(part_, pool_);
-    if (hull.filter(detail::filter_rules(limits_), part_.options.fill_single_triangles.value_or(false))) {
-      throw detail::rounding_decides();
-    }
-    return hull.trace();
-  }
-  choose_grid(choose_sizes());
+/// Where no limit is given; nothing where the triangulation of all points must tell.
+std::optional<StreamedHull> Stream::hull_by_chosen_sizes() {
+  const std::optional<double> wide_radius = choose_sizes();
+  if (!wide_radius) return {};
+  choose_grid(*wide_radius);
   find_points();
-  if (std::optional<StreamedHull> hull = hull_by_sizes()) return std::move(*hull);
+  if (std::optional<StreamedHull> hull = hull_by_sizes()) return hull;
   ++progress_.passes;
   for (const Grid::Cell cell : reaching_) detail::mark_farther_reach(grid_, cell, marked_);
   gather();
-  if (std::optional<StreamedHull> hull = hull_by_sizes()) return std::move(*hull);
-  throw NeedsAllPoints(
-      "dropped triangles reach too far into the shape to choose a limit without a triangulation of all points: "
-      "give alpha, max_edge_length or max_perimeter, or put the points into memory");
+  return hull_by_sizes();
+}
+
+StreamedHull Stream::hull_by_limits() {
+  choose_grid(detail::least_dropped_radius(limits_));
+  find_points();
+  detail::PartHull hull(part_, pool_);
+  if (hull.filter(detail::filter_rules(limits_), part_.options.fill_single_triangles.value_or(false))) {
+    throw detail::rounding_decides();
+  }
+  return hull.trace();
+}
+
+StreamedHull Stream::find_hull() {
+  find_extents(false);
+  if (part_.source_points <= kFewPoints) return hull_in_memory();
+  check_scale();
+  if (detail::is_flat(part_.box)) return detail::hull_without_area(part_);
+  if (detail::is_any_limit_given(part_.options)) return hull_by_limits();
+  if (std::optional<StreamedHull> hull = hull_by_chosen_sizes()) return std::move(*hull);
+  if (part_.source_points <= stream_options_.most_points_in_memory && part_.source_points <= kMaxPoints) {
+    return hull_in_memory();
+  }
+  throw NeedsAllPoints("the limit for these " + std::to_string(part_.source_points) +
+                       " points is chosen by a triangulation of them all, which needs more memory: give alpha, "
+                       "max_edge_length or max_perimeter");
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
@@ -35,6 +36,7 @@ struct ShapeChoice {
   std::string window;                     ///< "xmin,ymin,xmax,ymax"; empty: no window
   std::string crs;                        ///< "none", "EPSG:n" or "n"; empty: what the file says
   unsigned threads = 0;                   ///< 0: as many as there are processors
+  std::uint64_t memory = 0;               ///< the most for points, in MiB; 0: half of what is free
   std::string out;                        ///< a file, or what GDAL writes to; empty: standard output
   std::string format = "auto";            ///< "geojson" and so on, or "gdal:" and the name of a driver
   std::string layer;                      ///< of the input, where GDAL reads it

@@ -11,14 +11,10 @@
 
 #include "tool/points/point_file.hpp"
 #include "tool/program/configuration_error.hpp"
-#include "tool/program/free_memory.hpp"
 #include "tool/program/interrupt.hpp"
 
 namespace polylidar::tool {
 namespace {
-
-/// What is taken to be free where the system does not say.
-constexpr std::size_t kGuessedMemory = std::size_t{1} << 30U;
 
 /// Lets work begin while what all of it may take is within a budget, and one at a time whatever it takes.
 class MemoryGate {
@@ -59,9 +55,9 @@ FileWork::FileWork(const std::vector<std::string>& paths, const Surroundings& su
       status_(surroundings.err, surroundings.terminal),
       outcomes_(paths.size()) {}
 
-void FileWork::run(unsigned threads, std::uint64_t memory_share, const Work& work) {
+void FileWork::run(unsigned threads, std::uint64_t memory, std::uint64_t memory_share, const Work& work) {
   const auto count = static_cast<unsigned>(std::min<std::size_t>(threads, paths_.size()));
-  MemoryGate gate(free_memory().value_or(kGuessedMemory) / 2);
+  MemoryGate gate(memory);
   std::size_t next = 0;
   const auto take_files = [&] {
     for (;;) {
@@ -71,11 +67,11 @@ void FileWork::run(unsigned threads, std::uint64_t memory_share, const Work& wor
         if (next == paths_.size() || interrupted()) return;
         file = next++;
       }
-      const std::uint64_t memory = memory_share * size_of(paths_[file]);
-      gate.enter(memory);
+      const std::uint64_t of_file = memory_share * size_of(paths_[file]);
+      gate.enter(of_file);
       // Threads that no other file can use.
       work_on(file, std::max(1U, threads / count), work);
-      gate.leave(memory);
+      gate.leave(of_file);
       const std::lock_guard lock(mutex_);
       ++tried_;
       if (surroundings_.terminal) {

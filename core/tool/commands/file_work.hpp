@@ -26,9 +26,9 @@ class FileWork {
   FileWork(const std::vector<std::string>& paths, const Surroundings& surroundings);
 
   /// The files one after the other, each taken by the next of `threads` that is free. One takes
-  /// `memory_share` times its size of memory; together they take no more than half of what is free. Says
-  /// which files failed, a line each. Throws ConfigurationError where all did, and Interrupted.
-  void run(unsigned threads, std::uint64_t memory_share, const Work& work);
+  /// `memory_share` times its size of memory; together they take no more than `memory`, in bytes, or one is
+  /// alone. Says which files failed, a line each. Throws ConfigurationError where all did, and Interrupted.
+  void run(unsigned threads, std::uint64_t memory, std::uint64_t memory_share, const Work& work);
 
   bool is_done(std::size_t file) const { return outcomes_[file].is_done; }
   /// Of a file that was done.

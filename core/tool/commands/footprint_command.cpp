@@ -8,7 +8,9 @@
 #include <functional>
 #include <mutex>
 #include <numbers>
+#include <optional>
 #include <stdexcept>
+#include <system_error>
 #include <utility>
 #include <vector>
 
@@ -18,6 +20,7 @@
 #include "tool/commands/shape_output.hpp"
 #include "tool/hull/degrees.hpp"
 #include "tool/hull/streamed_shape.hpp"
+#include "tool/points/point_sources.hpp"
 #include "tool/program/configuration_error.hpp"
 #include "tool/program/free_memory.hpp"
 #include "tool/program/interrupt.hpp"
@@ -31,6 +34,8 @@ namespace fs = std::filesystem;
 /// What a file's points and their triangles take: of LAS, whose points have 20 bytes at least, some 150 bytes
 /// a point.
 constexpr std::uint64_t kMemoryToTriangulate = 8;
+/// Smaller files are read into memory.
+constexpr std::uint64_t kWorthStreaming = std::uint64_t{1} << 23U;
 
 using Classes = std::array<std::uint64_t, 256>;
 
@@ -49,6 +54,10 @@ struct Facts {
   void add(std::span<const Point> more) {
     points += more.size();
     bounds = joined(bounds, bounding_box(more));
+  }
+  void add(const StreamedHull& hull) {
+    points += hull.points;
+    bounds = joined(bounds, hull.box);
   }
   void add(const Classes& more) {
     std::transform(classes.begin(), classes.end(), more.begin(), classes.begin(), std::plus<>());
@@ -94,6 +103,21 @@ void add_properties(const Facts& facts, const GroupHull& hull, const Crs& crs, P
   }
 }
 
+/// The group that all points of a stream are.
+GroupHull cleaned(IndexShape shape, std::span<const Point> points, const StreamedHull& hull,
+                  const HullOptions& options) {
+  GroupHull all;
+  all.shape = std::move(shape);
+  clean(all.shape, points, options);
+  all.area = area(all.shape, points);
+  all.alpha = options.core.alpha;
+  all.max_edge_length = options.core.max_edge_length;
+  all.max_perimeter = options.core.max_perimeter;
+  all.sizes = hull.chosen_sizes;
+  all.by_outlines = hull.by_outlines;
+  return all;
+}
+
 /// How points are read that nobody waits for one by one.
 PointFileOptions interruptible(PointFileOptions options) {
   options.on_progress = [](std::uint64_t, std::optional<std::uint64_t>) { throw_if_interrupted(); };
@@ -121,7 +145,7 @@ class IndexRun {
   ExitCode run() {
     chosen_crs(command_.shape, {});
     output_.check_is_none_of(command_.inputs);
-    files_.run(thread_count(command_.shape), kMemoryToTriangulate,
+    files_.run(thread_count(command_.shape), memory_for_points(command_.shape), kMemoryToTriangulate,
                [&](std::size_t file, unsigned threads) { return make(file, threads); });
     std::vector<std::string> features;
     for (std::string& feature : features_) {
@@ -154,24 +178,80 @@ class IndexRun {
   }
 
  private:
+  /// What is said of a file.
+  struct Footprint {
+    Facts facts;
+    Crs crs;
+    GroupHull hull;  ///< `points`
+    std::vector<Point> points;
+  };
+
   Crs make(std::size_t place, unsigned threads) {
     const std::string& path = command_.inputs[place];
     check_is_file(path);
-    const PointFile file = read_point_file(path, options_);
-    Crs crs = chosen_crs(command_.shape, file.crs);
-    const LocatedHulls hulls = locate_hulls(file, command_.shape, false, threads, {});
-    Facts facts;
-    facts.add(file.points);
-    facts.add(file.classes);
+    std::optional<Footprint> streamed;
+    if (is_worth_streaming(path)) streamed = by_stream(path, threads);
+    const Footprint made = streamed ? *std::move(streamed) : in_memory(path, threads);
     Properties properties;
     properties.add("name", std::string_view(fs::path(path).filename().native()));
     properties.add("path", std::string_view(path));
-    add_properties(facts, hulls.groups[0], crs, properties);
-    features_[place] = geojson_feature(properties, to_coordinates(hulls.groups[0].shape, file.points));
+    add_properties(made.facts, made.hull, made.crs, properties);
+    features_[place] = geojson_feature(properties, to_coordinates(made.hull.shape, made.points));
     const std::lock_guard lock(mutex_);
-    is_empty_[place] = hulls.groups[0].shape.empty();
-    box_ = joined(box_, facts.bounds);
-    return crs;
+    is_empty_[place] = made.hull.shape.empty();
+    box_ = joined(box_, made.facts.bounds);
+    return made.crs;
+  }
+
+  Footprint in_memory(const std::string& path, unsigned threads) const {
+    PointFile file = read_point_file(path, options_);
+    Footprint made;
+    made.crs = chosen_crs(command_.shape, file.crs);
+    made.hull = std::move(locate_hulls(file, command_.shape, false, threads, {}).groups[0]);
+    made.facts.add(file.points);
+    made.facts.add(file.classes);
+    made.points = std::move(file.points);
+    return made;
+  }
+
+  bool is_worth_streaming(const std::string& path) const {
+    const ShapeChoice& shape = command_.shape;
+    if (shape.one || shape.cover || shape.min_triangles > 0) return false;  // these need all triangles
+    std::error_code error;
+    const std::uintmax_t size = fs::file_size(path, error);
+    return !error && size >= kWorthStreaming && is_read_in_parts(path, options_);
+  }
+
+  /// The same without the points in memory, which is faster. Nothing of degrees, which must be known before
+  /// they are read, and where a stream cannot tell.
+  std::optional<Footprint> by_stream(const std::string& path, unsigned threads) const {
+    Footprint made;
+    std::vector<PointFile> parts(threads);  // of each what it says beside its points
+    const auto on_read = [&](std::size_t part, const PointFile& file) {
+      if (part == 0 && chosen_crs(command_.shape, file.crs).is_geographic) {
+        throw std::invalid_argument("degrees are no plane");
+      }
+      parts[part] = file;
+    };
+    const HullOptions options = hull_options(command_.shape);
+    Options core = options.core;
+    core.threads = threads;
+    StreamOptions stream_options;
+    stream_options.most_points_in_memory = most_points_in_memory(command_.shape);
+    stream_options.reads_at_once = true;
+    StreamedHull hull;
+    try {
+      hull = concave_hull_of_stream(point_sources(path, options_, threads, on_read), core, stream_options);
+    } catch (const std::invalid_argument&) {
+      return {};
+    }
+    made.crs = chosen_crs(command_.shape, parts[0].crs);
+    made.facts.add(hull);
+    for (const PointFile& part : parts) made.facts.add(part.classes);
+    StreamedShape shape = streamed_shape(hull);
+    made.points = std::move(shape.points);
+    made.hull = cleaned(std::move(shape.shape), made.points, hull, options);
+    return made;
   }
 
   const FootprintCommand& command_;
@@ -197,9 +277,7 @@ class UnionRun {
         output_(command.shape, surroundings.vector_formats),
         options_(interruptible(point_options(command.shape, surroundings))),
         core_(hull_options(command.shape).core),
-        is_limit_given_(core_.alpha || core_.max_edge_length || core_.max_perimeter),
         files_(command.inputs, surroundings),
-        sizes_(command.inputs.size()),
         facts_(command.inputs.size()) {
     options_.whole_if_needed = true;
     core_.threads = thread_count(command.shape);
@@ -207,14 +285,14 @@ class UnionRun {
 
   ExitCode run() {
     check_options();
-    files_.run(core_.threads, is_limit_given_ ? 1 : kMemoryToTriangulate,
-               [&](std::size_t file, unsigned threads) { return look_at(file, threads); });
+    files_.run(core_.threads, memory_for_points(command_.shape), 1,
+               [&](std::size_t file, unsigned) { return look_at(file); });
     add_up();
     find_plane();
-    if (!is_limit_given_) choose_limit();
-    const StreamedHull hull = stream();
-    say(std::to_string(hull.triangulated_points) + " of " + std::to_string(hull.points) +
-        " points are near the outline");
+    const StreamedHull hull = stream_by_some_limit();
+    if (hull.chosen_sizes && !hull.by_outlines) {
+      say(in_words(*hull.chosen_sizes) + "; --detail scales it, " + std::string(kByHand));
+    }
     output_.write(geojson_collection(std::vector{feature(hull)}, geojson_crs(crs_)), crs_);
     const ExitCode code = files_.summary("the union");
     if (!output_.can_tell(crs_)) say(std::string(kNamelessCrs));
@@ -239,20 +317,15 @@ class UnionRun {
     surroundings_.err << surroundings_.program << ": " << text << "\n";
   }
 
-  /// Reads a file to its end, and chooses its limit where none is given.
-  Crs look_at(std::size_t place, unsigned threads) {
+  /// Reads a file to its end.
+  Crs look_at(std::size_t place) {
     const std::string& path = command_.inputs[place];
     check_is_file(path);
     Facts& facts = facts_[place];
     PointFileOptions options = options_;
-    if (is_limit_given_) options.take_points = [&](std::span<const Point> block) { facts.add(block); };
+    options.take_points = [&](std::span<const Point> block) { facts.add(block); };
     const PointFile file = read_point_file(path, options);
-    facts.add(file.points);
     facts.add(file.classes);
-    if (!is_limit_given_) {
-      const LocatedHulls hulls = locate_hulls(file, command_.shape, false, threads, {});
-      if (hulls.groups[0].sizes) sizes_[place] = hulls.groups[0].sizes->most;
-    }
     return chosen_crs(command_.shape, file.crs);
   }
 
@@ -277,18 +350,31 @@ class UnionRun {
     latitude_ = middle_latitude(crs_, corners);
   }
 
-  /// One limit for all: a circumradius, as a stream cannot be asked for sizes. Files that choose a larger
-  /// size than most, such as one with a few points far apart, do not decide.
+  /// The sizes that are chosen for all points. Where that needs more memory than there is: one limit for all,
+  /// chosen from the files one by one.
+  StreamedHull stream_by_some_limit() {
+    try {
+      return stream();
+    } catch (const NeedsAllPoints&) {
+      choose_limit();
+      return stream();
+    }
+  }
+
+  /// One limit for all: a circumradius. Files that choose a larger size than most, such as one with a few
+  /// points far apart, do not decide.
   void choose_limit() {
     constexpr double kShareOfPoints = 0.99;
     std::vector<std::pair<double, std::uint64_t>> sizes;  // with the points of the file
     double points = 0;
     for (std::size_t file = 0; file < facts_.size(); ++file) {
-      if (!files_.is_done(file) || sizes_[file] == 0) continue;
-      sizes.emplace_back(sizes_[file], facts_[file].points);
+      if (!files_.is_done(file)) continue;
+      const LocatedHulls hulls = locate_hulls(read_point_file(command_.inputs[file], options_), command_.shape,
+                                              false, core_.threads, {});
+      if (!hulls.groups[0].sizes) continue;
+      sizes.emplace_back(hulls.groups[0].sizes->most, facts_[file].points);
       points += static_cast<double>(facts_[file].points);
     }
-    if (sizes.empty()) return;
     std::sort(sizes.begin(), sizes.end());
     double had = 0;
     const auto chosen = std::find_if(sizes.begin(), sizes.end(), [&](const auto& file) {
@@ -307,25 +393,28 @@ class UnionRun {
     least_area_ = (log_n + 4) * spacing * spacing;
     say("triangles with a circumradius of " + four_digits(*core_.alpha) +
         " at most, chosen from the points (each file alone would get triangles of size " +
-        four_digits(sizes.front().first) + " to " + four_digits(sizes.back().first) +
-        "); --detail scales it, --alpha, --max-edge-length or --max-perimeter sets a limit");
+        four_digits(sizes.front().first) + " to " + four_digits(sizes.back().first) + "); --detail scales it, " +
+        std::string(kByHand));
   }
 
-  /// All files that could be read, in metres where asked for and they are in degrees.
-  PointSource source(bool in_metres) {
-    return [this, in_metres](const TakePoints& take) {
-      PointFileOptions options = options_;
-      options.take_points = [&](std::span<const Point> block) {
-        if (in_metres && latitude_) {
-          take(to_metres(block, *latitude_));
-        } else {
-          take(block);
+  /// The files that could be read, in metres where asked for and they are in degrees.
+  std::vector<PointSource> sources(bool in_metres) {
+    std::vector<PointSource> sources;
+    const auto nothing = [](std::size_t, const PointFile&) {};
+    for (std::size_t file = 0; file < command_.inputs.size(); ++file) {
+      if (!files_.is_done(file)) continue;
+      for (PointSource& part :
+           point_sources(command_.inputs[file], options_, count_ == 1 ? core_.threads : 1, nothing)) {
+        if (!in_metres || !latitude_) {
+          sources.push_back(std::move(part));
+          continue;
         }
-      };
-      for (place_ = 0; place_ < command_.inputs.size(); ++place_) {
-        if (files_.is_done(place_)) read_point_file(command_.inputs[place_], options);
+        sources.emplace_back([this, read = std::move(part)](const TakePoints& take) {
+          read([&](std::span<const Point> block) { take(to_metres(block, *latitude_)); });
+        });
       }
-    };
+    }
+    return sources;
   }
 
   StreamedHull stream() {
@@ -336,14 +425,17 @@ class UnionRun {
     options.progress = [&](const StreamProgress& progress) {
       throw_if_interrupted();
       if (!surroundings_.terminal) return;
-      status_.show("pass " + std::to_string(progress.pass) + " of " + std::to_string(progress.passes) +
-                   ": file " + std::to_string(place_ + 1) + " of " + std::to_string(command_.inputs.size()) +
-                   ", " + std::to_string(progress.points) + " of " + std::to_string(all_.points) + " points");
+      status_.show("pass " + std::to_string(progress.pass) + " of " + std::to_string(progress.passes) + ": " +
+                   std::to_string(progress.points) + " of " + std::to_string(all_.points) + " points");
     };
+    options.most_points_in_memory = most_points_in_memory(command_.shape);
+    options.reads_at_once = true;
     try {
-      StreamedHull hull = concave_hull_of_stream(source(true), core_, options);
+      StreamedHull hull = concave_hull_of_stream(sources(true), core_, options);
       status_.clear();
       return hull;
+    } catch (const NeedsAllPoints&) {
+      throw;
     } catch (const std::invalid_argument& error) {
       throw ConfigurationError(std::string("the union: ") + error.what());
     }
@@ -359,20 +451,16 @@ class UnionRun {
 
   std::string feature(const StreamedHull& hull) {
     StreamedShape streamed = streamed_shape(hull);
-    GroupHull united;
-    united.shape = std::move(streamed.shape);
-    drop_what_chance_makes(united.shape, streamed.points);
-    clean(united.shape, streamed.points, hull_options(command_.shape));
-    united.area = area(united.shape, streamed.points);
-    united.alpha = core_.alpha;
-    united.max_edge_length = core_.max_edge_length;
-    united.max_perimeter = core_.max_perimeter;
+    drop_what_chance_makes(streamed.shape, streamed.points);
+    HullOptions options = hull_options(command_.shape);
+    options.core = core_;
+    const GroupHull united = cleaned(std::move(streamed.shape), streamed.points, hull, options);
     Properties properties;
     properties.add("files", count_);
     add_properties(all_, united, crs_, properties);
     // The coordinates of the files, bit by bit.
     const std::vector<Point> vertices =
-        latitude_ ? points_of_numbers(source(false), streamed.numbers) : std::move(streamed.points);
+        latitude_ ? points_of_numbers(sources(false), streamed.numbers) : std::move(streamed.points);
     return geojson_feature(properties, to_coordinates(united.shape, vertices));
   }
 
@@ -382,13 +470,10 @@ class UnionRun {
   ShapeOutput output_;
   PointFileOptions options_;
   Options core_;
-  bool is_limit_given_;
   FileWork files_;
-  std::vector<double> sizes_;  ///< file -> the largest size that is chosen for it; 0: none
   std::vector<Facts> facts_;   ///< one a file
   Facts all_;                  ///< of the files that could be read
   std::size_t count_ = 0;      ///< these files
-  std::size_t place_ = 0;      ///< of the file that is being streamed
   double least_area_ = 0;      ///< smaller holes and parts are by chance, where the limit was chosen
   Crs crs_;
   std::optional<double> latitude_;  ///< where the files are in degrees, the middle one of all
@@ -415,17 +500,21 @@ void add_footprint_options(CLI::App& app, FootprintCommand& command) {
       "of 'polylidar hull'.\n"
       "With --union the result is a single feature: the shape of the points of all files together. Tiles "
       "that touch\n"
-      "become one part, without a seam. Its property files is the number of files. They are read about five "
-      "times and\n"
-      "need not fit into memory. If no limit is given, one is chosen for each file, which must fit. The "
-      "largest is used\n"
-      "for all, but the files with the largest limits that together hold 1 % of the points do not count.\n" +
+      "become one part, without a seam. Its property files is the number of files. They are read up to eight "
+      "times, and\n"
+      "need not fit into memory. If no limit is given, the sizes of triangles are chosen from all points. If "
+      "the density\n"
+      "varies by much, that needs all of them in memory. If they do not fit, a limit is chosen for each file. "
+      "The largest\n"
+      "is used for all, but the files with the largest limits that together hold 1 % of the points do not "
+      "count.\n" +
       std::string(kGdalHelp));
   app.add_option("FILE", command.inputs, "The files of points")->required();
   app.add_flag("--union", command.is_union,
                "Make one shape of all files together, instead of one for each file");
   add_format_option(app, command.shape, {"auto", "geojson"});
   add_shape_options(app, command.shape);
+  add_memory_option(app, command.shape, "");
 }
 
 }  // namespace polylidar::tool

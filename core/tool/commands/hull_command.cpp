@@ -53,7 +53,7 @@ class HullRun {
     output_.check_is_none_of(command_.inputs);
     if (command_.inputs.size() > 1) {
       throw ConfigurationError(
-          "several files are one set of points with --stream only; give that and a limit, or ask 'polylidar "
+          "several files are one set of points with --stream only; give that, or ask 'polylidar "
           "footprint --union'");
     }
     if (!command_.shard.empty()) {
@@ -120,17 +120,13 @@ class HullRun {
 
   /// What was chosen, or why there is nothing.
   void explain(const GroupHull& hull) const {
-    const std::string by_hand = "--alpha, --max-edge-length or --max-perimeter sets a limit";
+    const std::string by_hand(kByHand);
     if (hull.by_outlines) {
       say("the points lie on outlines only, and the shape is what these enclose; --detail below 1 closes "
           "wider gaps, " +
           by_hand);
     } else if (hull.sizes) {
-      std::string sizes = "triangles of size " + four_digits(hull.sizes->least);
-      if (hull.sizes->most > hull.sizes->least) {
-        sizes += " (where points are densest) to " + four_digits(hull.sizes->most);
-      }
-      say(sizes + " at most, chosen from the points; --detail scales it, " + by_hand);
+      say(in_words(*hull.sizes) + "; --detail scales it, " + by_hand);
     }
     if (hull.extracted > 0) return;
     say(hull.has_triangles
@@ -281,8 +277,9 @@ void add_hull_options(CLI::App& app, HullCommand& command) {
                "Also write the points outside the shape, as a MultiPoint (geojson only)");
   app.add_flag(
       "--stream", command.stream,
-      "Read the files four times instead of keeping their points in memory; only for LAS, text, NumPy and "
-      "raw doubles, and only with a limit");
+      "Read the files four to seven times instead of keeping their points in memory; only for LAS, text, "
+      "NumPy and raw doubles");
+  add_memory_option(app, command.shape, "With --stream: ");
   app.add_option("--shard", command.shard,
                  "With --stream, write only what shard K of N finds, such as 2/7, for 'polylidar merge': N "
                  "machines each need an Nth of the memory");

@@ -10,6 +10,7 @@
 
 #include "tool/hull/degrees.hpp"
 #include "tool/program/configuration_error.hpp"
+#include "tool/program/free_memory.hpp"
 
 namespace polylidar::tool {
 namespace {
@@ -89,6 +90,12 @@ void add_shape_options(CLI::App& app, ShapeChoice& choice) {
   add_output_options(app, choice);
 }
 
+void add_memory_option(CLI::App& app, ShapeChoice& choice, const std::string& when) {
+  app.add_option("--memory", choice.memory,
+                 when + "the most memory for points, in MiB, instead of half of what is free")
+      ->check(CLI::Range(std::uint64_t{1}, std::uint64_t{1} << 30U));
+}
+
 void add_output_options(CLI::App& app, ShapeChoice& choice) {
   app.add_option("--threads", choice.threads, "Number of threads, instead of one for each processor")
       ->check(CLI::Range(1U, 1024U));
@@ -162,6 +169,17 @@ unsigned thread_count(const ShapeChoice& choice) {
   return choice.threads > 0 ? choice.threads : std::max(1U, std::thread::hardware_concurrency());
 }
 
+std::uint64_t memory_for_points(const ShapeChoice& choice) {
+  constexpr std::uint64_t kMebibyte = std::uint64_t{1} << 20U;
+  constexpr std::uint64_t kGuessed = 1024 * kMebibyte;  // free, where the system does not say
+  return choice.memory > 0 ? choice.memory * kMebibyte : free_memory().value_or(kGuessed) / 2;
+}
+
+std::uint64_t most_points_in_memory(const ShapeChoice& choice) {
+  constexpr std::uint64_t kBytesOfPoint = 200;  // with its triangles, and some to spare
+  return memory_for_points(choice) / kBytesOfPoint;
+}
+
 Crs chosen_crs(const ShapeChoice& choice, const Crs& of_file) {
   if (choice.crs.empty()) return of_file;
   if (choice.crs == "none") return {};
@@ -189,15 +207,23 @@ LocatedHulls locate_hulls(const PointFile& file, const ShapeChoice& choice, bool
   return hulls;
 }
 
+std::string in_words(const ChosenSizes& sizes) {
+  std::string range = four_digits(sizes.least);
+  if (sizes.most > sizes.least) range += " (where points are densest) to " + four_digits(sizes.most);
+  return "triangles of size " + range + " at most, chosen from the points";
+}
+
+void add_sizes(const ChosenSizes& sizes, Properties& properties) {
+  properties.add("least_size", sizes.least);
+  properties.add("median_size", sizes.median);
+  properties.add("most_size", sizes.most);
+}
+
 void add_shape_properties(const GroupHull& hull, Properties& properties) {
   if (hull.alpha) properties.add("alpha", *hull.alpha);
   if (hull.max_edge_length) properties.add("max_edge_length", *hull.max_edge_length);
   if (hull.max_perimeter) properties.add("max_perimeter", *hull.max_perimeter);
-  if (hull.sizes && !hull.by_outlines) {
-    properties.add("least_size", hull.sizes->least);
-    properties.add("median_size", hull.sizes->median);
-    properties.add("most_size", hull.sizes->most);
-  }
+  if (hull.sizes && !hull.by_outlines) add_sizes(*hull.sizes, properties);
   properties.add("parts", hull.shape.size());
   properties.add("holes", hole_count(hull.shape));
   properties.add("area", hull.area);

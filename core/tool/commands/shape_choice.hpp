@@ -17,6 +17,9 @@ void add_shape_options(CLI::App& app, ShapeChoice& choice);
 /// Of these, those that are about the result alone, and the threads.
 void add_output_options(CLI::App& app, ShapeChoice& choice);
 
+/// Adds --memory, whose help begins with `when`.
+void add_memory_option(CLI::App& app, ShapeChoice& choice, const std::string& when);
+
 /// Adds --format, which takes these words and the drivers of GDAL.
 void add_format_option(CLI::App& app, ShapeChoice& choice, const std::vector<std::string>& formats);
 
@@ -28,6 +31,11 @@ HullOptions hull_options(const ShapeChoice& choice);
 
 /// --threads, or the number of processors.
 unsigned thread_count(const ShapeChoice& choice);
+
+/// The most that points may take, in bytes: --memory, or half of what is free.
+std::uint64_t memory_for_points(const ShapeChoice& choice);
+/// How many may be in memory for a triangulation of all.
+std::uint64_t most_points_in_memory(const ShapeChoice& choice);
 
 /// The coordinate system that `choice` gives, else that of the file. Throws ConfigurationError for a name
 /// that is none.
@@ -63,6 +71,15 @@ struct LocatedHulls {
 /// Without groups there is one hull, but none of a file that is grouped by something and has no points.
 LocatedHulls locate_hulls(const PointFile& file, const ShapeChoice& choice, bool is_grouped, unsigned threads,
                           const std::function<void(std::size_t)>& on_group);
+
+/// What is said behind a limit that was chosen.
+inline constexpr std::string_view kByHand = "--alpha, --max-edge-length or --max-perimeter sets a limit";
+
+/// What is said of the range of the sizes that were chosen.
+std::string in_words(const ChosenSizes& sizes);
+
+/// Adds this range.
+void add_sizes(const ChosenSizes& sizes, Properties& properties);
 
 /// Adds the limits that the shape has, its parts, holes and area.
 void add_shape_properties(const GroupHull& hull, Properties& properties);

@@ -2,12 +2,16 @@
 
 #include <algorithm>
 #include <charconv>
+#include <mutex>
 #include <optional>
 #include <string_view>
+#include <utility>
 
 #include "tool/commands/shape_choice.hpp"
 #include "tool/hull/shard_file.hpp"
+#include "tool/points/point_sources.hpp"
 #include "tool/program/configuration_error.hpp"
+#include "tool/program/free_memory.hpp"
 #include "tool/program/interrupt.hpp"
 #include "tool/program/result_output.hpp"
 #include "tool/program/status_line.hpp"
@@ -66,8 +70,9 @@ class StreamRun {
     if (shape.min_area > 0 || shape.max_parts || shape.simplify > 0) {
       refuse("--stream", "--min-area, --max-parts and --simplify");
     }
-    if (!shape.alpha && !shape.max_edge_length && !shape.max_perimeter) {
-      throw ConfigurationError("--stream needs a limit; give --alpha, --max-edge-length or --max-perimeter");
+    const bool is_limit_given = shape.alpha || shape.max_edge_length || shape.max_perimeter;
+    if (!command_.shard.empty() && !is_limit_given) {
+      throw ConfigurationError("--shard needs a limit; give --alpha, --max-edge-length or --max-perimeter");
     }
   }
 
@@ -75,11 +80,9 @@ class StreamRun {
     const ShapeOutput output(command_.shape, surroundings_.vector_formats);
     if (output.text_format() == "svg") refuse("--stream", "--format svg");
     output.check_is_none_of(command_.inputs);
-    const std::vector<PointSource> files = sources();
-    const PointSource all = [&](const TakePoints& take) {
-      for (const PointSource& file : files) file(take);
-    };
-    const StreamedHull hull = concave_hull_of_stream(all, core_, stream_options());
+    // The parts of one file, or several files, are read at the same time.
+    const StreamedHull hull =
+        concave_hull_of_stream(sources(command_.inputs.size() == 1 ? core_.threads : 1), core_, stream_options());
     status_.clear();
     write_streamed_hull(hull, core_, crs_.value_or(Crs()), output, surroundings_);
     return kExitOk;
@@ -100,7 +103,7 @@ class StreamRun {
     }
     ShapeOutput(shape, surroundings_.vector_formats).check_is_none_of(command_.inputs);
     check_output_place(shape.out);
-    const StreamShard part = part_of_stream(sources(), core_, *shard, stream_options());
+    const StreamShard part = part_of_stream(sources(1), core_, *shard, stream_options());
     status_.clear();
     surroundings_.err << surroundings_.program << ": shard " << shard->number << " of " << shard->count
                       << ": " << part.points.size() << " of " << part.source_points
@@ -109,51 +112,60 @@ class StreamRun {
     return kExitOk;
   }
 
-  std::vector<PointSource> sources() {
+  /// Each file as up to so many sources.
+  std::vector<PointSource> sources(std::size_t most_parts) {
+    PointFileOptions options = point_options(command_.shape, surroundings_);
+    options.format = point_format_of(command_.input_format).value_or(PointFormat::kAuto);
+    options.columns = command_.columns;
+    options.on_progress = [](std::uint64_t, std::optional<std::uint64_t>) { throw_if_interrupted(); };
     std::vector<PointSource> sources;
     for (const std::string& input : command_.inputs) {
-      sources.emplace_back([this, &input](const TakePoints& take) {
-        PointFileOptions options = point_options(command_.shape, surroundings_);
-        options.format = point_format_of(command_.input_format).value_or(PointFormat::kAuto);
-        options.columns = command_.columns;
-        options.on_progress = [](std::uint64_t, std::optional<std::uint64_t>) { throw_if_interrupted(); };
-        options.take_points = take;
-        const Crs crs = read(input, options);
-        if (crs_ && *crs_ != crs) {
-          throw ConfigurationError(
-              "the files have different coordinate systems; transform them into one, or give one by --crs");
-        }
-        crs_ = crs;
-      });
+      const auto on_read = [this, &input](std::size_t part, const PointFile& file) {
+        if (part == 0) check_crs(input, chosen_crs(command_.shape, file.crs));
+      };
+      for (PointSource& part : point_sources(input, options, most_parts, on_read)) {
+        sources.emplace_back([read = std::move(part)](const TakePoints& take) {
+          try {
+            read(take);
+          } catch (const PointFileError& error) {
+            throw ConfigurationError(error.what());
+          }
+        });
+      }
     }
     return sources;
   }
 
-  Crs read(const std::string& input, const PointFileOptions& options) const {
-    try {
-      Crs crs = chosen_crs(command_.shape, read_point_file(input, options).crs);
-      if (!crs.is_geographic) return crs;
-    } catch (const PointFileError& error) {
-      throw ConfigurationError(error.what());
+  void check_crs(const std::string& input, const Crs& crs) {
+    if (crs.is_geographic) {
+      throw ConfigurationError(input +
+                               ": its coordinates are longitudes and latitudes, and --stream takes a plane; "
+                               "project them, or give --crs none to take degrees as one");
     }
-    throw ConfigurationError(input +
-                             ": its coordinates are longitudes and latitudes, and --stream takes a plane; "
-                             "project them, or give --crs none to take degrees as one");
+    const std::lock_guard lock(mutex_);
+    if (crs_ && *crs_ != crs) {
+      throw ConfigurationError(
+          "the files have different coordinate systems; transform them into one, or give one by --crs");
+    }
+    crs_ = crs;
   }
 
   StreamOptions stream_options() {
-    return {.progress = [this](const StreamProgress& progress) {
+    const auto show = [this](const StreamProgress& progress) {
       throw_if_interrupted();
       if (!surroundings_.terminal) return;
       status_.show("pass " + std::to_string(progress.pass) + " of " + std::to_string(progress.passes) + ": " +
                    std::to_string(progress.points) + " points");
-    }};
+    };
+    return {
+        .progress = show, .most_points_in_memory = most_points_in_memory(command_.shape), .reads_at_once = true};
   }
 
   const HullCommand& command_;
   const Surroundings& surroundings_;
   StatusLine status_;
   Options core_;
+  std::mutex mutex_;        ///< of the next
   std::optional<Crs> crs_;  ///< of the files, once one was read
 };
 
@@ -163,6 +175,7 @@ std::string geojson(const StreamedHull& hull, const Options& options, const Crs&
   if (options.alpha) properties.add("alpha", *options.alpha);
   if (options.max_edge_length) properties.add("max_edge_length", *options.max_edge_length);
   if (options.max_perimeter) properties.add("max_perimeter", *options.max_perimeter);
+  if (hull.chosen_sizes && !hull.by_outlines) add_sizes(*hull.chosen_sizes, properties);
   std::size_t holes = 0;
   for (const Polygon& polygon : hull.polygons) holes += polygon.holes.size();
   properties.add("parts", hull.polygons.size());
@@ -181,6 +194,9 @@ void write_streamed_hull(const StreamedHull& hull, const Options& options, const
                          const ShapeOutput& output, const Surroundings& surroundings) {
   surroundings.err << surroundings.program << ": " << hull.triangulated_points << " of " << hull.points
                    << " points are near the outline\n";
+  if (hull.chosen_sizes && !hull.by_outlines) {
+    surroundings.err << surroundings.program << ": " << in_words(*hull.chosen_sizes) << "\n";
+  }
   const std::string& format = output.text_format();
   output.write(format == "wkt"   ? to_wkt(hull.polygons)
                : format == "wkb" ? to_wkb(hull.polygons)

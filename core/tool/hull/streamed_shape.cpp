@@ -31,16 +31,18 @@ StreamedShape streamed_shape(const StreamedHull& hull) {
   return streamed;
 }
 
-std::vector<Point> points_of_numbers(const PointSource& source, const std::vector<std::uint64_t>& numbers) {
+std::vector<Point> points_of_numbers(std::span<const PointSource> sources,
+                                     const std::vector<std::uint64_t>& numbers) {
   std::vector<Point> points;
   points.reserve(numbers.size());
   std::uint64_t first = 0;  // of the block
-  source([&](std::span<const Point> block) {
+  const auto take = [&](std::span<const Point> block) {
     while (points.size() < numbers.size() && numbers[points.size()] < first + block.size()) {
       points.push_back(block[numbers[points.size()] - first]);
     }
     first += block.size();
-  });
+  };
+  for (const PointSource& source : sources) source(take);
   if (points.size() != numbers.size()) {
     throw std::runtime_error("the source has other points than when it was read before");
   }

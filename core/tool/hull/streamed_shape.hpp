@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "polylidar/stream.hpp"
@@ -17,7 +18,8 @@ struct StreamedShape {
 
 StreamedShape streamed_shape(const StreamedHull& hull);
 
-/// The points of these ascending `numbers` in `source`, which is read once.
-std::vector<Point> points_of_numbers(const PointSource& source, const std::vector<std::uint64_t>& numbers);
+/// The points of these ascending `numbers` in `sources`, which are one after the other, and are read once.
+std::vector<Point> points_of_numbers(std::span<const PointSource> sources,
+                                     const std::vector<std::uint64_t>& numbers);
 
 }  // namespace polylidar::tool

@@ -148,6 +148,14 @@ bool BlockReader::read(char* to, std::size_t size) {
 }
 
 bool BlockReader::skip(std::uint64_t size) {
+  if (size_ && !gunzip_ && size > end_ - position_) {
+    const std::uint64_t behind = size - (end_ - position_);  // what has been read
+    if (behind > *size_ - std::min(*size_, taken_)) return false;
+    if (::lseek(file_, static_cast<off_t>(behind), SEEK_CUR) < 0) fail("it cannot be read: " + reason(errno));
+    taken_ += behind;
+    position_ = end_;
+    return true;
+  }
   while (size > 0) {
     const std::uint64_t part = std::min<std::uint64_t>(size, ahead().size());
     if (part == 0) return false;

@@ -50,6 +50,7 @@ class BlockReader {
   bool next_line(std::string_view& line);
   /// The next `size` bytes; false when there are fewer.
   bool read(char* to, std::size_t size);
+  /// Past the next `size` bytes; false when there are fewer.
   bool skip(std::uint64_t size);
 
   /// How many bytes follow; nothing when that is not known, as of a pipe.

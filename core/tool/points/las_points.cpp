@@ -29,10 +29,13 @@ constexpr std::size_t kNewHeader = 375;  // 1.4
 constexpr std::size_t kRecordHeader = 54;
 constexpr std::size_t kExtendedRecordHeader = 60;
 
-constexpr std::size_t kBytesAtOnce = std::size_t{1} << 20U;  // bytes, more than any point has
+constexpr std::size_t kBytesAtOnce = std::size_t{1} << 18U;  // more than any point has; they stay in a core's cache
 
 /// Point format -> the bytes that a point has at least.
 constexpr std::array<std::size_t, 11> kLeastPointSize = {20, 28, 26, 34, 57, 63, 30, 36, 38, 59, 67};
+
+/// LASzip sets the top bit of the point format.
+constexpr unsigned kCompressed = 0xC0;
 
 constexpr const char* kCopyAgain = "; it was cut short, so copy or save it again";
 
@@ -155,8 +158,7 @@ class LasReader {
   }
 
   void read_format(unsigned format) {
-    // LASzip sets the top bit.
-    if ((format & 0xC0U) != 0) {
+    if ((format & kCompressed) != 0) {
       reader_.fail(
           "it is a LAZ file, compressed LAS; give it by its name with a program laszip or las2las in the "
           "PATH, "
@@ -188,6 +190,7 @@ class LasReader {
   void read_extended_records() {
     // A pipe need not be read any further; nor has a file to be, for what is known.
     if (header_.extended_records == 0 || has_wkt_ || !reader_.remaining()) return;
+    if (reader_.options().part.number > 0) return;  // the first part says what they say
     if (header_.extended_records_at < position_) return;
     if (!reader_.skip(header_.extended_records_at - position_)) return;
     for (std::uint64_t r = 0; r < header_.extended_records; ++r) {
@@ -236,19 +239,28 @@ class LasReader {
                  kCopyAgain);
   }
 
+  /// The number of the first point of part `number`.
+  std::uint64_t place_of_part(std::size_t number) const {
+    const std::uint64_t count = reader_.options().part.count;
+    return header_.count / count * number + header_.count % count * number / count;
+  }
+
   void read_points() {
     const PointFileOptions& options = reader_.options();
     by_ = by_of(options.by);
     if (by_ != By::kNothing) group_of_value_.assign(std::size_t{1} << 16U, kNoGroup);
     const bool takes_all = options.returns == Returns::kAll && !options.classes && !options.window;
+    const std::uint64_t first = place_of_part(options.part.number);
+    const std::uint64_t end = place_of_part(options.part.number + 1);
+    skip_to(header_.points_at + first * header_.point_size, "its points do");
     // Only when the file was seen to hold them all, so that a header alone cannot ask for all memory.
     if (takes_all && reader_.remaining() && !options.take_points) {
-      reserve_points(file_.points, static_cast<std::size_t>(header_.count));
+      reserve_points(file_.points, static_cast<std::size_t>(end - first));
     }
     const std::size_t points_a_block = kBytesAtOnce / header_.point_size;
     std::vector<char> block(points_a_block * header_.point_size);
-    for (std::uint64_t done = 0; done < header_.count;) {
-      const std::uint64_t part = std::min<std::uint64_t>(points_a_block, header_.count - done);
+    for (std::uint64_t done = first; done < end;) {
+      const std::uint64_t part = std::min<std::uint64_t>(points_a_block, end - done);
       if (!take(block.data(), static_cast<std::size_t>(part) * header_.point_size)) fail_short();
       if (takes_all && by_ == By::kNothing) {
         add_all(block.data(), static_cast<std::size_t>(part));
@@ -342,6 +354,11 @@ class LasReader {
 };
 
 }  // namespace
+
+bool is_uncompressed_las(std::string_view start) {
+  return start.starts_with("LASF") && start.size() >= kLasStart &&
+         (static_cast<unsigned char>(start[kPointFormat]) & kCompressed) == 0;
+}
 
 void read_las(BlockReader& reader, PointFile& file) {
   LasReader(reader, file).read();

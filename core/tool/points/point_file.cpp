@@ -194,10 +194,9 @@ PointFile read_from(BlockReader& reader, const std::string& path) {
 
 /// Whether the file says of itself that it is LAS as LASzip compressed it.
 bool is_laz(BlockReader& reader) {
-  constexpr std::size_t kPointFormat = 104;
   const std::string_view start = reader.ahead();
-  return start.starts_with("LASF") && start.size() > kPointFormat &&
-         (static_cast<unsigned char>(start[kPointFormat]) & 0xC0U) != 0;
+  return start.starts_with("LASF") && start.size() >= point_files::kLasStart &&
+         !point_files::is_uncompressed_las(start);
 }
 
 PointFile read_laz(const std::string& program, const std::string& path, const PointFileOptions& options) {

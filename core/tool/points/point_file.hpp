@@ -48,6 +48,12 @@ std::optional<PointFormat> point_format_of(const std::string& name);
 
 class VectorFormats;
 
+/// Part `number`, from 0 on, of `count` of about the same size.
+struct FilePart {
+  std::size_t number = 0;
+  std::size_t count = 1;
+};
+
 struct PointFileOptions {
   PointFormat format = PointFormat::kAuto;
   /// For columns of text: which two hold x and y, such as "lon,lat" (names in the first row) or "2,3"
@@ -67,6 +73,8 @@ struct PointFileOptions {
   /// empty: for files of more points than fit into memory. Of LAS, columns of text, NumPy's rows, raw doubles
   /// and layers; other files are refused.
   std::function<void(std::span<const Point>)> take_points = {};
+  /// Of a LAS file that is not compressed: only the points of this part of it are read.
+  FilePart part = {};
   /// Files that cannot be taken block by block are read whole, and handed to `take_points` then, instead of
   /// being refused.
   bool whole_if_needed = false;

@@ -2,6 +2,9 @@
 #pragma once
 
 #include <cstddef>
+#include <string_view>
+
+#include <cstddef>
 #include <vector>
 
 #include "polylidar/geometry.hpp"
@@ -34,13 +37,17 @@ std::vector<Point> read_ply(BlockReader& reader);
 /// With the coordinate system of its WKT or GeoKeys. Groups by classification, return or point_source.
 void read_las(BlockReader& reader, PointFile& file);
 
+/// So many bytes of a file tell whether it is LAS that is not compressed.
+inline constexpr std::size_t kLasStart = 105;
+bool is_uncompressed_las(std::string_view start);
+
 /// Reserves memory for `count` points, in huge pages where the system has them.
 void reserve_points(std::vector<Point>& points, std::size_t count);
 
 /// To be called after points were added to `file`, and at the end with `at_end`: hands the points on
 /// where somebody takes them.
 inline void hand_on(PointFile& file, const PointFileOptions& options, bool at_end = false) {
-  constexpr std::size_t kBlockPoints = std::size_t{1} << 18U;
+  constexpr std::size_t kBlockPoints = std::size_t{1} << 13U;  // which stay in a core's cache
   if (!options.take_points || (file.points.size() < kBlockPoints && !at_end)) return;
   if (!file.points.empty()) options.take_points(file.points);
   file.points.clear();
