@@ -163,7 +163,7 @@ TEST_F(FootprintCommandTest, WhereNoFileCanBeReadNothingIsWritten) {
     EXPECT_EQ(outcome.code, 2) << option;
     for (const char* words :
          {"there is no file /nowhere/tile.las", "it is a folder; give files, as in FOLDER/*.las",
-          "none of the files could be read, so that nothing is written"}) {
+          "none of the files could be read, so nothing is written"}) {
       EXPECT_NE(outcome.err.find(words), std::string::npos) << words << " in " << outcome.err;
     }
     EXPECT_EQ(testing::read_text(out), "an index from before");
@@ -204,7 +204,7 @@ TEST_F(FootprintCommandTest, OtherFormatsAndSystemsAndNothing) {
        {"different coordinate systems: EPSG:4326 (" + file("degrees.las", degrees.text()) +
             "), EPSG:25832 (" + (folder_.path() / "plane.las").string() + "), none (" +
             (folder_.path() / "one.csv").string() + ")",
-        std::string("1 of these has an empty shape, such as ")}) {
+        (folder_.path() / "one.csv").string() + " has an empty shape"}) {
     EXPECT_NE(outcome.err.find(words), std::string::npos) << words << " in " << outcome.err;
   }
   const json index = json::parse(outcome.out);
@@ -219,9 +219,29 @@ TEST_F(FootprintCommandTest, OtherFormatsAndSystemsAndNothing) {
   EXPECT_EQ(last["area"], 0);
 }
 
+TEST_F(FootprintCommandTest, FilesWithoutPointsAreNamed) {
+  LasFile nothing = tile(0);
+  nothing.points.clear();
+  const std::string none = file("none.las", nothing.text());
+  const std::string guessed = file("guessed.csv", "Breite,Hoehe\n1,2\n3,4\n3,5\n");
+  for (const char* option : {"--threads=1", "--union"}) {
+    const Outcome outcome =
+        succeeded(footprint({none, file("whole.las", tile(0).text()), guessed, option, "--crs", "none"}));
+    EXPECT_NE(outcome.err.find("none.las has no points\n"), std::string::npos) << outcome.err;
+    EXPECT_NE(outcome.err.find("guessed.csv: the columns 'Breite' and 'Hoehe' are taken for x and y"),
+              std::string::npos)
+        << outcome.err;
+  }
+}
+
 TEST_F(FootprintCommandTest, UsageErrors) {
   const std::string whole = file("whole.las", tile(0).text());
   expect_refusal(footprint({}), 2, "FILE is required");
+  expect_refusal(footprint({whole, folder_.path().string() + "/./whole.las"}), 2, "whole.las is given twice");
+  expect_refusal(footprint({whole, "--union", whole}), 2, "whole.las is given twice");
+  expect_refusal(footprint({whole, "-o", (folder_.path() / "index.csv").string()}), 2,
+                 "index.csv has the ending of a file of points");
+  expect_refusal(footprint({whole, "--alpha", "1", "--detail", "2"}), 2, "--alpha excludes --detail");
   expect_refusal(footprint({whole, "--classes", "2,x"}), 2, "--classes '2,x' is no list of numbers");
   expect_refusal(footprint({whole, "--classes", "256"}), 2, "--classes");
   expect_refusal(footprint({whole, "--window", "1,2,3"}), 2, "--window '1,2,3' is no box");

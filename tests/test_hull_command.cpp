@@ -227,7 +227,7 @@ TEST_F(HullCommandTest, DetailScalesTheChosenSize) {
 }
 
 TEST_F(HullCommandTest, FewPointsGiveTheEmptyGeometry) {
-  for (const std::string text : {"1,2\n", "1,2\n3,4\n", "1,2\n1,2\n3,4\n1,2\n", "0,0\n1,1\n2,2\n", "x,y\n"}) {
+  for (const std::string text : {"1,2\n", "1,2\n3,4\n", "1,2\n1,2\n3,4\n1,2\n", "0,0\n1,1\n2,2\n"}) {
     const std::string path = file("few.csv", text);
     const Outcome geojson = hull({path});
     EXPECT_EQ(geojson.code, 0) << text;
@@ -237,6 +237,12 @@ TEST_F(HullCommandTest, FewPointsGiveTheEmptyGeometry) {
     EXPECT_TRUE(shape_of(hull({path, "--format", "wkb", "--simplify", "1"})).empty());
     EXPECT_EQ(hull({path, "--format", "svg"}).code, 0);
   }
+  const std::string none = file("none.csv", "x,y\n");
+  EXPECT_EQ(hull({none, "--format", "wkt"}).out, "MULTIPOLYGON EMPTY\n");
+  expect_end(hull({none}), 0, "none.csv: it has no points, so there is no shape");
+  expect_end(hull({none, "--by", "x"}), 0, "none.csv: it has no points, so there is no shape");
+  expect_end(hull({points_file(), "--window", "500,500,501,501"}), 0,
+             "no point is left by --window, --classes and --returns");
   expect_end(hull({points_file(), "--alpha", "0"}), 0, "no triangle of the points is within the limits");
 }
 
@@ -403,7 +409,7 @@ TEST_F(HullCommandTest, OneFeatureAGroup) {
   for (const char* by : {"kind", "KIND", "1"}) {
     const Outcome outcome =
         by[0] == '1' ? hull({path, "--by", by, "--columns", "x,y"}) : hull({path, "--by", by});
-    EXPECT_EQ(outcome.err, "");
+    EXPECT_EQ(outcome.err, "polylidar: 3 groups\n");
     const json collection = json::parse(outcome.out);
     ASSERT_EQ(collection["features"].size(), 3U);
     const char* labels[] = {"", "blue", "red; \\deep"};
@@ -423,7 +429,7 @@ TEST_F(HullCommandTest, OneFeatureAGroup) {
   expect_refusal(hull({path, "--by", "colour"}), 2, "there is no column 'colour'");
   expect_refusal(hull({path, "--by", "0"}), 2, "--by '0' names no column");
   expect_refusal(hull({points_file(), "--by", "1"}), 2, "--by is for columns of text and for LAS");
-  expect_refusal(hull({path, "--by", "kind", "--format", "wkt"}), 2, "--by gives a feature a group");
+  expect_refusal(hull({path, "--by", "kind", "--format", "wkt"}), 2, "--by gives one feature for each group");
   EXPECT_EQ(hull({path, "--by", "kind", "--format", "svg"}).code, 0);
 }
 

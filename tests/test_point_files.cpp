@@ -120,6 +120,26 @@ TEST_F(PointFilesTest, FilesWithoutPoints) {
           .empty());
 }
 
+TEST_F(PointFilesTest, TwoColumnsWithUnknownNamesAreTakenInTheirOrder) {
+  const PointFile unknown = read_point_file(file("a.csv", "Breite,H\xC3\xB6he\n1,2\n"));
+  EXPECT_EQ(unknown.points, (Points{{1, 2}}));
+  EXPECT_EQ(unknown.note,
+            "the columns 'Breite' and 'H\xC3\xB6he' are taken for x and y; --columns says which is which");
+  for (const char* text : {"y,x\n2,1\n", "latitude,lon\n2,1\n", "Lat,LONG\n2,1\n", "1,2\n"}) {
+    const PointFile known = read_point_file(file("a.csv", text));
+    EXPECT_EQ(known.points, (Points{{1, 2}})) << text;
+    EXPECT_EQ(known.note, "") << text;
+    EXPECT_EQ(known.crs.is_geographic, text[0] == 'l' || text[0] == 'L') << text;
+  }
+}
+
+TEST_F(PointFilesTest, QuotesInQuotedFieldsAreSingleAgain) {
+  const std::string text = "x,y,kind\n1,2,\"say \"\"hi\"\"\"\n3,4,\"a, \"\"\"\n5,6,\"\"\n7,8,plain\n";
+  const PointFile grouped = read_point_file(file("a.csv", text), {.by = "kind"});
+  EXPECT_EQ(grouped.labels, (std::vector<std::string>{"", "a, \"", "plain", "say \"hi\""}));
+  EXPECT_EQ(read_columns("\"x\"\"\",y\n1,2\n", "x\",y"), (Points{{1, 2}}));
+}
+
 struct Fault {
   const char* name;
   std::string text;
@@ -131,7 +151,8 @@ TEST_F(PointFilesTest, FaultsInColumns) {
       {"a.csv", "", "it is empty"},
       {"a.csv", "x,y\n1,2\n3\n", ", line 3: there is no column 2"},
       {"a.csv", "id,a,b\n1,2,3\n", ", line 1: none of the columns 'id', 'a', 'b' is known to be x or y"},
-      {"a.csv", "Dear reader,\nthis is none\n", ", line 2: there is no column 2 below the first row"},
+      {"a.csv", "Dear reader,\nthis is none\n",
+       ", line 2: there is no column 2, as the line has 1; the first row, which has no number, was taken for names"},
       {"a.csv", "n;H\xC3\xB6he;\xFF\xC3;\xC2\x9B\n1;2;3;4\n",
        "the columns 'n', 'H\xC3\xB6he', '?\?', '?\?' is"},
       {"a.csv", "1,2\n\n#\n3,\n", ", line 4: a coordinate is missing"},
@@ -152,7 +173,7 @@ TEST_F(PointFilesTest, FaultsInColumns) {
       {"a.csv", "1,\xF4\x90\x80\x80\n", "'?\?\?\?' is not a number"},  // beyond U+10FFFF
       {"a.csv", std::string("1,2\0\n", 5), "zero byte"},
       {"a.csv", std::string(2000000, '7'), ", line 1: the line is longer than"},
-      {"a.xyz", "1,2\n3,4\n", ", line 2: there is no column 2"},
+      {"a.xyz", "1,2\n3,4\n", ", line 2: there is no column 2, as the line has 1; the first row"},
       {"a.csv", "LASF\1\2", "its LAS header is not whole"},
       {"a.csv", "\x1F\x8B\x08", "its gzip stream"},
       {"a.csv", "PK\x03\x04", "it is an archive"},

@@ -5,6 +5,7 @@
 #include <exception>
 #include <filesystem>
 #include <new>
+#include <set>
 #include <system_error>
 #include <thread>
 #include <utility>
@@ -49,11 +50,24 @@ std::uint64_t size_of(const std::string& path) {
 
 }  // namespace
 
+void check_each_once(const std::vector<std::string>& paths) {
+  std::set<std::filesystem::path> seen;
+  for (const std::string& path : paths) {
+    std::error_code error;
+    const std::filesystem::path whole = std::filesystem::canonical(path, error);
+    if (!error && !seen.insert(whole).second) {
+      throw ConfigurationError(path + " is given twice; give each file once");
+    }
+  }
+}
+
 FileWork::FileWork(const std::vector<std::string>& paths, const Surroundings& surroundings)
     : paths_(paths),
       surroundings_(surroundings),
       status_(surroundings.err, surroundings.terminal),
-      outcomes_(paths.size()) {}
+      outcomes_(paths.size()) {
+  check_each_once(paths);
+}
 
 void FileWork::run(unsigned threads, std::uint64_t memory, std::uint64_t memory_share, const Work& work) {
   const auto count = static_cast<unsigned>(std::min<std::size_t>(threads, paths_.size()));
@@ -90,7 +104,7 @@ void FileWork::run(unsigned threads, std::uint64_t memory, std::uint64_t memory_
     if (!outcome.is_done) surroundings_.err << surroundings_.program << ": " << outcome.failure << "\n";
   }
   if (std::none_of(outcomes_.begin(), outcomes_.end(), [](const Outcome& o) { return o.is_done; })) {
-    throw ConfigurationError("none of the files could be read, so that nothing is written");
+    throw ConfigurationError("none of the files could be read, so nothing is written");
   }
 }
 

@@ -16,13 +16,16 @@
 
 namespace polylidar::tool {
 
+/// Throws ConfigurationError where two of these are the same file.
+void check_each_once(const std::vector<std::string>& paths);
+
 class FileWork {
  public:
   /// Does what is to be done with a file, by its place among all, on so many threads, and says what
   /// coordinate system it is in. What it throws makes the file one that failed, and the other files are done.
   using Work = std::function<Crs(std::size_t file, unsigned threads)>;
 
-  /// Both must live as long.
+  /// Both must live as long. Throws as check_each_once.
   FileWork(const std::vector<std::string>& paths, const Surroundings& surroundings);
 
   /// The files one after the other, each taken by the next of `threads` that is free. One takes

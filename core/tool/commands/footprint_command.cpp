@@ -22,7 +22,6 @@
 #include "tool/hull/streamed_shape.hpp"
 #include "tool/points/point_sources.hpp"
 #include "tool/program/configuration_error.hpp"
-#include "tool/program/free_memory.hpp"
 #include "tool/program/interrupt.hpp"
 #include "tool/program/status_line.hpp"
 
@@ -130,6 +129,26 @@ void check_is_file(const std::string& path) {
   }
 }
 
+/// "2 of these have an empty shape, such as a.las", of the files that are marked.
+void say_which(const Surroundings& surroundings, const std::vector<std::string>& files,
+               const std::vector<bool>& marked, const std::string& what) {
+  const auto count = std::count(marked.begin(), marked.end(), true);
+  if (count == 0) return;
+  const auto first = static_cast<std::size_t>(std::find(marked.begin(), marked.end(), true) - marked.begin());
+  surroundings.err << surroundings.program << ": "
+                   << (count == 1 ? files[first] + " has "
+                                  : std::to_string(count) + " of these, such as " + files[first] + ", have ")
+                   << what << "\n";
+}
+
+/// What is to be told of each file.
+void say_notes(const Surroundings& surroundings, const std::vector<std::string>& files,
+               const std::vector<std::string>& notes) {
+  for (std::size_t file = 0; file < files.size(); ++file) {
+    if (!notes[file].empty()) surroundings.err << surroundings.program << ": " << files[file] << ": " << notes[file] << "\n";
+  }
+}
+
 /// One run for the index.
 class IndexRun {
  public:
@@ -140,11 +159,13 @@ class IndexRun {
         options_(interruptible(point_options(command.shape, surroundings))),
         files_(command.inputs, surroundings),
         features_(command.inputs.size()),
+        notes_(command.inputs.size()),
+        lacks_points_(command.inputs.size()),
         is_empty_(command.inputs.size()) {}
 
   ExitCode run() {
     chosen_crs(command_.shape, {});
-    output_.check_is_none_of(command_.inputs);
+    output_.check_against(command_.inputs);
     files_.run(thread_count(command_.shape), memory_for_points(command_.shape), kMemoryToTriangulate,
                [&](std::size_t file, unsigned threads) { return make(file, threads); });
     std::vector<std::string> features;
@@ -154,13 +175,10 @@ class IndexRun {
     const std::optional<Crs> crs = files_.common_crs();
     output_.write(geojson_collection(features, geojson_crs(crs.value_or(Crs()))), crs.value_or(Crs()));
     const ExitCode code = files_.summary("the index");
-    if (const auto empty = std::count(is_empty_.begin(), is_empty_.end(), true); empty > 0) {
-      const auto first =
-          static_cast<std::size_t>(std::find(is_empty_.begin(), is_empty_.end(), true) - is_empty_.begin());
-      surroundings_.err << surroundings_.program << ": " << empty << " of these "
-                        << (empty == 1 ? "has" : "have") << " an empty shape, such as "
-                        << command_.inputs[first] << "\n";
-    }
+    say_notes(surroundings_, command_.inputs, notes_);
+    say_which(surroundings_, command_.inputs, lacks_points_,
+              command_.shape.window.empty() ? "no points" : "no points in the window");
+    say_which(surroundings_, command_.inputs, is_empty_, "an empty shape");
     bool nameless = false;
     for (std::size_t file = 0; file < features_.size(); ++file) {
       nameless |= files_.is_done(file) && !output_.can_tell(files_.crs(file));
@@ -182,7 +200,8 @@ class IndexRun {
   struct Footprint {
     Facts facts;
     Crs crs;
-    GroupHull hull;  ///< `points`
+    std::string note;  ///< PointFile::note
+    GroupHull hull;    ///< of `points`
     std::vector<Point> points;
   };
 
@@ -197,8 +216,10 @@ class IndexRun {
     properties.add("path", std::string_view(path));
     add_properties(made.facts, made.hull, made.crs, properties);
     features_[place] = geojson_feature(properties, to_coordinates(made.hull.shape, made.points));
+    notes_[place] = made.note;
     const std::lock_guard lock(mutex_);
-    is_empty_[place] = made.hull.shape.empty();
+    lacks_points_[place] = made.facts.points == 0;
+    is_empty_[place] = made.hull.shape.empty() && made.facts.points > 0;
     box_ = joined(box_, made.facts.bounds);
     return made.crs;
   }
@@ -207,6 +228,7 @@ class IndexRun {
     PointFile file = read_point_file(path, options_);
     Footprint made;
     made.crs = chosen_crs(command_.shape, file.crs);
+    made.note = file.note;
     made.hull = std::move(locate_hulls(file, command_.shape, false, threads, {}).groups[0]);
     made.facts.add(file.points);
     made.facts.add(file.classes);
@@ -260,8 +282,10 @@ class IndexRun {
   PointFileOptions options_;
   FileWork files_;
   std::vector<std::string> features_;  ///< one a file, GeoJSON; empty where it could not be read
-  std::mutex mutex_;                   ///< of the next two
-  std::vector<bool> is_empty_;         ///< one a file: whether its shape is
+  std::vector<std::string> notes_;     ///< one a file, mostly empty
+  std::mutex mutex_;                   ///< of the next three
+  std::vector<bool> lacks_points_;     ///< one a file
+  std::vector<bool> is_empty_;         ///< one a file: whether its shape is, although it has points
   Box box_ = bounding_box({});         ///< of all points that were read
 };
 
@@ -278,7 +302,8 @@ class UnionRun {
         options_(interruptible(point_options(command.shape, surroundings))),
         core_(hull_options(command.shape).core),
         files_(command.inputs, surroundings),
-        facts_(command.inputs.size()) {
+        facts_(command.inputs.size()),
+        notes_(command.inputs.size()) {
     options_.whole_if_needed = true;
     core_.threads = thread_count(command.shape);
   }
@@ -295,6 +320,13 @@ class UnionRun {
     }
     output_.write(geojson_collection(std::vector{feature(hull)}, geojson_crs(crs_)), crs_);
     const ExitCode code = files_.summary("the union");
+    say_notes(surroundings_, command_.inputs, notes_);
+    std::vector<bool> lacks_points;
+    for (std::size_t file = 0; file < facts_.size(); ++file) {
+      lacks_points.push_back(files_.is_done(file) && facts_[file].points == 0);
+    }
+    say_which(surroundings_, command_.inputs, lacks_points,
+              command_.shape.window.empty() ? "no points" : "no points in the window");
     if (!output_.can_tell(crs_)) say(std::string(kNamelessCrs));
     if (lacks_crs(command_.shape, crs_, all_.bounds)) say(std::string(kNoCrs));
     return code;
@@ -304,12 +336,11 @@ class UnionRun {
   void check_options() const {
     const ShapeChoice& shape = command_.shape;
     chosen_crs(shape, {});
-    output_.check_is_none_of(command_.inputs);
+    output_.check_against(command_.inputs);
     if (shape.one || shape.cover || shape.min_triangles > 0) {
       throw ConfigurationError(
           "--union does not go with --one, --cover and --min-triangles, which need all triangles; leave one "
-          "of "
-          "them out");
+          "of them out");
     }
   }
 
@@ -326,6 +357,7 @@ class UnionRun {
     options.take_points = [&](std::span<const Point> block) { facts.add(block); };
     const PointFile file = read_point_file(path, options);
     facts.add(file.classes);
+    notes_[place] = file.note;
     return chosen_crs(command_.shape, file.crs);
   }
 
@@ -393,7 +425,8 @@ class UnionRun {
     least_area_ = (log_n + 4) * spacing * spacing;
     say("triangles with a circumradius of " + four_digits(*core_.alpha) +
         " at most, chosen from the points (each file alone would get triangles of size " +
-        four_digits(sizes.front().first) + " to " + four_digits(sizes.back().first) + "); --detail scales it, " +
+        four_digits(sizes.front().first) +
+        (sizes.front() == sizes.back() ? "" : " to " + four_digits(sizes.back().first)) + "); --detail scales it, " +
         std::string(kByHand));
   }
 
@@ -419,9 +452,7 @@ class UnionRun {
 
   StreamedHull stream() {
     StreamOptions options;
-    // Of two maps; the rest is for what is near the outline.
-    options.most_map_bytes =
-        std::max(options.most_map_bytes, static_cast<double>(free_memory().value_or(0)) / 8);
+    options.most_map_bytes = std::max(options.most_map_bytes, most_map_bytes(command_.shape));
     options.progress = [&](const StreamProgress& progress) {
       throw_if_interrupted();
       if (!surroundings_.terminal) return;
@@ -471,7 +502,8 @@ class UnionRun {
   PointFileOptions options_;
   Options core_;
   FileWork files_;
-  std::vector<Facts> facts_;   ///< one a file
+  std::vector<Facts> facts_;        ///< one a file
+  std::vector<std::string> notes_;  ///< likewise
   Facts all_;                  ///< of the files that could be read
   std::size_t count_ = 0;      ///< these files
   double least_area_ = 0;      ///< smaller holes and parts are by chance, where the limit was chosen
@@ -511,7 +543,8 @@ void add_footprint_options(CLI::App& app, FootprintCommand& command) {
       std::string(kGdalHelp));
   app.add_option("FILE", command.inputs, "The files of points")->required();
   app.add_flag("--union", command.is_union,
-               "Make one shape of all files together, instead of one for each file");
+               "Make one shape of all files together, instead of one for each file; not with --one, --cover and "
+               "--min-triangles");
   add_format_option(app, command.shape, {"auto", "geojson"});
   add_shape_options(app, command.shape);
   add_memory_option(app, command.shape, "");

@@ -24,6 +24,11 @@ std::string mebibytes(std::uint64_t bytes) {
   return std::to_string(bytes >> 20U);
 }
 
+std::string name_of(const HullCommand& command) {
+  if (command.inputs.size() > 1) return "the " + std::to_string(command.inputs.size()) + " files";
+  return command.inputs.front() == "-" ? "standard input" : command.inputs.front();
+}
+
 /// One run of the command.
 class HullRun {
  public:
@@ -50,7 +55,7 @@ class HullRun {
  private:
   void check_options() const {
     chosen_crs(command_.shape, {});
-    output_.check_is_none_of(command_.inputs);
+    output_.check_against(command_.inputs);
     if (command_.inputs.size() > 1) {
       throw ConfigurationError(
           "several files are one set of points with --stream only; give that, or ask 'polylidar "
@@ -61,7 +66,7 @@ class HullRun {
     }
     if (output_.has_features()) return;
     if (!command_.by.empty() && output_.text_format() != "svg") {
-      throw ConfigurationError("--by gives a feature a group, which " + output_.text_format() +
+      throw ConfigurationError("--by gives one feature for each group, which " + output_.text_format() +
                                " cannot tell apart; ask for --format geojson or svg");
     }
     if (command_.keep_outliers) {
@@ -92,6 +97,7 @@ class HullRun {
     } catch (const PointFileError& error) {
       throw ConfigurationError(error.what());
     }
+    if (!file_.note.empty()) say(file_.note);
     crs_ = chosen_crs(command_.shape, file_.crs);
     are_numbers_ = are_numbers(file_.labels);
   }
@@ -129,6 +135,7 @@ class HullRun {
       say(in_words(*hull.sizes) + "; --detail scales it, " + by_hand);
     }
     if (hull.extracted > 0) return;
+    if (hull.points == 0) return say(no_points(command_.shape, name_of(command_)));
     say(hull.has_triangles
             ? "no triangle of the points is within the limits, so the shape is empty; larger ones "
               "give more"
@@ -138,10 +145,10 @@ class HullRun {
   void explain_groups() const {
     const auto empty = std::count_if(hulls_.groups.begin(), hulls_.groups.end(),
                                      [](const GroupHull& hull) { return hull.shape.empty(); });
-    if (empty > 0) {
-      say(std::to_string(empty) + " of " + std::to_string(hulls_.groups.size()) +
-          " groups have an empty shape");
-    }
+    const std::size_t count = hulls_.groups.size();
+    if (count == 0) return say(no_points(command_.shape, name_of(command_)));
+    say(std::to_string(count) + (count == 1 ? " group" : " groups") +
+        (empty > 0 ? "; of " + std::to_string(empty) + " the shape is empty" : ""));
   }
 
   std::string result() const {
@@ -225,11 +232,6 @@ class HullRun {
   LocatedHulls hulls_;
   bool are_numbers_ = false;
 };
-
-std::string name_of(const HullCommand& command) {
-  if (command.inputs.size() > 1) return "the " + std::to_string(command.inputs.size()) + " files";
-  return command.inputs.front() == "-" ? "standard input" : command.inputs.front();
-}
 
 }  // namespace
 

@@ -39,7 +39,7 @@ ExitCode merge(const MergeCommand& command, const Surroundings& surroundings) {
     throw ConfigurationError(
         "svg shows all points, which parts do not have; write the polygons as geojson, wkt or wkb");
   }
-  output.check_is_none_of(command.inputs);
+  output.check_against(command.inputs);
   std::vector<StreamShard> shards;
   const Crs crs = read_parts(command.inputs, shards);
   const StreamedHull hull = concave_hull_of_shards(shards, thread_count(command.shape));

@@ -57,11 +57,15 @@ void add_shape_options(CLI::App& app, ShapeChoice& choice) {
       ->check(zero_or_more());
   app.add_option("--max-perimeter", choice.max_perimeter, "Largest perimeter of a triangle of the shape")
       ->check(zero_or_more());
-  app.add_option("--detail", choice.detail,
-                 "How much detail the outline has when no limit is given: 2 keeps holes and notches half as "
-                 "wide, 0.5 smooths")
+  CLI::Option* const detail =
+      app.add_option("--detail", choice.detail,
+                 "How much detail the outline has, where no limit is given: 2 keeps holes and notches half "
+                     "as wide, 0.5 smooths")
       ->check(above_zero())
       ->capture_default_str();
+  for (const char* limit : {"--alpha", "--max-edge-length", "--max-perimeter"}) {
+    detail->excludes(app.get_option(limit));
+  }
   app.add_flag("--one", choice.one, "Make one polygon: widen the limit just enough to join all parts");
   app.add_flag("--cover", choice.cover,
                "Leave no point outside: widen the limit just enough to cover them all");
@@ -112,7 +116,7 @@ void add_format_option(CLI::App& app, ShapeChoice& choice, const std::vector<std
   const auto check = [formats, listed](const std::string& text) {
     const bool is_known = std::find(formats.begin(), formats.end(), text) != formats.end();
     return is_known || text.starts_with("gdal:") ? ""
-                                                 : "'" + text + "' is none of " + listed + " and gdal:DRIVER";
+                                                 : "'" + text + "' is none of " + listed + ",gdal:DRIVER";
   };
   app.add_option(
          "--format", choice.format,
@@ -175,6 +179,10 @@ std::uint64_t memory_for_points(const ShapeChoice& choice) {
   return choice.memory > 0 ? choice.memory * kMebibyte : free_memory().value_or(kGuessed) / 2;
 }
 
+double most_map_bytes(const ShapeChoice& choice) {
+  return static_cast<double>(memory_for_points(choice)) / 4;
+}
+
 std::uint64_t most_points_in_memory(const ShapeChoice& choice) {
   constexpr std::uint64_t kBytesOfPoint = 200;  // with its triangles, and some to spare
   return memory_for_points(choice) / kBytesOfPoint;
@@ -205,6 +213,12 @@ LocatedHulls locate_hulls(const PointFile& file, const ShapeChoice& choice, bool
   hulls.groups = group_hulls(hulls.latitude ? hulls.metres : file.points, file.groups, file.labels.size(),
                              hull_options(choice), threads, on_group);
   return hulls;
+}
+
+std::string no_points(const ShapeChoice& choice, const std::string& file) {
+  const bool is_choice = !choice.window.empty() || !choice.classes.empty() || choice.returns != "all";
+  return file + (is_choice ? ": no point is left by --window, --classes and --returns, so there is no shape"
+                           : ": it has no points, so there is no shape");
 }
 
 std::string in_words(const ChosenSizes& sizes) {

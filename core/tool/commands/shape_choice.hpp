@@ -34,6 +34,9 @@ unsigned thread_count(const ShapeChoice& choice);
 
 /// The most that points may take, in bytes: --memory, or half of what is free.
 std::uint64_t memory_for_points(const ShapeChoice& choice);
+/// For StreamOptions::most_map_bytes: half of that for two maps, the rest for what is near the outline. Not for
+/// shards, whose grids must be the same on all machines.
+double most_map_bytes(const ShapeChoice& choice);
 /// How many may be in memory for a triangulation of all.
 std::uint64_t most_points_in_memory(const ShapeChoice& choice);
 
@@ -48,9 +51,8 @@ inline constexpr std::string_view kNamelessCrs =
 
 /// What is said where no system is known of coordinates that are no longitudes and latitudes.
 inline constexpr std::string_view kNoCrs =
-    "the points name no coordinate system, and most programs take GeoJSON without one for longitude and "
-    "latitude; "
-    "--crs gives it, as in --crs EPSG:25832, and --crs none says that there is none";
+    "the points name no coordinate system, and most programs take a result without one for longitude and "
+    "latitude; --crs gives it, as in --crs EPSG:25832, and --crs none says that there is none";
 
 /// Whether kNoCrs is to be said of points in `box`.
 bool lacks_crs(const ShapeChoice& choice, const Crs& crs, const Box& box);
@@ -71,6 +73,9 @@ struct LocatedHulls {
 /// Without groups there is one hull, but none of a file that is grouped by something and has no points.
 LocatedHulls locate_hulls(const PointFile& file, const ShapeChoice& choice, bool is_grouped, unsigned threads,
                           const std::function<void(std::size_t)>& on_group);
+
+/// What is said where there are no points: in the file, or none that is asked for.
+std::string no_points(const ShapeChoice& choice, const std::string& file);
 
 /// What is said behind a limit that was chosen.
 inline constexpr std::string_view kByHand = "--alpha, --max-edge-length or --max-perimeter sets a limit";

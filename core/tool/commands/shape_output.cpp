@@ -7,6 +7,7 @@
 #include <system_error>
 #include <utility>
 
+#include "tool/points/point_file.hpp"
 #include "tool/program/configuration_error.hpp"
 #include "tool/program/result_output.hpp"
 
@@ -27,7 +28,10 @@ std::string format_of(const ShapeChoice& choice) {
 }  // namespace
 
 ShapeOutput::ShapeOutput(const ShapeChoice& choice, const VectorFormats* formats)
-    : path_(choice.out), formats_(formats), text_format_(format_of(choice)) {
+    : path_(choice.out),
+      formats_(formats),
+      is_format_given_(choice.format != "auto"),
+      text_format_(format_of(choice)) {
   if (!text_format_.starts_with(kGdal)) {
     if (!choice.out_layer.empty()) {
       throw ConfigurationError("--out-layer is for what GDAL writes, such as .gpkg; leave it out");
@@ -44,14 +48,18 @@ ShapeOutput::ShapeOutput(const ShapeChoice& choice, const VectorFormats* formats
   formats_->check(*by_gdal_);
 }
 
-void ShapeOutput::check_is_none_of(std::span<const std::string> inputs) const {
+void ShapeOutput::check_against(std::span<const std::string> inputs) const {
   std::error_code error;
-  if (!std::filesystem::is_regular_file(path_, error)) return;
   for (const std::string& input : inputs) {
-    if (std::filesystem::equivalent(path_, input, error)) {
+    if (std::filesystem::is_regular_file(path_, error) && std::filesystem::equivalent(path_, input, error)) {
       throw ConfigurationError("--out " + path_ +
                                " would replace the points that are read; give another file");
     }
+  }
+  if (!is_format_given_ && names_points(path_)) {
+    throw ConfigurationError("--out " + path_ +
+                             " has the ending of a file of points; name it .geojson, .wkt, .wkb or .svg, or say "
+                             "with --format what it is");
   }
 }
 

@@ -17,8 +17,9 @@ class ShapeOutput {
   /// Throws ConfigurationError where that cannot be, std::runtime_error where no file can be written there.
   ShapeOutput(const ShapeChoice& choice, const VectorFormats* formats);
 
-  /// Throws ConfigurationError where the result would replace one of the files that are read.
-  void check_is_none_of(std::span<const std::string> inputs) const;
+  /// Throws ConfigurationError where the result would replace one of the files that are read, or look like a
+  /// file of points.
+  void check_against(std::span<const std::string> inputs) const;
 
   /// What write() takes: "geojson", "wkt", "wkb" or "svg".
   const std::string& text_format() const { return text_format_; }
@@ -33,6 +34,7 @@ class ShapeOutput {
  private:
   std::string path_;
   const VectorFormats* formats_;
+  bool is_format_given_;
   std::string text_format_;
   std::optional<VectorOutput> by_gdal_;
 };

@@ -4,14 +4,15 @@
 #include <charconv>
 #include <mutex>
 #include <optional>
+#include <set>
 #include <string_view>
 #include <utility>
 
+#include "tool/commands/file_work.hpp"
 #include "tool/commands/shape_choice.hpp"
 #include "tool/hull/shard_file.hpp"
 #include "tool/points/point_sources.hpp"
 #include "tool/program/configuration_error.hpp"
-#include "tool/program/free_memory.hpp"
 #include "tool/program/interrupt.hpp"
 #include "tool/program/result_output.hpp"
 #include "tool/program/status_line.hpp"
@@ -60,6 +61,7 @@ class StreamRun {
   void check_options() const {
     const ShapeChoice& shape = command_.shape;
     const std::vector<std::string>& inputs = command_.inputs;
+    check_each_once(inputs);
     if (std::find(inputs.begin(), inputs.end(), "-") != inputs.end()) {
       refuse("--stream", "standard input, which can be read once only");
     }
@@ -79,10 +81,12 @@ class StreamRun {
   ExitCode make_hull() {
     const ShapeOutput output(command_.shape, surroundings_.vector_formats);
     if (output.text_format() == "svg") refuse("--stream", "--format svg");
-    output.check_is_none_of(command_.inputs);
+    output.check_against(command_.inputs);
     // The parts of one file, or several files, are read at the same time.
+    StreamOptions options = stream_options();
+    options.most_map_bytes = std::max(options.most_map_bytes, most_map_bytes(command_.shape));
     const StreamedHull hull =
-        concave_hull_of_stream(sources(command_.inputs.size() == 1 ? core_.threads : 1), core_, stream_options());
+        concave_hull_of_stream(sources(command_.inputs.size() == 1 ? core_.threads : 1), core_, options);
     status_.clear();
     write_streamed_hull(hull, core_, crs_.value_or(Crs()), output, surroundings_);
     return kExitOk;
@@ -101,7 +105,7 @@ class StreamRun {
           "--shard writes a part and no polygons, so --format, --out-layer and outputs of GDAL are for "
           "'polylidar merge'; give them there");
     }
-    ShapeOutput(shape, surroundings_.vector_formats).check_is_none_of(command_.inputs);
+    ShapeOutput(shape, surroundings_.vector_formats).check_against(command_.inputs);
     check_output_place(shape.out);
     const StreamShard part = part_of_stream(sources(1), core_, *shard, stream_options());
     status_.clear();
@@ -121,7 +125,9 @@ class StreamRun {
     std::vector<PointSource> sources;
     for (const std::string& input : command_.inputs) {
       const auto on_read = [this, &input](std::size_t part, const PointFile& file) {
-        if (part == 0) check_crs(input, chosen_crs(command_.shape, file.crs));
+        if (part > 0) return;
+        check_crs(input, chosen_crs(command_.shape, file.crs));
+        if (!file.note.empty()) say_once(input + ": " + file.note);
       };
       for (PointSource& part : point_sources(input, options, most_parts, on_read)) {
         sources.emplace_back([read = std::move(part)](const TakePoints& take) {
@@ -150,6 +156,11 @@ class StreamRun {
     crs_ = crs;
   }
 
+  void say_once(const std::string& text) {
+    const std::lock_guard lock(mutex_);
+    if (said_.insert(text).second) surroundings_.err << surroundings_.program << ": " << text << "\n";
+  }
+
   StreamOptions stream_options() {
     const auto show = [this](const StreamProgress& progress) {
       throw_if_interrupted();
@@ -165,8 +176,9 @@ class StreamRun {
   const Surroundings& surroundings_;
   StatusLine status_;
   Options core_;
-  std::mutex mutex_;        ///< of the next
-  std::optional<Crs> crs_;  ///< of the files, once one was read
+  std::mutex mutex_;            ///< of the next two
+  std::optional<Crs> crs_;      ///< of the files, once one was read
+  std::set<std::string> said_;  ///< each of the passes reads the same
 };
 
 std::string geojson(const StreamedHull& hull, const Options& options, const Crs& crs) {

@@ -160,9 +160,8 @@ class LasReader {
   void read_format(unsigned format) {
     if ((format & kCompressed) != 0) {
       reader_.fail(
-          "it is a LAZ file, compressed LAS; give it by its name with a program laszip or las2las in the "
-          "PATH, "
-          "or convert it first, as in 'pdal translate in.laz out.las'");
+          "it is a LAZ file; a file with a name is unpacked by the program laszip or las2las of LAStools, if one is "
+          "in the PATH; or convert it, as in 'pdal translate in.laz out.las'");
     }
     header_.format = format;
     if (format >= kLeastPointSize.size() || header_.point_size < kLeastPointSize[format]) {

@@ -253,6 +253,24 @@ PointFile read_point_file(const std::string& path, const PointFileOptions& optio
   return program ? read_laz(*program, path, options) : read_from(reader, path);
 }
 
+bool names_points(const std::string& path) {
+  switch (format_of_name(path)) {
+    case PointFormat::kCsv:
+    case PointFormat::kXyz:
+    case PointFormat::kNpy:
+    case PointFormat::kRaw:
+    case PointFormat::kPly:
+    case PointFormat::kLas:
+      return true;
+    case PointFormat::kAuto:
+    case PointFormat::kGeoJson:
+    case PointFormat::kWkt:
+    case PointFormat::kGdal:
+      return false;
+  }
+  return false;
+}
+
 std::vector<Point> read_points(const std::string& path, const PointFileOptions& options) {
   return read_point_file(path, options).points;
 }

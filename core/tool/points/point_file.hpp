@@ -57,8 +57,8 @@ struct FilePart {
 struct PointFileOptions {
   PointFormat format = PointFormat::kAuto;
   /// For columns of text: which two hold x and y, such as "lon,lat" (names in the first row) or "2,3"
-  /// (counted from 1). Empty: by the names x and y, lon and lat, longitude and latitude, lng and lat, or
-  /// easting and northing, in any case; without these the first two.
+  /// (counted from 1). Empty: by the names x and y, lon (lng, long, longitude) and lat (latitude), or easting and
+  /// northing, in any case; without these the only two.
   std::string columns = {};
   /// What to group points by: a column of text or of a layer, by its name or its number from 1;
   /// classification, return or point_source of a LAS file. Empty: nothing.
@@ -93,6 +93,7 @@ struct PointFile {
   std::vector<std::uint32_t>
       groups;  ///< of each point, its index in `labels`; empty where nothing is grouped by
   std::vector<std::string> labels;           ///< distinct; numbers by value, then other texts by their bytes
+  std::string note;                          ///< what a person should be told of how it was read; mostly empty
   Crs crs;                                   ///< that the file, or a .prj file beside text, names
   std::array<std::uint64_t, 256> classes{};  ///< of a LAS file: classification -> points taken
 };
@@ -102,6 +103,9 @@ struct PointFile {
 /// PointFileError when it cannot be read, has no byte, is not what its format says, or has a coordinate that
 /// is not finite. A file may hold no points.
 PointFile read_point_file(const std::string& path, const PointFileOptions& options = {});
+
+/// Whether `path` has the ending of a format that holds points only, such as .las.
+bool names_points(const std::string& path);
 
 /// The points of the file alone.
 std::vector<Point> read_points(const std::string& path, const PointFileOptions& options = {});

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
+#include <deque>
 
 #include "tool/points/numbers.hpp"
 #include "tool/points/readers.hpp"
@@ -21,15 +22,18 @@ class Row {
   const std::vector<std::string_view>& fields() const { return fields_; }
 
  private:
-  std::string_view take_field(std::string_view& rest) const;
+  std::string_view take_field(std::string_view& rest);
+  std::string_view with_single_quotes(std::string_view field);
 
   const BlockReader& reader_;
   char delimiter_ = kBlank;
   std::vector<std::string_view> fields_;
+  std::deque<std::string> unquoted_;  ///< fields with quotes in them
 };
 
 void Row::split(std::string_view line, std::size_t limit) {
   fields_.clear();
+  unquoted_.clear();
   // One more delimiter than the line has ends its last field, be it an empty one.
   for (bool more = true; more && fields_.size() < limit;) {
     if (delimiter_ == kBlank && trimmed(line).empty()) return;
@@ -40,8 +44,19 @@ void Row::split(std::string_view line, std::size_t limit) {
   }
 }
 
+/// A quote inside a quoted field is doubled (RFC 4180, 2.7).
+std::string_view Row::with_single_quotes(std::string_view field) {
+  if (field.find('"') == std::string_view::npos) return field;
+  std::string& text = unquoted_.emplace_back();
+  for (std::size_t i = 0; i < field.size(); ++i) {
+    text += field[i];
+    if (field[i] == '"') ++i;
+  }
+  return text;
+}
+
 /// The next field, taken off `rest` up to the delimiter behind it.
-std::string_view Row::take_field(std::string_view& rest) const {
+std::string_view Row::take_field(std::string_view& rest) {
   // Blanks round a field mean nothing, but a tab that delimits is no blank.
   const std::size_t first = rest.find_first_not_of(delimiter_ == '\t' ? " " : " \t");
   if (first != std::string_view::npos && rest[first] == '"') {
@@ -57,7 +72,7 @@ std::string_view Row::take_field(std::string_view& rest) const {
     if (!tail.empty())
       reader_.fail_here("text follows a closing quote; double a quote inside a quoted field");
     rest.remove_prefix(delimiter_ == kBlank ? 0 : std::min(rest.find(delimiter_), rest.size()));
-    return trimmed(field);
+    return with_single_quotes(trimmed(field));
   }
   if (delimiter_ == kBlank) return take_word(rest);
   const std::string_view field = rest.substr(0, rest.find(delimiter_));
@@ -78,8 +93,17 @@ bool equal_in_any_case(std::string_view a, std::string_view b) {
                     [](unsigned char c, unsigned char d) { return std::tolower(c) == std::tolower(d); });
 }
 
-constexpr std::array<std::array<std::string_view, 2>, 5> kKnownNames = {
-    {{"x", "y"}, {"lon", "lat"}, {"longitude", "latitude"}, {"lng", "lat"}, {"easting", "northing"}}};
+/// Names of columns of x and of y that go together, in any pair; empty ones are none.
+struct KnownNames {
+  using Names = std::array<std::string_view, 4>;
+  Names x;
+  Names y;
+  bool are_degrees;
+};
+constexpr std::array<KnownNames, 3> kKnownNames = {
+    {{{"x"}, {"y"}, false},
+     {{"lon", "longitude", "lng", "long"}, {"lat", "latitude"}, true},
+     {{"easting"}, {"northing"}, false}}};
 
 /// Which fields of a row hold x and y.
 struct Columns {
@@ -88,6 +112,7 @@ struct Columns {
   std::optional<std::size_t> by;  ///< what points are grouped by
   bool with_header = false;
   bool is_geographic = false;  ///< their names say longitude and latitude
+  bool is_guess = false;       ///< their names say nothing, and they are the only two
 
   std::size_t needed() const { return std::max({x, y, by.value_or(0)}) + 1; }
 };
@@ -137,9 +162,13 @@ class ColumnChoice {
   /// Whether x and y are called longitude and latitude, in one of the known ways.
   bool are_degrees(const Columns& columns) const {
     if (std::max(columns.x, columns.y) >= row_.size()) return false;
-    return std::any_of(kKnownNames.begin(), kKnownNames.end(), [&](const auto& names) {
-      return names[1].starts_with("lat") && equal_in_any_case(row_[columns.x], names[0]) &&
-             equal_in_any_case(row_[columns.y], names[1]);
+    const auto is_one_of = [&](std::size_t column, const KnownNames::Names& names) {
+      return std::any_of(names.begin(), names.end(), [&](std::string_view name) {
+        return !name.empty() && equal_in_any_case(row_[column], name);
+      });
+    };
+    return std::any_of(kKnownNames.begin(), kKnownNames.end(), [&](const KnownNames& names) {
+      return names.are_degrees && is_one_of(columns.x, names.x) && is_one_of(columns.y, names.y);
     });
   }
 
@@ -153,12 +182,22 @@ class ColumnChoice {
   }
 
   void choose_by_known_names(Columns& columns) const {
-    for (const auto& [x, y] : kKnownNames) {
-      if (find(x) == row_.size() || find(y) == row_.size()) continue;
-      columns.x = find(x);
-      columns.y = find(y);
+    const auto find_one_of = [&](const KnownNames::Names& names) {
+      std::size_t found = row_.size();
+      for (const std::string_view name : names) {
+        if (found == row_.size() && !name.empty()) found = find(name);
+      }
+      return found;
+    };
+    for (const KnownNames& names : kKnownNames) {
+      const std::size_t x = find_one_of(names.x);
+      const std::size_t y = find_one_of(names.y);
+      if (x == row_.size() || y == row_.size()) continue;
+      columns.x = x;
+      columns.y = y;
       return;
     }
+    columns.is_guess = row_.size() == 2;
     if (row_.size() <= 2) return;
     reader_.fail_here("none of the columns " + column_names() +
                       " is known to be x or y; name two of them with --columns, as in x,y or 1,2");
@@ -209,6 +248,22 @@ void read_columns(BlockReader& reader, bool only_blanks, PointFile& file) {
     columns = ColumnChoice(reader, row.fields()).choose(reader.options().columns, reader.options().by);
     needed = columns.needed();
     if (columns.is_geographic) file.crs = crs_of_epsg(4326);
+    if (columns.is_guess) {
+      file.note = "the columns " + in_quotes(row.fields()[0]) + " and " + in_quotes(row.fields()[1]) +
+                  " are taken for x and y; --columns says which is which";
+    }
+  };
+  const auto fail_short = [&] {
+    const std::size_t count = row.fields().size();
+    const bool lacks_by = columns.by && *columns.by >= count;
+    const std::size_t lacking = lacks_by ? *columns.by : columns.x >= count ? columns.x : columns.y;
+    reader.fail_here("there is no column " + std::to_string(lacking + 1) + ", as the line has " +
+                     std::to_string(count) +
+                     (columns.with_header && file.points.empty()
+                          ? "; the first row, which has no number, was taken for names"
+                          : "") +
+                     (lacks_by ? "; choose another column with --by"
+                               : "; give every point its x and y, or choose other columns with --columns"));
   };
   for (std::string_view line; reader.next_line(line);) {
     if (is_passed_over(line)) continue;
@@ -220,13 +275,7 @@ void read_columns(BlockReader& reader, bool only_blanks, PointFile& file) {
       if (columns.with_header) continue;
     }
     row.split(line, needed);
-    if (row.fields().size() < needed) {
-      reader.fail_here("there is no column " + std::to_string(row.fields().size() + 1) +
-                       (columns.with_header && file.points.empty()
-                            ? " below the first row, which has no number and was taken for names"
-                            : "") +
-                       "; give every point its x and y, or choose other columns with --columns");
-    }
+    if (row.fields().size() < needed) fail_short();
     const Point point = {parse_coordinate(row.fields()[columns.x], reader),
                          parse_coordinate(row.fields()[columns.y], reader)};
     if (window && !is_inside(point, *window)) continue;
