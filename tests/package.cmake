@@ -12,6 +12,12 @@ hullbench_tool_test(NAME docs.core NEEDS doxygen "${PROJECT_BINARY_DIR}/core/Dox
 set_tests_properties(docs.core PROPERTIES LABELS package TIMEOUT 120)
 
 hullbench_test(test_manual SOURCES test_manual.cpp LIBRARIES hullbench::manual hullbench_test_program LABELS package LIGHT)
+target_compile_definitions(test_manual PRIVATE POLYLIDAR="$<TARGET_FILE:polylidar>" HAS_GDAL=$<BOOL:${POLYLIDAR_WITH_GDAL}>)
+add_dependencies(test_manual polylidar)
+if(TARGET polylidar_with_gdal)
+  target_compile_definitions(test_manual PRIVATE POLYLIDAR_WITH_GDAL="$<TARGET_FILE:polylidar_with_gdal>")
+  add_dependencies(test_manual polylidar_with_gdal)
+endif()
 
 # The Debian packages, made of what is built, unpacked and used.
 get_property(packages GLOBAL PROPERTY HULLBENCH_DEBS)

@@ -1,8 +1,11 @@
-// Man pages and completion of an invented program.
+// Man pages and completion of an invented program, and what those of polylidar rest on.
 #include <gtest/gtest.h>
 
 #include <CLI/CLI.hpp>
+#include <filesystem>
+#include <sstream>
 #include <string>
+#include <vector>
 
 #include "packaging/manual/manual.hpp"
 #include "tests/program.hpp"
@@ -11,22 +14,43 @@
 namespace packaging {
 namespace {
 
+namespace fs = std::filesystem;
+using hullbench::testing::expect_refusal;
+using hullbench::testing::read_text;
+using hullbench::testing::run_program;
+using hullbench::testing::succeeded;
+using hullbench::testing::TemporaryFolder;
+using hullbench::testing::write_text;
+
+using Words = std::vector<std::string>;
+
 class ManualTest : public ::testing::Test {
  protected:
   ManualTest() {
-    app_.footer("Example: cut bread\n.5 slices\n'tis all");
-    CLI::App* bread = app_.add_subcommand("bread", "Cut bread, never C:\\bread");
+    app_.footer(
+        "Knives are sharp, and 'this'\n.5 mm wide~.\nForks\nare not.\nExample: cut bread 'a loaf'\n"
+        "Exit codes:\n    0  it is cut\n  130  it is\nEnd.");
+    CLI::App* bread = app_.add_subcommand("bread", "Cut bread, never C:\\bread.");
     bread->add_option("FILE", file_, "What to cut")->required();
-    bread->add_option("-w,--width", width_, "Width in mm")->check(CLI::IsMember({"thin", "thick"}));
-    bread->add_flag("--crust", crust_, "Leave the crust");
-    bread->add_option("--secret", width_, "Nobody's business")->group("");
+    bread->add_option("MORE", more_, "What else to cut");
+    bread->add_option("-w,--width", width_, "Width in mm")
+        ->check(CLI::IsMember({"thin", "thick"}))
+        ->capture_default_str();
+    bread->add_option("--form", form_, "Its form")
+        ->check(CLI::Validator([](const std::string&) { return ""; }, "{round,raw} or art:STYLE"));
+    CLI::Option* count = bread->add_option("--count", count_, "How many.")->check(CLI::Range(1U, 8U));
+    bread->add_flag("--crust", crust_, "Leave the crust")->excludes(count);
+    bread->add_option("--secret", form_, "Nobody's business")->group("");
     bread->add_subcommand("toast", "Toast it");
     app_.add_subcommand("hidden", "Nobody's business")->group("");
   }
 
   CLI::App app_{"Cuts things.", "cut"};
   std::string file_;
-  std::string width_;
+  Words more_;
+  std::string width_ = "thin";
+  std::string form_;
+  unsigned count_ = 0;
   bool crust_ = false;
 };
 
@@ -46,40 +70,157 @@ TEST_F(ManualTest, HasAPageForEveryCommandThatIsNotHidden) {
   EXPECT_TRUE(has(pages.at("cut-bread-toast.1"), ".SH SEE ALSO\n\\fBcut\\-bread\\fR(1)\n"));
 }
 
-TEST_F(ManualTest, SaysWhatTheHelpSays) {
+TEST_F(ManualTest, SaysWhatTheHelpSaysInWords) {
   const std::string page = man_pages(app_, "cut 1.2").at("cut-bread.1");
-  EXPECT_TRUE(
-      has(page, ".SH SYNOPSIS\n\\fBcut bread\\fR [\\fIOPTIONS\\fR] \\fIFILE\\fR \\fISUBCOMMAND\\fR\n"))
+  EXPECT_TRUE(has(page,
+                  ".SH SYNOPSIS\n\\fBcut bread\\fR [\\fIOPTIONS\\fR] \\fIFILE\\fR [\\fIMORE\\fR...] "
+                  "\\fISUBCOMMAND\\fR\n"))
       << page;
-  EXPECT_TRUE(has(page, ".TP\n\\fBFILE\\fR TEXT REQUIRED\nWhat to cut\n")) << page;
-  EXPECT_TRUE(has(page, ".TP\n\\fB\\-w,\\-\\-width\\fR TEXT:{thin,thick}\nWidth in mm\n")) << page;
-  EXPECT_TRUE(has(page, ".TP\n\\fB\\-\\-crust\\fR\nLeave the crust\n")) << page;
+  EXPECT_TRUE(has(page, ".TP\n\\fIFILE\\fR\nWhat to cut\n.TP\n\\fIMORE\\fR...\nWhat else to cut\n")) << page;
+  EXPECT_TRUE(has(page,
+                  ".TP\n\\fB\\-w\\fR, \\fB\\-\\-width\\fR \\fITEXT\\fR\n"
+                  "Width in mm. Values: thin, thick. Default: thin.\n"))
+      << page;
+  EXPECT_TRUE(has(page, "\nIts form. Values: round, raw or art:STYLE.\n")) << page;
+  EXPECT_TRUE(has(page, "\nHow many. Values: 1 to 8.")) << page;
+  EXPECT_TRUE(has(page, ".TP\n\\fB\\-\\-crust\\fR\nLeave the crust. Not with \\-\\-count.\n")) << page;
+  EXPECT_FALSE(has(page, "REQUIRED")) << page;
+}
+
+TEST_F(ManualTest, GivesEachPartOfTheFooterItsSection) {
+  const std::string page = man_pages(app_, "cut 1.2").at("cut.1");
+  EXPECT_TRUE(has(page, ".SH NAME\ncut \\- Cuts things\n")) << page;
+  EXPECT_TRUE(has(page,
+                  ".SH EXIT STATUS\n.TP\n\\fB0\\fR\nit is cut\n.TP\n\\fB130\\fR\nit is\n"
+                  ".SH NOTES\n"))
+      << page;
+  EXPECT_TRUE(has(page, "\nForks are not.\n.PP\nEnd.\n.SH EXAMPLES\n")) << "lines are filled anew: " << page;
+  EXPECT_FALSE(has(page, ".nf")) << page;
+  EXPECT_TRUE(has(page, "\\fBcut bread \\(aqa loaf\\(aq\\fR\n")) << page;
 }
 
 TEST_F(ManualTest, EscapesWhatTroffWouldObey) {
   const auto pages = man_pages(app_, "cut 1.2");
   EXPECT_TRUE(has(pages.at("cut-bread.1"), "never C:\\ebread\n"));
-  EXPECT_TRUE(has(pages.at("cut.1"), "\n\\&.5 slices\n\\&'tis all\n"));
+  EXPECT_TRUE(has(pages.at("cut.1"), ".SH NOTES\nKnives are sharp, and \\(aqthis\\(aq .5 mm wide\\(ti.\n"));
+  app_.footer(".5 slices");
+  EXPECT_TRUE(has(man_pages(app_, "").at("cut.1"), "\n\\&.5 slices\n"));
 }
 
-TEST_F(ManualTest, CompletesWordsOfOptionsAndNothingHidden) {
-  const std::string script = bash_completion(app_);
-  EXPECT_TRUE(has(script, "\"cut bread\") words=\"toast -h --help -w --width --crust\"")) << script;
-  EXPECT_TRUE(has(script, "\"cut bread -w\") words=\"thin thick\"")) << script;
-  EXPECT_FALSE(has(script, "\"cut bread --crust\")")) << "a flag takes no word";
-  EXPECT_FALSE(has(script, "hidden")) << script;
-  EXPECT_FALSE(has(script, "secret")) << script;
+/// What a shell offers for the last of the words.
+class CompletionTest : public ManualTest {
+ protected:
+  /// `words` as bash has them, which takes a word apart at = and :.
+  Words in_bash(const Words& words) {
+    return completed(
+        {"bash", "--norc", "-c",
+         R"(source "$0"; COMP_WORDS=("$@"); COMP_CWORD=$(($# - 1)); _cut; printf '%s\n' "${COMPREPLY[@]}")"},
+        bash_completion(app_, kMore), words);
+  }
+
+  /// The builtins of zsh that work in its editor only are replaced; what is offered is not yet compared with
+  /// the word.
+  Words in_zsh(const Words& words) {
+    return completed({"zsh", "-f", "-c",
+                      R"(compset() { :; }; compadd() { shift; print -rl -- "$@"; }; _files() { print files; };
+                         words=("$@"); CURRENT=$#; source $0)"},
+                     zsh_completion(app_, kMore), words);
+  }
+
+  const MoreWords kMore = {{"art:STYLE", {"art:new", "art:nice"}}};
+
+ private:
+  Words completed(Words command, const std::string& script, const Words& words) {
+    const fs::path file = folder_.path() / "script";
+    write_text(file, script);
+    command.push_back(file);
+    command.insert(command.end(), words.begin(), words.end());
+    std::istringstream lines(succeeded(run_program(command)).out);
+    Words found;
+    for (std::string line; std::getline(lines, line);) {
+      if (!line.empty()) found.push_back(line);
+    }
+    return found;
+  }
+
+  TemporaryFolder folder_;
+};
+
+TEST_F(CompletionTest, OfBashOffersCommandsOptionsAndTheirWords) {
+  EXPECT_EQ(in_bash({"cut", ""}), (Words{"bread", "-h", "--help"}));
+  EXPECT_EQ(in_bash({"cut", "bread", ""}),
+            (Words{"toast", "-h", "--help", "-w", "--width", "--form", "--count", "--crust"}));
+  EXPECT_EQ(in_bash({"cut", "bread", "a", "--c"}), (Words{"--count", "--crust"}));
+  EXPECT_EQ(in_bash({"cut", "bread", "-w", "thi"}), (Words{"thin", "thick"}));
+  EXPECT_EQ(in_bash({"cut", "bread", "--crust", "--w"}), Words{"--width"}) << "a flag takes no word";
+  EXPECT_EQ(in_bash({"cut", "bread", "--count", ""}), Words{}) << "bash then completes names of files";
+  EXPECT_EQ(in_bash({"cut", "bread", "toast", "--w"}), Words{});
+}
+
+TEST_F(CompletionTest, OfBashKnowsAWordThatBashTakesApart) {
+  EXPECT_EQ(in_bash({"cut", "bread", "--width", "=", "thic"}), Words{"thick"});
+  EXPECT_EQ(in_bash({"cut", "bread", "--width", "="}), (Words{"thin", "thick"}));
+  EXPECT_EQ(in_bash({"cut", "bread", "--form", "r"}), (Words{"round", "raw"}));
+  EXPECT_EQ(in_bash({"cut", "bread", "--form", "a"}), (Words{"art:new", "art:nice"}));
+  EXPECT_EQ(in_bash({"cut", "bread", "--form", "art", ":", "n"}), (Words{"new", "nice"}));
+  EXPECT_EQ(in_bash({"cut", "bread", "--form", "=", "art", ":", "ni"}), Words{"nice"});
+  EXPECT_EQ(in_bash({"cut", "bread", "--crust", "="}), Words{}) << "a flag takes no word";
+}
+
+TEST_F(CompletionTest, OfZshOffersTheSame) {
+  if (const std::string what = hullbench::testing::missing({"zsh"}); !what.empty()) GTEST_SKIP() << what;
+  EXPECT_EQ(in_zsh({"cut", ""}), (Words{"bread", "-h", "--help"}));
+  EXPECT_EQ(in_zsh({"cut", "bread", "a", "--c"}),
+            (Words{"toast", "-h", "--help", "-w", "--width", "--form", "--count", "--crust"}));
+  EXPECT_EQ(in_zsh({"cut", "bread", "-w", ""}), (Words{"thin", "thick"}));
+  EXPECT_EQ(in_zsh({"cut", "bread", "--width=thic"}), (Words{"thin", "thick"}));
+  EXPECT_EQ(in_zsh({"cut", "bread", "--form=art:n"}), (Words{"round", "raw", "art:new", "art:nice"}));
+  EXPECT_EQ(in_zsh({"cut", "bread", "--count", ""}), Words{"files"});
+  EXPECT_EQ(in_zsh({"cut", "bread", "--crust="}), Words{"files"});
+}
+
+TEST_F(CompletionTest, LeavesOutWhatTheProgramDoesNotHave) {
+  EXPECT_FALSE(has(bash_completion(app_), "art:"));
+  for (const std::string& script : {bash_completion(app_, kMore), zsh_completion(app_, kMore)}) {
+    EXPECT_FALSE(has(script, "hidden")) << script;
+    EXPECT_FALSE(has(script, "secret")) << script;
+  }
 }
 
 TEST_F(ManualTest, IsWrittenByAnOptionThatNoHelpShows) {
   add_manual(app_, "cut 1.2");
   EXPECT_FALSE(has(app_.help(), "write-manual"));
-  const hullbench::testing::TemporaryFolder folder;
-  EXPECT_THROW(app_.parse("--write-manual " + folder.path().string()), CLI::Success);
-  EXPECT_EQ(hullbench::testing::read_text(folder.path() / "cut"), bash_completion(app_));
-  EXPECT_EQ(hullbench::testing::read_text(folder.path() / "cut-bread.1"),
-            man_pages(app_, "cut 1.2").at("cut-bread.1"));
-  EXPECT_THROW(app_.parse("--write-manual " + (folder.path() / "none").string()), std::runtime_error);
+  const TemporaryFolder folder;
+  const fs::path made = folder.path() / "not" / "yet";
+  EXPECT_THROW(app_.parse("--write-manual " + made.string()), CLI::Success);
+  EXPECT_EQ(read_text(made / "cut"), bash_completion(app_));
+  EXPECT_EQ(read_text(made / "_cut"), zsh_completion(app_));
+  EXPECT_EQ(read_text(made / "cut-bread.1"), man_pages(app_, "cut 1.2").at("cut-bread.1"));
+}
+
+/// What polylidar says of a manual that it cannot write.
+TEST(PolylidarManualTest, SaysWhyItCannotBeWritten) {
+  expect_refusal(run_program({POLYLIDAR, "--write-manual"}), 2, "--write-manual needs the name of a folder");
+  const TemporaryFolder folder;
+  const fs::path file = folder.path() / "file";
+  write_text(file, "");
+  expect_refusal(run_program({POLYLIDAR, "--write-manual", file}), 1, file.string() + ": Not a directory");
+  fs::create_directories(folder.path() / "taken" / "polylidar.1");
+  expect_refusal(run_program({POLYLIDAR, "--write-manual", folder.path() / "taken"}), 1,
+                 "taken/polylidar.1: Is a directory");
+}
+
+TEST(PolylidarManualTest, CompletesDriversOfGdalWhereThereIsGdal) {
+  const auto completion_of = [](const std::string& program) {
+    const TemporaryFolder folder;
+    succeeded(run_program({program, "--write-manual", folder.path()}));
+    return read_text(folder.path() / "polylidar");
+  };
+  EXPECT_EQ(has(completion_of(POLYLIDAR), "gdal:GPKG"), HAS_GDAL);
+#ifdef POLYLIDAR_WITH_GDAL
+  EXPECT_TRUE(has(completion_of(POLYLIDAR_WITH_GDAL),
+                  "\"polylidar hull --format\") choices=\"auto geojson wkt wkb svg gdal:GPKG "));
+#endif
 }
 
 }  // namespace

@@ -31,6 +31,17 @@ const VectorFormats* vector_formats() {
 #endif
 }
 
+/// Drivers that nearly every GDAL has, for the completion of --format.
+packaging::MoreWords gdal_words() {
+#ifdef POLYLIDAR_WITH_GDAL
+  return {{"gdal:DRIVER",
+           {"gdal:GPKG", "gdal:FlatGeobuf", "gdal:GeoJSONSeq", "gdal:GML", "gdal:KML", "gdal:SQLite",
+            "gdal:PostgreSQL"}}};
+#else
+  return {};
+#endif
+}
+
 /// What the command line asks for; nothing more when it is help.
 Action parse(int argc, char** argv) {
   CLI::App app("Polygons round points: concave hulls of files of points.", kProgram);
@@ -53,7 +64,7 @@ Action parse(int argc, char** argv) {
   add("hull", &add_hull_options, &make_hull);
   add("merge", &add_merge_options, &merge_hulls);
   add("footprint", &add_footprint_options, &make_footprints);
-  packaging::add_manual(app, "polylidar " POLYLIDAR_VERSION);
+  packaging::add_manual(app, "polylidar " POLYLIDAR_VERSION, gdal_words());
   return parsed_action(app, action, argc, argv);
 }
 
