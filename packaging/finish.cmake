@@ -12,6 +12,13 @@ foreach(licence IN LISTS licences)
   endif()
 endforeach()
 
+# Debian's zsh looks for what packages complete in another folder.
+file(GLOB completions "${share}/zsh/site-functions")
+foreach(folder IN LISTS completions)
+  cmake_path(REPLACE_FILENAME folder vendor-completions OUTPUT_VARIABLE vendor)
+  file(RENAME "${folder}" "${vendor}")
+endforeach()
+
 # Without the time in them.
 file(GLOB long_texts "${share}/doc/*/changelog*" "${share}/man/man1/*.1")
 execute_process(COMMAND gzip -9 -n ${long_texts} COMMAND_ERROR_IS_FATAL ANY)

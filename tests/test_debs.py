@@ -163,6 +163,15 @@ class Debs(unittest.TestCase):
             self.assertIn(option, text)
         self.assertNotIn("--write-manual", run("man", "-l", page.parent / "hullbench.1.gz"))
 
+    def test_completion_is_where_debian_s_shells_look_for_it(self):
+        for package in self.programs():
+            share = self.folder / package / "usr/share"
+            bash = share / "bash-completion/completions" / PROGRAMS[package]
+            zsh = share / "zsh/vendor-completions" / f"_{PROGRAMS[package]}"
+            self.assertIn(f"complete -o default -F _{PROGRAMS[package]}", bash.read_text())
+            self.assertTrue(zsh.read_text().startswith(f"#compdef {PROGRAMS[package]}\n"))
+            self.assertEqual([path.name for path in (share / "zsh").iterdir()], ["vendor-completions"])
+
     def completed(self, *words):
         script = self.folder / "hullbench/usr/share/bash-completion/completions/hullbench"
         return run(

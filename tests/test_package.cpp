@@ -26,6 +26,15 @@ std::string succeed(const std::vector<std::string>& command, const testing::Prog
   return outcome.out;
 }
 
+const std::set<std::string> kToolFiles = {"bin/polylidar",
+                                          "share/bash-completion/completions/polylidar",
+                                          "share/doc/polylidar/LICENSE",
+                                          "share/man/man1/polylidar-footprint.1",
+                                          "share/man/man1/polylidar-hull.1",
+                                          "share/man/man1/polylidar-merge.1",
+                                          "share/man/man1/polylidar.1",
+                                          "share/zsh/site-functions/_polylidar"};
+
 class PackageTest : public ::testing::Test {
  protected:
   void install(const std::vector<std::string>& options) {
@@ -108,11 +117,7 @@ TEST_F(PackageTest, IsTheCoreAndNothingElse) {
 TEST_F(PackageTest, TheToolIsAComponentOfItsOwnAndLinksNoOtherLibrary) {
   if (HAS_GDAL) GTEST_SKIP() << "this build links GDAL, as it was asked to";
   install({"--component", "tool"});
-  EXPECT_EQ(installed_files(),
-            (std::set<std::string>{"bin/polylidar", "share/bash-completion/completions/polylidar",
-                                   "share/doc/polylidar/LICENSE", "share/man/man1/polylidar-footprint.1",
-                                   "share/man/man1/polylidar-hull.1", "share/man/man1/polylidar-merge.1",
-                                   "share/man/man1/polylidar.1"}));
+  EXPECT_EQ(installed_files(), kToolFiles);
   const std::string program = (prefix_ / "bin/polylidar").string();
   EXPECT_EQ(succeed({program, "--version"}), "polylidar " PROJECT_VERSION "\n");
   // What the licence of the program depends on: the C and C++ libraries, and zlib.
@@ -126,6 +131,13 @@ TEST_F(PackageTest, TheToolIsAComponentOfItsOwnAndLinksNoOtherLibrary) {
     }
     EXPECT_TRUE(is_known) << line;
   }
+}
+
+// A build of the tool alone has the install rules of this folder, and none of packaging/.
+TEST_F(PackageTest, TheToolHasItsManualWithoutTheHarness) {
+  succeed({CMAKE_PROGRAM, "-DCMAKE_INSTALL_PREFIX=" + prefix(), "-DCMAKE_INSTALL_COMPONENT=tool", "-P",
+           BUILD_FOLDER "/core/tool/cmake_install.cmake"});
+  EXPECT_EQ(installed_files(), kToolFiles);
 }
 
 TEST_F(PackageTest, NamesNothingOfTheBuild) {
