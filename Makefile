@@ -98,7 +98,11 @@ tool: ## build only polylidar, the program for your own points, as build-tool/po
 package: ## make Debian packages of the library, the Python module and the programs in build/packages
 	@$(call install,build python package)
 	@$(call build,release,$(WITHOUT_TESTS),debs)
-	@ls build/packages/*.deb
+
+.PHONY: package-tool
+package-tool: ## make the Debian package of polylidar alone in build-tool/packages, without the harness (GDAL=1: with what GDAL has)
+	@$(call install,tool package $(if $(filter-out 0,$(GDAL)),gdal))
+	@$(call build,tool,$(NATIVE_OPTION) -DPOLYLIDAR_WITH_GDAL=$(if $(filter-out 0,$(GDAL)),ON,OFF),deb_polylidar-tools)
 
 bench: ## install, build and run the experiments in three passes (TABLE=states: only this one); an interrupted run is continued
 	@$(call install,build bench)

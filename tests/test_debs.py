@@ -24,13 +24,21 @@ def run(*command, **options):
     return result.stdout
 
 
+def make_debs(folder, components=""):
+    """What the targets "debs" and "deb_PACKAGE" run, into another folder; its words."""
+    return run(
+        *(os.environ["CMAKE"], f"-DCPACK={os.environ['CPACK']}", f"-DCONFIG={BUILD / 'CPackConfig.cmake'}"),
+        *(f"-DFOLDER={folder}", f"-DCOMPONENTS={components}", "-P", ROOT / "packaging" / "make_debs.cmake"),
+    )
+
+
 class Debs(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
         temporary = tempfile.TemporaryDirectory()
         cls.addClassCleanup(temporary.cleanup)
         cls.folder = pathlib.Path(temporary.name)
-        run(os.environ["CPACK"], "--config", BUILD / "CPackConfig.cmake", "-B", cls.folder / "packages")
+        cls.said = make_debs(cls.folder / "packages")
         cls.debs = {deb.name.split("_")[0]: deb for deb in (cls.folder / "packages").glob("*.deb")}
         for name, deb in cls.debs.items():
             run("dpkg-deb", "-x", deb, cls.folder / name)
@@ -50,6 +58,23 @@ class Debs(unittest.TestCase):
         for package in PACKAGES:
             self.assertEqual(self.field(package, "Version"), VERSION + "-1")
             self.assertRegex(self.field(package, "Maintainer"), r"^.+ <.+@.+>$")
+
+    def test_making_them_says_where_they_are_and_nothing_else(self):
+        self.assertEqual(self.said.splitlines(), [f"-- {deb}" for deb in sorted(self.debs.values())])
+
+    @unittest.skipUnless("polylidar-tools" in PACKAGES, "this build does not have the program polylidar")
+    def test_a_package_can_be_made_alone(self):
+        (self.folder / "alone").mkdir()
+        (self.folder / "alone" / "old.deb").touch()
+        make_debs(self.folder / "alone", "tool;polylidar-tools_documents")
+        (deb,) = (self.folder / "alone").glob("*.deb")
+        self.assertEqual(deb.name, self.debs["polylidar-tools"].name)
+        run("dpkg-deb", "-x", deb, self.folder / "alone" / "files")
+        files = [
+            sorted(path.relative_to(top) for path in top.rglob("*"))
+            for top in (self.folder / "alone" / "files", self.folder / "polylidar-tools")
+        ]
+        self.assertEqual(*files)
 
     def test_lintian_has_no_error_to_report(self):
         # Its tags of the level "error" and worse end it with another status than 0.
