@@ -37,7 +37,7 @@ constexpr auto make_half_widths() {
 constexpr auto kHalfWidths = make_half_widths<2 * kRadius>();
 /// As most uncertain points reach, with a little of what those in open directions do: for an estimate.
 constexpr auto kUsualHalfWidths = make_half_widths<2 * kNearRadius + 1>();
-/// Where 2 r turn out to be too little.
+/// Where 2 r turn out to be too little: the box of a circle of radius r reaches no farther from a point on it.
 constexpr auto kFartherHalfWidths = make_half_widths<2 * kRadius + 4>();
 static_assert(kFartherHalfWidths[2 * kRadius + 5] <= Grid::kMargin);
 constexpr Grid::Cell rows_below(std::span<const unsigned> half_widths) {
@@ -164,8 +164,14 @@ void mark_reach(const Grid& grid, Grid::Cell cell, Bitmap& reached) {
   mark(grid, cell, kHalfWidths, reached);
 }
 
-void mark_farther_reach(const Grid& grid, Grid::Cell cell, Bitmap& reached) {
-  mark(grid, cell, kFartherHalfWidths, reached);
+void mark_reach_round(std::span<const Mesh::Index> triangles, const DelaunayBuilder& builder, const Grid& grid,
+                      Bitmap& reached) {
+  for (const Mesh::Index t : triangles) {
+    for (Mesh::Index k = 0; k < 3; ++k) {
+      const Point& corner = builder.vertices()[builder.mesh().corners(t)[k]];
+      mark(grid, grid.cell(corner), kFartherHalfWidths, reached);
+    }
+  }
 }
 
 double least_dropped_radius(const Limits& limits) {
@@ -354,8 +360,9 @@ void InteriorPart::find_uncertain_points(std::span<const Point> points, ThreadPo
   }
 }
 
-void InteriorPart::reach_farther(std::span<const Point> points, ThreadPool& pool) {
-  for (const std::uint32_t point : uncertain_) mark_farther_reach(grid_, cells_.data()[point], reached());
+void InteriorPart::reach_round(std::span<const Mesh::Index> triangles, const DelaunayBuilder& builder,
+                               std::span<const Point> points, ThreadPool& pool) {
+  mark_reach_round(triangles, builder, grid_, reached());
   gather(points, pool);
 }
 
@@ -495,9 +502,8 @@ Statistics InteriorPath::extract_part(std::span<const Point> points, const Coord
     return statistics;
   }
   std::optional<Way> whole = filter_part(range, steps, filter);
-  if (whole == Way::kReachesFar) {
-    // However large it is then: it is cheaper than all points.
-    part_.reach_farther(points, steps.pool);
+  for (int k = 0; whole == Way::kReachesFar && !steps.filter.doubtful().empty() && k < kMostEnlarged; ++k) {
+    part_.reach_round(steps.filter.doubtful(), steps.builder, points, steps.pool);
     whole = filter_part(range, steps, filter);
   }
   if (whole) {

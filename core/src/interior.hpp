@@ -57,8 +57,11 @@ inline constexpr double kWidestInSpacings = 2.5;
 inline constexpr Grid::Cell kReachedRows = 2 * kRadius + 1;
 /// Marks the cells that may hold a point within 2 r of one in `cell`.
 void mark_reach(const Grid& grid, Grid::Cell cell, Bitmap& reached);
-/// The same for 2.7 r.
-void mark_farther_reach(const Grid& grid, Grid::Cell cell, Bitmap& reached);
+/// The same for 2.7 r and the corners of these triangles of the mesh.
+void mark_reach_round(std::span<const Mesh::Index> triangles, const DelaunayBuilder& builder, const Grid& grid,
+                      Bitmap& reached);
+/// So many times a part is enlarged before all points are triangulated.
+inline constexpr int kMostEnlarged = 8;
 
 /// Whether a triangle of a part certainly belongs to the triangulation of all points, whatever its corners:
 /// all occupied cells of the box of its circumcircle are among those whose points are in the part.
@@ -79,8 +82,10 @@ class InteriorPart {
   std::optional<Way> choose(std::span<const Point> points, const CoordinateRange& range, double radius,
                             bool circumradii_matter, const InteriorGuard& guard, ThreadPool& pool);
 
-  /// After choose: enlarges the part to points up to 2.7 r from uncertain ones.
-  void reach_farther(std::span<const Point> points, ThreadPool& pool);
+  /// After choose: enlarges the part by the points up to 2.7 r from the corners of these triangles of the mesh,
+  /// so that those which are in the triangulation of all points are surely whole.
+  void reach_round(std::span<const Mesh::Index> triangles, const DelaunayBuilder& builder,
+                   std::span<const Point> points, ThreadPool& pool);
 
   /// After choose: detail::is_surely_whole() of this part.
   bool is_surely_whole(const Triangle& triangle) const {

@@ -41,6 +41,8 @@ class RegionFilter {
   std::optional<Way> run_on_part(Mesh& mesh, const Point* vertices, const std::uint8_t* is_tested,
                                  const SizeField& field, const SizeFilter::IsSure& is_sure, bool fill_single,
                                  ThreadPool& pool, std::vector<Index>& boundary);
+  /// As SizeFilter::doubtful().
+  const std::vector<Index>& doubtful() const { return size_filter_.doubtful(); }
 
  private:
   void find_boundary(Mesh& mesh, bool fill_single, ThreadPool& pool, std::uint64_t* kept,

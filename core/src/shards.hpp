@@ -47,6 +47,7 @@ class PartHull {
   /// Both as RegionFilter::run_on_part; before trace().
   std::optional<Way> filter(const FilterRules& rules, bool fill_single);
   std::optional<Way> filter(const SizeField& field, const SizeFilter::IsSure& is_sure, bool fill_single);
+  const std::vector<Mesh::Index>& doubtful() const { return filter_.doubtful(); }
   /// What was kept.
   StreamedHull trace();
 

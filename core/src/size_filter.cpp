@@ -172,6 +172,7 @@ std::optional<Way> SizeFilter::run_on_part(const Mesh& mesh, const Point* vertic
   SeenTriangles hidden(mesh, hidden_);
   const Part part{mesh, vertices, is_tested, field, is_sure, hidden};
   doubt_.reset();
+  doubtful_.clear();
   const Chunks chunks(pool, mesh.triangle_count());
   clear_found(chunks);
   std::atomic<bool> agree = true;
@@ -214,7 +215,7 @@ std::optional<Way> SizeFilter::run_on_part(const Mesh& mesh, const Point* vertic
       }
       seen.add(other);
       if (!part.is_sure(other)) {
-        doubt_ = Way::kReachesFar;
+        doubtful_.push_back(other);
         continue;
       }
       const Answer no_spike = part.ask(NoSpikeRule(field, mesh, other), other);
@@ -222,7 +223,7 @@ std::optional<Way> SizeFilter::run_on_part(const Mesh& mesh, const Point* vertic
       if (no_spike == Answer::kRoundingDecides) doubt_ = Way::kRoundingDecides;
       for (Index j = 0; j < 3; ++j) {
         const Index third = neighbour(mesh, other, j);
-        if (!is_dropped(third) && !part.is_sure(third)) doubt_ = Way::kReachesFar;
+        if (!is_dropped(third) && !part.is_sure(third)) doubtful_.push_back(third);
       }
       if (!stands_out(mesh, vertices, other,
                       [&](Index j) { return is_dropped(neighbour(mesh, other, j)); })) {
@@ -233,9 +234,11 @@ std::optional<Way> SizeFilter::run_on_part(const Mesh& mesh, const Point* vertic
     }
   }
   if (doubt_) return doubt_;
+  if (!doubtful_.empty()) return Way::kReachesFar;
   for (const Index t : changed_) drop(kept, t);
   if (field.least_part > 0) drop_small_parts(mesh, part, field.least_part, kept);
   if (field.wide_square > 0) fill_small_holes(mesh, vertices, part, field, kept);
+  if (!doubt_ && !doubtful_.empty()) return Way::kReachesFar;
   return doubt_;
 }
 
@@ -310,16 +313,19 @@ void SizeFilter::drop_small_parts(const Mesh& mesh, const Whole& whole, std::siz
   const auto walk_region = [&](Index start) {
     seen.add(start);
     group_.assign(1, start);
+    const std::size_t before = doubtful_.size();
     bool is_large = false;
-    bool is_whole = true;
+    bool is_beside_hidden = false;
     for (std::size_t next = 0; next < group_.size() && !is_large; ++next) {
       for (Index j = 0; j < 3; ++j) {
         const Index other = neighbour(mesh, group_[next], j);
         if (!mesh.is_kept(other)) continue;
         const bool is_seen = seen.contain(other);
         if (is_seen && std::find(group_.begin(), group_.end(), other) != group_.end()) continue;
-        if (whole.is_hidden(other) || !whole.is_open(other)) {
-          is_whole = false;
+        if (whole.is_hidden(other)) {
+          is_beside_hidden = true;
+        } else if (!whole.is_open(other)) {
+          doubtful_.push_back(other);
         } else if (is_seen) {
           is_large = true;
         } else {
@@ -329,8 +335,8 @@ void SizeFilter::drop_small_parts(const Mesh& mesh, const Whole& whole, std::siz
       }
       is_large |= group_.size() >= least_part;
     }
-    if (is_large) return;
-    if (!is_whole) doubt_ = Way::kReachesFar;
+    if (is_large) return doubtful_.resize(before);
+    if (is_beside_hidden) doubt_ = Way::kReachesFar;  // what is hidden would hang together with what is dropped
     changed_.insert(changed_.end(), group_.begin(), group_.end());
   };
   for_each_dropped(mesh, 0, mesh.word_count(), kept, [&](Index dropped) {

@@ -162,7 +162,6 @@ class Stream {
   StreamedHull hull_in_memory();
   StreamedHull hull_by_limits();
   std::optional<StreamedHull> hull_by_chosen_sizes();
-  std::optional<StreamedHull> hull_by_sizes();
 
   std::span<const PointSource> sources_;
   const StreamOptions& stream_options_;
@@ -180,7 +179,7 @@ class Stream {
   std::deque<Slot> slots_;
   Bitmap occupied_;
   Bitmap marked_;                         ///< uncertain cells, then those within reach of uncertain points
-  std::vector<Grid::Cell> reaching_;      ///< cells with uncertain points
+  std::vector<Grid::Cell> reaching_;      ///< cells with uncertain points, until they are marked
   std::vector<std::uint64_t> uncertain_;  ///< of the shard's own band, ascending
   StreamShard part_;
   detail::AutomaticLimit automatic_limit_;
@@ -400,6 +399,7 @@ void Stream::find_uncertain_points() {
   run_over_cells(tested_, look, end);
   marked_.clear(grid_.word_count());
   for (const Grid::Cell cell : reaching_) detail::mark_reach(grid_, cell, marked_);
+  reaching_ = {};
 }
 
 void Stream::gather() {
@@ -504,33 +504,31 @@ std::optional<double> Stream::choose_sizes() {
   return automatic_limit_.wide_radius() / std::max(part_.options.detail, 1.0);
 }
 
-/// The hull of the part where no limit is given; nothing where triangles reach beyond it.
-std::optional<StreamedHull> Stream::hull_by_sizes() {
-  detail::PartHull hull(part_, pool_);
-  automatic_limit_.choose_found(hull.builder(), hull.is_tested(), part_.options.detail, pool_);
-  const auto is_sure = [&](const detail::Triangle& triangle) {
-    return detail::is_surely_whole(triangle, grid_, occupied_, marked_);
-  };
-  const auto why =
-      hull.filter(automatic_limit_.field(), is_sure, part_.options.fill_single_triangles.value_or(true));
-  if (why == Way::kReachesFar) return {};
-  if (why) throw detail::rounding_decides();
-  StreamedHull found = hull.trace();
-  found.chosen_sizes = automatic_limit_.range();
-  return found;
-}
-
 /// Where no limit is given; nothing where the triangulation of all points must tell.
 std::optional<StreamedHull> Stream::hull_by_chosen_sizes() {
   const std::optional<double> wide_radius = choose_sizes();
   if (!wide_radius) return {};
   choose_grid(*wide_radius);
   find_points();
-  if (std::optional<StreamedHull> hull = hull_by_sizes()) return hull;
-  ++progress_.passes;
-  for (const Grid::Cell cell : reaching_) detail::mark_farther_reach(grid_, cell, marked_);
-  gather();
-  return hull_by_sizes();
+  const auto is_sure = [&](const detail::Triangle& triangle) {
+    return detail::is_surely_whole(triangle, grid_, occupied_, marked_);
+  };
+  for (int k = 0;; ++k) {
+    detail::PartHull hull(part_, pool_);
+    automatic_limit_.choose_found(hull.builder(), hull.is_tested(), part_.options.detail, pool_);
+    const auto why =
+        hull.filter(automatic_limit_.field(), is_sure, part_.options.fill_single_triangles.value_or(true));
+    if (!why) {
+      StreamedHull found = hull.trace();
+      found.chosen_sizes = automatic_limit_.range();
+      return found;
+    }
+    if (why != Way::kReachesFar) throw detail::rounding_decides();
+    if (hull.doubtful().empty() || k == detail::kMostEnlarged) return {};
+    ++progress_.passes;
+    detail::mark_reach_round(hull.doubtful(), hull.builder(), grid_, marked_);
+    gather();
+  }
 }
 
 StreamedHull Stream::hull_by_limits() {
