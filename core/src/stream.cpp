@@ -5,7 +5,6 @@
 #include <bit>
 #include <cmath>
 #include <deque>
-#include <mutex>
 #include <numeric>
 #include <optional>
 #include <stdexcept>
@@ -167,7 +166,7 @@ class Stream {
   const StreamOptions& stream_options_;
   Limits limits_;
   detail::ThreadPool pool_;
-  std::mutex mutex_;  ///< of the next
+  detail::Turns turns_;  ///< to change the next
   StreamProgress progress_;
   std::vector<detail::RangeOfBlocks> extents_;  ///< one a source
   std::vector<std::uint64_t> firsts_;           ///< source -> the number of its first point
@@ -191,9 +190,10 @@ std::size_t Stream::most_slots() const {
 }
 
 void Stream::tell(std::size_t points) {
-  const std::lock_guard lock(mutex_);
-  progress_.points += points;
-  if (stream_options_.progress) stream_options_.progress(progress_);
+  turns_.take([&] {
+    progress_.points += points;
+    if (stream_options_.progress) stream_options_.progress(progress_);
+  });
 }
 
 void Stream::run(const Pass& pass) {

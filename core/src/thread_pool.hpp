@@ -33,6 +33,14 @@ class ThreadPool {
   }
 };
 
+class Turns {
+ public:
+  template <class Work>
+  void take(const Work& work) {
+    work();
+  }
+};
+
 #else
 
 /// Runs tasks on the caller's thread and, if more than one is wanted, on threads that it starts when there
@@ -91,6 +99,19 @@ class ThreadPool {
   std::mutex error_mutex_;
   alignas(kCacheLine) std::atomic<std::uint32_t> jobs_given_ = 0;
   alignas(kCacheLine) std::atomic<std::uint32_t> still_working_ = 0;
+};
+
+/// Lets threads work one after the other.
+class Turns {
+ public:
+  template <class Work>
+  void take(const Work& work) {
+    const std::lock_guard lock(mutex_);
+    work();
+  }
+
+ private:
+  std::mutex mutex_;
 };
 
 #endif
