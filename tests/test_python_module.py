@@ -3,6 +3,7 @@
 Run by ctest with the module in PYTHONPATH; HULLBENCH names the harness, without which the comparison with it is skipped.
 """
 import ast
+import datetime
 import doctest
 import gc
 import importlib
@@ -43,6 +44,13 @@ def lattice_with_a_hole():
 
 def scattered(count, seed=1):
     return np.random.default_rng(seed).random((count, 2))
+
+
+def as_objects(items):
+    """An array of one dimension, also of what numpy takes for rows."""
+    array = np.empty(len(items), object)
+    array[:] = items
+    return array
 
 
 def signed_area(ring):
@@ -159,10 +167,54 @@ class Shapes(unittest.TestCase):
             for polygon, rows in zip(hulls[label].polygons, hulls[label].indices, strict=True):
                 np.testing.assert_array_equal(points[order][rows[0]], polygon[0])
         self.assertEqual(concave_hulls([], []), {})
-        with self.assertRaisesRegex(ValueError, "one label a point"):
-            concave_hulls(points, labels[:-1])
-        with self.assertRaisesRegex(ValueError, "integers"):
-            concave_hulls(points, labels.astype(float))
+
+    def test_labels_of_any_type_give_the_hulls_of_integers(self):
+        points = np.concatenate([scattered(50, 1), scattered(40, 2) + [3, 0], scattered(30, 3) + [6, 0]])
+        numbers = np.random.default_rng(4).permutation(np.repeat([0, 1, 2], [50, 40, 30]))
+        expected = [hull.__geo_interface__ for hull in concave_hulls(points, numbers).values()]
+        day = datetime.date(2024, 2, 28)
+        for name, labels, key in (
+            ("text", np.array(["ash", "beech", "oak"]), str),
+            ("bytes", np.array([b"ash", b"beech", b"oak"]), bytes),
+            ("objects", np.array(["ash", "beech", "oak"], object), str),
+            ("floats", np.array([-np.inf, 0.5, 2]), float),
+            ("float32", np.array([-1, 0.5, 2], np.float32), float),
+            ("booleans", np.array([False, True, True]), bool),
+            ("bytes as numbers", np.array([3, 4, 255], np.uint8), int),
+            ("big-endian", np.array([-3, 4, 255], ">i4"), int),
+            ("unsigned", np.array([3, 2**63, 2**64 - 1], np.uint64), int),
+            ("large integers", np.array([-(2**70), 0, 2**70], object), int),
+            ("dates", np.array([day, day.replace(day=29), day.replace(month=3)], object), datetime.date),
+            ("numpy's dates", np.array(["2024-02-28", "2024-02-29", "2024-03-01"], "M8[ns]"), np.datetime64),
+            ("pairs", as_objects([("ash", 2), ("oak", 1), ("oak", 2)]), tuple),
+        ):
+            for given in (labels[numbers], labels[numbers][::-1].copy()[::-1]):
+                with self.subTest(name):
+                    hulls = concave_hulls(points, given)
+                    self.assertEqual(list(hulls), list(dict.fromkeys(labels.tolist() if key != np.datetime64 else labels)))
+                    self.assertEqual({type(label) for label in hulls}, {key})
+                    if key != bool:
+                        self.assertEqual([hull.__geo_interface__ for hull in hulls.values()], expected)
+        words = ["ash", "oak", "beech"]
+        self.assertEqual(list(concave_hulls(points, [words[number] for number in numbers])), sorted(words))
+
+    def test_labels_that_cannot_be_told_apart_or_sorted(self):
+        points = scattered(4)
+        for message, labels in (
+            ("there must be one label a point: there are 3 labels and 4 points", [1, 2, 3]),
+            ("there must be one label a point: there are 0 labels and 4 points", []),
+            (r"labels must have the shape \(n,\), not \(2, 2\)", [["a", "b"], ["c", "d"]]),
+            (r"not \(\)", "oak"),
+            (r"label 2 is missing \(nan\): leave out", [1, 2, np.nan, 3]),
+            (r"label 1 is missing \(nan\)", np.array(["a", np.nan, "a", "b"], object)),
+            (r"label 3 is missing \(None\)", ["a", "a", "b", None]),
+            (r"label 0 is missing \(NaT\)", np.array(["NaT", "2024-02-28", "NaT", "NaT"], "M8[D]")),
+            ("of the types int and str cannot be sorted", ["1", 1, "1", "2"]),
+            ("of the types int and str cannot be sorted", np.array(["1", 1, "1", "2"], object)),
+            ("of the types list cannot be sorted", as_objects([[1], [2], [1], [2]])),
+        ):
+            with self.subTest(message), self.assertRaisesRegex(ValueError, message):
+                concave_hulls(points, labels)
 
     def test_degenerate_inputs_are_empty(self):
         line = [(i, 2 * i) for i in range(10)]

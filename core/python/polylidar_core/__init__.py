@@ -12,12 +12,14 @@ from __future__ import annotations
 
 import operator
 import os
+from typing import Any
 
 import numpy as np
 import numpy.typing as npt
 
 from . import _core
 from ._core import __version__
+from ._labels import numbered
 from ._points import as_points
 from .multi_polygon import MultiPolygon
 
@@ -83,32 +85,32 @@ def concave_hulls(
     detail: float = 1.0,
     fill_single_triangles: bool | None = None,
     threads: int | None = 1,
-) -> dict[int, MultiPolygon]:
+) -> dict[Any, MultiPolygon]:
     """A concave hull for every label, as concave_hull makes it of that label's points alone, by ascending label. Shapes
     of different labels may overlap. The rows in their `indices` are those of all points.
 
-    labels: integers of the shape (n,), one a point.
+    labels: one a point, of the shape (n,): integers, text or whatever else can be sorted. The keys of the result are
+        Python's int, str and so on, of dates numpy's. Integers are the fastest.
     The others, and the errors they raise: as of concave_hull. Labels are shared among the threads.
+
+    ValueError, besides: there are not as many labels as points, a label is missing (None or NaN), or labels cannot be
+    sorted, such as numbers among text.
 
         >>> points = [(0, 0), (2, 0), (0, 2), (5, 5), (6, 5), (5, 6)]
         >>> {label: hull.area for label, hull in concave_hulls(points, [7, 7, 7, 3, 3, 3]).items()}
         {3: 0.5, 7: 2.0}
+        >>> list(concave_hulls(points, ["oak", "oak", "oak", "elm", "elm", "elm"]))
+        ['elm', 'oak']
     """
     array = as_points(points)
-    label_array = np.asarray(labels)
-    if label_array.dtype.kind not in "iu" and label_array.size > 0:
-        raise ValueError(f"labels must be integers, not of the type {label_array.dtype}")
+    numbers, names = numbered(labels, len(array))
     hulls = _core.concave_hulls(
-        array,
-        np.require(label_array, np.int64, ["C", "ALIGNED"]),
-        alpha,
-        max_edge_length,
-        max_perimeter,
-        detail,
-        fill_single_triangles,
-        _thread_count(threads),
+        array, numbers, alpha, max_edge_length, max_perimeter, detail, fill_single_triangles, _thread_count(threads)
     )
-    return {label: MultiPolygon(array, vertices, rings, parts, area) for label, vertices, rings, parts, area in hulls}
+    return {
+        number if names is None else names[number]: MultiPolygon(array, vertices, rings, parts, area)
+        for number, vertices, rings, parts, area in hulls
+    }
 
 
 def delaunay(points: npt.ArrayLike) -> npt.NDArray[np.uint32]:
