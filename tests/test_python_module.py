@@ -548,6 +548,13 @@ class Documentation(unittest.TestCase):
             self.assertIn(">>> ", item.__doc__)
 
 
+class Names(unittest.TestCase):
+    def test_only_what_is_to_be_used_is_listed(self):
+        modules = [polylidar_core] + [polylidar_core.geopandas] * (geopandas is not None)
+        for module in modules:
+            self.assertEqual(dir(module), sorted(module.__all__))
+
+
 class Types(unittest.TestCase):
     folder = pathlib.Path(polylidar_core.__file__).parent
 

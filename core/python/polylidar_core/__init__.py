@@ -26,6 +26,11 @@ from .multi_polygon import MultiPolygon
 __all__ = ["MultiPolygon", "__version__", "concave_hull", "concave_hulls", "delaunay"]
 
 
+def __dir__() -> list[str]:
+    # What is imported here is nobody's to use.
+    return __all__
+
+
 def concave_hull(
     points: npt.ArrayLike,
     *,

@@ -12,6 +12,10 @@ from ._points import as_points
 __all__ = ["concave_hulls"]
 
 
+def __dir__() -> list[str]:
+    return __all__
+
+
 def concave_hulls(points: gpd.GeoDataFrame | gpd.GeoSeries, by: Any = None, **options: Any) -> gpd.GeoDataFrame:
     """A concave hull for every group of points: a row a group, with the columns points (how many), area, parts (how many
     polygons) and geometry (a MultiPolygon, empty where a group has none), in the coordinate system of the points. The
