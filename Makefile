@@ -325,7 +325,9 @@ js: ## build the npm package polylidar, the core as WebAssembly, and the page th
 	@$(call install,js)
 	@$(if $(SKIP_DEPS),,cmake/install-npm.sh adapters/manifests)
 	@$(call build,js)
-	@echo "==> build-js/polylidar and build-js/demo.html"
+	@reason=$$(sed -n 's/^-- \(demo.html: not built.*\)/\1/p' $(BUILD_LOG)/configure-js.txt); \
+	if [ -z "$$reason" ]; then echo "==> build-js/polylidar and build-js/demo.html"; \
+	else echo "==> build-js/polylidar"; echo "==> $$reason"; fi
 
 js-bench: js ## measure the npm package beside concaveman and delaunator, and write the table of core/js/README.md
 	@node core/js/bench.mjs build-js/polylidar --write core/js/README.md

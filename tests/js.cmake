@@ -22,3 +22,6 @@ endforeach()
 hullbench_tool_test(NAME js.readers NEEDS node
   COMMAND node --test --test-reporter=spec "${CMAKE_CURRENT_LIST_DIR}/js/readers.test.mjs")
 set_tests_properties(js.readers PROPERTIES LABELS js TIMEOUT 120)
+hullbench_tool_test(NAME js.make NEEDS node make
+  COMMAND node --test --test-reporter=spec "${CMAKE_CURRENT_LIST_DIR}/js/make.test.mjs")
+set_tests_properties(js.make PROPERTIES LABELS js TIMEOUT 120)
