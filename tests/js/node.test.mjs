@@ -1,6 +1,6 @@
 // The npm package in Node: PACKAGE is its folder; native_hulls.mjs says what else the environment names.
 import assert from "node:assert/strict";
-import { readFileSync } from "node:fs";
+import { existsSync, readFileSync } from "node:fs";
 import { createRequire } from "node:module";
 import { join } from "node:path";
 import { before, test } from "node:test";
@@ -10,6 +10,11 @@ import { assert_same, native_cases, plain } from "./native_hulls.mjs";
 const { PACKAGE } = process.env;
 const polylidar = await import(pathToFileURL(join(PACKAGE, "polylidar.js")));
 const { concaveHull, concaveHulls, concaveman } = polylidar;
+
+// concaveman itself, where the other methods are installed.
+const installed = new URL("../../adapters/manifests/node_modules/concaveman/index.js", import.meta.url);
+const rival = existsSync(installed) ? (await import(installed)).default : undefined;
+const beside_concaveman = { skip: !rival && "concaveman is not installed: cmake/install-npm.sh adapters/manifests" };
 
 let cases;
 before(() => (cases = native_cases()));
@@ -227,13 +232,14 @@ test("concaveman's ring is closed, of the points themselves and has all points i
         points.every((point) => holds(ring, point)),
         `${name}, concavity ${concavity}: a point is outside`,
       );
-      return area_of(ring);
+      assert.ok(area_of(ring) < 0, `${name}, concavity ${concavity}: clockwise`);
+      return area_of(ring.reverse());
     });
     for (let i = 1; i < areas.length; i++) assert.ok(areas[i] >= areas[i - 1], `${name}: ${areas}`);
     assert.equal(areas.at(-1), concaveHull(points, { alpha: Infinity }).area, `${name}: the convex hull`);
     assert.deepEqual(points, given, `${name}: the points are left as they were`);
   }
-  assert.ok(area_of(concaveman(sets["a letter L"])) < 0.6, "the notch of the L is found");
+  assert.ok(-area_of(concaveman(sets["a letter L"])) < 0.6, "the notch of the L is found");
 });
 
 test("concaveman's ring is the hull's shell where one part has all points, holes or not", () => {
@@ -241,7 +247,35 @@ test("concaveman's ring is the hull's shell where one part has all points, holes
   const hull = concaveHull(points);
   assert.equal(hull.polygonEnds.length, 1);
   assert.equal(hull.ringEnds.length, 2);
-  assert.deepEqual(concaveman(points), hull.coordinates[0][0]);
+  assert.deepEqual(concaveman(points), hull.coordinates[0][0].reverse());
+});
+
+test("the ring runs as concaveman's does, and its points on a line too", beside_concaveman, () => {
+  const sets = [3, 4, 5, 10, 100, 1000].map((count) => square(count));
+  sets.push(square(1500).filter(([x, y]) => x < 0.3 || y < 0.3));
+  sets.push(square(500).map(([x, y]) => [-100 * x - 5, -7 * y]));
+  for (const points of sets) {
+    for (const concavity of [0, 1, 2, Infinity]) {
+      const theirs = area_of(rival(structuredClone(points), concavity));
+      assert.equal(Math.sign(area_of(concaveman(points, concavity))), Math.sign(theirs));
+      assert.equal(Math.sign(theirs), -1);
+    }
+  }
+  for (const line of [
+    [
+      [2, 2],
+      [0, 0],
+      [1, 1],
+    ],
+    [
+      [0, 0],
+      [0, 5],
+      [0, 2],
+    ],
+    [[1, 2]],
+  ]) {
+    assert.deepEqual(concaveman(line), rival(structuredClone(line)));
+  }
 });
 
 test("concaveman's lengthThreshold and its default arguments", () => {
@@ -266,9 +300,9 @@ test("concaveman's ring of points without an area", () => {
       [1, 1],
     ]),
     [
-      [0, 0],
       [2, 2],
       [0, 0],
+      [2, 2],
     ],
   );
   assert.throws(() => concaveman(new Float64Array(6)), /^TypeError: points must be an array of \[x, y\], whose members/);

@@ -72,7 +72,7 @@ export function concaveHulls<Label extends number | string | bigint>(
 
 /**
  * One ring round all points, with the signature and the kind of result of the npm package concaveman: the members of
- * `points` themselves, counter-clockwise, the first one again at the end. Points all on a line: there and back.
+ * `points` themselves, clockwise where y points up, the first one again at the end. Points all on a line: there and back.
  *
  * The ring is the shell of the hull with detail 2 / concavity. Where that has several parts, or leaves a point outside,
  * the detail is lowered, by a factor of 2^(1/2) as often as needed, until one part has all points. So one far outlier makes

@@ -124,14 +124,15 @@ export function concaveman(points, concavity = USUAL_CONCAVITY, lengthThreshold 
   const xy = flattened(points);
   const ring = detail > 0 ? module.one_ring(xy, detail, lengthThreshold || 0) : module.hull(xy, { alpha: Infinity }).vertices;
   if (ring.length === 0) return line(points);
-  return Array.from([...ring, ring[0]], (i) => points[i]);
+  // Clockwise, as concaveman's rings are.
+  return Array.from([...ring, ring[0]].reverse(), (i) => points[i]);
 }
 
-/** There and back along points that have no area between them. */
+/** There and back along points that have no area between them; from the last one, as concaveman does. */
 function line(points) {
   if (points.length === 0) return [];
   const less = (a, b) => a[0] < b[0] || (a[0] === b[0] && a[1] < b[1]);
   const first = points.reduce((least, point) => (less(point, least) ? point : least));
   const last = points.reduce((most, point) => (less(most, point) ? point : most));
-  return [first, last, first];
+  return [last, first, last];
 }
