@@ -192,11 +192,13 @@ extern "C" {
   }
 }
 
-/// One ring round all points: the shell of the hull by the largest detail 2^(-k/2) `detail`, k = 0, 1 ..., by
-/// which one polygon has all points inside or on it and no limit is below `least_size`. Every limit grows as
-/// the detail falls, and with it the set of kept triangles: one polygon that has all points keeps them, so
-/// that k can be found by halving. Empty where there is no triangle.
-[[clang::export_name("one_ring")]] void one_ring(double detail, double least_size) {
+/// One ring round all points: the shell of the hull by the smallest limit of a sequence by which one polygon
+/// has all points inside or on it. The limits are those of the details 2^(-k/2) `detail`, k = 0, 1 ...; or
+/// longest edges of 2^(k/2) `length_threshold`, where that is more than twice the median size by `detail`:
+/// then usually the triangles across a gap of that width are too large by its size, and what is narrower is
+/// to be filled. A larger limit keeps more triangles, and one polygon that has all points keeps them: so k
+/// can be found by halving. Empty where there is no triangle.
+[[clang::export_name("one_ring")]] void one_ring(double detail, double length_threshold) {
   constexpr int kSteps = 60;
   result.clear();
   extractor.triangulate(points);
@@ -205,11 +207,12 @@ extern "C" {
   extractor.extract_regions(convex);
   const std::size_t all = count_points(extractor.extract_polygons(), extractor.count_triangles())[0];
 
+  extractor.extract_regions({.detail = detail});
+  const bool is_by_length = length_threshold > 2 * extractor.chosen_sizes()->median;
   const auto polygon = [&](int step) {
-    const Options options{.detail = detail * std::exp2(-0.5 * step)};
-    const std::optional<std::size_t> found = polygon_with(all, options);
-    const bool is_coarse = extractor.chosen_sizes()->least >= least_size;
-    return is_coarse ? found : std::nullopt;
+    Options options{.detail = detail * std::exp2(-0.5 * step)};
+    if (is_by_length) options.max_edge_length = length_threshold * std::exp2(0.5 * step);
+    return polygon_with(all, options);
   };
   std::optional<std::size_t> found = polygon(0);
   if (!found) {

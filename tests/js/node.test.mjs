@@ -281,9 +281,45 @@ test("the ring runs as concaveman's does, and its points on a line too", beside_
 test("concaveman's lengthThreshold and its default arguments", () => {
   const points = square(3000).filter(([x, y]) => x < 0.3 || y < 0.3);
   assert.deepEqual(concaveman(points), concaveman(points, 2, 0));
-  const lengths = [0, 0.05, 0.2, 5].map((threshold) => concaveman(points, 1, threshold).length);
+  const { median } = concaveHull(points, { detail: 2 }).chosenSizes;
+  const lengths = [0, 2 * median, 0.2, 5].map((threshold) => concaveman(points, 1, threshold).length);
+  assert.deepEqual(concaveman(points, 1, 2 * median), concaveman(points, 1));
   for (let i = 1; i < lengths.length; i++) assert.ok(lengths[i] <= lengths[i - 1], `${lengths}`);
   for (const threshold of [5, Infinity]) assert.deepEqual(concaveman(points, 1, threshold), concaveman(points, Infinity));
+});
+
+/** 30,000 points of a star with seven bays, 900 units wide, denser to the right where `is_even` is false; and its area. */
+function star(is_even) {
+  const inside = ([x, y]) => Math.hypot(x - 500, y - 500) < 350 + 130 * Math.cos(7 * Math.atan2(y - 500, x - 500));
+  const points = square(300_000, 1000).filter((p, i) => inside(p) && (is_even || (i % 100) / 100 < 0.05 + (p[0] / 1000) ** 2));
+  return { points: points.slice(0, 30_000), area: Math.PI * (350 ** 2 + 130 ** 2 / 2) };
+}
+
+test("concaveman's lengthThreshold fills what is narrower and nothing else", () => {
+  for (const is_even of [true, false]) {
+    const { points, area } = star(is_even);
+    assert.equal(points.length, 30_000);
+    for (const [threshold, most] of [
+      [0, 1.01],
+      [20, 1.01],
+      [50, 1.02],
+      [100, 1.08],
+      [200, 1.26],
+    ]) {
+      const filled = -area_of(concaveman(points, 2, threshold)) / area;
+      assert.ok(filled > most - 0.04 && filled < most, `${is_even}, lengthThreshold ${threshold}: ${filled}`);
+    }
+  }
+});
+
+test("lengthThreshold fills what it fills with concaveman", beside_concaveman, () => {
+  for (const is_even of [true, false]) {
+    const { points, area } = star(is_even);
+    for (const threshold of [50, 100, 200]) {
+      const [ours, theirs] = [concaveman, rival].map((method) => -area_of(method(points, 2, threshold)) / area);
+      assert.ok(Math.abs(ours - theirs) < 0.03, `${is_even}, lengthThreshold ${threshold}: ${ours}, ${theirs}`);
+    }
+  }
 });
 
 test("concaveman's ring of points without an area", () => {

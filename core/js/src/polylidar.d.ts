@@ -78,7 +78,9 @@ export function concaveHulls<Label extends number | string | bigint>(
  * the detail is lowered, by a factor of 2^(1/2) as often as needed, until one part has all points. So one far outlier makes
  * the ring coarse; concaveHull() leaves it out instead.
  * @param concavity 1 is detailed, Infinity gives the convex hull. Default: 2.
- * @param lengthThreshold the detail is also lowered until no chosen size is below this length. Default: 0.
+ * @param lengthThreshold edges below this length are not dug into. Up to twice the median of the chosen sizes it changes
+ * nothing, as narrower gaps are filled anyway; above, it is the maxEdgeLength of the hull, raised by a factor of 2^(1/2) as
+ * often as needed. Default: 0.
  */
 export function concaveman<Point extends ArrayLike<number>>(
   points: readonly Point[],
