@@ -140,7 +140,7 @@ test("errors say what the core says, and leave the module in order", () => {
     [() => concaveHull(points, { detail: 0 }), RangeError, "detail must be positive and finite"],
     [() => concaveHull(points, { alpha: -1 }), RangeError, "alpha must be zero or more"],
     [() => concaveHull(points, { maxPerimeter: NaN }), RangeError, "max_perimeter must be zero or more"],
-    [() => concaveHulls(points, [1, 2]), RangeError, "there must be one label a point"],
+    [() => concaveHulls(points, [1, 2]), RangeError, "there must be one label a point: there are 2 labels and 100 points"],
     [
       () =>
         concaveHull([

@@ -93,6 +93,10 @@ export function concaveHull(points, options = {}) {
 export function concaveHulls(points, labels, options = {}) {
   const xy = flat(points);
   const { distinct, numbers } = numbered(labels);
+  const count = xy.length / 2;
+  if (numbers.length !== count) {
+    throw new RangeError(`there must be one label a point: there are ${numbers.length} labels and ${count} points`);
+  }
   return module.hulls(xy, numbers, checked(options)).map((shape, i) => ({ label: distinct[i], hull: new Hull(xy, shape) }));
 }
 
