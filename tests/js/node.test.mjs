@@ -204,10 +204,26 @@ test("CommonJS gives the same", () => {
   assert.deepEqual(plain(required.concaveHull(points)), plain(concaveHull(points)));
 });
 
+test("the default export is concaveman's", () => {
+  assert.equal(polylidar.default, concaveman);
+  const required = createRequire(import.meta.url)(join(PACKAGE, "polylidar.cjs"));
+  assert.equal(required.default, required.concaveman);
+});
+
+test("links in the package's README lead to files in the package", () => {
+  const { files } = JSON.parse(readFileSync(join(PACKAGE, "package.json"), "utf8"));
+  const readme = readFileSync(join(PACKAGE, "README.md"), "utf8");
+  const links = [...readme.matchAll(/\]\(([^)]+)\)/g)].map(([, link]) => link).filter((link) => !link.startsWith("https://"));
+  assert.ok(links.length > 0);
+  for (const link of links) assert.ok(files.includes(link) && existsSync(join(PACKAGE, link)), link);
+  assert.match(readme, /\n## How fast it is\n/);
+});
+
 test("the types name what there is", () => {
   const types = readFileSync(join(PACKAGE, "polylidar.d.ts"), "utf8");
   const functions = [...types.matchAll(/^export function (\w+)/gm)].map(([, name]) => name);
-  assert.deepEqual(functions.sort(), Object.keys(polylidar).sort());
+  assert.match(types, /^export default concaveman;$/m);
+  assert.deepEqual([...functions, "default"].sort(), Object.keys(polylidar).sort());
 });
 
 test("concaveman's ring is closed, of the points themselves and has all points inside", () => {

@@ -87,3 +87,6 @@ export function concaveman<Point extends ArrayLike<number>>(
   concavity?: number,
   lengthThreshold?: number,
 ): Point[];
+
+/** concaveman() is the default export, as it is of the package concaveman. */
+export default concaveman;

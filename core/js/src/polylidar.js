@@ -140,3 +140,6 @@ function line(points) {
   const last = points.reduce((most, point) => (less(most, point) ? point : most));
   return [last, first, last];
 }
+
+// The package concaveman has no other export.
+export default concaveman;
