@@ -194,10 +194,10 @@ extern "C" {
 
 /// One ring round all points: the shell of the hull by the smallest limit of a sequence by which one polygon
 /// has all points inside or on it. The limits are those of the details 2^(-k/2) `detail`, k = 0, 1 ...; or
-/// longest edges of 2^(k/2) `length_threshold`, where that is more than twice the median size by `detail`:
-/// then usually the triangles across a gap of that width are too large by its size, and what is narrower is
-/// to be filled. A larger limit keeps more triangles, and one polygon that has all points keeps them: so k
-/// can be found by halving. Empty where there is no triangle.
+/// longest edges of 2^(k/2) `length_threshold`, if that is more than twice the median size by `detail`. A
+/// triangle across a bay has a size of half the bay's width or more: so up to there the sizes fill what is
+/// narrower. A larger limit keeps more triangles, and one polygon that has all points keeps them: so k can be
+/// found by halving. Empty where there is no triangle.
 [[clang::export_name("one_ring")]] void one_ring(double detail, double length_threshold) {
   constexpr int kSteps = 60;
   result.clear();
@@ -207,8 +207,11 @@ extern "C" {
   extractor.extract_regions(convex);
   const std::size_t all = count_points(extractor.extract_polygons(), extractor.count_triangles())[0];
 
-  extractor.extract_regions({.detail = detail});
-  const bool is_by_length = length_threshold > 2 * extractor.chosen_sizes()->median;
+  bool is_by_length = false;
+  if (length_threshold > 0) {
+    extractor.extract_regions({.detail = detail});
+    is_by_length = length_threshold > 2 * extractor.chosen_sizes()->median;
+  }
   const auto polygon = [&](int step) {
     Options options{.detail = detail * std::exp2(-0.5 * step)};
     if (is_by_length) options.max_edge_length = length_threshold * std::exp2(0.5 * step);

@@ -93,10 +93,10 @@ export function hulls(xy, labels, options) {
 }
 
 /** One ring round all points, by indices, without the first one again at the end; empty where they have no area. */
-export function one_ring(xy, detail, least_size) {
+export function one_ring(xy, detail, length_threshold) {
   return guarded((exports) => {
     write_points(exports, xy);
-    exports.one_ring(detail, least_size);
+    exports.one_ring(detail, length_threshold);
     return array(exports, VERTICES).slice();
   });
 }
