@@ -102,7 +102,10 @@ TEST_F(FootprintCommandTest, AStreamGivesWhatThePointsInMemoryGive) {
     const auto x = static_cast<std::int32_t>(random() % 10000);
     const auto y = static_cast<std::int32_t>(random() % 10000);
     if (std::hypot(x - 5000, y - 5000) < 2000) continue;
-    las.points.push_back({.x = x, .y = y, .classification = static_cast<unsigned>(random() % 5), .withheld = random() % 50 == 0});
+    las.points.push_back({.x = x,
+                          .y = y,
+                          .classification = static_cast<unsigned>(random() % 5),
+                          .withheld = random() % 50 == 0});
   }
   const std::string large = file("large.las", las.text());
   ASSERT_GT(fs::file_size(large), std::size_t{1} << 23U);

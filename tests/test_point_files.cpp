@@ -152,7 +152,8 @@ TEST_F(PointFilesTest, FaultsInColumns) {
       {"a.csv", "x,y\n1,2\n3\n", ", line 3: there is no column 2"},
       {"a.csv", "id,a,b\n1,2,3\n", ", line 1: none of the columns 'id', 'a', 'b' is known to be x or y"},
       {"a.csv", "Dear reader,\nthis is none\n",
-       ", line 2: there is no column 2, as the line has 1; the first row, which has no number, was taken for names"},
+       ", line 2: there is no column 2, as the line has 1; the first row, which has no number, was taken for "
+       "names"},
       {"a.csv", "n;H\xC3\xB6he;\xFF\xC3;\xC2\x9B\n1;2;3;4\n",
        "the columns 'n', 'H\xC3\xB6he', '?\?', '?\?' is"},
       {"a.csv", "1,2\n\n#\n3,\n", ", line 4: a coordinate is missing"},

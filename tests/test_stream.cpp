@@ -237,10 +237,9 @@ TEST(Stream, NeedsALimitWhereAllTrianglesChooseIt) {
   expect_as_in_memory(source.hull({}, {.most_points_in_memory = points.size()}), points, {});
   const std::vector<PointSource> sources = sources_of(points, 3, 50'000);
   const Options two_threads{.threads = 2};
-  expect_as_in_memory(
-      concave_hull_of_stream(sources, two_threads,
-                             {.most_points_in_memory = points.size(), .reads_at_once = true}),
-      points, two_threads);
+  expect_as_in_memory(concave_hull_of_stream(sources, two_threads,
+                                             {.most_points_in_memory = points.size(), .reads_at_once = true}),
+                      points, two_threads);
 }
 
 void expect_same(const StreamedHull& hull, const StreamedHull& expected) {
@@ -479,7 +478,9 @@ TEST(Stream, TellsHowFarItHasCome) {
 TEST(Stream, SaysWhatIsWrong) {
   const Points points = testing::uniform_points(70'000, 4);
   MemorySource many(points);
-  EXPECT_EQ(hullbench::testing::complaint_of<std::invalid_argument>([&] { many.part({}, {1, 2}); }),
+  EXPECT_EQ(hullbench::testing::complaint_of<std::invalid_argument>([&] {
+              many.part({}, {1, 2});
+            }),
             "a shard of more than 65536 points needs a limit: give alpha, max_edge_length or max_perimeter");
   EXPECT_EQ(complaint(many, {.alpha = -1}), "alpha must be zero or more");
   Points bad = points;

@@ -66,8 +66,9 @@ struct Choice {
 constexpr std::uint32_t kOne = 1;
 constexpr std::uint32_t kOfPdal = 15;
 
-/// The circumradius that goes with a chosen size of triangles, which is about 2.2 spacings of uniform points: of n of
-/// these a handful of triangles, 2 n (1 + x) / e^x with x = log n + 2, have a circle with room for x points.
+/// The circumradius that goes with a chosen size of triangles, which is about 2.2 spacings of uniform points:
+/// of n of these a handful of triangles, 2 n (1 + x) / e^x with x = log n + 2, have a circle with room for x
+/// points.
 double circumradius_of(double size, std::size_t points) {
   const double in_circle = std::log(static_cast<double>(points)) + 2;
   return size / 2.2 * std::sqrt(in_circle / std::numbers::pi);

@@ -37,7 +37,8 @@ constexpr auto make_half_widths() {
 constexpr auto kHalfWidths = make_half_widths<2 * kRadius>();
 /// As most uncertain points reach, with a little of what those in open directions do: for an estimate.
 constexpr auto kUsualHalfWidths = make_half_widths<2 * kNearRadius + 1>();
-/// Where 2 r turn out to be too little: the box of a circle of radius r reaches no farther from a point on it.
+/// Where 2 r turn out to be too little: the box of a circle of radius r reaches no farther from a point on
+/// it.
 constexpr auto kFartherHalfWidths = make_half_widths<2 * kRadius + 4>();
 static_assert(kFartherHalfWidths[2 * kRadius + 5] <= Grid::kMargin);
 constexpr Grid::Cell rows_below(std::span<const unsigned> half_widths) {
@@ -164,8 +165,8 @@ void mark_reach(const Grid& grid, Grid::Cell cell, Bitmap& reached) {
   mark(grid, cell, kHalfWidths, reached);
 }
 
-void mark_reach_round(std::span<const Mesh::Index> triangles, const DelaunayBuilder& builder, const Grid& grid,
-                      Bitmap& reached) {
+void mark_reach_round(std::span<const Mesh::Index> triangles, const DelaunayBuilder& builder,
+                      const Grid& grid, Bitmap& reached) {
   for (const Mesh::Index t : triangles) {
     for (Mesh::Index k = 0; k < 3; ++k) {
       const Point& corner = builder.vertices()[builder.mesh().corners(t)[k]];

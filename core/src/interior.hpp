@@ -58,8 +58,8 @@ inline constexpr Grid::Cell kReachedRows = 2 * kRadius + 1;
 /// Marks the cells that may hold a point within 2 r of one in `cell`.
 void mark_reach(const Grid& grid, Grid::Cell cell, Bitmap& reached);
 /// The same for 2.7 r and the corners of these triangles of the mesh.
-void mark_reach_round(std::span<const Mesh::Index> triangles, const DelaunayBuilder& builder, const Grid& grid,
-                      Bitmap& reached);
+void mark_reach_round(std::span<const Mesh::Index> triangles, const DelaunayBuilder& builder,
+                      const Grid& grid, Bitmap& reached);
 /// So many times a part is enlarged before all points are triangulated.
 inline constexpr int kMostEnlarged = 8;
 
@@ -82,8 +82,8 @@ class InteriorPart {
   std::optional<Way> choose(std::span<const Point> points, const CoordinateRange& range, double radius,
                             bool circumradii_matter, const InteriorGuard& guard, ThreadPool& pool);
 
-  /// After choose: enlarges the part by the points up to 2.7 r from the corners of these triangles of the mesh,
-  /// so that those which are in the triangulation of all points are surely whole.
+  /// After choose: enlarges the part by the points up to 2.7 r from the corners of these triangles of the
+  /// mesh, so that those which are in the triangulation of all points are surely whole.
   void reach_round(std::span<const Mesh::Index> triangles, const DelaunayBuilder& builder,
                    std::span<const Point> points, ThreadPool& pool);
 

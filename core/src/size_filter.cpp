@@ -336,7 +336,8 @@ void SizeFilter::drop_small_parts(const Mesh& mesh, const Whole& whole, std::siz
       is_large |= group_.size() >= least_part;
     }
     if (is_large) return doubtful_.resize(before);
-    if (is_beside_hidden) doubt_ = Way::kReachesFar;  // what is hidden would hang together with what is dropped
+    if (is_beside_hidden)
+      doubt_ = Way::kReachesFar;  // what is hidden would hang together with what is dropped
     changed_.insert(changed_.end(), group_.begin(), group_.end());
   };
   for_each_dropped(mesh, 0, mesh.word_count(), kept, [&](Index dropped) {

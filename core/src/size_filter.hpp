@@ -42,13 +42,13 @@ class SizeFilter {
   /// `is_tested`: vertex -> whether it is tested. All triangles with a tested corner must belong to the whole
   /// mesh, and all wide triangles of the whole mesh must have one. Triangles without a tested corner count as
   /// kept, unless they are connected to dropped ones that have one. If the triangles for which `is_sure` is
-  /// true are not enough to tell (doubtful() says where), or if rounding decides, returns that reason, and the
-  /// output must not be used.
+  /// true are not enough to tell (doubtful() says where), or if rounding decides, returns that reason, and
+  /// the output must not be used.
   std::optional<Way> run_on_part(const Mesh& mesh, const Point* vertices, const std::uint8_t* is_tested,
                                  const SizeField& field, const IsSure& is_sure, ThreadPool& pool,
                                  std::uint64_t* kept);
-  /// After run_on_part returned Way::kReachesFar: triangles of that mesh that would have to be sure; none if that
-  /// would not help.
+  /// After run_on_part returned Way::kReachesFar: triangles of that mesh that would have to be sure; none if
+  /// that would not help.
   const std::vector<Index>& doubtful() const { return doubtful_; }
 
  private:

@@ -278,8 +278,8 @@ void Stream::find_extents(bool is_for_others) {
   if (all.count() > 0) range_ = all.range();
 }
 
-/// A later pass: visit(slot, point, cell, number) for the points in these rows, which are among seen_. Sources
-/// without such points are not read.
+/// A later pass: visit(slot, point, cell, number) for the points in these rows, which are among seen_.
+/// Sources without such points are not read.
 template <class Visit>
 void Stream::run_over_cells(const Rows& rows, const Visit& visit,
                             const std::function<void(std::size_t)>& end) {
@@ -288,8 +288,8 @@ void Stream::run_over_cells(const Rows& rows, const Visit& visit,
     const Box& box = extents_[s].box();
     return rows.meets({grid_.row_number(box.min), grid_.row_number(box.max) + 1});
   };
-  const bool are_all = part_.shard.count == 1 &&
-                       static_cast<double>(grid_.word_count() * Grid::kWordBits) <= Grid::kMostCells;
+  const bool are_all =
+      part_.shard.count == 1 && static_cast<double>(grid_.word_count() * Grid::kWordBits) <= Grid::kMostCells;
   const auto take = [&](Slot& slot, const Block& block) {
     if (!detail::are_within(block.points, extents_[block.source].box())) throw has_changed();
     if (are_all) {
@@ -551,9 +551,10 @@ StreamedHull Stream::find_hull() {
   if (part_.source_points <= stream_options_.most_points_in_memory && part_.source_points <= kMaxPoints) {
     return hull_in_memory();
   }
-  throw NeedsAllPoints("the limit for these " + std::to_string(part_.source_points) +
-                       " points is chosen by a triangulation of them all, which needs more memory: give alpha, "
-                       "max_edge_length or max_perimeter");
+  throw NeedsAllPoints(
+      "the limit for these " + std::to_string(part_.source_points) +
+      " points is chosen by a triangulation of them all, which needs more memory: give alpha, "
+      "max_edge_length or max_perimeter");
 }
 
 }  // namespace

@@ -73,11 +73,11 @@ class NeedsAllPoints : public std::invalid_argument {
 ///
 /// Throws NeedsAllPoints where no limit is given, and the density varies so much, or the points are so
 /// clustered or so few, that the limit is chosen by the triangulation of all of them, and these are more than
-/// StreamOptions::most_points_in_memory. Throws std::invalid_argument as concave_hull; where coordinates would have to be scaled
-/// (see Extractor); where the limit is too small for the distances between the points, so that the maps would
-/// be too large or too much is near the outline; or where the rounding of a triangle's size decides whether
-/// it is kept (a slightly different limit helps). std::runtime_error where a source gives other points than
-/// the time before; and what a source throws.
+/// StreamOptions::most_points_in_memory. Throws std::invalid_argument as concave_hull; where coordinates
+/// would have to be scaled (see Extractor); where the limit is too small for the distances between the
+/// points, so that the maps would be too large or too much is near the outline; or where the rounding of a
+/// triangle's size decides whether it is kept (a slightly different limit helps). std::runtime_error where a
+/// source gives other points than the time before; and what a source throws.
 StreamedHull concave_hull_of_stream(std::span<const PointSource> sources, const Options& options,
                                     const StreamOptions& stream_options = {});
 /// The same of one source.
@@ -111,8 +111,8 @@ struct StreamShard {
 /// Reads `sources`, which are one after the other as one source, as concave_hull_of_stream does, and finds a
 /// shard's part of what that would triangulate (core/INTERIOR.md, "Many machines"). Each shard reads all
 /// points once, and three more times those sources, such as the tiles of a cloud, that reach into its band or
-/// 4 radii beyond it; its maps have the cells of these rows. Up to 65,536 points are all in the first shard; of
-/// more, `options` must give a limit.
+/// 4 radii beyond it; its maps have the cells of these rows. Up to 65,536 points are all in the first shard;
+/// of more, `options` must give a limit.
 ///
 /// Throws as concave_hull_of_stream, and std::invalid_argument where there is no such shard. Whether the
 /// rounding of a triangle's size decides is not known yet.

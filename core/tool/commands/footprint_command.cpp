@@ -145,7 +145,8 @@ void say_which(const Surroundings& surroundings, const std::vector<std::string>&
 void say_notes(const Surroundings& surroundings, const std::vector<std::string>& files,
                const std::vector<std::string>& notes) {
   for (std::size_t file = 0; file < files.size(); ++file) {
-    if (!notes[file].empty()) surroundings.err << surroundings.program << ": " << files[file] << ": " << notes[file] << "\n";
+    if (!notes[file].empty())
+      surroundings.err << surroundings.program << ": " << files[file] << ": " << notes[file] << "\n";
   }
 }
 
@@ -401,8 +402,8 @@ class UnionRun {
     double points = 0;
     for (std::size_t file = 0; file < facts_.size(); ++file) {
       if (!files_.is_done(file)) continue;
-      const LocatedHulls hulls = locate_hulls(read_point_file(command_.inputs[file], options_), command_.shape,
-                                              false, core_.threads, {});
+      const LocatedHulls hulls = locate_hulls(read_point_file(command_.inputs[file], options_),
+                                              command_.shape, false, core_.threads, {});
       if (!hulls.groups[0].sizes) continue;
       sizes.emplace_back(hulls.groups[0].sizes->most, facts_[file].points);
       points += static_cast<double>(facts_[file].points);
@@ -426,8 +427,8 @@ class UnionRun {
     say("triangles with a circumradius of " + four_digits(*core_.alpha) +
         " at most, chosen from the points (each file alone would get triangles of size " +
         four_digits(sizes.front().first) +
-        (sizes.front() == sizes.back() ? "" : " to " + four_digits(sizes.back().first)) + "); --detail scales it, " +
-        std::string(kByHand));
+        (sizes.front() == sizes.back() ? "" : " to " + four_digits(sizes.back().first)) +
+        "); --detail scales it, " + std::string(kByHand));
   }
 
   /// The files that could be read, in metres where asked for and they are in degrees.
@@ -504,9 +505,9 @@ class UnionRun {
   FileWork files_;
   std::vector<Facts> facts_;        ///< one a file
   std::vector<std::string> notes_;  ///< likewise
-  Facts all_;                  ///< of the files that could be read
-  std::size_t count_ = 0;      ///< these files
-  double least_area_ = 0;      ///< smaller holes and parts are by chance, where the limit was chosen
+  Facts all_;                       ///< of the files that could be read
+  std::size_t count_ = 0;           ///< these files
+  double least_area_ = 0;           ///< smaller holes and parts are by chance, where the limit was chosen
   Crs crs_;
   std::optional<double> latitude_;  ///< where the files are in degrees, the middle one of all
 };
@@ -536,18 +537,20 @@ void add_footprint_options(CLI::App& app, FootprintCommand& command) {
       "times, and\n"
       "need not fit into memory. If no limit is given, the sizes of triangles are chosen from all points. If "
       "the density\n"
-      "varies by much, that needs all of them in memory. If they do not fit, a limit is chosen for each file. "
+      "varies by much, that needs all of them in memory. If they do not fit, a limit is chosen for each "
+      "file. "
       "The largest\n"
       "is used for all, but the files with the largest limits that together hold 1 % of the points do not "
       "count.\n" +
       std::string(kGdalHelp));
   app.add_option("FILE", command.inputs, "The files of points")->required();
-  app.add_flag("--union", command.is_union,
-               "Make one shape of all files together, instead of one for each file; not with --one, --cover and "
-               "--min-triangles");
+  app.add_flag(
+      "--union", command.is_union,
+      "Make one shape of all files together, instead of one for each file; not with --one, --cover and "
+      "--min-triangles");
   add_format_option(app, command.shape, {"auto", "geojson"});
   add_shape_options(app, command.shape);
-  add_memory_option(app, command.shape, "");
+  add_memory_option(app, command.shape, "The most memory");
 }
 
 }  // namespace polylidar::tool

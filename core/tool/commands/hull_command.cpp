@@ -281,7 +281,7 @@ void add_hull_options(CLI::App& app, HullCommand& command) {
       "--stream", command.stream,
       "Read the files four to seven times instead of keeping their points in memory; only for LAS, text, "
       "NumPy and raw doubles");
-  add_memory_option(app, command.shape, "With --stream: ");
+  add_memory_option(app, command.shape, "With --stream, the most memory");
   app.add_option("--shard", command.shard,
                  "With --stream, write only what shard K of N finds, such as 2/7, for 'polylidar merge': N "
                  "machines each need an Nth of the memory");

@@ -58,11 +58,12 @@ void add_shape_options(CLI::App& app, ShapeChoice& choice) {
   app.add_option("--max-perimeter", choice.max_perimeter, "Largest perimeter of a triangle of the shape")
       ->check(zero_or_more());
   CLI::Option* const detail =
-      app.add_option("--detail", choice.detail,
-                 "How much detail the outline has, where no limit is given: 2 keeps holes and notches half "
-                     "as wide, 0.5 smooths")
-      ->check(above_zero())
-      ->capture_default_str();
+      app.add_option(
+             "--detail", choice.detail,
+             "How much detail the outline has, where no limit is given: 2 keeps holes and notches half "
+             "as wide, 0.5 smooths")
+          ->check(above_zero())
+          ->capture_default_str();
   for (const char* limit : {"--alpha", "--max-edge-length", "--max-perimeter"}) {
     detail->excludes(app.get_option(limit));
   }
@@ -95,8 +96,7 @@ void add_shape_options(CLI::App& app, ShapeChoice& choice) {
 }
 
 void add_memory_option(CLI::App& app, ShapeChoice& choice, const std::string& when) {
-  app.add_option("--memory", choice.memory,
-                 when + "the most memory for points, in MiB, instead of half of what is free")
+  app.add_option("--memory", choice.memory, when + " for points, in MiB, instead of half of what is free")
       ->check(CLI::Range(std::uint64_t{1}, std::uint64_t{1} << 30U));
 }
 

@@ -57,9 +57,10 @@ void ShapeOutput::check_against(std::span<const std::string> inputs) const {
     }
   }
   if (!is_format_given_ && names_points(path_)) {
-    throw ConfigurationError("--out " + path_ +
-                             " has the ending of a file of points; name it .geojson, .wkt, .wkb or .svg, or say "
-                             "with --format what it is");
+    throw ConfigurationError(
+        "--out " + path_ +
+        " has the ending of a file of points; name it .geojson, .wkt, .wkb or .svg, or say "
+        "with --format what it is");
   }
 }
 

@@ -168,8 +168,9 @@ class StreamRun {
       status_.show("pass " + std::to_string(progress.pass) + " of " + std::to_string(progress.passes) + ": " +
                    std::to_string(progress.points) + " points");
     };
-    return {
-        .progress = show, .most_points_in_memory = most_points_in_memory(command_.shape), .reads_at_once = true};
+    return {.progress = show,
+            .most_points_in_memory = most_points_in_memory(command_.shape),
+            .reads_at_once = true};
   }
 
   const HullCommand& command_;

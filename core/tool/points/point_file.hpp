@@ -57,8 +57,8 @@ struct FilePart {
 struct PointFileOptions {
   PointFormat format = PointFormat::kAuto;
   /// For columns of text: which two hold x and y, such as "lon,lat" (names in the first row) or "2,3"
-  /// (counted from 1). Empty: by the names x and y, lon (lng, long, longitude) and lat (latitude), or easting and
-  /// northing, in any case; without these the only two.
+  /// (counted from 1). Empty: by the names x and y, lon (lng, long, longitude) and lat (latitude), or easting
+  /// and northing, in any case; without these the only two.
   std::string columns = {};
   /// What to group points by: a column of text or of a layer, by its name or its number from 1;
   /// classification, return or point_source of a LAS file. Empty: nothing.
@@ -92,9 +92,9 @@ struct PointFile {
   std::vector<Point> points;  ///< in their order; further coordinates are dropped
   std::vector<std::uint32_t>
       groups;  ///< of each point, its index in `labels`; empty where nothing is grouped by
-  std::vector<std::string> labels;           ///< distinct; numbers by value, then other texts by their bytes
-  std::string note;                          ///< what a person should be told of how it was read; mostly empty
-  Crs crs;                                   ///< that the file, or a .prj file beside text, names
+  std::vector<std::string> labels;  ///< distinct; numbers by value, then other texts by their bytes
+  std::string note;                 ///< what a person should be told of how it was read; mostly empty
+  Crs crs;                          ///< that the file, or a .prj file beside text, names
   std::array<std::uint64_t, 256> classes{};  ///< of a LAS file: classification -> points taken
 };
 

@@ -3,8 +3,6 @@
 
 #include <cstddef>
 #include <string_view>
-
-#include <cstddef>
 #include <vector>
 
 #include "polylidar/geometry.hpp"
