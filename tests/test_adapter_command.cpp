@@ -40,12 +40,13 @@ class AdapterCommandTest : public testing::HullbenchTest {
     write_text(methods() / "sample.json", manifest.dump());
   }
 
-  Outcome test_sample() const {
-    return hullbench({"adapter", "test", "sample", "--adapters", methods().string(), "--timeout", "20"});
+  Outcome test_sample(const std::string& timeout = "20") const {
+    return hullbench({"adapter", "test", "sample", "--adapters", methods().string(), "--timeout", timeout});
   }
 
-  void expect_broken(const std::string& point, const std::string& words) const {
-    const Outcome tested = test_sample();
+  void expect_broken(const std::string& point, const std::string& words,
+                     const std::string& timeout = "20") const {
+    const Outcome tested = test_sample(timeout);
     EXPECT_EQ(tested.code, 4) << tested.out << tested.err;
     const std::size_t line = tested.out.find("FAIL  " + point);
     ASSERT_NE(line, std::string::npos) << tested.out;
@@ -136,7 +137,7 @@ TEST_F(AdapterCommandTest, TheContractSaysWhatToMend) {
   python_method("    return [[points[:3]], [points[:3] + 2]]");
   expect_broken("a square of points", "several polygons, which the method says it cannot have");
   python_method("    import time; time.sleep(60 if len(points) > 1000 else 0); return []");
-  expect_broken("20000 points within the limits", "timeout");
+  expect_broken("20000 points within the limits", "timeout", "3");
   python_method("    import os; os.abort()");
   expect_broken("one point", "SIGABRT");
   python_method("    import time; time.sleep(60)");

@@ -92,8 +92,9 @@ void coordinates(benchmark::State& state, const SpeedPointSet& set) {
 /// Of a limit that is chosen only.
 void windows(benchmark::State& state, const SpeedPointSet& set) {
   AutomaticLimit limit;
-  measure_phase(state, set,
-                [&](Phases& p) { benchmark::DoNotOptimize(limit.look(p.set.points, p.range.box, p.pool)); });
+  measure_phase(state, set, [&](Phases& p) {
+    benchmark::DoNotOptimize(limit.look(passes_over(p.set.points, p.pool), p.range.box, p.pool));
+  });
 }
 
 void cells(benchmark::State& state, const SpeedPointSet& set) {
