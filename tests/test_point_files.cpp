@@ -4,8 +4,10 @@
 #include <cmath>
 #include <fstream>
 #include <limits>
+#include <span>
 
 #include "tests/complaint.hpp"
+#include "tests/las_file.hpp"
 #include "tests/point_file_texts.hpp"
 #include "tests/temporary_folder.hpp"
 #include "tool/points/point_file.hpp"
@@ -130,6 +132,46 @@ TEST_F(PointFilesTest, TwoColumnsWithUnknownNamesAreTakenInTheirOrder) {
     EXPECT_EQ(known.points, (Points{{1, 2}})) << text;
     EXPECT_EQ(known.note, "") << text;
     EXPECT_EQ(known.crs.is_geographic, text[0] == 'l' || text[0] == 'L') << text;
+  }
+}
+
+TEST_F(PointFilesTest, ThePartsOfAFileHaveItsPoints) {
+  Points points;
+  for (int i = 0; i < 100'000; ++i) points.push_back({0.5 * i, 0.25 * (i % 1000)});
+  hullbench::testing::LasFile las;
+  for (int i = 0; i < 100'000; ++i) las.points.push_back({.x = i, .y = i % 1000, .withheld = i % 7 == 0});
+  const std::vector<std::string> paths = {
+      file("a.npy", npy_of<double>(points, "<f8")), file("b.npy", npy_of<float>(points, "<f4")),
+      file("c.f64", hullbench::testing::raw_of(points)), file("d.las", las.text())};
+  for (const std::string& path : paths) {
+    for (const bool has_window : {false, true}) {
+      PointFileOptions options;
+      if (has_window) options.window = Box{{100, 5}, {30'000, 200}};
+      EXPECT_TRUE(is_read_in_parts(path, options)) << path;
+      const Points whole = read_points(path, options);
+      for (const std::size_t count : {1U, 2U, 7U}) {
+        Points parts;
+        options.take_points = [&](std::span<const Point> block) {
+          parts.insert(parts.end(), block.begin(), block.end());
+        };
+        for (std::size_t part = 0; part < count; ++part) {
+          options.part = {part, count};
+          EXPECT_TRUE(read_point_file(path, options).points.empty());
+        }
+        EXPECT_EQ(parts, whole) << path << ' ' << count;
+      }
+    }
+  }
+  points[70'000].x = std::numeric_limits<double>::infinity();
+  PointFileOptions second;
+  second.take_points = [](std::span<const Point>) {};
+  second.part = {1, 2};
+  const std::string said = hullbench::testing::complaint_of<PointFileError>(
+      [&] { read_point_file(file("e.npy", npy_of<double>(points, "<f8")), second); });
+  EXPECT_NE(said.find("point 70001 has a coordinate that is not finite"), std::string::npos) << said;
+  for (const auto& [name, text] : std::vector<std::pair<const char*, std::string>>{
+           {"a.csv", "1,2\n"}, {"fortran.npy", npy_of<double>({{1, 2}}, "<f8", true)}}) {
+    EXPECT_FALSE(is_read_in_parts(file(name, text), {})) << name;
   }
 }
 

@@ -156,7 +156,7 @@ class Stream {
   void find_uncertain_cells();
   void find_uncertain_points();
   void gather();
-  void find_points();
+  void find_points(bool keeps_maps);
   void take_all();
   StreamedHull hull_in_memory();
   StreamedHull hull_by_limits();
@@ -176,8 +176,8 @@ class Stream {
   Rows seen_;                                   ///< in which cells are marked as occupied
   Grid grid_;                                   ///< the rows seen_ of the grid over the box
   std::deque<Slot> slots_;
-  Bitmap occupied_;
-  Bitmap marked_;                         ///< uncertain cells, then those within reach of uncertain points
+  std::optional<Bitmap> occupied_;
+  std::optional<Bitmap> marked_;          ///< uncertain cells, then those within reach of uncertain points
   std::vector<Grid::Cell> reaching_;      ///< cells with uncertain points, until they are marked
   std::vector<std::uint64_t> uncertain_;  ///< of the shard's own band, ascending
   StreamShard part_;
@@ -340,21 +340,23 @@ void Stream::choose_grid(double widest) {
 
 void Stream::find_occupied_cells() {
   const std::size_t words = grid_.word_count();
-  occupied_.clear(words);
+  occupied_.emplace().clear(words);
   const auto nothing = [](std::size_t) {};
   if (pool_.threads() == 1) {
-    const auto set = [&](Slot&, const Point&, Grid::Cell cell, std::uint64_t) { occupied_.set(cell); };
+    const auto set = [&](Slot&, const Point&, Grid::Cell cell, std::uint64_t) { occupied_->set(cell); };
     run_over_cells(seen_, set, nothing);
     return;
   }
   // A map for each slot is faster than one that all threads write to, but needs more memory.
   constexpr std::size_t kMostBytes = std::size_t{1} << 25U;
   if (!are_read_at_once() || most_slots() * words * sizeof(Bitmap::Word) > kMostBytes) {
-    const auto set = [&](Slot&, const Point&, Grid::Cell cell, std::uint64_t) { occupied_.set_shared(cell); };
+    const auto set = [&](Slot&, const Point&, Grid::Cell cell, std::uint64_t) {
+      occupied_->set_shared(cell);
+    };
     run_over_cells(seen_, set, nothing);
     return;
   }
-  const auto map_of = [&](Slot& slot) -> Bitmap& { return slot.number == 0 ? occupied_ : slot.occupied; };
+  const auto map_of = [&](Slot& slot) -> Bitmap& { return slot.number == 0 ? *occupied_ : slot.occupied; };
   for (Slot& slot : slots_) map_of(slot).clear(words);
   const auto set = [&](Slot& slot, const Point&, Grid::Cell cell, std::uint64_t) { map_of(slot).set(cell); };
   run_over_cells(seen_, set, nothing);
@@ -362,26 +364,27 @@ void Stream::find_occupied_cells() {
   pool_.for_each(chunks.size(), [&](std::size_t c) {
     for (std::size_t s = 1; s < slots_.size(); ++s) {
       for (std::size_t w = chunks.begin(c); w < chunks.end(c); ++w) {
-        occupied_.words()[w] |= slots_[s].occupied.words()[w];
+        occupied_->words()[w] |= slots_[s].occupied.words()[w];
       }
     }
   });
 }
 
 void Stream::find_uncertain_cells() {
-  marked_.clear(grid_.word_count());
+  marked_.emplace().clear(grid_.word_count());
   constexpr Grid::Cell kRowsATime = 64;
   const Rows tested{tested_.begin - seen_.begin, tested_.end - seen_.begin};
   pool_.for_each((tested.end - tested.begin + kRowsATime - 1) / kRowsATime, [&](std::size_t i) {
     const Grid::Cell begin = tested.begin + i * kRowsATime;
-    detail::find_uncertain_cells(grid_, occupied_, begin, std::min(tested.end, begin + kRowsATime), marked_);
+    detail::find_uncertain_cells(grid_, *occupied_, begin, std::min(tested.end, begin + kRowsATime),
+                                 *marked_);
   });
 }
 
 void Stream::find_uncertain_points() {
   const detail::PointCertificate& certificate = detail::PointCertificate::instance();
   const auto look = [&](Slot& slot, const Point& p, Grid::Cell cell, std::uint64_t number) {
-    if (!marked_.test(cell) || certificate.is_certified(p, cell, grid_, occupied_)) return;
+    if (!marked_->test(cell) || certificate.is_certified(p, cell, grid_, *occupied_)) return;
     slot.uncertain.push_back({number, cell, own_.has(grid_.row_number(p))});
   };
   const auto end = [&](std::size_t slots) {
@@ -397,8 +400,8 @@ void Stream::find_uncertain_points() {
     }
   };
   run_over_cells(tested_, look, end);
-  marked_.clear(grid_.word_count());
-  for (const Grid::Cell cell : reaching_) detail::mark_reach(grid_, cell, marked_);
+  marked_->clear(grid_.word_count());
+  for (const Grid::Cell cell : reaching_) detail::mark_reach(grid_, cell, *marked_);
   reaching_ = {};
 }
 
@@ -408,7 +411,7 @@ void Stream::gather() {
   part_.uncertain.clear();
   auto next = uncertain_.begin();
   const auto look = [&](Slot& slot, const Point& p, Grid::Cell cell, std::uint64_t number) {
-    if (marked_.test(cell)) slot.gathered.emplace_back(number, p);
+    if (marked_->test(cell)) slot.gathered.emplace_back(number, p);
   };
   const auto end = [&](std::size_t slots) {
     for (std::size_t s = 0; s < slots; ++s) {
@@ -456,13 +459,15 @@ void Stream::check_scale() const {
   throw std::invalid_argument("coordinates as large or as small as these cannot be streamed: scale them");
 }
 
-/// What is near the outline, where the grid is chosen.
-void Stream::find_points() {
+/// What is near the outline, where the grid is chosen. `keeps_maps`: whether they are needed afterwards.
+void Stream::find_points(bool keeps_maps) {
   if (own_.empty()) return;  // more shards than rows
   find_occupied_cells();
   find_uncertain_cells();
   find_uncertain_points();
+  if (!keeps_maps) occupied_.reset();
   gather();
+  if (!keeps_maps) marked_.reset();
 }
 
 StreamShard Stream::find_part() {
@@ -482,7 +487,7 @@ StreamShard Stream::find_part() {
   check_scale();
   if (detail::is_flat(part_.box)) return std::move(part_);
   choose_grid(detail::least_dropped_radius(limits_));
-  find_points();
+  find_points(false);
   return std::move(part_);
 }
 
@@ -509,9 +514,9 @@ std::optional<StreamedHull> Stream::hull_by_chosen_sizes() {
   const std::optional<double> wide_radius = choose_sizes();
   if (!wide_radius) return {};
   choose_grid(*wide_radius);
-  find_points();
+  find_points(true);
   const auto is_sure = [&](const detail::Triangle& triangle) {
-    return detail::is_surely_whole(triangle, grid_, occupied_, marked_);
+    return detail::is_surely_whole(triangle, grid_, *occupied_, *marked_);
   };
   for (int k = 0;; ++k) {
     detail::PartHull hull(part_, pool_);
@@ -526,14 +531,14 @@ std::optional<StreamedHull> Stream::hull_by_chosen_sizes() {
     if (why != Way::kReachesFar) throw detail::rounding_decides();
     if (hull.doubtful().empty() || k == detail::kMostEnlarged) return {};
     ++progress_.passes;
-    detail::mark_reach_round(hull.doubtful(), hull.builder(), grid_, marked_);
+    detail::mark_reach_round(hull.doubtful(), hull.builder(), grid_, *marked_);
     gather();
   }
 }
 
 StreamedHull Stream::hull_by_limits() {
   choose_grid(detail::least_dropped_radius(limits_));
-  find_points();
+  find_points(false);
   detail::PartHull hull(part_, pool_);
   if (hull.filter(detail::filter_rules(limits_), part_.options.fill_single_triangles.value_or(false))) {
     throw detail::rounding_decides();

@@ -10,8 +10,10 @@
 #include <cstdlib>
 #include <iostream>
 #include <nlohmann/json.hpp>
+#include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "tool/hull/degrees.hpp"
 #include "tool/hull/group_hulls.hpp"
@@ -85,6 +87,21 @@ void check(const PointFile& file, const PointFileOptions& options) {
   expect(std::adjacent_find(labels.begin(), labels.end()) == labels.end(), "two groups have one label");
 }
 
+/// What can be read in parts has the same points then.
+void check_parts(const std::string& path, const PointFile& file, PointFileOptions options) {
+  if (!options.by.empty() || !is_read_in_parts(path, options)) return;
+  std::vector<Point> points;
+  options.take_points = [&](std::span<const Point> block) {
+    points.insert(points.end(), block.begin(), block.end());
+  };
+  constexpr std::size_t kParts = 3;
+  for (std::size_t part = 0; part < kParts; ++part) {
+    options.part = {part, kParts};
+    read_point_file(path, options);
+  }
+  expect(points == file.points, "the parts of a file have other points than the file");
+}
+
 /// Shapes of a few points, as the tool makes them.
 void make_shapes(const PointFile& file, std::uint8_t choice) {
   constexpr std::size_t kMany = 400;
@@ -136,6 +153,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   try {
     const PointFile file = read_point_file(input.path(), options);
     check(file, options);
+    check_parts(input.path(), file, options);
     make_shapes(file, data[2]);
   } catch (const PointFileError& error) {
     const std::string_view what = error.what();

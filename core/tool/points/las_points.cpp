@@ -240,19 +240,13 @@ class LasReader {
                  kCopyAgain);
   }
 
-  /// The number of the first point of part `number`.
-  std::uint64_t place_of_part(std::size_t number) const {
-    const std::uint64_t count = reader_.options().part.count;
-    return header_.count / count * number + header_.count % count * number / count;
-  }
-
   void read_points() {
     const PointFileOptions& options = reader_.options();
     by_ = by_of(options.by);
     if (by_ != By::kNothing) group_of_value_.assign(std::size_t{1} << 16U, kNoGroup);
     const bool takes_all = options.returns == Returns::kAll && !options.classes && !options.window;
-    const std::uint64_t first = place_of_part(options.part.number);
-    const std::uint64_t end = place_of_part(options.part.number + 1);
+    const std::uint64_t first = options.part.begin(header_.count);
+    const std::uint64_t end = options.part.end(header_.count);
     skip_to(header_.points_at + first * header_.point_size, "its points do");
     // Only when the file was seen to hold them all, so that a header alone cannot ask for all memory.
     if (takes_all && reader_.remaining() && !options.take_points) {

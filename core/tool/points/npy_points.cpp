@@ -142,12 +142,14 @@ void read_as_they_are(BlockReader& reader, const Array& array, bool size_known, 
   }
 }
 
-/// Calls `use` with the index and the place of each of the next `count` records of `size` bytes.
+/// Calls `use` with the index and the place of each of the next records of `size` bytes, from number `first`
+/// to the one before `end`.
 template <class Use>
-void for_each_record(BlockReader& reader, const Array& array, std::size_t size, const Use& use) {
+void for_each_record(BlockReader& reader, const Array& array, std::uint64_t first, std::uint64_t end,
+                     std::size_t size, const Use& use) {
   std::vector<char> block(kValuesABlock * size);
-  for (std::uint64_t done = 0; done < array.count;) {
-    const std::uint64_t part = std::min<std::uint64_t>(kValuesABlock, array.count - done);
+  for (std::uint64_t done = first; done < end;) {
+    const std::uint64_t part = std::min<std::uint64_t>(kValuesABlock, end - done);
     if (!reader.read(block.data(), static_cast<std::size_t>(part) * size)) fail_short(array, reader);
     for (std::size_t i = 0; i < part; ++i) use(done + i, block.data() + i * size);
     done += part;
@@ -156,7 +158,7 @@ void for_each_record(BlockReader& reader, const Array& array, std::size_t size, 
 
 void read_rows(BlockReader& reader, const Array& array, bool size_known, std::vector<Point>& points) {
   const std::size_t size = array.type.size;
-  for_each_record(reader, array, array.columns * size, [&](std::uint64_t i, const char* row) {
+  for_each_record(reader, array, 0, array.count, array.columns * size, [&](std::uint64_t i, const char* row) {
     grow(points, i + 1, array.count, size_known);
     points[i] = {load(row, array.type), load(row + size, array.type)};
     check_finite(points[i], i, reader);
@@ -170,18 +172,26 @@ void hand_on_rows(BlockReader& reader, const Array& array, PointFile& file) {
         "its NumPy array is in Fortran order, x and y apart, which cannot be streamed; save "
         "numpy.ascontiguousarray(points)");
   }
+  const std::size_t size = array.type.size;
+  const std::uint64_t first = options.part.begin(array.count);
+  const std::uint64_t end = options.part.end(array.count);
+  const auto skip_rows = [&](std::uint64_t rows) {
+    if (!reader.skip(rows * array.columns * size)) fail_short(array, reader);
+  };
+  skip_rows(first);
   if (is_plain(array) && !options.window) {
-    for (std::uint64_t done = 0; done < array.count; done += kValuesABlock) {
-      file.points.resize(
-          static_cast<std::size_t>(std::min<std::uint64_t>(kValuesABlock, array.count - done)));
+    // Small blocks stay in the cache of the one core that works on them; large ones are worth sharing.
+    const std::uint64_t in_block = options.part.count > 1 ? kValuesABlock / 8 : kValuesABlock;
+    for (std::uint64_t done = first; done < end; done += file.points.size()) {
+      file.points.resize(static_cast<std::size_t>(std::min(in_block, end - done)));
       read_plain(reader, array, file.points.data(), file.points.size());
       for (std::size_t i = 0; i < file.points.size(); ++i) check_finite(file.points[i], done + i, reader);
-      hand_on(file, options, true);
+      if (!file.points.empty()) options.take_points(file.points);
     }
-    return;
+    file.points.clear();
+    return skip_rows(array.count - end);
   }
-  const std::size_t size = array.type.size;
-  for_each_record(reader, array, array.columns * size, [&](std::uint64_t i, const char* row) {
+  for_each_record(reader, array, first, end, array.columns * size, [&](std::uint64_t i, const char* row) {
     const Point point = {load(row, array.type), load(row + size, array.type)};
     check_finite(point, i, reader);
     if (options.window && !is_inside(point, *options.window)) return;
@@ -189,15 +199,16 @@ void hand_on_rows(BlockReader& reader, const Array& array, PointFile& file) {
     hand_on(file, options);
   });
   hand_on(file, options, true);
+  skip_rows(array.count - end);
 }
 
 void read_columns_of_array(BlockReader& reader, const Array& array, bool size_known,
                            std::vector<Point>& points) {
-  for_each_record(reader, array, array.type.size, [&](std::uint64_t i, const char* value) {
+  for_each_record(reader, array, 0, array.count, array.type.size, [&](std::uint64_t i, const char* value) {
     grow(points, i + 1, array.count, size_known);
     points[i].x = load(value, array.type);
   });
-  for_each_record(reader, array, array.type.size, [&](std::uint64_t i, const char* value) {
+  for_each_record(reader, array, 0, array.count, array.type.size, [&](std::uint64_t i, const char* value) {
     points[i].y = load(value, array.type);
     check_finite(points[i], i, reader);
   });

@@ -253,6 +253,26 @@ PointFile read_point_file(const std::string& path, const PointFileOptions& optio
   return program ? read_laz(*program, path, options) : read_from(reader, path);
 }
 
+bool is_read_in_parts(const std::string& path, const PointFileOptions& options) {
+  std::error_code error;
+  if (!std::filesystem::is_regular_file(path, error)) return false;
+  if (options.format == PointFormat::kGdal || (options.format == PointFormat::kAuto && is_for_gdal(path))) {
+    return false;
+  }
+  PointFileOptions of_start = options;
+  if (of_start.format == PointFormat::kAuto && format_of_name(path) == PointFormat::kRaw) {
+    of_start.format = PointFormat::kRaw;
+  }
+  BlockReader reader(path, of_start);
+  if (!reader.remaining()) return false;
+  const PointFormat format =
+      of_start.format == PointFormat::kAuto ? find_format(path, reader) : of_start.format;
+  if (format == PointFormat::kRaw) return true;
+  if (format == PointFormat::kLas) return point_files::is_uncompressed_las(reader.ahead());
+  return format == PointFormat::kNpy &&
+         reader.ahead().substr(0, 256).find("'fortran_order': False") != std::string_view::npos;
+}
+
 bool names_points(const std::string& path) {
   switch (format_of_name(path)) {
     case PointFormat::kCsv:

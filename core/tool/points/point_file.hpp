@@ -52,6 +52,15 @@ class VectorFormats;
 struct FilePart {
   std::size_t number = 0;
   std::size_t count = 1;
+
+  /// Of a file with `points` points, the number of the part's first, and that behind its last.
+  std::uint64_t begin(std::uint64_t points) const { return place(points, number); }
+  std::uint64_t end(std::uint64_t points) const { return place(points, number + 1); }
+
+ private:
+  std::uint64_t place(std::uint64_t points, std::size_t part) const {
+    return points / count * part + points % count * part / count;
+  }
 };
 
 struct PointFileOptions {
@@ -73,7 +82,7 @@ struct PointFileOptions {
   /// empty: for files of more points than fit into memory. Of LAS, columns of text, NumPy's rows, raw doubles
   /// and layers; other files are refused.
   std::function<void(std::span<const Point>)> take_points = {};
-  /// Of a LAS file that is not compressed: only the points of this part of it are read.
+  /// With `take_points`, of a file that is_read_in_parts(): only the points of this part are read.
   FilePart part = {};
   /// Files that cannot be taken block by block are read whole, and handed to `take_points` then, instead of
   /// being refused.
@@ -103,6 +112,10 @@ struct PointFile {
 /// PointFileError when it cannot be read, has no byte, is not what its format says, or has a coordinate that
 /// is not finite. A file may hold no points.
 PointFile read_point_file(const std::string& path, const PointFileOptions& options = {});
+
+/// Whether parts of the file can be read by themselves: LAS, NumPy's rows and raw doubles, if it is no pipe
+/// and nothing is compressed. Throws PointFileError where it cannot be read.
+bool is_read_in_parts(const std::string& path, const PointFileOptions& options);
 
 /// Whether `path` has the ending of a format that holds points only, such as .las.
 bool names_points(const std::string& path);

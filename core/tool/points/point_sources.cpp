@@ -1,24 +1,6 @@
 #include "tool/points/point_sources.hpp"
 
-#include <array>
-#include <filesystem>
-#include <fstream>
-#include <string_view>
-#include <system_error>
-
-#include "tool/points/readers.hpp"
-
 namespace polylidar::tool {
-
-bool is_read_in_parts(const std::string& path, const PointFileOptions& options) {
-  if (options.format != PointFormat::kAuto && options.format != PointFormat::kLas) return false;
-  std::error_code error;
-  if (!std::filesystem::is_regular_file(path, error)) return false;
-  std::array<char, point_files::kLasStart> start{};
-  std::ifstream stream(path, std::ios::binary);
-  stream.read(start.data(), start.size());
-  return stream.good() && point_files::is_uncompressed_las({start.data(), start.size()});
-}
 
 std::vector<PointSource> point_sources(const std::string& path, const PointFileOptions& options,
                                        std::size_t most_parts, const OnRead& on_read) {

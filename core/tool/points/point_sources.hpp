@@ -14,11 +14,9 @@ namespace polylidar::tool {
 /// Told each time that a part of a file was read, with all but its points; by the thread that read it.
 using OnRead = std::function<void(std::size_t part, const PointFile& file)>;
 
-/// Whether parts of the file can be read at the same time: LAS that is not compressed, and no pipe.
-bool is_read_in_parts(const std::string& path, const PointFileOptions& options);
-
 /// The file as up to `most_parts` sources, one after the other; one source where it is not read in parts.
-/// `options` are those of the file; `take_points` and `part` are set here. Reading throws as read_point_file.
+/// `options` are those of the file; `take_points` and `part` are set here. Throws as is_read_in_parts, and
+/// reading as read_point_file.
 std::vector<PointSource> point_sources(const std::string& path, const PointFileOptions& options,
                                        std::size_t most_parts, const OnRead& on_read);
 

@@ -1,5 +1,8 @@
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <limits>
+#include <optional>
 #include <vector>
 
 #include "tool/points/numbers.hpp"
@@ -15,15 +18,20 @@ void read_raw(BlockReader& reader, PointFile& file) {
         "doubles x, y, x, y, ..., or name its format with --input");
   };
   const PointFileOptions& options = reader.options();
+  std::uint64_t number = 0;
+  std::uint64_t end = std::numeric_limits<std::uint64_t>::max();
   if (const std::optional<std::uint64_t> size = reader.remaining()) {
     if (*size % kSize != 0) fail_size();
-    if (!options.take_points) reserve_points(file.points, static_cast<std::size_t>(*size / kSize));
+    number = options.part.begin(*size / kSize);
+    end = options.part.end(*size / kSize);
+    if (!options.take_points) reserve_points(file.points, static_cast<std::size_t>(end - number));
+    reader.skip(number * kSize);
   }
-  std::uint64_t number = 0;
   std::vector<char> bytes;
-  while (!reader.ahead().empty()) {
+  while (number < end && !reader.ahead().empty()) {
     // What is at hand may end within a point.
-    bytes.resize(std::max(reader.ahead().size() / kSize, std::size_t{1}) * kSize);
+    const std::uint64_t at_hand = std::max<std::uint64_t>(reader.ahead().size() / kSize, 1);
+    bytes.resize(static_cast<std::size_t>(std::min(at_hand, end - number)) * kSize);
     if (!reader.read(bytes.data(), bytes.size())) fail_size();
     for (const char* at = bytes.data(); at < bytes.data() + bytes.size(); at += kSize) {
       const Point point = {load(at, Scalar()), load(at + kSize / 2, Scalar())};

@@ -45,8 +45,9 @@ void reserve_points(std::vector<Point>& points, std::size_t count);
 /// To be called after points were added to `file`, and at the end with `at_end`: hands the points on
 /// where somebody takes them.
 inline void hand_on(PointFile& file, const PointFileOptions& options, bool at_end = false) {
-  constexpr std::size_t kBlockPoints = std::size_t{1} << 13U;  // which stay in a core's cache
-  if (!options.take_points || (file.points.size() < kBlockPoints && !at_end)) return;
+  // Small blocks stay in the cache of the one core that works on them; large ones are worth sharing.
+  const std::size_t block_points = std::size_t{1} << (options.part.count > 1 ? 13U : 18U);
+  if (!options.take_points || (file.points.size() < block_points && !at_end)) return;
   if (!file.points.empty()) options.take_points(file.points);
   file.points.clear();
 }
