@@ -328,7 +328,11 @@ void Stream::choose_grid(double widest) {
   while (!fits() && radius < widest) radius = std::min(radius * kWider, widest);
   if (!fits()) {
     throw std::invalid_argument(
-        "the limit is too small for the distances between the points: give a larger one, or more memory");
+        detail::is_any_limit_given(part_.options)
+            ? "the limit is too small for the distances between the points: give a larger one, or more memory"
+            : "the maps of cells need more memory than they may take: allow more, or give alpha, "
+              "max_edge_length "
+              "or max_perimeter");
   }
   const Grid grid(box, detail::kRadius / radius);
   part_.cells_per_length = grid.cells_per_length();
