@@ -1,14 +1,18 @@
 // Any number of threads gives the same result, bit for bit; run with the thread sanitizer too.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <atomic>
 #include <cstddef>
+#include <cstdint>
 #include <limits>
+#include <span>
 #include <stdexcept>
 #include <vector>
 
 #include "core/src/thread_pool.hpp"
 #include "polylidar/concave_hull.hpp"
+#include "polylidar/stream.hpp"
 #include "tests/complaint.hpp"
 #include "tests/point_sets.hpp"
 
@@ -105,6 +109,29 @@ TEST(Threads, NameTheFirstCoordinateThatIsNotFinite) {
             "point 20000 is not finite");
   points[20'000].x = points[29'000].y = 0;
   EXPECT_EQ(extractor.extract(points, {.threads = 4}), concave_hull(points));
+}
+
+TEST(Threads, ReadSourcesOfAStreamAtTheSameTime) {
+  const std::vector<Point> points = testing::uniform_points(100'000, 7);
+  constexpr std::size_t kSources = 5;
+  std::vector<PointSource> sources;
+  for (std::size_t s = 0; s < kSources; ++s) {
+    const std::size_t begin = points.size() * s / kSources;
+    sources.emplace_back([&points, begin, end = points.size() * (s + 1) / kSources](const TakePoints& take) {
+      constexpr std::size_t kBlock = 3'000;
+      for (std::size_t next = begin; next < end; next += kBlock) {
+        take(std::span(points).subspan(next, std::min(kBlock, end - next)));
+      }
+    });
+  }
+  for (const Options& options : {Options{.threads = 4}, Options{.alpha = 0.01, .threads = 4}}) {
+    std::uint64_t told = 0;
+    const StreamedHull hull = concave_hull_of_stream(
+        sources, options,
+        {.progress = [&](const StreamProgress& progress) { told = progress.points; }, .reads_at_once = true});
+    EXPECT_EQ(hull.polygons, to_coordinates(concave_hull(points, options), points));
+    EXPECT_EQ(told, points.size());
+  }
 }
 
 TEST(Threads, MustBeOneOrMore) {
