@@ -288,6 +288,11 @@ TEST_F(VectorFormatsTest, GroupsByAColumn) {
   EXPECT_EQ(layer.features[1].fields.at("points"), "2000");
 }
 
+TEST_F(VectorFormatsTest, TheVersionNamesGdal) {
+  EXPECT_NE(result({"--version"}).find(std::string(", with GDAL ") + GDALVersionInfo("RELEASE_NAME")),
+            std::string::npos);
+}
+
 TEST_F(VectorFormatsTest, AWindowAndAStream) {
   const std::string gpkg = layer_file("points.gpkg", "GPKG");
   const std::string window = "500010,5600010,500060.5,5600090";

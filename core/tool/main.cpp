@@ -42,11 +42,20 @@ packaging::MoreWords gdal_words() {
 #endif
 }
 
+/// Behind the version: the library that this program may have been built with or without.
+std::string with_what() {
+#ifdef POLYLIDAR_WITH_GDAL
+  return ", with GDAL " + gdal_version();
+#else
+  return ", without GDAL";
+#endif
+}
+
 /// What the command line asks for; nothing more when it is help.
 Action parse(int argc, char** argv) {
   CLI::App app("Polygons round points: concave hulls of files of points.", kProgram);
   app.require_subcommand(1);
-  app.set_version_flag("--version", "polylidar " POLYLIDAR_VERSION);
+  app.set_version_flag("--version", "polylidar " POLYLIDAR_VERSION + with_what());
   app.footer(kToolExitCodesHelp);
   const Surroundings surroundings{kProgram, std::cerr, is_terminal(), vector_formats()};
   Action action;

@@ -465,4 +465,8 @@ const VectorFormats& gdal_formats() {
   return formats;
 }
 
+std::string gdal_version() {
+  return ::GDALVersionInfo("RELEASE_NAME");
+}
+
 }  // namespace polylidar::tool
