@@ -9,7 +9,7 @@ import numpy.typing as npt
 
 def numbered(labels: npt.ArrayLike, count: int) -> tuple[npt.NDArray[np.int64], list[Any] | None]:
     """`count` labels as integers in the same order, and the label that each integer stands for; None where the labels
-    are such integers themselves. Throws ValueError."""
+    are such integers themselves. Raises ValueError."""
     array = np.asarray(labels)
     if array.ndim != 1:
         raise ValueError(f"labels must have the shape (n,), not {array.shape}: give one label a point")

@@ -9,7 +9,7 @@ import numpy.typing as npt
 
 
 def as_points(points: Any) -> npt.NDArray[np.float64]:
-    """A C-contiguous array of the shape (n, 2); the caller's own where it is one. Throws ValueError."""
+    """A C-contiguous array of the shape (n, 2); the caller's own where it is one. Raises ValueError."""
     # Of the type, as GeoPandas would work the attribute itself out.
     if hasattr(type(points), "__geo_interface__"):
         points = _coordinates(points)
