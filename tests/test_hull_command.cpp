@@ -628,11 +628,16 @@ TEST_F(HullCommandTest, AStreamSaysWhatItCannotDo) {
            {{"-", "--alpha", "1"}, "can be read once only"},
            {{npy, "--alpha", "1e-9"}, "the limit is too small for the distances between the points"},
            {{npy, "--alpha", "1", "--crs", "EPSG:4326"}, "--stream takes a plane"},
+           {{file("p.zip", "PK\x03\x04"), "--alpha", "1"}, "p.zip: it is an archive"},
            {{file("p.wkt", "POINT (1 2)"), "--alpha", "1"}, "leave --stream out"}}) {
     std::vector<std::string> all = arguments;
     all.emplace_back("--stream");
     expect_refusal(hull(all), 2, sentence);
   }
+}
+
+TEST_F(HullCommandTest, AStreamWithoutPointsSaysSo) {
+  expect_end(hull({file("none.csv", "x,y\n"), "--stream"}), 0, "there are no points, so there is no shape");
 }
 
 TEST_F(HullCommandTest, RawDoublesAreRead) {

@@ -205,8 +205,12 @@ ExitCode stream_hull(const HullCommand& command, const Surroundings& surrounding
 
 void write_streamed_hull(const StreamedHull& hull, const Options& options, const Crs& crs,
                          const ShapeOutput& output, const Surroundings& surroundings) {
-  surroundings.err << surroundings.program << ": " << hull.triangulated_points << " of " << hull.points
-                   << " points are near the outline\n";
+  surroundings.err << surroundings.program << ": ";
+  if (hull.points == 0) {
+    surroundings.err << "there are no points, so there is no shape\n";
+  } else {
+    surroundings.err << hull.triangulated_points << " of " << hull.points << " points are near the outline\n";
+  }
   if (hull.chosen_sizes && !hull.by_outlines) {
     surroundings.err << surroundings.program << ": " << in_words(*hull.chosen_sizes) << "\n";
   }

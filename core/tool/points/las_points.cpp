@@ -29,8 +29,8 @@ constexpr std::size_t kNewHeader = 375;  // 1.4
 constexpr std::size_t kRecordHeader = 54;
 constexpr std::size_t kExtendedRecordHeader = 60;
 
-constexpr std::size_t kBytesAtOnce = std::size_t{1}
-                                     << 18U;  // more than any point has; they stay in a core's cache
+/// More than any point has, and few enough to stay in a core's cache.
+constexpr std::size_t kBytesAtOnce = std::size_t{1} << 18U;
 
 /// Point format -> the bytes that a point has at least.
 constexpr std::array<std::size_t, 11> kLeastPointSize = {20, 28, 26, 34, 57, 63, 30, 36, 38, 59, 67};
@@ -161,9 +161,9 @@ class LasReader {
   void read_format(unsigned format) {
     if ((format & kCompressed) != 0) {
       reader_.fail(
-          "it is a LAZ file; a file with a name is unpacked by the program laszip or las2las of LAStools, if "
-          "one is "
-          "in the PATH; or convert it, as in 'pdal translate in.laz out.las'");
+          "it is a LAZ file; the program laszip or las2las of LAStools in the PATH unpacks one that has a "
+          "name; "
+          "or convert it, as in 'pdal translate in.laz out.las'");
     }
     header_.format = format;
     if (format >= kLeastPointSize.size() || header_.point_size < kLeastPointSize[format]) {

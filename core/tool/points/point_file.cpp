@@ -263,14 +263,18 @@ bool is_read_in_parts(const std::string& path, const PointFileOptions& options) 
   if (of_start.format == PointFormat::kAuto && format_of_name(path) == PointFormat::kRaw) {
     of_start.format = PointFormat::kRaw;
   }
-  BlockReader reader(path, of_start);
-  if (!reader.remaining()) return false;
-  const PointFormat format =
-      of_start.format == PointFormat::kAuto ? find_format(path, reader) : of_start.format;
-  if (format == PointFormat::kRaw) return true;
-  if (format == PointFormat::kLas) return point_files::is_uncompressed_las(reader.ahead());
-  return format == PointFormat::kNpy &&
-         reader.ahead().substr(0, 256).find("'fortran_order': False") != std::string_view::npos;
+  try {
+    BlockReader reader(path, of_start);
+    if (!reader.remaining()) return false;
+    const PointFormat format =
+        of_start.format == PointFormat::kAuto ? find_format(path, reader) : of_start.format;
+    if (format == PointFormat::kRaw) return true;
+    if (format == PointFormat::kLas) return point_files::is_uncompressed_las(reader.ahead());
+    return format == PointFormat::kNpy &&
+           reader.ahead().substr(0, 256).find("'fortran_order': False") != std::string_view::npos;
+  } catch (const PointFileError&) {
+    return false;
+  }
 }
 
 bool names_points(const std::string& path) {

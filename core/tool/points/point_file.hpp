@@ -114,7 +114,7 @@ struct PointFile {
 PointFile read_point_file(const std::string& path, const PointFileOptions& options = {});
 
 /// Whether parts of the file can be read by themselves: LAS, NumPy's rows and raw doubles, if it is no pipe
-/// and nothing is compressed. Throws PointFileError where it cannot be read.
+/// and nothing is compressed. Also not if the file cannot be read: reading it then says why.
 bool is_read_in_parts(const std::string& path, const PointFileOptions& options);
 
 /// Whether `path` has the ending of a format that holds points only, such as .las.

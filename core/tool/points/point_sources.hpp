@@ -15,8 +15,7 @@ namespace polylidar::tool {
 using OnRead = std::function<void(std::size_t part, const PointFile& file)>;
 
 /// The file as up to `most_parts` sources, one after the other; one source where it is not read in parts.
-/// `options` are those of the file; `take_points` and `part` are set here. Throws as is_read_in_parts, and
-/// reading as read_point_file.
+/// `options` are those of the file; `take_points` and `part` are set here. Reading throws as read_point_file.
 std::vector<PointSource> point_sources(const std::string& path, const PointFileOptions& options,
                                        std::size_t most_parts, const OnRead& on_read);
 
