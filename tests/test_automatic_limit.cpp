@@ -164,7 +164,9 @@ double plain_size(const std::vector<Point>& points, const detail::AutomaticConst
     return std::log(sum);
   };
   double least_cost = std::numeric_limits<double>::infinity();
-  double best = constants.usual * median;
+  const auto count = static_cast<double>(points.size());
+  const double usual = constants.usual * std::sqrt(std::log(count)) * median;
+  double best = usual;
   const int below = static_cast<int>(constants.below);
   const int above = static_cast<int>(constants.above);
   for (int cell = below; cell + above < 64; ++cell) {
@@ -172,8 +174,9 @@ double plain_size(const std::vector<Point>& points, const detail::AutomaticConst
     const double low = size(cell - below);
     const double high = size(cell + above);
     const double growth = (log_area(high) - log_area(low)) / std::log(high / low);
-    const double distance = std::log(size(cell) / (constants.usual * median));
-    const double cost = std::log(growth + constants.still) + constants.pull * distance * distance;
+    const double distance = std::log(size(cell) / usual);
+    const double pull = constants.pull / std::pow(count, 0.2);
+    const double cost = std::log(growth + constants.still) + pull * distance * distance;
     if (cost < least_cost) {
       least_cost = cost;
       best = size(cell);

@@ -120,11 +120,12 @@ TEST_P(CoreRelations, SmallIntegersKeepTheirConvexHull) {
   Random random(GetParam());
   const auto side = static_cast<std::int64_t>(2 + random.below(12));
   const std::vector<Point> points = testing::integer_points(3 + random.below(60), GetParam(), side);
-  const MultiPolygon shape = checked_hull(points, {});
+  const Options all{.detail = 1e-6};
+  const MultiPolygon shape = checked_hull(points, all);
   for (int i = 0; i < 10; ++i) {
     const LatticeMotion motion = LatticeMotion::random(random);
     SCOPED_TRACE(::testing::PrintToString(motion));
-    EXPECT_EQ(canonical(checked_hull(moved(disarranged(points, random), motion), {})),
+    EXPECT_EQ(canonical(checked_hull(moved(disarranged(points, random), motion), all)),
               canonical(moved(shape, motion)));
   }
 }

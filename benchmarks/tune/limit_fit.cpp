@@ -92,8 +92,10 @@ std::vector<LimitCaseName> training_limit_cases() {
   for (const SplitRow& source : shape_split()) {
     if (source.side != Side::kTraining) continue;
     for (const std::string& sampling : all) {
-      names.push_back({source.name + "-1" + sampling, false, 2000});
-      names.push_back({source.name + "-2" + sampling, false, 2000});
+      for (const std::size_t n : {500U, 2000U}) {
+        names.push_back({source.name + "-1" + sampling, false, n});
+        names.push_back({source.name + "-2" + sampling, false, n});
+      }
       names.push_back({source.name + "-1" + sampling, false, 8000});
     }
     for (const std::string& sampling : few) names.push_back({source.name + "-1" + sampling, false, 32000});
@@ -202,8 +204,8 @@ const std::vector<LimitKnob>& limit_knobs() {
                                                {"growth", &C::growth, nullptr, 2, 40},
                                                {"reach", &C::reach, nullptr, 2, 30},
                                                {"noise", &C::noise, nullptr, 0.03, 0.4},
-                                               {"usual", &C::usual, nullptr, 1.5, 3.5},
-                                               {"pull", &C::pull, nullptr, 0.3, 20},
+                                               {"usual", &C::usual, nullptr, 0.5, 1.2},
+                                               {"pull", &C::pull, nullptr, 2, 120},
                                                {"even_sizes", &C::even_sizes, nullptr, 0.4, 0.8},
                                                {"even_edges", &C::even_edges, nullptr, 0.5, 0.9},
                                                {"doubt", &C::doubt, nullptr, 2, 200},

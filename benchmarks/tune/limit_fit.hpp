@@ -24,9 +24,9 @@ struct LimitCaseName {
 /// "gradient:16" of "star-1~gradient:16", "uniform" of "star-1".
 std::string sampling_of(const std::string& dataset);
 
-/// The cases of the fit: two shapes of every training source, sampled in the ways that training knows, of
-/// 2,000 points; of the first of both also 8,000 points, and of some ways 32,000; and
-/// stars with round holes.
+/// The cases of the fit: two shapes of every training source, sampled in the ways that training knows, of 500
+/// and 2,000 points; of the first of both also 8,000 points, and of some ways 32,000; and stars with round
+/// holes.
 std::vector<LimitCaseName> training_limit_cases();
 
 /// Eighteen test shapes, sampled in every way that there is: `n` points. Then those that have a variant with

@@ -94,17 +94,23 @@ void for_some_triangles(const Mesh& mesh, Mesh::Index begin, Mesh::Index end, Me
   }
 }
 
-/// Records that are used, of all; from a part of them. Those of points that repeat others are not.
+/// Records that are used, of all; from a part of them, and a larger one if many are not: those of points that
+/// repeat others. Multiples of the golden ratio's fraction meet no pattern of theirs.
 double used_share(const Mesh& mesh) {
-  constexpr std::size_t kLookedAt = 512;
-  std::size_t used = 0;
-  std::size_t seen = 0;
-  for (std::size_t t = 0; t < mesh.triangle_count(); t += (mesh.triangle_count() / kLookedAt) | 1U) {
-    used += mesh.is_unused(static_cast<Mesh::Index>(t)) ? 0U : 1U;
+  constexpr std::uint32_t kGolden = 0x9E3779B1;  // of 2^32
+  constexpr std::uint32_t kLookedAt = 512;
+  constexpr std::uint32_t kMostLookedAt = 8192;
+  if (mesh.triangle_count() == 0) return 1;
+  std::uint32_t used = 0;
+  for (std::uint32_t seen = 0;;) {
+    const std::uint64_t place = std::uint64_t{seen * kGolden} * mesh.triangle_count() >> 32U;
+    used += mesh.is_unused(static_cast<Mesh::Index>(place)) ? 0U : 1U;
     ++seen;
+    const bool are_few_unused = 16 * used >= 15 * seen;
+    if (seen == kMostLookedAt || (seen == kLookedAt && are_few_unused)) {
+      return static_cast<double>(std::max(used, 1U)) / static_cast<double>(seen);
+    }
   }
-  return static_cast<double>(std::max<std::size_t>(used, 1)) /
-         static_cast<double>(std::max<std::size_t>(seen, 1));
 }
 
 }  // namespace
@@ -442,8 +448,8 @@ void AutomaticLimit::sum_up_areas() {
   for (const Sampled& one : samples_) area_[cell_of(one.size4 / unit4_, kCells)] += one.area;
 }
 
-/// The fourth power of the size of the least cost, in usual sizes.
-double AutomaticLimit::steadiest_size4(const AutomaticConstants& constants) const {
+/// The fourth power of the size of the least cost among `points` points, in usual sizes.
+double AutomaticLimit::steadiest_size4(double points, const AutomaticConstants& constants) const {
   constexpr double kLeast = 1.2;
   constexpr double kMost = 8;
   std::array<double, kCells> log_size{};
@@ -454,15 +460,17 @@ double AutomaticLimit::steadiest_size4(const AutomaticConstants& constants) cons
     log_area[c] = std::log(below);
     below += std::max(area_[c], 0.0);
   }
+  const double log_usual = std::log(constants.usual * std::sqrt(std::log(points)));
+  const double pull_below = constants.pull * std::pow(points, -0.2);
   double least_cost = kInfinity;
-  double steadiest = std::log(constants.usual);
+  double steadiest = log_usual;
   for (std::size_t c = constants.below; c + constants.above < kCells; ++c) {
     const std::size_t low = c - constants.below;
     const std::size_t high = c + constants.above;
     if (log_size[c] < std::log(kLeast) || log_size[c] > std::log(kMost)) continue;
     const double growth = (log_area[high] - log_area[low]) / (log_size[high] - log_size[low]);
-    const double distance = log_size[c] - std::log(constants.usual);
-    const double pull = distance > 0 ? constants.pull / doubt_ : constants.pull;
+    const double distance = log_size[c] - log_usual;
+    const double pull = distance > 0 ? pull_below / doubt_ : pull_below;
     const double cost = std::log(growth + constants.still) + pull * distance * distance;
     if (cost < least_cost) {  // no: without an area below, where it is infinite or NaN
       least_cost = cost;
@@ -708,7 +716,7 @@ void AutomaticLimit::set_field(double points, double detail, const AutomaticCons
   field_.wide_radius = 0;
   field_.outlines.reset();
   if (samples_.empty()) return;  // no triangle
-  const double limit4 = steadiest4_ = steadiest_size4(constants);
+  const double limit4 = steadiest4_ = steadiest_size4(points, constants);
   field_.spike_share = fourth_power(constants.spike) / limit4;
   field_.least_part = static_cast<std::size_t>(constants.part * std::log(points));
   field_.wide_square = least_wide_square(points, constants.wide, kPointsPerBorderSquare) / (detail * detail);

@@ -32,11 +32,11 @@ struct AutomaticConstants {
   double noise = 0.12;    ///< standard deviation, by chance alone, of the logarithm of a usual size
   std::size_t smoothed_from = 16;  ///< with fewer blocks none is moved towards its neighbours
 
-  double usual = 2.0;        ///< the usual limit, in usual sizes
-  double pull = 1.8;         ///< the cost of a limit away from it
+  double usual = 0.667;      ///< the usual limit, in usual sizes times sqrt(log n)
+  double pull = 10.9;        ///< the cost of a limit away from it, times n^(-1/5)
   double even_sizes = 0.52;  ///< most scatter of the sizes in a block without clusters
   double even_edges = 0.62;  ///< most scatter of the shortest edges of its triangles
-  double doubt = 25;         ///< how strongly more scatter weakens the pull on larger limits
+  double doubt = 40;         ///< how strongly more scatter weakens the pull on larger limits
   double still = 0.018;      ///< a growth of the area that counts as none
   std::size_t below = 3;     ///< the growth is measured over this many cells of the grid below a limit
   std::size_t above = 6;     ///< and this many above it
@@ -74,9 +74,11 @@ enum class SizesBy : std::uint8_t {
 /// holes, notches and gaps, A grows quickly again, by what is outside the shape. Between the two it hardly
 /// grows. The rule takes the s where A is stable and which is not far from the usual place of such an s:
 ///
-///   s = argmin  log(g(s) + still) + pull log^2(s / usual),   g = d log A / d log s,
+///   s = argmin  log(g(s) + still) + pull n^(-1/5) log^2(s / (usual sqrt(log n))),   g = d log A / d log s,
 ///
 /// on a grid of 16 sizes to the octave, g as a difference over `below` + `above` cells. `detail` divides s.
+/// The largest void that chance makes among n points has a width that grows with sqrt(log n). The fewer
+/// points there are, the less A says, and the more the usual place counts.
 ///
 /// **Clusters.** If points cluster, the voids between the clusters are ordinary, though they are larger than
 /// voids elsewhere. So the usual limit is less reliable. Points count as clustered if both the sizes of a
@@ -207,7 +209,7 @@ class AutomaticLimit {
   void sum_up_areas();
   void add_wide_areas(const Mesh& mesh, const Point* vertices, const std::uint8_t* is_tested,
                       ThreadPool& pool);
-  double steadiest_size4(const AutomaticConstants& constants) const;
+  double steadiest_size4(double points, const AutomaticConstants& constants) const;
   void look_for_outlines(const Mesh& mesh, const Point* vertices, double points, double detail,
                          const AutomaticConstants& constants);
   void set_field(double points, double detail, const AutomaticConstants& constants);
