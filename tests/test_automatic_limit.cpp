@@ -138,6 +138,7 @@ double plain_size(const std::vector<Point>& points, const detail::AutomaticConst
   const Triangulation mesh = delaunay(points);
   std::vector<double> sizes;
   std::vector<double> areas;
+  std::vector<double> shortest;
   for (std::size_t e = 0; e < mesh.triangles.size(); e += 3) {
     const Ring triangle{points[mesh.triangles[e]], points[mesh.triangles[e + 1]],
                         points[mesh.triangles[e + 2]]};
@@ -147,6 +148,7 @@ double plain_size(const std::vector<Point>& points, const detail::AutomaticConst
       edges.push_back(std::hypot(to.x - triangle[k].x, to.y - triangle[k].y));
     }
     const double second_longest = median_of(edges);
+    shortest.push_back(*std::min_element(edges.begin(), edges.end()));
     areas.push_back(std::abs(signed_area(triangle)));
     sizes.push_back(
         std::max(std::pow(4 / std::sqrt(3) * second_longest * second_longest * areas.back(), 0.25),
@@ -164,6 +166,12 @@ double plain_size(const std::vector<Point>& points, const detail::AutomaticConst
     return std::log(sum);
   };
   double least_cost = std::numeric_limits<double>::infinity();
+  std::sort(shortest.begin(), shortest.end());
+  const std::size_t triangles = shortest.size();
+  const double scatter =
+      triangles < 16 ? 0 : std::log(shortest[4 * triangles / 5] / shortest[2 * triangles / 5]);
+  const double unsure = 1.8 / std::sqrt(static_cast<double>(triangles));
+  const double doubt = 1 + constants.doubt * std::max(scatter - constants.even_edges - unsure, 0.0);
   const auto count = static_cast<double>(points.size());
   const double usual = constants.usual * std::sqrt(std::log(count)) * median;
   double best = usual;
@@ -175,7 +183,7 @@ double plain_size(const std::vector<Point>& points, const detail::AutomaticConst
     const double high = size(cell + above);
     const double growth = (log_area(high) - log_area(low)) / std::log(high / low);
     const double distance = std::log(size(cell) / usual);
-    const double pull = constants.pull / std::pow(count, 0.2);
+    const double pull = constants.pull / std::pow(count, 0.2) / (distance > 0 ? doubt : 1);
     const double cost = std::log(growth + constants.still) + pull * distance * distance;
     if (cost < least_cost) {
       least_cost = cost;

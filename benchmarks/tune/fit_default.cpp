@@ -274,6 +274,8 @@ ExitCode fit(int tries, std::uint64_t seed, bool with_ablation) {
       "Of the constants in the code: " + fixed(limit_score(training, {}, allowed_cores()), 4) + ".",
       std::cout);
   if (tries > 0) print_fit(training, tries, seed);
+  std::vector<MadeLimitCase> few = make_limit_cases(test_limit_cases(500), allowed_cores());
+  print_test(few);
   std::vector<LimitCaseName> names = test_limit_cases(2000);
   for (const LimitCaseName& name : test_limit_cases(8000)) names.push_back(name);
   std::vector<MadeLimitCase> test = make_limit_cases(names, allowed_cores());

@@ -272,31 +272,45 @@ double AutomaticLimit::scatter_in_blocks(std::size_t blocks, const ForEach& for_
   return scatters.empty() ? 0 : quantile_of(scatters, kQuantile);
 }
 
-/// By how much sizes and shortest edges both scatter more than those of points that do not cluster; 0 where
-/// one of them does not, and where there are fewer than 16 blocks.
+/// By how much sizes and shortest edges both scatter more than those of points that do not cluster; 0 if one
+/// of them does not. In fewer than 16 blocks many triangles lie outside the shape, so sizes scatter anyway;
+/// but the shortest edges of most of these are steps along the outline. So there the edges alone are looked
+/// at, all together, and their scatter must be surely larger: 1.8 / sqrt(number) is two of its standard
+/// deviations.
 double AutomaticLimit::excess_scatter(const Mesh& mesh, const Point* vertices,
                                       const AutomaticConstants& constants) {
   constexpr std::size_t kFewestBlocks = 16;
   constexpr Mesh::Index kRecords = 128;  // of a block
-  if (block_ends_.size() < kFewestBlocks) return 0;
-  const auto for_some_of_block = [&](std::size_t block, const auto& visit) {
-    const Records records = records_of(mesh, block);
-    const Mesh::Index step = std::max(Mesh::Index{1}, (records.end - records.begin) / kRecords);
-    for_some_triangles(mesh, records.begin, records.end, step, visit);
+  constexpr Mesh::Index kRecordsOfAll = 512;
+  constexpr double kTwoDeviations = 1.8;
+  const auto edge4_of = [&](Mesh::Index t) {
+    const double squared = Triangle(mesh, vertices, t).squared_shortest_edge();
+    return squared * squared;
   };
+  if (block_ends_.size() < kFewestBlocks) {
+    std::size_t count = 0;
+    const double of_edges = scatter_in_blocks(1, [&](std::size_t, const auto& visit) {
+      const Mesh::Index step = std::max(Mesh::Index{1}, mesh.triangle_count() / kRecordsOfAll);
+      for_some_triangles(mesh, 0, mesh.triangle_count(), step, [&](Mesh::Index t) {
+        visit(edge4_of(t));
+        ++count;
+      });
+    });
+    const double unsure = kTwoDeviations / std::sqrt(static_cast<double>(std::max<std::size_t>(count, 1)));
+    return std::max(of_edges - constants.even_edges - unsure, 0.0);
+  }
   const auto scatter = [&](const auto& length4_of) {
     return scatter_in_blocks(block_ends_.size(), [&](std::size_t block, const auto& visit) {
-      for_some_of_block(block, [&](Mesh::Index t) { visit(length4_of(t)); });
+      const Records records = records_of(mesh, block);
+      const Mesh::Index step = std::max(Mesh::Index{1}, (records.end - records.begin) / kRecords);
+      for_some_triangles(mesh, records.begin, records.end, step,
+                         [&](Mesh::Index t) { visit(length4_of(t)); });
     });
   };
   const double of_sizes =
       scatter([&](Mesh::Index t) { return size4_of(mesh, vertices, t); }) - constants.even_sizes;
   if (of_sizes <= 0) return 0;
-  const double of_edges = scatter([&](Mesh::Index t) {
-    const double squared = Triangle(mesh, vertices, t).squared_shortest_edge();
-    return squared * squared;
-  });
-  return std::clamp(of_edges - constants.even_edges, 0.0, of_sizes);
+  return std::clamp(scatter(edge4_of) - constants.even_edges, 0.0, of_sizes);
 }
 
 /// The same of the windows of places.
