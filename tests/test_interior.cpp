@@ -590,6 +590,16 @@ TEST(InteriorLeftOut, CanBeAskedAbout) {
   EXPECT_EQ(way(points, {.alpha = 0}), Way::kTooSparse);
   EXPECT_EQ(way(points, {.alpha = 0.0085}), Way::kMuchOutline);
   EXPECT_EQ(way(testing::circle(20'000, 1), {.alpha = 2}), Way::kMuchOutline);
+  // Each point four times: a disk holds few different ones. That is enough where they are a lattice.
+  const auto four_times = [](const Points& once) {
+    Points copies;
+    for (const Point& p : once) copies.insert(copies.end(), 4, p);
+    return copies;
+  };
+  EXPECT_EQ(way(four_times(testing::uniform_points(2000, 1)), {.alpha = 0.0224}), Way::kMuchOutline);
+  Points lattice;
+  for (int i = 0; i < 2500; ++i) lattice.push_back({i % 50 * 0.1, i / 50 * 0.1});
+  EXPECT_EQ(way(four_times(lattice), {.alpha = 0.1}), Way::kInteriorLeftOut);
   Points other = points;
   for (Point& p : other) p = {std::ldexp(p.x, 600), std::ldexp(p.y, 600)};
   EXPECT_EQ(way(other, {.alpha = std::ldexp(0.02, 600)}), Way::kExtremeCoordinates);

@@ -11,6 +11,7 @@
 
 #include "core/src/cell_numbers.hpp"
 #include "core/src/coordinate_range.hpp"
+#include "core/src/near_points.hpp"
 #include "tests/point_sets.hpp"
 
 namespace polylidar::detail {
@@ -51,6 +52,14 @@ TEST(Kernels, NumberCells) {
       numbers.pop_back();
       EXPECT_EQ(numbers, expected) << count << " points, kernel " << static_cast<int>(kernel);
     }
+    std::vector<std::uint32_t> own(count);
+    std::size_t visited = 0;
+    number_in_blocks(points, numbering, own.data(), [&](std::size_t begin, std::size_t end) {
+      EXPECT_EQ(begin, visited);
+      visited = end;
+    });
+    EXPECT_EQ(visited, count);
+    EXPECT_EQ(own, expected);
     std::vector<std::uint32_t> in_blocks;
     visit_numbered(points, numbering,
                    [&](std::size_t begin, std::span<const Point> block, const std::uint32_t* numbers) {
@@ -86,6 +95,31 @@ TEST(Kernels, FindCoordinatesNearBorders) {
     Point& p = points[random.below(count)];
     (count % 2 == 0 ? p.x : p.y) += count % 2 == 0 ? 0.75 / 8 : 0.25 / 8;
     for (const Kernel kernel : kernels()) EXPECT_TRUE(any_near_border(points, numbering, kernel)) << count;
+  }
+}
+
+TEST(Kernels, FindNearPoints) {
+  Random random(5);
+  for (std::size_t count = 0; count < 400; ++count) {
+    std::vector<Point> points(count);
+    for (Point& p : points) p = {random.between(-30, 30), random.between(-30, 30)};
+    const Point centre = {random.between(-9, 9), random.between(-9, 9)};
+    const double squared_radius = count % 2 == 0 ? 0.5 : 200;  // in few blocks, and in nearly all
+    std::vector<std::size_t> expected;
+    for (std::size_t i = 0; i < count; ++i) {
+      const double x = points[i].x - centre.x;
+      const double y = points[i].y - centre.y;
+      if (x * x + y * y < squared_radius) expected.push_back(i);
+    }
+    for (const Kernel kernel : kernels()) {
+      std::vector<std::size_t> found;
+      const auto visit = [&](std::size_t i, double squared_distance) {
+        found.push_back(i);
+        EXPECT_LT(squared_distance, squared_radius);
+      };
+      for_each_near(points, centre, squared_radius, visit, kernel);
+      EXPECT_EQ(found, expected) << count << " points, kernel " << static_cast<int>(kernel);
+    }
   }
 }
 

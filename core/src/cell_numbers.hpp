@@ -51,6 +51,20 @@ inline void prefetch(std::span<const Point> points) {
   for (std::size_t i = 0; i < points.size(); i += kInCacheLine) __builtin_prefetch(&points[i]);
 }
 
+/// Puts the number of each point's cell into `numbers`, block by block, and calls visit(begin, end) for the
+/// points of each block.
+template <class Visit>
+void number_in_blocks(std::span<const Point> points, const CellNumbering& numbering, std::uint32_t* numbers,
+                      const Visit& visit) {
+  constexpr std::size_t kBlock = 128;
+  for (std::size_t begin = 0; begin < points.size(); begin += kBlock) {
+    const std::size_t end = std::min(begin + kBlock, points.size());
+    number_cells(points.subspan(begin, end - begin), numbering, numbers + begin);
+    prefetch(points.subspan(end, std::min(kBlock, points.size() - end)));
+    visit(begin, end);
+  }
+}
+
 /// Calls visit(begin, block, numbers) for blocks of consecutive points in their order: the first of them is
 /// points[begin], and block[i] lies in the cell numbers[i].
 template <class Visit>

@@ -5,6 +5,7 @@
 #include <bit>
 #include <cmath>
 
+#include "near_points.hpp"
 #include "selected.hpp"
 #include "vector.hpp"
 
@@ -17,6 +18,11 @@ constexpr std::size_t kLeastStep = 32;
 /// And at most so many, for the share of uncertain points and for that of the part.
 constexpr std::size_t kMostLookedAt = 256;
 constexpr std::size_t kMostOfPart = 40;
+/// Before all points have their cells: so many points in a row out of each kRowOutOf have theirs, and points
+/// among random ones are hardly ever certain where a disk of radius r holds fewer cells with points.
+constexpr std::size_t kRow = 64;
+constexpr std::size_t kRowOutOf = 16 * kRow;
+constexpr double kFewCellsInDisk = 5;
 
 /// Of the cells that come within some distance of a cell: row, from the lowest on -> how many columns on
 /// either side of the cell. The distance is in cells, and less than one from a whole number.
@@ -159,6 +165,13 @@ std::size_t spread(std::size_t k, std::size_t points) {
   return static_cast<std::size_t>((turns - std::floor(turns)) * static_cast<double>(points));
 }
 
+/// Puts these points into their cells.
+void fill(std::span<const Point> points, const CellNumbering& numbering, std::uint32_t* cells,
+          Bitmap& occupied) {
+  number_in_blocks(points, numbering, cells,
+                   [&](std::size_t begin, std::size_t end) { occupied.set_all(cells + begin, end - begin); });
+}
+
 }  // namespace
 
 void mark_reach(const Grid& grid, Grid::Cell cell, Bitmap& reached) {
@@ -190,7 +203,12 @@ std::optional<Way> InteriorPart::choose(std::span<const Point> points, const Coo
 
   // Lengths are rounded harmlessly, areas of triangles with close corners are not.
   const bool pairs_matter = circumradii_matter && range.unit == 0;
-  fill_cells(points, pool);
+  begin_cells(points, pool);
+  if (guard.most_uncertain < 1 && cells_in_disk(points) < kFewCellsInDisk &&
+      are_uncertain_beside_one(points)) {
+    return Way::kMuchOutline;
+  }
+  fill_other_cells(points, pool);
   if (are_many_uncertain(points, guard.most_uncertain)) return Way::kMuchOutline;
   find_uncertain_cells(pool);
   if (share_of_part(points) > guard.most_triangulated) return Way::kMuchOutline;
@@ -234,27 +252,85 @@ void InteriorPart::join_parts(ThreadPool& pool, const Join& join) {
   });
 }
 
-/// Puts the points into their cells, each thread into a bitmap of its own.
-void InteriorPart::fill_cells(std::span<const Point> points, ThreadPool& pool) {
+/// Puts some of the points into their cells: rows of them, as copies of a point often follow one another.
+void InteriorPart::begin_cells(std::span<const Point> points, ThreadPool& pool) {
   std::uint32_t* const cells = cells_.reserve(points.size());
+  while (fills_.size() < parts_of(pool)) fills_.emplace_back();
+  occupied().clear(grid_.word_count());
+  for (std::size_t begin = 0; begin < points.size(); begin += kRowOutOf) {
+    const std::size_t count = std::min(kRow, points.size() - begin);
+    fill(points.subspan(begin, count), grid_.numbering(), cells + begin, occupied());
+  }
+}
+
+/// Puts all points into their cells after begin_cells(), each thread into a bitmap of its own.
+void InteriorPart::fill_other_cells(std::span<const Point> points, ThreadPool& pool) {
   const std::size_t parts = parts_of(pool);
-  while (fills_.size() < parts) fills_.emplace_back();
   pool.for_each(parts, [&](std::size_t part) {
-    Bitmap& occupied = fills_[part].occupied;
-    occupied.clear(grid_.word_count());
+    if (part > 0) fills_[part].occupied.clear(grid_.word_count());
     const std::size_t first = points.size() * part / parts;
-    const std::span<const Point> own = points.subspan(first, points.size() * (part + 1) / parts - first);
-    visit_numbered(own, grid_.numbering(),
-                   [&](std::size_t begin, std::span<const Point> block, const std::uint32_t* numbers) {
-                     for (std::size_t i = 0; i < block.size(); ++i) {
-                       cells[first + begin + i] = numbers[i];
-                       occupied.set(numbers[i]);
-                     }
-                   });
+    fill(points.subspan(first, points.size() * (part + 1) / parts - first), grid_.numbering(),
+         cells_.data() + first, fills_[part].occupied);
   });
   join_parts(pool, [&](std::size_t w, std::size_t part) {
     occupied().words()[w] |= fills_[part].occupied.words()[w];
   });
+}
+
+void InteriorPart::fill_cells(std::span<const Point> points, ThreadPool& pool) {
+  begin_cells(points, pool);
+  fill_other_cells(points, pool);
+}
+
+/// After begin_cells(): how many cells with points a disk of radius r about a point holds, on average over
+/// the points; if points share cells, perhaps fewer.
+double InteriorPart::cells_in_disk(std::span<const Point> points) const {
+  constexpr std::size_t kLookedAt = 16;
+  constexpr Grid::Cell kHalf = 10;  // of a square's side
+  constexpr unsigned kSide = 2 * kHalf + 1;
+  constexpr unsigned kRowsAtOnce = 3;  // so many fill a word
+  static_assert(kRowsAtOnce * kSide <= Grid::kWordBits && kSide % kRowsAtOnce == 0);
+  constexpr double kDiskOfSquare = 3.141592653589793 * kRadius * kRadius / (kSide * kSide);
+  const Grid::Cell row_bits = grid_.row_words() * Grid::kWordBits;
+  int count = 0;
+  for (std::size_t k = 0; k < kLookedAt; ++k) {
+    Grid::Cell first = grid_.cell(points[spread(k, points.size())]) - kHalf * row_bits - kHalf;
+    for (unsigned row = 0; row < kSide; row += kRowsAtOnce) {
+      Bitmap::Word cells = 0;
+      for (unsigned i = 0; i < kRowsAtOnce; ++i, first += row_bits) {
+        cells = cells << kSide | (occupied().window(first) & ((Bitmap::Word{1} << kSide) - 1));
+      }
+      count += std::popcount(cells);
+    }
+  }
+  return kDiskOfSquare * static_cast<double>(kRowOutOf / kRow) * count / kLookedAt;
+}
+
+/// After begin_cells(): whether many points near one of them are uncertain. Those of a lattice are not, even
+/// if a disk holds few cells.
+bool InteriorPart::are_uncertain_beside_one(std::span<const Point> points) {
+  constexpr std::size_t kLookedAt = 8;
+  constexpr std::size_t kMany = 3;
+  constexpr double kNear = 1.5 * kRadius;  // in cells
+  // A disk that touches a point reaches no farther than its diameter.
+  constexpr double kWithin = kNear + 2 * kRadius + 0x1p-10;
+  const auto squared = [&](double cells) {
+    return cells * cells / (grid_.cells_per_length() * grid_.cells_per_length());
+  };
+  const Point centre = points[spread(0, points.size())];
+  std::vector<std::uint32_t> near;
+  const double squared_near = squared(kNear);
+  for_each_near(points, centre, squared(kWithin), [&](std::size_t i, double squared_distance) {
+    occupied().set(grid_.cell(points[i]));
+    if (squared_distance < squared_near) near.push_back(static_cast<std::uint32_t>(i));
+  });
+  const PointCertificate& certificate = PointCertificate::instance();
+  std::size_t uncertain = 0;
+  for (std::size_t k = 0; k < kLookedAt && uncertain < kMany; ++k) {
+    const Point& p = points[near[k * near.size() / kLookedAt]];
+    uncertain += certificate.is_certified(p, grid_.cell(p), grid_, occupied()) ? 0U : 1U;
+  }
+  return uncertain >= kMany;
 }
 
 /// Finds the cells with more than one point.
@@ -285,13 +361,19 @@ bool InteriorPart::are_many_uncertain(std::span<const Point> points, double most
   if (most >= 1) return false;
   const PointCertificate& certificate = PointCertificate::instance();
   const std::size_t looked_at = std::min(kMostLookedAt, points.size() / kLeastStep + 1);
-  constexpr std::size_t kFew = 16;  // of which all are uncertain only where most are
+  constexpr std::size_t kFew = 16;     // of which all are uncertain only where most are
+  constexpr std::size_t kEnough = 64;  // from which on they may be so few that it is plain
   std::size_t uncertain = 0;
   for (std::size_t k = 0; k < looked_at; ++k) {
     const std::size_t i = spread(k, points.size());
     uncertain += certificate.is_certified(points[i], cells_.data()[i], grid_, occupied()) ? 0U : 1U;
-    if (uncertain == kFew && k + 1 == kFew) return true;
+    const std::size_t so_far = k + 1;
+    if (uncertain == kFew && so_far == kFew) return true;
     if (static_cast<double>(uncertain) > most * static_cast<double>(looked_at)) return true;
+    const double at_most = most * static_cast<double>(so_far);
+    constexpr double kDeviations = 2;  // fewer than chance makes of a share of `most`
+    if (so_far >= kEnough && static_cast<double>(uncertain) < at_most - kDeviations * std::sqrt(at_most))
+      return false;
   }
   return false;
 }

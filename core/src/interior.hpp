@@ -111,6 +111,10 @@ class InteriorPart {
  private:
   double choose_grid(std::span<const Point> points, const Box& box, double radius,
                      const InteriorGuard& guard);
+  void begin_cells(std::span<const Point> points, ThreadPool& pool);
+  void fill_other_cells(std::span<const Point> points, ThreadPool& pool);
+  double cells_in_disk(std::span<const Point> points) const;
+  bool are_uncertain_beside_one(std::span<const Point> points);
   template <class Join>
   void join_parts(ThreadPool& pool, const Join& join);
   void find_shared_cells(std::size_t points, ThreadPool& pool);

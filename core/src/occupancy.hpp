@@ -110,6 +110,15 @@ class Bitmap {
     if ((__atomic_load_n(word, __ATOMIC_RELAXED) & bit) == 0) __atomic_fetch_or(word, bit, __ATOMIC_RELAXED);
   }
   void set(Grid::Cell cell) { words_[cell / Grid::kWordBits] |= Word{1} << (cell % Grid::kWordBits); }
+  /// Those of `count` cells.
+  void set_all(const std::uint32_t* cells, std::size_t count) {
+    constexpr std::size_t kAtOnce = 8;
+    std::size_t i = 0;
+    for (; i + kAtOnce <= count; i += kAtOnce) {
+      for (std::size_t k = 0; k < kAtOnce; ++k) set(cells[i + k]);
+    }
+    for (; i < count; ++i) set(cells[i]);
+  }
   /// Sets the `count` < 64 bits from `first` on.
   void set_run(Grid::Cell first, unsigned count) {
     const Word bits = (Word{1} << count) - 1;
