@@ -124,7 +124,8 @@ void append(std::vector<T>& all, const std::vector<T>& part) {
   all.insert(all.end(), part.begin(), part.end());
 }
 
-void mark(const Grid& grid, Grid::Cell cell, std::span<const unsigned> half_widths, Bitmap& reached) {
+template <class Cells>
+void mark(const Grid& grid, Grid::Cell cell, std::span<const unsigned> half_widths, Cells& reached) {
   const Grid::Cell row_bits = grid.row_words() * Grid::kWordBits;
   Grid::Cell centre = cell - rows_below(half_widths) * row_bits;
   for (const unsigned half_width : half_widths) {
@@ -151,6 +152,17 @@ void mark(const Grid& grid, Grid::Cell cell, Directions open, const Reach& reach
   }
 }
 
+template <class Cells>
+void mark_round(std::span<const Mesh::Index> triangles, const DelaunayBuilder& builder, const Grid& grid,
+                Cells& reached) {
+  for (const Mesh::Index t : triangles) {
+    for (Mesh::Index k = 0; k < 3; ++k) {
+      const Point& corner = builder.vertices()[builder.mesh().corners(t)[k]];
+      mark(grid, grid.cell(corner), kFartherHalfWidths, reached);
+    }
+  }
+}
+
 /// How many parts of the work have a bitmap of the whole grid each: of many threads not all take part.
 std::size_t parts_of(const ThreadPool& pool) {
   constexpr std::size_t kMostParts = 8;
@@ -172,20 +184,53 @@ void fill(std::span<const Point> points, const CellNumbering& numbering, std::ui
                    [&](std::size_t begin, std::size_t end) { occupied.set_all(cells + begin, end - begin); });
 }
 
+/// not_reached(first): of the 64 cells from `first` on those that are occupied and not in the part.
+template <class NotReached>
+bool is_whole(const Triangle& triangle, const Grid& grid, const NotReached& not_reached) {
+  const Vector b = triangle.b - triangle.a;
+  const Vector c = triangle.c - triangle.a;
+  const double squared_b = squared_length(b);
+  const double squared_c = squared_length(c);
+  const double twice_cross = 2 * cross(b, c);
+  // Of triangles with a short edge the circle is not known well enough. By their edges' lengths in cells:
+  constexpr double kLeastCross = 0x1p-20;
+  const double longest = std::max({squared_b, squared_c, triangle.squared_bc()});
+  if (!(twice_cross >= kLeastCross * longest)) return false;
+  const Vector centre{(c.y * squared_b - b.y * squared_c) / twice_cross,
+                      (b.x * squared_c - c.x * squared_b) / twice_cross};
+  const double radius = std::sqrt(squared_length(centre)) * grid.cells_per_length();
+  if (!(radius < kRadius)) return false;
+  constexpr double kSlack = 0x1p-6;  // of a cell, for all rounding
+  constexpr double kMargin = Grid::kMargin;
+  // From the margin's corner on, so that all is positive.
+  const double x = grid.column(triangle.a) + centre.x * grid.cells_per_length() + kMargin;
+  const double y = grid.row(triangle.a) + centre.y * grid.cells_per_length() + kMargin;
+  const auto left = static_cast<Grid::Cell>(x - radius - kSlack);
+  const auto width = static_cast<Grid::Cell>(x + radius + kSlack) - left + 1;
+  const auto bottom = static_cast<Grid::Cell>(y - radius - kSlack);
+  const auto top = static_cast<Grid::Cell>(y + radius + kSlack);
+  const Bitmap::Word columns = (Bitmap::Word{1} << width) - 1;
+  for (Grid::Cell row = bottom; row <= top; ++row) {
+    const Grid::Cell first =
+        row * grid.row_words() * Grid::kWordBits + Grid::kWordBits + left - Grid::kMargin;
+    if ((not_reached(first) & columns) != 0) return false;
+  }
+  return true;
+}
+
 }  // namespace
 
-void mark_reach(const Grid& grid, Grid::Cell cell, Bitmap& reached) {
+void mark_reach(const Grid& grid, Grid::Cell cell, ReachedCells& reached) {
   mark(grid, cell, kHalfWidths, reached);
 }
 
 void mark_reach_round(std::span<const Mesh::Index> triangles, const DelaunayBuilder& builder,
                       const Grid& grid, Bitmap& reached) {
-  for (const Mesh::Index t : triangles) {
-    for (Mesh::Index k = 0; k < 3; ++k) {
-      const Point& corner = builder.vertices()[builder.mesh().corners(t)[k]];
-      mark(grid, grid.cell(corner), kFartherHalfWidths, reached);
-    }
-  }
+  mark_round(triangles, builder, grid, reached);
+}
+void mark_reach_round(std::span<const Mesh::Index> triangles, const DelaunayBuilder& builder,
+                      const Grid& grid, ReachedCells& reached) {
+  mark_round(triangles, builder, grid, reached);
 }
 
 double least_dropped_radius(const Limits& limits) {
@@ -497,35 +542,11 @@ void InteriorPart::gather(std::span<const Point> points, ThreadPool& pool) {
 
 bool is_surely_whole(const Triangle& triangle, const Grid& grid, const Bitmap& occupied,
                      const Bitmap& reached) {
-  const Vector b = triangle.b - triangle.a;
-  const Vector c = triangle.c - triangle.a;
-  const double squared_b = squared_length(b);
-  const double squared_c = squared_length(c);
-  const double twice_cross = 2 * cross(b, c);
-  // Of triangles with a short edge the circle is not known well enough. By their edges' lengths in cells:
-  constexpr double kLeastCross = 0x1p-20;
-  const double longest = std::max({squared_b, squared_c, triangle.squared_bc()});
-  if (!(twice_cross >= kLeastCross * longest)) return false;
-  const Vector centre{(c.y * squared_b - b.y * squared_c) / twice_cross,
-                      (b.x * squared_c - c.x * squared_b) / twice_cross};
-  const double radius = std::sqrt(squared_length(centre)) * grid.cells_per_length();
-  if (!(radius < kRadius)) return false;
-  constexpr double kSlack = 0x1p-6;  // of a cell, for all rounding
-  constexpr double kMargin = Grid::kMargin;
-  // From the margin's corner on, so that all is positive.
-  const double x = grid.column(triangle.a) + centre.x * grid.cells_per_length() + kMargin;
-  const double y = grid.row(triangle.a) + centre.y * grid.cells_per_length() + kMargin;
-  const auto left = static_cast<Grid::Cell>(x - radius - kSlack);
-  const auto width = static_cast<Grid::Cell>(x + radius + kSlack) - left + 1;
-  const auto bottom = static_cast<Grid::Cell>(y - radius - kSlack);
-  const auto top = static_cast<Grid::Cell>(y + radius + kSlack);
-  const Bitmap::Word columns = (Bitmap::Word{1} << width) - 1;
-  for (Grid::Cell row = bottom; row <= top; ++row) {
-    const Grid::Cell first =
-        row * grid.row_words() * Grid::kWordBits + Grid::kWordBits + left - Grid::kMargin;
-    if ((occupied.window(first) & ~reached.window(first) & columns) != 0) return false;
-  }
-  return true;
+  return is_whole(triangle, grid,
+                  [&](Grid::Cell first) { return occupied.window(first) & ~reached.window(first); });
+}
+bool is_surely_whole(const Triangle& triangle, const Grid& grid, const ReachedCells& reached) {
+  return is_whole(triangle, grid, [&](Grid::Cell first) { return reached.not_reached(first); });
 }
 
 Statistics InteriorPath::extract(std::span<const Point> points, const CoordinateRange& range,

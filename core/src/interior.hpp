@@ -56,10 +56,12 @@ inline constexpr double kWidestInSpacings = 2.5;
 /// much as rounding may move a point.
 inline constexpr Grid::Cell kReachedRows = 2 * kRadius + 1;
 /// Marks the cells that may hold a point within 2 r of one in `cell`.
-void mark_reach(const Grid& grid, Grid::Cell cell, Bitmap& reached);
+void mark_reach(const Grid& grid, Grid::Cell cell, ReachedCells& reached);
 /// The same for 2.7 r and the corners of these triangles of the mesh.
 void mark_reach_round(std::span<const Mesh::Index> triangles, const DelaunayBuilder& builder,
                       const Grid& grid, Bitmap& reached);
+void mark_reach_round(std::span<const Mesh::Index> triangles, const DelaunayBuilder& builder,
+                      const Grid& grid, ReachedCells& reached);
 /// So many times a part is enlarged before all points are triangulated.
 inline constexpr int kMostEnlarged = 8;
 
@@ -67,6 +69,7 @@ inline constexpr int kMostEnlarged = 8;
 /// all occupied cells of the box of its circumcircle are among those whose points are in the part.
 bool is_surely_whole(const Triangle& triangle, const Grid& grid, const Bitmap& occupied,
                      const Bitmap& reached);
+bool is_surely_whole(const Triangle& triangle, const Grid& grid, const ReachedCells& reached);
 
 /// Finds the points that decide the shape, and keeps its memory between calls.
 ///

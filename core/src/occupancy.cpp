@@ -31,6 +31,44 @@ void Bitmap::clear(std::size_t words) {
   std::fill_n(words_, words, Word{0});
 }
 
+void FewCells::fill(const Grid& grid, Grid::Cell begin, Grid::Cell rows_end, const Find& find,
+                    ThreadPool& pool) {
+  constexpr Grid::Cell kRowsATime = 64;
+  constexpr std::size_t kSharesAThread = 4;
+  const std::size_t groups = grid.word_count() / Grid::kWordBits + 1;
+  has_any_.clear(groups);
+  const std::size_t shares = pool.threads() == 1 ? 1 : kSharesAThread * pool.threads();
+  std::vector<std::vector<Bitmap::Word>> words_of(shares);
+  pool.for_each(shares, [&](std::size_t s) {
+    Bitmap found;
+    const Grid::Cell end = begin + (rows_end - begin) * (s + 1) / shares;
+    for (Grid::Cell row = begin + (rows_end - begin) * s / shares; row < end; row += kRowsATime) {
+      const Grid rows = grid.band(row, std::min(end, row + kRowsATime));
+      found.clear(rows.word_count());
+      find(row, row + rows.rows(), found);
+      const std::size_t first = rows.first_word(0);
+      const std::size_t in_grid = grid.first_word(row);
+      for (std::size_t w = 0; w < rows.rows() * rows.row_words(); ++w) {
+        if (found.words()[first + w] == 0) continue;
+        has_any_.set_shared(in_grid + w);
+        words_of[s].push_back(found.words()[first + w]);
+      }
+    }
+  });
+  before_group_.resize(groups);
+  std::uint32_t before = 0;
+  for (std::size_t g = 0; g < groups; ++g) {
+    before_group_[g] = before;
+    before += static_cast<std::uint32_t>(std::popcount(has_any_.words()[g]));
+  }
+  words_.clear();
+  words_.reserve(before);
+  for (std::vector<Bitmap::Word>& words : words_of) {
+    words_.insert(words_.end(), words.begin(), words.end());
+    words = {};
+  }
+}
+
 /// Of points [begin, end).
 void ClosePairs::look_at(std::span<const Point> points, std::size_t begin, std::size_t end, const Grid& grid,
                          const std::uint32_t* cells, const Bitmap& shared, Chunk& chunk) const {

@@ -1,9 +1,11 @@
 // Which cells of a square grid hold points. The certificate uses these cells instead of the points.
 #pragma once
 
+#include <bit>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <vector>
 
@@ -77,6 +79,10 @@ class Grid {
     return {minimum_, cells_per_length_, static_cast<std::uint32_t>(row_words_ * kWordBits),
             static_cast<std::uint32_t>(origin_)};
   }
+  /// The same, of any grid.
+  WideNumbering wide_numbering() const {
+    return {minimum_, cells_per_length_, static_cast<std::uint32_t>(row_words_ * kWordBits), origin_};
+  }
   Cell cell(const Point& p) const {
     return row_number(p) * row_words_ * kWordBits + origin_ + whole(column(p));
   }
@@ -127,6 +133,14 @@ class Bitmap {
     if (shift + count > Grid::kWordBits)
       words_[first / Grid::kWordBits + 1] |= bits >> (Grid::kWordBits - shift);
   }
+  /// Clears the `count` < 64 bits from `first` on.
+  void clear_run(Grid::Cell first, unsigned count) {
+    const Word bits = (Word{1} << count) - 1;
+    const unsigned shift = first % Grid::kWordBits;
+    words_[first / Grid::kWordBits] &= ~(bits << shift);
+    if (shift + count > Grid::kWordBits)
+      words_[first / Grid::kWordBits + 1] &= ~(bits >> (Grid::kWordBits - shift));
+  }
   /// The 64 bits from `first` on.
   Word window(Grid::Cell first) const {
     const Word* word = words_ + first / Grid::kWordBits;
@@ -135,10 +149,75 @@ class Bitmap {
   }
   Word* words() { return words_; }
   const Word* words() const { return words_; }
+  /// Has the processor fetch the word of a cell, to be changed.
+  void prefetch(Grid::Cell cell) const { __builtin_prefetch(words_ + cell / Grid::kWordBits, 1); }
+  /// The bits from word `first` on as a map of their own, without a copy, to be read as long as this one
+  /// lives.
+  Bitmap from_word(std::size_t first) const { return Bitmap(words_ + first); }
+
+  Bitmap() = default;
 
  private:
+  explicit Bitmap(Word* words) : words_(words) {}
+
   Scratch<Word> storage_;
   Word* words_ = nullptr;
+};
+
+/// Few of the cells of a grid, in little memory.
+class FewCells {
+ public:
+  /// Replaces the cells by those that find(first, end, found) puts into the rows from `first` to before
+  /// `end`, of the grid's rows [begin, rows_end) a few at a time. `found` is a bitmap of a band() of these
+  /// rows; find() is called by several threads.
+  using Find = std::function<void(Grid::Cell first, Grid::Cell end, Bitmap& found)>;
+  void fill(const Grid& grid, Grid::Cell begin, Grid::Cell rows_end, const Find& find, ThreadPool& pool);
+
+  /// Whether the word of the cell has any; quick, and mostly true where test() is.
+  bool may_have(Grid::Cell cell) const { return has_any_.test(cell / Grid::kWordBits); }
+  /// Of a cell that it may have.
+  void prefetch(Grid::Cell cell) const { __builtin_prefetch(&words_[place_of(cell / Grid::kWordBits)]); }
+  bool test(Grid::Cell cell) const {
+    return ((words_[place_of(cell / Grid::kWordBits)] >> (cell % Grid::kWordBits)) & 1U) != 0;
+  }
+
+ private:
+  std::size_t place_of(std::size_t word) const {
+    const Bitmap::Word below = (Bitmap::Word{1} << (word % Grid::kWordBits)) - 1;
+    const std::size_t group = word / Grid::kWordBits;
+    return before_group_[group] + static_cast<std::size_t>(std::popcount(has_any_.words()[group] & below));
+  }
+
+  Bitmap has_any_;                           ///< bit w: word w of the grid's bitmap has cells
+  std::vector<std::uint32_t> before_group_;  ///< 64 words of the bitmap -> how many before them have cells
+  std::vector<Bitmap::Word> words_;          ///< those that have
+};
+
+/// Which cells a part reaches, in the map of the occupied cells: their bits are cleared there. So it can be
+/// asked of occupied cells only.
+class ReachedCells {
+ public:
+  /// Of a map with so many words, which changes and must live as long; none are reached yet.
+  void begin(Bitmap& occupied, std::size_t words) {
+    not_reached_ = &occupied;
+    has_any_.clear(words / Grid::kWordBits + 1);
+  }
+  /// The `count` < 64 cells from `first` on are reached.
+  void set_run(Grid::Cell first, unsigned count) {
+    not_reached_->clear_run(first, count);
+    has_any_.set(first / Grid::kWordBits);
+    has_any_.set((first + count - 1) / Grid::kWordBits);
+  }
+  /// Of an occupied cell, as the next two: as those of FewCells.
+  bool may_have(Grid::Cell cell) const { return has_any_.test(cell / Grid::kWordBits); }
+  void prefetch(Grid::Cell cell) const { not_reached_->prefetch(cell); }
+  bool test(Grid::Cell cell) const { return !not_reached_->test(cell); }
+  /// Of the 64 cells from `first` on those that are occupied and not reached.
+  Bitmap::Word not_reached(Grid::Cell first) const { return not_reached_->window(first); }
+
+ private:
+  Bitmap* not_reached_ = nullptr;
+  Bitmap has_any_;  ///< bit w: of word w of the map some cells are reached; fits into a processor's cache
 };
 
 /// Whether two different points may lie within `distance` of each other in x and in y. `distance` times

@@ -1,6 +1,7 @@
 #include "polylidar/stream.hpp"
 
 #include <algorithm>
+#include <array>
 #include <atomic>
 #include <bit>
 #include <cmath>
@@ -18,6 +19,7 @@
 #include "interior.hpp"
 #include "options_check.hpp"
 #include "point_passes.hpp"
+#include "selected.hpp"
 #include "shards.hpp"
 
 namespace polylidar {
@@ -91,6 +93,18 @@ struct Block {
   std::span<const Point> points;
 };
 
+/// Points of a block on their way through a pass over some rows of cells, and their cells.
+struct CellBlock {
+  std::uint64_t first;  ///< number of the first point among all
+  std::span<const Point> points;
+  const Grid::Cell* cells;  ///< of each point; of those below or above the map, of no meaning
+  Grid::Cell begin_of_rows;
+  Grid::Cell cells_of_rows;
+
+  /// Whether point i lies in the rows.
+  bool has(std::size_t i) const { return cells[i] - begin_of_rows < cells_of_rows; }
+};
+
 /// The passes over the sources.
 ///
 /// Points come in *slots*. If sources are read one after the other, the threads share each block, and its
@@ -145,18 +159,21 @@ class Stream {
   void read_at_once(const Pass& pass);
   void read_in_order(const Pass& pass);
   void tell(std::size_t points);
-  template <class Visit>
-  void run_over_cells(const Rows& rows, const Visit& visit, const std::function<void(std::size_t)>& end);
+  template <class Take>
+  void run_over_cells(const Rows& rows, const Take& take, const std::function<void(std::size_t)>& end);
+  template <class Cells, class Visit>
+  void run_over_some(const Rows& rows, const Cells& some, const Visit& visit,
+                     const std::function<void(std::size_t)>& end);
 
   void find_extents(bool is_for_others);
   void check_scale() const;
   std::optional<double> choose_sizes();
   void choose_grid(double widest);
   void find_occupied_cells();
-  void find_uncertain_cells();
   void find_uncertain_points();
+  void mark_reached();
   void gather();
-  void find_points(bool keeps_maps);
+  void find_points(bool keeps_map);
   void take_all();
   StreamedHull hull_in_memory();
   StreamedHull hull_by_limits();
@@ -176,8 +193,8 @@ class Stream {
   Rows seen_;                                   ///< in which cells are marked as occupied
   Grid grid_;                                   ///< the rows seen_ of the grid over the box
   std::deque<Slot> slots_;
-  std::optional<Bitmap> occupied_;
-  std::optional<Bitmap> marked_;          ///< uncertain cells, then those within reach of uncertain points
+  std::optional<Bitmap> occupied_;        ///< and not reached, when it is known what is
+  detail::ReachedCells reached_;          ///< those of the part
   std::vector<Grid::Cell> reaching_;      ///< cells with uncertain points, until they are marked
   std::vector<std::uint64_t> uncertain_;  ///< of the shard's own band, ascending
   StreamShard part_;
@@ -278,36 +295,52 @@ void Stream::find_extents(bool is_for_others) {
   if (all.count() > 0) range_ = all.range();
 }
 
-/// A later pass: visit(slot, point, cell, number) for the points in these rows, which are among seen_.
-/// Sources without such points are not read.
-template <class Visit>
-void Stream::run_over_cells(const Rows& rows, const Visit& visit,
-                            const std::function<void(std::size_t)>& end) {
+/// A later pass: take(slot, block) with points that have their cells, as a CellBlock. Sources without points
+/// in these rows, which are among seen_, are not read.
+template <class Take>
+void Stream::run_over_cells(const Rows& rows, const Take& take, const std::function<void(std::size_t)>& end) {
   const auto is_read = [&](std::size_t s) {
     if (extents_[s].count() == 0) return false;
     const Box& box = extents_[s].box();
     return rows.meets({grid_.row_number(box.min), grid_.row_number(box.max) + 1});
   };
-  const bool are_all =
-      part_.shard.count == 1 && static_cast<double>(grid_.word_count() * Grid::kWordBits) <= Grid::kMostCells;
-  const auto take = [&](Slot& slot, const Block& block) {
+  const auto first_cell = [&](Grid::Cell row) {
+    return grid_.first_word(row - seen_.begin) * Grid::kWordBits;
+  };
+  const Grid::Cell begin_of_rows = first_cell(rows.begin);
+  const Grid::Cell cells_of_rows = first_cell(rows.end) - begin_of_rows;
+  const auto take_block = [&](Slot& slot, const Block& block) {
     if (!detail::are_within(block.points, extents_[block.source].box())) throw has_changed();
-    if (are_all) {
-      detail::visit_numbered(
-          block.points, grid_.numbering(),
-          [&](std::size_t begin, std::span<const Point> points, const std::uint32_t* cells) {
-            for (std::size_t i = 0; i < points.size(); ++i) {
-              visit(slot, points[i], Grid::Cell{cells[i]}, block.first + begin + i);
-            }
-          });
-      return;
-    }
-    for (std::size_t i = 0; i < block.points.size(); ++i) {
-      const Point& p = block.points[i];
-      if (rows.has(grid_.row_number(p))) visit(slot, p, grid_.cell(p), block.first + i);
+    detail::visit_numbered(
+        block.points, grid_.wide_numbering(),
+        [&](std::size_t begin, std::span<const Point> points, const Grid::Cell* cells) {
+          take(slot, CellBlock{block.first + begin, points, cells, begin_of_rows, cells_of_rows});
+        });
+  };
+  run({is_read, take_block, end});
+}
+
+/// The same: visit(slot, point, cell, number) for the points in these rows that lie in cells of `some`, which
+/// are FewCells or ReachedCells.
+template <class Cells, class Visit>
+void Stream::run_over_some(const Rows& rows, const Cells& some, const Visit& visit,
+                           const std::function<void(std::size_t)>& end) {
+  const auto take = [&](Slot& slot, const CellBlock& block) {
+    // Many points wait for memory at the same time: no branch depends on what is read before the last loop.
+    std::array<std::uint32_t, detail::kNumberedAtOnce> chosen;
+    std::size_t count = 0;
+    detail::for_each_selected(
+        0, block.points.size(), [&](std::size_t i) { return block.has(i) && some.may_have(block.cells[i]); },
+        [&](std::uint32_t i) {
+          some.prefetch(block.cells[i]);
+          chosen[count++] = i;
+        });
+    for (std::size_t k = 0; k < count; ++k) {
+      const std::uint32_t i = chosen[k];
+      if (some.test(block.cells[i])) visit(slot, block.points[i], block.cells[i], block.first + i);
     }
   };
-  run({is_read, take, end});
+  run_over_cells(rows, take, end);
 }
 
 /// The same for all shards, and where the shard has its band in it. `widest`: no dropped triangle has a
@@ -345,25 +378,29 @@ void Stream::choose_grid(double widest) {
 void Stream::find_occupied_cells() {
   const std::size_t words = grid_.word_count();
   occupied_.emplace().clear(words);
-  const auto nothing = [](std::size_t) {};
-  if (pool_.threads() == 1) {
-    const auto set = [&](Slot&, const Point&, Grid::Cell cell, std::uint64_t) { occupied_->set(cell); };
-    run_over_cells(seen_, set, nothing);
-    return;
-  }
+  const auto run_with = [&](const auto& map_of, const auto& set) {
+    const auto take = [&](Slot& slot, const CellBlock& block) {
+      Bitmap& map = map_of(slot);
+      for (std::size_t i = 0; i < block.points.size(); ++i) {
+        if (block.has(i)) map.prefetch(block.cells[i]);  // many wait for memory at the same time
+      }
+      for (std::size_t i = 0; i < block.points.size(); ++i) {
+        if (block.has(i)) set(map, block.cells[i]);
+      }
+    };
+    run_over_cells(seen_, take, [](std::size_t) {});
+  };
+  const auto only_map = [&](Slot&) -> Bitmap& { return *occupied_; };
+  const auto set = [](Bitmap& map, Grid::Cell cell) { map.set(cell); };
+  if (pool_.threads() == 1) return run_with(only_map, set);
   // A map for each slot is faster than one that all threads write to, but needs more memory.
   constexpr std::size_t kMostBytes = std::size_t{1} << 25U;
   if (!are_read_at_once() || most_slots() * words * sizeof(Bitmap::Word) > kMostBytes) {
-    const auto set = [&](Slot&, const Point&, Grid::Cell cell, std::uint64_t) {
-      occupied_->set_shared(cell);
-    };
-    run_over_cells(seen_, set, nothing);
-    return;
+    return run_with(only_map, [](Bitmap& map, Grid::Cell cell) { map.set_shared(cell); });
   }
   const auto map_of = [&](Slot& slot) -> Bitmap& { return slot.number == 0 ? *occupied_ : slot.occupied; };
   for (Slot& slot : slots_) map_of(slot).clear(words);
-  const auto set = [&](Slot& slot, const Point&, Grid::Cell cell, std::uint64_t) { map_of(slot).set(cell); };
-  run_over_cells(seen_, set, nothing);
+  run_with(map_of, set);
   const detail::Chunks chunks(pool_, words);
   pool_.for_each(chunks.size(), [&](std::size_t c) {
     for (std::size_t s = 1; s < slots_.size(); ++s) {
@@ -374,21 +411,18 @@ void Stream::find_occupied_cells() {
   });
 }
 
-void Stream::find_uncertain_cells() {
-  marked_.emplace().clear(grid_.word_count());
-  constexpr Grid::Cell kRowsATime = 64;
-  const Rows tested{tested_.begin - seen_.begin, tested_.end - seen_.begin};
-  pool_.for_each((tested.end - tested.begin + kRowsATime - 1) / kRowsATime, [&](std::size_t i) {
-    const Grid::Cell begin = tested.begin + i * kRowsATime;
-    detail::find_uncertain_cells(grid_, *occupied_, begin, std::min(tested.end, begin + kRowsATime),
-                                 *marked_);
-  });
-}
-
 void Stream::find_uncertain_points() {
+  detail::FewCells uncertain_cells;
+  const auto find = [&](Grid::Cell begin, Grid::Cell end, Bitmap& found) {
+    // By rows of their own.
+    detail::find_uncertain_cells(grid_.band(begin, end), occupied_->from_word(begin * grid_.row_words()), 0,
+                                 end - begin, found);
+  };
+  uncertain_cells.fill(grid_, tested_.begin - seen_.begin, tested_.end - seen_.begin, find, pool_);
+
   const detail::PointCertificate& certificate = detail::PointCertificate::instance();
   const auto look = [&](Slot& slot, const Point& p, Grid::Cell cell, std::uint64_t number) {
-    if (!marked_->test(cell) || certificate.is_certified(p, cell, grid_, *occupied_)) return;
+    if (certificate.is_certified(p, cell, grid_, *occupied_)) return;
     slot.uncertain.push_back({number, cell, own_.has(grid_.row_number(p))});
   };
   const auto end = [&](std::size_t slots) {
@@ -403,9 +437,14 @@ void Stream::find_uncertain_points() {
       slots_[s].uncertain.clear();
     }
   };
-  run_over_cells(tested_, look, end);
-  marked_->clear(grid_.word_count());
-  for (const Grid::Cell cell : reaching_) detail::mark_reach(grid_, cell, *marked_);
+  run_over_some(tested_, uncertain_cells, look, end);
+}
+
+/// From here on what is occupied and reached is not told from what is not occupied.
+void Stream::mark_reached() {
+  reached_.begin(*occupied_, grid_.word_count());
+  std::sort(reaching_.begin(), reaching_.end());  // so that what is marked is near what was marked before
+  for (const Grid::Cell cell : reaching_) detail::mark_reach(grid_, cell, reached_);
   reaching_ = {};
 }
 
@@ -414,8 +453,8 @@ void Stream::gather() {
   part_.numbers.clear();
   part_.uncertain.clear();
   auto next = uncertain_.begin();
-  const auto look = [&](Slot& slot, const Point& p, Grid::Cell cell, std::uint64_t number) {
-    if (marked_->test(cell)) slot.gathered.emplace_back(number, p);
+  const auto look = [](Slot& slot, const Point& p, Grid::Cell, std::uint64_t number) {
+    slot.gathered.emplace_back(number, p);
   };
   const auto end = [&](std::size_t slots) {
     for (std::size_t s = 0; s < slots; ++s) {
@@ -430,7 +469,7 @@ void Stream::gather() {
     }
     if (part_.points.size() > kMaxPoints) throw detail::too_much_outline();
   };
-  run_over_cells(own_, look, end);
+  run_over_some(own_, reached_, look, end);
   if (next != uncertain_.end()) throw has_changed();
 }
 
@@ -463,15 +502,14 @@ void Stream::check_scale() const {
   throw std::invalid_argument("coordinates as large or as small as these cannot be streamed: scale them");
 }
 
-/// What is near the outline, where the grid is chosen. `keeps_maps`: whether they are needed afterwards.
-void Stream::find_points(bool keeps_maps) {
+/// What is near the outline, where the grid is chosen. `keeps_map`: whether reached_ is needed afterwards.
+void Stream::find_points(bool keeps_map) {
   if (own_.empty()) return;  // more shards than rows
   find_occupied_cells();
-  find_uncertain_cells();
   find_uncertain_points();
-  if (!keeps_maps) occupied_.reset();
+  mark_reached();
   gather();
-  if (!keeps_maps) marked_.reset();
+  if (!keeps_map) occupied_.reset();
 }
 
 StreamShard Stream::find_part() {
@@ -520,7 +558,7 @@ std::optional<StreamedHull> Stream::hull_by_chosen_sizes() {
   choose_grid(*wide_radius);
   find_points(true);
   const auto is_sure = [&](const detail::Triangle& triangle) {
-    return detail::is_surely_whole(triangle, grid_, *occupied_, *marked_);
+    return detail::is_surely_whole(triangle, grid_, reached_);
   };
   for (int k = 0;; ++k) {
     detail::PartHull hull(part_, pool_);
@@ -535,7 +573,7 @@ std::optional<StreamedHull> Stream::hull_by_chosen_sizes() {
     if (why != Way::kReachesFar) throw detail::rounding_decides();
     if (hull.doubtful().empty() || k == detail::kMostEnlarged) return {};
     ++progress_.passes;
-    detail::mark_reach_round(hull.doubtful(), hull.builder(), grid_, *marked_);
+    detail::mark_reach_round(hull.doubtful(), hull.builder(), grid_, reached_);
     gather();
   }
 }
