@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <span>
 
 #include "tool/points/numbers.hpp"
 #include "tool/points/readers.hpp"
@@ -125,20 +126,21 @@ void check_finite(const Point& point, std::uint64_t index, const BlockReader& re
               " has a coordinate that is not finite; remove such points before saving");
 }
 
-/// The next `size` points that are x and y one behind the other as doubles: what memory has, too.
-void read_plain(BlockReader& reader, const Array& array, Point* points, std::uint64_t size) {
+/// The next points, from number `first` on, that are x and y one behind the other as doubles: what memory
+/// has, too.
+void read_plain(BlockReader& reader, const Array& array, std::uint64_t first, std::span<Point> points) {
   static_assert(sizeof(Point) == 2 * sizeof(double));
-  if (!reader.read(reinterpret_cast<char*>(points), static_cast<std::size_t>(size) * sizeof(Point))) {
-    fail_short(array, reader);
-  }
+  if (!reader.read(reinterpret_cast<char*>(points.data()), points.size_bytes())) fail_short(array, reader);
+  if (are_finite(points)) return;
+  for (std::size_t i = 0; i < points.size(); ++i) check_finite(points[i], first + i, reader);
 }
 
 void read_as_they_are(BlockReader& reader, const Array& array, bool size_known, std::vector<Point>& points) {
   for (std::uint64_t done = 0; done < array.count;) {
     const std::uint64_t size = std::min<std::uint64_t>(kValuesABlock, array.count - done);
     grow(points, done + size, array.count, size_known);
-    read_plain(reader, array, points.data() + done, size);
-    for (const std::uint64_t end = done + size; done < end; ++done) check_finite(points[done], done, reader);
+    read_plain(reader, array, done, std::span(points).subspan(done, size));
+    done += size;
   }
 }
 
@@ -184,8 +186,7 @@ void hand_on_rows(BlockReader& reader, const Array& array, PointFile& file) {
     const std::uint64_t in_block = options.part.count > 1 ? kValuesABlock / 8 : kValuesABlock;
     for (std::uint64_t done = first; done < end; done += file.points.size()) {
       file.points.resize(static_cast<std::size_t>(std::min(in_block, end - done)));
-      read_plain(reader, array, file.points.data(), file.points.size());
-      for (std::size_t i = 0; i < file.points.size(); ++i) check_finite(file.points[i], done + i, reader);
+      read_plain(reader, array, done, file.points);
       if (!file.points.empty()) options.take_points(file.points);
     }
     file.points.clear();

@@ -1,8 +1,10 @@
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <cstdint>
 #include <limits>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "tool/points/numbers.hpp"
@@ -27,22 +29,35 @@ void read_raw(BlockReader& reader, PointFile& file) {
     if (!options.take_points) reserve_points(file.points, static_cast<std::size_t>(end - number));
     reader.skip(number * kSize);
   }
+  const auto check_finite = [&](const Point& point, std::uint64_t before) {
+    if (std::isfinite(point.x) && std::isfinite(point.y)) return;
+    reader.fail("point " + std::to_string(before + 1) +
+                " has a coordinate that is not finite; remove such points before writing them");
+  };
+  const bool is_as_in_memory = std::endian::native == std::endian::little;
   std::vector<char> bytes;
   while (number < end && !reader.ahead().empty()) {
     // What is at hand may end within a point.
     const std::uint64_t at_hand = std::max<std::uint64_t>(reader.ahead().size() / kSize, 1);
-    bytes.resize(static_cast<std::size_t>(std::min(at_hand, end - number)) * kSize);
-    if (!reader.read(bytes.data(), bytes.size())) fail_size();
-    for (const char* at = bytes.data(); at < bytes.data() + bytes.size(); at += kSize) {
-      const Point point = {load(at, Scalar()), load(at + kSize / 2, Scalar())};
-      ++number;
-      if (!std::isfinite(point.x) || !std::isfinite(point.y)) {
-        reader.fail("point " + std::to_string(number) +
-                    " has a coordinate that is not finite; remove such points before writing them");
+    const auto count = static_cast<std::size_t>(std::min(at_hand, end - number));
+    if (is_as_in_memory && !options.window) {
+      file.points.resize(file.points.size() + count);
+      const std::span<Point> read = std::span(file.points).last(count);
+      if (!reader.read(reinterpret_cast<char*>(read.data()), read.size_bytes())) fail_size();
+      if (!are_finite(read)) {
+        for (std::size_t i = 0; i < count; ++i) check_finite(read[i], number + i);
       }
-      if (options.window && !is_inside(point, *options.window)) continue;
-      file.points.push_back(point);
+    } else {
+      bytes.resize(count * kSize);
+      if (!reader.read(bytes.data(), bytes.size())) fail_size();
+      for (std::size_t i = 0; i < count; ++i) {
+        const char* const at = &bytes[i * kSize];
+        const Point point = {load(at, Scalar()), load(at + kSize / 2, Scalar())};
+        check_finite(point, number + i);
+        if (!options.window || is_inside(point, *options.window)) file.points.push_back(point);
+      }
     }
+    number += count;
     hand_on(file, options);
   }
 }

@@ -1,7 +1,10 @@
 // One reader a format; see PointFormat for what each takes.
 #pragma once
 
+#include <bit>
 #include <cstddef>
+#include <cstdint>
+#include <span>
 #include <string_view>
 #include <vector>
 
@@ -50,6 +53,19 @@ inline void hand_on(PointFile& file, const PointFileOptions& options, bool at_en
   if (!options.take_points || (file.points.size() < block_points && !at_end)) return;
   if (!file.points.empty()) options.take_points(file.points);
   file.points.clear();
+}
+
+/// Whether all coordinates are finite; quickly, as the compiler makes vectors of this.
+inline bool are_finite(std::span<const Point> points) {
+  // The exponent of what is not finite is all ones: adding one to it changes the sign.
+  constexpr std::uint64_t kExponent = std::uint64_t{0x7FF} << 52U;
+  constexpr std::uint64_t kOne = std::uint64_t{1} << 52U;
+  std::uint64_t signs = 0;
+  for (const Point& p : points) {
+    signs |= (std::bit_cast<std::uint64_t>(p.x) & kExponent) + kOne;
+    signs |= (std::bit_cast<std::uint64_t>(p.y) & kExponent) + kOne;
+  }
+  return signs >> 63U == 0;
 }
 
 /// Whether `point` is in the box or on its border.
