@@ -336,5 +336,64 @@ TEST(ClosePairs, AreFoundWhereverTheyLie) {
   }
 }
 
+// Few cells in rows of a larger grid, found band by band as a stream finds them.
+TEST(FewCells, AreThoseOfABitmap) {
+  for (const std::size_t size : {9U, 70U, 300U}) {
+    for (const double density : {0.0, 0.3, 0.6}) {
+      Cells cells(size, size, density);
+      const Grid::Cell begin = size / 5;
+      const Grid::Cell end = size - size / 7;
+      find_uncertain_cells(cells.grid, cells.occupied, begin, end, cells.uncertain);
+      for (const unsigned threads : {1U, 3U}) {
+        ThreadPool pool;
+        pool.use(threads);
+        FewCells few;
+        for (int again = 0; again < 2; ++again) {
+          const auto find = [&](Grid::Cell first, Grid::Cell stop, Bitmap& found) {
+            const Bitmap of_band = cells.occupied.from_word(first * cells.grid.row_words());
+            find_uncertain_cells(cells.grid.band(first, stop), of_band, 0, stop - first, found);
+          };
+          few.fill(cells.grid, begin, end, find, pool);
+        }
+        for (std::size_t row = 0; row < size; ++row) {
+          for (std::size_t column = 0; column < size; ++column) {
+            const Grid::Cell cell = cells.cell(column, row);
+            const bool is_there = few.may_have(cell) && few.test(cell);
+            ASSERT_EQ(is_there, cells.uncertain.test(cell)) << column << ", " << row;
+          }
+        }
+      }
+    }
+  }
+}
+
+TEST(ReachedCells, AreToldFromOtherOccupiedCells) {
+  constexpr std::size_t kSize = 200;
+  Cells cells(kSize, 3, 0.5);
+  Bitmap map;
+  map.clear(cells.grid.word_count());
+  std::copy_n(cells.occupied.words(), cells.grid.word_count(), map.words());
+  Bitmap expected;
+  expected.clear(cells.grid.word_count());
+  ReachedCells reached;
+  reached.begin(map, cells.grid.word_count());
+  Random random(4);
+  for (int k = 0; k < 60; ++k) {
+    const Grid::Cell first = cells.cell(random.below(kSize - 64), random.below(kSize));
+    const auto count = static_cast<unsigned>(1 + random.below(63));
+    reached.set_run(first, count);
+    expected.set_run(first, count);
+  }
+  for (std::size_t row = 0; row < kSize; ++row) {
+    for (std::size_t column = 0; column < kSize; ++column) {
+      const Grid::Cell cell = cells.cell(column, row);
+      if (!cells.rows[row][column]) continue;
+      ASSERT_EQ(reached.may_have(cell) && reached.test(cell), expected.test(cell)) << column << ", " << row;
+    }
+    const Grid::Cell first = cells.cell(row % 100, row);
+    EXPECT_EQ(reached.not_reached(first), cells.occupied.window(first) & ~expected.window(first));
+  }
+}
+
 }  // namespace
 }  // namespace polylidar::detail

@@ -52,6 +52,19 @@ TEST(Kernels, NumberCells) {
       numbers.pop_back();
       EXPECT_EQ(numbers, expected) << count << " points, kernel " << static_cast<int>(kernel);
     }
+    // With more cells than 32 bits number, and a beginning that wraps round.
+    const WideNumbering wide{{-3, 7}, numbering.cells_per_length, 4'000'000'000U, ~std::uint64_t{0} - 7};
+    std::vector<std::uint64_t> wide_expected;
+    for (const Point& p : points) {
+      const auto row = static_cast<std::uint64_t>((p.y - 7) * wide.cells_per_length);
+      const auto column = static_cast<std::uint64_t>((p.x + 3) * wide.cells_per_length);
+      wide_expected.push_back(row * 4'000'000'000U + column - 8);
+    }
+    for (const Kernel kernel : kernels()) {
+      std::vector<std::uint64_t> numbers(count);
+      number_cells(points, wide, numbers.data(), kernel);
+      EXPECT_EQ(numbers, wide_expected) << count << " points, kernel " << static_cast<int>(kernel);
+    }
     std::vector<std::uint32_t> own(count);
     std::size_t visited = 0;
     number_in_blocks(points, numbering, own.data(), [&](std::size_t begin, std::size_t end) {

@@ -438,10 +438,9 @@ TEST(Stream, KeepsToTheMemoryThatItMayUse) {
             "the limit is too small for the distances between the points: give a larger one, or more memory");
   EXPECT_EQ(complaint(source, {.alpha = 1e-9}),
             "the limit is too small for the distances between the points: give a larger one, or more memory");
-  EXPECT_EQ(
-      complaint(source, {}, {.most_map_bytes = 8000}),
-      "the maps of cells need more memory than they may take: allow more, or give alpha, max_edge_length or "
-      "max_perimeter");
+  EXPECT_EQ(complaint(source, {}, {.most_map_bytes = 8000}),
+            "the map of cells needs more memory than it may take: allow more, or give alpha, max_edge_length "
+            "or max_perimeter");
 }
 
 TEST(Stream, PutsFewPointsIntoMemory) {

@@ -363,9 +363,8 @@ void Stream::choose_grid(double widest) {
     throw std::invalid_argument(
         detail::is_any_limit_given(part_.options)
             ? "the limit is too small for the distances between the points: give a larger one, or more memory"
-            : "the maps of cells need more memory than they may take: allow more, or give alpha, "
-              "max_edge_length "
-              "or max_perimeter");
+            : "the map of cells needs more memory than it may take: allow more, or give alpha, "
+              "max_edge_length or max_perimeter");
   }
   const Grid grid(box, detail::kRadius / radius);
   part_.cells_per_length = grid.cells_per_length();

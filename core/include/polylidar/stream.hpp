@@ -27,8 +27,8 @@ struct StreamProgress {
 
 /// What of a stream is not in Options.
 struct StreamOptions {
-  /// The most that one of the two maps of occupied cells may take, in bytes; of a shard, those of its band.
-  /// They make up most of the memory where points are many and the outline is short.
+  /// The most that the map of occupied cells may take, in bytes; of a shard, that of its band. It makes up
+  /// most of the memory where points are many and the outline is short.
   double most_map_bytes = 0x1p30;
   /// Called after each block, by one thread at a time; may throw, which ends the work.
   std::function<void(const StreamProgress&)> progress = {};

@@ -180,7 +180,7 @@ std::uint64_t memory_for_points(const ShapeChoice& choice) {
 }
 
 double most_map_bytes(const ShapeChoice& choice) {
-  return static_cast<double>(memory_for_points(choice)) / 4;
+  return static_cast<double>(memory_for_points(choice)) / 2;
 }
 
 std::uint64_t most_points_in_memory(const ShapeChoice& choice) {
