@@ -139,6 +139,7 @@ double plain_size(const std::vector<Point>& points, const detail::AutomaticConst
   std::vector<double> sizes;
   std::vector<double> areas;
   std::vector<double> shortest;
+  std::size_t flat = 0;
   for (std::size_t e = 0; e < mesh.triangles.size(); e += 3) {
     const Ring triangle{points[mesh.triangles[e]], points[mesh.triangles[e + 1]],
                         points[mesh.triangles[e + 2]]};
@@ -149,6 +150,8 @@ double plain_size(const std::vector<Point>& points, const detail::AutomaticConst
     }
     const double second_longest = median_of(edges);
     shortest.push_back(*std::min_element(edges.begin(), edges.end()));
+    const double longest = *std::max_element(edges.begin(), edges.end());
+    flat += 2 * std::abs(signed_area(triangle)) <= 0.17 * longest * longest ? 1U : 0U;
     areas.push_back(std::abs(signed_area(triangle)));
     sizes.push_back(
         std::max(std::pow(4 / std::sqrt(3) * second_longest * second_longest * areas.back(), 0.25),
@@ -168,8 +171,9 @@ double plain_size(const std::vector<Point>& points, const detail::AutomaticConst
   double least_cost = std::numeric_limits<double>::infinity();
   std::sort(shortest.begin(), shortest.end());
   const std::size_t triangles = shortest.size();
-  const double scatter =
-      triangles < 16 ? 0 : std::log(shortest[4 * triangles / 5] / shortest[2 * triangles / 5]);
+  const double scatter = triangles < 16 || 2 * flat >= triangles
+                             ? 0
+                             : std::log(shortest[4 * triangles / 5] / shortest[2 * triangles / 5]);
   const double unsure = 1.8 / std::sqrt(static_cast<double>(triangles));
   const double doubt = 1 + constants.doubt * std::max(scatter - constants.even_edges - unsure, 0.0);
   const auto count = static_cast<double>(points.size());

@@ -58,6 +58,10 @@ constexpr double kPointsPerBorderSquare = 2.4;
 // Height over base of a flat triangle; of points at random half have 0.4.
 constexpr double kFlat = 0.17;
 
+bool is_flat(const Triangle& triangle) {
+  return triangle.twice_area() <= kFlat * triangle.squared_longest_edge();
+}
+
 /// The circle of a wide triangle would have so many points that chance leaves one as large empty in one of a
 /// hundred sets. Of n points that is log n + 8 or so: 2 n (1 + x) / e^x triangles have a circle of x points
 /// or more. Returns the square of its radius where a unit square has `density` points.
@@ -289,13 +293,16 @@ double AutomaticLimit::excess_scatter(const Mesh& mesh, const Point* vertices,
   };
   if (block_ends_.size() < kFewestBlocks) {
     std::size_t count = 0;
+    std::size_t flat = 0;
     const double of_edges = scatter_in_blocks(1, [&](std::size_t, const auto& visit) {
       const Mesh::Index step = std::max(Mesh::Index{1}, mesh.triangle_count() / kRecordsOfAll);
       for_some_triangles(mesh, 0, mesh.triangle_count(), step, [&](Mesh::Index t) {
         visit(edge4_of(t));
         ++count;
+        flat += is_flat(Triangle(mesh, vertices, t)) ? 1U : 0U;
       });
     });
+    if (2 * flat >= count) return 0;
     const double unsure = kTwoDeviations / std::sqrt(static_cast<double>(std::max<std::size_t>(count, 1)));
     return std::max(of_edges - constants.even_edges - unsure, 0.0);
   }
@@ -543,7 +550,7 @@ void AutomaticLimit::look_for_outlines(const Mesh& mesh, const Point* vertices, 
   std::size_t flat = 0;
   for_some(256, [&](const Triangle& triangle) {
     ++looked_at;
-    flat += triangle.twice_area() <= kFlat * triangle.squared_longest_edge() ? 1U : 0U;
+    flat += is_flat(triangle) ? 1U : 0U;
   });
   if (looked_at == 0 || 2 * flat < looked_at) return;
 
