@@ -85,7 +85,8 @@ def draw_all(run: Run, names: list[str], out: Path) -> tuple[list[Drawn], dict[s
 
 def save(one: Drawn, out: Path) -> None:
     one.figure.draw_without_rendering()
-    one.figure.set_layout_engine("none")  # laid out once: it is most of the time
+    # Laid out once, as it is most of the time. "none" would leave a placeholder, for which every file is drawn twice.
+    one.figure.set_layout_engine(None)
     for kind, metadata in _METADATA.items():
         path = out / f"{one.name}.{kind}"
         one.figure.savefig(path, metadata=metadata)
