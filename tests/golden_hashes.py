@@ -28,7 +28,7 @@ Point = tuple[float, float]
 Ring = list[Point]
 Polygon = list[Ring]  # the shell, then its holes
 Edge = tuple[Point, Point]
-Outline = list[tuple[float, float, float, float, Point, Point]]  # edges behind their box: low, high, right, left
+BoxedEdge = tuple[float, float, float, float, Point, Point]  # low, high, right, left, and its ends
 
 SHAPES = Path(__file__).resolve().parent.parent / "datasets" / "shapes"
 EXPECTATIONS = Path(__file__).resolve().parent / "test_datasets.cpp"
@@ -87,15 +87,33 @@ def edges(polygon: Polygon) -> list[Edge]:
     return [edge for ring in polygon for edge in zip(ring, ring[1:] + ring[:1])]
 
 
-def boxed_edges(polygon: Polygon) -> Outline:
-    return [(min(a[1], b[1]), max(a[1], b[1]), max(a[0], b[0]), min(a[0], b[0]), a, b) for a, b in edges(polygon)]
+class Outline:
+    """The edges of a polygon by strips of y; an edge is in every strip that it may reach into."""
+
+    STRIPS = 500
+
+    def __init__(self, polygon: Polygon) -> None:
+        boxes = [(min(a[1], b[1]), max(a[1], b[1]), max(a[0], b[0]), min(a[0], b[0]), a, b) for a, b in edges(polygon)]
+        self.low = min(box[0] for box in boxes)
+        self.high = max(box[1] for box in boxes)
+        self.strips: list[list[BoxedEdge]] = [[] for _ in range(self.STRIPS + 1)]
+        for box in boxes:
+            for strip in range(self.strip_of(box[0]), self.strip_of(box[1]) + 1):
+                self.strips[strip].append(box)
+
+    def strip_of(self, y: float) -> int:
+        """Never falls as y rises, so that rounding takes no edge from a strip."""
+        return int((y - self.low) / (self.high - self.low) * self.STRIPS)
+
+    def near(self, y: float) -> list[BoxedEdge]:
+        return self.strips[self.strip_of(y)] if self.low <= y <= self.high else []
 
 
 def contains(outline: Outline, p: Point) -> bool:
     """By the edges that a ray to the right crosses, an even number or an odd one; the boundary belongs to it."""
     x, y = p
     inside = False
-    for low, high, right, left, a, b in outline:
+    for low, high, right, left, a, b in outline.near(y):
         if not low <= y <= high or x > right:
             continue
         crosses = (a[1] > y) != (b[1] > y)
@@ -170,7 +188,7 @@ def read_shape(file: str) -> list[Polygon]:
 
 def with_holes(name: str, shape: list[Polygon], count: int, radius: float, seed: int) -> list[Polygon]:
     result = [list(polygon) for polygon in shape]
-    outlines = [boxed_edges(polygon) for polygon in shape]
+    outlines = [Outline(polygon) for polygon in shape]
     left = count
     for centre in places(shape, derived_seed(seed, f"holes/{name}")):
         if left == 0:
@@ -184,7 +202,7 @@ def with_holes(name: str, shape: list[Polygon], count: int, radius: float, seed:
 
 
 def sample(name: str, shape: list[Polygon], holes: int, n: int) -> list[Point]:
-    outlines = [boxed_edges(polygon) for polygon in shape]
+    outlines = [Outline(polygon) for polygon in shape]
     points: list[Point] = []
     for place in places(shape, derived_seed(SEED, f"points/{name}/holes:{holes}/n:{n}")):
         if len(points) == n:

@@ -20,7 +20,7 @@ import sys
 from pathlib import Path
 from typing import Callable, Iterator
 
-from golden_hashes import SHAPES, Point, Polygon, boxed_edges, contains, derived_seed, places, random_words
+from golden_hashes import SHAPES, Outline, Point, Polygon, contains, derived_seed, places, random_words
 from golden_hashes import read_shape, sha256_of
 
 EXPECTATIONS = Path(__file__).resolve().parent / "test_stress.cpp"
@@ -90,7 +90,7 @@ class Random:
 class Shape:
     def __init__(self, polygons: list[Polygon]) -> None:
         self.polygons = polygons
-        self.outlines = [boxed_edges(polygon) for polygon in polygons]
+        self.outlines = [Outline(polygon) for polygon in polygons]
         self.corners = [corner for polygon in polygons for corner in polygon[0]]
         xs, ys = zip(*self.corners)
         self.low, self.high = (min(xs), min(ys)), (max(xs), max(ys))
