@@ -71,10 +71,6 @@ add_test(NAME reference.is_of_this_revision
 set_tests_properties(reference.is_of_this_revision PROPERTIES SKIP_RETURN_CODE 77)
 hullbench_test(test_reference SOURCES test_reference.cpp
   LIBRARIES hullbench::league hullbench::report hullbench_test_program LABELS harness TIMEOUT 300 IN_ONE STARTS_EARLY)
-add_test(NAME readme.has_the_reference_run
-  COMMAND hullbench readme --check results/reference README.md
-  WORKING_DIRECTORY "${PROJECT_SOURCE_DIR}")
-set_tests_properties(readme.has_the_reference_run PROPERTIES COST ${HULLBENCH_COST_OF_LONG_TESTS})
 
 # Methods that are added: the skeletons of `hullbench adapter new`, and the contract.
 hullbench_test(test_adapter_command SOURCES test_adapter_command.cpp LABELS harness RUNS_HULLBENCH STARTS_EARLY LIGHT)

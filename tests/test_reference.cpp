@@ -14,6 +14,7 @@
 #include "benchmarks/record/validate.hpp"
 #include "benchmarks/report/documents.hpp"
 #include "benchmarks/report/paper_comparison.hpp"
+#include "benchmarks/report/readme.hpp"
 #include "benchmarks/report/report.hpp"
 #include "benchmarks/table/writers.hpp"
 #include "tests/program.hpp"
@@ -72,9 +73,13 @@ TEST(Reference, EveryMethodWasInstalled) {
 // Also those that were thinned; a few rows of each, as they were all thinned in one way.
 TEST(Reference, ItsReportsFollowTheSchema) {
   constexpr std::size_t kLookedAt = 40;
-  for (json report : reports()) {
+  for (const json& whole : reports()) {
+    json report = json::object();
+    for (const auto& [key, value] : whole.items()) {
+      if (key != "runs") report[key] = value;
+    }
     json some = json::array();
-    const json& runs = report.at("runs");
+    const json& runs = whole.at("runs");
     for (std::size_t i = 0; i < runs.size(); i += runs.size() / kLookedAt + 1) some.push_back(runs[i]);
     report["runs"] = some;
     const std::vector<std::string> faults = record::validate_report(report);
@@ -99,6 +104,16 @@ TEST(Reference, ItsTablesAreThoseOfItsRecords) {
     ++files;
   }
   EXPECT_GT(files, 50U);
+}
+
+// As 'hullbench readme results/reference README.md --check' says it, which also writes it anew.
+TEST(Reference, IsInTheReadme) {
+  const std::string folder = "results/" + fs::read_symlink(kReference).string();
+  std::string results = report::readme_results(reports(), folder);
+  if (const json league = league::load_league(kReference); !league.is_null())
+    results += league::league_results(league, folder);
+  const std::string readme = testing::read_text(fs::path(HULLBENCH_SOURCE_DIRECTORY) / "README.md");
+  EXPECT_EQ(report::with_results(readme, results), readme);
 }
 
 TEST(Reference, StaysBelowEightMebibytes) {
