@@ -45,18 +45,27 @@ def texts(figure: Figure) -> str:
     return "\n".join(artist.get_text() for artist in figure.findobj(Text))
 
 
+def setUpModule() -> None:
+    """One suite for all tests; none of them changes it."""
+    WithSuite.base = Path(unittest.enterModuleContext(tempfile.TemporaryDirectory()))
+    WithSuite.folder = plot_samples.write_suite(WithSuite.base / "suite")
+    WithSuite.run_ = Run(WithSuite.folder, load(WithSuite.folder), read_paper())
+
+
 class WithSuite(unittest.TestCase):
-    @classmethod
-    def setUpClass(cls) -> None:
-        cls.base = Path(cls.enterClassContext(tempfile.TemporaryDirectory()))
-        cls.folder = plot_samples.write_suite(cls.base / "suite")
-        cls.run_ = Run(cls.folder, load(cls.folder), read_paper())
+    base: Path
+    folder: Path
+    run_: Run
+    drawn: dict[str, dict[str, Drawn]] = {}
 
     def rows(self, experiment: str) -> list[dict[str, Any]]:
         return plot_samples.suite()[experiment]["runs"]
 
     def draw(self, module: Any) -> dict[str, Drawn]:
-        return {one.name: one for one in module.draw(self.run_)}
+        """What the module draws of the suite, drawn once for all tests."""
+        if module.__name__ not in self.drawn:
+            self.drawn[module.__name__] = {one.name: one for one in module.draw(self.run_)}
+        return self.drawn[module.__name__]
 
 
 class Data(WithSuite):

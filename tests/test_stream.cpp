@@ -151,9 +151,9 @@ Points square_with_holes(std::size_t count, double ratio, std::uint64_t seed) {
   return points;
 }
 
-void expect_as_in_memory(const StreamedHull& hull, const Points& points, const Options& options) {
-  Extractor extractor;
-  const IndexedMultiPolygon& shape = extractor.extract(points, options);
+// `shape` is what `extractor` has just made of the points.
+void expect_as_in_memory(const StreamedHull& hull, const Points& points, const Extractor& extractor,
+                         const IndexedMultiPolygon& shape) {
   EXPECT_EQ(hull.polygons, to_coordinates(shape, points));
   EXPECT_TRUE(
       std::equal(hull.vertices.begin(), hull.vertices.end(), shape.vertices.begin(), shape.vertices.end()));
@@ -161,6 +161,12 @@ void expect_as_in_memory(const StreamedHull& hull, const Points& points, const O
   EXPECT_EQ(hull.box, bounding_box(points));
   EXPECT_EQ(hull.chosen_sizes, extractor.chosen_sizes());
   EXPECT_EQ(hull.by_outlines, extractor.statistics().by_outlines);
+}
+
+void expect_as_in_memory(const StreamedHull& hull, const Points& points, const Options& options) {
+  Extractor extractor;
+  const IndexedMultiPolygon& shape = extractor.extract(points, options);
+  expect_as_in_memory(hull, points, extractor, shape);
 }
 
 TEST(Stream, ChoosesTheSizesThatAreChosenInMemory) {
@@ -183,18 +189,20 @@ TEST(Stream, ChoosesTheSizesThatAreChosenInMemory) {
 
 TEST(Stream, ReadsSourcesAtTheSameTime) {
   const Points points = square_with_holes(300'000, 3, 1);
-  for (const unsigned threads : {1U, 3U}) {
-    for (const std::size_t count : {1U, 2U, 5U}) {
-      SCOPED_TRACE(std::to_string(threads) + " threads, " + std::to_string(count) + " sources");
-      const std::vector<PointSource> sources = sources_of(points, count, 7'777);
-      for (Options options : {Options{}, Options{.alpha = 0.01}}) {
+  for (Options options : {Options{}, Options{.alpha = 0.01}}) {
+    Extractor in_memory;
+    const IndexedMultiPolygon& shape = in_memory.extract(points, options);
+    for (const unsigned threads : {1U, 3U}) {
+      for (const std::size_t count : {1U, 2U, 5U}) {
+        SCOPED_TRACE(std::to_string(threads) + " threads, " + std::to_string(count) + " sources");
+        const std::vector<PointSource> sources = sources_of(points, count, 7'777);
         options.threads = threads;
         std::uint64_t told = 0;
         const StreamedHull hull = concave_hull_of_stream(
             sources, options,
             {.progress = [&](const StreamProgress& progress) { told = progress.points; },
              .reads_at_once = true});
-        expect_as_in_memory(hull, points, options);
+        expect_as_in_memory(hull, points, in_memory, shape);
         EXPECT_EQ(told, points.size());
       }
     }
