@@ -76,22 +76,30 @@ def write_run(folder: Path, created: str, kept: str | None = "<!doctype html><ti
     return folder
 
 
-class Folder(unittest.TestCase):
+def setUpModule() -> None:
     """One site of two runs for all tests."""
+    Folder.root = Path(unittest.enterModuleContext(tempfile.TemporaryDirectory()))
+    written = ((OLDER, "2025-01-02T03:04:05Z"), (NEWER, "2026-01-02T03:04:05Z"))
+    Folder.runs = [write_run(Folder.root / name, created) for name, created in written]
+    Folder.demo = Folder.root / "demo.html"
+    Folder.demo.write_text("<!doctype html><title>demo</title>", encoding="utf-8")
+    Folder.site = Folder.root / "site"
+    assert call(make_site.main, *Folder.runs, "--out", Folder.site, "--demo", Folder.demo)[0] == 0
+    Folder.pages = {
+        path.relative_to(Folder.site).as_posix(): Elements(path.read_text(encoding="utf-8"))
+        for path in sorted(Folder.site.rglob("*.html"))
+        if path.name not in ("report.html", "demo.html")
+    }
 
-    @classmethod
-    def setUpClass(cls) -> None:
-        cls.root = Path(cls.enterClassContext(tempfile.TemporaryDirectory()))
-        cls.runs = [write_run(cls.root / OLDER, "2025-01-02T03:04:05Z"), write_run(cls.root / NEWER, "2026-01-02T03:04:05Z")]
-        cls.demo = cls.root / "demo.html"
-        cls.demo.write_text("<!doctype html><title>demo</title>", encoding="utf-8")
-        cls.site = cls.root / "site"
-        assert call(make_site.main, *cls.runs, "--out", cls.site, "--demo", cls.demo)[0] == 0
-        cls.pages = {
-            path.relative_to(cls.site).as_posix(): Elements(path.read_text(encoding="utf-8"))
-            for path in sorted(cls.site.rglob("*.html"))
-            if path.name not in ("report.html", "demo.html")
-        }
+
+class Folder(unittest.TestCase):
+    """What setUpModule made."""
+
+    root: Path
+    runs: list[Path]
+    demo: Path
+    site: Path
+    pages: dict[str, Elements]
 
     def call(self, *arguments: object) -> tuple[int, str]:
         """Exit code and standard error of the program."""
@@ -298,7 +306,7 @@ class Faults(Folder):
         dataset = load(self.runs[0])[0].report["datasets"][0]
         alike = [{**dataset, "name": name, "members": 0} for name in ("wide~2", "wide:2")]
         listing.write_text(json.dumps({"methods": [], "datasets": alike}), encoding="utf-8")
-        code, err = self.call(*self.runs, "--out", self.root / "alike", "--listing", listing)
+        code, err = self.call(self.runs[1], "--out", self.root / "alike", "--listing", listing)
         self.assertEqual((code, "would be one file, datasets/wide-2.html" in err), (2, True))
         self.assertFalse((self.root / "alike").exists(), "nothing is left of a site that was not finished")
 
