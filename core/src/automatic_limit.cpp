@@ -107,7 +107,8 @@ double used_share(const Mesh& mesh) {
   if (mesh.triangle_count() == 0) return 1;
   std::uint32_t used = 0;
   for (std::uint32_t seen = 0;;) {
-    const std::uint64_t place = std::uint64_t{seen * kGolden} * mesh.triangle_count() >> 32U;
+    const std::uint32_t turned = seen * kGolden;  // modulo 2^32
+    const std::uint64_t place = std::uint64_t{turned} * mesh.triangle_count() >> 32U;
     used += mesh.is_unused(static_cast<Mesh::Index>(place)) ? 0U : 1U;
     ++seen;
     const bool are_few_unused = 16 * used >= 15 * seen;

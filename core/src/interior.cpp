@@ -335,7 +335,7 @@ double InteriorPart::cells_in_disk(std::span<const Point> points) const {
   constexpr unsigned kSide = 2 * kHalf + 1;
   constexpr unsigned kRowsAtOnce = 3;  // so many fill a word
   static_assert(kRowsAtOnce * kSide <= Grid::kWordBits && kSide % kRowsAtOnce == 0);
-  constexpr double kDiskOfSquare = 3.141592653589793 * kRadius * kRadius / (kSide * kSide);
+  constexpr double kDiskOfSquare = 3.141592653589793 * kRadius * kRadius / kSide / kSide;
   const Grid::Cell row_bits = grid_.row_words() * Grid::kWordBits;
   int count = 0;
   for (std::size_t k = 0; k < kLookedAt; ++k) {
@@ -348,7 +348,9 @@ double InteriorPart::cells_in_disk(std::span<const Point> points) const {
       count += std::popcount(cells);
     }
   }
-  return kDiskOfSquare * static_cast<double>(kRowOutOf / kRow) * count / kLookedAt;
+  static_assert(kRowOutOf % kRow == 0);
+  constexpr auto kStandsFor = static_cast<double>(kRowOutOf / kRow);  // rows for each that is looked at
+  return kDiskOfSquare * kStandsFor * count / kLookedAt;
 }
 
 /// After begin_cells(): whether many points near one of them are uncertain. Those of a lattice are not, even
