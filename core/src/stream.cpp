@@ -97,7 +97,7 @@ struct Block {
 struct CellBlock {
   std::uint64_t first;  ///< number of the first point among all
   std::span<const Point> points;
-  const Grid::Cell* cells;  ///< of each point; of those below or above the map, of no meaning
+  const std::uint64_t* cells;  ///< of each point; of those below or above the map, of no meaning
   Grid::Cell begin_of_rows;
   Grid::Cell cells_of_rows;
 
@@ -313,7 +313,7 @@ void Stream::run_over_cells(const Rows& rows, const Take& take, const std::funct
     if (!detail::are_within(block.points, extents_[block.source].box())) throw has_changed();
     detail::visit_numbered(
         block.points, grid_.wide_numbering(),
-        [&](std::size_t begin, std::span<const Point> points, const Grid::Cell* cells) {
+        [&](std::size_t begin, std::span<const Point> points, const std::uint64_t* cells) {
           take(slot, CellBlock{block.first + begin, points, cells, begin_of_rows, cells_of_rows});
         });
   };
