@@ -39,12 +39,6 @@ struct Magnitudes {
   }
 };
 
-/// Coordinates of points that follow one another, for arithmetic on all at once.
-template <std::size_t kCount>
-struct Coordinates {
-  using Vector [[gnu::vector_size(kCount * sizeof(double))]] = double;
-};
-
 /// As many points as fill whole vectors of kCount coordinates.
 template <std::size_t kCount>
 [[gnu::always_inline]] inline void measure_vectors(std::span<const Point> points, Magnitudes& result) {

@@ -2,6 +2,7 @@
 // time.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 
 #if defined(__x86_64__) && defined(__GNUC__)
@@ -23,5 +24,11 @@ enum class Kernel : std::uint8_t { kPortable, kAvx2, kAvx512 };
 bool is_supported(Kernel kernel);
 /// The fastest one that is supported.
 Kernel best_kernel();
+
+/// Coordinates of points that follow one another, for arithmetic on all at once.
+template <std::size_t kCount>
+struct Coordinates {
+  using Vector [[gnu::vector_size(kCount * sizeof(double))]] = double;
+};
 
 }  // namespace polylidar::detail

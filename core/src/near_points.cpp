@@ -6,11 +6,6 @@ namespace polylidar::detail {
 
 namespace {
 
-template <std::size_t kCount>
-struct Coordinates {
-  using Vector [[gnu::vector_size(kCount * sizeof(double))]] = double;
-};
-
 /// Puts the sums of the pairs of coordinates in `a` and `b` into `sums`, in some order. (What a function
 /// returns such a vector in depends on the registers that it is compiled for.)
 template <std::size_t kCount, class Vector>
