@@ -206,6 +206,8 @@ TEST(AutomaticLimit, OfOneBlockIsWhatTheRuleSays) {
     sets.push_back({"60 points" + name, ring_and_island(60, seed)});
     const auto heavy_tailed = [](const Point& p) { return Point{std::tan(1.5 * p.x), std::tan(1.5 * p.y)}; };
     sets.push_back({"50 points" + name, mapped(testing::uniform_points(50, seed), heavy_tailed)});
+    const auto on_two_lines = [](const Point& p) { return Point{p.x * p.x * p.x, p.y < 0.5 ? 0.0 : 1.0}; };
+    sets.push_back({"60 points on lines" + name, mapped(testing::uniform_points(60, seed), on_two_lines)});
   }
   for (const PointSet& set : sets) {
     const ChosenSizes sizes = chosen(set.points).value();

@@ -281,7 +281,8 @@ double AutomaticLimit::scatter_in_blocks(std::size_t blocks, const ForEach& for_
 /// of them does not. In fewer than 16 blocks many triangles lie outside the shape, so sizes scatter anyway;
 /// but the shortest edges of most of these are steps along the outline. So there the edges alone are looked
 /// at, all together, and their scatter must be surely larger: 1.8 / sqrt(number) is two of its standard
-/// deviations.
+/// deviations. If half of the triangles are flat, points lie on lines or outlines, whose steps scatter
+/// without clusters.
 double AutomaticLimit::excess_scatter(const Mesh& mesh, const Point* vertices,
                                       const AutomaticConstants& constants) {
   constexpr std::size_t kFewestBlocks = 16;
@@ -483,7 +484,7 @@ double AutomaticLimit::steadiest_size4(double points, const AutomaticConstants& 
     below += std::max(area_[c], 0.0);
   }
   const double log_usual = std::log(constants.usual * std::sqrt(std::log(points)));
-  const double pull_below = constants.pull * std::pow(points, -0.2);
+  const double pull_of_n = constants.pull * std::pow(points, -0.2);
   double least_cost = kInfinity;
   double steadiest = log_usual;
   for (std::size_t c = constants.below; c + constants.above < kCells; ++c) {
@@ -492,7 +493,7 @@ double AutomaticLimit::steadiest_size4(double points, const AutomaticConstants& 
     if (log_size[c] < std::log(kLeast) || log_size[c] > std::log(kMost)) continue;
     const double growth = (log_area[high] - log_area[low]) / (log_size[high] - log_size[low]);
     const double distance = log_size[c] - log_usual;
-    const double pull = distance > 0 ? pull_below / doubt_ : pull_below;
+    const double pull = distance > 0 ? pull_of_n / doubt_ : pull_of_n;
     const double cost = std::log(growth + constants.still) + pull * distance * distance;
     if (cost < least_cost) {  // no: without an area below, where it is infinite or NaN
       least_cost = cost;

@@ -84,7 +84,7 @@ enum class SizesBy : std::uint8_t {
 /// voids elsewhere. So the usual limit is less reliable. Points count as clustered if both the sizes of a
 /// block's triangles and their shortest edges scatter more than without clusters. Then the pull on larger
 /// limits is divided by 1 + doubt * (the excess scatter). On scan lines and roads the sizes scatter, but the
-/// shortest edges do not.
+/// shortest edges do not. Among few points only the edges are looked at.
 ///
 /// **Places.** Of many points whose density varies by a few times, the usual sizes come from small windows,
 /// as one size for all places does: one window for each of up to 4096 squares instead of blocks. All else is
