@@ -241,17 +241,16 @@ bench-gate-instructions: ## the same with counted instructions instead of times,
 	@$(call install,build gate)
 	@benchmarks/gate/gate.sh --instructions $(if $(BASE),--base "$(BASE)")
 
-test: ## install, build and run all tests, the core's with sanitizers too
+test: ## install, build and run all tests
 	@$(call install,build bench unit test docs python plots js)
 	@$(MAKE) deps-extra
 	@$(if $(SKIP_DEPS),,cmake/install-npm.sh plots)
 	@$(if $(SKIP_DEPS),,cmake/install-npm.sh tests/report)
 	@$(call build,release,$(WITH_TESTS))
-	@$(MAKE) test-sanitize
 	@echo "==> all tests"
 	@$(call tests,release,build)
 
-test-sanitize: ## the core's tests with address, undefined-behaviour and thread sanitizers
+test-sanitize: ## install, build and run the core's tests with address, undefined-behaviour and thread sanitizers
 	@$(call install,build unit)
 	@$(call build,sanitize)
 	@echo "==> the core's tests with sanitizers"
