@@ -20,8 +20,8 @@ constexpr std::uint64_t kSampleSeed = 1;
 constexpr double kLargestLoss = 1.5;
 constexpr int kOtherStarts = 2;
 /// The first of limit_knobs(). `part` and `wide` hardly change an error: they are chosen so that chance
-/// leaves no parts and holes, which fit_default counts. `smoothed_from` is of sets of few points, and `step`
-/// of points on outlines, which the fit has none of.
+/// leaves no parts and holes, which fit_default counts. `smoothed_from` is a number of blocks that no set of
+/// the fit is near, and `step` is of points on outlines, which the fit has none of.
 constexpr std::size_t kFittedKnobs = 13;
 
 double weight_of(const std::string& sampling) {
