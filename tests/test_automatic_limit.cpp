@@ -116,6 +116,17 @@ TEST(AutomaticLimit, OfThreePointsKeepsTheirTriangle) {
   EXPECT_EQ(checked_hull({{0, 0}, {1e6, 0}, {5e5, 1e-3}}).size(), 1U) << "a flat one";
 }
 
+// Of so many records but a few are used, so that a sample of them finds one or none.
+TEST(AutomaticLimit, OfThreePointsWithManyCopiesKeepsTheirTriangle) {
+  const std::vector<Point> corners{{0, 0}, {0, 1}, {1, 0}};
+  for (const auto& copies :
+       {std::vector<std::size_t>{2000, 4000, 2000}, {1000, 3000, 3900}, {4000, 4000, 190}}) {
+    std::vector<Point> points;
+    for (std::size_t k = 0; k < corners.size(); ++k) points.insert(points.end(), copies[k], corners[k]);
+    EXPECT_EQ(checked_hull(points).size(), 1U) << copies[0];
+  }
+}
+
 TEST(AutomaticLimit, OfAnExtractorIsForItsPointsAlone) {
   const std::vector<Point> few = testing::uniform_points(300, 11);
   const std::vector<Point> many = testing::uniform_points(40000, 12);  // of which it looks at a part

@@ -98,10 +98,11 @@ void for_some_triangles(const Mesh& mesh, Mesh::Index begin, Mesh::Index end, Me
   }
 }
 
-/// Records that are used, of all; from a part of them, and a larger one if many are not: those of points that
-/// repeat others. Multiples of the golden ratio's fraction meet no pattern of theirs.
+/// The share of the records that are used. Points that repeat others leave theirs unused. It is estimated
+/// from a few hundred records, and from more if many of these are unused. They are at multiples of the golden
+/// ratio modulo 1, which are spread evenly and keep step with no pattern of repeats.
 double used_share(const Mesh& mesh) {
-  constexpr std::uint32_t kGolden = 0x9E3779B1;  // of 2^32
+  constexpr std::uint32_t kGolden = 0x9E3779B1;  // its fraction, of 2^32
   constexpr std::uint32_t kLookedAt = 512;
   constexpr std::uint32_t kMostLookedAt = 8192;
   if (mesh.triangle_count() == 0) return 1;
@@ -116,6 +117,11 @@ double used_share(const Mesh& mesh) {
       return static_cast<double>(std::max(used, 1U)) / static_cast<double>(seen);
     }
   }
+}
+
+/// About how many points of the mesh do not repeat others; at least 3, as any triangle has so many.
+double distinct_points(const DelaunayBuilder& builder) {
+  return std::max(3.0, used_share(builder.mesh()) * static_cast<double>(builder.vertex_count()));
 }
 
 }  // namespace
@@ -518,7 +524,7 @@ void AutomaticLimit::choose_by_blocks(const DelaunayBuilder& builder, double det
                                       const AutomaticConstants& constants) {
   const Mesh& mesh = builder.mesh();
   const Point* const vertices = builder.vertices();
-  const double points = used_share(mesh) * static_cast<double>(builder.vertex_count());
+  const double points = distinct_points(builder);
   found_ = SizesBy::kBlocks;
   field_.is_by_corners = false;
   divide(builder, points);
