@@ -222,6 +222,15 @@ TEST(OutlineFill, IsAskedOfFlatTrianglesAcrossWideGaps) {
   EXPECT_FALSE(is_asked(lines(3000, 1))) << "flat, but not across wide gaps";
 }
 
+// Of the triangles that are looked at for being flat there is one, of those for wide gaps none.
+TEST(OutlineFill, IsNotAskedWhereCopiesLeaveHardlyATriangleToLookAt) {
+  for (const std::size_t copies : {635'292U, 737'983U}) {
+    std::vector<Point> points(copies, Point{0, 0});
+    for (int i = 1; i < 300; ++i) points.push_back({static_cast<double>(i), 1e-6 * i * i});
+    EXPECT_FALSE(is_asked(points)) << copies;
+  }
+}
+
 // Everything that has an inside, and scan lines, which are no outlines.
 TEST(OutlineFill, IsNotForPointsWithAnInside) {
   std::vector<testing::PointSet> sets;

@@ -571,6 +571,7 @@ void AutomaticLimit::look_for_outlines(const Mesh& mesh, const Point* vertices, 
     shortest.push_back(edges[0]);
     second.push_back(edges[1]);
   });
+  if (second.empty()) return;  // nearly all records are unused
   const double steps = (std::log(points) + constants.step) / kMedianGap;
   const double squared_step = quantile_of(shortest, 0.5) * steps * steps;
   const auto longer =
