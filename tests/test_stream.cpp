@@ -527,5 +527,19 @@ TEST(Stream, NoticesASourceThatChanges) {
   EXPECT_EQ(complaint(few, {}), "the source has other points than when it was read before");
 }
 
+// After the sizes were found place by place, in the last three passes, the outline of a hole runs through a
+// place that had no points, that of the hole before.
+TEST(Stream, NoticesAnOutlineWhereNoPointsWere) {
+  Points points = square_with_holes(300'000, 3, 1);
+  points.insert(points.end(), {{0, 0}, {1, 0}, {0, 1}, {1, 1}});  // so that the box stays
+  Points mirrored = points;
+  for (Point& p : mirrored) std::swap(p.x, p.y);
+  MemorySource source(points);
+  source.hull({});
+  MemorySource changes(points);
+  changes.change(source.passes() - 2, mirrored);
+  EXPECT_EQ(complaint(changes, {}), "the source has other points than when it was read before");
+}
+
 }  // namespace
 }  // namespace polylidar

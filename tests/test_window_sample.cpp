@@ -158,7 +158,7 @@ TEST(WindowSample, HasAPlaceForEveryPoint) {
   const Points points = denser_to_the_right(300'000, 1);
   ASSERT_TRUE(looks_by_places(sample, points, 2));
   std::vector<std::uint32_t> place_of(points.size());
-  sample.places_of(points, place_of.data());
+  EXPECT_TRUE(sample.places_of(points, place_of.data()));
   std::vector<double> count(sample.places().size());
   for (const std::uint32_t place : place_of) {
     ASSERT_LT(place, count.size());
@@ -184,6 +184,17 @@ TEST(WindowSample, HasAPlaceForEveryPoint) {
     EXPECT_LT(neighbour, count.size());
   }
   EXPECT_GT(sample.borders().size(), 2 * count.size());
+}
+
+TEST(WindowSample, HasNoPlaceForAPointThatLiesWhereNoneDid) {
+  WindowSample sample;
+  Points points = denser_to_the_right(300'000, 1);
+  std::erase_if(points, [](const Point& p) { return std::hypot(p.x - 0.5, p.y - 0.5) < 0.1; });
+  ASSERT_TRUE(looks_by_places(sample, points));
+  std::vector<std::uint32_t> place_of(2);
+  EXPECT_FALSE(sample.places_of(Points{points[0], {0.5, 0.5}}, place_of.data()));
+  EXPECT_LT(place_of[0], sample.places().size());
+  EXPECT_EQ(place_of[1], kNone);
 }
 
 TEST(WindowSample, OfPlacesDependsNeitherOnTheOrderNorOnTheThreads) {

@@ -689,7 +689,8 @@ void AutomaticLimit::choose_found(const DelaunayBuilder& builder, const std::uin
     const Chunks chunks(pool, vertices.size());
     pool.for_each(chunks.size(), [&](std::size_t c) {
       const std::size_t begin = chunks.begin(c);
-      windows_.places_of(vertices.subspan(begin, chunks.end(c) - begin), &field_.block_of_vertex[begin]);
+      const std::span<const Point> some = vertices.subspan(begin, chunks.end(c) - begin);
+      if (!windows_.places_of(some, &field_.block_of_vertex[begin])) throw has_changed();
     });
   }
   sum_up_areas();

@@ -129,7 +129,7 @@ class AutomaticLimit {
   /// Chooses the limits. The builder's points are those that were looked at, or some of these. `is_tested`:
   /// vertex -> whether it is tested, for the mesh of a part. Every wide triangle of the whole mesh must then
   /// have a tested corner, and every triangle with a tested corner must belong to the whole mesh. Null: the
-  /// mesh is the whole one.
+  /// mesh is the whole one. Throws has_changed() where a vertex lies in a place that had no points.
   void choose_found(const DelaunayBuilder& builder, const std::uint8_t* is_tested, double detail,
                     ThreadPool& pool, const AutomaticConstants& constants = {});
   /// Chooses a limit for each block.

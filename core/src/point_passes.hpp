@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <functional>
 #include <span>
+#include <stdexcept>
 
 #include "polylidar/geometry.hpp"
 #include "thread_pool.hpp"
@@ -22,6 +23,11 @@ struct PointPasses {
   /// different shares also at the same time, from several threads.
   std::function<void(const TakeOfShare& take)> pass = {};
 };
+
+/// What to throw where a pass gives other points than one before: a file that was written in between.
+inline std::runtime_error has_changed() {
+  return std::runtime_error("the source has other points than when it was read before");
+}
 
 /// Points in memory, a share for each thread, but of many threads not all take part: each share may need
 /// memory of its own. The result must not live longer than what it is made of.

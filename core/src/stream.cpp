@@ -27,11 +27,8 @@ namespace {
 
 using detail::Bitmap;
 using detail::Grid;
+using detail::has_changed;
 using detail::kFewPoints;
-
-std::runtime_error has_changed() {
-  return std::runtime_error("the source has other points than when it was read before");
-}
 
 std::invalid_argument not_finite(std::uint64_t number) {
   return std::invalid_argument("point " + std::to_string(number) + " is not finite");

@@ -295,13 +295,17 @@ double WindowSample::place_window_of_each(const WantedPlaces& wanted) {
   return expected;
 }
 
-void WindowSample::places_of(std::span<const Point> some, std::uint32_t* places) const {
+bool WindowSample::places_of(std::span<const Point> some, std::uint32_t* places) const {
+  std::uint32_t greatest = 0;
   visit_numbered(some, numbering(),
                  [&](std::size_t begin, std::span<const Point> block, const std::uint32_t* cells) {
                    for (std::size_t i = 0; i < block.size(); ++i) {
-                     places[begin + i] = place_of_cell_[cells[i]];
+                     const std::uint32_t place = place_of_cell_[cells[i]];
+                     places[begin + i] = place;
+                     greatest = std::max(greatest, place);
                    }
                  });
+  return greatest != kNone;
 }
 
 /// Counts the points in square cells. Returns false where the box is too narrow for them.

@@ -110,8 +110,10 @@ class WindowSample {
   const std::vector<Place>& places() const { return places_; }
   /// The pairs of places with points in cells that touch.
   const std::vector<std::pair<std::uint32_t, std::uint32_t>>& borders() const { return borders_; }
-  /// Puts the place of each of `some` of the points into `places`, which has room for them.
-  void places_of(std::span<const Point> some, std::uint32_t* places) const;
+  /// Puts the place of each of `some` of the points into `places`, which has room for them; kNone for one
+  /// that was not among those looked at and lies where none of them does. Returns whether there is no such
+  /// one. All must lie in the box.
+  bool places_of(std::span<const Point> some, std::uint32_t* places) const;
 
   /// After a look: window -> one past its last triangle in triangles(). Some windows may have few triangles,
   /// or none. Of many windows only every kept_step()-th has its triangles there.
