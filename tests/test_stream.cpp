@@ -515,7 +515,9 @@ TEST(Stream, NoticesASourceThatChanges) {
     moved[100] = {2, 2};
     Points lost = points;
     lost[100].x = std::numeric_limits<double>::quiet_NaN();
-    for (const Points& changed : {longer, shorter, moved, lost}) {
+    Points shrunk = points;  // all of them, within the box
+    for (Point& p : shrunk) p = {0.1 + 0.8 * p.x, 0.1 + 0.8 * p.y};
+    for (const Points& changed : {longer, shorter, moved, lost, shrunk}) {
       MemorySource source(points);
       source.change(pass, changed);
       EXPECT_EQ(complaint(source, {.alpha = 0.02}),

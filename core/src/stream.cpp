@@ -467,6 +467,8 @@ void Stream::gather() {
   };
   run_over_some(own_, reached_, look, end);
   if (next != uncertain_.end()) throw has_changed();
+  // The corners of the convex hull are uncertain, so one shard alone reaches as far as all points.
+  if (part_.shard.count == 1 && bounding_box(part_.points) != part_.box) throw has_changed();
 }
 
 /// Puts all points into the part.
