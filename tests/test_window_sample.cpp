@@ -131,6 +131,16 @@ TEST(WindowSample, IsNotForFewNorForUnevenPoints) {
   EXPECT_FALSE(looks(sample, points)) << "half of the points at one place";
 }
 
+// Counts of cells have 32 bits: what is counted then lacks as many points.
+TEST(WindowSample, IsNotForMorePointsInACellThanCanBeCounted) {
+  WindowSample sample;
+  ThreadPool pool;
+  const Points points = testing::uniform_points(40'000, 8);
+  PointPasses passes = passes_over(points, pool);
+  passes.points += std::uint64_t{1} << 32U;
+  EXPECT_FALSE(sample.look(passes, bounding_box(points), kWanted, pool));
+}
+
 constexpr WindowSample::WantedPlaces kWantedPlaces{.margin = 2.8, .quantile = 0.6, .points_in_circle = 21};
 
 bool looks_by_places(WindowSample& sample, const Points& points, unsigned threads = 1) {

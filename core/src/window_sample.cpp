@@ -308,7 +308,8 @@ bool WindowSample::places_of(std::span<const Point> some, std::uint32_t* places)
   return greatest != kNone;
 }
 
-/// Counts the points in square cells. Returns false where the box is too narrow for them.
+/// Counts the points in square cells. Returns false where the box is too narrow for them, or one has too
+/// many.
 bool WindowSample::count_cells(const PointPasses& points, const Box& box) {
   const double width = box.max.x - box.min.x;
   const double height = box.max.y - box.min.y;
@@ -331,7 +332,8 @@ bool WindowSample::count_cells(const PointPasses& points, const Box& box) {
   for (std::size_t s = 1; s < shares_.size(); ++s) {
     std::transform(counts_.begin(), counts_.end(), shares_[s].counts.begin(), counts_.begin(), std::plus<>());
   }
-  return true;
+  // Where a cell has 2^32 points or more, its count is too small.
+  return std::accumulate(counts_.begin(), counts_.end(), std::uint64_t{0}) == points.points;
 }
 
 /// Calls visit(place among counts_) for the cells that have points, as have all cells round them.
