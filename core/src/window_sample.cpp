@@ -321,19 +321,40 @@ bool WindowSample::count_cells(const PointPasses& points, const Box& box) {
   columns_ = column(box.max.x) + 1;
   rows_ = row(box.max.y) + 1;
   counts_.assign(std::size_t{columns_} * rows_, 0);
-  for (std::size_t s = 1; s < shares_.size(); ++s) shares_[s].counts.assign(counts_.size(), 0);
-  points.pass([&](std::size_t s, std::span<const Point> own) {
-    std::vector<std::uint32_t>& counts = s == 0 ? counts_ : shares_[s].counts;
-    visit_numbered(own, numbering(),
-                   [&](std::size_t, std::span<const Point> block, const std::uint32_t* numbers) {
-                     for (std::size_t i = 0; i < block.size(); ++i) ++counts[numbers[i]];
-                   });
-  });
-  for (std::size_t s = 1; s < shares_.size(); ++s) {
-    std::transform(counts_.begin(), counts_.end(), shares_[s].counts.begin(), counts_.begin(), std::plus<>());
-  }
+  add_up_points(points);
   // Where a cell has 2^32 points or more, its count is too small.
   return std::accumulate(counts_.begin(), counts_.end(), std::uint64_t{0}) == points.points;
+}
+
+/// Counts the points in counts_ and in as many others beside it as threads count at the same time: few, even
+/// if there are many shares, one for each file of a stream.
+void WindowSample::add_up_points(const PointPasses& points) {
+  std::vector<std::vector<std::uint32_t>*> unused{&counts_};
+  std::size_t others = 0;
+  Turns turns;
+  const auto take_counts = [&] {
+    if (unused.empty()) {
+      if (others == other_counts_.size()) other_counts_.emplace_back();
+      other_counts_[others].assign(counts_.size(), 0);
+      unused.push_back(&other_counts_[others++]);
+    }
+    std::vector<std::uint32_t>* const counts = unused.back();
+    unused.pop_back();
+    return counts;
+  };
+  points.pass([&](std::size_t, std::span<const Point> own) {
+    std::vector<std::uint32_t>* counts = nullptr;
+    turns.take([&] { counts = take_counts(); });
+    std::uint32_t* const count_of = counts->data();
+    visit_numbered(own, numbering(),
+                   [&](std::size_t, std::span<const Point> block, const std::uint32_t* numbers) {
+                     for (std::size_t i = 0; i < block.size(); ++i) ++count_of[numbers[i]];
+                   });
+    turns.take([&] { unused.push_back(counts); });
+  });
+  for (std::size_t k = 0; k < others; ++k) {
+    std::transform(counts_.begin(), counts_.end(), other_counts_[k].begin(), counts_.begin(), std::plus<>());
+  }
 }
 
 /// Calls visit(place among counts_) for the cells that have points, as have all cells round them.

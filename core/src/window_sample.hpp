@@ -139,7 +139,6 @@ class WindowSample {
   };
   /// The memory of one share of the points.
   struct Share {
-    std::vector<std::uint32_t> counts;                      ///< as counts_, of a part of the points
     std::vector<std::pair<std::uint32_t, Point>> gathered;  ///< window and point
     std::vector<Measured> triangles;                        ///< of its windows, in order
     DelaunayBuilder builder;
@@ -157,6 +156,7 @@ class WindowSample {
   };
 
   bool count_cells(const PointPasses& points, const Box& box);
+  void add_up_points(const PointPasses& points);
   template <class Visit>
   void for_each_inside_cell(const Visit& visit) const;
   double usual_count(std::uint64_t points, double most_spread);
@@ -184,11 +184,12 @@ class WindowSample {
   double cells_per_length_ = 0;
   std::uint32_t columns_ = 0;
   std::uint32_t rows_ = 0;
-  std::vector<std::uint32_t> counts_;           ///< cell, row by row -> how many points
-  bool are_counted_ = false;                    ///< whether counts_ is of the last points
-  std::vector<std::uint64_t> windows_of_cell_;  ///< cell -> bit w: window w reaches it
-  std::vector<std::uint32_t> window_of_cell_;   ///< cell -> the window that reaches it, or kNone
-  std::vector<std::uint32_t> place_of_cell_;    ///< cell -> its place, or kNone if it has no points
+  std::vector<std::uint32_t> counts_;                    ///< cell, row by row -> how many points
+  std::deque<std::vector<std::uint32_t>> other_counts_;  ///< the same, while several threads count
+  bool are_counted_ = false;                             ///< whether counts_ is of the last points
+  std::vector<std::uint64_t> windows_of_cell_;           ///< cell -> bit w: window w reaches it
+  std::vector<std::uint32_t> window_of_cell_;            ///< cell -> the window that reaches it, or kNone
+  std::vector<std::uint32_t> place_of_cell_;             ///< cell -> its place, or kNone if it has no points
   std::vector<PlaceCells> cells_of_place_;
   std::vector<Window> windows_;
   std::vector<Point> points_of_windows_;  ///< window by window
