@@ -83,7 +83,7 @@ void print_fit(std::vector<MadeLimitCase>& cases, int tries, std::uint64_t seed)
       << (gains ? "\nThe constants to take are the best found, as searches gain on what they did not see"
                 : "\nThe constants to take are those in the code, as searches gain nothing on what they did "
                   "not see")
-      << " (core/src/automatic_limit.hpp):\n\n";
+      << " (core/src/automatic_constants.hpp):\n\n";
   const AutomaticConstants taken = gains ? best.to : AutomaticConstants{};
   for (const LimitKnob& knob : limit_knobs()) {
     std::cout << "    " << knob.name << " = " << digits(knob, taken) << ";  // in the code "

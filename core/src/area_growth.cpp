@@ -1,0 +1,155 @@
+#include "area_growth.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <limits>
+
+#include "filter_rules.hpp"
+#include "kept_words.hpp"
+#include "quantile.hpp"
+#include "vector.hpp"
+
+namespace polylidar::detail {
+
+namespace {
+
+/// So many triangles, at most, are taken from a mesh.
+constexpr std::size_t kSampled = 4096;
+
+// The grid has 16 cells to an octave of sizes, so 4 to one of their fourth powers, by the first two bits of
+// these numbers' fractions. It begins at the size 2^(-3/4), in its unit.
+constexpr unsigned kFractionBits = 52;
+constexpr std::uint64_t kFirstCell = std::bit_cast<std::uint64_t>(0.125) >> (kFractionBits - 2);
+
+/// The cell of a fourth power; those below the grid count to its first cell, and beyond it is `cells`, their
+/// number.
+std::size_t cell_of(double size4, std::size_t cells) {
+  const std::uint64_t place = std::bit_cast<std::uint64_t>(size4) >> (kFractionBits - 2);
+  return place < kFirstCell ? 0 : std::min<std::size_t>(cells, place - kFirstCell);
+}
+
+/// The fourth power of the size at which cell `c` begins.
+double cell_begin(std::size_t c) {
+  return std::bit_cast<double>((kFirstCell + c) << (kFractionBits - 2));
+}
+
+// The median size is so many units, as fourth powers: if all triangles have one size, as in a lattice, it
+// lies within a cell and not where one ends.
+constexpr double kInCell = 1.1;
+
+/// Triangle `t` from the least of its corners on, so that rounding does not depend on how the mesh was built.
+Triangle from_least_corner(const Mesh& mesh, const Point* vertices, Mesh::Index t) {
+  const Mesh::Index* const corner = mesh.corners(t);
+  Mesh::Index least = 0;
+  for (Mesh::Index k = 1; k < 3; ++k) {
+    if (less_by_x(vertices[corner[k]], vertices[corner[least]])) least = k;
+  }
+  return {t, vertices[corner[least]], vertices[corner[(least + 1) % 3]], vertices[corner[(least + 2) % 3]]};
+}
+
+}  // namespace
+
+void AreaGrowth::sample(const SizedMesh& sized, std::span<const std::uint32_t> block_of_vertex,
+                        const std::vector<double>& usual4_of_block) {
+  const Mesh& mesh = sized.mesh;
+  std::vector<double>& unit2 = scratch_;  // block -> the square of its usual size
+  unit2.resize(usual4_of_block.size());
+  std::transform(usual4_of_block.begin(), usual4_of_block.end(), unit2.begin(),
+                 [](double unit4) { return std::sqrt(unit4); });
+  for (std::size_t step = (mesh.triangle_count() / kSampled) | 1U;; step = 1) {
+    samples_.clear();
+    for (std::size_t i = 0; i < mesh.triangle_count(); i += step) {
+      const auto t = static_cast<Mesh::Index>(i);
+      if (mesh.is_ghost(t)) continue;
+      const std::uint32_t block = block_of_vertex[t / 2];
+      samples_.push_back(
+          {sized.size4_of(t) / usual4_of_block[block], sized.triangle(t).twice_area() / unit2[block]});
+    }
+    if (step == 1 || samples_.size() >= kSampled / 4) break;
+  }
+}
+
+void AreaGrowth::sum_up() {
+  // A median of so many is sure enough, and finding one of all takes longer than all else here.
+  constexpr std::size_t kForMedian = 512;
+  scratch_.clear();
+  for (std::size_t i = 0; i < samples_.size(); i += samples_.size() / kForMedian + 1) {
+    scratch_.push_back(samples_[i].size4);
+  }
+  unit4_ = quantile_of(scratch_, 0.5) / kInCell;
+  area_.fill(0);
+  for (const Sampled& one : samples_) area_[cell_of(one.size4 / unit4_, kCells)] += one.area;
+}
+
+void AreaGrowth::add_wide(const Mesh& mesh, const Point* vertices, const std::uint8_t* is_tested,
+                          const SizeField& field, const std::vector<double>& usual4_of_block,
+                          double wide_radius, double points, ThreadPool& pool) {
+  constexpr double kFine = 0x1p20;  // whole numbers, so that the sum does not depend on the order
+  struct Wide {
+    std::array<std::int64_t, kCells + 1> area{};
+    std::int64_t count = 0;
+  };
+  const CircumradiusRule surely_not_wide(wide_radius * (1 - 0x1p-10));
+  const CircumradiusRule not_wide(wide_radius);
+  const Chunks chunks(pool, mesh.triangle_count());
+  std::vector<Wide> wide_of_chunk(chunks.size());
+  pool.for_each(chunks.size(), [&](std::size_t c) {
+    Wide& wide = wide_of_chunk[c];
+    for (auto t = static_cast<Mesh::Index>(chunks.begin(c)); t < chunks.end(c); ++t) {
+      if (mesh.is_ghost(t) || (is_tested != nullptr && !has_marked_corner(mesh, t, is_tested))) continue;
+      if (surely_not_wide.keeps(Triangle(mesh, vertices, t))) continue;
+      const Triangle triangle = from_least_corner(mesh, vertices, t);
+      if (not_wide.keeps(triangle)) continue;
+      const double usual4 = field.value_at(usual4_of_block, mesh, t);
+      const double area = std::max(triangle.twice_area(), 0.0) / std::sqrt(usual4);
+      constexpr double kMostArea = 0x1p40;
+      const std::int64_t fine_area = std::llround(kFine * std::min(area, kMostArea));
+      wide.area[cell_of(triangle.size4() / usual4 / unit4_, kCells)] += fine_area;
+      wide.count += fine_area > 0 ? 1 : 0;  // slivers that rounding makes wide do not count
+    }
+  });
+  Wide all;
+  for (const Wide& wide : wide_of_chunk) {
+    for (std::size_t c = 0; c <= kCells; ++c) all.area[c] += wide.area[c];
+    all.count += wide.count;
+  }
+  const double others = std::max(2 * points - static_cast<double>(all.count), 0.0);
+  const double share = others / sampled_;
+  for (std::size_t c = 0; c <= kCells; ++c) {
+    area_[c] = area_[c] * share + static_cast<double>(all.area[c]) / kFine;
+  }
+}
+
+double AreaGrowth::steadiest_size4(double points, double doubt, const AutomaticConstants& constants) const {
+  constexpr double kLeast = 1.2;  // for s, in median sizes of the sample
+  constexpr double kMost = 8;
+  std::array<double, kCells> log_size{};
+  std::array<double, kCells> log_area{};  // below the size at which the cell begins
+  double below = 0;
+  for (std::size_t c = 0; c < kCells; ++c) {
+    log_size[c] = std::log(cell_begin(c) / kInCell) / 4;
+    log_area[c] = std::log(below);
+    below += std::max(area_[c], 0.0);
+  }
+  const double log_usual = std::log(constants.usual * std::sqrt(std::log(points)));
+  const double pull_of_n = constants.pull * std::pow(points, -0.2);
+  double least_cost = std::numeric_limits<double>::infinity();
+  double steadiest = log_usual;
+  for (std::size_t c = constants.below; c + constants.above < kCells; ++c) {
+    const std::size_t low = c - constants.below;
+    const std::size_t high = c + constants.above;
+    if (log_size[c] < std::log(kLeast) || log_size[c] > std::log(kMost)) continue;
+    const double growth = (log_area[high] - log_area[low]) / (log_size[high] - log_size[low]);
+    const double distance = log_size[c] - log_usual;
+    const double pull = distance > 0 ? pull_of_n / doubt : pull_of_n;
+    const double cost = std::log(growth + constants.still) + pull * distance * distance;
+    if (cost < least_cost) {  // no: without an area below, where it is infinite or NaN
+      least_cost = cost;
+      steadiest = log_size[c];
+    }
+  }
+  return std::exp(4 * steadiest) * unit4_ * kInCell;
+}
+
+}  // namespace polylidar::detail

@@ -1,0 +1,110 @@
+#include "clusters.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <vector>
+
+#include "outline_steps.hpp"
+#include "quantile.hpp"
+
+namespace polylidar::detail {
+
+namespace {
+
+/// How much a length scatters among the triangles of a block: the logarithm of its 0.8 quantile over its 0.4
+/// quantile. for_each_length4(block, visit) calls visit() for the fourth powers of the lengths of some
+/// triangles. Returns the 0.4 quantile of this over up to 32 blocks, as a block along a thin part of the
+/// shape also has triangles outside it, which scatter more; 0 where no block has enough triangles.
+template <class ForEach>
+double scatter_in_blocks(std::size_t blocks, const ForEach& for_each_length4) {
+  constexpr std::size_t kMostBlocksLookedAt = 32;
+  constexpr std::size_t kFewest = 16;  // triangles
+  constexpr double kQuantile = 0.4;
+  std::vector<double> scatters;
+  std::vector<double> lengths4;
+  constexpr std::size_t kUsualMost = 1024;
+  lengths4.reserve(kUsualMost);
+  for (std::size_t b = 0; b < blocks; b += (blocks - 1) / kMostBlocksLookedAt + 1) {
+    lengths4.clear();
+    for_each_length4(b, [&](double length4) { lengths4.push_back(length4); });
+    const std::size_t count = lengths4.size();
+    if (count < kFewest) continue;
+    const Ranking ranking(lengths4);
+    const std::size_t small_place = 2 * count / 5;
+    const std::size_t large_place = 4 * count / 5;
+    const auto small = ranking.at(small_place);
+    const auto large = ranking.at(large_place);
+    const double small4 = small ? *small : value_at(lengths4, small_place);
+    const double large4 = large ? *large : value_at(lengths4, large_place);
+    scatters.push_back(small4 > 0 ? std::log(large4 / small4) / 4 : 0);
+  }
+  return scatters.empty() ? 0 : quantile_of(scatters, kQuantile);
+}
+
+/// Of few blocks, all together, by the shortest edges alone.
+double excess_scatter_of_edges(const SizedMesh& sized, const AutomaticConstants& constants) {
+  constexpr Mesh::Index kRecords = 512;
+  constexpr double kTwoDeviations = 1.8;  // of a scatter, times the root of the number of triangles
+  const Mesh& mesh = sized.mesh;
+  std::size_t count = 0;
+  std::size_t flat = 0;
+  const double scatter = scatter_in_blocks(1, [&](std::size_t, const auto& visit) {
+    const Mesh::Index step = std::max(Mesh::Index{1}, mesh.triangle_count() / kRecords);
+    for_some_triangles(mesh, 0, mesh.triangle_count(), step, [&](Mesh::Index t) {
+      const Triangle triangle = sized.triangle(t);
+      const double squared = triangle.squared_shortest_edge();
+      visit(squared * squared);
+      ++count;
+      flat += is_flat(triangle.twice_area(), triangle.squared_longest_edge()) ? 1U : 0U;
+    });
+  });
+  if (2 * flat >= count) return 0;
+  return std::max(scatter - constants.even_edges - kTwoDeviations / std::sqrt(static_cast<double>(count)),
+                  0.0);
+}
+
+}  // namespace
+
+double excess_scatter(const SizedMesh& sized, const MeshBlocks& blocks, const AutomaticConstants& constants) {
+  constexpr std::size_t kFewestBlocks = 16;
+  constexpr Mesh::Index kRecords = 128;  // of a block
+  if (blocks.count() < kFewestBlocks) return excess_scatter_of_edges(sized, constants);
+  const auto scatter = [&](const auto& length4_of) {
+    return scatter_in_blocks(blocks.count(), [&](std::size_t block, const auto& visit) {
+      const MeshBlocks::Records records = blocks.records_of(sized.mesh, block);
+      const Mesh::Index step = std::max(Mesh::Index{1}, (records.end - records.begin) / kRecords);
+      for_some_triangles(sized.mesh, records.begin, records.end, step,
+                         [&](Mesh::Index t) { visit(length4_of(t)); });
+    });
+  };
+  const double of_sizes = scatter([&](Mesh::Index t) { return sized.size4_of(t); }) - constants.even_sizes;
+  if (of_sizes <= 0) return 0;
+  const double of_edges = scatter([&](Mesh::Index t) {
+    const double squared = sized.triangle(t).squared_shortest_edge();
+    return squared * squared;
+  });
+  return std::clamp(of_edges - constants.even_edges, 0.0, of_sizes);
+}
+
+double excess_scatter(const WindowSample& windows, const AutomaticConstants& constants) {
+  const std::size_t step = windows.kept_step();
+  const std::size_t kept_windows = (windows.window_ends().size() - 1) / step + 1;
+  const auto scatter = [&](const auto& length4_of) {
+    return scatter_in_blocks(kept_windows, [&](std::size_t kept, const auto& visit) {
+      const std::size_t place = kept * step;
+      const std::size_t begin = place == 0 ? 0 : windows.window_ends()[place - 1];
+      for (std::size_t i = begin; i < windows.window_ends()[place]; ++i) {
+        visit(length4_of(windows.triangles()[i]));
+      }
+    });
+  };
+  const double of_sizes =
+      scatter([](const WindowSample::Measured& one) { return one.size4; }) - constants.even_sizes;
+  if (of_sizes <= 0) return 0;
+  const double of_edges =
+      scatter([](const WindowSample::Measured& one) { return one.squared_shortest * one.squared_shortest; });
+  return std::clamp(of_edges - constants.even_edges, 0.0, of_sizes);
+}
+
+}  // namespace polylidar::detail

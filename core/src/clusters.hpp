@@ -1,0 +1,22 @@
+// How strongly points cluster, told by how lengths scatter within a block.
+#pragma once
+
+#include "automatic_constants.hpp"
+#include "mesh_blocks.hpp"
+#include "window_sample.hpp"
+
+namespace polylidar::detail {
+
+/// By how much sizes of triangles and their shortest edges both scatter more than those of points that do not
+/// cluster; 0 if one of them does not. On scan lines and roads the sizes scatter, but the shortest edges do
+/// not.
+///
+/// In fewer than 16 blocks many triangles lie outside the shape, so sizes scatter anyway; but the shortest
+/// edges of most of these are steps along the outline. So there the edges alone are looked at, of all blocks
+/// together, and their scatter must be surely larger. If half of the triangles are flat, points lie on lines
+/// or outlines, whose steps scatter without clusters.
+double excess_scatter(const SizedMesh& sized, const MeshBlocks& blocks, const AutomaticConstants& constants);
+/// The same of the windows of places, after look_by_places() returned true.
+double excess_scatter(const WindowSample& windows, const AutomaticConstants& constants);
+
+}  // namespace polylidar::detail

@@ -1,0 +1,52 @@
+#include "outline_steps.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <vector>
+
+#include "filter_rules.hpp"
+#include "quantile.hpp"
+
+namespace polylidar::detail {
+
+std::optional<double> squared_outline_step(const Mesh& mesh, const Point* vertices, double points,
+                                           double step) {
+  constexpr double kFewest = 256;
+  constexpr double kLeastShare = 0.06;               // of triangles that span from one outline to another
+  constexpr double kMedianGap = 0.6931471805599453;  // log 2, of the mean
+  if (points < kFewest) return std::nullopt;
+  // Of about so many records.
+  const auto for_some = [&](std::size_t number, const auto& visit) {
+    for (std::size_t i = 0; i < mesh.triangle_count(); i += (mesh.triangle_count() / number) | 1U) {
+      const auto t = static_cast<Mesh::Index>(i);
+      if (!mesh.is_ghost(t)) visit(Triangle(mesh, vertices, t));
+    }
+  };
+  std::size_t looked_at = 0;
+  std::size_t flat = 0;
+  for_some(256, [&](const Triangle& triangle) {
+    ++looked_at;
+    flat += is_flat(triangle.twice_area(), triangle.squared_longest_edge()) ? 1U : 0U;
+  });
+  if (looked_at == 0 || 2 * flat < looked_at) return std::nullopt;
+
+  std::vector<double> shortest;  // squares of edges, triangle by triangle
+  std::vector<double> second;
+  for_some(2048, [&](const Triangle& triangle) {
+    std::array<double, 3> edges{triangle.squared_ab(), triangle.squared_bc(), triangle.squared_ca()};
+    std::sort(edges.begin(), edges.end());
+    shortest.push_back(edges[0]);
+    second.push_back(edges[1]);
+  });
+  if (second.empty()) return std::nullopt;  // nearly all records are unused
+  const double steps = (std::log(points) + step) / kMedianGap;
+  const double squared_step = quantile_of(shortest, 0.5) * steps * steps;
+  const auto longer =
+      std::count_if(second.begin(), second.end(), [&](double edge) { return edge > squared_step; });
+  if (static_cast<double>(longer) < kLeastShare * static_cast<double>(second.size())) return std::nullopt;
+  return squared_step;
+}
+
+}  // namespace polylidar::detail
