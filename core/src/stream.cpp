@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <array>
-#include <atomic>
 #include <bit>
 #include <cmath>
 #include <deque>
+#include <functional>
 #include <numeric>
 #include <optional>
 #include <stdexcept>
@@ -21,6 +21,7 @@
 #include "point_passes.hpp"
 #include "selected.hpp"
 #include "shards.hpp"
+#include "source_passes.hpp"
 
 namespace polylidar {
 namespace {
@@ -32,6 +33,10 @@ using detail::kFewPoints;
 
 std::invalid_argument not_finite(std::uint64_t number) {
   return std::invalid_argument("point " + std::to_string(number) + " is not finite");
+}
+
+bool all_sources(std::size_t /*source*/) {
+  return true;
 }
 
 /// Rows from `begin` on, before `end`.
@@ -83,13 +88,6 @@ std::uint64_t checksum(std::span<const Point> block, std::uint64_t first) {
   return sum;
 }
 
-/// A block, or a part of one, on its way through a pass.
-struct Block {
-  std::size_t source;
-  std::uint64_t first;  ///< number of its first point among all; among those of its source in the first pass
-  std::span<const Point> points;
-};
-
 /// Points of a block on their way through a pass over some rows of cells, and their cells.
 struct CellBlock {
   std::uint64_t first;  ///< number of the first point among all
@@ -102,20 +100,19 @@ struct CellBlock {
   bool has(std::size_t i) const { return cells[i] - begin_of_rows < cells_of_rows; }
 };
 
-/// The passes over the sources.
-///
-/// Points come in *slots*. If sources are read one after the other, the threads share each block, and its
-/// parts are the slots. If they are read at the same time, each source is a slot. What is found in a slot is
-/// kept apart, and put behind that of the slots before.
+/// The steps from the sources to a shard's part or to the hull.
 class Stream {
  public:
   Stream(std::span<const PointSource> sources, const Options& options, const Shard& shard,
          const StreamOptions& stream_options)
-      : sources_(sources), stream_options_(stream_options), limits_(detail::checked_limits(options)) {
+      : stream_options_(stream_options),
+        limits_(detail::checked_limits(options)),
+        passes_(sources, stream_options, pool_) {
     if (shard.number < 1 || shard.number > shard.count) {
       throw std::invalid_argument("there is no " + detail::name_of(shard));
     }
     pool_.use(options.threads);
+    while (slots_.size() < passes_.slot_count()) slots_.emplace_back();
     part_.shard = shard;
     part_.options = options;
   }
@@ -130,37 +127,22 @@ class Stream {
     Grid::Cell cell;
     bool is_own;
   };
+  /// What a pass finds in a slot (SourcePasses), until it is put behind that of the slots before.
   struct Slot {
-    std::size_t number = 0;
+    std::size_t source = 0;  ///< whose points the next two are of
     detail::RangeOfBlocks range;
     std::uint64_t checksum = 0;
-    std::size_t source = 0;
-    Bitmap occupied;
+    Bitmap occupied;  ///< if each slot has a map of its own; the first has occupied_
     std::vector<Uncertain> uncertain;
-    std::vector<std::pair<std::uint64_t, Point>> gathered;
+    std::vector<std::pair<std::uint64_t, Point>> gathered;  ///< number and point
     std::vector<Point> points;
   };
-  /// What is done with the blocks of a pass: which sources are read, what is done with a block, by any
-  /// thread, and with the first `slots` slots after that.
-  struct Pass {
-    std::function<bool(std::size_t source)> is_read;
-    std::function<void(Slot& slot, const Block& block)> take;
-    std::function<void(std::size_t slots)> end;
-  };
+  using EndOfSlots = std::function<void(std::size_t slots)>;  ///< as SourcePasses::Pass::end
 
-  bool are_read_at_once() const {
-    return stream_options_.reads_at_once && pool_.threads() > 1 && sources_.size() > 1;
-  }
-  std::size_t most_slots() const;
-  void run(const Pass& pass);
-  void read_at_once(const Pass& pass);
-  void read_in_order(const Pass& pass);
-  void tell(std::size_t points);
   template <class Take>
-  void run_over_cells(const Rows& rows, const Take& take, const std::function<void(std::size_t)>& end);
+  void run_over_cells(const Rows& rows, const Take& take, const EndOfSlots& end);
   template <class Cells, class Visit>
-  void run_over_some(const Rows& rows, const Cells& some, const Visit& visit,
-                     const std::function<void(std::size_t)>& end);
+  void run_over_some(const Rows& rows, const Cells& some, const Visit& visit, const EndOfSlots& end);
 
   void find_extents(bool is_for_others);
   void check_scale() const;
@@ -176,14 +158,11 @@ class Stream {
   StreamedHull hull_by_limits();
   std::optional<StreamedHull> hull_by_chosen_sizes();
 
-  std::span<const PointSource> sources_;
   const StreamOptions& stream_options_;
   Limits limits_;
   detail::ThreadPool pool_;
-  detail::Turns turns_;  ///< to change the next
-  StreamProgress progress_;
+  detail::SourcePasses passes_;
   std::vector<detail::RangeOfBlocks> extents_;  ///< one a source
-  std::vector<std::uint64_t> firsts_;           ///< source -> the number of its first point
   detail::CoordinateRange range_;               ///< of all
   Rows own_;                                    ///< the shard's band
   Rows tested_;                                 ///< in which uncertain points are looked for
@@ -198,73 +177,11 @@ class Stream {
   detail::AutomaticLimit automatic_limit_;
 };
 
-std::size_t Stream::most_slots() const {
-  if (are_read_at_once()) return sources_.size();
-  return detail::Chunks(pool_, kMaxPoints).size();
-}
-
-void Stream::tell(std::size_t points) {
-  turns_.take([&] {
-    progress_.points += points;
-    if (stream_options_.progress) stream_options_.progress(progress_);
-  });
-}
-
-void Stream::run(const Pass& pass) {
-  ++progress_.pass;
-  progress_.points = 0;
-  while (slots_.size() < most_slots()) {
-    const std::size_t number = slots_.size();
-    slots_.emplace_back().number = number;
-  }
-  if (are_read_at_once()) {
-    read_at_once(pass);
-  } else {
-    read_in_order(pass);
-  }
-}
-
-void Stream::read_at_once(const Pass& pass) {
-  pool_.for_each(sources_.size(), [&](std::size_t s) {
-    if (!pass.is_read(s)) return;
-    std::uint64_t number = firsts_[s];
-    sources_[s]([&](std::span<const Point> block) {
-      pass.take(slots_[s], {s, number, block});
-      number += block.size();
-      tell(block.size());
-    });
-    if (!extents_.empty() && number != firsts_[s] + extents_[s].count()) throw has_changed();
-  });
-  pass.end(sources_.size());
-}
-
-void Stream::read_in_order(const Pass& pass) {
-  for (std::size_t s = 0; s < sources_.size(); ++s) {
-    if (!pass.is_read(s)) {
-      progress_.points += extents_[s].count();
-      continue;
-    }
-    std::uint64_t number = firsts_[s];
-    sources_[s]([&](std::span<const Point> block) {
-      const detail::Chunks chunks(pool_, block.size());
-      pool_.for_each(chunks.size(), [&](std::size_t c) {
-        const std::size_t begin = chunks.begin(c);
-        pass.take(slots_[c], {s, number + begin, block.subspan(begin, chunks.end(c) - begin)});
-      });
-      pass.end(chunks.size());
-      number += block.size();
-      tell(block.size());
-    });
-    if (s + 1 < sources_.size()) firsts_[s + 1] = number;
-    if (!extents_.empty() && number != firsts_[s] + extents_[s].count()) throw has_changed();
-  }
-}
-
 /// The first pass. `is_for_others`: whether those who look for other shards must see the same source.
 void Stream::find_extents(bool is_for_others) {
-  std::vector<detail::RangeOfBlocks> found(sources_.size());
-  firsts_.assign(sources_.size(), 0);
-  const auto take = [&](Slot& slot, const Block& block) {
+  std::vector<detail::RangeOfBlocks> found(passes_.source_count());
+  const auto take = [&](std::size_t number, const detail::SourceBlock& block) {
+    Slot& slot = slots_[number];
     slot.source = block.source;
     slot.range.add(block.points);
     if (is_for_others) slot.checksum += checksum(block.points, block.first);
@@ -274,19 +191,21 @@ void Stream::find_extents(bool is_for_others) {
       detail::RangeOfBlocks& of_source = found[slots_[s].source];
       of_source.add(std::exchange(slots_[s].range, {}));
       part_.source_checksum += std::exchange(slots_[s].checksum, 0);
-      if (of_source.not_finite() && !are_read_at_once()) {
-        throw not_finite(firsts_[slots_[s].source] + *of_source.not_finite());
+      if (of_source.not_finite() && !passes_.are_read_at_once()) {
+        throw not_finite(passes_.first_of(slots_[s].source) + *of_source.not_finite());
       }
     }
   };
-  run({[](std::size_t) { return true; }, take, end});
+  passes_.run({all_sources, take, end});
   detail::RangeOfBlocks all;
-  for (std::size_t s = 0; s < found.size(); ++s) {
-    firsts_[s] = all.count();
-    all.add(found[s]);
+  std::vector<std::uint64_t> counts;
+  for (const detail::RangeOfBlocks& extent : found) {
+    all.add(extent);
+    counts.push_back(extent.count());
   }
   if (all.not_finite()) throw not_finite(*all.not_finite());
   extents_ = std::move(found);
+  passes_.know_counts(std::move(counts));
   part_.source_points = all.count();
   part_.box = all.box();
   if (all.count() > 0) range_ = all.range();
@@ -295,7 +214,7 @@ void Stream::find_extents(bool is_for_others) {
 /// A later pass: take(slot, block) with points that have their cells, as a CellBlock. Sources without points
 /// in these rows, which are among seen_, are not read.
 template <class Take>
-void Stream::run_over_cells(const Rows& rows, const Take& take, const std::function<void(std::size_t)>& end) {
+void Stream::run_over_cells(const Rows& rows, const Take& take, const EndOfSlots& end) {
   const auto is_read = [&](std::size_t s) {
     if (extents_[s].count() == 0) return false;
     const Box& box = extents_[s].box();
@@ -306,22 +225,21 @@ void Stream::run_over_cells(const Rows& rows, const Take& take, const std::funct
   };
   const Grid::Cell begin_of_rows = first_cell(rows.begin);
   const Grid::Cell cells_of_rows = first_cell(rows.end) - begin_of_rows;
-  const auto take_block = [&](Slot& slot, const Block& block) {
+  const auto take_block = [&](std::size_t slot, const detail::SourceBlock& block) {
     if (!detail::are_within(block.points, extents_[block.source].box())) throw has_changed();
     detail::visit_numbered(
         block.points, grid_.wide_numbering(),
         [&](std::size_t begin, std::span<const Point> points, const std::uint64_t* cells) {
-          take(slot, CellBlock{block.first + begin, points, cells, begin_of_rows, cells_of_rows});
+          take(slots_[slot], CellBlock{block.first + begin, points, cells, begin_of_rows, cells_of_rows});
         });
   };
-  run({is_read, take_block, end});
+  passes_.run({is_read, take_block, end});
 }
 
 /// The same: visit(slot, point, cell, number) for the points in these rows that lie in cells of `some`, which
 /// are FewCells or ReachedCells.
 template <class Cells, class Visit>
-void Stream::run_over_some(const Rows& rows, const Cells& some, const Visit& visit,
-                           const std::function<void(std::size_t)>& end) {
+void Stream::run_over_some(const Rows& rows, const Cells& some, const Visit& visit, const EndOfSlots& end) {
   const auto take = [&](Slot& slot, const CellBlock& block) {
     // Many points wait for memory at the same time: no branch depends on what is read before the last loop.
     std::array<std::uint32_t, detail::kNumberedAtOnce> chosen;
@@ -391,10 +309,12 @@ void Stream::find_occupied_cells() {
   if (pool_.threads() == 1) return run_with(only_map, set);
   // A map for each slot is faster than one that all threads write to, but needs more memory.
   constexpr std::size_t kMostBytes = std::size_t{1} << 25U;
-  if (!are_read_at_once() || most_slots() * words * sizeof(Bitmap::Word) > kMostBytes) {
+  if (!passes_.are_read_at_once() || slots_.size() * words * sizeof(Bitmap::Word) > kMostBytes) {
     return run_with(only_map, [](Bitmap& map, Grid::Cell cell) { map.set_shared(cell); });
   }
-  const auto map_of = [&](Slot& slot) -> Bitmap& { return slot.number == 0 ? *occupied_ : slot.occupied; };
+  const auto map_of = [&](Slot& slot) -> Bitmap& {
+    return &slot == &slots_.front() ? *occupied_ : slot.occupied;
+  };
   for (Slot& slot : slots_) map_of(slot).clear(words);
   run_with(map_of, set);
   const detail::Chunks chunks(pool_, words);
@@ -473,11 +393,11 @@ void Stream::gather() {
 
 /// Puts all points into the part.
 void Stream::take_all() {
-  progress_.passes = progress_.pass + 1;
+  passes_.expect_passes(passes_.passes() + 1);
   part_.points.clear();
   part_.points.reserve(part_.source_points);
-  const auto take = [](Slot& slot, const Block& block) {
-    slot.points.insert(slot.points.end(), block.points.begin(), block.points.end());
+  const auto take = [&](std::size_t slot, const detail::SourceBlock& block) {
+    slots_[slot].points.insert(slots_[slot].points.end(), block.points.begin(), block.points.end());
   };
   const auto end = [&](std::size_t slots) {
     for (std::size_t s = 0; s < slots; ++s) {
@@ -487,7 +407,7 @@ void Stream::take_all() {
     }
     if (part_.points.size() > part_.source_points) throw has_changed();
   };
-  run({[](std::size_t) { return true; }, take, end});
+  passes_.run({all_sources, take, end});
 }
 
 StreamedHull Stream::hull_in_memory() {
@@ -535,17 +455,18 @@ StreamShard Stream::find_part() {
 /// nothing where the triangulation of all points must tell.
 std::optional<double> Stream::choose_sizes() {
   const auto pass = [&](const detail::TakeOfShare& take) {
-    const auto take_block = [&](Slot& slot, const Block& block) {
+    const auto take_block = [&](std::size_t slot, const detail::SourceBlock& block) {
       if (!detail::are_within(block.points, extents_[block.source].box())) throw has_changed();
-      take(slot.number, block.points);
+      take(slot, block.points);
     };
-    run({[](std::size_t) { return true; }, take_block, [](std::size_t) {}});
+    passes_.run({all_sources, take_block, [](std::size_t) {}});
   };
-  const detail::PointPasses passes{part_.source_points, most_slots(), pass};
+  constexpr int kPassesForSizes = 2;  // or three
   constexpr int kPassesAfter = 3;
-  progress_.passes = 2 + 1 + kPassesAfter;
-  if (automatic_limit_.look(passes, part_.box, pool_) == detail::SizesBy::kBlocks) return {};
-  progress_.passes = progress_.pass + kPassesAfter;
+  passes_.expect_passes(passes_.passes() + kPassesForSizes + kPassesAfter);
+  const detail::PointPasses points{part_.source_points, slots_.size(), pass};
+  if (automatic_limit_.look(points, part_.box, pool_) == detail::SizesBy::kBlocks) return {};
+  passes_.expect_passes(passes_.passes() + kPassesAfter);
   return automatic_limit_.wide_radius() / std::max(part_.options.detail, 1.0);
 }
 
@@ -570,7 +491,7 @@ std::optional<StreamedHull> Stream::hull_by_chosen_sizes() {
     }
     if (why != Way::kReachesFar) throw detail::rounding_decides();
     if (hull.doubtful().empty() || k == detail::kMostEnlarged) return {};
-    ++progress_.passes;
+    passes_.expect_another();
     detail::mark_reach_round(hull.doubtful(), hull.builder(), grid_, reached_);
     gather();
   }
