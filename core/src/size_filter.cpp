@@ -151,10 +151,8 @@ void SizeFilter::run(const Mesh& mesh, const Point* vertices, const SizeField& f
   const auto filter_by = [&](const auto& rule) {
     filter([&](Index t) { return !mesh.is_ghost(t) && rule.keeps(Triangle(mesh, vertices, t)); });
   };
-  if (field.size4 != nullptr) {
-    filter([&](Index t) {
-      return field.size4[t] <= field.limit4_at(mesh, t);
-    });  // no: of a ghost, which has NaN
+  if (field.size4 != nullptr) {  // of a ghost it is NaN, which is not within a limit
+    filter([&](Index t) { return field.size4[t] <= field.limit4_at(mesh, t); });
   } else if (field.is_one()) {
     filter_by(OneSizeRule(field.limit4.front()));
   } else {
@@ -173,6 +171,21 @@ std::optional<Way> SizeFilter::run_on_part(const Mesh& mesh, const Point* vertic
   const Part part{mesh, vertices, is_tested, field, is_sure, hidden};
   doubt_.reset();
   doubtful_.clear();
+  drop_beyond_limit(part, pool, kept);
+  if (!doubt_) follow_dropped(part, kept);
+  if (doubt_) return doubt_;
+  if (!doubtful_.empty()) return Way::kReachesFar;
+  for (const Index t : changed_) drop(kept, t);
+  if (field.least_part > 0) drop_small_parts(mesh, part, field.least_part, kept);
+  if (field.wide_square > 0) fill_small_holes(mesh, vertices, part, field, kept);
+  if (!doubt_ && !doubtful_.empty()) return Way::kReachesFar;
+  return doubt_;
+}
+
+/// Drops the triangles with a tested corner that are beyond the limit, and puts them and the ghosts into
+/// found_of_chunk_. Others beyond it, if they are sure, are hidden: kept, unless they are reached.
+void SizeFilter::drop_beyond_limit(const Part& part, ThreadPool& pool, std::uint64_t* kept) {
+  const Mesh& mesh = part.mesh;
   const Chunks chunks(pool, mesh.triangle_count());
   clear_found(chunks);
   std::atomic<bool> agree = true;
@@ -183,10 +196,10 @@ std::optional<Way> SizeFilter::run_on_part(const Mesh& mesh, const Point* vertic
         if (!mesh.is_unused(t)) dropped.push_back(t);
         return false;
       }
-      const Answer answer = part.ask(OneSizeRule(field.limit4_at(mesh, t)), t);
-      const bool has_tested = has_marked_corner(mesh, t, is_tested);
+      const Answer answer = part.ask(OneSizeRule(part.field.limit4_at(mesh, t)), t);
+      const bool has_tested = has_marked_corner(mesh, t, part.is_tested);
       if (answer != Answer::kYes && !has_tested) {
-        if (is_sure(Triangle(mesh, vertices, t))) hidden.add(t);
+        if (part.is_sure_of(Triangle(mesh, part.vertices, t))) part.hidden.add(t);
       } else if (answer != Answer::kYes) {
         dropped.push_back(t);
       }
@@ -194,21 +207,27 @@ std::optional<Way> SizeFilter::run_on_part(const Mesh& mesh, const Point* vertic
       return answer == Answer::kYes || !has_tested;
     });
   });
-  if (!agree) return Way::kRoundingDecides;
-  group_.clear();  // ghosts and dropped triangles with a tested corner, and all that hang together with them
+  if (!agree) doubt_ = Way::kRoundingDecides;
+}
+
+/// Walks from what drop_beyond_limit() found to all dropped triangles that are connected to it. Drops those
+/// that were hidden, and puts spikes into changed_. doubtful_ are the triangles that would have to be sure.
+void SizeFilter::follow_dropped(const Part& part, std::uint64_t* kept) {
+  const Mesh& mesh = part.mesh;
+  group_.clear();
   for (const std::vector<Index>& dropped : found_of_chunk_) {
     group_.insert(group_.end(), dropped.begin(), dropped.end());
   }
   // Before spikes are dropped.
-  const auto is_dropped = [&](Index t) { return !mesh.is_kept(t) || hidden.contain(t); };
+  const auto is_dropped = [&](Index t) { return !mesh.is_kept(t) || part.hidden.contain(t); };
   SeenTriangles seen(mesh, seen_);
   changed_.clear();
   for (std::size_t next = 0; next < group_.size() && !doubt_; ++next) {
     for (Index k = 0; k < 3 && !doubt_; ++k) {
       const Index other = neighbour(mesh, group_[next], k);
       if (!mesh.is_kept(other) || seen.contain(other)) continue;
-      if (hidden.contain(other)) {
-        hidden.remove(other);
+      if (part.hidden.contain(other)) {
+        part.hidden.remove(other);
         drop(kept, other);
         group_.push_back(other);
         continue;
@@ -218,14 +237,14 @@ std::optional<Way> SizeFilter::run_on_part(const Mesh& mesh, const Point* vertic
         doubtful_.push_back(other);
         continue;
       }
-      const Answer no_spike = part.ask(NoSpikeRule(field, mesh, other), other);
+      const Answer no_spike = part.ask(NoSpikeRule(part.field, mesh, other), other);
       if (no_spike == Answer::kYes) continue;
       if (no_spike == Answer::kRoundingDecides) doubt_ = Way::kRoundingDecides;
       for (Index j = 0; j < 3; ++j) {
         const Index third = neighbour(mesh, other, j);
         if (!is_dropped(third) && !part.is_sure(third)) doubtful_.push_back(third);
       }
-      if (!stands_out(mesh, vertices, other,
+      if (!stands_out(mesh, part.vertices, other,
                       [&](Index j) { return is_dropped(neighbour(mesh, other, j)); })) {
         continue;
       }
@@ -233,13 +252,6 @@ std::optional<Way> SizeFilter::run_on_part(const Mesh& mesh, const Point* vertic
       group_.push_back(other);
     }
   }
-  if (doubt_) return doubt_;
-  if (!doubtful_.empty()) return Way::kReachesFar;
-  for (const Index t : changed_) drop(kept, t);
-  if (field.least_part > 0) drop_small_parts(mesh, part, field.least_part, kept);
-  if (field.wide_square > 0) fill_small_holes(mesh, vertices, part, field, kept);
-  if (!doubt_ && !doubtful_.empty()) return Way::kReachesFar;
-  return doubt_;
 }
 
 void SizeFilter::clear_found(const Chunks& chunks) {
@@ -285,10 +297,8 @@ Mesh::Index next_on_border(const Mesh& mesh, const Whole& whole, Mesh::Index e) 
   }
 }
 
-/// A region of t triangles has at most t + 2 half-edges on its border. So where so many follow one another
-/// along the border that the region must be large, it is; elsewhere it is walked through from there until it
-/// is large enough, meets triangles that are known to be of a large one, or ends; where that is at triangles
-/// that are not open, in doubt.
+/// A region of t triangles has at most t + 2 half-edges on its border. So where least_part + 2 of these
+/// follow one another, the region is large enough. Elsewhere walk_region() tells.
 ///
 /// In the mesh of a part, half-edges follow one another in the mesh of all points, too: at a tested vertex
 /// all triangles are those of that mesh, and those that are passed are kept in it. A spike of it is on two
@@ -310,36 +320,6 @@ void SizeFilter::drop_small_parts(const Mesh& mesh, const Whole& whole, std::siz
     } while (e != first && e != kNone && length < most);
     return length;
   };
-  const auto walk_region = [&](Index start) {
-    seen.add(start);
-    group_.assign(1, start);
-    const std::size_t before = doubtful_.size();
-    bool is_large = false;
-    bool is_beside_hidden = false;
-    for (std::size_t next = 0; next < group_.size() && !is_large; ++next) {
-      for (Index j = 0; j < 3; ++j) {
-        const Index other = neighbour(mesh, group_[next], j);
-        if (!mesh.is_kept(other)) continue;
-        const bool is_seen = seen.contain(other);
-        if (is_seen && std::find(group_.begin(), group_.end(), other) != group_.end()) continue;
-        if (whole.is_hidden(other)) {
-          is_beside_hidden = true;
-        } else if (!whole.is_open(other)) {
-          doubtful_.push_back(other);
-        } else if (is_seen) {
-          is_large = true;
-        } else {
-          seen.add(other);
-          group_.push_back(other);
-        }
-      }
-      is_large |= group_.size() >= least_part;
-    }
-    if (is_large) return doubtful_.resize(before);
-    if (is_beside_hidden)
-      doubt_ = Way::kReachesFar;  // what is hidden would hang together with what is dropped
-    changed_.insert(changed_.end(), group_.begin(), group_.end());
-  };
   for_each_dropped(mesh, 0, mesh.word_count(), kept, [&](Index dropped) {
     for (Index k = 0; k < 3; ++k) {
       const Index e = mesh.twin(Mesh::kStride * dropped + k);
@@ -347,7 +327,7 @@ void SizeFilter::drop_small_parts(const Mesh& mesh, const Whole& whole, std::siz
       if (!mesh.is_kept(start) || seen.contain(start)) continue;
       const std::size_t long_border = least_part + 2;
       if (walk_border(e, long_border, [](Index) {}) < long_border) {
-        walk_region(start);
+        walk_region(mesh, whole, start, least_part, seen);
       } else {
         walk_border(e, std::numeric_limits<std::size_t>::max(), [&](Index t) { seen.add(t); });
       }
@@ -355,10 +335,47 @@ void SizeFilter::drop_small_parts(const Mesh& mesh, const Whole& whole, std::siz
   });
   // Where all parts are small there is nothing that they are small beside.
   std::size_t count = 0;
-  for (std::size_t w = 0; w < mesh.word_count(); ++w)
+  for (std::size_t w = 0; w < mesh.word_count(); ++w) {
     count += static_cast<std::size_t>(std::popcount(kept[w]));
+  }
   if (changed_.size() == count) return;
   for (const Index t : changed_) drop(kept, t);
+}
+
+/// Walks through a region from `start` on until it is large enough, meets triangles that are known to be of a
+/// large one, or ends. If it ends, puts it into changed_, and the triangles at which it cannot go on into
+/// doubtful_.
+template <class Whole, class Seen>
+void SizeFilter::walk_region(const Mesh& mesh, const Whole& whole, Index start, std::size_t least_part,
+                             Seen& seen) {
+  seen.add(start);
+  group_.assign(1, start);
+  const std::size_t before = doubtful_.size();
+  bool is_large = false;
+  bool is_beside_hidden = false;
+  for (std::size_t next = 0; next < group_.size() && !is_large; ++next) {
+    for (Index j = 0; j < 3; ++j) {
+      const Index other = neighbour(mesh, group_[next], j);
+      if (!mesh.is_kept(other)) continue;
+      const bool is_seen = seen.contain(other);
+      if (is_seen && std::find(group_.begin(), group_.end(), other) != group_.end()) continue;
+      if (whole.is_hidden(other)) {
+        is_beside_hidden = true;
+      } else if (!whole.is_open(other)) {
+        doubtful_.push_back(other);
+      } else if (is_seen) {
+        is_large = true;
+      } else {
+        seen.add(other);
+        group_.push_back(other);
+      }
+    }
+    is_large |= group_.size() >= least_part;
+  }
+  if (is_large) return doubtful_.resize(before);
+  // What is hidden would be connected to what is dropped.
+  if (is_beside_hidden) doubt_ = Way::kReachesFar;
+  changed_.insert(changed_.end(), group_.begin(), group_.end());
 }
 
 template <class Whole>

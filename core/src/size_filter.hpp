@@ -55,16 +55,20 @@ class SizeFilter {
   struct Part;
 
   void clear_found(const Chunks& chunks);
+  void drop_beyond_limit(const Part& part, ThreadPool& pool, std::uint64_t* kept);
+  void follow_dropped(const Part& part, std::uint64_t* kept);
   void drop_spikes(const Mesh& mesh, const Point* vertices, const SizeField& field, ThreadPool& pool,
                    std::uint64_t* kept);
   template <class Whole>
   void drop_small_parts(const Mesh& mesh, const Whole& whole, std::size_t least_part, std::uint64_t* kept);
+  template <class Whole, class Seen>
+  void walk_region(const Mesh& mesh, const Whole& whole, Index start, std::size_t least_part, Seen& seen);
   template <class Whole>
   void fill_small_holes(const Mesh& mesh, const Point* vertices, const Whole& whole, const SizeField& field,
                         std::uint64_t* kept);
 
   std::vector<std::vector<Index>> found_of_chunk_;  ///< triangles, by the chunk of the mesh that they are in
-  std::vector<Index> changed_;                      ///< triangles to be kept or dropped
+  std::vector<Index> changed_;                      ///< triangles to be kept or dropped, by the step
   Scratch<std::uint64_t> seen_;                     ///< as Mesh's words of kept triangles
   Scratch<std::uint64_t> hidden_;  ///< the same: dropped by size, but counted as kept unless they are reached
   std::optional<Way> doubt_;       ///< why a part is not enough
