@@ -49,7 +49,7 @@ class Grid {
   Grid band(Cell begin, Cell end) const {
     Grid grid = *this;
     grid.rows_ = end - begin;
-    grid.origin_ -= begin * row_words_ * kWordBits;
+    grid.origin_ -= std::uint64_t{begin} * row_words_ * kWordBits;
     return grid;
   }
 
@@ -97,7 +97,8 @@ class Grid {
   Cell columns_ = 0;
   Cell rows_ = 0;
   Cell row_words_ = 0;
-  Cell origin_ = 0;  ///< the cell in column 0 of the box's first row; wraps round where a band is above it
+  /// The cell in column 0 of the box's first row; wraps round where a band is above it, as wide numbers do.
+  std::uint64_t origin_ = 0;
 };
 
 /// One bit a cell, memory kept between calls.

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <deque>
 #include <functional>
+#include <limits>
 #include <numeric>
 #include <optional>
 #include <stdexcept>
@@ -270,8 +271,10 @@ void Stream::choose_grid(double widest) {
   const auto fits = [&] {
     if (!std::isfinite(Grid::cell_count(box, detail::kRadius / radius, HUGE_VAL))) return false;
     const Grid grid(box, detail::kRadius / radius);
-    const std::size_t words = grid.band(0, most_rows(part_.shard, grid.rows())).word_count();
-    return sizeof(Bitmap::Word) * static_cast<double>(words) <= stream_options_.most_map_bytes;
+    const auto rows = static_cast<double>(most_rows(part_.shard, grid.rows()) + 2 * Grid::kMargin);
+    const double words = rows * static_cast<double>(grid.row_words());
+    constexpr auto kMostWords = static_cast<double>(std::numeric_limits<Grid::Cell>::max() / Grid::kWordBits);
+    return words <= kMostWords && sizeof(Bitmap::Word) * words <= stream_options_.most_map_bytes;
   };
   while (!fits() && radius < widest) radius = std::min(radius * kWider, widest);
   if (!fits()) {
