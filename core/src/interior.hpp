@@ -17,6 +17,7 @@
 #include "delaunay_builder.hpp"
 #include "occupancy.hpp"
 #include "polylidar/concave_hull.hpp"
+#include "reach.hpp"
 #include "region.hpp"
 #include "scratch.hpp"
 #include "thread_pool.hpp"
@@ -52,24 +53,8 @@ inline constexpr double kUneven = 0.0006180339887498949;
 /// their box. A radius well beyond the spacing makes the part larger, not smaller.
 inline constexpr double kWidestInSpacings = 2.5;
 
-/// How far away, in rows, a cell can be that mark_reach() marks: beyond it lie 2 r of rows in between, and as
-/// much as rounding may move a point.
-inline constexpr Grid::Cell kReachedRows = 2 * kRadius + 1;
-/// Marks the cells that may hold a point within 2 r of one in `cell`.
-void mark_reach(const Grid& grid, Grid::Cell cell, ReachedCells& reached);
-/// The same for 2.7 r and the corners of these triangles of the mesh.
-void mark_reach_round(std::span<const Mesh::Index> triangles, const DelaunayBuilder& builder,
-                      const Grid& grid, Bitmap& reached);
-void mark_reach_round(std::span<const Mesh::Index> triangles, const DelaunayBuilder& builder,
-                      const Grid& grid, ReachedCells& reached);
 /// So many times a part is enlarged before all points are triangulated.
 inline constexpr int kMostEnlarged = 8;
-
-/// Whether a triangle of a part certainly belongs to the triangulation of all points, whatever its corners:
-/// all occupied cells of the box of its circumcircle are among those whose points are in the part.
-bool is_surely_whole(const Triangle& triangle, const Grid& grid, const Bitmap& occupied,
-                     const Bitmap& reached);
-bool is_surely_whole(const Triangle& triangle, const Grid& grid, const ReachedCells& reached);
 
 /// Finds the points that decide the shape, and keeps its memory between calls.
 ///

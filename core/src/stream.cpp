@@ -20,6 +20,7 @@
 #include "interior.hpp"
 #include "options_check.hpp"
 #include "point_passes.hpp"
+#include "reach.hpp"
 #include "selected.hpp"
 #include "shards.hpp"
 #include "source_passes.hpp"
