@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "core/src/filter_rules.hpp"
+#include "core/src/number_counts.hpp"
 #include "core/src/window_sample.hpp"
 #include "polylidar/delaunay.hpp"
 #include "tests/point_sets.hpp"

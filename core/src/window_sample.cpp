@@ -42,37 +42,6 @@ constexpr std::size_t kFewCells = 256;
 
 }  // namespace
 
-void NumberCounts::clear() {
-  counts_.clear();
-  total_ = 0;
-}
-
-double NumberCounts::middle_of(std::size_t own) {
-  constexpr std::size_t kHalf = std::size_t{1} << (kBits - 1);
-  if (own < 2 * kHalf) return static_cast<double>(own);
-  const auto shift = static_cast<int>(own / kHalf) - 1;
-  const std::size_t first_bits = own - static_cast<std::size_t>(shift) * kHalf;
-  return std::ldexp(static_cast<double>(first_bits) + 0.5, shift);
-}
-
-double NumberCounts::median() const {
-  std::size_t own = 0;
-  for (std::size_t below = counts_[0]; below <= place_of(0.5, total_);) below += counts_[++own];
-  return middle_of(own);
-}
-
-double NumberCounts::robust_deviation_of_logarithms(double middle) {
-  distances_.clear();
-  for (std::size_t own = 0; own < counts_.size(); ++own) {
-    if (counts_[own] != 0) distances_.emplace_back(std::abs(std::log(middle_of(own) / middle)), counts_[own]);
-  }
-  std::sort(distances_.begin(), distances_.end());
-  const std::size_t place = place_of(RobustDeviation::kQuantile, total_);
-  auto at = distances_.begin();
-  for (std::size_t below = at->second; below <= place;) below += (++at)->second;
-  return at->first / RobustDeviation::kOfNormal;
-}
-
 bool WindowSample::look(const PointPasses& points, const Box& box, const Wanted& wanted, ThreadPool& pool) {
   shares_.resize(points.shares);
   are_counted_ = points.points >= kLeastPoints && count_cells(points, box);
