@@ -10,3 +10,11 @@ hullbench_tool_test(NAME gate.workflow NEEDS "${SYSTEM_PYTHON}:yaml"
   COMMAND "${SYSTEM_PYTHON}" "${CMAKE_CURRENT_LIST_DIR}/check_workflow.py"
           "${PROJECT_SOURCE_DIR}/.github/workflows" "${PROJECT_SOURCE_DIR}/Makefile")
 set_tests_properties(gate.workflow PROPERTIES LABELS gate TIMEOUT 60)
+
+# The changed cores of "make test-gate" are patches of this one.
+foreach(patch IN ITEMS ten-percent-more-work five-percent-more-work changed-result broken)
+  hullbench_tool_test(NAME gate.${patch}_fits NEEDS git
+    COMMAND git apply --check "${CMAKE_CURRENT_LIST_DIR}/gate/${patch}.patch")
+  set_tests_properties(gate.${patch}_fits PROPERTIES
+    LABELS gate TIMEOUT 60 WORKING_DIRECTORY "${PROJECT_SOURCE_DIR}")
+endforeach()
