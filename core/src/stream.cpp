@@ -95,8 +95,8 @@ struct CellBlock {
   std::uint64_t first;  ///< number of the first point among all
   std::span<const Point> points;
   const std::uint64_t* cells;  ///< of each point; of those below or above the map, of no meaning
-  Grid::Cell begin_of_rows;
-  Grid::Cell cells_of_rows;
+  Grid::Cell begin_of_rows;    ///< the first cell of the rows
+  Grid::Cell cells_of_rows;    ///< how many they have
 
   /// Whether point i lies in the rows.
   bool has(std::size_t i) const { return cells[i] - begin_of_rows < cells_of_rows; }
@@ -171,8 +171,8 @@ class Stream {
   Rows seen_;                                   ///< in which cells are marked as occupied
   Grid grid_;                                   ///< the rows seen_ of the grid over the box
   std::deque<Slot> slots_;
-  std::optional<Bitmap> occupied_;        ///< and not reached, when it is known what is
-  detail::ReachedCells reached_;          ///< those of the part
+  std::optional<Bitmap> occupied_;        ///< cells with points; from mark_reached() on without reached ones
+  detail::ReachedCells reached_;          ///< cells of the part
   std::vector<Grid::Cell> reaching_;      ///< cells with uncertain points, until they are marked
   std::vector<std::uint64_t> uncertain_;  ///< of the shard's own band, ascending
   StreamShard part_;
@@ -360,7 +360,7 @@ void Stream::find_uncertain_points() {
   run_over_some(tested_, uncertain_cells, look, end);
 }
 
-/// From here on what is occupied and reached is not told from what is not occupied.
+/// Takes the cells that may hold points of the part out of occupied_, where they count as reached.
 void Stream::mark_reached() {
   reached_.begin(*occupied_, grid_.word_count());
   std::sort(reaching_.begin(), reaching_.end());  // so that what is marked is near what was marked before
