@@ -5,8 +5,10 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <map>
 #include <optional>
 #include <random>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -144,6 +146,23 @@ double median_of(std::vector<double> values) {
   return values[values.size() / 2];
 }
 
+/// Of the corners of these triangles, the share that is not in the largest piece that those up to a size are.
+double share_outside_largest_piece(const Triangulation& mesh, const std::vector<double>& sizes,
+                                   double largest) {
+  std::map<std::uint32_t, std::set<std::uint32_t>> piece;  // by any of its corners
+  for (const std::uint32_t v : mesh.triangles) piece[v] = {v};
+  const auto points = static_cast<double>(piece.size());
+  std::size_t most = 1;
+  for (std::size_t t = 0; t < sizes.size(); ++t) {
+    if (sizes[t] > largest) continue;
+    std::set<std::uint32_t> joined;
+    for (std::size_t k = 0; k < 3; ++k) joined.merge(std::set(piece[mesh.triangles[3 * t + k]]));
+    for (const std::uint32_t v : joined) piece[v] = joined;
+    most = std::max(most, joined.size());
+  }
+  return 1 - static_cast<double>(most) / points;
+}
+
 /// The size of the least cost for points that make one block.
 double plain_size(const std::vector<Point>& points, const detail::AutomaticConstants& constants = {}) {
   const Triangulation mesh = delaunay(points);
@@ -186,9 +205,10 @@ double plain_size(const std::vector<Point>& points, const detail::AutomaticConst
                              ? 0
                              : std::log(shortest[4 * triangles / 5] / shortest[2 * triangles / 5]);
   const double unsure = 1.8 / std::sqrt(static_cast<double>(triangles));
-  const double doubt = 1 + constants.doubt * std::max(scatter - constants.even_edges - unsure, 0.0);
   const auto count = static_cast<double>(points.size());
   const double usual = constants.usual * std::sqrt(std::log(count)) * median;
+  const double doubt = 1 + constants.doubt * std::max(scatter - constants.even_edges - unsure, 0.0) *
+                               share_outside_largest_piece(mesh, sizes, usual);
   double best = usual;
   const int below = static_cast<int>(constants.below);
   const int above = static_cast<int>(constants.above);
@@ -429,6 +449,23 @@ TEST(AutomaticLimit, JoinsClusters) {
   double sum = 0;
   for (std::uint64_t seed = 0; seed < 10; ++seed) sum += area(checked_hull(clustered(4000, seed)));
   EXPECT_GT(sum / 10, 0.7);  // 0.47 where gaps between clusters count as any others
+}
+
+// Few points are clustered only if the usual limit leaves them in pieces.
+TEST(AutomaticLimit, FewPointsOfThinStrokesAreNoClusters) {
+  constexpr double kWidth = 0.6;  // of five rows and a column that joins them, in a square of side 10
+  constexpr double kArea = 60 * kWidth - 5 * kWidth * kWidth;
+  double sum = 0;
+  for (std::uint64_t seed = 0; seed < 20; ++seed) {
+    testing::Random random(seed);
+    std::vector<Point> points;
+    while (points.size() < 500) {
+      const Point p{random.between(0, 10), random.between(0, 10)};
+      if (std::fmod(p.y, 2.0) < kWidth || (p.x > 5 && p.x < 5 + kWidth)) points.push_back(p);
+    }
+    sum += area(checked_hull(points)) / kArea;
+  }
+  EXPECT_LT(sum / 20, 1.3);  // 2.2 where the scatter of edges alone tells
 }
 
 // Roads are far apart, but the points along them are even, as receivers write them down at a fixed interval.

@@ -199,12 +199,15 @@ void AutomaticLimit::choose_by_blocks(const DelaunayBuilder& builder, double det
   blocks_.divide(builder, points, field_.block_of_vertex);
   const SizedMesh sized = measure_triangles(builder, pool);
   blocks_.measure(sized, field_.block_of_vertex, constants.quantile, pool, sizes_);
-  doubt_ = 1 + constants.doubt * excess_scatter(sized, blocks_, constants);
   sizes_.smooth(constants);
   sizes_.bound_growth(blocks_.count(), constants);
   sizes_.shrink_to_median(constants.noise);
   areas_.sample(sized, field_.block_of_vertex, sizes_.usual4());
-  if (!areas_.is_empty()) areas_.sum_up();
+  if (!areas_.is_empty()) {
+    areas_.sum_up();
+    const UsualLimit usual{field_.block_of_vertex, sizes_.usual4(), areas_.usual_size4(points, constants)};
+    doubt_ = 1 + constants.doubt * excess_scatter(sized, blocks_, usual, constants);
+  }
   set_field(points, detail, constants);
   look_for_outlines(sized, points, detail, constants.step);
 }

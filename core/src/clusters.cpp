@@ -64,12 +64,49 @@ double excess_scatter_of_edges(const SizedMesh& sized, const AutomaticConstants&
                   0.0);
 }
 
+/// The usual limit leaves the points in pieces: returns the share of them that is not in the largest piece.
+double share_outside_largest_piece(const SizedMesh& sized, const UsualLimit& usual) {
+  const Mesh& mesh = sized.mesh;
+  const auto for_each_triangle = [&](const auto& visit) {
+    for_some_triangles(mesh, 0, mesh.triangle_count(), 1, visit);
+  };
+  // Point -> a point of the same piece, itself if it stands for the piece; kNone if it repeats another.
+  std::vector<Mesh::Index> next(usual.block_of_vertex.size(), kNone);
+  double points = 0;
+  for_each_triangle([&](Mesh::Index t) {
+    for (Mesh::Index k = 0; k < 3; ++k) {
+      const Mesh::Index v = mesh.corners(t)[k];
+      points += next[v] == kNone ? 1 : 0;
+      next[v] = v;
+    }
+  });
+  const auto standing_for = [&](Mesh::Index v) {
+    while (next[v] != v) v = next[v] = next[next[v]];
+    return v;
+  };
+  for_each_triangle([&](Mesh::Index t) {
+    if (sized.size4_of(t) > usual.limit4 * usual.usual4[usual.block_of_vertex[t / 2]]) return;
+    const Mesh::Index* const corner = mesh.corners(t);
+    next[standing_for(corner[0])] = standing_for(corner[1]);
+    next[standing_for(corner[1])] = standing_for(corner[2]);
+  });
+  std::vector<std::uint32_t> points_of_piece(next.size());
+  for (const Mesh::Index v : next) {
+    if (v != kNone) ++points_of_piece[standing_for(v)];
+  }
+  return 1 - *std::max_element(points_of_piece.begin(), points_of_piece.end()) / points;
+}
+
 }  // namespace
 
-double excess_scatter(const SizedMesh& sized, const MeshBlocks& blocks, const AutomaticConstants& constants) {
+double excess_scatter(const SizedMesh& sized, const MeshBlocks& blocks, const UsualLimit& usual,
+                      const AutomaticConstants& constants) {
   constexpr std::size_t kFewestBlocks = 16;
-  constexpr Mesh::Index kRecords = 128;  // of a block
-  if (blocks.count() < kFewestBlocks) return excess_scatter_of_edges(sized, constants);
+  constexpr Mesh::Index kRecords = 128;     // of a block
+  if (blocks.count() < kFewestBlocks) {
+    const double excess = excess_scatter_of_edges(sized, constants);
+    return excess > 0 ? excess * share_outside_largest_piece(sized, usual) : 0;
+  }
   const auto scatter = [&](const auto& length4_of) {
     return scatter_in_blocks(blocks.count(), [&](std::size_t block, const auto& visit) {
       const MeshBlocks::Records records = blocks.records_of(sized.mesh, block);
