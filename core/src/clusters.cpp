@@ -102,10 +102,12 @@ double share_outside_largest_piece(const SizedMesh& sized, const UsualLimit& usu
 double excess_scatter(const SizedMesh& sized, const MeshBlocks& blocks, const UsualLimit& usual,
                       const AutomaticConstants& constants) {
   constexpr std::size_t kFewestBlocks = 16;
-  constexpr Mesh::Index kRecords = 128;     // of a block
+  constexpr Mesh::Index kRecords = 128;  // of a block
   if (blocks.count() < kFewestBlocks) {
     const double excess = excess_scatter_of_edges(sized, constants);
-    return excess > 0 ? excess * share_outside_largest_piece(sized, usual) : 0;
+    if (excess == 0) return 0;
+    constexpr double kSurelyPieces = 0.25;
+    return excess * std::min(1.0, share_outside_largest_piece(sized, usual) / kSurelyPieces);
   }
   const auto scatter = [&](const auto& length4_of) {
     return scatter_in_blocks(blocks.count(), [&](std::size_t block, const auto& visit) {
