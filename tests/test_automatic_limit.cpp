@@ -634,7 +634,7 @@ TEST(AutomaticLimit, OfManyPointsIsAsOfFew) {
 
 // the caller's knob
 
-TEST(AutomaticLimit, MoreDetailNeverAddsATriangle) {
+TEST(AutomaticLimit, MoreDetailNeverAddsArea) {
   for (const std::vector<Point>& points : {ring_and_island(3000, 1), sparser_to_the_right(3000, 8, 2)}) {
     const Triangulation mesh = delaunay(points);
     double before = std::numeric_limits<double>::infinity();
@@ -645,6 +645,68 @@ TEST(AutomaticLimit, MoreDetailNeverAddsATriangle) {
       EXPECT_DOUBLE_EQ(chosen(points, {.detail = detail}).value().median, median_size(points) / detail);
     }
   }
+}
+
+/// Which triangles are kept at a detail.
+class KeptByDetail {
+ public:
+  explicit KeptByDetail(const std::vector<Point>& points) { builder_.build(points, pool_); }
+
+  /// How many triangles are kept at `more` detail but not at `less`.
+  std::size_t that_come_back(double less, double more) {
+    const std::vector<bool> before = kept(less);
+    const std::vector<bool> after = kept(more);
+    std::size_t back = 0;
+    for (std::size_t t = 0; t < before.size(); ++t) back += after[t] && !before[t] ? 1U : 0U;
+    return back;
+  }
+
+ private:
+  std::vector<bool> kept(double detail) {
+    limit_.choose(builder_, detail, pool_);
+    filter_.run(builder_.mesh(), builder_.vertices(), limit_.field(), true, pool_, boundary_);
+    std::vector<bool> kept;
+    for (detail::Mesh::Index t = 0; t < builder_.mesh().triangle_count(); ++t)
+      kept.push_back(builder_.mesh().is_kept(t));
+    return kept;
+  }
+
+  detail::ThreadPool pool_;
+  detail::DelaunayBuilder builder_;
+  detail::AutomaticLimit limit_;
+  detail::RegionFilter filter_;
+  std::vector<detail::Mesh::Index> boundary_;
+};
+
+TEST(AutomaticLimit, MoreDetailBringsNoTriangleBack) {
+  std::vector<std::vector<Point>> sets = {testing::lattice_with_gaps(3)};
+  for (const std::size_t count : {20U, 100U, 500U, 3000U}) {
+    for (const std::uint64_t seed : {1U, 2U, 3U}) {
+      sets.push_back(testing::uniform_points(count, seed));
+      sets.push_back(testing::integer_points(count, seed, 60));
+      sets.push_back(ring_and_island(count, seed));
+      sets.push_back(sparser_to_the_right(count, 30, seed));
+    }
+  }
+  for (const std::vector<Point>& points : sets) {
+    KeptByDetail by_detail(points);
+    double less = 0.25;
+    for (const double more : {0.5, 0.8, 1.0, 1.1, 1.25, 1.5, 2.0, 3.0, 4.0}) {
+      EXPECT_EQ(by_detail.that_come_back(less, more), 0U)
+          << points.size() << " points, detail " << less << " and " << more;
+      less = more;
+    }
+  }
+}
+
+// A small part does not come back where more detail leaves no large one, and stays where there never was one.
+TEST(AutomaticLimit, MoreDetailDropsTheSmallPartsThatLessDetailDrops) {
+  std::vector<Point> points = testing::lattice(45, 45);
+  for (const Point& p : testing::lattice(3, 3, 0.3, {60, 0})) points.push_back(p);
+  EXPECT_EQ(checked_hull(points).size(), 1U);
+  EXPECT_TRUE(checked_hull(points, {.detail = 3}).empty());
+  const std::vector<Point> square = testing::lattice(2, 2);
+  EXPECT_EQ(checked_hull(square, {.detail = 1.01}).size(), 1U);
 }
 
 TEST(AutomaticLimit, DetailMustBePositiveAndFinite) {

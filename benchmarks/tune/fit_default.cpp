@@ -116,11 +116,15 @@ void print_variants(std::vector<MadeLimitCase>& training, std::vector<MadeLimitC
 
 /// What one way to sample gave, in percent.
 struct Errors {
-  std::vector<double> rule, one_limit, former;
+  std::vector<double> rule, one_limit, former, vertex_spacing;
 };
 
+double median(const std::vector<double>& values) {
+  return statistics::median(std::span<const double>(values));
+}
+
 table::Cell median_and_mean(const std::vector<double>& errors) {
-  table::Cell cell = table::Number(100 * statistics::median(std::span<const double>(errors)), 2);
+  table::Cell cell = table::Number(100 * median(errors), 2);
   cell.other = table::Number(100 * statistics::mean(std::span<const double>(errors)), 2);
   return cell;
 }
@@ -139,6 +143,7 @@ void print_test(std::vector<MadeLimitCase>& cases) {
     into.rule.push_back(rule[i]);
     into.one_limit.push_back(cases[i].best_of_one_limit);
     into.former.push_back(cases[i].triangles->error_of_former_default());
+    into.vertex_spacing.push_back(cases[i].triangles->error_of_vertex_spacing());
   }
   table::Table table{"test", "Test side", {table::words("points"), table::words("unseen")}};
   for (const auto& [n, unused] : errors.at("uniform")) {
@@ -158,6 +163,24 @@ void print_test(std::vector<MadeLimitCase>& cases) {
       << "\nOne limit: the largest perimeter that is best for the very case, found with the truth in "
          "hand.\nFormer: the default of earlier versions, one largest perimeter chosen from the points.\n"
          "Unseen: no training case is sampled so.\n";
+
+  table::Table beside{"vertices", "Vertices", {table::words("points")}};
+  for (const auto& [n, unused] : errors.at("uniform")) {
+    for (const char* what : {"rule", "by vertices"})
+      beside.columns.emplace_back(std::string(what) + ", " + std::to_string(n));
+    beside.columns.push_back(table::with_unit("difference, " + std::to_string(n), "%"));
+  }
+  for (const std::string& sampling : order) {
+    std::vector<table::Cell> row = {sampling};
+    for (const auto& [n, of_n] : errors[sampling]) {
+      row.push_back(median_and_mean(of_n.rule));
+      row.push_back(median_and_mean(of_n.vertex_spacing));
+      row.emplace_back(table::Number(100 * (median(of_n.rule) / median(of_n.vertex_spacing) - 1), 1));
+    }
+    beside.add_row(row);
+  }
+  print("Beside a spacing for each vertex (vertex_spacing.hpp): L2 in %, and the difference of the medians",
+        beside);
 }
 
 /// Of so many points that places have sizes of their own, what these give beside blocks.

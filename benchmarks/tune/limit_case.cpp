@@ -7,6 +7,7 @@
 #include <stdexcept>
 
 #include "benchmarks/metrics/triangle_areas.hpp"
+#include "benchmarks/tune/vertex_spacing.hpp"
 #include "core/src/filter_rules.hpp"
 
 namespace hullbench::tune {
@@ -111,6 +112,15 @@ double LimitCase::former_limit() const {
     }
   }
   return std::ldexp(best * median, -builder_.scale_exponent());
+}
+
+double LimitCase::error_of_vertex_spacing() const {
+  const std::vector<bool> kept = kept_by_vertex_spacing(builder_.mesh(), builder_.vertices());
+  double error = 1;
+  for (std::size_t t = 0; t < kept.size(); ++t) {
+    if (kept[t]) error += change_[t];
+  }
+  return error;
 }
 
 double LimitCase::error_of_kept() const {

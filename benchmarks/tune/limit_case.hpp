@@ -34,6 +34,8 @@ class LimitCase {
   /// the points. Triangles between three that keep to it stayed, too.
   double former_limit() const;
   double error_of_former_default();
+  /// Of kept_by_vertex_spacing().
+  double error_of_vertex_spacing() const;
 
  private:
   struct Sized {

@@ -8,7 +8,6 @@
 #include "filter_rules.hpp"
 #include "kept_words.hpp"
 #include "quantile.hpp"
-#include "vector.hpp"
 
 namespace polylidar::detail {
 
@@ -37,16 +36,6 @@ double cell_begin(std::size_t c) {
 // The median size is so many units, as fourth powers: if all triangles have one size, as in a lattice, it
 // lies within a cell and not where one ends.
 constexpr double kInCell = 1.1;
-
-/// Triangle `t` from the least of its corners on, so that rounding does not depend on how the mesh was built.
-Triangle from_least_corner(const Mesh& mesh, const Point* vertices, Mesh::Index t) {
-  const Mesh::Index* const corner = mesh.corners(t);
-  Mesh::Index least = 0;
-  for (Mesh::Index k = 1; k < 3; ++k) {
-    if (less_by_x(vertices[corner[k]], vertices[corner[least]])) least = k;
-  }
-  return {t, vertices[corner[least]], vertices[corner[(least + 1) % 3]], vertices[corner[(least + 2) % 3]]};
-}
 
 }  // namespace
 

@@ -250,6 +250,7 @@ void AutomaticLimit::set_field(double points, double detail, const AutomaticCons
   field_.limit4 = sizes_.usual4();
   field_.spike_share = 1;
   field_.least_part = 0;
+  field_.detail4 = std::max(1.0, fourth_power(detail));
   field_.wide_square = 0;
   field_.wide_radius = 0;
   field_.outlines.reset();

@@ -59,9 +59,11 @@ inline constexpr int kMostEnlarged = 8;
 /// Finds the points that decide the shape, and keeps its memory between calls.
 ///
 /// Let r be a radius as in least_dropped_radius. Points that are certified (certificate.hpp) for a radius a
-/// little below r are *certain*, all others *uncertain*. The part is every point within 2 r of an uncertain
-/// one. At the uncertain points its Delaunay triangulation has the same triangles as that of all points. A
-/// filter by given limits drops no triangle of all points that has a certain corner.
+/// little below r are *certain*, all others *uncertain*. The part has every point within 4 r / 3 of an
+/// uncertain one, and those in the disks of radius r that touch it in its open directions. These are all
+/// neighbours that it has in a triangle with a circumradius below r. So at the uncertain points the part's
+/// Delaunay triangulation has the same triangles as that of all points. A filter by given limits drops no
+/// triangle of all points that has a certain corner.
 class InteriorPart {
  public:
   /// Chooses the part for a radius r > 0. Returns the reason if that does not save time or cannot be proved

@@ -10,6 +10,7 @@
 #include "half_edge.hpp"
 #include "polylidar/geometry.hpp"
 #include "thread_pool.hpp"
+#include "vector.hpp"
 
 namespace polylidar::detail {
 
@@ -69,6 +70,17 @@ void for_each_dropped(const Mesh& mesh, std::size_t begin, std::size_t end, cons
 inline bool has_marked_corner(const Mesh& mesh, Mesh::Index t, const std::uint8_t* is_marked) {
   const Mesh::Index* const corner = mesh.corners(t);
   return (is_marked[corner[0]] | is_marked[corner[1]] | is_marked[corner[2]]) != 0;
+}
+
+/// Finite triangle `t` from the least of its corners on, so that rounding does not depend on how the mesh was
+/// built.
+inline Triangle from_least_corner(const Mesh& mesh, const Point* vertices, Mesh::Index t) {
+  const Mesh::Index* const corner = mesh.corners(t);
+  Mesh::Index least = 0;
+  for (Mesh::Index k = 1; k < 3; ++k) {
+    if (less_by_x(vertices[corner[k]], vertices[corner[least]])) least = k;
+  }
+  return {t, vertices[corner[least]], vertices[corner[(least + 1) % 3]], vertices[corner[(least + 2) % 3]]};
 }
 
 /// The answer to a question about a triangle, or that rounding decides it.

@@ -41,7 +41,9 @@ struct Reach {
 /// disk of radius R with the centre p + R u. Over all u of a part of a turn, these disks are: those of the
 /// first and the last u, and, in the directions between, all that is within 2 R of p.
 Reach::Reach() {
-  constexpr double kWithin = 0x1p-10;  // for all rounding
+  // For all rounding: a point is within Grid::kSlack of its cell, and no number below exceeds 2^9, so each is
+  // off by less than 2^-40.
+  constexpr double kWithin = 0x1p-10;
   constexpr int kFarthest = Neighbourhood::kFarthest;
   std::array<Vector, kPartsOfTurn + 1> directions;
   for (std::size_t k = 0; k < directions.size(); ++k) {
@@ -130,7 +132,10 @@ bool is_whole(const Triangle& triangle, const Grid& grid, const NotReached& not_
   const double squared_b = squared_length(b);
   const double squared_c = squared_length(c);
   const double twice_cross = 2 * cross(b, c);
-  // Of triangles with a short edge the circle is not known well enough. By their edges' lengths in cells:
+  // Of flat triangles the circle is not known well enough. Of the others, with a longest edge L and e =
+  // 2^-53: twice_cross >= 2^-20 L^2 is off by at most 16 e L^2, which is 2^-29 of itself, and the numerators
+  // below by 16 e L^3. A circle of radius below kRadius cells has L < 2 kRadius, so its centre is off by less
+  // than 2^-24 of a cell.
   constexpr double kLeastCross = 0x1p-20;
   const double longest = std::max({squared_b, squared_c, triangle.squared_bc()});
   if (!(twice_cross >= kLeastCross * longest)) return false;
@@ -138,7 +143,7 @@ bool is_whole(const Triangle& triangle, const Grid& grid, const NotReached& not_
                       (b.x * squared_c - c.x * squared_b) / twice_cross};
   const double radius = std::sqrt(squared_length(centre)) * grid.cells_per_length();
   if (!(radius < kRadius)) return false;
-  constexpr double kSlack = 0x1p-6;  // of a cell, for all rounding
+  constexpr double kSlack = 0x1p-6;  // of a cell: far more than that and Grid::kSlack, and costs nothing
   constexpr double kMargin = Grid::kMargin;
   // From the margin's corner on, so that all is positive.
   const double x = grid.column(triangle.a) + centre.x * grid.cells_per_length() + kMargin;

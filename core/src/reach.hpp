@@ -16,7 +16,7 @@
 namespace polylidar::detail {
 
 /// Of the cells that come within some distance of a cell: row, from the lowest on -> how many columns on
-/// either side of the cell. The distance is in cells, and less than one from a whole number.
+/// either side of the cell. The distance is in cells, with a little more for rounding (Grid::kSlack).
 template <int kDistance>
 constexpr auto make_half_widths() {
   constexpr double kWithin = kDistance + 0x1p-10;

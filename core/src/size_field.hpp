@@ -27,6 +27,8 @@ struct SizeField {
   double spike_share = 0;
   /// Regions with fewer triangles are dropped.
   std::size_t least_part = 0;
+  /// The fourth power of the detail, at least 1: limit4 times this is the limit at a detail of 1.
+  double detail4 = 1;
   /// A hole stays only if it has a dropped triangle whose squared circumradius is at least this many times
   /// the mean squared size of the kept triangles round the hole, whatever its area. 0: no hole is filled.
   double wide_square = 0;

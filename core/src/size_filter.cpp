@@ -142,6 +142,32 @@ struct SizeFilter::Part {
 
 void SizeFilter::run(const Mesh& mesh, const Point* vertices, const SizeField& field, ThreadPool& pool,
                      std::uint64_t* kept) {
+  keep_within_limit(mesh, vertices, field, pool, kept);
+  drop_spikes(mesh, vertices, field, pool, kept);
+  const WholeMesh whole(mesh, vertices);
+  if (field.least_part > 0 && !drop_small_parts(mesh, whole, field.least_part, kept) && field.detail4 > 1 &&
+      has_large_part_with_less_detail(mesh, vertices, field, pool, kept)) {
+    std::fill_n(kept, mesh.word_count(), 0);
+  }
+  if (field.wide_square > 0) fill_small_holes(mesh, vertices, whole, field, kept);
+}
+
+/// Whether some region is large at a detail of 1. `kept` is the same afterwards.
+bool SizeFilter::has_large_part_with_less_detail(const Mesh& mesh, const Point* vertices,
+                                                 const SizeField& field, ThreadPool& pool,
+                                                 std::uint64_t* kept) {
+  SizeField usual = field;
+  for (double& limit4 : usual.limit4) limit4 *= field.detail4;
+  const std::vector<std::uint64_t> before(kept, kept + mesh.word_count());
+  keep_within_limit(mesh, vertices, usual, pool, kept);
+  drop_spikes(mesh, vertices, usual, pool, kept);
+  const bool has_large = drop_small_parts(mesh, WholeMesh(mesh, vertices), field.least_part, kept);
+  std::copy(before.begin(), before.end(), kept);
+  return has_large;
+}
+
+void SizeFilter::keep_within_limit(const Mesh& mesh, const Point* vertices, const SizeField& field,
+                                   ThreadPool& pool, std::uint64_t* kept) {
   const auto filter = [&](const auto& is_kept) {
     for_each_word_chunk(mesh, Chunks(pool, mesh.triangle_count()), pool,
                         [&](std::size_t, std::size_t begin, std::size_t end) {
@@ -158,10 +184,6 @@ void SizeFilter::run(const Mesh& mesh, const Point* vertices, const SizeField& f
   } else {
     filter_by(SizeRule(field, mesh));
   }
-  drop_spikes(mesh, vertices, field, pool, kept);
-  const WholeMesh whole(mesh, vertices);
-  if (field.least_part > 0) drop_small_parts(mesh, whole, field.least_part, kept);
-  if (field.wide_square > 0) fill_small_holes(mesh, vertices, whole, field, kept);
 }
 
 std::optional<Way> SizeFilter::run_on_part(const Mesh& mesh, const Point* vertices,
@@ -176,7 +198,9 @@ std::optional<Way> SizeFilter::run_on_part(const Mesh& mesh, const Point* vertic
   if (doubt_) return doubt_;
   if (!doubtful_.empty()) return Way::kReachesFar;
   for (const Index t : changed_) drop(kept, t);
-  if (field.least_part > 0) drop_small_parts(mesh, part, field.least_part, kept);
+  if (field.least_part > 0 && !drop_small_parts(mesh, part, field.least_part, kept) && field.detail4 > 1) {
+    doubt_ = Way::kReachesFar;  // the limit at a detail of 1 is beyond the part
+  }
   if (field.wide_square > 0) fill_small_holes(mesh, vertices, part, field, kept);
   if (!doubt_ && !doubtful_.empty()) return Way::kReachesFar;
   return doubt_;
@@ -297,6 +321,8 @@ Mesh::Index next_on_border(const Mesh& mesh, const Whole& whole, Mesh::Index e) 
   }
 }
 
+/// Returns false if there are only small parts, which stay.
+///
 /// A region of t triangles has at most t + 2 half-edges on its border. So where least_part + 2 of these
 /// follow one another, the region is large enough. Elsewhere walk_region() tells.
 ///
@@ -305,7 +331,7 @@ Mesh::Index next_on_border(const Mesh& mesh, const Whole& whole, Mesh::Index e) 
 /// dropped triangles. Where one of these was met, the spike was dropped here, too; otherwise both are hidden,
 /// and one of them has a corner at the vertex and is passed as well.
 template <class Whole>
-void SizeFilter::drop_small_parts(const Mesh& mesh, const Whole& whole, std::size_t least_part,
+bool SizeFilter::drop_small_parts(const Mesh& mesh, const Whole& whole, std::size_t least_part,
                                   std::uint64_t* kept) {
   SeenTriangles seen(mesh, seen_);
   changed_.clear();
@@ -338,8 +364,9 @@ void SizeFilter::drop_small_parts(const Mesh& mesh, const Whole& whole, std::siz
   for (std::size_t w = 0; w < mesh.word_count(); ++w) {
     count += static_cast<std::size_t>(std::popcount(kept[w]));
   }
-  if (changed_.size() == count) return;
+  if (changed_.size() == count) return false;
   for (const Index t : changed_) drop(kept, t);
+  return true;
 }
 
 /// Walks through a region from `start` on until it is large enough, meets triangles that are known to be of a
@@ -410,7 +437,7 @@ void SizeFilter::fill_small_holes(const Mesh& mesh, const Point* vertices, const
       const double too_close = kTooClose * field.wide_radius;
       if (Triangle(mesh, vertices, t).squared_shortest_edge() >= too_close * too_close &&
           whole.ask(OneSizeRule(field.limit4_at(mesh, t)), t) != Answer::kYes) {
-        squared_radius = std::max(squared_radius, squared_circumradius(Triangle(mesh, vertices, t)));
+        squared_radius = std::max(squared_radius, squared_circumradius(from_least_corner(mesh, vertices, t)));
         if (!has_wide) {
           const Answer answer = whole.ask(not_wide, t);
           has_wide = answer != Answer::kYes;
@@ -429,8 +456,11 @@ void SizeFilter::fill_small_holes(const Mesh& mesh, const Point* vertices, const
     }
     const double widest = squared_radius * static_cast<double>(border);
     const double least = field.wide_square * squared_sizes;
-    constexpr double kRounding = 0x1p-30;  // the sum's order depends on how the mesh was built
-    if (has_wide && std::abs(widest - least) <= kRounding * least) doubt_ = Way::kRoundingDecides;
+    // How the mesh was built changes a size by less than 2^-43 of itself (as in ask_size: its area by less
+    // than 2^-49 of the square of its longest edge, which is at most 4 e^2, and the size's fourth power is at
+    // least e^4 / 16). And it changes the order of the sum, which rounds each time by 2^-53 at most.
+    const double rounding = 0x1p-42 + 0x1p-52 * static_cast<double>(border);
+    if (has_wide && std::abs(widest - least) <= rounding * least) doubt_ = Way::kRoundingDecides;
     if (has_wide && widest >= least) return;
     changed_.insert(changed_.end(), group_.begin(), group_.end());
   });

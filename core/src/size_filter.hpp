@@ -24,7 +24,7 @@ namespace polylidar::detail {
 ///   acute angle, and is at least as large as the field says. Outliers and noise make spikes. There is one
 ///   pass: all are found before any is dropped.
 /// - A *part*, a region with fewer triangles than the field says, is dropped, unless all regions are that
-///   small.
+///   small, also with the limit at a detail of 1.
 /// - A *hole*, connected dropped triangles that do not reach the convex hull, is filled if it has no wide
 ///   triangle beyond the limit, because chance makes such voids.
 class SizeFilter {
@@ -55,12 +55,16 @@ class SizeFilter {
   struct Part;
 
   void clear_found(const Chunks& chunks);
+  void keep_within_limit(const Mesh& mesh, const Point* vertices, const SizeField& field, ThreadPool& pool,
+                         std::uint64_t* kept);
+  bool has_large_part_with_less_detail(const Mesh& mesh, const Point* vertices, const SizeField& field,
+                                       ThreadPool& pool, std::uint64_t* kept);
   void drop_beyond_limit(const Part& part, ThreadPool& pool, std::uint64_t* kept);
   void follow_dropped(const Part& part, std::uint64_t* kept);
   void drop_spikes(const Mesh& mesh, const Point* vertices, const SizeField& field, ThreadPool& pool,
                    std::uint64_t* kept);
   template <class Whole>
-  void drop_small_parts(const Mesh& mesh, const Whole& whole, std::size_t least_part, std::uint64_t* kept);
+  bool drop_small_parts(const Mesh& mesh, const Whole& whole, std::size_t least_part, std::uint64_t* kept);
   template <class Whole, class Seen>
   void walk_region(const Mesh& mesh, const Whole& whole, Index start, std::size_t least_part, Seen& seen);
   template <class Whole>
