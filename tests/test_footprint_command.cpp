@@ -245,6 +245,7 @@ TEST_F(FootprintCommandTest, UsageErrors) {
   expect_refusal(footprint({whole, "-o", (folder_.path() / "index.csv").string()}), 2,
                  "index.csv has the ending of a file of points");
   expect_refusal(footprint({whole, "--alpha", "1", "--detail", "2"}), 2, "--alpha excludes --detail");
+  expect_refusal(footprint({whole, "--cover", "--max-parts", "1"}), 2, "--cover excludes --max-parts");
   expect_refusal(footprint({whole, "--classes", "2,x"}), 2, "--classes '2,x' is no list of numbers");
   expect_refusal(footprint({whole, "--classes", "256"}), 2, "--classes");
   expect_refusal(footprint({whole, "--window", "1,2,3"}), 2, "--window '1,2,3' is no box");

@@ -355,6 +355,9 @@ TEST_F(HullCommandTest, UsageErrors) {
   expect_refusal(hull({points, "--input", "shp"}), 2, "--input");
   expect_refusal(hull({points, "--format", "shp"}), 2, "--format: 'shp' is none of auto,geojson,wkt,wkb,svg");
   expect_refusal(hull({points, "--columns", "1,2"}), 2, "--columns is for columns of text");
+  for (const std::string cleaning : {"--max-parts", "--min-area", "--min-triangles", "--simplify"}) {
+    expect_refusal(hull({points, cleaning, "1", "--cover"}), 2, "--cover excludes " + cleaning);
+  }
 }
 
 TEST_F(HullCommandTest, TheResultNeverReplacesThePoints) {

@@ -68,8 +68,8 @@ void add_shape_options(CLI::App& app, ShapeChoice& choice) {
     detail->excludes(app.get_option(limit));
   }
   app.add_flag("--one", choice.one, "Make one polygon: widen the limit just enough to join all parts");
-  app.add_flag("--cover", choice.cover,
-               "Leave no point outside: widen the limit just enough to cover them all");
+  CLI::Option* const cover = app.add_flag(
+      "--cover", choice.cover, "Leave no point outside: widen the limit just enough to cover them all");
   app.add_option("--max-parts", choice.max_parts, "Keep only this many polygons, the largest by area")
       ->check(above_zero());
   app.add_option("--min-area", choice.min_area,
@@ -80,6 +80,10 @@ void add_shape_options(CLI::App& app, ShapeChoice& choice) {
   app.add_option("--simplify", choice.simplify,
                  "Simplify the outline: leave out vertices that are at most this far from the new one")
       ->check(zero_or_more());
+  // Each of these may leave a point outside.
+  for (const char* cleaning : {"--max-parts", "--min-area", "--min-triangles", "--simplify"}) {
+    cover->excludes(app.get_option(cleaning));
+  }
   app.add_option("--returns", choice.returns,
                  "Use all returns of a LAS file, or only the first or the last ones")
       ->check(CLI::IsMember({"all", "first", "last"}))
