@@ -193,6 +193,14 @@ TEST_F(LasPointsTest, TheCoordinateSystemOfGeoKeysAndText) {
   EXPECT_EQ(crs_of({{"LASF_Projection", 34735, "\1"}}), Crs());
 }
 
+TEST_F(LasPointsTest, TheSystemBesideIsThatOfAFileThatNamesNone) {
+  std::ofstream(path().replace(path().size() - 3, 3, "prj")) << R"(PROJCS["a",AUTHORITY["EPSG","25833"]])";
+  LasFile file = some_points(2, 1);
+  EXPECT_EQ(read(file).crs, (Crs{25833, false, true}));
+  file.records = {projected(25832)};
+  EXPECT_EQ(read(file).crs, (Crs{25832, false, true}));
+}
+
 TEST_F(LasPointsTest, FilesThatLieAreRefused) {
   const LasFile whole = some_points(2, 1);
   const std::string text = whole.text();

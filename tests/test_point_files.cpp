@@ -135,6 +135,17 @@ TEST_F(PointFilesTest, TwoColumnsWithUnknownNamesAreTakenInTheirOrder) {
   }
 }
 
+TEST_F(PointFilesTest, TheSystemBesideHasTheNameOfTheFile) {
+  file("a.prj", R"(PROJCS["a",AUTHORITY["EPSG","25833"]])");
+  const Crs beside = {25833, false, true};
+  EXPECT_EQ(read_point_file(file("a.csv", "1,2\n")).crs, beside);
+  EXPECT_EQ(read_point_file(file("a.csv.gz", "1,2\n")).crs, beside) << "be it compressed or not";
+  EXPECT_EQ(read_point_file(file("a.npy", npy_of<double>({{1, 2}}, "<f8"))).crs, beside);
+  EXPECT_EQ(read_point_file(file("b.csv", "1,2\n")).crs, Crs());
+  EXPECT_EQ(read_point_file(file("a.csv", "lon,lat\n1,2\n")).crs, (Crs{4326, true, true}));
+  EXPECT_EQ(read_point_file(file("a.geojson", geojson_multipoint({{1, 2}}))).crs, (Crs{4326, true, true}));
+}
+
 TEST_F(PointFilesTest, ThePartsOfAFileHaveItsPoints) {
   Points points;
   for (int i = 0; i < 100'000; ++i) points.push_back({0.5 * i, 0.25 * (i % 1000)});

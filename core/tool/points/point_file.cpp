@@ -160,10 +160,13 @@ void check_options(PointFormat format, const BlockReader& reader) {
   }
 }
 
-/// Text has no place for its coordinate system; Esri's programs put it beside, into a file of the same name.
+/// Many files have no place for their coordinate system; Esri's programs put it beside, into a file of the
+/// same name: points.prj for points.csv and points.csv.gz.
 void read_projection_beside(const std::string& path, PointFile& file) {
   constexpr std::streamsize kLongest = 1 << 16;
-  std::ifstream stream(std::filesystem::path(path).replace_extension(".prj"), std::ios::binary);
+  std::filesystem::path beside = path;
+  if (lower(beside.extension().string()) == ".gz") beside.replace_extension();
+  std::ifstream stream(beside.replace_extension(".prj"), std::ios::binary);
   std::string text(kLongest, '\0');
   stream.read(text.data(), kLongest);
   text.resize(static_cast<std::size_t>(stream.gcount()));
@@ -188,7 +191,7 @@ PointFile read_from(BlockReader& reader, const std::string& path) {
   }
   // What was not while it was read.
   point_files::hand_on(file, reader.options(), true);
-  if (path != "-" && file.crs == Crs() && format != PointFormat::kLas) read_projection_beside(path, file);
+  if (path != "-" && file.crs == Crs()) read_projection_beside(path, file);
   return file;
 }
 

@@ -103,7 +103,7 @@ struct PointFile {
       groups;  ///< of each point, its index in `labels`; empty where nothing is grouped by
   std::vector<std::string> labels;  ///< distinct; numbers by value, then other texts by their bytes
   std::string note;                 ///< what a person should be told of how it was read; mostly empty
-  Crs crs;                          ///< that the file, or a .prj file beside text, names
+  Crs crs;                          ///< that the file names, else a .prj file beside it
   std::array<std::uint64_t, 256> classes{};  ///< of a LAS file: classification -> points taken
 };
 
