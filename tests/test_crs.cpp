@@ -62,6 +62,15 @@ TEST(CrsText, KnownNamesHaveNumbers) {
   EXPECT_EQ(crs_of_wkt(R"(GEOGCS["GCS_Bessel"])"), (Crs{0, true, true, R"(GEOGCS["GCS_Bessel"])"}));
 }
 
+TEST(GeoKeys, ACitationOfAKnownNameHasANumber) {
+  const std::vector<std::uint16_t> keys = {1, 1, 0, 2, 1024, 0, 1, 1, 3073, 34737, 99, 2};
+  EXPECT_EQ(crs_of_geokeys(keys, "x|PCS Name = NAD_1983_UTM_Zone_10N|"), (Crs{26910, false, true}))
+      << "Esri's";
+  EXPECT_EQ(crs_of_geokeys(keys, "x|State_Plane_somewhere|"), (Crs{0, false, true}));
+  EXPECT_EQ(crs_of_geokeys(keys, "x"), (Crs{0, false, true}));
+  EXPECT_EQ(crs_of_geokeys(keys), (Crs{0, false, true}));
+}
+
 TEST(Degrees, AreMetresOnASphere) {
   const Crs degrees = crs_of_epsg(4326);
   const std::vector<Point> square = {{10, 50}, {11, 50}, {11, 51}, {10, 51}};

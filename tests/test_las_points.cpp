@@ -184,6 +184,21 @@ TEST_F(LasPointsTest, TheCoordinateSystemOfGeoKeysAndText) {
   EXPECT_EQ(crs_of({}), Crs());
   EXPECT_EQ(crs_of({geographic(4258)}), (Crs{4258, true, true}));
   EXPECT_EQ(crs_of({projected(32767)}), (Crs{0, false, true})) << "user-defined";
+  const LasRecord citations = {"LASF_Projection", 34737,
+                               "WGS 84 / UTM zone 33N|WGS 84|" + std::string(3, '\0')};
+  const auto cited = [](std::uint16_t model, std::uint16_t key, std::uint16_t at, std::uint16_t unit) {
+    return LasRecord{
+        "LASF_Projection", 34735,
+        hullbench::testing::geokeys({1,   1,     0,  4,  1024, 0, 1, model, 3072, 0, 1, 32767,  //
+                                     key, 34737, 22, at, 3076, 0, 1, unit})};
+  };
+  EXPECT_EQ(crs_of({cited(1, 3073, 0, 9001), citations}), (Crs{32633, false, true}));
+  EXPECT_EQ(crs_of({citations, cited(1, 1026, 0, 9001)}), (Crs{32633, false, true})) << "in either order";
+  EXPECT_EQ(crs_of({cited(2, 2049, 22, 9001), citations}), (Crs{4326, true, true}));
+  EXPECT_EQ(crs_of({cited(1, 3073, 22, 9001), citations}), (Crs{0, false, true})) << "of another kind";
+  EXPECT_EQ(crs_of({cited(1, 3073, 0, 9003), citations}), (Crs{0, false, true})) << "in feet";
+  EXPECT_EQ(crs_of({cited(1, 3073, 40, 9001), citations}), (Crs{0, false, true})) << "beyond the texts";
+  EXPECT_EQ(crs_of({cited(1, 3073, 0, 9001)}), (Crs{0, false, true})) << "without texts";
   EXPECT_EQ(crs_of({text}), (Crs{32633, false, true}));
   EXPECT_EQ(crs_of({projected(25832), text}), (Crs{32633, false, true})) << "text goes first";
   EXPECT_EQ(crs_of({text, projected(25832)}), (Crs{32633, false, true})) << "in either order";
@@ -226,7 +241,7 @@ TEST_F(LasPointsTest, FilesThatLieAreRefused) {
   for (const double bad : {0.0, std::numeric_limits<double>::quiet_NaN(), 1e308}) {
     expect_refusal(changed(131, hullbench::testing::bytes_of(bad)), "has a scale or an offset");
   }
-  // Records that do not fit are passed over, as the points are elsewhere.
+  // The points are read whatever records say.
   EXPECT_EQ(read_bytes(changed(100, "\xFF\xFF\xFF\xFF")).points, whole.places());
 
   LasFile huge = some_points(4, 6);

@@ -4,6 +4,7 @@
 #include <array>
 #include <cctype>
 #include <charconv>
+#include <map>
 #include <vector>
 
 namespace polylidar::tool {
@@ -141,24 +142,44 @@ std::optional<Crs> crs_of_wkt(std::string_view text) {
   return crs;
 }
 
-std::optional<Crs> crs_of_geokeys(std::span<const std::uint16_t> keys) {
+std::optional<Crs> crs_of_geokeys(std::span<const std::uint16_t> keys, std::string_view texts) {
   constexpr std::uint16_t kModelType = 1024;
+  constexpr std::uint16_t kCitation = 1026;
   constexpr std::uint16_t kGeodeticSystem = 2048;
+  constexpr std::uint16_t kGeodeticCitation = 2049;
   constexpr std::uint16_t kProjectedSystem = 3072;
+  constexpr std::uint16_t kProjectedCitation = 3073;
+  constexpr std::uint16_t kLengthUnit = 3076;
+  constexpr std::uint16_t kMetre = 9001;
   constexpr std::uint16_t kUserDefined = 32767;
-  std::uint16_t model = 0;
-  std::uint16_t geodetic = 0;
-  std::uint16_t projected = 0;
+  constexpr std::uint16_t kTexts = 34737;
+  std::map<std::uint16_t, std::uint16_t> numbers;       // by key
+  std::map<std::uint16_t, std::string_view> citations;  // likewise
   for (std::size_t k = 4; k + 4 <= keys.size(); k += 4) {
-    if (keys[k + 1] != 0) continue;  // the value is not in the directory
-    if (keys[k] == kModelType) model = keys[k + 3];
-    if (keys[k] == kGeodeticSystem) geodetic = keys[k + 3];
-    if (keys[k] == kProjectedSystem) projected = keys[k + 3];
+    const auto [key, place, count, value] = std::array{keys[k], keys[k + 1], keys[k + 2], keys[k + 3]};
+    if (place == 0) numbers[key] = value;
+    if (place == kTexts && value < texts.size()) citations[key] = texts.substr(value, count);
   }
+  const std::uint16_t model = numbers[kModelType];
+  const std::uint16_t geodetic = numbers[kGeodeticSystem];
+  const std::uint16_t projected = numbers[kProjectedSystem];
   const bool is_geographic = model == 2 || (model == 0 && projected == 0 && geodetic != 0);
   if (!is_geographic && model != 1 && projected == 0) return {};
   const std::uint16_t number = is_geographic ? geodetic : projected;
-  return Crs{.epsg = number == kUserDefined ? 0 : number, .is_geographic = is_geographic, .is_given = true};
+  if (number != 0 && number != kUserDefined) {
+    return Crs{.epsg = number, .is_geographic = is_geographic, .is_given = true};
+  }
+  // A system of that name in feet is another one.
+  const bool is_in_metres = !numbers.contains(kLengthUnit) || numbers[kLengthUnit] == kMetre;
+  for (const std::uint16_t key : {is_geographic ? kGeodeticCitation : kProjectedCitation, kCitation}) {
+    std::string_view name = citations[key];
+    name = name.substr(0, name.find_first_of(std::string_view("|\0", 2)));
+    // Esri's programs write "PCS Name = WGS_1984_UTM_Zone_32N".
+    const Crs known = crs_of_epsg(number_of_known_name(name.substr(name.rfind('=') + 1)));
+    if (known.epsg > 0 && known.is_geographic == is_geographic && (is_geographic || is_in_metres))
+      return known;
+  }
+  return Crs{.epsg = 0, .is_geographic = is_geographic, .is_given = true};
 }
 
 }  // namespace polylidar::tool

@@ -33,7 +33,9 @@ std::optional<Crs> crs_of_name(std::string_view name);
 /// three in degrees: Esri's .prj files have names only. Nothing where the text names no such system.
 std::optional<Crs> crs_of_wkt(std::string_view text);
 
-/// Of a GeoKeyDirectoryTag (OGC 19-008r4, 7.1.2): numbers of 16 bits, four a key.
-std::optional<Crs> crs_of_geokeys(std::span<const std::uint16_t> keys);
+/// Of a GeoKeyDirectoryTag (OGC 19-008r4, 7.1.2): numbers of 16 bits, four a key. `texts` is what its keys of
+/// text point into, the GeoAsciiParamsTag: the citation of a system without a number may be a name that
+/// crs_of_wkt() knows.
+std::optional<Crs> crs_of_geokeys(std::span<const std::uint16_t> keys, std::string_view texts = {});
 
 }  // namespace polylidar::tool

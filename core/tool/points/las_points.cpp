@@ -96,6 +96,7 @@ class LasReader {
     check_size();
     read_points();
     read_extended_records();
+    if (!has_wkt_) file_.crs = crs_of_geokeys(geokeys_, geokey_texts_).value_or(Crs());
     if (!reader_.options().by.empty()) labels_.finish(file_);
   }
 
@@ -173,8 +174,8 @@ class LasReader {
     is_extended_format_ = format >= 6;
   }
 
-  /// The variable length records, of which only those with the coordinate system matter. A record that does
-  /// not fit ends them: the points are elsewhere.
+  /// The variable length records, of which only those with the coordinate system matter. Reading stops at a
+  /// record that reaches into the points; the points are still read.
   void read_records() {
     skip_to(header_.size, "its header does");
     for (std::uint64_t r = 0; r < header_.records; ++r) {
@@ -202,15 +203,16 @@ class LasReader {
     }
   }
 
-  /// Takes the coordinate system out of a record of which `start` has been read. WKT goes before GeoKeys, as
-  /// the specification has it for 1.4.
+  /// Takes what says the coordinate system out of a record of which `start` has been read. WKT goes before
+  /// GeoKeys, as the specification has it for 1.4.
   bool read_record(const char* start, std::uint64_t size) {
     constexpr std::uint64_t kWkt = 2112;
     constexpr std::uint64_t kGeoKeys = 34735;
+    constexpr std::uint64_t kGeoKeyTexts = 34737;
     constexpr std::uint64_t kLongest = std::uint64_t{1} << 20U;
     const std::uint64_t id = unsigned_at(start + 18, 2);
     const bool is_projection = std::string_view(start + 2, 16).starts_with("LASF_Projection");
-    if (!is_projection || (id != kWkt && id != kGeoKeys) || size > kLongest) {
+    if (!is_projection || (id != kWkt && id != kGeoKeys && id != kGeoKeyTexts) || size > kLongest) {
       position_ += size;
       return reader_.skip(size);
     }
@@ -219,13 +221,14 @@ class LasReader {
     if (id == kWkt) {
       const std::optional<Crs> crs = crs_of_wkt(std::string_view(bytes).substr(0, bytes.find('\0')));
       if (crs) file_.crs = *crs;
-      has_wkt_ = crs.has_value();
-    } else if (!has_wkt_) {
-      std::vector<std::uint16_t> keys(bytes.size() / 2);
-      for (std::size_t k = 0; k < keys.size(); ++k) {
-        keys[k] = static_cast<std::uint16_t>(unsigned_at(&bytes[2 * k], 2));
+      has_wkt_ |= crs.has_value();
+    } else if (id == kGeoKeyTexts) {
+      geokey_texts_ = std::move(bytes);
+    } else {
+      geokeys_.resize(bytes.size() / 2);
+      for (std::size_t k = 0; k < geokeys_.size(); ++k) {
+        geokeys_[k] = static_cast<std::uint16_t>(unsigned_at(&bytes[2 * k], 2));
       }
-      file_.crs = crs_of_geokeys(keys).value_or(Crs());
     }
     return true;
   }
@@ -342,6 +345,8 @@ class LasReader {
   Header header_;
   bool is_extended_format_ = false;
   bool has_wkt_ = false;
+  std::vector<std::uint16_t> geokeys_;
+  std::string geokey_texts_;
   std::uint64_t position_ = 0;  ///< in the file, as far as it matters
   By by_ = By::kNothing;
   std::vector<std::uint32_t> group_of_value_;  ///< a value of 16 bits -> the number of its label, or kNoGroup
