@@ -84,6 +84,26 @@ TEST(Degrees, AreMetresOnASphere) {
   EXPECT_EQ(middle_latitude(degrees, projected), std::nullopt) << "GeoJSON that is none";
 }
 
+TEST(Degrees, AreGuessedOfPlacesFarFromTheOrigin) {
+  const auto look = [](double west, double south, double east, double north) {
+    return look_like_degrees({{west, south}, {east, north}});
+  };
+  EXPECT_TRUE(look(13.0884, 52.3383, 13.7611, 52.6755)) << "Berlin";
+  EXPECT_TRUE(look(-124.7332, 24.5439, -66.9498, 49.3845)) << "the United States";
+  EXPECT_TRUE(look(36.6645, -1.4448, 37.1049, -1.1606)) << "Nairobi";
+  EXPECT_TRUE(look(-0.4903, 51.28676, -0.4902, 51.2868)) << "a garden";
+  EXPECT_FALSE(look(0, 0, 1, 1));
+  EXPECT_FALSE(look(0.1234567, 0.2, 0.9876543, 0.8)) << "a unit square";
+  EXPECT_FALSE(look(-4.1234567, -3.7654321, 7.8901234, 2.3456789)) << "a room round a scanner";
+  EXPECT_FALSE(look(2.1234567, 3.7654321, 7.8901234, 9.3456789)) << "a room beside its origin";
+  EXPECT_FALSE(look(20.125, 30.25, 25.5, 34.875)) << "thousandths of a metre";
+  EXPECT_FALSE(look(100, 50, 140, 80)) << "pixels";
+  EXPECT_FALSE(look(13.0884, 52.3383, 13.0884, 52.3383)) << "a point";
+  EXPECT_FALSE(look(181.12345, 52.3383, 181.7611, 52.6755));
+  EXPECT_FALSE(look(500000.1234, 5600000.1234, 500010.1234, 5600010.1234));
+  EXPECT_FALSE(look_like_degrees(bounding_box({})));
+}
+
 TEST(Degrees, ComeBackToTheLastBit) {
   const std::vector<Point> points = {{10.1, 50.3}, {11.7, 50.2}, {11.3, 51.9}, {10.2, 51.1}};
   const Polygon square = {points, {{points[0], points[1], points[2]}}};

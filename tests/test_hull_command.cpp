@@ -386,6 +386,28 @@ TEST_F(HullCommandTest, PlaneCoordinatesWithoutASystemAreTold) {
   EXPECT_FALSE(said("x,y\n", {}));
 }
 
+TEST_F(HullCommandTest, WhatLooksLikeDegreesIsAskedAbout) {
+  const std::string words = "polylidar: if the points are longitudes and latitudes, give --crs EPSG:4326\n";
+  const auto said = [&](const std::string& text, std::vector<std::string> options) {
+    options.insert(options.begin(), {file("place.csv", text), "--alpha", "1"});
+    const std::string err = hull(options).err;
+    return err.find(words) != std::string::npos;
+  };
+  const std::string berlin = "13.0884,52.3383\n13.7611,52.5123\n13.4123,52.6755\n";
+  EXPECT_TRUE(said(berlin, {}));
+  EXPECT_TRUE(said(berlin, {"--format", "wkt"}));
+  EXPECT_TRUE(said(berlin, {"--stream"}));
+  EXPECT_TRUE(said("x,y\n" + berlin, {}));
+  EXPECT_FALSE(said("lon,lat\n" + berlin, {}));
+  EXPECT_FALSE(said(berlin, {"--crs", "EPSG:4326"}));
+  EXPECT_FALSE(said(berlin, {"--crs", "none"}));
+  EXPECT_FALSE(said("1.1234567,2.3\n3.4,2.1\n1.7654321,4.5\n", {}));
+  for (const char* option : {"--detail=1", "--union"}) {
+    const Outcome outcome = testing::run_program({POLYLIDAR, "footprint", file("place.csv", berlin), option});
+    EXPECT_NE(outcome.err.find(words), std::string::npos) << option;
+  }
+}
+
 TEST_F(HullCommandTest, InputThatCannotBeRead) {
   expect_refusal(hull({"/nowhere/points.csv"}), 2, "there is no file /nowhere/points.csv");
   expect_refusal(hull({folder().string()}), 2, "it is a folder");

@@ -192,6 +192,8 @@ class IndexRun {
              "property crs\n";
     } else if (lacks_crs(command_.shape, *crs, box_)) {
       surroundings_.err << surroundings_.program << ": " << kNoCrs << "\n";
+    } else if (may_be_degrees(command_.shape, *crs, box_)) {
+      surroundings_.err << surroundings_.program << ": " << kMayBeDegrees << "\n";
     }
     return code;
   }
@@ -330,6 +332,7 @@ class UnionRun {
               command_.shape.window.empty() ? "no points" : "no points in the window");
     if (!output_.can_tell(crs_)) say(std::string(kNamelessCrs));
     if (lacks_crs(command_.shape, crs_, all_.bounds)) say(std::string(kNoCrs));
+    if (may_be_degrees(command_.shape, crs_, all_.bounds)) say(std::string(kMayBeDegrees));
     return code;
   }
 

@@ -116,9 +116,9 @@ class HullRun {
                           });
     status_.clear();
     if (!output_.can_tell(crs_)) say(std::string(kNamelessCrs));
-    if (output_.has_features() && lacks_crs(command_.shape, crs_, bounding_box(file_.points))) {
-      say(std::string(kNoCrs));
-    }
+    const Box box = bounding_box(file_.points);
+    if (output_.has_features() && lacks_crs(command_.shape, crs_, box)) say(std::string(kNoCrs));
+    if (may_be_degrees(command_.shape, crs_, box)) say(std::string(kMayBeDegrees));
     if (!hulls_.latitude) return;
     say("longitude and latitude: lengths and areas are in metres, true at latitude " +
         shortest(std::round(*hulls_.latitude * 100) / 100) + "; --crs none takes degrees as they are");

@@ -208,6 +208,10 @@ bool lacks_crs(const ShapeChoice& choice, const Crs& crs, const Box& box) {
   return choice.crs.empty() && !crs.is_given && !is_empty && !could_be_degrees(box);
 }
 
+bool may_be_degrees(const ShapeChoice& choice, const Crs& crs, const Box& box) {
+  return choice.crs.empty() && !crs.is_given && look_like_degrees(box);
+}
+
 LocatedHulls locate_hulls(const PointFile& file, const ShapeChoice& choice, bool is_grouped, unsigned threads,
                           const std::function<void(std::size_t)>& on_group) {
   LocatedHulls hulls;

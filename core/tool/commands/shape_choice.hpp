@@ -57,6 +57,13 @@ inline constexpr std::string_view kNoCrs =
 /// Whether kNoCrs is to be said of points in `box`.
 bool lacks_crs(const ShapeChoice& choice, const Crs& crs, const Box& box);
 
+/// What is said where no system is known of coordinates that look like longitudes and latitudes.
+inline constexpr std::string_view kMayBeDegrees =
+    "if the points are longitudes and latitudes, give --crs EPSG:4326";
+
+/// Whether kMayBeDegrees is to be said of points in `box`.
+bool may_be_degrees(const ShapeChoice& choice, const Crs& crs, const Box& box);
+
 /// What the help of both commands says of GDAL.
 inline constexpr std::string_view kGdalHelp =
     "A build with GDAL (-DPOLYLIDAR_WITH_GDAL=ON) also reads points from GeoPackage, Shapefile, FlatGeobuf, "

@@ -88,7 +88,9 @@ class StreamRun {
     const StreamedHull hull =
         concave_hull_of_stream(sources(command_.inputs.size() == 1 ? core_.threads : 1), core_, options);
     status_.clear();
-    write_streamed_hull(hull, core_, crs_.value_or(Crs()), output, surroundings_);
+    const Crs crs = crs_.value_or(Crs());
+    write_streamed_hull(hull, core_, crs, output, surroundings_);
+    if (may_be_degrees(command_.shape, crs, hull.box)) say_once(std::string(kMayBeDegrees));
     return kExitOk;
   }
 

@@ -1,6 +1,7 @@
 #include "tool/hull/degrees.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <numbers>
@@ -24,6 +25,19 @@ bool is_before(const Point& a, const Point& b) {
 
 bool could_be_degrees(const Box& box) {
   return box.min.x >= -360 && box.max.x <= 360 && box.min.y >= -90 && box.max.y <= 90;
+}
+
+bool look_like_degrees(const Box& box) {
+  const bool is_in_range = box.min.x >= -180 && box.max.x <= 180 && box.min.y >= -90 && box.max.y <= 90;
+  const double reach = std::max(box.max.x - box.min.x, box.max.y - box.min.y);
+  if (!is_in_range || reach <= 0) return false;  // of none or one, too
+  const double from_origin =
+      std::hypot(std::max({box.min.x, -box.max.x, 0.0}), std::max({box.min.y, -box.max.y, 0.0}));
+  const std::array corners = {box.min.x, box.min.y, box.max.x, box.max.y};
+  const bool is_fine = std::any_of(corners.begin(), corners.end(), [](double value) {
+    return std::abs(1000 * value - std::round(1000 * value)) > 1e-6;
+  });
+  return from_origin >= std::max(reach, 10.0) && is_fine;
 }
 
 std::optional<double> middle_latitude(const Crs& crs, std::span<const Point> points) {

@@ -13,6 +13,12 @@ namespace polylidar::tool {
 /// Whether no coordinate is beyond 360 of longitude or 90 of latitude.
 bool could_be_degrees(const Box& box);
 
+/// Whether coordinates of which nothing is said look like longitudes and latitudes: they are within 180 and
+/// 90, further from (0, 0) than 10 and than they reach, and have more than three decimals. Coordinates of a
+/// sensor, a drawing or a test lie round their origin, or end at a thousandth of their unit. Nothing is
+/// certain: this is enough for a hint.
+bool look_like_degrees(const Box& box);
+
 /// The middle latitude of points that are longitudes and latitudes in degrees; nothing where `crs` does not
 /// say so or a coordinate cannot be one (beyond 360 or 90), which happens to GeoJSON of projected
 /// coordinates.
