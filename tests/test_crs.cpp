@@ -1,6 +1,11 @@
 // Coordinate systems as files name them, and degrees as metres.
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <numbers>
+#include <utility>
+#include <vector>
+
 #include "polylidar/geometry.hpp"
 #include "tool/hull/degrees.hpp"
 #include "tool/points/crs.hpp"
@@ -71,12 +76,43 @@ TEST(GeoKeys, ACitationOfAKnownNameHasANumber) {
   EXPECT_EQ(crs_of_geokeys(keys), (Crs{0, false, true}));
 }
 
+constexpr double kRadians = std::numbers::pi / 180;
+
+/// R^2 * (east - west) * (sin north - sin south)
+double area_of_box(double west, double south, double east, double north) {
+  constexpr double kRadius = 6371007.2;
+  return kRadius * kRadius * (east - west) * kRadians *
+         (std::sin(north * kRadians) - std::sin(south * kRadians));
+}
+
+TEST(Degrees, HaveTheAreasOfTheSphereAtAllLatitudes) {
+  for (const auto& [south, north] : std::vector<std::pair<double, double>>{
+           {-0.5, 0.5}, {0, 1}, {60, 61}, {-61, -60}, {40, 50}, {-5, 5}, {80, 90}, {50, 50 + 1e-5}}) {
+    const Ring box = {{10, south}, {11, south}, {11, north}, {10, north}};
+    const double area = area_of_box(10, south, 11, north);
+    for (const double latitude : {(south + north) / 2, 45.0, 0.0}) {
+      const std::vector<Point> metres = to_metres(box, latitude);
+      EXPECT_NEAR(signed_area_on_sphere(metres, latitude), area, 1e-8 * area) << south << ' ' << latitude;
+      EXPECT_NEAR(signed_area_on_sphere({metres.rbegin(), metres.rend()}, latitude), -area, 1e-8 * area);
+    }
+    // A diagonal cuts it into two triangles.
+    const std::vector<Point> m = to_metres(box, 45);
+    EXPECT_NEAR(signed_area_on_sphere({m[0], m[1], m[2]}, 45) + signed_area_on_sphere({m[0], m[2], m[3]}, 45),
+                area, 1e-8 * area);
+  }
+  // What lies between 10 and 10.0001 degrees, where a plane is good enough.
+  const std::vector<Point> small = to_metres(std::vector<Point>{{7, 10}, {7.0001, 10}, {7, 10.0001}}, 10);
+  EXPECT_NEAR(signed_area_on_sphere(small, 10), signed_area(small), 1e-5 * signed_area(small));
+  EXPECT_EQ(signed_area_on_sphere({}, 10), 0);
+}
+
 TEST(Degrees, AreMetresOnASphere) {
   const Crs degrees = crs_of_epsg(4326);
   const std::vector<Point> square = {{10, 50}, {11, 50}, {11, 51}, {10, 51}};
   ASSERT_EQ(middle_latitude(degrees, square), 50.5);
-  // R^2 * dlon * (sin 51 - sin 50)
-  EXPECT_NEAR(signed_area(to_metres(square, 50.5)), 7.8651e9, 1e6);
+  const std::vector<Point> box = {{0, 60}, {2, 60}, {2, 61}, {0, 61}};
+  const double degree = 6371007.2 * kRadians;
+  EXPECT_NEAR(signed_area(to_metres(box, 60)), degree * degree, 1);
   EXPECT_EQ(middle_latitude(crs_of_epsg(25832), square), std::nullopt);
   EXPECT_EQ(middle_latitude(Crs(), square), std::nullopt);
   EXPECT_EQ(middle_latitude(degrees, {}), std::nullopt);

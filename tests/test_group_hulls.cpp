@@ -8,6 +8,7 @@
 #include <random>
 
 #include "polylidar/concave_hull.hpp"
+#include "tool/hull/degrees.hpp"
 #include "tool/hull/group_hulls.hpp"
 #include "tool/shapes/point_locator.hpp"
 
@@ -173,6 +174,26 @@ TEST(GroupHulls, NothingIsWidenedWithoutNeedOrHope) {
     EXPECT_FALSE(hull.has_triangles);
     EXPECT_EQ(hull.area, 0);
   }
+}
+
+TEST(GroupHulls, AreasOfDegreesAreThoseOnTheSphere) {
+  // Two squares of half a degree, of the same area on a plane that is true at latitude 60. On the sphere the
+  // one at the equator has twice the area of the other.
+  std::vector<Point> degrees;
+  for (const double south : {0.0, 60.0}) {
+    for (int i = 0; i < 36; ++i) degrees.push_back({0.1 * (i % 6), south + 0.1 * (i / 6)});
+  }
+  const std::vector<Point> metres = to_metres(degrees, 60);
+  HullOptions options = {.core = {.max_edge_length = 20000}, .latitude = 60};
+  const GroupHull both = hull_of(metres, options);
+  ASSERT_EQ(both.shape.size(), 2U);
+  const double equator = 55597.46 * 55597.46;
+  EXPECT_NEAR(both.area, 1.5 * equator, 0.01 * equator);
+  options.min_area = 0.6 * equator;
+  const GroupHull large = hull_of(metres, options);
+  ASSERT_EQ(large.shape.size(), 1U);
+  EXPECT_LT(degrees[large.shape[0].shell[0]].y, 1);
+  EXPECT_NEAR(large.area, equator, 0.001 * equator);
 }
 
 TEST(GroupHulls, TheLargestPartsStayInTheirOrder) {

@@ -508,7 +508,7 @@ TEST_F(HullCommandTest, DegreesAreTakenAsMetres) {
       }());
   const std::string plain = file("plain.csv", testing::rows(degrees, ","));
   const Outcome outcome = hull({geojson, "--max-edge-length", "300"});
-  EXPECT_NE(outcome.err.find("longitude and latitude: lengths and areas are in metres"), std::string::npos);
+  EXPECT_NE(outcome.err.find("longitude and latitude: lengths are in metres"), std::string::npos);
   const json feature = json::parse(outcome.out);
   EXPECT_FALSE(feature.contains("crs"));
   // 1 unit of points_ is 556 m in both directions at latitude 60.

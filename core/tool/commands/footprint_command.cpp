@@ -108,7 +108,7 @@ GroupHull cleaned(IndexShape shape, std::span<const Point> points, const Streame
   GroupHull all;
   all.shape = std::move(shape);
   clean(all.shape, points, options);
-  all.area = area(all.shape, points);
+  all.area = area(all.shape, points, options.latitude);
   all.alpha = options.core.alpha;
   all.max_edge_length = options.core.max_edge_length;
   all.max_perimeter = options.core.max_perimeter;
@@ -489,6 +489,7 @@ class UnionRun {
     drop_what_chance_makes(streamed.shape, streamed.points);
     HullOptions options = hull_options(command_.shape);
     options.core = core_;
+    options.latitude = latitude_;
     const GroupHull united = cleaned(std::move(streamed.shape), streamed.points, hull, options);
     Properties properties;
     properties.add("files", count_);

@@ -120,8 +120,9 @@ class HullRun {
     if (output_.has_features() && lacks_crs(command_.shape, crs_, box)) say(std::string(kNoCrs));
     if (may_be_degrees(command_.shape, crs_, box)) say(std::string(kMayBeDegrees));
     if (!hulls_.latitude) return;
-    say("longitude and latitude: lengths and areas are in metres, true at latitude " +
-        shortest(std::round(*hulls_.latitude * 100) / 100) + "; --crs none takes degrees as they are");
+    say("longitude and latitude: lengths are in metres, true at latitude " +
+        shortest(std::round(*hulls_.latitude * 100) / 100) +
+        ", and areas are those on the sphere; --crs none takes degrees as they are");
   }
 
   /// What was chosen, or why there is nothing.

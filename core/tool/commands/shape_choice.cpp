@@ -218,8 +218,10 @@ LocatedHulls locate_hulls(const PointFile& file, const ShapeChoice& choice, bool
   hulls.latitude = middle_latitude(chosen_crs(choice, file.crs), file.points);
   if (hulls.latitude) hulls.metres = to_metres(file.points, *hulls.latitude);
   if (is_grouped && file.points.empty()) return hulls;
+  HullOptions options = hull_options(choice);
+  options.latitude = hulls.latitude;
   hulls.groups = group_hulls(hulls.latitude ? hulls.metres : file.points, file.groups, file.labels.size(),
-                             hull_options(choice), threads, on_group);
+                             options, threads, on_group);
   return hulls;
 }
 

@@ -26,7 +26,7 @@ void add_format_option(CLI::App& app, ShapeChoice& choice, const std::vector<std
 /// Which points are read, with what. Throws ConfigurationError for classes or a window that are none.
 PointFileOptions point_options(const ShapeChoice& choice, const Surroundings& surroundings);
 
-/// Without the threads.
+/// Without the threads and the latitude.
 HullOptions hull_options(const ShapeChoice& choice);
 
 /// --threads, or the number of processors.

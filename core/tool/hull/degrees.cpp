@@ -10,10 +10,12 @@
 namespace polylidar::tool {
 namespace {
 
+constexpr double kRadius = 6371007.2;  // metres
+constexpr double kRadians = std::numbers::pi / 180;
+
 /// Metres east and north of a degree.
 Point metres_a_degree(double latitude) {
-  constexpr double kRadians = std::numbers::pi / 180;
-  constexpr double kMetresADegree = 6371008.8 * kRadians;
+  constexpr double kMetresADegree = kRadius * kRadians;
   return {kMetresADegree * std::cos(latitude * kRadians), kMetresADegree};
 }
 
@@ -54,6 +56,21 @@ std::vector<Point> to_metres(std::span<const Point> points, double latitude) {
     return Point{p.x * scale.x, p.y * scale.y};
   });
   return metres;
+}
+
+double signed_area_on_sphere(const Ring& metres, double latitude) {
+  // Between an edge and the equator lies R^2 times its length in longitude times the mean of the sines of its
+  // latitudes, which is sin(middle) * sin(half) / half.
+  double sum = 0;
+  for (std::size_t i = 0; i < metres.size(); ++i) {
+    const Point& from = metres[i];
+    const Point& to = metres[i + 1 < metres.size() ? i + 1 : 0];
+    const double middle = (from.y + to.y) / 2 / kRadius;
+    const double half = (to.y - from.y) / 2 / kRadius;
+    const double mean_sine = std::sin(middle) * (half == 0 ? 1 : std::sin(half) / half);
+    sum += (from.x - to.x) * mean_sine;
+  }
+  return kRadius * sum / std::cos(latitude * kRadians);
 }
 
 MultiPolygon to_degrees(MultiPolygon shape, std::span<const Point> points, double latitude) {

@@ -25,11 +25,17 @@ bool look_like_degrees(const Box& box);
 std::optional<double> middle_latitude(const Crs& crs, std::span<const Point> points);
 
 /// Points in degrees as metres east and north: both axes are scaled by the metres of a degree of latitude on
-/// a sphere of Earth's mean radius (6371008.8 m, IUGG), x by the cosine of `latitude` too. At that latitude
-/// lengths and areas are those of the sphere; at others x is too long or too short by the ratio of the
-/// cosines: 1 % across 1 degree at latitude 50. Both axes stay straight, so what is a valid polygon in metres
-/// is one in degrees. Points on both sides of longitude 180 are taken as far apart.
+/// the sphere with the area of the WGS 84 ellipsoid (radius 6371007.2 m), x by the cosine of `latitude` too.
+/// At that latitude lengths are those of the sphere; at others those along x are too long or too short by the
+/// ratio of the cosines: 2 % one degree north or south of latitude 50. Both axes stay straight, so what is a
+/// valid polygon in metres is one in degrees; on a map with true areas it need not be. Points on both sides
+/// of longitude 180 are taken as far apart.
 std::vector<Point> to_metres(std::span<const Point> points, double latitude);
+
+/// The area on that sphere of a ring of to_metres(points, latitude), in square metres: exact but for
+/// rounding, at all latitudes, for edges that are straight in degrees. Positive when it runs
+/// counter-clockwise.
+double signed_area_on_sphere(const Ring& metres, double latitude);
 
 /// The shape in degrees whose vertices are in metres. One that is a point of to_metres(points, latitude)
 /// becomes that point of `points` again, to the last bit.

@@ -194,7 +194,7 @@ GroupHull hull_of(Extractor& extractor, std::span<const Point> points, const Hul
   GroupHull hull = extracted(extractor, points, options);
   hull.points = points.size();
   clean(hull.shape, points, options);
-  hull.area = area(hull.shape, points);
+  hull.area = area(hull.shape, points, options.latitude);
   return hull;
 }
 
@@ -260,8 +260,8 @@ class GroupWork {
 }  // namespace
 
 void clean(IndexShape& shape, std::span<const Point> points, const HullOptions& options) {
-  if (options.min_area > 0) drop_small_areas(shape, points, options.min_area);
-  if (options.max_parts) keep_largest(shape, points, *options.max_parts);
+  if (options.min_area > 0) drop_small_areas(shape, points, options.min_area, options.latitude);
+  if (options.max_parts) keep_largest(shape, points, *options.max_parts, options.latitude);
   if (options.simplify > 0) shape = simplify(shape, points, options.simplify);
 }
 

@@ -26,6 +26,7 @@ struct HullOptions {
   double min_area = 0;            ///< squared units; smaller holes are filled, then smaller polygons dropped
   std::optional<std::size_t> max_parts = {};  ///< only so many polygons are kept, the largest
   double simplify = 0;                        ///< how far the outline may move; 0: not at all
+  Latitude latitude = {};                     ///< of the points; areas are then those on the sphere
 };
 
 /// The shape of one group.
@@ -34,7 +35,7 @@ struct GroupHull {
   IndexShape shape;                    ///< indices into all points
   std::size_t points = 0;
   std::size_t extracted = 0;   ///< polygons before any was dropped
-  double area = 0;             ///< of the shape, in squared units
+  double area = 0;             ///< of the shape, in squared units, of degrees on the sphere
   bool has_triangles = false;  ///< there are three distinct points that are not on a line
   /// What the limits that were given became, or that of the size that was chosen.
   std::optional<double> alpha;

@@ -4,6 +4,8 @@
 #include <numeric>
 #include <utility>
 
+#include "tool/hull/degrees.hpp"
+
 namespace polylidar::tool {
 namespace {
 
@@ -43,18 +45,22 @@ MultiPolygon to_coordinates(const IndexShape& shape, std::span<const Point> poin
   return polygons;
 }
 
-double signed_area(const IndexRing& ring, std::span<const Point> points) {
-  return polylidar::signed_area(coordinates(ring, points));
+double signed_area(const IndexRing& ring, std::span<const Point> points, const Latitude& latitude) {
+  const Ring vertices = coordinates(ring, points);
+  return latitude ? signed_area_on_sphere(vertices, *latitude) : polylidar::signed_area(vertices);
 }
 
-double area(const IndexPolygon& polygon, std::span<const Point> points) {
-  double area = signed_area(polygon.shell, points);
-  for (const IndexRing& hole : polygon.holes) area += signed_area(hole, points);
+double area(const IndexPolygon& polygon, std::span<const Point> points, const Latitude& latitude) {
+  double area = signed_area(polygon.shell, points, latitude);
+  for (const IndexRing& hole : polygon.holes) area += signed_area(hole, points, latitude);
   return area;
 }
 
-double area(const IndexShape& shape, std::span<const Point> points) {
-  return polylidar::area(to_coordinates(shape, points));
+double area(const IndexShape& shape, std::span<const Point> points, const Latitude& latitude) {
+  if (!latitude) return polylidar::area(to_coordinates(shape, points));
+  return std::accumulate(shape.begin(), shape.end(), 0.0, [&](double sum, const IndexPolygon& polygon) {
+    return sum + area(polygon, points, latitude);
+  });
 }
 
 std::size_t hole_count(const IndexShape& shape) {
@@ -63,17 +69,20 @@ std::size_t hole_count(const IndexShape& shape) {
       [](std::size_t count, const IndexPolygon& polygon) { return count + polygon.holes.size(); });
 }
 
-void drop_small_areas(IndexShape& shape, std::span<const Point> points, double least) {
+void drop_small_areas(IndexShape& shape, std::span<const Point> points, double least,
+                      const Latitude& latitude) {
   for (IndexPolygon& polygon : shape) {
-    std::erase_if(polygon.holes, [&](const IndexRing& hole) { return -signed_area(hole, points) < least; });
+    std::erase_if(polygon.holes,
+                  [&](const IndexRing& hole) { return -signed_area(hole, points, latitude) < least; });
   }
-  std::erase_if(shape, [&](const IndexPolygon& polygon) { return area(polygon, points) < least; });
+  std::erase_if(shape, [&](const IndexPolygon& polygon) { return area(polygon, points, latitude) < least; });
 }
 
-void keep_largest(IndexShape& shape, std::span<const Point> points, std::size_t count) {
+void keep_largest(IndexShape& shape, std::span<const Point> points, std::size_t count,
+                  const Latitude& latitude) {
   if (shape.size() <= count) return;
   std::vector<std::pair<double, std::size_t>> areas;  // negative, so that the largest come first
-  for (std::size_t p = 0; p < shape.size(); ++p) areas.emplace_back(-area(shape[p], points), p);
+  for (std::size_t p = 0; p < shape.size(); ++p) areas.emplace_back(-area(shape[p], points, latitude), p);
   std::nth_element(areas.begin(), areas.begin() + static_cast<std::ptrdiff_t>(count), areas.end());
   std::vector<std::size_t> kept;
   for (std::size_t i = 0; i < count; ++i) kept.push_back(areas[i].second);

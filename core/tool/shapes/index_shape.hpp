@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -30,19 +31,24 @@ IndexShape polygons_of(const IndexedMultiPolygon& shape);
 /// `shape` with coordinates.
 MultiPolygon to_coordinates(const IndexShape& shape, std::span<const Point> points);
 
-/// In squared units; a ring's is positive when it runs counter-clockwise.
-double signed_area(const IndexRing& ring, std::span<const Point> points);
-double area(const IndexPolygon& polygon, std::span<const Point> points);
-double area(const IndexShape& shape, std::span<const Point> points);
+/// The latitude of points that are metres of to_metres(); none of points in a plane.
+using Latitude = std::optional<double>;
+
+/// In squared units, with a latitude on the sphere; a ring's is positive when it runs counter-clockwise.
+double signed_area(const IndexRing& ring, std::span<const Point> points, const Latitude& latitude = {});
+double area(const IndexPolygon& polygon, std::span<const Point> points, const Latitude& latitude = {});
+double area(const IndexShape& shape, std::span<const Point> points, const Latitude& latitude = {});
 
 /// Holes of all polygons.
 std::size_t hole_count(const IndexShape& shape);
 
 /// Fills holes and drops polygons below `least`. What lies inside a hole is smaller than it, so that nothing
 /// that stays is covered by a filled one.
-void drop_small_areas(IndexShape& shape, std::span<const Point> points, double least);
+void drop_small_areas(IndexShape& shape, std::span<const Point> points, double least,
+                      const Latitude& latitude = {});
 
 /// Keeps the `count` polygons of the largest areas, in their order; of equal ones the first.
-void keep_largest(IndexShape& shape, std::span<const Point> points, std::size_t count);
+void keep_largest(IndexShape& shape, std::span<const Point> points, std::size_t count,
+                  const Latitude& latitude = {});
 
 }  // namespace polylidar::tool
