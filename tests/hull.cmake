@@ -9,12 +9,13 @@ hullbench_test(test_tool
     test_point_files.cpp
     test_shard_file.cpp
     test_simplify.cpp
+    test_status_line.cpp
   LIBRARIES polylidar::tool hullbench::metrics LABELS hull)
 target_include_directories(test_tool PRIVATE "${PROJECT_SOURCE_DIR}")
 
 hullbench_test(test_tool_commands
   SOURCES test_choose_command.cpp test_footprint_command.cpp test_hull_command.cpp test_points_command.cpp
-  LIBRARIES polylidar::tool hullbench::run hullbench::metrics hullbench::datasets hullbench_adapter_interface
+  LIBRARIES polylidar::tool_commands hullbench::run hullbench::metrics hullbench::datasets hullbench_adapter_interface
     nlohmann_json::nlohmann_json GEOS::geos_c
   LABELS hull RUNS_HULLBENCH LIGHT)
 target_compile_definitions(test_tool_commands PRIVATE

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <map>
 #include <random>
+#include <string>
+#include <vector>
 
 #include "polylidar/concave_hull.hpp"
 #include "tool/hull/degrees.hpp"
@@ -86,11 +88,12 @@ TEST(GroupHulls, EveryGroupIsThatOfItsPointsOnAnyThreads) {
   std::map<std::uint32_t, std::vector<Point>> members;
   for (std::size_t i = 0; i < points.size(); ++i) members[groups[i]].push_back(points[i]);
   for (const unsigned threads : {1U, 4U}) {
-    std::size_t told = 0;
-    const std::vector<GroupHull> hulls =
-        group_hulls(points, groups, 42, {}, threads, [&](std::size_t done) { told = std::max(told, done); });
+    std::vector<std::string> told;
+    const std::vector<GroupHull> hulls = group_hulls(
+        points, groups, 42, {}, threads, [&](const std::string& doing) { told.push_back(doing); });
     ASSERT_EQ(hulls.size(), 42U);
-    EXPECT_EQ(told, 42U);
+    ASSERT_EQ(told.size(), 42U);
+    EXPECT_EQ(told.back(), "group 42 of 42");
     for (std::uint32_t g = 0; g < 42; ++g) {
       EXPECT_EQ(hulls[g].points, members[g].size());
       EXPECT_EQ(to_coordinates(hulls[g].shape, points), to_coordinates(concave_hull(members[g]), members[g]))
@@ -104,8 +107,23 @@ TEST(GroupHulls, WhatATellerThrowsEndsTheWork) {
   std::vector<std::uint32_t> groups(points.size());
   for (std::size_t i = 0; i < groups.size(); ++i) groups[i] = static_cast<std::uint32_t>(i % 20);
   EXPECT_THROW(
-      group_hulls(points, groups, 20, {}, 3, [](std::size_t) { throw std::runtime_error("enough"); }),
+      group_hulls(points, groups, 20, {}, 3, [](const std::string&) { throw std::runtime_error("enough"); }),
       std::runtime_error);
+}
+
+TEST(GroupHulls, WithoutGroupsTheStepsAreTold) {
+  const std::vector<Point> points = islands(3, 2, 100, 4);
+  const auto steps = [&](const HullOptions& options) {
+    std::vector<std::string> told;
+    group_hulls(points, {}, 0, options, 1, [&](const std::string& doing) { told.push_back(doing); });
+    return told;
+  };
+  EXPECT_EQ(steps({}), std::vector<std::string>{"triangulating 204 points"});
+  EXPECT_EQ(steps({.simplify = 0.1}).back(), "simplifying the outline");
+  const std::vector<std::string> widened = steps({.core = {.max_perimeter = 0.5}, .cover = true});
+  ASSERT_GT(widened.size(), 4U);
+  EXPECT_EQ(widened[0], "triangulating 204 points");
+  EXPECT_EQ(widened[3], "widening the limit: step 3");
 }
 
 TEST(GroupHulls, CoverLeavesNoPointOutsideAndIsTheLeastThatDoes) {

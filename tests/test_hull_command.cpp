@@ -5,13 +5,16 @@
 #include <sys/stat.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <csignal>
 #include <filesystem>
+#include <fstream>
 #include <iomanip>
 #include <limits>
 #include <nlohmann/json.hpp>
 #include <sstream>
+#include <thread>
 
 #include "adapters/wkb.hpp"
 #include "benchmarks/metrics/validity.hpp"
@@ -20,6 +23,7 @@
 #include "tests/point_file_texts.hpp"
 #include "tests/program.hpp"
 #include "tests/temporary_folder.hpp"
+#include "tool/commands/commands.hpp"
 
 namespace hullbench {
 namespace {
@@ -800,6 +804,47 @@ TEST_F(ShardTest, SomeShardsAreEmpty) {
     whole.emplace_back("--stream");
     EXPECT_EQ(merge(parts(input, 25)).out, hull(whole).out);
   }
+}
+
+TEST_F(ShardTest, WhatTakesMoreThanASecondIsShown) {
+  namespace tool = polylidar::tool;
+  const std::string rows = "0,0\n1,0\n0,1\n";
+  const std::string part_of_rows = read_text(parts({file("few.csv", rows), "--alpha", "9"}, 1)[0]);
+  const std::string pipe = make_pipe();
+  // What `work` shows while its input stops for longer than it is quiet.
+  const auto shown_by = [&](const std::string& text, const auto& work) {
+    const std::jthread writer([&] {
+      std::fstream file(pipe, std::ios::binary | std::ios::in | std::ios::out);
+      file << text.substr(0, text.size() / 2) << std::flush;
+      std::this_thread::sleep_for(std::chrono::milliseconds(1500));
+      file << text.substr(text.size() / 2);
+    });
+    std::ostringstream err;
+    EXPECT_EQ(work(tool::Surroundings{"polylidar", err, true}), 0);
+    return err.str();
+  };
+  const std::string out = (folder() / "out.geojson").string();
+  const auto expect_line = [](const std::string& err, const std::string& line) {
+    EXPECT_NE(err.find("\r\033[K" + line + "\r\033[K"), std::string::npos) << err;
+  };
+  tool::HullCommand hull_command;
+  hull_command.inputs = {pipe};
+  hull_command.shape.out = out;
+  expect_line(shown_by(rows, [&](const tool::Surroundings& s) { return tool::make_hull(hull_command, s); }),
+              "reading: 0 MiB");
+  tool::FootprintCommand footprint_command;
+  footprint_command.inputs = {pipe};
+  footprint_command.shape.out = out;
+  expect_line(
+      shown_by(rows,
+               [&](const tool::Surroundings& s) { return tool::make_footprints(footprint_command, s); }),
+      "0 of 1 files; pipe: reading: 0 MiB");
+  tool::MergeCommand merge_command;
+  merge_command.inputs = {pipe};
+  merge_command.shape.out = out;
+  expect_line(shown_by(part_of_rows,
+                       [&](const tool::Surroundings& s) { return tool::merge_hulls(merge_command, s); }),
+              "reading part 1 of 1");
 }
 
 TEST_F(ShardTest, ShardsSayWhatTheyCannotDo) {

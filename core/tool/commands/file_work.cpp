@@ -61,36 +61,34 @@ void check_each_once(const std::vector<std::string>& paths) {
   }
 }
 
-FileWork::FileWork(const std::vector<std::string>& paths, const Surroundings& surroundings)
-    : paths_(paths),
-      surroundings_(surroundings),
-      status_(surroundings.err, surroundings.terminal),
-      outcomes_(paths.size()) {
+FileWork::FileWork(const std::vector<std::string>& paths, const Surroundings& surroundings,
+                   StatusLine& status)
+    : paths_(paths), surroundings_(surroundings), status_(status), outcomes_(paths.size()) {
   check_each_once(paths);
+}
+
+std::string FileWork::tried() const {
+  return std::to_string(tried_) + " of " + std::to_string(paths_.size()) + " files";
+}
+
+void FileWork::show(std::size_t file, const std::string& doing) {
+  throw_if_interrupted();
+  status_.show(tried() + "; " + std::filesystem::path(paths_[file]).filename().string() + ": " + doing);
 }
 
 void FileWork::run(unsigned threads, std::uint64_t memory, std::uint64_t memory_share, const Work& work) {
   const auto count = static_cast<unsigned>(std::min<std::size_t>(threads, paths_.size()));
   MemoryGate gate(memory);
-  std::size_t next = 0;
+  std::atomic<std::size_t> next = 0;
   const auto take_files = [&] {
-    for (;;) {
-      std::size_t file = 0;
-      {
-        const std::lock_guard lock(mutex_);
-        if (next == paths_.size() || interrupted()) return;
-        file = next++;
-      }
+    for (std::size_t file = next++; file < paths_.size() && !interrupted(); file = next++) {
       const std::uint64_t of_file = memory_share * size_of(paths_[file]);
       gate.enter(of_file);
       // Threads that no other file can use.
       work_on(file, std::max(1U, threads / count), work);
       gate.leave(of_file);
-      const std::lock_guard lock(mutex_);
       ++tried_;
-      if (surroundings_.terminal) {
-        status_.show(std::to_string(tried_) + " of " + std::to_string(paths_.size()) + " files");
-      }
+      status_.show(tried());
     }
   };
   {

@@ -1,10 +1,10 @@
 // Many files: as many at a time as there are threads and as memory holds, and what became of each.
 #pragma once
 
+#include <atomic>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
-#include <mutex>
 #include <optional>
 #include <string>
 #include <vector>
@@ -25,13 +25,16 @@ class FileWork {
   /// coordinate system it is in. What it throws makes the file one that failed, and the other files are done.
   using Work = std::function<Crs(std::size_t file, unsigned threads)>;
 
-  /// Both must live as long. Throws as check_each_once.
-  FileWork(const std::vector<std::string>& paths, const Surroundings& surroundings);
+  /// All must live as long. Throws as check_each_once.
+  FileWork(const std::vector<std::string>& paths, const Surroundings& surroundings, StatusLine& status);
 
   /// The files one after the other, each taken by the next of `threads` that is free. One takes
   /// `memory_share` times its size of memory; together they take no more than `memory`, in bytes, or one is
   /// alone. Says which files failed, a line each. Throws ConfigurationError where all did, and Interrupted.
   void run(unsigned threads, std::uint64_t memory, std::uint64_t memory_share, const Work& work);
+
+  /// What is being done with a file, for the status line; by any thread. Throws Interrupted.
+  void show(std::size_t file, const std::string& doing);
 
   bool is_done(std::size_t file) const { return outcomes_[file].is_done; }
   /// Of a file that was done.
@@ -51,14 +54,14 @@ class FileWork {
     Crs crs;
   };
 
+  std::string tried() const;
   void work_on(std::size_t file, unsigned threads, const Work& work);
 
   const std::vector<std::string>& paths_;
   const Surroundings& surroundings_;
-  StatusLine status_;
-  std::mutex mutex_;  ///< of the files that are taken and tried, and of the status line
-  std::size_t tried_ = 0;
-  std::vector<Outcome> outcomes_;  ///< one a file, in their order
+  StatusLine& status_;
+  std::atomic<std::size_t> tried_ = 0;  ///< files
+  std::vector<Outcome> outcomes_;       ///< one a file, in their order
 };
 
 }  // namespace polylidar::tool

@@ -156,9 +156,10 @@ class IndexRun {
   IndexRun(const FootprintCommand& command, const Surroundings& surroundings)
       : command_(command),
         surroundings_(surroundings),
+        status_(surroundings.err, surroundings.terminal, quiet_time(surroundings.terminal)),
         output_(command.shape, surroundings.vector_formats),
         options_(interruptible(point_options(command.shape, surroundings))),
-        files_(command.inputs, surroundings),
+        files_(command.inputs, surroundings, status_),
         features_(command.inputs.size()),
         notes_(command.inputs.size()),
         lacks_points_(command.inputs.size()),
@@ -174,7 +175,8 @@ class IndexRun {
       if (!feature.empty()) features.push_back(std::move(feature));
     }
     const std::optional<Crs> crs = files_.common_crs();
-    output_.write(geojson_collection(features, geojson_crs(crs.value_or(Crs()))), crs.value_or(Crs()));
+    output_.write(geojson_collection(features, geojson_crs(crs.value_or(Crs()))), crs.value_or(Crs()),
+                  status_);
     const ExitCode code = files_.summary("the index");
     say_notes(surroundings_, command_.inputs, notes_);
     say_which(surroundings_, command_.inputs, lacks_points_,
@@ -212,8 +214,8 @@ class IndexRun {
     const std::string& path = command_.inputs[place];
     check_is_file(path);
     std::optional<Footprint> streamed;
-    if (is_worth_streaming(path)) streamed = by_stream(path, threads);
-    const Footprint made = streamed ? *std::move(streamed) : in_memory(path, threads);
+    if (is_worth_streaming(path)) streamed = by_stream(place, threads);
+    const Footprint made = streamed ? *std::move(streamed) : in_memory(place, threads);
     Properties properties;
     properties.add("name", std::string_view(fs::path(path).filename().native()));
     properties.add("path", std::string_view(path));
@@ -227,12 +229,18 @@ class IndexRun {
     return made.crs;
   }
 
-  Footprint in_memory(const std::string& path, unsigned threads) const {
-    PointFile file = read_point_file(path, options_);
+  Footprint in_memory(std::size_t place, unsigned threads) {
+    PointFileOptions options = options_;
+    options.on_progress = [&](std::uint64_t bytes, std::optional<std::uint64_t> size) {
+      files_.show(place, reading(bytes, size));
+    };
+    PointFile file = read_point_file(command_.inputs[place], options);
     Footprint made;
     made.crs = chosen_crs(command_.shape, file.crs);
     made.note = file.note;
-    made.hull = std::move(locate_hulls(file, command_.shape, false, threads, {}).groups[0]);
+    made.hull = std::move(locate_hulls(file, command_.shape, false, threads, [&](const std::string& doing) {
+                            files_.show(place, doing);
+                          }).groups[0]);
     made.facts.add(file.points);
     made.facts.add(file.classes);
     made.points = std::move(file.points);
@@ -249,7 +257,8 @@ class IndexRun {
 
   /// The same without the points in memory, which is faster. Nothing of degrees, which must be known before
   /// they are read, and where a stream cannot tell.
-  std::optional<Footprint> by_stream(const std::string& path, unsigned threads) const {
+  std::optional<Footprint> by_stream(std::size_t place, unsigned threads) {
+    const std::string& path = command_.inputs[place];
     Footprint made;
     std::vector<PointFile> parts(threads);  // of each what it says beside its points
     const auto on_read = [&](std::size_t part, const PointFile& file) {
@@ -264,6 +273,9 @@ class IndexRun {
     StreamOptions stream_options;
     stream_options.most_points_in_memory = most_points_in_memory(command_.shape);
     stream_options.reads_at_once = true;
+    stream_options.progress = [&](const StreamProgress& progress) {
+      if (status_.is_due()) files_.show(place, passing(progress));
+    };
     StreamedHull hull;
     try {
       hull = concave_hull_of_stream(point_sources(path, options_, threads, on_read), core, stream_options);
@@ -281,6 +293,7 @@ class IndexRun {
 
   const FootprintCommand& command_;
   const Surroundings& surroundings_;
+  StatusLine status_;
   ShapeOutput output_;
   PointFileOptions options_;
   FileWork files_;
@@ -300,11 +313,11 @@ class UnionRun {
   UnionRun(const FootprintCommand& command, const Surroundings& surroundings)
       : command_(command),
         surroundings_(surroundings),
-        status_(surroundings.err, surroundings.terminal),
+        status_(surroundings.err, surroundings.terminal, quiet_time(surroundings.terminal)),
         output_(command.shape, surroundings.vector_formats),
         options_(interruptible(point_options(command.shape, surroundings))),
         core_(hull_options(command.shape).core),
-        files_(command.inputs, surroundings),
+        files_(command.inputs, surroundings, status_),
         facts_(command.inputs.size()),
         notes_(command.inputs.size()) {
     options_.whole_if_needed = true;
@@ -321,7 +334,7 @@ class UnionRun {
     if (hull.chosen_sizes && !hull.by_outlines) {
       say(in_words(*hull.chosen_sizes) + "; --detail scales it, " + std::string(kByHand));
     }
-    output_.write(geojson_collection(std::vector{feature(hull)}, geojson_crs(crs_)), crs_);
+    output_.write(geojson_collection(std::vector{feature(hull)}, geojson_crs(crs_)), crs_, status_);
     const ExitCode code = files_.summary("the union");
     say_notes(surroundings_, command_.inputs, notes_);
     std::vector<bool> lacks_points;
@@ -348,9 +361,7 @@ class UnionRun {
     }
   }
 
-  void say(const std::string& text) const {
-    surroundings_.err << surroundings_.program << ": " << text << "\n";
-  }
+  void say(const std::string& text) { status_.say(surroundings_.program + ": " + text); }
 
   /// Reads a file to its end.
   Crs look_at(std::size_t place) {
@@ -359,6 +370,9 @@ class UnionRun {
     Facts& facts = facts_[place];
     PointFileOptions options = options_;
     options.take_points = [&](std::span<const Point> block) { facts.add(block); };
+    options.on_progress = [&](std::uint64_t bytes, std::optional<std::uint64_t> size) {
+      files_.show(place, reading(bytes, size));
+    };
     const PointFile file = read_point_file(path, options);
     facts.add(file.classes);
     notes_[place] = file.note;
@@ -405,6 +419,7 @@ class UnionRun {
     double points = 0;
     for (std::size_t file = 0; file < facts_.size(); ++file) {
       if (!files_.is_done(file)) continue;
+      files_.show(file, "choosing a limit");
       const LocatedHulls hulls = locate_hulls(read_point_file(command_.inputs[file], options_),
                                               command_.shape, false, core_.threads, {});
       if (!hulls.groups[0].sizes) continue;
@@ -459,16 +474,12 @@ class UnionRun {
     options.most_map_bytes = std::max(options.most_map_bytes, most_map_bytes(command_.shape));
     options.progress = [&](const StreamProgress& progress) {
       throw_if_interrupted();
-      if (!surroundings_.terminal) return;
-      status_.show("pass " + std::to_string(progress.pass) + " of " + std::to_string(progress.passes) + ": " +
-                   std::to_string(progress.points) + " of " + std::to_string(all_.points) + " points");
+      if (status_.is_due()) status_.show(passing(progress, all_.points));
     };
     options.most_points_in_memory = most_points_in_memory(command_.shape);
     options.reads_at_once = true;
     try {
-      StreamedHull hull = concave_hull_of_stream(sources(true), core_, options);
-      status_.clear();
-      return hull;
+      return concave_hull_of_stream(sources(true), core_, options);
     } catch (const NeedsAllPoints&) {
       throw;
     } catch (const std::invalid_argument& error) {
@@ -494,6 +505,7 @@ class UnionRun {
     Properties properties;
     properties.add("files", count_);
     add_properties(all_, united, crs_, properties);
+    status_.show("making the result");
     // The coordinates of the files, bit by bit.
     const std::vector<Point> vertices =
         latitude_ ? points_of_numbers(sources(false), streamed.numbers) : std::move(streamed.points);

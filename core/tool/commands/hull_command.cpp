@@ -20,10 +20,6 @@
 namespace polylidar::tool {
 namespace {
 
-std::string mebibytes(std::uint64_t bytes) {
-  return std::to_string(bytes >> 20U);
-}
-
 std::string name_of(const HullCommand& command) {
   if (command.inputs.size() > 1) return "the " + std::to_string(command.inputs.size()) + " files";
   return command.inputs.front() == "-" ? "standard input" : command.inputs.front();
@@ -35,7 +31,7 @@ class HullRun {
   HullRun(const HullCommand& command, const Surroundings& surroundings)
       : command_(command),
         surroundings_(surroundings),
-        status_(surroundings.err, surroundings.terminal),
+        status_(surroundings.err, surroundings.terminal, quiet_time(surroundings.terminal)),
         output_(command.shape, surroundings.vector_formats) {}
 
   ExitCode run() {
@@ -48,7 +44,8 @@ class HullRun {
     } else {
       explain_groups();
     }
-    output_.write(result(), crs_);
+    show("making the result");
+    output_.write(result(), crs_, status_);
     return kExitOk;
   }
 
@@ -74,14 +71,11 @@ class HullRun {
     }
   }
 
-  void say(const std::string& text) const {
-    surroundings_.err << surroundings_.program << ": " << text << "\n";
-  }
+  void say(const std::string& text) { status_.say(surroundings_.program + ": " + text); }
 
-  /// On a terminal only: elsewhere nobody waits for it.
   void show(const std::string& doing) {
     throw_if_interrupted();
-    if (surroundings_.terminal) status_.show(doing);
+    status_.show(doing);
   }
 
   void read() {
@@ -90,7 +84,7 @@ class HullRun {
     options.columns = command_.columns;
     options.by = command_.by;
     options.on_progress = [&](std::uint64_t bytes, std::optional<std::uint64_t> size) {
-      show("reading: " + mebibytes(bytes) + (size ? " of " + mebibytes(*size) : "") + " MiB");
+      show(reading(bytes, size));
     };
     try {
       file_ = read_point_file(command_.inputs.front(), options);
@@ -103,18 +97,9 @@ class HullRun {
   }
 
   void compute() {
-    // Fewer take less than a blink.
-    constexpr std::size_t kMany = 500000;
-    const std::size_t groups = file_.labels.size();
-    if (file_.points.size() >= kMany)
-      show("triangulating " + std::to_string(file_.points.size()) + " points");
+    show("triangulating " + std::to_string(file_.points.size()) + " points");
     hulls_ = locate_hulls(file_, command_.shape, !command_.by.empty(), thread_count(command_.shape),
-                          [&](std::size_t done) {
-                            if (file_.points.size() >= kMany)
-                              show("group " + std::to_string(done) + " of " + std::to_string(groups));
-                            throw_if_interrupted();
-                          });
-    status_.clear();
+                          [&](const std::string& doing) { show(doing); });
     if (!output_.can_tell(crs_)) say(std::string(kNamelessCrs));
     const Box box = bounding_box(file_.points);
     if (output_.has_features() && lacks_crs(command_.shape, crs_, box)) say(std::string(kNoCrs));
@@ -126,7 +111,7 @@ class HullRun {
   }
 
   /// What was chosen, or why there is nothing.
-  void explain(const GroupHull& hull) const {
+  void explain(const GroupHull& hull) {
     const std::string by_hand(kByHand);
     if (hull.by_outlines) {
       say("the points lie on outlines only, and the shape is what these enclose; --detail below 1 closes "
@@ -143,7 +128,7 @@ class HullRun {
             : "there are no three distinct points that are not on one line, so the shape is empty");
   }
 
-  void explain_groups() const {
+  void explain_groups() {
     const auto empty = std::count_if(hulls_.groups.begin(), hulls_.groups.end(),
                                      [](const GroupHull& hull) { return hull.shape.empty(); });
     const std::size_t count = hulls_.groups.size();

@@ -13,15 +13,17 @@
 #include "tool/hull/shard_file.hpp"
 #include "tool/program/configuration_error.hpp"
 #include "tool/program/interrupt.hpp"
+#include "tool/program/status_line.hpp"
 
 namespace polylidar::tool {
 namespace {
 
 /// The parts and what all of them say of the points' coordinate system.
-Crs read_parts(const std::vector<std::string>& paths, std::vector<StreamShard>& shards) {
+Crs read_parts(const std::vector<std::string>& paths, std::vector<StreamShard>& shards, StatusLine& status) {
   Crs crs;
   for (const std::string& path : paths) {
     throw_if_interrupted();
+    status.show("reading part " + std::to_string(shards.size() + 1) + " of " + std::to_string(paths.size()));
     ShardFile file = read_shard_file(path);
     if (!shards.empty() && file.crs != crs) {
       throw ConfigurationError(path + ": its coordinate system is not that of " + paths.front() +
@@ -40,11 +42,15 @@ ExitCode merge(const MergeCommand& command, const Surroundings& surroundings) {
         "svg shows all points, which parts do not have; write the polygons as geojson, wkt or wkb");
   }
   output.check_against(command.inputs);
+  StatusLine status(surroundings.err, surroundings.terminal, quiet_time(surroundings.terminal));
   std::vector<StreamShard> shards;
-  const Crs crs = read_parts(command.inputs, shards);
+  const Crs crs = read_parts(command.inputs, shards, status);
+  std::size_t points = 0;
+  for (const StreamShard& shard : shards) points += shard.points.size();
+  status.show("triangulating " + std::to_string(points) + " points");
   const StreamedHull hull = concave_hull_of_shards(shards, thread_count(command.shape));
   throw_if_interrupted();
-  write_streamed_hull(hull, shards.front().options, crs, output, surroundings);
+  write_streamed_hull(hull, shards.front().options, crs, output, surroundings.program, status);
   return kExitOk;
 }
 

@@ -192,6 +192,16 @@ std::uint64_t most_points_in_memory(const ShapeChoice& choice) {
   return memory_for_points(choice) / kBytesOfPoint;
 }
 
+std::string reading(std::uint64_t bytes, std::optional<std::uint64_t> size) {
+  const auto mebibytes = [](std::uint64_t count) { return std::to_string(count >> 20U); };
+  return "reading: " + mebibytes(bytes) + (size ? " of " + mebibytes(*size) : "") + " MiB";
+}
+
+std::string passing(const StreamProgress& progress, std::optional<std::uint64_t> all) {
+  return "pass " + std::to_string(progress.pass) + " of " + std::to_string(progress.passes) + ": " +
+         std::to_string(progress.points) + (all ? " of " + std::to_string(*all) : "") + " points";
+}
+
 Crs chosen_crs(const ShapeChoice& choice, const Crs& of_file) {
   if (choice.crs.empty()) return of_file;
   if (choice.crs == "none") return {};
@@ -213,7 +223,7 @@ bool may_be_degrees(const ShapeChoice& choice, const Crs& crs, const Box& box) {
 }
 
 LocatedHulls locate_hulls(const PointFile& file, const ShapeChoice& choice, bool is_grouped, unsigned threads,
-                          const std::function<void(std::size_t)>& on_group) {
+                          const OnStep& on_step) {
   LocatedHulls hulls;
   hulls.latitude = middle_latitude(chosen_crs(choice, file.crs), file.points);
   if (hulls.latitude) hulls.metres = to_metres(file.points, *hulls.latitude);
@@ -221,7 +231,7 @@ LocatedHulls locate_hulls(const PointFile& file, const ShapeChoice& choice, bool
   HullOptions options = hull_options(choice);
   options.latitude = hulls.latitude;
   hulls.groups = group_hulls(hulls.latitude ? hulls.metres : file.points, file.groups, file.labels.size(),
-                             options, threads, on_group);
+                             options, threads, on_step);
   return hulls;
 }
 

@@ -1,10 +1,13 @@
 // What the commands have in common: options, and what becomes of them.
 #pragma once
 
+#include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "polylidar/stream.hpp"
 #include "tool/commands/commands.hpp"
 #include "tool/hull/group_hulls.hpp"
 #include "tool/points/point_file.hpp"
@@ -39,6 +42,11 @@ std::uint64_t memory_for_points(const ShapeChoice& choice);
 double most_map_bytes(const ShapeChoice& choice);
 /// How many may be in memory for a triangulation of all.
 std::uint64_t most_points_in_memory(const ShapeChoice& choice);
+
+/// "reading: 12 of 300 MiB", for PointFileOptions::on_progress.
+std::string reading(std::uint64_t bytes, std::optional<std::uint64_t> size);
+/// "pass 2 of 6: 1000 points", of `all` where that is known.
+std::string passing(const StreamProgress& progress, std::optional<std::uint64_t> all = {});
 
 /// The coordinate system that `choice` gives, else that of the file. Throws ConfigurationError for a name
 /// that is none.
@@ -79,7 +87,7 @@ struct LocatedHulls {
 
 /// Without groups there is one hull, but none of a file that is grouped by something and has no points.
 LocatedHulls locate_hulls(const PointFile& file, const ShapeChoice& choice, bool is_grouped, unsigned threads,
-                          const std::function<void(std::size_t)>& on_group);
+                          const OnStep& on_step);
 
 /// What is said where there are no points: in the file, or none that is asked for.
 std::string no_points(const ShapeChoice& choice, const std::string& file);

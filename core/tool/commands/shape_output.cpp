@@ -68,9 +68,16 @@ bool ShapeOutput::can_tell(const Crs& crs) const {
   return !crs.is_given || crs.epsg > 0 || (by_gdal_ && !crs.wkt.empty());
 }
 
-void ShapeOutput::write(std::string text, const Crs& crs) const {
-  if (by_gdal_) return formats_->write(*by_gdal_, std::move(text), crs);
-  write_result(path_, text);
+void ShapeOutput::write(std::string text, const Crs& crs, StatusLine& status) const {
+  status.clear();
+  // Standard output may be the same terminal.
+  if (!path_.empty()) status.show("writing " + path_);
+  if (by_gdal_) {
+    formats_->write(*by_gdal_, std::move(text), crs);
+  } else {
+    write_result(path_, text);
+  }
+  status.clear();
 }
 
 }  // namespace polylidar::tool

@@ -8,6 +8,7 @@
 #include "tool/commands/commands.hpp"
 #include "tool/gdal/vector_formats.hpp"
 #include "tool/points/crs.hpp"
+#include "tool/program/status_line.hpp"
 
 namespace polylidar::tool {
 
@@ -28,8 +29,9 @@ class ShapeOutput {
   /// Whether the result says in which coordinate system it is, or there is nothing to say.
   bool can_tell(const Crs& crs) const;
 
-  /// The whole result, or nothing of it. Throws std::runtime_error and Interrupted, as ResultOutput.
-  void write(std::string text, const Crs& crs) const;
+  /// The whole result, or nothing of it; `status` shows that. Throws std::runtime_error and Interrupted, as
+  /// ResultOutput.
+  void write(std::string text, const Crs& crs, StatusLine& status) const;
 
  private:
   std::string path_;

@@ -46,7 +46,7 @@ class StreamRun {
   StreamRun(const HullCommand& command, const Surroundings& surroundings)
       : command_(command),
         surroundings_(surroundings),
-        status_(surroundings.err, surroundings.terminal),
+        status_(surroundings.err, surroundings.terminal, quiet_time(surroundings.terminal)),
         core_(hull_options(command.shape).core) {
     core_.threads = thread_count(command.shape);
   }
@@ -87,9 +87,8 @@ class StreamRun {
     options.most_map_bytes = std::max(options.most_map_bytes, most_map_bytes(command_.shape));
     const StreamedHull hull =
         concave_hull_of_stream(sources(command_.inputs.size() == 1 ? core_.threads : 1), core_, options);
-    status_.clear();
     const Crs crs = crs_.value_or(Crs());
-    write_streamed_hull(hull, core_, crs, output, surroundings_);
+    write_streamed_hull(hull, core_, crs, output, surroundings_.program, status_);
     if (may_be_degrees(command_.shape, crs, hull.box)) say_once(std::string(kMayBeDegrees));
     return kExitOk;
   }
@@ -111,9 +110,10 @@ class StreamRun {
     check_output_place(shape.out);
     const StreamShard part = part_of_stream(sources(1), core_, *shard, stream_options());
     status_.clear();
-    surroundings_.err << surroundings_.program << ": shard " << shard->number << " of " << shard->count
-                      << ": " << part.points.size() << " of " << part.source_points
-                      << " points are near the outline and in its band\n";
+    status_.say(surroundings_.program + ": shard " + std::to_string(shard->number) + " of " +
+                std::to_string(shard->count) + ": " + std::to_string(part.points.size()) + " of " +
+                std::to_string(part.source_points) + " points are near the outline and in its band");
+    if (!shape.out.empty()) status_.show("writing " + shape.out);
     write_shard_file(shape.out, {part, crs_.value_or(Crs())});
     return kExitOk;
   }
@@ -160,15 +160,13 @@ class StreamRun {
 
   void say_once(const std::string& text) {
     const std::lock_guard lock(mutex_);
-    if (said_.insert(text).second) surroundings_.err << surroundings_.program << ": " << text << "\n";
+    if (said_.insert(text).second) status_.say(surroundings_.program + ": " + text);
   }
 
   StreamOptions stream_options() {
     const auto show = [this](const StreamProgress& progress) {
       throw_if_interrupted();
-      if (!surroundings_.terminal) return;
-      status_.show("pass " + std::to_string(progress.pass) + " of " + std::to_string(progress.passes) + ": " +
-                   std::to_string(progress.points) + " points");
+      if (status_.is_due()) status_.show(passing(progress));
     };
     return {.progress = show,
             .most_points_in_memory = most_points_in_memory(command_.shape),
@@ -206,21 +204,17 @@ ExitCode stream_hull(const HullCommand& command, const Surroundings& surrounding
 }
 
 void write_streamed_hull(const StreamedHull& hull, const Options& options, const Crs& crs,
-                         const ShapeOutput& output, const Surroundings& surroundings) {
-  surroundings.err << surroundings.program << ": ";
-  if (hull.points == 0) {
-    surroundings.err << "there are no points, so there is no shape\n";
-  } else {
-    surroundings.err << hull.triangulated_points << " of " << hull.points << " points are near the outline\n";
-  }
-  if (hull.chosen_sizes && !hull.by_outlines) {
-    surroundings.err << surroundings.program << ": " << in_words(*hull.chosen_sizes) << "\n";
-  }
+                         const ShapeOutput& output, const std::string& program, StatusLine& status) {
+  status.say(program + ": " +
+             (hull.points == 0 ? "there are no points, so there is no shape"
+                               : std::to_string(hull.triangulated_points) + " of " +
+                                     std::to_string(hull.points) + " points are near the outline"));
+  if (hull.chosen_sizes && !hull.by_outlines) status.say(program + ": " + in_words(*hull.chosen_sizes));
   const std::string& format = output.text_format();
   output.write(format == "wkt"   ? to_wkt(hull.polygons)
                : format == "wkb" ? to_wkb(hull.polygons)
                                  : geojson(hull, options, crs),
-               crs);
+               crs, status);
 }
 
 }  // namespace polylidar::tool

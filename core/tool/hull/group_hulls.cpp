@@ -82,12 +82,13 @@ class PolygonOfEdge {
 /// One group's points, triangulated once, and shapes of them under wider and wider limits.
 class Widening {
  public:
-  Widening(Extractor& extractor, std::span<const Point> points, const Options& options)
-      : extractor_(extractor), points_(points), options_(options) {
+  Widening(Extractor& extractor, std::span<const Point> points, const Options& options, const OnStep& on_step)
+      : extractor_(extractor), points_(points), options_(options), on_step_(on_step) {
     extractor_.triangulate(points_, options_.threads);
   }
 
   IndexShape shape(double factor) {
+    if (on_step_) on_step_("widening the limit: step " + std::to_string(++steps_));
     extractor_.extract_regions(widened(options_, factor));
     return polygons_of(extractor_.extract_polygons());
   }
@@ -145,6 +146,8 @@ class Widening {
   Extractor& extractor_;
   std::span<const Point> points_;
   Options options_;
+  const OnStep& on_step_;
+  int steps_ = 0;
 };
 
 void drop_polygons_of_few_triangles(IndexShape& shape, const std::vector<std::size_t>& triangles,
@@ -159,12 +162,14 @@ void drop_polygons_of_few_triangles(IndexShape& shape, const std::vector<std::si
 }
 
 /// The core's shape of `points`, widened where that is asked for, and the limits that it has.
-GroupHull extracted(Extractor& extractor, std::span<const Point> points, const HullOptions& options) {
+GroupHull extracted(Extractor& extractor, std::span<const Point> points, const HullOptions& options,
+                    const OnStep& on_step) {
   GroupHull hull;
+  if (on_step) on_step("triangulating " + std::to_string(points.size()) + " points");
   Options used = options.core;
   std::optional<std::size_t> only;  // polygon
   if (options.cover || options.one) {
-    Widening widening(extractor, points, options.core);
+    Widening widening(extractor, points, options.core, on_step);
     const double covering = options.cover ? widening.cover() : 1;
     const double factor = options.one ? widening.one(covering) : covering;
     const IndexShape parts = options.one ? widening.shape(covering) : IndexShape();
@@ -190,9 +195,11 @@ GroupHull extracted(Extractor& extractor, std::span<const Point> points, const H
   return hull;
 }
 
-GroupHull hull_of(Extractor& extractor, std::span<const Point> points, const HullOptions& options) {
-  GroupHull hull = extracted(extractor, points, options);
+GroupHull hull_of(Extractor& extractor, std::span<const Point> points, const HullOptions& options,
+                  const OnStep& on_step) {
+  GroupHull hull = extracted(extractor, points, options, on_step);
   hull.points = points.size();
+  if (on_step && options.simplify > 0) on_step("simplifying the outline");
   clean(hull.shape, points, options);
   hull.area = area(hull.shape, points, options.latitude);
   return hull;
@@ -202,8 +209,8 @@ GroupHull hull_of(Extractor& extractor, std::span<const Point> points, const Hul
 class GroupWork {
  public:
   GroupWork(std::span<const Point> points, std::vector<GroupHull>& hulls, const HullOptions& options,
-            const std::function<void(std::size_t)>& on_group)
-      : points_(points), hulls_(hulls), options_(options), on_group_(on_group) {}
+            const OnStep& on_step)
+      : points_(points), hulls_(hulls), options_(options), on_step_(on_step) {}
 
   /// The groups of `order`, each on `threads_of_group` threads, on `threads` of ours.
   void run(std::span<const std::size_t> order, unsigned threads, unsigned threads_of_group) {
@@ -236,7 +243,7 @@ class GroupWork {
     std::vector<Point> points(members.size());
     std::transform(members.begin(), members.end(), points.begin(),
                    [&](std::uint32_t i) { return points_[i]; });
-    hull = hull_of(extractor, points, options);
+    hull = hull_of(extractor, points, options, {});
     for (IndexPolygon& polygon : hull.shape) {
       for (std::uint32_t& v : polygon.shell) v = members[v];
       for (IndexRing& hole : polygon.holes) {
@@ -245,13 +252,14 @@ class GroupWork {
     }
     hull.members = std::move(members);
     const std::lock_guard lock(mutex_);
-    if (on_group_) on_group_(++done_);
+    ++done_;
+    if (on_step_) on_step_("group " + std::to_string(done_) + " of " + std::to_string(hulls_.size()));
   }
 
   std::span<const Point> points_;
   std::vector<GroupHull>& hulls_;
   const HullOptions& options_;
-  const std::function<void(std::size_t)>& on_group_;
+  const OnStep& on_step_;
   std::mutex mutex_;  ///< of the two below
   std::size_t done_ = 0;
   std::exception_ptr failure_;
@@ -267,12 +275,12 @@ void clean(IndexShape& shape, std::span<const Point> points, const HullOptions& 
 
 std::vector<GroupHull> group_hulls(std::span<const Point> points, std::span<const std::uint32_t> groups,
                                    std::size_t group_count, const HullOptions& options, unsigned threads,
-                                   const std::function<void(std::size_t)>& on_group) {
+                                   const OnStep& on_step) {
   if (groups.empty() && group_count == 0) {
     HullOptions all = options;
     all.core.threads = points.size() < kWorthThreads ? 1 : threads;
     Extractor extractor;
-    return {hull_of(extractor, points, all)};
+    return {hull_of(extractor, points, all, on_step)};
   }
   std::vector<GroupHull> hulls(group_count);
   for (std::uint32_t i = 0; i < points.size(); ++i) hulls[groups[i]].members.push_back(i);
@@ -285,7 +293,7 @@ std::vector<GroupHull> group_hulls(std::span<const Point> points, std::span<cons
   const std::size_t many = std::max(kWorthThreads, points.size() / threads);
   const auto few =
       std::find_if(order.begin(), order.end(), [&](std::size_t g) { return hulls[g].members.size() < many; });
-  GroupWork work(points, hulls, options, on_group);
+  GroupWork work(points, hulls, options, on_step);
   work.run({order.begin(), few}, 1, threads);
   work.run({few, order.end()}, threads, 1);
   return hulls;

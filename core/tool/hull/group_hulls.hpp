@@ -48,9 +48,12 @@ struct GroupHull {
 /// Drops and fills what `options` says by area and number, and simplifies what is left.
 void clean(IndexShape& shape, std::span<const Point> points, const HullOptions& options);
 
+/// Told what is done, such as "group 3 of 10", by one thread at a time; what it throws ends the work.
+using OnStep = std::function<void(const std::string& doing)>;
+
 /// One hull for each of `group_count` groups; groups[i] is that of point i; no groups at all: all points are
-/// one. Groups with many points have all `threads` >= 1 to themselves, the others share them. `on_group`
-/// is told by any thread how many groups are done; what it throws ends the work. Coordinates must be finite;
+/// one. Groups with many points have all `threads` >= 1 to themselves, the others share them. `on_step` is
+/// told of each group that is done; without groups, of the steps to the hull. Coordinates must be finite;
 /// throws std::invalid_argument where a group's span more than concave_hull() takes.
 ///
 /// `cover` and `one` widen the limit: all that are given by one factor, or `detail` by its inverse. No
@@ -59,6 +62,6 @@ void clean(IndexShape& shape, std::span<const Point> points, const HullOptions& 
 /// the limit gave before" are its polygons; the rest, which a wider limit adds apart from them, is dropped.
 std::vector<GroupHull> group_hulls(std::span<const Point> points, std::span<const std::uint32_t> groups,
                                    std::size_t group_count, const HullOptions& options, unsigned threads,
-                                   const std::function<void(std::size_t)>& on_group = {});
+                                   const OnStep& on_step = {});
 
 }  // namespace polylidar::tool
