@@ -457,7 +457,7 @@ TEST_F(HullCommandTest, OneFeatureAGroup) {
   }
   expect_refusal(hull({path, "--by", "colour"}), 2, "there is no column 'colour'");
   expect_refusal(hull({path, "--by", "0"}), 2, "--by '0' names no column");
-  expect_refusal(hull({points_file(), "--by", "1"}), 2, "--by is for columns of text and for LAS");
+  expect_refusal(hull({points_file(), "--by", "1"}), 2, "--by is for columns of text, GeoJSON and LAS");
   expect_refusal(hull({path, "--by", "kind", "--format", "wkt"}), 2, "--by gives one feature for each group");
   EXPECT_EQ(hull({path, "--by", "kind", "--format", "svg"}).code, 0);
 }

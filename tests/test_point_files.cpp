@@ -193,6 +193,42 @@ TEST_F(PointFilesTest, QuotesInQuotedFieldsAreSingleAgain) {
   EXPECT_EQ(read_columns("\"x\"\"\",y\n1,2\n", "x\",y"), (Points{{1, 2}}));
 }
 
+TEST_F(PointFilesTest, GeoJsonIsGroupedByAProperty) {
+  const auto feature = [](const std::string& value, const std::string& coordinates) {
+    return R"({"type":"Feature","properties":{"a":{"kind":9},"kind":)" + value +
+           R"(},"geometry":{"type":"MultiPoint","coordinates":[)" + coordinates + "]}}";
+  };
+  const std::string text =
+      R"({"type":"FeatureCollection","features":[)" + feature(R"("oak")", "[1,2],[3,4]") + "," +
+      feature("7", "[5,6]") + "," + feature("-0.50", "[7,8]") + "," + feature("true", "[9,1]") + "," +
+      feature("null", "[9,2]") + "," +
+      // In another order, without the property, and without points.
+      R"({"geometry":{"type":"Point","coordinates":[1,9]},"properties":{"kind":"oak"},"type":"Feature"},)"
+      R"({"type":"Feature","properties":null,"geometry":{"type":"Point","coordinates":[2,9]}},)"
+      R"({"type":"Feature","properties":{"kind":"ash"},"geometry":null}]})";
+  const PointFile grouped = read_point_file(file("a.geojson", text), {.by = "kind"});
+  EXPECT_EQ(grouped.points, (Points{{1, 2}, {3, 4}, {5, 6}, {7, 8}, {9, 1}, {9, 2}, {1, 9}, {2, 9}}));
+  EXPECT_EQ(grouped.labels, (std::vector<std::string>{"-0.5", "7", "", "oak", "true"}));
+  EXPECT_EQ(grouped.groups, (std::vector<std::uint32_t>{3, 3, 1, 0, 4, 2, 3, 2}));
+  const PointFile inside =
+      read_point_file(file("a.geojson", text), {.by = "kind", .window = Box{{2, 3}, {6, 6}}});
+  EXPECT_EQ(inside.points, (Points{{3, 4}, {5, 6}}));
+  EXPECT_EQ(inside.labels, (std::vector<std::string>{"7", "oak"}));
+  EXPECT_EQ(inside.groups, (std::vector<std::uint32_t>{1, 0}));
+  for (
+      const auto& [document, words] : std::vector<std::pair<std::string, std::string>>{
+          {feature("[1]", "[1,2]"), "the property 'kind' is a list or an object"},
+          {feature("{}", "[1,2]"), "the property 'kind' is a list or an object"},
+          {R"({"type":"Feature","properties":{"b":1,"a":2},"geometry":{"type":"Point","coordinates":[1,2]}})",
+           "--by 'kind' names no property of its features; they have 'a', 'b'"},
+          {geojson_multipoint({{1, 2}}), "they have none"}}) {
+    const std::string said = refusal("a.geojson", document, {.by = "kind"});
+    EXPECT_NE(said.find(words), std::string::npos) << said;
+  }
+  EXPECT_NE(refusal("a.wkt", "POINT (1 2)", {.by = "kind"}).find("--by is for columns of text"),
+            std::string::npos);
+}
+
 struct Fault {
   const char* name;
   std::string text;

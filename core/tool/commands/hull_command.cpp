@@ -257,9 +257,10 @@ void add_hull_options(CLI::App& app, HullCommand& command) {
   app.add_option(
       "--columns", command.columns,
       "The columns of x and y in a text file: names, such as lon,lat, or numbers from 1, such as 2,3");
-  app.add_option("--by", command.by,
-                 "Make one shape for each value of this column of a text file or a layer, by its name or its "
-                 "number from 1; for a LAS file: classification, return or point_source");
+  app.add_option(
+      "--by", command.by,
+      "Make one shape for each value of this column of a text file or a layer, by its name or its "
+      "number from 1; of this property of GeoJSON; for a LAS file: classification, return or point_source");
   add_format_option(app, command.shape, {"auto", "geojson", "wkt", "wkb", "svg"});
   app.add_flag("--keep-outliers", command.keep_outliers,
                "Also write the points outside the shape, as a MultiPoint (geojson only)");

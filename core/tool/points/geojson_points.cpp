@@ -2,9 +2,14 @@
 #include <array>
 #include <iterator>
 #include <nlohmann/json.hpp>
+#include <optional>
+#include <set>
+#include <utility>
 
+#include "tool/points/labels.hpp"
 #include "tool/points/numbers.hpp"
 #include "tool/points/readers.hpp"
+#include "tool/shapes/polygon_writers.hpp"
 
 namespace polylidar::tool::point_files {
 namespace {
@@ -36,7 +41,7 @@ class ByteIterator {
   BlockReader* reader_ = nullptr;
 };
 
-enum class Member { kOther, kType, kCoordinates, kGeometry, kGeometries, kFeatures, kCrs };
+enum class Member { kOther, kType, kCoordinates, kGeometry, kGeometries, kFeatures, kProperties, kCrs };
 
 Member member_of(const std::string& name) {
   if (name == "type") return Member::kType;
@@ -44,6 +49,7 @@ Member member_of(const std::string& name) {
   if (name == "geometry") return Member::kGeometry;
   if (name == "geometries") return Member::kGeometries;
   if (name == "features") return Member::kFeatures;
+  if (name == "properties") return Member::kProperties;
   if (name == "crs") return Member::kCrs;
   return Member::kOther;
 }
@@ -56,22 +62,30 @@ struct Object {
   bool has_coordinates = false;
   bool has_content = false;        ///< a geometry, geometries or features
   std::size_t position_depth = 0;  ///< arrays round a number of its coordinates; 0: none seen
+  std::size_t first_point = 0;     ///< how many there were before
+  std::string label;               ///< of a feature: its property that points are grouped by
 };
 
 /// Takes the points out of a GeoJSON document as it is parsed. Members may come in any order, so the type
-/// may follow the coordinates and is checked at the object's end; what the format does not define
-/// (properties, foreign members) is passed over whole.
+/// may follow the coordinates and is checked at the object's end; what does not matter here (foreign members,
+/// properties but for the one that points are grouped by) is passed over whole.
 class PointHandler : public nlohmann::json_sax<json> {
  public:
-  explicit PointHandler(const BlockReader& reader) : reader_(reader) {}
+  explicit PointHandler(const BlockReader& reader) : reader_(reader), by_(reader.options().by) {}
 
   void take(PointFile& file) {
+    if (!by_.empty()) {
+      check_found();
+      group_points("");
+      file.groups = std::move(groups_);
+      labels_.finish(file);
+    }
     file.points = std::move(points_);
     file.crs = crs_;
   }
 
   bool null() override {
-    if (skipped_ > 0) return true;
+    if (skipped_ > 0) return take_label("");
     if (depth_ > 0) reader_.fail_here("a coordinate is null; give the number or remove the point");
     if (in_member(Member::kCrs)) crs_ = Crs();  // as GeoJSON had it before RFC 7946: not known
     if (in_member(Member::kGeometry)) {         // RFC 7946, 3.2: a feature that is nowhere
@@ -80,13 +94,26 @@ class PointHandler : public nlohmann::json_sax<json> {
     }
     return plain_value();
   }
-  bool boolean(bool) override { return plain_value(); }
-  bool number_integer(number_integer_t value) override { return number(static_cast<double>(value)); }
-  bool number_unsigned(number_unsigned_t value) override { return number(static_cast<double>(value)); }
-  bool number_float(number_float_t value, const string_t&) override { return number(value); }
+  bool boolean(bool value) override {
+    if (is_label_) return take_label(value ? "true" : "false");
+    return plain_value();
+  }
+  bool number_integer(number_integer_t value) override {
+    if (is_label_) return take_label(std::to_string(value));
+    return number(static_cast<double>(value));
+  }
+  bool number_unsigned(number_unsigned_t value) override {
+    if (is_label_) return take_label(std::to_string(value));
+    return number(static_cast<double>(value));
+  }
+  bool number_float(number_float_t value, const string_t&) override {
+    if (is_label_) return take_label(shortest(value));
+    return number(value);
+  }
   bool binary(binary_t&) override { return plain_value(); }
 
   bool string(string_t& value) override {
+    if (is_label_) return take_label(value);
     if (skipped_ > 0 && is_crs_name_) crs_ = crs_of_name(value).value_or(Crs{.is_given = true});
     if (skipped_ > 0 || depth_ > 0 || !in_member(Member::kType)) return plain_value();
     if (!is_usable(value)) {
@@ -100,10 +127,11 @@ class PointHandler : public nlohmann::json_sax<json> {
 
   bool start_object(std::size_t) override {
     if (skipped_ > 0 || skips_this_member()) {
+      refuse_as_label();
       ++skipped_;
     } else if (objects_.empty() || objects_.back().in_list || in_member(Member::kGeometry)) {
       if (in_member(Member::kGeometry)) objects_.back().has_content = true;
-      objects_.emplace_back();
+      objects_.emplace_back().first_point = points_.size();
     } else {
       misplaced();
     }
@@ -113,6 +141,11 @@ class PointHandler : public nlohmann::json_sax<json> {
   bool key(string_t& name) override {
     if (skipped_ == 0) objects_.back().member = member_of(name);
     is_crs_name_ = skipped_ > 0 && objects_.back().member == Member::kCrs && name == "name";
+    // Only what is directly in the properties.
+    const bool is_property = skipped_ == 1 && objects_.back().member == Member::kProperties && !by_.empty();
+    is_label_ = is_property && name == by_;
+    found_ |= is_label_;
+    if (is_property && properties_.size() < kMostNames) properties_.insert(name);
     return true;
   }
 
@@ -122,12 +155,14 @@ class PointHandler : public nlohmann::json_sax<json> {
       return true;
     }
     check_complete(objects_.back());
+    if (!by_.empty() && objects_.back().type == "Feature") group_feature(objects_.back());
     objects_.pop_back();
     return true;
   }
 
   bool start_array(std::size_t) override {
     if (skipped_ > 0 || skips_this_member()) {
+      refuse_as_label();
       ++skipped_;
     } else if (depth_ > 0) {
       if (arrays_[depth_].numbers > 0 || depth_ + 1 == arrays_.size()) misplaced();
@@ -187,7 +222,8 @@ class PointHandler : public nlohmann::json_sax<json> {
     return !objects_.empty() && !objects_.back().in_list && objects_.back().member == member;
   }
   bool skips_this_member() const {
-    return depth_ == 0 && (in_member(Member::kOther) || in_member(Member::kCrs));
+    return depth_ == 0 &&
+           (in_member(Member::kOther) || in_member(Member::kProperties) || in_member(Member::kCrs));
   }
 
   [[noreturn]] void misplaced() const {
@@ -221,7 +257,39 @@ class PointHandler : public nlohmann::json_sax<json> {
     Object& object = objects_.back();
     if (object.position_depth != 0 && object.position_depth != depth_) misplaced();
     object.position_depth = depth_;
-    points_.push_back({position_[0], position_[1]});
+    const Point point = {position_[0], position_[1]};
+    const std::optional<Box>& window = reader_.options().window;
+    if (!window || is_inside(point, *window)) points_.push_back(point);
+  }
+
+  bool take_label(const std::string& label) {
+    if (std::exchange(is_label_, false)) objects_.back().label = label;
+    return true;
+  }
+
+  void refuse_as_label() const {
+    if (!is_label_) return;
+    reader_.fail_here("the property " + in_quotes(by_) +
+                      " is a list or an object; give --by one that is text, a number, true or false");
+  }
+
+  /// Puts all points that have no group yet into this one.
+  void group_points(std::string_view label) {
+    if (groups_.size() < points_.size()) groups_.resize(points_.size(), labels_.index_of(label));
+  }
+
+  void group_feature(const Object& feature) {
+    // What is in no feature has no property.
+    if (groups_.size() < feature.first_point) groups_.resize(feature.first_point, labels_.index_of(""));
+    group_points(feature.label);
+  }
+
+  void check_found() const {
+    if (found_ || points_.empty()) return;
+    std::string names;
+    for (const std::string& name : properties_) names += (names.empty() ? "" : ", ") + in_quotes(name);
+    reader_.fail("--by " + in_quotes(by_) + " names no property of its features; " +
+                 (names.empty() ? "they have none" : "they have " + names));
   }
 
   void check_complete(const Object& object) const {
@@ -237,9 +305,17 @@ class PointHandler : public nlohmann::json_sax<json> {
     if (object.position_depth != 0 && object.position_depth != right_depth) misplaced();
   }
 
+  static constexpr std::size_t kMostNames = 12;
+
   const BlockReader& reader_;
+  const std::string& by_;
   std::vector<Point> points_;
-  std::vector<Object> objects_;  ///< the innermost last
+  std::vector<std::uint32_t> groups_;  ///< of the points of features that have ended
+  Labels labels_;
+  std::set<std::string> properties_;  ///< names, for a message
+  bool found_ = false;                ///< a feature has the property that points are grouped by
+  bool is_label_ = false;             ///< its value comes next
+  std::vector<Object> objects_;       ///< the innermost last
   Crs crs_ = crs_of_epsg(4326);
   bool is_crs_name_ = false;  ///< the member that is being read is that of the coordinate system
   std::size_t skipped_ = 0;   ///< open containers that are passed over

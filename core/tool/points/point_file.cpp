@@ -148,8 +148,9 @@ void check_options(PointFormat format, const BlockReader& reader) {
   if (!options.columns.empty() && !is_text) {
     reader.fail("--columns is for columns of text, and this file has none; leave --columns out");
   }
-  if (!options.by.empty() && !is_text && format != PointFormat::kLas) {
-    reader.fail("--by is for columns of text and for LAS, and this file is neither; leave --by out");
+  if (!options.by.empty() && !is_text && format != PointFormat::kLas && format != PointFormat::kGeoJson) {
+    reader.fail(
+        "--by is for columns of text, GeoJSON and LAS, and this file is none of these; leave --by out");
   }
   if (options.take_points && !options.whole_if_needed && !is_text && format != PointFormat::kLas &&
       format != PointFormat::kNpy && format != PointFormat::kRaw) {
@@ -173,7 +174,7 @@ void read_projection_beside(const std::string& path, PointFile& file) {
   if (const std::optional<Crs> crs = crs_of_wkt(text)) file.crs = *crs;
 }
 
-/// LAS, text and what is streamed take points as they come; others have been read whole.
+/// LAS, text, GeoJSON and what is streamed choose points as they come; others have been read whole.
 void keep_window(const Box& window, PointFile& file) {
   std::erase_if(file.points, [&](const Point& p) { return !point_files::is_inside(p, window); });
 }
@@ -186,7 +187,7 @@ PointFile read_from(BlockReader& reader, const std::string& path) {
   PointFile file;
   read_as(format, reader, file);
   const bool is_text = format == PointFormat::kCsv || format == PointFormat::kXyz;
-  if (reader.options().window && !is_text && format != PointFormat::kLas) {
+  if (reader.options().window && !is_text && format != PointFormat::kLas && format != PointFormat::kGeoJson) {
     keep_window(*reader.options().window, file);
   }
   // What was not while it was read.

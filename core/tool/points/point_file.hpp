@@ -69,8 +69,8 @@ struct PointFileOptions {
   /// (counted from 1). Empty: by the names x and y, lon (lng, long, longitude) and lat (latitude), or easting
   /// and northing, in any case; without these the only two.
   std::string columns = {};
-  /// What to group points by: a column of text or of a layer, by its name or its number from 1;
-  /// classification, return or point_source of a LAS file. Empty: nothing.
+  /// What to group points by: a column of text or of a layer, by its name or its number from 1; a property of
+  /// GeoJSON's features; classification, return or point_source of a LAS file. Empty: nothing.
   std::string by = {};
   /// Of a LAS file.
   Returns returns = Returns::kAll;

@@ -21,6 +21,7 @@ namespace polylidar::tool::point_files {
 void read_columns(BlockReader& reader, bool only_blanks, PointFile& file);
 
 /// The coordinate system is WGS 84 (RFC 7946, 4), or that of a member "crs" as GeoJSON had before.
+/// Groups by a property of features; points without it, or with null, have the label "".
 void read_geojson_points(BlockReader& reader, PointFile& file);
 
 /// Also with Z and M, with EMPTY, with PostGIS's "SRID=4326;" in front, and with lines that begin with #.
