@@ -1,15 +1,19 @@
 // `polylidar footprint`: an index of files as its users meet it.
 #include <gtest/gtest.h>
 
+#include <atomic>
+#include <chrono>
 #include <cmath>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <random>
+#include <thread>
 
 #include "tests/las_file.hpp"
 #include "tests/point_file_texts.hpp"
 #include "tests/program.hpp"
 #include "tests/temporary_folder.hpp"
+#include "tool/commands/file_work.hpp"
 
 namespace hullbench {
 namespace {
@@ -140,6 +144,40 @@ TEST_F(FootprintCommandTest, AStreamGivesWhatThePointsInMemoryGive) {
   EXPECT_NE(outcome.err.find("cut.las: it ends before the 300000 points that its header promises"),
             std::string::npos)
       << outcome.err;
+}
+
+TEST_F(FootprintCommandTest, ThePointsOfAFileTakeMemory) {
+  using polylidar::tool::memory_to_triangulate;
+  LasFile las = tile(0);
+  las.promised = 1'000'000;
+  std::string text = las.text();
+  EXPECT_EQ(memory_to_triangulate(file("a.las", text)), 200'000'000U);
+  text[104] = static_cast<char>(text[104] | 0x80);
+  EXPECT_EQ(memory_to_triangulate(file("a.laz", text)), 200'000'000U) << "which is small";
+  las.minor = 2;
+  las.format = 0;
+  EXPECT_EQ(memory_to_triangulate(file("old.las", las.text())), 200'000'000U);
+  EXPECT_EQ(memory_to_triangulate(file("a.csv", std::string(1000, '7'))), 8'000U);
+  EXPECT_EQ(memory_to_triangulate(file("a.csv.gz", std::string(1000, '7'))), 64'000U);
+  EXPECT_EQ(memory_to_triangulate(file("short.las", "LASF")), 32U);
+  EXPECT_EQ(memory_to_triangulate("/nowhere/a.las"), 0U);
+}
+
+TEST(MemoryShareTest, WaitsForWhatOthersHave) {
+  polylidar::tool::MemoryGate gate(100);
+  polylidar::tool::MemoryShare first(gate);
+  first.take(1000);  // alone
+  std::atomic<bool> has_taken = false;
+  std::jthread other([&] {
+    polylidar::tool::MemoryShare second(gate);
+    second.take(50);
+    has_taken = true;
+  });
+  std::this_thread::sleep_for(std::chrono::milliseconds(100));
+  EXPECT_FALSE(has_taken);
+  first.take(40);
+  other.join();
+  EXPECT_TRUE(has_taken);
 }
 
 TEST_F(FootprintCommandTest, ABrokenFileIsToldAndTheOthersAreDone) {

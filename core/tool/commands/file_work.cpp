@@ -1,10 +1,10 @@
 #include "tool/commands/file_work.hpp"
 
 #include <algorithm>
-#include <condition_variable>
 #include <exception>
 #include <filesystem>
 #include <new>
+#include <optional>
 #include <set>
 #include <system_error>
 #include <thread>
@@ -15,40 +15,41 @@
 #include "tool/program/interrupt.hpp"
 
 namespace polylidar::tool {
-namespace {
 
-/// Lets work begin while what all of it may take is within a budget, and one at a time whatever it takes.
-class MemoryGate {
- public:
-  explicit MemoryGate(std::uint64_t budget) : budget_(budget) {}
-
-  void enter(std::uint64_t bytes) {
-    std::unique_lock lock(mutex_);
-    changed_.wait(lock, [&] { return taken_ == 0 || taken_ + bytes <= budget_; });
-    taken_ += bytes;
-  }
-  void leave(std::uint64_t bytes) {
-    {
-      const std::lock_guard lock(mutex_);
-      taken_ -= bytes;
-    }
-    changed_.notify_all();
-  }
-
- private:
-  std::uint64_t budget_;
-  std::uint64_t taken_ = 0;
-  std::mutex mutex_;
-  std::condition_variable changed_;
-};
-
-std::uint64_t size_of(const std::string& path) {
-  std::error_code error;
-  const std::uintmax_t size = std::filesystem::file_size(path, error);
-  return error ? 0 : size;
+void MemoryGate::enter(std::uint64_t bytes) {
+  std::unique_lock lock(mutex_);
+  changed_.wait(lock, [&] { return taken_ == 0 || taken_ + bytes <= budget_; });
+  taken_ += bytes;
 }
 
-}  // namespace
+void MemoryGate::leave(std::uint64_t bytes) {
+  {
+    const std::lock_guard lock(mutex_);
+    taken_ -= bytes;
+  }
+  changed_.notify_all();
+}
+
+void MemoryShare::take(std::uint64_t bytes) {
+  gate_.leave(std::exchange(bytes_, 0));
+  gate_.enter(bytes);
+  bytes_ = bytes;
+}
+
+std::uint64_t unpacked_size(const std::string& path) {
+  constexpr std::uint64_t kTextInGzip = 8;  // of coordinates with many digits it is 3
+  std::error_code error;
+  const std::uintmax_t size = std::filesystem::file_size(path, error);
+  return error ? 0 : size * (path.ends_with(".gz") ? kTextInGzip : 1);
+}
+
+std::uint64_t memory_to_triangulate(const std::string& path) {
+  constexpr std::uint64_t kOfPoint = 200;
+  constexpr std::uint64_t kOfByte = 8;                      // a point is 25 bytes of text
+  constexpr std::uint64_t kMost = std::uint64_t{1} << 40U;  // whatever a header says
+  const std::optional<std::uint64_t> points = promised_points(path);
+  return points ? kOfPoint * std::min(*points, kMost) : kOfByte * unpacked_size(path);
+}
 
 void check_each_once(const std::vector<std::string>& paths) {
   std::set<std::filesystem::path> seen;
@@ -76,17 +77,15 @@ void FileWork::show(std::size_t file, const std::string& doing) {
   status_.show(tried() + "; " + std::filesystem::path(paths_[file]).filename().string() + ": " + doing);
 }
 
-void FileWork::run(unsigned threads, std::uint64_t memory, std::uint64_t memory_share, const Work& work) {
+void FileWork::run(unsigned threads, std::uint64_t memory, const Work& work) {
   const auto count = static_cast<unsigned>(std::min<std::size_t>(threads, paths_.size()));
   MemoryGate gate(memory);
   std::atomic<std::size_t> next = 0;
   const auto take_files = [&] {
     for (std::size_t file = next++; file < paths_.size() && !interrupted(); file = next++) {
-      const std::uint64_t of_file = memory_share * size_of(paths_[file]);
-      gate.enter(of_file);
+      MemoryShare share(gate);
       // Threads that no other file can use.
-      work_on(file, std::max(1U, threads / count), work);
-      gate.leave(of_file);
+      work_on(file, std::max(1U, threads / count), share, work);
       ++tried_;
       status_.show(tried());
     }
@@ -106,11 +105,11 @@ void FileWork::run(unsigned threads, std::uint64_t memory, std::uint64_t memory_
   }
 }
 
-void FileWork::work_on(std::size_t file, unsigned threads, const Work& work) {
+void FileWork::work_on(std::size_t file, unsigned threads, MemoryShare& memory, const Work& work) {
   Outcome& outcome = outcomes_[file];
   const std::string& path = paths_[file];
   try {
-    outcome.crs = work(file, threads);
+    outcome.crs = work(file, threads, memory);
     outcome.is_done = true;
   } catch (const Interrupted&) {
     // The flag is set, and everybody sees it.

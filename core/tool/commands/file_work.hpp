@@ -2,9 +2,11 @@
 #pragma once
 
 #include <atomic>
+#include <condition_variable>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <mutex>
 #include <optional>
 #include <string>
 #include <vector>
@@ -16,22 +18,61 @@
 
 namespace polylidar::tool {
 
+/// What files may take of memory together, in bytes.
+class MemoryGate {
+ public:
+  explicit MemoryGate(std::uint64_t budget) : budget_(budget) {}
+
+  /// Waits until so much more is within the budget, or nobody has any.
+  void enter(std::uint64_t bytes);
+  void leave(std::uint64_t bytes);
+
+ private:
+  std::uint64_t budget_;
+  std::uint64_t taken_ = 0;
+  std::mutex mutex_;
+  std::condition_variable changed_;
+};
+
+/// What one of them has of it; given back in the end.
+class MemoryShare {
+ public:
+  explicit MemoryShare(MemoryGate& gate) : gate_(gate) {}
+  ~MemoryShare() { gate_.leave(bytes_); }
+  MemoryShare(const MemoryShare&) = delete;
+  MemoryShare& operator=(const MemoryShare&) = delete;
+
+  /// Takes so much instead of what it has, which is given back first: two that want more do not wait for each
+  /// other.
+  void take(std::uint64_t bytes);
+
+ private:
+  MemoryGate& gate_;
+  std::uint64_t bytes_ = 0;
+};
+
+/// The size of a file, in bytes, when it is unpacked: that of text which gzip compressed is guessed.
+std::uint64_t unpacked_size(const std::string& path);
+/// What all points of a file and their triangles take of memory, about, in bytes.
+std::uint64_t memory_to_triangulate(const std::string& path);
+
 /// Throws ConfigurationError where two of these are the same file.
 void check_each_once(const std::vector<std::string>& paths);
 
 class FileWork {
  public:
   /// Does what is to be done with a file, by its place among all, on so many threads, and says what
-  /// coordinate system it is in. What it throws makes the file one that failed, and the other files are done.
-  using Work = std::function<Crs(std::size_t file, unsigned threads)>;
+  /// coordinate system it is in; takes the memory for it before. What it throws makes the file one that
+  /// failed, and the other files are done.
+  using Work = std::function<Crs(std::size_t file, unsigned threads, MemoryShare& memory)>;
 
   /// All must live as long. Throws as check_each_once.
   FileWork(const std::vector<std::string>& paths, const Surroundings& surroundings, StatusLine& status);
 
-  /// The files one after the other, each taken by the next of `threads` that is free. One takes
-  /// `memory_share` times its size of memory; together they take no more than `memory`, in bytes, or one is
-  /// alone. Says which files failed, a line each. Throws ConfigurationError where all did, and Interrupted.
-  void run(unsigned threads, std::uint64_t memory, std::uint64_t memory_share, const Work& work);
+  /// The files one after the other, each taken by the next of `threads` that is free. Together they take no
+  /// more than `memory`, in bytes, or one is alone. Says which files failed, a line each. Throws
+  /// ConfigurationError where all did, and Interrupted.
+  void run(unsigned threads, std::uint64_t memory, const Work& work);
 
   /// What is being done with a file, for the status line; by any thread. Throws Interrupted.
   void show(std::size_t file, const std::string& doing);
@@ -55,7 +96,7 @@ class FileWork {
   };
 
   std::string tried() const;
-  void work_on(std::size_t file, unsigned threads, const Work& work);
+  void work_on(std::size_t file, unsigned threads, MemoryShare& memory, const Work& work);
 
   const std::vector<std::string>& paths_;
   const Surroundings& surroundings_;

@@ -30,9 +30,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// What a file's points and their triangles take: of LAS, whose points have 20 bytes at least, some 150 bytes
-/// a point.
-constexpr std::uint64_t kMemoryToTriangulate = 8;
+/// What a file takes that is streamed, in bytes.
+constexpr std::uint64_t kMemoryToStream = std::uint64_t{1} << 26U;
 /// Smaller files are read into memory.
 constexpr std::uint64_t kWorthStreaming = std::uint64_t{1} << 23U;
 
@@ -168,8 +167,9 @@ class IndexRun {
   ExitCode run() {
     chosen_crs(command_.shape, {});
     output_.check_against(command_.inputs);
-    files_.run(thread_count(command_.shape), memory_for_points(command_.shape), kMemoryToTriangulate,
-               [&](std::size_t file, unsigned threads) { return make(file, threads); });
+    files_.run(
+        thread_count(command_.shape), memory_for_points(command_.shape),
+        [&](std::size_t file, unsigned threads, MemoryShare& memory) { return make(file, threads, memory); });
     std::vector<std::string> features;
     for (std::string& feature : features_) {
       if (!feature.empty()) features.push_back(std::move(feature));
@@ -210,11 +210,15 @@ class IndexRun {
     std::vector<Point> points;
   };
 
-  Crs make(std::size_t place, unsigned threads) {
+  Crs make(std::size_t place, unsigned threads, MemoryShare& memory) {
     const std::string& path = command_.inputs[place];
     check_is_file(path);
     std::optional<Footprint> streamed;
-    if (is_worth_streaming(path)) streamed = by_stream(place, threads);
+    if (is_worth_streaming(path)) {
+      memory.take(kMemoryToStream);
+      streamed = by_stream(place, threads);
+    }
+    if (!streamed) memory.take(memory_to_triangulate(path));
     const Footprint made = streamed ? *std::move(streamed) : in_memory(place, threads);
     Properties properties;
     properties.add("name", std::string_view(fs::path(path).filename().native()));
@@ -271,7 +275,6 @@ class IndexRun {
     Options core = options.core;
     core.threads = threads;
     StreamOptions stream_options;
-    stream_options.most_points_in_memory = most_points_in_memory(command_.shape);
     stream_options.reads_at_once = true;
     stream_options.progress = [&](const StreamProgress& progress) {
       if (status_.is_due()) files_.show(place, passing(progress));
@@ -326,8 +329,8 @@ class UnionRun {
 
   ExitCode run() {
     check_options();
-    files_.run(core_.threads, memory_for_points(command_.shape), 1,
-               [&](std::size_t file, unsigned) { return look_at(file); });
+    files_.run(core_.threads, memory_for_points(command_.shape),
+               [&](std::size_t file, unsigned, MemoryShare& memory) { return look_at(file, memory); });
     add_up();
     find_plane();
     const StreamedHull hull = stream_by_some_limit();
@@ -364,9 +367,11 @@ class UnionRun {
   void say(const std::string& text) { status_.say(surroundings_.program + ": " + text); }
 
   /// Reads a file to its end.
-  Crs look_at(std::size_t place) {
+  Crs look_at(std::size_t place, MemoryShare& memory) {
     const std::string& path = command_.inputs[place];
     check_is_file(path);
+    // Others may be read whole.
+    memory.take(is_read_in_parts(path, options_) ? 0 : unpacked_size(path));
     Facts& facts = facts_[place];
     PointFileOptions options = options_;
     options.take_points = [&](std::span<const Point> block) { facts.add(block); };

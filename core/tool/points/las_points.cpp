@@ -62,6 +62,12 @@ double double_at(const char* bytes) {
   return load(bytes, {Scalar::Kind::kFloat, 8, false});
 }
 
+/// How many points the header promises; `bytes` are as many as 1.4 has.
+std::uint64_t promised_points(const char* bytes) {
+  const std::uint64_t count = unsigned_at(bytes + kVersionMinor, 1) >= 4 ? unsigned_at(bytes + kCount, 8) : 0;
+  return count != 0 ? count : unsigned_at(bytes + kLegacyCount, 4);
+}
+
 struct Header {
   int minor_version = 0;
   std::uint64_t size = 0;
@@ -131,7 +137,6 @@ class LasReader {
     header_.points_at = unsigned_at(&bytes[kPointOffset], 4);
     header_.records = unsigned_at(&bytes[kRecordCount], 4);
     header_.point_size = static_cast<std::size_t>(unsigned_at(&bytes[kPointSize], 2));
-    header_.count = unsigned_at(&bytes[kLegacyCount], 4);
     const std::size_t needed = header_.minor_version >= 4 ? kNewHeader : kOldHeader;
     if (header_.size < needed || header_.points_at < header_.size) {
       refuse("says that it has " + std::to_string(header_.size) + " bytes and the points begin at byte " +
@@ -141,11 +146,10 @@ class LasReader {
       if (!take(&bytes[kOldHeader], kNewHeader - kOldHeader)) {
         reader_.fail(std::string("its LAS header is not whole") + kCopyAgain);
       }
-      const std::uint64_t count = unsigned_at(&bytes[kCount], 8);
-      if (count != 0) header_.count = count;
       header_.extended_records_at = unsigned_at(&bytes[kExtendedRecords], 8);
       header_.extended_records = unsigned_at(&bytes[kExtendedRecordCount], 4);
     }
+    header_.count = promised_points(bytes.data());
     read_format(static_cast<unsigned>(unsigned_at(&bytes[kPointFormat], 1)));
     header_.scale = {double_at(&bytes[kScale]), double_at(&bytes[kScale + 8])};
     header_.offset = {double_at(&bytes[kOffset]), double_at(&bytes[kOffset + 8])};
@@ -358,6 +362,11 @@ class LasReader {
 bool is_uncompressed_las(std::string_view start) {
   return start.starts_with("LASF") && start.size() >= kLasStart &&
          (static_cast<unsigned char>(start[kPointFormat]) & kCompressed) == 0;
+}
+
+std::optional<std::uint64_t> promised_points_of_las(std::string_view start) {
+  if (!start.starts_with("LASF") || start.size() < kNewHeader) return {};
+  return promised_points(start.data());
 }
 
 void read_las(BlockReader& reader, PointFile& file) {

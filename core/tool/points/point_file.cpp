@@ -281,6 +281,18 @@ bool is_read_in_parts(const std::string& path, const PointFileOptions& options) 
   }
 }
 
+std::optional<std::uint64_t> promised_points(const std::string& path) {
+  std::error_code error;
+  if (format_of_name(path) != PointFormat::kLas || !std::filesystem::is_regular_file(path, error)) return {};
+  try {
+    const PointFileOptions options;
+    BlockReader reader(path, options);
+    return point_files::promised_points_of_las(reader.ahead());
+  } catch (const PointFileError&) {
+    return {};
+  }
+}
+
 bool names_points(const std::string& path) {
   switch (format_of_name(path)) {
     case PointFormat::kCsv:

@@ -117,6 +117,10 @@ PointFile read_point_file(const std::string& path, const PointFileOptions& optio
 /// and nothing is compressed. Also not if the file cannot be read: reading it then says why.
 bool is_read_in_parts(const std::string& path, const PointFileOptions& options);
 
+/// How many points the header of a file promises whose name ends with .las or .laz, also with .gz; nothing of
+/// other files, and where that cannot be read.
+std::optional<std::uint64_t> promised_points(const std::string& path);
+
 /// Whether `path` has the ending of a format that holds points only, such as .las.
 bool names_points(const std::string& path);
 

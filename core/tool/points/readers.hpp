@@ -4,6 +4,7 @@
 #include <bit>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string_view>
 #include <vector>
@@ -42,6 +43,10 @@ void read_las(BlockReader& reader, PointFile& file);
 /// So many bytes of a file tell whether it is LAS that is not compressed.
 inline constexpr std::size_t kLasStart = 105;
 bool is_uncompressed_las(std::string_view start);
+
+/// How many points a LAS file promises, be it compressed or not, of which these are the first bytes; nothing
+/// where they are too few.
+std::optional<std::uint64_t> promised_points_of_las(std::string_view start);
 
 /// Reserves memory for `count` points, in huge pages where the system has them.
 void reserve_points(std::vector<Point>& points, std::size_t count);
