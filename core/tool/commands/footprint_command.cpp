@@ -554,7 +554,7 @@ void add_footprint_options(CLI::App& app, FootprintCommand& command) {
       "of 'polylidar hull'.\n"
       "With --union the result is a single feature: the shape of the points of all files together. Tiles "
       "that touch\n"
-      "become one part, without a seam. Its property files is the number of files. They are read up to eight "
+      "become one part, without a seam. Its property files is the number of files. They are read several "
       "times, and\n"
       "need not fit into memory. If no limit is given, the sizes of triangles are chosen from all points. If "
       "the density\n"
