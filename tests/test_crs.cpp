@@ -26,6 +26,23 @@ TEST(CrsNames, TheirNumbers) {
   }
 }
 
+TEST(CrsNumbers, OfDegreesAreThoseOfGeographicSystems) {
+  // NAD83(2011), JGD2011, GDA2020, RGF93 v2b, CGCS2000, ETRS89 and WGS 84 in three dimensions, and the ends
+  // of ranges.
+  for (const int number :
+       {6318, 6668, 7844, 9784, 4490, 4937, 4979, 4326, 4258, 4269, 3819,  3821,  4120, 4216,
+        4218, 4327, 4329, 4339, 4383, 4921, 4999, 7915, 7931, 8948, 20033, 20040, 20041}) {
+    EXPECT_TRUE(crs_of_epsg(number).is_geographic) << number;
+  }
+  // Gauss-Krueger and UTM zones, plate carrees, geocentric, vertical and compound systems, and numbers of
+  // none.
+  std::vector<int> others = {4647, 4559, 4087, 4088,  4978,  4936, 4328,  4340,   4922,
+                             7916, 8947, 3857, 25832, 32632, 2056, 27700, 5514,   5555,
+                             5773, 7405, 3818, 5000,  20042, 0,    -4326, 1000000};
+  for (int number = 4491; number <= 4554; ++number) others.push_back(number);
+  for (const int number : others) EXPECT_FALSE(crs_of_epsg(number).is_geographic) << number;
+}
+
 TEST(CrsText, TheHorizontalSystem) {
   EXPECT_EQ(crs_of_wkt(R"(GEOGCS["WGS 84",DATUM["d",SPHEROID["s",1,2]],AUTHORITY["EPSG","4326"]])"),
             (Crs{4326, true, true}));

@@ -22,7 +22,7 @@ struct Crs {
   friend bool operator==(const Crs&, const Crs&) = default;
 };
 
-/// Of a number in EPSG's register. Geographic ones are, with few exceptions, those from 4000 to 4999.
+/// Of a number in EPSG's register. A number that the register of 2022 does not have counts as projected.
 Crs crs_of_epsg(int number);
 
 /// Of a name such as "EPSG:25832", "urn:ogc:def:crs:EPSG::25832" or "urn:ogc:def:crs:OGC:1.3:CRS84".
