@@ -51,6 +51,12 @@ std::uint64_t memory_to_triangulate(const std::string& path) {
   return points ? kOfPoint * std::min(*points, kMost) : kOfByte * unpacked_size(path);
 }
 
+std::uint64_t memory_to_stream(const std::string& path) {
+  // Measured: 22 MB for a million points of a survey, 72 for ten and 180 for forty, of 20 bytes in the file.
+  constexpr std::uint64_t kAtLeast = std::uint64_t{1} << 24U;
+  return kAtLeast + unpacked_size(path) / 4;
+}
+
 void check_each_once(const std::vector<std::string>& paths) {
   std::set<std::filesystem::path> seen;
   for (const std::string& path : paths) {

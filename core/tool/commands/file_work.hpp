@@ -55,6 +55,8 @@ class MemoryShare {
 std::uint64_t unpacked_size(const std::string& path);
 /// What all points of a file and their triangles take of memory, about, in bytes.
 std::uint64_t memory_to_triangulate(const std::string& path);
+/// What a file takes that is streamed.
+std::uint64_t memory_to_stream(const std::string& path);
 
 /// Throws ConfigurationError where two of these are the same file.
 void check_each_once(const std::vector<std::string>& paths);

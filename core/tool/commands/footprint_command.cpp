@@ -30,8 +30,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// What a file takes that is streamed, in bytes.
-constexpr std::uint64_t kMemoryToStream = std::uint64_t{1} << 26U;
 /// Smaller files are read into memory.
 constexpr std::uint64_t kWorthStreaming = std::uint64_t{1} << 23U;
 
@@ -215,7 +213,7 @@ class IndexRun {
     check_is_file(path);
     std::optional<Footprint> streamed;
     if (is_worth_streaming(path)) {
-      memory.take(kMemoryToStream);
+      memory.take(memory_to_stream(path));
       streamed = by_stream(place, threads);
     }
     if (!streamed) memory.take(memory_to_triangulate(path));
