@@ -195,8 +195,8 @@ TEST_F(PointFilesTest, QuotesInQuotedFieldsAreSingleAgain) {
 
 TEST_F(PointFilesTest, GeoJsonIsGroupedByAProperty) {
   const auto feature = [](const std::string& value, const std::string& coordinates) {
-    return R"({"type":"Feature","properties":{"a":{"kind":9},"kind":)" + value +
-           R"(},"geometry":{"type":"MultiPoint","coordinates":[)" + coordinates + "]}}";
+    return R"({"type":"Feature","properties":{"kind":)" + value +
+           R"(,"a":{"kind":9}},"geometry":{"type":"MultiPoint","coordinates":[)" + coordinates + "]}}";
   };
   const std::string text =
       R"({"type":"FeatureCollection","features":[)" + feature(R"("oak")", "[1,2],[3,4]") + "," +
