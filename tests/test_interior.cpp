@@ -1,7 +1,7 @@
 // The shape without the triangulation of the interior is that of the whole triangulation, ring by ring.
 //
-// HULLBENCH_INTERIOR_CASES=N runs N small and N / 100 large random inputs instead of the share that fits into
-// every test run; 100000 is the full battery.
+// HULLBENCH_INTERIOR_CASES=N runs N small and N / 100 large random inputs, and N / 500 of the default by
+// places, instead of the share that fits into every test run; 100000 is the full battery.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -17,6 +17,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/src/automatic_limit.hpp"
 #include "polylidar/concave_hull.hpp"
 #include "polylidar/delaunay.hpp"
 #include "tests/both_ways.hpp"
@@ -158,7 +159,13 @@ Options random_options(const Points& points, Random& random) {
 void move(Points& points, Random& random) {
   switch (random.below(4)) {
     case 0: {
-      const int exponent = static_cast<int>(random.integer(60));
+      // Anywhere in the range in which coordinates are not scaled, its ends included.
+      const auto [least, greatest] = testing::exponents(points).value();
+      const int lowest = -116 - least;
+      const int highest = 149 - greatest;
+      const int between =
+          lowest + static_cast<int>(random.below(static_cast<std::size_t>(highest - lowest + 1)));
+      const int exponent = std::array{lowest, between, between, highest}[random.below(4)];
       for (Point& p : points) p = {std::ldexp(p.x, exponent), std::ldexp(p.y, exponent)};
       break;
     }
@@ -281,7 +288,7 @@ TEST(InteriorLeftOut, GivesTheShapesOfRepeatedPoints) {
 }
 
 TEST(InteriorLeftOut, GivesTheShapesOfLargeInputs) {
-  compare_random_inputs(std::max<std::size_t>(case_count(1200) / 100, 1), 20'000, 200'000);
+  compare_random_inputs(std::max<std::size_t>(case_count(2800) / 100, 1), 20'000, 120'000);
 }
 
 // Where no limit is given, of so many points that one may be found for all places.
@@ -298,7 +305,7 @@ TEST(InteriorLeftOut, GivesTheShapesOfTheDefault) {
     Points points = sample(sampler, count, random);
     move(points, random);
     Options options{.detail = std::array{0.5, 1.0, 1.0, 1.0, 1.5}[random.below(5)],
-                    .threads = std::array{1U, 1U, 2U, 3U}[random.below(4)]};
+                    .threads = std::array{1U, 2U, 3U, 8U}[random.below(4)]};
     if (random.below(3) == 0) options.fill_single_triangles = false;
     SCOPED_TRACE(::testing::Message() << sampler.name << ", seed " << seed << ", detail " << options.detail
                                       << ", threads " << options.threads);
@@ -320,6 +327,47 @@ TEST(InteriorLeftOut, GivesTheShapesOfTheDefault) {
   EXPECT_GT(counts_of_few[Way::kInteriorLeftOut], 4U);
   EXPECT_GT(counts[Way::kInteriorLeftOut], 8U);
   EXPECT_GT(counts[Way::kWhole], 3U);
+}
+
+// Where the density of many points varies by a few times: those inputs of all samplers for which the sizes
+// are found place by place.
+TEST(InteriorLeftOut, GivesTheShapesOfTheDefaultByPlaces) {
+  Extractor extractor;
+  Extractor steps;
+  detail::AutomaticLimit limit;
+  detail::ThreadPool pool;
+  std::map<std::string, std::size_t> inputs;
+  WayCounts counts;
+  const std::size_t cases = std::max(2 * samplers().size(), case_count(0) / 500);
+  for (std::uint64_t seed = 0; seed < cases; ++seed) {
+    Random random(seed);
+    const Sampler& sampler = samplers()[seed % samplers().size()];
+    Points points = sample(sampler, 265'000 + random.below(60'000), random);
+    const double sparser = random.between(0.2, 2);  // to one side
+    for (Point& p : points) p.x *= 1 + sparser * std::abs(p.x);
+    move(points, random);
+    const auto by = limit.look(detail::passes_over(points, pool), bounding_box(points), pool);
+    if (by != detail::SizesBy::kPlaces) continue;
+    ++inputs[sampler.name];
+    Options options{.detail = std::array{0.7, 1.0, 1.5}[random.below(3)]};
+    if (random.below(3) == 0) options.fill_single_triangles = false;
+    SCOPED_TRACE(::testing::Message() << sampler.name << ", seed " << seed << ", detail " << options.detail);
+    steps.triangulate(points);
+    steps.extract_regions(options);
+    const IndexedMultiPolygon whole = steps.extract_polygons();
+    for (const unsigned threads : {1U, 2U, 3U, 8U}) {
+      options.threads = threads;
+      EXPECT_EQ(extractor.extract(points, options), whole) << threads << " threads";
+      EXPECT_EQ(extractor.chosen_sizes(), steps.chosen_sizes()) << threads << " threads";
+      ++counts[extractor.statistics().way];
+    }
+  }
+  for (const auto& [name, count] : inputs) std::cout << "by places: " << name << ": " << count << '\n';
+  for (const auto& [way, count] : counts) {
+    std::cout << "way by places " << static_cast<int>(way) << ": " << count << '\n';
+  }
+  EXPECT_GT(inputs.size(), 5U);
+  EXPECT_GT(counts[Way::kInteriorLeftOut], 20U);
 }
 
 TEST(InteriorLeftOut, GivesTheShapesOfNastyPointSets) {
