@@ -16,6 +16,7 @@ hullbench_test(test_core
     test_kernels.cpp
     test_outline_fill.cpp
     test_quantile.cpp
+    test_reach.cpp
     test_size_filter.cpp
     test_stream.cpp
     test_window_sample.cpp

@@ -298,6 +298,39 @@ TEST(StreamShards, GiveWhatOneRunGives) {
   EXPECT_GT(rings, 100U);
 }
 
+// Dense cells from 13 rows below a band on, few below these. So whether a point of the lowest dense row is
+// uncertain depends on cells up to 24 rows below the band, and whether one of the band's lowest row is in the
+// part on such a point. With a row less of either, the shard would find another part than one run.
+TEST(StreamShards, LookAsFarBeyondTheirBandsAsIsNecessary) {
+  constexpr std::size_t kBand = 800;  // the lowest row of the second of two bands
+  constexpr std::size_t kDense = kBand - 13;
+  const Options options{.alpha = 6 / (1 - 0x1p-8)};  // so that cells have the side 1
+  std::size_t in_lowest_row = 0;
+  for (std::uint64_t seed = 0; seed < 8; ++seed) {
+    SCOPED_TRACE(seed);
+    testing::Random random(seed);
+    Points points{{0, 0}, {300, 1600}};
+    const double density = 0.02 + 0.02 * static_cast<double>(seed);
+    for (std::size_t row = kDense - 60; row < kDense + 240; ++row) {
+      for (std::size_t column = 0; column < 300; ++column) {
+        if (row < kDense && random.unit() >= density) continue;
+        const double in_cell = row < kDense ? random.unit() : row == kDense ? 0.1 : 0.9;
+        points.push_back({static_cast<double>(column) + random.unit(), static_cast<double>(row) + in_cell});
+      }
+    }
+    const StreamShard all = MemorySource(points).part(options, {});
+    EXPECT_DOUBLE_EQ(all.cells_per_length, 1);
+    std::vector<std::uint64_t> expected;
+    for (std::size_t i = 0; i < all.points.size(); ++i) {
+      if (all.points[i].y >= kBand) expected.push_back(all.numbers[i]);
+      if (all.points[i].y >= kBand && all.points[i].y < kBand + 1) ++in_lowest_row;
+    }
+    EXPECT_EQ(MemorySource(points).part(options, {2, 2}).numbers, expected);
+  }
+  EXPECT_GT(in_lowest_row, 100U);
+  EXPECT_LT(in_lowest_row, 8U * 300 - 100);
+}
+
 // Tiles in any order, an empty one among them: those that do not reach into a shard's band are read once
 // only.
 TEST(StreamShards, ReadTilesThatTheyNeed) {
