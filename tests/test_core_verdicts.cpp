@@ -29,7 +29,7 @@ Measurements all_met() {
   for (const std::string& benchmark : benchmarks_of_goals()) {
     double a_point = 100;
     if (benchmark.starts_with("regions/") || benchmark.starts_with("polygons/")) a_point = 5;
-    if (benchmark.starts_with("concave_hull_2_threads/")) a_point = 50;
+    if (benchmark.find("_2_threads/") != std::string::npos) a_point = 50;
     if (benchmark.starts_with("cgal_delaunay/")) a_point = 3000;
     measurements[benchmark] = {{a_point * points_of(benchmark)}, 40.0};
   }

@@ -61,9 +61,11 @@ void concave_hull_whole(benchmark::State& state, const SpeedPointSet& set) {
 }
 
 /// With the limit that is chosen from the points; how many polygons that gives is not known beforehand.
+template <unsigned threads>
 void concave_hull_automatic(benchmark::State& state, const SpeedPointSet& set) {
   polylidar::Extractor extractor;
-  measure(state, set, 0, Memory::kCounted, [&] { return extractor.extract(set.points).polygon_count(); });
+  measure(state, set, 0, Memory::kCounted,
+          [&] { return extractor.extract(set.points, {.threads = threads}).polygon_count(); });
 }
 
 void concave_hull_once(benchmark::State& state, const SpeedPointSet& set) {
@@ -100,16 +102,18 @@ void polygons(benchmark::State& state, const SpeedPointSet& set) {
 }
 
 constexpr std::size_t kMostPoints = 10'000'000;
-constexpr MeasuredFunction kFunctions[] = {{"concave_hull", &concave_hull<1>, kMostPoints},
-                                           {"concave_hull_2_threads", &concave_hull<2>, kMostPoints},
-                                           {"two_hulls_at_once", &two_hulls_at_once, 1'000'000},
-                                           {"concave_hull_automatic", &concave_hull_automatic, kMostPoints},
-                                           {"concave_hull_perimeter", &concave_hull_perimeter, kMostPoints},
-                                           {"concave_hull_whole", &concave_hull_whole, kMostPoints},
-                                           {"concave_hull_once", &concave_hull_once, 1'000'000},
-                                           {"triangulation", &triangulation, 1'000'000},
-                                           {"regions", &regions, 1'000'000},
-                                           {"polygons", &polygons, 1'000'000}};
+constexpr MeasuredFunction kFunctions[] = {
+    {"concave_hull", &concave_hull<1>, kMostPoints},
+    {"concave_hull_2_threads", &concave_hull<2>, kMostPoints},
+    {"two_hulls_at_once", &two_hulls_at_once, 1'000'000},
+    {"concave_hull_automatic", &concave_hull_automatic<1>, kMostPoints},
+    {"concave_hull_auto_2_threads", &concave_hull_automatic<2>, kMostPoints},
+    {"concave_hull_perimeter", &concave_hull_perimeter, kMostPoints},
+    {"concave_hull_whole", &concave_hull_whole, kMostPoints},
+    {"concave_hull_once", &concave_hull_once, 1'000'000},
+    {"triangulation", &triangulation, 1'000'000},
+    {"regions", &regions, 1'000'000},
+    {"polygons", &polygons, 1'000'000}};
 
 }  // namespace
 

@@ -69,7 +69,7 @@ std::vector<polylidar::Point> make_outline_points(const std::string& name, std::
   std::vector<polylidar::Point> points(n);
   constexpr std::size_t kClusters = 50;
   constexpr double kDeviation = 0.01;
-  constexpr std::size_t kCopies = 4;
+  const std::size_t copies = name == "repeats8" ? 8 : name == "repeats" ? 4 : 1;
   std::vector<polylidar::Point> centres(kClusters);
   for (polylidar::Point& p : centres) p = {random.uniform(), random.uniform()};
   for (std::size_t i = 0; i < n; ++i) {
@@ -82,7 +82,7 @@ std::vector<polylidar::Point> make_outline_points(const std::string& name, std::
     } else if (name == "parabola") {
       points[i] = {x, x * x};
     } else {
-      points[i] = i % kCopies == 0 ? polylidar::Point{x, random.uniform()} : points[i - 1];
+      points[i] = i % copies == 0 ? polylidar::Point{x, random.uniform()} : points[i - 1];
     }
   }
   return points;
@@ -112,14 +112,17 @@ SpeedPointSet make_speed_point_set(const std::string& name, std::size_t n) {
   if (name == "rgbd") return {make_lattice(424, n, 0.1, random), 2, 0};
   if (name == "islands") return make_islands(n, random);
   if (name == "sieve") return make_sieve(n, random);
-  if (name == "clusters" || name == "circle" || name == "parabola" || name == "repeats") {
+  if (name == "clusters" || name == "circle" || name == "parabola" || name == "repeats" ||
+      name == "repeats8" || name == "tight") {
     const bool is_curve = name == "circle" || name == "parabola";  // of which small triangles have no part
-    return {make_outline_points(name, n, random), is_curve ? 2 : 2 / std::sqrt(static_cast<double>(n)), 0};
+    const double spacings = name == "tight" ? 1.2 : 2;
+    return {make_outline_points(name, n, random), is_curve ? 2 : spacings / std::sqrt(static_cast<double>(n)),
+            0};
   }
   throw std::invalid_argument(
       "no point set is called '" + name +
       "': ca, airborne, gradient, gradient64, uniform, lattice, rgbd, islands, sieve, clusters, "
-      "circle, parabola, repeats");
+      "circle, parabola, repeats, repeats8, tight");
 }
 
 }  // namespace hullbench::micro

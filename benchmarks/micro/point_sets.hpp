@@ -25,8 +25,9 @@ struct SpeedPointSet {
 /// long an outline in one polygon). The last two are for about 1,000,000 points, of which every square has
 /// the 250 it needs to hold together, and have a wider alpha than the rule's. Where leaving the interior out
 /// does not pay: "gradient64" (64 times as dense), "clusters" (50 normal ones in a square), "circle",
-/// "parabola" (points on them) and "repeats" (uniform, each point four times). The same bytes at every call.
-/// Throws std::invalid_argument for another name.
+/// "parabola" (points on them), "repeats" and "repeats8" (uniform, each point four or eight times) and
+/// "tight" (uniform, with three fifths of the rule's alpha). The same bytes at every call. Throws
+/// std::invalid_argument for another name.
 SpeedPointSet make_speed_point_set(const std::string& name, std::size_t n);
 
 }  // namespace hullbench::micro
