@@ -67,7 +67,7 @@ help: ## list the targets (the default)
 	@echo "  with NATIVE=1 (compile for this processor), SKIP_DEPS=1 (install nothing), JOBS=N (N processes)"
 
 deps: ## install every package that is missing, also those for development
-	@cmake/install-packages.sh build bench unit test docs python plots lint gate js
+	@cmake/install-packages.sh build bench unit test docs python plots lint gate js gdal
 	@echo "==> nothing is missing"
 
 deps-extra: ## install what the other methods need: those in JavaScript, Python and Java, PCL, the paper's PostGIS
@@ -242,7 +242,7 @@ bench-gate-instructions: ## the same with counted instructions instead of times,
 	@benchmarks/gate/gate.sh --instructions $(if $(BASE),--base "$(BASE)")
 
 test: ## install, build and run all tests
-	@$(call install,build bench unit test docs python plots js)
+	@$(call install,build bench unit test docs python plots js gdal)
 	@$(MAKE) deps-extra
 	@$(if $(SKIP_DEPS),,cmake/install-npm.sh plots)
 	@$(if $(SKIP_DEPS),,cmake/install-npm.sh tests/report)
@@ -263,7 +263,7 @@ build-clang: ## build everything with clang, the second compiler, in build-clang
 	@$(call build,clang,$(WITH_TESTS))
 
 test-clang: ## the tests of the clang build
-	@$(call install,build bench unit test docs python lint)
+	@$(call install,build bench unit test docs python lint gdal)
 	@$(MAKE) build-clang
 	@echo "==> all tests, built with clang"
 	@$(call tests,clang,build-clang)
