@@ -25,7 +25,7 @@ project_files() {
 
 sources() { project_files | grep -E '\.(cpp|hpp)$' | sort; }
 
-# Not the adapters': a hash of their sources is part of a method's version, which a blank must not change.
+# Adapters are left out: a method's version contains a hash of their sources, which reformatting would change.
 scripts() { project_files | grep -E "\.$1\$" | grep -v '^adapters/' | sort; }
 
 skip() {
@@ -136,7 +136,7 @@ check_printing() {
   [ -z "$found" ] || { printf 'error: a library prints:\n%s\n' "$found" >&2; return 1; }
 }
 
-# CMake's files and the packages of Python and npm take it from there; these cannot.
+# These files repeat the version by hand.
 check_version() {
   local version stated status=0
   version=$(sed -n 's/^project(hullbench VERSION \([0-9.]*\) .*/\1/p' CMakeLists.txt)
