@@ -12,7 +12,8 @@ set_tests_properties(js.build PROPERTIES LABELS js TIMEOUT 900 FIXTURES_SETUP js
 
 set(needs_of_browser "${BROWSERS}" "${CMAKE_CURRENT_LIST_DIR}/report/node_modules")
 set(needs_of_demo ${needs_of_browser} "${PROJECT_SOURCE_DIR}/adapters/manifests/node_modules")
-foreach(part IN ITEMS node browser demo)
+set(needs_of_types "${CMAKE_CURRENT_LIST_DIR}/report/node_modules/typescript")
+foreach(part IN ITEMS node browser demo types)
   hullbench_tool_test(NAME js.${part} NEEDS ${js_needs} ${needs_of_${part}}
     COMMAND node --test --test-reporter=spec "${CMAKE_CURRENT_LIST_DIR}/js/${part}.test.mjs")
   set_tests_properties(js.${part} PROPERTIES LABELS js TIMEOUT 600 COST ${HULLBENCH_COST_OF_LONG_TESTS} FIXTURES_REQUIRED js_package ENVIRONMENT

@@ -1,4 +1,4 @@
-// How long the package takes beside concaveman and delaunator: ratios of medians over interleaved rounds, on one thread.
+// How long the package takes, and concaveman and delaunator as multiples of it: medians over interleaved rounds, on one thread.
 //
 //   bench.mjs PACKAGE [--write README]   prints the table, or puts it between the marks of that file
 import { readFileSync, writeFileSync } from "node:fs";
@@ -69,7 +69,12 @@ function measure(runs, points) {
 
 function row(runs, count) {
   const medians = measure(runs, square_with_a_hole(count));
-  return [count.toLocaleString("en"), ...medians.map((time) => (time / medians[0]).toPrecision(2))];
+  const ms = medians[0] / 1e6;
+  return [
+    count.toLocaleString("en"),
+    Number(ms.toPrecision(3)),
+    ...medians.slice(1).map((time) => (time / medians[0]).toPrecision(2)),
+  ];
 }
 
 async function table(folder) {
@@ -77,13 +82,15 @@ async function table(folder) {
   const before = loadavg()[0];
   const rows = SIZES.map((count) => row(Object.values(named), count));
   const load = Math.max(before, loadavg()[0]);
-  const lines = [["points", ...Object.keys(named)], Array(Object.keys(named).length + 1).fill("---:"), ...rows];
+  const [first, ...others] = Object.keys(named);
+  const titles = ["points", `${first}, ms`, ...others.map((name) => `${name}, ×`)];
+  const lines = [titles, titles.map(() => "---:"), ...rows];
   return (
     lines.map((cells) => `| ${cells.join(" | ")} |\n`).join("") +
-    `\nTimes as multiples of \`concaveHull\`'s: ratios of the medians of ${ROUNDS} interleaved rounds in Node ` +
+    `\nms: the median time. ×: a median as a multiple of it. Both are over ${ROUNDS} interleaved rounds in Node ` +
     `${process.versions.node}, after one that is not counted. Points are uniform in a square with a round hole. ` +
     (load > 0.7 * cpus().length
-      ? "The machine was loaded by other work meanwhile, so no time is given.\n"
+      ? "Other work ran on the machine, so the times are longer than they could be.\n"
       : "Nothing else ran on the machine.\n")
   );
 }

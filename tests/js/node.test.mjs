@@ -217,13 +217,7 @@ test("links in the package's README lead to files in the package", () => {
   assert.ok(links.length > 0);
   for (const link of links) assert.ok(files.includes(link) && existsSync(join(PACKAGE, link)), link);
   assert.match(readme, /\n## How fast it is\n/);
-});
-
-test("the types name what there is", () => {
-  const types = readFileSync(join(PACKAGE, "polylidar.d.ts"), "utf8");
-  const functions = [...types.matchAll(/^export function (\w+)/gm)].map(([, name]) => name);
-  assert.match(types, /^export default concaveman;$/m);
-  assert.deepEqual([...functions, "default"].sort(), Object.keys(polylidar).sort());
+  assert.doesNotMatch(readme, /CMakeLists\.txt/, "the map of the files of the clone");
 });
 
 test("concaveman's ring is closed, of the points themselves and has all points inside", () => {
