@@ -1,7 +1,7 @@
 # The Python module, with the Python that it is built for.
 if(NOT TARGET polylidar_python)
   if(HULLBENCH_PYTHON)
-    foreach(test IN ITEMS module examples wheel)
+    foreach(test IN ITEMS module examples types wheel)
       hullbench_skipped_test(python.${test} "this build does not have the Python module; it needs pybind11 and Python's headers")
     endforeach()
   endif()
@@ -25,6 +25,7 @@ endfunction()
 
 hullbench_python_test(module TIMEOUT 120 NEEDS :numpy :shapely)
 hullbench_python_test(examples TIMEOUT 120 NEEDS :numpy :shapely :matplotlib :geopandas ENVIRONMENT MPLBACKEND=Agg)
+hullbench_python_test(types TIMEOUT 300 NEEDS :numpy :mypy)
 # Compiles the core a second time, without the debugging symbols that Python's own flags ask for.
 hullbench_python_test(wheel TIMEOUT 900 NEEDS :numpy :shapely :pip :setuptools :wheel :pybind11
   ENVIRONMENT "HULLBENCH_BUILD=${PROJECT_BINARY_DIR}" "CC=${CMAKE_CXX_COMPILER_LAUNCHER} ${CMAKE_CXX_COMPILER}"

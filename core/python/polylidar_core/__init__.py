@@ -46,6 +46,13 @@ def concave_hull(
     so that it follows their density. With alpha=math.inf it is the convex hull.
     O(n log n).
 
+        . . . . . . .          +-----------+
+        . .     . . .          |  +---+    |
+        . .     . . .    ->    |  +---+    |
+        . . . . . . .          |     +-----+
+        . . . .                |     |
+        . . . .                +-----+
+
     points: numbers of the shape (n, 2), x and y in any unit of length, in any order; they may repeat. A C-contiguous
         float64 array is used without a copy, read-only and memory-mapped ones too; anything else is converted, which
         copies it once. The GIL is released: other threads must not change the array meanwhile. A MultiPoint of

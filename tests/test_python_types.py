@@ -1,0 +1,46 @@
+"""The package's type hints, by mypy: what a program may do passes, and each misuse is an error.
+
+Run by ctest, with the package in PYTHONPATH.
+"""
+import os
+import pathlib
+import re
+import subprocess
+import sys
+import tempfile
+import unittest
+
+PROGRAMS = pathlib.Path(__file__).resolve().parent / "python_types"
+
+
+def lines_with_errors(name):
+    """Their numbers, and what mypy says. Errors in the package itself are not shown to who uses it."""
+    with tempfile.TemporaryDirectory() as cache:
+        result = subprocess.run(
+            [sys.executable, "-m", "mypy", "--strict", "--follow-imports=silent", "--cache-dir", cache, PROGRAMS / name],
+            env={**os.environ, "MYPYPATH": os.environ["PYTHONPATH"]},
+            capture_output=True,
+            text=True,
+            check=False,
+        )
+    if result.returncode > 1:
+        raise AssertionError(result.stdout + result.stderr)
+    found = re.findall(r"^[^:\n]+:(\d+): error: ", result.stdout, re.MULTILINE)
+    return sorted({int(line) for line in found}), result.stdout
+
+
+class Types(unittest.TestCase):
+    def test_a_right_program_passes(self):
+        lines, said = lines_with_errors("use.py")
+        self.assertEqual(lines, [], said)
+
+    def test_each_misuse_is_an_error(self):
+        text = (PROGRAMS / "misuse.py").read_text(encoding="utf-8").splitlines()
+        wrong = [number for number, line in enumerate(text, 1) if "# wrong:" in line]
+        self.assertGreater(len(wrong), 5)
+        lines, said = lines_with_errors("misuse.py")
+        self.assertEqual(lines, wrong, said)
+
+
+if __name__ == "__main__":
+    unittest.main()
