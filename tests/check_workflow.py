@@ -2,7 +2,7 @@
 
     check_workflow.py FOLDER MAKEFILE
 
-The folder has ci.yml, release.yml and site.yml. Exit status 0: fine; 1: found something, which is printed.
+The folder has ci.yml, fuzz.yml, release.yml and site.yml. Exit status 0: fine; 1: found something, which is printed.
 """
 import pathlib
 import re
@@ -11,7 +11,9 @@ import sys
 import yaml
 
 CI_NEEDS = {"bench", "test", "test-sanitize", "bench-gate-instructions", "bench-quick"}
-RELEASE_NEEDS = {"test", "package"}
+RELEASE_NEEDS = {"test", "package", "js"}
+RELEASED_PROGRAMS = {"polylidar", "hullbench"}
+LEAST_FUZZING = 300  # seconds for each target
 ARTEFACTS = {"results/latest/report.json", "results/latest/tables.md"}
 
 
@@ -66,6 +68,11 @@ def release_faults(workflow, targets):
     runs = [step.get("run", "") for _, _, step in steps(workflow)]
     if not any("check.sh version" in run for run in runs):
         yield "no job checks the version"
+    for program in sorted(RELEASED_PROGRAMS):
+        if not any(f"{program} hull" in run for run in runs):
+            yield f"no job runs the installed {program}"
+    if not any("npm pack" in run for run in runs):
+        yield "no job packs the npm package"
     publishers = {name for name, _, step in steps(workflow) if "gh release create" in step.get("run", "")}
     if len(publishers) != 1:
         yield f"{len(publishers)} jobs make a release, not one"
@@ -77,6 +84,17 @@ def release_faults(workflow, targets):
     for name, _, step in steps(workflow):
         if "upload-artifact" in step.get("uses", "") and step["with"].get("if-no-files-found") != "error":
             yield f"job {name} may upload nothing"
+
+
+def fuzz_faults(workflow, targets):
+    yield from make_faults(workflow, targets, {"fuzz"})
+    if "schedule" not in events(workflow):
+        yield "the workflow does not run by itself"
+    if workflow.get("permissions") != {"contents": "read"}:
+        yield "the workflow may do more than read"
+    seconds = [int(n) for _, _, step in steps(workflow) for n in re.findall(r"make fuzz SECONDS=(\d+)", step.get("run", ""))]
+    if not seconds or min(seconds) < LEAST_FUZZING:
+        yield f"a target is searched with for less than {LEAST_FUZZING} seconds"
 
 
 def site_faults(workflow, targets):
@@ -98,7 +116,8 @@ def site_faults(workflow, targets):
 def main(folder, makefile):
     targets = set(re.findall(r"^([a-z-]+):.*## ", pathlib.Path(makefile).read_text(encoding="utf-8"), re.MULTILINE))
     status = 0
-    for name, faults in (("ci.yml", ci_faults), ("release.yml", release_faults), ("site.yml", site_faults)):
+    checks = {"ci.yml": ci_faults, "fuzz.yml": fuzz_faults, "release.yml": release_faults, "site.yml": site_faults}
+    for name, faults in checks.items():
         path = pathlib.Path(folder, name)
         for fault in faults(yaml.safe_load(path.read_text(encoding="utf-8")), targets):
             print(f"error: {path}: {fault}", file=sys.stderr)
