@@ -4,7 +4,7 @@
 #   SKIP_DEPS=1  install nothing: everything needed is there already (distributions without apt-get)
 #   JOBS=N       build and test with N processes
 #   TABLE=NAME   only this experiment in "make bench": rgbd, states, alphabet, random or steps
-#   SECONDS=N    how long "make fuzz" searches
+#   SECONDS=N    how long "make fuzz" searches with each target
 #   SUITE=NAME   the Debian of "make test-fresh": bookworm (12) or trixie (13)
 #   RUNS="A B"   the runs of "make site", instead of results/reference
 #   BASE=REV     what "make bench-gate" compares with, instead of the merge base with the main branch
@@ -281,29 +281,13 @@ test-gate: ## prove that the gate finds what it must and nothing else, in 30 min
 	@$(call build,release,$(WITHOUT_TESTS),bench_gate)
 	@tests/gate/run.sh
 
-SECONDS ?= 60
+# For each of a dozen targets.
+SECONDS ?= 20
 
-# $(1): the target, $(2): the folder with its kept corpus, $(3): the longest input. What is found stays in build-fuzz: the kept
-# corpus is only read.
-define fuzz
-mkdir -p build-fuzz/$(1)-work build-fuzz/found; log=$(BUILD_LOG)/$(1).txt; \
-echo "==> $(1): searching for $(SECONDS) seconds, log in $$log"; \
-if ! build-fuzz/$(1) -max_total_time=$(SECONDS) -timeout=10 -max_len=$(3) -print_final_stats=1 \
-  -artifact_prefix=build-fuzz/found/ build-fuzz/$(1)-work tests/fuzz/$(2) >$$log 2>&1; then \
-  grep -A 4 -m 1 -E '^FAILED|runtime error|ERROR' $$log >&2 || true; \
-  grep -E '^artifact_prefix' $$log >&2 || true; \
-  echo "error: an input breaks $(1); see $$log." >&2; exit 1; \
-fi; \
-runs=$$(sed -n 's/^stat::number_of_executed_units: *//p' $$log); \
-[ "$${runs:-0}" -gt 0 ] || { echo "error: nothing ran; see $$log." >&2; exit 1; }; \
-echo "==> $$runs inputs, none breaks $(1)"
-endef
-
-fuzz: ## search for inputs that break the core or the readers of points, for 60 seconds each (SECONDS=N)
+fuzz: ## search for inputs that break the core or a reader of files, for 20 seconds each (SECONDS=N)
 	@$(call install,build unit lint)
-	@$(call build,fuzz,,fuzz_concave_hull fuzz_point_files)
-	@$(call fuzz,fuzz_concave_hull,corpus,1200)
-	@$(call fuzz,fuzz_point_files,corpus_point_files,4000)
+	@$(call build,fuzz)
+	@tests/fuzz/run.sh build-fuzz $(SECONDS) $(JOBS)
 
 lint: ## clang-tidy, and the formatting check on all our C++, Python and JavaScript
 	@$(call install,build unit python lint)

@@ -27,29 +27,51 @@ hullbench_test(test_threads SOURCES test_threads.cpp LIBRARIES hullbench_test_su
 # Each fuzz target twice: for libFuzzer, which only clang has, and with a main of its own that runs the kept corpus, which
 # makes it a test with every compiler.
 option(HULLBENCH_FUZZ "Build the fuzz targets for libFuzzer; CMAKE_CXX_FLAGS must say -fsanitize=fuzzer-no-link" OFF)
+if(HULLBENCH_FUZZ)
+  add_custom_target(fuzz_programs)
+endif()
 
-# hullbench_fuzz(NAME corpus SOURCES file... LIBRARIES target...): fuzz_NAME and replay_NAME, with the corpus in that folder.
-function(hullbench_fuzz name corpus)
-  cmake_parse_arguments(FUZZ "" "" "SOURCES;LIBRARIES" ${ARGN})
+# hullbench_fuzz(NAME SOURCES file... LIBRARIES target...): fuzz_NAME and replay_NAME, with the corpus in fuzz/corpus/NAME.
+function(hullbench_fuzz name)
+  cmake_parse_arguments(FUZZ "" "" "SOURCES;LIBRARIES;DEFINITIONS" ${ARGN})
+  set(programs replay_${name})
   add_executable(replay_${name} fuzz/replay.cpp ${FUZZ_SOURCES})
-  target_link_libraries(replay_${name} PRIVATE ${FUZZ_LIBRARIES} hullbench::compile_options)
   set_target_properties(replay_${name} PROPERTIES RUNTIME_OUTPUT_DIRECTORY "${CMAKE_BINARY_DIR}/tests")
   add_dependencies(test_programs replay_${name})
-  add_test(NAME fuzz.${corpus}_replay COMMAND replay_${name} "${CMAKE_CURRENT_SOURCE_DIR}/fuzz/${corpus}")
-  set_tests_properties(fuzz.${corpus}_replay PROPERTIES LABELS core TIMEOUT 120)
+  add_test(NAME fuzz.${name}_replay COMMAND replay_${name} "${CMAKE_CURRENT_SOURCE_DIR}/fuzz/corpus/${name}")
+  set_tests_properties(fuzz.${name}_replay PROPERTIES LABELS core TIMEOUT 120)
   if(HULLBENCH_FUZZ)
+    list(APPEND programs fuzz_${name})
     add_executable(fuzz_${name} ${FUZZ_SOURCES})
-    target_link_libraries(fuzz_${name} PRIVATE ${FUZZ_LIBRARIES} hullbench::compile_options)
     target_link_options(fuzz_${name} PRIVATE -fsanitize=fuzzer)
+    add_dependencies(fuzz_programs fuzz_${name})
   endif()
+  foreach(program IN LISTS programs)
+    target_compile_definitions(${program} PRIVATE ${FUZZ_DEFINITIONS})
+    target_link_libraries(${program} PRIVATE ${FUZZ_LIBRARIES} hullbench::compile_options)
+  endforeach()
 endfunction()
 
-hullbench_fuzz(concave_hull corpus
+hullbench_fuzz(concave_hull
   SOURCES fuzz/fuzz_concave_hull.cpp fuzz/fuzz_input.cpp LIBRARIES hullbench_test_support)
 if(TARGET polylidar_tool)
-  hullbench_fuzz(point_files corpus_point_files
-    SOURCES fuzz/fuzz_point_files.cpp LIBRARIES polylidar::tool nlohmann_json::nlohmann_json)
+  add_library(hullbench_memory_file STATIC fuzz/memory_file.cpp)
+  target_include_directories(hullbench_memory_file PUBLIC "${PROJECT_SOURCE_DIR}")
+  target_link_libraries(hullbench_memory_file
+    PUBLIC polylidar::tool PRIVATE nlohmann_json::nlohmann_json hullbench::compile_options)
+  hullbench_fuzz(crs SOURCES fuzz/fuzz_crs.cpp LIBRARIES hullbench_memory_file)
+  hullbench_fuzz(shard_file SOURCES fuzz/fuzz_shard_file.cpp LIBRARIES hullbench_memory_file)
+  # One target a format; what they share is compiled once.
+  add_library(hullbench_fuzz_point_files OBJECT fuzz/fuzz_point_files.cpp)
+  target_link_libraries(hullbench_fuzz_point_files
+    PRIVATE hullbench_memory_file nlohmann_json::nlohmann_json hullbench::compile_options)
+  foreach(format IN ITEMS auto csv xyz geojson wkt npy raw ply las)
+    hullbench_fuzz(${format} DEFINITIONS FUZZED_FORMAT="${format}"
+      SOURCES fuzz/point_format.cpp $<TARGET_OBJECTS:hullbench_fuzz_point_files> LIBRARIES hullbench_memory_file)
+  endforeach()
 endif()
+add_test(NAME fuzz.run COMMAND "${CMAKE_CURRENT_SOURCE_DIR}/fuzz/check_run.sh")
+set_tests_properties(fuzz.run PROPERTIES LABELS core TIMEOUT 60)
 
 if(HULLBENCH_CORE_ONLY)
   find_package(Boost QUIET)

@@ -1,5 +1,6 @@
 // The whole core on any bytes: whatever they decode to is either refused for a reason or triangulated and
-// outlined rightly. libFuzzer calls it with bytes of its own making, replay.cpp with those kept in corpus/.
+// outlined rightly. libFuzzer calls it with bytes of its own making, replay.cpp with those kept in
+// corpus/concave_hull/.
 #include <algorithm>
 #include <cmath>
 #include <cstddef>

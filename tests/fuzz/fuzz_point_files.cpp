@@ -1,20 +1,18 @@
-// Any bytes as a file of points: they are read or refused in one sentence, and what was read becomes shapes
-// and a document that is JSON.
-#include <sys/mman.h>
-#include <unistd.h>
-
+// Any bytes as a file of points in one format (point_format.hpp): they are read or refused in one sentence,
+// and what was read becomes shapes and a document that is JSON.
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
 #include <cstdlib>
-#include <iostream>
 #include <nlohmann/json.hpp>
 #include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "tests/fuzz/memory_file.hpp"
+#include "tests/fuzz/point_format.hpp"
 #include "tool/hull/degrees.hpp"
 #include "tool/hull/group_hulls.hpp"
 #include "tool/points/point_file.hpp"
@@ -25,54 +23,10 @@ namespace {
 
 using namespace polylidar;
 using namespace polylidar::tool;
+using fuzz::expect;
 
-constexpr std::array<const char*, 8> kFormats = {"auto", "csv", "xyz", "geojson", "wkt", "npy", "ply", "las"};
 constexpr std::array<const char*, 6> kBy = {"", "3", "kind", "classification", "return", "point_source"};
 constexpr std::array<const char*, 4> kColumns = {"", "1,2", "2,1", "b,a"};
-
-void expect(bool holds, const char* what) {
-  if (holds) return;
-  std::cerr << "FAILED: " << what << std::endl;
-  std::abort();
-}
-
-bool is_utf8(std::string_view text) {
-  try {
-    static_cast<void>(nlohmann::json(text).dump());
-    return true;
-  } catch (const nlohmann::json::type_error&) {
-    return false;
-  }
-}
-
-/// The bytes as a file, or as a pipe, whose length nobody knows, while they fit into one.
-class Input {
- public:
-  Input(std::string_view bytes, bool as_pipe) {
-    std::array<int, 2> ends{};
-    if (as_pipe && bytes.size() < 60000 && ::pipe(ends.data()) == 0) {
-      file_ = ends[0];
-      write_to(ends[1], bytes);
-      ::close(ends[1]);
-    } else {
-      file_ = ::memfd_create("points", 0);
-      write_to(file_, bytes);
-    }
-  }
-  ~Input() { ::close(file_); }
-  Input(const Input&) = delete;
-  Input& operator=(const Input&) = delete;
-
-  std::string path() const { return "/proc/self/fd/" + std::to_string(file_); }
-
- private:
-  static void write_to(int file, std::string_view bytes) {
-    expect(::write(file, bytes.data(), bytes.size()) == static_cast<ssize_t>(bytes.size()),
-           "no room for the input");
-  }
-
-  int file_ = -1;
-};
 
 void check(const PointFile& file, const PointFileOptions& options) {
   for (const Point& p : file.points) {
@@ -141,26 +95,22 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   // No program is to be started for what looks like LAZ.
   ::setenv("PATH", "", 1);
   PointFileOptions options;
-  options.format = *point_format_of(kFormats[data[0] % kFormats.size()]);
-  options.by = kBy[data[0] / kFormats.size() % kBy.size()];
+  options.format = *point_format_of(fuzz::kFuzzedFormat);
+  options.by = kBy[data[0] % kBy.size()];
   options.columns = kColumns[data[1] % kColumns.size()];
   if ((data[1] & 4U) != 0) options.window = Box{{-1, -2}, {5, 6}};
   if ((data[1] & 8U) != 0) options.returns = Returns::kFirst;
   if ((data[1] & 16U) != 0) options.returns = Returns::kLast;
   if ((data[1] & 32U) != 0) options.classes.emplace(0x44U);
-  if ((data[1] & 128U) != 0) options.format = PointFormat::kRaw;
-  const Input input({reinterpret_cast<const char*>(data) + kChoices, size - kChoices}, (data[1] & 64U) != 0);
+  const fuzz::MemoryFile input({reinterpret_cast<const char*>(data) + kChoices, size - kChoices},
+                               (data[1] & 64U) != 0);
   try {
     const PointFile file = read_point_file(input.path(), options);
     check(file, options);
     check_parts(input.path(), file, options);
     make_shapes(file, data[2]);
   } catch (const PointFileError& error) {
-    const std::string_view what = error.what();
-    expect(what.find(input.path()) != std::string_view::npos, "a refusal does not name the file");
-    const auto is_shown = [](char c) { return static_cast<unsigned char>(c) >= ' ' && c != '\x7F'; };
-    expect(std::all_of(what.begin(), what.end(), is_shown) && is_utf8(what),
-           "a refusal is not one line of plain text");
+    fuzz::check_refusal(error, input);
   }
   return 0;
 }
