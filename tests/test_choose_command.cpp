@@ -13,7 +13,6 @@
 #include <utility>
 #include <vector>
 
-#include "benchmarks/run/point_parts.hpp"
 #include "polylidar/concave_hull.hpp"
 #include "tests/hullbench_test.hpp"
 #include "tests/point_file_texts.hpp"
@@ -100,6 +99,10 @@ std::vector<Card> cards_of(const std::string& page) {
   return cards;
 }
 
+int points_on(const Card& card) {
+  return std::stoi(all_of(card.text, "<dt>Points</dt>\\s*<dd>([0-9]+)</dd>").at(0));
+}
+
 MultiPolygon shape_in(const fs::path& geojson) {
   MultiPolygon shape;
   const json coordinates = json::parse(read_text(geojson))["geometry"]["coordinates"];
@@ -181,7 +184,7 @@ TEST_F(ChooseCommandTest, ThePageHasACardForEveryMethodSortedByAgreement) {
     EXPECT_TRUE(has(outcome.out, "| " + card.title)) << card.title;
     EXPECT_FALSE(card.path.empty()) << card.title;
     for (const char* measure :
-         {"Time", "Parts", "Holes", "Vertices", "Area", "Covered", "Agreement", "Stability"}) {
+         {"Time", "Points", "Parts", "Holes", "Vertices", "Area", "Covered", "Agreement", "Stability"}) {
       const auto values =
           all_of(card.text, std::string("<dt>") + measure + "</dt>\\s*<dd>([0-9.]+)( [m%][^<]*)?</dd>");
       ASSERT_EQ(values.size(), 1U) << card.title << ": " << measure;
@@ -233,7 +236,7 @@ TEST_F(ChooseCommandTest, TheCommandOnACardGivesItsPolygons) {
   for (const Card& card : cards_of(page("my 'own' points.csv.choice.html"))) {
     ASSERT_EQ(card.commands.size(), 1U) << card.title;
     const std::string& line = card.commands[0];
-    by_polylidar += line.starts_with("polylidar hull ") ? 1 : 0;
+    by_polylidar += line.starts_with("hullbench hull ") ? 1 : 0;
     EXPECT_EQ(path_of(shape_by(line), points), card.path) << line;
   }
   EXPECT_EQ(by_polylidar, 2);
@@ -259,10 +262,38 @@ TEST_F(ChooseCommandTest, ASampleIsTheSameAgainAndIsSaid) {
     ASSERT_EQ(card.commands.size(), 2U);
     const MultiPolygon of_sample = shape_by(card.commands[0]);
     const MultiPolygon of_all = shape_by(card.commands[1]);
-    EXPECT_EQ(path_of(of_sample, run::draw_sample(points, 300, 3)), card.path) << card.title;
+    EXPECT_EQ(path_of(of_sample, points), card.path) << card.title;
+    EXPECT_EQ(points_on(card), 300) << card.title;
     EXPECT_NE(of_all, of_sample) << card.title;
     if (card.title != "Polylidar (default)") continue;
     EXPECT_EQ(of_all, to_coordinates(polylidar::concave_hull(points), points));
+  }
+}
+
+TEST_F(ChooseCommandTest, MethodsThatAreFastEnoughGetAllPoints) {
+  const Points points = ring(30000);
+  write_points(points);
+  // 2 s for the sample, so more than 3 for one and a half times the points.
+  add_method("takes_long");
+  const Outcome outcome = succeeded(choose({"points.csv", "--draws", "1", "--timeout", "3"},
+                                           {"--only", "polylidar/auto", "--only", "takes_long"}));
+  EXPECT_TRUE(has(outcome.err,
+                  "points.csv has 30000 points; 20000 of them, drawn with seed 1, were taken, and all by the "
+                  "methods that are fast enough."))
+      << outcome.err;
+  const std::vector<Card> cards = cards_of(page());
+  ASSERT_EQ(cards.size(), 2U);
+  for (const Card& card : cards) {
+    EXPECT_EQ(all_of(card.text, "<dt>Stability</dt>\\s*<dd>([0-9.]+) %</dd>").size(), 1U) << card.title;
+    if (card.title == "takes_long <method> (default)") {
+      EXPECT_EQ(points_on(card), 20000);
+      EXPECT_EQ(card.commands.size(), 2U);
+    } else {
+      EXPECT_EQ(points_on(card), 30000);
+      ASSERT_EQ(card.commands.size(), 1U);
+      EXPECT_TRUE(card.commands[0].starts_with("hullbench hull ")) << card.commands[0];
+      EXPECT_EQ(path_of(shape_by(card.commands[0]), points), card.path);
+    }
   }
 }
 

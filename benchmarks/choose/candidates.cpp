@@ -24,6 +24,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
+/// The metric that draws of halves give.
+constexpr const char* kStability = "agreement_halves";
+
 bool knows_more_than_the_points(const plan::PlanMethod& entry) {
   return entry.protocol != "default" && entry.protocol != "auto";
 }
@@ -58,17 +61,24 @@ void write_recording(std::span<const Point> points, const fs::path& scene) {
   if (!out) throw std::runtime_error("cannot write " + file.string() + "; is the disk full?");
 }
 
+bool is_of(const record::RunRecord& record, const plan::PlanMethod& entry) {
+  return record.method == entry.method && record.protocol == entry.protocol;
+}
+
 Candidate make_candidate(const record::RunRecord& record, const std::optional<MultiPolygon>& result,
-                         const plan::Plan& plan, const run::MethodCatalog& catalog) {
-  const auto entry = std::find_if(plan.methods.begin(), plan.methods.end(), [&](const plan::PlanMethod& one) {
-    return one.method == record.method && one.protocol == record.protocol;
-  });
+                         const plan::Plan& plan, const run::MethodCatalog& catalog, std::size_t points) {
+  const auto entry = std::find_if(plan.methods.begin(), plan.methods.end(),
+                                  [&](const plan::PlanMethod& one) { return is_of(record, one); });
   Parameters given;
   for (const auto& [name, choice] : entry->parameters) {
     const auto value = record.parameters.find(name);
     if (value != record.parameters.end()) given.insert(*value);
   }
-  return {catalog.find(record.method).title + " (" + record.protocol + ")", entry->note, given, record,
+  return {catalog.find(record.method).title + " (" + record.protocol + ")",
+          entry->note,
+          given,
+          points,
+          record,
           result};
 }
 
@@ -123,6 +133,76 @@ void sort_by_agreement(std::vector<Candidate>& all) {
   all = std::move(sorted);
 }
 
+using MakeProgress = run::Progress (*)(std::vector<run::ProgressSection>);
+
+Candidates run_on(const Question& question, std::span<const Point> points, const run::MethodCatalog& catalog,
+                  const Cores& cores, MakeProgress make_progress) {
+  const ScratchFolder scratch("hullbench-choose");
+  const DataFolders folders(default_data_directory(), scratch.path() / "recordings");
+  write_recording(points, folders.recordings / "points");
+  plan::Plan plan = question.plan;
+  plan::use_recordings(plan, 1);
+  plan::check_plan(plan, catalog.names(), datasets(folders));
+  const std::vector<plan::PlannedRun> runs =
+      plan::planned_runs(plan, std::string("/") + kRealRecording + "-1/");
+
+  const fs::path run_folder = scratch.path() / "run";
+  fs::create_directory(run_folder);
+  run::RunDirectory directory(run_folder, run::lock_or_throw(run_folder));
+  run::Progress progress = make_progress({{"", run::progress_runs(plan, runs)}});
+  Candidates candidates;
+  candidates.absent = question.absent;
+  run::RunnerOptions options = {[&](const std::string& name) { return catalog.find(name); }, cores.worker,
+                                cores.all, folders};
+  options.on_row = [&](const record::RunRecord& record, const std::optional<MultiPolygon>& result) {
+    if (record.status != record::Status::kNotInstalled) {
+      candidates.all.push_back(make_candidate(record, result, plan, catalog, points.size()));
+      return;
+    }
+    const std::string why = catalog.find(record.method).title + ": " + sentence(record.detail);
+    if (std::find(candidates.absent.begin(), candidates.absent.end(), why) == candidates.absent.end())
+      candidates.absent.push_back(why);
+  };
+  const nlohmann::json header = {{"environment", {{"machine_id", ""}}}};
+  candidates.outcome = run::run_plan(plan, runs, header, options, directory, progress);
+  progress.end();
+  if (candidates.outcome.interrupted) throw Interrupted();
+  return candidates;
+}
+
+/// Whether the method can be expected to end in time on `all` points.
+bool is_fast_enough(const Candidate& candidate, std::size_t all, double timeout_s) {
+  if (!candidate.succeeded() || candidate.record.time_ns.empty()) return false;
+  const auto work = [](std::size_t n) { return static_cast<double>(n) * std::log(static_cast<double>(n)); };
+  const double time_s = static_cast<double>(candidate.record.time_ns.front()) / 1e9;
+  return time_s * work(all) / work(candidate.points) < timeout_s;
+}
+
+/// Puts results of all points in the place of those of a sample, as compare() says.
+void take_all(Candidates& candidates, const Question& question, std::span<const Point> all,
+              const run::MethodCatalog& catalog, const Cores& cores, MakeProgress make_progress) {
+  Question fast = question;
+  fast.plan.draws = 0;
+  std::erase_if(fast.plan.methods, [&](const plan::PlanMethod& entry) {
+    return std::none_of(candidates.all.begin(), candidates.all.end(), [&](const Candidate& candidate) {
+      return is_of(candidate.record, entry) && is_fast_enough(candidate, all.size(), question.plan.timeout_s);
+    });
+  });
+  if (fast.plan.methods.empty()) return;
+  Candidates of_all = run_on(fast, all, catalog, cores, make_progress);
+  for (Candidate& candidate : of_all.all) {
+    if (!candidate.succeeded()) continue;
+    const auto of_sample =
+        std::find_if(candidates.all.begin(), candidates.all.end(), [&](const Candidate& other) {
+          return other.record.method == candidate.record.method &&
+                 other.record.protocol == candidate.record.protocol;
+        });
+    const auto stability = of_sample->record.metrics.find(kStability);
+    if (stability != of_sample->record.metrics.end()) candidate.record.metrics[kStability] = *stability;
+    *of_sample = std::move(candidate);
+  }
+}
+
 }  // namespace
 
 Question ask(const run::MethodCatalog& catalog, const std::vector<std::string>& only) {
@@ -148,38 +228,10 @@ Question ask(const run::MethodCatalog& catalog, const std::vector<std::string>& 
   return question;
 }
 
-Candidates compare(const Question& question, std::span<const Point> points, const run::MethodCatalog& catalog,
-                   const Cores& cores, run::Progress (*make_progress)(std::vector<run::ProgressSection>)) {
-  const ScratchFolder scratch("hullbench-choose");
-  const DataFolders folders(default_data_directory(), scratch.path() / "recordings");
-  write_recording(points, folders.recordings / "points");
-  plan::Plan plan = question.plan;
-  plan::use_recordings(plan, 1);
-  plan::check_plan(plan, catalog.names(), datasets(folders));
-  const std::vector<plan::PlannedRun> runs =
-      plan::planned_runs(plan, std::string("/") + kRealRecording + "-1/");
-
-  const fs::path run_folder = scratch.path() / "run";
-  fs::create_directory(run_folder);
-  run::RunDirectory directory(run_folder, run::lock_or_throw(run_folder));
-  run::Progress progress = make_progress({{"", run::progress_runs(plan, runs)}});
-  Candidates candidates;
-  candidates.absent = question.absent;
-  run::RunnerOptions options = {[&](const std::string& name) { return catalog.find(name); }, cores.worker,
-                                cores.all, folders};
-  options.on_row = [&](const record::RunRecord& record, const std::optional<MultiPolygon>& result) {
-    if (record.status != record::Status::kNotInstalled) {
-      candidates.all.push_back(make_candidate(record, result, plan, catalog));
-      return;
-    }
-    const std::string why = catalog.find(record.method).title + ": " + sentence(record.detail);
-    if (std::find(candidates.absent.begin(), candidates.absent.end(), why) == candidates.absent.end())
-      candidates.absent.push_back(why);
-  };
-  const nlohmann::json header = {{"environment", {{"machine_id", ""}}}};
-  candidates.outcome = run::run_plan(plan, runs, header, options, directory, progress);
-  progress.end();
-  if (candidates.outcome.interrupted) throw Interrupted();
+Candidates compare(const Question& question, std::span<const Point> points, std::span<const Point> all,
+                   const run::MethodCatalog& catalog, const Cores& cores, MakeProgress make_progress) {
+  Candidates candidates = run_on(question, points, catalog, cores, make_progress);
+  if (all.size() > points.size()) take_all(candidates, question, all, catalog, cores, make_progress);
 
   find_ious(candidates.all, cores.all);
   for (Candidate& candidate : candidates.all) {

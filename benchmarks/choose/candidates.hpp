@@ -2,6 +2,7 @@
 // agree.
 #pragma once
 
+#include <cstddef>
 #include <optional>
 #include <span>
 #include <string>
@@ -34,6 +35,7 @@ struct Candidate {
   std::string label;                   ///< "CGAL alpha shape (auto)"
   std::string note;                    ///< of the plan; may be empty
   Parameters given;                    ///< those of its parameters that the plan gives
+  std::size_t points = 0;              ///< how many it got
   record::RunRecord record;            ///< as of points without a truth
   std::optional<MultiPolygon> result;  ///< none: the method gave none; of a failure it may be an invalid one
   /// IoU with the result of each candidate, as intersection_over_union; none without a valid result of both.
@@ -63,8 +65,12 @@ struct Candidates {
 Question ask(const run::MethodCatalog& catalog, const std::vector<std::string>& only);
 
 /// Runs them on `points` (at least 3, finite) by the engine of `hullbench run`, in a folder that goes again.
-/// Throws Interrupted, std::invalid_argument for coordinates that no rule takes, and as run_plan().
-Candidates compare(const Question& question, std::span<const Point> points, const run::MethodCatalog& catalog,
-                   const Cores& cores, run::Progress (*make_progress)(std::vector<run::ProgressSection>));
+/// Where these are a sample of `all`, the methods that are fast enough then run on all: those whose time, if
+/// it grows with n log n, stays below the plan's limit. They keep the stability that they have on the sample,
+/// and its whole result if they fail on all. Throws Interrupted, std::invalid_argument for coordinates that
+/// no rule takes, and as run_plan().
+Candidates compare(const Question& question, std::span<const Point> points, std::span<const Point> all,
+                   const run::MethodCatalog& catalog, const Cores& cores,
+                   run::Progress (*make_progress)(std::vector<run::ProgressSection>));
 
 }  // namespace hullbench::choose

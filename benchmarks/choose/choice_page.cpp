@@ -104,6 +104,8 @@ std::vector<Measure> measures(const PointSource& source) {
   };
   std::vector<Measure> shown = {
       {"Time", "ms", time},
+      {"Points", "",
+       [](const Candidate& candidate) { return table::Number(static_cast<double>(candidate.points), 0); }},
       {"Parts", "", count("polygons")},
       {"Holes", "", count("holes")},
       {"Vertices", "", count("vertices")},
@@ -120,10 +122,11 @@ std::vector<std::string> definitions(const PointSource& source) {
       "Covered: points in the hull or on its edge.",
       "Agreement: mean IoU (area in both over area in either) with the other results that "
       "differ; the same polygons count once.",
-      "Commands: polylidar and hullbench are in the folder build of the project; a shell finds them there or "
-      "where they are installed."};
+      "Commands: hullbench is in the folder build of the project; a shell finds it there or where it is "
+      "installed."};
   if (source.draws > 0) {
-    told.push_back("Stability: IoU of the hulls of two random halves of the points, the mean of " +
+    told.push_back("Stability: IoU of the hulls of two random halves of the " +
+                   std::string(source.taken < source.total ? "sample" : "points") + ", the mean of " +
                    std::to_string(source.draws) + (source.draws == 1 ? " draw." : " draws."));
   }
   return told;
@@ -166,7 +169,7 @@ class Page {
         points_(points),
         source_(source),
         measures_(measures(source)),
-        canvas_(polylidar::bounding_box(points)),
+        canvas_(source.box),
         frame_("viewBox=\"0 0 " + fixed(canvas_.width(), 2) + " " + fixed(canvas_.height(), 2) + "\"") {}
 
   std::string text() const {
@@ -179,8 +182,7 @@ class Page {
         dots() + "<main id=\"all\">\n" + element("h1", "Hulls of " + source_.name) +
         element("p class=\"lead\"", kNoTruth);
     page += element(
-        "p", told_of(source_, points_.size()) + " " + kProtocols +
-                 " Sorted by agreement. A picture grows when it is chosen" +
+        "p", told_of(source_) + " " + kProtocols + " Sorted by agreement. A picture grows when it is chosen" +
                  (points_.size() > kMostDots ? "; it shows " + std::to_string(kMostDots) + " points." : "."));
     page += "<div class=\"cards\">\n";
     for (std::size_t i = 0; i < candidates_.all.size(); ++i) page += card(i);
@@ -317,11 +319,11 @@ class Page {
 
 }  // namespace
 
-std::string told_of(const PointSource& source, std::size_t taken) {
+std::string told_of(const PointSource& source) {
   std::string text = source.name + " has " + std::to_string(source.total) + " points";
-  if (taken < source.total) {
-    text += "; " + std::to_string(taken) + " of them, drawn with seed " + std::to_string(source.seed) +
-            ", were taken";
+  if (source.taken < source.total) {
+    text += "; " + std::to_string(source.taken) + " of them, drawn with seed " + std::to_string(source.seed) +
+            ", were taken" + (source.all_where_fast ? ", and all by the methods that are fast enough" : "");
   }
   return text + (source.in_metres ? "; their longitudes and latitudes were taken as metres." : ".");
 }
@@ -331,8 +333,8 @@ std::string choice_page(const Candidates& candidates, std::span<const Point> poi
   return Page(candidates, points, source).text();
 }
 
-table::Document choice_table(const Candidates& candidates, std::size_t taken, const PointSource& source) {
-  table::Table table{"choice", told_of(source, taken), {table::words("Method")}};
+table::Document choice_table(const Candidates& candidates, const PointSource& source) {
+  table::Table table{"choice", told_of(source), {table::words("Method")}};
   table.caption.pop_back();
   const std::vector<Measure> shown = measures(source);
   for (const Measure& measure : shown) {

@@ -29,7 +29,7 @@ using Words = std::vector<std::string>;
 
 struct ChooseCommand {
   std::string file;
-  std::string columns;           ///< as of `polylidar hull`
+  std::string columns;           ///< as of `hullbench hull`
   Words only;                    ///< METHOD or METHOD/PROTOCOL; empty: all
   std::optional<std::size_t> n;  ///< points that are taken at most; none: kMostPoints for a page, else all
   std::uint64_t seed = 1;        ///< of their sample, and of the halves
@@ -49,9 +49,10 @@ constexpr double kTimeoutForAll = 600;
 struct OwnPoints {
   polylidar::tool::PointFile file;
   std::optional<double> latitude;  ///< of the metres that degrees became; none: the plane is the file's
-  std::vector<Point> taken;
+  std::vector<Point> plane;        ///< all points in it
+  std::vector<Point> taken;        ///< of these
 
-  bool is_sample() const { return taken.size() < file.points.size(); }
+  bool is_sample() const { return taken.size() < plane.size(); }
 };
 
 OwnPoints read_points(const ChooseCommand& command) {
@@ -74,9 +75,9 @@ OwnPoints read_points(const ChooseCommand& command) {
                              (points.size() == 1 ? " point" : " points") + "; a hull needs at least 3");
   }
   own.latitude = polylidar::tool::middle_latitude(own.file.crs, points);
+  own.plane = own.latitude ? polylidar::tool::to_metres(points, *own.latitude) : points;
   const std::size_t most = command.n.value_or(command.write.empty() ? kMostPoints : points.size());
-  own.taken = run::draw_sample(own.latitude ? polylidar::tool::to_metres(points, *own.latitude) : points,
-                               most, command.seed);
+  own.taken = run::draw_sample(own.plane, most, command.seed);
   return own;
 }
 
@@ -110,7 +111,7 @@ class Paster {
 
   std::vector<choose::PasteCommand> commands_for(const choose::Candidate& candidate) const {
     if (!candidate.succeeded()) return {};
-    if (!own_.is_sample()) return {{"These polygons as a file:", line_for_all(candidate)}};
+    if (!has_sample(candidate)) return {{"These polygons as a file:", line_for_all(candidate)}};
     const Words sample = {"--n", std::to_string(own_.taken.size()), "--seed", std::to_string(command_.seed)};
     return {
         {"These polygons as a file:", shell_line(own_words(candidate, command_.timeout_s, sample))},
@@ -118,13 +119,16 @@ class Paster {
   }
 
  private:
-  /// By the method's own program where there is one for files. What a rule gave for a sample is not for all.
+  bool has_sample(const choose::Candidate& candidate) const { return candidate.points < own_.plane.size(); }
+
+  /// By `hullbench hull` where that has the method. Parameters that a rule computed from the sample do not
+  /// apply to all points.
   std::string line_for_all(const choose::Candidate& candidate) const {
-    if (candidate.record.method != "polylidar" || (own_.is_sample() && !candidate.given.empty())) {
+    if (candidate.record.method != "polylidar" || (has_sample(candidate) && !candidate.given.empty())) {
       const double timeout_s = std::max(command_.timeout_s, own_.is_sample() ? kTimeoutForAll : 0);
       return shell_line(own_words(candidate, timeout_s, {}));
     }
-    Words words = {"polylidar", "hull", as_operand(command_.file)};
+    Words words = {"hullbench", "hull", as_operand(command_.file)};
     if (!command_.columns.empty()) words.insert(words.end(), {"--columns", command_.columns});
     for (const auto& [name, value] : candidate.given) {
       std::string option = "--" + name;
@@ -184,7 +188,7 @@ std::string geojson(const choose::Candidate& candidate, const OwnPoints& own) {
   properties.add("protocol", record.protocol);
   properties.add("version", record.method_version);
   properties.add_json("parameters", nlohmann::json(record.parameters).dump());
-  properties.add("points", own.taken.size());
+  properties.add("points", candidate.points);
   properties.add("parts", shape.size());
   for (const char* name : {"holes", "area"}) properties.add_json(name, record.metrics.at(name).dump());
   return polylidar::tool::geojson_feature(properties, shape, polylidar::tool::geojson_crs(own.file.crs)) +
@@ -192,9 +196,10 @@ std::string geojson(const choose::Candidate& candidate, const OwnPoints& own) {
 }
 
 choose::Candidates compare(const ChooseCommand& command, const choose::Question& question,
-                           const run::MethodCatalog& catalog, const OwnPoints& own) {
+                           const run::MethodCatalog& catalog, const OwnPoints& own, bool all_where_fast) {
   try {
-    return choose::compare(question, own.taken, catalog, reserve_worker_core(), &make_progress);
+    return choose::compare(question, own.taken, all_where_fast ? own.plane : own.taken, catalog,
+                           reserve_worker_core(), &make_progress);
   } catch (const std::invalid_argument& error) {
     throw ConfigurationError(command.file + ": " + error.what());
   }
@@ -208,12 +213,19 @@ ExitCode choose_method(const ChooseCommand& command) {
   const choose::Question question = make_question(command, catalog);
   const OwnPoints own = read_points(command);
   polylidar::tool::check_output_place(place);
-  const choose::PointSource source = {name, own.file.points.size(), command.seed, own.latitude.has_value(),
-                                      question.plan.draws};
+  const bool all_where_fast = own.is_sample() && !command.n;
+  const choose::PointSource source = {.name = name,
+                                      .total = own.plane.size(),
+                                      .taken = own.taken.size(),
+                                      .all_where_fast = all_where_fast,
+                                      .seed = command.seed,
+                                      .box = polylidar::bounding_box(own.plane),
+                                      .in_metres = own.latitude.has_value(),
+                                      .draws = question.plan.draws};
   if (own.is_sample())
-    std::cerr << "hullbench: " << told_of(source, own.taken.size()) << " --n takes more or fewer\n";
+    std::cerr << "hullbench: " << told_of(source) << " --n takes more or fewer for all methods\n";
   worker::end_strays_of_dead_harnesses();
-  choose::Candidates candidates = compare(command, question, catalog, own);
+  choose::Candidates candidates = compare(command, question, catalog, own, all_where_fast);
   const ExitCode code = run::exit_code(candidates.outcome);
   if (candidates.all.empty()) return code;
   if (!command.write.empty()) {
@@ -223,7 +235,7 @@ ExitCode choose_method(const ChooseCommand& command) {
     const Paster paster(command, own);
     for (choose::Candidate& candidate : candidates.all) candidate.commands = paster.commands_for(candidate);
     polylidar::tool::write_result(place, choice_page(candidates, own.taken, source));
-    table::print_markdown(choice_table(candidates, own.taken.size(), source), std::cout);
+    table::print_markdown(choice_table(candidates, source), std::cout);
   }
   std::cerr << "hullbench: wrote " << place << "\n";
   return code;
@@ -255,8 +267,8 @@ void add_choose(CLI::App& app, Action& action) {
       ->allow_extra_args(false);
   options
       .add_option("--n", command->n,
-                  "Take this many points at random if the file has more; the default is " +
-                      std::to_string(kMostPoints) + ", with --write all")
+                  "Give all methods this many points at random if the file has more; the default is " +
+                      std::to_string(kMostPoints) + " for slow methods, with --write all")
       ->check(CLI::Range(std::size_t{3}, std::size_t{1} << 32U));
   options.add_option("--seed", command->seed, "Seed of the random choice of points and of halves")
       ->check(CLI::NonNegativeNumber)
