@@ -9,9 +9,11 @@
 #include <regex>
 #include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "adapters/adapter.hpp"
+#include "polylidar/concave_hull.hpp"
 #include "tests/adapter_contract.hpp"
 #include "tests/hull_input.hpp"
 #include "tests/infinity.hpp"
@@ -152,7 +154,7 @@ INSTANTIATE_TEST_SUITE_P(Methods, MethodContract, ::testing::ValuesIn(methods())
 });
 
 // Large enough that the one call leaves the interior out.
-TEST(PolylidarSteps, GiveThePolygonsOfOneCall) {
+TEST(PolylidarSteps, GiveTheCoresPolygonsAsOneCallDoes) {
   const auto make = [](const char* name) {
     const auto& registry = adapter_registry();
     return std::find_if(registry.begin(), registry.end(),
@@ -160,10 +162,18 @@ TEST(PolylidarSteps, GiveThePolygonsOfOneCall) {
         ->make();
   };
   const std::vector<Point> points = test::square_points(40000, 8, true);
-  for (const Parameters& parameters :
-       {Parameters{}, Parameters{{"alpha", 0.02}}, Parameters{{"max_perimeter", 0.1}}})
-    EXPECT_EQ(test::hull_of(*make("polylidar"), points, parameters),
-              test::hull_of(*make("polylidar_steps"), points, parameters));
+  const auto core_hull = [&](const polylidar::Options& options) {
+    return polylidar::to_coordinates(polylidar::concave_hull(points, options), points);
+  };
+  EXPECT_NE(core_hull({.detail = 2}), core_hull({}));
+  for (const auto& [parameters, options] :
+       {std::pair{Parameters{}, polylidar::Options{}},
+        {Parameters{{"detail", 2}}, polylidar::Options{.detail = 2}},
+        {Parameters{{"alpha", 0.02}}, polylidar::Options{.alpha = 0.02}},
+        {Parameters{{"max_perimeter", 0.1}}, polylidar::Options{.max_perimeter = 0.1}}}) {
+    for (const char* name : {"polylidar", "polylidar_steps"})
+      EXPECT_EQ(test::hull_of(*make(name), points, parameters), core_hull(options)) << name;
+  }
 }
 
 }  // namespace
