@@ -140,8 +140,8 @@ TEST(Reach, InAnOpenDirectionHasTheDisksThere) {
 std::array<Point, 3> on_circle(const Point& centre, double radius, Random& random) {
   const bool is_narrow = random.below(2) == 0;
   const double first =
-      kFullTurn * (is_narrow ? 0.125 + 0.25 * static_cast<double>(random.below(4)) - 0.01 : random.unit());
-  const double widest = is_narrow ? 0.01 : 0.3;  // of a turn
+      kFullTurn * (is_narrow ? 0.125 + 0.25 * static_cast<double>(random.below(4)) - 0.002 : random.unit());
+  const double widest = is_narrow ? 0.002 : 0.3;  // of a turn
   const double second = first + kFullTurn * random.between(0.3 * widest, widest);
   const double third = second + kFullTurn * random.between(0.3 * widest, widest);
   return {at(centre, radius, first), at(centre, radius, second), at(centre, radius, third)};
