@@ -62,7 +62,7 @@ def concave_hull(
     max_edge_length: longest edge of a triangle that is kept, likewise.
     max_perimeter: largest perimeter of a triangle that is kept, likewise.
     detail: how much of the outline is kept where the limit is chosen; above zero. Twice the detail keeps triangles of
-        half the size. A larger one never adds a triangle. Not used where a limit is given.
+        half the size. A larger one makes every limit smaller. Not used where a limit is given.
     fill_single_triangles: whether a triangle beyond a limit is kept all the same when its three neighbours are within;
         None: only where the limit is chosen.
     threads: how many threads compute, one or more; None: as many as this process may use processors. The result does
