@@ -344,6 +344,7 @@ TEST_F(ChooseCommandTest, FailuresAreCards) {
     });
     ASSERT_NE(card, cards.end()) << mode;
     EXPECT_TRUE(has(card->text, "<p class=\"bad\">" + words)) << card->text;
+    EXPECT_TRUE(has(card->text, " It got 100 points.</p>")) << card->text;
     EXPECT_TRUE(card->commands.empty()) << mode;
     EXPECT_EQ(card->path.empty(), mode != "invalid_polygon") << mode;
     EXPECT_TRUE(has(outcome.out, "| " + mode + " <method> (default)")) << outcome.out;

@@ -253,7 +253,8 @@ class Page {
       }
       text += "</dl>\n";
     } else {
-      text += element("p class=\"bad\"", sentence(failure_of(candidate) + ": " + candidate.record.detail));
+      text += element("p class=\"bad\"", sentence(failure_of(candidate) + ": " + candidate.record.detail) +
+                                             " It got " + std::to_string(candidate.points) + " points.");
     }
     text += element("p class=\"quiet\"", remarks(index));
     for (const PasteCommand& command : candidate.commands)
