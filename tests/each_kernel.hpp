@@ -3,23 +3,35 @@
 
 #include <gtest/gtest.h>
 
+#include <ostream>
 #include <string>
 
 #include "core/src/kernels.hpp"
 
-namespace polylidar::testing {
+namespace polylidar::detail {
 
-inline std::string kernel_name(detail::Kernel kernel) {
-  if (kernel == detail::Kernel::kAvx512) return "avx512";
-  return kernel == detail::Kernel::kAvx2 ? "avx2" : "portable";
+inline std::string kernel_name(Kernel kernel) {
+  if (kernel == Kernel::kAvx512) return "avx512";
+  return kernel == Kernel::kAvx2 ? "avx2" : "portable";
 }
 
-/// Its parameter is a kernel that this processor has; the tests of others are skipped.
+/// What GoogleTest says of it.
+inline void PrintTo(Kernel kernel, std::ostream* out) {
+  *out << kernel_name(kernel);
+}
+
+}  // namespace polylidar::detail
+
+namespace polylidar::testing {
+
+/// Its parameter is a kernel that this processor has; the tests of others are skipped, and "make test" says
+/// so.
 class KernelTest : public ::testing::TestWithParam<detail::Kernel> {
  protected:
   void SetUp() override {
     if (!detail::is_supported(GetParam())) {
-      GTEST_SKIP() << "this processor or this build has no kernel " << kernel_name(GetParam());
+      GTEST_SKIP() << "skipped: this processor or this build has no kernel "
+                   << detail::kernel_name(GetParam());
     }
   }
 };
@@ -29,7 +41,7 @@ inline auto each_kernel() {
 }
 
 inline std::string name_of_kernel_test(const ::testing::TestParamInfo<detail::Kernel>& tested) {
-  return kernel_name(tested.param);
+  return detail::kernel_name(tested.param);
 }
 
 }  // namespace polylidar::testing
