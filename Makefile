@@ -124,7 +124,7 @@ for extra in tables core.json league.json league.csv tune.json tune.json.xz; do 
 { [ ! -e $(1)/league/suite.json ] || build/hullbench league $(1)/league --csv $(2)/league.csv >/dev/null; }
 endef
 
-figures: ## draw the paper's figures from results/latest, into its folder (RUN=FOLDER: from any run)
+figures: figures-default ## draw the paper's figures from results/latest, into its folder (RUN=FOLDER: from any run), and the picture of core/AUTOMATIC.md
 	@$(call install,build plots)
 	@$(MAKE) build
 	@$(call drawn,$(RUN),$(call drawn_folder,$(RUN)))

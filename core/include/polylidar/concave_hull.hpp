@@ -122,7 +122,7 @@ std::vector<LabelledHull> concave_hulls(std::span<const Point> points, std::span
 /// How a shape was extracted. It changes the time, not the result.
 enum class Way : std::uint8_t {
   kInteriorLeftOut,     ///< only what is near the outline was triangulated
-  kWhole,               ///< all points were triangulated: asked for, or their density varies too much
+  kWhole,               ///< all points were triangulated: asked for, or only all triangles say the limit
   kFewPoints,           ///< all points were: there are too few for a part to save time
   kExtremeCoordinates,  ///< all points were: their coordinates had to be scaled
   kTooSparse,           ///< all points were: the limit is too small for their spacing
