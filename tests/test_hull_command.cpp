@@ -247,7 +247,7 @@ TEST_F(HullCommandTest, FewPointsGiveTheEmptyGeometry) {
   expect_end(hull({none, "--by", "x"}), 0, "none.csv: it has no points, so there is no shape");
   expect_end(hull({points_file(), "--window", "500,500,501,501"}), 0,
              "no point is left by --window, --classes and --returns");
-  expect_end(hull({points_file(), "--alpha", "0"}), 0, "no triangle of the points is within the limits");
+  expect_end(hull({points_file(), "--alpha", "0"}), 0, "no triangle of the points is kept");
 }
 
 TEST_F(HullCommandTest, SmallPartsAreDropped) {

@@ -31,6 +31,10 @@ for name in csv wkt; do
   grep -qF "fuzz_$name: 7 inputs, none breaks it" "$build/said" || fail "it does not say that fuzz_$name is right"
   grep -qE -- "-max_total_time=3 .*/fuzz/corpus/$name\$" "$build/log/$name.txt" || fail "fuzz_$name does not get its corpus"
 done
+target gone 'exit 77'
+"$run" "$build" 3 2 >"$build/said" 2>&1 || fail "a target of an older build makes it fail"
+grep -qF "fuzz_gone has no corpus" "$build/said" || fail "it does not say that fuzz_gone is not run"
+rm "$build/fuzz_gone"
 target wkt 'echo "FAILED: a coordinate is not finite"; exit 77'
 expect_failure "FAILED: a coordinate is not finite" "a target breaks"
 expect_failure "an input breaks fuzz_wkt" "a target breaks"

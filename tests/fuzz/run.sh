@@ -16,6 +16,10 @@ if [ -z "$name" ]; then
   exit 0
 fi
 
+if [ ! -d "$here/corpus/$name" ]; then
+  echo "==> fuzz_$name has no corpus, so it is left from an older build: not run"
+  exit 0
+fi
 log=$build/log/$name.txt
 work=$build/work/$name
 mkdir -p "$build/log" "$build/found" "$work"

@@ -123,7 +123,7 @@ class HullRun {
     if (hull.extracted > 0) return;
     if (hull.points == 0) return say(no_points(command_.shape, name_of(command_)));
     say(hull.has_triangles
-            ? "no triangle of the points is within the limits, so the shape is empty; larger ones "
+            ? "no triangle of the points is kept, so the shape is empty; larger limits "
               "give more"
             : "there are no three distinct points that are not on one line, so the shape is empty");
   }
