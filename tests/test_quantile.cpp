@@ -2,11 +2,13 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <limits>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -57,6 +59,13 @@ TEST(Quantile, IsThatOfTheSortedNumbers) {
                                     static_cast<std::size_t>(quantile * static_cast<double>(sorted.size())));
         EXPECT_EQ(quantile_of(values, quantile), sorted[place]) << quantile;
       }
+      const std::array places = {sorted.size() / 3, 4 * sorted.size() / 5};
+      const auto [low, high] = Ranking(values).at(places);
+      EXPECT_EQ(low.has_value(), high.has_value());
+      if (low) {
+        EXPECT_EQ(*low, sorted[places[0]]);
+        EXPECT_EQ(*high, sorted[places[1]]);
+      }
       std::sort(values.begin(), values.end());
       EXPECT_EQ(values, sorted) << "no number was lost";
     }
@@ -66,8 +75,10 @@ TEST(Quantile, IsThatOfTheSortedNumbers) {
 TEST(Quantile, OfManyNumbersInOneCellIsLeftToASort) {
   std::vector<double> values(100, 1.0);
   values.front() = HUGE_VAL;
-  EXPECT_EQ(Ranking(values).at(50), std::nullopt);
-  EXPECT_EQ(Ranking(values).at(99), HUGE_VAL);
+  using Found = std::optional<double>;
+  EXPECT_EQ(Ranking(values).at<1>({50}), std::array{Found()});
+  EXPECT_EQ(Ranking(values).at<1>({99}), std::array{Found(HUGE_VAL)});
+  EXPECT_EQ((Ranking(values).at<2>({50, 99})), (std::array{Found(), Found()})) << "all or none";
   EXPECT_EQ(quantile_of(values, 0.5), 1.0);
 }
 

@@ -57,6 +57,8 @@ class Mesh {
   Index twin(Index e) const { return memory_[e + 4]; }
   /// The three vertices of triangle `t`.
   const Index* corners(Index t) const { return &memory_[std::size_t{kStride} * t]; }
+  /// The twins of its three half-edges.
+  const Index* twins(Index t) const { return corners(t) + 4; }
   static Index taken_bit(Index e) { return 1U << (e & 3U); }
   Index& taken(Index t) { return memory_[kStride * t + 3]; }
   Index& walk(Index t) { return memory_[kStride * t + 7]; }

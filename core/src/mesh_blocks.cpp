@@ -78,26 +78,30 @@ double MeshBlocks::measure_block(const SizedMesh& sized, std::span<const std::ui
   const Mesh::Index end = records.end;
   std::vector<double>& sizes = scratch.sizes;
   std::vector<Mesh::Index>& crossing = scratch.crossing;
+  if (sizes.size() < end - begin) sizes.resize(end - begin);
   if (crossing.size() < 3 * std::size_t{end - begin}) crossing.resize(3 * std::size_t{end - begin});
   const Mesh::Index first_edge = Mesh::kStride * begin;
   const Mesh::Index edges = Mesh::kStride * (end - begin);
   Mesh::Index step = std::max(Mesh::Index{1}, (end - begin) / static_cast<Mesh::Index>(kMeasured));
+  std::size_t count = 0;
   std::size_t crossings = 0;
   for (;; step = 1) {
-    sizes.clear();
+    double* next_size = sizes.data();
     Mesh::Index* next = crossing.data();
     for_some_triangles(mesh, begin, end, step, [&](Mesh::Index t) {
-      sizes.push_back(sized.size4_of(t));
-      for (Mesh::Index e = Mesh::kStride * t; e < Mesh::kStride * t + 3; ++e) {
-        *next = e;  // without a branch, which nobody could predict
-        next += mesh.twin(e) - first_edge >= edges ? 1 : 0;
+      *next_size++ = sized.size4_of(t);
+      const Mesh::Index* const twins = mesh.twins(t);
+      for (Mesh::Index k = 0; k < 3; ++k) {
+        *next = Mesh::kStride * t + k;  // without a branch, which nobody could predict
+        next += twins[k] - first_edge >= edges ? 1 : 0;
       }
     });
+    count = static_cast<std::size_t>(next_size - sizes.data());
     crossings = static_cast<std::size_t>(next - crossing.data());
-    if (step == 1 || sizes.size() >= kMeasured / 4) break;
+    if (step == 1 || count >= kMeasured / 4) break;
   }
   const std::size_t first_border = borders.size();
-  scratch.border_with.resize(count(), 0);
+  scratch.border_with.resize(ends_.size(), 0);
   for (std::size_t c = 0; c < crossings; ++c) {
     const Mesh::Index twin = mesh.twin(crossing[c]);
     if (mesh.is_ghost(Mesh::triangle_of(twin))) continue;
@@ -111,7 +115,7 @@ double MeshBlocks::measure_block(const SizedMesh& sized, std::span<const std::ui
     }
     borders[place].length4 = std::min(borders[place].length4, length4);
   }
-  return sizes.empty() ? UsualSizes::kUnknown : quantile_of(sizes, quantile);
+  return count == 0 ? UsualSizes::kUnknown : quantile_of(std::span(sizes).first(count), quantile);
 }
 
 }  // namespace polylidar::detail

@@ -25,14 +25,14 @@ struct SizedMesh {
   double size4_of(Mesh::Index t) const { return size4 != nullptr ? size4[t] : triangle(t).size4(); }
 };
 
-/// Calls visit(t) for the finite triangles in every `step`-th pair of the records from `begin` to `end`.
-/// Whole pairs, since the first of a pair is smaller than the second on average.
+/// Calls visit(t) for the finite triangles in every `step`-th pair of the records from `begin` to `end`,
+/// which are even. Whole pairs, since the first of a pair is smaller than the second on average.
 template <class Visit>
 void for_some_triangles(const Mesh& mesh, Mesh::Index begin, Mesh::Index end, Mesh::Index step,
                         const Visit& visit) {
-  for (Mesh::Index i = 0; begin + 2 * step * (i / 2) + i % 2 < end; ++i) {
-    const Mesh::Index t = begin + 2 * step * (i / 2) + i % 2;
-    if (!mesh.is_ghost(t)) visit(t);
+  for (Mesh::Index first = begin; first < end; first += 2 * step) {
+    if (!mesh.is_ghost(first)) visit(first);
+    if (!mesh.is_ghost(first + 1)) visit(first + 1);
   }
 }
 
@@ -66,7 +66,7 @@ class MeshBlocks {
  private:
   /// The data of a block that is being looked at.
   struct BlockScratch {
-    std::vector<double> sizes;          ///< of its triangles
+    std::vector<double> sizes;          ///< of its triangles, and room for more
     std::vector<Mesh::Index> crossing;  ///< half-edges with twins in other blocks
     /// Block -> its place among the borders, where it is a neighbour of the block that is looked at.
     std::vector<std::uint32_t> border_with;

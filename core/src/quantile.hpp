@@ -17,8 +17,8 @@ namespace polylidar::detail {
 /// Maps a number to a whole number, keeping the order. It must not be NaN.
 inline std::uint64_t order_of(double value) {
   constexpr std::uint64_t kSign = std::uint64_t{1} << 63U;
-  const auto bits = std::bit_cast<std::uint64_t>(value);
-  return bits ^ ((bits & kSign) != 0 ? ~std::uint64_t{0} : kSign);
+  const auto bits = std::bit_cast<std::int64_t>(value);
+  return static_cast<std::uint64_t>(bits) ^ (static_cast<std::uint64_t>(bits >> 63) | kSign);
 }
 
 /// The number whose order_of() is `order`.
@@ -33,14 +33,17 @@ class Ranking {
   /// Needs at least one value, none of them NaN.
   explicit Ranking(std::span<const double> values) : of_many_(values.size() <= kFew ? 0 : values.size()) {
     std::uint64_t* const orders = of_many_.empty() ? of_few_.data() : of_many_.data();
+    std::uint64_t least = std::numeric_limits<std::uint64_t>::max();
     std::uint64_t most = 0;
     for (std::size_t i = 0; i < values.size(); ++i) {
-      orders[i] = order_of(values[i]);
-      least_ = std::min(least_, orders[i]);
-      most = std::max(most, orders[i]);
+      const std::uint64_t order = order_of(values[i]);
+      orders[i] = order;
+      least = std::min(least, order);
+      most = std::max(most, order);
     }
     orders_ = {orders, values.size()};
-    const auto width = static_cast<unsigned>(std::bit_width(most - least_));
+    least_ = least;
+    const auto width = static_cast<unsigned>(std::bit_width(most - least));
     shift_ = width > kCellBits ? width - kCellBits : 0;
     for (const std::uint64_t order : orders_) ++counts_[cell_of(order)];
   }
@@ -48,22 +51,37 @@ class Ranking {
   Ranking& operator=(const Ranking&) = delete;
   ~Ranking() = default;
 
-  /// The value at `place` in ascending order; none if its cell holds too many values.
-  std::optional<double> at(std::size_t place) const {
+  /// The values at these places in ascending order; none of them if the cell of one holds too many values.
+  template <std::size_t kPlaces>
+  std::array<std::optional<double>, kPlaces> at(const std::array<std::size_t, kPlaces>& places) const {
     constexpr std::size_t kMostInACell = 64;
-    std::size_t cell = 0;
-    std::size_t below = 0;  // in the cells before
-    while (below + counts_[cell] <= place) below += counts_[cell++];
-    if (counts_[cell] > kMostInACell) return std::nullopt;
-    std::array<std::uint64_t, kMostInACell + 1> found{};  // one more, which is written in vain
-    std::size_t count = 0;
-    for (const std::uint64_t order : orders_) {
-      found[count] = order;
-      count += cell_of(order) == cell ? 1U : 0U;
+    struct Place {
+      std::size_t cell = 0;
+      std::size_t below = 0;  ///< in the cells before
+      std::uint64_t* next = nullptr;
+      std::array<std::uint64_t, kMostInACell + 1> found;  ///< one more, which is written in vain
+    };
+    std::array<Place, kPlaces> asked;
+    for (std::size_t p = 0; p < kPlaces; ++p) {
+      Place& one = asked[p];
+      while (one.below + counts_[one.cell] <= places[p]) one.below += counts_[one.cell++];
+      one.next = one.found.data();
+      if (counts_[one.cell] > kMostInACell) return {};
     }
-    const auto middle = found.begin() + static_cast<std::ptrdiff_t>(place - below);
-    std::nth_element(found.begin(), middle, found.begin() + static_cast<std::ptrdiff_t>(count));
-    return value_of(*middle);
+    for (const std::uint64_t order : orders_) {
+      const std::size_t cell = cell_of(order);
+      for (Place& one : asked) {
+        *one.next = order;
+        one.next += cell == one.cell ? 1 : 0;
+      }
+    }
+    std::array<std::optional<double>, kPlaces> values;
+    for (std::size_t p = 0; p < kPlaces; ++p) {
+      std::uint64_t* const middle = &asked[p].found[places[p] - asked[p].below];
+      std::nth_element(asked[p].found.data(), middle, asked[p].next);
+      values[p] = value_of(*middle);
+    }
+    return values;
   }
 
  private:
@@ -75,13 +93,13 @@ class Ranking {
   std::array<std::uint64_t, kFew> of_few_;
   std::vector<std::uint64_t> of_many_;
   std::span<const std::uint64_t> orders_;  ///< of the values, in one of these
-  std::uint64_t least_ = std::numeric_limits<std::uint64_t>::max();
+  std::uint64_t least_ = 0;
   unsigned shift_ = 0;
   std::array<std::uint32_t, std::size_t{1} << kCellBits> counts_{};
 };
 
 /// The value at `place` of `values` in ascending order; it may reorder them.
-inline double value_at(std::vector<double>& values, std::size_t place) {
+inline double value_at(std::span<double> values, std::size_t place) {
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>(place);
   std::nth_element(values.begin(), middle, values.end());
   return *middle;
@@ -93,11 +111,12 @@ inline std::size_t place_of(double quantile, std::size_t values) {
 }
 
 /// The value at `quantile` of `values`, which it may reorder. Needs at least one value, none of them NaN.
-inline double quantile_of(std::vector<double>& values, double quantile) {
+inline double quantile_of(std::span<double> values, double quantile) {
   const std::size_t place = place_of(quantile, values.size());
   constexpr std::size_t kFew = 24;  // below, cells cost more than they save
   if (values.size() >= kFew) {
-    if (const std::optional<double> value = Ranking(values).at(place)) return *value;
+    const auto [value] = Ranking(values).at(std::array{place});
+    if (value) return *value;
   }
   return value_at(values, place);
 }

@@ -87,6 +87,7 @@ Answer ask_size(const Triangle& triangle, double most4) {
 /// The mesh of all points: whatever a walk meets can be asked about.
 class WholeMesh {
  public:
+  static constexpr bool kIsAll = true;
   WholeMesh(const Mesh& mesh, const Point* vertices) : mesh_(mesh), vertices_(vertices) {}
   static bool is_open(Mesh::Index /*kept*/) { return true; }
   static bool is_hidden(Mesh::Index /*t*/) { return false; }
@@ -106,6 +107,7 @@ class WholeMesh {
 
 /// The mesh of a part.
 struct SizeFilter::Part {
+  static constexpr bool kIsAll = false;
   const Mesh& mesh;
   const Point* vertices;
   const std::uint8_t* is_tested;
@@ -166,6 +168,31 @@ bool SizeFilter::has_large_part_with_less_detail(const Mesh& mesh, const Point* 
   return has_large;
 }
 
+namespace {
+
+/// Where all triangles of the mesh were measured. The two triangles of a vertex have one limit. The size of a
+/// ghost is NaN, which is not within it.
+void keep_measured(const Mesh& mesh, const SizeField& field, ThreadPool& pool, std::uint64_t* kept) {
+  for_each_word_chunk(mesh, Chunks(pool, mesh.triangle_count()), pool,
+                      [&](std::size_t, std::size_t begin, std::size_t end) {
+                        for (std::size_t w = begin; w < end; ++w) {
+                          const auto first = static_cast<Mesh::Index>(Mesh::kWordBits * w);
+                          const Mesh::Index count = std::min(Mesh::kWordBits, mesh.triangle_count() - first);
+                          const double* const size4 = &field.size4[first];
+                          const std::uint32_t* const block = &field.block_of_vertex[first / 2];
+                          std::uint64_t word = 0;
+                          for (Mesh::Index k = 0; k < count; k += 2) {
+                            const double limit4 = field.limit4[block[k / 2]];
+                            word |= std::uint64_t{size4[k] <= limit4} << k;
+                            word |= std::uint64_t{size4[k + 1] <= limit4} << (k + 1);
+                          }
+                          kept[w] = word;
+                        }
+                      });
+}
+
+}  // namespace
+
 void SizeFilter::keep_within_limit(const Mesh& mesh, const Point* vertices, const SizeField& field,
                                    ThreadPool& pool, std::uint64_t* kept) {
   const auto filter = [&](const auto& is_kept) {
@@ -177,8 +204,8 @@ void SizeFilter::keep_within_limit(const Mesh& mesh, const Point* vertices, cons
   const auto filter_by = [&](const auto& rule) {
     filter([&](Index t) { return !mesh.is_ghost(t) && rule.keeps(Triangle(mesh, vertices, t)); });
   };
-  if (field.size4 != nullptr) {  // of a ghost it is NaN, which is not within a limit
-    filter([&](Index t) { return field.size4[t] <= field.limit4_at(mesh, t); });
+  if (field.size4 != nullptr) {
+    keep_measured(mesh, field, pool, kept);
   } else if (field.is_one()) {
     filter_by(OneSizeRule(field.limit4.front()));
   } else {
@@ -321,18 +348,18 @@ Mesh::Index next_on_border(const Mesh& mesh, const Whole& whole, Mesh::Index e) 
   }
 }
 
-/// Returns false if there are only small parts, which stay.
+/// Returns false if there are only small parts, which stay. walk_region() tells which are.
 ///
-/// A region of t triangles has at most t + 2 half-edges on its border. So where least_part + 2 of these
-/// follow one another, the region is large enough. Elsewhere walk_region() tells.
-///
-/// In the mesh of a part, half-edges follow one another in the mesh of all points, too: at a tested vertex
-/// all triangles are those of that mesh, and those that are passed are kept in it. A spike of it is on two
-/// dropped triangles. Where one of these was met, the spike was dropped here, too; otherwise both are hidden,
-/// and one of them has a corner at the vertex and is passed as well.
+/// In the mesh of a part, that walk may not be allowed to go on. But a region of t triangles has at most t +
+/// 2 half-edges on its border. So where least_part + 2 of these follow one another, the region is large
+/// enough. They follow one another in the mesh of all points, too: at a tested vertex all triangles are those
+/// of that mesh, and those that are passed are kept in it. A spike of it is on two dropped triangles. Where
+/// one of these was met, the spike was dropped here, too; otherwise both are hidden, and one of them has a
+/// corner at the vertex and is passed as well.
 template <class Whole>
 bool SizeFilter::drop_small_parts(const Mesh& mesh, const Whole& whole, std::size_t least_part,
                                   std::uint64_t* kept) {
+  const std::size_t long_border = least_part + 2;
   SeenTriangles seen(mesh, seen_);
   changed_.clear();
   // Returns how many half-edges follow one another from `first` on, at most `most`.
@@ -351,10 +378,8 @@ bool SizeFilter::drop_small_parts(const Mesh& mesh, const Whole& whole, std::siz
       const Index e = mesh.twin(Mesh::kStride * dropped + k);
       const Index start = Mesh::triangle_of(e);
       if (!mesh.is_kept(start) || seen.contain(start)) continue;
-      const std::size_t long_border = least_part + 2;
-      if (walk_border(e, long_border, [](Index) {}) < long_border) {
-        walk_region(mesh, whole, start, least_part, seen);
-      } else {
+      const bool is_long = !Whole::kIsAll && walk_border(e, long_border, [](Index) {}) == long_border;
+      if (is_long || (walk_region(mesh, whole, e, least_part, seen) && Whole::kIsAll)) {
         walk_border(e, std::numeric_limits<std::size_t>::max(), [&](Index t) { seen.add(t); });
       }
     }
@@ -369,23 +394,26 @@ bool SizeFilter::drop_small_parts(const Mesh& mesh, const Whole& whole, std::siz
   return true;
 }
 
-/// Walks through a region from `start` on until it is large enough, meets triangles that are known to be of a
-/// large one, or ends. If it ends, puts it into changed_, and the triangles at which it cannot go on into
-/// doubtful_.
+/// Walks through a region from half-edge `border` on until it is large enough, meets triangles that are known
+/// to be of a large one, or ends. If it ends, puts it into changed_, and the triangles at which it cannot go
+/// on into doubtful_, and returns false.
 template <class Whole, class Seen>
-void SizeFilter::walk_region(const Mesh& mesh, const Whole& whole, Index start, std::size_t least_part,
+bool SizeFilter::walk_region(const Mesh& mesh, const Whole& whole, Index border, std::size_t least_part,
                              Seen& seen) {
-  seen.add(start);
-  group_.assign(1, start);
+  seen.add(Mesh::triangle_of(border));
+  group_.assign(1, border);  // the half-edges by which the walk came
   const std::size_t before = doubtful_.size();
   bool is_large = false;
   bool is_beside_hidden = false;
   for (std::size_t next = 0; next < group_.size() && !is_large; ++next) {
-    for (Index j = 0; j < 3; ++j) {
-      const Index other = neighbour(mesh, group_[next], j);
+    const Index came_by = group_[next];
+    for (Index e = Mesh::next(came_by); e != came_by; e = Mesh::next(e)) {
+      const Index twin = mesh.twin(e);
+      const Index other = Mesh::triangle_of(twin);
       if (!mesh.is_kept(other)) continue;
       const bool is_seen = seen.contain(other);
-      if (is_seen && std::find(group_.begin(), group_.end(), other) != group_.end()) continue;
+      const auto is_other = [other](Index half_edge) { return Mesh::triangle_of(half_edge) == other; };
+      if (is_seen && std::any_of(group_.begin(), group_.end(), is_other)) continue;
       if (whole.is_hidden(other)) {
         is_beside_hidden = true;
       } else if (!whole.is_open(other)) {
@@ -394,15 +422,19 @@ void SizeFilter::walk_region(const Mesh& mesh, const Whole& whole, Index start, 
         is_large = true;
       } else {
         seen.add(other);
-        group_.push_back(other);
+        group_.push_back(twin);
       }
     }
     is_large |= group_.size() >= least_part;
   }
-  if (is_large) return doubtful_.resize(before);
+  if (is_large) {
+    doubtful_.resize(before);
+    return true;
+  }
   // What is hidden would be connected to what is dropped.
   if (is_beside_hidden) doubt_ = Way::kReachesFar;
-  changed_.insert(changed_.end(), group_.begin(), group_.end());
+  for (const Index e : group_) changed_.push_back(Mesh::triangle_of(e));
+  return false;
 }
 
 template <class Whole>

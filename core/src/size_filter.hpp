@@ -66,7 +66,7 @@ class SizeFilter {
   template <class Whole>
   bool drop_small_parts(const Mesh& mesh, const Whole& whole, std::size_t least_part, std::uint64_t* kept);
   template <class Whole, class Seen>
-  void walk_region(const Mesh& mesh, const Whole& whole, Index start, std::size_t least_part, Seen& seen);
+  bool walk_region(const Mesh& mesh, const Whole& whole, Index border, std::size_t least_part, Seen& seen);
   template <class Whole>
   void fill_small_holes(const Mesh& mesh, const Point* vertices, const Whole& whole, const SizeField& field,
                         std::uint64_t* kept);
@@ -77,7 +77,7 @@ class SizeFilter {
   Scratch<std::uint64_t> hidden_;  ///< the same: dropped by size, but counted as kept unless they are reached
   std::optional<Way> doubt_;       ///< why a part is not enough
   std::vector<Index> doubtful_;    ///< if it is too small: where
-  std::vector<Index> group_;       ///< connected triangles
+  std::vector<Index> group_;       ///< connected triangles, or a half-edge of each
 };
 
 }  // namespace polylidar::detail
