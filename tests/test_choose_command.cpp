@@ -309,8 +309,9 @@ TEST_F(ChooseCommandTest, DegreesAreMetresAndDegreesAgain) {
   ASSERT_EQ(choose({"places.csv", "--only", "polylidar/default", "--write", "own.geojson"}).code, 0);
   EXPECT_EQ(shape_in(folder() / "own.geojson"), by_polylidar);
   const auto area_in = [&](const char* file) { return read_json(file)["properties"]["area"].get<double>(); };
-  // One is measured on the plane, the other on the sphere.
-  EXPECT_NEAR(area_in("own.geojson") / area_in("hull.geojson"), 1, 0.005);
+  EXPECT_EQ(area_in("own.geojson"), area_in("hull.geojson")) << "both are areas on the sphere";
+  const std::string in_square_metres = std::to_string(std::llround(area_in("hull.geojson"))) + " m²";
+  EXPECT_TRUE(has(text, "<dd>" + in_square_metres + "</dd>")) << in_square_metres;
   EXPECT_EQ(read_json("own.geojson")["properties"]["method"], "polylidar");
 }
 

@@ -9,6 +9,7 @@
 #include "polylidar/geometry.hpp"
 #include "tool/hull/degrees.hpp"
 #include "tool/points/crs.hpp"
+#include "tool/shapes/index_shape.hpp"
 
 namespace polylidar::tool {
 namespace {
@@ -121,6 +122,16 @@ TEST(Degrees, HaveTheAreasOfTheSphereAtAllLatitudes) {
   const std::vector<Point> small = to_metres(std::vector<Point>{{7, 10}, {7.0001, 10}, {7, 10.0001}}, 10);
   EXPECT_NEAR(signed_area_on_sphere(small, 10), signed_area(small), 1e-5 * signed_area(small));
   EXPECT_EQ(signed_area_on_sphere({}, 10), 0);
+}
+
+TEST(Degrees, HaveAShapesAreaOnTheSphereWithoutItsHolesHoweverItsRingsRun) {
+  const double area_of_shape = area_of_box(10, 40, 20, 50) - area_of_box(12, 42, 14, 44);
+  const Ring shell = to_metres(Ring{{10, 40}, {20, 40}, {20, 50}, {10, 50}}, 45);
+  const Ring hole = to_metres(Ring{{12, 42}, {14, 42}, {14, 44}, {12, 44}}, 45);
+  const Ring clockwise = {hole.rbegin(), hole.rend()};
+  EXPECT_NEAR(area(MultiPolygon{{shell, {hole}}}, 45.0), area_of_shape, 1e-9 * area_of_shape);
+  EXPECT_NEAR(area(MultiPolygon{{shell, {clockwise}}}, 45.0), area_of_shape, 1e-9 * area_of_shape);
+  EXPECT_EQ(area(MultiPolygon{{shell, {hole}}}, {}), polylidar::area({{shell, {hole}}}));
 }
 
 TEST(Degrees, AreMetresOnASphere) {

@@ -124,6 +124,7 @@ std::vector<std::string> definitions(const PointSource& source) {
       "differ; the same polygons count once.",
       "Commands: hullbench is in the folder build of the project; a shell finds it there or where it is "
       "installed."};
+  if (source.in_metres) told.emplace_back("Area: on the sphere, as of polylidar hull.");
   if (source.draws > 0) {
     told.push_back("Stability: IoU of the hulls of two random halves of the " +
                    std::string(source.taken < source.total ? "sample" : "points") + ", the mean of " +

@@ -18,6 +18,7 @@
 #include "tool/hull/degrees.hpp"
 #include "tool/points/point_file.hpp"
 #include "tool/program/result_output.hpp"
+#include "tool/shapes/index_shape.hpp"
 #include "tool/shapes/polygon_writers.hpp"
 
 namespace hullbench::cli {
@@ -205,6 +206,15 @@ choose::Candidates compare(const ChooseCommand& command, const choose::Question&
   }
 }
 
+/// The areas of the runs are those on the plane in which the methods worked; these are those of `polylidar
+/// hull`.
+void measure_areas(choose::Candidates& candidates, const OwnPoints& own) {
+  for (choose::Candidate& candidate : candidates.all) {
+    if (!candidate.succeeded()) continue;
+    candidate.record.metrics["area"] = polylidar::tool::area(*candidate.result, own.latitude);
+  }
+}
+
 ExitCode choose_method(const ChooseCommand& command) {
   const std::string name = fs::path(command.file).filename().string();
   const std::string page = command.out.empty() ? name + ".choice.html" : command.out;
@@ -226,6 +236,7 @@ ExitCode choose_method(const ChooseCommand& command) {
     std::cerr << "hullbench: " << told_of(source) << " --n takes more or fewer for all methods\n";
   worker::end_strays_of_dead_harnesses();
   choose::Candidates candidates = compare(command, question, catalog, own, all_where_fast);
+  measure_areas(candidates, own);
   const ExitCode code = run::exit_code(candidates.outcome);
   if (candidates.all.empty()) return code;
   if (!command.write.empty()) {

@@ -1,6 +1,7 @@
 #include "tool/shapes/index_shape.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 #include <utility>
 
@@ -57,10 +58,17 @@ double area(const IndexPolygon& polygon, std::span<const Point> points, const La
 }
 
 double area(const IndexShape& shape, std::span<const Point> points, const Latitude& latitude) {
-  if (!latitude) return polylidar::area(to_coordinates(shape, points));
-  return std::accumulate(shape.begin(), shape.end(), 0.0, [&](double sum, const IndexPolygon& polygon) {
-    return sum + area(polygon, points, latitude);
-  });
+  return area(to_coordinates(shape, points), latitude);
+}
+
+double area(const MultiPolygon& shape, const Latitude& latitude) {
+  if (!latitude) return polylidar::area(shape);
+  double area = 0;
+  for (const Polygon& polygon : shape) {
+    area += std::abs(signed_area_on_sphere(polygon.shell, *latitude));
+    for (const Ring& hole : polygon.holes) area -= std::abs(signed_area_on_sphere(hole, *latitude));
+  }
+  return area;
 }
 
 std::size_t hole_count(const IndexShape& shape) {

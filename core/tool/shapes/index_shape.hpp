@@ -38,6 +38,8 @@ using Latitude = std::optional<double>;
 double signed_area(const IndexRing& ring, std::span<const Point> points, const Latitude& latitude = {});
 double area(const IndexPolygon& polygon, std::span<const Point> points, const Latitude& latitude = {});
 double area(const IndexShape& shape, std::span<const Point> points, const Latitude& latitude = {});
+/// Whatever the orientation of the rings.
+double area(const MultiPolygon& shape, const Latitude& latitude);
 
 /// Holes of all polygons.
 std::size_t hole_count(const IndexShape& shape);
