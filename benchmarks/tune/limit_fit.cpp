@@ -85,9 +85,17 @@ std::string sampling_of(const std::string& dataset) {
 
 std::vector<LimitCaseName> training_limit_cases() {
   const std::vector<std::string> few = {"", "~gradient:16~outliers:3"};
-  const std::vector<std::string> all = {
-      "",           "~gradient:16", "~gradient:64", "~outliers:3", "~gradient:16~outliers:3",
-      "~noise:0.5", "~poisson:0.7", "~airborne:3",  "~airborne:8", "~clusters:8"};
+  const std::vector<std::string> all = {"",
+                                        "~gradient:16",
+                                        "~gradient:64",
+                                        "~outliers:3",
+                                        "~gradient:16~outliers:3",
+                                        "~noise:0.5",
+                                        "~poisson:0.7",
+                                        "~airborne:3",
+                                        "~airborne:8",
+                                        "~clusters:8",
+                                        "~clusters:16"};
   std::vector<LimitCaseName> names;
   for (const SplitRow& source : shape_split()) {
     if (source.side != Side::kTraining) continue;
@@ -128,6 +136,7 @@ std::vector<LimitCaseName> test_limit_cases(std::size_t n) {
                                                            "~transcripts:3",
                                                            "~boundary:20",
                                                            "~clusters:8",
+                                                           "~clusters:16",
                                                            "~outline:0.1",
                                                            "~water:20"},
                                                           n);
@@ -208,7 +217,7 @@ const std::vector<LimitKnob>& limit_knobs() {
                                                {"pull", &C::pull, nullptr, 2, 120},
                                                {"even_sizes", &C::even_sizes, nullptr, 0.4, 0.8},
                                                {"even_edges", &C::even_edges, nullptr, 0.5, 0.9},
-                                               {"doubt", &C::doubt, nullptr, 2, 200},
+                                               {"doubt", &C::doubt, nullptr, 5, 500},
                                                {"still", &C::still, nullptr, 0.0003, 0.1},
                                                {"below", nullptr, &C::below, 3, 10},
                                                {"above", nullptr, &C::above, 1, 8},

@@ -62,7 +62,7 @@ class AreaGrowth {
 
  private:
   /// Cells of the grid of sizes; 16 cells cover one octave.
-  static constexpr std::size_t kCells = 64;
+  static constexpr std::size_t kCells = 72;
 
   struct Sampled {
     double size4;

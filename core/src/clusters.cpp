@@ -103,11 +103,15 @@ double excess_scatter(const SizedMesh& sized, const MeshBlocks& blocks, const Us
                       const AutomaticConstants& constants) {
   constexpr std::size_t kFewestBlocks = 16;
   constexpr Mesh::Index kRecords = 128;  // of a block
+  constexpr double kEnoughBlocks = 32;
+  constexpr double kLeastWeight = 1.0 / 3;
+  const double share = static_cast<double>(blocks.count()) / kEnoughBlocks;
+  const double weight = std::clamp(share * share, kLeastWeight, 1.0);
   if (blocks.count() < kFewestBlocks) {
     const double excess = excess_scatter_of_edges(sized, constants);
     if (excess == 0) return 0;
     constexpr double kSurelyPieces = 0.25;
-    return excess * std::min(1.0, share_outside_largest_piece(sized, usual) / kSurelyPieces);
+    return weight * excess * std::min(1.0, share_outside_largest_piece(sized, usual) / kSurelyPieces);
   }
   const auto scatter = [&](const auto& length4_of) {
     return scatter_in_blocks(blocks.count(), [&](std::size_t block, const auto& visit) {
@@ -123,7 +127,7 @@ double excess_scatter(const SizedMesh& sized, const MeshBlocks& blocks, const Us
     const double squared = sized.triangle(t).squared_shortest_edge();
     return squared * squared;
   });
-  return std::clamp(of_edges - constants.even_edges, 0.0, of_sizes);
+  return weight * std::clamp(of_edges - constants.even_edges, 0.0, of_sizes);
 }
 
 double excess_scatter(const WindowSample& windows, const AutomaticConstants& constants) {

@@ -25,8 +25,11 @@ struct UsualLimit {
 /// edges of most of these are steps along the outline. So there the edges alone are looked at, of all blocks
 /// together, and their scatter must be surely larger. If half of the triangles are flat, points lie on lines
 /// or outlines, whose steps scatter without clusters. The steps along a thin shape may scatter as much; but
-/// the usual limit leaves such a shape in one piece, and clusters in many. So the excess counts in full if a
-/// quarter of the points lie outside the largest piece, and in proportion if fewer do.
+/// the usual limit leaves such a shape in one piece, and clusters in many. So the excess counts in proportion
+/// to the share of the points outside the largest piece, up to a quarter of them.
+///
+/// The fewer blocks there are, the less their scatters say. So the excess is multiplied by the square of
+/// their number over 32, which is at least a third and at most 1.
 double excess_scatter(const SizedMesh& sized, const MeshBlocks& blocks, const UsualLimit& usual,
                       const AutomaticConstants& constants);
 /// The same of the windows of places, after look_by_places() returned true.
