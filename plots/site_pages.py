@@ -15,13 +15,12 @@ import numpy as np
 
 from front import front_html, interval_words, time_words
 from markup import facts_of, link_to_method, named, table_of
-from page import Section, byline
+from page import PLOTS, Section, byline
 from ratings import KNOWS, Division, Rating, mean_ranks, typical_errors, typical_times
 from records import RecordError
 from report_common import count_of, number, protocol_words, sentence_list, short_name, text
 from report_html import PARAMETER, abilities, entry_parameters, parameter_cells, standings_table, version_html
-from site_run import SiteRun, method_words, protocol_order, zoo_cases
-from site_text import blocks, inline, linked, part_of
+from site_run import SiteRun, protocol_order, what_it_is, zoo_cases
 from strip import Shown, card, cards_html, strip_html, title_of_case
 from where import where_html
 
@@ -29,6 +28,7 @@ from where import where_html
 PAGE, FILE, TOP = "\ue000", "\ue001", "\ue002"
 REPORT = f"{FILE}report.html"
 MOST_PICTURES = 10
+_ADDRESS = re.compile(r"https?://[^\s,<>\"']*[^\s,;.)<>\"']")
 
 
 @dataclass(frozen=True)
@@ -65,7 +65,7 @@ def pages_of(run: SiteRun, runs: Sequence[SiteRun], files: Sequence[Download]) -
 
 def _pages(run: SiteRun, runs: Sequence[SiteRun], files: Sequence[Download]) -> list[SitePage]:
     datasets = {name: one for name, one in run.datasets.items() if name not in zoo_cases()}
-    adding = [Section("steps", "Steps", "In four steps", _add())]
+    adding = [Section("steps", "Steps", "In four steps", (PLOTS / "add_method.html").read_text(encoding="utf-8"))]
     methods = [Section("list", "Methods", "All methods", _methods(run))]
     lists = [Section("list", "Data sets", "All data sets", _datasets(run, datasets))]
     front = _front(run, runs, datasets)
@@ -83,7 +83,7 @@ def _pages(run: SiteRun, runs: Sequence[SiteRun], files: Sequence[Download]) -> 
         ),
         SitePage("zoo/index.html", "The zoo", "Page", "inputs that broke somebody", _zoo(run)),
         *(
-            SitePage(address_of("zoo", name), one.points, "Zoo", f"{name} {one.fault}", _zoo_case(run, name))
+            SitePage(address_of("zoo", name), one.title, "Zoo", f"{name} {one.fault}", _zoo_case(run, name))
             for name, one in zoo_cases().items()
         ),
         SitePage("add.html", "Add your method", "Page", "adapter manifest", adding),
@@ -98,6 +98,15 @@ def address_of(folder: str, name: str) -> str:
 def _link(address: str, words: str) -> str:
     """`address` with its mark, `words` as they are."""
     return f"<a href='{text(address)}'>{text(words)}</a>"
+
+
+def _linked(words: str) -> str:
+    """A record's text as HTML, in which addresses are links."""
+    made, end = "", 0
+    for one in _ADDRESS.finditer(words):
+        made += text(words[end : one.start()]) + _link(one[0], one[0])
+        end = one.end()
+    return made + text(words[end:]) or "–"
 
 
 def _method_pages(run: SiteRun) -> dict[str, str]:
@@ -177,7 +186,7 @@ def _methods(run: SiteRun) -> str:
             best = min(ranks, key=lambda one: one[0], default=None)
             places.append(f"{best[0]} of {len(best[1].standings)}" if best else "–")
         title = link_to_method(method["title"], name, _method_pages(run))
-        what = f"<small>{inline(method_words().get(name, ''))}</small>"
+        what = f"<small>{text(what_it_is(name))}</small>"
         can = method["capabilities"]
         able = ["yes" if can.get(one) else "no" if can else "–" for one in ("holes", "several_polygons")]
         rows.append([named(name, title + what), *places, *able, text(method["licence"])])
@@ -191,14 +200,14 @@ def _methods(run: SiteRun) -> str:
 def _method(run: SiteRun, name: str, method: dict[str, Any]) -> list[Section]:
     facts = {
         "Name in plans and records": f"<code>{text(name)}</code>",
-        "Citation": linked(method["citation"]),
+        "Citation": _linked(method["citation"]),
         "Licence": text(method["licence"]) or "–",
         "Version": version_html(method) or "–",
         "The library returns": text(method["native_output"]) or "–",
         "Can do": text(abilities(method)),
     }
-    what = method_words().get(name)
-    about = (f"<p>{inline(what)}.</p>" if what else "") + facts_of(facts)
+    what = what_it_is(name)
+    about = (f"<p>{text(what)}.</p>" if what else "") + facts_of(facts)
     meaning = [[text(one["name"]), *parameter_cells(one)] for one in method["parameters"]]
     parameters = table_of("Parameters", {"Parameter": "", **PARAMETER}, meaning) if meaning else "<p>It has none.</p>"
     good = "".join(_rated(run, rating, place) for rating, place in _entries(run, name))
@@ -254,7 +263,7 @@ def _chosen(run: SiteRun, name: str) -> str:
     rows = [
         [
             f"{text(protocol)}<small>{text(words.get(protocol, ''))}</small>",
-            f"{text(values)}<small>{linked(note) if note else ''}</small>",
+            f"{text(values)}<small>{_linked(note) if note else ''}</small>",
             text(", ".join(dict.fromkeys(titles))),
         ]
         for (protocol, values, note), titles in found.items()
@@ -313,8 +322,8 @@ def _datasets(run: SiteRun, datasets: dict[str, dict[str, Any]]) -> str:
     rows = [
         [
             f"{_link(PAGE + address_of('datasets', name), one['title'])}<small>{text(_members(name, one))}</small>",
-            linked(one["source"]),
-            linked(one["licence"]),
+            _linked(one["source"]),
+            _linked(one["licence"]),
             sum(run.cases.get(name, {}).values()),
         ]
         for name, one in datasets.items()
@@ -331,8 +340,8 @@ def _dataset(run: SiteRun, name: str, one: dict[str, Any]) -> list[Section]:
     measured = ", ".join(f"{text(title)}: {count_of(count, 'case')}" for title, count in run.cases.get(name, {}).items())
     facts = {
         "Name": f"<code>{text(_members(name, one))}</code>",
-        "Source": linked(one["source"]),
-        "Licence": linked(one["licence"]),
+        "Source": _linked(one["source"]),
+        "Licence": _linked(one["licence"]),
         "Area": text(area),
         "SHA-256 of its file": f"<code>{text(one['sha256'])}</code>" if one["sha256"] else "–",
         "In this run": measured or "not measured",
@@ -377,11 +386,7 @@ def _right(run: SiteRun, name: str) -> str:
 
 def _zoo(run: SiteRun) -> list[Section]:
     rows = [
-        [
-            f"{_link(PAGE + address_of('zoo', name), one.points)}<small>{text(name)}</small>",
-            inline(one.fault),
-            _right(run, name),
-        ]
+        [f"{_link(PAGE + address_of('zoo', name), one.title)}<small>{text(name)}</small>", text(one.fault), _right(run, name)]
         for name, one in zoo_cases().items()
     ]
     said = (
@@ -397,9 +402,9 @@ def _zoo_case(run: SiteRun, name: str) -> list[Section]:
     one, names = zoo_cases()[name], list(zoo_cases())
     facts = {
         "Name": f"<code>{text(name)}</code>",
-        "What went wrong": inline(one.fault),
-        "Issue": inline(one.issue),
-        "A right answer": inline(one.answer),
+        "What went wrong": text(one.fault),
+        "Issue": _link(one.address, one.issue),
+        "A right answer": text(one.answer),
         "Its points": f"<code>build/hullbench points {text(name)} --out points.csv</code>",
         "Every method": f"<code>build/hullbench run zoo --filter '/{text(name)}/'</code>",
     }
@@ -409,7 +414,7 @@ def _zoo_case(run: SiteRun, name: str) -> list[Section]:
     place = names.index(name)
     others = [(place - 1, "Before"), (place + 1, "Next")]
     beside = " · ".join(
-        f"{words}: {_link(PAGE + address_of('zoo', names[k]), zoo_cases()[names[k]].points)}"
+        f"{words}: {_link(PAGE + address_of('zoo', names[k]), zoo_cases()[names[k]].title)}"
         for k, words in others
         if 0 <= k < len(names)
     )
@@ -420,11 +425,7 @@ def _zoo_case(run: SiteRun, name: str) -> list[Section]:
     ]
 
 
-# Adding a method, and downloads.
-
-
-def _add() -> str:
-    return blocks(part_of("README.md", "### A method"))
+# Downloads.
 
 
 def _downloads(files: Sequence[Download]) -> list[Section]:

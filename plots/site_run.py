@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-import dataclasses
 import functools
+import json
 from collections import Counter
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
@@ -11,14 +11,14 @@ from pathlib import Path
 from typing import Any
 
 from front import Front, make_front
+from page import PLOTS
 from pictures import kept_pictures
 from ratings import DIVISIONS, Division, Results, divisions, read
-from records import Experiment, Picture, RecordError, Row, load, member_of
+from records import Experiment, Picture, Row, load, member_of
 from report_common import METHOD_LOOKS
 from report_html import methods_of
 from report_summary import Summary, summarise
 from report_tables import documents
-from site_text import names_in, table_rows
 from strip import Shown
 
 # Who chose the parameters: those that see the points only first.
@@ -27,32 +27,31 @@ _PROTOCOLS = [protocol for protocols in DIVISIONS.values() for protocol in proto
 
 @dataclass(frozen=True)
 class ZooCase:
-    """In Markdown, as datasets/zoo/README.md has it."""
+    """As datasets/zoo/zoo.json has it."""
 
     name: str
-    points: str
+    title: str
     fault: str
-    issue: str
-    answer: str
+    issue: str  # libgeos/geos#754
+    answer: str  # what a right one is, in words
+
+    @property
+    def address(self) -> str:
+        """Of the issue."""
+        return f"https://github.com/{self.issue.replace('#', '/issues/')}"
 
 
 @functools.cache
 def zoo_cases() -> dict[str, ZooCase]:
     """By name."""
-    rows = table_rows("datasets/zoo/README.md", "Data set")
-    columns = len(dataclasses.fields(ZooCase))
-    for row in rows:
-        if len(row) != columns or not names_in(row[0]):
-            raise RecordError(f"datasets/zoo/README.md has a row that is no case of {columns} columns: {' | '.join(row)}")
-    found = [ZooCase(names_in(first)[0], *rest) for first, *rest in rows]
-    return {one.name: one for one in found}
+    zoo = json.loads((PLOTS.parent / "datasets" / "zoo" / "zoo.json").read_text(encoding="utf-8"))
+    return {one["name"]: ZooCase(**{**one, "answer": zoo["answers"][one["answer"]]}) for one in zoo["cases"]}
 
 
-@functools.cache
-def method_words() -> dict[str, str]:
-    """By name: what it is, in Markdown."""
-    rows = table_rows("adapters/README.md", "name")
-    return {name: what[:1].upper() + what[1:] for names, what, *_ in rows for name in names_in(names)}
+def what_it_is(method: str) -> str:
+    """A clause that begins with a capital letter; empty for a method that methods.json does not know."""
+    what = METHOD_LOOKS.get(method, {}).get("what", "")
+    return what[:1].upper() + what[1:]
 
 
 @dataclass(frozen=True)

@@ -42,5 +42,4 @@ hullbench_test(test_zoo
   LABELS datasets)
 target_compile_definitions(test_zoo PRIVATE
   HULLBENCH_ZOO_HASHES="${CMAKE_CURRENT_LIST_DIR}/data/zoo_hashes.txt"
-  HULLBENCH_ZOO_PAGE="${PROJECT_SOURCE_DIR}/datasets/zoo/README.md"
   HULLBENCH_ZOO_PLAN="${PROJECT_SOURCE_DIR}/benchmarks/plans/zoo.json")

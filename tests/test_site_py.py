@@ -19,10 +19,9 @@ import plot_samples
 from plot_tests import PLOTS, Elements, call  # first, for what is in plots/
 
 import make_site
-import site_text
-from records import RecordError, load
-from report_common import short_name
-from site_run import load_run, method_words, zoo_cases
+from records import load
+from report_common import METHOD_LOOKS, short_name
+from site_run import load_run, what_it_is, zoo_cases
 
 NEWER, OLDER = "2026-01-02-0123abcd", "2025-01-02-0123abcd"
 ANIMAL = "zoo-geos-754"
@@ -156,7 +155,7 @@ class Pages(Folder):
                 index = json.loads(dict(self.pages[address].scripts)["pages"])
                 self.assertEqual({posixpath.normpath(posixpath.join(folder, one[2])) for one in index}, mine, address)
         animal = next(one for one in index if ANIMAL in one[3])
-        self.assertEqual(animal[:2], [zoo_cases()[ANIMAL].points, "Zoo"])
+        self.assertEqual(animal[:2], [zoo_cases()[ANIMAL].title, "Zoo"])
 
     def test_nothing_is_asked_of_a_network(self) -> None:
         for address, seen in self.pages.items():
@@ -192,7 +191,7 @@ class What(Folder):
         path = self.site / "methods" / "polylidar.html"
         told = words(path)
         self.assertIn("<a href='https://example.org/paper.html'>", self.pages["methods/polylidar.html"].source)
-        self.assertIn(html.unescape(re.sub("<[^>]+>", "", site_text.inline(method_words()["polylidar"]))), told)
+        self.assertIn(f"{what_it_is('polylidar')}.", told)
         for part in ("alpha", "Size of it.", "alpha = sqrt(area / n)", "By the truth.", "by the paper's rule"):
             self.assertIn(part, told)
         informed = next(one for one in load_run(self.runs[1]).front.ratings if one.division.name == "informed")
@@ -247,11 +246,25 @@ class What(Folder):
         self.assertIn("1 of 2", words(self.site / "zoo" / "index.html"))
 
     def test_adding_a_method_is_the_readmes_checklist(self) -> None:
-        told = words(self.site / "add.html")
         readme = (PLOTS.parent / "README.md").read_text(encoding="utf-8").split("### A method")[1].split("###")[0]
+        plain = re.sub(r"\]\([^)]+\)", "", readme).replace("- [ ]", "")
+        self.assertEqual(
+            re.sub(r"[`\[\]\s]+", "", plain), re.sub(r"\s+", "", words(self.site / "add.html").partition("steps")[2])
+        )
         self.assertEqual(self.pages["add.html"].source.count("<li>"), readme.count("- [ ]"))
-        for command in re.findall(r"`(build/hullbench [^`]+)`", readme):
-            self.assertIn(re.sub(r"\s+", " ", command), told)
+
+    def test_the_readmes_tables_say_the_same(self) -> None:
+        adapters, zoo = (
+            (PLOTS.parent / name).read_text(encoding="utf-8") for name in ("adapters/README.md", "datasets/zoo/README.md")
+        )
+        rows = [f"| `{name}` | {look['what']} |" for name, look in METHOD_LOOKS.items()]
+        self.assertEqual([row for row in rows if row not in adapters], [])
+        self.assertEqual(adapters.count("\n| `"), adapters.split("## The methods")[0].count("\n| `") + len(rows))
+        cases = [
+            f"| `{one.name}` | {one.title} | {one.fault} | [{one.issue}]({one.address}) | {one.answer} |\n"
+            for one in zoo_cases().values()
+        ]
+        self.assertIn("|---|\n" + "".join(cases) + "<!-- zoo: end -->", zoo)
 
     def test_downloads_are_the_runs_own_files(self) -> None:
         files = self.site / "runs" / NEWER / "files"
@@ -309,13 +322,6 @@ class Faults(Folder):
         code, err = self.call(self.runs[1], "--out", self.root / "alike", "--listing", listing)
         self.assertEqual((code, "would be one file, datasets/wide-2.html" in err), (2, True))
         self.assertFalse((self.root / "alike").exists(), "nothing is left of a site that was not finished")
-
-    def test_a_text_that_lost_its_table_is_noticed(self) -> None:
-        with self.assertRaisesRegex(RecordError, "no table"):
-            site_text.table_rows("README.md", "no such column")
-        with self.assertRaisesRegex(RecordError, "no heading"):
-            site_text.part_of("README.md", "### No such thing")
-        self.assertGreater(len(method_words()), 15)
 
 
 if __name__ == "__main__":

@@ -1,12 +1,11 @@
 // The zoo: that each generator makes what it promises, the same on every machine; that the core has an answer
-// to it; and that the page and the plan list the same cases.
+// to it; and that the plan lists the same cases.
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <fstream>
-#include <iterator>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <regex>
@@ -340,17 +339,6 @@ TEST(Zoo, ThePlanHasEveryCase) {
   std::vector<std::string> names;
   for (const zoo::Case& one : zoo::cases()) names.push_back(one.name);
   EXPECT_EQ(plan["cases"][0]["dataset"].get<std::vector<std::string>>(), names);
-}
-
-TEST(Zoo, ThePageHasEveryCase) {
-  std::ifstream file(HULLBENCH_ZOO_PAGE);
-  const std::string page(std::istreambuf_iterator<char>(file), {});
-  const std::string begin = "<!-- zoo: begin -->\n";
-  const std::size_t start = page.find(begin);
-  ASSERT_NE(start, std::string::npos);
-  const std::size_t end = page.find("<!-- zoo: end -->", start);
-  ASSERT_NE(end, std::string::npos);
-  EXPECT_EQ(page.substr(start + begin.size(), end - start - begin.size()), zoo::markdown());
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-// The generators of the zoo; zoo.cpp says which issue each one is made after.
+// The generators of the zoo; zoo.json says which issue each one is made after.
 #pragma once
 
 #include "datasets/zoo/zoo.hpp"

@@ -27,7 +27,7 @@ struct Input {
   polylidar::MultiPolygon ground_truth;
 };
 
-/// One animal.
+/// One animal: an entry of zoo.json with its generator.
 struct Case {
   std::string name;      ///< of the data set: "zoo-geos-754", the tool and the number of its issue
   std::string title;     ///< what the points are, as printed in tables
@@ -42,11 +42,5 @@ const std::vector<Case>& cases();
 
 /// The case of that name; null when there is none.
 const Case* find_case(const std::string& name);
-
-/// What a right answer is, as a sentence without a full stop.
-std::string right_answer(Answer answer);
-
-/// The cases as a table in Markdown, a row a case: the part of README.md between its marks.
-std::string markdown();
 
 }  // namespace hullbench::zoo
