@@ -11,7 +11,6 @@ read, pdflatex is missing or complains, or the file cannot be written; 6 when th
 
 from __future__ import annotations
 
-import re
 import shutil
 import subprocess
 import sys
@@ -54,6 +53,7 @@ _SIGNS = {
     "…": r"\dots{}",
     "’": "'",
     "†": r"\textdagger{}",
+    "√": r"$\surd$",
 }
 _HEAD = r"""\documentclass[10pt,twocolumn]{article}
 \usepackage[a4paper,left=15mm,right=15mm,top=18mm,bottom=18mm,columnsep=10mm]{geometry}
@@ -84,36 +84,23 @@ def write(folder: Path, out: Path) -> None:
     experiments = load(folder)
     place = out.parent / "paper"
     drawn, skipped = draw_all(Run(folder, experiments, read_paper()), list(NAMES), place)
-    tables = tables_of(experiments, folder)
+    tables = [table for document in documents(experiments, folder) for table in document["tables"]]
     if not drawn and not tables:
         raise NothingToShow(f"{folder} has neither figures nor tables.")
-    for _, path in tables:
-        shutil.copy(path, place)
     (place / "paper.tex").write_text(document(experiments, folder, drawn, tables, skipped), encoding="utf-8")
     _compile(place)
     shutil.copy(place / "paper.pdf", out)
     print(f"wrote {out}: {len(drawn)} figures, {len(tables)} tables")
 
 
-def tables_of(experiments: Sequence[Experiment], folder: Path) -> list[tuple[dict[str, Any], Path]]:
-    """Every table of the run with its file in LaTeX."""
-    places = [folder / "tables", *(experiment.folder / "tables" for experiment in experiments)]
-    found = []
-    for one in (table for document in documents(experiments, folder) for table in document["tables"]):
-        paths = [place / f"{one['id']}.tex" for place in places if (place / f"{one['id']}.tex").is_file()]
-        if paths:
-            found.append((one, paths[0]))
-    return found
-
-
 def document(
     experiments: Sequence[Experiment],
     folder: Path,
     drawn: Sequence[Drawn],
-    tables: Sequence[tuple[dict[str, Any], Path]],
+    tables: Sequence[dict[str, Any]],
     skipped: dict[str, str],
 ) -> str:
-    """The whole of paper.tex, which finds its figures and tables beside it."""
+    """The whole of paper.tex, which finds its figures beside it."""
     measured = escaped(measured_words(experiments))
     name = escaped(folder.resolve().name)
     parts = [
@@ -125,7 +112,7 @@ def document(
     if skipped:
         parts.append(rf"\par\noindent Not in this run: {escaped(sentence_list(list(skipped)))}.")
     parts += [_figure(one, measured) for one in drawn]
-    parts += [_table(one, path.read_text(encoding="utf-8"), measured) for one, path in tables]
+    parts += [_table(one, measured) for one in tables]
     return "\n".join([*parts, r"\end{document}", ""])
 
 
@@ -168,11 +155,17 @@ def _figure(one: Drawn, measured: str) -> str:
     return rf"\begin{{figure{star}}}\centering{fitting}{caption}\end{{figure{star}}}"
 
 
-def _table(table: dict[str, Any], source: str, measured: str) -> str:
+def tabular(table: dict[str, Any]) -> str:
+    """With the rules of booktabs. Marks of notes stand only where a cell has nothing else: the notes are in the Markdown."""
+    sides = "".join("l" if column["kind"] == "words" else "r" for column in table["columns"])
+    head = [column["title"] for column in table["columns"]]
+    body = [[cell["text"] or " ".join(f"[{note}]" for note in cell.get("notes", [])) for cell in row] for row in table["rows"]]
+    first, *lines = (" & ".join(map(escaped, cells)) + r" \\" for cells in [head, *body])
+    return "\n".join([rf"\begin{{tabular}}{{{sides}}}\toprule", first, r"\midrule", *lines, r"\bottomrule\end{tabular}"])
+
+
+def _table(table: dict[str, Any], measured: str) -> str:
     """With its remarks in the caption, which a journal wants above it."""
-    found = re.search(r"\\begin\{tabular\}.*?\\end\{tabular\}", source, re.DOTALL)
-    if found is None:
-        raise RecordError(f"the table {table['id']} has no tabular; 'hullbench tables RUN --write' makes it anew.")
     columns = len(table["columns"])
     upright = columns <= _MOST_UPRIGHT
     kind, width, height = (
@@ -182,7 +175,7 @@ def _table(table: dict[str, Any], source: str, measured: str) -> str:
         kind, width = "table", r"\columnwidth"
     remarks = " ".join([f"{table['caption']}.", *table["remarks"]])
     caption = rf"\caption{{{escaped(remarks)} {measured}}}\label{{tab:{table['id']}}}"
-    return rf"\begin{{{kind}}}\centering\scriptsize{caption}\fitted{{{width}}}{{{height}}}{{{found.group()}}}\end{{{kind}}}"
+    return rf"\begin{{{kind}}}\centering\scriptsize{caption}\fitted{{{width}}}{{{height}}}{{{tabular(table)}}}\end{{{kind}}}"
 
 
 def _compile(place: Path) -> None:
