@@ -148,7 +148,17 @@ def colours(styles: dict[str, Any]) -> str:
 def data(identity: str, value: Any) -> str:
     """JSON that stays inside its element: "<" is written as an escape, so no text of a record can end the element."""
     written = json.dumps(value, ensure_ascii=False, separators=(",", ":"), allow_nan=False).replace("<", "\\u003c")
-    return f'<script type="application/json" id="{identity}">{written}</script>'
+    return f"{_opening(identity)}{written}</script>"
+
+
+def kept_data(page: str, identity: str) -> Any:
+    """The value that data() put into the page; None: it has none of that name."""
+    _, opening, rest = page.partition(_opening(identity))
+    return json.loads(rest.partition("</script>")[0]) if opening else None
+
+
+def _opening(identity: str) -> str:
+    return f'<script type="application/json" id="{identity}">'
 
 
 def _library() -> str:

@@ -22,7 +22,6 @@ import gzip
 import io
 import itertools
 import json
-import re
 import struct
 import zlib
 from collections import Counter
@@ -31,6 +30,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
+from page import kept_data
 from records import Experiment, Picture, Row
 
 GRID = 4096
@@ -356,15 +356,13 @@ def _block(header: dict[str, Any], sections: Sequence[bytes]) -> str:
 
 # Back again.
 
-_PACKED = re.compile(r'<script type="application/json" id="pictures">(.*?)</script>', re.DOTALL)
-
 
 def kept_pictures(page: Path, experiments: Sequence[Experiment]) -> list[dict[str, Picture]]:
     """By experiment and case: what a report shows, in its coarser grid. A kept reference run has no other pictures. Nothing
     where the page is not there or has none."""
     found: list[dict[str, Picture]] = [{} for _ in experiments]
-    packed = _PACKED.search(page.read_text(encoding="utf-8")) if page.is_file() else None
-    for entry in json.loads(packed.group(1))["cases"] if packed else []:
+    packed = kept_data(page.read_text(encoding="utf-8"), "pictures") if page.is_file() else None
+    for entry in packed["cases"] if packed else []:
         picture = _unpacked(entry)
         for place, experiment in enumerate(experiments):
             if experiment.name in entry["experiments"]:
