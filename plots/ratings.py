@@ -26,10 +26,11 @@ import numpy as np
 from scipy import optimize, stats
 
 from records import RecordError, Series
+from report_common import PROTOCOLS
 
 # By division: the protocols in it. The oracle, which tries everything with the truth, is in none.
-DIVISIONS = {"blind": ("auto", "default"), "informed": ("paper", "tuned")}
-KNOWS = {"blind": "see the points only", "informed": "know something of the truth"}
+DIVISIONS = {one["name"]: tuple(one["protocols"]) for one in PROTOCOLS["divisions"]}
+KNOWS = {one["name"]: one["know"] for one in PROTOCOLS["divisions"]}
 COLUMNS = ("method", "task", "fold", "error", "time", "points", "status", "shape", "kind", "sampler", "weight")
 
 # Nobody would choose a method for less: errors are tied when they differ by at most this part of the smaller one, or by at

@@ -9,13 +9,15 @@ from collections.abc import Iterable, Sequence
 from pathlib import Path
 from urllib.parse import urlencode
 
-from records import Experiment, Series
+from records import SCHEMAS, Experiment, Series
 
 CORE = "polylidar"
 
 # How methods, steps and parts of pictures look on every page and figure.
 LOOKS = json.loads((Path(__file__).resolve().parent / "methods.json").read_text(encoding="utf-8"))
-METHOD_LOOKS = LOOKS["methods"]  # short title, place in the order, colours, marker and line
+METHOD_LOOKS = LOOKS["methods"]  # short title, what it is, place in the order, colours, marker and line
+# Who chose the parameters, in words, and which protocols are compared with each other.
+PROTOCOLS = json.loads((SCHEMAS.parent / "benchmarks" / "record" / "protocols.json").read_text(encoding="utf-8"))
 
 STATUS_WORDS = {
     "ok": "ok",

@@ -157,13 +157,14 @@ class Data(WithSuite):
         drawn = self.draw(profiles)["profiles"]
         *panels, below = drawn.figure.axes
         groups = [one for group in ("blind", "informed") for one in plot_samples.league()["profiles"] if one["group"] == group]
-        self.assertEqual([axes.get_title(loc="left")[4:].split(":")[0] for axes in panels], ["blind", "informed"])
+        who = ["methods that see the points only", "methods that know the ground truth's area"]
+        self.assertEqual([axes.get_title(loc="left")[4:] for axes in panels], who)
         for axes, group in zip(panels, groups):
             shares = {tuple(line.get_ydata()) for line in axes.get_lines()}
             self.assertEqual(shares, {tuple(100 * share for share in one["shares"]) for one in group["curves"]})
             self.assertEqual({tuple(line.get_xdata()) for line in axes.get_lines()}, {(1, 2, 10)})
         self.assertEqual([text.get_text() for text in below.get_legend().get_texts()], ["Polylidar", "SpatiaLite", "GEOS"])
-        self.assertIn("Without a case, and so not shown: oracle (know the true shape).", drawn.caption)
+        self.assertIn("Without a case, and so not shown: methods with the best value for each instance.", drawn.caption)
 
     def test_sensitivity_is_that_of_the_search(self) -> None:
         lengths, octaves, below = self.draw(sensitivity)["sensitivity"].figure.axes
@@ -213,8 +214,7 @@ class Data(WithSuite):
             curve, *chosen = axes.get_lines()
             self.assertEqual((list(curve.get_xdata()), list(curve.get_ydata())), ([2, 3], [50, 25]))  # 1: most cases fail
             self.assertEqual(
-                [(line.get_label(), list(line.get_ydata())) for line in chosen],
-                [("default", [75]), ("tuned on other shapes", [75])],
+                [(line.get_label(), list(line.get_ydata())) for line in chosen], [("default", [75]), ("tuned", [75])]
             )
 
     def test_summary_shows_every_result_of_one_case(self) -> None:

@@ -8,6 +8,7 @@
 #include <tuple>
 
 #include "benchmarks/record/pictures.hpp"
+#include "benchmarks/record/protocols.hpp"
 #include "benchmarks/statistics/statistics.hpp"
 #include "benchmarks/statistics/weighted.hpp"
 #include "benchmarks/tune/search.hpp"
@@ -305,16 +306,6 @@ std::vector<LeagueResult> make_results(const Field& field) {
   return results;
 }
 
-std::size_t place_of_protocol(const std::string& protocol) {
-  static const std::vector<std::string> order = {"auto", "default", "tuned", "paper", "oracle"};
-  return static_cast<std::size_t>(std::find(order.begin(), order.end(), protocol) - order.begin());
-}
-
-std::string group_of(const std::string& protocol) {
-  if (protocol == "auto" || protocol == "default") return "blind";
-  return protocol == "paper" ? "informed" : protocol;
-}
-
 /// The names of the scored cases that all of `entrants` have.
 std::vector<std::string> common_cases(const Field& field, const std::vector<Entrant>& entrants) {
   std::vector<std::string> result;
@@ -369,12 +360,14 @@ LeagueProfile make_profile(const Field& field, const std::string& group, const s
 }
 
 std::vector<LeagueProfile> make_profiles(const Field& field) {
-  std::map<std::string, std::vector<Entrant>> groups;
-  for (const auto& [entrant, rows] : field.rows) groups[group_of(entrant.second)].push_back(entrant);
   std::vector<LeagueProfile> profiles;
-  for (const char* group : {"blind", "tuned", "informed", "oracle"}) {
-    const auto found = groups.find(group);
-    if (found != groups.end()) profiles.push_back(make_profile(field, group, found->second));
+  for (const record::ProtocolGroup& group : record::protocol_groups()) {
+    std::vector<Entrant> members;
+    for (const auto& [entrant, rows] : field.rows) {
+      if (std::count(group.protocols.begin(), group.protocols.end(), entrant.second) > 0)
+        members.push_back(entrant);
+    }
+    if (!members.empty()) profiles.push_back(make_profile(field, group.name, members));
   }
   return profiles;
 }
@@ -425,8 +418,10 @@ League make_league(const std::vector<json>& reports, bool test_only) {
   for (const LeagueEntry& entry : league.entries)
     most[entry.protocol] = std::max(most[entry.protocol], entry.cases);
   // A median of few cases is not better than one of all.
-  const auto key = [&most](const LeagueEntry& entry) {
-    return std::make_tuple(place_of_protocol(entry.protocol), 2 * entry.cases < most.at(entry.protocol),
+  const std::vector<std::string> order = record::protocols_by_group();
+  const auto key = [&](const LeagueEntry& entry) {
+    return std::make_tuple(std::find(order.begin(), order.end(), entry.protocol),
+                           2 * entry.cases < most.at(entry.protocol),
                            entry.l2 ? std::round(entry.l2->median / kShownError) : kInfinity, entry.method);
   };
   std::sort(league.entries.begin(), league.entries.end(),

@@ -69,8 +69,7 @@ struct LeagueEntry {
 /// 2002): on which share of the cases, weighted, an entry's l2 is at most tau times the smallest one of its
 /// group.
 struct LeagueProfile {
-  /// Who knows as much: "blind" (default and auto: the points only), "tuned" (other shapes), "informed"
-  /// (paper: the ground truth's area), "oracle" (the ground truth).
+  /// Who knows as much, of record::protocol_groups().
   std::string group;
   std::size_t cases = 0;  ///< that all of its curves have, and on which one has a result
   /// Method and protocol of those with less than half as many cases as another one of the group: only few

@@ -11,6 +11,7 @@
 #include "benchmarks/base/files.hpp"
 #include "benchmarks/base/number_format.hpp"
 #include "benchmarks/base/words.hpp"
+#include "benchmarks/record/protocols.hpp"
 #include "benchmarks/tune/split.hpp"
 
 namespace hullbench::league {
@@ -125,19 +126,16 @@ table::Cell failures_cell(const json& entry) {
   return cell;
 }
 
-const std::map<std::string, std::string>& protocol_titles() {
-  static const std::map<std::string, std::string> titles = {
-      {"auto", "chosen from the points alone"},
-      {"default", "the method's own defaults"},
-      {"tuned", "one value, fitted on other shapes"},
-      {"paper", "the paper's rules, which know the ground truth's area"},
-      {"oracle", "the best value for each instance, found with the ground truth"}};
-  return titles;
+std::string title_of_protocol(const std::string& name) {
+  for (const record::Protocol& protocol : record::protocols()) {
+    if (protocol.name == name) return protocol.title;
+  }
+  return name;
 }
 
 table::Table league_table(const json& league, const std::string& protocol) {
   table::Table table{"league_" + protocol,
-                     "Protocol " + protocol + ": " + protocol_titles().at(protocol),
+                     "Protocol " + protocol + ": " + title_of_protocol(protocol),
                      {table::words("Method"), "Cases", "Failures", table::with_unit("L2 median", "%"),
                       table::with_unit("Where it can", "%"), "Skill median", "Hole F1 mean",
                       table::with_unit("Regret median", "%")}};
@@ -199,13 +197,11 @@ std::string title_of(const json& league, const json& curve) {
   return curve.at("method").get<std::string>();
 }
 
-const std::map<std::string, std::string>& group_titles() {
-  static const std::map<std::string, std::string> titles = {
-      {"blind", "that see the points only"},
-      {"tuned", "with one value fitted on other shapes"},
-      {"informed", "that know the ground truth's area"},
-      {"oracle", "with the best value for each instance"}};
-  return titles;
+std::string methods_of_group(const std::string& name) {
+  for (const record::ProtocolGroup& group : record::protocol_groups()) {
+    if (group.name == name) return group.methods;
+  }
+  return name;
 }
 
 /// Some of the taus, as columns.
@@ -219,7 +215,7 @@ table::Table profile_table(const json& league, const json& profile) {
   }
   const std::string group = profile.at("group").get<std::string>();
   table::Table table{"profile_" + group,
-                     "Performance profile of the methods " + group_titles().at(group) +
+                     "Performance profile of the methods " + methods_of_group(group) +
                          ": % of the weight of " + profile.at("cases").dump() + " cases with an L2 that is",
                      {table::words("Method")}};
   for (const std::size_t k : shown)
@@ -278,7 +274,7 @@ table::Document league_document(const json& league) {
   for (const json& entry : league.at("methods")) {
     if (entry.at("cases") > 0) there.insert(entry.at("protocol").get<std::string>());
   }
-  for (const char* protocol : {"auto", "default", "tuned", "paper", "oracle"}) {
+  for (const std::string& protocol : record::protocols_by_group()) {
     if (!there.contains(protocol)) continue;
     document.tables.push_back(league_table(league, protocol));
     document.tables.push_back(parts_table(league, protocol));
@@ -342,7 +338,7 @@ std::string league_results(const json& league, const std::string& folder) {
     const std::string protocol = entry.at("protocol").get<std::string>();
     if (entry.at("cases") == 0 || ++shown[protocol] > kFirst) continue;
     if (shown[protocol] == 1)
-      protocols += (protocols.empty() ? "" : "; ") + protocol + ", " + protocol_titles().at(protocol);
+      protocols += (protocols.empty() ? "" : "; ") + protocol + ", " + title_of_protocol(protocol);
     table.add_row({protocol, entry.at("title").get<std::string>(), entry.at("cases").get<std::size_t>(),
                    failures_cell(entry), median_cell(entry, "l2", 100), mean_cell(entry, "hole_f1")});
   }

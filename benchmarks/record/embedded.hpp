@@ -1,5 +1,5 @@
 // The JSON files that are part of the program, as text. The file that defines them is generated from
-// results/*.json and the manifests' schema.
+// results/*.json, protocols.json and the manifests' schema.
 #pragma once
 
 #include <string_view>
@@ -16,5 +16,6 @@ extern const std::string_view kTablesSchemaJson;      ///< results/tables.schema
 extern const std::string_view kSubmissionSchemaJson;  ///< results/submission.schema.json
 extern const std::string_view kPaperJson;             ///< results/paper.json
 extern const std::string_view kManifestSchemaJson;    ///< adapters/process/manifest.schema.json
+extern const std::string_view kProtocolsJson;         ///< protocols.json
 
 }  // namespace hullbench::record

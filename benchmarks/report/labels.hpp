@@ -1,22 +1,11 @@
 // What tables call the methods, data sets and failures of a report.
 #pragma once
 
-#include <array>
 #include <nlohmann/json.hpp>
 #include <string>
-#include <utility>
 #include <vector>
 
 namespace hullbench::report {
-
-/// Who chose the parameters: each protocol that a plan can name, and what it means.
-inline constexpr std::array<std::pair<const char*, const char*>, 5> kProtocolWords = {{
-    {"paper", "by the paper's rules, which look at the ground truth (oracle-informed)"},
-    {"default", "the method's own"},
-    {"auto", "by a rule from the points alone"},
-    {"tuned", "on other shapes"},
-    {"oracle", "the best for this very case"},
-}};
 
 /// "Polylidar" for "polylidar"; the name itself when `report` has no title for it.
 std::string method_title(const nlohmann::json& report, const std::string& method);

@@ -8,12 +8,12 @@
 
 #include "benchmarks/base/files.hpp"
 #include "benchmarks/record/json_lines.hpp"
+#include "benchmarks/record/protocols.hpp"
 #include "benchmarks/record/record.hpp"
 #include "benchmarks/record/stored_run.hpp"
 #include "benchmarks/report/claims.hpp"
 #include "benchmarks/report/contests.hpp"
 #include "benchmarks/report/headline.hpp"
-#include "benchmarks/report/labels.hpp"
 #include "benchmarks/report/measurements.hpp"
 #include "benchmarks/report/noise.hpp"
 #include "benchmarks/statistics/statistics.hpp"
@@ -81,7 +81,7 @@ json noise_to_json(const std::vector<record::RunRecord>& runs) {
 
 json protocol_words() {
   json words = json::object();
-  for (const auto& [protocol, meaning] : kProtocolWords) words[protocol] = meaning;
+  for (const record::Protocol& protocol : record::protocols()) words[protocol.name] = protocol.chosen;
   return words;
 }
 

@@ -9,6 +9,7 @@
 
 #include "benchmarks/base/number_format.hpp"
 #include "benchmarks/base/words.hpp"
+#include "benchmarks/record/protocols.hpp"
 #include "benchmarks/report/claims.hpp"
 #include "benchmarks/report/labels.hpp"
 #include "benchmarks/report/noise.hpp"
@@ -59,9 +60,8 @@ void add_how_to_read(bool times, Sentences& notes) {
                            "shape it has nothing of what varies between shapes. \"> 3\": it has no upper end."
                          : ""));
   std::string protocols;
-  for (const auto& [protocol, words] : kProtocolWords) {
-    protocols += (protocols.empty() ? "" : "; ") + std::string(protocol) + ", " + words;
-  }
+  for (const record::Protocol& protocol : record::protocols())
+    protocols += (protocols.empty() ? "" : "; ") + protocol.name + ", " + protocol.chosen;
   notes.push_back("The protocol in brackets says who chose the parameters: " + protocols + ".");
   notes.push_back(
       "A cell with a word is a run without a result: its status, or \"invalid\" for a result that is not a "

@@ -1,12 +1,12 @@
 #include "benchmarks/report/table_context.hpp"
 
 #include <algorithm>
-#include <array>
 #include <map>
 #include <optional>
 #include <utility>
 
 #include "benchmarks/base/words.hpp"
+#include "benchmarks/record/protocols.hpp"
 #include "benchmarks/report/labels.hpp"
 #include "benchmarks/statistics/statistics.hpp"
 
@@ -14,8 +14,6 @@ namespace hullbench::report {
 namespace {
 
 using nlohmann::json;
-
-constexpr std::array kProtocolOrder = {"paper", "default", "auto", "tuned", "oracle"};
 
 /// Median and median absolute deviation, with the median's number of decimals.
 table::Cell time_cell(const std::vector<std::int64_t>& nanoseconds) {
@@ -179,11 +177,11 @@ std::vector<Line> lines_of(const TableContext& context, const Shape& shape) {
   }
   std::vector<Line> result;
   for (const std::string& method : methods) {
-    for (const char* protocol : kProtocolOrder) {
+    for (const record::Protocol& protocol : record::protocols()) {
       const bool occurs = std::any_of(shape.begin(), shape.end(), [&](const Case& which) {
-        return !context.measurements.find(method, protocol, which).empty();
+        return !context.measurements.find(method, protocol.name, which).empty();
       });
-      if (occurs) result.push_back({method, protocol});
+      if (occurs) result.push_back({method, protocol.name});
     }
   }
   return result;

@@ -1,20 +1,18 @@
 #include "benchmarks/tune/analysis.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <map>
 #include <numeric>
 #include <span>
 
+#include "benchmarks/record/protocols.hpp"
 #include "benchmarks/statistics/statistics.hpp"
 #include "benchmarks/statistics/weighted.hpp"
 #include "benchmarks/tune/halving.hpp"
 
 namespace hullbench::tune {
 namespace {
-
-constexpr std::array kProtocols = {"paper", "default", "auto", "tuned", "oracle"};
 
 /// Where the error crosses `limit` between an evaluation below and its neighbour above it, as a logarithm.
 double crossing(const SearchPoint& below, const SearchPoint& above, double limit) {
@@ -195,8 +193,8 @@ Quartiles quartiles_of(const std::vector<double>& values) {
 std::vector<ProtocolScore> protocol_scores(const Tuning& tuning, const MethodTuning& method,
                                            const std::optional<TunedValue>& tuned) {
   std::vector<ProtocolScore> scores;
-  for (const char* protocol : kProtocols) {
-    if (auto score = score_of(tuning, method, protocol, tuned)) scores.push_back(std::move(*score));
+  for (const record::Protocol& protocol : record::protocols()) {
+    if (auto score = score_of(tuning, method, protocol.name, tuned)) scores.push_back(std::move(*score));
   }
   return scores;
 }

@@ -13,13 +13,14 @@ from matplotlib.figure import Figure
 from matplotlib.ticker import LogLocator, NullFormatter
 
 from figures.sensitivity import read_tuning
+from report_common import PROTOCOLS
 from run import Drawn, Run, Skipped
 from style import FULL_WIDTH, in_order, label, legend_below, method_style, new_figure, number
 
 _COLUMNS = 5
 _NO_SEARCH = -2.5  # its place on the axis
-# Without a search, left of its first evaluation.
-_CHOSEN = {"auto": ("o", "auto"), "default": ("s", "default"), "tuned": ("D", "tuned on other shapes")}
+# By protocol: the marker of what is chosen without a search, left of its first evaluation.
+_MARKERS = {"auto": "o", "default": "s", "tuned": "D"}
 
 
 def draw(run: Run) -> Iterator[Drawn]:
@@ -34,10 +35,14 @@ def draw(run: Run) -> Iterator[Drawn]:
         "The cost of choosing: the median L2 error after k evaluations of a search for the best parameter of each case, which "
         f"knows the truth, over {cases} test cases, with 95 % intervals by shape. One evaluation is a blind choice: "
         f"{tuning['budget']['sweep']} positions an octave apart are tried in random order, then "
-        f"{tuning['budget']['refinement']} steps of a golden-section search. Left of it, without any search: chosen from the "
-        "points (auto), the method's default, and one value that was fitted on other shapes (tuned). The further a mark lies "
-        "above the end of the curve, the more the choice costs. Above the panel: most cases fail.",
+        f"{tuning['budget']['refinement']} steps of a golden-section search. Left of it, without any search: "
+        f"{_chosen_words()}. The further a mark lies above the end of the curve, the more the choice costs. Above the panel: "
+        "most cases fail.",
     )
+
+
+def _chosen_words() -> str:
+    return "; ".join(f"{one['name']}, {one['title']}" for one in PROTOCOLS["protocols"] if one["name"] in _MARKERS)
 
 
 def _figure(methods: dict[tuple[str, str], dict[str, Any]]) -> Figure:
@@ -85,7 +90,7 @@ def _panel(axes: Axes, method: dict[str, Any], color: str) -> None:
     ends = [[100 * one["l2_interval"][k] for one in sure] for k in (0, 1)]
     axes.fill_between([one["evaluations"] for one in sure], *ends, color=color, alpha=0.15, linewidth=0)
     for protocol in method["protocols"]:
-        if protocol["protocol"] in _CHOSEN and protocol["l2_median"] is not None:
-            marker, words = _CHOSEN[protocol["protocol"]]
-            y = 100 * protocol["l2_median"]
-            axes.plot([_NO_SEARCH], [y], marker, color="#222222", markerfacecolor="none", markersize=4, label=words)
+        marker = _MARKERS.get(protocol["protocol"])
+        if marker and protocol["l2_median"] is not None:
+            y, look = 100 * protocol["l2_median"], {"color": "#222222", "markerfacecolor": "none", "markersize": 4}
+            axes.plot([_NO_SEARCH], [y], marker, label=protocol["protocol"], **look)

@@ -11,17 +11,13 @@ from matplotlib.figure import Figure
 from matplotlib.ticker import NullLocator
 
 from records import read_json
+from report_common import PROTOCOLS
 from run import Drawn, Run, Skipped
 from style import FULL_WIDTH, in_order, line_options, new_figure, number, panel_letter, series_legend
 
 _LEGEND_COLUMNS = 5
-# By group: what those of it know.
-_GROUPS = {
-    "blind": "know the points only",
-    "tuned": "tuned on other shapes",
-    "informed": "know the true area",
-    "oracle": "know the true shape",
-}
+# By group: what its methods have in common.
+_GROUPS = {one["name"]: f"methods {one['methods']}" for one in PROTOCOLS["groups"]}
 
 
 def draw(run: Run) -> Iterator[Drawn]:
@@ -31,15 +27,15 @@ def draw(run: Run) -> Iterator[Drawn]:
     groups = [group for group in _GROUPS if group in profiles and profiles[group]["cases"]]
     if not groups:
         raise Skipped(f"{path} has no group of two methods with a case")
-    empty = ", ".join(f"{group} ({_GROUPS[group]})" for group in _GROUPS if group in profiles and group not in groups)
+    empty = "; ".join(_GROUPS[group] for group in _GROUPS if group in profiles and group not in groups)
     without = f" Without a case, and so not shown: {empty}." if empty else ""
     figure = _figure(league["taus"], [profiles[group] for group in groups])
-    counts = ", ".join(f"{profiles[group]['cases']} cases ({group})" for group in groups)
+    counts = "; ".join(f"{_GROUPS[group]}, {profiles[group]['cases']} cases" for group in groups)
     caption = (
         "Performance profiles: on which share of the cases a method's L2 error is at most τ times the smallest one among "
         "those that know as much. At τ = 1 the share of cases on which it is the best, further right how seldom it is "
-        f"far behind; a failure counts as infinitely bad. {counts}, all of shapes that no parameter was fitted on. Pale "
-        f"markers: the method's default. Methods with the same polygons lie on one curve.{without}"
+        f"far behind; a failure counts as infinitely bad. {counts[:1].upper()}{counts[1:]}; all of shapes that no parameter was "
+        f"fitted on. Pale markers: the method's default. Methods with the same polygons lie on one curve.{without}"
     )
     yield Drawn("profiles", figure, caption)
 
@@ -55,7 +51,7 @@ def _figure(taus: list[float], profiles: list[dict[str, Any]]) -> Figure:
     for k, profile in enumerate(profiles):
         axes = figure.add_subplot(grid[divmod(k, columns)])
         _panel(axes, taus, profile)
-        panel_letter(axes, "abcd"[k] if len(profiles) > 1 else "", f"{profile['group']}: {_GROUPS[profile['group']]}")
+        panel_letter(axes, "abcd"[k] if len(profiles) > 1 else "", _GROUPS[profile["group"]])
         if k % columns == 0:
             axes.set_ylabel("Share of cases (%)")
         axes.set_xlabel("τ: L2 error over the smallest one of the case")
