@@ -30,8 +30,8 @@ def _reading(summaries: Sequence[Summary]) -> str:
     said = (
         "A ratio of times is the median over the rounds of a case, in which both were measured right after one another; "
         "of the cases the median is told. A case that only the method failed has the ratio ∞; a time is better only where the "
-        "95 % interval of the ratio leaves out 1. The fastest is faster in this sense than every other method; where one of "
-        "them has too few repetitions for an interval, as a slow one has, only the medians are compared."
+        "95 % interval of the ratio leaves out 1, or, with too few repetitions for an interval, where it is ten times as short. The fastest is faster in this sense than every other method; where none is, "
+        "the first ones are not distinguishable."
     )
     alone = [one.title for one in summaries if one.without_interval]
     return said + (f" Without an interval, as each time was taken once: {', '.join(alone)}." if alone else "")

@@ -1,6 +1,7 @@
 // What is faster, slower or undecided.
 #include <gtest/gtest.h>
 
+#include <cstdint>
 #include <vector>
 
 #include "benchmarks/statistics/judge.hpp"
@@ -18,6 +19,17 @@ TEST(Judge, AnIntervalMayEndAtTheLimit) {
   EXPECT_EQ(side_of({0.8, 1}, 1), Side::kBelow);
   EXPECT_EQ(side_of({1, 1.2}, 1), Side::kAbove);
   EXPECT_EQ(side_of({1, 1}, 1), Side::kBelow);
+}
+
+TEST(Judge, WithFewTimesOnlyTenTimesAsLongIsLonger) {
+  const std::vector<std::int64_t> few = {100, 120};
+  EXPECT_EQ(side_of_times(few, std::vector<std::int64_t>{1200}), Side::kBelow);
+  EXPECT_EQ(side_of_times(few, std::vector<std::int64_t>{1199}), Side::kUndecided);
+  EXPECT_EQ(side_of_times(few, std::vector<std::int64_t>{10}), Side::kAbove);
+  EXPECT_EQ(side_of_times(few, std::vector<std::int64_t>{11}), Side::kUndecided);
+  const std::vector<std::int64_t> many = {100, 101, 102, 103};
+  EXPECT_EQ(side_of_times(many, std::vector<std::int64_t>{110, 111, 112, 113}), Side::kBelow);
+  EXPECT_EQ(side_of_times(many, many), Side::kUndecided);
 }
 
 TEST(Judge, ManyQuestionsAskForMoreEvidence) {

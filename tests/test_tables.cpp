@@ -110,6 +110,18 @@ TEST(Headline, IsTheFastestMethodWithTheSamePolygonsAndThenThePapersRival) {
   testing::expect_says(text, "whole spectrum of alphas");
 }
 
+TEST(Headline, WhoIsNotDistinguishableFromTheFastestStandsBesideIt) {
+  json report = invented_report({2000, 64000});
+  add_rival(report, "cgal_alpha_shape", "twin", 2);
+  EXPECT_EQ(headline_of(report).find("not distinguishable"), std::string::npos) << headline_of(report);
+  add_rival(report, "cgal_alpha_shape", "triplet", 2);
+  add_rival(report, "cgal_alpha_shape", "laggard", 1);
+  const std::string text = headline_of(report);
+  EXPECT_LT(text.find("| twin (paper)"), text.find("| triplet (paper)")) << text;
+  testing::expect_says(text, "not distinguishable from the first");
+  EXPECT_EQ(text.find("laggard"), std::string::npos) << text;
+}
+
 TEST(Headline, TheSameMethodStepByStepIsNoRival) {
   json report = invented_report({2000, 64000});
   add_rival(report, "cgal_alpha_shape", "polylidar_steps", 2);

@@ -1,14 +1,11 @@
 #include "benchmarks/report/contests.hpp"
 
 #include <algorithm>
-#include <span>
 #include <tuple>
 
 #include "benchmarks/report/claims.hpp"
 #include "benchmarks/report/measurements.hpp"
 #include "benchmarks/statistics/judge.hpp"
-#include "benchmarks/statistics/rank_test.hpp"
-#include "benchmarks/statistics/statistics.hpp"
 
 namespace hullbench::report {
 namespace {
@@ -16,20 +13,8 @@ namespace {
 using record::RunRecord;
 using Runs = std::vector<const RunRecord*>;
 
-double median_time(const RunRecord& run) {
-  return statistics::median(std::span<const std::int64_t>(run.time_ns));
-}
-
-/// Where the ratio of the times of `run` to those of `beside` lies; none with too few repetitions for an
-/// interval.
-std::optional<statistics::Side> side_of_ratio(const RunRecord& run, const RunRecord& beside) {
-  const auto ratio = statistics::ratio_of_times(beside.time_ns, run.time_ns);
-  if (!ratio || !ratio->interval) return std::nullopt;
-  return statistics::side_of(*ratio->interval, 1);
-}
-
 std::string order_of(const RunRecord& run, const RunRecord& beside) {
-  switch (side_of_ratio(run, beside).value_or(statistics::Side::kUndecided)) {
+  switch (statistics::side_of_times(run.time_ns, beside.time_ns)) {
     case statistics::Side::kBelow:
       return "faster";
     case statistics::Side::kAbove:
@@ -53,14 +38,13 @@ std::string reference_protocol(const std::vector<RunRecord>& runs) {
 }
 
 bool beats_other_methods(const RunRecord& run, const Runs& runs) {
-  bool beats_one = false;
+  bool has_rival = false;
   for (const RunRecord* other : runs) {
     if (teller_of(other->method) == teller_of(run.method)) continue;
-    const auto side = side_of_ratio(run, *other);
-    if (side ? *side != statistics::Side::kBelow : median_time(run) >= median_time(*other)) return false;
-    beats_one = beats_one || side;
+    if (statistics::side_of_times(run.time_ns, other->time_ns) != statistics::Side::kBelow) return false;
+    has_rival = true;
   }
-  return beats_one;
+  return has_rival;
 }
 
 void judge_case(const Runs& runs, const std::string& protocol, std::map<std::string, Contest>& contests) {

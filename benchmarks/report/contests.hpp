@@ -13,12 +13,11 @@ namespace hullbench::report {
 
 /// What the time of a run is beside the others' on the same points.
 struct Contest {
-  /// Beside the reference method's run: "faster", "slower", or "undecided" where the interval of the ratio
-  /// holds 1 or there are too few repetitions for one. None for that run itself, and where it has no result.
+  /// Beside the reference method's run: "faster", "slower" or "undecided" (statistics::side_of_times). None
+  /// for that run itself, and where it has no result.
   std::optional<std::string> order;
-  /// Faster than every run of another method, of which there is one at least. With one that has too few
-  /// repetitions for an interval, as a slow method has, only the medians are compared. Protocols of one
-  /// method do not compete: several of them can be the fastest.
+  /// Faster than every run of another method, of which there is one at least. Protocols of one method do not
+  /// compete: several of them can be the fastest.
   bool is_fastest = false;
 };
 

@@ -9,6 +9,7 @@
 
 #include "benchmarks/report/claims.hpp"
 #include "benchmarks/report/ratios.hpp"
+#include "benchmarks/statistics/judge.hpp"
 
 namespace hullbench::report {
 namespace {
@@ -47,18 +48,35 @@ json finite_or_null(const std::optional<double>& value) {
   return value && std::isfinite(*value) ? json(*value) : json(nullptr);
 }
 
-json rival_to_json(const Line& line, bool same, const Ratios& ratios) {
+struct Rival {
+  Line line;
+  bool same = false;  ///< it gives the reference method's polygons
+  bool is_papers = false;
+  Ratios ratios;  ///< of its times to the reference method's
+};
+
+json rival_to_json(const Rival& rival) {
+  const Ratios& ratios = rival.ratios;
   const auto& interval = ratios.interval;
-  return {{"method", line.method},
-          {"protocol", line.protocol},
-          {"same_polygons", same},
-          {"cases", ratios.cases},
-          {"failures", ratios.failures},
-          {"median", finite_or_null(ratios.median)},
-          {"low", interval ? finite_or_null(interval->low) : json(nullptr)},
-          {"high", interval ? finite_or_null(interval->high) : json(nullptr)},
-          {"least", finite_or_null(ratios.least)},
-          {"most", finite_or_null(ratios.most)}};
+  json result = {{"method", rival.line.method},
+                 {"protocol", rival.line.protocol},
+                 {"same_polygons", rival.same},
+                 {"cases", ratios.cases},
+                 {"failures", ratios.failures},
+                 {"median", finite_or_null(ratios.median)},
+                 {"low", interval ? finite_or_null(interval->low) : json(nullptr)},
+                 {"high", interval ? finite_or_null(interval->high) : json(nullptr)},
+                 {"least", finite_or_null(ratios.least)},
+                 {"most", finite_or_null(ratios.most)}};
+  if (rival.is_papers) result["does_more"] = paper().at("rival").at("does_more");
+  return result;
+}
+
+/// Beyond doubt, over the cases that both have.
+bool is_slower(const Measurements& measurements, const Line& line, const Line& than) {
+  if (line == than) return false;
+  const Ratios ratios = time_ratios(measurements, line, than, measurements.cases());
+  return ratios.interval && statistics::side_of(*ratios.interval, 1) == statistics::Side::kAbove;
 }
 
 }  // namespace
@@ -82,31 +100,30 @@ json make_headline(const Measurements& measurements) {
   const std::vector<Line> lines = lines_with_results(measurements);
   if (!measurements.has_times() || std::find(lines.begin(), lines.end(), reference) == lines.end())
     return nullptr;
-  const std::vector<Case>& cases = measurements.cases();
-  json fastest;
-  json papers;
+  std::vector<Rival> rivals;
   for (const Line& line : lines) {
     if (teller_of(line.method) == teller_of(reference.method)) continue;
-    const bool is_papers =
-        paper().at("rival").at("method") == line.method && line.protocol == reference.protocol;
-    const bool same = same_polygons(measurements, line, reference);
-    if (!same && !is_papers) continue;
-    const Ratios ratios = time_ratios(measurements, line, reference, cases);
-    if (ratios.cases == 0) continue;
-    json rival = rival_to_json(line, same, ratios);
-    if (is_papers) rival["does_more"] = paper().at("rival").at("does_more");
-    if (same && std::isfinite(*ratios.median) &&
-        (fastest.is_null() || *ratios.median < fastest.at("median").get<double>())) {
-      fastest = rival;
-    }
-    if (is_papers) papers = std::move(rival);
+    Rival rival = {line,
+                   same_polygons(measurements, line, reference),
+                   paper().at("rival").at("method") == line.method && line.protocol == reference.protocol,
+                   {}};
+    if (!rival.same && !rival.is_papers) continue;
+    rival.ratios = time_ratios(measurements, line, reference, measurements.cases());
+    if (rival.ratios.cases > 0) rivals.push_back(std::move(rival));
   }
-  json rivals = json::array();
-  if (!fastest.is_null()) rivals.push_back(fastest);
-  if (!papers.is_null() && papers != fastest) rivals.push_back(papers);
-  if (rivals.empty()) return nullptr;
+  const auto candidates = std::stable_partition(rivals.begin(), rivals.end(), [](const Rival& rival) {
+    return rival.same && std::isfinite(*rival.ratios.median);
+  });
+  std::stable_sort(rivals.begin(), candidates,
+                   [](const Rival& a, const Rival& b) { return *a.ratios.median < *b.ratios.median; });
+  json told = json::array();
+  for (auto rival = rivals.begin(); rival != rivals.end(); ++rival) {
+    const bool is_first = rival < candidates && !is_slower(measurements, rival->line, rivals.front().line);
+    if (is_first || rival->is_papers) told.push_back(rival_to_json(*rival));
+  }
+  if (told.empty()) return nullptr;
   return {{"reference", {{"method", reference.method}, {"protocol", reference.protocol}}},
-          {"rivals", std::move(rivals)}};
+          {"rivals", std::move(told)}};
 }
 
 }  // namespace hullbench::report

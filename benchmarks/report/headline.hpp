@@ -21,9 +21,10 @@ bool same_polygons(const Measurements& measurements, const Line& one, const Line
 ///   {"reference": {"method", "protocol"}, "rivals": [...]}
 /// A rival is {"method", "protocol", "same_polygons", "cases", "failures", "median", "low", "high", "least",
 /// "most"} (see Ratios; null: infinite, or no interval), the paper's rival with "does_more", a sentence.
-/// First stands the fastest one that gives the same polygons, if there is one; then the paper's rival, if it
-/// is another one. Who failed in most of its cases cannot be the fastest; who was measured on few cases can.
-/// null: there are no times, the reference has no result, or nobody is beside it.
+/// First stands the one with the least median of those that give the same polygons, if there is one; then
+/// those of them that are not slower than it beyond doubt; then the paper's rival, if it is another one. Who
+/// failed in most of its cases cannot be the fastest; who was measured on few cases can. null: there are no
+/// times, the reference has no result, or nobody is beside it.
 nlohmann::json make_headline(const Measurements& measurements);
 
 }  // namespace hullbench::report

@@ -142,7 +142,7 @@ std::optional<table::Table> ratio_table(const TableContext& context, const std::
   return table;
 }
 
-/// The rivals that are quoted: the fastest one that gives the same polygons, and the paper's.
+/// The rivals that are quoted (headline.hpp).
 std::optional<table::Table> headline_table(const TableContext& context) {
   const json& headline = context.report.at("summary").at("headline");
   if (headline.is_null()) return std::nullopt;
@@ -156,9 +156,11 @@ std::optional<table::Table> headline_table(const TableContext& context) {
                      {table::words("Method"), table::words("Same polygons"), "Cases", "Failed", "Time",
                       "95 %", "least", "most"}};
   bool any_same = false;
+  bool any_tie = false;
   std::string does_more;
   for (const json& rival : headline.at("rivals")) {
     const bool same = rival.at("same_polygons").get<bool>();
+    any_tie = any_tie || (any_same && same && !rival.contains("does_more"));
     any_same = any_same || same;
     does_more = rival.value("does_more", does_more);
     const auto number = [&](const char* name) {
@@ -177,6 +179,10 @@ std::optional<table::Table> headline_table(const TableContext& context) {
       "vertices, and area and L2 equal to within 1e-9 of the larger one. Of all methods with the same "
       "polygons the one with the least median stands here" +
       std::string(any_same ? "." : ", but there is none in this run."));
+  if (any_tie)
+    table.remarks.emplace_back(
+        "The others with the same polygons are not distinguishable from the first: no 95 % interval of the "
+        "ratio of their times to its times lies above 1.");
   if (!does_more.empty()) table.remarks.push_back(does_more);
   return table;
 }

@@ -1,7 +1,9 @@
 #include "benchmarks/statistics/judge.hpp"
 
+#include <algorithm>
 #include <cstddef>
 
+#include "benchmarks/statistics/rank_test.hpp"
 #include "benchmarks/statistics/statistics.hpp"
 
 namespace hullbench::statistics {
@@ -9,6 +11,19 @@ namespace hullbench::statistics {
 Side side_of(const Interval& interval, double limit) {
   if (interval.high <= limit) return Side::kBelow;
   return interval.low >= limit ? Side::kAbove : Side::kUndecided;
+}
+
+Side side_of_times(std::span<const std::int64_t> times, std::span<const std::int64_t> others) {
+  const auto ratio = ratio_of_times(others, times);
+  if (!ratio) return Side::kUndecided;
+  if (ratio->interval) return side_of(*ratio->interval, 1);
+  const auto [least, most] = std::minmax_element(times.begin(), times.end());
+  const auto [others_least, others_most] = std::minmax_element(others.begin(), others.end());
+  const auto factor = [](std::int64_t longer, std::int64_t shorter) {
+    return static_cast<double>(longer) / static_cast<double>(shorter);
+  };
+  if (factor(*others_least, *most) >= kBeyondNoise) return Side::kBelow;
+  return factor(*least, *others_most) >= kBeyondNoise ? Side::kAbove : Side::kUndecided;
 }
 
 std::vector<Judgement> judge(std::span<const Evidence> evidence, double limit, double level) {
