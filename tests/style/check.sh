@@ -7,7 +7,7 @@
 #   check.sh tidy [JOBS]          clang-tidy has nothing to say; needs build-clang/compile_commands.json
 #   check.sh paths                no file names a path of one machine
 #   check.sh layout               the top level is what the design allows; its folders have a README
-#   check.sh rooms                a room of benchmarks/ includes only rooms before it, and core/ none
+#   check.sh rooms                a room of benchmarks/ includes only rooms that it links and that are before it, and core/ none
 #   check.sh printing             no library prints
 #   check.sh version              every file that states the version states that of CMakeLists.txt
 #   check.sh help                 "make help" and benchmarks/README.md name every target
@@ -111,13 +111,25 @@ check_layout() {
   return $status
 }
 
-# The order is that of benchmarks/CMakeLists.txt.
+# The order is that of benchmarks/CMakeLists.txt; what a room links, that of its own or a line there.
 check_rooms() {
-  local room used before=" " status=0
+  local room file library used linked before=" " status=0
   for room in $(sed -n 's/^add_subdirectory(\([a-z]*\)).*/\1/p' benchmarks/CMakeLists.txt); do
     before+="$room "
+    linked=" $room "
+    file=benchmarks/$room/CMakeLists.txt
+    for library in $({ sed 's/#.*//' "$file"; grep "^target_link_libraries(hullbench_$room " benchmarks/CMakeLists.txt; } | grep -oE 'hullbench::[a-z_]+' | sort -u); do
+      linked+="$(room_of "${library#hullbench::}") "
+    done
     for used in $(grep -rhoE '#include "benchmarks/[a-z]+/' "benchmarks/$room" | sed 's|.*benchmarks/\(.*\)/|\1|' | sort -u); do
       [[ $before == *" $used "* ]] || { echo "error: benchmarks/$room includes benchmarks/$used, a later room." >&2; status=1; }
+      [[ $linked == *" $used "* ]] ||
+        { echo "error: benchmarks/$room includes benchmarks/$used, which $file does not link." >&2; status=1; }
+      case "$room/$used" in plan/plan | statistics/statistics | */base) ;; plan/* | statistics/*)
+        echo "error: benchmarks/$room may include no room but base, and includes benchmarks/$used." >&2
+        status=1
+        ;;
+      esac
     done
   done
   [ "$before" != " " ] || { echo "error: benchmarks/CMakeLists.txt adds no room." >&2; return 1; }
@@ -127,6 +139,9 @@ check_rooms() {
   fi
   return $status
 }
+
+# The room whose CMakeLists.txt makes the library; empty where none does.
+room_of() { grep -lE "^hullbench_room\($1\b|ALIAS hullbench_$1\)" benchmarks/*/CMakeLists.txt | cut -d / -f 2 || true; }
 
 # A library gets a stream or a callback from who calls it. Programs print: the command line and what has a main().
 check_printing() {
