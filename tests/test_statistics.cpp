@@ -157,25 +157,6 @@ TEST(Statistics, NothingHasNoStatistic) {
   EXPECT_THROW(statistics::describe(none), std::invalid_argument);
 }
 
-TEST(ClusteredMean, ByHand) {
-  EXPECT_FALSE(statistics::clustered_mean_interval({}));
-  EXPECT_FALSE(statistics::clustered_mean_interval({{1, 2, 3}, {}})) << "one cluster says nothing of others";
-  // Of single values it is the usual interval: deviation 1, three values.
-  const auto single = statistics::clustered_mean_interval({{1}, {2}, {3}});
-  ASSERT_TRUE(single);
-  EXPECT_NEAR(single->low, 2 - 1.959964 / std::sqrt(3.0), 1e-6);
-  EXPECT_NEAR(single->high, 2 + 1.959964 / std::sqrt(3.0), 1e-6);
-  // Repeating every value in its cluster adds nothing.
-  const auto repeated = statistics::clustered_mean_interval({{1, 1}, {2, 2}, {}, {3, 3}});
-  ASSERT_TRUE(repeated);
-  EXPECT_NEAR(repeated->low, single->low, 1e-12);
-  EXPECT_NEAR(repeated->high, single->high, 1e-12);
-  // Mean 2, sums 1 - 2 and 7 - 6 beside their sizes' share: 1.96 sqrt(2 / 1 * 2) / 4.
-  const auto unequal = statistics::clustered_mean_interval({{1}, {2, 2, 3}});
-  ASSERT_TRUE(unequal);
-  EXPECT_NEAR(unequal->high - unequal->low, 2 * 1.959964 * 2 / 4, 1e-6);
-}
-
 TEST(Holm, ByHand) {
   const std::vector<double> p = {0.01, 0.04, 0.03, 0.005};
   // 4 * 0.005, 3 * 0.01, 2 * 0.03, and 0.04 is held up to the one before.

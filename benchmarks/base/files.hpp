@@ -1,13 +1,17 @@
-// Files and folders that are written.
+// Files and folders that are read and written.
 #pragma once
 
 #include <filesystem>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
 
 #include "benchmarks/base/configuration_error.hpp"
 
 namespace hullbench {
+
+/// The bytes of a file; none of a folder and where there is nothing to be read.
+std::optional<std::string> read_text_file(const std::filesystem::path& path);
 
 /// Writes a file whole or not at all: a temporary file beside it is renamed. Throws std::runtime_error naming
 /// the file when it cannot be written.

@@ -3,10 +3,11 @@
 #include <fstream>
 #include <iomanip>
 #include <iostream>
-#include <iterator>
+#include <optional>
 #include <system_error>
 
 #include "benchmarks/base/configuration_error.hpp"
+#include "benchmarks/base/files.hpp"
 #include "benchmarks/base/scratch_folder.hpp"
 #include "benchmarks/cli/options.hpp"
 #include "benchmarks/run/contract.hpp"
@@ -35,10 +36,9 @@ struct TestAdapterCommand {
 };
 
 std::string read_text(const fs::path& file) {
-  std::ifstream in(file, std::ios::binary);
-  std::string text(std::istreambuf_iterator<char>(in), {});
-  if (!in.is_open() || text.empty()) throw std::runtime_error("cannot read " + file.string());
-  return text;
+  const std::optional<std::string> text = read_text_file(file);
+  if (!text || text->empty()) throw std::runtime_error("cannot read " + file.string());
+  return *text;
 }
 
 std::string replace_all(std::string text, const std::string& what, const std::string& with) {

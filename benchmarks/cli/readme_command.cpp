@@ -1,7 +1,6 @@
 // `hullbench readme`
-#include <fstream>
 #include <iostream>
-#include <iterator>
+#include <optional>
 
 #include "benchmarks/base/configuration_error.hpp"
 #include "benchmarks/base/files.hpp"
@@ -33,10 +32,9 @@ std::string results_of(const std::string& run) {
 
 ExitCode readme(const ReadmeCommand& command) {
   const auto& [run, file, check] = command;
-  std::ifstream in(file, std::ios::binary);
-  if (!in.is_open() || fs::is_directory(file)) throw ConfigurationError("there is no file " + file);
-  const std::string before(std::istreambuf_iterator<char>(in), {});
-  const std::string after = report::with_results(before, results_of(run));
+  const std::optional<std::string> before = read_text_file(file);
+  if (!before) throw ConfigurationError("there is no file " + file);
+  const std::string after = report::with_results(*before, results_of(run));
   if (before == after) {
     std::cout << file << " agrees with " << run << "\n";
     return kExitOk;

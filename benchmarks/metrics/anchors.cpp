@@ -27,10 +27,6 @@ std::vector<bool> triangles_within(const Triangulation& mesh, std::span<const Po
   return within;
 }
 
-MultiPolygon best_of(const Triangulation& mesh, std::span<const Point> points, const MultiPolygon& truth) {
-  return triangle_outline(mesh, points, triangles_within(mesh, points, truth));
-}
-
 /// Of a valid `shape`.
 double l2_of(const GeosSession& geos, const MultiPolygon& shape, const PreparedTruth& truth,
              const GeosSession::Geometry& truth_geometry) {
@@ -40,18 +36,15 @@ double l2_of(const GeosSession& geos, const MultiPolygon& shape, const PreparedT
 
 }  // namespace
 
-MultiPolygon best_triangles(std::span<const Point> points, const MultiPolygon& truth) {
-  return best_of(polylidar::delaunay(points), points, truth);
-}
-
 Anchors find_anchors(std::span<const Point> points, const MultiPolygon& truth,
                      const PreparedTruth& prepared) {
   const Triangulation mesh = polylidar::delaunay(points);
   const std::vector<bool> all(mesh.triangles.size() / 3, true);
+  const std::vector<bool> within = triangles_within(mesh, points, truth);
   const GeosSession geos;
   const GeosSession::Geometry geometry = prepared.geometry(geos);
   return {l2_of(geos, triangle_outline(mesh, points, all), prepared, geometry),
-          l2_of(geos, best_of(mesh, points, truth), prepared, geometry)};
+          l2_of(geos, triangle_outline(mesh, points, within), prepared, geometry)};
 }
 
 std::optional<double> skill(const std::optional<double>& l2, const Anchors& anchors, std::size_t points) {

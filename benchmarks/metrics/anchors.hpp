@@ -15,14 +15,10 @@ namespace hullbench::metrics {
 /// empty and both are 1.
 struct Anchors {
   double l2_convex_hull = 1;  ///< of the points' convex hull: skill 0
-  double l2_best_triangles =
-      1;  ///< of the Delaunay triangles whose centroid lies in the ground truth: skill 1
+  /// Of the union of the Delaunay triangles whose centroid lies in the ground truth or on its boundary:
+  /// skill 1.
+  double l2_best_triangles = 1;
 };
-
-/// The shape of the upper anchor: the union of the Delaunay triangles of `points` whose centroid lies in
-/// `truth`, its boundary included.
-polylidar::MultiPolygon best_triangles(std::span<const polylidar::Point> points,
-                                       const polylidar::MultiPolygon& truth);
 
 /// `prepared` is `truth`. Throws as polylidar::delaunay, and std::runtime_error when GEOS fails.
 Anchors find_anchors(std::span<const polylidar::Point> points, const polylidar::MultiPolygon& truth,

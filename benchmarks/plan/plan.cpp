@@ -3,13 +3,13 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <fstream>
-#include <iterator>
 #include <limits>
+#include <optional>
 #include <set>
 #include <string_view>
 
 #include "benchmarks/base/configuration_error.hpp"
+#include "benchmarks/base/files.hpp"
 #include "benchmarks/base/words.hpp"
 #include "benchmarks/plan/field.hpp"
 #include "benchmarks/plan/plan_schema.hpp"
@@ -260,15 +260,14 @@ Plan load_plan(const std::string& name_or_path, const std::filesystem::path& fol
   const bool is_path = name_or_path.find('/') != std::string::npos || name_or_path.ends_with(".json");
   const std::filesystem::path path =
       is_path ? std::filesystem::path(name_or_path) : folder / (name_or_path + ".json");
-  std::ifstream in(path, std::ios::binary);
-  if (!in.is_open() || std::filesystem::is_directory(path)) {
+  const std::optional<std::string> text = read_text_file(path);
+  if (!text) {
     const std::vector<std::string> names = plan_names(folder);
     throw ConfigurationError("there is no plan '" + name_or_path + "'; " +
                              (names.empty() ? "give the path of a plan's JSON file"
                                             : "known are " + join_words(names) + ", or give a file's path"));
   }
-  const std::string text(std::istreambuf_iterator<char>(in), {});
-  return parse_plan(text, is_path ? name_or_path : "plan '" + name_or_path + "'");
+  return parse_plan(*text, is_path ? name_or_path : "plan '" + name_or_path + "'");
 }
 
 std::vector<PlanMethod> parse_plan_methods(const json& entries, const std::string& method,

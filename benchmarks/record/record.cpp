@@ -16,27 +16,6 @@ constexpr std::array kStatusNames = {"ok",    "timeout",        "memory",      "
                                      "error", "invalid_output", "unsupported", "not_installed"};
 static_assert(kStatusNames.size() == kAllStatuses.size());
 
-json parameters_to_json(const std::map<std::string, double>& parameters) {
-  json result = json::object();
-  for (const auto& [name, value] : parameters) {
-    if (std::isnan(value) || value == -std::numeric_limits<double>::infinity()) {
-      throw std::invalid_argument("Parameter \"" + name +
-                                  "\" is NaN or negative infinity, which no record can hold.");
-    }
-    result[name] = std::isfinite(value) ? json(value) : json(nullptr);
-  }
-  return result;
-}
-
-std::map<std::string, double> parameters_from_json(const json& parameters) {
-  if (!parameters.is_object()) throw std::invalid_argument("\"parameters\" of a record must be an object.");
-  std::map<std::string, double> result;
-  for (const auto& [name, value] : parameters.items()) {
-    result[name] = value.is_null() ? std::numeric_limits<double>::infinity() : value.get<double>();
-  }
-  return result;
-}
-
 /// Calls `visit(key, member)` for the members that every record has and that are in JSON as they are here.
 template <typename Record, typename Visit>
 void for_each_required(Record& record, const Visit& visit) {
@@ -77,6 +56,27 @@ json without_non_finite(const json& value) {
 }
 
 }  // namespace
+
+json parameters_to_json(const std::map<std::string, double>& parameters) {
+  json result = json::object();
+  for (const auto& [name, value] : parameters) {
+    if (std::isnan(value) || value == -std::numeric_limits<double>::infinity()) {
+      throw std::invalid_argument("Parameter \"" + name +
+                                  "\" is NaN or negative infinity, which no record can hold.");
+    }
+    result[name] = std::isfinite(value) ? json(value) : json(nullptr);
+  }
+  return result;
+}
+
+std::map<std::string, double> parameters_from_json(const json& parameters) {
+  if (!parameters.is_object()) throw std::invalid_argument("\"parameters\" of a record must be an object.");
+  std::map<std::string, double> result;
+  for (const auto& [name, value] : parameters.items()) {
+    result[name] = value.is_null() ? std::numeric_limits<double>::infinity() : value.get<double>();
+  }
+  return result;
+}
 
 std::string to_string(Status status) {
   return kStatusNames.at(static_cast<std::size_t>(status));

@@ -98,9 +98,14 @@ inline constexpr const char* kFasterThanFloor = "faster_than_floor";
 /// to look at each point several times. A time below it is of something else than the method's work.
 inline constexpr double kFloorNsPerPoint = 1;
 
-/// JSON has no infinity: a parameter that is +infinity ("no limit") is written as null and read back as
-/// +infinity. A NaN or -infinity among the parameters throws std::invalid_argument, because no method takes
-/// it; a number in `metrics` that is not finite becomes null.
+/// {name: value}. JSON has no infinity: a parameter that is +infinity ("no limit") is written as null and
+/// read back as +infinity. A NaN or -infinity throws std::invalid_argument, because no method takes it.
+nlohmann::json parameters_to_json(const std::map<std::string, double>& parameters);
+/// Throws nlohmann::json::exception or std::invalid_argument when it is no object of numbers and nulls.
+std::map<std::string, double> parameters_from_json(const nlohmann::json& parameters);
+
+/// A number in `metrics` that is not finite becomes null; the parameters are as parameters_to_json writes
+/// them.
 void to_json(nlohmann::json& result, const RunRecord& record);
 /// Throws nlohmann::json::exception or std::invalid_argument when a field is missing or of the wrong type.
 void from_json(const nlohmann::json& source, RunRecord& record);

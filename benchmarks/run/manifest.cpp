@@ -1,11 +1,11 @@
 #include "benchmarks/run/manifest.hpp"
 
 #include <algorithm>
-#include <fstream>
+#include <optional>
 #include <set>
-#include <sstream>
 
 #include "benchmarks/base/configuration_error.hpp"
+#include "benchmarks/base/files.hpp"
 #include "benchmarks/record/validate.hpp"
 #include "benchmarks/worker/protocol.hpp"
 #include "datasets/sha256.hpp"
@@ -15,14 +15,6 @@ namespace {
 
 namespace fs = std::filesystem;
 using nlohmann::json;
-
-std::string read_text(const fs::path& file) {
-  std::ifstream in(file, std::ios::binary);
-  std::ostringstream content;
-  if (in) content << in.rdbuf();
-  if (!in || fs::is_directory(file)) throw ConfigurationError("cannot read the manifest " + file.string());
-  return content.str();
-}
 
 bool is_beside(const std::string& word) {
   return word.starts_with("./") || word.starts_with("../");
@@ -101,8 +93,9 @@ std::string hash_of(const std::string& text, const json& command, const fs::path
 
 Manifest load_manifest(const fs::path& file) {
   const std::string source = "the manifest " + file.string();
-  const std::string text = read_text(file);
-  const json document = json::parse(text, nullptr, false);
+  const std::optional<std::string> text = read_text_file(file);
+  if (!text) throw ConfigurationError("cannot read the manifest " + file.string());
+  const json document = json::parse(*text, nullptr, false);
   if (document.is_discarded()) throw ConfigurationError(source + " is not JSON; mend or remove it");
   if (const auto faults = record::validate_manifest(document); !faults.empty()) {
     throw ConfigurationError(source + " has a fault; mend or remove it: " + faults.front());
@@ -110,7 +103,7 @@ Manifest load_manifest(const fs::path& file) {
   const fs::path folder = fs::absolute(file).parent_path();
   Manifest manifest;
   manifest.file = file;
-  manifest.sha256 = hash_of(text, document["command"], folder);
+  manifest.sha256 = hash_of(*text, document["command"], folder);
   manifest.method.info = info_of(document);
   check_parameters(*manifest.method.info, source);
   manifest.method.name = manifest.method.info->name;

@@ -3,13 +3,13 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <fstream>
 #include <iterator>
 #include <map>
 #include <sstream>
 #include <stdexcept>
 
 #include "benchmarks/base/configuration_error.hpp"
+#include "benchmarks/base/files.hpp"
 #include "benchmarks/base/interrupt.hpp"
 #include "benchmarks/record/record.hpp"
 #include "benchmarks/record/stored_run.hpp"
@@ -47,10 +47,9 @@ json parse(const std::string& text, const std::string& name) {
 }
 
 std::string read(const fs::path& file) {
-  std::ifstream in(file, std::ios::binary);
-  std::string text(std::istreambuf_iterator<char>(in), {});
-  if (!in.is_open()) throw std::runtime_error("cannot read " + file.filename().string());
-  return text;
+  const std::optional<std::string> text = read_text_file(file);
+  if (!text) throw std::runtime_error("cannot read " + file.filename().string());
+  return *text;
 }
 
 /// What is wrong with the kinds and sizes of what is in the folder: nothing in it leads out of it.

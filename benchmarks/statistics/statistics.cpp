@@ -89,27 +89,6 @@ std::optional<double> standard_deviation(std::span<const double> values) {
   return standard_deviation_of(values);
 }
 
-std::optional<Interval> clustered_mean_interval(const std::vector<std::vector<double>>& clusters) {
-  std::vector<std::pair<double, double>> sums_and_sizes;
-  double total = 0;
-  double count = 0;
-  for (const std::vector<double>& cluster : clusters) {
-    if (cluster.empty()) continue;
-    sums_and_sizes.emplace_back(std::accumulate(cluster.begin(), cluster.end(), 0.0),
-                                static_cast<double>(cluster.size()));
-    total += sums_and_sizes.back().first;
-    count += sums_and_sizes.back().second;
-  }
-  if (sums_and_sizes.size() < 2) return std::nullopt;
-  const double average = total / count;
-  double squares = 0;
-  for (const auto& [sum, size] : sums_and_sizes) squares += (sum - average * size) * (sum - average * size);
-  const auto k = static_cast<double>(sums_and_sizes.size());
-  constexpr double kQuantile = 1.959963984540054;  // of the normal distribution at 97.5 %
-  const double half = kQuantile * std::sqrt(k / (k - 1) * squares) / count;
-  return Interval{average - half, average + half};
-}
-
 Statistics describe(std::span<const std::int64_t> values) {
   Statistics result;
   result.median = median(values);

@@ -44,11 +44,6 @@ double mean(std::span<const double> values);
 std::optional<double> standard_deviation(std::span<const std::int64_t> values);
 std::optional<double> standard_deviation(std::span<const double> values);
 
-/// Of the mean of all values together, when those of one cluster (a shape) belong together: normal, from the
-/// variance of the clusters' sums about their sizes' share (Cochran, Sampling Techniques, 1977, chapter 9A).
-/// Clusters without values do not count; none of fewer than two clusters. For some ten clusters or more.
-std::optional<Interval> clustered_mean_interval(const std::vector<std::vector<double>>& clusters);
-
 /// All of the first ones.
 Statistics describe(std::span<const std::int64_t> values);
 

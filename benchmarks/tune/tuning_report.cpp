@@ -141,7 +141,7 @@ json oracle_to_json(const Tuning& tuning, const MethodTuning& method) {
     choices.push_back({{"case", tuning.cases[i].plan_case.name()},
                        {"seed", tuning.cases[i].seed},
                        {"position", position_of(method.cases[i], *best)},
-                       {"parameters", worker::parameters_to_json(best->parameters)},
+                       {"parameters", record::parameters_to_json(best->parameters)},
                        {"status", to_string(best->status)},
                        {"l2", best->metrics.value("l2", json())},
                        {"tolerance_octaves", optional_to_json(tolerance_octaves(method.cases[i]))}});
@@ -158,7 +158,7 @@ json method_to_json(const Tuning& tuning, const MethodTuning& method) {
       {"detail", method.detail},
       {"remedy", method.remedy},
       {"axis", axis_to_json(method.axis)},
-      {"fixed", method.info ? worker::parameters_to_json(fixed_parameters(*method.info)) : json::object()},
+      {"fixed", method.info ? record::parameters_to_json(fixed_parameters(*method.info)) : json::object()},
       {"tuned", nullptr},
       {"rounds", json::array()},
       {"tolerance_octaves", nullptr},

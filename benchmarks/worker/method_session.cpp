@@ -5,6 +5,7 @@
 #include <system_error>
 #include <utility>
 
+#include "benchmarks/record/record.hpp"
 #include "benchmarks/worker/protocol.hpp"
 
 namespace hullbench::worker {
@@ -177,7 +178,7 @@ Attempt MethodSession::run(const LoadedPoints& points, const Parameters& paramet
       watch == Watch::kMemory && !info_->capabilities.in_server && worker_->reset_peak_memory();
   const Reply reply = worker_->request({{"request", "run"},
                                         {"nonce", nonce},
-                                        {"parameters", parameters_to_json(parameters)},
+                                        {"parameters", record::parameters_to_json(parameters)},
                                         {"result", result.string()}},
                                        timeout);
   Attempt attempt = reply.status == record::Status::kOk ? read_result(reply, nonce, result)

@@ -86,19 +86,6 @@ MethodInfo method_from_json(const json& source) {
   return info;
 }
 
-json parameters_to_json(const Parameters& parameters) {
-  json result = json::object();
-  for (const auto& [name, value] : parameters) result[name] = number_to_json(value);
-  return result;
-}
-
-Parameters parameters_from_json(const json& source) {
-  if (!source.is_object()) throw std::invalid_argument("parameters must be an object");
-  Parameters result;
-  for (const auto& [name, value] : source.items()) result[name] = number_from_json(value);
-  return result;
-}
-
 void write_points_file(const std::filesystem::path& path, std::span<const Point> points) {
   std::vector<std::uint8_t> bytes(points.size_bytes());
   if (!bytes.empty()) std::memcpy(bytes.data(), points.data(), bytes.size());

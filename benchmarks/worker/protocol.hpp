@@ -26,11 +26,6 @@ nlohmann::json method_to_json(const MethodInfo& info);
 /// Throws nlohmann::json::exception or std::invalid_argument when a member is missing or of the wrong type.
 MethodInfo method_from_json(const nlohmann::json& source);
 
-/// {name: value}; infinity is null.
-nlohmann::json parameters_to_json(const Parameters& parameters);
-/// Throws std::invalid_argument when a value is neither a number nor null.
-Parameters parameters_from_json(const nlohmann::json& source);
-
 /// Writes `points` as `load` wants them. Throws std::runtime_error naming the file when it cannot be written.
 void write_points_file(const std::filesystem::path& path, std::span<const Point> points);
 /// Throws std::runtime_error naming the file when it cannot be read or does not hold exactly `n` points.

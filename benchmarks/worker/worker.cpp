@@ -15,6 +15,7 @@
 #include <utility>
 
 #include "adapters/wkb.hpp"
+#include "benchmarks/record/record.hpp"
 #include "benchmarks/worker/protocol.hpp"
 
 namespace hullbench::worker {
@@ -141,7 +142,7 @@ json load(Adapter& adapter, const json& request) {
 }
 
 json run(Adapter& adapter, const json& request) {
-  const Parameters parameters = parameters_from_json(request.at("parameters"));
+  const Parameters parameters = record::parameters_from_json(request.at("parameters"));
   StepClock run_clock;
   StepClock extract_clock;
 
