@@ -183,8 +183,8 @@ def _document(
         "points_limit": limit,
         "rule": RULE,
         "results_left_out": left_out,
-        "without_picture": dict(Counter(name for name, _ in measured - shown)),
-        "dropped": dict(Counter(name for name, _ in packable - shown)),
+        "without_picture": dict(Counter(name for name, _ in sorted(measured - shown))),
+        "dropped": dict(Counter(name for name, _ in sorted(packable - shown))),
         "cases": kept,
     }
 

@@ -204,6 +204,12 @@ class Pictures(WithFolder):
         self.assertEqual([[[[v // STEP for v in SQUARE]]]], block_of(packed["cases"][0])[3])
         self.assertEqual({}, packed["without_picture"])
 
+    def test_what_has_no_picture_is_counted_in_the_same_order_every_time(self) -> None:
+        names = ["states", "alphabet", "steps", "random", "rgbd"]
+        for name in names:
+            self.write(name, [row(f"{name}/n:2000/holes:0")], [])
+        self.assertEqual(list(self.packed()["without_picture"]), sorted(names))
+
     def test_no_pictures_at_all_and_malformed_ones(self) -> None:
         self.write("states", [row("ca/n:2000/holes:0")], [])
         self.assertEqual(([], {"states": 1}), (self.packed()["cases"], self.packed()["without_picture"]))
