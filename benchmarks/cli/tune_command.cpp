@@ -1,7 +1,6 @@
 // `hullbench tune`: searches every method's parameter and says what each way of choosing it costs.
 #include <algorithm>
 #include <iostream>
-#include <iterator>
 #include <regex>
 #include <set>
 #include <sstream>

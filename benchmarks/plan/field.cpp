@@ -1,6 +1,5 @@
 #include "benchmarks/plan/field.hpp"
 
-#include <algorithm>
 #include <cstddef>
 #include <map>
 #include <set>

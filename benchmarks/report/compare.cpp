@@ -1,6 +1,5 @@
 #include "benchmarks/report/compare.hpp"
 
-#include <algorithm>
 #include <map>
 #include <span>
 #include <utility>

@@ -1,6 +1,5 @@
 #include "benchmarks/report/zoo_table.hpp"
 
-#include <algorithm>
 #include <utility>
 #include <vector>
 

@@ -1,6 +1,5 @@
 #include "benchmarks/tune/tuning_report.hpp"
 
-#include <algorithm>
 #include <limits>
 #include <optional>
 #include <set>
