@@ -21,7 +21,7 @@ struct AutomaticConstants {
   double pull = 10.9;        ///< the cost of a limit away from it, times n^(-1/5)
   double even_sizes = 0.52;  ///< most scatter of the sizes in a block without clusters
   double even_edges = 0.62;  ///< most scatter of the shortest edges of its triangles
-  double doubt = 120;        ///< how strongly more scatter weakens the pull on larger limits
+  double doubt = 100;        ///< how strongly more scatter weakens the pull on larger limits
   double still = 0.018;      ///< a growth of the area that counts as none
   std::size_t below = 3;     ///< the growth is measured over this many cells of the grid below a limit
   std::size_t above = 6;     ///< and this many above it

@@ -102,16 +102,15 @@ double share_outside_largest_piece(const SizedMesh& sized, const UsualLimit& usu
 double excess_scatter(const SizedMesh& sized, const MeshBlocks& blocks, const UsualLimit& usual,
                       const AutomaticConstants& constants) {
   constexpr std::size_t kFewestBlocks = 16;
+  constexpr std::size_t kEnoughBlocks = 96;
   constexpr Mesh::Index kRecords = 128;  // of a block
-  constexpr double kEnoughBlocks = 32;
-  constexpr double kLeastWeight = 1.0 / 3;
-  const double share = static_cast<double>(blocks.count()) / kEnoughBlocks;
-  const double weight = std::clamp(share * share, kLeastWeight, 1.0);
+  constexpr double kSurely = 0.4;        // of the excess, where pieces must confirm it
+  const auto share_in_pieces = [&](double most) {
+    return std::min(1.0, share_outside_largest_piece(sized, usual) / most);
+  };
   if (blocks.count() < kFewestBlocks) {
     const double excess = excess_scatter_of_edges(sized, constants);
-    if (excess == 0) return 0;
-    constexpr double kSurelyPieces = 0.25;
-    return weight * excess * std::min(1.0, share_outside_largest_piece(sized, usual) / kSurelyPieces);
+    return excess == 0 ? 0 : kSurely * excess * share_in_pieces(0.25);
   }
   const auto scatter = [&](const auto& length4_of) {
     return scatter_in_blocks(blocks.count(), [&](std::size_t block, const auto& visit) {
@@ -127,7 +126,9 @@ double excess_scatter(const SizedMesh& sized, const MeshBlocks& blocks, const Us
     const double squared = sized.triangle(t).squared_shortest_edge();
     return squared * squared;
   });
-  return weight * std::clamp(of_edges - constants.even_edges, 0.0, of_sizes);
+  const double excess = std::clamp(of_edges - constants.even_edges, 0.0, of_sizes);
+  if (excess == 0 || blocks.count() >= kEnoughBlocks) return excess;
+  return excess * (kSurely + (1 - kSurely) * share_in_pieces(0.5));
 }
 
 double excess_scatter(const WindowSample& windows, const AutomaticConstants& constants) {
