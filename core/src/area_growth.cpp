@@ -24,8 +24,9 @@ constexpr std::uint64_t kFirstCell = std::bit_cast<std::uint64_t>(0.125) >> (kFr
 /// The cell of a fourth power; those below the grid count to its first cell, and beyond it is `cells`, their
 /// number.
 std::size_t cell_of(double size4, std::size_t cells) {
-  const std::uint64_t place = std::bit_cast<std::uint64_t>(size4) >> (kFractionBits - 2);
-  return place < kFirstCell ? 0 : std::min<std::size_t>(cells, place - kFirstCell);
+  const auto place = static_cast<std::int64_t>(std::bit_cast<std::uint64_t>(size4) >> (kFractionBits - 2));
+  return static_cast<std::size_t>(std::clamp(place - static_cast<std::int64_t>(kFirstCell), std::int64_t{0},
+                                             static_cast<std::int64_t>(cells)));
 }
 
 /// The fourth power of the size at which cell `c` begins.
@@ -42,18 +43,17 @@ constexpr double kInCell = 1.1;
 void AreaGrowth::sample(const SizedMesh& sized, std::span<const std::uint32_t> block_of_vertex,
                         const std::vector<double>& usual4_of_block) {
   const Mesh& mesh = sized.mesh;
-  std::vector<double>& unit2 = scratch_;  // block -> the square of its usual size
-  unit2.resize(usual4_of_block.size());
-  std::transform(usual4_of_block.begin(), usual4_of_block.end(), unit2.begin(),
-                 [](double unit4) { return std::sqrt(unit4); });
+  per_square_.resize(usual4_of_block.size());
+  std::transform(usual4_of_block.begin(), usual4_of_block.end(), per_square_.begin(),
+                 [](double usual4) { return 1 / std::sqrt(usual4); });
   for (std::size_t step = (mesh.triangle_count() / kSampled) | 1U;; step = 1) {
     samples_.clear();
     for (std::size_t i = 0; i < mesh.triangle_count(); i += step) {
       const auto t = static_cast<Mesh::Index>(i);
       if (mesh.is_ghost(t)) continue;
-      const std::uint32_t block = block_of_vertex[t / 2];
+      const double per_square = per_square_[block_of_vertex[t / 2]];
       samples_.push_back(
-          {sized.size4_of(t) / usual4_of_block[block], sized.triangle(t).twice_area() / unit2[block]});
+          {sized.size4_of(t) * (per_square * per_square), sized.triangle(t).twice_area() * per_square});
     }
     if (step == 1 || samples_.size() >= kSampled / 4) break;
   }
@@ -68,7 +68,8 @@ void AreaGrowth::sum_up() {
   }
   unit4_ = quantile_of(scratch_, 0.5) / kInCell;
   area_.fill(0);
-  for (const Sampled& one : samples_) area_[cell_of(one.size4 / unit4_, kCells)] += one.area;
+  const double per_unit4 = 1 / unit4_;
+  for (const Sampled& one : samples_) area_[cell_of(one.size4 * per_unit4, kCells)] += one.area;
 }
 
 void AreaGrowth::add_wide(const Mesh& mesh, const Point* vertices, const std::uint8_t* is_tested,

@@ -73,6 +73,7 @@ class AreaGrowth {
   double sampled_ = 0;                     ///< how many triangles those that were added stand for
   double unit4_ = 0;                       ///< fourth power of the grid's unit
   std::array<double, kCells + 1> area_{};  ///< cell of the grid -> area of the triangles of its sizes
+  std::vector<double> per_square_;         ///< block -> 1 / the square of its usual size
   std::vector<double> scratch_;
 };
 

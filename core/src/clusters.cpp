@@ -1,9 +1,9 @@
 #include "clusters.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstddef>
+#include <optional>
 #include <vector>
 
 #include "outline_steps.hpp"
@@ -34,7 +34,8 @@ double scatter_in_blocks(std::size_t blocks, const ForEach& for_each_length4) {
     const Ranking ranking(lengths4);
     const std::size_t small_place = 2 * count / 5;
     const std::size_t large_place = 4 * count / 5;
-    const auto [small, large] = ranking.at(std::array{small_place, large_place});
+    const std::optional<double> small = ranking.at(small_place);
+    const std::optional<double> large = ranking.at(large_place);
     const double small4 = small ? *small : value_at(lengths4, small_place);
     const double large4 = large ? *large : value_at(lengths4, large_place);
     scatters.push_back(small4 > 0 ? std::log(large4 / small4) / 4 : 0);

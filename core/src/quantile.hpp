@@ -10,92 +10,74 @@
 #include <limits>
 #include <optional>
 #include <span>
+#include <utility>
 #include <vector>
 
 namespace polylidar::detail {
 
-/// Maps a number to a whole number, keeping the order. It must not be NaN.
-inline std::uint64_t order_of(double value) {
-  constexpr std::uint64_t kSign = std::uint64_t{1} << 63U;
-  const auto bits = std::bit_cast<std::int64_t>(value);
-  return static_cast<std::uint64_t>(bits) ^ (static_cast<std::uint64_t>(bits >> 63) | kSign);
-}
-
-/// The number whose order_of() is `order`.
-inline double value_of(std::uint64_t order) {
-  constexpr std::uint64_t kSign = std::uint64_t{1} << 63U;
-  return std::bit_cast<double>(order ^ ((order & kSign) == 0 ? ~std::uint64_t{0} : kSign));
-}
-
 /// Sorts values into cells to find single ones by rank. Unlike in a sort, no branch depends on a value.
 class Ranking {
  public:
-  /// Needs at least one value, none of them NaN.
-  explicit Ranking(std::span<const double> values) : of_many_(values.size() <= kFew ? 0 : values.size()) {
-    std::uint64_t* const orders = of_many_.empty() ? of_few_.data() : of_many_.data();
-    std::uint64_t least = std::numeric_limits<std::uint64_t>::max();
-    std::uint64_t most = 0;
+  /// Needs at least one value, none of them NaN. They must outlive this object.
+  explicit Ranking(std::span<const double> values)
+      : values_(values), of_many_(values.size() <= kFew ? 0 : values.size()) {
+    std::uint32_t* const keys = of_many_.empty() ? of_few_.data() : of_many_.data();
+    std::int32_t least = std::numeric_limits<std::int32_t>::max();
+    std::int32_t most = std::numeric_limits<std::int32_t>::min();
     for (std::size_t i = 0; i < values.size(); ++i) {
-      const std::uint64_t order = order_of(values[i]);
-      orders[i] = order;
-      least = std::min(least, order);
-      most = std::max(most, order);
+      const std::int32_t key = key_of(values[i]);
+      keys[i] = static_cast<std::uint32_t>(key);
+      least = std::min(least, key);
+      most = std::max(most, key);
     }
-    orders_ = {orders, values.size()};
-    least_ = least;
-    const auto width = static_cast<unsigned>(std::bit_width(most - least));
-    shift_ = width > kCellBits ? width - kCellBits : 0;
-    for (const std::uint64_t order : orders_) ++counts_[cell_of(order)];
+    const auto first = static_cast<std::uint32_t>(least);
+    const auto width = static_cast<unsigned>(std::bit_width(static_cast<std::uint32_t>(most) - first));
+    const unsigned shift = width > kCellBits ? width - kCellBits : 0;
+    const auto count = static_cast<std::uint32_t>(values.size());  // in a register, whatever is written
+    for (std::uint32_t i = 0; i < count; ++i) {
+      Cell& cell = cells_[(keys[i] - first) >> shift];
+      ++cell.count;
+      keys[i] = std::exchange(cell.last, i);
+    }
+    before_ = keys;
   }
   Ranking(const Ranking&) = delete;
   Ranking& operator=(const Ranking&) = delete;
   ~Ranking() = default;
 
-  /// The values at these places in ascending order; none of them if the cell of one holds too many values.
-  template <std::size_t kPlaces>
-  std::array<std::optional<double>, kPlaces> at(const std::array<std::size_t, kPlaces>& places) const {
+  /// The value at `place`, below their number, in ascending order; none if its cell holds too many values.
+  std::optional<double> at(std::size_t place) const {
     constexpr std::size_t kMostInACell = 64;
-    struct Place {
-      std::size_t cell = 0;
-      std::size_t below = 0;  ///< in the cells before
-      std::uint64_t* next = nullptr;
-      std::array<std::uint64_t, kMostInACell + 1> found;  ///< one more, which is written in vain
-    };
-    std::array<Place, kPlaces> asked;
-    for (std::size_t p = 0; p < kPlaces; ++p) {
-      Place& one = asked[p];
-      while (one.below + counts_[one.cell] <= places[p]) one.below += counts_[one.cell++];
-      one.next = one.found.data();
-      if (counts_[one.cell] > kMostInACell) return {};
-    }
-    for (const std::uint64_t order : orders_) {
-      const std::size_t cell = cell_of(order);
-      for (Place& one : asked) {
-        *one.next = order;
-        one.next += cell == one.cell ? 1 : 0;
-      }
-    }
-    std::array<std::optional<double>, kPlaces> values;
-    for (std::size_t p = 0; p < kPlaces; ++p) {
-      std::uint64_t* const middle = &asked[p].found[places[p] - asked[p].below];
-      std::nth_element(asked[p].found.data(), middle, asked[p].next);
-      values[p] = value_of(*middle);
-    }
-    return values;
+    const Cell* cell = cells_.data();
+    for (; place >= cell->count; ++cell) place -= cell->count;
+    if (cell->count > kMostInACell) return {};
+    std::array<double, kMostInACell> found;
+    std::uint32_t i = cell->last;
+    for (std::size_t k = 0; k < cell->count; ++k, i = before_[i]) found[k] = values_[i];
+    std::nth_element(found.data(), &found[place], found.data() + cell->count);
+    return found[place];
   }
 
  private:
   static constexpr unsigned kCellBits = 7;
   static constexpr std::size_t kFew = 512;
 
-  std::size_t cell_of(std::uint64_t order) const { return (order - least_) >> shift_; }
+  struct Cell {
+    std::uint32_t count = 0;
+    std::uint32_t last = 0;  ///< which value
+  };
 
-  std::array<std::uint64_t, kFew> of_few_;
-  std::vector<std::uint64_t> of_many_;
-  std::span<const std::uint64_t> orders_;  ///< of the values, in one of these
-  std::uint64_t least_ = 0;
-  unsigned shift_ = 0;
-  std::array<std::uint32_t, std::size_t{1} << kCellBits> counts_{};
+  /// The first half of a number's bits, in the order of the numbers.
+  static std::int32_t key_of(double value) {
+    const auto bits = static_cast<std::int32_t>(std::bit_cast<std::int64_t>(value) >> 32);
+    return bits ^ ((bits >> 31) & std::numeric_limits<std::int32_t>::max());
+  }
+
+  std::span<const double> values_;
+  std::array<std::uint32_t, kFew> of_few_;
+  std::vector<std::uint32_t> of_many_;
+  const std::uint32_t* before_;  ///< value -> the one before it in its cell; in one of these
+  std::array<Cell, std::size_t{1} << kCellBits> cells_{};
 };
 
 /// The value at `place` of `values` in ascending order; it may reorder them.
@@ -115,8 +97,7 @@ inline double quantile_of(std::span<double> values, double quantile) {
   const std::size_t place = place_of(quantile, values.size());
   constexpr std::size_t kFew = 24;  // below, cells cost more than they save
   if (values.size() >= kFew) {
-    const auto [value] = Ranking(values).at(std::array{place});
-    if (value) return *value;
+    if (const std::optional<double> value = Ranking(values).at(place)) return *value;
   }
   return value_at(values, place);
 }
