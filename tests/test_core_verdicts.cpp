@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <set>
 #include <sstream>
 #include <stdexcept>
 #include <string>
@@ -73,6 +74,20 @@ TEST(CoreVerdicts, AGoalThatSomeRepetitionsMeetIsUndecided) {
   EXPECT_EQ(line_of(measurements, "one thread / 2 threads, ca/64000").verdict, Verdict::kUndecided);
 }
 
+TEST(CoreVerdicts, WithManyRepetitionsAFewThatStandOutDoNotCount) {
+  Measurements measurements = all_met();
+  std::vector<double>& times = measurements["concave_hull/ca/2000"].times;
+  measurements["cgal_delaunay/ca/2000"].times.assign(35, 1e6);
+  times.assign(35, 3.9e5);
+  std::fill_n(times.begin(), 10, 4.1e5);  // P(at most 10 of 35 on one side) is 0.8 %
+  EXPECT_EQ(line_of(measurements, kAgainstCgal).verdict, Verdict::kMet);
+  EXPECT_TRUE(benchmarks_of_undecided_goals(measurements).empty());
+  times[10] = 4.1e5;  // and of 11 it is 2 %
+  EXPECT_EQ(line_of(measurements, kAgainstCgal).verdict, Verdict::kUndecided);
+  EXPECT_EQ(benchmarks_of_undecided_goals(measurements),
+            (std::set<std::string>{"cgal_delaunay/ca/2000", "concave_hull/ca/2000"}));
+}
+
 TEST(CoreVerdicts, AMissedGoalIsARegression) {
   Measurements measurements = all_met();
   measurements["concave_hull/ca/2000"].times = {401};
@@ -124,13 +139,14 @@ TEST(CoreVerdicts, MemoryThatWasNotCountedIsNotMeasured) {
   EXPECT_EQ(line_of(measurements, "peak bytes a point, ca/1000000").verdict, Verdict::kNotMeasured);
 }
 
-TEST(CoreVerdicts, ValueIsOfTheMediansAndSpreadOfTheRepetitions) {
+TEST(CoreVerdicts, ValueIsOfTheMediansAndIntervalOfTheRepetitions) {
   const Measurements measurements = {{"concave_hull/ca/2000", {{3, 1, 2}, {}}},
                                      {"cgal_delaunay/ca/2000", {{10, 10, 40}, {}}}};
   const VerdictLine line = line_of(measurements, kAgainstCgal);
   EXPECT_EQ(line.value, 2.0 / 10);
-  EXPECT_EQ(line.smallest, 2.0 / 40);
-  EXPECT_EQ(line.largest, 3.0 / 10);
+  ASSERT_TRUE(line.interval.has_value());
+  EXPECT_EQ(line.interval->low, 2.0 / 40);
+  EXPECT_EQ(line.interval->high, 3.0 / 10);
 }
 
 TEST(CoreVerdicts, WhatIsHopedForIsARemarkOnly) {

@@ -1,6 +1,7 @@
 #include "benchmarks/micro/core_verdicts.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <fstream>
 #include <functional>
 #include <limits>
@@ -12,6 +13,7 @@
 
 #include "benchmarks/base/number_format.hpp"
 #include "benchmarks/statistics/judge.hpp"
+#include "benchmarks/statistics/sign_test.hpp"
 #include "benchmarks/statistics/statistics.hpp"
 #include "benchmarks/table/writers.hpp"
 
@@ -115,6 +117,15 @@ double time_quantity(const Goal& goal, const std::function<double(const std::str
   throw std::logic_error("memory is not a time");
 }
 
+/// Of the median of the repetitions' values.
+statistics::Interval interval_of(const std::vector<double>& values) {
+  constexpr double kConfidence = 0.98;
+  const statistics::Interval interval = statistics::sign_interval(values, kConfidence);
+  if (std::isfinite(interval.low)) return interval;
+  const auto [least, most] = std::minmax_element(values.begin(), values.end());
+  return {*least, *most};
+}
+
 void fill_in_times(const Goal& goal, const Measurements& measurements, VerdictLine& line) {
   std::size_t repetitions = std::numeric_limits<std::size_t>::max();
   for (const std::string& benchmark : benchmarks_of(goal)) {
@@ -125,19 +136,19 @@ void fill_in_times(const Goal& goal, const Measurements& measurements, VerdictLi
   line.value = time_quantity(goal, [&](const std::string& benchmark) {
     return statistics::median(std::span<const double>(measurements.at(benchmark).times));
   });
+  std::vector<double> values;
   for (std::size_t repetition = 0; repetition < repetitions; ++repetition) {
-    const double value = time_quantity(
-        goal, [&](const std::string& benchmark) { return measurements.at(benchmark).times[repetition]; });
-    line.smallest = std::min(value, line.smallest.value_or(value));
-    line.largest = std::max(value, line.largest.value_or(value));
+    values.push_back(time_quantity(
+        goal, [&](const std::string& benchmark) { return measurements.at(benchmark).times[repetition]; }));
   }
+  line.interval = interval_of(values);
 }
 
 Verdict verdict_of(const Goal& goal, const VerdictLine& line) {
   if (!goal.at_most && !goal.at_least) return Verdict::kInformation;
   const double limit = goal.at_most ? *goal.at_most : *goal.at_least;
-  const statistics::Interval interval = {line.smallest.value_or(*line.value),
-                                         line.largest.value_or(*line.value)};
+  const statistics::Interval interval =
+      line.interval.value_or(statistics::Interval{*line.value, *line.value});
   // The limit itself meets a goal of either kind.
   if (interval.low == limit && interval.high == limit) return Verdict::kMet;
   if ((goal.at_most ? interval.low : interval.high) == limit) return Verdict::kUndecided;
@@ -216,6 +227,15 @@ std::set<std::string> benchmarks_of_goals() {
   return benchmarks;
 }
 
+std::set<std::string> benchmarks_of_undecided_goals(const Measurements& measurements) {
+  std::set<std::string> benchmarks;
+  for (const Goal& goal : all_goals()) {
+    if (evaluate(goal, measurements).verdict != Verdict::kUndecided) continue;
+    for (std::string& benchmark : benchmarks_of(goal)) benchmarks.insert(std::move(benchmark));
+  }
+  return benchmarks;
+}
+
 std::vector<VerdictLine> core_verdicts(const Measurements& measurements) {
   std::vector<VerdictLine> lines;
   for (const Goal& goal : all_goals()) lines.push_back(evaluate(goal, measurements));
@@ -232,10 +252,10 @@ void print_verdicts(const std::vector<VerdictLine>& lines, std::ostream& out) {
   table::Table table{
       "verdicts",
       "The core's goals",
-      {table::words("ratio of medians"), "value", "repetitions", "goal", table::words("verdict")}};
+      {table::words("ratio of medians"), "value", "interval", "goal", table::words("verdict")}};
   for (const VerdictLine& line : lines) {
     table.add_row({line.what, line.value ? table::Number(*line.value) : table::Cell(""),
-                   line.smallest ? range_cell(*line.smallest, *line.largest) : "", line.goal,
+                   line.interval ? range_cell(line.interval->low, line.interval->high) : "", line.goal,
                    verdict_text(line)});
   }
   table::print_markdown(table, out);

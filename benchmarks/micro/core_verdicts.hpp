@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "benchmarks/base/exit_code.hpp"
+#include "benchmarks/statistics/bootstrap.hpp"
 
 namespace hullbench::micro {
 
@@ -22,16 +23,16 @@ struct Measured {
 /// By the benchmark's name, "function/point set/number of points".
 using Measurements = std::map<std::string, Measured>;
 
-/// kMet, kMissed: every repetition is on that side of the limit. kUndecided: not every one is. With 7
-/// repetitions, the smallest and the largest enclose the true median with a confidence of 98 % (sign test).
+/// kMet, kMissed: the interval is on that side of the limit. kUndecided: it holds the limit.
 enum class Verdict { kMet, kMissed, kUndecided, kNotMeasured, kInformation };
 
 /// What came of one goal.
 struct VerdictLine {
   std::string what;             ///< which numbers it compares
   std::optional<double> value;  ///< of the medians; empty when not measured
-  /// The smallest and the largest value of single repetitions; empty for memory, which has one value.
-  std::optional<double> smallest, largest;
+  /// Of the median over the repetitions, by the sign test, with a confidence of 98 %; of fewer than 7
+  /// repetitions their range. Empty for memory, which has one value.
+  std::optional<statistics::Interval> interval;
   std::string goal;  ///< such as "<= 0.40"; empty for information
   Verdict verdict = Verdict::kNotMeasured;
   std::string remark;  ///< on what is hoped for beyond the goal; may be empty
@@ -39,6 +40,9 @@ struct VerdictLine {
 
 /// The benchmarks without which some goal is not measured.
 std::set<std::string> benchmarks_of_goals();
+
+/// The benchmarks of the goals that these measurements leave undecided.
+std::set<std::string> benchmarks_of_undecided_goals(const Measurements& measurements);
 
 /// One line a goal, always all of them and in the same order; a value that is the limit itself meets it.
 std::vector<VerdictLine> core_verdicts(const Measurements& measurements);

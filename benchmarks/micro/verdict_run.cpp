@@ -35,7 +35,7 @@ void RepetitionProgress::begin(const std::string& benchmark, benchmark::Iteratio
 }
 
 bool CollectingReporter::ReportContext(const Context& context) {
-  PrintBasicContext(&GetErrorStream(), context);
+  if (measurements_.empty()) PrintBasicContext(&GetErrorStream(), context);  // once, of several runs
   return true;
 }
 

@@ -32,7 +32,7 @@ class RepetitionProgress {
   std::map<std::string, benchmark::IterationCount> iterations_;  ///< by benchmark: of its last call
 };
 
-/// Keeps every repetition's time instead of printing it.
+/// Keeps every repetition's time, of one run or several, instead of printing it.
 class CollectingReporter final : public benchmark::BenchmarkReporter {
  public:
   bool ReportContext(const Context& context) override;
