@@ -397,13 +397,23 @@ TEST(FewCells, AreThoseOfABitmap) {
           };
           few.fill(cells.grid, begin, end, find, pool);
         }
+        std::vector<Grid::Cell> expected;
         for (std::size_t row = 0; row < size; ++row) {
           for (std::size_t column = 0; column < size; ++column) {
             const Grid::Cell cell = cells.cell(column, row);
             const bool is_there = few.may_have(cell) && few.test(cell);
             ASSERT_EQ(is_there, cells.uncertain.test(cell)) << column << ", " << row;
+            if (is_there) expected.push_back(cell);
           }
         }
+        EXPECT_EQ(few.count(), expected.size());
+        std::vector<Grid::Cell> visited;
+        const std::size_t words = cells.grid.word_count();
+        for (const std::size_t from : {words / 3, 2 * words / 3, words}) {
+          const std::size_t before = from == words / 3 ? 0 : from == words ? 2 * words / 3 : words / 3;
+          few.for_each(before, from, [&](Grid::Cell cell) { visited.push_back(cell); });
+        }
+        EXPECT_EQ(visited, expected);
       }
     }
   }

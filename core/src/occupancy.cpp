@@ -33,7 +33,7 @@ void Bitmap::clear(std::size_t words) {
 
 void FewCells::fill(const Grid& grid, Grid::Cell begin, Grid::Cell rows_end, const Find& find,
                     ThreadPool& pool) {
-  constexpr Grid::Cell kRowsATime = 64;
+  constexpr Grid::Cell kRowsATime = 128;  // those round them are looked at twice
   constexpr std::size_t kSharesAThread = 4;
   const std::size_t groups = grid.word_count() / Grid::kWordBits + 1;
   has_any_.clear(groups);
@@ -65,8 +65,10 @@ void FewCells::fill(const Grid& grid, Grid::Cell begin, Grid::Cell rows_end, con
   words_.reserve(before);
   for (std::vector<Bitmap::Word>& words : words_of) {
     words_.insert(words_.end(), words.begin(), words.end());
-    words = {};
+    words = std::vector<Bitmap::Word>();  // gives its memory back, as {} would not
   }
+  count_ = 0;
+  for (const Bitmap::Word word : words_) count_ += static_cast<std::size_t>(std::popcount(word));
 }
 
 /// Of points [begin, end).

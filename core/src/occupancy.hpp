@@ -174,6 +174,22 @@ class FewCells {
   using Find = std::function<void(Grid::Cell first, Grid::Cell end, Bitmap& found)>;
   void fill(const Grid& grid, Grid::Cell begin, Grid::Cell rows_end, const Find& find, ThreadPool& pool);
 
+  std::size_t count() const { return count_; }
+  /// Calls visit(cell) for those in the words [begin, end) of the grid's bitmap.
+  template <class Visit>
+  void for_each(std::size_t begin, std::size_t end, const Visit& visit) const {
+    for (std::size_t w = begin; w < end; ++w) {
+      const Bitmap::Word group = has_any_.words()[w / Grid::kWordBits] >> (w % Grid::kWordBits);
+      // On to the next word that has any, or to the last of this group.
+      w += group == 0 ? Grid::kWordBits - 1 - w % Grid::kWordBits
+                      : static_cast<std::size_t>(std::countr_zero(group));
+      if (group == 0 || w >= end) continue;
+      for (Bitmap::Word left = words_[place_of(w)]; left != 0; left &= left - 1) {
+        visit(w * Grid::kWordBits + static_cast<std::size_t>(std::countr_zero(left)));
+      }
+    }
+  }
+
   /// Whether the word of the cell has any; quick, and mostly true where test() is.
   bool may_have(Grid::Cell cell) const { return has_any_.test(cell / Grid::kWordBits); }
   /// Of a cell that it may have.
@@ -192,6 +208,7 @@ class FewCells {
   Bitmap has_any_;                           ///< bit w: word w of the grid's bitmap has cells
   std::vector<std::uint32_t> before_group_;  ///< 64 words of the bitmap -> how many before them have cells
   std::vector<Bitmap::Word> words_;          ///< those that have
+  std::size_t count_ = 0;                    ///< of the cells
 };
 
 /// Which cells a part reaches, in the map of the occupied cells: their bits are cleared there. So it can be

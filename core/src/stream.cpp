@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <bit>
 #include <cmath>
 #include <deque>
+#include <exception>
 #include <functional>
 #include <limits>
 #include <numeric>
@@ -37,9 +39,30 @@ std::invalid_argument not_finite(std::uint64_t number) {
   return std::invalid_argument("point " + std::to_string(number) + " is not finite");
 }
 
+/// Thrown in the first pass, where the points are not those of StreamOptions::expected.
+class NotAsExpected : public std::exception {};
+
+/// Whether a grid may be laid over a box that nobody has measured.
+bool is_usual(const Box& box) {
+  constexpr double kFarthest = 1e100;
+  constexpr double kLeastSide = 1e-100;
+  const auto is_usual_side = [](double low, double high) {
+    return low >= -kFarthest && high <= kFarthest && high - low >= kLeastSide;
+  };
+  return is_usual_side(box.min.x, box.max.x) && is_usual_side(box.min.y, box.max.y);
+}
+
+bool is_within(const Box& box, const Box& outer) {
+  return box.min.x >= outer.min.x && box.min.y >= outer.min.y && box.max.x <= outer.max.x &&
+         box.max.y <= outer.max.y;
+}
+
 bool all_sources(std::size_t /*source*/) {
   return true;
 }
+
+/// Where all passes but the first, and those that look for sizes, are to come.
+constexpr int kPassesAfterSizes = 3;
 
 /// Rows from `begin` on, before `end`.
 struct Rows {
@@ -123,6 +146,7 @@ class Stream {
   StreamedHull find_hull();
 
  private:
+  using NumberedPoint = std::pair<std::uint64_t, Point>;
   /// An uncertain point of the slot that it is found in.
   struct Uncertain {
     std::uint64_t number;
@@ -136,22 +160,28 @@ class Stream {
     std::uint64_t checksum = 0;
     Bitmap occupied;  ///< if each slot has a map of its own; the first has occupied_
     std::vector<Uncertain> uncertain;
-    std::vector<std::pair<std::uint64_t, Point>> gathered;  ///< number and point
+    std::vector<NumberedPoint> gathered;
     std::vector<Point> points;
   };
-  using EndOfSlots = std::function<void(std::size_t slots)>;  ///< as SourcePasses::Pass::end
+  // As in SourcePasses::Pass:
+  using TakeBlock = std::function<void(std::size_t slot, const detail::SourceBlock& block)>;
+  using EndOfSlots = std::function<void(std::size_t slots)>;
 
   template <class Take>
   void run_over_cells(const Rows& rows, const Take& take, const EndOfSlots& end);
   template <class Cells, class Visit>
   void run_over_some(const Rows& rows, const Cells& some, const Visit& visit, const EndOfSlots& end);
 
-  void find_extents(bool is_for_others);
+  void find_extents(bool is_for_others, const TakeBlock& also = {});
+  void begin_as_expected();
   void check_scale() const;
-  std::optional<double> choose_sizes();
+  detail::SizesBy look_for_sizes();
+  bool fit_grid(double widest);
   void choose_grid(double widest);
   void find_occupied_cells();
   void find_uncertain_points();
+  bool find_near_cells(const detail::FewCells& uncertain_cells, detail::FewCells& near_cells);
+  void keep_near(Slot& slot, std::uint64_t number, const Point& point);
   void mark_reached();
   void gather();
   void find_points(bool keeps_map);
@@ -164,6 +194,8 @@ class Stream {
   Limits limits_;
   detail::ThreadPool pool_;
   detail::SourcePasses passes_;
+  bool is_first_pass_ = true;
+  bool is_as_expected_ = false;                 ///< the first pass has done what the second one does
   std::vector<detail::RangeOfBlocks> extents_;  ///< one a source
   detail::CoordinateRange range_;               ///< of all
   Rows own_;                                    ///< the shard's band
@@ -175,18 +207,35 @@ class Stream {
   detail::ReachedCells reached_;          ///< cells of the part
   std::vector<Grid::Cell> reaching_;      ///< cells with uncertain points, until they are marked
   std::vector<std::uint64_t> uncertain_;  ///< of the shard's own band, ascending
+  bool keeps_near_ = false;               ///< whether the next has all points that gather() looks for
+  /// Of the shard's own band, near uncertain cells, ascending; as they come from the slots.
+  std::vector<std::vector<NumberedPoint>> near_;
+  std::size_t most_near_ = 0;               ///< how many may be kept
+  std::atomic<std::size_t> kept_near_ = 0;  ///< roughly
   StreamShard part_;
   detail::AutomaticLimit automatic_limit_;
+  std::optional<detail::SizesBy> sizes_by_;  ///< what look_for_sizes() has returned
 };
 
-/// The first pass. `is_for_others`: whether those who look for other shards must see the same source.
-void Stream::find_extents(bool is_for_others) {
+/// The first pass. `is_for_others`: whether those who look for other shards must see the same source. `also`
+/// is what the second pass would do: it gets the blocks as long as they lie in the expected box, and has got
+/// all points where is_as_expected_ is true afterwards.
+void Stream::find_extents(bool is_for_others, const TakeBlock& also) {
   std::vector<detail::RangeOfBlocks> found(passes_.source_count());
+  std::atomic<bool> is_expected = also != nullptr;
   const auto take = [&](std::size_t number, const detail::SourceBlock& block) {
     Slot& slot = slots_[number];
     slot.source = block.source;
-    slot.range.add(block.points);
+    detail::RangeOfBlocks of_block;
+    of_block.add(block.points);
+    slot.range.add(of_block);
     if (is_for_others) slot.checksum += checksum(block.points, block.first);
+    if (!is_expected.load(std::memory_order_relaxed)) return;
+    if (!of_block.not_finite() && is_within(of_block.box(), stream_options_.expected->box)) {
+      also(number, block);
+    } else {
+      is_expected.store(false, std::memory_order_relaxed);
+    }
   };
   const auto end = [&](std::size_t slots) {
     for (std::size_t s = 0; s < slots; ++s) {
@@ -199,6 +248,7 @@ void Stream::find_extents(bool is_for_others) {
     }
   };
   passes_.run({all_sources, take, end});
+  is_first_pass_ = false;
   detail::RangeOfBlocks all;
   std::vector<std::uint64_t> counts;
   for (const detail::RangeOfBlocks& extent : found) {
@@ -211,10 +261,13 @@ void Stream::find_extents(bool is_for_others) {
   part_.source_points = all.count();
   part_.box = all.box();
   if (all.count() > 0) range_ = all.range();
+  is_as_expected_ = is_expected && stream_options_.expected->count == all.count() &&
+                    stream_options_.expected->box == all.box();
 }
 
-/// A later pass: take(slot, block) with points that have their cells, as a CellBlock. Sources without points
-/// in these rows, which are among seen_, are not read.
+/// A pass: take(slot, block) with points that have their cells, as a CellBlock. Sources without points in
+/// these rows, which are among seen_, are not read. In a first pass numbers are not known, and `end` is not
+/// called.
 template <class Take>
 void Stream::run_over_cells(const Rows& rows, const Take& take, const EndOfSlots& end) {
   const auto is_read = [&](std::size_t s) {
@@ -228,14 +281,18 @@ void Stream::run_over_cells(const Rows& rows, const Take& take, const EndOfSlots
   const Grid::Cell begin_of_rows = first_cell(rows.begin);
   const Grid::Cell cells_of_rows = first_cell(rows.end) - begin_of_rows;
   const auto take_block = [&](std::size_t slot, const detail::SourceBlock& block) {
-    if (!detail::are_within(block.points, extents_[block.source].box())) throw has_changed();
     detail::visit_numbered(
         block.points, grid_.wide_numbering(),
         [&](std::size_t begin, std::span<const Point> points, const std::uint64_t* cells) {
           take(slots_[slot], CellBlock{block.first + begin, points, cells, begin_of_rows, cells_of_rows});
         });
   };
-  passes_.run({is_read, take_block, end});
+  if (is_first_pass_) return find_extents(false, take_block);
+  const auto check_and_take = [&](std::size_t slot, const detail::SourceBlock& block) {
+    if (!detail::are_within(block.points, extents_[block.source].box())) throw has_changed();
+    take_block(slot, block);
+  };
+  passes_.run({is_read, check_and_take, end});
 }
 
 /// The same: visit(slot, point, cell, number) for the points in these rows that lie in cells of `some`, which
@@ -261,8 +318,8 @@ void Stream::run_over_some(const Rows& rows, const Cells& some, const Visit& vis
 }
 
 /// The same for all shards, and where the shard has its band in it. `widest`: no dropped triangle has a
-/// smaller circumradius.
-void Stream::choose_grid(double widest) {
+/// smaller circumradius. Returns false where no grid fits into the memory.
+bool Stream::fit_grid(double widest) {
   const Box& box = part_.box;
   widest *= 1 - detail::kSafety;
   const double area = (box.max.x - box.min.x) * (box.max.y - box.min.y);
@@ -278,19 +335,23 @@ void Stream::choose_grid(double widest) {
     return words <= kMostWords && sizeof(Bitmap::Word) * words <= stream_options_.most_map_bytes;
   };
   while (!fits() && radius < widest) radius = std::min(radius * kWider, widest);
-  if (!fits()) {
-    throw std::invalid_argument(
-        detail::is_any_limit_given(part_.options)
-            ? "the limit is too small for the distances between the points: give a larger one, or more memory"
-            : "the map of cells needs more memory than it may take: allow more, or give alpha, "
-              "max_edge_length or max_perimeter");
-  }
+  if (!fits()) return false;
   const Grid grid(box, detail::kRadius / radius);
   part_.cells_per_length = grid.cells_per_length();
   own_ = band(part_.shard, grid.rows());
   tested_ = own_.with_halo(kHaloOfUncertain, grid.rows());
   seen_ = own_.with_halo(kHaloOfOccupied, grid.rows());
   grid_ = grid.band(seen_.begin, seen_.end);
+  return true;
+}
+
+void Stream::choose_grid(double widest) {
+  if (fit_grid(widest)) return;
+  throw std::invalid_argument(
+      detail::is_any_limit_given(part_.options)
+          ? "the limit is too small for the distances between the points: give a larger one, or more memory"
+          : "the map of cells needs more memory than it may take: allow more, or give alpha, "
+            "max_edge_length or max_perimeter");
 }
 
 void Stream::find_occupied_cells() {
@@ -340,11 +401,19 @@ void Stream::find_uncertain_points() {
   };
   uncertain_cells.fill(grid_, tested_.begin - seen_.begin, tested_.end - seen_.begin, find, pool_);
 
+  detail::FewCells near_cells;
+  keeps_near_ = find_near_cells(uncertain_cells, near_cells);
+
   const detail::PointCertificate& certificate = detail::PointCertificate::instance();
   const auto look = [&](Slot& slot, const Point& p, Grid::Cell cell, std::uint64_t number) {
     if (certificate.is_certified(p, cell, grid_, *occupied_)) return;
     slot.uncertain.push_back({number, cell, own_.has(grid_.row_number(p))});
   };
+  const auto look_and_keep = [&](Slot& slot, const Point& p, Grid::Cell cell, std::uint64_t number) {
+    if (own_.has(grid_.row_number(p))) keep_near(slot, number, p);
+    if (uncertain_cells.may_have(cell) && uncertain_cells.test(cell)) look(slot, p, cell, number);
+  };
+  std::size_t near_count = 0;
   const auto end = [&](std::size_t slots) {
     for (std::size_t s = 0; s < slots; ++s) {
       for (const auto& [number, cell, is_own] : slots_[s].uncertain) {
@@ -355,9 +424,63 @@ void Stream::find_uncertain_points() {
         if (reaching_.empty() || reaching_.back() != cell) reaching_.push_back(cell);
       }
       slots_[s].uncertain.clear();
+      near_count += slots_[s].gathered.size();
+      if (!slots_[s].gathered.empty()) near_.push_back(std::exchange(slots_[s].gathered, {}));
     }
+    kept_near_ = std::max(kept_near_.load(), near_count);
   };
-  run_over_some(tested_, uncertain_cells, look, end);
+  if (!keeps_near_) return run_over_some(tested_, uncertain_cells, look, end);
+  passes_.expect_passes(passes_.passes() + 1);
+  run_over_some(tested_, near_cells, look_and_keep, end);
+  if (kept_near_ <= most_near_) return;
+  keeps_near_ = false;
+  near_.clear();
+  passes_.expect_another();
+}
+
+/// The cells that mark_reach() may mark for uncertain points. Returns false where the points in them are not
+/// to be kept, as they may be too many.
+bool Stream::find_near_cells(const detail::FewCells& uncertain_cells, detail::FewCells& near_cells) {
+  constexpr std::uint64_t kPointsForOneKept = 4;
+  constexpr std::uint64_t kPointsForOneCell = 32;
+  static constexpr auto kHalfWidths = detail::make_half_widths<2 * detail::kRadius>();
+  constexpr std::size_t kWordsOfReach = 2 * kHalfWidths.size();  // at most, for each cell
+  const std::size_t words = std::min(kWordsOfReach * uncertain_cells.count(), grid_.word_count());
+  const auto bytes = static_cast<double>(sizeof(Bitmap::Word) * (grid_.word_count() + 2 * words));
+  most_near_ = static_cast<std::size_t>(
+      std::min(static_cast<double>(part_.source_points / kPointsForOneKept),
+               std::max(stream_options_.most_map_bytes - bytes, 0.0) / sizeof(NumberedPoint)));
+  kept_near_ = 0;
+  if (kPointsForOneCell * uncertain_cells.count() > part_.source_points) return false;
+  if (uncertain_cells.count() > most_near_) return false;
+
+  const Grid::Cell in_row = grid_.row_words() * Grid::kWordBits;
+  const Rows tested{tested_.begin - seen_.begin, tested_.end - seen_.begin};
+  const auto find = [&](Grid::Cell begin, Grid::Cell end, Bitmap& found) {
+    const Rows wanted{begin, end};
+    const Rows around = wanted.with_halo(detail::kReachedRows, grid_.rows());
+    uncertain_cells.for_each(
+        grid_.first_word(around.begin), grid_.first_word(around.end), [&](Grid::Cell cell) {
+          const Grid::Cell row = cell / in_row - Grid::kMargin;
+          const Grid::Cell column = cell % in_row;
+          for (std::size_t k = 0; k < kHalfWidths.size(); ++k) {
+            const Grid::Cell other = row + k - detail::kReachedRows;  // wraps round below the first
+            if (!wanted.has(other)) continue;
+            found.set_run((other - begin + Grid::kMargin) * in_row + column - kHalfWidths[k],
+                          2 * kHalfWidths[k] + 1);
+          }
+        });
+  };
+  near_cells.fill(grid_, tested.begin, tested.end, find, pool_);
+  return true;
+}
+
+/// Puts a point into those that gather() chooses from, as long as these are not too many.
+void Stream::keep_near(Slot& slot, std::uint64_t number, const Point& point) {
+  constexpr std::size_t kCountedAtOnce = 1024;  // as all threads share the count
+  if (kept_near_.load(std::memory_order_relaxed) > most_near_) return;
+  slot.gathered.emplace_back(number, point);
+  if (slot.gathered.size() % kCountedAtOnce == 0) kept_near_ += kCountedAtOnce;
 }
 
 /// Takes the cells that may hold points of the part out of occupied_, where they count as reached.
@@ -368,28 +491,45 @@ void Stream::mark_reached() {
   reaching_ = {};
 }
 
+/// The points of the part: from the points near uncertain cells where these were kept, otherwise by a pass.
 void Stream::gather() {
   part_.points.clear();
   part_.numbers.clear();
   part_.uncertain.clear();
   auto next = uncertain_.begin();
-  const auto look = [](Slot& slot, const Point& p, Grid::Cell, std::uint64_t number) {
-    slot.gathered.emplace_back(number, p);
+  const auto add = [&](const NumberedPoint& one) {
+    const bool is_uncertain = next != uncertain_.end() && *next == one.first;
+    if (is_uncertain) ++next;
+    part_.points.push_back(one.second);
+    part_.numbers.push_back(one.first);
+    part_.uncertain.push_back(is_uncertain ? 1 : 0);
   };
-  const auto end = [&](std::size_t slots) {
-    for (std::size_t s = 0; s < slots; ++s) {
-      for (const auto& [number, point] : slots_[s].gathered) {
-        const bool is_uncertain = next != uncertain_.end() && *next == number;
-        if (is_uncertain) ++next;
-        part_.points.push_back(point);
-        part_.numbers.push_back(number);
-        part_.uncertain.push_back(is_uncertain ? 1 : 0);
-      }
-      slots_[s].gathered.clear();
-    }
+  const auto check_count = [&] {
     if (part_.points.size() > kMaxPoints) throw detail::too_much_outline();
   };
-  run_over_some(own_, reached_, look, end);
+  if (std::exchange(keeps_near_, false)) {
+    constexpr std::size_t kAhead = 16;
+    for (const std::vector<NumberedPoint>& points : near_) {
+      for (std::size_t i = 0; i < points.size(); ++i) {
+        if (i + kAhead < points.size()) reached_.prefetch(grid_.cell(points[i + kAhead].second));
+        if (reached_.test(grid_.cell(points[i].second))) add(points[i]);
+      }
+    }
+    near_.clear();
+    check_count();
+  } else {
+    const auto look = [](Slot& slot, const Point& p, Grid::Cell, std::uint64_t number) {
+      slot.gathered.emplace_back(number, p);
+    };
+    const auto end = [&](std::size_t slots) {
+      for (std::size_t s = 0; s < slots; ++s) {
+        for (const NumberedPoint& one : slots_[s].gathered) add(one);
+        slots_[s].gathered.clear();
+      }
+      check_count();
+    };
+    run_over_some(own_, reached_, look, end);
+  }
   if (next != uncertain_.end()) throw has_changed();
   // The corners of the convex hull are uncertain, so one shard alone reaches as far as all points.
   if (part_.shard.count == 1 && bounding_box(part_.points) != part_.box) throw has_changed();
@@ -427,7 +567,7 @@ void Stream::check_scale() const {
 /// What is near the outline, where the grid is chosen. `keeps_map`: whether reached_ is needed afterwards.
 void Stream::find_points(bool keeps_map) {
   if (own_.empty()) return;  // more shards than rows
-  find_occupied_cells();
+  if (!occupied_) find_occupied_cells();
   find_uncertain_points();
   mark_reached();
   gather();
@@ -455,30 +595,36 @@ StreamShard Stream::find_part() {
   return std::move(part_);
 }
 
-/// Looks for the sizes of triangles where no limit is given. Returns the circumradius from which one is wide;
-/// nothing where the triangulation of all points must tell.
-std::optional<double> Stream::choose_sizes() {
+/// Looks for the sizes of triangles where no limit is given.
+detail::SizesBy Stream::look_for_sizes() {
   const auto pass = [&](const detail::TakeOfShare& take) {
     const auto take_block = [&](std::size_t slot, const detail::SourceBlock& block) {
-      if (!detail::are_within(block.points, extents_[block.source].box())) throw has_changed();
       take(slot, block.points);
     };
-    passes_.run({all_sources, take_block, [](std::size_t) {}});
+    if (is_first_pass_) {
+      find_extents(false, take_block);
+      if (!is_as_expected_) throw NotAsExpected();
+      return check_scale();
+    }
+    const auto check_and_take = [&](std::size_t slot, const detail::SourceBlock& block) {
+      if (!detail::are_within(block.points, extents_[block.source].box())) throw has_changed();
+      take_block(slot, block);
+    };
+    passes_.run({all_sources, check_and_take, [](std::size_t) {}});
   };
   constexpr int kPassesForSizes = 2;  // or three
-  constexpr int kPassesAfter = 3;
-  passes_.expect_passes(passes_.passes() + kPassesForSizes + kPassesAfter);
+  passes_.expect_passes(passes_.passes() + kPassesForSizes + kPassesAfterSizes);
   const detail::PointPasses points{part_.source_points, slots_.size(), pass};
-  if (automatic_limit_.look(points, part_.box, pool_) == detail::SizesBy::kBlocks) return {};
-  passes_.expect_passes(passes_.passes() + kPassesAfter);
-  return automatic_limit_.wide_radius() / std::max(part_.options.detail, 1.0);
+  return automatic_limit_.look(points, part_.box, pool_);
 }
 
 /// Where no limit is given; nothing where the triangulation of all points must tell.
 std::optional<StreamedHull> Stream::hull_by_chosen_sizes() {
-  const std::optional<double> wide_radius = choose_sizes();
-  if (!wide_radius) return {};
-  choose_grid(*wide_radius);
+  if (!sizes_by_) sizes_by_ = look_for_sizes();
+  if (*sizes_by_ == detail::SizesBy::kBlocks) return {};
+  passes_.expect_passes(passes_.passes() + kPassesAfterSizes);
+  const double wide_radius = automatic_limit_.wide_radius() / std::max(part_.options.detail, 1.0);
+  choose_grid(wide_radius);
   find_points(true);
   const auto is_sure = [&](const detail::Triangle& triangle) {
     return detail::is_surely_whole(triangle, grid_, reached_);
@@ -502,7 +648,7 @@ std::optional<StreamedHull> Stream::hull_by_chosen_sizes() {
 }
 
 StreamedHull Stream::hull_by_limits() {
-  choose_grid(detail::least_dropped_radius(limits_));
+  if (!occupied_) choose_grid(detail::least_dropped_radius(limits_));
   find_points(false);
   detail::PartHull hull(part_, pool_);
   if (hull.filter(detail::filter_rules(limits_), part_.options.fill_single_triangles.value_or(false))) {
@@ -511,8 +657,34 @@ StreamedHull Stream::hull_by_limits() {
   return hull.trace();
 }
 
+/// Where it is told what to expect of the points: does with the first pass what the second one does, and
+/// takes that back if the points are others.
+void Stream::begin_as_expected() {
+  const std::optional<ExpectedPoints>& expected = stream_options_.expected;
+  if (!expected || expected->count <= kFewPoints || !is_usual(expected->box)) return;
+  part_.source_points = expected->count;
+  part_.box = expected->box;
+  if (detail::is_any_limit_given(part_.options)) {
+    passes_.expect_passes(kPassesAfterSizes);
+    // Where the map has a word for each point, the box is hardly that of the points.
+    const bool fits =
+        fit_grid(detail::least_dropped_radius(limits_)) && grid_.word_count() <= expected->count;
+    if (fits) find_occupied_cells();
+  } else {
+    try {
+      sizes_by_ = look_for_sizes();
+    } catch (const NotAsExpected&) {
+    }
+  }
+  if (is_as_expected_) return;
+  passes_.expect_another();
+  occupied_.reset();
+  sizes_by_.reset();
+}
+
 StreamedHull Stream::find_hull() {
-  find_extents(false);
+  begin_as_expected();
+  if (is_first_pass_) find_extents(false);
   if (part_.source_points <= kFewPoints) return hull_in_memory();
   check_scale();
   if (detail::is_flat(part_.box)) return detail::hull_without_area(part_);

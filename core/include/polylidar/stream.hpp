@@ -21,14 +21,21 @@ using PointSource = std::function<void(const TakePoints& take)>;
 /// How far a stream has come.
 struct StreamProgress {
   int pass = 0;              ///< which pass over the source, from 1 on
-  int passes = 4;            ///< of how many, as far as is known yet; more where no limit is given
+  int passes = 4;            ///< of how many, as far as is known yet; other where no limit is given
   std::uint64_t points = 0;  ///< of the source, in this pass
+};
+
+/// What is said of all points of a stream before they are read, such as in the header of a file.
+struct ExpectedPoints {
+  std::uint64_t count = 0;
+  Box box;  ///< as bounding_box()
 };
 
 /// What of a stream is not in Options.
 struct StreamOptions {
   /// The most that the map of occupied cells may take, in bytes; of a shard, that of its band. It makes up
-  /// most of the memory where points are many and the outline is short.
+  /// most of the memory where points are many and the outline is short. Points that are kept to save a pass
+  /// may take what the map leaves, up to six bytes for each point of the source.
   double most_map_bytes = 0x1p30;
   /// Called after each block, by one thread at a time; may throw, which ends the work.
   std::function<void(const StreamProgress&)> progress = {};
@@ -38,6 +45,9 @@ struct StreamOptions {
   /// Whether different sources may be read at the same time, each by one of Options::threads threads. It is
   /// fastest with as many sources as threads, such as parts of a file. Not for shards.
   bool reads_at_once = false;
+  /// Saves a pass if it is true: so many points, and exactly this box. If it is not, the result is the same
+  /// and no pass is saved. Not for shards.
+  std::optional<ExpectedPoints> expected = {};
 };
 
 /// The concave hull of a source.
@@ -62,10 +72,13 @@ class NeedsAllPoints : public std::invalid_argument {
 };
 
 /// The concave hull of all points of `sources`, which are one after the other as one source. They are read
-/// four times: where the points are, which cells of a grid they occupy, which of them may be on the outline,
-/// and which are near these (core/INTERIOR.md). If no limit is given, they are read two or three times more
-/// before that: how many points are where, and which lie in small windows (core/AUTOMATIC.md). Memory: some
-/// bits a cell of a sixth of the limit's radius, and 125 bytes a point near the outline.
+/// three times: where the points are, which cells of a grid they occupy, and which of them may be on the
+/// outline (core/INTERIOR.md). The last time, all points that may be near the outline are kept. If they are
+/// more than a quarter of all, or more than StreamOptions::most_map_bytes has room for, the sources are read
+/// a fourth time to find them. If no limit is given, the sources are read two or three
+/// times more after the first time: how many points are where, and which lie in small windows
+/// (core/AUTOMATIC.md). With StreamOptions::expected they are read once less. Memory: some bits a cell of a
+/// sixth of the limit's radius, and 125 bytes a point near the outline.
 ///
 /// The result is that of concave_hull() for the same points in memory, with one exception: where two
 /// different points are closer than 2^-40 of `alpha`, rounding may there drop slivers that are kept here. Up
@@ -110,9 +123,9 @@ struct StreamShard {
 
 /// Reads `sources`, which are one after the other as one source, as concave_hull_of_stream does, and finds a
 /// shard's part of what that would triangulate (core/INTERIOR.md, "Many machines"). Each shard reads all
-/// points once, and three more times those sources, such as the tiles of a cloud, that reach into its band or
-/// 4 radii beyond it; its maps have the cells of these rows. Up to 65,536 points are all in the first shard;
-/// of more, `options` must give a limit.
+/// points once, and two or three more times those sources, such as the tiles of a cloud, that reach into its
+/// band or 4 radii beyond it; its maps have the cells of these rows. Up to 65,536 points are all in the first
+/// shard; of more, `options` must give a limit.
 ///
 /// Throws as concave_hull_of_stream, and std::invalid_argument where there is no such shard. Whether the
 /// rounding of a triangle's size decides is not known yet.
