@@ -38,6 +38,7 @@ struct LasFile {
   std::vector<LasPoint> points = {};
   bool has_legacy_count = true;                ///< in 1.4
   std::optional<std::uint64_t> promised = {};  ///< instead of the number of points
+  polylidar::Box box = {};                     ///< that the header says
   std::vector<LasRecord> records = {};
   std::vector<LasRecord> extended_records = {};  ///< in 1.4
 
@@ -75,7 +76,8 @@ struct LasFile {
               bytes_of(minor >= 4 && !has_legacy_count ? 0U : static_cast<std::uint32_t>(count)) +
               std::string(20, '\0');
     for (const double value : {scale.x, scale.y, 0.01, offset.x, offset.y, 0.0}) header += bytes_of(value);
-    header += std::string(48, '\0');
+    for (const double value : {box.max.x, box.min.x, box.max.y, box.min.y, 0.0, 0.0})
+      header += bytes_of(value);
     if (minor >= 3) header += std::string(8, '\0');
     if (minor >= 4) {
       const std::uint64_t behind = points_at + size * points.size();

@@ -138,6 +138,27 @@ TEST_F(FootprintCommandTest, AStreamGivesWhatThePointsInMemoryGive) {
       }
     }
   }
+  // What the header says of the box may be right or wrong.
+  las.scale = {0.01, 0.01};
+  las.offset = {500000, 5600000};
+  for (LasPoint& p : las.points) p.withheld = false;
+  const polylidar::Box box = polylidar::bounding_box(las.places());
+  for (const std::vector<std::string>& options :
+       std::vector<std::vector<std::string>>{{}, {"--alpha", "1.5"}}) {
+    std::string without;
+    for (const polylidar::Box& said : {polylidar::Box{}, box, polylidar::Box{box.min, {box.max.x, 5600050}},
+                                       polylidar::Box{{box.min.x, 0}, box.max}}) {
+      las.box = said;
+      std::vector<std::string> arguments = options;
+      arguments.insert(arguments.end(), {file("said.las", las.text()), "--threads", "2"});
+      const std::string out = succeeded(footprint(arguments)).out;
+      if (without.empty()) without = out;
+      EXPECT_EQ(out, without);
+      arguments.insert(arguments.begin(), "--union");
+      EXPECT_EQ(json::parse(succeeded(footprint(arguments)).out)["features"][0]["geometry"],
+                json::parse(without)["features"][0]["geometry"]);
+    }
+  }
   const std::string cut = file("cut.las", las.text().substr(0, (std::size_t{1} << 23U) + 1000));
   const Outcome outcome = footprint({cut, "--threads", "2"});
   EXPECT_EQ(outcome.code, 2);

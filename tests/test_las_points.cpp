@@ -132,6 +132,75 @@ TEST_F(LasPointsTest, ChoosesByReturnClassWindowAndLeavesOutTheWithheld) {
   }
 }
 
+TEST_F(LasPointsTest, TheHeaderSaysWhatToExpect) {
+  LasFile file = some_points(4, 6);
+  const auto expected = [&](const PointFileOptions& options = {}) {
+    std::ofstream(path(), std::ios::binary) << file.text();
+    return expected_points(path(), options);
+  };
+  const Box box = bounding_box(file.places());
+  // Not rounded to what the whole numbers of the file stand for.
+  file.box = {{box.min.x - 0.0004, box.min.y + 0.004}, {box.max.x + 0.0004, box.max.y - 0.004}};
+  ASSERT_TRUE(expected());
+  EXPECT_EQ(expected()->count, file.points.size());
+  EXPECT_EQ(expected()->box, box);
+  file.box.max.x += 0.001;
+  EXPECT_NE(expected()->box, box);
+  // Where the options leave points out, the header says nothing of the others.
+  EXPECT_FALSE(expected({.returns = Returns::kFirst}));
+  EXPECT_FALSE(expected({.classes = std::bitset<256>(4)}));
+  EXPECT_FALSE(expected({.window = box}));
+  // A lie must be no more than that.
+  constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  for (const double value : {kNan, kInfinity, -kInfinity, 1e300}) {
+    file.box.min.x = value;
+    EXPECT_TRUE(expected());
+  }
+  file.scale.x = 0;
+  EXPECT_TRUE(expected());
+  file.minor = 2;
+  file.format = 1;
+  EXPECT_TRUE(expected());
+  std::ofstream(path(), std::ios::binary) << file.text().substr(0, 300);
+  EXPECT_FALSE(expected_points(path(), {}));
+  EXPECT_FALSE(expected_points(path() + ".missing", {}));
+}
+
+// Blocks with withheld points and others, in all ways to take the points.
+TEST_F(LasPointsTest, WithheldPointsAreInSomeBlocksOnly) {
+  for (const unsigned format : {1U, 7U}) {
+    LasFile file = some_points(4, format);
+    for (std::size_t i = 14'000; i < 20'000; ++i) file.points[i].withheld = i % 2 == 0;
+    Points expected;
+    std::array<std::uint64_t, 256> classes{};
+    for (const LasPoint& point : file.points) {
+      if (point.withheld) continue;
+      expected.push_back(file.place(point));
+      ++classes[point.classification];
+    }
+    const PointFile whole = read(file);
+    EXPECT_EQ(whole.points, expected);
+    EXPECT_EQ(whole.classes, classes);
+    for (const std::size_t parts : {1U, 3U}) {
+      Points taken;
+      std::array<std::uint64_t, 256> of_parts{};
+      PointFileOptions options;
+      options.take_points = [&](std::span<const Point> block) {
+        taken.insert(taken.end(), block.begin(), block.end());
+      };
+      for (std::size_t part = 0; part < parts; ++part) {
+        options.part = {part, parts};
+        const PointFile of_part = read(file, options);
+        EXPECT_TRUE(of_part.points.empty());
+        for (std::size_t c = 0; c < classes.size(); ++c) of_parts[c] += of_part.classes[c];
+      }
+      EXPECT_EQ(taken, expected);
+      EXPECT_EQ(of_parts, classes);
+    }
+  }
+}
+
 TEST_F(LasPointsTest, PointsOfAnyLength) {
   LasFile file = some_points(2, 3);
   file.points.resize(100);

@@ -54,6 +54,8 @@ void check_parts(const std::string& path, const PointFile& file, PointFileOption
     read_point_file(path, options);
   }
   expect(points == file.points, "the parts of a file have other points than the file");
+  options.part = {};
+  expected_points(path, options);
 }
 
 /// Shapes of a few points, as the tool makes them.

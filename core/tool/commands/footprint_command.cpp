@@ -274,6 +274,7 @@ class IndexRun {
     core.threads = threads;
     StreamOptions stream_options;
     stream_options.reads_at_once = true;
+    stream_options.expected = expected_points(path, options_);
     stream_options.progress = [&](const StreamProgress& progress) {
       if (status_.is_due()) files_.show(place, passing(progress));
     };
@@ -481,6 +482,7 @@ class UnionRun {
     };
     options.most_points_in_memory = most_points_in_memory(command_.shape);
     options.reads_at_once = true;
+    if (!latitude_) options.expected = {all_.points, all_.bounds};  // as look_at() has found
     try {
       return concave_hull_of_stream(sources(true), core_, options);
     } catch (const NeedsAllPoints&) {

@@ -85,6 +85,7 @@ class StreamRun {
     // The parts of one file, or several files, are read at the same time.
     StreamOptions options = stream_options();
     options.most_map_bytes = std::max(options.most_map_bytes, most_map_bytes(command_.shape));
+    options.expected = expected();
     const StreamedHull hull =
         concave_hull_of_stream(sources(command_.inputs.size() == 1 ? core_.threads : 1), core_, options);
     const Crs crs = crs_.value_or(Crs());
@@ -118,12 +119,32 @@ class StreamRun {
     return kExitOk;
   }
 
-  /// Each file as up to so many sources.
-  std::vector<PointSource> sources(std::size_t most_parts) {
+  PointFileOptions file_options() const {
     PointFileOptions options = point_options(command_.shape, surroundings_);
     options.format = point_format_of(command_.input_format).value_or(PointFormat::kAuto);
     options.columns = command_.columns;
     options.on_progress = [](std::uint64_t, std::optional<std::uint64_t>) { throw_if_interrupted(); };
+    return options;
+  }
+
+  /// What the headers of all files together say of the points; nothing where one of them says nothing.
+  std::optional<ExpectedPoints> expected() const {
+    const PointFileOptions options = file_options();
+    std::uint64_t count = 0;
+    std::vector<Point> corners;
+    for (const std::string& input : command_.inputs) {
+      const std::optional<ExpectedPoints> of_file = expected_points(input, options);
+      if (!of_file) return {};
+      if (of_file->count == 0) continue;
+      count += of_file->count;
+      corners.insert(corners.end(), {of_file->box.min, of_file->box.max});
+    }
+    return ExpectedPoints{count, bounding_box(corners)};
+  }
+
+  /// Each file as up to so many sources.
+  std::vector<PointSource> sources(std::size_t most_parts) {
+    const PointFileOptions options = file_options();
     std::vector<PointSource> sources;
     for (const std::string& input : command_.inputs) {
       const auto on_read = [this, &input](std::size_t part, const PointFile& file) {

@@ -14,6 +14,8 @@ namespace polylidar::tool::point_files {
 namespace {
 
 constexpr std::size_t kBlockBytes = std::size_t{1} << 20U;
+/// Of many files only the beginning is looked at, or what is far behind it.
+constexpr std::size_t kFirstBytes = std::size_t{1} << 16U;
 constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
 
 std::string reason(int error) {
@@ -23,7 +25,7 @@ std::string reason(int error) {
 }  // namespace
 
 BlockReader::BlockReader(const std::string& path, const PointFileOptions& options)
-    : options_(options), name_(path == "-" ? "standard input" : path), block_(kBlockBytes) {
+    : options_(options), name_(path == "-" ? "standard input" : path) {
   file_ = path == "-" ? ::dup(STDIN_FILENO) : ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
   if (file_ < 0) {
     const int error = errno;
@@ -37,6 +39,9 @@ BlockReader::BlockReader(const std::string& path, const PointFileOptions& option
       // Standard input may be a file that somebody has read from already.
       if (S_ISREG(status.st_mode) && path != "-") size_ = static_cast<std::uint64_t>(status.st_size);
     }
+#ifdef POSIX_FADV_SEQUENTIAL
+    ::posix_fadvise(file_, 0, 0, POSIX_FADV_SEQUENTIAL);  // the system reads farther ahead
+#endif
     start();
   } catch (...) {
     ::close(file_);
@@ -45,7 +50,7 @@ BlockReader::BlockReader(const std::string& path, const PointFileOptions& option
 }
 
 BlockReader::BlockReader(int file, std::string name, const PointFileOptions& options)
-    : options_(options), name_(std::move(name)), file_(file), block_(kBlockBytes) {
+    : options_(options), name_(std::move(name)), file_(file) {
   try {
     start();
   } catch (...) {
@@ -94,23 +99,24 @@ std::size_t BlockReader::read_raw(char* to, std::size_t size) {
 
 /// Moves what is left to the front of the block and reads behind it. False when nothing more comes.
 bool BlockReader::refill() {
-  std::memmove(block_.data(), block_.data() + position_, end_ - position_);
+  if (!block_) block_ = std::make_unique_for_overwrite<char[]>(kBlockBytes);
+  std::memmove(block_.get(), block_.get() + position_, end_ - position_);
   end_ -= position_;
   position_ = 0;
-  const std::size_t count = read_some(block_.data() + end_, block_.size() - end_);
+  const std::size_t count = read_some(block_.get() + end_, (taken_ == 0 ? kFirstBytes : kBlockBytes) - end_);
   end_ += count;
   return count > 0;
 }
 
 std::string_view BlockReader::ahead() {
   if (position_ == end_) refill();
-  return {block_.data() + position_, end_ - position_};
+  return {block_.get() + position_, end_ - position_};
 }
 
 bool BlockReader::next_line(std::string_view& line) {
   std::size_t searched = 0;
   for (;;) {
-    const char* begin = block_.data() + position_;
+    const char* begin = block_.get() + position_;
     const std::size_t held = end_ - position_;
     const auto* found = static_cast<const char*>(std::memchr(begin + searched, '\n', held - searched));
     if (found != nullptr) {
@@ -119,14 +125,14 @@ bool BlockReader::next_line(std::string_view& line) {
       break;
     }
     searched = held;
-    if (held == block_.size()) {
+    if (held == kBlockBytes) {
       ++line_;
       fail_here("the line is longer than " + std::to_string(kBlockBytes) +
                 " bytes; write one point a line, or name the right format with --input");
     }
     if (refill()) continue;
     if (held == 0) return false;
-    line = {block_.data() + position_, held};
+    line = {block_.get() + position_, held};
     position_ = end_;
     break;
   }
@@ -137,7 +143,7 @@ bool BlockReader::next_line(std::string_view& line) {
 
 bool BlockReader::read(char* to, std::size_t size) {
   const std::size_t held = std::min(size, end_ - position_);
-  std::memcpy(to, block_.data() + position_, held);
+  if (held > 0) std::memcpy(to, block_.get() + position_, held);
   position_ += held;
   for (std::size_t done = held; done < size;) {
     const std::size_t count = read_some(to + done, std::min(size - done, kBlockBytes));

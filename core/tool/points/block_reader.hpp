@@ -74,10 +74,10 @@ class BlockReader {
   int file_ = -1;
   std::optional<std::uint64_t> size_;
   std::unique_ptr<Gunzip> gunzip_;  ///< of a file that gzip compressed
-  std::vector<char> block_;
-  std::size_t position_ = 0;  ///< in block_, of the next byte
-  std::size_t end_ = 0;       ///< of what block_ holds
-  std::uint64_t taken_ = 0;   ///< bytes that the system has given
+  std::unique_ptr<char[]> block_;   ///< none before something is read into it
+  std::size_t position_ = 0;        ///< in block_, of the next byte
+  std::size_t end_ = 0;             ///< of what block_ holds
+  std::uint64_t taken_ = 0;         ///< bytes that the system has given
   std::uint64_t line_ = 0;
   bool at_line_end_ = true;
 };

@@ -20,11 +20,14 @@ constexpr std::size_t kPointSize = 105;
 constexpr std::size_t kLegacyCount = 107;
 constexpr std::size_t kScale = 131;
 constexpr std::size_t kOffset = 155;
+constexpr std::size_t kExtent = 179;           // greatest x, least x, greatest y, least y
 constexpr std::size_t kExtendedRecords = 235;  // 1.4 only, as the next two
 constexpr std::size_t kExtendedRecordCount = 243;
 constexpr std::size_t kCount = 247;
 constexpr std::size_t kOldHeader = 227;  // up to 1.2; 1.3 has 8 bytes more, which nobody needs here
 constexpr std::size_t kNewHeader = 375;  // 1.4
+
+constexpr std::size_t kFlags = 15;  // in a point, the byte of which one bit says that it is withheld
 
 constexpr std::size_t kRecordHeader = 54;
 constexpr std::size_t kExtendedRecordHeader = 60;
@@ -68,6 +71,29 @@ std::uint64_t promised_points(const char* bytes) {
   return count != 0 ? count : unsigned_at(bytes + kLegacyCount, 4);
 }
 
+/// How the whole numbers of a file are made coordinates.
+struct Lattice {
+  Point scale;
+  Point offset;
+
+  Point at(std::int32_t x, std::int32_t y) const { return {x * scale.x + offset.x, y * scale.y + offset.y}; }
+  /// The one of these nearest to a point, which many programs write into the header without rounding it.
+  Point nearest(const Point& p) const {
+    return at(nearest((p.x - offset.x) / scale.x), nearest((p.y - offset.y) / scale.y));
+  }
+
+ private:
+  static std::int32_t nearest(double number) {
+    constexpr double kMost = 0x7FFFFFFF;
+    return static_cast<std::int32_t>(std::nearbyint(std::fmax(std::fmin(number, kMost), -kMost - 1)));
+  }
+};
+
+Lattice lattice_of(const char* bytes) {
+  return {{double_at(bytes + kScale), double_at(bytes + kScale + 8)},
+          {double_at(bytes + kOffset), double_at(bytes + kOffset + 8)}};
+}
+
 struct Header {
   int minor_version = 0;
   std::uint64_t size = 0;
@@ -76,8 +102,7 @@ struct Header {
   unsigned format = 0;
   std::size_t point_size = 0;
   std::uint64_t count = 0;
-  Point scale;
-  Point offset;
+  Lattice lattice;
   std::uint64_t extended_records_at = 0;  ///< 0: there are none
   std::uint64_t extended_records = 0;
 };
@@ -151,14 +176,14 @@ class LasReader {
     }
     header_.count = promised_points(bytes.data());
     read_format(static_cast<unsigned>(unsigned_at(&bytes[kPointFormat], 1)));
-    header_.scale = {double_at(&bytes[kScale]), double_at(&bytes[kScale + 8])};
-    header_.offset = {double_at(&bytes[kOffset]), double_at(&bytes[kOffset + 8])};
+    header_.lattice = lattice_of(bytes.data());
+    const auto& [steps, offset_of] = header_.lattice;
     const auto reach = [](double scale, double offset) {
       return std::abs(offset) + std::abs(scale) * 0x1p31;
     };
-    const bool is_finite = std::isfinite(reach(header_.scale.x, header_.offset.x)) &&
-                           std::isfinite(reach(header_.scale.y, header_.offset.y));
-    if (!is_finite || header_.scale.x == 0 || header_.scale.y == 0) {
+    const bool is_finite =
+        std::isfinite(reach(steps.x, offset_of.x)) && std::isfinite(reach(steps.y, offset_of.y));
+    if (!is_finite || steps.x == 0 || steps.y == 0) {
       refuse("has a scale or an offset of x or y that is zero or not finite; write the file again");
     }
   }
@@ -251,7 +276,7 @@ class LasReader {
     const PointFileOptions& options = reader_.options();
     by_ = by_of(options.by);
     if (by_ != By::kNothing) group_of_value_.assign(std::size_t{1} << 16U, kNoGroup);
-    const bool takes_all = options.returns == Returns::kAll && !options.classes && !options.window;
+    const bool takes_all = takes_all_points(options);
     const std::uint64_t first = options.part.begin(header_.count);
     const std::uint64_t end = options.part.end(header_.count);
     skip_to(header_.points_at + first * header_.point_size, "its points do");
@@ -266,10 +291,11 @@ class LasReader {
       if (!take(block.data(), static_cast<std::size_t>(part) * header_.point_size)) fail_short();
       if (takes_all && by_ == By::kNothing) {
         add_all(block.data(), static_cast<std::size_t>(part));
+        hand_on_filled(options, done + part == end);
       } else {
         for (std::size_t i = 0; i < part; ++i) add(block.data() + i * header_.point_size, options);
+        hand_on(file_, options);
       }
-      hand_on(file_, options);
       done += part;
     }
     hand_on(file_, options, true);
@@ -287,27 +313,70 @@ class LasReader {
             static_cast<unsigned>(unsigned_at(record + 18, 2)), (byte(15) & 128U) != 0};
   }
 
-  Point point_of(const char* record) const {
-    return {int32_at(record) * header_.scale.x + header_.offset.x,
-            int32_at(record + 4) * header_.scale.y + header_.offset.y};
+  static Point point_of(const char* record, const Lattice& lattice) {
+    return lattice.at(int32_at(record), int32_at(record + 4));
   }
 
-  /// The points of a block but for those that are withheld: as add() does, in a fraction of its time.
+  /// Puts the points of a block but for those that are withheld behind the first `filled_` ones: as add()
+  /// does, in a fraction of its time.
   void add_all(const char* block, std::size_t count) {
-    const std::size_t class_at = is_extended_format_ ? 16 : 15;
-    const std::uint8_t class_bits = is_extended_format_ ? 255 : 31;
-    const std::uint8_t withheld_bit = is_extended_format_ ? 4 : 128;
-    const std::size_t before = file_.points.size();
-    file_.points.resize(before + count);
-    Point* next = &file_.points[before];
+    if (file_.points.size() < filled_ + count) file_.points.resize(filled_ + count);
+    Point* const points = file_.points.data() + filled_;
+    const Lattice lattice = header_.lattice;
+    const std::size_t size = header_.point_size;
+    for (std::size_t i = 0; i < count; ++i) points[i] = point_of(block + i * size, lattice);
+    filled_ += count;
+    if (count_classes(block, count)) drop_withheld(block, count);
+  }
+
+  /// Counts the points of a block by their classes, those that are withheld among them. Returns whether there
+  /// are any.
+  bool count_classes(const char* block, std::size_t count) {
+    // Several counts of each class, as one that is changed again and again waits for itself.
+    constexpr std::size_t kCounts = 4;
+    std::array<std::array<std::uint32_t, 256>, kCounts> counts{};
+    std::uint8_t flags = 0;
+    const auto count_in = [&](std::array<std::uint32_t, 256>& some, std::size_t i) {
+      const char* const record = block + i * header_.point_size;
+      flags |= static_cast<std::uint8_t>(record[kFlags]);
+      ++some[static_cast<std::uint8_t>(record[class_at()])];
+    };
+    std::size_t i = 0;
+    for (; i + kCounts <= count; i += kCounts) {
+      for (std::size_t k = 0; k < kCounts; ++k) count_in(counts[k], i + k);
+    }
+    for (; i < count; ++i) count_in(counts[0], i);
+    for (const auto& some : counts) {
+      for (std::size_t c = 0; c < some.size(); ++c) file_.classes[c & class_bits()] += some[c];
+    }
+    return (flags & withheld_bit()) != 0;
+  }
+
+  /// Of the block that was added last.
+  void drop_withheld(const char* block, std::size_t count) {
+    Point* const points = file_.points.data() + (filled_ - count);
+    std::size_t left = 0;
     for (std::size_t i = 0; i < count; ++i) {
       const char* const record = block + i * header_.point_size;
-      *next = point_of(record);
-      const bool is_taken = (static_cast<std::uint8_t>(record[15]) & withheld_bit) == 0;
-      file_.classes[static_cast<std::uint8_t>(record[class_at]) & class_bits] += is_taken ? 1 : 0;
-      next += is_taken ? 1 : 0;
+      const unsigned is_taken = (static_cast<std::uint8_t>(record[kFlags]) & withheld_bit()) == 0 ? 1 : 0;
+      points[left] = points[i];
+      left += is_taken;
+      file_.classes[static_cast<std::uint8_t>(record[class_at()]) & class_bits()] -= 1 - is_taken;
     }
-    file_.points.resize(static_cast<std::size_t>(next - file_.points.data()));
+    filled_ -= count - left;
+  }
+
+  std::size_t class_at() const { return is_extended_format_ ? 16 : 15; }
+  std::uint8_t class_bits() const { return is_extended_format_ ? 255 : 31; }
+  std::uint8_t withheld_bit() const { return is_extended_format_ ? 4 : 128; }
+
+  /// hand_on() after add_all(). The memory stays as it is, as filling it with zeros takes its time.
+  void hand_on_filled(const PointFileOptions& options, bool at_end) {
+    if (options.take_points && (filled_ >= points_in_block(options) || at_end)) {
+      if (filled_ > 0) options.take_points(std::span(file_.points).first(filled_));
+      filled_ = 0;
+    }
+    if (at_end) file_.points.resize(filled_);
   }
 
   void add(const char* record, const PointFileOptions& options) {
@@ -316,7 +385,7 @@ class LasReader {
     if (options.returns == Returns::kFirst && attributes.number > 1) return;
     if (options.returns == Returns::kLast && attributes.number < attributes.returns) return;
     if (options.classes && !options.classes->test(attributes.classification)) return;
-    const Point point = point_of(record);
+    const Point point = point_of(record, header_.lattice);
     if (options.window && !is_inside(point, *options.window)) return;
     file_.points.push_back(point);
     ++file_.classes[attributes.classification];
@@ -352,6 +421,7 @@ class LasReader {
   std::vector<std::uint16_t> geokeys_;
   std::string geokey_texts_;
   std::uint64_t position_ = 0;  ///< in the file, as far as it matters
+  std::size_t filled_ = 0;      ///< of the file's points, those that add_all() has put there
   By by_ = By::kNothing;
   std::vector<std::uint32_t> group_of_value_;  ///< a value of 16 bits -> the number of its label, or kNoGroup
   Labels labels_;
@@ -367,6 +437,14 @@ bool is_uncompressed_las(std::string_view start) {
 std::optional<std::uint64_t> promised_points_of_las(std::string_view start) {
   if (!start.starts_with("LASF") || start.size() < kNewHeader) return {};
   return promised_points(start.data());
+}
+
+std::optional<ExpectedPoints> expected_points_of_las(std::string_view start) {
+  if (!start.starts_with("LASF") || start.size() < kNewHeader) return {};
+  const Lattice lattice = lattice_of(start.data());
+  const auto at = [&](std::size_t k) { return double_at(start.data() + kExtent + 8 * k); };
+  const std::array<Point, 2> corners = {lattice.nearest({at(0), at(2)}), lattice.nearest({at(1), at(3)})};
+  return ExpectedPoints{promised_points(start.data()), bounding_box(corners)};
 }
 
 void read_las(BlockReader& reader, PointFile& file) {

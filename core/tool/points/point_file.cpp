@@ -281,6 +281,16 @@ bool is_read_in_parts(const std::string& path, const PointFileOptions& options) 
   }
 }
 
+std::optional<ExpectedPoints> expected_points(const std::string& path, const PointFileOptions& options) {
+  if (!point_files::takes_all_points(options) || !is_read_in_parts(path, options)) return {};
+  try {
+    BlockReader reader(path, options);
+    return point_files::expected_points_of_las(reader.ahead());
+  } catch (const PointFileError&) {
+    return {};
+  }
+}
+
 std::optional<std::uint64_t> promised_points(const std::string& path) {
   std::error_code error;
   if (format_of_name(path) != PointFormat::kLas || !std::filesystem::is_regular_file(path, error)) return {};

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "polylidar/geometry.hpp"
+#include "polylidar/stream.hpp"
 #include "tool/points/crs.hpp"
 
 namespace polylidar::tool {
@@ -116,6 +117,10 @@ PointFile read_point_file(const std::string& path, const PointFileOptions& optio
 /// Whether parts of the file can be read by themselves: LAS, NumPy's rows and raw doubles, if it is no pipe
 /// and nothing is compressed. Also not if the file cannot be read: reading it then says why.
 bool is_read_in_parts(const std::string& path, const PointFileOptions& options);
+
+/// What the header of a LAS file that is_read_in_parts() says of its points; nothing of other files, and
+/// where the options leave some out. It may be wrong.
+std::optional<ExpectedPoints> expected_points(const std::string& path, const PointFileOptions& options);
 
 /// How many points the header of a file promises whose name ends with .las or .laz, also with .gz; nothing of
 /// other files, and where that cannot be read.

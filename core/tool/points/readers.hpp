@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "polylidar/geometry.hpp"
+#include "polylidar/stream.hpp"
 #include "tool/points/block_reader.hpp"
 #include "tool/points/labels.hpp"
 #include "tool/points/point_file.hpp"
@@ -48,15 +49,28 @@ bool is_uncompressed_las(std::string_view start);
 /// where they are too few.
 std::optional<std::uint64_t> promised_points_of_las(std::string_view start);
 
+/// What the header of a LAS file, of which these are the first bytes, says of all of its points, those that
+/// are withheld among them; nothing where they are too few.
+std::optional<ExpectedPoints> expected_points_of_las(std::string_view start);
+
 /// Reserves memory for `count` points, in huge pages where the system has them.
 void reserve_points(std::vector<Point>& points, std::size_t count);
+
+/// Whether all points of a LAS file are taken but for those that are withheld.
+inline bool takes_all_points(const PointFileOptions& options) {
+  return options.returns == Returns::kAll && !options.classes && !options.window;
+}
+
+/// How many points are handed on together, at least. Small blocks stay in the cache of the one core that
+/// works on them; large ones are worth sharing.
+inline std::size_t points_in_block(const PointFileOptions& options) {
+  return std::size_t{1} << (options.part.count > 1 ? 13U : 18U);
+}
 
 /// To be called after points were added to `file`, and at the end with `at_end`: hands the points on
 /// where somebody takes them.
 inline void hand_on(PointFile& file, const PointFileOptions& options, bool at_end = false) {
-  // Small blocks stay in the cache of the one core that works on them; large ones are worth sharing.
-  const std::size_t block_points = std::size_t{1} << (options.part.count > 1 ? 13U : 18U);
-  if (!options.take_points || (file.points.size() < block_points && !at_end)) return;
+  if (!options.take_points || (file.points.size() < points_in_block(options) && !at_end)) return;
   if (!file.points.empty()) options.take_points(file.points);
   file.points.clear();
 }
