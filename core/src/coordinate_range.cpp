@@ -68,10 +68,36 @@ template <std::size_t kCount>
   }
 }
 
+/// Of as many points.
+template <std::size_t kCount>
+[[gnu::always_inline]] inline bool are_vectors_within(std::span<const Point> points, const Box& box) {
+  using Vector = typename Coordinates<kCount>::Vector;
+  Vector least;
+  Vector greatest;
+  for (std::size_t k = 0; k < kCount; k += 2) {
+    least[k] = box.min.x;
+    least[k + 1] = box.min.y;
+    greatest[k] = box.max.x;
+    greatest[k + 1] = box.max.y;
+  }
+  auto within = least == least;
+  for (std::size_t i = 0; i < points.size(); i += kCount / 2) {
+    Vector v;
+    std::memcpy(&v, &points[i], sizeof v);
+    within &= (v >= least) & (v <= greatest);
+  }
+  long long all = -1;
+  for (std::size_t k = 0; k < kCount; ++k) all &= within[k];
+  return all != 0;
+}
+
 // The same code three times, for registers of different widths.
 constexpr std::size_t kMostCoordinates = 8;
 void measure_portably(std::span<const Point> points, Magnitudes& result) {
   measure_vectors<2>(points, result);
+}
+bool are_within_portably(std::span<const Point> points, const Box& box) {
+  return are_vectors_within<2>(points, box);
 }
 #ifdef POLYLIDAR_X86_KERNELS
 POLYLIDAR_AVX2 void measure_with_avx2(std::span<const Point> points, Magnitudes& result) {
@@ -79,6 +105,12 @@ POLYLIDAR_AVX2 void measure_with_avx2(std::span<const Point> points, Magnitudes&
 }
 POLYLIDAR_AVX512 void measure_with_avx512(std::span<const Point> points, Magnitudes& result) {
   measure_vectors<kMostCoordinates>(points, result);
+}
+POLYLIDAR_AVX2 bool are_within_with_avx2(std::span<const Point> points, const Box& box) {
+  return are_vectors_within<4>(points, box);
+}
+POLYLIDAR_AVX512 bool are_within_with_avx512(std::span<const Point> points, const Box& box) {
+  return are_vectors_within<kMostCoordinates>(points, box);
 }
 #endif
 
@@ -180,10 +212,12 @@ void RangeOfBlocks::add(const RangeOfBlocks& more) {
 }
 
 bool are_within(std::span<const Point> points, const Box& box, Kernel kernel) {
-  const Magnitudes magnitudes = measure(points, kernel);
-  const Box& own = magnitudes.box;
-  return !std::isnan(magnitudes.poison) && own.min.x >= box.min.x && own.min.y >= box.min.y &&
-         own.max.x <= box.max.x && own.max.y <= box.max.y;
+  const std::size_t in_vectors = points.size() - points.size() % (kMostCoordinates / 2);
+#ifdef POLYLIDAR_X86_KERNELS
+  if (kernel == Kernel::kAvx512 && !are_within_with_avx512(points.first(in_vectors), box)) return false;
+  if (kernel == Kernel::kAvx2 && !are_within_with_avx2(points.first(in_vectors), box)) return false;
+#endif
+  return are_within_portably(kernel == Kernel::kPortable ? points : points.subspan(in_vectors), box);
 }
 
 CoordinateRange RangeOfBlocks::range() const {

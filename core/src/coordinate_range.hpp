@@ -51,7 +51,7 @@ class RangeOfBlocks {
   static constexpr double kNone = std::numeric_limits<double>::infinity();
 };
 
-/// Whether all points are finite and in the box.
+/// Whether all points are finite and in the box, whose corners are finite.
 bool are_within(std::span<const Point> points, const Box& box, Kernel kernel = best_kernel());
 
 }  // namespace polylidar::detail

@@ -120,9 +120,10 @@ struct CellBlock {
   const std::uint64_t* cells;  ///< of each point; of those below or above the map, of no meaning
   Grid::Cell begin_of_rows;    ///< the first cell of the rows
   Grid::Cell cells_of_rows;    ///< how many they have
+  bool has_all;                ///< whether all points lie in the rows
 
   /// Whether point i lies in the rows.
-  bool has(std::size_t i) const { return cells[i] - begin_of_rows < cells_of_rows; }
+  bool has(std::size_t i) const { return has_all || cells[i] - begin_of_rows < cells_of_rows; }
 };
 
 /// The steps from the sources to a shard's part or to the hull.
@@ -280,12 +281,13 @@ void Stream::run_over_cells(const Rows& rows, const Take& take, const EndOfSlots
   };
   const Grid::Cell begin_of_rows = first_cell(rows.begin);
   const Grid::Cell cells_of_rows = first_cell(rows.end) - begin_of_rows;
+  const bool has_all = part_.shard.count == 1;
   const auto take_block = [&](std::size_t slot, const detail::SourceBlock& block) {
-    detail::visit_numbered(
-        block.points, grid_.wide_numbering(),
-        [&](std::size_t begin, std::span<const Point> points, const std::uint64_t* cells) {
-          take(slots_[slot], CellBlock{block.first + begin, points, cells, begin_of_rows, cells_of_rows});
-        });
+    detail::visit_numbered(block.points, grid_.wide_numbering(),
+                           [&](std::size_t begin, std::span<const Point> points, const std::uint64_t* cells) {
+                             take(slots_[slot], CellBlock{block.first + begin, points, cells, begin_of_rows,
+                                                          cells_of_rows, has_all});
+                           });
   };
   if (is_first_pass_) return find_extents(false, take_block);
   const auto check_and_take = [&](std::size_t slot, const detail::SourceBlock& block) {

@@ -335,10 +335,14 @@ class LasReader {
     // Several counts of each class, as one that is changed again and again waits for itself.
     constexpr std::size_t kCounts = 4;
     std::array<std::array<std::uint32_t, 256>, kCounts> counts{};
-    std::uint8_t flags = 0;
+    unsigned flags = 0;
+    if (is_extended_format_) {
+      for (std::size_t i = 0; i < count; ++i) {
+        flags |= static_cast<std::uint8_t>(block[i * header_.point_size + kFlags]);
+      }
+    }
     const auto count_in = [&](std::array<std::uint32_t, 256>& some, std::size_t i) {
       const char* const record = block + i * header_.point_size;
-      flags |= static_cast<std::uint8_t>(record[kFlags]);
       ++some[static_cast<std::uint8_t>(record[class_at()])];
     };
     std::size_t i = 0;
@@ -347,7 +351,10 @@ class LasReader {
     }
     for (; i < count; ++i) count_in(counts[0], i);
     for (const auto& some : counts) {
-      for (std::size_t c = 0; c < some.size(); ++c) file_.classes[c & class_bits()] += some[c];
+      for (unsigned c = 0; c < some.size(); ++c) {
+        file_.classes[c & class_bits()] += some[c];
+        if (!is_extended_format_ && some[c] > 0) flags |= c;  // the same byte
+      }
     }
     return (flags & withheld_bit()) != 0;
   }
