@@ -248,9 +248,10 @@ TEST(Stream, ReadsThePointsOnceLessWhereThereIsMemory) {
     const IndexedMultiPolygon& shape = in_memory.extract(points, options);
     std::vector<int> passes;
     MemorySource source(points);
-    for (double bytes = map_bytes(source, options); bytes < 3e6; bytes *= 1.2) {
+    const double least = map_bytes(source, options);
+    for (int k = 0; k < 24; ++k) {
       StreamProgress last;
-      const StreamOptions stream_options{.most_map_bytes = bytes,
+      const StreamOptions stream_options{.most_map_bytes = least * std::pow(1.2, k),
                                          .progress = [&](const StreamProgress& progress) { last = progress; },
                                          .reads_at_once = at_once};
       const StreamedHull hull =

@@ -80,7 +80,7 @@ template <std::size_t kCount>
     greatest[k] = box.max.x;
     greatest[k + 1] = box.max.y;
   }
-  auto within = least == least;
+  auto within = Vector{} == 0;
   for (std::size_t i = 0; i < points.size(); i += kCount / 2) {
     Vector v;
     std::memcpy(&v, &points[i], sizeof v);

@@ -449,9 +449,9 @@ bool Stream::find_near_cells(const detail::FewCells& uncertain_cells, detail::Fe
   constexpr std::size_t kWordsOfReach = 2 * kHalfWidths.size();  // at most, for each cell
   const std::size_t words = std::min(kWordsOfReach * uncertain_cells.count(), grid_.word_count());
   const auto bytes = static_cast<double>(sizeof(Bitmap::Word) * (grid_.word_count() + 2 * words));
-  most_near_ = static_cast<std::size_t>(
-      std::min(static_cast<double>(part_.source_points / kPointsForOneKept),
-               std::max(stream_options_.most_map_bytes - bytes, 0.0) / sizeof(NumberedPoint)));
+  const double most = std::max(stream_options_.most_map_bytes - bytes, 0.0) / sizeof(NumberedPoint);
+  const std::uint64_t share = part_.source_points / kPointsForOneKept;
+  most_near_ = static_cast<std::size_t>(std::min(static_cast<double>(share), most));
   kept_near_ = 0;
   if (kPointsForOneCell * uncertain_cells.count() > part_.source_points) return false;
   if (uncertain_cells.count() > most_near_) return false;

@@ -27,8 +27,8 @@ struct StreamProgress {
 
 /// What is said of all points of a stream before they are read, such as in the header of a file.
 struct ExpectedPoints {
-  std::uint64_t count = 0;
-  Box box;  ///< as bounding_box()
+  std::uint64_t count = 0;  ///< how many
+  Box box;                  ///< round them, as bounding_box() gives it
 };
 
 /// What of a stream is not in Options.
