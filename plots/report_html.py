@@ -151,7 +151,7 @@ def _verdict(claim: dict[str, Any]) -> str | None:
 
 def _claim(experiment: Experiment, claim: dict[str, Any]) -> str:
     word = _verdict(claim)
-    kind = "holds" if word == "confirmed" else "fails"
+    kind = {"confirmed": "holds", "undecided": "open"}.get(word, "fails")
     paper, ours, equal_work = (text(claim[key] or "–") for key in ("paper", "ours", "equal_work"))
     what = f"{text(claim['claim'])}<small>{text(claim['where'])}: {text(claim['detail'])}</small>"
     cells = [what, text(experiment.title), paper, ours, equal_work, f"<span class='verdict {kind}'>{word}</span>"]

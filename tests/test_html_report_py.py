@@ -413,6 +413,23 @@ class Page(Folder):
         older["environment"]["huge_pages"] = {"kernel": "madvise", "malloc": "glibc.malloc.hugetlb=1"}
         self.assertEqual(environment_facts(older)["Huge pages"], "kernel: madvise, malloc: glibc.malloc.hugetlb=1")
 
+    def test_an_undecided_claim_neither_holds_nor_fails(self):
+        kinds = {"confirmed": "holds", "undecided": "open", "refuted": "fails", "larger": "fails"}
+        claims = [
+            {
+                **dict.fromkeys(("id", "claim", "where", "paper", "ours", "equal_work", "detail"), word),
+                "value": 1,
+                "verdict": word,
+            }
+            for word in kinds
+        ]
+        told = report([run()])
+        told["summary"]["claims"] = claims
+        plot_samples.write_report(self.folder, told)
+        page = make_report.make_page(load(self.folder), self.folder)
+        for word, kind in kinds.items():
+            self.assertRegex(page, f"<span class='verdict {kind}'>{word}")
+
     def test_text_of_records_stays_text(self):
         evil = report([run(status="error", detail=EVIL, dataset="star-1"), run("cgal")], notes=[EVIL])
         chosen = {"method": "cgal", "protocol": "paper", "note": EVIL, "parameters": {EVIL: {"rule": EVIL}}}

@@ -2,22 +2,20 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
-#include <map>
 #include <optional>
+#include <span>
 #include <stdexcept>
+#include <utility>
 
 #include "benchmarks/record/embedded.hpp"
 #include "benchmarks/report/ratios.hpp"
+#include "benchmarks/statistics/judge.hpp"
 #include "benchmarks/statistics/statistics.hpp"
 
 namespace hullbench::report {
 namespace {
 
 using nlohmann::json;
-
-/// The value of a run without a result, in time and error alike.
-constexpr double kFailed = std::numeric_limits<double>::infinity();
 
 std::vector<PaperStep> read_steps() {
   std::vector<PaperStep> result;
@@ -37,16 +35,11 @@ std::vector<std::int64_t> times_of_step(const record::RunRecord& run, const std:
                          "\", which is none of its steps.");
 }
 
-/// One median a run: of the time within `boundary`, of the error as the paper divides it, or of a step's
-/// time.
-std::optional<double> value_of_run(const record::RunRecord& run, const std::string& quantity,
-                                   Boundary boundary) {
-  if (!is_measured(run)) return std::nullopt;
-  if (quantity == "error") return metric(run, "l2_paper");
-  const std::vector<std::int64_t> values =
-      quantity == "time" ? times(run, boundary) : times_of_step(run, quantity);
-  if (values.empty()) return std::nullopt;
-  return statistics::median(values);
+/// Of `references` the run with the same seed as `run`: on the same points where the case is the same.
+const record::RunRecord* of_same_seed(const record::RunRecord& run, const Runs& references) {
+  const auto found = std::find_if(references.begin(), references.end(),
+                                  [&](const record::RunRecord* other) { return other->seed == run.seed; });
+  return found == references.end() ? nullptr : *found;
 }
 
 /// How a ratio is judged. One-sided, where the paper gives no number or a bound: {"at_least" | "more_than" |
@@ -54,51 +47,47 @@ std::optional<double> value_of_run(const record::RunRecord& run, const std::stri
 /// about / within to about * within, or {"between": [number, number]}.
 class Threshold {
  public:
-  explicit Threshold(const json& check) {
-    if (check.contains("at_least")) at_least_ = check["at_least"].get<double>();
-    if (check.contains("more_than")) more_than_ = check["more_than"].get<double>();
-    if (check.contains("less_than")) less_than_ = check["less_than"].get<double>();
+  explicit Threshold(const json& check) : is_number_(check.contains("between") || check.contains("about")) {
+    // The judge takes a limit alone to be below it, so one that counts otherwise is moved by a rounding.
+    const auto below = [](double limit) { return std::nextafter(limit, -kInfinity); };
+    if (check.contains("at_least")) above_ = below(check["at_least"].get<double>());
+    if (check.contains("more_than")) above_ = check["more_than"].get<double>();
+    if (check.contains("less_than")) at_most_ = below(check["less_than"].get<double>());
     if (check.contains("between")) {
-      at_least_ = check["between"].at(0).get<double>();
+      above_ = below(check["between"].at(0).get<double>());
       at_most_ = check["between"].at(1).get<double>();
     }
     if (check.contains("about")) {
       const auto about = check["about"].get<double>();
       const auto within = check.at("within").get<double>();
-      at_least_ = about / within;
+      above_ = below(about / within);
       at_most_ = about * within;
     }
   }
 
-  bool passes(double ratio) const {
-    return (!at_least_ || ratio >= *at_least_) && (!more_than_ || ratio > *more_than_) &&
-           (!less_than_ || ratio < *less_than_) && (!at_most_ || ratio <= *at_most_);
-  }
-
   /// Of two ratios the one that speaks more against the claim.
   double worse(double a, double b) const {
-    if (less_than_) return std::max(a, b);
-    if (at_most_) return distance(a) > distance(b) ? a : b;
-    return std::min(a, b);
+    if (is_number_) return distance(a) > distance(b) ? a : b;
+    return at_most_ < kInfinity ? std::max(a, b) : std::min(a, b);
   }
 
-  /// "confirmed", or of a number of the paper's "larger" or "smaller" than it, or "refuted".
-  std::string verdict(double ratio) const {
-    if (passes(ratio)) return "confirmed";
-    if (!at_most_) return "refuted";
-    return ratio > *at_most_ ? "larger" : "smaller";
+  /// "confirmed", or of a number of the paper's "larger" or "smaller" than it, or "refuted", if all of the
+  /// interval of the ratio is so; else "undecided".
+  std::string verdict(const statistics::Interval& ratio) const {
+    const statistics::Side low = statistics::side_of(ratio, above_);
+    const statistics::Side high = statistics::side_of(ratio, at_most_);
+    if (low == statistics::Side::kBelow) return is_number_ ? "smaller" : "refuted";
+    if (high == statistics::Side::kAbove) return is_number_ ? "larger" : "refuted";
+    return low == statistics::Side::kAbove && high == statistics::Side::kBelow ? "confirmed" : "undecided";
   }
 
  private:
   /// By which factor, as a logarithm, a ratio is off the middle of what is confirmed.
-  double distance(double ratio) const {
-    return std::abs(std::log(ratio) - std::log(*at_least_ * *at_most_) / 2);
-  }
+  double distance(double ratio) const { return std::abs(std::log(ratio) - std::log(above_ * at_most_) / 2); }
 
-  std::optional<double> at_least_;
-  std::optional<double> more_than_;
-  std::optional<double> less_than_;
-  std::optional<double> at_most_;
+  bool is_number_;
+  double above_ = -kInfinity;   ///< a ratio that is confirmed is above this one ...
+  double at_most_ = kInfinity;  ///< ... and at most this one
 };
 
 /// The ratios a claim is about, over the cases of a report.
@@ -111,20 +100,27 @@ class ClaimRatios {
         threshold_(check),
         quantity_(check.at("quantity").get<std::string>()) {}
 
-  /// One ratio a case, of several the one that speaks most against the claim.
-  std::vector<double> by_case(Boundary boundary) const {
-    std::map<Case, double> worst;
+  /// The ratios of each case, of several rivals those that speak most against the claim.
+  std::vector<CaseRatios> by_case(Boundary boundary) const {
+    std::vector<CaseRatios> result;
     for (const Case& which : measurements_.cases()) {
       if (!concerns(which)) continue;
-      for (const double ratio : ratios(which, boundary)) {
-        const auto [place, is_new] = worst.emplace(which, ratio);
-        if (!is_new) place->second = threshold_.worse(place->second, ratio);
+      std::optional<CaseRatios> worst;
+      for (CaseRatios& one : ratios(which, boundary)) {
+        if (!worst || threshold_.worse(worst->middle, one.middle) != worst->middle) worst = std::move(one);
       }
+      if (worst) result.push_back(std::move(*worst));
     }
-    std::vector<double> result;
-    result.reserve(worst.size());
-    for (const auto& [which, ratio] : worst) result.push_back(ratio);
     return result;
+  }
+
+  /// Where the median of the cases' ratios lies. A single error or failure is exact; a time that was taken
+  /// once says nothing.
+  statistics::Interval interval(std::span<const CaseRatios> cases) const {
+    if (const auto interval = interval_over(cases)) return *interval;
+    const double only = cases.front().middle;
+    if (quantity_ == "error" || !std::isfinite(only)) return {only, only};
+    return {0, kInfinity};
   }
 
   /// Why methods of this claim are not in it, one clause each; empty when all are.
@@ -185,48 +181,65 @@ class ClaimRatios {
     return result;
   }
 
-  /// kFailed where the method failed, if it solves another case; none where it was not run or has no value.
-  std::optional<double> value(const std::string& method, const Case& which, Boundary boundary) const {
-    const Runs runs = runs_of(method, which);
-    if (has_failed(runs) && solves_any(method)) return kFailed;
-    if (!is_solved(runs)) return std::nullopt;
-    std::vector<double> values;
-    for (const record::RunRecord* run : runs) {
-      if (const auto value = value_of_run(*run, quantity_, boundary)) values.push_back(*value);
-    }
-    if (values.empty()) return std::nullopt;
-    return statistics::median(values);
+  /// Of the quantity, by round. An error has no rounds.
+  statistics::Passes measured_ratios(const Runs& over, const Runs& under, Boundary boundary) const {
+    if (quantity_ == "error") return metric_ratio(over, under, "l2_paper");
+    return round_ratios(over, under, &of_same_seed,
+                        [&](const record::RunRecord& run) { return times_of(run, boundary); });
   }
 
-  std::vector<double> ratios(const Case& which, Boundary boundary) const {
-    std::vector<double> result;
-    const auto add = [&](std::optional<double> over, std::optional<double> under) {
-      if (!over || !under || *over <= 0 || *under <= 0 || (*over == kFailed && *under == kFailed)) return;
-      result.push_back(*over / *under);
+  std::vector<std::int64_t> times_of(const record::RunRecord& run, Boundary boundary) const {
+    return quantity_ == "time" ? times(run, boundary) : times_of_step(run, quantity_);
+  }
+
+  bool has_value(const Runs& runs) const {
+    return std::any_of(runs.begin(), runs.end(), [&](const record::RunRecord* run) {
+      return quantity_ == "error" ? metric(*run, "l2_paper").has_value()
+                                  : !times_of(*run, Boundary::kPaper).empty();
+    });
+  }
+
+  /// The ratios of a case, one entry for each pair of methods. A method that failed is infinitely bad, if it
+  /// solves another case.
+  std::vector<CaseRatios> ratios(const Case& which, Boundary boundary) const {
+    std::vector<CaseRatios> result;
+    const auto add = [&](const std::string& over, const std::string& under, const Case& under_case) {
+      const Runs above = runs_of(over, which);
+      const Runs below = runs_of(under, under_case);
+      const bool over_failed = has_failed(above) && solves_any(over);
+      const bool under_failed = has_failed(below) && solves_any(under);
+      if (over_failed == under_failed && !(is_solved(above) && is_solved(below))) return;
+      statistics::Passes passes;
+      if (over_failed) {
+        if (is_solved(below) && has_value(below)) passes = {{kInfinity}};
+      } else if (under_failed) {
+        if (is_solved(above) && has_value(above)) passes = {{0}};
+      } else {
+        passes = measured_ratios(above, below, boundary);
+      }
+      if (!passes.empty()) result.emplace_back(which, std::move(passes));
     };
     for (const json& over : check_.value("over", json::array())) {
       for (const json& under : check_.at("under")) {
-        add(value(over.get<std::string>(), which, boundary),
-            value(under.get<std::string>(), which, boundary));
+        add(over.get<std::string>(), under.get<std::string>(), which);
       }
     }
     if (!which.holes) return result;
-    const Case without{which.dataset, false, which.n};
     for (const json& method : check_.value("with_holes", json::array())) {
       const std::string name = method.get<std::string>();
-      add(value(name, which, boundary), value(name, without, boundary));
+      add(name, name, {which.dataset, false, which.n});
     }
     return result;
   }
 
   /// Why `method` has no value in any of its cases; empty when it has one.
   std::string why_missing(const std::string& method) const {
-    const bool has_value =
+    const bool is_there =
         std::any_of(measurements_.cases().begin(), measurements_.cases().end(), [&](const Case& which) {
-          return concerns(which) && is_solved(runs_of(method, which)) &&
-                 value(method, which, Boundary::kPaper);
+          const Runs runs = runs_of(method, which);
+          return concerns(which) && is_solved(runs) && has_value(runs);
         });
-    if (has_value) return "";
+    if (is_there) return "";
     if (solves_any(method) && quantity_ == "error") return title(method) + " has no error that is defined";
     if (solves_any(method)) return title(method) + " does not tell its step \"" + quantity_ + "\"";
     for (const json& info : report_.value("methods", json::array())) {
@@ -249,18 +262,45 @@ struct Verdict {
   std::string text;
   double value = 0;
   std::string verdict;
+  std::string detail;  ///< what the records say of the verdict; may be empty
 };
 
-Verdict judge(const std::vector<double>& ratios, const Threshold& threshold, bool every_case) {
-  if (!every_case) {
-    const double middle = statistics::median(ratios);
-    return {table::Number(middle).text(), middle, threshold.verdict(middle)};
+/// Of the median over the cases.
+Verdict judge_median(const ClaimRatios& ratios, std::span<const CaseRatios> cases) {
+  std::vector<double> middles;
+  middles.reserve(cases.size());
+  for (const CaseRatios& one : cases) middles.push_back(one.middle);
+  const double middle = statistics::median(middles);
+  const statistics::Interval interval = ratios.interval(cases);
+  Verdict result = {table::Number(middle).text(), middle, ratios.threshold().verdict(interval), ""};
+  if (interval.low < interval.high) {
+    result.detail = ", 95 % interval " + table::Number(interval.low).text() + " to " +
+                    table::Number(interval.high).text();
   }
-  const auto passed =
-      std::count_if(ratios.begin(), ratios.end(), [&](double r) { return threshold.passes(r); });
-  double worst = ratios.front();
-  for (const double ratio : ratios) worst = threshold.worse(worst, ratio);
-  return {std::to_string(passed) + " of " + std::to_string(ratios.size()), worst, threshold.verdict(worst)};
+  return result;
+}
+
+/// Each case for itself: one against the claim is enough.
+Verdict judge_every_case(const ClaimRatios& ratios, std::span<const CaseRatios> cases) {
+  const Threshold& threshold = ratios.threshold();
+  std::size_t confirmed = 0;
+  std::size_t undecided = 0;
+  double worst = cases.front().middle;
+  std::optional<double> against;  // of the cases that decide against the claim the worst
+  std::string verdict = "confirmed";
+  for (const CaseRatios& one : cases) {
+    worst = threshold.worse(worst, one.middle);
+    const std::string word = threshold.verdict(ratios.interval({&one, 1}));
+    confirmed += word == "confirmed" ? 1U : 0U;
+    undecided += word == "undecided" ? 1U : 0U;
+    if (word == "confirmed" || word == "undecided") continue;
+    if (against && threshold.worse(*against, one.middle) == *against) continue;
+    against = one.middle;
+    verdict = word;
+  }
+  if (!against && undecided > 0) verdict = "undecided";
+  return {std::to_string(confirmed) + " of " + std::to_string(cases.size()), worst, verdict,
+          undecided == 0 ? "" : ", undecided: " + std::to_string(undecided)};
 }
 
 json check_claim(const json& claim, const json& report, const Measurements& measurements) {
@@ -275,22 +315,21 @@ json check_claim(const json& claim, const json& report, const Measurements& meas
   const ClaimRatios ratios(report, measurements, check);
   const std::string missing = ratios.missing();
   const std::string failures = ratios.failures();
-  const std::vector<double> values = ratios.by_case(Boundary::kPaper);
-  if (values.empty()) {
+  const std::vector<CaseRatios> cases = ratios.by_case(Boundary::kPaper);
+  if (cases.empty()) {
     result["detail"] =
         missing.empty() ? "No case was measured for both sides of the comparison." : missing + ".";
     return result;
   }
-  const bool every_case = check.at("of") == "every_case";
-  const Verdict verdict = judge(values, ratios.threshold(), every_case);
+  const auto judge = check.at("of") == "every_case" ? &judge_every_case : &judge_median;
+  const Verdict verdict = judge(ratios, cases);
   result["ours"] = verdict.text;
   if (std::isfinite(verdict.value)) result["value"] = verdict.value;
   result["verdict"] = verdict.verdict;
-  if (check.at("quantity") == "time") {
-    result["equal_work"] = judge(ratios.by_case(Boundary::kEqualWork), ratios.threshold(), every_case).text;
-  }
-  result["detail"] = claim.at("reading").get<std::string>() + " (" + std::to_string(values.size()) +
-                     (values.size() == 1 ? " case" : " cases") + ")" +
+  if (check.at("quantity") == "time")
+    result["equal_work"] = judge(ratios, ratios.by_case(Boundary::kEqualWork)).text;
+  result["detail"] = claim.at("reading").get<std::string>() + " (" + std::to_string(cases.size()) +
+                     (cases.size() == 1 ? " case" : " cases") + verdict.detail + ")" +
                      (failures.empty() ? "" : "; failed, which counts as infinitely bad: " + failures) +
                      (missing.empty() ? "" : "; left out: " + missing) + ".";
   return result;

@@ -33,8 +33,10 @@ bool is_about_time(const nlohmann::json& claim);
 /// Every claim of the paper that concerns state shapes, checked against the `protocol: paper` rows of
 /// `report`: a list of {id, claim, where, paper, ours (text), value (number or null), equal_work (text or
 /// null), verdict, detail}. The verdict is "confirmed"; of a claim that gives a number "larger" or "smaller"
-/// where ours is outside of the band round it; of any other "refuted"; null: not measured here. Claims about
-/// time are not judged when there are no times (see Measurements).
+/// where ours is outside of the band round it; of any other "refuted"; each if the whole interval of the
+/// ratio says so (statistics/judge.hpp, ratios.hpp), else "undecided"; null: not measured here. A claim about
+/// every case needs each of them; one case against it refutes it. Claims about time are not judged when there
+/// are no times (see Measurements).
 nlohmann::json check_claims(const nlohmann::json& report);
 
 }  // namespace hullbench::report

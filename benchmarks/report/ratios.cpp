@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <functional>
-#include <limits>
 #include <map>
 #include <utility>
 
@@ -10,8 +9,6 @@
 
 namespace hullbench::report {
 namespace {
-
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 /// The round of each repetition; of older records, which do not tell it, its position.
 std::vector<std::int64_t> rounds_of(const record::RunRecord& run) {
@@ -21,22 +18,88 @@ std::vector<std::int64_t> rounds_of(const record::RunRecord& run) {
   return rounds;
 }
 
-/// The ratios of a case by pass, one a round that both have.
-statistics::Passes round_ratios(const Runs& runs, const Runs& references) {
+/// `ratio_of` gives the ratios of a case that both solved.
+Ratios ratios_over(const Measurements& measurements, const Line& line, const Line& reference,
+                   const std::vector<Case>& cases,
+                   const std::function<statistics::Passes(const Runs&, const Runs&)>& ratio_of) {
+  Ratios result;
+  std::vector<CaseRatios> ratios;
+  for (const Case& which : cases) {
+    const Runs ours = measurements.find(line.method, line.protocol, which);
+    const Runs theirs = measurements.find(reference.method, reference.protocol, which);
+    if (is_missing(ours) || is_missing(theirs)) continue;
+    const bool failed = first_failure(ours) != nullptr;
+    const bool reference_failed = first_failure(theirs) != nullptr;
+    if (failed && reference_failed) continue;
+    statistics::Passes passes = failed             ? statistics::Passes{{kInfinity}}
+                                : reference_failed ? statistics::Passes{{0}}
+                                                   : ratio_of(ours, theirs);
+    if (passes.empty()) continue;
+    result.failures += failed ? 1 : 0;
+    ratios.emplace_back(which, std::move(passes));
+  }
+  result.cases = ratios.size();
+  if (ratios.empty()) return result;
+  std::vector<double> middles;
+  middles.reserve(ratios.size());
+  for (const CaseRatios& one : ratios) middles.push_back(one.middle);
+  result.median = statistics::median(middles);
+  std::tie(result.least, result.most) = std::pair(*std::min_element(middles.begin(), middles.end()),
+                                                  *std::max_element(middles.begin(), middles.end()));
+  result.interval = interval_over(ratios);
+  return result;
+}
+
+double median_of_all(const statistics::Passes& passes) {
+  std::vector<double> values;
+  for (const auto& pass : passes) values.insert(values.end(), pass.begin(), pass.end());
+  return statistics::median(values);
+}
+
+}  // namespace
+
+Ratios time_ratios(const Measurements& measurements, const Line& line, const Line& reference,
+                   const std::vector<Case>& cases) {
+  if (!measurements.has_times()) return {};
+  return ratios_over(measurements, line, reference, cases, [](const Runs& ours, const Runs& theirs) {
+    return round_ratios(ours, theirs, &counterpart, [](const record::RunRecord& run) { return run.time_ns; });
+  });
+}
+
+Ratios metric_ratios(const Measurements& measurements, const Line& line, const Line& reference,
+                     const std::vector<Case>& cases, const std::string& metric) {
+  return ratios_over(measurements, line, reference, cases, [&](const Runs& ours, const Runs& theirs) {
+    return metric_ratio(ours, theirs, metric);
+  });
+}
+
+const record::RunRecord* counterpart(const record::RunRecord& run, const Runs& references) {
+  const auto found = std::find_if(references.begin(), references.end(), [&](const record::RunRecord* other) {
+    return other->dataset_sha256 == run.dataset_sha256 && other->seed == run.seed;
+  });
+  return found == references.end() ? nullptr : *found;
+}
+
+statistics::Passes round_ratios(
+    const Runs& runs, const Runs& references, Partner partner,
+    const std::function<std::vector<std::int64_t>(const record::RunRecord&)>& times_of) {
   std::map<std::int64_t, std::vector<double>> by_pass;
   for (const record::RunRecord* run : runs) {
-    const record::RunRecord* reference = counterpart(*run, references);
+    const record::RunRecord* reference = partner(*run, references);
     if (reference == nullptr) continue;
-    std::map<std::int64_t, std::int64_t> beside;  // the reference's time by round
-    const std::vector<std::int64_t> reference_rounds = rounds_of(*reference);
-    for (std::size_t i = 0; i < reference_rounds.size(); ++i)
-      beside[reference_rounds[i]] = reference->time_ns[i];
+    const std::vector<std::int64_t> times = times_of(*run);
+    const std::vector<std::int64_t> reference_times = times_of(*reference);
     const std::vector<std::int64_t> rounds = rounds_of(*run);
+    const std::vector<std::int64_t> reference_rounds = rounds_of(*reference);
+    if (times.size() != rounds.size() || reference_times.size() != reference_rounds.size()) continue;
+    std::map<std::int64_t, std::int64_t> beside;  // the reference's time by round
+    for (std::size_t i = 0; i < reference_rounds.size(); ++i)
+      beside[reference_rounds[i]] = reference_times[i];
     for (std::size_t i = 0; i < rounds.size(); ++i) {
       const auto other = beside.find(rounds[i]);
       if (other == beside.end() || other->second <= 0) continue;
       const std::int64_t pass = run->passes.size() == rounds.size() ? run->passes[i] : 1;
-      by_pass[pass].push_back(static_cast<double>(run->time_ns[i]) / static_cast<double>(other->second));
+      by_pass[pass].push_back(static_cast<double>(times[i]) / static_cast<double>(other->second));
     }
   }
   statistics::Passes passes;
@@ -53,65 +116,16 @@ statistics::Passes metric_ratio(const Runs& runs, const Runs& references, const 
   return {{statistics::median(ours) / by}};
 }
 
-double median_of_all(const statistics::Passes& passes) {
-  std::vector<double> values;
-  for (const auto& pass : passes) values.insert(values.end(), pass.begin(), pass.end());
-  return statistics::median(values);
-}
+CaseRatios::CaseRatios(Case of_case, statistics::Passes by_pass)
+    : which(std::move(of_case)), passes(std::move(by_pass)), middle(median_of_all(passes)) {}
 
-/// `ratio_of` gives the ratios of a case that both solved.
-Ratios ratios_over(const Measurements& measurements, const Line& line, const Line& reference,
-                   const std::vector<Case>& cases,
-                   const std::function<statistics::Passes(const Runs&, const Runs&)>& ratio_of) {
-  Ratios result;
+std::optional<statistics::Interval> interval_over(std::span<const CaseRatios> cases) {
   std::map<std::pair<std::string, bool>, std::vector<statistics::Passes>> by_shape;
-  std::vector<double> middles;
-  for (const Case& which : cases) {
-    const Runs ours = measurements.find(line.method, line.protocol, which);
-    const Runs theirs = measurements.find(reference.method, reference.protocol, which);
-    if (is_missing(ours) || is_missing(theirs)) continue;
-    const bool failed = first_failure(ours) != nullptr;
-    const bool reference_failed = first_failure(theirs) != nullptr;
-    if (failed && reference_failed) continue;
-    statistics::Passes passes = failed             ? statistics::Passes{{kInfinity}}
-                                : reference_failed ? statistics::Passes{{0}}
-                                                   : ratio_of(ours, theirs);
-    if (passes.empty()) continue;
-    ++result.cases;
-    result.failures += failed ? 1 : 0;
-    middles.push_back(median_of_all(passes));
-    by_shape[{which.dataset, which.holes}].push_back(std::move(passes));
-  }
-  if (middles.empty()) return result;
-  result.median = statistics::median(middles);
-  std::tie(result.least, result.most) = std::pair(*std::min_element(middles.begin(), middles.end()),
-                                                  *std::max_element(middles.begin(), middles.end()));
+  for (const CaseRatios& one : cases) by_shape[{one.which.dataset, one.which.holes}].push_back(one.passes);
   std::vector<std::vector<statistics::Passes>> clusters;
+  clusters.reserve(by_shape.size());
   for (auto& [shape, values] : by_shape) clusters.push_back(std::move(values));
-  result.interval = statistics::nested_median_interval(clusters);
-  return result;
-}
-
-}  // namespace
-
-Ratios time_ratios(const Measurements& measurements, const Line& line, const Line& reference,
-                   const std::vector<Case>& cases) {
-  if (!measurements.has_times()) return {};
-  return ratios_over(measurements, line, reference, cases, round_ratios);
-}
-
-Ratios metric_ratios(const Measurements& measurements, const Line& line, const Line& reference,
-                     const std::vector<Case>& cases, const std::string& metric) {
-  return ratios_over(measurements, line, reference, cases, [&](const Runs& ours, const Runs& theirs) {
-    return metric_ratio(ours, theirs, metric);
-  });
-}
-
-const record::RunRecord* counterpart(const record::RunRecord& run, const Runs& references) {
-  const auto found = std::find_if(references.begin(), references.end(), [&](const record::RunRecord* other) {
-    return other->dataset_sha256 == run.dataset_sha256 && other->seed == run.seed;
-  });
-  return found == references.end() ? nullptr : *found;
+  return statistics::nested_median_interval(clusters);
 }
 
 table::Cell interval_cell(const std::optional<statistics::Interval>& interval) {

@@ -3,7 +3,11 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <limits>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -12,6 +16,9 @@
 #include "benchmarks/table/cell.hpp"
 
 namespace hullbench::report {
+
+/// The ratio of a failure to a result.
+inline constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 /// A line's values over a reference's. A case's ratio of times is the median over the rounds that both were
 /// measured in: a slow phase of the machine is then in both. A case on which the line failed and the
@@ -37,6 +44,31 @@ Ratios metric_ratios(const Measurements& measurements, const Line& line, const L
 
 /// Of `references` the run on the same points as `run`; null when there is none.
 const record::RunRecord* counterpart(const record::RunRecord& run, const Runs& references);
+
+/// Which run stands beside another one, such as `counterpart`.
+using Partner = const record::RunRecord* (*)(const record::RunRecord& run, const Runs& references);
+
+/// The ratios of the times of `runs` to those of their partners by pass, one a round that both have.
+/// `times_of` gives the nanoseconds of every repetition of a run; where it gives another number of them, the
+/// run has no ratios.
+statistics::Passes round_ratios(
+    const Runs& runs, const Runs& references, Partner partner,
+    const std::function<std::vector<std::int64_t>(const record::RunRecord&)>& times_of);
+
+/// The ratio of the medians of a metric; none where it is not above 0.
+statistics::Passes metric_ratio(const Runs& runs, const Runs& references, const std::string& name);
+
+/// The ratios of a case.
+struct CaseRatios {
+  CaseRatios(Case of_case, statistics::Passes by_pass);
+
+  Case which;
+  statistics::Passes passes;  ///< at least one value
+  double middle;              ///< the median of all
+};
+
+/// Of the median of the cases' medians, nested (bootstrap.hpp); its clusters are the shapes.
+std::optional<statistics::Interval> interval_over(std::span<const CaseRatios> cases);
 
 /// The interval; nothing when there is none.
 table::Cell interval_cell(const std::optional<statistics::Interval>& interval);
