@@ -73,7 +73,7 @@ hullbench_test(test_reference SOURCES test_reference.cpp
   LIBRARIES hullbench::league hullbench::report hullbench_test_program LABELS harness TIMEOUT 300 IN_ONE STARTS_EARLY)
 
 # Methods that are added: the skeletons of `hullbench adapter new`, and the contract.
-hullbench_test(test_adapter_command SOURCES test_adapter_command.cpp LABELS harness RUNS_HULLBENCH STARTS_EARLY LIGHT)
+hullbench_test(test_adapter_command SOURCES test_adapter_command.cpp LIBRARIES hullbench::base LABELS harness RUNS_HULLBENCH STARTS_EARLY LIGHT)
 
 # The README's checklist for a method in C++, walked with a sample: hullbench writes it, add_adapter() takes it, and the
 # program that has it keeps the contract with it.

@@ -11,14 +11,14 @@
 
 namespace hullbench {
 
-std::optional<std::string> read_text_file(const std::filesystem::path& path) {
+std::optional<std::string> read_text_file(const fs::path& path) {
   std::ifstream in(path, std::ios::binary);
-  if (!in.is_open() || std::filesystem::is_directory(path)) return std::nullopt;
+  if (!in.is_open() || fs::is_directory(path)) return std::nullopt;
   return std::string(std::istreambuf_iterator<char>(in), {});
 }
 
-void write_text_file(const std::filesystem::path& path, const std::string& text) {
-  std::filesystem::path temporary = path;
+void write_text_file(const fs::path& path, const std::string& text) {
+  fs::path temporary = path;
   temporary += ".new";
   {
     std::ofstream out(temporary, std::ios::binary | std::ios::trunc);
@@ -29,27 +29,27 @@ void write_text_file(const std::filesystem::path& path, const std::string& text)
     }
   }
   std::error_code error;
-  std::filesystem::rename(temporary, path, error);
+  fs::rename(temporary, path, error);
   if (error) throw std::runtime_error("cannot write " + path.string() + ": " + error.message());
 }
 
-std::string dump_text(const nlohmann::json& content, int indent) {
-  return content.dump(indent, ' ', false, nlohmann::json::error_handler_t::replace);
+std::string dump_text(const json& content, int indent) {
+  return content.dump(indent, ' ', false, json::error_handler_t::replace);
 }
 
-void write_json_file(const std::filesystem::path& path, const nlohmann::json& content) {
+void write_json_file(const fs::path& path, const json& content) {
   write_text_file(path, dump_text(content, 2) + "\n");
 }
 
-ConfigurationError not_writable(const std::filesystem::path& folder, const std::string& why) {
+ConfigurationError not_writable(const fs::path& folder, const std::string& why) {
   // NOLINTNEXTLINE(modernize-return-braced-init-list): the inherited constructor is explicit
   return ConfigurationError("cannot write to the output folder " + folder.string() + " (" + why +
                             "); choose another one with --out");
 }
 
-void make_writable_folder(const std::filesystem::path& folder) {
+void make_writable_folder(const fs::path& folder) {
   std::error_code error;
-  std::filesystem::create_directories(folder, error);
+  fs::create_directories(folder, error);
   if (!error && ::faccessat(AT_FDCWD, folder.c_str(), W_OK | X_OK, AT_EACCESS) != 0) {
     error.assign(errno, std::generic_category());
   }

@@ -2,32 +2,32 @@
 #pragma once
 
 #include <filesystem>
-#include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 
 #include "benchmarks/base/configuration_error.hpp"
+#include "benchmarks/base/names.hpp"
 
 namespace hullbench {
 
 /// The bytes of a file; none of a folder and where there is nothing to be read.
-std::optional<std::string> read_text_file(const std::filesystem::path& path);
+std::optional<std::string> read_text_file(const fs::path& path);
 
 /// Writes a file whole or not at all: a temporary file beside it is renamed. Throws std::runtime_error naming
 /// the file when it cannot be written.
-void write_text_file(const std::filesystem::path& path, const std::string& text);
+void write_text_file(const fs::path& path, const std::string& text);
 
 /// Writes `content`, indented, as write_text_file does.
-void write_json_file(const std::filesystem::path& path, const nlohmann::json& content);
+void write_json_file(const fs::path& path, const json& content);
 
 /// `content` as text, with U+FFFD for bytes that are no UTF-8; indented by `indent`, or on one line when it
 /// is -1.
-std::string dump_text(const nlohmann::json& content, int indent);
+std::string dump_text(const json& content, int indent);
 
 /// Says that an output folder cannot be written to, and why.
-ConfigurationError not_writable(const std::filesystem::path& folder, const std::string& why);
+ConfigurationError not_writable(const fs::path& folder, const std::string& why);
 
 /// Makes `folder` where it is not there. Throws ConfigurationError when it cannot be made or written to.
-void make_writable_folder(const std::filesystem::path& folder);
+void make_writable_folder(const fs::path& folder);
 
 }  // namespace hullbench

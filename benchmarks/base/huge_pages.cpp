@@ -7,8 +7,6 @@
 namespace hullbench {
 namespace {
 
-using nlohmann::json;
-
 constexpr std::string_view kHugetlb = "glibc.malloc.hugetlb";
 
 /// The setting of `name` in `tunables`, with its name; empty when there is none. The last one counts.

@@ -2,9 +2,10 @@
 // other method goes without, the malloc of every worker's process asks too, and of the processes it starts.
 #pragma once
 
-#include <nlohmann/json.hpp>
 #include <string>
 #include <string_view>
+
+#include "benchmarks/base/names.hpp"
 
 namespace hullbench {
 
@@ -19,6 +20,6 @@ std::string worker_tunables(std::string_view own);
 /// `kernel`: which programs get transparent huge pages, "always", "madvise" (those that ask) or "never"; null
 /// where the kernel does not tell. `malloc`: what workers' malloc is told, "glibc.malloc.hugetlb=1" unless
 /// the user's own GLIBC_TUNABLES says otherwise.
-nlohmann::json huge_pages();
+json huge_pages();
 
 }  // namespace hullbench

@@ -15,7 +15,6 @@
 namespace hullbench {
 namespace {
 
-using nlohmann::json;
 using Adapter = valijson::adapters::NlohmannJsonAdapter;
 
 /// The place of an error, which comes as {"<root>", "[\"runs\"]", "[3]", ...}.

@@ -3,9 +3,10 @@
 
 #include <functional>
 #include <memory>
-#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
+
+#include "benchmarks/base/names.hpp"
 
 namespace valijson {
 class Schema;
@@ -15,7 +16,7 @@ namespace hullbench {
 
 /// What is wrong with a document.
 struct SchemaFault {
-  nlohmann::json::json_pointer place;
+  json::json_pointer place;
   std::string sentence;  ///< without the place; ends with a full stop
 };
 
@@ -23,17 +24,17 @@ struct SchemaFault {
 class JsonSchema {
  public:
   /// The document that a "$ref" names; null when there is none.
-  using Find = std::function<const nlohmann::json*(const std::string& name)>;
+  using Find = std::function<const json*(const std::string& name)>;
 
   /// `find` is for references to other documents. Throws std::exception when `schema` is none.
-  explicit JsonSchema(const nlohmann::json& schema, const Find& find = nullptr);
+  explicit JsonSchema(const json& schema, const Find& find = nullptr);
   ~JsonSchema();
   JsonSchema(const JsonSchema&) = delete;
   JsonSchema& operator=(const JsonSchema&) = delete;
 
   /// Empty when `document` is valid. A value is said to be at fault where it stands, and not once more with
   /// every object round it. Integers above 2^63 - 1 count as negative.
-  std::vector<SchemaFault> faults(const nlohmann::json& document) const;
+  std::vector<SchemaFault> faults(const json& document) const;
 
  private:
   std::unique_ptr<valijson::Schema> schema_;

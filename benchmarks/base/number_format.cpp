@@ -32,4 +32,8 @@ std::string three_digits(double value) {
   return fixed(value, decimals_of(value));
 }
 
+json finite_or_null(const std::optional<double>& value) {
+  return value && std::isfinite(*value) ? json(*value) : json(nullptr);
+}
+
 }  // namespace hullbench

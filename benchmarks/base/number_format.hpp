@@ -1,7 +1,10 @@
 // Numbers as people read them: enough digits to compare, not more.
 #pragma once
 
+#include <optional>
 #include <string>
+
+#include "benchmarks/base/names.hpp"
 
 namespace hullbench {
 
@@ -14,5 +17,8 @@ std::string fixed(double value, int decimals);
 
 /// How many digits after the point three_digits shows of `value`.
 int decimals_of(double value);
+
+/// In JSON, which has no infinity, null stands for it too.
+json finite_or_null(const std::optional<double>& value);
 
 }  // namespace hullbench

@@ -22,8 +22,6 @@
 namespace hullbench::choose {
 namespace {
 
-namespace fs = std::filesystem;
-
 /// The metric that draws of halves give.
 constexpr const char* kStability = "agreement_halves";
 
@@ -163,7 +161,7 @@ Candidates run_on(const Question& question, std::span<const Point> points, const
     if (std::find(candidates.absent.begin(), candidates.absent.end(), why) == candidates.absent.end())
       candidates.absent.push_back(why);
   };
-  const nlohmann::json header = {{"environment", {{"machine_id", ""}}}};
+  const json header = {{"environment", {{"machine_id", ""}}}};
   candidates.outcome = run::run_plan(plan, runs, header, options, directory, progress);
   progress.end();
   if (candidates.outcome.interrupted) throw Interrupted();

@@ -229,7 +229,7 @@ class Page {
   /// Whether the polygon is where pixels can tell.
   bool is_near(const Polygon& polygon) const {
     constexpr double kFarthest = 1e6;
-    const auto is_ring_near = [&](const polylidar::Ring& ring) {
+    const auto is_ring_near = [&](const Ring& ring) {
       return std::all_of(ring.begin(), ring.end(), [&](const Point& vertex) {
         return std::abs(canvas_.x(vertex)) < kFarthest && std::abs(canvas_.y(vertex)) < kFarthest;
       });

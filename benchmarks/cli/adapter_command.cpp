@@ -17,8 +17,6 @@
 namespace hullbench::cli {
 namespace {
 
-namespace fs = std::filesystem;
-
 const fs::path kSkeletons = data_folder() / "benchmarks" / "skeletons";
 const fs::path kHelpers = data_folder() / "adapters" / "process";
 

@@ -24,7 +24,6 @@
 namespace hullbench::cli {
 namespace {
 
-namespace fs = std::filesystem;
 using polylidar::tool::shortest;
 using Words = std::vector<std::string>;
 
@@ -188,7 +187,7 @@ std::string geojson(const choose::Candidate& candidate, const OwnPoints& own) {
   properties.add("method", record.method);
   properties.add("protocol", record.protocol);
   properties.add("version", record.method_version);
-  properties.add_json("parameters", nlohmann::json(record.parameters).dump());
+  properties.add_json("parameters", json(record.parameters).dump());
   properties.add("points", candidate.points);
   properties.add("parts", shape.size());
   for (const char* name : {"holes", "area"}) properties.add_json(name, record.metrics.at(name).dump());

@@ -2,11 +2,11 @@
 #include <filesystem>
 #include <fstream>
 #include <iostream>
-#include <nlohmann/json.hpp>
 #include <stdexcept>
 #include <vector>
 
 #include "benchmarks/base/configuration_error.hpp"
+#include "benchmarks/base/names.hpp"
 #include "benchmarks/cli/options.hpp"
 #include "benchmarks/record/json_lines.hpp"
 #include "benchmarks/record/stored_run.hpp"
@@ -16,9 +16,6 @@
 
 namespace hullbench::cli {
 namespace {
-
-namespace fs = std::filesystem;
-using nlohmann::json;
 
 /// A side is the folder of a run or of a suite, a report.json, or the lines of a run (runs.jsonl,
 /// runs.jsonl.xz).

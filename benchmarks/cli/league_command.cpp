@@ -1,10 +1,10 @@
 // `hullbench league`: the league of some runs, printed and written.
 #include <algorithm>
 #include <iostream>
-#include <nlohmann/json.hpp>
 
 #include "benchmarks/base/configuration_error.hpp"
 #include "benchmarks/base/files.hpp"
+#include "benchmarks/base/names.hpp"
 #include "benchmarks/cli/options.hpp"
 #include "benchmarks/league/league.hpp"
 #include "benchmarks/league/league_report.hpp"
@@ -13,23 +13,21 @@
 namespace hullbench::cli {
 namespace {
 
-using nlohmann::json;
-
 struct LeagueCommand {
-  std::vector<std::filesystem::path> runs;
-  std::filesystem::path out;  ///< empty: only print
-  std::filesystem::path csv;  ///< empty: none
+  std::vector<fs::path> runs;
+  fs::path out;  ///< empty: only print
+  fs::path csv;  ///< empty: none
   bool all_cases = false;
 };
 
 ExitCode print_league(const LeagueCommand& command) {
   std::vector<json> reports;
-  for (const std::filesystem::path& folder : command.runs) {
-    if (!std::filesystem::is_directory(folder))
+  for (const fs::path& folder : command.runs) {
+    if (!fs::is_directory(folder))
       throw ConfigurationError("there is no run in " + folder.string() +
                                "; give the folder of a run or suite");
     const auto runs = record::is_suite(folder) ? record::suite_runs(folder) : std::vector{folder};
-    for (const std::filesystem::path& run : runs) reports.push_back(record::load_run(run));
+    for (const fs::path& run : runs) reports.push_back(record::load_run(run));
   }
   if (std::all_of(reports.begin(), reports.end(),
                   [](const json& report) { return report.at("runs").empty(); })) {

@@ -10,7 +10,7 @@ namespace {
 
 struct ListCommand {
   bool json = false;
-  std::vector<std::filesystem::path> adapters;
+  std::vector<fs::path> adapters;
 };
 
 /// Memory for a worker that only says who it is.
@@ -18,7 +18,7 @@ constexpr std::int64_t kListMemoryMib = 4096;
 
 ExitCode list(const ListCommand& command) {
   const run::MethodCatalog catalog(run::manifest_folders(command.adapters));
-  const nlohmann::json listing = make_listing(catalog.methods(), {kListMemoryMib, std::nullopt});
+  const json listing = make_listing(catalog.methods(), {kListMemoryMib, std::nullopt});
   if (command.json) {
     std::cout << listing.dump(2) << "\n";
   } else {

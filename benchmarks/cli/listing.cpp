@@ -12,8 +12,6 @@
 namespace hullbench::cli {
 namespace {
 
-using nlohmann::json;
-
 json list_methods(const std::vector<worker::Method>& methods, const worker::WorkerLimits& limits) {
   std::vector<std::unique_ptr<worker::MethodSession>> sessions;
   for (const worker::Method& method : methods) {

@@ -17,9 +17,6 @@
 namespace hullbench::cli {
 namespace {
 
-namespace fs = std::filesystem;
-using nlohmann::json;
-
 struct MergeCommand {
   std::vector<fs::path> sources;  ///< folders of runs, or all of suites, which are merged by plan
   fs::path out;                   ///< new or empty; never one of `sources`, in one of them or around one

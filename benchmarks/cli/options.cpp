@@ -8,8 +8,6 @@
 
 namespace hullbench::cli {
 
-namespace fs = std::filesystem;
-
 CLI::App& add_command(CLI::App& app, const std::string& name, const std::string& description,
                       const std::string& example) {
   CLI::App* options = app.add_subcommand(name, description);

@@ -33,11 +33,11 @@ void set_action(CLI::App& options, Action& action, const std::shared_ptr<Command
 /// PLAN...
 void add_plans(CLI::App& options, std::vector<std::string>& plans, const std::string& meaning);
 /// --adapters, folders with manifests of methods
-void add_adapters(CLI::App& options, std::vector<std::filesystem::path>& folders);
+void add_adapters(CLI::App& options, std::vector<fs::path>& folders);
 /// --shard K/N
 void add_shard(CLI::App& options, std::optional<run::Shard>& shard, const std::string& meaning);
 /// --export-gbench
-void add_export_gbench(CLI::App& options, std::filesystem::path& file);
+void add_export_gbench(CLI::App& options, fs::path& file);
 
 /// What --timeout, in seconds, takes.
 CLI::Range timeout_range();
@@ -46,6 +46,6 @@ CLI::Range memory_range();
 
 /// Throws ConfigurationError when the file of --export-gbench cannot be written, which would otherwise be
 /// known only after the work. Empty: none is asked for.
-void check_export_place(const std::filesystem::path& file);
+void check_export_place(const fs::path& file);
 
 }  // namespace hullbench::cli

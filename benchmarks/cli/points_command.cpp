@@ -23,7 +23,6 @@ namespace hullbench::cli {
 namespace {
 
 using polylidar::Box;
-using polylidar::Point;
 using polylidar::tool::check_output_place;
 using polylidar::tool::free_memory;
 using polylidar::tool::PointOutput;

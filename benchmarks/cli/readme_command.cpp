@@ -12,8 +12,6 @@
 namespace hullbench::cli {
 namespace {
 
-namespace fs = std::filesystem;
-
 struct ReadmeCommand {
   std::string run;
   std::string file;
@@ -25,7 +23,7 @@ std::string results_of(const std::string& run) {
   const fs::path folder =
       fs::is_symlink(run) ? fs::path(run).parent_path() / fs::read_symlink(run) : fs::path(run);
   std::string results = report::readme_results(reports_in(run), folder.string());
-  if (const nlohmann::json league = league::load_league(folder); !league.is_null())
+  if (const json league = league::load_league(folder); !league.is_null())
     results += league::league_results(league, folder.string());
   return results;
 }

@@ -12,8 +12,6 @@
 namespace hullbench::cli {
 namespace {
 
-namespace fs = std::filesystem;
-
 struct ReportCommand {
   std::string run = "results/latest";
   fs::path out;

@@ -17,8 +17,6 @@
 namespace hullbench::cli {
 namespace {
 
-namespace fs = std::filesystem;
-
 struct RescoreCommand {
   fs::path run;         ///< the folder of a run or suite
   fs::path out;         ///< new or empty

@@ -33,9 +33,6 @@
 namespace hullbench::cli {
 namespace {
 
-namespace fs = std::filesystem;
-using nlohmann::json;
-
 const fs::path kResults = "results";
 
 /// A plan and those of its runs that were asked for.

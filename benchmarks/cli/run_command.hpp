@@ -21,15 +21,14 @@ struct RunCommand {
   std::optional<std::uint64_t> seed;
   std::optional<double> timeout_s;
   std::optional<std::int64_t> mem_limit_mib;
-  std::optional<std::filesystem::path> out;
-  std::filesystem::path
-      recordings;  ///< folder of real floors to take the place of the simulated ones; empty: none
-  std::optional<run::Shard> shard;      ///< none: all runs
-  std::filesystem::path export_gbench;  ///< file for the times as Google Benchmark's JSON; empty: none
-  std::vector<std::filesystem::path> adapters;  ///< more folders with manifests
-  std::vector<std::string> with;                ///< methods to measure that the plans do not name
-  bool keep_polygons = false;                   ///< whether the results stay in the run's folder
-  bool force = false;                           ///< start anew instead of going on
+  std::optional<fs::path> out;
+  fs::path recordings;  ///< folder of real floors to take the place of the simulated ones; empty: none
+  std::optional<run::Shard> shard;  ///< none: all runs
+  fs::path export_gbench;           ///< file for the times as Google Benchmark's JSON; empty: none
+  std::vector<fs::path> adapters;   ///< more folders with manifests
+  std::vector<std::string> with;    ///< methods to measure that the plans do not name
+  bool keep_polygons = false;       ///< whether the results stay in the run's folder
+  bool force = false;               ///< start anew instead of going on
   bool dry_run = false;
 };
 

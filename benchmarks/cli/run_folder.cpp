@@ -12,9 +12,6 @@
 
 namespace hullbench::cli {
 
-namespace fs = std::filesystem;
-using nlohmann::json;
-
 void check_run_folder(const fs::path& folder) {
   if (!fs::is_directory(folder)) {
     throw ConfigurationError("there is no run in " + folder.string() +

@@ -25,9 +25,6 @@
 namespace hullbench::cli {
 namespace {
 
-namespace fs = std::filesystem;
-using nlohmann::json;
-
 struct PackCommand {
   std::string name;
   std::vector<fs::path> adapters;  ///< more folders with manifests

@@ -13,12 +13,12 @@ namespace {
 struct TablesCommand {
   std::string run = "results/latest";
   bool write = false;
-  std::filesystem::path export_gbench;
+  fs::path export_gbench;
 };
 
 ExitCode tables(const TablesCommand& command) {
   check_export_place(command.export_gbench);
-  const std::vector<nlohmann::json> reports = reports_in(command.run);
+  const std::vector<json> reports = reports_in(command.run);
   const std::vector<table::Document> documents = report::make_documents(reports);
   table::print_markdown(documents, std::cout);
   if (command.write) {

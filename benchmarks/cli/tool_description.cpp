@@ -5,8 +5,7 @@
 
 namespace hullbench::cli {
 
-nlohmann::json describe_tool() {
-  using nlohmann::json;
+json describe_tool() {
   const Revision built_from = revision();
   return {{"name", "hullbench"},
           {"version", HULLBENCH_VERSION},

@@ -28,9 +28,6 @@
 namespace hullbench::cli {
 namespace {
 
-namespace fs = std::filesystem;
-using nlohmann::json;
-
 constexpr const char* kSweepFile = "sweep.jsonl";
 constexpr const char* kSummaryFile = "tune.json";
 constexpr const char* kTuningTablesFile = "tuning.md";

@@ -9,8 +9,7 @@ namespace hullbench::cli {
 namespace {
 
 ExitCode validate(const std::string& path) {
-  if (!std::filesystem::is_regular_file(path))
-    throw ConfigurationError("there is no file " + path + " to validate");
+  if (!fs::is_regular_file(path)) throw ConfigurationError("there is no file " + path + " to validate");
   const std::vector<std::string> faults = record::validate_file(path);
   for (const std::string& fault : faults) std::cerr << "hullbench: " << path << ": " << fault << "\n";
   if (faults.empty()) std::cout << path << " is valid\n";

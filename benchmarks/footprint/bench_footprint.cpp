@@ -14,7 +14,6 @@
 #include <functional>
 #include <iostream>
 #include <memory>
-#include <nlohmann/json.hpp>
 #include <numbers>
 #include <span>
 #include <stdexcept>
@@ -27,6 +26,7 @@
 #include "benchmarks/base/exit_code.hpp"
 #include "benchmarks/base/files.hpp"
 #include "benchmarks/base/interrupt.hpp"
+#include "benchmarks/base/names.hpp"
 #include "benchmarks/base/number_format.hpp"
 #include "benchmarks/base/utc_now.hpp"
 #include "benchmarks/footprint/hexbin.hpp"
@@ -44,10 +44,6 @@ extern char** environ;
 namespace hullbench::footprint {
 namespace {
 
-using nlohmann::json;
-using polylidar::MultiPolygon;
-using polylidar::Point;
-using polylidar::Ring;
 using Clock = std::chrono::steady_clock;
 using Times = std::vector<std::int64_t>;  // nanoseconds
 
@@ -307,7 +303,7 @@ class Comparison {
       const metrics::AreaScores scores = metrics::area_scores(way.shape, truth);
       row.push_back(scores.l2 ? table::Cell(table::Number(100 * *scores.l2)) : table::Cell("invalid"));
       std::size_t holes = 0;
-      for (const polylidar::Polygon& polygon : way.shape) holes += polygon.holes.size();
+      for (const Polygon& polygon : way.shape) holes += polygon.holes.size();
       row.emplace_back(way.shape.size());
       row.emplace_back(holes);
       row.emplace_back(polylidar::vertex_count(way.shape));

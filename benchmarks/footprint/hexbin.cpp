@@ -13,9 +13,6 @@ namespace hullbench::footprint {
 namespace {
 
 using polylidar::Box;
-using polylidar::MultiPolygon;
-using polylidar::Point;
-using polylidar::Ring;
 
 /// A place of the lattice that has all centres and corners, by which corners of neighbours are the same: x in
 /// halves of a hexagon's height, y in halves of its side.

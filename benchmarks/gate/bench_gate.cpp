@@ -95,7 +95,7 @@ ProbeSettings probe_settings(const Arguments& arguments, const fs::path& work) {
 }
 
 GateFindings gate_instructions(const Arguments& arguments, const ProbeSettings& probe, const fs::path& work,
-                               const GateRules& rules, nlohmann::json& samples) {
+                               const GateRules& rules, json& samples) {
   const auto count = [&](const std::string& title, const std::string& program) {
     std::cerr << "counting instructions: " << title << "\n";
     return count_instructions(program, probe, work / "callgrind");
@@ -112,7 +112,7 @@ GateFindings gate_instructions(const Arguments& arguments, const ProbeSettings& 
 }
 
 GateFindings measure(const Arguments& arguments, Clock::time_point start, const GateRules& rules,
-                     nlohmann::json& samples) {
+                     json& samples) {
   // A folder of its own, of which things are removed: whatever else is in `--out` is the user's.
   const fs::path work = fs::path(arguments.out) / "gate-work";
   fs::remove_all(work / "results");

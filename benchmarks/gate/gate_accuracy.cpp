@@ -13,8 +13,6 @@
 namespace hullbench::gate {
 namespace {
 
-namespace fs = std::filesystem;
-
 std::vector<std::uint8_t> read_bytes(const fs::path& path) {
   std::ifstream in(path, std::ios::binary);
   if (!in) throw std::runtime_error("there is no " + path.string());

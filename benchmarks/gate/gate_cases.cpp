@@ -27,11 +27,11 @@ std::vector<GateCase> instruction_cases() {
           make_case("lattice", 8'000), make_case("rgbd", 8'000), make_case("islands", 16'000)};
 }
 
-void write_cases(const std::vector<GateCase>& cases, const std::filesystem::path& folder) {
-  std::filesystem::create_directories(folder);
+void write_cases(const std::vector<GateCase>& cases, const fs::path& folder) {
+  fs::create_directories(folder);
   for (const GateCase& entry : cases) {
     const micro::SpeedPointSet set = micro::make_speed_point_set(entry.point_set, entry.n);
-    const polylidar::Point alpha[] = {{set.alpha, 0}};
+    const Point alpha[] = {{set.alpha, 0}};
     write_text_file(folder / (entry.name + ".f64"),
                     point_bytes(alpha).substr(0, 8) + point_bytes(set.points));
   }

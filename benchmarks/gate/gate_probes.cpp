@@ -5,20 +5,18 @@
 #include <algorithm>
 #include <cstdint>
 #include <fstream>
-#include <nlohmann/json.hpp>
 #include <sstream>
 #include <stdexcept>
 
 #include "benchmarks/base/configuration_error.hpp"
+#include "benchmarks/base/names.hpp"
 #include "benchmarks/statistics/statistics.hpp"
 #include "benchmarks/worker/worker_process.hpp"
 
 namespace hullbench::gate {
 namespace {
 
-namespace fs = std::filesystem;
 using namespace std::chrono_literals;
-using nlohmann::json;
 using Nanoseconds = std::vector<std::int64_t>;
 
 constexpr auto kTimeout = 60s;

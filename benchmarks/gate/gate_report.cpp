@@ -8,8 +8,6 @@
 namespace hullbench::gate {
 namespace {
 
-using nlohmann::json;
-
 const char* word_of(SpeedChange change) {
   switch (change) {
     case SpeedChange::kSlower:

@@ -1,10 +1,10 @@
 // What a gate tells: a table and a verdict for people, JSON for programs.
 #pragma once
 
-#include <nlohmann/json.hpp>
 #include <ostream>
 #include <string>
 
+#include "benchmarks/base/names.hpp"
 #include "benchmarks/gate/gate_verdict.hpp"
 
 namespace hullbench::gate {
@@ -17,7 +17,7 @@ struct GateContext {
   double seconds = 0;  ///< that measuring took
   /// Raw data: of times {"round": {"change": {QUANTITY: [log-ratio a block]}, "null_control": ...}}, of
   /// instructions {QUANTITY: [base, base again, head]}.
-  nlohmann::json samples;
+  json samples;
 };
 
 /// The tables of change, of the null control and, where a result changed, of accuracy; then what improved,
@@ -28,7 +28,7 @@ void print_gate(const GateFindings& findings, const GateVerdict& verdict, const 
 /// {"schema_version": 1, "tier", "base", "head", "rules", "seconds", "exit_code", "verdict", "regressions",
 /// "improvements", "unconfirmed", "undecided", "failed_controls", "changed_results", "first", "second",
 /// "null_control", "accuracy", "samples"}; what is infinite is null.
-nlohmann::json gate_json(const GateFindings& findings, const GateVerdict& verdict, const GateRules& rules,
-                         const GateContext& context);
+json gate_json(const GateFindings& findings, const GateVerdict& verdict, const GateRules& rules,
+               const GateContext& context);
 
 }  // namespace hullbench::gate

@@ -52,13 +52,13 @@ void keep_only(const std::set<std::string>& quantities, Blocks& blocks) {
   std::erase_if(blocks.null_control, is_other);
 }
 
-nlohmann::json json_of(const Blocks& blocks) {
+json json_of(const Blocks& blocks) {
   return {{"change", blocks.change}, {"null_control", blocks.null_control}};
 }
 
 }  // namespace
 
-GateFindings gate_times(const TimeGateSettings& settings, const GateRules& rules, nlohmann::json& samples) {
+GateFindings gate_times(const TimeGateSettings& settings, const GateRules& rules, json& samples) {
   GateFindings findings;
   Blocks first;
   const Programs programs = place_programs(settings.base_probe, settings.head_probe, settings.folder);

@@ -6,9 +6,9 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
-#include <nlohmann/json.hpp>
 #include <string>
 
+#include "benchmarks/base/names.hpp"
 #include "benchmarks/gate/gate_probes.hpp"
 #include "benchmarks/gate/gate_verdict.hpp"
 
@@ -19,9 +19,9 @@ namespace hullbench::gate {
 constexpr std::size_t kFewestBlocks = 10;
 
 struct TimeGateSettings {
-  std::filesystem::path base_probe;
-  std::filesystem::path head_probe;
-  std::filesystem::path folder;  ///< for copies of the programs
+  fs::path base_probe;
+  fs::path head_probe;
+  fs::path folder;  ///< for copies of the programs
   ProbeSettings probe;
   std::size_t blocks = 0;  ///< in a round, >= kFewestBlocks; of each, two runs of base, head and base's copy
   std::chrono::steady_clock::time_point deadline;  ///< no block begins after it
@@ -35,6 +35,6 @@ struct TimeGateSettings {
 /// with. The findings are out of time when the deadline left the first round fewer than kFewestBlocks, or the
 /// second one fewer than it needs; that one is then not judged. `samples` gets the log-ratios. Throws as
 /// measure_blocks.
-GateFindings gate_times(const TimeGateSettings& settings, const GateRules& rules, nlohmann::json& samples);
+GateFindings gate_times(const TimeGateSettings& settings, const GateRules& rules, json& samples);
 
 }  // namespace hullbench::gate

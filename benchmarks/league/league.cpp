@@ -19,8 +19,6 @@
 namespace hullbench::league {
 namespace {
 
-using nlohmann::json;
-
 /// Errors of the same polygons differ by rounding, and those of rows that were kept have nine digits. This
 /// part of an error is neither.
 constexpr double kSameError = 1e-7;

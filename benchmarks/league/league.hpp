@@ -5,12 +5,12 @@
 #include <cstddef>
 #include <limits>
 #include <map>
-#include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "benchmarks/base/names.hpp"
 #include "benchmarks/statistics/bootstrap.hpp"
 
 namespace hullbench::league {
@@ -128,6 +128,6 @@ struct League {
 /// that several reports have, the first counts. With `test_only` only cases on the test side of the split:
 /// what was fitted or chosen on training shapes is judged on others. Cases of plans that accept failures
 /// count in any case. Throws std::runtime_error when no row is left.
-League make_league(const std::vector<nlohmann::json>& reports, bool test_only);
+League make_league(const std::vector<json>& reports, bool test_only);
 
 }  // namespace hullbench::league

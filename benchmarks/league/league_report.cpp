@@ -17,12 +17,6 @@
 namespace hullbench::league {
 namespace {
 
-using nlohmann::json;
-
-json finite_or_null(double value) {
-  return std::isfinite(value) ? json(value) : json(nullptr);
-}
-
 void add_score(json& entry, const std::string& name, const std::optional<MedianScore>& score) {
   entry[name + "_median"] = score ? finite_or_null(score->median) : json(nullptr);
   entry[name + "_interval"] =
@@ -313,12 +307,12 @@ std::string league_csv(const League& league) {
   return out.str();
 }
 
-json load_league(const std::filesystem::path& folder) {
+json load_league(const fs::path& folder) {
   std::ifstream in(folder / kLeagueFile);
   return in.is_open() ? json::parse(in) : json();
 }
 
-void write_league_tables(const std::filesystem::path& folder) {
+void write_league_tables(const fs::path& folder) {
   const json league = load_league(folder);
   if (league.is_null()) return;
   std::ostringstream out;

@@ -2,10 +2,10 @@
 #pragma once
 
 #include <filesystem>
-#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
+#include "benchmarks/base/names.hpp"
 #include "benchmarks/league/league.hpp"
 #include "benchmarks/table/writers.hpp"
 
@@ -17,11 +17,11 @@ inline constexpr const char* kLeagueTablesFile = "league.md";
 
 /// The league as JSON, with what `reports` say of tool, machine and plans. A median or an end of an interval
 /// that is infinite is null.
-nlohmann::json league_to_json(const League& league, const std::vector<nlohmann::json>& reports);
+json league_to_json(const League& league, const std::vector<json>& reports);
 
 /// The tables of what league_to_json made: the league, a table a protocol, and the performance profiles, a
 /// table a group.
-table::Document league_document(const nlohmann::json& league);
+table::Document league_document(const json& league);
 
 /// Every result that counts, a line each, in the long form that programs for ranking read: method (under a
 /// protocol: "polylidar/auto"), task, fold (the seed), error (l2; "inf": a failure) and time (seconds; empty:
@@ -29,13 +29,13 @@ table::Document league_document(const nlohmann::json& league);
 std::string league_csv(const League& league);
 
 /// The league that is kept in `folder`; null when there is none.
-nlohmann::json load_league(const std::filesystem::path& folder);
+json load_league(const fs::path& folder);
 
 /// Writes league.md, the tables of the league that is kept in `folder`; nothing without one.
-void write_league_tables(const std::filesystem::path& folder);
+void write_league_tables(const fs::path& folder);
 
 /// What the README shows of it: the first three of every protocol, whoever they are. `folder`: how the README
 /// calls the folder with league.md.
-std::string league_results(const nlohmann::json& league, const std::string& folder);
+std::string league_results(const json& league, const std::string& folder);
 
 }  // namespace hullbench::league

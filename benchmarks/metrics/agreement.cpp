@@ -8,8 +8,6 @@
 namespace hullbench::metrics {
 namespace {
 
-using polylidar::MultiPolygon;
-
 double agreement(const std::optional<MultiPolygon>& a, const std::optional<MultiPolygon>& b) {
   return a && b ? intersection_over_union(*a, *b).value_or(0) : 0;
 }

@@ -10,8 +10,6 @@
 namespace hullbench::metrics {
 namespace {
 
-using polylidar::MultiPolygon;
-using polylidar::Point;
 using polylidar::Triangulation;
 
 std::vector<bool> triangles_within(const Triangulation& mesh, std::span<const Point> points,

@@ -6,8 +6,8 @@
 #include <optional>
 #include <span>
 
+#include "benchmarks/base/names.hpp"
 #include "benchmarks/metrics/prepared_truth.hpp"
-#include "polylidar/geometry.hpp"
 
 namespace hullbench::metrics {
 
@@ -21,8 +21,7 @@ struct Anchors {
 };
 
 /// `prepared` is `truth`. Throws as polylidar::delaunay, and std::runtime_error when GEOS fails.
-Anchors find_anchors(std::span<const polylidar::Point> points, const polylidar::MultiPolygon& truth,
-                     const PreparedTruth& prepared);
+Anchors find_anchors(std::span<const Point> points, const MultiPolygon& truth, const PreparedTruth& prepared);
 
 /// (l2_convex_hull - l2) / (l2_convex_hull - l2_best_triangles): 0 for the convex hull, 1 for the best
 /// triangles, negative for worse than the hull, above 1 for better than the triangles. Empty when the hull is

@@ -4,7 +4,7 @@
 #include <optional>
 #include <string>
 
-#include "polylidar/geometry.hpp"
+#include "benchmarks/base/names.hpp"
 
 namespace hullbench::metrics {
 
@@ -29,6 +29,6 @@ struct AreaScores {
 
 /// Scores `result` against `ground_truth`, once; for many results of one case see CaseScorer. Throws
 /// std::runtime_error when `ground_truth` is itself empty or invalid, or when GEOS fails.
-AreaScores area_scores(const polylidar::MultiPolygon& result, const polylidar::MultiPolygon& ground_truth);
+AreaScores area_scores(const MultiPolygon& result, const MultiPolygon& ground_truth);
 
 }  // namespace hullbench::metrics

@@ -9,10 +9,6 @@
 namespace hullbench::metrics {
 namespace {
 
-using polylidar::MultiPolygon;
-using polylidar::Point;
-using polylidar::Ring;
-
 constexpr double kSpacingInH = 0.25;
 constexpr double kMostSamples = 262'144;
 constexpr double kPercentile = 0.95;

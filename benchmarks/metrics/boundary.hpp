@@ -3,15 +3,15 @@
 
 #include <optional>
 
+#include "benchmarks/base/names.hpp"
 #include "benchmarks/metrics/segment_tree.hpp"
-#include "polylidar/geometry.hpp"
 
 namespace hullbench::metrics {
 
 /// A distance and the point where it is taken.
 struct Witness {
   double distance = 0;
-  polylidar::Point place;
+  Point place;
 };
 
 /// Boundaries are all rings, those of holes too. They are measured at their vertices and between these at
@@ -36,14 +36,14 @@ struct BoundaryScores {
 class PreparedBoundary {
  public:
   /// Coordinates of `shape`, which must outlive this, are finite.
-  explicit PreparedBoundary(const polylidar::MultiPolygon& shape);
+  explicit PreparedBoundary(const MultiPolygon& shape);
 
-  const polylidar::MultiPolygon& shape() const { return *shape_; }
+  const MultiPolygon& shape() const { return *shape_; }
   const SegmentTree& segments() const { return segments_; }
   double length() const { return length_; }  ///< in the unit of the points
 
  private:
-  const polylidar::MultiPolygon* shape_;
+  const MultiPolygon* shape_;
   SegmentTree segments_;
   double length_;
 };

@@ -3,8 +3,8 @@
 
 #include <string>
 
+#include "benchmarks/base/names.hpp"
 #include "benchmarks/metrics/geos_session.hpp"
-#include "polylidar/geometry.hpp"
 
 namespace hullbench::metrics {
 
@@ -14,6 +14,6 @@ struct CheckedShape {
 };
 
 /// Throws std::runtime_error when GEOS fails.
-CheckedShape check_shape(const GeosSession& geos, const polylidar::MultiPolygon& shape);
+CheckedShape check_shape(const GeosSession& geos, const MultiPolygon& shape);
 
 }  // namespace hullbench::metrics

@@ -6,11 +6,6 @@
 namespace hullbench::metrics {
 namespace {
 
-using polylidar::MultiPolygon;
-using polylidar::Point;
-using polylidar::Polygon;
-using polylidar::Ring;
-
 /// Hands over geometries to GEOS, which then owns them even when it fails.
 std::vector<GEOSGeometry*> release(std::vector<GeosSession::Geometry>& geometries) {
   std::vector<GEOSGeometry*> raw;

@@ -6,7 +6,7 @@
 #include <memory>
 #include <string>
 
-#include "polylidar/geometry.hpp"
+#include "benchmarks/base/names.hpp"
 
 namespace hullbench::metrics {
 
@@ -37,9 +37,9 @@ class GeosSession {
   [[noreturn]] void fail(const std::string& operation) const;
 
   /// Every ring needs at least 3 points with finite coordinates; the rest may be wrong.
-  Geometry make_ring(const polylidar::Ring& ring) const;
-  Geometry make_polygon(const polylidar::Polygon& polygon) const;
-  Geometry make_multi_polygon(const polylidar::MultiPolygon& shape) const;
+  Geometry make_ring(const Ring& ring) const;
+  Geometry make_polygon(const Polygon& polygon) const;
+  Geometry make_multi_polygon(const MultiPolygon& shape) const;
 
   Geometry clone(const Geometry& geometry) const;
   double area(const Geometry& geometry) const;

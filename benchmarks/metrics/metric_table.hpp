@@ -3,12 +3,12 @@
 #pragma once
 
 #include <cstdint>
-#include <nlohmann/json.hpp>
 #include <ostream>
 #include <span>
 #include <string>
 #include <variant>
 
+#include "benchmarks/base/names.hpp"
 #include "benchmarks/metrics/metrics.hpp"
 
 namespace hullbench::metrics {
@@ -41,10 +41,10 @@ struct MetricInfo {
 std::span<const MetricInfo> metric_table();
 
 /// The member `metrics` of a row: every metric by name, null where it is not defined.
-nlohmann::json metrics_to_json(const Metrics& metrics);
+json metrics_to_json(const Metrics& metrics);
 
 /// The table without the values: an array of objects with the members of MetricInfo as texts.
-nlohmann::json metric_table_to_json();
+json metric_table_to_json();
 
 /// The same for people.
 void print_metric_table(std::ostream& out);

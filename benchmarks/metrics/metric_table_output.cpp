@@ -6,8 +6,6 @@
 namespace hullbench::metrics {
 namespace {
 
-using nlohmann::json;
-
 json to_json(const MetricValue& value) {
   if (std::holds_alternative<std::monostate>(value)) return nullptr;
   json result;

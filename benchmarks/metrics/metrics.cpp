@@ -8,12 +8,8 @@
 #include "benchmarks/metrics/checked_shape.hpp"
 #include "benchmarks/metrics/prepared_truth.hpp"
 #include "benchmarks/metrics/shape_measures.hpp"
-#include "polylidar/concave_hull.hpp"
 
 namespace hullbench::metrics {
-
-using polylidar::MultiPolygon;
-using polylidar::Point;
 
 struct CaseScorer::State {
   State(std::span<const Point> points, const MultiPolygon& ground_truth)
@@ -37,15 +33,7 @@ struct CaseScorer::State {
   GeosSession::Geometry band;  ///< of the truth; see boundary_band.hpp
 };
 
-namespace {
-
-/// 0 of points without an area.
-double convex_hull_area(std::span<const Point> points) {
-  const auto hull = polylidar::concave_hull(points, {.alpha = polylidar::kNoLimit});
-  return polylidar::area(polylidar::to_coordinates(hull, points));
-}
-
-}  // namespace
+namespace {}  // namespace
 
 Metrics describe(std::span<const Point> points, const MultiPolygon& result, const MultiPolygon& window,
                  std::span<const PartResults> draws) {

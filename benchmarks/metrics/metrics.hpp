@@ -7,13 +7,13 @@
 #include <optional>
 #include <span>
 
+#include "benchmarks/base/names.hpp"
 #include "benchmarks/metrics/agreement.hpp"
 #include "benchmarks/metrics/area.hpp"
 #include "benchmarks/metrics/boundary.hpp"
 #include "benchmarks/metrics/output_contract.hpp"
 #include "benchmarks/metrics/topology.hpp"
 #include "benchmarks/metrics/validity.hpp"
-#include "polylidar/geometry.hpp"
 
 namespace hullbench::metrics {
 
@@ -50,24 +50,24 @@ struct Metrics {
 /// made of parts of the points, if there are any, the stability; of a `window`, if it is not empty, the IoU
 /// with it. The ground truth's area and convexity are 0. Throws std::runtime_error when GEOS
 /// fails.
-Metrics describe(std::span<const polylidar::Point> points, const polylidar::MultiPolygon& result,
-                 const polylidar::MultiPolygon& window = {}, std::span<const PartResults> draws = {});
+Metrics describe(std::span<const Point> points, const MultiPolygon& result, const MultiPolygon& window = {},
+                 std::span<const PartResults> draws = {});
 
 /// Scores results on one case. What all of them share, such as the anchors of skill, is worked out once.
 class CaseScorer {
  public:
   /// `points` may be few or none. Copies what it needs. Throws std::runtime_error when `ground_truth` is
   /// empty or invalid or when GEOS fails, and as polylidar::delaunay for the points.
-  CaseScorer(std::span<const polylidar::Point> points, const polylidar::MultiPolygon& ground_truth);
+  CaseScorer(std::span<const Point> points, const MultiPolygon& ground_truth);
   ~CaseScorer();
   CaseScorer(CaseScorer&&) noexcept;
   CaseScorer& operator=(CaseScorer&&) noexcept;
 
   /// Safe from several threads at once. Throws std::runtime_error when GEOS fails.
-  Metrics score(const polylidar::MultiPolygon& result) const;
+  Metrics score(const MultiPolygon& result) const;
 
   /// The area scores alone, for searches that score many results: those of `score`, as safe.
-  AreaScores area_scores(const polylidar::MultiPolygon& result) const;
+  AreaScores area_scores(const MultiPolygon& result) const;
 
  private:
   struct State;

@@ -10,11 +10,6 @@
 namespace hullbench::metrics {
 namespace {
 
-using polylidar::MultiPolygon;
-using polylidar::Point;
-using polylidar::Polygon;
-using polylidar::Ring;
-
 /// The square of a distance below this is no number of full precision, or 0.
 constexpr double kLeastDistance = 1e-150;
 

@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "polylidar/geometry.hpp"
+#include "benchmarks/base/names.hpp"
 
 namespace hullbench::metrics {
 
@@ -31,13 +31,13 @@ struct ContractScores {
 class InputPoints {
  public:
   /// Coordinates are finite. O(n log n).
-  explicit InputPoints(std::span<const polylidar::Point> points);
+  explicit InputPoints(std::span<const Point> points);
 
   /// Of any shape, valid or not. Safe from several threads at once.
-  ContractScores score(const polylidar::MultiPolygon& result) const;
+  ContractScores score(const MultiPolygon& result) const;
 
  private:
-  std::vector<polylidar::Point> sorted_;  ///< by y, then x
+  std::vector<Point> sorted_;  ///< by y, then x
 };
 
 }  // namespace hullbench::metrics

@@ -7,7 +7,7 @@
 
 namespace hullbench::metrics {
 
-PreparedTruth::PreparedTruth(const polylidar::MultiPolygon& shape) {
+PreparedTruth::PreparedTruth(const MultiPolygon& shape) {
   if (shape.empty()) throw std::runtime_error("the ground truth is empty; there is nothing to score against");
   CheckedShape checked = check_shape(geos_, shape);
   if (!checked.invalid_reason.empty()) {

@@ -1,17 +1,17 @@
 // A ground truth, checked and measured once for all the results that are scored against it.
 #pragma once
 
+#include "benchmarks/base/names.hpp"
 #include "benchmarks/metrics/area.hpp"
 #include "benchmarks/metrics/checked_shape.hpp"
 #include "benchmarks/metrics/geos_session.hpp"
-#include "polylidar/geometry.hpp"
 
 namespace hullbench::metrics {
 
 class PreparedTruth {
  public:
   /// Throws std::runtime_error when `shape` is empty or invalid, or when GEOS fails.
-  explicit PreparedTruth(const polylidar::MultiPolygon& shape);
+  explicit PreparedTruth(const MultiPolygon& shape);
 
   double area() const { return area_; }  ///< squared unit of the points
   /// A copy for `geos` alone; safe from several threads at once.
@@ -19,8 +19,7 @@ class PreparedTruth {
 
   /// The area scores of `result`, which check_shape has made `shape` in `geos`; safe from several threads at
   /// once. Throws std::runtime_error when GEOS fails.
-  AreaScores score(const GeosSession& geos, const polylidar::MultiPolygon& result,
-                   const CheckedShape& shape) const;
+  AreaScores score(const GeosSession& geos, const MultiPolygon& result, const CheckedShape& shape) const;
 
  private:
   GeosSession geos_;

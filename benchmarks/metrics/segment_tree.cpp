@@ -10,8 +10,6 @@ namespace hullbench::metrics {
 namespace {
 
 using polylidar::Box;
-using polylidar::MultiPolygon;
-using polylidar::Point;
 
 constexpr std::size_t kLeafSize = 4;
 

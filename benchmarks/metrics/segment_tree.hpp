@@ -5,7 +5,7 @@
 #include <limits>
 #include <vector>
 
-#include "polylidar/geometry.hpp"
+#include "benchmarks/base/names.hpp"
 
 namespace hullbench::metrics {
 
@@ -16,22 +16,21 @@ namespace hullbench::metrics {
 class SegmentTree {
  public:
   /// O(m) time and memory for m edges. Coordinates are finite.
-  explicit SegmentTree(const polylidar::MultiPolygon& shape);
+  explicit SegmentTree(const MultiPolygon& shape);
 
   /// The distance from `point` to the nearest edge, in the unit of the points; infinity when there is no
   /// edge. `bound` is a distance known to be no shorter than that, such as a near point's distance plus the
   /// step from it; the nearer it is, the faster. Where the nearest edge is farther
   /// away than `bound`, the answer is `bound`, but for rounding. Usually O(log m). Rounded; not a predicate.
-  double distance(const polylidar::Point& point,
-                  double bound = std::numeric_limits<double>::infinity()) const;
+  double distance(const Point& point, double bound = std::numeric_limits<double>::infinity()) const;
 
  private:
   struct Segment {
-    polylidar::Point from;
-    polylidar::Point to;
+    Point from;
+    Point to;
   };
 
-  void search(std::size_t node, const polylidar::Point& point, double& best_squared) const;
+  void search(std::size_t node, const Point& point, double& best_squared) const;
 
   std::vector<Segment> segments_;  ///< ring after ring
   std::size_t leaf_count_ = 1;     ///< a power of two

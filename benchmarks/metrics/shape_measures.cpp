@@ -3,12 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
-namespace hullbench::metrics {
+#include "polylidar/concave_hull.hpp"
 
-using polylidar::MultiPolygon;
-using polylidar::Point;
-using polylidar::Polygon;
-using polylidar::Ring;
+namespace hullbench::metrics {
 
 double perimeter(const MultiPolygon& shape) {
   double length = 0;
@@ -34,6 +31,11 @@ bool has_finite_coordinates(const MultiPolygon& shape) {
     for (const Point& point : ring) finite = finite && std::isfinite(point.x) && std::isfinite(point.y);
   });
   return finite;
+}
+
+double convex_hull_area(std::span<const Point> points) {
+  const auto hull = polylidar::concave_hull(points, {.alpha = polylidar::kNoLimit});
+  return polylidar::area(polylidar::to_coordinates(hull, points));
 }
 
 }  // namespace hullbench::metrics

@@ -2,36 +2,40 @@
 #pragma once
 
 #include <cstddef>
+#include <span>
 
-#include "polylidar/geometry.hpp"
+#include "benchmarks/base/names.hpp"
 
 namespace hullbench::metrics {
 
 /// Length of all rings, in the unit of the points.
-double perimeter(const polylidar::MultiPolygon& shape);
+double perimeter(const MultiPolygon& shape);
 
 /// Shells less holes; 0 when a coordinate is not finite, and where the holes of an invalid shape have more
 /// than its shells.
-double area_of_result(const polylidar::MultiPolygon& shape);
+double area_of_result(const MultiPolygon& shape);
 
-std::size_t count_holes(const polylidar::MultiPolygon& shape);
+std::size_t count_holes(const MultiPolygon& shape);
+
+/// 0 of points without an area.
+double convex_hull_area(std::span<const Point> points);
 
 /// Whether every coordinate is a number below infinity.
-bool has_finite_coordinates(const polylidar::MultiPolygon& shape);
+bool has_finite_coordinates(const MultiPolygon& shape);
 
 /// Calls `visit(ring)` for the shell and then the holes of every polygon.
 template <typename Visit>
-void for_each_ring(const polylidar::MultiPolygon& shape, const Visit& visit) {
-  for (const polylidar::Polygon& polygon : shape) {
+void for_each_ring(const MultiPolygon& shape, const Visit& visit) {
+  for (const Polygon& polygon : shape) {
     visit(polygon.shell);
-    for (const polylidar::Ring& hole : polygon.holes) visit(hole);
+    for (const Ring& hole : polygon.holes) visit(hole);
   }
 }
 
 /// Calls `visit(from, to)` for the edges of every ring in order, the closing one last.
 template <typename Visit>
-void for_each_edge(const polylidar::MultiPolygon& shape, const Visit& visit) {
-  for_each_ring(shape, [&](const polylidar::Ring& ring) {
+void for_each_edge(const MultiPolygon& shape, const Visit& visit) {
+  for_each_ring(shape, [&](const Ring& ring) {
     for (std::size_t i = 0; i < ring.size(); ++i) visit(ring[i], ring[(i + 1) % ring.size()]);
   });
 }

@@ -10,9 +10,6 @@
 namespace hullbench::metrics {
 namespace {
 
-using polylidar::MultiPolygon;
-using polylidar::Ring;
-
 /// A hole as a polygon of its own.
 struct Hole {
   GeosSession::Geometry geometry;
@@ -21,7 +18,7 @@ struct Hole {
 
 std::vector<Hole> holes_of(const GeosSession& geos, const MultiPolygon& shape) {
   std::vector<Hole> holes;
-  for (const polylidar::Polygon& polygon : shape) {
+  for (const Polygon& polygon : shape) {
     for (const Ring& ring : polygon.holes) {
       holes.push_back({geos.make_polygon({ring, {}}), std::abs(polylidar::signed_area(ring))});
     }

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <optional>
 
-#include "polylidar/geometry.hpp"
+#include "benchmarks/base/names.hpp"
 
 namespace hullbench::metrics {
 
@@ -24,8 +24,7 @@ struct ShapeCounts {
 };
 
 /// Of any shapes, valid or not; h: the nominal spacing of the points.
-ShapeCounts count_shape(const polylidar::MultiPolygon& result, const polylidar::MultiPolygon& truth,
-                        double h);
+ShapeCounts count_shape(const MultiPolygon& result, const MultiPolygon& truth, double h);
 
 /// Empty when neither shape has holes; 0 when only one has.
 struct HoleScores {
@@ -36,6 +35,6 @@ struct HoleScores {
 
 /// Matches the holes of two valid shapes one to one, the pair that agrees best first. A hole is all that its
 /// ring encloses, a polygon that lies in it too. Throws std::runtime_error when GEOS fails.
-HoleScores match_holes(const polylidar::MultiPolygon& result, const polylidar::MultiPolygon& truth);
+HoleScores match_holes(const MultiPolygon& result, const MultiPolygon& truth);
 
 }  // namespace hullbench::metrics

@@ -23,8 +23,7 @@ bool answer(const GeosSession& geos, char given) {
 
 }  // namespace
 
-std::vector<double> areas_within(std::span<const std::array<polylidar::Point, 3>> triangles,
-                                 const polylidar::MultiPolygon& shape) {
+std::vector<double> areas_within(std::span<const std::array<Point, 3>> triangles, const MultiPolygon& shape) {
   const GeosSession geos;
   const GeosSession::Geometry geometry = geos.make_multi_polygon(shape);
   const std::unique_ptr<const GEOSPreparedGeometry, DestroyPrepared> prepared(
@@ -32,7 +31,7 @@ std::vector<double> areas_within(std::span<const std::array<polylidar::Point, 3>
   if (!prepared) geos.fail("preparing a shape");
   std::vector<double> areas;
   areas.reserve(triangles.size());
-  for (const std::array<polylidar::Point, 3>& corners : triangles) {
+  for (const std::array<Point, 3>& corners : triangles) {
     const GeosSession::Geometry triangle =
         geos.make_polygon({.shell = {corners.begin(), corners.end()}, .holes = {}});
     if (answer(geos, GEOSPreparedContains_r(geos.context(), prepared.get(), triangle.get()))) {

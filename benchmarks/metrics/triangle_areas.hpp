@@ -5,14 +5,13 @@
 #include <span>
 #include <vector>
 
-#include "polylidar/geometry.hpp"
+#include "benchmarks/base/names.hpp"
 
 namespace hullbench::metrics {
 
 /// Triangle -> area of what it has in common with the valid `shape`, in the squared unit of the points.
 /// Corners run counter-clockwise. Only triangles that cross the outline cost an intersection. Throws
 /// std::runtime_error when GEOS fails.
-std::vector<double> areas_within(std::span<const std::array<polylidar::Point, 3>> triangles,
-                                 const polylidar::MultiPolygon& shape);
+std::vector<double> areas_within(std::span<const std::array<Point, 3>> triangles, const MultiPolygon& shape);
 
 }  // namespace hullbench::metrics

@@ -8,10 +8,6 @@ namespace hullbench::metrics {
 namespace {
 
 using polylidar::kNone;
-using polylidar::MultiPolygon;
-using polylidar::Point;
-using polylidar::Polygon;
-using polylidar::Ring;
 using polylidar::Triangulation;
 
 std::uint32_t previous_in_triangle(std::uint32_t edge) {

@@ -4,8 +4,8 @@
 #include <span>
 #include <vector>
 
+#include "benchmarks/base/names.hpp"
 #include "polylidar/delaunay.hpp"
-#include "polylidar/geometry.hpp"
 
 namespace hullbench::metrics {
 
@@ -13,8 +13,7 @@ namespace hullbench::metrics {
 /// names: a polygon for every edge-connected set of them, valid in the sense of the OGC, shells
 /// counter-clockwise and holes clockwise. Where a hole touches a shell or another hole each stays a ring of
 /// its own.
-polylidar::MultiPolygon triangle_outline(const polylidar::Triangulation& mesh,
-                                         std::span<const polylidar::Point> points,
-                                         const std::vector<bool>& kept);
+MultiPolygon triangle_outline(const polylidar::Triangulation& mesh, std::span<const Point> points,
+                              const std::vector<bool>& kept);
 
 }  // namespace hullbench::metrics

@@ -8,11 +8,6 @@
 namespace hullbench::metrics {
 namespace {
 
-using polylidar::MultiPolygon;
-using polylidar::Point;
-using polylidar::Polygon;
-using polylidar::Ring;
-
 std::string place_of(const Point& point) {
   std::ostringstream text;
   text << '[' << point.x << ' ' << point.y << ']';

@@ -3,12 +3,12 @@
 
 #include <string>
 
-#include "polylidar/geometry.hpp"
+#include "benchmarks/base/names.hpp"
 
 namespace hullbench::metrics {
 
 /// Why `shape` is not a valid multipolygon in the sense of the OGC (06-103r4, 6.1.14), in GEOS's words and
 /// with the place; empty when it is valid, as an empty shape is. Throws std::runtime_error when GEOS fails.
-std::string invalid_reason(const polylidar::MultiPolygon& shape);
+std::string invalid_reason(const MultiPolygon& shape);
 
 }  // namespace hullbench::metrics

@@ -19,7 +19,7 @@ using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
 std::vector<Kernel::Point_2> kernel_points(const SpeedPointSet& set) {
   std::vector<Kernel::Point_2> points;
   points.reserve(set.points.size());
-  for (const polylidar::Point& p : set.points) points.emplace_back(p.x, p.y);
+  for (const Point& p : set.points) points.emplace_back(p.x, p.y);
   return points;
 }
 

@@ -6,11 +6,11 @@
 #include <functional>
 #include <limits>
 #include <map>
-#include <nlohmann/json.hpp>
 #include <span>
 #include <stdexcept>
 #include <utility>
 
+#include "benchmarks/base/names.hpp"
 #include "benchmarks/base/number_format.hpp"
 #include "benchmarks/statistics/judge.hpp"
 #include "benchmarks/statistics/sign_test.hpp"
@@ -23,7 +23,6 @@ namespace {
 constexpr const char* kGoalsFile = HULLBENCH_GOALS_FILE;
 
 using Names = std::vector<std::string>;
-using nlohmann::json;
 
 enum class Quantity { kTimeRatio, kTimeAPointRatio, kTimeAPointSpread, kPeakBytes };
 
@@ -146,21 +145,14 @@ void fill_in_times(const Goal& goal, const Measurements& measurements, VerdictLi
 
 Verdict verdict_of(const Goal& goal, const VerdictLine& line) {
   if (!goal.at_most && !goal.at_least) return Verdict::kInformation;
-  const double limit = goal.at_most ? *goal.at_most : *goal.at_least;
-  const statistics::Interval interval =
-      line.interval.value_or(statistics::Interval{*line.value, *line.value});
-  // The limit itself meets a goal of either kind.
-  if (interval.low == limit && interval.high == limit) return Verdict::kMet;
-  if ((goal.at_most ? interval.low : interval.high) == limit) return Verdict::kUndecided;
-  switch (statistics::side_of(interval, limit)) {
-    case statistics::Side::kBelow:
-      return goal.at_most ? Verdict::kMet : Verdict::kMissed;
-    case statistics::Side::kAbove:
-      return goal.at_least ? Verdict::kMet : Verdict::kMissed;
-    case statistics::Side::kUndecided:
-      break;
-  }
-  return Verdict::kUndecided;
+  // The limit itself meets a goal of either kind, so that what misses one begins beyond it.
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  const double limit =
+      goal.at_most ? std::nextafter(*goal.at_most, kInfinity) : std::nextafter(*goal.at_least, -kInfinity);
+  const statistics::Side side =
+      statistics::side_of(line.interval.value_or(statistics::Interval{*line.value, *line.value}), limit);
+  if (side == statistics::Side::kUndecided) return Verdict::kUndecided;
+  return (side == statistics::Side::kBelow) == goal.at_most.has_value() ? Verdict::kMet : Verdict::kMissed;
 }
 
 /// A limit as it was set: no digits that say nothing, at most three that do.

@@ -38,7 +38,7 @@ Geometry own(const Context& context, GEOSGeometry* geometry, const char* operati
 Geometry multi_point(const Context& context, const SpeedPointSet& set) {
   std::vector<GEOSGeometry*> points;
   points.reserve(set.points.size());
-  for (const polylidar::Point& p : set.points) {
+  for (const Point& p : set.points) {
     points.push_back(GEOSGeom_createPointFromXY_r(context.get(), p.x, p.y));
   }
   return own(context,
@@ -65,8 +65,8 @@ double length_ratio(const SpeedPointSet& set) {
   double shortest = std::numeric_limits<double>::infinity();
   double longest = 0;
   for (std::size_t e = 0; e < delaunay.triangles.size(); ++e) {
-    const polylidar::Point& start = set.points[delaunay.triangles[e]];
-    const polylidar::Point& end = set.points[delaunay.triangles[3 * (e / 3) + (e + 1) % 3]];
+    const Point& start = set.points[delaunay.triangles[e]];
+    const Point& end = set.points[delaunay.triangles[3 * (e / 3) + (e + 1) % 3]];
     const double length = std::hypot(end.x - start.x, end.y - start.y);
     shortest = std::min(shortest, length);
     longest = std::max(longest, length);

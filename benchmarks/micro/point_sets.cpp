@@ -12,9 +12,8 @@ namespace {
 
 constexpr std::uint64_t kSeed = 1;
 
-std::vector<polylidar::Point> make_lattice(std::size_t columns, std::size_t n, double jitter,
-                                           Random& random) {
-  std::vector<polylidar::Point> points(n);
+std::vector<Point> make_lattice(std::size_t columns, std::size_t n, double jitter, Random& random) {
+  std::vector<Point> points(n);
   for (std::size_t i = 0; i < n; ++i) {
     const std::size_t row = i / columns;
     points[i] = {static_cast<double>(i % columns), static_cast<double>(row)};
@@ -33,7 +32,7 @@ SpeedPointSet make_islands(std::size_t n, Random& random) {
   const double alpha = 2.5 / std::sqrt(static_cast<double>(n) / kIslands);
   // A triangle between two squares has an edge longer than 2 * alpha, so a circumradius above alpha.
   const double period = 1 + 3 * alpha;
-  std::vector<polylidar::Point> points(n);
+  std::vector<Point> points(n);
   for (std::size_t i = 0; i < n; ++i) {
     const std::size_t island = i % kIslands;
     const std::size_t row = island / kColumns;
@@ -48,7 +47,7 @@ SpeedPointSet make_sieve(std::size_t n, Random& random) {
   const double period = std::sqrt(2.0);  // a hole of area 1, and as much round it
   const double rim = (period - 1) / 2;
   const auto is_in_hole = [rim](double offset) { return offset > rim && offset < 1 + rim; };
-  std::vector<polylidar::Point> points(n);
+  std::vector<Point> points(n);
   for (std::size_t i = 0; i < n; ++i) {
     const std::size_t hole = i % kIslands;
     const std::size_t row = hole / kColumns;
@@ -65,24 +64,24 @@ SpeedPointSet make_sieve(std::size_t n, Random& random) {
 }
 
 /// Points of which most are near an outline, or there more than once: leaving the interior out does not pay.
-std::vector<polylidar::Point> make_outline_points(const std::string& name, std::size_t n, Random& random) {
-  std::vector<polylidar::Point> points(n);
+std::vector<Point> make_outline_points(const std::string& name, std::size_t n, Random& random) {
+  std::vector<Point> points(n);
   constexpr std::size_t kClusters = 50;
   constexpr double kDeviation = 0.01;
   const std::size_t copies = name == "repeats8" ? 8 : name == "repeats" ? 4 : 1;
-  std::vector<polylidar::Point> centres(kClusters);
-  for (polylidar::Point& p : centres) p = {random.uniform(), random.uniform()};
+  std::vector<Point> centres(kClusters);
+  for (Point& p : centres) p = {random.uniform(), random.uniform()};
   for (std::size_t i = 0; i < n; ++i) {
     const double x = random.uniform();
     if (name == "clusters") {
-      const polylidar::Point& centre = centres[i % kClusters];
+      const Point& centre = centres[i % kClusters];
       points[i] = {centre.x + kDeviation * random.normal(), centre.y + kDeviation * random.normal()};
     } else if (name == "circle") {
       points[i] = {std::cos(6.283185307179586 * x), std::sin(6.283185307179586 * x)};
     } else if (name == "parabola") {
       points[i] = {x, x * x};
     } else {
-      points[i] = i % copies == 0 ? polylidar::Point{x, random.uniform()} : points[i - 1];
+      points[i] = i % copies == 0 ? Point{x, random.uniform()} : points[i - 1];
     }
   }
   return points;
@@ -101,8 +100,8 @@ SpeedPointSet make_speed_point_set(const std::string& name, std::size_t n) {
     return {std::move(set.points), 2 * std::sqrt(set.ground_truth_area / static_cast<double>(n)), 0};
   }
   if (name == "uniform") {
-    std::vector<polylidar::Point> points(n);
-    for (polylidar::Point& p : points) p = {random.uniform(), random.uniform()};
+    std::vector<Point> points(n);
+    for (Point& p : points) p = {random.uniform(), random.uniform()};
     return {std::move(points), 2 / std::sqrt(static_cast<double>(n)), 0};
   }
   if (name == "lattice") {

@@ -5,13 +5,13 @@
 #include <string>
 #include <vector>
 
-#include "polylidar/geometry.hpp"
+#include "benchmarks/base/names.hpp"
 
 namespace hullbench::micro {
 
 /// Points, and the alpha that the paper's rule 2 * sqrt(area / n) gives for the area they fill.
 struct SpeedPointSet {
-  std::vector<polylidar::Point> points;
+  std::vector<Point> points;
   double alpha = 0;
   /// How many polygons the concave hull has where that is known beforehand, else 0.
   std::size_t polygons = 0;

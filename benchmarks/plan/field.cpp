@@ -11,8 +11,6 @@
 namespace hullbench::plan {
 namespace {
 
-using nlohmann::json;
-
 const json& field() {
   static const json entries = json::parse(kFieldJson).at("methods");
   return entries;

@@ -2,16 +2,16 @@
 // name.
 #pragma once
 
-#include <nlohmann/json.hpp>
 #include <vector>
 
+#include "benchmarks/base/names.hpp"
 #include "benchmarks/plan/plan_schema.hpp"
 
 namespace hullbench::plan {
 
 /// An entry of a plan's methods, and where it stands.
 struct PlanEntry {
-  nlohmann::json value;
+  json value;
   Place place;
 };
 
@@ -19,6 +19,6 @@ struct PlanEntry {
 /// its "field" names and its "without" does not, in the field's order, then those of its "methods". One of
 /// "methods" with the method and protocol of one of the field is a change of that: it says only what differs.
 /// Throws ConfigurationError for a name that there is not, or that says nothing new.
-std::vector<PlanEntry> entries_of(const nlohmann::json& plan, const Place& place);
+std::vector<PlanEntry> entries_of(const json& plan, const Place& place);
 
 }  // namespace hullbench::plan

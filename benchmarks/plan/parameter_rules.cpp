@@ -38,7 +38,7 @@ const std::vector<ParameterRule>& rules() {
   return all;
 }
 
-double convex_hull_area(std::span<const polylidar::Point> points) {
+double convex_hull_area(std::span<const Point> points) {
   return polylidar::area(
       polylidar::to_coordinates(polylidar::concave_hull(points, {.alpha = polylidar::kNoLimit}), points));
 }
@@ -73,8 +73,8 @@ double paper_edge_length(const RuleInput& input) {
 }
 
 double paper_target_percent(const RuleInput& input) {
-  std::vector<polylidar::Point> corners;
-  for (const polylidar::Polygon& polygon : input.ground_truth) {
+  std::vector<Point> corners;
+  for (const Polygon& polygon : input.ground_truth) {
     corners.insert(corners.end(), polygon.shell.begin(), polygon.shell.end());
   }
   const double hull_area = convex_hull_area(corners);
@@ -87,7 +87,7 @@ double holes_switch(const RuleInput& input) {
   return input.holes ? 1.0 : 0.0;
 }
 
-double mean_spacing(std::span<const polylidar::Point> points) {
+double mean_spacing(std::span<const Point> points) {
   if (points.empty()) return 0;
   return std::sqrt(convex_hull_area(points) / static_cast<double>(points.size()));
 }

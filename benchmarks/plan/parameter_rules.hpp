@@ -6,17 +6,17 @@
 #include <string>
 #include <vector>
 
-#include "polylidar/geometry.hpp"
+#include "benchmarks/base/names.hpp"
 
 namespace hullbench::plan {
 
 /// What a rule may look at.
 struct RuleInput {
-  std::span<const polylidar::Point> points;
+  std::span<const Point> points;
   double ground_truth_area = 0;  ///< squared unit of the points; only for rules that say so
   bool holes = false;            ///< whether the case asks for holes
   /// Its polygons; only for rules that say so.
-  std::span<const polylidar::Polygon> ground_truth = {};
+  std::span<const Polygon> ground_truth = {};
 };
 
 struct ParameterRule {
@@ -58,7 +58,7 @@ double holes_switch(const RuleInput& input);
 /// sqrt(A / n): the mean spacing of n points spread over the area A of their convex hull, in the unit of the
 /// points. What lengths are given in where no ground truth may be known. 0 for no points and for points
 /// without an area.
-double mean_spacing(std::span<const polylidar::Point> points);
+double mean_spacing(std::span<const Point> points);
 
 /// The core's own choice for these points (Extractor::chosen_sizes), its median S over the set: the largest
 /// size of a triangle of the shape where the points are as dense as usual. What the other rules from the

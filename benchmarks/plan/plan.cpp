@@ -10,6 +10,7 @@
 
 #include "benchmarks/base/configuration_error.hpp"
 #include "benchmarks/base/files.hpp"
+#include "benchmarks/base/number_format.hpp"
 #include "benchmarks/base/words.hpp"
 #include "benchmarks/plan/field.hpp"
 #include "benchmarks/plan/plan_schema.hpp"
@@ -18,8 +19,6 @@
 
 namespace hullbench::plan {
 namespace {
-
-using nlohmann::json;
 
 constexpr int kPlanSchemaVersion = 1;
 
@@ -188,19 +187,15 @@ json parse_json(const std::string& text, const std::string& source) {
   }
 }
 
-std::vector<std::string> plan_names(const std::filesystem::path& folder) {
+std::vector<std::string> plan_names(const fs::path& folder) {
   std::vector<std::string> names;
   std::error_code ignored;
-  for (const auto& entry : std::filesystem::directory_iterator(folder, ignored)) {
+  for (const auto& entry : fs::directory_iterator(folder, ignored)) {
     const std::string name = entry.path().stem().string();
     if (entry.path().extension() == ".json" && !name.ends_with(".schema")) names.push_back(name);
   }
   std::sort(names.begin(), names.end());
   return names;
-}
-
-json value_to_json(double value) {
-  return std::isfinite(value) ? json(value) : json(nullptr);
 }
 
 json parameter_to_json(const ParameterChoice& choice) {
@@ -209,9 +204,9 @@ json parameter_to_json(const ParameterChoice& choice) {
     return {{"scaled", scaled->factor}, {"power", scaled->power}};
   json result;
   if (const auto* cases = std::get_if<CaseChoice>(&choice)) {
-    for (const auto& [key, value] : cases->values) result["cases"][key] = value_to_json(value);
+    for (const auto& [key, value] : cases->values) result["cases"][key] = finite_or_null(value);
   } else {
-    result = value_to_json(std::get<double>(choice));
+    result = finite_or_null(std::get<double>(choice));
   }
   return result;
 }
@@ -256,10 +251,9 @@ Plan parse_plan(const std::string& text, const std::string& source) {
   return plan;
 }
 
-Plan load_plan(const std::string& name_or_path, const std::filesystem::path& folder) {
+Plan load_plan(const std::string& name_or_path, const fs::path& folder) {
   const bool is_path = name_or_path.find('/') != std::string::npos || name_or_path.ends_with(".json");
-  const std::filesystem::path path =
-      is_path ? std::filesystem::path(name_or_path) : folder / (name_or_path + ".json");
+  const fs::path path = is_path ? fs::path(name_or_path) : folder / (name_or_path + ".json");
   const std::optional<std::string> text = read_text_file(path);
   if (!text) {
     const std::vector<std::string> names = plan_names(folder);

@@ -6,13 +6,13 @@
 #include <cstdint>
 #include <filesystem>
 #include <map>
-#include <nlohmann/json.hpp>
 #include <optional>
 #include <stdexcept>
 #include <string>
 #include <variant>
 #include <vector>
 
+#include "benchmarks/base/names.hpp"
 #include "benchmarks/plan/parameter_rules.hpp"
 #include "datasets/datasets.hpp"
 
@@ -98,8 +98,8 @@ struct Plan {
   /// How often a method is run on random parts of the points of each case without a ground truth, untimed, to
   /// see whether its result stays; see run/point_parts.hpp.
   int draws = 0;
-  std::string filter;    ///< of the runs' names, for who asks for none; empty: all runs
-  nlohmann::json cases;  ///< as written, for records
+  std::string filter;  ///< of the runs' names, for who asks for none; empty: all runs
+  json cases;          ///< as written, for records
   std::vector<PlanCase> expanded_cases;
   std::vector<PlanMethod> methods;
 };
@@ -118,18 +118,18 @@ Plan parse_plan(const std::string& text, const std::string& source);
 
 /// The plan that `name_or_path` names: NAME.json in `folder`, or a file (anything with a slash or the ending
 /// .json). Throws ConfigurationError.
-Plan load_plan(const std::string& name_or_path, const std::filesystem::path& folder);
+Plan load_plan(const std::string& name_or_path, const fs::path& folder);
 
 /// Entries for `method` as in a plan's "methods", but without the key "method": `source` and `path` say in
 /// messages where they stand. Throws ConfigurationError.
-std::vector<PlanMethod> parse_plan_methods(const nlohmann::json& entries, const std::string& method,
+std::vector<PlanMethod> parse_plan_methods(const json& entries, const std::string& method,
                                            const std::string& source, const std::string& path);
 
 /// Adds `methods` to the plan. Throws ConfigurationError when it has one of them with the same protocol.
 void add_methods(Plan& plan, const std::vector<PlanMethod>& methods);
 
 /// The plan as JSON, complete: parsing it gives the same plan.
-nlohmann::json plan_to_json(const Plan& plan);
+json plan_to_json(const Plan& plan);
 
 /// Whether an entry of `method` is measured on the case: it keeps to no other data sets.
 bool applies(const PlanMethod& method, const PlanCase& plan_case);

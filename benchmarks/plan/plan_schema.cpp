@@ -15,8 +15,6 @@
 namespace hullbench::plan {
 namespace {
 
-using nlohmann::json;
-
 const json& schema() {
   static const json document = json::parse(kPlanSchemaJson);
   return document;

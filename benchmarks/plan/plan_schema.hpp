@@ -2,8 +2,9 @@
 #pragma once
 
 #include <cstddef>
-#include <nlohmann/json.hpp>
 #include <string>
+
+#include "benchmarks/base/names.hpp"
 
 namespace hullbench::plan {
 
@@ -25,9 +26,9 @@ class Place {
 };
 
 /// Throws ConfigurationError for the first fault of `plan`, which stands at `place`.
-void check_plan_schema(const nlohmann::json& plan, const Place& place);
+void check_plan_schema(const json& plan, const Place& place);
 
 /// The same of a plan's "methods" alone.
-void check_methods_schema(const nlohmann::json& methods, const Place& place);
+void check_methods_schema(const json& methods, const Place& place);
 
 }  // namespace hullbench::plan

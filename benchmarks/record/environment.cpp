@@ -25,9 +25,7 @@
 namespace hullbench::record {
 namespace {
 
-using nlohmann::json;
-
-std::optional<std::string> first_line(const std::filesystem::path& path) {
+std::optional<std::string> first_line(const fs::path& path) {
   std::ifstream in(path);
   std::string line;
   if (!std::getline(in, line)) return std::nullopt;
@@ -36,8 +34,7 @@ std::optional<std::string> first_line(const std::filesystem::path& path) {
 
 /// The value of the first line "key<blanks><separator> value" of a file such as /proc/cpuinfo, quotes
 /// removed.
-std::optional<std::string> value_of_key(const std::filesystem::path& path, std::string_view key,
-                                        char separator) {
+std::optional<std::string> value_of_key(const fs::path& path, std::string_view key, char separator) {
   std::ifstream in(path);
   for (std::string line; std::getline(in, line);) {
     const std::size_t place = line.find(separator);
@@ -82,7 +79,7 @@ std::optional<bool> virtualised() {
 }
 
 std::optional<bool> boost() {
-  const std::filesystem::path cpus = "/sys/devices/system/cpu";
+  const fs::path cpus = "/sys/devices/system/cpu";
   if (const auto no_turbo = first_line(cpus / "intel_pstate" / "no_turbo")) return *no_turbo == "0";
   if (const auto boosted = first_line(cpus / "cpufreq" / "boost")) return *boosted == "1";
   return std::nullopt;
@@ -113,7 +110,7 @@ json load_average() {
 json temperature() {
   std::optional<double> hottest;
   std::error_code ignored;
-  for (const auto& zone : std::filesystem::directory_iterator("/sys/class/thermal", ignored)) {
+  for (const auto& zone : fs::directory_iterator("/sys/class/thermal", ignored)) {
     const auto millidegrees = first_line(zone.path() / "temp");
     if (!millidegrees || zone.path().filename().string().rfind("thermal_zone", 0) != 0) continue;
     hottest = std::max(hottest, std::optional(std::strtod(millidegrees->c_str(), nullptr) / 1000));

@@ -2,8 +2,9 @@
 // a person, a host or a path.
 #pragma once
 
-#include <nlohmann/json.hpp>
 #include <string>
+
+#include "benchmarks/base/names.hpp"
 
 namespace hullbench::record {
 
@@ -13,7 +14,7 @@ namespace hullbench::record {
 /// `huge_pages` {kernel, malloc} (huge_pages.hpp);
 /// `kernel`; `os`; `compiler` {id, version, build_type, native, flags, flags_by_target, statement};
 /// `libraries` (version by name, of those found when the program was built, and of the C library that runs).
-nlohmann::json collect_environment();
+json collect_environment();
 
 /// The first 8 hexadecimal digits of the SHA-256 of "<CPU model>|<logical cores>|<memory in whole GiB>": the
 /// same for machines of the same make, so it tells nothing about whose machine it is. Part of a run

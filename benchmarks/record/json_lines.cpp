@@ -1,8 +1,9 @@
 #include "benchmarks/record/json_lines.hpp"
 
-#include <sstream>
+#include <optional>
 #include <stdexcept>
 #include <system_error>
+#include <utility>
 
 #include "benchmarks/base/files.hpp"
 #include "benchmarks/record/xz_file.hpp"
@@ -10,19 +11,16 @@
 namespace hullbench::record {
 namespace {
 
-std::string read_all(const std::filesystem::path& path) {
-  std::ifstream in(path, std::ios::binary);
-  std::ostringstream content;
-  // An empty file makes operator<< fail, which is no error here.
-  if (in && in.peek() != std::ifstream::traits_type::eof()) content << in.rdbuf();
-  if (!in.is_open() || in.bad()) throw std::runtime_error("Cannot read " + path.string() + ".");
-  return content.str();
+std::string read_all(const fs::path& path) {
+  std::optional<std::string> content = read_text_file(path);
+  if (!content) throw std::runtime_error("Cannot read " + path.string() + ".");
+  return std::move(*content);
 }
 
-nlohmann::json parse_line(const std::string& line, const std::filesystem::path& path, std::size_t number) {
+json parse_line(const std::string& line, const fs::path& path, std::size_t number) {
   try {
-    return nlohmann::json::parse(line);
-  } catch (const nlohmann::json::parse_error& error) {
+    return json::parse(line);
+  } catch (const json::parse_error& error) {
     throw std::runtime_error("Line " + std::to_string(number) + " of " + path.string() +
                              " is not JSON: " + error.what() + ".");
   }
@@ -30,9 +28,9 @@ nlohmann::json parse_line(const std::string& line, const std::filesystem::path& 
 
 }  // namespace
 
-JsonLines load_json_lines(const std::filesystem::path& path) {
+JsonLines load_json_lines(const fs::path& path) {
   JsonLines result;
-  if (!std::filesystem::exists(path)) return result;
+  if (!fs::exists(path)) return result;
   const std::string content = path.extension() == ".xz" ? read_xz_file(path) : read_all(path);
   std::size_t begin = 0;
   std::size_t number = 0;
@@ -48,11 +46,11 @@ JsonLines load_json_lines(const std::filesystem::path& path) {
   return result;
 }
 
-JsonLinesWriter::JsonLinesWriter(const std::filesystem::path& path) : path_(path) {
+JsonLinesWriter::JsonLinesWriter(const fs::path& path) : path_(path) {
   const JsonLines existing = load_json_lines(path);
   if (!existing.torn.empty()) {
     std::error_code error;
-    std::filesystem::resize_file(path, existing.complete_bytes, error);
+    fs::resize_file(path, existing.complete_bytes, error);
     if (error) throw std::runtime_error("Cannot write " + path.string() + ": " + error.message() + ".");
   }
   out_.open(path, std::ios::binary | std::ios::app);
@@ -60,7 +58,7 @@ JsonLinesWriter::JsonLinesWriter(const std::filesystem::path& path) : path_(path
     throw std::runtime_error("Cannot write " + path.string() + ": is its folder there and writable?");
 }
 
-void JsonLinesWriter::append(const nlohmann::json& json) {
+void JsonLinesWriter::append(const json& json) {
   // Method and library messages may hold bytes that are not UTF-8; they are replaced, never a reason to lose
   // a row.
   out_ << dump_text(json, -1) + "\n" << std::flush;

@@ -6,15 +6,16 @@
 #include <cstdint>
 #include <filesystem>
 #include <fstream>
-#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
+
+#include "benchmarks/base/names.hpp"
 
 namespace hullbench::record {
 
 /// What a JSON lines file holds.
 struct JsonLines {
-  std::vector<nlohmann::json> lines;
+  std::vector<json> lines;
   /// The bytes after the last line feed, when the writer was interrupted in the middle of a line; empty
   /// otherwise. They are no line, even when they happen to be JSON: a number cut short is still a number.
   std::string torn;
@@ -25,21 +26,21 @@ struct JsonLines {
 /// Reads `path`, compressed by xz when its name ends in .xz. A file that does not exist has no lines; empty
 /// lines are skipped. Throws std::runtime_error naming the file and the line when it cannot be read or when a
 /// complete line is not JSON.
-JsonLines load_json_lines(const std::filesystem::path& path);
+JsonLines load_json_lines(const fs::path& path);
 
 /// Appends lines to a file. A torn last line is cut off when the file is opened, or the first new line would
 /// be glued to it and both lost.
 class JsonLinesWriter {
  public:
   /// Opens or makes `path`. Throws std::runtime_error naming the file when it cannot be written.
-  explicit JsonLinesWriter(const std::filesystem::path& path);
+  explicit JsonLinesWriter(const fs::path& path);
 
   /// Writes `json` as one line and hands it to the operating system. NaN and infinities become null. Throws
   /// std::runtime_error naming the file when it cannot be written (a full disk).
-  void append(const nlohmann::json& json);
+  void append(const json& json);
 
  private:
-  std::filesystem::path path_;
+  fs::path path_;
   std::ofstream out_;
 };
 

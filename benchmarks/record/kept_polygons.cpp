@@ -10,8 +10,6 @@
 namespace hullbench::record {
 namespace {
 
-namespace fs = std::filesystem;
-
 fs::path file_of(const fs::path& run, const std::string& sha256) {
   return run / kPolygonsFolder / (sha256 + ".wkb");
 }

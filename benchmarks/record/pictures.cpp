@@ -8,13 +8,6 @@
 namespace hullbench::record {
 namespace {
 
-namespace fs = std::filesystem;
-using nlohmann::json;
-using polylidar::MultiPolygon;
-using polylidar::Point;
-using polylidar::Polygon;
-using polylidar::Ring;
-
 /// Of the larger side of a case's box: a step is well below a pixel of any screen.
 constexpr double kGridSteps = 65535;
 /// So many boxes away from the case a vertex is of no use to anybody who looks.

@@ -18,10 +18,10 @@
 #include <string>
 #include <vector>
 
+#include "benchmarks/base/names.hpp"
 #include "benchmarks/record/json_lines.hpp"
 #include "benchmarks/record/record.hpp"
 #include "datasets/datasets.hpp"
-#include "polylidar/geometry.hpp"
 
 namespace hullbench::record {
 
@@ -43,11 +43,11 @@ class PictureBook {
 
   /// Goes on with the file in `folder`, or begins it. `planned_runs`: of the whole run. Throws
   /// std::runtime_error naming the file when it cannot be written or holds something else.
-  PictureBook(const std::filesystem::path& folder, std::size_t planned_runs);
+  PictureBook(const fs::path& folder, std::size_t planned_runs);
 
   /// Writes `result`, and its case when that is not there yet, unless it is not to be kept; a coordinate that
   /// is not finite or too far away for the grid cannot be drawn, and such a result is left out.
-  void add(const RunRecord& record, const PointSet& set, const polylidar::MultiPolygon& result);
+  void add(const RunRecord& record, const PointSet& set, const MultiPolygon& result);
 
  private:
   bool is_wanted(const RunRecord& record);
@@ -61,6 +61,6 @@ class PictureBook {
 /// Puts the pictures of the runs in `folders` together in `out`: each case once, of several results of a run
 /// the first. Folders without pictures are passed over. Throws std::runtime_error naming a file that cannot
 /// be read or written.
-void merge_pictures(const std::vector<std::filesystem::path>& folders, const std::filesystem::path& out);
+void merge_pictures(const std::vector<fs::path>& folders, const fs::path& out);
 
 }  // namespace hullbench::record

@@ -1,7 +1,6 @@
 #include "benchmarks/record/protocols.hpp"
 
-#include <nlohmann/json.hpp>
-
+#include "benchmarks/base/names.hpp"
 #include "benchmarks/record/embedded.hpp"
 
 namespace hullbench::record {
@@ -10,13 +9,12 @@ NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Protocol, name, chosen, title)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(ProtocolGroup, name, methods, protocols)
 
 const std::vector<Protocol>& protocols() {
-  static const auto all = nlohmann::json::parse(kProtocolsJson).at("protocols").get<std::vector<Protocol>>();
+  static const auto all = json::parse(kProtocolsJson).at("protocols").get<std::vector<Protocol>>();
   return all;
 }
 
 const std::vector<ProtocolGroup>& protocol_groups() {
-  static const auto all =
-      nlohmann::json::parse(kProtocolsJson).at("groups").get<std::vector<ProtocolGroup>>();
+  static const auto all = json::parse(kProtocolsJson).at("groups").get<std::vector<ProtocolGroup>>();
   return all;
 }
 

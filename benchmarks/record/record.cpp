@@ -9,8 +9,6 @@
 namespace hullbench::record {
 namespace {
 
-using nlohmann::json;
-
 /// By status.
 constexpr std::array kStatusNames = {"ok",    "timeout",        "memory",      "crash",
                                      "error", "invalid_output", "unsupported", "not_installed"};

@@ -5,11 +5,11 @@
 #include <array>
 #include <cstdint>
 #include <map>
-#include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "benchmarks/base/names.hpp"
 #include "datasets/sha256.hpp"
 
 namespace hullbench::record {
@@ -71,9 +71,9 @@ struct RunRecord {
   std::vector<CanaryTimes> canary_ns;  ///< of each repetition's round; empty in older records
   /// run + extract of the first call in a fresh process; none where the method has no compiler to warm.
   std::optional<std::int64_t> cold_time_ns;
-  nlohmann::json metrics = nlohmann::json::object();  ///< see metrics.hpp; null for what is undefined
-  std::string output_sha256;                          ///< of the WKB of the result; empty when there is none
-  std::string machine;  ///< on which the times were taken (machine_id); empty: run.json's machine
+  json metrics = json::object();  ///< see metrics.hpp; null for what is undefined
+  std::string output_sha256;      ///< of the WKB of the result; empty when there is none
+  std::string machine;            ///< on which the times were taken (machine_id); empty: run.json's machine
   /// SHA-256 of what ran it, a program or a manifest and its files: of rows of a search (sweep.jsonl), where
   /// several programs may have added to one file and nobody is timed. Their protocol is empty, as several may
   /// have chosen the same parameters, and `l2` is their only metric. Empty in rows of a run.
@@ -91,7 +91,7 @@ inline constexpr const char* kUnsteadyMachine = "unsteady_machine";
 inline constexpr const char* kWorseThanConvexHull = "worse_than_convex_hull";
 /// Whether the error in a row's metrics is above that of the points' convex hull. The same polygon from
 /// another vertex on differs in the last digits of its areas, of which there are 15.
-bool is_worse_than_convex_hull(const nlohmann::json& metrics);
+bool is_worse_than_convex_hull(const json& metrics);
 /// A row's flag: a repetition took less than kFloorNsPerPoint a point.
 inline constexpr const char* kFasterThanFloor = "faster_than_floor";
 /// No method can be this fast: in a nanosecond a core reads a point or two from memory, and every method has
@@ -100,15 +100,15 @@ inline constexpr double kFloorNsPerPoint = 1;
 
 /// {name: value}. JSON has no infinity: a parameter that is +infinity ("no limit") is written as null and
 /// read back as +infinity. A NaN or -infinity throws std::invalid_argument, because no method takes it.
-nlohmann::json parameters_to_json(const std::map<std::string, double>& parameters);
-/// Throws nlohmann::json::exception or std::invalid_argument when it is no object of numbers and nulls.
-std::map<std::string, double> parameters_from_json(const nlohmann::json& parameters);
+json parameters_to_json(const std::map<std::string, double>& parameters);
+/// Throws json::exception or std::invalid_argument when it is no object of numbers and nulls.
+std::map<std::string, double> parameters_from_json(const json& parameters);
 
 /// A number in `metrics` that is not finite becomes null; the parameters are as parameters_to_json writes
 /// them.
-void to_json(nlohmann::json& result, const RunRecord& record);
-/// Throws nlohmann::json::exception or std::invalid_argument when a field is missing or of the wrong type.
-void from_json(const nlohmann::json& source, RunRecord& record);
+void to_json(json& result, const RunRecord& record);
+/// Throws json::exception or std::invalid_argument when a field is missing or of the wrong type.
+void from_json(const json& source, RunRecord& record);
 
 /// The id: SHA-256 of the canonical JSON (keys sorted, no white space, shortest round-trip numbers) of
 /// method, method version, parameters, dataset and its hash, n, holes, seed and protocol, and of the program

@@ -13,10 +13,7 @@
 namespace hullbench::record {
 namespace {
 
-namespace fs = std::filesystem;
-using nlohmann::json;
-
-json read_run_file(const std::filesystem::path& path) {
+json read_run_file(const fs::path& path) {
   std::ifstream in(path, std::ios::binary);
   if (!in) throw std::runtime_error("Cannot read " + path.string() + ": is this the folder of a run?");
   try {
@@ -33,7 +30,7 @@ json read_run_file(const std::filesystem::path& path) {
 
 }  // namespace
 
-json last_of_each_id(std::vector<json> lines, const std::filesystem::path& path) {
+json last_of_each_id(std::vector<json> lines, const fs::path& path) {
   json result = json::array();
   std::map<std::string, std::size_t> places;  // by id, in result
   for (json& line : lines) {
@@ -53,10 +50,10 @@ json last_of_each_id(std::vector<json> lines, const std::filesystem::path& path)
   return result;
 }
 
-json load_run(const std::filesystem::path& run_directory) {
+json load_run(const fs::path& run_directory) {
   json report = read_run_file(run_directory / kHeaderFile);
-  std::filesystem::path lines_file = run_directory / kRowsFile;
-  if (!std::filesystem::exists(lines_file)) lines_file += ".xz";
+  fs::path lines_file = run_directory / kRowsFile;
+  if (!fs::exists(lines_file)) lines_file += ".xz";
   JsonLines lines = load_json_lines(lines_file);
   report["runs"] = last_of_each_id(std::move(lines.lines), lines_file);
   // Only a merged run has notes of its own.

@@ -9,8 +9,9 @@
 #pragma once
 
 #include <filesystem>
-#include <nlohmann/json.hpp>
 #include <vector>
+
+#include "benchmarks/base/names.hpp"
 
 namespace hullbench::record {
 
@@ -23,21 +24,21 @@ inline constexpr const char* kTablesFolder = "tables";
 
 /// A run directory as it is: `run.json`, with its rows as `runs` and with `notes`; what make_report gives but
 /// for the summary.
-nlohmann::json load_run(const std::filesystem::path& run_directory);
+json load_run(const fs::path& run_directory);
 
 /// The lines of the runs file `path` with each id once: its last line, at the place of its first. Throws
 /// std::runtime_error naming the file when one is not a run's record.
-nlohmann::json last_of_each_id(std::vector<nlohmann::json> lines, const std::filesystem::path& path);
+json last_of_each_id(std::vector<json> lines, const fs::path& path);
 
 /// Whether there is a suite in `folder`.
-bool is_suite(const std::filesystem::path& folder);
+bool is_suite(const fs::path& folder);
 
 /// suite.json of a folder; null when it has none that can be read.
-nlohmann::json read_suite(const std::filesystem::path& folder);
+json read_suite(const fs::path& folder);
 
 /// The folders of the runs in the suite in `folder`, in its order; those that were not begun are left out.
 /// Throws std::runtime_error naming the
 /// file when suite.json cannot be read.
-std::vector<std::filesystem::path> suite_runs(const std::filesystem::path& folder);
+std::vector<fs::path> suite_runs(const fs::path& folder);
 
 }  // namespace hullbench::record

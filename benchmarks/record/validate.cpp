@@ -1,11 +1,10 @@
 #include "benchmarks/record/validate.hpp"
 
-#include <fstream>
 #include <map>
-#include <sstream>
 #include <stdexcept>
 #include <string_view>
 
+#include "benchmarks/base/files.hpp"
 #include "benchmarks/base/json_schema.hpp"
 #include "benchmarks/record/embedded.hpp"
 #include "benchmarks/record/json_lines.hpp"
@@ -13,8 +12,6 @@
 
 namespace hullbench::record {
 namespace {
-
-using nlohmann::json;
 
 JsonSchema parse_schema(std::string_view text) {
   const json run_schema = json::parse(kRunSchemaJson);
@@ -56,8 +53,8 @@ std::vector<std::string> validate_row(const json& row) {
   return faults(row.is_object() && row.contains("program") ? of_search : of_run, row);
 }
 
-std::vector<std::string> validate_lines(const std::filesystem::path& path) {
-  if (!std::filesystem::is_regular_file(path)) throw std::runtime_error("Cannot read " + path.string() + ".");
+std::vector<std::string> validate_lines(const fs::path& path) {
+  if (!fs::is_regular_file(path)) throw std::runtime_error("Cannot read " + path.string() + ".");
   const JsonLines lines = load_json_lines(path);
   std::vector<std::string> result;
   for (std::size_t index = 0; index < lines.lines.size(); ++index) {
@@ -99,15 +96,12 @@ std::vector<std::string> validate_manifest(const json& manifest) {
   return faults(schema, manifest);
 }
 
-std::vector<std::string> validate_file(const std::filesystem::path& path) {
+std::vector<std::string> validate_file(const fs::path& path) {
   if (path.extension() == ".jsonl") return validate_lines(path);
-  std::ifstream in(path, std::ios::binary);
-  std::ostringstream content;
-  if (in) content << in.rdbuf();
-  if (!in || std::filesystem::is_directory(path))
-    throw std::runtime_error("Cannot read " + path.string() + ".");
+  const std::optional<std::string> content = read_text_file(path);
+  if (!content) throw std::runtime_error("Cannot read " + path.string() + ".");
   try {
-    json document = json::parse(content.str());
+    json document = json::parse(*content);
     if (document.is_object() && document.contains("manifest_version")) return validate_manifest(document);
     if (schema_of_kind(document) != nullptr) return validate_by_kind(document);
     if (path.filename() == "run.json" && document.is_object()) complete_run_description(document);

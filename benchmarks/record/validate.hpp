@@ -2,9 +2,10 @@
 #pragma once
 
 #include <filesystem>
-#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
+
+#include "benchmarks/base/names.hpp"
 
 namespace hullbench::record {
 
@@ -13,16 +14,16 @@ namespace hullbench::record {
 /// or a sweep file (`*.jsonl`), one sentence each with the place as a JSON pointer; empty when the file is
 /// valid. A torn last line of a runs file is a fault. Throws std::runtime_error naming the file when it
 /// cannot be read or is not JSON.
-std::vector<std::string> validate_file(const std::filesystem::path& path);
+std::vector<std::string> validate_file(const fs::path& path);
 
 /// The same of a report in memory.
-std::vector<std::string> validate_report(const nlohmann::json& report);
+std::vector<std::string> validate_report(const json& report);
 
 /// The same of a manifest (manifest.hpp) in memory.
-std::vector<std::string> validate_manifest(const nlohmann::json& manifest);
+std::vector<std::string> validate_manifest(const json& manifest);
 
 /// The same of what says its `kind`: a line of pictures.jsonl, tune.json, league.json, tables.json,
 /// submission.json. Throws std::invalid_argument for any other document.
-std::vector<std::string> validate_by_kind(const nlohmann::json& document);
+std::vector<std::string> validate_by_kind(const json& document);
 
 }  // namespace hullbench::record

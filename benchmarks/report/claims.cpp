@@ -15,8 +15,6 @@
 namespace hullbench::report {
 namespace {
 
-using nlohmann::json;
-
 std::vector<PaperStep> read_steps() {
   std::vector<PaperStep> result;
   for (const json& entry : paper().at("steps").at("names")) {

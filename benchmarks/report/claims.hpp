@@ -1,16 +1,16 @@
 // The paper's claims beside what a run measured.
 #pragma once
 
-#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
+#include "benchmarks/base/names.hpp"
 #include "benchmarks/report/measurements.hpp"
 
 namespace hullbench::report {
 
 /// The paper's published values and claims: results/paper.json, which is part of the program.
-const nlohmann::json& paper();
+const json& paper();
 
 /// What every ratio is quoted beside: this project's method with the paper's parameters.
 Line reference_line();
@@ -28,7 +28,7 @@ const std::vector<PaperStep>& paper_steps();
 std::string teller_of(const std::string& method);
 
 /// Whether a claim of paper() compares times, be it of a step.
-bool is_about_time(const nlohmann::json& claim);
+bool is_about_time(const json& claim);
 
 /// Every claim of the paper that concerns state shapes, checked against the `protocol: paper` rows of
 /// `report`: a list of {id, claim, where, paper, ours (text), value (number or null), equal_work (text or
@@ -37,6 +37,6 @@ bool is_about_time(const nlohmann::json& claim);
 /// ratio says so (statistics/judge.hpp, ratios.hpp), else "undecided"; null: not measured here. A claim about
 /// every case needs each of them; one case against it refutes it. Claims about time are not judged when there
 /// are no times (see Measurements).
-nlohmann::json check_claims(const nlohmann::json& report);
+json check_claims(const json& report);
 
 }  // namespace hullbench::report

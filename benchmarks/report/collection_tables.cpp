@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "benchmarks/base/number_format.hpp"
+#include "benchmarks/base/words.hpp"
 #include "benchmarks/report/claims.hpp"
 #include "benchmarks/report/group_values.hpp"
 #include "benchmarks/report/labels.hpp"
@@ -12,8 +13,6 @@
 
 namespace hullbench::report {
 namespace {
-
-using nlohmann::json;
 
 /// From so many shapes on nobody wants a row for each.
 constexpr std::size_t kTooManyForRows = 60;
@@ -137,14 +136,13 @@ std::vector<CaseGroup> family_groups(const TableContext& context, const std::vec
 
 /// "comb, spiral and walk": the groups' titles in small letters.
 std::string kinds_text(const std::vector<CaseGroup>& groups) {
-  std::string text;
-  for (std::size_t i = 0; i < groups.size(); ++i) {
-    std::string title = groups[i].title;
+  std::vector<std::string> titles;
+  for (const CaseGroup& group : groups) {
+    std::string& title = titles.emplace_back(group.title);
     if (!title.empty() && title[0] >= 'A' && title[0] <= 'Z')
       title[0] = static_cast<char>(title[0] - 'A' + 'a');
-    text += (i == 0 ? "" : (i + 1 == groups.size() ? " and " : ", ")) + title;
   }
-  return text;
+  return join_words(titles);
 }
 
 /// Which cases the means of a table are of, where some failed.

@@ -2,10 +2,10 @@
 // polygons.
 #pragma once
 
-#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
+#include "benchmarks/base/names.hpp"
 #include "benchmarks/report/table_context.hpp"
 #include "benchmarks/table/table.hpp"
 
@@ -16,7 +16,7 @@ struct CaseGroup {
   std::string title;
   std::vector<Case> cases;
   /// In results/paper.json: by method, or of one method alone; null when there is nothing.
-  nlohmann::json published;
+  json published;
 };
 
 /// Whether each of `shapes` is measured at a single size and they are ten or more, or some are of a
@@ -36,6 +36,6 @@ std::vector<CaseGroup> published_groups(const TableContext& context, const std::
 
 /// What the paper published of `method` in a group: {"l2_percent": [mean, std, max], "milliseconds": [...]},
 /// or null.
-nlohmann::json published_values(const CaseGroup& group, const Line& line);
+json published_values(const CaseGroup& group, const Line& line);
 
 }  // namespace hullbench::report

@@ -11,8 +11,6 @@
 namespace hullbench::report {
 namespace {
 
-using nlohmann::json;
-
 constexpr double kLevel = 1 - statistics::kConfidence;
 
 struct PlannedRecord {

@@ -2,11 +2,11 @@
 #pragma once
 
 #include <cstddef>
-#include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "benchmarks/base/names.hpp"
 #include "benchmarks/record/record.hpp"
 #include "benchmarks/statistics/bootstrap.hpp"
 #include "benchmarks/statistics/rank_test.hpp"
@@ -66,6 +66,6 @@ struct RunsCompared {
 /// Pairs runs by name (method, data set, points, holes, protocol): those of plans of the same name first, the
 /// rest among each other, and of several runs of one name the first with the first. Of each report only
 /// `runs` is needed, and `plan` for its name. Throws what from_json of a record throws.
-RunsCompared compare_runs(const std::vector<nlohmann::json>& a, const std::vector<nlohmann::json>& b);
+RunsCompared compare_runs(const std::vector<json>& a, const std::vector<json>& b);
 
 }  // namespace hullbench::report

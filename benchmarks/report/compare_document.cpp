@@ -17,7 +17,6 @@
 namespace hullbench::report {
 namespace {
 
-using nlohmann::json;
 using nlohmann::ordered_json;
 using Words = std::set<std::string>;
 

@@ -1,10 +1,10 @@
 // What `hullbench compare` says.
 #pragma once
 
-#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
+#include "benchmarks/base/names.hpp"
 #include "benchmarks/report/compare.hpp"
 #include "benchmarks/table/writers.hpp"
 
@@ -14,7 +14,7 @@ namespace hullbench::report {
 /// `environment`, `tool`, `created` and `methods`.
 struct ComparedSide {
   std::string name;
-  std::vector<nlohmann::json> reports;
+  std::vector<json> reports;
 };
 
 /// Above so many pairs the document's table of pairs shows only those that changed.

@@ -12,8 +12,6 @@
 namespace hullbench::report {
 namespace {
 
-using nlohmann::json;
-
 struct Place {
   json at;                  ///< on the axis
   std::vector<Case> cases;  ///< there

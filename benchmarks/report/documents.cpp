@@ -12,8 +12,6 @@
 namespace hullbench::report {
 namespace {
 
-using nlohmann::json;
-
 /// Leaves out the steps of a report that has other cases too, when a report of the steps alone is there.
 void drop_repeated_steps(std::vector<table::Document>& documents) {
   const std::string steps = std::string("_") + kStepsTable;

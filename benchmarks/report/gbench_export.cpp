@@ -11,7 +11,6 @@
 namespace hullbench::report {
 namespace {
 
-using nlohmann::json;
 using nlohmann::ordered_json;
 
 ordered_json context_of(const json& report) {
@@ -107,7 +106,7 @@ ordered_json gbench_report(const std::vector<json>& reports) {
   return result;
 }
 
-void export_gbench(const std::filesystem::path& file, const std::vector<json>& reports) {
+void export_gbench(const fs::path& file, const std::vector<json>& reports) {
   write_text_file(file, gbench_report(reports).dump(2) + "\n");
 }
 

@@ -2,8 +2,9 @@
 #pragma once
 
 #include <filesystem>
-#include <nlohmann/json.hpp>
 #include <vector>
+
+#include "benchmarks/base/names.hpp"
 
 namespace hullbench::report {
 
@@ -14,9 +15,9 @@ namespace hullbench::report {
 /// the same name (another seed or parameter set). The CPU's time is not measured: cpu_time repeats real_time,
 /// which the context says. What else was not recorded is 0, empty or absent; the machine's id stands for its
 /// name.
-nlohmann::ordered_json gbench_report(const std::vector<nlohmann::json>& reports);
+nlohmann::ordered_json gbench_report(const std::vector<json>& reports);
 
 /// Writes it to `file`. Throws std::runtime_error naming the file when it cannot be written.
-void export_gbench(const std::filesystem::path& file, const std::vector<nlohmann::json>& reports);
+void export_gbench(const fs::path& file, const std::vector<json>& reports);
 
 }  // namespace hullbench::report

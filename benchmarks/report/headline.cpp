@@ -7,14 +7,13 @@
 #include <utility>
 #include <vector>
 
+#include "benchmarks/base/number_format.hpp"
 #include "benchmarks/report/claims.hpp"
 #include "benchmarks/report/ratios.hpp"
 #include "benchmarks/statistics/judge.hpp"
 
 namespace hullbench::report {
 namespace {
-
-using nlohmann::json;
 
 bool is_close(double one, double other) {
   return std::abs(one - other) <= kSamePolygons * std::max(std::abs(one), std::abs(other));
@@ -42,10 +41,6 @@ std::vector<Line> lines_with_results(const Measurements& measurements) {
     if (is_measured(run) && std::find(lines.begin(), lines.end(), line) == lines.end()) lines.push_back(line);
   }
   return lines;
-}
-
-json finite_or_null(const std::optional<double>& value) {
-  return value && std::isfinite(*value) ? json(*value) : json(nullptr);
 }
 
 struct Rival {

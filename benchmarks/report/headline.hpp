@@ -1,8 +1,7 @@
 // What is quoted first of a run: the fastest rival that gives the same polygons.
 #pragma once
 
-#include <nlohmann/json.hpp>
-
+#include "benchmarks/base/names.hpp"
 #include "benchmarks/report/measurements.hpp"
 
 namespace hullbench::report {
@@ -25,6 +24,6 @@ bool same_polygons(const Measurements& measurements, const Line& one, const Line
 /// those of them that are not slower than it beyond doubt; then the paper's rival, if it is another one. Who
 /// failed in most of its cases cannot be the fastest; who was measured on few cases can. null: there are no
 /// times, the reference has no result, or nobody is beside it.
-nlohmann::json make_headline(const Measurements& measurements);
+json make_headline(const Measurements& measurements);
 
 }  // namespace hullbench::report

@@ -7,8 +7,6 @@
 namespace hullbench::report {
 namespace {
 
-using nlohmann::json;
-
 std::string title_of(const json& list, const std::string& name) {
   for (const json& entry : list) {
     if (entry.value("name", "") == name) return entry.value("title", name);

@@ -73,9 +73,9 @@ std::vector<double> all_values(const Runs& runs, const std::string& name) {
   return result;
 }
 
-std::set<std::string> machines_of(const nlohmann::json& report) {
+std::set<std::string> machines_of(const json& report) {
   std::set<std::string> machines;
-  for (const nlohmann::json& line : report.at("runs")) {
+  for (const json& line : report.at("runs")) {
     if (line.at("time_ns").empty()) continue;
     const std::string machine = line.value("machine", std::string());
     // Only a row that does not say its machine needs the report's description of one.
@@ -85,14 +85,14 @@ std::set<std::string> machines_of(const nlohmann::json& report) {
   return machines;
 }
 
-std::set<std::string> builds_of(const nlohmann::json& report) {
+std::set<std::string> builds_of(const json& report) {
   std::set<std::string> builds;
-  const auto add = [&](const nlohmann::json& run) {
-    const nlohmann::json::json_pointer place("/tool/binary_sha256");
+  const auto add = [&](const json& run) {
+    const json::json_pointer place("/tool/binary_sha256");
     if (run.contains(place)) builds.insert(run.at(place).get<std::string>());
   };
   if (report.contains("merged")) {
-    for (const nlohmann::json& part : report["merged"]) add(part);
+    for (const json& part : report["merged"]) add(part);
   } else {
     add(report);
   }
@@ -112,9 +112,9 @@ std::string no_times_sentence(const std::set<std::string>& machines, const std::
          " do not go into one table.";
 }
 
-Measurements::Measurements(const nlohmann::json& report)
+Measurements::Measurements(const json& report)
     : why_no_times_(no_times_sentence(machines_of(report), builds_of(report))) {
-  for (const nlohmann::json& line : report.at("runs")) {
+  for (const json& line : report.at("runs")) {
     record::RunRecord& run = runs_.emplace_back(line.get<record::RunRecord>());
     if (has_times()) continue;
     run.time_ns.clear();

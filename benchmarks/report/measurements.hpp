@@ -5,12 +5,12 @@
 #include <compare>
 #include <cstdint>
 #include <map>
-#include <nlohmann/json.hpp>
 #include <optional>
 #include <set>
 #include <string>
 #include <vector>
 
+#include "benchmarks/base/names.hpp"
 #include "benchmarks/record/record.hpp"
 
 namespace hullbench::report {
@@ -71,11 +71,11 @@ std::optional<double> metric(const record::RunRecord& run, const std::string& na
 std::vector<double> all_values(const Runs& runs, const std::string& name);
 
 /// The machines on which the rows of `report` that have times were measured.
-std::set<std::string> machines_of(const nlohmann::json& report);
+std::set<std::string> machines_of(const json& report);
 
 /// The builds of the program with which `report` was measured, by the SHA-256 of the binary: those of the
 /// runs that were merged into it, or else its own, if it says one.
-std::set<std::string> builds_of(const nlohmann::json& report);
+std::set<std::string> builds_of(const json& report);
 
 /// One sentence: that times are not shown because they are of several machines, or of several builds. Empty
 /// when they are of one machine and one build at most.
@@ -87,7 +87,7 @@ std::string no_times_sentence(const std::set<std::string>& machines, const std::
 class Measurements {
  public:
   /// `report` needs only its member `runs`. Throws what from_json of a record throws.
-  explicit Measurements(const nlohmann::json& report);
+  explicit Measurements(const json& report);
 
   const std::vector<record::RunRecord>& runs() const { return runs_; }
 

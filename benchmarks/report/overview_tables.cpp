@@ -12,8 +12,6 @@
 namespace hullbench::report {
 namespace {
 
-using nlohmann::json;
-
 table::Cell yes_or_no(const json& method, const char* capability) {
   const json& capabilities = method.at("capabilities");
   if (method.at("version").get<std::string>().empty() || !capabilities.contains(capability)) return {};

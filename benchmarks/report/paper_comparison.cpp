@@ -13,8 +13,6 @@
 namespace hullbench::report {
 namespace {
 
-using nlohmann::json;
-
 constexpr const char* kError = "error";
 constexpr const char* kTime = "time";
 

@@ -1,11 +1,11 @@
 // What differs from the paper, and why.
 #pragma once
 
-#include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "benchmarks/base/names.hpp"
 #include "benchmarks/table/table.hpp"
 
 namespace hullbench::report {
@@ -27,7 +27,7 @@ struct Comparison {
 };
 
 /// The values of the paper's tables on cases like those of `report`, of the methods in its plan.
-std::vector<Comparison> compare_with_paper(const nlohmann::json& report);
+std::vector<Comparison> compare_with_paper(const json& report);
 
 /// Why such a difference is there: the first of the reasons in results/paper.json that applies; none when
 /// there is none.
@@ -35,6 +35,6 @@ std::optional<std::string> reason_of(const Comparison& comparison);
 
 /// All comparisons of `reports`: value, paper, here, ratio, and of every large difference the
 /// reason, or that none is known. Without rows when the reports share nothing with the paper's tables.
-table::Table differences_table(const std::vector<nlohmann::json>& reports);
+table::Table differences_table(const std::vector<json>& reports);
 
 }  // namespace hullbench::report

@@ -12,8 +12,6 @@
 namespace hullbench::report {
 namespace {
 
-using nlohmann::json;
-
 constexpr std::string_view kBegin = "<!-- results: begin -->\n";
 constexpr std::string_view kEnd = "<!-- results: end -->";
 

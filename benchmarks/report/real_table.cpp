@@ -11,8 +11,6 @@
 namespace hullbench::report {
 namespace {
 
-using nlohmann::json;
-
 /// What a table shows, in per cent.
 struct Measure {
   const char* id;
@@ -30,12 +28,6 @@ constexpr std::array kMeasures = {
             "90 % agree, %"},
     Measure{"window", "Agreement (IoU) with the window in which the points were looked for, %", "window_iou",
             nullptr}};
-
-bool is_not_installed(const Runs& runs) {
-  return std::all_of(runs.begin(), runs.end(), [](const record::RunRecord* run) {
-    return run->status == record::Status::kNotInstalled;
-  });
-}
 
 /// A result that is believed and that has an area.
 bool has_hull(const record::RunRecord& run) {
@@ -93,7 +85,7 @@ class SetTables {
         cells.push_back(runs.empty() ? table::Cell() : read(*runs.front()));
         any = any || cells.back().value;
       }
-      if (is_not_installed(all_runs(which))) say_not_installed_once(cells, which);
+      if (is_missing(all_runs(which))) say_not_installed_once(cells, which);
       if (any || all_sets) table.add_row(std::move(cells));
     }
     return table;

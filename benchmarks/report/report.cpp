@@ -21,8 +21,6 @@
 namespace hullbench::report {
 namespace {
 
-using nlohmann::json;
-
 json statistics_to_json(const std::vector<std::int64_t>& values) {
   if (values.empty()) return nullptr;
   const statistics::Statistics statistics = statistics::describe(values);
@@ -100,19 +98,19 @@ json make_summary(const json& report) {
           {"claims", check_claims(report)}};
 }
 
-json make_report(const std::filesystem::path& run_directory) {
+json make_report(const fs::path& run_directory) {
   json report = record::load_run(run_directory);
   report["summary"] = make_summary(report);
   return report;
 }
 
-std::vector<json> suite_reports(const std::filesystem::path& folder) {
+std::vector<json> suite_reports(const fs::path& folder) {
   std::vector<json> reports;
-  for (const std::filesystem::path& run : record::suite_runs(folder)) reports.push_back(make_report(run));
+  for (const fs::path& run : record::suite_runs(folder)) reports.push_back(make_report(run));
   return reports;
 }
 
-void write_report_file(const std::filesystem::path& path, const json& report) {
+void write_report_file(const fs::path& path, const json& report) {
   // The lists are put in as text where the rest, written as usual, has an empty one for each.
   json frame = report;
   const auto take_out = [](json& list) {

@@ -18,7 +18,6 @@
 namespace hullbench::report {
 namespace {
 
-using nlohmann::json;
 using Sentences = std::vector<std::string>;
 
 /// " in 3 passes" where the records tell more than one.

@@ -13,8 +13,6 @@
 namespace hullbench::report {
 namespace {
 
-using nlohmann::json;
-
 /// Median and median absolute deviation, with the median's number of decimals.
 table::Cell time_cell(const std::vector<std::int64_t>& nanoseconds) {
   table::Cell cell = median_cell(nanoseconds);

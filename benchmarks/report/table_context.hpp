@@ -2,10 +2,10 @@
 #pragma once
 
 #include <cstdint>
-#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
+#include "benchmarks/base/names.hpp"
 #include "benchmarks/report/claims.hpp"
 #include "benchmarks/report/measurements.hpp"
 #include "benchmarks/table/table.hpp"
@@ -14,7 +14,7 @@ namespace hullbench::report {
 
 /// A report while its tables are printed.
 struct TableContext {
-  const nlohmann::json& report;
+  const json& report;
   Measurements measurements;
   table::Notes notes;
 };

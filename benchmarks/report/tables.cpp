@@ -24,8 +24,6 @@
 namespace hullbench::report {
 namespace {
 
-using nlohmann::json;
-
 /// "ca_holes"
 std::string shape_id(const Case& which) {
   return which.dataset + (which.holes ? "_holes" : "");

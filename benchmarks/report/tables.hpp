@@ -1,8 +1,7 @@
 // The tables of a report.
 #pragma once
 
-#include <nlohmann/json.hpp>
-
+#include "benchmarks/base/names.hpp"
 #include "benchmarks/table/table.hpp"
 
 namespace hullbench::report {
@@ -16,6 +15,6 @@ inline constexpr const char* kStepsTable = "steps";
 /// fastest rival with the same polygons, and first calls where they are known; of
 /// the paper's own shapes, the time of the steps and the paper's claims beside ours. Which methods, data sets
 /// and sizes there are is read from the report. A table's id begins with the plan's name.
-table::Document make_document(const nlohmann::json& report);
+table::Document make_document(const json& report);
 
 }  // namespace hullbench::report

@@ -13,7 +13,6 @@
 #include "benchmarks/metrics/shape_measures.hpp"
 #include "benchmarks/metrics/validity.hpp"
 #include "datasets/random.hpp"
-#include "polylidar/concave_hull.hpp"
 
 namespace hullbench::run {
 namespace {
@@ -67,11 +66,6 @@ std::vector<Point> shuffled(std::vector<Point> points) {
   return points;
 }
 
-double convex_hull_area(std::span<const Point> points) {
-  return polylidar::area(
-      polylidar::to_coordinates(polylidar::concave_hull(points, {.alpha = polylidar::kNoLimit}), points));
-}
-
 std::string plural(std::size_t count, const std::string& noun) {
   return std::to_string(count) + " " + noun + (count == 1 ? "" : "s");
 }
@@ -119,7 +113,7 @@ struct TooManyTimeouts {};
 class ContractTest {
  public:
   ContractTest(const worker::Method& method, const worker::WorkerLimits& limits,
-               std::chrono::milliseconds timeout, std::filesystem::path scratch,
+               std::chrono::milliseconds timeout, fs::path scratch,
                const std::function<void(const Verdict&)>& say)
       : session_(method, limits), timeout_(timeout), scratch_(std::move(scratch)), say_(say) {}
 
@@ -214,7 +208,7 @@ class ContractTest {
     if (!can.several_polygons && shape.size() > 1) {
       return "several polygons, which the method says it cannot have: say so in its capabilities";
     }
-    const double largest = convex_hull_area(points);
+    const double largest = metrics::convex_hull_area(points);
     if (polylidar::area(shape) > largest * (1 + kSameShare)) {
       return "a shape larger than the points' convex hull: return polygons whose vertices are the points";
     }
@@ -365,7 +359,7 @@ class ContractTest {
 
   worker::MethodSession session_;
   std::chrono::milliseconds timeout_;
-  std::filesystem::path scratch_;
+  fs::path scratch_;
   const std::function<void(const Verdict&)>& say_;
   std::vector<Verdict> verdicts_;
   std::optional<Result> reference_;
@@ -376,7 +370,7 @@ class ContractTest {
 }  // namespace
 
 std::vector<Verdict> test_contract(const worker::Method& method, const worker::WorkerLimits& limits,
-                                   std::chrono::milliseconds timeout, const std::filesystem::path& scratch,
+                                   std::chrono::milliseconds timeout, const fs::path& scratch,
                                    const std::function<void(const Verdict&)>& say) {
   return ContractTest(method, limits, timeout, scratch, say).run();
 }

@@ -24,7 +24,7 @@ struct Verdict {
 /// second run that takes too long. Returns the verdicts.
 /// Throws Interrupted, and std::runtime_error when a file cannot be written.
 std::vector<Verdict> test_contract(const worker::Method& method, const worker::WorkerLimits& limits,
-                                   std::chrono::milliseconds timeout, const std::filesystem::path& scratch,
+                                   std::chrono::milliseconds timeout, const fs::path& scratch,
                                    const std::function<void(const Verdict&)>& say);
 
 }  // namespace hullbench::run

@@ -13,9 +13,6 @@
 namespace hullbench::run {
 namespace {
 
-namespace fs = std::filesystem;
-using nlohmann::json;
-
 bool is_beside(const std::string& word) {
   return word.starts_with("./") || word.starts_with("../");
 }

@@ -13,17 +13,17 @@ namespace hullbench::run {
 
 struct Manifest {
   worker::Method method;
-  std::filesystem::path file;
+  fs::path file;
   std::string sha256;  ///< of the manifest, the files of its command and those in their folder
   std::vector<plan::PlanMethod> runs;  ///< how to measure it in a plan that does not name it
 };
 
 /// The manifest in `file`. Words of the command and files needed that begin with "./" or "../" are taken from
 /// the manifest's folder. Throws ConfigurationError, one sentence, when it cannot be read or has a fault.
-Manifest load_manifest(const std::filesystem::path& file);
+Manifest load_manifest(const fs::path& file);
 
 /// All manifests (*.json) in the folders, by folder and then by name. A folder that is not there has none.
 /// Throws ConfigurationError when one has a fault or two have the same name.
-std::vector<Manifest> load_manifests(const std::vector<std::filesystem::path>& folders);
+std::vector<Manifest> load_manifests(const std::vector<fs::path>& folders);
 
 }  // namespace hullbench::run

@@ -18,9 +18,6 @@
 namespace hullbench::run {
 namespace {
 
-namespace fs = std::filesystem;
-using nlohmann::json;
-
 /// A run that is merged into another one.
 struct Source {
   fs::path folder;

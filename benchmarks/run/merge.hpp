@@ -3,10 +3,10 @@
 
 #include <cstddef>
 #include <filesystem>
-#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
+#include "benchmarks/base/names.hpp"
 #include "benchmarks/record/record.hpp"
 
 namespace hullbench::run {
@@ -15,10 +15,10 @@ namespace hullbench::run {
 struct MergedRun {
   /// run.json: the first run's, with `merged`, a list of {shard, created, resumed, tool, environment} of
   /// every run in it, and `notes`, sentences about rows that are missing or were there more than once.
-  nlohmann::json header;
-  std::vector<record::RunRecord> rows;         ///< in the order of the plan; each says its machine
-  std::size_t planned = 0;                     ///< number of rows that the plan and its filter ask for
-  std::vector<std::filesystem::path> folders;  ///< of the runs, in the order in which they were taken
+  json header;
+  std::vector<record::RunRecord> rows;  ///< in the order of the plan; each says its machine
+  std::size_t planned = 0;              ///< number of rows that the plan and its filter ask for
+  std::vector<fs::path> folders;        ///< of the runs, in the order in which they were taken
 };
 
 /// The names of several lists, each once, so that each list's order is kept as far as the others' allow it.
@@ -32,6 +32,6 @@ std::vector<std::string> common_order(std::vector<std::vector<std::string>> list
 /// they differ in plan, filter, seed or schema version, or a method is there in two versions, or a data set
 /// or a rule of the same name is another one; std::runtime_error when two rows of the same name are ok and
 /// have different results, which no machine may cause.
-MergedRun merge_runs(const std::vector<std::filesystem::path>& folders);
+MergedRun merge_runs(const std::vector<fs::path>& folders);
 
 }  // namespace hullbench::run

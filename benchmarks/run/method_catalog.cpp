@@ -10,8 +10,6 @@
 namespace hullbench::run {
 namespace {
 
-namespace fs = std::filesystem;
-
 /// This program as a worker. /proc/self/exe is this very file, wherever it was started from and even when it
 /// was replaced since.
 worker::Method built_in(const AdapterEntry& entry) {

@@ -15,7 +15,7 @@ class MethodCatalog {
  public:
   /// The methods of this build and those of the manifests in `folders`, in this order. Throws
   /// ConfigurationError when a manifest has a fault or the name of another method.
-  explicit MethodCatalog(const std::vector<std::filesystem::path>& folders);
+  explicit MethodCatalog(const std::vector<fs::path>& folders);
 
   const std::vector<worker::Method>& methods() const { return methods_; }
   std::vector<std::string> names() const;
@@ -39,10 +39,10 @@ class MethodCatalog {
 /// Where manifests are looked for: this project's adapters/manifests, the user's configuration folder
 /// ($XDG_CONFIG_HOME/hullbench/adapters, or ~/.config/hullbench/adapters), and `folders`, which must be there
 /// (ConfigurationError else).
-std::vector<std::filesystem::path> manifest_folders(const std::vector<std::filesystem::path>& folders);
+std::vector<fs::path> manifest_folders(const std::vector<fs::path>& folders);
 
 /// The user's configuration folder for manifests. Throws ConfigurationError when neither XDG_CONFIG_HOME nor
 /// HOME says where it is.
-std::filesystem::path user_manifest_folder();
+fs::path user_manifest_folder();
 
 }  // namespace hullbench::run

@@ -7,8 +7,6 @@
 namespace hullbench::run {
 namespace {
 
-using polylidar::Point;
-
 /// Which `chosen` of `count` things are drawn.
 std::vector<bool> draw(std::size_t count, std::size_t chosen, std::uint64_t seed) {
   std::vector<bool> drawn(count);

@@ -18,9 +18,6 @@
 namespace hullbench::run {
 namespace {
 
-namespace fs = std::filesystem;
-using nlohmann::json;
-
 json load(const fs::path& folder) {
   try {
     return record::load_run(folder);

@@ -4,9 +4,9 @@
 #include <array>
 #include <cstddef>
 #include <filesystem>
-#include <nlohmann/json.hpp>
 #include <vector>
 
+#include "benchmarks/base/names.hpp"
 #include "benchmarks/record/record.hpp"
 #include "datasets/datasets.hpp"
 
@@ -16,7 +16,7 @@ namespace hullbench::run {
 inline constexpr std::array kOfTheRun = {"peak_memory_bytes", "agreement_halves", "agreement_subsamples"};
 
 struct Rescored {
-  nlohmann::json header;                ///< run.json, as it was
+  json header;                          ///< run.json, as it was
   std::vector<record::RunRecord> rows;  ///< all of the run, in its order
   std::size_t scored = 0;               ///< rows with new scores
   std::size_t without_polygons = 0;  ///< rows with a result that was not kept: their scores are the old ones
@@ -28,7 +28,6 @@ struct Rescored {
 ///
 /// Throws ConfigurationError when there is no run, or points cannot be drawn as they were (another version of
 /// a data set, a package that is missing), and std::runtime_error when polygons are not those of their row.
-Rescored rescore(const std::filesystem::path& folder, const std::vector<int>& cores,
-                 const DataFolders& folders);
+Rescored rescore(const fs::path& folder, const std::vector<int>& cores, const DataFolders& folders);
 
 }  // namespace hullbench::run

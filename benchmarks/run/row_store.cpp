@@ -17,8 +17,6 @@
 namespace hullbench::run {
 namespace {
 
-namespace fs = std::filesystem;
-
 std::string reason(int error) {
   return std::generic_category().message(error);
 }
@@ -75,7 +73,7 @@ RowStore::~RowStore() {
 
 void RowStore::read_rows(const fs::path& file) {
   const std::scoped_lock guard(mutex_);
-  for (const nlohmann::json& line : record::load_json_lines(file).lines) {
+  for (const json& line : record::load_json_lines(file).lines) {
     try {
       remember(line.get<record::RunRecord>());
     } catch (const std::exception& error) {

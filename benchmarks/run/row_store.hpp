@@ -18,13 +18,13 @@ namespace hullbench::run {
 /// Locks a folder, or a file, which is made where it is not there, against a second harness: a descriptor
 /// that has the lock until it is closed, however its owner ends. -1 when another process has it. Throws
 /// ConfigurationError when it cannot be written to.
-int try_lock(const std::filesystem::path& path);
+int try_lock(const fs::path& path);
 /// The same; throws ConfigurationError, too, when another process has it.
-int lock_or_throw(const std::filesystem::path& path);
+int lock_or_throw(const fs::path& path);
 
 /// Where rows are kept.
 struct RowFile {
-  std::filesystem::path folder;         ///< must be there
+  fs::path folder;                      ///< must be there
   std::string name;                     ///< in the folder
   std::string scratch;                  ///< likewise: a folder for files that live no longer than the store
   std::string record::RunRecord::*key;  ///< what a row is found by, and replaced when there is a newer one
@@ -40,12 +40,12 @@ class RowStore {
   RowStore(const RowStore&) = delete;
   RowStore& operator=(const RowStore&) = delete;
 
-  const std::filesystem::path& path() const { return where_.folder; }
+  const fs::path& path() const { return where_.folder; }
   /// Made anew, and removed with this object.
-  const std::filesystem::path& scratch() const { return scratch_; }
+  const fs::path& scratch() const { return scratch_; }
 
   /// Knows the rows of another file too, which stays as it is. Throws as the constructor.
-  void read_rows(const std::filesystem::path& file);
+  void read_rows(const fs::path& file);
 
   /// In the order of the files. Not while another thread appends.
   const std::deque<record::RunRecord>& rows() const { return rows_; }
@@ -65,7 +65,7 @@ class RowStore {
   void rewrite();
 
   RowFile where_;
-  std::filesystem::path scratch_;
+  fs::path scratch_;
   int lock_;
   mutable std::mutex mutex_;  ///< of all below
   std::deque<record::RunRecord> rows_;

@@ -18,9 +18,6 @@
 namespace hullbench::run {
 namespace {
 
-namespace fs = std::filesystem;
-using nlohmann::json;
-
 constexpr const char* kRepetitionsFile = "repetitions.jsonl";
 constexpr const char* kScratchFolder = "scratch";
 

@@ -8,11 +8,11 @@
 #include <functional>
 #include <map>
 #include <memory>
-#include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "benchmarks/base/names.hpp"
 #include "benchmarks/record/json_lines.hpp"
 #include "benchmarks/record/record.hpp"
 #include "benchmarks/run/row_store.hpp"
@@ -38,14 +38,14 @@ class RunDirectory : public RowStore {
   /// `path` must be there; `lock` is its descriptor with the lock, closed with this object. Reads what an
   /// earlier start left, and cuts off torn last lines. Throws std::runtime_error naming the file when one is
   /// damaged otherwise.
-  RunDirectory(const std::filesystem::path& path, int lock);
+  RunDirectory(const fs::path& path, int lock);
 
   /// run.json of the earlier start; null when there was none.
-  const nlohmann::json& header() const { return header_; }
+  const json& header() const { return header_; }
   bool resumed() const { return header_.is_object(); }
 
   /// Writes run.json, whole or not at all.
-  void write_header(const nlohmann::json& header);
+  void write_header(const json& header);
 
   /// The repetitions of a run that are already measured, in order.
   const std::vector<Repetition>& repetitions(const std::string& id) const;
@@ -54,17 +54,16 @@ class RunDirectory : public RowStore {
  private:
   void read_repetitions();
 
-  nlohmann::json header_;
+  json header_;
   std::map<std::string, std::vector<Repetition>> repetitions_;  ///< by id
   std::optional<record::JsonLinesWriter> repetition_writer_;
 };
 
 /// Where a run is to go.
 struct RunPlace {
-  std::optional<std::filesystem::path>
-      out;             ///< the user's choice; none: a folder of its own in `results`/runs
-  bool force = false;  ///< never go on with an earlier run
-  std::filesystem::path results = "results";
+  std::optional<fs::path> out;  ///< the user's choice; none: a folder of its own in `results`/runs
+  bool force = false;           ///< never go on with an earlier run
+  fs::path results = "results";
 };
 
 /// The folder for a run that run.json will describe as `header` (plan, filter, tool, environment, created).
@@ -72,31 +71,31 @@ struct RunPlace {
 /// `results`/runs if it is not finished (has no report.json), or the one in `out`, finished or not. Throws
 /// ConfigurationError when the folder cannot be written, is in use by another harness, or `out` holds
 /// something else and `force` is not set; with `force` the files of an earlier run in `out` are removed.
-std::unique_ptr<RunDirectory> open_run_directory(const nlohmann::json& header, const RunPlace& place);
+std::unique_ptr<RunDirectory> open_run_directory(const json& header, const RunPlace& place);
 
 /// The newest of the folders in `runs` (their names begin with the time) that `is_same`; none when it is
 /// finished, which its file `mark` says.
-std::optional<std::filesystem::path> find_unfinished(
-    const std::filesystem::path& runs, const std::function<bool(const std::filesystem::path&)>& is_same,
-    const char* mark);
+std::optional<fs::path> find_unfinished(const fs::path& runs,
+                                        const std::function<bool(const fs::path&)>& is_same,
+                                        const char* mark);
 
 /// Removes the temporary files of all runs in `results`/runs, those in suites too, that a harness left which
 /// was killed. Those of runs that somebody is at stay.
-void remove_stale_scratch(const std::filesystem::path& results);
+void remove_stale_scratch(const fs::path& results);
 
 /// Whether `folder` holds a run that `header` describes, and it is finished (has a report.json).
-bool is_finished_run(const std::filesystem::path& folder, const nlohmann::json& header);
+bool is_finished_run(const fs::path& folder, const json& header);
 
 /// The folder `results`/runs/<time>-<machine>-<commit>, made new, with the words of `header` (created, tool,
 /// environment). Throws ConfigurationError when it cannot be made.
-std::filesystem::path make_run_folder(const nlohmann::json& header, const std::filesystem::path& results);
+fs::path make_run_folder(const json& header, const fs::path& results);
 
 /// What must be the same for a run to go on: plan, manifests of its methods, filter, shard, binary and
 /// machine of its header, and that it is not merged of others, or merged of the same.
-nlohmann::json run_continuity(const nlohmann::json& header);
+json run_continuity(const json& header);
 
 /// Lets the link `results`/latest point to the run in `run_directory`, a folder in `results`/runs. Throws
 /// std::runtime_error when it cannot.
-void point_latest_to(const std::filesystem::path& run_directory, const std::filesystem::path& results);
+void point_latest_to(const fs::path& run_directory, const fs::path& results);
 
 }  // namespace hullbench::run

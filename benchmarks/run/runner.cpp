@@ -18,8 +18,6 @@
 namespace hullbench::run {
 namespace {
 
-using nlohmann::json;
-
 /// One of the planned runs, with its times.
 struct Entry {
   std::size_t index = 0;  ///< into the planned runs

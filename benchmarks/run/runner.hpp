@@ -5,12 +5,12 @@
 #include <cstdint>
 #include <functional>
 #include <map>
-#include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "benchmarks/base/exit_code.hpp"
+#include "benchmarks/base/names.hpp"
 #include "benchmarks/plan/plan.hpp"
 #include "benchmarks/record/record.hpp"
 #include "benchmarks/run/canary.hpp"
@@ -62,9 +62,8 @@ struct RunResult {
 /// Throws ConfigurationError when a method that is installed does not have a parameter that the plan gives
 /// it, and std::runtime_error when something cannot be written. An interruption is a result, not an
 /// exception.
-RunResult run_plan(const plan::Plan& plan, const std::vector<plan::PlannedRun>& runs,
-                   const nlohmann::json& header, const RunnerOptions& options, RunDirectory& directory,
-                   Progress& progress, int pass = 1);
+RunResult run_plan(const plan::Plan& plan, const std::vector<plan::PlannedRun>& runs, const json& header,
+                   const RunnerOptions& options, RunDirectory& directory, Progress& progress, int pass = 1);
 
 /// Whether `pass` has repetitions of one of `runs`.
 bool has_repetitions(const plan::Plan& plan, const std::vector<plan::PlannedRun>& runs, int pass);

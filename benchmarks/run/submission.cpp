@@ -18,9 +18,6 @@
 namespace hullbench::run {
 namespace {
 
-namespace fs = std::filesystem;
-using nlohmann::json;
-
 // Beyond any pack that is made here: a larger one is not read.
 constexpr std::uintmax_t kLargestFile = std::uintmax_t{64} << 20U;
 constexpr std::uintmax_t kLargestJson = std::uintmax_t{4} << 20U;

@@ -8,11 +8,11 @@
 
 #include <filesystem>
 #include <functional>
-#include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "benchmarks/base/names.hpp"
 #include "benchmarks/plan/plan.hpp"
 #include "benchmarks/run/contract.hpp"
 #include "benchmarks/run/rescore.hpp"
@@ -29,11 +29,11 @@ inline constexpr const char* kHandedIn = " (handed in)";
 inline constexpr const char* kOpenDivision = "open";
 
 /// The files in `folder` but submission.json, as paths from there, in order.
-std::vector<std::string> submitted_files(const std::filesystem::path& folder);
+std::vector<std::string> submitted_files(const fs::path& folder);
 
 /// What no entry of a method that is handed in may ask for in a plan's "methods": cases, limits or
 /// repetitions of its own, or another parameter for each case. Empty when it does not.
-std::string fault_of_entries(const nlohmann::json& entries);
+std::string fault_of_entries(const json& entries);
 
 struct CheckedSubmission {
   std::vector<Verdict> verdicts;
@@ -47,7 +47,7 @@ struct CheckedSubmission {
 /// stranger's: whatever is in it gives a verdict.
 ///
 /// Throws ConfigurationError when there is no pack in the folder, and Interrupted.
-CheckedSubmission check_submission(const std::filesystem::path& folder, const plan::Plan& plan,
+CheckedSubmission check_submission(const fs::path& folder, const plan::Plan& plan,
                                    const std::vector<std::string>& known, const std::vector<int>& cores,
                                    const DataFolders& folders,
                                    const std::function<void(const Verdict&)>& say);

@@ -7,9 +7,6 @@
 namespace hullbench::run {
 namespace {
 
-namespace fs = std::filesystem;
-using nlohmann::json;
-
 json describe_suite(const std::vector<json>& headers) {
   json suite = {{"schema_version", record::kSchemaVersion},
                 {"created", headers.front().at("created")},

@@ -2,9 +2,9 @@
 #pragma once
 
 #include <filesystem>
-#include <nlohmann/json.hpp>
 #include <vector>
 
+#include "benchmarks/base/names.hpp"
 #include "benchmarks/run/run_directory.hpp"
 
 namespace hullbench::run {
@@ -14,6 +14,6 @@ namespace hullbench::run {
 /// in `place.out`, finished or not; else a new one is made. Throws ConfigurationError when the folder cannot
 /// be written, or `place.out` holds something else and `force` is not set; with `force` the runs that an
 /// earlier suite left in it are started anew.
-std::filesystem::path open_suite(const std::vector<nlohmann::json>& headers, const RunPlace& place);
+fs::path open_suite(const std::vector<json>& headers, const RunPlace& place);
 
 }  // namespace hullbench::run

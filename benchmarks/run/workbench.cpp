@@ -48,8 +48,8 @@ void MethodRun::score_l2() {
   if (result) drawn->score_l2(record, *result);
 }
 
-Workbench::Workbench(std::filesystem::path scratch) : scratch_(std::move(scratch)) {
-  std::filesystem::create_directories(scratch_);
+Workbench::Workbench(fs::path scratch) : scratch_(std::move(scratch)) {
+  fs::create_directories(scratch_);
 }
 
 void Workbench::add(worker::Method method, const worker::WorkerLimits& limits) {

@@ -53,7 +53,7 @@ struct MethodRun {
 class Workbench {
  public:
   /// Files are put into the folder `scratch`, which is made where it is not there.
-  explicit Workbench(std::filesystem::path scratch);
+  explicit Workbench(fs::path scratch);
 
   /// Its worker is not started yet.
   void add(worker::Method method, const worker::WorkerLimits& limits);
@@ -77,7 +77,7 @@ class Workbench {
  private:
   const worker::LoadedPoints& points_of(const MethodRun& run);
 
-  std::filesystem::path scratch_;
+  fs::path scratch_;
   std::vector<std::unique_ptr<worker::MethodSession>> sessions_;
   std::optional<worker::LoadedPoints> points_;  ///< of the last attempt's case; none before the first
 };

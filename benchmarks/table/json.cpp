@@ -1,15 +1,13 @@
 #include <cmath>
-#include <nlohmann/json.hpp>
 
 #include "benchmarks/base/files.hpp"
+#include "benchmarks/base/names.hpp"
 #include "benchmarks/base/number_format.hpp"
 #include "benchmarks/table/writers.hpp"
 
 // Written by hand: a row stands on a line, and a number has the digits that the table shows of it.
 namespace hullbench::table {
 namespace {
-
-using nlohmann::json;
 
 std::string dump(const json& value) {
   return dump_text(value, -1);

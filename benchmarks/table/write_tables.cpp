@@ -7,11 +7,11 @@
 
 namespace hullbench::table {
 
-void write_tables(const std::filesystem::path& folder, const std::vector<Document>& documents) {
-  const std::filesystem::path tables = folder / record::kTablesFolder;
+void write_tables(const fs::path& folder, const std::vector<Document>& documents) {
+  const fs::path tables = folder / record::kTablesFolder;
   std::error_code error;
-  std::filesystem::remove_all(tables, error);
-  std::filesystem::create_directory(tables, error);
+  fs::remove_all(tables, error);
+  fs::create_directory(tables, error);
   if (error) throw std::runtime_error("cannot write " + tables.string() + ": " + error.message());
   std::ostringstream markdown;
   print_markdown(documents, markdown);

@@ -8,7 +8,6 @@
 #include <filesystem>
 #include <iostream>
 #include <map>
-#include <nlohmann/json.hpp>
 #include <optional>
 #include <set>
 #include <span>
@@ -20,6 +19,7 @@
 #include "benchmarks/base/cores.hpp"
 #include "benchmarks/base/exit_code.hpp"
 #include "benchmarks/base/files.hpp"
+#include "benchmarks/base/names.hpp"
 #include "benchmarks/base/number_format.hpp"
 #include "benchmarks/base/parallel.hpp"
 #include "benchmarks/statistics/statistics.hpp"
@@ -231,8 +231,8 @@ void print_voids() {
       std::vector<double> parts(kSets);
       for_each_in_parallel(kSets, allowed_cores(), [&](std::size_t k) {
         Random random(derive_seed(k, "voids"));
-        std::vector<polylidar::Point> points(n);
-        for (polylidar::Point& p : points) {
+        std::vector<Point> points(n);
+        for (Point& p : points) {
           p.x = is_normal ? random.normal() : random.uniform();
           p.y = is_normal ? random.normal() : random.uniform();
         }
@@ -249,23 +249,23 @@ void print_voids() {
   print("Chance: 20 sets of points without a shape", table);
 }
 
-nlohmann::json to_json(const polylidar::MultiPolygon& shape) {
-  nlohmann::json rings = nlohmann::json::array();
-  const auto add = [&](const polylidar::Ring& ring) {
-    nlohmann::json& points = rings.emplace_back(nlohmann::json::array());
-    for (const polylidar::Point& p : ring) points.push_back({p.x, p.y});
+json to_json(const MultiPolygon& shape) {
+  json rings = json::array();
+  const auto add = [&](const Ring& ring) {
+    json& points = rings.emplace_back(json::array());
+    for (const Point& p : ring) points.push_back({p.x, p.y});
   };
-  for (const polylidar::Polygon& polygon : shape) {
+  for (const Polygon& polygon : shape) {
     add(polygon.shell);
-    for (const polylidar::Ring& hole : polygon.holes) add(hole);
+    for (const Ring& hole : polygon.holes) add(hole);
   }
   return rings;
 }
 
 /// Points of a shape under each way to sample, with the rule's hull and that of the former default:
 /// plots/make_default_pictures.py draws them.
-void write_pictures(const std::filesystem::path& file) {
-  nlohmann::json pictures = nlohmann::json::array();
+void write_pictures(const fs::path& file) {
+  json pictures = json::array();
   for (const LimitCaseName& name : test_limit_cases(2000)) {
     if (!name.dataset.starts_with("letter_b") || name.holes) continue;
     const PointSet set = make_point_set(name.dataset, false, name.n, 1);
@@ -273,8 +273,8 @@ void write_pictures(const std::filesystem::path& file) {
     const auto hull = [&](const polylidar::Options& options) {
       return to_json(polylidar::to_coordinates(polylidar::concave_hull(set.points, options), set.points));
     };
-    nlohmann::json points = nlohmann::json::array();
-    for (const polylidar::Point& p : set.points) points.push_back({p.x, p.y});
+    json points = json::array();
+    for (const Point& p : set.points) points.push_back({p.x, p.y});
     pictures.push_back(
         {{"sampling", sampling_of(name.dataset)},
          {"points", points},

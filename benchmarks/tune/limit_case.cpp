@@ -14,14 +14,14 @@ namespace hullbench::tune {
 
 using polylidar::detail::Mesh;
 
-LimitCase::LimitCase(std::span<const polylidar::Point> points, const polylidar::MultiPolygon& truth) {
+LimitCase::LimitCase(std::span<const Point> points, const MultiPolygon& truth) {
   builder_.build(points, pool_);
   const Mesh& mesh = builder_.mesh();
   std::vector<Mesh::Index> finite;
-  std::vector<std::array<polylidar::Point, 3>> triangles;
+  std::vector<std::array<Point, 3>> triangles;
   for (Mesh::Index t = 0; t < mesh.triangle_count(); ++t) {
     if (mesh.is_ghost(t)) continue;
-    std::array<polylidar::Point, 3> corners;
+    std::array<Point, 3> corners;
     for (Mesh::Index k = 0; k < 3; ++k)
       corners[k] = points[builder_.caller_index()[mesh.origin(Mesh::kStride * t + k)]];
     finite.push_back(t);

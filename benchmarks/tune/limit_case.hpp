@@ -5,11 +5,11 @@
 #include <span>
 #include <vector>
 
+#include "benchmarks/base/names.hpp"
 #include "core/src/automatic_limit.hpp"
 #include "core/src/delaunay_builder.hpp"
 #include "core/src/region.hpp"
 #include "core/src/thread_pool.hpp"
-#include "polylidar/geometry.hpp"
 
 namespace hullbench::tune {
 
@@ -20,7 +20,7 @@ namespace hullbench::tune {
 class LimitCase {
  public:
   /// Throws as polylidar::concave_hull for the points and areas_within for the truth.
-  LimitCase(std::span<const polylidar::Point> points, const polylidar::MultiPolygon& truth);
+  LimitCase(std::span<const Point> points, const MultiPolygon& truth);
 
   /// Of the core's default with these constants.
   double error(const polylidar::detail::AutomaticConstants& constants);

@@ -133,8 +133,8 @@ Side side_of(const std::string& dataset) {
   return row->side == Side::kTraining && has_unseen_sampler(dataset) ? Side::kNeither : row->side;
 }
 
-nlohmann::json split_to_json() {
-  nlohmann::json split;
+json split_to_json() {
+  json split;
   for (const SplitRow& row : shape_split()) split["shapes"][row.name] = to_string(row.side);
   for (const SplitRow& row : sampler_split()) split["samplers"][row.name] = to_string(row.side);
   return split;

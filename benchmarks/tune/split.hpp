@@ -2,9 +2,10 @@
 // and whole ways to sample, fixed in split.cpp with the reason of each.
 #pragma once
 
-#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
+
+#include "benchmarks/base/names.hpp"
 
 namespace hullbench::tune {
 
@@ -47,6 +48,6 @@ Side side_of(const std::string& dataset);
 
 /// The split as records have it: {"shapes": {"star": "training", ...}, "samplers": {"uniform": "training",
 /// ...}}.
-nlohmann::json split_to_json();
+json split_to_json();
 
 }  // namespace hullbench::tune

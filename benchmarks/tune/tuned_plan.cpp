@@ -118,9 +118,9 @@ void add_oracle(plan::Plan& result, const plan::Plan& plan, const Tuning& tuning
 void keep_test_cases(plan::Plan& plan) {
   std::erase_if(plan.expanded_cases,
                 [](const plan::PlanCase& one) { return side_of(one.dataset) != Side::kTest; });
-  plan.cases = nlohmann::json::array();
+  plan.cases = json::array();
   for (const plan::PlanCase& one : plan.expanded_cases) {
-    nlohmann::json group = {{"dataset", one.dataset}, {"holes", {one.holes}}};
+    json group = {{"dataset", one.dataset}, {"holes", {one.holes}}};
     if (one.n > 0) group["n"] = {one.n};
     plan.cases.push_back(std::move(group));
   }

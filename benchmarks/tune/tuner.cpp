@@ -48,9 +48,9 @@ class DrawnCases {
   std::vector<Place> places_;
 };
 
-std::string kind_of(const polylidar::MultiPolygon& truth) {
+std::string kind_of(const MultiPolygon& truth) {
   std::size_t holes = 0;
-  for (const polylidar::Polygon& polygon : truth) holes += polygon.holes.size();
+  for (const Polygon& polygon : truth) holes += polygon.holes.size();
   return kind_of_shape(truth.size(), holes);
 }
 
@@ -152,7 +152,7 @@ struct Shared {
 /// One thread: its workers and the case that it is at.
 class TuningThread {
  public:
-  TuningThread(Shared& shared, const std::filesystem::path& scratch) : shared_(shared), bench_(scratch) {
+  TuningThread(Shared& shared, const fs::path& scratch) : shared_(shared), bench_(scratch) {
     add_methods(bench_, shared.options);
   }
 
@@ -274,7 +274,7 @@ class TuningThread {
 
 /// Asks every method who it is.
 std::vector<MethodTuning> describe_methods(const TunerOptions& options, std::size_t cases,
-                                           const std::filesystem::path& scratch, run::Progress& progress) {
+                                           const fs::path& scratch, run::Progress& progress) {
   run::Workbench bench(scratch);
   add_methods(bench, options);
   bench.start(progress);

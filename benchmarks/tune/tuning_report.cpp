@@ -14,8 +14,6 @@
 namespace hullbench::tune {
 namespace {
 
-using nlohmann::json;
-
 /// Null for a failure.
 json error_to_json(double error) {
   return is_infinitely_bad(error) ? json(nullptr) : json(error);

@@ -14,7 +14,6 @@ namespace hullbench::tune {
 namespace {
 
 using polylidar::kNone;
-using polylidar::Point;
 using polylidar::detail::Mesh;
 using polylidar::detail::operator-;
 using polylidar::detail::Triangle;

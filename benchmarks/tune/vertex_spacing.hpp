@@ -4,8 +4,8 @@
 
 #include <vector>
 
+#include "benchmarks/base/names.hpp"
 #include "core/src/half_edge.hpp"
-#include "polylidar/geometry.hpp"
 
 namespace hullbench::tune {
 
@@ -24,7 +24,6 @@ namespace hullbench::tune {
 ///   corners of its triangles.
 ///
 /// If nothing is left, the triangle that would hold the fewest points stays. Source: this project.
-std::vector<bool> kept_by_vertex_spacing(const polylidar::detail::Mesh& mesh,
-                                         const polylidar::Point* vertices);
+std::vector<bool> kept_by_vertex_spacing(const polylidar::detail::Mesh& mesh, const Point* vertices);
 
 }  // namespace hullbench::tune

@@ -12,7 +12,6 @@ namespace hullbench::worker {
 namespace {
 
 using namespace std::chrono_literals;
-using nlohmann::json;
 
 /// For a worker that is asked to end: it may have a database server to stop.
 constexpr auto kQuitPatience = 10s;
@@ -89,7 +88,7 @@ void MethodSession::begin_start() {
   warmed_up_ = false;
   worker_.reset();
   for (const std::string& file : method_.needs) {
-    if (std::filesystem::exists(file)) continue;
+    if (fs::exists(file)) continue;
     start_reply_ = failed_start(record::Status::kNotInstalled, "there is no " + file, method_.install);
     return;
   }
@@ -157,9 +156,8 @@ Reply MethodSession::load(const LoadedPoints& points, std::chrono::milliseconds 
   return reply;
 }
 
-Attempt MethodSession::run(const LoadedPoints& points, const Parameters& parameters,
-                           const std::filesystem::path& scratch, std::chrono::milliseconds timeout,
-                           Watch watch) {
+Attempt MethodSession::run(const LoadedPoints& points, const Parameters& parameters, const fs::path& scratch,
+                           std::chrono::milliseconds timeout, Watch watch) {
   if (!worker_ || !worker_->alive()) {
     begin_start();
     finish_start();
@@ -173,7 +171,7 @@ Attempt MethodSession::run(const LoadedPoints& points, const Parameters& paramet
   // A name of its own for every run: what an earlier run left can never be taken for this one's result.
   const std::string nonce =
       method_.name + "-" + std::to_string(worker_->pid()) + "-" + std::to_string(++run_count_);
-  const std::filesystem::path result = scratch / ("result-" + nonce + ".wkb");
+  const fs::path result = scratch / ("result-" + nonce + ".wkb");
   const bool watches_memory =
       watch == Watch::kMemory && !info_->capabilities.in_server && worker_->reset_peak_memory();
   const Reply reply = worker_->request({{"request", "run"},
@@ -188,12 +186,12 @@ Attempt MethodSession::run(const LoadedPoints& points, const Parameters& paramet
   if (attempt.status == record::Status::kMemory || attempt.status == record::Status::kInvalidOutput)
     worker_.reset();
   std::error_code ignored;
-  std::filesystem::remove(result, ignored);
+  fs::remove(result, ignored);
   return attempt;
 }
 
 Attempt MethodSession::warm_up(const LoadedPoints& points, const Parameters& parameters,
-                               const std::filesystem::path& scratch, std::chrono::milliseconds timeout) {
+                               const fs::path& scratch, std::chrono::milliseconds timeout) {
   const auto end = std::chrono::steady_clock::now() + kWarmUpTime;
   const Attempt first = run(points, parameters, scratch, timeout);
   if (first.status != record::Status::kOk) return first;
@@ -207,8 +205,7 @@ Attempt MethodSession::warm_up(const LoadedPoints& points, const Parameters& par
   return first;
 }
 
-Attempt MethodSession::read_result(const Reply& reply, const std::string& nonce,
-                                   const std::filesystem::path& result) {
+Attempt MethodSession::read_result(const Reply& reply, const std::string& nonce, const fs::path& result) {
   Attempt attempt;
   attempt.elapsed = reply.elapsed;
   try {
@@ -230,8 +227,7 @@ Attempt MethodSession::read_result(const Reply& reply, const std::string& nonce,
   return attempt;
 }
 
-LoadedPoints write_points(std::string key, std::span<const Point> points,
-                          const std::filesystem::path& folder) {
+LoadedPoints write_points(std::string key, std::span<const Point> points, const fs::path& folder) {
   LoadedPoints result = {std::move(key), folder / "points.f64", points.size()};
   write_points_file(result.file, points);
   return result;

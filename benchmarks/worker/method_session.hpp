@@ -5,13 +5,13 @@
 #include <cstdint>
 #include <filesystem>
 #include <memory>
-#include <nlohmann/json.hpp>
 #include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
 #include "adapters/adapter.hpp"
+#include "benchmarks/base/names.hpp"
 #include "benchmarks/record/record.hpp"
 #include "benchmarks/worker/method.hpp"
 #include "benchmarks/worker/worker_process.hpp"
@@ -32,8 +32,8 @@ inline constexpr std::size_t kMaxResultBytes = std::size_t{1} << 30;
 
 /// The points a worker is to have before it runs.
 struct LoadedPoints {
-  std::string key;             ///< differs for different points
-  std::filesystem::path file;  ///< raw little-endian float64, x before y
+  std::string key;  ///< differs for different points
+  fs::path file;    ///< raw little-endian float64, x before y
   std::size_t n = 0;
 };
 
@@ -81,7 +81,7 @@ class MethodSession {
 
   /// Runs the method once on `points` with a result in a new file in `scratch`, which is removed again.
   /// Starts and loads a worker first where needed. Throws Interrupted.
-  Attempt run(const LoadedPoints& points, const Parameters& parameters, const std::filesystem::path& scratch,
+  Attempt run(const LoadedPoints& points, const Parameters& parameters, const fs::path& scratch,
               std::chrono::milliseconds timeout, Watch watch = Watch::kNothing);
 
   /// Whether the method compiles while it runs (Method::jit) and its process, of now or to come, was not
@@ -89,8 +89,8 @@ class MethodSession {
   bool is_cold() const { return method_.jit && (!warmed_up_ || !worker_ || !worker_->alive()); }
   /// Runs the method until its times are steady, or for kWarmUpTime. Returns the first run, whose time is
   /// that of a cold process, or the first one that failed, which ends it. Throws Interrupted.
-  Attempt warm_up(const LoadedPoints& points, const Parameters& parameters,
-                  const std::filesystem::path& scratch, std::chrono::milliseconds timeout);
+  Attempt warm_up(const LoadedPoints& points, const Parameters& parameters, const fs::path& scratch,
+                  std::chrono::milliseconds timeout);
 
   /// Asks the worker to end, waits at most `patience` and kills it then. Whether it ended by itself; the next
   /// run starts another one.
@@ -98,7 +98,7 @@ class MethodSession {
 
  private:
   Reply load(const LoadedPoints& points, std::chrono::milliseconds timeout);
-  Attempt read_result(const Reply& reply, const std::string& nonce, const std::filesystem::path& result);
+  Attempt read_result(const Reply& reply, const std::string& nonce, const fs::path& result);
 
   Method method_;
   WorkerLimits limits_;
@@ -113,11 +113,10 @@ class MethodSession {
 
 /// Writes `points` into a file in `folder`, which has the points of one case at a time. Throws
 /// std::runtime_error naming the file when it cannot be written.
-LoadedPoints write_points(std::string key, std::span<const Point> points,
-                          const std::filesystem::path& folder);
+LoadedPoints write_points(std::string key, std::span<const Point> points, const fs::path& folder);
 
 /// A method as `list` and run.json show it: method_to_json with `installed`, `detail` (why not) and `remedy`.
 /// What is not known of a method that does not start is empty.
-nlohmann::json describe_method(const MethodSession& session);
+json describe_method(const MethodSession& session);
 
 }  // namespace hullbench::worker

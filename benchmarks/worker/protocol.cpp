@@ -7,22 +7,18 @@
 #include <cstring>
 #include <fstream>
 #include <limits>
-#include <nlohmann/json.hpp>
 #include <stdexcept>
 #include <system_error>
+
+#include "benchmarks/base/names.hpp"
+#include "benchmarks/base/number_format.hpp"
 
 namespace hullbench::worker {
 namespace {
 
-using nlohmann::json;
-
 static_assert(std::endian::native == std::endian::little,
               "points files are little-endian and copied as they are");
 static_assert(sizeof(Point) == 2 * sizeof(double), "a point is two doubles without padding");
-
-json number_to_json(double value) {
-  return std::isfinite(value) ? json(value) : json(nullptr);
-}
 
 double number_from_json(const json& value) {
   if (value.is_null()) return std::numeric_limits<double>::infinity();
@@ -34,9 +30,9 @@ json parameter_to_json(const ParameterInfo& parameter) {
   json result = {{"name", parameter.name},
                  {"unit", parameter.unit},
                  {"description", parameter.description},
-                 {"minimum", number_to_json(parameter.minimum)},
-                 {"maximum", number_to_json(parameter.maximum)}};
-  if (parameter.default_value) result["default"] = number_to_json(*parameter.default_value);
+                 {"minimum", finite_or_null(parameter.minimum)},
+                 {"maximum", finite_or_null(parameter.maximum)}};
+  if (parameter.default_value) result["default"] = finite_or_null(*parameter.default_value);
   return result;
 }
 
@@ -51,7 +47,7 @@ ParameterInfo parameter_from_json(const json& source) {
   return parameter;
 }
 
-[[noreturn]] void throw_cannot(const char* what, const std::filesystem::path& path, int error) {
+[[noreturn]] void throw_cannot(const char* what, const fs::path& path, int error) {
   throw std::runtime_error("cannot " + std::string(what) + " " + path.string() + ": " +
                            std::generic_category().message(error));
 }
@@ -86,13 +82,13 @@ MethodInfo method_from_json(const json& source) {
   return info;
 }
 
-void write_points_file(const std::filesystem::path& path, std::span<const Point> points) {
+void write_points_file(const fs::path& path, std::span<const Point> points) {
   std::vector<std::uint8_t> bytes(points.size_bytes());
   if (!bytes.empty()) std::memcpy(bytes.data(), points.data(), bytes.size());
   write_bytes(path, bytes);
 }
 
-std::vector<Point> read_points_file(const std::filesystem::path& path, std::size_t n) {
+std::vector<Point> read_points_file(const fs::path& path, std::size_t n) {
   const std::vector<std::uint8_t> bytes = read_bytes(path, std::numeric_limits<std::size_t>::max());
   if (bytes.size() / sizeof(Point) != n || bytes.size() % sizeof(Point) != 0) {
     throw std::runtime_error(path.string() + " holds " + std::to_string(bytes.size()) +
@@ -103,9 +99,9 @@ std::vector<Point> read_points_file(const std::filesystem::path& path, std::size
   return points;
 }
 
-std::vector<std::uint8_t> read_bytes(const std::filesystem::path& path, std::size_t max_bytes) {
-  if (!std::filesystem::is_regular_file(path)) throw std::runtime_error("there is no file " + path.string());
-  const std::uintmax_t size = std::filesystem::file_size(path);
+std::vector<std::uint8_t> read_bytes(const fs::path& path, std::size_t max_bytes) {
+  if (!fs::is_regular_file(path)) throw std::runtime_error("there is no file " + path.string());
+  const std::uintmax_t size = fs::file_size(path);
   if (size > max_bytes) {
     throw std::runtime_error(path.string() + " has " + std::to_string(size) + " bytes, more than the " +
                              std::to_string(max_bytes) + " that are allowed");
@@ -117,7 +113,7 @@ std::vector<std::uint8_t> read_bytes(const std::filesystem::path& path, std::siz
   return bytes;
 }
 
-void write_bytes(const std::filesystem::path& path, std::span<const std::uint8_t> bytes) {
+void write_bytes(const fs::path& path, std::span<const std::uint8_t> bytes) {
   errno = 0;
   std::ofstream out(path, std::ios::binary | std::ios::trunc);
   out.write(reinterpret_cast<const char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));

@@ -8,20 +8,19 @@
 #include <chrono>
 #include <cstdint>
 #include <new>
-#include <nlohmann/json.hpp>
 #include <optional>
 #include <stdexcept>
 #include <string>
 #include <utility>
 
 #include "adapters/wkb.hpp"
+#include "benchmarks/base/names.hpp"
 #include "benchmarks/record/record.hpp"
 #include "benchmarks/worker/protocol.hpp"
 
 namespace hullbench::worker {
 namespace {
 
-using nlohmann::json;
 using Clock = std::chrono::steady_clock;
 
 std::int64_t nanoseconds(Clock::duration duration) {

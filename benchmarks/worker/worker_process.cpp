@@ -28,7 +28,6 @@ namespace hullbench::worker {
 namespace {
 
 using namespace std::chrono_literals;
-using nlohmann::json;
 using Clock = std::chrono::steady_clock;
 
 /// How often a wait looks at the Ctrl-C flag and at whether the worker lives.

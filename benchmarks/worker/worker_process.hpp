@@ -6,11 +6,11 @@
 
 #include <chrono>
 #include <cstdint>
-#include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "benchmarks/base/names.hpp"
 #include "benchmarks/record/record.hpp"
 
 namespace hullbench::worker {
@@ -28,7 +28,7 @@ struct Reply {
   record::Status status = record::Status::kOk;
   std::string detail;                   ///< one sentence or a signal's name; empty when ok
   std::string remedy;                   ///< the command that helps; only with kNotInstalled
-  nlohmann::json body;                  ///< the reply; an empty object when not ok
+  json body;                            ///< the reply; an empty object when not ok
   std::chrono::nanoseconds elapsed{0};  ///< from request to reply, as seen from outside
 };
 
@@ -52,12 +52,12 @@ class WorkerProcess {
   WorkerProcess& operator=(const WorkerProcess&) = delete;
 
   /// Sends a request; its reply must be received before the next one is sent.
-  void send(const nlohmann::json& request);
+  void send(const json& request);
   /// Waits for the reply, at most until `timeout` after the request was sent. Throws Interrupted on Ctrl-C,
   /// with the worker killed, and when the worker was ended by a signal that ends the harness too.
   Reply receive(std::chrono::milliseconds timeout);
   /// Both.
-  Reply request(const nlohmann::json& request, std::chrono::milliseconds timeout);
+  Reply request(const json& request, std::chrono::milliseconds timeout);
 
   /// Whether the process runs and can be asked.
   bool alive() const { return pid_ > 0; }
