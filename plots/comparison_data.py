@@ -4,8 +4,6 @@ Everything that is judged (ratios, intervals, tests, their correction) comes fro
 again in the records, and what the page needs beside them is put together.
 """
 
-from __future__ import annotations
-
 import math
 import statistics
 from collections import Counter, defaultdict

@@ -1,8 +1,6 @@
 """The parts of the comparison that need no script: the verdict, what changed beside the times, what differs between the
 runs, and what only one of them has. Colours never say anything alone: a sign and a word stand beside them."""
 
-from __future__ import annotations
-
 from collections import Counter
 from collections.abc import Callable, Sequence
 

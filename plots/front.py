@@ -4,8 +4,6 @@ charts; the league; six telling pictures.
 A report is made of it, and so can be the front page of a site: everything here is HTML that needs no script.
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field

@@ -1,7 +1,5 @@
 """The two charts of the first screen: cases and error targets solved against time, and time against error."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Sequence
 

@@ -1,7 +1,5 @@
 """Each method's hull of the same points, side by side: the grid that figures of hulls share."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable, Sequence
 

@@ -1,7 +1,5 @@
 """Texts beside markers, so that they cover neither each other nor a marker."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping, Sequence
 
 import numpy as np

@@ -9,8 +9,6 @@ Exit codes: 0 ok; 1 a fault of ours, with its traceback; 2 when something cannot
 missing or the file cannot be written; 6 when the runs have nothing in common.
 """
 
-from __future__ import annotations
-
 import argparse
 import sys
 from collections.abc import Sequence

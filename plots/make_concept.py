@@ -3,8 +3,6 @@
 The same points three times, with the hull that the program makes of them: with a limit that is too small, with the one
 that it chooses, and with one that is too large.
 """
-from __future__ import annotations
-
 import json
 import math
 import random

@@ -3,8 +3,6 @@
 HULLS is what `build/fit_default --pictures HULLS` writes: one shape's points under each way to sample, with both hulls.
 """
 
-from __future__ import annotations
-
 import argparse
 import json
 from pathlib import Path

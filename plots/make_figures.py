@@ -7,8 +7,6 @@ Exit codes: 0 drawn; 1 a fault of ours, with its traceback; 2 usage, or a record
 data of none.
 """
 
-from __future__ import annotations
-
 import importlib
 import re
 import sys

@@ -9,8 +9,6 @@ it in FILE's folder paper/, for a manuscript. Exit codes: 0 ok; 1 a fault of our
 read, pdflatex is missing or complains, or the file cannot be written; 6 when the run has nothing to be drawn.
 """
 
-from __future__ import annotations
-
 import shutil
 import subprocess
 import sys

@@ -7,8 +7,6 @@ CSV is what `hullbench league --csv` wrote; FILE is ratings.json beside it. Exit
 traceback; 2 when the file cannot be read or written; 6 when no two methods that know as much have a case in common.
 """
 
-from __future__ import annotations
-
 import argparse
 import json
 import math

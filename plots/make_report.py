@@ -8,8 +8,6 @@ RUN is the folder of a run or of a suite, results/latest if it is not given; FIL
 file cannot be written.
 """
 
-from __future__ import annotations
-
 import sys
 from collections.abc import Sequence
 from pathlib import Path

@@ -6,8 +6,6 @@ python3-matplotlib, and build/hullbench.
 
 Exit codes: 0 drawn; 2 the program is not there or refuses a data set.
 """
-from __future__ import annotations
-
 import argparse
 import io
 import json

@@ -10,8 +10,6 @@ it is made. Exit codes: 0 ok; 1 a fault of ours, with its traceback; 2 when a ru
 charting library or esbuild is missing or a file cannot be written.
 """
 
-from __future__ import annotations
-
 import argparse
 import gzip
 import json

@@ -4,8 +4,6 @@ Areas are painted by the nonzero winding rule, for which a shell must go round t
 is computed: where a result differs from the ground truth shows by painting one clipped by the other.
 """
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 
 import numpy as np

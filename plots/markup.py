@@ -1,7 +1,5 @@
 """The HTML that all pages are made of. What is handed in is HTML, unless it is said to be words."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable, Mapping, Sequence
 
 from report_common import text

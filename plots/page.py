@@ -3,8 +3,6 @@
 A page is one file that needs no network. Everything from records is escaped, and no script runs but the page's own.
 """
 
-from __future__ import annotations
-
 import base64
 import hashlib
 import json

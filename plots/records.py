@@ -13,8 +13,6 @@ What is missing or malformed raises RecordError, whose text is one sentence for 
 of ours: it is not caught, so the program ends with its traceback and exit code 1.
 """
 
-from __future__ import annotations
-
 import argparse
 import contextlib
 import functools

@@ -1,7 +1,5 @@
 """What every part of the report shares: what methods are called, numbers, words, and text that is safe in HTML."""
 
-from __future__ import annotations
-
 import html
 import json
 import math

@@ -1,7 +1,5 @@
 """What the report's page computes with: the charts' values and all rows as columns, small enough to be put into it."""
 
-from __future__ import annotations
-
 import base64
 import gzip
 import json

@@ -1,7 +1,5 @@
 """The parts of the page that need no script: each experiment, comparison with the paper, parameters, environment and notes."""
 
-from __future__ import annotations
-
 import json
 from collections.abc import Sequence
 from pathlib import Path

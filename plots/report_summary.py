@@ -5,8 +5,6 @@ that only one of them solved is infinitely bad for the other: a method that fail
 faster than it is. What is faster is not decided here but read from the report's summary.
 """
 
-from __future__ import annotations
-
 import math
 from collections import Counter, defaultdict
 from collections.abc import Callable, Sequence

@@ -1,7 +1,5 @@
 """The tables of a run or suite, which the program left as values (results/tables.schema.json), as HTML."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from pathlib import Path
 from typing import Any

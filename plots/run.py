@@ -1,7 +1,5 @@
 """What every figure is drawn from: a run's experiments and the paper's numbers, and what a figure hands back."""
 
-from __future__ import annotations
-
 import json
 from collections.abc import Iterable
 from dataclasses import dataclass, field

@@ -1,8 +1,6 @@
 """The pages of a run, as HTML without scripts. A link within the site begins with a mark; make_site.py writes there where that
 is, seen from the page."""
 
-from __future__ import annotations
-
 import math
 import re
 from collections import Counter

@@ -1,7 +1,5 @@
 """A run as the pages of the site need it."""
 
-from __future__ import annotations
-
 import functools
 import json
 from collections import Counter

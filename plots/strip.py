@@ -1,8 +1,6 @@
 """Six telling pictures of the one that leads: its best, median and worst case, one that it loses, real points and an input that
 broke somebody. What the run does not have is left out, and said."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass, field

@@ -7,8 +7,6 @@ told apart by anybody. A filled marker says that the parameters follow the paper
 default, an open one neither.
 """
 
-from __future__ import annotations
-
 import textwrap
 import zlib
 from collections.abc import Iterable, Sequence

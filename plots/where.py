@@ -1,7 +1,5 @@
 """Who is good at what: the errors by kind of shape and by way to sample, and who beats whom, as tables of a page."""
 
-from __future__ import annotations
-
 import math
 
 from front import Front, lines_of

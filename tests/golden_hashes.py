@@ -11,8 +11,6 @@ With --check it also compares them with those that stand there; without names, t
 
 Exit codes: 0 done; 1 test_datasets.cpp expects others; 2 there is no such shape.
 """
-from __future__ import annotations
-
 import functools
 import hashlib
 import json

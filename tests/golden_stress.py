@@ -11,8 +11,6 @@ With --check it also compares them with those that stand there.
 
 Exit codes: 0 done; 1 test_stress.cpp expects others; 2 there is no such data set.
 """
-from __future__ import annotations
-
 import json
 import math
 import re

@@ -1,7 +1,5 @@
 """A small invented suite with every kind of record that the figures show, for the tests of plots/."""
 
-from __future__ import annotations
-
 import copy
 import hashlib
 import json

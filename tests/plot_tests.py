@@ -1,7 +1,5 @@
 """What the tests of plots/ have in common. Whoever imports it can import the programs of plots/, too."""
 
-from __future__ import annotations
-
 import contextlib
 import html.parser
 import io

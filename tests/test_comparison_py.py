@@ -1,7 +1,5 @@
 """plots/make_comparison.py: what it makes of the program's comparison and of two runs, and what it refuses."""
 
-from __future__ import annotations
-
 import copy
 import json
 import re

@@ -1,7 +1,5 @@
 """plots/make_figures.py: the figures show the record's own numbers, and every run gives the same bytes."""
 
-from __future__ import annotations
-
 import json
 import os
 import statistics

@@ -1,7 +1,5 @@
 """The first screen of the report (plots/front.py, front_charts.py, where.py, strip.py, svg.py): what it says beside the numbers that it is made of."""
 
-from __future__ import annotations
-
 import math
 import re
 import unittest

@@ -1,7 +1,5 @@
 """plots/make_paper.py: what stands in the LaTeX, and what is said without LaTeX; the PDF itself where LaTeX is installed."""
 
-from __future__ import annotations
-
 import os
 import shutil
 import tempfile

@@ -1,8 +1,6 @@
 """The ratings of plots/ratings.py: against examples worked out by hand, and what must not change them: the methods' names and
 the order of cases and methods."""
 
-from __future__ import annotations
-
 import math
 import unittest
 

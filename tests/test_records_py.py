@@ -1,7 +1,5 @@
 """plots/records.py on good and bad folders."""
 
-from __future__ import annotations
-
 import json
 import lzma
 import os

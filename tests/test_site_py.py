@@ -1,8 +1,6 @@
 """The site (plots/make_site.py): its pages and what they say, that every link leads somewhere, that the search knows every page,
 and that nothing is asked of a network."""
 
-from __future__ import annotations
-
 import gzip
 import html
 import json

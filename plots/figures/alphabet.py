@@ -1,7 +1,5 @@
 """The error of each letter and method, with the paper's where it gives one (the paper's Table IV)."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Iterator
 from typing import Any

@@ -1,8 +1,6 @@
 """The cost of choosing: the error that a search for the parameter reaches after so many evaluations, beside what each method
 gives without one. From tune.json in the run's folder."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Iterator
 from typing import Any

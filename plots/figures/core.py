@@ -1,8 +1,6 @@
 """The core's time a point against the number of points, beside CGAL and GEOS, from core.json in the run's folder: what
 Google Benchmark writes of build/core_benchmarks: the command is in plots/README.md."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 from dataclasses import dataclass, field
 from statistics import median

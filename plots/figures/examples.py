@@ -1,7 +1,5 @@
 """Why a concave hull (the paper's Figure 1), and the most and the least convex random polygon (its Figure 11)."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 
 from matplotlib.figure import Figure

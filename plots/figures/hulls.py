@@ -1,8 +1,6 @@
 """Each method's hull of the same points, side by side, with its difference from the ground truth (the paper's
 Figure 10)."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 
 from matplotlib.axes import Axes

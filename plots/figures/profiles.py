@@ -1,8 +1,6 @@
 """Performance profiles on l2 of the methods of an evaluation, from league.json in the run's folder (Dolan and More,
 Benchmarking Optimization Software with Performance Profiles, 2002)."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 from typing import Any
 

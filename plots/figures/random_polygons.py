@@ -1,7 +1,5 @@
 """Error against convexity on random polygons, in the paper's classes (its Table V), and by kind of polygon."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 from typing import Any
 

@@ -1,8 +1,6 @@
 """Mean ranks of the methods with their intervals, which of them may be alike, and Elo ratings; and how often each beats each
 other. From league.csv in the run's folder, or cases.csv, the run's own."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Real points, whose true shape nobody knows: each method's hull of the same points, side by side."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 
 import numpy as np

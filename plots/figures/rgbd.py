@@ -1,7 +1,5 @@
 """Floors seen by a depth camera: the points with their ground truth, and Polylidar's result (the paper's Figure 9)."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 
 from matplotlib.figure import Figure

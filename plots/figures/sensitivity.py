@@ -1,7 +1,5 @@
 """How much a method's error depends on its parameter: the sensitivity curves of tune.json in the run's folder."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 from pathlib import Path
 from typing import Any

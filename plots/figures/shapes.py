@@ -1,7 +1,5 @@
 """The state shapes with their holes, and points sampled from them (the paper's Figure 8, first column)."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 
 from matplotlib.axes import Axes

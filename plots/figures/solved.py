@@ -1,8 +1,6 @@
 """What part of all pairs of case and error target each method has solved by a time: speed and accuracy in one figure, with
 failures (after COCO's runtime profiles)."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 
 import numpy as np

@@ -1,7 +1,5 @@
 """The time of each step, ours beside the paper's (its Table VI)."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 from typing import Any
 

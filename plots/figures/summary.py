@@ -1,8 +1,6 @@
 """One picture of the whole: Polylidar's hull over the points, and every method's time against its error. Wide, for the
 head of the README."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator, Sequence
 
 from matplotlib.axes import Axes
