@@ -14,7 +14,7 @@
 #include "adapters/wkb.hpp"
 #include "tests/hull_input.hpp"
 
-namespace hullbench::test {
+namespace hullbench::testing {
 
 using MakeAdapter = std::function<std::unique_ptr<Adapter>()>;
 
@@ -98,4 +98,4 @@ inline void expect_adapter_contract(const MakeAdapter& make, const Parameters& p
   expect_bad_arguments_to_be_refused(make, parameters);
 }
 
-}  // namespace hullbench::test
+}  // namespace hullbench::testing

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <random>
 #include <string>
 #include <string_view>
@@ -9,8 +10,32 @@
 
 #include "adapters/adapter.hpp"
 #include "polylidar/concave_hull.hpp"
+#include "tests/hull_oracle.hpp"
 
-namespace hullbench::test {
+namespace hullbench {
+
+// Each is in the file of its method; a test links those that it makes.
+std::unique_ptr<Adapter> make_cgal_alpha_shape();
+std::unique_ptr<Adapter> make_cgal_delaunay();
+std::unique_ptr<Adapter> make_chi_shape();
+std::unique_ptr<Adapter> make_convex_hull();
+std::unique_ptr<Adapter> make_geos_concave_hull();
+std::unique_ptr<Adapter> make_knn_hull();
+std::unique_ptr<Adapter> make_pcl_concave_hull();
+std::unique_ptr<Adapter> make_polylidar();
+std::unique_ptr<Adapter> make_postgis();
+std::unique_ptr<Adapter> make_postgis_legacy();
+std::unique_ptr<Adapter> make_postgis_steps();
+std::unique_ptr<Adapter> make_sfcgal_alpha_shape();
+std::unique_ptr<Adapter> make_spatialite();
+std::unique_ptr<Adapter> make_spatialite_steps();
+
+}  // namespace hullbench
+
+namespace hullbench::testing {
+
+using polylidar::testing::canonical;
+using polylidar::testing::core_hull;
 
 /// Steps for callers that time nothing.
 class NoSteps final : public Steps {
@@ -94,4 +119,4 @@ inline std::vector<Degenerate> degenerate_inputs() {
   };
 }
 
-}  // namespace hullbench::test
+}  // namespace hullbench::testing

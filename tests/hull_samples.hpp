@@ -7,7 +7,7 @@
 #include "datasets/datasets.hpp"
 #include "tests/hull_input.hpp"
 
-namespace hullbench::test {
+namespace hullbench::testing {
 
 struct HullSample {
   std::string name;
@@ -37,4 +37,4 @@ inline std::vector<HullSample> hull_samples() {
           dataset_sample("hi", true)};
 }
 
-}  // namespace hullbench::test
+}  // namespace hullbench::testing

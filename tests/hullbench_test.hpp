@@ -5,10 +5,10 @@
 
 #include <filesystem>
 #include <map>
-#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
+#include "benchmarks/base/names.hpp"
 #include "benchmarks/record/json_lines.hpp"
 #include "tests/program.hpp"
 #include "tests/small_plans.hpp"
@@ -18,7 +18,7 @@ namespace hullbench::testing {
 
 class HullbenchTest : public ::testing::Test {
  protected:
-  std::filesystem::path folder() const { return folder_.path(); }
+  fs::path folder() const { return folder_.path(); }
 
   static std::vector<std::string> command(std::vector<std::string> arguments) {
     arguments.insert(arguments.begin(), HULLBENCH);
@@ -37,13 +37,11 @@ class HullbenchTest : public ::testing::Test {
   }
 
   /// Writes the plan into a file; its path.
-  std::string write(const nlohmann::json& plan) const { return write_plan(folder(), plan); }
+  std::string write(const json& plan) const { return write_plan(folder(), plan); }
 
-  nlohmann::json read_json(const std::filesystem::path& file) const {
-    return nlohmann::json::parse(read_text(folder() / file));
-  }
+  json read_json(const fs::path& file) const { return json::parse(read_text(folder() / file)); }
 
-  std::vector<nlohmann::json> read_lines(const std::filesystem::path& file) const {
+  std::vector<json> read_lines(const fs::path& file) const {
     return record::load_json_lines(folder() / file).lines;
   }
 

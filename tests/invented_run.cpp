@@ -6,10 +6,8 @@
 #include "benchmarks/base/files.hpp"
 #include "benchmarks/record/json_lines.hpp"
 
-namespace hullbench::test {
+namespace hullbench::testing {
 namespace {
-
-using nlohmann::json;
 
 json dataset(const std::string& name, const std::string& title, double area, const json& holes_area) {
   return {{"name", name},
@@ -227,12 +225,12 @@ std::vector<record::RunRecord> invented_records(const std::vector<std::int64_t>&
   return result;
 }
 
-void write_invented_run(const std::filesystem::path& directory, const std::vector<std::int64_t>& sizes) {
-  std::filesystem::create_directories(directory);
+void write_invented_run(const fs::path& directory, const std::vector<std::int64_t>& sizes) {
+  fs::create_directories(directory);
   write_json_file(directory / "run.json", invented_run());
-  std::filesystem::remove(directory / "runs.jsonl");
+  fs::remove(directory / "runs.jsonl");
   record::JsonLinesWriter lines(directory / "runs.jsonl");
   for (const record::RunRecord& record : invented_records(sizes)) lines.append(record);
 }
 
-}  // namespace hullbench::test
+}  // namespace hullbench::testing

@@ -2,16 +2,16 @@
 #pragma once
 
 #include <filesystem>
-#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
+#include "benchmarks/base/names.hpp"
 #include "benchmarks/record/record.hpp"
 
-namespace hullbench::test {
+namespace hullbench::testing {
 
 /// run.json of the invented run.
-nlohmann::json invented_run();
+json invented_run();
 
 /// The name that a plan gives the run.
 std::string run_name(const record::RunRecord& record);
@@ -25,6 +25,6 @@ record::RunRecord invented_record();
 std::vector<record::RunRecord> invented_records(const std::vector<std::int64_t>& sizes);
 
 /// Writes the two files into `directory`, which is made.
-void write_invented_run(const std::filesystem::path& directory, const std::vector<std::int64_t>& sizes);
+void write_invented_run(const fs::path& directory, const std::vector<std::int64_t>& sizes);
 
-}  // namespace hullbench::test
+}  // namespace hullbench::testing

@@ -4,30 +4,30 @@
 #include <gtest/gtest.h>
 
 #include <cstdint>
-#include <nlohmann/json.hpp>
 #include <sstream>
 #include <stdexcept>
 #include <string>
 #include <vector>
 
+#include "benchmarks/base/names.hpp"
 #include "benchmarks/report/report.hpp"
 #include "benchmarks/report/tables.hpp"
 #include "benchmarks/table/writers.hpp"
 #include "invented_run.hpp"
 #include "temporary_folder.hpp"
 
-namespace hullbench::test {
+namespace hullbench::testing {
 
 /// The report of the invented run at these sizes. It is made in a TemporaryFolder of the running test, which
 /// must not have another one at the same time.
-inline nlohmann::json invented_report(const std::vector<std::int64_t>& sizes) {
-  const testing::TemporaryFolder folder;
+inline json invented_report(const std::vector<std::int64_t>& sizes = {2000, 64000}) {
+  const TemporaryFolder folder;
   write_invented_run(folder.path(), sizes);
   return report::make_report(folder.path());
 }
 
 /// The report's tables as Markdown.
-inline std::string markdown_of(const nlohmann::json& report) {
+inline std::string markdown_of(const json& report) {
   std::ostringstream out;
   table::print_markdown(report::make_document(report), out);
   return out.str();
@@ -59,12 +59,12 @@ struct InventedShape {
 };
 
 /// The invented report with its runs on California on each of `shapes` instead.
-inline nlohmann::json report_on_shapes(const std::vector<InventedShape>& shapes) {
-  nlohmann::json report = invented_report({2000});
-  const nlohmann::json on_states = report.at("runs");
-  report.at("runs") = nlohmann::json::array();
+inline json report_on_shapes(const std::vector<InventedShape>& shapes) {
+  json report = invented_report({2000});
+  const json on_states = report.at("runs");
+  report.at("runs") = json::array();
   for (const InventedShape& shape : shapes) {
-    for (nlohmann::json run : on_states) {
+    for (json run : on_states) {
       if (run.at("dataset") != "ca" || run.at("holes") == true) continue;
       run["dataset"] = shape.dataset;
       run["n"] = shape.n;
@@ -81,11 +81,11 @@ inline nlohmann::json report_on_shapes(const std::vector<InventedShape>& shapes)
 }
 
 /// The run of a method with its first protocol on a data set; there must be one.
-inline nlohmann::json& run_on(nlohmann::json& report, const std::string& method, const std::string& dataset) {
-  for (nlohmann::json& run : report.at("runs")) {
+inline json& run_on(json& report, const std::string& method, const std::string& dataset) {
+  for (json& run : report.at("runs")) {
     if (run.at("method") == method && run.at("dataset") == dataset) return run;
   }
   throw std::invalid_argument("no run of " + method + " on " + dataset);
 }
 
-}  // namespace hullbench::test
+}  // namespace hullbench::testing

@@ -12,7 +12,7 @@
 
 #include "adapters/private_postgres.hpp"
 
-namespace hullbench::test {
+namespace hullbench::testing {
 
 inline constexpr const char* kDsnVariable = "HULLBENCH_POSTGIS_DSN";
 inline constexpr const char* kLegacyDsnVariable = "HULLBENCH_POSTGIS_LEGACY_DSN";
@@ -56,4 +56,4 @@ class PostgisTest : public ::testing::Test {
   }
 };
 
-}  // namespace hullbench::test
+}  // namespace hullbench::testing

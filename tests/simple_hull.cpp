@@ -10,16 +10,16 @@
 #include "tests/boost_checks.hpp"
 #include "tests/point_sets.hpp"
 
-namespace hullbench::test {
+namespace hullbench::testing {
 namespace {
 
 /// Whether `point` lies inside the counter-clockwise or clockwise simple `ring` or on it, exactly: an edge
 /// that a ray to the right crosses has its lower end at or below the ray and its upper end above.
-bool is_covered(const polylidar::Point& point, const polylidar::Ring& ring) {
+bool is_covered(const Point& point, const Ring& ring) {
   bool is_inside = false;
   for (std::size_t i = 0; i < ring.size(); ++i) {
-    const polylidar::Point& a = ring[i];
-    const polylidar::Point& b = ring[(i + 1) % ring.size()];
+    const Point& a = ring[i];
+    const Point& b = ring[(i + 1) % ring.size()];
     const double side = polylidar::orient2d(a, b, point);
     if (side == 0 && std::min(a.x, b.x) <= point.x && point.x <= std::max(a.x, b.x) &&
         std::min(a.y, b.y) <= point.y && point.y <= std::max(a.y, b.y)) {
@@ -31,7 +31,7 @@ bool is_covered(const polylidar::Point& point, const polylidar::Ring& ring) {
 }
 
 /// Exact, where a rounded area may not tell: a simple ring is strictly convex at its lowest vertex.
-bool runs_counter_clockwise(const polylidar::Ring& ring) {
+bool runs_counter_clockwise(const Ring& ring) {
   const auto lowest = std::min_element(ring.begin(), ring.end(), [](const auto& a, const auto& b) {
     return a.y < b.y || (a.y == b.y && a.x < b.x);
   });
@@ -42,22 +42,21 @@ bool runs_counter_clockwise(const polylidar::Ring& ring) {
 
 }  // namespace
 
-void expect_one_simple_polygon_round(const std::vector<polylidar::Point>& points,
-                                     const polylidar::MultiPolygon& hull) {
+void expect_one_simple_polygon_round(const std::vector<Point>& points, const MultiPolygon& hull) {
   ASSERT_EQ(hull.size(), 1U);
   EXPECT_TRUE(hull[0].holes.empty());
-  const polylidar::Ring& shell = hull[0].shell;
-  for (const polylidar::Point& vertex : shell) {
+  const Ring& shell = hull[0].shell;
+  for (const Point& vertex : shell) {
     EXPECT_NE(std::find(points.begin(), points.end(), vertex), points.end())
         << vertex.x << " " << vertex.y << " is no point";
   }
-  for (const polylidar::Point& point : points) {
+  for (const Point& point : points) {
     ASSERT_TRUE(is_covered(point, shell)) << point.x << " " << point.y << " is outside";
   }
-  const polylidar::MultiPolygon scaled = {{polylidar::testing::near_one(shell), {}}};
+  const MultiPolygon scaled = {{polylidar::testing::near_one(shell), {}}};
   EXPECT_EQ(metrics::invalid_reason(scaled), "");
-  EXPECT_EQ(testing::boost_fault_in_detail(scaled), "");
+  EXPECT_EQ(boost_fault_in_detail(scaled), "");
   EXPECT_TRUE(runs_counter_clockwise(shell));
 }
 
-}  // namespace hullbench::test
+}  // namespace hullbench::testing

@@ -5,11 +5,11 @@
 
 #include "polylidar/geometry.hpp"
 
-namespace hullbench::test {
+namespace hullbench::testing {
 
 /// One valid polygon without holes, in the opinion of two libraries, counter-clockwise, whose vertices are
 /// among `points`, with every point in it or on it.
 void expect_one_simple_polygon_round(const std::vector<polylidar::Point>& points,
                                      const polylidar::MultiPolygon& hull);
 
-}  // namespace hullbench::test
+}  // namespace hullbench::testing

@@ -3,27 +3,21 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
-#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
+#include "benchmarks/base/names.hpp"
 #include "tests/complaint.hpp"
 #include "tests/hullbench_test.hpp"
 
-namespace hullbench {
+namespace hullbench::testing {
 namespace {
 
-namespace fs = std::filesystem;
-using nlohmann::json;
-using testing::Outcome;
-using testing::read_text;
-using testing::write_text;
-
-class AdapterCommandTest : public testing::HullbenchTest {
+class AdapterCommandTest : public HullbenchTest {
  protected:
   // What hullbench_worker.py and hullbench_worker.mjs need.
   void SetUp() override {
-    const std::string why = testing::missing({SYSTEM_PYTHON ":numpy", "node"});
+    const std::string why = missing({SYSTEM_PYTHON ":numpy", "node"});
     if (!why.empty()) GTEST_SKIP() << why;
   }
 
@@ -51,8 +45,8 @@ class AdapterCommandTest : public testing::HullbenchTest {
     const std::size_t line = tested.out.find("FAIL  " + point);
     ASSERT_NE(line, std::string::npos) << tested.out;
     const std::string said = tested.out.substr(line, tested.out.find('\n', line) - line);
-    testing::expect_says(said, words);
-    testing::expect_says(tested.out, "sample keeps part of the contract");
+    expect_says(said, words);
+    expect_says(tested.out, "sample keeps part of the contract");
   }
 
   fs::path methods() const { return folder() / "methods"; }
@@ -63,7 +57,7 @@ TEST_F(AdapterCommandTest, TheSkeletonsKeepTheContract) {
     const Outcome made = succeeded(hullbench({"adapter", "new", "my_" + language, "--lang", language}));
     const fs::path adapters = folder() / "config" / "hullbench" / "adapters";
     const fs::path written = adapters / ("my_" + language + ".json");
-    testing::expect_says(made.out, written.string());
+    expect_says(made.out, written.string());
     json manifest = json::parse(read_text(written));
     EXPECT_EQ(manifest["jit"].get<bool>(), language == "js");
     if (language == "python") {
@@ -72,7 +66,7 @@ TEST_F(AdapterCommandTest, TheSkeletonsKeepTheContract) {
     }
     const Outcome tested = hullbench({"adapter", "test", "my_" + language});
     EXPECT_EQ(tested.code, 0) << tested.out << tested.err;
-    testing::expect_says(tested.out, "my_" + language + " keeps the contract: ");
+    expect_says(tested.out, "my_" + language + " keeps the contract: ");
     EXPECT_EQ(tested.out.find("FAIL"), std::string::npos) << tested.out;
   }
 }
@@ -101,7 +95,7 @@ TEST_F(AdapterCommandTest, AMethodOfOnesOwnIsMeasuredBesideTheOthers) {
               phases["run"].get<std::int64_t>() + phases["extract"].get<std::int64_t>());
   }
   EXPECT_TRUE(report["manifests"].contains("sample"));
-  testing::expect_says(run.out, "| sample");
+  expect_says(run.out, "| sample");
   succeeded(hullbench({"validate", "run/report.json"}));
 }
 
@@ -114,11 +108,11 @@ TEST_F(AdapterCommandTest, AnotherProgramIsAnotherRun) {
   EXPECT_EQ(hullbench(words).code, 0) << "the same run goes on";
   const std::string helper = read_text(methods() / "hullbench_worker.py");
   write_text(methods() / "hullbench_worker.py", helper + "# changed\n");
-  testing::expect_refusal(hullbench(words), 2, "holds another run");
+  expect_refusal(hullbench(words), 2, "holds another run");
   write_text(methods() / "hullbench_worker.py", helper);
   EXPECT_EQ(hullbench(words).code, 0);
   write_text(methods() / "sample_worker.py", read_text(methods() / "sample_worker.py") + "# changed\n");
-  testing::expect_refusal(hullbench(words), 2, "holds another run");
+  expect_refusal(hullbench(words), 2, "holds another run");
 }
 
 TEST_F(AdapterCommandTest, TheContractSaysWhatToMend) {
@@ -156,9 +150,9 @@ TEST_F(AdapterCommandTest, AModuleThatIsMissingIsNotInstalled) {
   write_text(methods() / "sample_worker.py", "import hullbench_worker\nimport no_such_module\n");
   const Outcome tested = test_sample();
   EXPECT_EQ(tested.code, 6) << tested.out;
-  testing::expect_says(tested.out,
-                       "not_installed: No module named 'no_such_module', looked for by /usr/bin/python3; "
-                       "remedy: sudo apt-get install python3-numpy");
+  expect_says(tested.out,
+              "not_installed: No module named 'no_such_module', looked for by /usr/bin/python3; "
+              "remedy: sudo apt-get install python3-numpy");
 }
 
 // Node ends before the worker's first word, so what is printed names it and the command that installs
@@ -172,9 +166,9 @@ TEST_F(AdapterCommandTest, APackageThatNodeLacksIsNamedWithNodeAndTheCommandThat
   write_text(adapters / "lacking.json", manifest.dump());
   const Outcome tested = hullbench({"adapter", "test", "lacking"});
   EXPECT_EQ(tested.code, 4) << tested.out;
-  testing::expect_says(tested.out, "no-such-package");
-  testing::expect_says(tested.out,
-                       "started by 'node', and what it needs is installed by 'npm install no-such-package'");
+  expect_says(tested.out, "no-such-package");
+  expect_says(tested.out,
+              "started by 'node', and what it needs is installed by 'npm install no-such-package'");
 }
 
 TEST_F(AdapterCommandTest, AWorkerThatBreaksAtItsStartIsNotMissing) {
@@ -191,22 +185,21 @@ TEST_F(AdapterCommandTest, NamesOfModulesAndOfNpmsFilesAreGoodNames) {
 }
 
 TEST_F(AdapterCommandTest, NamesAndFilesThatAreTaken) {
-  testing::expect_refusal(hullbench({"adapter", "new", "My-Hull", "--lang", "js"}), 2, "small letters");
+  expect_refusal(hullbench({"adapter", "new", "My-Hull", "--lang", "js"}), 2, "small letters");
   for (const std::string taken : {"polylidar", "concaveman", "hullbench"}) {
-    testing::expect_refusal(hullbench({"adapter", "new", taken, "--lang", "js"}), 2, "already");
+    expect_refusal(hullbench({"adapter", "new", taken, "--lang", "js"}), 2, "already");
   }
-  testing::expect_refusal(hullbench({"adapter", "new", "sample", "--lang", "fortran"}), 2, "--lang");
-  testing::expect_refusal(hullbench({"adapter", "test", "nothing"}), 2, "there is no method 'nothing'");
-  testing::expect_refusal(hullbench({"adapter", "test", "polylidar", "--adapters", "nowhere"}), 2,
-                          "there is no folder nowhere");
+  expect_refusal(hullbench({"adapter", "new", "sample", "--lang", "fortran"}), 2, "--lang");
+  expect_refusal(hullbench({"adapter", "test", "nothing"}), 2, "there is no method 'nothing'");
+  expect_refusal(hullbench({"adapter", "test", "polylidar", "--adapters", "nowhere"}), 2,
+                 "there is no folder nowhere");
   fs::create_directories(methods());
   write_text(methods() / "sample_worker.mjs", "mine");
-  testing::expect_refusal(
-      hullbench({"adapter", "new", "sample", "--lang", "js", "--out", methods().string()}), 2,
-      "is there already");
+  expect_refusal(hullbench({"adapter", "new", "sample", "--lang", "js", "--out", methods().string()}), 2,
+                 "is there already");
   EXPECT_EQ(read_text(methods() / "sample_worker.mjs"), "mine");
   EXPECT_FALSE(fs::exists(methods() / "sample.json"));
-  testing::expect_refusal(hullbench({"run", "states", "--with", "polylidar", "--dry-run"}), 2, "built in");
+  expect_refusal(hullbench({"run", "states", "--with", "polylidar", "--dry-run"}), 2, "built in");
 }
 
 TEST_F(AdapterCommandTest, ACppMethodIsAFileAndALine) {
@@ -216,4 +209,4 @@ TEST_F(AdapterCommandTest, ACppMethodIsAFileAndALine) {
 }
 
 }  // namespace
-}  // namespace hullbench
+}  // namespace hullbench::testing

@@ -8,8 +8,9 @@
 
 #include "adapters/adapter.hpp"
 #include "adapters/adapter_module.hpp"
+#include "tests/complaint.hpp"
 
-namespace hullbench {
+namespace hullbench::testing {
 namespace {
 
 bool is_in_this_process(const std::string& library) {
@@ -29,8 +30,8 @@ TEST(AdapterModule, SaysWhyItCannotBeLoaded) {
     }
   };
   const std::string missing = refusal("/nowhere/libmethod.so");
-  EXPECT_NE(missing.find("/nowhere/libmethod.so"), std::string::npos) << missing;
-  EXPECT_NE(missing.find(" -> make build"), std::string::npos) << missing;
+  expect_says(missing, "/nowhere/libmethod.so");
+  expect_says(missing, " -> make build");
   EXPECT_NE(refusal("libc.so.6").find("hullbench_make_adapter"), std::string::npos) << "no method is in it";
 }
 
@@ -58,4 +59,4 @@ TEST(AdapterModule, BringsSpatialiteWhenItIsAskedFor) {
 }
 
 }  // namespace
-}  // namespace hullbench
+}  // namespace hullbench::testing

@@ -21,17 +21,10 @@
 #include "tests/infinity.hpp"
 #include "tests/point_sets.hpp"
 
-namespace hullbench {
+namespace hullbench::testing {
 namespace {
 
-using polylidar::MultiPolygon;
-using polylidar::Point;
-using polylidar::Polygon;
-using polylidar::Ring;
 using polylidar::testing::Random;
-using testing::box;
-using testing::kUnitSquare;
-using testing::reversed;
 
 TEST(AreaScores, OfTheGroundTruthItselfArePerfect) {
   const metrics::AreaScores scores = metrics::area_scores(kUnitSquare, kUnitSquare);
@@ -157,7 +150,6 @@ struct InvalidCase {
 
 std::vector<InvalidCase> invalid_cases() {
   constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
-  using testing::kInfinity;
   return {
       {"bow-tie", {{{{0, 0}, {2, 2}, {2, 0}, {0, 2}}, {}}}},
       {"hole outside its shell", {{box(0, 0, 1, 1), {box(3, 3, 4, 4)}}}},
@@ -214,7 +206,7 @@ TEST(AreaScores, RefuseAGroundTruthThatIsNone) {
   EXPECT_THROW(metrics::area_scores(kUnitSquare, {}), std::runtime_error);
   for (const InvalidCase& invalid : invalid_cases()) {
     SCOPED_TRACE(invalid.name);
-    testing::expect_complaint([&] { metrics::area_scores(kUnitSquare, invalid.shape); }, invalid.reason);
+    expect_complaint([&] { metrics::area_scores(kUnitSquare, invalid.shape); }, invalid.reason);
   }
 }
 
@@ -261,30 +253,29 @@ TEST(AreaScoresAgainstBoost, AgreeOnRandomPolygons) {
       truth.push_back(star_with_holes(random, {40, 0}, spread, corners, holes));
       result.push_back(star_with_holes(random, {41, 1}, spread, corners, holes));
     }
-    ASSERT_EQ(testing::boost_fault_in_detail(truth), "");
+    ASSERT_EQ(boost_fault_in_detail(truth), "");
     const metrics::AreaScores scores = metrics::area_scores(result, truth);
     ASSERT_TRUE(scores.valid) << scores.invalid_reason;
     // GEOS places crossings in double arithmetic, each within some ulps of a coordinate; a few hundred of
     // them move an area by far less than 1e-9 of it.
     const double tolerance = 1e-9 * scores.ground_truth_area;
-    EXPECT_NEAR(*scores.symmetric_difference_area, testing::boost_symmetric_difference_area(truth, result),
-                tolerance);
-    EXPECT_NEAR(scores.area, testing::boost_area(result), tolerance);
+    EXPECT_NEAR(*scores.symmetric_difference_area, boost_symmetric_difference_area(truth, result), tolerance);
+    EXPECT_NEAR(scores.area, boost_area(result), tolerance);
     EXPECT_NEAR(*scores.iou,
                 (scores.area + scores.ground_truth_area - *scores.symmetric_difference_area) /
                     (scores.area + scores.ground_truth_area + *scores.symmetric_difference_area),
                 1e-9);
     // What is not missing of the difference is too much; exact overlays are slow.
     if (seed % 6 == 0) {
-      const double missing = testing::boost_difference_area(truth, result);
+      const double missing = boost_difference_area(truth, result);
       EXPECT_NEAR(*scores.omission * scores.ground_truth_area, missing, tolerance);
       EXPECT_NEAR(*scores.commission * scores.ground_truth_area, *scores.symmetric_difference_area - missing,
                   tolerance);
     }
-    EXPECT_NEAR(*scores.perimeter_ratio, testing::boost_perimeter(result) / testing::boost_perimeter(truth),
+    EXPECT_NEAR(*scores.perimeter_ratio, boost_perimeter(result) / boost_perimeter(truth),
                 1e-12);  // sums of a few hundred lengths
   }
 }
 
 }  // namespace
-}  // namespace hullbench
+}  // namespace hullbench::testing

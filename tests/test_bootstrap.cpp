@@ -10,14 +10,12 @@
 #include "benchmarks/statistics/bootstrap.hpp"
 #include "tests/infinity.hpp"
 
-namespace hullbench {
+namespace hullbench::testing {
 namespace {
 
 using Times = std::vector<std::int64_t>;
 using Clusters = std::vector<std::vector<double>>;
 using Nested = std::vector<std::vector<statistics::Passes>>;
-
-using testing::kInfinity;
 
 void expect_interval(const std::optional<statistics::Interval>& interval, double low, double high) {
   ASSERT_TRUE(interval.has_value());
@@ -267,4 +265,4 @@ TEST(ClusteredMedianInterval, BesideTheLimitOfExactnessBothWaysAgree) {
 }
 
 }  // namespace
-}  // namespace hullbench
+}  // namespace hullbench::testing

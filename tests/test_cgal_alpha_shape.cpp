@@ -28,21 +28,14 @@
 #include "tests/infinity.hpp"
 #include "tests/point_sets.hpp"
 
-namespace hullbench {
-
-std::unique_ptr<Adapter> make_cgal_alpha_shape();
-
+namespace hullbench::testing {
 namespace {
 
 using polylidar::Options;
-using polylidar::testing::canonical;
-using polylidar::testing::core_hull;
 using polylidar::testing::PointSet;
 
-using testing::kInfinity;
-
 MultiPolygon run(const std::vector<Point>& points, double radius) {
-  return test::hull_of(*make_cgal_alpha_shape(), points, {{"alpha", radius * radius}});
+  return hull_of(*make_cgal_alpha_shape(), points, {{"alpha", radius * radius}});
 }
 
 // Limits that no triangle is near to, so that both filters must come to the same.
@@ -58,7 +51,7 @@ TEST(CgalAlphaShape, NamesTheFirstCoordinateThatIsNotFinite) {
   std::vector<Point> points = polylidar::testing::uniform_points(500, 1);
   points[317].y = kInfinity;
   points[400].x = std::nan("");
-  testing::expect_complaint<std::invalid_argument>([&] { make_cgal_alpha_shape()->load(points); }, "317");
+  expect_complaint<std::invalid_argument>([&] { make_cgal_alpha_shape()->load(points); }, "317");
 }
 
 TEST(CgalAlphaShape, OfNothingIsEmpty) {
@@ -101,11 +94,11 @@ TEST(CgalAlphaShape, WithoutAlphaTakesCgalsOptimalOne) {
     std::vector<Point> points = polylidar::testing::uniform_points(20 + 100 * seed, seed);
     std::erase_if(points, [](const Point& p) { return std::hypot(p.x - 0.4, p.y - 0.5) < 0.2; });
     const auto adapter = make_cgal_alpha_shape();
-    const MultiPolygon shape = test::hull_of(*adapter, points, {});
+    const MultiPolygon shape = hull_of(*adapter, points, {});
 
     const auto converted = CgalsOwn::converted(points);
     CgalsOwn::Shape cgal(converted.begin(), converted.end());
-    EXPECT_EQ(test::hull_of(*adapter, points, {{"alpha", *cgal.find_optimal_alpha(1)}}), shape);
+    EXPECT_EQ(hull_of(*adapter, points, {{"alpha", *cgal.find_optimal_alpha(1)}}), shape);
     EXPECT_EQ(shape.size(), 1U);
     const PointLocator inside(shape);
     EXPECT_TRUE(
@@ -218,4 +211,4 @@ TEST(CoreAgainstCgal, SameShapeOnNastyPointSets) {
 }
 
 }  // namespace
-}  // namespace hullbench
+}  // namespace hullbench::testing

@@ -16,22 +16,13 @@
 #include "tests/infinity.hpp"
 #include "tests/point_sets.hpp"
 
-namespace hullbench {
-
-std::unique_ptr<Adapter> make_cgal_delaunay();
-
+namespace hullbench::testing {
 namespace {
 
 using polylidar::Options;
-using polylidar::testing::canonical;
-using polylidar::testing::core_hull;
 using polylidar::testing::describe;
 using polylidar::testing::PointSet;
 using polylidar::testing::uniform_points;
-using test::hull_of;
-using test::parameters_of;
-
-using testing::kInfinity;
 
 MultiPolygon run(const std::vector<Point>& points, const Options& options) {
   return hull_of(*make_cgal_delaunay(), points, parameters_of(options));
@@ -45,7 +36,7 @@ int expect_the_same(const std::vector<Point>& points) {
     const MultiPolygon theirs = run(points, options);
     EXPECT_TRUE(canonical(theirs) == canonical(core_hull(points, options)));
     EXPECT_EQ(metrics::invalid_reason(theirs), "");
-    telling += theirs.size() + test::hole_count(theirs) > 1 ? 1 : 0;
+    telling += theirs.size() + hole_count(theirs) > 1 ? 1 : 0;
   }
   return telling;
 }
@@ -102,7 +93,7 @@ TEST(CgalDelaunay, SamePolygonsAsPolylidarsOnASampleWithAHole) {
       SCOPED_TRACE(describe(options));
       const MultiPolygon theirs = run(points, options);
       EXPECT_TRUE(canonical(theirs) == canonical(core_hull(points, options)));
-      EXPECT_GT(test::hole_count(theirs), 0U);
+      EXPECT_GT(hole_count(theirs), 0U);
     }
   }
 }
@@ -139,4 +130,4 @@ TEST(CgalDelaunay, SamePolygonsAsPolylidarsOnNastyPointSets) {
 }
 
 }  // namespace
-}  // namespace hullbench
+}  // namespace hullbench::testing

@@ -20,17 +20,8 @@
 #include "tests/point_sets.hpp"
 #include "tests/simple_hull.hpp"
 
-namespace hullbench {
-
-std::unique_ptr<Adapter> make_chi_shape();
-
+namespace hullbench::testing {
 namespace {
-
-using polylidar::testing::canonical;
-using polylidar::testing::core_hull;
-using test::hull_of;
-
-using testing::kInfinity;
 
 MultiPolygon chi_shape(const std::vector<Point>& points, double max_edge_length) {
   return hull_of(*make_chi_shape(), points, {{"max_edge_length", max_edge_length}});
@@ -172,10 +163,10 @@ TEST(ChiShape, OfNastyPointsIsOneSimplePolygonRoundAll) {
     if (chi_shape(points, kInfinity).empty()) continue;
     for (const double limit : {0.0, 0.05, 0.3}) {
       SCOPED_TRACE("limit " + std::to_string(limit));
-      test::expect_one_simple_polygon_round(points, chi_shape(points, limit));
+      expect_one_simple_polygon_round(points, chi_shape(points, limit));
     }
   }
 }
 
 }  // namespace
-}  // namespace hullbench
+}  // namespace hullbench::testing

@@ -6,34 +6,22 @@
 #include <cmath>
 #include <csignal>
 #include <filesystem>
-#include <nlohmann/json.hpp>
 #include <random>
 #include <regex>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "benchmarks/base/names.hpp"
 #include "polylidar/concave_hull.hpp"
 #include "tests/hullbench_test.hpp"
 #include "tests/point_file_texts.hpp"
 #include "tool/shapes/polygon_writers.hpp"
 
-namespace hullbench {
+namespace hullbench::testing {
 namespace {
 
-namespace fs = std::filesystem;
-using nlohmann::json;
-using polylidar::MultiPolygon;
-using polylidar::Point;
-using polylidar::Ring;
 using polylidar::tool::SvgCanvas;
-using testing::expect_refusal;
-using testing::Outcome;
-using testing::Points;
-using testing::Program;
-using testing::ProgramOptions;
-using testing::read_text;
-using testing::write_text;
 
 const std::vector<std::string> kMethods = {"--only", "polylidar",     "--only", "cgal_alpha_shape",
                                            "--only", "cgal_delaunay", "--only", "convex_hull"};
@@ -52,7 +40,7 @@ Points ring(std::size_t count, Point corner = {0, 0}) {
 }
 
 std::string csv(const Points& points, const std::string& header = "x,y\n") {
-  return header + testing::rows(points, ",");
+  return header + rows(points, ",");
 }
 
 bool has(const std::string& text, const std::string& part) {
@@ -121,11 +109,11 @@ MultiPolygon shape_in(const fs::path& geojson) {
 std::string path_of(const MultiPolygon& shape, const Points& frame) {
   const SvgCanvas canvas(polylidar::bounding_box(frame));
   std::string path;
-  for (const polylidar::Polygon& polygon : shape) path += svg_path(polygon, canvas);
+  for (const Polygon& polygon : shape) path += svg_path(polygon, canvas);
   return path;
 }
 
-class ChooseCommandTest : public testing::HullbenchTest {
+class ChooseCommandTest : public HullbenchTest {
  protected:
   Outcome choose(std::vector<std::string> arguments, const std::vector<std::string>& more = {}) const {
     arguments.insert(arguments.begin(), "choose");
@@ -141,8 +129,7 @@ class ChooseCommandTest : public testing::HullbenchTest {
   /// The shape that the line writes, in a shell that knows the programs.
   MultiPolygon shape_by(const std::string& line) const {
     const std::string path = "PATH='" + fs::path(HULLBENCH).parent_path().string() + "':$PATH; ";
-    const Outcome outcome =
-        testing::run_program({"/bin/sh", "-c", path + "rm -f *.geojson; " + line}, in_folder());
+    const Outcome outcome = run_program({"/bin/sh", "-c", path + "rm -f *.geojson; " + line}, in_folder());
     EXPECT_EQ(outcome.code, 0) << line << "\n" << outcome.err;
     for (const auto& entry : fs::directory_iterator(folder())) {
       if (entry.path().extension() == ".geojson") return shape_in(entry.path());
@@ -395,8 +382,8 @@ TEST_F(ChooseCommandTest, AnInterruptionLeavesNothing) {
   Program program(
       command({"choose", "points.csv", "--only", "hang", "--only", "convex_hull", "--timeout", "60"}),
       options);
-  ASSERT_TRUE(testing::wait_until([&] { return !fs::is_empty(folder() / "temporary"); }));
-  ASSERT_TRUE(testing::wait_until([&] { return testing::children_of(program.pid()).size() == 2; }));
+  ASSERT_TRUE(wait_until([&] { return !fs::is_empty(folder() / "temporary"); }));
+  ASSERT_TRUE(wait_until([&] { return children_of(program.pid()).size() == 2; }));
   program.send_signal(SIGINT);
   const Outcome outcome = program.wait();
   EXPECT_EQ(outcome.code, 130) << outcome.err;
@@ -408,4 +395,4 @@ TEST_F(ChooseCommandTest, AnInterruptionLeavesNothing) {
 }
 
 }  // namespace
-}  // namespace hullbench
+}  // namespace hullbench::testing

@@ -4,21 +4,20 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <nlohmann/json.hpp>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "benchmarks/base/names.hpp"
 #include "benchmarks/report/tables.hpp"
 #include "benchmarks/table/writers.hpp"
 #include "invented_shapes.hpp"
+#include "tests/complaint.hpp"
 
-namespace hullbench {
+namespace hullbench::testing {
 namespace {
 
-using nlohmann::json;
 using Row = std::vector<std::string>;
-using test::InventedShape;
 
 /// Members of a family: on the k-th every method takes k ms and errs by k %, and the convexities take turns.
 std::vector<InventedShape> members_of(const std::string& family, std::int64_t count, std::int64_t n,
@@ -67,13 +66,13 @@ constexpr const char* kByConvexityOthers = "invented_convexity_others";
 
 TEST(ClassTables, AreForMoreThanSixtyShapes) {
   const auto with = [](std::int64_t count) {
-    return report::make_document(test::report_on_shapes(members_of("star", count, 8000, {0.8})));
+    return report::make_document(report_on_shapes(members_of("star", count, 8000, {0.8})));
   };
-  EXPECT_TRUE(test::table_in(with(60), "invented_shapes"));
-  EXPECT_FALSE(test::table_in(with(60), kByConvexity));
+  EXPECT_TRUE(table_in(with(60), "invented_shapes"));
+  EXPECT_FALSE(table_in(with(60), kByConvexity));
   const table::Document document = with(61);
-  EXPECT_FALSE(test::table_in(document, "invented_shapes"));
-  const table::Table* section = test::table_in(document, kByConvexity);
+  EXPECT_FALSE(table_in(document, "invented_shapes"));
+  const table::Table* section = table_in(document, kByConvexity);
   ASSERT_TRUE(section);
   EXPECT_EQ(table::shown(*section).front(),
             (Row{"Convexity", "Method", "Shapes", "Failed", "Invalid", "L2 mean, %", "std", "max",
@@ -83,13 +82,13 @@ TEST(ClassTables, AreForMoreThanSixtyShapes) {
             (std::vector<Row>{{kHigh, "Polylidar (paper)", "61", "0", "0", "31.0", "17.8", "61.0", "31.0",
                                "17.8", "61.0", "46.5"}}));
   EXPECT_TRUE(section->caption.starts_with("61 shapes (")) << section->caption;
-  EXPECT_NE(section->caption.find("n = 8000"), std::string::npos) << section->caption;
+  expect_says(section->caption, "n = 8000");
 }
 
 TEST(ClassTables, HaveThePapersRowsBeneathOursOfStarPolygonsAtItsSize) {
   const table::Document document =
-      report::make_document(test::report_on_shapes(members_of("star", 61, 8000, {0.8, 0.6, 0.5})));
-  const table::Table* section = test::table_in(document, kByConvexity);
+      report::make_document(report_on_shapes(members_of("star", 61, 8000, {0.8, 0.6, 0.5})));
+  const table::Table* section = table_in(document, kByConvexity);
   ASSERT_TRUE(section);
   EXPECT_EQ(rows_of(*section, kHigh, "Polylidar, in the paper"),
             (std::vector<Row>{{kHigh, "Polylidar, in the paper", "–", "–", "–", "4.4", "0.5", "6.1", "4.6",
@@ -103,9 +102,9 @@ TEST(ClassTables, HaveThePapersRowsBeneathOursOfStarPolygonsAtItsSize) {
 TEST(ClassTables, HaveNoRowsOfThePaperAtOtherSizesAndOfOtherShapes) {
   for (const auto& [family, n] : {std::pair("star", 4000), std::pair("comb", 8000)}) {
     const table::Document document =
-        report::make_document(test::report_on_shapes(members_of(family, 61, n, {0.8, 0.5})));
-    EXPECT_FALSE(test::table_in(document, kByConvexity));
-    const table::Table* section = test::table_in(document, kByConvexityOthers);
+        report::make_document(report_on_shapes(members_of(family, 61, n, {0.8, 0.5})));
+    EXPECT_FALSE(table_in(document, kByConvexity));
+    const table::Table* section = table_in(document, kByConvexityOthers);
     ASSERT_TRUE(section) << family;
     EXPECT_FALSE(has_row_of_the_paper(*section));
     EXPECT_FALSE(has_remark(*section, "The paper's values"));
@@ -117,8 +116,8 @@ TEST(ClassTables, AShapeOnABorderIsInTheHigherClass) {
   std::vector<InventedShape> shapes = members_of("star", 62, 8000, {0.75, 0.55});
   shapes.push_back({"star-63", 8000, std::nextafter(0.75, 0), 1, 0.01});
   shapes.push_back({"star-64", 8000, std::nextafter(0.55, 0), 1, 0.01});
-  const table::Document document = report::make_document(test::report_on_shapes(shapes));
-  const table::Table* section = test::table_in(document, kByConvexity);
+  const table::Document document = report::make_document(report_on_shapes(shapes));
+  const table::Table* section = table_in(document, kByConvexity);
   ASSERT_TRUE(section);
   EXPECT_EQ(row_of(*section, kHigh, "Polylidar (paper)")[2], "31");
   EXPECT_EQ(row_of(*section, kMid, "Polylidar (paper)")[2], "32");
@@ -126,13 +125,13 @@ TEST(ClassTables, AShapeOnABorderIsInTheHigherClass) {
 }
 
 TEST(ClassTables, AnInvalidResultIsCountedAndNotInTheStatistics) {
-  json report = test::report_on_shapes(members_of("star", 61, 8000, {0.8}));
-  json& run = test::run_on(report, "polylidar", "star-61");
+  json report = report_on_shapes(members_of("star", 61, 8000, {0.8}));
+  json& run = run_on(report, "polylidar", "star-61");
   run["status"] = "invalid_output";
   run["detail"] = "the result is an invalid polygon: Self-intersection";
   run["metrics"]["valid"] = false;
   const table::Document document = report::make_document(report);
-  const table::Table* section = test::table_in(document, kByConvexity);
+  const table::Table* section = table_in(document, kByConvexity);
   ASSERT_TRUE(section);
   const Row row = row_of(*section, kHigh, "Polylidar (paper)");
   EXPECT_EQ(Row(row.begin() + 1, row.begin() + 8),
@@ -143,12 +142,12 @@ TEST(ClassTables, AnInvalidResultIsCountedAndNotInTheStatistics) {
 }
 
 TEST(ClassTables, AFailureIsMarkedAndNotInTheStatistics) {
-  json report = test::report_on_shapes(members_of("star", 61, 8000, {0.8}));
-  json& run = test::run_on(report, "spatialite", "star-61");
+  json report = report_on_shapes(members_of("star", 61, 8000, {0.8}));
+  json& run = run_on(report, "spatialite", "star-61");
   run["status"] = "timeout";
   run["detail"] = "no answer within 120 s";
   const table::Document document = report::make_document(report);
-  const table::Table* section = test::table_in(document, kByConvexity);
+  const table::Table* section = table_in(document, kByConvexity);
   ASSERT_TRUE(section);
   const Row row = row_of(*section, kHigh, "SpatiaLite (paper)");
   EXPECT_EQ(Row(row.begin() + 1, row.begin() + 6), (Row{"SpatiaLite (paper) [1]", "60", "1", "0", "30.5"}));
@@ -166,19 +165,19 @@ TEST(ClassTables, OtherFamiliesStandApartAndByKind) {
     const auto more = members_of(family, 3, 8000, {0.3});
     shapes.insert(shapes.end(), more.begin(), more.end());
   }
-  json report = test::report_on_shapes(shapes);
+  json report = report_on_shapes(shapes);
   for (const auto& [name, title] :
        {std::pair("star", "Star-shaped"), std::pair("comb", "Comb"), std::pair("spiral", "Spiral")}) {
     report["datasets"].push_back({{"name", name}, {"title", title}, {"members", 100}});
   }
   const table::Document document = report::make_document(report);
-  EXPECT_EQ(row_of(*test::table_in(document, kByConvexity), kHigh, "Polylidar (paper)")[2], "61");
-  const table::Table* others = test::table_in(document, kByConvexityOthers);
+  EXPECT_EQ(row_of(*table_in(document, kByConvexity), kHigh, "Polylidar (paper)")[2], "61");
+  const table::Table* others = table_in(document, kByConvexityOthers);
   ASSERT_TRUE(others);
   EXPECT_TRUE(others->caption.starts_with("6 shapes (comb and spiral), n = 8000, by convexity"))
       << others->caption;
   EXPECT_EQ(row_of(*others, kLow, "Polylidar (paper)")[2], "6");
-  const table::Table* kinds = test::table_in(document, "invented_kinds");
+  const table::Table* kinds = table_in(document, "invented_kinds");
   ASSERT_TRUE(kinds);
   EXPECT_EQ(row_of(*kinds, "Comb", "Polylidar (paper)")[2], "3");
   EXPECT_EQ(row_of(*kinds, "Spiral", "Polylidar (paper)")[2], "3");
@@ -186,41 +185,41 @@ TEST(ClassTables, OtherFamiliesStandApartAndByKind) {
 }
 
 TEST(ClassTables, AShapeThatNothingWasScoredOnHasNoClass) {
-  json report = test::report_on_shapes(members_of("star", 61, 8000, {0.8}));
+  json report = report_on_shapes(members_of("star", 61, 8000, {0.8}));
   for (json& run : report["runs"]) {
     if (run["dataset"] != "star-5") continue;
     run["status"] = "timeout";
     run["metrics"] = json::object();
   }
   const table::Document document = report::make_document(report);
-  EXPECT_EQ(row_of(*test::table_in(document, kByConvexity), "not known", "Polylidar (paper)")[2], "0");
+  EXPECT_EQ(row_of(*table_in(document, kByConvexity), "not known", "Polylidar (paper)")[2], "0");
 }
 
 TEST(ClassTables, ShapesWithPointsOfTheirOwnHaveThemOnAverage) {
-  const json report = test::report_on_shapes(
+  const json report = report_on_shapes(
       {{"floor-1", 80000, 0.5, 1, 0.01}, {"floor-2", 90000, 0.5, 2, 0.02}, {"floor-3", 90001, 0.5, 3, 0.03}});
   const table::Document document = report::make_document(report);
-  const table::Table* section = test::table_in(document, "invented_summary");
+  const table::Table* section = table_in(document, "invented_summary");
   ASSERT_TRUE(section);
   EXPECT_TRUE(section->caption.starts_with("3 shapes, 86667 points on average: ")) << section->caption;
 }
 
 TEST(ClassTables, FloorsThatThePaperHasNotAreApart) {
   const table::Document document =
-      report::make_document(test::report_on_shapes({{"floor-1", 80000, 0.5, 1, 0.01},
-                                                    {"floor-2", 90000, 0.5, 2, 0.02},
-                                                    {"lowfloor-1", 20000, 0.5, 9, 0.09}}));
-  const table::Table* papers_own = test::table_in(document, "invented_summary");
-  const table::Table* others = test::table_in(document, "invented_summary_others");
+      report::make_document(report_on_shapes({{"floor-1", 80000, 0.5, 1, 0.01},
+                                              {"floor-2", 90000, 0.5, 2, 0.02},
+                                              {"lowfloor-1", 20000, 0.5, 9, 0.09}}));
+  const table::Table* papers_own = table_in(document, "invented_summary");
+  const table::Table* others = table_in(document, "invented_summary_others");
   ASSERT_TRUE(papers_own);
   ASSERT_TRUE(others);
   EXPECT_TRUE(papers_own->caption.starts_with("2 shapes, 85000 points on average: ")) << papers_own->caption;
   EXPECT_TRUE(others->caption.starts_with("1 shapes, n = 20000: ")) << others->caption;
   EXPECT_TRUE(has_remark(*papers_own, "Table III"));
   EXPECT_FALSE(has_remark(*others, "The paper's values"));
-  ASSERT_TRUE(test::table_in(document, "invented_shapes_others"));
-  EXPECT_EQ(test::table_in(document, "invented_shapes")->rows.size(), 2U);
+  ASSERT_TRUE(table_in(document, "invented_shapes_others"));
+  EXPECT_EQ(table_in(document, "invented_shapes")->rows.size(), 2U);
 }
 
 }  // namespace
-}  // namespace hullbench
+}  // namespace hullbench::testing

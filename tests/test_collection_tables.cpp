@@ -2,33 +2,30 @@
 #include <gtest/gtest.h>
 
 #include <cstdint>
-#include <nlohmann/json.hpp>
 #include <regex>
 #include <string>
 #include <vector>
 
+#include "benchmarks/base/names.hpp"
 #include "invented_shapes.hpp"
 #include "tests/complaint.hpp"
 
-namespace hullbench {
+namespace hullbench::testing {
 namespace {
-
-using nlohmann::json;
-using testing::contains;
 
 // On the k-th letter every method takes k ms and errs by 10 k %.
 json letters_report(const std::vector<std::string>& letters) {
-  std::vector<test::InventedShape> shapes;
+  std::vector<InventedShape> shapes;
   for (const std::string& letter : letters) {
     const auto k = static_cast<std::int64_t>(shapes.size() + 1);
     shapes.push_back({letter, 2000, 0.5, k, 0.1 * static_cast<double>(k)});
   }
-  return test::report_on_shapes(shapes);
+  return report_on_shapes(shapes);
 }
 
 // With single spaces, whatever the columns' widths.
 std::string tables(const json& report) {
-  return std::regex_replace(test::markdown_of(report), std::regex(" +"), " ");
+  return std::regex_replace(markdown_of(report), std::regex(" +"), " ");
 }
 
 const std::vector<std::string> kLetters = {"letter_a", "letter_j", "letter_z"};
@@ -62,7 +59,7 @@ TEST(CollectionTables, OfOtherShapesHaveNoPublishedValues) {
 
 TEST(CollectionTables, MeansAreOfTheCasesThatAllSolvedAndAFailureIsNamed) {
   json report = letters_report(kLetters);
-  json& run = test::run_on(report, "spatialite", "letter_j");
+  json& run = run_on(report, "spatialite", "letter_j");
   run["status"] = "timeout";
   run["detail"] = "no answer within 120 s";
   const std::string text = tables(report);
@@ -79,7 +76,7 @@ TEST(CollectionTables, MeansAreOfTheCasesThatAllSolvedAndAFailureIsNamed) {
 TEST(CollectionTables, AMethodThatSolvedLessThanHalfNarrowsNobodysStatistics) {
   json report = letters_report(kLetters);
   for (const char* letter : {"letter_j", "letter_z"}) {
-    json& run = test::run_on(report, "spatialite", letter);
+    json& run = run_on(report, "spatialite", letter);
     run["status"] = "timeout";
     run["detail"] = "no answer within 120 s";
   }
@@ -108,9 +105,9 @@ TEST(CollectionTables, AMethodThatIsNotInstalledHasNoValues) {
 }
 
 TEST(CollectionTables, AreNotForAFewShapesThatThePaperHasNoTableOf) {
-  const std::string text = tables(test::invented_report({2000}));
+  const std::string text = tables(invented_report({2000}));
   EXPECT_FALSE(contains(text, "shapes, n =")) << text;
 }
 
 }  // namespace
-}  // namespace hullbench
+}  // namespace hullbench::testing

@@ -11,7 +11,6 @@
 #include <csignal>
 #include <filesystem>
 #include <map>
-#include <nlohmann/json.hpp>
 #include <random>
 #include <regex>
 #include <set>
@@ -21,29 +20,21 @@
 #include <utility>
 #include <vector>
 
+#include "benchmarks/base/names.hpp"
 #include "benchmarks/record/json_lines.hpp"
 #include "benchmarks/record/record.hpp"
 #include "benchmarks/run/method_catalog.hpp"
 #include "tests/complaint.hpp"
 #include "tests/hullbench_test.hpp"
 
-namespace hullbench {
+namespace hullbench::testing {
 namespace {
 
-namespace fs = std::filesystem;
-using nlohmann::json;
-using testing::expect_refusal;
-using testing::Outcome;
-using testing::Program;
-using testing::ProgramOptions;
-using testing::read_text;
-using testing::write_text;
-
-class CommandLineTest : public testing::HullbenchTest {
+class CommandLineTest : public HullbenchTest {
  protected:
   /// A plan file of polylidar on California; its path.
   std::string plan(const std::vector<int>& sizes, int repetitions) const {
-    return write(testing::small_plan("small", testing::california(sizes), repetitions));
+    return write(small_plan("small", california(sizes), repetitions));
   }
 
   std::string write_plan(const std::string& text) const {
@@ -101,8 +92,8 @@ std::vector<std::string> subcommands_in(const std::string& help) {
 void expect_every_method_in(const std::string& listing) {
   const std::vector<std::string> names = run::MethodCatalog(run::manifest_folders({})).names();
   EXPECT_GT(names.size(), 20U);
-  for (const std::string& name : names) testing::expect_says(listing, "  " + name + "  ");
-  testing::expect_says(listing, "remedy: ");
+  for (const std::string& name : names) expect_says(listing, "  " + name + "  ");
+  expect_says(listing, "remedy: ");
 }
 
 TEST_F(CommandLineTest, EverySubcommandsHelpHasAnExample) {
@@ -121,7 +112,7 @@ TEST_F(CommandLineTest, EverySubcommandsHelpHasAnExample) {
     const std::string help = hullbench(words).out;
     std::smatch found;
     ASSERT_TRUE(std::regex_search(help, found, std::regex("Example: (.*hullbench .+)\n"))) << help;
-    testing::expect_says(help, "Exit codes:");
+    expect_says(help, "Exit codes:");
     examples.emplace_back(name, found[1]);
   }
 
@@ -135,7 +126,7 @@ TEST_F(CommandLineTest, EverySubcommandsHelpHasAnExample) {
   const ProgramOptions options = {{}, {{"HULLBENCH_POSTGIS_DSN", "host=127.0.0.1 port=1"}}, false};
   for (const auto& [name, example] : examples) {
     if (left_out.contains(name)) continue;
-    const Outcome outcome = testing::run_program({"/bin/sh", "-c", path + example}, in_folder(options));
+    const Outcome outcome = run_program({"/bin/sh", "-c", path + example}, in_folder(options));
     EXPECT_EQ(outcome.code, 0) << example << "\n" << outcome.err;
     if (name == "list") expect_every_method_in(outcome.out);
   }
@@ -215,11 +206,10 @@ TEST_F(CommandLineTest, FullDisk) {
   const std::string small = plan({500}, 1000);
   // A limit on the size of files stands for a full disk; its signal is ignored, so that writing fails
   // instead.
-  expect_end(
-      testing::run_program(
-          {"/bin/sh", "-c", "trap '' XFSZ; ulimit -f 40; exec \"$0\" run \"$1\" --out run", HULLBENCH, small},
-          in_folder()),
-      1, "repetitions.jsonl: is the disk full?");
+  expect_end(run_program({"/bin/sh", "-c", "trap '' XFSZ; ulimit -f 40; exec \"$0\" run \"$1\" --out run",
+                          HULLBENCH, small},
+                         in_folder()),
+             1, "repetitions.jsonl: is the disk full?");
   EXPECT_EQ(hullbench({"run", small, "--out", "run"}).code, 0);
   expect_no_repetition_twice(folder() / "run", 1000);
 }
@@ -241,8 +231,8 @@ TEST_F(CommandLineTest, DryRunPrintsNamesAndDoesNothing) {
 
 TEST_F(CommandLineTest, ARunLeavesItsFilesAndSaysWhich) {
   const Outcome outcome = succeeded(hullbench({"run", plan({500}, 2)}));
-  testing::expect_says(outcome.err, "2 ok, 0 failed, 0 not installed");
-  testing::expect_says(outcome.err, "results/latest/report.json");
+  expect_says(outcome.err, "2 ok, 0 failed, 0 not installed");
+  expect_says(outcome.err, "results/latest/report.json");
   const fs::path latest = folder() / "results" / "latest";
   EXPECT_EQ(read_text(latest / "tables.md"), outcome.out);
   for (const char* file : {"report.json", "runs.jsonl", "run.json"}) {
@@ -267,9 +257,9 @@ TEST_F(CommandLineTest, OptionsReplaceThePlansValues) {
 TEST_F(CommandLineTest, SeveralPassesAreSaidAndRecorded) {
   const Outcome outcome =
       succeeded(hullbench({"run", plan({500}, 3), "--passes", "2", "--filter", "holes:0", "--out", "run"}));
-  testing::expect_says(outcome.err, "hullbench: pass 1 of 2: ");
-  testing::expect_says(outcome.err, "pass 1 of 2 is done; 'hullbench tables run' prints");
-  testing::expect_says(outcome.err, "hullbench: pass 2 of 2: ");
+  expect_says(outcome.err, "hullbench: pass 1 of 2: ");
+  expect_says(outcome.err, "pass 1 of 2 is done; 'hullbench tables run' prints");
+  expect_says(outcome.err, "hullbench: pass 2 of 2: ");
   const auto rows = lines_of(folder() / "run" / "runs.jsonl");
   ASSERT_EQ(rows.size(), 1U);
   EXPECT_EQ(rows[0]["passes"], (json{1, 1, 2}));
@@ -287,9 +277,9 @@ TEST_F(CommandLineTest, SeveralPassesAreSaidAndRecorded) {
 }
 
 TEST_F(CommandLineTest, AFilterOfThePlanIsForWhoAsksForNone) {
-  json source = testing::small_plan("small", testing::california({500}));
+  json source = small_plan("small", california({500}));
   source["filter"] = "holes:1";
-  const std::string small = testing::write_plan(folder(), source);
+  const std::string small = write(source);
   const std::string with_holes = "polylidar/ca/n:500/holes:1/protocol:paper\n";
   EXPECT_EQ(hullbench({"run", small, "--dry-run"}).out, with_holes);
   EXPECT_EQ(hullbench({"run", small, "--dry-run", "--filter", "holes:0"}).out,
@@ -299,15 +289,15 @@ TEST_F(CommandLineTest, AFilterOfThePlanIsForWhoAsksForNone) {
   ASSERT_EQ(rows.size(), 1U);
   EXPECT_EQ(rows[0]["name"].get<std::string>() + "\n", with_holes);
   source["filter"] = "cgal";
-  expect_refusal(hullbench({"run", testing::write_plan(folder(), source)}), 6,
+  expect_refusal(hullbench({"run", write(source)}), 6,
                  "no run of the plan 'small' has a name that matches the plan's own filter");
   source["filter"] = "(";
-  expect_refusal(hullbench({"run", testing::write_plan(folder(), source)}), 2, "is not a regular expression");
+  expect_refusal(hullbench({"run", write(source)}), 2, "is not a regular expression");
 }
 
 TEST_F(CommandLineTest, MembersOfAFamilyHaveARowEach) {
   const json cases = json::array({{{"dataset", "comb"}, {"members", 3}, {"n", {500}}}});
-  const std::string combs = testing::write_plan(folder(), testing::small_plan("combs", cases));
+  const std::string combs = write(small_plan("combs", cases));
   const Outcome outcome = succeeded(hullbench({"run", combs, "--out", "run"}));
   std::set<std::string> names;
   std::set<std::string> points;
@@ -318,7 +308,7 @@ TEST_F(CommandLineTest, MembersOfAFamilyHaveARowEach) {
   }
   EXPECT_EQ(names, (std::set<std::string>{"comb-1", "comb-2", "comb-3"}));
   EXPECT_EQ(points.size(), 3U) << "the members are different shapes";
-  testing::expect_says(outcome.out, "Comb 3");
+  expect_says(outcome.out, "Comb 3");
 }
 
 /// A scene in a folder of recordings: a floor of 4 m by 3 m with a point every 0.1 m, moved by `shift`
@@ -350,8 +340,8 @@ TEST_F(CommandLineTest, RecordedFloorsTakeThePlaceOfTheSimulatedOnes) {
     names.insert(row["dataset"]);
   }
   EXPECT_EQ(names, (std::set<std::string>{"recorded-1", "recorded-2"}));
-  testing::expect_says(outcome.out, "Recorded floor 1");
-  testing::expect_says(outcome.out, "Recorded floor 2");
+  expect_says(outcome.out, "Recorded floor 1");
+  expect_says(outcome.out, "Recorded floor 2");
   EXPECT_EQ(outcome.out.find("Simulated floor"), std::string::npos) << outcome.out;
 }
 
@@ -367,7 +357,7 @@ TEST_F(CommandLineTest, RecordingsAreAddedToTheRealPointsWithoutATruth) {
   EXPECT_EQ(rows[0]["metrics"]["l2"], nullptr);
   EXPECT_EQ(rows[0]["metrics"]["points_covered"], 1);
   EXPECT_GT(rows[0]["metrics"]["agreement_subsamples"].get<double>(), 0.9);
-  testing::expect_says(outcome.out, "Recorded points 1, 1271");
+  expect_says(outcome.out, "Recorded points 1, 1271");
 }
 
 TEST_F(CommandLineTest, RecordingsThatAreNotThere) {
@@ -479,8 +469,8 @@ TEST_F(CommandLineTest, ADatabaseThatAnswersNothingIsAVisibleRow) {
     const auto rows = lines_of(folder() / out / "runs.jsonl");
     ASSERT_EQ(rows.size(), 1U);
     EXPECT_EQ(rows[0]["status"], "not_installed");
-    testing::expect_says(outcome.err, "postgis does not start (not_installed): ");
-    testing::expect_says(outcome.err, "0 ok, 0 failed, 1 not installed");
+    expect_says(outcome.err, "postgis does not start (not_installed): ");
+    expect_says(outcome.err, "0 ok, 0 failed, 1 not installed");
   }
 }
 
@@ -491,9 +481,9 @@ TEST_F(CommandLineTest, PostgisThatIsNotInstalledIsARowWithItsRemedy) {
       succeeded(hullbench({"run", "states", "--filter", "(convex_hull|postgis)/hi/n:2000/holes:0",
                            "--repetitions", "1", "--out", "run"},
                           {{}, {{"HULLBENCH_POSTGRES_BIN", nothing.string()}}, false}));
-  testing::expect_says(outcome.err, "postgis does not start (not_installed): PostgreSQL is not installed");
-  testing::expect_says(outcome.err, "apt-get install postgresql-postgis");
-  testing::expect_says(outcome.err, "1 ok, 0 failed, 1 not installed");
+  expect_says(outcome.err, "postgis does not start (not_installed): PostgreSQL is not installed");
+  expect_says(outcome.err, "apt-get install postgresql-postgis");
+  expect_says(outcome.err, "1 ok, 0 failed, 1 not installed");
 }
 
 TEST_F(CommandLineTest, WhatWasNotInstalledIsMeasuredWhenItIsThere) {
@@ -519,29 +509,29 @@ TEST_F(CommandLineTest, WhatWasNotInstalledIsMeasuredWhenItIsThere) {
   ASSERT_EQ(run({"states"}, missing).code, 0);
   EXPECT_EQ(statuses("run/runs.jsonl"), (std::map<std::string, int>{{"not_installed", 1}, {"ok", 1}}));
   const Outcome second = run({"states"}, {});
-  testing::expect_says(second.err,
-                       "1 of 2 runs are finished and not measured again (--force starts anew); tried again "
-                       "because the method was not installed: 1\n");
+  expect_says(second.err,
+              "1 of 2 runs are finished and not measured again (--force starts anew); tried again "
+              "because the method was not installed: 1\n");
   EXPECT_EQ(statuses("run/runs.jsonl"), both);
-  testing::expect_says(run({"states"}, {}).err,
-                       "2 of 2 runs are finished and not measured again (--force starts anew)\n");
+  expect_says(run({"states"}, {}).err,
+              "2 of 2 runs are finished and not measured again (--force starts anew)\n");
 
   ASSERT_EQ(run({"states", "alphabet"}, missing).code, 0);
   const Outcome suite = run({"states", "alphabet"}, {});
   EXPECT_EQ(suite.err.find("is finished already"), std::string::npos) << suite.err;
-  testing::expect_says(suite.err, "4 ok, 0 failed, 0 not installed");
+  expect_says(suite.err, "4 ok, 0 failed, 0 not installed");
   for (const char* plan : {"states", "alphabet"}) {
     EXPECT_EQ(statuses(fs::path("suite") / plan / "runs.jsonl"), both) << plan;
   }
-  testing::expect_says(run({"states", "alphabet"}, {}).err, "State shapes is finished already");
+  expect_says(run({"states", "alphabet"}, {}).err, "State shapes is finished already");
 }
 
 TEST_F(CommandLineTest, AWorkerThatIsKilledIsARowAndTheRestIsMeasured) {
   const std::string small = plan({64000, 500}, 200);
   Program program(command({"run", small, "--out", "run"}), in_folder());
   const fs::path repetitions = folder() / "run" / "repetitions.jsonl";
-  ASSERT_TRUE(testing::wait_until([&] { return fs::exists(repetitions) && fs::file_size(repetitions) > 0; }));
-  const std::vector<pid_t> workers = testing::children_of(program.pid());
+  ASSERT_TRUE(wait_until([&] { return fs::exists(repetitions) && fs::file_size(repetitions) > 0; }));
+  const std::vector<pid_t> workers = children_of(program.pid());
   ASSERT_EQ(workers.size(), 1U);
   ::kill(workers[0], SIGKILL);
   const Outcome outcome = program.wait();
@@ -550,7 +540,7 @@ TEST_F(CommandLineTest, AWorkerThatIsKilledIsARowAndTheRestIsMeasured) {
   for (const json& row : lines_of(folder() / "run" / "runs.jsonl")) {
     ++counts[row["status"]];
     if (row["status"] != "crash") continue;
-    testing::expect_says(row["detail"].get<std::string>(), "SIGKILL");
+    expect_says(row["detail"].get<std::string>(), "SIGKILL");
   }
   EXPECT_EQ(counts, (std::map<std::string, int>{{"crash", 1}, {"ok", 3}}));
 }
@@ -565,16 +555,16 @@ class InterruptionTest : public CommandLineTest {
   Outcome stop_after(std::size_t lines, int signal, std::chrono::microseconds later = {}) {
     Program program(command({"run", the_plan(), "--out", "run"}), in_folder());
     const fs::path repetitions = folder() / "run" / "repetitions.jsonl";
-    EXPECT_TRUE(testing::wait_until([&] {
+    EXPECT_TRUE(wait_until([&] {
       const std::string text = read_text(repetitions);
       return static_cast<std::size_t>(std::count(text.begin(), text.end(), '\n')) >= lines;
     }));
     std::this_thread::sleep_for(later);
-    const std::vector<pid_t> workers = testing::children_of(program.pid());
+    const std::vector<pid_t> workers = children_of(program.pid());
     program.send_signal(signal);
     const Outcome outcome = program.wait();
     for (const pid_t worker : workers) {
-      EXPECT_TRUE(testing::wait_until([&] { return !testing::is_running(worker); })) << "a worker is left";
+      EXPECT_TRUE(wait_until([&] { return !is_running(worker); })) << "a worker is left";
     }
     return outcome;
   }
@@ -650,7 +640,7 @@ TEST_F(InterruptionTest, WithoutOutTheUnfinishedRunIsFoundAndAFinishedOneIsNotTo
   const std::vector<std::string> words = {"run", the_plan()};
   {
     Program program(command(words), in_folder());
-    ASSERT_TRUE(testing::wait_until([&] {
+    ASSERT_TRUE(wait_until([&] {
       const std::string text = read_text(folder() / "results" / "latest" / "repetitions.jsonl");
       return std::count(text.begin(), text.end(), '\n') >= kRepetitions + 5;
     }));
@@ -667,4 +657,4 @@ TEST_F(InterruptionTest, WithoutOutTheUnfinishedRunIsFoundAndAFinishedOneIsNotTo
 }
 
 }  // namespace
-}  // namespace hullbench
+}  // namespace hullbench::testing

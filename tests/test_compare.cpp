@@ -3,11 +3,11 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
 #include "benchmarks/base/files.hpp"
+#include "benchmarks/base/names.hpp"
 #include "benchmarks/report/compare.hpp"
 #include "benchmarks/report/compare_document.hpp"
 #include "benchmarks/report/report.hpp"
@@ -15,21 +15,16 @@
 #include "tests/complaint.hpp"
 #include "tests/hullbench_test.hpp"
 
-namespace hullbench {
+namespace hullbench::testing {
 namespace {
-
-namespace fs = std::filesystem;
-using nlohmann::json;
-using testing::expect_refusal;
-using testing::Outcome;
 
 /// A successful run of polylidar with these times.
 record::RunRecord run_on(const std::string& dataset, const std::vector<std::int64_t>& times) {
-  record::RunRecord run = test::invented_record();
+  record::RunRecord run = invented_record();
   run.dataset = dataset;
   run.time_ns = times;
   run.phases_ns.resize(times.size());
-  run.name = test::run_name(run);
+  run.name = run_name(run);
   run.id = record::run_identity(run);
   return run;
 }
@@ -115,7 +110,7 @@ TEST(CompareRuns, AMethodsMedianIsClusteredByShape) {
       b.push_back(run_on(dataset, {time}));
       for (record::RunRecord* run : {&a.back(), &b.back()}) {
         run->n = n;
-        run->name = test::run_name(*run);
+        run->name = run_name(*run);
       }
     }
   }
@@ -175,10 +170,10 @@ TEST(CompareDocument, OfManyPairsShowsThoseThatChanged) {
   EXPECT_EQ(rows(true), 300U);
 }
 
-class CompareCommandTest : public testing::HullbenchTest {
+class CompareCommandTest : public HullbenchTest {
  protected:
   CompareCommandTest() {
-    for (const char* name : {"a", "b"}) test::write_invented_run(path(name), {2000, 64000});
+    for (const char* name : {"a", "b"}) write_invented_run(path(name), {2000, 64000});
     write_json_file(path("report.json"), report::make_report(path("a")));
     fs::copy(path("a") / "runs.jsonl", path("lines.jsonl"));
   }
@@ -203,18 +198,18 @@ TEST_F(CompareCommandTest, TakesFoldersReportsAndLines) {
 
 TEST_F(CompareCommandTest, PrintsEveryFormat) {
   const json parsed = json::parse(compare("a", "b", {"--format", "json"}).out);
-  EXPECT_EQ(parsed["pairs"].size(), test::invented_records({2000, 64000}).size());
+  EXPECT_EQ(parsed["pairs"].size(), invented_records({2000, 64000}).size());
   EXPECT_EQ(parsed["pairs"][0]["ratio"], 1.0);
   EXPECT_EQ(parsed["methods"].size(), 5U);
   const Outcome csv = compare("a", "b", {"--format", "csv"});
   EXPECT_EQ(csv.out.substr(0, csv.out.find('\n')),
             "Run,\"A, ms\",\"B, ms\",B / A,95 %,B is,L2 of A,L2 of B,B - A");
-  testing::expect_says(compare("a", "b", {"--format", "latex"}).out, "\\label{tab:compare_runs}");
+  expect_says(compare("a", "b", {"--format", "latex"}).out, "\\label{tab:compare_runs}");
   expect_refusal(compare("a", "b", {"--format", "word"}), 2, "--format");
 }
 
 TEST_F(CompareCommandTest, NamesRunsThatOnlyOneHas) {
-  test::write_invented_run(path("c"), {2000});
+  write_invented_run(path("c"), {2000});
   expect_end(compare("a", "c"), 0, "", "Only in A, 14: polylidar/ca/n:64000/holes:0/protocol:paper");
 }
 
@@ -222,19 +217,19 @@ TEST_F(CompareCommandTest, RefusesWhatCannotBeCompared) {
   expect_refusal(compare("nowhere", "b"), 2, "there is no run nowhere");
   fs::create_directory(path("empty"));
   expect_refusal(compare("a", "empty"), 1, "run.json");
-  testing::write_text(path("broken.json"), "{\"runs\": 3}");
+  write_text(path("broken.json"), "{\"runs\": 3}");
   expect_refusal(compare("broken.json", "b"), 1, "broken.json is not a report");
-  testing::write_text(path("old.json"), "{\"runs\": [], \"schema_version\": 99}");
+  write_text(path("old.json"), "{\"runs\": [], \"schema_version\": 99}");
   expect_refusal(compare("old.json", "b"), 1, "old.json is of another schema version");
-  testing::write_text(path("bad.jsonl"), "{}\n");
+  write_text(path("bad.jsonl"), "{}\n");
   expect_refusal(compare("a", "bad.jsonl"), 1, "bad.jsonl");
-  testing::write_text(path("bad.json"), "{\"schema_version\": 1, \"runs\": [{}]}");
+  write_text(path("bad.json"), "{\"schema_version\": 1, \"runs\": [{}]}");
   expect_refusal(compare("a", "bad.json"), 1, "cannot be read");
-  testing::write_text(path("cut.jsonl.xz"), "no xz");
+  write_text(path("cut.jsonl.xz"), "no xz");
   expect_refusal(compare("cut.jsonl.xz", "b"), 1, "cut.jsonl.xz");
-  test::write_invented_run(path("other"), {500});
+  write_invented_run(path("other"), {500});
   expect_refusal(compare("a", "other"), 6, "have no run in common");
 }
 
 }  // namespace
-}  // namespace hullbench
+}  // namespace hullbench::testing

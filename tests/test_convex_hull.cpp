@@ -11,15 +11,8 @@
 #include "tests/point_sets.hpp"
 #include "tests/simple_hull.hpp"
 
-namespace hullbench {
-
-std::unique_ptr<Adapter> make_convex_hull();
-
+namespace hullbench::testing {
 namespace {
-
-using polylidar::testing::canonical;
-using polylidar::testing::core_hull;
-using test::hull_of;
 
 TEST(ConvexHull, HasTheCornersOnly) {
   const auto adapter = make_convex_hull();
@@ -46,9 +39,9 @@ TEST(ConvexHull, OfTiesAndRepeatsIsOnePolygonRoundAll) {
   for (std::uint64_t seed = 0; seed < 50; ++seed) {
     SCOPED_TRACE("seed " + std::to_string(seed));
     const std::vector<Point> points = polylidar::testing::integer_points(100, seed, 12);
-    test::expect_one_simple_polygon_round(points, hull_of(*adapter, points, {}));
+    expect_one_simple_polygon_round(points, hull_of(*adapter, points, {}));
   }
 }
 
 }  // namespace
-}  // namespace hullbench
+}  // namespace hullbench::testing

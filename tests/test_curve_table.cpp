@@ -1,32 +1,30 @@
 // The table of a plan with an axis.
 #include <gtest/gtest.h>
 
-#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
+#include "benchmarks/base/names.hpp"
 #include "benchmarks/report/curve_table.hpp"
 #include "benchmarks/report/labels.hpp"
 #include "benchmarks/report/tables.hpp"
 #include "benchmarks/table/writers.hpp"
 #include "invented_shapes.hpp"
 
-namespace hullbench {
+namespace hullbench::testing {
 namespace {
-
-using nlohmann::json;
 
 using Cells = std::vector<std::vector<std::string>>;
 
 /// Two shapes at three levels of noise. Polylidar's L2 on the first is 10 % plus ten times the level, on the
 /// second 20 points more.
 json noisy_report() {
-  std::vector<test::InventedShape> shapes;
+  std::vector<InventedShape> shapes;
   for (const char* shape : {"ca", "hi"}) {
     for (const char* level : {"2", "0", "0.5"})
       shapes.push_back({std::string(shape) + "~noise:" + level, 2000, 0.5});
   }
-  json report = test::report_on_shapes(shapes);
+  json report = report_on_shapes(shapes);
   report["plan"]["axis"] = {{"of", "noise"}, {"title", "Noise"}, {"unit", "h"}};
   for (json& run : report.at("runs")) {
     const std::string dataset = run.at("dataset").get<std::string>();
@@ -59,7 +57,7 @@ TEST(CurveTable, HasAColumnALevelAndAMedianACell) {
 
 TEST(CurveTable, AFailureIsInfinitelyBad) {
   json report = noisy_report();
-  json& run = test::run_on(report, "polylidar", "hi~noise:2");
+  json& run = run_on(report, "polylidar", "hi~noise:2");
   run["status"] = "crash";
   run["detail"] = "SIGSEGV";
   const std::vector<std::string> cells = table::shown(table_of(report)).at(1);
@@ -75,7 +73,7 @@ TEST(CurveTable, AnAxisOfPointsOrOfWords) {
   report["plan"]["axis"] = {{"of", "n"}, {"title", "Points"}, {"unit", ""}};
   EXPECT_EQ(table::shown(table_of(report)).at(0), (std::vector<std::string>{"Points", "2000", "Failed"}));
   report["plan"]["axis"]["of"] = "sampling";
-  test::run_on(report, "polylidar", "hi~noise:2")["dataset"] = "hi";
+  run_on(report, "polylidar", "hi~noise:2")["dataset"] = "hi";
   EXPECT_EQ(table::shown(table_of(report)).at(0),
             (std::vector<std::string>{"Points", "noise 2", "noise 0", "noise 0.5", "uniform", "Failed"}));
   report["plan"]["axis"]["of"] = "gap";
@@ -83,4 +81,4 @@ TEST(CurveTable, AnAxisOfPointsOrOfWords) {
 }
 
 }  // namespace
-}  // namespace hullbench
+}  // namespace hullbench::testing

@@ -11,7 +11,7 @@
 #include "tests/complaint.hpp"
 #include "tests/temporary_folder.hpp"
 
-namespace hullbench {
+namespace hullbench::testing {
 namespace {
 
 using polylidar::MultiPolygon;
@@ -186,9 +186,9 @@ TEST(Datasets, MembersOfFamiliesAreNumberedFromOne) {
 }
 
 TEST(Datasets, OnlyFloorsComeWithTheirPoints) {
-  EXPECT_EQ(testing::complaint_of<std::invalid_argument>([] { make_point_set("ca", false, 0, 1); }),
+  EXPECT_EQ(complaint_of<std::invalid_argument>([] { make_point_set("ca", false, 0, 1); }),
             "the data set 'ca' has no points of its own; ask for a number of them");
-  EXPECT_EQ(testing::complaint_of<std::invalid_argument>([] { make_point_set("floor-1", false, 100, 1); }),
+  EXPECT_EQ(complaint_of<std::invalid_argument>([] { make_point_set("floor-1", false, 100, 1); }),
             "the data set 'floor-1' comes with its points; ask for no number of them");
 }
 
@@ -227,14 +227,14 @@ TEST(Datasets, UnknownNameIsRefusedWithTheKnownOnes) {
     if (info.members > 0) known += "-1 to -" + std::to_string(info.members);
   }
   EXPECT_TRUE(known.starts_with("ca, hi, letter_a, ")) << known;
-  EXPECT_EQ(testing::complaint_of<std::invalid_argument>([] { make_point_set("california", false, 10, 1); }),
+  EXPECT_EQ(complaint_of<std::invalid_argument>([] { make_point_set("california", false, 10, 1); }),
             "there is no data set 'california'; choose one of: " + known);
-  EXPECT_EQ(testing::complaint_of<std::invalid_argument>([] { make_ground_truth("", true); }),
+  EXPECT_EQ(complaint_of<std::invalid_argument>([] { make_ground_truth("", true); }),
             "there is no data set ''; choose one of: " + known);
 }
 
 TEST(Datasets, MissingHolesVariantIsRefused) {
-  const testing::TemporaryFolder temporary;
+  const TemporaryFolder temporary;
   const std::filesystem::path& folder = temporary.path();
   const std::string triangle = R"({"type": "Polygon", "coordinates": [[[0, 0], [4, 0], [0, 3], [0, 0]]]})";
   std::ofstream(folder / "tri.geojson") << triangle;
@@ -244,11 +244,11 @@ TEST(Datasets, MissingHolesVariantIsRefused) {
       << sha256_hex(triangle) << R"("}]})";
   EXPECT_FALSE(datasets(folder).front().has_holes_variant);
   EXPECT_EQ(make_point_set("tri", false, 10, 1, folder).ground_truth_area, 6);
-  EXPECT_EQ(testing::complaint_of<std::invalid_argument>([] { make_ground_truth("letter_a", true); }),
+  EXPECT_EQ(complaint_of<std::invalid_argument>([] { make_ground_truth("letter_a", true); }),
             "the data set 'letter_a' has no variant with holes; choose one of: ca, hi, star-1 to -9800");
-  EXPECT_EQ(testing::complaint_of<std::invalid_argument>([&] { make_ground_truth("tri", true, folder); }),
+  EXPECT_EQ(complaint_of<std::invalid_argument>([&] { make_ground_truth("tri", true, folder); }),
             "the data set 'tri' has no variant with holes; choose one of: star-1 to -9800");
 }
 
 }  // namespace
-}  // namespace hullbench
+}  // namespace hullbench::testing

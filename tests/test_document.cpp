@@ -4,13 +4,13 @@
 #include <algorithm>
 #include <array>
 #include <filesystem>
-#include <nlohmann/json.hpp>
 #include <sstream>
 #include <stdexcept>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "benchmarks/base/names.hpp"
 #include "benchmarks/record/validate.hpp"
 #include "benchmarks/table/writers.hpp"
 #include "temporary_folder.hpp"
@@ -18,13 +18,8 @@
 #include "tests/infinity.hpp"
 #include "tests/program.hpp"
 
-namespace hullbench {
+namespace hullbench::testing {
 namespace {
-
-namespace fs = std::filesystem;
-using nlohmann::json;
-using testing::contains;
-using testing::read_text;
 
 table::Cell with_spread(double value, double spread) {
   table::Cell cell = table::Number(value);
@@ -65,8 +60,6 @@ std::string markdown(const std::vector<table::Document>& documents) {
   table::print_markdown(documents, out);
   return out.str();
 }
-
-using testing::kInfinity;
 
 TEST(Cell, ShowsItsValueAndWhatBelongsToIt) {
   EXPECT_EQ(table::Cell().text(), "–");
@@ -334,13 +327,11 @@ class WrittenTables : public ::testing::Test {
   }
 
   std::string complaint() const {
-    return testing::complaint_of([&] {
-      table::write_tables(folder(), {{"One", {small_table("a")}, {}, {}}});
-    });
+    return complaint_of([&] { table::write_tables(folder(), {{"One", {small_table("a")}, {}, {}}}); });
   }
 
  private:
-  testing::TemporaryFolder folder_;
+  TemporaryFolder folder_;
 };
 
 TEST_F(WrittenTables, AreMarkdownAndJsonAndTwoFilesATable) {
@@ -367,15 +358,15 @@ TEST_F(WrittenTables, ThatCannotBeWrittenAreASentenceWithTheFile) {
   fs::create_directory(folder() / "tables.md");
   EXPECT_EQ(complaint(), "cannot write " + (folder() / "tables.md").string() + ": Is a directory");
   fs::remove(folder() / "tables.md");
-  EXPECT_EQ(complaint(), testing::kNoComplaint);
+  EXPECT_EQ(complaint(), kNoComplaint);
 }
 
 TEST(WrittenTablesElsewhere, AFolderThatIsNotThereIsASentence) {
-  EXPECT_EQ(testing::complaint_of([&] {
+  EXPECT_EQ(complaint_of([&] {
               table::write_tables("/proc/hullbench", {{"One", {small_table("a")}, {}, {}}});
             }),
             "cannot write /proc/hullbench/tables: No such file or directory");
 }
 
 }  // namespace
-}  // namespace hullbench
+}  // namespace hullbench::testing

@@ -8,19 +8,15 @@
 #include <string>
 #include <string_view>
 
+#include "benchmarks/base/names.hpp"
 #include "datasets/families.hpp"
 #include "datasets/holes.hpp"
 #include "datasets/point_bytes.hpp"
 #include "datasets/sha256.hpp"
 #include "tests/boost_checks.hpp"
 
-namespace hullbench {
+namespace hullbench::testing {
 namespace {
-
-using polylidar::MultiPolygon;
-using polylidar::Point;
-using polylidar::Polygon;
-using polylidar::Ring;
 
 // Of a centre and a distance worked out from coordinates up to 200, rounded to 2.8e-14.
 constexpr double kFamilyRounding = 1e-12;
@@ -29,7 +25,7 @@ constexpr double kFamilyRounding = 1e-12;
 std::string digest(const ShapeFamily& family, std::size_t count, bool holes) {
   std::string bytes;
   for (std::size_t index = 0; index < count; ++index) {
-    for (const Ring& ring : testing::rings_of(family_shape(family, index, holes))) bytes += point_bytes(ring);
+    for (const Ring& ring : rings_of(family_shape(family, index, holes))) bytes += point_bytes(ring);
   }
   return sha256_hex(bytes);
 }
@@ -121,19 +117,19 @@ TEST(FamilyShape, HolesKeepClearOfEveryBoundary) {
   for (std::size_t index = 0; index < star.count; index += 10) {
     const MultiPolygon shape = family_shape(star, index, true);
     EXPECT_EQ(shape.front().shell, star.make(index).front().shell) << index;
-    EXPECT_EQ(testing::boost_fault(shape), "") << index;
+    EXPECT_EQ(boost_fault(shape), "") << index;
     for (const Ring& hole : shape.front().holes) {
       const Point centre{(hole[0].x + hole[kHoleCorners / 2].x) / 2,
                          (hole[0].y + hole[kHoleCorners / 2].y) / 2};
       EXPECT_NEAR(std::hypot(hole[0].x - centre.x, hole[0].y - centre.y), 7.5, kFamilyRounding) << index;
-      EXPECT_GE(testing::boost_distance(centre, shape.front().shell), 15 - kFamilyRounding) << index;
+      EXPECT_GE(boost_distance(centre, shape.front().shell), 15 - kFamilyRounding) << index;
       for (const Ring& other : shape.front().holes) {
         if (other == hole) continue;
-        EXPECT_GE(testing::boost_distance(centre, other), 15 - kFamilyRounding) << index;
+        EXPECT_GE(boost_distance(centre, other), 15 - kFamilyRounding) << index;
       }
     }
   }
 }
 
 }  // namespace
-}  // namespace hullbench
+}  // namespace hullbench::testing

@@ -5,27 +5,19 @@
 #include <chrono>
 #include <cmath>
 #include <filesystem>
-#include <nlohmann/json.hpp>
 #include <random>
 #include <thread>
 
+#include "benchmarks/base/names.hpp"
+#include "tests/complaint.hpp"
 #include "tests/las_file.hpp"
 #include "tests/point_file_texts.hpp"
 #include "tests/program.hpp"
 #include "tests/temporary_folder.hpp"
 #include "tool/commands/file_work.hpp"
 
-namespace hullbench {
+namespace hullbench::testing {
 namespace {
-
-namespace fs = std::filesystem;
-using nlohmann::json;
-using polylidar::Point;
-using testing::expect_refusal;
-using testing::LasFile;
-using testing::LasPoint;
-using testing::Outcome;
-using testing::write_text;
 
 /// A tile of 100 m with points everywhere but in its lake.
 LasFile tile(int column) {
@@ -40,7 +32,7 @@ LasFile tile(int column) {
     if (std::hypot(x - 5000, y - 5000) < 2000) continue;
     file.points.push_back({.x = x, .y = y, .classification = file.points.size() % 4 == 0 ? 6U : 2U});
   }
-  file.records = {testing::projected(25832)};
+  file.records = {projected(25832)};
   return file;
 }
 
@@ -50,12 +42,12 @@ class FootprintCommandTest : public ::testing::Test {
     write_text(folder_.path() / name, text);
     return (folder_.path() / name).string();
   }
-  static Outcome footprint(std::vector<std::string> arguments, const testing::ProgramOptions& options = {}) {
+  static Outcome footprint(std::vector<std::string> arguments, const ProgramOptions& options = {}) {
     arguments.insert(arguments.begin(), {POLYLIDAR, "footprint"});
-    return testing::run_program(arguments, options);
+    return run_program(arguments, options);
   }
 
-  testing::TemporaryFolder folder_;
+  TemporaryFolder folder_;
 };
 
 TEST_F(FootprintCommandTest, AFeatureForEveryFile) {
@@ -70,7 +62,7 @@ TEST_F(FootprintCommandTest, AFeatureForEveryFile) {
   const Outcome outcome = succeeded(footprint(arguments));
   EXPECT_EQ(outcome.err, "polylidar: 5 of 5 files are in the index\n");
   EXPECT_EQ(outcome.out, "");
-  const json index = json::parse(testing::read_text(out));
+  const json index = json::parse(read_text(out));
   EXPECT_EQ("urn:ogc:def:crs:EPSG::25832", index["crs"]["properties"]["name"].get<std::string>());
   ASSERT_EQ(index["features"].size(), 5U);
   for (int column = 0; column < 5; ++column) {
@@ -93,9 +85,9 @@ TEST_F(FootprintCommandTest, AFeatureForEveryFile) {
   }
   // Whatever the threads.
   arguments.insert(arguments.end(), {"--threads", "1"});
-  const std::string first = testing::read_text(out);
+  const std::string first = read_text(out);
   EXPECT_EQ(footprint(arguments).code, 0);
-  EXPECT_EQ(testing::read_text(out), first);
+  EXPECT_EQ(read_text(out), first);
 }
 
 TEST_F(FootprintCommandTest, AStreamGivesWhatThePointsInMemoryGive) {
@@ -113,13 +105,13 @@ TEST_F(FootprintCommandTest, AStreamGivesWhatThePointsInMemoryGive) {
   }
   const std::string large = file("large.las", las.text());
   ASSERT_GT(fs::file_size(large), std::size_t{1} << 23U);
-  las.records = {testing::geographic(4326)};
+  las.records = {geographic(4326)};
   las.scale = {1e-7, 1e-7};
   las.offset = {10, 60};
   const std::string degrees = file("degrees.las", las.text());
   for (LasPoint& p : las.points) p.x = static_cast<std::int32_t>(1e-4 * p.x * p.x);
   for (std::size_t i = 0; i < las.points.size(); ++i) las.points[i].y = las.points[i / 10 * 10].y;
-  las.records = {testing::projected(25832)};
+  las.records = {projected(25832)};
   const std::string uneven = file("uneven.las", las.text());
   for (const std::string& path : {large, degrees, uneven}) {
     for (const std::vector<std::string>& options :
@@ -162,9 +154,7 @@ TEST_F(FootprintCommandTest, AStreamGivesWhatThePointsInMemoryGive) {
   const std::string cut = file("cut.las", las.text().substr(0, (std::size_t{1} << 23U) + 1000));
   const Outcome outcome = footprint({cut, "--threads", "2"});
   EXPECT_EQ(outcome.code, 2);
-  EXPECT_NE(outcome.err.find("cut.las: it ends before the 300000 points that its header promises"),
-            std::string::npos)
-      << outcome.err;
+  expect_says(outcome.err, "cut.las: it ends before the 300000 points that its header promises");
 }
 
 TEST_F(FootprintCommandTest, ThePointsOfAFileTakeMemory) {
@@ -212,7 +202,7 @@ TEST_F(FootprintCommandTest, ABrokenFileIsToldAndTheOthersAreDone) {
   for (const char* words : {"short.las: it ends before the 8000 points", "there is no file /nowhere/tile.las",
                             "bad.csv, line 2: 'x' is not a number",
                             "polylidar: 1 of 4 files are in the index, 3 could not be read"}) {
-    EXPECT_NE(outcome.err.find(words), std::string::npos) << words << " in " << outcome.err;
+    expect_says(outcome.err, words);
   }
   const json index = json::parse(outcome.out);
   ASSERT_EQ(index["features"].size(), 1U);
@@ -227,9 +217,9 @@ TEST_F(FootprintCommandTest, WhereNoFileCanBeReadNothingIsWritten) {
     for (const char* words :
          {"there is no file /nowhere/tile.las", "it is a folder; give files, as in FOLDER/*.las",
           "none of the files could be read, so nothing is written"}) {
-      EXPECT_NE(outcome.err.find(words), std::string::npos) << words << " in " << outcome.err;
+      expect_says(outcome.err, words);
     }
-    EXPECT_EQ(testing::read_text(out), "an index from before");
+    EXPECT_EQ(read_text(out), "an index from before");
   }
 }
 
@@ -240,7 +230,7 @@ TEST_F(FootprintCommandTest, TheIndexNeverReplacesATile) {
     expect_refusal(footprint({files[0], files[1], option, "-o", files[1]}), 2,
                    "would replace the points that are read");
   }
-  EXPECT_EQ(testing::read_text(files[1]), text);
+  EXPECT_EQ(read_text(files[1]), text);
 }
 
 TEST_F(FootprintCommandTest, PlaneCoordinatesWithoutASystemAreTold) {
@@ -255,7 +245,7 @@ TEST_F(FootprintCommandTest, PlaneCoordinatesWithoutASystemAreTold) {
 TEST_F(FootprintCommandTest, OtherFormatsAndSystemsAndNothing) {
   LasFile degrees;
   degrees.scale = {1e-7, 1e-7};
-  degrees.records = {testing::geographic(4326)};
+  degrees.records = {geographic(4326)};
   std::mt19937 random(3);
   for (int i = 0; i < 3000; ++i) {
     degrees.points.push_back({.x = static_cast<std::int32_t>(100000000 + random() % 1000000),
@@ -268,7 +258,7 @@ TEST_F(FootprintCommandTest, OtherFormatsAndSystemsAndNothing) {
             "), EPSG:25832 (" + (folder_.path() / "plane.las").string() + "), none (" +
             (folder_.path() / "one.csv").string() + ")",
         (folder_.path() / "one.csv").string() + " has an empty shape"}) {
-    EXPECT_NE(outcome.err.find(words), std::string::npos) << words << " in " << outcome.err;
+    expect_says(outcome.err, words);
   }
   const json index = json::parse(outcome.out);
   EXPECT_FALSE(index.contains("crs"));
@@ -290,10 +280,8 @@ TEST_F(FootprintCommandTest, FilesWithoutPointsAreNamed) {
   for (const char* option : {"--threads=1", "--union"}) {
     const Outcome outcome =
         succeeded(footprint({none, file("whole.las", tile(0).text()), guessed, option, "--crs", "none"}));
-    EXPECT_NE(outcome.err.find("none.las has no points\n"), std::string::npos) << outcome.err;
-    EXPECT_NE(outcome.err.find("guessed.csv: the columns 'Breite' and 'Hoehe' are taken for x and y"),
-              std::string::npos)
-        << outcome.err;
+    expect_says(outcome.err, "none.las has no points\n");
+    expect_says(outcome.err, "guessed.csv: the columns 'Breite' and 'Hoehe' are taken for x and y");
   }
 }
 
@@ -341,12 +329,12 @@ class FootprintUnionTest : public FootprintCommandTest {
   }
   /// What `polylidar hull` makes of all points as one file.
   json hull_of_all(const std::vector<std::string>& options) const {
-    std::vector<std::string> arguments = {POLYLIDAR, "hull", file("all.csv", testing::rows(all_, ","))};
+    std::vector<std::string> arguments = {POLYLIDAR, "hull", file("all.csv", rows(all_, ","))};
     arguments.insert(arguments.end(), options.begin(), options.end());
-    return json::parse(testing::run_program(arguments).out);
+    return json::parse(run_program(arguments).out);
   }
 
-  testing::Points all_;
+  Points all_;
 };
 
 TEST_F(FootprintUnionTest, IsTheHullOfAllPoints) {
@@ -371,9 +359,8 @@ TEST_F(FootprintUnionTest, IsTheHullOfAllPoints) {
 
 TEST_F(FootprintUnionTest, TilesThatTouchAreOnePartWithoutALimitToo) {
   const Outcome outcome = succeeded(unite(tiles(10)));
-  EXPECT_NE(outcome.err.find("chosen from the points"), std::string::npos) << outcome.err;
-  EXPECT_NE(outcome.err.find("polylidar: 10 of 10 files are in the union\n"), std::string::npos)
-      << outcome.err;
+  expect_says(outcome.err, "chosen from the points");
+  expect_says(outcome.err, "polylidar: 10 of 10 files are in the union\n");
   EXPECT_EQ("urn:ogc:def:crs:EPSG::25832",
             json::parse(outcome.out)["crs"]["properties"]["name"].get<std::string>());
   const json properties = feature_of(outcome)["properties"];
@@ -393,7 +380,7 @@ TEST_F(FootprintUnionTest, TilesThatTouchAreOnePartWithoutALimitToo) {
 TEST_F(FootprintUnionTest, ABrokenFileIsToldAndTheOthersAreOne) {
   std::vector<std::string> files = tiles(3);
   const std::string broken = tile(1).text();
-  testing::write_text(files[1], broken.substr(0, broken.size() - 100));
+  write_text(files[1], broken.substr(0, broken.size() - 100));
   files.push_back(file("bad.csv", "1,2\n3,x\n"));
   for (const std::vector<std::string>& options : {std::vector<std::string>{}, {"--max-perimeter", "9"}}) {
     const Outcome outcome = unite(files, options);
@@ -401,7 +388,7 @@ TEST_F(FootprintUnionTest, ABrokenFileIsToldAndTheOthersAreOne) {
     for (const char* words :
          {"tile_1.las: it ends before the 8000 points", "bad.csv, line 2: 'x' is not a number",
           "2 of 4 files are in the union, 2 could not be read"}) {
-      EXPECT_NE(outcome.err.find(words), std::string::npos) << words << " in " << outcome.err;
+      expect_says(outcome.err, words);
     }
     const json properties = feature_of(outcome)["properties"];
     EXPECT_EQ(properties["files"], 2);
@@ -434,7 +421,7 @@ TEST_F(FootprintUnionTest, OneLimitForAllWhereAllPointsDoNotFitIntoMemory) {
   const json whole = feature_of(succeeded(unite(files, {"--crs", "25832"})))["properties"];
   EXPECT_TRUE(whole.contains("most_size"));
   const Outcome outcome = succeeded(unite(files, {"--crs", "25832", "--memory", "1"}));
-  EXPECT_NE(outcome.err.find("each file alone would get"), std::string::npos) << outcome.err;
+  expect_says(outcome.err, "each file alone would get");
   const json properties = feature_of(outcome)["properties"];
   EXPECT_LT(properties["alpha"].get<double>(), 60) << "the few points do not decide";
   EXPECT_GT(properties["area"].get<double>(), 0);
@@ -447,7 +434,7 @@ TEST_F(FootprintUnionTest, DegreesAreMetresAndStayAsTheyAre) {
     LasFile degrees;
     degrees.scale = {1e-7, 1e-7};
     degrees.offset = {10 + 0.1 * column, 60};
-    degrees.records = {testing::geographic(4326)};
+    degrees.records = {geographic(4326)};
     for (int i = 0; i < 40000; ++i) {
       degrees.points.push_back({.x = static_cast<std::int32_t>(random() % 1000000),
                                 .y = static_cast<std::int32_t>(random() % 500000)});
@@ -466,13 +453,13 @@ TEST_F(FootprintUnionTest, FilesOfAnyFormat) {
   const std::vector<std::string> files = tiles(4);
   std::vector<std::string> others;
   const auto part = [&](std::size_t k) {
-    return testing::Points(all_.begin() + static_cast<std::ptrdiff_t>(k * 8000),
-                           all_.begin() + static_cast<std::ptrdiff_t>((k + 1) * 8000));
+    return Points(all_.begin() + static_cast<std::ptrdiff_t>(k * 8000),
+                  all_.begin() + static_cast<std::ptrdiff_t>((k + 1) * 8000));
   };
-  others.push_back(file("0.csv", testing::rows(part(0), ",")));
-  others.push_back(file("1.geojson", testing::geojson_multipoint(part(1))));
-  others.push_back(file("2.npy", testing::npy_of<double>(part(2), "<f8")));
-  others.push_back(file("3.wkt", "MULTIPOINT (" + testing::listed(part(3), "", " ", "") + ")"));
+  others.push_back(file("0.csv", rows(part(0), ",")));
+  others.push_back(file("1.geojson", geojson_multipoint(part(1))));
+  others.push_back(file("2.npy", npy_of<double>(part(2), "<f8")));
+  others.push_back(file("3.wkt", "MULTIPOINT (" + listed(part(3), "", " ", "") + ")"));
   for (const std::vector<std::string>& options :
        {std::vector<std::string>{"--crs", "25832"}, {"--crs", "25832", "--max-perimeter", "9"}}) {
     EXPECT_EQ(feature_of(unite(others, options))["geometry"], feature_of(unite(files, options))["geometry"]);
@@ -498,7 +485,7 @@ TEST_F(FootprintCommandTest, ABuildWithoutGdalSaysHowToGetIt) {
   const std::string points = file("points.csv", "0,0\n2,0\n0,2\n");
   const auto hull = [](std::vector<std::string> arguments) {
     arguments.insert(arguments.begin(), {POLYLIDAR, "hull"});
-    return testing::run_program(arguments);
+    return run_program(arguments);
   };
   for (const std::string input : {"points.gpkg", "points.shp", "PG:dbname=gis"}) {
     expect_refusal(hull({input}), 2, input + ": it is read by GDAL, which this build is without");
@@ -523,7 +510,7 @@ TEST_F(FootprintCommandTest, LazGoesThroughAProgramInThePath) {
   const auto with_program = [&](const std::string& script) {
     write_text(tools / "laszip", "#!/bin/sh\n" + script + "\n");
     fs::permissions(tools / "laszip", fs::perms::owner_all);
-    testing::ProgramOptions options;
+    ProgramOptions options;
     options.environment["PATH"] = tools.string() + ":/usr/bin:/bin";
     return footprint({laz}, options);
   };
@@ -537,4 +524,4 @@ TEST_F(FootprintCommandTest, LazGoesThroughAProgramInThePath) {
 }
 
 }  // namespace
-}  // namespace hullbench
+}  // namespace hullbench::testing

@@ -2,17 +2,15 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
-#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
+#include "benchmarks/base/names.hpp"
 #include "tests/program.hpp"
 #include "tests/temporary_folder.hpp"
 
 namespace hullbench::testing {
 namespace {
-
-namespace fs = std::filesystem;
 
 /// A probe whose every time is `ns` and whose results are `result`. `first` is what it does before; it may
 /// set `outline` and `once`, the times of these steps.
@@ -58,8 +56,8 @@ Outcome run_gate(const fs::path& base, const fs::path& head, const fs::path& out
   return run_program(command);
 }
 
-nlohmann::json report_of(const fs::path& out) {
-  return nlohmann::json::parse(read_text(out / "gate.json"));
+json report_of(const fs::path& out) {
+  return json::parse(read_text(out / "gate.json"));
 }
 
 class GateProgram : public ::testing::Test {
@@ -74,7 +72,7 @@ class GateProgram : public ::testing::Test {
 
 TEST_F(GateProgram, EqualProbesPass) {
   expect_end(run_gate(probe("base", 1000), probe("head", 1000), out()), 0, "", "no regression");
-  const nlohmann::json report = report_of(out());
+  const json report = report_of(out());
   EXPECT_EQ(report.at("exit_code"), 0);
   EXPECT_EQ(report.at("samples").at("first").at("change").at("outline ca-8000").size(), 12U);
   EXPECT_TRUE(report.at("second").empty());
@@ -140,7 +138,7 @@ TEST_F(GateProgram, WithoutTimeToConfirmItIsInconclusive) {
 TEST_F(GateProgram, ASlowerHeadFailsAndIsConfirmed) {
   expect_end(run_gate(probe("base", 1000), probe("head", 1100), out()), 3, "",
              "regression: concave_hull ca-64000");
-  const nlohmann::json report = report_of(out());
+  const json report = report_of(out());
   ASSERT_FALSE(report.at("second").empty());
   // Measured with the roles reversed, said the right way round.
   EXPECT_NEAR(report.at("second").at(0).at("ratio").get<double>(), 1.1, 1e-9);

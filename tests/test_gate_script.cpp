@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "tests/complaint.hpp"
 #include "tests/program.hpp"
 #include "tests/temporary_folder.hpp"
 
@@ -67,7 +68,7 @@ TEST_F(GateScript, LeavesWhatElseIsInItsFolder) {
   for (const fs::path& path : kept) EXPECT_TRUE(fs::exists(path)) << path;
   EXPECT_TRUE(fs::exists(out() / "gate-work" / "base" / "tree" / "core" / "file"));
   EXPECT_TRUE(fs::exists(out() / "log" / "build-head.txt"));
-  EXPECT_NE(outcome.out.find("--out\n" + out().string() + "\n"), std::string::npos) << outcome.out;
+  expect_says(outcome.out, "--out\n" + out().string() + "\n");
 }
 
 TEST_F(GateScript, AFolderThatCannotBeMadeIsAUsageError) {

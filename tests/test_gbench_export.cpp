@@ -2,28 +2,25 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
-#include <nlohmann/json.hpp>
 #include <set>
 #include <string>
 
 #include "benchmarks/base/files.hpp"
+#include "benchmarks/base/names.hpp"
 #include "benchmarks/record/json_lines.hpp"
 #include "benchmarks/report/gbench_export.hpp"
 #include "benchmarks/report/report.hpp"
 #include "invented_run.hpp"
+#include "tests/complaint.hpp"
 #include "tests/program.hpp"
 #include "tests/temporary_folder.hpp"
 
-namespace hullbench {
+namespace hullbench::testing {
 namespace {
 
-namespace fs = std::filesystem;
-using nlohmann::json;
-using testing::Outcome;
-
 json exported(int copies = 1) {
-  const testing::TemporaryFolder folder;
-  test::write_invented_run(folder.path(), {2000});
+  const TemporaryFolder folder;
+  write_invented_run(folder.path(), {2000});
   const json report = report::make_report(folder.path());
   std::vector<json> reports(static_cast<std::size_t>(copies), report);
   if (copies > 1) reports[1]["plan"]["name"] = "second";
@@ -95,9 +92,9 @@ TEST(GbenchExport, OfSeveralReportsNamesTheirPlans) {
 }
 
 TEST(GbenchExport, ASecondRunOfANameHasItsOwn) {
-  const testing::TemporaryFolder folder;
-  test::write_invented_run(folder.path(), {2000});
-  record::RunRecord other = test::invented_record();
+  const TemporaryFolder folder;
+  write_invented_run(folder.path(), {2000});
+  record::RunRecord other = invented_record();
   other.seed = 2;
   other.id = record::run_identity(other);
   record::JsonLinesWriter(folder.path() / "runs.jsonl").append(other);
@@ -106,17 +103,17 @@ TEST(GbenchExport, ASecondRunOfANameHasItsOwn) {
 }
 
 TEST(GbenchExport, GoogleBenchmarksOwnToolComparesTwo) {
-  const std::string why = testing::missing({COMPARE_PY, SYSTEM_PYTHON ":numpy", SYSTEM_PYTHON ":scipy"});
+  const std::string why = missing({COMPARE_PY, SYSTEM_PYTHON ":numpy", SYSTEM_PYTHON ":scipy"});
   if (!why.empty()) GTEST_SKIP() << why;
-  const testing::TemporaryFolder folder;
-  json header = test::invented_run();
+  const TemporaryFolder folder;
+  json header = invented_run();
   header["plan"]["methods"] = json::array();
   for (const char* run : {"a", "b"}) {
-    test::write_invented_run(folder.path() / run, {2000});
+    write_invented_run(folder.path() / run, {2000});
     write_json_file(folder.path() / run / "run.json", header);
   }
   // In b everything takes half as long again.
-  std::vector<record::RunRecord> records = test::invented_records({2000});
+  std::vector<record::RunRecord> records = invented_records({2000});
   fs::remove(folder.path() / "b" / "runs.jsonl");
   record::JsonLinesWriter lines(folder.path() / "b" / "runs.jsonl");
   for (record::RunRecord& record : records) {
@@ -124,12 +121,12 @@ TEST(GbenchExport, GoogleBenchmarksOwnToolComparesTwo) {
     lines.append(record);
   }
   for (const std::string run : {"a", "b"}) {
-    succeeded(testing::run_program({HULLBENCH, "tables", run, "--export-gbench", run + ".json"},
-                                   {folder.path(), {}, false}));
+    succeeded(run_program({HULLBENCH, "tables", run, "--export-gbench", run + ".json"},
+                          {folder.path(), {}, false}));
   }
-  const Outcome compared = succeeded(
-      testing::run_program({SYSTEM_PYTHON, COMPARE_PY, "--no-color", "benchmarks", "a.json", "b.json"},
-                           {folder.path(), {}, false}));
+  const Outcome compared =
+      succeeded(run_program({SYSTEM_PYTHON, COMPARE_PY, "--no-color", "benchmarks", "a.json", "b.json"},
+                            {folder.path(), {}, false}));
   // 525 us and 787.5 us: +0.5 in its "Time" column; and its test of the three repetitions.
   const std::string name = "polylidar/ca/n:2000/holes:0/protocol:paper";
   const std::size_t line = compared.out.find(name + "_median ");
@@ -137,19 +134,19 @@ TEST(GbenchExport, GoogleBenchmarksOwnToolComparesTwo) {
   EXPECT_NE(compared.out.substr(line, compared.out.find('\n', line) - line).find("+0.5000"),
             std::string::npos)
       << compared.out;
-  EXPECT_NE(compared.out.find(name + "_pvalue"), std::string::npos);
-  EXPECT_NE(compared.out.find("U Test, Repetitions: 3 vs 3"), std::string::npos);
+  expect_says(compared.out, name + "_pvalue");
+  expect_says(compared.out, "U Test, Repetitions: 3 vs 3");
 }
 
 TEST(GbenchExport, AFileThatCannotBeWrittenIsRefusedBeforeTheWork) {
-  const testing::TemporaryFolder folder;
-  test::write_invented_run(folder.path() / "a", {2000});
+  const TemporaryFolder folder;
+  write_invented_run(folder.path() / "a", {2000});
   for (const std::string file : {"nowhere/x.json", "a"}) {
-    testing::expect_refusal(
-        testing::run_program({HULLBENCH, "tables", "a", "--export-gbench", file}, {folder.path(), {}, false}),
-        2, "cannot write " + file);
+    expect_refusal(
+        run_program({HULLBENCH, "tables", "a", "--export-gbench", file}, {folder.path(), {}, false}), 2,
+        "cannot write " + file);
   }
 }
 
 }  // namespace
-}  // namespace hullbench
+}  // namespace hullbench::testing

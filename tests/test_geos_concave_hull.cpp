@@ -16,23 +16,8 @@
 #include "tests/point_sets.hpp"
 #include "tests/simple_hull.hpp"
 
-namespace hullbench {
-
-std::unique_ptr<Adapter> make_chi_shape();
-std::unique_ptr<Adapter> make_geos_concave_hull();
-
+namespace hullbench::testing {
 namespace {
-
-using polylidar::testing::canonical;
-using polylidar::testing::core_hull;
-using polylidar::testing::hole_count;
-using test::hull_of;
-using test::kAreaTolerance;
-using test::kHoleArea;
-using test::kPoints;
-using test::square_points;
-
-using testing::kInfinity;
 
 MultiPolygon geos_hull(const std::vector<Point>& points, const Parameters& parameters) {
   return hull_of(*make_geos_concave_hull(), points, parameters);
@@ -42,7 +27,7 @@ TEST(GeosConcaveHull, TakesOneOfItsTwoLimits) {
   EXPECT_FALSE(has_defaults(make_geos_concave_hull()->info()));
   const std::vector<Point> points = square_points(100, 1, false);
   const auto refusal = [&](const Parameters& parameters) {
-    return testing::complaint_of<std::invalid_argument>([&] { geos_hull(points, parameters); });
+    return complaint_of<std::invalid_argument>([&] { geos_hull(points, parameters); });
   };
   EXPECT_EQ(refusal({{"length_ratio", 0.5}, {"max_edge_length", 0.5}}),
             "geos_concave_hull takes one of 'length_ratio' and 'max_edge_length': give only one of them");
@@ -104,9 +89,9 @@ TEST(GeosConcaveHull, OfRandomPointsIsOneSimplePolygonRoundAll) {
   for (std::uint64_t seed = 0; seed < 40; ++seed) {
     SCOPED_TRACE("seed " + std::to_string(seed));
     const std::vector<Point> points = polylidar::testing::uniform_points(5 + 5 * seed, seed);
-    test::expect_one_simple_polygon_round(points, geos_hull(points, {{"length_ratio", 0.2}}));
+    expect_one_simple_polygon_round(points, geos_hull(points, {{"length_ratio", 0.2}}));
   }
 }
 
 }  // namespace
-}  // namespace hullbench
+}  // namespace hullbench::testing

@@ -13,9 +13,6 @@
 namespace hullbench::footprint {
 namespace {
 
-using polylidar::MultiPolygon;
-using polylidar::Point;
-
 double hexagon_area(double height) {
   return height * height * std::numbers::sqrt3 / 2;
 }

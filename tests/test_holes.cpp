@@ -7,18 +7,14 @@
 #include <stdexcept>
 #include <utility>
 
+#include "benchmarks/base/names.hpp"
 #include "datasets/datasets.hpp"
 #include "datasets/holes.hpp"
 #include "tests/boost_checks.hpp"
 #include "tests/complaint.hpp"
 
-namespace hullbench {
+namespace hullbench::testing {
 namespace {
-
-using polylidar::MultiPolygon;
-using polylidar::Point;
-using polylidar::Polygon;
-using polylidar::Ring;
 
 // Coordinates up to 200 are rounded to 2.8e-14; a centre or a distance recovered from them is off by a few of
 // these.
@@ -31,8 +27,8 @@ Point centre_of(const Ring& hole) {
 /// The distance from `point` to the nearest ring of `shape` other than `own`, by Boost.Geometry.
 double distance_to_rings(const MultiPolygon& shape, const Point& point, const Ring& own) {
   double nearest = std::numeric_limits<double>::infinity();
-  for (const Ring& ring : testing::rings_of(shape)) {
-    if (ring != own) nearest = std::min(nearest, testing::boost_distance(point, ring));
+  for (const Ring& ring : rings_of(shape)) {
+    if (ring != own) nearest = std::min(nearest, boost_distance(point, ring));
   }
   return nearest;
 }
@@ -83,7 +79,7 @@ TEST_P(HolesIn, LeaveAValidShapeWithTheirAreaLess) {
   const auto& [name, radius] = GetParam();
   const MultiPolygon plain = make_ground_truth(name, false);
   const MultiPolygon with_holes = make_ground_truth(name, true);
-  EXPECT_EQ(testing::boost_fault(with_holes), "");
+  EXPECT_EQ(boost_fault(with_holes), "");
   const double hole_area =
       kHoleCorners / 2.0 * radius * radius * std::sin(2 * std::numbers::pi / kHoleCorners);
   // Sums of a few hundred products up to 4e4, each rounded to 7e-12.
@@ -103,7 +99,7 @@ TEST(WithCircularHoles, KeepClearOfHolesThatAreThereAlready) {
     const Ring& hole = result.front().holes[i];
     EXPECT_GE(distance_to_rings(result, centre_of(hole), hole), 2 - kHoleRounding);
   }
-  EXPECT_EQ(testing::boost_fault(result), "");
+  EXPECT_EQ(boost_fault(result), "");
 }
 
 TEST(WithCircularHoles, SeedAndCountDecide) {
@@ -116,7 +112,7 @@ TEST(WithCircularHoles, SeedAndCountDecide) {
 TEST(WithCircularHoles, NoRoomIsAnError) {
   const MultiPolygon square{{.shell = {{0, 0}, {10, 0}, {10, 10}, {0, 10}}, .holes = {}}};
   EXPECT_NO_THROW(with_circular_holes(square, 1, 2.4, 1));
-  EXPECT_EQ(testing::complaint_of([&] { with_circular_holes(square, 1, 2.6, 1); }),
+  EXPECT_EQ(complaint_of([&] { with_circular_holes(square, 1, 2.6, 1); }),
             "no room for another hole of radius 2.6 after 1000000 tries; ask for fewer or smaller holes, or "
             "another seed");
 }
@@ -129,4 +125,4 @@ TEST(WithCircularHoles, RadiusMustBeALength) {
 }
 
 }  // namespace
-}  // namespace hullbench
+}  // namespace hullbench::testing

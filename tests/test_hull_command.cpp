@@ -12,32 +12,22 @@
 #include <fstream>
 #include <iomanip>
 #include <limits>
-#include <nlohmann/json.hpp>
 #include <sstream>
 #include <thread>
 
 #include "adapters/wkb.hpp"
+#include "benchmarks/base/names.hpp"
 #include "benchmarks/metrics/validity.hpp"
 #include "polylidar/concave_hull.hpp"
+#include "tests/complaint.hpp"
 #include "tests/las_file.hpp"
 #include "tests/point_file_texts.hpp"
 #include "tests/program.hpp"
 #include "tests/temporary_folder.hpp"
 #include "tool/commands/commands.hpp"
 
-namespace hullbench {
+namespace hullbench::testing {
 namespace {
-
-namespace fs = std::filesystem;
-using nlohmann::json;
-using polylidar::MultiPolygon;
-using polylidar::Point;
-using polylidar::Ring;
-using testing::expect_refusal;
-using testing::Outcome;
-using testing::Points;
-using testing::read_text;
-using testing::write_text;
 
 /// Uniform in the square of side 10 without a disc.
 Points square_without_a_disc(std::size_t count, std::uint64_t seed) {
@@ -65,17 +55,16 @@ class HullCommandTest : public ::testing::Test {
     write_text(folder() / name, text);
     return (folder() / name).string();
   }
-  std::string points_file() const { return file("points.npy", testing::npy_of<double>(points_, "<f8")); }
+  std::string points_file() const { return file("points.npy", npy_of<double>(points_, "<f8")); }
 
   static Outcome hull(std::vector<std::string> arguments) {
     arguments.insert(arguments.begin(), {POLYLIDAR, "hull"});
-    return testing::run_program(arguments);
+    return run_program(arguments);
   }
   /// The same through the shell, after `before` and followed by `after`.
   static Outcome in_shell(const std::string& before, const std::string& arguments,
                           const std::string& after = "") {
-    return testing::run_program(
-        {"/bin/sh", "-c", before + " '" + POLYLIDAR + "' hull " + arguments + " " + after});
+    return run_program({"/bin/sh", "-c", before + " '" + POLYLIDAR + "' hull " + arguments + " " + after});
   }
   MultiPolygon shape(std::vector<std::string> options) const {
     options.insert(options.begin(), {points_file(), "--format", "wkb"});
@@ -101,7 +90,7 @@ class HullCommandTest : public ::testing::Test {
   Points points_ = ring_and_island();
 
  private:
-  testing::TemporaryFolder folder_;
+  TemporaryFolder folder_;
 };
 
 std::string four_digits(double value) {
@@ -134,7 +123,7 @@ TEST_F(HullCommandTest, OfOutlinesSaysThatTheyAreFilled) {
     points_.push_back({std::cos(angle) + 0.001 * (i % 3), std::sin(angle)});
   }
   const Outcome outcome = succeeded(hull({points_file()}));
-  EXPECT_NE(outcome.err.find("the points lie on outlines only"), std::string::npos) << outcome.err;
+  expect_says(outcome.err, "the points lie on outlines only");
   const json properties = json::parse(outcome.out)["properties"];
   EXPECT_FALSE(properties.contains("least_size"));
   EXPECT_NEAR(properties["area"].get<double>(), 3.14, 0.05);
@@ -188,14 +177,14 @@ TEST_F(HullCommandTest, SvgHasPathsDotsAndATitle) {
   // The lowest point is at the bottom: 20 from the side, and the lower of the two.
   const std::string corner =
       hull({file("three.csv", "0,0\n10,0\n0,5\n"), "--alpha", "100", "--format", "svg"}).out;
-  EXPECT_NE(corner.find("cx=\"20.00\" cy=\"520.00\""), std::string::npos) << corner;
-  EXPECT_NE(corner.find("cx=\"20.00\" cy=\"20.00\""), std::string::npos) << corner;
+  expect_says(corner, "cx=\"20.00\" cy=\"520.00\"");
+  expect_says(corner, "cx=\"20.00\" cy=\"20.00\"");
 }
 
 TEST_F(HullCommandTest, EveryInputFormatGivesTheSameBytes) {
   // GeoJSON, and columns of that name, are longitudes and latitudes.
   const std::string first = hull({points_file(), "--crs", "none"}).out;
-  for (const auto& form : testing::all_forms(points_)) {
+  for (const auto& form : all_forms(points_)) {
     const std::string path = file(form.name, form.text);
     EXPECT_EQ(hull({path, "--crs", "none"}).out, first) << form.name;
     EXPECT_EQ(in_shell("", "- --crs none < '" + path + "'").out, first)
@@ -215,7 +204,7 @@ TEST_F(HullCommandTest, ChoosesALimitAndSaysIt) {
                properties.contains("max_perimeter"));
   for (const std::string& words :
        {four_digits(least), four_digits(most), std::string("chosen from the points")}) {
-    EXPECT_NE(outcome.err.find(words), std::string::npos) << words << " in " << outcome.err;
+    expect_says(outcome.err, words);
   }
   EXPECT_EQ(from_geojson(json::parse(outcome.out)["geometry"]["coordinates"]),
             to_coordinates(polylidar::concave_hull(points_), points_));
@@ -236,7 +225,7 @@ TEST_F(HullCommandTest, FewPointsGiveTheEmptyGeometry) {
     const Outcome geojson = hull({path});
     EXPECT_EQ(geojson.code, 0) << text;
     EXPECT_EQ(json::parse(geojson.out)["geometry"]["coordinates"], json::array());
-    EXPECT_NE(geojson.err.find("no three distinct points"), std::string::npos) << geojson.err;
+    expect_says(geojson.err, "no three distinct points");
     EXPECT_EQ(hull({path, "--format", "wkt"}).out, "MULTIPOLYGON EMPTY\n");
     EXPECT_TRUE(shape_of(hull({path, "--format", "wkb", "--simplify", "1"})).empty());
     EXPECT_EQ(hull({path, "--format", "svg"}).code, 0);
@@ -316,13 +305,13 @@ TEST_F(HullCommandTest, HullbenchHullIsTheSameUnderItsOldName) {
        {std::vector<std::string>{}, {"--alpha", "0.3", "--simplify", "0.1"}, {"--alpha", "0"}, {"--help"}}) {
     std::vector<std::string> command = {HULLBENCH, "hull", points_file()};
     command.insert(command.end(), options.begin(), options.end());
-    const Outcome old = testing::run_program(command);
+    const Outcome old = run_program(command);
     command[0] = POLYLIDAR;
-    const Outcome current = testing::run_program(command);
+    const Outcome current = run_program(command);
     EXPECT_EQ(old.code, current.code);
     if (options == std::vector<std::string>{"--help"}) {
-      EXPECT_NE(old.out.find("\nExample: hullbench hull "), std::string::npos);
-      EXPECT_NE(current.out.find("\nExample: polylidar hull "), std::string::npos);
+      expect_says(old.out, "\nExample: hullbench hull ");
+      expect_says(current.out, "\nExample: polylidar hull ");
       const auto options_of = [](const std::string& help) {
         const std::size_t begin = help.find("\nPositionals:");
         return help.substr(begin, help.find("\nExample:") - begin);
@@ -345,9 +334,8 @@ TEST_F(HullCommandTest, UsageErrors) {
                  "there is no option --max-edge (did you mean --max-edge-length?)");
   expect_refusal(hull({points, "--detial", "2"}), 2, "there is no option --detial (did you mean --detail?)");
   expect_refusal(hull({points, points}), 2, "several files are one set of points with --stream only");
-  expect_refusal(testing::run_program({POLYLIDAR, "hul"}), 2,
-                 "there is no command 'hul' (did you mean hull?)");
-  expect_refusal(testing::run_program({POLYLIDAR, "points.csv"}), 2, "there is no command 'points.csv';");
+  expect_refusal(run_program({POLYLIDAR, "hul"}), 2, "there is no command 'hul' (did you mean hull?)");
+  expect_refusal(run_program({POLYLIDAR, "points.csv"}), 2, "there is no command 'points.csv';");
   expect_refusal(hull({points, "--detail", "0"}), 2, "--detail: '0' is not a number above 0;");
   expect_refusal(hull({points, "--max-parts", "0"}), 2, "--max-parts: '0' is not a number above 0;");
   expect_refusal(hull({points, "--alpha", "-1"}), 2, "--alpha: '-1' is not a number of 0 or more");
@@ -371,7 +359,7 @@ TEST_F(HullCommandTest, TheResultNeverReplacesThePoints) {
   for (const std::string& out : {points, (folder() / "." / "points.npy").string(), link}) {
     expect_refusal(hull({points, "-o", out}), 2, "would replace the points that are read; give another file");
   }
-  EXPECT_EQ(read_text(points), testing::npy_of<double>(points_, "<f8"));
+  EXPECT_EQ(read_text(points), npy_of<double>(points_, "<f8"));
   EXPECT_EQ(hull({points, "-o", "/dev/null"}).code, 0);
 }
 
@@ -407,7 +395,7 @@ TEST_F(HullCommandTest, WhatLooksLikeDegreesIsAskedAbout) {
   EXPECT_FALSE(said(berlin, {"--crs", "none"}));
   EXPECT_FALSE(said("1.1234567,2.3\n3.4,2.1\n1.7654321,4.5\n", {}));
   for (const char* option : {"--detail=1", "--union"}) {
-    const Outcome outcome = testing::run_program({POLYLIDAR, "footprint", file("place.csv", berlin), option});
+    const Outcome outcome = run_program({POLYLIDAR, "footprint", file("place.csv", berlin), option});
     EXPECT_NE(outcome.err.find(words), std::string::npos) << option;
   }
 }
@@ -432,7 +420,7 @@ TEST_F(HullCommandTest, OneFeatureAGroup) {
     text += (i % 3 == 0   ? "\"red; \\deep\""
              : i % 3 == 1 ? "blue"
                           : "") +
-            std::string(";") + testing::number(points_[i].x) + ";" + testing::number(points_[i].y) + "\n";
+            std::string(";") + number(points_[i].x) + ";" + number(points_[i].y) + "\n";
   }
   const std::string path = file("kinds.csv", text);
   for (const char* by : {"kind", "KIND", "1"}) {
@@ -503,29 +491,29 @@ TEST_F(HullCommandTest, OneAndMaxParts) {
 TEST_F(HullCommandTest, DegreesAreTakenAsMetres) {
   Points degrees;
   for (const auto& p : points_) degrees.push_back({10 + p.x / 100, 60 + p.y / 200});
-  const std::string geojson = file("degrees.geojson", testing::geojson_multipoint(degrees));
+  const std::string geojson = file("degrees.geojson", geojson_multipoint(degrees));
   const std::string named = file(
       "degrees.csv", "lat,lon\n" + [&] {
         std::string text;
-        for (const auto& p : degrees) text += testing::number(p.y) + "," + testing::number(p.x) + "\n";
+        for (const auto& p : degrees) text += number(p.y) + "," + number(p.x) + "\n";
         return text;
       }());
-  const std::string plain = file("plain.csv", testing::rows(degrees, ","));
+  const std::string plain = file("plain.csv", rows(degrees, ","));
   const Outcome outcome = hull({geojson, "--max-edge-length", "300"});
-  EXPECT_NE(outcome.err.find("longitude and latitude: lengths are in metres"), std::string::npos);
+  expect_says(outcome.err, "longitude and latitude: lengths are in metres");
   const json feature = json::parse(outcome.out);
   EXPECT_FALSE(feature.contains("crs"));
   // 1 unit of points_ is 556 m in both directions at latitude 60.
   const double metres = 555.975;
-  const double plane_area = polylidar::area(shape({"--max-edge-length", testing::number(300 / metres)}));
+  const double plane_area = polylidar::area(shape({"--max-edge-length", number(300 / metres)}));
   EXPECT_NEAR(feature["properties"]["area"].get<double>() / metres / metres, plane_area, 0.005 * plane_area);
   EXPECT_EQ(hull({named, "--max-edge-length", "300"}).out, outcome.out);
   EXPECT_EQ(hull({plain, "--max-edge-length", "300", "--crs", "EPSG:4326"}).out, outcome.out);
   const std::string plane = hull({plain, "--max-edge-length", "0.005"}).out;
   EXPECT_EQ(hull({geojson, "--max-edge-length", "0.005", "--crs", "none"}).out, plane);
-  EXPECT_EQ(hull({file("far.geojson", testing::geojson_multipoint({{500, 1}, {501, 1}, {500, 2}}))})
-                .err.find("metres"),
-            std::string::npos)
+  EXPECT_EQ(
+      hull({file("far.geojson", geojson_multipoint({{500, 1}, {501, 1}, {500, 2}}))}).err.find("metres"),
+      std::string::npos)
       << "no longitude is 500";
 }
 
@@ -542,7 +530,7 @@ TEST_F(HullCommandTest, TheCoordinateSystemIsPassedOn) {
   EXPECT_EQ(crs_of({csv, "--crs", "none"}), "");
   file("utm.prj", R"(PROJCS["Gauss_Kruger_somewhere",GEOGCS["GCS_Bessel"]])");
   EXPECT_EQ(crs_of({csv}), "");
-  EXPECT_NE(hull({csv}).err.find("the coordinate system has no EPSG number"), std::string::npos);
+  expect_says(hull({csv}).err, "the coordinate system has no EPSG number");
   EXPECT_EQ(crs_of({csv, "--crs", "EPSG:31467"}), "urn:ogc:def:crs:EPSG::31467");
   const std::string old = file(
       "old.geojson",
@@ -561,8 +549,8 @@ TEST_F(HullCommandTest, AWindowChoosesPointsOfEveryFormat) {
   for (const auto& p : points_) {
     if (p.x >= 1 && p.x <= 7 && p.y >= 0 && p.y <= 5.5) inside.push_back(p);
   }
-  for (const auto& form : {testing::PointFileText{"w.csv", testing::rows(points_, ",")},
-                           testing::PointFileText{"w.npy", testing::npy_of<double>(points_, "<f8")}}) {
+  for (const auto& form :
+       {PointFileText{"w.csv", rows(points_, ",")}, PointFileText{"w.npy", npy_of<double>(points_, "<f8")}}) {
     const json feature =
         json::parse(hull({file(form.name, form.text), "--alpha", "0.3", "--window", "1,0,7,5.5"}).out);
     EXPECT_EQ(feature["properties"]["points"], inside.size());
@@ -574,10 +562,10 @@ TEST_F(HullCommandTest, AWindowChoosesPointsOfEveryFormat) {
 
 TEST_F(HullCommandTest, WhatGzipCompressedIsUnpacked) {
   const std::string path = points_file();
-  const std::string csv = file("points.csv", testing::rows(points_, ","));
+  const std::string csv = file("points.csv", rows(points_, ","));
   const std::string expected_text = hull({csv}).out;
   if (hull({csv + ".gz"}).code == 0) FAIL() << "the test left a file behind";
-  ASSERT_EQ(testing::run_program({"gzip", "-k", csv, path}).code, 0);
+  ASSERT_EQ(run_program({"gzip", "-k", csv, path}).code, 0);
   const Outcome unpacked = hull({csv + ".gz"});
   if (unpacked.err.find("without zlib") != std::string::npos) GTEST_SKIP() << "zlib is missing";
   EXPECT_EQ(unpacked.out, expected_text) << unpacked.err;
@@ -594,9 +582,8 @@ TEST_F(HullCommandTest, WhatGzipCompressedIsUnpacked) {
 
 TEST_F(HullCommandTest, CtrlCWhileWaitingForInput) {
   // Opened for reading and writing, so that neither side waits for the other and no end comes.
-  testing::Program program(
-      {"/bin/sh", "-c", std::string("exec '") + POLYLIDAR + "' hull - <> '" + make_pipe() + "'"});
-  ASSERT_TRUE(testing::wait_until([&] {
+  Program program({"/bin/sh", "-c", std::string("exec '") + POLYLIDAR + "' hull - <> '" + make_pipe() + "'"});
+  ASSERT_TRUE(wait_until([&] {
     return read_text("/proc/" + std::to_string(program.pid()) + "/stat").find("(polylidar) S") !=
            std::string::npos;
   }));
@@ -613,15 +600,15 @@ TEST_F(HullCommandTest, AStreamGivesTheSameFile) {
   const Points points = many_points();
   const std::string text = "# no point\nid,x,y\n" + [&] {
     std::string rows;
-    for (const Point& p : points) rows += "1," + testing::number(p.x) + "," + testing::number(p.y) + "\n";
+    for (const Point& p : points) rows += "1," + number(p.x) + "," + number(p.y) + "\n";
     return rows;
   }();
   const std::vector<std::vector<std::string>> inputs = {
-      {file("double.npy", testing::npy_of<double>(points, "<f8"))},
-      {file("double.npy", testing::npy_of<double>(points, "<f8")), "--window", "1,1,9,9.5"},
-      {file("double.f64", testing::raw_of(points))},
-      {file("double.bin", testing::raw_of(points)), "--input", "raw", "--window", "1,1,9,9.5"},
-      {file("float.npy", testing::npy_of<float>(points, "<f4"))},
+      {file("double.npy", npy_of<double>(points, "<f8"))},
+      {file("double.npy", npy_of<double>(points, "<f8")), "--window", "1,1,9,9.5"},
+      {file("double.f64", raw_of(points))},
+      {file("double.bin", raw_of(points)), "--input", "raw", "--window", "1,1,9,9.5"},
+      {file("float.npy", npy_of<float>(points, "<f4"))},
       {file("columns.csv", text), "--columns", "x,y"}};
   for (const std::vector<std::string>& input : inputs) {
     for (const std::string format : {"geojson", "wkb", "wkt"}) {
@@ -632,7 +619,7 @@ TEST_F(HullCommandTest, AStreamGivesTheSameFile) {
         arguments.emplace_back("--stream");
         const Outcome streamed = succeeded(hull(arguments));
         EXPECT_EQ(streamed.out, kept.out) << input[0] << " " << format << " " << limit;
-        EXPECT_NE(streamed.err.find("points are near the outline"), std::string::npos);
+        expect_says(streamed.err, "points are near the outline");
       }
     }
   }
@@ -640,12 +627,12 @@ TEST_F(HullCommandTest, AStreamGivesTheSameFile) {
 
 TEST_F(HullCommandTest, AStreamSaysWhatItCannotDo) {
   Points points = many_points();
-  const std::string npy = file("many.npy", testing::npy_of<double>(points, "<f8"));
+  const std::string npy = file("many.npy", npy_of<double>(points, "<f8"));
   for (std::size_t i = 0; i < points.size(); ++i) {
     const Point& middle = points[i / 30 * 30];
     points[i] = {middle.x + 0.002 * points[i].x, middle.y + 0.002 * points[i].y};
   }
-  const std::string clustered = file("clustered.npy", testing::npy_of<double>(points, "<f8"));
+  const std::string clustered = file("clustered.npy", npy_of<double>(points, "<f8"));
   EXPECT_EQ(succeeded(hull({clustered, "--stream"})).out, hull({clustered}).out) << "put into memory";
   for (const auto& [arguments, sentence] : std::vector<std::pair<std::vector<std::string>, std::string>>{
            {{clustered, "--memory", "1"},
@@ -672,14 +659,14 @@ TEST_F(HullCommandTest, AStreamWithoutPointsSaysSo) {
 TEST_F(HullCommandTest, RawDoublesAreRead) {
   const std::string first = hull({points_file(), "--alpha", "0.3"}).out;
   for (const char* name : {"points.f64", "points.raw", "POINTS.F64"}) {
-    EXPECT_EQ(hull({file(name, testing::raw_of(points_)), "--alpha", "0.3"}).out, first) << name;
+    EXPECT_EQ(hull({file(name, raw_of(points_)), "--alpha", "0.3"}).out, first) << name;
   }
-  const std::string path = file("points.bin", testing::raw_of(points_));
+  const std::string path = file("points.bin", raw_of(points_));
   EXPECT_EQ(hull({path, "--input", "raw", "--alpha", "0.3"}).out, first);
   EXPECT_EQ(in_shell("cat '" + path + "' |", "- --input raw --alpha 0.3").out, first);
   const std::string boxed = hull({points_file(), "--alpha", "0.3", "--window", "1,0,7,5.5"}).out;
   EXPECT_EQ(hull({path, "--input", "raw", "--alpha", "0.3", "--window", "1,0,7,5.5"}).out, boxed);
-  ASSERT_EQ(testing::run_program({"gzip", "-k", file("packed.f64", testing::raw_of(points_))}).code, 0);
+  ASSERT_EQ(run_program({"gzip", "-k", file("packed.f64", raw_of(points_))}).code, 0);
   const Outcome unpacked = hull({(folder() / "packed.f64.gz").string(), "--alpha", "0.3"});
   if (unpacked.err.find("without zlib") == std::string::npos) {
     EXPECT_EQ(unpacked.out, first) << unpacked.err;
@@ -687,17 +674,17 @@ TEST_F(HullCommandTest, RawDoublesAreRead) {
 
   // Coordinates that begin as gzip, zip, LAS, UTF-8 and a comment do.
   for (const std::string start : {"\x1F\x8B", "PK\x03\x04", "LASF", "\xEF\xBB\xBF", "# point"}) {
-    std::string bytes = testing::raw_of({{1, 2}, {3, 4}, {1, 5}});
+    std::string bytes = raw_of({{1, 2}, {3, 4}, {1, 5}});
     bytes.replace(0, std::min<std::size_t>(start.size(), 6), start.substr(0, 6));
     const Outcome outcome = hull({file("odd.raw", bytes), "--alpha", "9"});
     EXPECT_EQ(outcome.code, 0) << outcome.err;
     EXPECT_EQ(json::parse(outcome.out)["properties"]["points"], 3);
   }
-  expect_refusal(hull({file("cut.f64", testing::raw_of(points_) + "abc")}), 2,
+  expect_refusal(hull({file("cut.f64", raw_of(points_) + "abc")}), 2,
                  "cut.f64: its size is no multiple of 16 bytes");
   expect_refusal(in_shell("head -c 1000 '" + path + "' |", "- --input raw"), 2,
                  "standard input: its size is no multiple of 16 bytes");
-  expect_refusal(hull({file("nan.f64", testing::raw_of({{1, 2}, {0.0 / 0.0, 1}}))}), 2,
+  expect_refusal(hull({file("nan.f64", raw_of({{1, 2}, {0.0 / 0.0, 1}}))}), 2,
                  "point 2 has a coordinate that is not finite");
 }
 
@@ -729,16 +716,16 @@ class ShardTest : public HullCommandTest {
       command.insert(command.end(),
                      {"--stream", "--shard", std::to_string(number) + "/" + std::to_string(count), "--out",
                       made.back()});
-      const Outcome outcome = testing::run_program(command);
+      const Outcome outcome = run_program(command);
       EXPECT_EQ(outcome.code, 0) << outcome.err;
       EXPECT_EQ(outcome.out, "");
-      EXPECT_NE(outcome.err.find(": shard " + std::to_string(number) + " of "), std::string::npos);
+      expect_says(outcome.err, ": shard " + std::to_string(number) + " of ");
     }
     return made;
   }
   static Outcome merge(std::vector<std::string> arguments) {
     arguments.insert(arguments.begin(), {POLYLIDAR, "merge"});
-    return testing::run_program(arguments);
+    return run_program(arguments);
   }
   std::vector<std::string> names_in_folder() const {
     std::vector<std::string> names;
@@ -752,7 +739,7 @@ class ShardTest : public HullCommandTest {
 TEST_F(ShardTest, ShardsGiveTheBytesOfOneRun) {
   const Points uniform = many_points();
   const Points lattice = lattice_with_copies();
-  testing::LasFile las;
+  LasFile las;
   for (const Point& p : uniform) {
     las.points.push_back(
         {.x = static_cast<std::int32_t>(p.x * 100), .y = static_cast<std::int32_t>(p.y * 100)});
@@ -761,12 +748,12 @@ TEST_F(ShardTest, ShardsGiveTheBytesOfOneRun) {
   const Points head(lattice.begin(), lattice.begin() + static_cast<std::ptrdiff_t>(half));
   const Points tail(lattice.begin() + static_cast<std::ptrdiff_t>(half), lattice.end());
   const std::vector<std::vector<std::string>> inputs = {
-      {file("one.npy", testing::npy_of<double>(uniform, "<f8")), "--max-perimeter", "0.3"},
-      {file("one.f64", testing::raw_of(uniform)), "--alpha", "0.09", "--window", "1,1,9,9.5"},
-      {file("one.csv", testing::rows(uniform, ",")), "--max-edge-length", "0.2", "--crs", "EPSG:25832"},
+      {file("one.npy", npy_of<double>(uniform, "<f8")), "--max-perimeter", "0.3"},
+      {file("one.f64", raw_of(uniform)), "--alpha", "0.09", "--window", "1,1,9,9.5"},
+      {file("one.csv", rows(uniform, ",")), "--max-edge-length", "0.2", "--crs", "EPSG:25832"},
       {file("one.las", las.text()), "--max-perimeter", "0.3"},
-      {file("head.csv", testing::rows(head, " ")), file("tail.npy", testing::npy_of<double>(tail, "<f8")),
-       "--max-perimeter", "0.9"}};
+      {file("head.csv", rows(head, " ")), file("tail.npy", npy_of<double>(tail, "<f8")), "--max-perimeter",
+       "0.9"}};
   for (std::size_t i = 0; i < inputs.size(); ++i) {
     std::vector<std::string> arguments = inputs[i];
     arguments.emplace_back("--stream");
@@ -796,8 +783,8 @@ TEST_F(ShardTest, ShardsGiveTheBytesOfOneRun) {
 TEST_F(ShardTest, SomeShardsAreEmpty) {
   Points flat = many_points();
   for (Point& p : flat) p.y *= 0.001;
-  const std::vector<std::string> arguments = {file("flat.npy", testing::npy_of<double>(flat, "<f8")),
-                                              "--alpha", "0.006"};
+  const std::vector<std::string> arguments = {file("flat.npy", npy_of<double>(flat, "<f8")), "--alpha",
+                                              "0.006"};
   const std::vector<std::string> few = {file("few.csv", "0,0\n1,0\n0,1\n"), "--alpha", "9"};
   for (const auto& input : {arguments, few}) {
     std::vector<std::string> whole = input;
@@ -825,7 +812,7 @@ TEST_F(ShardTest, WhatTakesMoreThanASecondIsShown) {
   };
   const std::string out = (folder() / "out.geojson").string();
   const auto expect_line = [](const std::string& err, const std::string& line) {
-    EXPECT_NE(err.find("\r\033[K" + line + "\r\033[K"), std::string::npos) << err;
+    expect_says(err, "\r\033[K" + line + "\r\033[K");
   };
   tool::HullCommand hull_command;
   hull_command.inputs = {pipe};
@@ -848,7 +835,7 @@ TEST_F(ShardTest, WhatTakesMoreThanASecondIsShown) {
 }
 
 TEST_F(ShardTest, ShardsSayWhatTheyCannotDo) {
-  const std::string npy = file("many.npy", testing::npy_of<double>(many_points(), "<f8"));
+  const std::string npy = file("many.npy", npy_of<double>(many_points(), "<f8"));
   const std::vector<std::string> before = names_in_folder();
   const std::string out = part(1);
   for (const auto& [arguments, sentence] : std::vector<std::pair<std::vector<std::string>, std::string>>{
@@ -880,14 +867,14 @@ TEST_F(ShardTest, ShardsSayWhatTheyCannotDo) {
 
 TEST_F(ShardTest, MergeSaysWhatDoesNotFitTogether) {
   Points points = many_points();
-  const std::string npy = file("many.npy", testing::npy_of<double>(points, "<f8"));
+  const std::string npy = file("many.npy", npy_of<double>(points, "<f8"));
   const std::vector<std::string> made = parts({npy, "--alpha", "0.09"}, 3);
   const std::vector<std::string> wider = parts({npy, "--alpha", "0.1"}, 3, "-wider");
   const std::vector<std::string> halves = parts({npy, "--alpha", "0.09"}, 2, "-half");
   const std::vector<std::string> elsewhere =
       parts({npy, "--alpha", "0.09", "--crs", "EPSG:25832"}, 3, "-crs");
   points[500].x += 0.001;
-  file("many.npy", testing::npy_of<double>(points, "<f8"));
+  file("many.npy", npy_of<double>(points, "<f8"));
   const std::vector<std::string> changed = parts({npy, "--alpha", "0.09"}, 3, "-changed");
   const std::string bytes = read_text(made[2]);
   const std::string cut = file("cut", bytes.substr(0, bytes.size() / 2));
@@ -925,7 +912,7 @@ TEST_F(ShardTest, MergeSaysWhatDoesNotFitTogether) {
 // 320 MB of points in less memory, in which they could not even be read.
 TEST_F(HullCommandTest, AStreamNeedsLittleMemory) {
   const std::string npy = (folder() / "large.npy").string();
-  succeeded(testing::run_program({HULLBENCH, "points", "ca", "--n", "20000000", "--out", npy}));
+  succeeded(run_program({HULLBENCH, "points", "ca", "--n", "20000000", "--out", npy}));
 #ifdef HAS_GDAL
   const std::string little = "ulimit -v 300000;";  // more than half of it for the libraries alone
 #else
@@ -941,4 +928,4 @@ TEST_F(HullCommandTest, AStreamNeedsLittleMemory) {
 }
 
 }  // namespace
-}  // namespace hullbench
+}  // namespace hullbench::testing

@@ -15,24 +15,15 @@
 #include "tests/point_sets.hpp"
 #include "tests/simple_hull.hpp"
 
-namespace hullbench {
-
-std::unique_ptr<Adapter> make_knn_hull();
-
+namespace hullbench::testing {
 namespace {
-
-using polylidar::testing::canonical;
-using polylidar::testing::core_hull;
-using test::hull_of;
-
-using testing::kInfinity;
 
 MultiPolygon knn_hull(const std::vector<Point>& points, double k) {
   return hull_of(*make_knn_hull(), points, {{"k", k}});
 }
 
 TEST(KnnHull, TakesWholeNumbersOnly) {
-  EXPECT_THROW(knn_hull(test::square_points(10, 1, false), 3.5), std::invalid_argument);
+  EXPECT_THROW(knn_hull(square_points(10, 1, false), 3.5), std::invalid_argument);
 }
 
 // By hand: a U on the grid, two points wide. In its slot the walk turns right as soon as a point of the floor
@@ -58,9 +49,9 @@ TEST(KnnHull, OfThreeAndFourPoints) {
 
 // Neighbours of a point in one cluster are all of that cluster until k is as large as it.
 TEST(KnnHull, TakesMoreNeighboursUntilAllPointsAreInside) {
-  std::vector<Point> points = test::square_points(40, 1, false);
-  for (const Point& point : test::square_points(40, 2, false)) points.push_back({point.x + 5, point.y});
-  test::expect_one_simple_polygon_round(points, knn_hull(points, 3));
+  std::vector<Point> points = square_points(40, 1, false);
+  for (const Point& point : square_points(40, 2, false)) points.push_back({point.x + 5, point.y});
+  expect_one_simple_polygon_round(points, knn_hull(points, 3));
 }
 
 TEST(KnnHull, WithAllNeighboursIsTheConvexHull) {
@@ -84,10 +75,10 @@ TEST(KnnHull, IsOneSimplePolygonRoundAll) {
     SCOPED_TRACE("seed " + std::to_string(seed));
     for (const double k : {3.0, 8.0}) {
       const std::vector<Point> random = polylidar::testing::uniform_points(5 + 2 * seed, seed);
-      test::expect_one_simple_polygon_round(random, knn_hull(random, k));
+      expect_one_simple_polygon_round(random, knn_hull(random, k));
       // Many points on few lines, many of them more than once.
       const std::vector<Point> ties = polylidar::testing::integer_points(5 + seed, seed, 9);
-      test::expect_one_simple_polygon_round(ties, knn_hull(ties, k));
+      expect_one_simple_polygon_round(ties, knn_hull(ties, k));
     }
   }
 }
@@ -100,10 +91,10 @@ TEST(KnnHull, OfNastyPointsIsOneSimplePolygonRoundAll) {
     if (polylidar::delaunay(points).triangles.empty()) {
       EXPECT_TRUE(hull.empty());
     } else {
-      test::expect_one_simple_polygon_round(points, hull);
+      expect_one_simple_polygon_round(points, hull);
     }
   }
 }
 
 }  // namespace
-}  // namespace hullbench
+}  // namespace hullbench::testing

@@ -4,21 +4,19 @@
 
 #include <cmath>
 #include <map>
-#include <nlohmann/json.hpp>
 #include <stdexcept>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "benchmarks/base/names.hpp"
 #include "benchmarks/league/league.hpp"
 #include "benchmarks/league/league_report.hpp"
 #include "benchmarks/record/validate.hpp"
 #include "tests/complaint.hpp"
 
-namespace hullbench {
+namespace hullbench::testing {
 namespace {
-
-using nlohmann::json;
 
 json row(const std::string& method, const std::string& protocol, const std::string& dataset, json l2) {
   const bool ok = !l2.is_null();
@@ -180,7 +178,7 @@ TEST(League, AWayToSampleThatTrainingDoesNotKnowIsMarked) {
   table::print_markdown(league::league_document(league), text);
   for (const char* words :
        {"| noise |", "lattice † |", "several |", "12.3", "†: a way to sample that was not seen"})
-    EXPECT_NE(text.str().find(words), std::string::npos) << words << "\n" << text.str();
+    expect_says(text.str(), words);
 }
 
 TEST(League, DegenerateInputIsCountedApart) {
@@ -277,8 +275,8 @@ TEST(League, IsWrittenAsItsSchemaSaysAndPrinted) {
   EXPECT_NE(record::validate_by_kind(wrong), std::vector<std::string>());
   std::ostringstream text;
   table::print_markdown(league::league_document(league), text);
-  testing::expect_says(text.str(), "20.00 (10.00 to 30.00)");
-  testing::expect_says(text.str(), "∞");
+  expect_says(text.str(), "20.00 (10.00 to 30.00)");
+  expect_says(text.str(), "∞");
 }
 
 TEST(League, WritesEveryResultThatCountsAsALine) {
@@ -305,7 +303,7 @@ TEST(League, EveryProfileIsShownWhoeverIsAhead) {
   const std::string text = out.str();
   for (const char* who : {"that see the points only", "with one value fitted on other shapes",
                           "that know the ground truth's area", "with the best value for each instance"}) {
-    testing::expect_says(text, std::string("Performance profile of the methods ") + who);
+    expect_says(text, std::string("Performance profile of the methods ") + who);
   }
 }
 
@@ -317,13 +315,13 @@ TEST(League, TheReadmeHasTheFirstThreeOfEveryProtocol) {
   const std::vector<json> reports = {report(rows), degenerate};
   const std::string text =
       league::league_results(league::league_to_json(league::make_league(reports, false), reports), "kept");
-  testing::expect_says(text, "[kept/league.md](kept/league.md)");
-  testing::expect_says(text, "\n### League: 1 cases of 1 shapes, the first three of every protocol\n");
-  testing::expect_says(text, "| auto     | rival3 |     1 |        0 |        30.00 |");
+  expect_says(text, "[kept/league.md](kept/league.md)");
+  expect_says(text, "\n### League: 1 cases of 1 shapes, the first three of every protocol\n");
+  expect_says(text, "| auto     | rival3 |     1 |        0 |        30.00 |");
   EXPECT_EQ(text.find("rival4"), std::string::npos) << text;
   EXPECT_EQ(text.find("paper"), std::string::npos) << text;
-  testing::expect_says(text, "| tuned    | ours   |");
+  expect_says(text, "| tuned    | ours   |");
 }
 
 }  // namespace
-}  // namespace hullbench
+}  // namespace hullbench::testing

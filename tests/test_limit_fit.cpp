@@ -31,13 +31,13 @@ double error_by_polygons(const PointSet& set, const polylidar::Options& options 
 // The area of triangles in a shape.
 
 TEST(AreasWithin, OfTrianglesInsideAcrossAndOutside) {
-  const polylidar::MultiPolygon square_with_hole = {
+  const MultiPolygon square_with_hole = {
       {{{0, 0}, {8, 0}, {8, 8}, {0, 8}}, {{{4, 4}, {4, 6}, {6, 6}, {6, 4}}}}};
-  const std::vector<std::array<polylidar::Point, 3>> triangles = {{{{1, 1}, {3, 1}, {1, 3}}},
-                                                                  {{{-1, 1}, {1, 1}, {-1, 3}}},
-                                                                  {{{20, 1}, {30, 1}, {20, 3}}},
-                                                                  {{{4, 4}, {6, 4}, {4, 6}}},
-                                                                  {{{0, 0}, {8, 0}, {8, 8}}}};
+  const std::vector<std::array<Point, 3>> triangles = {{{{1, 1}, {3, 1}, {1, 3}}},
+                                                       {{{-1, 1}, {1, 1}, {-1, 3}}},
+                                                       {{{20, 1}, {30, 1}, {20, 3}}},
+                                                       {{{4, 4}, {6, 4}, {4, 6}}},
+                                                       {{{0, 0}, {8, 0}, {8, 8}}}};
   const std::vector<double> areas = metrics::areas_within(triangles, square_with_hole);
   ASSERT_EQ(areas.size(), 5U);
   EXPECT_DOUBLE_EQ(areas[0], 2);
@@ -65,8 +65,8 @@ TEST(LimitCase, TheBestLimitIsTheBestOfAllThatThereAre) {
   for (std::size_t e = 0; e < mesh.triangles.size(); e += 3) {
     double perimeter = 0;
     for (std::size_t k = 0; k < 3; ++k) {
-      const polylidar::Point& from = set.points[mesh.triangles[e + k]];
-      const polylidar::Point& to = set.points[mesh.triangles[e + (k + 1) % 3]];
+      const Point& from = set.points[mesh.triangles[e + k]];
+      const Point& to = set.points[mesh.triangles[e + (k + 1) % 3]];
       perimeter += std::hypot(to.x - from.x, to.y - from.y);
     }
     least = std::min(least, error_by_polygons(set, {.max_perimeter = perimeter * (1 + 1e-12)}));

@@ -2,11 +2,11 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <nlohmann/json.hpp>
 #include <set>
 #include <string>
 #include <vector>
 
+#include "benchmarks/base/names.hpp"
 #include "benchmarks/record/validate.hpp"
 #include "benchmarks/report/claims.hpp"
 #include "benchmarks/report/measurements.hpp"
@@ -16,11 +16,10 @@
 #include "benchmarks/report/tables.hpp"
 #include "benchmarks/table/writers.hpp"
 #include "invented_shapes.hpp"
+#include "tests/complaint.hpp"
 
-namespace hullbench {
+namespace hullbench::testing {
 namespace {
-
-using nlohmann::json;
 
 constexpr const char* kSentence =
     "Times are not shown: they were taken on 2 machines (0123abcd, ba5eba11), and times of different "
@@ -47,8 +46,8 @@ json on_two_machines(json report) {
 using TableRows = std::vector<std::vector<std::string>>;
 
 /// The rows of a table of the invented plan, the header first.
-TableRows rows_of(const table::Document& document, const std::string& id) {
-  return test::rows_of(document, "invented_" + id);
+TableRows invented_rows(const table::Document& document, const std::string& id) {
+  return rows_of(document, "invented_" + id);
 }
 
 /// Everything of a document that could hold a time: no word of one may stand there.
@@ -63,7 +62,7 @@ void expect_no_times(const table::Document& document) {
 }
 
 TEST(Machines, OfAReportAreThoseOfItsTimes) {
-  json report = test::invented_report({2000});
+  json report = invented_report({2000});
   EXPECT_EQ(report::machines_of(report), (std::set<std::string>{"0123abcd"}));
   EXPECT_TRUE(report::Measurements(report).has_times());
   EXPECT_EQ(report::Measurements(report).why_no_times(), "");
@@ -77,7 +76,7 @@ TEST(Machines, OfAReportAreThoseOfItsTimes) {
 }
 
 TEST(Machines, SeveralLeaveNoTimeToTablesAndClaims) {
-  const report::Measurements measurements(on_two_machines(test::invented_report({2000})));
+  const report::Measurements measurements(on_two_machines(invented_report({2000})));
   EXPECT_FALSE(measurements.has_times());
   for (const record::RunRecord& run : measurements.runs()) {
     EXPECT_TRUE(run.time_ns.empty() && run.phases_ns.empty()) << run.name;
@@ -85,10 +84,10 @@ TEST(Machines, SeveralLeaveNoTimeToTablesAndClaims) {
 }
 
 TEST(Machines, SeveralHaveNoTableOfTimesAndASentenceWhy) {
-  const json report = on_two_machines(test::invented_report({2000, 64000}));
+  const json report = on_two_machines(invented_report({2000, 64000}));
   const table::Document document = report::make_document(report);
   expect_no_times(document);
-  const std::string text = test::markdown_of(report);
+  const std::string text = markdown_of(report);
   std::string unbroken = text;
   for (std::size_t at = 0; (at = unbroken.find("\n  ", at)) != std::string::npos;)
     unbroken.replace(at, 3, " ");
@@ -99,13 +98,13 @@ TEST(Machines, SeveralHaveNoTableOfTimesAndASentenceWhy) {
 }
 
 TEST(Machines, SeveralLeaveTheErrorsAsTheyAre) {
-  const json one = test::invented_report({2000, 64000});
+  const json one = invented_report({2000, 64000});
   const table::Document whole = report::make_document(one);
   const table::Document mixed = report::make_document(on_two_machines(one));
   for (const char* id : {"ca_error", "ca_holes_error", "hi_error"})
-    EXPECT_EQ(rows_of(mixed, id), rows_of(whole, id)) << id;
-  const TableRows ratios = rows_of(mixed, "ratios");
-  const TableRows all_ratios = rows_of(whole, "ratios");
+    EXPECT_EQ(invented_rows(mixed, id), invented_rows(whole, id)) << id;
+  const TableRows ratios = invented_rows(mixed, "ratios");
+  const TableRows all_ratios = invented_rows(whole, "ratios");
   ASSERT_EQ(ratios.size(), all_ratios.size());
   for (std::size_t row = 1; row < ratios.size(); ++row) {
     const auto& all = all_ratios[row];
@@ -114,7 +113,7 @@ TEST(Machines, SeveralLeaveTheErrorsAsTheyAre) {
 }
 
 TEST(Machines, SeveralLeaveOnlyTheClaimsAboutErrors) {
-  const json one = test::invented_report({2000, 64000});
+  const json one = invented_report({2000, 64000});
   const json mixed = on_two_machines(one);
   std::size_t about_time = 0;
   std::size_t judged = 0;
@@ -132,12 +131,12 @@ TEST(Machines, SeveralLeaveOnlyTheClaimsAboutErrors) {
   }
   EXPECT_GT(about_time, 0U);
   EXPECT_GT(judged, 0U);
-  EXPECT_EQ(rows_of(report::make_document(mixed), "claims").size() - 1,
+  EXPECT_EQ(invented_rows(report::make_document(mixed), "claims").size() - 1,
             report::paper()["claims"]["list"].size() - about_time);
 }
 
 TEST(Machines, SeveralKeepEveryTimeInTheReport) {
-  const json one = test::invented_report({2000});
+  const json one = invented_report({2000});
   const json mixed = on_two_machines(one);
   EXPECT_EQ(mixed.at("summary").at("rows"), one.at("summary").at("rows"));
   EXPECT_EQ(mixed.at("runs")[0].at("time_ns"), one.at("runs")[0].at("time_ns"));
@@ -145,13 +144,13 @@ TEST(Machines, SeveralKeepEveryTimeInTheReport) {
 }
 
 TEST(Machines, SeveralLeaveTablesOfManyShapesTheirErrors) {
-  const std::vector<test::InventedShape> letters = {{"letter_a", 2000, 0.5, 2, 0.1},
-                                                    {"letter_z", 2000, 0.5, 4, 0.2}};
-  const json one = test::report_on_shapes(letters);
+  const std::vector<InventedShape> letters = {{"letter_a", 2000, 0.5, 2, 0.1},
+                                              {"letter_z", 2000, 0.5, 4, 0.2}};
+  const json one = report_on_shapes(letters);
   const json mixed = on_two_machines(one);
   expect_no_times(report::make_document(mixed));
-  const TableRows rows = rows_of(report::make_document(mixed), "summary");
-  const TableRows all = rows_of(report::make_document(one), "summary");
+  const TableRows rows = invented_rows(report::make_document(mixed), "summary");
+  const TableRows all = invented_rows(report::make_document(one), "summary");
   ASSERT_EQ(rows.size(), all.size());
   for (std::size_t row = 0; row < rows.size(); ++row) {
     ASSERT_EQ(rows[row].size(), 6U);
@@ -160,34 +159,33 @@ TEST(Machines, SeveralLeaveTablesOfManyShapesTheirErrors) {
 }
 
 TEST(Machines, SeveralAreNotComparedWithThePapersTimes) {
-  const json one = test::report_on_shapes({{"letter_a", 2000, 0.5, 2, 0.1}, {"letter_z", 2000, 0.5, 4, 0.2}});
+  const json one = report_on_shapes({{"letter_a", 2000, 0.5, 2, 0.1}, {"letter_z", 2000, 0.5, 4, 0.2}});
   const auto comparisons = report::compare_with_paper(on_two_machines(one));
   EXPECT_EQ(comparisons.size(), 4U);
   for (const report::Comparison& comparison : comparisons) EXPECT_EQ(comparison.quantity, "error");
-  EXPECT_NE(report::differences_table({on_two_machines(one)}).remarks.front().find(kSentence),
-            std::string::npos);
+  expect_says(report::differences_table({on_two_machines(one)}).remarks.front(), kSentence);
 }
 
 TEST(Machines, OfSeveralReportsDoNotShareOneTable) {
-  const json one = test::report_on_shapes({{"letter_a", 2000, 0.5, 2, 0.1}, {"letter_z", 2000, 0.5, 4, 0.2}});
+  const json one = report_on_shapes({{"letter_a", 2000, 0.5, 2, 0.1}, {"letter_z", 2000, 0.5, 4, 0.2}});
   json other = one;
   other["environment"]["machine_id"] = "ba5eba11";
   const std::size_t rows = report::differences_table({one}).rows.size();
   EXPECT_EQ(report::differences_table({one, one}).rows.size(), 2 * rows);
   const table::Table mixed = report::differences_table({one, other});
   EXPECT_EQ(mixed.rows.size(), rows);
-  EXPECT_NE(mixed.remarks.front().find(kSentence), std::string::npos);
+  expect_says(mixed.remarks.front(), kSentence);
 }
 
 TEST(Machines, SeveralAreSaidInTheReadme) {
-  json report = on_two_machines(test::invented_report({2000}));
+  json report = on_two_machines(invented_report({2000}));
   report["plan"]["methods"] = json::array();
   const std::string text = report::readme_results({report}, "results/x");
-  EXPECT_NE(text.find("Times are not shown"), std::string::npos) << text;
+  expect_says(text, "Times are not shown");
 }
 
 TEST(Machines, OneWithSeveralBuildsHasNoTimes) {
-  const json one = test::invented_report({2000});
+  const json one = invented_report({2000});
   json report = on_two_machines(one);
   report["merged"][1]["environment"] = report["environment"];
   for (json& run : report["runs"]) run["machine"] = "0123abcd";
@@ -198,20 +196,20 @@ TEST(Machines, OneWithSeveralBuildsHasNoTimes) {
       "Times are not shown: they were taken with 2 builds of the program (aaaaaaaa, bbbbbbbb), and times of "
       "different builds do not go into one table.";
   EXPECT_EQ(report::Measurements(report).why_no_times(), sentence);
-  EXPECT_NE(report::differences_table({report}).remarks.front().find(sentence), std::string::npos);
+  expect_says(report::differences_table({report}).remarks.front(), sentence);
   expect_no_times(report::make_document(report));
 }
 
 TEST(Machines, OneOfAMergedRunHasItsTimes) {
-  json report = on_two_machines(test::invented_report({2000, 64000}));
+  json report = on_two_machines(invented_report({2000, 64000}));
   report["merged"][1]["environment"] = report["environment"];
   for (json& run : report["runs"]) run["machine"] = "0123abcd";
   report["summary"] = report::make_summary(report);
-  const std::string text = test::markdown_of(report);
-  EXPECT_NE(text.find("time of equal work, ms"), std::string::npos);
-  EXPECT_NE(text.find("Merged of 2 runs, all timed on machine 0123abcd."), std::string::npos) << text;
+  const std::string text = markdown_of(report);
+  expect_says(text, "time of equal work, ms");
+  expect_says(text, "Merged of 2 runs, all timed on machine 0123abcd.");
   EXPECT_EQ(text.find("Times are not shown"), std::string::npos);
 }
 
 }  // namespace
-}  // namespace hullbench
+}  // namespace hullbench::testing

@@ -4,22 +4,19 @@
 #include <cstdlib>
 #include <filesystem>
 #include <limits>
-#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
 #include "benchmarks/base/configuration_error.hpp"
+#include "benchmarks/base/names.hpp"
 #include "benchmarks/run/manifest.hpp"
 #include "benchmarks/run/method_catalog.hpp"
 #include "tests/complaint.hpp"
 #include "tests/program.hpp"
 #include "tests/temporary_folder.hpp"
 
-namespace hullbench {
+namespace hullbench::testing {
 namespace {
-
-namespace fs = std::filesystem;
-using nlohmann::json;
 
 json good_manifest() {
   return {
@@ -49,18 +46,18 @@ json good_manifest() {
 class ManifestTest : public ::testing::Test {
  protected:
   fs::path write(const json& manifest, const std::string& name = "my_hull.json") {
-    testing::write_text(folder_.path() / name, manifest.dump());
+    write_text(folder_.path() / name, manifest.dump());
     return folder_.path() / name;
   }
 
   void expect_fault(const json& manifest, const std::string& words) {
     const fs::path file = write(manifest);
-    const std::string said = testing::complaint_of<ConfigurationError>([&] { run::load_manifest(file); });
-    EXPECT_NE(said.find(words), std::string::npos) << said;
-    EXPECT_NE(said.find(file.string()), std::string::npos) << said;
+    const std::string said = complaint_of<ConfigurationError>([&] { run::load_manifest(file); });
+    expect_says(said, words);
+    expect_says(said, file.string());
   }
 
-  testing::TemporaryFolder folder_;
+  TemporaryFolder folder_;
 };
 
 TEST_F(ManifestTest, SaysWhatTheMethodIsAndHowToStartIt) {
@@ -125,17 +122,17 @@ TEST_F(ManifestTest, FaultsAreSaidWithTheFileAndThePlace) {
 }
 
 TEST_F(ManifestTest, WhatIsNotJsonAndWhatIsNotThere) {
-  testing::write_text(folder_.path() / "broken.json", "{");
+  write_text(folder_.path() / "broken.json", "{");
   EXPECT_THROW(run::load_manifest(folder_.path() / "broken.json"), ConfigurationError);
   EXPECT_THROW(run::load_manifest(folder_.path() / "none.json"), ConfigurationError);
   EXPECT_THROW(run::load_manifest(folder_.path()), ConfigurationError);
 }
 
 TEST_F(ManifestTest, ItsHashIsThatOfTheManifestAndTheProgramBesideIt) {
-  testing::write_text(folder_.path() / "my_hull.py", "print(1)");
+  write_text(folder_.path() / "my_hull.py", "print(1)");
   const std::string first = run::load_manifest(write(good_manifest())).sha256;
   EXPECT_EQ(run::load_manifest(write(good_manifest())).sha256, first);
-  testing::write_text(folder_.path() / "my_hull.py", "print(2)");
+  write_text(folder_.path() / "my_hull.py", "print(2)");
   const std::string other_program = run::load_manifest(write(good_manifest())).sha256;
   EXPECT_NE(other_program, first);
   json manifest = good_manifest();
@@ -148,9 +145,9 @@ TEST_F(ManifestTest, AFolderIsReadInTheOrderOfItsNames) {
   other["name"] = "a_hull";
   write(good_manifest(), "2.json");
   write(other, "3.json");
-  testing::write_text(folder_.path() / "package.json", "{}");
-  testing::write_text(folder_.path() / "package-lock.json", "{}");
-  testing::write_text(folder_.path() / "notes.txt", "{");
+  write_text(folder_.path() / "package.json", "{}");
+  write_text(folder_.path() / "package-lock.json", "{}");
+  write_text(folder_.path() / "notes.txt", "{");
   const auto manifests = run::load_manifests({folder_.path(), folder_.path() / "nowhere"});
   ASSERT_EQ(manifests.size(), 2U);
   EXPECT_EQ(manifests[0].method.name, "my_hull");
@@ -209,4 +206,4 @@ TEST_F(ManifestTest, TheUsersFolderIsWhereItsConfigurationIs) {
 }
 
 }  // namespace
-}  // namespace hullbench
+}  // namespace hullbench::testing

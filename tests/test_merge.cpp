@@ -3,24 +3,16 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <nlohmann/json.hpp>
 #include <set>
 #include <string>
 #include <vector>
 
+#include "benchmarks/base/names.hpp"
+#include "tests/complaint.hpp"
 #include "tests/hullbench_test.hpp"
 
-namespace hullbench {
+namespace hullbench::testing {
 namespace {
-
-namespace fs = std::filesystem;
-using nlohmann::json;
-using testing::california;
-using testing::expect_refusal;
-using testing::Outcome;
-using testing::read_text;
-using testing::small_plan;
-using testing::write_text;
 
 /// The lines of runs.jsonl without what another machine may have otherwise.
 std::vector<std::string> accuracy_lines(const fs::path& run) {
@@ -43,7 +35,7 @@ std::map<std::string, std::string> accuracy_tables(const fs::path& run) {
   return tables;
 }
 
-class MergeTest : public testing::HullbenchTest {
+class MergeTest : public HullbenchTest {
  protected:
   /// Two methods on California with and without holes at three sizes: twelve runs of six cases.
   std::string plan(const std::string& name = "small") const {
@@ -95,12 +87,11 @@ class MergeTest : public testing::HullbenchTest {
 
   void expect_valid_run(const std::string& name) const {
     for (const char* file : {"/run.json", "/runs.jsonl", "/report.json"}) expect_valid(name + file);
-    if (const std::string why = testing::missing({SYSTEM_PYTHON ":jsonschema"}); !why.empty()) {
+    if (const std::string why = missing({SYSTEM_PYTHON ":jsonschema"}); !why.empty()) {
       GTEST_SKIP() << why;
     }
-    succeeded(
-        testing::run_program({SYSTEM_PYTHON, VALIDATE_REPORT, (folder() / name / "report.json").string(),
-                              (folder() / name / "runs.jsonl").string()}));
+    succeeded(run_program({SYSTEM_PYTHON, VALIDATE_REPORT, (folder() / name / "report.json").string(),
+                           (folder() / name / "runs.jsonl").string()}));
   }
 };
 
@@ -113,7 +104,7 @@ TEST_F(MergeTest, OfAllShardsIsTheWholeRunInItsAccuracy) {
   EXPECT_EQ(accuracy_tables(folder() / "whole").size(), 4U);
   EXPECT_EQ(accuracy_tables(folder() / "merged"), accuracy_tables(folder() / "whole"));
   EXPECT_NE(merged.out.find("time of equal work, ms"), std::string::npos) << "all are of this one machine";
-  EXPECT_NE(merged.err.find("12 of 12 planned runs"), std::string::npos) << merged.err;
+  expect_says(merged.err, "12 of 12 planned runs");
   EXPECT_EQ(read_text(folder() / "merged" / "tables.md"), merged.out);
   EXPECT_EQ(hullbench({"tables", "merged"}).out, merged.out);
   expect_valid_run("merged");
@@ -186,7 +177,7 @@ TEST_F(MergeTest, WithoutAShardSaysHowManyRunsAreMissing) {
   run_shards(3, {plan()});
   const Outcome merged = expect_end(hullbench({"merge", "shard1", "shard3", "--out", "merged"}), 4,
                                     "4 of 12 planned runs are missing");
-  EXPECT_NE(merged.out.find("4 of 12 planned runs are missing"), std::string::npos) << merged.out;
+  expect_says(merged.out, "4 of 12 planned runs are missing");
   EXPECT_EQ(accuracy_lines(folder() / "merged").size(), 8U);
   expect_valid_run("merged");
 }
@@ -205,8 +196,8 @@ TEST_F(MergeTest, OfSeveralMachinesHasNoTimesInItsTables) {
   const Outcome merged = succeeded(hullbench({"merge", "shard1", "shard2", "--out", "merged"}));
   EXPECT_EQ(merged.out.find(", ms"), std::string::npos) << merged.out;
   EXPECT_EQ(merged.out.find("±"), std::string::npos) << merged.out;
-  EXPECT_NE(merged.out.find("Times are not shown: they were taken on 2 machines ("), std::string::npos);
-  EXPECT_NE(merged.out.find("Machine ba5eba11: "), std::string::npos) << merged.out;
+  expect_says(merged.out, "Times are not shown: they were taken on 2 machines (");
+  expect_says(merged.out, "Machine ba5eba11: ");
   EXPECT_EQ(accuracy_lines(folder() / "merged"), accuracy_lines(folder() / "whole"));
   EXPECT_EQ(accuracy_tables(folder() / "merged"), accuracy_tables(folder() / "whole"));
   std::set<std::string> machines;
@@ -223,7 +214,7 @@ TEST_F(MergeTest, OfSeveralBuildsHasNoTimesInItsTables) {
   change_header("shard2", [](json& run) { run["tool"]["binary_sha256"] = std::string(64, 'a'); });
   const Outcome merged = succeeded(hullbench({"merge", "shard1", "shard2", "--out", "merged"}));
   EXPECT_EQ(merged.out.find(", ms"), std::string::npos) << merged.out;
-  EXPECT_NE(merged.out.find("they were taken with 2 builds of the program ("), std::string::npos);
+  expect_says(merged.out, "they were taken with 2 builds of the program (");
   expect_valid_run("merged");
 }
 
@@ -254,7 +245,7 @@ TEST_F(MergeTest, OfTheSameRunTwiceTakesTheFirstThatSucceeded) {
   });
   change_header("one", [](json& header) { header["created"] = "2020-01-01T00:00:00Z"; });
   const Outcome merged = succeeded(hullbench({"merge", "other", "one", "--out", "merged"}));
-  EXPECT_NE(merged.err.find("12 were measured more than once"), std::string::npos) << merged.err;
+  expect_says(merged.err, "12 were measured more than once");
   const auto one = read_lines("one/runs.jsonl");
   const auto other = read_lines("other/runs.jsonl");
   const auto both = read_lines("merged/runs.jsonl");
@@ -330,7 +321,7 @@ TEST_F(MergeTest, OfAnIncompleteDescriptionIsRefused) {
     change_header("run", [&](json& header) { header.erase(key); });
     const Outcome outcome = hullbench({"merge", "run", "--out", "merged"});
     expect_refusal(outcome, 2, "cannot merge: run/run.json is not a run's description: ");
-    EXPECT_NE(outcome.err.find(key), std::string::npos) << outcome.err;
+    expect_says(outcome.err, key);
     EXPECT_EQ(outcome.err.find("json.exception"), std::string::npos) << outcome.err;
     write_text(folder() / "run" / "run.json", before);
   }
@@ -366,7 +357,7 @@ TEST_F(MergeTest, OfTwoVersionsOfAMethodIsRefused) {
   });
   const Outcome outcome = hullbench({"merge", "shard1", "shard2", "--out", "merged"});
   expect_refusal(outcome, 2, "cgal_alpha_shape is of version ");
-  EXPECT_NE(outcome.err.find("and of version 0.0 in shard2"), std::string::npos) << outcome.err;
+  expect_says(outcome.err, "and of version 0.0 in shard2");
 }
 
 TEST_F(MergeTest, TakesAMethodFromWhereItIsInstalled) {
@@ -418,11 +409,11 @@ TEST_F(MergeTest, WithoutOutIsRefusedWithAHintForEveryCommand) {
 }
 
 TEST_F(MergeTest, ReadsCompressedRecords) {
-  if (const std::string why = testing::missing({"xz"}); !why.empty()) GTEST_SKIP() << why;
+  if (const std::string why = missing({"xz"}); !why.empty()) GTEST_SKIP() << why;
   run_shards(2, {plan()});
   const std::string plain = read_text(folder() / "shard2" / "runs.jsonl");
   ASSERT_EQ(hullbench({"merge", "shard1", "shard2", "--out", "merged"}).code, 0);
-  ASSERT_EQ(testing::run_program({"xz", (folder() / "shard2" / "runs.jsonl").string()}).code, 0);
+  ASSERT_EQ(run_program({"xz", (folder() / "shard2" / "runs.jsonl").string()}).code, 0);
   ASSERT_EQ(hullbench({"merge", "shard1", "shard2", "--out", "from_xz"}).code, 0);
   EXPECT_EQ(read_text(folder() / "from_xz" / "runs.jsonl"), read_text(folder() / "merged" / "runs.jsonl"));
 }
@@ -491,4 +482,4 @@ TEST_F(ShardTest, IsGoneOnWithAsItselfOnly) {
 }
 
 }  // namespace
-}  // namespace hullbench
+}  // namespace hullbench::testing

@@ -17,10 +17,9 @@
 #include "tests/hull_input.hpp"
 #include "tests/infinity.hpp"
 
-namespace hullbench {
+namespace hullbench::testing {
 namespace {
 
-using testing::kInfinity;
 const std::string kNumbers = "[0-9.]+";
 
 /// What a method is to say of itself.
@@ -110,7 +109,7 @@ class MethodContract : public ::testing::TestWithParam<Method> {
   }
 
   const Identity& identity_ = GetParam().identity;
-  test::MakeAdapter make_;
+  MakeAdapter make_;
   std::unique_ptr<Adapter> adapter_;
 };
 
@@ -124,8 +123,8 @@ TEST_P(MethodContract, SaysWhoItIs) {
 }
 
 TEST_P(MethodContract, NamesItsSteps) {
-  test::StepNames steps;
-  adapter_->load(test::square_points(100, 1, false));
+  StepNames steps;
+  adapter_->load(square_points(100, 1, false));
   adapter_->run(GetParam().parameters, steps);
   adapter_->extract(steps);
   std::string names;
@@ -134,8 +133,8 @@ TEST_P(MethodContract, NamesItsSteps) {
 }
 
 TEST_P(MethodContract, ExtractComesAfterRun) {
-  test::NoSteps steps;
-  adapter_->load(test::square_points(100, 1, false));
+  NoSteps steps;
+  adapter_->load(square_points(100, 1, false));
   EXPECT_THROW(adapter_->extract(steps), std::logic_error);
   adapter_->run(GetParam().parameters, steps);
   const MultiPolygon first = adapter_->extract(steps);
@@ -145,7 +144,7 @@ TEST_P(MethodContract, ExtractComesAfterRun) {
 }
 
 TEST_P(MethodContract, IsKept) {
-  test::expect_adapter_contract(make_, GetParam().parameters, GetParam().others);
+  expect_adapter_contract(make_, GetParam().parameters, GetParam().others);
 }
 
 INSTANTIATE_TEST_SUITE_P(Methods, MethodContract, ::testing::ValuesIn(methods()), [](const auto& tested) {
@@ -160,7 +159,7 @@ TEST(PolylidarSteps, GiveTheCoresPolygonsAsOneCallDoes) {
                         [&](const AdapterEntry& entry) { return entry.name == name; })
         ->make();
   };
-  const std::vector<Point> points = test::square_points(40000, 8, true);
+  const std::vector<Point> points = square_points(40000, 8, true);
   const auto core_hull = [&](const polylidar::Options& options) {
     return polylidar::to_coordinates(polylidar::concave_hull(points, options), points);
   };
@@ -171,9 +170,9 @@ TEST(PolylidarSteps, GiveTheCoresPolygonsAsOneCallDoes) {
         {Parameters{{"alpha", 0.02}}, polylidar::Options{.alpha = 0.02}},
         {Parameters{{"max_perimeter", 0.1}}, polylidar::Options{.max_perimeter = 0.1}}}) {
     for (const char* name : {"polylidar", "polylidar_steps"})
-      EXPECT_EQ(test::hull_of(*make(name), points, parameters), core_hull(options)) << name;
+      EXPECT_EQ(hull_of(*make(name), points, parameters), core_hull(options)) << name;
   }
 }
 
 }  // namespace
-}  // namespace hullbench
+}  // namespace hullbench::testing

@@ -3,22 +3,18 @@
 
 #include <fstream>
 #include <iterator>
-#include <nlohmann/json.hpp>
 #include <set>
 #include <sstream>
 #include <string>
 #include <vector>
 
+#include "benchmarks/base/names.hpp"
 #include "benchmarks/metrics/metric_table.hpp"
 #include "tests/boxes.hpp"
+#include "tests/complaint.hpp"
 
-namespace hullbench {
+namespace hullbench::testing {
 namespace {
-
-using nlohmann::json;
-using polylidar::MultiPolygon;
-using polylidar::Point;
-using testing::kUnitSquare;
 
 std::string read_file(const std::string& path) {
   std::ifstream in(std::string(HULLBENCH_SOURCE_DIRECTORY) + "/" + path, std::ios::binary);
@@ -60,7 +56,7 @@ TEST(MetricTable, NamesFilesThatHaveWhatComputes) {
     ASSERT_NE(comma, std::string::npos);
     const std::string file = metric.function.substr(comma + 2);
     const std::string folder = file == "worker_process.cpp" ? "benchmarks/worker/" : "benchmarks/metrics/";
-    EXPECT_NE(read_file(folder + file).find(metric.function.substr(0, comma)), std::string::npos);
+    expect_says(read_file(folder + file), metric.function.substr(0, comma));
   }
 }
 
@@ -130,10 +126,10 @@ TEST(MetricTable, IsPrintedWithEveryMember) {
     EXPECT_EQ(keys_of(metric), (std::set<std::string>{"name", "group", "unit", "better", "definition",
                                                       "undefined", "citation", "function"}));
     EXPECT_TRUE((std::set<std::string>{"lower", "higher", "zero", "one", "none"}).contains(metric["better"]));
-    EXPECT_NE(out.str().find("  " + metric["name"].get<std::string>() + "  "), std::string::npos);
-    EXPECT_NE(out.str().find(metric["definition"].get<std::string>()), std::string::npos);
+    expect_says(out.str(), "  " + metric["name"].get<std::string>() + "  ");
+    expect_says(out.str(), metric["definition"].get<std::string>());
   }
 }
 
 }  // namespace
-}  // namespace hullbench
+}  // namespace hullbench::testing

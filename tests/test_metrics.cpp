@@ -6,12 +6,12 @@
 #include <functional>
 #include <iomanip>
 #include <limits>
-#include <nlohmann/json.hpp>
 #include <sstream>
 #include <string>
 #include <thread>
 #include <vector>
 
+#include "benchmarks/base/names.hpp"
 #include "benchmarks/metrics/anchors.hpp"
 #include "benchmarks/metrics/metric_table.hpp"
 #include "benchmarks/metrics/metrics.hpp"
@@ -23,17 +23,10 @@
 #include "tests/boxes.hpp"
 #include "tests/point_sets.hpp"
 
-namespace hullbench {
+namespace hullbench::testing {
 namespace {
 
-using nlohmann::json;
-using polylidar::MultiPolygon;
-using polylidar::Point;
-using polylidar::Polygon;
-using polylidar::Ring;
 using polylidar::testing::Random;
-using testing::box;
-using testing::reversed;
 
 const MultiPolygon kSquare = {{box(0, 0, 10, 10), {}}};
 const MultiPolygon kBowTie = {{{{0, 0}, {2, 2}, {2, 0}, {0, 2}}, {}}};
@@ -528,7 +521,7 @@ TEST(SegmentTree, AgreesWithBoost) {
     for (int i = 0; i < 300; ++i) {
       const Point& near = sample.points[random.below(sample.points.size())];
       const Point point = {near.x + random.between(-30, 30), near.y + random.between(-30, 30)};
-      const double expected = testing::boost_distance(point, sample.truth);
+      const double expected = boost_distance(point, sample.truth);
       // Rounding of coordinates of some hundred.
       EXPECT_NEAR(tree.distance(point), expected, 1e-11);
       EXPECT_EQ(tree.distance(point, expected * 1.5), tree.distance(point));
@@ -671,4 +664,4 @@ TEST(Metrics, AResultIsScoredWhereTheBufferOfItIsInvalid) {
 }
 
 }  // namespace
-}  // namespace hullbench
+}  // namespace hullbench::testing

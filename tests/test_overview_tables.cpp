@@ -1,18 +1,18 @@
 // The tables of methods and of parameters.
 #include <gtest/gtest.h>
 
-#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
+#include "benchmarks/base/names.hpp"
 #include "benchmarks/report/overview_tables.hpp"
 #include "benchmarks/table/writers.hpp"
 #include "invented_shapes.hpp"
+#include "tests/complaint.hpp"
 
-namespace hullbench {
+namespace hullbench::testing {
 namespace {
 
-using nlohmann::json;
 using Row = std::vector<std::string>;
 
 /// The row that begins with these cells; empty, and a failure, when there is none.
@@ -39,7 +39,7 @@ json* method_in(json& report, const std::string& name) {
 }
 
 TEST(MethodsTable, SaysWhatTheAdaptersSay) {
-  json report = test::invented_report({2000});
+  json report = invented_report({2000});
   EXPECT_EQ(table::shown(report::methods_table({report})).front(),
             (Row{"Method", "The library returns", "Holes", "Several polygons", "Version", "Licence"}));
   EXPECT_EQ(row_of(report::methods_table({report}), {"Polylidar"}),
@@ -54,7 +54,7 @@ TEST(MethodsTable, SaysWhatTheAdaptersSay) {
 }
 
 TEST(MethodsTable, OfAMethodThatNeverStartedHasDashes) {
-  json report = test::invented_report({2000});
+  json report = invented_report({2000});
   json& missing = *method_in(report, "postgis_legacy");
   for (const char* key : {"native_output", "licence"}) missing[key] = "";
   missing["capabilities"] = json::object();
@@ -63,7 +63,7 @@ TEST(MethodsTable, OfAMethodThatNeverStartedHasDashes) {
 }
 
 TEST(MethodsTable, HasAMethodOfSeveralReportsOnce) {
-  const json report = test::invented_report({2000});
+  const json report = invented_report({2000});
   EXPECT_EQ(report::methods_table({report, report}).rows.size(), report.at("methods").size());
 }
 
@@ -74,7 +74,7 @@ TEST(MethodsTable, OfNoReportsIsEmpty) {
 
 /// The invented report with a plan of these methods.
 json report_with_methods(const std::vector<json>& methods) {
-  json report = test::invented_report({2000});
+  json report = invented_report({2000});
   report["plan"]["methods"] = methods;
   report["rules"] = {{"paper_alpha", "2 sqrt(A / n)"}};
   return report;
@@ -109,9 +109,9 @@ TEST(ParametersTable, TakesARulesFormulaFromTheReport) {
 TEST(ParametersTable, SaysWhatTheLengthInAFormulaIs) {
   json report = report_with_methods({method("polylidar", "paper", {{"alpha", {{"rule", "paper_alpha"}}}})});
   report["rules"]["paper_alpha"] = "0.80 S";
-  EXPECT_NE(report::parameters_table({report}).remarks.at(0).find(" S is "), std::string::npos);
+  expect_says(report::parameters_table({report}).remarks.at(0), " S is ");
   report["rules"]["paper_alpha"] = "0.22 P";
-  EXPECT_NE(report::parameters_table({report}).remarks.at(0).find(" P is "), std::string::npos);
+  expect_says(report::parameters_table({report}).remarks.at(0), " P is ");
   EXPECT_EQ(report::parameters_table({report}).remarks.at(0).find(" S is "), std::string::npos);
 }
 
@@ -176,4 +176,4 @@ TEST(ParametersTable, LeavesOutMethodsWithoutRuns) {
 }
 
 }  // namespace
-}  // namespace hullbench
+}  // namespace hullbench::testing

@@ -7,20 +7,19 @@
 #include <string>
 #include <vector>
 
+#include "tests/complaint.hpp"
 #include "tests/program.hpp"
 #include "tests/temporary_folder.hpp"
 
-namespace hullbench {
+namespace hullbench::testing {
 namespace {
 
 namespace fs = std::filesystem;
-using testing::Outcome;
-using testing::run_program;
 
 const fs::path kExample = fs::path(SOURCE_FOLDER) / "tests/package";
 const std::string kExampleOutput = "shell of 40 vertices, hole of 12 vertices\narea 86\n";
 
-std::string succeed(const std::vector<std::string>& command, const testing::ProgramOptions& options = {}) {
+std::string succeed(const std::vector<std::string>& command, const ProgramOptions& options = {}) {
   const Outcome outcome = run_program(command, options);
   EXPECT_EQ(outcome.code, 0) << command[0] << ": " << outcome.out << outcome.err;
   return outcome.out;
@@ -65,8 +64,8 @@ class PackageTest : public ::testing::Test {
                         std::string("-DCMAKE_CXX_COMPILER=") + CXX_COMPILER});
   }
 
-  testing::ProgramOptions pkg_config_path() const {
-    testing::ProgramOptions options;
+  ProgramOptions pkg_config_path() const {
+    ProgramOptions options;
     options.environment["PKG_CONFIG_LIBDIR"] = prefix_ / libraries() / "pkgconfig";
     return options;
   }
@@ -93,7 +92,7 @@ class PackageTest : public ::testing::Test {
     return folder_.path() / ("build-" + project.filename().string());
   }
 
-  testing::TemporaryFolder folder_;
+  TemporaryFolder folder_;
   fs::path prefix_ = folder_.path() / "installed";
 };
 
@@ -144,7 +143,7 @@ TEST_F(PackageTest, NamesNothingOfTheBuild) {
   install({"--component", "polylidar"});
   for (const std::string& name : installed_files()) {
     if (name.ends_with(".a")) continue;
-    const std::string text = testing::read_text(prefix_ / name);
+    const std::string text = read_text(prefix_ / name);
     for (const std::string& unwanted : {std::string(SOURCE_FOLDER), prefix(), std::string("hullbench::")}) {
       EXPECT_EQ(text.find(unwanted), std::string::npos) << name << " names " << unwanted;
     }
@@ -165,20 +164,19 @@ TEST_F(PackageTest, IsFoundByPkgConfigWhereverItIsMoved) {
            CXX_COMPILER, kExample / "main.cpp", program, PKG_CONFIG_PROGRAM},
           pkg_config_path());
   EXPECT_EQ(succeed({program}), kExampleOutput);
-  EXPECT_NE(pkg_config({"--libs", "--static"}).find("-pthread"), std::string::npos);
+  expect_says(pkg_config({"--libs", "--static"}), "-pthread");
 }
 
 TEST_F(PackageTest, HasTheVersionOfTheHarnessInBothWays) {
   install_and_move();
   EXPECT_EQ(pkg_config({"--modversion"}), PROJECT_VERSION "\n");
-  EXPECT_NE(testing::read_text(prefix_ / libraries() / "cmake/polylidar/polylidar-config-version.cmake")
-                .find("set(PACKAGE_VERSION \"" PROJECT_VERSION "\")"),
-            std::string::npos);
+  expect_says(read_text(prefix_ / libraries() / "cmake/polylidar/polylidar-config-version.cmake"),
+              "set(PACKAGE_VERSION \"" PROJECT_VERSION "\")");
 }
 
 TEST_F(PackageTest, OfAnotherMinorVersionIsRefused) {
   install_and_move();
-  const std::string project = testing::read_text(kExample / "CMakeLists.txt");
+  const std::string project = read_text(kExample / "CMakeLists.txt");
   const std::string wanted = "polylidar 0.2 ";
   ASSERT_NE(project.find(wanted), std::string::npos);
   for (const std::string other : {"0.1", "0.3"}) {
@@ -186,13 +184,13 @@ TEST_F(PackageTest, OfAnotherMinorVersionIsRefused) {
     fs::create_directory(folder);
     std::string text = project;
     text.replace(text.find(wanted), wanted.size(), "polylidar " + other + " ");
-    testing::write_text(folder / "CMakeLists.txt", text);
-    testing::write_text(folder / "main.cpp", "");
+    write_text(folder / "CMakeLists.txt", text);
+    write_text(folder / "main.cpp", "");
     const Outcome configured = configure(folder);
     EXPECT_NE(configured.code, 0) << other;
-    EXPECT_NE(configured.err.find("version: " PROJECT_VERSION), std::string::npos) << configured.err;
+    expect_says(configured.err, "version: " PROJECT_VERSION);
   }
 }
 
 }  // namespace
-}  // namespace hullbench
+}  // namespace hullbench::testing

@@ -2,20 +2,19 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "benchmarks/base/names.hpp"
 #include "benchmarks/report/claims.hpp"
 #include "benchmarks/report/paper_comparison.hpp"
 #include "benchmarks/table/writers.hpp"
 #include "invented_shapes.hpp"
+#include "tests/complaint.hpp"
 
-namespace hullbench {
+namespace hullbench::testing {
 namespace {
-
-using nlohmann::json;
 
 /// The comparison of these; none when there is none.
 std::optional<report::Comparison> find(const std::vector<report::Comparison>& comparisons,
@@ -51,7 +50,7 @@ TEST(PaperComparison, IsLargeFromAQuarterMoreInBothDirections) {
 
 /// Two of the paper's letters: errors 10 and 20 %, 2 and 4 ms.
 json letters_report() {
-  return test::report_on_shapes({{"letter_a", 2000, 0.5, 2, 0.1}, {"letter_z", 2000, 0.5, 4, 0.2}});
+  return report_on_shapes({{"letter_a", 2000, 0.5, 2, 0.1}, {"letter_z", 2000, 0.5, 4, 0.2}});
 }
 
 TEST(PaperComparison, OfLettersTakesTheMeans) {
@@ -83,7 +82,7 @@ TEST(PaperComparison, OfLettersTakesTheMeans) {
 
 TEST(PaperComparison, OfFloorsIsWithTheTableOfFloors) {
   const auto comparisons = report::compare_with_paper(
-      test::report_on_shapes({{"floor-1", 80000, 0.5, 48, 0.022}, {"floor-2", 90000, 0.5, 48, 0.022}}));
+      report_on_shapes({{"floor-1", 80000, 0.5, 48, 0.022}, {"floor-2", 90000, 0.5, 48, 0.022}}));
   const auto time = find(comparisons, "polylidar", "time");
   ASSERT_TRUE(time);
   EXPECT_EQ(time->where, "Table III");
@@ -99,8 +98,8 @@ TEST(PaperComparison, LeavesOtherProtocolsAlone) {
   EXPECT_FALSE(find(report::compare_with_paper(report), "polylidar", "time"));
 }
 
-std::vector<test::InventedShape> star_polygons(std::size_t count, std::int64_t n) {
-  std::vector<test::InventedShape> shapes;
+std::vector<InventedShape> star_polygons(std::size_t count, std::int64_t n) {
+  std::vector<InventedShape> shapes;
   for (std::size_t k = 1; k <= count; ++k) {
     const double convexity = k % 2 == 0 ? 0.8 : 0.3;
     shapes.push_back({"star-" + std::to_string(k), n, convexity, k % 2 == 0 ? 5 : 7, 0.05});
@@ -109,7 +108,7 @@ std::vector<test::InventedShape> star_polygons(std::size_t count, std::int64_t n
 }
 
 TEST(PaperComparison, OfRandomPolygonsIsByConvexity) {
-  const auto comparisons = report::compare_with_paper(test::report_on_shapes(star_polygons(61, 8000)));
+  const auto comparisons = report::compare_with_paper(report_on_shapes(star_polygons(61, 8000)));
   EXPECT_EQ(comparisons.size(), 4U);  // error and time of Polylidar in two classes
   const auto high = find(comparisons, "polylidar", "time", "high (from 0.75)");
   const auto low = find(comparisons, "polylidar", "time", "low (below 0.55)");
@@ -119,19 +118,19 @@ TEST(PaperComparison, OfRandomPolygonsIsByConvexity) {
   EXPECT_DOUBLE_EQ(high->measured.value_or(-1), 5);
   EXPECT_EQ(low->published, 4.7);
   EXPECT_DOUBLE_EQ(low->measured.value_or(-1), 7);
-  EXPECT_TRUE(report::compare_with_paper(test::report_on_shapes(star_polygons(61, 4000))).empty());
+  EXPECT_TRUE(report::compare_with_paper(report_on_shapes(star_polygons(61, 4000))).empty());
 }
 
 /// The run of `method` on California in `report`, as one of `steps`, the method that tells its steps.
 json told_by(json& report, const char* method, const char* steps) {
-  json run = test::run_on(report, method, "ca");
+  json run = run_on(report, method, "ca");
   run["method"] = steps;
   return run;
 }
 
 /// The invented report with only California with holes at n points.
 json steps_report(std::int64_t n) {
-  json report = test::invented_report({n});
+  json report = invented_report({n});
   json runs = json::array();
   for (const json& run : report["runs"]) {
     if (run["dataset"] == "ca" && run["holes"] == true) runs.push_back(run);
@@ -165,7 +164,7 @@ TEST(PaperComparison, OfStepsIsForThePapersCaseAlone) {
 
 TEST(PaperComparison, OfStepsIsNotForOtherCases) {
   EXPECT_TRUE(report::compare_with_paper(steps_report(32000)).empty());
-  EXPECT_TRUE(report::compare_with_paper(test::invented_report({64000})).empty());
+  EXPECT_TRUE(report::compare_with_paper(invented_report({64000})).empty());
   json solid = steps_report(64000);
   for (json& run : solid["runs"]) run["holes"] = false;
   EXPECT_TRUE(report::compare_with_paper(solid).empty());
@@ -249,20 +248,19 @@ TEST(DifferencesTable, HasValuePaperHereRatioAndWhetherAReasonIsKnown) {
   EXPECT_EQ(rows[2], (std::vector<std::string>{"Table IV, Polylidar: time, ms", "1.2", "3.00", "2.50",
                                                reason ? rows[2].back() : "not known"}));
   EXPECT_EQ(rows[2].back().starts_with("["), reason.has_value()) << rows[2].back();
-  EXPECT_NE(table.remarks.front().find("1.25 times"), std::string::npos) << table.remarks.front();
+  expect_says(table.remarks.front(), "1.25 times");
 }
 
 TEST(DifferencesTable, NamesTheClassOfAValue) {
-  const auto rows =
-      table::shown(report::differences_table({test::report_on_shapes(star_polygons(61, 8000))}));
+  const auto rows = table::shown(report::differences_table({report_on_shapes(star_polygons(61, 8000))}));
   ASSERT_EQ(rows.size(), 5U);
   EXPECT_EQ(rows[2][0], "Table V, high (from 0.75), Polylidar: time, ms");
 }
 
 TEST(DifferencesTable, IsEmptyForWhatThePaperHasNoTableOf) {
-  EXPECT_TRUE(report::differences_table({test::invented_report({2000})}).rows.empty());
+  EXPECT_TRUE(report::differences_table({invented_report({2000})}).rows.empty());
   EXPECT_TRUE(report::differences_table({}).rows.empty());
 }
 
 }  // namespace
-}  // namespace hullbench
+}  // namespace hullbench::testing

@@ -17,7 +17,7 @@
 #include "benchmarks/worker/worker_process.hpp"
 #include "tests/complaint.hpp"
 
-namespace hullbench {
+namespace hullbench::testing {
 namespace {
 
 using namespace std::chrono_literals;
@@ -46,7 +46,7 @@ TEST(ForEachInParallel, ThrowsTheExceptionOfTheSmallestIndexAfterAllOthersRan) {
       if (i == 3) std::this_thread::sleep_for(20ms);
       if (i == 3 || i == 4 || i == 99) throw std::runtime_error(std::to_string(i));
     };
-    EXPECT_EQ(testing::complaint_of([&] { for_each_in_parallel(calls.size(), cores, count_calls); }), "3");
+    EXPECT_EQ(complaint_of([&] { for_each_in_parallel(calls.size(), cores, count_calls); }), "3");
     EXPECT_TRUE(std::all_of(calls.begin(), calls.end(), [](const auto& call) { return call == 1; }));
   }
 }
@@ -99,4 +99,4 @@ TEST(ForEachInParallel, LeavesAThreadOfAnyCoreWhereItMayBe) {
 }
 
 }  // namespace
-}  // namespace hullbench
+}  // namespace hullbench::testing

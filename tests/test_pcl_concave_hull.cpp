@@ -15,20 +15,8 @@
 #include "tests/hull_oracle.hpp"
 #include "tests/point_sets.hpp"
 
-namespace hullbench {
-
-std::unique_ptr<Adapter> make_pcl_concave_hull();
-
+namespace hullbench::testing {
 namespace {
-
-using polylidar::testing::canonical;
-using polylidar::testing::core_hull;
-using polylidar::testing::hole_count;
-using test::hull_of;
-using test::kAreaTolerance;
-using test::kHoleArea;
-using test::kPoints;
-using test::square_points;
 
 MultiPolygon pcl_hull(const std::vector<Point>& points, double alpha) {
   return hull_of(*make_pcl_concave_hull(), points, {{"alpha", alpha}});
@@ -48,10 +36,10 @@ TEST(PclConcaveHull, SaysWhoItIs) {
 TEST(PclConcaveHull, KeepsTheContract) {
   const Parameters parameters = {{"alpha", 0.1}};
   const Parameters others = {{"alpha", 0.4}};
-  test::expect_the_same_bytes_again(&make_pcl_concave_hull, parameters, others);
-  test::expect_load_to_replace(&make_pcl_concave_hull, parameters);
-  test::expect_nothing_without_area(&make_pcl_concave_hull, parameters);
-  test::expect_bad_arguments_to_be_refused(&make_pcl_concave_hull, parameters);
+  expect_the_same_bytes_again(&make_pcl_concave_hull, parameters, others);
+  expect_load_to_replace(&make_pcl_concave_hull, parameters);
+  expect_nothing_without_area(&make_pcl_concave_hull, parameters);
+  expect_bad_arguments_to_be_refused(&make_pcl_concave_hull, parameters);
 }
 
 TEST(PclConcaveHull, HasHolesAndSeveralPolygons) {
@@ -90,4 +78,4 @@ TEST(PclConcaveHull, IsNearlyTheCoresAlphaShape) {
 }
 
 }  // namespace
-}  // namespace hullbench
+}  // namespace hullbench::testing

@@ -4,24 +4,17 @@
 #include <cmath>
 #include <filesystem>
 #include <limits>
-#include <nlohmann/json.hpp>
 #include <set>
 #include <string>
 #include <vector>
 
+#include "benchmarks/base/names.hpp"
 #include "benchmarks/record/pictures.hpp"
 #include "benchmarks/record/validate.hpp"
 #include "tests/hullbench_test.hpp"
 
-namespace hullbench {
+namespace hullbench::testing {
 namespace {
-
-namespace fs = std::filesystem;
-using nlohmann::json;
-using polylidar::MultiPolygon;
-using testing::california;
-using testing::Outcome;
-using testing::small_plan;
 
 /// A square of side 10 at (100, 200) with `count` points on its diagonal.
 PointSet square(std::size_t count) {
@@ -51,7 +44,7 @@ record::RunRecord record(const std::string& dataset, double l2) {
 
 const MultiPolygon kTriangle = {{{{100, 200}, {110, 200}, {105, 210}}, {}}};
 
-class PicturesTest : public testing::HullbenchTest {
+class PicturesTest : public HullbenchTest {
  protected:
   std::vector<json> lines() const { return read_lines(record::kPicturesFile); }
 
@@ -144,7 +137,7 @@ TEST_F(PicturesTest, AResultThatCannotBeDrawnIsLeftOut) {
 }
 
 TEST_F(PicturesTest, AFileOfSomethingElseIsSaid) {
-  testing::write_text(folder() / record::kPicturesFile, "{\"kind\": \"row\"}\n");
+  write_text(folder() / record::kPicturesFile, "{\"kind\": \"row\"}\n");
   EXPECT_THROW(record::PictureBook(folder(), 1), std::runtime_error);
 }
 
@@ -178,4 +171,4 @@ TEST_F(PicturesTest, OfARunAreThereForItsReport) {
 }
 
 }  // namespace
-}  // namespace hullbench
+}  // namespace hullbench::testing

@@ -25,12 +25,11 @@
 #include "datasets/stress.hpp"
 #include "polylidar/concave_hull.hpp"
 #include "polylidar/delaunay.hpp"
+#include "tests/complaint.hpp"
 #include "tests/temporary_folder.hpp"
 
-namespace hullbench {
+namespace hullbench::testing {
 namespace {
-
-using nlohmann::json;
 
 const std::vector<std::string> kMethods = {"polylidar", "spatialite"};
 
@@ -75,17 +74,6 @@ json plan_with_cases(const std::string& cases) {
   return plan;
 }
 
-/// What is said about such a plan.
-std::string complaint_about_cases(const std::string& cases) {
-  try {
-    plan::check_plan(plan::parse_plan(plan_with_cases(cases).dump(), "plan 'small'"), kMethods,
-                     datasets_and_families());
-  } catch (const ConfigurationError& error) {
-    return error.what();
-  }
-  return "nothing";
-}
-
 /// Whether a message has all that its reader needs; how it says it is its own affair.
 ::testing::AssertionResult names_all(const std::string& message, const std::vector<std::string>& parts) {
   for (const std::string& part : parts) {
@@ -95,15 +83,30 @@ std::string complaint_about_cases(const std::string& cases) {
   return ::testing::AssertionSuccess();
 }
 
-/// What `work` throws.
 template <class Work>
 std::string refusal_of(const Work& work) {
-  try {
-    work();
-  } catch (const ConfigurationError& error) {
-    return error.what();
-  }
-  return "nothing";
+  return complaint_of<ConfigurationError>(work);
+}
+
+plan::Plan parsed(const json& source, const std::string& place = "here") {
+  return plan::parse_plan(source.dump(), place);
+}
+
+/// Expects that the plan is the same when it is written and read again; what is written.
+json expect_to_survive_json(const plan::Plan& plan) {
+  const json once = plan::plan_to_json(plan);
+  EXPECT_EQ(plan::plan_to_json(parsed(once)), once);
+  return once;
+}
+
+/// What is said about a plan that is read and checked beside these data sets.
+std::string complaint_about(const json& source, const std::vector<DatasetInfo>& known) {
+  return refusal_of([&] { plan::check_plan(parsed(source, "plan 'small'"), kMethods, known); });
+}
+
+/// About a plan of polylidar with these cases.
+std::string complaint_about_cases(const std::string& cases) {
+  return complaint_about(plan_with_cases(cases), datasets_and_families());
 }
 
 std::vector<std::string> names_of(const std::vector<plan::PlannedRun>& runs) {
@@ -112,20 +115,15 @@ std::vector<std::string> names_of(const std::vector<plan::PlannedRun>& runs) {
   return names;
 }
 
-/// What is said about a plan in which the value at `pointer` is `value`.
+/// About one in which the value at `pointer` is `value`.
 std::string complaint(const std::string& pointer, const json& value) {
   json plan = small_plan();
   plan[json::json_pointer(pointer)] = value;
-  try {
-    plan::check_plan(plan::parse_plan(plan.dump(), "plan 'small'"), kMethods, known_datasets());
-  } catch (const ConfigurationError& error) {
-    return error.what();
-  }
-  return "nothing";
+  return complaint_about(plan, known_datasets());
 }
 
 TEST(Plan, DefaultsAndValues) {
-  const plan::Plan plan = plan::parse_plan(small_plan().dump(), "here");
+  const plan::Plan plan = parsed(small_plan());
   EXPECT_EQ(plan.name, "small");
   EXPECT_EQ(plan.title, "small");
   EXPECT_EQ(plan.repetitions, 10);
@@ -146,8 +144,7 @@ TEST(Plan, SurvivesJson) {
   source["paper"] = "Table 6";
   source["methods"][0]["note"] = "fast";
   source["methods"][0]["datasets"] = {"ca"};
-  const json once = plan::plan_to_json(plan::parse_plan(source.dump(), "here"));
-  EXPECT_EQ(plan::plan_to_json(plan::parse_plan(once.dump(), "there")), once);
+  const json once = expect_to_survive_json(parsed(source));
   for (const auto& [key, value] : source.items()) EXPECT_EQ(once.at(key), value) << key;
 }
 
@@ -166,12 +163,12 @@ TEST(Plan, PassesShareTheRepetitions) {
 
 TEST(Plan, APlanHasOnePassUnlessItSaysSo) {
   json source = small_plan();
-  EXPECT_EQ(plan::parse_plan(source.dump(), "here").passes, 1);
+  EXPECT_EQ(parsed(source).passes, 1);
   source["passes"] = plan::kMaxPasses;
-  EXPECT_EQ(plan::parse_plan(source.dump(), "here").passes, plan::kMaxPasses);
+  EXPECT_EQ(parsed(source).passes, plan::kMaxPasses);
   for (const json& wrong : {json(0), json(plan::kMaxPasses + 1), json("three")}) {
     source["passes"] = wrong;
-    EXPECT_THROW(plan::parse_plan(source.dump(), "here"), ConfigurationError) << wrong;
+    EXPECT_THROW(parsed(source), ConfigurationError) << wrong;
   }
 }
 
@@ -180,36 +177,33 @@ TEST(Plan, AParameterCanBeScaledByTheSpacingOfThePoints) {
   source["methods"][0]["protocol"] = "tuned";  // which may not read the ground truth
   source["methods"][0]["parameters"] = {
       {"alpha", {{"scaled", 1.5}}}, {"area", {{"scaled", 1.5}, {"power", 2}}}, {"max_edge_length", nullptr}};
-  const plan::Plan plan = plan::parse_plan(source.dump(), "here");
-  const std::vector<polylidar::Point> points = {{0, 0}, {6, 0}, {6, 6}, {0, 6}};  // spacing 3
+  const plan::Plan plan = parsed(source);
+  const std::vector<Point> points = {{0, 0}, {6, 0}, {6, 6}, {0, 6}};  // spacing 3
   const auto chosen =
       plan::choose_parameters(plan.methods[0], plan.expanded_cases[0], {points, 1, false, {}});
   EXPECT_DOUBLE_EQ(chosen.at("alpha"), 4.5);
   EXPECT_DOUBLE_EQ(chosen.at("area"), 20.25);
   EXPECT_EQ(chosen.at("max_edge_length"), std::numeric_limits<double>::infinity());
-  const json once = plan::plan_to_json(plan);
-  EXPECT_EQ(plan::plan_to_json(plan::parse_plan(once.dump(), "there")), once);
+  expect_to_survive_json(plan);
 }
 
 TEST(Plan, AValueForOneNumberOfPointsGoesBeforeTheShapes) {
   json source = small_plan();
   source["methods"][1]["parameters"]["c"]["cases"] = {
       {"ca", 2.0}, {"ca/n:500", 3.0}, {"ca/holes/n:500", nullptr}, {"ca/holes/n:1000", 5.0}};
-  const plan::Plan plan = plan::parse_plan(source.dump(), "here");
+  const plan::Plan plan = parsed(source);
   plan::check_plan(plan, kMethods, known_datasets());
   std::vector<double> values;
   for (const plan::PlanCase& plan_case : plan.expanded_cases)
     values.push_back(plan::choose_parameters(plan.methods[1], plan_case, {}).at("c"));
   EXPECT_EQ(values, (std::vector<double>{3, 2, std::numeric_limits<double>::infinity(), 5}));
-  const json once = plan::plan_to_json(plan);
-  EXPECT_EQ(plan::plan_to_json(plan::parse_plan(once.dump(), "there")), once);
+  expect_to_survive_json(plan);
   source["methods"][1]["parameters"]["c"]["cases"].erase("ca/holes/n:1000");
-  EXPECT_THROW(plan::check_plan(plan::parse_plan(source.dump(), "here"), kMethods, known_datasets()),
-               ConfigurationError);
+  EXPECT_THROW(plan::check_plan(parsed(source), kMethods, known_datasets()), ConfigurationError);
 }
 
 TEST(Plan, RunsComeCaseByCaseWithTheirNames) {
-  const auto runs = plan::planned_runs(plan::parse_plan(small_plan().dump(), "here"), "");
+  const auto runs = plan::planned_runs(parsed(small_plan()), "");
   ASSERT_EQ(runs.size(), 8U);
   EXPECT_EQ(runs[0].name, "polylidar/ca/n:500/holes:0/protocol:paper");
   EXPECT_EQ(runs[1].name, "spatialite/ca/n:500/holes:0/protocol:paper");
@@ -221,22 +215,21 @@ TEST(Plan, ACaseCanStandForSeveralDataSets) {
   source["cases"] = json::parse(R"([{"dataset": ["solid", "ca"], "n": [500, 1000]},
                                     {"dataset": "ca", "holes": [true], "n": [500]}])");
   source["methods"][1]["parameters"]["c"] = 2.0;
-  const plan::Plan plan = plan::parse_plan(source.dump(), "here");
+  const plan::Plan plan = parsed(source);
   plan::check_plan(plan, kMethods, known_datasets());
   std::vector<std::string> cases;
   for (const plan::PlanCase& one : plan.expanded_cases)
     cases.push_back(one.shape() + " " + std::to_string(one.n));
   EXPECT_EQ(cases,
             (std::vector<std::string>{"solid 500", "solid 1000", "ca 500", "ca 1000", "ca/holes 500"}));
-  const json once = plan::plan_to_json(plan);
+  const json once = expect_to_survive_json(plan);
   EXPECT_EQ(once.at("cases"), source["cases"]);
-  EXPECT_EQ(plan::plan_to_json(plan::parse_plan(once.dump(), "there")), once);
 }
 
 TEST(Plan, MembersStandForTheShapesOfAFamily) {
   const json source =
       plan_with_cases(R"([{"dataset": ["star", "comb"], "members": 2, "holes": [false, true], "n": [500]}])");
-  const plan::Plan plan = plan::parse_plan(source.dump(), "here");
+  const plan::Plan plan = parsed(source);
   std::vector<std::string> cases;
   for (const plan::PlanCase& one : plan.expanded_cases) cases.push_back(one.shape());
   EXPECT_EQ(cases, (std::vector<std::string>{"star-1", "star-1/holes", "star-2", "star-2/holes", "comb-1",
@@ -244,7 +237,7 @@ TEST(Plan, MembersStandForTheShapesOfAFamily) {
   EXPECT_EQ(plan::planned_runs(plan, "").front().name, "polylidar/star-1/n:500/holes:0/protocol:paper");
   const json once = plan::plan_to_json(plan);
   EXPECT_EQ(once.at("cases"), source["cases"]);
-  EXPECT_EQ(plan::parse_plan(once.dump(), "there").expanded_cases.size(), plan.expanded_cases.size());
+  EXPECT_EQ(parsed(once).expanded_cases.size(), plan.expanded_cases.size());
 }
 
 TEST(Plan, MembersAreLimitedToTheFamily) {
@@ -270,7 +263,7 @@ TEST(Plan, TakesAsManyPointsAsTheCore) {
   };
   EXPECT_EQ(complaint_about(polylidar::kMaxPoints), "nothing");
   EXPECT_NE(complaint_about(polylidar::kMaxPoints + 1), "nothing");
-  const std::vector<polylidar::Point> same(1);
+  const std::vector<Point> same(1);
   EXPECT_THROW(polylidar::delaunay({same.data(), polylidar::kMaxPoints + 1}), std::invalid_argument)
       << "by their number, before one is read";
 }
@@ -288,7 +281,7 @@ TEST(Plan, AMethodCanKeepToAFamily) {
   json source =
       plan_with_cases(R"([{"dataset": "star", "members": 2, "n": [500]}, {"dataset": "solid", "n": [500]}])");
   source["methods"][0]["datasets"] = {"star"};
-  const plan::Plan plan = plan::parse_plan(source.dump(), "here");
+  const plan::Plan plan = parsed(source);
   EXPECT_NO_THROW(plan::check_plan(plan, kMethods, datasets_and_families()));
   EXPECT_EQ(plan::planned_runs(plan, "").size(), 2U);
 }
@@ -297,18 +290,17 @@ TEST(Plan, RecordingsTakeThePlaceOfSimulatedFloors) {
   const json source =
       plan_with_cases(R"([{"dataset": "floor", "members": 11}, {"dataset": "lowfloor", "members": 4},
                           {"dataset": "ca", "n": [500]}])");
-  plan::Plan plan = plan::parse_plan(source.dump(), "here");
+  plan::Plan plan = parsed(source);
   plan::use_recordings(plan, 2);
   const std::vector<std::string> names = {"polylidar/recorded-1/n:all/holes:0/protocol:paper",
                                           "polylidar/recorded-2/n:all/holes:0/protocol:paper",
                                           "polylidar/ca/n:500/holes:0/protocol:paper"};
   EXPECT_EQ(names_of(plan::planned_runs(plan, "")), names);
-  EXPECT_EQ(names_of(plan::planned_runs(plan::parse_plan(plan::plan_to_json(plan).dump(), "there"), "")),
-            names);
+  EXPECT_EQ(names_of(plan::planned_runs(parsed(plan::plan_to_json(plan)), "")), names);
 }
 
 TEST(Plan, RecordingsAreAddedToRealPoints) {
-  plan::Plan plan = plan::parse_plan(plan_with_cases(R"([{"dataset": "real-clmfires"}])").dump(), "here");
+  plan::Plan plan = parsed(plan_with_cases(R"([{"dataset": "real-clmfires"}])"));
   plan::use_recordings(plan, 2);
   EXPECT_EQ(names_of(plan::planned_runs(plan, "")),
             (std::vector<std::string>{"polylidar/real-clmfires/n:all/holes:0/protocol:paper",
@@ -318,23 +310,23 @@ TEST(Plan, RecordingsAreAddedToRealPoints) {
 
 TEST(Plan, DrawsAreCountedAndWritten) {
   json source = small_plan();
-  EXPECT_EQ(plan::parse_plan(source.dump(), "here").draws, 0);
+  EXPECT_EQ(parsed(source).draws, 0);
   source["draws"] = 3;
-  const plan::Plan plan = plan::parse_plan(source.dump(), "here");
+  const plan::Plan plan = parsed(source);
   EXPECT_EQ(plan.draws, 3);
   EXPECT_EQ(plan::plan_to_json(plan).at("draws"), 3);
   source["draws"] = -1;
-  EXPECT_THROW(plan::parse_plan(source.dump(), "here"), ConfigurationError);
+  EXPECT_THROW(parsed(source), ConfigurationError);
 }
 
 TEST(Plan, RecordingsNeedSimulatedFloors) {
-  plan::Plan plan = plan::parse_plan(small_plan().dump(), "here");
+  plan::Plan plan = parsed(small_plan());
   EXPECT_TRUE(names_all(refusal_of([&] { plan::use_recordings(plan, 2); }),
                         {"'small'", "--recordings", "'rgbd'", "'real'"}));
 }
 
 TEST(Plan, FilterIsSearchedInNames) {
-  const plan::Plan plan = plan::parse_plan(small_plan().dump(), "here");
+  const plan::Plan plan = parsed(small_plan());
   EXPECT_EQ(plan::planned_runs(plan, "polylidar").size(), 4U);
   EXPECT_EQ(plan::planned_runs(plan, "^ca").size(), 0U);
   EXPECT_EQ(plan::planned_runs(plan, "n:500/.*holes:1").size(), 2U);
@@ -345,7 +337,7 @@ TEST(Plan, AMethodCanKeepToSomeDataSets) {
   json source = small_plan();
   source["cases"].push_back({{"dataset", "solid"}, {"n", {500}}});
   source["methods"][1]["datasets"] = {"ca"};
-  const plan::Plan plan = plan::parse_plan(source.dump(), "here");
+  const plan::Plan plan = parsed(source);
   plan::check_plan(plan, kMethods, known_datasets());
   EXPECT_EQ(plan::planned_runs(plan, "solid").size(), 1U);
 }
@@ -422,7 +414,7 @@ TEST(Plan, WrongPlansAreRefusedWithTheirPlace) {
 }
 
 json plan_schema() {
-  std::ifstream in(std::filesystem::path(HULLBENCH_PLAN_FOLDER) / "plan.schema.json");
+  std::ifstream in(fs::path(HULLBENCH_PLAN_FOLDER) / "plan.schema.json");
   return json::parse(in);
 }
 
@@ -457,8 +449,7 @@ TEST(PlanSchema, SaysOfEveryFieldWhatItIsWithExamplesThatAreValid) {
 }
 
 TEST(PlanSchema, ItsExampleIsAPlan) {
-  for (const json& example : plan_schema()["examples"])
-    EXPECT_NO_THROW(plan::parse_plan(example.dump(), "example"));
+  for (const json& example : plan_schema()["examples"]) EXPECT_NO_THROW(parsed(example));
 }
 
 /// A plan of the entries that `choice` takes from the field.
@@ -466,7 +457,7 @@ plan::Plan plan_of_field(const json& choice) {
   json plan = small_plan();
   plan.erase("methods");
   plan.update(choice);
-  return plan::parse_plan(plan.dump(), "plan 'small'");
+  return parsed(plan, "plan 'small'");
 }
 
 std::vector<std::string> ways_of(const plan::Plan& plan) {
@@ -508,9 +499,8 @@ TEST(Field, AnEntryOfThePlanChangesWhatItSaysOfOneThatIsTaken) {
   expected["repetitions"] = 3;
   EXPECT_EQ(plan::plan_to_json(plan).at("methods").at(0), expected);
   EXPECT_EQ(plan.methods[3].parameters.size(), 1U) << "nothing comes from what is not taken";
-  const json once = plan::plan_to_json(plan);
+  const json once = expect_to_survive_json(plan);
   EXPECT_FALSE(once.contains("field")) << "records are complete";
-  EXPECT_EQ(plan::plan_to_json(plan::parse_plan(once.dump(), "there")), once);
 
   json source = {{"field", {"spatialite"}}, {"methods", {entries[1], entries[1]}}};
   EXPECT_TRUE(
@@ -532,7 +522,7 @@ TEST(Plan, MissingKeysAreNamed) {
   for (const char* key : {"name", "cases", "methods"}) {
     json source = small_plan();
     source.erase(key);
-    EXPECT_TRUE(names_all(refusal_of([&] { plan::parse_plan(source.dump(), "plan 'small'"); }),
+    EXPECT_TRUE(names_all(refusal_of([&] { parsed(source, "plan 'small'"); }),
                           {"plan 'small'", "'" + std::string(key) + "'"}));
   }
 }
@@ -552,17 +542,14 @@ std::vector<std::string> datasets_of(const plan::Plan& plan) {
 }
 
 TEST(Plan, EveryDataSetStandsWithEveryStress) {
-  const plan::Plan plan =
-      plan::parse_plan(plan_with_cases(R"([{"dataset": ["ca", "star-2~noise:1"], "n": [9]},
-                          {"dataset": "star", "members": 2, "stress": ["noise:0", "outliers:2.5"], "n": [9]}])")
-                           .dump(),
-                       "here");
+  const plan::Plan plan = parsed(plan_with_cases(R"([{"dataset": ["ca", "star-2~noise:1"], "n": [9]},
+                          {"dataset": "star", "members": 2, "stress": ["noise:0", "outliers:2.5"], "n": [9]}])"));
   EXPECT_EQ(datasets_of(plan),
             (std::vector<std::string>{"ca", "star-2~noise:1", "star-1~noise:0", "star-1~outliers:2.5",
                                       "star-2~noise:0", "star-2~outliers:2.5"}));
   EXPECT_EQ(plan::planned_runs(plan, "")[1].name, "polylidar/star-2~noise:1/n:9/holes:0/protocol:paper");
   EXPECT_NO_THROW(plan::check_plan(plan, kMethods, datasets_and_families()));
-  EXPECT_EQ(datasets_of(plan::parse_plan(plan::plan_to_json(plan).dump(), "there")), datasets_of(plan));
+  EXPECT_EQ(datasets_of(parsed(plan::plan_to_json(plan))), datasets_of(plan));
 }
 
 TEST(Plan, MethodsThatKeepToAShapeOrAFamilyKeepToItUnderStressToo) {
@@ -570,7 +557,7 @@ TEST(Plan, MethodsThatKeepToAShapeOrAFamilyKeepToItUnderStressToo) {
       plan_with_cases(R"([{"dataset": ["ca", "star-2"], "stress": ["noise:0", "noise:1"], "n": [9]}])");
   const auto count = [&](const std::string& dataset) {
     document["methods"][0]["datasets"] = {dataset};
-    return plan::planned_runs(plan::parse_plan(document.dump(), "here"), "").size();
+    return plan::planned_runs(parsed(document), "").size();
   };
   EXPECT_EQ(count("ca"), 2U);
   EXPECT_EQ(count("star"), 2U);
@@ -598,15 +585,15 @@ TEST(Plan, StressThatThereIsNotIsRefused) {
 
 TEST(Plan, AxisIsReadAndWritten) {
   json document = plan_with_cases(R"([{"dataset": "ca", "stress": ["noise:0", "noise:1"], "n": [9]}])");
-  EXPECT_FALSE(plan::parse_plan(document.dump(), "here").axis);
+  EXPECT_FALSE(parsed(document).axis);
   document["axis"] = {{"of", "noise"}, {"title", "Noise"}, {"unit", "h"}};
-  const plan::Plan plan = plan::parse_plan(document.dump(), "here");
+  const plan::Plan plan = parsed(document);
   ASSERT_TRUE(plan.axis);
   EXPECT_EQ(plan.axis->of, "noise");
   EXPECT_EQ(plan::plan_to_json(plan).at("axis"), document["axis"]);
   EXPECT_NO_THROW(plan::check_plan(plan, kMethods, known_datasets()));
   document["axis"] = {{"of", "noise"}};
-  EXPECT_EQ(plan::parse_plan(document.dump(), "here").axis->title, "noise");
+  EXPECT_EQ(parsed(document).axis->title, "noise");
 }
 
 TEST(Plan, EveryCaseHasAPlaceOnTheAxis) {
@@ -614,7 +601,7 @@ TEST(Plan, EveryCaseHasAPlaceOnTheAxis) {
       plan_with_cases(R"([{"dataset": "ca", "stress": ["noise:0"], "n": [9]}, {"dataset": "ca", "n": [9]}])");
   const auto check = [&](const char* of) {
     document["axis"] = {{"of", of}};
-    plan::check_plan(plan::parse_plan(document.dump(), "here"), kMethods, known_datasets());
+    plan::check_plan(parsed(document), kMethods, known_datasets());
   };
   EXPECT_NO_THROW(check("n"));
   EXPECT_NO_THROW(check("sampling"));
@@ -625,10 +612,10 @@ TEST(Plan, AcceptedStatusesAreReadAndWritten) {
   json document = small_plan();
   for (const record::Status status : record::kAllStatuses) {
     document["accepted"] = json::array({to_string(status)});
-    EXPECT_EQ(plan::parse_plan(document.dump(), "here").accepted.size(), 1U) << to_string(status);
+    EXPECT_EQ(parsed(document).accepted.size(), 1U) << to_string(status);
   }
   document["accepted"] = {"error", "unsupported"};
-  const plan::Plan plan = plan::parse_plan(document.dump(), "here");
+  const plan::Plan plan = parsed(document);
   EXPECT_EQ(plan.accepted, (std::vector<std::string>{"error", "unsupported"}));
   EXPECT_EQ(plan::plan_to_json(plan).at("accepted"), document["accepted"]);
   EXPECT_TRUE(
@@ -646,7 +633,7 @@ TEST(Plan, ADefaultWithParametersSaysWhoseItIs) {
 }
 
 TEST(Plan, IsFoundByNameOrByPath) {
-  const testing::TemporaryFolder folder;
+  const TemporaryFolder folder;
   std::ofstream(folder.path() / "plan.schema.json") << "{}";
   std::ofstream(folder.path() / "small.json") << small_plan();
   EXPECT_EQ(plan::load_plan("small", folder.path()).name, "small");
@@ -655,9 +642,9 @@ TEST(Plan, IsFoundByNameOrByPath) {
       names_all(refusal_of([&] { plan::load_plan("smal", folder.path()); }), {"'smal'", "known are small,"}));
 }
 
-std::vector<std::filesystem::path> ready_plans() {
-  std::vector<std::filesystem::path> files;
-  for (const auto& entry : std::filesystem::directory_iterator(HULLBENCH_PLAN_FOLDER)) {
+std::vector<fs::path> ready_plans() {
+  std::vector<fs::path> files;
+  for (const auto& entry : fs::directory_iterator(HULLBENCH_PLAN_FOLDER)) {
     if (!entry.path().stem().string().ends_with(".schema")) files.push_back(entry.path());
   }
   return files;
@@ -674,7 +661,6 @@ TEST(Plan, EveryReadyPlanIsGood) {
   }
 }
 
-// What is compared under one protocol got its parameters in one way.
 TEST(Plan, TheSeedOfTheReleaseIsThatOfItsSentence) {
   const auto seed_of = [](const std::string& seed) {
     return plan::parse_plan(R"({"name": "p", "cases": [{"dataset": "ca", "n": [5]}], "seed": )" + seed +
@@ -692,6 +678,7 @@ TEST(Plan, TheSeedOfTheReleaseIsThatOfItsSentence) {
     EXPECT_EQ(plan::load_plan(name, HULLBENCH_PLAN_FOLDER).seed, plan::release_seed()) << name;
 }
 
+// What is compared under one protocol got its parameters in one way.
 TEST(Plan, EveryRuleFromThePointsIsUnderAuto) {
   for (const auto& file : ready_plans()) {
     const plan::Plan plan = plan::load_plan(file.string(), "");
@@ -747,7 +734,7 @@ TEST(Plan, StepsIsThePapersExperiment) {
   ASSERT_EQ(plan.expanded_cases.size(), 1U);
   EXPECT_EQ(plan.expanded_cases[0].n, 64000);
   for (const plan::PlannedRun& run : plan::planned_runs(plan, ""))
-    EXPECT_NE(run.name.find("/ca/n:64000/holes:1/"), std::string::npos);
+    expect_says(run.name, "/ca/n:64000/holes:1/");
   for (const char* method : {"polylidar", "cgal_alpha_shape", "spatialite", "postgis_steps", "chi_shape"})
     EXPECT_EQ(plan::planned_runs(plan, "^" + std::string(method) + "/.*protocol:paper").size(), 1U) << method;
   EXPECT_EQ(plan::planned_runs(plan, "^(polylidar|spatialite|postgis)_steps/.*protocol:paper").size(), 3U);
@@ -813,8 +800,8 @@ TEST(Plan, AlphabetIsThePapersExperiment) {
               1e-4);  // the manifest's convexity has 4 decimals
 }
 
-std::vector<polylidar::Point> unit_grid(int side) {
-  std::vector<polylidar::Point> points;
+std::vector<Point> unit_grid(int side) {
+  std::vector<Point> points;
   for (int x = 0; x < side; ++x) {
     for (int y = 0; y < side; ++y) points.push_back({static_cast<double>(x), static_cast<double>(y)});
   }
@@ -822,7 +809,7 @@ std::vector<polylidar::Point> unit_grid(int side) {
 }
 
 // Two unit squares, one of them with a hole of a quarter's area, at the ends of a hull of 3 x 1.
-const polylidar::MultiPolygon kTwoSquares = {
+const MultiPolygon kTwoSquares = {
     {{{0, 0}, {1, 0}, {1, 1}, {0, 1}}, {}},
     {{{2, 0}, {3, 0}, {3, 1}, {2, 1}}, {{{2.25, 0.25}, {2.25, 0.75}, {2.75, 0.75}, {2.75, 0.25}}}}};
 
@@ -862,7 +849,7 @@ TEST(ParameterRule, PaperEdgeLength) {
 TEST(ParameterRule, PaperTargetPercent) {
   EXPECT_DOUBLE_EQ(plan::paper_target_percent({{}, polylidar::area(kTwoSquares), false, kTwoSquares}),
                    1.75 / 3);
-  const polylidar::MultiPolygon square = {{{{0, 0}, {0.1, 0}, {0.1, 0.1}, {0, 0.1}}, {}}};
+  const MultiPolygon square = {{{{0, 0}, {0.1, 0}, {0.1, 0.1}, {0, 0.1}}, {}}};
   EXPECT_EQ(plan::paper_target_percent({{}, 0.02, false, square}), 1.0);  // never above the hull
   EXPECT_EQ(plan::paper_target_percent({{}, 0, false, {}}), 1.0);
 }
@@ -899,12 +886,12 @@ TEST(ParameterRule, AutoRulesAreSharesOfOneSize) {
 TEST(ParameterRule, AutoRulesFollowTheScaleOfThePoints) {
   PointSet set = make_point_set("letter_b", false, 500, 1);
   const double before = plan::auto_size({set.points});
-  for (polylidar::Point& p : set.points) p = {4 * p.x, 4 * p.y};
+  for (Point& p : set.points) p = {4 * p.x, 4 * p.y};
   EXPECT_DOUBLE_EQ(plan::auto_size({set.points}), 4 * before);
 }
 
 TEST(ParameterRule, AutoRulesOfPointsWithoutATriangleAreZero) {
-  const std::vector<polylidar::Point> line = {{0, 0}, {1, 1}, {2, 2}};
+  const std::vector<Point> line = {{0, 0}, {1, 1}, {2, 2}};
   for (const char* name :
        {"auto_size", "auto_edge_length", "auto_circumradius", "auto_circumradius_squared"}) {
     EXPECT_EQ(plan::find_rule(name)->value({line}), 0) << name;
@@ -913,4 +900,4 @@ TEST(ParameterRule, AutoRulesOfPointsWithoutATriangleAreZero) {
 }
 
 }  // namespace
-}  // namespace hullbench
+}  // namespace hullbench::testing

@@ -11,8 +11,6 @@
 namespace hullbench {
 namespace {
 
-using polylidar::Point;
-
 /// (0, 0), (1, 0), ...
 std::vector<Point> row_of(std::size_t count) {
   std::vector<Point> points;

@@ -5,25 +5,21 @@
 #include <cstdint>
 #include <cstring>
 #include <filesystem>
-#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
+#include "benchmarks/base/names.hpp"
 #include "datasets/datasets.hpp"
+#include "tests/complaint.hpp"
 #include "tests/program.hpp"
 #include "tests/temporary_folder.hpp"
 #include "tool/points/point_file.hpp"
 #include "tool/points/point_writer.hpp"
 
-namespace hullbench {
+namespace hullbench::testing {
 namespace {
 
-namespace fs = std::filesystem;
 using polylidar::Box;
-using polylidar::Point;
-using testing::expect_refusal;
-using testing::Outcome;
-using testing::read_text;
 
 constexpr const char* kDataset = "ca~gradient:16~outliers:5~noise:0.5";
 
@@ -31,11 +27,11 @@ class PointsCommandTest : public ::testing::Test {
  protected:
   static Outcome points(std::vector<std::string> arguments) {
     arguments.insert(arguments.begin(), {HULLBENCH, "points"});
-    return testing::run_program(arguments);
+    return run_program(arguments);
   }
   /// The same through the shell, after `before`.
   static Outcome in_shell(const std::string& before, const std::string& arguments) {
-    return testing::run_program({"/bin/sh", "-c", before + " '" + HULLBENCH + "' points " + arguments});
+    return run_program({"/bin/sh", "-c", before + " '" + HULLBENCH + "' points " + arguments});
   }
   std::string path(const std::string& name) const { return (folder_.path() / name).string(); }
   std::string written(const std::string& dataset, const std::string& n, const std::string& name) const {
@@ -54,7 +50,7 @@ class PointsCommandTest : public ::testing::Test {
   }
 
  private:
-  testing::TemporaryFolder folder_;
+  TemporaryFolder folder_;
 };
 
 /// A little-endian number at `place` of the file.
@@ -155,8 +151,8 @@ TEST_F(PointsCommandTest, AFamilyIsAllItsShapesWithLabels) {
   for (std::size_t i = 0; i < las.sources.size(); ++i) EXPECT_EQ(las.sources[i], 1 + i / kEach);
   EXPECT_EQ(las.bounds.min, polylidar::bounding_box(las.points).min);
 
-  const Outcome hulls = succeeded(testing::run_program({HULLBENCH, "hull", csv, "--by", "label"}));
-  const nlohmann::json features = nlohmann::json::parse(hulls.out)["features"];
+  const Outcome hulls = succeeded(run_program({HULLBENCH, "hull", csv, "--by", "label"}));
+  const json features = json::parse(hulls.out)["features"];
   ASSERT_EQ(features.size(), kCells);
   EXPECT_EQ(features[47]["properties"]["label"], 48);
   EXPECT_EQ(features[47]["properties"]["points"], kEach);
@@ -208,8 +204,8 @@ TEST_F(PointsCommandTest, AFileIsWrittenWholeOrNotAtAll) {
 }
 
 TEST_F(PointsCommandTest, CtrlCLeavesNothingBehind) {
-  testing::Program program({HULLBENCH, "points", "ca", "--n", "4000000000", "--out", path("a.npy")});
-  ASSERT_TRUE(testing::wait_until([&] { return !leftovers().empty(); }));
+  Program program({HULLBENCH, "points", "ca", "--n", "4000000000", "--out", path("a.npy")});
+  ASSERT_TRUE(wait_until([&] { return !leftovers().empty(); }));
   program.send_signal(SIGINT);
   expect_end(program.wait(), 130, "interrupted");
   EXPECT_EQ(leftovers(), "");
@@ -230,7 +226,7 @@ TEST(PointEncoder, PutsLabelsIntoEveryFormat) {
   EXPECT_EQ(text(polylidar::tool::PointOutput::kCsv), "x,y,label\n0.5,-1,7\n1e-05,3,65535\n");
   EXPECT_EQ(text(polylidar::tool::PointOutput::kXyz), "0.5 -1 7\n1e-05 3 65535\n");
   const std::string npy = text(polylidar::tool::PointOutput::kNpy);
-  EXPECT_NE(npy.find("'shape': (2, 3)"), std::string::npos);
+  expect_says(npy, "'shape': (2, 3)");
   EXPECT_EQ(at<double>(npy, npy.size() - 8), 65535);
   EXPECT_EQ(ReadLas(text(polylidar::tool::PointOutput::kLas)).sources,
             (std::vector<std::uint16_t>{7, 65535}));
@@ -255,4 +251,4 @@ TEST(LasGrid, ReachesAllCoordinates) {
 }
 
 }  // namespace
-}  // namespace hullbench
+}  // namespace hullbench::testing

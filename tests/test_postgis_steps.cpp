@@ -17,27 +17,16 @@
 #include "tests/infinity.hpp"
 #include "tests/postgis_server.hpp"
 
-namespace hullbench {
-
-std::unique_ptr<Adapter> make_polylidar();
-std::unique_ptr<Adapter> make_postgis_steps();
-
+namespace hullbench::testing {
 namespace {
 
-using polylidar::testing::canonical;
-using test::hole_count;
-using test::hull_of;
-using test::square_points;
-
-using testing::kInfinity;
-
-class PostgisSteps : public test::PostgisTest {
+class PostgisSteps : public PostgisTest {
  protected:
   /// Names the server with `function`, an SQL definition of a function in the schema `pretended`, in front of
   /// PostGIS's own.
   static void pretend(const std::string& function) {
     execute("DROP SCHEMA IF EXISTS pretended CASCADE; CREATE SCHEMA pretended;" + function);
-    name_server(test::PostgisServer::dsn() + " options='-csearch_path=pretended,public'");
+    name_server(PostgisServer::dsn() + " options='-csearch_path=pretended,public'");
   }
 };
 
@@ -46,14 +35,14 @@ TEST_F(PostgisSteps, SaysWhoItIs) {
   const MethodInfo& info = adapter->info();
   EXPECT_EQ(info.name, "postgis_steps");
   EXPECT_EQ(info.title, "PostGIS, step by step");
-  EXPECT_NE(info.version.find(" (GEOS 3."), std::string::npos) << info.version;
-  EXPECT_NE(info.version.find(", PostgreSQL "), std::string::npos) << info.version;
+  expect_says(info.version, " (GEOS 3.");
+  expect_says(info.version, ", PostgreSQL ");
   EXPECT_TRUE(info.capabilities.holes);
   EXPECT_TRUE(info.capabilities.several_polygons);
 }
 
 TEST_F(PostgisSteps, KeepsTheContract) {
-  test::expect_adapter_contract(&make_postgis_steps, {{"alpha", 0.1}}, {{"alpha", 0.03}});
+  expect_adapter_contract(&make_postgis_steps, {{"alpha", 0.1}}, {{"alpha", 0.03}});
 }
 
 // Not nearly: ring for ring and bit for bit, once both start and sort their rings alike.
@@ -62,7 +51,7 @@ TEST_F(PostgisSteps, GivesTheShapeOfPolylidar) {
   const auto original = make_polylidar();
   std::size_t holes = 0;
   std::size_t several = 0;
-  for (const auto& [name, points, area] : test::hull_samples()) {
+  for (const auto& [name, points, area] : hull_samples()) {
     for (const double factor : {0.7, 1.0, 2.0, 4.0}) {
       const double alpha = factor * std::sqrt(area / static_cast<double>(points.size()));
       SCOPED_TRACE(name + ", alpha " + std::to_string(alpha));
@@ -94,7 +83,7 @@ TEST_F(PostgisSteps, KeepsATriangleAtTheLimitAndNoneBeyond) {
 TEST_F(PostgisSteps, SaysWhenLengthsLeaveTheRangeOfDoubles) {
   const auto adapter = make_postgis_steps();
   for (const double unit : {1e-55, 1e52}) {
-    testing::expect_complaint(
+    expect_complaint(
         [&] {
           hull_of(*adapter, {{0, 0}, {unit, 0}, {0, unit}}, {{"alpha", kInfinity}});
         },
@@ -108,7 +97,7 @@ TEST_F(PostgisSteps, SaysWhenLengthsLeaveTheRangeOfDoubles) {
 
 TEST_F(PostgisSteps, TellsTheStepsOfThePaper) {
   const auto adapter = make_postgis_steps();
-  test::StepNames steps;
+  StepNames steps;
   adapter->load(square_points(100, 6, false));
   adapter->run({{"alpha", 0.2}}, steps);
   EXPECT_EQ(steps.names(), (std::vector<std::string>{"triangulation", "shape", "polygon"}));
@@ -145,4 +134,4 @@ TEST_F(PostgisSteps, ReportsAFailureAndGoesOn) {
 }
 
 }  // namespace
-}  // namespace hullbench
+}  // namespace hullbench::testing

@@ -28,11 +28,10 @@
 #include "tests/complaint.hpp"
 #include "tests/temporary_folder.hpp"
 
-namespace hullbench {
+namespace hullbench::testing {
 namespace {
 
 namespace fs = std::filesystem;
-using testing::TemporaryFolder;
 
 /// Process ids whose working folder is in `folder`.
 std::vector<fs::path> processes_in(const fs::path& folder) {
@@ -225,7 +224,7 @@ TEST(PrivatePostgres, StartsForAPlainUser) {
 TEST(PrivatePostgres, SaysWhyItDidNotStart) {
   const TemporaryFolder root;
   const fs::path bin = pretend_install(root.path(), "15.3", true);
-  testing::expect_complaint([&] { const PrivatePostgres server(bin); }, "no space left, says the test");
+  expect_complaint([&] { const PrivatePostgres server(bin); }, "no space left, says the test");
 }
 
 TEST(FindPostgres, SaysWhatIsMissing) {
@@ -311,4 +310,4 @@ TEST(FindPostgres, TakesTheNewestWithPostgis) {
 }
 
 }  // namespace
-}  // namespace hullbench
+}  // namespace hullbench::testing

@@ -2,27 +2,22 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
-#include <nlohmann/json.hpp>
 #include <string>
 
+#include "benchmarks/base/names.hpp"
 #include "benchmarks/report/readme.hpp"
 #include "invented_shapes.hpp"
 #include "tests/complaint.hpp"
 #include "tests/hullbench_test.hpp"
 
-namespace hullbench {
+namespace hullbench::testing {
 namespace {
-
-namespace fs = std::filesystem;
-using testing::Outcome;
-using testing::read_text;
-using testing::write_text;
 
 const std::string kBegin = "<!-- results: begin -->\n";
 const std::string kEnd = "<!-- results: end -->";
 
 std::string complaint(const std::string& readme) {
-  return testing::complaint_of([&] { report::with_results(readme, "new\n"); });
+  return complaint_of([&] { report::with_results(readme, "new\n"); });
 }
 
 TEST(ReadmeMarks, ResultsTakeThePlaceOfWhatStandsBetweenThem) {
@@ -49,47 +44,47 @@ TEST(ReadmeMarks, TheWrongOrderIsASentence) {
 }
 
 TEST(ReadmeResults, NameTheRunAndHaveThePapersMethodsAtTheLeastAndTheLargestSize) {
-  const nlohmann::json report = test::invented_report({2000, 8000, 64000});
+  const json report = invented_report({2000, 8000, 64000});
   const std::string text = report::readme_results({report}, "results/reference");
-  testing::expect_says(
-      text, "in\n[results/reference](results/reference), begun on 2026-01-02: 42 runs, 1 experiment.");
-  testing::expect_says(text, "\n### California with holes: time and error of the paper's methods");
-  testing::expect_says(text, "| 2000 points, ms |    error, % | 64000 points, ms |    error, % |\n");
-  testing::expect_says(
+  expect_says(text,
+              "in\n[results/reference](results/reference), begun on 2026-01-02: 42 runs, 1 experiment.");
+  expect_says(text, "\n### California with holes: time and error of the paper's methods");
+  expect_says(text, "| 2000 points, ms |    error, % | 64000 points, ms |    error, % |\n");
+  expect_says(
       text,
       "| Polylidar (paper)        |    0.525 ±0.005 | 7.83 (7.98) |        16.8 ±0.2 | 1.38 (1.41) |\n");
-  testing::expect_says(text, "| PostGIS 2.5 (paper)      |   not installed |             |");
+  expect_says(text, "| PostGIS 2.5 (paper)      |   not installed |             |");
   EXPECT_EQ(text.find("(auto)"), std::string::npos) << "not the paper's: " << text;
   EXPECT_EQ(text.find("(paper) ["), std::string::npos) << "a note that is not here: " << text;
 }
 
 TEST(ReadmeResults, HaveTheFastestRivalWithTheSamePolygons) {
-  nlohmann::json report = test::invented_report({2000});
+  json report = invented_report({2000});
   EXPECT_EQ(report::readme_results({report}, "x").find("PostGIS (auto)"), std::string::npos);
   report["summary"]["headline"]["rivals"][0].update({{"method", "postgis"}, {"protocol", "auto"}});
-  testing::expect_says(report::readme_results({report}, "x"), "PostGIS (auto)");
+  expect_says(report::readme_results({report}, "x"), "PostGIS (auto)");
 }
 
 TEST(ReadmeResults, AreOfTheFirstExperimentThatHasTheShape) {
-  nlohmann::json other = test::report_on_shapes({{"star-1", 8000, 0.8}});
+  json other = report_on_shapes({{"star-1", 8000, 0.8}});
   EXPECT_EQ(report::readme_results({other}, "x").find("###"), std::string::npos);
   const std::string text =
-      report::readme_results({other, test::invented_report({2000}), test::invented_report({64000})}, "x");
-  testing::expect_says(text, "| 2000 points");
+      report::readme_results({other, invented_report({2000}), invented_report({64000})}, "x");
+  expect_says(text, "| 2000 points");
   EXPECT_EQ(text.find("| 64000 points"), std::string::npos) << text;
 }
 
 TEST(ReadmeResults, OfNoRunsAreASentence) {
-  EXPECT_EQ(testing::complaint_of([] { report::readme_results({}, "results/reference"); }),
+  EXPECT_EQ(complaint_of([] { report::readme_results({}, "results/reference"); }),
             "there is no run in results/reference yet; measure it first");
 }
 
-class ReadmeCommand : public testing::HullbenchTest {
+class ReadmeCommand : public HullbenchTest {
  protected:
   fs::path file() const { return folder() / "README.md"; }
 
   void measure() const {
-    const std::string plan = write(testing::small_plan("states", testing::california({500, 600})));
+    const std::string plan = write(small_plan("states", california({500, 600})));
     ASSERT_EQ(hullbench({"run", plan, "--out", "run"}).code, 0);
   }
 };
@@ -136,4 +131,4 @@ TEST_F(ReadmeCommand, WhatIsNotThereIsASentence) {
 }
 
 }  // namespace
-}  // namespace hullbench
+}  // namespace hullbench::testing

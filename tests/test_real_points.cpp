@@ -5,29 +5,24 @@
 #include <cmath>
 #include <fstream>
 #include <iterator>
-#include <nlohmann/json.hpp>
 #include <set>
 #include <string>
 #include <vector>
 
+#include "benchmarks/base/names.hpp"
 #include "datasets/datasets.hpp"
 #include "datasets/real/real_points.hpp"
 #include "tests/complaint.hpp"
 #include "tests/program.hpp"
 #include "tests/temporary_folder.hpp"
 
-namespace hullbench {
+namespace hullbench::testing {
 namespace {
-
-namespace fs = std::filesystem;
-using polylidar::Point;
 
 void write(const fs::path& path, const std::string& text) {
   fs::create_directories(path.parent_path());
   std::ofstream(path, std::ios::binary) << text;
 }
-
-using testing::complaint_of;
 
 std::string complaint_about(const std::string& text) {
   return complaint_of<std::exception>([&] { real::parse_sample(text); });
@@ -50,13 +45,13 @@ class FakeSystem : public ::testing::Test {
   real::Sample read(const std::string& name, const std::string& content, const std::string& object) {
     write(root() / "cloud" / name, content);
     fs::create_directories(root() / "usr/share/doc/cgal");
-    succeeded(testing::run_program({"tar", "-czf", (root() / "usr/share/doc/cgal/data.tar.gz").string(), "-C",
-                                    (root() / "cloud").string(), name},
-                                   {}));
+    succeeded(run_program({"tar", "-czf", (root() / "usr/share/doc/cgal/data.tar.gz").string(), "-C",
+                           (root() / "cloud").string(), name},
+                          {}));
     return real::read_sample({"real-x", "X", "libcgal-demo", object, "MIT"}, root());
   }
 
-  testing::TemporaryFolder folder_;
+  TemporaryFolder folder_;
 };
 
 TEST(RealPoints, AreReadFromWhatTheReaderPrints) {
@@ -71,11 +66,11 @@ TEST(RealPoints, AreReadFromWhatTheReaderPrints) {
 }
 
 TEST(RealPoints, NonsenseOfTheReaderIsRefused) {
-  EXPECT_NE(complaint_about("p 1 two\n").find("'p 1 two' is no point"), std::string::npos);
-  EXPECT_NE(complaint_about("p 1\n").find("no point"), std::string::npos);
-  EXPECT_NE(complaint_about("p nan 1\n").find("no point"), std::string::npos);
-  EXPECT_NE(complaint_about("w 1 1\n").find("before its first ring"), std::string::npos);
-  EXPECT_NE(complaint_about("r\nw 0 0\nw 0 1\nw 1 1\n").find("lies in no shell"), std::string::npos);
+  expect_says(complaint_about("p 1 two\n"), "'p 1 two' is no point");
+  expect_says(complaint_about("p 1\n"), "no point");
+  expect_says(complaint_about("p nan 1\n"), "no point");
+  expect_says(complaint_about("w 1 1\n"), "before its first ring");
+  expect_says(complaint_about("r\nw 0 0\nw 0 1\nw 1 1\n"), "lies in no shell");
 }
 
 TEST_F(FakeSystem, APackageIsInstalledOrNot) {
@@ -92,8 +87,8 @@ TEST_F(FakeSystem, AMissingPackageSaysWhatInstallsIt) {
   EXPECT_THROW(make_point_set("real-house", false, 0, 1, folders), real::NotInstalled);
   const std::string words =
       complaint_of<std::exception>([&] { make_point_set("real-house", false, 0, 1, folders); });
-  EXPECT_NE(words.find("r-cran-spdata"), std::string::npos) << words;
-  EXPECT_NE(words.find("'make deps-real'"), std::string::npos) << words;
+  expect_says(words, "r-cran-spdata");
+  expect_says(words, "'make deps-real'");
 }
 
 TEST_F(FakeSystem, CloudsAreReadFromAbove) {
@@ -115,10 +110,10 @@ TEST_F(FakeSystem, CloudsAreReadFromAbove) {
 
 TEST_F(FakeSystem, AReaderThatFailsSaysWhy) {
   const std::string words = complaint_of<std::exception>([&] { read("a.xyz", "1 2 3\n", "b.xyz"); });
-  EXPECT_NE(words.find("real-x"), std::string::npos) << words;
-  EXPECT_NE(words.find("b.xyz"), std::string::npos) << words;
+  expect_says(words, "real-x");
+  expect_says(words, "b.xyz");
   const std::string none = complaint_of<std::exception>([&] { read("a.xyz", "# nothing\n", "a.xyz"); });
-  EXPECT_NE(none.find("no points of a.xyz"), std::string::npos) << none;
+  expect_says(none, "no points of a.xyz");
 }
 
 TEST(RealPoints, SetsAreDataSetsWithoutATruth) {
@@ -147,11 +142,11 @@ TEST(RealPoints, ThePageAndThePlanHaveEverySet) {
   EXPECT_EQ(page.substr(start + begin.size(), end - start - begin.size()), real::markdown());
 
   std::ifstream plan_file(HULLBENCH_REAL_PLAN);
-  const auto plan = nlohmann::json::parse(plan_file);
+  const auto plan = json::parse(plan_file);
   std::vector<std::string> names;
   for (const real::Source& source : real::sources()) names.push_back(source.name);
   EXPECT_EQ(plan.at("cases").at(0).at("dataset").get<std::vector<std::string>>(), names);
-  EXPECT_EQ(plan.at("field"), (nlohmann::json{"auto", "default"}));
+  EXPECT_EQ(plan.at("field"), (json{"auto", "default"}));
   EXPECT_FALSE(plan.contains("methods"));
 }
 
@@ -177,4 +172,4 @@ TEST(RealPoints, AreThoseOfTheInstalledPackages) {
 }
 
 }  // namespace
-}  // namespace hullbench
+}  // namespace hullbench::testing

@@ -2,23 +2,22 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
+#include "benchmarks/base/names.hpp"
 #include "benchmarks/report/tables.hpp"
 #include "benchmarks/table/writers.hpp"
 #include "invented_run.hpp"
 #include "invented_shapes.hpp"
+#include "tests/complaint.hpp"
 
-namespace hullbench {
+namespace hullbench::testing {
 namespace {
-
-using nlohmann::json;
 
 /// Two sets on which Polylidar's hull has two parts and a hole; the package of the third is missing.
 json real_report() {
-  json report = test::report_on_shapes({{"real-one", 100, 1}, {"real-two", 200, 1}, {"real-gone", 5, 1}});
+  json report = report_on_shapes({{"real-one", 100, 1}, {"real-two", 200, 1}, {"real-gone", 5, 1}});
   report["plan"]["name"] = "real";
   report["datasets"] = json::array({{{"name", "real-one"},
                                      {"title", "Trees"},
@@ -55,8 +54,8 @@ json real_report() {
 
 using Rows = std::vector<std::vector<std::string>>;
 
-Rows rows_of(const json& report, const std::string& id) {
-  return test::rows_of(report::make_document(report), id);
+Rows rows_in(const json& report, const std::string& id) {
+  return rows_of(report::make_document(report), id);
 }
 
 std::size_t column_of(const Rows& rows, const std::string& title) {
@@ -70,21 +69,21 @@ TEST(RealTable, HasARowASetAndAColumnAMethod) {
   for (const auto& [id, value] : {std::pair{"real_covered", "100.0"}, std::pair{"real_parts", "2, 1 hole"},
                                   std::pair{"real_area", "50.0"}, std::pair{"real_halves", "25.0"},
                                   std::pair{"real_subsamples", "100"}}) {
-    const Rows rows = rows_of(report, id);
+    const Rows rows = rows_in(report, id);
     ASSERT_EQ(rows.size(), 4U) << id;
     EXPECT_EQ(rows.at(1).at(0), "Trees, 100") << id;
     EXPECT_EQ(rows.at(1).at(column_of(rows, "Polylidar")), value) << id;
   }
-  const Rows window = rows_of(report, "real_window");
+  const Rows window = rows_in(report, "real_window");
   ASSERT_EQ(window.size(), 2U);
   EXPECT_EQ(window.at(1).at(column_of(window, "Polylidar")), "75.0");
 }
 
 TEST(RealTable, AMissingPackageSaysWhatInstallsIt) {
   const table::Document document = report::make_document(real_report());
-  const Rows rows = rows_of(real_report(), "real_covered");
+  const Rows rows = rows_in(real_report(), "real_covered");
   EXPECT_EQ(rows.at(3).at(1), "not installed");
-  EXPECT_NE(rows.at(3).at(0).find("[1]"), std::string::npos) << rows.at(3).at(0);
+  expect_says(rows.at(3).at(0), "[1]");
   const bool told = std::any_of(document.notes.begin(), document.notes.end(), [](const std::string& note) {
     return note.starts_with("[1]") && note.find("'make deps-real'") != std::string::npos;
   });
@@ -93,10 +92,10 @@ TEST(RealTable, AMissingPackageSaysWhatInstallsIt) {
 
 TEST(RealTable, AFailureIsAWordAndCountsAsZeroInTheMedians) {
   json report = real_report();
-  test::run_on(report, "polylidar", "real-two")["status"] = "timeout";
-  const Rows rows = rows_of(report, "real_halves");
+  run_on(report, "polylidar", "real-two")["status"] = "timeout";
+  const Rows rows = rows_in(report, "real_halves");
   EXPECT_EQ(rows.at(2).at(column_of(rows, "Polylidar")), "timeout");
-  const Rows methods = rows_of(report, "real_methods");
+  const Rows methods = rows_in(report, "real_methods");
   const auto polylidar = std::find_if(methods.begin(), methods.end(),
                                       [](const auto& row) { return row.at(0).starts_with("Polylidar"); });
   ASSERT_NE(polylidar, methods.end());
@@ -106,13 +105,13 @@ TEST(RealTable, AFailureIsAWordAndCountsAsZeroInTheMedians) {
 
 TEST(RealTable, AnEmptyResultIsNoHull) {
   json report = real_report();
-  test::run_on(report, "polylidar", "real-one")["metrics"]["polygons"] = 0;
-  const Rows rows = rows_of(report, "real_covered");
+  run_on(report, "polylidar", "real-one")["metrics"]["polygons"] = 0;
+  const Rows rows = rows_in(report, "real_covered");
   EXPECT_EQ(rows.at(1).at(column_of(rows, "Polylidar")), "empty");
 }
 
 TEST(RealTable, SaysWhereThePointsAreFromAndNothingOfErrors) {
-  const Rows sources = rows_of(real_report(), "real_sources");
+  const Rows sources = rows_in(real_report(), "real_sources");
   EXPECT_EQ(sources.at(1).at(2), "package 1.2");
   EXPECT_EQ(sources.at(1).at(3), "GPL-2+");
   EXPECT_EQ(sources.at(1).at(4).size(), 64U);
@@ -123,4 +122,4 @@ TEST(RealTable, SaysWhereThePointsAreFromAndNothingOfErrors) {
 }
 
 }  // namespace
-}  // namespace hullbench
+}  // namespace hullbench::testing

@@ -4,13 +4,13 @@
 #include <cmath>
 #include <functional>
 #include <limits>
-#include <nlohmann/json.hpp>
 #include <set>
 #include <stdexcept>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "benchmarks/base/names.hpp"
 #include "benchmarks/record/json_lines.hpp"
 #include "benchmarks/record/record.hpp"
 #include "invented_run.hpp"
@@ -19,17 +19,13 @@
 #include "tests/complaint.hpp"
 #include "tests/infinity.hpp"
 
-namespace hullbench {
+namespace hullbench::testing {
 namespace {
 
-using nlohmann::json;
-using testing::TemporaryFolder;
-
-using testing::kInfinity;
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
 TEST(Record, RoundTripThroughTextKeepsEveryField) {
-  record::RunRecord record = test::invented_record();
+  record::RunRecord record = invented_record();
   record.seed = std::numeric_limits<std::uint64_t>::max();
   record.parameters["third"] = 1.0 / 3.0;
   record.machine = "0123abcd";
@@ -45,7 +41,7 @@ TEST(Record, RoundTripThroughTextKeepsEveryField) {
 }
 
 TEST(Record, WhatAnOlderRecordDoesNotTellIsLeftOut) {
-  const record::RunRecord record = test::invented_record();
+  const record::RunRecord record = invented_record();
   const json written = record;
   record::RunRecord read_over;
   read_over.rounds = read_over.passes = {1};
@@ -61,7 +57,7 @@ TEST(Record, WhatAnOlderRecordDoesNotTellIsLeftOut) {
 }
 
 TEST(Record, WhenAndHowARepetitionWasMeasuredIsNoPartOfTheIdentity) {
-  record::RunRecord record = test::invented_record();
+  record::RunRecord record = invented_record();
   const std::string id = record::run_identity(record);
   record.rounds = record.passes = {1};
   record.canary_ns = {{1, 2}};
@@ -70,13 +66,13 @@ TEST(Record, WhenAndHowARepetitionWasMeasuredIsNoPartOfTheIdentity) {
 }
 
 TEST(Record, ACanaryThatTellsOnlyHalfIsRefused) {
-  json written = test::invented_record();
+  json written = invented_record();
   written["canary_ns"] = json::array({{{"memory", 5}}});
   EXPECT_THROW(written.get<record::RunRecord>(), json::exception);
 }
 
 TEST(Record, InfiniteParameterIsNullAndComesBack) {
-  record::RunRecord record = test::invented_record();
+  record::RunRecord record = invented_record();
   record.parameters = {{"limit", kInfinity}};
   const json written = record;
   EXPECT_TRUE(written["parameters"]["limit"].is_null());
@@ -85,7 +81,7 @@ TEST(Record, InfiniteParameterIsNullAndComesBack) {
 
 TEST(Record, ParameterThatNoMethodTakesIsRefused) {
   for (const double value : {kNaN, -kInfinity}) {
-    record::RunRecord record = test::invented_record();
+    record::RunRecord record = invented_record();
     record.parameters["alpha"] = value;
     EXPECT_THROW(json{record}, std::invalid_argument);
     EXPECT_THROW(record::run_identity(record), std::invalid_argument);
@@ -93,7 +89,7 @@ TEST(Record, ParameterThatNoMethodTakesIsRefused) {
 }
 
 TEST(Record, MetricsThatAreNotFiniteBecomeNull) {
-  record::RunRecord record = test::invented_record();
+  record::RunRecord record = invented_record();
   record.metrics["l2"] = kNaN;
   record.metrics["iou"] = kInfinity;
   const json written = record;
@@ -115,7 +111,7 @@ TEST(Record, EveryStatusHasANameOfItsOwn) {
 }
 
 TEST(Record, EveryFieldIsRequired) {
-  const json whole = test::invented_record();
+  const json whole = invented_record();
   for (const auto& [key, value] : whole.items()) {
     json without = whole;
     without.erase(key);
@@ -125,7 +121,7 @@ TEST(Record, EveryFieldIsRequired) {
 }
 
 TEST(Record, AnIdentityThatIsLeftOutIsWorkedOut) {
-  json without = test::invented_record();
+  json without = invented_record();
   without.erase("id");
   const auto record = without.get<record::RunRecord>();
   EXPECT_EQ(record.id, record::run_identity(record));
@@ -134,7 +130,7 @@ TEST(Record, AnIdentityThatIsLeftOutIsWorkedOut) {
 }
 
 TEST(Record, OlderOnesHaveNeitherMachineNorFlags) {
-  json older = test::invented_record();
+  json older = invented_record();
   older.erase("machine");
   older.erase("flags");
   const auto record = older.get<record::RunRecord>();
@@ -143,7 +139,7 @@ TEST(Record, OlderOnesHaveNeitherMachineNorFlags) {
 }
 
 TEST(Record, OtherSchemaVersionIsRefused) {
-  json record = test::invented_record();
+  json record = invented_record();
   record["schema_version"] = record::kSchemaVersion + 1;
   EXPECT_THROW(record.get<record::RunRecord>(), std::invalid_argument);
 }
@@ -181,16 +177,16 @@ TEST(Identity, ChangesWithEveryFieldThatSaysWhatIsRun) {
        }},
       {"parameter more", [](record::RunRecord& record) { record.parameters["more"] = 0; }},
       {"parameter less", [](record::RunRecord& record) { record.parameters.erase("alpha"); }}};
-  std::set<std::string> ids = {record::run_identity(test::invented_record())};
+  std::set<std::string> ids = {record::run_identity(invented_record())};
   for (const auto& [what, change] : changes) {
-    record::RunRecord record = test::invented_record();
+    record::RunRecord record = invented_record();
     change(record);
     EXPECT_TRUE(ids.insert(record::run_identity(record)).second) << what;
   }
 }
 
 TEST(Identity, DoesNotChangeWithWhatARunLeaves) {
-  record::RunRecord record = test::invented_record();
+  record::RunRecord record = invented_record();
   const std::string id = record::run_identity(record);
   record.id = "";
   record.name = "";
@@ -204,7 +200,7 @@ TEST(Identity, DoesNotChangeWithWhatARunLeaves) {
 }
 
 TEST(Identity, SurvivesTheRoundTrip) {
-  const record::RunRecord record = test::invented_record();
+  const record::RunRecord record = invented_record();
   EXPECT_EQ(record::run_identity(json::parse(json(record).dump()).get<record::RunRecord>()), record.id);
 }
 
@@ -216,39 +212,39 @@ TEST(JsonLines, AppendedLinesComeBackInOrder) {
   const record::JsonLines lines = record::load_json_lines(path);
   EXPECT_EQ(lines.lines, (std::vector<json>{{{"a", 1}}, {{"b", "ü\n"}}}));
   EXPECT_TRUE(lines.torn.empty());
-  EXPECT_EQ(lines.complete_bytes, std::filesystem::file_size(path));
+  EXPECT_EQ(lines.complete_bytes, fs::file_size(path));
 }
 
 TEST(JsonLines, LineIsOnDiskAsSoonAsItIsAppended) {
   const TemporaryFolder folder;
   record::JsonLinesWriter writer(folder.path() / "lines.jsonl");
   writer.append(1);
-  EXPECT_EQ(testing::read_text(folder.path() / "lines.jsonl"), "1\n");
+  EXPECT_EQ(read_text(folder.path() / "lines.jsonl"), "1\n");
 }
 
 TEST(JsonLines, MissingFileAndEmptyFileHaveNoLines) {
   const TemporaryFolder folder;
   EXPECT_TRUE(record::load_json_lines(folder.path() / "none.jsonl").lines.empty());
-  testing::write_text(folder.path() / "empty.jsonl", "");
+  write_text(folder.path() / "empty.jsonl", "");
   EXPECT_TRUE(record::load_json_lines(folder.path() / "empty.jsonl").lines.empty());
 }
 
 TEST(JsonLines, TornLastLineIsReportedAndCutOffBeforeTheNext) {
   const TemporaryFolder folder;
   const auto path = folder.path() / "lines.jsonl";
-  testing::write_text(path, "{\"a\":1}\n{\"b\":");
+  write_text(path, "{\"a\":1}\n{\"b\":");
   const record::JsonLines torn = record::load_json_lines(path);
   EXPECT_EQ(torn.lines.size(), 1U);
   EXPECT_EQ(torn.torn, "{\"b\":");
   record::JsonLinesWriter writer(path);
   writer.append(2);
-  EXPECT_EQ(testing::read_text(path), "{\"a\":1}\n2\n");
+  EXPECT_EQ(read_text(path), "{\"a\":1}\n2\n");
 }
 
 TEST(JsonLines, LastLineWithoutLineFeedIsTornEvenIfItIsJson) {
   const TemporaryFolder folder;
   const auto path = folder.path() / "lines.jsonl";
-  testing::write_text(path, "1\n12");  // cut from 123
+  write_text(path, "1\n12");  // cut from 123
   EXPECT_EQ(record::load_json_lines(path).lines, std::vector<json>{1});
   EXPECT_EQ(record::load_json_lines(path).torn, "12");
 }
@@ -256,21 +252,21 @@ TEST(JsonLines, LastLineWithoutLineFeedIsTornEvenIfItIsJson) {
 TEST(JsonLines, BrokenLineInTheMiddleIsAnErrorThatNamesIt) {
   const TemporaryFolder folder;
   const auto path = folder.path() / "lines.jsonl";
-  testing::write_text(path, "1\n{]\n3\n");
-  testing::expect_complaint([&] { record::load_json_lines(path); }, "Line 2 of " + path.string());
+  write_text(path, "1\n{]\n3\n");
+  expect_complaint([&] { record::load_json_lines(path); }, "Line 2 of " + path.string());
 }
 
 TEST(JsonLines, FileThatCannotBeWrittenIsNamed) {
   const TemporaryFolder folder;
   const auto path = folder.path() / "no" / "such" / "folder.jsonl";
-  testing::expect_complaint([&] { record::JsonLinesWriter writer(path); }, path.string());
+  expect_complaint([&] { record::JsonLinesWriter writer(path); }, path.string());
 }
 
 TEST(JsonLines, NaNIsNeverWritten) {
   const TemporaryFolder folder;
   record::JsonLinesWriter writer(folder.path() / "lines.jsonl");
   writer.append({kNaN, kInfinity, -kInfinity});
-  EXPECT_EQ(testing::read_text(folder.path() / "lines.jsonl"), "[null,null,null]\n");
+  EXPECT_EQ(read_text(folder.path() / "lines.jsonl"), "[null,null,null]\n");
 }
 
 TEST(JsonLines, BytesThatAreNotUtf8DoNotLoseTheLine) {
@@ -281,4 +277,4 @@ TEST(JsonLines, BytesThatAreNotUtf8DoNotLoseTheLine) {
 }
 
 }  // namespace
-}  // namespace hullbench
+}  // namespace hullbench::testing

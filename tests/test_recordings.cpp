@@ -5,23 +5,17 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
-#include <nlohmann/json.hpp>
 #include <stdexcept>
 #include <string>
 #include <vector>
 
+#include "benchmarks/base/names.hpp"
 #include "datasets/rgbd/recordings.hpp"
 #include "tests/complaint.hpp"
 #include "tests/temporary_folder.hpp"
 
-namespace hullbench {
+namespace hullbench::testing {
 namespace {
-
-using nlohmann::json;
-using polylidar::MultiPolygon;
-using polylidar::Point;
-using polylidar::Polygon;
-using polylidar::Ring;
 
 json to_json(const Ring& ring) {
   json positions = json::array();
@@ -47,9 +41,9 @@ constexpr const char* kCamera =
 /// Every file stands in `scene_`, the only sub-folder of `folder_`.
 class Recordings : public ::testing::Test {
  protected:
-  Recordings() { std::filesystem::create_directories(scene_); }
+  Recordings() { fs::create_directories(scene_); }
 
-  std::filesystem::path write(const std::string& name, const std::string& text) const {
+  fs::path write(const std::string& name, const std::string& text) const {
     std::ofstream(scene_ / name, std::ios::binary) << text;
     return scene_ / name;
   }
@@ -63,8 +57,8 @@ class Recordings : public ::testing::Test {
 
   /// What loading says, with the scene's folder left out.
   std::string load_error() const {
-    std::string message = testing::complaint_of([&] { load_recording(scene_); });
-    if (message == testing::kNoComplaint) return message;
+    std::string message = complaint_of([&] { load_recording(scene_); });
+    if (message == kNoComplaint) return message;
     const std::size_t at = message.find(scene_.string());
     EXPECT_NE(at, std::string::npos) << message;
     return at == std::string::npos ? message : message.erase(at, scene_.string().size());
@@ -89,12 +83,12 @@ class Recordings : public ::testing::Test {
     return load_error();
   }
 
-  testing::TemporaryFolder temporary_;
-  const std::filesystem::path folder_ = temporary_.path();
-  const std::filesystem::path scene_ = folder_ / "a";
+  TemporaryFolder temporary_;
+  const fs::path folder_ = temporary_.path();
+  const fs::path scene_ = folder_ / "a";
 };
 
-std::string bytes_of(const std::filesystem::path& path) {
+std::string bytes_of(const fs::path& path) {
   std::ifstream file(path, std::ios::binary);
   return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
 }
@@ -156,7 +150,7 @@ TEST_F(Recordings, FewerThanThreePointsAreRefused) {
   const std::string advice = " points; a hull needs at least 3: give a longer recording";
   EXPECT_EQ(points_error(""), " has 0" + advice);
   EXPECT_EQ(points_error("# nothing\n1 2\n3 4\n"), " has 2" + advice);
-  EXPECT_EQ(points_error("1 2\n3 4\n5 7\n"), testing::kNoComplaint);
+  EXPECT_EQ(points_error("1 2\n3 4\n5 7\n"), kNoComplaint);
 }
 
 TEST_F(Recordings, MissingFilesAreNamed) {
@@ -164,12 +158,12 @@ TEST_F(Recordings, MissingFilesAreNamed) {
   EXPECT_EQ(load_error(), " has neither points.txt nor depth.png; add one, with gt.geojson beside it");
   write("points.txt", "1 2\n3 4\n5 7\n");
   EXPECT_EQ(load_error(), "cannot read /gt.geojson" + advice);
-  std::filesystem::remove(scene_ / "points.txt");
+  fs::remove(scene_ / "points.txt");
   write("depth.png", "");
   EXPECT_EQ(load_error(), "cannot read /intrinsics.json" + advice);
-  std::filesystem::create_directory(scene_ / "points.txt");
+  fs::create_directory(scene_ / "points.txt");
   EXPECT_EQ(load_error(), "cannot read /points.txt" + advice);
-  EXPECT_EQ(testing::complaint_of([&] { read_depth_png(folder_ / "absent.png", small_image().intrinsics); }),
+  EXPECT_EQ(complaint_of([&] { read_depth_png(folder_ / "absent.png", small_image().intrinsics); }),
             "cannot read " + (folder_ / "absent.png").string() + advice);
 }
 
@@ -182,7 +176,7 @@ TEST_F(Recordings, FaultyGroundTruthIsRefused) {
 
 TEST_F(Recordings, FaultyIntrinsicsAreRefused) {
   const std::string file = "/intrinsics.json is not a camera's intrinsics: ";
-  EXPECT_NE(camera_error("{").find("/intrinsics.json is not valid JSON ("), std::string::npos);
+  expect_says(camera_error("{"), "/intrinsics.json is not valid JSON (");
   EXPECT_EQ(camera_error("[]"), file +
                                     "it is not a JSON object; give one with width, height, fx, fy, ppx, ppy "
                                     "and depth_unit");
@@ -234,11 +228,11 @@ TEST_F(Recordings, FaultyPngsAreRefused) {
   EXPECT_EQ(
       png_error(bytes_of(scene_ / "wide.png")),
       file + "it has 4 x 1 pixels and the intrinsics say 2 x 2 pixels; give the two of one camera mode");
-  EXPECT_EQ(png_error(whole), testing::kNoComplaint);
+  EXPECT_EQ(png_error(whole), kNoComplaint);
 }
 
 TEST_F(Recordings, NoDamagedByteOfAPngChangesACount) {
-  const std::filesystem::path path = scene_ / "depth.png";
+  const fs::path path = scene_ / "depth.png";
   write_depth_png(path, small_image());
   const std::string whole = bytes_of(path);
   std::size_t refused = 0;
@@ -285,8 +279,8 @@ TEST_F(Recordings, PngsOfOtherKindsAreRefused) {
 }
 
 TEST_F(Recordings, FilesThatCannotBeWrittenAreNamed) {
-  const std::filesystem::path absent = folder_ / "absent" / "depth.png";
-  const auto error_of = [](const auto& action) { return testing::complaint_of<std::exception>(action); };
+  const fs::path absent = folder_ / "absent" / "depth.png";
+  const auto error_of = [](const auto& action) { return complaint_of<std::exception>(action); };
   EXPECT_EQ(error_of([&] { write_depth_png(absent, small_image()); }),
             "cannot write " + absent.string() +
                 " (No such file or directory); check that its folder exists and has room");
@@ -299,21 +293,19 @@ TEST_F(Recordings, FilesThatCannotBeWrittenAreNamed) {
 }
 
 TEST_F(Recordings, AreListedByName) {
-  const auto error_of = [](const std::filesystem::path& folder) {
-    return testing::complaint_of([&] { list_recordings(folder); });
-  };
+  const auto error_of = [](const fs::path& folder) { return complaint_of([&] { list_recordings(folder); }); };
   EXPECT_EQ(error_of(folder_), folder_.string() +
                                    " has no recording; put each into a sub-folder with gt.geojson and "
                                    "points.txt, or depth.png and intrinsics.json");
   EXPECT_EQ(error_of(folder_ / "absent"),
             (folder_ / "absent").string() + " is not a folder; give the one that holds the recordings");
   write("points.txt", "1 2\n");
-  std::filesystem::create_directory(folder_ / "Z");
+  fs::create_directory(folder_ / "Z");
   std::ofstream(folder_ / "Z" / "depth.png") << "x";
-  std::filesystem::create_directory(folder_ / "notes");
+  fs::create_directory(folder_ / "notes");
   std::ofstream(folder_ / "readme.txt") << "x";
   EXPECT_EQ(list_recordings(folder_), (std::vector<std::string>{"Z", "a"}));
 }
 
 }  // namespace
-}  // namespace hullbench
+}  // namespace hullbench::testing

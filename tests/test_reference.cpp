@@ -5,11 +5,11 @@
 #include <cstdint>
 #include <filesystem>
 #include <map>
-#include <nlohmann/json.hpp>
 #include <set>
 #include <string>
 #include <vector>
 
+#include "benchmarks/base/names.hpp"
 #include "benchmarks/league/league_report.hpp"
 #include "benchmarks/record/validate.hpp"
 #include "benchmarks/report/documents.hpp"
@@ -20,11 +20,8 @@
 #include "tests/program.hpp"
 #include "tests/temporary_folder.hpp"
 
-namespace hullbench {
+namespace hullbench::testing {
 namespace {
-
-namespace fs = std::filesystem;
-using nlohmann::json;
 
 const fs::path kReference = fs::path(HULLBENCH_SOURCE_DIRECTORY) / "results" / "reference";
 
@@ -90,7 +87,7 @@ TEST(Reference, ItsReportsFollowTheSchema) {
 // After a wanted change of the tables: build/hullbench tables results/reference --write, and make reference's
 // last line.
 TEST(Reference, ItsTablesAreThoseOfItsRecords) {
-  const testing::TemporaryFolder folder;
+  const TemporaryFolder folder;
   table::write_tables(folder.path(), report::make_documents(reports()));
   if (fs::exists(kReference / league::kLeagueFile)) {
     fs::copy(kReference / league::kLeagueFile, folder.path());
@@ -100,7 +97,7 @@ TEST(Reference, ItsTablesAreThoseOfItsRecords) {
   for (const auto& entry : fs::recursive_directory_iterator(folder.path())) {
     if (!entry.is_regular_file()) continue;
     const fs::path kept = kReference / fs::relative(entry.path(), folder.path());
-    EXPECT_EQ(testing::read_text(entry.path()), testing::read_text(kept)) << kept;
+    EXPECT_EQ(read_text(entry.path()), read_text(kept)) << kept;
     ++files;
   }
   EXPECT_GT(files, 50U);
@@ -112,7 +109,7 @@ TEST(Reference, IsInTheReadme) {
   std::string results = report::readme_results(reports(), folder);
   if (const json league = league::load_league(kReference); !league.is_null())
     results += league::league_results(league, folder);
-  const std::string readme = testing::read_text(fs::path(HULLBENCH_SOURCE_DIRECTORY) / "README.md");
+  const std::string readme = read_text(fs::path(HULLBENCH_SOURCE_DIRECTORY) / "README.md");
   EXPECT_EQ(report::with_results(readme, results), readme);
 }
 
@@ -140,4 +137,4 @@ TEST(Reference, EveryTableOfThePaperIsComparedAndEveryLargeDifferenceHasAReason)
 }
 
 }  // namespace
-}  // namespace hullbench
+}  // namespace hullbench::testing

@@ -8,7 +8,6 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
-#include <nlohmann/json.hpp>
 #include <set>
 #include <sstream>
 #include <stdexcept>
@@ -17,6 +16,7 @@
 #include <vector>
 
 #include "benchmarks/base/files.hpp"
+#include "benchmarks/base/names.hpp"
 #include "benchmarks/record/embedded.hpp"
 #include "benchmarks/record/environment.hpp"
 #include "benchmarks/record/json_lines.hpp"
@@ -28,19 +28,12 @@
 #include "temporary_folder.hpp"
 #include "tests/complaint.hpp"
 
-namespace hullbench {
+namespace hullbench::testing {
 namespace {
 
-using nlohmann::json;
-using testing::TemporaryFolder;
+const fs::path kSource = HULLBENCH_SOURCE_DIRECTORY;
 
-const std::filesystem::path kSource = HULLBENCH_SOURCE_DIRECTORY;
-
-json invented_report() {
-  return test::invented_report({2000, 64000});
-}
-
-json read_json(const std::filesystem::path& path) {
+json read_json(const fs::path& path) {
   std::ifstream in(path);
   return json::parse(in);
 }
@@ -53,15 +46,15 @@ json find_by(const json& list, const char* key, const std::string& value) {
   return json::object();
 }
 
-std::string message_of(const std::filesystem::path& directory) {
-  return testing::complaint_of([&] { report::make_report(directory); });
+std::string message_of(const fs::path& directory) {
+  return complaint_of([&] { report::make_report(directory); });
 }
 
 TEST(Report, HoldsTheRunAndItsLines) {
   const json report = invented_report();
-  const json run = test::invented_run();
+  const json run = invented_run();
   for (const auto& [key, value] : run.items()) EXPECT_EQ(report.at(key), value) << key;
-  const std::vector<record::RunRecord> records = test::invented_records({2000, 64000});
+  const std::vector<record::RunRecord> records = invented_records({2000, 64000});
   ASSERT_EQ(report.at("runs").size(), records.size());
   for (std::size_t i = 0; i < records.size(); ++i) EXPECT_EQ(report["runs"][i], json(records[i]));
 }
@@ -87,7 +80,7 @@ TEST(Report, OfTheEnvironmentAsItIsHereIsValid) {
 
 TEST(Report, OfNoRunsIsValid) {
   const TemporaryFolder folder;
-  write_json_file(folder.path() / "run.json", test::invented_run());
+  write_json_file(folder.path() / "run.json", invented_run());
   const json report = report::make_report(folder.path());
   EXPECT_TRUE(report["runs"].empty());
   EXPECT_TRUE(record::validate_report(report).empty());
@@ -112,7 +105,7 @@ TEST(Report, SummaryHasTheStatisticsOfARun) {
 /// A result on the points of invented_record() with these times.
 record::RunRecord timed_record(const std::string& method, const std::string& protocol,
                                std::vector<std::int64_t> times) {
-  record::RunRecord record = test::invented_record();
+  record::RunRecord record = invented_record();
   record.method = method;
   record.protocol = protocol;
   record.id = method + "/" + protocol;
@@ -164,37 +157,37 @@ TEST(Report, FailuresAreRowsToo) {
 
 TEST(Report, LastLineOfAnIdCounts) {
   const TemporaryFolder folder;
-  test::write_invented_run(folder.path(), {2000});
-  record::RunRecord again = test::invented_record();
+  write_invented_run(folder.path(), {2000});
+  record::RunRecord again = invented_record();
   again.time_ns = {1};
   record::JsonLinesWriter(folder.path() / "runs.jsonl").append(again);
   const json report = report::make_report(folder.path());
-  EXPECT_EQ(report["runs"].size(), test::invented_records({2000}).size());
+  EXPECT_EQ(report["runs"].size(), invented_records({2000}).size());
   EXPECT_EQ(find_by(report["runs"], "id", again.id)["time_ns"], json::array({1}));
 }
 
 TEST(Report, TornLastLineIsLeftOutAndSaid) {
   const TemporaryFolder folder;
-  test::write_invented_run(folder.path(), {2000});
+  write_invented_run(folder.path(), {2000});
   std::ofstream(folder.path() / "runs.jsonl", std::ios::app) << "{\"id\": \"12";
   const json report = report::make_report(folder.path());
-  EXPECT_EQ(report["runs"].size(), test::invented_records({2000}).size());
+  EXPECT_EQ(report["runs"].size(), invented_records({2000}).size());
   ASSERT_EQ(report["notes"].size(), 1U);
-  testing::expect_says(report["notes"][0].get<std::string>(), "cut short");
+  expect_says(report["notes"][0].get<std::string>(), "cut short");
   EXPECT_TRUE(record::validate_report(report).empty());
 }
 
 TEST(Report, WhatIsMissingOrMalformedIsNamed) {
   const TemporaryFolder folder;
   const std::string run_file = (folder.path() / "run.json").string();
-  testing::expect_says(message_of(folder.path()), run_file);
+  expect_says(message_of(folder.path()), run_file);
   std::ofstream(run_file) << "{";
-  testing::expect_says(message_of(folder.path()), run_file);
+  expect_says(message_of(folder.path()), run_file);
   std::ofstream(run_file) << "{\"schema_version\": 99}";
-  testing::expect_says(message_of(folder.path()), "schema version");
-  write_json_file(run_file, test::invented_run());
+  expect_says(message_of(folder.path()), "schema version");
+  write_json_file(run_file, invented_run());
   std::ofstream(folder.path() / "runs.jsonl") << "{}\n";
-  testing::expect_says(message_of(folder.path()), "runs.jsonl");
+  expect_says(message_of(folder.path()), "runs.jsonl");
 }
 
 TEST(Claims, AreComputedFromThePapersProtocol) {
@@ -245,7 +238,7 @@ TEST(Claims, AreUndecidedWhereTheIntervalIsOnBothSidesOfTheLimit) {
   const json slowest = find_by(report::check_claims(report), "id", "spatialite_slowest");
   EXPECT_EQ(slowest["ours"], "5 of 6");
   EXPECT_EQ(slowest["verdict"], "undecided");
-  testing::expect_says(slowest["detail"].get<std::string>(), "(6 cases, undecided: 1)");
+  expect_says(slowest["detail"].get<std::string>(), "(6 cases, undecided: 1)");
 }
 
 TEST(Claims, OfATimeThatWasTakenOnceAreUndecided) {
@@ -265,21 +258,21 @@ TEST(Claims, SayWhyTheyWereNotMeasured) {
   const json postgis = find_by(claims, "id", "error_postgis");
   EXPECT_TRUE(postgis["verdict"].is_null());
   EXPECT_EQ(postgis["ours"], "not measured");
-  testing::expect_says(postgis["detail"].get<std::string>(), "not installed");
+  expect_says(postgis["detail"].get<std::string>(), "not installed");
   json report = invented_report();
   for (json& run : report["runs"]) {
     if (run["method"] == "spatialite") run["method"] = "spatialite_steps";
   }
   const json step = find_by(report::check_claims(report), "id", "shape_spatialite");
-  testing::expect_says(step["detail"].get<std::string>(), "does not tell its step");
+  expect_says(step["detail"].get<std::string>(), "does not tell its step");
 }
 
 TEST(Claims, CountAFailureAsInfinitelyBadAndSaySo) {
   const json claims = invented_report()["summary"]["claims"];
   const json slowest = find_by(claims, "id", "spatialite_slowest");
   EXPECT_EQ(slowest["ours"], "6 of 6") << "the time-out is slower than every time";
-  testing::expect_says(slowest["detail"].get<std::string>(),
-                       "failed, which counts as infinitely bad: SpatiaLite in 1 case");
+  expect_says(slowest["detail"].get<std::string>(),
+              "failed, which counts as infinitely bad: SpatiaLite in 1 case");
   const json error = find_by(claims, "id", "error_spatialite");
   EXPECT_EQ(error["ours"], "5 of 6") << "without a result there is no smaller error";
   EXPECT_EQ(error["verdict"], "refuted");
@@ -295,15 +288,15 @@ TEST(Claims, OfAMethodWithoutAnyResultAreNotMeasured) {
   }
   const json slowest = find_by(report::check_claims(report), "id", "spatialite_slowest");
   EXPECT_TRUE(slowest["verdict"].is_null());
-  testing::expect_says(slowest["detail"].get<std::string>(), "no successful run");
+  expect_says(slowest["detail"].get<std::string>(), "no successful run");
 }
 
 TEST(Claims, AtASizeThatWasNotMeasured) {
   const TemporaryFolder folder;
-  test::write_invented_run(folder.path(), {2000});
+  write_invented_run(folder.path(), {2000});
   const json claim = find_by(report::make_report(folder.path())["summary"]["claims"], "id", "total_cgal");
   EXPECT_TRUE(claim["verdict"].is_null());
-  testing::expect_says(claim["detail"].get<std::string>(), "n = 64000");
+  expect_says(claim["detail"].get<std::string>(), "n = 64000");
 }
 
 TEST(Claims, OneCaseAgainstAClaimAboutEveryCaseRefutesIt) {
@@ -375,17 +368,17 @@ TEST(Validate, FaultsAreSentencesWithThePlaceAndTheValue) {
 
 TEST(Validate, LinesOfARunsFile) {
   const TemporaryFolder folder;
-  test::write_invented_run(folder.path(), {2000});
+  write_invented_run(folder.path(), {2000});
   const auto path = folder.path() / "runs.jsonl";
   EXPECT_TRUE(record::validate_file(path).empty());
-  json broken = test::invented_record();
+  json broken = invented_record();
   broken["n"] = "many";
   record::JsonLinesWriter(path).append(broken);
   std::ofstream(path, std::ios::app) << "{";
   const std::vector<std::string> faults = record::validate_file(path);
   ASSERT_EQ(faults.size(), 2U);
   EXPECT_EQ(faults[0].rfind("Record 15: At /n: ", 0), 0U) << faults[0];
-  testing::expect_says(faults[1], "cut short");
+  expect_says(faults[1], "cut short");
 }
 
 TEST(Validate, FileThatIsNoReport) {
@@ -407,7 +400,7 @@ TEST(Validate, ReportOnDiskAfterWriting) {
   write_json_file(folder.path() / "report.json", report);
   EXPECT_TRUE(record::validate_file(folder.path() / "report.json").empty());
   EXPECT_EQ(read_json(folder.path() / "report.json"), report);
-  EXPECT_FALSE(std::filesystem::exists(folder.path() / "report.json.new"));
+  EXPECT_FALSE(fs::exists(folder.path() / "report.json.new"));
 }
 
 TEST(Embedded, FilesAreTheOnesInResults) {
@@ -434,9 +427,9 @@ TEST(Environment, TellsNothingPersonal) {
 
 TEST(Environment, FlagsAreThoseOfTheBuild) {
   const json compiler = record::collect_environment()["compiler"];
-  testing::expect_says(compiler["flags_by_target"]["polylidar_core"].get<std::string>(), "-ffp-contract=off");
+  expect_says(compiler["flags_by_target"]["polylidar_core"].get<std::string>(), "-ffp-contract=off");
   const std::string statement = compiler["statement"];
-  testing::expect_says(statement, "are built with the same compiler and flags");
+  expect_says(statement, "are built with the same compiler and flags");
 }
 
 // Nobody is handicapped: only the flag that CGAL's own package asks for may differ.
@@ -451,7 +444,7 @@ TEST(Environment, FlagsAreTheSameForAll) {
   for (const auto& [target, flags] : by_target.items()) {
     std::set<std::string> theirs = words_of(target);
     if (theirs.erase("-frounding-math") > 0) {
-      testing::expect_says(target, "cgal");
+      expect_says(target, "cgal");
     }
     EXPECT_EQ(theirs, ours) << target;
   }
@@ -459,7 +452,7 @@ TEST(Environment, FlagsAreTheSameForAll) {
 
 TEST(Environment, SaysWhoGotHugePages) {
   const json huge_pages = record::collect_environment()["huge_pages"];
-  testing::expect_says(huge_pages.at("malloc").get<std::string>(), "glibc.malloc.hugetlb=");
+  expect_says(huge_pages.at("malloc").get<std::string>(), "glibc.malloc.hugetlb=");
   const json& kernel = huge_pages.at("kernel");
   EXPECT_TRUE(kernel.is_null() || kernel == "always" || kernel == "madvise" || kernel == "never") << kernel;
 }
@@ -472,4 +465,4 @@ TEST(Environment, MachineIdIsAFunctionOfTheMachine) {
 }
 
 }  // namespace
-}  // namespace hullbench
+}  // namespace hullbench::testing

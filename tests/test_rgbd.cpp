@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "benchmarks/base/names.hpp"
 #include "datasets/point_bytes.hpp"
 #include "datasets/point_locator.hpp"
 #include "datasets/rgbd/floor_points.hpp"
@@ -21,13 +22,8 @@
 #include "tests/boost_checks.hpp"
 #include "tests/complaint.hpp"
 
-namespace hullbench {
+namespace hullbench::testing {
 namespace {
-
-using polylidar::MultiPolygon;
-using polylidar::Point;
-using polylidar::Polygon;
-using polylidar::Ring;
 
 constexpr SensorNoise kNoNoise{.subpixel_error = 0, .disparity_step = 0, .edge_dropout = 0};
 constexpr std::uint64_t kSeed = 1;
@@ -72,7 +68,7 @@ TEST_P(FloorSceneOf, WithoutNoiseLiesInItsGroundTruth) {
   const MultiPolygon truth = floor_ground_truth(GetParam());
   const PointLocator floor(truth);
   const auto beyond = std::count_if(points.begin(), points.end(), [&](const Point& point) {
-    return !floor.contains(point) && testing::boost_distance(point, truth) > kBound;
+    return !floor.contains(point) && boost_distance(point, truth) > kBound;
   });
   // Where two obstacles meet, the foot of one's side, below the band, can show over the other's shadow: one
   // pixel in scenes 2 and 9.
@@ -88,7 +84,7 @@ TEST_P(FloorSceneOf, GroundTruthIsWhatBothImagersSee) {
   std::size_t looked_at = 0;
   for (const Point& point : sample_uniform(truth, 3000, kSeed)) {
     // A pixel covers up to 12 by 16 mm of floor; its centre must be clear of the boundary.
-    if (testing::boost_distance(point, truth) < 0.012) continue;
+    if (boost_distance(point, truth) < 0.012) continue;
     ++looked_at;
     const Vector3 place = Vector3{point.x, point.y, 0} - camera.left_eye;
     const double depth = dot(place, camera.forward);
@@ -107,7 +103,7 @@ TEST_P(FloorSceneOf, GroundTruthIsWhatBothImagersSee) {
 
 TEST_P(FloorSceneOf, GroundTruthIsAValidShape) {
   const MultiPolygon truth = floor_ground_truth(GetParam());
-  EXPECT_EQ(testing::boost_fault(truth), "");
+  EXPECT_EQ(boost_fault(truth), "");
   ASSERT_FALSE(truth.empty());
   for (const Polygon& polygon : truth) {
     EXPECT_GT(polylidar::signed_area(polygon.shell), 0);
@@ -197,7 +193,7 @@ TEST_P(LowFloorOf, GroundTruthIsWhatBothImagersSee) {
   const DepthImage image = simulate_depth(GetParam(), kSeed, kNoNoise);
   const Intrinsics& intrinsics = image.intrinsics;
   const MultiPolygon truth = floor_ground_truth(GetParam());
-  EXPECT_EQ(testing::boost_fault(truth), "");
+  EXPECT_EQ(boost_fault(truth), "");
   const PointLocator floor(truth);
   std::size_t inside = 0;
   std::size_t beyond = 0;
@@ -205,8 +201,7 @@ TEST_P(LowFloorOf, GroundTruthIsWhatBothImagersSee) {
     for (int column = 0; column < intrinsics.width; ++column) {
       const FloorSight sight = floor_sight(camera, intrinsics, column, row);
       // The pieces of the curved border are 0.01 mm off, and of depth whole counts remain.
-      if (testing::boost_distance(sight.place, truth) < 1e-4 || std::abs(sight.depth - kLowRange) < 0.001)
-        continue;
+      if (boost_distance(sight.place, truth) < 1e-4 || std::abs(sight.depth - kLowRange) < 0.001) continue;
       const bool shows_floor =
           std::abs(count_at(image, column, row) * intrinsics.depth_unit - sight.depth) < 0.00051;
       if (floor.contains(sight.place)) {
@@ -232,7 +227,7 @@ TEST_P(LowFloorOf, PointsLieOnTheFloorButForTheLensAndTheNoise) {
     const double distance = std::hypot(point.x, point.y);
     const double deviation =
         distance * distance * SensorNoise().subpixel_error / (simulated_camera().fx * kStereoBaseline);
-    far += testing::boost_distance(point, scene.ground_truth) > 0.015 * distance + 5 * deviation ? 1U : 0U;
+    far += boost_distance(point, scene.ground_truth) > 0.015 * distance + 5 * deviation ? 1U : 0U;
   }
   std::printf("scene %zu: %zu points, %.2f %% of them in the ground truth of %.4f m^2\n", GetParam(),
               scene.points.size(), 100 * inside_share(scene), polylidar::area(scene.ground_truth));
@@ -271,9 +266,9 @@ TEST(LowFloors, DifferFromTheOthersAsTheyAreSaidTo) {
 }
 
 TEST(FloorScenes, ThereAreFifteenOfThem) {
-  EXPECT_EQ(testing::complaint_of<std::invalid_argument>(
-                [] { simulate_depth(kFloorScenes + kLowFloorScenes, kSeed); }),
-            "there is no floor scene 15; give 0 to 14");
+  EXPECT_EQ(
+      complaint_of<std::invalid_argument>([] { simulate_depth(kFloorScenes + kLowFloorScenes, kSeed); }),
+      "there is no floor scene 15; give 0 to 14");
   EXPECT_THROW(floor_ground_truth(kFloorScenes + kLowFloorScenes), std::invalid_argument);
 }
 
@@ -430,7 +425,7 @@ TEST(FloorPoints, EndAtTheMedianHeightPlusTheBand) {
 }
 
 std::string floor_error(const DepthImage& image) {
-  return testing::complaint_of<std::exception>([&] { floor_points(image); });
+  return complaint_of<std::exception>([&] { floor_points(image); });
 }
 
 TEST(FloorPoints, ImagesWithoutAFloorAreErrors) {
@@ -445,10 +440,10 @@ TEST(FloorPoints, ImagesWithoutAFloorAreErrors) {
   EXPECT_EQ(floor_error(image),
             "the depth image has depth hardly anywhere but along one line; take one that shows a floor");
   image.counts[1] = 1500;
-  EXPECT_EQ(floor_error(image), testing::kNoComplaint);
+  EXPECT_EQ(floor_error(image), kNoComplaint);
   image.counts.pop_back();
   EXPECT_EQ(floor_error(image), "a depth image must have a count for each of its width * height pixels");
 }
 
 }  // namespace
-}  // namespace hullbench
+}  // namespace hullbench::testing

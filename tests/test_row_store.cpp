@@ -11,10 +11,9 @@
 #include "tests/program.hpp"
 #include "tests/temporary_folder.hpp"
 
-namespace hullbench {
+namespace hullbench::testing {
 namespace {
 
-namespace fs = std::filesystem;
 using record::RunRecord;
 
 RunRecord row_of(const std::string& name, const std::string& id, const std::string& detail = "") {
@@ -33,7 +32,7 @@ class RowStoreTest : public ::testing::Test {
   int lock(const std::string& name = "rows.jsonl") const { return run::lock_or_throw(folder_.path() / name); }
   std::size_t lines() const { return record::load_json_lines(folder_.path() / "rows.jsonl").lines.size(); }
 
-  testing::TemporaryFolder folder_;
+  TemporaryFolder folder_;
 };
 
 TEST_F(RowStoreTest, ByNameTheLastRowCountsAndAnotherIdLeavesNoTrace) {
@@ -76,13 +75,13 @@ TEST_F(RowStoreTest, ByIdRowsOfOneNameAreAllThereAndThoseOfAnotherFileToo) {
 TEST_F(RowStoreTest, ATornLineIsCutOffAndADamagedOneNamesItsFile) {
   { run::RowStore(file(&RunRecord::name), lock()).append_row(row_of("a", "1")); }
   const fs::path path = folder_.path() / "rows.jsonl";
-  const std::string whole = testing::read_text(path);
-  testing::write_text(path, whole + R"({"name": "b)");
+  const std::string whole = read_text(path);
+  write_text(path, whole + R"({"name": "b)");
   { run::RowStore(file(&RunRecord::name), lock()).append_row(row_of("c", "2")); }
   EXPECT_EQ(lines(), 2U);
-  testing::write_text(path, whole + "{}\n");
-  testing::expect_complaint([&] { run::RowStore(file(&RunRecord::name), lock()); },
-                            path.string() + " is not a run's record");
+  write_text(path, whole + "{}\n");
+  expect_complaint([&] { run::RowStore(file(&RunRecord::name), lock()); },
+                   path.string() + " is not a run's record");
 }
 
 TEST_F(RowStoreTest, HasOneWriterAndAScratchFolderThatGoesWithIt) {
@@ -99,4 +98,4 @@ TEST_F(RowStoreTest, HasOneWriterAndAScratchFolderThatGoesWithIt) {
 }
 
 }  // namespace
-}  // namespace hullbench
+}  // namespace hullbench::testing

@@ -20,7 +20,7 @@
 #include "polylidar/concave_hull.hpp"
 #include "tests/hull_input.hpp"
 
-namespace hullbench {
+namespace hullbench::testing {
 namespace {
 
 plan::Plan plan_of(const std::string& cases, const std::string& more = "") {
@@ -154,12 +154,12 @@ TEST(RuleFit, TheConstantsInTheCodeAreAboutTheBestOfASmallFit) {
 
 // What the fitted rules are for.
 
-MultiPolygon hull_of(const std::string& method, const std::vector<polylidar::Point>& points,
+MultiPolygon hull_of(const std::string& method, const std::vector<Point>& points,
                      const Parameters& parameters) {
   for (const AdapterEntry& entry : adapter_registry()) {
     if (entry.name != method) continue;
     const auto adapter = entry.make();
-    test::NoSteps steps;
+    NoSteps steps;
     adapter->load(points);
     adapter->run(parameters, steps);
     return adapter->extract(steps);
@@ -182,4 +182,4 @@ TEST(RuleFit, OneCircumradiusGivesPolylidarAndCgalTheSamePolygons) {
 }
 
 }  // namespace
-}  // namespace hullbench
+}  // namespace hullbench::testing

@@ -26,14 +26,12 @@
 #include "datasets/datasets.hpp"
 #include "datasets/random.hpp"
 #include "datasets/sha256.hpp"
+#include "tests/complaint.hpp"
 #include "tests/program.hpp"
 #include "tests/temporary_folder.hpp"
 
-namespace hullbench {
+namespace hullbench::testing {
 namespace {
-
-namespace fs = std::filesystem;
-using nlohmann::json;
 
 /// A plan of these methods on California with 500 points, without holes.
 plan::Plan plan_of(const std::vector<std::string>& methods, int repetitions = 3) {
@@ -134,7 +132,7 @@ class RunnerTest : public ::testing::Test {
     return result;
   }
 
-  testing::TemporaryFolder folder_;
+  TemporaryFolder folder_;
   std::string said_;
   double seconds_left_ = 0;  ///< in the end
   run::MachineWatch* machine_ = nullptr;
@@ -217,8 +215,8 @@ TEST_F(RunnerTest, RealPointsThatAreNotInstalledAreRowsThatSaySo) {
   EXPECT_EQ(exit_code(result), kExitNothing);
   for (const auto& [method, row] : rows()) {
     EXPECT_EQ(to_string(row.status), "not_installed");
-    EXPECT_NE(row.detail.find("r-cran-spdata"), std::string::npos) << row.detail;
-    EXPECT_NE(row.detail.find("'make deps-real'"), std::string::npos) << row.detail;
+    expect_says(row.detail, "r-cran-spdata");
+    expect_says(row.detail, "'make deps-real'");
     EXPECT_FALSE(row.method_version.empty());
     EXPECT_EQ(row.n, 0);
   }
@@ -297,7 +295,7 @@ TEST_F(RunnerTest, EveryMisbehaviourIsARowAndTheOthersAreMeasured) {
   EXPECT_EQ(exit_code(measure(plan)), 4);
   for (const auto& [method, status] : expected) {
     const std::vector<std::string> command = worker_of(method).command;
-    EXPECT_TRUE(testing::wait_until([&] { return !testing::runs_somewhere(command); })) << method;
+    EXPECT_TRUE(wait_until([&] { return !runs_somewhere(command); })) << method;
   }
   const auto measured = rows();
   ASSERT_EQ(measured.size(), expected.size());
@@ -460,7 +458,7 @@ TEST_F(RunnerTest, ARowSaysThatItsResultIsWorseThanTheConvexHull) {
 
 TEST_F(RunnerTest, AResultThatChangesIsNotBelieved) {
   measure(plan_of({"changing_result"}));
-  EXPECT_NE(rows().at("changing_result").detail.find("different results"), std::string::npos);
+  expect_says(rows().at("changing_result").detail, "different results");
 }
 
 TEST_F(RunnerTest, ACrashKeepsTheRepetitionsBeforeIt) {
@@ -491,11 +489,11 @@ TEST_F(RunnerTest, AFinishedRunIsNotMeasuredAgain) {
   for (plan.passes = 1; plan.passes <= 3; plan.passes += 2) {
     SCOPED_TRACE(plan.passes);
     measure(plan);
-    const std::string before = testing::read_text(run / "runs.jsonl");
-    const std::string repetitions = testing::read_text(run / "repetitions.jsonl");
+    const std::string before = read_text(run / "runs.jsonl");
+    const std::string repetitions = read_text(run / "repetitions.jsonl");
     EXPECT_EQ(exit_code(measure(plan)), 4);
-    EXPECT_EQ(testing::read_text(run / "runs.jsonl"), before);
-    EXPECT_EQ(testing::read_text(run / "repetitions.jsonl"), repetitions);
+    EXPECT_EQ(read_text(run / "runs.jsonl"), before);
+    EXPECT_EQ(read_text(run / "repetitions.jsonl"), repetitions);
     fs::remove_all(run);
   }
 }
@@ -511,11 +509,11 @@ TEST_F(RunnerTest, RepetitionsOfAnEarlierStartAreKept) {
   for (const json& line : lines("repetitions.jsonl")) {
     if (line["repetition"] < 2) kept += line.dump() + "\n";
   }
-  testing::write_text(run / "repetitions.jsonl", kept + "{\"id\": \"torn");
-  testing::write_text(run / "runs.jsonl", "{\"schema_ver");
+  write_text(run / "repetitions.jsonl", kept + "{\"id\": \"torn");
+  write_text(run / "runs.jsonl", "{\"schema_ver");
 
   EXPECT_EQ(exit_code(measure(plan)), 0);
-  EXPECT_EQ(testing::read_text(run / "repetitions.jsonl").substr(0, kept.size()), kept);
+  EXPECT_EQ(read_text(run / "repetitions.jsonl").substr(0, kept.size()), kept);
   std::set<std::pair<std::string, int>> seen;
   for (const json& line : lines("repetitions.jsonl")) {
     EXPECT_TRUE(seen.emplace(line["id"].get<std::string>(), line["repetition"].get<int>()).second);
@@ -541,7 +539,7 @@ TEST_F(RunnerTest, ARowOfAnotherVersionDataOrParametersIsMeasuredAgain) {
       record.id = record::run_identity(record);
       text += json(record).dump() + "\n";
     }
-    testing::write_text(folder_.path() / "run" / "runs.jsonl", text);
+    write_text(folder_.path() / "run" / "runs.jsonl", text);
     ASSERT_NE(rows().at("good").id, whole.id);
     measure(plan);
     EXPECT_EQ(rows().size(), 2U);
@@ -611,7 +609,7 @@ TEST_F(RunnerTest, ABatchGivesTheSameRowsOnOneCoreAndOnSeveral) {
 
 /// How many lines of a file are there now.
 std::ptrdiff_t line_count(const fs::path& file) {
-  const std::string text = testing::read_text(file);
+  const std::string text = read_text(file);
   return std::count(text.begin(), text.end(), '\n');
 }
 
@@ -619,11 +617,11 @@ TEST_F(RunnerTest, AnInterruptionWithinABatchKeepsTheRowsOfItsFinishedCases) {
   const plan::Plan plan = plan_of_small_cases({"polylidar", "good"}, 150);
   const fs::path run = folder_.path() / "run";
   const std::jthread interrupter([&] {
-    testing::wait_until([&] { return line_count(run / "repetitions.jsonl") >= 30; });
+    wait_until([&] { return line_count(run / "repetitions.jsonl") >= 30; });
     set_interrupted(true);
   });
   EXPECT_EQ(exit_code(measure(plan)), 130);
-  const std::string kept = testing::read_text(run / "runs.jsonl");
+  const std::string kept = read_text(run / "runs.jsonl");
   // Two repetitions of two methods are a finished case; of the next one some may be there.
   const std::ptrdiff_t repetitions = line_count(run / "repetitions.jsonl");
   EXPECT_GE(repetitions, 30);
@@ -634,7 +632,7 @@ TEST_F(RunnerTest, AnInterruptionWithinABatchKeepsTheRowsOfItsFinishedCases) {
   set_interrupted(false);
   const run::RunResult second = measure(plan);
   EXPECT_EQ(exit_code(second), 0);
-  EXPECT_TRUE(testing::read_text(run / "runs.jsonl").starts_with(kept));
+  EXPECT_TRUE(read_text(run / "runs.jsonl").starts_with(kept));
   EXPECT_EQ(line_count(run / "runs.jsonl"), 150 * 2);
   EXPECT_EQ(line_count(run / "repetitions.jsonl"), 150 * 4);
 }
@@ -672,7 +670,7 @@ TEST_F(RunnerTest, AResultIsScoredInTheFirstPassOnly) {
   plan.passes = 2;
   EXPECT_EQ(exit_code(measure_first_pass(plan)), 0);
   const auto first = rows();
-  const std::string pictures = testing::read_text(folder_.path() / "run" / "pictures.jsonl");
+  const std::string pictures = read_text(folder_.path() / "run" / "pictures.jsonl");
   EXPECT_EQ(first.at("polylidar").time_ns.size(), 2U);
   EXPECT_EQ(lines("runs.jsonl").size(), 2U);
   EXPECT_EQ(exit_code(measure(plan)), 0);
@@ -684,7 +682,7 @@ TEST_F(RunnerTest, AResultIsScoredInTheFirstPassOnly) {
         std::equal(first.at(method).time_ns.begin(), first.at(method).time_ns.end(), row.time_ns.begin()))
         << method;
   }
-  EXPECT_EQ(testing::read_text(folder_.path() / "run" / "pictures.jsonl"), pictures);
+  EXPECT_EQ(read_text(folder_.path() / "run" / "pictures.jsonl"), pictures);
   EXPECT_EQ(record::validate_file(folder_.path() / "run" / "runs.jsonl"), std::vector<std::string>());
 }
 
@@ -702,7 +700,7 @@ TEST_F(RunnerTest, ALaterPassMustGiveTheSameResult) {
   EXPECT_EQ(exit_code(measure(plan)), 4);
   const record::RunRecord row = rows().at("changes_when_started");
   EXPECT_EQ(to_string(row.status), "invalid_output");
-  EXPECT_NE(row.detail.find("different results"), std::string::npos) << row.detail;
+  expect_says(row.detail, "different results");
   EXPECT_EQ(row.passes, (std::vector<std::int64_t>{1, 1})) << "the times before it stay";
   EXPECT_EQ(rows().at("good").passes, (std::vector<std::int64_t>{1, 1, 2, 2}));
 }
@@ -729,7 +727,7 @@ TEST_F(RunnerTest, ARunThatStoppedInTheSecondPassGoesOnThere) {
   plan.passes = 2;
   measure_first_pass(plan);
   const fs::path run = folder_.path() / "run";
-  const std::string rows_of_first = testing::read_text(run / "runs.jsonl");
+  const std::string rows_of_first = read_text(run / "runs.jsonl");
   const auto first = rows();
   measure(plan);
   // As if it had been killed in the second pass, after its first round.
@@ -737,11 +735,11 @@ TEST_F(RunnerTest, ARunThatStoppedInTheSecondPassGoesOnThere) {
   for (const json& line : lines("repetitions.jsonl")) {
     if (line["round"] < 4) kept += line.dump() + "\n";
   }
-  testing::write_text(run / "repetitions.jsonl", kept);
-  testing::write_text(run / "runs.jsonl", rows_of_first);
+  write_text(run / "repetitions.jsonl", kept);
+  write_text(run / "runs.jsonl", rows_of_first);
 
   EXPECT_EQ(exit_code(measure(plan)), 0);
-  EXPECT_TRUE(testing::read_text(run / "repetitions.jsonl").starts_with(kept));
+  EXPECT_TRUE(read_text(run / "repetitions.jsonl").starts_with(kept));
   std::set<std::pair<std::string, int>> seen;
   for (const json& line : lines("repetitions.jsonl"))
     EXPECT_TRUE(seen.emplace(line["id"].get<std::string>(), line["repetition"].get<int>()).second) << line;
@@ -888,7 +886,7 @@ TEST_F(RunnerTest, WorkFilesDoNotStay) {
 class PlaceTest : public ::testing::Test {
  protected:
   json header_ = header_of(plan_of({"good"}));
-  testing::TemporaryFolder folder_;
+  TemporaryFolder folder_;
 
   std::unique_ptr<run::RunDirectory> open(bool force = false) {
     return run::open_run_directory(header_, {std::nullopt, force, folder_.path()});
@@ -949,16 +947,16 @@ TEST_F(PlaceTest, TwoAtATimeKeepApart) {
 }
 
 TEST_F(PlaceTest, AFolderWithSomethingElseIsRefused) {
-  testing::write_text(folder_.path() / "thesis.tex", "precious");
+  write_text(folder_.path() / "thesis.tex", "precious");
   EXPECT_THROW(open_out(folder_.path()), ConfigurationError);
   EXPECT_TRUE(open_out(folder_.path(), true) != nullptr);
-  EXPECT_EQ(testing::read_text(folder_.path() / "thesis.tex"), "precious");
+  EXPECT_EQ(read_text(folder_.path() / "thesis.tex"), "precious");
 }
 
 TEST_F(PlaceTest, AnotherRunInTheChosenFolderIsRefusedAndOverwrittenByForce) {
   const fs::path out = folder_.path() / "mine";
   open_out(out)->write_header(header_);
-  testing::write_text(out / "runs.jsonl", "");
+  write_text(out / "runs.jsonl", "");
   header_["filter"] = "other";
   EXPECT_THROW(open_out(out), ConfigurationError);
   EXPECT_FALSE(open_out(out, true)->resumed());
@@ -1006,7 +1004,7 @@ TEST(Progress, EstimatesFromTheTimesSoFar) {
   EXPECT_NEAR(progress.seconds_left(), 6.0, 1e-9);
   progress.finish(1);
   EXPECT_EQ(progress.seconds_left(), 0.0);
-  EXPECT_NE(out.str().find("[2/2]"), std::string::npos) << out.str();
+  expect_says(out.str(), "[2/2]");
 }
 
 TEST(Progress, BeginsItsLineWithTheSectionsTitle) {
@@ -1079,4 +1077,4 @@ TEST(Progress, WritesDurationsForPeople) {
 }
 
 }  // namespace
-}  // namespace hullbench
+}  // namespace hullbench::testing

@@ -14,7 +14,7 @@
 #include "datasets/sampling.hpp"
 #include "tests/boost_checks.hpp"
 
-namespace hullbench {
+namespace hullbench::testing {
 namespace {
 
 using polylidar::MultiPolygon;
@@ -24,7 +24,7 @@ using polylidar::Point;
 /// it only within about 1e-13 of an edge, where no sample of these tests lies.
 bool is_inside(const MultiPolygon& shape, const Point& point) {
   bool inside = false;
-  for (const polylidar::Ring& ring : testing::rings_of(shape)) {
+  for (const polylidar::Ring& ring : rings_of(shape)) {
     for (std::size_t i = 0, j = ring.size() - 1; i < ring.size(); j = i++) {
       const Point& a = ring[i];
       const Point& b = ring[j];
@@ -62,7 +62,7 @@ TEST_P(SamplesOf, LieInsideByASimpleTest) {
 
 TEST_P(SamplesOf, LieInsideByBoostGeometry) {
   const PointSet set = make_point_set(GetParam().name, GetParam().holes, 3000, 6);
-  EXPECT_EQ(testing::boost_outside(set.ground_truth, set.points), std::vector<Point>{});
+  EXPECT_EQ(boost_outside(set.ground_truth, set.points), std::vector<Point>{});
 }
 
 TEST_P(SamplesOf, ReachEveryPolygonInProportionToItsArea) {
@@ -124,7 +124,7 @@ std::map<std::pair<int, int>, double> cells_within(const MultiPolygon& shape, do
            .holes = {}}};
       const double area = cell_size * cell_size;
       // An overlay's area is rounded: a cell that misses a trillionth of its area is still a whole cell.
-      if (testing::boost_common_area(cell, shape) > area * (1 - 1e-12))
+      if (boost_common_area(cell, shape) > area * (1 - 1e-12))
         shares[{column, row}] = area / polylidar::area(shape);
     }
   }
@@ -164,4 +164,4 @@ TEST(SampleUniform, ShapesWithHardlyAnyAreaAreRefused) {
 }
 
 }  // namespace
-}  // namespace hullbench
+}  // namespace hullbench::testing

@@ -13,18 +13,8 @@
 #include "tests/hull_input.hpp"
 #include "tests/hull_oracle.hpp"
 
-namespace hullbench {
-
-std::unique_ptr<Adapter> make_sfcgal_alpha_shape();
-
+namespace hullbench::testing {
 namespace {
-
-using polylidar::testing::canonical;
-using polylidar::testing::core_hull;
-using test::hull_of;
-using test::kHoleArea;
-using test::kPoints;
-using test::square_points;
 
 /// Less than the hole of square_points, more than any other gap.
 constexpr double kRadius = 0.15;
@@ -71,10 +61,10 @@ TEST(SfcgalAlphaShape, HasHolesWhereTheyAreAllowed) {
   const std::vector<Point> points = square_points(kPoints, 7, true);
   const MultiPolygon closed = sfcgal_hull(points, {{"alpha", kRadius * kRadius}});
   const MultiPolygon open = sfcgal_hull(points, {{"alpha", kRadius * kRadius}, {"allow_holes", 1}});
-  EXPECT_EQ(test::hole_count(closed), 0U);
-  EXPECT_EQ(test::hole_count(open), 1U);
-  EXPECT_NEAR(polylidar::area(closed) - polylidar::area(open), kHoleArea, test::kAreaTolerance);
+  EXPECT_EQ(hole_count(closed), 0U);
+  EXPECT_EQ(hole_count(open), 1U);
+  EXPECT_NEAR(polylidar::area(closed) - polylidar::area(open), kHoleArea, kAreaTolerance);
 }
 
 }  // namespace
-}  // namespace hullbench
+}  // namespace hullbench::testing

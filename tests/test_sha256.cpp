@@ -7,7 +7,7 @@
 #include "tests/complaint.hpp"
 #include "tests/temporary_folder.hpp"
 
-namespace hullbench {
+namespace hullbench::testing {
 namespace {
 
 // The examples of FIPS 180-4 for one block and two blocks, and the digest of nothing.
@@ -19,7 +19,7 @@ TEST(Sha256, PublishedExamples) {
 }
 
 TEST(Sha256, FileIsHashedByteByByte) {
-  const testing::TemporaryFolder folder;
+  const TemporaryFolder folder;
   const std::filesystem::path path = folder.path() / "bytes";
   const std::string bytes("a\0b\r\n\xFF", 6);
   std::ofstream(path, std::ios::binary) << bytes;
@@ -28,9 +28,9 @@ TEST(Sha256, FileIsHashedByteByByte) {
 
 TEST(Sha256, UnreadableFileIsNamed) {
   for (const std::filesystem::path path : {"/nowhere/at all", "/"}) {
-    testing::expect_complaint([&] { sha256_file(path); }, "cannot read " + path.string());
+    expect_complaint([&] { sha256_file(path); }, "cannot read " + path.string());
   }
 }
 
 }  // namespace
-}  // namespace hullbench
+}  // namespace hullbench::testing

@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
-#include <nlohmann/json.hpp>
 #include <set>
 #include <string>
 
+#include "benchmarks/base/names.hpp"
 #include "datasets/sha256.hpp"
 #include "datasets/shapes.hpp"
 #include "polylidar/concave_hull.hpp"
@@ -14,15 +14,12 @@
 #include "tests/complaint.hpp"
 #include "tests/temporary_folder.hpp"
 
-namespace hullbench {
+namespace hullbench::testing {
 namespace {
-
-using nlohmann::json;
-using polylidar::MultiPolygon;
 
 class Shapes : public ::testing::Test {
  protected:
-  std::filesystem::path write(const std::string& name, const std::string& text) const {
+  fs::path write(const std::string& name, const std::string& text) const {
     std::ofstream(folder_ / name, std::ios::binary) << text;
     return folder_ / name;
   }
@@ -32,19 +29,19 @@ class Shapes : public ::testing::Test {
   /// The whole message of the error that reading `text` gives, without the file's name.
   std::string error_of(const std::string& text) const {
     const std::string path = write("shape.geojson", text).string();
-    std::string message = testing::complaint_of([&] { read_geojson(path); });
-    if (message == testing::kNoComplaint) return message;
+    std::string message = complaint_of([&] { read_geojson(path); });
+    if (message == kNoComplaint) return message;
     EXPECT_EQ(message.substr(0, path.size()), path);
     return message.substr(path.size());
   }
 
   std::string manifest_error(const std::string& text) const {
     write("manifest.json", text);
-    return testing::complaint_of([&] { read_manifest(folder_); });
+    return complaint_of([&] { read_manifest(folder_); });
   }
 
-  testing::TemporaryFolder temporary_;
-  const std::filesystem::path folder_ = temporary_.path();
+  TemporaryFolder temporary_;
+  const fs::path folder_ = temporary_.path();
 };
 
 json manifest_entry() {
@@ -81,24 +78,24 @@ TEST_F(Shapes, RingsAreTurnedAndAltitudesDropped) {
 }
 
 TEST_F(Shapes, MissingFileAndFolderAreNamed) {
-  for (const std::filesystem::path& path : {folder_ / "absent.geojson", folder_}) {
-    EXPECT_EQ(testing::complaint_of([&] { read_geojson(path); }),
+  for (const fs::path& path : {folder_ / "absent.geojson", folder_}) {
+    EXPECT_EQ(complaint_of([&] { read_geojson(path); }),
               "cannot read " + path.string() + "; check that the file exists and may be read");
   }
 }
 
 TEST_F(Shapes, TextThatIsNotJsonIsRefused) {
-  EXPECT_NE(error_of("{").find(" is not valid JSON ("), std::string::npos);
-  EXPECT_NE(error_of("").find(" is not valid JSON ("), std::string::npos);
+  expect_says(error_of("{"), " is not valid JSON (");
+  expect_says(error_of(""), " is not valid JSON (");
 }
 
 TEST_F(Shapes, NumbersThatAreNotFiniteAreRefused) {
   const auto with_coordinate = [](const std::string& number) {
     return R"({"type": "Polygon", "coordinates": [[[0, 0], [)" + number + R"(, 0], [0, 3], [0, 0]]]})";
   };
-  EXPECT_EQ(error_of(with_coordinate("4")), testing::kNoComplaint);
-  EXPECT_NE(error_of(with_coordinate("1e999")).find("number overflow"), std::string::npos);
-  EXPECT_NE(error_of(with_coordinate("NaN")).find(" is not valid JSON ("), std::string::npos);
+  EXPECT_EQ(error_of(with_coordinate("4")), kNoComplaint);
+  expect_says(error_of(with_coordinate("1e999")), "number overflow");
+  expect_says(error_of(with_coordinate("NaN")), " is not valid JSON (");
   EXPECT_EQ(error_of(with_coordinate("null")),
             " is not a usable shape: polygon 0, ring 0 has a vertex that is not a pair of numbers; write "
             "each as [x, y]");
@@ -135,12 +132,12 @@ TEST_F(Shapes, OtherDocumentsAreRefused) {
             " is not a usable shape: it has no polygon" + advice);
   EXPECT_EQ(error_of(R"({"type": "Polygon", "coordinates": []})"),
             " is not a usable shape: polygon 0 has no rings; remove it or give it a shell");
-  EXPECT_NE(error_of(R"({"type": "Polygon"})").find(" is not the GeoJSON of a shape ("), std::string::npos);
-  EXPECT_NE(error_of(R"({"type": 3})").find(" is not the GeoJSON of a shape ("), std::string::npos);
+  expect_says(error_of(R"({"type": "Polygon"})"), " is not the GeoJSON of a shape (");
+  expect_says(error_of(R"({"type": 3})"), " is not the GeoJSON of a shape (");
 }
 
 TEST_F(Shapes, FileThatDiffersFromTheManifestIsRefused) {
-  const std::filesystem::path path = write("tri.geojson", kTriangleText);
+  const fs::path path = write("tri.geojson", kTriangleText);
   json entry = manifest_entry();
   entry["sha256"] = sha256_hex(kTriangleText);
   write("manifest.json", manifest_with(entry));
@@ -148,7 +145,7 @@ TEST_F(Shapes, FileThatDiffersFromTheManifestIsRefused) {
   EXPECT_EQ(load_shape(folder_, info).size(), 1U);
   const std::string changed = std::string(kTriangleText) + "\n";
   write("tri.geojson", changed);
-  EXPECT_EQ(testing::complaint_of([&] { load_shape(folder_, info); }),
+  EXPECT_EQ(complaint_of([&] { load_shape(folder_, info); }),
             path.string() + " has SHA-256 " + sha256_hex(changed) + " but the manifest says " +
                 sha256_hex(kTriangleText) +
                 "; restore the file, or correct the manifest if the change was meant");
@@ -170,20 +167,20 @@ TEST_F(Shapes, ManifestEntryIsRead) {
 }
 
 TEST_F(Shapes, FaultyManifestsAreRefused) {
-  EXPECT_NE(manifest_error("nonsense").find("manifest.json is not valid JSON ("), std::string::npos);
-  EXPECT_NE(manifest_error("{}").find("'shapes' not found"), std::string::npos);
-  EXPECT_NE(manifest_error(R"({"shapes": null})").find("'shapes' is not an array"), std::string::npos);
+  expect_says(manifest_error("nonsense"), "manifest.json is not valid JSON (");
+  expect_says(manifest_error("{}"), "'shapes' not found");
+  expect_says(manifest_error(R"({"shapes": null})"), "'shapes' is not an array");
   const json complete = manifest_entry();
   for (const auto& [field, value] : complete.items()) {
     json entry = complete;
     entry.erase(field);
-    EXPECT_NE(manifest_error(manifest_with(entry)).find("key '" + field + "' not found"), std::string::npos);
+    expect_says(manifest_error(manifest_with(entry)), "key '" + field + "' not found");
     entry[field] = json::array();
     EXPECT_NE(manifest_error(manifest_with(entry)).find("is not a shape manifest ("), std::string::npos)
         << field;
   }
   const json twice = {{"shapes", {manifest_entry(), manifest_entry()}}};
-  EXPECT_NE(manifest_error(twice.dump()).find("the name 'tri' stands twice"), std::string::npos);
+  expect_says(manifest_error(twice.dump()), "the name 'tri' stands twice");
   for (const char* holes :
        {R"({"count": 0, "radius": 1, "seed": 1})", R"({"count": 1.5, "radius": 1, "seed": 1})",
         R"({"count": 1, "radius": 0, "seed": 1})", R"({"count": 1, "radius": 1, "seed": -1})"}) {
@@ -196,12 +193,12 @@ TEST_F(Shapes, FaultyManifestsAreRefused) {
 
 TEST_F(Shapes, MissingManifestIsNamed) {
   EXPECT_EQ(
-      testing::complaint_of([&] { read_manifest(folder_); }),
+      complaint_of([&] { read_manifest(folder_); }),
       "cannot read " + (folder_ / "manifest.json").string() + "; check that the file exists and may be read");
 }
 
 TEST(CommittedShapes, AreWhatTheManifestSays) {
-  const std::filesystem::path folder = default_data_directory();
+  const fs::path folder = default_data_directory();
   const json manifest = json::parse(std::ifstream(folder / "manifest.json"));
   const std::vector<ShapeInfo> infos = read_manifest(folder);
   ASSERT_EQ(infos.size(), 28U);
@@ -214,15 +211,15 @@ TEST(CommittedShapes, AreWhatTheManifestSays) {
     EXPECT_EQ(polylidar::vertex_count(shape), entry["vertices"]);
     // The manifest's area has 6 decimals.
     EXPECT_NEAR(polylidar::area(shape), infos[i].area, 1e-6);
-    std::vector<polylidar::Point> vertices;
-    for (const polylidar::Polygon& polygon : shape) {
+    std::vector<Point> vertices;
+    for (const Polygon& polygon : shape) {
       vertices.insert(vertices.end(), polygon.shell.begin(), polygon.shell.end());
     }
     const polylidar::Box box = polylidar::bounding_box(vertices);
     EXPECT_EQ((std::vector{box.min.x, box.min.y, box.max.x, box.max.y}),
               entry["bounding_box"].get<std::vector<double>>());
-    EXPECT_EQ(box.min, (polylidar::Point{0, 0}));
-    EXPECT_EQ(testing::boost_fault(shape), "") << infos[i].name;
+    EXPECT_EQ(box.min, (Point{0, 0}));
+    EXPECT_EQ(boost_fault(shape), "") << infos[i].name;
     EXPECT_EQ(sets.count(entry["set"]), 1U) << infos[i].name;
     if (entry["set"] == "states") {
       EXPECT_EQ(std::max(box.max.x, box.max.y), 200);
@@ -236,4 +233,4 @@ TEST(CommittedShapes, AreWhatTheManifestSays) {
 }
 
 }  // namespace
-}  // namespace hullbench
+}  // namespace hullbench::testing

@@ -4,20 +4,18 @@
 #include <algorithm>
 #include <cstdint>
 #include <map>
-#include <nlohmann/json.hpp>
 #include <set>
 #include <string>
 #include <vector>
 
 #include "benchmarks/base/configuration_error.hpp"
+#include "benchmarks/base/names.hpp"
 #include "benchmarks/plan/plan.hpp"
 #include "benchmarks/run/runner.hpp"
 #include "benchmarks/run/shard.hpp"
 
 namespace hullbench {
 namespace {
-
-using nlohmann::json;
 
 /// Two methods on California, with and without holes, at six sizes that double.
 plan::Plan twelve_cases() {

@@ -9,19 +9,8 @@
 #include "tests/complaint.hpp"
 #include "tests/hull_input.hpp"
 
-namespace hullbench {
-
-std::unique_ptr<Adapter> make_spatialite();
-
+namespace hullbench::testing {
 namespace {
-
-using test::hole_count;
-using test::hull_of;
-using test::kAreaTolerance;
-using test::kHoleArea;
-using test::kPoints;
-using test::NoSteps;
-using test::square_points;
 
 // Five standard deviations: no spurious holes at this density.
 const Parameters kFilled = {{"c", 5}, {"allow_holes", 0}};
@@ -47,11 +36,7 @@ TEST(Spatialite, GivesSeveralPolygons) {
 
 TEST(Spatialite, SaysWhenNoTriangleIsKept) {
   const auto adapter = make_spatialite();
-  testing::expect_complaint(
-      [&] {
-        hull_of(*adapter, square_points(100, 6, false), {{"c", 0}});
-      },
-      "no triangle");
+  expect_complaint([&] { hull_of(*adapter, square_points(100, 6, false), {{"c", 0}}); }, "no triangle");
   // The failed run leaves the adapter usable.
   NoSteps steps;
   adapter->run(kFilled, steps);
@@ -66,4 +51,4 @@ TEST(Spatialite, KeepsEveryTriangleWithoutALimit) {
 }
 
 }  // namespace
-}  // namespace hullbench
+}  // namespace hullbench::testing

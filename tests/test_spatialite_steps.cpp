@@ -13,21 +13,11 @@
 #include "tests/hull_samples.hpp"
 #include "tests/infinity.hpp"
 
-namespace hullbench {
-
-std::unique_ptr<Adapter> make_spatialite();
-std::unique_ptr<Adapter> make_spatialite_steps();
-
+namespace hullbench::testing {
 namespace {
-
-using test::hole_count;
-using test::hull_of;
-using test::square_points;
 
 const Parameters kStepsFilled = {{"c", 5}, {"allow_holes", 0}};
 const Parameters kStepsWithHoles = {{"c", 5}, {"allow_holes", 1}};
-
-using testing::kInfinity;
 
 TEST(SpatialiteSteps, SaysWhoItIs) {
   const auto adapter = make_spatialite_steps();
@@ -45,7 +35,7 @@ TEST(SpatialiteSteps, GivesTheShapeOfConcaveHull) {
   const auto original = make_spatialite();
   std::size_t holes = 0;
   std::size_t several = 0;
-  for (const auto& [name, points, area] : test::hull_samples()) {
+  for (const auto& [name, points, area] : hull_samples()) {
     for (const double c : {1.25, 2.0, kInfinity}) {
       for (const double allow_holes : {0.0, 1.0}) {
         const Parameters parameters = {{"c", c}, {"allow_holes", allow_holes}};
@@ -93,10 +83,10 @@ TEST(SpatialiteSteps, KeepsEveryTriangleWhenTheLimitIsNotANumber) {
 TEST(SpatialiteSteps, SaysWhenNoTriangleIsKept) {
   const auto adapter = make_spatialite_steps();
   const std::vector<Point> points = square_points(100, 6, false);
-  testing::expect_complaint([&] { hull_of(*adapter, points, {{"c", 0}}); }, "no triangle");
+  expect_complaint([&] { hull_of(*adapter, points, {{"c", 0}}); }, "no triangle");
   // The failed run leaves nothing behind.
   EXPECT_EQ(hull_of(*adapter, points, kStepsFilled), hull_of(*make_spatialite_steps(), points, kStepsFilled));
 }
 
 }  // namespace
-}  // namespace hullbench
+}  // namespace hullbench::testing

@@ -6,16 +6,13 @@
 #include <numbers>
 #include <stdexcept>
 
+#include "benchmarks/base/names.hpp"
 #include "datasets/star_polygons.hpp"
 #include "tests/boost_checks.hpp"
 #include "tests/hull_oracle.hpp"
 
-namespace hullbench {
+namespace hullbench::testing {
 namespace {
-
-using polylidar::MultiPolygon;
-using polylidar::Point;
-using polylidar::Ring;
 
 /// Every fifth polygon: 5 has no factor in common with the number of pairs, so each pair has 40 of them.
 constexpr std::size_t kStride = 5;
@@ -85,7 +82,7 @@ TEST(StarPolygon, IsValidAndStarShaped) {
     EXPECT_EQ(shape.front().shell.size(), kStarVertices);
     EXPECT_TRUE(shape.front().holes.empty());
     EXPECT_TRUE(circles_origin_once(shape.front().shell)) << index;
-    EXPECT_EQ(testing::boost_fault(shape), "") << index;
+    EXPECT_EQ(boost_fault(shape), "") << index;
   }
 }
 
@@ -171,4 +168,4 @@ TEST(StarPolygon, IndicesGiveDifferentPolygons) {
 }
 
 }  // namespace
-}  // namespace hullbench
+}  // namespace hullbench::testing

@@ -12,13 +12,12 @@
 #include "benchmarks/statistics/weighted.hpp"
 #include "tests/infinity.hpp"
 
-namespace hullbench {
+namespace hullbench::testing {
 namespace {
 
 using Times = std::vector<std::int64_t>;
 
 TEST(Median, OfInfiniteValuesIsInfiniteAndNeverNaN) {
-  using testing::kInfinity;
   const auto median_of = [](const std::vector<double>& values) {
     return statistics::median(std::span<const double>(values));
   };
@@ -37,7 +36,6 @@ TEST(Statistics, MedianOfEvenCountIsTheMeanOfTheMiddleTwo) {
 }
 
 TEST(Weighted, OfEqualWeightsTheMedianIsTheUsualOne) {
-  using testing::kInfinity;
   const auto median_of = [](const std::vector<double>& values) {
     std::vector<statistics::WeightedValue> weighted;
     for (const double value : values) weighted.push_back({value, 1.0 / 3});
@@ -169,4 +167,4 @@ TEST(Holm, ByHand) {
 }
 
 }  // namespace
-}  // namespace hullbench
+}  // namespace hullbench::testing

@@ -16,6 +16,7 @@
 #include <utility>
 #include <vector>
 
+#include "benchmarks/base/names.hpp"
 #include "datasets/datasets.hpp"
 #include "datasets/point_locator.hpp"
 #include "datasets/samplers/density.hpp"
@@ -26,13 +27,9 @@
 #include "tests/complaint.hpp"
 #include "tests/point_sets.hpp"
 
-namespace hullbench {
+namespace hullbench::testing {
 namespace {
 
-using polylidar::MultiPolygon;
-using polylidar::Point;
-using polylidar::Polygon;
-using polylidar::Ring;
 using polylidar::testing::distance;
 
 const std::vector<std::string> kShapes = {"ca", "letter_b", "star-1", "nested-1", "parts-1"};
@@ -142,9 +139,9 @@ TEST(Stress, AnyShapeCanBeSampledWithAnyKind) {
 
 TEST(Stress, UnknownStressIsRefusedWithTheKnownOnes) {
   const std::string text =
-      testing::complaint_of<std::invalid_argument>([] { make_point_set("ca~noise:99", false, 10, 1); });
+      complaint_of<std::invalid_argument>([] { make_point_set("ca~noise:99", false, 10, 1); });
   EXPECT_TRUE(text.starts_with("there is no data set 'ca~noise:99'; choose one of: ca, hi, ")) << text;
-  EXPECT_NE(text.find("one of: ~noise:LEVEL (0 to 10) ~outliers:LEVEL (0 to 90)"), std::string::npos) << text;
+  expect_says(text, "one of: ~noise:LEVEL (0 to 10) ~outliers:LEVEL (0 to 90)");
 }
 
 TEST(Stress, BaseShapesAndLevelsAreToldFromTheName) {
@@ -467,8 +464,8 @@ TEST(Stress, BoundaryPointsLieOnTheRings) {
   const std::vector<Point> points = points_of("annulus-8~boundary:100", 2000);
   double on_hole = 0;
   for (const Point& point : points) {
-    const double to_shell = testing::boost_distance(point, shape[0].shell);
-    const double to_hole = testing::boost_distance(point, shape[0].holes[0]);
+    const double to_shell = boost_distance(point, shape[0].shell);
+    const double to_hole = boost_distance(point, shape[0].holes[0]);
     EXPECT_LE(std::min(to_shell, to_hole), 1e-13);  // coordinates up to 27, rounded to 1.8e-15 a few times
     on_hole += to_hole < to_shell ? 1 : 0;
   }
@@ -595,4 +592,4 @@ TEST(Stress, GoldenSamples) {
 }
 
 }  // namespace
-}  // namespace hullbench
+}  // namespace hullbench::testing

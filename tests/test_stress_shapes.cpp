@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "benchmarks/base/names.hpp"
 #include "datasets/datasets.hpp"
 #include "datasets/degenerate.hpp"
 #include "datasets/point_bytes.hpp"
@@ -17,13 +18,8 @@
 #include "polylidar/concave_hull.hpp"
 #include "tests/boost_checks.hpp"
 
-namespace hullbench {
+namespace hullbench::testing {
 namespace {
-
-using polylidar::MultiPolygon;
-using polylidar::Point;
-using polylidar::Polygon;
-using polylidar::Ring;
 
 // Of lengths up to 100, rounded to 1.4e-14, after a few operations.
 constexpr double kStressRounding = 1e-12;
@@ -38,7 +34,7 @@ TEST(GradedShapes, AllCoverTheSameAreaAndAreValid) {
     for (std::size_t size = 1; size <= kGradedMembers; ++size) {
       const MultiPolygon shape = kind.make(static_cast<double>(size));
       EXPECT_NEAR(polylidar::area(shape), kGradedArea, kGradedArea * 1e-14) << kind.name << size;
-      EXPECT_EQ(testing::boost_fault(shape), "") << kind.name << size;
+      EXPECT_EQ(boost_fault(shape), "") << kind.name << size;
       EXPECT_EQ(shape, member(kind.name, static_cast<int>(size)));
     }
   }
@@ -56,8 +52,7 @@ TEST(GradedShapes, HolesHaveTheirRadius) {
         EXPECT_NEAR(box.max.y - box.min.y, 2 * size, kStressRounding) << name;
         EXPECT_LT(polylidar::signed_area(hole), 0) << name;
         // So wide that what is between two holes, or a hole and the shell, is no feature itself.
-        for (const Point& corner : hole)
-          EXPECT_GT(testing::boost_distance(corner, polygon.shell), 2) << name << size;
+        for (const Point& corner : hole) EXPECT_GT(boost_distance(corner, polygon.shell), 2) << name << size;
       }
     }
   }
@@ -110,7 +105,7 @@ TEST(GradedShapes, PartsHaveTheirGap) {
         for (const Polygon& other : shape) {
           if (other == polygon) continue;
           for (const Point& corner : other.shell)
-            nearest = std::min(nearest, testing::boost_distance(corner, polygon.shell));
+            nearest = std::min(nearest, boost_distance(corner, polygon.shell));
         }
         EXPECT_NEAR(nearest, size, kStressRounding) << name;
       }
@@ -133,7 +128,7 @@ std::string fault_of(MultiPolygon shape) {
     enlarge(polygon.shell);
     for (Ring& hole : polygon.holes) enlarge(hole);
   }
-  return testing::boost_fault(shape);
+  return boost_fault(shape);
 }
 
 TEST(DegenerateInputs, AreDataSetsWithTheirOwnPoints) {
@@ -202,4 +197,4 @@ TEST(DegenerateInputs, TheCoreHasAnAnswerToEach) {
 }
 
 }  // namespace
-}  // namespace hullbench
+}  // namespace hullbench::testing

@@ -4,23 +4,17 @@
 #include <chrono>
 #include <filesystem>
 #include <functional>
-#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
+#include "benchmarks/base/names.hpp"
 #include "benchmarks/record/json_lines.hpp"
 #include "datasets/sha256.hpp"
+#include "tests/complaint.hpp"
 #include "tests/hullbench_test.hpp"
 
-namespace hullbench {
+namespace hullbench::testing {
 namespace {
-
-namespace fs = std::filesystem;
-using nlohmann::json;
-using testing::expect_refusal;
-using testing::Outcome;
-using testing::read_text;
-using testing::write_text;
 
 /// The rows without what is measured.
 json untimed(std::vector<json> rows) {
@@ -40,11 +34,11 @@ void change_rows(const fs::path& run, const std::function<void(json&)>& change) 
   write_text(run / "runs.jsonl", text);
 }
 
-class RescoreTest : public testing::HullbenchTest {
+class RescoreTest : public HullbenchTest {
  protected:
   /// A run of two cases in `kept`.
   void SetUp() override {
-    const std::string plan = write(testing::small_plan("small", testing::california({500})));
+    const std::string plan = write(small_plan("small", california({500})));
     succeeded(hullbench({"run", plan, "--keep-polygons", "--out", "kept"}));
   }
 };
@@ -84,8 +78,8 @@ TEST_F(RescoreTest, NeedsPolygonsAndPointsOfTheRow) {
 }
 
 TEST_F(RescoreTest, OfASuiteIsASuite) {
-  const std::string one = write(testing::small_plan("one", testing::california({300})));
-  const std::string two = write(testing::small_plan("two", testing::california({400})));
+  const std::string one = write(small_plan("one", california({300})));
+  const std::string two = write(small_plan("two", california({400})));
   ASSERT_EQ(hullbench({"run", one, two, "--keep-polygons", "--out", "both"}).code, 0);
   succeeded(hullbench({"rescore", "both", "--out", "again"}));
   for (const char* name : {"one", "two"}) {
@@ -94,11 +88,11 @@ TEST_F(RescoreTest, OfASuiteIsASuite) {
   }
 }
 
-class SubmissionTest : public testing::HullbenchTest {
+class SubmissionTest : public HullbenchTest {
  protected:
   // What hullbench_worker.py needs.
   void SetUp() override {
-    const std::string why = testing::missing({SYSTEM_PYTHON ":numpy"});
+    const std::string why = missing({SYSTEM_PYTHON ":numpy"});
     if (!why.empty()) GTEST_SKIP() << why;
     ASSERT_EQ(hullbench({"adapter", "new", "my_hull", "--lang", "python", "--out", "methods"}).code, 0);
     // Debian's Python, which has numpy.
@@ -118,7 +112,7 @@ class SubmissionTest : public testing::HullbenchTest {
     change();
     if (is_packed_again) pack_again();
     const Outcome outcome = expect_end(hullbench({"submit", "check", "pack"}), 1, "", "FAIL: ");
-    EXPECT_NE(outcome.out.find(sentence), std::string::npos) << outcome.out;
+    expect_says(outcome.out, sentence);
     EXPECT_EQ(outcome.out.find("| Method"), std::string::npos) << "no table of what was not checked";
     fs::remove_all(pack());
     fs::rename(folder() / "kept", pack());
@@ -157,7 +151,7 @@ TEST_F(SubmissionTest, APackIsTakenAndWhatIsWrongWithItIsFound) {
   const Outcome outcome = hullbench({"submit", "check", "pack"});
   EXPECT_EQ(outcome.code, 0) << outcome.out << outcome.err;
   EXPECT_EQ(outcome.out.find("FAIL"), std::string::npos);
-  EXPECT_NE(outcome.out.find("my_hull (handed in)"), std::string::npos) << outcome.out;
+  expect_says(outcome.out, "my_hull (handed in)");
   expect_valid("pack/submission.json");
   expect_valid("pack/run/report.json");
   EXPECT_TRUE(fs::exists(pack() / "method" / "my_hull.json"));
@@ -239,4 +233,4 @@ TEST_F(SubmissionTest, WhatCannotBePacked) {
 }
 
 }  // namespace
-}  // namespace hullbench
+}  // namespace hullbench::testing

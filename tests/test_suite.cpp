@@ -6,27 +6,19 @@
 #include <csignal>
 #include <filesystem>
 #include <map>
-#include <nlohmann/json.hpp>
 #include <set>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "benchmarks/base/names.hpp"
+#include "tests/complaint.hpp"
 #include "tests/hullbench_test.hpp"
 
-namespace hullbench {
+namespace hullbench::testing {
 namespace {
 
-namespace fs = std::filesystem;
-using nlohmann::json;
-using testing::california;
-using testing::expect_refusal;
-using testing::Outcome;
-using testing::Program;
-using testing::read_text;
-using testing::small_plan;
-
-class SuiteTest : public testing::HullbenchTest {
+class SuiteTest : public HullbenchTest {
  protected:
   fs::path suite() const { return folder() / "suite"; }
 
@@ -64,9 +56,9 @@ std::vector<std::string> records_of(const fs::path& suite) {
 
 TEST_F(SuiteTest, IsARunOfEveryPlanAndTheTablesOfAll) {
   const Outcome outcome = succeeded(hullbench(run_both()));
-  EXPECT_NE(outcome.err.find("table 1 of 2: Plan first"), std::string::npos) << outcome.err;
-  EXPECT_NE(outcome.err.find("table 2 of 2: Plan second"), std::string::npos) << outcome.err;
-  EXPECT_NE(outcome.err.find("4 ok, 0 failed, 0 not installed"), std::string::npos) << outcome.err;
+  expect_says(outcome.err, "table 1 of 2: Plan first");
+  expect_says(outcome.err, "table 2 of 2: Plan second");
+  expect_says(outcome.err, "4 ok, 0 failed, 0 not installed");
   EXPECT_EQ(names_in(suite()),
             (std::set<std::string>{"first", "second", "suite.json", "tables", "tables.md"}));
   EXPECT_EQ(rows_of(suite() / "first"), (std::set<std::string>{"polylidar/ca/n:500/holes:0/protocol:paper",
@@ -75,8 +67,8 @@ TEST_F(SuiteTest, IsARunOfEveryPlanAndTheTablesOfAll) {
             (std::set<std::string>{"polylidar/ca/n:600/holes:0/protocol:paper",
                                    "polylidar/ca/n:600/holes:1/protocol:paper"}));
   EXPECT_EQ(read_text(suite() / "tables.md"), outcome.out);
-  EXPECT_NE(outcome.out.find("## Plan first\n"), std::string::npos);
-  EXPECT_NE(outcome.out.find("## Plan second\n"), std::string::npos);
+  expect_says(outcome.out, "## Plan first\n");
+  expect_says(outcome.out, "## Plan second\n");
   const std::set<std::string> tables = names_in(suite() / "tables");
   for (const char* table : {"methods", "parameters", "first_ca_time", "second_ca_holes_error"}) {
     EXPECT_TRUE(tables.contains(std::string(table) + ".csv")) << table;
@@ -107,9 +99,9 @@ TEST_F(SuiteTest, ThatIsFinishedIsNotMeasuredAgain) {
   fs::remove_all(suite() / "tables");
   const Outcome second = succeeded(hullbench(run_both()));
   EXPECT_EQ(second.out, first.out);
-  EXPECT_NE(second.err.find("Plan first is finished already"), std::string::npos) << second.err;
-  EXPECT_NE(second.err.find("Plan second is finished already"), std::string::npos) << second.err;
-  EXPECT_NE(second.err.find("4 ok, 0 failed, 0 not installed"), std::string::npos) << second.err;
+  expect_says(second.err, "Plan first is finished already");
+  expect_says(second.err, "Plan second is finished already");
+  expect_says(second.err, "4 ok, 0 failed, 0 not installed");
   EXPECT_EQ(records_of(suite()), records);
   EXPECT_TRUE(names_in(suite() / "tables").contains("methods.csv"));
 }
@@ -137,7 +129,7 @@ TEST_F(SuiteTest, GoesThroughAllPlansPassByPass) {
     EXPECT_TRUE(fs::exists(suite() / plan / "report.json")) << plan;
   }
   const Outcome again = hullbench(words);
-  EXPECT_NE(again.err.find("Plan once is finished already"), std::string::npos) << again.err;
+  expect_says(again.err, "Plan once is finished already");
   EXPECT_EQ(again.out, outcome.out);
 }
 
@@ -174,7 +166,7 @@ TEST_F(SuiteTest, WithTheSamePlanTwiceIsRefused) {
 
 TEST_F(SuiteTest, InAFolderWithSomethingElseIsRefused) {
   fs::create_directory(suite());
-  testing::write_text(suite() / "thesis.tex", "precious");
+  write_text(suite() / "thesis.tex", "precious");
   expect_refusal(hullbench(run_both()), 2, "the output folder suite holds something else");
   EXPECT_EQ(names_in(suite()), (std::set<std::string>{"thesis.tex"}));
 }
@@ -189,7 +181,7 @@ TEST_F(SuiteTest, InAFolderWithAnotherSuiteIsRefused) {
 TEST_F(SuiteTest, InAFolderThatCannotBeWrittenIsRefused) {
   fs::create_directory(folder() / "sealed");
   fs::permissions(folder() / "sealed", fs::perms::owner_read | fs::perms::owner_exec);
-  testing::ProgramOptions options;
+  ProgramOptions options;
   options.obey_permissions = true;
   expect_refusal(hullbench(run_both({"--out", "sealed"}), options), 2,
                  "cannot write to the output folder sealed");
@@ -241,7 +233,7 @@ class InterruptedSuiteTest : public SuiteTest {
   Outcome stop_in_second(const std::vector<std::string>& words, int signal, std::size_t lines,
                          const fs::path& in) const {
     Program program(command(words), in_folder());
-    EXPECT_TRUE(testing::wait_until([&] {
+    EXPECT_TRUE(wait_until([&] {
       const std::string text = read_text(in / "second" / "repetitions.jsonl");
       return static_cast<std::size_t>(std::count(text.begin(), text.end(), '\n')) >= lines;
     }));
@@ -280,7 +272,7 @@ TEST_F(InterruptedSuiteTest, GoesOnFromWhereItStopped) {
   }
   const std::string repetitions = read_text(suite() / "second" / "repetitions.jsonl");
   const Outcome whole = succeeded(hullbench(words()));
-  EXPECT_NE(whole.err.find("Plan first is finished already"), std::string::npos) << whole.err;
+  expect_says(whole.err, "Plan first is finished already");
   firsts.push_back(read_text(suite() / "first" / "runs.jsonl"));
   EXPECT_FALSE(firsts.front().empty());
   EXPECT_EQ(firsts, std::vector<std::string>(3, firsts.front()));
@@ -323,13 +315,13 @@ TEST_F(InterruptedSuiteTest, IsFoundWithoutOutUntilItIsFinished) {
 TEST_F(InterruptedSuiteTest, HasTheTablesOfWhatIsThere) {
   ASSERT_EQ(stop_in_second(words(), SIGINT, 1, suite()).code, 130);
   const Outcome tables = succeeded(hullbench({"tables", "suite"}));
-  EXPECT_NE(tables.out.find("## Plan first\n"), std::string::npos);
+  expect_says(tables.out, "## Plan first\n");
   fs::remove_all(suite() / "first");
   fs::remove_all(suite() / "second");
   EXPECT_EQ(hullbench({"tables", "suite"}).code, 0);
-  testing::write_text(suite() / "suite.json", "{");
+  write_text(suite() / "suite.json", "{");
   expect_refusal(hullbench({"tables", "suite"}), 1, "cannot read suite/suite.json");
 }
 
 }  // namespace
-}  // namespace hullbench
+}  // namespace hullbench::testing

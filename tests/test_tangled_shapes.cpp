@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "benchmarks/base/names.hpp"
 #include "datasets/star_polygons.hpp"
 #include "datasets/tangled_shapes.hpp"
 #include "tests/boost_checks.hpp"
@@ -16,13 +17,9 @@
 #include "tests/hull_oracle.hpp"
 #include "tests/point_sets.hpp"
 
-namespace hullbench {
+namespace hullbench::testing {
 namespace {
 
-using polylidar::MultiPolygon;
-using polylidar::Point;
-using polylidar::Polygon;
-using polylidar::Ring;
 using polylidar::testing::distance;
 
 // Coordinates up to 200 are rounded to 2.8e-14, a few times over while a shape is laid out, moved and turned.
@@ -62,7 +59,7 @@ double clearance(const Ring& from, const Ring& ring, double detour) {
 }
 
 double least_feature(const MultiPolygon& shape, double detour) {
-  const std::vector<Ring> rings = testing::rings_of(shape);
+  const std::vector<Ring> rings = rings_of(shape);
   double least = std::numeric_limits<double>::infinity();
   for (const Ring& from : rings) {
     for (const Ring& ring : rings) least = std::min(least, clearance(from, ring, detour));
@@ -142,7 +139,7 @@ TEST(TangledKinds, HaveTheirNamesAndAThousandShapes) {
 
 TEST(TangledKinds, AnIndexBeyondTheLastIsAnError) {
   EXPECT_NO_THROW(tangled_shape(TangledKind::kComb, 166));
-  EXPECT_EQ(testing::complaint_of<std::invalid_argument>([] { tangled_shape(TangledKind::kNested, 166); }),
+  EXPECT_EQ(complaint_of<std::invalid_argument>([] { tangled_shape(TangledKind::kNested, 166); }),
             "there is no shape 166 of kind 'nested'; the last one is 165");
 }
 
@@ -162,7 +159,7 @@ INSTANTIATE_TEST_SUITE_P(Kinds, Tangled, ::testing::ValuesIn(kTangledKinds),
 
 TEST_P(Tangled, ShapesAreValidWithRingsTheRightWayRound) {
   for_all([](const MultiPolygon& shape, std::size_t index) {
-    EXPECT_EQ(testing::boost_fault(shape), "") << index;
+    EXPECT_EQ(boost_fault(shape), "") << index;
     for (const Polygon& polygon : shape) {
       EXPECT_GT(polylidar::signed_area(polygon.shell), 0) << index;
       for (const Ring& hole : polygon.holes) EXPECT_LT(polylidar::signed_area(hole), 0) << index;
@@ -283,4 +280,4 @@ TEST(Parts, AreThreeToSevenWithoutHoles) {
 }
 
 }  // namespace
-}  // namespace hullbench
+}  // namespace hullbench::testing

@@ -4,17 +4,14 @@
 #include <stdexcept>
 #include <vector>
 
+#include "benchmarks/base/names.hpp"
 #include "datasets/point_locator.hpp"
 #include "datasets/random.hpp"
 #include "datasets/tissue.hpp"
 #include "tests/boost_checks.hpp"
 
-namespace hullbench {
+namespace hullbench::testing {
 namespace {
-
-using polylidar::MultiPolygon;
-using polylidar::Point;
-using polylidar::Ring;
 
 std::vector<MultiPolygon> all_cells() {
   std::vector<MultiPolygon> cells;
@@ -38,7 +35,7 @@ TEST(Tissue, CellsAreValidAndMostlyConcave) {
   for (const MultiPolygon& cell : all_cells()) {
     ASSERT_EQ(cell.size(), 1U);
     EXPECT_TRUE(cell[0].holes.empty());
-    EXPECT_EQ(testing::boost_fault(cell), "");
+    EXPECT_EQ(boost_fault(cell), "");
     EXPECT_GT(polylidar::area(cell), 100);
     EXPECT_LT(polylidar::area(cell), 1000);
     concave += is_concave(cell[0].shell) ? 1U : 0U;
@@ -51,7 +48,7 @@ TEST(Tissue, CellsDoNotOverlap) {
   const std::vector<MultiPolygon> cells = all_cells();
   for (std::size_t i = 0; i < cells.size(); ++i) {
     for (std::size_t j = 0; j < i; ++j)
-      EXPECT_LT(testing::boost_common_area(cells[i], cells[j]), 1e-6) << i << " and " << j;
+      EXPECT_LT(boost_common_area(cells[i], cells[j]), 1e-6) << i << " and " << j;
   }
 }
 
@@ -77,4 +74,4 @@ TEST(Tissue, HasNoOtherCells) {
 }
 
 }  // namespace
-}  // namespace hullbench
+}  // namespace hullbench::testing

@@ -19,14 +19,12 @@
 #include "tests/manifest_method.hpp"
 #include "tests/point_sets.hpp"
 
-namespace hullbench {
+namespace hullbench::testing {
 namespace {
 
 using polylidar::Options;
 using polylidar::testing::canonical;
 using polylidar::testing::core_hull;
-using test::parameters_of;
-using testing::ManifestMethod;
 
 /// Whether rounding decides nothing in Delaunator, whose tests of circles and distances are plain arithmetic;
 /// on cocircular points any of several triangulations is right, too.
@@ -87,7 +85,7 @@ class TriangleMethod : public ::testing::Test {
   }
 
   void expect_same_polygons_on_samples_of_shapes() {
-    for (const test::HullSample& sample : test::hull_samples()) {
+    for (const HullSample& sample : hull_samples()) {
       SCOPED_TRACE(sample.name);
       const double spacing = std::sqrt(sample.area / static_cast<double>(sample.points.size()));
       for (const double spacings : {0.9, 1.3, 2.1, 3.3}) {
@@ -296,4 +294,4 @@ TEST_F(ShrinkBoundaryTest, IsOneValidPolygonOrNoneOfNastyPointSets) {
 }
 
 }  // namespace
-}  // namespace hullbench
+}  // namespace hullbench::testing

@@ -8,40 +8,32 @@
 #include <cstdlib>
 #include <filesystem>
 #include <map>
-#include <nlohmann/json.hpp>
 #include <numbers>
 #include <set>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "benchmarks/base/names.hpp"
 #include "benchmarks/metrics/area.hpp"
 #include "benchmarks/plan/parameter_rules.hpp"
 #include "datasets/datasets.hpp"
 #include "tests/complaint.hpp"
 #include "tests/hullbench_test.hpp"
 
-namespace hullbench {
+namespace hullbench::testing {
 namespace {
-
-namespace fs = std::filesystem;
-using nlohmann::json;
-using testing::expect_refusal;
-using testing::Outcome;
-using testing::Program;
-using testing::read_text;
-using testing::write_text;
 
 constexpr int kCorners = 64;
 
 /// The polygon that the made-up method `disc` answers with.
-polylidar::MultiPolygon disc(const std::vector<polylidar::Point>& points, double radius) {
-  polylidar::Point centre = {0, 0};
-  for (const polylidar::Point& point : points) {
+MultiPolygon disc(const std::vector<Point>& points, double radius) {
+  Point centre = {0, 0};
+  for (const Point& point : points) {
     centre.x += point.x / static_cast<double>(points.size());
     centre.y += point.y / static_cast<double>(points.size());
   }
-  polylidar::Ring ring;
+  Ring ring;
   for (int i = 0; i < kCorners; ++i) {
     const double angle = 2 * std::numbers::pi * i / kCorners;
     ring.push_back({centre.x + radius * std::cos(angle), centre.y + radius * std::sin(angle)});
@@ -49,10 +41,10 @@ polylidar::MultiPolygon disc(const std::vector<polylidar::Point>& points, double
   return {{ring, {}}};
 }
 
-class TuneTest : public testing::HullbenchTest {
+class TuneTest : public HullbenchTest {
  protected:
   void SetUp() override {
-    const std::string why = testing::missing({SYSTEM_PYTHON ":numpy"});
+    const std::string why = missing({SYSTEM_PYTHON ":numpy"});
     if (!why.empty()) GTEST_SKIP() << why;
     fs::create_directories(methods());
     method("disc", R"([{"name": "radius", "unit": "length", "description": "Of the disc.", "minimum": 0,
@@ -99,7 +91,7 @@ class TuneTest : public testing::HullbenchTest {
     return hullbench(tune_words(plan, methods_expression, out, more));
   }
 
-  std::string plan(const json& cases) const { return write(testing::small_plan("small", cases)); }
+  std::string plan(const json& cases) const { return write(small_plan("small", cases)); }
 
   json summary(const std::string& out) const { return read_json(out + "/tune.json"); }
   std::vector<json> sweep(const std::string& out) const { return read_lines(out + "/sweep.jsonl"); }
@@ -192,12 +184,12 @@ TEST_F(TuneTest, TheLeagueIsTheSameAgainFromTheRowsThatAreKept) {
                 .code,
             0)
       << "star-1 is for training";
-  succeeded(hullbench({"run", folder() / "out" / "small-tuned.json",
-                       write(testing::small_plan("other", both_sides(1))), "--out", folder() / "suite",
-                       "--adapters", methods(), "--repetitions", "1"}));
+  succeeded(
+      hullbench({"run", folder() / "out" / "small-tuned.json", write(small_plan("other", both_sides(1))),
+                 "--out", folder() / "suite", "--adapters", methods(), "--repetitions", "1"}));
   const Outcome league = succeeded(hullbench({"league", "suite", "--out", "league.json"}));
   expect_valid("league.json");
-  testing::expect_says(league.out, "lattice †");
+  expect_says(league.out, "lattice †");
   const std::string keep = SYSTEM_PYTHON " " HULLBENCH_SOURCE_DIRECTORY "/results/keep_league.py ";
   ASSERT_EQ(std::system((keep + (folder() / "suite").string() + " " + (folder() / "kept").string()).c_str()),
             0);
@@ -217,7 +209,7 @@ TEST_F(TuneTest, AMethodWithoutANumberHasItsDefaultOnly) {
 }
 
 TEST_F(TuneTest, AMethodThatAPlanDoesNotWantSearchedKeepsWhatThePlanHas) {
-  json plan = testing::small_plan("small", both_sides(2));
+  json plan = small_plan("small", both_sides(2));
   plan["methods"] = json::array();
   plan["methods"].push_back({{"method", "disc"},
                              {"protocol", "default"},
@@ -280,7 +272,7 @@ TEST_F(TuneTest, GoesOnAfterAnInterruptionToTheSameResult) {
   const fs::path file = folder() / "parts" / "sweep.jsonl";
   {
     Program program(command(tune_words(cases, "disc|polylidar", "parts", {"--jobs", "1"})), in_folder());
-    ASSERT_TRUE(testing::wait_until([&] { return sweep("parts").size() > 60; }));
+    ASSERT_TRUE(wait_until([&] { return sweep("parts").size() > 60; }));
     program.send_signal(SIGINT);
     const Outcome outcome = program.wait();
     EXPECT_EQ(outcome.code, 130) << outcome.err;
@@ -309,7 +301,7 @@ TEST_F(TuneTest, ShardsInOneFolderComeTogetherToTheSameResult) {
   const Outcome all = tune(cases, "disc|polylidar", "parts");
   EXPECT_EQ(fs::file_size(calls()), calls_before) << "nothing is evaluated twice";
   ASSERT_EQ(all.code, 0) << all.err;
-  testing::expect_says(all.err, std::to_string(sweep("whole").size()) + " evaluations are there already");
+  expect_says(all.err, std::to_string(sweep("whole").size()) + " evaluations are there already");
   for (const char* name : {"sweep.jsonl", "tune.json", "tuning.md", "small-tuned.json"})
     EXPECT_EQ(read_text(folder() / "parts" / name), read_text(folder() / "whole" / name)) << name;
   EXPECT_EQ(
@@ -334,4 +326,4 @@ TEST_F(TuneTest, RefusesWhatItCannotDo) {
 }
 
 }  // namespace
-}  // namespace hullbench
+}  // namespace hullbench::testing

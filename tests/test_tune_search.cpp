@@ -21,10 +21,8 @@
 #include "datasets/stress.hpp"
 #include "tests/infinity.hpp"
 
-namespace hullbench {
+namespace hullbench::testing {
 namespace {
-
-using testing::kInfinity;
 
 ParameterInfo parameter(const std::string& name, const std::string& unit, double minimum, double maximum,
                         std::optional<double> default_value = std::nullopt) {
@@ -579,7 +577,7 @@ TEST(TunedPlanTest, HasTheChosenParametersOnTheRightCases) {
     EXPECT_EQ(tune::side_of(one.dataset), tune::Side::kTest) << one.dataset;
   EXPECT_EQ(tune::tuned_plan(accepting, invented.tuning).expanded_cases.size(), 40U);
   const tune::TunedValue tuned = *invented.tuned();
-  std::vector<polylidar::Point> square = {{0, 0}, {2, 0}, {2, 2}, {0, 2}};  // 4 points, spacing 1
+  std::vector<Point> square = {{0, 0}, {2, 0}, {2, 2}, {0, 2}};  // 4 points, spacing 1
   const plan::RuleInput input = {square, 1, false, {}};
   for (std::size_t i = 0; i < invented.tuning.cases.size(); ++i) {
     const tune::TuningCase& one = invented.tuning.cases[i];
@@ -630,4 +628,4 @@ TEST(TuningCasesTest, VariantsOfAShapeAreOnOneSideAndACaseOfTwoPlansIsThereOnce)
 }
 
 }  // namespace
-}  // namespace hullbench
+}  // namespace hullbench::testing

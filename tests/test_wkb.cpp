@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "adapters/wkb.hpp"
+#include "benchmarks/base/names.hpp"
 #include "tests/complaint.hpp"
 
 // The largest single allocation since it was last set to 0: how the fuzzing test sees that no count in the
@@ -33,13 +34,9 @@ static std::atomic<std::size_t> largest_allocation = 0;
   std::free(memory);
 }
 
-namespace hullbench {
+namespace hullbench::testing {
 namespace {
 
-using polylidar::MultiPolygon;
-using polylidar::Point;
-using polylidar::Polygon;
-using polylidar::Ring;
 using Bytes = std::vector<std::uint8_t>;
 
 constexpr std::uint32_t kZ = 0x80000000U;
@@ -94,11 +91,11 @@ MultiPolygon two_polygons() {
 }
 
 std::string refusal(const Bytes& bytes) {
-  return testing::complaint_of<std::invalid_argument>([&] { from_wkb(bytes); });
+  return complaint_of<std::invalid_argument>([&] { from_wkb(bytes); });
 }
 
 void expect_refused(const Build& build, const std::string& why) {
-  EXPECT_NE(refusal(build.bytes()).find(why), std::string::npos) << refusal(build.bytes());
+  expect_says(refusal(build.bytes()), why);
 }
 
 TEST(Wkb, WritesTheBytesOfTheStandard) {
@@ -197,14 +194,13 @@ TEST(Wkb, RefusesBytesThatAreNotWellFormed) {
   expect_refused(Build().type(3).count(1).count(4).doubles({0, 0, infinity, 0, 0, 1, 0, 0}), "not finite");
   Bytes wrong_order = triangle().bytes();
   wrong_order[0] = 2;
-  EXPECT_NE(refusal(wrong_order).find("byte order 2"), std::string::npos);
+  expect_says(refusal(wrong_order), "byte order 2");
 }
 
 TEST(Wkb, RefusesEveryPrefix) {
   const Bytes whole = to_wkb(two_polygons());
   for (std::size_t size = 0; size < whole.size(); ++size) {
-    EXPECT_NE(refusal(Bytes(whole.begin(), whole.begin() + static_cast<std::ptrdiff_t>(size))),
-              testing::kNoComplaint)
+    EXPECT_NE(refusal(Bytes(whole.begin(), whole.begin() + static_cast<std::ptrdiff_t>(size))), kNoComplaint)
         << size;
   }
 }
@@ -262,4 +258,4 @@ TEST(Wkb, SurvivesRandomMutations) {
 }
 
 }  // namespace
-}  // namespace hullbench
+}  // namespace hullbench::testing

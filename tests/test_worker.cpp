@@ -22,15 +22,14 @@
 #include "benchmarks/worker/protocol.hpp"
 #include "benchmarks/worker/stray_processes.hpp"
 #include "benchmarks/worker/worker_process.hpp"
+#include "tests/complaint.hpp"
 #include "tests/program.hpp"
 #include "tests/temporary_folder.hpp"
 
-namespace hullbench {
+namespace hullbench::testing {
 namespace {
 
 using namespace std::chrono_literals;
-namespace fs = std::filesystem;
-using nlohmann::json;
 
 std::vector<std::string> misbehaving(const std::string& mode) {
   return {MISBEHAVING_WORKER, mode};
@@ -85,7 +84,7 @@ class MethodSessionTest : public ::testing::Test {
                              folder_.path(), 30s);
   }
 
-  testing::TemporaryFolder folder_;
+  TemporaryFolder folder_;
   std::unique_ptr<worker::MethodSession> session_;
 };
 
@@ -100,7 +99,7 @@ TEST_F(MethodSessionTest, AGoodWorkerGivesResultAndTimes) {
   EXPECT_EQ(polylidar::area(from_wkb(result.wkb)), 1.0);
   EXPECT_GT(result.elapsed, 1010ns);
   // Only the points are left: results are removed once they are read.
-  EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder_.path()), {}), 1);
+  EXPECT_EQ(std::distance(fs::directory_iterator(folder_.path()), {}), 1);
 }
 
 TEST_F(MethodSessionTest, PeakMemoryIsThatOfTheRunThatIsWatched) {
@@ -144,7 +143,7 @@ TEST_P(FailingWorker, HasAStatusAndSaysWhy) {
   const Failure& failure = GetParam();
   const worker::Attempt result = attempt(failure.mode, failure.timeout);
   EXPECT_EQ(to_string(result.status), to_string(failure.status)) << result.detail;
-  EXPECT_NE(result.detail.find(failure.words), std::string::npos) << result.detail;
+  expect_says(result.detail, failure.words);
   EXPECT_TRUE(result.wkb.empty());
 }
 
@@ -196,7 +195,7 @@ TEST_F(MethodSessionTest, AnAnswerThatNobodyAskedForIsNotTakenForTheNextOne) {
   ASSERT_EQ(attempt("unasked").status, record::Status::kOk);
   const worker::Attempt second = run();
   EXPECT_EQ(second.status, record::Status::kError);
-  EXPECT_NE(second.detail.find("spoke without being asked"), std::string::npos) << second.detail;
+  expect_says(second.detail, "spoke without being asked");
 }
 
 TEST_F(MethodSessionTest, AWorkerThatDiedIsStartedAgain) {
@@ -245,7 +244,7 @@ TEST_F(MethodSessionTest, AWorkerThatIsKilledFromOutsideIsACrash) {
   ::kill(session_->pid(), SIGKILL);
   const worker::Attempt result = run();
   EXPECT_EQ(to_string(result.status), "crash");
-  EXPECT_NE(result.detail.find("SIGKILL"), std::string::npos) << result.detail;
+  expect_says(result.detail, "SIGKILL");
 }
 
 /// Each way to end, with what it leaves: a child in the worker's own group, in a session of its own, one that
@@ -256,7 +255,7 @@ TEST_F(MethodSessionTest, WhatAWorkerLeavesBehindGoesWithIt) {
     EXPECT_EQ(status == record::Status::kOk, std::string(mode) == "fork") << to_string(status);
     session_.reset();
     // Killed, but by whom it is reaped is out of our hands.
-    EXPECT_TRUE(testing::wait_until([&] { return !testing::runs_somewhere(misbehaving(mode)); })) << mode;
+    EXPECT_TRUE(wait_until([&] { return !runs_somewhere(misbehaving(mode)); })) << mode;
     EXPECT_EQ(std::distance(fs::directory_iterator(folder_.path()), fs::directory_iterator()), 1)
         << mode << " leaves a file beside the points";
   }
@@ -272,20 +271,20 @@ TEST_F(MethodSessionTest, WhatAKilledHarnessLeftIsCleanedUpByTheNextOne) {
     EXPECT_GT(harness, 0);
     EXPECT_EQ(::waitpid(harness, nullptr, 0), harness);
     // The worker went with the harness; its child is in a session of its own and lives.
-    return testing::runs_somewhere(misbehaving("fork"));
+    return runs_somewhere(misbehaving("fork"));
   };
   // A harness that another test starts just then cleans up as well: what it took is left once more.
   bool is_left = leaves_a_stray();
   for (int again = 0; again < 20 && !is_left; ++again) is_left = leaves_a_stray();
   ASSERT_TRUE(is_left);
   worker::end_strays_of_dead_harnesses();
-  EXPECT_TRUE(testing::wait_until([&] { return !testing::runs_somewhere(misbehaving("fork")); }));
+  EXPECT_TRUE(wait_until([&] { return !runs_somewhere(misbehaving("fork")); }));
 }
 
 TEST_F(MethodSessionTest, WhatALiveHarnessStartedIsNotCleanedUp) {
   worker::WorkerProcess worker(misbehaving("good"), {});
   worker::end_strays_of_dead_harnesses();
-  EXPECT_TRUE(testing::is_running(worker.pid()));
+  EXPECT_TRUE(is_running(worker.pid()));
 }
 
 TEST_F(MethodSessionTest, AProgramThatIsNotThereIsAnError) {
@@ -381,7 +380,7 @@ TEST(WorkerProcess, EndsWithItsInput) {
   const pid_t pid = worker.pid();
   worker.quit(10s);
   EXPECT_FALSE(worker.alive());
-  EXPECT_FALSE(testing::is_running(pid));
+  EXPECT_FALSE(is_running(pid));
 }
 
 TEST(WorkerProcess, RunsOnTheCoreAndWithTheMemoryItIsGiven) {
@@ -426,10 +425,10 @@ TEST(WorkerProcess, AReplyThatComesJustBeforeTheEndCounts) {
 }
 
 TEST(Protocol, PointsSurviveTheFile) {
-  const testing::TemporaryFolder folder;
+  const TemporaryFolder folder;
   const std::vector<Point> points = {{1.5, -2.25}, {1e300, 5e-324}};
   worker::write_points_file(folder.path() / "points", points);
-  EXPECT_EQ(std::filesystem::file_size(folder.path() / "points"), 32U);
+  EXPECT_EQ(fs::file_size(folder.path() / "points"), 32U);
   EXPECT_EQ(worker::read_points_file(folder.path() / "points", 2), points);
   EXPECT_THROW(worker::read_points_file(folder.path() / "points", 3), std::runtime_error);
   EXPECT_THROW(worker::read_points_file(folder.path() / "none", 0), std::runtime_error);
@@ -459,4 +458,4 @@ TEST(Protocol, LastWordsAreMadePrintable) {
 }
 
 }  // namespace
-}  // namespace hullbench
+}  // namespace hullbench::testing

@@ -5,24 +5,19 @@
 #include <cstddef>
 #include <fstream>
 #include <map>
-#include <nlohmann/json.hpp>
 #include <stdexcept>
 #include <string>
 #include <thread>
 #include <vector>
 
+#include "benchmarks/base/names.hpp"
 #include "datasets/shapes.hpp"
 #include "datasets/world_shapes.hpp"
 #include "polylidar/geometry.hpp"
 #include "tests/boost_checks.hpp"
 
-namespace hullbench {
+namespace hullbench::testing {
 namespace {
-
-using polylidar::MultiPolygon;
-using polylidar::Point;
-using polylidar::Polygon;
-using polylidar::Ring;
 
 // Coordinates are written with four decimals.
 constexpr double kWorldRounding = 1e-4;
@@ -38,12 +33,12 @@ TEST(WorldShapes, EveryOneIsAValidOutlineOfTheSizePromised) {
     for (std::size_t index = 0; index < family.count; ++index) {
       SCOPED_TRACE(family.name + "-" + std::to_string(index + 1));
       const MultiPolygon shape = family.make(index);
-      EXPECT_EQ(testing::boost_fault(shape), "");
+      EXPECT_EQ(boost_fault(shape), "");
       Point most{0, 0};
       Point least{kSide, kSide};
       std::size_t vertices = 0;
       const double area = polylidar::area(shape);
-      for (const Ring& ring : testing::rings_of(shape)) {
+      for (const Ring& ring : rings_of(shape)) {
         vertices += ring.size();
         EXPECT_GE(std::abs(polylidar::signed_area(ring)), 0.99e-3 * area);
         for (const Point& p : ring) {
@@ -74,11 +69,11 @@ TEST(WorldShapes, AreMoreThanTwoHundredOfEveryStratumAndNoSourceHasMoreThanSixty
 
 TEST(WorldShapes, AreWhatTheManifestSays) {
   std::ifstream file(default_data_directory() / "world" / "manifest.json");
-  const nlohmann::json manifest = nlohmann::json::parse(file);
+  const json manifest = json::parse(file);
   const std::vector<ShapeFamily> families = world_families();
   ASSERT_EQ(manifest.at("sets").size(), families.size());
   for (std::size_t f = 0; f < families.size(); ++f) {
-    const nlohmann::json& set = manifest["sets"][f];
+    const json& set = manifest["sets"][f];
     std::map<std::string, int> strata = {{"simple", 0}, {"holes", 0}, {"parts", 0}};
     ASSERT_EQ(set.at("areas").size(), families[f].count) << families[f].name;
     for (std::size_t index = 0; index < families[f].count; ++index) {
@@ -110,4 +105,4 @@ TEST(WorldShapes, SeveralThreadsMayAskForTheFirst) {
 }
 
 }  // namespace
-}  // namespace hullbench
+}  // namespace hullbench::testing

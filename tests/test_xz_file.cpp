@@ -3,9 +3,9 @@
 
 #include <cstddef>
 #include <filesystem>
-#include <nlohmann/json.hpp>
 #include <string>
 
+#include "benchmarks/base/names.hpp"
 #include "benchmarks/record/xz_file.hpp"
 #include "benchmarks/report/report.hpp"
 #include "invented_run.hpp"
@@ -13,12 +13,8 @@
 #include "tests/complaint.hpp"
 #include "tests/program.hpp"
 
-namespace hullbench {
+namespace hullbench::testing {
 namespace {
-
-namespace fs = std::filesystem;
-using testing::read_text;
-using testing::write_text;
 
 /// What `xz -9` (5.4.1) makes of 12500 lines "0123456789abcde".
 constexpr const char* kCompressed =
@@ -53,7 +49,7 @@ class XzFile : public ::testing::Test {
 
   /// What is said of a file with these bytes, or of the file as it is there.
   std::string complaint() const {
-    return testing::complaint_of([&] { record::read_xz_file(file()); });
+    return complaint_of([&] { record::read_xz_file(file()); });
   }
   std::string complaint(const std::string& bytes) const {
     write_text(file(), bytes);
@@ -63,7 +59,7 @@ class XzFile : public ::testing::Test {
   std::string not_whole() const { return file().string() + " is not a whole xz file; get it anew."; }
 
   const std::string good_ = bytes_of_hex(kCompressed);
-  testing::TemporaryFolder folder_;
+  TemporaryFolder folder_;
 };
 
 TEST_F(XzFile, GivesItsContent) {
@@ -106,22 +102,22 @@ class CompressedRun : public ::testing::Test {
  protected:
   void SetUp() override {
     // It compresses the records of a reference run (results/keep_reference.sh).
-    if (const std::string why = testing::missing({"xz"}); !why.empty()) GTEST_SKIP() << why;
-    test::write_invented_run(run_, {2000, 64000});
+    if (const std::string why = missing({"xz"}); !why.empty()) GTEST_SKIP() << why;
+    write_invented_run(run_, {2000, 64000});
   }
 
   /// Puts runs.jsonl.xz in the place of runs.jsonl.
   void compress() const {
-    ASSERT_EQ(testing::run_program({"xz", "--check=crc64", (run_ / "runs.jsonl").string()}).code, 0);
+    ASSERT_EQ(run_program({"xz", "--check=crc64", (run_ / "runs.jsonl").string()}).code, 0);
     ASSERT_FALSE(fs::exists(run_ / "runs.jsonl"));
   }
 
-  testing::TemporaryFolder folder_;
+  TemporaryFolder folder_;
   const fs::path run_ = folder_.path() / "run";
 };
 
 TEST_F(CompressedRun, HasTheSameReport) {
-  const nlohmann::json before = report::make_report(run_);
+  const json before = report::make_report(run_);
   ASSERT_FALSE(before.at("runs").empty());
   compress();
   EXPECT_EQ(report::make_report(run_), before);
@@ -133,9 +129,9 @@ TEST_F(CompressedRun, ThatIsDamagedIsASentenceWithTheFile) {
   std::string bytes = read_text(file);
   bytes[bytes.size() / 2] = static_cast<char>(bytes[bytes.size() / 2] ^ 1);
   write_text(file, bytes);
-  EXPECT_EQ(testing::complaint_of([&] { report::make_report(run_); }),
+  EXPECT_EQ(complaint_of([&] { report::make_report(run_); }),
             file.string() + " is not a whole xz file; get it anew.");
 }
 
 }  // namespace
-}  // namespace hullbench
+}  // namespace hullbench::testing

@@ -7,7 +7,6 @@
 #include <cstddef>
 #include <fstream>
 #include <map>
-#include <nlohmann/json.hpp>
 #include <regex>
 #include <set>
 #include <stdexcept>
@@ -15,6 +14,7 @@
 #include <utility>
 #include <vector>
 
+#include "benchmarks/base/names.hpp"
 #include "datasets/datasets.hpp"
 #include "datasets/point_bytes.hpp"
 #include "datasets/sha256.hpp"
@@ -27,9 +27,6 @@
 namespace hullbench {
 namespace {
 
-using nlohmann::json;
-using polylidar::MultiPolygon;
-using polylidar::Point;
 using polylidar::testing::distance;
 
 std::vector<Point> points_of(const std::string& name) {
@@ -151,9 +148,9 @@ TEST(Zoo, SamePointsOnEveryMachine) {
   for (const zoo::Case& one : zoo::cases()) {
     const zoo::Input input = one.make();
     std::string bytes = point_bytes(input.points);
-    for (const polylidar::Polygon& polygon : input.ground_truth) {
+    for (const Polygon& polygon : input.ground_truth) {
       bytes += point_bytes(polygon.shell);
-      for (const polylidar::Ring& hole : polygon.holes) bytes += point_bytes(hole);
+      for (const Ring& hole : polygon.holes) bytes += point_bytes(hole);
     }
     EXPECT_EQ(expected[one.name], sha256_hex(bytes)) << one.name;
   }
@@ -297,7 +294,7 @@ TEST(Zoo, CloudsHaveTheirParts) {
   for (const auto& [name, parts] : expected) {
     const MultiPolygon shape = shape_of(name);
     std::size_t holes = 0;
-    for (const polylidar::Polygon& polygon : shape) holes += polygon.holes.size();
+    for (const Polygon& polygon : shape) holes += polygon.holes.size();
     EXPECT_EQ(shape.size(), parts.first) << name;
     EXPECT_EQ(holes, parts.second) << name;
   }
@@ -310,7 +307,7 @@ TEST(Zoo, CloudsHaveTheirParts) {
   EXPECT_EQ(points_of("baysor-103").size(), 190U * 30 + 10U * 2);
 
   const std::vector<Point> shuffled = points_of("concaveman-cpp-8");
-  const polylidar::Ring outline = shape_of("concaveman-cpp-8").front().shell;
+  const Ring outline = shape_of("concaveman-cpp-8").front().shell;
   EXPECT_EQ(places(shuffled), places(outline));
   EXPECT_NE(shuffled, outline);
 }

@@ -1,23 +1,21 @@
 // The table of the plan zoo: what each cell says, and that it takes the place of the other tables.
 #include <gtest/gtest.h>
 
-#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
+#include "benchmarks/base/names.hpp"
 #include "benchmarks/report/tables.hpp"
 #include "benchmarks/report/zoo_table.hpp"
 #include "benchmarks/table/writers.hpp"
 #include "invented_run.hpp"
 #include "invented_shapes.hpp"
 
-namespace hullbench {
+namespace hullbench::testing {
 namespace {
 
-using nlohmann::json;
-
 record::RunRecord good_run() {
-  record::RunRecord run = test::invented_record();
+  record::RunRecord run = invented_record();
   run.metrics["valid"] = true;
   run.metrics["polygons"] = 1;
   run.metrics["points_covered"] = 0.95;
@@ -74,7 +72,7 @@ TEST(ZooTable, PointsWithoutAnAreaHaveAnEmptyHull) {
 
 /// Two cases; the points of the second one have no area, as their convex hull tells.
 json zoo_report() {
-  json report = test::report_on_shapes({{"zoo-one", 5, 1}, {"zoo-flat", 5, 1}});
+  json report = report_on_shapes({{"zoo-one", 5, 1}, {"zoo-flat", 5, 1}});
   report["plan"]["name"] = "zoo";
   report["datasets"][0]["name"] = "zoo-one";
   report["datasets"][0]["title"] = "One point";
@@ -88,7 +86,7 @@ json zoo_report() {
     run["metrics"]["points_covered"] = 1;
     run["metrics"]["polygons"] = run.at("dataset") == "zoo-flat" ? 0 : 1;
   }
-  test::run_on(report, "polylidar", "zoo-one")["status"] = "crash";
+  run_on(report, "polylidar", "zoo-one")["status"] = "crash";
   return report;
 }
 
@@ -108,4 +106,4 @@ TEST(ZooTable, HasARowACaseAndAColumnAMethod) {
 }
 
 }  // namespace
-}  // namespace hullbench
+}  // namespace hullbench::testing

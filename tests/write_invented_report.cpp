@@ -21,7 +21,7 @@ int main(int argc, char** argv) {
   for (int index = 2; index < argc; ++index) sizes.push_back(std::stoll(argv[index]));
   if (sizes.empty()) sizes = {2000, 64000};
   const std::filesystem::path directory = file.parent_path() / (file.stem().string() + "_run");
-  hullbench::test::write_invented_run(directory, sizes);
+  hullbench::testing::write_invented_run(directory, sizes);
   const nlohmann::json report = hullbench::report::make_report(directory);
   hullbench::write_json_file(file, report);
   hullbench::table::print_markdown(hullbench::report::make_document(report), std::cout);
