@@ -75,8 +75,9 @@ std::vector<polylidar::Point> boost_outside(const polylidar::MultiPolygon& shape
                                             const std::vector<polylidar::Point>& points) {
   const BoostMultiPolygon<double> converted = to_boost(shape);
   std::vector<polylidar::Point> outside;
-  std::copy_if(points.begin(), points.end(), std::back_inserter(outside),
-               [&](const polylidar::Point& point) { return !bg::within(to_boost(point), converted); });
+  std::ranges::copy_if(points, std::back_inserter(outside), [&](const polylidar::Point& point) {
+    return !bg::within(to_boost(point), converted);
+  });
   return outside;
 }
 

@@ -46,7 +46,7 @@ template <class Number>
 std::string bytes_of(Number value, bool big_endian = false) {
   const auto raw = std::bit_cast<std::array<char, sizeof value>>(value);
   std::string text(raw.begin(), raw.end());
-  if (big_endian) std::reverse(text.begin(), text.end());
+  if (big_endian) std::ranges::reverse(text);
   return text;
 }
 
@@ -168,8 +168,7 @@ inline std::vector<PointFileText> all_forms(const Points& points) {
       {"fortran_z.npy", npy_of<double>(points, "<f8", true, 1, true)},
       {"big.npy", npy_of<double>(points, ">f8")},
   };
-  PointFileText& more =
-      *std::find_if(forms.begin(), forms.end(), [](const auto& f) { return f.name == "more.csv"; });
+  PointFileText& more = *std::ranges::find_if(forms, [](const auto& f) { return f.name == "more.csv"; });
   for (const auto& p : points) more.text += "\"a; \"\"b\"\"\";" + number(p.y) + ";" + number(p.x) + ";c\n";
   for (const char* format : {"ascii", "binary_little_endian", "binary_big_endian"}) {
     for (const bool list : {false, true}) {

@@ -64,7 +64,7 @@ std::vector<pid_t> all_processes() {
   std::vector<pid_t> processes;
   for (const auto& entry : fs::directory_iterator("/proc")) {
     const std::string name = entry.path().filename().string();
-    if (std::all_of(name.begin(), name.end(), [](unsigned char c) { return std::isdigit(c) != 0; })) {
+    if (std::ranges::all_of(name, [](unsigned char c) { return std::isdigit(c) != 0; })) {
       processes.push_back(std::stoi(name));
     }
   }
@@ -143,7 +143,7 @@ void expect_refusal(const Outcome& outcome, int code, const std::string& words) 
   EXPECT_EQ(outcome.code, code) << outcome.err;
   EXPECT_TRUE(outcome.err.starts_with("hullbench: ") || outcome.err.starts_with("polylidar: "))
       << outcome.err;
-  EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1) << outcome.err;
+  EXPECT_EQ(std::ranges::count(outcome.err, '\n'), 1) << outcome.err;
   EXPECT_NE(outcome.err.find(words), std::string::npos) << outcome.err;
   EXPECT_EQ(outcome.out, "");
 }
@@ -176,8 +176,8 @@ bool runs_somewhere(const std::vector<std::string>& command) {
   std::string words;
   for (const std::string& word : command) words += word + '\0';
   const std::vector<pid_t> processes = all_processes();
-  return std::any_of(processes.begin(), processes.end(),
-                     [&](pid_t pid) { return read_text(folder_of(pid) / "cmdline") == words; });
+  return std::ranges::any_of(processes,
+                             [&](pid_t pid) { return read_text(folder_of(pid) / "cmdline") == words; });
 }
 
 bool is_running(pid_t pid) {

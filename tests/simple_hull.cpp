@@ -32,9 +32,8 @@ bool is_covered(const Point& point, const Ring& ring) {
 
 /// Exact, where a rounded area may not tell: a simple ring is strictly convex at its lowest vertex.
 bool runs_counter_clockwise(const Ring& ring) {
-  const auto lowest = std::min_element(ring.begin(), ring.end(), [](const auto& a, const auto& b) {
-    return a.y < b.y || (a.y == b.y && a.x < b.x);
-  });
+  const auto lowest = std::ranges::min_element(
+      ring, [](const auto& a, const auto& b) { return a.y < b.y || (a.y == b.y && a.x < b.x); });
   const auto before = lowest == ring.begin() ? ring.end() - 1 : lowest - 1;
   const auto after = lowest + 1 == ring.end() ? ring.begin() : lowest + 1;
   return polylidar::orient2d(*before, *lowest, *after) > 0;
@@ -47,7 +46,7 @@ void expect_one_simple_polygon_round(const std::vector<Point>& points, const Mul
   EXPECT_TRUE(hull[0].holes.empty());
   const Ring& shell = hull[0].shell;
   for (const Point& vertex : shell) {
-    EXPECT_NE(std::find(points.begin(), points.end(), vertex), points.end())
+    EXPECT_NE(std::ranges::find(points, vertex), points.end())
         << vertex.x << " " << vertex.y << " is no point";
   }
   for (const Point& point : points) {

@@ -37,8 +37,8 @@ TEST(AdapterModule, SaysWhyItCannotBeLoaded) {
 
 void expect_library_comes_with(const std::string& method, const std::string& library) {
   const auto& registry = adapter_registry();
-  const auto found = std::find_if(registry.begin(), registry.end(),
-                                  [&](const AdapterEntry& entry) { return entry.name == method; });
+  const auto found =
+      std::ranges::find_if(registry, [&](const AdapterEntry& entry) { return entry.name == method; });
   ASSERT_NE(found, registry.end());
   EXPECT_FALSE(is_in_this_process(library));
   try {

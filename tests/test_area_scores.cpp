@@ -197,7 +197,7 @@ TEST(AreaScores, OfInvalidShapesKeepTheArea) {
       metrics::area_scores({{box(0, 0, 2, 2), {}}, {box(1, 1, 3, 3), {}}}, kUnitSquare);
   EXPECT_EQ(scores.area, 8);
   Ring larger = box(0, 0, 2, 2);
-  std::reverse(larger.begin(), larger.end());
+  std::ranges::reverse(larger);
   EXPECT_EQ(metrics::area_scores({{box(0, 0, 1, 1), {larger}}}, kUnitSquare).area, 0)
       << "of a hole that is larger than its shell";
 }

@@ -25,7 +25,7 @@ void expect_interval(const std::optional<statistics::Interval>& interval, double
 
 /// The value that a share of 2.5 % of `sorted` does not exceed.
 double smallest_but_tail(std::vector<double> values) {
-  std::sort(values.begin(), values.end());
+  std::ranges::sort(values);
   const std::size_t tail = (values.size() * 25 + 999) / 1000;  // rounded up, at least one
   return values[tail - 1];
 }
@@ -39,7 +39,7 @@ statistics::Interval brute_force(const Clusters& clusters) {
     std::vector<double> values;
     for (const std::size_t which : drawn)
       values.insert(values.end(), clusters[which].begin(), clusters[which].end());
-    std::sort(values.begin(), values.end());
+    std::ranges::sort(values);
     lower.push_back(values[(values.size() - 1) / 2]);
     negated_upper.push_back(-values[values.size() / 2]);
     more = false;
@@ -85,7 +85,7 @@ std::vector<std::pair<double, double>> resampled_case(const statistics::Passes& 
         for (std::size_t k = 0; k < passes[pass].size(); ++k)
           values.push_back(passes[pass][rounds[values.size()]]);
       }
-      std::sort(values.begin(), values.end());
+      std::ranges::sort(values);
       result.emplace_back(values[upper ? values.size() / 2 : (values.size() - 1) / 2], chance);
     });
   });
@@ -112,7 +112,7 @@ std::vector<std::pair<double, double>> resampled(const Nested& clusters, bool up
         middles.push_back(cases[i][chosen[i]].first);
         together *= cases[i][chosen[i]].second;
       }
-      std::sort(middles.begin(), middles.end());
+      std::ranges::sort(middles);
       result.emplace_back(middles[upper ? middles.size() / 2 : (middles.size() - 1) / 2], together);
     });
   });
@@ -123,7 +123,7 @@ std::vector<std::pair<double, double>> resampled(const Nested& clusters, bool up
 statistics::Interval brute_force(const Nested& clusters) {
   const auto end = [](std::vector<std::pair<double, double>> medians, double sign) {
     for (auto& [value, chance] : medians) value *= sign;
-    std::sort(medians.begin(), medians.end());
+    std::ranges::sort(medians);
     double sum = 0;
     for (const auto& [value, chance] : medians) {
       sum += chance;

@@ -38,7 +38,7 @@ TEST(Canary, LeavesTheThreadOnItsCores) {
 TEST(Canary, WorksWhereItMayNotUseTheCore) {
   constexpr int kNoSuchCore = CPU_SETSIZE - 1;
   const std::vector<int> allowed = allowed_cores();
-  ASSERT_EQ(std::count(allowed.begin(), allowed.end(), kNoSuchCore), 0);
+  ASSERT_EQ(std::ranges::count(allowed, kNoSuchCore), 0);
   EXPECT_GT(run::Canary(kNoSuchCore).look().memory, 0);
   EXPECT_GT(run::Canary(std::nullopt).look().memory, 0);
 }

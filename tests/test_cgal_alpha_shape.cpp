@@ -101,8 +101,7 @@ TEST(CgalAlphaShape, WithoutAlphaTakesCgalsOptimalOne) {
     EXPECT_EQ(hull_of(*adapter, points, {{"alpha", *cgal.find_optimal_alpha(1)}}), shape);
     EXPECT_EQ(shape.size(), 1U);
     const PointLocator inside(shape);
-    EXPECT_TRUE(
-        std::all_of(points.begin(), points.end(), [&](const Point& p) { return inside.contains(p); }));
+    EXPECT_TRUE(std::ranges::all_of(points, [&](const Point& p) { return inside.contains(p); }));
     EXPECT_LT(polylidar::area(shape), polylidar::area(run(points, kInfinity))) << "the convex hull";
   }
 }
@@ -125,7 +124,7 @@ std::vector<EdgeEnds> edges_of(const MultiPolygon& shape) {
     add(polygon.shell);
     for (const Ring& hole : polygon.holes) add(hole);
   }
-  std::sort(edges.begin(), edges.end());
+  std::ranges::sort(edges);
   return edges;
 }
 
@@ -141,7 +140,7 @@ std::vector<EdgeEnds> regular_edges(const std::vector<Point>& points, double rad
     edges.push_back(edge_ends({segment.source().x(), segment.source().y()},
                               {segment.target().x(), segment.target().y()}));
   }
-  std::sort(edges.begin(), edges.end());
+  std::ranges::sort(edges);
   return edges;
 }
 

@@ -181,8 +181,8 @@ TEST_F(ChooseCommandTest, ThePageHasACardForEveryMethodSortedByAgreement) {
       }
     }
   }
-  const auto convex = std::find_if(cards.begin(), cards.end(),
-                                   [](const Card& card) { return card.title == "Convex hull (default)"; });
+  const auto convex =
+      std::ranges::find_if(cards, [](const Card& card) { return card.title == "Convex hull (default)"; });
   ASSERT_NE(convex, cards.end());
   EXPECT_EQ(all_of(convex->text, "<dt>Covered</dt>\\s*<dd>([0-9.]+) %</dd>").at(0), "100");
   // One frame, and nothing that has to be fetched or run.
@@ -327,9 +327,8 @@ TEST_F(ChooseCommandTest, FailuresAreCards) {
                                                                      {"invalid_polygon", "invalid output: "},
                                                                      {"garbage_result", "invalid output: "}};
   for (const auto& [mode, words] : expected) {
-    const auto card = std::find_if(cards.begin(), cards.end(), [&, &mode = mode](const Card& one) {
-      return one.title == mode + " <method> (default)";
-    });
+    const auto card = std::ranges::find_if(
+        cards, [&, &mode = mode](const Card& one) { return one.title == mode + " <method> (default)"; });
     ASSERT_NE(card, cards.end()) << mode;
     EXPECT_TRUE(has(card->text, "<p class=\"bad\">" + words)) << card->text;
     EXPECT_TRUE(has(card->text, " It got 100 points.</p>")) << card->text;

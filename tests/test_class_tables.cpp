@@ -49,13 +49,13 @@ Row row_of(const table::Table& section, const std::string& group, const std::str
 }
 
 bool has_remark(const table::Table& section, const std::string& part) {
-  return std::any_of(section.remarks.begin(), section.remarks.end(),
-                     [&](const std::string& remark) { return remark.find(part) != std::string::npos; });
+  return std::ranges::any_of(
+      section.remarks, [&](const std::string& remark) { return remark.find(part) != std::string::npos; });
 }
 
 bool has_row_of_the_paper(const table::Table& section) {
-  return std::any_of(section.rows.begin(), section.rows.end(),
-                     [](const auto& row) { return row[1].text().ends_with(", in the paper"); });
+  return std::ranges::any_of(section.rows,
+                             [](const auto& row) { return row[1].text().ends_with(", in the paper"); });
 }
 
 constexpr const char* kHigh = "high (from 0.75)";

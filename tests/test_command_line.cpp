@@ -557,7 +557,7 @@ class InterruptionTest : public CommandLineTest {
     const fs::path repetitions = folder() / "run" / "repetitions.jsonl";
     EXPECT_TRUE(wait_until([&] {
       const std::string text = read_text(repetitions);
-      return static_cast<std::size_t>(std::count(text.begin(), text.end(), '\n')) >= lines;
+      return static_cast<std::size_t>(std::ranges::count(text, '\n')) >= lines;
     }));
     std::this_thread::sleep_for(later);
     const std::vector<pid_t> workers = children_of(program.pid());
@@ -642,7 +642,7 @@ TEST_F(InterruptionTest, WithoutOutTheUnfinishedRunIsFoundAndAFinishedOneIsNotTo
     Program program(command(words), in_folder());
     ASSERT_TRUE(wait_until([&] {
       const std::string text = read_text(folder() / "results" / "latest" / "repetitions.jsonl");
-      return std::count(text.begin(), text.end(), '\n') >= kRepetitions + 5;
+      return std::ranges::count(text, '\n') >= kRepetitions + 5;
     }));
     program.send_signal(SIGINT);
     ASSERT_EQ(program.wait().code, 130);

@@ -126,8 +126,8 @@ TEST(CompareRuns, AMethodsMedianIsClusteredByShape) {
 }
 
 bool has_note(const table::Document& document, const std::string& words) {
-  return std::any_of(document.notes.begin(), document.notes.end(),
-                     [&](const std::string& note) { return note.find(words) != std::string::npos; });
+  return std::ranges::any_of(document.notes,
+                             [&](const std::string& note) { return note.find(words) != std::string::npos; });
 }
 
 table::Document document_of(const json& a, const json& b) {

@@ -14,8 +14,7 @@ namespace hullbench::micro {
 namespace {
 
 VerdictLine line_of(const std::vector<VerdictLine>& lines, const std::string& what) {
-  const auto found =
-      std::find_if(lines.begin(), lines.end(), [&](const VerdictLine& line) { return line.what == what; });
+  const auto found = std::ranges::find_if(lines, [&](const VerdictLine& line) { return line.what == what; });
   if (found == lines.end()) throw std::invalid_argument("no goal is called " + what);
   return *found;
 }

@@ -32,8 +32,8 @@ std::string digest(const ShapeFamily& family, std::size_t count, bool holes) {
 
 const ShapeFamily& family_named(std::string_view name) {
   const auto& families = shape_families();
-  const auto found = std::find_if(families.begin(), families.end(),
-                                  [&](const ShapeFamily& family) { return family.name == name; });
+  const auto found =
+      std::ranges::find_if(families, [&](const ShapeFamily& family) { return family.name == name; });
   if (found == families.end()) throw std::invalid_argument(std::string(name));
   return *found;
 }

@@ -731,7 +731,7 @@ class ShardTest : public HullCommandTest {
     std::vector<std::string> names;
     for (const auto& entry : fs::directory_iterator(folder()))
       names.push_back(entry.path().filename().string());
-    std::sort(names.begin(), names.end());
+    std::ranges::sort(names);
     return names;
   }
 };
@@ -761,7 +761,7 @@ TEST_F(ShardTest, ShardsGiveTheBytesOfOneRun) {
     ASSERT_EQ(whole.code, 0) << whole.err;
     for (const std::size_t count : {1U, 2U, 3U, 7U}) {
       std::vector<std::string> made = parts(inputs[i], count, "", count == 2 ? HULLBENCH : POLYLIDAR);
-      std::reverse(made.begin(), made.end());
+      std::ranges::reverse(made);
       const Outcome merged = merge(made);
       EXPECT_EQ(merged.code, 0) << merged.err;
       EXPECT_EQ(merged.out, whole.out) << inputs[i][0] << " in " << count << " shards";

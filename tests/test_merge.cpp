@@ -447,7 +447,7 @@ TEST_F(ShardTest, ADryRunNamesItsRuns) {
   std::multiset<std::string> names;
   for (const char* shard : {"1/2", "2/2"}) {
     const Outcome outcome = succeeded(hullbench({"run", plan(), "--dry-run", "--shard", shard}));
-    EXPECT_EQ(std::count(outcome.out.begin(), outcome.out.end(), '\n'), 6) << outcome.out;
+    EXPECT_EQ(std::ranges::count(outcome.out, '\n'), 6) << outcome.out;
     names.insert(outcome.out);
   }
   std::string all = hullbench({"run", plan(), "--dry-run"}).out;

@@ -97,8 +97,8 @@ class MethodContract : public ::testing::TestWithParam<Method> {
  protected:
   void SetUp() override {
     const auto& registry = adapter_registry();
-    const auto found = std::find_if(registry.begin(), registry.end(),
-                                    [&](const AdapterEntry& entry) { return entry.name == identity_.name; });
+    const auto found = std::ranges::find_if(
+        registry, [&](const AdapterEntry& entry) { return entry.name == identity_.name; });
     ASSERT_NE(found, registry.end());
     make_ = found->make;
     try {
@@ -155,8 +155,7 @@ INSTANTIATE_TEST_SUITE_P(Methods, MethodContract, ::testing::ValuesIn(methods())
 TEST(PolylidarSteps, GiveTheCoresPolygonsAsOneCallDoes) {
   const auto make = [](const char* name) {
     const auto& registry = adapter_registry();
-    return std::find_if(registry.begin(), registry.end(),
-                        [&](const AdapterEntry& entry) { return entry.name == name; })
+    return std::ranges::find_if(registry, [&](const AdapterEntry& entry) { return entry.name == name; })
         ->make();
   };
   const std::vector<Point> points = square_points(40000, 8, true);

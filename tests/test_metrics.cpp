@@ -615,7 +615,7 @@ TEST(Metrics, DoNotDependOnOriginUnitOrQuarterTurns) {
                                         }}};
   const SampleCase sample = star_case(6000);
   const auto moved_ring = [](Ring ring, const Motion& motion) {
-    std::transform(ring.begin(), ring.end(), ring.begin(), motion.move);
+    std::ranges::transform(ring, ring.begin(), motion.move);
     return ring;
   };
   const auto moved = [&](MultiPolygon shape, const Motion& motion) {

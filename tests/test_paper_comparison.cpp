@@ -20,10 +20,9 @@ namespace {
 std::optional<report::Comparison> find(const std::vector<report::Comparison>& comparisons,
                                        const std::string& method, const std::string& quantity,
                                        const std::string& row = "") {
-  const auto found =
-      std::find_if(comparisons.begin(), comparisons.end(), [&](const report::Comparison& comparison) {
-        return comparison.method == method && comparison.quantity == quantity && comparison.row == row;
-      });
+  const auto found = std::ranges::find_if(comparisons, [&](const report::Comparison& comparison) {
+    return comparison.method == method && comparison.quantity == quantity && comparison.row == row;
+  });
   if (found == comparisons.end()) return std::nullopt;
   return *found;
 }

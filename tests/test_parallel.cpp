@@ -31,7 +31,7 @@ TEST(ForEachInParallel, CallsEveryIndexOnce) {
     for (const std::size_t count : {0U, 1U, 2U, 3U, 1000U}) {
       std::vector<std::atomic<int>> calls(count);
       for_each_in_parallel(count, cores, [&](std::size_t i) { ++calls.at(i); });
-      EXPECT_TRUE(std::all_of(calls.begin(), calls.end(), [](const auto& call) { return call == 1; }))
+      EXPECT_TRUE(std::ranges::all_of(calls, [](const auto& call) { return call == 1; }))
           << count << " on " << cores.size() << " cores";
     }
   }
@@ -47,7 +47,7 @@ TEST(ForEachInParallel, ThrowsTheExceptionOfTheSmallestIndexAfterAllOthersRan) {
       if (i == 3 || i == 4 || i == 99) throw std::runtime_error(std::to_string(i));
     };
     EXPECT_EQ(complaint_of([&] { for_each_in_parallel(calls.size(), cores, count_calls); }), "3");
-    EXPECT_TRUE(std::all_of(calls.begin(), calls.end(), [](const auto& call) { return call == 1; }));
+    EXPECT_TRUE(std::ranges::all_of(calls, [](const auto& call) { return call == 1; }));
   }
 }
 

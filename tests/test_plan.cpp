@@ -743,10 +743,9 @@ TEST(Plan, StepsIsThePapersExperiment) {
 TEST(Plan, RandomIsThePapersExperimentAndAThousandOtherShapes) {
   const plan::Plan plan = plan::load_plan("random", HULLBENCH_PLAN_FOLDER);
   const auto count = [&](const std::string& family) {
-    return std::count_if(plan.expanded_cases.begin(), plan.expanded_cases.end(),
-                         [&](const plan::PlanCase& one) {
-                           return one.n == 8000 && split_member_name(one.dataset)->first == family;
-                         });
+    return std::ranges::count_if(plan.expanded_cases, [&](const plan::PlanCase& one) {
+      return one.n == 8000 && split_member_name(one.dataset)->first == family;
+    });
   };
   EXPECT_EQ(count("star"), 2 * 9800);
   EXPECT_EQ(plan.expanded_cases.size(), 2 * 9800 + 1000U);
@@ -764,7 +763,7 @@ TEST(Plan, RgbdIsThePapersExperiment) {
 
 const plan::PlanMethod& entry_of(const plan::Plan& plan, const std::string& method,
                                  const std::string& protocol) {
-  const auto found = std::find_if(plan.methods.begin(), plan.methods.end(), [&](const plan::PlanMethod& one) {
+  const auto found = std::ranges::find_if(plan.methods, [&](const plan::PlanMethod& one) {
     return one.method == method && one.protocol == protocol;
   });
   if (found == plan.methods.end())

@@ -84,7 +84,7 @@ TEST(RealTable, AMissingPackageSaysWhatInstallsIt) {
   const Rows rows = rows_in(real_report(), "real_covered");
   EXPECT_EQ(rows.at(3).at(1), "not installed");
   expect_says(rows.at(3).at(0), "[1]");
-  const bool told = std::any_of(document.notes.begin(), document.notes.end(), [](const std::string& note) {
+  const bool told = std::ranges::any_of(document.notes, [](const std::string& note) {
     return note.starts_with("[1]") && note.find("'make deps-real'") != std::string::npos;
   });
   EXPECT_TRUE(told);
@@ -96,8 +96,8 @@ TEST(RealTable, AFailureIsAWordAndCountsAsZeroInTheMedians) {
   const Rows rows = rows_in(report, "real_halves");
   EXPECT_EQ(rows.at(2).at(column_of(rows, "Polylidar")), "timeout");
   const Rows methods = rows_in(report, "real_methods");
-  const auto polylidar = std::find_if(methods.begin(), methods.end(),
-                                      [](const auto& row) { return row.at(0).starts_with("Polylidar"); });
+  const auto polylidar =
+      std::ranges::find_if(methods, [](const auto& row) { return row.at(0).starts_with("Polylidar"); });
   ASSERT_NE(polylidar, methods.end());
   EXPECT_EQ(polylidar->at(1), "1 of 2");  // of the third set nothing was tried
   EXPECT_EQ(polylidar->at(3), "12.5");    // the median of 25 and 0

@@ -349,9 +349,7 @@ TEST(Validate, FaultsAreSentencesWithThePlaceAndTheValue) {
   report.erase("tool");
   report["environment"]["cpu"]["logical_cores"] = 0;
   const std::vector<std::string> faults = record::validate_report(report);
-  const auto has = [&](const std::string& fault) {
-    return std::count(faults.begin(), faults.end(), fault) == 1;
-  };
+  const auto has = [&](const std::string& fault) { return std::ranges::count(faults, fault) == 1; };
   EXPECT_TRUE(has("At /runs/0/status: Failed to match against any enum values, found \"fine\"."))
       << json(faults);
   EXPECT_TRUE(

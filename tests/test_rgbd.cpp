@@ -35,8 +35,8 @@ std::uint16_t count_at(const DepthImage& image, int column, int row) {
 
 double inside_share(const FloorScene& scene) {
   const PointLocator floor(scene.ground_truth);
-  const auto inside = std::count_if(scene.points.begin(), scene.points.end(),
-                                    [&](const Point& point) { return floor.contains(point); });
+  const auto inside =
+      std::ranges::count_if(scene.points, [&](const Point& point) { return floor.contains(point); });
   return static_cast<double>(inside) / static_cast<double>(scene.points.size());
 }
 
@@ -67,7 +67,7 @@ TEST_P(FloorSceneOf, WithoutNoiseLiesInItsGroundTruth) {
   const std::vector<Point> points = floor_points(simulate_depth(GetParam(), kSeed, kNoNoise));
   const MultiPolygon truth = floor_ground_truth(GetParam());
   const PointLocator floor(truth);
-  const auto beyond = std::count_if(points.begin(), points.end(), [&](const Point& point) {
+  const auto beyond = std::ranges::count_if(points, [&](const Point& point) {
     return !floor.contains(point) && boost_distance(point, truth) > kBound;
   });
   // Where two obstacles meet, the foot of one's side, below the band, can show over the other's shadow: one
@@ -141,7 +141,7 @@ TEST(FloorScenes, HaveThePapersNumberOfPoints) {
 TEST(FloorScenes, GroundTruthHasTheAreaOfItsPixels) {
   for (std::size_t index = 0; index + 1 < kFloorScenes; ++index) {
     const DepthImage image = simulate_depth(index, kSeed, kNoNoise);
-    const auto floor = std::count(image.counts.begin(), image.counts.end(), std::uint16_t{1500});
+    const auto floor = std::ranges::count(image.counts, std::uint16_t{1500});
     const double side = 1.5 / image.intrinsics.fx;
     const double area = polylidar::area(floor_ground_truth(index));
     // Along borders that follow a row or column of pixels half a pixel can be lost: 1000 pixels' sides, half
@@ -255,7 +255,7 @@ TEST(LowFloors, DifferFromTheOthersAsTheyAreSaidTo) {
       most_rows =
           std::max(most_rows, simulated_camera().fx * kStereoBaseline * (1 / below.depth - 1 / here.depth));
     }
-    const auto [least, most] = std::minmax_element(cells.begin(), cells.end());
+    const auto [least, most] = std::ranges::minmax_element(cells);
     most_density = std::max(most_density, *most / *least);
     std::printf("scene %zu: rows up to %.2f, density %.1f, disparity %.3f\n", index, most_across,
                 most_density, most_rows);
@@ -415,7 +415,7 @@ TEST(FindFloor, TakesThePlaneOfMostPixels) {
 
 TEST(FloorPoints, EndAtTheMedianHeightPlusTheBand) {
   DepthImage image = blank_image();
-  std::fill(image.counts.begin(), image.counts.end(), std::uint16_t{2000});
+  std::ranges::fill(image.counts, std::uint16_t{2000});
   image.counts[0] = 2000 - 34;
   image.counts[1] = 2000 - 36;
   image.counts[2] = 2500;

@@ -18,7 +18,7 @@ Ring square(double low, double high) {
 }
 
 Ring clockwise(Ring ring) {
-  std::reverse(ring.begin(), ring.end());
+  std::ranges::reverse(ring);
   return ring;
 }
 

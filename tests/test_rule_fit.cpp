@@ -139,7 +139,7 @@ TEST(RuleFit, TheConstantsInTheCodeAreAboutTheBestOfASmallFit) {
   for (std::size_t u = 0; u < uses.size(); ++u) {
     SCOPED_TRACE(uses[u].rule + " of " + uses[u].method);
     const auto curve = tune::score_curve(tables.uses[u]);
-    const auto in_the_code = std::find_if(curve.begin(), curve.end(), [&](const tune::CandidateScore& one) {
+    const auto in_the_code = std::ranges::find_if(curve, [&](const tune::CandidateScore& one) {
       return std::abs(one.candidate - uses[u].share) < 1e-9;
     });
     ASSERT_NE(in_the_code, curve.end()) << uses[u].share;

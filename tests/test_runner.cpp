@@ -434,7 +434,7 @@ TEST_F(RunnerTest, ARowSaysItsMachineAndWhetherItWasFasterThanAnyMethodCanBe) {
   measure(plan_of({"polylidar", "instant", "good"}));
   const auto has_flag = [&](const std::string& method) {
     const std::vector<std::string> flags = rows().at(method).flags;
-    return std::count(flags.begin(), flags.end(), record::kFasterThanFloor) == 1;
+    return std::ranges::count(flags, record::kFasterThanFloor) == 1;
   };
   EXPECT_TRUE(has_flag("instant"));
   EXPECT_FALSE(has_flag("good"));
@@ -610,7 +610,7 @@ TEST_F(RunnerTest, ABatchGivesTheSameRowsOnOneCoreAndOnSeveral) {
 /// How many lines of a file are there now.
 std::ptrdiff_t line_count(const fs::path& file) {
   const std::string text = read_text(file);
-  return std::count(text.begin(), text.end(), '\n');
+  return std::ranges::count(text, '\n');
 }
 
 TEST_F(RunnerTest, AnInterruptionWithinABatchKeepsTheRowsOfItsFinishedCases) {

@@ -46,7 +46,7 @@ TEST(SfcgalAlphaShape, ByDefaultIsOnePolygonRoundAllPoints) {
     const MultiPolygon convex = core_hull(points, polylidar::testing::kConvexHull);
     EXPECT_LT(polylidar::area(hull), polylidar::area(convex)) << "the convex hull";
     const PointLocator shape(hull);
-    EXPECT_TRUE(std::all_of(points.begin(), points.end(), [&](const Point& p) { return shape.contains(p); }));
+    EXPECT_TRUE(std::ranges::all_of(points, [&](const Point& p) { return shape.contains(p); }));
   }
 }
 

@@ -40,7 +40,7 @@ std::vector<Point> points_of(const std::string& name, std::size_t n) {
 
 const StressKind& kind_of(const std::string& name) {
   const auto& kinds = stress_kinds();
-  return *std::find_if(kinds.begin(), kinds.end(), [&](const StressKind& one) { return one.name == name; });
+  return *std::ranges::find_if(kinds, [&](const StressKind& one) { return one.name == name; });
 }
 
 std::vector<Point> sample(const std::string& kind, const MultiPolygon& shape, std::size_t n, double level) {
@@ -213,8 +213,7 @@ TEST(Stress, PointsLieInTheShapeWhereTheyMust) {
                                "lattice:0.5", "airborne:10", "zigzag:10", "rotating:10", "tracks:10",
                                "transcripts:0", "water:10", "zigzag:4~water:20"}) {
       const std::vector<Point> points = points_of(shape + "~" + stress, 1000);
-      EXPECT_TRUE(std::all_of(points.begin(), points.end(),
-                              [&](const Point& point) { return locator.contains(point); }))
+      EXPECT_TRUE(std::ranges::all_of(points, [&](const Point& point) { return locator.contains(point); }))
           << shape << "~" << stress;
     }
   }
@@ -429,7 +428,7 @@ TEST(Stress, PoissonDisksKeepTheirDistance) {
   for (const std::string& shape : kShapes) {
     const std::vector<double> nearest = nearest_distances(points_of(shape + "~poisson:0.7", 1000));
     const double h = spacing_in(shape, 1000);
-    EXPECT_GE(*std::min_element(nearest.begin(), nearest.end()), 0.7 * h) << shape;
+    EXPECT_GE(*std::ranges::min_element(nearest), 0.7 * h) << shape;
   }
   EXPECT_EQ(sample("poisson", square(), 1000, 0.75).size(), 1000U);
 }
@@ -439,8 +438,7 @@ TEST(Stress, LatticeHasItsSide) {
   const double h = spacing_in("ca", 1000);
   std::vector<double> nearest = nearest_distances(points);
   for (const double one : nearest) EXPECT_GE(one, h * (1 - 1e-9));  // rounding of coordinates up to 1000 h
-  const auto at_one_side =
-      std::count_if(nearest.begin(), nearest.end(), [&](double one) { return one <= h * (1 + 1e-9); });
+  const auto at_one_side = std::ranges::count_if(nearest, [&](double one) { return one <= h * (1 + 1e-9); });
   EXPECT_GE(at_one_side, 990);  // a point may stand alone in a corner of the shape
   // Not along the axes, where its rows would fall on edges of the shape.
   const std::set<double> heights = [&] {
@@ -455,8 +453,8 @@ TEST(Stress, JitteredLatticeMovesEveryPointByAtMostItsLevel) {
   // Neighbours along a row come nearer by at most two moves of a quarter.
   const std::vector<double> nearest = nearest_distances(points_of("ca~lattice:0.25", 1000));
   const double h = spacing_in("ca", 1000);
-  EXPECT_GE(*std::min_element(nearest.begin(), nearest.end()), 0.5 * h * (1 - 1e-9));
-  EXPECT_LT(*std::min_element(nearest.begin(), nearest.end()), 0.7 * h);
+  EXPECT_GE(*std::ranges::min_element(nearest), 0.5 * h * (1 - 1e-9));
+  EXPECT_LT(*std::ranges::min_element(nearest), 0.7 * h);
 }
 
 TEST(Stress, BoundaryPointsLieOnTheRings) {
@@ -484,7 +482,7 @@ TEST(Stress, OutlinesHaveTheirDeviationFromTheRings) {
   const double deviation = 40.0 / kPoints * 0.5;
   const auto& kinds = stress_kinds();
   const auto outline =
-      std::find_if(kinds.begin(), kinds.end(), [](const StressKind& kind) { return kind.name == "outline"; });
+      std::ranges::find_if(kinds, [](const StressKind& kind) { return kind.name == "outline"; });
   ASSERT_NE(outline, kinds.end());
   const std::vector<Point> exact = sample_stressed(square(), kPoints, {{&*outline, 0}}, 3);
   const std::vector<Point> moved = sample_stressed(square(), kPoints, {{&*outline, 0.5}}, 3);
@@ -493,7 +491,7 @@ TEST(Stress, OutlinesHaveTheirDeviationFromTheRings) {
   for (std::size_t i = 0; i < kPoints; ++i) {
     const Point& on = exact[i];
     const std::vector<double> away{std::abs(on.x), std::abs(on.x - 10), std::abs(on.y), std::abs(on.y - 10)};
-    const auto nearest = std::min_element(away.begin(), away.end());
+    const auto nearest = std::ranges::min_element(away);
     EXPECT_LT(*nearest, 1e-14);
     sides[static_cast<std::size_t>(nearest - away.begin())] += 1;
     const double dx = (moved[i].x - on.x) / deviation;
@@ -521,7 +519,7 @@ TEST(Stress, LakesAreEmptyAndTheRestIsEven) {
     }
     const std::vector<Point> points = sample_stressed(shape, kPoints, stresses, 5);
     ASSERT_EQ(points.size(), kPoints);
-    EXPECT_TRUE(std::none_of(points.begin(), points.end(), [&](const Point& p) { return lakes.contain(p); }));
+    EXPECT_TRUE(std::ranges::none_of(points, [&](const Point& p) { return lakes.contain(p); }));
     if (!stresses.front().kind->draw) {
       // The share of dry ground in each quarter of the square, by a fine uniform sample of its own.
       const auto quarter = [](const Point& p) {

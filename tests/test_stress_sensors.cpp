@@ -234,9 +234,8 @@ TEST(Airborne, StripsOverlapTwoToOne) {
     const std::vector<std::pair<double, double>> bands{{0, 3}, {3, 4}, {4, 6}, {6, 7}, {7, 10}};
     for (const auto& [low, high] : bands) {
       const double strips = high - low == 1 ? 2 : 1;
-      const auto count = std::count_if(
-          points.begin(), points.end(),
-          [low = low, high = high](const Point& point) { return point.y >= low && point.y < high; });
+      const auto count = std::ranges::count_if(
+          points, [low = low, high = high](const Point& point) { return point.y >= low && point.y < high; });
       const double in_line = 80 * (high - low);
       EXPECT_NEAR(static_cast<double>(count), strips * 80 * in_line, strips * (in_line + 2 * 81)) << low;
     }
@@ -245,7 +244,7 @@ TEST(Airborne, StripsOverlapTwoToOne) {
 
 /// The points with y in [low, high), line by line: lines are more than four points' distances apart.
 std::vector<std::vector<Point>> lines_of(std::vector<Point> points, double low, double high) {
-  std::sort(points.begin(), points.end(), [](const Point& a, const Point& b) { return a.x < b.x; });
+  std::ranges::sort(points, [](const Point& a, const Point& b) { return a.x < b.x; });
   std::vector<std::vector<Point>> lines;
   for (const Point& point : points) {
     if (point.y < low || point.y >= high) continue;
@@ -265,7 +264,7 @@ TEST(Airborne, LinesOfARotatingMirrorAreParallelAndEven) {
     if (i > 0) {
       EXPECT_NEAR(line.front().x - lines[i - 1].front().x, kAcross, jitter);
     }
-    std::sort(line.begin(), line.end(), [](const Point& a, const Point& b) { return a.y < b.y; });
+    std::ranges::sort(line, [](const Point& a, const Point& b) { return a.y < b.y; });
     for (std::size_t j = 1; j < line.size(); ++j) EXPECT_NEAR(line[j].y - line[j - 1].y, kAlong, jitter);
   }
 }
@@ -312,7 +311,7 @@ TEST(Rotating, RingsStandAtEvenAnglesAndTheirPointsToo) {
     }
     if (radius < 5) {  // in the square all round
       ASSERT_EQ(ring.size(), rings.shots) << radius;
-      std::sort(ring.begin(), ring.end());
+      std::ranges::sort(ring);
       const double step = 2 * std::numbers::pi / static_cast<double>(rings.shots);
       for (std::size_t i = 1; i < ring.size(); ++i) EXPECT_NEAR(ring[i] - ring[i - 1], step, 1e-9);
       if (radius_before < rings.range / 2 && radius >= rings.range / 2) {
@@ -367,7 +366,7 @@ TEST(Tracks, RoadsAreStraightAndTheirPointsEvenlySpread) {
   for (const Road& road : roads) {
     // 500 steps, each with a point; the outermost may be cut off.
     EXPECT_NEAR(static_cast<double>(road.points.size()), 500, 1);
-    const auto middle = std::count_if(road.points.begin(), road.points.end(), [&](const Point& point) {
+    const auto middle = std::ranges::count_if(road.points, [&](const Point& point) {
       const double along = road.is_along_x ? point.x : point.y;
       return along >= 3 && along < 6;
     });
@@ -376,7 +375,7 @@ TEST(Tracks, RoadsAreStraightAndTheirPointsEvenlySpread) {
   }
   for (std::vector<double>& family : sides) {
     EXPECT_NEAR(static_cast<double>(family.size()), 10 / kDistance, 1);
-    std::sort(family.begin(), family.end());
+    std::ranges::sort(family);
     for (std::size_t i = 1; i < family.size(); ++i) {
       EXPECT_NEAR(family[i] - family[i - 1], kDistance, 2 * kRoadShift * kDistance + width);
     }
@@ -419,9 +418,8 @@ TEST(ScanExactly, LosesEveryPointWithTheSameChance) {
   });
   const auto lost_before = [&](std::size_t place) {
     return static_cast<double>(place) -
-           static_cast<double>(std::count_if(points.begin(), points.end(), [&](const Point& point) {
-             return point.x < static_cast<double>(place);
-           }));
+           static_cast<double>(std::ranges::count_if(
+               points, [&](const Point& point) { return point.x < static_cast<double>(place); }));
   };
   const auto lost = static_cast<double>(scanned - 4000);
   EXPECT_NEAR(lost_before(scanned / 2), lost / 2, 5 * std::sqrt(lost / 4) + 1);

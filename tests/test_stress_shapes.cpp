@@ -67,7 +67,7 @@ std::vector<double> stretches(const Ring& ring, double y) {
     const Point& b = ring[(i + 1) % ring.size()];
     if ((a.y < y) != (b.y < y)) crossings.push_back(a.x + (y - a.y) / (b.y - a.y) * (b.x - a.x));
   }
-  std::sort(crossings.begin(), crossings.end());
+  std::ranges::sort(crossings);
   std::vector<double> lengths;
   for (std::size_t i = 1; i < crossings.size(); ++i) lengths.push_back(crossings[i] - crossings[i - 1]);
   return lengths;
@@ -152,9 +152,7 @@ TEST(DegenerateInputs, AreWhatTheirNamesSay) {
   for (const Point& point : input("equal").points) EXPECT_EQ(point, input("equal").points.front());
   for (const Point& point : input("collinear").points) EXPECT_EQ(point.y, 2 * point.x);
   const auto& plus_one = input("collinear_plus_one").points;
-  EXPECT_EQ(std::count_if(plus_one.begin(), plus_one.end(),
-                          [](const Point& point) { return point.y != 2 * point.x; }),
-            1);
+  EXPECT_EQ(std::ranges::count_if(plus_one, [](const Point& point) { return point.y != 2 * point.x; }), 1);
   std::map<std::pair<double, double>, int> times;
   for (const Point& point : input("duplicates").points) ++times[{point.x, point.y}];
   EXPECT_EQ(times.size(), 100U);

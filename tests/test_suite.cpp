@@ -235,7 +235,7 @@ class InterruptedSuiteTest : public SuiteTest {
     Program program(command(words), in_folder());
     EXPECT_TRUE(wait_until([&] {
       const std::string text = read_text(in / "second" / "repetitions.jsonl");
-      return static_cast<std::size_t>(std::count(text.begin(), text.end(), '\n')) >= lines;
+      return static_cast<std::size_t>(std::ranges::count(text, '\n')) >= lines;
     }));
     program.send_signal(signal);
     return program.wait();

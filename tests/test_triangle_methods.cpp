@@ -227,7 +227,7 @@ std::vector<MultiPolygon> one_polygon_shapes(const std::vector<Point>& points) {
   const polylidar::Triangulation triangulation = polylidar::delaunay(points);
   const std::vector<double> radii = circumradii(points, triangulation);
   std::vector<double> ordered = radii;
-  std::sort(ordered.begin(), ordered.end());
+  std::ranges::sort(ordered);
   std::vector<MultiPolygon> shapes;
   for (const double radius : ordered) {
     std::set<std::uint32_t> corners;

@@ -114,8 +114,8 @@ TEST(SearchTest, FindsTheBestOfAUnimodalError) {
       return tune::Trial{0.1 + std::pow(std::log2(position / best), 2), false};
     });
     ASSERT_EQ(points.size(), static_cast<std::size_t>(tune::kSweepPoints + tune::kRefinements));
-    const auto found = std::min_element(points.begin(), points.end(),
-                                        [](const auto& a, const auto& b) { return a.error < b.error; });
+    const auto found =
+        std::ranges::min_element(points, [](const auto& a, const auto& b) { return a.error < b.error; });
     // Two octaves, shortened 5 times by the golden ratio.
     EXPECT_NEAR(std::log2(found->position / best), 0, 2 * std::pow(0.6181, 5)) << best;
     EXPECT_FALSE(found->on_grid);
@@ -140,13 +140,12 @@ TEST(SearchTest, FailuresAreInfinitelyBadAndTimeoutsEndTheSweep) {
   const auto one = tune::search(length_axis(), [](double position) {
     return position > 20 ? tune::Trial{0.5, false} : tune::Trial{};
   });
-  EXPECT_TRUE(std::any_of(one.begin(), one.end(), [](const auto& point) { return point.error == 0.5; }));
+  EXPECT_TRUE(std::ranges::any_of(one, [](const auto& point) { return point.error == 0.5; }));
   const auto slow = tune::search(length_axis(), [](double position) {
     return position < 1 ? tune::Trial{0.5, false} : tune::Trial{tune::kInfinitelyBad, true};
   });
-  const auto tried = std::count_if(slow.begin(), slow.end(), [](const auto& point) {
-    return point.on_grid && point.error == tune::kInfinitelyBad;
-  });
+  const auto tried = std::ranges::count_if(
+      slow, [](const auto& point) { return point.on_grid && point.error == tune::kInfinitelyBad; });
   EXPECT_EQ(tried, tune::kMostTimeouts);
 }
 
@@ -176,7 +175,7 @@ TEST(ToleranceTest, IsTheWidthOfTheRangeWithinTenPercent) {
 }
 
 std::ptrdiff_t count_rows(const std::vector<tune::SplitRow>& rows, const std::string& name) {
-  return std::count_if(rows.begin(), rows.end(), [&](const tune::SplitRow& row) { return row.name == name; });
+  return std::ranges::count_if(rows, [&](const tune::SplitRow& row) { return row.name == name; });
 }
 
 TEST(SplitTest, EverySourceOfShapesAndEverySamplerHasItsSideAndAReason) {
@@ -399,7 +398,7 @@ TEST(HalvingTest, FindsTheWinnerOfTheWholeSearchForHalfOfItsCost) {
       if (one.side() == tune::Side::kTraining) errors.push_back(error_of(one, position));
     }
     training = errors.size();
-    std::sort(errors.begin(), errors.end());
+    std::ranges::sort(errors);
     if (errors[39] + errors[40] >= best_score) continue;
     best_score = errors[39] + errors[40];
     best = position;
@@ -463,9 +462,8 @@ TEST(ProtocolTest, TheOracleIsTheBestAndRegretIsWhatTheOthersAddToIt) {
   EXPECT_EQ(left_alone->cases, invented.tuning.cases.size() / 2) << "test cases only";
   const tune::ProtocolScore* tuned = score_of(scores, "tuned");
   ASSERT_NE(tuned, nullptr);
-  const auto tests =
-      std::count_if(invented.tuning.cases.begin(), invented.tuning.cases.end(),
-                    [](const tune::TuningCase& one) { return one.side() == tune::Side::kTest; });
+  const auto tests = std::ranges::count_if(
+      invented.tuning.cases, [](const tune::TuningCase& one) { return one.side() == tune::Side::kTest; });
   EXPECT_EQ(tuned->cases, static_cast<std::size_t>(tests));
   EXPECT_EQ(score_of(scores, "paper"), nullptr);
 }

@@ -425,8 +425,8 @@ TEST_F(VectorFormatsTest, ADatabase) {
   expect_refusal(run({"hull", csv(), "-o", database, "--out-layer", "stands"}), 2,
                  "has a table 'stands' already");
   const std::vector<ReadLayer> layers = read_layers(database);
-  const auto stands = std::find_if(layers.begin(), layers.end(),
-                                   [](const ReadLayer& layer) { return layer.name == "stands"; });
+  const auto stands =
+      std::ranges::find_if(layers, [](const ReadLayer& layer) { return layer.name == "stands"; });
   ASSERT_NE(stands, layers.end());
   EXPECT_EQ(stands->system, "EPSG:25832");
   EXPECT_EQ(feature_of(*stands).wkb, wkb);

@@ -83,14 +83,14 @@ double flatness(const std::vector<Point>& points) {
 
 /// Whether each coordinate is a whole multiple of 1 / per_unit, but for the last bit.
 bool has_decimals(const std::vector<Point>& points, double per_unit) {
-  return std::all_of(points.begin(), points.end(), [&](const Point& point) {
+  return std::ranges::all_of(points, [&](const Point& point) {
     return std::round(point.x * per_unit) / per_unit == point.x &&
            std::round(point.y * per_unit) / per_unit == point.y;
   });
 }
 
 bool is_single_precision(const std::vector<Point>& points) {
-  return std::all_of(points.begin(), points.end(), [](const Point& point) {
+  return std::ranges::all_of(points, [](const Point& point) {
     return static_cast<double>(static_cast<float>(point.x)) == point.x &&
            static_cast<double>(static_cast<float>(point.y)) == point.y;
   });
@@ -98,8 +98,8 @@ bool is_single_precision(const std::vector<Point>& points) {
 
 bool all_on_a_line(const std::vector<Point>& points) {
   const auto [a, b] = farthest(points);
-  return std::all_of(points.begin(), points.end(),
-                     [a = a, b = b](const Point& point) { return polylidar::orient2d(a, b, point) == 0; });
+  return std::ranges::all_of(
+      points, [a = a, b = b](const Point& point) { return polylidar::orient2d(a, b, point) == 0; });
 }
 
 TEST(Zoo, EveryCaseHasANameAndAnIssueOfItsOwn) {
@@ -246,8 +246,7 @@ TEST(Zoo, ClosePointsAreAsCloseAsPromised) {
   const std::vector<Point> track = points_of("hull-js-19");
   std::map<std::pair<double, double>, int> records;
   for (const Point& point : track) ++records[{point.x, point.y}];
-  EXPECT_EQ(std::count_if(records.begin(), records.end(), [](const auto& one) { return one.second >= 120; }),
-            3);
+  EXPECT_EQ(std::ranges::count_if(records, [](const auto& one) { return one.second >= 120; }), 3);
 }
 
 TEST(Zoo, LatticesHaveTheirSteps) {
@@ -278,7 +277,7 @@ TEST(Zoo, LatticesHaveTheirSteps) {
 
   const std::vector<Point> walls = points_of("delaunator-cpp-28");
   EXPECT_TRUE(has_decimals(walls, 1000));
-  EXPECT_TRUE(std::all_of(walls.begin(), walls.end(), [](const Point& point) {
+  EXPECT_TRUE(std::ranges::all_of(walls, [](const Point& point) {
     const double x = std::abs(point.x);
     const double nearest = std::min({std::abs(x - 10), std::abs(std::abs(point.y) - 6), std::abs(point.x + 3),
                                      std::abs(point.x - 4), std::abs(point.y - 1)});

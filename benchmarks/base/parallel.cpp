@@ -46,8 +46,7 @@ void for_each_in_parallel(std::size_t count, const std::vector<int>& cores,
       });
     }
   }
-  const auto error =
-      std::find_if(errors.begin(), errors.end(), [](const std::exception_ptr& e) { return e != nullptr; });
+  const auto error = std::ranges::find_if(errors, [](const std::exception_ptr& e) { return e != nullptr; });
   if (error != errors.end()) std::rethrow_exception(*error);
 }
 

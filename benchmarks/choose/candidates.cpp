@@ -38,7 +38,7 @@ void add_methods_of_manifests(Question& question, const run::MethodCatalog& cata
   std::vector<plan::PlanMethod>& entries = question.plan.methods;
   for (const worker::Method& method : catalog.methods()) {
     const auto is_it = [&](const plan::PlanMethod& entry) { return entry.method == method.name; };
-    if (!method.info || std::any_of(entries.begin(), entries.end(), is_it)) continue;
+    if (!method.info || std::ranges::any_of(entries, is_it)) continue;
     try {
       for (const plan::PlanMethod& entry : catalog.runs_of(method.name)) entries.push_back(entry);
     } catch (const ConfigurationError& error) {
@@ -65,8 +65,8 @@ bool is_of(const record::RunRecord& record, const plan::PlanMethod& entry) {
 
 Candidate make_candidate(const record::RunRecord& record, const std::optional<MultiPolygon>& result,
                          const plan::Plan& plan, const run::MethodCatalog& catalog, std::size_t points) {
-  const auto entry = std::find_if(plan.methods.begin(), plan.methods.end(),
-                                  [&](const plan::PlanMethod& one) { return is_of(record, one); });
+  const auto entry =
+      std::ranges::find_if(plan.methods, [&](const plan::PlanMethod& one) { return is_of(record, one); });
   Parameters given;
   for (const auto& [name, choice] : entry->parameters) {
     const auto value = record.parameters.find(name);
@@ -117,7 +117,7 @@ double shown_agreement(const Candidate& candidate) {
 void sort_by_agreement(std::vector<Candidate>& all) {
   std::vector<std::size_t> order(all.size());
   for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
-  std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+  std::ranges::sort(order, [&](std::size_t a, std::size_t b) {
     const double first = shown_agreement(all[a]);
     const double second = shown_agreement(all[b]);
     return first != second ? first > second : all[a].label < all[b].label;
@@ -158,7 +158,7 @@ Candidates run_on(const Question& question, std::span<const Point> points, const
       return;
     }
     const std::string why = catalog.find(record.method).title + ": " + sentence(record.detail);
-    if (std::find(candidates.absent.begin(), candidates.absent.end(), why) == candidates.absent.end())
+    if (std::ranges::find(candidates.absent, why) == candidates.absent.end())
       candidates.absent.push_back(why);
   };
   const json header = {{"environment", {{"machine_id", ""}}}};
@@ -182,7 +182,7 @@ void take_all(Candidates& candidates, const Question& question, std::span<const 
   Question fast = question;
   fast.plan.draws = 0;
   std::erase_if(fast.plan.methods, [&](const plan::PlanMethod& entry) {
-    return std::none_of(candidates.all.begin(), candidates.all.end(), [&](const Candidate& candidate) {
+    return std::ranges::none_of(candidates.all, [&](const Candidate& candidate) {
       return is_of(candidate.record, entry) && is_fast_enough(candidate, all.size(), question.plan.timeout_s);
     });
   });
@@ -190,11 +190,10 @@ void take_all(Candidates& candidates, const Question& question, std::span<const 
   Candidates of_all = run_on(fast, all, catalog, cores, make_progress);
   for (Candidate& candidate : of_all.all) {
     if (!candidate.succeeded()) continue;
-    const auto of_sample =
-        std::find_if(candidates.all.begin(), candidates.all.end(), [&](const Candidate& other) {
-          return other.record.method == candidate.record.method &&
-                 other.record.protocol == candidate.record.protocol;
-        });
+    const auto of_sample = std::ranges::find_if(candidates.all, [&](const Candidate& other) {
+      return other.record.method == candidate.record.method &&
+             other.record.protocol == candidate.record.protocol;
+    });
     const auto stability = of_sample->record.metrics.find(kStability);
     if (stability != of_sample->record.metrics.end()) candidate.record.metrics[kStability] = *stability;
     *of_sample = std::move(candidate);
@@ -215,13 +214,13 @@ Question ask(const run::MethodCatalog& catalog, const std::vector<std::string>& 
   for (const plan::PlanMethod& entry : entries) known.push_back(entry.method + "/" + entry.protocol);
   for (const std::string& name : only) {
     const auto is_it = [&](const plan::PlanMethod& entry) { return fits(entry, name); };
-    if (std::any_of(entries.begin(), entries.end(), is_it)) continue;
+    if (std::ranges::any_of(entries, is_it)) continue;
     throw ConfigurationError("--only: there is no method '" + name +
                              "' that chooses its parameters without the user; known are " +
                              join_words(known));
   }
   std::erase_if(entries, [&](const plan::PlanMethod& entry) {
-    return std::none_of(only.begin(), only.end(), [&](const std::string& name) { return fits(entry, name); });
+    return std::ranges::none_of(only, [&](const std::string& name) { return fits(entry, name); });
   });
   return question;
 }

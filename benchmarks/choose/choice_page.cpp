@@ -230,12 +230,11 @@ class Page {
   bool is_near(const Polygon& polygon) const {
     constexpr double kFarthest = 1e6;
     const auto is_ring_near = [&](const Ring& ring) {
-      return std::all_of(ring.begin(), ring.end(), [&](const Point& vertex) {
+      return std::ranges::all_of(ring, [&](const Point& vertex) {
         return std::abs(canvas_.x(vertex)) < kFarthest && std::abs(canvas_.y(vertex)) < kFarthest;
       });
     };
-    return is_ring_near(polygon.shell) &&
-           std::all_of(polygon.holes.begin(), polygon.holes.end(), is_ring_near);
+    return is_ring_near(polygon.shell) && std::ranges::all_of(polygon.holes, is_ring_near);
   }
 
   std::string card(std::size_t index) const {

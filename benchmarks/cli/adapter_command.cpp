@@ -84,10 +84,10 @@ std::vector<NewFile> script_files(const NewAdapterCommand& command) {
 }
 
 void check_name(const std::string& name) {
-  const bool good = !name.empty() && name.front() >= 'a' && name.front() <= 'z' &&
-                    std::all_of(name.begin(), name.end(), [](char c) {
-                      return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '_';
-                    });
+  const bool good =
+      !name.empty() && name.front() >= 'a' && name.front() <= 'z' && std::ranges::all_of(name, [](char c) {
+        return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '_';
+      });
   if (!good) {
     throw ConfigurationError(
         "a method's name has small letters, digits and '_' and begins with a letter, not '" + name + "'");
@@ -95,7 +95,7 @@ void check_name(const std::string& name) {
   const run::MethodCatalog catalog(run::manifest_folders({}));
   const std::vector<std::string> names = catalog.names();
   // The worker of "hullbench" would have the name of the helper file.
-  if (name == "hullbench" || std::find(names.begin(), names.end(), name) != names.end()) {
+  if (name == "hullbench" || std::ranges::find(names, name) != names.end()) {
     throw ConfigurationError("there is a method '" + name + "' already; choose another name");
   }
 }
@@ -155,8 +155,7 @@ ExitCode test_adapter(const TestAdapterCommand& command) {
   const auto timeout = std::chrono::milliseconds(static_cast<std::int64_t>(command.timeout_s * 1000));
   const std::vector<run::Verdict> verdicts =
       run::test_contract(method, {command.mem_limit_mib, std::nullopt}, timeout, scratch.path(), &print);
-  const auto kept = std::count_if(verdicts.begin(), verdicts.end(),
-                                  [](const run::Verdict& verdict) { return verdict.kept; });
+  const auto kept = std::ranges::count_if(verdicts, [](const run::Verdict& verdict) { return verdict.kept; });
   if (verdicts.back().status == record::Status::kNotInstalled) return kExitNothing;
   const bool all = kept == static_cast<std::ptrdiff_t>(verdicts.size());
   std::cout << command.name << " keeps " << (all ? "the contract: " : "part of the contract: ") << kept

@@ -29,8 +29,7 @@ ExitCode print_league(const LeagueCommand& command) {
     const auto runs = record::is_suite(folder) ? record::suite_runs(folder) : std::vector{folder};
     for (const fs::path& run : runs) reports.push_back(record::load_run(run));
   }
-  if (std::all_of(reports.begin(), reports.end(),
-                  [](const json& report) { return report.at("runs").empty(); })) {
+  if (std::ranges::all_of(reports, [](const json& report) { return report.at("runs").empty(); })) {
     std::cerr << "hullbench: none of the folders has a finished run; there is nothing to judge\n";
     return kExitNothing;
   }

@@ -90,8 +90,7 @@ void say_merged(const std::vector<run::MergedRun>& runs, const MergeCommand& com
 
 /// Writes the merged run, or suite, with report and tables. Throws before anything is written.
 ExitCode merge(const MergeCommand& command) {
-  const auto suites = static_cast<std::size_t>(
-      std::count_if(command.sources.begin(), command.sources.end(), record::is_suite));
+  const auto suites = static_cast<std::size_t>(std::ranges::count_if(command.sources, record::is_suite));
   if (suites != 0 && suites != command.sources.size())
     throw ConfigurationError("some of the folders hold a run and some a suite; merge runs or suites");
   std::vector<run::MergedRun> runs;
@@ -100,7 +99,7 @@ ExitCode merge(const MergeCommand& command) {
   } else {
     for (const auto& folders : runs_by_plan(command.sources)) runs.push_back(run::merge_runs(folders));
   }
-  if (std::all_of(runs.begin(), runs.end(), [](const run::MergedRun& run) { return run.rows.empty(); })) {
+  if (std::ranges::all_of(runs, [](const run::MergedRun& run) { return run.rows.empty(); })) {
     std::cerr << "hullbench: none of the folders has a finished run; nothing is merged\n";
     return kExitNothing;
   }

@@ -131,9 +131,8 @@ void say_what_goes_on(const run::RunDirectory& directory, const Experiment& expe
     return;
   }
   const auto& rows = directory.rows();
-  const auto missing = std::count_if(rows.begin(), rows.end(), [](const record::RunRecord& row) {
-    return row.status == record::Status::kNotInstalled;
-  });
+  const auto missing = std::ranges::count_if(
+      rows, [](const record::RunRecord& row) { return row.status == record::Status::kNotInstalled; });
   const auto finished =
       static_cast<std::ptrdiff_t>(run::count_finished(experiment.plan, experiment.runs, directory));
   std::cerr << "hullbench: going on with the run in " << directory.path().string() << ": "
@@ -383,7 +382,7 @@ ExitCode run_plans(const RunCommand& command) {
     Experiment experiment = make_experiment(name, command, catalog);
     names += (names.empty() ? "'" : ", '") + experiment.plan.name + "'";
     const auto same = [&](const Experiment& other) { return other.plan.name == experiment.plan.name; };
-    if (std::any_of(experiments.begin(), experiments.end(), same)) {
+    if (std::ranges::any_of(experiments, same)) {
       throw ConfigurationError("the plan '" + experiment.plan.name + "' is named twice; leave one out");
     }
     any_run = any_run || !experiment.runs.empty();

@@ -99,7 +99,7 @@ ExitCode pack(const PackCommand& command) {
   const run::MethodCatalog catalog(run::manifest_folders(command.adapters));
   const worker::Method& method = catalog.find(command.name);
   const std::vector<std::string> known = own_methods();
-  if (std::find(known.begin(), known.end(), command.name) != known.end())
+  if (std::ranges::find(known, command.name) != known.end())
     throw ConfigurationError("this project has the method '" + command.name +
                              "' already; there is nothing to hand in");
   plan::Plan own = submission_plan();

@@ -47,7 +47,7 @@ std::vector<plan::Plan> load_plans(const TuneCommand& command, const run::Method
   for (const std::string& name : command.plans) {
     plan::Plan plan = plan::load_plan(name, data_folder() / "benchmarks" / "plans");
     const auto same = [&](const plan::Plan& other) { return other.name == plan.name; };
-    if (std::any_of(plans.begin(), plans.end(), same))
+    if (std::ranges::any_of(plans, same))
       throw ConfigurationError("the plan '" + plan.name + "' is named twice; leave one out");
     plan.timeout_s = command.timeout_s.value_or(plan.timeout_s);
     plan::check_plan(plan, catalog.names(), datasets());

@@ -11,8 +11,8 @@ namespace {
 
 ExitCode work(const std::string& method) {
   const auto& registry = adapter_registry();
-  const auto entry = std::find_if(registry.begin(), registry.end(),
-                                  [&](const AdapterEntry& candidate) { return candidate.name == method; });
+  const auto entry =
+      std::ranges::find_if(registry, [&](const AdapterEntry& candidate) { return candidate.name == method; });
   if (entry == registry.end()) {
     throw ConfigurationError("there is no method '" + method + "'; 'hullbench list' shows them");
   }

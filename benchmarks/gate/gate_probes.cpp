@@ -47,7 +47,7 @@ json answer_of(const std::vector<std::string>& command, const ProbeSettings& set
 double estimate(const Nanoseconds& times, bool median_of_repeats) {
   if (times.empty()) throw std::runtime_error("a probe gave no times");
   if (median_of_repeats) return statistics::median(times);
-  return static_cast<double>(*std::min_element(times.begin(), times.end()));
+  return static_cast<double>(*std::ranges::min_element(times));
 }
 
 /// Number of instructions in the file that callgrind dumped at the end of a call.

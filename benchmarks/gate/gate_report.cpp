@@ -28,8 +28,7 @@ table::Number percent(double ratio) {
 }
 
 const Judged* find(const std::vector<Judged>& rows, const std::string& name) {
-  const auto found =
-      std::find_if(rows.begin(), rows.end(), [&](const Judged& row) { return row.name == name; });
+  const auto found = std::ranges::find_if(rows, [&](const Judged& row) { return row.name == name; });
   return found == rows.end() ? nullptr : &*found;
 }
 
@@ -72,8 +71,7 @@ void print_list(const char* title, const std::vector<std::string>& names, std::o
 }
 
 void print_accuracy(const std::vector<AccuracyRow>& rows, std::ostream& out) {
-  const bool all_same =
-      std::all_of(rows.begin(), rows.end(), [](const AccuracyRow& row) { return row.same; });
+  const bool all_same = std::ranges::all_of(rows, [](const AccuracyRow& row) { return row.same; });
   if (all_same) {
     out << "results: the same bytes in all " << rows.size() << " cases\n";
     return;

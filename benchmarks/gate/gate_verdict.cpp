@@ -34,8 +34,7 @@ bool is_change(SpeedChange change) {
 
 /// What a round says of a quantity; undecided where it was not measured.
 SpeedChange change_in(const std::vector<Judged>& round, const std::string& name) {
-  const auto found =
-      std::find_if(round.begin(), round.end(), [&](const Judged& row) { return row.name == name; });
+  const auto found = std::ranges::find_if(round, [&](const Judged& row) { return row.name == name; });
   return found == round.end() ? SpeedChange::kUndecided : found->change;
 }
 

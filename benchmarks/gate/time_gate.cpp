@@ -21,7 +21,7 @@ void measure(const std::string& title, const Programs& programs, const TimeGateS
 }
 
 bool has(const std::vector<Judged>& rows, SpeedChange change) {
-  return std::any_of(rows.begin(), rows.end(), [&](const Judged& row) { return row.change == change; });
+  return std::ranges::any_of(rows, [&](const Judged& row) { return row.change == change; });
 }
 
 void append(std::vector<Judged>& rows, const std::vector<Judged>& more) {
@@ -40,8 +40,8 @@ std::set<std::string> candidates(const std::vector<Judged>& rows) {
 /// The same settings with the cases of `quantities` only.
 ProbeSettings only(const std::set<std::string>& quantities, ProbeSettings probe) {
   std::erase_if(probe.cases, [&](const GateCase& entry) {
-    return std::none_of(quantities.begin(), quantities.end(),
-                        [&](const std::string& name) { return name.ends_with(" " + entry.name); });
+    return std::ranges::none_of(quantities,
+                                [&](const std::string& name) { return name.ends_with(" " + entry.name); });
   });
   return probe;
 }

@@ -309,9 +309,8 @@ std::vector<std::string> common_cases(const Field& field, const std::vector<Entr
   std::vector<std::string> result;
   for (const auto& [name, facts] : field.cases) {
     const std::string& key = name;
-    const bool common = std::all_of(entrants.begin(), entrants.end(), [&](const Entrant& entrant) {
-      return field.rows.at(entrant).contains(key);
-    });
+    const bool common = std::ranges::all_of(
+        entrants, [&](const Entrant& entrant) { return field.rows.at(entrant).contains(key); });
     if (facts.scored && common) result.push_back(name);
   }
   return result;
@@ -319,8 +318,8 @@ std::vector<std::string> common_cases(const Field& field, const std::vector<Entr
 
 std::size_t scored_cases(const Field& field, const Entrant& entrant) {
   const RowsByCase& rows = field.rows.at(entrant);
-  return static_cast<std::size_t>(std::count_if(
-      rows.begin(), rows.end(), [&](const auto& row) { return field.cases.at(row.first).scored; }));
+  return static_cast<std::size_t>(
+      std::ranges::count_if(rows, [&](const auto& row) { return field.cases.at(row.first).scored; }));
 }
 
 LeagueProfile make_profile(const Field& field, const std::string& group, const std::vector<Entrant>& all) {
@@ -338,7 +337,7 @@ LeagueProfile make_profile(const Field& field, const std::string& group, const s
     std::vector<double> errors;
     errors.reserve(entrants.size());
     for (const Entrant& entrant : entrants) errors.push_back(error_of(*field.rows.at(entrant).at(name)));
-    const double best = *std::min_element(errors.begin(), errors.end());
+    const double best = *std::ranges::min_element(errors);
     if (best >= tune::kInfinitelyBad) continue;
     ++profile.cases;
     const double case_weight = field.cases.at(name).weight;
@@ -362,8 +361,7 @@ std::vector<LeagueProfile> make_profiles(const Field& field) {
   for (const record::ProtocolGroup& group : record::protocol_groups()) {
     std::vector<Entrant> members;
     for (const auto& [entrant, rows] : field.rows) {
-      if (std::count(group.protocols.begin(), group.protocols.end(), entrant.second) > 0)
-        members.push_back(entrant);
+      if (std::ranges::count(group.protocols, entrant.second) > 0) members.push_back(entrant);
     }
     if (!members.empty()) profiles.push_back(make_profile(field, group.name, members));
   }
@@ -418,12 +416,12 @@ League make_league(const std::vector<json>& reports, bool test_only) {
   // A median of few cases is not better than one of all.
   const std::vector<std::string> order = record::protocols_by_group();
   const auto key = [&](const LeagueEntry& entry) {
-    return std::make_tuple(std::find(order.begin(), order.end(), entry.protocol),
+    return std::make_tuple(std::ranges::find(order, entry.protocol),
                            2 * entry.cases < most.at(entry.protocol),
                            entry.l2 ? std::round(entry.l2->median / kShownError) : kInfinity, entry.method);
   };
-  std::sort(league.entries.begin(), league.entries.end(),
-            [&](const LeagueEntry& a, const LeagueEntry& b) { return key(a) < key(b); });
+  std::ranges::sort(league.entries,
+                    [&](const LeagueEntry& a, const LeagueEntry& b) { return key(a) < key(b); });
   league.profiles = make_profiles(field);
   league.results = make_results(field);
   return league;

@@ -215,7 +215,7 @@ table::Table profile_table(const json& league, const json& profile) {
   for (const std::size_t k : shown)
     table.columns.emplace_back(k == 0 ? "best" : "within " + three_digits(taus[k]) + " x", "%");
   std::vector<json> curves = profile.at("curves").get<std::vector<json>>();
-  std::stable_sort(curves.begin(), curves.end(), [&](const json& a, const json& b) {
+  std::ranges::stable_sort(curves, [&](const json& a, const json& b) {
     return a.at("shares")[shown[1]].get<double>() > b.at("shares")[shown[1]].get<double>();
   });
   for (const json& curve : curves) {

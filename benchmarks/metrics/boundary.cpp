@@ -99,8 +99,8 @@ double share_within(const Profile& profile, double tolerance) {
 
 /// The smallest distance that `share` of the boundary's length is within.
 double percentile(Profile& profile, double share) {
-  std::sort(profile.samples.begin(), profile.samples.end(),
-            [](const Sample& a, const Sample& b) { return a.distance < b.distance; });
+  std::ranges::sort(profile.samples,
+                    [](const Sample& a, const Sample& b) { return a.distance < b.distance; });
   double within = 0;
   for (const Sample& sample : profile.samples) {
     within += sample.length;

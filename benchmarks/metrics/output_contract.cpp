@@ -24,10 +24,10 @@ std::optional<double> share(std::size_t part, std::size_t whole) {
 }
 
 bool is_oriented(const MultiPolygon& shape) {
-  return std::all_of(shape.begin(), shape.end(), [](const Polygon& polygon) {
+  return std::ranges::all_of(shape, [](const Polygon& polygon) {
     return polylidar::signed_area(polygon.shell) > 0 &&
-           std::all_of(polygon.holes.begin(), polygon.holes.end(),
-                       [](const Ring& hole) { return polylidar::signed_area(hole) < 0; });
+           std::ranges::all_of(polygon.holes,
+                               [](const Ring& hole) { return polylidar::signed_area(hole) < 0; });
   });
 }
 
@@ -49,13 +49,13 @@ std::size_t count_covered(const std::vector<Point>& points, const MultiPolygon& 
     return rounding > kLeastDistance && edges.distance(point, 2 * rounding) <= rounding;
   };
   const auto is_covered = [&](const Point& point) { return locator.contains(point) || is_on_edge(point); };
-  return static_cast<std::size_t>(std::count_if(points.begin(), points.end(), is_covered));
+  return static_cast<std::size_t>(std::ranges::count_if(points, is_covered));
 }
 
 }  // namespace
 
 InputPoints::InputPoints(std::span<const Point> points) : sorted_(points.begin(), points.end()) {
-  std::sort(sorted_.begin(), sorted_.end(), is_before);
+  std::ranges::sort(sorted_, is_before);
 }
 
 ContractScores InputPoints::score(const MultiPolygon& result) const {
@@ -64,7 +64,7 @@ ContractScores InputPoints::score(const MultiPolygon& result) const {
     scores.points_covered = share(count_covered(sorted_, result), sorted_.size());
   std::size_t from_input = 0;
   for_each_ring(result, [&](const Ring& ring) {
-    from_input += static_cast<std::size_t>(std::count_if(ring.begin(), ring.end(), [&](const Point& vertex) {
+    from_input += static_cast<std::size_t>(std::ranges::count_if(ring, [&](const Point& vertex) {
       const auto found = std::lower_bound(sorted_.begin(), sorted_.end(), vertex, is_before);
       return found != sorted_.end() && *found == vertex;
     }));

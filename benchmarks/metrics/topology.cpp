@@ -66,7 +66,7 @@ struct Pair {
 };
 
 std::size_t count_one_to_one(std::vector<Pair> pairs) {
-  std::stable_sort(pairs.begin(), pairs.end(), [](const Pair& a, const Pair& b) { return a.iou > b.iou; });
+  std::ranges::stable_sort(pairs, [](const Pair& a, const Pair& b) { return a.iou > b.iou; });
   std::vector<const Hole*> taken;  // sorted
   const auto take = [&taken](const Hole* hole) {
     taken.insert(std::lower_bound(taken.begin(), taken.end(), hole), hole);

@@ -72,7 +72,7 @@ std::vector<Benchmark> all_benchmarks() {
       for (const MeasuredFunction& function : functions) {
         if (n > function.most_points || n < function.least_points) continue;
         const auto& sets = function.sets;
-        if (!sets.empty() && std::find(sets.begin(), sets.end(), set) == sets.end()) continue;
+        if (!sets.empty() && std::ranges::find(sets, set) == sets.end()) continue;
         const std::string name = std::string(function.name) + "/" + set + "/" + std::to_string(n);
         benchmarks.push_back({name, function, set, n});
       }

@@ -205,8 +205,8 @@ table::Cell range_cell(double low, double high) {
 }
 
 std::size_t count(const std::vector<VerdictLine>& lines, Verdict verdict) {
-  return static_cast<std::size_t>(std::count_if(
-      lines.begin(), lines.end(), [=](const VerdictLine& line) { return line.verdict == verdict; }));
+  return static_cast<std::size_t>(
+      std::ranges::count_if(lines, [=](const VerdictLine& line) { return line.verdict == verdict; }));
 }
 
 }  // namespace
@@ -266,7 +266,7 @@ void print_measurements(const Measurements& measurements, std::ostream& out) {
   for (const auto& [benchmark, measured] : measurements) {
     if (measured.times.empty()) continue;
     const double middle = statistics::median(std::span<const double>(measured.times));
-    const auto [least, most] = std::minmax_element(measured.times.begin(), measured.times.end());
+    const auto [least, most] = std::ranges::minmax_element(measured.times);
     table.add_row({benchmark, table::Number(middle / 1e6), range_cell(*least / 1e6, *most / 1e6),
                    table::Number(middle / points_of(benchmark)),
                    measured.peak_bytes ? table::Number(*measured.peak_bytes) : table::Cell("")});

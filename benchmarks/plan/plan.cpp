@@ -173,7 +173,7 @@ PlanAxis read_axis(const json& axis) {
 std::string place_of_byte(const std::string& text, std::size_t byte) {
   const std::size_t end = byte == 0 ? 0 : std::min(byte - 1, text.size());
   const std::string_view before = std::string_view(text).substr(0, end);
-  const auto line = 1 + std::count(before.begin(), before.end(), '\n');
+  const auto line = 1 + std::ranges::count(before, '\n');
   const std::size_t last = before.rfind('\n');
   const std::size_t column = last == std::string_view::npos ? end + 1 : end - last;
   return "line " + std::to_string(line) + ", column " + std::to_string(column);
@@ -194,7 +194,7 @@ std::vector<std::string> plan_names(const fs::path& folder) {
     const std::string name = entry.path().stem().string();
     if (entry.path().extension() == ".json" && !name.ends_with(".schema")) names.push_back(name);
   }
-  std::sort(names.begin(), names.end());
+  std::ranges::sort(names);
   return names;
 }
 
@@ -284,7 +284,7 @@ std::vector<PlanMethod> parse_plan_methods(const json& entries, const std::strin
 void add_methods(Plan& plan, const std::vector<PlanMethod>& methods) {
   for (const PlanMethod& added : methods) {
     const auto same = [&](const PlanMethod& other) { return is_same_entry(other, added); };
-    if (std::any_of(plan.methods.begin(), plan.methods.end(), same)) {
+    if (std::ranges::any_of(plan.methods, same)) {
       throw ConfigurationError("the plan '" + plan.name + "' measures '" + added.method +
                                "' with the protocol '" + added.protocol + "' already; leave out --with " +
                                added.method);
@@ -327,8 +327,7 @@ void use_recordings(Plan& plan, std::size_t count) {
   }
   const auto is_low = [](const json& group) { return group.at("dataset") == kLowFloor; };
   plan.cases.erase(std::remove_if(plan.cases.begin(), plan.cases.end(), is_low), plan.cases.end());
-  if (std::any_of(plan.expanded_cases.begin(), plan.expanded_cases.end(),
-                  [](const PlanCase& one) { return is_real(one.dataset); })) {
+  if (std::ranges::any_of(plan.expanded_cases, [](const PlanCase& one) { return is_real(one.dataset); })) {
     plan.cases.push_back({{"dataset", kRealRecording}, {"members", count}});
     found = true;
   }

@@ -62,7 +62,7 @@ const double* find_value(const CaseChoice& choice, const PlanCase& plan_case) {
 
 void require_known(const std::string& what, const std::string& name, const std::vector<std::string>& known,
                    const std::string& plan) {
-  if (std::find(known.begin(), known.end(), name) != known.end()) return;
+  if (std::ranges::find(known, name) != known.end()) return;
   throw ConfigurationError("the plan '" + plan + "' names the " + what + " '" + name +
                            "', which is not known; known are " + join_words(known) + " ('hullbench list')");
 }
@@ -101,7 +101,7 @@ void check_plan(const Plan& plan, const std::vector<std::string>& methods,
     require_known("method", method.method, methods, plan.name);
     for (const std::string& dataset : method.datasets) {
       const auto same = [&](const PlanCase& plan_case) { return is_dataset_of(plan_case, dataset); };
-      if (std::none_of(plan.expanded_cases.begin(), plan.expanded_cases.end(), same)) {
+      if (std::ranges::none_of(plan.expanded_cases, same)) {
         throw ConfigurationError("the plan '" + plan.name + "' lets " + method.method +
                                  " keep to the data set '" + dataset + "', of which it has no case");
       }
@@ -111,9 +111,9 @@ void check_plan(const Plan& plan, const std::vector<std::string>& methods,
 }
 
 bool applies(const PlanMethod& method, const PlanCase& plan_case) {
-  return method.datasets.empty() ||
-         std::any_of(method.datasets.begin(), method.datasets.end(),
-                     [&](const std::string& name) { return is_dataset_of(plan_case, name); });
+  return method.datasets.empty() || std::ranges::any_of(method.datasets, [&](const std::string& name) {
+           return is_dataset_of(plan_case, name);
+         });
 }
 
 int repetitions_of(const Plan& plan, const PlanMethod& method) {

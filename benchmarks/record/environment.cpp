@@ -143,8 +143,8 @@ std::vector<std::string> code_flags(const std::string& flags) {
 std::vector<std::string> missing_in(const std::vector<std::string>& words,
                                     const std::vector<std::string>& other) {
   std::vector<std::string> result;
-  std::copy_if(words.begin(), words.end(), std::back_inserter(result),
-               [&](const std::string& word) { return std::count(other.begin(), other.end(), word) == 0; });
+  std::ranges::copy_if(words, std::back_inserter(result),
+                       [&](const std::string& word) { return std::ranges::count(other, word) == 0; });
   return result;
 }
 

@@ -42,7 +42,7 @@ bool add_point(json& list, const Point& point, const Grid& grid) {
 bool add_ring(json& polygon, const Ring& ring, const Grid& grid) {
   json list = json::array();
   const bool drawn =
-      std::all_of(ring.begin(), ring.end(), [&](const Point& point) { return add_point(list, point, grid); });
+      std::ranges::all_of(ring, [&](const Point& point) { return add_point(list, point, grid); });
   polygon.push_back(std::move(list));
   return drawn;
 }

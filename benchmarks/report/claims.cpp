@@ -35,8 +35,8 @@ std::vector<std::int64_t> times_of_step(const record::RunRecord& run, const std:
 
 /// Of `references` the run with the same seed as `run`: on the same points where the case is the same.
 const record::RunRecord* of_same_seed(const record::RunRecord& run, const Runs& references) {
-  const auto found = std::find_if(references.begin(), references.end(),
-                                  [&](const record::RunRecord* other) { return other->seed == run.seed; });
+  const auto found = std::ranges::find_if(
+      references, [&](const record::RunRecord* other) { return other->seed == run.seed; });
   return found == references.end() ? nullptr : *found;
 }
 
@@ -159,9 +159,8 @@ class ClaimRatios {
   /// Of how many of the claim's cases `is` holds.
   std::size_t count(const std::string& method, bool (*is)(const Runs&)) const {
     const std::vector<Case>& cases = measurements_.cases();
-    return static_cast<std::size_t>(std::count_if(cases.begin(), cases.end(), [&](const Case& which) {
-      return concerns(which) && is(runs_of(method, which));
-    }));
+    return static_cast<std::size_t>(std::ranges::count_if(
+        cases, [&](const Case& which) { return concerns(which) && is(runs_of(method, which)); }));
   }
 
   /// A method without any result says nothing about the claim: it may not work on this machine at all.
@@ -191,7 +190,7 @@ class ClaimRatios {
   }
 
   bool has_value(const Runs& runs) const {
-    return std::any_of(runs.begin(), runs.end(), [&](const record::RunRecord* run) {
+    return std::ranges::any_of(runs, [&](const record::RunRecord* run) {
       return quantity_ == "error" ? metric(*run, "l2_paper").has_value()
                                   : !times_of(*run, Boundary::kPaper).empty();
     });

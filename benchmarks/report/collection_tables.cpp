@@ -25,8 +25,8 @@ const std::vector<table::Column> kTimeColumns = {table::with_unit("Time mean", "
 
 bool has_prefix(const json& entry, const std::string& dataset) {
   const json& prefixes = entry.at("dataset_prefixes");
-  return std::any_of(prefixes.begin(), prefixes.end(),
-                     [&](const json& prefix) { return dataset.starts_with(prefix.get<std::string>()); });
+  return std::ranges::any_of(
+      prefixes, [&](const json& prefix) { return dataset.starts_with(prefix.get<std::string>()); });
 }
 
 /// Whether the paper's entry is about a case like this one.
@@ -112,8 +112,7 @@ table::Cell label_with_failures(TableContext& context, const Line& line, const s
   table::Cell cell = row_label(context, line, cases);
   for (const Case& which : cases) {
     for (const std::size_t note : failure_notes(context, line, {which})) {
-      if (std::find(cell.notes.begin(), cell.notes.end(), note) == cell.notes.end())
-        cell.notes.push_back(note);
+      if (std::ranges::find(cell.notes, note) == cell.notes.end()) cell.notes.push_back(note);
     }
   }
   return cell;
@@ -123,8 +122,8 @@ std::vector<CaseGroup> family_groups(const TableContext& context, const std::vec
   std::vector<CaseGroup> groups;
   for (const Case& which : cases) {
     const std::string title = family_title(context.report, which.dataset);
-    const auto found = std::find_if(groups.begin(), groups.end(),
-                                    [&](const CaseGroup& group) { return group.title == title; });
+    const auto found =
+        std::ranges::find_if(groups, [&](const CaseGroup& group) { return group.title == title; });
     if (found == groups.end()) {
       groups.push_back({title, {which}, json()});
     } else {
@@ -272,7 +271,7 @@ std::vector<CaseGroup> convexity_groups(const TableContext& context, const std::
     }
     groups[place].cases.push_back(which);
   }
-  const bool published = !cases.empty() && std::all_of(cases.begin(), cases.end(), [&](const Case& which) {
+  const bool published = !cases.empty() && std::ranges::all_of(cases, [&](const Case& which) {
     return is_about(classes, which);
   });
   for (std::size_t i = 0; published && i < classes.at("rows").size(); ++i) {
@@ -339,8 +338,7 @@ std::vector<table::Table> class_tables(TableContext& context, const std::vector<
 
 bool is_collection(const std::vector<Shape>& shapes) {
   constexpr std::size_t kMany = 10;
-  const bool one_size =
-      std::all_of(shapes.begin(), shapes.end(), [](const Shape& shape) { return shape.size() == 1; });
+  const bool one_size = std::ranges::all_of(shapes, [](const Shape& shape) { return shape.size() == 1; });
   if (shapes.empty() || !one_size) return false;
   return shapes.size() >= kMany || !split(shapes).papers_own.empty();
 }
@@ -369,8 +367,8 @@ std::vector<CaseGroup> published_groups(const TableContext& context, const std::
     return {{"mean of the shapes", cases_of(parts.papers_own), parts.published}};
   }
   std::vector<Case> papers_own;
-  std::copy_if(cases.begin(), cases.end(), std::back_inserter(papers_own),
-               [](const Case& which) { return is_about(paper().at("convexity_classes"), which); });
+  std::ranges::copy_if(cases, std::back_inserter(papers_own),
+                       [](const Case& which) { return is_about(paper().at("convexity_classes"), which); });
   return convexity_groups(context, papers_own);
 }
 

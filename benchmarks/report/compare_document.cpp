@@ -81,9 +81,8 @@ bool is_changed(const RunPair& pair) {
 }
 
 std::string pairs_remark(const RunsCompared& compared) {
-  const auto not_judged = static_cast<std::size_t>(
-      std::count_if(compared.pairs.begin(), compared.pairs.end(),
-                    [](const RunPair& pair) { return pair.change == Change::kNotJudged; }));
+  const auto not_judged = static_cast<std::size_t>(std::ranges::count_if(
+      compared.pairs, [](const RunPair& pair) { return pair.change == Change::kNotJudged; }));
   std::string text =
       "Times are medians in ms. B / A is the median of all ratios of a time of B to one of A (Hodges and "
       "Lehmann 1963), its interval that of Moses (1965). A pair is called faster or slower when the rank "

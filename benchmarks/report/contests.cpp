@@ -49,9 +49,8 @@ bool beats_other_methods(const RunRecord& run, const Runs& runs) {
 
 void judge_case(const Runs& runs, const std::string& protocol, std::map<std::string, Contest>& contests) {
   const std::string method = reference_line().method;
-  const auto reference = std::find_if(runs.begin(), runs.end(), [&](const RunRecord* run) {
-    return run->method == method && run->protocol == protocol;
-  });
+  const auto reference = std::ranges::find_if(
+      runs, [&](const RunRecord* run) { return run->method == method && run->protocol == protocol; });
   for (const RunRecord* run : runs) {
     Contest& contest = contests[run->id];
     if (reference != runs.end() && run != *reference) contest.order = order_of(*run, **reference);

@@ -23,15 +23,14 @@ std::vector<Place> places_of(const TableContext& context, const json& axis) {
   for (const record::RunRecord& row : context.measurements.runs()) {
     const json at = place_on_axis(axis, row);
     if (at.is_null()) continue;
-    auto found =
-        std::find_if(places.begin(), places.end(), [&](const Place& place) { return place.at == at; });
+    auto found = std::ranges::find_if(places, [&](const Place& place) { return place.at == at; });
     if (found == places.end()) found = places.insert(places.end(), {at, {}});
     const Case which = {row.dataset, row.holes, row.n};
-    if (std::find(found->cases.begin(), found->cases.end(), which) == found->cases.end()) {
+    if (std::ranges::find(found->cases, which) == found->cases.end()) {
       found->cases.push_back(which);
     }
   }
-  std::stable_sort(places.begin(), places.end(), [](const Place& one, const Place& other) {
+  std::ranges::stable_sort(places, [](const Place& one, const Place& other) {
     return one.at.is_number() && other.at.is_number() && one.at.get<double>() < other.at.get<double>();
   });
   return places;

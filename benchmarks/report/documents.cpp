@@ -16,7 +16,7 @@ namespace {
 void drop_repeated_steps(std::vector<table::Document>& documents) {
   const std::string steps = std::string("_") + kStepsTable;
   const auto is_steps = [&](const table::Table& table) { return table.id.ends_with(steps); };
-  const bool alone = std::any_of(documents.begin(), documents.end(), [&](const table::Document& document) {
+  const bool alone = std::ranges::any_of(documents, [&](const table::Document& document) {
     return !document.tables.empty() && is_steps(document.tables.front());
   });
   if (!alone) return;

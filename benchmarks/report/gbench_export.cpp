@@ -24,8 +24,8 @@ ordered_json context_of(const json& report) {
       {"num_cpus", cpu.at("logical_cores")},
       {"mhz_per_cpu", 0}};
   if (const json& governors = cpu.at("governors"); governors.is_array() && !governors.empty()) {
-    context["cpu_scaling_enabled"] = std::any_of(
-        governors.begin(), governors.end(), [](const json& governor) { return governor != "performance"; });
+    context["cpu_scaling_enabled"] =
+        std::ranges::any_of(governors, [](const json& governor) { return governor != "performance"; });
   }
   const json& load = environment.at("load_average");
   context["caches"] = ordered_json::array();

@@ -10,7 +10,7 @@ namespace {
 std::optional<Spread> spread_of(const std::vector<double>& values) {
   if (values.empty()) return std::nullopt;
   return Spread{statistics::mean(values), statistics::standard_deviation(values),
-                *std::max_element(values.begin(), values.end())};
+                *std::ranges::max_element(values)};
 }
 
 template <typename Show>

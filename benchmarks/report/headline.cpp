@@ -28,9 +28,8 @@ bool same_result(const record::RunRecord& one, const record::RunRecord& other) {
     const auto second = metric(other, name);
     return first.has_value() == second.has_value() && (!first || same(*first, *second));
   };
-  return std::all_of(kCounts.begin(), kCounts.end(),
-                     [&](const char* name) { return agree(name, std::equal_to<>()); }) &&
-         std::all_of(kAreas.begin(), kAreas.end(), [&](const char* name) { return agree(name, is_close); });
+  return std::ranges::all_of(kCounts, [&](const char* name) { return agree(name, std::equal_to<>()); }) &&
+         std::ranges::all_of(kAreas, [&](const char* name) { return agree(name, is_close); });
 }
 
 /// The lines that have a result, in the order of the records.
@@ -38,7 +37,7 @@ std::vector<Line> lines_with_results(const Measurements& measurements) {
   std::vector<Line> lines;
   for (const record::RunRecord& run : measurements.runs()) {
     const Line line = {run.method, run.protocol};
-    if (is_measured(run) && std::find(lines.begin(), lines.end(), line) == lines.end()) lines.push_back(line);
+    if (is_measured(run) && std::ranges::find(lines, line) == lines.end()) lines.push_back(line);
   }
   return lines;
 }
@@ -93,8 +92,7 @@ bool same_polygons(const Measurements& measurements, const Line& one, const Line
 json make_headline(const Measurements& measurements) {
   const Line reference = reference_line();
   const std::vector<Line> lines = lines_with_results(measurements);
-  if (!measurements.has_times() || std::find(lines.begin(), lines.end(), reference) == lines.end())
-    return nullptr;
+  if (!measurements.has_times() || std::ranges::find(lines, reference) == lines.end()) return nullptr;
   std::vector<Rival> rivals;
   for (const Line& line : lines) {
     if (teller_of(line.method) == teller_of(reference.method)) continue;

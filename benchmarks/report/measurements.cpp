@@ -17,14 +17,13 @@ bool is_invalid(const record::RunRecord& run) {
 }
 
 bool is_missing(const Runs& runs) {
-  return std::all_of(runs.begin(), runs.end(), [](const record::RunRecord* run) {
-    return run->status == record::Status::kNotInstalled;
-  });
+  return std::ranges::all_of(
+      runs, [](const record::RunRecord* run) { return run->status == record::Status::kNotInstalled; });
 }
 
 const record::RunRecord* first_failure(const Runs& runs) {
   const auto found =
-      std::find_if(runs.begin(), runs.end(), [](const record::RunRecord* run) { return !is_measured(*run); });
+      std::ranges::find_if(runs, [](const record::RunRecord* run) { return !is_measured(*run); });
   return found == runs.end() ? nullptr : *found;
 }
 
@@ -49,7 +48,7 @@ std::vector<std::int64_t> step_times(const record::RunRecord& run, const std::ve
     for (const auto& [phase, time] : phases) {
       const std::size_t dot = phase.find('.');
       if (dot == std::string::npos) continue;
-      if (std::find(parts.begin(), parts.end(), phase.substr(dot + 1)) == parts.end()) continue;
+      if (std::ranges::find(parts, phase.substr(dot + 1)) == parts.end()) continue;
       told = true;
       sum += time;
     }
@@ -131,7 +130,7 @@ Measurements::Measurements(const json& report)
   const auto place = [&](const Case& which) {
     return std::make_tuple(first_seen.at(which.dataset), which.holes, which.n);
   };
-  std::sort(cases_.begin(), cases_.end(), [&](const Case& a, const Case& b) { return place(a) < place(b); });
+  std::ranges::sort(cases_, [&](const Case& a, const Case& b) { return place(a) < place(b); });
   cases_.erase(std::unique(cases_.begin(), cases_.end()), cases_.end());
 }
 

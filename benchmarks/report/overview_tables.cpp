@@ -52,7 +52,7 @@ std::vector<std::string> datasets_with_values(const json& plan) {
 
 bool has_run_on(const json& report, const std::string& dataset) {
   const json& runs = report.at("runs");
-  return std::any_of(runs.begin(), runs.end(), [&](const json& run) { return run.at("dataset") == dataset; });
+  return std::ranges::any_of(runs, [&](const json& run) { return run.at("dataset") == dataset; });
 }
 
 std::vector<Column> columns_of(const std::vector<json>& reports) {
@@ -105,7 +105,7 @@ std::string value_text(const Column& column, const json& parameter) {
 /// Whether the report has a run of the line: a plan may name methods that are measured on request only.
 bool has_run(const json& report, const Line& line) {
   const json& runs = report.at("runs");
-  return std::any_of(runs.begin(), runs.end(), [&](const json& run) {
+  return std::ranges::any_of(runs, [&](const json& run) {
     return run.at("method") == line.method && run.at("protocol") == line.protocol;
   });
 }
@@ -134,11 +134,11 @@ std::vector<std::pair<Line, std::string>> parameter_lines(const std::vector<json
       const json parameters = method.value("parameters", json::object());
       for (const auto& [name, unused] : parameters.items()) {
         const std::pair<Line, std::string> entry = {line, name};
-        if (std::find(lines.begin(), lines.end(), entry) == lines.end()) lines.push_back(entry);
+        if (std::ranges::find(lines, entry) == lines.end()) lines.push_back(entry);
       }
     }
   }
-  std::stable_sort(lines.begin(), lines.end(), [](const auto& a, const auto& b) {
+  std::ranges::stable_sort(lines, [](const auto& a, const auto& b) {
     return std::pair(a.first.method, a.first.protocol) < std::pair(b.first.method, b.first.protocol);
   });
   return lines;

@@ -44,8 +44,8 @@ Ratios ratios_over(const Measurements& measurements, const Line& line, const Lin
   middles.reserve(ratios.size());
   for (const CaseRatios& one : ratios) middles.push_back(one.middle);
   result.median = statistics::median(middles);
-  std::tie(result.least, result.most) = std::pair(*std::min_element(middles.begin(), middles.end()),
-                                                  *std::max_element(middles.begin(), middles.end()));
+  std::tie(result.least, result.most) =
+      std::pair(*std::ranges::min_element(middles), *std::ranges::max_element(middles));
   result.interval = interval_over(ratios);
   return result;
 }
@@ -74,7 +74,7 @@ Ratios metric_ratios(const Measurements& measurements, const Line& line, const L
 }
 
 const record::RunRecord* counterpart(const record::RunRecord& run, const Runs& references) {
-  const auto found = std::find_if(references.begin(), references.end(), [&](const record::RunRecord* other) {
+  const auto found = std::ranges::find_if(references, [&](const record::RunRecord* other) {
     return other->dataset_sha256 == run.dataset_sha256 && other->seed == run.seed;
   });
   return found == references.end() ? nullptr : *found;

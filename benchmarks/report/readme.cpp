@@ -41,7 +41,7 @@ std::optional<table::Table> methods_table(const json& report) {
   for (const Line& line : lines_of(context, shape)) {
     const bool is_papers =
         paper().at("methods").contains(line.method) && paper().at("protocol") == line.protocol;
-    const bool is_rival = std::any_of(rivals.begin(), rivals.end(), [&](const json& rival) {
+    const bool is_rival = std::ranges::any_of(rivals, [&](const json& rival) {
       return rival.at("method") == line.method && rival.at("protocol") == line.protocol;
     });
     if (!is_papers && !is_rival) continue;

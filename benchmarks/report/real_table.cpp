@@ -142,7 +142,7 @@ table::Table methods_table(const TableContext& context) {
     }
     if (runs.empty()) continue;
     const auto good =
-        std::count_if(runs.begin(), runs.end(), [](const record::RunRecord* run) { return has_hull(*run); });
+        std::ranges::count_if(runs, [](const record::RunRecord* run) { return has_hull(*run); });
     std::vector<table::Cell> cells = {label(context, line), static_cast<std::size_t>(good)};
     cells.back().of = {static_cast<double>(runs.size()), 0};
     for (const Measure& measure : kMeasures) {

@@ -68,8 +68,8 @@ void add_how_to_read(bool times, Sentences& notes) {
 }
 
 void add_paper_notes(const std::vector<record::RunRecord>& runs, Sentences& notes) {
-  if (std::none_of(runs.begin(), runs.end(),
-                   [](const record::RunRecord& run) { return paper().at("protocol") == run.protocol; })) {
+  if (std::ranges::none_of(
+          runs, [](const record::RunRecord& run) { return paper().at("protocol") == run.protocol; })) {
     return;
   }
   for (const json& note : paper().at("notes")) notes.push_back(note.get<std::string>());
@@ -80,7 +80,7 @@ void add_plan_notes(const json& report, const std::vector<record::RunRecord>& ru
   for (const json& note : plan.value("notes", json::array())) notes.push_back(note.get<std::string>());
   for (const json& method : plan.value("methods", json::array())) {
     const std::string note = method.value("note", "");
-    const bool has_row = std::any_of(runs.begin(), runs.end(), [&](const record::RunRecord& run) {
+    const bool has_row = std::ranges::any_of(runs, [&](const record::RunRecord& run) {
       return run.method == method.value("method", "") && run.protocol == method.value("protocol", "");
     });
     if (note.empty() || !has_row) continue;
@@ -94,9 +94,7 @@ void add_missing_methods(const json& report, const std::vector<record::RunRecord
   for (const json& method : report.at("methods")) {
     if (method.value("installed", true)) continue;
     const std::string name = method.at("name").get<std::string>();
-    if (std::any_of(runs.begin(), runs.end(),
-                    [&](const record::RunRecord& run) { return run.method == name; }))
-      continue;
+    if (std::ranges::any_of(runs, [&](const record::RunRecord& run) { return run.method == name; })) continue;
     notes.push_back(not_installed_text(report, method_title(report, name), name, method.value("detail", "")));
   }
 }
@@ -147,7 +145,7 @@ void add_noise(const json& report, const std::vector<record::RunRecord>& runs, S
 void add_too_fast(const std::vector<record::RunRecord>& runs, Sentences& notes) {
   std::string names;
   for (const record::RunRecord& run : runs) {
-    if (std::count(run.flags.begin(), run.flags.end(), record::kFasterThanFloor) > 0)
+    if (std::ranges::count(run.flags, record::kFasterThanFloor) > 0)
       names += (names.empty() ? "" : ", ") + run.name;
   }
   if (names.empty()) return;
@@ -165,7 +163,7 @@ void add_unsteady(const std::vector<record::RunRecord>& runs, Sentences& notes) 
   std::size_t again = 0;
   std::size_t unsteady = 0;
   const auto has = [](const record::RunRecord& run, const char* flag) {
-    return std::find(run.flags.begin(), run.flags.end(), flag) != run.flags.end();
+    return std::ranges::find(run.flags, flag) != run.flags.end();
   };
   for (const record::RunRecord& run : runs) {
     if (run.time_ns.empty()) continue;
@@ -209,7 +207,7 @@ void add_environments(const json& report, Sentences& notes) {
     add_environment(environment, "Machine " + environment.at("machine_id").get<std::string>() + ": ", all);
   }
   for (std::string& note : all) {
-    if (std::find(notes.begin(), notes.end(), note) == notes.end()) notes.push_back(std::move(note));
+    if (std::ranges::find(notes, note) == notes.end()) notes.push_back(std::move(note));
   }
 }
 

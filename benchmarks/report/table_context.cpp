@@ -113,8 +113,7 @@ std::size_t usual_repetitions(const Measurements& measurements) {
     if (!run.time_ns.empty()) ++rows[run.time_ns.size()];
   }
   if (rows.empty()) return 0;
-  return std::max_element(rows.begin(), rows.end(),
-                          [](const auto& a, const auto& b) { return a.second <= b.second; })
+  return std::ranges::max_element(rows, [](const auto& a, const auto& b) { return a.second <= b.second; })
       ->first;
 }
 
@@ -139,15 +138,14 @@ std::string row_label(const TableContext& context, const Line& line, const std::
 }
 
 std::string hull_sign(const Runs& runs) {
-  const bool worse = std::any_of(
-      runs.begin(), runs.end(), [](const record::RunRecord* run) { return is_worse_than_convex_hull(*run); });
+  const bool worse =
+      std::ranges::any_of(runs, [](const record::RunRecord* run) { return is_worse_than_convex_hull(*run); });
   return worse ? table::kSign : "";
 }
 
 void explain_hull_sign(table::Table& table) {
-  const bool any = std::any_of(table.rows.begin(), table.rows.end(), [](const auto& cells) {
-    return std::any_of(cells.begin(), cells.end(),
-                       [](const table::Cell& cell) { return cell.sign == table::kSign; });
+  const bool any = std::ranges::any_of(table.rows, [](const auto& cells) {
+    return std::ranges::any_of(cells, [](const table::Cell& cell) { return cell.sign == table::kSign; });
   });
   if (any)
     table.remarks.push_back(
@@ -171,12 +169,12 @@ std::vector<Line> lines_of(const TableContext& context, const Shape& shape) {
   for (const json& method : context.report.at("methods"))
     methods.push_back(method.at("name").get<std::string>());
   for (const record::RunRecord& run : context.measurements.runs()) {
-    if (std::find(methods.begin(), methods.end(), run.method) == methods.end()) methods.push_back(run.method);
+    if (std::ranges::find(methods, run.method) == methods.end()) methods.push_back(run.method);
   }
   std::vector<Line> result;
   for (const std::string& method : methods) {
     for (const record::Protocol& protocol : record::protocols()) {
-      const bool occurs = std::any_of(shape.begin(), shape.end(), [&](const Case& which) {
+      const bool occurs = std::ranges::any_of(shape, [&](const Case& which) {
         return !context.measurements.find(method, protocol.name, which).empty();
       });
       if (occurs) result.push_back({method, protocol.name});
@@ -192,8 +190,7 @@ std::vector<std::size_t> failure_notes(TableContext& context, const Line& line, 
         first_failure(context.measurements.find(line.method, line.protocol, which));
     if (failure == nullptr) continue;
     const std::string name = failure_name(*failure);
-    const auto found =
-        std::find_if(kinds.begin(), kinds.end(), [&](const auto& kind) { return kind.first == name; });
+    const auto found = std::ranges::find_if(kinds, [&](const auto& kind) { return kind.first == name; });
     if (found == kinds.end()) {
       kinds.push_back({name, {failure}});
     } else {

@@ -109,8 +109,7 @@ std::vector<table::Column> ratio_columns(bool times) {
 std::optional<table::Table> ratio_table(const TableContext& context, const std::vector<Case>& cases) {
   const Line reference = reference_line();
   const std::vector<Line> lines = lines_of(context, cases);
-  if (std::find(lines.begin(), lines.end(), reference) == lines.end() || lines.size() < 2)
-    return std::nullopt;
+  if (std::ranges::find(lines, reference) == lines.end() || lines.size() < 2) return std::nullopt;
   const bool times = context.measurements.has_times();
   table::Table table{"ratios",
                      "All cases together: ratios to " + label(context, reference) +
@@ -203,7 +202,7 @@ std::optional<table::Table> cold_table(const TableContext& context) {
       if (warm.back() > 0) ratios.push_back(cold.back() / warm.back());
     }
     if (ratios.empty()) continue;
-    const auto [least, most] = std::minmax_element(ratios.begin(), ratios.end());
+    const auto [least, most] = std::ranges::minmax_element(ratios);
     table.add_row({label(context, line), cold.size(), milliseconds(statistics::median(cold)),
                    milliseconds(statistics::median(warm)), table::Number(statistics::median(ratios)),
                    table::Number(*least), table::Number(*most)});
@@ -236,7 +235,7 @@ std::vector<table::Cell> published_steps(const Line& line, const std::vector<Lin
   std::string method = line.method;
   const std::string teller = teller_of(method);
   const auto tells = [&](const Line& other) { return other.method == teller; };
-  if (teller != method && std::any_of(lines.begin(), lines.end(), tells)) return {};
+  if (teller != method && std::ranges::any_of(lines, tells)) return {};
   for (const auto& [told, by] : paper().at("steps").at("told_by").items()) {
     if (by == json(line.method)) method = told;
   }
@@ -295,7 +294,7 @@ std::optional<table::Table> claims_table(TableContext& context) {
   table.columns.push_back(table::words("Verdict"));
   const json& known = paper().at("claims").at("list");
   const auto known_claim = [&](const json& id) {
-    return *std::find_if(known.begin(), known.end(), [&](const json& claim) { return claim.at("id") == id; });
+    return *std::ranges::find_if(known, [&](const json& claim) { return claim.at("id") == id; });
   };
   for (const json& claim : context.report.at("summary").at("claims")) {
     // Of an experiment on one case only the claims about a single case can be judged; the others need its
@@ -327,7 +326,7 @@ std::optional<table::Table> claims_table(TableContext& context) {
 bool is_papers_experiment(const TableContext& context) {
   const json& datasets = paper().at("claims").at("datasets");
   const auto& runs = context.measurements.runs();
-  return std::any_of(runs.begin(), runs.end(), [&](const record::RunRecord& run) {
+  return std::ranges::any_of(runs, [&](const record::RunRecord& run) {
     return paper().at("protocol") == run.protocol &&
            std::find(datasets.begin(), datasets.end(), run.dataset) != datasets.end();
   });

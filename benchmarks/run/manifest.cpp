@@ -80,7 +80,7 @@ std::string hash_of(const std::string& text, const json& command, const fs::path
     const fs::path file = resolved(word.get<std::string>(), folder);
     if (is_beside(word.get<std::string>()) && fs::is_regular_file(file)) hashes.push_back(sha256_file(file));
   }
-  std::sort(hashes.begin(), hashes.end());
+  std::ranges::sort(hashes);
   std::string all = sha256_hex(text);
   for (const std::string& hash : hashes) all += hash;
   return sha256_hex(all);
@@ -123,12 +123,11 @@ std::vector<Manifest> load_manifests(const std::vector<fs::path>& folders) {
     for (const auto& entry : fs::directory_iterator(folder, ignored)) {
       if (is_manifest(entry.path())) files.push_back(entry.path());
     }
-    std::sort(files.begin(), files.end());
+    std::ranges::sort(files);
     for (const fs::path& file : files) {
       Manifest manifest = load_manifest(file);
-      const auto same = std::find_if(manifests.begin(), manifests.end(), [&](const Manifest& other) {
-        return other.method.name == manifest.method.name;
-      });
+      const auto same = std::ranges::find_if(
+          manifests, [&](const Manifest& other) { return other.method.name == manifest.method.name; });
       if (same != manifests.end() && same->sha256 == manifest.sha256) continue;
       if (same != manifests.end()) {
         throw ConfigurationError("two manifests describe the method '" + manifest.method.name +

@@ -53,7 +53,7 @@ std::vector<Source> load_sources(const std::vector<fs::path>& folders) {
   std::vector<Source> sources;
   sources.reserve(folders.size());
   for (const fs::path& folder : folders) sources.push_back(load_source(folder));
-  std::sort(sources.begin(), sources.end(), [](const Source& a, const Source& b) {
+  std::ranges::sort(sources, [](const Source& a, const Source& b) {
     const auto begin_a = begin_of(a);
     const auto begin_b = begin_of(b);
     return begin_a != begin_b ? begin_a < begin_b : a.run.at("runs") < b.run.at("runs");
@@ -283,14 +283,14 @@ json merge_notes(const std::vector<Source>& sources, const Rows& rows, std::size
 
 std::vector<std::string> common_order(std::vector<std::vector<std::string>> lists) {
   // The longest first: what a shard lacks, its list cannot put in its place.
-  std::sort(lists.begin(), lists.end(),
-            [](const auto& a, const auto& b) { return a.size() != b.size() ? a.size() > b.size() : a < b; });
+  std::ranges::sort(
+      lists, [](const auto& a, const auto& b) { return a.size() != b.size() ? a.size() > b.size() : a < b; });
   std::vector<std::string> result;
   for (const auto& list : lists) {
     // A new name goes behind the one that it follows in its list.
     auto place = result.begin();
     for (const std::string& name : list) {
-      const auto known = std::find(result.begin(), result.end(), name);
+      const auto known = std::ranges::find(result, name);
       place = (known == result.end() ? result.insert(place, name) : known) + 1;
     }
   }

@@ -53,8 +53,8 @@ std::vector<std::string> MethodCatalog::names() const {
 }
 
 const worker::Method& MethodCatalog::find(const std::string& name) const {
-  const auto found = std::find_if(methods_.begin(), methods_.end(),
-                                  [&](const worker::Method& method) { return method.name == name; });
+  const auto found =
+      std::ranges::find_if(methods_, [&](const worker::Method& method) { return method.name == name; });
   if (found == methods_.end()) {
     throw ConfigurationError("there is no method '" + name + "'; 'hullbench list' shows them");
   }

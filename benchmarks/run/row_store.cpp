@@ -107,7 +107,7 @@ void RowStore::append_row(const record::RunRecord& row) {
 
 void RowStore::append_rows(const std::vector<record::RunRecord>& rows) {
   const std::scoped_lock guard(mutex_);
-  const bool replaces_another_id = std::any_of(rows.begin(), rows.end(), [&](const record::RunRecord& row) {
+  const bool replaces_another_id = std::ranges::any_of(rows, [&](const record::RunRecord& row) {
     const auto earlier = places_.find(row.*where_.key);
     return earlier != places_.end() && rows_[earlier->second].id != row.id;
   });

@@ -192,7 +192,7 @@ std::optional<fs::path> find_unfinished(const fs::path& runs,
                                         const std::function<bool(const fs::path&)>& is_same,
                                         const char* mark) {
   const std::vector<fs::path> folders = newest_first(runs);
-  const auto newest = std::find_if(folders.begin(), folders.end(), is_same);
+  const auto newest = std::ranges::find_if(folders, is_same);
   if (newest == folders.end() || fs::exists(*newest / mark)) return std::nullopt;
   return *newest;
 }

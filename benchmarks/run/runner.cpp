@@ -73,7 +73,7 @@ bool is_done(const plan::Plan& plan, const plan::PlannedRun& run, const RunDirec
 /// The reasons to doubt a row.
 std::vector<std::string> flags_of(const record::RunRecord& record,
                                   const std::vector<Repetition>& repetitions) {
-  const auto any = [&](auto is_so) { return std::any_of(repetitions.begin(), repetitions.end(), is_so); };
+  const auto any = [&](auto is_so) { return std::ranges::any_of(repetitions, is_so); };
   const double floor = record::kFloorNsPerPoint * static_cast<double>(record.n);
   std::vector<std::string> flags;
   if (any([&](const Repetition& one) { return static_cast<double>(one.time_ns) < floor; }))
@@ -258,7 +258,7 @@ class Runner {
   /// the part has no result.
   void run_on_parts(CaseWork& one) {
     const auto is_to_run = [](const Entry& entry) { return !entry.run.over && entry.run.result; };
-    if (std::none_of(one.entries.begin(), one.entries.end(), is_to_run)) return;
+    if (std::ranges::none_of(one.entries, is_to_run)) return;
     for (int draw = 0; draw < plan_.draws; ++draw) {
       PointParts parts = draw_parts(one.drawn->set().points, case_of(one.runs).dataset, plan_.seed, draw);
       for (Entry& entry : one.entries) entry.run.draws.emplace_back();
@@ -333,7 +333,7 @@ class Runner {
     const auto differs = [&](const Repetition& earlier) {
       return earlier.output_sha256 != run.record.output_sha256;
     };
-    if (!run.over && std::any_of(entry.repetitions.begin(), entry.repetitions.end(), differs)) {
+    if (!run.over && std::ranges::any_of(entry.repetitions, differs)) {
       entry.repetitions.clear();
       run.fail(record::Status::kInvalidOutput,
                "the result is not the one that it gave before the interruption");
@@ -343,7 +343,7 @@ class Runner {
   /// The entries that take part in the round of the pass's number `turn`, in random order.
   std::vector<Entry*> draw_turns(std::vector<Entry>& entries, int turn, int round) const {
     std::vector<Entry*> turns(entries.size());
-    std::transform(entries.begin(), entries.end(), turns.begin(), [](Entry& entry) { return &entry; });
+    std::ranges::transform(entries, turns.begin(), [](Entry& entry) { return &entry; });
     // Drawn from the case and the round, so that a run that goes on after an interruption keeps its order.
     const std::string& points = entries.front().run.drawn->set().sha256;
     Random random(derive_seed(plan_.seed, "order/" + points + "/" + std::to_string(round)));
@@ -425,8 +425,7 @@ class Runner {
     // Case by case first: the results of one case would wait for each other.
     for_each_in_parallel(batch.size(), options_.cores, [&](std::size_t i) {
       const std::vector<Entry>& entries = batch[i].entries;
-      if (std::any_of(entries.begin(), entries.end(),
-                      [](const Entry& entry) { return entry.run.result.has_value(); }))
+      if (std::ranges::any_of(entries, [](const Entry& entry) { return entry.run.result.has_value(); }))
         batch[i].drawn->prepare_scoring();
     });
     for_each_in_parallel(finished.size(), options_.cores, [&](std::size_t i) { finished[i]->run.score(); });
@@ -489,16 +488,15 @@ RunResult run_plan(const plan::Plan& plan, const std::vector<plan::PlannedRun>& 
 }
 
 bool has_repetitions(const plan::Plan& plan, const std::vector<plan::PlannedRun>& runs, int pass) {
-  return std::any_of(runs.begin(), runs.end(), [&](const plan::PlannedRun& run) {
+  return std::ranges::any_of(runs, [&](const plan::PlannedRun& run) {
     return share_of(plan, plan.methods[run.method_index], pass) > 0;
   });
 }
 
 std::size_t count_finished(const plan::Plan& plan, const std::vector<plan::PlannedRun>& runs,
                            const RunDirectory& directory) {
-  return static_cast<std::size_t>(std::count_if(runs.begin(), runs.end(), [&](const plan::PlannedRun& run) {
-    return is_done(plan, run, directory, plan.passes);
-  }));
+  return static_cast<std::size_t>(std::ranges::count_if(
+      runs, [&](const plan::PlannedRun& run) { return is_done(plan, run, directory, plan.passes); }));
 }
 
 std::int64_t estimated_points(const plan::PlanCase& plan_case) {
@@ -526,8 +524,8 @@ std::vector<ProgressRun> progress_runs(const plan::Plan& plan, const std::vector
 }
 
 void count_row(RunResult& result, record::Status status, const std::vector<std::string>& accepted) {
-  const bool good = status != record::Status::kOk &&
-                    std::find(accepted.begin(), accepted.end(), to_string(status)) != accepted.end();
+  const bool good =
+      status != record::Status::kOk && std::ranges::find(accepted, to_string(status)) != accepted.end();
   ++(good ? result.accepted : result.counts[status]);
 }
 

@@ -44,12 +44,12 @@ std::vector<CaseRuns> cases_of(const plan::Plan& plan, const std::vector<plan::P
 std::vector<std::size_t> distribute(const std::vector<CaseRuns>& cases, std::size_t count) {
   std::vector<std::size_t> order(cases.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
-  std::stable_sort(order.begin(), order.end(),
-                   [&](std::size_t a, std::size_t b) { return cases[a].work > cases[b].work; });
+  std::ranges::stable_sort(order,
+                           [&](std::size_t a, std::size_t b) { return cases[a].work > cases[b].work; });
   std::vector<std::int64_t> loads(count, 0);
   std::vector<std::size_t> shards(cases.size());
   for (const std::size_t which : order) {
-    const auto least = std::min_element(loads.begin(), loads.end());
+    const auto least = std::ranges::min_element(loads);
     *least += cases[which].work;
     shards[which] = static_cast<std::size_t>(least - loads.begin());
   }

@@ -57,7 +57,7 @@ std::string fault_of_folder(const fs::path& folder) {
       return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '.' ||
              c == '_' || c == '-' || c == '/';
     };
-    if (!std::all_of(name.begin(), name.end(), is_plain))
+    if (!std::ranges::all_of(name, is_plain))
       return "a file's name has other characters than A-Z a-z 0-9 . _ -";
     const fs::file_status status = entry.symlink_status();
     if (status.type() == fs::file_type::directory) continue;
@@ -74,8 +74,7 @@ std::string fault_of_description(const json& submission, const std::vector<std::
     return "submission.json is no submission";
   if (const auto faults = record::validate_by_kind(submission); !faults.empty()) return faults.front();
   const auto method = submission.at("method").get<std::string>();
-  if (std::find(known.begin(), known.end(), method) != known.end())
-    return "this project has a method " + method;
+  if (std::ranges::find(known, method) != known.end()) return "this project has a method " + method;
   return "";
 }
 
@@ -177,7 +176,7 @@ bool is_same(const json& before, const json& now) {
 /// Where a distance was taken can differ by a tie, and a reason is in GEOS's words.
 bool is_compared(const std::string& metric) {
   return !metric.ends_with("_x") && !metric.ends_with("_y") && metric != "invalid_reason" &&
-         std::find(kOfTheRun.begin(), kOfTheRun.end(), metric) == kOfTheRun.end();
+         std::ranges::find(kOfTheRun, metric) == kOfTheRun.end();
 }
 
 std::string fault_of_scores(const json& run, const Rescored& rescored) {
@@ -205,7 +204,7 @@ std::vector<std::string> submitted_files(const fs::path& folder) {
     const std::string file = entry.path().lexically_relative(folder).generic_string();
     if (!entry.is_directory() && file != kSubmissionFile) files.push_back(file);
   }
-  std::sort(files.begin(), files.end());
+  std::ranges::sort(files);
   return files;
 }
 

@@ -57,8 +57,8 @@ void Workbench::add(worker::Method method, const worker::WorkerLimits& limits) {
 }
 
 worker::MethodSession* Workbench::find(const std::string& method) const {
-  const auto found = std::find_if(sessions_.begin(), sessions_.end(),
-                                  [&](const auto& session) { return session->method().name == method; });
+  const auto found =
+      std::ranges::find_if(sessions_, [&](const auto& session) { return session->method().name == method; });
   return found == sessions_.end() ? nullptr : found->get();
 }
 

@@ -102,7 +102,7 @@ double chance_of_case(const Passes& passes, double limit) {
   std::vector<Surplus> surpluses;
   surpluses.reserve(passes.size());
   for (const auto& pass : passes) {
-    const auto below = std::count_if(pass.begin(), pass.end(), [&](double value) { return value <= limit; });
+    const auto below = std::ranges::count_if(pass, [&](double value) { return value <= limit; });
     const Surplus one = surplus_of_one(static_cast<double>(below) / static_cast<double>(pass.size()));
     Surplus rounds;
     for (std::size_t round = 0; round < pass.size(); ++round) rounds = sum_of(rounds, one);
@@ -131,7 +131,7 @@ std::vector<double> values_of(const Clusters& clusters) {
       for (const auto& pass : passes) values.insert(values.end(), pass.begin(), pass.end());
     }
   }
-  std::sort(values.begin(), values.end());
+  std::ranges::sort(values);
   return values;
 }
 
@@ -160,7 +160,7 @@ std::optional<Interval> median_interval(std::span<const std::int64_t> values) {
   std::size_t k = 1;
   while (order_statistic_probability(n, (n + 1) / 2, k) < kTail) ++k;
   std::vector<std::int64_t> sorted(values.begin(), values.end());
-  std::sort(sorted.begin(), sorted.end());
+  std::ranges::sort(sorted);
   return Interval{static_cast<double>(sorted[k - 1]), static_cast<double>(sorted[n - k])};
 }
 
@@ -171,7 +171,7 @@ std::optional<Interval> nested_median_interval(const Clusters& all) {
   // The upper end is the lower one of the values with their signs turned.
   for (auto& cluster : clusters) {
     for (Passes& passes : cluster) {
-      for (auto& pass : passes) std::transform(pass.begin(), pass.end(), pass.begin(), std::negate<>());
+      for (auto& pass : passes) std::ranges::transform(pass, pass.begin(), std::negate<>());
     }
   }
   return Interval{low, -lower_end(clusters)};

@@ -17,8 +17,8 @@ Side side_of_times(std::span<const std::int64_t> times, std::span<const std::int
   const auto ratio = ratio_of_times(others, times);
   if (!ratio) return Side::kUndecided;
   if (ratio->interval) return side_of(*ratio->interval, 1);
-  const auto [least, most] = std::minmax_element(times.begin(), times.end());
-  const auto [others_least, others_most] = std::minmax_element(others.begin(), others.end());
+  const auto [least, most] = std::ranges::minmax_element(times);
+  const auto [others_least, others_most] = std::ranges::minmax_element(others);
   const auto factor = [](std::int64_t longer, std::int64_t shorter) {
     return static_cast<double>(longer) / static_cast<double>(shorter);
   };

@@ -17,7 +17,7 @@ constexpr std::size_t kMostExactTimes = 20;
 Times sorted_times(std::span<const std::int64_t> values) {
   if (values.empty()) throw std::invalid_argument("Without a time there is no ratio of times.");
   Times result(values.begin(), values.end());
-  std::sort(result.begin(), result.end());
+  std::ranges::sort(result);
   return result;
 }
 

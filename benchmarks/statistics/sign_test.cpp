@@ -24,7 +24,7 @@ Interval sign_interval(std::span<const double> values, double confidence) {
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
   Interval interval = {-kInfinity, kInfinity};
   std::vector<double> sorted(values.begin(), values.end());
-  std::sort(sorted.begin(), sorted.end());
+  std::ranges::sort(sorted);
   const std::size_t n = sorted.size();
   for (std::size_t k = 0; k < n / 2; ++k) {
     if (2 * at_most_heads(n, k) > 1 - confidence) break;
@@ -34,10 +34,8 @@ Interval sign_interval(std::span<const double> values, double confidence) {
 }
 
 double sign_test_above(std::span<const double> values, double threshold) {
-  const auto above =
-      std::count_if(values.begin(), values.end(), [&](double value) { return value > threshold; });
-  const auto below =
-      std::count_if(values.begin(), values.end(), [&](double value) { return value < threshold; });
+  const auto above = std::ranges::count_if(values, [&](double value) { return value > threshold; });
+  const auto below = std::ranges::count_if(values, [&](double value) { return value < threshold; });
   return at_most_heads(static_cast<std::size_t>(above + below), static_cast<std::size_t>(below));
 }
 

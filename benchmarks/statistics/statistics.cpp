@@ -15,7 +15,7 @@ std::vector<double> sorted_copy(std::span<const T> values) {
   sorted.reserve(values.size());
   // Exact below 2^53 ns, which is 104 days.
   for (const T value : values) sorted.push_back(static_cast<double>(value));
-  std::sort(sorted.begin(), sorted.end());
+  std::ranges::sort(sorted);
   return sorted;
 }
 
@@ -95,7 +95,7 @@ Statistics describe(std::span<const std::int64_t> values) {
   result.median_interval = median_interval(values);
   result.count = values.size();
   result.mad = median_absolute_deviation(values);
-  const auto [minimum, maximum] = std::minmax_element(values.begin(), values.end());
+  const auto [minimum, maximum] = std::ranges::minmax_element(values);
   result.minimum = *minimum;
   result.maximum = *maximum;
   result.mean = mean(values);
@@ -106,8 +106,7 @@ Statistics describe(std::span<const std::int64_t> values) {
 std::vector<double> holm_adjusted(std::span<const double> p_values) {
   std::vector<std::size_t> order(p_values.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
-  std::sort(order.begin(), order.end(),
-            [&](std::size_t x, std::size_t y) { return p_values[x] < p_values[y]; });
+  std::ranges::sort(order, [&](std::size_t x, std::size_t y) { return p_values[x] < p_values[y]; });
   std::vector<double> result(p_values.size());
   double largest = 0;
   for (std::size_t place = 0; place < order.size(); ++place) {

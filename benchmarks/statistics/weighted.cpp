@@ -50,7 +50,7 @@ double median_of_sorted(const std::vector<WeightedValue>& values) {
 }  // namespace
 
 double weighted_median(std::vector<WeightedValue> values) {
-  std::sort(values.begin(), values.end(), [](const auto& a, const auto& b) { return a.value < b.value; });
+  std::ranges::sort(values, [](const auto& a, const auto& b) { return a.value < b.value; });
   return median_of_sorted(values);
 }
 
@@ -71,8 +71,8 @@ std::optional<Interval> weighted_median_interval(const Clusters& all) {
   for (std::size_t c = 0; c < clusters.size(); ++c) {
     for (const WeightedValue& one : clusters[c]) sorted.emplace_back(one, c);
   }
-  std::stable_sort(sorted.begin(), sorted.end(),
-                   [](const auto& a, const auto& b) { return a.first.value < b.first.value; });
+  std::ranges::stable_sort(sorted,
+                           [](const auto& a, const auto& b) { return a.first.value < b.first.value; });
   std::mt19937_64 random;  // whose numbers, unlike the library's distributions, are the same everywhere
   std::vector<double> medians(kSamples);
   std::vector<WeightedValue> sample(sorted.size());
@@ -83,7 +83,7 @@ std::optional<Interval> weighted_median_interval(const Clusters& all) {
       sample[i] = {sorted[i].first.value, sorted[i].first.weight * drawn[sorted[i].second]};
     median = median_of_sorted(sample);
   }
-  std::sort(medians.begin(), medians.end());
+  std::ranges::sort(medians);
   const auto beyond = static_cast<std::size_t>(kTail * kSamples);
   return Interval{medians[beyond], medians[kSamples - 1 - beyond]};
 }

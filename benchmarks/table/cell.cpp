@@ -44,7 +44,7 @@ std::string Cell::marks() const {
 }
 
 std::size_t Notes::number(const std::string& text) {
-  auto found = std::find(texts_.begin(), texts_.end(), text);
+  auto found = std::ranges::find(texts_, text);
   if (found == texts_.end()) found = texts_.insert(texts_.end(), text);
   return static_cast<std::size_t>(found - texts_.begin()) + 1;
 }

@@ -43,8 +43,7 @@ std::string to_csv(const Table& table) {
     std::vector<std::array<std::string, kTitles.size()>> cells;
     for (const auto& row : table.rows) cells.push_back(fields_of(row[column]));
     for (std::size_t field = 0; field < kTitles.size(); ++field) {
-      if (field > 0 &&
-          std::all_of(cells.begin(), cells.end(), [&](const auto& one) { return one[field].empty(); }))
+      if (field > 0 && std::ranges::all_of(cells, [&](const auto& one) { return one[field].empty(); }))
         continue;
       lines[0] += csv_text(table.columns[column].title + kTitles[field]) + ',';
       for (std::size_t row = 0; row < cells.size(); ++row)

@@ -33,8 +33,8 @@ constexpr std::array<std::pair<std::string_view, std::string_view>, 20> kSymbols
 std::string latex_text(std::string_view text) {
   std::string result;
   while (!text.empty()) {
-    const auto* symbol = std::find_if(kSymbols.begin(), kSymbols.end(),
-                                      [&](const auto& entry) { return text.starts_with(entry.first); });
+    const auto* symbol =
+        std::ranges::find_if(kSymbols, [&](const auto& entry) { return text.starts_with(entry.first); });
     const bool known = symbol != kSymbols.end();
     result += known ? symbol->second : text.substr(0, 1);
     text.remove_prefix(known ? symbol->first.size() : 1);

@@ -22,8 +22,8 @@ std::string escaped(const std::string& text) {
 
 std::size_t display_width(std::string_view text) {
   // Every byte but the continuation bytes 10xxxxxx begins a character.
-  return static_cast<std::size_t>(std::count_if(
-      text.begin(), text.end(), [](char c) { return (static_cast<unsigned char>(c) & 0xC0U) != 0x80U; }));
+  return static_cast<std::size_t>(
+      std::ranges::count_if(text, [](char c) { return (static_cast<unsigned char>(c) & 0xC0U) != 0x80U; }));
 }
 
 std::vector<std::vector<std::string>> shown(const Table& table) {

@@ -120,7 +120,7 @@ std::vector<double> errors_reached(const MethodTuning& method, const MethodOnCas
     }
   }
   swept.resize(std::max(swept.size(), grid(*method.axis, kSweepPoints).size()), kInfinitelyBad);
-  std::sort(swept.begin(), swept.end());
+  std::ranges::sort(swept);
   std::vector<double> reached;
   for (std::size_t count = 1; count <= swept.size(); ++count)
     reached.push_back(median_of_least(swept, count));
@@ -150,10 +150,10 @@ CurveCases curve_cases(const Tuning& tuning, const MethodTuning& method) {
 }  // namespace
 
 std::optional<double> tolerance_octaves(std::vector<SearchPoint> points) {
-  std::sort(points.begin(), points.end(),
-            [](const SearchPoint& a, const SearchPoint& b) { return a.position < b.position; });
-  const auto best = std::min_element(points.begin(), points.end(),
-                                     [](const auto& a, const auto& b) { return a.error < b.error; });
+  std::ranges::sort(points,
+                    [](const SearchPoint& a, const SearchPoint& b) { return a.position < b.position; });
+  const auto best =
+      std::ranges::min_element(points, [](const auto& a, const auto& b) { return a.error < b.error; });
   if (best == points.end() || is_infinitely_bad(best->error)) return std::nullopt;
   const double limit = kToleratedError * best->error;
   auto low = best;
@@ -178,7 +178,7 @@ std::optional<double> tolerance_octaves(const MethodOnCase& found) {
 std::optional<TunedValue> choose_tuned(const MethodTuning& method) {
   if (method.rounds.empty()) return std::nullopt;
   const HalvingRound& last = method.rounds.back();
-  const auto best = std::min_element(last.scores.begin(), last.scores.end());
+  const auto best = std::ranges::min_element(last.scores);
   if (best == last.scores.end() || is_infinitely_bad(*best)) return std::nullopt;
   const double position = last.positions[static_cast<std::size_t>(best - last.scores.begin())];
   const std::vector<double> all = grid(*method.axis, kGridPoints);

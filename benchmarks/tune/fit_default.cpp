@@ -77,8 +77,8 @@ void print_fit(std::vector<MadeLimitCase>& cases, int tries, std::uint64_t seed)
   }
   print("Searches, with the constants that each found", table);
   const bool gains = print_held_out(cases, tries, seed);
-  const LimitClimb& best = *std::min_element(
-      climbs.begin(), climbs.end(), [](const auto& a, const auto& b) { return a.score_to < b.score_to; });
+  const LimitClimb& best =
+      *std::ranges::min_element(climbs, [](const auto& a, const auto& b) { return a.score_to < b.score_to; });
   std::cout
       << (gains ? "\nThe constants to take are the best found, as searches gain on what they did not see"
                 : "\nThe constants to take are those in the code, as searches gain nothing on what they did "
@@ -242,7 +242,7 @@ void print_voids() {
       });
       table.add_row({is_normal ? "normal" : "uniform in a square", n,
                      table::Number(statistics::mean(std::span<const double>(holes)), 2),
-                     std::count(holes.begin(), holes.end(), 0),
+                     std::ranges::count(holes, 0),
                      table::Number(statistics::mean(std::span<const double>(parts)), 2)});
     }
   }

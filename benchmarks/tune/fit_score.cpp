@@ -27,7 +27,7 @@ std::vector<CandidateScore> score_curve(const ErrorTable& table) {
     errors.reserve(table.errors.size());
     for (const std::vector<double>& of_case : table.errors) errors.push_back(of_case[k]);
     CandidateScore one = {.candidate = table.candidates[k], .score = fit_score(table.shapes, errors)};
-    one.failures = static_cast<std::size_t>(std::count_if(errors.begin(), errors.end(), &is_infinitely_bad));
+    one.failures = static_cast<std::size_t>(std::ranges::count_if(errors, &is_infinitely_bad));
     if (!errors.empty()) one.median = statistics::median(std::span<const double>(errors));
     curve.push_back(one);
   }
@@ -35,8 +35,7 @@ std::vector<CandidateScore> score_curve(const ErrorTable& table) {
 }
 
 const CandidateScore& best_of(const std::vector<CandidateScore>& curve) {
-  return *std::min_element(curve.begin(), curve.end(),
-                           [](const auto& a, const auto& b) { return a.score < b.score; });
+  return *std::ranges::min_element(curve, [](const auto& a, const auto& b) { return a.score < b.score; });
 }
 
 std::size_t best_for_all(const std::vector<std::vector<CandidateScore>>& curves) {
@@ -44,7 +43,7 @@ std::size_t best_for_all(const std::vector<std::vector<CandidateScore>>& curves)
   for (const std::vector<CandidateScore>& curve : curves) {
     for (std::size_t k = 0; k < products.size(); ++k) products[k] *= curve.at(k).score;
   }
-  return static_cast<std::size_t>(std::min_element(products.begin(), products.end()) - products.begin());
+  return static_cast<std::size_t>(std::ranges::min_element(products) - products.begin());
 }
 
 }  // namespace hullbench::tune

@@ -54,12 +54,11 @@ std::vector<std::size_t> round_ends(std::size_t cases) {
 std::vector<double> better_half(const std::vector<double>& positions, const std::vector<double>& scores) {
   std::vector<std::size_t> order(positions.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
-  std::stable_sort(order.begin(), order.end(),
-                   [&](std::size_t a, std::size_t b) { return scores[a] < scores[b]; });
+  std::ranges::stable_sort(order, [&](std::size_t a, std::size_t b) { return scores[a] < scores[b]; });
   order.resize((order.size() + 1) / 2);
   std::vector<double> kept;
   for (const std::size_t place : order) kept.push_back(positions[place]);
-  std::sort(kept.begin(), kept.end());
+  std::ranges::sort(kept);
   return kept;
 }
 

@@ -37,8 +37,7 @@ LimitCase::LimitCase(std::span<const Point> points, const MultiPolygon& truth) {
     const polylidar::detail::Triangle triangle(mesh, builder_.vertices(), finite[i]);
     by_perimeter_.push_back({triangle.perimeter(), area, change_[finite[i]]});
   }
-  std::sort(by_perimeter_.begin(), by_perimeter_.end(),
-            [](const Sized& a, const Sized& b) { return a.perimeter < b.perimeter; });
+  std::ranges::sort(by_perimeter_, [](const Sized& a, const Sized& b) { return a.perimeter < b.perimeter; });
 }
 
 double LimitCase::error(const polylidar::detail::AutomaticConstants& constants) {

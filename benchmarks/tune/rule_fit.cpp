@@ -27,8 +27,8 @@ class NoSteps final : public Steps {
 
 std::unique_ptr<Adapter> make_method(const std::string& name) {
   const auto& registry = adapter_registry();
-  const auto entry = std::find_if(registry.begin(), registry.end(),
-                                  [&](const AdapterEntry& candidate) { return candidate.name == name; });
+  const auto entry =
+      std::ranges::find_if(registry, [&](const AdapterEntry& candidate) { return candidate.name == name; });
   if (entry == registry.end())
     throw std::runtime_error("this build has no method '" + name + "' to fit a rule with");
   return entry->make();

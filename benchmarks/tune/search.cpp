@@ -22,8 +22,8 @@ class Search {
       timeouts = trial.timed_out ? timeouts + 1 : 0;
       if (timeouts == kMostTimeouts) break;
     }
-    const auto best = std::min_element(points_.begin(), points_.end(),
-                                       [](const auto& a, const auto& b) { return a.error < b.error; });
+    const auto best =
+        std::ranges::min_element(points_, [](const auto& a, const auto& b) { return a.error < b.error; });
     if (best == points_.end() || is_infinitely_bad(best->error)) return points_;
     const auto place = static_cast<std::size_t>(best - points_.begin());
     refine(std::log2(positions[place == 0 ? 0 : place - 1]),
@@ -61,8 +61,8 @@ class Search {
   double refined(double logarithm) {
     const double exact = std::exp2(logarithm);
     const double position = axis_.unit == "count" ? std::round(exact) : exact;
-    const auto known = std::find_if(points_.begin(), points_.end(),
-                                    [&](const SearchPoint& point) { return point.position == position; });
+    const auto known =
+        std::ranges::find_if(points_, [&](const SearchPoint& point) { return point.position == position; });
     if (known != points_.end()) return known->error;
     points_.push_back({position, evaluate_(position).error, false});
     return points_.back().error;

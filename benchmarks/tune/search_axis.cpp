@@ -16,8 +16,8 @@ bool is_length(const ParameterInfo& parameter) {
 /// Null when the method has none.
 const ParameterInfo* searched_parameter(const MethodInfo& info) {
   const auto& all = info.parameters;
-  const auto first = std::find_if(all.begin(), all.end(),
-                                  [](const ParameterInfo& parameter) { return parameter.unit != "switch"; });
+  const auto first =
+      std::ranges::find_if(all, [](const ParameterInfo& parameter) { return parameter.unit != "switch"; });
   if (first == all.end()) return nullptr;
   if (first->unit != "ratio") return &*first;
   const auto length = std::find_if(first, all.end(), is_length);

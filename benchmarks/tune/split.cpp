@@ -9,8 +9,7 @@ namespace hullbench::tune {
 namespace {
 
 const SplitRow* find_row(const std::vector<SplitRow>& rows, const std::string& name) {
-  const auto found =
-      std::find_if(rows.begin(), rows.end(), [&](const SplitRow& row) { return row.name == name; });
+  const auto found = std::ranges::find_if(rows, [&](const SplitRow& row) { return row.name == name; });
   return found == rows.end() ? nullptr : &*found;
 }
 
@@ -121,7 +120,7 @@ std::vector<std::string> samplers_of(const std::string& dataset) {
 
 bool has_unseen_sampler(const std::string& dataset) {
   const std::vector<std::string> samplers = samplers_of(dataset);
-  return std::any_of(samplers.begin(), samplers.end(), [](const std::string& sampler) {
+  return std::ranges::any_of(samplers, [](const std::string& sampler) {
     const SplitRow* row = find_row(sampler_split(), sampler);
     return row == nullptr || row->side != Side::kTraining;
   });

@@ -21,7 +21,7 @@ std::vector<std::size_t> cases_of(const plan::Plan& plan, const Tuning& tuning, 
     const TuningCase& one = tuning.cases[i];
     const auto same = [&](const plan::PlanCase& other) { return other.key() == one.plan_case.key(); };
     if (one.side() == Side::kTest && one.seed == plan.seed &&
-        std::any_of(plan.expanded_cases.begin(), plan.expanded_cases.end(), same) && condition(i))
+        std::ranges::any_of(plan.expanded_cases, same) && condition(i))
       result.push_back(i);
   }
   return result;
@@ -44,8 +44,8 @@ std::map<std::string, plan::ParameterChoice> as_choices(const Parameters& parame
 
 /// With the words and limits that the plan has for the method anyway.
 plan::PlanMethod entry_for(const plan::Plan& plan, const std::string& method, const std::string& protocol) {
-  const auto like = std::find_if(plan.methods.begin(), plan.methods.end(),
-                                 [&](const plan::PlanMethod& other) { return other.method == method; });
+  const auto like = std::ranges::find_if(
+      plan.methods, [&](const plan::PlanMethod& other) { return other.method == method; });
   plan::PlanMethod entry;
   if (like != plan.methods.end()) entry = *like;
   entry.method = method;
@@ -59,8 +59,8 @@ plan::PlanMethod entry_for(const plan::Plan& plan, const std::string& method, co
 /// Of a method that the plan does not name. What the default of the others is the plan says: a parameter that
 /// can be left out is not always one that anybody leaves out.
 void add_default(plan::Plan& result, const plan::Plan& plan, const MethodTuning& method) {
-  const bool named = std::any_of(plan.methods.begin(), plan.methods.end(),
-                                 [&](const plan::PlanMethod& entry) { return entry.method == method.name; });
+  const bool named = std::ranges::any_of(
+      plan.methods, [&](const plan::PlanMethod& entry) { return entry.method == method.name; });
   if (named || !has_defaults(*method.info)) return;
   plan::PlanMethod entry = entry_for(plan, method.name, "default");
   entry.parameters = as_choices(fixed_parameters(*method.info));

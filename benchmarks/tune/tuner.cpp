@@ -304,7 +304,7 @@ void add_entries(TuningCase& one, const plan::Plan& plan) {
     const auto same = [&](const plan::PlanMethod& other) {
       return other.method == entry.method && other.protocol == entry.protocol;
     };
-    if (std::none_of(one.entries.begin(), one.entries.end(), same)) one.entries.push_back(entry);
+    if (std::ranges::none_of(one.entries, same)) one.entries.push_back(entry);
   }
 }
 
@@ -326,7 +326,7 @@ const record::RunRecord* best_evaluation(const MethodOnCase& found) {
 
 const record::RunRecord* evaluation_at(const MethodOnCase& found, double position) {
   const auto same = [&](const SweepEvaluation& one) { return one.position == position; };
-  const auto place = std::find_if(found.sweep.begin(), found.sweep.end(), same);
+  const auto place = std::ranges::find_if(found.sweep, same);
   return place == found.sweep.end() ? nullptr : &place->evaluation;
 }
 
@@ -343,7 +343,7 @@ std::vector<TuningCase> tuning_cases(const std::vector<plan::Plan>& plans) {
       const auto same = [&](const TuningCase& other) {
         return other.plan_case.key() == plan_case.key() && other.seed == plan.seed;
       };
-      auto place = std::find_if(cases.begin(), cases.end(), same);
+      auto place = std::ranges::find_if(cases, same);
       if (place == cases.end()) place = cases.insert(place, {plan_case, plan.seed, plan.timeout_s});
       add_entries(*place, plan);
     }

@@ -67,7 +67,7 @@ class VertexRule {
       if (0.88 * area / (spacing * spacing) >= most_held() + 2) return;
       for (const Mesh::Index t : hole) kept[t] = true;
     });
-    if (std::find(kept.begin(), kept.end(), true) == kept.end() && fullest < count) kept[fullest] = true;
+    if (std::ranges::find(kept, true) == kept.end() && fullest < count) kept[fullest] = true;
     return kept;
   }
 
