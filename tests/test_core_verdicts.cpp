@@ -66,6 +66,8 @@ TEST(CoreVerdicts, AGoalThatSomeRepetitionsMeetIsUndecided) {
   EXPECT_EQ(line_of(measurements, kAgainstCgal).verdict, Verdict::kUndecided) << "one repetition misses it";
   measurements["concave_hull/ca/2000"].times = {3.8e5, 3.9e5, 4e5};
   EXPECT_EQ(line_of(measurements, kAgainstCgal).verdict, Verdict::kMet);
+  measurements["concave_hull/ca/2000"].times = {4e5, 4.1e5, 4.2e5};
+  EXPECT_EQ(line_of(measurements, kAgainstCgal).verdict, Verdict::kUndecided) << "one is at the limit";
   measurements["concave_hull/ca/2000"].times = {4.05e5, 4.1e5, 4.2e5};
   EXPECT_EQ(line_of(measurements, kAgainstCgal).verdict, Verdict::kMissed);
   measurements["concave_hull_2_threads/ca/64000"].times = {5e6, 4e6, 4.5e6};  // 1.28 to 1.6 times faster
