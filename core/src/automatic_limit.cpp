@@ -3,10 +3,13 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <cstring>
 #include <limits>
 #include <span>
+#include <utility>
 
 #include "clusters.hpp"
+#include "kernels.hpp"
 #include "outline_steps.hpp"
 #include "quantile.hpp"
 
@@ -37,6 +40,32 @@ double least_wide_square(double points, double wide, double density) {
 double margin_of(std::uint64_t points) {
   constexpr double kRoom = 1.1;
   return kRoom * std::sqrt(least_wide_square(static_cast<double>(points), AutomaticConstants::kWide, 1));
+}
+
+/// Writes the Triangle::size4() of `first` and of the next triangle, NaN for a ghost. Two at once take less
+/// than twice the time of one.
+void measure_pair(const Mesh& mesh, const Point* vertices, Mesh::Index first, double* size4) {
+  if (mesh.is_ghost(first) || mesh.is_ghost(first + 1)) {
+    for (Mesh::Index k = 0; k < 2; ++k) {
+      size4[k] = mesh.is_ghost(first + k) ? std::numeric_limits<double>::quiet_NaN()
+                                          : Triangle(mesh, vertices, first + k).size4();
+    }
+    return;
+  }
+  using Pair = Coordinates<2>::Vector;
+  const auto corner = [&](std::size_t k) {
+    const Point& of_first = vertices[mesh.corners(first)[k]];
+    const Point& of_second = vertices[mesh.corners(first + 1)[k]];
+    return std::pair(Pair{of_first.x, of_second.x}, Pair{of_first.y, of_second.y});
+  };
+  const auto [ax, ay] = corner(0);
+  const auto [bx, by] = corner(1);
+  const auto [cx, cy] = corner(2);
+  const Pair ab = (ax - bx) * (ax - bx) + (ay - by) * (ay - by);
+  const Pair bc = (bx - cx) * (bx - cx) + (by - cy) * (by - cy);
+  const Pair ca = (cx - ax) * (cx - ax) + (cy - ay) * (cy - ay);
+  const Pair sizes = size4_of(ab, bc, ca, (cx - ax) * (ay - by) - (cy - ay) * (ax - bx));
+  std::memcpy(size4, &sizes, sizeof sizes);
 }
 
 /// The share of the records that are used. Points that repeat others leave theirs unused. It is estimated
@@ -219,11 +248,10 @@ SizedMesh AutomaticLimit::measure_triangles(const DelaunayBuilder& builder, Thre
   if (mesh.triangle_count() <= kMeasuredAtOnce) {
     double* const size4 = size4_.reserve(mesh.triangle_count());
     const Point* const vertices = builder.vertices();
-    const Chunks chunks(pool, mesh.triangle_count());
-    pool.for_each(chunks.size(), [&](std::size_t c) {
-      for (auto t = static_cast<Mesh::Index>(chunks.begin(c)); t < chunks.end(c); ++t) {
-        size4[t] =
-            mesh.is_ghost(t) ? std::numeric_limits<double>::quiet_NaN() : Triangle(mesh, vertices, t).size4();
+    const Chunks pairs(pool, mesh.triangle_count() / 2);
+    pool.for_each(pairs.size(), [&](std::size_t c) {
+      for (std::size_t pair = pairs.begin(c); pair < pairs.end(c); ++pair) {
+        measure_pair(mesh, vertices, static_cast<Mesh::Index>(2 * pair), &size4[2 * pair]);
       }
     });
     field_.size4 = size4;

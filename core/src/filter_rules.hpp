@@ -19,6 +19,18 @@ namespace polylidar::detail {
 /// with two of them, and with it the circumradius.
 inline constexpr double kTooClose = 0x1p-40;
 
+/// The fourth power of the size of a triangle with these squared edges and this area. `Number` is double, or
+/// a vector with a number for each of several triangles.
+template <class Number>
+[[gnu::always_inline]] inline Number size4_of(const Number& ab, const Number& bc, const Number& ca,
+                                              const Number& twice_area) {
+  constexpr double kEquilateral = 1.1547005383792515;  // 2 / sqrt 3
+  const auto least = [](const Number& a, const Number& b) { return a < b ? a : b; };
+  const auto most = [](const Number& a, const Number& b) { return a > b ? a : b; };
+  const Number middle = most(least(ab, bc), least(most(ab, bc), ca));
+  return middle * most(kEquilateral * twice_area, middle / 16.0);
+}
+
 /// A finite triangle of the mesh, as the rules use it. All is inlined, so only what a rule asks for is
 /// computed.
 struct Triangle {
@@ -46,11 +58,7 @@ struct Triangle {
   double size4() const { return size4(twice_area()); }
   /// The same for a triangle with this area.
   double size4(double twice_area) const {
-    constexpr double kEquilateral = 1.1547005383792515;  // 2 / sqrt 3
-    const double ab = squared_ab();
-    const double bc = squared_bc();
-    const double middle = std::max(std::min(ab, bc), std::min(std::max(ab, bc), squared_ca()));
-    return middle * std::max(kEquilateral * twice_area, middle / 16);
+    return size4_of(squared_ab(), squared_bc(), squared_ca(), twice_area);
   }
 
   Mesh::Index index;
