@@ -121,6 +121,7 @@ define drawn
 rm -rf $(2) && mkdir -p $(call drawn_into,$(1)) && build/hullbench report $(1) --out $(2) >/dev/null && \
 { build/hullbench league $(1) --all-cases --csv $(2)/cases.csv >/dev/null || true; } && \
 for extra in tables core.json league.json league.csv tune.json tune.json.xz; do [ ! -e $(1)/$$extra ] || cp -r $(1)/$$extra $(2); done && \
+{ [ ! -e $(1)/report.html.gz ] || zcat $(1)/report.html.gz >$(2)/report.html; } && \
 { [ ! -e $(1)/league/suite.json ] || build/hullbench league $(1)/league --csv $(2)/league.csv >/dev/null; }
 endef
 
@@ -162,8 +163,7 @@ site: ## write build/site, static pages of the reference run for any web server 
 	@$(MAKE) build
 	@$(if $(HAS_WASM),$(MAKE) js)
 	@$(foreach run,$(RUNS),$(call drawn,$(run),$(call drawn_folder,$(run),site/)) && \
-	  { [ ! -e $(run)/report.html ] || cp $(run)/report.html $(call drawn_folder,$(run),site/); } && \
-	  { [ ! -e $(run)/report.html.gz ] || zcat $(run)/report.html.gz >$(call drawn_folder,$(run),site/)/report.html; } &&) true
+	  { [ ! -e $(run)/report.html ] || cp $(run)/report.html $(call drawn_folder,$(run),site/); } &&) true
 	@build/hullbench list --json >build/drawn/listing.json
 	@/usr/bin/python3 plots/make_site.py $(foreach run,$(RUNS),$(call drawn_folder,$(run),site/)) --out build/site \
 	  --listing build/drawn/listing.json $$([ ! -e build-js/demo.html ] || echo --demo build-js/demo.html)

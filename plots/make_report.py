@@ -14,7 +14,8 @@ from pathlib import Path
 from typing import Any
 
 from front import Front, front_html, make_front
-from page import Section, byline, code, colours, data, entrants, method_styles, page, place, write_page
+from page import Section, byline, code, colours, data, entrants, kept_data, method_styles, page, place, write_page
+from pictures import is_kept, kept_pictures
 from pictures import pack as pack_pictures
 from records import Experiment, exit_code_of, load, options_of_run
 from report_common import text
@@ -47,8 +48,9 @@ def make_page(experiments: Sequence[Experiment], folder: Path) -> str:
     """The whole page. Raises RecordError when the charting library or esbuild is missing."""
     title = "Concave hulls: " + (experiments[0].title if len(experiments) == 1 else "the whole suite")
     front = make_front(folder)
+    kept = folder / "report.html" if is_kept(folder, experiments) else None
     report = {**_report(experiments, folder, title), "leader": _leader(front)}
-    sections = _sections(experiments, folder, front)
+    sections = _sections(experiments, folder, front, kept)
     parts = {**code(STYLES, "main.js"), "colours": colours(report["methods"])}
     blocks = [
         data("report", report),
@@ -60,13 +62,16 @@ def make_page(experiments: Sequence[Experiment], folder: Path) -> str:
     def with_blocks(*more: str) -> str:
         return page(text(title), byline(experiments), sections, [*blocks, *more], parts)
 
+    if kept is not None:
+        return with_blocks(data("pictures", kept_data(kept.read_text(encoding="utf-8"), "pictures")))
     room = max(MOST_BYTES - _RESERVE_BYTES - len(with_blocks().encode()), MOST_BYTES // 5)
     return with_blocks(data("pictures", pack_pictures(experiments, room)))
 
 
-def _sections(experiments: Sequence[Experiment], folder: Path, front: Front) -> list[Section]:
+def _sections(experiments: Sequence[Experiment], folder: Path, front: Front, kept: Path | None) -> list[Section]:
     summaries = [summarise(experiment) for experiment in experiments]
-    strip = strip_html(experiments, front.ratings[0] if front.ratings else None)
+    pictures = kept_pictures(kept, experiments) if kept is not None else None
+    strip = strip_html(experiments, front.ratings[0] if front.ratings else None, pictures)
     tables = tables_html(experiments, folder) or "<p>The run has no tables/tables.json.</p>"
     by_script = "The charts, the gallery and the table of all runs"
     parameters = parameters_html(experiments, folder)

@@ -357,12 +357,18 @@ def _block(header: dict[str, Any], sections: Sequence[bytes]) -> str:
 # Back again.
 
 
+def is_kept(folder: Path, experiments: Sequence[Experiment]) -> bool:
+    """Whether a run has no pictures but those in its report.html, as a kept reference run."""
+    page = folder / "report.html"
+    if any(one.pictures_file() for one in experiments) or not page.is_file():
+        return False
+    return kept_data(page.read_text(encoding="utf-8"), "pictures") is not None
+
+
 def kept_pictures(page: Path, experiments: Sequence[Experiment]) -> list[dict[str, Picture]]:
-    """By experiment and case: what a report shows, in its coarser grid. A kept reference run has no other pictures. Nothing
-    where the page is not there or has none."""
+    """By experiment and case: what a report shows, in its coarser grid."""
     found: list[dict[str, Picture]] = [{} for _ in experiments]
-    packed = kept_data(page.read_text(encoding="utf-8"), "pictures") if page.is_file() else None
-    for entry in packed["cases"] if packed else []:
+    for entry in kept_data(page.read_text(encoding="utf-8"), "pictures")["cases"]:
         picture = _unpacked(entry)
         for place, experiment in enumerate(experiments):
             if experiment.name in entry["experiments"]:

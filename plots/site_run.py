@@ -10,7 +10,7 @@ from typing import Any
 
 from front import Front, make_front
 from page import PLOTS
-from pictures import kept_pictures
+from pictures import is_kept, kept_pictures
 from ratings import DIVISIONS, Division, Results, divisions, read
 from records import Experiment, Picture, Row, load, member_of
 from report_common import METHOD_LOOKS
@@ -137,9 +137,8 @@ def protocol_order(row: Row) -> int:
 def load_run(folder: Path) -> SiteRun:
     """Raises RecordError when it is no run, or something in it is malformed."""
     experiments = load(folder)
-    pictures = [one.pictures() for one in experiments]
-    if not any(pictures):
-        pictures = kept_pictures(folder / "report.html", experiments)
+    kept = is_kept(folder, experiments)
+    pictures = kept_pictures(folder / "report.html", experiments) if kept else [one.pictures() for one in experiments]
     files = [folder / name for name in ("cases.csv", "league.csv")]
     return SiteRun(
         folder,

@@ -16,6 +16,7 @@ from plot_tests import Elements, WithFolder, call  # first, for what is in plots
 import make_report
 import page
 import report_data
+from pictures import pack as packed_pictures
 from records import load
 from report_common import number
 from report_data import MetricTable, charts, columns, pack, title_of
@@ -429,6 +430,13 @@ class Page(Folder):
         page = make_report.make_page(load(self.folder), self.folder)
         for word, kind in kinds.items():
             self.assertRegex(page, f"<span class='verdict {kind}'>{word}")
+
+    def test_a_run_without_pictures_shows_those_of_its_kept_report(self):
+        experiments = self.load(run())
+        pictures = json.loads(json.dumps({**packed_pictures(experiments), "kept": True}))
+        (self.folder / "report.html").write_text(page.data("pictures", pictures), encoding="utf-8")
+        made = make_report.make_page(experiments, self.folder)
+        self.assertEqual(page.kept_data(made, "pictures"), pictures)
 
     def test_text_of_records_stays_text(self):
         evil = report([run(status="error", detail=EVIL, dataset="star-1"), run("cgal")], notes=[EVIL])

@@ -12,7 +12,7 @@ import plot_samples
 from plot_tests import WithFolder  # first, for what is in plots/
 
 from page import data
-from pictures import BUDGET_BYTES, GRID, MOST_VERTICES, kept_pictures, pack
+from pictures import BUDGET_BYTES, GRID, MOST_VERTICES, is_kept, kept_pictures, pack
 from records import RecordError, load
 
 STEP = 16  # of the recorded grid in the packed one
@@ -101,7 +101,11 @@ class Pictures(WithFolder):
         self.assertEqual(found[case].case["points"], [value for point in points for value in point])
         self.assertEqual(found[case].case["ground_truth"], truth)
         self.assertEqual({name: one["polygons"] for name, one in found[case].results.items()}, {row(case)["name"]: result})
-        self.assertEqual(kept_pictures(self.folder / "none.html", load(self.folder)), [{}])
+        self.assertFalse(is_kept(self.folder, load(self.folder)), "it has its own pictures")
+        load(self.folder)[0].pictures_file().unlink()
+        self.assertTrue(is_kept(self.folder, load(self.folder)))
+        page.write_text("<p>no pictures</p>", encoding="utf-8")
+        self.assertFalse(is_kept(self.folder, load(self.folder)))
 
     def test_needless_vertices_and_vanishing_rings_are_left_out(self) -> None:
         case = "ca/n:2000/holes:0"
