@@ -39,7 +39,7 @@ Curve::Curve(const Box& box, std::size_t points) : minimum_(box.min) {
 
 CurveEntry* sort_along(const Curve& curve, std::span<const Point> points, CurveEntry* entries,
                        CurveEntry* spare, ThreadPool& pool) {
-  constexpr std::size_t kSmallestChunk = 8192;  // a step does little to a point
+  constexpr std::size_t kSmallestChunk = 4096;  // a step does little to a point
   const Chunks chunks(pool, points.size(), kSmallestChunk);
   const auto for_each_chunk = [&](const auto& task) {
     pool.for_each(chunks.size(), [&](std::size_t c) { task(c, chunks.begin(c), chunks.end(c)); });
