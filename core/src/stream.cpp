@@ -445,16 +445,24 @@ void Stream::find_uncertain_points() {
 bool Stream::find_near_cells(const detail::FewCells& uncertain_cells, detail::FewCells& near_cells) {
   constexpr std::uint64_t kPointsForOneKept = 4;
   constexpr std::uint64_t kPointsForOneCell = 32;
+  constexpr double kMostBytes = 0x1p28;
   static constexpr auto kHalfWidths = detail::make_half_widths<2 * detail::kRadius>();
   constexpr std::size_t kWordsOfReach = 2 * kHalfWidths.size();  // at most, for each cell
   const std::size_t words = std::min(kWordsOfReach * uncertain_cells.count(), grid_.word_count());
   const auto bytes = static_cast<double>(sizeof(Bitmap::Word) * (grid_.word_count() + 2 * words));
-  const double most = std::max(stream_options_.most_map_bytes - bytes, 0.0) / sizeof(NumberedPoint);
+  const double room = std::min(stream_options_.most_map_bytes - bytes, kMostBytes);
+  const double most = std::max(room, 0.0) / sizeof(NumberedPoint);
   const std::uint64_t share = part_.source_points / kPointsForOneKept;
   most_near_ = static_cast<std::size_t>(std::min(static_cast<double>(share), most));
   kept_near_ = 0;
   if (kPointsForOneCell * uncertain_cells.count() > part_.source_points) return false;
-  if (uncertain_cells.count() > most_near_) return false;
+  const Box& box = part_.box;
+  const double per_length = grid_.cells_per_length();
+  const double cells = (box.max.x - box.min.x) * per_length * ((box.max.y - box.min.y) * per_length);
+  const double points_a_cell = static_cast<double>(part_.source_points) / cells;
+  constexpr double kNearOne = 200;  // a quarter of the cells within 2 r of one, as neighbours share them
+  const double expected = kNearOne * points_a_cell * static_cast<double>(uncertain_cells.count());
+  if (expected > static_cast<double>(most_near_)) return false;
 
   const Grid::Cell in_row = grid_.row_words() * Grid::kWordBits;
   const Rows tested{tested_.begin - seen_.begin, tested_.end - seen_.begin};

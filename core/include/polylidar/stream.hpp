@@ -74,8 +74,8 @@ class NeedsAllPoints : public std::invalid_argument {
 /// The concave hull of all points of `sources`, which are one after the other as one source. They are read
 /// three times: where the points are, which cells of a grid they occupy, and which of them may be on the
 /// outline (core/INTERIOR.md). The last time, all points that may be near the outline are kept. If they are
-/// more than a quarter of all, or more than StreamOptions::most_map_bytes has room for, the sources are read
-/// a fourth time to find them. If no limit is given, the sources are read two or three
+/// more than a quarter of all, or take more than 256 MB or than StreamOptions::most_map_bytes has room for,
+/// the sources are read a fourth time to find them. If no limit is given, the sources are read two or three
 /// times more after the first time: how many points are where, and which lie in small windows
 /// (core/AUTOMATIC.md). With StreamOptions::expected they are read once less. Memory: some bits a cell of a
 /// sixth of the limit's radius, and 125 bytes a point near the outline.
