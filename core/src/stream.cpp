@@ -462,7 +462,7 @@ bool Stream::find_near_cells(const detail::FewCells& uncertain_cells, detail::Fe
   const double points_a_cell = static_cast<double>(part_.source_points) / cells;
   constexpr double kNearOne = 200;  // a quarter of the cells within 2 r of one, as neighbours share them
   const double expected = kNearOne * points_a_cell * static_cast<double>(uncertain_cells.count());
-  if (expected > static_cast<double>(most_near_)) return false;
+  if (expected > most) return false;
 
   const Grid::Cell in_row = grid_.row_words() * Grid::kWordBits;
   const Rows tested{tested_.begin - seen_.begin, tested_.end - seen_.begin};
