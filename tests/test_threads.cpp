@@ -155,6 +155,50 @@ TEST(ThreadPool, RunsEveryTaskOnce) {
   }
 }
 
+// With more threads than cores, a thread often comes when its job is over and the next one has begun: it must
+// not take part in a job that is for fewer threads.
+TEST(ThreadPool, RunsEveryTaskOnceWhereThreadsComeLate) {
+  detail::ThreadPool pool;
+  pool.use(8);
+  constexpr std::size_t kTasks = 16;
+  constexpr std::size_t kMostThreads = 2;
+  std::vector<std::atomic<std::size_t>> runs(kTasks);
+  std::atomic<std::size_t> others = 0;  // tasks on threads that should take no part
+  const auto take_a_while = [] {
+    for (int i = 0; i < 300; ++i) std::atomic_signal_fence(std::memory_order_seq_cst);
+  };
+  for (std::size_t job = 1; job <= 20'000; ++job) {
+    if (job % 2 == 0) {
+      pool.for_each(kTasks, [&](std::size_t i) { take_a_while(), ++runs[i]; });
+    } else {
+      pool.for_each_by_thread(kTasks, kMostThreads, [&](std::size_t thread, std::size_t i) {
+        if (thread >= kMostThreads) ++others;
+        take_a_while(), ++runs[i];
+      });
+    }
+    for (std::size_t i = 0; i < kTasks; ++i) ASSERT_EQ(runs[i], job) << "task " << i;
+  }
+  EXPECT_EQ(others, 0U);
+}
+
+TEST(ThreadPool, GivesEachThreadANumberOfItsOwn) {
+  detail::ThreadPool pool;
+  pool.use(5);
+  for (const std::size_t most : {1U, 2U, 3U, 5U, 9U}) {
+    std::vector<std::atomic<bool>> is_busy(most);
+    std::atomic<std::size_t> runs = 0;
+    for (int repeat = 0; repeat < 200; ++repeat) {
+      pool.for_each_by_thread(20, most, [&](std::size_t thread, std::size_t) {
+        ASSERT_LT(thread, most);
+        EXPECT_FALSE(is_busy[thread].exchange(true));
+        ++runs;
+        is_busy[thread] = false;
+      });
+    }
+    EXPECT_EQ(runs, 200U * 20U);
+  }
+}
+
 TEST(ThreadPool, PassesOnAnException) {
   detail::ThreadPool pool;
   for (const unsigned threads : {1U, 4U}) {

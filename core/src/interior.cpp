@@ -27,11 +27,8 @@ void append(std::vector<T>& all, const std::vector<T>& part) {
   all.insert(all.end(), part.begin(), part.end());
 }
 
-/// How many parts of the work have a bitmap of the whole grid each: of many threads not all take part.
-std::size_t parts_of(const ThreadPool& pool) {
-  constexpr std::size_t kMostParts = 8;
-  return std::min<std::size_t>(pool.threads(), kMostParts);
-}
+/// So many threads have bitmaps of the whole grid of their own.
+constexpr std::size_t kMostFills = 8;
 
 /// Number k of a sequence of places among `points` points, of which any first ones are spread evenly, and at
 /// no regular distance: points that come row by row might all begin one.
@@ -65,7 +62,7 @@ std::optional<Way> InteriorPart::choose(std::span<const Point> points, const Coo
 
   // Lengths are rounded harmlessly, areas of triangles with close corners are not.
   const bool pairs_matter = circumradii_matter && range.unit == 0;
-  begin_cells(points, pool);
+  begin_cells(points);
   if (guard.most_uncertain < 1 && cells_in_disk(points) < kFewCellsInDisk &&
       are_uncertain_beside_one(points)) {
     return Way::kMuchOutline;
@@ -103,21 +100,42 @@ double InteriorPart::choose_grid(std::span<const Point> points, const Box& box, 
   return radius;
 }
 
-/// Calls join(word, part) for every word of a bitmap and every part but the first.
-template <class Join>
-void InteriorPart::join_parts(ThreadPool& pool, const Join& join) {
-  const Chunks chunks(pool, grid_.word_count());
-  pool.for_each(chunks.size(), [&](std::size_t c) {
-    for (std::size_t part = 1; part < parts_of(pool); ++part) {
-      for (std::size_t w = chunks.begin(c); w < chunks.end(c); ++w) join(w, part);
-    }
+/// Calls task(fill, i) for every i below `count`, with the bitmaps of the thread that takes it. Before,
+/// begin(fill) is called once for the first bitmaps and for those of every thread that takes a task.
+template <class Begin, class Task>
+void InteriorPart::for_each_into_fills(std::size_t count, ThreadPool& pool, const Begin& begin,
+                                       const Task& task) {
+  const std::size_t most = std::min<std::size_t>(pool.threads(), kMostFills);
+  while (fills_.size() < most) fills_.emplace_back();
+  for (Fill& fill : fills_) fill.is_used = false;
+  const auto use = [&](Fill& fill) {
+    if (!fill.is_used) begin(fill);
+    fill.is_used = true;
+  };
+  pool.for_each_by_thread(count, most, [&](std::size_t thread, std::size_t i) {
+    use(fills_[thread]);
+    task(fills_[thread], i);
   });
+  use(fills_.front());
+}
+
+/// After for_each_into_fills(): calls join(word, fill) for every word of a bitmap and all bitmaps that were
+/// used but the first.
+template <class Join>
+void InteriorPart::join_fills(ThreadPool& pool, const Join& join) {
+  for (std::size_t f = 1; f < fills_.size(); ++f) {
+    if (!fills_[f].is_used) continue;
+    const Chunks chunks(pool, grid_.word_count());
+    pool.for_each(chunks.size(), [&](std::size_t c) {
+      for (std::size_t w = chunks.begin(c); w < chunks.end(c); ++w) join(w, fills_[f]);
+    });
+  }
 }
 
 /// Puts some of the points into their cells: rows of them, as copies of a point often follow one another.
-void InteriorPart::begin_cells(std::span<const Point> points, ThreadPool& pool) {
+void InteriorPart::begin_cells(std::span<const Point> points) {
   std::uint32_t* const cells = cells_.reserve(points.size());
-  while (fills_.size() < parts_of(pool)) fills_.emplace_back();
+  if (fills_.empty()) fills_.emplace_back();
   occupied().clear(grid_.word_count());
   for (std::size_t begin = 0; begin < points.size(); begin += kRowOutOf) {
     const std::size_t count = std::min(kRow, points.size() - begin);
@@ -127,20 +145,23 @@ void InteriorPart::begin_cells(std::span<const Point> points, ThreadPool& pool) 
 
 /// Puts all points into their cells after begin_cells(), each thread into a bitmap of its own.
 void InteriorPart::fill_other_cells(std::span<const Point> points, ThreadPool& pool) {
-  const std::size_t parts = parts_of(pool);
-  pool.for_each(parts, [&](std::size_t part) {
-    if (part > 0) fills_[part].occupied.clear(grid_.word_count());
-    const std::size_t first = points.size() * part / parts;
-    fill(points.subspan(first, points.size() * (part + 1) / parts - first), grid_.numbering(),
-         cells_.data() + first, fills_[part].occupied);
-  });
-  join_parts(pool, [&](std::size_t w, std::size_t part) {
-    occupied().words()[w] |= fills_[part].occupied.words()[w];
-  });
+  const Chunks chunks(pool, points.size());
+  for_each_into_fills(
+      chunks.size(), pool,
+      [&](Fill& fill) {
+        if (&fill != &fills_.front()) fill.occupied.clear(grid_.word_count());
+      },
+      [&](Fill& into, std::size_t c) {
+        const std::size_t begin = chunks.begin(c);
+        fill(points.subspan(begin, chunks.end(c) - begin), grid_.numbering(), cells_.data() + begin,
+             into.occupied);
+      });
+  join_fills(pool,
+             [&](std::size_t w, const Fill& other) { occupied().words()[w] |= other.occupied.words()[w]; });
 }
 
 void InteriorPart::fill_cells(std::span<const Point> points, ThreadPool& pool) {
-  begin_cells(points, pool);
+  begin_cells(points);
   fill_other_cells(points, pool);
 }
 
@@ -200,22 +221,24 @@ bool InteriorPart::are_uncertain_beside_one(std::span<const Point> points) {
 /// Finds the cells with more than one point.
 void InteriorPart::find_shared_cells(std::size_t points, ThreadPool& pool) {
   const std::uint32_t* const cells = cells_.data();
-  const std::size_t parts = parts_of(pool);
-  pool.for_each(parts, [&](std::size_t part) {
-    Bitmap& seen = fills_[part].reached;  // not needed yet
-    Bitmap& shared = fills_[part].shared;
-    seen.clear(grid_.word_count());
-    shared.clear(grid_.word_count());
-    const std::size_t end = points * (part + 1) / parts;
-    for (std::size_t i = points * part / parts; i < end; ++i) {
-      if (seen.test(cells[i])) shared.set(cells[i]);
-      seen.set(cells[i]);
-    }
-  });
-  join_parts(pool, [&](std::size_t w, std::size_t part) {
-    Bitmap::Word& seen = fills_.front().reached.words()[w];
-    const Bitmap::Word more = fills_[part].reached.words()[w];
-    shared().words()[w] |= fills_[part].shared.words()[w] | (seen & more);
+  const Chunks chunks(pool, points);
+  for_each_into_fills(
+      chunks.size(), pool,
+      [&](Fill& fill) {
+        fill.reached.clear(grid_.word_count());  // not needed yet: the cells seen so far
+        fill.shared.clear(grid_.word_count());
+      },
+      [&](Fill& fill, std::size_t c) {
+        Bitmap& seen = fill.reached;
+        for (std::size_t i = chunks.begin(c); i < chunks.end(c); ++i) {
+          if (seen.test(cells[i])) fill.shared.set(cells[i]);
+          seen.set(cells[i]);
+        }
+      });
+  join_fills(pool, [&](std::size_t w, const Fill& other) {
+    Bitmap::Word& seen = reached().words()[w];
+    const Bitmap::Word more = other.reached.words()[w];
+    shared().words()[w] |= other.shared.words()[w] | (seen & more);
     seen |= more;
   });
 }
@@ -270,9 +293,12 @@ double InteriorPart::share_of_part(std::span<const Point> points) const {
 
 void InteriorPart::find_uncertain_cells(ThreadPool& pool) {
   uncertain_cells_.clear(grid_.word_count());
-  constexpr Grid::Cell kLeastRows = 64;  // beside which the kReach rows below and above do not matter
+  constexpr Grid::Cell kLeastRows = 48;  // beside which the kReach rows below and above do not matter
   const Grid::Cell rows = grid_.rows();
-  const Grid::Cell bands = pool.threads() == 1 ? 1 : (rows + kLeastRows - 1) / kLeastRows;
+  // As many for each thread.
+  const Grid::Cell bands =
+      pool.threads() == 1 ? 1
+                          : pool.threads() * std::max(Grid::Cell{1}, rows / (kLeastRows * pool.threads()));
   pool.for_each(bands, [&](std::size_t band) {
     const auto begin = static_cast<Grid::Cell>(rows * band / bands);
     const auto end = static_cast<Grid::Cell>(rows * (band + 1) / bands);
@@ -316,18 +342,18 @@ void InteriorPart::reach_round(std::span<const Mesh::Index> triangles, const Del
 /// Marks the cells that may hold a corner of a triangle at an uncertain point, each thread in a bitmap of its
 /// own.
 void InteriorPart::mark_reach(ThreadPool& pool) {
-  const std::size_t parts = parts_of(pool);
-  pool.for_each(parts, [&](std::size_t part) {
-    Bitmap& reached = fills_[part].reached;
-    reached.clear(grid_.word_count());
-    const std::size_t begin = uncertain_.size() * part / parts;
-    const std::size_t count = uncertain_.size() * (part + 1) / parts - begin;
-    detail::mark_reach(grid_, cells_.data(), std::span(uncertain_).subspan(begin, count),
-                       std::span(open_).subspan(begin, count), reached);
-  });
-  join_parts(pool, [&](std::size_t w, std::size_t part) {
-    reached().words()[w] |= fills_[part].reached.words()[w];
-  });
+  constexpr std::size_t kSmallestChunk = 256;  // of uncertain points, each of which marks many cells
+  const Chunks chunks(pool, uncertain_.size(), kSmallestChunk);
+  for_each_into_fills(
+      chunks.size(), pool, [&](Fill& fill) { fill.reached.clear(grid_.word_count()); },
+      [&](Fill& fill, std::size_t c) {
+        const std::size_t begin = chunks.begin(c);
+        const std::size_t count = chunks.end(c) - begin;
+        detail::mark_reach(grid_, cells_.data(), std::span(uncertain_).subspan(begin, count),
+                           std::span(open_).subspan(begin, count), fill.reached);
+      });
+  join_fills(pool,
+             [&](std::size_t w, const Fill& other) { reached().words()[w] |= other.reached.words()[w]; });
 }
 
 void InteriorPart::gather(std::span<const Point> points, ThreadPool& pool) {

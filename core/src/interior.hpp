@@ -101,12 +101,15 @@ class InteriorPart {
  private:
   double choose_grid(std::span<const Point> points, const Box& box, double radius,
                      const InteriorGuard& guard);
-  void begin_cells(std::span<const Point> points, ThreadPool& pool);
+  void begin_cells(std::span<const Point> points);
   void fill_other_cells(std::span<const Point> points, ThreadPool& pool);
   double cells_in_disk(std::span<const Point> points) const;
   bool are_uncertain_beside_one(std::span<const Point> points);
+  struct Fill;
+  template <class Begin, class Task>
+  void for_each_into_fills(std::size_t count, ThreadPool& pool, const Begin& begin, const Task& task);
   template <class Join>
-  void join_parts(ThreadPool& pool, const Join& join);
+  void join_fills(ThreadPool& pool, const Join& join);
   void find_shared_cells(std::size_t points, ThreadPool& pool);
   bool are_many_uncertain(std::span<const Point> points, double most) const;
   double share_of_part(std::span<const Point> points) const;
@@ -120,6 +123,7 @@ class InteriorPart {
     Bitmap occupied;
     Bitmap shared;   ///< cells with more than one point, if asked for
     Bitmap reached;  ///< cells of the part
+    bool is_used = false;
   };
   struct Chunk {
     std::vector<std::uint32_t> uncertain;
@@ -129,7 +133,7 @@ class InteriorPart {
 
   Grid grid_;
   Scratch<std::uint32_t> cells_;  ///< point -> its cell
-  std::deque<Fill> fills_;        ///< of each part of the points; after a step the first is that of all
+  std::deque<Fill> fills_;        ///< of each thread; after a step the first is that of all
   std::vector<Chunk> chunks_;     ///< what was found in each chunk of the points
   Bitmap uncertain_cells_;
   ClosePairs close_pairs_;

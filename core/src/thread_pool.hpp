@@ -31,6 +31,10 @@ class ThreadPool {
   void for_each(std::size_t count, const Task& task) {
     for (std::size_t i = 0; i < count; ++i) task(i);
   }
+  template <class Task>
+  void for_each_by_thread(std::size_t count, std::size_t /*most_threads*/, const Task& task) {
+    for (std::size_t i = 0; i < count; ++i) task(std::size_t{0}, i);
+  }
 };
 
 class Turns {
@@ -50,6 +54,9 @@ class Turns {
 /// Of every step a thread takes the same share of consecutive tasks first, then what others left of theirs.
 /// So most of what a step reads is in the cache of the core that wrote it: fetching it from another takes
 /// about 40 ns a cache line, and 200 where the two cores share no cache.
+///
+/// Nobody waits for a thread that has no task: one that slept takes some 50 microseconds to wake up, and
+/// comes in at a later step.
 class ThreadPool {
  public:
   ThreadPool() = default;
@@ -65,40 +72,48 @@ class ThreadPool {
   /// any threw, throws the first of these exceptions.
   template <class Task>
   void for_each(std::size_t count, const Task& task) {
-    if (used_ == 1 || count < 2) {
-      for (std::size_t i = 0; i < count; ++i) task(i);
+    for_each_by_thread(count, used_, [&task](std::size_t, std::size_t i) { task(i); });
+  }
+
+  /// As for_each(), but calls task(thread, i), on at most `most_threads` threads; `thread` is below their
+  /// number, and no two run tasks under one such number at the same time.
+  template <class Task>
+  void for_each_by_thread(std::size_t count, std::size_t most_threads, const Task& task) {
+    if (used_ == 1 || count < 2 || most_threads < 2) {
+      for (std::size_t i = 0; i < count; ++i) task(std::size_t{0}, i);
       return;
     }
-    run({[](const void* t, std::size_t i) { (*static_cast<const Task*>(t))(i); }, &task, count});
+    run([](const void* t, std::size_t thread, std::size_t i) { (*static_cast<const Task*>(t))(thread, i); },
+        &task, static_cast<std::uint32_t>(count), most_threads);
   }
 
  private:
-  struct Job {
-    void (*call)(const void* task, std::size_t i) = nullptr;  ///< null tells the threads to end
-    const void* task = nullptr;
-    std::size_t count = 0;
-  };
+  using Call = void (*)(const void* task, std::size_t thread, std::size_t i);
 
   void start();
-  void run(const Job& job);
-  void work(std::size_t thread);
+  void run(Call call, const void* task, std::uint32_t count, std::size_t most_threads);
+  void work(std::size_t thread, std::uint32_t job);
   void serve(std::size_t thread);
   void stop();
 
   // What every thread reads, what all of them write, and what they wait for: each on its own cache lines.
   static constexpr std::size_t kCacheLine = 64;
+  /// A thread that comes late may read what belongs to two jobs. So it first takes a task of the job whose
+  /// number it knows: until that is done, nothing of the job changes.
   struct alignas(kCacheLine) Share {
-    std::atomic<std::size_t> next = 0;
-    std::size_t end = 0;
+    std::atomic<std::uint64_t> left = 0;  ///< tasks not taken yet; in the upper half the number of their job
+    std::atomic<std::uint32_t> end = 0;   ///< one past the last task
   };
-  Job job_;
+  std::atomic<Call> call_ = nullptr;  ///< null tells the threads to end
+  std::atomic<const void*> task_ = nullptr;
+  std::atomic<std::size_t> taking_part_ = 0;  ///< so many threads
   unsigned used_ = 1;
   std::vector<std::thread> started_;
   std::vector<Share> shares_;  ///< of the tasks: the caller's, then one of each started thread
   std::exception_ptr error_;
   std::mutex error_mutex_;
-  alignas(kCacheLine) std::atomic<std::uint32_t> jobs_given_ = 0;
-  alignas(kCacheLine) std::atomic<std::uint32_t> still_working_ = 0;
+  alignas(kCacheLine) std::atomic<std::uint32_t> job_ = 0;  ///< the number of the last one
+  alignas(kCacheLine) std::atomic<std::uint32_t> tasks_left_ = 0;
 };
 
 /// Lets threads work one after the other.
