@@ -52,12 +52,13 @@ def make_page(experiments: Sequence[Experiment], folder: Path) -> str:
     report = {**_report(experiments, folder, title), "leader": _leader(front)}
     sections = _sections(experiments, folder, front, kept)
     parts = {**code(STYLES, "main.js"), "colours": colours(report["methods"])}
-    blocks = [
-        data("report", report),
-        data("parts", pack(listed_cases(front))),
-        data("charts", pack(charts(experiments))),
-        data("rows", pack(columns(experiments))),
-    ]
+    if kept is not None and any(experiment.is_thinned for experiment in experiments):
+        kept_page = kept.read_text(encoding="utf-8")  # has what the records no longer have
+        report.update({name: kept_data(kept_page, "report")[name] for name in ("run", "metrics")})
+        results = [data(name, kept_data(kept_page, name)) for name in ("charts", "rows")]
+    else:
+        results = [data("charts", pack(charts(experiments))), data("rows", pack(columns(experiments)))]
+    blocks = [data("report", report), data("parts", pack(listed_cases(front))), *results]
 
     def with_blocks(*more: str) -> str:
         return page(text(title), byline(experiments), sections, [*blocks, *more], parts)

@@ -189,7 +189,9 @@ class Experiment:
         self.title: str = self.plan.get("title") or self.name
         self.methods: dict[str, dict[str, Any]] = {method["name"]: method for method in report["methods"]}
         self.datasets: dict[str, dict[str, Any]] = {dataset["name"]: dataset for dataset in report["datasets"]}
-        told = report["summary"]["rows"]  # one for every run; thinned records have no identity to find it by
+        # results/thin_records.py has left metrics, digits and identities out.
+        self.is_thinned = any("id" not in run for run in report["runs"])
+        told = report["summary"]["rows"]  # one for every run
         if [row["name"] for row in told] != [run["name"] for run in report["runs"]]:
             raise RecordError(f"{folder / 'report.json'} is malformed: its summary is of other runs.")
         self.rows = [Row(*both) for both in zip(report["runs"], told)]

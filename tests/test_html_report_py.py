@@ -438,6 +438,22 @@ class Page(Folder):
         made = make_report.make_page(experiments, self.folder)
         self.assertEqual(page.kept_data(made, "pictures"), pictures)
 
+    def test_what_thinned_records_lack_is_taken_from_the_kept_report(self):
+        kept = {"report": {"run": "a-run", "metrics": ["kept"]}, "charts": "kept charts", "rows": "kept rows"}
+        kept["pictures"] = json.loads(json.dumps(packed_pictures(self.load(run()))))
+        (self.folder / "report.html").write_text("".join(page.data(*block) for block in kept.items()), encoding="utf-8")
+        told = report([run()])
+        for is_thinned in (False, True):
+            if is_thinned:
+                del told["runs"][0]["id"]
+            plot_samples.write_report(self.folder, told)
+            made = make_report.make_page(load(self.folder), self.folder)
+            told_by = {name: page.kept_data(made, name) for name in kept}
+            self.assertEqual(told_by["pictures"], kept["pictures"])
+            self.assertEqual(told_by["rows"] == "kept rows", is_thinned)
+            self.assertEqual(told_by["charts"] == "kept charts", is_thinned)
+            self.assertEqual({**told_by["report"], **kept["report"]} == told_by["report"], is_thinned)
+
     def test_text_of_records_stays_text(self):
         evil = report([run(status="error", detail=EVIL, dataset="star-1"), run("cgal")], notes=[EVIL])
         chosen = {"method": "cgal", "protocol": "paper", "note": EVIL, "parameters": {EVIL: {"rule": EVIL}}}
