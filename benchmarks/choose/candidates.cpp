@@ -211,6 +211,7 @@ Question ask(const run::MethodCatalog& catalog, const std::vector<std::string>& 
   if (only.empty()) return question;
   question.absent.clear();
   std::vector<std::string> known;
+  known.reserve(entries.size());
   for (const plan::PlanMethod& entry : entries) known.push_back(entry.method + "/" + entry.protocol);
   for (const std::string& name : only) {
     const auto is_it = [&](const plan::PlanMethod& entry) { return fits(entry, name); };

@@ -220,9 +220,9 @@ class Page {
         return element("p class=\"quiet\"", "The result is too far away from the points to be drawn.");
       hull += svg_path(polygon, canvas_);
     }
-    return "<a href=\"#m" + number(index) + "\"><svg role=\"img\" " +
+    return "<a href=\"#m" + number(index) + R"("><svg role="img" )" +
            (candidate.succeeded() ? "" : "class=\"invalid\" ") + frame_ + " aria-label=\"The hull by " +
-           escaped(candidate.label) + "\"><path class=\"hull\" d=\"" + hull +
+           escaped(candidate.label) + R"("><path class="hull" d=")" + hull +
            "\"/><use href=\"#dots\"/></svg></a>\n";
   }
 
@@ -239,7 +239,7 @@ class Page {
 
   std::string card(std::size_t index) const {
     const Candidate& candidate = candidates_.all[index];
-    std::string text = "<article class=\"card\" id=\"m" + number(index) + "\">\n" +
+    std::string text = R"(<article class="card" id="m)" + number(index) + "\">\n" +
                        element("h2", numbered(index)) + picture(index) +
                        "<a class=\"smaller quiet\" href=\"#all\">smaller</a>\n";
     if (candidate.succeeded()) {

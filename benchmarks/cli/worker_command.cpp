@@ -25,7 +25,7 @@ void add_worker(CLI::App& app, Action& action) {
   const auto method = std::make_shared<std::string>();
   CLI::App& options =
       add_command(app, "worker", "Run one method for another process (see benchmarks/worker/protocol.hpp)",
-                  "echo '{\"request\": \"hello\"}' | hullbench worker --method polylidar");
+                  R"(echo '{"request": "hello"}' | hullbench worker --method polylidar)");
   options.add_option("--method", *method, "The method's name")->required();
   // No set_action: a worker does not catch an interruption, it ends at once.
   options.callback([&action, method] { action = [method] { return work(*method); }; });

@@ -103,6 +103,7 @@ MultiPolygon shape_of(const json& geometry) {
 void run_program(const std::vector<std::string>& command, const std::string& out) {
   std::vector<std::string> words = command;
   std::vector<char*> arguments;
+  arguments.reserve(words.size() + 1);
   for (std::string& word : words) arguments.push_back(word.data());
   arguments.push_back(nullptr);
   posix_spawn_file_actions_t actions;
@@ -239,9 +240,8 @@ class Comparison {
     std::vector<Point> sample;
     const double step =
         std::max(1.0, static_cast<double>(points.size()) / static_cast<double>(choice_.sample));
-    for (double i = 0; i < static_cast<double>(points.size()); i += step) {
-      sample.push_back(points[static_cast<std::size_t>(i)]);
-    }
+    const auto place = [&](std::size_t k) { return static_cast<std::size_t>(static_cast<double>(k) * step); };
+    for (std::size_t k = 0; place(k) < points.size(); ++k) sample.push_back(points[place(k)]);
     const double edge = plan::auto_edge_length({.points = sample});
     return result_of("geos_concave_hull", sample, {{"max_edge_length", edge}});
   }

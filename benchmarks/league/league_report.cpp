@@ -175,7 +175,7 @@ table::Table parts_table(const json& league, const std::string& protocol) {
     }
     table.add_row(std::move(cells));
   }
-  table.remarks.push_back(
+  table.remarks.emplace_back(
       "Points that are not uniform are of few shapes in every column: others would move its median. "
       "league.json has the number of cases.");
   if (!all_seen)

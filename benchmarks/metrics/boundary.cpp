@@ -50,8 +50,8 @@ class Walker {
       const Point& to = ring[(i + 1) % ring.size()];
       const double pieces = pieces_of(from, to, spacing_);
       const double step = step_length(from, to, pieces);
-      for (double piece = 0; piece < pieces; ++piece) {
-        const double t = piece / pieces;
+      for (std::size_t piece = 0; piece < static_cast<std::size_t>(pieces); ++piece) {
+        const double t = static_cast<double>(piece) / pieces;
         add({from.x + t * (to.x - from.x), from.y + t * (to.y - from.y)}, (before + step) / 2);
         // The distance changes by no more than the way that is walked.
         bound_ = profile.samples.back().distance + step;

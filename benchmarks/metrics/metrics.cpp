@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "benchmarks/metrics/anchors.hpp"
 #include "benchmarks/metrics/boundary_band.hpp"
@@ -12,8 +13,8 @@
 namespace hullbench::metrics {
 
 struct CaseScorer::State {
-  State(std::span<const Point> points, const MultiPolygon& ground_truth)
-      : truth(ground_truth),
+  State(std::span<const Point> points, MultiPolygon ground_truth)
+      : truth(std::move(ground_truth)),
         prepared(truth),
         boundary(truth),
         input(points),

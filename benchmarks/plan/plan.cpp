@@ -267,13 +267,12 @@ Plan load_plan(const std::string& name_or_path, const fs::path& folder) {
 std::vector<PlanMethod> parse_plan_methods(const json& entries, const std::string& method,
                                            const std::string& source, const std::string& path) {
   if (entries.empty()) return {};
-  json complete = entries;
-  for (json& entry : complete) {
-    if (entry.contains("method")) {
-      throw ConfigurationError(source + ": " + path + " are all of this method; leave out the key 'method'");
-    }
-    entry["method"] = method;
+  if (std::any_of(entries.begin(), entries.end(),
+                  [](const json& entry) { return entry.contains("method"); })) {
+    throw ConfigurationError(source + ": " + path + " are all of this method; leave out the key 'method'");
   }
+  json complete = entries;
+  for (json& entry : complete) entry["method"] = method;
   const Place place(source, path);
   check_methods_schema(complete, place);
   std::vector<PlanEntry> own;

@@ -42,7 +42,7 @@ std::string no_hull_word(const record::RunRecord& run) {
 
 table::Number percent(double share) {
   const double value = 100 * share;
-  return table::Number(value, value < 100 ? 1 : 0);
+  return {value, value < 100 ? 1 : 0};
 }
 
 table::Cell measure_cell(const record::RunRecord& run, const Measure& measure) {

@@ -198,6 +198,7 @@ std::vector<std::size_t> failure_notes(TableContext& context, const Line& line, 
     }
   }
   std::vector<std::size_t> notes;
+  notes.reserve(kinds.size());
   for (const auto& [name, runs] : kinds)
     notes.push_back(context.notes.number(failure_text(context, line, name, runs)));
   return notes;

@@ -36,7 +36,7 @@ using Passes = std::vector<std::vector<double>>;
 /// of these its rounds, as many as there are. So it has what varies between shapes, between passes and
 /// between rounds; of a single cluster it has the last two only. Values may be infinite. Passes, cases and
 /// clusters without values do not count; none of fewer than two values.
-std::optional<Interval> nested_median_interval(const std::vector<std::vector<Passes>>& clusters);
+std::optional<Interval> nested_median_interval(const std::vector<std::vector<Passes>>& all);
 
 /// Of the median of all values together, when those of one cluster (a shape) belong together: whole clusters
 /// are resampled, as many as there are (Field and Welsh, Bootstrapping Clustered Data, 2007). Clusters

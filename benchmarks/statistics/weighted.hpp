@@ -25,10 +25,10 @@ double weighted_mean(const std::vector<WeightedValue>& values);
 /// of the medians of 2000 samples, each of as many clusters as there are, drawn whole and with their weights
 /// (Field and Welsh, Bootstrapping Clustered Data, 2007). The draws are the same each time. Clusters without
 /// values do not count; none of fewer than two clusters. Values may be infinite.
-std::optional<Interval> weighted_median_interval(const std::vector<std::vector<WeightedValue>>& clusters);
+std::optional<Interval> weighted_median_interval(const std::vector<std::vector<WeightedValue>>& all);
 
 /// Of the mean likewise: normal, from the variance of the clusters' sums about their weights' share (Cochran,
 /// Sampling Techniques, 1977, chapter 9A).
-std::optional<Interval> weighted_mean_interval(const std::vector<std::vector<WeightedValue>>& clusters);
+std::optional<Interval> weighted_mean_interval(const std::vector<std::vector<WeightedValue>>& all);
 
 }  // namespace hullbench::statistics

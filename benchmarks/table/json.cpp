@@ -65,7 +65,7 @@ std::string document_text(const Document& document) {
 }  // namespace
 
 std::string to_json(const std::vector<Document>& documents) {
-  return "{\"kind\": \"tables\", \"schema_version\": 1, \"documents\": " +
+  return R"({"kind": "tables", "schema_version": 1, "documents": )" +
          list_text(documents, document_text, ",\n") + "}\n";
 }
 

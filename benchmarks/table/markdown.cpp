@@ -32,9 +32,10 @@ std::vector<std::vector<std::string>> shown(const Table& table) {
   for (const auto& cells : table.rows) {
     std::vector<std::string>& row = rows.emplace_back();
     for (const Cell& cell : cells) {
-      const std::string text = cell.text();
+      std::string& text = row.emplace_back(cell.text());
       const std::string marks = cell.marks();
-      row.push_back(text + (text.empty() || marks.empty() ? "" : " ") + marks);
+      if (!text.empty() && !marks.empty()) text += ' ';
+      text += marks;
     }
   }
   return rows;

@@ -56,6 +56,7 @@ class Weighted {
     std::map<std::string, std::vector<statistics::WeightedValue>> by_shape;
     for (std::size_t i = 0; i < values_.size(); ++i) by_shape[members_[i].shape].push_back(values_[i]);
     std::vector<std::vector<statistics::WeightedValue>> clusters;
+    clusters.reserve(by_shape.size());
     for (const auto& [shape, values] : by_shape) clusters.push_back(values);
     return statistics::weighted_median_interval(clusters);
   }

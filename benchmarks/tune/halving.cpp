@@ -42,6 +42,7 @@ std::vector<std::size_t> training_order(const std::vector<TuningCase>& cases) {
     order.insert({{taken[group]++, group}, i});
   }
   std::vector<std::size_t> places;
+  places.reserve(order.size());
   for (const auto& [key, place] : order) places.push_back(place);
   return places;
 }
@@ -57,6 +58,7 @@ std::vector<double> better_half(const std::vector<double>& positions, const std:
   std::ranges::stable_sort(order, [&](std::size_t a, std::size_t b) { return scores[a] < scores[b]; });
   order.resize((order.size() + 1) / 2);
   std::vector<double> kept;
+  kept.reserve(order.size());
   for (const std::size_t place : order) kept.push_back(positions[place]);
   std::ranges::sort(kept);
   return kept;

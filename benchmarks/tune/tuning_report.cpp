@@ -267,10 +267,9 @@ std::vector<std::string> document_notes(const json& summary) {
       "Training shapes: " + shapes_text(summary, "training") + ".",
       "Test shapes: " + shapes_text(summary, "test") + ".",
       ("Whole sources of shapes and whole ways to sample are of one side (benchmarks/tune/split.cpp, with "
-       "the "
-       "reasons); a training shape that is sampled as only tests are is left out."),
-      "h is the points' mean spacing over their convex hull, √(A_hull/n); it is known without the ground "
-      "truth.",
+       "the reasons); a training shape that is sampled as only tests are is left out."),
+      ("h is the points' mean spacing over their convex hull, √(A_hull/n); it is known without the ground "
+       "truth."),
       "default: without parameters, but holes switched on; tuned: the one x with the smallest median error "
       "on the training cases, by successive halving; oracle: the best of all evaluations on the same "
       "instance; paper and auto: as the plan says.",

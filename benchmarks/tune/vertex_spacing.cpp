@@ -15,7 +15,7 @@ namespace {
 
 using polylidar::kNone;
 using polylidar::detail::Mesh;
-using polylidar::detail::operator-;
+using polylidar::detail::operator-;  // NOLINT(misc-unused-using-decls): distance() uses it
 using polylidar::detail::Triangle;
 
 double distance(const Point& a, const Point& b) {
@@ -190,7 +190,8 @@ class VertexRule {
   template <class Visit>
   void for_each_region(const std::vector<bool>& kept, bool of_kept, const Visit& visit) const {
     std::vector<bool> seen(kept.size(), false);
-    const std::vector<bool> is_kept = kept;  // a visit may change it
+    // NOLINTNEXTLINE(performance-unnecessary-copy-initialization): a visit may change `kept`
+    const std::vector<bool> is_kept = kept;
     std::vector<Mesh::Index> region;
     for_each_finite([&](Mesh::Index start) {
       if (seen[start] || is_kept[start] != of_kept) return;

@@ -193,7 +193,7 @@ Attempt MethodSession::run(const LoadedPoints& points, const Parameters& paramet
 Attempt MethodSession::warm_up(const LoadedPoints& points, const Parameters& parameters,
                                const fs::path& scratch, std::chrono::milliseconds timeout) {
   const auto end = std::chrono::steady_clock::now() + kWarmUpTime;
-  const Attempt first = run(points, parameters, scratch, timeout);
+  Attempt first = run(points, parameters, scratch, timeout);
   if (first.status != record::Status::kOk) return first;
   std::vector<std::int64_t> times = {first.time_ns()};
   while (!ends_steadily(times) && std::chrono::steady_clock::now() < end) {

@@ -172,7 +172,7 @@ void BoundaryTracer::emit(const std::uint32_t* caller_index, IndexedMultiPolygon
     const auto end = ring_vertices_.begin() + rings_[r].end;
     std::rotate(begin, std::min_element(begin, end), end);
     // Two rings can share their first vertex, but not their first edge.
-    ring_order_.push_back({std::uint64_t{begin[0]} << 32U | begin[1], r});
+    ring_order_.emplace_back(std::uint64_t{begin[0]} << 32U | begin[1], r);
   }
   std::sort(ring_order_.begin(), ring_order_.end());
   number_polygons();

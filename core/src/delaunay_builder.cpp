@@ -92,7 +92,8 @@ void DelaunayBuilder::build_parts(ThreadPool& pool) {
   const auto count = static_cast<Index>(vertex_count_);
   std::deque<Part> parts;
   parts.emplace_back(0, count, nullptr);
-  cut(parts.front(), std::max(kSmallestPart, count / (kPartsPerThread * pool.threads())), parts);
+  const Index wanted = kPartsPerThread * std::max(2U, pool.threads());
+  cut(parts.front(), std::max(kSmallestPart, count / wanted), parts);
 
   std::vector<Part*> uncut;
   for (Part& part : parts) {

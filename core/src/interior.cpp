@@ -172,7 +172,7 @@ double InteriorPart::cells_in_disk(std::span<const Point> points) const {
   constexpr Grid::Cell kHalf = 10;  // of a square's side
   constexpr unsigned kSide = 2 * kHalf + 1;
   constexpr unsigned kRowsAtOnce = 3;  // so many fill a word
-  static_assert(kRowsAtOnce * kSide <= Grid::kWordBits && kSide % kRowsAtOnce == 0);
+  static_assert(std::size_t{kRowsAtOnce} * kSide <= Grid::kWordBits && kSide % kRowsAtOnce == 0);
   constexpr double kDiskOfSquare = 3.141592653589793 * kRadius * kRadius / kSide / kSide;
   const Grid::Cell row_bits = grid_.row_words() * Grid::kWordBits;
   int count = 0;
@@ -187,8 +187,8 @@ double InteriorPart::cells_in_disk(std::span<const Point> points) const {
     }
   }
   static_assert(kRowOutOf % kRow == 0);
-  constexpr auto kStandsFor = static_cast<double>(kRowOutOf / kRow);  // rows for each that is looked at
-  return kDiskOfSquare * kStandsFor * count / kLookedAt;
+  constexpr std::size_t kStandsFor = kRowOutOf / kRow;  // rows for each that is looked at
+  return kDiskOfSquare * static_cast<double>(kStandsFor) * count / kLookedAt;
 }
 
 /// After begin_cells(): whether many points near one of them are uncertain. Those of a lattice are not, even

@@ -99,13 +99,20 @@ class InteriorPart {
   void gather(std::span<const Point> points, ThreadPool& pool);
 
  private:
+  /// What a thread marks.
+  struct Fill {
+    Bitmap occupied;
+    Bitmap shared;         ///< cells with more than one point, if asked for
+    Bitmap reached;        ///< cells of the part
+    bool is_used = false;  ///< in this step
+  };
+
   double choose_grid(std::span<const Point> points, const Box& box, double radius,
                      const InteriorGuard& guard);
   void begin_cells(std::span<const Point> points);
   void fill_other_cells(std::span<const Point> points, ThreadPool& pool);
   double cells_in_disk(std::span<const Point> points) const;
   bool are_uncertain_beside_one(std::span<const Point> points);
-  struct Fill;
   template <class Begin, class Task>
   void for_each_into_fills(std::size_t count, ThreadPool& pool, const Begin& begin, const Task& task);
   template <class Join>
@@ -119,12 +126,6 @@ class InteriorPart {
   Bitmap& reached() { return fills_.front().reached; }
   const Bitmap& reached() const { return fills_.front().reached; }
 
-  struct Fill {
-    Bitmap occupied;
-    Bitmap shared;   ///< cells with more than one point, if asked for
-    Bitmap reached;  ///< cells of the part
-    bool is_used = false;
-  };
   struct Chunk {
     std::vector<std::uint32_t> uncertain;
     std::vector<Directions> open;

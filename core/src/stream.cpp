@@ -333,8 +333,9 @@ bool Stream::fit_grid(double widest) {
     const Grid grid(box, detail::kRadius / radius);
     const auto rows = static_cast<double>(most_rows(part_.shard, grid.rows()) + 2 * Grid::kMargin);
     const double words = rows * static_cast<double>(grid.row_words());
-    constexpr auto kMostWords = static_cast<double>(std::numeric_limits<Grid::Cell>::max() / Grid::kWordBits);
-    return words <= kMostWords && sizeof(Bitmap::Word) * words <= stream_options_.most_map_bytes;
+    constexpr Grid::Cell kMostWords = std::numeric_limits<Grid::Cell>::max() / Grid::kWordBits;
+    return words <= static_cast<double>(kMostWords) &&
+           sizeof(Bitmap::Word) * words <= stream_options_.most_map_bytes;
   };
   while (!fits() && radius < widest) radius = std::min(radius * kWider, widest);
   if (!fits()) return false;
