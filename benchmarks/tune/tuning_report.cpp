@@ -270,16 +270,16 @@ std::vector<std::string> document_notes(const json& summary) {
        "the reasons); a training shape that is sampled as only tests are is left out."),
       ("h is the points' mean spacing over their convex hull, √(A_hull/n); it is known without the ground "
        "truth."),
-      "default: without parameters, but holes switched on; tuned: the one x with the smallest median error "
-      "on the training cases, by successive halving; oracle: the best of all evaluations on the same "
-      "instance; paper and auto: as the plan says.",
-      "L2 is the area of the symmetric difference over the ground truth's, regret its excess over the "
-      "oracle's on the same instance; medians with 95 % bootstrap intervals that take a shape's cases as "
-      "one.",
-      "Every stratum, a way to sample and a kind of shape (simple, with holes, of several parts), counts the "
-      "same in a median; in it every shape, and of a shape every case.",
-      "Tolerance: how wide a range of the parameter keeps the error within 10 % of its best, in factors of "
-      "two; the median over the cases.",
+      ("default: without parameters, but holes switched on; tuned: the one x with the smallest median error "
+       "on the training cases, by successive halving; oracle: the best of all evaluations on the same "
+       "instance; paper and auto: as the plan says."),
+      ("L2 is the area of the symmetric difference over the ground truth's, regret its excess over the "
+       "oracle's on the same instance; medians with 95 % bootstrap intervals that take a shape's cases as "
+       "one."),
+      ("Every stratum, a way to sample and a kind of shape (simple, with holes, of several parts), counts "
+       "the same in a median; in it every shape, and of a shape every case."),
+      ("Tolerance: how wide a range of the parameter keeps the error within 10 % of its best, in factors of "
+       "two; the median over the cases."),
       "A failure counts as infinitely bad: \"∞\" stands where the median is one."};
   for (const json& method : summary.at("methods")) {
     if (method.at("installed").get<bool>()) continue;
