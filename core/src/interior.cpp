@@ -123,13 +123,15 @@ void InteriorPart::for_each_into_fills(std::size_t count, ThreadPool& pool, cons
 /// used but the first.
 template <class Join>
 void InteriorPart::join_fills(ThreadPool& pool, const Join& join) {
-  for (std::size_t f = 1; f < fills_.size(); ++f) {
-    if (!fills_[f].is_used) continue;
-    const Chunks chunks(pool, grid_.word_count());
-    pool.for_each(chunks.size(), [&](std::size_t c) {
-      for (std::size_t w = chunks.begin(c); w < chunks.end(c); ++w) join(w, fills_[f]);
-    });
-  }
+  const auto is_other = [&](const Fill& fill) { return fill.is_used && &fill != &fills_.front(); };
+  if (std::none_of(fills_.begin(), fills_.end(), is_other)) return;
+  const Chunks chunks(pool, grid_.word_count());
+  pool.for_each(chunks.size(), [&](std::size_t c) {
+    for (const Fill& fill : fills_) {
+      if (!is_other(fill)) continue;
+      for (std::size_t w = chunks.begin(c); w < chunks.end(c); ++w) join(w, fill);
+    }
+  });
 }
 
 /// Puts some of the points into their cells: rows of them, as copies of a point often follow one another.
