@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cstdlib>
+#include <filesystem>
 #include <fstream>
 #include <limits>
 #include <random>
@@ -10,7 +11,9 @@
 #include "tests/complaint.hpp"
 #include "tests/las_file.hpp"
 #include "tests/temporary_folder.hpp"
+#include "tool/points/kept_points.hpp"
 #include "tool/points/point_file.hpp"
+#include "tool/points/point_sources.hpp"
 
 namespace polylidar::tool {
 namespace {
@@ -199,6 +202,77 @@ TEST_F(LasPointsTest, WithheldPointsAreInSomeBlocksOnly) {
       EXPECT_EQ(of_parts, classes);
     }
   }
+}
+
+// Many blocks, some with withheld points and some without, in three parts. When all were kept, the file is
+// not needed again; what was too much to keep is read again.
+TEST_F(LasPointsTest, ASourceKeepsItsPointsAndReadsTheFileOnce) {
+  std::mt19937 random(7);
+  LasFile file;
+  file.format = 6;
+  file.minor = 4;
+  file.scale = {0.001, 0.01};
+  file.offset = {1e6 / 3, -7};
+  Points places;
+  for (int i = 0; i < 60'000; ++i) {
+    LasPoint point;
+    point.x = static_cast<std::int32_t>(random());
+    point.y = static_cast<std::int32_t>(random());
+    point.classification = random() % 256;
+    point.withheld = i > 20'000 && i < 45'000 && random() % 3 == 0;
+    if (!point.withheld) places.push_back(file.place(point));
+    file.points.push_back(point);
+  }
+  const std::string path = this->path();
+  std::ofstream(path, std::ios::binary) << file.text();
+  constexpr std::size_t kParts = 3;
+  std::uint64_t told = 0;  // points, by their classes
+  const auto on_read = [&](std::size_t, const PointFile& part) {
+    for (const std::uint64_t count : part.classes) told += count;
+  };
+  const auto given_by = [](const std::vector<PointSource>& sources) {
+    Points points;
+    for (const PointSource& source : sources) {
+      source([&](std::span<const Point> block) { points.insert(points.end(), block.begin(), block.end()); });
+    }
+    return points;
+  };
+  const std::uint64_t enough = sizeof(point_files::LatticePoint) * file.points.size();
+  const std::vector<PointSource> kept = point_sources(path, {}, kParts, enough, on_read);
+  const std::vector<PointSource> not_kept =
+      point_sources(path, {}, kParts, enough - sizeof(point_files::LatticePoint) * kParts, on_read);
+  ASSERT_EQ(kept.size(), kParts);
+  for (const auto* sources : {&kept, &not_kept}) {
+    for (int pass = 0; pass < 3; ++pass) {
+      told = 0;
+      EXPECT_EQ(given_by(*sources), places);
+      EXPECT_EQ(told, places.size());
+    }
+  }
+  std::filesystem::remove(path);
+  EXPECT_EQ(given_by(kept), places);
+  EXPECT_THROW(given_by(not_kept), PointFileError);
+}
+
+// What a first reading that failed has kept is not taken for the file.
+TEST_F(LasPointsTest, ASourceThatFailedIsReadFromItsBeginning) {
+  LasFile file = some_points(2, 1);
+  const std::string whole = file.text();
+  const std::string path = this->path();
+  std::ofstream(path, std::ios::binary) << whole;
+  const std::vector<PointSource> sources =
+      point_sources(path, {}, 1, 1U << 20U, [](std::size_t, const PointFile&) {});
+  Points given;
+  const auto fail = [](std::span<const Point>) { throw std::runtime_error("stop"); };
+  const auto take = [&](std::span<const Point> block) {
+    given.insert(given.end(), block.begin(), block.end());
+  };
+  EXPECT_THROW(sources[0](fail), std::runtime_error);
+  sources[0](take);
+  EXPECT_EQ(given, file.places());
+  given.clear();
+  sources[0](take);
+  EXPECT_EQ(given, file.places());
 }
 
 TEST_F(LasPointsTest, PointsOfAnyLength) {

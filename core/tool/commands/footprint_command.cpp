@@ -280,7 +280,8 @@ class IndexRun {
     };
     StreamedHull hull;
     try {
-      hull = concave_hull_of_stream(point_sources(path, options_, threads, on_read), core, stream_options);
+      hull = concave_hull_of_stream(point_sources(path, options_, threads, kMostKeptBytes, on_read), core,
+                                    stream_options);
     } catch (const std::invalid_argument&) {
       return {};
     }
@@ -459,8 +460,8 @@ class UnionRun {
     const auto nothing = [](std::size_t, const PointFile&) {};
     for (std::size_t file = 0; file < command_.inputs.size(); ++file) {
       if (!files_.is_done(file)) continue;
-      for (PointSource& part :
-           point_sources(command_.inputs[file], options_, count_ == 1 ? core_.threads : 1, nothing)) {
+      for (PointSource& part : point_sources(command_.inputs[file], options_, count_ == 1 ? core_.threads : 1,
+                                             kMostKeptBytes / command_.inputs.size(), nothing)) {
         if (!in_metres || !latitude_) {
           sources.push_back(std::move(part));
           continue;

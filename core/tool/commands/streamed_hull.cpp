@@ -152,7 +152,8 @@ class StreamRun {
         check_crs(input, chosen_crs(command_.shape, file.crs));
         if (!file.note.empty()) say_once(input + ": " + file.note);
       };
-      for (PointSource& part : point_sources(input, options, most_parts, on_read)) {
+      for (PointSource& part :
+           point_sources(input, options, most_parts, kMostKeptBytes / command_.inputs.size(), on_read)) {
         sources.emplace_back([read = std::move(part)](const TakePoints& take) {
           try {
             read(take);

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <cstring>
 
+#include "tool/points/huge_pages.hpp"
+#include "tool/points/kept_points.hpp"
 #include "tool/points/numbers.hpp"
 #include "tool/points/readers.hpp"
 
@@ -71,30 +73,12 @@ std::uint64_t promised_points(const char* bytes) {
   return count != 0 ? count : unsigned_at(bytes + kLegacyCount, 4);
 }
 
-/// How the whole numbers of a file are made coordinates.
-struct Lattice {
-  Point scale;
-  Point offset;
-
-  Point at(std::int32_t x, std::int32_t y) const { return {x * scale.x + offset.x, y * scale.y + offset.y}; }
-  /// The one of these nearest to a point, which many programs write into the header without rounding it.
-  Point nearest(const Point& p) const {
-    return at(nearest((p.x - offset.x) / scale.x), nearest((p.y - offset.y) / scale.y));
-  }
-
- private:
-  static std::int32_t nearest(double number) {
-    constexpr double kMost = 0x7FFFFFFF;
-    return static_cast<std::int32_t>(std::nearbyint(std::fmax(std::fmin(number, kMost), -kMost - 1)));
-  }
-};
-
 Lattice lattice_of(const char* bytes) {
   return {{double_at(bytes + kScale), double_at(bytes + kScale + 8)},
           {double_at(bytes + kOffset), double_at(bytes + kOffset + 8)}};
 }
 
-struct Header {
+struct LasHeader {
   int minor_version = 0;
   std::uint64_t size = 0;
   std::uint64_t points_at = 0;
@@ -284,6 +268,9 @@ class LasReader {
     if (takes_all && reader_.remaining() && !options.take_points) {
       reserve_points(file_.points, static_cast<std::size_t>(end - first));
     }
+    const bool are_kept = options.keep != nullptr && takes_all && by_ == By::kNothing &&
+                          options.keep->begin(end - first, header_.lattice);
+    kept_ = are_kept ? options.keep : nullptr;
     const std::size_t points_a_block = kBytesAtOnce / header_.point_size;
     std::vector<char> block(points_a_block * header_.point_size);
     for (std::uint64_t done = first; done < end;) {
@@ -298,6 +285,7 @@ class LasReader {
       }
       done += part;
     }
+    if (kept_ != nullptr) kept_->finish();
     hand_on(file_, options, true);
   }
 
@@ -314,7 +302,7 @@ class LasReader {
   }
 
   static Point point_of(const char* record, const Lattice& lattice) {
-    return lattice.at(int32_at(record), int32_at(record + 4));
+    return lattice.at({int32_at(record), int32_at(record + 4)});
   }
 
   /// Puts the points of a block but for those that are withheld behind the first `filled_` ones: as add()
@@ -325,8 +313,15 @@ class LasReader {
     const Lattice lattice = header_.lattice;
     const std::size_t size = header_.point_size;
     for (std::size_t i = 0; i < count; ++i) points[i] = point_of(block + i * size, lattice);
-    filled_ += count;
-    if (count_classes(block, count)) drop_withheld(block, count);
+    if (kept_ != nullptr) {
+      LatticePoint* const kept = kept_->end();
+      for (std::size_t i = 0; i < count; ++i) {
+        kept[i] = {int32_at(block + i * size), int32_at(block + i * size + 4)};
+      }
+    }
+    const std::size_t taken = count_classes(block, count) ? drop_withheld(block, count) : count;
+    filled_ += taken;
+    if (kept_ != nullptr) kept_->add(taken);
   }
 
   /// Counts the points of a block by their classes, those that are withheld among them. Returns whether there
@@ -359,18 +354,21 @@ class LasReader {
     return (flags & withheld_bit()) != 0;
   }
 
-  /// Of the block that was added last.
-  void drop_withheld(const char* block, std::size_t count) {
-    Point* const points = file_.points.data() + (filled_ - count);
+  /// Of the block whose points were put behind the first `filled_` ones, and behind the kept ones. Returns
+  /// how many are left.
+  std::size_t drop_withheld(const char* block, std::size_t count) {
+    Point* const points = file_.points.data() + filled_;
+    LatticePoint* const kept = kept_ != nullptr ? kept_->end() : nullptr;
     std::size_t left = 0;
     for (std::size_t i = 0; i < count; ++i) {
       const char* const record = block + i * header_.point_size;
       const unsigned is_taken = (static_cast<std::uint8_t>(record[kFlags]) & withheld_bit()) == 0 ? 1 : 0;
       points[left] = points[i];
+      if (kept != nullptr) kept[left] = kept[i];
       left += is_taken;
       file_.classes[static_cast<std::uint8_t>(record[class_at()]) & class_bits()] -= 1 - is_taken;
     }
-    filled_ -= count - left;
+    return left;
   }
 
   std::size_t class_at() const { return is_extended_format_ ? 16 : 15; }
@@ -422,13 +420,14 @@ class LasReader {
 
   BlockReader& reader_;
   PointFile& file_;
-  Header header_;
+  LasHeader header_;
   bool is_extended_format_ = false;
   bool has_wkt_ = false;
   std::vector<std::uint16_t> geokeys_;
   std::string geokey_texts_;
   std::uint64_t position_ = 0;  ///< in the file, as far as it matters
   std::size_t filled_ = 0;      ///< of the file's points, those that add_all() has put there
+  KeptPoints* kept_ = nullptr;  ///< where they go as well, if anywhere
   By by_ = By::kNothing;
   std::vector<std::uint32_t> group_of_value_;  ///< a value of 16 bits -> the number of its label, or kNoGroup
   Labels labels_;
@@ -450,7 +449,9 @@ std::optional<ExpectedPoints> expected_points_of_las(std::string_view start) {
   if (!start.starts_with("LASF") || start.size() < kNewHeader) return {};
   const Lattice lattice = lattice_of(start.data());
   const auto at = [&](std::size_t k) { return double_at(start.data() + kExtent + 8 * k); };
-  const std::array<Point, 2> corners = {lattice.nearest({at(0), at(2)}), lattice.nearest({at(1), at(3)})};
+  // Many programs write a corner into the header without rounding it to one of the file's points.
+  const auto corner = [&](const Point& p) { return lattice.at(lattice.nearest(p)); };
+  const std::array<Point, 2> corners = {corner({at(0), at(2)}), corner({at(1), at(3)})};
   return ExpectedPoints{promised_points(start.data()), bounding_box(corners)};
 }
 

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <span>
 
+#include "tool/points/huge_pages.hpp"
 #include "tool/points/numbers.hpp"
 #include "tool/points/readers.hpp"
 

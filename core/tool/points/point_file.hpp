@@ -48,6 +48,9 @@ enum class Returns {
 std::optional<PointFormat> point_format_of(const std::string& name);
 
 class VectorFormats;
+namespace point_files {
+class KeptPoints;
+}
 
 /// Part `number`, from 0 on, of `count` of about the same size.
 struct FilePart {
@@ -85,6 +88,8 @@ struct PointFileOptions {
   std::function<void(std::span<const Point>)> take_points = {};
   /// With `take_points`, of a file that is_read_in_parts(): only the points of this part are read.
   FilePart part = {};
+  /// With `take_points`: where the points of a LAS file are kept as well, if there is room and all are taken.
+  point_files::KeptPoints* keep = nullptr;
   /// Files that cannot be taken block by block are read whole, and handed to `take_points` then, instead of
   /// being refused.
   bool whole_if_needed = false;

@@ -1,18 +1,55 @@
 #include "tool/points/point_sources.hpp"
 
+#include <memory>
+
+#include "tool/points/kept_points.hpp"
+#include "tool/points/readers.hpp"
+
 namespace polylidar::tool {
+namespace {
+
+using point_files::KeptPoints;
+
+/// One part of a file, which is read again each time until its points are kept.
+class FileSource {
+ public:
+  FileSource(std::string path, PointFileOptions options, std::uint64_t most_kept_bytes, OnRead on_read)
+      : path_(std::move(path)),
+        options_(std::move(options)),
+        on_read_(std::move(on_read)),
+        kept_(most_kept_bytes) {}
+
+  void give(const TakePoints& take) {
+    if (kept_.is_whole()) {
+      kept_.hand_on(take, point_files::points_in_block(options_));
+    } else {
+      options_.take_points = take;
+      options_.keep = &kept_;
+      file_ = read_point_file(path_, options_);
+    }
+    on_read_(options_.part.number, file_);
+  }
+
+ private:
+  std::string path_;
+  PointFileOptions options_;
+  OnRead on_read_;
+  KeptPoints kept_;
+  PointFile file_;  ///< without its points
+};
+
+}  // namespace
 
 std::vector<PointSource> point_sources(const std::string& path, const PointFileOptions& options,
-                                       std::size_t most_parts, const OnRead& on_read) {
+                                       std::size_t most_parts, std::uint64_t most_kept_bytes,
+                                       const OnRead& on_read) {
   const std::size_t count = most_parts > 1 && is_read_in_parts(path, options) ? most_parts : 1;
   std::vector<PointSource> sources;
   for (std::size_t number = 0; number < count; ++number) {
-    sources.emplace_back([path, options, number, count, on_read](const TakePoints& take) {
-      PointFileOptions of_part = options;
-      of_part.take_points = take;
-      of_part.part = {number, count};
-      on_read(number, read_point_file(path, of_part));
-    });
+    PointFileOptions of_part = options;
+    of_part.part = {number, count};
+    const auto source = std::make_shared<FileSource>(path, of_part, most_kept_bytes / count, on_read);
+    sources.emplace_back([source](const TakePoints& take) { source->give(take); });
   }
   return sources;
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <functional>
 #include <string>
 #include <vector>
@@ -11,12 +12,18 @@
 
 namespace polylidar::tool {
 
-/// Told each time that a part of a file was read, with all but its points; by the thread that read it.
+/// What the points of all sources of a run may take, if the caller has no other reason.
+inline constexpr std::uint64_t kMostKeptBytes = std::uint64_t{1} << 27U;
+
+/// Told each time that a source gave its part of a file, with all but its points; by the thread that took it.
 using OnRead = std::function<void(std::size_t part, const PointFile& file)>;
 
 /// The file as up to `most_parts` sources, one after the other; one source where it is not read in parts.
-/// `options` are those of the file; `take_points` and `part` are set here. Reading throws as read_point_file.
+/// The points of a LAS file are kept, 8 bytes each, if they take no more than `most_kept_bytes`; it is read
+/// once then. `options` are those of the file; `take_points`, `part` and `keep` are set here. Reading throws
+/// as read_point_file.
 std::vector<PointSource> point_sources(const std::string& path, const PointFileOptions& options,
-                                       std::size_t most_parts, const OnRead& on_read);
+                                       std::size_t most_parts, std::uint64_t most_kept_bytes,
+                                       const OnRead& on_read);
 
 }  // namespace polylidar::tool

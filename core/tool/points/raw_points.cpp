@@ -7,6 +7,7 @@
 #include <span>
 #include <vector>
 
+#include "tool/points/huge_pages.hpp"
 #include "tool/points/numbers.hpp"
 #include "tool/points/readers.hpp"
 

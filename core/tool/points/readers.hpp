@@ -53,9 +53,6 @@ std::optional<std::uint64_t> promised_points_of_las(std::string_view start);
 /// are withheld among them; nothing where they are too few.
 std::optional<ExpectedPoints> expected_points_of_las(std::string_view start);
 
-/// Reserves memory for `count` points, in huge pages where the system has them.
-void reserve_points(std::vector<Point>& points, std::size_t count);
-
 /// Whether all points of a LAS file are taken but for those that are withheld.
 inline bool takes_all_points(const PointFileOptions& options) {
   return options.returns == Returns::kAll && !options.classes && !options.window;

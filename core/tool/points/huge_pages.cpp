@@ -1,6 +1,6 @@
-#include <cstdint>
+#include "tool/points/huge_pages.hpp"
 
-#include "tool/points/readers.hpp"
+#include <cstdint>
 
 #ifdef __linux__
 #include <sys/mman.h>
@@ -8,17 +8,18 @@
 
 namespace polylidar::tool::point_files {
 
-void reserve_points(std::vector<Point>& points, std::size_t count) {
-  points.reserve(count);
+void ask_for_huge_pages([[maybe_unused]] void* memory, [[maybe_unused]] std::size_t bytes) {
 #ifdef __linux__
-  // The first touch of 40,000 small pages takes as long as reading 10,000,000 points. It is advice only, and
-  // for whole huge pages.
   constexpr std::size_t kHugePage = std::size_t{1} << 21U;
-  const std::size_t bytes = count * sizeof(Point);
-  auto* const begin = reinterpret_cast<char*>(points.data());
+  auto* const begin = static_cast<char*>(memory);
   const std::size_t before = (kHugePage - reinterpret_cast<std::uintptr_t>(begin) % kHugePage) % kHugePage;
   if (bytes >= before + kHugePage) madvise(begin + before, bytes - before, MADV_HUGEPAGE);
 #endif
+}
+
+void reserve_points(std::vector<Point>& points, std::size_t count) {
+  points.reserve(count);
+  ask_for_huge_pages(points.data(), count * sizeof(Point));
 }
 
 }  // namespace polylidar::tool::point_files
