@@ -79,8 +79,8 @@ void fork_and_fork() {
 
 [[noreturn]] void flood(std::FILE* stream, const char* text) {
   while (true) {
-    std::fputs(text, stream);
-    std::fflush(stream);
+    static_cast<void>(std::fputs(text, stream));
+    static_cast<void>(std::fflush(stream));
   }
 }
 

@@ -24,7 +24,7 @@ inline std::string number(double value) {
 
 inline std::string rows(const Points& points, const std::string& between, const std::string& end = "\n") {
   std::string text;
-  for (const auto& p : points) text += number(p.x) + between + number(p.y) + end;
+  for (const auto& p : points) text.append(number(p.x)).append(between).append(number(p.y)).append(end);
   return text;
 }
 
@@ -33,7 +33,12 @@ inline std::string listed(const Points& points, const std::string& before, const
                           const std::string& after) {
   std::string text;
   for (const auto& p : points) {
-    text += (text.empty() ? "" : ",") + before + number(p.x) + middle + number(p.y) + after;
+    text.append(text.empty() ? "" : ",")
+        .append(before)
+        .append(number(p.x))
+        .append(middle)
+        .append(number(p.y))
+        .append(after);
   }
   return text;
 }
@@ -169,7 +174,7 @@ inline std::vector<PointFileText> all_forms(const Points& points) {
       {"big.npy", npy_of<double>(points, ">f8")},
   };
   PointFileText& more = *std::ranges::find_if(forms, [](const auto& f) { return f.name == "more.csv"; });
-  for (const auto& p : points) more.text += "\"a; \"\"b\"\"\";" + number(p.y) + ";" + number(p.x) + ";c\n";
+  for (const auto& p : points) more.text += R"("a; ""b""";)" + number(p.y) + ";" + number(p.x) + ";c\n";
   for (const char* format : {"ascii", "binary_little_endian", "binary_big_endian"}) {
     for (const bool list : {false, true}) {
       forms.push_back({std::string(format) + (list ? "_list" : "") + ".ply", ply(points, format, list)});

@@ -283,7 +283,8 @@ TEST(Certificate, LooksAsFarAsItsReachAndNoFarther) {
 void expect_in_cell(const Point& p, const Grid& grid, const Point& origin, Grid::Cell cell) {
   const Grid::Cell row_bits = grid.row_words() * Grid::kWordBits;
   const double column = static_cast<double>(cell % row_bits) - 64.0;
-  const double row = static_cast<double>(cell / row_bits) - static_cast<double>(Grid::kMargin);
+  const Grid::Cell row_number = cell / row_bits;
+  const double row = static_cast<double>(row_number) - static_cast<double>(Grid::kMargin);
   const long double u = (static_cast<long double>(p.x) - origin.x) * grid.cells_per_length();
   const long double v = (static_cast<long double>(p.y) - origin.y) * grid.cells_per_length();
   EXPECT_GE(u, column - Grid::kSlack);

@@ -79,9 +79,9 @@ std::vector<Card> cards_of(const std::string& page) {
     card.title = unescaped(all_of(card.text, "<h2>[0-9]+\\. ([^<]*)</h2>").at(0));
     for (const std::string& command : all_of(card.text, "<pre>([^<]*)</pre>"))
       card.commands.push_back(unescaped(command));
-    const std::size_t path = card.text.find("class=\"hull\" d=\"");
+    const std::size_t path = card.text.find(R"(class="hull" d=")");
     if (path == std::string::npos) continue;
-    const std::size_t begin = path + std::string("class=\"hull\" d=\"").size();
+    const std::size_t begin = path + std::string(R"(class="hull" d=")").size();
     card.path = card.text.substr(begin, card.text.find('"', begin) - begin);
   }
   return cards;
@@ -187,7 +187,7 @@ TEST_F(ChooseCommandTest, ThePageHasACardForEveryMethodSortedByAgreement) {
   EXPECT_EQ(all_of(convex->text, "<dt>Covered</dt>\\s*<dd>([0-9.]+) %</dd>").at(0), "100");
   // One frame, and nothing that has to be fetched or run.
   EXPECT_EQ(all_of(page(), "<svg role=\"img\" (viewBox=\"[^\"]*\")").size(), kRows);
-  for (const std::string& frame : all_of(page(), "<svg role=\"img\" (viewBox=\"[^\"]*\")"))
+  for (const std::string& frame : all_of(page(), R"(<svg role="img" (viewBox="[^"]*"))"))
     EXPECT_EQ(frame, all_of(page(), "<svg role=\"img\" (viewBox=\"[^\"]*\")")[0]);
   EXPECT_FALSE(has(page(), "<script"));
   EXPECT_FALSE(has(page(), "://"));

@@ -153,8 +153,7 @@ TEST_F(CommandLineTest, UnknownPlanAndBrokenPlans) {
   expect_refusal(hullbench({"run", "./"}), 2, "there is no plan './'");
   expect_refusal(hullbench({"run", "/nowhere/plan.json"}), 2, "there is no plan '/nowhere/plan.json'");
   expect_refusal(hullbench({"run", write_plan("{\"name\": ")}), 2, "is not JSON: mend it at line 1");
-  expect_refusal(hullbench({"run", write_plan("{\"name\": \"small\", \"speed\": 1}")}), 2,
-                 "speed is not a key");
+  expect_refusal(hullbench({"run", write_plan(R"({"name": "small", "speed": 1})")}), 2, "speed is not a key");
 }
 
 TEST_F(CommandLineTest, UnknownMethodAndDataSetInAPlan) {
@@ -206,7 +205,7 @@ TEST_F(CommandLineTest, FullDisk) {
   const std::string small = plan({500}, 1000);
   // A limit on the size of files stands for a full disk; its signal is ignored, so that writing fails
   // instead.
-  expect_end(run_program({"/bin/sh", "-c", "trap '' XFSZ; ulimit -f 40; exec \"$0\" run \"$1\" --out run",
+  expect_end(run_program({"/bin/sh", "-c", R"(trap '' XFSZ; ulimit -f 40; exec "$0" run "$1" --out run)",
                           HULLBENCH, small},
                          in_folder()),
              1, "repetitions.jsonl: is the disk full?");
@@ -496,7 +495,7 @@ TEST_F(CommandLineTest, WhatWasNotInstalledIsMeasuredWhenItIsThere) {
          {"--filter", "^(convex_hull|postgis)/(hi|letter_a)/n:2000/holes:0", "--repetitions", "1", "--out"}) {
       words.emplace_back(word);
     }
-    words.push_back(plans.size() == 1 ? "run" : "suite");
+    words.emplace_back(plans.size() == 1 ? "run" : "suite");
     return hullbench(words, options);
   };
   const auto statuses = [&](const fs::path& rows) {
@@ -562,7 +561,7 @@ class InterruptionTest : public CommandLineTest {
     std::this_thread::sleep_for(later);
     const std::vector<pid_t> workers = children_of(program.pid());
     program.send_signal(signal);
-    const Outcome outcome = program.wait();
+    Outcome outcome = program.wait();
     for (const pid_t worker : workers) {
       EXPECT_TRUE(wait_until([&] { return !is_running(worker); })) << "a worker is left";
     }
@@ -619,7 +618,7 @@ TEST_F(InterruptionTest, KilledAtRandomMomentsTheRowsAreThoseOfAnUninterruptedRu
   SCOPED_TRACE("seed " + std::to_string(seed));
   std::mt19937 random(seed);
   // In the middle of a repetition, a row or the report; and, where that many are there already, of the start.
-  std::uniform_int_distribution<std::size_t> lines(0, 6 * kRepetitions);
+  std::uniform_int_distribution<std::size_t> lines(0, std::size_t{6} * kRepetitions);
   std::uniform_int_distribution<int> microseconds(0, 60'000);
   int killed = 0;
   for (int i = 0; i < 10; ++i) {

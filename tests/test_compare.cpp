@@ -155,6 +155,7 @@ TEST(CompareDocument, SaysOtherMachinesPointsParametersAndVersions) {
 TEST(CompareDocument, OfManyPairsShowsThoseThatChanged) {
   std::vector<record::RunRecord> a;
   std::vector<record::RunRecord> b;
+  a.reserve(300);
   for (int place = 0; place < 300; ++place) a.push_back(run_on("d-" + std::to_string(place), {1}));
   b = a;
   b[7].status = record::Status::kTimeout;
@@ -219,11 +220,11 @@ TEST_F(CompareCommandTest, RefusesWhatCannotBeCompared) {
   expect_refusal(compare("a", "empty"), 1, "run.json");
   write_text(path("broken.json"), "{\"runs\": 3}");
   expect_refusal(compare("broken.json", "b"), 1, "broken.json is not a report");
-  write_text(path("old.json"), "{\"runs\": [], \"schema_version\": 99}");
+  write_text(path("old.json"), R"({"runs": [], "schema_version": 99})");
   expect_refusal(compare("old.json", "b"), 1, "old.json is of another schema version");
   write_text(path("bad.jsonl"), "{}\n");
   expect_refusal(compare("a", "bad.jsonl"), 1, "bad.jsonl");
-  write_text(path("bad.json"), "{\"schema_version\": 1, \"runs\": [{}]}");
+  write_text(path("bad.json"), R"({"schema_version": 1, "runs": [{}]})");
   expect_refusal(compare("a", "bad.json"), 1, "cannot be read");
   write_text(path("cut.jsonl.xz"), "no xz");
   expect_refusal(compare("cut.jsonl.xz", "b"), 1, "cut.jsonl.xz");

@@ -441,7 +441,7 @@ MultiPolygon moved(MultiPolygon shape, const Motion& motion) {
 
 // Points whose Delaunay triangulation is the only one, so that a relation has one right answer.
 std::vector<Point> points_in_general_position(std::uint64_t seed) {
-  const std::vector<Point> points = testing::integer_points(150 + 5 * seed, seed, 1 << 20);
+  std::vector<Point> points = testing::integer_points(150 + 5 * seed, seed, 1 << 20);
   const Triangulation triangulation = delaunay(points);
   const std::vector<std::uint32_t>& twins = triangulation.halfedges;
   const auto at = [&](std::size_t half_edge) { return points[triangulation.triangles[half_edge]]; };
@@ -499,7 +499,8 @@ TEST_P(ConcaveHullRelations, LargerLimitsGiveLargerShapes) {
   double alpha_area = 0;
   double length_area = 0;
   double perimeter_area = 0;
-  for (double limit = 1 << 10; limit < 0x1p24; limit *= 1.25) {
+  for (int k = 0; k < 44; ++k) {
+    const double limit = 0x1p10 * std::pow(1.25, k);  // up to 2^24
     const double with_alpha = area(hull(points_, {.alpha = limit}));
     const double with_length = area(hull(points_, {.max_edge_length = limit}));
     const double with_perimeter = area(hull(points_, {.max_perimeter = limit}));
@@ -603,7 +604,7 @@ TEST(Extractor, CanBeMoved) {
 TEST(CheckPolygon, SeesEveryKindOfFault) {
   const std::vector<Point> points = {{0, 0}, {4, 0}, {4, 4}, {0, 4}, {1, 1}, {1, 2},
                                      {2, 2}, {2, 1}, {9, 9}, {8, 2}, {0, 2}};
-  const auto fault = [&](IndexedMultiPolygon shape) { return check_polygon(points, shape); };
+  const auto fault = [&](const IndexedMultiPolygon& shape) { return check_polygon(points, shape); };
   EXPECT_EQ(fault({}), "");
   EXPECT_EQ(fault({{0, 1, 2, 3}, {4}, {1}}), "");
   EXPECT_EQ(fault({{0, 1, 2, 3, 4, 5, 6, 7}, {4, 8}, {2}}), "") << "a hole";

@@ -45,6 +45,7 @@ std::vector<std::size_t> region_sizes(const Points& points, double max_edge) {
     if (kept(i)) ++sizes[label[i]];
   }
   std::vector<std::size_t> values;
+  values.reserve(sizes.size());
   for (const auto& [first, size] : sizes) values.push_back(size);
   std::sort(values.begin(), values.end());
   return values;
@@ -69,7 +70,10 @@ TEST(CountTriangles, AgreesWithASlowCountOfTheRegions) {
 TEST(CountTriangles, GoesByThePolygonsOrder) {
   Points points;
   const auto add_grid = [&](double x, int side) {
-    for (int i = 0; i < side * side; ++i) points.push_back({x + i % side, static_cast<double>(i / side)});
+    for (int i = 0; i < side * side; ++i) {
+      const int row = i / side;
+      points.push_back({x + i % side, static_cast<double>(row)});
+    }
   };
   for (int side = 2; side < 9; ++side) add_grid(100.0 * side, side);
   Options options;

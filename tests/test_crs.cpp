@@ -69,7 +69,7 @@ TEST(CrsText, TheHorizontalSystem) {
 
 TEST(CrsText, KnownNamesHaveNumbers) {
   const auto projected = [](const std::string& name) {
-    return crs_of_wkt("PROJCS[\"" + name + "\",GEOGCS[\"GCS_WGS_1984\"],UNIT[\"Meter\",1.0]]")->epsg;
+    return crs_of_wkt("PROJCS[\"" + name + R"(",GEOGCS["GCS_WGS_1984"],UNIT["Meter",1.0]])")->epsg;
   };
   EXPECT_EQ(projected("WGS_1984_UTM_Zone_32N"), 32632);
   EXPECT_EQ(projected("WGS 84 / UTM zone 7S"), 32707);

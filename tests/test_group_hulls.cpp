@@ -199,7 +199,9 @@ TEST(GroupHulls, AreasOfDegreesAreThoseOnTheSphere) {
   // one at the equator has twice the area of the other.
   std::vector<Point> degrees;
   for (const double south : {0.0, 60.0}) {
-    for (int i = 0; i < 36; ++i) degrees.push_back({0.1 * (i % 6), south + 0.1 * (i / 6)});
+    for (int row = 0; row < 6; ++row) {
+      for (int column = 0; column < 6; ++column) degrees.push_back({0.1 * column, south + 0.1 * row});
+    }
   }
   const std::vector<Point> metres = to_metres(degrees, 60);
   HullOptions options = {.core = {.max_edge_length = 20000}, .latitude = 60};

@@ -82,7 +82,7 @@ class HullCommandTest : public ::testing::Test {
   }
   fs::path folder() const { return folder_.path(); }
   std::string make_pipe() const {
-    const std::string path = (folder() / "pipe").string();
+    std::string path = (folder() / "pipe").string();
     EXPECT_EQ(::mkfifo(path.c_str(), 0600), 0);
     return path;
   }
@@ -177,8 +177,8 @@ TEST_F(HullCommandTest, SvgHasPathsDotsAndATitle) {
   // The lowest point is at the bottom: 20 from the side, and the lower of the two.
   const std::string corner =
       hull({file("three.csv", "0,0\n10,0\n0,5\n"), "--alpha", "100", "--format", "svg"}).out;
-  expect_says(corner, "cx=\"20.00\" cy=\"520.00\"");
-  expect_says(corner, "cx=\"20.00\" cy=\"20.00\"");
+  expect_says(corner, R"(cx="20.00" cy="520.00")");
+  expect_says(corner, R"(cx="20.00" cy="20.00")");
 }
 
 TEST_F(HullCommandTest, EveryInputFormatGivesTheSameBytes) {
@@ -417,7 +417,7 @@ TEST_F(HullCommandTest, InputThatCannotBeRead) {
 TEST_F(HullCommandTest, OneFeatureAGroup) {
   std::string text = "kind;x;y\n";
   for (std::size_t i = 0; i < points_.size(); ++i) {
-    text += (i % 3 == 0   ? "\"red; \\deep\""
+    text += (i % 3 == 0   ? R"("red; \deep")"
              : i % 3 == 1 ? "blue"
                           : "") +
             std::string(";") + number(points_[i].x) + ";" + number(points_[i].y) + "\n";
@@ -754,17 +754,17 @@ TEST_F(ShardTest, ShardsGiveTheBytesOfOneRun) {
       {file("one.las", las.text()), "--max-perimeter", "0.3"},
       {file("head.csv", rows(head, " ")), file("tail.npy", npy_of<double>(tail, "<f8")), "--max-perimeter",
        "0.9"}};
-  for (std::size_t i = 0; i < inputs.size(); ++i) {
-    std::vector<std::string> arguments = inputs[i];
+  for (const std::vector<std::string>& input : inputs) {
+    std::vector<std::string> arguments = input;
     arguments.emplace_back("--stream");
     const Outcome whole = hull(arguments);
     ASSERT_EQ(whole.code, 0) << whole.err;
     for (const std::size_t count : {1U, 2U, 3U, 7U}) {
-      std::vector<std::string> made = parts(inputs[i], count, "", count == 2 ? HULLBENCH : POLYLIDAR);
+      std::vector<std::string> made = parts(input, count, "", count == 2 ? HULLBENCH : POLYLIDAR);
       std::ranges::reverse(made);
       const Outcome merged = merge(made);
       EXPECT_EQ(merged.code, 0) << merged.err;
-      EXPECT_EQ(merged.out, whole.out) << inputs[i][0] << " in " << count << " shards";
+      EXPECT_EQ(merged.out, whole.out) << input[0] << " in " << count << " shards";
       EXPECT_EQ(merged.err, whole.err);
     }
   }
@@ -919,7 +919,7 @@ TEST_F(HullCommandTest, AStreamNeedsLittleMemory) {
   const std::string little = "ulimit -v 200000;";
 #endif
   for (const std::string limit : {" --max-perimeter 0.4", ""}) {
-    const std::string arguments = "'" + npy + "' --threads 1" + limit;
+    const std::string arguments = std::string("'").append(npy).append("' --threads 1").append(limit);
     const Outcome streamed = succeeded(in_shell(little, arguments + " --stream"));
     EXPECT_EQ(json::parse(streamed.out)["properties"]["points"], 20000000);
     EXPECT_EQ(in_shell("", arguments).out, streamed.out);

@@ -164,7 +164,7 @@ void move(Points& points, Random& random) {
       const int lowest = -116 - least;
       const int highest = 149 - greatest;
       const int between =
-          lowest + static_cast<int>(random.below(static_cast<std::size_t>(highest - lowest + 1)));
+          lowest + static_cast<int>(random.below(static_cast<std::size_t>(highest - lowest) + 1));
       const int exponent = std::array{lowest, between, between, highest}[random.below(4)];
       for (Point& p : points) p = {std::ldexp(p.x, exponent), std::ldexp(p.y, exponent)};
       break;
@@ -646,7 +646,9 @@ TEST(InteriorLeftOut, CanBeAskedAbout) {
   };
   EXPECT_EQ(way(four_times(testing::uniform_points(2000, 1)), {.alpha = 0.0224}), Way::kMuchOutline);
   Points lattice;
-  for (int i = 0; i < 2500; ++i) lattice.push_back({i % 50 * 0.1, i / 50 * 0.1});
+  for (int row = 0; row < 50; ++row) {
+    for (int column = 0; column < 50; ++column) lattice.push_back({column * 0.1, row * 0.1});
+  }
   EXPECT_EQ(way(four_times(lattice), {.alpha = 0.1}), Way::kInteriorLeftOut);
   Points other = points;
   for (Point& p : other) p = {std::ldexp(p.x, 600), std::ldexp(p.y, 600)};

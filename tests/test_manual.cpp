@@ -115,7 +115,7 @@ class CompletionTest : public ManualTest {
     return completed(
         {"bash", "--norc", "-c",
          R"(source "$0"; COMP_WORDS=("$@"); COMP_CWORD=$(($# - 1)); _cut; printf '%s\n' "${COMPREPLY[@]}")"},
-        bash_completion(app_, kMore), words);
+        bash_completion(app_, kMore_), words);
   }
 
   /// The builtins of zsh that work in its editor only are replaced; what is offered is not yet compared with
@@ -124,10 +124,10 @@ class CompletionTest : public ManualTest {
     return completed({"zsh", "-f", "-c",
                       R"(compset() { :; }; compadd() { shift; print -rl -- "$@"; }; _files() { print files; };
                          words=("$@"); CURRENT=$#; source $0)"},
-                     zsh_completion(app_, kMore), words);
+                     zsh_completion(app_, kMore_), words);
   }
 
-  const MoreWords kMore = {{"art:STYLE", {"art:new", "art:nice"}}};
+  const MoreWords kMore_ = {{"art:STYLE", {"art:new", "art:nice"}}};
 
  private:
   Words completed(Words command, const std::string& script, const Words& words) {
@@ -181,7 +181,7 @@ TEST_F(CompletionTest, OfZshOffersTheSame) {
 
 TEST_F(CompletionTest, LeavesOutWhatTheProgramDoesNotHave) {
   EXPECT_FALSE(has(bash_completion(app_), "art:"));
-  for (const std::string& script : {bash_completion(app_, kMore), zsh_completion(app_, kMore)}) {
+  for (const std::string& script : {bash_completion(app_, kMore_), zsh_completion(app_, kMore_)}) {
     EXPECT_FALSE(has(script, "hidden")) << script;
     EXPECT_FALSE(has(script, "secret")) << script;
   }

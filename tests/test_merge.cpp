@@ -301,7 +301,7 @@ TEST_F(MergeTest, OfOtherDataOrRulesIsRefused) {
   const std::string before = read_text(folder() / "shard2" / "run.json");
   const auto refusal = [&](const auto& change) {
     change_header("shard2", change);
-    const Outcome outcome = hullbench({"merge", "shard1", "shard2", "--out", "merged"});
+    Outcome outcome = hullbench({"merge", "shard1", "shard2", "--out", "merged"});
     write_text(folder() / "shard2" / "run.json", before);
     return outcome;
   };

@@ -39,7 +39,8 @@ struct Method {
 };
 
 /// What GoogleTest says of it.
-void PrintTo(const Method& method, std::ostream* out) {
+void PrintTo(const Method& method,
+             std::ostream* out) {  // NOLINT(readability-identifier-naming): GoogleTest calls it
   *out << method.identity.name;
 }
 

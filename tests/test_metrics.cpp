@@ -36,7 +36,10 @@ const MultiPolygon kBowTie = {{{{0, 0}, {2, 2}, {2, 0}, {0, 2}}, {}}};
 std::vector<Point> cell_centres(std::size_t count = 100) {
   std::vector<Point> points;
   for (std::size_t i = 0; i < count; ++i) {
-    points.push_back({0.5 + static_cast<double>(i % 10), 0.5 + static_cast<double>(i / 10)});
+    {
+      const std::size_t row = i / 10;
+      points.push_back({0.5 + static_cast<double>(i % 10), 0.5 + static_cast<double>(row)});
+    }
   }
   return points;
 }
@@ -234,6 +237,7 @@ TEST(ContractScores, TextOf15DigitsLosesNoPointAndTextOf14Does) {
     const double scale = std::pow(10, static_cast<double>(seed % 15) - 7);
     const Point centre = {random.between(-9, 9) * scale, random.between(-9, 9) * scale};
     std::vector<Point> points;
+    points.reserve(100);
     for (int i = 0; i < 100; ++i)
       points.push_back({centre.x + scale * random.between(-1, 1), centre.y + scale * random.between(-1, 1)});
     const MultiPolygon hull =
@@ -353,6 +357,7 @@ TEST(Agreement, WithoutATruthOfAConvexHullAllPointsAreCovered) {
     const double scale = std::pow(10, random.between(-9, 9));
     const Point centre = {scale * random.between(-1e4, 1e4), scale * random.between(-1e4, 1e4)};
     std::vector<Point> points;
+    points.reserve(200);
     for (int i = 0; i < 200; ++i)
       points.push_back({centre.x + scale * random.between(0, 1), centre.y + scale * random.between(0, 1)});
     const MultiPolygon hull =
@@ -541,9 +546,9 @@ double dense_distance(const MultiPolygon& from, const MultiPolygon& to, double h
       for (std::size_t i = 0; i < ring.size(); ++i) {
         const Point& a = ring[i];
         const Point& b = ring[(i + 1) % ring.size()];
-        const double pieces = std::ceil(std::hypot(b.x - a.x, b.y - a.y) / h * 512);
-        for (double piece = 0; piece < pieces; ++piece) {
-          const double t = piece / pieces;
+        const auto pieces = static_cast<int>(std::ceil(std::hypot(b.x - a.x, b.y - a.y) / h * 512));
+        for (int piece = 0; piece < pieces; ++piece) {
+          const double t = static_cast<double>(piece) / pieces;
           largest = std::max(largest, tree.distance({a.x + t * (b.x - a.x), a.y + t * (b.y - a.y)}));
         }
       }
@@ -572,6 +577,7 @@ TEST(Metrics, AreTheSameFromSeveralThreads) {
   const metrics::CaseScorer scorer(sample.points, sample.truth);
   const std::vector<MultiPolygon> results = {sample.result, sample.truth, {}, kBowTie};
   std::vector<json> expected;
+  expected.reserve(results.size());
   for (const MultiPolygon& result : results)
     expected.push_back(metrics::metrics_to_json(scorer.score(result)));
   std::vector<json> seen(16);

@@ -135,7 +135,7 @@ TEST_F(PackageTest, TheToolIsAComponentOfItsOwnAndLinksNoOtherLibrary) {
 // A build of the tool alone has the install rules of this folder, and none of packaging/.
 TEST_F(PackageTest, TheToolHasItsManualWithoutTheHarness) {
   succeed({CMAKE_PROGRAM, "-DCMAKE_INSTALL_PREFIX=" + prefix(), "-DCMAKE_INSTALL_COMPONENT=tool", "-P",
-           BUILD_FOLDER "/core/tool/cmake_install.cmake"});
+           std::string(BUILD_FOLDER) + "/core/tool/cmake_install.cmake"});
   EXPECT_EQ(installed_files(), kToolFiles);
 }
 

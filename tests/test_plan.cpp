@@ -94,7 +94,7 @@ plan::Plan parsed(const json& source, const std::string& place = "here") {
 
 /// Expects that the plan is the same when it is written and read again; what is written.
 json expect_to_survive_json(const plan::Plan& plan) {
-  const json once = plan::plan_to_json(plan);
+  json once = plan::plan_to_json(plan);
   EXPECT_EQ(plan::plan_to_json(parsed(once)), once);
   return once;
 }
@@ -111,6 +111,7 @@ std::string complaint_about_cases(const std::string& cases) {
 
 std::vector<std::string> names_of(const std::vector<plan::PlannedRun>& runs) {
   std::vector<std::string> names;
+  names.reserve(runs.size());
   for (const plan::PlannedRun& run : runs) names.push_back(run.name);
   return names;
 }
@@ -423,7 +424,8 @@ void collect_parts(const json& part, const std::string& place, std::map<std::str
   parts[place] = part;
   for (const char* group : {"properties", "$defs"}) {
     const json children = part.value(group, json::object());
-    for (const auto& [name, child] : children.items()) collect_parts(child, place + "/" + name, parts);
+    for (const auto& [name, child] : children.items())
+      collect_parts(child, std::string(place).append("/").append(name), parts);
   }
   for (const char* key : {"items", "additionalProperties"}) {
     if (part.contains(key) && part[key].is_object()) collect_parts(part[key], place + "/" + key, parts);

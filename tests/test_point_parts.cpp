@@ -69,7 +69,7 @@ TEST(PointParts, EveryPointIsAsLikelyAsAnother) {
       ++drawn[static_cast<std::size_t>(point.x)];
   }
   // A binomial count has a standard deviation of 22 here; beyond five of them is one in a million.
-  for (const int count : drawn) EXPECT_NEAR(count, kDraws / 2, 5 * 22.4);
+  for (const int count : drawn) EXPECT_NEAR(count, 0.5 * kDraws, 5 * 22.4);
 }
 
 }  // namespace

@@ -162,21 +162,21 @@ class LegacyPostgis : public ::testing::Test {
   void SetUp() override {
     unsetenv(kLegacyDsnVariable);
     try {
-      adapter = make_postgis_legacy();
+      adapter_ = make_postgis_legacy();
     } catch (const NotInstalled& error) {
       GTEST_SKIP() << error.what() << "; " << error.remedy();
     }
   }
 
-  std::unique_ptr<Adapter> adapter;
+  std::unique_ptr<Adapter> adapter_;
 };
 
 TEST_F(LegacyPostgis, IsThePapersMethodBesideTheCurrentOne) {
-  EXPECT_EQ(adapter->info().name, "postgis_legacy");
+  EXPECT_EQ(adapter_->info().name, "postgis_legacy");
   const auto current = make_postgis();
-  EXPECT_NE(adapter->info().version, current->info().version);
+  EXPECT_NE(adapter_->info().version, current->info().version);
   const std::vector<Point> points = square_points(500, 11, true);
-  const MultiPolygon hull = hull_of(*adapter, points, {{"target_percent", 0.9}});
+  const MultiPolygon hull = hull_of(*adapter_, points, {{"target_percent", 0.9}});
   ASSERT_EQ(hull.size(), 1U);
   EXPECT_EQ(hole_count(hull), 0U);
   // It stops when the area is at most the target's share of the convex hull's, or at an outline it cannot

@@ -128,7 +128,7 @@ void write_pg_config(const fs::path& bin, const fs::path& built_bin, const fs::p
 
 /// A folder that looks like the programs of PostgreSQL `version`, with the PostGIS extension or without.
 fs::path pretend_install(const fs::path& root, const std::string& version, bool postgis) {
-  const fs::path bin = root / version / "bin";
+  fs::path bin = root / version / "bin";
   const fs::path share = root / version / "share";
   fs::create_directories(bin);
   fs::create_directories(share / "extension");

@@ -92,7 +92,7 @@ TEST(RatioOfTimes, PValueIsThatOfEveryOrder) {
       for (int i = 0; i < n; ++i) a.push_back(100 + i);
       for (int j = 0; j < m; ++j) b.push_back(j < k ? 10 + j : 1000 + j);
       const double expected = brute_force_p_value(static_cast<std::size_t>(n), static_cast<std::size_t>(m),
-                                                  static_cast<std::size_t>(k * n));
+                                                  static_cast<std::size_t>(k) * static_cast<std::size_t>(n));
       // The recurrence adds and multiplies fewer than a hundred numbers below 1.
       EXPECT_NEAR(statistics::ratio_of_times(a, b)->p_value, expected, 1e-14) << n << " " << m << " " << k;
     }

@@ -263,7 +263,7 @@ TEST_F(Recordings, DepthWithoutAFloorIsRefused) {
 }
 
 TEST_F(Recordings, PngsOfOtherKindsAreRefused) {
-  const std::vector<std::uint8_t> pixels(2 * 2 * 4, 7);
+  const std::vector<std::uint8_t> pixels(16, 7);
   for (const png_uint_32 format :
        {png_uint_32{PNG_FORMAT_GRAY}, png_uint_32{PNG_FORMAT_RGB}, png_uint_32{PNG_FORMAT_RGBA}}) {
     png_image image{};

@@ -169,7 +169,7 @@ TEST(Report, LastLineOfAnIdCounts) {
 TEST(Report, TornLastLineIsLeftOutAndSaid) {
   const TemporaryFolder folder;
   write_invented_run(folder.path(), {2000});
-  std::ofstream(folder.path() / "runs.jsonl", std::ios::app) << "{\"id\": \"12";
+  std::ofstream(folder.path() / "runs.jsonl", std::ios::app) << R"({"id": "12)";
   const json report = report::make_report(folder.path());
   EXPECT_EQ(report["runs"].size(), invented_records({2000}).size());
   ASSERT_EQ(report["notes"].size(), 1U);
@@ -410,6 +410,7 @@ TEST(Embedded, FilesAreTheOnesInResults) {
 TEST(Embedded, StatusesOfTheSchemaAreOurs) {
   const json schema = json::parse(record::kRunSchemaJson);
   std::vector<std::string> ours;
+  ours.reserve(record::kAllStatuses.size());
   for (const record::Status status : record::kAllStatuses) ours.push_back(to_string(status));
   EXPECT_EQ(schema["properties"]["status"]["enum"], json(ours));
 }

@@ -287,6 +287,7 @@ TEST_F(RunnerTest, EveryMisbehaviourIsARowAndTheOthersAreMeasured) {
                                                           {"polylidar", record::Status::kOk},
                                                           {"good", record::Status::kOk}};
   std::vector<std::string> methods;
+  methods.reserve(expected.size());
   for (const auto& [method, status] : expected) methods.push_back(method);
   plan::Plan plan = plan_of(methods, 2);
   for (plan::PlanMethod& method : plan.methods) {
@@ -509,7 +510,7 @@ TEST_F(RunnerTest, RepetitionsOfAnEarlierStartAreKept) {
   for (const json& line : lines("repetitions.jsonl")) {
     if (line["repetition"] < 2) kept += line.dump() + "\n";
   }
-  write_text(run / "repetitions.jsonl", kept + "{\"id\": \"torn");
+  write_text(run / "repetitions.jsonl", kept + R"({"id": "torn)");
   write_text(run / "runs.jsonl", "{\"schema_ver");
 
   EXPECT_EQ(exit_code(measure(plan)), 0);
@@ -574,8 +575,7 @@ TEST_F(RunnerTest, AnInterruptionKeepsWhatIsThereAndTheNextStartGoesOn) {
   };
   EXPECT_EQ(exit_code(measure(plan, interrupt_at_hang)), 130);
   set_interrupted(false);
-  plan::Plan same = plan;
-  EXPECT_EQ(exit_code(measure(same,
+  EXPECT_EQ(exit_code(measure(plan,
                               [](const std::string& method) {
                                 return method == "hang" ? gone(method) : worker_of(method);
                               })),

@@ -38,6 +38,7 @@ TEST(Statistics, MedianOfEvenCountIsTheMeanOfTheMiddleTwo) {
 TEST(Weighted, OfEqualWeightsTheMedianIsTheUsualOne) {
   const auto median_of = [](const std::vector<double>& values) {
     std::vector<statistics::WeightedValue> weighted;
+    weighted.reserve(values.size());
     for (const double value : values) weighted.push_back({value, 1.0 / 3});
     return statistics::weighted_median(weighted);
   };

@@ -311,7 +311,8 @@ TEST(Stress, HotSpotIsAGaussianOverItsBackground) {
     }
     for (std::size_t i = 0; i < 25; ++i) {
       const auto x = static_cast<double>(2 * (i % 5));
-      const auto y = static_cast<double>(2 * (i / 5));
+      const std::size_t row = i / 5;
+      const double y = 2 * static_cast<double>(row);
       masses[i] = 4 + 2 * std::acos(-1.0) * (level - 1) * part(x, x + 2, middle.x) * part(y, y + 2, middle.y);
     }
     EXPECT_LT(chi_squared(counts, masses), 24 + 5 * std::sqrt(48)) << level;
@@ -347,7 +348,8 @@ TEST(Stress, TranscriptsLieRoundANucleusAndSomeBeyondTheBorder) {
     }
     for (std::size_t i = 0; i < 25; ++i) {
       const auto x = static_cast<double>(2 * (i % 5));
-      const auto y = static_cast<double>(2 * (i / 5));
+      const std::size_t row = i / 5;
+      const double y = 2 * static_cast<double>(row);
       masses[i] = 0.5 / 25 + 0.5 * part(x, x + 2, nucleus.x) * part(y, y + 2, nucleus.y) / inside;
     }
     EXPECT_LT(chi_squared(counts, masses), 24 + 5 * std::sqrt(48)) << level;
@@ -522,9 +524,7 @@ TEST(Stress, LakesAreEmptyAndTheRestIsEven) {
     EXPECT_TRUE(std::ranges::none_of(points, [&](const Point& p) { return lakes.contain(p); }));
     if (!stresses.front().kind->draw) {
       // The share of dry ground in each quarter of the square, by a fine uniform sample of its own.
-      const auto quarter = [](const Point& p) {
-        return static_cast<std::size_t>((p.x < 5 ? 0 : 1) + (p.y < 5 ? 0 : 2));
-      };
+      const auto quarter = [](const Point& p) { return (p.x < 5 ? 0U : 1U) + (p.y < 5 ? 0U : 2U); };
       std::vector<double> counts(4);
       std::vector<double> masses(4);
       for (const Point& p : points) counts[quarter(p)] += 1;

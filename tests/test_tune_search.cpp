@@ -151,6 +151,7 @@ TEST(SearchTest, FailuresAreInfinitelyBadAndTimeoutsEndTheSweep) {
 
 std::vector<tune::SearchPoint> curve(const std::vector<std::pair<double, double>>& values) {
   std::vector<tune::SearchPoint> points;
+  points.reserve(values.size());
   for (const auto& [position, error] : values) points.push_back({position, error, true});
   return points;
 }
@@ -410,7 +411,7 @@ TEST(HalvingTest, FindsTheWinnerOfTheWholeSearchForHalfOfItsCost) {
   EXPECT_EQ(rounds[0].positions.size(), 25U);
   EXPECT_EQ(rounds[1].positions.size(), 13U);
   EXPECT_EQ(rounds[2].positions.size(), 7U);
-  const std::size_t of_tests = 80 * (tune::kSweepPoints + tune::kRefinements + 1);
+  const std::size_t of_tests = std::size_t{80} * (tune::kSweepPoints + tune::kRefinements + 1);
   EXPECT_EQ(invented.evaluations - of_tests, 20U * 25 + 20 * 13 + 40 * 7);
   EXPECT_LE(invented.evaluations - of_tests, training * 25 * 55 / 100);
 }

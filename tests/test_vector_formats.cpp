@@ -58,18 +58,18 @@ class NewData {
 
   /// A layer with the fields kind (text), number (whole) and value (real).
   OGRLayerH layer(const char* name, OGRwkbGeometryType type, const std::string& system) const {
-    OGRSpatialReferenceH const srs = OSRNewSpatialReference(nullptr);
+    OGRSpatialReferenceH srs = OSRNewSpatialReference(nullptr);
     OSRSetFromUserInput(srs, system.c_str());
     OSRSetAxisMappingStrategy(srs, OAMS_TRADITIONAL_GIS_ORDER);
     // With its index, a newer FlatGeobuf takes no feature without a geometry.
     const bool is_flat = std::string(GDALGetDriverShortName(GDALGetDatasetDriver(data_))) == "FlatGeobuf";
     char** const options = is_flat ? CSLSetNameValue(nullptr, "SPATIAL_INDEX", "NO") : nullptr;
-    OGRLayerH const layer = GDALDatasetCreateLayer(data_, name, srs, type, options);
+    OGRLayerH layer = GDALDatasetCreateLayer(data_, name, srs, type, options);
     CSLDestroy(options);
     OSRRelease(srs);
     for (const auto& [field, field_type] :
          {std::pair{"kind", OFTString}, std::pair{"number", OFTInteger}, std::pair{"value", OFTReal}}) {
-      OGRFieldDefnH const definition = OGR_Fld_Create(field, field_type);
+      OGRFieldDefnH definition = OGR_Fld_Create(field, field_type);
       OGR_L_CreateField(layer, definition, 1);
       OGR_Fld_Destroy(definition);
     }
@@ -80,10 +80,10 @@ class NewData {
   void add_points(OGRLayerH layer, const Points& points) const {
     GDALDatasetStartTransaction(data_, 0);
     for (std::size_t i = 0; i < points.size(); ++i) {
-      OGRGeometryH const geometry = OGR_G_CreateGeometry(wkbPoint);
+      OGRGeometryH geometry = OGR_G_CreateGeometry(wkbPoint);
       OGR_G_SetPoint_2D(geometry, 0, points[i].x, points[i].y);
       const bool is_odd = i % 2 == 1;
-      OGRFeatureH const feature = OGR_F_Create(OGR_L_GetLayerDefn(layer));
+      OGRFeatureH feature = OGR_F_Create(OGR_L_GetLayerDefn(layer));
       if (i != 6) OGR_F_SetFieldString(feature, 0, is_odd ? "b" : "a");
       OGR_F_SetFieldInteger(feature, 1, is_odd ? 2 : 1);
       OGR_F_SetFieldDouble(feature, 2, is_odd ? 0.25 : 0.1);
@@ -92,7 +92,7 @@ class NewData {
       OGR_F_Destroy(feature);
     }
     // A feature without a geometry is none of a point.
-    OGRFeatureH const nothing = OGR_F_Create(OGR_L_GetLayerDefn(layer));
+    OGRFeatureH nothing = OGR_F_Create(OGR_L_GetLayerDefn(layer));
     EXPECT_EQ(OGR_L_CreateFeature(layer, nothing), OGRERR_NONE);
     OGR_F_Destroy(nothing);
     GDALDatasetCommitTransaction(data_);
@@ -103,7 +103,7 @@ class NewData {
     OGRGeometryH geometry = nullptr;
     char* text = wkt.data();
     ASSERT_EQ(OGR_G_CreateFromWkt(&text, nullptr, &geometry), OGRERR_NONE);
-    OGRFeatureH const feature = OGR_F_Create(OGR_L_GetLayerDefn(layer));
+    OGRFeatureH feature = OGR_F_Create(OGR_L_GetLayerDefn(layer));
     OGR_F_SetGeometryDirectly(feature, geometry);
     EXPECT_EQ(OGR_L_CreateFeature(layer, feature), OGRERR_NONE);
     OGR_F_Destroy(feature);
@@ -129,9 +129,9 @@ std::vector<ReadLayer> read_layers(const std::string& path) {
       GDALOpenEx(path.c_str(), GDAL_OF_VECTOR, nullptr, nullptr, nullptr), &GDALClose);
   std::vector<ReadLayer> layers;
   for (int l = 0; data && l < GDALDatasetGetLayerCount(data.get()); ++l) {
-    OGRLayerH const layer = GDALDatasetGetLayer(data.get(), l);
+    OGRLayerH layer = GDALDatasetGetLayer(data.get(), l);
     layers.push_back({OGR_L_GetName(layer), "", {}});
-    OGRSpatialReferenceH const srs = OGR_L_GetSpatialRef(layer);
+    OGRSpatialReferenceH srs = OGR_L_GetSpatialRef(layer);
     if (srs != nullptr) {
       const char* const code = OSRGetAuthorityCode(srs, nullptr);
       layers.back().system = code != nullptr ? std::string("EPSG:") + code : OSRGetName(srs);
@@ -143,7 +143,7 @@ std::vector<ReadLayer> read_layers(const std::string& path) {
         read.fields[OGR_Fld_GetNameRef(OGR_F_GetFieldDefnRef(feature, f))] =
             OGR_F_GetFieldAsString(feature, f);
       }
-      if (OGRGeometryH const geometry = OGR_F_GetGeometryRef(feature)) {
+      if (OGRGeometryH geometry = OGR_F_GetGeometryRef(feature)) {
         read.wkb.resize(static_cast<std::size_t>(OGR_G_WkbSize(geometry)));
         OGR_G_ExportToIsoWkb(geometry, wkbNDR, reinterpret_cast<unsigned char*>(read.wkb.data()));
       }

@@ -133,7 +133,7 @@ struct Failure {
 };
 
 /// What GoogleTest says of it.
-void PrintTo(const Failure& failure, std::ostream* out) {
+void PrintTo(const Failure& failure, std::ostream* out) {  // NOLINT(readability-identifier-naming): as above
   *out << failure.mode;
 }
 
@@ -365,7 +365,7 @@ TEST(WorkerProcess, KeepsALowerLimitOfTheHarness) {
   if (harness == 0) {
     const rlimit low = {300U << 20U, 300U << 20U};
     setrlimit(RLIMIT_AS, &low);
-    const std::string script = "read line; echo \"{\\\"memory\\\": $(ulimit -v)}\"; read line";
+    const std::string script = R"(read line; echo "{\"memory\": $(ulimit -v)}"; read line)";
     worker::WorkerProcess worker({"/bin/sh", "-c", script}, {512, std::nullopt});
     const worker::Reply reply = worker.request({{"request", "hello"}}, 30s);
     ::_exit(reply.status == record::Status::kOk && reply.body["memory"] == 300 * 1024 ? 0 : 1);
@@ -400,7 +400,7 @@ TEST(WorkerProcess, RunsOnTheCoreAndWithTheMemoryItIsGiven) {
 
 // What the core asks for by itself, the malloc of every worker asks for too.
 TEST(WorkerProcess, AsksForHugePages) {
-  const std::string script = "read line; echo \"{\\\"tunables\\\": \\\"$GLIBC_TUNABLES\\\"}\"; read line";
+  const std::string script = R"(read line; echo "{\"tunables\": \"$GLIBC_TUNABLES\"}"; read line)";
   const char* const own = std::getenv("GLIBC_TUNABLES");
   worker::WorkerProcess worker({"/bin/sh", "-c", script}, {});
   const worker::Reply reply = worker.request({{"request", "hello"}}, 30s);
@@ -417,7 +417,7 @@ TEST(HugePages, AUsersOwnTunablesAreKept) {
 }
 
 TEST(WorkerProcess, AReplyThatComesJustBeforeTheEndCounts) {
-  const std::string script = "read line; echo '{\"last\": \"word\"}'";
+  const std::string script = R"(read line; echo '{"last": "word"}')";
   worker::WorkerProcess worker({"/bin/sh", "-c", script}, {});
   const worker::Reply reply = worker.request({{"request", "hello"}}, 30s);
   EXPECT_EQ(reply.status, record::Status::kOk) << reply.detail;

@@ -99,6 +99,7 @@ TEST(WorldShapes, SeveralThreadsMayAskForTheFirst) {
   const MultiPolygon expected = world_families().front().make(7);
   std::vector<MultiPolygon> got(4);
   std::vector<std::thread> threads;
+  threads.reserve(got.size());
   for (MultiPolygon& one : got) threads.emplace_back([&] { one = families.front().make(7); });
   for (std::thread& thread : threads) thread.join();
   for (const MultiPolygon& one : got) EXPECT_EQ(one, expected);
