@@ -31,6 +31,13 @@ void Bitmap::clear(std::size_t words) {
   std::fill_n(words_, words, Word{0});
 }
 
+void Bitmap::clear(std::size_t words, ThreadPool& pool) {
+  words_ = storage_.reserve(words);
+  const Chunks chunks(pool, words);
+  pool.for_each(chunks.size(),
+                [&](std::size_t c) { std::fill(words_ + chunks.begin(c), words_ + chunks.end(c), Word{0}); });
+}
+
 void FewCells::fill(const Grid& grid, Grid::Cell begin, Grid::Cell rows_end, const Find& find,
                     ThreadPool& pool) {
   constexpr Grid::Cell kRowsATime = 128;  // those round them are looked at twice

@@ -107,6 +107,8 @@ class Bitmap {
   using Word = std::uint64_t;
 
   void clear(std::size_t words);
+  /// The same, shared by the threads: for what is so large that touching its memory takes its time.
+  void clear(std::size_t words, ThreadPool& pool);
   bool test(Grid::Cell cell) const {
     return ((words_[cell / Grid::kWordBits] >> (cell % Grid::kWordBits)) & 1U) != 0;
   }

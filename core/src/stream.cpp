@@ -159,7 +159,6 @@ class Stream {
     std::size_t source = 0;  ///< whose points the next two are of
     detail::RangeOfBlocks range;
     std::uint64_t checksum = 0;
-    Bitmap occupied;  ///< if each slot has a map of its own; the first has occupied_
     std::vector<Uncertain> uncertain;
     std::vector<NumberedPoint> gathered;
     std::vector<Point> points;
@@ -358,41 +357,20 @@ void Stream::choose_grid(double widest) {
 }
 
 void Stream::find_occupied_cells() {
-  const std::size_t words = grid_.word_count();
-  occupied_.emplace().clear(words);
-  const auto run_with = [&](const auto& map_of, const auto& set) {
-    const auto take = [&](Slot& slot, const CellBlock& block) {
-      Bitmap& map = map_of(slot);
+  occupied_.emplace().clear(grid_.word_count(), pool_);
+  const auto run_with = [&](const auto& set) {
+    const auto take = [&](Slot&, const CellBlock& block) {
       for (std::size_t i = 0; i < block.points.size(); ++i) {
-        if (block.has(i)) map.prefetch(block.cells[i]);  // many wait for memory at the same time
+        if (block.has(i)) occupied_->prefetch(block.cells[i]);  // many wait for memory at the same time
       }
       for (std::size_t i = 0; i < block.points.size(); ++i) {
-        if (block.has(i)) set(map, block.cells[i]);
+        if (block.has(i)) set(block.cells[i]);
       }
     };
     run_over_cells(seen_, take, [](std::size_t) {});
   };
-  const auto only_map = [&](Slot&) -> Bitmap& { return *occupied_; };
-  const auto set = [](Bitmap& map, Grid::Cell cell) { map.set(cell); };
-  if (pool_.threads() == 1) return run_with(only_map, set);
-  // A map for each slot is faster than one that all threads write to, but needs more memory.
-  constexpr std::size_t kMostBytes = std::size_t{1} << 25U;
-  if (!passes_.are_read_at_once() || slots_.size() * words * sizeof(Bitmap::Word) > kMostBytes) {
-    return run_with(only_map, [](Bitmap& map, Grid::Cell cell) { map.set_shared(cell); });
-  }
-  const auto map_of = [&](Slot& slot) -> Bitmap& {
-    return &slot == &slots_.front() ? *occupied_ : slot.occupied;
-  };
-  for (Slot& slot : slots_) map_of(slot).clear(words);
-  run_with(map_of, set);
-  const detail::Chunks chunks(pool_, words);
-  pool_.for_each(chunks.size(), [&](std::size_t c) {
-    for (std::size_t s = 1; s < slots_.size(); ++s) {
-      for (std::size_t w = chunks.begin(c); w < chunks.end(c); ++w) {
-        occupied_->words()[w] |= slots_[s].occupied.words()[w];
-      }
-    }
-  });
+  if (pool_.threads() == 1) return run_with([&](Grid::Cell cell) { occupied_->set(cell); });
+  run_with([&](Grid::Cell cell) { occupied_->set_shared(cell); });
 }
 
 void Stream::find_uncertain_points() {

@@ -262,7 +262,7 @@ class IndexRun {
   std::optional<Footprint> by_stream(std::size_t place, unsigned threads) {
     const std::string& path = command_.inputs[place];
     Footprint made;
-    std::vector<PointFile> parts(threads);  // of each what it says beside its points
+    std::vector<PointFile> parts(parts_for(threads));  // of each what it says beside its points
     const auto on_read = [&](std::size_t part, const PointFile& file) {
       if (part == 0 && chosen_crs(command_.shape, file.crs).is_geographic) {
         throw std::invalid_argument("degrees are no plane");
@@ -280,8 +280,8 @@ class IndexRun {
     };
     StreamedHull hull;
     try {
-      hull = concave_hull_of_stream(point_sources(path, options_, threads, kMostKeptBytes, on_read), core,
-                                    stream_options);
+      hull = concave_hull_of_stream(point_sources(path, options_, parts.size(), kMostKeptBytes, on_read),
+                                    core, stream_options);
     } catch (const std::invalid_argument&) {
       return {};
     }
@@ -460,8 +460,9 @@ class UnionRun {
     const auto nothing = [](std::size_t, const PointFile&) {};
     for (std::size_t file = 0; file < command_.inputs.size(); ++file) {
       if (!files_.is_done(file)) continue;
-      for (PointSource& part : point_sources(command_.inputs[file], options_, count_ == 1 ? core_.threads : 1,
-                                             kMostKeptBytes / command_.inputs.size(), nothing)) {
+      for (PointSource& part :
+           point_sources(command_.inputs[file], options_, count_ == 1 ? parts_for(core_.threads) : 1,
+                         kMostKeptBytes / command_.inputs.size(), nothing)) {
         if (!in_metres || !latitude_) {
           sources.push_back(std::move(part));
           continue;

@@ -86,8 +86,8 @@ class StreamRun {
     StreamOptions options = stream_options();
     options.most_map_bytes = std::max(options.most_map_bytes, most_map_bytes(command_.shape));
     options.expected = expected();
-    const StreamedHull hull =
-        concave_hull_of_stream(sources(command_.inputs.size() == 1 ? core_.threads : 1), core_, options);
+    const StreamedHull hull = concave_hull_of_stream(
+        sources(command_.inputs.size() == 1 ? parts_for(core_.threads) : 1), core_, options);
     const Crs crs = crs_.value_or(Crs());
     write_streamed_hull(hull, core_, crs, output, surroundings_.program, status_);
     if (may_be_degrees(command_.shape, crs, hull.box)) say_once(std::string(kMayBeDegrees));

@@ -15,6 +15,13 @@ namespace polylidar::tool {
 /// What the points of all sources of a run may take, if the caller has no other reason.
 inline constexpr std::uint64_t kMostKeptBytes = std::uint64_t{1} << 27U;
 
+/// Into how many parts a file is divided for so many threads: more than these, so that one that is late
+/// leaves some to the others.
+inline std::size_t parts_for(std::size_t threads) {
+  constexpr std::size_t kPartsForThread = 4;
+  return threads == 1 ? 1 : kPartsForThread * threads;
+}
+
 /// Told each time that a source gave its part of a file, with all but its points; by the thread that took it.
 using OnRead = std::function<void(std::size_t part, const PointFile& file)>;
 
