@@ -16,8 +16,8 @@ inline std::string kernel_name(Kernel kernel) {
 }
 
 /// What GoogleTest says of it.
-inline void PrintTo(Kernel kernel,
-                    std::ostream* out) {  // NOLINT(readability-identifier-naming): GoogleTest calls it
+// NOLINTNEXTLINE(readability-identifier-naming): GoogleTest calls it
+inline void PrintTo(Kernel kernel, std::ostream* out) {
   *out << kernel_name(kernel);
 }
 

@@ -39,8 +39,8 @@ struct Method {
 };
 
 /// What GoogleTest says of it.
-void PrintTo(const Method& method,
-             std::ostream* out) {  // NOLINT(readability-identifier-naming): GoogleTest calls it
+// NOLINTNEXTLINE(readability-identifier-naming): GoogleTest calls it
+void PrintTo(const Method& method, std::ostream* out) {
   *out << method.identity.name;
 }
 

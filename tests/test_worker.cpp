@@ -133,7 +133,8 @@ struct Failure {
 };
 
 /// What GoogleTest says of it.
-void PrintTo(const Failure& failure, std::ostream* out) {  // NOLINT(readability-identifier-naming): as above
+// NOLINTNEXTLINE(readability-identifier-naming): GoogleTest calls it
+void PrintTo(const Failure& failure, std::ostream* out) {
   *out << failure.mode;
 }
 

@@ -266,7 +266,7 @@ void add_hull_options(CLI::App& app, HullCommand& command) {
                "Also write the points outside the shape, as a MultiPoint (geojson only)");
   app.add_flag(
       "--stream", command.stream,
-      "Read the files two to seven times instead of keeping their points in memory; only for LAS, text, "
+      "Read the files up to seven times instead of keeping all points in memory; only for LAS, text, "
       "NumPy and raw doubles");
   add_memory_option(app, command.shape, "With --stream, the most memory");
   app.add_option("--shard", command.shard,
