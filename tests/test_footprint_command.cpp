@@ -523,5 +523,31 @@ TEST_F(FootprintCommandTest, LazGoesThroughAProgramInThePath) {
   }
 }
 
+// All passes but the first find the points in memory.
+TEST_F(FootprintCommandTest, AStreamUnpacksLazOnce) {
+  LasFile las;
+  las.scale = {1, 1};
+  for (int row = 0; row < 300; ++row) {
+    for (int column = 0; column < 300; ++column) las.points.push_back({.x = column, .y = row});
+  }
+  std::string packed = las.text();
+  packed[104] = static_cast<char>(packed[104] | 0x80);
+  const std::string laz = file("tile.laz", packed);
+  const std::string unpacked = file("unpacked.las", las.text());
+  const fs::path tools = folder_.path() / "tools";
+  const fs::path runs = folder_.path() / "runs";
+  fs::create_directory(tools);
+  write_text(tools / "laszip", "#!/bin/sh\necho >> '" + runs.string() + "'; cat '" + unpacked + "'\n");
+  fs::permissions(tools / "laszip", fs::perms::owner_all);
+  ProgramOptions options;
+  options.environment["PATH"] = tools.string() + ":/usr/bin:/bin";
+  const auto hull = [&](const std::string& path) {
+    return succeeded(
+        run_program({POLYLIDAR, "hull", path, "--stream", "--max-perimeter", "4", "--crs", "none"}, options));
+  };
+  EXPECT_EQ(hull(laz).out, hull(unpacked).out);
+  EXPECT_EQ(read_text(runs), "\n");
+}
+
 }  // namespace
 }  // namespace hullbench::testing
