@@ -33,7 +33,7 @@ define configure
 mkdir -p $(BUILD_LOG); \
 if ! cmake --preset $(1) $(2) >$(BUILD_LOG)/configure-$(1).txt 2>&1; then \
   cat $(BUILD_LOG)/configure-$(1).txt >&2; \
-  cmake/install-packages.sh --check $(if $(filter tool,$(1)),tool,build) $(if $(findstring _TESTS=OFF,$(2))$(filter tool,$(1)),,unit) || true; \
+  cmake/install-packages.sh --check $(or $(filter tool js,$(1)),build) $(if $(findstring _TESTS=OFF,$(2))$(filter tool js,$(1)),,unit) $(if $(filter clang fuzz,$(1)),lint) || true; \
   echo "error: the build could not be configured: if something is missing, 'make deps' installs it." >&2; exit 1; \
 fi
 endef
@@ -47,8 +47,8 @@ endef
 
 # $(call tests,preset,folder): all tests of a build folder, then why any was skipped.
 define tests
-folder=$$(tests/temporary_folder.sh); \
-TMPDIR=$$folder ctest --preset $(1) --parallel $(TEST_JOBS) && status=0 || status=$$?; rm -rf "$$folder"; \
+folder=$$(tests/temporary_folder.sh); trap 'rm -rf "$$folder"' EXIT; \
+TMPDIR=$$folder ctest --preset $(1) --parallel $(TEST_JOBS) && status=0 || status=$$?; \
 sed -n '/^skipped: /p' $(2)/Testing/Temporary/LastTest.log | sort | uniq -c >&2; \
 exit $$status
 endef
@@ -66,7 +66,7 @@ help: ## list the targets (the default)
 	@awk 'BEGIN { FS = ":.*## " } /^[a-z-]+:.*## / { printf "  make %-23s %s\n", $$1, $$2 }' Makefile
 	@echo "  with NATIVE=1 (compile for this processor), SKIP_DEPS=1 (install nothing), JOBS=N (N processes)"
 
-deps: ## install every package that is missing, also those for development
+deps: ## install what building, tests and development need and is missing (not what deps-extra, deps-real and paper need)
 	@cmake/install-packages.sh build bench unit test docs python plots lint gate js gdal
 	@echo "==> nothing is missing"
 
@@ -182,7 +182,7 @@ report-compare: ## write B/comparison.html, a page with two runs side by side (A
 .PHONY: fit-default fit-rules
 fit-default: ## fit the numbers of the core's automatic limit on the training side, and say what it gives on the test side
 	@$(call install,build)
-	@$(call build,release,$(NATIVE_OPTION),fit_default)
+	@$(call build,release,$(WITHOUT_TESTS),fit_default)
 	@build/fit_default --tries 100 --ablation
 
 .PHONY: figures-default
@@ -194,7 +194,7 @@ figures-default: ## draw the picture of core/AUTOMATIC.md: the core's default an
 
 fit-rules: ## fit the shares of the rules from the points on the training side
 	@$(call install,build)
-	@$(call build,release,$(NATIVE_OPTION),fit_rules)
+	@$(call build,release,$(WITHOUT_TESTS),fit_rules)
 	@build/fit_rules
 
 evaluate: ## search every method's parameter on the plans of the world and rank the methods, on all cores (OUT=results/evaluation)
@@ -316,7 +316,7 @@ js-bench: js ## measure the npm package beside concaveman and delaunator, and wr
 	@node core/js/bench.mjs build-js/polylidar --write core/js/README.md
 
 clean: ## remove what was built; results stay
-	@rm -rf build build-clang build-sanitize build-sanitize-threads build-fuzz build-gate build-js build-tool
+	@rm -rf build build-clang build-sanitize build-sanitize-threads build-fuzz build-gate build-js build-python build-tool
 	@echo "==> removed build and build-*"
 
 clean-legacy: ## remove the paper's PostGIS

@@ -15,15 +15,14 @@ std::string complaint() {
   return message == nullptr ? "no reason given" : message;
 }
 
-// Of an installed program PREFIX/bin/NAME the library of that name in PREFIX/lib/hullbench; else `file`
-// itself.
+// Of an installed program PREFIX/bin/NAME the library of that name in PREFIX/lib/hullbench, even where it is
+// not there: it must not load what somebody has put where it was built. Else `file` itself.
 std::string installed_or(const char* file) {
   namespace fs = std::filesystem;
   std::error_code error;
   const fs::path program = fs::read_symlink("/proc/self/exe", error);
-  const fs::path installed =
-      program.parent_path().parent_path() / "lib" / "hullbench" / fs::path(file).filename();
-  return fs::is_regular_file(installed, error) ? installed.string() : file;
+  const fs::path folder = program.parent_path().parent_path() / "lib" / "hullbench";
+  return fs::is_directory(folder, error) ? (folder / fs::path(file).filename()).string() : file;
 }
 
 }  // namespace

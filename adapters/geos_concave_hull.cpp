@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <limits>
 #include <memory>
+#include <new>
 #include <span>
 #include <stdexcept>
 #include <string>
@@ -80,6 +81,7 @@ class GeosSession {
   template <class T>
   Owned<T> own(T* made, const char* operation) const {
     if (made == nullptr) {
+      if (message_.find("bad_alloc") != std::string::npos) throw std::bad_alloc();
       throw std::runtime_error(std::string("GEOS failed in ") + operation + ": " + message_);
     }
     return Owned<T>(made, Destroy{context_});

@@ -51,8 +51,12 @@ class PclConcaveHull final : public Adapter {
     points_.assign(points.begin(), points.end());
     cloud_ = std::make_shared<Cloud>();
     cloud_->reserve(points.size());
+    // PCL has single precision only, which loses nothing but digits of the shape near the origin.
+    const polylidar::Box box = polylidar::bounding_box(points);
+    const Point middle = {(box.min.x + box.max.x) / 2, (box.min.y + box.max.y) / 2};
     for (const Point& point : points) {
-      cloud_->push_back(pcl::PointXYZ(static_cast<float>(point.x), static_cast<float>(point.y), 0));
+      cloud_->push_back(
+          pcl::PointXYZ(static_cast<float>(point.x - middle.x), static_cast<float>(point.y - middle.y), 0));
     }
   }
 

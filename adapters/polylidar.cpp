@@ -34,7 +34,7 @@ MethodInfo describe_polylidar() {
                    kNotGiven),
       length_limit("max_edge_length", "Longest edge of a triangle inside the shape.", kInfinity),
       {.name = "detail",
-       .unit = "",
+       .unit = "1",
        .description = "Divides the size of triangles that is chosen where no limit is given.",
        .minimum = 0.01,
        .maximum = 100,

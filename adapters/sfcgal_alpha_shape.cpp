@@ -19,6 +19,7 @@
 #include <cstdio>
 #include <limits>
 #include <memory>
+#include <new>
 #include <span>
 #include <stdexcept>
 #include <string>
@@ -159,6 +160,7 @@ class SfcgalAlphaShape final : public Adapter {
     shape_ =
         own(alpha == kNotGiven ? sfcgal_.optimal_alpha_shapes(points_.get(), allow_holes, 1)
                                : sfcgal_.alpha_shapes(points_.get(), std::min(alpha, kLargest), allow_holes));
+    if (!shape_ && last_error().find("bad_alloc") != std::string::npos) throw std::bad_alloc();
     if (!shape_) throw std::runtime_error("SFCGAL gave no shape: " + last_error());
   }
 

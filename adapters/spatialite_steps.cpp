@@ -114,6 +114,7 @@ class SpatialiteSteps final : public Adapter {
   void do_load(std::span<const Point> points) override { database_.load(points); }
 
   void do_run(const Parameters& parameters, Steps& steps) override {
+    is_empty_ = false;
     steps.begin("triangulation");
     triangulate_.execute();
     steps.begin("shape");
@@ -132,8 +133,10 @@ class SpatialiteSteps final : public Adapter {
   }
 
   void do_reset() override {
-    database_.clear();
     hull_wkb_.reset();
+    if (is_empty_) return;
+    database_.clear();
+    is_empty_ = true;
   }
 
   static std::optional<std::vector<std::uint8_t>> fetch(Statement& query) {
@@ -160,6 +163,7 @@ class SpatialiteSteps final : public Adapter {
   Statement with_holes_{database_.get(), kWithHoles};
   Statement filled_{database_.get(), kFilled};
   std::optional<std::vector<std::uint8_t>> hull_wkb_;  ///< none: nothing was kept
+  bool is_empty_ = true;                               ///< whether the tables between the steps are
 };
 
 }  // namespace

@@ -64,7 +64,7 @@ check_cmake() {
 list_for_other_distributions() {
   printf 'error: %s has no apt-get: install these by hand (Debian names), then add SKIP_DEPS=1 to the make command.\n\n' \
     "$(distribution)"
-  wanted "$@" | awk -F '\t' '{ sub(/\?$/, "", $1); printf "  %-22s %s\n", $1, $2 }'
+  wanted "$@" | awk -F '\t' '{ sub(/\?$/, "", $1) } !seen[$1]++ { printf "  %-22s %s\n", $1, $2 }'
 } >&2
 
 # ---- the part that runs as root ---------------------------------------------------------------------------

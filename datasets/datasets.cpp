@@ -341,6 +341,7 @@ PointSet make_point_set(const std::string& name, bool holes, std::size_t n, std:
 PointStream stream_points(const std::string& name, bool holes, std::size_t n, std::uint64_t seed,
                           const DataFolders& folders) {
   const DatasetInfo info = require_points(name, holes, n, folders);
+  if (is_real(name)) return PointStream(make_real(name, folders).points);
   if (info.own_points) return PointStream(make_own_points(name, seed, folders).points);
   const auto [shape, stresses] = *split_stress(name);
   return PointStream(make_shape(info, shape, holes, folders), n, stresses,

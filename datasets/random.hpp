@@ -1,5 +1,5 @@
 // The project's own random numbers: the same bits on every machine, which the standard library's
-// distributions do not promise. Integer arithmetic and exact floating-point steps only.
+// distributions do not promise. Integer arithmetic and correctly rounded steps only.
 #pragma once
 
 #include <array>

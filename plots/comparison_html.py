@@ -343,7 +343,7 @@ def _points(comparison: Comparison) -> list[tuple[str, str, str]]:
     """The points of every data set that both have, by their hashes."""
     others = [pair for pair in comparison.pairs if not pair.told["same_points"]]
     count = len({tuple(row.raw.get("dataset_sha256", "") for row in (pair.a, pair.b)) for pair in others})
-    values = ("as in B", f"other in {count_of(count, 'case')}") if count else ("the same", "the same")
+    values = ("–", f"other than in A in {count_of(count, 'case')}") if count else ("the same", "the same")
     said = [("Points of the shared cases", *values)]
     shapes = [
         {dataset["title"]: str(dataset.get("sha256", "")) for experiment in side for dataset in experiment.datasets.values()}

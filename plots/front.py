@@ -13,7 +13,7 @@ import numpy as np
 
 from front_charts import charts_html, color_of
 from markup import details, link_to_method, named, row_of, table
-from ratings import KNOWS, Division, Rating, Standing, divisions, has_times, rate, read, typical_times
+from ratings import KNOWS, Division, Rating, Standing, divisions, has_times, rate, read, twins, typical_times
 from records import Series
 from report_common import count_of, number, sentence_list, short_name, text
 
@@ -130,16 +130,10 @@ class _Line:
 
 
 def lines_of(rating: Rating) -> list[_Line]:
-    lines: list[_Line] = []
-    for place, one in enumerate(rating.standings):
-        before = lines[-1].members[0] if lines else None
-        if before and np.allclose(
-            *(rating.division.results.errors[rating.standings.index(x)] for x in (before, one)), rtol=1e-6
-        ):
-            lines[-1].members.append(one)
-        else:
-            lines.append(_Line(place, [one]))
-    return lines
+    lines: dict[int, _Line] = {}
+    for place, (one, first) in enumerate(zip(rating.standings, twins(rating.division.results.errors))):
+        lines.setdefault(int(first), _Line(place, [])).members.append(one)
+    return list(lines.values())
 
 
 _LEAGUE = {
@@ -160,7 +154,7 @@ def _league(rating: Rating, timed: Division | None, pages: Mapping[str, str]) ->
     shown = table(_LEAGUE, "".join(rows[:FIRST_ROWS]), " class='league'", caption)
     rest = rows[FIRST_ROWS:]
     if rest:
-        shown += details(f"{len(rest)} more", table(_LEAGUE, "".join(rest), " class='league'"))
+        shown += details(f"{len(rest)} more", table(_LEAGUE, "".join(rest), " class='league'", caption))
     if rating.division.left_out:
         names = sentence_list([short_name(one, rating.division.left_out) for one in rating.division.left_out])
         shown += f"<p class='muted'>With less than half of the cases, and so not rated: {text(names)}.</p>"

@@ -9,7 +9,7 @@ import svg
 from markup import table
 from ratings import LEAST_TARGET, TARGET_WORDS, Division, pareto, solved_against_time, typical_errors, typical_times
 from records import Series
-from report_common import METHOD_LOOKS, count_of, number, sentence_list, short_name, text
+from report_common import count_of, method_look, number, sentence_list, short_name, text
 
 WIDE, NARROW = (590, 350), (356, 300)
 # Named in a chart; the others are thin and grey.
@@ -30,11 +30,11 @@ def _figure(identity: str, title: str, note: str, charts: Sequence[str], values:
 
 
 def color_of(series: Series) -> str:
-    return f"var(--method-{series.method},var(--muted))"
+    return f"var(--method-{text(series.method)},var(--muted))"
 
 
 def _dashes(series: Series) -> str:
-    dashes = METHOD_LOOKS.get(series.method, {}).get("line", [])
+    dashes = method_look(series.method)["line"]
     return f";stroke-dasharray:{','.join(f'{2 * one:g}' for one in dashes)}" if dashes else ""
 
 
@@ -80,9 +80,7 @@ def _solved_chart(curves, named: Sequence[Series], ends: tuple[float, float], si
     for one, top, place in zip(named, tops, svg.apart(tops, chart.y.end + 2, chart.y.start - 2)):
         x = chart.x.end
         body.append(f"<path class='leader' d='M{x:.0f} {top:.1f}L{x + 8:.0f} {place:.1f}' style='stroke:{color_of(one)}'/>")
-        body.append(
-            f"<text class='name' x='{x + 10:.0f}' y='{place + 4:.1f}' style='fill:{color_of(one)}'>{text(short_name(one, every))}</text>"
-        )
+        body.append(f"<text class='name' x='{x + 10:.0f}' y='{place + 4:.1f}'>{text(short_name(one, every))}</text>")
     best = max(named, key=lambda one: curves[one][1][-1])
     label = f"In the end {short_name(best, every)} has solved the most, {number(100 * curves[best][1][-1])} % of all pairs of case and error target."
     return chart.html(label, "µs a point", "Solved, %", body, css)
@@ -105,7 +103,7 @@ def time_error_figure(division: Division) -> str:
     shown = [one for one in every if math.isfinite(times[one]) and math.isfinite(errors[one])]
     front = pareto([(times[one], errors[one]) for one in shown])
     missing = [short_name(one, every) for one in every if one not in shown]
-    note = "Medians over the same cases. The line is the front: nobody is faster and more accurate at once."
+    note = "Medians over the same cases. The line is the front: nobody is faster and more accurate at once. Filled: parameters by the paper’s rules; hollow: by others."
     note += " Errors below 0.01 % are shown as that." if min(errors.values()) <= LEAST_TARGET else ""
     note += f" Not shown, as most cases fail: {sentence_list(missing)}." if missing else ""
     charts = shown and [

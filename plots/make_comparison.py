@@ -77,7 +77,6 @@ def _report(comparison: Comparison) -> dict[str, Any]:
     comparison.methods.sort(key=lambda one: order.index(one.series.key))
     return {
         "title": "Concave hulls: two runs compared",
-        "names": comparison.names,
         "same_machine": comparison.same_machine,
         "signs": SIGNS,
         "methods": styles,
@@ -93,9 +92,8 @@ def _report(comparison: Comparison) -> dict[str, Any]:
             for one in comparison.methods
             if one.ratio is not None
         ],
-        "experiments": [{"name": one.name, "title": one.title, "options": ""} for one in comparison.a],
+        "experiments": [{"title": one.title} for one in comparison.a],
         "metrics": charted_metrics(comparison),
-        "rows": len(comparison.pairs),
     }
 
 

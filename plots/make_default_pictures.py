@@ -4,7 +4,7 @@ HULLS is what `build/fit_default --pictures HULLS` writes: one shape's points un
 """
 
 import argparse
-import json
+import sys
 from pathlib import Path
 from typing import Any
 
@@ -15,6 +15,8 @@ from matplotlib.axes import Axes  # noqa: E402  the backend comes first
 from matplotlib.figure import Figure  # noqa: E402
 from matplotlib.patches import PathPatch  # noqa: E402
 from matplotlib.path import Path as Outline  # noqa: E402
+
+from records import exit_code_of, read_json  # noqa: E402
 
 CASES_IN_A_ROW = 3
 SIDE = 1.25  # inches of a picture
@@ -47,13 +49,18 @@ def figure_of(cases: list[dict[str, Any]]) -> Figure:
     return figure
 
 
-def main() -> None:
+def main() -> int:
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("hulls", type=Path)
     parser.add_argument("--out", type=Path, default=Path("core/automatic.png"))
     arguments = parser.parse_args()
-    figure_of(json.loads(arguments.hulls.read_text(encoding="utf-8"))).savefig(arguments.out)
+    made = "; 'build/fit_default --pictures FILE' writes it"
+
+    def work() -> None:
+        figure_of(read_json(arguments.hulls, {"type": "array", "items": {"type": "object"}}, made)).savefig(arguments.out)
+
+    return exit_code_of("make_default_pictures.py", work)
 
 
 if __name__ == "__main__":
-    main()
+    sys.exit(main())

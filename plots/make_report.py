@@ -49,12 +49,12 @@ def make_page(experiments: Sequence[Experiment], folder: Path) -> str:
     title = "Concave hulls: " + (experiments[0].title if len(experiments) == 1 else "the whole suite")
     front = make_front(folder)
     kept = folder / "report.html" if is_kept(folder, experiments) else None
-    report = {**_report(experiments, folder, title), "leader": _leader(front)}
+    report = {**_report(experiments), "leader": _leader(front)}
     sections = _sections(experiments, folder, front, kept)
     parts = {**code(STYLES, "main.js"), "colours": colours(report["methods"])}
     if kept is not None and any(experiment.is_thinned for experiment in experiments):
         kept_page = kept.read_text(encoding="utf-8")  # has what the records no longer have
-        report.update({name: kept_data(kept_page, "report")[name] for name in ("run", "metrics")})
+        report.update({name: kept_data(kept_page, "report")[name] for name in ("metrics",)})
         results = [data(name, kept_data(kept_page, name)) for name in ("charts", "rows")]
     else:
         results = [data("charts", pack(charts(experiments))), data("rows", pack(columns(experiments)))]
@@ -90,28 +90,18 @@ def _sections(experiments: Sequence[Experiment], folder: Path, front: Front, kep
     ]
 
 
-def _report(experiments: Sequence[Experiment], folder: Path, title: str) -> dict[str, Any]:
+def _report(experiments: Sequence[Experiment]) -> dict[str, Any]:
     """What the page's scripts know from the start."""
     styles = method_styles(experiments)
     rows = [row for experiment in experiments for row in experiment.rows]
     metrics = MetricTable(experiments)
     return {
-        "title": title,
-        "run": folder.resolve().name,
         "methods": styles,
         "entrants": entrants(experiments, styles),
         "experiments": [
-            {
-                "name": experiment.name,
-                "title": experiment.title,
-                "paper": experiment.plan.get("paper", ""),
-                "rows": len(experiment.rows),
-                "options": _options(experiment),
-            }
-            for experiment in experiments
+            {"name": experiment.name, "title": experiment.title, "options": _options(experiment)} for experiment in experiments
         ],
         "metrics": [metrics.entry(name) for name in metrics.names(rows)],
-        "rows": len(rows),
     }
 
 

@@ -14,7 +14,7 @@ from pathlib import Path
 from typing import Any
 
 from records import Experiment, RecordError
-from report_common import LOOKS, METHOD_LOOKS, label, method_title, text
+from report_common import label, method_look, method_title, text
 
 PLOTS = Path(__file__).resolve().parent
 PAGE = PLOTS / "report"
@@ -98,17 +98,14 @@ def code(styles: Sequence[str], script: str, charts: bool = True) -> dict[str, s
 
 
 def method_styles(experiments: Sequence[Experiment]) -> dict[str, Any]:
-    """Of every method in the run: title, order, colours, marker and dashes as methods.json gives them; a method that it
-    does not know takes one of its spare styles, in the order of the names."""
+    """Of every method in the run: title, order, colours and marker."""
     names = sorted(
         {row.method for experiment in experiments for row in experiment.rows}
         | {name for experiment in experiments for name in experiment.methods}
     )
-    strangers = [name for name in names if name not in METHOD_LOOKS]
     styles = {}
     for name in names:
-        index = strangers.index(name) if name in strangers else 0
-        style = METHOD_LOOKS.get(name) or {**LOOKS["others"][index % len(LOOKS["others"])], "order": 1000 + index}
+        style = method_look(name)
         look = {"order": style["order"], "marker": style["marker"], **style["color"]}
         styles[name] = {"title": method_title(experiments, name), **look}
     return styles
@@ -117,7 +114,7 @@ def method_styles(experiments: Sequence[Experiment]) -> dict[str, Any]:
 def entrants(experiments: Sequence[Experiment], styles: dict[str, Any]) -> list[dict[str, str]]:
     """Every method under every protocol that it has rows of, in the order in which the page names them."""
     series = {one for experiment in experiments for one in experiment.series()}
-    order = sorted(series, key=lambda one: (styles[one.method]["order"], one.protocol != "paper", one.protocol))
+    order = sorted(series, key=lambda one: (styles[one.method]["order"], one.method, one.protocol != "paper", one.protocol))
     return [{"key": one.key, "method": one.method, "protocol": one.protocol, "label": label(experiments, one)} for one in order]
 
 

@@ -32,6 +32,7 @@ from typing import Any
 
 from page import kept_data
 from records import Experiment, Picture, Row
+from report_common import NOT_TRIED
 
 GRID = 4096
 # The grid of pictures.jsonl has 16 times as many steps.
@@ -47,8 +48,6 @@ _FARTHEST = 2 * GRID
 
 # The columns of a run in a case's "runs"; "result" is an index into the block's results, null: no picture of it.
 RUN = ("method", "protocol", "status", "l2", "median_ns", "result")
-# Statuses that say nothing about the result.
-NOT_TRIED = frozenset({"not_installed", "unsupported"})
 
 RULE = (
     "Where not all pictures fit into the page, each shows fewer points; where that is not enough, of a method's results with "

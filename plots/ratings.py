@@ -39,7 +39,7 @@ TIE_RELATIVE = 0.01
 TIE_ABSOLUTE = 1e-4
 TIE_WORDS = "errors that differ by at most 1 % of the smaller one, or 0.01 % of the true area, are tied"
 # Errors of the same polygons differ in the last digits.
-_SAME_DIGITS = 7
+_SAME = 1e-7
 # Drawn games that every pair is given, so that who wins always has a finite rating. A pair plays as many games as there are
 # shapes.
 PRIOR_GAMES = 1.0
@@ -226,13 +226,34 @@ def rate(division: Division) -> Rating:
     )
 
 
+def twins(errors: np.ndarray) -> np.ndarray:
+    """Entrant -> the first one whose errors are the same on every case."""
+    first = np.arange(len(errors))
+    for i, own in enumerate(errors):
+        for j in range(i):
+            with np.errstate(invalid="ignore"):
+                same = (own == errors[j]) | (np.abs(own - errors[j]) <= _SAME * np.minimum(own, errors[j]))
+            if first[j] == j and np.all(same):
+                first[i] = j
+                break
+    return first
+
+
 def ranks(errors: np.ndarray) -> np.ndarray:
-    """[entrant, case]: 1 is the best; the mean of the places where several are the same."""
-    positive = np.isfinite(errors) & (errors > 0)
-    safe = np.where(positive, errors, 1.0)
-    unit = np.power(10.0, np.floor(np.log10(safe)) - _SAME_DIGITS + 1)
-    rounded = np.where(positive, np.round(safe / unit) * unit, errors)
-    return stats.rankdata(rounded, axis=0)
+    """[entrant, case]: 1 is the best; the mean of the places where several are the same. Entrants with the same errors on
+    every case count as one, or a result that many methods share would push the others back."""
+    distinct, place = np.unique(twins(errors), return_inverse=True)
+    return _ranks(errors[distinct])[place]
+
+
+def _ranks(errors: np.ndarray) -> np.ndarray:
+    order = np.argsort(errors, axis=0, kind="stable")
+    ascending = np.take_along_axis(errors, order, axis=0)
+    is_new = ascending[1:] > ascending[:-1] * (1 + _SAME)
+    groups = np.concatenate([np.zeros((1, errors.shape[1])), np.cumsum(is_new, axis=0)])
+    group_of = np.empty_like(groups)
+    np.put_along_axis(group_of, order, groups, axis=0)
+    return stats.rankdata(group_of, axis=0)
 
 
 def outcomes(errors: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
@@ -318,11 +339,13 @@ def _drawn_ranks(results: Results, draws: Draws) -> np.ndarray:
 def _standings(results: Results, draws: Draws, points: np.ndarray) -> list[Standing]:
     weights = results.weights()
     means, drawn_ranks = mean_ranks(results), _drawn_ranks(results, draws)
-    count = len(results.entrants)
-    games = draws.by_shape((points * weights * draws.shapes).reshape(count * count, -1))
-    strength = elo(games.sum(axis=0).reshape(count, count))
+    # Games are between different results.
+    distinct, place = np.unique(twins(results.errors), return_inverse=True)
+    count = len(distinct)
+    games = draws.by_shape((points[np.ix_(distinct, distinct)] * weights * draws.shapes).reshape(count * count, -1))
+    strength = elo(games.sum(axis=0).reshape(count, count))[place]
     several = draws.counts[:_ELO_DRAWS] if draws.shapes > 1 else draws.counts[:1]
-    drawn_strength = np.array([elo(one.reshape(count, count)) for one in several @ games])
+    drawn_strength = np.array([elo(one.reshape(count, count)) for one in several @ games])[:, place]
     standings = []
     for i, series in enumerate(results.entrants):
         errors = results.errors[i]
@@ -457,7 +480,7 @@ def solved_against_time(division: Division) -> dict[Series, tuple[np.ndarray, np
     points = np.array([max(case.points, 1) for case in results.cases])
     curves = {}
     for i, series in enumerate(results.entrants):
-        limits = TARGETS[:, None] * best * (1 + 10.0**-_SAME_DIGITS)
+        limits = TARGETS[:, None] * best * (1 + _SAME)
         solved = np.mean(results.errors[i] <= limits, axis=0) * weights
         times = results.seconds[i] * 1e6 / points
         known = np.isfinite(times)

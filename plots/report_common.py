@@ -3,8 +3,10 @@
 import html
 import json
 import math
+import zlib
 from collections.abc import Iterable, Sequence
 from pathlib import Path
+from typing import Any
 from urllib.parse import urlencode
 
 from records import SCHEMAS, Experiment, Series
@@ -27,6 +29,14 @@ STATUS_WORDS = {
     "unsupported": "does not support the case",
     "not_installed": "not installed",
 }
+# Those that say nothing about the result.
+NOT_TRIED = frozenset({"not_installed", "unsupported"})
+
+
+def method_look(method: str) -> dict[str, Any]:
+    """As methods.json has it. A method that is not in it gets one of its spare looks, by its name: the same everywhere."""
+    spare = LOOKS["others"][zlib.crc32(method.encode()) % len(LOOKS["others"])]
+    return METHOD_LOOKS.get(method) or {"title": method, "order": 1000, "paper": False, **spare}
 
 
 def method_title(experiments: Sequence[Experiment], method: str) -> str:
@@ -79,10 +89,6 @@ def number(value: float) -> str:
         digits = max(0, 2 - math.floor(math.log10(abs(value))))
         return f"{value:.{digits}f}"
     return f"{value:.3g}"
-
-
-def milliseconds(ns: float) -> str:
-    return number(ns / 1e6)
 
 
 def count_of(count: int, noun: str) -> str:

@@ -27,8 +27,8 @@ def summary_html(experiments: Sequence[Experiment], summaries: Sequence[Summary]
 def _reading(summaries: Sequence[Summary]) -> str:
     said = (
         "A ratio of times is the median over the rounds of a case, in which both were measured right after one another; "
-        "of the cases the median is told. A case that only the method failed has the ratio ∞; a time is better only where the "
-        "95 % interval of the ratio leaves out 1, or, with too few repetitions for an interval, where it is ten times as short. The fastest is faster in this sense than every other method; where none is, "
+        "of the cases the median is told. A case that only the method failed has the ratio ∞; a time is better (in bold) only where "
+        "the 95 % interval of the ratio leaves out 1, or, with too few repetitions for an interval, where its median is at most a tenth. The fastest is faster in this sense than every other method; where none is, "
         "the first ones are not distinguishable."
     )
     alone = [one.title for one in summaries if one.without_interval]
@@ -70,7 +70,7 @@ _STANDING = {
 def standings_table(summaries: Sequence[Summary], method: str | None = None) -> str:
     """Of every method in every experiment, or of one; empty where there is none."""
     rows = "".join(
-        f"<tbody><tr class='group'><th colspan='7' scope='rowgroup'>{text(one.title)}</th></tr>{told}</tbody>"
+        f"<tbody><tr class='group'><th colspan='{len(_STANDING)}' scope='rowgroup'>{text(one.title)}</th></tr>{told}</tbody>"
         for one in summaries
         if (told := "".join(_standing(one, each) for each in one.standings if method in (None, each.series.method)))
     )
@@ -87,8 +87,9 @@ def _standing(summary: Summary, one: Standing) -> str:
         if is_core or value is None:
             return "1" if is_core else "–"
         mark = " better" if value.median < 1 and value.lower_in else ""
+        better = "<span class='hidden'> better</span>" if mark else ""
         said = f"{span(value)}, {count_of(value.cases, 'case')}" if value.cases > 1 else "1 case"
-        return f"<td class='number{mark}'>{text(number(value.median))}<small>{text(said)}</small></td>"
+        return f"<td class='number{mark}'>{text(number(value.median))}{better}<small>{text(said)}</small></td>"
 
     def share(count: int, of: int) -> str:
         return f"{count} of {of}" if of and one.results else "–"

@@ -105,7 +105,7 @@ def _count(standing: Standing, row: Row) -> None:
     if row.ok and row.median_ns is not None:
         standing.results[row.case] = row
         standing.fastest_in += row.fastest
-    else:
+    elif not row.ok:
         standing.failures[row.status] += 1
         if row.status != "not_installed":
             standing.failed.add(row.case)

@@ -35,7 +35,7 @@ def table_html(table: dict[str, Any]) -> str:
     shown = f"<table><thead><tr>{head}</tr></thead><tbody>{body}</tbody></table>"
     remarks = notes_of(table["remarks"])
     identity = f" id='table-{text(table['id'])}'"
-    return f"<h3>{text(table['caption'])}</h3>{scroll('Table', shown, identity)}{remarks}"
+    return f"<h3>{text(table['caption'])}</h3>{scroll(table['caption'], shown, identity)}{remarks}"
 
 
 def _row(sides: Sequence[str], cells: Sequence[dict[str, Any]]) -> str:

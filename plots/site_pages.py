@@ -11,7 +11,7 @@ from urllib.parse import quote
 
 import numpy as np
 
-from front import front_html, interval_words, time_words
+from front import front_html, interval_words, lines_of, time_words
 from markup import facts_of, link_to_method, named, table_of
 from page import PLOTS, Section, byline
 from ratings import KNOWS, Division, Rating, mean_ranks, typical_errors, typical_times
@@ -63,7 +63,7 @@ def pages_of(run: SiteRun, runs: Sequence[SiteRun], files: Sequence[Download]) -
 
 def _pages(run: SiteRun, runs: Sequence[SiteRun], files: Sequence[Download]) -> list[SitePage]:
     datasets = {name: one for name, one in run.datasets.items() if name not in zoo_cases()}
-    adding = [Section("steps", "Steps", "In four steps", (PLOTS / "add_method.html").read_text(encoding="utf-8"))]
+    adding = [Section("steps", "Steps", "Step by step", (PLOTS / "add_method.html").read_text(encoding="utf-8"))]
     methods = [Section("list", "Methods", "All methods", _methods(run))]
     lists = [Section("list", "Data sets", "All data sets", _datasets(run, datasets))]
     front = _front(run, runs, datasets)
@@ -131,7 +131,7 @@ def _doors(run: SiteRun, datasets: dict[str, Any]) -> str:
         ("methods/index.html", count_of(len(run.methods), "method"), "what each is, its parameters, where it is good"),
         ("datasets/index.html", count_of(len(datasets), "data set"), "where each is from, and who does best on it"),
         ("zoo/index.html", count_of(len(zoo_cases()), "input") + " that broke somebody", "what went wrong, and what is right"),
-        ("add.html", "Add your method", "in any language, in four steps"),
+        ("add.html", "Add your method", "in any language, step by step"),
         ("downloads.html", "Downloads", "every result and table, as CSV and JSON"),
     ]
     items = "".join(f"<li>{_link(PAGE + address, words)}<small>{text(more)}</small></li>" for address, words, more in doors)
@@ -164,8 +164,8 @@ def _entries(run: SiteRun, method: str) -> list[tuple[Rating, int]]:
 
 
 def _place_in(values: Iterable[float], own: float) -> int:
-    """1: nobody has a smaller one."""
-    return 1 + sum(value < own - 1e-9 for value in values)
+    """1: nobody has a smaller one; those with the same count once."""
+    return 1 + len({round(value, 9) for value in values if value < own - 1e-9})
 
 
 def _rank(rating: Rating, place: int) -> int:
@@ -182,7 +182,7 @@ def _methods(run: SiteRun) -> str:
         for division in KNOWS:
             ranks = [(_rank(rating, k), rating) for rating, k in _entries(run, name) if rating.division.name == division]
             best = min(ranks, key=lambda one: one[0], default=None)
-            places.append(f"{best[0]} of {len(best[1].standings)}" if best else "–")
+            places.append(f"{best[0]} of {len(lines_of(best[1]))}" if best else "–")
         title = link_to_method(method["title"], name, _method_pages(run))
         what = f"<small>{text(what_it_is(name))}</small>"
         can = method["capabilities"]
@@ -230,10 +230,10 @@ def _unrated(run: SiteRun, name: str) -> str:
 def _rated(run: SiteRun, rating: Rating, place: int) -> str:
     """An entry's standing in its division, and on each part of the cases."""
     every = [one.series for one in rating.standings]
-    one, count = rating.standings[place], len(every)
+    one, count = rating.standings[place], len(lines_of(rating))
     timed = {division.name: division for division in run.front.timed}.get(rating.division.name)
     said = (
-        f"<b>{text(short_name(one.series, every))}</b> has place {_rank(rating, place)} of {count} among the entries that "
+        f"<b>{text(short_name(one.series, every))}</b> has place {_rank(rating, place)} of {count} among the different results of methods that "
         f"{KNOWS[rating.division.name]}: mean rank {number(one.rank)}{interval_words(one.rank_interval)}, median error "
         f"{number(100 * one.error)} %{time_words(timed, one.series)}, {count_of(one.failures, 'failure')}."
     )

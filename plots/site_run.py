@@ -123,7 +123,7 @@ class SiteRun:
         found: dict[str, list[tuple[str, str]]] = {}
         for table in tables:
             titles = [column["title"] for column in table["columns"]]
-            for first, _, *cells in table["rows"] if titles[:2] == ["Data set", "Points"] else []:
+            for first, _, *cells in table["rows"] if table["id"] == "zoo_cases" else []:
                 if first["text"] in zoo_cases():
                     found[first["text"]] = list(zip(titles[2:], (cell["text"] for cell in cells)))
         return found

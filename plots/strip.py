@@ -7,13 +7,11 @@ from dataclasses import dataclass, field
 
 from ratings import DIVISIONS, TIE_RELATIVE, Rating
 from records import Experiment, Picture, Row, Series
-from report_common import asked, count_of, number, sentence_list, short_name, text
+from report_common import NOT_TRIED, asked, count_of, number, sentence_list, short_name, text
 
 _WIDTH, _HEIGHT, _MARGIN = 200, 150, 6
 _MOST_POINTS = 500
 _LEAST = 0.6  # between two corners that are drawn, in these units
-# Statuses that say nothing about the result.
-_NOT_TRIED = ("not_installed", "unsupported")
 _HAS_NO_TRUTH = ("real", "zoo")  # experiments
 
 
@@ -41,7 +39,7 @@ class Shown:
         return self.error / max(other.metric("l2"), 1e-4) if other else 0.0
 
     def failed_others(self) -> list[Row]:
-        return [row for row in self.others if not row.ok and row.status not in _NOT_TRIED]
+        return [row for row in self.others if not row.ok and row.status not in NOT_TRIED]
 
 
 def strip_html(
@@ -89,7 +87,7 @@ def _cases(
         shown = {
             row.case: Shown(experiment, row, read[row.case])
             for row in experiment.rows
-            if row.series == leader and row.case in read and row.status not in _NOT_TRIED
+            if row.series == leader and row.case in read and row.status not in NOT_TRIED
             if row.name in read[row.case].results or not row.ok
         }
         for row in experiment.rows:

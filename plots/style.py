@@ -8,7 +8,6 @@ default, an open one neither.
 """
 
 import textwrap
-import zlib
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 
@@ -23,7 +22,7 @@ from matplotlib.legend import Legend  # noqa: E402
 from matplotlib.lines import Line2D  # noqa: E402
 
 from records import Series  # noqa: E402
-from report_common import LOOKS  # noqa: E402
+from report_common import LOOKS, method_look  # noqa: E402
 from report_common import short_name as label  # noqa: E402  what figures call a series
 
 MILLIMETRE = 1 / 25.4  # in inches, matplotlib's unit
@@ -101,10 +100,7 @@ class MethodStyle:
 
 
 def method_style(method: str) -> MethodStyle:
-    """One that is not in methods.json gets one of its spare looks, by its name: the same in every figure."""
-    known = LOOKS["methods"].get(method)
-    spare = LOOKS["others"][zlib.crc32(method.encode()) % len(LOOKS["others"])]
-    look = known or {"title": method, "order": 1000, "paper": False, **spare}
+    look = method_look(method)
     return MethodStyle(
         look["title"],
         look["order"],

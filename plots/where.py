@@ -82,10 +82,14 @@ def _heat_cell(part: Part, place: int, name: str, key: str, series: Series, repo
     best, error = min(part.errors), part.errors[place]
     ratio = 1.0 if error <= best else error / best if best > 0 else math.inf
     strength = _STRONGEST * min(1.0, math.log(ratio) / math.log(_WORST_RATIO)) if math.isfinite(ratio) else _STRONGEST
-    mark = "<span class='best' title='the best'>•</span>" if number(100 * error) == number(100 * best) else ""
+    mark = (
+        "<span class='best'>•<span class='hidden'> the best: </span></span>"
+        if number(100 * error) == number(100 * best)
+        else ""
+    )
     shown = mark + number(100 * error)
     if key:
-        label = f"{name}, {part.name}: {number(100 * error)} %, {count_of(part.cases, 'case')}"
+        label = f"{name}, {part.name}: {number(100 * error)} %, {count_of(part.cases, 'case')}{', the best' if mark else ''}"
         address = asked("runs", report, part=key, entrant=series.key)
         shown = f"<a href='{address}' data-part='{text(key)}' data-entrant='{text(series.key)}' aria-label='{text(label)}'>{shown}</a>"
     return f"<td class='number' style='--strength:{strength:.0f}%'>{shown}</td>"

@@ -40,6 +40,8 @@ def read_run(folder: Path) -> tuple[str, tuple[str, ...]]:
 
 def add(suite: Path, run: Path) -> None:
     plans = read(suite / "suite.json", "suite")
+    if not isinstance(plans, dict) or not isinstance(plans.get("plans"), list):
+        raise Refusal(f"{suite / 'suite.json'} does not name the plans of a suite")
     name, origin = read_run(run)
     read(run / "report.json", "finished run")
     if name in plans["plans"] or (suite / name).exists():
@@ -55,6 +57,7 @@ def add(suite: Path, run: Path) -> None:
         folder.rename(suite / name)
         description.replace(suite / "suite.json")
     except OSError as error:
+        shutil.rmtree(suite / name, ignore_errors=True)
         raise Refusal(f"{run} cannot be copied into {suite}: {error}") from error
     finally:
         shutil.rmtree(folder, ignore_errors=True)

@@ -6,7 +6,7 @@
 gives the same league again. A row keeps its method, protocol, case, status and the metrics that a league has; its times,
 its parameters (tune.json has them) and the digits behind the ninth are left out. RUNS must be a finished suite.
 
-Exit codes: 0 kept; 2 usage.
+Exit codes: 0 kept; 2 usage, or RUNS is no finished suite, or KEPT is there already.
 """
 from __future__ import annotations
 
@@ -58,4 +58,8 @@ if __name__ == "__main__":
     if len(sys.argv) != 3:
         print(__doc__, file=sys.stderr)
         sys.exit(2)
-    main(Path(sys.argv[1]), Path(sys.argv[2]))
+    try:
+        main(Path(sys.argv[1]), Path(sys.argv[2]))
+    except (OSError, ValueError, KeyError, TypeError) as error:
+        print(f"error: {sys.argv[1]} cannot be kept in {sys.argv[2]}: {error!r}.", file=sys.stderr)
+        sys.exit(2)

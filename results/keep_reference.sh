@@ -5,6 +5,10 @@
 # (check_reference.py), and nothing was changed.
 set -euo pipefail
 
+[ $# -eq 1 ] || {
+  sed -n '2,5s/^# \{0,1\}//p' "$0" >&2
+  exit 2
+}
 run=$1
 cd "$(dirname "$0")/.."
 if [ ! -f "$run/suite.json" ] || [ ! -f "$run/tables.md" ]; then
@@ -22,34 +26,38 @@ first=$(sed -n 's/^ *"created": "\([^"]*\)".*/\1/p' "$run/suite.json" | head -n 
 machine=$(grep -h -m 1 -o '"machine_id": "[0-9a-f]*"' "$run"/*/run.json | head -n 1 | cut -d '"' -f 4)
 kept=results/${first%%T*}-$machine
 
-old=$(readlink results/reference || true)
-[ -z "$old" ] || rm -rf "results/${old:?}"
-rm -rf "$kept"
-mkdir "$kept"
-cp "$run/suite.json" "$run/tables.md" "$kept"
-cp -r "$run/tables" "$kept"
+# The former one stays until this one is complete.
+unfinished=$kept.unfinished
+rm -rf "$unfinished"
+mkdir "$unfinished"
+cp "$run/suite.json" "$run/tables.md" "$unfinished"
+cp -r "$run/tables" "$unfinished"
 for description in "$run"/*/run.json; do
   experiment=$(basename "$(dirname "$description")")
-  mkdir "$kept/$experiment"
-  cp "$description" "$kept/$experiment"
+  mkdir "$unfinished/$experiment"
+  cp "$description" "$unfinished/$experiment"
   records=$run/$experiment/runs.jsonl
   # Tables of smaller experiments are made of all that a row has.
   if [ "$(wc -l <"$records")" -gt 10000 ]; then
     /usr/bin/python3 results/thin_records.py <"$records"
   else
     cat "$records"
-  fi | xz -9e >"$kept/$experiment/runs.jsonl.xz"
+  fi | xz -9e >"$unfinished/$experiment/runs.jsonl.xz"
 done
 # What was drawn of the whole run; pictures.jsonl, from which some of it is drawn, is too large to be kept.
-gzip -9 --no-name <"$run/report.html" >"$kept/report.html.gz"
-mkdir "$kept/figures"
-cp "$run/figures/summary.png" "$kept/figures"
+gzip -9 --no-name <"$run/report.html" >"$unfinished/report.html.gz"
+mkdir "$unfinished/figures"
+cp "$run/figures/summary.png" "$unfinished/figures"
 # The league, the rows that it is made of, and the search belong to no run of the suite; of an evaluation that was
 # finished they are kept beside it.
-[ ! -f results/evaluation/league.json ] || cp results/evaluation/league.json "$kept"
-[ ! -f results/evaluation/runs/suite.json ] || results/keep_league.py results/evaluation/runs "$kept/league"
-[ ! -f results/evaluation/tune/tune.json ] || xz -9e --stdout results/evaluation/tune/tune.json >"$kept/tune.json.xz"
-[ ! -f "$run/core.json" ] || cp "$run/core.json" "$kept"
+[ ! -f results/evaluation/league.json ] || cp results/evaluation/league.json "$unfinished"
+[ ! -f results/evaluation/runs/suite.json ] || results/keep_league.py results/evaluation/runs "$unfinished/league"
+[ ! -f results/evaluation/tune/tune.json ] || xz -9e --stdout results/evaluation/tune/tune.json >"$unfinished/tune.json.xz"
+[ ! -f "$run/core.json" ] || cp "$run/core.json" "$unfinished"
+old=$(readlink results/reference || true)
+[ -z "$old" ] || rm -rf "results/${old:?}"
+rm -rf "$kept"
+mv "$unfinished" "$kept"
 ln -sfn "$(basename "$kept")" results/reference
 sed -i -E "s#results/[0-9]{4}-[0-9]{2}-[0-9]{2}-[0-9a-f]{8}#$kept#g" README.md
 echo "==> kept $run as $kept ($(du -sh "$kept" | cut -f 1))"

@@ -33,7 +33,9 @@ std::string complaint_of(const Work& work) {
 /// Expects that `work()` throws an Error that has these words.
 template <typename Error = std::runtime_error, typename Work>
 void expect_complaint(const Work& work, const std::string& words) {
-  expect_says(complaint_of<Error>(work), words);
+  const std::string said = complaint_of<Error>(work);
+  EXPECT_NE(said, kNoComplaint);
+  expect_says(said, words);
 }
 
 }  // namespace hullbench::testing

@@ -29,6 +29,9 @@ class HullbenchTest : public ::testing::Test {
   ProgramOptions in_folder(ProgramOptions options = {}) const {
     if (options.folder.empty()) options.folder = folder();
     options.environment.try_emplace("XDG_CONFIG_HOME", folder() / "config");
+    // The developer's own servers.
+    for (const char* name : {"HULLBENCH_POSTGIS_DSN", "HULLBENCH_POSTGIS_LEGACY_DSN"})
+      options.environment.try_emplace(name, "");
     return options;
   }
 

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <string>
 
@@ -15,9 +16,10 @@ class TemporaryFolder {
  public:
   TemporaryFolder() {
     const auto* test = ::testing::UnitTest::GetInstance()->current_test_info();
-    path_ =
-        std::filesystem::path(::testing::TempDir()) / (std::string("hullbench_") + test->test_suite_name() +
-                                                       "_" + test->name() + "_" + std::to_string(getpid()));
+    std::string name = std::string("hullbench_") + test->test_suite_name() + "_" + test->name() + "_" +
+                       std::to_string(getpid());
+    std::replace(name.begin(), name.end(), '/', '_');  // of parameterized tests
+    path_ = std::filesystem::path(::testing::TempDir()) / name;
     std::filesystem::create_directories(path_);
   }
   ~TemporaryFolder() { std::filesystem::remove_all(path_); }

@@ -143,6 +143,7 @@ TEST_F(AdapterCommandTest, WhatIsPrintedDoesNotBreakTheProtocol) {
   python_method("    print('hello'); import sys; print('there', file=sys.stderr); return []");
   const Outcome tested = test_sample();
   EXPECT_EQ(tested.out.find("protocol"), std::string::npos) << tested.out;
+  expect_says(tested.out, "ok    one point");
 }
 
 TEST_F(AdapterCommandTest, AModuleThatIsMissingIsNotInstalled) {

@@ -45,7 +45,7 @@ void expect_library_comes_with(const std::string& method, const std::string& lib
     const auto adapter = found->make();
     EXPECT_EQ(adapter->info().name, method);
   } catch (const NotInstalled& error) {
-    GTEST_SKIP() << error.what() << "; " << error.remedy();
+    GTEST_SKIP() << "skipped: " << error.what() << "; " << error.remedy();
   }
   EXPECT_TRUE(is_in_this_process(library));
 }

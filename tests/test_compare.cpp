@@ -209,6 +209,19 @@ TEST_F(CompareCommandTest, PrintsEveryFormat) {
   expect_refusal(compare("a", "b", {"--format", "word"}), 2, "--format");
 }
 
+TEST_F(CompareCommandTest, KeptRowsMayHaveNoTimes) {
+  write_invented_run(path("timeless"), {2000, 64000});
+  std::string text;
+  for (json row : record::load_json_lines(path("timeless") / "runs.jsonl").lines) {
+    if (row.contains("time_ns")) row["time_ns"] = json::array();
+    text += row.dump() + "\n";
+  }
+  write_text(path("timeless") / "runs.jsonl", text);
+  const json parsed = json::parse(compare("a", "timeless", {"--format", "json"}).out);
+  EXPECT_TRUE(parsed["pairs"][0]["ratio"].is_null());
+  EXPECT_TRUE(parsed["pairs"][0]["median_b_ns"].is_null());
+}
+
 TEST_F(CompareCommandTest, NamesRunsThatOnlyOneHas) {
   write_invented_run(path("c"), {2000});
   expect_end(compare("a", "c"), 0, "", "Only in A, 14: polylidar/ca/n:64000/holes:0/protocol:paper");

@@ -55,6 +55,13 @@ TEST(CurveTable, HasAColumnALevelAndAMedianACell) {
   EXPECT_EQ(rows.at(1), (std::vector<std::string>{"Polylidar (paper)", "20.0", "25.0", "40.0", "0"}));
 }
 
+TEST(CurveTable, AMethodThatIsNotInstalledHasNotFailed) {
+  json report = noisy_report();
+  run_on(report, "polylidar", "hi~noise:2")["status"] = "not_installed";
+  const Cells rows = table::shown(table_of(report));
+  EXPECT_EQ(rows.at(1), (std::vector<std::string>{"Polylidar (paper) [1]", "20.0", "25.0", "30.0", "0"}));
+}
+
 TEST(CurveTable, AFailureIsInfinitelyBad) {
   json report = noisy_report();
   json& run = run_on(report, "polylidar", "hi~noise:2");

@@ -420,11 +420,27 @@ TEST_F(FootprintUnionTest, OneLimitForAllWhereAllPointsDoNotFitIntoMemory) {
   files.push_back(few);
   const json whole = feature_of(succeeded(unite(files, {"--crs", "25832"})))["properties"];
   EXPECT_TRUE(whole.contains("most_size"));
-  const Outcome outcome = succeeded(unite(files, {"--crs", "25832", "--memory", "1"}));
+  const Outcome outcome = succeeded(unite(files, {"--crs", "25832", "--memory", "2"}));
   expect_says(outcome.err, "each file alone would get");
   const json properties = feature_of(outcome)["properties"];
   EXPECT_LT(properties["alpha"].get<double>(), 60) << "the few points do not decide";
   EXPECT_GT(properties["area"].get<double>(), 0);
+  expect_end(unite(files, {"--crs", "25832", "--memory", "1"}), 2,
+             "has 8000 points, too many for a limit to be chosen; give --alpha");
+}
+
+TEST_F(FootprintUnionTest, NoLimitIsChosenFromFilesWithoutTriangles) {
+  // Each file is a line of points, and there are more than fit into the memory.
+  std::vector<std::string> lines;
+  for (const int y : {0, 1000, 2000, 3000}) {
+    Points line;
+    for (int x = 0; x < 5000; ++x) line.push_back({static_cast<double>(x), static_cast<double>(y)});
+    for (int twice = 0; twice < 4; ++twice) {
+      lines.push_back(file("line_" + std::to_string(y + twice) + ".csv", rows(line, ",")));
+    }
+  }
+  expect_end(unite(lines, {"--crs", "25832", "--memory", "1"}), 2,
+             "no file has a triangle of its own to choose a limit from; give --alpha");
 }
 
 TEST_F(FootprintUnionTest, DegreesAreMetresAndStayAsTheyAre) {
@@ -477,6 +493,7 @@ TEST_F(FootprintUnionTest, NothingAndWrongUsage) {
   expect_refusal(unite({files[0], file("degrees.csv", "lon,lat\n1,2\n1,3\n2,2\n")}), 2,
                  "the files have different coordinate systems");
   expect_end(unite(tiles(10), {"--alpha", "1e-9"}), 2, "the union: the limit is too small");
+  expect_refusal(unite({"-"}), 2, "--union does not go with standard input, which can be read once only");
   expect_refusal(unite(files, {"-o", "/nowhere/union.geojson"}), 1, "cannot write /nowhere/union.geojson");
 }
 

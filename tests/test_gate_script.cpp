@@ -32,11 +32,11 @@ class GateScript : public ::testing::Test {
     }
     ProgramOptions options;
     options.folder = tree();
-    succeeded(run_program(
-        {"/bin/bash", "-c",
-         "git init --quiet && git add --all && git -c user.name=gate -c user.email=gate@example.org "
-         "-c core.hooksPath=/dev/null commit --quiet --message only"},
-        options));
+    succeeded(run_program({"/bin/bash", "-c",
+                           "export GIT_CONFIG_GLOBAL=/dev/null GIT_CONFIG_NOSYSTEM=1; git init --quiet && "
+                           "git add --all && git -c user.name=gate -c user.email=gate@example.org "
+                           "-c core.hooksPath=/dev/null commit --quiet --message only"},
+                          options));
     make_cmake("exit 0\n");
     make_script(folder_.path() / "driver", "printf '%s\\n' \"$@\"\n");
   }

@@ -345,8 +345,8 @@ class TheSummary(Folder):
         self.assertEqual((exact.error.lower_in, exact.error.median, exact.most_accurate_in), (3, 0.5, 3))
         self.assertEqual(summary.fastest_in, {"quick": 3})
         page = summary_html(self.load(*rows), [summary])
-        self.assertIn("<td class='number better'>0.109<small>", page)
-        self.assertIn("<td class='number better'>0.500<small>", page)
+        self.assertIn("<td class='number better'>0.109<span class='hidden'> better</span><small>", page)
+        self.assertIn("<td class='number better'>0.500<span class='hidden'> better</span><small>", page)
 
     def test_it_does_not_say_so_when_the_core_wins(self):
         summary = self.summary(run(), run("cgal", times=(200, 201, 202), l2=0.1 * (1 + 1e-12)))
@@ -439,7 +439,7 @@ class Page(Folder):
         self.assertEqual(page.kept_data(made, "pictures"), pictures)
 
     def test_what_thinned_records_lack_is_taken_from_the_kept_report(self):
-        kept = {"report": {"run": "a-run", "metrics": ["kept"]}, "charts": "kept charts", "rows": "kept rows"}
+        kept = {"report": {"metrics": ["kept"]}, "charts": "kept charts", "rows": "kept rows"}
         kept["pictures"] = json.loads(json.dumps(packed_pictures(self.load(run()))))
         (self.folder / "report.html").write_text("".join(page.data(*block) for block in kept.items()), encoding="utf-8")
         told = report([run()])
@@ -512,14 +512,14 @@ class Page(Folder):
     def test_what_differs_from_the_paper_stands_beside_its_claims(self):
         self.write_tables(document("States", "states_time"), document("Beside the paper", "differences", ["Common."]))
         made = self.page(run())
-        self.assertEqual(made.count("Caption of differences"), 1)
+        self.assertEqual(made.count("<h3>Caption of differences</h3>"), 1)
         self.assertLess(made.index("Caption of differences"), made.index("Caption of states_time"))
         self.assertNotIn("<li>Common.</li>", made)
 
     def test_the_tables_of_parameters_stand_in_their_section(self):
         self.write_tables(document("Methods and parameters", "parameters"))
         made = self.page(run())
-        self.assertEqual(made.count("Caption of parameters"), 1)
+        self.assertEqual(made.count("<h3>Caption of parameters</h3>"), 1)
         self.assertLess(made.index("Who chose them"), made.index("Caption of parameters"))
         self.assertLess(made.index("Caption of parameters"), made.index("What the parameters mean"))
 

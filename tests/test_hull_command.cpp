@@ -25,6 +25,7 @@
 #include "tests/program.hpp"
 #include "tests/temporary_folder.hpp"
 #include "tool/commands/commands.hpp"
+#include "tool/points/point_file.hpp"
 
 namespace hullbench::testing {
 namespace {
@@ -350,6 +351,18 @@ TEST_F(HullCommandTest, UsageErrors) {
   for (const std::string cleaning : {"--max-parts", "--min-area", "--min-triangles", "--simplify"}) {
     expect_refusal(hull({points, cleaning, "1", "--cover"}), 2, "--cover excludes " + cleaning);
   }
+  expect_refusal(hull({points, "--one", "--min-triangles", "9"}), 2, "--one excludes --min-triangles");
+}
+
+TEST_F(HullCommandTest, WhatWorksOnShapesNeedsUsualCoordinates) {
+  const std::string huge = file("huge.csv", "0,0\n1e160,0\n0,1e160\n1e160,1e160\n3e159,4e159\n");
+  expect_end(hull({huge}), 0, "chosen from the points");
+  for (const std::vector<std::string>& option :
+       {std::vector<std::string>{"--keep-outliers"}, {"--one"}, {"--cover"}, {"--simplify", "1"}}) {
+    std::vector<std::string> arguments = {huge, "--crs", "none"};
+    arguments.insert(arguments.end(), option.begin(), option.end());
+    expect_refusal(hull(arguments), 2, "coordinates as large or as small as these do not go with --one");
+  }
 }
 
 TEST_F(HullCommandTest, TheResultNeverReplacesThePoints) {
@@ -358,6 +371,7 @@ TEST_F(HullCommandTest, TheResultNeverReplacesThePoints) {
   fs::create_symlink(points, link);
   for (const std::string& out : {points, (folder() / "." / "points.npy").string(), link}) {
     expect_refusal(hull({points, "-o", out}), 2, "would replace the points that are read; give another file");
+    expect_refusal(in_shell("", "- -o '" + out + "' < '" + points + "'"), 2, "would replace the points");
   }
   EXPECT_EQ(read_text(points), npy_of<double>(points_, "<f8"));
   EXPECT_EQ(hull({points, "-o", "/dev/null"}).code, 0);
@@ -567,7 +581,7 @@ TEST_F(HullCommandTest, WhatGzipCompressedIsUnpacked) {
   if (hull({csv + ".gz"}).code == 0) FAIL() << "the test left a file behind";
   ASSERT_EQ(run_program({"gzip", "-k", csv, path}).code, 0);
   const Outcome unpacked = hull({csv + ".gz"});
-  if (unpacked.err.find("without zlib") != std::string::npos) GTEST_SKIP() << "zlib is missing";
+  if (unpacked.err.find("without zlib") != std::string::npos) GTEST_SKIP() << "skipped: zlib is missing";
   EXPECT_EQ(unpacked.out, expected_text) << unpacked.err;
   EXPECT_EQ(hull({path + ".gz"}).out, expected_text);
   EXPECT_EQ(in_shell("", "- < '" + csv + ".gz'").out, expected_text);
@@ -641,7 +655,8 @@ TEST_F(HullCommandTest, AStreamSaysWhatItCannotDo) {
            {{npy, "--alpha", "1", "--by", "x"}, "--stream does not go with --by"},
            {{npy, "--alpha", "1", "--format", "svg"}, "--stream does not go with --format svg"},
            {{npy, "--alpha", "1", "--min-area", "1"}, "--stream does not go with --min-area"},
-           {{"-", "--alpha", "1"}, "can be read once only"},
+           {{"-", "--alpha", "1"}, "--stream does not go with standard input, which can be read once only"},
+           {{make_pipe(), "--alpha", "1"}, "which can be read once only; give a file"},
            {{npy, "--alpha", "1e-9"}, "the limit is too small for the distances between the points"},
            {{npy, "--alpha", "1", "--crs", "EPSG:4326"}, "--stream takes a plane"},
            {{file("p.zip", "PK\x03\x04"), "--alpha", "1"}, "p.zip: it is an archive"},
@@ -650,6 +665,27 @@ TEST_F(HullCommandTest, AStreamSaysWhatItCannotDo) {
     all.emplace_back("--stream");
     expect_refusal(hull(all), 2, sentence);
   }
+}
+
+TEST_F(HullCommandTest, AStreamSaysThatThePointsNameNoSystem) {
+  const std::string plane = file("plane.csv", "x,y\n500000,5600000\n500010,5600000\n500000,5600010\n");
+  const std::string words = "the points name no coordinate system";
+  for (const std::vector<std::string>& option : {std::vector<std::string>{"--detail=1"}, {"--stream"}}) {
+    std::vector<std::string> arguments = {plane};
+    arguments.insert(arguments.end(), option.begin(), option.end());
+    EXPECT_NE(hull(arguments).err.find(words), std::string::npos) << option.front();
+    arguments.insert(arguments.end(), {"--crs", "25832"});
+    EXPECT_EQ(hull(arguments).err.find(words), std::string::npos) << option.front();
+  }
+}
+
+TEST_F(HullCommandTest, AHeaderThatPromisesMoreThanTheFileHoldsMakesNoMap) {
+  LasFile las;
+  las.points = {{.x = 0, .y = 0}, {.x = 1000, .y = 0}, {.x = 0, .y = 1000}};
+  las.promised = 1'000'000'000;
+  const std::string lying = file("lying.las", las.text());
+  EXPECT_FALSE(polylidar::tool::expected_points(lying, {}));
+  expect_refusal(hull({lying, "--stream", "--alpha", "0.001"}), 2, "lying.las: ");
 }
 
 TEST_F(HullCommandTest, AStreamWithoutPointsSaysSo) {

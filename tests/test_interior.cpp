@@ -387,6 +387,7 @@ TEST(InteriorLeftOut, GivesTheShapesOfNastyPointSets) {
     }
   }
   EXPECT_GT(counts[Way::kInteriorLeftOut], 100U);
+  EXPECT_GT(counts_of_sizes[Way::kInteriorLeftOut], 0U);
 }
 
 // A dense cloud with a round hole, all of whose points but the outermost lie on the hole's circle: the limit

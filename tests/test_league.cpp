@@ -120,9 +120,9 @@ TEST(League, TheMeanOfHolesIsOverCasesWithAnIntervalByShape) {
   const league::LeagueEntry& good = entry(league, "good", "auto");
   ASSERT_TRUE(good.hole_f1_mean && good.hole_f1_mean->interval);
   EXPECT_NEAR(good.hole_f1_mean->mean, 0.5, 1e-12);
-  // The standard error of 0.4, 0.6, 0.5 is 0.1 / sqrt(3).
-  EXPECT_NEAR(good.hole_f1_mean->interval->high, 0.5 + 1.95996 * 0.1 / std::sqrt(3.0), 1e-4);
-  EXPECT_NEAR(good.hole_f1_mean->interval->low, 0.5 - 1.95996 * 0.1 / std::sqrt(3.0), 1e-4);
+  // The standard error of 0.4, 0.6, 0.5 is 0.1 / sqrt(3), Student's t of two degrees of freedom 4.30.
+  EXPECT_NEAR(good.hole_f1_mean->interval->high, 0.5 + 4.302653 * 0.1 / std::sqrt(3.0), 1e-4);
+  EXPECT_NEAR(good.hole_f1_mean->interval->low, 0.5 - 4.302653 * 0.1 / std::sqrt(3.0), 1e-4);
   const league::League wide = league_of({with_f1("a", 0), with_f1("b", 1)});
   EXPECT_EQ(entry(wide, "good", "auto").hole_f1_mean->interval->low, 0) << "no F1 is below";
   EXPECT_EQ(entry(wide, "good", "auto").hole_f1_mean->interval->high, 1);
@@ -199,6 +199,17 @@ TEST(League, DegenerateInputIsCountedApart) {
   EXPECT_EQ(entry(league, "bad", "auto").unscored_failures, 1U);
   EXPECT_EQ(entry(league, "bad", "auto").failures, 0U);
   EXPECT_EQ(league.cases, 1U);
+}
+
+TEST(League, OnePlanAcceptsNothingForAnother) {
+  json failed = row("good", "auto", "degenerate_one", nullptr);
+  failed["status"] = "error";
+  json flat = row("good", "auto", "degenerate_flat", nullptr);
+  flat["status"] = "error";
+  json accepting = report({failed});
+  accepting["plan"]["accepted"] = {"error"};
+  EXPECT_EQ(entry(league::make_league({accepting, report({flat})}, false), "good", "auto").unscored_failures,
+            1U);
 }
 
 TEST(League, OfTestShapesHasNoOther) {

@@ -105,7 +105,7 @@ class MethodContract : public ::testing::TestWithParam<Method> {
     try {
       adapter_ = make_();
     } catch (const NotInstalled& missing) {
-      GTEST_SKIP() << missing.what();
+      GTEST_SKIP() << "skipped: " << missing.what();
     }
   }
 

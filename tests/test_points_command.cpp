@@ -174,7 +174,7 @@ TEST_F(PointsCommandTest, StandardOutputGetsCsvOrWhatIsAsked) {
 }
 
 TEST_F(PointsCommandTest, UniformPointsTakeNoMemory) {
-  // Four million doubles are 32 MB, the program and its libraries are below that limit without them.
+  // Six million doubles are 48 MB, the program and its libraries are below that limit without them.
   succeeded(in_shell("ulimit -v 100000;", "'ca~outliers:5~noise:0.5' --n 3000000 --format npy > /dev/null"));
   EXPECT_NE(in_shell("ulimit -v 100000;", "ca~gradient:16 --n 3000000 --format npy > /dev/null").code, 0);
 }

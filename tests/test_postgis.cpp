@@ -92,7 +92,7 @@ TEST_F(Postgis, TurnsALengthIntoTheRatioOfItsOwnTriangulation) {
   const auto postgis = make_postgis();
   const auto geos = make_geos_concave_hull();
   if (postgis->info().version.find("(GEOS " + geos->info().version + ",") == std::string::npos) {
-    GTEST_SKIP() << "PostGIS " << postgis->info().version << " has another GEOS than "
+    GTEST_SKIP() << "skipped: PostGIS " << postgis->info().version << " has another GEOS than "
                  << geos->info().version;
   }
   for (const double scale : {1.0, 1000.0}) {
@@ -164,7 +164,7 @@ class LegacyPostgis : public ::testing::Test {
     try {
       adapter_ = make_postgis_legacy();
     } catch (const NotInstalled& error) {
-      GTEST_SKIP() << error.what() << "; " << error.remedy();
+      GTEST_SKIP() << "skipped: " << error.what() << "; " << error.remedy();
     }
   }
 

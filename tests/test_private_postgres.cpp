@@ -65,17 +65,23 @@ class OtherOwner {
     if (pipe(ends.data()) != 0) throw std::runtime_error("pipe");
     pid_ = fork();
     if (pid_ == 0) {
-      const PrivatePostgres server;
-      const std::string line = server.folder().string() + " " + std::to_string(server.supervisor());
-      if (write(ends[1], line.data(), line.size()) < 0) _exit(1);
-      for (;;) pause();
+      try {
+        const PrivatePostgres server;
+        const std::string line = server.folder().string() + " " + std::to_string(server.supervisor());
+        if (write(ends[1], line.data(), line.size()) < 0) _exit(1);
+        for (;;) pause();
+      } catch (...) {
+        _exit(1);
+      }
     }
     close(ends[1]);
     std::array<char, 512> buffer{};
     const ssize_t size = read(ends[0], buffer.data(), buffer.size());
     close(ends[0]);
     std::istringstream line(std::string(buffer.data(), size > 0 ? static_cast<std::size_t>(size) : 0U));
-    line >> folder_ >> supervisor_;
+    if (line >> folder_ >> supervisor_ && supervisor_ > 1) return;
+    kill_owner();
+    throw std::runtime_error("the other owner has no server");
   }
   ~OtherOwner() { kill_owner(); }
   OtherOwner(const OtherOwner&) = delete;

@@ -208,10 +208,11 @@ class Shapes(unittest.TestCase):
             (r"label 2 is missing \(nan\): leave out", [1, 2, np.nan, 3]),
             (r"label 1 is missing \(nan\)", np.array(["a", np.nan, "a", "b"], object)),
             (r"label 3 is missing \(None\)", ["a", "a", "b", None]),
+            ("labels are masked", np.ma.masked_equal([1, 2, 2, 9], 9)),
             (r"label 0 is missing \(NaT\)", np.array(["NaT", "2024-02-28", "NaT", "NaT"], "M8[D]")),
             ("of the types int and str cannot be sorted", ["1", 1, "1", "2"]),
             ("of the types int and str cannot be sorted", np.array(["1", 1, "1", "2"], object)),
-            ("of the types list cannot be sorted", as_objects([[1], [2], [1], [2]])),
+            ("labels must be hashable", as_objects([[1], [2], [1], [2]])),
         ):
             with self.subTest(message), self.assertRaisesRegex(ValueError, message):
                 concave_hulls(points, labels)

@@ -17,7 +17,7 @@ def lines_with_errors(*what):
     """Their numbers, and all that mypy says."""
     with tempfile.TemporaryDirectory() as cache:
         result = subprocess.run(
-            [sys.executable, "-m", "mypy", "--strict", "--cache-dir", cache, *what],
+            [sys.executable, "-m", "mypy", "--strict", "--config-file", os.devnull, "--cache-dir", cache, *what],
             env={**os.environ, "MYPYPATH": os.environ["PYTHONPATH"]},
             capture_output=True,
             text=True,

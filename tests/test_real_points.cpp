@@ -168,7 +168,7 @@ TEST(RealPoints, AreThoseOfTheInstalledPackages) {
     }
     EXPECT_GT(heights.size(), 10U);
   }
-  if (packages.empty()) GTEST_SKIP() << "none of the packages is installed ('make deps-real')";
+  if (packages.empty()) GTEST_SKIP() << "skipped: none of the packages is installed ('make deps-real')";
 }
 
 }  // namespace

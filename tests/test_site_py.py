@@ -194,9 +194,10 @@ class What(Folder):
             self.assertIn(part, told)
         informed = next(one for one in load_run(self.runs[1]).front.ratings if one.division.name == "informed")
         ranks = {one.series.method: one.rank for one in informed.standings}
-        place = 1 + sum(rank < ranks["polylidar"] for rank in ranks.values())
+        place = 1 + len({rank for rank in ranks.values() if rank < ranks["polylidar"]})
         self.assertIn(
-            f"has place {place} of {len(informed.standings)} among the entries that know something of the truth", told
+            f"has place {place} of {len(informed.standings)} among the different results of methods that know something of the truth",
+            told,
         )
         self.assertIn("It has less than half of the cases", words(self.site / "methods" / "convex_hull.html"))
         self.assertIn("This run has no results of it", words(self.site / "methods" / "postgis_legacy.html"))
@@ -247,7 +248,7 @@ class What(Folder):
         readme = (PLOTS.parent / "README.md").read_text(encoding="utf-8").split("### A method")[1].split("###")[0]
         plain = re.sub(r"\]\([^)]+\)", "", readme).replace("- [ ]", "")
         self.assertEqual(
-            re.sub(r"[`\[\]\s]+", "", plain), re.sub(r"\s+", "", words(self.site / "add.html").partition("steps")[2])
+            re.sub(r"[`\[\]\s]+", "", plain), re.sub(r"\s+", "", words(self.site / "add.html").partition("Step by step")[2])
         )
         self.assertEqual(self.pages["add.html"].source.count("<li>"), readme.count("- [ ]"))
 

@@ -72,7 +72,7 @@ TEST(Weighted, IntervalsResampleWholeClusters) {
   EXPECT_EQ(statistics::weighted_median_interval(clusters)->low, interval->low);
   // The standard error of 0.4, 0.6 and 0.5 is 0.1 / sqrt(3).
   const auto mean = statistics::weighted_mean_interval({{{0.4, 2}}, {{0.6, 2}}, {{0.5, 2}}});
-  EXPECT_NEAR(mean->high - mean->low, 2 * 1.95996 * 0.1 / std::sqrt(3.0), 1e-4);
+  EXPECT_NEAR(mean->high - mean->low, 2 * 4.302653 * 0.1 / std::sqrt(3.0), 1e-4);
   EXPECT_FALSE(statistics::weighted_median_interval({{{1, 1}, {2, 1}}, {}}));
   EXPECT_FALSE(statistics::weighted_mean_interval({}));
 }

@@ -134,6 +134,11 @@ TEST(Threads, ReadSourcesOfAStreamAtTheSameTime) {
   }
 }
 
+TEST(Threads, MayBeVeryMany) {
+  const std::vector<Point> few = testing::uniform_points(200, 1);
+  EXPECT_EQ(concave_hull(few, {.threads = 1U << 29U}), concave_hull(few)) << "parts are counted in 64 bits";
+}
+
 TEST(Threads, MustBeOneOrMore) {
   const std::vector<Point> points = testing::uniform_points(10, 9);
   EXPECT_THROW(concave_hull(points, {.threads = 0}), std::invalid_argument);

@@ -65,7 +65,7 @@ class TriangleMethod : public ::testing::Test {
   explicit TriangleMethod(const std::string& name) : method_(name) {}
 
   void SetUp() override {
-    if (!method_.missing().empty()) GTEST_SKIP() << method_.missing();
+    if (!method_.missing().empty()) GTEST_SKIP() << "skipped: " << method_.missing();
   }
 
   void expect_same_polygons(const std::vector<Point>& points, const Options& options) {

@@ -409,7 +409,7 @@ TEST_F(VectorFormatsTest, ADatabase) {
   try {
     server.emplace();
   } catch (const NotInstalled& error) {
-    GTEST_SKIP() << error.what();
+    GTEST_SKIP() << "skipped: " << error.what();
   }
   const std::string database = "PG:" + server->dsn();
   NewData(database, "").execute("CREATE EXTENSION IF NOT EXISTS postgis");

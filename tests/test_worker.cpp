@@ -106,7 +106,8 @@ TEST_F(MethodSessionTest, PeakMemoryIsThatOfTheRunThatIsWatched) {
   start(method_of("borrows_memory_once", misbehaving("borrows_memory_once")));
   const worker::Attempt large = run(30s, worker::Watch::kMemory);
   ASSERT_EQ(large.status, record::Status::kOk) << large.detail;
-  if (!large.peak_memory_bytes) GTEST_SKIP() << "this system does not tell the peak of a process's memory";
+  if (!large.peak_memory_bytes)
+    GTEST_SKIP() << "skipped: this system does not tell the peak of a process's memory";
   constexpr std::int64_t kBorrowed = std::int64_t{64} * 1024 * 1024;
   EXPECT_GT(*large.peak_memory_bytes, kBorrowed);
   EXPECT_EQ(run().peak_memory_bytes, std::nullopt);

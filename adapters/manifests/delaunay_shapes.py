@@ -18,10 +18,13 @@ class Triangles:
     def __init__(self, points):
         self.points = points
         try:
-            delaunay = scipy.spatial.Delaunay(points)
+            # Qhull loses digits far from the origin.
+            delaunay = scipy.spatial.Delaunay(points - (points.min(axis=0) + points.max(axis=0)) / 2)
             self.corners = delaunay.simplices  # (m, 3) indices of points, counter-clockwise
             self.neighbours = delaunay.neighbors  # (m, 3) beyond the edge opposite to the corner; -1: none
-        except (ValueError, scipy.spatial.QhullError):  # fewer than 3 points, or all on a line
+        except (ValueError, scipy.spatial.QhullError):
+            if _span_area(points):
+                raise
             self.corners = self.neighbours = numpy.empty((0, 3), dtype=int)
         a, b, c = (points[self.corners[:, i]] for i in range(3))
         (ux, uy), (vx, vy) = (b - a).T, (c - a).T
@@ -68,6 +71,16 @@ class Triangles:
         # Where points are on a line or a circle but for rounding, Qhull's triangles can overlap or leave gaps.
         union = shapely.ops.unary_union([shapely.geometry.Polygon(self.points[c]) for c in self.corners[kept]])
         return [part for part in getattr(union, "geoms", [union]) if part.area > 0]
+
+
+def _span_area(points):
+    """Whether they are more than a line, beyond rounding."""
+    if len(points) < 3:
+        return False
+    from_first = points - points[0]
+    farthest = from_first[numpy.argmax(numpy.abs(from_first).sum(axis=1))]
+    beside = numpy.abs(from_first[:, 0] * farthest[1] - from_first[:, 1] * farthest[0]).max()
+    return bool(beside > 1e-12 * (farthest ** 2).sum())
 
 
 def _first_edge(face):

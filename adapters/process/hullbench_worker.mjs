@@ -126,7 +126,8 @@ export async function serve(method) {
       reply(await worker[request.request](request));
     } catch (error) {
       if (error instanceof Unsupported) fail("unsupported", error.message);
-      else if (error instanceof RangeError && /memory|array length/i.test(error.message)) fail("memory", error.message);
+      else if (error instanceof RangeError && /memory|array length|allocation failed/i.test(error.message)) fail("memory", error.message);
+      else if (/call stack|maximum size/i.test(error?.message)) fail("error", error.message);
       else fail(error instanceof RangeError ? "invalid_argument" : "error", error?.message ?? error);
     }
   }

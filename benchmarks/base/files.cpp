@@ -24,13 +24,18 @@ void write_text_file(const fs::path& path, const std::string& text) {
     std::ofstream out(temporary, std::ios::binary | std::ios::trunc);
     out << text << std::flush;
     if (!out) {
+      std::error_code ignored;
+      fs::remove(temporary, ignored);
       throw std::runtime_error("cannot write " + path.string() +
                                "; is its folder there and writable, and the disk not full?");
     }
   }
   std::error_code error;
   fs::rename(temporary, path, error);
-  if (error) throw std::runtime_error("cannot write " + path.string() + ": " + error.message());
+  if (!error) return;
+  std::error_code ignored;
+  fs::remove(temporary, ignored);
+  throw std::runtime_error("cannot write " + path.string() + ": " + error.message());
 }
 
 std::string dump_text(const json& content, int indent) {

@@ -11,7 +11,7 @@ namespace hullbench {
 inline constexpr int kAnyCore = -1;
 
 /// Calls `work(i)` for every i below `count`, each once, in any order and on several threads: one on each of
-/// `cores` (numbers as in environment.hpp), or one alone when there are none. Returns when all are done. What
+/// `cores` (numbers as in cores.hpp), or one alone when there are none. Returns when all are done. What
 /// a call throws is thrown here, after the others have ended; of several exceptions that of the smallest i.
 void for_each_in_parallel(std::size_t count, const std::vector<int>& cores,
                           const std::function<void(std::size_t)>& work);

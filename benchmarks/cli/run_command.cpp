@@ -437,7 +437,7 @@ void add_run(CLI::App& app, Action& action) {
   options.add_option(
       "--recordings", command->recordings,
       "Measure the recorded floors in this folder instead of the simulated ones, or besides the real points "
-      "(datasets/rgbd/recordings.hpp)");
+      "(datasets/README.md)");
   add_shard(options, command->shard,
             "Only part K of N of the runs, given as K/N, such as 2/8; 'hullbench merge' joins the parts");
   add_adapters(options, command->adapters);

@@ -69,12 +69,11 @@ void copy_method(const std::string& name, const PackCommand& command) {
     const fs::path target = command.out / run::kSubmissionMethod;
     fs::create_directories(target);
     for (const auto& entry : fs::directory_iterator(manifest.file.parent_path())) {
-      constexpr std::uintmax_t kLargestProgram = 1 << 20;
       const std::string file = entry.path().filename().string();
-      const bool is_other_manifest = entry.path().extension() == ".json" &&
-                                     file != manifest.file.filename() && !file.starts_with("package");
+      const bool is_other_manifest =
+          run::is_manifest(entry.path()) && file != manifest.file.filename().string();
       if (!entry.is_regular_file() || file.starts_with(".") || is_other_manifest ||
-          entry.file_size() > kLargestProgram)
+          entry.file_size() > run::kLargestProgram)
         continue;
       fs::copy_file(entry.path(), target / file, fs::copy_options::overwrite_existing);
     }

@@ -25,7 +25,11 @@ ExitCode tables(const TablesCommand& command) {
     table::write_tables(command.run, documents);
     league::write_league_tables(command.run);
   }
-  if (!command.export_gbench.empty()) report::export_gbench(command.export_gbench, reports);
+  if (command.export_gbench.empty()) return kExitOk;
+  if (reports.empty()) {
+    throw ConfigurationError("no run was begun in " + command.run + ", so there is nothing to export");
+  }
+  report::export_gbench(command.export_gbench, reports);
   return kExitOk;
 }
 

@@ -49,7 +49,10 @@ std::vector<plan::Plan> load_plans(const TuneCommand& command, const run::Method
     const auto same = [&](const plan::Plan& other) { return other.name == plan.name; };
     if (std::ranges::any_of(plans, same))
       throw ConfigurationError("the plan '" + plan.name + "' is named twice; leave one out");
-    plan.timeout_s = command.timeout_s.value_or(plan.timeout_s);
+    if (command.timeout_s) {
+      plan.timeout_s = *command.timeout_s;
+      for (plan::PlanMethod& entry : plan.methods) entry.timeout_s.reset();
+    }
     plan::check_plan(plan, catalog.names(), datasets());
     plans.push_back(std::move(plan));
   }
@@ -127,6 +130,7 @@ tune::TunerOptions tuner_options(const TuneCommand& command, const run::MethodCa
   for (const plan::Plan& plan : plans) {
     options.mem_limit_mib = std::max(options.mem_limit_mib, plan.mem_limit_mib);
     for (const plan::PlanMethod& entry : plan.methods) {
+      options.mem_limit_mib = std::max(options.mem_limit_mib, entry.mem_limit_mib.value_or(0));
       if (!entry.search) options.not_searched.insert(entry.method);
     }
   }

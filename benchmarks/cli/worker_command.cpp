@@ -24,7 +24,7 @@ ExitCode work(const std::string& method) {
 void add_worker(CLI::App& app, Action& action) {
   const auto method = std::make_shared<std::string>();
   CLI::App& options =
-      add_command(app, "worker", "Run one method for another process (see benchmarks/worker/protocol.hpp)",
+      add_command(app, "worker", "Run one method for another process (see adapters/process/PROTOCOL.md)",
                   R"(echo '{"request": "hello"}' | hullbench worker --method polylidar)");
   options.add_option("--method", *method, "The method's name")->required();
   // No set_action: a worker does not catch an interruption, it ends at once.

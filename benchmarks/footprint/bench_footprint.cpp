@@ -31,6 +31,7 @@
 #include "benchmarks/base/utc_now.hpp"
 #include "benchmarks/footprint/hexbin.hpp"
 #include "benchmarks/metrics/area.hpp"
+#include "benchmarks/metrics/shape_measures.hpp"
 #include "benchmarks/plan/parameter_rules.hpp"
 #include "benchmarks/record/environment.hpp"
 #include "benchmarks/statistics/statistics.hpp"
@@ -228,22 +229,25 @@ class Comparison {
     add(
         "hexagons " + three_digits(height) + " high with " + std::to_string(kOfPdal) + " points",
         [this, height] { return hexbin(read(), height, kOfPdal); }, all);
+    const double edge = plan::auto_edge_length({.points = sample_of(read())});
     add(
-        "GEOS concave hull of a sample", [this] { return geos_hull(); }, std::min(choice_.sample, all));
+        "GEOS concave hull of a sample",
+        [this, edge] {
+          return result_of("geos_concave_hull", sample_of(read()), {{"max_edge_length", edge}});
+        },
+        std::min(choice_.sample, all));
     add(
         "convex hull", [this] { return result_of("convex_hull", read(), {}); }, all);
   }
 
-  /// Every k-th point, and the edge that the harness's rule takes from these.
-  MultiPolygon geos_hull() const {
-    const std::vector<Point> points = read();
+  /// Every k-th point.
+  std::vector<Point> sample_of(const std::vector<Point>& points) const {
     std::vector<Point> sample;
     const double step =
         std::max(1.0, static_cast<double>(points.size()) / static_cast<double>(choice_.sample));
     const auto place = [&](std::size_t k) { return static_cast<std::size_t>(static_cast<double>(k) * step); };
     for (std::size_t k = 0; place(k) < points.size(); ++k) sample.push_back(points[place(k)]);
-    const double edge = plan::auto_edge_length({.points = sample});
-    return result_of("geos_concave_hull", sample, {{"max_edge_length", edge}});
+    return sample;
   }
 
   static std::int64_t nanoseconds_since(Clock::time_point start) {
@@ -302,10 +306,8 @@ class Comparison {
       }
       const metrics::AreaScores scores = metrics::area_scores(way.shape, truth);
       row.push_back(scores.l2 ? table::Cell(table::Number(100 * *scores.l2)) : table::Cell("invalid"));
-      std::size_t holes = 0;
-      for (const Polygon& polygon : way.shape) holes += polygon.holes.size();
       row.emplace_back(way.shape.size());
-      row.emplace_back(holes);
+      row.emplace_back(metrics::count_holes(way.shape));
       row.emplace_back(polylidar::vertex_count(way.shape));
       table.add_row(std::move(row));
     }
@@ -319,8 +321,8 @@ class Comparison {
     std::vector<std::string> notes = {
         "Area error: the area in which outline and truth differ, of the truth's area.",
         "Hexagons: the union of those with that many points or more. The first are as high as the largest "
-        "triangle "
-        "that polylidar chose; the others as Hexer takes them, which PDAL's filters.hexbin is made of: " +
+        "triangle that polylidar chose; the others as Hexer takes them, which PDAL's filters.hexbin is made "
+        "of: " +
             std::to_string(kOfPdal) + " times the mean distance of consecutive points, of the first 5000.",
         "GEOS's ConcaveHull gets every " +
             std::to_string(
@@ -329,10 +331,9 @@ class Comparison {
     if (choice_.without_times) return notes;
     notes.push_back("Times: medians of " + std::to_string(choice_.runs) +
                     " runs by turns, with the median absolute deviation. The file is in the page cache, "
-                    "except in the rows "
-                    "\"from the disk\", which are compared with a cat from the disk. polylidar is a process "
-                    "of its own, as "
-                    "cat is; of the others the time in one process, with reading the file.");
+                    "except in the rows \"from the disk\", which are compared with a cat from the disk. "
+                    "polylidar is a process of its own, as cat is; of the others the time in one process, "
+                    "with reading the file.");
     notes.push_back("Measured " + utc_now().substr(0, 10) + " on " + cpu["model"].get<std::string>() + ", " +
                     std::to_string(cpu["allowed_cores"].get<int>()) + " cores; load average before: " +
                     (environment["load_average"].is_null()

@@ -96,9 +96,10 @@ unpack_base() {
 build_driver() {
   say "building bench_gate"
   cd "$checkout"
-  # The gate needs no tests; a build folder that has them keeps them.
+  # The gate needs no tests; a build folder that has them keeps them, as long as GoogleTest is there.
   local without_tests=()
-  [ -f build/CMakeCache.txt ] || without_tests=(-DHULLBENCH_TESTS=OFF)
+  { grep -qs '^HULLBENCH_TESTS:BOOL=ON' build/CMakeCache.txt &&
+    [ -d "$(sed -n 's/^GTest_DIR:PATH=//p' build/CMakeCache.txt)" ]; } || without_tests=(-DHULLBENCH_TESTS=OFF)
   { logged configure-driver cmake --preset release "${without_tests[@]}" &&
     logged build-driver cmake --build --preset release --parallel "$jobs" --target bench_gate; } ||
     fail 1 "bench_gate does not build: see $(newest_log driver)"

@@ -38,7 +38,7 @@ Programs place_programs(const std::filesystem::path& base, const std::filesystem
 /// Appends `count` blocks to `blocks`, or fewer: none begins after `deadline`. A block runs each of the three
 /// programs once, in random order, and then once more in the opposite order, so that any two of them run as
 /// ABBA or BAAB: what grows steadily with time cancels. Its log-ratio is that of the geometric means of the
-/// two runs. `random` numbers the orders; `before_process` is called before every process. Throws as
+/// two runs. `seed` chooses the orders; `before_process` is called before every process. Throws as
 /// run_probe, and std::runtime_error when a program's results differ from one process to the next.
 void measure_blocks(const Programs& programs, const ProbeSettings& settings, std::size_t count,
                     std::uint64_t seed, std::chrono::steady_clock::time_point deadline,

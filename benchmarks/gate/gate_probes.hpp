@@ -14,7 +14,7 @@ namespace hullbench::gate {
 /// What one process measured: the estimate of every quantity in nanoseconds, and the hash of every case's
 /// result.
 struct ProbeTimes {
-  std::map<std::string, double> ns;            ///< "triangulation ca-64000"
+  std::map<std::string, double> ns;            ///< "concave_hull ca-64000"
   std::map<std::string, std::string> results;  ///< by case
 };
 

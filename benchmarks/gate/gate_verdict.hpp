@@ -19,7 +19,7 @@ struct GateRules {
 
 /// The log-ratios of one quantity, ln(head / base), one a block.
 struct LogRatios {
-  std::string name;  ///< "triangulation ca-64000"
+  std::string name;  ///< "concave_hull ca-64000"
   std::vector<double> values;
 };
 

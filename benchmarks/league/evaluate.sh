@@ -41,12 +41,23 @@ measure() {
     2>&1 >"$out/part-$1.txt" | if [ "$1" -eq 1 ]; then tee "$out/part-1.log" >&2; else cat >"$out/part-$1.log"; fi
 }
 pids=()
+stop() {
+  trap '' INT TERM HUP
+  for pid in "${pids[@]}"; do kill -TERM -- "-$pid" 2>/dev/null || true; done
+  wait || true
+  exit "$1"
+}
+set -m # each part is a process group of its own, in which an interruption is not ignored
+trap 'stop 130' INT
+trap 'stop 143' TERM HUP
 for ((part = 1; part <= parts; ++part)); do
   measure "$part" &
   pids+=($!)
 done
 failed=0
 for pid in "${pids[@]}"; do wait "$pid" || failed=$?; done
+set +m
+trap - INT TERM HUP
 if [ "$failed" -ne 0 ]; then
   tail -n 3 "$out"/part-*.log >&2
   exit "$failed"

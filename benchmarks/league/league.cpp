@@ -48,13 +48,17 @@ std::string shape_of(const json& row) {
 struct CaseFacts {
   std::string shape;
   std::string dataset;
-  bool scored = false;    ///< its errors count
-  std::size_t parts = 1;  ///< of the ground truth
-  std::size_t holes = 0;  ///< of all its parts
-  double weight = 0;      ///< of a scored case
+  bool scored = false;     ///< its errors count
+  std::size_t parts = 1;   ///< of the ground truth
+  std::size_t holes = 0;   ///< of all its parts
+  double weight = 0;       ///< of a scored case
+  bool has_skill = false;  ///< some method's skill is defined there
+  /// Statuses that the case's plan accepts; none of a plan whose results have errors.
+  std::set<std::string> accepted;
 
   std::string kind() const { return tune::kind_of_shape(parts, holes); }
   std::string sampler() const { return tune::sampler_of(dataset); }
+  std::string stratum() const { return sampler() + ", " + kind(); }
 };
 
 /// How many polygons or holes the ground truth has, of a row that has a result.
@@ -67,11 +71,13 @@ std::optional<std::size_t> count_in_truth(const json& row, const std::string& wh
 
 /// Where a plan accepts failures, how a run ends is all that counts: an error of a million per cent on points
 /// that are 1e8 apart says nothing about shapes.
-void learn(CaseFacts& facts, const json& row, bool accepts_failures) {
+void learn(CaseFacts& facts, const json& row, const std::set<std::string>& accepted) {
   facts.shape = shape_of(row);
   facts.dataset = row.at("dataset").get<std::string>();
-  if (accepts_failures) return;
+  facts.accepted.insert(accepted.begin(), accepted.end());
+  if (!accepted.empty()) return;
   if (const auto area = metric(row, "ground_truth_area"); area && *area > 0) facts.scored = true;
+  if (metric(row, "skill")) facts.has_skill = true;
   facts.parts = count_in_truth(row, "polygons").value_or(facts.parts);
   facts.holes = count_in_truth(row, "holes").value_or(facts.holes);
 }
@@ -99,7 +105,6 @@ struct Field {
   std::map<Entrant, RowsByCase> rows;
   std::map<std::string, CaseFacts> cases;
   std::map<std::string, Capabilities> capabilities;  ///< by method, of those that say so
-  std::set<std::string> accepted;                    ///< statuses that a plan without ground truth accepts
   std::vector<std::string> not_installed;
 };
 
@@ -109,7 +114,7 @@ void weigh(std::map<std::string, CaseFacts>& cases) {
   for (auto& [name, facts] : cases) {
     if (!facts.scored) continue;
     scored.push_back(&facts);
-    members.push_back({facts.sampler() + ", " + facts.kind(), facts.shape});
+    members.push_back({facts.stratum(), facts.shape});
   }
   if (scored.empty()) return;
   const std::vector<double> weights = tune::case_weights(members);
@@ -121,8 +126,7 @@ Field sort_rows(const std::vector<json>& reports, bool test_only) {
   std::set<std::string> installed;
   std::set<std::string> missing;
   for (const json& report : reports) {
-    const json accepted = report.at("plan").value("accepted", json::array());
-    for (const json& status : accepted) field.accepted.insert(status.get<std::string>());
+    const auto accepted = report.at("plan").value("accepted", std::set<std::string>());
     for (const json& method : report.at("methods")) learn(field.capabilities, method);
     for (const json& row : report.at("runs")) {
       const bool is_test = tune::side_of(row.at("dataset").get<std::string>()) == tune::Side::kTest;
@@ -136,7 +140,7 @@ Field sort_rows(const std::vector<json>& reports, bool test_only) {
       const std::string name =
           record::case_of_run(row.at("name").get<std::string>()) + "/seed:" + row.at("seed").dump();
       field.rows[{method, row.at("protocol").get<std::string>()}].emplace(name, &row);
-      learn(field.cases[name], row, !accepted.empty());
+      learn(field.cases[name], row, accepted);
     }
   }
   std::set_difference(missing.begin(), missing.end(), installed.begin(), installed.end(),
@@ -156,11 +160,13 @@ double error_of(const json& row) {
   return is_ok(row) ? metric(row, "l2").value_or(tune::kInfinitelyBad) : tune::kInfinitelyBad;
 }
 
-/// Values of an entry by shape, for the medians.
+/// Values of an entry on some of the cases, which are weighed among themselves.
 class Samples {
  public:
   void add(const CaseFacts& facts, std::optional<double> value) {
-    if (value) values_[facts.shape].push_back({*value, facts.weight});
+    if (!value) return;
+    values_.push_back(*value);
+    members_.push_back({facts.stratum(), facts.shape});
   }
   double median() const { return from_finite(statistics::weighted_median(all())); }
   /// None without a value.
@@ -185,17 +191,22 @@ class Samples {
 
  private:
   std::vector<statistics::WeightedValue> all() const {
+    const std::vector<double> weights = tune::case_weights(members_);
     std::vector<statistics::WeightedValue> result;
-    for (const auto& [shape, values] : values_) result.insert(result.end(), values.begin(), values.end());
+    for (std::size_t i = 0; i < values_.size(); ++i) result.push_back({values_[i], weights[i]});
     return result;
   }
   std::vector<std::vector<statistics::WeightedValue>> by_shape() const {
+    const std::vector<statistics::WeightedValue> values = all();
+    std::map<std::string, std::vector<statistics::WeightedValue>> of_shape;
+    for (std::size_t i = 0; i < values.size(); ++i) of_shape[members_[i].shape].push_back(values[i]);
     std::vector<std::vector<statistics::WeightedValue>> result;
-    for (const auto& [shape, values] : values_) result.push_back(values);
+    for (auto& [shape, own] : of_shape) result.push_back(std::move(own));
     return result;
   }
 
-  std::map<std::string, std::vector<statistics::WeightedValue>> values_;
+  std::vector<double> values_;
+  std::vector<tune::Membership> members_;
 };
 
 /// Errors on some of the cases.
@@ -217,7 +228,8 @@ std::map<std::string, PartScore> part_scores(const std::map<std::string, PartSam
   return scores;
 }
 
-std::optional<double> skill_of(const json& row, bool ok) {
+std::optional<double> skill_of(const json& row, bool ok, const CaseFacts& facts) {
+  if (!facts.has_skill) return std::nullopt;
   return ok ? metric(row, "skill") : std::optional(-tune::kInfinitelyBad);
 }
 
@@ -254,7 +266,7 @@ LeagueEntry make_entry(const Field& field, const Entrant& entrant, const RowsByC
     const bool ok = error < tune::kInfinitelyBad;
     if (!facts.scored) {
       ++entry.unscored_cases;
-      if (status != "ok" && !field.accepted.contains(status)) ++entry.unscored_failures;
+      if (status != "ok" && !facts.accepted.contains(status)) ++entry.unscored_failures;
       continue;
     }
     ++entry.cases;
@@ -266,7 +278,7 @@ LeagueEntry make_entry(const Field& field, const Entrant& entrant, const RowsByC
     if (able.can_have(facts)) l2_where_able.add(facts, error);
     kinds[facts.kind()].add(facts, error);
     samplers[facts.sampler()].add(facts, error);
-    skill.add(facts, skill_of(*row, ok));
+    skill.add(facts, skill_of(*row, ok, facts));
     hole_f1.add(facts, hole_f1_of(*row, ok, facts));
     regret.add(facts, regret_of(error, name, oracle == field.rows.end() ? nullptr : &oracle->second));
   }

@@ -46,8 +46,7 @@ struct LeagueEntry {
   std::size_t failures = 0;  ///< of these without a valid result; infinitely bad in every median below
   std::map<std::string, std::size_t> failures_by_status;
   /// Cases without a ground truth or of a plan that accepts failures (degenerate input), and those of them
-  /// that did not end in a way that
-  /// the plan accepts.
+  /// that did not end in a way that the plan accepts.
   std::size_t unscored_cases = 0;
   std::size_t unscored_failures = 0;
   std::optional<MedianScore> l2;  ///< of all cases

@@ -34,8 +34,6 @@ struct CaseScorer::State {
   GeosSession::Geometry band;  ///< of the truth; see boundary_band.hpp
 };
 
-namespace {}  // namespace
-
 Metrics describe(std::span<const Point> points, const MultiPolygon& result, const MultiPolygon& window,
                  std::span<const PartResults> draws) {
   Metrics metrics;

@@ -5,6 +5,7 @@
 #include <CGAL/Delaunay_triangulation_2.h>
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 
+#include <optional>
 #include <vector>
 
 #include "benchmarks/micro/measure.hpp"
@@ -25,11 +26,12 @@ std::vector<Kernel::Point_2> kernel_points(const SpeedPointSet& set) {
 
 void cgal_delaunay(benchmark::State& state, const SpeedPointSet& set) {
   const std::vector<Kernel::Point_2> points = kernel_points(set);
-  measure(state, set, 0, Memory::kCounted, [&] {
-    CGAL::Delaunay_triangulation_2<Kernel> delaunay;
-    delaunay.insert(points.begin(), points.end());
-    return delaunay.number_of_faces();
-  });
+  std::optional<CGAL::Delaunay_triangulation_2<Kernel>> delaunay;
+  const auto triangulate = [&] {
+    delaunay.emplace().insert(points.begin(), points.end());
+    return delaunay->number_of_faces();
+  };
+  measure(state, set, 0, Memory::kCounted, triangulate, [&] { delaunay.reset(); });
 }
 
 // What the adapter's `run` does. Polygons would come on top.
@@ -40,12 +42,14 @@ void cgal_alpha_shape(benchmark::State& state, const SpeedPointSet& set) {
       CGAL::Delaunay_triangulation_2<Kernel, CGAL::Triangulation_data_structure_2<VertexBase, FaceBase>>;
   using AlphaShape = CGAL::Alpha_shape_2<Delaunay>;
   const std::vector<Kernel::Point_2> points = kernel_points(set);
-  measure(state, set, 0, Memory::kCounted, [&] {
+  std::optional<AlphaShape> shape;
+  const auto make_shape = [&] {
     Delaunay delaunay;
     delaunay.insert(points.begin(), points.end());
-    AlphaShape shape(delaunay, set.alpha * set.alpha, AlphaShape::GENERAL);
-    return shape.number_of_faces();
-  });
+    shape.emplace(delaunay, set.alpha * set.alpha, AlphaShape::GENERAL);  // takes the triangulation over
+    return shape->number_of_faces();
+  };
+  measure(state, set, 0, Memory::kCounted, make_shape, [&] { shape.reset(); });
 }
 
 constexpr MeasuredFunction kFunctions[] = {{"cgal_delaunay", &cgal_delaunay, 1'000'000},

@@ -201,5 +201,7 @@ void ask_for_huge_pages(char** argv) {
 
 int main(int argc, char** argv) {
   hullbench::micro::ask_for_huge_pages(argv);
-  return hullbench::micro::run(std::vector<std::string>(argv, argv + argc));
+  return hullbench::exit_code_of("core_benchmarks", std::cerr, [&] {
+    return hullbench::micro::run(std::vector<std::string>(argv, argv + argc));
+  });
 }

@@ -132,14 +132,12 @@ void fill_in_times(const Goal& goal, const Measurements& measurements, VerdictLi
     if (found == measurements.end() || found->second.times.empty()) return;
     repetitions = std::min(repetitions, found->second.times.size());
   }
-  line.value = time_quantity(goal, [&](const std::string& benchmark) {
-    return statistics::median(std::span<const double>(measurements.at(benchmark).times));
-  });
   std::vector<double> values;
   for (std::size_t repetition = 0; repetition < repetitions; ++repetition) {
     values.push_back(time_quantity(
         goal, [&](const std::string& benchmark) { return measurements.at(benchmark).times[repetition]; }));
   }
+  line.value = statistics::median(std::span<const double>(values));
   line.interval = interval_of(values);
 }
 
@@ -241,10 +239,9 @@ ExitCode exit_code(const std::vector<VerdictLine>& lines) {
 }
 
 void print_verdicts(const std::vector<VerdictLine>& lines, std::ostream& out) {
-  table::Table table{
-      "verdicts",
-      "The core's goals",
-      {table::words("ratio of medians"), "value", "interval", "goal", table::words("verdict")}};
+  table::Table table{"verdicts",
+                     "The core's goals",
+                     {table::words("median ratio"), "value", "interval", "goal", table::words("verdict")}};
   for (const VerdictLine& line : lines) {
     table.add_row({line.what, line.value ? table::Number(*line.value) : table::Cell(""),
                    line.interval ? range_cell(line.interval->low, line.interval->high) : "", line.goal,

@@ -29,7 +29,7 @@ enum class Verdict { kMet, kMissed, kUndecided, kNotMeasured, kInformation };
 /// What came of one goal.
 struct VerdictLine {
   std::string what;             ///< which numbers it compares
-  std::optional<double> value;  ///< of the medians; empty when not measured
+  std::optional<double> value;  ///< the median of the repetitions' values; empty when not measured
   /// Of the median over the repetitions, by the sign test, with a confidence of 98 %; of fewer than 7
   /// repetitions their range. Empty for memory, which has one value.
   std::optional<statistics::Interval> interval;

@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <limits>
 #include <memory>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <type_traits>
@@ -50,11 +51,13 @@ Geometry multi_point(const Context& context, const SpeedPointSet& set) {
 void geos_delaunay(benchmark::State& state, const SpeedPointSet& set) {
   const Context context(GEOS_init_r());
   const Geometry points = multi_point(context, set);
-  measure(state, set, 0, Memory::kCounted, [&] {
-    const Geometry triangles = own(context, GEOSDelaunayTriangulation_r(context.get(), points.get(), 0, 0),
-                                   "Delaunay triangulation");
-    return static_cast<std::size_t>(std::max(0, GEOSGetNumGeometries_r(context.get(), triangles.get())));
-  });
+  std::optional<Geometry> triangles;
+  const auto triangulate = [&] {
+    triangles = own(context, GEOSDelaunayTriangulation_r(context.get(), points.get(), 0, 0),
+                    "Delaunay triangulation");
+    return static_cast<std::size_t>(std::max(0, GEOSGetNumGeometries_r(context.get(), triangles->get())));
+  };
+  measure(state, set, 0, Memory::kCounted, triangulate, [&] { triangles.reset(); });
 }
 
 // The ratio by which GEOS 3.11 stops at edges of length 2 * alpha, the longest that a triangle of
@@ -80,11 +83,12 @@ void geos_concave_hull(benchmark::State& state, const SpeedPointSet& set) {
   const Context context(GEOS_init_r());
   const Geometry points = multi_point(context, set);
   const double ratio = length_ratio(set);
-  measure(state, set, 0, Memory::kCounted, [&] {
-    const Geometry hull =
-        own(context, GEOSConcaveHull_r(context.get(), points.get(), ratio, holes ? 1 : 0), "concave hull");
-    return static_cast<std::size_t>(GEOSisEmpty_r(context.get(), hull.get()) == 0 ? 1 : 0);
-  });
+  std::optional<Geometry> hull;
+  const auto make_hull = [&] {
+    hull = own(context, GEOSConcaveHull_r(context.get(), points.get(), ratio, holes ? 1 : 0), "concave hull");
+    return static_cast<std::size_t>(GEOSisEmpty_r(context.get(), hull->get()) == 0 ? 1 : 0);
+  };
+  measure(state, set, 0, Memory::kCounted, make_hull, [&] { hull.reset(); });
 }
 
 constexpr std::size_t kMostPoints = 64'000;

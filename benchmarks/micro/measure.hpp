@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <string>
+#include <type_traits>
 
 #include "benchmarks/micro/counted_memory.hpp"
 #include "benchmarks/micro/point_sets.hpp"
@@ -21,10 +22,11 @@ enum class Memory { kCounted, kNotCounted };
 
 /// Times `call`, which returns how many things (polygons, faces, edges) it made of `set`. A first call is not
 /// timed: it warms up what is kept between calls, its memory is counted, and when it made nothing, or not
-/// `expected` things (0: any number above 0), the benchmark fails instead of having a time.
-template <typename Call>
+/// `expected` things (0: any number above 0), the benchmark fails instead of having a time. `release`, if
+/// given, gives back before each call what the one before has made, and is not timed: nobody pays for that.
+template <typename Call, typename Release = std::nullptr_t>
 void measure(benchmark::State& state, const SpeedPointSet& set, std::size_t expected, Memory memory,
-             const Call& call) {
+             const Call& call, const Release& release = nullptr) {
   std::size_t made = 0;
   {
     const CountedMemory counted;
@@ -40,7 +42,14 @@ void measure(benchmark::State& state, const SpeedPointSet& set, std::size_t expe
     state.SkipWithError(error.c_str());
     return;
   }
-  for (auto _ : state) benchmark::DoNotOptimize(made = call());
+  for (auto _ : state) {
+    if constexpr (!std::is_null_pointer_v<Release>) {
+      state.PauseTiming();
+      release();
+      state.ResumeTiming();
+    }
+    benchmark::DoNotOptimize(made = call());
+  }
   state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(set.points.size()));
 }
 

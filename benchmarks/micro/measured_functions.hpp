@@ -25,8 +25,8 @@ struct MeasuredFunction {
 /// `concave_hull` (memory kept between calls), `concave_hull_whole` (by way of all triangles),
 /// `concave_hull_perimeter` (a wider limit), `concave_hull_automatic` (its limit chosen from the points), the
 /// first and the last also with 2 threads (`concave_hull_2_threads`, `concave_hull_auto_2_threads`),
-/// `concave_hull_once` (fresh memory at every call) and the three steps of the whole way, `triangulation`,
-/// `regions` and `polygons`.
+/// `concave_hull_once` (fresh memory at every call), `two_hulls_at_once` (by two threads) and the three steps
+/// of the whole way, `triangulation`, `regions` and `polygons`.
 std::span<const MeasuredFunction> own_functions();
 /// The phases of a hull whose interior is left out, numbered as they come: `phase_1_coordinates` and so on,
 /// with the limit of concave_hull_perimeter. Those that only other limits have share a number with what they

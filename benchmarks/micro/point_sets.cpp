@@ -1,6 +1,7 @@
 #include "benchmarks/micro/point_sets.hpp"
 
 #include <cmath>
+#include <numbers>
 #include <stdexcept>
 
 #include "datasets/datasets.hpp"
@@ -77,7 +78,7 @@ std::vector<Point> make_outline_points(const std::string& name, std::size_t n, R
       const Point& centre = centres[i % kClusters];
       points[i] = {centre.x + kDeviation * random.normal(), centre.y + kDeviation * random.normal()};
     } else if (name == "circle") {
-      points[i] = {std::cos(6.283185307179586 * x), std::sin(6.283185307179586 * x)};
+      points[i] = {std::cos(2 * std::numbers::pi * x), std::sin(2 * std::numbers::pi * x)};
     } else if (name == "parabola") {
       points[i] = {x, x * x};
     } else {

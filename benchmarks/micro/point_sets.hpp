@@ -19,7 +19,8 @@ struct SpeedPointSet {
 
 /// About `n` points of one of the sets "ca" (uniform in California), "gradient" (the same, 16 times as
 /// dense at one side as at the other), "uniform" (in the unit square),
-/// "lattice" (a square integer lattice), "rgbd" (424 columns, jittered by a tenth of their spacing, as a
+/// "lattice" (a square integer lattice), "airborne" (as an airborne scanner sees California, in strips that
+/// overlap), "rgbd" (424 columns, jittered by a tenth of their spacing, as a
 /// depth image of a floor gives), "islands" (uniform in 4000 squares so far apart that each is a polygon of
 /// its own) and "sieve" (uniform in one region of the same area with 4000 square holes of the same size: as
 /// long an outline in one polygon). The last two are for about 1,000,000 points, of which every square has

@@ -69,7 +69,7 @@ double mean_spacing(std::span<const Point> points);
 double auto_size(const RuleInput& input);
 
 /// The shares of S that stand for it where a method limits something else than that size. Fitted on the
-/// training side (tune/split.hpp) of the stress suites and the letters by `make fit-rules`.
+/// training side (tune/split.hpp) of the plans world_* by `make fit-rules`.
 extern const double kEdgeShare;
 extern const double kCircumradiusShare;
 

@@ -135,9 +135,9 @@ json plan_to_json(const Plan& plan);
 bool applies(const PlanMethod& method, const PlanCase& plan_case);
 
 /// Throws ConfigurationError for a method or data set that is not among the known ones, for a case without a
-/// place on the plan's axis, for holes in a data
-/// set that has no variant with holes, for a number of points where the data set brings its own or none where
-/// it does not, and for a case without a value for a parameter that is given case by case.
+/// place on the plan's axis, for holes in a data set that has no variant with holes, for a number of points
+/// where the data set brings its own or none where it does not, and for a case without a value for a
+/// parameter that is given case by case.
 void check_plan(const Plan& plan, const std::vector<std::string>& methods,
                 const std::vector<DatasetInfo>& datasets);
 

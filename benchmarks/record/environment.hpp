@@ -12,8 +12,9 @@ namespace hullbench::record {
 /// `machine_id`; `cpu` {model, architecture, logical_cores, allowed_cores, governors, boost, virtualised};
 /// `memory_bytes`; `load_average` (1, 5 and 15 minutes); `aslr` (kernel.randomize_va_space: 0, 1 or 2);
 /// `huge_pages` {kernel, malloc} (huge_pages.hpp);
-/// `kernel`; `os`; `compiler` {id, version, build_type, native, flags, flags_by_target, statement};
-/// `libraries` (version by name, of those found when the program was built, and of the C library that runs).
+/// `kernel`; `os`; `temperature_celsius`; `compiler` {id, version, build_type, native, flags,
+/// flags_by_target, statement}; `libraries` (version by name, of those found when the program was built, and
+/// of the C library that runs).
 json collect_environment();
 
 /// The first 8 hexadecimal digits of the SHA-256 of "<CPU model>|<logical cores>|<memory in whole GiB>": the

@@ -1,7 +1,5 @@
 #include "benchmarks/record/kept_polygons.hpp"
 
-#include <fstream>
-#include <iterator>
 #include <stdexcept>
 
 #include "benchmarks/base/files.hpp"
@@ -30,9 +28,9 @@ void keep_polygons(const fs::path& run, std::span<const std::uint8_t> wkb) {
 std::optional<std::vector<std::uint8_t>> kept_polygons(const fs::path& run, const std::string& sha256) {
   const fs::path file = file_of(run, sha256);
   if (!fs::exists(file)) return std::nullopt;
-  std::ifstream in(file, std::ios::binary);
-  std::vector<std::uint8_t> wkb{std::istreambuf_iterator<char>(in), {}};
-  if (!in) throw std::runtime_error("cannot read " + file.string());
+  const std::optional<std::string> bytes = read_text_file(file);
+  if (!bytes) throw std::runtime_error("cannot read " + file.string());
+  std::vector<std::uint8_t> wkb(bytes->begin(), bytes->end());
   if (hash_of(wkb) != sha256)
     throw std::runtime_error(file.string() + " was changed: its hash is not its name");
   return wkb;

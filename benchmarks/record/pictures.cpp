@@ -114,7 +114,9 @@ PictureBook::PictureBook(const fs::path& folder, std::size_t planned_runs)
         cases_.insert(name);
       } else {
         const std::string group = group_of(line.at("run").get<std::string>(), dataset_of_case(name));
-        worst_[group].insert(badness(line.at("l2")));
+        std::multiset<double>& kept = worst_[group];
+        kept.insert(badness(line.at("l2")));
+        if (kept.size() > kWorstPictures) kept.erase(kept.begin());
       }
     }
   } catch (const json::exception&) {

@@ -58,10 +58,7 @@ json load_run(const fs::path& run_directory) {
   report["runs"] = last_of_each_id(std::move(lines.lines), lines_file);
   // Only a merged run has notes of its own.
   if (!report.contains("notes")) report["notes"] = json::array();
-  if (!lines.torn.empty()) {
-    report["notes"].push_back(
-        "The last line of runs.jsonl was cut short when the run was interrupted; it is left out.");
-  }
+  if (!lines.torn.empty()) report["notes"].push_back(kTornNote);
   return report;
 }
 

@@ -21,6 +21,9 @@ inline constexpr const char* kReportFile = "report.json";
 inline constexpr const char* kSuiteFile = "suite.json";
 inline constexpr const char* kTablesFile = "tables.md";
 inline constexpr const char* kTablesFolder = "tables";
+/// What load_run() adds to the notes of a run whose last line is torn.
+inline constexpr const char* kTornNote =
+    "The last line of runs.jsonl was cut short when the run was interrupted; it is left out.";
 
 /// A run directory as it is: `run.json`, with its rows as `runs` and with `notes`; what make_report gives but
 /// for the summary.
@@ -37,8 +40,7 @@ bool is_suite(const fs::path& folder);
 json read_suite(const fs::path& folder);
 
 /// The folders of the runs in the suite in `folder`, in its order; those that were not begun are left out.
-/// Throws std::runtime_error naming the
-/// file when suite.json cannot be read.
+/// Throws std::runtime_error naming the file when suite.json cannot be read.
 std::vector<fs::path> suite_runs(const fs::path& folder);
 
 }  // namespace hullbench::record

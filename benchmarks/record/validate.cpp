@@ -97,7 +97,7 @@ std::vector<std::string> validate_manifest(const json& manifest) {
 }
 
 std::vector<std::string> validate_file(const fs::path& path) {
-  if (path.extension() == ".jsonl") return validate_lines(path);
+  if (path.extension() == ".jsonl" || path.string().ends_with(".jsonl.xz")) return validate_lines(path);
   const std::optional<std::string> content = read_text_file(path);
   if (!content) throw std::runtime_error("Cannot read " + path.string() + ".");
   try {

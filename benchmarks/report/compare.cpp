@@ -4,6 +4,7 @@
 #include <span>
 #include <utility>
 
+#include "benchmarks/report/labels.hpp"
 #include "benchmarks/report/measurements.hpp"
 #include "benchmarks/statistics/judge.hpp"
 #include "benchmarks/statistics/statistics.hpp"
@@ -54,7 +55,9 @@ Change change_of_status(const record::RunRecord& a, const record::RunRecord& b) 
 RunPair make_pair(record::RunRecord a, record::RunRecord b) {
   RunPair pair{std::move(a), std::move(b), std::nullopt, 1, Change::kNotJudged};
   if (is_measured(pair.a) && is_measured(pair.b)) {
-    pair.time = statistics::ratio_of_times(pair.a.time_ns, pair.b.time_ns);
+    // Kept rows may have no times.
+    if (!pair.a.time_ns.empty() && !pair.b.time_ns.empty())
+      pair.time = statistics::ratio_of_times(pair.a.time_ns, pair.b.time_ns);
   } else {
     pair.change = change_of_status(pair.a, pair.b);
   }
@@ -87,14 +90,14 @@ void judge(RunsCompared& compared) {
 MethodChange method_change(const std::string& method, const std::string& protocol,
                            const std::vector<const RunPair*>& pairs) {
   MethodChange result{method, protocol, 0, std::nullopt, std::nullopt, 0, 0};
-  std::map<std::pair<std::string, bool>, std::vector<double>> by_shape;
+  std::map<std::string, std::vector<double>> by_shape;
   std::vector<double> ratios;
   for (const RunPair* pair : pairs) {
     if (pair->change == Change::kFaster) ++result.faster;
     if (pair->change == Change::kSlower) ++result.slower;
     if (!pair->time) continue;
     ratios.push_back(pair->time->ratio);
-    by_shape[{pair->a.dataset, pair->a.holes}].push_back(pair->time->ratio);
+    by_shape[shape_of(pair->a.dataset)].push_back(pair->time->ratio);
   }
   result.pairs = ratios.size();
   if (ratios.empty()) return result;

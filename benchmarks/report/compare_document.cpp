@@ -45,6 +45,7 @@ table::Cell range_cell(const std::optional<statistics::Interval>& interval) {
 }
 
 table::Cell time_cell(const record::RunRecord& run) {
+  if (is_measured(run) && run.time_ns.empty()) return {};
   return is_measured(run) ? milliseconds(statistics::median(run.time_ns)) : table::Cell(failure_name(run));
 }
 
@@ -135,7 +136,8 @@ std::string recorded(const Words& words) {
   return words.empty() ? "not recorded" : joined(words, ", ");
 }
 
-/// Where the times of a side were taken: by its rows, or by its run where a row does not say.
+/// Where the rows of a side were taken: by themselves, or by their run where a row does not say; nothing
+/// where neither does.
 Words machines_of(const ComparedSide& side) {
   Words result;
   for (const json& report : side.reports) {
@@ -258,7 +260,8 @@ ordered_json method_json(const MethodChange& method) {
 }
 
 ordered_json median_or_null(const record::RunRecord& run) {
-  return is_measured(run) ? ordered_json(statistics::median(run.time_ns)) : ordered_json(nullptr);
+  return is_measured(run) && !run.time_ns.empty() ? ordered_json(statistics::median(run.time_ns))
+                                                  : ordered_json(nullptr);
 }
 
 ordered_json pair_json(const RunPair& pair) {

@@ -11,7 +11,6 @@ namespace hullbench::report {
 namespace {
 
 using record::RunRecord;
-using Runs = std::vector<const RunRecord*>;
 
 std::string order_of(const RunRecord& run, const RunRecord& beside) {
   switch (statistics::side_of_times(run.time_ns, beside.time_ns)) {

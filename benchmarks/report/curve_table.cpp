@@ -45,7 +45,7 @@ Errors errors_of(const TableContext& context, const Line& line, const std::vecto
   Errors errors;
   for (const Case& which : cases) {
     const auto runs = context.measurements.find(line.method, line.protocol, which);
-    if (runs.empty()) continue;
+    if (is_missing(runs)) continue;
     const std::vector<double> values = all_values(runs, "l2");
     const bool failed = first_failure(runs) != nullptr || values.empty();
     errors.failures += failed ? 1 : 0;

@@ -94,11 +94,12 @@ ordered_json gbench_report(const std::vector<json>& reports) {
   for (const json& report : reports) {
     const std::string plan = report.at("plan").value("name", std::string());
     const Measurements measurements(report);
+    if (!measurements.has_times()) throw std::runtime_error(measurements.why_no_times());
     for (const record::RunRecord& run : measurements.runs()) {
       std::string name = (reports.size() > 1 && !plan.empty() ? plan + "/" : "") + run.name;
       // Failures count too, so that a run has the same name in two exports.
       const std::size_t occurrence = ++occurrences[name];
-      if (!is_measured(run)) continue;
+      if (!is_measured(run) || run.time_ns.empty()) continue;
       if (occurrence > 1) name += "/run:" + std::to_string(occurrence);
       add_series(result["benchmarks"], {std::move(name), index++, run.time_ns});
     }

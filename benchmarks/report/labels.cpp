@@ -1,7 +1,5 @@
 #include "benchmarks/report/labels.hpp"
 
-#include <optional>
-
 #include "benchmarks/base/words.hpp"
 
 namespace hullbench::report {
@@ -14,15 +12,6 @@ std::string title_of(const json& list, const std::string& name) {
   return name;
 }
 
-/// The family that `dataset` is a member of: "comb" for "comb-17".
-std::optional<std::string> family_of(const json& report, const std::string& dataset) {
-  for (const json& entry : report.at("datasets")) {
-    const std::string name = entry.value("name", "");
-    if (entry.value("members", 0) > 0 && dataset.starts_with(name + "-")) return name;
-  }
-  return std::nullopt;
-}
-
 std::string remedy_of(const json& report, const std::string& name) {
   for (const json& method : report.at("methods")) {
     if (method.value("name", "") == name) return method.value("remedy", "");
@@ -31,6 +20,18 @@ std::string remedy_of(const json& report, const std::string& name) {
 }
 
 }  // namespace
+
+std::optional<std::string> family_of(const json& report, const std::string& dataset) {
+  for (const json& entry : report.at("datasets")) {
+    const std::string name = entry.value("name", "");
+    if (entry.value("members", 0) > 0 && dataset.starts_with(name + "-")) return name;
+  }
+  return std::nullopt;
+}
+
+std::string shape_of(const std::string& dataset) {
+  return dataset.substr(0, dataset.find('~'));
+}
 
 std::string stress_title(const std::string& stress) {
   std::string title;

@@ -1,6 +1,7 @@
 // What tables call the methods, data sets and failures of a report.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -18,8 +19,14 @@ std::string method_label(const json& report, const std::string& method, const st
 std::string method_label(const std::vector<json>& reports, const std::string& method,
                          const std::string& protocol);
 
+/// The family that `dataset` is a member of: "comb" for "comb-17".
+std::optional<std::string> family_of(const json& report, const std::string& dataset);
+
 /// "Comb" for "comb-17": the title of the data set, or of the family that it is a member of.
 std::string family_title(const json& report, const std::string& dataset);
+
+/// "ca" of "ca~gradient:16": the shape that the points are sampled from.
+std::string shape_of(const std::string& dataset);
 
 /// "gradient 16, noise 0.5" of "gradient:16~noise:0.5", what stands behind the first '~' of a data set's
 /// name.

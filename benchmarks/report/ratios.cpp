@@ -5,6 +5,7 @@
 #include <map>
 #include <utility>
 
+#include "benchmarks/report/labels.hpp"
 #include "benchmarks/statistics/statistics.hpp"
 
 namespace hullbench::report {
@@ -120,8 +121,8 @@ CaseRatios::CaseRatios(Case of_case, statistics::Passes by_pass)
     : which(std::move(of_case)), passes(std::move(by_pass)), middle(median_of_all(passes)) {}
 
 std::optional<statistics::Interval> interval_over(std::span<const CaseRatios> cases) {
-  std::map<std::pair<std::string, bool>, std::vector<statistics::Passes>> by_shape;
-  for (const CaseRatios& one : cases) by_shape[{one.which.dataset, one.which.holes}].push_back(one.passes);
+  std::map<std::string, std::vector<statistics::Passes>> by_shape;
+  for (const CaseRatios& one : cases) by_shape[shape_of(one.which.dataset)].push_back(one.passes);
   std::vector<std::vector<statistics::Passes>> clusters;
   clusters.reserve(by_shape.size());
   for (auto& [shape, values] : by_shape) clusters.push_back(std::move(values));

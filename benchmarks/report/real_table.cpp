@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "benchmarks/base/words.hpp"
+#include "benchmarks/report/labels.hpp"
 #include "benchmarks/statistics/statistics.hpp"
 
 namespace hullbench::report {
@@ -164,11 +165,10 @@ table::Table sources_table(const TableContext& context) {
                       table::words("SHA-256 of the points")}};
   for (const Case& which : context.measurements.cases()) {
     std::vector<table::Cell> cells = {shape_title(context, which), static_cast<std::size_t>(which.n)};
+    const std::optional<std::string> family = family_of(context.report, which.dataset);
     for (const json& set : context.report.at("datasets")) {
       const std::string name = set.value("name", "");
-      const bool is_it =
-          which.dataset == name || (set.value("members", 0) > 0 && which.dataset.starts_with(name + "-"));
-      if (is_it && cells.size() == 2) {
+      if ((name == which.dataset || name == family) && cells.size() == 2) {
         cells.emplace_back(set.value("source", ""));
         cells.emplace_back(set.value("licence", ""));
       }

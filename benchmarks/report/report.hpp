@@ -21,7 +21,9 @@ std::vector<json> suite_reports(const fs::path& folder);
 
 /// The `summary` of a report's other members: `totals` (rows by status), `rows` (one a run, in the order of
 /// `runs`: id, name, status, the statistics of the headline time `time` and of the paper's boundary
-/// `paper_time`, l2, l2_paper, iou, valid) and `claims` (see claims.hpp).
+/// `paper_time`, l2, l2_paper, iou, valid, order, fastest), `claims` (see claims.hpp), `noise`, `protocols`
+/// (who chose the parameters, in words) and `headline` (the fastest rival with the same polygons). results/
+/// report.schema.json describes all of them.
 json make_summary(const json& report);
 
 /// Writes `report` to `path` like write_json_file, but each run and each row of the summary on one line:

@@ -317,8 +317,7 @@ std::optional<table::Table> claims_table(TableContext& context) {
   table.remarks.emplace_back(
       "Larger, smaller: than a number that the paper gives, by more than the band round it that the note "
       "says. Refuted: of a claim without a number. Undecided: the 95 % interval of the ratio is on both "
-      "sides of "
-      "the limit.");
+      "sides of the limit.");
   return table;
 }
 

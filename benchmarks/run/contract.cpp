@@ -318,7 +318,11 @@ class ContractTest {
     const Result& first = reference();
     std::string fault = !result.fault.empty() ? result.fault : first.fault;
     if (fault.empty()) {
-      fault = difference(result.shape, moved(first.shape, scale, by));
+      try {
+        fault = difference(result.shape, moved(first.shape, scale, by));
+      } catch (const std::runtime_error& error) {  // rounding may make the moved shape invalid
+        fault = std::string("the shapes cannot be compared: ") + error.what();
+      }
       if (!fault.empty()) fault += ": " + remedy;
     }
     add(name, fault, "the same shape");

@@ -50,15 +50,8 @@ void check_parameters(const MethodInfo& info, const std::string& source) {
   }
 }
 
-/// npm has two files of its own beside the methods.
-bool is_manifest(const fs::path& file) {
-  const std::string name = file.filename().string();
-  return file.extension() == ".json" && name != "package.json" && name != "package-lock.json";
-}
-
 /// The hashes of the files in `folder` that are no manifests and no data: what a method there may be made of.
 std::vector<std::string> program_hashes(const fs::path& folder) {
-  constexpr std::uintmax_t kLargestProgram = 1 << 20;
   std::vector<std::string> hashes;
   std::error_code ignored;
   for (const auto& entry : fs::directory_iterator(folder, ignored)) {
@@ -87,6 +80,11 @@ std::string hash_of(const std::string& text, const json& command, const fs::path
 }
 
 }  // namespace
+
+bool is_manifest(const fs::path& file) {
+  const std::string name = file.filename().string();
+  return file.extension() == ".json" && name != "package.json" && name != "package-lock.json";
+}
 
 Manifest load_manifest(const fs::path& file) {
   const std::string source = "the manifest " + file.string();

@@ -2,6 +2,7 @@
 // is in one, adapters/process/manifest.schema.json is its schema.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -17,6 +18,12 @@ struct Manifest {
   std::string sha256;  ///< of the manifest, the files of its command and those in their folder
   std::vector<plan::PlanMethod> runs;  ///< how to measure it in a plan that does not name it
 };
+
+/// What a method is made of has at most so many bytes; anything larger beside a manifest is data.
+inline constexpr std::uintmax_t kLargestProgram = 1 << 20;
+
+/// Whether this is a manifest, by its name: npm has two files of its own beside the methods.
+bool is_manifest(const fs::path& file);
 
 /// The manifest in `file`. Words of the command and files needed that begin with "./" or "../" are taken from
 /// the manifest's folder. Throws ConfigurationError, one sentence, when it cannot be read or has a fault.

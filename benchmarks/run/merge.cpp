@@ -261,8 +261,10 @@ json merge_notes(const std::vector<Source>& sources, const Rows& rows, std::size
   std::set<std::string> notes;
   for (const Source& source : sources) {
     // What an earlier merge says of missing rows may not be true any more.
-    if (source.run.contains("merged")) continue;
-    for (const json& note : source.run.at("notes")) notes.insert(note.get<std::string>());
+    const bool is_merged = source.run.contains("merged");
+    for (const json& note : source.run.at("notes")) {
+      if (!is_merged || note == record::kTornNote) notes.insert(note.get<std::string>());
+    }
   }
   json result = notes;
   if (rows.size() < planned) {

@@ -15,9 +15,8 @@ struct Shard {
   std::size_t count = 1;
 };
 
-/// The shard that "2/3" names. Throws ConfigurationError for anything but two numbers with 1 <= first <=
-/// second
-/// <= 10000.
+/// The shard that "2/3" names. Throws ConfigurationError for anything but two numbers with
+/// 1 <= first <= second <= 10000.
 Shard parse_shard(const std::string& text);
 
 /// "2/3"

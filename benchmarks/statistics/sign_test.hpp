@@ -1,5 +1,5 @@
-// What the gate on speed concludes from the log-ratios of its blocks: no assumption but that blocks are
-// independent and each is as likely above the true median as below.
+// What the gate on speed and core_benchmarks --verdicts conclude from the log-ratios of its blocks: no
+// assumption but that blocks are independent and each is as likely above the true median as below.
 #pragma once
 
 #include <span>

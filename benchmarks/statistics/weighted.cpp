@@ -1,6 +1,7 @@
 #include "benchmarks/statistics/weighted.hpp"
 
 #include <algorithm>
+#include <boost/math/distributions/students_t.hpp>
 #include <cmath>
 #include <cstddef>
 #include <random>
@@ -11,8 +12,6 @@ namespace {
 
 using Clusters = std::vector<std::vector<WeightedValue>>;
 
-/// Of a standard normal variable, what lies below it with the probability that an interval leaves above.
-constexpr double kNormalQuantile = 1.9599639845400545;
 constexpr double kTail = (1 - kConfidence) / 2;
 constexpr std::size_t kSamples = 2000;
 /// Sums of weights such as a third are equal when they differ by no more of themselves.
@@ -103,7 +102,8 @@ std::optional<Interval> weighted_mean_interval(const Clusters& all) {
     squares += deviation * deviation;
   }
   const auto count = static_cast<double>(clusters.size());
-  const double half_width = kNormalQuantile * std::sqrt(squares * count / (count - 1)) / weight;
+  const double t = boost::math::quantile(boost::math::students_t(count - 1), 1 - kTail);
+  const double half_width = t * std::sqrt(squares * count / (count - 1)) / weight;
   return Interval{mean - half_width, mean + half_width};
 }
 

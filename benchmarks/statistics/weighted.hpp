@@ -27,7 +27,8 @@ double weighted_mean(const std::vector<WeightedValue>& values);
 /// values do not count; none of fewer than two clusters. Values may be infinite.
 std::optional<Interval> weighted_median_interval(const std::vector<std::vector<WeightedValue>>& all);
 
-/// Of the mean likewise: normal, from the variance of the clusters' sums about their weights' share (Cochran,
+/// Of the mean likewise: mean +- t sqrt(n / (n - 1) sum of e_c^2) / (sum of w), where e_c is the sum of
+/// w (x - mean) over cluster c of n, and t Student's quantile with n - 1 degrees of freedom (Cochran,
 /// Sampling Techniques, 1977, chapter 9A).
 std::optional<Interval> weighted_mean_interval(const std::vector<std::vector<WeightedValue>>& all);
 

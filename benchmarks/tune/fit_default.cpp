@@ -57,10 +57,8 @@ bool print_held_out(std::vector<MadeLimitCase>& cases, int tries, std::uint64_t 
   }
   print("Ways to sample that a search did not see", table);
   const double mean = statistics::mean(std::span<const double>(gains));
-  double squares = 0;
-  for (const double gain : gains) squares += (gain - mean) * (gain - mean);
-  const auto count = static_cast<double>(gains.size());
-  const double standard_error = std::sqrt(squares / (count * (count - 1)));
+  const double deviation = statistics::standard_deviation(std::span<const double>(gains)).value_or(0);
+  const double standard_error = deviation / std::sqrt(static_cast<double>(gains.size()));
   std::cout << "\nMean gain " << fixed(mean, 4) << ", standard error " << fixed(standard_error, 4) << ".\n";
   return mean > standard_error;
 }

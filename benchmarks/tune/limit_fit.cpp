@@ -182,7 +182,7 @@ double limit_score(std::vector<MadeLimitCase>& cases, const AutomaticConstants& 
   std::map<std::string, Sum> sums;
   for (std::size_t i = 0; i < cases.size(); ++i) {
     Sum& sum = sums[sampling_of(cases[i].name.dataset)];
-    sum.losses += std::min(kLargestLoss, std::log(errors[i] / cases[i].best_of_one_limit));
+    sum.losses += std::clamp(std::log(errors[i] / cases[i].best_of_one_limit), -kLargestLoss, kLargestLoss);
     ++sum.count;
   }
   double score = 0;

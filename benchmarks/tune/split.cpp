@@ -84,7 +84,9 @@ const std::vector<SplitRow>& sampler_split() {
       {"quantised", kTest, "Another regularity than Poisson disks': points that fall on each other."},
       {"lattice", kTest, "Another regularity than Poisson disks': rows and columns."},
       {"boundary", kTest, "Needs the outline itself, which no sensor knows: nobody may fit to it."},
-      {"outline", kTest, "Needs the outline itself, like boundary: nobody may fit to it."},
+      {"outline", kTest,
+       "Needs the outline itself, like boundary: no search may use it. The core has a rule made for such "
+       "points."},
       {"water", kTest, "A scanner's fault: lakes without points, which no rule may learn to fill."},
       {"depthcamera", kTest, "A sensor's own pattern, and that of the paper's floors."},
       {"zigzag", kTest, "Another pattern of scan lines than parallel ones."},

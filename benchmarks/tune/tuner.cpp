@@ -9,6 +9,7 @@
 
 #include "benchmarks/base/interrupt.hpp"
 #include "benchmarks/base/parallel.hpp"
+#include "benchmarks/metrics/shape_measures.hpp"
 #include "benchmarks/plan/parameter_rules.hpp"
 #include "benchmarks/run/drawn_case.hpp"
 #include "benchmarks/run/runner.hpp"
@@ -49,9 +50,7 @@ class DrawnCases {
 };
 
 std::string kind_of(const MultiPolygon& truth) {
-  std::size_t holes = 0;
-  for (const Polygon& polygon : truth) holes += polygon.holes.size();
-  return kind_of_shape(truth.size(), holes);
+  return kind_of_shape(truth.size(), metrics::count_holes(truth));
 }
 
 void add_methods(run::Workbench& bench, const TunerOptions& options) {
@@ -240,12 +239,21 @@ class TuningThread {
       evaluate_at(method, found, tuned->position, false);
   }
 
+  /// The case's, or more where the plan gives the method more.
+  double timeout_of(const std::string& method) const {
+    double timeout_s = tuning_case().timeout_s;
+    for (const plan::PlanMethod& entry : tuning_case().entries) {
+      if (entry.method == method) timeout_s = std::max(timeout_s, entry.timeout_s.value_or(0));
+    }
+    return timeout_s;
+  }
+
   record::RunRecord evaluate(const MethodTuning& method, const Parameters& parameters) {
     throw_if_interrupted();
     run::MethodRun run(drawn_, method.name, parameters);
     run.record.name = tuning_case().plan_case.name();
     run.record.program = shared_.options.programs.at(method.name);
-    run.begin(*bench_.find(method.name), method.info, tuning_case().timeout_s);
+    run.begin(*bench_.find(method.name), method.info, timeout_of(method.name));
     if (const record::RunRecord* known = shared_.store.find_row(run.record.id)) return *known;
     const auto start = std::chrono::steady_clock::now();
     if (!run.over) bench_.attempt(run);

@@ -270,8 +270,9 @@ std::vector<std::string> document_notes(const json& summary) {
        "the reasons); a training shape that is sampled as only tests are is left out."),
       ("h is the points' mean spacing over their convex hull, √(A_hull/n); it is known without the ground "
        "truth."),
-      ("default: without parameters, but holes switched on; tuned: the one x with the smallest median error "
-       "on the training cases, by successive halving; oracle: the best of all evaluations on the same "
+      ("default: as the plan says, and where it says nothing without parameters but with holes; tuned: the "
+       "one x with the smallest median error on the training cases, by successive halving; oracle: the best "
+       "of all evaluations on the same "
        "instance; paper and auto: as the plan says."),
       ("L2 is the area of the symmetric difference over the ground truth's, regret its excess over the "
        "oracle's on the same instance; medians with 95 % bootstrap intervals that take a shape's cases as "

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <numbers>
 #include <span>
 
 #include "core/src/filter_rules.hpp"
@@ -167,7 +168,7 @@ class VertexRule {
   }
 
   void drop_spikes(std::vector<bool>& kept) const {
-    constexpr double kLeastAngle = 80 * 3.141592653589793 / 180;
+    constexpr double kLeastAngle = 80 * std::numbers::pi / 180;
     std::vector<double> angle(first_.size() - 1, 0);
     for_each_finite([&](Mesh::Index t) {
       if (!kept[t]) return;

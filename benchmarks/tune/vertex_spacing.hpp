@@ -11,9 +11,9 @@ namespace hullbench::tune {
 
 /// Triangle of the mesh -> whether it is kept. The rule, for n points with a triangle:
 ///
-/// - A vertex's spacing is sqrt(area of its triangles / 3), or the median length of its edges if that is
-/// less;
-///   then the median of those at the vertex and its neighbours; then, three times, their harmonic mean.
+/// - A vertex's spacing is sqrt(area of its triangles / 3), or the median length of its edges if less
+///   (of an even number the upper one); then the median of those at the vertex and its neighbours; then,
+///   three times, their harmonic mean.
 /// - From a vertex to a neighbour at most 4.5 of its spacings away, the spacing grows by at most 6.7 / sqrt n
 ///   (0.1 to 0.3) of the distance, which counts as at most 1.5 spacings; four rounds.
 /// - A triangle with area A and second-longest edge e stays if the place that it spans would hold at most

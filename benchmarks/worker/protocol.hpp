@@ -20,8 +20,8 @@ inline constexpr int kProtocolVersion = 1;
 inline constexpr std::size_t kMaxLineBytes = std::size_t{1024} * 1024;
 
 /// {name, title, version, licence, citation, native_output, parameters: [{name, unit, description, minimum,
-/// maximum, default}], capabilities: {holes, several_polygons}}. An infinite limit or default is null; a
-/// parameter that is required has no member "default".
+/// maximum, default}], capabilities: {holes, several_polygons, in_server}}. An infinite limit or default is
+/// null; a parameter that is required has no member "default".
 nlohmann::json method_to_json(const MethodInfo& info);
 /// Throws nlohmann::json::exception or std::invalid_argument when a member is missing or of the wrong type.
 MethodInfo method_from_json(const nlohmann::json& source);

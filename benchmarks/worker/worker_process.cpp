@@ -43,23 +43,31 @@ constexpr std::size_t kDetailCharacters = 300;
 /// A worker that died with this share of its memory limit in use is taken to have died of it.
 constexpr double kMemoryShare = 0.9;
 
-struct Pipe {
-  int read_end = -1;
-  int write_end = -1;
-};
-
-Pipe make_pipe() {
-  std::array<int, 2> ends{};
-  if (::pipe2(ends.data(), O_CLOEXEC) != 0) {
-    throw std::runtime_error("cannot make a pipe: " + std::generic_category().message(errno));
-  }
-  return {ends[0], ends[1]};
-}
-
 void close_fd(int& fd) {
   if (fd >= 0) ::close(fd);
   fd = -1;
 }
+
+/// Closes the ends that nobody has taken.
+struct Pipe {
+  Pipe() {
+    std::array<int, 2> ends{};
+    if (::pipe2(ends.data(), O_CLOEXEC) != 0) {
+      throw std::runtime_error("cannot make a pipe: " + std::generic_category().message(errno));
+    }
+    read_end = ends[0];
+    write_end = ends[1];
+  }
+  ~Pipe() {
+    close_fd(read_end);
+    close_fd(write_end);
+  }
+  Pipe(const Pipe&) = delete;
+  Pipe& operator=(const Pipe&) = delete;
+
+  int read_end = -1;
+  int write_end = -1;
+};
 
 /// `strings` as exec wants them, which keeps them unchanged.
 std::vector<char*> pointers_to(const std::vector<std::string>& strings) {
@@ -201,10 +209,10 @@ WorkerProcess::WorkerProcess(const std::vector<std::string>& command, const Work
   const std::vector<char*> argv = pointers_to(command);
   const std::vector<char*> variables = pointers_to(environment);
 
-  Pipe input = make_pipe();
-  Pipe output = make_pipe();
-  Pipe errors = make_pipe();
-  Pipe start = make_pipe();  // carries errno when the program does not start; exec closes it
+  Pipe input;
+  Pipe output;
+  Pipe errors;
+  Pipe start;  // carries errno when the program does not start; exec closes it
   const pid_t parent = ::getpid();
   const pid_t child = ::fork();
   if (child == 0) {
@@ -215,13 +223,17 @@ WorkerProcess::WorkerProcess(const std::vector<std::string>& command, const Work
   const int fork_error = errno;
   for (int* fd : {&input.read_end, &output.write_end, &errors.write_end, &start.write_end}) close_fd(*fd);
   pid_ = child;
-  input_ = input.write_end;
-  replies_ = output.read_end;
-  errors_ = errors.read_end;
+  input_ = std::exchange(input.write_end, -1);
+  replies_ = std::exchange(output.read_end, -1);
+  errors_ = std::exchange(errors.read_end, -1);
 
   int error = child < 0 ? fork_error : 0;
-  if (child > 0 && ::read(start.read_end, &error, sizeof error) <= 0) error = 0;
-  close_fd(start.read_end);
+  if (child > 0) {
+    ssize_t got = 0;
+    do got = ::read(start.read_end, &error, sizeof error);
+    while (got < 0 && errno == EINTR);
+    if (got <= 0) error = 0;
+  }
   if (error != 0) {
     if (child > 0) reap();
     close_pipes();

@@ -1,4 +1,7 @@
 # The target "docs": the public headers as HTML in docs/core of the build folder. Any warning of Doxygen's fails it.
+if(NOT PROJECT_IS_TOP_LEVEL)
+  return()
+endif()
 find_program(DOXYGEN_PROGRAM doxygen)
 if(NOT DOXYGEN_PROGRAM)
   message(STATUS "docs: cannot be built, Doxygen is missing (apt-get install doxygen)")

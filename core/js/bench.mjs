@@ -3,7 +3,7 @@
 //   bench.mjs PACKAGE [--write README]   prints the table, or puts it between the marks of that file
 import { readFileSync, writeFileSync } from "node:fs";
 import { createRequire } from "node:module";
-import { cpus, loadavg } from "node:os";
+import { loadavg } from "node:os";
 import { join, resolve } from "node:path";
 import { pathToFileURL } from "node:url";
 
@@ -89,9 +89,7 @@ async function table(folder) {
     lines.map((cells) => `| ${cells.join(" | ")} |\n`).join("") +
     `\nms: the median time. ×: a median as a multiple of it. Both are over ${ROUNDS} interleaved rounds in Node ` +
     `${process.versions.node}, after one that is not counted. Points are uniform in a square with a round hole. ` +
-    (load > 0.7 * cpus().length
-      ? "Other work ran on the machine, so the times are longer than they could be.\n"
-      : "Nothing else ran on the machine.\n")
+    `The load average was ${load.toFixed(1)}; this program alone makes it 1.\n`
   );
 }
 

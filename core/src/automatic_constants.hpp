@@ -5,8 +5,9 @@
 
 namespace polylidar::detail {
 
-/// The constants of AutomaticLimit's rule, fitted on the training shapes of this project. core/AUTOMATIC.md
-/// says how, and what `make fit-default` finds now. Sizes are lengths: the fourth roots of Triangle::size4().
+/// The constants of AutomaticLimit's rule, fitted on the training shapes of this project, some with
+/// errors on other shapes in view. core/AUTOMATIC.md says how, and what `make fit-default` finds now. Sizes
+/// are lengths: the fourth roots of Triangle::size4().
 struct AutomaticConstants {
   /// With this value chance makes a hole in one of a hundred sets.
   static constexpr double kWide = 8;

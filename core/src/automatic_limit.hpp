@@ -37,9 +37,8 @@ enum class SizesBy : std::uint8_t {
 ///
 /// **Clusters.** If points cluster, the voids between the clusters are ordinary, though they are larger than
 /// voids elsewhere. So the usual limit is less reliable. Points count as clustered if lengths in a block
-/// scatter more than without clusters (excess_scatter). Then the pull on larger limits is divided by 1 +
-/// doubt
-/// * (the excess scatter).
+/// scatter more than without clusters (excess_scatter). Then the pull on larger limits is divided by 1 plus
+/// `doubt` times the excess scatter.
 ///
 /// **Places.** Of many points whose density varies by a few times, the usual sizes come from small windows,
 /// as one size for all places does: one window for each of up to 4096 squares instead of blocks

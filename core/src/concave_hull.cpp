@@ -18,16 +18,8 @@ namespace polylidar {
 using detail::check_threads;
 using detail::checked_limits;
 using detail::is_any_limit_given;
+using detail::is_filled;
 using detail::scaled;
-
-namespace {
-
-/// Whether fill_single_triangles is asked for, or meant.
-bool is_filled(const Options& options) {
-  return options.fill_single_triangles.value_or(!is_any_limit_given(options));
-}
-
-}  // namespace
 
 void IndexedMultiPolygon::clear() {
   vertices.clear();
@@ -244,6 +236,7 @@ IndexedMultiPolygon concave_hull(std::span<const Point> points, const Options& o
 std::vector<LabelledHull> concave_hulls(std::span<const Point> points, std::span<const std::int64_t> labels,
                                         const Options& options) {
   if (labels.size() != points.size()) throw std::invalid_argument("there must be one label a point");
+  if (points.size() > kMaxPoints) throw std::invalid_argument("more than 2^28 points: split the input");
   checked_limits(options);
   if (!points.empty()) {  // by the caller's indices
     detail::ThreadPool this_thread;

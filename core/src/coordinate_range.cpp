@@ -211,7 +211,7 @@ void RangeOfBlocks::add(const RangeOfBlocks& more) {
 bool are_within(std::span<const Point> points, const Box& box, Kernel kernel) {
   const std::size_t in_vectors = points.size() - points.size() % (kMostCoordinates / 2);
 #ifdef POLYLIDAR_X86_KERNELS
-  // With AVX-512 as well: GCC 12 takes comparisons of 512 bits apart.
+  // Also with AVX-512: GCC 12 compiles comparisons of 512 bits element by element.
   if (kernel != Kernel::kPortable && !are_within_with_avx2(points.first(in_vectors), box)) return false;
 #endif
   return are_within_portably(kernel == Kernel::kPortable ? points : points.subspan(in_vectors), box);

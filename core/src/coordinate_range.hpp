@@ -34,7 +34,7 @@ class RangeOfBlocks {
   /// The points of `more` follow.
   void add(const RangeOfBlocks& more);
   std::uint64_t count() const { return count_; }
-  /// As bounding_box(), of the finite points.
+  /// As bounding_box(); of no meaning where not_finite() is set.
   const Box& box() const { return box_; }
   /// The number of the first point that is not finite, from 0.
   const std::optional<std::uint64_t>& not_finite() const { return not_finite_; }

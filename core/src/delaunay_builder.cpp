@@ -87,13 +87,13 @@ void DelaunayBuilder::sort_along_curve(std::span<const Point> points, Coordinate
 /// The lines that build_range follows cut the points into parts whose triangulations touch none of each
 /// other's memory. Whoever finishes the second of two neighbouring parts merges them, as build_range would.
 void DelaunayBuilder::build_parts(ThreadPool& pool) {
-  constexpr Index kPartsPerThread = 8;
+  constexpr std::size_t kPartsPerThread = 8;
   constexpr Index kSmallestPart = 128;
   const auto count = static_cast<Index>(vertex_count_);
   std::deque<Part> parts;
   parts.emplace_back(0, count, nullptr);
-  const Index wanted = kPartsPerThread * std::max(2U, pool.threads());
-  cut(parts.front(), std::max(kSmallestPart, count / wanted), parts);
+  const std::size_t wanted = kPartsPerThread * std::max<std::size_t>(2, pool.threads());
+  cut(parts.front(), std::max(kSmallestPart, static_cast<Index>(count / wanted)), parts);
 
   std::vector<Part*> uncut;
   for (Part& part : parts) {

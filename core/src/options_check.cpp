@@ -46,6 +46,10 @@ bool is_any_limit_given(const Options& options) {
                      [&](const LimitField& field) { return (options.*field.option).has_value(); });
 }
 
+bool is_filled(const Options& options) {
+  return options.fill_single_triangles.value_or(!is_any_limit_given(options));
+}
+
 Limits scaled(Limits limits, int exponent) {
   for (const LimitField& field : kLimitFields) {
     limits.*field.limit = std::ldexp(limits.*field.limit, exponent);

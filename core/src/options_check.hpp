@@ -12,6 +12,8 @@ void check_threads(unsigned threads);
 Limits checked_limits(const Options& options);
 
 bool is_any_limit_given(const Options& options);
+/// Whether fill_single_triangles is asked for, or meant.
+bool is_filled(const Options& options);
 
 /// `limits` in the unit of coordinates that are 2^exponent times as large.
 Limits scaled(Limits limits, int exponent);

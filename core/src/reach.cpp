@@ -9,8 +9,7 @@ namespace polylidar::detail {
 
 namespace {
 
-constexpr auto kHalfWidths = make_half_widths<2 * kRadius>();
-static_assert(rows_below(kHalfWidths) == kReachedRows);
+static_assert(rows_below(kReachedHalfWidths) == kReachedRows);
 /// Where 2 r turn out to be too little: the box of a circle of radius r reaches no farther from a point on
 /// it.
 constexpr auto kFartherHalfWidths = make_half_widths<2 * kRadius + 4>();
@@ -164,7 +163,7 @@ bool is_whole(const Triangle& triangle, const Grid& grid, const NotReached& not_
 }  // namespace
 
 void mark_reach(const Grid& grid, Grid::Cell cell, ReachedCells& reached) {
-  mark(grid, cell, kHalfWidths, reached);
+  mark(grid, cell, kReachedHalfWidths, reached);
 }
 
 void mark_reach(const Grid& grid, const std::uint32_t* cells, std::span<const std::uint32_t> uncertain,

@@ -35,6 +35,8 @@ constexpr auto make_half_widths() {
 constexpr Grid::Cell rows_below(std::span<const unsigned> half_widths) {
   return static_cast<Grid::Cell>(half_widths.size() / 2);
 }
+/// As far as uncertain points reach, 2 r.
+inline constexpr auto kReachedHalfWidths = make_half_widths<2 * kRadius>();
 /// As most uncertain points reach, with a little of what those in open directions do: for an estimate.
 inline constexpr auto kUsualHalfWidths = make_half_widths<2 * kNearRadius + 1>();
 

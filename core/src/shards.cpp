@@ -113,7 +113,7 @@ StreamedHull hull_of_part(const StreamShard& all, unsigned threads) {
   detail::ThreadPool pool;
   pool.use(threads);
   detail::PartHull part(all, pool);
-  if (part.filter(detail::filter_rules(limits), all.options.fill_single_triangles.value_or(false))) {
+  if (part.filter(detail::filter_rules(limits), detail::is_filled(all.options))) {
     throw detail::rounding_decides();
   }
   return part.trace();

@@ -425,8 +425,7 @@ bool Stream::find_near_cells(const detail::FewCells& uncertain_cells, detail::Fe
   constexpr std::uint64_t kPointsForOneKept = 4;
   constexpr std::uint64_t kPointsForOneCell = 32;
   constexpr double kMostBytes = 0x1p28;
-  static constexpr auto kHalfWidths = detail::make_half_widths<2 * detail::kRadius>();
-  constexpr std::size_t kWordsOfReach = 2 * kHalfWidths.size();  // at most, for each cell
+  constexpr std::size_t kWordsOfReach = 2 * detail::kReachedHalfWidths.size();  // at most, for each cell
   const std::size_t words = std::min(kWordsOfReach * uncertain_cells.count(), grid_.word_count());
   const auto bytes = static_cast<double>(sizeof(Bitmap::Word) * (grid_.word_count() + 2 * words));
   const double room = std::min(stream_options_.most_map_bytes - bytes, kMostBytes);
@@ -452,11 +451,12 @@ bool Stream::find_near_cells(const detail::FewCells& uncertain_cells, detail::Fe
         grid_.first_word(around.begin), grid_.first_word(around.end), [&](Grid::Cell cell) {
           const Grid::Cell row = cell / in_row - Grid::kMargin;
           const Grid::Cell column = cell % in_row;
-          for (std::size_t k = 0; k < kHalfWidths.size(); ++k) {
+          constexpr auto half_widths = detail::kReachedHalfWidths;
+          for (std::size_t k = 0; k < half_widths.size(); ++k) {
             const Grid::Cell other = row + k - detail::kReachedRows;  // wraps round below the first
             if (!wanted.has(other)) continue;
-            found.set_run((other - begin + Grid::kMargin) * in_row + column - kHalfWidths[k],
-                          2 * kHalfWidths[k] + 1);
+            found.set_run((other - begin + Grid::kMargin) * in_row + column - half_widths[k],
+                          2 * half_widths[k] + 1);
           }
         });
   };
@@ -541,6 +541,7 @@ void Stream::take_all() {
     if (part_.points.size() > part_.source_points) throw has_changed();
   };
   passes_.run({all_sources, take, end});
+  if (!part_.points.empty() && bounding_box(part_.points) != part_.box) throw has_changed();
 }
 
 StreamedHull Stream::hull_in_memory() {
@@ -621,8 +622,7 @@ std::optional<StreamedHull> Stream::hull_by_chosen_sizes() {
   for (int k = 0;; ++k) {
     detail::PartHull hull(part_, pool_);
     automatic_limit_.choose_found(hull.builder(), hull.is_tested(), part_.options.detail, pool_);
-    const auto why =
-        hull.filter(automatic_limit_.field(), is_sure, part_.options.fill_single_triangles.value_or(true));
+    const auto why = hull.filter(automatic_limit_.field(), is_sure, detail::is_filled(part_.options));
     if (!why) {
       StreamedHull found = hull.trace();
       found.chosen_sizes = automatic_limit_.range();
@@ -640,7 +640,7 @@ StreamedHull Stream::hull_by_limits() {
   if (!occupied_) choose_grid(detail::least_dropped_radius(limits_));
   find_points(false);
   detail::PartHull hull(part_, pool_);
-  if (hull.filter(detail::filter_rules(limits_), part_.options.fill_single_triangles.value_or(false))) {
+  if (hull.filter(detail::filter_rules(limits_), detail::is_filled(part_.options))) {
     throw detail::rounding_decides();
   }
   return hull.trace();

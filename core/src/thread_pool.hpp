@@ -59,13 +59,15 @@ class Turns {
 /// comes in at a later step.
 class ThreadPool {
  public:
+  static constexpr unsigned kMostThreads = 1024;
+
   ThreadPool() = default;
   ThreadPool(const ThreadPool&) = delete;
   ThreadPool& operator=(const ThreadPool&) = delete;
   ~ThreadPool() { stop(); }
 
-  /// How many threads to use from now on, the caller's among them; >= 1.
-  void use(unsigned threads) { used_ = threads; }
+  /// How many threads to use from now on, the caller's among them; >= 1. More than a thousand are not used.
+  void use(unsigned threads) { used_ = std::min(threads, kMostThreads); }
   unsigned threads() const { return used_; }
 
   /// task(i) for every i below `count`, in any order and on any of the threads. Returns when all are done; if

@@ -89,8 +89,8 @@ bool is_edge(const std::vector<double>& depth, std::size_t width, std::size_t i)
          (i >= width && differs(i - width)) || (i + width < depth.size() && differs(i + width));
 }
 
-/// Normal with mean 0 and deviation 1, nearly: twelve uniform numbers have variance 1/12 each. Logarithms and
-/// sines, as the exact ways need them, are not the same on every machine.
+/// Normal with mean 0 and deviation 1, nearly: twelve uniform numbers have variance 1/12 each. Kept as it is,
+/// so that the floors keep their bits; elsewhere it is Random::normal().
 double normal(Random& random) {
   double sum = -6;
   for (int i = 0; i < 12; ++i) sum += random.uniform();

@@ -1,5 +1,5 @@
 """The core's time a point against the number of points, beside CGAL and GEOS, from core.json in the run's folder: what
-Google Benchmark writes of build/core_benchmarks: the command is in plots/README.md."""
+Google Benchmark writes of build/core_benchmarks ('make figures-core')."""
 
 from collections.abc import Iterator
 from dataclasses import dataclass, field
@@ -56,7 +56,7 @@ class Times:
 
 
 def draw(run: Run) -> Iterator[Drawn]:
-    path = run.file("core.json", maker="plots/README.md says what writes it")
+    path = run.file("core.json", maker="'make figures-core' writes it")
     curves = read(read_json(path, _SCHEMA, "; 'make figures-core' writes it"))
     if not curves:
         raise Skipped(f"{path} has none of the functions that are shown")

@@ -30,10 +30,10 @@ def draw(run: Run) -> Iterator[Drawn]:
     figure = _figure(league["taus"], [profiles[group] for group in groups])
     counts = "; ".join(f"{_GROUPS[group]}, {profiles[group]['cases']} cases" for group in groups)
     caption = (
-        "Performance profiles: on which share of the cases a method's L2 error is at most τ times the smallest one among "
+        "Performance profiles: on which share of the cases, by weight, a method's L2 error is at most τ times the smallest one among "
         "those that know as much. At τ = 1 the share of cases on which it is the best, further right how seldom it is "
-        f"far behind; a failure counts as infinitely bad. {counts[:1].upper()}{counts[1:]}; all of shapes that no parameter was "
-        f"fitted on. Pale markers: the method's default. Methods with the same polygons lie on one curve.{without}"
+        f"far behind; a failure counts as infinitely bad. {counts[:1].upper()}{counts[1:]}; all of test shapes, on which no "
+        f"parameter was searched but the oracle's. Pale markers: the method's default. Methods with the same polygons lie on one curve.{without}"
     )
     yield Drawn("profiles", figure, caption)
 

@@ -22,14 +22,14 @@ def draw(run: Run) -> Iterator[Drawn]:
     if not methods:
         raise Skipped(f"{path} has no method with a parameter to search")
     figure = _figure(methods)
-    cases = len(tuning["cases"])
+    cases = max(point["cases"] for one in methods for point in one["curve"])
     caption = (
         "Sensitivity: L2 error against the method's parameter, as a multiple of the error that the method has with the "
-        f"best parameter of each case; medians over {cases} cases, the bands of the paper's methods hold the middle half. (a) parameters that "
+        f"best parameter of each case; medians over up to {cases} training cases, the bands of the paper's methods hold the middle half. (a) parameters that "
         "are lengths, in spacings h (the square root of the area of the points' convex hull over their number), one axis "
         "for all of them; (b) any parameter, in octaves from the one that is best on the training shapes. The wider the "
         "valley, the less the choice matters; the octaves beside the names are the tolerance, the width in which the error "
-        f"stays within 10 % of its best (median). What is above {_WORST:g} or fails is not shown."
+        f"stays within 10 % of its best (median over the test cases). What is above {_WORST:g} or fails is not shown."
     )
     yield Drawn("sensitivity", figure, caption)
 

@@ -36,11 +36,11 @@ def draw(run: Run) -> Iterator[Drawn]:
     holes = " with holes" if rows[0].holes else ""
     left = (
         f"Left: {title}{holes}, {picture.case['points_total']:,} points (at most 4,000 of them drawn) and Polylidar's result. "
-        if own
+        if own is not None
         else ""
     )
     caption = (
-        f"{left}{'Right: m' if own else 'M'}edian time and L² error of every method for {rows[0].n:,} points of {title}{holes}; "
+        f"{left}{'Right: m' if own is not None else 'M'}edian time and L² error of every method for {rows[0].n:,} points of {title}{holes}; "
         f"down and to the left is better, and no method is both faster and more accurate than those on the line. {FILLED} "
         f"Results of one method that lie together share a label. {failures(rows)}"
     )

@@ -114,7 +114,7 @@ function build() {
   dialog = make(
     "dialog",
     { class: "gallery-case", tabindex: "-1", "aria-labelledby": "gallery-case-title", keydown: on_key },
-    make("header", {}, make("div", {}, parts.title, parts.subtitle), case_buttons()),
+    make("header", {}, make("div", { "aria-live": "polite" }, parts.title, parts.subtitle), case_buttons()),
     make("div", { class: "gallery-case-body" }, stage(), side()),
   );
   // A click beside the dialog hits the dialog element itself.

@@ -123,8 +123,7 @@ export class Forests extends Plots {
   }
 
   go(step) {
-    const last = Math.max(0, Math.ceil(this.found.length / FOREST_PAGE) - 1);
-    this.set({ page: Math.min(last, Math.max(0, this.state.page + step)) });
+    this.set({ page: Math.max(0, this.state.page + step) });
   }
 
   // What is shown.
@@ -182,6 +181,8 @@ export class Forests extends Plots {
 
   draw() {
     this.found = this.find();
+    const last = Math.max(0, Math.ceil(this.found.length / FOREST_PAGE) - 1);
+    this.state.page = Math.min(this.state.page, last);
     const from = this.state.page * FOREST_PAGE;
     const page = this.found.slice(from, from + FOREST_PAGE);
     const lines = { methods: this.methodLines(), runs: this.runLines(page) };

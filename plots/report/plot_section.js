@@ -6,7 +6,7 @@ import { currentTheme } from "./theme.js";
 
 /**
  * A section of charts. Whoever extends it has has(chart, entrant), whether there is anything to draw of the entrant;
- * choose(), called after every choice; draw(); tooltip(event, id) and open(point), called after a click.
+ * choose(), called after every choice; draw(); tooltip(event, quantities) and open(point), called after a click.
  */
 export class PlotSection extends Plots {
   /** `report` and `charts` are the page's data, `hidden` the keys of the entrants that are not shown. */

@@ -109,7 +109,7 @@ export class RunTable {
 
   detailColumn(usual) {
     const detail = this.get("detail");
-    return wordColumn("detail", "Why", detail, usual, (row) => make("span", { class: "detail" }, detail(row)));
+    return wordColumn("detail", "Why", detail, usual, (row) => make("span", { class: "detail", tabindex: detail(row) ? "0" : null }, detail(row)));
   }
 
   status(row) {
@@ -161,7 +161,11 @@ export class RunTable {
     this.pagers = ["top", "bottom"].map((where) => this.pager(where));
     const search = makeSearch("Words in the name or reason", "filter-words", (words) => this.set({ words }));
     const scroll = { class: "scroll", id: "runs-scroll", tabindex: "0", role: "region", "aria-label": "All runs" };
-    this.only = make("button", { type: "button", id: "table-only", hidden: true, click: () => this.set({ only: null }) });
+    const showAll = () => {
+      this.set({ only: null });
+      document.getElementById("runs-scroll").focus(); // the button is gone
+    };
+    this.only = make("button", { type: "button", id: "table-only", hidden: true, click: showAll });
     place.append(
       make(
         "div",

@@ -33,6 +33,7 @@ function applyTheme() {
 }
 
 export function startTheme() {
+  document.getElementById("theme").hidden = false;
   // Private windows and pages from disk may have no storage; the choice then lasts as long as the page.
   const storage = (use) => {
     try {

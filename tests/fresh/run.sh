@@ -230,7 +230,7 @@ prove_first() {
   new_root first root || return 0
   step "first: make bench TABLE=alphabet" as_reader "$root" root "make bench TABLE=alphabet" || true
   step "first: no server enabled" nothing_enabled "$root" || true
-  step "first: the work tree is unchanged" as_reader "$root" root '! git status --porcelain | grep .' || true
+  step "first: the work tree is unchanged" as_reader "$root" root 'said=$(git status --porcelain) && echo "$said" && test -z "$said"' || true
   remove_root
 }
 
@@ -243,7 +243,7 @@ prove_all() {
     step "$1: no server enabled after $command" nothing_enabled "$root" || true
   done
   step "$1: no test was skipped" none_skipped "$(log_of "$1: make test")" || true
-  step "$1: the work tree is unchanged" as_reader "$root" "$2" '! git status --porcelain | grep .' || true
+  step "$1: the work tree is unchanged" as_reader "$root" "$2" 'said=$(git status --porcelain) && echo "$said" && test -z "$said"' || true
   remove_root
 }
 

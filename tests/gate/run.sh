@@ -30,7 +30,7 @@ fail() {
 
 clean_up() { [ -z "$work" ] || rm -rf -- "$work"; }
 
-in_tree() { git -C "$work/tree" -c user.name=gate -c user.email=gate@example.org -c core.hooksPath=/dev/null "$@"; }
+in_tree() { GIT_CONFIG_GLOBAL=/dev/null GIT_CONFIG_NOSYSTEM=1 git -C "$work/tree" -c user.name=gate -c user.email=gate@example.org -c core.hooksPath=/dev/null "$@"; }
 
 # add_revision NAME: the clean core with NAME.patch, as a tag of that name.
 add_revision() {

@@ -47,6 +47,7 @@ test("hulls are those of the native core, index by index", async () => {
           polylidar.concaveHulls(doubles(points), labels, options).map(({ label, hull }) => [label, plain(hull)]),
         { points: base64, labels, options },
       );
+      assert.equal(made.length, labelled.length, name);
       made.forEach(([label, hull], i) => {
         assert.equal(label, labelled[i].label);
         assert_same(hull, labelled[i], `${name}, label ${label}`);

@@ -1,6 +1,8 @@
 """What a program that uses the package and checks its types may do."""
 from __future__ import annotations
 
+import datetime
+
 import numpy as np
 import numpy.typing as npt
 import polylidar_core
@@ -15,5 +17,6 @@ numbers: tuple[float, int] = (hull.area, len(hull))
 sizes: tuple[float, float, float] | None = hull.sizes
 areas: dict[str, float] = {label: each.area for label, each in concave_hulls(points, ["a", "a", "b", "b"]).items()}
 triangles: npt.NDArray[np.uint32] = delaunay(points)
+dated: dict[object, MultiPolygon] = concave_hulls(points, [datetime.date(2026, 1, day) for day in (1, 1, 2, 2)])
 version: str = polylidar_core.__version__
 geometry: dict[str, object] = hull.__geo_interface__

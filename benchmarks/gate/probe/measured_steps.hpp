@@ -25,6 +25,6 @@ struct StepData {
 }  // namespace hullbench
 
 /// One function for all steps, in a file of its own so that it is never inlined: callgrind finds it by name
-/// and counts in it alone. (With two functions named,
-/// callgrind 3.19 gave wrong counts: zero, or the program's start among them.)
+/// and counts in it alone. (With two functions named, callgrind 3.19 gave wrong counts: zero, or the
+/// program's start among them.)
 extern "C" void gate_step(hullbench::Step step, hullbench::StepData& data);

@@ -102,7 +102,7 @@ MultiPolygon to_coordinates(const IndexedMultiPolygon& shape, std::span<const Po
 /// Points may come in any order and may repeat; the lowest index stands for equal points. The result is empty
 /// if there are fewer than 3 distinct points, if all lie on a line, or if no triangle is kept. Throws
 /// std::invalid_argument if a coordinate is not finite (naming the first such index), if coordinates span
-/// more than the supported range (see Extractor), if an option is negative or NaN, or if there are more than
+/// more than the supported range (see Extractor), if an option is out of its range, or if there are more than
 /// 2^28 points.
 IndexedMultiPolygon concave_hull(std::span<const Point> points, const Options& options = {});
 

@@ -42,7 +42,8 @@ let rival; // of a worker of its own, ended when its ring is not wanted any more
 let points; // { xy, format, lonlat, name }, as read
 let plane; // where they are drawn
 let hull;
-let asked_hull = 0; // how often one was asked for: an older answer is not shown
+let asked_points = 0; // how often some were asked for: an older answer is not shown
+let asked_hull = 0; // the same
 let is_busy = false;
 
 const detail = () => 2 ** Number(element("detail").value);
@@ -57,15 +58,18 @@ function say(sentence, is_error = false) {
 // ---- Points ----
 
 async function open(name, question, given) {
+  const number = ++asked_points;
   say(`Reading ${name} …`);
   document.body.dataset.state = "busy";
   try {
     const answer = await hulls.ask(question, given);
+    if (number !== asked_points) return;
     points = { ...answer, name };
     element("lonlat").checked = answer.lonlat;
     element("source").textContent = `${name} (${answer.format})`;
     show_points();
   } catch (error) {
+    if (number !== asked_points) return;
     say(`${name}: ${error.message}.`, true);
     document.body.dataset.state = "failed";
   }
@@ -85,6 +89,7 @@ function show_points() {
 async function ask_for_hull() {
   const number = ++asked_hull;
   element("detail-value").textContent = format_measure(detail());
+  element("detail").setAttribute("aria-valuetext", format_measure(detail()));
   document.body.dataset.state = "busy";
   if (is_busy || !points) return;
   is_busy = true;
@@ -149,6 +154,7 @@ async function ask_for_rival() {
   element("rival").hidden = !element("compare").checked;
   if (!element("compare").checked || !points) return;
   element("rival-time").textContent = "working …";
+  element("rival-area").textContent = "–";
   rival = new Asked();
   try {
     const { vertices, milliseconds } = await rival.ask("concaveman", { xy: points.xy, lonlat: is_lonlat() });

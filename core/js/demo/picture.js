@@ -39,6 +39,12 @@ export class Picture {
     canvas.addEventListener("wheel", (event) => this.#wheel(event), { passive: false });
     canvas.addEventListener("pointerdown", (event) => canvas.setPointerCapture(event.pointerId));
     canvas.addEventListener("pointermove", (event) => canvas.hasPointerCapture(event.pointerId) && this.#drag(event));
+    canvas.addEventListener("keydown", (event) => {
+      const moved = { ArrowLeft: [60, 0], ArrowRight: [-60, 0], ArrowUp: [0, 60], ArrowDown: [0, -60] }[event.key];
+      if (!moved) return;
+      event.preventDefault();
+      this.#drag({ movementX: moved[0], movementY: moved[1] });
+    });
   }
 
   show_points(xy) {

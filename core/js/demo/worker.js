@@ -8,13 +8,17 @@ import { FileError, read_points } from "./readers.js";
 let points = new Float64Array(); // as read
 let plane = points; // where hulls are made
 let is_projected = false;
+let newest = 0; // of the files and examples: a file that takes longer than the next one is dropped
 
 const work = {
   async read({ file }) {
-    return opened(await read_points(new Uint8Array(await file.arrayBuffer())));
+    const number = ++newest;
+    const found = await read_points(new Uint8Array(await file.arrayBuffer()));
+    return number === newest ? opened(found) : null;
   },
 
   async example({ count }) {
+    ++newest;
     return opened({ xy: example(count), format: "an example", lonlat: false });
   },
 

@@ -50,7 +50,7 @@ function write_points(exports, xy) {
 /** Options as the arguments of the functions that extract. */
 function words(options) {
   const limits = [options.alpha, options.maxEdgeLength, options.maxPerimeter, options.fillSingleTriangles];
-  const given = limits.reduce((bits, value, i) => (value === undefined ? bits : bits | (1 << i)), 0);
+  const given = limits.reduce((bits, value, i) => (value == null ? bits : bits | (1 << i)), 0);
   return [given, options.detail ?? 1, ...limits.slice(0, 3).map((value) => value ?? 0), limits[3] ? 1 : 0];
 }
 

@@ -34,7 +34,8 @@ export interface ChosenSizes {
 
 /**
  * Polygons, each of which is valid in the OGC's sense. Shells run counter-clockwise, holes clockwise. It is a GeoJSON
- * geometry, and JSON.stringify() writes it as one.
+ * geometry, and JSON.stringify() writes it as one; to send or copy it, take toJSON(). It reads a typed array of points
+ * again each time: do not change that while you use the hull.
  */
 export interface Hull {
   readonly type: "MultiPolygon";
@@ -61,8 +62,9 @@ export interface Hull {
 export function concaveHull(points: Points, options?: Options): Hull;
 
 /**
- * A hull for every label, a number or string for each point, by ascending label. Each is that of its points alone, with
- * indices into all points. Throws as concaveHull, and a RangeError where there are not as many labels as points.
+ * A hull for every label, a number, string or bigint for each point, all of one kind, by ascending label. Each is that of its points alone, with
+ * indices into all points. Throws as concaveHull, a RangeError where there are not as
+ * many labels as points, and a TypeError where a label is missing (NaN) or of another kind.
  */
 export function concaveHulls<Label extends number | string | bigint>(
   points: Points,

@@ -107,13 +107,16 @@ function numbered(labels) {
     let place = places.get(label);
     if (place === undefined) {
       if (!["number", "string", "bigint"].includes(typeof label) || Number.isNaN(label)) {
-        throw new TypeError(`label ${i} is neither a number nor a string`);
+        throw new TypeError(`label ${i} is ${Number.isNaN(label) ? "missing (NaN)" : "neither a number nor a string"}`);
       }
       places.set(label, (place = places.size));
     }
     return place;
   });
   const met = [...places.keys()];
+  if (new Set(met.map((label) => typeof label)).size > 1) {
+    throw new TypeError("labels must be all numbers, all strings or all bigints, or they have no order");
+  }
   const order = met.map((_, i) => i).sort((a, b) => (met[a] < met[b] ? -1 : 1));
   const rank = new Int32Array(met.length);
   order.forEach((place, i) => (rank[place] = i));
@@ -126,7 +129,7 @@ export function concaveman(points, concavity = USUAL_CONCAVITY, lengthThreshold 
   }
   const detail = USUAL_CONCAVITY / Math.max(concavity, LEAST_CONCAVITY);
   const xy = flattened(points);
-  const ring = detail > 0 ? module.one_ring(xy, detail, lengthThreshold || 0) : module.hull(xy, { alpha: Infinity }).vertices;
+  const ring = detail > 0 ? module.one_ring(xy, detail, Math.abs(lengthThreshold) || 0) : module.hull(xy, { alpha: Infinity }).vertices;
   if (ring.length === 0) return line(points);
   // Clockwise, as concaveman's rings are.
   return Array.from([...ring, ring[0]].reverse(), (i) => points[i]);

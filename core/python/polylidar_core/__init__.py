@@ -12,7 +12,7 @@ from __future__ import annotations
 
 import operator
 import os
-from typing import Any
+from typing import TYPE_CHECKING, Any, Protocol, Sequence, Union
 
 import numpy as np
 import numpy.typing as npt
@@ -23,6 +23,17 @@ from ._labels import numbered
 from ._points import as_points
 from .multi_polygon import MultiPolygon
 
+if TYPE_CHECKING:
+
+    class _HasGeoInterface(Protocol):
+        """Shapely's MultiPoint, a GeoSeries and so on."""
+
+        @property
+        def __geo_interface__(self) -> Any:
+            ...
+
+    Points = Union[npt.ArrayLike, _HasGeoInterface]
+
 __all__ = ["MultiPolygon", "__version__", "concave_hull", "concave_hulls", "delaunay"]
 
 
@@ -32,7 +43,7 @@ def __dir__() -> list[str]:
 
 
 def concave_hull(
-    points: npt.ArrayLike,
+    points: Points,
     *,
     alpha: float | None = None,
     max_edge_length: float | None = None,
@@ -88,8 +99,8 @@ def concave_hull(
 
 
 def concave_hulls(
-    points: npt.ArrayLike,
-    labels: npt.ArrayLike,
+    points: Points,
+    labels: npt.ArrayLike | Sequence[Any],
     *,
     alpha: float | None = None,
     max_edge_length: float | None = None,
@@ -101,11 +112,12 @@ def concave_hulls(
     """A concave hull for every label, as concave_hull makes it of that label's points alone, by ascending label. Shapes
     of different labels may overlap. The rows in their `indices` are those of all points.
 
-    labels: one a point, of the shape (n,): integers, text or whatever else can be sorted. The keys of the result are
+    labels: one a point, of the shape (n,): integers, text or whatever else can be sorted
+        (tuples in an array of objects only). The keys of the result are
         Python's int, str and so on, of dates numpy's. Integers are the fastest.
     The others, and the errors they raise: as of concave_hull. Labels are shared among the threads.
 
-    ValueError, besides: there are not as many labels as points, a label is missing (None or NaN), or labels cannot be
+    ValueError, besides: there are not as many labels as points, a label is missing (None, NaN, NaT or pandas.NA), or labels cannot be
     sorted, such as numbers among text.
 
         >>> points = [(0, 0), (2, 0), (0, 2), (5, 5), (6, 5), (5, 6)]
@@ -125,7 +137,7 @@ def concave_hulls(
     }
 
 
-def delaunay(points: npt.ArrayLike) -> npt.NDArray[np.uint32]:
+def delaunay(points: Points) -> npt.NDArray[np.uint32]:
     """The triangles of the Delaunay triangulation of points, an array of the shape (m, 3): row indices of points,
     each triangle counter-clockwise, the triangles in no particular order. Of equal points only the first is used.
     None (m = 0) for fewer than 3 distinct points or points all on a line. O(n log n).

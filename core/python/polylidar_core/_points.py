@@ -13,6 +13,8 @@ def as_points(points: Any) -> npt.NDArray[np.float64]:
     # Of the type, as GeoPandas would work the attribute itself out.
     if hasattr(type(points), "__geo_interface__"):
         points = _coordinates(points)
+    if isinstance(points, np.ma.MaskedArray) and np.any(points.mask):
+        raise ValueError("points are masked: leave them out, points[~points.mask.any(axis=1)]")
     try:
         array = np.asarray(points)
     except ValueError as error:

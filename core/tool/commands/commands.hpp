@@ -18,8 +18,8 @@ class App;
 
 namespace polylidar::tool {
 
-/// How a shape is made of points, and which points: what both commands have. Lengths are in the unit of the
-/// points, of longitudes and latitudes in metres.
+/// How a shape is made of points, and which points: what hull and footprint have, and of it the output merge.
+/// Lengths are in the unit of the points, of longitudes and latitudes in metres.
 struct ShapeChoice {
   std::optional<double> alpha;            ///< >= 0; the three limits are those of polylidar::Options
   std::optional<double> max_edge_length;  ///< >= 0

@@ -57,9 +57,14 @@ std::uint64_t unpacked_size(const std::string& path);
 std::uint64_t memory_to_triangulate(const std::string& path);
 /// What a file takes that is streamed.
 std::uint64_t memory_to_stream(const std::string& path);
+/// What of it the map of cells may take.
+std::uint64_t map_bytes_to_stream(const std::string& path);
 
 /// Throws ConfigurationError where two of these are the same file.
 void check_each_once(const std::vector<std::string>& paths);
+/// Throws ConfigurationError where one of these is standard input, a pipe or a terminal, which cannot be read
+/// several times as `option` does.
+void check_readable_again(const std::vector<std::string>& paths, const std::string& option);
 
 class FileWork {
  public:

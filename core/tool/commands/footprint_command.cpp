@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <csignal>
 #include <filesystem>
 #include <functional>
 #include <mutex>
@@ -16,6 +15,7 @@
 
 #include "tool/commands/commands.hpp"
 #include "tool/commands/file_work.hpp"
+#include "tool/commands/run_command.hpp"
 #include "tool/commands/shape_choice.hpp"
 #include "tool/commands/shape_output.hpp"
 #include "tool/hull/degrees.hpp"
@@ -275,6 +275,7 @@ class IndexRun {
     StreamOptions stream_options;
     stream_options.reads_at_once = true;
     stream_options.expected = expected_points(path, options_);
+    stream_options.most_map_bytes = static_cast<double>(map_bytes_to_stream(path));
     stream_options.progress = [&](const StreamProgress& progress) {
       if (status_.is_due()) files_.show(place, passing(progress));
     };
@@ -334,7 +335,9 @@ class UnionRun {
     add_up();
     find_plane();
     const StreamedHull hull = stream_by_some_limit();
-    if (hull.chosen_sizes && !hull.by_outlines) {
+    if (hull.by_outlines) {
+      say(std::string(kOnlyOutlines) + std::string(kByHand));
+    } else if (hull.chosen_sizes) {
       say(in_words(*hull.chosen_sizes) + "; --detail scales it, " + std::string(kByHand));
     }
     output_.write(geojson_collection(std::vector{feature(hull)}, geojson_crs(crs_)), crs_, status_);
@@ -357,6 +360,7 @@ class UnionRun {
     const ShapeChoice& shape = command_.shape;
     chosen_crs(shape, {});
     output_.check_against(command_.inputs);
+    check_readable_again(command_.inputs, "--union");
     if (shape.one || shape.cover || shape.min_triangles > 0) {
       throw ConfigurationError(
           "--union does not go with --one, --cover and --min-triangles, which need all triangles; leave one "
@@ -424,12 +428,21 @@ class UnionRun {
     double points = 0;
     for (std::size_t file = 0; file < facts_.size(); ++file) {
       if (!files_.is_done(file)) continue;
+      if (facts_[file].points > most_points_in_memory(command_.shape)) {
+        throw ConfigurationError(command_.inputs[file] + " has " + std::to_string(facts_[file].points) +
+                                 " points, too many for a limit to be chosen; give " +
+                                 std::string(kLimitOrMemory));
+      }
       files_.show(file, "choosing a limit");
       const LocatedHulls hulls = locate_hulls(read_point_file(command_.inputs[file], options_),
                                               command_.shape, false, core_.threads, {});
       if (!hulls.groups[0].sizes) continue;
       sizes.emplace_back(hulls.groups[0].sizes->most, facts_[file].points);
       points += static_cast<double>(facts_[file].points);
+    }
+    if (sizes.empty()) {
+      throw ConfigurationError("no file has a triangle of its own to choose a limit from; give " +
+                               std::string(kLimitOrMemory));
     }
     std::sort(sizes.begin(), sizes.end());
     double had = 0;
@@ -485,17 +498,12 @@ class UnionRun {
     options.most_points_in_memory = most_points_in_memory(command_.shape);
     options.reads_at_once = true;
     if (!latitude_) options.expected = {all_.points, all_.bounds};  // as look_at() has found
-    try {
-      return concave_hull_of_stream(sources(true), core_, options);
-    } catch (const NeedsAllPoints&) {
-      throw;
-    } catch (const std::invalid_argument& error) {
-      throw ConfigurationError(std::string("the union: ") + error.what());
-    }
+    return concave_hull_of_stream(sources(true), core_, options);
   }
 
   /// Not where there is nothing else.
   void drop_what_chance_makes(IndexShape& shape, std::span<const Point> points) const {
+    if (least_area_ == 0) return;
     const bool any = std::any_of(shape.begin(), shape.end(), [&](const IndexPolygon& polygon) {
       return area(polygon, points) >= least_area_;
     });
@@ -538,10 +546,9 @@ class UnionRun {
 }  // namespace
 
 ExitCode make_footprints(const FootprintCommand& command, const Surroundings& surroundings) {
-  // A closed pipe is then an error of writing, which is told like others.
-  (void)::signal(SIGPIPE, SIG_IGN);
-  if (command.is_union) return UnionRun(command, surroundings).run();
-  return IndexRun(command, surroundings).run();
+  if (!command.is_union)
+    return run_command("the index", [&] { return IndexRun(command, surroundings).run(); });
+  return run_command("the union", [&] { return UnionRun(command, surroundings).run(); });
 }
 
 void add_footprint_options(CLI::App& app, FootprintCommand& command) {

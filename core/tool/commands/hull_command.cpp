@@ -3,12 +3,10 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <csignal>
-#include <new>
-#include <stdexcept>
 #include <vector>
 
 #include "tool/commands/commands.hpp"
+#include "tool/commands/run_command.hpp"
 #include "tool/commands/shape_choice.hpp"
 #include "tool/commands/shape_output.hpp"
 #include "tool/commands/streamed_hull.hpp"
@@ -86,17 +84,14 @@ class HullRun {
     options.on_progress = [&](std::uint64_t bytes, std::optional<std::uint64_t> size) {
       show(reading(bytes, size));
     };
-    try {
-      file_ = read_point_file(command_.inputs.front(), options);
-    } catch (const PointFileError& error) {
-      throw ConfigurationError(error.what());
-    }
+    file_ = read_point_file(command_.inputs.front(), options);
     if (!file_.note.empty()) say(file_.note);
     crs_ = chosen_crs(command_.shape, file_.crs);
     are_numbers_ = are_numbers(file_.labels);
   }
 
   void compute() {
+    if (command_.keep_outliers) check_magnitude(file_.points);
     show("triangulating " + std::to_string(file_.points.size()) + " points");
     hulls_ = locate_hulls(file_, command_.shape, !command_.by.empty(), thread_count(command_.shape),
                           [&](const std::string& doing) { show(doing); });
@@ -114,9 +109,7 @@ class HullRun {
   void explain(const GroupHull& hull) {
     const std::string by_hand(kByHand);
     if (hull.by_outlines) {
-      say("the points lie on outlines only, and the shape is what these enclose; --detail below 1 closes "
-          "wider gaps, " +
-          by_hand);
+      say(std::string(kOnlyOutlines) + by_hand);
     } else if (hull.sizes) {
       say(in_words(*hull.sizes) + "; --detail scales it, " + by_hand);
     }
@@ -222,16 +215,9 @@ class HullRun {
 }  // namespace
 
 ExitCode make_hull(const HullCommand& command, const Surroundings& surroundings) {
-  // A closed pipe is then an error of writing, which is told like others.
-  (void)::signal(SIGPIPE, SIG_IGN);
-  try {
+  return run_command(name_of(command), [&] {
     return command.stream ? stream_hull(command, surroundings) : HullRun(command, surroundings).run();
-  } catch (const std::invalid_argument& error) {
-    throw ConfigurationError(name_of(command) + ": " + error.what());
-  } catch (const std::bad_alloc&) {
-    throw std::runtime_error("there is not enough memory for the points of " + name_of(command) +
-                             "; give fewer of them, or use a machine with more");
-  }
+  });
 }
 
 void add_hull_options(CLI::App& app, HullCommand& command) {

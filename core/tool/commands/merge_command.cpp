@@ -1,12 +1,11 @@
 // `polylidar merge PART...`: from what the shards of a hull found to polygons.
 #include <CLI/CLI.hpp>
-#include <csignal>
-#include <new>
 #include <stdexcept>
 #include <vector>
 
 #include "polylidar/stream.hpp"
 #include "tool/commands/commands.hpp"
+#include "tool/commands/run_command.hpp"
 #include "tool/commands/shape_choice.hpp"
 #include "tool/commands/shape_output.hpp"
 #include "tool/commands/streamed_hull.hpp"
@@ -57,18 +56,13 @@ ExitCode merge(const MergeCommand& command, const Surroundings& surroundings) {
 }  // namespace
 
 ExitCode merge_hulls(const MergeCommand& command, const Surroundings& surroundings) {
-  // A closed pipe is then an error of writing, which is told like others.
-  (void)::signal(SIGPIPE, SIG_IGN);
-  try {
-    return merge(command, surroundings);
-  } catch (const std::invalid_argument& error) {
-    throw ConfigurationError(error.what());
-  } catch (const PointFileError& error) {
-    throw ConfigurationError(error.what());
-  } catch (const std::bad_alloc&) {
-    throw std::runtime_error(
-        "there is not enough memory for the points of these parts; use a machine with more");
-  }
+  return run_command("the parts", [&] {
+    try {
+      return merge(command, surroundings);
+    } catch (const std::invalid_argument& error) {
+      throw ConfigurationError(error.what());  // names the parts itself
+    }
+  });
 }
 
 void add_merge_options(CLI::App& app, MergeCommand& command) {

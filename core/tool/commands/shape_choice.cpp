@@ -84,6 +84,7 @@ void add_shape_options(CLI::App& app, ShapeChoice& choice) {
   for (const char* cleaning : {"--max-parts", "--min-area", "--min-triangles", "--simplify"}) {
     cover->excludes(app.get_option(cleaning));
   }
+  app.get_option("--one")->excludes(app.get_option("--min-triangles"));  // the one polygon stays
   app.add_option("--returns", choice.returns,
                  "Use all returns of a LAS file, or only the first or the last ones")
       ->check(CLI::IsMember({"all", "first", "last"}))
@@ -222,8 +223,21 @@ bool may_be_degrees(const ShapeChoice& choice, const Crs& crs, const Box& box) {
   return choice.crs.empty() && !crs.is_given && look_like_degrees(box);
 }
 
+void check_magnitude(std::span<const Point> points) {
+  constexpr double kLargest = 0x1p300;
+  constexpr double kLeastSide = 0x1p-300;
+  const Box box = bounding_box(points);
+  const double largest = std::max({-box.min.x, -box.min.y, box.max.x, box.max.y});
+  const double side = std::max(box.max.x - box.min.x, box.max.y - box.min.y);
+  if (points.empty() || (largest <= kLargest && (side == 0 || side >= kLeastSide))) return;
+  throw std::invalid_argument(
+      "coordinates as large or as small as these do not go with --one, --cover, --simplify and "
+      "--keep-outliers; scale them");
+}
+
 LocatedHulls locate_hulls(const PointFile& file, const ShapeChoice& choice, bool is_grouped, unsigned threads,
                           const OnStep& on_step) {
+  if (choice.one || choice.cover || choice.simplify > 0) check_magnitude(file.points);
   LocatedHulls hulls;
   hulls.latitude = middle_latitude(chosen_crs(choice, file.crs), file.points);
   if (hulls.latitude) hulls.metres = to_metres(file.points, *hulls.latitude);

@@ -72,7 +72,7 @@ inline constexpr std::string_view kMayBeDegrees =
 /// Whether kMayBeDegrees is to be said of points in `box`.
 bool may_be_degrees(const ShapeChoice& choice, const Crs& crs, const Box& box);
 
-/// What the help of both commands says of GDAL.
+/// What the help of hull and footprint says of GDAL.
 inline constexpr std::string_view kGdalHelp =
     "A build with GDAL (-DPOLYLIDAR_WITH_GDAL=ON) also reads points from GeoPackage, Shapefile, FlatGeobuf, "
     "PostGIS (PG:)\n"
@@ -85,6 +85,10 @@ struct LocatedHulls {
   std::optional<double> latitude;  ///< of the metres
 };
 
+/// Throws std::invalid_argument where products of two coordinates are no usual doubles: the core scales its
+/// points, but what works on its shapes does not.
+void check_magnitude(std::span<const Point> points);
+
 /// Without groups there is one hull, but none of a file that is grouped by something and has no points.
 LocatedHulls locate_hulls(const PointFile& file, const ShapeChoice& choice, bool is_grouped, unsigned threads,
                           const OnStep& on_step);
@@ -94,6 +98,15 @@ std::string no_points(const ShapeChoice& choice, const std::string& file);
 
 /// What is said behind a limit that was chosen.
 inline constexpr std::string_view kByHand = "--alpha, --max-edge-length or --max-perimeter sets a limit";
+
+/// What is asked for where a limit cannot be chosen in the memory that there is.
+inline constexpr std::string_view kLimitOrMemory =
+    "--alpha, --max-edge-length or --max-perimeter, or more --memory";
+
+/// What is said where the shape is what walls enclose.
+inline constexpr std::string_view kOnlyOutlines =
+    "the points lie on outlines only, and the shape is what these enclose; --detail below 1 closes wider "
+    "gaps, ";
 
 /// What is said of the range of the sizes that were chosen.
 std::string in_words(const ChosenSizes& sizes);

@@ -49,9 +49,11 @@ ShapeOutput::ShapeOutput(const ShapeChoice& choice, const VectorFormats* formats
 }
 
 void ShapeOutput::check_against(std::span<const std::string> inputs) const {
+  static const std::string kStandardInput = "/dev/stdin";
   std::error_code error;
   for (const std::string& input : inputs) {
-    if (std::filesystem::is_regular_file(path_, error) && std::filesystem::equivalent(path_, input, error)) {
+    const std::string& read = input == "-" ? kStandardInput : input;
+    if (std::filesystem::is_regular_file(path_, error) && std::filesystem::equivalent(path_, read, error)) {
       throw ConfigurationError("--out " + path_ +
                                " would replace the points that are read; give another file");
     }

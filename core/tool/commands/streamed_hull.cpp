@@ -14,7 +14,6 @@
 #include "tool/points/point_sources.hpp"
 #include "tool/program/configuration_error.hpp"
 #include "tool/program/interrupt.hpp"
-#include "tool/program/result_output.hpp"
 #include "tool/program/status_line.hpp"
 
 namespace polylidar::tool {
@@ -62,9 +61,7 @@ class StreamRun {
     const ShapeChoice& shape = command_.shape;
     const std::vector<std::string>& inputs = command_.inputs;
     check_each_once(inputs);
-    if (std::find(inputs.begin(), inputs.end(), "-") != inputs.end()) {
-      refuse("--stream", "standard input, which can be read once only");
-    }
+    check_readable_again(inputs, "--stream");
     if (!command_.by.empty()) refuse("--stream", "--by");
     if (command_.keep_outliers) refuse("--stream", "--keep-outliers");
     if (shape.one || shape.cover) refuse("--stream", "--one and --cover");
@@ -90,6 +87,8 @@ class StreamRun {
         sources(command_.inputs.size() == 1 ? parts_for(core_.threads) : 1), core_, options);
     const Crs crs = crs_.value_or(Crs());
     write_streamed_hull(hull, core_, crs, output, surroundings_.program, status_);
+    if (!output.can_tell(crs)) say_once(std::string(kNamelessCrs));
+    if (output.has_features() && lacks_crs(command_.shape, crs, hull.box)) say_once(std::string(kNoCrs));
     if (may_be_degrees(command_.shape, crs, hull.box)) say_once(std::string(kMayBeDegrees));
     return kExitOk;
   }
@@ -108,7 +107,6 @@ class StreamRun {
           "'polylidar merge'; give them there");
     }
     ShapeOutput(shape, surroundings_.vector_formats).check_against(command_.inputs);
-    check_output_place(shape.out);
     const StreamShard part = part_of_stream(sources(1), core_, *shard, stream_options());
     status_.clear();
     status_.say(surroundings_.program + ": shard " + std::to_string(shard->number) + " of " +
@@ -154,13 +152,7 @@ class StreamRun {
       };
       for (PointSource& part :
            point_sources(input, options, most_parts, kMostKeptBytes / command_.inputs.size(), on_read)) {
-        sources.emplace_back([read = std::move(part)](const TakePoints& take) {
-          try {
-            read(take);
-          } catch (const PointFileError& error) {
-            throw ConfigurationError(error.what());
-          }
-        });
+        sources.push_back(std::move(part));
       }
     }
     return sources;
@@ -231,7 +223,11 @@ void write_streamed_hull(const StreamedHull& hull, const Options& options, const
              (hull.points == 0 ? "there are no points, so there is no shape"
                                : std::to_string(hull.triangulated_points) + " of " +
                                      std::to_string(hull.points) + " points are near the outline"));
-  if (hull.chosen_sizes && !hull.by_outlines) status.say(program + ": " + in_words(*hull.chosen_sizes));
+  if (hull.by_outlines) {
+    status.say(program + ": " + std::string(kOnlyOutlines) + std::string(kByHand));
+  } else if (hull.chosen_sizes) {
+    status.say(program + ": " + in_words(*hull.chosen_sizes));
+  }
   const std::string& format = output.text_format();
   output.write(format == "wkt"   ? to_wkt(hull.polygons)
                : format == "wkb" ? to_wkb(hull.polygons)

@@ -189,7 +189,8 @@ GroupHull extracted(Extractor& extractor, std::span<const Point> points, const H
   if (only) {
     IndexShape one = {std::move(hull.shape[*only])};
     hull.shape = std::move(one);
-  } else if (options.min_triangles > 1) {
+  }
+  if (options.min_triangles > 1) {
     drop_polygons_of_few_triangles(hull.shape, extractor.count_triangles(), options.min_triangles);
   }
   return hull;

@@ -26,7 +26,13 @@ std::string reason(int error) {
 
 BlockReader::BlockReader(const std::string& path, const PointFileOptions& options)
     : options_(options), name_(path == "-" ? "standard input" : path) {
-  file_ = path == "-" ? ::dup(STDIN_FILENO) : ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
+  const auto open = [&] {
+    return path == "-" ? ::dup(STDIN_FILENO) : ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
+  };
+  // A named pipe is waited for.
+  while ((file_ = open()) < 0 && errno == EINTR) {
+    if (options.on_progress) options.on_progress(0, {});
+  }
   if (file_ < 0) {
     const int error = errno;
     if (error == ENOENT) throw PointFileError("there is no file " + name_ + " to read points from");

@@ -281,11 +281,18 @@ bool is_read_in_parts(const std::string& path, const PointFileOptions& options) 
   }
 }
 
+namespace {
+constexpr std::uint64_t kLeastLasRecord = 20;  // bytes of a point
+}
+
 std::optional<ExpectedPoints> expected_points(const std::string& path, const PointFileOptions& options) {
   if (!point_files::takes_all_points(options) || !is_read_in_parts(path, options)) return {};
   try {
     BlockReader reader(path, options);
-    return point_files::expected_points_of_las(reader.ahead());
+    const std::optional<ExpectedPoints> expected = point_files::expected_points_of_las(reader.ahead());
+    // A map for so many points is made before the first one is read.
+    const bool is_possible = expected && expected->count <= reader.remaining().value_or(0) / kLeastLasRecord;
+    return is_possible ? expected : std::nullopt;
   } catch (const PointFileError&) {
     return {};
   }

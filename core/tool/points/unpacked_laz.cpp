@@ -7,11 +7,13 @@
 
 #include <array>
 #include <cerrno>
+#include <chrono>
 #include <csignal>
 #include <cstdlib>
 #include <sstream>
 #include <stdexcept>
 #include <system_error>
+#include <thread>
 
 extern char** environ;
 
@@ -63,6 +65,14 @@ UnpackedLaz::UnpackedLaz(const std::string& program, const std::string& path) {
 UnpackedLaz::~UnpackedLaz() {
   if (process_ <= 0) return;
   ::kill(process_, SIGTERM);
+  // It gets a second to end.
+  constexpr int kLooks = 100;
+  constexpr std::chrono::milliseconds kBetween(10);
+  for (int look = 0; look < kLooks; ++look) {
+    if (::waitpid(process_, nullptr, WNOHANG) != 0) return;
+    std::this_thread::sleep_for(kBetween);
+  }
+  ::kill(process_, SIGKILL);
   succeeded();
 }
 
