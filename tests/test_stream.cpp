@@ -662,7 +662,8 @@ TEST(Stream, SaysWhatIsWrong) {
   Points huge = points;
   for (Point& p : huge) p.x *= 1e300;
   MemorySource extreme(huge);
-  hullbench::testing::expect_says(complaint(extreme, {.alpha = 0.02}), "coordinates span more than a factor of 2^265");
+  hullbench::testing::expect_says(complaint(extreme, {.alpha = 0.02}),
+                                  "coordinates span more than a factor of 2^265");
 }
 
 TEST(Stream, NoticesASourceThatChanges) {

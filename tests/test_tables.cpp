@@ -64,8 +64,8 @@ TEST(Tables, TheIntervalOfARatioIsClusteredByShape) {
     const int factor = run["dataset"] == "hi" ? 3 : run["holes"] == true ? 2 : 1;
     for (json& time : run["time_ns"]) time = factor * time.get<std::int64_t>();
   }
-  // As two shapes, whose interval is their range: California's ratios are 5.95 times 1 and 2, with and without
-  // holes, Hawaii's are 5.95 times 3. Of 60 independent values it would be 11.9-11.9.
+  // As two shapes, whose interval is their range: California's ratios are 5.95 times 1 and 2, with and
+  // without holes, Hawaii's are 5.95 times 3. Of 60 independent values it would be 11.9-11.9.
   const std::string text = markdown_of(report);
   const std::string line = line_with(text, "| CGAL", text.find("ratios to Polylidar"));
   expect_says(line, "| 11.9 | 5.96–17.9 |");
