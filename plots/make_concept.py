@@ -1,4 +1,4 @@
-"""make_concept.py HULLBENCH: draws plots/concept.svg, the README's picture of what a concave hull is.
+"""make_concept.py HULLBENCH [OUT]: draws the README's picture of what a concave hull is, plots/concept.svg.
 
 The same points three times, with the hull that the program makes of them: with a limit that is too small, with the one
 that it chooses, and with one that is too large.
@@ -43,7 +43,7 @@ def hull(program: str, cloud: list[tuple[float, float]], limit: list[str]) -> st
     return " ".join("M" + " ".join(f"{x:g},{y:g}" for x, y in ring[:-1]) + "Z" for polygon in polygons for ring in polygon)
 
 
-def main(program: str) -> None:
+def main(program: str, picture: Path = Path(__file__).parent / "concept.svg") -> None:
     cloud = points()
     dots = "".join(f'<circle cx="{x:g}" cy="{y:g}" r="1.3"/>' for x, y in cloud)
     width = 3 * WIDTH + 2 * GAP
@@ -58,15 +58,15 @@ def main(program: str) -> None:
             f'fill-rule="evenodd" stroke="#126782" stroke-width="1.2"/><use href="#dots"/>'
             f'<text x="{WIDTH / 2}" y="{HEIGHT + 20}" text-anchor="middle" fill="#333333">{name}</text></g>'
         )
-    (Path(__file__).parent / "concept.svg").write_text("\n".join([*out, "</svg>"]) + "\n")
+    picture.write_text("\n".join([*out, "</svg>"]) + "\n")
 
 
 if __name__ == "__main__":
-    if len(sys.argv) != 2:
+    if len(sys.argv) not in (2, 3):
         print(__doc__, file=sys.stderr)
         sys.exit(2)
     try:
-        main(sys.argv[1])
+        main(sys.argv[1], *map(Path, sys.argv[2:]))
     except OSError as error:
         sys.exit(f"error: {error}")
     except subprocess.CalledProcessError as error:

@@ -9,6 +9,7 @@ hullbench_test(test_tool
     test_point_files.cpp
     test_shard_file.cpp
     test_simplify.cpp
+    test_free_memory.cpp
     test_status_line.cpp
   LIBRARIES polylidar::tool hullbench::metrics LABELS hull)
 target_include_directories(test_tool PRIVATE "${PROJECT_SOURCE_DIR}")

@@ -28,6 +28,11 @@ hullbench_tool_test(NAME plots.choice_in_browser
   COMMAND ${CMAKE_COMMAND} -E env "HULLBENCH=$<TARGET_FILE:hullbench>" "OUTPUT=${CMAKE_BINARY_DIR}/tests/choice_in_browser"
           node --test --test-reporter=spec "${CMAKE_CURRENT_LIST_DIR}/report/choice.test.mjs")
 set_tests_properties(plots.choice_in_browser PROPERTIES LABELS plots TIMEOUT 600 COST ${HULLBENCH_COST_OF_LONG_TESTS})
+# The README's picture of a concave hull is what the program makes now.
+hullbench_tool_test(NAME plots.concept NEEDS "${SYSTEM_PYTHON}"
+  COMMAND bash -c "\"$0\" -B \"$3/make_concept.py\" \"$1\" \"$2\" && cmp \"$2\" \"$3/concept.svg\""
+          "${SYSTEM_PYTHON}" "$<TARGET_FILE:hullbench>" "${CMAKE_BINARY_DIR}/tests/concept.svg" "${PROJECT_SOURCE_DIR}/plots")
+set_tests_properties(plots.concept PROPERTIES LABELS plots)
 # The picture of the samplers; what the points are is tested elsewhere.
 hullbench_tool_test(NAME plots.samplers NEEDS "${SYSTEM_PYTHON}:matplotlib" "${SYSTEM_PYTHON}:numpy"
   COMMAND "${SYSTEM_PYTHON}" -B "${PROJECT_SOURCE_DIR}/plots/make_samplers.py" --hullbench "$<TARGET_FILE:hullbench>"

@@ -648,7 +648,6 @@ TEST(AutomaticLimit, OfManyPointsIsAsOfFew) {
 
 TEST(AutomaticLimit, MoreDetailNeverAddsArea) {
   for (const std::vector<Point>& points : {ring_and_island(3000, 1), sparser_to_the_right(3000, 8, 2)}) {
-    const Triangulation mesh = delaunay(points);
     double before = std::numeric_limits<double>::infinity();
     for (const double detail : {0.25, 0.5, 0.8, 1.0, 1.1, 1.5, 2.0, 4.0}) {
       const MultiPolygon shape = checked_hull(points, {.detail = detail});

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <filesystem>
 #include <random>
+#include <sstream>
 #include <thread>
 
 #include "benchmarks/base/names.hpp"
@@ -15,6 +16,8 @@
 #include "tests/program.hpp"
 #include "tests/temporary_folder.hpp"
 #include "tool/commands/file_work.hpp"
+#include "tool/program/interrupt.hpp"
+#include "tool/program/status_line.hpp"
 
 namespace hullbench::testing {
 namespace {
@@ -49,6 +52,24 @@ class FootprintCommandTest : public ::testing::Test {
 
   TemporaryFolder folder_;
 };
+
+TEST(FileWork, AnInterruptionEndsItBetweenTwoFiles) {
+  namespace tool = polylidar::tool;
+  std::ostringstream err;
+  const tool::Surroundings surroundings{"polylidar", err, false};
+  tool::StatusLine status(err, false, std::chrono::seconds(60));
+  const std::vector<std::string> paths = {"a", "b", "c"};
+  tool::FileWork files(paths, surroundings, status);
+  int begun = 0;
+  const auto work = [&](std::size_t, unsigned, tool::MemoryShare&) -> tool::Crs {
+    ++begun;
+    tool::set_interrupted(true);
+    return {};
+  };
+  EXPECT_THROW(files.run(1, 1U << 20U, work), tool::Interrupted);
+  tool::set_interrupted(false);
+  EXPECT_EQ(begun, 1);
+}
 
 TEST_F(FootprintCommandTest, AFeatureForEveryFile) {
   std::vector<std::string> files;

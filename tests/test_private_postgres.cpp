@@ -25,6 +25,7 @@
 
 #include "adapters/adapter.hpp"
 #include "adapters/private_postgres.hpp"
+#include "adapters/process_identity.hpp"
 #include "tests/complaint.hpp"
 #include "tests/temporary_folder.hpp"
 
@@ -195,6 +196,15 @@ TEST(PrivatePostgres, IsGoneAfterItsOwnerIsKilled) {
   ASSERT_FALSE(processes_in(other.folder()).empty());
   other.kill_owner();
   EXPECT_TRUE(comes_true([&] { return is_gone(other.folder()); })) << other.folder();
+}
+
+TEST(ProcessIdentity, TellsTheDeadFromTheLivingAndTheUnknown) {
+  std::string own = process_identity();
+  EXPECT_TRUE(is_process_alive(own));
+  EXPECT_TRUE(is_process_alive("no identity"));
+  EXPECT_TRUE(is_process_alive("1-999999999-1")) << "another namespace cannot be seen";
+  own.back() = own.back() == '0' ? '1' : '0';
+  EXPECT_FALSE(is_process_alive(own)) << "its number was given to another process";
 }
 
 TEST(PrivatePostgres, CleansUpAfterADeadOwnerAndLeavesALivingOneAlone) {

@@ -17,7 +17,6 @@ namespace hullbench::testing {
 namespace {
 
 const Parameters kStepsFilled = {{"c", 5}, {"allow_holes", 0}};
-const Parameters kStepsWithHoles = {{"c", 5}, {"allow_holes", 1}};
 
 TEST(SpatialiteSteps, SaysWhoItIs) {
   const auto adapter = make_spatialite_steps();

@@ -64,6 +64,16 @@ TEST_F(RescoreTest, ScoresThatAreMissingOrWrongAreMended) {
   EXPECT_EQ(json(read_lines("again/runs.jsonl")), before);
 }
 
+TEST_F(RescoreTest, ARowThatOnlyItsScoreMadeAFailureIsMended) {
+  const json before = read_lines("kept/runs.jsonl");
+  change_rows(folder() / "kept", [](json& row) {
+    row["status"] = "invalid_output";
+    row["detail"] = "the result is an invalid polygon: Self-intersection";
+  });
+  succeeded(hullbench({"rescore", "kept", "--out", "again"}));
+  EXPECT_EQ(json(read_lines("again/runs.jsonl")), before);
+}
+
 TEST_F(RescoreTest, NeedsPolygonsAndPointsOfTheRow) {
   change_rows(folder() / "kept", [](json& row) { row["dataset_sha256"] = std::string(64, '0'); });
   expect_refusal(hullbench({"rescore", "kept", "--out", "again"}), 2, "are not those that were measured");

@@ -147,7 +147,7 @@ room_of() { grep -lE "^hullbench_room\($1\b|ALIAS hullbench_$1\)" benchmarks/*/C
 check_printing() {
   local found
   found=$(sources | grep -E '^(core|datasets|adapters|benchmarks)/' | grep -v '^benchmarks/cli/' |
-    xargs grep -L '^int main(' | xargs grep -nE 'std::(cout|cerr|clog|printf|puts)\b' || true)
+    xargs grep -L '^int main(' | xargs grep -nE 'std::(cout|cerr|clog)\b|\b(std::)?(f?printf|f?puts|putchar)\(' || true)
   [ -z "$found" ] || { printf 'error: a library prints:\n%s\n' "$found" >&2; return 1; }
 }
 

@@ -37,14 +37,15 @@ struct GroupFiles {
   const char*
       cached;  ///< of what is used the part that the system gives back if it is needed, in memory.stat
 };
-constexpr GroupFiles kVersion2 = {"/sys/fs/cgroup", "memory.max", "memory.current", "inactive_file"};
-constexpr GroupFiles kVersion1 = {"/sys/fs/cgroup/memory", "memory.limit_in_bytes", "memory.usage_in_bytes",
+constexpr GroupFiles kVersion2 = {"sys/fs/cgroup", "memory.max", "memory.current", "inactive_file"};
+constexpr GroupFiles kVersion1 = {"sys/fs/cgroup/memory", "memory.limit_in_bytes", "memory.usage_in_bytes",
                                   "total_inactive_file"};
 
 /// What a group and those above it leave of their limits; `most` where there is none.
-std::size_t left_by_group(const GroupFiles& files, const fs::path& group, std::size_t most) {
+std::size_t left_by_group(const fs::path& root, const GroupFiles& files, const fs::path& group,
+                          std::size_t most) {
   for (fs::path path = group;; path = path.parent_path()) {
-    const fs::path folder = files.root + path.string();
+    const fs::path folder = root / files.root / path.relative_path();
     const std::optional<std::size_t> limit = number_in(folder / files.limit);
     const std::optional<std::size_t> used = number_in(folder / files.used);
     if (limit && used) {
@@ -58,18 +59,18 @@ std::size_t left_by_group(const GroupFiles& files, const fs::path& group, std::s
 
 }  // namespace
 
-std::optional<std::size_t> free_memory() {
-  const std::optional<std::size_t> kibibytes = number_of("/proc/meminfo", "MemAvailable:");
+std::optional<std::size_t> free_memory(const fs::path& root) {
+  const std::optional<std::size_t> kibibytes = number_of(root / "proc/meminfo", "MemAvailable:");
   if (!kibibytes) return std::nullopt;
   std::size_t least = *kibibytes << 10U;
   // Such as 0::/user.slice/job of version 2, and 4:memory:/job of version 1.
-  std::ifstream groups("/proc/self/cgroup");
+  std::ifstream groups(root / "proc/self/cgroup");
   for (std::string line; std::getline(groups, line);) {
     const std::size_t path = line.find(":/");
     if (path == std::string::npos) continue;
-    if (line.starts_with("0::")) least = left_by_group(kVersion2, line.substr(path + 1), least);
-    if (line.substr(0, path).ends_with(":memory"))
-      least = left_by_group(kVersion1, line.substr(path + 1), least);
+    const bool is_version_2 = line.starts_with("0:");
+    if (!is_version_2 && !line.substr(0, path).ends_with(":memory")) continue;
+    least = left_by_group(root, is_version_2 ? kVersion2 : kVersion1, line.substr(path + 1), least);
   }
   return least;
 }
