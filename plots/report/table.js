@@ -109,7 +109,9 @@ export class RunTable {
 
   detailColumn(usual) {
     const detail = this.get("detail");
-    return wordColumn("detail", "Why", detail, usual, (row) => make("span", { class: "detail", tabindex: detail(row) ? "0" : null }, detail(row)));
+    return wordColumn("detail", "Why", detail, usual, (row) =>
+      make("span", { class: "detail", tabindex: detail(row) ? "0" : null }, detail(row)),
+    );
   }
 
   status(row) {

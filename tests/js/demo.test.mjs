@@ -152,7 +152,19 @@ page_test("everything can be reached by the keyboard", {}, async (page) => {
     await page.keyboard.press("Tab");
     reached.push(await page.evaluate(() => document.activeElement.id || document.activeElement.dataset.example));
   }
-  const expected = ["file", "20000", "1000000", "larger", "smaller", "fit", "detail", "download", "lonlat", "compare"];
+  const expected = [
+    "file",
+    "20000",
+    "1000000",
+    "picture",
+    "larger",
+    "smaller",
+    "fit",
+    "detail",
+    "download",
+    "lonlat",
+    "compare",
+  ];
   assert.deepEqual(reached.slice(0, expected.length), expected);
 });
 

@@ -129,7 +129,8 @@ export function concaveman(points, concavity = USUAL_CONCAVITY, lengthThreshold 
   }
   const detail = USUAL_CONCAVITY / Math.max(concavity, LEAST_CONCAVITY);
   const xy = flattened(points);
-  const ring = detail > 0 ? module.one_ring(xy, detail, Math.abs(lengthThreshold) || 0) : module.hull(xy, { alpha: Infinity }).vertices;
+  const ring =
+    detail > 0 ? module.one_ring(xy, detail, Math.abs(lengthThreshold) || 0) : module.hull(xy, { alpha: Infinity }).vertices;
   if (ring.length === 0) return line(points);
   // Clockwise, as concaveman's rings are.
   return Array.from([...ring, ring[0]].reverse(), (i) => points[i]);
