@@ -1,6 +1,7 @@
 // `hullbench tables`
 #include <iostream>
 
+#include "benchmarks/base/configuration_error.hpp"
 #include "benchmarks/cli/options.hpp"
 #include "benchmarks/cli/run_folder.hpp"
 #include "benchmarks/league/league_report.hpp"
