@@ -149,7 +149,7 @@ _LEAGUE = {
 def _league(rating: Rating, timed: Division | None, pages: Mapping[str, str]) -> str:
     every = [one.series for one in rating.standings]
     times = typical_times(timed) if timed else {}
-    rows = [_league_row(line, every, times, pages) for line in lines_of(rating)]
+    rows = [_league_row(place, line, every, times, pages) for place, line in enumerate(lines_of(rating), 1)]
     caption = f"League of {_cases(rating)}; methods with the same results share a line"
     shown = table(_LEAGUE, "".join(rows[:FIRST_ROWS]), " class='league'", caption)
     rest = rows[FIRST_ROWS:]
@@ -161,7 +161,7 @@ def _league(rating: Rating, timed: Division | None, pages: Mapping[str, str]) ->
     return f"<div class='league-box' id='league-{rating.division.name}'>{shown}</div>"
 
 
-def _league_row(line: _Line, every: Sequence[Series], times: dict[Series, float], pages: Mapping[str, str]) -> str:
+def _league_row(place: int, line: _Line, every: Sequence[Series], times: dict[Series, float], pages: Mapping[str, str]) -> str:
     one = line.members[0]
     names = [short_name(member.series, every) for member in line.members]
     also = f"<small>and {text(sentence_list(names[1:]))}</small>" if names[1:] else ""
@@ -179,7 +179,7 @@ def _league_row(line: _Line, every: Sequence[Series], times: dict[Series, float]
     interval = f"<small class='inline'>{number(low)}–{number(high)}</small>" if one.rank_interval else ""
     name = named(one.series.method, link_to_method(names[0], one.series.method, pages))
     cells = [
-        f"<span class='place'>{line.first + 1}</span>{name}{also}",
+        f"<span class='place'>{place}</span>{name}{also}",
         f"{bar}<span class='value'>{number(one.rank)} {interval}</span>",
         number(100 * one.error),
         f"{one.elo:.0f}",
