@@ -90,6 +90,13 @@ class Ranks(unittest.TestCase):
         errors = np.array([[0.1, INF, 0.0], [0.1 * (1 + 1e-12), 0.5, 0.2], [0.2, INF, 0.1]])
         np.testing.assert_array_equal(ratings.ranks(errors), [[1.5, 2.5, 1], [1.5, 1, 3], [3, 2.5, 2]])
 
+    def test_the_same_results_on_every_case_count_once(self) -> None:
+        same, better, once = [0.2, 0.4, np.inf], [0.1, 0.3, 0.5], [0.2, 0.5, 0.6]
+        errors = np.array([same, better, [one * (1 + 1e-9) for one in same], once])
+        np.testing.assert_array_equal(ratings.twins(errors), [0, 1, 0, 3])
+        alone = ratings.ranks(errors[[0, 1, 3]])
+        np.testing.assert_array_equal(ratings.ranks(errors), alone[[0, 1, 0, 2]])
+
     def test_mean_ranks_count_every_stratum_and_in_it_every_shape_the_same(self) -> None:
         # a is first on the three cases of a simple shape, second on the one with holes and on another simple shape.
         cases = [case(i, "s") for i in range(3)] + [case(3, "h", "holes"), case(4, "t")]
