@@ -51,7 +51,7 @@ class PclConcaveHull final : public Adapter {
     points_.assign(points.begin(), points.end());
     cloud_ = std::make_shared<Cloud>();
     cloud_->reserve(points.size());
-    // PCL has single precision only, which loses nothing but digits of the shape near the origin.
+    // PCL has single precision only, in which points far from the origin would fall together.
     const polylidar::Box box = polylidar::bounding_box(points);
     const Point middle = {(box.min.x + box.max.x) / 2, (box.min.y + box.max.y) / 2};
     for (const Point& point : points) {

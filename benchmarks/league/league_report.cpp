@@ -179,10 +179,10 @@ table::Table parts_table(const json& league, const std::string& protocol) {
       "Points that are not uniform are of few shapes in every column: others would move its median. "
       "league.json has the number of cases.");
   if (!all_seen)
-    table.remarks.push_back(std::string(table::kSign) +
-                            ": a way to sample that was not seen in training. For outline Polylidar's "
-                            "default has a rule of its own, "
-                            "whose numbers were chosen with such points in view.");
+    table.remarks.push_back(
+        std::string(table::kSign) +
+        ": a way to sample that was not seen in training. For outline Polylidar's "
+        "default has a rule of its own, whose numbers were chosen with such points in view.");
   return table;
 }
 

@@ -1,6 +1,6 @@
 # The target "docs": the public headers as HTML in docs/core of the build folder. Any warning of Doxygen's fails it.
-if(NOT PROJECT_IS_TOP_LEVEL)
-  return()
+if(NOT hullbench_IS_TOP_LEVEL)
+  return()  # a project that embeds this one may have a target "docs" of its own
 endif()
 find_program(DOXYGEN_PROGRAM doxygen)
 if(NOT DOXYGEN_PROGRAM)
