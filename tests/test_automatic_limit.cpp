@@ -116,6 +116,9 @@ TEST(AutomaticLimit, OfPointsWithoutATriangleIsNone) {
 TEST(AutomaticLimit, OfThreePointsKeepsTheirTriangle) {
   EXPECT_EQ(checked_hull({{0, 0}, {4, 0}, {0, 3}}).size(), 1U);
   EXPECT_EQ(checked_hull({{0, 0}, {1e6, 0}, {5e5, 1e-3}}).size(), 1U) << "a flat one";
+  const double ulp = 0x1p-52;
+  EXPECT_EQ(checked_hull({{0, 0}, {1 + ulp, 1}, {2 + 4 * ulp, 2 + 2 * ulp}}).size(), 1U)
+      << "one whose area is zero by rounding";
 }
 
 // Of so many records but a few are used, so that a sample of them finds one or none.
@@ -174,10 +177,8 @@ double plain_size(const std::vector<Point>& points, const detail::AutomaticConst
     const Ring triangle{points[mesh.triangles[e]], points[mesh.triangles[e + 1]],
                         points[mesh.triangles[e + 2]]};
     std::vector<double> edges;
-    for (std::size_t k = 0; k < 3; ++k) {
-      const Point& to = triangle[(k + 1) % 3];
-      edges.push_back(std::hypot(to.x - triangle[k].x, to.y - triangle[k].y));
-    }
+    for (std::size_t k = 0; k < 3; ++k)
+      edges.push_back(testing::distance(triangle[k], triangle[(k + 1) % 3]));
     const double second_longest = median_of(edges);
     shortest.push_back(*std::min_element(edges.begin(), edges.end()));
     const double longest = *std::max_element(edges.begin(), edges.end());
@@ -259,9 +260,7 @@ class AutomaticLimitRelations : public ::testing::TestWithParam<std::uint64_t> {
 TEST_P(AutomaticLimitRelations, PowersOfTwoScaleIt) {
   const double size = median_size(points_);
   for (const int exponent : {-1000, -30, 1, 30, 1000}) {
-    const std::vector<Point> scaled = mapped(points_, [&](const Point& p) {
-      return Point{std::ldexp(p.x, exponent), std::ldexp(p.y, exponent)};
-    });
+    const std::vector<Point> scaled = testing::scaled(points_, exponent, exponent);
     EXPECT_NEAR(std::ldexp(median_size(scaled), -exponent) / size, 1, 1e-12) << exponent;
     EXPECT_EQ(concave_hull(scaled), shape_) << exponent;
   }
@@ -347,9 +346,7 @@ TEST_P(AutomaticLimitOfRoughPlaces, DependsOnNothingElseEither) {
   const std::vector<Point> points = GetParam() ? clustered(5000, 1) : zigzag(40, 1);
   const IndexedMultiPolygon shape = concave_hull(points);
   for (const int exponent : {-1000, -30, 30, 1000}) {
-    const std::vector<Point> scaled = mapped(points, [&](const Point& p) {
-      return Point{std::ldexp(p.x, exponent), std::ldexp(p.y, exponent)};
-    });
+    const std::vector<Point> scaled = testing::scaled(points, exponent, exponent);
     EXPECT_EQ(concave_hull(scaled), shape) << exponent;
   }
   const std::vector<Point> shuffled = testing::shuffled(points, 1);
@@ -449,6 +446,17 @@ TEST(AutomaticLimit, JoinsClusters) {
   double sum = 0;
   for (std::uint64_t seed = 0; seed < 10; ++seed) sum += area(checked_hull(clustered(4000, seed)));
   EXPECT_GT(sum / 10, 0.8);  // 0.47 where gaps between clusters count as any others
+}
+
+TEST(AutomaticLimit, JoinsClustersOfRepeatedPoints) {
+  double sum = 0;
+  for (std::uint64_t seed = 0; seed < 5; ++seed) {
+    const std::vector<Point> points = clustered(4000, seed);
+    std::vector<Point> repeated;
+    for (int i = 0; i < 20; ++i) repeated.insert(repeated.end(), points.begin(), points.end());
+    sum += area(checked_hull(repeated));
+  }
+  EXPECT_GT(sum / 5, 0.7);
 }
 
 /// The mean area of the hull of `count` points in strokes, over the strokes' area: five rows and a column
@@ -627,9 +635,7 @@ TEST(AutomaticLimit, IsFoundForPointsThatAreTinyBesideADistance) {
   const std::vector<Point> points = testing::uniform_points(1000, 35);
   const double size = median_size(points);
   for (const int exponent : {-30, -40, -50, -60, -100, -150, -200, -240}) {
-    std::vector<Point> tiny = mapped(points, [&](const Point& p) {
-      return Point{std::ldexp(p.x, exponent), std::ldexp(p.y, exponent)};
-    });
+    std::vector<Point> tiny = testing::scaled(points, exponent, exponent);
     tiny.push_back({1, 1});
     EXPECT_NEAR(std::ldexp(median_size(tiny), -exponent) / size, 1, 0.2) << exponent;
     EXPECT_EQ(concave_hull(tiny).polygon_count(), 1U) << exponent;

@@ -112,6 +112,39 @@ TEST(OutlineFill, TakesDegenerateOutlines) {
   }
 }
 
+// With so few points a circle's steps are not much shorter than what they enclose.
+TEST(OutlineFill, FewPointsOnTheirHullEncloseIt) {
+  std::vector<std::pair<std::vector<Point>, double>> outlines = {{border_of_square(10), 100},
+                                                                 {border_of_square(40), 1600}};
+  for (const std::size_t count : {12U, 16U, 24U, 60U, 90U, 200U}) {
+    const std::vector<Point> corners = testing::circle(count, 1);
+    outlines.emplace_back(corners, signed_area(corners));
+  }
+  for (const auto& [outline, area_of_shape] : outlines) {
+    SCOPED_TRACE(outline.size());
+    for (const std::uint64_t seed : {1U, 2U, 3U}) {
+      const std::vector<Point> points = testing::shuffled(outline, seed);
+      for (const double detail : {0.5, 1.0, 2.0}) {
+        const IndexedMultiPolygon shape = concave_hull(points, {.detail = detail});
+        ASSERT_EQ(check_polygon(points, shape), "");
+        EXPECT_EQ(shape.polygon_count(), 1U);
+        EXPECT_NEAR(area(to_coordinates(shape, points)) / area_of_shape, 1, 1e-9);
+      }
+    }
+  }
+}
+
+// All of these are on their hull, too, but their triangles are not flat.
+TEST(OutlineFill, RowsStayApart) {
+  std::vector<Point> points;
+  for (int i = 0; i < 5; ++i) {
+    for (const int y : {0, 1}) points.insert(points.end(), {{1.0 * i, 1.0 * y}, {30.0 + i, 1.0 * y}});
+  }
+  const IndexedMultiPolygon shape = concave_hull(points);
+  EXPECT_EQ(shape.polygon_count(), 2U);
+  EXPECT_DOUBLE_EQ(area(to_coordinates(shape, points)), 8);
+}
+
 TEST(OutlineFill, KeepsAFilledPartInside) {
   Random random(1);
   std::vector<Point> points;
@@ -148,9 +181,7 @@ TEST(OutlineFill, DependsNeitherOnOrderNorUnitNorThreads) {
   const IndexedMultiPolygon shape = concave_hull(points);
   for (const unsigned threads : {2U, 3U, 8U}) EXPECT_EQ(concave_hull(points, {.threads = threads}), shape);
   for (const int exponent : {-1000, 1000}) {
-    std::vector<Point> scaled = points;
-    for (Point& p : scaled) p = {std::ldexp(p.x, exponent), std::ldexp(p.y, exponent)};
-    EXPECT_EQ(concave_hull(scaled), shape) << exponent;
+    EXPECT_EQ(concave_hull(testing::scaled(points, exponent, exponent)), shape) << exponent;
   }
   const std::vector<Point> shuffled = testing::shuffled(points, 1);
   EXPECT_DOUBLE_EQ(area(to_coordinates(concave_hull(shuffled), shuffled)),
@@ -217,7 +248,10 @@ std::vector<Point> lines(std::size_t count, std::uint64_t seed) {
 TEST(OutlineFill, IsAskedOfFlatTrianglesAcrossWideGaps) {
   EXPECT_TRUE(is_asked(ring_island_and_disc(1)));
   EXPECT_TRUE(is_asked(testing::circle(400, 1)));
-  EXPECT_FALSE(is_asked(testing::circle(200, 1))) << "few";
+  EXPECT_TRUE(is_asked(testing::circle(200, 1))) << "few, but on their hull";
+  std::vector<Point> with_an_inside = testing::circle(200, 1);
+  with_an_inside.push_back({0, 0});
+  EXPECT_FALSE(is_asked(with_an_inside)) << "few";
   EXPECT_FALSE(is_asked(frame(3000, 0.03, 1))) << "across wide gaps, but not flat";
   EXPECT_FALSE(is_asked(lines(3000, 1))) << "flat, but not across wide gaps";
 }

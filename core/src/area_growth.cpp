@@ -130,7 +130,7 @@ double AreaGrowth::steadiest_size4(double points, double doubt, const AutomaticC
   const double log_usual = std::log(constants.usual * std::sqrt(std::log(points)));
   const double pull_of_n = constants.pull * std::pow(points, -0.2);
   double least_cost = std::numeric_limits<double>::infinity();
-  double steadiest = log_usual;
+  double steadiest = std::max(log_usual, std::log(kLeast));  // where the areas of all are zero by rounding
   for (std::size_t c = constants.below; c + constants.above < kCells; ++c) {
     const std::size_t low = c - constants.below;
     const std::size_t high = c + constants.above;

@@ -23,9 +23,9 @@ namespace polylidar::detail {
 ///
 ///   s = argmin  log(g(s) + still) + pull n^(-1/5) log^2(s / (usual sqrt(log n))),   g = d log A / d log s,
 ///
-/// on a grid of 16 sizes to the octave, g as a difference over `below` + `above` cells. The largest void that
-/// chance makes among n points has a width that grows with sqrt(log n). The fewer points there are, the less
-/// A says, and the more the usual place counts.
+/// with s in median sizes of the triangles, on a grid of 16 sizes to the octave, g as a difference over
+/// `below` + `above` cells. The largest void that chance makes among n points has a width that grows with
+/// sqrt(log n). The fewer points there are, the less A says, and the more the usual place counts.
 ///
 /// The triangles are a sample. In this order: clear() and add(), or sample(); sum_up(); add_wide() where not
 /// all sizes are in the sample; steadiest_size4(). From sum_up() on the steps may be repeated. Keeps its

@@ -18,7 +18,7 @@ struct AutomaticConstants {
   double noise = 0.12;    ///< standard deviation, by chance alone, of the logarithm of a usual size
   std::size_t smoothed_from = 16;  ///< with fewer blocks none is moved towards its neighbours
 
-  double usual = 0.667;      ///< the usual limit, in usual sizes times sqrt(log n)
+  double usual = 0.667;      ///< the usual limit, in median sizes times sqrt(log n)
   double pull = 10.9;        ///< the cost of a limit away from it, times n^(-1/5)
   double even_sizes = 0.52;  ///< most scatter of the sizes in a block without clusters
   double even_edges = 0.62;  ///< most scatter of the shortest edges of its triangles
@@ -26,7 +26,7 @@ struct AutomaticConstants {
   double still = 0.018;      ///< a growth of the area that counts as none
   std::size_t below = 3;     ///< the growth is measured over this many cells of the grid below a limit
   std::size_t above = 6;     ///< and this many above it
-  double spike = 1.57;       ///< the size from which a triangle on two border edges may be a spike
+  double spike = 1.57;       ///< the size from which a triangle may be a spike
   double part = 2.4;         ///< a part has at least this many times log n triangles
   double wide = kWide;       ///< a hole has a triangle whose circle would hold log n + wide points or more
   double step = 3;           ///< neighbours on an outline are at most log n + step mean distances apart

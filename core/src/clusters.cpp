@@ -14,21 +14,25 @@ namespace polylidar::detail {
 namespace {
 
 /// How much a length scatters among the triangles of a block: the logarithm of its 0.8 quantile over its 0.4
-/// quantile. for_each_length4(block, visit) calls visit() for the fourth powers of the lengths of some
-/// triangles. Returns the 0.4 quantile of this over up to 32 blocks, as a block along a thin part of the
-/// shape also has triangles outside it, which scatter more; 0 where no block has enough triangles.
+/// quantile. for_each_length4(block, of_all, visit) calls visit() for the fourth powers of the lengths of
+/// some triangles, or of all. Returns the 0.4 quantile of this over up to 32 blocks, as a block along a thin
+/// part of the shape also has triangles outside it, which scatter more; 0 where no block has enough.
 template <class ForEach>
 double scatter_in_blocks(std::size_t blocks, const ForEach& for_each_length4) {
   constexpr std::size_t kMostBlocksLookedAt = 32;
   constexpr std::size_t kFewest = 16;  // triangles
+  constexpr std::size_t kEnough = 32;  // of some: with fewer, as points repeat others, all are looked at
   constexpr double kQuantile = 0.4;
   std::vector<double> scatters;
   std::vector<double> lengths4;
   constexpr std::size_t kUsualMost = 1024;
   lengths4.reserve(kUsualMost);
   for (std::size_t b = 0; b < blocks; b += (blocks - 1) / kMostBlocksLookedAt + 1) {
-    lengths4.clear();
-    for_each_length4(b, [&](double length4) { lengths4.push_back(length4); });
+    for (const bool of_all : {false, true}) {
+      lengths4.clear();
+      for_each_length4(b, of_all, [&](double length4) { lengths4.push_back(length4); });
+      if (lengths4.size() >= kEnough) break;
+    }
     const std::size_t count = lengths4.size();
     if (count < kFewest) continue;
     const Ranking ranking(lengths4);
@@ -50,8 +54,9 @@ double excess_scatter_of_edges(const SizedMesh& sized, const AutomaticConstants&
   const Mesh& mesh = sized.mesh;
   std::size_t count = 0;
   std::size_t flat = 0;
-  const double scatter = scatter_in_blocks(1, [&](std::size_t, const auto& visit) {
-    const Mesh::Index step = std::max(Mesh::Index{1}, mesh.triangle_count() / kRecords);
+  const double scatter = scatter_in_blocks(1, [&](std::size_t, bool of_all, const auto& visit) {
+    const Mesh::Index step = of_all ? 1U : std::max(Mesh::Index{1}, mesh.triangle_count() / kRecords);
+    count = flat = 0;
     for_some_triangles(mesh, 0, mesh.triangle_count(), step, [&](Mesh::Index t) {
       const Triangle triangle = sized.triangle(t);
       const double squared = triangle.squared_shortest_edge();
@@ -114,9 +119,10 @@ double excess_scatter(const SizedMesh& sized, const MeshBlocks& blocks, const Us
     return excess == 0 ? 0 : kSurely * excess * share_in_pieces(0.25);
   }
   const auto scatter = [&](const auto& length4_of) {
-    return scatter_in_blocks(blocks.count(), [&](std::size_t block, const auto& visit) {
+    return scatter_in_blocks(blocks.count(), [&](std::size_t block, bool of_all, const auto& visit) {
       const MeshBlocks::Records records = blocks.records_of(sized.mesh, block);
-      const Mesh::Index step = std::max(Mesh::Index{1}, (records.end - records.begin) / kRecords);
+      const Mesh::Index step =
+          of_all ? 1U : std::max(Mesh::Index{1}, (records.end - records.begin) / kRecords);
       for_some_triangles(sized.mesh, records.begin, records.end, step,
                          [&](Mesh::Index t) { visit(length4_of(t)); });
     });
@@ -136,7 +142,7 @@ double excess_scatter(const WindowSample& windows, const AutomaticConstants& con
   const std::size_t step = windows.kept_step();
   const std::size_t kept_windows = (windows.window_ends().size() - 1) / step + 1;
   const auto scatter = [&](const auto& length4_of) {
-    return scatter_in_blocks(kept_windows, [&](std::size_t kept, const auto& visit) {
+    return scatter_in_blocks(kept_windows, [&](std::size_t kept, bool /*of_all*/, const auto& visit) {
       const std::size_t place = kept * step;
       const std::size_t begin = place == 0 ? 0 : windows.window_ends()[place - 1];
       for (std::size_t i = begin; i < windows.window_ends()[place]; ++i) {

@@ -3,14 +3,10 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
-#include <cstdint>
 #include <cstring>
-#include <limits>
 #include <stdexcept>
 #include <string>
 #include <vector>
-
-#include "kernels.hpp"
 
 namespace polylidar::detail {
 

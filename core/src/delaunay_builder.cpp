@@ -7,7 +7,6 @@
 #include <stdexcept>
 #include <vector>
 
-#include "coordinate_range.hpp"
 #include "curve.hpp"
 #include "predicates_inline.hpp"
 #include "vector.hpp"

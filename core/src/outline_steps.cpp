@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 #include <vector>
 
 #include "filter_rules.hpp"
@@ -11,12 +12,33 @@
 
 namespace polylidar::detail {
 
+namespace {
+
+/// Whether no point lies inside the convex hull: there are two triangles fewer than points on it, and a ghost
+/// for each of these.
+bool are_all_on_hull(const Mesh& mesh) {
+  std::size_t finite = 0;
+  std::size_t ghosts = 0;
+  for (Mesh::Index t = 0; t < mesh.triangle_count(); ++t) {
+    if (!mesh.is_ghost(t)) {
+      ++finite;
+    } else if (!mesh.is_unused(t)) {
+      ++ghosts;
+    }
+  }
+  return ghosts == finite + 2;
+}
+
+}  // namespace
+
 std::optional<double> squared_outline_step(const Mesh& mesh, const Point* vertices, double points,
                                            double step) {
   constexpr double kFewest = 256;
-  constexpr double kLeastShare = 0.06;               // of triangles that span from one outline to another
+  constexpr double kFewestOnHull = 8;
+  constexpr double kFlatOnHull = 0.25;  // half of the triangles of a regular dodecagon are as flat
+  constexpr double kLeastShare = 0.06;  // of triangles that span from one outline to another
   constexpr double kMedianGap = 0.6931471805599453;  // log 2, of the mean
-  if (points < kFewest) return std::nullopt;
+  if (points < kFewest && (points < kFewestOnHull || !are_all_on_hull(mesh))) return std::nullopt;
   // Of about so many records.
   const auto for_some = [&](std::size_t number, const auto& visit) {
     for (std::size_t i = 0; i < mesh.triangle_count(); i += (mesh.triangle_count() / number) | 1U) {
@@ -28,9 +50,11 @@ std::optional<double> squared_outline_step(const Mesh& mesh, const Point* vertic
   std::size_t flat = 0;
   for_some(256, [&](const Triangle& triangle) {
     ++looked_at;
-    flat += is_flat(triangle.twice_area(), triangle.squared_longest_edge()) ? 1U : 0U;
+    const double share = points < kFewest ? kFlatOnHull : kFlat;
+    flat += is_flat(triangle.twice_area(), triangle.squared_longest_edge(), share) ? 1U : 0U;
   });
   if (looked_at == 0 || 2 * flat < looked_at) return std::nullopt;
+  if (points < kFewest) return std::numeric_limits<double>::infinity();
 
   std::vector<double> shortest;  // squares of edges, triangle by triangle
   std::vector<double> second;

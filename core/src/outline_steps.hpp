@@ -8,11 +8,13 @@
 
 namespace polylidar::detail {
 
-/// Whether a triangle with this doubled area and square of the longest edge is flat, by its height over that
-/// edge. Half of the triangles of points at random have 0.4 or more.
-inline bool is_flat(double twice_area, double squared_longest) {
-  constexpr double kFlat = 0.17;
-  return twice_area <= kFlat * squared_longest;
+/// A flat triangle's height over its longest edge, at most. Half of the triangles of points at random have
+/// 0.4 or more.
+inline constexpr double kFlat = 0.17;
+
+/// Whether a triangle with this doubled area and square of the longest edge is flat.
+inline bool is_flat(double twice_area, double squared_longest, double share = kFlat) {
+  return twice_area <= share * squared_longest;
 }
 
 /// If all points lie on curves, most triangles have an edge that is far longer than the distance between
@@ -21,8 +23,10 @@ inline bool is_flat(double twice_area, double squared_longest) {
 /// than log n + 3 times. If half of the triangles are flat, and many have two edges longer than log n +
 /// `step` mean distances, OutlineFill finds what the curves enclose.
 ///
-/// Returns the square of that length if some of the triangles tell so; nothing for fewer than 256 points, of
-/// which those of a thin shape lie alike. `points`: how many do not repeat others.
+/// Returns the square of that length if some of the triangles tell so. Fewer than 256 points of a thin shape
+/// lie alike. So these are on an outline only if there are 8 at least, all on their convex hull. Then it is
+/// enough that half of the triangles are flat, here up to 0.25, and the hull is what they enclose (infinity).
+/// `points`: how many do not repeat others.
 std::optional<double> squared_outline_step(const Mesh& mesh, const Point* vertices, double points,
                                            double step);
 

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <functional>
 #include <queue>
-#include <vector>
 
 #include "coordinate_range.hpp"
 #include "interior.hpp"

@@ -195,14 +195,13 @@ void keep_measured(const Mesh& mesh, const SizeField& field, ThreadPool& pool, s
 
 void SizeFilter::keep_within_limit(const Mesh& mesh, const Point* vertices, const SizeField& field,
                                    ThreadPool& pool, std::uint64_t* kept) {
-  const auto filter = [&](const auto& is_kept) {
+  const auto filter_by = [&](const auto& rule) {
     for_each_word_chunk(mesh, Chunks(pool, mesh.triangle_count()), pool,
                         [&](std::size_t, std::size_t begin, std::size_t end) {
-                          fill_words(mesh, begin, end, kept, is_kept);
+                          fill_words(mesh, begin, end, kept, [&](Index t) {
+                            return !mesh.is_ghost(t) && rule.keeps(Triangle(mesh, vertices, t));
+                          });
                         });
-  };
-  const auto filter_by = [&](const auto& rule) {
-    filter([&](Index t) { return !mesh.is_ghost(t) && rule.keeps(Triangle(mesh, vertices, t)); });
   };
   if (field.size4 != nullptr) {
     keep_measured(mesh, field, pool, kept);

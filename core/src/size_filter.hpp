@@ -20,9 +20,9 @@ namespace polylidar::detail {
 /// Selects triangles, keeping its memory between calls. In this order:
 ///
 /// - A triangle beyond the field's limit is dropped.
-/// - A *spike* is dropped: a triangle that sticks out of the shape, with two border edges that meet at an
-///   acute angle, and is at least as large as the field says. Outliers and noise make spikes. There is one
-///   pass: all are found before any is dropped.
+/// - A *spike* is dropped: a triangle that stands alone, or sticks out of the shape with two border edges
+///   that meet at an acute angle, and is larger than the field says. Outliers and noise make spikes. There is
+///   one pass: all are found before any is dropped.
 /// - A *part*, a region with fewer triangles than the field says, is dropped, unless all regions are that
 ///   small, also with the limit at a detail of 1.
 /// - A *hole*, connected dropped triangles that do not reach the convex hull, is filled if it has no wide

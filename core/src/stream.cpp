@@ -7,14 +7,10 @@
 #include <cmath>
 #include <deque>
 #include <exception>
-#include <functional>
 #include <limits>
 #include <numeric>
-#include <optional>
-#include <stdexcept>
 #include <string>
 #include <utility>
-#include <vector>
 
 #include "automatic_limit.hpp"
 #include "certificate.hpp"

@@ -6,7 +6,6 @@
 #include <functional>
 #include <limits>
 #include <numeric>
-#include <utility>
 
 #include "filter_rules.hpp"
 #include "quantile.hpp"
