@@ -4,7 +4,6 @@
 #include <atomic>
 #include <chrono>
 #include <cmath>
-#include <filesystem>
 #include <random>
 #include <sstream>
 #include <thread>
@@ -45,9 +44,8 @@ class FootprintCommandTest : public ::testing::Test {
     write_text(folder_.path() / name, text);
     return (folder_.path() / name).string();
   }
-  static Outcome footprint(std::vector<std::string> arguments, const ProgramOptions& options = {}) {
-    arguments.insert(arguments.begin(), {POLYLIDAR, "footprint"});
-    return run_program(arguments, options);
+  static Outcome footprint(const std::vector<std::string>& arguments, const ProgramOptions& options = {}) {
+    return run_program(joined({POLYLIDAR, "footprint"}, arguments), options);
   }
 
   TemporaryFolder folder_;
@@ -78,8 +76,7 @@ TEST_F(FootprintCommandTest, AFeatureForEveryFile) {
     files.push_back(file("tile_" + std::to_string(column) + ".las", tile(column).text()));
   }
   const std::string out = (folder_.path() / "index.geojson").string();
-  std::vector<std::string> arguments = files;
-  arguments.insert(arguments.end(), {"-o", out});
+  const std::vector<std::string> arguments = joined(files, {"-o", out});
   const Outcome outcome = succeeded(footprint(arguments));
   EXPECT_EQ(outcome.err, "polylidar: 5 of 5 files are in the index\n");
   EXPECT_EQ(outcome.out, "");
@@ -105,9 +102,8 @@ TEST_F(FootprintCommandTest, AFeatureForEveryFile) {
     EXPECT_EQ("MultiPolygon", feature["geometry"]["type"].get<std::string>());
   }
   // Whatever the threads.
-  arguments.insert(arguments.end(), {"--threads", "1"});
   const std::string first = read_text(out);
-  EXPECT_EQ(footprint(arguments).code, 0);
+  EXPECT_EQ(footprint(joined(arguments, {"--threads", "1"})).code, 0);
   EXPECT_EQ(read_text(out), first);
 }
 
@@ -140,14 +136,10 @@ TEST_F(FootprintCommandTest, AStreamGivesWhatThePointsInMemoryGive) {
                                                {"--alpha", "1.5", "--max-parts", "1"},
                                                {"--detail", "0.8", "--simplify", "0.5", "--classes", "1,2,6"},
                                                {"--window", "500010,5600010,500090,5600070"}}) {
-      std::vector<std::string> arguments = options;
-      arguments.push_back(path);
+      const std::vector<std::string> arguments = joined(options, {path});
+      const std::string in_memory = succeeded(footprint(joined(arguments, {"--min-triangles", "1"}))).out;
       for (const char* threads : {"1", "3"}) {
-        std::vector<std::string> streamed = arguments;
-        streamed.insert(streamed.end(), {"--threads", threads});
-        std::vector<std::string> in_memory = arguments;
-        in_memory.insert(in_memory.end(), {"--min-triangles", "1"});
-        EXPECT_EQ(succeeded(footprint(streamed)).out, succeeded(footprint(in_memory)).out) << path;
+        EXPECT_EQ(succeeded(footprint(joined(arguments, {"--threads", threads}))).out, in_memory) << path;
       }
     }
   }
@@ -162,13 +154,13 @@ TEST_F(FootprintCommandTest, AStreamGivesWhatThePointsInMemoryGive) {
     for (const polylidar::Box& said : {polylidar::Box{}, box, polylidar::Box{box.min, {box.max.x, 5600050}},
                                        polylidar::Box{{box.min.x, 0}, box.max}}) {
       las.box = said;
-      std::vector<std::string> arguments = options;
-      arguments.insert(arguments.end(), {file("said.las", las.text()), "--threads", "2"});
+      const std::string said_file = file("said.las", las.text());
+      const std::vector<std::string> arguments = joined(options, {said_file, "--threads", "2"});
       const std::string out = succeeded(footprint(arguments)).out;
       if (without.empty()) without = out;
       EXPECT_EQ(out, without);
-      arguments.insert(arguments.begin(), "--union");
-      EXPECT_EQ(json::parse(succeeded(footprint(arguments)).out)["features"][0]["geometry"],
+      const std::string united = succeeded(footprint(joined({"--union"}, arguments))).out;
+      EXPECT_EQ(json::parse(united)["features"][0]["geometry"],
                 json::parse(without)["features"][0]["geometry"]);
     }
   }
@@ -302,6 +294,9 @@ TEST_F(FootprintCommandTest, FilesWithoutPointsAreNamed) {
     const Outcome outcome =
         succeeded(footprint({none, file("whole.las", tile(0).text()), guessed, option, "--crs", "none"}));
     expect_says(outcome.err, "none.las has no points\n");
+    const Outcome chosen =
+        succeeded(footprint({file("whole.las", tile(0).text()), option, "--classes", "9"}));
+    expect_says(chosen.err, "whole.las has no points left by --window, --classes and --returns\n");
     expect_says(outcome.err, "guessed.csv: the columns 'Breite' and 'Hoehe' are taken for x and y");
   }
 }
@@ -313,6 +308,10 @@ TEST_F(FootprintCommandTest, UsageErrors) {
   expect_refusal(footprint({whole, "--union", whole}), 2, "whole.las is given twice");
   expect_refusal(footprint({whole, "-o", (folder_.path() / "index.csv").string()}), 2,
                  "index.csv has the ending of a file of points");
+  expect_refusal(footprint({whole, "-o", (folder_.path() / "index.wkt").string()}), 2,
+                 "a footprint has properties, which wkt has no place for");
+  expect_refusal(footprint({whole, "--union", "-o", (folder_.path() / "union.svg").string()}), 2,
+                 "which svg has no place for");
   expect_refusal(footprint({whole, "--alpha", "1", "--detail", "2"}), 2, "--alpha excludes --detail");
   expect_refusal(footprint({whole, "--cover", "--max-parts", "1"}), 2, "--cover excludes --max-parts");
   expect_refusal(footprint({whole, "--classes", "2,x"}), 2, "--classes '2,x' is no list of numbers");
@@ -337,10 +336,8 @@ class FootprintUnionTest : public FootprintCommandTest {
     }
     return files;
   }
-  static Outcome unite(std::vector<std::string> files, const std::vector<std::string>& options = {}) {
-    files.emplace_back("--union");
-    files.insert(files.end(), options.begin(), options.end());
-    return footprint(files);
+  static Outcome unite(const std::vector<std::string>& files, const std::vector<std::string>& options = {}) {
+    return footprint(joined(joined(files, {"--union"}), options));
   }
   /// The one feature.
   static json feature_of(const Outcome& outcome) {
@@ -350,9 +347,8 @@ class FootprintUnionTest : public FootprintCommandTest {
   }
   /// What `polylidar hull` makes of all points as one file.
   json hull_of_all(const std::vector<std::string>& options) const {
-    std::vector<std::string> arguments = {POLYLIDAR, "hull", file("all.csv", rows(all_, ","))};
-    arguments.insert(arguments.end(), options.begin(), options.end());
-    return json::parse(run_program(arguments).out);
+    const std::string all = file("all.csv", rows(all_, ","));
+    return json::parse(run_program(joined({POLYLIDAR, "hull", all}, options)).out);
   }
 
   Points all_;
@@ -521,9 +517,8 @@ TEST_F(FootprintUnionTest, NothingAndWrongUsage) {
 #ifndef HAS_GDAL
 TEST_F(FootprintCommandTest, ABuildWithoutGdalSaysHowToGetIt) {
   const std::string points = file("points.csv", "0,0\n2,0\n0,2\n");
-  const auto hull = [](std::vector<std::string> arguments) {
-    arguments.insert(arguments.begin(), {POLYLIDAR, "hull"});
-    return run_program(arguments);
+  const auto hull = [](const std::vector<std::string>& arguments) {
+    return run_program(joined({POLYLIDAR, "hull"}, arguments));
   };
   for (const std::string input : {"points.gpkg", "points.shp", "PG:dbname=gis"}) {
     expect_refusal(hull({input}), 2, input + ": it is read by GDAL, which this build is without");

@@ -72,8 +72,8 @@ TEST(GroupHulls, OneGroupIsTheCoresShape) {
     EXPECT_EQ(shape_of(points, {.core = core}), to_coordinates(concave_hull(points, core), points));
   }
   const GroupHull hull = hull_of(points, {.core = {.alpha = 0.1}});
-  EXPECT_EQ(hull.alpha, 0.1);
-  EXPECT_FALSE(hull.sizes || hull.max_perimeter);
+  EXPECT_EQ(hull.limits.alpha, 0.1);
+  EXPECT_FALSE(hull.sizes || hull.limits.max_perimeter);
   EXPECT_DOUBLE_EQ(hull.area, polylidar::area(to_coordinates(hull.shape, points)));
 }
 
@@ -142,7 +142,7 @@ TEST(GroupHulls, CoverLeavesNoPointOutsideAndIsTheLeastThatDoes) {
         const double usual = hull_of(points, {}).sizes->median;
         less.core.detail = usual / covering.sizes->median * 1.01;
       } else {
-        less.core.max_perimeter = *covering.max_perimeter / 1.01;
+        less.core.max_perimeter = *covering.limits.max_perimeter / 1.01;
       }
       const GroupHull smaller = hull_of(points, less);
       EXPECT_TRUE(std::any_of(points.begin(), points.end(),
@@ -162,7 +162,7 @@ TEST(GroupHulls, OneJoinsAllPartsAndIsTheLeastThatDoes) {
     for (const IndexPolygon& part : parts) {
       for (const std::uint32_t v : part.shell) EXPECT_TRUE(is_covered(points[v], one.shape, points));
     }
-    const IndexShape less = hull_of(points, {.core = {.alpha = *one.alpha / 1.01}}).shape;
+    const IndexShape less = hull_of(points, {.core = {.alpha = *one.limits.alpha / 1.01}}).shape;
     std::vector<std::size_t> polygons;
     const PointLocator locator(less, points);
     for (const IndexPolygon& part : parts) {
@@ -183,7 +183,7 @@ TEST(GroupHulls, OneJoinsAllPartsAndIsTheLeastThatDoes) {
 
 TEST(GroupHulls, NothingIsWidenedWithoutNeedOrHope) {
   const std::vector<Point> square = {{0, 0}, {1, 0}, {1, 1}, {0, 1}};
-  EXPECT_EQ(hull_of(square, {.core = {.alpha = 1}, .cover = true, .one = true}).alpha, 1);
+  EXPECT_EQ(hull_of(square, {.core = {.alpha = 1}, .cover = true, .one = true}).limits.alpha, 1);
   // No multiple of 0 is a limit, so that there is none in the end.
   EXPECT_EQ(hull_of(square, {.core = {.alpha = 0}, .cover = true}).shape.size(), 1U);
   for (const std::vector<Point>& flat : {std::vector<Point>{}, {{1, 2}}, {{0, 0}, {1, 1}, {2, 2}}}) {

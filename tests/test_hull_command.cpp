@@ -8,7 +8,6 @@
 #include <chrono>
 #include <cmath>
 #include <csignal>
-#include <filesystem>
 #include <fstream>
 #include <iomanip>
 #include <limits>
@@ -30,19 +29,7 @@
 namespace hullbench::testing {
 namespace {
 
-/// Uniform in the square of side 10 without a disc.
-Points square_without_a_disc(std::size_t count, std::uint64_t seed) {
-  Points points;
-  std::mt19937_64 random(seed);
-  std::uniform_real_distribution<double> coordinate(0, 10);
-  while (points.size() < count) {
-    const Point p = {coordinate(random), coordinate(random)};
-    if (std::hypot(p.x - 5, p.y - 4) > 2) points.push_back(p);
-  }
-  return points;
-}
-
-/// The same with a few points far off.
+/// A square with a hole, and a few points far off.
 Points ring_and_island() {
   Points points = square_without_a_disc(3000, 7);
   for (const Point& p : {Point{20, 0}, Point{20.2, 0}, Point{20, 0.2}, Point{20.21, 0.21}})
@@ -58,18 +45,16 @@ class HullCommandTest : public ::testing::Test {
   }
   std::string points_file() const { return file("points.npy", npy_of<double>(points_, "<f8")); }
 
-  static Outcome hull(std::vector<std::string> arguments) {
-    arguments.insert(arguments.begin(), {POLYLIDAR, "hull"});
-    return run_program(arguments);
+  static Outcome hull(const std::vector<std::string>& arguments) {
+    return run_program(joined({POLYLIDAR, "hull"}, arguments));
   }
   /// The same through the shell, after `before` and followed by `after`.
   static Outcome in_shell(const std::string& before, const std::string& arguments,
                           const std::string& after = "") {
     return run_program({"/bin/sh", "-c", before + " '" + POLYLIDAR + "' hull " + arguments + " " + after});
   }
-  MultiPolygon shape(std::vector<std::string> options) const {
-    options.insert(options.begin(), {points_file(), "--format", "wkb"});
-    return shape_of(hull(options));
+  MultiPolygon shape(const std::vector<std::string>& options) const {
+    return shape_of(hull(joined({points_file(), "--format", "wkb"}, options)));
   }
   static MultiPolygon shape_of(const Outcome& outcome) {
     EXPECT_EQ(outcome.code, 0) << outcome.err;
@@ -251,6 +236,8 @@ TEST_F(HullCommandTest, SmallPartsAreDropped) {
   ASSERT_EQ(filled.size(), 1U);
   EXPECT_TRUE(filled[0].holes.empty());
   EXPECT_TRUE(shape({"--alpha", "0.3", "--min-area", "1000"}).empty());
+  expect_end(hull({points_file(), "--alpha", "0.3", "--min-area", "1000"}), 0,
+             "no polygon is left by --min-area and --min-triangles");
   // The island has two triangles.
   EXPECT_EQ(shape({"--alpha", "0.3", "--min-triangles", "2"}), whole);
   EXPECT_EQ(shape({"--alpha", "0.3", "--min-triangles", "3"}).size(), 1U);
@@ -292,6 +279,14 @@ TEST_F(HullCommandTest, OutputThatCannotBeWritten) {
   expect_refusal(hull({points_file(), "--alpha", "1", "--out", "/dev/full"}), 1, "No space left");
   EXPECT_EQ(hull({points_file(), "--alpha", "1", "--out", "/dev/null"}).code, 0);
   EXPECT_TRUE(fs::is_character_file("/dev/null"));
+  fs::create_directory(folder() / "sealed");
+  fs::permissions(folder() / "sealed", fs::perms::owner_read);
+  const std::string sealed = (folder() / "sealed" / "hull.json").string();
+  ProgramOptions options;
+  options.obey_permissions = true;
+  expect_refusal(run_program({POLYLIDAR, "hull", points_file(), "--alpha", "1", "--out", sealed}, options), 1,
+                 "cannot write " + sealed + ": Permission denied");
+  fs::permissions(folder() / "sealed", fs::perms::owner_all);
   expect_refusal(in_shell("", "'" + points_file() + "' --alpha 1", "> /dev/full"), 1,
                  "cannot write standard output: No space");
   // Nobody reads from the pipe any more when the result comes.
@@ -304,8 +299,7 @@ TEST_F(HullCommandTest, OutputThatCannotBeWritten) {
 TEST_F(HullCommandTest, HullbenchHullIsTheSameUnderItsOldName) {
   for (const std::vector<std::string>& options :
        {std::vector<std::string>{}, {"--alpha", "0.3", "--simplify", "0.1"}, {"--alpha", "0"}, {"--help"}}) {
-    std::vector<std::string> command = {HULLBENCH, "hull", points_file()};
-    command.insert(command.end(), options.begin(), options.end());
+    std::vector<std::string> command = joined({HULLBENCH, "hull", points_file()}, options);
     const Outcome old = run_program(command);
     command[0] = POLYLIDAR;
     const Outcome current = run_program(command);
@@ -359,9 +353,8 @@ TEST_F(HullCommandTest, WhatWorksOnShapesNeedsUsualCoordinates) {
   expect_end(hull({huge}), 0, "chosen from the points");
   for (const std::vector<std::string>& option :
        {std::vector<std::string>{"--keep-outliers"}, {"--one"}, {"--cover"}, {"--simplify", "1"}}) {
-    std::vector<std::string> arguments = {huge, "--crs", "none"};
-    arguments.insert(arguments.end(), option.begin(), option.end());
-    expect_refusal(hull(arguments), 2, "coordinates as large or as small as these do not go with --one");
+    expect_refusal(hull(joined({huge, "--crs", "none"}, option)), 2,
+                   "coordinates as large or as small as these do not go with --one");
   }
 }
 
@@ -379,14 +372,15 @@ TEST_F(HullCommandTest, TheResultNeverReplacesThePoints) {
 
 TEST_F(HullCommandTest, PlaneCoordinatesWithoutASystemAreTold) {
   const std::string words = "the points name no coordinate system";
-  const auto said = [&](const std::string& text, std::vector<std::string> options) {
-    options.insert(options.begin(), file("place.csv", text));
-    return hull(options).err.find(words) != std::string::npos;
+  const auto said = [&](const std::string& text, const std::vector<std::string>& options) {
+    return contains(hull(joined({file("place.csv", text)}, options)).err, words);
   };
   const std::string plane = "x,y\n500000,5600000\n500010,5600000\n500000,5600010\n";
   EXPECT_TRUE(said(plane, {}));
   EXPECT_FALSE(said(plane, {"--crs", "25832"}));
   EXPECT_FALSE(said(plane, {"--crs", "none"}));
+  EXPECT_TRUE(said(plane, {"--stream"}));
+  EXPECT_FALSE(said(plane, {"--stream", "--crs", "25832"}));
   EXPECT_FALSE(said(plane, {"--format", "wkt"})) << "it has no place for a system";
   EXPECT_FALSE(said("x,y\n1,2\n3,2\n1,4\n", {})) << "these may be degrees";
   EXPECT_FALSE(said("x,y\n", {}));
@@ -394,10 +388,8 @@ TEST_F(HullCommandTest, PlaneCoordinatesWithoutASystemAreTold) {
 
 TEST_F(HullCommandTest, WhatLooksLikeDegreesIsAskedAbout) {
   const std::string words = "polylidar: if the points are longitudes and latitudes, give --crs EPSG:4326\n";
-  const auto said = [&](const std::string& text, std::vector<std::string> options) {
-    options.insert(options.begin(), {file("place.csv", text), "--alpha", "1"});
-    const std::string err = hull(options).err;
-    return err.find(words) != std::string::npos;
+  const auto said = [&](const std::string& text, const std::vector<std::string>& options) {
+    return contains(hull(joined({file("place.csv", text), "--alpha", "1"}, options)).err, words);
   };
   const std::string berlin = "13.0884,52.3383\n13.7611,52.5123\n13.4123,52.6755\n";
   EXPECT_TRUE(said(berlin, {}));
@@ -627,11 +619,9 @@ TEST_F(HullCommandTest, AStreamGivesTheSameFile) {
   for (const std::vector<std::string>& input : inputs) {
     for (const std::string format : {"geojson", "wkb", "wkt"}) {
       for (const std::string limit : {"--max-perimeter=0.5", "--detail=1.2"}) {
-        std::vector<std::string> arguments = input;
-        arguments.insert(arguments.end(), {limit, "--format", format});
+        const std::vector<std::string> arguments = joined(input, {limit, "--format", format});
         const Outcome kept = hull(arguments);
-        arguments.emplace_back("--stream");
-        const Outcome streamed = succeeded(hull(arguments));
+        const Outcome streamed = succeeded(hull(joined(arguments, {"--stream"})));
         EXPECT_EQ(streamed.out, kept.out) << input[0] << " " << format << " " << limit;
         expect_says(streamed.err, "points are near the outline");
       }
@@ -661,21 +651,7 @@ TEST_F(HullCommandTest, AStreamSaysWhatItCannotDo) {
            {{npy, "--alpha", "1", "--crs", "EPSG:4326"}, "--stream takes a plane"},
            {{file("p.zip", "PK\x03\x04"), "--alpha", "1"}, "p.zip: it is an archive"},
            {{file("p.wkt", "POINT (1 2)"), "--alpha", "1"}, "leave --stream out"}}) {
-    std::vector<std::string> all = arguments;
-    all.emplace_back("--stream");
-    expect_refusal(hull(all), 2, sentence);
-  }
-}
-
-TEST_F(HullCommandTest, AStreamSaysThatThePointsNameNoSystem) {
-  const std::string plane = file("plane.csv", "x,y\n500000,5600000\n500010,5600000\n500000,5600010\n");
-  const std::string words = "the points name no coordinate system";
-  for (const std::vector<std::string>& option : {std::vector<std::string>{"--detail=1"}, {"--stream"}}) {
-    std::vector<std::string> arguments = {plane};
-    arguments.insert(arguments.end(), option.begin(), option.end());
-    EXPECT_NE(hull(arguments).err.find(words), std::string::npos) << option.front();
-    arguments.insert(arguments.end(), {"--crs", "25832"});
-    EXPECT_EQ(hull(arguments).err.find(words), std::string::npos) << option.front();
+    expect_refusal(hull(joined(arguments, {"--stream"})), 2, sentence);
   }
 }
 
@@ -747,21 +723,18 @@ class ShardTest : public HullCommandTest {
     std::vector<std::string> made;
     for (std::size_t number = 1; number <= count; ++number) {
       made.push_back(part(number, name));
-      std::vector<std::string> command = {program, "hull"};
-      command.insert(command.end(), arguments.begin(), arguments.end());
-      command.insert(command.end(),
-                     {"--stream", "--shard", std::to_string(number) + "/" + std::to_string(count), "--out",
-                      made.back()});
-      const Outcome outcome = run_program(command);
+      const std::string shard = std::to_string(number) + "/" + std::to_string(count);
+      const std::vector<std::string> command = joined({program, "hull"}, arguments);
+      const Outcome outcome =
+          run_program(joined(command, {"--stream", "--shard", shard, "--out", made.back()}));
       EXPECT_EQ(outcome.code, 0) << outcome.err;
       EXPECT_EQ(outcome.out, "");
       expect_says(outcome.err, ": shard " + std::to_string(number) + " of ");
     }
     return made;
   }
-  static Outcome merge(std::vector<std::string> arguments) {
-    arguments.insert(arguments.begin(), {POLYLIDAR, "merge"});
-    return run_program(arguments);
+  static Outcome merge(const std::vector<std::string>& arguments) {
+    return run_program(joined({POLYLIDAR, "merge"}, arguments));
   }
   std::vector<std::string> names_in_folder() const {
     std::vector<std::string> names;
@@ -791,9 +764,7 @@ TEST_F(ShardTest, ShardsGiveTheBytesOfOneRun) {
       {file("head.csv", rows(head, " ")), file("tail.npy", npy_of<double>(tail, "<f8")), "--max-perimeter",
        "0.9"}};
   for (const std::vector<std::string>& input : inputs) {
-    std::vector<std::string> arguments = input;
-    arguments.emplace_back("--stream");
-    const Outcome whole = hull(arguments);
+    const Outcome whole = hull(joined(input, {"--stream"}));
     ASSERT_EQ(whole.code, 0) << whole.err;
     for (const std::size_t count : {1U, 2U, 3U, 7U}) {
       std::vector<std::string> made = parts(input, count, "", count == 2 ? HULLBENCH : POLYLIDAR);
@@ -806,13 +777,9 @@ TEST_F(ShardTest, ShardsGiveTheBytesOfOneRun) {
   }
   const std::vector<std::string> made = parts(inputs[0], 3);
   for (const std::string format : {"wkt", "wkb"}) {
-    std::vector<std::string> arguments = inputs[0];
-    arguments.insert(arguments.end(), {"--stream", "--format", format});
-    std::vector<std::string> of_parts = made;
     const std::string out = (folder() / ("merged." + format)).string();
-    of_parts.insert(of_parts.end(), {"--out", out, "--threads", "2"});
-    EXPECT_EQ(merge(of_parts).out, "");
-    EXPECT_EQ(read_text(out), hull(arguments).out);
+    EXPECT_EQ(merge(joined(made, {"--out", out, "--threads", "2"})).out, "");
+    EXPECT_EQ(read_text(out), hull(joined(inputs[0], {"--stream", "--format", format})).out);
   }
 }
 
@@ -823,9 +790,7 @@ TEST_F(ShardTest, SomeShardsAreEmpty) {
                                               "0.006"};
   const std::vector<std::string> few = {file("few.csv", "0,0\n1,0\n0,1\n"), "--alpha", "9"};
   for (const auto& input : {arguments, few}) {
-    std::vector<std::string> whole = input;
-    whole.emplace_back("--stream");
-    EXPECT_EQ(merge(parts(input, 25)).out, hull(whole).out);
+    EXPECT_EQ(merge(parts(input, 25)).out, hull(joined(input, {"--stream"})).out);
   }
 }
 
@@ -886,9 +851,7 @@ TEST_F(ShardTest, ShardsSayWhatTheyCannotDo) {
            {{"--alpha", "1", "--stream", "--shard", "1/2", "--simplify", "1"}, "--stream does not go with"},
            {{"--alpha", "1e-9", "--stream", "--shard", "1/2"}, "the limit is too small for the distances"},
            {{npy, "--alpha", "1"}, "several files are one set of points with --stream only"}}) {
-    std::vector<std::string> all = {npy, "--out", out};
-    all.insert(all.end(), arguments.begin(), arguments.end());
-    expect_refusal(hull(all), 2, sentence);
+    expect_refusal(hull(joined({npy, "--out", out}, arguments)), 2, sentence);
   }
   expect_refusal(
       hull({npy, "--alpha", "1", "--stream", "--shard", "1/2", "--out", (folder() / "a.gpkg").string()}), 2,
@@ -934,9 +897,7 @@ TEST_F(ShardTest, MergeSaysWhatDoesNotFitTogether) {
            {{made[0], made[1], file("newer", newer)}, "newer: it is a part of version 2"},
            {{made[0], made[1], npy}, "many.npy: it is no part of a hull"},
            {{made[0], made[1], (folder() / "nowhere").string()}, "nowhere"}}) {
-    std::vector<std::string> all = arguments;
-    all.insert(all.end(), {"--out", out});
-    expect_refusal(merge(all), 2, sentence);
+    expect_refusal(merge(joined(arguments, {"--out", out})), 2, sentence);
   }
   expect_refusal(merge({made[0], "--format", "svg"}), 2, "'svg' is none of auto,geojson,wkt,wkb");
   expect_refusal(merge({made[0], "--out", (folder() / "a.svg").string()}), 2, "svg shows all points");

@@ -1,4 +1,5 @@
 #include <cctype>
+#include <map>
 #include <sstream>
 #include <string_view>
 #include <utility>
@@ -12,36 +13,15 @@ namespace {
 
 /// Text that troff prints as it is.
 std::string escaped(const std::string& text) {
+  // What people copy into a shell must not become a typographer's sign.
+  static const std::map<char, const char*> kSigns = {{'\\', "\\e"},  {'-', "\\-"},   {'\'', "\\(aq"},
+                                                     {'`', "\\(ga"}, {'^', "\\(ha"}, {'~', "\\(ti"}};
   std::string result;
   for (const char c : text) {
-    switch (c) {
-      case '\\':
-        result += "\\e";
-        break;
-      case '-':
-        result += "\\-";
-        break;
-      // What people copy into a shell must not become a typographer's sign.
-      case '\'':
-        result += "\\(aq";
-        break;
-      case '`':
-        result += "\\(ga";
-        break;
-      case '^':
-        result += "\\(ha";
-        break;
-      case '~':
-        result += "\\(ti";
-        break;
-      case '.':
-        // A dot at the begin of a line would be a request.
-        if (result.empty() || result.back() == '\n') result += "\\&";
-        result += c;
-        break;
-      default:
-        result += c;
-    }
+    // A dot at the begin of a line would be a request.
+    if (c == '.' && (result.empty() || result.back() == '\n')) result += "\\&";
+    const auto sign = kSigns.find(c);
+    result += sign == kSigns.end() ? std::string(1, c) : sign->second;
   }
   return result;
 }
@@ -110,7 +90,6 @@ std::string allowed_values(const ValueHelp& help) {
            help.check.substr(between + 3, help.check.size() - between - 4);
   }
   if (help.check == "NONNEGATIVE") return "0 or more";
-  if (help.check == "POSITIVE") return "above 0";
   if (help.check.starts_with(">=")) return help.check.substr(2) + " or more";
   if (help.check.starts_with('>')) return "above " + help.check.substr(1);
   return help.check;
@@ -123,13 +102,8 @@ std::string description_of(const CLI::Option& option) {
   if (!values.empty()) sentences.push_back("Values: " + values + ".");
   if (!option.get_default_str().empty()) sentences.push_back("Default: " + option.get_default_str() + ".");
   if (!option.get_positional() && option.get_required()) sentences.emplace_back("Required.");
-  for (const CLI::Option* other : option.get_needs())
-    sentences.push_back("Only with " + other->get_name() + ".");
   for (const CLI::Option* other : option.get_excludes())
     sentences.push_back("Not with " + other->get_name() + ".");
-  if (!option.get_envname().empty()) {
-    sentences.push_back("Also given by the environment variable " + option.get_envname() + ".");
-  }
   const std::string& description = option.get_description();
   if (sentences.empty()) return description;
   return without_full_stop(description) + (description.empty() ? "" : ". ") + joined(sentences, " ");
@@ -172,19 +146,13 @@ void write_exit_status(std::ostream& page, const Footer& footer) {
   }
 }
 
-void write_paragraphs(std::ostream& page, const Footer& footer) {
-  if (footer.paragraphs.empty()) return;
-  page << ".SH NOTES\n";
-  for (std::size_t i = 0; i < footer.paragraphs.size(); ++i) {
-    page << (i == 0 ? "" : ".PP\n") << escaped(footer.paragraphs[i]) << '\n';
-  }
-}
-
-void write_examples(std::ostream& page, const Footer& footer) {
-  if (footer.examples.empty()) return;
-  page << ".SH EXAMPLES\n";
-  for (std::size_t i = 0; i < footer.examples.size(); ++i) {
-    page << (i == 0 ? "" : ".PP\n") << bold(footer.examples[i]) << '\n';
+/// `form` makes text of troff's of each.
+void write_paragraphs(std::ostream& page, const std::string& title, const std::vector<std::string>& texts,
+                      std::string (*form)(const std::string&)) {
+  if (texts.empty()) return;
+  page << ".SH " << title << '\n';
+  for (std::size_t i = 0; i < texts.size(); ++i) {
+    page << (i == 0 ? "" : ".PP\n") << form(texts[i]) << '\n';
   }
 }
 
@@ -209,8 +177,8 @@ std::string man_page(const CLI::App& app, const std::string& version) {
          << escaped(command->get_description()) << '\n';
   }
   write_exit_status(page, footer);
-  write_paragraphs(page, footer);
-  write_examples(page, footer);
+  write_paragraphs(page, "NOTES", footer.paragraphs, escaped);
+  write_paragraphs(page, "EXAMPLES", footer.examples, bold);
   if (app.get_parent() != nullptr) {
     page << ".SH SEE ALSO\n" << bold(full_name(*app.get_parent(), "-")) << "(1)\n";
   }

@@ -2,12 +2,11 @@
 // to its own command line and says where it runs.
 #pragma once
 
-#include <cstddef>
 #include <cstdint>
-#include <optional>
 #include <string>
 #include <vector>
 
+#include "tool/hull/group_hulls.hpp"
 #include "tool/program/exit_code.hpp"
 #include "tool/program/surroundings.hpp"
 
@@ -21,26 +20,17 @@ namespace polylidar::tool {
 /// How a shape is made of points, and which points: what hull and footprint have, and of it the output merge.
 /// Lengths are in the unit of the points, of longitudes and latitudes in metres.
 struct ShapeChoice {
-  std::optional<double> alpha;            ///< >= 0; the three limits are those of polylidar::Options
-  std::optional<double> max_edge_length;  ///< >= 0
-  std::optional<double> max_perimeter;    ///< >= 0
-  double detail = 1;                      ///< > 0; of the limit that is chosen
-  bool cover = false;                     ///< widen the limit until no point is left outside
-  bool one = false;                       ///< widen it until there is one polygon
-  std::size_t min_triangles = 0;          ///< polygons of fewer Delaunay triangles are dropped
-  double min_area = 0;                    ///< smaller holes are filled, smaller polygons dropped
-  std::optional<std::size_t> max_parts;   ///< only the largest polygons are kept
-  double simplify = 0;                    ///< how far the outline may move; 0: not at all
-  std::string returns = "all";            ///< "all", "first" or "last"
-  std::string classes;                    ///< such as "2,6"; empty: all
-  std::string window;                     ///< "xmin,ymin,xmax,ymax"; empty: no window
-  std::string crs;                        ///< "none", "EPSG:n" or "n"; empty: what the file says
-  unsigned threads = 0;                   ///< 0: as many as there are processors
-  std::uint64_t memory = 0;               ///< the most for points, in MiB; 0: half of what is free
-  std::string out;                        ///< a file, or what GDAL writes to; empty: standard output
-  std::string format = "auto";            ///< "geojson" and so on, or "gdal:" and the name of a driver
-  std::string layer;                      ///< of the input, where GDAL reads it
-  std::string out_layer;                  ///< of the output, where GDAL writes it
+  HullOptions hull;             ///< how the shape is made; without threads and latitude
+  std::string returns = "all";  ///< "all", "first" or "last"
+  std::string classes;          ///< such as "2,6"; empty: all
+  std::string window;           ///< "xmin,ymin,xmax,ymax"; empty: no window
+  std::string crs;              ///< "none", "EPSG:n" or "n"; empty: what the file says
+  unsigned threads = 0;         ///< 0: as many as there are processors
+  std::uint64_t memory = 0;     ///< the most for points, in MiB; 0: half of what is free
+  std::string out;              ///< a file, or what GDAL writes to; empty: standard output
+  std::string format = "auto";  ///< "geojson" and so on, or "gdal:" and the name of a driver
+  std::string layer;            ///< of the input, where GDAL reads it
+  std::string out_layer;        ///< of the output, where GDAL writes it
 };
 
 /// From a file of points to polygons.

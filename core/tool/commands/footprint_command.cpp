@@ -102,13 +102,12 @@ void add_properties(const Facts& facts, const GroupHull& hull, const Crs& crs, P
 /// The group that all points of a stream are.
 GroupHull cleaned(IndexShape shape, std::span<const Point> points, const StreamedHull& hull,
                   const HullOptions& options) {
+  if (options.simplify > 0) check_magnitude(points);
   GroupHull all;
   all.shape = std::move(shape);
   clean(all.shape, points, options);
   all.area = area(all.shape, points, options.latitude);
-  all.alpha = options.core.alpha;
-  all.max_edge_length = options.core.max_edge_length;
-  all.max_perimeter = options.core.max_perimeter;
+  all.limits = options.core;
   all.sizes = hull.chosen_sizes;
   all.by_outlines = hull.by_outlines;
   return all;
@@ -126,6 +125,13 @@ void check_is_file(const std::string& path) {
   }
 }
 
+/// --out may end with the name of another format.
+void check_has_properties(const ShapeOutput& output) {
+  if (output.has_features()) return;
+  throw ConfigurationError("a footprint has properties, which " + output.text_format() +
+                           " has no place for; name the file .geojson, or say --format geojson");
+}
+
 /// "2 of these have an empty shape, such as a.las", of the files that are marked.
 void say_which(const Surroundings& surroundings, const std::vector<std::string>& files,
                const std::vector<bool>& marked, const std::string& what) {
@@ -136,6 +142,11 @@ void say_which(const Surroundings& surroundings, const std::vector<std::string>&
                    << (count == 1 ? files[first] + " has "
                                   : std::to_string(count) + " of these, such as " + files[first] + ", have ")
                    << what << "\n";
+}
+
+/// What files without points are said to have.
+std::string no_points_in_words(const ShapeChoice& shape) {
+  return chooses_points(shape) ? "no points left by --window, --classes and --returns" : "no points";
 }
 
 /// What is to be told of each file.
@@ -164,6 +175,7 @@ class IndexRun {
 
   ExitCode run() {
     chosen_crs(command_.shape, {});
+    check_has_properties(output_);
     output_.check_against(command_.inputs);
     files_.run(
         thread_count(command_.shape), memory_for_points(command_.shape),
@@ -177,8 +189,7 @@ class IndexRun {
                   status_);
     const ExitCode code = files_.summary("the index");
     say_notes(surroundings_, command_.inputs, notes_);
-    say_which(surroundings_, command_.inputs, lacks_points_,
-              command_.shape.window.empty() ? "no points" : "no points in the window");
+    say_which(surroundings_, command_.inputs, lacks_points_, no_points_in_words(command_.shape));
     say_which(surroundings_, command_.inputs, is_empty_, "an empty shape");
     bool nameless = false;
     for (std::size_t file = 0; file < features_.size(); ++file) {
@@ -250,8 +261,8 @@ class IndexRun {
   }
 
   bool is_worth_streaming(const std::string& path) const {
-    const ShapeChoice& shape = command_.shape;
-    if (shape.one || shape.cover || shape.min_triangles > 0) return false;  // these need all triangles
+    const HullOptions& hull = command_.shape.hull;
+    if (hull.one || hull.cover || hull.min_triangles > 0) return false;  // these need all triangles
     std::error_code error;
     const std::uintmax_t size = fs::file_size(path, error);
     return !error && size >= kWorthStreaming && is_read_in_parts(path, options_);
@@ -269,7 +280,7 @@ class IndexRun {
       }
       parts[part] = file;
     };
-    const HullOptions options = hull_options(command_.shape);
+    const HullOptions& options = command_.shape.hull;
     Options core = options.core;
     core.threads = threads;
     StreamOptions stream_options;
@@ -320,7 +331,7 @@ class UnionRun {
         status_(surroundings.err, surroundings.terminal, quiet_time(surroundings.terminal)),
         output_(command.shape, surroundings.vector_formats),
         options_(interruptible(point_options(command.shape, surroundings))),
-        core_(hull_options(command.shape).core),
+        core_(command.shape.hull.core),
         files_(command.inputs, surroundings, status_),
         facts_(command.inputs.size()),
         notes_(command.inputs.size()) {
@@ -335,11 +346,8 @@ class UnionRun {
     add_up();
     find_plane();
     const StreamedHull hull = stream_by_some_limit();
-    if (hull.by_outlines) {
-      say(std::string(kOnlyOutlines) + std::string(kByHand));
-    } else if (hull.chosen_sizes) {
-      say(in_words(*hull.chosen_sizes) + "; --detail scales it, " + std::string(kByHand));
-    }
+    const std::string limit = limit_in_words(hull.chosen_sizes, hull.by_outlines);
+    if (!limit.empty()) say(limit);
     output_.write(geojson_collection(std::vector{feature(hull)}, geojson_crs(crs_)), crs_, status_);
     const ExitCode code = files_.summary("the union");
     say_notes(surroundings_, command_.inputs, notes_);
@@ -347,8 +355,7 @@ class UnionRun {
     for (std::size_t file = 0; file < facts_.size(); ++file) {
       lacks_points.push_back(files_.is_done(file) && facts_[file].points == 0);
     }
-    say_which(surroundings_, command_.inputs, lacks_points,
-              command_.shape.window.empty() ? "no points" : "no points in the window");
+    say_which(surroundings_, command_.inputs, lacks_points, no_points_in_words(command_.shape));
     if (!output_.can_tell(crs_)) say(std::string(kNamelessCrs));
     if (lacks_crs(command_.shape, crs_, all_.bounds)) say(std::string(kNoCrs));
     if (may_be_degrees(command_.shape, crs_, all_.bounds)) say(std::string(kMayBeDegrees));
@@ -359,9 +366,10 @@ class UnionRun {
   void check_options() const {
     const ShapeChoice& shape = command_.shape;
     chosen_crs(shape, {});
+    check_has_properties(output_);
     output_.check_against(command_.inputs);
     check_readable_again(command_.inputs, "--union");
-    if (shape.one || shape.cover || shape.min_triangles > 0) {
+    if (shape.hull.one || shape.hull.cover || shape.hull.min_triangles > 0) {
       throw ConfigurationError(
           "--union does not go with --one, --cover and --min-triangles, which need all triangles; leave one "
           "of them out");
@@ -513,7 +521,7 @@ class UnionRun {
   std::string feature(const StreamedHull& hull) {
     StreamedShape streamed = streamed_shape(hull);
     drop_what_chance_makes(streamed.shape, streamed.points);
-    HullOptions options = hull_options(command_.shape);
+    HullOptions options = command_.shape.hull;
     options.core = core_;
     options.latitude = latitude_;
     const GroupHull united = cleaned(std::move(streamed.shape), streamed.points, hull, options);
@@ -563,7 +571,7 @@ void add_footprint_options(CLI::App& app, FootprintCommand& command) {
       "of 'polylidar hull'.\n"
       "With --union the result is a single feature: the shape of the points of all files together. Tiles "
       "that touch\n"
-      "become one part, without a seam. Its property files is the number of files. They are read several "
+      "become one part, without a seam. The property 'files' is the number of files. They are read several "
       "times, and\n"
       "need not fit into memory. If no limit is given, the sizes of triangles are chosen from all points. If "
       "the density\n"

@@ -65,7 +65,8 @@ class HullRun {
                                " cannot tell apart; ask for --format geojson or svg");
     }
     if (command_.keep_outliers) {
-      throw ConfigurationError("--keep-outliers gives a feature of its own, which only --format geojson has");
+      throw ConfigurationError(
+          "--keep-outliers gives a feature of its own, which only --format geojson has, or one of GDAL");
     }
   }
 
@@ -107,13 +108,12 @@ class HullRun {
 
   /// What was chosen, or why there is nothing.
   void explain(const GroupHull& hull) {
-    const std::string by_hand(kByHand);
-    if (hull.by_outlines) {
-      say(std::string(kOnlyOutlines) + by_hand);
-    } else if (hull.sizes) {
-      say(in_words(*hull.sizes) + "; --detail scales it, " + by_hand);
+    const std::string limit = limit_in_words(hull.sizes, hull.by_outlines);
+    if (!limit.empty()) say(limit);
+    if (!hull.shape.empty()) return;
+    if (hull.extracted > 0) {
+      return say("no polygon is left by --min-area and --min-triangles, so the shape is empty");
     }
-    if (hull.extracted > 0) return;
     if (hull.points == 0) return say(no_points(command_.shape, name_of(command_)));
     say(hull.has_triangles
             ? "no triangle of the points is kept, so the shape is empty; larger limits "
@@ -249,7 +249,7 @@ void add_hull_options(CLI::App& app, HullCommand& command) {
       "number from 1; of this property of GeoJSON; for a LAS file: classification, return or point_source");
   add_format_option(app, command.shape, {"auto", "geojson", "wkt", "wkb", "svg"});
   app.add_flag("--keep-outliers", command.keep_outliers,
-               "Also write the points outside the shape, as a MultiPoint (geojson only)");
+               "Also write the points outside the shape, as a MultiPoint (geojson, or a format of GDAL)");
   app.add_flag(
       "--stream", command.stream,
       "Read the files up to seven times instead of keeping all points in memory; only for LAS, text, "

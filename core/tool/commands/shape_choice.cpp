@@ -15,6 +15,11 @@
 namespace polylidar::tool {
 namespace {
 
+/// What is said where the shape is what walls enclose.
+constexpr std::string_view kOnlyOutlines =
+    "the points lie on outlines only, and the shape is what these enclose; --detail below 1 closes wider "
+    "gaps, ";
+
 /// A finite number that `fits`; `words` say which are, `shown` says it in help.
 CLI::Validator number_that(bool (*fits)(double), const std::string& words, const std::string& shown) {
   return {[fits, words](const std::string& text) {
@@ -51,15 +56,16 @@ std::vector<Number> numbers_of(std::string_view text) {
 }  // namespace
 
 void add_shape_options(CLI::App& app, ShapeChoice& choice) {
-  app.add_option("--alpha", choice.alpha, "Largest circumradius of a triangle of the shape")
+  HullOptions& hull = choice.hull;
+  app.add_option("--alpha", hull.core.alpha, "Largest circumradius of a triangle of the shape")
       ->check(zero_or_more());
-  app.add_option("--max-edge-length", choice.max_edge_length, "Longest edge of a triangle of the shape")
+  app.add_option("--max-edge-length", hull.core.max_edge_length, "Longest edge of a triangle of the shape")
       ->check(zero_or_more());
-  app.add_option("--max-perimeter", choice.max_perimeter, "Largest perimeter of a triangle of the shape")
+  app.add_option("--max-perimeter", hull.core.max_perimeter, "Largest perimeter of a triangle of the shape")
       ->check(zero_or_more());
   CLI::Option* const detail =
       app.add_option(
-             "--detail", choice.detail,
+             "--detail", hull.core.detail,
              "How much detail the outline has, where no limit is given: 2 keeps holes and notches half "
              "as wide, 0.5 smooths")
           ->check(above_zero())
@@ -67,17 +73,17 @@ void add_shape_options(CLI::App& app, ShapeChoice& choice) {
   for (const char* limit : {"--alpha", "--max-edge-length", "--max-perimeter"}) {
     detail->excludes(app.get_option(limit));
   }
-  app.add_flag("--one", choice.one, "Make one polygon: widen the limit just enough to join all parts");
+  app.add_flag("--one", hull.one, "Make one polygon: widen the limit just enough to join all parts");
   CLI::Option* const cover = app.add_flag(
-      "--cover", choice.cover, "Leave no point outside: widen the limit just enough to cover them all");
-  app.add_option("--max-parts", choice.max_parts, "Keep only this many polygons, the largest by area")
+      "--cover", hull.cover, "Leave no point outside: widen the limit just enough to cover them all");
+  app.add_option("--max-parts", hull.max_parts, "Keep only this many polygons, the largest by area")
       ->check(above_zero());
-  app.add_option("--min-area", choice.min_area,
+  app.add_option("--min-area", hull.min_area,
                  "Fill holes smaller than this area, then drop polygons smaller than it")
       ->check(zero_or_more());
-  app.add_option("--min-triangles", choice.min_triangles,
+  app.add_option("--min-triangles", hull.min_triangles,
                  "Drop polygons made of fewer Delaunay triangles than this");
-  app.add_option("--simplify", choice.simplify,
+  app.add_option("--simplify", hull.simplify,
                  "Simplify the outline: leave out vertices that are at most this far from the new one")
       ->check(zero_or_more());
   // Each of these may leave a point outside.
@@ -159,21 +165,6 @@ PointFileOptions point_options(const ShapeChoice& choice, const Surroundings& su
   return options;
 }
 
-HullOptions hull_options(const ShapeChoice& choice) {
-  HullOptions options;
-  options.core.alpha = choice.alpha;
-  options.core.max_edge_length = choice.max_edge_length;
-  options.core.max_perimeter = choice.max_perimeter;
-  options.core.detail = choice.detail;
-  options.cover = choice.cover;
-  options.one = choice.one;
-  options.min_triangles = choice.min_triangles;
-  options.min_area = choice.min_area;
-  options.max_parts = choice.max_parts;
-  options.simplify = choice.simplify;
-  return options;
-}
-
 unsigned thread_count(const ShapeChoice& choice) {
   return choice.threads > 0 ? choice.threads : std::max(1U, std::thread::hardware_concurrency());
 }
@@ -237,41 +228,50 @@ void check_magnitude(std::span<const Point> points) {
 
 LocatedHulls locate_hulls(const PointFile& file, const ShapeChoice& choice, bool is_grouped, unsigned threads,
                           const OnStep& on_step) {
-  if (choice.one || choice.cover || choice.simplify > 0) check_magnitude(file.points);
+  HullOptions options = choice.hull;
+  if (options.one || options.cover || options.simplify > 0) check_magnitude(file.points);
   LocatedHulls hulls;
   hulls.latitude = middle_latitude(chosen_crs(choice, file.crs), file.points);
   if (hulls.latitude) hulls.metres = to_metres(file.points, *hulls.latitude);
   if (is_grouped && file.points.empty()) return hulls;
-  HullOptions options = hull_options(choice);
   options.latitude = hulls.latitude;
   hulls.groups = group_hulls(hulls.latitude ? hulls.metres : file.points, file.groups, file.labels.size(),
                              options, threads, on_step);
   return hulls;
 }
 
+bool chooses_points(const ShapeChoice& choice) {
+  return !choice.window.empty() || !choice.classes.empty() || choice.returns != "all";
+}
+
 std::string no_points(const ShapeChoice& choice, const std::string& file) {
-  const bool is_choice = !choice.window.empty() || !choice.classes.empty() || choice.returns != "all";
-  return file + (is_choice ? ": no point is left by --window, --classes and --returns, so there is no shape"
-                           : ": it has no points, so there is no shape");
+  return file + (chooses_points(choice)
+                     ? ": no point is left by --window, --classes and --returns, so there is no shape"
+                     : ": it has no points, so there is no shape");
 }
 
-std::string in_words(const ChosenSizes& sizes) {
-  std::string range = four_digits(sizes.least);
-  if (sizes.most > sizes.least) range += " (where points are densest) to " + four_digits(sizes.most);
-  return "triangles of size " + range + " at most, chosen from the points";
+std::string limit_in_words(const std::optional<ChosenSizes>& sizes, bool by_outlines) {
+  const std::string by_hand(kByHand);
+  if (by_outlines) return std::string(kOnlyOutlines) + by_hand;
+  if (!sizes) return "";
+  std::string range = four_digits(sizes->least);
+  if (sizes->most > sizes->least) range += " (where points are densest) to " + four_digits(sizes->most);
+  return "triangles of size " + range + " at most, chosen from the points; --detail scales it, " + by_hand;
 }
 
-void add_sizes(const ChosenSizes& sizes, Properties& properties) {
-  properties.add("least_size", sizes.least);
-  properties.add("median_size", sizes.median);
-  properties.add("most_size", sizes.most);
+void add_limits(const Options& limits, const std::optional<ChosenSizes>& sizes, bool by_outlines,
+                Properties& properties) {
+  if (limits.alpha) properties.add("alpha", *limits.alpha);
+  if (limits.max_edge_length) properties.add("max_edge_length", *limits.max_edge_length);
+  if (limits.max_perimeter) properties.add("max_perimeter", *limits.max_perimeter);
+  if (!sizes || by_outlines) return;
+  properties.add("least_size", sizes->least);
+  properties.add("median_size", sizes->median);
+  properties.add("most_size", sizes->most);
 }
 
 void add_shape_properties(const GroupHull& hull, Properties& properties) {
-  if (hull.alpha) properties.add("alpha", *hull.alpha);
-  if (hull.max_edge_length) properties.add("max_edge_length", *hull.max_edge_length);
-  if (hull.max_perimeter) properties.add("max_perimeter", *hull.max_perimeter);
-  if (hull.sizes && !hull.by_outlines) add_sizes(*hull.sizes, properties);
+  add_limits(hull.limits, hull.sizes, hull.by_outlines, properties);
   properties.add("parts", hull.shape.size());
   properties.add("holes", hole_count(hull.shape));
   properties.add("area", hull.area);

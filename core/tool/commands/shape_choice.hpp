@@ -29,9 +29,6 @@ void add_format_option(CLI::App& app, ShapeChoice& choice, const std::vector<std
 /// Which points are read, with what. Throws ConfigurationError for classes or a window that are none.
 PointFileOptions point_options(const ShapeChoice& choice, const Surroundings& surroundings);
 
-/// Without the threads and the latitude.
-HullOptions hull_options(const ShapeChoice& choice);
-
 /// --threads, or the number of processors.
 unsigned thread_count(const ShapeChoice& choice);
 
@@ -93,6 +90,9 @@ void check_magnitude(std::span<const Point> points);
 LocatedHulls locate_hulls(const PointFile& file, const ShapeChoice& choice, bool is_grouped, unsigned threads,
                           const OnStep& on_step);
 
+/// Whether points of a file may be left out.
+bool chooses_points(const ShapeChoice& choice);
+
 /// What is said where there are no points: in the file, or none that is asked for.
 std::string no_points(const ShapeChoice& choice, const std::string& file);
 
@@ -103,16 +103,13 @@ inline constexpr std::string_view kByHand = "--alpha, --max-edge-length or --max
 inline constexpr std::string_view kLimitOrMemory =
     "--alpha, --max-edge-length or --max-perimeter, or more --memory";
 
-/// What is said where the shape is what walls enclose.
-inline constexpr std::string_view kOnlyOutlines =
-    "the points lie on outlines only, and the shape is what these enclose; --detail below 1 closes wider "
-    "gaps, ";
+/// What is said of the range of the sizes that were chosen, or of a shape `by_outlines`; empty where a limit
+/// was given.
+std::string limit_in_words(const std::optional<ChosenSizes>& sizes, bool by_outlines);
 
-/// What is said of the range of the sizes that were chosen.
-std::string in_words(const ChosenSizes& sizes);
-
-/// Adds this range.
-void add_sizes(const ChosenSizes& sizes, Properties& properties);
+/// Adds the limits that were given, or this range, which decides nothing `by_outlines`.
+void add_limits(const Options& limits, const std::optional<ChosenSizes>& sizes, bool by_outlines,
+                Properties& properties);
 
 /// Adds the limits that the shape has, its parts, holes and area.
 void add_shape_properties(const GroupHull& hull, Properties& properties);

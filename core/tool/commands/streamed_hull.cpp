@@ -46,7 +46,7 @@ class StreamRun {
       : command_(command),
         surroundings_(surroundings),
         status_(surroundings.err, surroundings.terminal, quiet_time(surroundings.terminal)),
-        core_(hull_options(command.shape).core) {
+        core_(command.shape.hull.core) {
     core_.threads = thread_count(command.shape);
   }
 
@@ -58,18 +58,18 @@ class StreamRun {
 
  private:
   void check_options() const {
-    const ShapeChoice& shape = command_.shape;
+    const HullOptions& hull = command_.shape.hull;
     const std::vector<std::string>& inputs = command_.inputs;
     check_each_once(inputs);
     check_readable_again(inputs, "--stream");
     if (!command_.by.empty()) refuse("--stream", "--by");
     if (command_.keep_outliers) refuse("--stream", "--keep-outliers");
-    if (shape.one || shape.cover) refuse("--stream", "--one and --cover");
-    if (shape.min_triangles > 0) refuse("--stream", "--min-triangles");
-    if (shape.min_area > 0 || shape.max_parts || shape.simplify > 0) {
+    if (hull.one || hull.cover) refuse("--stream", "--one and --cover");
+    if (hull.min_triangles > 0) refuse("--stream", "--min-triangles");
+    if (hull.min_area > 0 || hull.max_parts || hull.simplify > 0) {
       refuse("--stream", "--min-area, --max-parts and --simplify");
     }
-    const bool is_limit_given = shape.alpha || shape.max_edge_length || shape.max_perimeter;
+    const bool is_limit_given = core_.alpha || core_.max_edge_length || core_.max_perimeter;
     if (!command_.shard.empty() && !is_limit_given) {
       throw ConfigurationError("--shard needs a limit; give --alpha, --max-edge-length or --max-perimeter");
     }
@@ -199,10 +199,7 @@ class StreamRun {
 std::string geojson(const StreamedHull& hull, const Options& options, const Crs& crs) {
   Properties properties;
   properties.add("points", static_cast<std::size_t>(hull.points));
-  if (options.alpha) properties.add("alpha", *options.alpha);
-  if (options.max_edge_length) properties.add("max_edge_length", *options.max_edge_length);
-  if (options.max_perimeter) properties.add("max_perimeter", *options.max_perimeter);
-  if (hull.chosen_sizes && !hull.by_outlines) add_sizes(*hull.chosen_sizes, properties);
+  add_limits(options, hull.chosen_sizes, hull.by_outlines, properties);
   std::size_t holes = 0;
   for (const Polygon& polygon : hull.polygons) holes += polygon.holes.size();
   properties.add("parts", hull.polygons.size());
@@ -223,11 +220,8 @@ void write_streamed_hull(const StreamedHull& hull, const Options& options, const
              (hull.points == 0 ? "there are no points, so there is no shape"
                                : std::to_string(hull.triangulated_points) + " of " +
                                      std::to_string(hull.points) + " points are near the outline"));
-  if (hull.by_outlines) {
-    status.say(program + ": " + std::string(kOnlyOutlines) + std::string(kByHand));
-  } else if (hull.chosen_sizes) {
-    status.say(program + ": " + in_words(*hull.chosen_sizes));
-  }
+  const std::string limit = limit_in_words(hull.chosen_sizes, hull.by_outlines);
+  if (!limit.empty()) status.say(program + ": " + limit);
   const std::string& format = output.text_format();
   output.write(format == "wkt"   ? to_wkt(hull.polygons)
                : format == "wkb" ? to_wkb(hull.polygons)

@@ -183,9 +183,7 @@ GroupHull extracted(Extractor& extractor, std::span<const Point> points, const H
   hull.has_triangles = extractor.has_triangles();
   hull.by_outlines = extractor.statistics().by_outlines;
   hull.sizes = extractor.chosen_sizes();
-  hull.alpha = used.alpha;
-  hull.max_edge_length = used.max_edge_length;
-  hull.max_perimeter = used.max_perimeter;
+  hull.limits = used;
   if (only) {
     IndexShape one = {std::move(hull.shape[*only])};
     hull.shape = std::move(one);

@@ -37,10 +37,7 @@ struct GroupHull {
   std::size_t extracted = 0;   ///< polygons before any was dropped
   double area = 0;             ///< of the shape, in squared units, of degrees on the sphere
   bool has_triangles = false;  ///< there are three distinct points that are not on a line
-  /// What the limits that were given became, or that of the size that was chosen.
-  std::optional<double> alpha;
-  std::optional<double> max_edge_length;
-  std::optional<double> max_perimeter;
+  Options limits;              ///< what the limits that were given became
   std::optional<ChosenSizes> sizes;
   bool by_outlines = false;  ///< Statistics::by_outlines: no size decided
 };

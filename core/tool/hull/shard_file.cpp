@@ -8,6 +8,7 @@
 
 #include "tool/points/block_reader.hpp"
 #include "tool/points/point_file.hpp"
+#include "tool/program/little_endian.hpp"
 #include "tool/program/result_output.hpp"
 
 namespace polylidar::tool {
@@ -55,12 +56,8 @@ class Writer {
   }
   template <class Unsigned>
   void whole(Unsigned value) {
-    std::array<char, sizeof value> bytes;
-    for (char& byte : bytes) {
-      byte = static_cast<char>(value & 0xFFU);
-      value = static_cast<Unsigned>(std::uint64_t{value} >> 8U);
-    }
-    text({bytes.data(), bytes.size()});
+    put(value, block_);
+    if (block_.size() >= kBlock) write_block();
   }
   void real(double value) { whole(std::bit_cast<std::uint64_t>(value)); }
   void short_whole(std::uint64_t value) {

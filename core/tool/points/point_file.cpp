@@ -281,11 +281,8 @@ bool is_read_in_parts(const std::string& path, const PointFileOptions& options) 
   }
 }
 
-namespace {
-constexpr std::uint64_t kLeastLasRecord = 20;  // bytes of a point
-}
-
 std::optional<ExpectedPoints> expected_points(const std::string& path, const PointFileOptions& options) {
+  constexpr std::uint64_t kLeastLasRecord = 20;  // bytes of a point
   if (!point_files::takes_all_points(options) || !is_read_in_parts(path, options)) return {};
   try {
     BlockReader reader(path, options);
@@ -311,21 +308,8 @@ std::optional<std::uint64_t> promised_points(const std::string& path) {
 }
 
 bool names_points(const std::string& path) {
-  switch (format_of_name(path)) {
-    case PointFormat::kCsv:
-    case PointFormat::kXyz:
-    case PointFormat::kNpy:
-    case PointFormat::kRaw:
-    case PointFormat::kPly:
-    case PointFormat::kLas:
-      return true;
-    case PointFormat::kAuto:
-    case PointFormat::kGeoJson:
-    case PointFormat::kWkt:
-    case PointFormat::kGdal:
-      return false;
-  }
-  return false;
+  const PointFormat format = format_of_name(path);
+  return format != PointFormat::kAuto && format != PointFormat::kGeoJson && format != PointFormat::kWkt;
 }
 
 std::vector<Point> read_points(const std::string& path, const PointFileOptions& options) {

@@ -21,7 +21,11 @@ namespace fs = std::filesystem;
 }
 
 int open_file(const std::string& file, int flags, const std::string& name) {
-  const int descriptor = ::open(file.c_str(), flags | O_WRONLY | O_CLOEXEC, 0666);
+  int descriptor = -1;
+  // A named pipe is waited for.
+  while ((descriptor = ::open(file.c_str(), flags | O_WRONLY | O_CLOEXEC, 0666)) < 0 && errno == EINTR) {
+    throw_if_interrupted();
+  }
   if (descriptor < 0) fail(name, errno);
   return descriptor;
 }
@@ -38,9 +42,10 @@ fs::path behind_links(const std::string& path) {
 void check_output_place(const std::string& path) {
   if (path.empty()) return;
   const fs::path target = behind_links(path);
-  if (fs::is_directory(target)) fail(path, EISDIR);
+  std::error_code ignored;  // where a folder on the way is closed, access() says so
+  if (fs::is_directory(target, ignored)) fail(path, EISDIR);
   const fs::path folder = target.has_parent_path() ? target.parent_path() : fs::path(".");
-  const bool replaces = !fs::exists(target) || fs::is_regular_file(target);
+  const bool replaces = !fs::exists(target, ignored) || fs::is_regular_file(target, ignored);
   if (::access(replaces ? folder.c_str() : target.c_str(), W_OK) != 0) fail(path, errno);
 }
 
@@ -50,7 +55,8 @@ ResultOutput::ResultOutput(const std::string& path) : name_(path.empty() ? "stan
     return;
   }
   const std::string target = behind_links(path).string();
-  if (fs::exists(target) && !fs::is_regular_file(target)) {
+  std::error_code ignored;
+  if (fs::exists(target, ignored) && !fs::is_regular_file(target, ignored)) {
     file_ = open_file(target, 0, name_);
     return;
   }
@@ -80,7 +86,9 @@ void ResultOutput::finish() {
   // Some file systems say only now that there was no room.
   if (file != STDOUT_FILENO && ::close(file) != 0) fail(name_, errno);
   if (unfinished_.empty()) return;
-  fs::rename(unfinished_, target_);
+  std::error_code error;
+  fs::rename(unfinished_, target_, error);
+  if (error) fail(name_, error.value());
   unfinished_.clear();
 }
 

@@ -1,6 +1,8 @@
 // Where a command runs.
 #pragma once
 
+#include <unistd.h>
+
 #include <ostream>
 #include <string>
 
@@ -17,6 +19,8 @@ struct Surroundings {
 };
 
 /// Whether standard error is a terminal.
-bool is_terminal();
+inline bool is_terminal() {
+  return ::isatty(STDERR_FILENO) == 1;
+}
 
 }  // namespace polylidar::tool
